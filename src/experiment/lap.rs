@@ -1,0 +1,357 @@
+//! The Apartment lap: out along the corridor, a turn, and back over ground already mapped.
+//!
+//! The filter is told where the lap starts and with what noise wheels and sensor err. It is never told the truth: that stays
+//! in [`LapWorld`], and only the errors of a [`StepReport`] are taken from it.
+
+use crate::digest::Digest;
+use crate::error::ParameterError;
+use crate::execute::Executor;
+use crate::geometry::{Pose2, align};
+use crate::map::ConditionalMap;
+use crate::map::grid::{Footprint, Grid, GridModel};
+use crate::matching::{ClimbSteps, Matcher, ScanModel};
+use crate::motion::{Odometry, OdometryModel};
+use crate::proposal::{FromMotion, FromScan, FromScanSettings, GridProposal, ProposalKind, ProposalTrace};
+use crate::random::{Purpose, Stream};
+use crate::rbpf::{Particle, Rbpf, Report};
+use crate::resampling::{ResamplePolicy, Scheme};
+use crate::sensor::{BeamSensor, Scan};
+use crate::world::{FloorPlan, drive};
+use std::sync::Arc;
+
+/// Steps of the lap, besides the start.
+pub const STEPS: usize = 90;
+
+/// Noise of the wheels at scale 1: α₁ \[–\], α₂ \[rad²/m²\], α₃ \[–\], α₄ \[m²/rad²\].
+///
+/// Chosen so that raw odometry drifts by metres: the median RMS of its position over a lap is 3.0 to 3.7 m.
+pub const ALPHAS: [f64; 4] = [0.1, 0.05, 0.05, 0.01];
+
+/// Beams of a scan, all around.
+pub const BEAMS: usize = 72;
+
+/// Longest range of a beam \[m\].
+pub const MAX_RANGE: f64 = 8.0;
+
+/// Scans taken at the known start, before the first motion.
+///
+/// They anchor the gauge. With one scan only, every universe's map is turned as a whole by the first errors of heading:
+/// consistent with itself, and metres wrong at the far end.
+pub const START_SCANS: u32 = 10;
+
+/// How the map learns.
+pub const GRID: GridModel = GridModel { cell_size: 0.3, log_odds_hit: 0.9, log_odds_pass: -0.4, surface_std: 0.1 };
+
+/// κ: the share of each beam's log-likelihood that counts.
+pub const TEMPER: f64 = 0.15;
+
+/// ε: probability of a reading that has nothing to do with the map.
+pub const OUTLIER: f64 = 0.05;
+
+/// The measurement-aware proposal: one setting for every M and both matchers.
+pub const FROM_SCAN: FromScanSettings = FromScanSettings {
+    motion_floor: [0.02, 0.02, 0.01],
+    climb: ClimbSteps { linear: 0.1, angular: 0.05, halvings: 4 },
+    seeds: 12,
+    gain: 0.5,
+    probes: 20,
+    probe_stds: [[0.005, 0.005, 0.003], [0.1, 0.1, 0.05]],
+};
+
+/// What a reader can set.
+#[derive(Clone, PartialEq, Debug)]
+pub struct LapSetup {
+    /// Number of particles M, 1 to 4096.
+    pub particles: usize,
+    /// Seed of the world's noise and of the filter's.
+    pub seed: u64,
+    /// Where new poses are drawn from.
+    pub proposal: ProposalKind,
+    /// What an end point is compared with.
+    pub matcher: Matcher,
+    /// When to resample.
+    pub policy: ResamplePolicy,
+    /// How to resample.
+    pub scheme: Scheme,
+    /// Factor on the standard deviations of the odometry's noise, 0 to 10: of the world's, and of what the filter expects.
+    pub odometry_scale: f64,
+    /// Standard deviation of a range \[m\], 0 to 1.
+    pub range_std: f64,
+}
+
+impl Default for LapSetup {
+    fn default() -> Self {
+        Self {
+            particles: 16,
+            seed: 3,
+            proposal: ProposalKind::Aware,
+            matcher: Matcher::SubCell,
+            policy: ResamplePolicy::EssBelow(0.5),
+            scheme: Scheme::Systematic,
+            odometry_scale: 1.0,
+            range_std: 0.05,
+        }
+    }
+}
+
+impl LapSetup {
+    fn validate(&self) -> Result<(), ParameterError> {
+        let check = |ok: bool, name, value: &dyn core::fmt::Display, allowed| {
+            if ok { Ok(()) } else { Err(ParameterError::new(name, value, allowed)) }
+        };
+        check((1..=4096).contains(&self.particles), "particles", &self.particles, "a whole number from 1 to 4096")?;
+        check((0.0..=10.0).contains(&self.odometry_scale), "odometry_scale", &self.odometry_scale, "a number from 0 to 10")?;
+        check((0.0..=1.0).contains(&self.range_std), "range_std", &self.range_std, "a number from 0 to 1 [m]")?;
+        if let ResamplePolicy::EssBelow(fraction) = self.policy {
+            check((0.0..=1.0).contains(&fraction), "policy", &self.policy, "neff:F with F from 0 to 1")?;
+        }
+        Ok(())
+    }
+}
+
+/// The truth of one lap, and what sensors reported of it.
+#[derive(Clone, Debug)]
+pub struct LapWorld {
+    /// The apartment.
+    pub plan: FloorPlan,
+    /// True poses of steps 0 to [`STEPS`].
+    pub truth: Vec<Pose2>,
+    /// Poses by raw odometry alone, from the same start.
+    pub odometry: Vec<Pose2>,
+    /// Reported controls; the k-th leads from step k to k + 1.
+    pub controls: Vec<Odometry>,
+    /// Scans of steps 1 to [`STEPS`].
+    pub scans: Vec<Scan>,
+    /// Scans taken at the start.
+    pub start_scans: Vec<Scan>,
+}
+
+impl LapWorld {
+    /// The lap that this seed and these noises give: the truth is always the same.
+    pub fn new(seed: u64, motion: &OdometryModel, range_std: f64) -> Self {
+        let plan = FloorPlan::apartment();
+        let sensor = BeamSensor::panorama(BEAMS, MAX_RANGE, range_std);
+        let truth = drive(&WAY_POINTS, STEPS);
+        let mut odometry = vec![truth[0]];
+        let mut controls = Vec::with_capacity(STEPS);
+        for (k, pair) in truth.windows(2).enumerate() {
+            let mut stream = Stream::at(seed, Purpose::WorldOdometry, k as u32 + 1, 0);
+            let control = motion.perturb(&Odometry::between(&pair[0], &pair[1]), &mut stream);
+            odometry.push(control.apply(&odometry[k]));
+            controls.push(control);
+        }
+        let look = |step: usize, look: u32| {
+            let mut stream = Stream::at(seed, Purpose::WorldSensor, step as u32, look);
+            sensor.scan(&plan.ranges(&truth[step], &sensor, &mut stream))
+        };
+        let scans = (1..=STEPS).map(|step| look(step, 0)).collect();
+        let start_scans = (0..START_SCANS).map(|k| look(0, k)).collect();
+        Self { plan, truth, odometry, controls, scans, start_scans }
+    }
+}
+
+/// Out from the west end of the corridor, round the sun room, and back \[m\].
+const WAY_POINTS: [[f64; 2]; 9] =
+    [[0.7, 4.6], [8.6, 4.6], [9.9, 4.9], [10.1, 6.2], [9.6, 7.6], [10.9, 7.3], [10.6, 5.6], [10.0, 4.8], [0.9, 4.75]];
+
+/// What one step did, and how far from the truth it led.
+#[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct StepReport {
+    /// The step; 0 is the start.
+    pub step: u32,
+    /// N_eff before resampling.
+    pub ess: f64,
+    /// Normalised weights before resampling, by slot.
+    pub weights: Vec<f64>,
+    /// Slot that each universe was copied from, where the step resampled.
+    pub ancestors: Option<Vec<u32>>,
+    /// Slot of the best universe after the step.
+    pub best: u32,
+    /// RMS error of position over the best universe's path so far \[m\].
+    pub rms_best: f64,
+    /// The same after the best rigid motion of that path onto the truth \[m\]: what is left when map and path may be moved as a
+    /// whole.
+    pub rms_best_aligned: f64,
+    /// RMS error of position of raw odometry so far \[m\].
+    pub rms_odometry: f64,
+    /// Distinct ancestors at step 0.
+    pub lineage: u32,
+    /// Universes whose matcher was trusted.
+    pub matched: u32,
+    /// Bytes of all maps, shared parts counted once.
+    pub map_bytes_unique: u64,
+    /// Bytes that dense maps, one for each universe, would take.
+    pub map_bytes_dense: u64,
+}
+
+/// A lap under way. Cloning one is cheap: the world and the maps are shared.
+#[derive(Clone, Debug)]
+pub struct Lap {
+    world: Arc<LapWorld>,
+    filter: Rbpf<Grid, GridProposal>,
+    report: StepReport,
+}
+
+impl Lap {
+    /// At the start, the first scans mapped.
+    ///
+    /// # Errors
+    /// Where a setting is out of its range.
+    pub fn new(setup: &LapSetup) -> Result<Self, ParameterError> {
+        setup.validate()?;
+        let motion = OdometryModel { alphas: ALPHAS }.scaled(setup.odometry_scale);
+        let world = LapWorld::new(setup.seed, &motion, setup.range_std);
+        let start = world.truth[0];
+        let mut map = Grid::new(GRID);
+        for scan in &world.start_scans {
+            map.assimilate(&start, scan);
+        }
+        let from_motion = FromMotion { motion, scan: ScanModel::new(setup.matcher, TEMPER, OUTLIER) };
+        let proposal = match setup.proposal {
+            ProposalKind::Motion => GridProposal::Motion(from_motion),
+            ProposalKind::Aware => GridProposal::Scan(FromScan { fallback: from_motion, settings: FROM_SCAN }),
+        };
+        let filter = Rbpf::new(proposal, setup.policy, setup.scheme, setup.seed, setup.particles, start, map);
+        let uniform = Report {
+            step: 0,
+            log_increments: Vec::new(),
+            weights: filter.weights().as_slice().to_vec(),
+            ess: filter.weights().ess(),
+            ancestors: None,
+            traces: Vec::new(),
+        };
+        let mut lap = Self { world: Arc::new(world), filter, report: StepReport::default() };
+        lap.report = lap.judge(uniform);
+        Ok(lap)
+    }
+
+    /// The same lap, computed by another executor: the results are the same.
+    pub fn with_executor(self, executor: Executor) -> Self {
+        Self { filter: self.filter.with_executor(executor), ..self }
+    }
+
+    /// The last step.
+    pub fn step_count(&self) -> u32 {
+        STEPS as u32
+    }
+
+    /// One step of the filter; `None` after the last.
+    pub fn step(&mut self) -> Option<&StepReport> {
+        let k = self.report.step as usize;
+        let (control, scan) = (self.world.controls.get(k)?, self.world.scans.get(k)?);
+        let report = self.filter.step(control, scan);
+        self.report = self.judge(report);
+        Some(&self.report)
+    }
+
+    /// Compares the filter's newest state with the truth.
+    fn judge(&self, report: Report) -> StepReport {
+        let best = self.best();
+        let path = self.path(best);
+        let truth = &self.world.truth[..path.len()];
+        let gauge = align(&path, truth);
+        let aligned: Vec<Pose2> = path.iter().map(|pose| gauge.compose(pose)).collect();
+        let Footprint { unique, dense } = Grid::footprint(self.particles().iter().map(|p| &p.map));
+        StepReport {
+            step: report.step,
+            ess: report.ess,
+            weights: report.weights,
+            ancestors: report.ancestors,
+            best: best as u32,
+            rms_best: rms(&path, truth),
+            rms_best_aligned: rms(&aligned, truth),
+            rms_odometry: rms(&self.world.odometry[..path.len()], truth),
+            lineage: self.filter.lineage() as u32,
+            matched: report.traces.iter().filter(|t| matches!(t, ProposalTrace::Matched { .. })).count() as u32,
+            map_bytes_unique: unique,
+            map_bytes_dense: dense,
+        }
+    }
+
+    /// Report of the newest step.
+    pub fn report(&self) -> &StepReport {
+        &self.report
+    }
+
+    /// The truth, for drawing and judging.
+    pub fn world(&self) -> &LapWorld {
+        &self.world
+    }
+
+    /// The universes, by slot.
+    pub fn particles(&self) -> &[Particle<Grid>] {
+        self.filter.particles()
+    }
+
+    /// Normalised weights as they are now, by slot: uniform after a resampling.
+    pub fn weights(&self) -> &[f64] {
+        self.filter.weights().as_slice()
+    }
+
+    /// Poses of one universe, step 0 to now.
+    pub fn path(&self, slot: usize) -> Vec<Pose2> {
+        self.filter.ancestry().path(self.particles()[slot].node)
+    }
+
+    /// Slot of the largest weight, the lowest of equals.
+    pub fn best(&self) -> usize {
+        self.filter.weights().best()
+    }
+
+    /// The whole lap from here as a fingerprint: every weight, path, map and report, bit for bit.
+    pub fn trace(mut self) -> Digest {
+        let mut digest = Digest::new();
+        self.put(&mut digest);
+        while self.step().is_some() {
+            self.put(&mut digest);
+        }
+        for particle in self.particles() {
+            let cells = particle.map.bounds();
+            for j in cells.j0..cells.j1 {
+                for i in cells.i0..cells.i1 {
+                    digest.f64(particle.map.log_odds(i, j));
+                    for mean in particle.map.hit_mean(i, j).into_iter().flatten() {
+                        digest.f64(mean);
+                    }
+                }
+            }
+        }
+        digest
+    }
+
+    fn put(&self, digest: &mut Digest) {
+        let r = &self.report;
+        [r.step, r.best, r.lineage, r.matched].into_iter().for_each(|x| digest.u32(x));
+        [r.ess, r.rms_best, r.rms_best_aligned, r.rms_odometry].into_iter().for_each(|x| digest.f64(x));
+        r.weights.iter().for_each(|x| digest.f64(*x));
+        r.ancestors.iter().flatten().for_each(|x| digest.u32(*x));
+        for particle in self.particles() {
+            let Pose2 { x, y, theta } = particle.world_from_robot;
+            [x, y, theta].into_iter().for_each(|x| digest.f64(x));
+        }
+    }
+}
+
+/// Root mean square distance of two paths' positions \[m\].
+fn rms(path: &[Pose2], truth: &[Pose2]) -> f64 {
+    let sum: f64 = path.iter().zip(truth).map(|(a, b)| a.distance(b)).map(|d| d * d).sum();
+    (sum / path.len().max(1) as f64).sqrt()
+}
+
+/// Named laps whose fingerprints are kept with the tests, and must be the same on every platform.
+pub fn golden_setups() -> Vec<(&'static str, LapSetup)> {
+    let setup = LapSetup::default;
+    vec![
+        ("default", setup()),
+        ("motion", LapSetup { proposal: ProposalKind::Motion, ..setup() }),
+        ("cell", LapSetup { matcher: Matcher::Cell, ..setup() }),
+        ("motion-cell", LapSetup { proposal: ProposalKind::Motion, matcher: Matcher::Cell, particles: 40, ..setup() }),
+        ("never", LapSetup { policy: ResamplePolicy::Never, seed: 7, ..setup() }),
+        ("always-residual", LapSetup { policy: ResamplePolicy::Always, scheme: Scheme::Residual, ..setup() }),
+        ("stratified", LapSetup { scheme: Scheme::Stratified, seed: 11, particles: 24, ..setup() }),
+        ("multinomial", LapSetup { scheme: Scheme::Multinomial, seed: 12, particles: 8, ..setup() }),
+        ("one", LapSetup { particles: 1, ..setup() }),
+        ("quiet", LapSetup { odometry_scale: 0.0, range_std: 0.0, particles: 4, ..setup() }),
+    ]
+}

@@ -1,0 +1,26 @@
+//! FastSLAM and Rao-Blackwellization: particle filters over paths, each particle towing a map it can compute exactly.
+//!
+//! Modules are the mathematics, in the order in which they depend on each other:
+//! [`ops`] → [`random`] → [`geometry`] → [`motion`], [`sensor`] → [`map`] → [`matching`] → [`proposal`] → [`rbpf`] →
+//! [`experiment`]. [`world`] is the truth, which only experiments may ask.
+//!
+//! Every result is the same to the last bit on every platform, with any number of threads: see [`ops`], [`random`] and
+//! [`execute`].
+
+pub mod digest;
+pub mod error;
+pub mod execute;
+pub mod experiment;
+pub mod geometry;
+pub mod lineage;
+pub mod map;
+pub mod matching;
+pub mod motion;
+pub mod ops;
+pub mod proposal;
+pub mod random;
+pub mod rbpf;
+pub mod resampling;
+pub mod sensor;
+pub mod weights;
+pub mod world;

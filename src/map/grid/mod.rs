@@ -1,0 +1,239 @@
+//! An occupancy grid that a resampling clones for nothing: two levels of copy-on-write.
+//!
+//! A [`Grid`] holds one shared pointer to a directory, and the directory one to each tile of 8 × 8 cells. Cloning a grid copies
+//! one pointer. The first write afterwards copies the directory (pointers only), and each tile when it is first written to. A
+//! scan therefore pays for the tiles it changes, whatever the size of the map.
+//!
+//! Each cell keeps two things: log-odds of being occupied, updated by the inverse sensor model (*Probabilistic Robotics*,
+//! table 9.1), and the normal distribution of the end points that fell into it, its [`Surface`]: the normal distributions
+//! transform of Biber and Straßer (2003). The first knows which cell an end point is in; the second knows where in the cell.
+
+mod ray;
+mod tile;
+
+pub use tile::{Surface, TILE};
+pub(crate) use tile::UNIT;
+
+use super::ConditionalMap;
+use crate::geometry::Pose2;
+use crate::sensor::Scan;
+use std::sync::Arc;
+use tile::Tile;
+
+/// Half-open rectangle of cells: i0 ≤ i < i1 along x, j0 ≤ j < j1 along y.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct CellRect {
+    /// First column.
+    pub i0: i32,
+    /// First row.
+    pub j0: i32,
+    /// One past the last column.
+    pub i1: i32,
+    /// One past the last row.
+    pub j1: i32,
+}
+
+impl CellRect {
+    /// Number of columns.
+    pub fn width(&self) -> usize {
+        (self.i1 - self.i0).max(0) as usize
+    }
+
+    /// Number of rows.
+    pub fn height(&self) -> usize {
+        (self.j1 - self.j0).max(0) as usize
+    }
+}
+
+/// How a grid learns from a scan.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct GridModel {
+    /// Side of a cell \[m\].
+    pub cell_size: f64,
+    /// Added to the log-odds of a cell that a beam ended in \[nats\].
+    pub log_odds_hit: f64,
+    /// Added to the log-odds of a cell that beams only passed through \[nats\], negative.
+    pub log_odds_pass: f64,
+    /// Standard deviation \[m\] of the two pseudo-hits that every surface begins with: what one hit alone is trusted for.
+    pub surface_std: f64,
+}
+
+/// Occupancy and surfaces in cells of `cell_size`, growing to wherever scans reach.
+///
+/// Cell (i, j) covers [i s, (i + 1) s) × [j s, (j + 1) s) of the world frame.
+#[derive(Clone, Debug)]
+pub struct Grid {
+    model: GridModel,
+    directory: Arc<Directory>,
+}
+
+/// The upper level: a rectangle of tiles. `None` is a tile nobody has written to.
+#[derive(Clone, Debug, Default)]
+struct Directory {
+    /// In tiles.
+    rect: CellRect,
+    tiles: Vec<Option<Arc<Tile>>>,
+}
+
+impl Grid {
+    /// An unknown world.
+    pub fn new(model: GridModel) -> Self {
+        Self { model, directory: Arc::default() }
+    }
+
+    /// Side of a cell \[m\].
+    pub fn cell_size(&self) -> f64 {
+        self.model.cell_size
+    }
+
+    /// The cells that have been allocated.
+    pub fn bounds(&self) -> CellRect {
+        let CellRect { i0, j0, i1, j1 } = self.directory.rect;
+        CellRect { i0: i0 * TILE, j0: j0 * TILE, i1: i1 * TILE, j1: j1 * TILE }
+    }
+
+    /// Log-odds of a cell being occupied \[nats\]: 0 for a cell that nothing is known of, at most about ±4.
+    pub fn log_odds(&self, i: i32, j: i32) -> f64 {
+        f64::from(self.units(i, j)) * tile::UNIT
+    }
+
+    /// Mean of the end points in a cell \[m\], world frame.
+    pub fn hit_mean(&self, i: i32, j: i32) -> Option<[f64; 2]> {
+        let surface = self.surface(i, j)?;
+        let center = |k: i32| (f64::from(k) + 0.5) * self.model.cell_size;
+        Some([center(i) + f64::from(surface.mean[0]), center(j) + f64::from(surface.mean[1])])
+    }
+
+    /// Log-odds in their stored units of [`tile::UNIT`] nats.
+    #[inline]
+    pub(crate) fn units(&self, i: i32, j: i32) -> i8 {
+        self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT).map_or(0, |t| t.log_odds[tile::local(i, j)])
+    }
+
+    /// The surface of a cell, relative to the centre of the cell.
+    #[inline]
+    pub(crate) fn surface(&self, i: i32, j: i32) -> Option<&Surface> {
+        self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT)?.surface(tile::local(i, j))
+    }
+
+    /// Bytes that these grids hold together, each shared part counted once, against dense arrays of their own.
+    pub fn footprint<'a>(grids: impl IntoIterator<Item = &'a Self>) -> Footprint {
+        let (mut directories, mut tiles, mut dense) = (Vec::new(), Vec::new(), 0);
+        for Self { directory, .. } in grids {
+            dense += directory.tiles.len() * (TILE * TILE) as usize * (size_of::<i8>() + size_of::<Surface>());
+            let bytes = directory.tiles.len() * size_of::<Option<Arc<Tile>>>();
+            directories.push((Arc::as_ptr(directory), bytes, directory));
+        }
+        directories.sort_unstable_by_key(|(address, ..)| *address);
+        directories.dedup_by_key(|(address, ..)| *address);
+        for (_, _, directory) in &directories {
+            tiles.extend(directory.tiles.iter().flatten().map(|tile| (Arc::as_ptr(tile), tile.bytes())));
+        }
+        tiles.sort_unstable();
+        tiles.dedup();
+        let unique = directories.iter().map(|(_, bytes, _)| bytes).chain(tiles.iter().map(|(_, bytes)| bytes)).sum::<usize>();
+        Footprint { unique: unique as u64, dense: dense as u64 }
+    }
+
+    /// The tile of a cell, made its own and allocated if need be; `None` where the directory does not reach.
+    fn tile_mut(&mut self, ti: i32, tj: i32) -> Option<&mut Tile> {
+        let directory = Arc::make_mut(&mut self.directory);
+        let index = directory.index(ti, tj)?;
+        Some(Arc::make_mut(directory.tiles[index].get_or_insert_default()))
+    }
+}
+
+/// Memory of a population's maps \[bytes\].
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Footprint {
+    /// Held in fact: every shared part once.
+    pub unique: u64,
+    /// What dense arrays over the same bounds would hold, one for each map, with the same content in each cell.
+    pub dense: u64,
+}
+
+impl Directory {
+    #[inline]
+    fn index(&self, ti: i32, tj: i32) -> Option<usize> {
+        let CellRect { i0, j0, i1, j1 } = self.rect;
+        let inside = i0 <= ti && ti < i1 && j0 <= tj && tj < j1;
+        inside.then(|| (tj - j0) as usize * (i1 - i0) as usize + (ti - i0) as usize)
+    }
+
+    #[inline]
+    fn tile(&self, ti: i32, tj: i32) -> Option<&Tile> {
+        self.tiles[self.index(ti, tj)?].as_deref()
+    }
+
+    /// The directory grown so as to cover `needed` (in tiles) as well.
+    fn grown(&self, needed: CellRect) -> Self {
+        let old = self.rect;
+        let rect = if self.tiles.is_empty() {
+            needed
+        } else {
+            CellRect {
+                i0: old.i0.min(needed.i0),
+                j0: old.j0.min(needed.j0),
+                i1: old.i1.max(needed.i1),
+                j1: old.j1.max(needed.j1),
+            }
+        };
+        let mut grown = Self { rect, tiles: vec![None; rect.width() * rect.height()] };
+        for tj in old.j0..old.j1 {
+            for ti in old.i0..old.i1 {
+                let (from, to) = (self.index(ti, tj), grown.index(ti, tj));
+                if let (Some(from), Some(to)) = (from, to) {
+                    grown.tiles[to].clone_from(&self.tiles[from]);
+                }
+            }
+        }
+        grown
+    }
+}
+
+impl ConditionalMap for Grid {
+    type Observation = Scan;
+
+    /// Every cell is updated once a scan at the most, however many beams touch it: beams are not independent, and a wall seen
+    /// at a grazing angle would be erased by the beams that pass along it. A cell that a beam ended in counts as hit.
+    fn assimilate(&mut self, world_from_robot: &Pose2, scan: &Scan) {
+        let marks = ray::trace(world_from_robot, scan, self.model.cell_size);
+        let Some(touched) = marks.touched_tiles() else { return };
+        if !covers(self.directory.rect, touched) {
+            self.directory = Arc::new(self.directory.grown(touched));
+        }
+        let (hit, pass) = (tile::units(self.model.log_odds_hit), tile::units(self.model.log_odds_pass));
+        for tj in touched.j0..touched.j1 {
+            for ti in touched.i0..touched.i1 {
+                // Look before writing: a tile in which nothing would change stays shared.
+                let before = self.directory.tile(ti, tj);
+                let changes = marks.in_tile(ti, tj).any(|(local, mark)| match mark {
+                    ray::Mark::Hit => true,
+                    ray::Mark::Passed => before.is_none_or(|tile| tile.log_odds[local] > i8::MIN + 1),
+                });
+                if !changes {
+                    continue;
+                }
+                let tile = self.tile_mut(ti, tj).expect("the directory was grown to cover the scan");
+                for (local, mark) in marks.in_tile(ti, tj) {
+                    let add = if mark == ray::Mark::Hit { hit } else { pass };
+                    tile.log_odds[local] = tile.log_odds[local].saturating_add(add).max(i8::MIN + 1);
+                }
+            }
+        }
+        let (size, surface_std) = (self.model.cell_size, self.model.surface_std);
+        for &([x, y], i, j) in &marks.hits {
+            let center = |k: i32| (f64::from(k) + 0.5) * size;
+            let offset = [(x - center(i)) as f32, (y - center(j)) as f32];
+            let tile = self.tile_mut(i >> tile::SHIFT, j >> tile::SHIFT).expect("the directory was grown to cover the scan");
+            tile.add_hit(tile::local(i, j), offset, surface_std as f32);
+        }
+    }
+}
+
+fn covers(outer: CellRect, inner: CellRect) -> bool {
+    outer.i0 <= inner.i0 && outer.j0 <= inner.j0 && outer.i1 >= inner.i1 && outer.j1 >= inner.j1
+}
+
+#[cfg(test)]
+mod tests;

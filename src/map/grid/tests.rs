@@ -1,0 +1,91 @@
+use super::*;
+use crate::sensor::BeamSensor;
+
+const MODEL: GridModel = GridModel { cell_size: 0.3, log_odds_hit: 0.9, log_odds_pass: -0.4, surface_std: 0.1 };
+
+fn one_beam(range: f64) -> Scan {
+    BeamSensor::panorama(1, 8.0, 0.0).scan(&[range])
+}
+
+#[test]
+fn a_beam_frees_what_it_passes_and_fills_where_it_ends() {
+    let mut grid = Grid::new(MODEL);
+    grid.assimilate(&Pose2::new(0.15, 0.15, 0.0), &one_beam(1.5));
+    for i in 0..5 {
+        assert_eq!(grid.log_odds(i, 0), -0.40625, "cell {i}");
+    }
+    assert_eq!(grid.log_odds(5, 0), 0.90625);
+    assert_eq!((grid.log_odds(6, 0), grid.log_odds(0, 1), grid.log_odds(-100, 7)), (0.0, 0.0, 0.0));
+    let mean = grid.hit_mean(5, 0).unwrap();
+    assert!((mean[0] - 1.65).abs() < 1e-6 && (mean[1] - 0.15).abs() < 1e-6, "{mean:?}");
+    assert!(grid.hit_mean(4, 0).is_none());
+}
+
+#[test]
+fn beams_reach_the_right_cells_in_every_direction() {
+    for k in 0..720 {
+        let angle = core::f64::consts::TAU * f64::from(k) / 720.0;
+        let mut grid = Grid::new(MODEL);
+        let pose = Pose2::new(-0.17, 0.41, angle);
+        grid.assimilate(&pose, &one_beam(3.3));
+        let [x, y] = pose.transform([3.3, 0.0]);
+        let cell = |c: f64| (c / 0.3).floor() as i32;
+        assert!(grid.log_odds(cell(x), cell(y)) > 0.5, "direction {angle}");
+        let rect = grid.bounds();
+        let passed = (rect.j0..rect.j1).flat_map(|j| (rect.i0..rect.i1).map(move |i| (i, j)));
+        let passed = passed.filter(|&(i, j)| grid.log_odds(i, j) < 0.0).count() as u32;
+        let expected = cell(x).abs_diff(cell(pose.x)) + cell(y).abs_diff(cell(pose.y));
+        assert_eq!(passed, expected, "direction {angle}: the cells between the two, each once");
+    }
+}
+
+#[test]
+fn writing_to_a_clone_never_touches_its_sibling() {
+    let mut original = Grid::new(MODEL);
+    original.assimilate(&Pose2::default(), &one_beam(2.0));
+    let before = original.log_odds(6, 0);
+    let mut copy = original.clone();
+    copy.assimilate(&Pose2::default(), &one_beam(2.0));
+    copy.assimilate(&Pose2::new(40.0, -30.0, 1.0), &one_beam(2.0)); // grows the copy only
+    assert_eq!(original.log_odds(6, 0), before);
+    assert!(copy.log_odds(6, 0) > before);
+    assert_ne!(original.bounds(), copy.bounds());
+}
+
+#[test]
+fn a_clone_costs_no_memory_until_it_is_written_to() {
+    let mut original = Grid::new(MODEL);
+    original.assimilate(&Pose2::default(), &BeamSensor::panorama(90, 8.0, 0.0).scan(&[7.0; 90]));
+    let alone = Grid::footprint([&original]);
+    let mut copy = original.clone();
+    let pair = Grid::footprint([&original, &copy]);
+    assert_eq!((pair.unique, pair.dense), (alone.unique, 2 * alone.dense));
+    copy.assimilate(&Pose2::default(), &one_beam(0.5)); // one tile
+    let written = Grid::footprint([&original, &copy]).unique;
+    assert!(pair.unique < written && written < 2 * alone.unique, "{} {written} {}", pair.unique, 2 * alone.unique);
+}
+
+#[test]
+fn absurd_poses_and_ranges_change_nothing_and_exhaust_nothing() {
+    for pose in [Pose2::new(1e300, 0.0, 0.0), Pose2 { x: f64::NAN, y: 0.0, theta: 0.0 }, Pose2::new(0.0, -1e12, 1.0)] {
+        let mut grid = Grid::new(MODEL);
+        grid.assimilate(&pose, &one_beam(2.0));
+        assert_eq!(grid.bounds().width(), 0);
+    }
+}
+
+#[test]
+fn a_surface_has_the_moments_of_its_hits() {
+    let mut tile = tile::Tile::default();
+    let hits = [[0.01_f32, 0.02], [-0.05, 0.1], [0.07, -0.03], [0.0, 0.04]];
+    for hit in hits {
+        tile.add_hit(9, hit, 0.1);
+    }
+    let surface = tile.surface(9).unwrap();
+    let mean = |k: usize| hits.iter().map(|h| h[k]).sum::<f32>() / 4.0;
+    assert!((surface.mean[0] - mean(0)).abs() < 1e-6 && (surface.mean[1] - mean(1)).abs() < 1e-6);
+    let moment = |a: usize, b: usize| hits.iter().map(|h| (h[a] - mean(a)) * (h[b] - mean(b))).sum::<f32>();
+    let sigma = nalgebra::Matrix2::new(moment(0, 0) + 0.02, moment(0, 1), moment(0, 1), moment(1, 1) + 0.02) / 6.0;
+    let product = sigma * nalgebra::Matrix2::new(surface.information[0], surface.information[1], surface.information[1], surface.information[2]);
+    assert!((product - nalgebra::Matrix2::identity()).norm() < 1e-4, "{product}");
+}

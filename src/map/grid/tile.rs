@@ -1,0 +1,117 @@
+//! A tile of 8 × 8 cells: the unit that is shared and copied.
+
+/// Cells along a side of a tile.
+pub const TILE: i32 = 1 << SHIFT;
+
+/// log₂ of [`TILE`].
+pub(super) const SHIFT: i32 = 3;
+
+/// One unit of stored log-odds \[nats\]: a byte then reaches ±3.97 nats, probabilities 0.019 to 0.981. Clamping there is what
+/// lets a map change its mind (Hornung et al. 2013, OctoMap, clamps alike).
+pub(crate) const UNIT: f64 = 1.0 / 32.0;
+
+/// Log-odds \[nats\] in units, to the nearest.
+pub(super) fn units(log_odds: f64) -> i8 {
+    (log_odds / UNIT).round() as i8
+}
+
+/// Index of a cell in its tile.
+#[inline]
+pub(super) fn local(i: i32, j: i32) -> usize {
+    (((j & (TILE - 1)) << SHIFT) | (i & (TILE - 1))) as usize
+}
+
+/// Hits after which a surface is settled: it stops changing, and its tile may stay shared.
+const SETTLED: u32 = 64;
+
+/// Pseudo-hits every surface begins with, so that one hit is a round blob and not a point.
+const PSEUDO_HITS: f32 = 2.0;
+
+/// Normal distribution of the end points in one cell (Biber and Straßer 2003), relative to the centre of the cell.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Surface {
+    /// End points seen.
+    pub hits: u32,
+    /// Their mean (x, y) \[m\].
+    pub mean: [f32; 2],
+    /// Sums of squared deviations (xx, xy, yy) \[m²\].
+    scatter: [f32; 3],
+    /// Σ⁻¹ (xx, xy, yy) \[m⁻²\], with Σ = (scatter + n₀ σ₀² I) / (hits + n₀).
+    pub information: [f32; 3],
+}
+
+impl Surface {
+    fn add(&mut self, [x, y]: [f32; 2], surface_std: f32) {
+        // Welford's recurrence: mean and scatter in one pass, without cancellation.
+        self.hits += 1;
+        let n = self.hits as f32;
+        let (dx, dy) = (x - self.mean[0], y - self.mean[1]);
+        self.mean[0] += dx / n;
+        self.mean[1] += dy / n;
+        self.scatter[0] += dx * (x - self.mean[0]);
+        self.scatter[1] += dx * (y - self.mean[1]);
+        self.scatter[2] += dy * (y - self.mean[1]);
+        let (prior, weight) = (PSEUDO_HITS * surface_std * surface_std, 1.0 / (n + PSEUDO_HITS));
+        let (xx, xy, yy) =
+            ((self.scatter[0] + prior) * weight, self.scatter[1] * weight, (self.scatter[2] + prior) * weight);
+        let det = xx * yy - xy * xy;
+        self.information = [yy / det, -xy / det, xx / det];
+    }
+
+    /// (p − mean)ᵀ Σ⁻¹ (p − mean) of a point relative to the centre of the cell \[m\].
+    #[inline]
+    pub(crate) fn mahalanobis2(&self, x: f64, y: f64) -> f64 {
+        let (dx, dy) = (x - f64::from(self.mean[0]), y - f64::from(self.mean[1]));
+        let [xx, xy, yy] = self.information.map(f64::from);
+        xx * dx * dx + 2.0 * xy * dx * dy + yy * dy * dy
+    }
+}
+
+/// Log-odds of every cell, and surfaces of those that were hit.
+#[derive(Clone, Debug)]
+pub(super) struct Tile {
+    /// In [`UNIT`]s; 0 is unknown.
+    pub log_odds: [i8; (TILE * TILE) as usize],
+    /// Bit k: cell k has a surface.
+    hit: u64,
+    /// Surfaces of the hit cells, in the order of their bits: walls are few, so a tile stays small.
+    surfaces: Vec<Surface>,
+}
+
+impl Default for Tile {
+    fn default() -> Self {
+        Self { log_odds: [0; (TILE * TILE) as usize], hit: 0, surfaces: Vec::new() }
+    }
+}
+
+impl Tile {
+    /// Where the surface of a cell is, or would be inserted.
+    #[inline]
+    fn rank(&self, local: usize) -> usize {
+        (self.hit & ((1 << local) - 1)).count_ones() as usize
+    }
+
+    #[inline]
+    pub fn surface(&self, local: usize) -> Option<&Surface> {
+        if self.hit & (1 << local) == 0 {
+            return None;
+        }
+        self.surfaces.get(self.rank(local))
+    }
+
+    pub fn add_hit(&mut self, local: usize, offset: [f32; 2], surface_std: f32) {
+        let rank = self.rank(local);
+        if self.hit & (1 << local) == 0 {
+            self.hit |= 1 << local;
+            self.surfaces.insert(rank, Surface::default());
+        }
+        let surface = &mut self.surfaces[rank];
+        if surface.hits < SETTLED {
+            surface.add(offset, surface_std);
+        }
+    }
+
+    pub fn bytes(&self) -> usize {
+        size_of::<Self>() + self.surfaces.capacity() * size_of::<Surface>()
+    }
+}

@@ -1,0 +1,82 @@
+//! Greedy hill climbing over poses.
+
+use crate::geometry::Pose2;
+use crate::ops;
+
+/// Step sizes of a climb.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ClimbSteps {
+    /// First step along and across the robot \[m\].
+    pub linear: f64,
+    /// First turn \[rad\].
+    pub angular: f64,
+    /// How often the steps are halved before the climb ends.
+    pub halvings: u32,
+}
+
+/// Where a climb ended.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Climb {
+    /// The local optimum, to within the last steps.
+    pub pose: Pose2,
+    /// The objective there.
+    pub value: f64,
+}
+
+/// Climbs `objective` greedily from `start`: tries a step ahead, back, left, right and a turn to each side, takes the best
+/// that improves, halves the steps where none does (the matcher of gmapping; GSB §IV).
+pub(crate) fn climb(start: Climb, steps: ClimbSteps, mut objective: impl FnMut(&Pose2) -> f64) -> Climb {
+    let mut best = start;
+    let (mut linear, mut angular) = (steps.linear, steps.angular);
+    for _ in 0..=steps.halvings {
+        // Moves are bounded only by the objective; a bound keeps a hostile one (NaN, plateaus that rise forever) from running on.
+        for _ in 0..MOST_MOVES {
+            let from = best;
+            let (sin, cos) = ops::sin_cos(from.pose.theta);
+            for (ahead, left, turn) in [(1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)] {
+                let (ahead, left) = (ahead * linear, left * linear);
+                let pose = Pose2::new(
+                    from.pose.x + cos * ahead - sin * left,
+                    from.pose.y + sin * ahead + cos * left,
+                    from.pose.theta + turn * angular,
+                );
+                let value = objective(&pose);
+                if value > best.value {
+                    best = Climb { pose, value };
+                }
+            }
+            if best.value <= from.value {
+                break;
+            }
+        }
+        linear *= 0.5;
+        angular *= 0.5;
+    }
+    best
+}
+
+/// Most moves at one step size.
+const MOST_MOVES: u32 = 50;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_climb_finds_the_top_of_a_smooth_hill() {
+        let top = Pose2::new(0.31, -0.22, 0.17);
+        let hill = |pose: &Pose2| -pose.minus(&top).norm_squared();
+        let start = Climb { pose: Pose2::default(), value: hill(&Pose2::default()) };
+        let steps = ClimbSteps { linear: 0.1, angular: 0.1, halvings: 6 };
+        let end = climb(start, steps, hill);
+        assert!(end.pose.minus(&top).norm() < 0.1 / 32.0, "{end:?}");
+    }
+
+    #[test]
+    fn a_flat_objective_leaves_the_start() {
+        let start = Climb { pose: Pose2::new(1.0, 2.0, 3.0), value: 0.0 };
+        let steps = ClimbSteps { linear: 0.1, angular: 0.1, halvings: 3 };
+        assert_eq!(climb(start, steps, |_| 0.0), start);
+        assert_eq!(climb(start, steps, |_| f64::NAN), start);
+    }
+}

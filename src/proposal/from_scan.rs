@@ -1,0 +1,117 @@
+//! The measurement-aware proposal for grids: look first, then move.
+//!
+//! Reference: Grisetti, Stachniss, Burgard, *Improved techniques for grid mapping with Rao-Blackwellized particle filters*,
+//! T-RO 2007, §IV and algorithm 1.
+
+use super::{FromMotion, Proposal, ProposalTrace, Proposed};
+use crate::geometry::{Gaussian3, Pose2};
+use crate::map::grid::Grid;
+use crate::matching::{Climb, ClimbSteps, climb};
+use crate::motion::Odometry;
+use crate::ops;
+use crate::random::Stream;
+use crate::rbpf::Particle;
+use crate::sensor::Scan;
+use nalgebra::{Matrix3, Vector3};
+
+/// Settings of [`FromScan`].
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct FromScanSettings {
+    /// Floor of the motion Gaussian's standard deviations \[m, m, rad\].
+    pub motion_floor: [f64; 3],
+    /// Step sizes of the hill climb.
+    pub climb: ClimbSteps,
+    /// Seeds of the climb besides the odometry's prediction, drawn from the motion Gaussian.
+    pub seeds: u32,
+    /// How much better than the mean likelihood over the seeds the mode must be for the matcher to be trusted \[nats\].
+    pub gain: f64,
+    /// Number of probes K.
+    pub probes: u32,
+    /// Limits of the standard deviations of the probes along each axis \[m, m, rad\]: least and most.
+    pub probe_stds: [[f64; 3]; 2],
+}
+
+/// The gmapping recipe: find the mode, probe around it, fit a Gaussian, sample it, pay the normaliser η.
+#[derive(Clone, Debug)]
+pub struct FromScan {
+    /// The models, and what is done where the matcher fails.
+    pub fallback: FromMotion,
+    /// Tuning.
+    pub settings: FromScanSettings,
+}
+
+impl Proposal<Grid> for FromScan {
+    type Control = Odometry;
+
+    // anchor: propose
+    fn propose(&self, particle: &Particle<Grid>, u: &Odometry, scan: &Scan, stream: &mut Stream) -> Proposed {
+        let settings = &self.settings;
+        let prior = self.fallback.motion.gaussian(&particle.world_from_robot, u, settings.motion_floor);
+        let log_likelihood = |pose: &Pose2| self.fallback.scan.log_likelihood(&particle.map, pose, scan);
+        let log_target = |pose: &Pose2| log_likelihood(pose) + prior.log_density(pose);
+
+        // Seeds: the prediction and draws from the prior, so that the climb may begin on the right slope.
+        let mut best = Climb { pose: *prior.mean(), value: log_target(prior.mean()) };
+        let mut log_seeds = vec![log_likelihood(prior.mean())];
+        for _ in 0..settings.seeds {
+            let pose = prior.sample(stream);
+            let log_seed = log_likelihood(&pose);
+            log_seeds.push(log_seed);
+            let value = log_seed + prior.log_density(&pose);
+            if value > best.value {
+                best = Climb { pose, value };
+            }
+        }
+        let mode = climb(best, settings.climb, log_target);
+
+        // The guard: on a flat score surface the optimum is noise, no better than what the motion model would draw anyway.
+        let log_mean = ops::log_sum_exp(&log_seeds) - ops::ln(log_seeds.len() as f64);
+        if log_likelihood(&mode.pose) - log_mean < settings.gain {
+            return self.fallback.propose(particle, u, scan, stream);
+        }
+
+        // Probes around the mode, as wide as the target is there; each weighs τ_k = target / density of the probes.
+        let around = self.probe_gaussian(&mode, log_target);
+        let probes: Vec<(Pose2, f64)> = (0..settings.probes)
+            .map(|_| around.sample(stream))
+            .map(|pose| (pose, log_target(&pose) - around.log_density(&pose)))
+            .collect();
+        let log_taus: Vec<f64> = probes.iter().map(|(_, log_tau)| *log_tau).collect();
+        let log_sum = ops::log_sum_exp(&log_taus);
+
+        // μ and Σ of the weighted probes, as differences from the mode (angles wrapped).
+        let (mut mu, mut second) = (Vector3::zeros(), Matrix3::zeros());
+        for (pose, log_tau) in &probes {
+            let (d, tau) = (pose.minus(&mode.pose), ops::exp(log_tau - log_sum));
+            mu += d * tau;
+            second += d * d.transpose() * tau;
+        }
+        let floor = Matrix3::from_diagonal(&Vector3::from(settings.probe_stds[0].map(|std| 0.25 * std * std)));
+        let sigma = second - mu * mu.transpose() + floor;
+        let Some(fitted) = Gaussian3::new(mode.pose.plus(&mu), sigma) else {
+            return self.fallback.propose(particle, u, scan, stream);
+        };
+        let log_eta = log_sum - ops::ln(f64::from(settings.probes));
+        Proposed { world_from_robot: fitted.sample(stream), log_increment: log_eta, trace: ProposalTrace::Matched { mode: mode.pose } }
+    }
+    // end: propose
+}
+
+impl FromScan {
+    /// A Gaussian at the mode, with standard deviations from the curvature of the target along each axis (Laplace), kept within
+    /// the limits.
+    fn probe_gaussian(&self, mode: &Climb, log_target: impl Fn(&Pose2) -> f64) -> Gaussian3 {
+        let [least, most] = self.settings.probe_stds;
+        let mut variances = Vector3::zeros();
+        for axis in 0..3 {
+            let mut step = Vector3::zeros();
+            step[axis] = least[axis].max(0.25 * most[axis]);
+            let drop = 2.0 * mode.value - log_target(&mode.pose.plus(&step)) - log_target(&mode.pose.plus(&-step));
+            // −f″ ≈ drop / h²; σ² = h² / drop, and a plateau takes the most.
+            let std = if drop > 0.0 { (step[axis] * step[axis] / drop).sqrt() } else { most[axis] };
+            let std = std.clamp(least[axis], most[axis]);
+            variances[axis] = std * std;
+        }
+        Gaussian3::new(mode.pose, Matrix3::from_diagonal(&variances)).expect("limits of probe_stds are positive")
+    }
+}

@@ -1,0 +1,102 @@
+//! Where a particle's next pose is drawn from.
+//!
+//! Every proposal pays for its choice by one formula: the log weight increment is ln p(z | x, m) + ln p(x | x′, u) − ln q(x), or
+//! its integral over q where that can be had.
+
+mod from_motion;
+mod from_scan;
+
+pub use from_motion::FromMotion;
+pub use from_scan::{FromScan, FromScanSettings};
+
+use crate::error::ParameterError;
+use crate::geometry::Pose2;
+use crate::map::{ConditionalMap, grid::Grid};
+use crate::motion::Odometry;
+use crate::random::Stream;
+use crate::rbpf::Particle;
+use crate::sensor::Scan;
+use core::{fmt, str::FromStr};
+
+/// Draws the next pose of a particle and says what it costs.
+pub trait Proposal<M: ConditionalMap>: Sync {
+    /// What the robot was told, or reported, to do in a step.
+    type Control: Sync;
+
+    /// One draw for one particle.
+    fn propose(&self, particle: &Particle<M>, control: &Self::Control, observation: &M::Observation, stream: &mut Stream) -> Proposed;
+}
+
+/// A drawn pose with its price.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Proposed {
+    /// The new pose.
+    pub world_from_robot: Pose2,
+    /// Log weight increment \[nats\].
+    pub log_increment: f64,
+    /// How it came about.
+    pub trace: ProposalTrace,
+}
+
+/// How a pose was found, for those who watch.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum ProposalTrace {
+    /// Drawn from the motion model: by choice, or because the matcher was not trusted.
+    Motion,
+    /// Drawn from a Gaussian around the mode that the matcher found.
+    Matched {
+        /// The mode x̂.
+        mode: Pose2,
+    },
+}
+
+/// Either proposal for grids, chosen at run time.
+#[derive(Clone, Debug)]
+pub enum GridProposal {
+    /// The motion prior.
+    Motion(FromMotion),
+    /// The measurement-aware proposal.
+    Scan(FromScan),
+}
+
+impl Proposal<Grid> for GridProposal {
+    type Control = Odometry;
+
+    fn propose(&self, particle: &Particle<Grid>, u: &Odometry, scan: &Scan, stream: &mut Stream) -> Proposed {
+        match self {
+            Self::Motion(from_motion) => from_motion.propose(particle, u, scan, stream),
+            Self::Scan(from_scan) => from_scan.propose(particle, u, scan, stream),
+        }
+    }
+}
+
+/// The two proposals a reader chooses from.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
+pub enum ProposalKind {
+    /// Measurement-aware: [`FromScan`].
+    Aware,
+    /// The motion prior: [`FromMotion`].
+    Motion,
+}
+
+impl fmt::Display for ProposalKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Aware => "aware",
+            Self::Motion => "motion",
+        })
+    }
+}
+
+impl FromStr for ProposalKind {
+    type Err = ParameterError;
+
+    fn from_str(text: &str) -> Result<Self, ParameterError> {
+        match text {
+            "aware" => Ok(Self::Aware),
+            "motion" => Ok(Self::Motion),
+            _ => Err(ParameterError::new("proposal", text, "aware or motion")),
+        }
+    }
+}

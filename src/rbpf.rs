@@ -1,0 +1,137 @@
+//! The Rao–Blackwellized particle filter.
+
+use crate::execute::Executor;
+use crate::geometry::Pose2;
+use crate::lineage::{Ancestry, NodeId};
+use crate::map::ConditionalMap;
+use crate::proposal::{Proposal, ProposalTrace};
+use crate::random::{Purpose, Stream};
+use crate::resampling::{ResamplePolicy, Scheme};
+use crate::weights::Weights;
+
+/// One hypothesis: a path and the map that follows from it.
+#[derive(Clone, Debug)]
+pub struct Particle<M> {
+    /// Newest pose of the path.
+    pub world_from_robot: Pose2,
+    /// Map given the path.
+    pub map: M,
+    /// Newest node of the path in the ancestry tree.
+    pub node: NodeId,
+}
+
+/// What one step did.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// The step, from 1 on.
+    pub step: u32,
+    /// Log weight increment of each slot \[nats\].
+    pub log_increments: Vec<f64>,
+    /// Normalised weights before resampling.
+    pub weights: Vec<f64>,
+    /// N_eff before resampling.
+    pub ess: f64,
+    /// Slot each particle was copied from, where the step resampled.
+    pub ancestors: Option<Vec<u32>>,
+    /// How each slot came by its pose.
+    pub traces: Vec<ProposalTrace>,
+}
+
+/// A population of particles with one proposal and one policy of resampling.
+#[derive(Clone, Debug)]
+pub struct Rbpf<M, P> {
+    proposal: P,
+    policy: ResamplePolicy,
+    scheme: Scheme,
+    seed: u64,
+    executor: Executor,
+    step: u32,
+    particles: Vec<Particle<M>>,
+    weights: Weights,
+    ancestry: Ancestry,
+}
+
+impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
+    /// `count` particles that all stand at `start` with a copy of `map`.
+    pub fn new(proposal: P, policy: ResamplePolicy, scheme: Scheme, seed: u64, count: usize, start: Pose2, map: M) -> Self {
+        let mut ancestry = Ancestry::default();
+        let mut particle = || Particle { world_from_robot: start, map: map.clone(), node: ancestry.push(None, start) };
+        let particles = (0..count).map(|_| particle()).collect();
+        let (executor, weights) = (Executor::default(), Weights::uniform(count));
+        Self { proposal, policy, scheme, seed, executor, step: 0, particles, weights, ancestry }
+    }
+
+    /// The same filter, computed by another executor: the results are the same.
+    pub fn with_executor(self, executor: Executor) -> Self {
+        Self { executor, ..self }
+    }
+
+    // anchor: step
+    /// One step of the filter: propose, weigh, map, and select if the policy calls for it.
+    pub fn step(&mut self, control: &P::Control, observation: &M::Observation) -> Report {
+        let mut report = self.weigh(control, observation);
+        if self.policy.calls_for(report.ess, self.particles.len()) {
+            report.ancestors = Some(self.resample());
+        }
+        report
+    }
+
+    /// The first half of a step: every particle draws its new pose, pays for it, and maps what it sees from there.
+    pub fn weigh(&mut self, control: &P::Control, observation: &M::Observation) -> Report {
+        self.step += 1;
+        let (proposal, seed, step) = (&self.proposal, self.seed, self.step);
+        let proposed = self.executor.map(&mut self.particles, |slot, particle| {
+            let mut stream = Stream::at(seed, Purpose::Proposal, step, slot as u32);
+            let proposed = proposal.propose(particle, control, observation, &mut stream);
+            particle.world_from_robot = proposed.world_from_robot;
+            particle.map.assimilate(&proposed.world_from_robot, observation);
+            proposed
+        });
+        for particle in &mut self.particles {
+            particle.node = self.ancestry.push(Some(particle.node), particle.world_from_robot);
+        }
+        let log_increments: Vec<f64> = proposed.iter().map(|p| p.log_increment).collect();
+        (self.weights, _) = self.weights.reweighted(&log_increments);
+        Report {
+            step,
+            log_increments,
+            weights: self.weights.as_slice().to_vec(),
+            ess: self.weights.ess(),
+            ancestors: None,
+            traces: proposed.into_iter().map(|p| p.trace).collect(),
+        }
+    }
+
+    /// The second half: universes are drawn by their weights, and what is not drawn is extinct. Returns the slot that each
+    /// particle was copied from.
+    pub fn resample(&mut self) -> Vec<u32> {
+        let count = self.particles.len();
+        let mut stream = Stream::at(self.seed, Purpose::Resampling, self.step, 0);
+        let ancestors = self.scheme.ancestors(&self.weights, count, &mut stream);
+        self.particles = ancestors.iter().map(|slot| self.particles[*slot as usize].clone()).collect();
+        self.weights = Weights::uniform(count);
+        ancestors
+    }
+    // end: step
+
+    /// The population, by slot.
+    pub fn particles(&self) -> &[Particle<M>] {
+        &self.particles
+    }
+
+    /// Weights as they are now: uniform after a resampling.
+    pub fn weights(&self) -> &Weights {
+        &self.weights
+    }
+
+    /// All paths.
+    pub fn ancestry(&self) -> &Ancestry {
+        &self.ancestry
+    }
+
+    /// Distinct ancestors at step 0 of the present population.
+    pub fn lineage(&self) -> usize {
+        let nodes: Vec<NodeId> = self.particles.iter().map(|p| p.node).collect();
+        self.ancestry.distinct_ancestors(&nodes, self.step)
+    }
+}

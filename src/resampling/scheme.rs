@@ -1,0 +1,102 @@
+//! How to resample: weights in, ancestor indices out.
+
+use crate::error::ParameterError;
+use crate::random::Stream;
+use crate::weights::Weights;
+use core::{fmt, str::FromStr};
+
+/// A resampling scheme. All are unbiased: slot i is expected n · w̃ᵢ offspring. They differ in the variance of that number.
+///
+/// Reference: Douc, Cappé, Moulines, *Comparison of resampling schemes for particle filtering* (2005).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
+pub enum Scheme {
+    /// One uniform shifts a comb of n teeth: ⌊n w̃⌋ or ⌈n w̃⌉ offspring. The low-variance sampler, PR table 4.4.
+    Systematic,
+    /// One uniform in each of n equal strata.
+    Stratified,
+    /// n independent draws: the highest variance.
+    Multinomial,
+    /// ⌊n w̃⌋ offspring for certain, the rest drawn independently by what was cut off.
+    Residual,
+}
+
+impl Scheme {
+    /// The ancestors of `n` new particles: slots of the old population, in ascending order.
+    pub fn ancestors(&self, weights: &Weights, n: usize, stream: &mut Stream) -> Vec<u32> {
+        let w = weights.as_slice();
+        match self {
+            Self::Systematic => {
+                let shift = stream.uniform();
+                invert(w, (0..n).map(|k| (k as f64 + shift) / n as f64))
+            }
+            Self::Stratified => invert(w, (0..n).map(|k| (k as f64 + stream.uniform()) / n as f64)),
+            Self::Multinomial => invert(w, sorted_uniforms(n, stream)),
+            Self::Residual => {
+                let expected: Vec<f64> = w.iter().map(|w| w * n as f64).collect();
+                let certain: Vec<u32> = (0..w.len()).flat_map(|i| repeat(i, expected[i].floor() as usize)).collect();
+                let rest: Vec<f64> = expected.iter().map(|e| e - e.floor()).collect();
+                let total: f64 = rest.iter().sum();
+                let missing = n.saturating_sub(certain.len());
+                let drawn = invert(&rest, sorted_uniforms(missing, stream).map(|u| u * total));
+                let mut ancestors: Vec<u32> = certain.into_iter().take(n).chain(drawn).collect();
+                ancestors.sort_unstable();
+                ancestors
+            }
+        }
+    }
+}
+
+fn repeat(slot: usize, count: usize) -> impl Iterator<Item = u32> {
+    core::iter::repeat_n(slot as u32, count)
+}
+
+/// n uniforms in ascending order.
+fn sorted_uniforms(n: usize, stream: &mut Stream) -> impl Iterator<Item = f64> + use<> {
+    let mut uniforms: Vec<f64> = (0..n).map(|_| stream.uniform()).collect();
+    uniforms.sort_unstable_by(f64::total_cmp);
+    uniforms.into_iter()
+}
+
+/// For each point, in ascending order, the slot whose piece of the cumulative weights holds it.
+///
+/// A slot of weight zero is never chosen; rounding in the sum may leave points past its end, which go to the last slot that has
+/// weight.
+fn invert(weights: &[f64], points: impl Iterator<Item = f64>) -> Vec<u32> {
+    let last = weights.iter().rposition(|w| *w > 0.0).unwrap_or(0);
+    let (mut slot, mut cumulative) = (0, weights[0]);
+    points
+        .map(|point| {
+            while slot < last && cumulative <= point {
+                slot += 1;
+                cumulative += weights[slot];
+            }
+            slot as u32
+        })
+        .collect()
+}
+
+impl fmt::Display for Scheme {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Systematic => "systematic",
+            Self::Stratified => "stratified",
+            Self::Multinomial => "multinomial",
+            Self::Residual => "residual",
+        })
+    }
+}
+
+impl FromStr for Scheme {
+    type Err = ParameterError;
+
+    fn from_str(text: &str) -> Result<Self, ParameterError> {
+        match text {
+            "systematic" => Ok(Self::Systematic),
+            "stratified" => Ok(Self::Stratified),
+            "multinomial" => Ok(Self::Multinomial),
+            "residual" => Ok(Self::Residual),
+            _ => Err(ParameterError::new("scheme", text, "systematic, stratified, multinomial or residual")),
+        }
+    }
+}

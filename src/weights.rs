@@ -1,0 +1,81 @@
+//! Weights of a population: log-scale, normalised, immutable.
+
+use crate::ops;
+
+/// Normalised importance weights w̃ of M particles, kept as logarithms.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Weights {
+    log_weights: Vec<f64>,
+    weights: Vec<f64>,
+}
+
+impl Weights {
+    /// M equal weights.
+    pub fn uniform(count: usize) -> Self {
+        let weight = 1.0 / count as f64;
+        Self { log_weights: vec![ops::ln(weight); count], weights: vec![weight; count] }
+    }
+
+    /// The weights after each has been multiplied by exp(increment), with the log of their sum before normalising \[nats\]:
+    /// the filter's estimate of ln p(z_t | z₁..ₜ₋₁).
+    ///
+    /// Increments that are not numbers count as −∞. Where no particle has any weight left the old weights stay: a population
+    /// that explains nothing is no reason to lose it.
+    pub fn reweighted(&self, log_increments: &[f64]) -> (Self, f64) {
+        assert_eq!(log_increments.len(), self.log_weights.len(), "one increment for each weight");
+        let sum = |(log_weight, increment): (&f64, &f64)| {
+            if increment.is_nan() { f64::NEG_INFINITY } else { log_weight + increment }
+        };
+        let unnormalized: Vec<f64> = self.log_weights.iter().zip(log_increments).map(sum).collect();
+        let log_evidence = ops::log_sum_exp(&unnormalized);
+        if !log_evidence.is_finite() {
+            return (self.clone(), log_evidence);
+        }
+        let log_weights: Vec<f64> = unnormalized.iter().map(|w| w - log_evidence).collect();
+        let weights = log_weights.iter().map(|w| ops::exp(*w)).collect();
+        (Self { log_weights, weights }, log_evidence)
+    }
+
+    /// w̃, which sum to one.
+    pub fn as_slice(&self) -> &[f64] {
+        &self.weights
+    }
+
+    /// N_eff = 1 / Σ w̃², between 1 and M (Kong, Liu, Wong 1994).
+    ///
+    /// ```
+    /// let uniform = fastslam::weights::Weights::uniform(2);
+    /// let (weights, _) = uniform.reweighted(&[2.753451476665_f64.ln(), 0.863168987665_f64.ln()]);
+    /// assert!((weights.as_slice()[0] - 0.761332714843).abs() < 1e-9);
+    /// assert!((weights.ess() - 1.5708708376).abs() < 1e-9);
+    /// ```
+    pub fn ess(&self) -> f64 {
+        1.0 / self.weights.iter().map(|w| w * w).sum::<f64>()
+    }
+
+    /// Slot of the largest weight, the lowest of equals.
+    pub fn best(&self) -> usize {
+        (1..self.weights.len()).fold(0, |best, slot| if self.weights[slot] > self.weights[best] { slot } else { best })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weights_sum_to_one_over_hundreds_of_orders_of_magnitude() {
+        let (weights, log_evidence) = Weights::uniform(3).reweighted(&[-1000.0, -1001.0, -3000.0]);
+        assert!((weights.as_slice().iter().sum::<f64>() - 1.0).abs() < 1e-12);
+        assert!(weights.as_slice()[0] > 0.7 && (-1001.0..-1000.0).contains(&log_evidence));
+        assert_eq!(weights.best(), 0);
+    }
+
+    #[test]
+    fn a_population_that_explains_nothing_keeps_its_weights() {
+        let before = Weights::uniform(4);
+        for increments in [[f64::NEG_INFINITY; 4], [f64::NAN; 4]] {
+            assert_eq!(before.reweighted(&increments).0, before);
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! A floor plan of straight walls, and beams cast into it.
+
+use crate::geometry::Pose2;
+use crate::ops;
+use crate::random::Stream;
+use crate::sensor::BeamSensor;
+
+/// A straight piece of wall or furniture from `a` to `b` \[m\].
+#[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Segment {
+    /// One end \[m\].
+    pub a: [f64; 2],
+    /// The other end \[m\].
+    pub b: [f64; 2],
+}
+
+/// A place.
+#[derive(Clone, PartialEq, Debug)]
+pub struct FloorPlan {
+    /// Extent \[m\] along x and y, from the origin.
+    pub size: [f64; 2],
+    /// Walls.
+    pub walls: Vec<Segment>,
+    /// Furniture: as solid to a beam as a wall.
+    pub furniture: Vec<Segment>,
+}
+
+impl FloorPlan {
+    /// Our own Apartment, 12 m × 9 m: a corridor from west to east, three rooms on each side, some furniture.
+    pub fn apartment() -> Self {
+        let wall = |x0, y0, x1, y1| Segment { a: [x0, y0], b: [x1, y1] };
+        let walls = vec![
+            wall(0.0, 0.0, 12.0, 0.0),
+            wall(12.0, 0.0, 12.0, 9.0),
+            wall(12.0, 9.0, 0.0, 9.0),
+            wall(0.0, 9.0, 0.0, 0.0),
+            // South side of the corridor, with the doors of kitchen, bath and bedroom.
+            wall(0.0, 3.9, 1.9, 3.9),
+            wall(2.9, 3.9, 5.1, 3.9),
+            wall(6.0, 3.9, 8.3, 3.9),
+            wall(9.3, 3.9, 12.0, 3.9),
+            // North side, with the doors of living room and study, and the wide opening of the sun room.
+            wall(0.0, 5.4, 3.3, 5.4),
+            wall(4.4, 5.4, 6.2, 5.4),
+            wall(7.1, 5.4, 8.9, 5.4),
+            wall(11.1, 5.4, 12.0, 5.4),
+            // Between the rooms.
+            wall(4.2, 0.0, 4.2, 3.9),
+            wall(6.9, 0.0, 6.9, 3.9),
+            wall(5.3, 5.4, 5.3, 9.0),
+            wall(8.3, 5.4, 8.3, 9.0),
+        ];
+        let mut furniture = Vec::new();
+        let mut block = |x0: f64, y0: f64, x1: f64, y1: f64| {
+            let corners = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
+            furniture.extend((0..4).map(|k| Segment { a: corners[k], b: corners[(k + 1) % 4] }));
+        };
+        block(0.0, 0.0, 0.6, 2.4); // kitchen counter
+        block(2.0, 0.9, 3.1, 1.8); // kitchen table
+        block(6.2, 0.0, 6.9, 1.6); // bath tub
+        block(9.6, 0.0, 11.4, 2.0); // bed
+        block(6.9, 2.6, 7.4, 3.9); // wardrobe
+        block(0.4, 8.0, 2.8, 9.0); // sofa
+        block(1.2, 6.5, 2.2, 7.1); // low table
+        block(6.2, 8.2, 7.8, 9.0); // desk
+        block(11.4, 7.4, 12.0, 9.0); // shelf
+        block(8.3, 8.3, 9.1, 9.0); // armchair
+        block(0.0, 5.0, 1.1, 5.4); // shoe rack
+        block(7.3, 3.9, 8.0, 4.2); // chest of drawers
+        Self { size: [12.0, 9.0], walls, furniture }
+    }
+
+    /// Distance \[m\] from (x, y) along the direction \[rad\] to the nearest wall or piece of furniture; infinite for none.
+    pub fn raycast(&self, origin: [f64; 2], direction: f64) -> f64 {
+        let (sin, cos) = ops::sin_cos(direction);
+        let mut nearest = f64::INFINITY;
+        for segment in self.walls.iter().chain(&self.furniture) {
+            // origin + t d = a + s e, solved by cross products.
+            let e = [segment.b[0] - segment.a[0], segment.b[1] - segment.a[1]];
+            let w = [segment.a[0] - origin[0], segment.a[1] - origin[1]];
+            let cross = cos * e[1] - sin * e[0];
+            if cross == 0.0 {
+                continue; // parallel: seen edge-on
+            }
+            let t = (w[0] * e[1] - w[1] * e[0]) / cross;
+            let s = (w[0] * sin - w[1] * cos) / cross;
+            if t > 0.0 && t < nearest && (0.0..=1.0).contains(&s) {
+                nearest = t;
+            }
+        }
+        nearest
+    }
+
+    /// Ranges \[m\] that the sensor reports at a true pose, with its noise; infinite where nothing is met within its range.
+    pub fn ranges(&self, world_from_robot: &Pose2, sensor: &BeamSensor, stream: &mut Stream) -> Vec<f64> {
+        let origin = [world_from_robot.x, world_from_robot.y];
+        let mut noisy = |angle: &f64| {
+            let noise = sensor.range_std * stream.normal(); // drawn for every beam: addresses stay aligned
+            let range = self.raycast(origin, world_from_robot.theta + angle);
+            if range < sensor.max_range { (range + noise).clamp(1e-3, sensor.max_range) } else { f64::INFINITY }
+        };
+        sensor.angles.iter().map(&mut noisy).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f64::consts::{FRAC_PI_2, PI};
+
+    #[test]
+    fn beams_end_at_the_nearest_wall() {
+        let room = FloorPlan {
+            size: [4.0, 3.0],
+            walls: vec![Segment { a: [4.0, 0.0], b: [4.0, 3.0] }, Segment { a: [0.0, 3.0], b: [4.0, 3.0] }],
+            furniture: vec![Segment { a: [3.0, 0.0], b: [3.0, 3.0] }],
+        };
+        assert!((room.raycast([1.0, 1.0], 0.0) - 2.0).abs() < 1e-12);
+        assert!((room.raycast([1.0, 1.0], FRAC_PI_2) - 2.0).abs() < 1e-12);
+        assert_eq!(room.raycast([1.0, 1.0], PI), f64::INFINITY);
+    }
+
+    #[test]
+    fn no_beam_leaves_the_apartment() {
+        let plan = FloorPlan::apartment();
+        for k in 0..720 {
+            let range = plan.raycast([6.0, 4.7], PI * f64::from(k) / 360.0);
+            assert!(range > 0.2 && range < 15.0, "beam {k}: {range} m");
+        }
+    }
+}

@@ -1,0 +1,7 @@
+//! The truth: a place, a drive through it and what the sensors report. No filter may import this module.
+
+mod drive;
+mod floor_plan;
+
+pub use drive::drive;
+pub use floor_plan::{FloorPlan, Segment};
