@@ -1,0 +1,118 @@
+// npm run bench: the native benchmarks (criterion), then the same laps timed in WebAssembly in headless Chromium, side by side
+// with the targets they are held to.
+import { existsSync, readdirSync, readFileSync } from 'node:fs'
+import { join } from 'node:path'
+import { launchChromium } from './browser.mjs'
+import { buildWasm } from './build.mjs'
+import { bold, capture, green, isMain, main, red, root, run, say, step, StepError } from './lib.mjs'
+import { startServer } from './serve.mjs'
+import { setUp } from './setup.mjs'
+
+/** The criterion benchmark of one whole lap of 16 universes on one thread, which is what WebAssembly runs. */
+const nativeLap = 'lap/serial/16'
+const laps = 5
+const width = 1280
+const height = 800
+
+/** Every estimate criterion wrote, by id [ms]. @param {string} folder @returns {Map<string, number>} */
+function criterionTimes(folder) {
+  const times = new Map()
+  for (const file of existsSync(folder) ? readdirSync(folder, { recursive: true, encoding: 'utf8' }) : []) {
+    if (!file.endsWith(join('new', 'benchmark.json'))) continue
+    const read = (/** @type {string} */ name) => JSON.parse(readFileSync(join(folder, file, '..', name), 'utf8'))
+    times.set(read('benchmark.json').full_id, read('estimates.json').mean.point_estimate / 1e6)
+  }
+  return times
+}
+
+/** What a lap costs in the browser [ms]. Whole laps are timed, as Chromium's clock is coarser than a step. */
+async function browserTimes() {
+  const server = await startServer({ folder: join(root, 'widgets', 'pkg') })
+  const browser = await launchChromium()
+  try {
+    const page = await browser.newPage()
+    await page.route('**/bench', route => route.fulfill({ contentType: 'text/html', body: '<!doctype html><title>bench</title>' }))
+    await page.goto(`${server.url}bench`)
+    return await page.evaluate(timeLaps, { laps, width, height })
+  } finally {
+    await browser.close()
+    await server.close()
+  }
+}
+
+/** Runs in the page. @param {{ laps: number, width: number, height: number }} size */
+async function timeLaps({ laps, width, height }) {
+  const module = '/fastslam_widgets.js'
+  const { default: init, Figure } = await import(module)
+  const { memory } = await init()
+  const figure = new Figure('fastslam-lap')
+  const canvas = Object.assign(document.createElement('canvas'), { width, height })
+  const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d', { alpha: false }))
+  figure.set('universes', '16')
+  const total = { steps: 0, work: 0, paint: 0, put: 0, slowest: 0 }
+  // The first lap is for the compiler to warm up.
+  for (let lap = 0; lap <= laps; lap++) {
+    figure.seek(0)
+    figure.set('seed', String(lap + 1))
+    while (figure.pending() > 0) figure.work()
+    for (let step = 1; step <= figure.step_count(); step++) {
+      const started = performance.now()
+      figure.seek(step)
+      while (figure.pending() > 0) figure.work()
+      const worked = performance.now()
+      figure.paint(width, height, 1, 'light')
+      const painted = performance.now()
+      context.putImageData(new ImageData(new Uint8ClampedArray(memory.buffer, figure.pixels(), width * height * 4), width, height), 0, 0)
+      const put = performance.now()
+      if (lap === 0) continue
+      total.steps++
+      total.work += worked - started
+      total.paint += painted - worked
+      total.put += put - painted
+      total.slowest = Math.max(total.slowest, painted - started)
+    }
+  }
+  return { ...total, perLap: figure.step_count() }
+}
+
+/** @param {number} ms */
+const milliseconds = ms => `${ms.toFixed(3)} ms`
+
+/** @param {string} what @param {number} is @param {number} atMost @param {(value: number) => string} [show] */
+function verdict(what, is, atMost, show = milliseconds) {
+  say(`  ${is <= atMost ? green('✓') : red('✗')} ${what}: ${show(is)}, at most ${show(atMost)}`)
+  return is <= atMost
+}
+
+if (isMain(import.meta)) {
+  await main(async () => {
+    await setUp({ browser: true })
+    await buildWasm()
+    await step('Benchmarks, native (criterion)', () => run('cargo', ['bench', '--workspace']))
+    await step('Benchmarks, WebAssembly in Chromium', async () => {
+      const folder = JSON.parse(capture('cargo', 'metadata', '--no-deps', '--format-version', '1') ?? '{}').target_directory
+      const native = criterionTimes(join(folder, 'criterion'))
+      const lap = native.get(nativeLap)
+      if (lap === undefined) throw new StepError(`Criterion has no benchmark ${nativeLap}, only: ${[...native.keys()].join(', ')}`)
+      const wasm = await browserTimes()
+      const [nativeStep, wasmStep] = [lap / wasm.perLap, wasm.work / wasm.steps]
+      say(bold('\n  Criterion, mean of one run'))
+      for (const [id, time] of [...native].sort()) say(`  ${milliseconds(time).padStart(14)}  ${id}`)
+      say(bold(`\n  A lap of 16 universes, mean of ${wasm.steps} steps`))
+      say(`  ${milliseconds(nativeStep).padStart(14)}  step, native, one thread`)
+      say(`  ${milliseconds(wasmStep).padStart(14)}  step, WebAssembly`)
+      say(`  ${milliseconds(wasm.paint / wasm.steps).padStart(14)}  scene and paint at ${width} × ${height}, WebAssembly`)
+      say(`  ${milliseconds(wasm.put / wasm.steps).padStart(14)}  pixels to the canvas`)
+      say(`  ${milliseconds(wasm.slowest).padStart(14)}  the slowest step with its scene and paint`)
+      say(bold('\n  Targets'))
+      const met = [
+        verdict('step, WebAssembly over native', wasmStep / nativeStep, 1.5, ratio => `${ratio.toFixed(2)} ×`),
+        verdict('step, WebAssembly', wasmStep, 2),
+        verdict('step, scene and paint, WebAssembly', wasmStep + wasm.paint / wasm.steps, 12),
+      ]
+      say('')
+      // A busy machine is no bug: the targets are shown, not enforced.
+      return `${met.filter(Boolean).length} of ${met.length} targets met`
+    })
+  })
+}

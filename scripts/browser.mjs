@@ -1,0 +1,22 @@
+// The Chromium that set-up found, driven by Playwright, for scripts and for the end-to-end tests.
+import { createRequire } from 'node:module'
+import { StepError } from './lib.mjs'
+import { findChrome } from './setup.mjs'
+
+/** Nothing in the background, so that it asks for no host but ours; /dev/shm is small in containers. */
+export const chromiumFlags = [
+  '--disable-gpu',
+  '--disable-dev-shm-usage',
+  '--disable-background-networking',
+  '--no-first-run',
+  '--disable-component-update',
+  '--disable-sync',
+]
+
+export async function launchChromium() {
+  const executablePath = findChrome()
+  if (!executablePath) throw new StepError('There is no Chromium on PATH.', 'npm run setup installs it where it can, and says what to do where it cannot.')
+  // Required late: set-up imports no package, and may be what installs this one.
+  const { chromium } = /** @type {typeof import('@playwright/test')} */ (createRequire(import.meta.url)('@playwright/test'))
+  return chromium.launch({ executablePath, args: chromiumFlags })
+}

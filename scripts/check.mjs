@@ -1,0 +1,33 @@
+// npm run check: format, lints and types, without running a test.
+import { existsSync } from 'node:fs'
+import { join } from 'node:path'
+import { buildWasm } from './build.mjs'
+import { isMain, main, npmBin, root, run, step } from './lib.mjs'
+import { setUp } from './setup.mjs'
+
+/** The checks, as [name, action]: the tests run them as well. @type {[string, () => Promise<unknown>][]} */
+export const checks = [
+  ['Format (cargo fmt)', () => run('cargo', ['fmt', '--all', '--check'], { hint: 'cargo fmt --all puts it right.' })],
+  ['Lints (clippy)', () => run('cargo', ['clippy', '--workspace', '--all-targets', '--', '-D', 'warnings'])],
+  ['Lints for WebAssembly (clippy)', clippyWasm],
+  ['Types (TypeScript)', checkTypes],
+]
+
+/** Code behind cfg(target_arch = "wasm32") is seen by this run alone. */
+function clippyWasm() {
+  const packages = ['-p', 'fastslam-widgets', '-p', 'browser']
+  return run('cargo', ['clippy', ...packages, '--all-targets', '--target', 'wasm32-unknown-unknown', '--', '-D', 'warnings'])
+}
+
+async function checkTypes() {
+  for (const project of ['.', 'scripts', 'tests/e2e']) await run(npmBin('tsc'), ['--noEmit', '-p', join(root, project)])
+}
+
+if (isMain(import.meta)) {
+  await main(async () => {
+    await setUp()
+    // The elements are typed against what wasm-pack writes.
+    if (!existsSync(join(root, 'widgets', 'pkg', 'fastslam_widgets.d.ts'))) await buildWasm()
+    for (const [name, action] of checks) await step(name, action)
+  })
+}

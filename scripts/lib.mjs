@@ -1,0 +1,192 @@
+// What every script needs: named steps with their time, running tools with visible progress, finding tools.
+// Only Node's own modules: these lines run before any package is installed.
+import { spawn, spawnSync } from 'node:child_process'
+import { accessSync, constants, createWriteStream, mkdirSync, readFileSync, statSync } from 'node:fs'
+import { homedir } from 'node:os'
+import { delimiter, dirname, isAbsolute, join } from 'node:path'
+import { fileURLToPath } from 'node:url'
+
+export const root = dirname(dirname(fileURLToPath(import.meta.url)))
+
+/** Everything the scripts keep between runs, besides target/ and node_modules/. @param {string[]} parts */
+export const cache = (...parts) => join(root, '.cache', ...parts)
+
+// rustup writes PATH into shell profiles, which a shell opened earlier (or CI) has not read.
+process.env.PATH = [process.env.PATH, join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'bin')].join(delimiter)
+
+const terminal = process.stdout.isTTY && !process.env.CI
+const live = !terminal || Boolean(process.env.VERBOSE)
+
+/** @param {number} code */
+const ansi = code => (/** @type {string} */ text) => (terminal && !process.env.NO_COLOR ? `\x1b[${code}m${text}\x1b[0m` : text)
+export const bold = ansi(1)
+export const dim = ansi(2)
+export const red = ansi(31)
+export const green = ansi(32)
+
+/** A step that cannot go on: says what is wrong and, in `hint`, what would put it right. */
+export class StepError extends Error {
+  /** @param {string} message @param {string} [hint] */
+  constructor(message, hint) {
+    super(message)
+    this.hint = hint
+  }
+}
+
+/** The step under way; one at a time. @type {{ title: string, started: number, log: import('node:fs').WriteStream, path: string } | undefined} */
+let current
+
+/** @param {number} since */
+const elapsed = since => {
+  const seconds = (performance.now() - since) / 1000
+  return seconds < 60 ? `${seconds.toFixed(1)} s` : `${Math.floor(seconds / 60)} min ${Math.round(seconds % 60)} s`
+}
+
+/** Prints lines of a step that stay. @param {string} text */
+export function say(text) {
+  console.log(live ? text : `\r\x1b[2K${text}`)
+}
+
+/** One line that is overwritten by the next, on a terminal. @param {string} line */
+function status(line) {
+  // eslint-disable-next-line no-control-regex -- colours of the tools, which would be cut in the middle
+  const plain = line.replace(/\x1b\[[0-9;]*m/g, '')
+  process.stdout.write(`\r\x1b[2K${dim(plain.slice(0, (process.stdout.columns ?? 80) - 1))}`)
+}
+
+/**
+ * Runs one named step: prints its name, its progress, and how long it took. What `action` returns as a string is shown beside
+ * the name. A failure is printed here and thrown on.
+ * @param {string} title
+ * @param {() => unknown} action
+ */
+export async function step(title, action) {
+  const path = cache('logs', `${title.toLowerCase().replace(/[^a-z0-9]+/g, '-')}.log`)
+  mkdirSync(dirname(path), { recursive: true })
+  const log = createWriteStream(path)
+  const started = performance.now()
+  current = { title, started, log, path }
+  if (live) console.log(bold(`▸ ${title}`))
+  else status(`▸ ${title} …`)
+  try {
+    const note = await action()
+    if (!live) process.stdout.write('\r\x1b[2K')
+    console.log(`${green('✓')} ${title} ${dim(`(${elapsed(started)})`)}${typeof note === 'string' ? `  ${note}` : ''}`)
+  } catch (error) {
+    if (!live) process.stdout.write('\r\x1b[2K')
+    console.log(`${red('✗')} ${bold(title)} ${dim(`(${elapsed(started)})`)}`)
+    explain(error)
+    throw error
+  } finally {
+    log.end()
+    current = undefined
+  }
+}
+
+/** Errors that have been explained, so that they are not once more further out. */
+const explained = new WeakSet()
+
+/** @param {unknown} error */
+function explain(error) {
+  if (error instanceof Object) {
+    if (explained.has(error)) return
+    explained.add(error)
+  }
+  if (!(error instanceof StepError)) {
+    console.error(error)
+    return
+  }
+  const indent = (/** @type {string} */ text) => text.replace(/^/gm, '  ')
+  console.log(red(indent(error.message)))
+  if (error.hint) console.log(indent(error.hint))
+}
+
+/**
+ * Runs a tool to its end, its output going to the terminal (or, on one, its last line) and to the step's log.
+ * @param {string} command
+ * @param {string[]} args
+ * @param {{ cwd?: string, env?: Record<string, string>, hint?: string }} [options]
+ * @returns {Promise<{ output: string }>} all it printed
+ */
+export function run(command, args, { cwd = root, env = {}, hint } = {}) {
+  return new Promise((resolve, reject) => {
+    const shown = [command, ...args].map(word => (isAbsolute(word) ? word.replace(root + '/', '') : word)).join(' ')
+    if (live) console.log(dim(`  $ ${shown}`))
+    current?.log.write(`$ ${shown}\n`)
+    let output = ''
+    const child = spawn(command, args, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'] })
+    for (const stream of [child.stdout, child.stderr]) {
+      stream.setEncoding('utf8')
+      stream.on('data', chunk => {
+        output += chunk
+        current?.log.write(chunk)
+        if (live) process.stdout.write(chunk)
+      })
+    }
+    const ticker = live
+      ? undefined
+      : setInterval(() => {
+          const last = output.trimEnd().split(/[\r\n]/).at(-1)
+          if (current) status(`▸ ${current.title} (${elapsed(current.started)})  ${last}`)
+        }, 200)
+    child.on('error', error => {
+      clearInterval(ticker)
+      reject(new StepError(`${command} could not be started: ${error.message}`, hint))
+    })
+    child.on('close', (code, signal) => {
+      clearInterval(ticker)
+      if (code === 0) return resolve({ output })
+      if (!live) process.stdout.write(`\r\x1b[2K${output.split('\n').slice(-80).join('\n')}\n`)
+      const failure = new StepError(
+        `${shown}: ${signal ? `ended by ${signal}` : `exit status ${code}`}`,
+        hint ?? (current ? `All it printed: ${current.path}` : undefined),
+      )
+      reject(Object.assign(failure, { output }))
+    })
+  })
+}
+
+/** What a tool prints, trimmed; undefined if it is missing or fails. @param {string} command @param {string[]} args */
+export function capture(command, ...args) {
+  const { status, stdout } = spawnSync(command, args, { cwd: root, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] })
+  return status === 0 ? stdout.trim() : undefined
+}
+
+/** Where a program is, by name on PATH or by path; undefined if nowhere. @param {string | undefined} name */
+export function which(name) {
+  if (!name) return undefined
+  const places = name.includes('/') ? [name] : (process.env.PATH ?? '').split(delimiter).map(folder => join(folder, name))
+  return places.find(place => {
+    try {
+      accessSync(place, constants.X_OK)
+      return statSync(place).isFile()
+    } catch {
+      return false
+    }
+  })
+}
+
+/** A program of an npm package of ours. @param {string} name */
+export const npmBin = name => join(root, 'node_modules', '.bin', name)
+
+/** A file's text, or undefined if there is none. @param {string} path */
+export function readIfThere(path) {
+  try {
+    return readFileSync(path, 'utf8')
+  } catch {
+    return undefined
+  }
+}
+
+/** Whether the script is the one that was started, rather than imported. @param {ImportMeta} meta */
+export const isMain = meta => process.argv[1] === fileURLToPath(meta.url)
+
+/** Runs a script's main function. @param {() => Promise<void>} action */
+export async function main(action) {
+  try {
+    await action()
+  } catch (error) {
+    explain(error)
+    process.exitCode = 1
+  }
+}

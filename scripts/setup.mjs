@@ -1,0 +1,131 @@
+// Sets up what building and testing need, from rustup's Rust and Node alone. Every step looks first and installs only what is
+// missing, into the places where a bare shell finds it too (~/.cargo/bin, node_modules, the system's packages).
+import { createHash } from 'node:crypto'
+import { existsSync, readFileSync, writeFileSync } from 'node:fs'
+import { homedir } from 'node:os'
+import { join } from 'node:path'
+import { capture, isMain, main, readIfThere, root, run, step, StepError, which } from './lib.mjs'
+
+const wasmPackVersion = '0.15.1'
+const wasmTarget = 'wasm32-unknown-unknown'
+
+/** @param {{ browser?: boolean }} [needs] */
+export async function setUp({ browser = false } = {}) {
+  await step('Node.js', checkNode)
+  await step('Rust', checkRust)
+  await step('Rust target for WebAssembly', addWasmTarget)
+  await step('wasm-bindgen', () => cargoInstall('wasm-bindgen-cli', 'wasm-bindgen', wasmBindgenVersion()))
+  await step('wasm-pack', () => cargoInstall('wasm-pack', 'wasm-pack', wasmPackVersion))
+  await step('npm packages', installPackages)
+  if (browser) await step('Chromium and ChromeDriver', installBrowser)
+}
+
+function checkNode() {
+  const [major, minor] = process.versions.node.split('.').map(Number)
+  if (major > 22 || (major === 22 && minor >= 12) || (major === 20 && minor >= 19)) return process.versions.node
+  throw new StepError(`Node.js ${process.versions.node} is too old or an odd one for Vite 8.`, 'Install Node.js 20.19 or newer, or 22.12 or newer.')
+}
+
+function checkRust() {
+  const version = capture('cargo', '--version')
+  if (!version) throw new StepError('There is no cargo on PATH nor in ~/.cargo/bin.', 'Install Rust with rustup: https://rustup.rs')
+  if (process.platform === 'linux' && !which('cc')) {
+    throw new StepError('Rust needs a C linker, and there is no cc on PATH.', 'On Debian or Ubuntu: apt-get install gcc libc6-dev')
+  }
+  return version.replace('cargo ', '')
+}
+
+async function addWasmTarget() {
+  const sysroot = capture('rustc', '--print', 'sysroot')
+  if (sysroot && existsSync(join(sysroot, 'lib', 'rustlib', wasmTarget))) return 'there already'
+  if (!which('rustup')) throw new StepError(`This Rust has no target ${wasmTarget}, and there is no rustup to add it.`, 'Install Rust with rustup: https://rustup.rs')
+  await run('rustup', ['target', 'add', wasmTarget])
+}
+
+/** The tool must be of the very version of the crate: Cargo.lock says which that is. */
+function wasmBindgenVersion() {
+  const lock = readIfThere(join(root, 'Cargo.lock')) ?? ''
+  const version = /name = "wasm-bindgen"\r?\nversion = "(.+)"/.exec(lock)?.[1]
+  if (!version) throw new StepError('Cargo.lock does not name a version of wasm-bindgen.', 'Write it anew: cargo update --workspace')
+  return version
+}
+
+/** @param {string} crate @param {string} program @param {string} version */
+async function cargoInstall(crate, program, version) {
+  if (capture(program, '--version')?.split(' ')[1] === version) return `${version}, there already`
+  // Away from the workspace, whose settings are for our own crates.
+  await run('cargo', ['install', '--force', crate, '--version', `=${version}`], { cwd: homedir() })
+  if (capture(program, '--version')?.split(' ')[1] !== version) {
+    throw new StepError(`Another ${program} stands before the one just installed: ${which(program)}`, `Remove it, or put ~/.cargo/bin before it on PATH.`)
+  }
+  return version
+}
+
+async function installPackages() {
+  const files = ['package.json', 'package-lock.json'].map(name => readFileSync(join(root, name)))
+  const wanted = files.reduce((hash, file) => hash.update(file), createHash('sha256').update(process.version)).digest('hex')
+  const stamp = join(root, 'node_modules', '.installed-for')
+  if (readIfThere(stamp) === wanted) return 'there already'
+  await run('npm', ['ci', '--no-audit', '--no-fund'], {
+    env: { PLAYWRIGHT_SKIP_BROWSER_DOWNLOAD: '1' },
+    hint: 'If package.json was edited: npm install writes package-lock.json anew. If the registry cannot be reached: try again online.',
+  })
+  writeFileSync(stamp, wanted)
+}
+
+/** @returns {string | undefined} */
+export function findChrome() {
+  if (process.env.CHROME) {
+    const chrome = which(process.env.CHROME)
+    if (!chrome) throw new StepError(`CHROME=${process.env.CHROME} is no program.`, 'Set CHROME to a Chromium or Chrome, or unset it.')
+    return chrome
+  }
+  return [
+    'chromium',
+    'chromium-browser',
+    'google-chrome',
+    'google-chrome-stable',
+    '/Applications/Chromium.app/Contents/MacOS/Chromium',
+    '/Applications/Google Chrome.app/Contents/MacOS/Google Chrome',
+  ]
+    .map(which)
+    .find(Boolean)
+}
+
+export function findChromeDriver() {
+  return which(process.env.CHROMEDRIVER) ?? which('chromedriver') ?? which(process.env.CHROMEWEBDRIVER && join(process.env.CHROMEWEBDRIVER, 'chromedriver'))
+}
+
+async function installBrowser() {
+  if (!findChrome() || !findChromeDriver()) await aptInstall('chromium', 'chromium-driver')
+  const [chrome, driver] = [findChrome(), findChromeDriver()]
+  if (!chrome || !driver) throw new StepError(`There is still no ${chrome ? 'ChromeDriver' : 'Chromium'} on PATH.`, browserHint)
+  const version = (/** @type {string} */ program) => /\d+(\.\d+)+/.exec(capture(program, '--version') ?? '')?.[0] ?? 'of unknown version'
+  const [ofChrome, ofDriver] = [version(chrome), version(driver)]
+  if (ofChrome.split('.')[0] !== ofDriver.split('.')[0]) {
+    throw new StepError(`${chrome} is ${ofChrome} but ${driver} is ${ofDriver}: the two must be of the same major version.`, browserHint)
+  }
+  return `${chrome} ${ofChrome}`
+}
+
+const browserHint =
+  'The tests need Chromium (or Chrome) and the ChromeDriver of the same version, both on PATH.\n' +
+  'On Debian: apt-get install chromium chromium-driver\n' +
+  'Elsewhere: install both, or name them in the variables CHROME and CHROMEDRIVER.'
+
+/** @param {string[]} packages */
+async function aptInstall(...packages) {
+  if (!which('apt-get')) throw new StepError('There is no Chromium or no ChromeDriver here.', browserHint)
+  const isRoot = process.getuid?.() === 0
+  if (!isRoot && capture('sudo', '-n', 'true') === undefined) {
+    throw new StepError('There is no Chromium or no ChromeDriver here, and installing them needs root.', browserHint)
+  }
+  const apt = (/** @type {string[]} */ ...args) => {
+    const words = ['env', 'DEBIAN_FRONTEND=noninteractive', 'apt-get', '-q', ...args]
+    return isRoot ? run(words[0], words.slice(1), { hint: browserHint }) : run('sudo', ['-n', ...words], { hint: browserHint })
+  }
+  await apt('update')
+  await apt('install', '-y', '--no-install-recommends', ...packages)
+}
+
+if (isMain(import.meta)) await main(() => setUp({ browser: process.argv.includes('--browser') }))

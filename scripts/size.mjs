@@ -1,0 +1,54 @@
+// npm run size: what a reader's first view of the page transfers, as our server sends it to Chromium (Brotli). Fails over 200 KB.
+import { existsSync } from 'node:fs'
+import { join } from 'node:path'
+import { build, dist, kilobytes } from './build.mjs'
+import { isMain, main, say, step, StepError } from './lib.mjs'
+import { startServer } from './serve.mjs'
+import { launchChromium } from './browser.mjs'
+
+const target = 150_000
+const limit = 200_000
+
+/** Loads the page, reads it to its end, and adds up the answers of the server. */
+export async function checkSize() {
+  /** @type {import('./serve.mjs').Served[]} */
+  const answers = []
+  const server = await startServer({ folder: dist, onServed: served => answers.push(served) })
+  const browser = await launchChromium()
+  try {
+    const page = await browser.newPage({ viewport: { width: 1280, height: 800 } })
+    await page.goto(server.url, { waitUntil: 'networkidle' })
+    // Figures and pictures further down are loaded when they are near: a reader who reads on loads those too.
+    await page.evaluate(async () => {
+      for (let y = 0; y < document.documentElement.scrollHeight; y += innerHeight / 2) {
+        scrollTo(0, y)
+        await new Promise(requestAnimationFrame)
+      }
+    })
+    await page.waitForLoadState('networkidle')
+  } finally {
+    await browser.close()
+    await server.close()
+  }
+  return report(answers)
+}
+
+/** @param {import('./serve.mjs').Served[]} answers */
+function report(answers) {
+  const loaded = answers.filter(({ status }) => status === 200).sort((a, b) => b.sent - a.sent)
+  if (!loaded.some(({ path }) => path.endsWith('.wasm'))) throw new StepError('The page did not load its WebAssembly: what was measured is not the page.')
+  const sum = (/** @type {'raw' | 'sent'} */ key) => loaded.reduce((bytes, answer) => bytes + answer[key], 0)
+  const rows = [...loaded.map(({ path, raw, sent }) => [path, raw, sent]), ['all', sum('raw'), sum('sent')]]
+  say(`${'transferred'.padStart(12)}${'raw'.padStart(12)}`)
+  for (const [path, raw, sent] of rows) say(`${kilobytes(Number(sent)).padStart(12)}${kilobytes(Number(raw)).padStart(12)}  ${path}`)
+  const result = `${kilobytes(sum('sent'))} of at most ${kilobytes(limit)}, the target being ${kilobytes(target)}`
+  if (sum('sent') > limit) throw new StepError(`The page is too heavy: ${result}.`)
+  return result
+}
+
+if (isMain(import.meta)) {
+  await main(async () => {
+    if (!existsSync(join(dist, 'index.html'))) await build()
+    await step('Size of the page', checkSize)
+  })
+}

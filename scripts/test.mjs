@@ -1,0 +1,101 @@
+// npm test: sets up, builds, checks, and runs every test there is. A step that fails is named; those after it still run, so that
+// one run shows all that is wrong. The last line is the total of all the runners: `N passed, M failed`.
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
+import { join } from 'node:path'
+import { buildPages, buildWasm } from './build.mjs'
+import { checks } from './check.mjs'
+import { bold, cache, main, npmBin, readIfThere, red, root, run, step, StepError } from './lib.mjs'
+import { findChrome, findChromeDriver, setUp } from './setup.mjs'
+import { checkSize } from './size.mjs'
+
+const total = { passed: 0, failed: 0 }
+/** @type {string[]} */
+const failures = []
+
+/** A step whose failure does not keep the next ones from running. @param {string} title @param {() => unknown} action */
+async function attempt(title, action) {
+  const before = total.failed
+  try {
+    await step(title, action)
+  } catch {
+    failures.push(title)
+    // A compile error or a lint has no count of its own: the total must not read as all well.
+    if (total.failed === before) total.failed++
+  }
+}
+
+/** A step that runs tests of cargo's kind, and adds up what they count. @param {() => Promise<{ output: string }>} tests */
+async function counted(tests) {
+  try {
+    return count((await tests()).output)
+  } catch (error) {
+    count(/** @type {{ output?: string }} */ (error).output ?? '')
+    throw error
+  }
+}
+
+/** @param {string} output */
+function count(output) {
+  let passed = 0
+  for (const [, good, bad] of output.matchAll(/^test result: .*?(\d+) passed; (\d+) failed/gm)) {
+    passed += Number(good)
+    total.failed += Number(bad)
+  }
+  total.passed += passed
+  if (passed === 0) throw new StepError('Not one test passed: have the tests been lost?')
+  return `${passed} passed`
+}
+
+/** @param {string[]} args */
+const cargoTest = (...args) => counted(() => run('cargo', ['test', '--no-fail-fast', ...args]))
+
+/** wasm-pack's tests in the Chromium that set-up found, which need not be the one ChromeDriver would choose. */
+function wasmTest() {
+  const settings = JSON.parse(readFileSync(join(root, 'tests', 'browser', 'webdriver.json'), 'utf8'))
+  settings['goog:chromeOptions'].binary = findChrome()
+  const capabilities = cache('webdriver.json')
+  mkdirSync(cache(), { recursive: true })
+  writeFileSync(capabilities, JSON.stringify(settings))
+  const driver = findChromeDriver() ?? 'chromedriver'
+  return counted(() =>
+    run('wasm-pack', ['test', '--headless', '--chrome', '--chromedriver', driver, '--release', 'tests/browser'], {
+      env: { WASM_BINDGEN_TEST_WEBDRIVER_JSON: capabilities, WASM_BINDGEN_TEST_TIMEOUT: '600', WASM_BINDGEN_TEST_DRIVER_TIMEOUT: '60' },
+    }),
+  )
+}
+
+async function playwright() {
+  rmSync(cache('e2e.json'), { force: true })
+  let stats
+  try {
+    await run(npmBin('playwright'), ['test', '--config', join(root, 'tests', 'e2e')])
+  } finally {
+    stats = JSON.parse(readIfThere(cache('e2e.json')) ?? '{}').stats
+    total.passed += stats?.expected ?? 0
+    total.failed += (stats?.unexpected ?? 0) + (stats?.flaky ?? 0)
+  }
+  return `${stats.expected} passed`
+}
+
+await main(async () => {
+  const started = performance.now()
+  await setUp({ browser: true })
+  const [format, ...otherChecks] = checks
+  await attempt(...format)
+  // Without these there is nothing to test: a failure here ends the run.
+  await buildWasm()
+  await buildPages()
+  for (const check of otherChecks) await attempt(...check)
+  await attempt('Tests, native, with all checks on', () => cargoTest('--workspace'))
+  await attempt('Same bits, as tests are built', () => cargoTest('-p', 'portability'))
+  await attempt('Same bits, as releases are built', () => cargoTest('--release', '-p', 'portability'))
+  await attempt('Tests in WebAssembly, in Chromium', wasmTest)
+  await attempt('Tests of the page, in Chromium', playwright)
+  await attempt('Size of the page', checkSize)
+
+  const minutes = ((performance.now() - started) / 60_000).toFixed(1)
+  if (failures.length > 0) console.log(red(bold(`\nFailed after ${minutes} min: ${failures.join('; ')}`)))
+  else console.log(bold(`\nAll well after ${minutes} min.`))
+  console.log(`${total.passed} passed, ${total.failed} failed`)
+  if (failures.length > 0) process.exitCode = 1
+})

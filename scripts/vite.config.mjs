@@ -1,0 +1,40 @@
+// The pages of www/ and the elements of widgets/elements, to dist/. Relative addresses, so that dist/ works in any folder of
+// any site; hashed names, except for fastslam.js: the one line of a teacher's page names it.
+import { readdirSync } from 'node:fs'
+import { basename, join } from 'node:path'
+import { defineConfig } from 'vite'
+import { root } from './lib.mjs'
+
+const www = join(root, 'www')
+const pages = readdirSync(www, { recursive: true, encoding: 'utf8' }).filter(
+  file => file.endsWith('.html') && !/(^|[/\\])(public|node_modules|generated)[/\\]/.test(file),
+)
+
+export default defineConfig({
+  root: www,
+  base: './',
+  build: {
+    outDir: join(root, 'dist'),
+    emptyOutDir: true,
+    target: 'es2022',
+    // Under the content security policy neither a data: font nor an inline style is allowed.
+    assetsInlineLimit: 0,
+    modulePreload: { polyfill: false },
+    reportCompressedSize: false,
+    rollupOptions: {
+      input: {
+        ...Object.fromEntries(pages.map(file => [`page-${file.replace(/\.html$/, '').replaceAll(/[/\\]/g, '-')}`, join(www, file)])),
+        fastslam: join(root, 'widgets', 'elements', 'index.ts'),
+      },
+      // A teacher's page may import from it, so all its exports stay.
+      preserveEntrySignatures: 'allow-extension',
+      output: {
+        entryFileNames: chunk => (chunk.name === 'fastslam' ? '[name].js' : 'assets/[name]-[hash].js'),
+        chunkFileNames: 'assets/[name]-[hash].js',
+        assetFileNames: asset => (asset.names.some(name => basename(name).endsWith('.wasm')) ? '[name]-[hash][extname]' : 'assets/[name]-[hash][extname]'),
+      },
+    },
+  },
+  // The elements, and what wasm-pack makes, are outside www/.
+  server: { fs: { allow: [root] } },
+})

@@ -1,0 +1,29 @@
+// The browser tests of the whole page: the Chromium of the machine, against the built dist/ behind our own server.
+import { defineConfig } from '@playwright/test'
+import { cache } from '../../scripts/lib.mjs'
+import { chromiumFlags } from '../../scripts/browser.mjs'
+import { findChrome } from '../../scripts/setup.mjs'
+
+export default defineConfig({
+  testDir: '.',
+  outputDir: cache('e2e'),
+  globalSetup: './server.ts',
+  forbidOnly: Boolean(process.env.CI),
+  // Two cores: the browser takes one. A flaky test is a bug of ours, so there is no second try.
+  workers: 1,
+  retries: 0,
+  timeout: 60_000,
+  reporter: [['list'], ['json', { outputFile: cache('e2e.json') }]],
+  use: {
+    // Set by server.ts, which runs before the workers read this file.
+    baseURL: process.env.FASTSLAM_URL,
+    browserName: 'chromium',
+    viewport: { width: 1280, height: 800 },
+    launchOptions: {
+      executablePath: findChrome(),
+      args: chromiumFlags,
+    },
+    screenshot: 'only-on-failure',
+    trace: 'retain-on-failure',
+  },
+})
