@@ -1,504 +1,520 @@
 // The base of every figure: life cycle, attributes and links, frame loop, canvas, keyboard, errors.
 // A figure's own file only names its tag; everything that differs comes from the shell (parameters, readouts, pixels).
-import { Controls } from "./controls";
-import { h, icon, write } from "./dom";
-import { engine, isRefusal, type Engine, type ParamSpec, type Readout, type Shell } from "./engine";
-import css from "./figure.css?inline";
-import { linkedQuery, linkTo } from "./link";
-import { copy, download } from "./save";
-import { onThemeChange, reducedMotion, themeName } from "./theme";
+import { Controls } from './controls'
+import { h, icon, write } from './dom'
+import { engine, isRefusal, panicMessage, type Engine, type ParamSpec, type Readout, type Shell } from './engine'
+import css from './figure.css?inline'
+import { linkedQuery, linkTo } from './link'
+import { copy, download } from './save'
+import { onThemeChange, reducedMotion, themeName } from './theme'
 
-const sheet = new CSSStyleSheet();
-sheet.replaceSync(css);
+const sheet = new CSSStyleSheet()
+sheet.replaceSync(css)
 
-const WORK_BUDGET = 8; // [ms] of simulation a frame, which leaves half of a 60 Hz frame to painting and the page
-const SEEN = 0.35; // share of the canvas in view at which the figure begins to play
-const WIDE = 620; // [px] from here on the settings are open at first
-const MAX_PIXELS = 6e6; // a canvas beyond this is painted coarser: no screen shows the difference, every phone feels it
+const WORK_BUDGET = 8 // [ms] of simulation a frame, which leaves half of a 60 Hz frame to painting and the page
+const SEEN = 0.35 // share of the canvas in view at which the figure begins to play
+const WIDE = 620 // [px] from here on the settings are open at first
+const MAX_PIXELS = 6e6 // a canvas beyond this is painted coarser: no screen shows the difference, every phone feels it
 
 // Attributes that are not parameters and are no mistake: those of every element, and those frameworks add.
-const COMMON = new Set(["class", "part", "is", "theme", "role", "exportparts", ...Object.keys(properties(HTMLElement.prototype))]);
-const FOREIGN = /^(aria|data|hx|js|ng|v|wire|x)-|[^a-z0-9-]/;
+const COMMON = new Set(['class', 'part', 'is', 'theme', 'role', 'exportparts', ...Object.keys(properties(HTMLElement.prototype))])
+const FOREIGN = /^(aria|data|hx|js|ng|v|wire|x)-|[^a-z0-9-]/
 
 export interface FigureDetail {
-  step: number;
-  values: Record<string, string>;
-  readouts: Readout[];
+  step: number
+  values: Record<string, string>
+  readouts: Readout[]
 }
 
 export abstract class FigureElement extends HTMLElement {
-  #engine?: Engine;
-  #figure?: Shell; // lives while the element is connected and has been seen
-  #specs: ParamSpec[] = [];
-  #controls?: Controls;
-  #starting = false;
-  #stopped = false; // after an error that rebuilding did not cure, until Reset
-  #crashes = 0;
+  #engine?: Engine
+  #figure?: Shell // lives while the element is connected and has been seen
+  #specs: ParamSpec[] = []
+  #controls?: Controls
+  #starting = false
+  #stopped = false // after an error that rebuilding did not cure, until Reset
+  #crashes = 0
 
-  #recipe?: string; // the last good state as a query; a figure is rebuilt from it after a move, a link or a panic
-  #waiting = new Map<string, string | null>(); // values given while no figure lives: applied to the next one
+  #recipe?: string // the last good state as a query; a figure is rebuilt from it after a move, a link or a panic
+  #waiting = new Map<string, string | null>() // values given while no figure lives: applied to the next one
 
-  #playing = false;
-  #mayAutoplay = true;
-  #pace = 6; // [steps/s]
-  #due = 0; // [ms] when the next step is due
-  #target = 0; // the step asked for; the step shown may still be on its way to it
+  #playing = false
+  #mayAutoplay = true
+  #pace = 6 // [steps/s]
+  #due = 0 // [ms] when the next step is due
+  #target = 0 // the step asked for; the step shown may still be on its way to it
 
-  #inView = false;
-  #frameRequest = 0;
-  #mustPaint = false;
-  #mustShowValues = false;
-  #changeToTell = false;
-  #toldStep = -1;
-  #toldSentence = 0;
-  #saidAt = -Infinity; // [ms]
-  #cssWidth = 0;
-  #deviceWidth = 0;
-  #deviceHeight = 0;
-  #disconnected = new AbortController();
+  #inView = false
+  #frameRequest = 0
+  #mustPaint = false
+  #mustShowValues = false
+  #changeToTell = false
+  #toldStep = -1
+  #toldSentence = 0
+  #saidAt = -Infinity // [ms]
+  #cssWidth = 0
+  #deviceWidth = 0
+  #deviceHeight = 0
+  #disconnected = new AbortController()
 
-  readonly #heading = h("p", { class: "title", part: "title", id: "title" });
-  readonly #status = h("span", { class: "status", role: "status" });
-  readonly #canvas = h("canvas", { part: "canvas", role: "img", "aria-labelledby": "title", "aria-describedby": "sentence" });
-  readonly #fallback = h("div", { class: "fallback" }, h("slot"));
-  readonly #stage = h("div", { class: "stage", part: "stage", role: "group", tabindex: "0", "aria-labelledby": "title", "aria-describedby": "keys" }, this.#canvas, this.#fallback);
-  readonly #readouts = h("dl", { class: "readouts", part: "readouts" });
-  readonly #sentence = h("p", { class: "sentence", part: "sentence", id: "sentence", "aria-live": "off" });
-  readonly #notices = h("div", { class: "notices", part: "notices", role: "alert" });
-  readonly #menu = this.#makeMenu();
-  readonly #body = h("div", { class: "figure", part: "figure", role: "group", "aria-labelledby": "title" });
+  readonly #heading = h('p', { class: 'title', part: 'title', id: 'title' })
+  readonly #status = h('span', { class: 'status', role: 'status' })
+  readonly #canvas = h('canvas', { part: 'canvas', role: 'img', 'aria-labelledby': 'title', 'aria-describedby': 'sentence' })
+  readonly #fallback = h('div', { class: 'fallback' }, h('slot'))
+  readonly #stage = h(
+    'div',
+    { class: 'stage', part: 'stage', role: 'group', tabindex: '0', 'aria-labelledby': 'title', 'aria-describedby': 'keys' },
+    this.#canvas,
+    this.#fallback,
+  )
+  readonly #readouts = h('dl', { class: 'readouts', part: 'readouts' })
+  readonly #sentence = h('p', { class: 'sentence', part: 'sentence', id: 'sentence', 'aria-live': 'off' })
+  readonly #notices = h('div', { class: 'notices', part: 'notices', role: 'alert' })
+  readonly #menu = this.#makeMenu()
+  readonly #body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title' })
 
-  readonly #intersections = new IntersectionObserver((entries) => this.#onIntersection(entries), { threshold: [0, SEEN] });
-  readonly #sizes = new ResizeObserver((entries) => this.#onResize(entries[entries.length - 1]!));
+  readonly #intersections = new IntersectionObserver(entries => this.#onIntersection(entries), { threshold: [0, SEEN] })
+  readonly #sizes = new ResizeObserver(entries => this.#onResize(entries[entries.length - 1]!))
 
   constructor() {
-    super();
-    const root = this.attachShadow({ mode: "open" });
-    root.adoptedStyleSheets = [sheet];
+    super()
+    const root = this.attachShadow({ mode: 'open' })
+    root.adoptedStyleSheets = [sheet]
     this.#body.append(
-      h("div", { class: "head" }, this.#heading, this.#status, this.#menu),
+      h('div', { class: 'head' }, this.#heading, this.#status, this.#menu),
       this.#stage,
-      h("p", { class: "hidden", id: "keys" }, "Space plays and pauses. Left and right arrow keys step. Home and End go to the first and the last step."),
+      h(
+        'p',
+        { class: 'hidden', id: 'keys' },
+        'Space plays and pauses. Left and right arrow keys step. Home and End go to the first and the last step.',
+      ),
       this.#notices,
       this.#sentence,
       this.#readouts,
-    );
-    root.append(this.#body);
-    this.#body.addEventListener("keydown", (event) => this.#onKey(event));
-    this.#canvas.addEventListener("click", (event) => this.#onClick(event));
+    )
+    root.append(this.#body)
+    this.#body.addEventListener('keydown', event => this.#onKey(event))
+    this.#canvas.addEventListener('click', event => this.#onClick(event))
     // Parameters are known only once the wasm runs, so every attribute is watched, also while the element is out of the document.
-    new MutationObserver((records) => {
-      const names = new Set(records.map((record) => record.attributeName!));
-      for (const name of names) this.#onAttribute(name);
-    }).observe(this, { attributes: true });
+    new MutationObserver(records => {
+      const names = new Set(records.map(record => record.attributeName!))
+      for (const name of names) this.#onAttribute(name)
+    }).observe(this, { attributes: true })
   }
 
   connectedCallback(): void {
-    this.#disconnected = new AbortController();
-    const { signal } = this.#disconnected;
-    onThemeChange(() => this.#repaint(), signal);
-    document.addEventListener("visibilitychange", () => this.#wake(), { signal });
-    addEventListener("hashchange", () => this.#followLink(), { signal });
-    this.#intersections.observe(this);
-    this.#intersections.observe(this.#stage);
-    this.#watchSize();
-    this.#followLink();
+    this.#disconnected = new AbortController()
+    const { signal } = this.#disconnected
+    onThemeChange(() => this.#repaint(), signal)
+    document.addEventListener('visibilitychange', () => this.#wake(), { signal })
+    addEventListener('hashchange', () => this.#followLink(), { signal })
+    this.#intersections.observe(this)
+    this.#intersections.observe(this.#stage)
+    this.#watchSize()
+    this.#followLink()
   }
 
   disconnectedCallback(): void {
-    this.#disconnected.abort();
-    this.#intersections.disconnect();
-    this.#sizes.disconnect();
-    cancelAnimationFrame(this.#frameRequest);
-    this.#frameRequest = 0;
-    this.#inView = false;
-    this.#guard((figure) => {
-      this.#recipe = figure.query();
-      this.#figure = undefined;
-      figure.free();
-    });
+    this.#disconnected.abort()
+    this.#intersections.disconnect()
+    this.#sizes.disconnect()
+    cancelAnimationFrame(this.#frameRequest)
+    this.#frameRequest = 0
+    this.#inView = false
+    this.#guard(figure => {
+      this.#recipe = figure.query()
+      this.#figure = undefined
+      figure.free()
+    })
   }
 
   // --- What a page's script may use ------------------------------------------------------------------------------------
 
   play(): void {
-    this.#mayAutoplay = false;
-    this.#guard((figure) => {
-      if (this.#target >= figure.step_count()) this.#seek(0);
-    });
-    this.#playing = true;
-    this.#due = 0;
-    this.#wake();
+    this.#mayAutoplay = false
+    this.#guard(figure => {
+      if (this.#target >= figure.step_count()) this.#seek(0)
+    })
+    this.#playing = true
+    this.#due = 0
+    this.#wake()
   }
 
   pause(): void {
-    this.#mayAutoplay = false;
-    this.#playing = false;
-    this.#repaint();
+    this.#mayAutoplay = false
+    this.#playing = false
+    this.#repaint()
   }
 
   /** A method; but frameworks that set properties write the parameter `step` here, and mean it. */
   get step(): () => void {
-    return () => this.seek(this.#target + 1);
+    return () => this.seek(this.#target + 1)
   }
 
   set step(step: number | string) {
-    this.setParameter("step", step);
+    this.setParameter('step', step)
   }
 
   stepBack(): void {
-    this.seek(this.#target - 1);
+    this.seek(this.#target - 1)
   }
 
   seek(step: number): void {
-    this.pause();
-    if (!this.#figure) this.#waiting.set("step", String(step));
-    this.#seek(step);
+    this.pause()
+    if (!this.#figure) this.#waiting.set('step', String(step))
+    this.#seek(step)
   }
 
   /** Back to what the page's author gave: attributes, the first step, at rest. */
   reset(): void {
-    this.#mayAutoplay = false;
-    this.#playing = false;
-    this.#recipe = undefined;
-    this.#crashes = 0;
-    this.#stopped = false;
-    this.#waiting.clear();
-    this.#notices.replaceChildren();
-    if (this.#engine) this.#rebuild();
-    else void this.#start();
+    this.#mayAutoplay = false
+    this.#playing = false
+    this.#recipe = undefined
+    this.#crashes = 0
+    this.#stopped = false
+    this.#waiting.clear()
+    this.#notices.replaceChildren()
+    if (this.#engine) this.#rebuild()
+    else void this.#start()
   }
 
   get playing(): boolean {
-    return this.#playing;
+    return this.#playing
   }
 
   /** The step asked for. */
   get currentStep(): number {
-    return this.#target;
+    return this.#target
   }
 
   set currentStep(step: number) {
-    this.seek(step);
+    this.seek(step)
   }
 
   /** The address of this page with this figure's whole state. */
   get link(): string {
-    return linkTo(this, this.#figure?.query() ?? this.#recipe ?? "");
+    return linkTo(this, this.#figure?.query() ?? this.#recipe ?? '')
   }
 
   // --- Life cycle --------------------------------------------------------------------------------------------------------
 
   async #start(): Promise<void> {
-    if (this.#figure || this.#starting || this.#stopped) return;
-    this.#starting = true;
-    write(this.#status, "Loading …");
+    if (this.#figure || this.#starting || this.#stopped) return
+    this.#starting = true
+    write(this.#status, 'Loading …')
     try {
-      this.#engine = await engine();
-      write(this.#status, "");
-      if (this.isConnected) this.#rebuild();
+      this.#engine = await engine()
+      write(this.#status, '')
+      if (this.isConnected) this.#rebuild()
     } catch (error) {
-      write(this.#status, "");
-      this.#stopped = true;
-      const picture = this.querySelector("img, picture") ? " The picture shows it at rest." : "";
-      this.#notice("start", `This figure is not live here: ${(error as Error).message}.${picture}`, "Try again", () => this.reset());
+      write(this.#status, '')
+      this.#stopped = true
+      const picture = this.querySelector('img, picture') ? ' The picture shows it at rest.' : ''
+      this.#notice('start', `This figure is not live here: ${(error as Error).message}.${picture}`, 'Try again', () => this.reset())
     }
-    this.#starting = false;
+    this.#starting = false
   }
 
   /** A new figure from the recipe; without one, from the attributes. */
   #rebuild(): void {
-    const old = this.#figure;
-    this.#figure = undefined;
+    const old = this.#figure
+    this.#figure = undefined
     try {
-      old?.free();
-      const figure = this.#engine!.create(this.localName);
-      this.#figure = figure;
-      if (!this.#controls) this.#introduce(figure);
+      old?.free()
+      const figure = this.#engine!.create(this.localName)
+      this.#figure = figure
+      if (!this.#controls) this.#introduce(figure)
       if (this.#recipe === undefined) {
         // In the order of the parameters, so that the order of the attributes makes no difference.
-        const rank = (name: string) => this.#specs.findIndex((spec) => spec.name === name);
-        for (const name of this.getAttributeNames().sort((a, b) => rank(a) - rank(b))) this.#onAttribute(name);
-        this.#takeEarlyProperties();
+        const rank = (name: string) => this.#specs.findIndex(spec => spec.name === name)
+        for (const name of this.getAttributeNames().sort((a, b) => rank(a) - rank(b))) this.#onAttribute(name)
+        this.#takeEarlyProperties()
       } else {
-        this.#notice("link", figure.load(this.#recipe).join("\n"));
+        this.#notice('link', figure.load(this.#recipe).join('\n'))
       }
-      for (const [name, text] of this.#waiting) this.#take(name, text);
-      this.#waiting.clear();
-      this.#adoptTarget();
-      this.#recipe = figure.query();
+      for (const [name, text] of this.#waiting) this.#take(name, text)
+      this.#waiting.clear()
+      this.#adoptTarget()
+      this.#recipe = figure.query()
     } catch (error) {
-      this.#crash(error);
+      this.#crash(error)
     }
-    this.#controls?.enable(this.#figure !== undefined);
-    this.#mustShowValues = true;
-    this.#repaint();
+    this.#controls?.enable(this.#figure !== undefined)
+    this.#mustShowValues = true
+    this.#repaint()
   }
 
   /** Once, when the shell first tells what this figure is: its name, its controls, its properties. */
   #introduce(figure: Shell): void {
-    this.#specs = figure.params() as ParamSpec[];
-    write(this.#heading, figure.title());
+    this.#specs = figure.params() as ParamSpec[]
+    write(this.#heading, figure.title())
     const controls = new Controls(this.#specs, {
       playPause: () => (this.#playing ? this.pause() : this.play()),
       step: () => this.step(),
       stepBack: () => this.stepBack(),
-      seek: (step) => this.seek(step),
+      seek: step => this.seek(step),
       reset: () => this.reset(),
-      pace: (pace) => (this.#pace = pace),
+      pace: pace => (this.#pace = pace),
       change: (name, value) => {
-        this.#mayAutoplay = false;
-        this.#set(name, value);
+        this.#mayAutoplay = false
+        this.#set(name, value)
       },
-    });
-    this.#controls = controls;
-    controls.settings.open = this.clientWidth >= WIDE;
-    this.#stage.after(controls.transport, controls.view);
-    this.#body.append(controls.settings);
-    defineProperties(this, this.#specs);
+    })
+    this.#controls = controls
+    controls.settings.open = this.clientWidth >= WIDE
+    this.#stage.after(controls.transport, controls.view)
+    this.#body.append(controls.settings)
+    defineProperties(this, this.#specs)
   }
 
   /** Properties set before this class was known, or before its parameters were. */
   #takeEarlyProperties(): void {
     for (const { name } of this.#specs) {
-      const property = camelCase(name);
-      const early = Object.getOwnPropertyDescriptor(this, property);
-      if (!early) continue;
-      delete (this as Record<string, unknown>)[property];
-      this.#take(name, toText(early.value));
+      const property = camelCase(name)
+      const early = Object.getOwnPropertyDescriptor(this, property)
+      if (!early) continue
+      delete (this as Record<string, unknown>)[property]
+      this.#take(name, toText(early.value))
     }
   }
 
   #followLink(): void {
-    const query = linkedQuery(this);
-    if (query === undefined) return;
-    this.#mayAutoplay = false; // the sender meant this very state
-    this.#playing = false;
-    this.#recipe = query;
-    this.#waiting.clear();
-    this.#changeToTell = true;
-    this.scrollIntoView({ block: "nearest" });
-    if (this.#engine && !this.#stopped) this.#rebuild();
+    const query = linkedQuery(this)
+    if (query === undefined) return
+    this.#mayAutoplay = false // the sender meant this very state
+    this.#playing = false
+    this.#recipe = query
+    this.#waiting.clear()
+    this.#changeToTell = true
+    this.scrollIntoView({ block: 'nearest' })
+    if (this.#engine && !this.#stopped) this.#rebuild()
   }
 
   // --- Parameters --------------------------------------------------------------------------------------------------------
 
   #onAttribute(name: string): void {
-    const text = this.getAttribute(name);
-    if (name === "theme") {
-      const known = text === null || ["light", "dark", "auto"].includes(text);
-      this.#notice(name, known ? "" : `theme must be light, dark or auto, not “${text}”`);
-      this.#repaint();
+    const text = this.getAttribute(name)
+    if (name === 'theme') {
+      const known = text === null || ['light', 'dark', 'auto'].includes(text)
+      this.#notice(name, known ? '' : `theme must be light, dark or auto, not “${text}”`)
+      this.#repaint()
     } else if (!COMMON.has(name) && !FOREIGN.test(name)) {
-      if (this.#figure) this.#take(name, text);
-      else this.#waiting.set(name, text);
+      if (this.#figure) this.#take(name, text)
+      else this.#waiting.set(name, text)
     }
   }
 
   /** An attribute's text; null where it was taken away. */
   #take(name: string, text: string | null): void {
-    const spec = this.#specs.find((candidate) => candidate.name === name);
-    if (!spec && text === null) return this.#notice(name, "");
-    if (name === "step") {
-      this.#mayAutoplay = false; // an author who names a step wants it looked at
-      this.#playing = false;
+    const spec = this.#specs.find(candidate => candidate.name === name)
+    if (!spec && text === null) return this.#notice(name, '')
+    if (name === 'step') {
+      this.#mayAutoplay = false // an author who names a step wants it looked at
+      this.#playing = false
     }
-    this.#set(name, text ?? spec!.default); // a name that nobody knows is refused by the shell, in the shell's words
+    this.#set(name, text ?? spec!.default) // a name that nobody knows is refused by the shell, in the shell's words
   }
 
   /** @internal For the properties that are made from the parameters. */
   setParameter(name: string, value: unknown): void {
-    if (this.#figure) this.#take(name, toText(value));
-    else this.#waiting.set(name, toText(value));
+    if (this.#figure) this.#take(name, toText(value))
+    else this.#waiting.set(name, toText(value))
   }
 
   /** @internal Undefined until the figure has been seen. */
   getParameter(name: string): unknown {
-    const value = this.#figure?.values()[name] as string | undefined;
-    const spec = this.#specs.find((candidate) => candidate.name === name);
-    if (value === undefined || !spec) return undefined;
-    if (spec.kind === "flag") return value === "on";
-    const number = Number(value);
-    return spec.kind === "choice" || Number.isNaN(number) ? value : number;
+    const value = this.#figure?.values()[name] as string | undefined
+    const spec = this.#specs.find(candidate => candidate.name === name)
+    if (value === undefined || !spec) return undefined
+    if (spec.kind === 'flag') return value === 'on'
+    const number = Number(value)
+    return spec.kind === 'choice' || Number.isNaN(number) ? value : number
   }
 
   #set(name: string, value: string): void {
-    let forced: string | undefined;
-    this.#guard((figure) => {
+    let forced: string | undefined
+    this.#guard(figure => {
       try {
-        figure.set(name, value);
-        this.#notice(name, "");
-        this.#notice("link", "");
-        this.#adoptTarget();
+        figure.set(name, value)
+        this.#notice(name, '')
+        this.#notice('link', '')
+        this.#adoptTarget()
       } catch (error) {
-        if (!isRefusal(error)) throw error;
-        this.#notice(name, error.message);
-        forced = name;
+        if (!isRefusal(error)) throw error
+        this.#notice(name, error.message)
+        forced = name
       }
-    });
-    if (forced) this.#showValues(forced);
-    else this.#changed();
+    })
+    if (forced) this.#showValues(forced)
+    else this.#changed()
   }
 
   #showValues(forced?: string): void {
-    this.#guard((figure) => {
-      this.#specs = figure.params() as ParamSpec[];
-      this.#controls!.showValues(this.#specs, figure.values() as Record<string, string>, forced);
-    });
+    this.#guard(figure => {
+      this.#specs = figure.params() as ParamSpec[]
+      this.#controls!.showValues(this.#specs, figure.values() as Record<string, string>, forced)
+    })
   }
 
   #changed(): void {
-    this.#mustShowValues = true;
-    this.#changeToTell = true;
-    this.#repaint();
+    this.#mustShowValues = true
+    this.#changeToTell = true
+    this.#repaint()
   }
 
   #adoptTarget(): void {
-    this.#target = Number(this.#figure!.values()["step"] ?? this.#figure!.step());
+    this.#target = Number(this.#figure!.values()['step'] ?? this.#figure!.step())
   }
 
   // --- Frames --------------------------------------------------------------------------------------------------------------
 
   #seek(step: number): void {
-    this.#guard((figure) => {
-      this.#target = Math.max(0, Math.min(figure.step_count(), Math.round(step) || 0));
-      figure.seek(this.#target);
-    });
-    this.#repaint();
+    this.#guard(figure => {
+      this.#target = Math.max(0, Math.min(figure.step_count(), Math.round(step) || 0))
+      figure.seek(this.#target)
+    })
+    this.#repaint()
   }
 
   #repaint(): void {
-    this.#mustPaint = true;
-    this.#wake();
+    this.#mustPaint = true
+    this.#wake()
   }
 
   #wake(): void {
-    if (!this.#figure || !this.#inView || document.hidden) return;
-    this.#frameRequest ||= requestAnimationFrame((now) => this.#frame(now));
+    if (!this.#figure || !this.#inView || document.hidden) return
+    this.#frameRequest ||= requestAnimationFrame(now => this.#frame(now))
   }
 
   #frame(now: number): void {
-    this.#frameRequest = 0;
-    if (!this.#inView || document.hidden) return;
-    this.#guard((figure) => {
-      if (this.#playing && figure.pending() === 0) this.#advance(figure, now);
-      const end = performance.now() + WORK_BUDGET;
+    this.#frameRequest = 0
+    if (!this.#inView || document.hidden) return
+    this.#guard(figure => {
+      if (this.#playing && figure.pending() === 0) this.#advance(figure, now)
+      const end = performance.now() + WORK_BUDGET
       while (figure.pending() > 0 && performance.now() < end) {
-        figure.work();
-        this.#mustPaint = true;
+        figure.work()
+        this.#mustPaint = true
       }
-      this.#fitHeight(figure);
-      if (this.#mustPaint) this.#show(figure);
-      if (this.#playing || figure.pending() > 0) this.#wake();
-    });
+      this.#fitHeight(figure)
+      if (this.#mustPaint) this.#show(figure)
+      if (this.#playing || figure.pending() > 0) this.#wake()
+    })
   }
 
   #advance(figure: Shell, now: number): void {
     if (this.#target >= figure.step_count()) {
-      this.#playing = false;
-      this.#mustPaint = true;
-      return;
+      this.#playing = false
+      this.#mustPaint = true
+      return
     }
-    const interval = 1000 / this.#pace;
-    if (now < this.#due) return;
+    const interval = 1000 / this.#pace
+    if (now < this.#due) return
     // Where the machine is too slow for the pace the lap takes longer; no step is ever skipped.
-    this.#due = Math.max(this.#due + interval, now + interval / 2);
-    this.#target += 1;
-    figure.seek(this.#target);
+    this.#due = Math.max(this.#due + interval, now + interval / 2)
+    this.#target += 1
+    figure.seek(this.#target)
   }
 
   #show(figure: Shell): void {
-    this.#mustPaint = false;
-    const busy = figure.pending() > 0;
-    const step = figure.step();
-    const readouts = figure.readouts() as Readout[];
-    this.#paint(figure);
-    this.#showReadouts(readouts);
-    this.#controls!.showPosition(this.#target, figure.step_count(), this.#playing, busy);
-    const values = figure.values() as Record<string, string>;
-    if (this.#mustShowValues) this.#showValues();
-    this.#mustShowValues = false;
-    if (busy) return;
-    this.#recipe = figure.query();
-    this.#say(figure.describe());
-    const detail: FigureDetail = { step, values, readouts };
-    if (this.#changeToTell) this.#tell("fastslam-change", detail);
-    this.#changeToTell = false;
-    if (step !== this.#toldStep) this.#tell("fastslam-step", detail);
-    this.#toldStep = step;
+    this.#mustPaint = false
+    const busy = figure.pending() > 0
+    const step = figure.step()
+    const readouts = figure.readouts() as Readout[]
+    this.#paint(figure)
+    this.#showReadouts(readouts)
+    this.#controls!.showPosition(this.#target, figure.step_count(), this.#playing, busy)
+    const values = figure.values() as Record<string, string>
+    if (this.#mustShowValues) this.#showValues()
+    this.#mustShowValues = false
+    if (busy) return
+    this.#recipe = figure.query()
+    this.#say(figure.describe())
+    const detail: FigureDetail = { step, values, readouts }
+    if (this.#changeToTell) this.#tell('fastslam-change', detail)
+    this.#changeToTell = false
+    if (step !== this.#toldStep) this.#tell('fastslam-step', detail)
+    this.#toldStep = step
   }
 
   #tell(type: string, detail: FigureDetail): void {
-    this.dispatchEvent(new CustomEvent(type, { bubbles: true, composed: true, detail }));
+    this.dispatchEvent(new CustomEvent(type, { bubbles: true, composed: true, detail }))
   }
 
   #showReadouts(readouts: Readout[]): void {
-    const list = this.#readouts;
+    const list = this.#readouts
     if (list.childElementCount !== readouts.length) {
       list.replaceChildren(
-        ...readouts.map(({ name, help }) => h("div", { part: "readout", "data-name": name, title: help }, h("dt"), h("dd", {}, h("span"), h("span", { class: "unit" })))),
-      );
+        ...readouts.map(({ name, help }) =>
+          h(
+            'div',
+            { part: 'readout', 'data-name': name, title: help },
+            h('dt'),
+            h('dd', {}, h('span'), h('span', { class: 'unit' })),
+          ),
+        ),
+      )
     }
     readouts.forEach((readout, i) => {
-      const [title, value] = list.children[i]!.children as unknown as [HTMLElement, HTMLElement];
-      write(title, readout.title);
-      write(value.firstElementChild as HTMLElement, readout.text);
-      write(value.lastElementChild as HTMLElement, readout.unit);
-    });
+      const [title, value] = list.children[i]!.children as unknown as [HTMLElement, HTMLElement]
+      write(title, readout.title)
+      write(value.firstElementChild as HTMLElement, readout.text)
+      write(value.lastElementChild as HTMLElement, readout.unit)
+    })
   }
 
   /** The sentence under the picture: always up to date for eyes; read out only when nothing moves. */
   #say(text: string): void {
-    this.#sentence.setAttribute("aria-live", this.#playing ? "off" : "polite");
-    clearTimeout(this.#toldSentence);
+    this.#sentence.setAttribute('aria-live', this.#playing ? 'off' : 'polite')
+    clearTimeout(this.#toldSentence)
     // While it plays, a sentence a second is what an eye can read.
-    if (this.#playing && performance.now() < this.#saidAt + 1000) return;
-    this.#saidAt = performance.now();
-    if (this.#playing) write(this.#sentence, text);
-    else this.#toldSentence = setTimeout(() => write(this.#sentence, text), 120); // one sentence for a whole drag
+    if (this.#playing && performance.now() < this.#saidAt + 1000) return
+    this.#saidAt = performance.now()
+    if (this.#playing) write(this.#sentence, text)
+    else this.#toldSentence = setTimeout(() => write(this.#sentence, text), 120) // one sentence for a whole drag
   }
 
   // --- Canvas --------------------------------------------------------------------------------------------------------------
 
   #watchSize(): void {
     try {
-      this.#sizes.observe(this.#canvas, { box: "device-pixel-content-box" });
+      this.#sizes.observe(this.#canvas, { box: 'device-pixel-content-box' })
     } catch {
-      this.#sizes.observe(this.#canvas); // Safari
+      this.#sizes.observe(this.#canvas) // Safari
     }
   }
 
   #onResize(entry: ResizeObserverEntry): void {
-    const box = entry.devicePixelContentBoxSize?.[0];
-    const { width, height } = entry.contentRect;
-    this.#cssWidth = width;
-    const ratio = devicePixelRatio;
-    const [w, h] = box ? [box.inlineSize, box.blockSize] : [Math.round(width * ratio), Math.round(height * ratio)];
-    const shrink = Math.min(1, Math.sqrt(MAX_PIXELS / (w * h)));
-    this.#deviceWidth = Math.floor(w * shrink);
-    this.#deviceHeight = Math.floor(h * shrink);
-    this.#repaint();
+    const box = entry.devicePixelContentBoxSize?.[0]
+    const { width, height } = entry.contentRect
+    this.#cssWidth = width
+    const ratio = devicePixelRatio
+    const [w, h] = box ? [box.inlineSize, box.blockSize] : [Math.round(width * ratio), Math.round(height * ratio)]
+    const shrink = Math.min(1, Math.sqrt(MAX_PIXELS / (w * h)))
+    this.#deviceWidth = Math.floor(w * shrink)
+    this.#deviceHeight = Math.floor(h * shrink)
+    this.#repaint()
   }
 
   #fitHeight(figure: Shell): void {
-    if (this.#cssWidth === 0) return;
-    const height = `${Math.round(figure.height(this.#cssWidth))}px`;
-    if (this.#canvas.style.height !== height) this.#canvas.style.height = height; // the resize observer then asks for the paint
+    if (this.#cssWidth === 0) return
+    const height = `${Math.round(figure.height(this.#cssWidth))}px`
+    if (this.#canvas.style.height !== height) this.#canvas.style.height = height // the resize observer then asks for the paint
   }
 
   #paint(figure: Shell): void {
-    const [width, height] = [this.#deviceWidth, this.#deviceHeight];
-    if (width === 0 || height === 0) return;
-    const context = this.#canvas.getContext("2d", { alpha: false })!;
-    if (this.#canvas.width !== width) this.#canvas.width = width;
-    if (this.#canvas.height !== height) this.#canvas.height = height;
-    figure.paint(width, height, width / this.#cssWidth, themeName(this.getAttribute("theme")));
+    const [width, height] = [this.#deviceWidth, this.#deviceHeight]
+    if (width === 0 || height === 0) return
+    const context = this.#canvas.getContext('2d', { alpha: false })!
+    if (this.#canvas.width !== width) this.#canvas.width = width
+    if (this.#canvas.height !== height) this.#canvas.height = height
+    figure.paint(width, height, width / this.#cssWidth, themeName(this.getAttribute('theme')))
     // The view is made now and dropped now: the next call into wasm may grow the memory and detach it.
-    const pixels = new Uint8ClampedArray(this.#engine!.memory.buffer, figure.pixels(), width * height * 4);
-    context.putImageData(new ImageData(pixels, width, height), 0, 0);
+    const pixels = new Uint8ClampedArray(this.#engine!.memory.buffer, figure.pixels(), width * height * 4)
+    context.putImageData(new ImageData(pixels, width, height), 0, 0)
     // The figure's frame takes the painted background, so that the two cannot drift apart.
-    this.#body.style.setProperty("--_paper", `rgb(${pixels[0]} ${pixels[1]} ${pixels[2]})`);
-    this.#stage.classList.add("live");
+    this.#body.style.setProperty('--_paper', `rgb(${pixels[0]} ${pixels[1]} ${pixels[2]})`)
+    this.#stage.classList.add('live')
   }
 
   // --- Reader's input ----------------------------------------------------------------------------------------------------
@@ -506,165 +522,167 @@ export abstract class FigureElement extends HTMLElement {
   #onIntersection(entries: IntersectionObserverEntry[]): void {
     for (const entry of entries) {
       if (entry.target === this) {
-        this.#inView = entry.isIntersecting;
-        if (this.#inView) void this.#start();
+        this.#inView = entry.isIntersecting
+        if (this.#inView) void this.#start()
       } else if (entry.intersectionRatio >= SEEN && this.#mayAutoplay && !reducedMotion.matches) {
-        this.#mayAutoplay = false;
-        this.#playing = true;
+        this.#mayAutoplay = false
+        this.#playing = true
       }
     }
-    this.#wake();
+    this.#wake()
   }
 
   #onKey(event: KeyboardEvent): void {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const target = event.target as HTMLElement;
-    if (event.key === "Escape" && this.#menu.open) {
-      this.#menu.open = false;
-      this.#menu.querySelector("summary")!.focus();
-    } else if (event.key === " " && !target.matches("button, summary, select, input:not([type=range])")) {
-      event.preventDefault();
-      if (this.#playing) this.pause();
-      else this.play();
+    if (event.ctrlKey || event.metaKey || event.altKey) return
+    const target = event.target as HTMLElement
+    if (event.key === 'Escape' && this.#menu.open) {
+      this.#menu.open = false
+      this.#menu.querySelector('summary')!.focus()
+    } else if (event.key === ' ' && !target.matches('button, summary, select, input:not([type=range])')) {
+      event.preventDefault()
+      if (this.#playing) this.pause()
+      else this.play()
     } else if (target === this.#stage) {
       const jump: Record<string, () => void> = {
         ArrowRight: () => this.step(),
         ArrowLeft: () => this.stepBack(),
         Home: () => this.seek(0),
         End: () => this.seek(Infinity),
-      };
-      if (!jump[event.key]) return;
-      event.preventDefault();
-      jump[event.key]!();
+      }
+      if (!jump[event.key]) return
+      event.preventDefault()
+      jump[event.key]!()
     }
   }
 
   #onClick(event: MouseEvent): void {
-    this.#mayAutoplay = false;
-    this.#guard((figure) => {
-      if (figure.pick(event.offsetX, event.offsetY, this.#cssWidth)) this.#changed();
-    });
+    this.#mayAutoplay = false
+    this.#guard(figure => {
+      if (figure.pick(event.offsetX, event.offsetY, this.#cssWidth)) this.#changed()
+    })
   }
 
   #makeMenu(): HTMLDetailsElement {
     const item = (text: string, act: () => void) => {
-      const button = h("button", { type: "button" }, text);
-      button.addEventListener("click", () => {
-        menu.open = false;
-        act();
-      });
-      return button;
-    };
-    const items = h(
-      "div",
-      { class: "items" },
-      item("Copy link", () => void this.#copyLink()),
-      item("Save picture (PNG)", () => this.#canvas.toBlob((blob) => blob && download(this.#fileName("png"), blob))),
-      item("Save data (CSV)", () => this.#saveText("csv", "text/csv")),
-      item("Save data (JSON)", () => this.#saveText("json", "application/json")),
-    );
-    const summary = h("summary", { "aria-label": "Menu", title: "Menu", part: "button menu" }, icon("more"));
-    const menu = h("details", { class: "menu", part: "menu" }, summary, items);
-    if (document.fullscreenEnabled) {
-      items.append(item("Full screen", () => void (document.fullscreenElement ? document.exitFullscreen() : this.requestFullscreen())));
+      const button = h('button', { type: 'button' }, text)
+      button.addEventListener('click', () => {
+        menu.open = false
+        act()
+      })
+      return button
     }
-    menu.addEventListener("focusout", (event) => {
-      if (!menu.contains(event.relatedTarget as Node | null)) menu.open = false;
-    });
-    return menu;
+    const items = h(
+      'div',
+      { class: 'items' },
+      item('Copy link', () => void this.#copyLink()),
+      item('Save picture (PNG)', () => this.#canvas.toBlob(blob => blob && download(this.#fileName('png'), blob))),
+      item('Save data (CSV)', () => this.#saveText('csv', 'text/csv')),
+      item('Save data (JSON)', () => this.#saveText('json', 'application/json')),
+    )
+    const summary = h('summary', { 'aria-label': 'Menu', title: 'Menu', part: 'button menu' }, icon('more'))
+    const menu = h('details', { class: 'menu', part: 'menu' }, summary, items)
+    if (document.fullscreenEnabled) {
+      items.append(
+        item('Full screen', () => void (document.fullscreenElement ? document.exitFullscreen() : this.requestFullscreen())),
+      )
+    }
+    menu.addEventListener('focusout', event => {
+      if (!menu.contains(event.relatedTarget as Node | null)) menu.open = false
+    })
+    return menu
   }
 
   async #copyLink(): Promise<void> {
-    const link = this.link;
+    const link = this.link
     if (await copy(link)) {
-      write(this.#status, "Link copied");
-      setTimeout(() => write(this.#status, ""), 3000);
+      write(this.#status, 'Link copied')
+      setTimeout(() => write(this.#status, ''), 3000)
     } else {
-      this.#notice("copy", `The browser does not let this page write to the clipboard. The link: ${link}`);
+      this.#notice('copy', `The browser does not let this page write to the clipboard. The link: ${link}`)
     }
   }
 
-  #saveText(kind: "csv" | "json", type: string): void {
-    this.#guard((figure) => download(this.#fileName(kind), new Blob([figure[kind]()], { type })));
+  #saveText(kind: 'csv' | 'json', type: string): void {
+    this.#guard(figure => download(this.#fileName(kind), new Blob([figure[kind]()], { type })))
   }
 
   #fileName(extension: string): string {
-    return `${this.id || this.localName}-step-${this.#target}.${extension}`;
+    return `${this.id || this.localName}-step-${this.#target}.${extension}`
   }
 
   // --- Trouble -------------------------------------------------------------------------------------------------------------
 
   /** The only way into a live figure. What comes out as an error is a panic: refusals are caught where values are set. */
   #guard(action: (figure: Shell) => void): void {
-    if (!this.#figure) return;
+    if (!this.#figure) return
     try {
-      action(this.#figure);
+      action(this.#figure)
     } catch (error) {
-      this.#crash(error);
+      this.#crash(error)
     }
   }
 
   #crash(error: unknown): void {
-    this.#figure = undefined; // dropped, not freed: after a panic nothing may be called on it
-    this.#playing = false;
-    this.#crashes += 1;
-    const what = error instanceof Error ? error.message : String(error);
-    console.warn(`${this.localName}:`, error);
+    this.#figure = undefined // dropped, not freed: after a panic nothing may be called on it
+    this.#playing = false
+    this.#crashes += 1
+    const what = panicMessage(error)
+    console.warn(`${this.localName}:`, error)
     if (this.#crashes === 1 && this.isConnected) {
-      this.#notice("crash", `Something failed inside this figure (${what}). It was rebuilt as it was before.`);
-      this.#rebuild();
+      this.#notice('crash', `Something failed inside this figure (${what}). It was rebuilt as it was before.`)
+      this.#rebuild()
     } else {
-      this.#stopped = true;
-      this.#controls?.enable(false);
-      this.#notice("crash", `Something failed inside this figure again (${what}), so it has stopped.`, "Reset", () => this.reset());
+      this.#stopped = true
+      this.#controls?.enable(false)
+      this.#notice('crash', `Something failed inside this figure again (${what}), so it has stopped.`, 'Reset', () => this.reset())
     }
   }
 
   /** A calm line in the figure, one for each cause; an empty text takes it away. */
-  #notice(key: string, text: string, actionName = "Dismiss", action?: () => void): void {
-    const old = [...this.#notices.children].find((child) => (child as HTMLElement).dataset["key"] === key);
-    if (!text) return old?.remove();
-    const button = h("button", { type: "button" }, actionName);
-    const line = h("p", { part: "notice", "data-key": key }, h("span", {}, text), button);
-    button.addEventListener("click", action ?? (() => line.remove()));
-    if (old) old.replaceWith(line);
-    else this.#notices.append(line);
+  #notice(key: string, text: string, actionName = 'Dismiss', action?: () => void): void {
+    const old = [...this.#notices.children].find(child => (child as HTMLElement).dataset['key'] === key)
+    if (!text) return old?.remove()
+    const button = h('button', { type: 'button' }, actionName)
+    const line = h('p', { part: 'notice', 'data-key': key }, h('span', {}, text), button)
+    button.addEventListener('click', action ?? (() => line.remove()))
+    if (old) old.replaceWith(line)
+    else this.#notices.append(line)
   }
 }
 
-const equipped = new WeakSet<object>();
+const equipped = new WeakSet<object>()
 
 /** A property for every parameter, on the class of the first figure that tells them: rangeStd for `range-std`. */
 function defineProperties(element: FigureElement, specs: ParamSpec[]): void {
-  const prototype = Object.getPrototypeOf(element) as object;
-  if (equipped.has(prototype)) return;
-  equipped.add(prototype);
+  const prototype = Object.getPrototypeOf(element) as object
+  if (equipped.has(prototype)) return
+  equipped.add(prototype)
   for (const { name } of specs) {
-    const property = camelCase(name);
-    if (property in prototype) continue; // `step` stays the method
+    const property = camelCase(name)
+    if (property in prototype) continue // `step` stays the method
     Object.defineProperty(prototype, property, {
       configurable: true,
       enumerable: true,
       get(this: FigureElement) {
-        return this.getParameter(name);
+        return this.getParameter(name)
       },
       set(this: FigureElement, value: unknown) {
-        this.setParameter(name, value);
+        this.setParameter(name, value)
       },
-    });
+    })
   }
 }
 
 function camelCase(name: string): string {
-  return name.replace(/-(.)/g, (_, letter: string) => letter.toUpperCase());
+  return name.replace(/-(.)/g, (_, letter: string) => letter.toUpperCase())
 }
 
 function toText(value: unknown): string {
-  return value === true ? "on" : value === false ? "off" : String(value);
+  return value === true ? 'on' : value === false ? 'off' : String(value)
 }
 
 function properties(prototype: object): Record<string, true> {
-  const names: Record<string, true> = {};
-  for (const name in prototype) names[name.toLowerCase()] = true;
-  return names;
+  const names: Record<string, true> = {}
+  for (const name in prototype) names[name.toLowerCase()] = true
+  return names
 }

@@ -1,222 +1,244 @@
 // Every control is made from the shell's list of parameters, so a figure gets its controls by declaring parameters.
-import { h, icon, redraw, write } from "./dom";
-import type { ParamSpec } from "./engine";
+import { h, icon, redraw, write } from './dom'
+import type { ParamSpec } from './engine'
 
 /** What the controls may ask of the figure. */
 export interface Actions {
-  playPause(): void;
-  step(): void;
-  stepBack(): void;
-  seek(step: number): void;
-  reset(): void;
-  pace(stepsPerSecond: number): void;
+  playPause(): void
+  step(): void
+  stepBack(): void
+  seek(step: number): void
+  reset(): void
+  pace(stepsPerSecond: number): void
   /** The value as a reader typed it; the figure refuses it or shows it. */
-  change(name: string, value: string): void;
+  change(name: string, value: string): void
 }
 
 /** One control: shows a value, whoever changed it. */
 interface Field {
-  element: HTMLElement;
-  show(value: string): void;
+  element: HTMLElement
+  show(value: string): void
   /** Takes a new range: how many universes there are to choose from depends on the setup. */
-  limit?(spec: ParamSpec): boolean;
+  limit?(spec: ParamSpec): boolean
 }
 
-const PACES = [1.5, 3, 6, 12, 24]; // [steps/s]; 6 is called 1×: a lap in a quarter of a minute
-const NORMAL_PACE = 6;
+const PACES = [1.5, 3, 6, 12, 24] // [steps/s]; 6 is called 1×: a lap in a quarter of a minute
+const NORMAL_PACE = 6
 
 // These two have their place in the row of transport controls.
-const SEED = "seed";
-const STEP = "step";
+const SEED = 'seed'
+const STEP = 'step'
 
-let made = 0; // ids must be unique in a shadow root only, but a counter over the page is simpler to trust
+let made = 0 // ids must be unique in a shadow root only, but a counter over the page is simpler to trust
 
 export class Controls {
-  readonly transport: HTMLElement;
-  readonly settings: HTMLDetailsElement;
-  readonly view: HTMLElement;
-  private readonly fields = new Map<string, Field>();
-  private readonly shown = new Map<string, string>();
-  private readonly play: HTMLButtonElement;
-  private readonly back: HTMLButtonElement;
-  private readonly forth: HTMLButtonElement;
-  private readonly scrub: HTMLInputElement;
-  private readonly position: HTMLOutputElement;
+  readonly transport: HTMLElement
+  readonly settings: HTMLDetailsElement
+  readonly view: HTMLElement
+  private readonly fields = new Map<string, Field>()
+  private readonly shown = new Map<string, string>()
+  private readonly play: HTMLButtonElement
+  private readonly back: HTMLButtonElement
+  private readonly forth: HTMLButtonElement
+  private readonly scrub: HTMLInputElement
+  private readonly position: HTMLOutputElement
 
   constructor(specs: ParamSpec[], actions: Actions) {
-    this.play = button("play", "Play", actions.playPause, "play primary");
-    this.back = button("back", "Step back", actions.stepBack, "step-back");
-    this.forth = button("step", "Step", actions.step, "step");
-    const reset = button("reset", "Reset", actions.reset, "reset");
-    this.scrub = h("input", { type: "range", class: "scrub", part: "scrub", min: "0", step: "1", "aria-label": "Step shown" });
-    this.scrub.addEventListener("input", () => actions.seek(this.scrub.valueAsNumber));
-    this.position = h("output", { class: "position" });
-    const pace = select("Speed", PACES.map((p) => [String(p), `${p / NORMAL_PACE}×`]), (v) => actions.pace(Number(v)));
-    pace.value = String(NORMAL_PACE);
+    this.play = button('play', 'Play', actions.playPause, 'play primary')
+    this.back = button('back', 'Step back', actions.stepBack, 'step-back')
+    this.forth = button('step', 'Step', actions.step, 'step')
+    const reset = button('reset', 'Reset', actions.reset, 'reset')
+    this.scrub = h('input', { type: 'range', class: 'scrub', part: 'scrub', min: '0', step: '1', 'aria-label': 'Step shown' })
+    this.scrub.addEventListener('input', () => actions.seek(this.scrub.valueAsNumber))
+    this.position = h('output', { class: 'position' })
+    const pace = select(
+      'Speed',
+      PACES.map(p => [String(p), `${p / NORMAL_PACE}×`]),
+      v => actions.pace(Number(v)),
+    )
+    pace.value = String(NORMAL_PACE)
     this.transport = h(
-      "div",
-      { class: "transport", part: "transport", role: "group", "aria-label": "Playback" },
-      h("span", { class: "buttons" }, reset, this.back, this.play, this.forth),
-      h("span", { class: "timeline" }, this.scrub, this.position),
-      h("span", { class: "extras" }, pace),
-    );
+      'div',
+      { class: 'transport', part: 'transport', role: 'group', 'aria-label': 'Playback' },
+      h('span', { class: 'buttons' }, reset, this.back, this.play, this.forth),
+      h('span', { class: 'timeline' }, this.scrub, this.position),
+      h('span', { class: 'extras' }, pace),
+    )
 
-    const grid = h("div", { class: "grid" });
-    this.settings = h("details", { class: "settings", part: "settings" }, h("summary", {}, "Settings"), grid);
-    this.view = h("div", { class: "view", part: "view", role: "group", "aria-label": "What is drawn" });
+    const grid = h('div', { class: 'grid' })
+    this.settings = h('details', { class: 'settings', part: 'settings' }, h('summary', {}, 'Settings'), grid)
+    this.view = h('div', { class: 'view', part: 'view', role: 'group', 'aria-label': 'What is drawn' })
     for (const spec of specs) {
-      if (spec.name === STEP) continue;
-      const field = fieldFor(spec, (value) => actions.change(spec.name, value));
-      this.fields.set(spec.name, field);
-      if (spec.name === SEED) this.transport.lastElementChild!.append(field.element);
-      else (spec.group === "view" ? this.view : grid).append(field.element);
+      if (spec.name === STEP) continue
+      const field = fieldFor(spec, value => actions.change(spec.name, value))
+      this.fields.set(spec.name, field)
+      if (spec.name === SEED) this.transport.lastElementChild!.append(field.element)
+      else (spec.group === 'view' ? this.view : grid).append(field.element)
     }
   }
 
   /** `force` puts a control back that the reader has set to a refused value. */
   showValues(specs: ParamSpec[], values: Record<string, string>, force?: string): void {
     for (const spec of specs) {
-      const { name } = spec;
-      const field = this.fields.get(name);
-      if (!field) continue;
-      const value = values[name] ?? "";
-      const changed = field.limit?.(spec) || this.shown.get(name) !== value || name === force;
-      if (!changed) continue; // a box that is being typed into is left alone until its value changes under it
-      this.shown.set(name, value);
-      field.show(value);
+      const { name } = spec
+      const field = this.fields.get(name)
+      if (!field) continue
+      const value = values[name] ?? ''
+      const changed = field.limit?.(spec) || this.shown.get(name) !== value || name === force
+      if (!changed) continue // a box that is being typed into is left alone until its value changes under it
+      this.shown.set(name, value)
+      field.show(value)
     }
   }
 
   showPosition(step: number, last: number, playing: boolean, busy: boolean): void {
-    this.scrub.max = String(last);
-    this.scrub.value = String(step);
-    this.scrub.setAttribute("aria-valuetext", `step ${step} of ${last}`);
-    write(this.position, `${step} / ${last}`);
-    this.position.classList.toggle("busy", busy);
-    this.back.disabled = step <= 0;
-    this.forth.disabled = step >= last;
-    const name = playing ? "Pause" : "Play";
+    this.scrub.max = String(last)
+    this.scrub.value = String(step)
+    this.scrub.setAttribute('aria-valuetext', `step ${step} of ${last}`)
+    write(this.position, `${step} / ${last}`)
+    this.position.classList.toggle('busy', busy)
+    this.back.disabled = step <= 0
+    this.forth.disabled = step >= last
+    const name = playing ? 'Pause' : 'Play'
     if (this.play.title !== name) {
-      redraw(this.play.firstElementChild!, playing ? "pause" : "play");
-      label(this.play, name);
+      redraw(this.play.firstElementChild!, playing ? 'pause' : 'play')
+      label(this.play, name)
     }
   }
 
   enable(on: boolean): void {
-    for (const part of [this.transport, this.settings, this.view]) part.inert = !on;
+    for (const part of [this.transport, this.settings, this.view]) part.inert = !on
   }
 }
 
 function fieldFor(spec: ParamSpec, change: (value: string) => void): Field {
-  if (spec.name === SEED) return seedField(spec, change);
-  if (spec.kind === "flag") return flagField(spec, change);
-  if (spec.kind === "choice" || spec.choices.length > 0) return choiceField(spec, change);
-  return sliderField(spec, change);
+  if (spec.name === SEED) return seedField(spec, change)
+  if (spec.kind === 'flag') return flagField(spec, change)
+  if (spec.kind === 'choice' || spec.choices.length > 0) return choiceField(spec, change)
+  return sliderField(spec, change)
 }
 
 function flagField(spec: ParamSpec, change: (value: string) => void): Field {
-  const input = h("input", { type: "checkbox", name: spec.name });
-  input.addEventListener("change", () => change(input.checked ? "on" : "off"));
+  const input = h('input', { type: 'checkbox', name: spec.name })
+  input.addEventListener('change', () => change(input.checked ? 'on' : 'off'))
   return {
-    element: h("label", { class: "flag", part: "control", title: spec.help }, input, spec.title),
-    show: (value) => void (input.checked = value === "on"),
-  };
+    element: h('label', { class: 'flag', part: 'control', title: spec.help }, input, spec.title),
+    show: value => void (input.checked = value === 'on'),
+  }
 }
 
 function choiceField(spec: ParamSpec, change: (value: string) => void): Field {
-  const input = select(undefined, spec.choices.map((c) => [c.value, c.title]), change);
-  input.name = spec.name;
-  const words = spec.choices.length;
+  const input = select(
+    undefined,
+    spec.choices.map(c => [c.value, c.title]),
+    change,
+  )
+  input.name = spec.name
+  const words = spec.choices.length
   return {
-    element: h("label", { class: "choice", part: "control", title: spec.help }, h("span", { class: "name" }, spec.title), input),
-    show: (value) => void (input.value = value),
+    element: h('label', { class: 'choice', part: 'control', title: spec.help }, h('span', { class: 'name' }, spec.title), input),
+    show: value => void (input.value = value),
     // A whole number with named values (universe: the best, or any one) is a list of the names, then the numbers.
     limit({ kind, min, max }) {
-      if (kind !== "integer" || input.length === words + max - min + 1) return false;
-      input.length = words;
-      for (let i = min; i <= max; i++) input.add(new Option(String(i)));
-      return true;
+      if (kind !== 'integer' || input.length === words + max - min + 1) return false
+      input.length = words
+      for (let i = min; i <= max; i++) input.add(new Option(String(i)))
+      return true
     },
-  };
+  }
 }
 
 function sliderField(spec: ParamSpec, change: (value: string) => void): Field {
-  const stops = geometricStops(spec);
-  const box = numberBox(spec, change);
-  box.id = `box-${++made}`;
-  const range = h("input", { type: "range", name: spec.name, "aria-label": `${spec.title}, slider` });
-  Object.assign(range, stops ? { min: 0, max: stops.length - 1, step: 1 } : { min: spec.min, max: spec.max, step: spec.step });
-  const describe = (value: string) => range.setAttribute("aria-valuetext", `${value} ${spec.unit}`.trim());
-  range.addEventListener("input", () => change(stops ? String(stops[range.valueAsNumber]) : range.value));
+  const stops = geometricStops(spec)
+  const box = numberBox(spec, change)
+  box.id = `box-${++made}`
+  const range = h('input', { type: 'range', name: spec.name, 'aria-label': `${spec.title}, slider` })
+  Object.assign(range, stops ? { min: 0, max: stops.length - 1, step: 1 } : { min: spec.min, max: spec.max, step: spec.step })
+  const describe = (value: string) => range.setAttribute('aria-valuetext', `${value} ${spec.unit}`.trim())
+  range.addEventListener('input', () => change(stops ? String(stops[range.valueAsNumber]) : range.value))
   return {
     element: h(
-      "div",
-      { class: "slider", part: "control", title: spec.help },
-      h("label", { class: "name", for: box.id }, spec.title),
-      h("span", { class: "value" }, box, h("span", { class: "unit" }, spec.unit)),
+      'div',
+      { class: 'slider', part: 'control', title: spec.help },
+      h('label', { class: 'name', for: box.id }, spec.title),
+      h('span', { class: 'value' }, box, h('span', { class: 'unit' }, spec.unit)),
       range,
     ),
     show(value) {
-      box.value = value;
-      range.value = stops ? String(nearest(stops, Number(value))) : value;
-      describe(value);
+      box.value = value
+      range.value = stops ? String(nearest(stops, Number(value))) : value
+      describe(value)
     },
-  };
+  }
 }
 
 function seedField(spec: ParamSpec, change: (value: string) => void): Field {
-  const box = numberBox(spec, change);
-  const roll = button("dice", "Re-roll the seed", () => {
+  const box = numberBox(spec, change)
+  const roll = button('dice', 'Re-roll the seed', () => {
     // Short seeds are easier to read out in a classroom; they are as good as long ones.
-    let seed: number;
-    do seed = Math.floor(Math.random() * 10_000);
-    while (String(seed) === box.value);
-    change(String(seed));
-  });
+    let seed: number
+    do seed = Math.floor(Math.random() * 10_000)
+    while (String(seed) === box.value)
+    change(String(seed))
+  })
   return {
-    element: h("span", { class: "seed", part: "seed", title: spec.help }, h("label", {}, h("span", { class: "name" }, spec.title), box), roll),
-    show: (value) => void (box.value = value),
-  };
+    element: h(
+      'span',
+      { class: 'seed', part: 'seed', title: spec.help },
+      h('label', {}, h('span', { class: 'name' }, spec.title), box),
+      roll,
+    ),
+    show: value => void (box.value = value),
+  }
 }
 
 function numberBox(spec: ParamSpec, change: (value: string) => void): HTMLInputElement {
-  const box = h("input", { type: "number", name: spec.name, inputmode: spec.kind === "integer" ? "numeric" : "decimal", autocomplete: "off" });
+  const box = h('input', {
+    type: 'number',
+    name: spec.name,
+    inputmode: spec.kind === 'integer' ? 'numeric' : 'decimal',
+    autocomplete: 'off',
+  })
   // `any`: a typed value need not lie on the slider's steps. The shell judges it, and says why it refuses one.
-  Object.assign(box, { min: spec.min, max: spec.max, step: spec.kind === "integer" ? "1" : "any" });
-  box.addEventListener("change", () => change(box.value));
-  return box;
+  Object.assign(box, { min: spec.min, max: spec.max, step: spec.kind === 'integer' ? '1' : 'any' })
+  box.addEventListener('change', () => change(box.value))
+  return box
 }
 
 function select(name: string | undefined, options: [string, string][], change: (value: string) => void): HTMLSelectElement {
-  const element = h("select", name ? { "aria-label": name, title: name } : {}, ...options.map(([value, text]) => h("option", { value }, text)));
-  element.addEventListener("change", () => change(element.value));
-  return element;
+  const element = h(
+    'select',
+    name ? { 'aria-label': name, title: name } : {},
+    ...options.map(([value, text]) => h('option', { value }, text)),
+  )
+  element.addEventListener('change', () => change(element.value))
+  return element
 }
 
-function button(name: Parameters<typeof icon>[0], title: string, act: () => void, part = ""): HTMLButtonElement {
-  const element = h("button", { type: "button", part: `button ${part}`.trim(), class: part }, icon(name));
-  label(element, title);
-  element.addEventListener("click", act);
-  return element;
+function button(name: Parameters<typeof icon>[0], title: string, act: () => void, part = ''): HTMLButtonElement {
+  const element = h('button', { type: 'button', part: `button ${part}`.trim(), class: part }, icon(name))
+  label(element, title)
+  element.addEventListener('click', act)
+  return element
 }
 
 function label(element: HTMLElement, text: string): void {
-  element.title = text;
-  element.setAttribute("aria-label", text);
+  element.title = text
+  element.setAttribute('aria-label', text)
 }
 
 /** Counts that span decades (1 … 256) move by ratio, so that 4, 8 and 16 are as far apart as 64, 128 and 256. */
 function geometricStops(spec: ParamSpec): number[] | undefined {
-  if (spec.kind !== "integer" || spec.min < 1 || spec.max < 64 * spec.min) return undefined;
-  const stops = new Set<number>();
-  for (let value: number = spec.min; value < spec.max; value *= 2 ** (1 / 8)) stops.add(Math.round(value));
-  return [...stops.add(spec.max)];
+  if (spec.kind !== 'integer' || spec.min < 1 || spec.max < 64 * spec.min) return undefined
+  const stops = new Set<number>()
+  for (let value: number = spec.min; value < spec.max; value *= 2 ** (1 / 8)) stops.add(Math.round(value))
+  return [...stops.add(spec.max)]
 }
 
 function nearest(stops: number[], value: number): number {
-  let best = 0;
+  let best = 0
   stops.forEach((stop, i) => {
-    if (Math.abs(stop - value) < Math.abs(stops[best]! - value)) best = i;
-  });
-  return best;
+    if (Math.abs(stop - value) < Math.abs(stops[best]! - value)) best = i
+  })
+  return best
 }

@@ -1,65 +1,76 @@
 // One WebAssembly instance a page, shared by every figure. It is fetched when the first figure is seen, never before.
-import init, { Figure } from "../pkg/fastslam_widgets.js";
+import init, { Figure, last_panic } from '../pkg/fastslam_widgets.js'
 
-export type Shell = Figure;
+export type Shell = Figure
 
 /** What the shell tells about one parameter: the only source of attributes, properties, controls and links. */
 export interface ParamSpec {
-  name: string;
-  title: string;
-  unit: string;
-  kind: "integer" | "number" | "choice" | "flag";
-  min: number;
-  max: number;
-  step: number;
-  choices: { value: string; title: string }[];
-  default: string;
-  group: "setup" | "view";
-  help: string;
+  name: string
+  title: string
+  unit: string
+  kind: 'integer' | 'number' | 'choice' | 'flag'
+  min: number
+  max: number
+  step: number
+  choices: { value: string; title: string }[]
+  default: string
+  group: 'setup' | 'view'
+  help: string
 }
 
 export interface Readout {
-  name: string;
-  title: string;
-  value: number | null;
-  text: string;
-  unit: string;
-  help: string;
+  name: string
+  title: string
+  value: number | null
+  text: string
+  unit: string
+  help: string
 }
 
 export interface Engine {
-  memory: WebAssembly.Memory;
-  create(tag: string): Shell;
+  memory: WebAssembly.Memory
+  create(tag: string): Shell
 }
 
-let shared: Promise<Engine> | undefined;
+let shared: Promise<Engine> | undefined
 
 export function engine(): Promise<Engine> {
   return (shared ??= start().catch((error: unknown) => {
-    shared = undefined; // the network may be back at the next try
-    throw error;
-  }));
+    shared = undefined // the network may be back at the next try
+    throw error
+  }))
 }
 
 async function start(): Promise<Engine> {
-  if (typeof WebAssembly === "undefined") throw new Error("this browser runs no WebAssembly");
-  const response = await fetch(new URL("../pkg/fastslam_widgets_bg.wasm", import.meta.url)).catch(() => {
-    throw new Error("its program could not be fetched, because the network is down or a rule blocks it");
-  });
-  if (!response.ok) throw new Error(`its program could not be fetched (the server answered ${response.status})`);
+  if (typeof WebAssembly === 'undefined') throw new Error('this browser runs no WebAssembly')
+  const response = await fetch(new URL('../pkg/fastslam_widgets_bg.wasm', import.meta.url)).catch(() => {
+    throw new Error('its program could not be fetched, because the network is down or a rule blocks it')
+  })
+  if (!response.ok) throw new Error(`its program could not be fetched (the server answered ${response.status})`)
   try {
-    const { memory } = await init({ module_or_path: response });
-    return { memory, create: (tag) => new Figure(tag) };
+    const { memory } = await init({ module_or_path: response })
+    return { memory, create: tag => new Figure(tag) }
   } catch (error) {
     // Chromium and Firefox word a refusal by policy differently; both name one of these.
     if (/unsafe-eval|security policy|csp|disallowed/i.test(String(error))) {
-      throw new Error("the security policy of this page does not allow WebAssembly ('wasm-unsafe-eval')");
+      throw new Error("the security policy of this page does not allow WebAssembly ('wasm-unsafe-eval')")
     }
-    throw new Error(`its program could not be started (${error instanceof Error ? error.message : String(error)})`);
+    throw new Error(`its program could not be started (${error instanceof Error ? error.message : String(error)})`)
   }
+}
+
+/** What went wrong inside the wasm, in its own words where it left any. */
+export function panicMessage(error: unknown): string {
+  try {
+    const said = error instanceof WebAssembly.RuntimeError && last_panic()
+    if (said) return said
+  } catch {
+    // too broken to speak
+  }
+  return error instanceof Error ? error.message : String(error)
 }
 
 /** A refused value: the shell's error that names a parameter, as against a panic. */
 export function isRefusal(error: unknown): error is Error & { parameter: string } {
-  return error instanceof Error && typeof (error as { parameter?: unknown }).parameter === "string";
+  return error instanceof Error && typeof (error as { parameter?: unknown }).parameter === 'string'
 }

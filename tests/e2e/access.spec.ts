@@ -1,0 +1,217 @@
+// Keyboard, touch, screen reader, small and dark screens.
+import AxeBuilder from '@axe-core/playwright'
+import { expect, test } from './fixtures'
+import { Lap } from './lap'
+
+test.use({ contextOptions: { reducedMotion: 'reduce' } })
+
+for (const [what, options] of Object.entries({
+  light: { colorScheme: 'light' },
+  dark: { colorScheme: 'dark' },
+  'a phone': { colorScheme: 'light', viewport: { width: 380, height: 800 } },
+  'a dark phone': { colorScheme: 'dark', viewport: { width: 380, height: 800 } },
+  'high contrast': { contrast: 'more' },
+  'forced colours': { forcedColors: 'active' },
+} as const)) {
+  test(`axe finds nothing: ${what}`, async ({ browser, baseURL, complaints }) => {
+    const context = await browser.newContext({ ...options, baseURL: baseURL!, reducedMotion: 'reduce' })
+    const page = await context.newPage()
+    page.on('console', message => message.type() === 'error' && complaints.push(message.text()))
+    const lap = await new Lap(page).open()
+    await lap.openSettings()
+    await lap.box('universes').fill('0')
+    await lap.box('universes').press('Enter')
+    await expect(lap.alert).not.toBeEmpty()
+    await lap.element.locator('summary[aria-label=Menu]').click()
+    const found = await new AxeBuilder({ page })
+      .withTags(['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'])
+      .analyze()
+    expect(found.violations.map(violation => `${violation.id}: ${violation.nodes.map(node => node.html).join(' | ')}`)).toEqual([])
+    await context.close()
+  })
+}
+
+test('the whole figure is worked by keyboard alone', async ({ page }) => {
+  const lap = await new Lap(page).open()
+  const focused = () =>
+    page.evaluate(() => {
+      let element = document.activeElement
+      while (element?.shadowRoot?.activeElement) element = element.shadowRoot.activeElement
+      return element === document.body
+        ? 'body'
+        : (element?.getAttribute('aria-label') ?? element?.getAttribute('name') ?? element?.textContent?.trim() ?? '')
+    })
+  await page.keyboard.press('Tab')
+  expect(await focused()).toBe('Skip to the chapter')
+
+  // Every control is reached by Tab, each with a focus ring that can be seen, and the way out at the end is open.
+  const order: string[] = []
+  for (let i = 0; i < 60; i++) {
+    await page.keyboard.press('Tab')
+    const name = await focused()
+    if (name === 'body') break
+    order.push(name)
+    const ring = await page.evaluate(() => {
+      let element = document.activeElement!
+      while (element.shadowRoot?.activeElement) element = element.shadowRoot.activeElement
+      return getComputedStyle(element).outlineStyle
+    })
+    expect(ring, name).not.toBe('none')
+  }
+  expect(order).toEqual(
+    expect.arrayContaining([
+      'Menu',
+      'Reset',
+      'Play',
+      'Step',
+      'Step shown',
+      'Speed',
+      'seed',
+      'Re-roll the seed',
+      'universe',
+      'truth',
+      'raw',
+      'universes',
+      'odometry',
+      'range-std',
+      'proposal',
+      'matcher',
+      'policy',
+    ]),
+  )
+  expect(await focused()).toBe('body')
+
+  // Keys on the picture.
+  await lap.element.locator('.stage').focus()
+  await page.keyboard.press('ArrowRight')
+  await page.keyboard.press('ArrowRight')
+  await page.keyboard.press('ArrowLeft')
+  await lap.settled()
+  expect(await lap.position()).toBe(1)
+  await page.keyboard.press('Space')
+  await expect.poll(() => lap.position()).toBeGreaterThan(2)
+  await page.keyboard.press('Space')
+  await expect(lap.play).toBeVisible()
+  await page.keyboard.press('End')
+  await lap.settled()
+  expect(await lap.position()).toBe(await lap.last())
+  await page.keyboard.press('Home')
+  await lap.settled()
+  expect(await lap.position()).toBe(0)
+
+  // Native keys on sliders, Space from there plays too, buttons by Enter and Space.
+  await lap.scrub.focus()
+  await page.keyboard.press('ArrowRight')
+  expect(await lap.position()).toBe(1)
+  await page.keyboard.press('Space')
+  await expect(lap.pause).toBeVisible()
+  await page.keyboard.press('Space')
+  await lap.step.focus()
+  const at = await lap.position()
+  await page.keyboard.press('Space')
+  await page.keyboard.press('Enter')
+  await lap.settled()
+  expect(await lap.position()).toBe(at + 2)
+  await lap.openSettings()
+  await lap.slider('universes').focus()
+  await page.keyboard.press('ArrowRight')
+  await expect(lap.box('universes')).not.toHaveValue('16')
+  await page.keyboard.press('Home')
+  await expect(lap.box('universes')).toHaveValue('1')
+  await page.keyboard.press('ArrowRight')
+  await expect(lap.box('universes')).toHaveValue('2')
+
+  // The menu opens, closes by Escape, and gives the focus back.
+  await lap.element.locator('summary[aria-label=Menu]').focus()
+  await page.keyboard.press('Enter')
+  await page.keyboard.press('Tab')
+  expect(await focused()).toBe('Copy link')
+  await page.keyboard.press('Escape')
+  await expect(lap.element.getByRole('button', { name: 'Copy link' })).toBeHidden()
+  expect(await focused()).toBe('Menu')
+})
+
+test('the sentence is told to screen readers at rest, and not at every step while it plays', async ({ page }) => {
+  const lap = await new Lap(page).open()
+  await lap.step.click()
+  await lap.settled()
+  await expect(lap.sentence).toHaveAttribute('aria-live', 'polite')
+  const before = await lap.sentence.textContent()
+  await lap.step.click()
+  await lap.settled()
+  expect(await lap.sentence.textContent()).not.toBe(before)
+  await lap.play.click()
+  await expect(lap.sentence).toHaveAttribute('aria-live', 'off')
+  await lap.pause.click()
+  await expect(lap.sentence).toHaveAttribute('aria-live', 'polite')
+})
+
+test('the theme follows the system while the page is open, unless the attribute decides', async ({ page }) => {
+  const lap = await new Lap(page).open()
+  const light = await lap.picture()
+  await page.emulateMedia({ colorScheme: 'dark' })
+  await lap.settled()
+  const dark = await lap.picture()
+  expect(dark).not.toBe(light)
+  await lap.element.evaluate(element => element.setAttribute('theme', 'light'))
+  await lap.settled()
+  expect(await lap.picture()).toBe(light)
+  await page.emulateMedia({ colorScheme: 'light', contrast: 'more' })
+  await lap.settled()
+  expect([light, dark]).not.toContain(await lap.picture())
+})
+
+test.describe('on a phone', () => {
+  test.use({ viewport: { width: 380, height: 740 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 })
+
+  test('nothing is wider than the screen, and every target is large enough for a thumb', async ({ page }) => {
+    const lap = await new Lap(page).open()
+    await lap.openSettings()
+    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(380)
+    const small = await lap.element.evaluate(element =>
+      [...element.shadowRoot!.querySelectorAll('button, select, input, summary')]
+        .filter(control => control.getClientRects().length > 0)
+        .map(control => {
+          const target = (control as HTMLInputElement).type === 'checkbox' ? control.closest('label')! : control
+          const { width, height } = target.getBoundingClientRect()
+          return { name: control.outerHTML.slice(0, 80), width, height }
+        })
+        .filter(({ width, height }) => width < 40 || height < 40),
+    )
+    expect(small).toEqual([])
+  })
+
+  test('a tap plays, a tap on the picture chooses, and a swipe over the picture scrolls the page', async ({ page }) => {
+    const lap = await new Lap(page).open()
+    await lap.play.tap()
+    await expect.poll(() => lap.position()).toBeGreaterThan(1)
+    await lap.pause.tap()
+    await lap.canvas.evaluate(canvas => canvas.scrollIntoView({ block: 'center', behavior: 'instant' }))
+    await lap.settled()
+    const box = (await lap.canvas.boundingBox())!
+    const before = await page.evaluate(() => scrollY)
+    const client = await page.context().newCDPSession(page)
+    const touch = (type: 'touchStart' | 'touchMove' | 'touchEnd', ...touchPoints: { x: number; y: number }[]) =>
+      client.send('Input.dispatchTouchEvent', { type, touchPoints })
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2]
+    await touch('touchStart', { x, y })
+    for (let i = 1; i <= 10; i++) {
+      await touch('touchMove', { x, y: y - 20 * i })
+      await page.waitForTimeout(16)
+    }
+    await touch('touchEnd')
+    await page.waitForTimeout(500)
+    expect(await page.evaluate(() => scrollY)).toBeGreaterThan(before + 100)
+  })
+})
+
+test('text at 200 % and a narrow window lose nothing', async ({ page }) => {
+  await page.setViewportSize({ width: 640, height: 800 })
+  const lap = await new Lap(page).open()
+  await page.evaluate(() => (document.documentElement.style.fontSize = '200%'))
+  await lap.settled()
+  expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(640)
+  await page.setViewportSize({ width: 320, height: 640 })
+  await lap.settled()
+  expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(320)
+})

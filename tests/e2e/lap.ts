@@ -1,0 +1,110 @@
+// The Apartment lap as a reader meets it: found by role and name, never by internals that a reader cannot see.
+import type { Locator, Page } from '@playwright/test'
+import { expect } from './fixtures'
+
+export class Lap {
+  readonly element: Locator
+  readonly play: Locator
+  readonly pause: Locator
+  readonly step: Locator
+  readonly stepBack: Locator
+  readonly reset: Locator
+  readonly reroll: Locator
+  readonly scrub: Locator
+  readonly seed: Locator
+  readonly alert: Locator
+  readonly sentence: Locator
+  readonly canvas: Locator
+
+  constructor(
+    readonly page: Page,
+    selector = 'fastslam-lap',
+  ) {
+    this.element = page.locator(selector)
+    const button = (name: string | RegExp) => this.element.getByRole('button', { name, exact: true })
+    this.play = button('Play')
+    this.pause = button('Pause')
+    this.step = button('Step')
+    this.stepBack = button('Step back')
+    this.reset = button('Reset')
+    this.reroll = button('Re-roll the seed')
+    this.scrub = this.element.getByRole('slider', { name: 'Step shown' })
+    this.seed = this.element.getByRole('spinbutton', { name: 'Seed' })
+    this.alert = this.element.getByRole('alert')
+    this.sentence = this.element.locator('[part=sentence]')
+    this.canvas = this.element.locator('canvas')
+  }
+
+  /** Opens the page and waits until the figure is live. */
+  async open(address = './'): Promise<this> {
+    await this.page.goto(address)
+    await this.element.scrollIntoViewIfNeeded()
+    await this.live()
+    return this
+  }
+
+  async live(): Promise<void> {
+    await expect(this.element.locator('.stage.live')).toBeVisible()
+    await this.settled()
+  }
+
+  /** Until what was asked for is shown. */
+  async settled(): Promise<void> {
+    await expect(this.element.locator('output:not(.busy)')).toBeVisible({ timeout: 30_000 })
+    // The sentence follows within a few frames, so that a drag says one thing and not a hundred.
+    await this.page.waitForTimeout(250)
+  }
+
+  async position(): Promise<number> {
+    return Number((await this.element.locator('output').textContent())!.split('/')[0])
+  }
+
+  async last(): Promise<number> {
+    return Number(await this.scrub.getAttribute('max'))
+  }
+
+  /** Every readout as it is written, by name. */
+  async readouts(): Promise<Record<string, string>> {
+    const rows = await this.element.locator('[part=readout]').all()
+    const entries = await Promise.all(
+      rows.map(async row => [await row.getAttribute('data-name'), await row.locator('dd').textContent()]),
+    )
+    return Object.fromEntries(entries) as Record<string, string>
+  }
+
+  /** A fingerprint of the pixels. */
+  async picture(): Promise<number> {
+    return this.canvas.evaluate((canvas: HTMLCanvasElement) => {
+      // By way of a second canvas: reading the figure's own would move it off the fast path, and Chromium warns of that.
+      const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d', { willReadFrequently: true })!
+      copy.drawImage(canvas, 0, 0)
+      const { data } = copy.getImageData(0, 0, canvas.width, canvas.height)
+      let hash = 2166136261
+      for (const byte of new Uint32Array(data.buffer)) hash = Math.imul(hash ^ byte, 16777619)
+      return hash
+    })
+  }
+
+  async scrubTo(step: number): Promise<void> {
+    await this.scrub.fill(String(step))
+    await this.settled()
+  }
+
+  async openSettings(): Promise<void> {
+    const settings = this.element.locator('details[part=settings]')
+    if (!(await settings.evaluate((details: HTMLDetailsElement) => details.open))) await settings.locator('summary').click()
+  }
+
+  async menu(item: string): Promise<void> {
+    await this.element.locator('summary[aria-label=Menu]').click()
+    await this.element.getByRole('button', { name: item }).click()
+  }
+
+  box(name: string): Locator {
+    return this.element.locator(`input[type=number][name=${name}]`)
+  }
+
+  slider(name: string): Locator {
+    return this.element.locator(`input[type=range][name=${name}]`)
+  }
+}

@@ -1,0 +1,196 @@
+// Links carry the whole state; attributes and properties set it; what is wrong is said, and changes nothing else.
+import type { Page } from '@playwright/test'
+import { expect, test } from './fixtures'
+import { Lap } from './lap'
+
+test.use({ contextOptions: { reducedMotion: 'reduce' }, permissions: ['clipboard-read', 'clipboard-write'] })
+
+/** Adds a figure at the top of the chapter, with these attributes, before its first script runs on it. */
+async function addFigure(page: Page, attributes: Record<string, string>): Promise<Lap> {
+  await page.evaluate(given => {
+    const host = document.createElement('div')
+    const text = Object.entries(given).map(([name, value]) => ` ${name}="${value}"`)
+    host.innerHTML = `<fastslam-lap id="added"${text.join('')}></fastslam-lap>`
+    document.querySelector('main')!.prepend(host)
+  }, attributes)
+  const lap = new Lap(page, '#added')
+  await lap.element.scrollIntoViewIfNeeded()
+  await lap.live()
+  return lap
+}
+
+test('a copied link opens the very same state', async ({ page, context }) => {
+  const lap = await new Lap(page).open()
+  await lap.openSettings()
+  await lap.box('universes').fill('8')
+  await lap.box('universes').press('Enter')
+  await lap.box('odometry').fill('1.35')
+  await lap.box('odometry').press('Enter')
+  await lap.element.locator('select[name=proposal]').selectOption('motion')
+  await lap.element.locator('input[name=raw]').click()
+  await lap.element.locator('select[name=universe]').selectOption('3')
+  await lap.reroll.click()
+  await lap.scrubTo(31)
+  await lap.menu('Copy link')
+  await expect(lap.element.getByText('Link copied')).toBeVisible()
+  const link = await page.evaluate(() => navigator.clipboard.readText())
+  expect(link).toContain('#fastslam-lap?')
+
+  const other = await new Lap(await context.newPage()).open(link)
+  await other.settled()
+  await expect(other.alert).toBeEmpty()
+  expect(await other.position()).toBe(31)
+  expect(await other.readouts()).toEqual(await lap.readouts())
+  expect(await other.seed.inputValue()).toBe(await lap.seed.inputValue())
+  await other.openSettings()
+  await expect(other.box('universes')).toHaveValue('8')
+  await expect(other.box('odometry')).toHaveValue('1.35')
+  await expect(other.element.locator('select[name=universe]')).toHaveValue('3')
+  expect(await other.picture()).toBe(await lap.picture())
+})
+
+test('a link is followed when the address changes, and does not start the figure playing', async ({ page }) => {
+  const lap = await new Lap(page).open()
+  await page.evaluate(() => (location.hash = 'fastslam-lap?universes=4&step=9'))
+  await expect.poll(() => lap.position()).toBe(9)
+  await lap.settled()
+  await lap.openSettings()
+  await expect(lap.box('universes')).toHaveValue('4')
+  await expect(lap.play).toBeVisible()
+})
+
+for (const [what, query, parameter, range] of [
+  ['a number out of range', 'universes=999', 'universes', /1 to 256/],
+  ['a word for a number', 'odometry=lots', 'odometry', /0 to 2/],
+  ['an unknown choice', 'proposal=psychic', 'proposal', /aware, motion/],
+  ['an unknown name', 'nonsense=1', 'nonsense', /universes/],
+  ['markup', `seed=${encodeURIComponent('<img src=x onerror=alert(1)>')}`, 'seed', /0 to 4294967295/],
+  ['broken escapes', 'seed=%E0%A4%A', 'seed', /0 to 4294967295/],
+] as const) {
+  test(`a bad link with ${what} is refused with the parameter and its range, and the rest is applied`, async ({ page }) => {
+    const lap = await new Lap(page).open(`./#fastslam-lap?${query}&step=6`)
+    await expect(lap.alert).toContainText(parameter)
+    await expect(lap.alert).toContainText(range)
+    expect(await lap.position()).toBe(6)
+    await lap.openSettings()
+    await expect(lap.box('universes')).toHaveValue('16')
+    await lap.alert.getByRole('button', { name: 'Dismiss' }).click()
+    await expect(lap.alert).toBeEmpty()
+  })
+}
+
+test('a link for one figure leaves the others alone', async ({ page }) => {
+  const first = await new Lap(page, 'fastslam-lap:not(#added)').open()
+  const added = await addFigure(page, {})
+  const before = await first.readouts()
+  await page.evaluate(() => (location.hash = 'added?seed=77&step=4'))
+  await expect.poll(() => added.position()).toBe(4)
+  await first.element.scrollIntoViewIfNeeded()
+  await first.settled()
+  expect(await first.readouts()).toEqual(before)
+})
+
+test('attributes set the parameters, at any time, and taking one away gives the default', async ({ page }) => {
+  await new Lap(page).open()
+  const lap = await addFigure(page, { universes: '8', seed: '42', proposal: 'motion', 'range-std': '0.1', raw: '', step: '5' })
+  await expect(lap.alert).toBeEmpty()
+  expect(await lap.position()).toBe(5)
+  await lap.openSettings()
+  await expect(lap.box('universes')).toHaveValue('8')
+  await expect(lap.seed).toHaveValue('42')
+  await expect(lap.box('range-std')).toHaveValue('0.1')
+  await expect(lap.element.locator('select[name=proposal]')).toHaveValue('motion')
+  await expect(lap.element.locator('input[name=raw]')).toBeChecked()
+  await lap.element.evaluate(element => {
+    element.setAttribute('universes', '5')
+    element.removeAttribute('seed')
+  })
+  await expect(lap.box('universes')).toHaveValue('5')
+  await expect(lap.seed).toHaveValue('3')
+})
+
+test('properties set the parameters, before and after the figure is live', async ({ page }) => {
+  await new Lap(page).open()
+  await page.evaluate(() => {
+    const early = document.createElement('fastslam-lap')
+    Object.assign(early, { id: 'added', universes: 6, rangeStd: 0.12, step: 7 })
+    document.querySelector('main')!.prepend(early)
+  })
+  const lap = new Lap(page, '#added')
+  await lap.element.scrollIntoViewIfNeeded()
+  await lap.live()
+  expect(await lap.position()).toBe(7)
+  await lap.openSettings()
+  await expect(lap.box('universes')).toHaveValue('6')
+  await expect(lap.box('range-std')).toHaveValue('0.12')
+  const read = await lap.element.evaluate(element => {
+    const figure = element as unknown as { universes: number; truth: boolean; proposal: string; currentStep: number; step(): void }
+    figure.truth = !figure.truth
+    figure.step()
+    return [figure.universes, typeof figure.truth, figure.proposal, figure.currentStep]
+  })
+  expect(read).toEqual([6, 'boolean', 'aware', 8])
+})
+
+for (const [name, value, range] of [
+  ['universes', '0', /1 to 256/],
+  ['universes', 'sixteen', /1 to 256/],
+  ['range-std', '-1', /0.01 to 0.3/],
+  ['proposal', 'best', /aware, motion/],
+  ['theme', 'blue', /light, dark or auto/],
+  ['particles', '16', /universes/],
+] as const) {
+  test(`the bad attribute ${name}="${value}" is refused with its range; the default is kept and no other figure suffers`, async ({
+    page,
+  }) => {
+    const first = await new Lap(page, 'fastslam-lap:not(#added)').open()
+    const lap = await addFigure(page, { [name]: value })
+    await expect(lap.alert).toContainText(name)
+    await expect(lap.alert).toContainText(range)
+    await expect(first.alert).toBeEmpty()
+    await lap.openSettings()
+    await expect(lap.box('universes')).toHaveValue('16')
+    expect((await lap.readouts())['step']).toBeDefined()
+    await lap.element.evaluate((element, bad) => element.removeAttribute(bad), name)
+    await expect(lap.alert).toBeEmpty()
+  })
+}
+
+test('attributes of the platform and of frameworks are no mistakes', async ({ page }) => {
+  await new Lap(page).open()
+  const lap = await addFigure(page, {
+    class: 'a',
+    'data-x': '1',
+    'aria-label': 'x',
+    title: 't',
+    lang: 'en',
+    tabindex: '0',
+    '_ngcontent-abc': '',
+    'v-if': 'a',
+  })
+  await expect(lap.alert).toBeEmpty()
+})
+
+test('a bad value typed into a box is refused, and the box goes back', async ({ page }) => {
+  const lap = await new Lap(page).open()
+  await lap.openSettings()
+  const before = await lap.readouts()
+  await lap.box('universes').fill('300')
+  await lap.box('universes').press('Enter')
+  await expect(lap.alert).toContainText(/universes.*1 to 256/)
+  await expect(lap.box('universes')).toHaveValue('16')
+  expect(await lap.readouts()).toEqual(before)
+  await lap.box('universes').fill('12')
+  await lap.box('universes').press('Enter')
+  await expect(lap.alert).toBeEmpty()
+})
+
+test('where the clipboard is refused, the link is shown', async ({ page }) => {
+  await page.addInitScript(() => {
+    navigator.clipboard.writeText = () => Promise.reject(new Error('refused'))
+  })
+  const lap = await new Lap(page).open()
+  await lap.scrubTo(3)
+  await lap.menu('Copy link')
+  await expect(lap.alert).toContainText('#fastslam-lap?step=3')
+})

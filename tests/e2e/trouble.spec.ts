@@ -1,0 +1,213 @@
+// No script, no WebAssembly, no network, panics, and nodes that come and go.
+import type { Page } from '@playwright/test'
+import { expect, test } from './fixtures'
+import { Lap } from './lap'
+
+test.use({ contextOptions: { reducedMotion: 'reduce' } })
+
+/** Puts a layer between the glue and the wasm: counts figures made and freed, and lets a test fail a call as a panic does. */
+async function tapWasm(page: Page): Promise<void> {
+  await page.addInitScript(() => {
+    const tap = ((window as unknown as { tap: object }).tap = { alive: 0, made: 0, panics: 0 })
+    const wrap = (instance: WebAssembly.Instance): WebAssembly.Instance => {
+      const exports: Record<string, unknown> = { ...instance.exports }
+      const around = (name: string, before: () => void) => {
+        const call = exports[name] as (...args: unknown[]) => unknown
+        if (!call) throw new Error(`the wasm has no export ${name}`)
+        exports[name] = (...args: unknown[]) => {
+          before()
+          return call(...args)
+        }
+      }
+      around('figure_new', () => void (tap.alive++, tap.made++))
+      around('__wbg_figure_free', () => void tap.alive--)
+      around('figure_work', () => {
+        if (tap.panics > 0) {
+          tap.panics--
+          throw new WebAssembly.RuntimeError('unreachable')
+        }
+      })
+      return { exports } as WebAssembly.Instance
+    }
+    const streaming = WebAssembly.instantiateStreaming
+    WebAssembly.instantiateStreaming = async (...args: Parameters<typeof streaming>) => {
+      const { instance, module } = await streaming(...args)
+      return { instance: wrap(instance), module }
+    }
+  })
+}
+
+interface Tap {
+  alive: number
+  made: number
+  panics: number
+}
+const tapped = (page: Page) => page.evaluate(() => ({ ...(window as unknown as { tap: Tap }).tap }))
+const panicNext = (page: Page, times: number) =>
+  page.evaluate(n => void ((window as unknown as { tap: Tap }).tap.panics = n), times)
+
+test.describe('without JavaScript', () => {
+  test.use({ javaScriptEnabled: false })
+  for (const colorScheme of ['light', 'dark'] as const) {
+    test(`the ${colorScheme} picture and its description stand in`, async ({ page }) => {
+      await page.emulateMedia({ colorScheme })
+      await page.goto('./')
+      const picture = page.locator('fastslam-lap img')
+      await picture.scrollIntoViewIfNeeded()
+      await expect(picture).toBeVisible()
+      await expect(picture).toHaveAttribute('alt', /mosaic/)
+      const shown = await picture.evaluate((image: HTMLImageElement) =>
+        image.decode().then(() => ({ width: image.naturalWidth, from: image.currentSrc })),
+      )
+      expect(shown.width).toBeGreaterThan(300)
+      expect(shown.from).toContain(colorScheme)
+    })
+  }
+})
+
+/** The figure's own picture is in view, with a reason in one line, and nothing else is broken. */
+async function expectPicture(lap: Lap, reason: RegExp): Promise<void> {
+  await lap.element.scrollIntoViewIfNeeded()
+  await expect(lap.alert).toContainText(reason)
+  await expect(lap.element.locator('img')).toBeVisible()
+}
+
+test('where a policy forbids WebAssembly, the picture stays and the reason is said', async ({ page, complaints }) => {
+  await page.route('./', async route => {
+    const response = await route.fetch()
+    const policy = response.headers()['content-security-policy']!.replace("'wasm-unsafe-eval'", '')
+    await route.fulfill({ response, headers: { ...response.headers(), 'content-security-policy': policy } })
+  })
+  await page.goto('./')
+  await expectPicture(new Lap(page), /security policy of this page/)
+  complaints.splice(0, Infinity, ...complaints.filter(line => !/wasm|WebAssembly/i.test(line)))
+})
+
+test('where there is no WebAssembly at all, the picture stays and the reason is said', async ({ page }) => {
+  await page.addInitScript(() => Reflect.deleteProperty(window, 'WebAssembly'))
+  await page.goto('./')
+  await expectPicture(new Lap(page), /runs no WebAssembly/)
+})
+
+test('where the network fails, the picture stays, and a second try brings the figure to life', async ({ page, complaints }) => {
+  await page.route('**/*.wasm', route => route.abort())
+  await page.goto('./')
+  const lap = new Lap(page)
+  await expectPicture(lap, /could not be fetched/)
+  await page.unroute('**/*.wasm')
+  await lap.alert.getByRole('button', { name: 'Try again' }).click()
+  await lap.live()
+  await expect(lap.alert).toBeEmpty()
+  complaints.splice(0, Infinity, ...complaints.filter(line => !/Failed to load resource/.test(line)))
+})
+
+test('where the file is missing, the answer of the server is said', async ({ page, complaints }) => {
+  await page.route('**/*.wasm', route => route.fulfill({ status: 404, body: 'gone' }))
+  await page.goto('./')
+  await expectPicture(new Lap(page), /answered 404/)
+  complaints.splice(0, Infinity, ...complaints.filter(line => !/404/.test(line)))
+})
+
+test('after a panic the figure says so and is as it was before', async ({ page, complaints }) => {
+  await tapWasm(page)
+  const lap = await new Lap(page).open()
+  await lap.scrubTo(11)
+  const before = [await lap.readouts(), await lap.picture()]
+  await panicNext(page, 1)
+  await lap.step.click()
+  await expect(lap.alert).toContainText(/rebuilt/)
+  await lap.settled()
+  expect([await lap.readouts(), await lap.picture()]).toEqual(before)
+  await lap.step.click()
+  await lap.settled()
+  expect(await lap.position()).toBe(12)
+  expect((await tapped(page)).made).toBe(2)
+  complaints.splice(0, Infinity, ...complaints.filter(line => !/unreachable/.test(line)))
+})
+
+test('after a second panic it stops, others go on, and Reset brings it back', async ({ page, complaints }) => {
+  await tapWasm(page)
+  const lap = await new Lap(page, 'fastslam-lap:not(#other)').open()
+  await panicNext(page, 1000)
+  await lap.step.click()
+  await expect(lap.alert).toContainText(/has stopped/)
+  await expect(lap.play)
+    .toBeHidden({ timeout: 1000 })
+    .catch(() => expect(lap.element.locator('.transport')).toHaveAttribute('inert'))
+  await panicNext(page, 0)
+
+  await page.evaluate(() =>
+    document.querySelector('main')!.prepend(Object.assign(document.createElement('fastslam-lap'), { id: 'other' })),
+  )
+  const other = new Lap(page, '#other')
+  await other.element.scrollIntoViewIfNeeded()
+  await other.live()
+  await other.step.click()
+  await other.settled()
+  expect(await other.position()).toBe(1)
+
+  await lap.alert.getByRole('button', { name: 'Reset' }).click()
+  await lap.live()
+  await expect(lap.alert).toBeEmpty()
+  await lap.step.click()
+  await lap.settled()
+  expect(await lap.position()).toBe(1)
+  complaints.splice(0, Infinity, ...complaints.filter(line => !/unreachable/.test(line)))
+})
+
+test('a node that is moved or taken out and put back is freed and restored', async ({ page }) => {
+  await tapWasm(page)
+  const lap = await new Lap(page).open()
+  await lap.openSettings()
+  await lap.box('universes').fill('8')
+  await lap.box('universes').press('Enter')
+  await lap.scrubTo(14)
+  const before = [await lap.readouts(), await lap.picture()]
+  expect((await tapped(page)).alive).toBe(1)
+  await lap.element.evaluate(element => document.querySelector('footer')!.append(element))
+  await lap.element.scrollIntoViewIfNeeded()
+  await lap.live()
+  expect((await tapped(page)).alive).toBe(1)
+  expect(await lap.readouts()).toEqual(before[0])
+
+  await lap.element.evaluate(element => {
+    ;(window as unknown as { kept: Element }).kept = element
+    element.remove()
+  })
+  expect((await tapped(page)).alive).toBe(0)
+  await page.evaluate(() => {
+    const { kept } = window as unknown as { kept: Element }
+    kept.setAttribute('raw', 'on') // a change while it is out must not be lost
+    document.querySelector('figure')!.prepend(kept)
+  })
+  await lap.element.scrollIntoViewIfNeeded()
+  await lap.live()
+  expect((await tapped(page)).alive).toBe(1)
+  expect(await lap.readouts()).toEqual(before[0])
+  await expect(lap.element.locator('input[name=raw]')).toBeChecked()
+})
+
+test('nothing is fetched before the figure is near, the wasm once for many figures, and memory is given back', async ({ page }) => {
+  await tapWasm(page)
+  const fetched: string[] = []
+  page.on('request', request => request.url().endsWith('.wasm') && fetched.push(request.url()))
+  await page.setViewportSize({ width: 1000, height: 500 })
+  await page.goto('./')
+  await page.evaluate(() => (document.body.style.paddingTop = '4000px'))
+  await page.reload()
+  const lap = new Lap(page)
+  await lap.element.scrollIntoViewIfNeeded()
+  await lap.live()
+  for (let i = 0; i < 20; i++) {
+    await page.evaluate(async () => {
+      const one = document.createElement('fastslam-lap')
+      document.querySelector('main')!.prepend(one)
+      one.scrollIntoView({ behavior: 'instant' })
+      await new Promise<void>(done => one.addEventListener('fastslam-step', () => done(), { once: true }))
+      one.remove()
+    })
+  }
+  expect((await tapped(page)).made).toBe(21)
+  expect((await tapped(page)).alive).toBe(1)
+  expect(new Set(fetched).size).toBe(1)
+})
