@@ -1,0 +1,97 @@
+//! A figure as its users hold it: a model, and pixels of it. The browser's shell, the command line and the tests all go through
+//! here.
+
+use crate::{
+    export,
+    model::{Action, FigureError, Model},
+    paint::{Canvas, Theme},
+    query,
+    registry::{self, Entry},
+};
+
+/// One figure on a page.
+pub struct Figure {
+    entry: &'static Entry,
+    model: Box<dyn Model>,
+    canvas: Canvas,
+}
+
+impl Figure {
+    /// The figure of a tag, of which nothing was asked yet.
+    ///
+    /// # Errors
+    /// For a tag that the registry does not have.
+    pub fn new(tag: &str) -> Result<Self, FigureError> {
+        let entry = registry::find(tag).ok_or_else(|| {
+            let tags: Vec<&str> = registry::FIGURES.iter().map(|f| f.tag).collect();
+            FigureError::new("tag", format!("{tag:?}"), format!("one of {}", tags.join(", ")))
+        })?;
+        Ok(Self { entry, model: (entry.make)(), canvas: Canvas::default() })
+    }
+
+    /// What the figure is about.
+    pub fn model(&self) -> &dyn Model {
+        &*self.model
+    }
+
+    /// The same, to be acted upon.
+    pub fn model_mut(&mut self) -> &mut dyn Model {
+        &mut *self.model
+    }
+
+    /// Current values by name, in the order of the parameters.
+    pub fn values(&self) -> Vec<(&'static str, String)> {
+        let names = self.model.params().into_iter().map(|p| p.name);
+        names.filter_map(|name| Some((name, self.model.value(name)?))).collect()
+    }
+
+    /// Gives a parameter a new value.
+    ///
+    /// # Errors
+    /// For a name or a value that is refused; the figure is as it was.
+    pub fn set(&mut self, name: &str, value: &str) -> Result<(), FigureError> {
+        self.model.apply(&Action::Set { name: name.into(), value: value.into() })
+    }
+
+    /// Paints the figure: size in device px, device px per css px, and colours. Sizes no screen has are clamped.
+    pub fn paint(&mut self, width_px: u32, height_px: u32, dpr: f64, theme: Theme) {
+        let dpr = if dpr.is_finite() { dpr.clamp(0.25, 16.0) } else { 1.0 };
+        let side = |px: u32| f64::from(px.max(1)) / dpr;
+        let scene = self.model.scene(side(width_px), side(height_px));
+        self.canvas.paint(&scene, width_px, height_px, theme);
+    }
+
+    /// What was painted last.
+    pub fn canvas(&self) -> &Canvas {
+        &self.canvas
+    }
+
+    /// A click at a point of a figure of this width \[css px\]. True if it changed something.
+    pub fn pick(&mut self, x: f64, y: f64, width: f64) -> bool {
+        let scene = self.model.scene(width, self.model.height(width));
+        let scale = scene.width / width; // a very narrow figure is a wider scene made smaller
+        let target = scene.hit([x * scale, y * scale]);
+        target.into_iter().for_each(|target| self.model.pick(target));
+        target.is_some()
+    }
+
+    /// The link that makes this figure again: `name=value&…`.
+    pub fn query(&self) -> String {
+        query::write(self.model())
+    }
+
+    /// Makes the figure what a link says. Returns what was refused; the rest is applied.
+    pub fn load(&mut self, query: &str) -> Vec<FigureError> {
+        query::read(self.model_mut(), query)
+    }
+
+    /// Measured data of every step so far, as CSV with a header.
+    pub fn csv(&self) -> String {
+        export::csv(self.model())
+    }
+
+    /// The same as one JSON object.
+    pub fn json(&self) -> String {
+        export::json(self.entry.tag, self.model())
+    }
+}

@@ -1,0 +1,151 @@
+//! The embedded typeface: Inter in two weights, as outlines that `build.rs` took from `fonts/`.
+//!
+//! A figure writes with these and not with the browser's fonts, so that its text has the same pixels on every machine and
+//! is as crisp as its lines at any zoom. The subset's digits are tabular: a number that changes keeps its width.
+
+/// Weight of the strokes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Weight {
+    /// Inter Regular.
+    Regular,
+    /// Inter SemiBold.
+    SemiBold,
+}
+
+/// A piece of an outline in em (1 = the font size), y up, the baseline at 0.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Segment {
+    /// Starts a contour.
+    Move([f32; 2]),
+    /// Straight to the point.
+    Line([f32; 2]),
+    /// Quadratic curve by its control point.
+    Quad([f32; 2], [f32; 2]),
+    /// Cubic curve by its two control points.
+    Cubic([f32; 2], [f32; 2], [f32; 2]),
+    /// Ends a contour.
+    Close,
+}
+
+/// Width of a line of text at this font size, in the unit of `size`. Characters the font lacks are as wide as `?`.
+pub fn measure(text: &str, size: f64, weight: Weight) -> f64 {
+    let table = weight.table();
+    let units: u32 = text.chars().map(|c| u32::from(table.glyph(c).advance)).sum();
+    f64::from(units) * size / f64::from(table.units_per_em)
+}
+
+/// Height of a capital letter at this font size, in the unit of `size`.
+pub fn cap_height(size: f64, weight: Weight) -> f64 {
+    let table = weight.table();
+    f64::from(table.cap_height) * size / f64::from(table.units_per_em)
+}
+
+/// Calls `put` with every piece of the text's outline and the distance in em from the text's start to its glyph's.
+pub fn outline(text: &str, weight: Weight, mut put: impl FnMut(f32, Segment)) {
+    let table = weight.table();
+    let em = 1.0 / f32::from(table.units_per_em);
+    let mut pen = 0.0;
+    for glyph in text.chars().map(|c| table.glyph(c)) {
+        let mut coordinates = table.coordinates[glyph.coordinates as usize..].iter();
+        let mut point = || [0, 1].map(|_| f32::from(*coordinates.next().expect("two coordinates a point")) * em);
+        for verb in &table.verbs[glyph.verbs.0 as usize..glyph.verbs.1 as usize] {
+            put(
+                pen,
+                match verb {
+                    b'M' => Segment::Move(point()),
+                    b'L' => Segment::Line(point()),
+                    b'Q' => Segment::Quad(point(), point()),
+                    b'C' => Segment::Cubic(point(), point(), point()),
+                    _ => Segment::Close,
+                },
+            );
+        }
+        pen += f32::from(glyph.advance) * em;
+    }
+}
+
+/// True if the font has this character.
+pub fn has(character: char, weight: Weight) -> bool {
+    weight.table().find(character).is_some()
+}
+
+/// What `build.rs` writes for one weight.
+struct Table {
+    units_per_em: u16,
+    cap_height: i16,
+    glyphs: &'static [Glyph],
+    verbs: &'static [u8],
+    coordinates: &'static [i16],
+}
+
+/// Where a character's outline lies in its table, in code point order.
+struct Glyph {
+    character: char,
+    advance: u16,
+    verbs: (u16, u16),
+    coordinates: u16,
+}
+
+impl Table {
+    fn find(&self, character: char) -> Option<&Glyph> {
+        self.glyphs.binary_search_by_key(&character, |g| g.character).ok().map(|i| &self.glyphs[i])
+    }
+
+    fn glyph(&self, character: char) -> &Glyph {
+        self.find(character).or_else(|| self.find('?')).expect("the font has a question mark")
+    }
+}
+
+impl Weight {
+    fn table(self) -> &'static Table {
+        match self {
+            Weight::Regular => &tables::REGULAR,
+            Weight::SemiBold => &tables::SEMI_BOLD,
+        }
+    }
+}
+
+mod tables {
+    use super::{Glyph, Table};
+    include!(concat!(env!("OUT_DIR"), "/font.rs"));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_character_our_figures_write_is_embedded() {
+        let symbols = "←→×±σαη√²³°–—−·…≤≥≈’†";
+        for weight in [Weight::Regular, Weight::SemiBold] {
+            for character in (' '..='~').chain(symbols.chars()) {
+                assert!(has(character, weight), "{character}");
+            }
+        }
+    }
+
+    #[test]
+    fn numbers_keep_their_width_when_a_digit_changes() {
+        for weight in [Weight::Regular, Weight::SemiBold] {
+            let widths: Vec<f64> = ('0'..='9').map(|c| measure(&c.to_string(), 1.0, weight)).collect();
+            assert!(widths.iter().all(|w| *w == widths[0]), "{widths:?}");
+        }
+    }
+
+    #[test]
+    fn an_unknown_character_is_drawn_as_a_question_mark() {
+        assert_eq!(measure("\u{1F600}", 2.0, Weight::Regular), measure("?", 2.0, Weight::Regular));
+    }
+
+    #[test]
+    fn a_capital_stands_on_the_baseline_and_reaches_the_cap_height() {
+        let (mut low, mut high) = (f32::MAX, f32::MIN);
+        outline("H", Weight::Regular, |_, segment| {
+            if let Segment::Move([_, y]) | Segment::Line([_, y]) = segment {
+                (low, high) = (low.min(y), high.max(y));
+            }
+        });
+        assert_eq!(low, 0.0);
+        assert!((f64::from(high) - cap_height(1.0, Weight::Regular)).abs() < 1e-3);
+    }
+}

@@ -1,0 +1,101 @@
+//! Where the parts of the figure stand: side by side where there is room, below each other on a phone.
+
+use super::view::ASPECT;
+use crate::scene::Rect;
+
+/// From this width on \[css px\], the mosaic stands beside the large view.
+pub const WIDE: f64 = 640.0;
+
+/// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
+pub const NARROWEST: f64 = 300.0;
+
+/// Height of a line of the legends \[css px\].
+pub const LINE: f64 = 18.0;
+
+const HEADER: f64 = 26.0;
+const PAD: f64 = 8.0;
+const METER: f64 = 46.0;
+
+/// The parts of the figure \[css px\].
+#[derive(Clone, PartialEq, Debug)]
+pub struct Layout {
+    /// Which universe is shown large, and the step.
+    pub large_header: Rect,
+    /// Its map.
+    pub large: Rect,
+    /// What is drawn in it.
+    pub legend: Rect,
+    /// How many universes there are, and what became of them.
+    pub mosaic_header: Rect,
+    /// All of them.
+    pub mosaic: Rect,
+    /// What borders and marks of the mosaic mean.
+    pub notes: Rect,
+    /// N_eff over the steps.
+    pub meter: Rect,
+    /// Of the whole figure.
+    pub height: f64,
+}
+
+impl Layout {
+    /// For a figure of this width.
+    pub fn new(width: f64) -> Self {
+        let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
+        let legend_lines = if width < 420.0 { 3.0 } else { 2.0 };
+        let note_lines = if (WIDE..760.0).contains(&width) || width < 420.0 { 3.0 } else { 2.0 };
+        let (legend, notes) = (legend_lines * LINE, note_lines * LINE);
+        let below_mosaic = PAD + notes + PAD + METER;
+        let column = |x: f64, y: f64, w: f64| {
+            let header = Rect::new(x, y, w, HEADER);
+            (header, Rect::new(x, header.bottom(), w, w / ASPECT))
+        };
+        let below = |area: &Rect, h: f64| Rect::new(area.x, area.bottom() + PAD, area.w, h);
+        let wide = width >= WIDE;
+        // Side by side, the large view is so much larger that both columns end at the same height.
+        let gap = 28.0;
+        let excess = (below_mosaic - PAD - legend) * ASPECT;
+        let large_width = if wide { (0.5 * (width - gap + excess)).floor() } else { width };
+        let (large_header, large) = column(0.0, 0.0, large_width);
+        let legend = below(&large, legend);
+        let (mosaic_header, mosaic) = if wide {
+            column(large.right() + gap, 0.0, width - large_width - gap)
+        } else {
+            column(0.0, legend.bottom() + PAD, width)
+        };
+        let notes = below(&mosaic, notes);
+        let meter = below(&notes, METER);
+        let height = legend.bottom().max(meter.bottom()).ceil();
+        Self { large_header, large, legend, mosaic_header, mosaic, notes, meter, height }
+    }
+
+    /// All parts.
+    pub fn parts(&self) -> [Rect; 7] {
+        [self.large_header, self.large, self.legend, self.mosaic_header, self.mosaic, self.notes, self.meter]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_lie_inside_the_figure_and_never_overlap() {
+        for width in (300..2000).step_by(7).map(f64::from) {
+            let layout = Layout::new(width);
+            let parts = layout.parts();
+            let figure = Rect::new(0.0, 0.0, width, layout.height);
+            for (k, a) in parts.iter().enumerate() {
+                assert!(figure.encloses(a), "{width}: part {k}");
+                assert!(parts[..k].iter().all(|b| !a.overlaps(b)), "{width}: part {k}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_large_view_is_the_larger_one() {
+        for width in [640.0, 800.0, 1280.0] {
+            let layout = Layout::new(width);
+            assert!(layout.large.w > layout.mosaic.w && layout.mosaic.w > 0.35 * width, "{width}");
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! Figure w17.1, the Apartment lap: a mosaic of universes, each with its own map, path and robot, and one of them large.
+
+mod grid;
+mod layout;
+mod model;
+mod params;
+mod scene;
+mod view;
+
+pub use layout::Layout;
+pub use model::LapModel;

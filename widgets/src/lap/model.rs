@@ -1,0 +1,434 @@
+//! The lap as a deterministic state: what was set, which step is shown, and keyframes to go back by.
+
+use super::{
+    layout::{Layout, NARROWEST},
+    params, scene,
+};
+use crate::{
+    model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series},
+    param::{Value, unknown},
+    scene::Scene,
+};
+use fastslam::{
+    experiment::lap::{Lap, LapSetup, StepReport},
+    resampling::ResamplePolicy,
+};
+
+/// Figure w17.1.
+pub struct LapModel {
+    recipe: Recipe,
+    /// The universe chosen for the large view; `None` is the best.
+    universe: Option<u32>,
+    truth: bool,
+    raw: bool,
+    /// The step asked for.
+    asked: u32,
+    /// The step shown.
+    shown: Lap,
+    /// The step before it, unless that was not simulated on the way: the maps of universes that died out since.
+    before: Option<Lap>,
+    /// Every [`interval`]-th step, from 0 on.
+    keyframes: Vec<Lap>,
+    /// Of every step simulated so far, from 0 on.
+    reports: Vec<StepReport>,
+}
+
+/// What decides the numbers.
+#[derive(Clone, PartialEq)]
+struct Recipe {
+    setup: LapSetup,
+    /// Of the policy "N_eff below", kept while another policy is chosen.
+    threshold: f64,
+}
+
+impl Default for LapModel {
+    fn default() -> Self {
+        let setup = LapSetup::default();
+        let threshold = if let ResamplePolicy::EssBelow(t) = setup.policy { t } else { params::THRESHOLD };
+        let lap = Lap::new(&setup).expect("the default setup is valid");
+        Self {
+            recipe: Recipe { setup, threshold },
+            universe: None,
+            truth: false,
+            raw: false,
+            asked: 0,
+            keyframes: vec![lap.clone()],
+            reports: vec![lap.report().clone()],
+            before: None,
+            shown: lap,
+        }
+    }
+}
+
+impl LapModel {
+    /// Title for readers.
+    pub const TITLE: &'static str = "The Apartment lap";
+
+    /// The lap at the step shown.
+    pub fn lap(&self) -> &Lap {
+        &self.shown
+    }
+
+    /// What the step shown did.
+    pub fn report(&self) -> &StepReport {
+        self.shown.report()
+    }
+
+    /// Reports of steps 0 to the one shown.
+    pub fn history(&self) -> &[StepReport] {
+        &self.reports[..=self.report().step as usize]
+    }
+
+    /// The lap one step earlier, if the universes that died out since are known.
+    pub fn before(&self) -> Option<&Lap> {
+        self.before.as_ref()
+    }
+
+    /// What was set.
+    pub fn setup(&self) -> &LapSetup {
+        &self.recipe.setup
+    }
+
+    /// Slot of the universe in the large view.
+    pub fn selected(&self) -> u32 {
+        self.universe.unwrap_or(self.report().best)
+    }
+
+    /// True if the large view follows the best universe.
+    pub fn follows_best(&self) -> bool {
+        self.universe.is_none()
+    }
+
+    /// Whether the truth is drawn.
+    pub fn shows_truth(&self) -> bool {
+        self.truth
+    }
+
+    /// Whether raw odometry is drawn.
+    pub fn shows_raw(&self) -> bool {
+        self.raw
+    }
+
+    /// Slots whose universe died out at the step shown, in ascending order; none where it did not resample.
+    pub fn extinct(&self) -> Vec<u32> {
+        let Some(ancestors) = &self.report().ancestors else { return Vec::new() };
+        (0..ancestors.len() as u32).filter(|slot| !ancestors.contains(slot)).collect()
+    }
+
+    /// Steps between keyframes: maps share memory, so that a few universes can keep every step, and hundreds some.
+    fn interval(&self) -> u32 {
+        (self.recipe.setup.particles as u32 / 64).max(1)
+    }
+
+    /// Starts anew with another recipe, keeping the view.
+    fn rebuild(&mut self, recipe: Recipe) -> Result<(), FigureError> {
+        let lap = Lap::new(&recipe.setup)?;
+        self.recipe = recipe;
+        self.universe = self.universe.filter(|&slot| (slot as usize) < self.recipe.setup.particles);
+        self.keyframes = vec![lap.clone()];
+        self.reports = vec![lap.report().clone()];
+        self.before = None;
+        self.shown = lap;
+        Ok(())
+    }
+
+    fn set_view(&mut self, name: &str, value: Value) {
+        match (name, value) {
+            ("step", Value::Number(x)) => self.seek(x as u32),
+            ("universe", Value::Word(_)) => self.universe = None,
+            ("universe", Value::Number(x)) => self.universe = (x >= 0.0).then_some(x as u32),
+            ("truth", Value::Flag(on)) => self.truth = on,
+            ("raw", Value::Flag(on)) => self.raw = on,
+            _ => (),
+        }
+    }
+}
+
+impl Recipe {
+    fn set(&mut self, name: &str, value: Value) -> Result<(), FigureError> {
+        let setup = &mut self.setup;
+        match (name, value) {
+            ("universes", Value::Number(x)) => setup.particles = x as usize,
+            ("seed", Value::Number(x)) => setup.seed = x as u64,
+            ("odometry", Value::Number(x)) => setup.odometry_scale = x,
+            ("range-std", Value::Number(x)) => setup.range_std = x,
+            ("proposal", Value::Word(word)) => setup.proposal = word.parse()?,
+            ("matcher", Value::Word(word)) => setup.matcher = word.parse()?,
+            ("scheme", Value::Word(word)) => setup.scheme = word.parse()?,
+            ("policy", Value::Word("neff")) => setup.policy = ResamplePolicy::EssBelow(self.threshold),
+            ("policy", Value::Word(word)) => setup.policy = word.parse()?,
+            ("threshold", Value::Number(x)) => {
+                self.threshold = x;
+                if let ResamplePolicy::EssBelow(fraction) = &mut setup.policy {
+                    *fraction = x;
+                }
+            }
+            _ => (),
+        }
+        Ok(())
+    }
+}
+
+impl Model for LapModel {
+    fn title(&self) -> &'static str {
+        Self::TITLE
+    }
+
+    fn params(&self) -> Vec<ParamSpec> {
+        params::specs(self.recipe.setup.particles)
+    }
+
+    fn value(&self, name: &str) -> Option<String> {
+        let setup = &self.recipe.setup;
+        let flag = |on| if on { "on" } else { "off" }.to_string();
+        Some(match name {
+            "universes" => setup.particles.to_string(),
+            "seed" => setup.seed.to_string(),
+            "odometry" => setup.odometry_scale.to_string(),
+            "range-std" => setup.range_std.to_string(),
+            "proposal" => setup.proposal.to_string(),
+            "matcher" => setup.matcher.to_string(),
+            "policy" => params::policy_name(setup.policy).into(),
+            "threshold" => self.recipe.threshold.to_string(),
+            "scheme" => setup.scheme.to_string(),
+            "step" => self.asked.to_string(),
+            "universe" => self.universe.map_or("best".into(), |slot| slot.to_string()),
+            "truth" => flag(self.truth),
+            "raw" => flag(self.raw),
+            _ => return None,
+        })
+    }
+
+    fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
+        let mut refused = Vec::new();
+        let mut recipe = self.recipe.clone();
+        let specs = self.params();
+        for (name, text) in values {
+            match specs.iter().find(|s| s.name == name) {
+                Some(spec) if spec.group == Group::Setup => {
+                    let result = spec.check(text).and_then(|value| recipe.set(name, value));
+                    refused.extend(result.err());
+                }
+                Some(_) => (),
+                None => refused.push(unknown(name, &specs)),
+            }
+        }
+        if recipe != self.recipe {
+            if recipe.setup == self.recipe.setup {
+                self.recipe = recipe; // a threshold that waits for its policy changes no number
+            } else {
+                refused.extend(self.rebuild(recipe).err());
+            }
+        }
+        // After the setup, because the number of universes decides which of them can be chosen.
+        let specs = self.params();
+        for (name, text) in values {
+            if let Some(spec) = specs.iter().find(|s| s.name == name && s.group == Group::View) {
+                match spec.check(text) {
+                    Ok(value) => self.set_view(name, value),
+                    Err(error) => refused.push(error),
+                }
+            }
+        }
+        refused
+    }
+
+    fn seek(&mut self, step: u32) {
+        self.asked = step.min(self.step_count());
+        // From the newest keyframe before the asked-for step, not at it: the step itself has to be simulated for its
+        // `before` to be known.
+        let index = (self.asked.saturating_sub(1) / self.interval()).min(self.keyframes.len() as u32 - 1);
+        let start = index * self.interval();
+        let shown = self.step();
+        if self.asked < shown || start > shown {
+            self.shown = self.keyframes[index as usize].clone();
+            self.before = None;
+        }
+    }
+
+    fn pick(&mut self, target: u32) {
+        if (target as usize) < self.recipe.setup.particles {
+            self.universe = if self.universe == Some(target) { None } else { Some(target) };
+        }
+    }
+
+    fn step_count(&self) -> u32 {
+        self.shown.step_count()
+    }
+
+    fn step(&self) -> u32 {
+        self.report().step
+    }
+
+    fn pending(&self) -> u32 {
+        self.asked - self.step()
+    }
+
+    fn work(&mut self) {
+        if self.pending() == 0 {
+            return;
+        }
+        self.before = Some(self.shown.clone());
+        self.shown.step();
+        let (step, interval) = (self.step(), self.interval());
+        if self.reports.len() == step as usize {
+            self.reports.push(self.report().clone());
+        }
+        if self.keyframes.len() as u32 * interval == step {
+            self.keyframes.push(self.shown.clone());
+        }
+    }
+
+    fn readouts(&self) -> Vec<Readout> {
+        let (report, m) = (self.report(), self.recipe.setup.particles);
+        let readout = |name, title, value: f64, text, unit, help| Readout {
+            name,
+            title,
+            value: value.is_finite().then_some(value),
+            text: if value.is_finite() { text } else { "–".into() },
+            unit,
+            help,
+        };
+        let metres = |name, title, x: f64, help| readout(name, title, x, format!("{x:.3}"), "m", help);
+        let kilobytes = |name, title, bytes: u64, help| {
+            let x = bytes as f64 / 1000.0;
+            readout(name, title, x, format!("{x:.0}"), "KB", help)
+        };
+        let (unique, dense) = (report.map_bytes_unique, report.map_bytes_dense);
+        let share = 100.0 * unique as f64 / dense as f64;
+        vec![
+            readout(
+                "step",
+                "Step",
+                f64::from(report.step),
+                format!("{} of {}", report.step, self.step_count()),
+                "",
+                "The step shown, and the last one of the lap.",
+            ),
+            metres(
+                "rms_best",
+                "RMS error, best universe",
+                report.rms_best,
+                "Root mean square distance of the best universe's path from the truth, step 0 to now.",
+            ),
+            metres(
+                "rms_best_aligned",
+                "… after rigid alignment",
+                report.rms_best_aligned,
+                "The same after the path was moved as a whole to fit best: a map is only ever right up to a rigid motion.",
+            ),
+            metres(
+                "rms_odometry",
+                "RMS error, raw odometry",
+                report.rms_odometry,
+                "Root mean square distance of the path that the wheels alone report from the truth.",
+            ),
+            readout(
+                "ess",
+                "N_eff",
+                report.ess,
+                format!("{:.1} of {m}", report.ess),
+                "",
+                "Effective number of universes before resampling: M if all weigh the same, 1 if one has all the weight.",
+            ),
+            readout(
+                "lineage",
+                "Lineage",
+                f64::from(report.lineage),
+                format!("{} of {m}", report.lineage),
+                "",
+                "How many of the universes of step 0 still have a descendant.",
+            ),
+            kilobytes("map_unique", "Memory of the maps", unique, "What all maps hold together, shared tiles counted once; 1 KB is 1000 bytes."),
+            kilobytes("map_dense", "… as dense arrays", dense, "What the maps would hold if each were an array of its own."),
+            readout(
+                "map_share",
+                "Memory share",
+                share,
+                format!("{share:.0}"),
+                "%",
+                "Memory of the maps as a share of dense arrays: the rest is shared, or never seen.",
+            ),
+        ]
+    }
+
+    fn series(&self) -> Series {
+        const fn column(name: &'static str, help: &'static str) -> Column {
+            Column { name, help }
+        }
+        const COLUMNS: &[Column] = &[
+            column("step", "step of the lap"),
+            column("rms_best_m", "RMS position error of the best universe's path so far [m]"),
+            column("rms_best_aligned_m", "the same after the best rigid alignment [m]"),
+            column("rms_odometry_m", "RMS position error of raw odometry so far [m]"),
+            column("ess", "effective number of universes before resampling"),
+            column("best", "slot of the best universe"),
+            column("resampled", "1 where the step resampled"),
+            column("died_out", "universes without offspring at this resampling"),
+            column("lineage", "distinct ancestors at step 0"),
+            column("matched", "universes whose scan matcher was trusted"),
+            column("map_unique_bytes", "memory of all maps, shared tiles counted once [bytes]"),
+            column("map_dense_bytes", "memory of as many dense arrays [bytes]"),
+        ];
+        let row = |r: &StepReport| {
+            vec![
+                f64::from(r.step),
+                r.rms_best,
+                r.rms_best_aligned,
+                r.rms_odometry,
+                r.ess,
+                f64::from(r.best),
+                f64::from(u8::from(r.ancestors.is_some())),
+                r.ancestors.as_ref().map_or(0, |a| died_out(a)) as f64,
+                f64::from(r.lineage),
+                f64::from(r.matched),
+                r.map_bytes_unique as f64,
+                r.map_bytes_dense as f64,
+            ]
+        };
+        Series { columns: COLUMNS, rows: self.reports.iter().map(row).collect() }
+    }
+
+    fn describe(&self) -> String {
+        let (report, m, slot) = (self.report(), self.recipe.setup.particles, self.selected());
+        let universes = if m == 1 { "1 universe".into() } else { format!("{m} universes") };
+        let who = if slot == report.best {
+            format!("universe {slot}, the best")
+        } else {
+            format!("universe {slot}; the best is {}", report.best)
+        };
+        let mut text = format!("Step {} of {}, {universes}. Shown large is {who}. ", report.step, self.step_count());
+        if report.step == 0 {
+            text.push_str("All start at the same known place with the same map.");
+            return text;
+        }
+        text.push_str(&format!(
+            "The best path is off by {:.2} m (RMS), raw odometry by {:.2} m. N_eff is {:.1} of {m}: ",
+            report.rms_best, report.rms_odometry, report.ess
+        ));
+        match &report.ancestors {
+            None => text.push_str("no resampling at this step."),
+            Some(ancestors) => {
+                let parent = ancestors[slot as usize];
+                let origin = if parent == slot { "kept its slot".into() } else { format!("is a copy of universe {parent}") };
+                text.push_str(&format!("resampled, {} of {m} died out; universe {slot} {origin}.", died_out(ancestors)));
+            }
+        }
+        text
+    }
+
+    fn height(&self, width: f64) -> f64 {
+        // Narrower than the layout goes, the figure is made smaller as a whole.
+        Layout::new(width).height * (width / width.max(NARROWEST))
+    }
+
+    fn scene(&self, width: f64, height: f64) -> Scene {
+        scene::build(self, width, height)
+    }
+}
+
+/// How many slots no one descends from. Ancestors are in ascending order.
+pub fn died_out(ancestors: &[u32]) -> usize {
+    let survivors = 1 + ancestors.windows(2).filter(|pair| pair[0] != pair[1]).count();
+    ancestors.len() - survivors
+}

@@ -1,0 +1,131 @@
+//! What a figure is to everyone else: a deterministic state that actions change and readouts describe.
+//!
+//! A model has no clock and no frame time. Its state is a function of the *recipe*, the values of its parameters, so that a
+//! link, a saved figure and a replay are the same thing. Long computations are cut into steps: an action says what is
+//! asked for, [`Model::pending`] how far that is away, and [`Model::work`] goes one step nearer.
+
+use crate::scene::Scene;
+pub use crate::param::{Choice, Group, Kind, ParamSpec};
+/// Why a value was refused: the parameter, and one line that names it, what was given and what is allowed.
+pub use fastslam::error::ParameterError as FigureError;
+
+/// What a reader can do to a figure.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Action {
+    /// Gives a parameter a new value.
+    Set {
+        /// [`ParamSpec::name`].
+        name: String,
+        /// As text, from an attribute, a control or a link.
+        value: String,
+    },
+    /// Asks for a step of the simulation; beyond the last means the last.
+    Seek(u32),
+    /// Chooses one of the things drawn (of the lap: the universe of this slot), or lets go of it if it was chosen.
+    Pick(u32),
+}
+
+/// A measured quantity of the state shown.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Readout {
+    /// Identifier, unique in the figure.
+    pub name: &'static str,
+    /// Name for readers.
+    pub title: &'static str,
+    /// The number, if there is one now.
+    pub value: Option<f64>,
+    /// The number as it is to be written, without its unit.
+    pub text: String,
+    /// Unit of value and text; empty for pure numbers.
+    pub unit: &'static str,
+    /// What it means, in a sentence.
+    pub help: &'static str,
+}
+
+/// A column of the measured data.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Column {
+    /// Identifier with the unit as suffix, e.g. `rms_best_m`.
+    pub name: &'static str,
+    /// What it means, in a sentence.
+    pub help: &'static str,
+}
+
+/// Measured data of every step simulated so far.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Series {
+    /// What the values of a row are.
+    pub columns: &'static [Column],
+    /// One row a step.
+    pub rows: Vec<Vec<f64>>,
+}
+
+/// A figure, without its pixels.
+pub trait Model {
+    /// Title for readers.
+    fn title(&self) -> &'static str;
+
+    /// All parameters with their ranges as they are now (the last step and the number of slots depend on the setup).
+    fn params(&self) -> Vec<ParamSpec>;
+
+    /// Current value of a parameter, as text that [`Model::configure`] takes; `None` for a name it does not know.
+    fn value(&self, name: &str) -> Option<String>;
+
+    /// Gives several parameters new values at once, rebuilding once. What is refused is returned and changes nothing; the
+    /// rest is applied. Values of the setup come first, whatever their order.
+    fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError>;
+
+    /// Asks for a step of the simulation; beyond the last means the last.
+    fn seek(&mut self, step: u32);
+
+    /// Chooses a thing drawn, or lets go of it if it was chosen.
+    fn pick(&mut self, target: u32);
+
+    /// Number of the last step.
+    fn step_count(&self) -> u32;
+
+    /// The step shown.
+    fn step(&self) -> u32;
+
+    /// Steps of simulation between what is shown and what was asked for.
+    fn pending(&self) -> u32;
+
+    /// Does one of the pending steps.
+    fn work(&mut self);
+
+    /// The numbers of the state shown.
+    fn readouts(&self) -> Vec<Readout>;
+
+    /// Measured data of every step simulated so far.
+    fn series(&self) -> Series;
+
+    /// One or two sentences that tell what is shown now.
+    fn describe(&self) -> String;
+
+    /// Height \[css px\] the scene wants at this width \[css px\]. Does not depend on the state, so that nothing below a
+    /// figure ever jumps.
+    fn height(&self, width: f64) -> f64;
+
+    /// What is to be seen, at this size \[css px\].
+    fn scene(&self, width: f64, height: f64) -> Scene;
+
+    /// Does what a reader asks. A refused value leaves the state as it was.
+    fn apply(&mut self, action: &Action) -> Result<(), FigureError> {
+        match action {
+            Action::Set { name, value } => match self.configure(&[(name.clone(), value.clone())]).pop() {
+                Some(error) => return Err(error),
+                None => (),
+            },
+            Action::Seek(step) => self.seek(*step),
+            Action::Pick(target) => self.pick(*target),
+        }
+        Ok(())
+    }
+
+    /// Does all pending work.
+    fn settle(&mut self) {
+        while self.pending() > 0 {
+            self.work();
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Filling rectangles and magnifying maps, straight into the pixels.
+
+use super::Rgb;
+use crate::scene::{Cells, UNKNOWN};
+use tiny_skia::Pixmap;
+
+/// A rectangle of device pixels, upper ends exclusive; may lie partly or wholly outside of the canvas.
+#[derive(Clone, Copy, Debug)]
+pub struct Area {
+    pub x0: i32,
+    pub y0: i32,
+    pub x1: i32,
+    pub y1: i32,
+}
+
+impl Area {
+    fn within(self, pixels: &Pixmap) -> Option<[usize; 4]> {
+        let (width, height) = (pixels.width() as i32, pixels.height() as i32);
+        let [x0, x1] = [self.x0, self.x1].map(|x| x.clamp(0, width) as usize);
+        let [y0, y1] = [self.y0, self.y1].map(|y| y.clamp(0, height) as usize);
+        (x0 < x1 && y0 < y1).then_some([x0, y0, x1, y1])
+    }
+}
+
+/// One colour.
+pub fn fill(pixels: &mut Pixmap, area: Area, [r, g, b]: Rgb) {
+    let Some([x0, y0, x1, y1]) = area.within(pixels) else { return };
+    let line = [r, g, b, 255].repeat(x1 - x0);
+    let stride = 4 * pixels.width() as usize;
+    for row in pixels.data_mut().chunks_exact_mut(stride).take(y1).skip(y0) {
+        row[4 * x0..4 * x1].copy_from_slice(&line);
+    }
+}
+
+/// Cells, each in the colour of its shade. A cell becomes a block of whole device pixels; where cells are smaller than
+/// pixels, a pixel shows a wall if one lies in it, because walls are one cell thin.
+pub fn raster(pixels: &mut Pixmap, area: Area, cells: &Cells, colors: &[Rgb; 256]) {
+    let Some([x0, y0, x1, y1]) = area.within(pixels) else { return };
+    let rows = cells.shades.len() / cells.columns;
+    let spans_x = spans(area.x0, area.x1, cells.columns);
+    let spans_y = spans(area.y0, area.y1, rows);
+    let stride = 4 * pixels.width() as usize;
+    let mut line = vec![0; 4 * (x1 - x0)];
+    let mut last = (usize::MAX, usize::MAX);
+    for y in y0..y1 {
+        let span = spans_y[(y as i32 - area.y0) as usize];
+        if span != last {
+            last = span;
+            for (pixel, x) in line.chunks_exact_mut(4).zip(x0..) {
+                let shade = darkest(cells, spans_x[(x as i32 - area.x0) as usize], span);
+                let [r, g, b] = colors[usize::from(shade)];
+                pixel.copy_from_slice(&[r, g, b, 255]);
+            }
+        }
+        pixels.data_mut()[y * stride + 4 * x0..][..line.len()].copy_from_slice(&line);
+    }
+}
+
+/// The cells [first, end) that each device pixel from `start` to `end` shows, of `count` in a row.
+fn spans(start: i32, end: i32, count: usize) -> Vec<(usize, usize)> {
+    let size = (end - start) as usize;
+    (0..size)
+        .map(|pixel| {
+            let first = (2 * pixel + 1) * count / (2 * size); // the cell below the pixel's middle
+            if size >= count { (first, first + 1) } else { (pixel * count / size, (pixel + 1) * count / size) }
+        })
+        .collect()
+}
+
+/// A wall if there is one, else what is freest: unknown cells must not close an open door.
+fn darkest(cells: &Cells, (i0, i1): (usize, usize), (j0, j1): (usize, usize)) -> u8 {
+    if i1 == i0 + 1 && j1 == j0 + 1 {
+        return cells.shades[j0 * cells.columns + i0];
+    }
+    let (mut least, mut most) = (u8::MAX, u8::MIN);
+    for j in j0..j1 {
+        for &shade in &cells.shades[j * cells.columns + i0..j * cells.columns + i1] {
+            (least, most) = (least.min(shade), most.max(shade));
+        }
+    }
+    if most > UNKNOWN { most } else { least }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{FREE, OCCUPIED};
+
+    fn colors() -> [Rgb; 256] {
+        core::array::from_fn(|shade| [shade as u8; 3])
+    }
+
+    fn red(pixels: &Pixmap) -> Vec<u8> {
+        pixels.data().chunks_exact(4).map(|p| p[0]).collect()
+    }
+
+    #[test]
+    fn cells_become_equal_blocks() {
+        let mut pixels = Pixmap::new(4, 4).unwrap();
+        let cells = Cells { columns: 2, shades: vec![10, 20, 30, 40] };
+        raster(&mut pixels, Area { x0: 0, y0: 0, x1: 4, y1: 4 }, &cells, &colors());
+        assert_eq!(red(&pixels), [10, 10, 20, 20, 10, 10, 20, 20, 30, 30, 40, 40, 30, 30, 40, 40]);
+    }
+
+    #[test]
+    fn a_wall_thinner_than_a_pixel_survives() {
+        let mut pixels = Pixmap::new(3, 1).unwrap();
+        let mut shades = vec![FREE; 9];
+        (shades[1], shades[8]) = (OCCUPIED, UNKNOWN);
+        raster(&mut pixels, Area { x0: 0, y0: 0, x1: 3, y1: 1 }, &Cells { columns: 9, shades }, &colors());
+        assert_eq!(red(&pixels), [OCCUPIED, FREE, FREE]);
+    }
+
+    #[test]
+    fn what_lies_outside_is_not_drawn() {
+        let mut pixels = Pixmap::new(2, 2).unwrap();
+        fill(&mut pixels, Area { x0: -5, y0: -5, x1: 1, y1: 1 }, [9, 9, 9]);
+        fill(&mut pixels, Area { x0: 2, y0: 0, x1: 9, y1: 9 }, [9, 9, 9]);
+        fill(&mut pixels, Area { x0: 1, y0: 1, x1: 0, y1: 0 }, [9, 9, 9]);
+        let cells = Cells { columns: 1, shades: vec![7] };
+        raster(&mut pixels, Area { x0: 1, y0: 1, x1: 9, y1: 9 }, &cells, &colors());
+        assert_eq!(red(&pixels), [9, 0, 0, 7]);
+    }
+}

@@ -1,0 +1,237 @@
+//! Colours: one palette for each theme, and what each role means in it.
+//!
+//! Hues are told apart by readers with any colour vision (blue, magenta, orange and green differ in lightness too), and no
+//! meaning hangs on hue alone: lines differ in dash and width, weights in width, extinction in its cross. The contrasts that
+//! WCAG 2.2 asks for (4.5 for text, 3 for marks) are tested below for every theme.
+
+use crate::scene::{FREE, OCCUPIED, Role, Shading, UNKNOWN};
+
+/// Red, green and blue, 0 to 255.
+pub type Rgb = [u8; 3];
+
+/// Which palette.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Theme {
+    /// Dark marks on white.
+    #[default]
+    Light,
+    /// Light marks on near black.
+    Dark,
+    /// Light, for readers who asked for more contrast.
+    ContrastLight,
+    /// Dark, for readers who asked for more contrast.
+    ContrastDark,
+}
+
+struct Palette {
+    paper: Rgb,
+    ink: Rgb,
+    muted: Rgb,
+    frame: Rgb,
+    path: Rgb,
+    truth: Rgb,
+    odometry: Rgb,
+    copied: Rgb,
+    extinct: Rgb,
+    hit: Rgb,
+    /// Borders of weight nothing and of full weight.
+    weight: [Rgb; 2],
+    /// Cells surely free, never seen, surely occupied.
+    cells: [Rgb; 3],
+}
+
+const LIGHT: Palette = Palette {
+    paper: rgb(0xffffff),
+    ink: rgb(0x15202b),
+    muted: rgb(0x596573),
+    frame: rgb(0xc9d0d8),
+    path: rgb(0x0a62c4),
+    truth: rgb(0xb0266f),
+    odometry: rgb(0xa64f00),
+    copied: rgb(0x5a3fc0),
+    extinct: rgb(0xa8281e),
+    hit: rgb(0xffffff),
+    weight: [rgb(0x8a95a1), rgb(0x007c45)],
+    cells: [rgb(0xffffff), rgb(0xd5dbe2), rgb(0x2a3644)],
+};
+
+const DARK: Palette = Palette {
+    paper: rgb(0x12161c),
+    ink: rgb(0xeef2f6),
+    muted: rgb(0xa9b4c0),
+    frame: rgb(0x3c4653),
+    path: rgb(0x6ab7ff),
+    truth: rgb(0xf593c8),
+    odometry: rgb(0xf0a35a),
+    copied: rgb(0xbda6ff),
+    extinct: rgb(0xff8a7d),
+    hit: rgb(0x12161c),
+    weight: [rgb(0x66717e), rgb(0x3ddc97)],
+    cells: [rgb(0x12161c), rgb(0x343d49), rgb(0xd3dbe4)],
+};
+
+const CONTRAST_LIGHT: Palette = Palette {
+    paper: rgb(0xffffff),
+    ink: rgb(0x000000),
+    muted: rgb(0x2e3640),
+    frame: rgb(0x5c6670),
+    path: rgb(0x0036a8),
+    truth: rgb(0x8a0050),
+    odometry: rgb(0x6e3400),
+    copied: rgb(0x3d1fa3),
+    extinct: rgb(0x8c0d05),
+    hit: rgb(0xffffff),
+    weight: [rgb(0x6b7580), rgb(0x00562f)],
+    cells: [rgb(0xffffff), rgb(0xb9c0c8), rgb(0x000000)],
+};
+
+const CONTRAST_DARK: Palette = Palette {
+    paper: rgb(0x000000),
+    ink: rgb(0xffffff),
+    muted: rgb(0xd5dce4),
+    frame: rgb(0x8f9aa6),
+    path: rgb(0x8ccaff),
+    truth: rgb(0xffb0db),
+    odometry: rgb(0xffbe7a),
+    copied: rgb(0xd6c8ff),
+    extinct: rgb(0xffaaa0),
+    hit: rgb(0x000000),
+    weight: [rgb(0x8a959f), rgb(0x5cffb0)],
+    cells: [rgb(0x000000), rgb(0x46505b), rgb(0xffffff)],
+};
+
+const fn rgb(hex: u32) -> Rgb {
+    [(hex >> 16) as u8, (hex >> 8) as u8, hex as u8]
+}
+
+/// Between two colours, `t` from 0 to `full`, in whole numbers.
+fn mix(a: Rgb, b: Rgb, t: i32, full: i32) -> Rgb {
+    [0, 1, 2].map(|k| {
+        let (a, b) = (i32::from(a[k]), i32::from(b[k]));
+        (a + ((b - a) * t * 2 + full * (b - a).signum()) / (2 * full)) as u8
+    })
+}
+
+impl Theme {
+    /// By the name that the page uses; light for any other.
+    pub fn named(name: &str) -> Self {
+        match name {
+            "dark" => Self::Dark,
+            "contrast-light" => Self::ContrastLight,
+            "contrast-dark" => Self::ContrastDark,
+            _ => Self::Light,
+        }
+    }
+
+    fn palette(self) -> &'static Palette {
+        match self {
+            Self::Light => &LIGHT,
+            Self::Dark => &DARK,
+            Self::ContrastLight => &CONTRAST_LIGHT,
+            Self::ContrastDark => &CONTRAST_DARK,
+        }
+    }
+
+    /// The colour of a role.
+    pub fn color(self, role: Role) -> Rgb {
+        let palette = self.palette();
+        match role {
+            Role::Paper => palette.paper,
+            Role::Ink => palette.ink,
+            Role::Muted => palette.muted,
+            Role::Frame => palette.frame,
+            Role::Path => palette.path,
+            Role::Truth => palette.truth,
+            Role::Odometry => palette.odometry,
+            Role::Copied => palette.copied,
+            Role::Extinct => palette.extinct,
+            Role::Hit => palette.hit,
+            Role::Weight(level) => mix(palette.weight[0], palette.weight[1], i32::from(level), 255),
+        }
+    }
+
+    /// The colours of all shades of a cell.
+    pub fn shades(self, shading: Shading) -> [Rgb; 256] {
+        let palette = self.palette();
+        let [free, unknown, occupied] = palette.cells;
+        core::array::from_fn(|shade| {
+            let (shade, middle) = (shade as i32, i32::from(UNKNOWN));
+            let color = if shade < middle {
+                mix(free, unknown, shade - i32::from(FREE), middle - i32::from(FREE))
+            } else {
+                mix(unknown, occupied, shade - middle, i32::from(OCCUPIED) - middle)
+            };
+            match shading {
+                Shading::Map => color,
+                Shading::Ghost => mix(color, palette.paper, 6, 10),
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const THEMES: [Theme; 4] = [Theme::Light, Theme::Dark, Theme::ContrastLight, Theme::ContrastDark];
+
+    /// Relative luminance of WCAG 2.2.
+    fn luminance(color: Rgb) -> f64 {
+        let [r, g, b] = color.map(|c| {
+            let c = f64::from(c) / 255.0;
+            if c <= 0.040_45 { c / 12.92 } else { fastslam::ops::exp(2.4 * fastslam::ops::ln((c + 0.055) / 1.055)) }
+        });
+        0.2126 * r + 0.7152 * g + 0.0722 * b
+    }
+
+    fn contrast(a: Rgb, b: Rgb) -> f64 {
+        let (a, b) = (luminance(a), luminance(b));
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    #[test]
+    fn text_has_the_contrast_of_wcag_aa_and_in_contrast_themes_of_aaa() {
+        for theme in THEMES {
+            let least = if matches!(theme, Theme::Light | Theme::Dark) { 4.5 } else { 7.0 };
+            for role in [Role::Ink, Role::Muted, Role::Copied, Role::Extinct, Role::Path] {
+                let ratio = contrast(theme.color(role), theme.color(Role::Paper));
+                assert!(ratio >= least, "{theme:?} {role:?}: {ratio}");
+            }
+        }
+    }
+
+    #[test]
+    fn lines_stand_out_from_paper_free_and_unknown_cells() {
+        for theme in THEMES {
+            let shades = theme.shades(Shading::Map);
+            for role in [Role::Path, Role::Truth, Role::Odometry, Role::Weight(255)] {
+                for ground in [theme.color(Role::Paper), shades[usize::from(FREE)], shades[usize::from(UNKNOWN)]] {
+                    let ratio = contrast(theme.color(role), ground);
+                    assert!(ratio >= 3.0, "{theme:?} {role:?}: {ratio}");
+                }
+            }
+            for role in [Role::Weight(0), Role::Weight(128)] {
+                let ratio = contrast(theme.color(role), theme.color(Role::Paper));
+                assert!(ratio >= 3.0, "{theme:?} {role:?}: {ratio}");
+            }
+        }
+    }
+
+    #[test]
+    fn walls_stand_out_from_free_and_unknown_cells_and_their_hits_from_walls() {
+        for theme in THEMES {
+            let shades = theme.shades(Shading::Map);
+            let [free, unknown, occupied] = [FREE, UNKNOWN, OCCUPIED].map(|s| shades[usize::from(s)]);
+            assert!(contrast(occupied, free) >= 7.0, "{theme:?}");
+            assert!(contrast(occupied, unknown) >= 4.5, "{theme:?}");
+            assert!(contrast(theme.color(Role::Hit), occupied) >= 4.5, "{theme:?}");
+            assert!(contrast(free, unknown) >= 1.3, "{theme:?}");
+        }
+    }
+
+    #[test]
+    fn the_ends_of_a_mix_are_its_colours() {
+        let (a, b) = (rgb(0x102030), rgb(0xf0e000));
+        assert_eq!((mix(a, b, 0, 255), mix(a, b, 255, 255)), (a, b));
+    }
+}

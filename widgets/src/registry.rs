@@ -1,0 +1,22 @@
+//! All figures by tag. Tests and tools iterate over this list.
+
+use crate::{lap::LapModel, model::Model};
+
+/// A kind of figure.
+pub struct Entry {
+    /// Its custom element.
+    pub tag: &'static str,
+    /// Its title for readers.
+    pub title: &'static str,
+    /// A new one, of which nothing was asked yet.
+    pub make: fn() -> Box<dyn Model>,
+}
+
+/// Every kind there is.
+pub const FIGURES: &[Entry] =
+    &[Entry { tag: "fastslam-lap", title: LapModel::TITLE, make: || Box::new(LapModel::default()) }];
+
+/// The figure of a tag.
+pub fn find(tag: &str) -> Option<&'static Entry> {
+    FIGURES.iter().find(|f| f.tag == tag)
+}

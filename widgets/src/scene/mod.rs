@@ -1,0 +1,157 @@
+//! What is to be seen, as data: marks with roles instead of colours, lengths in css px, x right and y down.
+//!
+//! A scene is a pure function of a model and a size. It can be tested without looking at a pixel, told in words, and
+//! painted in any theme.
+
+mod clip;
+mod rect;
+mod text;
+
+pub use clip::clip_polyline;
+pub use rect::Rect;
+pub use text::{Anchor, Text};
+
+/// A point \[css px\].
+pub type Point = [f64; 2];
+
+/// What a mark means. Themes give each a colour.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Role {
+    /// The background.
+    Paper,
+    /// Text and what must be seen first.
+    Ink,
+    /// Text of less weight.
+    Muted,
+    /// Lines that only part areas.
+    Frame,
+    /// The path and the robot of the universe in the large view.
+    Path,
+    /// What truly happened: only the reader may see it.
+    Truth,
+    /// Raw odometry, integrated.
+    Odometry,
+    /// Copied from another universe at this resampling.
+    Copied,
+    /// Died out at this resampling.
+    Extinct,
+    /// The mean of the hits in a cell, drawn on an occupied cell.
+    Hit,
+    /// A border that tells a weight, from 0 (no weight) to 255 (full).
+    Weight(u8),
+}
+
+/// How the cells of a map are coloured.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Shading {
+    /// A living universe.
+    Map,
+    /// One that died out: faded.
+    Ghost,
+}
+
+/// A rectangle of map cells, row by row from the top.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Cells {
+    /// Number of cells in a row.
+    pub columns: usize,
+    /// [`FREE`] to [`OCCUPIED`], [`UNKNOWN`] in the middle.
+    pub shades: Vec<u8>,
+}
+
+/// The shade of a cell that is surely free.
+pub const FREE: u8 = 0;
+/// The shade of a cell nobody looked at.
+pub const UNKNOWN: u8 = 128;
+/// The shade of a cell that is surely occupied.
+pub const OCCUPIED: u8 = 255;
+
+/// Something to draw. Later marks cover earlier ones.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Mark {
+    /// A map.
+    Raster {
+        /// Where.
+        area: Rect,
+        /// What.
+        cells: Cells,
+        /// How.
+        shading: Shading,
+    },
+    /// A filled rectangle.
+    Fill {
+        /// Where.
+        area: Rect,
+        /// Its meaning.
+        role: Role,
+    },
+    /// The border of a rectangle, inside of its edges.
+    Frame {
+        /// Its outer edges.
+        area: Rect,
+        /// Thickness \[css px\].
+        width: f64,
+        /// Its meaning.
+        role: Role,
+    },
+    /// Open polylines of one kind.
+    Lines {
+        /// Each one's points.
+        lines: Vec<Vec<Point>>,
+        /// Thickness \[css px\].
+        width: f64,
+        /// Lengths of dash and gap \[css px\]; `None` for solid.
+        dash: Option<[f64; 2]>,
+        /// Its meaning.
+        role: Role,
+    },
+    /// Filled polygons of one kind.
+    Polygons {
+        /// Each one's corners.
+        polygons: Vec<Vec<Point>>,
+        /// Its meaning.
+        role: Role,
+    },
+    /// Filled discs of one kind.
+    Discs {
+        /// Their centres.
+        centres: Vec<Point>,
+        /// \[css px\]
+        radius: f64,
+        /// Its meaning.
+        role: Role,
+    },
+    /// One line of text.
+    Text(Text),
+}
+
+/// A place that answers to a click or a tap.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Region {
+    /// Where.
+    pub area: Rect,
+    /// Argument of [`crate::model::Action::Pick`].
+    pub target: u32,
+}
+
+/// Everything a figure shows.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Scene {
+    /// \[css px\]
+    pub width: f64,
+    /// \[css px\]
+    pub height: f64,
+    /// In the order of drawing.
+    pub marks: Vec<Mark>,
+    /// Disjoint.
+    pub regions: Vec<Region>,
+    /// The same in words.
+    pub description: String,
+}
+
+impl Scene {
+    /// What a click at this point \[css px\] picks.
+    pub fn hit(&self, point: Point) -> Option<u32> {
+        self.regions.iter().find(|r| r.area.contains(point)).map(|r| r.target)
+    }
+}

@@ -1,0 +1,205 @@
+//! The figures in the browser: the only code that knows of JavaScript. Every method is one line; what it does is in
+//! [`crate::figure`] and [`crate::model`].
+
+use crate::{figure, model::FigureError, paint::Theme, registry};
+use core::cell::RefCell;
+use js_sys::{Array, Error, Object, Reflect};
+use wasm_bindgen::prelude::*;
+
+thread_local! {
+    /// What the last panic said. The instance is dead after it, but its memory can still be read.
+    static LAST_PANIC: RefCell<Option<String>> = const { RefCell::new(None) };
+}
+
+/// Runs once, when the module is loaded: a panic goes to the console and stays to be asked for.
+#[wasm_bindgen(start)]
+pub fn start() {
+    std::panic::set_hook(Box::new(|info| {
+        let message = info.to_string();
+        web_sys::console::error_1(&JsValue::from_str(&message));
+        LAST_PANIC.set(Some(message));
+    }));
+}
+
+/// What the last panic said, if there was one.
+#[wasm_bindgen]
+pub fn last_panic() -> Option<String> {
+    LAST_PANIC.with_borrow(Clone::clone)
+}
+
+/// Tags of all figures.
+#[wasm_bindgen]
+pub fn tags() -> Vec<String> {
+    registry::FIGURES.iter().map(|f| f.tag.into()).collect()
+}
+
+/// One figure on a page; to be freed when it leaves the page.
+#[wasm_bindgen]
+pub struct Figure(figure::Figure);
+
+#[wasm_bindgen]
+impl Figure {
+    /// The figure of a tag, of which nothing was asked yet.
+    #[wasm_bindgen(constructor)]
+    pub fn new(tag: &str) -> Result<Figure, Error> {
+        figure::Figure::new(tag).map(Self).map_err(thrown)
+    }
+
+    /// Title for readers.
+    pub fn title(&self) -> String {
+        self.0.model().title().into()
+    }
+
+    /// All parameters: an array of `ParamSpec`.
+    pub fn params(&self) -> Array {
+        self.0.model().params().iter().map(objects::param).collect()
+    }
+
+    /// Current values by name.
+    pub fn values(&self) -> Object {
+        objects::object(self.0.values().iter().map(|(name, value)| (*name, value.into())))
+    }
+
+    /// Gives a parameter a new value; throws a `FigureError` if it is refused.
+    pub fn set(&mut self, name: &str, value: &str) -> Result<(), Error> {
+        self.0.set(name, value).map_err(thrown)
+    }
+
+    /// Number of the last step.
+    pub fn step_count(&self) -> u32 {
+        self.0.model().step_count()
+    }
+
+    /// The step shown.
+    pub fn step(&self) -> u32 {
+        self.0.model().step()
+    }
+
+    /// Asks for a step; beyond the last means the last.
+    pub fn seek(&mut self, step: u32) {
+        self.0.model_mut().seek(step);
+    }
+
+    /// Steps of simulation still to do before what was asked for is shown.
+    pub fn pending(&self) -> u32 {
+        self.0.model().pending()
+    }
+
+    /// Does one of them.
+    pub fn work(&mut self) {
+        self.0.model_mut().work();
+    }
+
+    /// The numbers of the state shown: an array of `Readout`.
+    pub fn readouts(&self) -> Array {
+        self.0.model().readouts().iter().map(objects::readout).collect()
+    }
+
+    /// One or two sentences that tell what is shown now.
+    pub fn describe(&self) -> String {
+        self.0.model().describe()
+    }
+
+    /// Height \[css px\] that the figure wants at this width \[css px\].
+    pub fn height(&self, width_css: f64) -> f64 {
+        self.0.model().height(width_css)
+    }
+
+    /// Paints: size \[device px\], device px per css px, and "light", "dark", "contrast-light" or "contrast-dark".
+    pub fn paint(&mut self, width_px: u32, height_px: u32, dpr: f64, theme: &str) {
+        self.0.paint(width_px, height_px, dpr, Theme::named(theme));
+    }
+
+    /// Address of the pixels in the module's memory: RGBA, row by row. Any call may move them, and the memory.
+    pub fn pixels(&self) -> u32 {
+        self.0.canvas().pixels().as_ptr() as u32
+    }
+
+    /// A click at a point of a figure of this width \[css px\]. True if it changed something.
+    pub fn pick(&mut self, x_css: f64, y_css: f64, width_css: f64) -> bool {
+        self.0.pick(x_css, y_css, width_css)
+    }
+
+    /// The link that makes this figure again.
+    pub fn query(&self) -> String {
+        self.0.query()
+    }
+
+    /// Makes the figure what a link says; returns a line for everything that was refused.
+    pub fn load(&mut self, query: &str) -> Vec<String> {
+        self.0.load(query).into_iter().map(|error| error.message).collect()
+    }
+
+    /// Measured data of every step so far, as CSV.
+    pub fn csv(&self) -> String {
+        self.0.csv()
+    }
+
+    /// The same as JSON.
+    pub fn json(&self) -> String {
+        self.0.json()
+    }
+}
+
+/// A JavaScript Error with the parameter as a property.
+fn thrown(error: FigureError) -> Error {
+    let thrown = Error::new(&error.message);
+    thrown.set_name("FigureError");
+    objects::put(&thrown, "parameter", &error.parameter.into());
+    thrown
+}
+
+/// Plain objects for the page. Written by hand: for these three, a serialiser would be the largest part of the module's glue.
+mod objects {
+    use super::{Array, JsValue, Object, Reflect};
+    use crate::model::{Choice, Group, Kind, ParamSpec, Readout};
+
+    pub fn put(target: &Object, name: &str, value: &JsValue) {
+        // Fails for frozen objects only.
+        Reflect::set(target, &name.into(), value).unwrap_or_default();
+    }
+
+    pub fn object<'a>(entries: impl IntoIterator<Item = (&'a str, JsValue)>) -> Object {
+        let object = Object::new();
+        entries.into_iter().for_each(|(name, value)| put(&object, name, &value));
+        object
+    }
+
+    pub fn param(spec: &ParamSpec) -> Object {
+        let kind = match spec.kind {
+            Kind::Integer => "integer",
+            Kind::Number => "number",
+            Kind::Choice => "choice",
+            Kind::Flag => "flag",
+        };
+        let group = match spec.group {
+            Group::Setup => "setup",
+            Group::View => "view",
+        };
+        let choice = |c: &Choice| object([("value", c.value.into()), ("title", c.title.into())]);
+        object([
+            ("name", spec.name.into()),
+            ("title", spec.title.into()),
+            ("unit", spec.unit.into()),
+            ("kind", kind.into()),
+            ("min", spec.min.into()),
+            ("max", spec.max.into()),
+            ("step", spec.step.into()),
+            ("choices", spec.choices.iter().map(choice).collect::<Array>().into()),
+            ("default", spec.default.as_str().into()),
+            ("group", group.into()),
+            ("help", spec.help.into()),
+        ])
+    }
+
+    pub fn readout(readout: &Readout) -> Object {
+        object([
+            ("name", readout.name.into()),
+            ("title", readout.title.into()),
+            ("value", readout.value.map_or(JsValue::NULL, JsValue::from)),
+            ("text", readout.text.as_str().into()),
+            ("unit", readout.unit.into()),
+            ("help", readout.help.into()),
+        ])
+    }
+}
