@@ -51,7 +51,7 @@ export function say(text) {
 function status(line) {
   // eslint-disable-next-line no-control-regex -- colours of the tools, which would be cut in the middle
   const plain = line.replace(/\x1b\[[0-9;]*m/g, '')
-  process.stdout.write(`\r\x1b[2K${dim(plain.slice(0, (process.stdout.columns ?? 80) - 1))}`)
+  process.stdout.write(`\r\x1b[2K${dim(plain.slice(0, (process.stdout.columns ?? 80) - 3))}`)
 }
 
 /**
