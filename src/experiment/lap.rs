@@ -25,7 +25,7 @@ pub const STEPS: usize = 90;
 /// Noise of the wheels at scale 1: α₁ \[–\], α₂ \[rad²/m²\], α₃ \[–\], α₄ \[m²/rad²\].
 ///
 /// Chosen so that raw odometry drifts by metres: the median RMS of its position over a lap is 3.0 to 3.7 m.
-pub const ALPHAS: [f64; 4] = [0.1, 0.05, 0.05, 0.01];
+pub const ALPHAS: [f64; 4] = [0.1, 0.11, 0.05, 0.01];
 
 /// Beams of a scan, all around.
 pub const BEAMS: usize = 72;
@@ -33,17 +33,18 @@ pub const BEAMS: usize = 72;
 /// Longest range of a beam \[m\].
 pub const MAX_RANGE: f64 = 8.0;
 
-/// Scans taken at the known start, before the first motion.
+/// Scans taken at the known start, before the first motion, while the robot turns by one beam's spacing.
 ///
 /// They anchor the gauge. With one scan only, every universe's map is turned as a whole by the first errors of heading:
-/// consistent with itself, and metres wrong at the far end.
-pub const START_SCANS: u32 = 10;
+/// consistent with itself, and metres wrong at the far end. Looking between the beams matters as much as looking often:
+/// repeated from one heading, the scans leave walls of separate dots, between which the next scan falls.
+pub const START_SCANS: u32 = 20;
 
 /// How the map learns.
-pub const GRID: GridModel = GridModel { cell_size: 0.3, log_odds_hit: 0.9, log_odds_pass: -0.4, surface_std: 0.1 };
+pub const GRID: GridModel = GridModel { cell_size: 0.3, log_odds_hit: 0.9, log_odds_pass: -0.1, surface_std: 0.1 };
 
 /// κ: the share of each beam's log-likelihood that counts.
-pub const TEMPER: f64 = 0.15;
+pub const TEMPER: f64 = 0.7;
 
 /// ε: probability of a reading that has nothing to do with the map.
 pub const OUTLIER: f64 = 0.05;
@@ -89,7 +90,7 @@ impl Default for LapSetup {
             policy: ResamplePolicy::EssBelow(0.5),
             scheme: Scheme::Systematic,
             odometry_scale: 1.0,
-            range_std: 0.05,
+            range_std: 0.02,
         }
     }
 }
@@ -122,8 +123,8 @@ pub struct LapWorld {
     pub controls: Vec<Odometry>,
     /// Scans of steps 1 to [`STEPS`].
     pub scans: Vec<Scan>,
-    /// Scans taken at the start.
-    pub start_scans: Vec<Scan>,
+    /// Scans taken at the start, with the poses they were taken from.
+    pub start_scans: Vec<(Pose2, Scan)>,
 }
 
 impl LapWorld {
@@ -140,12 +141,16 @@ impl LapWorld {
             odometry.push(control.apply(&odometry[k]));
             controls.push(control);
         }
-        let look = |step: usize, look: u32| {
+        let look = |pose: &Pose2, step: usize, look: u32| {
             let mut stream = Stream::at(seed, Purpose::WorldSensor, step as u32, look);
-            sensor.scan(&plan.ranges(&truth[step], &sensor, &mut stream))
+            sensor.scan(&plan.ranges(pose, &sensor, &mut stream))
         };
-        let scans = (1..=STEPS).map(|step| look(step, 0)).collect();
-        let start_scans = (0..START_SCANS).map(|k| look(0, k)).collect();
+        let scans = (1..=STEPS).map(|step| look(&truth[step], step, 0)).collect();
+        let turned = |k: u32| {
+            let spacing = core::f64::consts::TAU / BEAMS as f64;
+            truth[0].compose(&Pose2::new(0.0, 0.0, spacing * f64::from(k) / f64::from(START_SCANS)))
+        };
+        let start_scans = (0..START_SCANS).map(turned).zip(0..).map(|(pose, k)| (pose, look(&pose, 0, k))).collect();
         Self { plan, truth, odometry, controls, scans, start_scans }
     }
 }
@@ -204,8 +209,8 @@ impl Lap {
         let world = LapWorld::new(setup.seed, &motion, setup.range_std);
         let start = world.truth[0];
         let mut map = Grid::new(GRID);
-        for scan in &world.start_scans {
-            map.assimilate(&start, scan);
+        for (pose, scan) in &world.start_scans {
+            map.assimilate(pose, scan);
         }
         let from_motion = FromMotion { motion, scan: ScanModel::new(setup.matcher, TEMPER, OUTLIER) };
         let proposal = match setup.proposal {

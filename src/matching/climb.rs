@@ -1,7 +1,6 @@
 //! Greedy hill climbing over poses.
 
 use crate::geometry::Pose2;
-use crate::ops;
 
 /// Step sizes of a climb.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -23,29 +22,26 @@ pub struct Climb {
     pub value: f64,
 }
 
-/// Climbs `objective` greedily from `start`: tries a step ahead, back, left, right and a turn to each side, takes the best
-/// that improves, halves the steps where none does (the matcher of gmapping; GSB §IV).
+/// Climbs `objective` greedily from `start`: tries a step ahead, back, left, right and a turn to each side, takes each that
+/// improves, and halves the steps where none of the six does (after the matcher of gmapping; GSB §IV).
 pub(crate) fn climb(start: Climb, steps: ClimbSteps, mut objective: impl FnMut(&Pose2) -> f64) -> Climb {
     let mut best = start;
     let (mut linear, mut angular) = (steps.linear, steps.angular);
     for _ in 0..=steps.halvings {
-        // Moves are bounded only by the objective; a bound keeps a hostile one (NaN, plateaus that rise forever) from running on.
-        for _ in 0..MOST_MOVES {
-            let from = best;
-            let (sin, cos) = ops::sin_cos(from.pose.theta);
-            for (ahead, left, turn) in [(1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)] {
-                let (ahead, left) = (ahead * linear, left * linear);
-                let pose = Pose2::new(
-                    from.pose.x + cos * ahead - sin * left,
-                    from.pose.y + sin * ahead + cos * left,
-                    from.pose.theta + turn * angular,
-                );
-                let value = objective(&pose);
-                if value > best.value {
-                    best = Climb { pose, value };
-                }
+        let (mut failed, mut moves) = (0, MOVES.iter().cycle());
+        // Only a hostile objective climbs on for ever; the bound keeps it from hanging a reader's page.
+        for _ in 0..MOST_TRIES {
+            let (ahead, left, turn) = moves.next().copied().unwrap_or_default();
+            let [x, y] = best.pose.transform([ahead * linear, left * linear]);
+            let pose = Pose2::new(x, y, best.pose.theta + turn * angular);
+            let value = objective(&pose);
+            if value > best.value {
+                best = Climb { pose, value };
+                failed = 0;
+            } else {
+                failed += 1;
             }
-            if best.value <= from.value {
+            if failed == MOVES.len() {
                 break;
             }
         }
@@ -55,8 +51,12 @@ pub(crate) fn climb(start: Climb, steps: ClimbSteps, mut objective: impl FnMut(&
     best
 }
 
-/// Most moves at one step size.
-const MOST_MOVES: u32 = 50;
+/// Steps (ahead, left, turn).
+const MOVES: [(f64, f64, f64); 6] =
+    [(1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)];
+
+/// Most evaluations at one step size.
+const MOST_TRIES: u32 = 100;
 
 #[cfg(test)]
 mod tests {

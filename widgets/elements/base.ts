@@ -12,6 +12,7 @@ const sheet = new CSSStyleSheet()
 sheet.replaceSync(css)
 
 const WORK_BUDGET = 8 // [ms] of simulation a frame, which leaves half of a 60 Hz frame to painting and the page
+const CATCH_UP_PAINT = 100 // [ms] between pictures while the simulation catches up
 const SEEN = 0.35 // share of the canvas in view at which the figure begins to play
 const WIDE = 620 // [px] from here on the settings are open at first
 const MAX_PIXELS = 6e6 // a canvas beyond this is painted coarser: no screen shows the difference, every phone feels it
@@ -47,6 +48,7 @@ export abstract class FigureElement extends HTMLElement {
   #inView = false
   #frameRequest = 0
   #mustPaint = false
+  #paintedAt = -Infinity // [ms]
   #mustShowValues = false
   #changeToTell = false
   #toldStep = -1
@@ -172,6 +174,7 @@ export abstract class FigureElement extends HTMLElement {
     this.#recipe = undefined
     this.#crashes = 0
     this.#stopped = false
+    this.#stage.classList.remove('still')
     this.#waiting.clear()
     this.#notices.replaceChildren()
     if (this.#engine) this.#rebuild()
@@ -209,6 +212,7 @@ export abstract class FigureElement extends HTMLElement {
     } catch (error) {
       write(this.#status, '')
       this.#stopped = true
+      this.#stage.classList.add('still')
       const picture = this.querySelector('img, picture') ? ' The picture shows it at rest.' : ''
       this.#notice('start', `This figure is not live here: ${(error as Error).message}.${picture}`, 'Try again', () => this.reset())
     }
@@ -323,7 +327,7 @@ export abstract class FigureElement extends HTMLElement {
 
   /** @internal Undefined until the figure has been seen. */
   getParameter(name: string): unknown {
-    const value = this.#figure?.values()[name] as string | undefined
+    const value = this.#figure && values(this.#figure)[name]
     const spec = this.#specs.find(candidate => candidate.name === name)
     if (value === undefined || !spec) return undefined
     if (spec.kind === 'flag') return value === 'on'
@@ -352,7 +356,7 @@ export abstract class FigureElement extends HTMLElement {
   #showValues(forced?: string): void {
     this.#guard(figure => {
       this.#specs = figure.params() as ParamSpec[]
-      this.#controls!.showValues(this.#specs, figure.values() as Record<string, string>, forced)
+      this.#controls!.showValues(this.#specs, values(figure), forced)
     })
   }
 
@@ -363,7 +367,7 @@ export abstract class FigureElement extends HTMLElement {
   }
 
   #adoptTarget(): void {
-    this.#target = Number(this.#figure!.values()['step'] ?? this.#figure!.step())
+    this.#target = Number(values(this.#figure!)['step'] ?? this.#figure!.step())
   }
 
   // --- Frames --------------------------------------------------------------------------------------------------------------
@@ -397,7 +401,9 @@ export abstract class FigureElement extends HTMLElement {
         this.#mustPaint = true
       }
       this.#fitHeight(figure)
-      if (this.#mustPaint) this.#show(figure)
+      // On the way to a step far off, a look now and then is enough: painting costs more than simulating.
+      const hurry = figure.pending() > 0 && now < this.#paintedAt + CATCH_UP_PAINT
+      if (this.#mustPaint && !hurry) this.#show(figure)
       if (this.#playing || figure.pending() > 0) this.#wake()
     })
   }
@@ -418,19 +424,19 @@ export abstract class FigureElement extends HTMLElement {
 
   #show(figure: Shell): void {
     this.#mustPaint = false
+    this.#paintedAt = performance.now()
     const busy = figure.pending() > 0
     const step = figure.step()
     const readouts = figure.readouts() as Readout[]
     this.#paint(figure)
     this.#showReadouts(readouts)
     this.#controls!.showPosition(this.#target, figure.step_count(), this.#playing, busy)
-    const values = figure.values() as Record<string, string>
     if (this.#mustShowValues) this.#showValues()
     this.#mustShowValues = false
     if (busy) return
     this.#recipe = figure.query()
     this.#say(figure.describe())
-    const detail: FigureDetail = { step, values, readouts }
+    const detail: FigureDetail = { step, values: values(figure), readouts }
     if (this.#changeToTell) this.#tell('fastslam-change', detail)
     this.#changeToTell = false
     if (step !== this.#toldStep) this.#tell('fastslam-step', detail)
@@ -485,11 +491,12 @@ export abstract class FigureElement extends HTMLElement {
   }
 
   #onResize(entry: ResizeObserverEntry): void {
-    const box = entry.devicePixelContentBoxSize?.[0]
     const { width, height } = entry.contentRect
     this.#cssWidth = width
-    const ratio = devicePixelRatio
-    const [w, h] = box ? [box.inlineSize, box.blockSize] : [Math.round(width * ratio), Math.round(height * ratio)]
+    let [w, h] = [Math.round(width * devicePixelRatio), Math.round(height * devicePixelRatio)]
+    // To the very pixel where the browser tells it; but emulated screens tell css pixels here.
+    const box = entry.devicePixelContentBoxSize?.[0]
+    if (box && Math.abs(box.inlineSize - w) < 2) [w, h] = [box.inlineSize, box.blockSize]
     const shrink = Math.min(1, Math.sqrt(MAX_PIXELS / (w * h)))
     this.#deviceWidth = Math.floor(w * shrink)
     this.#deviceHeight = Math.floor(h * shrink)
@@ -648,6 +655,10 @@ export abstract class FigureElement extends HTMLElement {
     if (old) old.replaceWith(line)
     else this.#notices.append(line)
   }
+}
+
+function values(figure: Shell): Record<string, string> {
+  return figure.values() as Record<string, string>
 }
 
 const equipped = new WeakSet<object>()

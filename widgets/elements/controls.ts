@@ -68,13 +68,17 @@ export class Controls {
     const grid = h('div', { class: 'grid' })
     this.settings = h('details', { class: 'settings', part: 'settings' }, h('summary', {}, 'Settings'), grid)
     this.view = h('div', { class: 'view', part: 'view', role: 'group', 'aria-label': 'What is drawn' })
+    const choices: HTMLElement[] = [] // after the sliders, so that the grid has even rows
     for (const spec of specs) {
       if (spec.name === STEP) continue
       const field = fieldFor(spec, value => actions.change(spec.name, value))
       this.fields.set(spec.name, field)
       if (spec.name === SEED) this.transport.lastElementChild!.append(field.element)
-      else (spec.group === 'view' ? this.view : grid).append(field.element)
+      else if (spec.group === 'view') this.view.append(field.element)
+      else if (spec.kind === 'choice') choices.push(field.element)
+      else grid.append(field.element)
     }
+    grid.append(...choices)
   }
 
   /** `force` puts a control back that the reader has set to a refused value. */
@@ -138,11 +142,13 @@ function choiceField(spec: ParamSpec, change: (value: string) => void): Field {
   return {
     element: h('label', { class: 'choice', part: 'control', title: spec.help }, h('span', { class: 'name' }, spec.title), input),
     show: value => void (input.value = value),
-    // A whole number with named values (universe: the best, or any one) is a list of the names, then the numbers.
+    // A whole number with named values (universe: the best, or any one) is a list of the names, then the numbers from 0:
+    // what is below 0 is another spelling of a name.
     limit({ kind, min, max }) {
-      if (kind !== 'integer' || input.length === words + max - min + 1) return false
+      const least = Math.max(min, 0)
+      if (kind !== 'integer' || input.length === words + max - least + 1) return false
       input.length = words
-      for (let i = min; i <= max; i++) input.add(new Option(String(i)))
+      for (let i = least; i <= max; i++) input.add(new Option(String(i)))
       return true
     },
   }

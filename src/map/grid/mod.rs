@@ -11,8 +11,8 @@
 mod ray;
 mod tile;
 
-pub use tile::{Surface, TILE};
 pub(crate) use tile::UNIT;
+use tile::{Surface, TILE};
 
 use super::ConditionalMap;
 use crate::geometry::Pose2;
@@ -64,6 +64,8 @@ pub struct GridModel {
 #[derive(Clone, Debug)]
 pub struct Grid {
     model: GridModel,
+    /// 1 / cell_size \[1/m\].
+    per_cell: f64,
     directory: Arc<Directory>,
 }
 
@@ -78,7 +80,7 @@ struct Directory {
 impl Grid {
     /// An unknown world.
     pub fn new(model: GridModel) -> Self {
-        Self { model, directory: Arc::default() }
+        Self { model, per_cell: 1.0 / model.cell_size, directory: Arc::default() }
     }
 
     /// Side of a cell \[m\].
@@ -104,15 +106,52 @@ impl Grid {
         Some([center(i) + f64::from(surface.mean[0]), center(j) + f64::from(surface.mean[1])])
     }
 
-    /// Log-odds in their stored units of [`tile::UNIT`] nats.
+    /// Log-odds in their stored units of [`UNIT`] nats.
     #[inline]
     pub(crate) fn units(&self, i: i32, j: i32) -> i8 {
         self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT).map_or(0, |t| t.log_odds[tile::local(i, j)])
     }
 
+    /// The cell of a point \[m\].
+    #[inline]
+    pub(crate) fn cell_of(&self, x: f64, y: f64) -> (i32, i32) {
+        (floor(x * self.per_cell), floor(y * self.per_cell))
+    }
+
+    /// Smallest squared Mahalanobis distance of a point \[m\] to the surfaces of the four cells whose centres are nearest;
+    /// `None` where none of them was hit.
+    ///
+    /// The four contain everything within half a cell of the point.
+    #[inline]
+    pub(crate) fn nearest_surface(&self, x: f64, y: f64) -> Option<f64> {
+        let (u, v) = (x * self.per_cell - 0.5, y * self.per_cell - 0.5);
+        let (i, j) = (floor(u), floor(v));
+        // Point relative to the centre of cell (i, j); single precision is what surfaces are kept in.
+        let size = self.model.cell_size;
+        let (x, y, size) = (((u - f64::from(i)) * size) as f32, ((v - f64::from(j)) * size) as f32, size as f32);
+        let mut nearest = f32::INFINITY;
+        let in_tile = |k: i32| k & (TILE - 1) != TILE - 1;
+        if in_tile(i) && in_tile(j) {
+            // The four lie in one tile: one look-up, and one mask for those that were hit.
+            let tile = self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT)?;
+            let first = tile::local(i, j);
+            for (local, surface) in tile.surfaces_of_four(first) {
+                let (di, dj) = ((local - first) & 1, (local - first) >> tile::SHIFT);
+                nearest = nearest.min(surface.mahalanobis2(x - di as f32 * size, y - dj as f32 * size));
+            }
+        } else {
+            for (di, dj) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+                if let Some(surface) = self.surface(i.wrapping_add(di), j.wrapping_add(dj)) {
+                    nearest = nearest.min(surface.mahalanobis2(x - di as f32 * size, y - dj as f32 * size));
+                }
+            }
+        }
+        (nearest < f32::INFINITY).then_some(f64::from(nearest))
+    }
+
     /// The surface of a cell, relative to the centre of the cell.
     #[inline]
-    pub(crate) fn surface(&self, i: i32, j: i32) -> Option<&Surface> {
+    fn surface(&self, i: i32, j: i32) -> Option<&Surface> {
         self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT)?.surface(tile::local(i, j))
     }
 
@@ -229,6 +268,13 @@ impl ConditionalMap for Grid {
             tile.add_hit(tile::local(i, j), offset, surface_std as f32);
         }
     }
+}
+
+/// ⌊x⌋ as an index; saturates, and NaN gives 0. Without the call that `f64::floor` is on a plain x86-64.
+#[inline]
+fn floor(x: f64) -> i32 {
+    let truncated = x as i32;
+    truncated.saturating_sub(i32::from(f64::from(truncated) > x))
 }
 
 fn covers(outer: CellRect, inner: CellRect) -> bool {

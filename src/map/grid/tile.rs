@@ -1,7 +1,7 @@
 //! A tile of 8 × 8 cells: the unit that is shared and copied.
 
 /// Cells along a side of a tile.
-pub const TILE: i32 = 1 << SHIFT;
+pub(super) const TILE: i32 = 1 << SHIFT;
 
 /// log₂ of [`TILE`].
 pub(super) const SHIFT: i32 = 3;
@@ -29,7 +29,7 @@ const PSEUDO_HITS: f32 = 2.0;
 
 /// Normal distribution of the end points in one cell (Biber and Straßer 2003), relative to the centre of the cell.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
-pub struct Surface {
+pub(super) struct Surface {
     /// End points seen.
     pub hits: u32,
     /// Their mean (x, y) \[m\].
@@ -60,9 +60,8 @@ impl Surface {
 
     /// (p − mean)ᵀ Σ⁻¹ (p − mean) of a point relative to the centre of the cell \[m\].
     #[inline]
-    pub(crate) fn mahalanobis2(&self, x: f64, y: f64) -> f64 {
-        let (dx, dy) = (x - f64::from(self.mean[0]), y - f64::from(self.mean[1]));
-        let [xx, xy, yy] = self.information.map(f64::from);
+    pub fn mahalanobis2(&self, x: f32, y: f32) -> f32 {
+        let (dx, dy, [xx, xy, yy]) = (x - self.mean[0], y - self.mean[1], self.information);
         xx * dx * dx + 2.0 * xy * dx * dy + yy * dy * dy
     }
 }
@@ -97,6 +96,21 @@ impl Tile {
             return None;
         }
         self.surfaces.get(self.rank(local))
+    }
+
+    /// The surfaces among cells `first`, its neighbours to the right and above, and the one diagonal to it, which must all lie
+    /// in this tile; with their indices.
+    #[inline]
+    pub fn surfaces_of_four(&self, first: usize) -> impl Iterator<Item = (usize, &Surface)> {
+        let mut left = self.hit & (0b11_0000_0011 << first);
+        core::iter::from_fn(move || {
+            if left == 0 {
+                return None;
+            }
+            let local = left.trailing_zeros() as usize;
+            left &= left - 1;
+            Some((local, self.surfaces.get(self.rank(local))?))
+        })
     }
 
     pub fn add_hit(&mut self, local: usize, offset: [f32; 2], surface_std: f32) {
