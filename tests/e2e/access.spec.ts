@@ -102,7 +102,7 @@ test('the whole figure is worked by keyboard alone', async ({ page }) => {
   // Native keys on sliders, Space from there plays too, buttons by Enter and Space.
   await lap.scrub.focus()
   await page.keyboard.press('ArrowRight')
-  expect(await lap.position()).toBe(1)
+  await expect.poll(() => lap.position()).toBe(1)
   await page.keyboard.press('Space')
   await expect(lap.pause).toBeVisible()
   await page.keyboard.press('Space')
