@@ -17,20 +17,37 @@ export async function checkSize() {
   const browser = await launchChromium()
   try {
     const page = await browser.newPage({ viewport: { width: 1280, height: 800 } })
-    await page.goto(server.url, { waitUntil: 'networkidle' })
-    // Figures and pictures further down are loaded when they are near: a reader who reads on loads those too.
-    await page.evaluate(async () => {
-      for (let y = 0; y < document.documentElement.scrollHeight; y += innerHeight / 2) {
-        scrollTo(0, y)
-        await new Promise(requestAnimationFrame)
-      }
-    })
-    await page.waitForLoadState('networkidle')
+    const quiet = watchRequests(page)
+    await page.goto(server.url)
+    await quiet()
+    // Figures and pictures further down are loaded when they are seen: a reader who reads on loads those too.
+    const end = await page.evaluate(() => document.documentElement.scrollHeight)
+    for (let y = 0; y < end; y += 400) {
+      await page.evaluate(top => scrollTo({ top, behavior: 'instant' }), y)
+      await quiet()
+    }
   } finally {
     await browser.close()
     await server.close()
   }
   return report(answers)
+}
+
+/** Waits until no request has been open for a while. @param {import('@playwright/test').Page} page */
+function watchRequests(page) {
+  const open = new Set()
+  let last = performance.now()
+  page.on('request', request => open.add(request))
+  for (const event of /** @type {const} */ (['requestfinished', 'requestfailed'])) {
+    page.on(/** @type {'requestfinished'} */ (event), request => {
+      open.delete(request)
+      last = performance.now()
+    })
+  }
+  return async () => {
+    const asked = performance.now()
+    while (open.size > 0 || performance.now() - Math.max(last, asked) < 500) await page.waitForTimeout(50)
+  }
 }
 
 /** @param {import('./serve.mjs').Served[]} answers */
