@@ -1,8 +1,7 @@
 //! Filling rectangles and magnifying maps, straight into the pixels.
 
-use super::Rgb;
+use super::{Pixels, Rgb};
 use crate::scene::{Cells, UNKNOWN};
-use tiny_skia::Pixmap;
 
 /// A rectangle of device pixels, upper ends exclusive; may lie partly or wholly outside of the canvas.
 #[derive(Clone, Copy, Debug)]
@@ -14,33 +13,28 @@ pub struct Area {
 }
 
 impl Area {
-    fn within(self, pixels: &Pixmap) -> Option<[usize; 4]> {
-        let (width, height) = (pixels.width() as i32, pixels.height() as i32);
-        let [x0, x1] = [self.x0, self.x1].map(|x| x.clamp(0, width) as usize);
-        let [y0, y1] = [self.y0, self.y1].map(|y| y.clamp(0, height) as usize);
+    fn within(self, pixels: &Pixels) -> Option<[u32; 4]> {
+        let [width, height] = pixels.size().map(|n| n as i32);
+        let [x0, x1] = [self.x0, self.x1].map(|x| x.clamp(0, width) as u32);
+        let [y0, y1] = [self.y0, self.y1].map(|y| y.clamp(0, height) as u32);
         (x0 < x1 && y0 < y1).then_some([x0, y0, x1, y1])
     }
 }
 
 /// One colour.
-pub fn fill(pixels: &mut Pixmap, area: Area, [r, g, b]: Rgb) {
+pub fn fill(pixels: &mut Pixels, area: Area, color: Rgb) {
     let Some([x0, y0, x1, y1]) = area.within(pixels) else { return };
-    let line = [r, g, b, 255].repeat(x1 - x0);
-    let stride = 4 * pixels.width() as usize;
-    for row in pixels.data_mut().chunks_exact_mut(stride).take(y1).skip(y0) {
-        row[4 * x0..4 * x1].copy_from_slice(&line);
-    }
+    (y0..y1).for_each(|y| pixels.blend(y, x0, x1, 255, color));
 }
 
 /// Cells, each in the colour of its shade. A cell becomes a block of whole device pixels; where cells are smaller than
 /// pixels, a pixel shows a wall if one lies in it, because walls are one cell thin.
-pub fn raster(pixels: &mut Pixmap, area: Area, cells: &Cells, colors: &[Rgb; 256]) {
+pub fn raster(pixels: &mut Pixels, area: Area, cells: &Cells, colors: &[Rgb; 256]) {
     let Some([x0, y0, x1, y1]) = area.within(pixels) else { return };
     let rows = cells.shades.len() / cells.columns;
     let spans_x = spans(area.x0, area.x1, cells.columns);
     let spans_y = spans(area.y0, area.y1, rows);
-    let stride = 4 * pixels.width() as usize;
-    let mut line = vec![0; 4 * (x1 - x0)];
+    let mut line = vec![0; 4 * (x1 - x0) as usize];
     let mut last = (usize::MAX, usize::MAX);
     for y in y0..y1 {
         let span = spans_y[(y as i32 - area.y0) as usize];
@@ -52,7 +46,7 @@ pub fn raster(pixels: &mut Pixmap, area: Area, cells: &Cells, colors: &[Rgb; 256
                 pixel.copy_from_slice(&[r, g, b, 255]);
             }
         }
-        pixels.data_mut()[y * stride + 4 * x0..][..line.len()].copy_from_slice(&line);
+        pixels.row(y, x0, x1).copy_from_slice(&line);
     }
 }
 
@@ -90,13 +84,19 @@ mod tests {
         core::array::from_fn(|shade| [shade as u8; 3])
     }
 
-    fn red(pixels: &Pixmap) -> Vec<u8> {
-        pixels.data().chunks_exact(4).map(|p| p[0]).collect()
+    fn canvas(size: [u32; 2]) -> Pixels {
+        let mut pixels = Pixels::default();
+        pixels.clear(size, [0; 3]);
+        pixels
+    }
+
+    fn red(pixels: &Pixels) -> Vec<u8> {
+        pixels.bytes().chunks_exact(4).map(|p| p[0]).collect()
     }
 
     #[test]
     fn cells_become_equal_blocks() {
-        let mut pixels = Pixmap::new(4, 4).unwrap();
+        let mut pixels = canvas([4, 4]);
         let cells = Cells { columns: 2, shades: vec![10, 20, 30, 40] };
         raster(&mut pixels, Area { x0: 0, y0: 0, x1: 4, y1: 4 }, &cells, &colors());
         assert_eq!(red(&pixels), [10, 10, 20, 20, 10, 10, 20, 20, 30, 30, 40, 40, 30, 30, 40, 40]);
@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn a_wall_thinner_than_a_pixel_survives() {
-        let mut pixels = Pixmap::new(3, 1).unwrap();
+        let mut pixels = canvas([3, 1]);
         let mut shades = vec![FREE; 9];
         (shades[1], shades[8]) = (OCCUPIED, UNKNOWN);
         raster(&mut pixels, Area { x0: 0, y0: 0, x1: 3, y1: 1 }, &Cells { columns: 9, shades }, &colors());
@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn what_lies_outside_is_not_drawn() {
-        let mut pixels = Pixmap::new(2, 2).unwrap();
+        let mut pixels = canvas([2, 2]);
         fill(&mut pixels, Area { x0: -5, y0: -5, x1: 1, y1: 1 }, [9, 9, 9]);
         fill(&mut pixels, Area { x0: 2, y0: 0, x1: 9, y1: 9 }, [9, 9, 9]);
         fill(&mut pixels, Area { x0: 1, y0: 1, x1: 0, y1: 0 }, [9, 9, 9]);
