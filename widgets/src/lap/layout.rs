@@ -41,9 +41,7 @@ impl Layout {
     /// For a figure of this width.
     pub fn new(width: f64) -> Self {
         let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
-        let legend_lines = if width < 420.0 { 3.0 } else { 2.0 };
-        let note_lines = if (WIDE..760.0).contains(&width) || width < 420.0 { 3.0 } else { 2.0 };
-        let (legend, notes) = (legend_lines * LINE, note_lines * LINE);
+        let (legend, notes) = (if width < 340.0 { 3.0 } else { 2.0 } * LINE, 2.0 * LINE);
         let below_mosaic = PAD + notes + PAD + METER;
         let column = |x: f64, y: f64, w: f64| {
             let header = Rect::new(x, y, w, HEADER);

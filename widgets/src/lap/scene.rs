@@ -9,7 +9,7 @@ use super::{
 use crate::{
     font::{self, Weight},
     model::Model,
-    scene::{Anchor, FREE, Mark, OCCUPIED, Point, Rect, Region, Role, Scene, Shading, Text, UNKNOWN},
+    scene::{Anchor, Cells, FREE, Mark, OCCUPIED, Point, Rect, Region, Role, Scene, Shading, Text, UNKNOWN},
 };
 use fastslam::{geometry::Pose2, resampling::ResamplePolicy};
 
@@ -18,6 +18,9 @@ const RIM: f64 = 1.25;
 
 /// Shares of weight (1 = 1/M) at which a border is full: a universe that weighs thrice its share.
 const FULL_SHARE: f64 = 3.0;
+
+/// How far the ring around the chosen tile reaches beyond it \[css px\].
+const RING: f64 = 3.0;
 
 /// Tiles narrower than this \[css px\] show no path, and those narrower than the next no labels, and so on.
 const PATH_FROM: f64 = 26.0;
@@ -126,6 +129,7 @@ fn scale_bar(scene: &mut Scene, view: &View) {
 }
 
 /// What a legend's sample looks like.
+#[derive(Clone, Copy)]
 enum Sample {
     Cell(u8),
     Hit,
@@ -133,19 +137,25 @@ enum Sample {
     Border(f64),
     Label,
     Cross,
+    Dot,
 }
 
-/// Samples with their names, in as many lines as it takes.
-fn samples(scene: &mut Scene, area: &Rect, items: Vec<(Sample, String)>) {
+/// Samples with their names, each group on a new line, in as many lines as it takes.
+fn samples(scene: &mut Scene, area: &Rect, groups: &[&[(Sample, &str)]]) {
+    let mut y = area.y;
+    for group in groups {
+        y = sample_group(scene, &Rect::new(area.x, y, area.w, area.bottom() - y), group);
+    }
+}
+
+/// One group; returns where the next can begin.
+fn sample_group(scene: &mut Scene, area: &Rect, items: &[(Sample, &str)]) -> f64 {
     let (size, width, gap) = (11.5, 18.0, 14.0);
     let [mut x, mut y] = [area.x, area.y];
-    for (sample, name) in items {
-        let name_width = font::measure(&name, size, Weight::Regular);
+    for &(sample, name) in items {
+        let name_width = font::measure(name, size, Weight::Regular);
         if x > area.x && x + width + 6.0 + name_width > area.right() {
             (x, y) = (area.x, y + LINE);
-        }
-        if y + LINE > area.bottom() + 0.5 {
-            return; // no room: better no line than half a line
         }
         let label = if let Sample::Label = sample { font::measure("← 7", 10.5, Weight::SemiBold) + 4.0 } else { width };
         let place = Rect::new(x, y + 0.5 * (LINE - 12.0), label, 12.0);
@@ -155,13 +165,14 @@ fn samples(scene: &mut Scene, area: &Rect, items: Vec<(Sample, String)>) {
         x = name_area.x + line.width() + gap;
         scene.marks.push(Mark::Text(line));
     }
+    y + LINE
 }
 
 fn draw_sample(scene: &mut Scene, sample: Sample, place: &Rect) {
     let [cx, cy] = place.centre();
     let marks = &mut scene.marks;
     let mut cell = |shade| {
-        let cells = crate::scene::Cells { columns: 1, shades: vec![shade] };
+        let cells = Cells { columns: 1, shades: vec![shade] };
         marks.push(Mark::Raster { area: *place, cells, shading: Shading::Map });
         marks.push(Mark::Frame { area: *place, width: 1.0, role: Role::Weight(0) });
     };
@@ -177,25 +188,26 @@ fn draw_sample(scene: &mut Scene, sample: Sample, place: &Rect) {
         }
         Sample::Border(share) => marks.push(border(*place, share, 4.0)),
         Sample::Label => marks.push(text(*place, Anchor::Start, 10.5, Weight::SemiBold, Role::Copied, "← 7")),
+        Sample::Dot => marks.push(Mark::Discs { centres: vec![[cx, cy]], radius: 2.5, role: Role::Copied }),
         Sample::Cross => cross(scene, &Rect::new(cx - 5.0, cy - 5.0, 10.0, 10.0)),
     }
 }
 
 fn legend(scene: &mut Scene, model: &LapModel, area: &Rect) {
     let mut items = vec![
-        (Sample::Cell(OCCUPIED), "wall".to_string()),
-        (Sample::Cell(FREE), "free".into()),
-        (Sample::Cell(UNKNOWN), "unknown".into()),
-        (Sample::Hit, "mean of hits".into()),
-        (Sample::Line(Role::Path, 2.25, None), "its path".into()),
+        (Sample::Cell(OCCUPIED), "wall"),
+        (Sample::Cell(FREE), "free"),
+        (Sample::Cell(UNKNOWN), "unknown"),
+        (Sample::Hit, "mean of hits"),
+        (Sample::Line(Role::Path, 2.25, None), "its path"),
     ];
     if model.shows_truth() {
-        items.push((Sample::Line(Role::Truth, 1.5, Some([2.0, 3.0])), "truth".into()));
+        items.push((Sample::Line(Role::Truth, 1.5, Some([2.0, 3.0])), "truth"));
     }
     if model.shows_raw() {
-        items.push((Sample::Line(Role::Odometry, 2.0, Some([7.0, 4.0])), "raw odometry".into()));
+        items.push((Sample::Line(Role::Odometry, 2.0, Some([7.0, 4.0])), "raw odometry"));
     }
-    samples(scene, area, items);
+    samples(scene, area, &[&items]);
 }
 
 /// The border of a universe that weighs this share (1 = 1/M), inside of its tile: greener and wider with weight.
@@ -216,18 +228,19 @@ fn mosaic(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     let (lap, selected) = (model.lap(), model.selected());
     let m = lap.particles().len();
     let extinct = model.extinct();
-    let name = if m == 1 { "1 universe".to_string() } else { format!("{m} universes") };
+    let name = if m == 1 { "1 universe".into() } else { format!("{m} universes") };
     match &model.report().ancestors {
         Some(_) if extinct.is_empty() => heading(scene, &layout.mosaic_header, (&name, Role::Ink), "resampled: none died out"),
         Some(_) => {
             let title = format!("Resampled: {} of {m} died out", extinct.len());
             heading(scene, &layout.mosaic_header, (&title, Role::Extinct), "");
         }
+        None if m == 1 => heading(scene, &layout.mosaic_header, (&name, Role::Ink), "the only hypothesis"),
         None if model.step() == 0 => heading(scene, &layout.mosaic_header, (&name, Role::Ink), "all alike at the start"),
         None => heading(scene, &layout.mosaic_header, (&name, Role::Ink), "each with a map of its own"),
     }
 
-    let tiles = Tiles::fit(&layout.mosaic, m, ASPECT);
+    let tiles = Tiles::fit(&layout.mosaic.inset(RING), m, ASPECT);
     let width = tiles.size[0];
     let full = (0.05 * width).clamp(2.0, 5.0);
     let map_area = |slot: usize| tiles.tile(slot).inset(full + if width < PATH_FROM { 0.0 } else { 1.0 });
@@ -241,8 +254,8 @@ fn mosaic(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     if width >= PATH_FROM {
         paths(scene, model, &map_area, width);
     }
-    let ring = tiles.tile(selected as usize).inset(-0.45 * tiles.gap);
-    scene.marks.push(Mark::Frame { area: ring, width: (0.2 * tiles.gap).clamp(1.0, 2.0), role: Role::Ink });
+    let ring = tiles.tile(selected as usize).inset(-(0.5 * tiles.gap).min(RING));
+    scene.marks.push(Mark::Frame { area: ring, width: if width < PATH_FROM { 1.0 } else { 1.5 }, role: Role::Ink });
     if m > 1 {
         for slot in 0..m as u32 {
             origin(scene, model, slot, &map_area(slot as usize), width);
@@ -302,18 +315,18 @@ fn origin(scene: &mut Scene, model: &LapModel, slot: u32, map: &Rect, width: f64
 
 /// The universe that died out in this slot: its last map, faded and crossed out, or where there is no room a cross.
 fn ghost(scene: &mut Scene, model: &LapModel, slot: u32, map: &Rect, width: f64) {
-    let w = 0.42 * map.w;
+    let w = 0.46 * map.w;
     let corner = |w: f64, h: f64| Rect::new(map.right() - w, map.bottom() - h, w, h);
     match model.before() {
         Some(before) if width >= GHOST_FROM => {
             let area = corner(w, w / ASPECT);
             let cells = view::shades(&before.particles()[slot as usize].map);
-            let Rect { x, y, w, h } = area.inset(1.0);
+            let Rect { x, y, w, h } = area;
             let lines = vec![vec![[x, y], [x + w, y + h]], vec![[x, y + h], [x + w, y]]];
             scene.marks.extend([
                 Mark::Fill { area: area.inset(-1.0), role: Role::Paper },
                 Mark::Raster { area, cells, shading: Shading::Ghost },
-                Mark::Lines { lines, width: 1.25, dash: None, role: Role::Extinct },
+                Mark::Lines { lines, width: 1.0, dash: None, role: Role::Extinct },
                 Mark::Frame { area, width: 1.0, role: Role::Extinct },
             ]);
         }
@@ -326,16 +339,11 @@ fn ghost(scene: &mut Scene, model: &LapModel, slot: u32, map: &Rect, width: f64)
 
 fn notes(scene: &mut Scene, model: &LapModel, area: &Rect) {
     if model.lap().particles().len() == 1 {
-        return samples(scene, area, vec![(Sample::Border(1.0), "weight: all of it".into())]);
+        return samples(scene, area, &[&[(Sample::Border(1.0), "weight: all of it")]]);
     }
-    let items = vec![
-        (Sample::Border(0.0), "weight 0".to_string()),
-        (Sample::Border(1.0), "1/M".into()),
-        (Sample::Border(FULL_SHARE), "3/M or more".into()),
-        (Sample::Label, "copied from".into()),
-        (Sample::Cross, "died out".into()),
-    ];
-    samples(scene, area, items);
+    let weights = [(Sample::Border(0.0), "weight 0"), (Sample::Border(1.0), "1/M"), (Sample::Border(FULL_SHARE), "3/M or more")];
+    let resampling = [(Sample::Dot, "resampled"), (Sample::Label, "copied from"), (Sample::Cross, "died out")];
+    samples(scene, area, &[&weights, &resampling]);
 }
 
 /// N_eff over the steps, with the threshold that calls for resampling and the steps that did.

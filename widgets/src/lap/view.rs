@@ -17,7 +17,7 @@ pub const ASPECT: f64 = 44.0 / 34.0;
 const CELL: f64 = 0.3;
 
 /// Log-odds \[nats\] at which a cell is drawn as surely free, and as surely occupied.
-const SURE: [f64; 2] = [-1.6, 2.7];
+const SURE: [f64; 2] = [-1.5, 2.7];
 
 /// A map view at a place in the figure.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -78,8 +78,9 @@ pub fn shades(map: &Grid) -> Cells {
 }
 
 fn shade(log_odds: f64) -> u8 {
+    // Square roots: the first looks matter more than the last, above all whether there was any.
     let (end, sure) = if log_odds < 0.0 { (FREE, SURE[0]) } else { (OCCUPIED, SURE[1]) };
-    let t = (log_odds / sure).min(1.0);
+    let t = (log_odds / sure).min(1.0).sqrt();
     (f64::from(UNKNOWN) + t * (f64::from(end) - f64::from(UNKNOWN))).round() as u8
 }
 

@@ -163,7 +163,7 @@ impl Theme {
             };
             match shading {
                 Shading::Map => color,
-                Shading::Ghost => mix(color, palette.paper, 6, 10),
+                Shading::Ghost => mix(color, palette.paper, 45, 100),
             }
         })
     }

@@ -1,0 +1,108 @@
+//! The states of the figures whose pixels and numbers are kept: `tests/goldens.rs` compares them natively, `tests/browser` in
+//! WebAssembly.
+
+use fastslam::digest::Digest;
+use fastslam_widgets::{figure::Figure, model::Readout, paint::Theme};
+
+/// A figure in a state, at a size, in a theme.
+#[derive(Clone, Copy, Debug)]
+pub struct Picture {
+    /// Names its file.
+    pub name: &'static str,
+    /// The figure.
+    pub tag: &'static str,
+    /// Its state.
+    pub query: &'static str,
+    /// \[css px\]
+    pub width: u32,
+    /// Device px per css px.
+    pub dpr: u32,
+    /// Colours, by the name that the page uses.
+    pub theme: &'static str,
+}
+
+const fn lap(name: &'static str, query: &'static str, width: u32, dpr: u32, theme: &'static str) -> Picture {
+    Picture { name, tag: "fastslam-lap", query, width, dpr, theme }
+}
+
+/// The first two are what readers without JavaScript see: the default lap on its way back, just resampled.
+pub const PICTURES: &[Picture] = &[
+    lap("fastslam-lap-light", RESAMPLED, 800, 2, "light"),
+    lap("fastslam-lap-dark", RESAMPLED, 800, 2, "dark"),
+    lap("start", "", 800, 1, "light"),
+    lap("overlays", "step=62&universe=9&truth=on&raw=on", 800, 1, "dark"),
+    lap("end-narrow", "step=90&truth=on&raw=on", 340, 2, "light"),
+    lap("phone", RESAMPLED, 380, 1, "contrast-dark"),
+    lap("tiny", RESAMPLED, 240, 1, "contrast-light"),
+    lap("one", "universes=1&step=30", 640, 1, "light"),
+    lap("motion-64", "universes=64&proposal=motion&matcher=cell&step=41", 800, 1, "light"),
+    lap("motion-256", "universes=256&proposal=motion&matcher=cell&step=12", 800, 1, "dark"),
+    lap("motion-256-narrow", "universes=256&proposal=motion&matcher=cell&step=12", 340, 1, "light"),
+];
+
+/// A step of the default lap at which it resampled.
+const RESAMPLED: &str = "step=61";
+
+/// Setups whose readouts are kept for every step.
+pub const LAPS: &[&str] = &[
+    "",
+    "universes=1",
+    "universes=7&seed=5&proposal=motion&matcher=cell",
+    "universes=24&policy=always&scheme=residual&odometry=1.5",
+    "policy=never&range-std=0.1&scheme=multinomial",
+];
+
+/// The figure of a tag in the state that a link names, simulated.
+///
+/// # Panics
+/// For an unknown tag or a link that is refused.
+pub fn figure(tag: &str, query: &str) -> Figure {
+    let mut figure = Figure::new(tag).expect("a tag of the registry");
+    let refused = figure.load(query);
+    assert!(refused.is_empty(), "{query}: {refused:?}");
+    figure.model_mut().settle();
+    figure
+}
+
+impl Picture {
+    /// Width and height \[device px\] for the height that the figure wants \[css px\].
+    pub fn size(&self, height: f64) -> [u32; 2] {
+        [self.width * self.dpr, (height * f64::from(self.dpr)).round() as u32]
+    }
+
+    /// Paints it: the figure, and its width and height \[device px\].
+    pub fn paint(&self) -> (Figure, [u32; 2]) {
+        let mut figure = figure(self.tag, self.query);
+        let size = self.size(figure.model().height(f64::from(self.width)));
+        figure.paint(size[0], size[1], f64::from(self.dpr), Theme::named(self.theme));
+        (figure, size)
+    }
+}
+
+/// Puts one readout's bits and text into a digest, by what the page gets of it.
+pub fn put_readout(digest: &mut Digest, name: &str, value: Option<f64>, text: &str) {
+    digest.bytes(name.as_bytes());
+    digest.u32(u32::from(value.is_some()));
+    digest.f64(value.unwrap_or(0.0));
+    digest.bytes(text.as_bytes());
+}
+
+/// Every readout of every step of a lap, and what is said of it, as a fingerprint.
+pub fn readouts(tag: &str, query: &str) -> Digest {
+    let mut figure = figure(tag, query);
+    let mut digest = Digest::new();
+    for step in 0..=figure.model().step_count() {
+        figure.model_mut().seek(step);
+        figure.model_mut().settle();
+        for Readout { name, value, text, .. } in figure.model().readouts() {
+            put_readout(&mut digest, name, value, &text);
+        }
+        digest.bytes(figure.model().describe().as_bytes());
+    }
+    digest
+}
+
+/// One line of a golden file: a name, and the size and value of its digest.
+pub fn line(name: &str, digest: &Digest) -> String {
+    format!("{name} {} {:016x}\n", digest.size(), digest.value())
+}

@@ -1,0 +1,85 @@
+//! Exact pictures and numbers. A change that is wanted is written with `UPDATE_GOLDENS=1 cargo test -p figures`, looked at, and
+//! committed.
+
+use fastslam::digest::Digest;
+use figures::{LAPS, PICTURES, line, readouts};
+use std::{
+    env, fs,
+    io::BufWriter,
+    path::{Path, PathBuf},
+};
+
+fn golden(file: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(file)
+}
+
+fn update() -> bool {
+    env::var_os("UPDATE_GOLDENS").is_some()
+}
+
+/// RGB is enough: every pixel is opaque.
+fn rgb(rgba: &[u8]) -> Vec<u8> {
+    assert!(rgba.chunks_exact(4).all(|p| p[3] == 255), "a pixel is not opaque");
+    rgba.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect()
+}
+
+fn write_png(path: &Path, [width, height]: [u32; 2], pixels: &[u8]) {
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    let file = BufWriter::new(fs::File::create(path).unwrap());
+    let mut encoder = png::Encoder::new(file, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::High);
+    encoder.set_filter(png::Filter::NoFilter);
+    encoder.write_header().unwrap().write_image_data(pixels).unwrap();
+}
+
+fn read_png(path: &Path) -> Option<([u32; 2], Vec<u8>)> {
+    let file = std::io::BufReader::new(fs::File::open(path).ok()?);
+    let mut reader = png::Decoder::new(file).read_info().ok()?;
+    let mut pixels = vec![0; reader.output_buffer_size()?];
+    let info = reader.next_frame(&mut pixels).ok()?;
+    Some(([info.width, info.height], pixels))
+}
+
+/// Compares a text file, or writes it.
+fn same_text(file: &str, text: &str) {
+    if update() {
+        fs::write(golden(file), text).unwrap();
+    }
+    let kept = fs::read_to_string(golden(file)).unwrap_or_default();
+    for (kept, now) in kept.lines().zip(text.lines()) {
+        assert_eq!(kept, now, "{file}: the number changed; UPDATE_GOLDENS=1 writes it if that is wanted");
+    }
+    assert_eq!(kept.lines().count(), text.lines().count(), "{file}: UPDATE_GOLDENS=1 writes new lines");
+}
+
+#[test]
+fn every_picture_is_the_golden_one_to_the_last_pixel() {
+    let mut wrong = Vec::new();
+    let mut digests = String::new();
+    for picture in PICTURES {
+        let (figure, size) = picture.paint();
+        let mut digest = Digest::new();
+        digest.bytes(figure.canvas().pixels());
+        digests += &line(picture.name, &digest);
+        let pixels = rgb(figure.canvas().pixels());
+        let file = format!("{}.png", picture.name);
+        if update() {
+            write_png(&golden(&file), size, &pixels);
+        }
+        if read_png(&golden(&file)) != Some((size, pixels.clone())) {
+            let actual = Path::new(env!("CARGO_TARGET_TMPDIR")).join(&file);
+            write_png(&actual, size, &pixels);
+            wrong.push(format!("{} is not {}", actual.display(), golden(&file).display()));
+        }
+    }
+    assert!(wrong.is_empty(), "look at both, then UPDATE_GOLDENS=1 if the change is wanted:\n{}", wrong.join("\n"));
+    same_text("pixels.txt", &digests); // what the browser compares
+}
+
+#[test]
+fn every_readout_of_every_step_is_the_golden_one() {
+    let text: String = LAPS.iter().map(|query| line(&format!("fastslam-lap?{query}"), &readouts("fastslam-lap", query))).collect();
+    same_text("readouts.txt", &text);
+}

@@ -1,0 +1,249 @@
+//! Laws of the lap's figure, by its public face: what a page can do to it.
+
+use fastslam_widgets::{
+    figure::Figure,
+    lap::{LapModel, Layout},
+    model::{Action, Kind, Model},
+    registry::FIGURES,
+    scene::{Mark, Rect, Scene},
+};
+
+fn lap(query: &str) -> Figure {
+    let mut figure = Figure::new("fastslam-lap").unwrap();
+    assert_eq!(figure.load(query), [], "{query}");
+    figure.model_mut().settle();
+    figure
+}
+
+/// Everything a reader gets from a state, for comparing two ways to it.
+fn state(figure: &Figure) -> (String, Vec<String>, Scene) {
+    let model = figure.model();
+    let readouts = model.readouts().iter().map(|r| format!("{r:?} {:?}", r.value.map(f64::to_bits))).collect();
+    (figure.query(), readouts, model.scene(800.0, model.height(800.0)))
+}
+
+fn scene(figure: &Figure, width: f64) -> Scene {
+    figure.model().scene(width, figure.model().height(width))
+}
+
+#[test]
+fn every_parameter_refuses_what_is_out_of_range_and_stays_as_it_was() {
+    for entry in FIGURES {
+        let mut figure = Figure::new(entry.tag).unwrap();
+        figure.model_mut().seek(3);
+        figure.model_mut().settle();
+        let before = state(&figure);
+        for spec in figure.model().params() {
+            let mut bad = vec!["nonsense".to_string(), "NaN".into(), "1e999".into(), "-7".into(), "💥\n".repeat(50)];
+            if matches!(spec.kind, Kind::Integer | Kind::Number) {
+                bad.extend([(spec.min - 1.0).to_string(), (spec.max + 1.0).to_string(), String::new()]);
+            }
+            for value in bad {
+                let error = figure.set(spec.name, &value).unwrap_err();
+                assert_eq!(error.parameter, spec.name);
+                assert!(error.message.contains(spec.name) && error.message.contains("must be"), "{error}");
+                assert_eq!(error.message.lines().count(), 1, "{error}");
+            }
+        }
+        assert!(figure.set("colour", "red").unwrap_err().message.contains("universes"));
+        assert_eq!(state(&figure), before);
+        assert_eq!(figure.model().pending(), 0);
+    }
+}
+
+#[test]
+fn every_default_and_every_choice_is_accepted() {
+    for entry in FIGURES {
+        let mut figure = Figure::new(entry.tag).unwrap();
+        for spec in figure.model().params() {
+            assert_eq!(figure.model().value(spec.name).as_ref(), Some(&spec.default), "{}", spec.name);
+            for value in spec.choices.iter().map(|c| c.value).chain([spec.default.as_str()]) {
+                figure.set(spec.name, value).unwrap();
+                assert_eq!(figure.model().value(spec.name).as_deref(), Some(value), "{}", spec.name);
+            }
+        }
+        assert_eq!(figure.query(), "");
+    }
+}
+
+#[test]
+fn the_core_takes_the_ends_of_every_range() {
+    for query in ["universes=1", "universes=256&odometry=0&range-std=0.01", "seed=4294967295&odometry=2&range-std=0.3&threshold=1"] {
+        lap(query);
+    }
+}
+
+#[test]
+fn a_step_back_shows_the_same_bits_as_the_way_forward() {
+    for query in ["universes=5&seed=9", "universes=200&proposal=motion&matcher=cell"] {
+        let mut figure = lap(query);
+        let mut forward = Vec::new();
+        for step in 0..=7 {
+            figure.model_mut().seek(step);
+            figure.model_mut().settle();
+            forward.push(state(&figure));
+        }
+        for step in [6, 5, 0, 7, 3, 4, 1, 1] {
+            figure.model_mut().seek(step);
+            figure.model_mut().settle();
+            assert_eq!(state(&figure), forward[step as usize], "{query}, step {step}");
+        }
+    }
+}
+
+#[test]
+fn a_link_brings_back_the_whole_state() {
+    let mut figure = lap("universes=9&seed=77&policy=always&scheme=residual&threshold=0.25&step=6&universe=4&truth=on");
+    assert_eq!(figure.query(), "universes=9&seed=77&policy=always&threshold=0.25&scheme=residual&step=6&universe=4&truth=on");
+    let other = lap(&format!("?{}", figure.query()));
+    assert_eq!(state(&figure), state(&other));
+    // A link is the whole state: what it does not name is the default again.
+    assert_eq!(figure.load("seed=5"), []);
+    assert_eq!(figure.query(), "seed=5");
+}
+
+#[test]
+fn a_bad_link_is_told_of_and_the_rest_of_it_applied() {
+    let mut figure = Figure::new("fastslam-lap").unwrap();
+    let messages: Vec<String> =
+        figure.load("universes=999&seed=5&tempo=3&universe=12&proposal=magic&&=&%zz=%").into_iter().map(|e| e.message).collect();
+    assert_eq!(figure.query(), "seed=5&universe=12");
+    for part in ["tempo", "universes = \"999\": must be a whole number from 1 to 256", "proposal = \"magic\": must be one of aware, motion"] {
+        assert!(messages.iter().any(|m| m.contains(part)), "{part}: {messages:?}");
+    }
+    // A universe that another setting of the same link does away with.
+    let messages = figure.load("universe=12&universes=8");
+    assert_eq!(messages.len(), 1);
+    assert!(messages[0].message.contains("from -1 to 7"), "{messages:?}");
+    assert_eq!(figure.query(), "universes=8");
+}
+
+#[test]
+fn a_new_setup_keeps_the_step_and_is_simulated_up_to_it() {
+    let mut figure = lap("universes=3&step=5");
+    figure.set("seed", "8").unwrap();
+    assert_eq!((figure.model().step(), figure.model().pending()), (0, 5));
+    figure.model_mut().work();
+    assert_eq!((figure.model().step(), figure.model().pending()), (1, 4));
+    figure.model_mut().settle();
+    assert_eq!(state(&figure), state(&lap("universes=3&seed=8&step=5")));
+    // What changes no number is not simulated.
+    figure.set("truth", "on").unwrap();
+    figure.set("seed", "8").unwrap();
+    assert_eq!(figure.model().pending(), 0);
+    figure.model_mut().seek(u32::MAX);
+    assert_eq!(figure.model().value("step").unwrap(), figure.model().step_count().to_string());
+}
+
+#[test]
+fn a_click_on_a_tile_chooses_its_universe_and_another_lets_go() {
+    let mut figure = lap("universes=12&step=2");
+    for width in [200.0, 340.0, 800.0] {
+        let scene = scene(&figure, width);
+        let region = scene.regions.iter().find(|r| r.target == 7).unwrap();
+        let scale = width / scene.width;
+        let [x, y] = region.area.centre().map(|c| c * scale);
+        assert!(figure.pick(x, y, width));
+        assert_eq!(figure.model().value("universe").unwrap(), "7");
+        assert!(figure.model().describe().contains("universe 7"));
+        assert!(figure.pick(x, y, width));
+        assert_eq!(figure.model().value("universe").unwrap(), "best");
+        assert!(!figure.pick(-1.0, f64::NAN, width));
+    }
+    figure.set("universe", "11").unwrap();
+    figure.set("universes", "4").unwrap();
+    assert_eq!(figure.model().value("universe").unwrap(), "best", "there is no universe 11 any more");
+}
+
+#[test]
+fn extinction_is_told_in_words_marks_and_data() {
+    let mut model = LapModel::default();
+    model.apply(&Action::Set { name: "policy".into(), value: "always".into() }).unwrap();
+    model.seek(4);
+    model.settle();
+    let extinct = model.extinct();
+    assert!(!extinct.is_empty() && extinct.len() < 16);
+    let told = format!("{} of 16 died out", extinct.len());
+    assert!(model.describe().contains(&told), "{}", model.describe());
+    let scene = model.scene(800.0, model.height(800.0));
+    let texts: Vec<&str> = scene.marks.iter().filter_map(|m| if let Mark::Text(t) = m { Some(t.text.as_str()) } else { None }).collect();
+    assert!(texts.contains(&format!("Resampled: {told}").as_str()), "{texts:?}");
+    let copies = texts.iter().filter(|t| t.starts_with("← ")).count();
+    assert!(copies > extinct.len(), "a slot whose universe died holds a copy, and the legend shows one");
+    let last = model.series().rows.pop().unwrap();
+    assert_eq!(last[7], extinct.len() as f64);
+}
+
+#[test]
+fn texts_fit_their_boxes_and_the_figure_and_cover_no_other() {
+    for query in ["universes=1&step=1", "step=2&truth=on&raw=on", "universes=100&seed=4294967295&step=2&policy=always"] {
+        let figure = lap(query);
+        for width in [240.0, 300.0, 340.0, 380.0, 500.0, 639.0, 640.0, 700.0, 800.0, 1280.0] {
+            let scene = scene(&figure, width);
+            let bounds = Rect::new(0.0, 0.0, scene.width, scene.height);
+            let mut inked: Vec<(Rect, &str)> = Vec::new();
+            for mark in &scene.marks {
+                let Mark::Text(text) = mark else { continue };
+                assert!(text.width() <= text.area.w + 1e-9 && text.size <= text.area.h, "{query} at {width}: {text:?}");
+                assert!(bounds.encloses(&text.area), "{query} at {width}: {text:?}");
+                assert!(!text.text.ends_with('…'), "{query} at {width}: {text:?} was shortened");
+                let [x, y] = text.origin();
+                let ink = Rect::new(x, y - 0.7 * text.size, text.width(), 0.7 * text.size);
+                for (other, words) in &inked {
+                    assert!(!ink.overlaps(other), "{query} at {width}: {:?} covers {words:?}", text.text);
+                }
+                inked.push((ink, &text.text));
+            }
+        }
+    }
+}
+
+#[test]
+fn tiles_are_disjoint_and_inside_the_figure_for_every_number_of_universes() {
+    for count in 1..=256 {
+        let figure = lap(&format!("universes={count}&proposal=motion&matcher=cell"));
+        for width in [240.0, 340.0, 800.0, 1600.0] {
+            let scene = scene(&figure, width);
+            assert_eq!(scene.regions.len(), count);
+            let mosaic = Layout::new(width).mosaic;
+            for (k, region) in scene.regions.iter().enumerate() {
+                assert!(mosaic.encloses(&region.area), "{count} at {width}");
+                assert!(scene.regions[..k].iter().all(|other| !other.area.overlaps(&region.area)), "{count} at {width}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_height_depends_on_the_width_only() {
+    let (a, b) = (lap("universes=1"), lap("universes=256&proposal=motion&step=1&truth=on&raw=on"));
+    for width in [100.0, 340.0, 640.0, 1280.0] {
+        assert_eq!(a.model().height(width), b.model().height(width));
+        assert!(a.model().height(width) > 0.4 * width);
+    }
+}
+
+#[test]
+fn no_size_makes_it_panic() {
+    let mut figure = lap("universes=3&step=1&truth=on&raw=on");
+    for (width, height, dpr) in [(0, 0, 1.0), (1, 1, f64::NAN), (3, 4000, 0.0), (4000, 3, 1e300), (300, 200, -1.0)] {
+        figure.paint(width, height, dpr, Default::default());
+        assert!(figure.canvas().pixels().chunks_exact(4).all(|p| p[3] == 255));
+    }
+    for width in [f64::NAN, f64::INFINITY, 0.0, -5.0, 1e-300, 1e300] {
+        figure.pick(1.0, 1.0, width);
+        figure.model().height(width);
+    }
+}
+
+#[test]
+fn data_has_a_row_for_every_step_so_far() {
+    let figure = lap("universes=4&step=6");
+    let csv = figure.csv();
+    assert_eq!(csv.lines().count(), 8);
+    let columns = csv.lines().next().unwrap().split(',').count();
+    assert!(csv.lines().all(|line| line.split(',').count() == columns && !line.contains(",,")), "{csv}");
+    let json = figure.json();
+    assert_eq!(json.matches("\"step\":").count(), 8, "a column, and seven rows");
+    assert!(json.contains("\"query\":\"universes=4&step=6\""));
+}
