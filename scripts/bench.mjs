@@ -88,7 +88,7 @@ if (isMain(import.meta)) {
   await main(async () => {
     await setUp({ browser: true })
     await buildWasm()
-    await step('Benchmarks, native (criterion)', () => run('cargo', ['bench', '--workspace']))
+    await step('Benchmarks, native (criterion)', () => run('cargo', ['bench', '--package', 'fastslam', '--bench', '*']))
     await step('Benchmarks, WebAssembly in Chromium', async () => {
       const folder = JSON.parse(capture('cargo', 'metadata', '--no-deps', '--format-version', '1') ?? '{}').target_directory
       const native = criterionTimes(join(folder, 'criterion'))
