@@ -25,7 +25,7 @@ pub const STEPS: usize = 90;
 /// Noise of the wheels at scale 1: α₁ \[–\], α₂ \[rad²/m²\], α₃ \[–\], α₄ \[m²/rad²\].
 ///
 /// Chosen so that raw odometry drifts by metres: the median RMS of its position over a lap is 3.0 to 3.7 m.
-pub const ALPHAS: [f64; 4] = [0.1, 0.11, 0.05, 0.01];
+pub const ALPHAS: [f64; 4] = [0.1, 0.12, 0.05, 0.01];
 
 /// Beams of a scan, all around.
 pub const BEAMS: usize = 72;
@@ -38,13 +38,13 @@ pub const MAX_RANGE: f64 = 8.0;
 /// They anchor the gauge. With one scan only, every universe's map is turned as a whole by the first errors of heading:
 /// consistent with itself, and metres wrong at the far end. Looking between the beams matters as much as looking often:
 /// repeated from one heading, the scans leave walls of separate dots, between which the next scan falls.
-pub const START_SCANS: u32 = 20;
+pub const START_SCANS: u32 = 30;
 
 /// How the map learns.
 pub const GRID: GridModel = GridModel { cell_size: 0.3, log_odds_hit: 0.9, log_odds_pass: -0.1, surface_std: 0.1 };
 
 /// κ: the share of each beam's log-likelihood that counts.
-pub const TEMPER: f64 = 0.7;
+pub const TEMPER: f64 = 0.85;
 
 /// ε: probability of a reading that has nothing to do with the map.
 pub const OUTLIER: f64 = 0.05;
@@ -53,9 +53,9 @@ pub const OUTLIER: f64 = 0.05;
 pub const FROM_SCAN: FromScanSettings = FromScanSettings {
     motion_floor: [0.02, 0.02, 0.01],
     climb: ClimbSteps { linear: 0.1, angular: 0.05, halvings: 4 },
-    seeds: 12,
+    seeds: 8,
     gain: 0.5,
-    probes: 20,
+    probes: 16,
     probe_stds: [[0.005, 0.005, 0.003], [0.1, 0.1, 0.05]],
 };
 

@@ -24,7 +24,9 @@ pub struct Climb {
 
 /// Climbs `objective` greedily from `start`: tries a step ahead, back, left, right and a turn to each side, takes each that
 /// improves, and halves the steps where none of the six does (after the matcher of gmapping; GSB §IV).
-pub(crate) fn climb(start: Climb, steps: ClimbSteps, mut objective: impl FnMut(&Pose2) -> f64) -> Climb {
+///
+/// `objective(pose, bar)` need not be exact where it does not exceed `bar`: −∞ will do.
+pub(crate) fn climb(start: Climb, steps: ClimbSteps, mut objective: impl FnMut(&Pose2, f64) -> f64) -> Climb {
     let mut best = start;
     let (mut linear, mut angular) = (steps.linear, steps.angular);
     for _ in 0..=steps.halvings {
@@ -34,7 +36,7 @@ pub(crate) fn climb(start: Climb, steps: ClimbSteps, mut objective: impl FnMut(&
             let (ahead, left, turn) = moves.next().copied().unwrap_or_default();
             let [x, y] = best.pose.transform([ahead * linear, left * linear]);
             let pose = Pose2::new(x, y, best.pose.theta + turn * angular);
-            let value = objective(&pose);
+            let value = objective(&pose, best.value);
             if value > best.value {
                 best = Climb { pose, value };
                 failed = 0;
@@ -68,7 +70,7 @@ mod tests {
         let hill = |pose: &Pose2| -pose.minus(&top).norm_squared();
         let start = Climb { pose: Pose2::default(), value: hill(&Pose2::default()) };
         let steps = ClimbSteps { linear: 0.1, angular: 0.1, halvings: 6 };
-        let end = climb(start, steps, hill);
+        let end = climb(start, steps, |pose, _| hill(pose));
         assert!(end.pose.minus(&top).norm() < 0.1 / 32.0, "{end:?}");
     }
 
@@ -76,7 +78,7 @@ mod tests {
     fn a_flat_objective_leaves_the_start() {
         let start = Climb { pose: Pose2::new(1.0, 2.0, 3.0), value: 0.0 };
         let steps = ClimbSteps { linear: 0.1, angular: 0.1, halvings: 3 };
-        assert_eq!(climb(start, steps, |_| 0.0), start);
-        assert_eq!(climb(start, steps, |_| f64::NAN), start);
+        assert_eq!(climb(start, steps, |_, _| 0.0), start);
+        assert_eq!(climb(start, steps, |_, _| f64::NAN), start);
     }
 }

@@ -39,7 +39,7 @@ impl ScanModel {
     /// A scan model with temper κ in (0, 1\] and probability ε in (0, 1) of a reading that has nothing to do with the map.
     pub fn new(matcher: Matcher, temper: f64, outlier: f64) -> Self {
         let log_cell = core::array::from_fn(|k| {
-            let log_odds = (k as f64 - UNKNOWN as f64) * UNIT;
+            let log_odds = (k as f64 - f64::from(UNKNOWN)) * UNIT;
             // Against the cell as it is: for sub-cell matching a wall is judged by its surface, so a cell scores no better
             // than one that nothing is known of.
             let log_odds = if matcher == Matcher::SubCell { log_odds.min(0.0) } else { log_odds };
@@ -50,32 +50,50 @@ impl ScanModel {
 
     /// ln p(z | x, m) \[nats\], up to a constant that neither pose nor map changes; 0 at best.
     pub fn log_likelihood(&self, grid: &Grid, world_from_robot: &Pose2, scan: &Scan) -> f64 {
-        let log_beam = |x, y| match self.matcher {
-            Matcher::Cell => self.log_cell(grid, x, y),
-            Matcher::SubCell => match grid.nearest_surface(x, y) {
-                // Beyond what any cell offers: no need to look at the cell.
-                Some(d2) if -0.5 * d2 >= self.log_cell[UNKNOWN] => -0.5 * d2,
-                Some(d2) => (-0.5 * d2).max(self.log_cell(grid, x, y)),
-                None => self.log_cell(grid, x, y),
-            },
-        };
-        let (sin, cos) = ops::sin_cos(world_from_robot.theta);
-        let to_world = |&[x, y]: &[f64; 2]| {
-            (world_from_robot.x + cos * x - sin * y, world_from_robot.y + sin * x + cos * y)
-        };
-        self.temper * scan.hits.iter().map(to_world).map(|(x, y)| log_beam(x, y)).sum::<f64>()
+        self.log_likelihood_above(f64::NEG_INFINITY, grid, world_from_robot, scan)
     }
 
-    /// ln p_cell of the cell that a point \[m\] falls in.
+    /// [`Self::log_likelihood`] where it exceeds `floor`, else −∞.
+    ///
+    /// No beam adds anything positive, so the sum is given up as soon as it falls below the floor: a hill climb that only asks
+    /// whether a step improves is spared most of the beams.
+    pub fn log_likelihood_above(&self, floor: f64, grid: &Grid, world_from_robot: &Pose2, scan: &Scan) -> f64 {
+        /// Beams between two looks at the floor.
+        const BEAMS: usize = 6;
+        let (sin, cos) = ops::sin_cos(world_from_robot.theta);
+        let floor = floor / self.temper;
+        let mut sum = 0.0;
+        for beams in scan.hits.chunks(BEAMS) {
+            for [x, y] in beams {
+                let wx = world_from_robot.x + cos * x - sin * y;
+                let wy = world_from_robot.y + sin * x + cos * y;
+                sum += match self.matcher {
+                    Matcher::Cell => {
+                        let (i, j) = grid.cell_of(wx, wy);
+                        self.log_cell(grid.units(i, j))
+                    }
+                    Matcher::SubCell => {
+                        let (d2, units) = grid.nearest_surface(wx, wy);
+                        (-0.5 * d2).max(self.log_cell(units))
+                    }
+                };
+            }
+            if sum <= floor {
+                return f64::NEG_INFINITY;
+            }
+        }
+        self.temper * sum
+    }
+
+    /// ln p_cell of a cell's log-odds in units.
     #[inline]
-    fn log_cell(&self, grid: &Grid, x: f64, y: f64) -> f64 {
-        let (i, j) = grid.cell_of(x, y);
-        self.log_cell[(i32::from(grid.units(i, j)) + UNKNOWN as i32) as usize]
+    fn log_cell(&self, units: i8) -> f64 {
+        self.log_cell[(i32::from(units) + UNKNOWN) as usize]
     }
 }
 
 /// Where log-odds 0 stand in the table.
-const UNKNOWN: usize = 128;
+const UNKNOWN: i32 = 128;
 
 impl fmt::Display for Matcher {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -62,11 +62,14 @@ impl Proposal<Grid> for FromScan {
                 best = Climb { pose, value };
             }
         }
-        let mode = climb(best, settings.climb, log_target);
+        let mode = climb(best, settings.climb, |pose, value| {
+            let log_prior = prior.log_density(pose);
+            log_prior + self.fallback.scan.log_likelihood_above(value - log_prior, &particle.map, pose, scan)
+        });
 
         // The guard: on a flat score surface the optimum is noise, no better than what the motion model would draw anyway.
         let log_mean = ops::log_sum_exp(&log_seeds) - ops::ln(log_seeds.len() as f64);
-        if log_likelihood(&mode.pose) - log_mean < settings.gain {
+        if mode.value - prior.log_density(&mode.pose) - log_mean < settings.gain {
             return self.fallback.propose(particle, u, scan, stream);
         }
 

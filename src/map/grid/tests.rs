@@ -95,13 +95,15 @@ fn the_nearest_surface_is_that_of_all_cells_around() {
     let mut grid = Grid::new(MODEL);
     grid.assimilate(&Pose2::new(2.0, 1.0, 0.3), &BeamSensor::panorama(90, 8.0, 0.0).scan(&[1.7; 90]));
     for k in 0..4000 {
-        let (x, y) = (f64::from(k % 80) * 0.05, f64::from(k / 80) * 0.05 - 0.7);
+        let (x, y) = (f64::from(k % 80) * 0.05 + 0.013, f64::from(k / 80) * 0.05 - 0.71);
         let (i, j) = ((x / 0.3 - 0.5).floor() as i32, (y / 0.3 - 0.5).floor() as i32);
         let relative = |c: f64, k: i32| (c - (f64::from(k) + 0.5) * 0.3) as f32;
         let four = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)];
         let near = four.iter().filter_map(|&(i, j)| Some(grid.surface(i, j)?.mahalanobis2(relative(x, i), relative(y, j))));
         let expected = near.fold(f32::INFINITY, f32::min);
-        let found = grid.nearest_surface(x, y).unwrap_or(f64::INFINITY) as f32;
+        let (found, units) = grid.nearest_surface(x, y);
+        let (found, own) = (found as f32, grid.cell_of(x, y));
+        assert_eq!(units, grid.units(own.0, own.1), "({x}, {y})");
         assert!(found == expected || (found - expected).abs() < 1e-3 * expected, "({x}, {y}): {found} {expected}");
     }
 }
@@ -111,6 +113,7 @@ fn floor_is_floor() {
     for k in -400..400 {
         let x = f64::from(k) * 0.01;
         assert_eq!(floor(x), x.floor() as i32, "{x}");
+        assert!(fast_floor(x) == floor(x) || (x.fract() == 0.0 && fast_floor(x) == floor(x) - 1), "{x}");
     }
     assert_eq!((floor(f64::NAN), floor(1e300), floor(-1e300)), (0, i32::MAX, i32::MIN));
 }

@@ -70,56 +70,35 @@ impl Surface {
 #[derive(Clone, Debug)]
 pub(super) struct Tile {
     /// In [`UNIT`]s; 0 is unknown.
-    pub log_odds: [i8; (TILE * TILE) as usize],
-    /// Bit k: cell k has a surface.
-    hit: u64,
-    /// Surfaces of the hit cells, in the order of their bits: walls are few, so a tile stays small.
+    pub log_odds: [i8; CELLS],
+    /// One more than the place of a cell's surface in `surfaces`; 0 for a cell that was never hit.
+    places: [u8; CELLS],
+    /// Surfaces in the order in which cells were first hit: walls are few, so a tile stays small.
     surfaces: Vec<Surface>,
 }
 
+/// Cells of a tile.
+const CELLS: usize = (TILE * TILE) as usize;
+
 impl Default for Tile {
     fn default() -> Self {
-        Self { log_odds: [0; (TILE * TILE) as usize], hit: 0, surfaces: Vec::new() }
+        Self { log_odds: [0; CELLS], places: [0; CELLS], surfaces: Vec::new() }
     }
 }
 
 impl Tile {
-    /// Where the surface of a cell is, or would be inserted.
-    #[inline]
-    fn rank(&self, local: usize) -> usize {
-        (self.hit & ((1 << local) - 1)).count_ones() as usize
-    }
-
     #[inline]
     pub fn surface(&self, local: usize) -> Option<&Surface> {
-        if self.hit & (1 << local) == 0 {
-            return None;
-        }
-        self.surfaces.get(self.rank(local))
-    }
-
-    /// The surfaces among cells `first`, its neighbours to the right and above, and the one diagonal to it, which must all lie
-    /// in this tile; with their indices.
-    #[inline]
-    pub fn surfaces_of_four(&self, first: usize) -> impl Iterator<Item = (usize, &Surface)> {
-        let mut left = self.hit & (0b11_0000_0011 << first);
-        core::iter::from_fn(move || {
-            if left == 0 {
-                return None;
-            }
-            let local = left.trailing_zeros() as usize;
-            left &= left - 1;
-            Some((local, self.surfaces.get(self.rank(local))?))
-        })
+        // Place 0 wraps to an index past any surface: one comparison serves both questions.
+        self.surfaces.get(usize::from(self.places[local].wrapping_sub(1)))
     }
 
     pub fn add_hit(&mut self, local: usize, offset: [f32; 2], surface_std: f32) {
-        let rank = self.rank(local);
-        if self.hit & (1 << local) == 0 {
-            self.hit |= 1 << local;
-            self.surfaces.insert(rank, Surface::default());
+        if self.places[local] == 0 {
+            self.surfaces.push(Surface::default());
+            self.places[local] = self.surfaces.len() as u8;
         }
-        let surface = &mut self.surfaces[rank];
+        let surface = &mut self.surfaces[usize::from(self.places[local]) - 1];
         if surface.hits < SETTLED {
             surface.add(offset, surface_std);
         }
