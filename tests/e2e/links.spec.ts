@@ -132,6 +132,20 @@ test('properties set the parameters, before and after the figure is live', async
   expect(read).toEqual([6, 'boolean', 'aware', 8])
 })
 
+test('properties set while the page does not know them yet are kept', async ({ page }) => {
+  await page.setViewportSize({ width: 1000, height: 300 })
+  await page.goto('./')
+  const lap = new Lap(page)
+  await lap.element.evaluate(element => Object.assign(element, { universes: 6, rangeStd: 0.12 }))
+  await lap.element.scrollIntoViewIfNeeded()
+  await lap.live()
+  await lap.openSettings()
+  await expect(lap.box('universes')).toHaveValue('6')
+  await expect(lap.box('range-std')).toHaveValue('0.12')
+  await lap.element.evaluate(element => Object.assign(element, { universes: 7 }))
+  await expect(lap.box('universes')).toHaveValue('7')
+})
+
 for (const [name, value, range] of [
   ['universes', '0', /1 to 256/],
   ['universes', 'sixteen', /1 to 256/],
