@@ -1,0 +1,1 @@
+//! Nothing but tests, run in a browser by `wasm-pack test --headless --chrome tests/browser`.

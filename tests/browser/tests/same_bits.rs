@@ -1,0 +1,138 @@
+//! What the native build computed, computed again in the browser: the same bits of every trace, every readout and every pixel.
+//! The goldens are written natively, by `tests/portability` and `tests/figures`.
+#![cfg(target_arch = "wasm32")]
+
+use fastslam::{
+    digest::Digest,
+    experiment::lap::{Lap, golden_setups},
+};
+use fastslam_widgets::shell::{Figure, tags};
+use figures::{LAPS, PICTURES, line, put_readout};
+use js_sys::{Object, Reflect, Uint8Array, WebAssembly};
+use wasm_bindgen::{JsCast, JsValue};
+use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
+
+wasm_bindgen_test_configure!(run_in_browser);
+
+const TRACES: &str = include_str!("../../portability/golden.txt");
+const READOUTS: &str = include_str!("../../figures/golden/readouts.txt");
+const PIXELS: &str = include_str!("../../figures/golden/pixels.txt");
+
+/// Compares line by line, so that a failure names what differs.
+fn same_lines(computed: &[String], golden: &str) {
+    for (line, golden) in computed.iter().zip(golden.lines()) {
+        assert_eq!(line.trim_end(), golden);
+    }
+    assert_eq!(computed.len(), golden.lines().count());
+}
+
+fn get(object: &JsValue, name: &str) -> JsValue {
+    Reflect::get(object, &name.into()).expect("a property")
+}
+
+fn text(object: &JsValue, name: &str) -> String {
+    get(object, name).as_string().expect("a string")
+}
+
+/// A figure in the state of a link, through the calls that the page makes.
+fn figure(tag: &str, query: &str) -> Figure {
+    let mut figure = Figure::new(tag).unwrap_or_else(|_| panic!("no figure {tag}"));
+    assert!(figure.load(query).is_empty(), "{query}");
+    settle(&mut figure);
+    figure
+}
+
+fn settle(figure: &mut Figure) {
+    while figure.pending() > 0 {
+        figure.work();
+    }
+}
+
+/// The pixels as the page gets them: a view of the module's memory.
+fn pixels(figure: &Figure, [width, height]: [u32; 2]) -> Vec<u8> {
+    let mut pixels = vec![0; 4 * (width * height) as usize]; // first: memory that grows leaves its views behind
+    let memory: WebAssembly::Memory = wasm_bindgen::memory().unchecked_into();
+    Uint8Array::new_with_byte_offset_and_length(&memory.buffer(), figure.pixels(), 4 * width * height).copy_to(&mut pixels);
+    pixels
+}
+
+#[wasm_bindgen_test]
+fn whole_laps_leave_the_traces_of_the_native_build() {
+    let traces = golden_setups().into_iter().map(|(name, setup)| {
+        let lap = Lap::new(&setup).expect("a golden setup is valid");
+        line(name, &lap.trace())
+    });
+    same_lines(&traces.collect::<Vec<_>>(), TRACES);
+}
+
+#[wasm_bindgen_test]
+fn every_readout_of_every_step_has_the_bits_of_the_native_build() {
+    let readouts = LAPS.iter().map(|query| {
+        let mut figure = figure("fastslam-lap", query);
+        let mut digest = Digest::new();
+        for step in 0..=figure.step_count() {
+            figure.seek(step);
+            settle(&mut figure);
+            for readout in figure.readouts() {
+                put_readout(&mut digest, &text(&readout, "name"), get(&readout, "value").as_f64(), &text(&readout, "text"));
+            }
+            digest.bytes(figure.describe().as_bytes());
+        }
+        line(&format!("fastslam-lap?{query}"), &digest)
+    });
+    same_lines(&readouts.collect::<Vec<_>>(), READOUTS);
+}
+
+#[wasm_bindgen_test]
+fn every_golden_picture_has_the_pixels_of_the_native_build() {
+    let pictures = PICTURES.iter().map(|picture| {
+        let mut figure = figure(picture.tag, picture.query);
+        let size = picture.size(figure.height(f64::from(picture.width)));
+        figure.paint(size[0], size[1], f64::from(picture.dpr), picture.theme);
+        let mut digest = Digest::new();
+        digest.bytes(&pixels(&figure, size));
+        line(picture.name, &digest)
+    });
+    same_lines(&pictures.collect::<Vec<_>>(), PIXELS);
+}
+
+#[wasm_bindgen_test]
+fn the_page_gets_plain_objects_and_errors_that_name_their_parameter() {
+    assert_eq!(tags(), ["fastslam-lap"]);
+    assert!(Figure::new("no-such-tag").is_err());
+    let mut figure = figure("fastslam-lap", "universes=2&step=1");
+
+    let params = figure.params();
+    assert_eq!(text(&params.get(0), "name"), "universes");
+    assert_eq!(text(&params.get(0), "kind"), "integer");
+    assert_eq!(get(&params.get(0), "max").as_f64(), Some(256.0));
+    let values: JsValue = figure.values().into();
+    for param in params.iter() {
+        let value = text(&values, &text(&param, "name"));
+        assert!(!value.is_empty());
+    }
+    assert_eq!(Object::keys(values.unchecked_ref::<Object>()).length(), params.length());
+
+    let error: JsValue = figure.set("range-std", "0.5").expect_err("out of range").into();
+    assert_eq!(text(&error, "name"), "FigureError");
+    assert_eq!(text(&error, "parameter"), "range-std");
+    assert!(text(&error, "message").contains("from 0.01 to 0.3 m"), "{}", text(&error, "message"));
+
+    let readout = figure.readouts().get(1);
+    assert!(get(&readout, "value").as_f64().is_some());
+    assert_eq!(text(&readout, "unit"), "m");
+    assert!(figure.csv().starts_with("step,"));
+    assert!(js_sys::JSON::parse(&figure.json()).is_ok());
+}
+
+#[wasm_bindgen_test]
+fn figures_do_not_touch_each_other() {
+    let alone = figure("fastslam-lap", "universes=3&step=4").csv();
+    let mut one = figure("fastslam-lap", "universes=3&step=2");
+    let mut other = figure("fastslam-lap", "universes=6&seed=9&step=4");
+    other.paint(300, 200, 1.0, "dark");
+    one.seek(4);
+    settle(&mut one);
+    drop(other);
+    assert_eq!(one.csv(), alone);
+}
