@@ -10,7 +10,8 @@ pub fn csv(model: &dyn Model) -> String {
     let names: Vec<&str> = series.columns.iter().map(|c| c.name).collect();
     let mut text = names.join(",") + "\n";
     for row in &series.rows {
-        let cells: Vec<String> = row.iter().map(|x| if x.is_finite() { x.to_string() } else { String::new() }).collect();
+        let cells: Vec<String> =
+            row.iter().map(|x| if x.is_finite() { x.to_string() } else { String::new() }).collect();
         text.push_str(&cells.join(","));
         text.push('\n');
     }

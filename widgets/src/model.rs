@@ -4,8 +4,8 @@
 //! link, a saved figure and a replay are the same thing. Long computations are cut into steps: an action says what is
 //! asked for, [`Model::pending`] how far that is away, and [`Model::work`] goes one step nearer.
 
-use crate::scene::Scene;
 pub use crate::param::{Choice, Group, Kind, ParamSpec};
+use crate::scene::Scene;
 /// Why a value was refused: the parameter, and one line that names it, what was given and what is allowed.
 pub use fastslam::error::ParameterError as FigureError;
 
@@ -112,14 +112,16 @@ pub trait Model {
     /// Does what a reader asks. A refused value leaves the state as it was.
     fn apply(&mut self, action: &Action) -> Result<(), FigureError> {
         match action {
-            Action::Set { name, value } => match self.configure(&[(name.clone(), value.clone())]).pop() {
-                Some(error) => return Err(error),
-                None => (),
-            },
-            Action::Seek(step) => self.seek(*step),
-            Action::Pick(target) => self.pick(*target),
+            Action::Set { name, value } => self.configure(&[(name.clone(), value.clone())]).pop().map_or(Ok(()), Err),
+            Action::Seek(step) => {
+                self.seek(*step);
+                Ok(())
+            }
+            Action::Pick(target) => {
+                self.pick(*target);
+                Ok(())
+            }
         }
-        Ok(())
     }
 
     /// Does all pending work.

@@ -68,7 +68,11 @@ fn every_default_and_every_choice_is_accepted() {
 
 #[test]
 fn the_core_takes_the_ends_of_every_range() {
-    for query in ["universes=1", "universes=256&odometry=0&range-std=0.01", "seed=4294967295&odometry=2&range-std=0.3&threshold=1"] {
+    for query in [
+        "universes=1",
+        "universes=256&odometry=0&range-std=0.01",
+        "seed=4294967295&odometry=2&range-std=0.3&threshold=1",
+    ] {
         lap(query);
     }
 }
@@ -94,7 +98,10 @@ fn a_step_back_shows_the_same_bits_as_the_way_forward() {
 #[test]
 fn a_link_brings_back_the_whole_state() {
     let mut figure = lap("universes=9&seed=77&policy=always&scheme=residual&threshold=0.25&step=6&universe=4&truth=on");
-    assert_eq!(figure.query(), "universes=9&seed=77&policy=always&threshold=0.25&scheme=residual&step=6&universe=4&truth=on");
+    assert_eq!(
+        figure.query(),
+        "universes=9&seed=77&policy=always&threshold=0.25&scheme=residual&step=6&universe=4&truth=on"
+    );
     let other = lap(&format!("?{}", figure.query()));
     assert_eq!(state(&figure), state(&other));
     // A link is the whole state: what it does not name is the default again.
@@ -105,10 +112,17 @@ fn a_link_brings_back_the_whole_state() {
 #[test]
 fn a_bad_link_is_told_of_and_the_rest_of_it_applied() {
     let mut figure = Figure::new("fastslam-lap").unwrap();
-    let messages: Vec<String> =
-        figure.load("universes=999&seed=5&tempo=3&universe=12&proposal=magic&&=&%zz=%").into_iter().map(|e| e.message).collect();
+    let messages: Vec<String> = figure
+        .load("universes=999&seed=5&tempo=3&universe=12&proposal=magic&&=&%zz=%")
+        .into_iter()
+        .map(|e| e.message)
+        .collect();
     assert_eq!(figure.query(), "seed=5&universe=12");
-    for part in ["tempo", "universes = \"999\": must be a whole number from 1 to 256", "proposal = \"magic\": must be one of aware, motion"] {
+    for part in [
+        "tempo",
+        "universes = \"999\": must be a whole number from 1 to 256",
+        "proposal = \"magic\": must be one of aware, motion",
+    ] {
         assert!(messages.iter().any(|m| m.contains(part)), "{part}: {messages:?}");
     }
     // A universe that another setting of the same link does away with.
@@ -166,7 +180,8 @@ fn extinction_is_told_in_words_marks_and_data() {
     let told = format!("{} of 16 died out", extinct.len());
     assert!(model.describe().contains(&told), "{}", model.describe());
     let scene = model.scene(800.0, model.height(800.0));
-    let texts: Vec<&str> = scene.marks.iter().filter_map(|m| if let Mark::Text(t) = m { Some(t.text.as_str()) } else { None }).collect();
+    let texts: Vec<&str> =
+        scene.marks.iter().filter_map(|m| if let Mark::Text(t) = m { Some(t.text.as_str()) } else { None }).collect();
     assert!(texts.contains(&format!("Resampled: {told}").as_str()), "{texts:?}");
     let copies = texts.iter().filter(|t| t.starts_with("← ")).count();
     assert!(copies > extinct.len(), "a slot whose universe died holds a copy, and the legend shows one");
@@ -176,7 +191,8 @@ fn extinction_is_told_in_words_marks_and_data() {
 
 #[test]
 fn texts_fit_their_boxes_and_the_figure_and_cover_no_other() {
-    for query in ["universes=1&step=1", "step=2&truth=on&raw=on", "universes=100&seed=4294967295&step=2&policy=always"] {
+    for query in ["universes=1&step=1", "step=2&truth=on&raw=on", "universes=100&seed=4294967295&step=2&policy=always"]
+    {
         let figure = lap(query);
         for width in [240.0, 300.0, 340.0, 380.0, 500.0, 639.0, 640.0, 700.0, 800.0, 1280.0] {
             let scene = scene(&figure, width);
@@ -208,7 +224,10 @@ fn tiles_are_disjoint_and_inside_the_figure_for_every_number_of_universes() {
             let mosaic = Layout::new(width).mosaic;
             for (k, region) in scene.regions.iter().enumerate() {
                 assert!(mosaic.encloses(&region.area), "{count} at {width}");
-                assert!(scene.regions[..k].iter().all(|other| !other.area.overlaps(&region.area)), "{count} at {width}");
+                assert!(
+                    scene.regions[..k].iter().all(|other| !other.area.overlaps(&region.area)),
+                    "{count} at {width}"
+                );
             }
         }
     }

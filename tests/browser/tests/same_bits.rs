@@ -6,9 +6,9 @@ use fastslam::{
     digest::Digest,
     experiment::lap::{Lap, golden_setups},
 };
-use fastslam_widgets::shell::{Figure, tags};
+use fastslam_widgets::shell::Figure;
 use figures::{LAPS, PICTURES, line, put_readout};
-use js_sys::{Object, Reflect, Uint8Array, WebAssembly};
+use js_sys::{Reflect, Uint8Array, WebAssembly};
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
 
@@ -52,7 +52,8 @@ fn settle(figure: &mut Figure) {
 fn pixels(figure: &Figure, [width, height]: [u32; 2]) -> Vec<u8> {
     let mut pixels = vec![0; 4 * (width * height) as usize]; // first: memory that grows leaves its views behind
     let memory: WebAssembly::Memory = wasm_bindgen::memory().unchecked_into();
-    Uint8Array::new_with_byte_offset_and_length(&memory.buffer(), figure.pixels(), 4 * width * height).copy_to(&mut pixels);
+    Uint8Array::new_with_byte_offset_and_length(&memory.buffer(), figure.pixels(), 4 * width * height)
+        .copy_to(&mut pixels);
     pixels
 }
 
@@ -74,7 +75,12 @@ fn every_readout_of_every_step_has_the_bits_of_the_native_build() {
             figure.seek(step);
             settle(&mut figure);
             for readout in figure.readouts() {
-                put_readout(&mut digest, &text(&readout, "name"), get(&readout, "value").as_f64(), &text(&readout, "text"));
+                put_readout(
+                    &mut digest,
+                    &text(&readout, "name"),
+                    get(&readout, "value").as_f64(),
+                    &text(&readout, "text"),
+                );
             }
             digest.bytes(figure.describe().as_bytes());
         }
@@ -94,45 +100,4 @@ fn every_golden_picture_has_the_pixels_of_the_native_build() {
         line(picture.name, &digest)
     });
     same_lines(&pictures.collect::<Vec<_>>(), PIXELS);
-}
-
-#[wasm_bindgen_test]
-fn the_page_gets_plain_objects_and_errors_that_name_their_parameter() {
-    assert_eq!(tags(), ["fastslam-lap"]);
-    assert!(Figure::new("no-such-tag").is_err());
-    let mut figure = figure("fastslam-lap", "universes=2&step=1");
-
-    let params = figure.params();
-    assert_eq!(text(&params.get(0), "name"), "universes");
-    assert_eq!(text(&params.get(0), "kind"), "integer");
-    assert_eq!(get(&params.get(0), "max").as_f64(), Some(256.0));
-    let values: JsValue = figure.values().into();
-    for param in params.iter() {
-        let value = text(&values, &text(&param, "name"));
-        assert!(!value.is_empty());
-    }
-    assert_eq!(Object::keys(values.unchecked_ref::<Object>()).length(), params.length());
-
-    let error: JsValue = figure.set("range-std", "0.5").expect_err("out of range").into();
-    assert_eq!(text(&error, "name"), "FigureError");
-    assert_eq!(text(&error, "parameter"), "range-std");
-    assert!(text(&error, "message").contains("from 0.01 to 0.3 m"), "{}", text(&error, "message"));
-
-    let readout = figure.readouts().get(1);
-    assert!(get(&readout, "value").as_f64().is_some());
-    assert_eq!(text(&readout, "unit"), "m");
-    assert!(figure.csv().starts_with("step,"));
-    assert!(js_sys::JSON::parse(&figure.json()).is_ok());
-}
-
-#[wasm_bindgen_test]
-fn figures_do_not_touch_each_other() {
-    let alone = figure("fastslam-lap", "universes=3&step=4").csv();
-    let mut one = figure("fastslam-lap", "universes=3&step=2");
-    let mut other = figure("fastslam-lap", "universes=6&seed=9&step=4");
-    other.paint(300, 200, 1.0, "dark");
-    one.seek(4);
-    settle(&mut one);
-    drop(other);
-    assert_eq!(one.csv(), alone);
 }

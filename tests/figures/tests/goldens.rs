@@ -80,6 +80,7 @@ fn every_picture_is_the_golden_one_to_the_last_pixel() {
 
 #[test]
 fn every_readout_of_every_step_is_the_golden_one() {
-    let text: String = LAPS.iter().map(|query| line(&format!("fastslam-lap?{query}"), &readouts("fastslam-lap", query))).collect();
+    let text: String =
+        LAPS.iter().map(|query| line(&format!("fastslam-lap?{query}"), &readouts("fastslam-lap", query))).collect();
     same_text("readouts.txt", &text);
 }

@@ -339,8 +339,18 @@ impl Model for LapModel {
                 "",
                 "How many of the universes of step 0 still have a descendant.",
             ),
-            kilobytes("map_unique", "Memory of the maps", unique, "What all maps hold together, shared tiles counted once; 1 KB is 1000 bytes."),
-            kilobytes("map_dense", "… as dense arrays", dense, "What the maps would hold if each were an array of its own."),
+            kilobytes(
+                "map_unique",
+                "Memory of the maps",
+                unique,
+                "What all maps hold together, shared tiles counted once; 1 KB is 1000 bytes.",
+            ),
+            kilobytes(
+                "map_dense",
+                "… as dense arrays",
+                dense,
+                "What the maps would hold if each were an array of its own.",
+            ),
             readout(
                 "map_share",
                 "Memory share",
@@ -410,8 +420,12 @@ impl Model for LapModel {
             None => text.push_str("no resampling at this step."),
             Some(ancestors) => {
                 let parent = ancestors[slot as usize];
-                let origin = if parent == slot { "kept its slot".into() } else { format!("is a copy of universe {parent}") };
-                text.push_str(&format!("resampled, {} of {m} died out; universe {slot} {origin}.", died_out(ancestors)));
+                let origin =
+                    if parent == slot { "kept its slot".into() } else { format!("is a copy of universe {parent}") };
+                text.push_str(&format!(
+                    "resampled, {} of {m} died out; universe {slot} {origin}.",
+                    died_out(ancestors)
+                ));
             }
         }
         text

@@ -43,7 +43,8 @@ pub fn policy_name(policy: ResamplePolicy) -> &'static str {
 
 /// All parameters, for a mosaic of `universes`.
 pub fn specs(universes: usize) -> Vec<ParamSpec> {
-    let LapSetup { particles, seed, proposal, matcher, policy, scheme, odometry_scale, range_std } = LapSetup::default();
+    let LapSetup { particles, seed, proposal, matcher, policy, scheme, odometry_scale, range_std } =
+        LapSetup::default();
     let threshold = if let ResamplePolicy::EssBelow(fraction) = policy { fraction } else { THRESHOLD };
     let number = |name, title, unit, (min, max, step): (f64, f64, f64), default: String, help| {
         let whole = step == 1.0;

@@ -121,8 +121,7 @@ fn scale_bar(scene: &mut Scene, view: &View) {
     let (right, y) = (view.area.right() - 10.0, view.area.bottom() - 8.0);
     let plate = Rect::new(right - length - 4.0, y - 13.0, length + 8.0, 17.0);
     scene.marks.push(Mark::Fill { area: plate, role: Role::Paper });
-    let bar = vec![vec![right - length, y - 3.0], vec![right - length, y], vec![right, y], vec![right, y - 3.0]];
-    let bar = bar.iter().map(|p| [p[0], p[1]]).collect();
+    let bar = vec![[right - length, y - 3.0], [right - length, y], [right, y], [right, y - 3.0]];
     scene.marks.push(Mark::Lines { lines: vec![bar], width: 1.0, dash: None, role: Role::Ink });
     let area = Rect::new(plate.x, plate.y, plate.w, 12.0);
     scene.marks.push(text(area, Anchor::Middle, 9.5, Weight::Regular, Role::Ink, "1 m"));
@@ -157,10 +156,12 @@ fn sample_group(scene: &mut Scene, area: &Rect, items: &[(Sample, &str)]) -> f64
         if x > area.x && x + width + 6.0 + name_width > area.right() {
             (x, y) = (area.x, y + LINE);
         }
-        let label = if let Sample::Label = sample { font::measure("← 7", 10.5, Weight::SemiBold) + 4.0 } else { width };
+        let label =
+            if let Sample::Label = sample { font::measure("← 7", 10.5, Weight::SemiBold) + 4.0 } else { width };
         let place = Rect::new(x, y + 0.5 * (LINE - 12.0), label, 12.0);
         draw_sample(scene, sample, &place);
-        let name_area = Rect::new(place.right() + 6.0, y, (area.right() - place.right() - 6.0).min(name_width + 0.01), LINE);
+        let name_area =
+            Rect::new(place.right() + 6.0, y, (area.right() - place.right() - 6.0).min(name_width + 0.01), LINE);
         let line = Text::new(name_area, Anchor::Start, size, Weight::Regular, Role::Muted, name);
         x = name_area.x + line.width() + gap;
         scene.marks.push(Mark::Text(line));
@@ -230,13 +231,17 @@ fn mosaic(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     let extinct = model.extinct();
     let name = if m == 1 { "1 universe".into() } else { format!("{m} universes") };
     match &model.report().ancestors {
-        Some(_) if extinct.is_empty() => heading(scene, &layout.mosaic_header, (&name, Role::Ink), "resampled: none died out"),
+        Some(_) if extinct.is_empty() => {
+            heading(scene, &layout.mosaic_header, (&name, Role::Ink), "resampled: none died out")
+        }
         Some(_) => {
             let title = format!("Resampled: {} of {m} died out", extinct.len());
             heading(scene, &layout.mosaic_header, (&title, Role::Extinct), "");
         }
         None if m == 1 => heading(scene, &layout.mosaic_header, (&name, Role::Ink), "the only hypothesis"),
-        None if model.step() == 0 => heading(scene, &layout.mosaic_header, (&name, Role::Ink), "all alike at the start"),
+        None if model.step() == 0 => {
+            heading(scene, &layout.mosaic_header, (&name, Role::Ink), "all alike at the start")
+        }
         None => heading(scene, &layout.mosaic_header, (&name, Role::Ink), "each with a map of its own"),
     }
 
@@ -290,7 +295,9 @@ fn origin(scene: &mut Scene, model: &LapModel, slot: u32, map: &Rect, width: f64
             // Too small for words: a corner folded in the colour of a copy.
             let d = 0.35 * map.h;
             let (x, y) = (map.x, map.bottom());
-            scene.marks.push(Mark::Polygons { polygons: vec![vec![[x, y - d], [x + d, y], [x, y]]], role: Role::Copied });
+            scene
+                .marks
+                .push(Mark::Polygons { polygons: vec![vec![[x, y - d], [x + d, y], [x, y]]], role: Role::Copied });
         }
         return;
     }
@@ -341,7 +348,8 @@ fn notes(scene: &mut Scene, model: &LapModel, area: &Rect) {
     if model.lap().particles().len() == 1 {
         return samples(scene, area, &[&[(Sample::Border(1.0), "weight: all of it")]]);
     }
-    let weights = [(Sample::Border(0.0), "weight 0"), (Sample::Border(1.0), "1/M"), (Sample::Border(FULL_SHARE), "3/M or more")];
+    let weights =
+        [(Sample::Border(0.0), "weight 0"), (Sample::Border(1.0), "1/M"), (Sample::Border(FULL_SHARE), "3/M or more")];
     let resampling = [(Sample::Dot, "resampled"), (Sample::Label, "copied from"), (Sample::Cross, "died out")];
     samples(scene, area, &[&weights, &resampling]);
 }

@@ -219,7 +219,8 @@ mod tests {
             polygon(c, &[[1.3, 0.0], [3.0, 0.0], [3.0, 2.0], [1.7, 2.0]]);
         };
         assert_eq!(dark([3, 2], apart), [255; 6]);
-        let twice = |c: &mut Coverage| (0..2).for_each(|_| polygon(c, &[[0.0, 0.0], [3.0, 0.0], [3.0, 2.0], [0.0, 2.0]]));
+        let twice =
+            |c: &mut Coverage| (0..2).for_each(|_| polygon(c, &[[0.0, 0.0], [3.0, 0.0], [3.0, 2.0], [0.0, 2.0]]));
         assert_eq!(dark([3, 2], twice), [255; 6]);
     }
 
