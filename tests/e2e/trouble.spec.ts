@@ -157,7 +157,7 @@ test('after a second panic it stops, others go on, and Reset brings it back', as
 
 test('a node that is moved or taken out and put back is freed and restored', async ({ page }) => {
   await tapWasm(page)
-  const lap = await new Lap(page).open()
+  const lap = await new Lap(page).open('./#fastslam-lap?seed=5&step=2')
   await lap.openSettings()
   await lap.box('universes').fill('8')
   await lap.box('universes').press('Enter')

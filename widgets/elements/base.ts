@@ -113,7 +113,7 @@ export abstract class FigureElement extends HTMLElement {
     this.#intersections.observe(this)
     this.#intersections.observe(this.#stage)
     this.#watchSize()
-    this.#followLink()
+    if (this.#recipe === undefined) this.#followLink() // a node that was only moved goes on from where it was
   }
 
   disconnectedCallback(): void {

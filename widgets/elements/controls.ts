@@ -73,6 +73,7 @@ export class Controls {
       if (spec.name === STEP) continue
       const field = fieldFor(spec, value => actions.change(spec.name, value))
       this.fields.set(spec.name, field)
+      for (const input of field.element.querySelectorAll<HTMLElement>('input, select')) input.title = spec.help // read out after the name
       if (spec.name === SEED) this.transport.lastElementChild!.append(field.element)
       else if (spec.group === 'view') this.view.append(field.element)
       else if (spec.kind === 'choice') choices.push(field.element)
