@@ -30,7 +30,7 @@ pub const PICTURES: &[Picture] = &[
     lap("fastslam-lap-light", RESAMPLED, 800, 2, "light"),
     lap("fastslam-lap-dark", RESAMPLED, 800, 2, "dark"),
     lap("start", "", 800, 1, "light"),
-    lap("overlays", "step=62&universe=9&truth=on&raw=on", 800, 1, "dark"),
+    lap("overlays", "step=60&universe=9&truth=on&raw=on", 800, 1, "dark"),
     lap("end-narrow", "step=90&truth=on&raw=on", 340, 2, "light"),
     lap("phone", RESAMPLED, 380, 1, "contrast-dark"),
     lap("tiny", RESAMPLED, 240, 1, "contrast-light"),
@@ -41,7 +41,7 @@ pub const PICTURES: &[Picture] = &[
 ];
 
 /// A step of the default lap at which it resampled.
-const RESAMPLED: &str = "step=61";
+const RESAMPLED: &str = "step=62";
 
 /// Setups whose readouts are kept for every step.
 pub const LAPS: &[&str] = &[

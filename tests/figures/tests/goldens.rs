@@ -2,7 +2,7 @@
 //! committed.
 
 use fastslam::digest::Digest;
-use figures::{LAPS, PICTURES, line, readouts};
+use figures::{LAPS, PICTURES, figure, line, readouts};
 use std::{
     env, fs,
     io::BufWriter,
@@ -83,4 +83,12 @@ fn every_readout_of_every_step_is_the_golden_one() {
     let text: String =
         LAPS.iter().map(|query| line(&format!("fastslam-lap?{query}"), &readouts("fastslam-lap", query))).collect();
     same_text("readouts.txt", &text);
+}
+
+#[test]
+fn the_page_without_javascript_shows_a_resampling() {
+    for picture in &PICTURES[..2] {
+        let told = figure(picture.tag, picture.query).model().describe();
+        assert!(told.contains("died out"), "{told} Choose another step for {}.", picture.name);
+    }
 }

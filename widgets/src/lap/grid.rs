@@ -9,8 +9,8 @@ pub struct Tiles {
     pub columns: usize,
     /// Size of one \[css px\].
     pub size: [f64; 2],
-    /// Between two \[css px\].
-    pub gap: f64,
+    /// Between two in a row, and between two rows \[css px\].
+    pub gap: [f64; 2],
     origin: [f64; 2],
 }
 
@@ -21,9 +21,11 @@ impl Tiles {
         for columns in 1..=count {
             let rows = count.div_ceil(columns);
             // Wider gaps between larger tiles: about a sixteenth of the tile.
-            let gap = (area.w / columns as f64 / 16.0).clamp(2.5, 10.0);
-            let room = |length: f64, n: usize| (length - gap * (n - 1) as f64) / n as f64;
-            let width = room(area.w, columns).min(room(area.h, rows) * aspect);
+            let across = (area.w / columns as f64 / 14.0).clamp(3.0, 10.0);
+            // Of the same aspect as the tiles, so that a square number of them fills an area of that aspect.
+            let gap = [across, across / aspect];
+            let room = |length: f64, n: usize, gap: f64| (length - gap * (n - 1) as f64) / n as f64;
+            let width = room(area.w, columns, gap[0]).min(room(area.h, rows, gap[1]) * aspect);
             if best.as_ref().is_none_or(|b| width > b.size[0] + 1e-9) {
                 best = Some(Self { columns, size: [width, width / aspect], gap, origin: [area.x, area.y] });
             }
@@ -35,7 +37,7 @@ impl Tiles {
     pub fn tile(&self, slot: usize) -> Rect {
         let [w, h] = self.size;
         let (column, row) = ((slot % self.columns) as f64, (slot / self.columns) as f64);
-        Rect::new(self.origin[0] + column * (w + self.gap), self.origin[1] + row * (h + self.gap), w, h)
+        Rect::new(self.origin[0] + column * (w + self.gap[0]), self.origin[1] + row * (h + self.gap[1]), w, h)
     }
 }
 
@@ -54,7 +56,7 @@ mod tests {
                 for (k, a) in all.iter().enumerate() {
                     assert!(all[..k].iter().all(|b| !a.overlaps(b)), "{count} in {w} × {h}");
                 }
-                let used: f64 = all.iter().map(|t| (t.w + tiles.gap) * (t.h + tiles.gap)).sum();
+                let used: f64 = all.iter().map(|t| (t.w + tiles.gap[0]) * (t.h + tiles.gap[1])).sum();
                 assert!(used > 0.3 * w * h, "{count} in {w} × {h}: {used}");
             }
         }
@@ -62,7 +64,12 @@ mod tests {
 
     #[test]
     fn square_numbers_fill_an_area_of_their_aspect() {
-        let tiles = Tiles::fit(&Rect::new(0.0, 0.0, 340.0, 263.0), 16, 340.0 / 263.0);
-        assert_eq!(tiles.columns, 4);
+        let area = Rect::new(0.0, 0.0, 340.0, 263.0);
+        for n in 1..=16 {
+            let tiles = Tiles::fit(&area, n * n, 340.0 / 263.0);
+            let last = tiles.tile(n * n - 1);
+            assert_eq!(tiles.columns, n);
+            assert!((last.right() - 340.0).abs() < 1e-6 && (last.bottom() - 263.0).abs() < 1e-6, "{n}: {last:?}");
+        }
     }
 }

@@ -12,6 +12,9 @@ pub const NARROWEST: f64 = 300.0;
 /// Height of a line of the legends \[css px\].
 pub const LINE: f64 = 18.0;
 
+/// How far the ring around the chosen tile reaches beyond it \[css px\].
+pub const RING: f64 = 3.0;
+
 const HEADER: f64 = 26.0;
 const PAD: f64 = 8.0;
 const METER: f64 = 46.0;
@@ -27,7 +30,7 @@ pub struct Layout {
     pub legend: Rect,
     /// How many universes there are, and what became of them.
     pub mosaic_header: Rect,
-    /// All of them.
+    /// All of them, and a margin of [`RING`] around them.
     pub mosaic: Rect,
     /// What borders and marks of the mosaic mean.
     pub notes: Rect,
@@ -43,22 +46,22 @@ impl Layout {
         let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
         let (legend, notes) = (if width < 340.0 { 3.0 } else { 2.0 } * LINE, 2.0 * LINE);
         let below_mosaic = PAD + notes + PAD + METER;
-        let column = |x: f64, y: f64, w: f64| {
+        let column = |x: f64, y: f64, w: f64, ring: f64| {
             let header = Rect::new(x, y, w, HEADER);
-            (header, Rect::new(x, header.bottom(), w, w / ASPECT))
+            (header, Rect::new(x, header.bottom(), w, (w - 2.0 * ring) / ASPECT + 2.0 * ring))
         };
         let below = |area: &Rect, h: f64| Rect::new(area.x, area.bottom() + PAD, area.w, h);
         let wide = width >= WIDE;
         // Side by side, the large view is so much larger that both columns end at the same height.
         let gap = 28.0;
-        let excess = (below_mosaic - PAD - legend) * ASPECT;
+        let excess = (below_mosaic - PAD - legend) * ASPECT + 2.0 * RING * (ASPECT - 1.0);
         let large_width = if wide { (0.5 * (width - gap + excess)).floor() } else { width };
-        let (large_header, large) = column(0.0, 0.0, large_width);
+        let (large_header, large) = column(0.0, 0.0, large_width, 0.0);
         let legend = below(&large, legend);
         let (mosaic_header, mosaic) = if wide {
-            column(large.right() + gap, 0.0, width - large_width - gap)
+            column(large.right() + gap, 0.0, width - large_width - gap, RING)
         } else {
-            column(0.0, legend.bottom() + PAD, width)
+            column(0.0, legend.bottom() + PAD, width, RING)
         };
         let notes = below(&mosaic, notes);
         let meter = below(&notes, METER);

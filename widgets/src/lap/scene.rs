@@ -2,7 +2,7 @@
 
 use super::{
     grid::Tiles,
-    layout::{LINE, Layout},
+    layout::{LINE, Layout, NARROWEST, RING},
     model::LapModel,
     view::{self, ASPECT, View},
 };
@@ -19,19 +19,16 @@ const RIM: f64 = 1.25;
 /// Shares of weight (1 = 1/M) at which a border is full: a universe that weighs thrice its share.
 const FULL_SHARE: f64 = 3.0;
 
-/// How far the ring around the chosen tile reaches beyond it \[css px\].
-const RING: f64 = 3.0;
-
 /// Tiles narrower than this \[css px\] show no path, and those narrower than the next no labels, and so on.
 const PATH_FROM: f64 = 26.0;
-const LABEL_FROM: f64 = 40.0;
+const LABEL_FROM: f64 = 36.0;
 const GHOST_FROM: f64 = 58.0;
 
 /// The whole figure at this size \[css px\].
 pub fn build(model: &LapModel, width: f64, height: f64) -> Scene {
     let layout = Layout::new(width);
     let mut scene = Scene {
-        width: width.max(super::layout::NARROWEST),
+        width: width.max(NARROWEST),
         height: height.max(layout.height),
         marks: Vec::new(),
         regions: Vec::new(),
@@ -39,8 +36,9 @@ pub fn build(model: &LapModel, width: f64, height: f64) -> Scene {
     };
     large(&mut scene, model, &layout);
     legend(&mut scene, model, &layout.legend);
-    mosaic(&mut scene, model, &layout);
-    notes(&mut scene, model, &layout.notes);
+    let tiles = Tiles::fit(&layout.mosaic.inset(RING), model.lap().particles().len(), ASPECT);
+    mosaic(&mut scene, model, &layout, &tiles);
+    notes(&mut scene, model, &layout.notes, tiles.size[0] >= LABEL_FROM);
     meter(&mut scene, model, &layout.meter);
     scene
 }
@@ -74,17 +72,16 @@ fn large(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     let view = View { area: layout.large };
     let particle = &lap.particles()[slot as usize];
     scene.marks.push(Mark::Raster { area: view.area, cells: view::shades(&particle.map), shading: Shading::Map });
-    let hits = view::hits(&particle.map).into_iter().map(|p| view.point(p));
-    let hits: Vec<Point> = hits.filter(|p| view.area.inset(2.0).contains(*p)).collect();
-    scene.marks.push(Mark::Discs { centres: hits, radius: (0.035 * view.scale()).max(1.0), role: Role::Hit });
-
     let world = lap.world();
     let now = model.step() as usize;
     if model.shows_truth() {
         let walls = world.plan.walls.iter().chain(&world.plan.furniture);
         let walls = walls.map(|s| vec![view.point(s.a), view.point(s.b)]).collect();
-        scene.marks.push(Mark::Lines { lines: walls, width: 1.25, dash: None, role: Role::Truth });
+        rimmed(scene, walls, 1.25, None, Role::Truth);
     }
+    let hits = view::hits(&particle.map).into_iter().map(|p| view.point(p));
+    let hits: Vec<Point> = hits.filter(|p| view.area.inset(2.0).contains(*p)).collect();
+    scene.marks.push(Mark::Discs { centres: hits, radius: (0.035 * view.scale()).max(1.0), role: Role::Hit });
     if model.shows_raw() {
         let lines = view.path(&world.odometry[..=now], 0.5);
         rimmed(scene, lines, 2.0, Some([7.0, 4.0]), Role::Odometry);
@@ -135,6 +132,7 @@ enum Sample {
     Line(Role, f64, Option<[f64; 2]>),
     Border(f64),
     Label,
+    Fold,
     Cross,
     Dot,
 }
@@ -190,6 +188,7 @@ fn draw_sample(scene: &mut Scene, sample: Sample, place: &Rect) {
         Sample::Border(share) => marks.push(border(*place, share, 4.0)),
         Sample::Label => marks.push(text(*place, Anchor::Start, 10.5, Weight::SemiBold, Role::Copied, "← 7")),
         Sample::Dot => marks.push(Mark::Discs { centres: vec![[cx, cy]], radius: 2.5, role: Role::Copied }),
+        Sample::Fold => marks.push(fold([cx - 5.0, cy + 5.0], 10.0)),
         Sample::Cross => cross(scene, &Rect::new(cx - 5.0, cy - 5.0, 10.0, 10.0)),
     }
 }
@@ -217,6 +216,11 @@ fn border(area: Rect, share: f64, full: f64) -> Mark {
     Mark::Frame { area, width: 1.0 + t * (full - 1.0), role: Role::Weight((255.0 * t).round() as u8) }
 }
 
+/// The sign of a copy: a lower left corner folded over.
+fn fold([x, y]: Point, side: f64) -> Mark {
+    Mark::Polygons { polygons: vec![vec![[x, y - side], [x + side, y], [x, y]]], role: Role::Copied }
+}
+
 /// The sign of a universe that died out: a cross on paper.
 fn cross(scene: &mut Scene, area: &Rect) {
     let Rect { x, y, w, h } = area.inset(0.2 * area.w);
@@ -225,7 +229,7 @@ fn cross(scene: &mut Scene, area: &Rect) {
     scene.marks.push(Mark::Lines { lines, width: (0.16 * area.w).max(1.0), dash: None, role: Role::Extinct });
 }
 
-fn mosaic(scene: &mut Scene, model: &LapModel, layout: &Layout) {
+fn mosaic(scene: &mut Scene, model: &LapModel, layout: &Layout, tiles: &Tiles) {
     let (lap, selected) = (model.lap(), model.selected());
     let m = lap.particles().len();
     let extinct = model.extinct();
@@ -245,7 +249,6 @@ fn mosaic(scene: &mut Scene, model: &LapModel, layout: &Layout) {
         None => heading(scene, &layout.mosaic_header, (&name, Role::Ink), "each with a map of its own"),
     }
 
-    let tiles = Tiles::fit(&layout.mosaic.inset(RING), m, ASPECT);
     let width = tiles.size[0];
     let full = (0.05 * width).clamp(2.0, 5.0);
     let map_area = |slot: usize| tiles.tile(slot).inset(full + if width < PATH_FROM { 0.0 } else { 1.0 });
@@ -259,7 +262,7 @@ fn mosaic(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     if width >= PATH_FROM {
         paths(scene, model, &map_area, width);
     }
-    let ring = tiles.tile(selected as usize).inset(-(0.5 * tiles.gap).min(RING));
+    let ring = tiles.tile(selected as usize).inset(-(0.5 * tiles.gap[1]).clamp(1.0, RING));
     scene.marks.push(Mark::Frame { area: ring, width: if width < PATH_FROM { 1.0 } else { 1.5 }, role: Role::Ink });
     if m > 1 {
         for slot in 0..m as u32 {
@@ -344,13 +347,17 @@ fn ghost(scene: &mut Scene, model: &LapModel, slot: u32, map: &Rect, width: f64)
     }
 }
 
-fn notes(scene: &mut Scene, model: &LapModel, area: &Rect) {
+fn notes(scene: &mut Scene, model: &LapModel, area: &Rect, labels: bool) {
     if model.lap().particles().len() == 1 {
         return samples(scene, area, &[&[(Sample::Border(1.0), "weight: all of it")]]);
     }
     let weights =
         [(Sample::Border(0.0), "weight 0"), (Sample::Border(1.0), "1/M"), (Sample::Border(FULL_SHARE), "3/M or more")];
-    let resampling = [(Sample::Dot, "resampled"), (Sample::Label, "copied from"), (Sample::Cross, "died out")];
+    let resampling = [
+        (Sample::Dot, "resampled"),
+        (if labels { Sample::Label } else { Sample::Fold }, if labels { "copied from" } else { "copied" }),
+        (Sample::Cross, "died out"),
+    ];
     samples(scene, area, &[&weights, &resampling]);
 }
 
