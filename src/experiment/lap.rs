@@ -304,25 +304,30 @@ impl Lap {
         self.filter.weights().best()
     }
 
-    /// The whole lap from here as a fingerprint: every weight, path, map and report, bit for bit.
-    pub fn trace(mut self) -> Digest {
+    /// Runs the lap to its end and shows every report, the present one first. Returns the end, and a fingerprint of every
+    /// weight, path, map and report on the way, bit for bit.
+    pub fn run(mut self, mut show: impl FnMut(&StepReport)) -> (Self, Digest) {
         let mut digest = Digest::new();
-        self.put(&mut digest);
-        while self.step().is_some() {
+        loop {
+            show(&self.report);
             self.put(&mut digest);
+            if self.step().is_none() {
+                break;
+            }
         }
         for particle in self.particles() {
             let cells = particle.map.bounds();
-            for j in cells.j0..cells.j1 {
-                for i in cells.i0..cells.i1 {
-                    digest.f64(particle.map.log_odds(i, j));
-                    for mean in particle.map.hit_mean(i, j).into_iter().flatten() {
-                        digest.f64(mean);
-                    }
-                }
+            for (i, j) in (cells.j0..cells.j1).flat_map(|j| (cells.i0..cells.i1).map(move |i| (i, j))) {
+                digest.f64(particle.map.log_odds(i, j));
+                particle.map.hit_mean(i, j).into_iter().flatten().for_each(|x| digest.f64(x));
             }
         }
-        digest
+        (self, digest)
+    }
+
+    /// The fingerprint of [`Self::run`].
+    pub fn trace(self) -> Digest {
+        self.run(|_| ()).1
     }
 
     fn put(&self, digest: &mut Digest) {

@@ -43,8 +43,8 @@ impl LapResult {
         let (mut resampled, mut lineage_one_step) = (0, None);
         while let Some(report) = lap.step() {
             resampled += u32::from(report.ancestors.is_some());
-            if report.lineage == 1 && lineage_one_step.is_none() {
-                lineage_one_step = Some(report.step);
+            if report.lineage == 1 {
+                lineage_one_step = lineage_one_step.or(Some(report.step));
             }
         }
         let report = lap.report();

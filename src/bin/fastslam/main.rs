@@ -1,23 +1,98 @@
-//! stub for tuning
-use fastslam::experiment::table::*;
-use fastslam::experiment::lap::*;
-use fastslam::matching::Matcher;
-use fastslam::proposal::ProposalKind;
-use rayon::prelude::*;
-fn main() {
-    let seeds: u64 = std::env::args().nth(1).map_or(40, |s| s.parse().unwrap());
-    let ms: Vec<usize> = std::env::args().nth(2).map_or(PARTICLES.to_vec(), |s| s.split(',').map(|x| x.parse().unwrap()).collect());
-    let mm = std::env::args().nth(3).unwrap_or("both".into());
-    let pp = std::env::args().nth(4).unwrap_or("both".into());
-    let mut setups = vec![];
-    for proposal in [ProposalKind::Aware, ProposalKind::Motion] { if pp != "both" && pp != proposal.to_string() { continue; }
-    for matcher in [Matcher::Cell, Matcher::SubCell] { if mm != "both" && mm != matcher.to_string() { continue; }
-    for &particles in &ms { for seed in 0..seeds { setups.push(LapSetup { particles, seed, proposal, matcher, ..LapSetup::default() }); } } } }
-    let results: Vec<LapResult> = setups.par_iter().map(|s| LapResult::of(s).unwrap()).collect();
-    for r in rows(&results) {
-        println!("{:7} {:8} M={:3}  med {:.3} p90 {:.3} worst {:.3} aligned {:.3} odo {:.2} resampled {:.2} lineage1 {:?} ess {:.1}", r.proposal.to_string(), r.matcher.to_string(), r.particles, r.rms_median, r.rms_p90, r.rms_worst, r.rms_aligned_median, r.odometry_rms_median, r.resampled_fraction, r.lineage_one_step_median, r.final_ess_median);
+//! The command line: the figures' filters, run natively.
+
+mod lap;
+mod table;
+
+use clap::Parser;
+use fastslam::error::ParameterError;
+use std::process::ExitCode;
+
+/// Rao-Blackwellized particle filters for SLAM: the chapter's laps and tables, native and with the same bits as in the browser.
+#[derive(Parser)]
+#[command(name = "fastslam", version, propagate_version = true)]
+struct Arguments {
+    /// Threads to compute with; the results are the same for any number [default: all processors]
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(clap::Subcommand)]
+enum Command {
+    Lap(lap::Arguments),
+    Table(table::Arguments),
+}
+
+/// Why a command ended early, in one line.
+enum Failure {
+    /// The arguments cannot be used: exit status 2.
+    Usage(String),
+    /// They can, but something else failed: exit status 1.
+    Run(String),
+}
+
+impl Failure {
+    /// What the system said of a file.
+    fn file(path: &std::path::Path, error: impl std::fmt::Display) -> Self {
+        Self::Run(format!("{}: {error}", path.display()))
     }
-    let mut bad: Vec<_> = results.iter().filter(|r| r.rms_best > 0.5 && r.proposal == ProposalKind::Aware && r.particles >= 8).collect();
-    bad.sort_by(|a, b| b.rms_best.total_cmp(&a.rms_best));
-    for r in bad.iter().take(12) { println!("bad {:?}", r); }
+}
+
+impl From<ParameterError> for Failure {
+    fn from(error: ParameterError) -> Self {
+        Self::Usage(error.to_string())
+    }
+}
+
+fn main() -> ExitCode {
+    let failure = match Arguments::try_parse() {
+        Err(message) if message.use_stderr() => Failure::Usage(one_line(&message)),
+        Err(message) => message.exit(), // what was asked for: help or version
+        Ok(arguments) => match run(arguments) {
+            Ok(()) => return ExitCode::SUCCESS,
+            Err(failure) => failure,
+        },
+    };
+    let (message, status) = match failure {
+        Failure::Usage(message) => (message, 2),
+        Failure::Run(message) => (message, 1),
+    };
+    eprintln!("fastslam: {message}");
+    ExitCode::from(status)
+}
+
+fn run(arguments: Arguments) -> Result<(), Failure> {
+    let threads = arguments.threads.map_or(0, usize::from); // 0: as many as there are processors
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| Failure::Run(e.to_string()))?;
+    pool.install(|| match arguments.command {
+        Command::Lap(arguments) => lap::run(&arguments),
+        Command::Table(arguments) => table::run(&arguments),
+    })
+}
+
+/// What clap says before it advises, in one line.
+fn one_line(message: &clap::Error) -> String {
+    if message.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        return "a command is missing: lap or table (fastslam --help explains)".to_owned();
+    }
+    let text = message.to_string();
+    let said = text.lines().take_while(|line| !line.trim_start().starts_with("Usage:") && !line.starts_with("For more"));
+    let words: Vec<&str> = said.flat_map(str::split_whitespace).collect();
+    words.join(" ").trim_start_matches("error: ").to_owned()
+}
+
+/// Prints to standard output; a reader that has gone away is no error.
+fn print(text: &str) -> Result<(), Failure> {
+    use std::io::{ErrorKind, Write};
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::Run(format!("standard output: {error}"))),
+        _ => Ok(()),
+    }
+}
+
+/// One JSON value to standard output.
+fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string(value).map_err(|error| Failure::Run(error.to_string()))?;
+    print(&format!("{text}\n"))
 }

@@ -1,0 +1,161 @@
+//! `fastslam lap`: one lap of the apartment.
+
+use crate::{Failure, print, print_json};
+use fastslam::experiment::lap::{Lap, LapSetup, StepReport};
+use fastslam::matching::Matcher;
+use fastslam::proposal::ProposalKind;
+use fastslam::resampling::{ResamplePolicy, Scheme};
+use fastslam_widgets::{figure::Figure, paint::Theme};
+use serde::Serialize;
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+/// Drive one lap of the apartment and report every step
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// Number of particles M, 1 to 4096
+    #[arg(long, value_name = "M", default_value_t = LapSetup::default().particles)]
+    particles: usize,
+    /// Seed of the world's noise and of the filter's
+    #[arg(long, default_value_t = LapSetup::default().seed)]
+    seed: u64,
+    /// Where new poses are drawn from: aware (of the scan) or motion
+    #[arg(long, default_value_t = LapSetup::default().proposal)]
+    proposal: ProposalKind,
+    /// What the end point of a beam is compared with: cell or subcell
+    #[arg(long, default_value_t = LapSetup::default().matcher)]
+    matcher: Matcher,
+    /// When to resample: never, always or neff:F, where N_eff < F M
+    #[arg(long, default_value_t = LapSetup::default().policy)]
+    policy: ResamplePolicy,
+    /// How to resample: systematic, stratified, multinomial or residual
+    #[arg(long, default_value_t = LapSetup::default().scheme)]
+    scheme: Scheme,
+    /// Factor on the standard deviations of the odometry's noise, 0 to 10
+    #[arg(long, value_name = "FACTOR", default_value_t = LapSetup::default().odometry_scale, allow_negative_numbers = true)]
+    odometry: f64,
+    /// Standard deviation of a range [m], 0 to 1
+    #[arg(long, value_name = "METRES", default_value_t = LapSetup::default().range_std, allow_negative_numbers = true)]
+    range_std: f64,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+    /// Paint the end of the lap, as the page would, into this file
+    #[arg(long, value_name = "FILE")]
+    png: Option<PathBuf>,
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Output {
+    steps: Vec<StepReport>,
+    /// \[m\]
+    rms_best: f64,
+    /// \[m\]
+    rms_best_aligned: f64,
+    /// \[m\]
+    rms_odometry: f64,
+    /// Of the whole trace: every weight, path, map and report.
+    digest: String,
+    /// Bytes that went into the digest.
+    digest_size: u64,
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let setup = LapSetup {
+        particles: arguments.particles,
+        seed: arguments.seed,
+        proposal: arguments.proposal,
+        matcher: arguments.matcher,
+        policy: arguments.policy,
+        scheme: arguments.scheme,
+        odometry_scale: arguments.odometry,
+        range_std: arguments.range_std,
+    };
+    let lap = Lap::new(&setup)?;
+    if let Some(path) = &arguments.png {
+        paint(&setup, path)?;
+    }
+    let mut steps = Vec::new();
+    let (lap, digest) = lap.run(|report| steps.push(report.clone()));
+    let report = lap.report();
+    let output = Output {
+        steps,
+        rms_best: report.rms_best,
+        rms_best_aligned: report.rms_best_aligned,
+        rms_odometry: report.rms_odometry,
+        digest: format!("{:016x}", digest.value()),
+        digest_size: digest.size(),
+    };
+    if arguments.json { print_json(&output) } else { print(&summary(&setup, &output)) }
+}
+
+fn summary(setup: &LapSetup, output: &Output) -> String {
+    let last = &output.steps[output.steps.len() - 1];
+    let resampled = output.steps.iter().filter(|step| step.ancestors.is_some()).count();
+    let LapSetup { particles, seed, proposal, matcher, policy, scheme, .. } = setup;
+    format!(
+        "lap of {} steps: {particles} particles, seed {seed}, proposal {proposal}, matcher {matcher}, policy {policy} ({scheme})\n\
+         RMS position error of the best    {:8.3} m\n\
+         the same after rigid alignment    {:8.3} m\n\
+         RMS position error of odometry    {:8.3} m\n\
+         N_eff at the end                  {:8.1} of {particles}\n\
+         steps that resampled              {resampled:8}\n\
+         lineage (ancestors of the start)  {:8}\n\
+         maps                              {:8.1} kB, {:.1} kB as dense copies\n\
+         digest                            {}\n",
+        output.steps.len() - 1,
+        output.rms_best,
+        output.rms_best_aligned,
+        output.rms_odometry,
+        last.ess,
+        last.lineage,
+        last.map_bytes_unique as f64 / 1e3,
+        last.map_bytes_dense as f64 / 1e3,
+        output.digest,
+    )
+}
+
+/// Paints the figure `<fastslam-lap>` at the end of this lap.
+fn paint(setup: &LapSetup, path: &Path) -> Result<(), Failure> {
+    let mut figure = Figure::new("fastslam-lap")?;
+    let (policy, threshold) = match setup.policy {
+        ResamplePolicy::Never => ("never", None),
+        ResamplePolicy::Always => ("always", None),
+        ResamplePolicy::EssBelow(fraction) => ("neff", Some(fraction)),
+    };
+    for (name, value) in [
+        ("universes", setup.particles.to_string()),
+        ("seed", setup.seed.to_string()),
+        ("proposal", setup.proposal.to_string()),
+        ("matcher", setup.matcher.to_string()),
+        ("policy", policy.to_owned()),
+        ("scheme", setup.scheme.to_string()),
+        ("odometry", setup.odometry_scale.to_string()),
+        ("range-std", setup.range_std.to_string()),
+        ("truth", "on".to_owned()),
+        ("raw", "on".to_owned()),
+    ] {
+        figure.set(name, &value)?;
+    }
+    if let Some(threshold) = threshold {
+        figure.set("threshold", &threshold.to_string())?;
+    }
+    let last = figure.model().step_count();
+    figure.model_mut().seek(last);
+    while figure.model().pending() > 0 {
+        figure.model_mut().work();
+    }
+    const WIDTH: u32 = 1280;
+    const DPR: u32 = 2;
+    let height = figure.model().height(f64::from(WIDTH / DPR)) as u32 * DPR;
+    figure.paint(WIDTH, height, f64::from(DPR), Theme::named("light"));
+
+    let file = File::create(path).map_err(|error| Failure::file(path, error))?;
+    let mut encoder = png::Encoder::new(BufWriter::new(file), WIDTH, height);
+    encoder.set_color(png::ColorType::Rgba);
+    let write = |encoder: png::Encoder<'_, _>| encoder.write_header()?.write_image_data(figure.canvas().pixels());
+    write(encoder).map_err(|error| Failure::file(path, error))
+}

@@ -1,0 +1,1 @@
+//! Laws across layers: see `tests/`.

@@ -1,0 +1,1 @@
+//! The same bits in every build: see `tests/`.

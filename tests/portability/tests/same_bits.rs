@@ -1,0 +1,52 @@
+//! Whole laps against their golden fingerprints, in this build (debug or release), serial and on 1, 2 and 5 threads. The same
+//! file is what `tests/browser` holds WebAssembly against.
+//!
+//! A change that is meant to change numbers is written with `UPDATE_GOLDENS=1 cargo test -p portability`.
+
+use fastslam::execute::Executor;
+use fastslam::experiment::lap::{Lap, golden_setups};
+use std::fmt::Write;
+
+const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/golden.txt");
+
+/// Lines `name size digest`.
+fn fingerprints(executor: &Executor) -> String {
+    let mut lines = String::new();
+    for (name, setup) in golden_setups() {
+        let digest = Lap::new(&setup).unwrap().with_executor(executor.clone()).trace();
+        writeln!(lines, "{name} {} {:016x}", digest.size(), digest.value()).unwrap();
+    }
+    lines
+}
+
+#[test]
+fn serial_laps_have_their_golden_fingerprints() {
+    let found = fingerprints(&Executor::Serial);
+    if std::env::var_os("UPDATE_GOLDENS").is_some() {
+        std::fs::write(GOLDEN, &found).unwrap();
+    }
+    assert_eq!(found, std::fs::read_to_string(GOLDEN).unwrap());
+}
+
+#[test]
+fn laps_on_any_number_of_threads_have_the_same_fingerprints() {
+    let golden = std::fs::read_to_string(GOLDEN).unwrap();
+    for threads in [1, 2, 5] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        assert_eq!(pool.install(|| fingerprints(&Executor::Rayon)), golden, "{threads} threads");
+    }
+}
+
+/// What makes the other tests able to fail: one bit of noise changes every fingerprint.
+#[test]
+fn another_seed_has_another_fingerprint() {
+    let mut values: Vec<u64> = (0..4)
+        .map(|seed| {
+            let (_, setup) = golden_setups().swap_remove(0);
+            Lap::new(&fastslam::experiment::lap::LapSetup { seed, ..setup }).unwrap().trace().value()
+        })
+        .collect();
+    values.sort_unstable();
+    values.dedup();
+    assert_eq!(values.len(), 4);
+}
