@@ -48,6 +48,7 @@ pub struct Rbpf<M, P> {
     step: u32,
     particles: Vec<Particle<M>>,
     weights: Weights,
+    best: usize,
     ancestry: Ancestry,
 }
 
@@ -58,7 +59,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         let mut particle = || Particle { world_from_robot: start, map: map.clone(), node: ancestry.push(None, start) };
         let particles = (0..count).map(|_| particle()).collect();
         let (executor, weights) = (Executor::default(), Weights::uniform(count));
-        Self { proposal, policy, scheme, seed, executor, step: 0, particles, weights, ancestry }
+        Self { proposal, policy, scheme, seed, executor, step: 0, particles, weights, best: 0, ancestry }
     }
 
     /// The same filter, computed by another executor: the results are the same.
@@ -92,6 +93,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         }
         let log_increments: Vec<f64> = proposed.iter().map(|p| p.log_increment).collect();
         (self.weights, _) = self.weights.reweighted(&log_increments);
+        self.best = self.weights.best();
         Report {
             step,
             log_increments,
@@ -108,6 +110,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         let count = self.particles.len();
         let mut stream = Stream::at(self.seed, Purpose::Resampling, self.step, 0);
         let ancestors = self.scheme.ancestors(&self.weights, count, &mut stream);
+        self.best = ancestors.iter().position(|slot| *slot as usize == self.best).unwrap_or(0);
         self.particles = ancestors.iter().map(|slot| self.particles[*slot as usize].clone()).collect();
         self.weights = Weights::uniform(count);
         ancestors
@@ -122,6 +125,11 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
     /// Weights as they are now: uniform after a resampling.
     pub fn weights(&self) -> &Weights {
         &self.weights
+    }
+
+    /// Slot of the largest weight; after a resampling, which makes all weights equal, its first copy.
+    pub fn best(&self) -> usize {
+        self.best
     }
 
     /// All paths.

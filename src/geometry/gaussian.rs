@@ -8,6 +8,7 @@ use nalgebra::{Cholesky, Const, Matrix3, Vector3};
 #[derive(Clone, Debug)]
 pub struct Gaussian3 {
     mean: Pose2,
+    /// Of Σ in the order (θ, x, y).
     cholesky: Cholesky<f64, Const<3>>,
     log_normalizer: f64,
 }
@@ -15,7 +16,9 @@ pub struct Gaussian3 {
 impl Gaussian3 {
     /// The Gaussian with this mean and 3 × 3 covariance; `None` where the covariance is not positive definite.
     pub fn new(mean: Pose2, covariance: Matrix3<f64>) -> Option<Self> {
-        let cholesky = Cholesky::new(covariance)?;
+        let s = covariance;
+        let heading_first = Matrix3::new(s.m33, s.m31, s.m32, s.m13, s.m11, s.m12, s.m23, s.m21, s.m22);
+        let cholesky = Cholesky::new(heading_first)?;
         let l = cholesky.l_dirty();
         let log_sqrt_det = ops::ln(l[(0, 0)] * l[(1, 1)] * l[(2, 2)]);
         if !log_sqrt_det.is_finite() {
@@ -33,20 +36,22 @@ impl Gaussian3 {
     pub fn log_density(&self, pose: &Pose2) -> f64 {
         // Forward substitution with the lower factor: ‖L⁻¹d‖² is the squared Mahalanobis distance.
         let (d, l) = (pose.minus(&self.mean), self.cholesky.l_dirty());
-        let a = d.x / l[(0, 0)];
-        let b = (d.y - l[(1, 0)] * a) / l[(1, 1)];
-        let c = (d.z - l[(2, 0)] * a - l[(2, 1)] * b) / l[(2, 2)];
+        let a = d.z / l[(0, 0)];
+        let b = (d.x - l[(1, 0)] * a) / l[(1, 1)];
+        let c = (d.y - l[(2, 0)] * a - l[(2, 1)] * b) / l[(2, 2)];
         self.log_normalizer - 0.5 * (a * a + b * b + c * c)
     }
 
     /// mean + L ε for standard normals or lattice points ε, with Σ = L Lᵀ.
+    ///
+    /// The first ε is the heading in its standard deviations, and takes the position along as the covariance has it; the other
+    /// two move the position for a given heading.
     pub fn at(&self, epsilon: [f64; 3]) -> Pose2 {
         let (l, [a, b, c]) = (self.cholesky.l_dirty(), epsilon);
-        self.mean.plus(&Vector3::new(
-            l[(0, 0)] * a,
-            l[(1, 0)] * a + l[(1, 1)] * b,
-            l[(2, 0)] * a + l[(2, 1)] * b + l[(2, 2)] * c,
-        ))
+        let theta = l[(0, 0)] * a;
+        let x = l[(1, 0)] * a + l[(1, 1)] * b;
+        let y = l[(2, 0)] * a + l[(2, 1)] * b + l[(2, 2)] * c;
+        self.mean.plus(&Vector3::new(x, y, theta))
     }
 
     /// One draw; takes six `u64`s.
@@ -67,6 +72,16 @@ mod tests {
         let quadratic = (d.transpose() * sigma.try_inverse().unwrap() * d)[0];
         let expected = -0.5 * quadratic - 0.5 * ops::ln((core::f64::consts::TAU * sigma).determinant());
         assert!((Gaussian3::new(mean, sigma).unwrap().log_density(&pose) - expected).abs() < 1e-12);
+    }
+
+    /// Unit lattice directions have the outer-product sum Σ: exact, no sampling.
+    #[test]
+    fn the_factor_has_the_covariance() {
+        let sigma = Matrix3::new(0.5, 0.1, 0.03, 0.1, 0.4, -0.05, 0.03, -0.05, 0.2);
+        let gaussian = Gaussian3::new(Pose2::default(), sigma).unwrap();
+        let columns = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|e| gaussian.at(e).minus(&Pose2::default()));
+        let sum: Matrix3<f64> = columns.iter().map(|c| c * c.transpose()).sum();
+        assert!((sum - sigma).norm() < 1e-14, "{sum}");
     }
 
     #[test]

@@ -21,7 +21,7 @@ pub struct FromScanSettings {
     pub motion_floor: [f64; 3],
     /// Step sizes of the hill climb.
     pub climb: ClimbSteps,
-    /// Seeds of the climb besides the odometry's prediction, drawn from the motion Gaussian.
+    /// Seeds of the climb besides the odometry's prediction.
     pub seeds: u32,
     /// How much better than the mean likelihood over the seeds the mode must be for the matcher to be trusted \[nats\].
     pub gain: f64,
@@ -30,6 +30,10 @@ pub struct FromScanSettings {
     /// Limits of the standard deviations of the probes along each axis \[m, m, rad\]: least and most.
     pub probe_stds: [[f64; 3]; 2],
 }
+
+/// Seeds reach this many standard deviations of the heading to each side. Heading is what a climb is lost
+/// by: a few degrees more, and far end points fall on the wrong wall.
+const SPREAD: f64 = 3.0;
 
 /// The gmapping recipe: find the mode, probe around it, fit a Gaussian, sample it, pay the normaliser η.
 #[derive(Clone, Debug)]
@@ -50,11 +54,13 @@ impl Proposal<Grid> for FromScan {
         let log_likelihood = |pose: &Pose2| self.fallback.scan.log_likelihood(&particle.map, pose, scan);
         let log_target = |pose: &Pose2| log_likelihood(pose) + prior.log_density(pose);
 
-        // Seeds: the prediction and draws from the prior, so that the climb may begin on the right slope.
+        // Seeds: the prediction, and poses spread over the prior's heading, so that the climb begins on the right slope.
         let mut best = Climb { pose: *prior.mean(), value: log_target(prior.mean()) };
-        let mut log_seeds = vec![log_likelihood(prior.mean())];
-        for _ in 0..settings.seeds {
-            let pose = prior.sample(stream);
+        let mut log_seeds = vec![best.value - prior.log_density(prior.mean())];
+        for k in 0..settings.seeds {
+            let heading = SPREAD * ((f64::from(k) + 0.5) / f64::from(settings.seeds) * 2.0 - 1.0);
+            let [a, b] = stream.normals();
+            let pose = prior.at([heading, a, b]);
             let log_seed = log_likelihood(&pose);
             log_seeds.push(log_seed);
             let value = log_seed + prior.log_density(&pose);

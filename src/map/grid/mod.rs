@@ -167,22 +167,24 @@ impl Grid {
     }
 
     /// Bytes that these grids hold together, each shared part counted once, against dense arrays of their own.
+    ///
+    /// Counted as on a 64-bit machine everywhere, and without the allocator's slack: a reader's browser and the native build must
+    /// show the same number.
     pub fn footprint<'a>(grids: impl IntoIterator<Item = &'a Self>) -> Footprint {
-        let (mut directories, mut tiles, mut dense) = (Vec::new(), Vec::new(), 0);
-        for Self { directory, .. } in grids {
-            dense += directory.tiles.len() * (TILE * TILE) as usize * (size_of::<i8>() + size_of::<Surface>());
-            let bytes = directory.tiles.len() * size_of::<Option<Arc<Tile>>>();
-            directories.push((Arc::as_ptr(directory), bytes, directory));
+        const POINTER: usize = 8;
+        let mut footprint = Footprint::default();
+        let mut directories: Vec<&Arc<Directory>> = grids.into_iter().map(|grid| &grid.directory).collect();
+        for directory in &directories {
+            footprint.dense += (directory.tiles.len() * tile::DENSE_BYTES) as u64;
         }
-        directories.sort_unstable_by_key(|(address, ..)| *address);
-        directories.dedup_by_key(|(address, ..)| *address);
-        for (_, _, directory) in &directories {
-            tiles.extend(directory.tiles.iter().flatten().map(|tile| (Arc::as_ptr(tile), tile.bytes())));
-        }
-        tiles.sort_unstable();
-        tiles.dedup();
-        let unique = directories.iter().map(|(_, bytes, _)| bytes).chain(tiles.iter().map(|(_, bytes)| bytes)).sum::<usize>();
-        Footprint { unique: unique as u64, dense: dense as u64 }
+        directories.sort_unstable_by_key(|directory| Arc::as_ptr(directory));
+        directories.dedup_by_key(|directory| Arc::as_ptr(directory));
+        footprint.unique += directories.iter().map(|d| (d.tiles.len() * POINTER) as u64).sum::<u64>();
+        let mut tiles: Vec<&Arc<Tile>> = directories.iter().flat_map(|d| d.tiles.iter().flatten()).collect();
+        tiles.sort_unstable_by_key(|tile| Arc::as_ptr(tile));
+        tiles.dedup_by_key(|tile| Arc::as_ptr(tile));
+        footprint.unique += tiles.iter().map(|tile| tile.bytes() as u64).sum::<u64>();
+        footprint
     }
 
     /// The tile of a cell, made its own and allocated if need be; `None` where the directory does not reach.

@@ -104,7 +104,11 @@ impl Tile {
         }
     }
 
+    /// What it holds, as on a 64-bit machine: two bytes a cell, the vector's three words, and the surfaces.
     pub fn bytes(&self) -> usize {
-        size_of::<Self>() + self.surfaces.capacity() * size_of::<Surface>()
+        2 * CELLS + 3 * 8 + self.surfaces.len() * size_of::<Surface>()
     }
 }
+
+/// The same content in a dense array of cells, each with its own log-odds and surface.
+pub(super) const DENSE_BYTES: usize = CELLS * (1 + size_of::<Surface>());
