@@ -105,7 +105,8 @@ mod tests {
     #[test]
     fn first_draws_over_addresses_are_standard_normal() {
         let n = 40_000_u32;
-        let draws: Vec<f64> = (0..n).map(|slot| Stream::at(9, Purpose::Trial, slot / 200, slot % 200).normal()).collect();
+        let draws: Vec<f64> =
+            (0..n).map(|slot| Stream::at(9, Purpose::Trial, slot / 200, slot % 200).normal()).collect();
         let mean = draws.iter().sum::<f64>() / f64::from(n);
         let variance = draws.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / f64::from(n);
         let sigma = 1.0 / f64::from(n).sqrt();

@@ -54,7 +54,15 @@ pub struct Rbpf<M, P> {
 
 impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
     /// `count` particles that all stand at `start` with a copy of `map`.
-    pub fn new(proposal: P, policy: ResamplePolicy, scheme: Scheme, seed: u64, count: usize, start: Pose2, map: M) -> Self {
+    pub fn new(
+        proposal: P,
+        policy: ResamplePolicy,
+        scheme: Scheme,
+        seed: u64,
+        count: usize,
+        start: Pose2,
+        map: M,
+    ) -> Self {
         let mut ancestry = Ancestry::default();
         let mut particle = || Particle { world_from_robot: start, map: map.clone(), node: ancestry.push(None, start) };
         let particles = (0..count).map(|_| particle()).collect();

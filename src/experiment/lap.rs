@@ -101,7 +101,12 @@ impl LapSetup {
             if ok { Ok(()) } else { Err(ParameterError::new(name, value, allowed)) }
         };
         check((1..=4096).contains(&self.particles), "particles", &self.particles, "a whole number from 1 to 4096")?;
-        check((0.0..=10.0).contains(&self.odometry_scale), "odometry_scale", &self.odometry_scale, "a number from 0 to 10")?;
+        check(
+            (0.0..=10.0).contains(&self.odometry_scale),
+            "odometry_scale",
+            &self.odometry_scale,
+            "a number from 0 to 10",
+        )?;
         check((0.0..=1.0).contains(&self.range_std), "range_std", &self.range_std, "a number from 0 to 1 [m]")?;
         if let ResamplePolicy::EssBelow(fraction) = self.policy {
             check((0.0..=1.0).contains(&fraction), "policy", &self.policy, "neff:F with F from 0 to 1")?;

@@ -141,7 +141,11 @@ fn quantile(ascending: &[f64], q: f64) -> f64 {
     let position = q * (ascending.len() - 1) as f64;
     let (low, share) = (position.floor() as usize, position - position.floor());
     let next = ascending[(low + 1).min(ascending.len() - 1)];
-    if share == 0.0 || next == ascending[low] { ascending[low] } else { ascending[low] + share * (next - ascending[low]) }
+    if share == 0.0 || next == ascending[low] {
+        ascending[low]
+    } else {
+        ascending[low] + share * (next - ascending[low])
+    }
 }
 
 #[cfg(test)]

@@ -79,7 +79,8 @@ mod tests {
     fn the_factor_has_the_covariance() {
         let sigma = Matrix3::new(0.5, 0.1, 0.03, 0.1, 0.4, -0.05, 0.03, -0.05, 0.2);
         let gaussian = Gaussian3::new(Pose2::default(), sigma).unwrap();
-        let columns = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|e| gaussian.at(e).minus(&Pose2::default()));
+        let columns =
+            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|e| gaussian.at(e).minus(&Pose2::default()));
         let sum: Matrix3<f64> = columns.iter().map(|c| c * c.transpose()).sum();
         assert!((sum - sigma).norm() < 1e-14, "{sum}");
     }

@@ -3,6 +3,6 @@
 mod climb;
 mod score;
 
-pub use climb::{Climb, ClimbSteps};
 pub(crate) use climb::climb;
+pub use climb::{Climb, ClimbSteps};
 pub use score::{Matcher, ScanModel};

@@ -101,7 +101,11 @@ impl Proposal<Grid> for FromScan {
             return self.fallback.propose(particle, u, scan, stream);
         };
         let log_eta = log_sum - ops::ln(f64::from(settings.probes));
-        Proposed { world_from_robot: fitted.sample(stream), log_increment: log_eta, trace: ProposalTrace::Matched { mode: mode.pose } }
+        Proposed {
+            world_from_robot: fitted.sample(stream),
+            log_increment: log_eta,
+            trace: ProposalTrace::Matched { mode: mode.pose },
+        }
     }
     // end: propose
 }

@@ -24,7 +24,13 @@ pub trait Proposal<M: ConditionalMap>: Sync {
     type Control: Sync;
 
     /// One draw for one particle.
-    fn propose(&self, particle: &Particle<M>, control: &Self::Control, observation: &M::Observation, stream: &mut Stream) -> Proposed;
+    fn propose(
+        &self,
+        particle: &Particle<M>,
+        control: &Self::Control,
+        observation: &M::Observation,
+        stream: &mut Stream,
+    ) -> Proposed;
 }
 
 /// A drawn pose with its price.

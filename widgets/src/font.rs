@@ -16,13 +16,11 @@ pub enum Weight {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Segment {
     /// Starts a contour.
-    Move([f64; 2]),
+    Move([f32; 2]),
     /// Straight to the point.
-    Line([f64; 2]),
-    /// Quadratic curve by its control point.
-    Quad([f64; 2], [f64; 2]),
+    Line([f32; 2]),
     /// Cubic curve by its two control points.
-    Cubic([f64; 2], [f64; 2], [f64; 2]),
+    Cubic([f32; 2], [f32; 2], [f32; 2]),
     /// Ends a contour.
     Close,
 }
@@ -41,26 +39,25 @@ pub fn cap_height(size: f64, weight: Weight) -> f64 {
 }
 
 /// Calls `put` with every piece of the text's outline and the distance in em from the text's start to its glyph's.
-pub fn outline(text: &str, weight: Weight, mut put: impl FnMut(f64, Segment)) {
+pub fn outline(text: &str, weight: Weight, mut put: impl FnMut(f32, Segment)) {
     let table = weight.table();
-    let em = 1.0 / f64::from(table.units_per_em);
+    let em = 1.0 / f32::from(table.units_per_em);
     let mut pen = 0.0;
     for glyph in text.chars().map(|c| table.glyph(c)) {
         let mut coordinates = table.coordinates[glyph.coordinates as usize..].iter();
-        let mut point = || [0, 1].map(|_| f64::from(*coordinates.next().expect("two coordinates a point")) * em);
+        let mut point = || [0, 1].map(|_| f32::from(*coordinates.next().expect("two coordinates a point")) * em);
         for verb in &table.verbs[glyph.verbs.0 as usize..glyph.verbs.1 as usize] {
             put(
                 pen,
                 match verb {
                     b'M' => Segment::Move(point()),
                     b'L' => Segment::Line(point()),
-                    b'Q' => Segment::Quad(point(), point()),
                     b'C' => Segment::Cubic(point(), point(), point()),
                     _ => Segment::Close,
                 },
             );
         }
-        pen += f64::from(glyph.advance) * em;
+        pen += f32::from(glyph.advance) * em;
     }
 }
 
@@ -140,13 +137,13 @@ mod tests {
 
     #[test]
     fn a_capital_stands_on_the_baseline_and_reaches_the_cap_height() {
-        let (mut low, mut high) = (f64::MAX, f64::MIN);
+        let (mut low, mut high) = (f32::MAX, f32::MIN);
         outline("H", Weight::Regular, |_, segment| {
             if let Segment::Move([_, y]) | Segment::Line([_, y]) = segment {
                 (low, high) = (low.min(y), high.max(y));
             }
         });
         assert_eq!(low, 0.0);
-        assert!((high - cap_height(1.0, Weight::Regular)).abs() < 1e-3);
+        assert!((f64::from(high) - cap_height(1.0, Weight::Regular)).abs() < 1e-3);
     }
 }

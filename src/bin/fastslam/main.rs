@@ -77,7 +77,8 @@ fn one_line(message: &clap::Error) -> String {
         return "a command is missing: lap or table (fastslam --help explains)".to_owned();
     }
     let text = message.to_string();
-    let said = text.lines().take_while(|line| !line.trim_start().starts_with("Usage:") && !line.starts_with("For more"));
+    let said =
+        text.lines().take_while(|line| !line.trim_start().starts_with("Usage:") && !line.starts_with("For more"));
     let words: Vec<&str> = said.flat_map(str::split_whitespace).collect();
     words.join(" ").trim_start_matches("error: ").to_owned()
 }

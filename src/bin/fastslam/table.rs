@@ -43,7 +43,9 @@ impl FromStr for Matchers {
     fn from_str(text: &str) -> Result<Self, String> {
         match text {
             "both" => Ok(Self(vec![Matcher::Cell, Matcher::SubCell])),
-            _ => text.parse().map(|matcher| Self(vec![matcher])).map_err(|_| "must be cell, subcell or both".to_owned()),
+            _ => {
+                text.parse().map(|matcher| Self(vec![matcher])).map_err(|_| "must be cell, subcell or both".to_owned())
+            }
         }
     }
 }
@@ -107,8 +109,9 @@ fn merge(files: &[PathBuf]) -> Result<Vec<LapResult>, Failure> {
     let mut shares: Vec<Share> = Vec::new();
     for path in files {
         let text = std::fs::read_to_string(path).map_err(|error| Failure::file(path, error))?;
-        let share: Share = serde_json::from_str(&text)
-            .map_err(|error| Failure::file(path, format_args!("not the output of table --shard I/N --json: {error}")))?;
+        let share: Share = serde_json::from_str(&text).map_err(|error| {
+            Failure::file(path, format_args!("not the output of table --shard I/N --json: {error}"))
+        })?;
         if let Some(first) = shares.first() {
             if (first.seeds, first.shard.count) != (share.seeds, share.shard.count) {
                 return Err(Failure::file(path, "a share of another sweep than the first file"));

@@ -279,7 +279,8 @@ impl ConditionalMap for Grid {
         for &([x, y], i, j) in &marks.hits {
             let center = |k: i32| (f64::from(k) + 0.5) * size;
             let offset = [(x - center(i)) as f32, (y - center(j)) as f32];
-            let tile = self.tile_mut(i >> tile::SHIFT, j >> tile::SHIFT).expect("the directory was grown to cover the scan");
+            let tile =
+                self.tile_mut(i >> tile::SHIFT, j >> tile::SHIFT).expect("the directory was grown to cover the scan");
             tile.add_hit(tile::local(i, j), offset, surface_std as f32);
         }
     }

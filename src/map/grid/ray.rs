@@ -92,16 +92,9 @@ impl Marks {
         for _ in 0..count {
             let index = self.index(cell[0], cell[1]);
             self.cells[index] = PASSED;
-            let k = usize::from(next[1] < next[0]);
+            // Along an axis whose last row or column is reached there is nothing left to do, whatever rounding says.
+            let k = if cell[0] == last[0] { 1 } else { usize::from(cell[1] != last[1] && next[1] < next[0]) };
             cell[k] += step[k];
-            // A rounding error may lead past the last row or column of the beam: stay inside its box.
-            if cell[k] == last[k] + step[k] && cell[k] != last[k] {
-                cell[k] = last[k];
-                next[k] = f64::INFINITY;
-                cell[1 - k] += step[1 - k];
-                next[1 - k] += per_cell[1 - k];
-                continue;
-            }
             next[k] += per_cell[k];
         }
     }
@@ -109,7 +102,7 @@ impl Marks {
     /// The tiles of the window; `None` where nothing was touched.
     pub fn touched_tiles(&self) -> Option<CellRect> {
         let CellRect { i0, j0, i1, j1 } = self.window;
-        (!self.cells.is_empty()).then(|| CellRect { i0: i0 / TILE, j0: j0 / TILE, i1: i1 / TILE, j1: j1 / TILE })
+        (!self.cells.is_empty()).then_some(CellRect { i0: i0 / TILE, j0: j0 / TILE, i1: i1 / TILE, j1: j1 / TILE })
     }
 
     /// The touched cells of one tile, as (index in the tile, mark).

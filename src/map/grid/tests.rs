@@ -86,7 +86,13 @@ fn a_surface_has_the_moments_of_its_hits() {
     assert!((surface.mean[0] - mean(0)).abs() < 1e-6 && (surface.mean[1] - mean(1)).abs() < 1e-6);
     let moment = |a: usize, b: usize| hits.iter().map(|h| (h[a] - mean(a)) * (h[b] - mean(b))).sum::<f32>();
     let sigma = nalgebra::Matrix2::new(moment(0, 0) + 0.02, moment(0, 1), moment(0, 1), moment(1, 1) + 0.02) / 6.0;
-    let product = sigma * nalgebra::Matrix2::new(surface.information[0], surface.information[1], surface.information[1], surface.information[2]);
+    let product = sigma
+        * nalgebra::Matrix2::new(
+            surface.information[0],
+            surface.information[1],
+            surface.information[1],
+            surface.information[2],
+        );
     assert!((product - nalgebra::Matrix2::identity()).norm() < 1e-4, "{product}");
 }
 
@@ -99,7 +105,8 @@ fn the_nearest_surface_is_that_of_all_cells_around() {
         let (i, j) = ((x / 0.3 - 0.5).floor() as i32, (y / 0.3 - 0.5).floor() as i32);
         let relative = |c: f64, k: i32| (c - (f64::from(k) + 0.5) * 0.3) as f32;
         let four = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)];
-        let near = four.iter().filter_map(|&(i, j)| Some(grid.surface(i, j)?.mahalanobis2(relative(x, i), relative(y, j))));
+        let near =
+            four.iter().filter_map(|&(i, j)| Some(grid.surface(i, j)?.mahalanobis2(relative(x, i), relative(y, j))));
         let expected = near.fold(f32::INFINITY, f32::min);
         let (found, units) = grid.nearest_surface(x, y);
         let (found, own) = (found as f32, grid.cell_of(x, y));

@@ -5,13 +5,30 @@ use std::path::{Path, PathBuf};
 
 /// Modules of `fastslam`, each after all that it may use.
 const ORDER: [&str; 18] = [
-    "error", "digest", "execute", "ops", "random", "geometry", "motion", "sensor", "map", "matching", "weights", "resampling",
-    "lineage", "rbpf", "proposal", "world", "experiment", "lib",
+    "error",
+    "digest",
+    "execute",
+    "ops",
+    "random",
+    "geometry",
+    "motion",
+    "sensor",
+    "map",
+    "matching",
+    "weights",
+    "resampling",
+    "lineage",
+    "rbpf",
+    "proposal",
+    "world",
+    "experiment",
+    "lib",
 ];
 
 /// Parts of the figures' crate, with what each may know of the others: a scene is data that knows nobody, models make scenes,
 /// the painter paints them.
-const FIGURES: [(&str, &[&str]); 3] = [("scene", &["scene", "font"]), ("paint", &["scene", "paint", "font"]), ("model", &["scene", "model"])];
+const FIGURES: [(&str, &[&str]); 3] =
+    [("scene", &["scene", "font"]), ("paint", &["scene", "paint", "font"]), ("model", &["scene", "model"])];
 
 fn sources(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
@@ -53,7 +70,8 @@ fn root() -> PathBuf {
 #[test]
 fn modules_use_only_what_comes_before_them() {
     let src = root().join("src");
-    let rank = |name: &str| ORDER.iter().position(|m| *m == name).unwrap_or_else(|| panic!("{name} is not in the order"));
+    let rank =
+        |name: &str| ORDER.iter().position(|m| *m == name).unwrap_or_else(|| panic!("{name} is not in the order"));
     for path in sources(&src) {
         let module = module(&src, &path);
         for name in used(&path) {
@@ -97,7 +115,9 @@ fn models_know_no_pixels_scenes_no_colours_and_the_painter_no_slam() {
         // A figure's own folder keeps the same names: lap/model.rs is a model.
         let [part, file] = [module(&widgets, &path), path.file_stem().unwrap().to_str().unwrap().to_owned()];
         let Some((part, may)) = FIGURES.iter().find(|(name, _)| *name == part || *name == file) else { continue };
-        for name in used(&path).iter().filter(|name| ["model", "scene", "paint", "figure", "shell"].contains(&name.as_str())) {
+        for name in
+            used(&path).iter().filter(|name| ["model", "scene", "paint", "figure", "shell"].contains(&name.as_str()))
+        {
             assert!(may.contains(&name.as_str()), "{} ({part}) uses {name}", path.display());
         }
         let slam = fs::read_to_string(&path).unwrap().contains("fastslam::experiment");

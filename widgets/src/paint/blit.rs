@@ -1,7 +1,7 @@
 //! Filling rectangles and magnifying maps, straight into the pixels.
 
-use super::{Pixels, Rgb};
 use crate::scene::{Cells, UNKNOWN};
+use tiny_skia::{Pixmap, PremultipliedColorU8 as Color};
 
 /// A rectangle of device pixels, upper ends exclusive; may lie partly or wholly outside of the canvas.
 #[derive(Clone, Copy, Debug)]
@@ -13,40 +13,38 @@ pub struct Area {
 }
 
 impl Area {
-    fn within(self, pixels: &Pixels) -> Option<[u32; 4]> {
-        let [width, height] = pixels.size().map(|n| n as i32);
-        let [x0, x1] = [self.x0, self.x1].map(|x| x.clamp(0, width) as u32);
-        let [y0, y1] = [self.y0, self.y1].map(|y| y.clamp(0, height) as u32);
+    fn within(self, pixels: &Pixmap) -> Option<[usize; 4]> {
+        let [x0, x1] = [self.x0, self.x1].map(|x| x.clamp(0, pixels.width() as i32) as usize);
+        let [y0, y1] = [self.y0, self.y1].map(|y| y.clamp(0, pixels.height() as i32) as usize);
         (x0 < x1 && y0 < y1).then_some([x0, y0, x1, y1])
     }
 }
 
 /// One colour.
-pub fn fill(pixels: &mut Pixels, area: Area, color: Rgb) {
+pub fn fill(pixels: &mut Pixmap, area: Area, color: Color) {
     let Some([x0, y0, x1, y1]) = area.within(pixels) else { return };
-    (y0..y1).for_each(|y| pixels.blend(y, x0, x1, 255, color));
+    let width = pixels.width() as usize;
+    let rows = pixels.pixels_mut().chunks_exact_mut(width);
+    rows.take(y1).skip(y0).for_each(|row| row[x0..x1].fill(color));
 }
 
 /// Cells, each in the colour of its shade. A cell becomes a block of whole device pixels; where cells are smaller than
 /// pixels, a pixel shows a wall if one lies in it, because walls are one cell thin.
-pub fn raster(pixels: &mut Pixels, area: Area, cells: &Cells, colors: &[Rgb; 256]) {
+pub fn raster(pixels: &mut Pixmap, area: Area, cells: &Cells, colors: &[Color; 256]) {
     let Some([x0, y0, x1, y1]) = area.within(pixels) else { return };
-    let rows = cells.shades.len() / cells.columns;
-    let spans_x = spans(area.x0, area.x1, cells.columns);
-    let spans_y = spans(area.y0, area.y1, rows);
-    let mut line = vec![0; 4 * (x1 - x0) as usize];
-    let mut last = (usize::MAX, usize::MAX);
-    for y in y0..y1 {
-        let span = spans_y[(y as i32 - area.y0) as usize];
-        if span != last {
-            last = span;
-            for (pixel, x) in line.chunks_exact_mut(4).zip(x0..) {
-                let shade = darkest(cells, spans_x[(x as i32 - area.x0) as usize], span);
-                let [r, g, b] = colors[usize::from(shade)];
-                pixel.copy_from_slice(&[r, g, b, 255]);
+    let count = cells.shades.len() / cells.columns;
+    let across = &spans(area.x0, area.x1, cells.columns)[(x0 as i32 - area.x0) as usize..];
+    let down = &spans(area.y0, area.y1, count)[(y0 as i32 - area.y0) as usize..];
+    let width = pixels.width() as usize;
+    let rows = pixels.pixels_mut().chunks_exact_mut(width).take(y1).skip(y0);
+    let (mut line, mut last) = (vec![Color::TRANSPARENT; x1 - x0], None);
+    for (row, &span) in rows.zip(down) {
+        if last.replace(span) != Some(span) {
+            for (pixel, &column) in line.iter_mut().zip(across) {
+                *pixel = colors[usize::from(darkest(cells, column, span))];
             }
         }
-        pixels.row(y, x0, x1).copy_from_slice(&line);
+        row[x0..x1].copy_from_slice(&line);
     }
 }
 
@@ -80,18 +78,20 @@ mod tests {
     use super::*;
     use crate::scene::{FREE, OCCUPIED};
 
-    fn colors() -> [Rgb; 256] {
-        core::array::from_fn(|shade| [shade as u8; 3])
+    fn grey(shade: u8) -> Color {
+        Color::from_rgba(shade, shade, shade, 255).unwrap()
     }
 
-    fn canvas(size: [u32; 2]) -> Pixels {
-        let mut pixels = Pixels::default();
-        pixels.clear(size, [0; 3]);
-        pixels
+    fn colors() -> [Color; 256] {
+        core::array::from_fn(|shade| grey(shade as u8))
     }
 
-    fn red(pixels: &Pixels) -> Vec<u8> {
-        pixels.bytes().chunks_exact(4).map(|p| p[0]).collect()
+    fn canvas([width, height]: [u32; 2]) -> Pixmap {
+        Pixmap::new(width, height).unwrap()
+    }
+
+    fn red(pixels: &Pixmap) -> Vec<u8> {
+        pixels.pixels().iter().map(|p| p.red()).collect()
     }
 
     #[test]
@@ -114,9 +114,9 @@ mod tests {
     #[test]
     fn what_lies_outside_is_not_drawn() {
         let mut pixels = canvas([2, 2]);
-        fill(&mut pixels, Area { x0: -5, y0: -5, x1: 1, y1: 1 }, [9, 9, 9]);
-        fill(&mut pixels, Area { x0: 2, y0: 0, x1: 9, y1: 9 }, [9, 9, 9]);
-        fill(&mut pixels, Area { x0: 1, y0: 1, x1: 0, y1: 0 }, [9, 9, 9]);
+        fill(&mut pixels, Area { x0: -5, y0: -5, x1: 1, y1: 1 }, grey(9));
+        fill(&mut pixels, Area { x0: 2, y0: 0, x1: 9, y1: 9 }, grey(9));
+        fill(&mut pixels, Area { x0: 1, y0: 1, x1: 0, y1: 0 }, grey(9));
         let cells = Cells { columns: 1, shades: vec![7] };
         raster(&mut pixels, Area { x0: 1, y0: 1, x1: 9, y1: 9 }, &cells, &colors());
         assert_eq!(red(&pixels), [9, 0, 0, 7]);

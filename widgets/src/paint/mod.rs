@@ -1,54 +1,68 @@
 //! The painter: a scene, a theme and a number of device pixels in, opaque RGBA out, the same bytes on every machine.
 //!
-//! Maps, borders and plates are written straight into whole device pixels, which is crisp; lines and glyphs are outlines, filled
-//! by exact coverage.
+//! Maps, borders and plates are written straight into whole device pixels, which is crisp and fast; lines, discs and glyphs are
+//! paths, filled by tiny-skia. All shapes of a mark go into one path, because a fill costs more to begin than to go on with.
 
 mod blit;
-mod coverage;
-mod outline;
-mod pixels;
 mod theme;
 
-pub use pixels::Pixels;
 pub use theme::{Rgb, Theme};
 
 use crate::{
     font,
     scene::{Mark, Point, Rect, Role, Scene, Shading, Text},
 };
-use coverage::Coverage;
+use tiny_skia::{
+    FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PremultipliedColorU8, Stroke, StrokeDash, Transform,
+};
 
-/// Largest width and height of a canvas \[device px\].
-pub const MAX_SIDE: u32 = 8192;
+/// Largest width and height of a canvas \[device px\]: what tiny-skia fills in one go.
+pub const MAX_SIDE: u32 = 8191;
 
 /// Reusable pixels.
-#[derive(Default)]
 pub struct Canvas {
-    pixels: Pixels,
-    coverage: Coverage,
+    pixels: Pixmap,
+    /// Memory of the last path.
+    scratch: PathBuilder,
+}
+
+impl Default for Canvas {
+    fn default() -> Self {
+        Self { pixels: blank([1, 1]), scratch: PathBuilder::new() }
+    }
+}
+
+fn blank([width, height]: [u32; 2]) -> Pixmap {
+    Pixmap::new(width, height).expect("a side is 1 to 8191")
 }
 
 impl Canvas {
     /// RGBA, row by row; every pixel is opaque.
     pub fn pixels(&self) -> &[u8] {
-        self.pixels.bytes()
+        self.pixels.data()
     }
 
     /// Width and height \[device px\].
     pub fn size(&self) -> [u32; 2] {
-        self.pixels.size()
+        [self.pixels.width(), self.pixels.height()]
     }
 
     /// Paints the scene over a canvas of this size \[device px\], 1 to [`MAX_SIDE`]; the scene's width fills the canvas's.
     pub fn paint(&mut self, scene: &Scene, width: u32, height: u32, theme: Theme) {
         let size = [width.clamp(1, MAX_SIDE), height.clamp(1, MAX_SIDE)];
-        self.pixels.clear(size, theme.color(Role::Paper));
-        self.coverage.resize(size);
+        if self.size() != size {
+            self.pixels = blank(size);
+        }
+        self.pixels.pixels_mut().fill(opaque(theme.color(Role::Paper)));
         let scale = f64::from(size[0]) / scene.width;
-        let shades = [Shading::Map, Shading::Ghost].map(|shading| theme.shades(shading));
+        let shades = [Shading::Map, Shading::Ghost].map(|shading| theme.shades(shading).map(opaque));
         let mut brush = Brush { canvas: self, scale, theme, shades };
         scene.marks.iter().for_each(|mark| brush.mark(mark));
     }
+}
+
+fn opaque([r, g, b]: Rgb) -> PremultipliedColorU8 {
+    PremultipliedColorU8::from_rgba(r, g, b, 255).expect("no component is above an alpha of 255")
 }
 
 /// A canvas, device pixels per css px, and the colours.
@@ -56,7 +70,7 @@ struct Brush<'a> {
     canvas: &'a mut Canvas,
     scale: f64,
     theme: Theme,
-    shades: [[Rgb; 256]; 2],
+    shades: [[PremultipliedColorU8; 256]; 2],
 }
 
 impl Brush<'_> {
@@ -72,83 +86,97 @@ impl Brush<'_> {
             }
             Mark::Frame { area, width, role } => self.frame(area, *width, *role),
             Mark::Lines { lines, width, dash, role } => {
-                lines.iter().for_each(|line| self.line(line, *width, *dash));
-                self.fill(*role);
+                let mut path = self.scratch();
+                lines.iter().for_each(|line| self.polyline(&mut path, line));
+                let stroke = self.stroke(*width, *dash);
+                self.fill(path, Some(stroke), *role);
             }
             Mark::Polygons { polygons, role } => {
+                let mut path = self.scratch();
                 for polygon in polygons {
-                    for (k, &corner) in polygon.iter().enumerate() {
-                        let corner = self.at(corner);
-                        if k == 0 { self.canvas.coverage.move_to(corner) } else { self.canvas.coverage.line_to(corner) }
-                    }
-                    self.canvas.coverage.close();
+                    self.polyline(&mut path, polygon);
+                    path.close();
                 }
-                self.fill(*role);
+                self.fill(path, None, *role);
             }
             Mark::Discs { centres, radius, role } => {
+                let mut path = self.scratch();
                 for &centre in centres {
-                    let centre = self.at(centre);
-                    outline::disc(&mut self.canvas.coverage, centre, radius * self.scale);
+                    let [x, y] = self.at(centre);
+                    path.push_circle(x, y, (radius * self.scale) as f32);
                 }
-                self.fill(*role);
+                self.fill(path, None, *role);
             }
             Mark::Text(text) => self.text(text),
         }
     }
 
-    /// Fills what was outlined.
-    fn fill(&mut self, role: Role) {
-        self.canvas.coverage.fill(&mut self.canvas.pixels, self.theme.color(role));
+    fn text(&mut self, text: &Text) {
+        // On whole device pixels, so that the same word has the same pixels wherever it stands.
+        let [x, y] = self.at(text.origin()).map(|c| (c + 0.5).floor());
+        let size = (text.size * self.scale) as f32;
+        let mut path = self.scratch();
+        font::outline(&text.text, text.weight, |pen, segment| {
+            let at = |[u, v]: [f32; 2]| [x + (pen + u) * size, y - v * size];
+            match segment {
+                font::Segment::Move(p) => {
+                    let [x, y] = at(p);
+                    path.move_to(x, y);
+                }
+                font::Segment::Line(p) => {
+                    let [x, y] = at(p);
+                    path.line_to(x, y);
+                }
+                font::Segment::Cubic(c, d, p) => {
+                    let [[x1, y1], [x2, y2], [x, y]] = [c, d, p].map(at);
+                    path.cubic_to(x1, y1, x2, y2, x, y);
+                }
+                font::Segment::Close => path.close(),
+            }
+        });
+        self.fill(path, None, text.role);
     }
 
-    fn line(&mut self, points: &[Point], width: f64, dash: Option<[f64; 2]>) {
-        let points: Vec<Point> = points.iter().map(|&p| self.at(p)).collect();
-        let width = width * self.scale;
-        let round = width > 1.5; // below, nobody sees the shape of an end
-        match dash {
-            None => outline::stroke(&mut self.canvas.coverage, &points, width, round),
-            Some(dash) => {
-                for piece in outline::dashes(&points, dash.map(|d| d * self.scale)) {
-                    outline::stroke(&mut self.canvas.coverage, &piece, width, false);
-                }
-            }
+    fn scratch(&mut self) -> PathBuilder {
+        core::mem::take(&mut self.canvas.scratch)
+    }
+
+    fn polyline(&self, path: &mut PathBuilder, points: &[Point]) {
+        for (k, &point) in points.iter().enumerate() {
+            let [x, y] = self.at(point);
+            if k == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
         }
     }
 
-    fn text(&mut self, text: &Text) {
-        let [x, y] = self.at(text.origin());
-        // On whole device pixels, so that the same word has the same pixels wherever it stands.
-        let (x, y) = ((x + 0.5).floor(), (y + 0.5).floor());
-        let size = text.size * self.scale;
-        let coverage = &mut self.canvas.coverage;
-        let mut last = [x, y];
-        font::outline(&text.text, text.weight, |pen, segment| {
-            let at = |[u, v]: [f64; 2]| [x + (pen + u) * size, y - v * size];
-            match segment {
-                font::Segment::Move(p) => {
-                    last = at(p);
-                    coverage.move_to(last);
-                }
-                font::Segment::Line(p) => {
-                    last = at(p);
-                    coverage.line_to(last);
-                }
-                font::Segment::Quad(c, p) => {
-                    outline::quad(coverage, [last, at(c), at(p)]);
-                    last = at(p);
-                }
-                font::Segment::Cubic(c, d, p) => {
-                    outline::cubic(coverage, [last, at(c), at(d), at(p)]);
-                    last = at(p);
-                }
-                font::Segment::Close => coverage.close(),
-            }
-        });
-        self.fill(text.role);
+    fn stroke(&self, width: f64, dash: Option<[f64; 2]>) -> Stroke {
+        let width = (width * self.scale) as f32;
+        let round = width > 1.5; // below, nobody sees the shape of an end
+        Stroke {
+            width,
+            line_cap: if round && dash.is_none() { LineCap::Round } else { LineCap::Butt },
+            line_join: if round { LineJoin::Round } else { LineJoin::Bevel },
+            dash: dash.and_then(|dash| StrokeDash::new(dash.map(|d| (d * self.scale) as f32).to_vec(), 0.0)),
+            ..Stroke::default()
+        }
     }
 
-    fn at(&self, [x, y]: Point) -> Point {
-        [x * self.scale, y * self.scale]
+    /// Fills a path, or its stroke; what has no area or no finite bounds draws nothing.
+    fn fill(&mut self, path: PathBuilder, stroke: Option<Stroke>, role: Role) {
+        let Some(path) = path.finish() else { return };
+        let [r, g, b] = self.theme.color(role);
+        let mut paint = Paint::default();
+        paint.set_color_rgba8(r, g, b, 255);
+        // Not `stroke_path`: its hairlines, for lines of a pixel or less, would be as much code again as filling.
+        let dashed = stroke.as_ref().and_then(|stroke| path.dash(stroke.dash.as_ref()?, 1.0));
+        let stroked = stroke.as_ref().and_then(|stroke| dashed.as_ref().unwrap_or(&path).stroke(stroke, 1.0));
+        if let Some(outline) = if stroke.is_some() { stroked.as_ref() } else { Some(&path) } {
+            self.canvas.pixels.fill_path(outline, &paint, FillRule::Winding, Transform::identity(), None);
+        }
+        self.canvas.scratch = path.clear();
+    }
+
+    fn at(&self, point: Point) -> [f32; 2] {
+        point.map(|c| (c * self.scale) as f32)
     }
 
     /// Edges on whole device pixels.
@@ -158,7 +186,7 @@ impl Brush<'_> {
     }
 
     fn fill_rect(&mut self, area: blit::Area, role: Role) {
-        blit::fill(&mut self.canvas.pixels, area, self.theme.color(role));
+        blit::fill(&mut self.canvas.pixels, area, opaque(self.theme.color(role)));
     }
 
     fn frame(&mut self, area: &Rect, width: f64, role: Role) {

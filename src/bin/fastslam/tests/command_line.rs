@@ -55,7 +55,9 @@ fn shards_merge_to_the_rows_of_one_run() {
         .collect();
     let merged = json(&format!("table --json --merge {}", files.join(" ")));
     let whole = json("table --seeds 2 --matcher cell --json");
-    fastslam(&format!("table --merge {} {}", files[0], files[1])).code(1).stderr("fastslam: --merge: shares missing: 3/3\n");
+    fastslam(&format!("table --merge {} {}", files[0], files[1]))
+        .code(1)
+        .stderr("fastslam: --merge: shares missing: 3/3\n");
     std::fs::remove_dir_all(&folder).unwrap();
 
     assert_eq!(merged, whole);
