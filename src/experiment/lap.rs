@@ -52,10 +52,11 @@ pub const OUTLIER: f64 = 0.05;
 /// The measurement-aware proposal: one setting for every M and both matchers.
 pub const FROM_SCAN: FromScanSettings = FromScanSettings {
     motion_floor: [0.02, 0.02, 0.01],
-    climb: ClimbSteps { linear: 0.1, angular: 0.05, halvings: 4 },
+    climb: ClimbSteps { linear: 0.08, angular: 0.04, halvings: 3 },
+    climb_stride: 2,
     seeds: 8,
     gain: 0.5,
-    probes: 16,
+    probes: 12,
     probe_stds: [[0.005, 0.005, 0.003], [0.1, 0.1, 0.05]],
 };
 

@@ -21,6 +21,8 @@ pub struct FromScanSettings {
     pub motion_floor: [f64; 3],
     /// Step sizes of the hill climb.
     pub climb: ClimbSteps,
+    /// The climb looks at every n-th beam.
+    pub climb_stride: usize,
     /// Seeds of the climb besides the odometry's prediction.
     pub seeds: u32,
     /// How much better than the mean likelihood over the seeds the mode must be for the matcher to be trusted \[nats\].
@@ -51,33 +53,39 @@ impl Proposal<Grid> for FromScan {
     fn propose(&self, particle: &Particle<Grid>, u: &Odometry, scan: &Scan, stream: &mut Stream) -> Proposed {
         let settings = &self.settings;
         let prior = self.fallback.motion.gaussian(&particle.world_from_robot, u, settings.motion_floor);
-        let log_likelihood = |pose: &Pose2| self.fallback.scan.log_likelihood(&particle.map, pose, scan);
-        let log_target = |pose: &Pose2| log_likelihood(pose) + prior.log_density(pose);
+        let log_target =
+            |pose: &Pose2| self.fallback.scan.log_likelihood(&particle.map, pose, scan) + prior.log_density(pose);
+        // The search looks at a thinner scan, in which each beam counts for those left out.
+        let (thin, share) = (scan.thinned(settings.climb_stride), settings.climb_stride as f64);
+        let log_thin = |pose: &Pose2, floor: f64| {
+            share * self.fallback.scan.log_likelihood_above(floor / share, &particle.map, pose, &thin)
+        };
 
         // Seeds: the prediction, and poses spread over the prior's heading, so that the climb begins on the right slope.
-        let mut best = Climb { pose: *prior.mean(), value: log_target(prior.mean()) };
-        let mut log_seeds = vec![best.value - prior.log_density(prior.mean())];
+        let mut log_seeds = vec![log_thin(prior.mean(), f64::NEG_INFINITY)];
+        let mut best = Climb { pose: *prior.mean(), value: log_seeds[0] + prior.log_density(prior.mean()) };
         for k in 0..settings.seeds {
             let heading = SPREAD * ((f64::from(k) + 0.5) / f64::from(settings.seeds) * 2.0 - 1.0);
             let [a, b] = stream.normals();
             let pose = prior.at([heading, a, b]);
-            let log_seed = log_likelihood(&pose);
+            let log_seed = log_thin(&pose, f64::NEG_INFINITY);
             log_seeds.push(log_seed);
             let value = log_seed + prior.log_density(&pose);
             if value > best.value {
                 best = Climb { pose, value };
             }
         }
-        let mode = climb(best, settings.climb, |pose, value| {
+        let top = climb(best, settings.climb, |pose, value| {
             let log_prior = prior.log_density(pose);
-            log_prior + self.fallback.scan.log_likelihood_above(value - log_prior, &particle.map, pose, scan)
+            log_prior + log_thin(pose, value - log_prior)
         });
 
         // The guard: on a flat score surface the optimum is noise, no better than what the motion model would draw anyway.
         let log_mean = ops::log_sum_exp(&log_seeds) - ops::ln(log_seeds.len() as f64);
-        if mode.value - prior.log_density(&mode.pose) - log_mean < settings.gain {
+        if top.value - prior.log_density(&top.pose) - log_mean < settings.gain {
             return self.fallback.propose(particle, u, scan, stream);
         }
+        let mode = Climb { pose: top.pose, value: log_target(&top.pose) };
 
         // Probes around the mode, as wide as the target is there; each weighs τ_k = target / density of the probes.
         let around = self.probe_gaussian(&mode, log_target);

@@ -46,6 +46,14 @@ pub struct Scan {
     pub misses: Vec<[f64; 2]>,
 }
 
+impl Scan {
+    /// Every `stride`-th end point.
+    pub fn thinned(&self, stride: usize) -> Self {
+        let every = |ends: &[[f64; 2]]| ends.iter().step_by(stride.max(1)).copied().collect();
+        Self { hits: every(&self.hits), misses: every(&self.misses) }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
