@@ -1,0 +1,62 @@
+//! Laws of the copy-on-write grid: sharing is never seen.
+
+use fastslam::experiment::lap::GRID;
+use fastslam::geometry::Pose2;
+use fastslam::map::{ConditionalMap, grid::Grid};
+use fastslam::sensor::{BeamSensor, Scan};
+use proptest::prelude::*;
+
+/// Everything a grid says of itself, bit for bit.
+fn content(grid: &Grid) -> Vec<(i32, i32, u64, Option<[u64; 2]>)> {
+    let cells = grid.bounds();
+    let all = (cells.j0..cells.j1).flat_map(|j| (cells.i0..cells.i1).map(move |i| (i, j)));
+    all.map(|(i, j)| (i, j, grid.log_odds(i, j).to_bits(), grid.hit_mean(i, j).map(|mean| mean.map(f64::to_bits))))
+        .collect()
+}
+
+fn sighting() -> impl Strategy<Value = (Pose2, Scan)> {
+    let pose = (-9.0..9.0_f64, -9.0..9.0_f64, -4.0..4.0_f64).prop_map(|(x, y, theta)| Pose2::new(x, y, theta));
+    let ranges = prop::collection::vec(0.1..9.0_f64, 24);
+    (pose, ranges).prop_map(|(pose, ranges)| (pose, BeamSensor::panorama(24, 8.0, 0.0).scan(&ranges)))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 64, ..ProptestConfig::default() })]
+
+    /// A family of clones, each written to in turn, holds what grids hold that never shared anything.
+    #[test]
+    fn a_clone_and_its_siblings_are_independent(
+        trunk in prop::collection::vec(sighting(), 0..6),
+        branches in prop::collection::vec(prop::collection::vec(sighting(), 0..4), 1..5),
+    ) {
+        let mut shared = Grid::new(GRID);
+        trunk.iter().for_each(|(pose, scan)| shared.assimilate(pose, scan));
+        let before = content(&shared);
+        let mut family: Vec<Grid> = branches.iter().map(|_| shared.clone()).collect();
+        // Interleaved, as particles write in turn.
+        for turn in 0..4 {
+            for (grid, sightings) in family.iter_mut().zip(&branches) {
+                if let Some((pose, scan)) = sightings.get(turn) {
+                    grid.assimilate(pose, scan);
+                }
+            }
+        }
+        prop_assert_eq!(content(&shared), before);
+        for (grid, sightings) in family.iter().zip(&branches) {
+            let mut alone = Grid::new(GRID);
+            trunk.iter().chain(sightings).for_each(|(pose, scan)| alone.assimilate(pose, scan));
+            prop_assert_eq!(content(grid), content(&alone));
+        }
+    }
+
+    #[test]
+    fn shared_maps_never_hold_more_than_copies_would(trunk in prop::collection::vec(sighting(), 1..4), count in 1_usize..20) {
+        let mut grid = Grid::new(GRID);
+        trunk.iter().for_each(|(pose, scan)| grid.assimilate(pose, scan));
+        let alone = Grid::footprint([&grid]);
+        let family = vec![grid; count];
+        let together = Grid::footprint(&family);
+        prop_assert_eq!(together.unique, alone.unique);
+        prop_assert_eq!(together.dense, count as u64 * alone.dense);
+    }
+}
