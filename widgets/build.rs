@@ -4,35 +4,53 @@
 use std::{env, fmt::Write, fs, path::Path};
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-/// Verbs and coordinates of one outline, in the order that `src/font.rs` reads them.
-#[derive(Default)]
-struct Outline {
-    verbs: Vec<u8>,
-    coordinates: Vec<i16>,
+/// Units of the tables in an em: a quarter of Inter's, which is a 40th of a pixel in text of 28 px.
+const UNITS: f32 = 704.0;
+
+/// Outlines as `src/font.rs` reads them: each a row of verbs, and of steps from point to point.
+struct Outlines {
+    scale: f32,
+    last: [i32; 2],
+    verbs: String,
+    steps: Vec<i8>,
 }
 
-impl Outline {
-    fn put(&mut self, verb: u8, coordinates: &[f32]) {
+impl Outlines {
+    fn put(&mut self, verb: char, points: &[[f32; 2]]) {
         self.verbs.push(verb);
-        self.coordinates.extend(coordinates.iter().map(|&c| c.round() as i16));
+        for point in points {
+            for (axis, &coordinate) in point.iter().enumerate() {
+                let unit = (coordinate * self.scale).round() as i32;
+                let mut step = unit - std::mem::replace(&mut self.last[axis], unit);
+                // A byte at the end of the range is followed by more of the same step.
+                loop {
+                    let part = step.clamp(-128, 127) as i8;
+                    self.steps.push(part);
+                    step -= i32::from(part);
+                    if !matches!(part, -128 | 127) {
+                        break;
+                    }
+                }
+            }
+        }
     }
 }
 
-impl OutlineBuilder for Outline {
+impl OutlineBuilder for Outlines {
     fn move_to(&mut self, x: f32, y: f32) {
-        self.put(b'M', &[x, y]);
+        self.put('M', &[[x, y]]);
     }
     fn line_to(&mut self, x: f32, y: f32) {
-        self.put(b'L', &[x, y]);
+        self.put('L', &[[x, y]]);
     }
-    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
-        self.put(b'Q', &[x1, y1, x, y]);
+    fn quad_to(&mut self, _: f32, _: f32, _: f32, _: f32) {
+        unimplemented!("the fonts are of cubic curves");
     }
     fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
-        self.put(b'C', &[x1, y1, x2, y2, x, y]);
+        self.put('C', &[[x1, y1], [x2, y2], [x, y]]);
     }
     fn close(&mut self) {
-        self.put(b'Z', &[]);
+        self.put('Z', &[]);
     }
 }
 
@@ -65,26 +83,27 @@ fn table(name: &str, file: &str) -> String {
     println!("cargo:rerun-if-changed={file}");
     let data = fs::read(file).unwrap_or_else(|e| panic!("{file}: {e}"));
     let face = Face::parse(&data, 0).unwrap_or_else(|e| panic!("{file}: {e}"));
-    let mut all = Outline::default();
+    let scale = UNITS / f32::from(face.units_per_em());
+    let units = |x: f32| (x * scale).round() as i32;
+    let mut all = Outlines { scale, last: [0, 0], verbs: String::new(), steps: Vec::new() };
     let mut glyphs = String::new();
     for (character, glyph) in characters(&face) {
-        let (verbs, coordinates) = (all.verbs.len(), all.coordinates.len());
-        face.outline_glyph(glyph, &mut all);
-        let advance = face.glyph_hor_advance(glyph).unwrap_or(0);
-        let end = all.verbs.len();
+        let advance = units(face.glyph_hor_advance(glyph).unwrap_or(0).into());
+        let (verbs, steps) = (all.verbs.len(), all.steps.len());
         writeln!(
             glyphs,
-            "    Glyph {{ character: {character:?}, advance: {advance}, verbs: ({verbs}, {end}), coordinates: {coordinates} }},"
+            "    Glyph {{ character: {character:?}, advance: {advance}, verbs: {verbs}, steps: {steps} }},"
         )
         .unwrap();
+        all.last = [0, 0];
+        face.outline_glyph(glyph, &mut all);
+        all.verbs.push('E');
     }
-    let cap_height = face.capital_height().expect("the font tells its cap height");
-    let verbs = String::from_utf8(all.verbs).unwrap();
+    let cap_height = units(face.capital_height().expect("the font tells its cap height").into());
+    let Outlines { verbs, steps, .. } = all;
     format!(
-        "pub(super) static {name}: Table = Table {{\n  units_per_em: {}, cap_height: {cap_height},\n  glyphs: &[\n{glyphs}  ],\n  \
-         verbs: b{verbs:?},\n  coordinates: &{:?},\n}};\n",
-        face.units_per_em(),
-        all.coordinates
+        "pub(super) static {name}: Table = Table {{\n  units_per_em: {UNITS:?}, cap_height: {cap_height},\n  glyphs: &[\n{glyphs}  ],\n  \
+         verbs: b{verbs:?},\n  steps: &{steps:?},\n}};\n"
     )
 }
 

@@ -41,24 +41,39 @@ pub fn cap_height(size: f64, weight: Weight) -> f64 {
 /// Calls `put` with every piece of the text's outline and the distance in em from the text's start to its glyph's.
 pub fn outline(text: &str, weight: Weight, mut put: impl FnMut(f32, Segment)) {
     let table = weight.table();
-    let em = 1.0 / f32::from(table.units_per_em);
+    let em = 1.0 / table.units_per_em;
     let mut pen = 0.0;
     for glyph in text.chars().map(|c| table.glyph(c)) {
-        let mut coordinates = table.coordinates[glyph.coordinates as usize..].iter();
-        let mut point = || [0, 1].map(|_| f32::from(*coordinates.next().expect("two coordinates a point")) * em);
-        for verb in &table.verbs[glyph.verbs.0 as usize..glyph.verbs.1 as usize] {
-            put(
-                pen,
-                match verb {
-                    b'M' => Segment::Move(point()),
-                    b'L' => Segment::Line(point()),
-                    b'C' => Segment::Cubic(point(), point(), point()),
-                    _ => Segment::Close,
-                },
-            );
+        let mut steps = table.steps[usize::from(glyph.steps)..].iter();
+        let mut last = [0_i16; 2];
+        let mut point = || {
+            last = last.map(|from| from + step(&mut steps));
+            last.map(|c| f32::from(c) * em)
+        };
+        for verb in &table.verbs[usize::from(glyph.verbs)..] {
+            let segment = match verb {
+                b'M' => Segment::Move(point()),
+                b'L' => Segment::Line(point()),
+                b'C' => Segment::Cubic(point(), point(), point()),
+                b'Z' => Segment::Close,
+                _ => break,
+            };
+            put(pen, segment);
         }
         pen += f32::from(glyph.advance) * em;
     }
+}
+
+/// A step in one axis: bytes up to the first that is not at the end of its range.
+fn step<'a>(bytes: &mut impl Iterator<Item = &'a i8>) -> i16 {
+    let mut sum = 0;
+    for &byte in bytes {
+        sum += i16::from(byte);
+        if !matches!(byte, i8::MIN | i8::MAX) {
+            break;
+        }
+    }
+    sum
 }
 
 /// True if the font has this character.
@@ -68,19 +83,19 @@ pub fn has(character: char, weight: Weight) -> bool {
 
 /// What `build.rs` writes for one weight.
 struct Table {
-    units_per_em: u16,
+    units_per_em: f32,
     cap_height: i16,
     glyphs: &'static [Glyph],
     verbs: &'static [u8],
-    coordinates: &'static [i16],
+    steps: &'static [i8],
 }
 
-/// Where a character's outline lies in its table, in code point order.
+/// Where a character's outline begins in its table, in code point order.
 struct Glyph {
     character: char,
     advance: u16,
-    verbs: (u16, u16),
-    coordinates: u16,
+    verbs: u16,
+    steps: u16,
 }
 
 impl Table {

@@ -13,7 +13,7 @@ use crate::{
     scene::{Mark, Point, Rect, Role, Scene, Shading, Text},
 };
 use tiny_skia::{
-    FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PremultipliedColorU8, Stroke, StrokeDash, Transform,
+    FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Stroke, StrokeDash, Transform,
 };
 
 /// Largest width and height of a canvas \[device px\]: what tiny-skia fills in one go.
@@ -150,11 +150,11 @@ impl Brush<'_> {
 
     fn stroke(&self, width: f64, dash: Option<[f64; 2]>) -> Stroke {
         let width = (width * self.scale) as f32;
-        let round = width > 1.5; // below, nobody sees the shape of an end
+        // Round where it can be seen: the arcs of thin lines are most of their edges, and edges are what filling costs.
         Stroke {
             width,
-            line_cap: if round && dash.is_none() { LineCap::Round } else { LineCap::Butt },
-            line_join: if round { LineJoin::Round } else { LineJoin::Bevel },
+            line_cap: if width > 1.5 && dash.is_none() { LineCap::Round } else { LineCap::Butt },
+            line_join: if width > 4.0 { LineJoin::Round } else { LineJoin::Miter },
             dash: dash.and_then(|dash| StrokeDash::new(dash.map(|d| (d * self.scale) as f32).to_vec(), 0.0)),
             ..Stroke::default()
         }
