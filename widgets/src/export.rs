@@ -1,41 +1,53 @@
-//! A figure's measured data as files: CSV for spreadsheets, JSON for programs. Numbers are written with the fewest digits that
-//! read back as the same bits.
+//! A figure's measured data, for files.
 
 use crate::{model::Model, query};
-use core::fmt::Write;
+use serde::{Serialize, Serializer};
 
-/// A header, and one line a step.
-pub fn csv(model: &dyn Model) -> String {
-    let series = model.series();
-    let names: Vec<&str> = series.columns.iter().map(|c| c.name).collect();
-    let mut text = names.join(",") + "\n";
-    for row in &series.rows {
-        let cells: Vec<String> =
-            row.iter().map(|x| if x.is_finite() { x.to_string() } else { String::new() }).collect();
-        text.push_str(&cells.join(","));
-        text.push('\n');
-    }
-    text
+/// The figure, the link that makes it again, what the columns are, and every step.
+#[derive(Serialize)]
+pub struct Export {
+    figure: &'static str,
+    query: String,
+    columns: Entries<&'static str>,
+    steps: Vec<Entries<Option<f64>>>,
 }
 
-/// One object: the figure, the link that makes it again, what the columns are, and the rows as objects.
-pub fn json(tag: &str, model: &dyn Model) -> String {
-    let series = model.series();
-    let mut text = format!("{{\"figure\":{tag:?},\"query\":{:?},\"columns\":{{", query::write(model));
-    for (k, column) in series.columns.iter().enumerate() {
-        let comma = if k == 0 { "" } else { "," };
-        write!(text, "{comma}{:?}:{:?}", column.name, column.help).expect("a String takes everything");
+/// An object: names with values, in this order.
+pub struct Entries<V>(pub Vec<(&'static str, V)>);
+
+impl<V: Serialize> Serialize for Entries<V> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
     }
-    text.push_str("},\"steps\":[");
-    for (k, row) in series.rows.iter().enumerate() {
-        text.push_str(if k == 0 { "\n{" } else { ",\n{" });
-        for (k, (column, x)) in series.columns.iter().zip(row).enumerate() {
-            let comma = if k == 0 { "" } else { "," };
-            let x = if x.is_finite() { x.to_string() } else { "null".into() };
-            write!(text, "{comma}{:?}:{x}", column.name).expect("a String takes everything");
+}
+
+impl Export {
+    /// Everything simulated so far.
+    pub fn new(figure: &'static str, model: &dyn Model) -> Self {
+        let series = model.series();
+        let step = |row: &Vec<f64>| {
+            Entries(series.columns.iter().map(|c| c.name).zip(row.iter().map(|&x| number(x))).collect())
+        };
+        Self {
+            figure,
+            query: query::write(model),
+            columns: Entries(series.columns.iter().map(|c| (c.name, c.help)).collect()),
+            steps: series.rows.iter().map(step).collect(),
         }
-        text.push('}');
     }
-    text.push_str("\n]}\n");
-    text
+
+    /// The names of the columns.
+    pub fn header(&self) -> Vec<&'static str> {
+        self.columns.0.iter().map(|(name, _)| *name).collect()
+    }
+
+    /// The rows without their names.
+    pub fn rows(&self) -> Vec<Vec<Option<f64>>> {
+        self.steps.iter().map(|step| step.0.iter().map(|(_, value)| *value).collect()).collect()
+    }
+}
+
+/// Not every step has every number.
+fn number(x: f64) -> Option<f64> {
+    x.is_finite().then_some(x)
 }

@@ -2,10 +2,10 @@
 //! here.
 
 use crate::{
-    export,
+    export::{Entries, Export},
     model::{Action, FigureError, Model},
     paint::{Canvas, Theme},
-    query,
+    param, query,
     registry::{self, Entry},
 };
 
@@ -24,7 +24,7 @@ impl Figure {
     pub fn new(tag: &str) -> Result<Self, FigureError> {
         let entry = registry::find(tag).ok_or_else(|| {
             let tags: Vec<&str> = registry::FIGURES.iter().map(|f| f.tag).collect();
-            FigureError::new("tag", format!("{tag:?}"), format!("one of {}", tags.join(", ")))
+            FigureError::new("tag", param::quoted(tag), format!("one of {}", tags.join(", ")))
         })?;
         Ok(Self { entry, model: (entry.make)(), canvas: Canvas::default() })
     }
@@ -40,9 +40,9 @@ impl Figure {
     }
 
     /// Current values by name, in the order of the parameters.
-    pub fn values(&self) -> Vec<(&'static str, String)> {
+    pub fn values(&self) -> Entries<String> {
         let names = self.model.params().into_iter().map(|p| p.name);
-        names.filter_map(|name| Some((name, self.model.value(name)?))).collect()
+        Entries(names.filter_map(|name| Some((name, self.model.value(name)?))).collect())
     }
 
     /// Gives a parameter a new value.
@@ -85,13 +85,8 @@ impl Figure {
         query::read(self.model_mut(), query)
     }
 
-    /// Measured data of every step so far, as CSV with a header.
-    pub fn csv(&self) -> String {
-        export::csv(self.model())
-    }
-
-    /// The same as one JSON object.
-    pub fn json(&self) -> String {
-        export::json(self.entry.tag, self.model())
+    /// Measured data of every step so far.
+    pub fn export(&self) -> Export {
+        Export::new(self.entry.tag, self.model())
     }
 }

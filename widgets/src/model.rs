@@ -8,6 +8,7 @@ pub use crate::param::{Choice, Group, Kind, ParamSpec};
 use crate::scene::Scene;
 /// Why a value was refused: the parameter, and one line that names it, what was given and what is allowed.
 pub use fastslam::error::ParameterError as FigureError;
+use serde::Serialize;
 
 /// What a reader can do to a figure.
 #[derive(Clone, PartialEq, Debug)]
@@ -26,7 +27,7 @@ pub enum Action {
 }
 
 /// A measured quantity of the state shown.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Readout {
     /// Identifier, unique in the figure.
     pub name: &'static str,

@@ -1,10 +1,12 @@
 //! The parameters of a figure: one table that attributes, controls and links are all made from, and the one place where
 //! text from outside becomes a value or a refusal.
 
-use crate::model::FigureError;
+use crate::{decimal, model::FigureError};
+use serde::Serialize;
 
 /// What values a parameter takes.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Kind {
     /// A whole number from `min` to `max`.
     Integer,
@@ -17,7 +19,8 @@ pub enum Kind {
 }
 
 /// What a parameter belongs to.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Group {
     /// The experiment: a change simulates it anew.
     Setup,
@@ -26,7 +29,7 @@ pub enum Group {
 }
 
 /// A word that a parameter takes, and its name for readers.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
 pub struct Choice {
     /// As written in attributes and links.
     pub value: &'static str,
@@ -35,7 +38,7 @@ pub struct Choice {
 }
 
 /// Everything about a parameter but its value.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct ParamSpec {
     /// Name in attributes and links.
     pub name: &'static str,
@@ -80,8 +83,8 @@ impl ParamSpec {
             return Ok(Value::Word(choice.value));
         }
         let value = match self.kind {
-            Kind::Integer => number(text).filter(|x| x.fract() == 0.0).and_then(|x| self.within(x)),
-            Kind::Number => number(text).and_then(|x| self.within(x)),
+            Kind::Integer => decimal::parse(text).filter(|x| x.trunc() == *x).and_then(|x| self.within(x)),
+            Kind::Number => decimal::parse(text).and_then(|x| self.within(x)),
             Kind::Choice => None,
             Kind::Flag => flag(text).map(Value::Flag),
         };
@@ -96,19 +99,15 @@ impl ParamSpec {
     pub fn allowed(&self) -> String {
         let words: Vec<&str> = self.choices.iter().map(|c| c.value).collect();
         let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        let [min, max] = [self.min, self.max].map(decimal::write);
         let range = match self.kind {
-            Kind::Integer => format!("a whole number from {} to {}{unit}", self.min, self.max),
-            Kind::Number => format!("a number from {} to {}{unit}", self.min, self.max),
+            Kind::Integer => format!("a whole number from {min} to {max}{unit}"),
+            Kind::Number => format!("a number from {min} to {max}{unit}"),
             Kind::Choice => return format!("one of {}", words.join(", ")),
             Kind::Flag => return "on or off".into(),
         };
         if words.is_empty() { range } else { format!("{} or {range}", words.join(", ")) }
     }
-}
-
-/// A finite number. Rust would also take "inf" and "NaN", and no reader means those.
-fn number(text: &str) -> Option<f64> {
-    text.parse().ok().filter(|x: &f64| x.is_finite())
 }
 
 /// `on` and `off`, and what HTML and JavaScript write for them; an attribute without a value is on.
@@ -121,10 +120,11 @@ fn flag(text: &str) -> Option<bool> {
 }
 
 /// What was given, on one short line whatever it was.
-fn quoted(text: &str) -> String {
-    let short: String = text.chars().take(40).collect();
-    let dots = if short.len() < text.len() { "…" } else { "" };
-    format!("{:?}", short + dots)
+pub fn quoted(text: &str) -> String {
+    let visible = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
+    let short: String = text.chars().take(40).map(visible).collect();
+    let dots = if text.chars().nth(40).is_some() { "…" } else { "" };
+    format!("\"{short}{dots}\"")
 }
 
 /// The error for a name that no parameter has.

@@ -3,7 +3,9 @@
 
 use crate::{figure, model::FigureError, paint::Theme, registry};
 use core::cell::RefCell;
-use js_sys::{Array, Error, Object, Reflect};
+use js_sys::{Array, Error, JSON, Object};
+use serde::Serialize;
+use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::prelude::*;
 
 thread_local! {
@@ -52,12 +54,12 @@ impl Figure {
 
     /// All parameters: an array of `ParamSpec`.
     pub fn params(&self) -> Array {
-        self.0.model().params().iter().map(objects::param).collect()
+        plain(&self.0.model().params())
     }
 
     /// Current values by name.
     pub fn values(&self) -> Object {
-        objects::object(self.0.values().iter().map(|(name, value)| (*name, value.into())))
+        plain(&self.0.values())
     }
 
     /// Gives a parameter a new value; throws a `FigureError` if it is refused.
@@ -92,7 +94,7 @@ impl Figure {
 
     /// The numbers of the state shown: an array of `Readout`.
     pub fn readouts(&self) -> Array {
-        self.0.model().readouts().iter().map(objects::readout).collect()
+        plain(&self.0.model().readouts())
     }
 
     /// One or two sentences that tell what is shown now.
@@ -130,76 +132,34 @@ impl Figure {
         self.0.load(query).into_iter().map(|error| error.message).collect()
     }
 
-    /// Measured data of every step so far, as CSV.
+    /// Measured data of every step so far, as CSV. JavaScript writes the numbers: with the fewest digits that read back as the
+    /// same bits.
     pub fn csv(&self) -> String {
-        self.0.csv()
+        let export = self.0.export();
+        let rows: Array = plain(&export.rows()); // an array in an array is joined by commas, and null to nothing
+        format!("{}\n{}\n", export.header().join(","), rows.join("\n"))
     }
 
     /// The same as JSON.
     pub fn json(&self) -> String {
-        self.0.json()
+        JSON::stringify(&plain(&self.0.export())).map_or_else(|_| String::new(), String::from)
     }
+}
+
+/// Data as plain objects and arrays. Not for what is called every frame: those are numbers.
+fn plain<T: JsCast>(data: &impl Serialize) -> T {
+    // Fails for keys that are no texts only.
+    data.serialize(&Serializer::json_compatible()).unwrap_or_default().unchecked_into()
 }
 
 /// A JavaScript Error with the parameter as a property.
 fn thrown(error: FigureError) -> Error {
+    #[derive(Serialize)]
+    struct Properties {
+        name: &'static str,
+        parameter: String,
+    }
     let thrown = Error::new(&error.message);
-    thrown.set_name("FigureError");
-    objects::put(&thrown, "parameter", &error.parameter.into());
-    thrown
-}
-
-/// Plain objects for the page. Written by hand: for these three, a serialiser would be the largest part of the module's glue.
-mod objects {
-    use super::{Array, JsValue, Object, Reflect};
-    use crate::model::{Choice, Group, Kind, ParamSpec, Readout};
-
-    pub fn put(target: &Object, name: &str, value: &JsValue) {
-        // Fails for frozen objects only.
-        Reflect::set(target, &name.into(), value).unwrap_or_default();
-    }
-
-    pub fn object<'a>(entries: impl IntoIterator<Item = (&'a str, JsValue)>) -> Object {
-        let object = Object::new();
-        entries.into_iter().for_each(|(name, value)| put(&object, name, &value));
-        object
-    }
-
-    pub fn param(spec: &ParamSpec) -> Object {
-        let kind = match spec.kind {
-            Kind::Integer => "integer",
-            Kind::Number => "number",
-            Kind::Choice => "choice",
-            Kind::Flag => "flag",
-        };
-        let group = match spec.group {
-            Group::Setup => "setup",
-            Group::View => "view",
-        };
-        let choice = |c: &Choice| object([("value", c.value.into()), ("title", c.title.into())]);
-        object([
-            ("name", spec.name.into()),
-            ("title", spec.title.into()),
-            ("unit", spec.unit.into()),
-            ("kind", kind.into()),
-            ("min", spec.min.into()),
-            ("max", spec.max.into()),
-            ("step", spec.step.into()),
-            ("choices", spec.choices.iter().map(choice).collect::<Array>().into()),
-            ("default", spec.default.as_str().into()),
-            ("group", group.into()),
-            ("help", spec.help.into()),
-        ])
-    }
-
-    pub fn readout(readout: &Readout) -> Object {
-        object([
-            ("name", readout.name.into()),
-            ("title", readout.title.into()),
-            ("value", readout.value.map_or(JsValue::NULL, JsValue::from)),
-            ("text", readout.text.as_str().into()),
-            ("unit", readout.unit.into()),
-            ("help", readout.help.into()),
-        ])
-    }
+    let properties: Object = plain(&Properties { name: "FigureError", parameter: error.parameter });
+    Object::assign(&thrown, &properties).unchecked_into()
 }

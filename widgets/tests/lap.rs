@@ -258,11 +258,12 @@ fn no_size_makes_it_panic() {
 #[test]
 fn data_has_a_row_for_every_step_so_far() {
     let figure = lap("universes=4&step=6");
-    let csv = figure.csv();
-    assert_eq!(csv.lines().count(), 8);
-    let columns = csv.lines().next().unwrap().split(',').count();
-    assert!(csv.lines().all(|line| line.split(',').count() == columns && !line.contains(",,")), "{csv}");
-    let json = figure.json();
-    assert_eq!(json.matches("\"step\":").count(), 8, "a column, and seven rows");
-    assert!(json.contains("\"query\":\"universes=4&step=6\""));
+    let export = figure.export();
+    let (header, rows) = (export.header(), export.rows());
+    assert_eq!(rows.len(), 7);
+    assert!(rows.iter().all(|row| row.len() == header.len() && row.iter().all(Option::is_some)), "{rows:?}");
+    let data = serde_json::to_value(export).unwrap();
+    assert_eq!(data["query"], "universes=4&step=6");
+    assert_eq!(data["steps"][6]["step"], 6.0);
+    assert_eq!(data["columns"].as_object().unwrap().len(), header.len());
 }

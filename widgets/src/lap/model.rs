@@ -5,6 +5,7 @@ use super::{
     params, scene,
 };
 use crate::{
+    decimal::{fixed, write},
     model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series},
     param::{Value, unknown},
     scene::Scene,
@@ -13,6 +14,10 @@ use fastslam::{
     experiment::lap::{Lap, LapSetup, StepReport},
     resampling::ResamplePolicy,
 };
+
+/// Most universes that keyframes keep, all steps together. Each holds the tiles that were written since the one before: about
+/// 30 KB, and all of them 64 MB.
+const KEPT: u32 = 2048;
 
 /// Figure w17.1.
 pub struct LapModel {
@@ -45,7 +50,7 @@ impl Default for LapModel {
     fn default() -> Self {
         let setup = LapSetup::default();
         let threshold = if let ResamplePolicy::EssBelow(t) = setup.policy { t } else { params::THRESHOLD };
-        let lap = Lap::new(&setup).expect("the default setup is valid");
+        let lap = Lap::new(&setup).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
         Self {
             recipe: Recipe { setup, threshold },
             universe: None,
@@ -115,9 +120,9 @@ impl LapModel {
         (0..ancestors.len() as u32).filter(|slot| !ancestors.contains(slot)).collect()
     }
 
-    /// Steps between keyframes: maps share memory, so that a few universes can keep every step, and hundreds some.
+    /// Steps between keyframes: every step of a few universes is kept, and some of hundreds.
     fn interval(&self) -> u32 {
-        (self.recipe.setup.particles as u32 / 64).max(1)
+        (self.step_count() * self.recipe.setup.particles as u32).div_ceil(KEPT).max(1)
     }
 
     /// Starts anew with another recipe, keeping the view.
@@ -155,8 +160,9 @@ impl Recipe {
             ("proposal", Value::Word(word)) => setup.proposal = word.parse()?,
             ("matcher", Value::Word(word)) => setup.matcher = word.parse()?,
             ("scheme", Value::Word(word)) => setup.scheme = word.parse()?,
-            ("policy", Value::Word("neff")) => setup.policy = ResamplePolicy::EssBelow(self.threshold),
-            ("policy", Value::Word(word)) => setup.policy = word.parse()?,
+            ("policy", Value::Word("never")) => setup.policy = ResamplePolicy::Never,
+            ("policy", Value::Word("always")) => setup.policy = ResamplePolicy::Always,
+            ("policy", Value::Word(_)) => setup.policy = ResamplePolicy::EssBelow(self.threshold),
             ("threshold", Value::Number(x)) => {
                 self.threshold = x;
                 if let ResamplePolicy::EssBelow(fraction) = &mut setup.policy {
@@ -184,12 +190,12 @@ impl Model for LapModel {
         Some(match name {
             "universes" => setup.particles.to_string(),
             "seed" => setup.seed.to_string(),
-            "odometry" => setup.odometry_scale.to_string(),
-            "range-std" => setup.range_std.to_string(),
+            "odometry" => write(setup.odometry_scale),
+            "range-std" => write(setup.range_std),
             "proposal" => setup.proposal.to_string(),
             "matcher" => setup.matcher.to_string(),
             "policy" => params::policy_name(setup.policy).into(),
-            "threshold" => self.recipe.threshold.to_string(),
+            "threshold" => write(self.recipe.threshold),
             "scheme" => setup.scheme.to_string(),
             "step" => self.asked.to_string(),
             "universe" => self.universe.map_or("best".into(), |slot| slot.to_string()),
@@ -289,10 +295,10 @@ impl Model for LapModel {
             unit,
             help,
         };
-        let metres = |name, title, x: f64, help| readout(name, title, x, format!("{x:.3}"), "m", help);
+        let metres = |name, title, x: f64, help| readout(name, title, x, fixed(x, 3), "m", help);
         let kilobytes = |name, title, bytes: u64, help| {
             let x = bytes as f64 / 1000.0;
-            readout(name, title, x, format!("{x:.0}"), "KB", help)
+            readout(name, title, x, fixed(x, 0), "KB", help)
         };
         let (unique, dense) = (report.map_bytes_unique, report.map_bytes_dense);
         let share = 100.0 * unique as f64 / dense as f64;
@@ -327,7 +333,7 @@ impl Model for LapModel {
                 "ess",
                 "N_eff",
                 report.ess,
-                format!("{:.1} of {m}", report.ess),
+                format!("{} of {m}", fixed(report.ess, 1)),
                 "",
                 "Effective number of universes before resampling: M if all weigh the same, 1 if one has all the weight.",
             ),
@@ -355,7 +361,7 @@ impl Model for LapModel {
                 "map_share",
                 "Memory share",
                 share,
-                format!("{share:.0}"),
+                fixed(share, 0),
                 "%",
                 "Memory of the maps as a share of dense arrays: the rest is shared, or never seen.",
             ),
@@ -413,8 +419,10 @@ impl Model for LapModel {
             return text;
         }
         text.push_str(&format!(
-            "The best path is off by {:.2} m (RMS), raw odometry by {:.2} m. N_eff is {:.1} of {m}: ",
-            report.rms_best, report.rms_odometry, report.ess
+            "The best path is off by {} m (RMS), raw odometry by {} m. N_eff is {} of {m}: ",
+            fixed(report.rms_best, 2),
+            fixed(report.rms_odometry, 2),
+            fixed(report.ess, 1)
         ));
         match &report.ancestors {
             None => text.push_str("no resampling at this step."),

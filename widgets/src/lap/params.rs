@@ -1,6 +1,9 @@
 //! What a reader can set about the lap.
 
-use crate::model::{Choice, Group, Kind, ParamSpec};
+use crate::{
+    decimal::write,
+    model::{Choice, Group, Kind, ParamSpec},
+};
 use fastslam::{
     experiment::lap::{LapSetup, STEPS},
     resampling::ResamplePolicy,
@@ -10,7 +13,7 @@ use fastslam::{
 pub const THRESHOLD: f64 = 0.5;
 
 const PROPOSALS: &[Choice] = &[
-    Choice { value: "aware", title: "measurement-aware (gmapping)" },
+    Choice { value: "aware", title: "measurement-aware" },
     Choice { value: "motion", title: "motion model only (FastSLAM 1.0)" },
 ];
 
@@ -18,7 +21,7 @@ const MATCHERS: &[Choice] =
     &[Choice { value: "subcell", title: "sub-cell (hit means)" }, Choice { value: "cell", title: "cell (occupancy)" }];
 
 const POLICIES: &[Choice] = &[
-    Choice { value: "neff", title: "when N_eff falls below the threshold" },
+    Choice { value: "neff", title: "N_eff below threshold" },
     Choice { value: "always", title: "at every step" },
     Choice { value: "never", title: "never" },
 ];
@@ -84,7 +87,7 @@ pub fn specs(universes: usize) -> Vec<ParamSpec> {
             "Odometry noise σ",
             "× α",
             (0.0, 2.0, 0.05),
-            odometry_scale.to_string(),
+            write(odometry_scale),
             "Factor on the standard deviations of the wheels' noise, in the world and in what the filter expects.",
         ),
         number(
@@ -92,7 +95,7 @@ pub fn specs(universes: usize) -> Vec<ParamSpec> {
             "Range noise σ",
             "m",
             (0.01, 0.3, 0.01),
-            range_std.to_string(),
+            write(range_std),
             "Standard deviation of each measured range.",
         ),
         choice(
@@ -115,7 +118,7 @@ pub fn specs(universes: usize) -> Vec<ParamSpec> {
             "Threshold",
             "of M",
             (0.0, 1.0, 0.05),
-            threshold.to_string(),
+            write(threshold),
             "Share of M below which N_eff calls for resampling, under the policy neff.",
         ),
         choice("scheme", "Scheme", SCHEMES, scheme.to_string(), "How the survivors are drawn."),

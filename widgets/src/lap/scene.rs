@@ -7,6 +7,7 @@ use super::{
     view::{self, ASPECT, View},
 };
 use crate::{
+    decimal::fixed,
     font::{self, Weight},
     model::Model,
     scene::{Anchor, Cells, FREE, Mark, OCCUPIED, Point, Rect, Region, Role, Scene, Shading, Text, UNKNOWN},
@@ -65,7 +66,7 @@ fn large(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     let weight = lap.weights()[slot as usize];
     let best = if slot == model.report().best { "best · " } else { "" };
     let title = Rect::new(x, y, w - step_width - 8.0, h);
-    heading(scene, &title, (&format!("Universe {slot}"), Role::Ink), &format!("{best}weight {weight:.3}"));
+    heading(scene, &title, (&format!("Universe {slot}"), Role::Ink), &format!("{best}weight {}", fixed(weight, 3)));
     let step_area = Rect::new(x + w - step_width, y, step_width, h);
     scene.marks.push(text(step_area, Anchor::End, 12.5, Weight::Regular, Role::Muted, step));
 
@@ -363,19 +364,20 @@ fn notes(scene: &mut Scene, model: &LapModel, area: &Rect, labels: bool) {
 
 /// N_eff over the steps, with the threshold that calls for resampling and the steps that did.
 fn meter(scene: &mut Scene, model: &LapModel, area: &Rect) {
-    let m = model.lap().particles().len() as f64;
+    let count = model.lap().particles().len();
+    let m = count as f64;
     let label_width = 66.0;
     let chart = Rect::new(area.x + label_width, area.y + 4.0, area.w - label_width - 3.0, area.h - 8.0);
     let line = |k: f64| Rect::new(area.x, chart.y + 0.5 * chart.h - 17.0 + 17.0 * k, label_width - 6.0, 17.0);
     // N with its index: smaller, and lower.
     let n = Text::new(line(0.0), Anchor::Start, 12.5, Weight::SemiBold, Role::Ink, "N");
     let index = Rect::new(area.x + n.width() + 0.5, n.area.y + 3.5, 20.0, 17.0);
-    let ess = format!("{:.1}", model.report().ess);
+    let ess = fixed(model.report().ess, 1);
     let value = Rect::new(index.x + 16.0, n.area.y, label_width - 6.0 - (index.x + 16.0 - area.x), 17.0);
     scene.marks.push(Mark::Text(n));
     scene.marks.push(text(index, Anchor::Start, 8.5, Weight::SemiBold, Role::Ink, "eff"));
     scene.marks.push(text(value, Anchor::End, 12.5, Weight::Regular, Role::Ink, ess));
-    scene.marks.push(text(line(1.0), Anchor::Start, 11.5, Weight::Regular, Role::Muted, format!("of {m}")));
+    scene.marks.push(text(line(1.0), Anchor::Start, 11.5, Weight::Regular, Role::Muted, format!("of {count}")));
 
     let at = |step: u32, ess: f64| {
         [chart.x + chart.w * f64::from(step) / f64::from(model.step_count()), chart.bottom() - chart.h * ess / m]
