@@ -94,7 +94,7 @@ fn every_golden_picture_has_the_pixels_of_the_native_build() {
     let pictures = PICTURES.iter().map(|picture| {
         let mut figure = figure(picture.tag, picture.query);
         let size = picture.size(figure.height(f64::from(picture.width)));
-        figure.paint(size[0], size[1], f64::from(picture.dpr), picture.theme);
+        figure.paint(size[0], size[1], picture.dpr, picture.theme);
         let mut digest = Digest::new();
         digest.bytes(&pixels(&figure, size));
         line(picture.name, &digest)
