@@ -7,6 +7,7 @@
 //! Every result is the same to the last bit on every platform, with any number of threads: see [`ops`], [`random`] and
 //! [`execute`].
 
+pub mod decimal;
 pub mod digest;
 pub mod error;
 pub mod execute;

@@ -3,6 +3,7 @@
 //! The filter is told where the lap starts and with what noise wheels and sensor err. It is never told the truth: that stays
 //! in [`LapWorld`], and only the errors of a [`StepReport`] are taken from it.
 
+use crate::decimal;
 use crate::digest::Digest;
 use crate::error::ParameterError;
 use crate::execute::Executor;
@@ -116,10 +117,15 @@ impl LapSetup {
         check(
             (0.0..=10.0).contains(&self.odometry_scale),
             "odometry_scale",
-            &self.odometry_scale,
+            &decimal::write(self.odometry_scale),
             "a number from 0 to 10",
         )?;
-        check((0.0..=1.0).contains(&self.range_std), "range_std", &self.range_std, "a number from 0 to 1 [m]")?;
+        check(
+            (0.0..=1.0).contains(&self.range_std),
+            "range_std",
+            &decimal::write(self.range_std),
+            "a number from 0 to 1 [m]",
+        )?;
         if let ResamplePolicy::EssBelow(fraction) = self.policy {
             check((0.0..=1.0).contains(&fraction), "policy", &self.policy, "neff:F with F from 0 to 1")?;
         }

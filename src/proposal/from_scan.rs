@@ -130,7 +130,7 @@ impl FromScan {
             let drop = 2.0 * mode.value - log_target(&mode.pose.plus(&step)) - log_target(&mode.pose.plus(&-step));
             // −f″ ≈ drop / h²; σ² = h² / drop, and a plateau takes the most.
             let std = if drop > 0.0 { (step[axis] * step[axis] / drop).sqrt() } else { most[axis] };
-            let std = std.clamp(least[axis], most[axis]);
+            let std = std.max(least[axis]).min(most[axis]);
             variances[axis] = std * std;
         }
         Gaussian3::new(mode.pose, Matrix3::from_diagonal(&variances)).expect("limits of probe_stds are positive")

@@ -1,5 +1,6 @@
 //! When to resample.
 
+use crate::decimal;
 use crate::error::ParameterError;
 use core::{fmt, str::FromStr};
 
@@ -30,7 +31,7 @@ impl fmt::Display for ResamplePolicy {
         match self {
             Self::Never => f.write_str("never"),
             Self::Always => f.write_str("always"),
-            Self::EssBelow(fraction) => write!(f, "neff:{fraction}"),
+            Self::EssBelow(fraction) => write!(f, "neff:{}", decimal::write(*fraction)),
         }
     }
 }
@@ -39,7 +40,7 @@ impl FromStr for ResamplePolicy {
     type Err = ParameterError;
 
     fn from_str(text: &str) -> Result<Self, ParameterError> {
-        let fraction = text.strip_prefix("neff:").and_then(|f| f.parse::<f64>().ok());
+        let fraction = text.strip_prefix("neff:").and_then(decimal::parse);
         match (text, fraction) {
             ("never", _) => Ok(Self::Never),
             ("always", _) => Ok(Self::Always),

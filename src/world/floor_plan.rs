@@ -98,7 +98,7 @@ impl FloorPlan {
         let mut noisy = |angle: &f64| {
             let noise = sensor.range_std * stream.normal(); // drawn for every beam: addresses stay aligned
             let range = self.raycast(origin, world_from_robot.theta + angle);
-            if range < sensor.max_range { (range + noise).clamp(1e-3, sensor.max_range) } else { f64::INFINITY }
+            if range < sensor.max_range { (range + noise).max(1e-3).min(sensor.max_range) } else { f64::INFINITY }
         };
         sensor.angles.iter().map(&mut noisy).collect()
     }

@@ -2,7 +2,6 @@
 //! without colours), the one painter of [`paint`] and, in the browser, a `shell` whose methods are one line each. Native tests and
 //! the command line use the same [`figure::Figure`] as the page.
 
-mod decimal;
 pub mod export;
 pub mod figure;
 pub mod font;

@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules of `fastslam`, each after all that it may use.
-const ORDER: [&str; 18] = [
+const ORDER: [&str; 19] = [
+    "decimal",
     "error",
     "digest",
     "execute",

@@ -5,12 +5,12 @@ use super::{
     params, scene,
 };
 use crate::{
-    decimal::{fixed, write},
     model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series},
     param::{Value, unknown},
     scene::Scene,
 };
 use fastslam::{
+    decimal::{fixed, write},
     experiment::lap::{Lap, LapSetup, StepReport},
     resampling::ResamplePolicy,
 };

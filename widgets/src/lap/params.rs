@@ -1,10 +1,8 @@
 //! What a reader can set about the lap.
 
-use crate::{
-    decimal::write,
-    model::{Choice, Group, Kind, ParamSpec},
-};
+use crate::model::{Choice, Group, Kind, ParamSpec};
 use fastslam::{
+    decimal::write,
     experiment::lap::{LapSetup, STEPS},
     resampling::ResamplePolicy,
 };

@@ -7,12 +7,11 @@ use super::{
     view::{self, ASPECT, View},
 };
 use crate::{
-    decimal::fixed,
     font::{self, Weight},
     model::Model,
     scene::{Anchor, Cells, FREE, Mark, OCCUPIED, Point, Rect, Region, Role, Scene, Shading, Text, UNKNOWN},
 };
-use fastslam::{geometry::Pose2, resampling::ResamplePolicy};
+use fastslam::{decimal::fixed, geometry::Pose2, resampling::ResamplePolicy};
 
 /// Width of the paper-coloured rim that lifts a line off the map \[css px\], on each side.
 const RIM: f64 = 1.25;

@@ -31,8 +31,14 @@ pub fn parse(text: &str) -> Option<f64> {
     some.then_some(if mantissa.starts_with('-') { -x } else { x })
 }
 
-/// With as few decimals as read back as the same number, where it has at most 15.
+/// With as few decimals as read back as the same number, where it has at most 15. What is no such number is said in words.
 pub fn write(x: f64) -> String {
+    if x.is_nan() {
+        return "NaN".into();
+    }
+    if x.abs() >= power(DIGITS) {
+        return if x > 0.0 { "over 1e15" } else { "below -1e15" }.into();
+    }
     let reads_back = |&k: &i32| (x.abs() * power(k) + 0.5).floor() / power(k) == x.abs();
     fixed(x, (0..DIGITS).find(reads_back).unwrap_or(DIGITS))
 }
@@ -56,6 +62,12 @@ fn power(k: i32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_cannot_be_written_is_said() {
+        let said = [f64::NAN, f64::INFINITY, -1e300, 999_999_999_999_999.0].map(write);
+        assert_eq!(said, ["NaN", "over 1e15", "below -1e15", "999999999999999"]);
+    }
 
     #[test]
     fn short_decimals_are_read_and_written_as_std_does() {
