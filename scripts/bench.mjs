@@ -49,12 +49,23 @@ async function timeLaps({ laps, width, height }) {
   const canvas = Object.assign(document.createElement('canvas'), { width, height })
   const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d', { alpha: false }))
   figure.set('universes', '16')
-  const total = { steps: 0, work: 0, paint: 0, put: 0, slowest: 0 }
+  const total = { steps: 0, alone: 0, work: 0, paint: 0, put: 0, slowest: 0 }
+  // The lap that criterion times, from its start: setting another seed and the first one again simulates it anew.
+  const restart = () => {
+    figure.seek(0)
+    for (const seed of ['1', '3']) figure.set('seed', seed)
+    while (figure.pending() > 0) figure.work()
+  }
   // The first lap is for the compiler to warm up.
   for (let lap = 0; lap <= laps; lap++) {
-    figure.seek(0)
-    figure.set('seed', String(lap + 1))
+    // Nobody looks, as natively.
+    restart()
+    const alone = performance.now()
+    figure.seek(figure.step_count())
     while (figure.pending() > 0) figure.work()
+    if (lap > 0) total.alone += performance.now() - alone
+
+    restart()
     for (let step = 1; step <= figure.step_count(); step++) {
       const started = performance.now()
       figure.seek(step)
@@ -95,12 +106,13 @@ if (isMain(import.meta)) {
       const lap = native.get(nativeLap)
       if (lap === undefined) throw new StepError(`Criterion has no benchmark ${nativeLap}, only: ${[...native.keys()].join(', ')}`)
       const wasm = await browserTimes()
-      const [nativeStep, wasmStep] = [lap / wasm.perLap, wasm.work / wasm.steps]
+      const [nativeStep, wasmStep, shownStep] = [lap / wasm.perLap, wasm.alone / wasm.steps, wasm.work / wasm.steps]
       say(bold('\n  Criterion, mean of one run'))
       for (const [id, time] of [...native].sort()) say(`  ${milliseconds(time).padStart(14)}  ${id}`)
       say(bold(`\n  A lap of 16 universes, mean of ${wasm.steps} steps`))
       say(`  ${milliseconds(nativeStep).padStart(14)}  step, native, one thread`)
       say(`  ${milliseconds(wasmStep).padStart(14)}  step, WebAssembly`)
+      say(`  ${milliseconds(shownStep).padStart(14)}  step, WebAssembly, painted after each`)
       say(`  ${milliseconds(wasm.paint / wasm.steps).padStart(14)}  scene and paint at ${width} × ${height}, WebAssembly`)
       say(`  ${milliseconds(wasm.put / wasm.steps).padStart(14)}  pixels to the canvas`)
       say(`  ${milliseconds(wasm.slowest).padStart(14)}  the slowest step with its scene and paint`)
@@ -108,7 +120,7 @@ if (isMain(import.meta)) {
       const met = [
         verdict('step, WebAssembly over native', wasmStep / nativeStep, 1.5, ratio => `${ratio.toFixed(2)} ×`),
         verdict('step, WebAssembly', wasmStep, 2),
-        verdict('step, scene and paint, WebAssembly', wasmStep + wasm.paint / wasm.steps, 12),
+        verdict('step, scene and paint, WebAssembly', shownStep + wasm.paint / wasm.steps, 12),
       ]
       say('')
       // A busy machine is no bug: the targets are shown, not enforced.
