@@ -2,7 +2,8 @@
 //!
 //! Modules are the mathematics, in the order in which they depend on each other:
 //! [`ops`] → [`random`] → [`geometry`] → [`motion`], [`sensor`] → [`map`] → [`matching`] → [`proposal`] → [`rbpf`] →
-//! [`experiment`]. [`world`] is the truth, which only experiments may ask.
+//! [`experiment`]. [`exact`] has what a filter only approximates, for tests and figures to hold it against. [`world`] is the
+//! truth, which only experiments may ask.
 //!
 //! Every result is the same to the last bit on every platform, with any number of threads: see [`ops`], [`random`] and
 //! [`execute`].
@@ -10,6 +11,7 @@
 pub mod decimal;
 pub mod digest;
 pub mod error;
+pub mod exact;
 pub mod execute;
 pub mod experiment;
 pub mod geometry;

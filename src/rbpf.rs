@@ -93,7 +93,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
             let mut stream = Stream::at(seed, Purpose::Proposal, step, slot as u32);
             let proposed = proposal.propose(particle, control, observation, &mut stream);
             particle.world_from_robot = proposed.world_from_robot;
-            particle.map.assimilate(&proposed.world_from_robot, observation);
+            particle.map.assimilate(&proposed.world_from_robot, observation, &proposed.association);
             proposed
         });
         for particle in &mut self.particles {

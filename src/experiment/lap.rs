@@ -8,11 +8,11 @@ use crate::digest::Digest;
 use crate::error::ParameterError;
 use crate::execute::Executor;
 use crate::geometry::{Pose2, align};
-use crate::map::ConditionalMap;
-use crate::map::grid::{Footprint, Grid, GridModel};
+use crate::map::grid::{Grid, GridModel};
+use crate::map::{ConditionalMap, Footprint};
 use crate::matching::{ClimbSteps, Matcher, ScanModel};
 use crate::motion::{Odometry, OdometryModel};
-use crate::proposal::{FromMotion, FromScan, FromScanSettings, GridProposal, ProposalKind, ProposalTrace};
+use crate::proposal::{Either, FromMotion, FromScan, FromScanSettings, ProposalKind, ProposalTrace};
 use crate::random::{Purpose, Stream};
 use crate::rbpf::{Particle, Rbpf, Report};
 use crate::resampling::{ResamplePolicy, Scheme};
@@ -217,7 +217,7 @@ pub struct StepReport {
 #[derive(Clone, Debug)]
 pub struct Lap {
     world: Arc<LapWorld>,
-    filter: Rbpf<Grid, GridProposal>,
+    filter: Rbpf<Grid, Either<FromMotion<OdometryModel, ScanModel>, FromScan>>,
     report: StepReport,
 }
 
@@ -233,12 +233,12 @@ impl Lap {
         let start = world.truth[0];
         let mut map = Grid::new(GRID);
         for (pose, scan) in &world.start_scans {
-            map.assimilate(pose, scan);
+            map.assimilate(pose, scan, &());
         }
-        let from_motion = FromMotion { motion, scan: ScanModel::new(setup.matcher, TEMPER, OUTLIER) };
+        let from_motion = FromMotion { motion, likelihood: ScanModel::new(setup.matcher, TEMPER, OUTLIER) };
         let proposal = match setup.proposal {
-            ProposalKind::Motion => GridProposal::Motion(from_motion),
-            ProposalKind::Aware => GridProposal::Scan(FromScan { fallback: from_motion, settings: FROM_SCAN }),
+            ProposalKind::Motion => Either::Left(from_motion),
+            ProposalKind::Aware => Either::Right(FromScan { fallback: from_motion, settings: FROM_SCAN }),
         };
         let filter = Rbpf::new(proposal, setup.policy, setup.scheme, setup.seed, setup.particles, start, map);
         let uniform = Report {

@@ -60,6 +60,31 @@ impl Gaussian3 {
     }
 }
 
+/// mean + L ε for three standard normals ε, with Σ = L Lᵀ, where Σ (3 × 3, \[m, m, rad\]) may be singular: along directions without
+/// variance nothing moves. Takes six `u64`s.
+///
+/// The Cholesky factor column by column; a pivot that is nothing against its variance, as rounding leaves it, counts as zero
+/// with its whole column.
+pub fn sample_semidefinite(mean: &Pose2, covariance: &Matrix3<f64>, stream: &mut Stream) -> Pose2 {
+    let mut l = *covariance;
+    for k in 0..3 {
+        for j in 0..k {
+            for i in k..3 {
+                l[(i, k)] -= l[(i, j)] * l[(k, j)];
+            }
+        }
+        let pivot = l[(k, k)];
+        let root = if pivot > 1e-12 * covariance[(k, k)] { pivot.sqrt() } else { 0.0 };
+        for i in k..3 {
+            l[(i, k)] = if root > 0.0 { l[(i, k)] / root } else { 0.0 };
+        }
+    }
+    let [a, b, c]: [f64; 3] = stream.normals();
+    let delta =
+        Vector3::new(l[(0, 0)] * a, l[(1, 0)] * a + l[(1, 1)] * b, l[(2, 0)] * a + l[(2, 1)] * b + l[(2, 2)] * c);
+    mean.plus(&delta)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -83,6 +108,36 @@ mod tests {
             [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|e| gaussian.at(e).minus(&Pose2::default()));
         let sum: Matrix3<f64> = columns.iter().map(|c| c * c.transpose()).sum();
         assert!((sum - sigma).norm() < 1e-14, "{sum}");
+    }
+
+    #[test]
+    fn a_singular_covariance_moves_nothing_where_it_has_no_variance() {
+        let along = Vector3::new(0.3, 0.4, 0.0);
+        for slot in 0..100 {
+            let mut stream = Stream::at(1, crate::random::Purpose::Trial, 0, slot);
+            let still = sample_semidefinite(&Pose2::new(1.0, 2.0, 3.0), &Matrix3::zeros(), &mut stream);
+            assert_eq!(still, Pose2::new(1.0, 2.0, 3.0));
+            let pose = sample_semidefinite(&Pose2::default(), &(along * along.transpose()), &mut stream);
+            assert!((pose.x * 0.4 - pose.y * 0.3).abs() < 1e-12 && pose.theta == 0.0 && pose.x != 0.0, "{pose:?}");
+        }
+    }
+
+    /// α = 0.001 two-sided for each of nine numbers (Bonferroni), n = 20 000.
+    #[test]
+    fn draws_of_a_definite_covariance_have_it() {
+        let sigma = Matrix3::new(0.5, 0.1, 0.03, 0.1, 0.4, -0.05, 0.03, -0.05, 0.2);
+        let n = 20_000_u32;
+        let mut second = Matrix3::zeros();
+        for slot in 0..n {
+            let mut stream = Stream::at(2, crate::random::Purpose::Trial, 0, slot);
+            let d = sample_semidefinite(&Pose2::default(), &sigma, &mut stream).minus(&Pose2::default());
+            second += d * d.transpose() / f64::from(n);
+        }
+        for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+            // Var(dᵢ dⱼ) = Σᵢᵢ Σⱼⱼ + Σᵢⱼ² for a Gaussian.
+            let std = ((sigma[(i, i)] * sigma[(j, j)] + sigma[(i, j)] * sigma[(i, j)]) / f64::from(n)).sqrt();
+            assert!((second[(i, j)] - sigma[(i, j)]).abs() < 3.9 * std, "({i}, {j})");
+        }
     }
 
     #[test]

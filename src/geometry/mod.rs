@@ -3,5 +3,5 @@
 mod gaussian;
 mod pose;
 
-pub use gaussian::Gaussian3;
+pub use gaussian::{Gaussian3, sample_semidefinite};
 pub use pose::{Pose2, align};

@@ -1,6 +1,7 @@
 //! Maps given a path: what every particle keeps for itself.
 
 pub mod grid;
+pub mod landmarks;
 
 use crate::geometry::Pose2;
 
@@ -11,6 +12,23 @@ pub trait ConditionalMap: Clone + Send + Sync {
     /// What one step of the sensor yields, in the robot's frame.
     type Observation: Sync;
 
+    /// What each part of an observation is taken to be of; nothing where the place alone decides, as in a grid.
+    type Association: Send;
+
     /// p(m | x₁..ₜ, z₁..ₜ₋₁) → p(m | x₁..ₜ, z₁..ₜ) for an observation taken at `world_from_robot`.
-    fn assimilate(&mut self, world_from_robot: &Pose2, observation: &Self::Observation);
+    fn assimilate(
+        &mut self,
+        world_from_robot: &Pose2,
+        observation: &Self::Observation,
+        association: &Self::Association,
+    );
+}
+
+/// Bytes that many maps take.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Footprint {
+    /// Shared parts counted once.
+    pub unique: u64,
+    /// If each map were kept whole and apart.
+    pub dense: u64,
 }

@@ -1,28 +1,74 @@
 //! The motion prior as proposal: move first, judge afterwards.
 
 use super::{Proposal, ProposalTrace, Proposed};
-use crate::map::grid::Grid;
+use crate::geometry::Pose2;
+use crate::map::landmarks::{Landmarks, Sighted, Store};
+use crate::map::{ConditionalMap, grid::Grid};
 use crate::matching::ScanModel;
-use crate::motion::{Odometry, OdometryModel};
+use crate::motion::Motion;
 use crate::random::Stream;
 use crate::rbpf::Particle;
-use crate::sensor::Scan;
+use crate::sensor::{Feature, LandmarkSensor, Scan};
+use nalgebra::Matrix3;
 
-/// x_t ~ p(x_t | x_{t−1}, u_t), with ln w += ln p(z_t | x_t, m): prior and proposal cancel.
-#[derive(Clone, Debug)]
-pub struct FromMotion {
-    /// Noise of the odometry.
-    pub motion: OdometryModel,
-    /// Likelihood of a scan.
-    pub scan: ScanModel,
+/// ln p(z | x, m), and what the observation is taken to be of at x.
+pub trait Likelihood<M: ConditionalMap>: Sync {
+    /// The log-likelihood \[nats\] of an observation at a pose, by a map.
+    fn log_likelihood(&self, map: &M, world_from_robot: &Pose2, observation: &M::Observation) -> (f64, M::Association);
 }
 
-impl Proposal<Grid> for FromMotion {
-    type Control = Odometry;
-
-    fn propose(&self, particle: &Particle<Grid>, u: &Odometry, scan: &Scan, stream: &mut Stream) -> Proposed {
-        let pose = self.motion.sample(&particle.world_from_robot, u, stream);
-        let log_increment = self.scan.log_likelihood(&particle.map, &pose, scan);
-        Proposed { world_from_robot: pose, log_increment, trace: ProposalTrace::Motion }
+impl Likelihood<Grid> for ScanModel {
+    fn log_likelihood(&self, grid: &Grid, world_from_robot: &Pose2, scan: &Scan) -> (f64, ()) {
+        (Self::log_likelihood(self, grid, world_from_robot, scan), ())
     }
+}
+
+/// The likelihood that a map of landmarks has by itself: ln ∏ ∫ p(z | x, m_j) p(m_j | path) dm_j.
+#[derive(Clone, Copy, Debug)]
+pub struct Marginal;
+
+impl<Z: LandmarkSensor, S: Store> Likelihood<Landmarks<Z, S>> for Marginal {
+    fn log_likelihood(
+        &self,
+        map: &Landmarks<Z, S>,
+        world_from_robot: &Pose2,
+        features: &Vec<Feature>,
+    ) -> (f64, Vec<Sighted>) {
+        let (mut log_likelihood, mut sighted) = (0.0, Vec::with_capacity(features.len()));
+        for feature in features {
+            let matched = map.associate(world_from_robot, &Matrix3::zeros(), feature, &sighted);
+            log_likelihood += matched.log_likelihood;
+            sighted.push(matched.sighted);
+        }
+        (log_likelihood, sighted)
+    }
+}
+
+/// x_t ~ p(x_t | x_{t−1}, u_t), with ln w += ln p(z_t | x_t, m): prior and proposal cancel. With landmarks, FastSLAM 1.0
+/// (PR table 13.1).
+#[derive(Clone, Debug)]
+pub struct FromMotion<D, L> {
+    /// Noise of the odometry.
+    pub motion: D,
+    /// Likelihood of an observation.
+    pub likelihood: L,
+}
+
+impl<M: ConditionalMap, D: Motion, L: Likelihood<M>> Proposal<M> for FromMotion<D, L> {
+    type Control = D::Control;
+
+    // anchor: propose
+    fn propose(
+        &self,
+        particle: &Particle<M>,
+        control: &D::Control,
+        observation: &M::Observation,
+        stream: &mut Stream,
+    ) -> Proposed<M::Association> {
+        let world_from_robot = self.motion.sample(&particle.world_from_robot, control, stream);
+        let (log_increment, association) =
+            self.likelihood.log_likelihood(&particle.map, &world_from_robot, observation);
+        Proposed { world_from_robot, association, log_increment, trace: ProposalTrace::Motion }
+    }
+    // end: propose
 }

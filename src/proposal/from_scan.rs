@@ -6,8 +6,8 @@
 use super::{FromMotion, Proposal, ProposalTrace, Proposed};
 use crate::geometry::{Gaussian3, Pose2};
 use crate::map::grid::Grid;
-use crate::matching::{Climb, ClimbSteps, climb};
-use crate::motion::Odometry;
+use crate::matching::{Climb, ClimbSteps, ScanModel, climb};
+use crate::motion::{Odometry, OdometryModel};
 use crate::ops;
 use crate::random::Stream;
 use crate::rbpf::Particle;
@@ -41,7 +41,7 @@ const SPREAD: f64 = 3.0;
 #[derive(Clone, Debug)]
 pub struct FromScan {
     /// The models, and what is done where the matcher fails.
-    pub fallback: FromMotion,
+    pub fallback: FromMotion<OdometryModel, ScanModel>,
     /// Tuning.
     pub settings: FromScanSettings,
 }
@@ -50,15 +50,15 @@ impl Proposal<Grid> for FromScan {
     type Control = Odometry;
 
     // anchor: propose
-    fn propose(&self, particle: &Particle<Grid>, u: &Odometry, scan: &Scan, stream: &mut Stream) -> Proposed {
+    fn propose(&self, particle: &Particle<Grid>, u: &Odometry, scan: &Scan, stream: &mut Stream) -> Proposed<()> {
         let settings = &self.settings;
         let prior = self.fallback.motion.gaussian(&particle.world_from_robot, u, settings.motion_floor);
         let log_target =
-            |pose: &Pose2| self.fallback.scan.log_likelihood(&particle.map, pose, scan) + prior.log_density(pose);
+            |pose: &Pose2| self.fallback.likelihood.log_likelihood(&particle.map, pose, scan) + prior.log_density(pose);
         // The search looks at a thinner scan, in which each beam counts for those left out.
         let (thin, share) = (scan.thinned(settings.climb_stride), settings.climb_stride as f64);
         let log_thin = |pose: &Pose2, floor: f64| {
-            share * self.fallback.scan.log_likelihood_above(floor / share, &particle.map, pose, &thin)
+            share * self.fallback.likelihood.log_likelihood_above(floor / share, &particle.map, pose, &thin)
         };
 
         // Seeds: the prediction, and poses spread over the prior's heading, so that the climb begins on the right slope.
@@ -111,6 +111,7 @@ impl Proposal<Grid> for FromScan {
         let log_eta = log_sum - ops::ln(f64::from(settings.probes));
         Proposed {
             world_from_robot: fitted.sample(stream),
+            association: (),
             log_increment: log_eta,
             trace: ProposalTrace::Matched { mode: mode.pose },
         }

@@ -3,19 +3,19 @@
 //! Every proposal pays for its choice by one formula: the log weight increment is ln p(z | x, m) + ln p(x | x′, u) − ln q(x), or
 //! its integral over q where that can be had.
 
+mod from_measurement;
 mod from_motion;
 mod from_scan;
 
-pub use from_motion::FromMotion;
+pub use from_measurement::{FromMeasurement, Measured};
+pub use from_motion::{FromMotion, Likelihood, Marginal};
 pub use from_scan::{FromScan, FromScanSettings};
 
 use crate::error::ParameterError;
 use crate::geometry::Pose2;
-use crate::map::{ConditionalMap, grid::Grid};
-use crate::motion::Odometry;
+use crate::map::ConditionalMap;
 use crate::random::Stream;
 use crate::rbpf::Particle;
-use crate::sensor::Scan;
 use core::{fmt, str::FromStr};
 
 /// Draws the next pose of a particle and says what it costs.
@@ -30,14 +30,16 @@ pub trait Proposal<M: ConditionalMap>: Sync {
         control: &Self::Control,
         observation: &M::Observation,
         stream: &mut Stream,
-    ) -> Proposed;
+    ) -> Proposed<M::Association>;
 }
 
 /// A drawn pose with its price.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Proposed {
+#[derive(Clone, PartialEq, Debug)]
+pub struct Proposed<A> {
     /// The new pose.
     pub world_from_robot: Pose2,
+    /// What the observation is taken to be of.
+    pub association: A,
     /// Log weight increment \[nats\].
     pub log_increment: f64,
     /// How it came about.
@@ -47,31 +49,37 @@ pub struct Proposed {
 /// How a pose was found, for those who watch.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum ProposalTrace {
-    /// Drawn from the motion model: by choice, or because the matcher was not trusted.
+    /// Drawn from the motion model: by choice, because the matcher was not trusted, or because nothing seen was in the map.
     Motion,
-    /// Drawn from a Gaussian around the mode that the matcher found.
+    /// Drawn from a Gaussian around the mode that the measurement calls for.
     Matched {
         /// The mode x̂.
         mode: Pose2,
     },
 }
 
-/// Either proposal for grids, chosen at run time.
+/// One of two proposals, chosen at run time.
 #[derive(Clone, Debug)]
-pub enum GridProposal {
-    /// The motion prior.
-    Motion(FromMotion),
+pub enum Either<P, Q> {
+    /// The motion prior, by custom.
+    Left(P),
     /// The measurement-aware proposal.
-    Scan(FromScan),
+    Right(Q),
 }
 
-impl Proposal<Grid> for GridProposal {
-    type Control = Odometry;
+impl<M: ConditionalMap, P: Proposal<M>, Q: Proposal<M, Control = P::Control>> Proposal<M> for Either<P, Q> {
+    type Control = P::Control;
 
-    fn propose(&self, particle: &Particle<Grid>, u: &Odometry, scan: &Scan, stream: &mut Stream) -> Proposed {
+    fn propose(
+        &self,
+        particle: &Particle<M>,
+        control: &P::Control,
+        observation: &M::Observation,
+        stream: &mut Stream,
+    ) -> Proposed<M::Association> {
         match self {
-            Self::Motion(from_motion) => from_motion.propose(particle, u, scan, stream),
-            Self::Scan(from_scan) => from_scan.propose(particle, u, scan, stream),
+            Self::Left(proposal) => proposal.propose(particle, control, observation, stream),
+            Self::Right(proposal) => proposal.propose(particle, control, observation, stream),
         }
     }
 }
@@ -80,7 +88,7 @@ impl Proposal<Grid> for GridProposal {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
 pub enum ProposalKind {
-    /// Measurement-aware: [`FromScan`].
+    /// Measurement-aware: [`FromScan`], [`FromMeasurement`].
     Aware,
     /// The motion prior: [`FromMotion`].
     Motion,

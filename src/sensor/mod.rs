@@ -1,5 +1,48 @@
 //! Sensors: what a measurement looks like in the robot's frame.
 
 mod beam;
+mod range_bearing;
 
 pub use beam::{BeamSensor, Scan};
+pub use range_bearing::RangeBearing;
+
+use crate::geometry::Pose2;
+use nalgebra::{Matrix2, Matrix2x3, Vector2};
+
+/// One sighting of one landmark.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Feature {
+    /// What was measured; for [`RangeBearing`] (r, φ) \[m, rad\].
+    pub z: Vector2<f64>,
+    /// Which landmark it is, where the sensor can tell (a bar code): counted from 0, without large gaps.
+    pub signature: Option<u32>,
+}
+
+/// ẑ = h(x, m) and its derivatives.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Prediction {
+    /// ẑ.
+    pub z: Vector2<f64>,
+    /// H_x = ∂h/∂x (2 × 3).
+    pub h_x: Matrix2x3<f64>,
+    /// H_m = ∂h/∂m (2 × 2), invertible.
+    pub h_m: Matrix2<f64>,
+}
+
+/// A sensor that sees landmarks (points of the plane, \[m\]) one by one, each as two numbers: z = h(x, m) + noise.
+pub trait LandmarkSensor: Clone + Send + Sync {
+    /// h(x, m) with its derivatives.
+    fn predict(&self, world_from_robot: &Pose2, landmark: &Vector2<f64>) -> Prediction;
+
+    /// z − ẑ, angles wrapped.
+    fn residual(&self, z: &Vector2<f64>, predicted: &Vector2<f64>) -> Vector2<f64>;
+
+    /// h⁻¹: the landmark that is seen without noise as z.
+    fn locate(&self, world_from_robot: &Pose2, z: &Vector2<f64>) -> Vector2<f64>;
+
+    /// Q (2 × 2): covariance of the noise.
+    fn noise(&self) -> Matrix2<f64>;
+
+    /// Whether all points up to `margin` \[m\] around the landmark are in range and in view.
+    fn sees(&self, world_from_robot: &Pose2, landmark: &Vector2<f64>, margin: f64) -> bool;
+}

@@ -14,7 +14,7 @@ mod tile;
 pub(crate) use tile::UNIT;
 use tile::{Surface, TILE};
 
-use super::ConditionalMap;
+use super::{ConditionalMap, Footprint};
 use crate::geometry::Pose2;
 use crate::sensor::Scan;
 use std::sync::Arc;
@@ -195,15 +195,6 @@ impl Grid {
     }
 }
 
-/// Memory of a population's maps \[bytes\].
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub struct Footprint {
-    /// Held in fact: every shared part once.
-    pub unique: u64,
-    /// What dense arrays over the same bounds would hold, one for each map, with the same content in each cell.
-    pub dense: u64,
-}
-
 impl Directory {
     #[inline]
     fn index(&self, ti: i32, tj: i32) -> Option<usize> {
@@ -247,10 +238,11 @@ impl Directory {
 
 impl ConditionalMap for Grid {
     type Observation = Scan;
+    type Association = ();
 
     /// Every cell is updated once a scan at the most, however many beams touch it: beams are not independent, and a wall seen
     /// at a grazing angle would be erased by the beams that pass along it. A cell that a beam ended in counts as hit.
-    fn assimilate(&mut self, world_from_robot: &Pose2, scan: &Scan) {
+    fn assimilate(&mut self, world_from_robot: &Pose2, scan: &Scan, (): &()) {
         let marks = ray::trace(world_from_robot, scan, self.model.cell_size);
         let Some(touched) = marks.touched_tiles() else { return };
         if !covers(self.directory.rect, touched) {

@@ -10,7 +10,7 @@ fn one_beam(range: f64) -> Scan {
 #[test]
 fn a_beam_frees_what_it_passes_and_fills_where_it_ends() {
     let mut grid = Grid::new(MODEL);
-    grid.assimilate(&Pose2::new(0.15, 0.15, 0.0), &one_beam(1.5));
+    grid.assimilate(&Pose2::new(0.15, 0.15, 0.0), &one_beam(1.5), &());
     for i in 0..5 {
         assert_eq!(grid.log_odds(i, 0), -0.40625, "cell {i}");
     }
@@ -27,7 +27,7 @@ fn beams_reach_the_right_cells_in_every_direction() {
         let angle = core::f64::consts::TAU * f64::from(k) / 720.0;
         let mut grid = Grid::new(MODEL);
         let pose = Pose2::new(-0.17, 0.41, angle);
-        grid.assimilate(&pose, &one_beam(3.3));
+        grid.assimilate(&pose, &one_beam(3.3), &());
         let [x, y] = pose.transform([3.3, 0.0]);
         let cell = |c: f64| (c / 0.3).floor() as i32;
         assert!(grid.log_odds(cell(x), cell(y)) > 0.5, "direction {angle}");
@@ -42,11 +42,11 @@ fn beams_reach_the_right_cells_in_every_direction() {
 #[test]
 fn writing_to_a_clone_never_touches_its_sibling() {
     let mut original = Grid::new(MODEL);
-    original.assimilate(&Pose2::default(), &one_beam(2.0));
+    original.assimilate(&Pose2::default(), &one_beam(2.0), &());
     let before = original.log_odds(6, 0);
     let mut copy = original.clone();
-    copy.assimilate(&Pose2::default(), &one_beam(2.0));
-    copy.assimilate(&Pose2::new(40.0, -30.0, 1.0), &one_beam(2.0)); // grows the copy only
+    copy.assimilate(&Pose2::default(), &one_beam(2.0), &());
+    copy.assimilate(&Pose2::new(40.0, -30.0, 1.0), &one_beam(2.0), &()); // grows the copy only
     assert_eq!(original.log_odds(6, 0), before);
     assert!(copy.log_odds(6, 0) > before);
     assert_ne!(original.bounds(), copy.bounds());
@@ -55,12 +55,12 @@ fn writing_to_a_clone_never_touches_its_sibling() {
 #[test]
 fn a_clone_costs_no_memory_until_it_is_written_to() {
     let mut original = Grid::new(MODEL);
-    original.assimilate(&Pose2::default(), &BeamSensor::panorama(90, 8.0, 0.0).scan(&[7.0; 90]));
+    original.assimilate(&Pose2::default(), &BeamSensor::panorama(90, 8.0, 0.0).scan(&[7.0; 90]), &());
     let alone = Grid::footprint([&original]);
     let mut copy = original.clone();
     let pair = Grid::footprint([&original, &copy]);
     assert_eq!((pair.unique, pair.dense), (alone.unique, 2 * alone.dense));
-    copy.assimilate(&Pose2::default(), &one_beam(0.5)); // one tile
+    copy.assimilate(&Pose2::default(), &one_beam(0.5), &()); // one tile
     let written = Grid::footprint([&original, &copy]).unique;
     assert!(pair.unique < written && written < 2 * alone.unique, "{} {written} {}", pair.unique, 2 * alone.unique);
 }
@@ -69,7 +69,7 @@ fn a_clone_costs_no_memory_until_it_is_written_to() {
 fn absurd_poses_and_ranges_change_nothing_and_exhaust_nothing() {
     for pose in [Pose2::new(1e300, 0.0, 0.0), Pose2 { x: f64::NAN, y: 0.0, theta: 0.0 }, Pose2::new(0.0, -1e12, 1.0)] {
         let mut grid = Grid::new(MODEL);
-        grid.assimilate(&pose, &one_beam(2.0));
+        grid.assimilate(&pose, &one_beam(2.0), &());
         assert_eq!(grid.bounds().width(), 0);
     }
 }
@@ -99,7 +99,7 @@ fn a_surface_has_the_moments_of_its_hits() {
 #[test]
 fn the_nearest_surface_is_that_of_all_cells_around() {
     let mut grid = Grid::new(MODEL);
-    grid.assimilate(&Pose2::new(2.0, 1.0, 0.3), &BeamSensor::panorama(90, 8.0, 0.0).scan(&[1.7; 90]));
+    grid.assimilate(&Pose2::new(2.0, 1.0, 0.3), &BeamSensor::panorama(90, 8.0, 0.0).scan(&[1.7; 90]), &());
     for k in 0..4000 {
         let (x, y) = (f64::from(k % 80) * 0.05 + 0.013, f64::from(k / 80) * 0.05 - 0.71);
         let (i, j) = ((x / 0.3 - 0.5).floor() as i32, (y / 0.3 - 0.5).floor() as i32);

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules of `fastslam`, each after all that it may use.
-const ORDER: [&str; 19] = [
+const ORDER: [&str; 20] = [
     "decimal",
     "error",
     "digest",
@@ -21,6 +21,7 @@ const ORDER: [&str; 19] = [
     "lineage",
     "rbpf",
     "proposal",
+    "exact",
     "world",
     "experiment",
     "lib",

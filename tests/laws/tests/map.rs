@@ -30,21 +30,21 @@ proptest! {
         branches in prop::collection::vec(prop::collection::vec(sighting(), 0..4), 1..5),
     ) {
         let mut shared = Grid::new(GRID);
-        trunk.iter().for_each(|(pose, scan)| shared.assimilate(pose, scan));
+        trunk.iter().for_each(|(pose, scan)| shared.assimilate(pose, scan, &()));
         let before = content(&shared);
         let mut family: Vec<Grid> = branches.iter().map(|_| shared.clone()).collect();
         // Interleaved, as particles write in turn.
         for turn in 0..4 {
             for (grid, sightings) in family.iter_mut().zip(&branches) {
                 if let Some((pose, scan)) = sightings.get(turn) {
-                    grid.assimilate(pose, scan);
+                    grid.assimilate(pose, scan, &());
                 }
             }
         }
         prop_assert_eq!(content(&shared), before);
         for (grid, sightings) in family.iter().zip(&branches) {
             let mut alone = Grid::new(GRID);
-            trunk.iter().chain(sightings).for_each(|(pose, scan)| alone.assimilate(pose, scan));
+            trunk.iter().chain(sightings).for_each(|(pose, scan)| alone.assimilate(pose, scan, &()));
             prop_assert_eq!(content(grid), content(&alone));
         }
     }
@@ -52,7 +52,7 @@ proptest! {
     #[test]
     fn shared_maps_never_hold_more_than_copies_would(trunk in prop::collection::vec(sighting(), 1..4), count in 1_usize..20) {
         let mut grid = Grid::new(GRID);
-        trunk.iter().for_each(|(pose, scan)| grid.assimilate(pose, scan));
+        trunk.iter().for_each(|(pose, scan)| grid.assimilate(pose, scan, &()));
         let alone = Grid::footprint([&grid]);
         let family = vec![grid; count];
         let together = Grid::footprint(&family);

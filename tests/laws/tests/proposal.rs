@@ -4,7 +4,7 @@ use fastslam::experiment::lap::{ALPHAS, FROM_SCAN, GRID, LapWorld, OUTLIER, TEMP
 use fastslam::geometry::{Gaussian3, Pose2};
 use fastslam::map::{ConditionalMap, grid::Grid};
 use fastslam::matching::{Matcher, ScanModel};
-use fastslam::motion::{Odometry, OdometryModel};
+use fastslam::motion::{Motion, Odometry, OdometryModel};
 use fastslam::ops;
 use fastslam::proposal::{FromMotion, FromScan, Proposal, ProposalTrace, Proposed};
 use fastslam::random::{Purpose, Stream};
@@ -24,12 +24,16 @@ fn one_step(matcher: Matcher) -> OneStep {
     let world = LapWorld::new(5, &motion, 0.02);
     let mut map = Grid::new(GRID);
     for (pose, scan) in &world.start_scans {
-        map.assimilate(pose, scan);
+        map.assimilate(pose, scan, &());
     }
     let particle = Particle { world_from_robot: world.truth[0], map, node: 0 };
     // Tempered harder, or the posterior is too narrow for a dense grid and for the motion model's samples to meet it.
     let scan = ScanModel::new(matcher, TEMPER * 0.4, OUTLIER);
-    OneStep { particle, world, from_scan: FromScan { fallback: FromMotion { motion, scan }, settings: FROM_SCAN } }
+    OneStep {
+        particle,
+        world,
+        from_scan: FromScan { fallback: FromMotion { motion, likelihood: scan }, settings: FROM_SCAN },
+    }
 }
 
 /// Small enough to change nothing, and enough to make a covariance definite.
@@ -51,7 +55,8 @@ impl OneStep {
                 for c in &side {
                     let pose = prior.at([*a, *b, *c]);
                     let log_normal = -0.5 * (a * a + b * b + c * c) - 1.5 * ops::ln(core::f64::consts::TAU);
-                    let log_likelihood = self.from_scan.fallback.scan.log_likelihood(&self.particle.map, &pose, scan);
+                    let log_likelihood =
+                        self.from_scan.fallback.likelihood.log_likelihood(&self.particle.map, &pose, scan);
                     poses.push((pose.minus(prior.mean()), log_likelihood + log_normal + cell));
                 }
             }
@@ -133,7 +138,8 @@ fn the_matcher_fails_on_a_flat_score_surface() {
     let mut step = one_step(Matcher::SubCell);
     step.particle.map = Grid::new(GRID);
     for slot in 0..50 {
-        let draw = |proposal: &dyn Fn(&mut Stream) -> Proposed| proposal(&mut Stream::at(3, Purpose::Trial, 0, slot));
+        let draw =
+            |proposal: &dyn Fn(&mut Stream) -> Proposed<()>| proposal(&mut Stream::at(3, Purpose::Trial, 0, slot));
         let (control, scan) = (&step.world.controls[0], &step.world.scans[0]);
         let aware = draw(&|stream| step.from_scan.propose(&step.particle, control, scan, stream));
         assert_eq!(aware.trace, ProposalTrace::Motion);

@@ -5,6 +5,7 @@
 //!
 //! Reference: Thrun, Burgard, Fox, *Probabilistic Robotics* (2005), tables 5.5 and 5.6.
 
+use super::Motion;
 use crate::geometry::{Gaussian3, Pose2};
 use crate::ops;
 use crate::random::Stream;
@@ -68,19 +69,6 @@ impl OdometryModel {
         Odometry { rot1: u.rot1 + s1 * e1, trans: u.trans + st * et, rot2: u.rot2 + s2 * e2 }
     }
 
-    /// x_t ~ p(x_t | x_{t−1}, u_t), table 5.6.
-    pub fn sample(&self, from: &Pose2, u: &Odometry, stream: &mut Stream) -> Pose2 {
-        self.perturb(u, stream).apply(from)
-    }
-
-    /// R_t = V M Vᵀ (3 × 3, \[m, m, rad\]): the noise of the control carried into pose space by V = ∂(x ⊕ u)/∂u.
-    pub fn covariance(&self, from: &Pose2, u: &Odometry) -> Matrix3<f64> {
-        let (sin, cos) = ops::sin_cos(from.theta + u.rot1);
-        let v = Matrix3::new(-u.trans * sin, cos, 0.0, u.trans * cos, sin, 0.0, 1.0, 0.0, 1.0);
-        let m = Matrix3::from_diagonal(&Vector3::from(self.stds(u).map(|std| std * std)));
-        v * m * v.transpose()
-    }
-
     /// p(x_t | x_{t−1}, u_t) as a Gaussian in pose space: mean x ⊕ u, covariance R_t + diag(floor²).
     ///
     /// The density over decomposed angles (table 5.5) has a pole where a pose lies near a turn on the spot: the direction of
@@ -92,6 +80,27 @@ impl OdometryModel {
     pub fn gaussian(&self, from: &Pose2, u: &Odometry, floor_stds: [f64; 3]) -> Gaussian3 {
         let floor = Matrix3::from_diagonal(&Vector3::from(floor_stds.map(|std| std * std)));
         Gaussian3::new(u.apply(from), self.covariance(from, u) + floor).expect("a positive floor makes R_t definite")
+    }
+}
+
+impl Motion for OdometryModel {
+    type Control = Odometry;
+
+    fn apply(&self, from: &Pose2, u: &Odometry) -> Pose2 {
+        u.apply(from)
+    }
+
+    /// x_t ~ p(x_t | x_{t−1}, u_t), table 5.6. Takes six `u64`s.
+    fn sample(&self, from: &Pose2, u: &Odometry, stream: &mut Stream) -> Pose2 {
+        self.perturb(u, stream).apply(from)
+    }
+
+    /// R_t = V M Vᵀ with V = ∂(x ⊕ u)/∂u.
+    fn covariance(&self, from: &Pose2, u: &Odometry) -> Matrix3<f64> {
+        let (sin, cos) = ops::sin_cos(from.theta + u.rot1);
+        let v = Matrix3::new(-u.trans * sin, cos, 0.0, u.trans * cos, sin, 0.0, 1.0, 0.0, 1.0);
+        let m = Matrix3::from_diagonal(&Vector3::from(self.stds(u).map(|std| std * std)));
+        v * m * v.transpose()
     }
 }
 

@@ -1,0 +1,1 @@
+//! What a particle filter approximates, computed without particles: the oracle of tests and of figures.

@@ -1,0 +1,106 @@
+//! Which landmark a sighting is of. Every particle decides for itself, and lives or dies by it.
+
+use super::{Innovation, Landmarks, Store};
+use crate::geometry::Pose2;
+use crate::ops;
+use crate::sensor::{Feature, LandmarkSensor};
+use nalgebra::Matrix3;
+
+/// How sightings are told apart.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Correspondence {
+    /// By the signature that each feature brings; a feature without one is passed over.
+    Known,
+    /// By maximum likelihood.
+    Unknown(Gate),
+}
+
+/// Settings of the maximum-likelihood association.
+///
+/// A feature goes to the landmark of the largest π_j = N(ν_j; 0, S_j) among those with ν_jᵀ S_j⁻¹ ν_j within the gate, if
+/// that exceeds p₀; else it is a new landmark, at the price p₀ (PR tables 13.2 and 13.4).
+///
+/// No landmark is given two features of one step. The rule: features choose in the order in which the sensor reports them, and
+/// a landmark that was chosen is not to be had again in this step; who comes later takes the next best, or founds a new one.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Gate {
+    /// Largest νᵀ S⁻¹ ν: a quantile of χ² with two degrees of freedom.
+    pub mahalanobis_squared: f64,
+    /// ln p₀: log-density of a sighting \[nats, per unit of z\] below which a new landmark explains it better.
+    pub log_new: f64,
+    /// Whether landmarks that should have been seen and were not lose evidence, and are struck off without any.
+    pub removal: bool,
+}
+
+impl Default for Gate {
+    /// χ²₂,₀.₉₉ = −2 ln 0.01; p₀ = 10⁻³ per metre and radian; no removal.
+    fn default() -> Self {
+        Self { mahalanobis_squared: -2.0 * ops::ln(0.01), log_new: ops::ln(1e-3), removal: false }
+    }
+}
+
+/// What a feature is taken to be.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Sighted {
+    /// The landmark of this index, seen before.
+    Again(u32),
+    /// A landmark seen for the first time, to get this index.
+    First(u32),
+    /// Not to be used: no signature, or a second feature of a landmark in one step.
+    Nothing,
+}
+
+/// A decision with its likelihood.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Matched {
+    /// What was decided.
+    pub sighted: Sighted,
+    /// What was seen against what was expected, where the landmark is in the map.
+    pub innovation: Option<Innovation>,
+    /// ln p(z) under the decision \[nats\].
+    pub log_likelihood: f64,
+}
+
+impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
+    // anchor: associate
+    /// Decides what one feature is, for a pose of this mean and covariance P (3 × 3; zeros for a pose that is sure), after
+    /// `taken` was decided for the features before it.
+    pub fn associate(&self, pose: &Pose2, p: &Matrix3<f64>, feature: &Feature, taken: &[Sighted]) -> Matched {
+        let free = |index: u32| !taken.contains(&Sighted::Again(index)) && !taken.contains(&Sighted::First(index));
+        match self.correspondence {
+            Correspondence::Known => {
+                let Some(index) = feature.signature.filter(|index| free(*index)) else {
+                    return Matched { sighted: Sighted::Nothing, innovation: None, log_likelihood: 0.0 };
+                };
+                match self.get(index) {
+                    Some(landmark) => {
+                        let innovation = landmark.innovation(&self.sensor, pose, &feature.z).with_pose(p);
+                        again(index, innovation)
+                    }
+                    None => Matched { sighted: Sighted::First(index), innovation: None, log_likelihood: 0.0 },
+                }
+            }
+            Correspondence::Unknown(gate) => {
+                let mut best: Option<Matched> = None;
+                for (index, landmark) in self.iter().filter(|(index, _)| free(*index)) {
+                    let innovation = landmark.innovation(&self.sensor, pose, &feature.z).with_pose(p);
+                    let to_beat = best.map_or(gate.log_new, |best| best.log_likelihood);
+                    if innovation.mahalanobis_squared < gate.mahalanobis_squared && innovation.log_likelihood > to_beat
+                    {
+                        best = Some(again(index, innovation));
+                    }
+                }
+                best.unwrap_or_else(|| {
+                    let founded = taken.iter().filter(|sighted| matches!(sighted, Sighted::First(_))).count() as u32;
+                    let sighted = Sighted::First(self.store.len() + founded);
+                    Matched { sighted, innovation: None, log_likelihood: gate.log_new }
+                })
+            }
+        }
+    }
+    // end: associate
+}
+
+fn again(index: u32, innovation: Innovation) -> Matched {
+    Matched { sighted: Sighted::Again(index), log_likelihood: innovation.log_likelihood, innovation: Some(innovation) }
+}

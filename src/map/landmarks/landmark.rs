@@ -1,0 +1,155 @@
+//! One landmark: an extended Kalman filter of dimension two.
+
+use crate::geometry::Pose2;
+use crate::ops;
+use crate::sensor::{LandmarkSensor, Prediction};
+use nalgebra::{Matrix2, Matrix3, Vector2};
+
+/// p(m | path, sightings) = N(mean, covariance).
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Landmark {
+    /// μ \[m\].
+    pub mean: Vector2<f64>,
+    /// Σ \[m²\].
+    pub covariance: Matrix2<f64>,
+    /// Sightings less the times it should have been seen and was not; struck off below 0.
+    pub evidence: i32,
+}
+
+/// What a sighting says against what was expected.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Innovation {
+    /// ẑ and its derivatives.
+    pub prediction: Prediction,
+    /// ν = z − ẑ.
+    pub residual: Vector2<f64>,
+    /// Q_j = H_m Σ H_mᵀ + Q (2 × 2): covariance of ν if the pose is sure.
+    pub given_pose: Matrix2<f64>,
+    /// S (2 × 2): covariance of ν; Q_j, or Q_j + H_x P H_xᵀ.
+    pub covariance: Matrix2<f64>,
+    /// S⁻¹.
+    pub inverse: Matrix2<f64>,
+    /// ln N(ν; 0, S) \[nats\].
+    pub log_likelihood: f64,
+    /// νᵀ S⁻¹ ν.
+    pub mahalanobis_squared: f64,
+}
+
+impl Innovation {
+    fn new(prediction: Prediction, residual: Vector2<f64>, given_pose: Matrix2<f64>, covariance: Matrix2<f64>) -> Self {
+        let s = &covariance;
+        let det = s.m11 * s.m22 - s.m12 * s.m21;
+        let inverse = Matrix2::new(s.m22, -s.m12, -s.m21, s.m11) / det;
+        let mahalanobis_squared = residual.dot(&(inverse * residual));
+        let log_likelihood = -0.5 * (mahalanobis_squared + ops::ln(det)) - ops::ln(core::f64::consts::TAU);
+        Self { prediction, residual, given_pose, covariance, inverse, log_likelihood, mahalanobis_squared }
+    }
+
+    /// The same with the noise of the pose in it: S + H_x P H_xᵀ for a pose of covariance P (3 × 3).
+    pub fn with_pose(&self, pose_covariance: &Matrix3<f64>) -> Self {
+        let h_x = &self.prediction.h_x;
+        let covariance = symmetric(self.given_pose + h_x * pose_covariance * h_x.transpose());
+        Self::new(self.prediction, self.residual, self.given_pose, covariance)
+    }
+}
+
+impl Landmark {
+    // anchor: first
+    /// The first sighting: μ = h⁻¹(x, z), Σ = H_m⁻¹ Q H_m⁻ᵀ.
+    pub fn first<Z: LandmarkSensor>(sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) -> Self {
+        let mean = sensor.locate(world_from_robot, z);
+        let h = sensor.predict(world_from_robot, &mean).h_m;
+        let inverse = Matrix2::new(h.m22, -h.m12, -h.m21, h.m11) / (h.m11 * h.m22 - h.m12 * h.m21);
+        Self { mean, covariance: symmetric(inverse * sensor.noise() * inverse.transpose()), evidence: 1 }
+    }
+    // end: first
+
+    // anchor: innovation
+    /// ν = z − h(x, μ), S = H_m Σ H_mᵀ + Q: exp(`log_likelihood`) is the marginal ∫ p(z | x, m) p(m | path) dm of a sighting.
+    #[inline]
+    pub fn innovation<Z: LandmarkSensor>(&self, sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) -> Innovation {
+        let prediction = sensor.predict(world_from_robot, &self.mean);
+        let h = &prediction.h_m;
+        let covariance = symmetric(h * self.covariance * h.transpose() + sensor.noise());
+        Innovation::new(prediction, sensor.residual(z, &prediction.z), covariance, covariance)
+    }
+    // end: innovation
+
+    // anchor: update
+    /// K = Σ H_mᵀ S⁻¹, μ ← μ + K ν, Σ ← (I − K H_m) Σ (I − K H_m)ᵀ + K Q Kᵀ: Joseph's form, which stays symmetric and positive
+    /// definite whatever rounding does.
+    pub fn update<Z: LandmarkSensor>(&mut self, sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) {
+        let Innovation { prediction, residual, inverse, .. } = self.innovation(sensor, world_from_robot, z);
+        let gain = self.covariance * prediction.h_m.transpose() * inverse;
+        let keep = Matrix2::identity() - gain * prediction.h_m;
+        self.mean += gain * residual;
+        self.covariance =
+            symmetric(keep * self.covariance * keep.transpose() + gain * sensor.noise() * gain.transpose());
+        self.evidence = self.evidence.saturating_add(1);
+    }
+    // end: update
+
+    /// √ of the larger eigenvalue of Σ \[m\].
+    pub fn largest_std(&self) -> f64 {
+        let s = &self.covariance;
+        let (half_sum, half_difference) = (0.5 * (s.m11 + s.m22), 0.5 * (s.m11 - s.m22));
+        (half_sum + (half_difference * half_difference + s.m12 * s.m12).sqrt()).sqrt()
+    }
+}
+
+/// Both off-diagonals their mean: the last bits of a product of symmetric matrices need not agree.
+fn symmetric(m: Matrix2<f64>) -> Matrix2<f64> {
+    let off = 0.5 * (m.m12 + m.m21);
+    Matrix2::new(m.m11, off, off, m.m22)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sensor::RangeBearing;
+
+    const SENSOR: RangeBearing =
+        RangeBearing { range_std: 0.2, bearing_std: 0.05, max_range: 10.0, field_of_view: core::f64::consts::TAU };
+
+    /// The worked example of the chapter.
+    #[test]
+    fn the_worked_example_is_met_to_the_last_digit_shown() {
+        let landmark =
+            Landmark { mean: Vector2::new(4.0, 0.0), covariance: Matrix2::new(0.21, 0.0, 0.0, 0.12), evidence: 1 };
+        for (z, weight) in [([4.1, 0.05], 2.753_451_476_665), ([4.3, 0.15], 0.863_168_987_665)] {
+            let innovation = landmark.innovation(&SENSOR, &Pose2::default(), &Vector2::from(z));
+            assert!((innovation.covariance - Matrix2::new(0.25, 0.0, 0.0, 0.01)).norm() < 1e-15);
+            assert!((ops::exp(innovation.log_likelihood) - weight).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn many_sightings_from_one_pose_are_their_mean() {
+        let pose = Pose2::new(1.0, -2.0, 0.5);
+        let z = Vector2::new(3.0, 0.3);
+        let mut landmark = Landmark::first(&SENSOR, &pose, &z);
+        let first = landmark.covariance;
+        for _ in 1..100 {
+            landmark.update(&SENSOR, &pose, &z);
+        }
+        assert!((landmark.covariance * 100.0 - first).norm() < 1e-12);
+        assert!((landmark.mean - SENSOR.locate(&pose, &z)).norm() < 1e-12);
+        assert_eq!(landmark.evidence, 100);
+    }
+
+    #[test]
+    fn the_largest_deviation_is_that_of_the_longer_axis() {
+        let covariance = Matrix2::new(2.5, 1.5, 1.5, 2.5);
+        let landmark = Landmark { mean: Vector2::zeros(), covariance, evidence: 1 };
+        assert!((landmark.largest_std() - 2.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_landmark_under_the_robot_stays_finite() {
+        let mut landmark = Landmark::first(&SENSOR, &Pose2::default(), &Vector2::new(0.0, 0.0));
+        for _ in 0..9 {
+            landmark.update(&SENSOR, &Pose2::default(), &Vector2::new(0.0, 1.0));
+            assert!(landmark.mean.iter().chain(&landmark.covariance).all(|x| x.is_finite()), "{landmark:?}");
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! Motion models: where a robot may be, given where it was and what its wheels reported.
+
+mod odometry;
+mod velocity;
+
+pub use odometry::{Odometry, OdometryModel};
+pub use velocity::{Velocity, VelocityModel};
+
+use crate::geometry::Pose2;
+use crate::ops;
+use crate::random::Stream;
+use nalgebra::Matrix3;
+
+/// p(x_t | x_{t−1}, u_t): to draw from, and as a Gaussian.
+pub trait Motion: Sync {
+    /// What the robot was told, or reported, to do in a step.
+    type Control: Sync;
+
+    /// g(x, u): the motion without its noise.
+    fn apply(&self, from: &Pose2, control: &Self::Control) -> Pose2;
+
+    /// One draw of p(x_t | x_{t−1}, u_t).
+    fn sample(&self, from: &Pose2, control: &Self::Control, stream: &mut Stream) -> Pose2;
+
+    /// R_t (3 × 3, \[m, m, rad\]): the noise of the control carried into pose space. May be singular.
+    fn covariance(&self, from: &Pose2, control: &Self::Control) -> Matrix3<f64>;
+
+    /// ∂g/∂x (3 × 3). As given here for motions that are the same from wherever they start, seen from there.
+    fn jacobian(&self, from: &Pose2, control: &Self::Control) -> Matrix3<f64> {
+        let to = self.apply(from, control);
+        Matrix3::new(1.0, 0.0, from.y - to.y, 0.0, 1.0, to.x - from.x, 0.0, 0.0, 1.0)
+    }
+}
+
+/// sin(x)/x and its derivative.
+fn sinc(x: f64) -> (f64, f64) {
+    if x.abs() < 1e-4 {
+        return (1.0 - x * x / 6.0, -x / 3.0); // what is left out is below the last bit, and the quotients lose theirs
+    }
+    let (sin, cos) = ops::sin_cos(x);
+    (sin / x, (x * cos - sin) / (x * x))
+}

@@ -1,0 +1,128 @@
+//! The velocity motion model: for robots that report how fast they drive and turn.
+//!
+//! Reference: Thrun, Burgard, Fox, *Probabilistic Robotics* (2005), table 5.3, without its last turn.
+
+use super::{Motion, sinc};
+use crate::geometry::Pose2;
+use crate::ops;
+use crate::random::Stream;
+use nalgebra::{Matrix2, Matrix3, Matrix3x2, Vector2};
+
+/// u = (v, ω) for a while: an arc.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Velocity {
+    /// v \[m/s\], negative backwards.
+    pub speed: f64,
+    /// ω \[rad/s\].
+    pub turn_rate: f64,
+    /// How long \[s\].
+    pub duration: f64,
+}
+
+impl Velocity {
+    /// pose ⊕ u: the chord of the arc, v Δt sinc(½ ω Δt) long, in the direction half-way between both headings.
+    pub fn apply(&self, pose: &Pose2) -> Pose2 {
+        let turn = self.turn_rate * self.duration;
+        let chord = self.speed * self.duration * sinc(0.5 * turn).0;
+        let (sin, cos) = ops::sin_cos(pose.theta + 0.5 * turn);
+        Pose2::new(pose.x + chord * cos, pose.y + chord * sin, pose.theta + turn)
+    }
+}
+
+/// Gaussian noise of both velocities, drawn once a step: σ²_v = speed_std² + α₁ v² + α₂ ω²,
+/// σ²_ω = turn_rate_std² + α₃ v² + α₄ ω².
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct VelocityModel {
+    /// Standard deviation of v at rest \[m/s\].
+    pub speed_std: f64,
+    /// Standard deviation of ω at rest \[rad/s\].
+    pub turn_rate_std: f64,
+    /// α₁ \[–\], α₂ \[m²/rad²\], α₃ \[rad²/m²\], α₄ \[–\].
+    pub alphas: [f64; 4],
+}
+
+impl VelocityModel {
+    /// Standard deviations of (v, ω) \[m/s, rad/s\] for a control.
+    pub fn stds(&self, u: &Velocity) -> [f64; 2] {
+        let ([a1, a2, a3, a4], v2, w2) = (self.alphas, u.speed * u.speed, u.turn_rate * u.turn_rate);
+        let speed = self.speed_std * self.speed_std + a1 * v2 + a2 * w2;
+        let turn_rate = self.turn_rate_std * self.turn_rate_std + a3 * v2 + a4 * w2;
+        [speed.sqrt(), turn_rate.sqrt()]
+    }
+
+    /// The control with its noise added. Takes four `u64`s.
+    pub fn perturb(&self, u: &Velocity, stream: &mut Stream) -> Velocity {
+        let ([speed_std, turn_rate_std], [a, b]) = (self.stds(u), stream.normals());
+        Velocity { speed: u.speed + speed_std * a, turn_rate: u.turn_rate + turn_rate_std * b, ..*u }
+    }
+}
+
+impl Motion for VelocityModel {
+    type Control = Velocity;
+
+    fn apply(&self, from: &Pose2, u: &Velocity) -> Pose2 {
+        u.apply(from)
+    }
+
+    fn sample(&self, from: &Pose2, u: &Velocity, stream: &mut Stream) -> Pose2 {
+        self.perturb(u, stream).apply(from)
+    }
+
+    /// V M Vᵀ with V = ∂(x ⊕ u)/∂(v, ω).
+    fn covariance(&self, from: &Pose2, u: &Velocity) -> Matrix3<f64> {
+        let (t, half) = (u.duration, 0.5 * u.turn_rate * u.duration);
+        let ((s, ds), (sin, cos)) = (sinc(half), ops::sin_cos(from.theta + half));
+        // The chord's length and direction both change with the turn.
+        let (longer, turned) = (u.speed * t * ds * 0.5 * t, u.speed * t * s * 0.5 * t);
+        let v =
+            Matrix3x2::new(t * s * cos, longer * cos - turned * sin, t * s * sin, longer * sin + turned * cos, 0.0, t);
+        let m = Matrix2::from_diagonal(&Vector2::from(self.stds(u).map(|std| std * std)));
+        v * m * v.transpose()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MODEL: VelocityModel =
+        VelocityModel { speed_std: 0.1, turn_rate_std: 0.05, alphas: [0.02, 0.01, 0.03, 0.04] };
+
+    #[test]
+    fn half_a_circle_ends_opposite_and_a_straight_line_is_its_limit() {
+        let half = Velocity { speed: 1.0, turn_rate: 0.5, duration: 2.0 * core::f64::consts::PI };
+        assert!(half.apply(&Pose2::default()).minus(&Pose2::new(0.0, 4.0, core::f64::consts::PI)).norm() < 1e-14);
+        let straight = Velocity { speed: 2.0, turn_rate: 1e-12, duration: 3.0 };
+        assert!(straight.apply(&Pose2::default()).minus(&Pose2::new(6.0, 0.0, 0.0)).norm() < 1e-10);
+    }
+
+    #[test]
+    fn covariance_matches_numeric_differentiation() {
+        for turn_rate in [0.0, 1e-5, -0.7, 2.0] {
+            let (from, u) = (Pose2::new(1.0, 2.0, 0.4), Velocity { speed: 1.3, turn_rate, duration: 0.8 });
+            let stds = MODEL.stds(&u);
+            let mut expected = Matrix3::zeros();
+            for k in 0..2 {
+                let shift = |h: f64| {
+                    let d = [[h, 0.0], [0.0, h]][k];
+                    Velocity { speed: u.speed + d[0], turn_rate: u.turn_rate + d[1], ..u }.apply(&from)
+                };
+                let h = 1e-5;
+                let column = shift(h).minus(&shift(-h)) / (2.0 * h) * stds[k];
+                expected += column * column.transpose();
+            }
+            assert!((MODEL.covariance(&from, &u) - expected).norm() < 1e-9, "{turn_rate}");
+        }
+    }
+
+    #[test]
+    fn the_jacobian_matches_numeric_differentiation() {
+        let (from, u) = (Pose2::new(1.0, 2.0, 0.4), Velocity { speed: 1.3, turn_rate: 0.5, duration: 0.8 });
+        for axis in 0..3 {
+            let mut step = nalgebra::Vector3::zeros();
+            step[axis] = 1e-5;
+            let column = (u.apply(&from.plus(&step)).minus(&u.apply(&from.plus(&-step)))) / 2e-5;
+            assert!((MODEL.jacobian(&from, &u).column(axis) - column).norm() < 1e-9);
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! The measurement-aware proposal for landmarks: FastSLAM 2.0.
+//!
+//! References: Montemerlo, Thrun, Koller, Wegbreit (IJCAI 2003); PR table 13.3. There Σ_x = (H_xᵀ Q_j⁻¹ H_x + R_t⁻¹)⁻¹; here the
+//! same in the form of the Kalman gain, which never inverts R_t: a robot that stands still has none.
+
+use super::{Proposal, ProposalTrace, Proposed};
+use crate::geometry::{Pose2, sample_semidefinite};
+use crate::map::landmarks::{Landmarks, Sighted, Store};
+use crate::motion::Motion;
+use crate::random::Stream;
+use crate::rbpf::Particle;
+use crate::sensor::{Feature, LandmarkSensor};
+use nalgebra::Matrix3;
+
+/// x_t ~ N(μ_x, Σ_x), the motion's Gaussian with the step's features folded in one after another.
+#[derive(Clone, Debug)]
+pub struct FromMeasurement<D> {
+    /// Noise of the odometry.
+    pub motion: D,
+}
+
+/// The Gaussian that a step's features make of the motion's.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Measured {
+    /// μ_x.
+    pub mean: Pose2,
+    /// Σ_x (3 × 3, \[m, m, rad\]).
+    pub covariance: Matrix3<f64>,
+    /// What the features were taken to be.
+    pub sighted: Vec<Sighted>,
+    /// ln ∏ N(ν; 0, H_x P H_xᵀ + Q_j), times p₀ for each new landmark \[nats\].
+    pub log_evidence: f64,
+    /// Whether any feature was of a landmark in the map.
+    pub informed: bool,
+}
+
+impl<D: Motion> FromMeasurement<D> {
+    // anchor: fold
+    /// Folds every feature of a mapped landmark into N(x̂, R_t), each from where the one before left it: with
+    /// S = H_x P H_xᵀ + H_m Σ_j H_mᵀ + Q and K = P H_xᵀ S⁻¹, μ ← μ + K ν, and P by Joseph's form.
+    pub fn fold<Z: LandmarkSensor, S: Store>(
+        &self,
+        map: &Landmarks<Z, S>,
+        from: &Pose2,
+        control: &D::Control,
+        features: &[Feature],
+    ) -> Measured {
+        let mut mean = self.motion.apply(from, control);
+        let mut p = self.motion.covariance(from, control);
+        let (mut log_evidence, mut sighted) = (0.0, Vec::with_capacity(features.len()));
+        let mut informed = false;
+        for feature in features {
+            let matched = map.associate(&mean, &p, feature, &sighted);
+            if let Some(innovation) = matched.innovation {
+                let h_x = innovation.prediction.h_x;
+                let gain = p * h_x.transpose() * innovation.inverse;
+                let keep = Matrix3::identity() - gain * h_x;
+                mean = mean.plus(&(gain * innovation.residual));
+                p = keep * p * keep.transpose() + gain * innovation.given_pose * gain.transpose();
+                p = (p + p.transpose()) * 0.5;
+                informed = true;
+            }
+            log_evidence += matched.log_likelihood;
+            sighted.push(matched.sighted);
+        }
+        Measured { mean, covariance: p, sighted, log_evidence, informed }
+    }
+    // end: fold
+}
+
+impl<Z: LandmarkSensor, S: Store, D: Motion> Proposal<Landmarks<Z, S>> for FromMeasurement<D> {
+    type Control = D::Control;
+
+    // anchor: propose
+    /// The weight does not contain the pose that was drawn: particles of one history weigh the same.
+    fn propose(
+        &self,
+        particle: &Particle<Landmarks<Z, S>>,
+        control: &D::Control,
+        features: &Vec<Feature>,
+        stream: &mut Stream,
+    ) -> Proposed<Vec<Sighted>> {
+        let from = &particle.world_from_robot;
+        let measured = self.fold(&particle.map, from, control, features);
+        let (world_from_robot, trace) = if measured.informed {
+            let pose = sample_semidefinite(&measured.mean, &measured.covariance, stream);
+            (pose, ProposalTrace::Matched { mode: measured.mean })
+        } else {
+            (self.motion.sample(from, control, stream), ProposalTrace::Motion)
+        };
+        Proposed { world_from_robot, association: measured.sighted, log_increment: measured.log_evidence, trace }
+    }
+    // end: propose
+}

@@ -1,0 +1,124 @@
+//! A sensor of range and bearing to point landmarks.
+//!
+//! Reference: Thrun, Burgard, Fox, *Probabilistic Robotics* (2005), §6.6.
+
+use super::{LandmarkSensor, Prediction};
+use crate::geometry::Pose2;
+use crate::ops;
+use crate::random::Stream;
+use nalgebra::{Matrix2, Matrix2x3, Vector2};
+
+/// z = (r, φ): distance \[m\], and direction from straight ahead \[rad\].
+///
+/// With d = m − (x, y), q = dᵀd and r = √q: h = (r, atan2(d_y, d_x) − θ),
+/// H_m = \[\[d_x/r, d_y/r\], \[−d_y/q, d_x/q\]\], H_x = \[\[−d_x/r, −d_y/r, 0\], \[d_y/q, −d_x/q, −1\]\].
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct RangeBearing {
+    /// σ_r \[m\].
+    pub range_std: f64,
+    /// σ_φ \[rad\].
+    pub bearing_std: f64,
+    /// Longest range \[m\].
+    pub max_range: f64,
+    /// Width of the field of view \[rad\], half of it to each side; 2 π for all around.
+    pub field_of_view: f64,
+}
+
+/// Nearer than this \[m\] a bearing means nothing, and its derivatives grow without bounds.
+const NEAREST: f64 = 1e-6;
+
+impl RangeBearing {
+    /// What is measured of a landmark, with noise. Takes four `u64`s.
+    pub fn measure(&self, world_from_robot: &Pose2, landmark: &Vector2<f64>, stream: &mut Stream) -> Vector2<f64> {
+        let ([a, b], exact) = (stream.normals(), self.predict(world_from_robot, landmark).z);
+        Vector2::new((exact.x + self.range_std * a).max(0.0), ops::wrap_angle(exact.y + self.bearing_std * b))
+    }
+}
+
+impl LandmarkSensor for RangeBearing {
+    #[inline]
+    fn predict(&self, world_from_robot: &Pose2, landmark: &Vector2<f64>) -> Prediction {
+        let (dx, dy) = (landmark.x - world_from_robot.x, landmark.y - world_from_robot.y);
+        let q = (dx * dx + dy * dy).max(NEAREST * NEAREST);
+        let r = q.sqrt();
+        Prediction {
+            z: Vector2::new(r, ops::wrap_angle(ops::atan2(dy, dx) - world_from_robot.theta)),
+            h_x: Matrix2x3::new(-dx / r, -dy / r, 0.0, dy / q, -dx / q, -1.0),
+            h_m: Matrix2::new(dx / r, dy / r, -dy / q, dx / q),
+        }
+    }
+
+    #[inline]
+    fn residual(&self, z: &Vector2<f64>, predicted: &Vector2<f64>) -> Vector2<f64> {
+        Vector2::new(z.x - predicted.x, ops::wrap_angle(z.y - predicted.y))
+    }
+
+    fn locate(&self, world_from_robot: &Pose2, z: &Vector2<f64>) -> Vector2<f64> {
+        // Never right on the robot, where there would be no bearing.
+        let r = z.x.max(1e3 * NEAREST);
+        let (sin, cos) = ops::sin_cos(world_from_robot.theta + z.y);
+        Vector2::new(world_from_robot.x + r * cos, world_from_robot.y + r * sin)
+    }
+
+    fn noise(&self) -> Matrix2<f64> {
+        Matrix2::new(self.range_std * self.range_std, 0.0, 0.0, self.bearing_std * self.bearing_std)
+    }
+
+    fn sees(&self, world_from_robot: &Pose2, landmark: &Vector2<f64>, margin: f64) -> bool {
+        let z = self.predict(world_from_robot, landmark).z;
+        let all_around = self.field_of_view >= core::f64::consts::TAU;
+        z.x + margin <= self.max_range && (all_around || z.x * (0.5 * self.field_of_view - z.y.abs()) >= margin)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SENSOR: RangeBearing =
+        RangeBearing { range_std: 0.1, bearing_std: 0.02, max_range: 5.0, field_of_view: core::f64::consts::PI };
+
+    #[test]
+    fn derivatives_match_central_differences() {
+        let h = 1e-6;
+        for k in 0..200 {
+            let mut stream = Stream::at(4, crate::random::Purpose::Trial, 0, k);
+            let [x, y, theta, mx, my] = stream.normals();
+            let (pose, landmark) = (Pose2::new(3.0 * x, 3.0 * y, 2.0 * theta), Vector2::new(5.0 * mx, 5.0 * my));
+            let Prediction { z, h_x, h_m } = SENSOR.predict(&pose, &landmark);
+            // An error of rounding is about 1e-16 z / h, one of the third derivative h² / r³.
+            let tolerance = 1e-8 * (1.0 + 1.0 / (z.x * z.x * z.x));
+            for axis in 0..3 {
+                let mut step = nalgebra::Vector3::zeros();
+                step[axis] = h;
+                let at = |step| SENSOR.predict(&pose.plus(&step), &landmark).z;
+                let column = SENSOR.residual(&at(step), &at(-step)) / (2.0 * h);
+                assert!((h_x.column(axis) - column).norm() < tolerance, "{k}: x{axis}");
+            }
+            for axis in 0..2 {
+                let mut step = Vector2::zeros();
+                step[axis] = h;
+                let at = |step: Vector2<f64>| SENSOR.predict(&pose, &(landmark + step)).z;
+                let column = SENSOR.residual(&at(step), &at(-step)) / (2.0 * h);
+                assert!((h_m.column(axis) - column).norm() < tolerance, "{k}: m{axis}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_located_is_seen_where_it_was() {
+        let pose = Pose2::new(1.0, 2.0, 3.0);
+        let z = Vector2::new(2.5, -0.8);
+        assert!((SENSOR.predict(&pose, &SENSOR.locate(&pose, &z)).z - z).norm() < 1e-14);
+    }
+
+    #[test]
+    fn it_sees_ahead_and_not_behind_nor_beyond_its_range_nor_near_the_edge() {
+        let sees = |x: f64, y: f64, margin| SENSOR.sees(&Pose2::default(), &Vector2::new(x, y), margin);
+        assert!(sees(4.9, 0.0, 0.0) && !sees(5.1, 0.0, 0.0) && !sees(-1.0, 0.0, 0.0));
+        assert!(sees(4.9, 0.0, 0.05) && !sees(4.9, 0.0, 0.2));
+        assert!(sees(0.1, 2.0, 0.0) && !sees(0.1, 2.0, 0.5));
+        let panorama = RangeBearing { field_of_view: core::f64::consts::TAU, ..SENSOR };
+        assert!(panorama.sees(&Pose2::default(), &Vector2::new(-2.0, 0.0), 0.5));
+    }
+}
