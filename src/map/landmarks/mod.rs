@@ -33,6 +33,14 @@ impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
         Self { sensor, correspondence, store: S::default() }
     }
 
+    /// The same map with these landmarks in it, from index 0 on: for a map that is known in part, or made for an experiment.
+    pub fn with(mut self, landmarks: impl IntoIterator<Item = Landmark>) -> Self {
+        for (index, landmark) in (0..).zip(landmarks) {
+            *self.store.entry(index) = Some(landmark);
+        }
+        self
+    }
+
     /// What sees the landmarks.
     pub fn sensor(&self) -> &Z {
         &self.sensor
