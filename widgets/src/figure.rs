@@ -7,13 +7,36 @@ use crate::{
     paint::{Canvas, Theme},
     param, query,
     registry::{self, Entry},
+    scene::{Handle, Point, Rect},
 };
+use serde::Serialize;
 
 /// One figure on a page.
 pub struct Figure {
     entry: &'static Entry,
     model: Box<dyn Model>,
     canvas: Canvas,
+    /// Of the scene painted last, and that scene's width \[css px\].
+    handles: (Vec<Handle>, f64),
+}
+
+/// A [`Handle`] where it lies on the page.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct PlacedHandle {
+    /// [`Handle::name`].
+    pub name: &'static str,
+    /// [`Handle::title`].
+    pub title: String,
+    /// From the figure's left edge \[css px\].
+    pub x: f64,
+    /// From the figure's upper edge \[css px\].
+    pub y: f64,
+    /// [`Handle::value`].
+    pub value: f64,
+    /// [`Handle::text`].
+    pub text: String,
+    /// [`Handle::hover`].
+    pub hover: Option<Rect>,
 }
 
 impl Figure {
@@ -26,7 +49,7 @@ impl Figure {
             let tags: Vec<&str> = registry::FIGURES.iter().map(|f| f.tag).collect();
             FigureError::new("tag", param::quoted(tag), format!("one of {}", tags.join(", ")))
         })?;
-        Ok(Self { entry, model: (entry.make)(), canvas: Canvas::default() })
+        Ok(Self { entry, model: (entry.make)(), canvas: Canvas::default(), handles: (Vec::new(), 1.0) })
     }
 
     /// What the figure is about.
@@ -59,6 +82,7 @@ impl Figure {
         let side = |px: u32| f64::from(px.max(1)) / dpr;
         let scene = self.model.scene(side(width_px), side(height_px));
         self.canvas.paint(&scene, width_px, height_px, theme);
+        self.handles = (scene.handles, scene.width);
     }
 
     /// What was painted last.
@@ -69,10 +93,38 @@ impl Figure {
     /// A click at a point of a figure of this width \[css px\]. True if it changed something.
     pub fn pick(&mut self, x: f64, y: f64, width: f64) -> bool {
         let scene = self.model.scene(width, self.model.height(width));
-        let scale = scene.width / width; // a very narrow figure is a wider scene made smaller
-        let target = scene.hit([x * scale, y * scale]);
+        let target = scene.hit(in_scene([x, y], scene.width / width));
         target.into_iter().for_each(|target| self.model.pick(target));
         target.is_some()
+    }
+
+    /// What can be moved in the picture painted last, where it lies in a figure of this width \[css px\].
+    pub fn handles(&self, width: f64) -> Vec<PlacedHandle> {
+        let (handles, scene_width) = &self.handles;
+        let scale = width / scene_width;
+        let placed = |handle: &Handle| {
+            let Handle { name, title, at, value, text, hover } = handle.clone();
+            let [x, y] = at.map(|c| c * scale);
+            let hover = hover.map(|r| Rect::new(r.x * scale, r.y * scale, r.w * scale, r.h * scale));
+            PlacedHandle { name, title, x, y, value, text, hover }
+        };
+        handles.iter().map(placed).collect()
+    }
+
+    /// Moves a handle to a point of a figure of this width \[css px\].
+    pub fn drag(&mut self, handle: &str, x: f64, y: f64, width: f64) {
+        let scene_width = self.model.scene(width, self.model.height(width)).width;
+        let to = in_scene([x, y], scene_width / width);
+        if to.iter().all(|c| c.is_finite()) {
+            self.model.drag(handle, to, scene_width);
+        }
+    }
+
+    /// Moves a handle right and up, in steps of its parameters.
+    pub fn nudge(&mut self, handle: &str, right: f64, up: f64) {
+        if right.is_finite() && up.is_finite() {
+            self.model.nudge(handle, [right, up]);
+        }
     }
 
     /// The link that makes this figure again: `name=value&…`.
@@ -89,4 +141,9 @@ impl Figure {
     pub fn export(&self) -> Export {
         Export::new(self.entry.tag, self.model())
     }
+}
+
+/// A point of a figure in its scene: a very narrow figure is a wider scene made smaller.
+fn in_scene(point: Point, scale: f64) -> Point {
+    point.map(|c| c * scale)
 }

@@ -55,7 +55,8 @@ impl Canvas {
         }
         self.pixels.pixels_mut().fill(opaque(theme.color(Role::Paper)));
         let scale = f64::from(size[0]) / scene.width;
-        let shades = [Shading::Map, Shading::Ghost].map(|shading| theme.shades(shading).map(opaque));
+        let shades = [Shading::Map, Shading::Ghost, Shading::Correlation, Shading::Density]
+            .map(|shading| theme.shades(shading).map(opaque));
         let mut brush = Brush { canvas: self, scale, theme, shades };
         scene.marks.iter().for_each(|mark| brush.mark(mark));
     }
@@ -70,7 +71,7 @@ struct Brush<'a> {
     canvas: &'a mut Canvas,
     scale: f64,
     theme: Theme,
-    shades: [[PremultipliedColorU8; 256]; 2],
+    shades: [[PremultipliedColorU8; 256]; 4],
 }
 
 impl Brush<'_> {
@@ -78,7 +79,8 @@ impl Brush<'_> {
         match mark {
             Mark::Raster { area, cells, shading } => {
                 let area = self.device(area);
-                blit::raster(&mut self.canvas.pixels, area, cells, &self.shades[*shading as usize]);
+                let walls = matches!(shading, Shading::Map | Shading::Ghost);
+                blit::raster(&mut self.canvas.pixels, area, cells, walls, &self.shades[*shading as usize]);
             }
             Mark::Fill { area, role } => {
                 let area = self.device(area);
