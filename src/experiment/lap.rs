@@ -7,7 +7,7 @@ use crate::decimal;
 use crate::digest::Digest;
 use crate::error::ParameterError;
 use crate::execute::Executor;
-use crate::geometry::{Pose2, align};
+use crate::geometry::{Pose2, align, rms};
 use crate::map::grid::{Grid, GridModel};
 use crate::map::{ConditionalMap, Footprint};
 use crate::matching::{ClimbSteps, Matcher, ScanModel};
@@ -364,12 +364,6 @@ impl Lap {
             [x, y, theta].into_iter().for_each(|x| digest.f64(x));
         }
     }
-}
-
-/// Root mean square distance of two paths' positions \[m\].
-fn rms(path: &[Pose2], truth: &[Pose2]) -> f64 {
-    let sum: f64 = path.iter().zip(truth).map(|(a, b)| a.distance(b)).map(|d| d * d).sum();
-    (sum / path.len().max(1) as f64).sqrt()
 }
 
 /// Named laps whose fingerprints are kept with the tests, and must be the same on every platform.

@@ -1,6 +1,7 @@
 //! The lap table: errors over many seeds, for both proposals and several M.
 
 use super::lap::{Lap, LapSetup};
+use super::quantile;
 use crate::matching::Matcher;
 use crate::proposal::ProposalKind;
 
@@ -133,29 +134,5 @@ fn row(laps: &[&LapResult]) -> Row {
         resampled_fraction: sorted(&|lap| lap.resampled_fraction).iter().sum::<f64>() / laps.len() as f64,
         lineage_one_step_median: lineage.is_finite().then_some(lineage),
         final_ess_median: quantile(&sorted(&|lap| lap.final_ess), 0.5),
-    }
-}
-
-/// The q-quantile of ascending values, interpolated linearly between neighbours (type 7 of Hyndman and Fan 1996).
-fn quantile(ascending: &[f64], q: f64) -> f64 {
-    let position = q * (ascending.len() - 1) as f64;
-    let (low, share) = (position.floor() as usize, position - position.floor());
-    let next = ascending[(low + 1).min(ascending.len() - 1)];
-    if share == 0.0 || next == ascending[low] {
-        ascending[low]
-    } else {
-        ascending[low] + share * (next - ascending[low])
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn quantiles_interpolate() {
-        let values = [1.0, 2.0, 3.0, 5.0];
-        assert_eq!([0.0, 0.5, 0.9, 1.0].map(|q| quantile(&values, q)), [1.0, 2.5, 3.0 + 2.0 * (0.9 * 3.0 - 2.0), 5.0]);
-        assert_eq!(quantile(&[7.0], 0.9), 7.0);
     }
 }

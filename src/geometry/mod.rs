@@ -4,4 +4,4 @@ mod gaussian;
 mod pose;
 
 pub use gaussian::{Gaussian3, sample_semidefinite};
-pub use pose::{Pose2, align};
+pub use pose::{Pose2, align, rms};

@@ -81,6 +81,12 @@ pub fn align(path: &[Pose2], reference: &[Pose2]) -> Pose2 {
     Pose2::new(r0[0] - x, r0[1] - y, rotation.theta)
 }
 
+/// Root mean square distance of two paths' positions \[m\].
+pub fn rms(path: &[Pose2], truth: &[Pose2]) -> f64 {
+    let sum: f64 = path.iter().zip(truth).map(|(a, b)| a.distance(b)).map(|d| d * d).sum();
+    (sum / path.len().max(1) as f64).sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

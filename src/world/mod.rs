@@ -1,7 +1,9 @@
 //! The truth: a place, a drive through it and what the sensors report. No filter may import this module.
 
 mod drive;
+mod field;
 mod floor_plan;
 
 pub use drive::drive;
+pub use field::Field;
 pub use floor_plan::{FloorPlan, Segment};

@@ -1,14 +1,12 @@
 //! `fastslam lap`: one lap of the apartment.
 
-use crate::{Failure, print, print_json};
+use crate::{Failure, picture, print, print_json};
 use fastslam::experiment::lap::{Lap, LapSetup, StepReport};
 use fastslam::matching::Matcher;
 use fastslam::proposal::ProposalKind;
 use fastslam::resampling::{ResamplePolicy, Scheme};
 use fastslam_widgets::{figure::Figure, paint::Theme};
 use serde::Serialize;
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 /// Drive one lap of the apartment and report every step
@@ -152,10 +150,5 @@ fn paint(setup: &LapSetup, path: &Path) -> Result<(), Failure> {
     const DPR: u32 = 2;
     let height = figure.model().height(f64::from(WIDTH / DPR)) as u32 * DPR;
     figure.paint(WIDTH, height, f64::from(DPR), Theme::named("light"));
-
-    let file = File::create(path).map_err(|error| Failure::file(path, error))?;
-    let mut encoder = png::Encoder::new(BufWriter::new(file), WIDTH, height);
-    encoder.set_color(png::ColorType::Rgba);
-    let write = |encoder: png::Encoder<'_, _>| encoder.write_header()?.write_image_data(figure.canvas().pixels());
-    write(encoder).map_err(|error| Failure::file(path, error))
+    picture::save(figure.canvas(), path)
 }

@@ -1,6 +1,9 @@
 //! The command line: the figures' filters, run natively.
 
+mod landmarks;
 mod lap;
+mod mrclam;
+mod picture;
 mod table;
 
 use clap::Parser;
@@ -21,6 +24,7 @@ struct Arguments {
 #[derive(clap::Subcommand)]
 enum Command {
     Lap(lap::Arguments),
+    Landmarks(landmarks::Arguments),
     Table(table::Arguments),
 }
 
@@ -36,6 +40,11 @@ impl Failure {
     /// What the system said of a file.
     fn file(path: &std::path::Path, error: impl std::fmt::Display) -> Self {
         Self::Run(format!("{}: {error}", path.display()))
+    }
+
+    /// What is wrong with what a file says.
+    fn usage_of(path: &std::path::Path, what: impl std::fmt::Display) -> Self {
+        Self::Usage(format!("{}: {what}", path.display()))
     }
 }
 
@@ -67,6 +76,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| Failure::Run(e.to_string()))?;
     pool.install(|| match arguments.command {
         Command::Lap(arguments) => lap::run(&arguments),
+        Command::Landmarks(arguments) => landmarks::run(&arguments),
         Command::Table(arguments) => table::run(&arguments),
     })
 }
@@ -74,13 +84,20 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
 /// What clap says before it advises, in one line.
 fn one_line(message: &clap::Error) -> String {
     if message.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "a command is missing: lap or table (fastslam --help explains)".to_owned();
+        return "a command is missing: lap, landmarks or table (fastslam --help explains)".to_owned();
     }
     let text = message.to_string();
     let said =
         text.lines().take_while(|line| !line.trim_start().starts_with("Usage:") && !line.starts_with("For more"));
     let words: Vec<&str> = said.flat_map(str::split_whitespace).collect();
     words.join(" ").trim_start_matches("error: ").to_owned()
+}
+
+/// A bar for so many of these, on a terminal; nothing elsewhere.
+fn progress(count: usize, what: &str) -> indicatif::ProgressBar {
+    let template = format!("{{wide_bar}} {{pos}}/{{len}} {what}, {{elapsed}} gone, {{eta}} to go");
+    let style = indicatif::ProgressStyle::with_template(&template).expect("the template is right");
+    indicatif::ProgressBar::new(count as u64).with_style(style)
 }
 
 /// Prints to standard output; a reader that has gone away is no error.

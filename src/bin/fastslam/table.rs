@@ -1,11 +1,11 @@
 //! `fastslam table`: errors over many seeds, whole or in shards.
 
-use crate::{Failure, print, print_json};
+use crate::{Failure, print, print_json, progress};
 use fastslam::experiment::lap::LapSetup;
 use fastslam::experiment::table::{LapResult, PARTICLES, Row, rows};
 use fastslam::matching::Matcher;
 use fastslam::proposal::ProposalKind;
-use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
+use indicatif::ParallelProgressIterator;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -99,8 +99,7 @@ fn sweep(arguments: &Arguments) -> Result<Vec<LapResult>, Failure> {
         }
     }
     let setups: Vec<LapSetup> = setups.into_iter().skip(index - 1).step_by(count).collect();
-    let style = ProgressStyle::with_template("{wide_bar} {pos}/{len} laps, {elapsed} gone, {eta} to go");
-    let bar = ProgressBar::new(setups.len() as u64).with_style(style.expect("the template is right"));
+    let bar = progress(setups.len(), "laps");
     let laps: Result<Vec<_>, _> = setups.par_iter().progress_with(bar).map(LapResult::of).collect();
     Ok(laps?)
 }

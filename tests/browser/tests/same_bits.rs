@@ -4,7 +4,10 @@
 
 use fastslam::{
     digest::Digest,
-    experiment::lap::{Lap, golden_setups},
+    experiment::{
+        landmarks::{LandmarkRun, golden_runs},
+        lap::{Lap, golden_setups},
+    },
 };
 use fastslam_widgets::shell::Figure;
 use figures::{LAPS, PICTURES, line, put_readout};
@@ -58,12 +61,16 @@ fn pixels(figure: &Figure, [width, height]: [u32; 2]) -> Vec<u8> {
 }
 
 #[wasm_bindgen_test]
-fn whole_laps_leave_the_traces_of_the_native_build() {
+fn whole_runs_leave_the_traces_of_the_native_build() {
     let traces = golden_setups().into_iter().map(|(name, setup)| {
         let lap = Lap::new(&setup).expect("a golden setup is valid");
         line(name, &lap.trace())
     });
-    same_lines(&traces.collect::<Vec<_>>(), TRACES);
+    let runs = golden_runs().into_iter().map(|(name, course, setup)| {
+        let run = LandmarkRun::new(&setup, &course.tuning(), course.simulate(setup.seed).into());
+        line(name, &run.expect("a golden setup is valid").trace())
+    });
+    same_lines(&traces.chain(runs).collect::<Vec<_>>(), TRACES);
 }
 
 #[wasm_bindgen_test]

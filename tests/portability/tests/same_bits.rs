@@ -1,11 +1,13 @@
-//! Whole laps against their golden fingerprints, in this build (debug or release), serial and on 1, 2 and 5 threads. The same
+//! Whole runs against their golden fingerprints, in this build (debug or release), serial and on 1, 2 and 5 threads. The same
 //! file is what `tests/browser` holds WebAssembly against.
 //!
 //! A change that is meant to change numbers is written with `UPDATE_GOLDENS=1 cargo test -p portability`.
 
 use fastslam::execute::Executor;
+use fastslam::experiment::landmarks::{LandmarkRun, golden_runs};
 use fastslam::experiment::lap::{Lap, golden_setups};
 use std::fmt::Write;
+use std::sync::Arc;
 
 const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/golden.txt");
 
@@ -16,11 +18,16 @@ fn fingerprints(executor: &Executor) -> String {
         let digest = Lap::new(&setup).unwrap().with_executor(executor.clone()).trace();
         writeln!(lines, "{name} {} {:016x}", digest.size(), digest.value()).unwrap();
     }
+    for (name, course, setup) in golden_runs() {
+        let run = LandmarkRun::new(&setup, &course.tuning(), Arc::new(course.simulate(setup.seed))).unwrap();
+        let digest = run.with_executor(executor.clone()).trace();
+        writeln!(lines, "{name} {} {:016x}", digest.size(), digest.value()).unwrap();
+    }
     lines
 }
 
 #[test]
-fn serial_laps_have_their_golden_fingerprints() {
+fn serial_runs_have_their_golden_fingerprints() {
     let found = fingerprints(&Executor::Serial);
     if std::env::var_os("UPDATE_GOLDENS").is_some() {
         std::fs::write(GOLDEN, &found).unwrap();
@@ -29,7 +36,7 @@ fn serial_laps_have_their_golden_fingerprints() {
 }
 
 #[test]
-fn laps_on_any_number_of_threads_have_the_same_fingerprints() {
+fn runs_on_any_number_of_threads_have_the_same_fingerprints() {
     let golden = std::fs::read_to_string(GOLDEN).unwrap();
     for threads in [1, 2, 5] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();

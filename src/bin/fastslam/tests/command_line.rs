@@ -82,7 +82,7 @@ fn shards_merge_to_the_rows_of_one_run() {
 #[test]
 fn bad_arguments_are_refused_in_one_line_with_status_2() {
     for (arguments, said) in [
-        ("", "lap or table"),
+        ("", "lap, landmarks or table"),
         ("laps", "laps"),
         ("lap --particles 0", "from 1 to 4096"),
         ("lap --particles 1e9", "--particles"),
@@ -95,6 +95,12 @@ fn bad_arguments_are_refused_in_one_line_with_status_2() {
         ("lap --range-std 7", "from 0 to 1"),
         ("lap --particles 300 --png x.png", "universes"),
         ("lap --bogus", "--bogus"),
+        ("landmarks --proposal 3.0", "1.0 or 2.0"),
+        ("landmarks --association guessed", "known or unknown"),
+        ("landmarks --particles 0", "from 1 to 100000"),
+        ("landmarks --particles 0 --seeds 2", "from 1 to 100000"),
+        ("landmarks --course moon", "eight or tags"),
+        ("landmarks --seeds 0", "--seeds"),
         ("table --seeds 0", "--seeds"),
         ("table --shard 4/3 --json", "I from 1 to N"),
         ("table --shard 1/3", "--json"),
@@ -110,5 +116,86 @@ fn files_that_cannot_be_used_are_named() {
     for arguments in ["table --merge no/such/file", "lap --particles 1 --png no/such/folder/lap.png"] {
         let failed = fastslam(arguments).code(1);
         assert!(String::from_utf8_lossy(&failed.get_output().stderr).starts_with("fastslam: no/such/"));
+    }
+}
+
+#[test]
+fn landmarks_print_what_they_are_asked_for() {
+    let one = json("landmarks --particles 5 --seed 2 --proposal 2.0 --association unknown --json");
+    assert!(one["rms_best"].as_f64().unwrap() > 0.0 && one["rms_odometry"].as_f64() > one["rms_best"].as_f64());
+    assert_eq!(one["steps"].as_array().unwrap().len(), 315);
+    let many = json("landmarks --course tags --particles 4 --proposal 1.0 --association known --seeds 3 --json");
+    let [median, p90, worst] = ["rms_median", "rms_p90", "rms_worst"].map(|key| many[key].as_f64().unwrap());
+    assert!(0.0 < median && median <= p90 && p90 <= worst);
+    fastslam("landmarks --particles 3").success();
+
+    let path = std::env::temp_dir().join(format!("fastslam-landmarks-{}.png", std::process::id()));
+    fastslam(&format!("landmarks --particles 3 --png {}", path.display())).success();
+    assert!(std::fs::read(&path).unwrap().starts_with(b"\x89PNG"));
+    std::fs::remove_file(path).unwrap();
+}
+
+/// Files of one small log, of which one is not what it should be.
+fn small_log(name: &str, replaced: &str, text: &str) -> std::path::PathBuf {
+    let folder = std::env::temp_dir().join(format!("fastslam-mrclam-{name}-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    for (file, content) in [
+        ("barcodes", "# comment\n  6 \t 63\n"),
+        ("landmarks", "6 1.0 1.0 0.0 0.0\n"),
+        ("robot1-odometry", "10.0 0.1 0.0\n10.5 0.1 0.1\n13.0 0.1 0.0\n"),
+        ("robot1-measurement", "10.4 63 1.4 0.7\n11.9 5 2.0 0.1\n12.0 63 1.2 0.8\n"),
+        ("robot1-groundtruth", "9.9 0 0 0\n13.1 0.3 0 0.1\n"),
+    ] {
+        let content = if file == replaced { text } else { content };
+        std::fs::write(folder.join(format!("small-{file}.dat")), content).unwrap();
+    }
+    folder
+}
+
+#[test]
+fn a_recorded_log_is_read_and_a_bad_line_of_it_named() {
+    let folder = small_log("good", "", "");
+    for prefix in ["small", "small-", "small-robot1"] {
+        let run = json(&format!("landmarks --particles 2 --json --mrclam {}", folder.join(prefix).display()));
+        // 0.4 s, then 1.5 s in three steps, then 0.1 s.
+        assert_eq!((run["steps"].as_array().unwrap().len(), &run["landmarks"]), (5, &1.into()));
+    }
+    std::fs::remove_dir_all(folder).unwrap();
+
+    for (name, file, text, said) in [
+        (
+            "word",
+            "robot1-odometry",
+            "10.0 0.1 fast\n",
+            "robot1-odometry.dat: line 1: expected 3 numbers: time [s], v [m/s]",
+        ),
+        ("short", "robot1-measurement", "# c\n10.4 63 1.4 0.7\n10.6 63\n", "line 3: expected 4 numbers"),
+        ("nan", "robot1-groundtruth", "9.9 0 0 NaN\n", "line 1: expected 4 numbers"),
+        ("empty", "barcodes", "# nothing\n\n", "barcodes.dat: no line with 2 numbers"),
+        ("back", "robot1-odometry", "10.0 0 0\n9.0 0 0\n", "times go back: 9 after 10"),
+        ("apart", "robot1-measurement", "99.0 63 1.4 0.7\n", "no measurement"),
+        ("binary", "landmarks", "\0\u{1}\u{2}", "line 1: expected 5 numbers"),
+    ] {
+        let folder = small_log(name, file, text);
+        let refused = fastslam(&format!("landmarks --mrclam {}", folder.join("small").display())).code(2);
+        let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+        assert!(message.contains(said) && message.trim_end().lines().count() == 1, "{name}: {message}");
+        std::fs::remove_dir_all(folder).unwrap();
+    }
+    fastslam("landmarks --mrclam no/such/log").code(1);
+}
+
+/// The log of shared/data, which may not be shipped: the test says so where it is absent.
+#[test]
+fn the_recorded_log_is_far_better_than_its_odometry() {
+    let prefix = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../../shared/data/mrclam6");
+    if !std::path::Path::new(&format!("{prefix}-landmarks.dat")).exists() {
+        eprintln!("skipped: {prefix}-*.dat is not here");
+        return;
+    }
+    for arguments in ["--proposal 1.0 --association known", "--proposal 2.0 --association unknown"] {
+        let run = json(&format!("landmarks --particles 30 --seed 1 --json {arguments} --mrclam {prefix}"));
+        let [best, odometry] = ["rms_best", "rms_odometry"].map(|key| run[key].as_f64().unwrap());
+        assert!(best < 0.5 * odometry, "{arguments}: {best} against {odometry}");
     }
 }

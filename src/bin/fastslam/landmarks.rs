@@ -1,0 +1,227 @@
+//! `fastslam landmarks`: FastSLAM 1.0 and 2.0 on simulated courses and recorded logs.
+
+use crate::{Failure, mrclam, picture, print, print_json, progress};
+use fastslam::experiment::landmarks::{
+    Association, Course, LandmarkLog, LandmarkReport, LandmarkRun, LandmarkSetup, Tuning,
+};
+use fastslam::experiment::quantile;
+use fastslam::proposal::ProposalKind;
+use fastslam::resampling::ResamplePolicy;
+use indicatif::ParallelProgressIterator;
+use rayon::prelude::*;
+use serde::Serialize;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Run FastSLAM among landmarks, and report its error
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// Number of particles M, 1 to 100000
+    #[arg(long, value_name = "M", default_value_t = LandmarkSetup::default().particles)]
+    particles: usize,
+    /// Seed of the world's noise and of the filter's
+    #[arg(long, default_value_t = LandmarkSetup::default().seed)]
+    seed: u64,
+    /// FastSLAM 1.0 (poses from the motion model) or 2.0 (from the measurement too)
+    #[arg(long, default_value = "2.0")]
+    proposal: Version,
+    /// Whether the filter may read which landmark it sees: known or unknown
+    #[arg(long, default_value_t = LandmarkSetup::default().association)]
+    association: Association,
+    /// When to resample: never, always or neff:F, where N_eff < F M
+    #[arg(long, default_value_t = LandmarkSetup::default().policy)]
+    policy: ResamplePolicy,
+    /// The simulated course: eight, or tags (the setting of PythonRobotics)
+    #[arg(long, default_value_t = Course::Eight)]
+    course: Course,
+    /// Read a UTIAS MRCLAM log instead: PREFIX-robot1-odometry.dat, -robot1-measurement.dat, -robot1-groundtruth.dat,
+    /// PREFIX-barcodes.dat, PREFIX-landmarks.dat
+    #[arg(long, value_name = "PREFIX", conflicts_with = "course")]
+    mrclam: Option<PathBuf>,
+    /// Run seeds 1 to N, and report their median, 90th percentile and worst
+    #[arg(long, value_name = "N", conflicts_with_all = ["seed", "png"], value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    seeds: Option<u64>,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+    /// Draw the end of the run into this file
+    #[arg(long, value_name = "FILE")]
+    png: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy)]
+struct Version(ProposalKind);
+
+impl std::str::FromStr for Version {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "1.0" => Ok(Self(ProposalKind::Motion)),
+            "2.0" => Ok(Self(ProposalKind::Aware)),
+            _ => Err("must be 1.0 or 2.0".to_owned()),
+        }
+    }
+}
+
+/// What `--json` prints of one run.
+#[derive(Serialize)]
+struct Output {
+    /// \[m\]
+    rms_best: f64,
+    /// \[m\]
+    rms_best_aligned: f64,
+    /// \[m\]
+    rms_odometry: f64,
+    /// In the best particle's map.
+    landmarks: u32,
+    /// Share of the steps that resampled.
+    resampled_fraction: f64,
+    map_bytes_unique: u64,
+    map_bytes_dense: u64,
+    steps: Vec<LandmarkReport>,
+}
+
+/// What `--json` prints of many.
+#[derive(Serialize)]
+struct Summary {
+    seeds: usize,
+    /// \[m\]
+    rms_median: f64,
+    /// \[m\]
+    rms_p90: f64,
+    /// \[m\]
+    rms_worst: f64,
+    /// Median after the best rigid alignment \[m\].
+    rms_aligned_median: f64,
+    /// Median \[m\].
+    odometry_rms_median: f64,
+}
+
+/// Where runs get their drive from: a simulation makes one for each seed, a log is the same for all.
+enum Source {
+    Simulated(Course),
+    Recorded(Arc<LandmarkLog>),
+}
+
+impl Source {
+    fn log(&self, seed: u64) -> Arc<LandmarkLog> {
+        match self {
+            Self::Simulated(course) => Arc::new(course.simulate(seed)),
+            Self::Recorded(log) => Arc::clone(log),
+        }
+    }
+
+    fn tuning(&self) -> Tuning {
+        match self {
+            Self::Simulated(course) => course.tuning(),
+            Self::Recorded(_) => mrclam::tuning(),
+        }
+    }
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let source = match &arguments.mrclam {
+        Some(prefix) => Source::Recorded(Arc::new(mrclam::read(prefix)?)),
+        None => Source::Simulated(arguments.course),
+    };
+    let setup = |seed| LandmarkSetup {
+        particles: arguments.particles,
+        seed,
+        proposal: arguments.proposal.0,
+        association: arguments.association,
+        policy: arguments.policy,
+        ..LandmarkSetup::default()
+    };
+    let run = |seed| LandmarkRun::new(&setup(seed), &source.tuning(), source.log(seed));
+    match arguments.seeds {
+        None => one(arguments, run(arguments.seed)?),
+        Some(seeds) => {
+            run(1)?; // refused before anything is run, if it is
+            let seeds: Vec<u64> = (1..=seeds).collect();
+            let errors: Result<Vec<[f64; 3]>, _> = seeds
+                .par_iter()
+                .progress_with(progress(seeds.len(), "runs"))
+                .map(|seed| {
+                    let mut run = run(*seed)?;
+                    while run.step().is_some() {}
+                    Ok::<_, Failure>([run.rms_best(), run.rms_best_aligned(), run.rms_odometry()])
+                })
+                .collect();
+            many(arguments, &errors?)
+        }
+    }
+}
+
+fn one(arguments: &Arguments, mut run: LandmarkRun) -> Result<(), Failure> {
+    let mut steps = Vec::new();
+    while let Some(report) = run.step() {
+        steps.push(report);
+    }
+    if let Some(path) = &arguments.png {
+        picture::save(&picture::of_landmarks(&run), path)?;
+    }
+    let footprint = run.footprint();
+    let resampled = steps.iter().filter(|step| step.resampled).count();
+    let output = Output {
+        rms_best: run.rms_best(),
+        rms_best_aligned: run.rms_best_aligned(),
+        rms_odometry: run.rms_odometry(),
+        landmarks: run.particles()[run.best()].map.iter().count() as u32,
+        resampled_fraction: resampled as f64 / steps.len().max(1) as f64,
+        map_bytes_unique: footprint.unique,
+        map_bytes_dense: footprint.dense,
+        steps,
+    };
+    if arguments.json {
+        return print_json(&output);
+    }
+    print(&format!(
+        "{} steps, {} particles\n\
+         RMS position error of the best    {:8.3} m\n\
+         the same after rigid alignment    {:8.3} m\n\
+         RMS position error of odometry    {:8.3} m\n\
+         landmarks in the best map         {:8} (there are {})\n\
+         steps that resampled              {:8.0} %\n\
+         maps                              {:8.1} kB, {:.1} kB as dense copies\n",
+        output.steps.len(),
+        arguments.particles,
+        output.rms_best,
+        output.rms_best_aligned,
+        output.rms_odometry,
+        output.landmarks,
+        run.log().landmarks.len(),
+        100.0 * output.resampled_fraction,
+        output.map_bytes_unique as f64 / 1e3,
+        output.map_bytes_dense as f64 / 1e3,
+    ))
+}
+
+fn many(arguments: &Arguments, errors: &[[f64; 3]]) -> Result<(), Failure> {
+    let sorted = |k: usize| {
+        let mut values: Vec<f64> = errors.iter().map(|error| error[k]).collect();
+        values.sort_unstable_by(f64::total_cmp);
+        values
+    };
+    let best = sorted(0);
+    let summary = Summary {
+        seeds: errors.len(),
+        rms_median: quantile(&best, 0.5),
+        rms_p90: quantile(&best, 0.9),
+        rms_worst: quantile(&best, 1.0),
+        rms_aligned_median: quantile(&sorted(1), 0.5),
+        odometry_rms_median: quantile(&sorted(2), 0.5),
+    };
+    if arguments.json {
+        return print_json(&summary);
+    }
+    let Summary { seeds, rms_median, rms_p90, rms_worst, rms_aligned_median, odometry_rms_median } = summary;
+    print(&format!(
+        "{seeds} seeds, {} particles\n\
+         RMS position error of the best    {rms_median:8.3} m median, {rms_p90:.3} m p90, {rms_worst:.3} m worst\n\
+         the same after rigid alignment    {rms_aligned_median:8.3} m median\n\
+         RMS position error of odometry    {odometry_rms_median:8.3} m median\n",
+        arguments.particles
+    ))
+}

@@ -1,0 +1,155 @@
+//! Logs of the UTIAS multi-robot dataset (Leung, Halpern, Barfoot, Liu, IJRR 2011): one robot among landmarks with bar codes, and its
+//! true path by motion capture.
+
+use crate::Failure;
+use fastslam::experiment::landmarks::{LandmarkLog, Tuning};
+use fastslam::geometry::Pose2;
+use fastslam::map::landmarks::Gate;
+use fastslam::motion::{Velocity, VelocityModel};
+use fastslam::ops;
+use fastslam::sensor::{Feature, RangeBearing};
+use nalgebra::Vector2;
+use std::path::{Path, PathBuf};
+
+/// What a filter is told, one setting for both proposals and both kinds of correspondence.
+///
+/// The wheels err by 0.015 m/s and 0.04 rad/s over a second, against motion capture. The camera errs by 0.12 m and 0.02 rad, but its
+/// successive pictures repeat their errors, which a filter takes for independent: it is told two and a half times as much.
+pub fn tuning() -> Tuning {
+    Tuning {
+        motion: VelocityModel { speed_std: 0.015, turn_rate_std: 0.03, alphas: [0.01, 0.0, 0.0, 0.02] },
+        sensor: RangeBearing { range_std: 0.3, bearing_std: 0.05, max_range: 9.0, field_of_view: 1.1 },
+        gate: Gate::default(),
+    }
+}
+
+/// Readings this close in time are one look of the camera \[s\].
+const ONE_LOOK: f64 = 0.02;
+
+/// Longest step \[s\]: where nothing is seen for longer, the motion is cut into several, as one arc would be too far from it.
+const LONGEST_STEP: f64 = 0.5;
+
+/// Reads PREFIX-barcodes.dat, -landmarks.dat and -robot1-{odometry,measurement,groundtruth}.dat. PREFIX may name the robot:
+/// PREFIX-robot2.
+pub fn read(prefix: &Path) -> Result<LandmarkLog, Failure> {
+    let text = prefix.to_string_lossy();
+    let text = text.trim_end_matches('-');
+    let (set, robot) = match text.rsplit_once("-robot") {
+        Some((set, number)) if !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()) => (set, number),
+        _ => (text, "1"),
+    };
+    let [barcodes, landmarks] = ["barcodes", "landmarks"].map(|name| PathBuf::from(format!("{set}-{name}.dat")));
+    let of_robot = |name| PathBuf::from(format!("{set}-robot{robot}-{name}.dat"));
+
+    let barcodes = table(&barcodes, ["subject", "barcode"])?;
+    let landmarks = table(&landmarks, ["subject", "x [m]", "y [m]", "x std [m]", "y std [m]"])?;
+    let odometry = timed(&of_robot("odometry"), ["time [s]", "v [m/s]", "ω [rad/s]"])?;
+    let measurements = timed(&of_robot("measurement"), ["time [s]", "barcode", "range [m]", "bearing [rad]"])?;
+    let truth = timed(&of_robot("groundtruth"), ["time [s]", "x [m]", "y [m]", "θ [rad]"])?;
+
+    // A bar code that belongs to another robot, or to nobody, is no landmark.
+    let signature = |barcode: f64| {
+        let [subject, _] = barcodes.iter().find(|row| row[1] == barcode)?;
+        landmarks.iter().position(|row| row[0] == *subject).map(|index| index as u32)
+    };
+    let mut log = LandmarkLog {
+        landmarks: landmarks.iter().map(|row| Vector2::new(row[1], row[2])).collect(),
+        ..LandmarkLog::default()
+    };
+    let start = odometry[0][0].max(truth[0][0]);
+    let end = odometry[odometry.len() - 1][0].min(truth[truth.len() - 1][0]);
+    let mut now = start;
+    log.truth.push(pose_at(&truth, start));
+    log.odometry.push(log.truth[0]);
+    let mut step = |log: &mut LandmarkLog, until: f64, features: Vec<Feature>| {
+        let control = driven(&odometry, now, until);
+        now = until;
+        log.odometry.push(control.apply(&log.odometry[log.odometry.len() - 1]));
+        log.truth.push(pose_at(&truth, until));
+        log.controls.push(control);
+        log.sightings.push(features);
+        until
+    };
+    let mut rest = &measurements[..];
+    let mut last = start;
+    while let Some([time, ..]) = rest.first().copied() {
+        let count = rest.iter().take_while(|row| row[0] < time + ONE_LOOK).count();
+        let (look, after) = rest.split_at(count);
+        rest = after;
+        if time <= last || time > end {
+            continue; // before the drive began, or where there is no truth to hold it against
+        }
+        let parts = ((time - last) / LONGEST_STEP).ceil().max(1.0);
+        let begin = last;
+        for part in 1..parts as u32 {
+            step(&mut log, begin + (time - begin) * f64::from(part) / parts, Vec::new());
+        }
+        let feature =
+            |row: &[f64; 4]| Feature { z: Vector2::new(row[2], ops::wrap_angle(row[3])), signature: signature(row[1]) };
+        let features = look.iter().map(feature).filter(|feature| feature.signature.is_some()).collect();
+        last = step(&mut log, time, features);
+    }
+    if log.controls.is_empty() {
+        return Err(Failure::usage_of(prefix, "no measurement falls into the time of both odometry and ground truth"));
+    }
+    Ok(log)
+}
+
+/// Mean velocities between two times, of readings that each hold until the next.
+fn driven(odometry: &[[f64; 3]], from: f64, until: f64) -> Velocity {
+    let duration = until - from;
+    let first = odometry.partition_point(|row| row[0] <= from).max(1) - 1;
+    let (mut distance, mut turn) = (0.0, 0.0);
+    for k in first..odometry.len() {
+        let [time, speed, turn_rate] = odometry[k];
+        let begin = time.max(from);
+        if begin >= until {
+            break;
+        }
+        let held = odometry.get(k + 1).map_or(until, |next| next[0].min(until)) - begin;
+        distance += speed * held.max(0.0);
+        turn += turn_rate * held.max(0.0);
+    }
+    Velocity { speed: distance / duration, turn_rate: turn / duration, duration }
+}
+
+/// The true pose at a time, interpolated.
+fn pose_at(truth: &[[f64; 4]], time: f64) -> Pose2 {
+    let after = truth.partition_point(|row| row[0] < time).min(truth.len() - 1);
+    let ([t0, x0, y0, a0], [t1, x1, y1, a1]) = (truth[after.max(1) - 1], truth[after]);
+    let share = if t1 > t0 { ((time - t0) / (t1 - t0)).clamp(0.0, 1.0) } else { 0.0 };
+    Pose2::new(x0 + share * (x1 - x0), y0 + share * (y1 - y0), a0 + share * ops::wrap_angle(a1 - a0))
+}
+
+/// A table whose first column is a time that never goes back.
+fn timed<const N: usize>(path: &Path, columns: [&str; N]) -> Result<Vec<[f64; N]>, Failure> {
+    let rows = table(path, columns)?;
+    match rows.windows(2).position(|pair| pair[1][0] < pair[0][0]) {
+        Some(k) => Err(Failure::usage_of(path, format_args!("times go back: {} after {}", rows[k + 1][0], rows[k][0]))),
+        None => Ok(rows),
+    }
+}
+
+/// The rows of a file of numbers in columns; lines that begin with # are comments.
+fn table<const N: usize>(path: &Path, columns: [&str; N]) -> Result<Vec<[f64; N]>, Failure> {
+    let text = std::fs::read_to_string(path).map_err(|error| Failure::file(path, error))?;
+    let mut rows = Vec::new();
+    for (number, line) in (1..).zip(text.lines()) {
+        if line.trim_start().starts_with('#') || line.trim().is_empty() {
+            continue;
+        }
+        let values: Option<Vec<f64>> =
+            line.split_whitespace().map(|word| word.parse().ok().filter(|x: &f64| x.is_finite())).collect();
+        match values.and_then(|values| <[f64; N]>::try_from(values).ok()) {
+            Some(row) => rows.push(row),
+            None => {
+                let expected = format_args!("line {number}: expected {N} numbers: {}", columns.join(", "));
+                return Err(Failure::usage_of(path, expected));
+            }
+        }
+    }
+    if rows.is_empty() {
+        return Err(Failure::usage_of(path, format_args!("no line with {N} numbers: {}", columns.join(", "))));
+    }
+    Ok(rows)
+}

@@ -1,0 +1,90 @@
+//! Pictures for files, by the painter of the figures.
+
+use crate::Failure;
+use fastslam::experiment::landmarks::LandmarkRun;
+use fastslam::geometry::Pose2;
+use fastslam::map::landmarks::Landmark;
+use fastslam_widgets::font::Weight;
+use fastslam_widgets::paint::{Canvas, Theme};
+use fastslam_widgets::scene::{Anchor, Mark, Point, Rect, Role, Scene, closed, ellipse, text};
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::Path;
+
+/// Width of a drawing \[px\].
+const WIDTH: f64 = 1200.0;
+
+/// Largest height of a drawing, for drives that go far one way only \[px\].
+const HEIGHT: f64 = 2400.0;
+
+/// √χ²₂,₀.₉₅: standard deviations to which an ellipse of 95 % reaches.
+const CHI_95: f64 = 2.447_746_830_680_816;
+
+/// Room around what is drawn \[px\].
+const MARGIN: f64 = 80.0;
+
+/// What a run ends with: truth, raw odometry, the best particle's path and its landmarks with their 95 % ellipses.
+pub fn of_landmarks(run: &LandmarkRun) -> Canvas {
+    let (log, best) = (run.log(), run.best());
+    let path = run.path(best);
+    let place = |p: &Pose2| [p.x, p.y];
+    let truth: Vec<Point> = log.truth.iter().map(place).collect();
+    let odometry: Vec<Point> = log.odometry.iter().map(place).collect();
+    let path: Vec<Point> = path.iter().map(place).collect();
+    let landmarks: Vec<Point> = log.landmarks.iter().map(|m| [m.x, m.y]).collect();
+
+    // Odometry drifts anywhere: it is cut where it leaves the picture.
+    let shown = || truth.iter().chain(&path).chain(&landmarks);
+    let extent = |axis: usize| {
+        let values = || shown().map(|p| p[axis]);
+        [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)]
+    };
+    let ([x0, x1], [y0, y1]) = (extent(0), extent(1));
+    let scale = ((WIDTH - 2.0 * MARGIN) / (x1 - x0).max(1e-3)).min((HEIGHT - 2.0 * MARGIN) / (y1 - y0).max(1e-3));
+    let height = (scale * (y1 - y0) + 2.0 * MARGIN).round();
+    let at = |[x, y]: Point| [MARGIN + (x - x0) * scale, height - MARGIN - (y - y0) * scale];
+    let line = |points: &[Point], width, dash, role| Mark::Lines {
+        lines: vec![points.iter().map(|p| at(*p)).collect()],
+        width,
+        dash,
+        role,
+    };
+    let ellipses = run.particles()[best].map.iter().map(|(_, Landmark { mean, covariance: c, .. })| {
+        let pixels = [[c.m11, -c.m12], [-c.m12, c.m22]].map(|row| row.map(|x| x * scale * scale));
+        closed(ellipse(at([mean.x, mean.y]), pixels, CHI_95))
+    });
+    let mut marks = vec![
+        line(&odometry, 1.5, Some([7.0, 5.0]), Role::Odometry),
+        line(&truth, 4.0, None, Role::Truth),
+        line(&path, 2.0, None, Role::Path),
+        Mark::Discs { centres: landmarks.iter().map(|p| at(*p)).collect(), radius: 4.0, role: Role::Truth },
+        Mark::Lines { lines: ellipses.collect(), width: 1.5, dash: None, role: Role::Path },
+    ];
+    let names = [
+        (Role::Truth, "truth"),
+        (Role::Path, "path and landmarks of the best particle, 95 %"),
+        (Role::Odometry, "raw odometry"),
+    ];
+    for (k, (role, name)) in names.into_iter().enumerate() {
+        let y = 8.0 + 20.0 * k as f64;
+        let sample = vec![vec![[8.0, y + 10.0], [38.0, y + 10.0]]];
+        marks.push(Mark::Lines { lines: sample, width: 3.0, dash: None, role });
+        let area = Rect::new(46.0, y, 400.0, 20.0);
+        marks.push(text(area, Anchor::Start, 14.0, Weight::Regular, Role::Ink, name));
+    }
+    let mut canvas = Canvas::default();
+    let scene =
+        Scene { width: WIDTH, height, marks, regions: Vec::new(), handles: Vec::new(), description: String::new() };
+    canvas.paint(&scene, WIDTH as u32, height as u32, Theme::Light);
+    canvas
+}
+
+/// Writes what was painted last as PNG.
+pub fn save(canvas: &Canvas, path: &Path) -> Result<(), Failure> {
+    let file = File::create(path).map_err(|error| Failure::file(path, error))?;
+    let [width, height] = canvas.size();
+    let mut encoder = png::Encoder::new(BufWriter::new(file), width, height);
+    encoder.set_color(png::ColorType::Rgba);
+    let write = |encoder: png::Encoder<'_, _>| encoder.write_header()?.write_image_data(canvas.pixels());
+    write(encoder).map_err(|error| Failure::file(path, error))
+}

@@ -1,0 +1,371 @@
+//! FastSLAM among landmarks: simulated courses and recorded logs, and how far from the truth a run ends.
+
+use crate::digest::Digest;
+use crate::error::ParameterError;
+use crate::execute::Executor;
+use crate::geometry::{Pose2, align, rms};
+use crate::map::Footprint;
+use crate::map::landmarks::{Correspondence, Gate, Landmarks};
+use crate::motion::{Velocity, VelocityModel};
+use crate::ops;
+use crate::proposal::{Either, FromMeasurement, FromMotion, Marginal, ProposalKind};
+use crate::random::{Purpose, Stream};
+use crate::rbpf::{Particle, Rbpf};
+use crate::resampling::{ResamplePolicy, Scheme};
+use crate::sensor::{Feature, LandmarkSensor, RangeBearing};
+use crate::world::Field;
+use core::f64::consts::{PI, TAU};
+use core::{fmt, str::FromStr};
+use nalgebra::Vector2;
+use std::sync::Arc;
+
+/// A drive as its robot reported it, with the truth beside it for those who judge.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct LandmarkLog {
+    /// True poses of steps 0 to T.
+    pub truth: Vec<Pose2>,
+    /// Poses by the reported controls alone, from the same start.
+    pub odometry: Vec<Pose2>,
+    /// Reported controls; the k-th leads from step k to k + 1.
+    pub controls: Vec<Velocity>,
+    /// What was seen at steps 1 to T.
+    pub sightings: Vec<Vec<Feature>>,
+    /// Where the landmarks truly are \[m\], by signature.
+    pub landmarks: Vec<Vector2<f64>>,
+}
+
+/// What a filter is told of the noise, and of how landmarks are to be told apart.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Tuning {
+    /// Noise of the reported velocities.
+    pub motion: VelocityModel,
+    /// The sensor.
+    pub sensor: RangeBearing,
+    /// Settings of the association, where signatures are not to be used.
+    pub gate: Gate,
+}
+
+/// The simulated courses.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "lowercase"))]
+pub enum Course {
+    /// A figure of eight through twenty-four landmarks, with a sharp sensor and poor odometry.
+    Eight,
+    /// Eight tags around a circle: the setting of the FastSLAM examples of PythonRobotics, with its landmarks, ranges and
+    /// noises.
+    Tags,
+}
+
+impl Course {
+    /// The noise of the world, which is also what its filter is told.
+    pub fn tuning(self) -> Tuning {
+        match self {
+            Self::Eight => Tuning {
+                motion: VelocityModel { speed_std: 0.0, turn_rate_std: 0.0, alphas: [0.04, 0.0, 0.01, 0.04] },
+                sensor: RangeBearing { range_std: 0.05, bearing_std: 0.01, max_range: 6.0, field_of_view: PI },
+                gate: Gate { removal: true, ..Gate::default() },
+            },
+            Self::Tags => Tuning {
+                motion: VelocityModel { speed_std: 0.5, turn_rate_std: 10.0 * PI / 180.0, alphas: [0.0; 4] },
+                sensor: RangeBearing {
+                    range_std: 0.3,
+                    bearing_std: 2.0 * PI / 180.0,
+                    max_range: 20.0,
+                    field_of_view: TAU,
+                },
+                gate: Gate::default(),
+            },
+        }
+    }
+
+    /// What wheels report beyond the truth, on average \[m/s, rad/s\]. No filter is told.
+    fn bias(self) -> [f64; 2] {
+        match self {
+            Self::Eight => [0.0, 0.0],
+            Self::Tags => [0.0, 0.01],
+        }
+    }
+
+    /// The drive with the noise of a seed; the truth is always the same.
+    pub fn simulate(self, seed: u64) -> LandmarkLog {
+        let field = match self {
+            Self::Eight => Field::figure_of_eight(),
+            Self::Tags => Field::eight_tags(),
+        };
+        let (tuning, [speed_bias, turn_rate_bias]) = (self.tuning(), self.bias());
+        let mut log = LandmarkLog {
+            truth: vec![Pose2::default()],
+            odometry: vec![Pose2::default()],
+            landmarks: field.landmarks,
+            ..LandmarkLog::default()
+        };
+        for (step, driven) in (1..).zip(&field.controls) {
+            let truth = driven.apply(&log.truth[log.truth.len() - 1]);
+            let mut reported = tuning.motion.perturb(driven, &mut Stream::at(seed, Purpose::WorldOdometry, step, 0));
+            reported.speed += speed_bias;
+            reported.turn_rate += turn_rate_bias;
+            log.odometry.push(reported.apply(&log.odometry[log.odometry.len() - 1]));
+            log.truth.push(truth);
+            log.controls.push(reported);
+            let visible = (0..).zip(&log.landmarks).filter(|(_, m)| tuning.sensor.sees(&truth, m, 0.0));
+            let see = |(signature, landmark)| {
+                let mut stream = Stream::at(seed, Purpose::WorldSensor, step, signature);
+                Feature { z: tuning.sensor.measure(&truth, landmark, &mut stream), signature: Some(signature) }
+            };
+            log.sightings.push(visible.map(see).collect());
+        }
+        log
+    }
+}
+
+/// Whether a filter may read the signatures of what it sees.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "lowercase"))]
+pub enum Association {
+    /// It may.
+    Known,
+    /// Every particle decides for itself.
+    Unknown,
+}
+
+/// What a reader can set.
+#[derive(Clone, PartialEq, Debug)]
+pub struct LandmarkSetup {
+    /// Number of particles M, 1 to 100 000.
+    pub particles: usize,
+    /// Seed of the filter's draws.
+    pub seed: u64,
+    /// FastSLAM 1.0 is [`ProposalKind::Motion`], 2.0 is [`ProposalKind::Aware`].
+    pub proposal: ProposalKind,
+    /// Known or unknown correspondence.
+    pub association: Association,
+    /// When to resample.
+    pub policy: ResamplePolicy,
+    /// How to resample.
+    pub scheme: Scheme,
+}
+
+impl Default for LandmarkSetup {
+    fn default() -> Self {
+        Self {
+            particles: 100,
+            seed: 1,
+            proposal: ProposalKind::Aware,
+            association: Association::Known,
+            policy: ResamplePolicy::EssBelow(0.5),
+            scheme: Scheme::Systematic,
+        }
+    }
+}
+
+/// A particle's map.
+pub type LandmarkMap = Landmarks<RangeBearing>;
+
+type Filter = Rbpf<LandmarkMap, Either<FromMotion<VelocityModel, Marginal>, FromMeasurement<VelocityModel>>>;
+
+/// What one step did, and how far from the truth it led.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct LandmarkReport {
+    /// The step; 0 is the start.
+    pub step: u32,
+    /// Landmarks seen at this step.
+    pub seen: u32,
+    /// N_eff before resampling.
+    pub ess: f64,
+    /// Whether the step resampled.
+    pub resampled: bool,
+    /// Distance of the best particle from the truth \[m\].
+    pub error_best: f64,
+    /// Distance of the weighted mean of all particles from the truth \[m\].
+    pub error_mean: f64,
+    /// Distance of raw odometry from the truth \[m\].
+    pub error_odometry: f64,
+    /// Landmarks in the best particle's map.
+    pub landmarks: u32,
+    /// Distinct ancestors at step 0.
+    pub lineage: u32,
+}
+
+/// A run under way.
+#[derive(Clone, Debug)]
+pub struct LandmarkRun {
+    log: Arc<LandmarkLog>,
+    filter: Filter,
+    step: u32,
+}
+
+impl LandmarkRun {
+    /// At the log's start, which is known.
+    ///
+    /// # Errors
+    /// Where a setting is out of its range.
+    pub fn new(setup: &LandmarkSetup, tuning: &Tuning, log: Arc<LandmarkLog>) -> Result<Self, ParameterError> {
+        if !(1..=100_000).contains(&setup.particles) {
+            return Err(ParameterError::new("particles", setup.particles, "a whole number from 1 to 100000"));
+        }
+        let motion = tuning.motion;
+        let proposal = match setup.proposal {
+            ProposalKind::Motion => Either::Left(FromMotion { motion, likelihood: Marginal }),
+            ProposalKind::Aware => Either::Right(FromMeasurement { motion }),
+        };
+        let correspondence = match setup.association {
+            Association::Known => Correspondence::Known,
+            Association::Unknown => Correspondence::Unknown(tuning.gate),
+        };
+        let map = Landmarks::new(tuning.sensor, correspondence);
+        let start = log.truth.first().copied().unwrap_or_default();
+        let filter = Rbpf::new(proposal, setup.policy, setup.scheme, setup.seed, setup.particles, start, map);
+        Ok(Self { log, filter, step: 0 })
+    }
+
+    /// The same run, computed by another executor: the results are the same.
+    pub fn with_executor(self, executor: Executor) -> Self {
+        Self { filter: self.filter.with_executor(executor), ..self }
+    }
+
+    /// One step of the filter; `None` after the last.
+    pub fn step(&mut self) -> Option<LandmarkReport> {
+        let k = self.step as usize;
+        let (control, features) = (self.log.controls.get(k)?, self.log.sightings.get(k)?);
+        let report = self.filter.step(control, features);
+        self.step += 1;
+        let (truth, odometry) = (&self.log.truth[k + 1], &self.log.odometry[k + 1]);
+        let particles = self.filter.particles();
+        let best = &particles[self.filter.best()];
+        let (x, y) = particles
+            .iter()
+            .zip(self.filter.weights().as_slice())
+            .fold((0.0, 0.0), |(x, y), (p, w)| (x + w * p.world_from_robot.x, y + w * p.world_from_robot.y));
+        Some(LandmarkReport {
+            step: self.step,
+            seen: features.len() as u32,
+            ess: report.ess,
+            resampled: report.ancestors.is_some(),
+            error_best: best.world_from_robot.distance(truth),
+            error_mean: ops::hypot(x - truth.x, y - truth.y),
+            error_odometry: odometry.distance(truth),
+            landmarks: best.map.iter().count() as u32,
+            lineage: self.filter.lineage() as u32,
+        })
+    }
+
+    /// The drive.
+    pub fn log(&self) -> &LandmarkLog {
+        &self.log
+    }
+
+    /// The population, by slot.
+    pub fn particles(&self) -> &[Particle<LandmarkMap>] {
+        self.filter.particles()
+    }
+
+    /// Slot of the best particle.
+    pub fn best(&self) -> usize {
+        self.filter.best()
+    }
+
+    /// Poses of one particle, step 0 to now.
+    pub fn path(&self, slot: usize) -> Vec<Pose2> {
+        self.filter.ancestry().path(self.particles()[slot].node)
+    }
+
+    /// Root mean square error of position of the best particle's path so far \[m\].
+    pub fn rms_best(&self) -> f64 {
+        rms(&self.path(self.best()), &self.log.truth)
+    }
+
+    /// The same after the best rigid motion of that path onto the truth \[m\]: what is left when map and path may be moved as a
+    /// whole.
+    pub fn rms_best_aligned(&self) -> f64 {
+        let path = self.path(self.best());
+        let gauge = align(&path, &self.log.truth[..path.len()]);
+        let aligned: Vec<Pose2> = path.iter().map(|pose| gauge.compose(pose)).collect();
+        rms(&aligned, &self.log.truth)
+    }
+
+    /// Root mean square error of position of raw odometry so far \[m\].
+    pub fn rms_odometry(&self) -> f64 {
+        rms(&self.log.odometry[..=self.step as usize], &self.log.truth)
+    }
+
+    /// Runs to the end. Returns a fingerprint of every pose and weight on the way, and of all maps at the end, bit for bit.
+    pub fn trace(mut self) -> Digest {
+        let mut digest = Digest::new();
+        while let Some(report) = self.step() {
+            [report.ess, report.error_best, report.error_mean].into_iter().for_each(|x| digest.f64(x));
+            for particle in self.particles() {
+                let Pose2 { x, y, theta } = particle.world_from_robot;
+                [x, y, theta].into_iter().for_each(|x| digest.f64(x));
+            }
+            self.filter.weights().as_slice().iter().for_each(|weight| digest.f64(*weight));
+        }
+        for (index, landmark) in self.particles().iter().flat_map(|particle| particle.map.iter()) {
+            digest.u32(index);
+            landmark.mean.iter().chain(&landmark.covariance).for_each(|x| digest.f64(*x));
+        }
+        digest
+    }
+
+    /// Memory of all maps.
+    pub fn footprint(&self) -> Footprint {
+        Landmarks::footprint(self.particles().iter().map(|p| &p.map))
+    }
+}
+
+impl fmt::Display for Course {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Eight => "eight",
+            Self::Tags => "tags",
+        })
+    }
+}
+
+impl FromStr for Course {
+    type Err = ParameterError;
+
+    fn from_str(text: &str) -> Result<Self, ParameterError> {
+        match text {
+            "eight" => Ok(Self::Eight),
+            "tags" => Ok(Self::Tags),
+            _ => Err(ParameterError::new("course", text, "eight or tags")),
+        }
+    }
+}
+
+impl fmt::Display for Association {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Known => "known",
+            Self::Unknown => "unknown",
+        })
+    }
+}
+
+impl FromStr for Association {
+    type Err = ParameterError;
+
+    fn from_str(text: &str) -> Result<Self, ParameterError> {
+        match text {
+            "known" => Ok(Self::Known),
+            "unknown" => Ok(Self::Unknown),
+            _ => Err(ParameterError::new("association", text, "known or unknown")),
+        }
+    }
+}
+
+/// Named runs whose fingerprints are kept with the tests, and must be the same on every platform.
+pub fn golden_runs() -> Vec<(&'static str, Course, LandmarkSetup)> {
+    let setup = || LandmarkSetup { particles: 12, ..LandmarkSetup::default() };
+    let motion = || LandmarkSetup { proposal: ProposalKind::Motion, ..setup() };
+    let unknown = |setup| LandmarkSetup { association: Association::Unknown, ..setup };
+    vec![
+        ("eight-2.0", Course::Eight, setup()),
+        ("eight-1.0", Course::Eight, motion()),
+        ("eight-2.0-unknown", Course::Eight, unknown(setup())),
+        ("eight-1.0-unknown", Course::Eight, unknown(motion())),
+        ("tags-2.0", Course::Tags, setup()),
+        ("tags-1.0-unknown", Course::Tags, unknown(motion())),
+    ]
+}
