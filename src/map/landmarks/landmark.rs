@@ -48,8 +48,12 @@ impl Innovation {
     /// The same with the noise of the pose in it: S + H_x P H_xᵀ for a pose of covariance P (3 × 3).
     pub fn with_pose(&self, pose_covariance: &Matrix3<f64>) -> Self {
         let h_x = &self.prediction.h_x;
-        let covariance = symmetric(self.given_pose + h_x * pose_covariance * h_x.transpose());
-        Self::new(self.prediction, self.residual, self.given_pose, covariance)
+        self.with(&(h_x * pose_covariance * h_x.transpose()))
+    }
+
+    /// The same with more noise in it (2 × 2): S = Q_j + `more`.
+    pub fn with(&self, more: &Matrix2<f64>) -> Self {
+        Self::new(self.prediction, self.residual, self.given_pose, symmetric(self.given_pose + more))
     }
 }
 
