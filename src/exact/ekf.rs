@@ -111,7 +111,11 @@ impl<D: Motion, Z: LandmarkSensor> EkfSlam<D, Z> {
 
     fn marginal(&self, row: usize) -> Landmark {
         let (Known { mean, evidence, .. }, at) = (&self.landmarks[row], 3 + 2 * row);
-        Landmark { mean: *mean, covariance: self.covariance.fixed_view::<2, 2>(at, at).into_owned(), evidence: *evidence }
+        Landmark {
+            mean: *mean,
+            covariance: self.covariance.fixed_view::<2, 2>(at, at).into_owned(),
+            evidence: *evidence,
+        }
     }
 
     /// P ← G P Gᵀ + R_t, where G differs from the identity in the pose's block only.
