@@ -59,7 +59,7 @@ impl<D: Motion, Z: LandmarkSensor> EkfSlam<D, Z> {
         self.predict(control);
         let (mut log_evidence, mut sighted) = (0.0, Vec::with_capacity(features.len()));
         for feature in features {
-            let innovation = |index| Some(self.innovation(self.row(index)?, &feature.z));
+            let innovation = |index, _| Some(self.innovation(self.row(index)?, &feature.z));
             let matched = self.correspondence.decide(feature, &sighted, self.len, innovation);
             if let (Sighted::Again(index), Some(innovation)) = (matched.sighted, &matched.innovation) {
                 self.update(index, innovation);

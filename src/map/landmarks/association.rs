@@ -64,18 +64,19 @@ pub struct Matched {
 impl Correspondence {
     // anchor: associate
     /// Decides what one feature is, after `taken` was decided for the features before it. Indices up to `len` are in use;
-    /// `innovation` is what the feature says of the landmark of an index, `None` where there is none.
+    /// `innovation` is what the feature says of the landmark of an index, `None` where there is none, or where it surely lies
+    /// beyond the gate that is asked for.
     pub fn decide(
         &self,
         feature: &Feature,
         taken: &[Sighted],
         len: u32,
-        innovation: impl Fn(u32) -> Option<Innovation>,
+        innovation: impl Fn(u32, Option<f64>) -> Option<Innovation>,
     ) -> Matched {
         let free = |index: u32| !taken.contains(&Sighted::Again(index)) && !taken.contains(&Sighted::First(index));
         match self {
             Self::Known => match feature.signature.filter(|index| free(*index)) {
-                Some(index) => match innovation(index) {
+                Some(index) => match innovation(index, None) {
                     Some(innovation) => again(index, innovation),
                     None => Matched { sighted: Sighted::First(index), innovation: None, log_likelihood: 0.0 },
                 },
@@ -83,11 +84,11 @@ impl Correspondence {
             },
             Self::Unknown(gate) => {
                 let mut best: Option<Matched> = None;
-                for index in (0..len).filter(|index| free(*index)) {
-                    let Some(innovation) = innovation(index) else { continue };
+                for index in 0..len {
+                    let Some(innovation) = innovation(index, Some(gate.mahalanobis_squared)) else { continue };
+                    let within = innovation.mahalanobis_squared < gate.mahalanobis_squared;
                     let to_beat = best.map_or(gate.log_new, |best| best.log_likelihood);
-                    if innovation.mahalanobis_squared < gate.mahalanobis_squared && innovation.log_likelihood > to_beat
-                    {
+                    if within && innovation.log_likelihood > to_beat && free(index) {
                         best = Some(again(index, innovation));
                     }
                 }
@@ -105,8 +106,13 @@ impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
     /// Decides what one feature is, for a pose of this mean and covariance P (3 × 3; zeros for a pose that is sure), after
     /// `taken` was decided for the features before it.
     pub fn associate(&self, pose: &Pose2, p: &Matrix3<f64>, feature: &Feature, taken: &[Sighted]) -> Matched {
-        self.correspondence.decide(feature, taken, self.store.len(), |index| {
-            Some(self.get(index)?.innovation(&self.sensor, pose, &feature.z).with_pose(p))
+        let of_position = p.fixed_view::<2, 2>(0, 0).into_owned();
+        self.correspondence.decide(feature, taken, self.store.len(), |index, gate| {
+            let landmark = self.get(index)?;
+            let spread = landmark.covariance + of_position;
+            let least = || self.sensor.least_mahalanobis_squared(pose, &landmark.mean, &spread, &feature.z);
+            let beyond = gate.is_some_and(|gate| least() >= gate);
+            (!beyond).then(|| landmark.innovation(&self.sensor, pose, &feature.z).with_pose(p))
         })
     }
 }
