@@ -134,10 +134,11 @@ impl<D: Motion, Z: LandmarkSensor> EkfSlam<D, Z> {
 
     /// S = H P Hᵀ + Q, where H is zero but for H_x and the landmark's H_m.
     fn innovation(&self, row: usize, z: &Vector2<f64>) -> Innovation {
-        let alone = self.marginal(row).innovation(&self.sensor, &self.pose, z);
-        let Prediction { h_x, h_m, .. } = alone.prediction;
-        let cross = h_x * self.covariance.fixed_view::<3, 2>(0, 3 + 2 * row) * h_m.transpose();
-        alone.with(&(h_x * self.pose_covariance() * h_x.transpose() + cross + cross.transpose()))
+        let cross = self.covariance.fixed_view::<3, 2>(0, 3 + 2 * row);
+        self.marginal(row).innovation_with(&self.sensor, &self.pose, z, |Prediction { h_x, h_m, .. }| {
+            let both = h_x * cross * h_m.transpose();
+            h_x * self.pose_covariance() * h_x.transpose() + both + both.transpose()
+        })
     }
 
     /// K = P Hᵀ S⁻¹, μ ← μ + K ν, and P by Joseph's form.

@@ -3,7 +3,7 @@
 use super::{Innovation, Landmarks, Store};
 use crate::geometry::Pose2;
 use crate::ops;
-use crate::sensor::{Feature, LandmarkSensor};
+use crate::sensor::{Feature, LandmarkSensor, Prediction};
 use nalgebra::Matrix3;
 
 /// How sightings are told apart.
@@ -112,7 +112,10 @@ impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
             let spread = landmark.covariance + of_position;
             let least = || self.sensor.least_mahalanobis_squared(pose, &landmark.mean, &spread, &feature.z);
             let beyond = gate.is_some_and(|gate| least() >= gate);
-            (!beyond).then(|| landmark.innovation(&self.sensor, pose, &feature.z).with_pose(p))
+            (!beyond).then(|| {
+                let of_pose = |prediction: &Prediction| prediction.h_x * p * prediction.h_x.transpose();
+                landmark.innovation_with(&self.sensor, pose, &feature.z, of_pose)
+            })
         })
     }
 }

@@ -584,6 +584,35 @@ proptest! {
         prop_assert!(plain == run_bits::<Balanced>(run, steps, count, policy, gate));
     }
 
+    /// A bound that was too high would turn sightings into new landmarks.
+    #[test]
+    fn what_the_sensor_rejects_in_advance_never_changes_an_association(
+        field in prop::collection::vec((-6.0..6.0_f64, -6.0..6.0_f64, 1e-4..1.0_f64, -0.9..0.9_f64), 1..12),
+        factor in prop::array::uniform6(-0.5..0.5_f64),
+        z in (0.0..9.0_f64, -3.1..3.1_f64),
+        robot in (-6.0..6.0_f64, -6.0..6.0_f64, -3.0..3.0_f64),
+    ) {
+        let known = field.iter().map(|&(x, y, variance, rho)| Landmark {
+            mean: Vector2::new(x, y),
+            covariance: Matrix2::new(variance, rho * variance, rho * variance, variance),
+            evidence: 1,
+        });
+        let [a, b, c, d, e, f] = factor;
+        let l = Matrix3::new(a, 0.0, 0.0, b, c, 0.0, d, e, f);
+        let (pose, p) = (Pose2::new(robot.0, robot.1, robot.2), l * l.transpose());
+        let feature = Feature { z: Vector2::new(z.0, z.1), signature: None };
+        let correspondence = Correspondence::Unknown(Gate { log_new: -30.0, ..Gate::default() });
+        let early = Landmarks::<_, Blocks>::new(SENSOR, correspondence).with(known.clone());
+        let late = Landmarks::<_, Blocks>::new(Patient(SENSOR), correspondence).with(known.clone());
+        prop_assert_eq!(early.associate(&pose, &p, &feature, &[]), late.associate(&pose, &p, &feature, &[]));
+        for landmark in known {
+            let spread = landmark.covariance + p.fixed_view::<2, 2>(0, 0);
+            let least = SENSOR.least_mahalanobis_squared(&pose, &landmark.mean, &spread, &feature.z);
+            let whole = landmark.innovation(&SENSOR, &pose, &feature.z).with_pose(&p).mahalanobis_squared;
+            prop_assert!(least <= whole * (1.0 + 1e-9), "{} > {}", least, whole);
+        }
+    }
+
     /// A family of copies, each written to in turn, holds what maps hold that never shared anything.
     #[test]
     fn copies_of_a_map_never_see_each_others_writes(
@@ -592,6 +621,32 @@ proptest! {
     ) {
         copies_are_independent::<Blocks>(&trunk, &branches);
         copies_are_independent::<Balanced>(&trunk, &branches);
+    }
+}
+
+/// The same sensor without its lower bound.
+#[derive(Clone, Copy, Debug)]
+struct Patient(RangeBearing);
+
+impl LandmarkSensor for Patient {
+    fn predict(&self, at: &Pose2, landmark: &Vector2<f64>) -> Prediction {
+        self.0.predict(at, landmark)
+    }
+
+    fn residual(&self, z: &Vector2<f64>, predicted: &Vector2<f64>) -> Vector2<f64> {
+        self.0.residual(z, predicted)
+    }
+
+    fn locate(&self, at: &Pose2, z: &Vector2<f64>) -> Vector2<f64> {
+        self.0.locate(at, z)
+    }
+
+    fn noise(&self) -> Matrix2<f64> {
+        self.0.noise()
+    }
+
+    fn sees(&self, at: &Pose2, landmark: &Vector2<f64>, margin: f64) -> bool {
+        self.0.sees(at, landmark, margin)
     }
 }
 
