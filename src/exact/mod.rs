@@ -1,1 +1,5 @@
 //! What a particle filter approximates, computed without particles: the oracle of tests and of figures.
+
+mod ekf;
+
+pub use ekf::{EkfSlam, EkfStep};

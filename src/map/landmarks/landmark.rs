@@ -68,10 +68,23 @@ impl Landmark {
     /// ν = z − h(x, μ), S = H_m Σ H_mᵀ + Q: exp(`log_likelihood`) is the marginal ∫ p(z | x, m) p(m | path) dm of a sighting.
     #[inline]
     pub fn innovation<Z: LandmarkSensor>(&self, sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) -> Innovation {
+        self.innovation_with(sensor, world_from_robot, z, |_| Matrix2::zeros())
+    }
+
+    /// The same with more noise (2 × 2) than the landmark's and the sensor's: of a pose of covariance P, H_x P H_xᵀ.
+    #[inline]
+    pub fn innovation_with<Z: LandmarkSensor>(
+        &self,
+        sensor: &Z,
+        world_from_robot: &Pose2,
+        z: &Vector2<f64>,
+        more: impl Fn(&Prediction) -> Matrix2<f64>,
+    ) -> Innovation {
         let prediction = sensor.predict(world_from_robot, &self.mean);
         let h = &prediction.h_m;
-        let covariance = symmetric(h * self.covariance * h.transpose() + sensor.noise());
-        Innovation::new(prediction, sensor.residual(z, &prediction.z), covariance, covariance)
+        let given_pose = symmetric(h * self.covariance * h.transpose() + sensor.noise());
+        let covariance = symmetric(given_pose + more(&prediction));
+        Innovation::new(prediction, sensor.residual(z, &prediction.z), given_pose, covariance)
     }
     // end: innovation
 
