@@ -15,11 +15,14 @@ pub struct Field {
 }
 
 impl Field {
-    /// A figure of eight, two and a half times, among twenty-four landmarks: every one of them is left and met again.
+    /// A look round at rest, then a figure of eight, two and a half times, among twenty-four landmarks: every one of them is left
+    /// and met again. The rest anchors the gauge, as the first scans of the lap do: what is seen from the known start says
+    /// later where that was.
     pub fn figure_of_eight() -> Self {
         const RADIUS: f64 = 5.0;
         const STEP: f64 = 0.5;
         const CLEARANCE: f64 = 0.5;
+        const REST: usize = 20;
         let circle = (core::f64::consts::TAU * RADIUS / STEP).round();
         let arc = |turn: f64| Velocity {
             speed: 1.0,
@@ -27,7 +30,9 @@ impl Field {
             duration: STEP,
         };
         let loops = [1.0, -1.0, 1.0, -1.0, 1.0];
-        let controls = loops.iter().flat_map(|turn| core::iter::repeat_n(arc(*turn), circle as usize)).collect();
+        let rest = Velocity { speed: 0.0, turn_rate: 0.0, duration: STEP };
+        let driven = loops.iter().flat_map(|turn| core::iter::repeat_n(arc(*turn), circle as usize));
+        let controls = core::iter::repeat_n(rest, REST).chain(driven).collect();
         // A lattice of 4 × 6, shaken: landmarks neither in rows, nor on top of each other, nor in the robot's way.
         let clear =
             |m: &Vector2<f64>| [-RADIUS, RADIUS].iter().all(|y| (ops::hypot(m.x, m.y - y) - RADIUS).abs() > CLEARANCE);
