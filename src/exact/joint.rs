@@ -202,7 +202,9 @@ mod tests {
     const SIGHTINGS: [(usize, usize); 8] = [(1, 0), (1, 1), (2, 0), (2, 1), (2, 2), (3, 1), (3, 2), (3, 3)];
 
     fn path() -> Vec<Pose2> {
-        [[0.0, 0.0, 0.1], [1.2, 0.2, 0.3], [2.6, 0.4, -0.2], [4.0, 0.1, 0.0]].map(|[x, y, a]| Pose2::new(x, y, a)).into()
+        [[0.0, 0.0, 0.1], [1.2, 0.2, 0.3], [2.6, 0.4, -0.2], [4.0, 0.1, 0.0]]
+            .map(|[x, y, a]| Pose2::new(x, y, a))
+            .into()
     }
 
     /// F and R_t of the motion to pose `t`, for odometry of this scale.
