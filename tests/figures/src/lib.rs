@@ -25,6 +25,10 @@ const fn lap(name: &'static str, query: &'static str, width: u32, dpr: f64, them
     Picture { name, tag: "fastslam-lap", query, width, dpr, theme }
 }
 
+const fn conditioning(name: &'static str, query: &'static str, width: u32, dpr: f64, theme: &'static str) -> Picture {
+    Picture { name, tag: "fastslam-conditioning", query, width, dpr, theme }
+}
+
 /// The first two are what readers without JavaScript see: the default lap on its way back, just resampled. At 1.5 px per css px
 /// they are sharp enough for most screens, and 80 KB each.
 pub const PICTURES: &[Picture] = &[
@@ -39,6 +43,13 @@ pub const PICTURES: &[Picture] = &[
     lap("motion-64", "universes=64&proposal=motion&matcher=cell&step=41", 800, 1.0, "light"),
     lap("motion-256", "universes=256&proposal=motion&matcher=cell&step=12", 800, 1.0, "dark"),
     lap("motion-256-narrow", "universes=256&proposal=motion&matcher=cell&step=12", 340, 1.0, "light"),
+    conditioning("fastslam-conditioning-light", "", 800, 1.5, "light"),
+    conditioning("fastslam-conditioning-dark", "", 800, 1.5, "dark"),
+    conditioning("conditioned", "condition=on", 1280, 1.0, "light"),
+    conditioning("conditioning-24", "landmarks=24&poses=12&step=12&row=5&column=40", 1000, 1.0, "dark"),
+    conditioning("conditioning-half", "landmarks=12&step=4&row=3&column=3", 340, 2.0, "light"),
+    conditioning("conditioning-phone", "", 380, 1.0, "contrast-dark"),
+    conditioning("conditioning-tiny", "landmarks=24&odometry=3&condition=on", 240, 1.0, "contrast-light"),
 ];
 
 /// A step of the default lap at which it resampled.
