@@ -4,7 +4,7 @@ use crate::scene::Rect;
 use fastslam::experiment::conditioning::SIZE;
 
 /// From this width on \[css px\], the matrix stands beside the graph.
-pub const WIDE: f64 = 640.0;
+pub const WIDE: f64 = 720.0;
 
 /// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
 pub const NARROWEST: f64 = 300.0;
@@ -18,7 +18,7 @@ const PAD: f64 = 8.0;
 const GUTTER: [f64; 2] = [26.0, 16.0];
 /// Right of the matrix, for the frame of an entry at its edge.
 const RING: f64 = 4.0;
-const NOTES: f64 = 4.0 * LINE;
+const NOTES: f64 = 5.0 * LINE;
 
 /// The parts of the figure \[css px\].
 #[derive(Clone, PartialEq, Debug)]
@@ -49,7 +49,7 @@ impl Layout {
         let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
         let aspect = SIZE[0] / SIZE[1];
         let wide = width >= WIDE;
-        let legend_height = if wide { 2.0 } else { 3.0 } * LINE;
+        let legend_height = if width < 340.0 { 3.0 } else { 2.0 } * LINE;
         let gap = 28.0;
         // Side by side, both columns end at the same height: g / aspect + below the graph = m + around the matrix.
         let excess = GUTTER[1] - GUTTER[0] - RING + NOTES - legend_height;
@@ -60,9 +60,10 @@ impl Layout {
         let (x, y) = if wide { (graph_width + gap, 0.0) } else { (0.0, legend.bottom() + PAD) };
         let matrix_header = Rect::new(x, y, width - x, HEADER);
         let side = matrix_header.w - GUTTER[0] - RING;
-        let columns = Rect::new(x + GUTTER[0], matrix_header.bottom(), side, GUTTER[1]);
+        // A name may be wider than its block: there is room at both ends.
+        let columns = Rect::new(x + GUTTER[0] - 10.0, matrix_header.bottom(), side + 10.0 + RING, GUTTER[1]);
         let rows = Rect::new(x, columns.bottom(), GUTTER[0], side);
-        let matrix = Rect::new(columns.x, rows.y, side, side);
+        let matrix = Rect::new(rows.right(), rows.y, side, side);
         let notes = Rect::new(x, matrix.bottom() + PAD, matrix_header.w, NOTES);
         let height = legend.bottom().max(notes.bottom()).ceil();
         Self { graph_header, graph, legend, matrix_header, columns, rows, matrix, notes, height }
@@ -94,7 +95,7 @@ mod tests {
 
     #[test]
     fn side_by_side_both_columns_end_at_the_same_height() {
-        for width in [640.0, 800.0, 1280.0] {
+        for width in [720.0, 800.0, 1280.0] {
             let layout = Layout::new(width);
             assert!((layout.legend.bottom() - layout.notes.bottom()).abs() < 2.0, "{width}");
             assert!(layout.graph.w > layout.matrix.w && layout.matrix.w > 0.3 * width, "{width}");

@@ -7,7 +7,10 @@ use super::{
 use crate::{
     font::{self, Weight},
     model::Model,
-    scene::{Anchor, Cells, Handle, Mark, Point, Rect, Role, Scene, Shading, Text, closed, ellipse, heading, text},
+    scene::{
+        Anchor, Cells, Handle, Mark, Point, Rect, Role, Scene, Shading, Text, clip_polyline, closed, ellipse, heading,
+        text,
+    },
 };
 use fastslam::experiment::conditioning::SIZE;
 
@@ -114,10 +117,10 @@ impl<'a> Graph<'a> {
 
         if !model.conditioned() {
             let regions = model.knowledge().path.iter().enumerate();
-            let lines = regions.map(|(k, p)| self.region(self.pose(k + 1), [p.m11, p.m12, p.m22])).collect();
+            let lines = regions.flat_map(|(k, p)| self.region(self.pose(k + 1), [p.m11, p.m12, p.m22])).collect();
             scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some([4.0, 3.0]), role: Role::Path });
         }
-        let regions = seen.iter().enumerate().map(|(k, &j)| {
+        let regions = seen.iter().enumerate().flat_map(|(k, &j)| {
             let block = model.map().block(k, k);
             self.region(self.landmark(j), [block.m11, block.m12, block.m22])
         });
@@ -145,14 +148,14 @@ impl<'a> Graph<'a> {
         scene.marks.push(Mark::Polygons { polygons: corners(seen).collect(), role: Role::Landmark });
         let lines = corners(unseen).map(closed).collect();
         scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role: Role::Muted });
-        let rings = chosen(model).map(|j| closed(diamond(self.landmark(j), radius + 4.0)));
+        let rings = chosen(model).map(|j| closed(diamond(self.landmark(j), radius + 3.5)));
         scene.marks.push(Mark::Lines { lines: rings.collect(), width: 2.0, dash: None, role: Role::Accent });
     }
 
-    /// The outline of the 90 % region of a Gaussian, by Σ_xx, Σ_xy and Σ_yy \[m²\].
-    fn region(&self, centre: Point, covariance: [f64; 3]) -> Vec<Point> {
+    /// The outline of the 90 % region of a Gaussian, by Σ_xx, Σ_xy and Σ_yy \[m²\], cut at the edge of the graph.
+    fn region(&self, centre: Point, covariance: [f64; 3]) -> Vec<Vec<Point>> {
         let [xx, xy, yy] = covariance.map(|c| c * self.scale * self.scale);
-        closed(ellipse(centre, [[xx, -xy], [-xy, yy]], REGION))
+        clip_polyline(&closed(ellipse(centre, [[xx, -xy], [-xy, yy]], REGION)), self.area)
     }
 
     /// An arc between any two landmarks seen: as wide and as strong as |ρ|, and none where that is 0.
@@ -211,9 +214,9 @@ impl<'a> Graph<'a> {
         let size = self.font_size();
         let (w, h) = (font::measure(&name, size, weight) + 0.01, size + 1.0);
         let length = squared(towards, [0.0; 2]).sqrt().max(1e-9);
-        let away = [0.5 * w, 0.5 * h].map(|half| self.node() + 3.0 + half);
+        let away = [0.5 * w, 0.5 * h].map(|half| self.node() + 5.0 + half);
         let [x, y] = [0, 1].map(|k| at[k] + towards[k] / length * away[k]);
-        let x = (x - 0.5 * w).clamp(self.area.x, self.area.right() - w);
+        let x = (x - 0.5 * w).clamp(self.area.x + 1.0, self.area.right() - w - 1.0);
         let y = (y - 0.5 * h).clamp(self.area.y, self.area.bottom() - h);
         Text::new(Rect::new(x, y, w, h), Anchor::Middle, size, weight, role, name)
     }
@@ -226,7 +229,8 @@ fn chosen(model: &ConditioningModel) -> impl Iterator<Item = usize> {
 }
 
 fn full_width(model: &ConditioningModel, area: &Rect) -> f64 {
-    (area.w / (14.0 * model.drive().landmarks().len() as f64)).clamp(1.5, 5.0)
+    let n = model.drive().landmarks().len() as f64;
+    (area.w / (5.5 * n * n.sqrt())).clamp(0.6, 5.0)
 }
 
 /// Width \[css px\] and strength of an arc.
@@ -371,30 +375,27 @@ fn scale(scene: &mut Scene, header: &Rect) {
 
 /// Names of the landmarks along the matrix: as many as fit, and always those of the entry.
 fn names(scene: &mut Scene, model: &ConditioningModel, layout: &Layout, block: f64) {
-    let (n, size) = (model.drive().landmarks().len(), 10.0);
-    let mut label = |area: Rect, j: usize, chosen: bool, role: Role| {
-        let weight = if chosen { Weight::SemiBold } else { Weight::Regular };
-        scene.marks.push(text(area, Anchor::Middle, size, weight, role, format!("m{}", j + 1)));
-    };
-    let [row, column] = model.entry().map(|k| k / 2);
-    for (chosen, along) in [(row, true), (column, false)] {
-        let room = if along { size + 1.0 } else { font::measure("m24", size, Weight::SemiBold) + 4.0 };
+    let Layout { rows, columns, matrix, .. } = layout;
+    let ([row, column], size) = (model.entry().map(|k| k / 2), 10.0);
+    let widest = font::measure("m24", size, Weight::SemiBold) + 4.0;
+    let down = (row, true, size + 1.0, [matrix.y, rows.y, rows.bottom()]);
+    let across = (column, false, widest, [matrix.x, columns.x, columns.right()]);
+    for (chosen, is_row, room, [origin, start, end]) in [down, across] {
         let apart = (room / block).ceil() as usize;
-        for j in 0..n {
-            let shown = j == chosen || (j % apart == 0 && j.abs_diff(chosen) >= apart);
-            if !shown {
+        for j in 0..model.drive().landmarks().len() {
+            let wanted = origin + (j as f64 + 0.5) * block - 0.5 * room;
+            let at = wanted.clamp(start, end - room);
+            if j != chosen && (at != wanted || j % apart != 0 || j.abs_diff(chosen) < apart) {
                 continue;
             }
-            let middle = (j as f64 + 0.5) * block;
-            let area = if along {
-                let y = layout.rows.y + (middle - 0.5 * room).clamp(0.0, layout.rows.h - room);
-                Rect::new(layout.rows.x, y, layout.rows.w - 2.0, room)
+            let area = if is_row {
+                Rect::new(rows.x, at, rows.w - 2.0, room)
             } else {
-                let x = layout.columns.x + (middle - 0.5 * room).clamp(0.0, layout.columns.w - room);
-                Rect::new(x, layout.columns.y, room, layout.columns.h)
+                Rect::new(at, columns.y, room, columns.h)
             };
-            let role = if j == chosen { Role::Accent } else { Role::Muted };
-            label(area, j, j == chosen, role);
+            let (weight, role) =
+                if j == chosen { (Weight::SemiBold, Role::Accent) } else { (Weight::Regular, Role::Muted) };
+            scene.marks.push(text(area, Anchor::Middle, size, weight, role, format!("m{}", j + 1)));
         }
     }
 }
@@ -427,12 +428,13 @@ fn notes(scene: &mut Scene, model: &ConditioningModel, area: &Rect) {
     let off_block =
         format!("Off the blocks: {} of {} entries ≠ 0", model.map().off_block_nonzeros(), model.off_block());
     let size = 2 * model.drive().landmarks().len() + 3;
-    let touched = format!("One sighting changes: EKF {size}² = {}, FastSLAM 4", model.ekf_entries());
+    let touched = format!("EKF {size}² = {}, FastSLAM 2² = 4 a particle", model.ekf_entries());
     let lines = [
         (model.entry_text(), Weight::SemiBold, Role::Accent),
         (together, Weight::Regular, Role::Muted),
         (off_block, Weight::SemiBold, Role::Ink),
-        (touched, Weight::Regular, Role::Ink),
+        ("Entries that one sighting changes:".into(), Weight::Regular, Role::Muted),
+        (touched, Weight::SemiBold, Role::Ink),
     ];
     for (k, (line, weight, role)) in lines.into_iter().enumerate() {
         let place = Rect::new(area.x, area.y + k as f64 * LINE, area.w, LINE);
