@@ -27,10 +27,13 @@ fn value(figure: &Figure, name: &str) -> f64 {
     figure.model().readouts().into_iter().find(|r| r.name == name).unwrap().value.unwrap()
 }
 
-/// Arcs in the graph: lines as strong as a |ρ|, less the three of the legend.
+/// Arcs in the graph: strands as strong as a |ρ|.
 fn arcs(scene: &Scene) -> usize {
-    let strong = |mark: &Mark| if let Mark::Lines { lines, role: Role::Level(_), .. } = mark { lines.len() } else { 0 };
-    scene.marks.iter().map(strong).sum::<usize>() - 3
+    let strong = |mark: &Mark| match mark {
+        Mark::Strands { lines, role: Role::Level(_), .. } => lines.len(),
+        _ => 0,
+    };
+    scene.marks.iter().map(strong).sum()
 }
 
 /// Shades of the matrix, row by row: the largest raster.
@@ -262,7 +265,9 @@ fn nothing_is_drawn_outside_of_the_figure() {
             let bounds = Rect::new(0.0, 0.0, scene.width, scene.height);
             for mark in &scene.marks {
                 let points: Vec<_> = match mark {
-                    Mark::Lines { lines, .. } => lines.iter().flatten().copied().collect(),
+                    Mark::Lines { lines, .. } | Mark::Strands { lines, .. } => {
+                        lines.iter().flatten().copied().collect()
+                    }
                     Mark::Polygons { polygons, .. } => polygons.iter().flatten().copied().collect(),
                     Mark::Discs { centres, .. } => centres.clone(),
                     Mark::Raster { area, .. } | Mark::Fill { area, .. } | Mark::Frame { area, .. } => {

@@ -1,9 +1,10 @@
-//! Whole laps against their golden fingerprints, in this build (debug or release), serial and on 1, 2 and 5 threads. The same
+//! Whole laps and joint Gaussians against their golden fingerprints, in this build (debug or release), serial and on 1, 2 and 5 threads. The same
 //! file is what `tests/browser` holds WebAssembly against.
 //!
 //! A change that is meant to change numbers is written with `UPDATE_GOLDENS=1 cargo test -p portability`.
 
 use fastslam::execute::Executor;
+use fastslam::experiment::conditioning::{self, Conditioning};
 use fastslam::experiment::lap::{Lap, golden_setups};
 use std::fmt::Write;
 
@@ -14,6 +15,10 @@ fn fingerprints(executor: &Executor) -> String {
     let mut lines = String::new();
     for (name, setup) in golden_setups() {
         let digest = Lap::new(&setup).unwrap().with_executor(executor.clone()).trace();
+        writeln!(lines, "{name} {} {:016x}", digest.size(), digest.value()).unwrap();
+    }
+    for (name, setup) in conditioning::golden_setups() {
+        let digest = Conditioning::new(&setup).unwrap().trace();
         writeln!(lines, "{name} {} {:016x}", digest.size(), digest.value()).unwrap();
     }
     lines

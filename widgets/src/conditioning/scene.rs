@@ -27,6 +27,9 @@ const LEVELS: usize = 32;
 const SEGMENTS: usize = 12;
 const BOW: f64 = 0.16;
 
+/// Dash and gap of a sighting \[css px\].
+const SIGHTING: [f64; 2] = [2.0, 3.0];
+
 /// The whole figure at this size \[css px\].
 pub fn build(model: &ConditioningModel, width: f64, height: f64) -> Scene {
     let layout = Layout::new(width);
@@ -96,8 +99,8 @@ impl<'a> Graph<'a> {
         let (model, now) = (self.model, self.model.step() as usize);
         let seen = &model.knowledge().seen;
         let sightings = (1..=now).flat_map(|t| model.drive().sightings(t).into_iter().map(move |j| (t, j)));
-        let sightings = sightings.map(|(t, j)| vec![self.pose(t), self.landmark(j)]).collect();
-        scene.marks.push(Mark::Lines { lines: sightings, width: 1.0, dash: Some([2.0, 3.0]), role: Role::Muted });
+        let lines = sightings.flat_map(|(t, j)| dashes(self.pose(t), self.landmark(j))).collect();
+        scene.marks.push(Mark::Strands { lines, width: 1.0, role: Role::Muted });
         self.arcs(scene);
 
         let last = model.drive().path().len() - 1;
@@ -176,7 +179,7 @@ impl<'a> Graph<'a> {
         // The weakest first: what is strong is seen.
         for (level, lines) in levels.into_iter().enumerate().skip(1).filter(|(_, lines)| !lines.is_empty()) {
             let (width, role) = strength(level, self.full());
-            scene.marks.push(Mark::Lines { lines, width, dash: None, role });
+            scene.marks.push(Mark::Strands { lines, width, role });
         }
         if let Some((level, arc)) = accent {
             let width = strength(level, self.full()).0.max(1.0);
@@ -250,6 +253,18 @@ fn arc([x0, y0]: Point, [x1, y1]: Point) -> Vec<Point> {
     (0..=SEGMENTS).map(at).collect()
 }
 
+/// A dashed line, dash by dash.
+fn dashes([x0, y0]: Point, [x1, y1]: Point) -> Vec<Vec<Point>> {
+    let length = squared([x0, y0], [x1, y1]).sqrt();
+    let [dash, gap] = SIGHTING;
+    let at = |along: f64| {
+        let t = (along / length).min(1.0);
+        [x0 + t * (x1 - x0), y0 + t * (y1 - y0)]
+    };
+    let count = ((length / (dash + gap)).ceil() as usize).min(1000); // whatever the width of the figure
+    (0..count).map(|k| k as f64 * (dash + gap)).map(|along| vec![at(along), at(along + dash)]).collect()
+}
+
 fn diamond([x, y]: Point, r: f64) -> Vec<Point> {
     vec![[x - r, y], [x, y - r], [x + r, y], [x, y + r]]
 }
@@ -275,7 +290,7 @@ fn legend(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
         (Sample::Pose { known }, if known { "pose, known" } else { "pose, unknown" }),
         (Sample::Line(Role::Path, 2.0, None), "odometry"),
         (Sample::Landmark, "landmark"),
-        (Sample::Line(Role::Muted, 1.0, Some([2.0, 3.0])), "sighting"),
+        (Sample::Line(Role::Muted, 1.0, Some(SIGHTING)), "sighting"),
         (Sample::Region, "90 % region"),
         (Sample::Arcs, "|ρ| = ¼, ½, 1"),
     ];
@@ -339,13 +354,11 @@ fn matrix(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
     scene.marks.push(Mark::Raster { area, cells, shading: Shading::Correlation });
 
     let block = area.w / n as f64;
-    let mut lines: Vec<Vec<Point>> = Vec::new();
-    for k in 1..n {
-        let along = k as f64 * block;
-        lines.push(vec![[area.x, area.y + along], [area.right(), area.y + along]]);
-        lines.push(vec![[area.x + along, area.y], [area.x + along, area.bottom()]]);
+    for along in (1..n).map(|k| k as f64 * block) {
+        for area in [Rect::new(area.x, area.y + along, area.w, 1.0), Rect::new(area.x + along, area.y, 1.0, area.h)] {
+            scene.marks.push(Mark::Fill { area, role: Role::Frame });
+        }
     }
-    scene.marks.push(Mark::Lines { lines, width: 0.75, dash: None, role: Role::Frame });
     // A landmark without a row and a column yet: struck through.
     let (mut struck, inset) = (Vec::new(), 0.15 * block);
     for j in (0..n).filter(|&j| places[j].is_none()) {
