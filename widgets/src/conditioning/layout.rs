@@ -3,6 +3,9 @@
 use crate::scene::Rect;
 use fastslam::experiment::conditioning::SIZE;
 
+/// What is shown around the place \[m\]: what is known of a landmark at its edge reaches beyond.
+pub const MARGIN: f64 = 0.5;
+
 /// From this width on \[css px\], the matrix stands beside the graph.
 pub const WIDE: f64 = 720.0;
 
@@ -47,7 +50,8 @@ impl Layout {
     /// For a figure of this width.
     pub fn new(width: f64) -> Self {
         let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
-        let aspect = SIZE[0] / SIZE[1];
+        let [across, up] = SIZE.map(|side| side + 2.0 * MARGIN);
+        let aspect = across / up;
         let wide = width >= WIDE;
         let legend_height = if width < 340.0 { 3.0 } else { 2.0 } * LINE;
         let gap = 28.0;

@@ -263,24 +263,24 @@ impl Model for ConditioningModel {
 
     fn readouts(&self) -> Vec<Readout> {
         let Couplings { largest, mean, largest_std } = couplings(self.map());
-        let count = |name, title, n: usize, of: Option<usize>, help| {
-            let text = of.map_or(n.to_string(), |of| format!("{n} of {of}"));
-            Readout::new(name, title, n as f64, text, "", help)
+        let count = |name, title, n: usize, of: usize, help| {
+            Readout::new(name, title, n as f64, format!("{n} of {of}"), "", help)
         };
+        let entries = |name, title, n: usize, help| Readout::new(name, title, n as f64, n.to_string(), "entries", help);
         let rho = self.correlation().unwrap_or(f64::NAN);
         vec![
             count(
                 "step",
                 "Poses driven",
                 self.step,
-                Some(self.setup().poses),
+                self.setup().poses,
                 "How many poses the graph has, besides the known start.",
             ),
             count(
                 "seen",
                 "Landmarks seen",
                 self.knowledge.seen.len(),
-                Some(self.setup().landmarks),
+                self.setup().landmarks,
                 "How many landmarks were in range of a pose driven; the others are in no covariance yet.",
             ),
             Readout::new(
@@ -311,7 +311,7 @@ impl Model for ConditioningModel {
                 "off_block",
                 "Off-block entries ≠ 0",
                 self.map().off_block_nonzeros(),
-                Some(self.off_block()),
+                self.off_block(),
                 "Entries of the covariance that couple two landmarks and are not exactly 0, counted.",
             ),
             Readout::new(
@@ -322,18 +322,16 @@ impl Model for ConditioningModel {
                 "m",
                 "Standard deviation of the least known landmark along its least known direction.",
             ),
-            count(
+            entries(
                 "ekf",
                 "One sighting, EKF",
                 self.ekf_entries(),
-                None,
                 "Entries of its covariance that an EKF over pose and map changes at one sighting: (2 N + 3)².",
             ),
-            count(
+            entries(
                 "fastslam",
                 "One sighting, FastSLAM",
                 4,
-                None,
                 "Entries that each particle changes at one sighting: the 2 × 2 covariance of the landmark seen.",
             ),
         ]
@@ -403,10 +401,11 @@ impl ConditioningModel {
     /// What the landmarks of the entry have to do with each other, after its number.
     fn why(&self) -> &'static str {
         let [a, b] = self.entry.map(|k| k / 2);
-        match (a == b, self.correlation().is_none(), self.seen_together(a, b)) {
-            (true, ..) | (_, true, _) => "",
-            (.., 0) => ", though no pose saw both",
-            _ => ", seen from one pose",
+        let coupled = a != b && self.correlation().is_some() && !self.conditioned;
+        match self.seen_together(a, b) {
+            0 if coupled => ", though no pose saw both",
+            _ if coupled => ", both seen from one pose",
+            _ => "",
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What is to be seen of the graphical model: its graph, and beside it the covariance of the map.
 
 use super::{
-    layout::{LINE, Layout, NARROWEST},
+    layout::{LINE, Layout, MARGIN, NARROWEST},
     model::ConditioningModel,
 };
 use crate::{
@@ -64,12 +64,12 @@ struct Graph<'a> {
 
 impl<'a> Graph<'a> {
     fn new(model: &'a ConditioningModel, area: &'a Rect) -> Self {
-        Self { model, area, scale: area.w / SIZE[0] }
+        Self { model, area, scale: area.w / (SIZE[0] + 2.0 * MARGIN) }
     }
 
     /// A point of the world \[m\].
     fn point(&self, [x, y]: [f64; 2]) -> Point {
-        [self.area.x + x * self.scale, self.area.bottom() - y * self.scale]
+        [self.area.x + (x + MARGIN) * self.scale, self.area.bottom() - (y + MARGIN) * self.scale]
     }
 
     fn pose(&self, t: usize) -> Point {
@@ -83,11 +83,11 @@ impl<'a> Graph<'a> {
 
     /// Radius of a pose's node \[css px\].
     fn node(&self) -> f64 {
-        (0.085 * self.scale).clamp(4.0, 7.0)
+        (0.095 * self.scale).clamp(4.0, 7.0)
     }
 
     fn font_size(&self) -> f64 {
-        (0.17 * self.scale).clamp(8.5, 12.0)
+        (0.18 * self.scale).clamp(8.5, 12.0)
     }
 
     /// Width of an arc of |ρ| = 1 \[css px\]: less for many, so that they can be told apart.
