@@ -143,11 +143,11 @@ impl Conditioning {
         let (motion, sensor) = (OdometryModel { alphas: ALPHAS }.scaled(self.setup.odometry_scale), self.sensor());
         let floor = Matrix3::from_diagonal(&Vector3::from(FLOOR_STDS.map(|std| std * std)));
         let mut joint = Joint::new(poses, seen.len());
-        for t in 1..=poses {
+        for (t, visible) in sightings.iter().enumerate().skip(1) {
             let (from, to) = (&self.path[t - 1], &self.path[t]);
             let u = Odometry::between(from, to);
             joint.moved(t, &motion.jacobian(from, &u), &(motion.covariance(from, &u) + floor));
-            for (row, &j) in seen.iter().enumerate().filter(|(_, j)| sightings[t].contains(j)) {
+            for (row, &j) in seen.iter().enumerate().filter(|(_, j)| visible.contains(j)) {
                 joint.sighted(t, row, &sensor.predict(to, &Vector2::from(self.landmarks[j])), &sensor.noise());
             }
         }

@@ -318,25 +318,3 @@ fn data_has_a_row_for_every_pose_driven() {
     assert!(rows.iter().all(|row| row[6] == Some(0.0)), "given the path nothing is coupled");
     assert_eq!(serde_json::to_value(export).unwrap()["query"], "condition=on&step=6");
 }
-
-/// With `cargo test --release -p fastslam-widgets --test conditioning -- --ignored --nocapture`: what a change of a slider
-/// and a frame cost.
-#[test]
-#[ignore = "a measurement"]
-#[expect(clippy::disallowed_methods, clippy::disallowed_types, reason = "a measurement needs a clock")]
-fn time_of_a_change_and_of_a_frame() {
-    for query in ["", "landmarks=24&poses=12&step=12"] {
-        let mut figure = conditioning(query);
-        let clock = std::time::Instant::now();
-        for k in 0..100 {
-            figure.set("odometry", &format!("{}", 1.0 + 0.01 * f64::from(k))).unwrap();
-        }
-        let change = clock.elapsed().as_secs_f64() * 10.0;
-        let height = figure.model().height(1280.0).min(800.0) as u32;
-        let clock = std::time::Instant::now();
-        for _ in 0..100 {
-            figure.paint(1280, height, 1.0, Default::default());
-        }
-        println!("{query:?}: change {change:.2} ms, frame {:.2} ms", clock.elapsed().as_secs_f64() * 10.0);
-    }
-}
