@@ -5,12 +5,13 @@
 use fastslam::{
     digest::Digest,
     experiment::{
+        conditioning::{self, Conditioning},
         landmarks::{LandmarkRun, golden_runs},
         lap::{Lap, golden_setups},
     },
 };
 use fastslam_widgets::shell::Figure;
-use figures::{LAPS, PICTURES, line, put_readout};
+use figures::{PICTURES, SETUPS, line, put_readout};
 use js_sys::{Reflect, Uint8Array, WebAssembly};
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
@@ -62,7 +63,7 @@ fn pixels(figure: &Figure, [width, height]: [u32; 2]) -> Vec<u8> {
 
 #[wasm_bindgen_test]
 fn whole_runs_leave_the_traces_of_the_native_build() {
-    let traces = golden_setups().into_iter().map(|(name, setup)| {
+    let laps = golden_setups().into_iter().map(|(name, setup)| {
         let lap = Lap::new(&setup).expect("a golden setup is valid");
         line(name, &lap.trace())
     });
@@ -70,13 +71,17 @@ fn whole_runs_leave_the_traces_of_the_native_build() {
         let run = LandmarkRun::new(&setup, &course.tuning(), course.simulate(setup.seed).into());
         line(name, &run.expect("a golden setup is valid").trace())
     });
-    same_lines(&traces.chain(runs).collect::<Vec<_>>(), TRACES);
+    let covariances = conditioning::golden_setups().into_iter().map(|(name, setup)| {
+        let drive = Conditioning::new(&setup).expect("a golden setup is valid");
+        line(name, &drive.trace())
+    });
+    same_lines(&laps.chain(runs).chain(covariances).collect::<Vec<_>>(), TRACES);
 }
 
 #[wasm_bindgen_test]
 fn every_readout_of_every_step_has_the_bits_of_the_native_build() {
-    let readouts = LAPS.iter().map(|query| {
-        let mut figure = figure("fastslam-lap", query);
+    let readouts = SETUPS.iter().map(|(tag, query)| {
+        let mut figure = figure(tag, query);
         let mut digest = Digest::new();
         for step in 0..=figure.step_count() {
             figure.seek(step);
@@ -91,7 +96,7 @@ fn every_readout_of_every_step_has_the_bits_of_the_native_build() {
             }
             digest.bytes(figure.describe().as_bytes());
         }
-        line(&format!("fastslam-lap?{query}"), &digest)
+        line(&format!("{tag}?{query}"), &digest)
     });
     same_lines(&readouts.collect::<Vec<_>>(), READOUTS);
 }

@@ -25,6 +25,10 @@ const fn lap(name: &'static str, query: &'static str, width: u32, dpr: f64, them
     Picture { name, tag: "fastslam-lap", query, width, dpr, theme }
 }
 
+const fn conditioning(name: &'static str, query: &'static str, width: u32, dpr: f64, theme: &'static str) -> Picture {
+    Picture { name, tag: "fastslam-conditioning", query, width, dpr, theme }
+}
+
 /// The first two are what readers without JavaScript see: the default lap on its way back, just resampled. At 1.5 px per css px
 /// they are sharp enough for most screens, and 80 KB each.
 pub const PICTURES: &[Picture] = &[
@@ -39,18 +43,29 @@ pub const PICTURES: &[Picture] = &[
     lap("motion-64", "universes=64&proposal=motion&matcher=cell&step=41", 800, 1.0, "light"),
     lap("motion-256", "universes=256&proposal=motion&matcher=cell&step=12", 800, 1.0, "dark"),
     lap("motion-256-narrow", "universes=256&proposal=motion&matcher=cell&step=12", 340, 1.0, "light"),
+    conditioning("fastslam-conditioning-light", "", 800, 1.5, "light"),
+    conditioning("fastslam-conditioning-dark", "", 800, 1.5, "dark"),
+    conditioning("conditioned", "condition=on", 1280, 1.0, "light"),
+    conditioning("conditioning-24", "landmarks=24&poses=12&step=12&row=5&column=40", 800, 1.0, "dark"),
+    conditioning("conditioning-half", "landmarks=12&step=4&row=3&column=3", 340, 2.0, "light"),
+    conditioning("conditioning-phone", "", 380, 1.0, "contrast-dark"),
+    conditioning("conditioning-tiny", "landmarks=24&odometry=3&condition=on", 240, 1.0, "contrast-light"),
 ];
 
 /// A step of the default lap at which it resampled.
 const RESAMPLED: &str = "step=62";
 
-/// Setups whose readouts are kept for every step.
-pub const LAPS: &[&str] = &[
-    "",
-    "universes=1",
-    "universes=7&seed=5&proposal=motion&matcher=cell",
-    "universes=24&policy=always&scheme=residual&odometry=1.5",
-    "policy=never&range-std=0.1&scheme=multinomial",
+/// Figures and setups whose readouts are kept for every step.
+pub const SETUPS: &[(&str, &str)] = &[
+    ("fastslam-lap", ""),
+    ("fastslam-lap", "universes=1"),
+    ("fastslam-lap", "universes=7&seed=5&proposal=motion&matcher=cell"),
+    ("fastslam-lap", "universes=24&policy=always&scheme=residual&odometry=1.5"),
+    ("fastslam-lap", "policy=never&range-std=0.1&scheme=multinomial"),
+    ("fastslam-conditioning", ""),
+    ("fastslam-conditioning", "condition=on&row=3&column=4"),
+    ("fastslam-conditioning", "odometry=3&range-std=0.01&landmarks=24&poses=12&row=48&column=7"),
+    ("fastslam-conditioning", "odometry=0&range-std=0.5&landmarks=3&poses=2"),
 ];
 
 /// The figure of a tag in the state that a link names, simulated.
@@ -88,7 +103,7 @@ pub fn put_readout(digest: &mut Digest, name: &str, value: Option<f64>, text: &s
     digest.bytes(text.as_bytes());
 }
 
-/// Every readout of every step of a lap, and what is said of it, as a fingerprint.
+/// Every readout of every step of a figure, and what is said of it, as a fingerprint.
 pub fn readouts(tag: &str, query: &str) -> Digest {
     let mut figure = figure(tag, query);
     let mut digest = Digest::new();

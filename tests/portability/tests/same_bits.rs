@@ -4,6 +4,7 @@
 //! A change that is meant to change numbers is written with `UPDATE_GOLDENS=1 cargo test -p portability`.
 
 use fastslam::execute::Executor;
+use fastslam::experiment::conditioning::{self, Conditioning};
 use fastslam::experiment::landmarks::{LandmarkRun, golden_runs};
 use fastslam::experiment::lap::{Lap, golden_setups};
 use std::fmt::Write;
@@ -21,6 +22,10 @@ fn fingerprints(executor: &Executor) -> String {
     for (name, course, setup) in golden_runs() {
         let run = LandmarkRun::new(&setup, &course.tuning(), Arc::new(course.simulate(setup.seed))).unwrap();
         let digest = run.with_executor(executor.clone()).trace();
+        writeln!(lines, "{name} {} {:016x}", digest.size(), digest.value()).unwrap();
+    }
+    for (name, setup) in conditioning::golden_setups() {
+        let digest = Conditioning::new(&setup).unwrap().trace();
         writeln!(lines, "{name} {} {:016x}", digest.size(), digest.value()).unwrap();
     }
     lines
