@@ -12,6 +12,7 @@ pub mod paint;
 mod param;
 mod query;
 pub mod registry;
+pub mod resampling;
 pub mod scene;
 #[cfg(target_arch = "wasm32")]
 pub mod shell;

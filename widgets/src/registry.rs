@@ -1,6 +1,6 @@
 //! All figures by tag. Tests and tools iterate over this list.
 
-use crate::{conditioning::ConditioningModel, lap::LapModel, model::Model};
+use crate::{conditioning::ConditioningModel, lap::LapModel, model::Model, resampling::ResamplingModel};
 
 /// A kind of figure.
 pub struct Entry {
@@ -20,6 +20,7 @@ pub const FIGURES: &[Entry] = &[
         title: ConditioningModel::TITLE,
         make: || Box::new(ConditioningModel::default()),
     },
+    Entry { tag: "fastslam-resampling", title: ResamplingModel::TITLE, make: || Box::new(ResamplingModel::default()) },
 ];
 
 /// The figure of a tag.

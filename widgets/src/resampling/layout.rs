@@ -1,0 +1,131 @@
+//! Where the parts of the figure stand: a column for each filter where there is room, the filters below each other on a phone.
+
+use crate::scene::Rect;
+
+/// From this width on \[css px\], the filters stand side by side.
+pub const WIDE: f64 = 720.0;
+
+/// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
+pub const NARROWEST: f64 = 300.0;
+
+/// Height of a line of text \[css px\].
+pub const LINE: f64 = 18.0;
+
+const HEADER: f64 = 26.0;
+const PAD: f64 = 8.0;
+const CHART: f64 = 46.0;
+const AXIS: f64 = 15.0;
+/// Left and right of a chart, for half of a marker at its end.
+const EDGE: f64 = 4.0;
+
+/// What is shown of one filter \[css px\].
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Column {
+    /// Its policy.
+    pub header: Rect,
+    /// A line with names and values, above N_eff, lineage, errors and tree each.
+    pub labels: [Rect; 4],
+    /// N_eff, lineage, errors and tree over the steps: one width, so that one cursor goes through all.
+    pub charts: [Rect; 4],
+    /// Below the tree, for steps.
+    pub axis: Rect,
+    /// What is said of the map.
+    pub map_label: Rect,
+    /// Where the particles are.
+    pub map: Rect,
+}
+
+/// The parts of the figure \[css px\].
+#[derive(Clone, PartialEq, Debug)]
+pub struct Layout {
+    /// Whether the filters stand side by side.
+    pub wide: bool,
+    /// One for each filter.
+    pub columns: [Column; 3],
+    /// What marks mean.
+    pub legend: Rect,
+    /// Of the whole figure.
+    pub height: f64,
+}
+
+impl Layout {
+    /// For a figure of this width.
+    pub fn new(width: f64) -> Self {
+        let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
+        let wide = width >= WIDE;
+        let gap = if wide { 26.0 } else { 10.0 };
+        let third = (width - 2.0 * gap) / 3.0;
+        let place = |k: usize| k as f64 * (third + gap);
+        let (map_lines, map_height) = if wide { (1.0, 0.42 * third) } else { (2.0, 0.8 * third) };
+        let tree = if wide { 0.42 * third.clamp(220.0, 400.0) } else { 120.0 };
+
+        let mut top = 0.0;
+        let mut columns = [0, 1, 2].map(|k| {
+            let (x, w) = if wide { (place(k), third) } else { (0.0, width) };
+            let mut y = if wide { 0.0 } else { top };
+            let mut take = |h: f64, pad: f64| {
+                let area = Rect::new(x, y, w, h);
+                y += h + pad;
+                area
+            };
+            let header = take(HEADER, 0.0);
+            let parts = [CHART, CHART, CHART, tree].map(|h| {
+                let label = take(LINE, 2.0);
+                let Rect { x, y, w, h } = take(h, if h == tree { 1.0 } else { 5.0 });
+                (label, Rect::new(x + EDGE, y, w - 2.0 * EDGE, h))
+            });
+            let axis = take(AXIS, PAD);
+            top = y + if wide { 0.0 } else { PAD };
+            let nothing = Rect::new(0.0, 0.0, 0.0, 0.0);
+            Column { header, labels: parts.map(|p| p.0), charts: parts.map(|p| p.1), axis, map_label: nothing, map: nothing }
+        });
+        for (k, column) in columns.iter_mut().enumerate() {
+            column.map_label = Rect::new(place(k), top, third, map_lines * LINE);
+            column.map = Rect::new(place(k), column.map_label.bottom(), third, map_height);
+        }
+        let lines = if wide { 2.0 } else if width >= 460.0 { 3.0 } else if width >= 340.0 { 4.0 } else { 5.0 };
+        let legend = Rect::new(0.0, columns[0].map.bottom() + PAD, width, lines * LINE);
+        Self { wide, columns, legend, height: legend.bottom().ceil() }
+    }
+
+    /// Where the cursor follows a pointer: over all charts.
+    pub fn charts(&self) -> Rect {
+        let [first, .., last] = &self.columns;
+        let (start, end) = (&first.charts[0], &last.charts[3]);
+        Rect::new(start.x, start.y, end.right() - start.x, end.bottom() - start.y)
+    }
+
+    /// All parts.
+    pub fn parts(&self) -> Vec<Rect> {
+        let of = |c: &Column| [&c.labels[..], &c.charts[..], &[c.header, c.axis, c.map_label, c.map]].concat();
+        self.columns.iter().flat_map(of).chain([self.legend]).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_lie_inside_the_figure_and_never_overlap() {
+        for width in (300..2000).step_by(7).map(f64::from) {
+            let layout = Layout::new(width);
+            let parts = layout.parts();
+            let figure = Rect::new(0.0, 0.0, width, layout.height);
+            for (k, a) in parts.iter().enumerate() {
+                assert!(figure.encloses(a) && a.w > 0.0 && a.h > 0.0, "{width}: part {k}");
+                assert!(parts[..k].iter().all(|b| !a.overlaps(b)), "{width}: part {k}");
+            }
+        }
+    }
+
+    #[test]
+    fn one_cursor_goes_through_all_charts_of_a_filter() {
+        for width in [300.0, 719.0, 720.0, 1280.0] {
+            let Layout { columns, .. } = Layout::new(width);
+            for Column { charts, .. } in columns {
+                assert!(charts.iter().all(|c| (c.x, c.w) == (charts[0].x, charts[0].w)), "{width}");
+            }
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! Figure w17.2, when to resample: three filters on one log and one noise, and what becomes of their ancestry.
+
+mod layout;
+mod model;
+mod params;
+mod scene;
+
+pub use layout::{Column, Layout};
+pub use model::{Moment, ResamplingModel};

@@ -1,0 +1,414 @@
+//! Three filters as a deterministic state: what was set, how far they ran, and which step of that is shown.
+
+use super::{
+    layout::{Layout, NARROWEST},
+    params, scene,
+};
+use crate::{
+    model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series},
+    param::{Value, flag_text, unknown},
+    scene::{Point, Scene},
+};
+use fastslam::{
+    decimal::{fixed, write},
+    experiment::policies::{POLICIES, Policies, PoliciesSetup, PolicyCourse, PolicyReport},
+    lineage::NodeId,
+};
+
+/// Figure w17.2.
+pub struct ResamplingModel {
+    /// Steps back of the second lineage gauge.
+    back: u32,
+    /// The step whose values are written; `None` is the one shown.
+    cursor: Option<u32>,
+    /// The step asked for.
+    asked: u32,
+    /// All three, as far as they ran. Their paths grow and never change, so that any step before can be shown from them.
+    run: Policies,
+    /// Of every step simulated so far, from 0 on, one for each policy.
+    moments: Vec<[Moment; 3]>,
+}
+
+/// One filter at one step.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Moment {
+    /// What the step did.
+    pub report: PolicyReport,
+    /// Newest node of each particle, by slot.
+    pub nodes: Vec<NodeId>,
+    /// Slot of the best particle.
+    pub best: usize,
+    /// Steps that resampled, up to this one.
+    pub resampled: u32,
+}
+
+impl Default for ResamplingModel {
+    fn default() -> Self {
+        let run = Policies::new(&PoliciesSetup::default()).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
+        let moments = vec![moments(&run, None)];
+        Self { back: params::BACK, cursor: None, asked: 0, run, moments }
+    }
+}
+
+/// The newest step of all three.
+fn moments(run: &Policies, before: Option<&[Moment; 3]>) -> [Moment; 3] {
+    [0, 1, 2].map(|policy| {
+        let report = run.reports()[policy].clone();
+        let resampled = before.map_or(0, |b| b[policy].resampled) + u32::from(report.resampled);
+        Moment { report, nodes: run.nodes(policy), best: run.best(policy), resampled }
+    })
+}
+
+impl ResamplingModel {
+    /// Title for readers.
+    pub const TITLE: &'static str = "When to resample";
+
+    /// What was set.
+    pub fn setup(&self) -> &PoliciesSetup {
+        self.run.setup()
+    }
+
+    /// The filters, as far as they ran: at the step shown, or beyond.
+    pub fn run(&self) -> &Policies {
+        &self.run
+    }
+
+    /// One filter at steps 0 to the one shown.
+    pub fn history(&self, policy: usize) -> impl DoubleEndedIterator<Item = &Moment> + ExactSizeIterator {
+        self.moments[..=self.step() as usize].iter().map(move |all| &all[policy])
+    }
+
+    /// One filter at the step shown.
+    pub fn now(&self, policy: usize) -> &Moment {
+        &self.moments[self.step() as usize][policy]
+    }
+
+    /// One filter at the step that is read.
+    pub fn read(&self, policy: usize) -> &Moment {
+        &self.moments[self.cursor() as usize][policy]
+    }
+
+    /// The step that is read.
+    pub fn cursor(&self) -> u32 {
+        self.cursor.unwrap_or(u32::MAX).min(self.step())
+    }
+
+    /// Whether the step that is read is not the newest.
+    pub fn looks_back(&self) -> bool {
+        self.cursor() < self.step()
+    }
+
+    /// Steps back of the second lineage gauge.
+    pub fn back(&self) -> u32 {
+        self.back
+    }
+
+    /// Largest position error of any filter up to the step shown \[m\].
+    pub fn largest_error(&self) -> f64 {
+        let errors = (0..3).flat_map(|policy| self.history(policy)).flat_map(|m| [m.report.error_best, m.report.error_mean]);
+        errors.fold(0.0, f64::max)
+    }
+
+    /// Starts anew with another setup, keeping the view.
+    fn rebuild(&mut self, setup: &PoliciesSetup) -> Result<(), FigureError> {
+        self.run = Policies::new(setup)?;
+        self.moments = vec![moments(&self.run, None)];
+        self.asked = self.asked.min(self.step_count());
+        self.cursor = self.cursor.filter(|step| *step <= self.step_count());
+        Ok(())
+    }
+
+    /// Reads a step, as near to it as there is one. The newest is followed.
+    fn look(&mut self, step: f64) {
+        let step = step.clamp(0.0, f64::from(self.step())) as u32;
+        self.cursor = (step < self.step()).then_some(step);
+    }
+}
+
+/// A setup with one value changed.
+fn set(setup: &mut PoliciesSetup, name: &str, value: Value) -> Result<(), FigureError> {
+    match (name, value) {
+        ("wings", Value::Flag(on)) => setup.course = if on { PolicyCourse::Wings } else { PolicyCourse::Lap },
+        ("particles", Value::Number(x)) => setup.particles = x as usize,
+        ("seed", Value::Number(x)) => setup.seed = x as u64,
+        ("threshold", Value::Number(x)) => setup.threshold = x,
+        ("odometry", Value::Number(x)) => setup.odometry_scale = x,
+        ("range", Value::Number(x)) => setup.sensor_scale = x,
+        ("scheme", Value::Word(word)) => setup.scheme = word.parse()?,
+        _ => (),
+    }
+    Ok(())
+}
+
+impl Model for ResamplingModel {
+    fn title(&self) -> &'static str {
+        Self::TITLE
+    }
+
+    fn params(&self) -> Vec<ParamSpec> {
+        params::specs(self.step_count())
+    }
+
+    fn value(&self, name: &str) -> Option<String> {
+        let setup = self.setup();
+        Some(match name {
+            "wings" => flag_text(setup.course == PolicyCourse::Wings),
+            "particles" => setup.particles.to_string(),
+            "seed" => setup.seed.to_string(),
+            "threshold" => write(setup.threshold),
+            "odometry" => write(setup.odometry_scale),
+            "range" => write(setup.sensor_scale),
+            "scheme" => setup.scheme.to_string(),
+            "back" => self.back.to_string(),
+            "step" => self.asked.to_string(),
+            "cursor" => self.cursor.map_or("now".into(), |step| step.to_string()),
+            _ => return None,
+        })
+    }
+
+    fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
+        let mut refused = Vec::new();
+        let mut setup = self.setup().clone();
+        let specs = self.params();
+        for (name, text) in values {
+            match specs.iter().find(|s| s.name == name) {
+                Some(spec) if spec.group == Group::Setup => {
+                    refused.extend(spec.check(text).and_then(|value| set(&mut setup, name, value)).err());
+                }
+                Some(_) => (),
+                None => refused.push(unknown(name, &specs)),
+            }
+        }
+        if setup != *self.setup() {
+            refused.extend(self.rebuild(&setup).err());
+        }
+        // After the setup, because the course decides how many steps there are.
+        let specs = self.params();
+        for (name, text) in values {
+            if let Some(spec) = specs.iter().find(|s| s.name == name && s.group == Group::View) {
+                match (spec.name, spec.check(text)) {
+                    ("back", Ok(Value::Number(x))) => self.back = x as u32,
+                    ("step", Ok(Value::Number(x))) => self.asked = x as u32,
+                    ("cursor", Ok(Value::Number(x))) => self.cursor = (x >= 0.0).then_some(x as u32),
+                    ("cursor", Ok(_)) => self.cursor = None,
+                    (_, result) => refused.extend(result.err()),
+                }
+            }
+        }
+        refused
+    }
+
+    /// Time moves: the cursor goes along.
+    fn seek(&mut self, step: u32) {
+        self.asked = step.min(self.step_count());
+        self.cursor = None;
+    }
+
+    fn drag(&mut self, handle: &str, to: Point, width: f64) {
+        if handle == scene::CURSOR {
+            let layout = Layout::new(width);
+            let column = layout.columns.iter().rev().find(|c| c.header.x <= to[0]).unwrap_or(&layout.columns[0]);
+            let chart = &column.charts[0];
+            self.look(((to[0] - chart.x) / chart.w * f64::from(self.step_count())).round());
+        }
+    }
+
+    fn nudge(&mut self, handle: &str, [right, _]: [f64; 2]) {
+        if handle == scene::CURSOR {
+            // There is nothing between two steps: a fine step is a whole one too.
+            let whole = if right == 0.0 { 0.0 } else { right.signum() * right.abs().max(1.0) };
+            self.look(f64::from(self.cursor()) + whole);
+        }
+    }
+
+    fn step_count(&self) -> u32 {
+        self.run.step_count()
+    }
+
+    fn step(&self) -> u32 {
+        self.asked.min(self.run.step_number())
+    }
+
+    fn pending(&self) -> u32 {
+        self.asked - self.step()
+    }
+
+    fn work(&mut self) {
+        if self.pending() > 0 && self.run.step().is_some() {
+            let newest = moments(&self.run, self.moments.last());
+            self.moments.push(newest);
+        }
+    }
+
+    fn readouts(&self) -> Vec<Readout> {
+        let (step, m) = (self.cursor(), self.setup().particles);
+        let mut readouts = vec![Readout::new(
+            "step",
+            "Step read",
+            f64::from(step),
+            format!("{step} of {}", self.step_count()),
+            "",
+            "The step whose values are shown, and the last one of the course.",
+        )];
+        for (policy, names) in NAMES.iter().enumerate() {
+            let Moment { report, resampled, .. } = self.read(policy);
+            let of_all = |x: f64, text: String| (x, format!("{text} of {m}"));
+            let (ess, ess_text) = of_all(report.ess, fixed(report.ess, 1));
+            let lineage = report.descent.lineage(step);
+            let (lineage, lineage_text) = of_all(lineage.into(), lineage.to_string());
+            let (nodes, paths) = (report.tree_nodes(), report.path_nodes(m));
+            let [ess_name, lineage_name, error_name, tree_name, right_name, resampled_name] = names.readouts;
+            readouts.extend([
+                Readout::new(
+                    ess_name.0,
+                    ess_name.1,
+                    ess,
+                    ess_text,
+                    "",
+                    "Effective number of particles before resampling: M if all weigh the same, 1 if one has all the weight.",
+                ),
+                Readout::new(
+                    lineage_name.0,
+                    lineage_name.1,
+                    lineage,
+                    lineage_text,
+                    "",
+                    "How many of the particles of step 0 still have a descendant.",
+                ),
+                Readout::new(
+                    error_name.0,
+                    error_name.1,
+                    report.error_best,
+                    fixed(report.error_best, 2),
+                    "m",
+                    "Distance of the best particle from the truth.",
+                ),
+                Readout::new(
+                    tree_name.0,
+                    tree_name.1,
+                    f64::from(nodes),
+                    format!("{nodes} of {paths}"),
+                    "nodes",
+                    "Poses that the particles still need, each counted once, of those that as many separate paths would hold.",
+                ),
+            ]);
+            if policy == SELECTIVE {
+                let (x, text) = (f64::from(*resampled), format!("{resampled} of {step}"));
+                let help = "Steps at which N_eff was below the threshold, so that the filter resampled.";
+                readouts.push(Readout::new(resampled_name.0, resampled_name.1, x, text, "steps", help));
+            }
+            if self.setup().course == PolicyCourse::Wings {
+                let right = report.right.map_or(f64::NAN, f64::from);
+                let text = format!("{} of {m}", report.right.unwrap_or(0));
+                let help = "Particles that hold the explanation that is true: they are near the robot and look its way.";
+                readouts.push(Readout::new(right_name.0, right_name.1, right, text, "", help));
+            }
+        }
+        readouts
+    }
+
+    fn series(&self) -> Series {
+        let row = |(step, all): (usize, &[Moment; 3])| {
+            let of = |Moment { report, .. }: &Moment| {
+                [
+                    report.ess,
+                    f64::from(u8::from(report.resampled)),
+                    f64::from(report.descent.lineage(report.step)),
+                    f64::from(report.descent.lineage(self.back)),
+                    report.error_best,
+                    report.error_mean,
+                    report.rms_best,
+                    f64::from(report.tree_nodes()),
+                    report.right.map_or(f64::NAN, f64::from),
+                ]
+            };
+            core::iter::once(step as f64).chain(all.iter().flat_map(of)).collect()
+        };
+        Series { columns: COLUMNS, rows: self.moments.iter().enumerate().map(row).collect() }
+    }
+
+    fn describe(&self) -> String {
+        let (step, m) = (self.cursor(), self.setup().particles);
+        let mut text = format!("Step {step} of {}, {m} particles in each filter. ", self.step_count());
+        if step == 0 {
+            text.push_str("All start at the same known place, and nothing has been weighed or resampled yet.");
+            return text;
+        }
+        let [never, always, selective] = [0, 1, 2].map(|policy| self.read(policy));
+        let lines = |m: &Moment| match m.report.descent.lineage(step) {
+            1 => "all descend from one particle of the start".to_string(),
+            n => format!("they descend from {n} particles of the start"),
+        };
+        text.push_str(&format!(
+            "Never resampled, N_eff is {}. Resampled at every step, it is {}, but {}. Selective resampled {} times: N_eff {}, and {}.",
+            fixed(never.report.ess, 1),
+            fixed(always.report.ess, 1),
+            lines(always),
+            selective.resampled,
+            fixed(selective.report.ess, 1),
+            lines(selective),
+        ));
+        if let [Some(a), Some(b), Some(c)] = [never, always, selective].map(|m| m.report.right) {
+            text.push_str(&format!(" In the right wing are {a}, {b} and {c} of {m}."));
+        }
+        text
+    }
+
+    fn height(&self, width: f64) -> f64 {
+        // Narrower than the layout goes, the figure is made smaller as a whole.
+        Layout::new(width).height * (width / width.max(NARROWEST))
+    }
+
+    fn scene(&self, width: f64, height: f64) -> Scene {
+        scene::build(self, width, height)
+    }
+}
+
+/// Index of the selective filter among [`POLICIES`].
+pub const SELECTIVE: usize = 2;
+
+/// What one filter's numbers are called.
+struct Names {
+    /// Identifier and title of N_eff, lineage, error, tree, right wing and steps resampled.
+    readouts: [(&'static str, &'static str); 6],
+}
+
+macro_rules! names {
+    ($name:literal, $title:literal) => {
+        Names {
+            readouts: [
+                (concat!($name, "_ess"), concat!($title, ": N_eff")),
+                (concat!($name, "_lineage"), concat!($title, ": lineage")),
+                (concat!($name, "_error_best"), concat!($title, ": error of the best")),
+                (concat!($name, "_tree"), concat!($title, ": tree")),
+                (concat!($name, "_right"), concat!($title, ": right wing")),
+                (concat!($name, "_resampled"), concat!($title, ": resampled")),
+            ],
+        }
+    };
+}
+
+/// In the order of [`POLICIES`].
+const NAMES: [Names; POLICIES.len()] =
+    [names!("never", "Never"), names!("always", "Every step"), names!("selective", "Selective")];
+
+macro_rules! columns {
+    ($($name:literal)*) => {
+        &[
+            Column::new("step", "step of the course"),
+            $(
+                Column::new(concat!($name, "_ess"), "effective number of particles before resampling"),
+                Column::new(concat!($name, "_resampled"), "1 where the step resampled"),
+                Column::new(concat!($name, "_lineage"), "distinct ancestors at step 0"),
+                Column::new(concat!($name, "_lineage_back"), "distinct ancestors as many steps back as the second gauge looks"),
+                Column::new(concat!($name, "_error_best_m"), "distance of the best particle from the truth [m]"),
+                Column::new(concat!($name, "_error_mean_m"), "distance of the weighted mean from the truth [m]"),
+                Column::new(concat!($name, "_rms_best_m"), "RMS position error of the best particle's path so far [m]"),
+                Column::new(concat!($name, "_tree_nodes"), "poses that the particles still need, each counted once"),
+                Column::new(concat!($name, "_right"), "particles that hold the true explanation, from where there are two"),
+            )*
+        ]
+    };
+}
+
+const COLUMNS: &[Column] = columns!("never" "always" "selective");

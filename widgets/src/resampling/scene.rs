@@ -1,0 +1,488 @@
+//! What is to be seen of the three filters: curves over the steps, the tree of their ancestry, and where their particles are.
+
+use super::{
+    layout::{Column, LINE, Layout, NARROWEST},
+    model::{Moment, ResamplingModel, SELECTIVE},
+};
+use crate::{
+    font::{self, Weight},
+    model::Model,
+    scene::{Anchor, Handle, Mark, Point, Rect, Role, Scene, Text, clip_polyline, heading, text},
+};
+use fastslam::{
+    decimal::{fixed, write},
+    geometry::Pose2,
+    ops,
+};
+
+/// Name of the handle that chooses the step read.
+pub const CURSOR: &str = "cursor";
+
+/// Font size of what is written above the charts \[css px\].
+const SIZE: f64 = 11.5;
+
+/// Dash and gap of the second curve of a chart, of the threshold, and of what happens on the course \[css px\].
+const SECOND: [f64; 2] = [4.0, 3.0];
+const THRESHOLD: [f64; 2] = [2.0, 2.0];
+const EVENT: [f64; 2] = [1.0, 3.0];
+
+/// Strength of a branch that died out, of 255.
+const DEAD: u8 = 25;
+
+/// The whole figure at this size \[css px\].
+pub fn build(model: &ResamplingModel, width: f64, height: f64) -> Scene {
+    let layout = Layout::new(width);
+    let mut scene = Scene {
+        width: width.max(NARROWEST),
+        height: height.max(layout.height),
+        marks: Vec::new(),
+        regions: Vec::new(),
+        handles: Vec::new(),
+        description: model.describe(),
+    };
+    let error_scale = error_scale(model.largest_error());
+    for (policy, column) in layout.columns.iter().enumerate() {
+        let filter = Filter { model, policy, column, error_scale };
+        filter.header(&mut scene);
+        filter.cursor(&mut scene);
+        filter.ess(&mut scene);
+        filter.lineage(&mut scene);
+        filter.errors(&mut scene);
+        filter.tree(&mut scene);
+        filter.axis(&mut scene);
+        filter.map(&mut scene, layout.wide);
+    }
+    legend(&mut scene, model, &layout.legend);
+    let (chart, step) = (&layout.columns[0].charts[0], model.cursor());
+    scene.handles.push(Handle {
+        name: CURSOR,
+        title: "Step read".into(),
+        at: [chart.x + chart.w * share(model, step), chart.centre()[1]],
+        value: f64::from(step),
+        text: told(model),
+        hover: Some(layout.charts()),
+    });
+    scene
+}
+
+/// What the cursor reads, in words.
+fn told(model: &ResamplingModel) -> String {
+    let of = |policy| {
+        let Moment { report, .. } = model.read(policy);
+        let lineage = report.descent.lineage(report.step);
+        format!("{} N_eff {}, lineage {lineage}", NAMES[policy].to_lowercase(), fixed(report.ess, 1))
+    };
+    format!("step {}: {}; {}; {}", model.cursor(), of(0), of(1), of(2))
+}
+
+const NAMES: [&str; 3] = ["Never", "Every step", "Selective"];
+
+/// Where a step is, as a share of the timeline.
+fn share(model: &ResamplingModel, step: u32) -> f64 {
+    f64::from(step) / f64::from(model.step_count())
+}
+
+/// The end of the axis for errors up to this \[m\]: a round number.
+fn error_scale(largest: f64) -> f64 {
+    [0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0].into_iter().find(|end| largest <= *end).unwrap_or(50.0)
+}
+
+/// One filter in its column.
+struct Filter<'a> {
+    model: &'a ResamplingModel,
+    policy: usize,
+    column: &'a Column,
+    /// End of the axis of errors \[m\].
+    error_scale: f64,
+}
+
+impl Filter<'_> {
+    /// Position of a step \[css px\].
+    fn x(&self, step: u32) -> f64 {
+        let chart = &self.column.charts[0];
+        chart.x + chart.w * share(self.model, step)
+    }
+
+    fn particles(&self) -> usize {
+        self.model.setup().particles
+    }
+
+    fn header(&self, scene: &mut Scene) {
+        let Rect { x, y, w, h } = self.column.header;
+        let step = format!("step {}", self.model.cursor());
+        let role = if self.model.looks_back() { Role::Accent } else { Role::Muted };
+        let step_width = font::measure(&step, 12.5, Weight::Regular) + 2.0;
+        let rest = match self.policy {
+            0 => "weights only multiply".into(),
+            1 => "weights start afresh".into(),
+            _ => format!("below {} M", write(self.model.setup().threshold)),
+        };
+        heading(scene, &Rect::new(x, y, w - step_width - 8.0, h), (NAMES[self.policy], Role::Ink), &rest);
+        let area = Rect::new(x + w - step_width, y, step_width, h);
+        scene.marks.push(text(area, Anchor::End, 12.5, Weight::Regular, role, step));
+    }
+
+    /// A line through all charts at the step read, and at what happens on the course.
+    fn cursor(&self, scene: &mut Scene) {
+        let [first, .., last] = &self.column.charts;
+        let line = |x: f64| vec![[x, first.y], [x, last.bottom()]];
+        let events = self.events().into_iter().map(|(step, _)| line(self.x(step))).collect();
+        scene.marks.push(Mark::Lines { lines: events, width: 1.0, dash: Some(EVENT), role: Role::Muted });
+        let role = if self.model.looks_back() { Role::Accent } else { Role::Frame };
+        let lines = vec![line(self.x(self.model.cursor()))];
+        scene.marks.push(Mark::Lines { lines, width: 1.25, dash: None, role });
+    }
+
+    /// Steps of the course that have a name.
+    fn events(&self) -> Vec<(u32, &'static str)> {
+        let run = self.model.run();
+        let named = [(run.lost_from(), "lost"), (run.evidence_at(), "sign")];
+        named.into_iter().filter_map(|(step, name)| Some((step?, name))).collect()
+    }
+
+    /// Name of a chart at the left of its line, and at the right what is written beside its curves.
+    fn label(&self, scene: &mut Scene, chart: usize, values: &[(String, Weight, Role)]) -> Rect {
+        let Rect { x, y, w, h } = self.column.labels[chart];
+        let mut right = x + w;
+        for (value, weight, role) in values.iter().rev() {
+            let width = font::measure(value, SIZE, *weight) + 0.01;
+            scene.marks.push(text(Rect::new(right - width, y, width, h), Anchor::Start, SIZE, *weight, *role, value.clone()));
+            right -= width + 8.0;
+        }
+        Rect::new(x, y, right - x, h)
+    }
+
+    fn name(&self, scene: &mut Scene, area: &Rect, name: &str) {
+        scene.marks.push(text(*area, Anchor::Start, SIZE, Weight::Regular, Role::Muted, name));
+    }
+
+    /// A curve over the steps shown, by the share of the chart's height.
+    fn curve(&self, chart: usize, height: impl Fn(&Moment) -> f64) -> Vec<Point> {
+        let area = &self.column.charts[chart];
+        let point = |m: &Moment| [self.x(m.report.step), area.bottom() - area.h * height(m).clamp(0.0, 1.0)];
+        self.model.history(self.policy).map(point).collect()
+    }
+
+    fn frame(&self, scene: &mut Scene, chart: usize, heights: &[f64], dash: Option<[f64; 2]>, role: Role) {
+        let Rect { x, w, h, .. } = self.column.charts[chart];
+        let at = |height: &f64| self.column.charts[chart].bottom() - h * height;
+        let lines = heights.iter().map(|height| vec![[x, at(height)], [x + w, at(height)]]).collect();
+        scene.marks.push(Mark::Lines { lines, width: 1.0, dash, role });
+    }
+
+    /// Two curves, the second dashed below the first, and dots where the cursor cuts them.
+    fn curves(&self, scene: &mut Scene, first: Vec<Point>, second: Option<Vec<Point>>) {
+        let at = self.model.cursor() as usize;
+        let mut dots = vec![first[at]];
+        if let Some(second) = second {
+            dots.push(second[at]);
+            scene.marks.push(Mark::Lines { lines: vec![second], width: 1.25, dash: Some(SECOND), role: Role::Muted });
+        }
+        scene.marks.push(Mark::Lines { lines: vec![first], width: 1.5, dash: None, role: Role::Ink });
+        scene.marks.push(Mark::Discs { centres: dots, radius: 3.0, role: Role::Ink });
+    }
+
+    /// N_eff, the threshold, and the steps that resampled.
+    fn ess(&self, scene: &mut Scene) {
+        let (m, Moment { report, resampled, .. }) = (self.particles() as f64, self.model.read(self.policy));
+        let times = format!("resampled {resampled}×");
+        let values = [
+            (times, Weight::Regular, if *resampled > 0 { Role::Copied } else { Role::Muted }),
+            (format!("{} of {}", fixed(report.ess, 1), self.particles()), Weight::SemiBold, Role::Ink),
+        ];
+        let rest = self.label(scene, 0, &values);
+        n_eff(scene, &rest, Role::Muted);
+        self.frame(scene, 0, &[0.0, 1.0], None, Role::Frame);
+        let role = if self.policy == SELECTIVE { Role::Accent } else { Role::Muted };
+        self.frame(scene, 0, &[self.model.setup().threshold], Some(THRESHOLD), role);
+        let curve = self.curve(0, |moment| moment.report.ess / m);
+        let history = self.model.history(self.policy).zip(&curve);
+        let centres = history.filter(|(moment, _)| moment.report.resampled).map(|(_, at)| *at).collect();
+        self.curves(scene, curve.clone(), None);
+        scene.marks.push(Mark::Discs { centres, radius: 1.75, role: Role::Copied });
+    }
+
+    /// Distinct ancestors at the start, and some steps back.
+    fn lineage(&self, scene: &mut Scene) {
+        let (m, back) = (self.particles() as f64, self.model.back());
+        let Moment { report, .. } = self.model.read(self.policy);
+        let values = [
+            (format!("{back} back: {}", report.descent.lineage(back)), Weight::Regular, Role::Muted),
+            (format!("at the start: {}", report.descent.lineage(report.step)), Weight::SemiBold, Role::Ink),
+        ];
+        let rest = self.label(scene, 1, &values);
+        self.name(scene, &rest, "Ancestors");
+        self.frame(scene, 1, &[0.0, 1.0], None, Role::Frame);
+        let of = |back: u32| self.curve(1, |moment| f64::from(moment.report.descent.lineage(back)) / m);
+        self.curves(scene, of(u32::MAX), Some(of(back)));
+    }
+
+    /// Position errors of the best particle and of the weighted mean.
+    fn errors(&self, scene: &mut Scene) {
+        let Moment { report, .. } = self.model.read(self.policy);
+        let values = [
+            (format!("mean {}", fixed(report.error_mean, 2)), Weight::Regular, Role::Muted),
+            (format!("best {} m", fixed(report.error_best, 2)), Weight::SemiBold, Role::Ink),
+        ];
+        let rest = self.label(scene, 2, &values);
+        self.name(scene, &rest, &format!("Error to {} m", write(self.error_scale)));
+        self.frame(scene, 2, &[0.0, 1.0], None, Role::Frame);
+        let best = self.curve(2, |moment| moment.report.error_best / self.error_scale);
+        let mean = self.curve(2, |moment| moment.report.error_mean / self.error_scale);
+        self.curves(scene, best, Some(mean));
+    }
+
+    /// Who descends from whom: every edge once.
+    fn tree(&self, scene: &mut Scene) {
+        let Moment { report, .. } = self.model.read(self.policy);
+        let size = format!("{} of {} nodes", report.tree_nodes(), report.path_nodes(self.particles()));
+        let rest = self.label(scene, 3, &[(size, Weight::SemiBold, Role::Ink)]);
+        self.name(scene, &rest, "Ancestry tree");
+
+        let Moment { report, nodes, .. } = self.model.now(self.policy);
+        let ancestry = self.model.run().ancestry(self.policy);
+        let alive = ancestry.alive(nodes);
+        let [mut dead, mut living] = [Vec::new(), Vec::new()];
+        // What goes on in its slot is one line, as long as it does.
+        let mut runs: Vec<Option<(u32, bool)>> = vec![None; self.particles()];
+        for step in 1..=report.step {
+            let [before, here] = [step - 1, step].map(|step| ancestry.nodes(step).start);
+            for (parent, child) in ancestry.edges(step..step + 1) {
+                let (from, to, lives) = ((parent - before) as usize, (child - here) as usize, alive[child as usize]);
+                let lines = if lives { &mut living } else { &mut dead };
+                if from != to {
+                    lines.push(vec![self.node(step - 1, from), self.node(step, to)]);
+                }
+                let goes_on = from == to && runs[to].is_some_and(|(_, alive)| alive == lives);
+                if !goes_on && let Some((since, alive)) = runs[to].take() {
+                    let lines = if alive { &mut living } else { &mut dead };
+                    lines.push(vec![self.node(since, to), self.node(step - 1, to)]);
+                }
+                if from == to && !goes_on {
+                    runs[to] = Some((step - 1, lives));
+                }
+            }
+        }
+        for (slot, run) in runs.into_iter().enumerate() {
+            if let Some((since, lives)) = run {
+                let lines = if lives { &mut living } else { &mut dead };
+                lines.push(vec![self.node(since, slot), self.node(report.step, slot)]);
+            }
+        }
+        let apart = self.column.charts[3].h / self.particles() as f64;
+        scene.marks.push(Mark::Strands { lines: dead, width: (0.16 * apart).clamp(0.6, 1.0), role: Role::Level(DEAD) });
+        scene.marks.push(Mark::Strands { lines: living, width: (0.3 * apart).clamp(1.0, 2.0), role: Role::Path });
+        self.coalescence(scene, &alive);
+    }
+
+    /// The latest common ancestor of all particles.
+    fn coalescence(&self, scene: &mut Scene, alive: &[bool]) {
+        let Some(step) = self.model.now(self.policy).report.descent.coalescence() else { return };
+        let nodes = self.model.run().ancestry(self.policy).nodes(step);
+        let Some(slot) = nodes.clone().position(|node| alive[node as usize]) else { return };
+        let (at, area) = (self.node(step, slot), &self.column.charts[3]);
+        for (radius, role) in [(5.5, Role::Paper), (4.5, Role::Ink), (2.5, Role::Paper)] {
+            scene.marks.push(Mark::Discs { centres: vec![at], radius, role });
+        }
+        let label = format!("one ancestor: step {step}");
+        let (w, h) = (font::measure(&label, 10.5, Weight::SemiBold) + 6.0, 14.0);
+        let x = if at[0] + 8.0 + w > area.right() { at[0] - 8.0 - w } else { at[0] + 8.0 };
+        let plate = Rect::new(x.max(area.x), (at[1] - 0.5 * h).clamp(area.y, area.bottom() - h), w, h);
+        scene.marks.push(Mark::Fill { area: plate, role: Role::Paper });
+        scene.marks.push(text(plate, Anchor::Middle, 10.5, Weight::SemiBold, Role::Ink, label));
+    }
+
+    /// Where a particle of a step is drawn.
+    fn node(&self, step: u32, slot: usize) -> Point {
+        let area = &self.column.charts[3];
+        [self.x(step), area.y + area.h * (slot as f64 + 0.5) / self.particles() as f64]
+    }
+
+    /// Steps below the tree.
+    fn axis(&self, scene: &mut Scene) {
+        let Rect { x, y, w, h } = self.column.axis;
+        let size = 10.5;
+        let mut taken: Vec<[f64; 2]> = Vec::new();
+        let ends = [(0, "step 0".to_string()), (self.model.step_count(), self.model.step_count().to_string())];
+        let events = self.events().into_iter().map(|(step, name)| (step, name.to_string()));
+        for (step, label) in ends.into_iter().chain(events) {
+            let width = font::measure(&label, size, Weight::Regular) + 0.01;
+            let left = (self.x(step) - 0.5 * width).clamp(x, x + w - width);
+            if taken.iter().all(|[from, to]| left + width + 4.0 < *from || *to + 4.0 < left) {
+                taken.push([left, left + width]);
+                scene.marks.push(text(Rect::new(left, y, width, h), Anchor::Start, size, Weight::Regular, Role::Muted, label));
+            }
+        }
+    }
+
+    /// Where the particles are, and the robot.
+    fn map(&self, scene: &mut Scene, wide: bool) {
+        let (model, area, label) = (self.model, self.column.map, self.column.map_label);
+        let Moment { report, nodes, best, .. } = model.read(self.policy);
+        let lines = [0.0, 1.0].map(|k| Rect::new(label.x, label.y + k * LINE, label.w, LINE));
+        let (name, says) = if wide { ("Particles", lines[0]) } else { (NAMES[self.policy], lines[1]) };
+        let role = if wide { Role::Muted } else { Role::Ink };
+        let weight = if wide { Weight::Regular } else { Weight::SemiBold };
+        let anchor = if wide { Anchor::End } else { Anchor::Start };
+        scene.marks.push(text(lines[0], Anchor::Start, SIZE, weight, role, name));
+        let m = self.particles();
+        match (report.right, model.run().lost_from()) {
+            (Some(0), _) => scene.marks.push(text(says, anchor, SIZE, Weight::SemiBold, Role::Extinct, "right wing lost")),
+            (Some(n), _) if wide => {
+                let says_it = format!("right wing: {n} of {m}");
+                scene.marks.push(text(says, anchor, SIZE, Weight::SemiBold, Role::Accent, says_it));
+            }
+            (Some(n), _) => {
+                scene.marks.push(text(says, anchor, SIZE, Weight::Regular, Role::Accent, format!("{n} of {m} right")));
+            }
+            (None, Some(_)) => scene.marks.push(text(says, anchor, SIZE, Weight::Regular, Role::Muted, "not lost yet")),
+            (None, None) => (),
+        }
+
+        let view = View::new(model, &area);
+        let role = Role::Muted;
+        if let Some(world) = model.run().lap_world() {
+            let lines = world.plan.walls.iter().map(|s| vec![view.point(s.a), view.point(s.b)]).collect();
+            scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role });
+        }
+        if let Some(log) = model.run().wings_log() {
+            let diamonds = log.landmarks.iter().map(|m| diamond(view.point([m.x, m.y]), 2.75)).collect();
+            scene.marks.push(Mark::Polygons { polygons: diamonds, role: Role::Landmark });
+        }
+        let truth = &model.run().truth()[..=report.step as usize];
+        let path: Vec<Point> = truth.iter().map(|p| view.point([p.x, p.y])).collect();
+        scene.marks.push(Mark::Lines { lines: vec![path], width: 1.0, dash: Some([2.0, 3.0]), role: Role::Truth });
+        let ancestry = model.run().ancestry(self.policy);
+        let poses: Vec<Pose2> = nodes.iter().map(|node| ancestry.pose(*node)).collect();
+        let noses = poses.iter().map(|pose| view.nose(pose, 6.0));
+        let noses = noses.flat_map(|line| clip_polyline(&line, &area)).collect();
+        scene.marks.push(Mark::Lines { lines: noses, width: 1.0, dash: None, role: Role::Path });
+        let dots = poses.iter().map(|p| view.point([p.x, p.y])).filter(|p| area.inset(2.0).contains(*p)).collect();
+        scene.marks.push(Mark::Discs { centres: dots, radius: 2.0, role: Role::Path });
+        let there = truth[truth.len() - 1];
+        let ring = [view.robot(&there, 9.0)].into_iter().filter(|c| c.iter().all(|p| area.contains(*p)));
+        let outlines = ring.map(crate::scene::closed).collect();
+        scene.marks.push(Mark::Lines { lines: outlines, width: 1.5, dash: None, role: Role::Truth });
+        let head = [view.robot(&poses[*best], 6.0)].into_iter().filter(|c| c.iter().all(|p| area.contains(*p)));
+        scene.marks.push(Mark::Polygons { polygons: head.collect(), role: Role::Path });
+        scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
+    }
+}
+
+/// N with its index.
+fn n_eff(scene: &mut Scene, area: &Rect, role: Role) {
+    let n = Text::new(*area, Anchor::Start, SIZE, Weight::Regular, role, "N");
+    let index = Rect::new(area.x + n.width() + 0.5, area.y + 3.5, 20.0, area.h);
+    scene.marks.push(Mark::Text(n));
+    scene.marks.push(text(index, Anchor::Start, 8.5, Weight::Regular, role, "eff"));
+}
+
+/// The course at a place in the figure.
+struct View {
+    /// Middle of the course \[m\], and where it is drawn \[css px\].
+    middle: [f64; 2],
+    at: Point,
+    /// Css px per metre.
+    scale: f64,
+}
+
+impl View {
+    fn new(model: &ResamplingModel, area: &Rect) -> Self {
+        let run = model.run();
+        let mut points: Vec<[f64; 2]> = run.truth().iter().map(|pose| [pose.x, pose.y]).collect();
+        points.extend(run.wings_log().iter().flat_map(|log| log.landmarks.iter().map(|m| [m.x, m.y])));
+        points.extend(run.lap_world().iter().flat_map(|world| [[0.0, 0.0], world.plan.size]));
+        let least = [0, 1].map(|k| points.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min));
+        let most = [0, 1].map(|k| points.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max));
+        let room = area.inset(6.0);
+        let scale = (room.w / (most[0] - least[0])).min(room.h / (most[1] - least[1]));
+        Self { middle: [0, 1].map(|k| 0.5 * (least[k] + most[k])), at: area.centre(), scale }
+    }
+
+    fn point(&self, [x, y]: [f64; 2]) -> Point {
+        [self.at[0] + (x - self.middle[0]) * self.scale, self.at[1] - (y - self.middle[1]) * self.scale]
+    }
+
+    /// From a pose to where it looks.
+    fn nose(&self, pose: &Pose2, length: f64) -> Vec<Point> {
+        let [x, y] = self.point([pose.x, pose.y]);
+        let (sin, cos) = ops::sin_cos(pose.theta);
+        vec![[x, y], [x + length * cos, y - length * sin]]
+    }
+
+    /// An arrow head that points where the robot looks.
+    fn robot(&self, pose: &Pose2, length: f64) -> Vec<Point> {
+        let [x, y] = self.point([pose.x, pose.y]);
+        let (sin, cos) = ops::sin_cos(pose.theta);
+        let corners = [[1.0, 0.0], [-0.8, 0.75], [-0.4, 0.0], [-0.8, -0.75]];
+        let corner = |[along, across]: [f64; 2]| {
+            [x + length * (along * cos - across * sin), y - length * (along * sin + across * cos)]
+        };
+        corners.map(corner).to_vec()
+    }
+}
+
+fn diamond([x, y]: Point, r: f64) -> Vec<Point> {
+    vec![[x - r, y], [x, y - r], [x + r, y], [x, y + r]]
+}
+
+/// What a legend's sample looks like.
+#[derive(Clone, Copy)]
+enum Sample {
+    Line(Role, f64, Option<[f64; 2]>),
+    Dot(Role, f64),
+    Ring,
+    Robot(Role),
+    Landmark,
+}
+
+fn legend(scene: &mut Scene, model: &ResamplingModel, area: &Rect) {
+    let back = format!("{} back, or weighted mean", model.back());
+    let mut items = vec![
+        (Sample::Line(Role::Ink, 1.5, None), "at the start, or best particle"),
+        (Sample::Line(Role::Muted, 1.25, Some(SECOND)), back.as_str()),
+        (Sample::Line(Role::Accent, 1.0, Some(THRESHOLD)), "threshold"),
+        (Sample::Dot(Role::Copied, 1.75), "resampled"),
+        (Sample::Line(Role::Path, 2.0, None), "lives on"),
+        (Sample::Line(Role::Level(DEAD), 1.0, None), "died out"),
+        (Sample::Ring, "last common ancestor"),
+        (Sample::Dot(Role::Path, 2.0), "particle"),
+        (Sample::Robot(Role::Truth), "truth"),
+    ];
+    if model.run().wings_log().is_some() {
+        items.push((Sample::Landmark, "landmark"));
+    }
+    let (width, gap) = (18.0, 14.0);
+    let [mut x, mut y] = [area.x, area.y];
+    for (sample, name) in items {
+        let name_width = font::measure(name, SIZE, Weight::Regular) + 0.01;
+        if x > area.x && x + width + 5.0 + name_width > area.right() {
+            (x, y) = (area.x, y + LINE);
+        }
+        draw_sample(scene, sample, &Rect::new(x, y, width, LINE));
+        let place = Rect::new(x + width + 5.0, y, name_width, LINE);
+        scene.marks.push(text(place, Anchor::Start, SIZE, Weight::Regular, Role::Muted, name));
+        x = place.right() + gap;
+    }
+}
+
+fn draw_sample(scene: &mut Scene, sample: Sample, place: &Rect) {
+    let ([cx, cy], marks) = (place.centre(), &mut scene.marks);
+    match sample {
+        Sample::Line(role, width, dash) => {
+            marks.push(Mark::Lines { lines: vec![vec![[place.x, cy], [place.right(), cy]]], width, dash, role });
+        }
+        Sample::Dot(role, radius) => marks.push(Mark::Discs { centres: vec![[cx, cy]], radius, role }),
+        Sample::Ring => {
+            for (radius, role) in [(4.5, Role::Ink), (2.5, Role::Paper)] {
+                marks.push(Mark::Discs { centres: vec![[cx, cy]], radius, role });
+            }
+        }
+        Sample::Robot(role) => {
+            let view = View { middle: [0.0; 2], at: [cx - 1.0, cy], scale: 1.0 };
+            let lines = vec![crate::scene::closed(view.robot(&Pose2::default(), 7.0))];
+            marks.push(Mark::Lines { lines, width: 1.5, dash: None, role });
+        }
+        Sample::Landmark => marks.push(Mark::Polygons { polygons: vec![diamond([cx, cy], 3.5)], role: Role::Landmark }),
+    }
+}
