@@ -61,13 +61,14 @@ pub fn strand(pixels: &mut Pixmap, a: [f32; 2], b: [f32; 2], width: f32, color: 
     if ![a[0], a[1], b[0], b[1], half].iter().all(|x| x.is_finite()) {
         return;
     }
+    let pixels = pixels.pixels_mut();
     for i in first(a[0])..first(b[0]) {
         let middle = a[1] + slope * (i as f32 + 0.5 - a[0]);
         let (from, to) = ((middle - half).max(0.0), (middle + half).min(breadth));
         for j in from as usize..to.ceil() as usize {
             let at = if steep { i * stride + j } else { j * stride + i };
             let share = to.min(j as f32 + 1.0) - from.max(j as f32);
-            if let Some(pixel) = pixels.pixels_mut().get_mut(at) {
+            if let Some(pixel) = pixels.get_mut(at) {
                 cover(pixel, color, share);
             }
         }

@@ -13,7 +13,6 @@ pub const LINE: f64 = 18.0;
 
 const HEADER: f64 = 26.0;
 const PAD: f64 = 8.0;
-const CHART: f64 = 46.0;
 const AXIS: f64 = 15.0;
 /// Left and right of a chart, for half of a marker at its end.
 const EDGE: f64 = 4.0;
@@ -57,7 +56,7 @@ impl Layout {
         let third = (width - 2.0 * gap) / 3.0;
         let place = |k: usize| k as f64 * (third + gap);
         let (map_lines, map_height) = if wide { (1.0, 0.42 * third) } else { (2.0, 0.8 * third) };
-        let tree = if wide { 0.42 * third.clamp(220.0, 400.0) } else { 120.0 };
+        let (chart, tree) = if wide { (46.0, 0.42 * third.clamp(240.0, 400.0)) } else { (40.0, 108.0) };
 
         let mut top = 0.0;
         let mut columns = [0, 1, 2].map(|k| {
@@ -69,7 +68,7 @@ impl Layout {
                 area
             };
             let header = take(HEADER, 0.0);
-            let parts = [CHART, CHART, CHART, tree].map(|h| {
+            let parts = [chart, chart, chart, tree].map(|h| {
                 let label = take(LINE, 2.0);
                 let Rect { x, y, w, h } = take(h, if h == tree { 1.0 } else { 5.0 });
                 (label, Rect::new(x + EDGE, y, w - 2.0 * EDGE, h))
@@ -77,13 +76,28 @@ impl Layout {
             let axis = take(AXIS, PAD);
             top = y + if wide { 0.0 } else { PAD };
             let nothing = Rect::new(0.0, 0.0, 0.0, 0.0);
-            Column { header, labels: parts.map(|p| p.0), charts: parts.map(|p| p.1), axis, map_label: nothing, map: nothing }
+            Column {
+                header,
+                labels: parts.map(|p| p.0),
+                charts: parts.map(|p| p.1),
+                axis,
+                map_label: nothing,
+                map: nothing,
+            }
         });
         for (k, column) in columns.iter_mut().enumerate() {
             column.map_label = Rect::new(place(k), top, third, map_lines * LINE);
             column.map = Rect::new(place(k), column.map_label.bottom(), third, map_height);
         }
-        let lines = if wide { 2.0 } else if width >= 460.0 { 3.0 } else if width >= 340.0 { 4.0 } else { 5.0 };
+        let lines = if wide {
+            2.0
+        } else if width >= 460.0 {
+            3.0
+        } else if width >= 340.0 {
+            4.0
+        } else {
+            5.0
+        };
         let legend = Rect::new(0.0, columns[0].map.bottom() + PAD, width, lines * LINE);
         Self { wide, columns, legend, height: legend.bottom().ceil() }
     }

@@ -44,7 +44,8 @@ pub struct Moment {
 
 impl Default for ResamplingModel {
     fn default() -> Self {
-        let run = Policies::new(&PoliciesSetup::default()).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
+        let run =
+            Policies::new(&PoliciesSetup::default()).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
         let moments = vec![moments(&run, None)];
         Self { back: params::BACK, cursor: None, asked: 0, run, moments }
     }
@@ -105,7 +106,8 @@ impl ResamplingModel {
 
     /// Largest position error of any filter up to the step shown \[m\].
     pub fn largest_error(&self) -> f64 {
-        let errors = (0..3).flat_map(|policy| self.history(policy)).flat_map(|m| [m.report.error_best, m.report.error_mean]);
+        let errors =
+            (0..3).flat_map(|policy| self.history(policy)).flat_map(|m| [m.report.error_best, m.report.error_mean]);
         errors.fold(0.0, f64::max)
     }
 
@@ -300,7 +302,8 @@ impl Model for ResamplingModel {
             if self.setup().course == PolicyCourse::Wings {
                 let right = report.right.map_or(f64::NAN, f64::from);
                 let text = format!("{} of {m}", report.right.unwrap_or(0));
-                let help = "Particles that hold the explanation that is true: they are near the robot and look its way.";
+                let help =
+                    "Particles that hold the explanation that is true: they are near the robot and look its way.";
                 readouts.push(Readout::new(right_name.0, right_name.1, right, text, "", help));
             }
         }

@@ -17,7 +17,8 @@ const NOW: &[Choice] = &[Choice { value: "now", title: "the newest" }];
 
 /// All parameters, for a course of so many steps.
 pub fn specs(steps: u32) -> Vec<ParamSpec> {
-    let PoliciesSetup { particles, seed, threshold, scheme, odometry_scale, sensor_scale, .. } = PoliciesSetup::default();
+    let PoliciesSetup { particles, seed, threshold, scheme, odometry_scale, sensor_scale, .. } =
+        PoliciesSetup::default();
     vec![
         ParamSpec::toggle(
             "wings",
@@ -25,7 +26,14 @@ pub fn specs(steps: u32) -> Vec<ParamSpec> {
             false,
             "Drives into one of two wings that look the same, instead of round the apartment: the evidence comes late.",
         ),
-        ParamSpec::integer("particles", "Particles M", "", (4, 64), particles as i64, "How many particles each filter has."),
+        ParamSpec::integer(
+            "particles",
+            "Particles M",
+            "",
+            (4, 64),
+            particles as i64,
+            "How many particles each filter has.",
+        ),
         ParamSpec::integer(
             "seed",
             "Seed",

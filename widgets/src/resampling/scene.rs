@@ -21,10 +21,10 @@ pub const CURSOR: &str = "cursor";
 /// Font size of what is written above the charts \[css px\].
 const SIZE: f64 = 11.5;
 
-/// Dash and gap of the second curve of a chart, of the threshold, and of what happens on the course \[css px\].
+/// Dash and gap of the second curve of a chart and of the threshold, and from dot to dot where something happens \[css px\].
 const SECOND: [f64; 2] = [4.0, 3.0];
 const THRESHOLD: [f64; 2] = [2.0, 2.0];
-const EVENT: [f64; 2] = [1.0, 3.0];
+const EVENT: f64 = 4.0;
 
 /// Strength of a branch that died out, of 255.
 const DEAD: u8 = 25;
@@ -84,7 +84,10 @@ fn share(model: &ResamplingModel, step: u32) -> f64 {
 
 /// The end of the axis for errors up to this \[m\]: a round number.
 fn error_scale(largest: f64) -> f64 {
-    [0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0].into_iter().find(|end| largest <= *end).unwrap_or(50.0)
+    [0.2, 0.3, 0.5, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0]
+        .into_iter()
+        .find(|end| largest <= *end)
+        .unwrap_or(50.0)
 }
 
 /// One filter in its column.
@@ -124,13 +127,19 @@ impl Filter<'_> {
 
     /// A line through all charts at the step read, and at what happens on the course.
     fn cursor(&self, scene: &mut Scene) {
-        let [first, .., last] = &self.column.charts;
-        let line = |x: f64| vec![[x, first.y], [x, last.bottom()]];
-        let events = self.events().into_iter().map(|(step, _)| line(self.x(step))).collect();
-        scene.marks.push(Mark::Lines { lines: events, width: 1.0, dash: Some(EVENT), role: Role::Muted });
-        let role = if self.model.looks_back() { Role::Accent } else { Role::Frame };
-        let lines = vec![line(self.x(self.model.cursor()))];
-        scene.marks.push(Mark::Lines { lines, width: 1.25, dash: None, role });
+        let through = |step: u32| {
+            let x = self.x(step);
+            self.column.charts.iter().map(move |chart| (x, chart.y, chart.bottom()))
+        };
+        let events = self.events().into_iter().flat_map(|(step, _)| through(step));
+        let dots = events.flat_map(|(x, y0, y1)| {
+            let count = ((y1 - y0) / EVENT) as usize;
+            (0..count).map(move |k| y0 + EVENT * k as f64).map(move |y| vec![[x, y], [x, y + 1.0]])
+        });
+        scene.marks.push(Mark::Strands { lines: dots.collect(), width: 1.0, role: Role::Muted });
+        let role = if self.model.looks_back() { Role::Accent } else { Role::Muted };
+        let lines = through(self.model.cursor()).map(|(x, y0, y1)| vec![[x, y0], [x, y1]]).collect();
+        scene.marks.push(Mark::Strands { lines, width: 1.0, role });
     }
 
     /// Steps of the course that have a name.
@@ -146,7 +155,14 @@ impl Filter<'_> {
         let mut right = x + w;
         for (value, weight, role) in values.iter().rev() {
             let width = font::measure(value, SIZE, *weight) + 0.01;
-            scene.marks.push(text(Rect::new(right - width, y, width, h), Anchor::Start, SIZE, *weight, *role, value.clone()));
+            scene.marks.push(text(
+                Rect::new(right - width, y, width, h),
+                Anchor::Start,
+                SIZE,
+                *weight,
+                *role,
+                value.clone(),
+            ));
             right -= width + 8.0;
         }
         Rect::new(x, y, right - x, h)
@@ -280,16 +296,9 @@ impl Filter<'_> {
         let Some(step) = self.model.now(self.policy).report.descent.coalescence() else { return };
         let nodes = self.model.run().ancestry(self.policy).nodes(step);
         let Some(slot) = nodes.clone().position(|node| alive[node as usize]) else { return };
-        let (at, area) = (self.node(step, slot), &self.column.charts[3]);
-        for (radius, role) in [(5.5, Role::Paper), (4.5, Role::Ink), (2.5, Role::Paper)] {
-            scene.marks.push(Mark::Discs { centres: vec![at], radius, role });
-        }
-        let label = format!("one ancestor: step {step}");
-        let (w, h) = (font::measure(&label, 10.5, Weight::SemiBold) + 6.0, 14.0);
-        let x = if at[0] + 8.0 + w > area.right() { at[0] - 8.0 - w } else { at[0] + 8.0 };
-        let plate = Rect::new(x.max(area.x), (at[1] - 0.5 * h).clamp(area.y, area.bottom() - h), w, h);
-        scene.marks.push(Mark::Fill { area: plate, role: Role::Paper });
-        scene.marks.push(text(plate, Anchor::Middle, 10.5, Weight::SemiBold, Role::Ink, label));
+        let at = self.node(step, slot);
+        scene.marks.push(Mark::Discs { centres: vec![at], radius: 6.0, role: Role::Paper });
+        common(scene, at);
     }
 
     /// Where a particle of a step is drawn.
@@ -303,15 +312,27 @@ impl Filter<'_> {
         let Rect { x, y, w, h } = self.column.axis;
         let size = 10.5;
         let mut taken: Vec<[f64; 2]> = Vec::new();
-        let ends = [(0, "step 0".to_string()), (self.model.step_count(), self.model.step_count().to_string())];
-        let events = self.events().into_iter().map(|(step, name)| (step, name.to_string()));
-        for (step, label) in ends.into_iter().chain(events) {
-            let width = font::measure(&label, size, Weight::Regular) + 0.01;
-            let left = (self.x(step) - 0.5 * width).clamp(x, x + w - width);
-            if taken.iter().all(|[from, to]| left + width + 4.0 < *from || *to + 4.0 < left) {
-                taken.push([left, left + width]);
-                scene.marks.push(text(Rect::new(left, y, width, h), Anchor::Start, size, Weight::Regular, Role::Muted, label));
+        let last = self.model.step_count();
+        let ancestor = self.model.now(self.policy).report.descent.coalescence();
+        let ancestor = ancestor.map(|step| (step, format!("step {step}"), true));
+        let ends = [(0, "step 0".to_string(), false), (last, last.to_string(), false)];
+        let events = self.events().into_iter().map(|(step, name)| (step, name.to_string(), false));
+        for (step, label, ring) in ancestor.into_iter().chain(ends).chain(events) {
+            let room = if ring { 12.0 } else { 0.0 };
+            let width = room + font::measure(&label, size, Weight::Regular) + 0.01;
+            // A ring stands below the one in the tree, with its step beside it.
+            let wanted = self.x(step) - if ring { 4.5 } else { 0.5 * width };
+            let left = wanted.clamp(x, x + w - width);
+            if taken.iter().any(|[from, to]| left < *to + 6.0 && *from < left + width + 6.0) {
+                continue;
             }
+            taken.push([left, left + width]);
+            if ring {
+                common(scene, [left + 4.5, y + 0.5 * h]);
+            }
+            let role = if ring { Role::Ink } else { Role::Muted };
+            let area = Rect::new(left + room, y, width - room, h);
+            scene.marks.push(text(area, Anchor::Start, size, Weight::Regular, role, label));
         }
     }
 
@@ -327,7 +348,9 @@ impl Filter<'_> {
         scene.marks.push(text(lines[0], Anchor::Start, SIZE, weight, role, name));
         let m = self.particles();
         match (report.right, model.run().lost_from()) {
-            (Some(0), _) => scene.marks.push(text(says, anchor, SIZE, Weight::SemiBold, Role::Extinct, "right wing lost")),
+            (Some(0), _) => {
+                scene.marks.push(text(says, anchor, SIZE, Weight::SemiBold, Role::Extinct, "right wing lost"))
+            }
             (Some(n), _) if wide => {
                 let says_it = format!("right wing: {n} of {m}");
                 scene.marks.push(text(says, anchor, SIZE, Weight::SemiBold, Role::Accent, says_it));
@@ -366,6 +389,13 @@ impl Filter<'_> {
         let head = [view.robot(&poses[*best], 6.0)].into_iter().filter(|c| c.iter().all(|p| area.contains(*p)));
         scene.marks.push(Mark::Polygons { polygons: head.collect(), role: Role::Path });
         scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
+    }
+}
+
+/// The mark of a common ancestor.
+fn common(scene: &mut Scene, at: Point) {
+    for (radius, role) in [(4.5, Role::Ink), (2.5, Role::Paper)] {
+        scene.marks.push(Mark::Discs { centres: vec![at], radius, role });
     }
 }
 
@@ -473,11 +503,7 @@ fn draw_sample(scene: &mut Scene, sample: Sample, place: &Rect) {
             marks.push(Mark::Lines { lines: vec![vec![[place.x, cy], [place.right(), cy]]], width, dash, role });
         }
         Sample::Dot(role, radius) => marks.push(Mark::Discs { centres: vec![[cx, cy]], radius, role }),
-        Sample::Ring => {
-            for (radius, role) in [(4.5, Role::Ink), (2.5, Role::Paper)] {
-                marks.push(Mark::Discs { centres: vec![[cx, cy]], radius, role });
-            }
-        }
+        Sample::Ring => common(scene, [cx, cy]),
         Sample::Robot(role) => {
             let view = View { middle: [0.0; 2], at: [cx - 1.0, cy], scale: 1.0 };
             let lines = vec![crate::scene::closed(view.robot(&Pose2::default(), 7.0))];
