@@ -17,6 +17,8 @@ use crate::matching::Matcher;
 use crate::ops;
 use crate::proposal::ProposalKind;
 use crate::resampling::{ResamplePolicy, Scheme};
+use crate::sensor::Feature;
+use crate::world::{WINGS_LOST, WINGS_SIGN};
 use core::f64::consts::FRAC_PI_2;
 use core::{fmt, str::FromStr};
 use std::sync::Arc;
@@ -337,17 +339,14 @@ impl Policies {
 
     /// On the wings' course, the step from which the robot is lost: the first at which the wings can be confused.
     pub fn lost_from(&self) -> Option<u32> {
-        self.wings_log().map(|_| crate::world::WINGS_LOST)
+        self.wings_log().map(|_| WINGS_LOST as u32)
     }
 
-    /// On the wings' course, the step at which the sign tells the wings apart.
+    /// On the wings' course, the step at which the sign is in sight again: the first evidence of which wing it is.
     pub fn evidence_at(&self) -> Option<u32> {
-        self.wings_log().map(|log| {
-            let sees_sign =
-                |seen: &Vec<crate::sensor::Feature>| seen.iter().any(|f| f.signature == Some(crate::world::WINGS_SIGN));
-            let lost = crate::world::WINGS_LOST as usize;
-            (lost + log.sightings[lost..].iter().position(sees_sign).unwrap_or(0)) as u32 + 1
-        })
+        let is_sign = |feature: &Feature| feature.signature == Some(WINGS_SIGN);
+        let seen = self.wings_log()?.sightings[WINGS_LOST..].iter().position(|seen| seen.iter().any(is_sign))?;
+        Some((WINGS_LOST + seen) as u32 + 1)
     }
 
     /// All paths of one filter.
