@@ -12,7 +12,7 @@ mod text;
 pub use clip::clip_polyline;
 pub use handle::Handle;
 pub use rect::Rect;
-pub use shape::{closed, ellipse};
+pub use shape::{closed, ellipse, robot};
 pub use text::{Anchor, Text, heading, text};
 
 /// A point \[css px\].
