@@ -67,8 +67,11 @@ pub fn significant(x: f64, digits: i32) -> (String, i32) {
     while mantissa.abs() < 1.0 {
         (mantissa, exponent) = (mantissa * 10.0, exponent - 1);
     }
-    let (number, exponent) =
-        if (-3..digits).contains(&exponent) { (fixed(x, digits - 1 - exponent), 0) } else { (fixed(mantissa, digits - 1), exponent) };
+    let (number, exponent) = if (-3..digits).contains(&exponent) {
+        (fixed(x, digits - 1 - exponent), 0)
+    } else {
+        (fixed(mantissa, digits - 1), exponent)
+    };
     let short = if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { &number };
     (short.into(), exponent)
 }

@@ -1,0 +1,145 @@
+//! The chain of steps from a sighting to a weight and a new landmark, as a textbook writes it.
+
+use crate::scene::{Formula, number};
+use fastslam::experiment::worked_example::WorkedExample;
+
+/// Significant digits of what is shown.
+pub const DIGITS: i32 = 5;
+
+/// One line of the chain.
+pub struct Step {
+    /// What it is, with its unit.
+    pub caption: &'static str,
+    /// Its formula, as [`Formula::tex`] takes it.
+    pub formula: &'static str,
+    /// Whether it has two rows.
+    pub tall: bool,
+    /// Writes its value for the particle in this slot.
+    pub write: fn(Formula, &WorkedExample, usize) -> Formula,
+}
+
+/// What both particles begin with.
+pub const GIVEN: &[Step] = &[
+    Step {
+        caption: "Landmark [m]",
+        formula: "μ",
+        tall: true,
+        write: |line, e, _| line.matrix([[e.before.mean.x], [e.before.mean.y]], DIGITS),
+    },
+    Step {
+        caption: "Its covariance [m²]",
+        formula: "Σ",
+        tall: true,
+        write: |line, e, _| line.matrix(e.before.covariance.transpose().into(), DIGITS),
+    },
+    Step {
+        caption: "Noise of the sensor",
+        formula: "Q = diag(σ_r^2, σ_φ^2)",
+        tall: true,
+        write: |line, e, _| line.matrix(e.noise.transpose().into(), DIGITS),
+    },
+];
+
+/// What each computes.
+pub const STEPS: &[Step] = &[
+    Step {
+        caption: "Pose [m, m, rad]",
+        formula: "x = (x, y, θ)",
+        tall: false,
+        write: |line, e, slot| {
+            let pose = e.updates[slot].world_from_robot;
+            let [x, y, theta] = [pose.x, pose.y, pose.theta].map(|x| number(x, DIGITS));
+            line.tex(&format!("({x}, {y}, {theta})"))
+        },
+    },
+    Step {
+        caption: "Expected sighting [m, rad]",
+        formula: "z\u{302} = h(x, μ)",
+        tall: true,
+        write: |line, e, slot| line.matrix(column(e.updates[slot].innovation.prediction.z), DIGITS),
+    },
+    Step {
+        caption: "Innovation [m, rad]",
+        formula: "ν = z − z\u{302}",
+        tall: true,
+        write: |line, e, slot| {
+            let update = &e.updates[slot];
+            let (z, innovation) = (update.z, update.innovation);
+            line.matrix(column(z), DIGITS)
+                .tex(" − ")
+                .matrix(column(innovation.prediction.z), DIGITS)
+                .tex(" = ")
+                .matrix(column(innovation.residual), DIGITS)
+        },
+    },
+    Step {
+        caption: "Derivative of h by the landmark",
+        formula: "H_m = ∂h/∂m",
+        tall: true,
+        write: |line, e, slot| line.matrix(e.updates[slot].innovation.prediction.h_m.transpose().into(), DIGITS),
+    },
+    Step {
+        caption: "Covariance of the innovation",
+        formula: "S = H_m Σ H_m^T + Q",
+        tall: true,
+        write: |line, e, slot| line.matrix(e.updates[slot].innovation.covariance.transpose().into(), DIGITS),
+    },
+    Step {
+        caption: "Its inverse",
+        formula: "S^{−1}",
+        tall: true,
+        write: |line, e, slot| line.matrix(e.updates[slot].innovation.inverse.transpose().into(), DIGITS),
+    },
+    Step {
+        caption: "Its determinant [m² rad²]",
+        formula: "det S",
+        tall: false,
+        write: |line, e, slot| line.tex(&number(e.updates[slot].innovation.determinant(), DIGITS)),
+    },
+    Step {
+        caption: "Squared Mahalanobis distance",
+        formula: "d^2 = ν^T S^{−1} ν",
+        tall: false,
+        write: |line, e, slot| line.tex(&number(e.updates[slot].innovation.mahalanobis_squared, DIGITS)),
+    },
+    Step {
+        caption: "Log-weight [nats]",
+        formula: "ln w = −½ (d^2 + ln det S) − ln 2π",
+        tall: false,
+        write: |line, e, slot| line.tex(&number(e.updates[slot].innovation.log_likelihood, DIGITS)),
+    },
+    Step {
+        caption: "Weight [1/(m rad)]",
+        formula: "w = |2πS|^{−1/2} exp(−½ d^2)",
+        tall: false,
+        write: |line, e, slot| line.tex(&number(e.updates[slot].weight, DIGITS)),
+    },
+    Step {
+        caption: "Gain",
+        formula: "K = Σ H_m^T S^{−1}",
+        tall: true,
+        write: |line, e, slot| line.matrix(e.updates[slot].gain.transpose().into(), DIGITS),
+    },
+    Step {
+        caption: "Landmark after [m]",
+        formula: "μ ← μ + K ν",
+        tall: true,
+        write: |line, e, slot| line.matrix(column(e.updates[slot].after.mean), DIGITS),
+    },
+    Step {
+        caption: "Its covariance [m²]",
+        formula: "Σ ← (I − K H_m) Σ",
+        tall: true,
+        write: |line, e, slot| line.matrix(e.updates[slot].after.covariance.transpose().into(), DIGITS),
+    },
+    Step {
+        caption: "Share of the weight",
+        formula: "w\u{303} = w / Σ w",
+        tall: false,
+        write: |line, e, slot| line.tex(&number(e.weights.as_slice()[slot], DIGITS)),
+    },
+];
+
+fn column(vector: impl Into<[f64; 2]>) -> [[f64; 1]; 2] {
+    vector.into().map(|x| [x])
+}
