@@ -47,7 +47,7 @@ pub const PICTURES: &[Picture] = &[
     worked("fastslam-worked-example-dark", "", 800, 1.5, "dark"),
     worked("worked-phone", "", 340, 2.0, "light"),
     worked("worked-poses", POSES, 980, 1.0, "light"),
-    worked("worked-extremes", EXTREMES, 700, 1.0, "contrast-dark"),
+    worked("worked-extremes", EXTREMES, 720, 1.0, "contrast-dark"),
 ];
 
 /// What a filter does: one sighting for both particles, from two poses; and the landmark's ellipse is turned.

@@ -11,7 +11,7 @@ use fastslam::decimal;
 const SMALL: f64 = 0.68;
 
 /// Between a matrix and its brackets, and between its columns, as a share of the size of the line.
-const PAD: f64 = 0.28;
+const PAD: f64 = 0.42;
 const GAP: f64 = 0.95;
 
 /// Distance of the rows of a matrix, likewise.
@@ -61,7 +61,7 @@ impl Formula {
                         .chars()
                         .next_back()
                         .map_or(0.0, |c| font::measure(c.encode_utf8(&mut [0; 4]), self.size, self.weight));
-                    let (accent, up) = if sign == '\u{302}' { ("^", 0.14) } else { ("~", 0.38) };
+                    let (accent, up) = if sign == '\u{302}' { ("^", 0.3) } else { ("~", 0.42) };
                     let width = font::measure(accent, SMALL * self.size, self.weight);
                     self.put(accent, SMALL, self.width - 0.5 * (letter + width), -up);
                     tail
@@ -92,7 +92,7 @@ impl Formula {
             }
             x += before + after + if column + 1 < C { GAP * self.size } else { pad };
         }
-        let (half, serif) = (0.5 * R as f64 * PITCH * self.size, 0.3 * self.size);
+        let (half, serif) = (0.5 * R as f64 * PITCH * self.size, 0.26 * self.size);
         let bracket = |x: f64, serif: f64| vec![[x + serif, -half], [x, -half], [x, half], [x + serif, half]];
         self.brackets.extend([bracket(left + 1.0, serif), bracket(x - 1.0, -serif)]);
         self.width = x;

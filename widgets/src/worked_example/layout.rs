@@ -4,16 +4,20 @@ use super::steps::{GIVEN, STEPS, Step};
 use crate::scene::Rect;
 
 /// From this width on \[css px\], the particles stand side by side.
-pub const WIDE: f64 = 660.0;
+pub const WIDE: f64 = 720.0;
 
 /// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
-pub const NARROWEST: f64 = 320.0;
+pub const NARROWEST: f64 = 330.0;
 
 /// Height of a line of words \[css px\].
 pub const LINE: f64 = 18.0;
 
 const GAP: f64 = 16.0;
 const HEAD: f64 = 34.0;
+const TALL: f64 = 50.0;
+const SHORT: f64 = 42.0;
+const SELECTION: f64 = 80.0;
+const GIVEN_LABEL: f64 = 112.0;
 
 /// Where a step is named, and where its value is written.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -53,29 +57,21 @@ impl Layout {
     }
 
     fn wide(width: f64) -> Self {
-        let label = (0.36 * width).floor();
+        let label = (0.34 * width).floor();
         let column = 0.5 * (width - label);
         let given_x = label + column;
-        let plot = Rect::new(0.0, 0.0, given_x - 1.5 * GAP, HEAD + 3.0 * 52.0 - LINE - 4.0);
-        let legend = Rect::new(0.0, plot.bottom() + 8.0, plot.w, LINE);
-        let row = |x: f64, y: &mut f64, label: f64, value: f64, step: &Step| {
-            let h = if step.tall { 52.0 } else { 44.0 };
-            let place = Place { label: Rect::new(x, *y, label, h), value: Rect::new(x + label, *y, value, h) };
-            *y += h;
-            place
-        };
         let mut y = 0.0;
-        let given = GIVEN.iter().map(|step| row(given_x, &mut y, 0.48 * column, 0.52 * column, step)).collect();
-        let top = y.max(legend.bottom()) + GAP;
-        let heads = [0.0, 1.0].map(|k| Rect::new(label + k * column, top, column, HEAD));
-        let mut y = top + HEAD;
-        let first: Vec<Place> = STEPS.iter().map(|step| row(0.0, &mut y, label, column - GAP, step)).collect();
-        let second =
-            first.iter().map(|place| Place { value: Rect { x: place.value.x + column, ..place.value }, ..*place });
-        let second = second.collect();
-        let h = 74.0;
+        let given = rows(given_x, &mut y, [GIVEN_LABEL, column - GIVEN_LABEL], GIVEN);
+        let plot = Rect::new(0.0, 0.0, given_x - 1.5 * GAP, y + 20.0);
+        let legend = Rect::new(0.0, plot.bottom() + 8.0, width, LINE);
+        let mut y = legend.bottom() + GAP;
+        let heads = [0.0, 1.0].map(|k| Rect::new(label + k * column, y, column, HEAD));
+        y += HEAD;
+        let first = rows(0.0, &mut y, [label, column - GAP], STEPS);
+        let beside = |place: &Place| Place { value: Rect { x: place.value.x + column, ..place.value }, ..*place };
+        let second = first.iter().map(beside).collect();
         let selection =
-            Place { label: Rect::new(0.0, y + GAP, label, h), value: Rect::new(label, y + GAP, width - label, h) };
+            Place { label: Rect::new(0.0, y, label, SELECTION), value: Rect::new(label, y, width - label, SELECTION) };
         let height = selection.value.bottom().ceil();
         Self { wide: true, plot, legend, given, heads, steps: [first, second], selection, height }
     }
@@ -83,28 +79,30 @@ impl Layout {
     fn narrow(width: f64) -> Self {
         let plot = Rect::new(0.0, 0.0, width, (0.46 * width).floor());
         let legend = Rect::new(0.0, plot.bottom() + 8.0, width, 3.0 * LINE);
-        let row = |y: &mut f64, h: f64| {
-            let place =
-                Place { label: Rect::new(0.0, *y + 7.0, width, 20.0), value: Rect::new(0.0, *y + 27.0, width, h) };
-            *y = place.value.bottom() + 5.0;
-            place
-        };
-        let list = |y: &mut f64, steps: &[Step]| {
-            steps.iter().map(|step| row(y, if step.tall { 44.0 } else { 24.0 })).collect::<Vec<Place>>()
-        };
+        let columns = [(0.48 * width).floor(), width - (0.48 * width).floor()];
         let mut y = legend.bottom() + GAP;
-        let given = list(&mut y, GIVEN);
+        let given = rows(0.0, &mut y, columns, GIVEN);
         let mut particle = || {
             let head = Rect::new(0.0, y + GAP, width, HEAD);
             y = head.bottom();
-            (head, list(&mut y, STEPS))
+            (head, rows(0.0, &mut y, columns, STEPS))
         };
         let [(head1, first), (head2, second)] = [particle(), particle()];
-        y += GAP;
-        let selection = row(&mut y, 74.0);
-        let height = y.ceil();
+        let label = Rect::new(0.0, y + GAP, width, SHORT);
+        let selection = Place { label, value: Rect::new(0.0, label.bottom(), width, SELECTION) };
+        let height = selection.value.bottom().ceil();
         Self { wide: false, plot, legend, given, heads: [head1, head2], steps: [first, second], selection, height }
     }
+}
+
+/// A place for each step, from this corner on down, labels and values so wide.
+fn rows(x: f64, y: &mut f64, [label, value]: [f64; 2], steps: &[Step]) -> Vec<Place> {
+    let row = |step: &Step| {
+        let (h, top) = (if step.tall { TALL } else { SHORT }, *y);
+        *y += h;
+        Place { label: Rect::new(x, top, label, h), value: Rect::new(x + label, top, value, h) }
+    };
+    steps.iter().map(row).collect()
 }
 
 #[cfg(test)]
@@ -113,7 +111,7 @@ mod tests {
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        for width in (320..1600).step_by(7).map(f64::from) {
+        for width in (330..1600).step_by(7).map(f64::from) {
             let layout = Layout::new(width);
             let mut parts = vec![layout.plot, layout.legend, layout.selection.label, layout.selection.value];
             parts.extend(layout.heads);

@@ -40,14 +40,15 @@ impl WorkedExampleModel {
     /// N_eff against the threshold, and what follows: "1.57 > 1: do not resample".
     pub fn verdict(&self) -> String {
         let WorkedExample { ess, limit, resamples, .. } = self.example;
-        // With as many decimals as tell the two apart.
+        // With as many decimals as tell the two apart, up to six.
         let differ = |decimals: &i32| fixed(ess, *decimals) != fixed(limit, *decimals);
-        let decimals = (2..15).find(differ).unwrap_or(2);
-        let (sign, what) = match resamples {
-            true => ("<", "resample"),
-            false if ess > limit => (">", "do not resample"),
-            false => ("=", "do not resample"),
+        let decimals = (2..=6).find(differ);
+        let (sign, what) = match decimals {
+            _ if resamples => ("<", "resample"),
+            Some(_) => (">", "do not resample"),
+            None => ("≥", "do not resample"),
         };
+        let decimals = decimals.unwrap_or(2);
         let limit = fixed(limit, decimals);
         format!("{} {sign} {}: {what}", fixed(ess, decimals), limit.trim_end_matches('0').trim_end_matches('.'))
     }

@@ -38,7 +38,7 @@ pub fn build(model: &WorkedExampleModel, width: f64) -> Scene {
     plot(&mut scene, example, &layout.plot);
     legend(&mut scene, &layout.legend);
     for (step, place) in GIVEN.iter().zip(&layout.given) {
-        label(&mut scene, step, &place.label, layout.wide);
+        label(&mut scene, step, &place.label);
         value(&mut scene, &place.value, |line| (step.write)(line, example, 0));
     }
     let mut rules = Vec::new();
@@ -51,7 +51,7 @@ pub fn build(model: &WorkedExampleModel, width: f64) -> Scene {
         scene.marks.push(text(name, Anchor::Start, SIZE, Weight::SemiBold, Role::Ink, title));
         for (step, place) in STEPS.iter().zip(&layout.steps[slot]) {
             if slot == 0 || !layout.wide {
-                label(&mut scene, step, &place.label, layout.wide);
+                label(&mut scene, step, &place.label);
                 rules.push(rule(&layout, place));
             }
             value(&mut scene, &place.value, |line| (step.write)(line, example, slot));
@@ -65,19 +65,16 @@ pub fn build(model: &WorkedExampleModel, width: f64) -> Scene {
 
 /// The line above a step.
 fn rule(layout: &Layout, place: &Place) -> Vec<Point> {
-    let y = if layout.wide { place.label.y } else { place.label.y - 5.0 };
-    let right = layout.selection.value.right();
-    vec![[0.0, y.round() + 0.5], [right, y.round() + 0.5]]
+    let y = place.label.y.round() + 0.5;
+    vec![[0.0, y], [layout.selection.value.right(), y]]
 }
 
-/// Caption and formula of a step: below each other in a table, else at both ends of a line.
-fn label(scene: &mut Scene, step: &Step, area: &Rect, wide: bool) {
-    let Rect { x, y, w, h } = *area;
-    let top = y + 0.5 * h - LINE;
-    let (caption, anchor) = if wide { (Rect::new(x, top, w, LINE), Anchor::Start) } else { (*area, Anchor::End) };
-    let below = if wide { Rect::new(x, top + LINE, w - 12.0, LINE) } else { *area };
-    scene.marks.push(text(caption, anchor, WORDS, Weight::Regular, Role::Muted, step.caption));
-    value(scene, &below, |line| line.tex(step.formula));
+/// Caption and formula of a step, below each other.
+fn label(scene: &mut Scene, step: &Step, area: &Rect) {
+    let caption = Rect::new(area.x, area.y + 0.5 * area.h - LINE, area.w, LINE);
+    let formula = Rect::new(area.x, caption.bottom(), area.w - 8.0, LINE);
+    scene.marks.push(text(caption, Anchor::Start, WORDS, Weight::Regular, Role::Muted, step.caption));
+    value(scene, &formula, |line| line.tex(step.formula));
 }
 
 /// A line of mathematics at the left of an area, smaller if there is no room for it.
@@ -183,11 +180,11 @@ fn legend(scene: &mut Scene, area: &Rect) {
     let [mut x, mut y] = [area.x, area.y];
     for (name, role) in [
         ("landmark before, 2 σ", Role::Landmark),
-        ("particle 1: seen, after", Role::Particle(0)),
-        ("particle 2: seen, after", Role::Particle(1)),
+        ("particle 1: sighting, landmark after", Role::Particle(0)),
+        ("particle 2: sighting, landmark after", Role::Particle(1)),
     ] {
         let (sees, w) = (role != Role::Landmark, font::measure(name, WORDS, Weight::Regular));
-        let sample = if sees { 58.0 } else { 24.0 };
+        let sample = if sees { 60.0 } else { 26.0 };
         if x > area.x && x + sample + w > area.right() {
             (x, y) = (area.x, y + LINE);
         }
@@ -203,7 +200,7 @@ fn legend(scene: &mut Scene, area: &Rect) {
         scene.marks.push(Mark::Discs { centres: vec![centre], radius: 2.0, role });
         let words = Rect::new(x + sample, y, w, LINE);
         scene.marks.push(text(words, Anchor::Start, WORDS, Weight::Regular, Role::Muted, name));
-        x = words.right() + 18.0;
+        x = words.right() + 14.0;
     }
 }
 
@@ -211,15 +208,14 @@ fn legend(scene: &mut Scene, area: &Rect) {
 fn selection(scene: &mut Scene, model: &WorkedExampleModel, layout: &Layout) {
     let WorkedExample { ess, limit, resamples, .. } = model.example();
     let Place { label: place, value: area } = layout.selection;
-    let value_of = Step {
-        caption: "Effective number of particles",
-        formula: "N_{eff} = 1 / Σ w\u{303}^2",
-        tall: false,
-        write: |line, e, _| line.tex(&number(e.ess, DIGITS)),
-    };
-    label(scene, &value_of, &place, layout.wide);
+    let caption = Rect::new(place.x, place.y + 0.5 * place.h - LINE, place.w, LINE);
+    let words = "Effective number of particles";
+    scene.marks.push(text(caption, Anchor::Start, WORDS, Weight::Regular, Role::Muted, words));
+    let formula = Rect::new(place.x, caption.bottom(), place.w, LINE);
+    let number_of = format!("N_{{eff}} = 1 / Σ w\u{303}^2 = {}", number(*ess, DIGITS));
+    value(scene, &formula, |line| line.tex(&number_of));
     let role = if *resamples { Role::Copied } else { Role::Accent };
-    let line = Rect::new(area.x, area.y, area.w, 26.0);
+    let line = Rect::new(area.x, area.y + 6.0, area.w, 26.0);
     scene.marks.push(text(line, Anchor::Start, 17.0, Weight::SemiBold, role, model.verdict()));
 
     let bar = Rect::new(area.x + 14.0, line.bottom() + 8.0, area.w - 32.0, 10.0);

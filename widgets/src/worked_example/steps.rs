@@ -27,14 +27,14 @@ pub const GIVEN: &[Step] = &[
         write: |line, e, _| line.matrix([[e.before.mean.x], [e.before.mean.y]], DIGITS),
     },
     Step {
-        caption: "Its covariance [m²]",
+        caption: "Covariance [m²]",
         formula: "Σ",
         tall: true,
         write: |line, e, _| line.matrix(e.before.covariance.transpose().into(), DIGITS),
     },
     Step {
-        caption: "Noise of the sensor",
-        formula: "Q = diag(σ_r^2, σ_φ^2)",
+        caption: "Noise [m², rad²]",
+        formula: "Q",
         tall: true,
         write: |line, e, _| line.matrix(e.noise.transpose().into(), DIGITS),
     },
@@ -73,22 +73,16 @@ pub const STEPS: &[Step] = &[
         },
     },
     Step {
-        caption: "Derivative of h by the landmark",
+        caption: "Derivative of h",
         formula: "H_m = ∂h/∂m",
         tall: true,
         write: |line, e, slot| line.matrix(e.updates[slot].innovation.prediction.h_m.transpose().into(), DIGITS),
     },
     Step {
-        caption: "Covariance of the innovation",
+        caption: "Covariance of ν",
         formula: "S = H_m Σ H_m^T + Q",
         tall: true,
         write: |line, e, slot| line.matrix(e.updates[slot].innovation.covariance.transpose().into(), DIGITS),
-    },
-    Step {
-        caption: "Its inverse",
-        formula: "S^{−1}",
-        tall: true,
-        write: |line, e, slot| line.matrix(e.updates[slot].innovation.inverse.transpose().into(), DIGITS),
     },
     Step {
         caption: "Its determinant [m² rad²]",
@@ -97,14 +91,20 @@ pub const STEPS: &[Step] = &[
         write: |line, e, slot| line.tex(&number(e.updates[slot].innovation.determinant(), DIGITS)),
     },
     Step {
-        caption: "Squared Mahalanobis distance",
+        caption: "Its inverse",
+        formula: "S^{−1}",
+        tall: true,
+        write: |line, e, slot| line.matrix(e.updates[slot].innovation.inverse.transpose().into(), DIGITS),
+    },
+    Step {
+        caption: "Squared distance",
         formula: "d^2 = ν^T S^{−1} ν",
         tall: false,
         write: |line, e, slot| line.tex(&number(e.updates[slot].innovation.mahalanobis_squared, DIGITS)),
     },
     Step {
         caption: "Log-weight [nats]",
-        formula: "ln w = −½ (d^2 + ln det S) − ln 2π",
+        formula: "ln w = −½ (d^2 + ln |2πS|)",
         tall: false,
         write: |line, e, slot| line.tex(&number(e.updates[slot].innovation.log_likelihood, DIGITS)),
     },
@@ -112,7 +112,7 @@ pub const STEPS: &[Step] = &[
         caption: "Weight [1/(m rad)]",
         formula: "w = |2πS|^{−1/2} exp(−½ d^2)",
         tall: false,
-        write: |line, e, slot| line.tex(&number(e.updates[slot].weight, DIGITS)),
+        write: |line, e, slot| line.tex(&positive(e.updates[slot].weight)),
     },
     Step {
         caption: "Gain",
@@ -136,9 +136,14 @@ pub const STEPS: &[Step] = &[
         caption: "Share of the weight",
         formula: "w\u{303} = w / Σ w",
         tall: false,
-        write: |line, e, slot| line.tex(&number(e.weights.as_slice()[slot], DIGITS)),
+        write: |line, e, slot| line.tex(&positive(e.weights.as_slice()[slot])),
     },
 ];
+
+/// A number above 0, though it may be too small to be told from it.
+fn positive(x: f64) -> String {
+    if x > 0.0 { number(x, DIGITS) } else { "≈ 0".into() }
+}
 
 fn column(vector: impl Into<[f64; 2]>) -> [[f64; 1]; 2] {
     vector.into().map(|x| [x])
