@@ -44,31 +44,32 @@ impl Formula {
 
     /// The same with more at its end.
     pub fn tex(mut self, source: &str) -> Self {
-        let mut rest = source;
-        while let Some(at) = rest.find(['_', '^', '\u{302}', '\u{303}']) {
-            let (run, tail) = rest.split_at(at);
-            self.run(run);
-            let sign = tail.chars().next().unwrap_or_default();
-            let tail = &tail[sign.len_utf8()..];
-            rest = match sign {
+        let (mut run, mut rest) = (String::new(), source.chars());
+        while let Some(c) = rest.next() {
+            match c {
                 '_' | '^' => {
-                    let (inside, after) = group(tail);
-                    self.raise(sign, inside);
-                    after
+                    self.run(&mut run);
+                    let inside = match rest.as_str().strip_prefix('{').and_then(|braced| braced.split_once('}')) {
+                        Some((inside, after)) => {
+                            rest = after.chars();
+                            inside.into()
+                        }
+                        None => rest.next().into_iter().collect::<String>(),
+                    };
+                    self.raise(c, &inside);
                 }
-                _ => {
-                    let letter = run
-                        .chars()
-                        .next_back()
-                        .map_or(0.0, |c| font::measure(c.encode_utf8(&mut [0; 4]), self.size, self.weight));
-                    let (accent, up) = if sign == '\u{302}' { ("^", 0.3) } else { ("~", 0.42) };
-                    let width = font::measure(accent, SMALL * self.size, self.weight);
-                    self.put(accent, SMALL, self.width - 0.5 * (letter + width), -up);
-                    tail
+                '\u{302}' | '\u{303}' => {
+                    let letter: String = run.chars().next_back().into_iter().collect();
+                    self.run(&mut run);
+                    let (accent, up) = if c == '\u{302}' { ("^", 0.3) } else { ("~", 0.42) };
+                    let width = font::measure(&letter, self.size, self.weight)
+                        + font::measure(accent, SMALL * self.size, self.weight);
+                    self.put(accent, SMALL, self.width - 0.5 * width, -up);
                 }
-            };
+                _ => run.push(c),
+            }
         }
-        self.run(rest);
+        self.run(&mut run);
         self
     }
 
@@ -80,7 +81,7 @@ impl Formula {
         for column in 0..C {
             let entries = rows.map(|row| {
                 let source = number(row[column], digits);
-                let before = source.find(['.', '·']).map_or(&*source, |at| &source[..at]);
+                let before = source.split(['.', '·']).next().unwrap_or_default();
                 let before = font::measure(before, self.size, self.weight);
                 (Self::new(self.size, self.weight, self.role).tex(&source), before)
             });
@@ -110,11 +111,13 @@ impl Formula {
         }
     }
 
-    fn run(&mut self, text: &str) {
+    /// Writes what came so far, if anything did.
+    fn run(&mut self, text: &mut String) {
         if !text.is_empty() {
             self.put(text, 1.0, self.width, 0.0);
             self.width += font::measure(text, self.size, self.weight);
             self.script = None;
+            text.clear();
         }
     }
 
@@ -134,14 +137,6 @@ impl Formula {
         let (w, h) = (font::measure(text, size, self.weight), 1.2 * size);
         let area = Rect::new(x, middle - 0.5 * h, w, h);
         self.texts.push(Text::new(area, Anchor::Start, size, self.weight, self.role, text));
-    }
-}
-
-/// What braces hold, or the first character, and what follows.
-fn group(source: &str) -> (&str, &str) {
-    match source.strip_prefix('{').and_then(|inside| inside.split_once('}')) {
-        Some(parts) => parts,
-        None => source.split_at(source.chars().next().map_or(0, char::len_utf8)),
     }
 }
 

@@ -12,6 +12,8 @@ pub const NARROWEST: f64 = 330.0;
 /// Height of a line of words \[css px\].
 pub const LINE: f64 = 18.0;
 
+/// The corner of the figure is paper: the page takes its colour from there.
+const TOP: f64 = 2.0;
 const GAP: f64 = 16.0;
 const HEAD: f64 = 34.0;
 const TALL: f64 = 50.0;
@@ -62,7 +64,7 @@ impl Layout {
         let given_x = label + column;
         let mut y = 0.0;
         let given = rows(given_x, &mut y, [GIVEN_LABEL, column - GIVEN_LABEL], GIVEN);
-        let plot = Rect::new(0.0, 0.0, given_x - 1.5 * GAP, y + 20.0);
+        let plot = Rect::new(0.0, TOP, given_x - 1.5 * GAP, y + 20.0);
         let legend = Rect::new(0.0, plot.bottom() + 8.0, width, LINE);
         let mut y = legend.bottom() + GAP;
         let heads = [0.0, 1.0].map(|k| Rect::new(label + k * column, y, column, HEAD));
@@ -77,7 +79,7 @@ impl Layout {
     }
 
     fn narrow(width: f64) -> Self {
-        let plot = Rect::new(0.0, 0.0, width, (0.46 * width).floor());
+        let plot = Rect::new(0.0, TOP, width, (0.46 * width).floor());
         let legend = Rect::new(0.0, plot.bottom() + 8.0, width, 3.0 * LINE);
         let columns = [(0.48 * width).floor(), width - (0.48 * width).floor()];
         let mut y = legend.bottom() + GAP;

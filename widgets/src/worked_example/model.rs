@@ -15,6 +15,9 @@ use fastslam::{
     experiment::worked_example::{Inputs, Update, WorkedExample},
 };
 
+/// Significant digits of readouts: what a phone has room for.
+const DIGITS: i32 = 7;
+
 /// The figure of the worked example.
 pub struct WorkedExampleModel {
     inputs: Inputs,
@@ -117,16 +120,16 @@ impl Model for WorkedExampleModel {
         let WorkedExample { updates: [one, two], weights, ess, resamples, .. } = &self.example;
         let density = |name, title, update: &Update| {
             let help = "Density of the sighting as this particle foretold it: N(ν; 0, S).";
-            Readout::new(name, title, update.weight, plain(update.weight, 10), "/(m rad)", help)
+            Readout::new(name, title, update.weight, plain(update.weight, DIGITS), "/(m rad)", help)
         };
         let log = |name, title, update: &Update| {
             let (x, help) =
                 (update.innovation.log_likelihood, "Its natural logarithm, which is what the filter keeps.");
-            Readout::new(name, title, x, plain(x, 10), "nats", help)
+            Readout::new(name, title, x, plain(x, DIGITS), "nats", help)
         };
         let share = |name, title, slot: usize| {
             let (x, help) = (weights.as_slice()[slot], "Its weight as a share of both.");
-            Readout::new(name, title, x, plain(x, 12), "", help)
+            Readout::new(name, title, x, plain(x, DIGITS), "", help)
         };
         vec![
             density("w1", "w, particle 1", one),
@@ -139,8 +142,8 @@ impl Model for WorkedExampleModel {
                 "ess",
                 "N_eff",
                 *ess,
-                plain(*ess, 11),
-                "of 2",
+                format!("{} of 2", plain(*ess, DIGITS)),
+                "",
                 "1 / Σ w̃²: how many particles of equal weight these two are worth.",
             ),
             Readout::new(

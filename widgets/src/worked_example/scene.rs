@@ -232,7 +232,8 @@ fn selection(scene: &mut Scene, model: &WorkedExampleModel, layout: &Layout) {
     scene.marks.push(Mark::Lines { lines, width: 2.0, dash: None, role: Role::Ink });
     let name = format!("threshold · M = {}", number(*limit, DIGITS));
     let w = font::measure(&name, WORDS, Weight::Regular);
-    let left = (x - 0.5 * w).clamp(area.x, area.right() - w);
+    // Not `clamp`: its panic writes both ends, which takes 20 KB.
+    let left = (x - 0.5 * w).min(area.right() - w).max(area.x);
     let under = Rect::new(left, bar.bottom() + 6.0, w, LINE);
     scene.marks.push(text(under, Anchor::Start, WORDS, Weight::Regular, Role::Ink, name));
 }
