@@ -73,27 +73,29 @@ impl Formula {
         self
     }
 
-    /// The same with a matrix of these entries at its end, their decimal points below each other.
-    pub fn matrix<const R: usize, const C: usize>(mut self, rows: [[f64; C]; R], digits: i32) -> Self {
+    /// The same with a matrix at its end, of entries row by row; the decimal points of a column are below each other.
+    pub fn matrix(mut self, entries: &[f64], columns: usize, digits: i32) -> Self {
         let pad = PAD * self.size;
-        let left = self.width;
+        let (left, rows) = (self.width, entries.len() / columns);
         let mut x = left + pad;
-        for column in 0..C {
-            let entries = rows.map(|row| {
-                let source = number(row[column], digits);
-                let before = source.split(['.', '·']).next().unwrap_or_default();
-                let before = font::measure(before, self.size, self.weight);
-                (Self::new(self.size, self.weight, self.role).tex(&source), before)
-            });
-            let before = entries.iter().map(|(_, before)| *before).fold(0.0, f64::max);
-            let after = entries.iter().map(|(entry, before)| entry.width - before).fold(0.0, f64::max);
-            for (row, (entry, head)) in entries.into_iter().enumerate() {
-                let y = (row as f64 - 0.5 * (R as f64 - 1.0)) * PITCH * self.size;
+        for column in 0..columns {
+            let mut written = Vec::new();
+            let (mut before, mut after) = (0.0_f64, 0.0_f64);
+            for entry in entries.iter().skip(column).step_by(columns) {
+                let source = number(*entry, digits);
+                let head = source.split(['.', '·']).next().unwrap_or_default();
+                let head = font::measure(head, self.size, self.weight);
+                let entry = Self::new(self.size, self.weight, self.role).tex(&source);
+                (before, after) = (before.max(head), after.max(entry.width - head));
+                written.push((entry, head));
+            }
+            for (row, (entry, head)) in written.into_iter().enumerate() {
+                let y = (row as f64 - 0.5 * (rows as f64 - 1.0)) * PITCH * self.size;
                 self.texts.extend(entry.texts.into_iter().map(|text| moved(text, [x + before - head, y])));
             }
-            x += before + after + if column + 1 < C { GAP * self.size } else { pad };
+            x += before + after + if column + 1 < columns { GAP * self.size } else { pad };
         }
-        let (half, serif) = (0.5 * R as f64 * PITCH * self.size, 0.26 * self.size);
+        let (half, serif) = (0.5 * rows as f64 * PITCH * self.size, 0.26 * self.size);
         let bracket = |x: f64, serif: f64| vec![[x + serif, -half], [x, -half], [x, half], [x + serif, half]];
         self.brackets.extend([bracket(left + 1.0, serif), bracket(x - 1.0, -serif)]);
         self.width = x;
@@ -191,7 +193,7 @@ mod tests {
 
     #[test]
     fn decimal_points_of_a_column_are_below_each_other() {
-        let formula = line("").matrix([[0.25, 100.0], [-12.5, 1e-9]], 5);
+        let formula = line("").matrix(&[0.25, 100.0, -12.5, 1e-9], 2, 5);
         let point =
             |text: &str| at(&formula, text)[0] + font::measure(text.split('.').next().unwrap(), 20.0, Weight::Regular);
         assert!((point("0.25") - point("−12.5")).abs() < 1e-9);

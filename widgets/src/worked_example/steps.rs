@@ -1,4 +1,6 @@
 //! The chain of steps from a sighting to a weight and a new landmark, as a textbook writes it.
+//!
+//! Matrices are transposed on their way: they are kept column by column and written row by row.
 
 use crate::scene::{Formula, number};
 use fastslam::experiment::worked_example::WorkedExample;
@@ -24,19 +26,19 @@ pub const GIVEN: &[Step] = &[
         caption: "Landmark [m]",
         formula: "μ",
         tall: true,
-        write: |line, e, _| line.matrix([[e.before.mean.x], [e.before.mean.y]], DIGITS),
+        write: |line, e, _| line.matrix(e.before.mean.as_slice(), 1, DIGITS),
     },
     Step {
         caption: "Covariance [m²]",
         formula: "Σ",
         tall: true,
-        write: |line, e, _| line.matrix(e.before.covariance.transpose().into(), DIGITS),
+        write: |line, e, _| line.matrix(e.before.covariance.transpose().as_slice(), 2, DIGITS),
     },
     Step {
         caption: "Noise [m², rad²]",
         formula: "Q",
         tall: true,
-        write: |line, e, _| line.matrix(e.noise.transpose().into(), DIGITS),
+        write: |line, e, _| line.matrix(e.noise.transpose().as_slice(), 2, DIGITS),
     },
 ];
 
@@ -56,7 +58,7 @@ pub const STEPS: &[Step] = &[
         caption: "Expected sighting [m, rad]",
         formula: "z\u{302} = h(x, μ)",
         tall: true,
-        write: |line, e, slot| line.matrix(column(e.updates[slot].innovation.prediction.z), DIGITS),
+        write: |line, e, slot| line.matrix(e.updates[slot].innovation.prediction.z.as_slice(), 1, DIGITS),
     },
     Step {
         caption: "Innovation [m, rad]",
@@ -65,24 +67,24 @@ pub const STEPS: &[Step] = &[
         write: |line, e, slot| {
             let update = &e.updates[slot];
             let (z, innovation) = (update.z, update.innovation);
-            line.matrix(column(z), DIGITS)
+            line.matrix(z.as_slice(), 1, DIGITS)
                 .tex(" − ")
-                .matrix(column(innovation.prediction.z), DIGITS)
+                .matrix(innovation.prediction.z.as_slice(), 1, DIGITS)
                 .tex(" = ")
-                .matrix(column(innovation.residual), DIGITS)
+                .matrix(innovation.residual.as_slice(), 1, DIGITS)
         },
     },
     Step {
         caption: "Derivative of h",
         formula: "H_m = ∂h/∂m",
         tall: true,
-        write: |line, e, slot| line.matrix(e.updates[slot].innovation.prediction.h_m.transpose().into(), DIGITS),
+        write: |line, e, slot| line.matrix(e.updates[slot].innovation.prediction.h_m.transpose().as_slice(), 2, DIGITS),
     },
     Step {
         caption: "Covariance of ν",
         formula: "S = H_m Σ H_m^T + Q",
         tall: true,
-        write: |line, e, slot| line.matrix(e.updates[slot].innovation.covariance.transpose().into(), DIGITS),
+        write: |line, e, slot| line.matrix(e.updates[slot].innovation.covariance.transpose().as_slice(), 2, DIGITS),
     },
     Step {
         caption: "Its determinant [m² rad²]",
@@ -94,7 +96,7 @@ pub const STEPS: &[Step] = &[
         caption: "Its inverse",
         formula: "S^{−1}",
         tall: true,
-        write: |line, e, slot| line.matrix(e.updates[slot].innovation.inverse.transpose().into(), DIGITS),
+        write: |line, e, slot| line.matrix(e.updates[slot].innovation.inverse.transpose().as_slice(), 2, DIGITS),
     },
     Step {
         caption: "Squared distance",
@@ -118,19 +120,19 @@ pub const STEPS: &[Step] = &[
         caption: "Gain",
         formula: "K = Σ H_m^T S^{−1}",
         tall: true,
-        write: |line, e, slot| line.matrix(e.updates[slot].gain.transpose().into(), DIGITS),
+        write: |line, e, slot| line.matrix(e.updates[slot].gain.transpose().as_slice(), 2, DIGITS),
     },
     Step {
         caption: "Landmark after [m]",
         formula: "μ ← μ + K ν",
         tall: true,
-        write: |line, e, slot| line.matrix(column(e.updates[slot].after.mean), DIGITS),
+        write: |line, e, slot| line.matrix(e.updates[slot].after.mean.as_slice(), 1, DIGITS),
     },
     Step {
         caption: "Its covariance [m²]",
         formula: "Σ ← (I − K H_m) Σ",
         tall: true,
-        write: |line, e, slot| line.matrix(e.updates[slot].after.covariance.transpose().into(), DIGITS),
+        write: |line, e, slot| line.matrix(e.updates[slot].after.covariance.transpose().as_slice(), 2, DIGITS),
     },
     Step {
         caption: "Share of the weight",
@@ -143,8 +145,4 @@ pub const STEPS: &[Step] = &[
 /// A number above 0, though it may be too small to be told from it.
 fn positive(x: f64) -> String {
     if x > 0.0 { number(x, DIGITS) } else { "≈ 0".into() }
-}
-
-fn column(vector: impl Into<[f64; 2]>) -> [[f64; 1]; 2] {
-    vector.into().map(|x| [x])
 }
