@@ -59,8 +59,8 @@ const EXTREMES: &str = "x1=-99.123456&y1=-12.5&theta1=-3.1415926&x2=4.000001&y2=
 /// A step of the default lap at which it resampled.
 const RESAMPLED: &str = "step=62";
 
-/// Figures and states whose readouts are kept, for every step where there are steps.
-pub const STATES: &[(&str, &str)] = &[
+/// Figures and setups whose readouts are kept for every step.
+pub const SETUPS: &[(&str, &str)] = &[
     ("fastslam-lap", ""),
     ("fastslam-lap", "universes=1"),
     ("fastslam-lap", "universes=7&seed=5&proposal=motion&matcher=cell"),
@@ -106,7 +106,7 @@ pub fn put_readout(digest: &mut Digest, name: &str, value: Option<f64>, text: &s
     digest.bytes(text.as_bytes());
 }
 
-/// Every readout of every step, and what is said of it, as a fingerprint.
+/// Every readout of every step of a figure, and what is said of it, as a fingerprint.
 pub fn readouts(tag: &str, query: &str) -> Digest {
     let mut figure = figure(tag, query);
     let mut digest = Digest::new();
