@@ -3,6 +3,7 @@
 pub mod landmarks;
 pub mod lap;
 pub mod table;
+pub mod worked_example;
 
 /// The q-quantile of ascending values, interpolated linearly between neighbours (type 7 of Hyndman and Fan 1996).
 pub fn quantile(ascending: &[f64], q: f64) -> f64 {

@@ -14,5 +14,6 @@ pub mod registry;
 pub mod scene;
 #[cfg(target_arch = "wasm32")]
 pub mod shell;
+pub mod worked_example;
 
 pub use fastslam;

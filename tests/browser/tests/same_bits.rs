@@ -10,7 +10,7 @@ use fastslam::{
     },
 };
 use fastslam_widgets::shell::Figure;
-use figures::{LAPS, PICTURES, line, put_readout};
+use figures::{PICTURES, SETUPS, line, put_readout};
 use js_sys::{Reflect, Uint8Array, WebAssembly};
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
@@ -75,8 +75,8 @@ fn whole_runs_leave_the_traces_of_the_native_build() {
 
 #[wasm_bindgen_test]
 fn every_readout_of_every_step_has_the_bits_of_the_native_build() {
-    let readouts = LAPS.iter().map(|query| {
-        let mut figure = figure("fastslam-lap", query);
+    let readouts = SETUPS.iter().map(|(tag, query)| {
+        let mut figure = figure(tag, query);
         let mut digest = Digest::new();
         for step in 0..=figure.step_count() {
             figure.seek(step);
@@ -91,7 +91,7 @@ fn every_readout_of_every_step_has_the_bits_of_the_native_build() {
             }
             digest.bytes(figure.describe().as_bytes());
         }
-        line(&format!("fastslam-lap?{query}"), &digest)
+        line(&format!("{tag}?{query}"), &digest)
     });
     same_lines(&readouts.collect::<Vec<_>>(), READOUTS);
 }

@@ -25,6 +25,10 @@ const fn lap(name: &'static str, query: &'static str, width: u32, dpr: f64, them
     Picture { name, tag: "fastslam-lap", query, width, dpr, theme }
 }
 
+const fn worked(name: &'static str, query: &'static str, width: u32, dpr: f64, theme: &'static str) -> Picture {
+    Picture { name, tag: "fastslam-worked-example", query, width, dpr, theme }
+}
+
 /// The first two are what readers without JavaScript see: the default lap on its way back, just resampled. At 1.5 px per css px
 /// they are sharp enough for most screens, and 80 KB each.
 pub const PICTURES: &[Picture] = &[
@@ -39,18 +43,32 @@ pub const PICTURES: &[Picture] = &[
     lap("motion-64", "universes=64&proposal=motion&matcher=cell&step=41", 800, 1.0, "light"),
     lap("motion-256", "universes=256&proposal=motion&matcher=cell&step=12", 800, 1.0, "dark"),
     lap("motion-256-narrow", "universes=256&proposal=motion&matcher=cell&step=12", 340, 1.0, "light"),
+    worked("fastslam-worked-example-light", "", 800, 1.5, "light"),
+    worked("fastslam-worked-example-dark", "", 800, 1.5, "dark"),
+    worked("worked-phone", "", 340, 2.0, "light"),
+    worked("worked-poses", POSES, 980, 1.0, "light"),
+    worked("worked-extremes", EXTREMES, 720, 1.0, "contrast-dark"),
 ];
+
+/// What a filter does: one sighting for both particles, from two poses; and the landmark's ellipse is turned.
+const POSES: &str = "x2=0.4&y2=-0.3&theta2=0.08&r2=4.1&phi2=0.05&sigma-xy=0.09&threshold=0.8";
+
+/// Numbers of every size.
+const EXTREMES: &str = "x1=-99.123456&y1=-12.5&theta1=-3.1415926&x2=4.000001&y2=0.000001&sigma-xx=0.0000321&sigma-xy=-0.0000123456&bearing-std=0.00123";
 
 /// A step of the default lap at which it resampled.
 const RESAMPLED: &str = "step=62";
 
-/// Setups whose readouts are kept for every step.
-pub const LAPS: &[&str] = &[
-    "",
-    "universes=1",
-    "universes=7&seed=5&proposal=motion&matcher=cell",
-    "universes=24&policy=always&scheme=residual&odometry=1.5",
-    "policy=never&range-std=0.1&scheme=multinomial",
+/// Figures and setups whose readouts are kept for every step.
+pub const SETUPS: &[(&str, &str)] = &[
+    ("fastslam-lap", ""),
+    ("fastslam-lap", "universes=1"),
+    ("fastslam-lap", "universes=7&seed=5&proposal=motion&matcher=cell"),
+    ("fastslam-lap", "universes=24&policy=always&scheme=residual&odometry=1.5"),
+    ("fastslam-lap", "policy=never&range-std=0.1&scheme=multinomial"),
+    ("fastslam-worked-example", ""),
+    ("fastslam-worked-example", POSES),
+    ("fastslam-worked-example", EXTREMES),
 ];
 
 /// The figure of a tag in the state that a link names, simulated.
@@ -88,7 +106,7 @@ pub fn put_readout(digest: &mut Digest, name: &str, value: Option<f64>, text: &s
     digest.bytes(text.as_bytes());
 }
 
-/// Every readout of every step of a lap, and what is said of it, as a fingerprint.
+/// Every readout of every step of a figure, and what is said of it, as a fingerprint.
 pub fn readouts(tag: &str, query: &str) -> Digest {
     let mut figure = figure(tag, query);
     let mut digest = Digest::new();
