@@ -1,5 +1,6 @@
 //! What a particle filter approximates, computed without particles: the oracle of tests and of figures.
 
 mod ekf;
+pub mod joint;
 
 pub use ekf::{EkfSlam, EkfStep};

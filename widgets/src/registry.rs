@@ -1,6 +1,6 @@
 //! All figures by tag. Tests and tools iterate over this list.
 
-use crate::{lap::LapModel, model::Model, worked_example::WorkedExampleModel};
+use crate::{conditioning::ConditioningModel, lap::LapModel, model::Model, worked_example::WorkedExampleModel};
 
 /// A kind of figure.
 pub struct Entry {
@@ -15,6 +15,11 @@ pub struct Entry {
 /// Every kind there is.
 pub const FIGURES: &[Entry] = &[
     Entry { tag: "fastslam-lap", title: LapModel::TITLE, make: || Box::new(LapModel::default()) },
+    Entry {
+        tag: "fastslam-conditioning",
+        title: ConditioningModel::TITLE,
+        make: || Box::new(ConditioningModel::default()),
+    },
     Entry {
         tag: "fastslam-worked-example",
         title: WorkedExampleModel::TITLE,

@@ -2,13 +2,7 @@
 //! The goldens are written natively, by `tests/portability` and `tests/figures`.
 #![cfg(target_arch = "wasm32")]
 
-use fastslam::{
-    digest::Digest,
-    experiment::{
-        landmarks::{LandmarkRun, golden_runs},
-        lap::{Lap, golden_setups},
-    },
-};
+use fastslam::{digest::Digest, execute::Executor, experiment::golden_traces};
 use fastslam_widgets::shell::Figure;
 use figures::{PICTURES, SETUPS, line, put_readout};
 use js_sys::{Reflect, Uint8Array, WebAssembly};
@@ -62,15 +56,8 @@ fn pixels(figure: &Figure, [width, height]: [u32; 2]) -> Vec<u8> {
 
 #[wasm_bindgen_test]
 fn whole_runs_leave_the_traces_of_the_native_build() {
-    let traces = golden_setups().into_iter().map(|(name, setup)| {
-        let lap = Lap::new(&setup).expect("a golden setup is valid");
-        line(name, &lap.trace())
-    });
-    let runs = golden_runs().into_iter().map(|(name, course, setup)| {
-        let run = LandmarkRun::new(&setup, &course.tuning(), course.simulate(setup.seed).into());
-        line(name, &run.expect("a golden setup is valid").trace())
-    });
-    same_lines(&traces.chain(runs).collect::<Vec<_>>(), TRACES);
+    let traces = golden_traces(&Executor::Serial).into_iter().map(|(name, digest)| line(name, &digest));
+    same_lines(&traces.collect::<Vec<_>>(), TRACES);
 }
 
 #[wasm_bindgen_test]

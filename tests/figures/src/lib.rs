@@ -21,33 +21,47 @@ pub struct Picture {
     pub theme: &'static str,
 }
 
-const fn lap(name: &'static str, query: &'static str, width: u32, dpr: f64, theme: &'static str) -> Picture {
-    Picture { name, tag: "fastslam-lap", query, width, dpr, theme }
-}
+const LAP: &str = "fastslam-lap";
+const CONDITIONING: &str = "fastslam-conditioning";
+const WORKED: &str = "fastslam-worked-example";
 
-const fn worked(name: &'static str, query: &'static str, width: u32, dpr: f64, theme: &'static str) -> Picture {
-    Picture { name, tag: "fastslam-worked-example", query, width, dpr, theme }
+const fn picture(
+    tag: &'static str,
+    name: &'static str,
+    query: &'static str,
+    width: u32,
+    dpr: f64,
+    theme: &'static str,
+) -> Picture {
+    Picture { name, tag, query, width, dpr, theme }
 }
 
 /// The first two are what readers without JavaScript see: the default lap on its way back, just resampled. At 1.5 px per css px
 /// they are sharp enough for most screens, and 80 KB each.
 pub const PICTURES: &[Picture] = &[
-    lap("fastslam-lap-light", RESAMPLED, 800, 1.5, "light"),
-    lap("fastslam-lap-dark", RESAMPLED, 800, 1.5, "dark"),
-    lap("start", "", 800, 1.0, "light"),
-    lap("overlays", "step=60&universe=9&truth=on&raw=on", 800, 1.0, "dark"),
-    lap("end-narrow", "step=90&truth=on&raw=on", 340, 2.0, "light"),
-    lap("phone", RESAMPLED, 380, 1.0, "contrast-dark"),
-    lap("tiny", RESAMPLED, 240, 1.0, "contrast-light"),
-    lap("one", "universes=1&step=30", 640, 1.0, "light"),
-    lap("motion-64", "universes=64&proposal=motion&matcher=cell&step=41", 800, 1.0, "light"),
-    lap("motion-256", "universes=256&proposal=motion&matcher=cell&step=12", 800, 1.0, "dark"),
-    lap("motion-256-narrow", "universes=256&proposal=motion&matcher=cell&step=12", 340, 1.0, "light"),
-    worked("fastslam-worked-example-light", "", 800, 1.5, "light"),
-    worked("fastslam-worked-example-dark", "", 800, 1.5, "dark"),
-    worked("worked-phone", "", 340, 2.0, "light"),
-    worked("worked-poses", POSES, 980, 1.0, "light"),
-    worked("worked-extremes", EXTREMES, 720, 1.0, "contrast-dark"),
+    picture(LAP, "fastslam-lap-light", RESAMPLED, 800, 1.5, "light"),
+    picture(LAP, "fastslam-lap-dark", RESAMPLED, 800, 1.5, "dark"),
+    picture(LAP, "start", "", 800, 1.0, "light"),
+    picture(LAP, "overlays", "step=60&universe=9&truth=on&raw=on", 800, 1.0, "dark"),
+    picture(LAP, "end-narrow", "step=90&truth=on&raw=on", 340, 2.0, "light"),
+    picture(LAP, "phone", RESAMPLED, 380, 1.0, "contrast-dark"),
+    picture(LAP, "tiny", RESAMPLED, 240, 1.0, "contrast-light"),
+    picture(LAP, "one", "universes=1&step=30", 640, 1.0, "light"),
+    picture(LAP, "motion-64", "universes=64&proposal=motion&matcher=cell&step=41", 800, 1.0, "light"),
+    picture(LAP, "motion-256", "universes=256&proposal=motion&matcher=cell&step=12", 800, 1.0, "dark"),
+    picture(LAP, "motion-256-narrow", "universes=256&proposal=motion&matcher=cell&step=12", 340, 1.0, "light"),
+    picture(WORKED, "fastslam-worked-example-light", "", 800, 1.5, "light"),
+    picture(WORKED, "fastslam-worked-example-dark", "", 800, 1.5, "dark"),
+    picture(WORKED, "worked-phone", "", 340, 2.0, "light"),
+    picture(WORKED, "worked-poses", POSES, 980, 1.0, "light"),
+    picture(WORKED, "worked-extremes", EXTREMES, 720, 1.0, "contrast-dark"),
+    picture(CONDITIONING, "fastslam-conditioning-light", "", 800, 1.5, "light"),
+    picture(CONDITIONING, "fastslam-conditioning-dark", "", 800, 1.5, "dark"),
+    picture(CONDITIONING, "conditioned", "condition=on", 1280, 1.0, "light"),
+    picture(CONDITIONING, "conditioning-24", "landmarks=24&poses=12&step=12&row=5&column=40", 800, 1.0, "dark"),
+    picture(CONDITIONING, "conditioning-half", "landmarks=12&step=4&row=3&column=3", 340, 2.0, "light"),
+    picture(CONDITIONING, "conditioning-phone", "", 380, 1.0, "contrast-dark"),
+    picture(CONDITIONING, "conditioning-tiny", "landmarks=24&odometry=3&condition=on", 240, 1.0, "contrast-light"),
 ];
 
 /// What a filter does: one sighting for both particles, from two poses; and the landmark's ellipse is turned.
@@ -61,14 +75,18 @@ const RESAMPLED: &str = "step=62";
 
 /// Figures and setups whose readouts are kept for every step.
 pub const SETUPS: &[(&str, &str)] = &[
-    ("fastslam-lap", ""),
-    ("fastslam-lap", "universes=1"),
-    ("fastslam-lap", "universes=7&seed=5&proposal=motion&matcher=cell"),
-    ("fastslam-lap", "universes=24&policy=always&scheme=residual&odometry=1.5"),
-    ("fastslam-lap", "policy=never&range-std=0.1&scheme=multinomial"),
-    ("fastslam-worked-example", ""),
-    ("fastslam-worked-example", POSES),
-    ("fastslam-worked-example", EXTREMES),
+    (LAP, ""),
+    (LAP, "universes=1"),
+    (LAP, "universes=7&seed=5&proposal=motion&matcher=cell"),
+    (LAP, "universes=24&policy=always&scheme=residual&odometry=1.5"),
+    (LAP, "policy=never&range-std=0.1&scheme=multinomial"),
+    (WORKED, ""),
+    (WORKED, POSES),
+    (WORKED, EXTREMES),
+    (CONDITIONING, ""),
+    (CONDITIONING, "condition=on&row=3&column=4"),
+    (CONDITIONING, "odometry=3&range-std=0.01&landmarks=24&poses=12&row=48&column=7"),
+    (CONDITIONING, "odometry=0&range-std=0.5&landmarks=3&poses=2"),
 ];
 
 /// The figure of a tag in the state that a link names, simulated.
