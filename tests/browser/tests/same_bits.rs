@@ -91,7 +91,7 @@ fn every_golden_picture_has_the_pixels_of_the_native_build() {
         figure.paint(size[0], size[1], picture.dpr, picture.theme);
         let mut digest = Digest::new();
         digest.bytes(&pixels(&figure, size));
-        line(picture.name, &digest)
+        picture.line(&digest)
     });
     same_lines(&pictures.collect::<Vec<_>>(), PIXELS);
 }

@@ -107,6 +107,12 @@ impl Picture {
         [f64::from(self.width), height].map(|side| (side * self.dpr).round() as u32)
     }
 
+    /// Its line in the golden file: all that it takes to paint it again, and the size and value of its pixels' digest.
+    pub fn line(&self, pixels: &Digest) -> String {
+        let Self { name, tag, query, width, dpr, theme } = self;
+        line(&format!("{name} {tag}?{query} {width} {dpr} {theme}"), pixels)
+    }
+
     /// Paints it: the figure, and its width and height \[device px\].
     pub fn paint(&self) -> (Figure, [u32; 2]) {
         let mut figure = figure(self.tag, self.query);
