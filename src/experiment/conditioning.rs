@@ -204,9 +204,10 @@ fn places(count: usize) -> Vec<[f64; 2]> {
         let (place, _) =
             free.iter().rev().max_by(|a, b| a.1.total_cmp(&b.1)).copied().expect("the place is large enough");
         free.iter_mut().for_each(|(p, nearest)| *nearest = nearest.min(squared(*p, place)));
-        chosen.push((passed(place).0, place));
+        let when = passed(place).0;
+        let before = chosen.partition_point(|&(other, _)| other <= when);
+        chosen.insert(before, (when, place));
     }
-    chosen.sort_by_key(|&(when, _)| when);
     chosen.into_iter().map(|(_, place)| place).collect()
 }
 

@@ -5,6 +5,28 @@ pub mod landmarks;
 pub mod lap;
 pub mod policies;
 pub mod table;
+pub mod worked_example;
+
+use crate::digest::Digest;
+use crate::execute::Executor;
+
+/// Fingerprints of whole runs by name, which are kept with the tests and must be the same on every platform, with any number of
+/// threads.
+pub fn golden_traces(executor: &Executor) -> Vec<(&'static str, Digest)> {
+    let laps = lap::golden_setups().into_iter().map(|(name, setup)| {
+        let lap = lap::Lap::new(&setup).unwrap_or_else(|error| unreachable!("{name}: {error}"));
+        (name, lap.with_executor(executor.clone()).trace())
+    });
+    let drives = landmarks::golden_runs().into_iter().map(|(name, course, setup)| {
+        let run = landmarks::LandmarkRun::new(&setup, &course.tuning(), course.simulate(setup.seed).into());
+        (name, run.unwrap_or_else(|error| unreachable!("{name}: {error}")).with_executor(executor.clone()).trace())
+    });
+    let joints = conditioning::golden_setups().into_iter().map(|(name, setup)| {
+        let drive = conditioning::Conditioning::new(&setup);
+        (name, drive.unwrap_or_else(|error| unreachable!("{name}: {error}")).trace())
+    });
+    laps.chain(drives).chain(joints).collect()
+}
 
 /// The q-quantile of ascending values, interpolated linearly between neighbours (type 7 of Hyndman and Fan 1996).
 pub fn quantile(ascending: &[f64], q: f64) -> f64 {

@@ -1,4 +1,5 @@
 // What a reader does with the graphical model.
+import AxeBuilder from '@axe-core/playwright'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
 
@@ -94,6 +95,20 @@ test.describe('at rest', () => {
     await figure.settled()
     expect(await entry(figure)).toEqual([row, Math.max(1, column + 1 - 10)])
   })
+
+  for (const colorScheme of ['light', 'dark'] as const) {
+    test(`axe finds nothing, with the path unknown and known: ${colorScheme}`, async ({ page }) => {
+      await page.emulateMedia({ colorScheme })
+      const figure = await open(page)
+      await figure.openSettings()
+      for (const _ of ['unknown', 'known']) {
+        const found = await new AxeBuilder({ page }).include('fastslam-conditioning').analyze()
+        expect(found.violations.map(violation => `${violation.id}: ${violation.nodes.map(node => node.html).join(' | ')}`)).toEqual([])
+        await figure.toggle('condition').click()
+        await figure.settled()
+      }
+    })
+  }
 
   for (const name of ['odometry', 'range-std', 'landmarks', 'poses']) {
     test(`dragging ${name} changes what is known, and back gives the same numbers`, async ({ page }) => {

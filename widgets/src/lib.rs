@@ -16,5 +16,6 @@ pub mod resampling;
 pub mod scene;
 #[cfg(target_arch = "wasm32")]
 pub mod shell;
+pub mod worked_example;
 
 pub use fastslam;

@@ -1,6 +1,9 @@
 //! All figures by tag. Tests and tools iterate over this list.
 
-use crate::{conditioning::ConditioningModel, lap::LapModel, model::Model, resampling::ResamplingModel};
+use crate::{
+    conditioning::ConditioningModel, lap::LapModel, model::Model, resampling::ResamplingModel,
+    worked_example::WorkedExampleModel,
+};
 
 /// A kind of figure.
 pub struct Entry {
@@ -19,6 +22,11 @@ pub const FIGURES: &[Entry] = &[
         tag: "fastslam-conditioning",
         title: ConditioningModel::TITLE,
         make: || Box::new(ConditioningModel::default()),
+    },
+    Entry {
+        tag: "fastslam-worked-example",
+        title: WorkedExampleModel::TITLE,
+        make: || Box::new(WorkedExampleModel::default()),
     },
     Entry { tag: "fastslam-resampling", title: ResamplingModel::TITLE, make: || Box::new(ResamplingModel::default()) },
 ];

@@ -2,14 +2,7 @@
 //! The goldens are written natively, by `tests/portability` and `tests/figures`.
 #![cfg(target_arch = "wasm32")]
 
-use fastslam::{
-    digest::Digest,
-    experiment::{
-        conditioning::{self, Conditioning},
-        landmarks::{LandmarkRun, golden_runs},
-        lap::{Lap, golden_setups},
-    },
-};
+use fastslam::{digest::Digest, execute::Executor, experiment::golden_traces};
 use fastslam_widgets::shell::Figure;
 use figures::{PICTURES, SETUPS, line, put_readout};
 use js_sys::{Reflect, Uint8Array, WebAssembly};
@@ -63,19 +56,8 @@ fn pixels(figure: &Figure, [width, height]: [u32; 2]) -> Vec<u8> {
 
 #[wasm_bindgen_test]
 fn whole_runs_leave_the_traces_of_the_native_build() {
-    let laps = golden_setups().into_iter().map(|(name, setup)| {
-        let lap = Lap::new(&setup).expect("a golden setup is valid");
-        line(name, &lap.trace())
-    });
-    let runs = golden_runs().into_iter().map(|(name, course, setup)| {
-        let run = LandmarkRun::new(&setup, &course.tuning(), course.simulate(setup.seed).into());
-        line(name, &run.expect("a golden setup is valid").trace())
-    });
-    let covariances = conditioning::golden_setups().into_iter().map(|(name, setup)| {
-        let drive = Conditioning::new(&setup).expect("a golden setup is valid");
-        line(name, &drive.trace())
-    });
-    same_lines(&laps.chain(runs).chain(covariances).collect::<Vec<_>>(), TRACES);
+    let traces = golden_traces(&Executor::Serial).into_iter().map(|(name, digest)| line(name, &digest));
+    same_lines(&traces.collect::<Vec<_>>(), TRACES);
 }
 
 #[wasm_bindgen_test]
@@ -109,7 +91,7 @@ fn every_golden_picture_has_the_pixels_of_the_native_build() {
         figure.paint(size[0], size[1], picture.dpr, picture.theme);
         let mut digest = Digest::new();
         digest.bytes(&pixels(&figure, size));
-        line(picture.name, &digest)
+        picture.line(&digest)
     });
     same_lines(&pictures.collect::<Vec<_>>(), PIXELS);
 }

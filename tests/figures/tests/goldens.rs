@@ -75,7 +75,7 @@ fn every_picture_is_the_golden_one_to_the_last_pixel() {
         let (figure, size) = picture.paint();
         let mut digest = Digest::new();
         digest.bytes(figure.canvas().pixels());
-        digests += &line(picture.name, &digest);
+        digests += &picture.line(&digest);
         let pixels = rgb(figure.canvas().pixels());
         let file = format!("{}.png", picture.name);
         if update() {

@@ -136,7 +136,7 @@ impl ConditioningModel {
     /// The entry nearest to a row and a column.
     fn choose(&mut self, entry: [f64; 2]) {
         let last = (2 * self.setup().landmarks - 1) as f64;
-        self.entry = entry.map(|k| k.clamp(0.0, last) as usize);
+        self.entry = entry.map(|k| k.max(0.0).min(last) as usize);
     }
 
     fn set_view(&mut self, name: &str, value: Value) {

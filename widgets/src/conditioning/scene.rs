@@ -219,8 +219,8 @@ impl<'a> Graph<'a> {
         let length = squared(towards, [0.0; 2]).sqrt().max(1e-9);
         let away = [0.5 * w, 0.5 * h].map(|half| self.node() + 5.0 + half);
         let [x, y] = [0, 1].map(|k| at[k] + towards[k] / length * away[k]);
-        let x = (x - 0.5 * w).clamp(self.area.x + 1.0, self.area.right() - w - 1.0);
-        let y = (y - 0.5 * h).clamp(self.area.y, self.area.bottom() - h);
+        let x = within(x - 0.5 * w, self.area.x + 1.0, self.area.right() - w - 1.0);
+        let y = within(y - 0.5 * h, self.area.y, self.area.bottom() - h);
         Text::new(Rect::new(x, y, w, h), Anchor::Middle, size, weight, role, name)
     }
 }
@@ -263,6 +263,11 @@ fn dashes([x0, y0]: Point, [x1, y1]: Point) -> Vec<Vec<Point>> {
     };
     let count = ((length / (dash + gap)).ceil() as usize).min(1000); // whatever the width of the figure
     (0..count).map(|k| k as f64 * (dash + gap)).map(|along| vec![at(along), at(along + dash)]).collect()
+}
+
+/// As `clamp`, whose panic would bring all that writes numbers into the page.
+fn within(x: f64, least: f64, most: f64) -> f64 {
+    x.min(most).max(least)
 }
 
 fn diamond([x, y]: Point, r: f64) -> Vec<Point> {
@@ -397,7 +402,7 @@ fn names(scene: &mut Scene, model: &ConditioningModel, layout: &Layout, block: f
         let apart = (room / block).ceil() as usize;
         for j in 0..model.drive().landmarks().len() {
             let wanted = origin + (j as f64 + 0.5) * block - 0.5 * room;
-            let at = wanted.clamp(start, end - room);
+            let at = within(wanted, start, end - room);
             if j != chosen && (at != wanted || j % apart != 0 || j.abs_diff(chosen) < apart) {
                 continue;
             }

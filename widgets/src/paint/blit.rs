@@ -57,7 +57,7 @@ pub fn strand(pixels: &mut Pixmap, a: [f32; 2], b: [f32; 2], width: f32, color: 
     let [length, breadth] = turn([pixels.width() as f32, pixels.height() as f32]);
     let slope = (b[1] - a[1]) / (b[0] - a[0]);
     let half = 0.5 * width * (1.0 + slope * slope).sqrt();
-    let first = |edge: f32| (edge - 0.5).ceil().clamp(0.0, length) as usize; // the first whose middle is beyond
+    let first = |edge: f32| (edge - 0.5).ceil().min(length) as usize; // the first whose middle is beyond
     if ![a[0], a[1], b[0], b[1], half].iter().all(|x| x.is_finite()) {
         return;
     }
