@@ -10,6 +10,9 @@ const pages = readdirSync(www, { recursive: true, encoding: 'utf8' }).filter(
   file => file.endsWith('.html') && !/(^|[/\\])(public|node_modules|generated)[/\\]/.test(file),
 )
 
+/** @param {{ names: string[] }} asset */
+const assetFileNames = asset => (asset.names.some(name => basename(name).endsWith('.wasm')) ? '[name]-[hash][extname]' : 'assets/[name]-[hash][extname]')
+
 export default defineConfig({
   root: www,
   base: './',
@@ -31,10 +34,12 @@ export default defineConfig({
       output: {
         entryFileNames: chunk => (chunk.name === 'fastslam' ? '[name].js' : 'assets/[name]-[hash].js'),
         chunkFileNames: 'assets/[name]-[hash].js',
-        assetFileNames: asset => (asset.names.some(name => basename(name).endsWith('.wasm')) ? '[name]-[hash][extname]' : 'assets/[name]-[hash][extname]'),
+        assetFileNames,
       },
     },
   },
+  // The worker's glue names the same program: it must be the same file.
+  worker: { format: 'es', rollupOptions: { output: { entryFileNames: 'assets/[name]-[hash].js', assetFileNames } } },
   // The elements, and what wasm-pack makes, are outside www/.
   server: { fs: { allow: [root] } },
 })

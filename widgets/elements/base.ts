@@ -210,6 +210,11 @@ export abstract class FigureElement extends HTMLElement {
     return linkTo(this, this.#figure?.query() ?? this.#recipe ?? '')
   }
 
+  /** Something of a figure's own, below everything else. */
+  protected addPanel(panel: HTMLElement): void {
+    this.#body.append(panel)
+  }
+
   // --- Life cycle --------------------------------------------------------------------------------------------------------
 
   async #start(): Promise<void> {
@@ -283,7 +288,7 @@ export abstract class FigureElement extends HTMLElement {
     this.#controls = controls
     controls.settings.open = this.clientWidth >= WIDE
     this.#stage.after(controls.transport, controls.view)
-    this.#body.append(controls.settings)
+    this.#readouts.after(controls.settings)
     defineProperties(this, this.#specs)
   }
 

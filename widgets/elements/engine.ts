@@ -1,5 +1,5 @@
 // One WebAssembly instance a page, shared by every figure. It is fetched when the first figure is seen, never before.
-import init, { Figure, last_panic } from '../pkg/fastslam_widgets.js'
+import init, { Figure, last_panic, program } from '../pkg/fastslam_widgets.js'
 
 export type Shell = Figure
 
@@ -41,6 +41,8 @@ export interface Handle {
 
 export interface Engine {
   memory: WebAssembly.Memory
+  /** For another instance, in a worker. */
+  program: WebAssembly.Module
   create(tag: string): Shell
 }
 
@@ -61,7 +63,7 @@ async function start(): Promise<Engine> {
   if (!response.ok) throw new Error(`its program could not be fetched (the server answered ${response.status})`)
   try {
     const { memory } = await init({ module_or_path: response })
-    return { memory, create: tag => new Figure(tag) }
+    return { memory, program: program() as WebAssembly.Module, create: tag => new Figure(tag) }
   } catch (error) {
     // Chromium and Firefox word a refusal by policy differently; both name one of these.
     if (/unsafe-eval|security policy|csp|disallowed/i.test(String(error))) {

@@ -6,6 +6,7 @@ pub mod conditioning;
 pub mod export;
 pub mod figure;
 pub mod font;
+pub mod job;
 pub mod lap;
 pub mod model;
 pub mod paint;

@@ -24,9 +24,7 @@ pub fn read(model: &mut dyn Model, query: &str) -> Vec<FigureError> {
     let mut refused = Vec::new();
     let mut values: Vec<(String, String)> = specs.iter().map(|s| (s.name.into(), s.default.clone())).collect();
     let defaults = values.len();
-    for pair in query.trim_start_matches(['?', '#']).split('&').filter(|p| !p.is_empty()) {
-        let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
-        let (name, value) = (decode(name), decode(value));
+    for (name, value) in pairs(query) {
         if specs.iter().any(|s| s.name == name) {
             values.push((name, value));
         } else {
@@ -38,6 +36,12 @@ pub fn read(model: &mut dyn Model, query: &str) -> Vec<FigureError> {
     refused.extend(model.configure(&values));
     refused.extend(model.configure(&given));
     refused
+}
+
+/// Names and values as they are written, decoded.
+pub fn pairs(query: &str) -> Vec<(String, String)> {
+    let pairs = query.trim_start_matches(['?', '#']).split('&').filter(|p| !p.is_empty());
+    pairs.map(|pair| pair.split_once('=').unwrap_or((pair, ""))).map(|(name, value)| (decode(name), decode(value))).collect()
 }
 
 fn encode(text: &str) -> String {

@@ -1,8 +1,9 @@
 //! The figures in the browser: the only code that knows of JavaScript. Every method is one line; what it does is in
 //! [`crate::figure`] and [`crate::model`].
 
-use crate::{figure, model::FigureError, paint::Theme, registry};
+use crate::{figure, job, model::FigureError, paint::Theme, registry};
 use core::cell::RefCell;
+use fastslam::experiment::policy_counts::Fraction;
 use js_sys::{Array, Error, JSON, Object};
 use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
@@ -33,6 +34,25 @@ pub fn last_panic() -> Option<String> {
 #[wasm_bindgen]
 pub fn tags() -> Vec<String> {
     registry::FIGURES.iter().map(|f| f.tag.into()).collect()
+}
+
+/// The compiled program, for another instance in a worker: it is not fetched again.
+#[wasm_bindgen]
+pub fn program() -> JsValue {
+    wasm_bindgen::module()
+}
+
+/// An experiment over the seeds from `from` to before `to`, in the setting of a link: an array of arrays of numbers, one for each
+/// seed. Takes as long as it takes: for workers.
+#[wasm_bindgen]
+pub fn job(name: &str, query: &str, from: u32, to: u32) -> Result<Array, Error> {
+    job::run(name, query, from.into()..to.into()).map(|rows| plain(&rows)).map_err(thrown)
+}
+
+/// The 95 % confidence interval of a share: its ends, from 0 to 1.
+#[wasm_bindgen]
+pub fn interval(successes: u32, total: u32) -> Vec<f64> {
+    Fraction { successes, total }.wilson().to_vec()
 }
 
 /// One figure on a page; to be freed when it leaves the page.

@@ -4,6 +4,8 @@ mod layout;
 mod model;
 mod params;
 mod scene;
+mod wings;
 
 pub use layout::{Column, Layout};
 pub use model::{Moment, ResamplingModel};
+pub use wings::WINGS;

@@ -127,8 +127,8 @@ impl ResamplingModel {
     }
 }
 
-/// A setup with one value changed.
-fn set(setup: &mut PoliciesSetup, name: &str, value: Value) -> Result<(), FigureError> {
+/// Gives one value of a setup.
+pub fn set(setup: &mut PoliciesSetup, name: &str, value: Value) -> Result<(), FigureError> {
     match (name, value) {
         ("wings", Value::Flag(on)) => setup.course = if on { PolicyCourse::Wings } else { PolicyCourse::Lap },
         ("particles", Value::Number(x)) => setup.particles = x as usize,

@@ -1,0 +1,139 @@
+// The panel below the figure of resampling: in how many runs each policy still has the right wing when the evidence comes.
+import { h, write } from './dom'
+import { interval } from '../pkg/fastslam_widgets.js'
+import { runInWorker } from './jobs'
+
+/** The settings that the count depends on; it has seeds of its own, and always the course of the two wings. */
+const SETTINGS = ['particles', 'threshold', 'odometry', 'range', 'scheme']
+
+/** Names of the policies, and the column of the job's rows that says whether the right wing was alive. */
+const POLICIES: [string, number][] = [
+  ['Never', 1],
+  ['Every step', 3],
+  ['Selective', 5],
+]
+const FIRST_SEED = 1
+
+export class Count {
+  readonly element: HTMLElement
+  private readonly start = h('button', { type: 'button', part: 'button count' })
+  private readonly halt = h('button', { type: 'button', part: 'button stop' }, 'Stop')
+  private readonly runs = h('select', { 'aria-label': 'Number of seeds', name: 'runs' })
+  private readonly progress = h('progress', { 'aria-label': 'Seeds counted', value: '0' })
+  private readonly said = h('p', { class: 'said', 'aria-live': 'polite' })
+  private readonly rows = POLICIES.map(([name]) => {
+    const fill = h('div', { class: 'fill' })
+    const range = h('div', { class: 'range' })
+    const share = h('td', { class: 'share' }, '–')
+    const bar = h('td', { class: 'bar', 'aria-hidden': 'true' }, h('div', { class: 'track' }, fill, range))
+    return { fill, range, share, row: h('tr', {}, h('th', { scope: 'row' }, name), bar, share) }
+  })
+  private query = '' // what is counted, or was
+  private running: AbortController | undefined
+  private alive = POLICIES.map(() => 0)
+  private seeds = 0
+
+  constructor(private readonly setting: (name: string) => unknown) {
+    for (const runs of ['50', '200', '1000']) this.runs.add(new Option(runs, runs))
+    this.runs.value = '200'
+    this.runs.addEventListener('change', () => this.label())
+    this.start.addEventListener('click', () => void this.count())
+    this.halt.addEventListener('click', () => this.stop('Stopped'))
+    const heading = h('p', { class: 'name', id: 'count' }, 'Loop of ambiguity: runs that still have the right wing when the sign comes in sight')
+    const work = h('div', { class: 'work' }, this.start, this.halt, h('label', { class: 'choice' }, h('span', { class: 'name' }, 'Seeds'), this.runs), this.progress)
+    const table = h('table', { 'aria-labelledby': 'count' }, h('tbody', {}, ...this.rows.map(({ row }) => row)))
+    this.element = h('div', { class: 'count', part: 'count', role: 'group', 'aria-labelledby': 'count' }, heading, work, table, this.said)
+    this.label()
+    this.show()
+  }
+
+  /** Ends a count that is under way. What was counted stays. */
+  stop(said = ''): void {
+    if (!this.running) return
+    this.running.abort()
+    this.running = undefined
+    this.show()
+    if (said) this.say(`${said} after ${this.seeds} of ${this.runs.value} seeds.`)
+  }
+
+  /** After a change in the figure: a count of other settings begins again, and a finished one is taken away. */
+  check(): void {
+    if (!this.query || this.query === this.settings()) return
+    if (this.running) return void this.count()
+    this.clear()
+    write(this.said, 'The settings have changed: count again.')
+  }
+
+  private settings(): string {
+    return SETTINGS.map(name => `${name}=${String(this.setting(name))}`).join('&')
+  }
+
+  private async count(): Promise<void> {
+    this.running?.abort()
+    const running = (this.running = new AbortController())
+    this.clear()
+    this.query = this.settings()
+    write(this.said, '')
+    this.show()
+    const to = FIRST_SEED + Number(this.runs.value)
+    try {
+      await runInWorker({ name: 'wings', query: this.query, from: FIRST_SEED, to }, rows => running === this.running && this.add(rows), running.signal)
+      this.running = undefined
+      this.show()
+      this.say(`${this.seeds} seeds counted.`)
+    } catch (error) {
+      if (running !== this.running) return // it was stopped, or another one has begun
+      this.running = undefined
+      this.show()
+      write(this.said, `The count did not run: ${(error as Error).message}.`)
+    }
+  }
+
+  private clear(): void {
+    this.query = ''
+    this.alive.fill(0)
+    this.seeds = 0
+    this.show()
+  }
+
+  private add(rows: number[][]): void {
+    this.seeds += rows.length
+    POLICIES.forEach(([, column], policy) => (this.alive[policy]! += rows.filter(row => row[column] === 1).length))
+    this.show()
+  }
+
+  private label(): void {
+    write(this.start, `Count over ${this.runs.value} seeds`)
+  }
+
+  private show(): void {
+    const on = this.running !== undefined
+    this.start.disabled = this.runs.disabled = on
+    this.halt.disabled = !on
+    this.progress.max = Number(this.runs.value)
+    this.progress.value = this.seeds
+    this.rows.forEach(({ fill, range, share }, policy) => {
+      if (this.seeds === 0) {
+        fill.style.width = range.style.width = '0'
+        return write(share, '–')
+      }
+      const alive = this.alive[policy]!
+      const [low, high] = [...interval(alive, this.seeds)] as [number, number]
+      fill.style.width = percent(alive / this.seeds)
+      range.style.left = percent(low)
+      range.style.width = percent(high - low)
+      const round = (x: number) => (100 * x).toFixed(0)
+      write(share, `${round(alive / this.seeds)} % (${round(low)}–${round(high)})`)
+    })
+  }
+
+  /** Said once, at the end, with every number: nobody wants to hear it grow. */
+  private say(what: string): void {
+    const shares = this.rows.map(({ share }, policy) => `${POLICIES[policy]![0]} ${share.textContent}`)
+    write(this.said, this.seeds > 0 ? `${what} ${shares.join(', ')}; in brackets the 95 % intervals.` : what)
+  }
+}
+
+function percent(share: number): string {
+  return `${100 * share}%`
+}

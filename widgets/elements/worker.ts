@@ -1,0 +1,16 @@
+// Runs a job seed by seed, in an instance of its own of the program that the page has compiled.
+import init, { job } from '../pkg/fastslam_widgets.js'
+import type { Job, Told } from './jobs'
+
+const tell = (told: Told) => postMessage(told)
+
+addEventListener('message', async ({ data }: MessageEvent<Job & { program: WebAssembly.Module }>) => {
+  const { program, name, query, from, to } = data
+  try {
+    await init({ module_or_path: program })
+    for (let seed = from; seed < to; seed++) tell({ rows: job(name, query, seed, seed + 1) as number[][] })
+    tell({ done: true })
+  } catch (error) {
+    tell({ failed: error instanceof Error ? error.message : String(error) })
+  }
+})

@@ -1,0 +1,35 @@
+//! Long computations without a picture: experiments over many seeds, for panels and tables that run them beside the page.
+//!
+//! A job is a pure function of a figure's link and a range of seeds. It can be cut into pieces, stopped between them, and put
+//! together again in the order of the seeds.
+
+use crate::{model::FigureError, param, query, resampling};
+use core::ops::Range;
+
+/// Numbers, a row for each seed.
+pub type Rows = Vec<Vec<f64>>;
+
+/// An experiment.
+pub struct Job {
+    /// Its name.
+    pub name: &'static str,
+    /// What the numbers of a row are.
+    pub columns: &'static [&'static str],
+    /// A row for each seed, in a setting written as a figure's link.
+    pub run: fn(&[(String, String)], Range<u64>) -> Result<Rows, FigureError>,
+}
+
+/// Every experiment there is.
+pub const JOBS: &[Job] = &[resampling::WINGS];
+
+/// A row for each of these seeds.
+///
+/// # Errors
+/// For an unknown name, or a setting that is refused.
+pub fn run(name: &str, setting: &str, seeds: Range<u64>) -> Result<Rows, FigureError> {
+    let job = JOBS.iter().find(|job| job.name == name).ok_or_else(|| {
+        let names: Vec<&str> = JOBS.iter().map(|job| job.name).collect();
+        FigureError::new("job", param::quoted(name), format!("one of {}", names.join(", ")))
+    })?;
+    (job.run)(&query::pairs(setting), seeds)
+}

@@ -1,0 +1,45 @@
+//! The loop of ambiguity over many seeds.
+
+use super::{model::set, params};
+use crate::{
+    job::{Job, Rows},
+    model::{FigureError, Group},
+    param::unknown,
+};
+use core::ops::Range;
+use fastslam::experiment::{
+    policies::{PoliciesSetup, PolicyCourse},
+    policy_counts::{PolicyOutcome, outcomes},
+};
+
+/// Which policy keeps the right wing, and which ends in it.
+pub const WINGS: Job = Job {
+    name: "wings",
+    columns: &[
+        "seed",
+        "never_alive",
+        "never_settled",
+        "always_alive",
+        "always_settled",
+        "selective_alive",
+        "selective_settled",
+    ],
+    run,
+};
+
+/// The setting is that of the figure's link; what it says about the seed and the view makes no difference.
+fn run(setting: &[(String, String)], seeds: Range<u64>) -> Result<Rows, FigureError> {
+    let (mut setup, specs) = (PoliciesSetup::default(), params::specs(0));
+    for (name, text) in setting {
+        let spec = specs.iter().find(|s| s.name == name).ok_or_else(|| unknown(name, &specs))?;
+        if spec.group == Group::Setup {
+            set(&mut setup, name, spec.check(text)?)?;
+        }
+    }
+    setup.course = PolicyCourse::Wings;
+    let row = |(seed, all): (u64, [PolicyOutcome; 3])| {
+        let kept = all.into_iter().flat_map(|outcome| outcome.kept.map(|kept| [kept.alive, kept.settled]));
+        core::iter::once(seed as f64).chain(kept.flatten().map(|yes| f64::from(u8::from(yes)))).collect()
+    };
+    Ok(seeds.clone().zip(outcomes(&setup, seeds)?).map(row).collect())
+}
