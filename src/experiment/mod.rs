@@ -3,6 +3,7 @@
 pub mod landmarks;
 pub mod lap;
 pub mod policies;
+pub mod policy_counts;
 pub mod table;
 
 /// The q-quantile of ascending values, interpolated linearly between neighbours (type 7 of Hyndman and Fan 1996).

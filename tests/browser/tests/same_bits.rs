@@ -7,6 +7,7 @@ use fastslam::{
     experiment::{
         landmarks::{LandmarkRun, golden_runs},
         lap::{Lap, golden_setups},
+        policies::{Policies, golden_policies},
     },
 };
 use fastslam_widgets::shell::Figure;
@@ -70,7 +71,10 @@ fn whole_runs_leave_the_traces_of_the_native_build() {
         let run = LandmarkRun::new(&setup, &course.tuning(), course.simulate(setup.seed).into());
         line(name, &run.expect("a golden setup is valid").trace())
     });
-    same_lines(&traces.chain(runs).collect::<Vec<_>>(), TRACES);
+    let policies = golden_policies()
+        .into_iter()
+        .map(|(name, setup)| line(name, &Policies::new(&setup).expect("a golden setup is valid").trace()));
+    same_lines(&traces.chain(runs).chain(policies).collect::<Vec<_>>(), TRACES);
 }
 
 #[wasm_bindgen_test]

@@ -6,6 +6,7 @@
 use fastslam::execute::Executor;
 use fastslam::experiment::landmarks::{LandmarkRun, golden_runs};
 use fastslam::experiment::lap::{Lap, golden_setups};
+use fastslam::experiment::policies::{Policies, golden_policies};
 use std::fmt::Write;
 use std::sync::Arc;
 
@@ -21,6 +22,10 @@ fn fingerprints(executor: &Executor) -> String {
     for (name, course, setup) in golden_runs() {
         let run = LandmarkRun::new(&setup, &course.tuning(), Arc::new(course.simulate(setup.seed))).unwrap();
         let digest = run.with_executor(executor.clone()).trace();
+        writeln!(lines, "{name} {} {:016x}", digest.size(), digest.value()).unwrap();
+    }
+    for (name, setup) in golden_policies() {
+        let digest = Policies::new(&setup).unwrap().with_executor(executor.clone()).trace();
         writeln!(lines, "{name} {} {:016x}", digest.size(), digest.value()).unwrap();
     }
     lines
