@@ -97,7 +97,11 @@ impl Default for PoliciesSetup {
 }
 
 impl PoliciesSetup {
-    fn validate(&self) -> Result<(), ParameterError> {
+    /// Whether all settings are in range.
+    ///
+    /// # Errors
+    /// Where one is not.
+    pub fn validate(&self) -> Result<(), ParameterError> {
         let check = |ok: bool, name, value: String, allowed| {
             if ok { Ok(()) } else { Err(ParameterError::new(name, value, allowed)) }
         };
