@@ -4,6 +4,7 @@ pub mod conditioning;
 pub mod landmarks;
 pub mod lap;
 pub mod policies;
+pub mod policy_counts;
 pub mod table;
 pub mod worked_example;
 
@@ -25,7 +26,11 @@ pub fn golden_traces(executor: &Executor) -> Vec<(&'static str, Digest)> {
         let drive = conditioning::Conditioning::new(&setup);
         (name, drive.unwrap_or_else(|error| unreachable!("{name}: {error}")).trace())
     });
-    laps.chain(drives).chain(joints).collect()
+    let policies = policies::golden_policies().into_iter().map(|(name, setup)| {
+        let run = policies::Policies::new(&setup).unwrap_or_else(|error| unreachable!("{name}: {error}"));
+        (name, run.with_executor(executor.clone()).trace())
+    });
+    laps.chain(drives).chain(joints).chain(policies).collect()
 }
 
 /// The q-quantile of ascending values, interpolated linearly between neighbours (type 7 of Hyndman and Fan 1996).

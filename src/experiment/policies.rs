@@ -3,6 +3,12 @@
 //! Never, every step, and where N_eff < threshold · M. On the lap the three differ in what they waste; on the course of the two
 //! wings ([`Field::two_wings`]) they differ in whether they still have the hypothesis that turns out to be right.
 //!
+//! Why the wings tell them apart. For some forty steps half the particles hold either explanation, and both predict every
+//! sighting equally well. Each resampling is a lottery all the same: the number of particles in the right wing does a random
+//! walk from generation to generation, and none and all are its traps. Who resamples every step walks forty steps of it. Equal
+//! weights keep N_eff high: who waits for N_eff to fall resamples once or twice. Who never resamples keeps all explanations, and
+//! pays elsewhere: hardly any particle has a weight.
+//!
 //! [`Field::two_wings`]: crate::world::Field::two_wings
 
 use super::landmarks::{Association, Course, LandmarkLog, LandmarkRun, LandmarkSetup};
@@ -58,14 +64,24 @@ pub struct PoliciesSetup {
     pub matcher: Matcher,
 }
 
-impl Default for PoliciesSetup {
-    fn default() -> Self {
+impl PoliciesSetup {
+    /// What a course begins with: M = 16, threshold ½, and a scheme by the course.
+    ///
+    /// In the wings it is the multinomial one, that of the bootstrap filter. The explanations weigh nearly the same there, and
+    /// what resampling does to equal weights is the scheme's own noise: a systematic one copies nearly everybody once and does
+    /// little harm, a multinomial one is the drift of genes. Over 3000 seeds some particle is still in the right wing before the
+    /// sign, resampling always against by N_eff: systematic 76 % against 88 %, stratified 71 against 87, residual 54
+    /// against 87, multinomial 41 against 84.
+    pub fn of(course: PolicyCourse) -> Self {
         Self {
-            course: PolicyCourse::Lap,
+            course,
             particles: 16,
             seed: 3,
             threshold: 0.5,
-            scheme: Scheme::Systematic,
+            scheme: match course {
+                PolicyCourse::Lap => Scheme::Systematic,
+                PolicyCourse::Wings => Scheme::Multinomial,
+            },
             odometry_scale: 1.0,
             sensor_scale: 1.0,
             proposal: ProposalKind::Aware,
@@ -74,8 +90,18 @@ impl Default for PoliciesSetup {
     }
 }
 
+impl Default for PoliciesSetup {
+    fn default() -> Self {
+        Self::of(PolicyCourse::Lap)
+    }
+}
+
 impl PoliciesSetup {
-    fn validate(&self) -> Result<(), ParameterError> {
+    /// Whether all settings are in range.
+    ///
+    /// # Errors
+    /// Where one is not.
+    pub fn validate(&self) -> Result<(), ParameterError> {
         let check = |ok: bool, name, value: String, allowed| {
             if ok { Ok(()) } else { Err(ParameterError::new(name, value, allowed)) }
         };
@@ -417,13 +443,10 @@ impl FromStr for PolicyCourse {
 
 /// Named comparisons whose fingerprints are kept with the tests, and must be the same on every platform.
 pub fn golden_policies() -> Vec<(&'static str, PoliciesSetup)> {
-    let wings = || PoliciesSetup { course: PolicyCourse::Wings, ..PoliciesSetup::default() };
+    let wings = || PoliciesSetup::of(PolicyCourse::Wings);
     vec![
         ("policies-lap", PoliciesSetup::default()),
         ("policies-wings", wings()),
-        (
-            "policies-wings-multinomial",
-            PoliciesSetup { scheme: Scheme::Multinomial, particles: 40, seed: 5, ..wings() },
-        ),
+        ("policies-wings-systematic", PoliciesSetup { scheme: Scheme::Systematic, particles: 40, seed: 5, ..wings() }),
     ]
 }
