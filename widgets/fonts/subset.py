@@ -11,7 +11,10 @@ import sys
 from fontTools import subset
 from fontTools.ttLib import TTFont
 
-CHARACTERS = "".join(map(chr, range(0x20, 0x7F))) + "←→×±σαη√²³°–—−·…≤≥≈’†"
+TEXT = "".join(map(chr, range(0x20, 0x7F))) + "←→×±σαη√²³°–—−·…≤≥≈’†"
+# Of formulas. Inter has no ∈ ᵀ ⟨ ⟩ ∝ ⊕.
+FORMULAS = "μνφθδκχπρτωΔΛΣΩ∂∑∏∫∞≠½¼⁻¹⁺⁰₀₁₂₃ₜₓᵢⱼ"
+CHARACTERS = TEXT + FORMULAS
 
 
 def tabular_digits(font):

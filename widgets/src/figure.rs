@@ -7,13 +7,36 @@ use crate::{
     paint::{Canvas, Theme},
     param, query,
     registry::{self, Entry},
+    scene::{Handle, Point, Rect},
 };
+use serde::Serialize;
 
 /// One figure on a page.
 pub struct Figure {
     entry: &'static Entry,
     model: Box<dyn Model>,
     canvas: Canvas,
+    /// Of the scene painted last, and that scene's width \[css px\].
+    handles: (Vec<Handle>, f64),
+}
+
+/// A [`Handle`] where it lies on the page.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct PlacedHandle {
+    /// [`Handle::name`].
+    pub name: &'static str,
+    /// [`Handle::title`].
+    pub title: String,
+    /// From the figure's left edge \[css px\].
+    pub x: f64,
+    /// From the figure's upper edge \[css px\].
+    pub y: f64,
+    /// [`Handle::value`].
+    pub value: f64,
+    /// [`Handle::text`].
+    pub text: String,
+    /// [`Handle::hover`].
+    pub hover: Option<Rect>,
 }
 
 impl Figure {
@@ -26,7 +49,7 @@ impl Figure {
             let tags: Vec<&str> = registry::FIGURES.iter().map(|f| f.tag).collect();
             FigureError::new("tag", param::quoted(tag), format!("one of {}", tags.join(", ")))
         })?;
-        Ok(Self { entry, model: (entry.make)(), canvas: Canvas::default() })
+        Ok(Self { entry, model: (entry.make)(), canvas: Canvas::default(), handles: (Vec::new(), 1.0) })
     }
 
     /// What the figure is about.
@@ -59,6 +82,7 @@ impl Figure {
         let side = |px: u32| f64::from(px.max(1)) / dpr;
         let scene = self.model.scene(side(width_px), side(height_px));
         self.canvas.paint(&scene, width_px, height_px, theme);
+        self.handles = (scene.handles, scene.width);
     }
 
     /// What was painted last.
@@ -69,10 +93,38 @@ impl Figure {
     /// A click at a point of a figure of this width \[css px\]. True if it changed something.
     pub fn pick(&mut self, x: f64, y: f64, width: f64) -> bool {
         let scene = self.model.scene(width, self.model.height(width));
-        let scale = scene.width / width; // a very narrow figure is a wider scene made smaller
-        let target = scene.hit([x * scale, y * scale]);
+        let target = scene.hit(in_scene([x, y], scene.width / width));
         target.into_iter().for_each(|target| self.model.pick(target));
         target.is_some()
+    }
+
+    /// What can be moved in the picture painted last, where it lies in a figure of this width \[css px\].
+    pub fn handles(&self, width: f64) -> Vec<PlacedHandle> {
+        let (handles, scene_width) = &self.handles;
+        let scale = width / scene_width;
+        let placed = |handle: &Handle| {
+            let Handle { name, title, at, value, text, hover } = handle.clone();
+            let [x, y] = at.map(|c| c * scale);
+            let hover = hover.map(|r| Rect::new(r.x * scale, r.y * scale, r.w * scale, r.h * scale));
+            PlacedHandle { name, title, x, y, value, text, hover }
+        };
+        handles.iter().map(placed).collect()
+    }
+
+    /// Moves a handle to a point of a figure of this width \[css px\].
+    pub fn drag(&mut self, handle: &str, x: f64, y: f64, width: f64) {
+        let scene_width = self.model.scene(width, self.model.height(width)).width;
+        let to = in_scene([x, y], scene_width / width);
+        if to.iter().all(|c| c.is_finite()) {
+            self.model.drag(handle, to, scene_width);
+        }
+    }
+
+    /// Moves a handle right and up, in steps of its parameters.
+    pub fn nudge(&mut self, handle: &str, right: f64, up: f64) {
+        if right.is_finite() && up.is_finite() {
+            self.model.nudge(handle, [right, up]);
+        }
     }
 
     /// The link that makes this figure again: `name=value&…`.
@@ -88,5 +140,118 @@ impl Figure {
     /// Measured data of every step so far.
     pub fn export(&self) -> Export {
         Export::new(self.entry.tag, self.model())
+    }
+}
+
+/// A point of a figure in its scene: a very narrow figure is a wider scene made smaller.
+fn in_scene(point: Point, scale: f64) -> Point {
+    point.map(|c| c * scale)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        model::{ParamSpec, Readout, Series},
+        scene::Scene,
+    };
+    use std::{cell::RefCell, rc::Rc};
+
+    /// A point in a scene that is never narrower than 300 px. What it is told is written down.
+    #[derive(Default)]
+    struct OnePoint {
+        told: Rc<RefCell<Vec<String>>>,
+    }
+
+    impl Model for OnePoint {
+        fn title(&self) -> &'static str {
+            "A point"
+        }
+        fn params(&self) -> Vec<ParamSpec> {
+            Vec::new()
+        }
+        fn value(&self, _: &str) -> Option<String> {
+            None
+        }
+        fn configure(&mut self, _: &[(String, String)]) -> Vec<FigureError> {
+            Vec::new()
+        }
+        fn readouts(&self) -> Vec<Readout> {
+            vec![Readout::new("x", "x", f64::NAN, "NaN", "m", "")]
+        }
+        fn series(&self) -> Series {
+            Series { columns: &[], rows: Vec::new() }
+        }
+        fn describe(&self) -> String {
+            "A point.".into()
+        }
+        fn height(&self, width: f64) -> f64 {
+            0.5 * width
+        }
+        fn scene(&self, width: f64, height: f64) -> Scene {
+            let hover = Some(Rect::new(30.0, 60.0, 90.0, 30.0));
+            let (name, title, text) = ("point", "The point".into(), "3 m east".into());
+            let handles = vec![Handle { name, title, at: [150.0, 75.0], value: 3.0, text, hover }];
+            let (marks, regions, description) = (Vec::new(), Vec::new(), self.describe());
+            Scene { width: width.max(300.0), height, marks, regions, handles, description }
+        }
+        fn drag(&mut self, handle: &str, to: Point, width: f64) {
+            self.told.borrow_mut().push(format!("{handle} to {to:?} of {width}"));
+        }
+        fn nudge(&mut self, handle: &str, steps: [f64; 2]) {
+            self.told.borrow_mut().push(format!("{handle} by {steps:?}"));
+        }
+    }
+
+    fn point() -> (Figure, Rc<RefCell<Vec<String>>>) {
+        let model = OnePoint::default();
+        let told = model.told.clone();
+        let mut figure = Figure::new(registry::FIGURES[0].tag).unwrap();
+        figure.model = Box::new(model);
+        (figure, told)
+    }
+
+    #[test]
+    fn handles_lie_where_the_picture_has_them_also_where_it_was_made_smaller() {
+        let (mut figure, _) = point();
+        assert_eq!(figure.handles(300.0), []);
+        figure.paint(600, 300, 2.0, Theme::Light);
+        let handle = &figure.handles(300.0)[0];
+        assert_eq!((handle.name, handle.x, handle.y), ("point", 150.0, 75.0));
+        assert_eq!(handle.hover, Some(Rect::new(30.0, 60.0, 90.0, 30.0)));
+        figure.paint(100, 50, 1.0, Theme::Light);
+        let handle = &figure.handles(100.0)[0];
+        assert_eq!((handle.x, handle.y, handle.hover), (50.0, 25.0, Some(Rect::new(10.0, 20.0, 30.0, 10.0))));
+    }
+
+    #[test]
+    fn a_handle_is_dragged_in_the_scene_s_own_px_and_never_to_what_is_no_number() {
+        let (mut figure, told) = point();
+        figure.drag("point", 60.0, 20.0, 600.0);
+        figure.drag("point", 60.0, 20.0, 100.0);
+        figure.nudge("point", -1.0, 10.0);
+        for bad in [f64::NAN, f64::INFINITY] {
+            figure.drag("point", bad, 1.0, 300.0);
+            figure.nudge("point", 0.0, bad);
+        }
+        figure.drag("point", 1.0, 1.0, 0.0);
+        assert_eq!(
+            *told.borrow(),
+            ["point to [60.0, 20.0] of 600", "point to [180.0, 60.0] of 300", "point by [-1.0, 10.0]"]
+        );
+    }
+
+    #[test]
+    fn a_figure_without_a_timeline_has_no_steps_and_nothing_pending() {
+        let (mut figure, _) = point();
+        figure.model_mut().seek(7);
+        figure.model_mut().settle();
+        assert_eq!((figure.model().step(), figure.model().step_count(), figure.model().pending()), (0, 0, 0));
+    }
+
+    #[test]
+    fn a_readout_that_is_no_number_is_a_dash() {
+        let readout = &point().0.model().readouts()[0];
+        assert_eq!((readout.value, readout.text.as_str()), (None, "–"));
     }
 }

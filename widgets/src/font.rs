@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn every_character_our_figures_write_is_embedded() {
-        let symbols = "←→×±σαη√²³°–—−·…≤≥≈’†";
+        let symbols = "←→×±σαη√²³°–—−·…≤≥≈’†μνφθδκχπρτωΔΛΣΩ∂∑∏∫∞≠½¼⁻¹⁺⁰₀₁₂₃ₜₓᵢⱼ";
         for weight in [Weight::Regular, Weight::SemiBold] {
             for character in (' '..='~').chain(symbols.chars()) {
                 assert!(has(character, weight), "{character}");

@@ -5,7 +5,7 @@
 //! asked for, [`Model::pending`] how far that is away, and [`Model::work`] goes one step nearer.
 
 pub use crate::param::{Choice, Group, Kind, ParamSpec};
-use crate::scene::Scene;
+use crate::scene::{Point, Scene};
 /// Why a value was refused: the parameter, and one line that names it, what was given and what is allowed.
 pub use fastslam::error::ParameterError as FigureError;
 use serde::Serialize;
@@ -43,6 +43,22 @@ pub struct Readout {
     pub help: &'static str,
 }
 
+impl Readout {
+    /// A number with its text, which is a dash where the number is not finite.
+    pub fn new(
+        name: &'static str,
+        title: &'static str,
+        value: f64,
+        text: impl Into<String>,
+        unit: &'static str,
+        help: &'static str,
+    ) -> Self {
+        let known = value.is_finite();
+        let text = if known { text.into() } else { "–".into() };
+        Self { name, title, value: known.then_some(value), text, unit, help }
+    }
+}
+
 /// A column of the measured data.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Column {
@@ -50,6 +66,13 @@ pub struct Column {
     pub name: &'static str,
     /// What it means, in a sentence.
     pub help: &'static str,
+}
+
+impl Column {
+    /// By its name and what it means.
+    pub const fn new(name: &'static str, help: &'static str) -> Self {
+        Self { name, help }
+    }
 }
 
 /// Measured data of every step simulated so far.
@@ -61,7 +84,7 @@ pub struct Series {
     pub rows: Vec<Vec<f64>>,
 }
 
-/// A figure, without its pixels.
+/// A figure, without its pixels. One without a timeline leaves out everything about steps.
 pub trait Model {
     /// Title for readers.
     fn title(&self) -> &'static str;
@@ -77,22 +100,35 @@ pub trait Model {
     fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError>;
 
     /// Asks for a step of the simulation; beyond the last means the last.
-    fn seek(&mut self, step: u32);
+    fn seek(&mut self, _step: u32) {}
 
     /// Chooses a thing drawn, or lets go of it if it was chosen.
-    fn pick(&mut self, target: u32);
+    fn pick(&mut self, _target: u32) {}
 
-    /// Number of the last step.
-    fn step_count(&self) -> u32;
+    /// Moves a handle ([`crate::scene::Handle::name`]) to a point \[css px\] of a scene of this width \[css px\], or as near to it
+    /// as the ranges of its parameters allow.
+    fn drag(&mut self, _handle: &str, _to: Point, _width: f64) {}
+
+    /// Moves a handle right and up by steps of its parameters: 1 for an arrow key, 10 for a coarse one, 0.1 for a fine one.
+    fn nudge(&mut self, _handle: &str, _steps: [f64; 2]) {}
+
+    /// Number of the last step; 0 for a figure without a timeline.
+    fn step_count(&self) -> u32 {
+        0
+    }
 
     /// The step shown.
-    fn step(&self) -> u32;
+    fn step(&self) -> u32 {
+        0
+    }
 
     /// Steps of simulation between what is shown and what was asked for.
-    fn pending(&self) -> u32;
+    fn pending(&self) -> u32 {
+        0
+    }
 
     /// Does one of the pending steps.
-    fn work(&mut self);
+    fn work(&mut self) {}
 
     /// The numbers of the state shown.
     fn readouts(&self) -> Vec<Readout>;

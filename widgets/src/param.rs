@@ -17,6 +17,8 @@ pub enum Kind {
     Choice,
     /// `on` or `off`.
     Flag,
+    /// The same, shown as a button: what a figure is about.
+    Toggle,
 }
 
 /// What a parameter belongs to.
@@ -61,6 +63,8 @@ pub struct ParamSpec {
     pub default: String,
     /// What it belongs to.
     pub group: Group,
+    /// Whether a number is also set by a slider, or by its box alone.
+    pub slider: bool,
     /// What it does, in a sentence.
     pub help: &'static str,
 }
@@ -77,6 +81,82 @@ pub enum Value {
 }
 
 impl ParamSpec {
+    /// A number of the setup, from `min` to `max`.
+    pub fn number(
+        name: &'static str,
+        title: &'static str,
+        unit: &'static str,
+        (min, max, step): (f64, f64, f64),
+        default: f64,
+        help: &'static str,
+    ) -> Self {
+        Self {
+            name,
+            title,
+            unit,
+            kind: Kind::Number,
+            min,
+            max,
+            step,
+            choices: &[],
+            default: decimal::write(default),
+            group: Group::Setup,
+            slider: true,
+            help,
+        }
+    }
+
+    /// A whole number of the setup, from `min` to `max`.
+    pub fn integer(
+        name: &'static str,
+        title: &'static str,
+        unit: &'static str,
+        (min, max): (i64, i64),
+        default: i64,
+        help: &'static str,
+    ) -> Self {
+        let spec = Self::number(name, title, unit, (min as f64, max as f64, 1.0), default as f64, help);
+        Self { kind: Kind::Integer, ..spec }
+    }
+
+    /// One of some words.
+    pub fn choice(
+        name: &'static str,
+        title: &'static str,
+        choices: &'static [Choice],
+        default: impl Into<String>,
+        help: &'static str,
+    ) -> Self {
+        let spec = Self::number(name, title, "", (0.0, 0.0, 0.0), 0.0, help);
+        Self { kind: Kind::Choice, choices, default: default.into(), ..spec }
+    }
+
+    /// A checkbox.
+    pub fn flag(name: &'static str, title: &'static str, default: bool, help: &'static str) -> Self {
+        let spec = Self::number(name, title, "", (0.0, 1.0, 1.0), 0.0, help);
+        Self { kind: Kind::Flag, default: flag_text(default), ..spec }
+    }
+
+    /// A button that stays pressed.
+    pub fn toggle(name: &'static str, title: &'static str, default: bool, help: &'static str) -> Self {
+        Self { kind: Kind::Toggle, ..Self::flag(name, title, default, help) }
+    }
+
+    /// The same as a parameter of what is shown.
+    pub fn view(self) -> Self {
+        Self { group: Group::View, ..self }
+    }
+
+    /// The same set by its box alone: where there are twenty numbers, a slider each is too much.
+    pub fn without_slider(self) -> Self {
+        Self { slider: false, ..self }
+    }
+
+    /// The same number, which may also be one of some words, the first of them unless another is asked for.
+    pub fn or_words(self, words: &'static [Choice]) -> Self {
+        Self { choices: words, default: words[0].value.into(), ..self }
+    }
+
     /// The value that `text` means, or what is wrong with it.
     pub fn check(&self, text: &str) -> Result<Value, FigureError> {
         let text = text.trim();
@@ -87,7 +167,7 @@ impl ParamSpec {
             Kind::Integer => decimal::parse(text).filter(|x| x.trunc() == *x).and_then(|x| self.within(x)),
             Kind::Number => decimal::parse(text).and_then(|x| self.within(x)),
             Kind::Choice => None,
-            Kind::Flag => flag(text).map(Value::Flag),
+            Kind::Flag | Kind::Toggle => flag(text).map(Value::Flag),
         };
         value.ok_or_else(|| FigureError::new(self.name, quoted(text), self.allowed()))
     }
@@ -105,7 +185,7 @@ impl ParamSpec {
             Kind::Integer => format!("a whole number from {min} to {max}{unit}"),
             Kind::Number => format!("a number from {min} to {max}{unit}"),
             Kind::Choice => return format!("one of {}", words.join(", ")),
-            Kind::Flag => return "on or off".into(),
+            Kind::Flag | Kind::Toggle => return "on or off".into(),
         };
         if words.is_empty() { range } else { format!("{} or {range}", words.join(", ")) }
     }
@@ -118,6 +198,11 @@ fn flag(text: &str) -> Option<bool> {
         "off" | "false" | "0" => Some(false),
         _ => None,
     }
+}
+
+/// A flag as text: what [`ParamSpec::check`] takes.
+pub fn flag_text(on: bool) -> String {
+    if on { "on" } else { "off" }.into()
 }
 
 /// What was given, on one short line whatever it was.
@@ -146,19 +231,7 @@ mod tests {
             Kind::Choice => &[Choice { value: "red", title: "Red" }, Choice { value: "blue", title: "Blue" }],
             _ => &[],
         };
-        ParamSpec {
-            name: "speed",
-            title: "Speed",
-            unit: "m/s",
-            kind,
-            min: 0.5,
-            max: 8.0,
-            step: 0.5,
-            choices,
-            default: "1".into(),
-            group: Group::Setup,
-            help: "",
-        }
+        ParamSpec { kind, choices, ..ParamSpec::number("speed", "Speed", "m/s", (0.5, 8.0, 0.5), 1.0, "") }
     }
 
     #[test]
@@ -169,6 +242,26 @@ mod tests {
         assert_eq!(spec(Kind::Choice).check("blue"), Ok(Value::Word("blue")));
         assert_eq!(spec(Kind::Flag).check("on"), Ok(Value::Flag(true)));
         assert_eq!(spec(Kind::Flag).check("false"), Ok(Value::Flag(false)));
+        assert_eq!(spec(Kind::Toggle).check("on"), Ok(Value::Flag(true)));
+    }
+
+    #[test]
+    fn every_constructor_s_default_is_a_value_that_it_takes() {
+        const WORDS: &[Choice] = &[Choice { value: "best", title: "the best" }];
+        let integer = ParamSpec::integer("count", "Count", "", (-1, 4), 2, "");
+        assert_eq!(integer.check(&integer.default), Ok(Value::Number(2.0)));
+        assert!(integer.check("0.5").is_err());
+        let number = ParamSpec::number("speed", "Speed", "m/s", (0.0, 1.0, 0.1), 0.3, "").without_slider();
+        assert_eq!((number.check(&number.default), number.slider), (Ok(Value::Number(0.3)), false));
+        let words = integer.or_words(WORDS).view();
+        assert_eq!((words.check(&words.default), words.group), (Ok(Value::Word("best")), Group::View));
+        let choice = ParamSpec::choice("best", "Best", WORDS, "best", "");
+        assert_eq!(choice.check(&choice.default), Ok(Value::Word("best")));
+        for on in [false, true] {
+            for spec in [ParamSpec::flag("a", "A", on, ""), ParamSpec::toggle("a", "A", on, "")] {
+                assert_eq!(spec.check(&spec.default), Ok(Value::Flag(on)));
+            }
+        }
     }
 
     #[test]

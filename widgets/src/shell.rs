@@ -122,6 +122,21 @@ impl Figure {
         self.0.pick(x_css, y_css, width_css)
     }
 
+    /// What can be moved in the picture painted last: an array of `PlacedHandle`, in a figure of this width \[css px\].
+    pub fn handles(&self, width_css: f64) -> Array {
+        plain(&self.0.handles(width_css))
+    }
+
+    /// Moves a handle to a point of a figure of this width \[css px\].
+    pub fn drag(&mut self, handle: &str, x_css: f64, y_css: f64, width_css: f64) {
+        self.0.drag(handle, x_css, y_css, width_css);
+    }
+
+    /// Moves a handle right and up, in steps of its parameters.
+    pub fn nudge(&mut self, handle: &str, right: f64, up: f64) {
+        self.0.nudge(handle, right, up);
+    }
+
     /// The link that makes this figure again.
     pub fn query(&self) -> String {
         self.0.query()

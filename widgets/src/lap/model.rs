@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series},
-    param::{Value, unknown},
+    param::{Value, flag_text, unknown},
     scene::Scene,
 };
 use fastslam::{
@@ -186,7 +186,6 @@ impl Model for LapModel {
 
     fn value(&self, name: &str) -> Option<String> {
         let setup = &self.recipe.setup;
-        let flag = |on| if on { "on" } else { "off" }.to_string();
         Some(match name {
             "universes" => setup.particles.to_string(),
             "seed" => setup.seed.to_string(),
@@ -199,8 +198,8 @@ impl Model for LapModel {
             "scheme" => setup.scheme.to_string(),
             "step" => self.asked.to_string(),
             "universe" => self.universe.map_or("best".into(), |slot| slot.to_string()),
-            "truth" => flag(self.truth),
-            "raw" => flag(self.raw),
+            "truth" => flag_text(self.truth),
+            "raw" => flag_text(self.raw),
             _ => return None,
         })
     }
@@ -287,23 +286,15 @@ impl Model for LapModel {
 
     fn readouts(&self) -> Vec<Readout> {
         let (report, m) = (self.report(), self.recipe.setup.particles);
-        let readout = |name, title, value: f64, text, unit, help| Readout {
-            name,
-            title,
-            value: value.is_finite().then_some(value),
-            text: if value.is_finite() { text } else { "–".into() },
-            unit,
-            help,
-        };
-        let metres = |name, title, x: f64, help| readout(name, title, x, fixed(x, 3), "m", help);
+        let metres = |name, title, x: f64, help| Readout::new(name, title, x, fixed(x, 3), "m", help);
         let kilobytes = |name, title, bytes: u64, help| {
             let x = bytes as f64 / 1000.0;
-            readout(name, title, x, fixed(x, 0), "KB", help)
+            Readout::new(name, title, x, fixed(x, 0), "KB", help)
         };
         let (unique, dense) = (report.map_bytes_unique, report.map_bytes_dense);
         let share = 100.0 * unique as f64 / dense as f64;
         vec![
-            readout(
+            Readout::new(
                 "step",
                 "Step",
                 f64::from(report.step),
@@ -329,7 +320,7 @@ impl Model for LapModel {
                 report.rms_odometry,
                 "Root mean square distance of the path that the wheels alone report from the truth.",
             ),
-            readout(
+            Readout::new(
                 "ess",
                 "N_eff",
                 report.ess,
@@ -337,7 +328,7 @@ impl Model for LapModel {
                 "",
                 "Effective number of universes before resampling: M if all weigh the same, 1 if one has all the weight.",
             ),
-            readout(
+            Readout::new(
                 "lineage",
                 "Lineage",
                 f64::from(report.lineage),
@@ -357,7 +348,7 @@ impl Model for LapModel {
                 dense,
                 "What the maps would hold if each were an array of its own.",
             ),
-            readout(
+            Readout::new(
                 "map_share",
                 "Memory share",
                 share,
@@ -369,22 +360,19 @@ impl Model for LapModel {
     }
 
     fn series(&self) -> Series {
-        const fn column(name: &'static str, help: &'static str) -> Column {
-            Column { name, help }
-        }
         const COLUMNS: &[Column] = &[
-            column("step", "step of the lap"),
-            column("rms_best_m", "RMS position error of the best universe's path so far [m]"),
-            column("rms_best_aligned_m", "the same after the best rigid alignment [m]"),
-            column("rms_odometry_m", "RMS position error of raw odometry so far [m]"),
-            column("ess", "effective number of universes before resampling"),
-            column("best", "slot of the best universe"),
-            column("resampled", "1 where the step resampled"),
-            column("died_out", "universes without offspring at this resampling"),
-            column("lineage", "distinct ancestors at step 0"),
-            column("matched", "universes whose scan matcher was trusted"),
-            column("map_unique_bytes", "memory of all maps, shared tiles counted once [bytes]"),
-            column("map_dense_bytes", "memory of as many dense arrays [bytes]"),
+            Column::new("step", "step of the lap"),
+            Column::new("rms_best_m", "RMS position error of the best universe's path so far [m]"),
+            Column::new("rms_best_aligned_m", "the same after the best rigid alignment [m]"),
+            Column::new("rms_odometry_m", "RMS position error of raw odometry so far [m]"),
+            Column::new("ess", "effective number of universes before resampling"),
+            Column::new("best", "slot of the best universe"),
+            Column::new("resampled", "1 where the step resampled"),
+            Column::new("died_out", "universes without offspring at this resampling"),
+            Column::new("lineage", "distinct ancestors at step 0"),
+            Column::new("matched", "universes whose scan matcher was trusted"),
+            Column::new("map_unique_bytes", "memory of all maps, shared tiles counted once [bytes]"),
+            Column::new("map_dense_bytes", "memory of as many dense arrays [bytes]"),
         ];
         let row = |r: &StepReport| {
             vec![

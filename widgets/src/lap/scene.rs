@@ -9,7 +9,9 @@ use super::{
 use crate::{
     font::{self, Weight},
     model::Model,
-    scene::{Anchor, Cells, FREE, Mark, OCCUPIED, Point, Rect, Region, Role, Scene, Shading, Text, UNKNOWN},
+    scene::{
+        Anchor, Cells, FREE, Mark, OCCUPIED, Point, Rect, Region, Role, Scene, Shading, Text, UNKNOWN, heading, text,
+    },
 };
 use fastslam::{decimal::fixed, geometry::Pose2, resampling::ResamplePolicy};
 
@@ -32,6 +34,7 @@ pub fn build(model: &LapModel, width: f64, height: f64) -> Scene {
         height: height.max(layout.height),
         marks: Vec::new(),
         regions: Vec::new(),
+        handles: Vec::new(),
         description: model.describe(),
     };
     large(&mut scene, model, &layout);
@@ -41,20 +44,6 @@ pub fn build(model: &LapModel, width: f64, height: f64) -> Scene {
     notes(&mut scene, model, &layout.notes, tiles.size[0] >= LABEL_FROM);
     meter(&mut scene, model, &layout.meter);
     scene
-}
-
-fn text(area: Rect, anchor: Anchor, size: f64, weight: Weight, role: Role, text: impl Into<String>) -> Mark {
-    Mark::Text(Text::new(area, anchor, size, weight, role, text))
-}
-
-/// A heading: a strong part, and more after it, in one line; the rest of the line is returned.
-fn heading(scene: &mut Scene, area: &Rect, strong: (&str, Role), rest: &str) {
-    let size = 13.5;
-    let line = Text::new(*area, Anchor::Start, size, Weight::SemiBold, strong.1, strong.0);
-    let used = line.width() + font::measure("  ", size, Weight::Regular);
-    scene.marks.push(Mark::Text(line));
-    let rest_area = Rect::new(area.x + used, area.y, (area.w - used).max(0.0), area.h);
-    scene.marks.push(text(rest_area, Anchor::Start, 12.5, Weight::Regular, Role::Muted, rest));
 }
 
 fn large(scene: &mut Scene, model: &LapModel, layout: &Layout) {

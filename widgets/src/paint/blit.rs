@@ -28,11 +28,31 @@ pub fn fill(pixels: &mut Pixmap, area: Area, color: Color) {
     rows.take(y1).skip(y0).for_each(|row| row[x0..x1].fill(color));
 }
 
-/// Cells, each in the colour of its shade. A cell becomes a block of whole device pixels; where cells are smaller than
-/// pixels, a pixel shows a wall if one lies in it, because walls are one cell thin.
-pub fn raster(pixels: &mut Pixmap, area: Area, cells: &Cells, colors: &[Color; 256]) {
+/// A disc: a pixel is covered as far as its middle is from the edge, which is nearly its area, and quick.
+pub fn disc(pixels: &mut Pixmap, [x, y]: [f32; 2], radius: f32, color: Color) {
+    let reach = radius + 0.5;
+    let [x0, x1, y0, y1] = [x - reach, x + reach, y - reach, y + reach].map(|edge| edge.floor() as i32);
+    let area = Area { x0, y0, x1: x1.saturating_add(1), y1: y1.saturating_add(1) };
     let Some([x0, y0, x1, y1]) = area.within(pixels) else { return };
-    let count = cells.shades.len() / cells.columns;
+    let width = pixels.width() as usize;
+    for (j, row) in pixels.pixels_mut().chunks_exact_mut(width).enumerate().take(y1).skip(y0) {
+        for (i, pixel) in row.iter_mut().enumerate().take(x1).skip(x0) {
+            let (dx, dy) = (i as f32 + 0.5 - x, j as f32 + 0.5 - y);
+            let cover = (255.0 * (reach - (dx * dx + dy * dy).sqrt()).clamp(0.0, 1.0) + 0.5) as i32;
+            let mix = |from: u8, to: u8| (i32::from(from) + (i32::from(to) - i32::from(from)) * cover / 255) as u8;
+            let [r, g, b] =
+                [mix(pixel.red(), color.red()), mix(pixel.green(), color.green()), mix(pixel.blue(), color.blue())];
+            *pixel = Color::from_rgba(r, g, b, 255).unwrap_or(color); // opaque stays opaque
+        }
+    }
+}
+
+/// Cells, each in the colour of its shade. A cell becomes a block of whole device pixels; where cells are smaller than
+/// pixels, a pixel shows the largest shade in it, because walls and peaks are one cell thin. In a map (`walls`), it shows a wall if
+/// one lies in it.
+pub fn raster(pixels: &mut Pixmap, area: Area, cells: &Cells, walls: bool, colors: &[Color; 256]) {
+    let Some([x0, y0, x1, y1]) = area.within(pixels) else { return };
+    let Some(count @ 1..) = cells.shades.len().checked_div(cells.columns) else { return };
     let across = &spans(area.x0, area.x1, cells.columns)[(x0 as i32 - area.x0) as usize..];
     let down = &spans(area.y0, area.y1, count)[(y0 as i32 - area.y0) as usize..];
     let width = pixels.width() as usize;
@@ -41,7 +61,7 @@ pub fn raster(pixels: &mut Pixmap, area: Area, cells: &Cells, colors: &[Color; 2
     for (row, &span) in rows.zip(down) {
         if last.replace(span) != Some(span) {
             for (pixel, &column) in line.iter_mut().zip(across) {
-                *pixel = colors[usize::from(darkest(cells, column, span))];
+                *pixel = colors[usize::from(shade(cells, walls, column, span))];
             }
         }
         row[x0..x1].copy_from_slice(&line);
@@ -59,8 +79,8 @@ fn spans(start: i32, end: i32, count: usize) -> Vec<(usize, usize)> {
         .collect()
 }
 
-/// A wall if there is one, else what is freest: unknown cells must not close an open door.
-fn darkest(cells: &Cells, (i0, i1): (usize, usize), (j0, j1): (usize, usize)) -> u8 {
+/// The largest shade; of a map, a wall if there is one, else what is freest: unknown cells must not close an open door.
+fn shade(cells: &Cells, walls: bool, (i0, i1): (usize, usize), (j0, j1): (usize, usize)) -> u8 {
     if i1 == i0 + 1 && j1 == j0 + 1 {
         return cells.shades[j0 * cells.columns + i0];
     }
@@ -70,7 +90,7 @@ fn darkest(cells: &Cells, (i0, i1): (usize, usize), (j0, j1): (usize, usize)) ->
             (least, most) = (least.min(shade), most.max(shade));
         }
     }
-    if most > UNKNOWN { most } else { least }
+    if most > UNKNOWN || !walls { most } else { least }
 }
 
 #[cfg(test)]
@@ -98,7 +118,7 @@ mod tests {
     fn cells_become_equal_blocks() {
         let mut pixels = canvas([4, 4]);
         let cells = Cells { columns: 2, shades: vec![10, 20, 30, 40] };
-        raster(&mut pixels, Area { x0: 0, y0: 0, x1: 4, y1: 4 }, &cells, &colors());
+        raster(&mut pixels, Area { x0: 0, y0: 0, x1: 4, y1: 4 }, &cells, true, &colors());
         assert_eq!(red(&pixels), [10, 10, 20, 20, 10, 10, 20, 20, 30, 30, 40, 40, 30, 30, 40, 40]);
     }
 
@@ -107,8 +127,16 @@ mod tests {
         let mut pixels = canvas([3, 1]);
         let mut shades = vec![FREE; 9];
         (shades[1], shades[8]) = (OCCUPIED, UNKNOWN);
-        raster(&mut pixels, Area { x0: 0, y0: 0, x1: 3, y1: 1 }, &Cells { columns: 9, shades }, &colors());
+        raster(
+            &mut pixels,
+            Area { x0: 0, y0: 0, x1: 3, y1: 1 },
+            &Cells { columns: 9, shades: shades.clone() },
+            true,
+            &colors(),
+        );
         assert_eq!(red(&pixels), [OCCUPIED, FREE, FREE]);
+        raster(&mut pixels, Area { x0: 0, y0: 0, x1: 3, y1: 1 }, &Cells { columns: 9, shades }, false, &colors());
+        assert_eq!(red(&pixels), [OCCUPIED, FREE, UNKNOWN], "the largest of each three");
     }
 
     #[test]
@@ -118,7 +146,10 @@ mod tests {
         fill(&mut pixels, Area { x0: 2, y0: 0, x1: 9, y1: 9 }, grey(9));
         fill(&mut pixels, Area { x0: 1, y0: 1, x1: 0, y1: 0 }, grey(9));
         let cells = Cells { columns: 1, shades: vec![7] };
-        raster(&mut pixels, Area { x0: 1, y0: 1, x1: 9, y1: 9 }, &cells, &colors());
+        raster(&mut pixels, Area { x0: 1, y0: 1, x1: 9, y1: 9 }, &cells, true, &colors());
+        assert_eq!(red(&pixels), [9, 0, 0, 7]);
+        let none = Cells { columns: 0, shades: Vec::new() };
+        raster(&mut pixels, Area { x0: 0, y0: 0, x1: 2, y1: 2 }, &none, false, &colors());
         assert_eq!(red(&pixels), [9, 0, 0, 7]);
     }
 }

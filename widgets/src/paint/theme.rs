@@ -38,6 +38,10 @@ struct Palette {
     weight: [Rgb; 2],
     /// Cells surely free, never seen, surely occupied.
     cells: [Rgb; 3],
+    prior: Rgb,
+    /// Full correlation, and the peak of a density; without any, both are paper.
+    correlation: Rgb,
+    density: Rgb,
 }
 
 const LIGHT: Palette = Palette {
@@ -53,6 +57,9 @@ const LIGHT: Palette = Palette {
     hit: rgb(0xffffff),
     weight: [rgb(0x8a95a1), rgb(0x007c45)],
     cells: [rgb(0xffffff), rgb(0xd5dbe2), rgb(0x2a3644)],
+    prior: rgb(0xc85500),
+    correlation: rgb(0x0b2f6b),
+    density: rgb(0xdde5ee),
 };
 
 const DARK: Palette = Palette {
@@ -68,6 +75,9 @@ const DARK: Palette = Palette {
     hit: rgb(0x12161c),
     weight: [rgb(0x66717e), rgb(0x3ddc97)],
     cells: [rgb(0x12161c), rgb(0x343d49), rgb(0xd3dbe4)],
+    prior: rgb(0xff9f45),
+    correlation: rgb(0xa9d6ff),
+    density: rgb(0x2b3542),
 };
 
 const CONTRAST_LIGHT: Palette = Palette {
@@ -83,6 +93,9 @@ const CONTRAST_LIGHT: Palette = Palette {
     hit: rgb(0xffffff),
     weight: [rgb(0x6b7580), rgb(0x00562f)],
     cells: [rgb(0xffffff), rgb(0xb9c0c8), rgb(0x000000)],
+    prior: rgb(0x8a3c00),
+    correlation: rgb(0x00122e),
+    density: rgb(0xd3dbe4),
 };
 
 const CONTRAST_DARK: Palette = Palette {
@@ -98,6 +111,9 @@ const CONTRAST_DARK: Palette = Palette {
     hit: rgb(0x000000),
     weight: [rgb(0x8a959f), rgb(0x5cffb0)],
     cells: [rgb(0x000000), rgb(0x46505b), rgb(0xffffff)],
+    prior: rgb(0xffb35c),
+    correlation: rgb(0xeaf5ff),
+    density: rgb(0x2f3945),
 };
 
 const fn rgb(hex: u32) -> Rgb {
@@ -140,32 +156,45 @@ impl Theme {
             Role::Ink => palette.ink,
             Role::Muted => palette.muted,
             Role::Frame => palette.frame,
-            Role::Path => palette.path,
-            Role::Truth => palette.truth,
+            Role::Path | Role::Posterior => palette.path,
+            Role::Truth | Role::Landmark => palette.truth,
             Role::Odometry => palette.odometry,
             Role::Copied => palette.copied,
             Role::Extinct => palette.extinct,
             Role::Hit => palette.hit,
             Role::Weight(level) => mix(palette.weight[0], palette.weight[1], i32::from(level), 255),
+            Role::Prior => palette.prior,
+            Role::Accent => palette.weight[1],
+            // Even the faintest is seen to be there.
+            Role::Level(level) => mix(palette.paper, palette.ink, 40 + i32::from(level), 40 + 255),
         }
     }
 
     /// The colours of all shades of a cell.
     pub fn shades(self, shading: Shading) -> [Rgb; 256] {
         let palette = self.palette();
-        let [free, unknown, occupied] = palette.cells;
         core::array::from_fn(|shade| {
-            let (shade, middle) = (shade as i32, i32::from(UNKNOWN));
-            let color = if shade < middle {
-                mix(free, unknown, shade - i32::from(FREE), middle - i32::from(FREE))
-            } else {
-                mix(unknown, occupied, shade - middle, i32::from(OCCUPIED) - middle)
-            };
+            let shade = shade as i32;
             match shading {
-                Shading::Map => color,
-                Shading::Ghost => mix(color, palette.paper, 45, 100),
+                Shading::Map => palette.cell(shade),
+                Shading::Ghost => mix(palette.cell(shade), palette.paper, 45, 100),
+                Shading::Correlation => mix(palette.paper, palette.correlation, shade, 255),
+                Shading::Density => mix(palette.paper, palette.density, shade, 255),
             }
         })
+    }
+}
+
+impl Palette {
+    /// A cell of a map.
+    fn cell(&self, shade: i32) -> Rgb {
+        let [free, unknown, occupied] = self.cells;
+        let middle = i32::from(UNKNOWN);
+        if shade < middle {
+            mix(free, unknown, shade - i32::from(FREE), middle - i32::from(FREE))
+        } else {
+            mix(unknown, occupied, shade - middle, i32::from(OCCUPIED) - middle)
+        }
     }
 }
 
@@ -226,6 +255,37 @@ mod tests {
             assert!(contrast(occupied, unknown) >= 4.5, "{theme:?}");
             assert!(contrast(theme.color(Role::Hit), occupied) >= 4.5, "{theme:?}");
             assert!(contrast(free, unknown) >= 1.3, "{theme:?}");
+        }
+    }
+
+    #[test]
+    fn samples_and_handles_are_seen_on_every_density() {
+        for theme in THEMES {
+            for ground in theme.shades(Shading::Density) {
+                for role in [Role::Prior, Role::Posterior, Role::Landmark, Role::Accent, Role::Muted, Role::Ink] {
+                    let ratio = contrast(theme.color(role), ground);
+                    assert!(ratio >= 3.0, "{theme:?} {role:?}: {ratio}");
+                }
+            }
+            let [nothing, .., peak] = theme.shades(Shading::Density);
+            assert!(contrast(nothing, peak) >= 1.2, "{theme:?}");
+        }
+    }
+
+    #[test]
+    fn stronger_correlations_stand_out_more_from_paper() {
+        for theme in THEMES {
+            let paper = theme.color(Role::Paper);
+            let lines: Vec<Rgb> = (0..=255).map(|level| theme.color(Role::Level(level))).collect();
+            for colors in [theme.shades(Shading::Correlation).to_vec(), lines] {
+                let contrasts: Vec<f64> = colors.iter().map(|&color| contrast(color, paper)).collect();
+                // Every eighth is told apart from the one before, and the last is as strong as text.
+                let eighths: Vec<f64> = contrasts.iter().step_by(32).copied().collect();
+                assert!(eighths.windows(2).all(|pair| pair[1] > 1.1 * pair[0]), "{theme:?} {eighths:?}");
+                assert!(contrasts[255] >= 7.0, "{theme:?}: {}", contrasts[255]);
+            }
+            assert_eq!(theme.shades(Shading::Correlation)[0], paper);
+            assert_eq!(theme.color(Role::Level(255)), theme.color(Role::Ink));
         }
     }
 

@@ -4,12 +4,16 @@
 //! painted in any theme.
 
 mod clip;
+mod handle;
 mod rect;
+mod shape;
 mod text;
 
 pub use clip::clip_polyline;
+pub use handle::Handle;
 pub use rect::Rect;
-pub use text::{Anchor, Text};
+pub use shape::{closed, ellipse};
+pub use text::{Anchor, Text, heading, text};
 
 /// A point \[css px\].
 pub type Point = [f64; 2];
@@ -39,23 +43,37 @@ pub enum Role {
     Hit,
     /// A border that tells a weight, from 0 (no weight) to 255 (full).
     Weight(u8),
+    /// Samples of the motion prior.
+    Prior,
+    /// Samples of the proposal that has looked at the measurement.
+    Posterior,
+    /// A landmark, and what is known of it.
+    Landmark,
+    /// What the reader moves or has switched on.
+    Accent,
+    /// A line that tells a size, from 0 (faint) to 255 (as [`Role::Ink`]).
+    Level(u8),
 }
 
-/// How the cells of a map are coloured.
+/// How the cells of a raster are coloured.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Shading {
     /// A living universe.
     Map,
     /// One that died out: faded.
     Ghost,
+    /// Absolute correlations, from 0 (none) to 255 (|ρ| = 1).
+    Correlation,
+    /// A probability density, from 0 (nothing) to 255 (its peak), pale enough to draw on.
+    Density,
 }
 
-/// A rectangle of map cells, row by row from the top.
+/// A rectangle of cells, row by row from the top.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Cells {
     /// Number of cells in a row.
     pub columns: usize,
-    /// [`FREE`] to [`OCCUPIED`], [`UNKNOWN`] in the middle.
+    /// Of a map, [`FREE`] to [`OCCUPIED`], [`UNKNOWN`] in the middle; else as its [`Shading`] says.
     pub shades: Vec<u8>,
 }
 
@@ -69,7 +87,7 @@ pub const OCCUPIED: u8 = 255;
 /// Something to draw. Later marks cover earlier ones.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Mark {
-    /// A map.
+    /// A map, a matrix or a density.
     Raster {
         /// Where.
         area: Rect,
@@ -145,6 +163,8 @@ pub struct Scene {
     pub marks: Vec<Mark>,
     /// Disjoint.
     pub regions: Vec<Region>,
+    /// What a reader can move.
+    pub handles: Vec<Handle>,
     /// The same in words.
     pub description: String,
 }

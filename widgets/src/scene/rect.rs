@@ -1,9 +1,10 @@
 //! Rectangles, and dividing them.
 
 use super::Point;
+use serde::Serialize;
 
 /// An axis-parallel rectangle \[css px\].
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 pub struct Rect {
     /// Left edge.
     pub x: f64,

@@ -1,6 +1,6 @@
 //! Lines of text that fit the box they were given.
 
-use super::{Point, Rect, Role};
+use super::{Mark, Point, Rect, Role, Scene};
 use crate::font::{self, Weight};
 
 /// Which end of a line stays where it is.
@@ -63,6 +63,21 @@ impl Text {
         };
         [x, self.area.y + 0.5 * (self.area.h + font::cap_height(self.size, self.weight))]
     }
+}
+
+/// A line of text as a mark.
+pub fn text(area: Rect, anchor: Anchor, size: f64, weight: Weight, role: Role, text: impl Into<String>) -> Mark {
+    Mark::Text(Text::new(area, anchor, size, weight, role, text))
+}
+
+/// A heading: a strong part, and more after it, in one line.
+pub fn heading(scene: &mut Scene, area: &Rect, strong: (&str, Role), rest: &str) {
+    let size = 13.5;
+    let line = Text::new(*area, Anchor::Start, size, Weight::SemiBold, strong.1, strong.0);
+    let used = line.width() + font::measure("  ", size, Weight::Regular);
+    scene.marks.push(Mark::Text(line));
+    let rest_area = Rect::new(area.x + used, area.y, (area.w - used).max(0.0), area.h);
+    scene.marks.push(text(rest_area, Anchor::Start, 12.5, Weight::Regular, Role::Muted, rest));
 }
 
 #[cfg(test)]

@@ -1,0 +1,20 @@
+//! Points of a scene that a reader moves.
+
+use super::{Point, Rect};
+
+/// A point that is dragged, or moved by keyboard. The scene draws its mark; the page lays something to grasp over it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Handle {
+    /// Argument of [`crate::model::Model::drag`] and [`crate::model::Model::nudge`], unique in the figure.
+    pub name: &'static str,
+    /// Name for readers.
+    pub title: String,
+    /// Where \[css px\].
+    pub at: Point,
+    /// Its value as one number, for assistive technology.
+    pub value: f64,
+    /// Its value in words, read out.
+    pub text: String,
+    /// An area over which it follows the pointer without a button held, as the cursor of a heat map does.
+    pub hover: Option<Rect>,
+}
