@@ -1,7 +1,7 @@
 // Keyboard, touch, screen reader, small and dark screens.
 import AxeBuilder from '@axe-core/playwright'
 import { expect, test } from './fixtures'
-import { Lap } from './lap'
+import { Figure } from './figure'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -17,7 +17,7 @@ for (const [what, options] of Object.entries({
     const context = await browser.newContext({ ...options, baseURL: baseURL!, reducedMotion: 'reduce' })
     const page = await context.newPage()
     page.on('console', message => message.type() === 'error' && complaints.push(message.text()))
-    const lap = await new Lap(page).open()
+    const lap = await new Figure(page, 'fastslam-lap').open()
     await lap.openSettings()
     await lap.box('universes').fill('0')
     await lap.box('universes').press('Enter')
@@ -32,7 +32,7 @@ for (const [what, options] of Object.entries({
 }
 
 test('the whole figure is worked by keyboard alone', async ({ page }) => {
-  const lap = await new Lap(page).open()
+  const lap = await new Figure(page, 'fastslam-lap').open()
   const focused = () =>
     page.evaluate(() => {
       let element = document.activeElement
@@ -45,11 +45,15 @@ test('the whole figure is worked by keyboard alone', async ({ page }) => {
   expect(await focused()).toBe('Skip to the chapter')
 
   // Every control is reached by Tab, each with a focus ring that can be seen, and the way out at the end is open.
+  const inside = () => lap.element.evaluate(element => element === document.activeElement)
   const order: string[] = []
-  for (let i = 0; i < 60; i++) {
+  for (let i = 0; i < 300; i++) {
     await page.keyboard.press('Tab')
+    if (!(await inside())) {
+      if (order.length > 0) break
+      continue // another figure comes first
+    }
     const name = await focused()
-    if (name === 'body') break
     order.push(name)
     const ring = await page.evaluate(() => {
       let element = document.activeElement!
@@ -79,7 +83,7 @@ test('the whole figure is worked by keyboard alone', async ({ page }) => {
       'policy',
     ]),
   )
-  expect(await focused()).toBe('body')
+  expect(await inside()).toBe(false)
 
   // Keys on the picture.
   await lap.element.locator('.stage').focus()
@@ -132,7 +136,7 @@ test('the whole figure is worked by keyboard alone', async ({ page }) => {
 })
 
 test('the sentence is told to screen readers at rest, and not at every step while it plays', async ({ page }) => {
-  const lap = await new Lap(page).open()
+  const lap = await new Figure(page, 'fastslam-lap').open()
   await lap.step.click()
   await lap.settled()
   await expect(lap.sentence).toHaveAttribute('aria-live', 'polite')
@@ -147,7 +151,7 @@ test('the sentence is told to screen readers at rest, and not at every step whil
 })
 
 test('the theme follows the system while the page is open, unless the attribute decides', async ({ page }) => {
-  const lap = await new Lap(page).open()
+  const lap = await new Figure(page, 'fastslam-lap').open()
   const light = await lap.picture()
   await page.emulateMedia({ colorScheme: 'dark' })
   await lap.settled()
@@ -165,7 +169,7 @@ test.describe('on a phone', () => {
   test.use({ viewport: { width: 380, height: 740 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 })
 
   test('nothing is wider than the screen, and every target is large enough for a thumb', async ({ page }) => {
-    const lap = await new Lap(page).open()
+    const lap = await new Figure(page, 'fastslam-lap').open()
     await lap.openSettings()
     expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(380)
     const small = await lap.element.evaluate(element =>
@@ -182,7 +186,7 @@ test.describe('on a phone', () => {
   })
 
   test('a tap plays, a tap on the picture chooses, and a swipe over the picture scrolls the page', async ({ page }) => {
-    const lap = await new Lap(page).open()
+    const lap = await new Figure(page, 'fastslam-lap').open()
     await lap.play.tap()
     await expect.poll(() => lap.position()).toBeGreaterThan(1)
     await lap.pause.tap()
@@ -207,7 +211,7 @@ test.describe('on a phone', () => {
 
 test('text at 200 % and a narrow window lose nothing', async ({ page }) => {
   await page.setViewportSize({ width: 640, height: 800 })
-  const lap = await new Lap(page).open()
+  const lap = await new Figure(page, 'fastslam-lap').open()
   await page.evaluate(() => (document.documentElement.style.fontSize = '200%'))
   await lap.settled()
   expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(640)

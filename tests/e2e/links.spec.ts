@@ -1,26 +1,26 @@
 // Links carry the whole state; attributes and properties set it; what is wrong is said, and changes nothing else.
 import type { Page } from '@playwright/test'
 import { expect, test } from './fixtures'
-import { Lap } from './lap'
+import { Figure } from './figure'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' }, permissions: ['clipboard-read', 'clipboard-write'] })
 
 /** Adds a figure at the top of the chapter, with these attributes, before its first script runs on it. */
-async function addFigure(page: Page, attributes: Record<string, string>): Promise<Lap> {
+async function addFigure(page: Page, attributes: Record<string, string>): Promise<Figure> {
   await page.evaluate(given => {
     const host = document.createElement('div')
     const text = Object.entries(given).map(([name, value]) => ` ${name}="${value}"`)
     host.innerHTML = `<fastslam-lap id="added"${text.join('')}></fastslam-lap>`
     document.querySelector('main')!.prepend(host)
   }, attributes)
-  const lap = new Lap(page, '#added')
+  const lap = new Figure(page, '#added')
   await lap.element.scrollIntoViewIfNeeded()
   await lap.live()
   return lap
 }
 
 test('a copied link opens the very same state', async ({ page, context }) => {
-  const lap = await new Lap(page).open()
+  const lap = await new Figure(page, 'fastslam-lap').open()
   await lap.openSettings()
   await lap.box('universes').fill('8')
   await lap.box('universes').press('Enter')
@@ -36,7 +36,7 @@ test('a copied link opens the very same state', async ({ page, context }) => {
   const link = await page.evaluate(() => navigator.clipboard.readText())
   expect(link).toContain('#fastslam-lap?')
 
-  const other = await new Lap(await context.newPage()).open(link)
+  const other = await new Figure(await context.newPage(), 'fastslam-lap').open(link)
   await other.settled()
   await expect(other.alert).toBeEmpty()
   expect(await other.position()).toBe(31)
@@ -50,7 +50,7 @@ test('a copied link opens the very same state', async ({ page, context }) => {
 })
 
 test('a link is followed when the address changes, and does not start the figure playing', async ({ page }) => {
-  const lap = await new Lap(page).open()
+  const lap = await new Figure(page, 'fastslam-lap').open()
   await page.evaluate(() => (location.hash = 'fastslam-lap?universes=4&step=9'))
   await expect.poll(() => lap.position()).toBe(9)
   await lap.settled()
@@ -68,7 +68,7 @@ for (const [what, query, parameter, range] of [
   ['broken escapes', 'seed=%E0%A4%A', 'seed', /0 to 4294967295/],
 ] as const) {
   test(`a bad link with ${what} is refused with the parameter and its range, and the rest is applied`, async ({ page }) => {
-    const lap = await new Lap(page).open(`./#fastslam-lap?${query}&step=6`)
+    const lap = await new Figure(page, 'fastslam-lap').open(`./#fastslam-lap?${query}&step=6`)
     await expect(lap.alert).toContainText(parameter)
     await expect(lap.alert).toContainText(range)
     expect(await lap.position()).toBe(6)
@@ -80,7 +80,7 @@ for (const [what, query, parameter, range] of [
 }
 
 test('a link for one figure leaves the others alone', async ({ page }) => {
-  const first = await new Lap(page, 'fastslam-lap:not(#added)').open()
+  const first = await new Figure(page, 'fastslam-lap:not(#added)').open()
   const added = await addFigure(page, {})
   const before = await first.readouts()
   await page.evaluate(() => (location.hash = 'added?seed=77&step=4'))
@@ -91,7 +91,7 @@ test('a link for one figure leaves the others alone', async ({ page }) => {
 })
 
 test('attributes set the parameters, at any time, and taking one away gives the default', async ({ page }) => {
-  await new Lap(page).open()
+  await new Figure(page, 'fastslam-lap').open()
   const lap = await addFigure(page, { universes: '8', seed: '42', proposal: 'motion', 'range-std': '0.1', raw: '', step: '5' })
   await expect(lap.alert).toBeEmpty()
   expect(await lap.position()).toBe(5)
@@ -110,13 +110,13 @@ test('attributes set the parameters, at any time, and taking one away gives the 
 })
 
 test('properties set the parameters, before and after the figure is live', async ({ page }) => {
-  await new Lap(page).open()
+  await new Figure(page, 'fastslam-lap').open()
   await page.evaluate(() => {
     const early = document.createElement('fastslam-lap')
     Object.assign(early, { id: 'added', universes: 6, rangeStd: 0.12, step: 7 })
     document.querySelector('main')!.prepend(early)
   })
-  const lap = new Lap(page, '#added')
+  const lap = new Figure(page, '#added')
   await lap.element.scrollIntoViewIfNeeded()
   await lap.live()
   expect(await lap.position()).toBe(7)
@@ -135,7 +135,7 @@ test('properties set the parameters, before and after the figure is live', async
 test('properties set while the page does not know them yet are kept', async ({ page }) => {
   await page.setViewportSize({ width: 1000, height: 300 })
   await page.goto('./')
-  const lap = new Lap(page)
+  const lap = new Figure(page, 'fastslam-lap')
   await lap.element.evaluate(element => Object.assign(element, { universes: 6, rangeStd: 0.12 }))
   await lap.element.scrollIntoViewIfNeeded()
   await lap.live()
@@ -157,7 +157,7 @@ for (const [name, value, range] of [
   test(`the bad attribute ${name}="${value}" is refused with its range; the default is kept and no other figure suffers`, async ({
     page,
   }) => {
-    const first = await new Lap(page, 'fastslam-lap:not(#added)').open()
+    const first = await new Figure(page, 'fastslam-lap:not(#added)').open()
     const lap = await addFigure(page, { [name]: value })
     await expect(lap.alert).toContainText(name)
     await expect(lap.alert).toContainText(range)
@@ -171,7 +171,7 @@ for (const [name, value, range] of [
 }
 
 test('attributes of the platform and of frameworks are no mistakes', async ({ page }) => {
-  await new Lap(page).open()
+  await new Figure(page, 'fastslam-lap').open()
   const lap = await addFigure(page, {
     class: 'a',
     'data-x': '1',
@@ -186,7 +186,7 @@ test('attributes of the platform and of frameworks are no mistakes', async ({ pa
 })
 
 test('a bad value typed into a box is refused, and the box goes back', async ({ page }) => {
-  const lap = await new Lap(page).open()
+  const lap = await new Figure(page, 'fastslam-lap').open()
   await lap.openSettings()
   const before = await lap.readouts()
   await lap.box('universes').fill('300')
@@ -203,7 +203,7 @@ test('where the clipboard is refused, the link is shown', async ({ page }) => {
   await page.addInitScript(() => {
     navigator.clipboard.writeText = () => Promise.reject(new Error('refused'))
   })
-  const lap = await new Lap(page).open()
+  const lap = await new Figure(page, 'fastslam-lap').open()
   await lap.scrubTo(3)
   await lap.menu('Copy link')
   await expect(lap.alert).toContainText('#fastslam-lap?step=3')

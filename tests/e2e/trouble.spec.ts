@@ -1,13 +1,20 @@
 // No script, no WebAssembly, no network, panics, and nodes that come and go.
 import type { Page } from '@playwright/test'
 import { expect, test } from './fixtures'
-import { Lap } from './lap'
+import { Figure } from './figure'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
-/** Puts a layer between the glue and the wasm: counts figures made and freed, and lets a test fail a call as a panic does. */
+/**
+ * Puts a layer between the glue and the wasm: counts figures made and freed, and lets a test fail a call as a panic does. The lap is
+ * left alone on the page, so that no other figure is counted or fails.
+ */
 async function tapWasm(page: Page): Promise<void> {
   await page.addInitScript(() => {
+    const others = 'main figure > :not(fastslam-lap, figcaption)'
+    // After the document is read, and before its modules run.
+    const leaveTheLap = () => document.querySelectorAll(others).forEach(element => element.remove())
+    document.addEventListener('readystatechange', leaveTheLap, { once: true })
     const tap = ((window as unknown as { tap: object }).tap = { alive: 0, made: 0, panics: 0 })
     const wrap = (instance: WebAssembly.Instance): WebAssembly.Instance => {
       const exports: Record<string, unknown> = { ...instance.exports }
@@ -46,6 +53,13 @@ const tapped = (page: Page) => page.evaluate(() => ({ ...(window as unknown as {
 const panicNext = (page: Page, times: number) =>
   page.evaluate(n => void ((window as unknown as { tap: Tap }).tap.panics = n), times)
 
+/** The programs and pictures that the page asks for. */
+function watchFiles(page: Page): string[] {
+  const fetched: string[] = []
+  page.on('request', request => /\.(wasm|png)$/.test(request.url()) && fetched.push(new URL(request.url()).pathname))
+  return fetched
+}
+
 test.describe('without JavaScript', () => {
   test.use({ javaScriptEnabled: false })
   for (const colorScheme of ['light', 'dark'] as const) {
@@ -66,7 +80,7 @@ test.describe('without JavaScript', () => {
 })
 
 /** The figure's own picture is in view, with a reason in one line, and nothing else is broken. */
-async function expectPicture(lap: Lap, reason: RegExp): Promise<void> {
+async function expectPicture(lap: Figure, reason: RegExp): Promise<void> {
   await lap.element.scrollIntoViewIfNeeded()
   await expect(lap.alert).toContainText(reason)
   await expect(lap.element.locator('img')).toBeVisible()
@@ -79,20 +93,20 @@ test('where a policy forbids WebAssembly, the picture stays and the reason is sa
     await route.fulfill({ response, headers: { ...response.headers(), 'content-security-policy': policy } })
   })
   await page.goto('./')
-  await expectPicture(new Lap(page), /security policy of this page/)
+  await expectPicture(new Figure(page, 'fastslam-lap'), /security policy of this page/)
   complaints.splice(0, Infinity, ...complaints.filter(line => !/wasm|WebAssembly/i.test(line)))
 })
 
 test('where there is no WebAssembly at all, the picture stays and the reason is said', async ({ page }) => {
   await page.addInitScript(() => Reflect.deleteProperty(window, 'WebAssembly'))
   await page.goto('./')
-  await expectPicture(new Lap(page), /runs no WebAssembly/)
+  await expectPicture(new Figure(page, 'fastslam-lap'), /runs no WebAssembly/)
 })
 
 test('where the network fails, the picture stays, and a second try brings the figure to life', async ({ page, complaints }) => {
   await page.route('**/*.wasm', route => route.abort())
   await page.goto('./')
-  const lap = new Lap(page)
+  const lap = new Figure(page, 'fastslam-lap')
   await expectPicture(lap, /could not be fetched/)
   await page.unroute('**/*.wasm')
   await lap.alert.getByRole('button', { name: 'Try again' }).click()
@@ -104,13 +118,13 @@ test('where the network fails, the picture stays, and a second try brings the fi
 test('where the file is missing, the answer of the server is said', async ({ page, complaints }) => {
   await page.route('**/*.wasm', route => route.fulfill({ status: 404, body: 'gone' }))
   await page.goto('./')
-  await expectPicture(new Lap(page), /answered 404/)
+  await expectPicture(new Figure(page, 'fastslam-lap'), /answered 404/)
   complaints.splice(0, Infinity, ...complaints.filter(line => !/404/.test(line)))
 })
 
 test('after a panic the figure says so and is as it was before', async ({ page, complaints }) => {
   await tapWasm(page)
-  const lap = await new Lap(page).open()
+  const lap = await new Figure(page, 'fastslam-lap').open()
   await lap.scrubTo(11)
   const before = [await lap.readouts(), await lap.picture()]
   await panicNext(page, 1)
@@ -127,7 +141,7 @@ test('after a panic the figure says so and is as it was before', async ({ page, 
 
 test('after a second panic it stops, others go on, and Reset brings it back', async ({ page, complaints }) => {
   await tapWasm(page)
-  const lap = await new Lap(page, 'fastslam-lap:not(#other)').open()
+  const lap = await new Figure(page, 'fastslam-lap:not(#other)').open()
   await panicNext(page, 1000)
   await lap.step.click()
   await expect(lap.alert).toContainText(/rebuilt/)
@@ -139,7 +153,7 @@ test('after a second panic it stops, others go on, and Reset brings it back', as
   await page.evaluate(() =>
     document.querySelector('main')!.prepend(Object.assign(document.createElement('fastslam-lap'), { id: 'other' })),
   )
-  const other = new Lap(page, '#other')
+  const other = new Figure(page, '#other')
   await other.element.scrollIntoViewIfNeeded()
   await other.live()
   await other.step.click()
@@ -157,7 +171,7 @@ test('after a second panic it stops, others go on, and Reset brings it back', as
 
 test('a node that is moved or taken out and put back is freed and restored', async ({ page }) => {
   await tapWasm(page)
-  const lap = await new Lap(page).open('./#fastslam-lap?seed=5&step=2')
+  const lap = await new Figure(page, 'fastslam-lap').open('./#fastslam-lap?seed=5&step=2')
   await lap.openSettings()
   await lap.box('universes').fill('8')
   await lap.box('universes').press('Enter')
@@ -187,17 +201,20 @@ test('a node that is moved or taken out and put back is freed and restored', asy
   await expect(lap.element.locator('input[name=raw]')).toBeChecked()
 })
 
-test('nothing is fetched before the figure is seen, then the wasm once for all figures, and every one is freed', async ({
-  page,
-}) => {
-  await tapWasm(page)
-  const fetched: string[] = []
-  page.on('request', request => /\.(wasm|png)$/.test(request.url()) && fetched.push(new URL(request.url()).pathname))
+test('nothing is fetched before a figure is seen', async ({ page }) => {
+  const fetched = watchFiles(page)
   await page.setViewportSize({ width: 1000, height: 300 })
   await page.goto('./')
   await page.waitForTimeout(800)
   expect(fetched).toEqual([])
-  const lap = new Lap(page)
+})
+
+test('the wasm is fetched once for all figures, and every one is freed', async ({ page }) => {
+  await tapWasm(page)
+  const fetched = watchFiles(page)
+  await page.setViewportSize({ width: 1000, height: 300 })
+  await page.goto('./')
+  const lap = new Figure(page, 'fastslam-lap')
   await lap.element.scrollIntoViewIfNeeded()
   await lap.live()
   for (let i = 0; i < 20; i++) {

@@ -2,8 +2,9 @@
 // A figure's own file only names its tag; everything that differs comes from the shell (parameters, readouts, pixels).
 import { Controls } from './controls'
 import { h, icon, write } from './dom'
-import { engine, isRefusal, panicMessage, type Engine, type ParamSpec, type Readout, type Shell } from './engine'
+import { engine, isRefusal, panicMessage, type Engine, type Handle, type ParamSpec, type Readout, type Shell } from './engine'
 import css from './figure.css?inline'
+import { Handles } from './handles'
 import { linkedQuery, linkTo } from './link'
 import { copy, download } from './save'
 import { onThemeChange, reducedMotion, themeName } from './theme'
@@ -43,6 +44,7 @@ export abstract class FigureElement extends HTMLElement {
   #mayAutoplay = true
   #pace = 6 // [steps/s]
   #due = 0 // [ms] when the next step is due
+  #timeline = true // whether there are steps to play
   #target = 0 // the step asked for; the step shown may still be on its way to it
 
   #inView = false
@@ -62,11 +64,16 @@ export abstract class FigureElement extends HTMLElement {
   readonly #heading = h('p', { class: 'title', part: 'title', id: 'title' })
   readonly #status = h('span', { class: 'status', role: 'status' })
   readonly #canvas = h('canvas', { part: 'canvas', role: 'img', 'aria-labelledby': 'title', 'aria-describedby': 'sentence' })
+  readonly #handles = new Handles({
+    drag: (name, x, y) => this.#move(figure => figure.drag(name, x, y, this.#cssWidth)),
+    nudge: (name, right, up) => this.#move(figure => figure.nudge(name, right, up)),
+  })
   readonly #fallback = h('div', { class: 'fallback' }, h('slot'))
   readonly #stage = h(
     'div',
     { class: 'stage', part: 'stage', role: 'group', tabindex: '0', 'aria-labelledby': 'title', 'aria-describedby': 'keys' },
     this.#canvas,
+    this.#handles.layer,
     this.#fallback,
   )
   readonly #readouts = h('dl', { class: 'readouts', part: 'readouts' })
@@ -90,6 +97,7 @@ export abstract class FigureElement extends HTMLElement {
         { class: 'hidden', id: 'keys' },
         'Space plays and pauses. Left and right arrow keys step. Home and End go to the first and the last step.',
       ),
+      h('p', { class: 'hidden', id: 'handle-keys' }, 'Arrow keys move it, with Shift far, with Alt a little.'),
       this.#notices,
       this.#sentence,
       this.#readouts,
@@ -97,6 +105,9 @@ export abstract class FigureElement extends HTMLElement {
     root.append(this.#body)
     this.#body.addEventListener('keydown', event => this.#onKey(event))
     this.#canvas.addEventListener('click', event => this.#onClick(event))
+    for (const type of ['pointermove', 'pointerup'] as const) {
+      this.#canvas.addEventListener(type, event => this.#handles.follow(event))
+    }
     // Parameters are known only once the wasm runs, so every attribute is watched, also while the element is out of the document.
     new MutationObserver(records => {
       const names = new Set(records.map(record => record.attributeName!))
@@ -243,9 +254,14 @@ export abstract class FigureElement extends HTMLElement {
     } catch (error) {
       this.#crash(error)
     }
-    this.#controls?.enable(this.#figure !== undefined)
+    this.#enable(this.#figure !== undefined)
     this.#mustShowValues = true
     this.#repaint()
+  }
+
+  #enable(on: boolean): void {
+    this.#controls?.enable(on)
+    this.#handles.layer.inert = !on
   }
 
   /** Once, when the shell first tells what this figure is: its name, its controls, its properties. */
@@ -330,7 +346,7 @@ export abstract class FigureElement extends HTMLElement {
     const value = this.#figure && values(this.#figure)[name]
     const spec = this.#specs.find(candidate => candidate.name === name)
     if (value === undefined || !spec) return undefined
-    if (spec.kind === 'flag') return value === 'on'
+    if (spec.kind === 'flag' || spec.kind === 'toggle') return value === 'on'
     const number = Number(value)
     return spec.kind === 'choice' || Number.isNaN(number) ? value : number
   }
@@ -430,6 +446,8 @@ export abstract class FigureElement extends HTMLElement {
     const readouts = figure.readouts() as Readout[]
     this.#paint(figure)
     this.#showReadouts(readouts)
+    this.#handles.show(figure.handles(this.#cssWidth) as Handle[])
+    this.#showTimeline(figure.step_count() > 0)
     this.#controls!.showPosition(this.#target, figure.step_count(), this.#playing, busy)
     if (this.#mustShowValues) this.#showValues()
     this.#mustShowValues = false
@@ -441,6 +459,15 @@ export abstract class FigureElement extends HTMLElement {
     this.#changeToTell = false
     if (step !== this.#toldStep) this.#tell('fastslam-step', detail)
     this.#toldStep = step
+  }
+
+  /** Where there is nothing to play, the picture has no keys. */
+  #showTimeline(on: boolean): void {
+    if (on === this.#timeline) return
+    this.#timeline = on
+    this.#stage.tabIndex = on ? 0 : -1
+    if (on) this.#stage.setAttribute('aria-describedby', 'keys')
+    else this.#stage.removeAttribute('aria-describedby')
   }
 
   #tell(type: string, detail: FigureDetail): void {
@@ -545,6 +572,8 @@ export abstract class FigureElement extends HTMLElement {
     if (event.key === 'Escape' && this.#menu.open) {
       this.#menu.open = false
       this.#menu.querySelector('summary')!.focus()
+    } else if (!this.#timeline) {
+      return
     } else if (event.key === ' ' && !target.matches('button, summary, select, input:not([type=range])')) {
       event.preventDefault()
       if (this.#playing) this.pause()
@@ -566,6 +595,18 @@ export abstract class FigureElement extends HTMLElement {
     this.#mayAutoplay = false
     this.#guard(figure => {
       if (figure.pick(event.offsetX, event.offsetY, this.#cssWidth)) this.#changed()
+    })
+  }
+
+  /** What a handle does. A move that changes no parameter, because it ended where it began or at a limit, is none. */
+  #move(action: (figure: Shell) => void): void {
+    this.#mayAutoplay = false
+    this.#guard(figure => {
+      const before = figure.query()
+      action(figure)
+      if (figure.query() === before) return
+      this.#adoptTarget()
+      this.#changed()
     })
   }
 
@@ -614,7 +655,7 @@ export abstract class FigureElement extends HTMLElement {
   }
 
   #fileName(extension: string): string {
-    return `${this.id || this.localName}-step-${this.#target}.${extension}`
+    return `${this.id || this.localName}${this.#timeline ? `-step-${this.#target}` : ''}.${extension}`
   }
 
   // --- Trouble -------------------------------------------------------------------------------------------------------------
@@ -640,7 +681,7 @@ export abstract class FigureElement extends HTMLElement {
       this.#rebuild()
     } else {
       this.#stopped = true
-      this.#controls?.enable(false)
+      this.#enable(false)
       this.#notice('crash', `Something failed inside this figure again (${what}), so it has stopped.`, 'Reset', () => this.reset())
     }
   }

@@ -1,6 +1,7 @@
 // Every control is made from the shell's list of parameters, so a figure gets its controls by declaring parameters.
 import { h, icon, redraw, write } from './dom'
 import type { ParamSpec } from './engine'
+import { stride } from './handles'
 
 /** What the controls may ask of the figure. */
 export interface Actions {
@@ -42,6 +43,7 @@ export class Controls {
   private readonly forth: HTMLButtonElement
   private readonly scrub: HTMLInputElement
   private readonly position: HTMLOutputElement
+  private readonly playback: HTMLElement[] // all that a figure without steps has no use for
 
   constructor(specs: ParamSpec[], actions: Actions) {
     this.play = button('play', 'Play', actions.playPause, 'play primary')
@@ -57,17 +59,21 @@ export class Controls {
       v => actions.pace(Number(v)),
     )
     pace.value = String(NORMAL_PACE)
+    const timeline = h('span', { class: 'timeline' }, this.scrub, this.position)
+    this.playback = [this.back, this.play, this.forth, timeline, pace]
     this.transport = h(
       'div',
       { class: 'transport', part: 'transport', role: 'group', 'aria-label': 'Playback' },
       h('span', { class: 'buttons' }, reset, this.back, this.play, this.forth),
-      h('span', { class: 'timeline' }, this.scrub, this.position),
+      timeline,
       h('span', { class: 'extras' }, pace),
     )
 
     const grid = h('div', { class: 'grid' })
-    this.settings = h('details', { class: 'settings', part: 'settings' }, h('summary', {}, 'Settings'), grid)
+    const boxes = h('div', { class: 'boxes' })
+    this.settings = h('details', { class: 'settings', part: 'settings' }, h('summary', {}, 'Settings'), grid, boxes)
     this.view = h('div', { class: 'view', part: 'view', role: 'group', 'aria-label': 'What is drawn' })
+    const toggles: HTMLElement[] = []
     const choices: HTMLElement[] = [] // after the sliders, so that the grid has even rows
     for (const spec of specs) {
       if (spec.name === STEP) continue
@@ -75,11 +81,15 @@ export class Controls {
       this.fields.set(spec.name, field)
       for (const input of field.element.querySelectorAll<HTMLElement>('input, select')) input.title = spec.help // read out after the name
       if (spec.name === SEED) this.transport.lastElementChild!.append(field.element)
+      else if (spec.kind === 'toggle') toggles.push(field.element)
       else if (spec.group === 'view') this.view.append(field.element)
       else if (spec.kind === 'choice') choices.push(field.element)
+      else if (field.element.matches('.number')) boxes.append(field.element)
       else grid.append(field.element)
     }
+    this.view.prepend(...toggles)
     grid.append(...choices)
+    this.settings.hidden = !grid.hasChildNodes() && !boxes.hasChildNodes()
   }
 
   /** `force` puts a control back that the reader has set to a refused value. */
@@ -97,6 +107,9 @@ export class Controls {
   }
 
   showPosition(step: number, last: number, playing: boolean, busy: boolean): void {
+    const steps = last > 0
+    for (const element of this.playback) element.hidden = !steps
+    this.transport.setAttribute('aria-label', steps ? 'Playback' : 'Start over')
     this.scrub.max = String(last)
     this.scrub.value = String(step)
     this.scrub.setAttribute('aria-valuetext', `step ${step} of ${last}`)
@@ -119,8 +132,20 @@ export class Controls {
 function fieldFor(spec: ParamSpec, change: (value: string) => void): Field {
   if (spec.name === SEED) return seedField(spec, change)
   if (spec.kind === 'flag') return flagField(spec, change)
+  if (spec.kind === 'toggle') return toggleField(spec, change)
   if (spec.kind === 'choice' || spec.choices.length > 0) return choiceField(spec, change)
-  return sliderField(spec, change)
+  return spec.slider ? sliderField(spec, change) : numberField(spec, change)
+}
+
+function toggleField(spec: ParamSpec, change: (value: string) => void): Field {
+  const element = h(
+    'button',
+    { type: 'button', class: 'toggle', part: 'button toggle', name: spec.name, title: spec.help, 'aria-pressed': 'false' },
+    spec.title,
+  )
+  const pressed = () => element.ariaPressed === 'true'
+  element.addEventListener('click', () => change(pressed() ? 'off' : 'on'))
+  return { element, show: value => element.setAttribute('aria-pressed', String(value === 'on')) }
 }
 
 function flagField(spec: ParamSpec, change: (value: string) => void): Field {
@@ -176,7 +201,30 @@ function sliderField(spec: ParamSpec, change: (value: string) => void): Field {
       range.value = stops ? String(nearest(stops, Number(value))) : value
       describe(value)
     },
+    limit: spec => limit(box, spec) && (stops !== undefined || limit(range, spec)),
   }
+}
+
+/** A number without a slider: for figures that have many. */
+function numberField(spec: ParamSpec, change: (value: string) => void): Field {
+  const box = numberBox(spec, change)
+  return {
+    element: h(
+      'label',
+      { class: 'number', part: 'control', title: spec.help },
+      h('span', { class: 'name' }, spec.title),
+      h('span', { class: 'value' }, box, h('span', { class: 'unit' }, spec.unit)),
+    ),
+    show: value => void (box.value = value),
+    limit: spec => limit(box, spec),
+  }
+}
+
+/** True if the range is another one. */
+function limit(input: HTMLInputElement, { min, max }: ParamSpec): boolean {
+  if (input.min === String(min) && input.max === String(max)) return false
+  Object.assign(input, { min, max })
+  return true
 }
 
 function seedField(spec: ParamSpec, change: (value: string) => void): Field {
@@ -209,6 +257,15 @@ function numberBox(spec: ParamSpec, change: (value: string) => void): HTMLInputE
   // `any`: a typed value need not lie on the slider's steps. The shell judges it, and says why it refuses one.
   Object.assign(box, { min: spec.min, max: spec.max, step: spec.kind === 'integer' ? '1' : 'any' })
   box.addEventListener('change', () => change(box.value))
+  // By the parameter's own steps: those of `any` would be 1.
+  box.addEventListener('keydown', event => {
+    const up = event.key === 'ArrowUp' ? 1 : event.key === 'ArrowDown' ? -1 : 0
+    if (!up || event.ctrlKey || event.metaKey) return
+    event.preventDefault()
+    const steps = spec.kind === 'integer' ? Math.max(1, stride(event)) : stride(event)
+    const value = Math.min(Number(box.max), Math.max(Number(box.min), box.valueAsNumber + up * steps * spec.step))
+    if (!Number.isNaN(value)) change(String(Number(value.toPrecision(12)))) // 0.3, not 0.30000000000000004
+  })
   return box
 }
 

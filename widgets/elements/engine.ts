@@ -8,13 +8,14 @@ export interface ParamSpec {
   name: string
   title: string
   unit: string
-  kind: 'integer' | 'number' | 'choice' | 'flag'
+  kind: 'integer' | 'number' | 'choice' | 'flag' | 'toggle'
   min: number
   max: number
   step: number
   choices: { value: string; title: string }[]
   default: string
   group: 'setup' | 'view'
+  slider: boolean
   help: string
 }
 
@@ -25,6 +26,17 @@ export interface Readout {
   text: string
   unit: string
   help: string
+}
+
+/** A point of the picture that a reader moves, where it lies on the canvas [css px]. */
+export interface Handle {
+  name: string
+  title: string
+  x: number
+  y: number
+  value: number
+  text: string
+  hover: { x: number; y: number; w: number; h: number } | null
 }
 
 export interface Engine {

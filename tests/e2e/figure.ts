@@ -1,8 +1,8 @@
-// The Apartment lap as a reader meets it: found by role and name, never by internals that a reader cannot see.
+// A figure as a reader meets it: found by role and name, never by internals that a reader cannot see.
 import type { Locator, Page } from '@playwright/test'
 import { expect } from './fixtures'
 
-export class Lap {
+export class Figure {
   readonly element: Locator
   readonly play: Locator
   readonly pause: Locator
@@ -18,7 +18,7 @@ export class Lap {
 
   constructor(
     readonly page: Page,
-    selector = 'fastslam-lap',
+    selector: string,
   ) {
     this.element = page.locator(selector)
     const button = (name: string | RegExp) => this.element.getByRole('button', { name, exact: true })
@@ -50,7 +50,7 @@ export class Lap {
 
   /** Until what was asked for is shown. */
   async settled(): Promise<void> {
-    await expect(this.element.locator('output:not(.busy)')).toBeVisible({ timeout: 30_000 })
+    await expect(this.element.locator('output.busy')).toHaveCount(0, { timeout: 30_000 })
     // The sentence follows within a few frames, so that a drag says one thing and not a hundred.
     await this.page.waitForTimeout(250)
   }
@@ -102,6 +102,15 @@ export class Lap {
 
   box(name: string): Locator {
     return this.element.locator(`input[type=number][name=${name}]`)
+  }
+
+  toggle(name: string): Locator {
+    return this.element.locator(`button[name=${name}]`)
+  }
+
+  /** What lies over a point of the picture that can be moved. */
+  handle(name: string): Locator {
+    return this.element.locator(`[part=handle][data-name=${name}]`)
   }
 
   slider(name: string): Locator {

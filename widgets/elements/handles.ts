@@ -1,0 +1,90 @@
+// Points of the picture that a reader moves. The picture draws them; here something to grasp lies over each: an element that takes
+// the focus, the pointer and the arrow keys.
+import { h } from './dom'
+import type { Handle } from './engine'
+
+/** What the handles may ask of the figure. */
+export interface Moves {
+  /** To a point of the canvas [css px]. */
+  drag(name: string, x: number, y: number): void
+  /** Right and up, in steps of the parameters. */
+  nudge(name: string, right: number, up: number): void
+}
+
+const ARROWS: Record<string, [number, number]> = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }
+
+/** How far a key goes [steps]. */
+export function stride(event: KeyboardEvent): number {
+  return event.shiftKey ? 10 : event.altKey ? 0.1 : 1
+}
+
+export class Handles {
+  /** Lies over the canvas and lets everything through but the handles. */
+  readonly layer = h('div', { class: 'handles' })
+  private readonly grips = new Map<string, HTMLElement>() // by name, so that the focus survives a new picture
+  private shown: Handle[] = []
+
+  constructor(private readonly moves: Moves) {}
+
+  show(handles: Handle[]): void {
+    this.shown = handles
+    const names = new Set(handles.map(({ name }) => name))
+    for (const [name, grip] of this.grips) {
+      if (names.has(name)) continue
+      this.grips.delete(name)
+      if (grip.matches(':focus')) this.layer.parentElement?.focus()
+      grip.remove()
+    }
+    handles.forEach(({ name, title, x, y, value, text, hover }, i) => {
+      let grip = this.grips.get(name)
+      if (!grip) {
+        grip = this.make(name)
+        this.grips.set(name, grip)
+        this.layer.insertBefore(grip, this.layer.children[i] ?? null)
+      }
+      grip.style.left = `${x}px`
+      grip.style.top = `${y}px`
+      // What follows the pointer over an area must not come between the two.
+      grip.classList.toggle('follows', hover !== null)
+      grip.setAttribute('aria-label', title)
+      grip.setAttribute('aria-valuenow', String(value))
+      grip.setAttribute('aria-valuetext', text)
+    })
+  }
+
+  /**
+   * For a pointer over the canvas that moves, or is lifted: the handle of the area below follows it, no button needed. A finger that
+   * comes down does nothing yet, because a swipe may be meant to scroll.
+   */
+  follow({ offsetX: x, offsetY: y }: PointerEvent): void {
+    for (const { name, hover } of this.shown) {
+      if (hover && hover.x <= x && x < hover.x + hover.w && hover.y <= y && y < hover.y + hover.h) this.moves.drag(name, x, y)
+    }
+  }
+
+  private make(name: string): HTMLElement {
+    const grip = h('div', { class: 'handle', part: 'handle', role: 'slider', tabindex: '0', 'aria-describedby': 'handle-keys', 'data-name': name })
+    let held: { pointer: number; dx: number; dy: number } | undefined
+    grip.addEventListener('pointerdown', event => {
+      if (event.button !== 0 || held) return
+      grip.setPointerCapture(event.pointerId)
+      grip.focus({ preventScroll: true })
+      // It is held where it was grasped, and does not jump to have its middle there.
+      const { x, y, width, height } = grip.getBoundingClientRect()
+      held = { pointer: event.pointerId, dx: event.clientX - x - width / 2, dy: event.clientY - y - height / 2 }
+    })
+    grip.addEventListener('pointermove', event => {
+      if (event.pointerId !== held?.pointer) return
+      const { x, y } = this.layer.getBoundingClientRect()
+      this.moves.drag(name, event.clientX - x - held.dx, event.clientY - y - held.dy)
+    })
+    grip.addEventListener('lostpointercapture', () => (held = undefined)) // after up and cancel too
+    grip.addEventListener('keydown', event => {
+      const arrow = ARROWS[event.key]
+      if (!arrow || event.ctrlKey || event.metaKey) return
+      event.preventDefault() // Alt with an arrow would leave the page
+      this.moves.nudge(name, arrow[0] * stride(event), arrow[1] * stride(event))
+    })
+    return grip
+  }
+}

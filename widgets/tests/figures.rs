@@ -1,0 +1,95 @@
+//! Laws of every figure in the registry, by its public face.
+
+use fastslam_widgets::{
+    figure::Figure,
+    model::Kind,
+    registry::FIGURES,
+    scene::{Handle, Rect, Scene},
+};
+
+fn scene(figure: &Figure, width: f64) -> Scene {
+    figure.model().scene(width, figure.model().height(width))
+}
+
+/// Everything a reader gets from a state, for comparing two ways to it.
+fn state(figure: &Figure) -> (String, Vec<String>, Scene) {
+    let readouts = figure.model().readouts().iter().map(|r| format!("{r:?} {:?}", r.value.map(f64::to_bits))).collect();
+    (figure.query(), readouts, scene(figure, 800.0))
+}
+
+#[test]
+fn every_parameter_refuses_what_is_out_of_range_and_stays_as_it_was() {
+    for entry in FIGURES {
+        let mut figure = Figure::new(entry.tag).unwrap();
+        figure.model_mut().seek(3);
+        figure.model_mut().settle();
+        let before = state(&figure);
+        for spec in figure.model().params() {
+            let mut bad = vec!["nonsense".to_string(), "NaN".into(), "1e999".into(), "💥\n".repeat(50)];
+            if matches!(spec.kind, Kind::Integer | Kind::Number) {
+                bad.extend([(spec.min - 1.0).to_string(), (spec.max + 1.0).to_string(), String::new()]);
+            }
+            for value in bad {
+                let error = figure.set(spec.name, &value).unwrap_err();
+                assert_eq!(error.parameter, spec.name);
+                assert!(error.message.contains(spec.name) && error.message.contains("must be"), "{error}");
+                assert_eq!(error.message.lines().count(), 1, "{error}");
+            }
+        }
+        let known = figure.model().params()[0].name;
+        assert!(figure.set("colour", "red").unwrap_err().message.contains(known));
+        assert_eq!(state(&figure), before);
+        assert_eq!(figure.model().pending(), 0);
+    }
+}
+
+#[test]
+fn every_default_and_every_choice_is_accepted() {
+    for entry in FIGURES {
+        let mut figure = Figure::new(entry.tag).unwrap();
+        for spec in figure.model().params() {
+            assert_eq!(figure.model().value(spec.name).as_ref(), Some(&spec.default), "{}", spec.name);
+            for value in spec.choices.iter().map(|c| c.value).chain([spec.default.as_str()]) {
+                figure.set(spec.name, value).unwrap();
+                assert_eq!(figure.model().value(spec.name).as_deref(), Some(value), "{}", spec.name);
+            }
+        }
+        assert_eq!(figure.query(), "");
+    }
+}
+
+#[test]
+fn handles_have_names_of_their_own_and_lie_in_the_picture_with_words() {
+    for entry in FIGURES {
+        let figure = Figure::new(entry.tag).unwrap();
+        for width in [240.0, 340.0, 800.0] {
+            let Scene { width, height, handles, .. } = scene(&figure, width);
+            let picture = Rect::new(0.0, 0.0, width, height);
+            for (k, Handle { name, title, at, value, text, hover }) in handles.iter().enumerate() {
+                assert!(handles[..k].iter().all(|other| other.name != *name), "{name}");
+                assert!(picture.contains(*at) && hover.is_none_or(|area| picture.encloses(&area)), "{name} at {at:?}");
+                assert!(!title.is_empty() && !text.is_empty() && value.is_finite(), "{name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn no_drag_and_no_nudge_makes_it_panic_or_leaves_a_range() {
+    for entry in FIGURES {
+        let mut figure = Figure::new(entry.tag).unwrap();
+        let names: Vec<&str> = scene(&figure, 800.0).handles.iter().map(|h| h.name).chain(["no-such-handle"]).collect();
+        for name in names {
+            for [x, y] in [[-1e300, 1e300], [0.0, 0.0], [1e9, -1e9], [f64::NAN, 1.0], [400.0, 200.0]] {
+                for width in [100.0, 800.0] {
+                    figure.drag(name, x, y, width);
+                    figure.nudge(name, x, y);
+                    let values = figure.values().0;
+                    for (spec, (name, value)) in figure.model().params().iter().zip(values) {
+                        assert!(spec.check(&value).is_ok(), "{name} = {value}");
+                    }
+                }
+            }
+        }
+    }
+}
