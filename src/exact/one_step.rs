@@ -233,8 +233,11 @@ mod tests {
     use nalgebra::Matrix2;
 
     fn step(scale: f64, candidates: &[[f64; 2]]) -> OneStep {
-        let landmark =
-            |[x, y]: &[f64; 2]| Landmark { mean: Vector2::new(*x, *y), covariance: Matrix2::identity() * 0.01, evidence: 1 };
+        let landmark = |[x, y]: &[f64; 2]| Landmark {
+            mean: Vector2::new(*x, *y),
+            covariance: Matrix2::identity() * 0.01,
+            evidence: 1,
+        };
         OneStep {
             from: Pose2::new(0.3, -0.2, 0.4),
             control: Odometry { rot1: 0.2, trans: 1.0, rot2: 0.1 },
@@ -275,7 +278,12 @@ mod tests {
             let posterior = step.posterior(8);
             let (mean, near) = (first / sum, 1e-6);
             let covariance = second / sum - mean * mean.transpose();
-            assert!((posterior.log_evidence - ops::ln(sum)).abs() < near, "{} {}", posterior.log_evidence, ops::ln(sum));
+            assert!(
+                (posterior.log_evidence - ops::ln(sum)).abs() < near,
+                "{} {}",
+                posterior.log_evidence,
+                ops::ln(sum)
+            );
             for i in 0..3 {
                 let deviation = covariance[(i, i)].sqrt();
                 let off = posterior.mean.minus(&origin)[i] - mean[i];

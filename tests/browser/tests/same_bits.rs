@@ -4,7 +4,10 @@
 
 use fastslam::{
     digest::Digest,
-    experiment::lap::{Lap, golden_setups},
+    experiment::{
+        lap::{Lap, golden_setups},
+        proposals::{self, Proposals},
+    },
 };
 use fastslam_widgets::shell::Figure;
 use figures::{LAPS, PICTURES, line, put_readout};
@@ -15,6 +18,7 @@ use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
 wasm_bindgen_test_configure!(run_in_browser);
 
 const TRACES: &str = include_str!("../../portability/golden.txt");
+const PROPOSALS: &str = include_str!("../../portability/proposals.txt");
 const READOUTS: &str = include_str!("../../figures/golden/readouts.txt");
 const PIXELS: &str = include_str!("../../figures/golden/pixels.txt");
 
@@ -64,6 +68,15 @@ fn whole_laps_leave_the_traces_of_the_native_build() {
         line(name, &lap.trace())
     });
     same_lines(&traces.collect::<Vec<_>>(), TRACES);
+}
+
+#[wasm_bindgen_test]
+fn the_two_proposals_draw_the_samples_of_the_native_build() {
+    let traces = proposals::golden_setups().into_iter().map(|(name, setup)| {
+        let proposals = Proposals::new(&setup).expect("a golden setup is valid");
+        line(name, &proposals.trace())
+    });
+    same_lines(&traces.collect::<Vec<_>>(), PROPOSALS);
 }
 
 #[wasm_bindgen_test]

@@ -5,6 +5,7 @@
 
 use fastslam::execute::Executor;
 use fastslam::experiment::lap::{Lap, golden_setups};
+use fastslam::experiment::proposals::{self, Proposals};
 use std::fmt::Write;
 
 const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/golden.txt");
@@ -49,4 +50,18 @@ fn another_seed_has_another_fingerprint() {
     values.sort_unstable();
     values.dedup();
     assert_eq!(values.len(), 4);
+}
+
+#[test]
+fn the_two_proposals_have_their_golden_fingerprints() {
+    let golden = concat!(env!("CARGO_MANIFEST_DIR"), "/proposals.txt");
+    let mut found = String::new();
+    for (name, setup) in proposals::golden_setups() {
+        let digest = Proposals::new(&setup).unwrap().trace();
+        writeln!(found, "{name} {} {:016x}", digest.size(), digest.value()).unwrap();
+    }
+    if std::env::var_os("UPDATE_GOLDENS").is_some() {
+        std::fs::write(golden, &found).unwrap();
+    }
+    assert_eq!(found, std::fs::read_to_string(golden).unwrap());
 }
