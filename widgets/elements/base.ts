@@ -105,7 +105,7 @@ export abstract class FigureElement extends HTMLElement {
     root.append(this.#body)
     this.#body.addEventListener('keydown', event => this.#onKey(event))
     this.#canvas.addEventListener('click', event => this.#onClick(event))
-    for (const type of ['pointermove', 'pointerup'] as const) {
+    for (const type of ['pointerdown', 'pointermove', 'pointerup'] as const) {
       this.#canvas.addEventListener(type, event => this.#handles.follow(event))
     }
     // Parameters are known only once the wasm runs, so every attribute is watched, also while the element is out of the document.

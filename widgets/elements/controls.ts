@@ -264,7 +264,9 @@ function numberBox(spec: ParamSpec, change: (value: string) => void): HTMLInputE
     event.preventDefault()
     const steps = spec.kind === 'integer' ? Math.max(1, stride(event)) : stride(event)
     const value = Math.min(Number(box.max), Math.max(Number(box.min), box.valueAsNumber + up * steps * spec.step))
-    if (!Number.isNaN(value)) change(String(Number(value.toPrecision(12)))) // 0.3, not 0.30000000000000004
+    if (Number.isNaN(value)) return
+    box.value = String(Number(value.toPrecision(12))) // 0.3, not 0.30000000000000004
+    change(box.value)
   })
   return box
 }

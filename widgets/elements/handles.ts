@@ -23,6 +23,7 @@ export class Handles {
   readonly layer = h('div', { class: 'handles' })
   private readonly grips = new Map<string, HTMLElement>() // by name, so that the focus survives a new picture
   private shown: Handle[] = []
+  private touch = { x: 0, y: 0, sideways: false } // where a finger came down, and how it went on
 
   constructor(private readonly moves: Moves) {}
 
@@ -53,10 +54,16 @@ export class Handles {
   }
 
   /**
-   * For a pointer over the canvas that moves, or is lifted: the handle of the area below follows it, no button needed. A finger that
-   * comes down does nothing yet, because a swipe may be meant to scroll.
+   * For pointers over the canvas: the handle of the area below follows them, no button needed. A finger does so when it taps or
+   * moves sideways; up and down it scrolls the page.
    */
-  follow({ offsetX: x, offsetY: y }: PointerEvent): void {
+  follow({ type, pointerType, offsetX: x, offsetY: y }: PointerEvent): void {
+    if (type === 'pointerdown') {
+      this.touch = { x, y, sideways: false }
+      return
+    }
+    this.touch.sideways ||= Math.abs(x - this.touch.x) > Math.abs(y - this.touch.y)
+    if (pointerType === 'touch' && type === 'pointermove' && !this.touch.sideways) return
     for (const { name, hover } of this.shown) {
       if (hover && hover.x <= x && x < hover.x + hover.w && hover.y <= y && y < hover.y + hover.h) this.moves.drag(name, x, y)
     }
@@ -64,19 +71,22 @@ export class Handles {
 
   private make(name: string): HTMLElement {
     const grip = h('div', { class: 'handle', part: 'handle', role: 'slider', tabindex: '0', 'aria-describedby': 'handle-keys', 'data-name': name })
-    let held: { pointer: number; dx: number; dy: number } | undefined
+    let held: { pointer: number; x: number; y: number; dx: number; dy: number } | undefined
     grip.addEventListener('pointerdown', event => {
       if (event.button !== 0 || held) return
       grip.setPointerCapture(event.pointerId)
       grip.focus({ preventScroll: true })
       // It is held where it was grasped, and does not jump to have its middle there.
-      const { x, y, width, height } = grip.getBoundingClientRect()
-      held = { pointer: event.pointerId, dx: event.clientX - x - width / 2, dy: event.clientY - y - height / 2 }
+      const { clientX: x, clientY: y } = event
+      const box = grip.getBoundingClientRect()
+      held = { pointer: event.pointerId, x, y, dx: x - box.x - box.width / 2, dy: y - box.y - box.height / 2 }
     })
     grip.addEventListener('pointermove', event => {
-      if (event.pointerId !== held?.pointer) return
-      const { x, y } = this.layer.getBoundingClientRect()
-      this.moves.drag(name, event.clientX - x - held.dx, event.clientY - y - held.dy)
+      const { clientX: x, clientY: y } = event
+      if (event.pointerId !== held?.pointer || (x === held.x && y === held.y)) return // browsers tell of moves that are none
+      held = { ...held, x, y }
+      const box = this.layer.getBoundingClientRect()
+      this.moves.drag(name, x - box.x - held.dx, y - box.y - held.dy)
     })
     grip.addEventListener('lostpointercapture', () => (held = undefined)) // after up and cancel too
     grip.addEventListener('keydown', event => {

@@ -106,7 +106,7 @@ pub trait Model {
     fn pick(&mut self, _target: u32) {}
 
     /// Moves a handle ([`crate::scene::Handle::name`]) to a point \[css px\] of a scene of this width \[css px\], or as near to it
-    /// as the ranges of its parameters allow.
+    /// as the ranges of its parameters allow. Only parameters move: a page takes no notice of a drag after which the link is the same.
     fn drag(&mut self, _handle: &str, _to: Point, _width: f64) {}
 
     /// Moves a handle right and up by steps of its parameters: 1 for an arrow key, 10 for a coarse one, 0.1 for a fine one.
