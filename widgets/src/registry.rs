@@ -1,6 +1,6 @@
 //! All figures by tag. Tests and tools iterate over this list.
 
-use crate::{lap::LapModel, model::Model};
+use crate::{lap::LapModel, model::Model, proposal::ProposalModel};
 
 /// A kind of figure.
 pub struct Entry {
@@ -13,8 +13,10 @@ pub struct Entry {
 }
 
 /// Every kind there is.
-pub const FIGURES: &[Entry] =
-    &[Entry { tag: "fastslam-lap", title: LapModel::TITLE, make: || Box::new(LapModel::default()) }];
+pub const FIGURES: &[Entry] = &[
+    Entry { tag: "fastslam-lap", title: LapModel::TITLE, make: || Box::new(LapModel::default()) },
+    Entry { tag: "fastslam-proposal", title: ProposalModel::TITLE, make: || Box::new(ProposalModel::default()) },
+];
 
 /// The figure of a tag.
 pub fn find(tag: &str) -> Option<&'static Entry> {

@@ -10,7 +10,7 @@ use fastslam::{
     },
 };
 use fastslam_widgets::shell::Figure;
-use figures::{LAPS, PICTURES, line, put_readout};
+use figures::{PICTURES, READOUTS as STATES, line, put_readout};
 use js_sys::{Reflect, Uint8Array, WebAssembly};
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
@@ -81,8 +81,9 @@ fn the_two_proposals_draw_the_samples_of_the_native_build() {
 
 #[wasm_bindgen_test]
 fn every_readout_of_every_step_has_the_bits_of_the_native_build() {
-    let readouts = LAPS.iter().map(|query| {
-        let mut figure = figure("fastslam-lap", query);
+    let states = STATES.iter().flat_map(|(tag, queries)| queries.iter().map(move |query| (tag, query)));
+    let readouts = states.map(|(tag, query)| {
+        let mut figure = figure(tag, query);
         let mut digest = Digest::new();
         for step in 0..=figure.step_count() {
             figure.seek(step);
@@ -97,7 +98,7 @@ fn every_readout_of_every_step_has_the_bits_of_the_native_build() {
             }
             digest.bytes(figure.describe().as_bytes());
         }
-        line(&format!("fastslam-lap?{query}"), &digest)
+        line(&format!("{tag}?{query}"), &digest)
     });
     same_lines(&readouts.collect::<Vec<_>>(), READOUTS);
 }

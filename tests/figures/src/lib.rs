@@ -25,6 +25,10 @@ const fn lap(name: &'static str, query: &'static str, width: u32, dpr: f64, them
     Picture { name, tag: "fastslam-lap", query, width, dpr, theme }
 }
 
+const fn proposal(name: &'static str, query: &'static str, width: u32, dpr: f64, theme: &'static str) -> Picture {
+    Picture { name, tag: "fastslam-proposal", query, width, dpr, theme }
+}
+
 /// The first two are what readers without JavaScript see: the default lap on its way back, just resampled. At 1.5 px per css px
 /// they are sharp enough for most screens, and 80 KB each.
 pub const PICTURES: &[Picture] = &[
@@ -39,19 +43,37 @@ pub const PICTURES: &[Picture] = &[
     lap("motion-64", "universes=64&proposal=motion&matcher=cell&step=41", 800, 1.0, "light"),
     lap("motion-256", "universes=256&proposal=motion&matcher=cell&step=12", 800, 1.0, "dark"),
     lap("motion-256-narrow", "universes=256&proposal=motion&matcher=cell&step=12", 340, 1.0, "light"),
+    proposal("fastslam-proposal-light", "", 800, 1.5, "light"),
+    proposal("fastslam-proposal-dark", "", 800, 1.5, "dark"),
+    proposal("proposal-pair", "landmarks=pair", 1000, 1.0, "light"),
+    proposal("proposal-guess", "predict=on&guess=3.5&range-std=0.1", 380, 1.0, "contrast-light"),
+    proposal("proposal-run", "predict=on&guess=3.5&run=on&samples=4096", 800, 1.0, "dark"),
+    proposal("proposal-near", "odometry=2&landmark-x=0.9&landmark-y=-0.5&range-std=0.02", 640, 1.0, "light"),
+    proposal("proposal-tiny", "landmarks=pair&samples=1&predict=on&run=on", 240, 1.0, "contrast-dark"),
 ];
 
 /// A step of the default lap at which it resampled.
 const RESAMPLED: &str = "step=62";
 
 /// Setups whose readouts are kept for every step.
-pub const LAPS: &[&str] = &[
+const LAPS: &[&str] = &[
     "",
     "universes=1",
     "universes=7&seed=5&proposal=motion&matcher=cell",
     "universes=24&policy=always&scheme=residual&odometry=1.5",
     "policy=never&range-std=0.1&scheme=multinomial",
 ];
+
+/// States of the proposals whose readouts are kept.
+const PROPOSALS: &[&str] = &[
+    "",
+    "landmarks=pair&seed=8",
+    "range-std=0.005&bearing-std=0.01&samples=4096&predict=on&guess=7.5&run=on",
+    "odometry=2&range-std=0.5&landmark-x=-0.1&landmark-y=0.3&samples=1",
+];
+
+/// All figures whose readouts are kept, with their states.
+pub const READOUTS: &[(&str, &[&str])] = &[("fastslam-lap", LAPS), ("fastslam-proposal", PROPOSALS)];
 
 /// The figure of a tag in the state that a link names, simulated.
 ///
@@ -88,7 +110,7 @@ pub fn put_readout(digest: &mut Digest, name: &str, value: Option<f64>, text: &s
     digest.bytes(text.as_bytes());
 }
 
-/// Every readout of every step of a lap, and what is said of it, as a fingerprint.
+/// Every readout of every step of a figure, and what is said of it, as a fingerprint.
 pub fn readouts(tag: &str, query: &str) -> Digest {
     let mut figure = figure(tag, query);
     let mut digest = Digest::new();

@@ -2,7 +2,7 @@
 //! committed.
 
 use fastslam::digest::Digest;
-use figures::{LAPS, PICTURES, figure, line, readouts};
+use figures::{PICTURES, READOUTS, figure, line, readouts};
 use std::{
     collections::BTreeSet,
     env, fs,
@@ -93,8 +93,8 @@ fn every_picture_is_the_golden_one_to_the_last_pixel() {
 
 #[test]
 fn every_readout_of_every_step_is_the_golden_one() {
-    let text: String =
-        LAPS.iter().map(|query| line(&format!("fastslam-lap?{query}"), &readouts("fastslam-lap", query))).collect();
+    let states = READOUTS.iter().flat_map(|(tag, queries)| queries.iter().map(move |query| (tag, query)));
+    let text: String = states.map(|(tag, query)| line(&format!("{tag}?{query}"), &readouts(tag, query))).collect();
     same_text("readouts.txt", &text);
 }
 
