@@ -26,9 +26,10 @@ pub const LANDMARK_AGAIN: &str = "landmark-again";
 /// The guess on the scale of ratios.
 pub const GUESS: &str = "guess";
 
-/// Radius of a sample outside of the region, and of one inside \[css px\].
-const FINE: f64 = 0.75;
-const BOLD: f64 = 1.2;
+/// Radius of a sample \[css px\]: the finer, the more there are, so that the density behind them is seen.
+fn dot(samples: usize) -> f64 {
+    (700.0 / samples as f64).sqrt().clamp(0.7, 1.8)
+}
 
 /// √χ²₂,₀.₉: how many deviations an ellipse of 90 % reaches.
 const NINE_TENTHS: f64 = 2.145_966_026_289_347;
@@ -84,16 +85,13 @@ fn view(scene: &mut Scene, model: &ProposalModel, panel: &Panel, cloud: &Cloud, 
     let sight = line(robot_at(&found.truth), landmarks[0]);
     scene.marks.push(Mark::Lines { lines: sight, width: 1.25, dash: Some([2.0, 4.0]), role: Role::Landmark });
 
-    // Samples outside of the region are fine dots.
-    for (inside, radius) in [(false, FINE), (true, BOLD)] {
-        let places =
-            cloud.poses.iter().zip(&cloud.inside).filter(|(_, is)| **is == inside).map(|(pose, _)| robot_at(pose));
-        let centres = places.filter(|place| area.inset(radius).contains(*place)).collect();
-        scene.marks.push(Mark::Discs { centres, radius, role });
-    }
+    let radius = dot(cloud.poses.len());
+    let centres = cloud.poses.iter().map(robot_at).filter(|place| area.inset(radius).contains(*place)).collect();
+    scene.marks.push(Mark::Discs { centres, radius, role });
     let outline = model.outline().iter();
-    let region: Vec<_> =
-        outline.flat_map(|piece| clip_polyline(&[panel.at(piece[0]), panel.at(piece[1])], area)).collect();
+    let region: Vec<_> = outline
+        .flat_map(|line| clip_polyline(&line.iter().map(|place| panel.at(*place)).collect::<Vec<_>>(), area))
+        .collect();
     let gaussian = match role {
         Role::Posterior => {
             let covariance = found.gaussian.covariance.fixed_view::<2, 2>(0, 0).into_owned();
@@ -224,48 +222,39 @@ fn counters(scene: &mut Scene, model: &ProposalModel, panel: &Panel, cloud: &Clo
             format!("if A {a} %, if B {b} % (posterior {p}, {q} %)"),
         ]
     } else if weights.iter().all(|w| w.to_bits() == weights[0].to_bits()) {
-        ["every sample weighs exactly the same".into(), "all weights are equal".into()]
+        ["all weights are exactly equal".into(), "all weights are equal".into()]
     } else {
         let heaviest = weights[cloud.weights.best()] * weights.len() as f64;
         let share = fixed(heaviest, 1);
-        [format!("the heaviest sample weighs {share} times its share"), format!("heaviest sample: {share} shares")]
+        [format!("largest weight: {share} times its share"), format!("largest weight: {share}/M")]
     };
     line(scene, &panel.note, 12.0, Weight::Regular, Role::Muted, note);
 }
 
-/// The first of some wordings that fits, or the last.
-fn line<const N: usize>(scene: &mut Scene, area: &Rect, size: f64, weight: Weight, role: Role, wordings: [String; N]) {
-    let fits = |words: &String| font::measure(words, size, weight) <= area.w;
-    let words = wordings.iter().find(|words| fits(words)).unwrap_or(&wordings[N - 1]);
-    scene.marks.push(text(*area, Anchor::Start, size, weight, role, words.clone()));
+/// The first of two wordings if it fits, else the second.
+fn line(scene: &mut Scene, area: &Rect, size: f64, weight: Weight, role: Role, [long, short]: [String; 2]) {
+    let words = if font::measure(&long, size, weight) <= area.w { long } else { short };
+    scene.marks.push(text(*area, Anchor::Start, size, weight, role, words));
 }
 
 /// The ratio in words and on a scale, with the reader's guess.
 fn ratio(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
     let (now, [words, question], axis) = (model.proposals().ratio(), layout.ratio, layout.axis);
     let times = fixed(now, 1);
-    let wordings = if let Some(lost) = model.lost() {
-        let lost = ["A", "B"][lost];
-        [
-            format!("Ratio of N_eff: {times}. It cannot tell that 2.0 has lost what speaks for {lost}."),
-            format!("Ratio of N_eff: {times}, but 2.0 has lost {lost}"),
-            format!("Ratio {times}, but 2.0 has lost {lost}"),
-        ]
-    } else {
-        [
-            format!("Ratio of N_eff: {times}. One sample of 2.0 does the work of {times} of 1.0."),
-            format!("Ratio of N_eff: {times} of 1.0 for one of 2.0"),
-            format!("Ratio of N_eff: {times}"),
-        ]
+    let wordings = match model.lost().map(|lost| ["A", "B"][lost]) {
+        Some(lost) => [
+            format!("N_eff ratio {times}, but 2.0 has lost {lost}, and N_eff cannot tell"),
+            format!("N_eff ratio {times}, but 2.0 lost {lost}"),
+        ],
+        None => {
+            [format!("N_eff ratio {times}: one sample of 2.0 is worth {times} of 1.0"), format!("N_eff ratio {times}")]
+        }
     };
     line(scene, &words, 14.0, Weight::SemiBold, Role::Ink, wordings);
 
     let half = model.half();
     let asked = match (model.guess(), model.at_half()) {
-        (None, _) => [
-            "What will it be at half the range noise? Predict first, then run it.".to_string(),
-            "And at half the range noise? Predict first.".into(),
-        ],
+        (None, _) => ["And at half the range noise? Predict first.".to_string(), "And at half? Predict first.".into()],
         (Some(guess), None) => [
             format!(
                 "And at half this range noise, {half} m? Your guess: {}. Drag the marker, then run it.",
@@ -320,7 +309,7 @@ fn pointer([x, y]: Point, r: f64) -> Mark {
 /// What a legend's sample looks like.
 #[derive(Clone, Copy)]
 enum Sample {
-    Dots(f64),
+    Dots,
     Density,
     Line(Role, Option<[f64; 2]>),
     Landmark,
@@ -332,15 +321,14 @@ enum Sample {
 
 fn legend(scene: &mut Scene, model: &ProposalModel, area: &Rect) {
     let mut items = vec![
-        (Sample::Density, "posterior, exact"),
+        (Sample::Density, "posterior"),
         (Sample::Line(Role::Ink, None), "its 90 %"),
         (Sample::Line(Role::Posterior, Some([5.0, 3.0])), "Gaussian of 2.0"),
-        (Sample::Dots(BOLD), "sample in it"),
-        (Sample::Dots(FINE), "not in it"),
-        (Sample::Landmark, "landmark: drag it"),
-        (Sample::Robot(Role::Muted), "robot before"),
+        (Sample::Dots, "samples"),
+        (Sample::Landmark, "landmark"),
+        (Sample::Robot(Role::Muted), "robot before,"),
         (Sample::Robot(Role::Ink), "after"),
-        (Sample::Now, "ratio now"),
+        (Sample::Now, "ratio"),
     ];
     if model.guess().is_some() {
         items.push((Sample::Guess, "guess"));
@@ -374,9 +362,9 @@ fn draw_sample(scene: &mut Scene, sample: Sample, place: &Rect) {
     let [cx, cy] = place.centre();
     let marks = &mut scene.marks;
     match sample {
-        Sample::Dots(radius) => {
+        Sample::Dots => {
             for (dx, role) in [(-4.0, Role::Prior), (4.0, Role::Posterior)] {
-                marks.push(Mark::Discs { centres: vec![[cx + dx, cy]], radius, role });
+                marks.push(Mark::Discs { centres: vec![[cx + dx, cy]], radius: 1.8, role });
             }
         }
         Sample::Density => {
