@@ -168,7 +168,7 @@ fn what_is_lost_is_told_in_words() {
     assert!(told.contains("What speaks for A is lost") && drawn.contains("2.0 has lost A"), "{told}\n{drawn}");
     let (told, drawn) = model("");
     assert!(!told.contains("lost") && !drawn.contains("lost"));
-    assert!(drawn.contains("all weights are equal"));
+    assert!(drawn.contains("all weights are exactly equal"));
 }
 
 #[test]
