@@ -145,14 +145,11 @@ pub struct Area {
 impl Area {
     /// The smallest that holds these points.
     pub fn around(points: impl IntoIterator<Item = [f64; 2]>) -> Self {
-        let mut area = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
-        for point in points {
-            for axis in 0..2 {
-                area.low[axis] = area.low[axis].min(point[axis]);
-                area.high[axis] = area.high[axis].max(point[axis]);
-            }
-        }
-        area
+        let none = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
+        points.into_iter().fold(none, |Self { low, high }, [x, y]| Self {
+            low: [low[0].min(x), low[1].min(y)],
+            high: [high[0].max(x), high[1].max(y)],
+        })
     }
 }
 
