@@ -1,6 +1,9 @@
 //! All figures by tag. Tests and tools iterate over this list.
 
-use crate::{conditioning::ConditioningModel, lap::LapModel, model::Model, worked_example::WorkedExampleModel};
+use crate::{
+    conditioning::ConditioningModel, lap::LapModel, model::Model, proposal::ProposalModel,
+    worked_example::WorkedExampleModel,
+};
 
 /// A kind of figure.
 pub struct Entry {
@@ -20,6 +23,7 @@ pub const FIGURES: &[Entry] = &[
         title: ConditioningModel::TITLE,
         make: || Box::new(ConditioningModel::default()),
     },
+    Entry { tag: "fastslam-proposal", title: ProposalModel::TITLE, make: || Box::new(ProposalModel::default()) },
     Entry {
         tag: "fastslam-worked-example",
         title: WorkedExampleModel::TITLE,
