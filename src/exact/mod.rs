@@ -2,5 +2,6 @@
 
 mod ekf;
 pub mod joint;
+pub mod one_step;
 
 pub use ekf::{EkfSlam, EkfStep};

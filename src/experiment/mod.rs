@@ -5,6 +5,7 @@ pub mod landmarks;
 pub mod lap;
 pub mod policies;
 pub mod policy_counts;
+pub mod proposals;
 pub mod table;
 pub mod worked_example;
 
@@ -14,23 +15,23 @@ use crate::execute::Executor;
 /// Fingerprints of whole runs by name, which are kept with the tests and must be the same on every platform, with any number of
 /// threads.
 pub fn golden_traces(executor: &Executor) -> Vec<(&'static str, Digest)> {
-    let laps = lap::golden_setups().into_iter().map(|(name, setup)| {
-        let lap = lap::Lap::new(&setup).unwrap_or_else(|error| unreachable!("{name}: {error}"));
-        (name, lap.with_executor(executor.clone()).trace())
-    });
+    const VALID: &str = "a golden setup is valid";
+    let laps = lap::golden_setups()
+        .into_iter()
+        .map(|(name, setup)| (name, lap::Lap::new(&setup).expect(VALID).with_executor(executor.clone()).trace()));
     let drives = landmarks::golden_runs().into_iter().map(|(name, course, setup)| {
         let run = landmarks::LandmarkRun::new(&setup, &course.tuning(), course.simulate(setup.seed).into());
-        (name, run.unwrap_or_else(|error| unreachable!("{name}: {error}")).with_executor(executor.clone()).trace())
+        (name, run.expect(VALID).with_executor(executor.clone()).trace())
     });
-    let joints = conditioning::golden_setups().into_iter().map(|(name, setup)| {
-        let drive = conditioning::Conditioning::new(&setup);
-        (name, drive.unwrap_or_else(|error| unreachable!("{name}: {error}")).trace())
-    });
+    let joints = conditioning::golden_setups().into_iter();
+    let joints = joints.map(|(name, setup)| (name, conditioning::Conditioning::new(&setup).expect(VALID).trace()));
+    let clouds = proposals::golden_setups().into_iter();
+    let clouds = clouds.map(|(name, setup)| (name, proposals::Proposals::new(&setup).expect(VALID).trace()));
     let policies = policies::golden_policies().into_iter().map(|(name, setup)| {
-        let run = policies::Policies::new(&setup).unwrap_or_else(|error| unreachable!("{name}: {error}"));
-        (name, run.with_executor(executor.clone()).trace())
+        let run = policies::Policies::new(&setup);
+        (name, run.expect(VALID).with_executor(executor.clone()).trace())
     });
-    laps.chain(drives).chain(joints).chain(policies).collect()
+    laps.chain(drives).chain(joints).chain(clouds).chain(policies).collect()
 }
 
 /// The q-quantile of ascending values, interpolated linearly between neighbours (type 7 of Hyndman and Fan 1996).

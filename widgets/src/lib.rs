@@ -11,6 +11,7 @@ pub mod lap;
 pub mod model;
 pub mod paint;
 mod param;
+pub mod proposal;
 mod query;
 pub mod registry;
 pub mod resampling;

@@ -41,7 +41,10 @@ pub fn read(model: &mut dyn Model, query: &str) -> Vec<FigureError> {
 /// Names and values as they are written, decoded.
 pub fn pairs(query: &str) -> Vec<(String, String)> {
     let pairs = query.trim_start_matches(['?', '#']).split('&').filter(|p| !p.is_empty());
-    pairs.map(|pair| pair.split_once('=').unwrap_or((pair, ""))).map(|(name, value)| (decode(name), decode(value))).collect()
+    pairs
+        .map(|pair| pair.split_once('=').unwrap_or((pair, "")))
+        .map(|(name, value)| (decode(name), decode(value)))
+        .collect()
 }
 
 fn encode(text: &str) -> String {

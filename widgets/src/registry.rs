@@ -1,7 +1,7 @@
 //! All figures by tag. Tests and tools iterate over this list.
 
 use crate::{
-    conditioning::ConditioningModel, lap::LapModel, model::Model, resampling::ResamplingModel,
+    conditioning::ConditioningModel, lap::LapModel, model::Model, proposal::ProposalModel, resampling::ResamplingModel,
     worked_example::WorkedExampleModel,
 };
 
@@ -23,6 +23,7 @@ pub const FIGURES: &[Entry] = &[
         title: ConditioningModel::TITLE,
         make: || Box::new(ConditioningModel::default()),
     },
+    Entry { tag: "fastslam-proposal", title: ProposalModel::TITLE, make: || Box::new(ProposalModel::default()) },
     Entry {
         tag: "fastslam-worked-example",
         title: WorkedExampleModel::TITLE,

@@ -23,6 +23,7 @@ pub struct Picture {
 
 const LAP: &str = "fastslam-lap";
 const CONDITIONING: &str = "fastslam-conditioning";
+const PROPOSAL: &str = "fastslam-proposal";
 const WORKED: &str = "fastslam-worked-example";
 
 const fn picture(
@@ -50,6 +51,13 @@ pub const PICTURES: &[Picture] = &[
     picture(LAP, "motion-64", "universes=64&proposal=motion&matcher=cell&step=41", 800, 1.0, "light"),
     picture(LAP, "motion-256", "universes=256&proposal=motion&matcher=cell&step=12", 800, 1.0, "dark"),
     picture(LAP, "motion-256-narrow", "universes=256&proposal=motion&matcher=cell&step=12", 340, 1.0, "light"),
+    picture(PROPOSAL, "fastslam-proposal-light", "", 800, 1.5, "light"),
+    picture(PROPOSAL, "fastslam-proposal-dark", "", 800, 1.5, "dark"),
+    picture(PROPOSAL, "proposal-pair", "landmarks=pair", 1000, 1.0, "light"),
+    picture(PROPOSAL, "proposal-guess", "predict=on&guess=3.5&range-std=0.1", 380, 1.0, "contrast-light"),
+    picture(PROPOSAL, "proposal-run", "predict=on&guess=3.5&run=on&samples=4096", 800, 1.0, "dark"),
+    picture(PROPOSAL, "proposal-near", "odometry=2&landmark-x=0.9&landmark-y=-0.5&range-std=0.02", 640, 1.0, "light"),
+    picture(PROPOSAL, "proposal-tiny", "landmarks=pair&samples=1&predict=on&run=on", 240, 1.0, "contrast-dark"),
     picture(WORKED, "fastslam-worked-example-light", "", 800, 1.5, "light"),
     picture(WORKED, "fastslam-worked-example-dark", "", 800, 1.5, "dark"),
     picture(WORKED, "worked-phone", "", 340, 2.0, "light"),
@@ -80,6 +88,10 @@ pub const SETUPS: &[(&str, &str)] = &[
     (LAP, "universes=7&seed=5&proposal=motion&matcher=cell"),
     (LAP, "universes=24&policy=always&scheme=residual&odometry=1.5"),
     (LAP, "policy=never&range-std=0.1&scheme=multinomial"),
+    (PROPOSAL, ""),
+    (PROPOSAL, "landmarks=pair&seed=8"),
+    (PROPOSAL, "range-std=0.005&bearing-std=0.01&samples=4096&predict=on&guess=7.5&run=on"),
+    (PROPOSAL, "odometry=2&range-std=0.5&landmark-x=-0.1&landmark-y=0.3&samples=1"),
     (WORKED, ""),
     (WORKED, POSES),
     (WORKED, EXTREMES),
