@@ -3,9 +3,9 @@
 #![cfg(target_arch = "wasm32")]
 
 use fastslam::{digest::Digest, execute::Executor, experiment::golden_traces};
-use fastslam_widgets::shell::Figure;
-use figures::{PICTURES, SETUPS, line, put_readout};
-use js_sys::{Reflect, Uint8Array, WebAssembly};
+use fastslam_widgets::shell::{Figure, job};
+use figures::{JOBS, PICTURES, SETUPS, line, put_readout, rows};
+use js_sys::{Array, Reflect, Uint8Array, WebAssembly};
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
 
@@ -13,6 +13,7 @@ wasm_bindgen_test_configure!(run_in_browser);
 
 const TRACES: &str = include_str!("../../portability/golden.txt");
 const READOUTS: &str = include_str!("../../figures/golden/readouts.txt");
+const ROWS: &str = include_str!("../../figures/golden/jobs.txt");
 const PIXELS: &str = include_str!("../../figures/golden/pixels.txt");
 
 /// Compares line by line, so that a failure names what differs.
@@ -94,4 +95,14 @@ fn every_golden_picture_has_the_pixels_of_the_native_build() {
         picture.line(&digest)
     });
     same_lines(&pictures.collect::<Vec<_>>(), PIXELS);
+}
+
+#[wasm_bindgen_test]
+fn every_job_gives_the_rows_of_the_native_build() {
+    let jobs = JOBS.iter().map(|(name, query, [from, to])| {
+        let found = job(name, query, *from, *to).unwrap_or_else(|_| panic!("{name}?{query}"));
+        let numbers = found.iter().flat_map(|row| row.unchecked_into::<Array>().iter().collect::<Vec<_>>());
+        line(&format!("{name}?{query}"), &rows(numbers.filter_map(|x| x.as_f64())))
+    });
+    same_lines(&jobs.collect::<Vec<_>>(), ROWS);
 }

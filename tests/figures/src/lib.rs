@@ -25,6 +25,7 @@ const LAP: &str = "fastslam-lap";
 const CONDITIONING: &str = "fastslam-conditioning";
 const PROPOSAL: &str = "fastslam-proposal";
 const WORKED: &str = "fastslam-worked-example";
+const RESAMPLING: &str = "fastslam-resampling";
 
 const fn picture(
     tag: &'static str,
@@ -70,6 +71,21 @@ pub const PICTURES: &[Picture] = &[
     picture(CONDITIONING, "conditioning-half", "landmarks=12&step=4&row=3&column=3", 340, 2.0, "light"),
     picture(CONDITIONING, "conditioning-phone", "", 380, 1.0, "contrast-dark"),
     picture(CONDITIONING, "conditioning-tiny", "landmarks=24&odometry=3&condition=on", 240, 1.0, "contrast-light"),
+    picture(RESAMPLING, "fastslam-resampling-light", COALESCED, 800, 1.5, "light"),
+    picture(RESAMPLING, "fastslam-resampling-dark", COALESCED, 800, 1.5, "dark"),
+    picture(RESAMPLING, "resampling-wings", "wings=on&step=101", 1280, 1.0, "light"),
+    picture(
+        RESAMPLING,
+        "resampling-64",
+        "wings=on&particles=64&scheme=multinomial&step=90&cursor=70",
+        800,
+        1.0,
+        "dark",
+    ),
+    picture(RESAMPLING, "resampling-start", "", 720, 1.0, "light"),
+    picture(RESAMPLING, "resampling-phone", "wings=on&step=80&cursor=70&back=3", 340, 2.0, "light"),
+    picture(RESAMPLING, "resampling-contrast", "particles=8&step=30", 380, 1.0, "contrast-dark"),
+    picture(RESAMPLING, "resampling-tiny", "particles=4&threshold=1&step=12", 240, 1.0, "contrast-light"),
 ];
 
 /// What a filter does: one sighting for both particles, from two poses; and the landmark's ellipse is turned.
@@ -99,7 +115,25 @@ pub const SETUPS: &[(&str, &str)] = &[
     (CONDITIONING, "condition=on&row=3&column=4"),
     (CONDITIONING, "odometry=3&range-std=0.01&landmarks=24&poses=12&row=48&column=7"),
     (CONDITIONING, "odometry=0&range-std=0.5&landmarks=3&poses=2"),
+    (RESAMPLING, ""),
+    (RESAMPLING, "particles=5&seed=9&threshold=0.8&scheme=residual&odometry=2&range=3&back=4"),
+    (RESAMPLING, "wings=on"),
+    (RESAMPLING, "wings=on&particles=40&scheme=multinomial&odometry=0.5&range=0.25"),
 ];
+
+/// Ancestors are fewer than particles, and the last common one is not long ago.
+const COALESCED: &str = "step=70";
+
+/// Experiments over the seeds from the first to before the second, whose rows are kept.
+pub const JOBS: &[(&str, &str, [u32; 2])] =
+    &[("wings", "", [1, 5]), ("wings", "particles=9&threshold=0.7&odometry=1.5&range=0.5&scheme=stratified", [40, 43])];
+
+/// The rows of a job, as a fingerprint.
+pub fn rows(rows: impl IntoIterator<Item = f64>) -> Digest {
+    let mut digest = Digest::new();
+    rows.into_iter().for_each(|x| digest.f64(x));
+    digest
+}
 
 /// The figure of a tag in the state that a link names, simulated.
 ///

@@ -2,7 +2,8 @@
 //! committed.
 
 use fastslam::digest::Digest;
-use figures::{PICTURES, SETUPS, figure, line, readouts};
+use fastslam_widgets::job;
+use figures::{JOBS, PICTURES, SETUPS, figure, line, readouts, rows};
 use std::{
     collections::BTreeSet,
     env, fs,
@@ -95,6 +96,15 @@ fn every_picture_is_the_golden_one_to_the_last_pixel() {
 fn every_readout_of_every_step_is_the_golden_one() {
     let kept = SETUPS.iter().map(|(tag, query)| line(&format!("{tag}?{query}"), &readouts(tag, query)));
     same_text("readouts.txt", &kept.collect::<String>());
+}
+
+#[test]
+fn every_job_gives_the_golden_rows() {
+    let kept = JOBS.iter().map(|(name, query, [from, to])| {
+        let found = job::run(name, query, u64::from(*from)..u64::from(*to)).unwrap();
+        line(&format!("{name}?{query}"), &rows(found.concat()))
+    });
+    same_text("jobs.txt", &kept.collect::<String>());
 }
 
 #[test]

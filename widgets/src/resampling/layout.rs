@@ -93,7 +93,7 @@ impl Layout {
             2.0
         } else if width >= 460.0 {
             3.0
-        } else if width >= 340.0 {
+        } else if width >= 370.0 {
             4.0
         } else {
             5.0

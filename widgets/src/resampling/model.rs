@@ -44,8 +44,7 @@ pub struct Moment {
 
 impl Default for ResamplingModel {
     fn default() -> Self {
-        let run =
-            Policies::new(&PoliciesSetup::default()).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
+        let run = Policies::new(&params::setup()).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
         let moments = vec![moments(&run, None)];
         Self { back: params::BACK, cursor: None, asked: 0, run, moments }
     }
@@ -343,7 +342,7 @@ impl Model for ResamplingModel {
             n => format!("they descend from {n} particles of the start"),
         };
         text.push_str(&format!(
-            "Never resampled, N_eff is {}. Resampled at every step, it is {}, but {}. Selective resampled {} times: N_eff {}, and {}.",
+            "Never resampled, N_eff is {}. Resampled at every step, it is {}, but {}. Selective, at {} of {step} steps, it is {}, and {}.",
             fixed(never.report.ess, 1),
             fixed(always.report.ess, 1),
             lines(always),

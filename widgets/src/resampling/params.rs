@@ -6,6 +6,12 @@ use fastslam::experiment::policies::PoliciesSetup;
 /// How far back the second lineage gauge looks at first.
 pub const BACK: u32 = 10;
 
+/// What is set at first. With this seed the second filter loses the right wing and the others keep it: what is more often so than not
+/// is for the count over many seeds to say.
+pub fn setup() -> PoliciesSetup {
+    PoliciesSetup { seed: 2, ..PoliciesSetup::default() }
+}
+
 const SCHEMES: &[Choice] = &[
     Choice { value: "systematic", title: "systematic" },
     Choice { value: "stratified", title: "stratified" },
@@ -17,8 +23,7 @@ const NOW: &[Choice] = &[Choice { value: "now", title: "the newest" }];
 
 /// All parameters, for a course of so many steps.
 pub fn specs(steps: u32) -> Vec<ParamSpec> {
-    let PoliciesSetup { particles, seed, threshold, scheme, odometry_scale, sensor_scale, .. } =
-        PoliciesSetup::default();
+    let PoliciesSetup { particles, seed, threshold, scheme, odometry_scale, sensor_scale, .. } = setup();
     vec![
         ParamSpec::toggle(
             "wings",

@@ -117,10 +117,13 @@ impl Filter<'_> {
         let step_width = font::measure(&step, 12.5, Weight::Regular) + 2.0;
         let rest = match self.policy {
             0 => "weights only multiply".into(),
-            1 => "weights start afresh".into(),
+            1 => "weights reset".into(),
             _ => format!("below {} M", write(self.model.setup().threshold)),
         };
-        heading(scene, &Rect::new(x, y, w - step_width - 8.0, h), (NAMES[self.policy], Role::Ink), &rest);
+        let title = Rect::new(x, y, w - step_width - 8.0, h);
+        let room = title.w - font::measure(NAMES[self.policy], 13.5, Weight::SemiBold) - 8.0;
+        let rest = if font::measure(&rest, 12.5, Weight::Regular) < room { &rest } else { "" };
+        heading(scene, &title, (NAMES[self.policy], Role::Ink), rest);
         let area = Rect::new(x + w - step_width, y, step_width, h);
         scene.marks.push(text(area, Anchor::End, 12.5, Weight::Regular, role, step));
     }
@@ -315,9 +318,9 @@ impl Filter<'_> {
         let last = self.model.step_count();
         let ancestor = self.model.now(self.policy).report.descent.coalescence();
         let ancestor = ancestor.map(|step| (step, format!("step {step}"), true));
-        let ends = [(0, "step 0".to_string(), false), (last, last.to_string(), false)];
+        let [start, end] = [(0, "step 0".to_string(), false), (last, last.to_string(), false)];
         let events = self.events().into_iter().map(|(step, name)| (step, name.to_string(), false));
-        for (step, label, ring) in ancestor.into_iter().chain(ends).chain(events) {
+        for (step, label, ring) in ancestor.into_iter().chain([start]).chain(events).chain([end]) {
             let room = if ring { 12.0 } else { 0.0 };
             let width = room + font::measure(&label, size, Weight::Regular) + 0.01;
             // A ring stands below the one in the tree, with its step beside it.

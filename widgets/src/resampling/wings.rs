@@ -8,7 +8,7 @@ use crate::{
 };
 use core::ops::Range;
 use fastslam::experiment::{
-    policies::{PoliciesSetup, PolicyCourse},
+    policies::PolicyCourse,
     policy_counts::{PolicyOutcome, outcomes},
 };
 
@@ -29,7 +29,7 @@ pub const WINGS: Job = Job {
 
 /// The setting is that of the figure's link; what it says about the seed and the view makes no difference.
 fn run(setting: &[(String, String)], seeds: Range<u64>) -> Result<Rows, FigureError> {
-    let (mut setup, specs) = (PoliciesSetup::default(), params::specs(0));
+    let (mut setup, specs) = (params::setup(), params::specs(0));
     for (name, text) in setting {
         let spec = specs.iter().find(|s| s.name == name).ok_or_else(|| unknown(name, &specs))?;
         if spec.group == Group::Setup {

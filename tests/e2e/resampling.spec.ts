@@ -1,0 +1,256 @@
+// What a reader does with the three filters, and with the count over many seeds.
+import type { Locator, Page } from '@playwright/test'
+import { expect, test } from './fixtures'
+import { Figure } from './figure'
+
+const open = (page: Page, address = './') => new Figure(page, 'fastslam-resampling').open(address)
+
+/** The step that is read. */
+async function cursor(figure: Figure): Promise<string> {
+  return figure.element.locator('select[name=cursor]').inputValue()
+}
+
+/** A point of the page over the curves of the first column, by a share of the timeline: its ends come from the handle. */
+async function overCurves(figure: Figure, share: number): Promise<{ x: number; y: number }> {
+  const middle = async (step: string) => {
+    await figure.element.locator('select[name=cursor]').selectOption(step)
+    await figure.settled()
+    const box = (await figure.handle('cursor').boundingBox())!
+    return [box.x + box.width / 2, box.y + box.height / 2] as const
+  }
+  await figure.canvas.evaluate(canvas => canvas.scrollIntoView({ block: 'center', behavior: 'instant' }))
+  const [x0, y] = await middle('0')
+  const [x1] = await middle('10')
+  return { x: x0 + ((x1 - x0) / 10) * share * (await figure.last()), y }
+}
+
+/** The panel below. */
+function panel(figure: Figure): { start: Locator; stop: Locator; progress: Locator; shares: Locator; said: Locator; runs: Locator } {
+  const element = figure.element.locator('[part=count]')
+  return {
+    start: element.getByRole('button', { name: /^Count over/ }),
+    stop: element.getByRole('button', { name: 'Stop', exact: true }),
+    progress: element.getByRole('progressbar', { name: 'Seeds counted' }),
+    shares: element.locator('td.share'),
+    said: element.locator('.said'),
+    runs: element.getByRole('combobox', { name: 'Number of seeds' }),
+  }
+}
+
+const counted = (figure: Figure) => panel(figure).progress.evaluate((bar: HTMLProgressElement) => bar.value)
+
+test('it plays when it is seen, and stops at the end', async ({ page }) => {
+  const figure = await open(page, './#fastslam-resampling?particles=4&step=84')
+  await figure.play.click()
+  await expect.poll(() => figure.position()).toBe(await figure.last())
+  await expect(figure.play).toBeVisible()
+  expect((await figure.readouts())['always_lineage']).toBe('1 of 4')
+})
+
+test.describe('at rest', () => {
+  test.use({ contextOptions: { reducedMotion: 'reduce' } })
+
+  test('a step back shows the same as the way forward, and scrubbing goes anywhere', async ({ page }) => {
+    const figure = await open(page)
+    await expect(figure.sentence).toContainText('nothing has been weighed')
+    await figure.scrubTo(30)
+    const before = [await figure.readouts(), await figure.picture()]
+    await figure.step.click()
+    await figure.settled()
+    expect(await figure.picture()).not.toBe(before[1])
+    await figure.stepBack.click()
+    await figure.settled()
+    expect([await figure.readouts(), await figure.picture()]).toEqual(before)
+    await figure.scrubTo(3)
+    await figure.scrubTo(30)
+    expect([await figure.readouts(), await figure.picture()]).toEqual(before)
+  })
+
+  test('the pointer over the curves reads a step, without a click, and time takes the cursor along', async ({ page }) => {
+    const figure = await open(page, './#fastslam-resampling?step=60')
+    const at = await overCurves(figure, 1 / 3)
+    await page.mouse.move(5, 5)
+    await page.mouse.move(at.x, at.y, { steps: 3 })
+    await figure.settled()
+    expect(await cursor(figure)).toBe('30')
+    await expect(figure.sentence).toContainText('Step 30 of 90')
+    expect((await figure.readouts())['step']).toBe('30 of 90')
+    await page.mouse.move(5, 5)
+    await figure.step.click()
+    await figure.settled()
+    expect(await cursor(figure)).toBe('now')
+    await expect(figure.sentence).toContainText('Step 61 of 90')
+  })
+
+  test('the cursor takes the focus and moves by arrow keys', async ({ page }) => {
+    const figure = await open(page, './#fastslam-resampling?step=40')
+    const [handle, picture] = [figure.handle('cursor'), await figure.picture()]
+    await handle.focus()
+    await page.keyboard.press('ArrowLeft')
+    await page.keyboard.press('Shift+ArrowLeft')
+    await figure.settled()
+    expect(await cursor(figure)).toBe('29')
+    await expect(handle).toHaveAttribute('aria-valuetext', /^step 29: never N_eff \d/)
+    expect(await figure.picture()).not.toBe(picture)
+    await expect(handle).toBeFocused()
+    await page.keyboard.press('Shift+ArrowRight')
+    await page.keyboard.press('Alt+ArrowRight')
+    await figure.settled()
+    expect(await cursor(figure)).toBe('now')
+    expect(await figure.picture()).toBe(picture)
+  })
+
+  test('the loop of ambiguity is another course, and the way back gives the same lap', async ({ page }) => {
+    const figure = await open(page, './#fastslam-resampling?step=50')
+    const before = [await figure.readouts(), await figure.last()]
+    await figure.toggle('wings').click()
+    await figure.settled()
+    expect(await figure.last()).toBeGreaterThan(90)
+    await figure.scrubTo(100)
+    expect((await figure.readouts())['selective_right']).toMatch(/^\d+ of 16$/)
+    await expect(figure.sentence).toContainText('right wing')
+    await figure.toggle('wings').click()
+    await figure.scrubTo(50)
+    expect([await figure.readouts(), await figure.last()]).toEqual(before)
+  })
+
+  for (const name of ['particles', 'threshold', 'odometry', 'range']) {
+    test(`dragging ${name} changes the filters, and back gives the same numbers`, async ({ page }) => {
+      const figure = await open(page, './#fastslam-resampling?step=25')
+      await figure.openSettings()
+      const [before, value] = [await figure.readouts(), await figure.box(name).inputValue()]
+      const slider = figure.slider(name)
+      await slider.scrollIntoViewIfNeeded()
+      const box = (await slider.boundingBox())!
+      await page.mouse.click(box.x + box.width * 0.85, box.y + box.height / 2)
+      await figure.settled()
+      expect(await figure.box(name).inputValue()).not.toBe(value)
+      expect(await figure.readouts()).not.toEqual(before)
+      await figure.box(name).fill(value)
+      await figure.box(name).press('Enter')
+      await figure.settled()
+      expect(await figure.readouts()).toEqual(before)
+    })
+  }
+
+  test('its link brings back the whole state', async ({ page }) => {
+    const figure = await open(page)
+    await figure.openSettings()
+    await figure.toggle('wings').click()
+    await figure.box('particles').fill('9')
+    await figure.box('particles').press('Enter')
+    await figure.box('back').fill('5')
+    await figure.box('back').press('Enter')
+    await figure.scrubTo(85)
+    await figure.handle('cursor').focus()
+    await page.keyboard.press('Shift+ArrowLeft')
+    await figure.settled()
+    const before = [await figure.readouts(), await cursor(figure), await figure.picture()]
+    const link = await figure.element.evaluate((element: HTMLElement & { link: string }) => element.link)
+    expect(link).toContain('#fastslam-resampling?')
+    await page.goto('about:blank')
+    const again = await open(page, link)
+    expect([await again.readouts(), await cursor(again), await again.picture()]).toEqual(before)
+  })
+
+  test('the count runs beside the page, to the end, and says its result once', async ({ page }) => {
+    const figure = await open(page)
+    const { start, stop, shares, said, runs } = panel(figure)
+    await runs.selectOption('50')
+    await expect(stop).toBeDisabled()
+    await start.click()
+    await expect(stop).toBeEnabled()
+    await expect.poll(() => counted(figure)).toBeGreaterThan(0)
+    // The page goes on meanwhile.
+    await figure.step.click()
+    await figure.settled()
+    await expect(said).toContainText('50 seeds counted.', { timeout: 45_000 })
+    expect(await counted(figure)).toBe(50)
+    for (const text of await shares.allTextContents()) expect(text).toMatch(/^\d+ % \(\d+–\d+\)$/)
+    await expect(start).toBeEnabled()
+    // The same numbers again: seeds are seeds.
+    const first = await shares.allTextContents()
+    await start.click()
+    await expect.poll(() => shares.allTextContents(), { timeout: 45_000 }).toEqual(first)
+    await expect(said).toContainText('50 seeds counted.', { timeout: 45_000 })
+    expect(await shares.allTextContents()).toEqual(first)
+  })
+
+  test('the count can be stopped, and begins again when a setting changes', async ({ page }) => {
+    const figure = await open(page)
+    const { start, stop, said, runs } = panel(figure)
+    await runs.selectOption('1000')
+    await start.click()
+    await expect.poll(() => counted(figure)).toBeGreaterThan(5)
+    await figure.openSettings()
+    await figure.box('threshold').fill('0.9')
+    await figure.box('threshold').press('Enter')
+    await expect.poll(() => counted(figure)).toBeLessThan(5)
+    await expect.poll(() => counted(figure)).toBeGreaterThan(2)
+    // What only concerns the picture does not disturb it.
+    await figure.step.click()
+    await figure.settled()
+    await stop.click()
+    await expect(said).toContainText(/^Stopped after \d+ of 1000 seeds/)
+    const stopped = await counted(figure)
+    expect(stopped).toBeGreaterThan(2)
+    await page.waitForTimeout(400)
+    expect(await counted(figure)).toBe(stopped)
+    await figure.box('threshold').fill('0.2')
+    await figure.box('threshold').press('Enter')
+    await expect(said).toContainText('count again')
+    expect(await counted(figure)).toBe(0)
+  })
+
+  test('the count ends when the figure leaves the page', async ({ page }) => {
+    const figure = await open(page)
+    await panel(figure).runs.selectOption('1000')
+    await panel(figure).start.click()
+    await expect.poll(() => counted(figure)).toBeGreaterThan(0)
+    expect(page.workers()).toHaveLength(1)
+    await figure.element.evaluate(element => element.remove())
+    await expect.poll(() => page.workers().length).toBe(0)
+  })
+
+  test('the program is not fetched again for the count', async ({ page }) => {
+    const fetched: string[] = []
+    page.on('request', request => /wasm$/.test(request.url()) && fetched.push(request.url()))
+    const figure = await open(page)
+    await panel(figure).start.click()
+    await expect.poll(() => counted(figure)).toBeGreaterThan(0)
+    await panel(figure).stop.click()
+    expect(fetched).toHaveLength(1)
+  })
+
+  test('where workers are forbidden it says so, and the figure goes on', async ({ page, complaints }) => {
+    await page.route('./', async route => {
+      const response = await route.fetch()
+      const policy = response.headers()['content-security-policy']!.replace("worker-src 'self'", "worker-src 'none'")
+      await route.fulfill({ response, headers: { ...response.headers(), 'content-security-policy': policy } })
+    })
+    const figure = await open(page)
+    await panel(figure).start.click()
+    await expect(panel(figure).said).toContainText('lets nothing run in the background')
+    await expect(panel(figure).start).toBeEnabled()
+    await figure.step.click()
+    await figure.settled()
+    expect(await figure.position()).toBe(1)
+    complaints.splice(0, Infinity, ...complaints.filter(line => !/worker/i.test(line)))
+  })
+})
+
+test.describe('on a phone', () => {
+  test.use({ viewport: { width: 380, height: 800 }, hasTouch: true, isMobile: true, contextOptions: { reducedMotion: 'reduce' } })
+
+  test('a tap on a curve reads its step, and nothing is wider than the screen', async ({ page }) => {
+    const figure = await open(page, './#fastslam-resampling?step=60')
+    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(380)
+    const at = await overCurves(figure, 0.5)
+    await page.touchscreen.tap(at.x, at.y)
+    await figure.settled()
+    expect(Math.abs(Number(await cursor(figure)) - 45)).toBeLessThanOrEqual(1)
+    await panel(figure).start.tap()
+    await expect.poll(() => counted(figure)).toBeGreaterThan(0)
+    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(380)
+  })
+})

@@ -1,0 +1,388 @@
+//! Laws of the figure of resampling, by its public face: what a page can do to it.
+
+use fastslam::experiment::policies::RIGHT_WITHIN;
+use fastslam_widgets::{
+    fastslam,
+    figure::Figure,
+    job,
+    model::Model,
+    resampling::{Layout, ResamplingModel},
+    scene::{Mark, Point, Rect, Role, Scene, Text},
+};
+
+fn resampling(query: &str) -> Figure {
+    let mut figure = Figure::new("fastslam-resampling").unwrap();
+    assert_eq!(figure.load(query), [], "{query}");
+    figure.model_mut().settle();
+    figure
+}
+
+fn scene(figure: &Figure, width: f64) -> Scene {
+    figure.model().scene(width, figure.model().height(width))
+}
+
+/// Everything a reader gets from a state, for comparing two ways to it.
+fn state(figure: &Figure) -> (String, Vec<String>, Scene) {
+    let readouts = figure.model().readouts().iter().map(|r| format!("{r:?} {:?}", r.value.map(f64::to_bits))).collect();
+    (figure.query(), readouts, scene(figure, 800.0))
+}
+
+fn value(figure: &Figure, name: &str) -> f64 {
+    figure.model().readouts().into_iter().find(|r| r.name == name).unwrap().value.unwrap()
+}
+
+fn texts(scene: &Scene) -> Vec<&Text> {
+    scene.marks.iter().filter_map(|m| if let Mark::Text(t) = m { Some(t) } else { None }).collect()
+}
+
+/// Strands of a role in an area.
+fn strands(scene: &Scene, role: Role, area: &Rect) -> Vec<Vec<Point>> {
+    let of = |mark: &Mark| match mark {
+        Mark::Strands { lines, role: r, .. } if *r == role => lines.clone(),
+        _ => Vec::new(),
+    };
+    let inside = |line: &Vec<Point>| line.iter().all(|[x, y]| area.encloses(&Rect::new(*x, *y, 0.0, 0.0)));
+    scene.marks.iter().flat_map(of).filter(inside).collect()
+}
+
+const POLICIES: [&str; 3] = ["never", "always", "selective"];
+
+#[test]
+fn a_step_back_shows_the_same_bits_as_the_way_forward() {
+    for query in ["particles=5&seed=9", "wings=on&particles=12"] {
+        let mut figure = resampling(query);
+        let mut at = |step| {
+            figure.model_mut().seek(step);
+            figure.model_mut().settle();
+            state(&figure)
+        };
+        let forward: Vec<_> = (0..=9).map(&mut at).collect();
+        for step in [8, 5, 0, 9, 3, 3] {
+            assert_eq!(at(step), forward[step as usize], "{query}, step {step}");
+        }
+    }
+}
+
+#[test]
+fn the_tree_has_every_edge_once_and_the_living_ones_are_those_still_needed() {
+    for query in
+        ["step=23", "particles=31&step=17&scheme=multinomial", "wings=on&step=90", "wings=on&particles=4&step=104"]
+    {
+        let figure = resampling(query);
+        let m: f64 = figure.model().value("particles").unwrap().parse().unwrap();
+        for width in [380.0, 1000.0] {
+            let (scene, layout) = (scene(&figure, width), Layout::new(width));
+            for (column, policy) in layout.columns.iter().zip(POLICIES) {
+                let area = &column.charts[3];
+                let step = area.w / f64::from(figure.model().step_count());
+                let edges = |role| {
+                    let lines = strands(&scene, role, area);
+                    let length = |line: &Vec<Point>| (line[1][0] - line[0][0]) / step;
+                    lines.iter().map(length).sum::<f64>()
+                };
+                let dead = scene.marks.iter().find_map(|mark| match mark {
+                    Mark::Strands { role: role @ Role::Level(_), .. } => Some(*role),
+                    _ => None,
+                });
+                let (living, dead) = (edges(Role::Path), edges(dead.unwrap()));
+                let all = m * f64::from(figure.model().step());
+                assert!((living + dead - all).abs() < 1e-6, "{query} {policy}: {living} + {dead} of {all}");
+                let needed = value(&figure, &format!("{policy}_tree")) - value(&figure, &format!("{policy}_lineage"));
+                assert!((living - needed).abs() < 1e-6, "{query} {policy}: {living} of {needed}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_common_ancestor_is_ringed_and_its_step_told_where_there_is_one() {
+    for query in ["step=2", "step=40", "particles=64&step=12", "wings=on&step=40"] {
+        let mut model = ResamplingModel::default();
+        let link: Vec<(String, String)> =
+            query.split('&').filter_map(|p| p.split_once('=')).map(|(n, v)| (n.into(), v.into())).collect();
+        assert_eq!(model.configure(&link), []);
+        model.settle();
+        let scene = model.scene(1000.0, model.height(1000.0));
+        for (policy, column) in Layout::new(1000.0).columns.iter().enumerate() {
+            let coalescence = model.now(policy).report.descent.coalescence();
+            let told = texts(&scene).into_iter().find(|t| column.axis.encloses(&t.area) && t.role == Role::Ink);
+            assert_eq!(told.map(|t| t.text.clone()), coalescence.map(|step| format!("step {step}")), "{query}");
+        }
+    }
+}
+
+#[test]
+fn at_threshold_nothing_the_third_filter_is_the_first() {
+    for course in ["", "wings=on&"] {
+        let figure = resampling(&format!("{course}threshold=0&step=30"));
+        for name in ["ess", "lineage", "error_best", "tree"] {
+            let [never, .., selective] = POLICIES.map(|policy| value(&figure, &format!("{policy}_{name}")).to_bits());
+            assert_eq!(never, selective, "{course} {name}");
+        }
+    }
+}
+
+#[test]
+fn to_point_at_a_step_is_to_read_it_in_every_column() {
+    let mut figure = resampling("particles=4&step=60");
+    let last = figure.model().step_count();
+    for width in [240.0, 380.0, 719.0, 720.0, 1280.0] {
+        let scene_width = scene(&figure, width).width;
+        for column in Layout::new(scene_width).columns {
+            for step in [0, 1, 17, 59, 60, 75] {
+                let x = column.charts[0].x + column.charts[0].w * f64::from(step) / f64::from(last);
+                let at = [x, column.charts[1].centre()[1]].map(|c| c * width / scene_width);
+                figure.drag("cursor", at[0], at[1], width);
+                let (read, word) = (value(&figure, "step"), figure.model().value("cursor").unwrap());
+                assert_eq!(read, f64::from(step.min(60)), "{width}");
+                assert_eq!(word, if step < 60 { step.to_string() } else { "now".into() }, "the newest is followed");
+            }
+        }
+        figure.drag("cursor", -1e9, 0.0, width);
+        assert_eq!(value(&figure, "step"), 0.0);
+    }
+}
+
+#[test]
+fn arrow_keys_move_the_cursor_and_time_takes_it_along() {
+    let mut figure = resampling("particles=4&step=30");
+    let mut by = |steps| {
+        figure.nudge("cursor", steps, 0.0);
+        figure.model().value("cursor").unwrap()
+    };
+    assert_eq!(["29", "30"], [by(-1.0), "30".into()]);
+    assert_eq!(by(-10.0), "19");
+    assert_eq!(by(0.1), "20", "there is nothing between two steps");
+    assert_eq!(by(-100.0), "0");
+    assert_eq!(by(1000.0), "now");
+    assert_eq!(by(-3.0), "27");
+    let read = scene(&figure, 800.0).handles.remove(0);
+    assert_eq!(read.value, 27.0);
+    assert!(read.text.starts_with("step 27: never N_eff ") && figure.model().describe().starts_with("Step 27 "));
+    figure.model_mut().seek(31);
+    figure.model_mut().settle();
+    assert_eq!((figure.model().value("cursor").unwrap(), value(&figure, "step")), ("now".into(), 31.0));
+}
+
+#[test]
+fn what_is_read_at_a_step_does_not_depend_on_how_far_time_went() {
+    for query in ["particles=6", "wings=on"] {
+        let numbers = |rest: &str| {
+            let readouts = resampling(&format!("{query}&{rest}")).model().readouts();
+            readouts.into_iter().map(|r| (r.name, r.value.map(f64::to_bits))).collect::<Vec<_>>()
+        };
+        assert_eq!(numbers("step=70&cursor=41"), numbers("step=41"), "{query}");
+    }
+}
+
+#[test]
+fn a_link_brings_back_the_whole_state() {
+    let query =
+        "wings=on&particles=7&seed=77&threshold=0.25&odometry=0.5&range=1.5&scheme=residual&back=4&step=80&cursor=66";
+    let mut figure = resampling(query);
+    assert_eq!(figure.query(), query);
+    assert_eq!(state(&figure), state(&resampling(&format!("?{}", figure.query()))));
+    assert_eq!(figure.load("cursor=3&step=9"), []);
+    figure.model_mut().settle();
+    assert_eq!(figure.query(), "step=9&cursor=3");
+    for (name, value) in
+        [("particles", "5"), ("back", "2"), ("wings", "on"), ("step", "100"), ("cursor", "now"), ("wings", "off")]
+    {
+        figure.set(name, value).unwrap();
+        figure.model_mut().settle();
+        assert_eq!(state(&figure), state(&resampling(&figure.query())), "{name}={value}");
+    }
+}
+
+#[test]
+fn a_bad_link_is_told_of_and_the_rest_of_it_applied() {
+    let mut figure = Figure::new("fastslam-resampling").unwrap();
+    let refused = figure.load("particles=65&step=91&cursor=-2&scheme=magic&tempo=3&back=0&seed=4");
+    let messages: Vec<String> = refused.into_iter().map(|e| e.message).collect();
+    assert_eq!(figure.query(), "seed=4");
+    for part in [
+        "particles = \"65\": must be a whole number from 4 to 64",
+        "step = \"91\": must be a whole number from 0 to 90",
+        "cursor = \"-2\"",
+        "scheme = \"magic\": must be one of systematic, stratified, multinomial, residual",
+        "back = \"0\": must be a whole number from 1 to 60 steps",
+        "tempo",
+    ] {
+        assert!(messages.iter().any(|m| m.contains(part)), "{part}: {messages:?}");
+    }
+    assert_eq!(messages.len(), 6);
+}
+
+#[test]
+fn a_shorter_course_keeps_the_step_in_its_range_and_a_new_setup_is_simulated_up_to_it() {
+    let mut figure = resampling("wings=on&particles=4&step=104&cursor=100");
+    figure.set("wings", "off").unwrap();
+    assert_eq!((figure.model().step(), figure.model().pending()), (0, 90));
+    figure.model_mut().work();
+    assert_eq!((figure.model().step(), figure.model().pending()), (1, 89));
+    figure.model_mut().settle();
+    assert_eq!(state(&figure), state(&resampling("particles=4&step=90")));
+    figure.set("back", "3").unwrap();
+    assert_eq!(figure.model().pending(), 0, "what changes no number is not simulated");
+}
+
+#[test]
+fn the_right_wing_is_told_where_there_are_two_and_lost_in_words() {
+    let mut lost = 0;
+    for seed in 1..=6 {
+        let figure = resampling(&format!("wings=on&seed={seed}&step=100"));
+        for width in [380.0, 1000.0] {
+            let scene = scene(&figure, width);
+            for (column, policy) in Layout::new(width).columns.iter().zip(POLICIES) {
+                let right = value(&figure, &format!("{policy}_right"));
+                let said =
+                    texts(&scene).into_iter().find(|t| column.map_label.encloses(&t.area) && t.text.contains("right"));
+                let said = &said.unwrap().text;
+                assert_eq!(said == "right wing lost", right == 0.0, "{said}");
+                assert!(right == 0.0 || said.contains(&format!("{right} of 16")), "{said}");
+                lost += u32::from(right == 0.0);
+            }
+        }
+    }
+    assert!(lost > 0, "a course on which something is lost");
+    let before = resampling("wings=on&step=20");
+    assert!(texts(&scene(&before, 1000.0)).iter().any(|t| t.text == "not lost yet"));
+    assert!(before.model().readouts().iter().filter(|r| r.name.ends_with("_right")).all(|r| r.value.is_none()));
+    assert!(resampling("step=5").model().readouts().iter().all(|r| !r.name.ends_with("_right")));
+}
+
+#[test]
+fn a_job_can_be_cut_anywhere_and_counts_what_the_figure_shows() {
+    let setting = "particles=8&threshold=0.4";
+    let whole = job::run("wings", setting, 3..9).unwrap();
+    let pieces = [job::run("wings", setting, 3..4).unwrap(), job::run("wings", setting, 4..9).unwrap()].concat();
+    assert_eq!(whole, pieces);
+    assert!(job::run("wings", setting, 5..5).unwrap().is_empty());
+    // The same as in the figure, whatever its view and its seed.
+    assert_eq!(whole, job::run("wings", &format!("?wings=off&seed=3&{setting}&step=5&cursor=now"), 3..9).unwrap());
+    for row in whole {
+        let mut model = ResamplingModel::default();
+        let link = [("wings", "on"), ("particles", "8"), ("threshold", "0.4"), ("seed", &row[0].to_string())];
+        assert_eq!(model.configure(&link.map(|(n, v)| (n.into(), v.into()))), []);
+        let evidence = model.run().evidence_at().unwrap();
+        for (name, step) in [("alive", evidence - 1), ("settled", model.step_count())] {
+            model.seek(step);
+            model.settle();
+            for (policy, columns) in [[1, 2], [3, 4], [5, 6]].iter().enumerate() {
+                let report = &model.now(policy).report;
+                let (column, yes) = match name {
+                    "alive" => (columns[0], report.right.unwrap() > 0),
+                    _ => (columns[1], report.error_best < RIGHT_WITHIN),
+                };
+                assert_eq!(row[column] == 1.0, yes, "seed {} {name} {policy}", row[0]);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_job_refuses_what_it_does_not_know() {
+    assert!(job::run("weather", "", 0..1).unwrap_err().message.contains("one of wings"));
+    for (setting, part) in [("particles=99", "from 4 to 64"), ("tempo=3", "tempo"), ("scheme=", "systematic")] {
+        let message = job::run("wings", setting, 0..1).unwrap_err().message;
+        assert!(message.contains(part), "{message}");
+    }
+}
+
+#[test]
+fn texts_fit_their_boxes_and_the_figure_and_cover_no_other() {
+    for query in [
+        "",
+        "step=3",
+        "particles=64&step=25&scheme=stratified&back=60&threshold=0.85",
+        "wings=on&particles=64&step=104&odometry=2&range=4",
+        "wings=on&step=96&cursor=63",
+        "step=90&odometry=2&range=4&particles=4",
+    ] {
+        let figure = resampling(query);
+        for width in
+            [240.0, 300.0, 320.0, 340.0, 369.0, 370.0, 380.0, 459.0, 460.0, 719.0, 720.0, 800.0, 1000.0, 1280.0]
+        {
+            let scene = scene(&figure, width);
+            let bounds = Rect::new(0.0, 0.0, scene.width, scene.height);
+            let mut inked: Vec<(Rect, &str)> = Vec::new();
+            for text in texts(&scene) {
+                let which = format!("{query} at {width}: {text:?}");
+                assert!(text.width() <= text.area.w + 1e-9 && text.size <= text.area.h, "{which}");
+                assert!(bounds.encloses(&text.area), "{which}");
+                assert!(!text.text.ends_with('…'), "{which} was shortened");
+                let [x, y] = text.origin();
+                let ink = Rect::new(x, y - 0.7 * text.size, text.width(), 0.7 * text.size);
+                for (other, words) in &inked {
+                    assert!(!ink.overlaps(other), "{which} covers {words:?}");
+                }
+                inked.push((ink, &text.text));
+            }
+            let layout = Layout::new(scene.width);
+            let last = inked.iter().map(|(ink, _)| ink.bottom()).fold(0.0, f64::max);
+            assert!(last <= layout.legend.bottom() + 1e-9, "{query} at {width}: the legend left its place");
+        }
+    }
+}
+
+#[test]
+fn nothing_is_drawn_outside_of_the_figure() {
+    for query in ["wings=on&particles=20&step=104&odometry=2&range=4", "step=90&odometry=2&range=4&particles=4"] {
+        for width in [240.0, 380.0, 1000.0] {
+            let scene = scene(&resampling(query), width);
+            let bounds = Rect::new(0.0, 0.0, scene.width, scene.height);
+            for mark in &scene.marks {
+                let points: Vec<_> = match mark {
+                    Mark::Lines { lines, .. } | Mark::Strands { lines, .. } => {
+                        lines.iter().flatten().copied().collect()
+                    }
+                    Mark::Polygons { polygons, .. } => polygons.iter().flatten().copied().collect(),
+                    Mark::Discs { centres, .. } => centres.clone(),
+                    Mark::Raster { area, .. } | Mark::Fill { area, .. } | Mark::Frame { area, .. } => {
+                        assert!(bounds.encloses(area), "{query} at {width}: {mark:?}");
+                        continue;
+                    }
+                    Mark::Text(_) => continue,
+                };
+                let outside = points.iter().find(|p| !bounds.encloses(&Rect::new(p[0], p[1], 0.0, 0.0)));
+                assert_eq!(outside, None, "{query} at {width}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_height_depends_on_the_width_only() {
+    let (a, b) = (resampling("particles=4"), resampling("wings=on&particles=64&step=12"));
+    for width in [100.0, 340.0, 640.0, 1280.0] {
+        assert_eq!(a.model().height(width), b.model().height(width));
+        assert!(a.model().height(width) > 0.4 * width);
+    }
+}
+
+#[test]
+fn no_size_makes_it_panic() {
+    let mut figure = resampling("wings=on&particles=9&step=70");
+    for (width, height, dpr) in [(0, 0, 1.0), (1, 1, f64::NAN), (3, 4000, 0.0), (4000, 3, 1e300), (300, 200, -1.0)] {
+        figure.paint(width, height, dpr, Default::default());
+        assert!(figure.canvas().pixels().chunks_exact(4).all(|p| p[3] == 255));
+    }
+    for width in [f64::NAN, f64::INFINITY, 0.0, -5.0, 1e-300, 1e300] {
+        figure.drag("cursor", 1.0, 1.0, width);
+        figure.model().height(width);
+    }
+}
+
+#[test]
+fn data_has_a_row_for_every_step_so_far() {
+    let figure = resampling("particles=4&step=6&back=2");
+    let export = figure.export();
+    let (header, rows) = (export.header(), export.rows());
+    assert_eq!((rows.len(), header.len()), (7, 28));
+    let known =
+        |row: &Vec<Option<f64>>| header.iter().zip(row).all(|(name, x)| x.is_some() != name.ends_with("_right"));
+    assert!(rows.iter().all(known), "{rows:?}");
+    assert_eq!(header[10], "always_ess");
+    let resampled: f64 = rows.iter().filter_map(|row| row[11]).sum();
+    assert_eq!(resampled, 6.0);
+}
