@@ -18,7 +18,7 @@ async function overCurves(figure: Figure, share: number): Promise<{ x: number; y
     const box = (await figure.handle('cursor').boundingBox())!
     return [box.x + box.width / 2, box.y + box.height / 2] as const
   }
-  await figure.canvas.evaluate(canvas => canvas.scrollIntoView({ block: 'center', behavior: 'instant' }))
+  await figure.handle('cursor').evaluate(handle => handle.scrollIntoView({ block: 'center', behavior: 'instant' }))
   const [x0, y] = await middle('0')
   const [x1] = await middle('10')
   return { x: x0 + ((x1 - x0) / 10) * share * (await figure.last()), y }
@@ -74,7 +74,7 @@ test.describe('at rest', () => {
     await figure.settled()
     expect(await cursor(figure)).toBe('30')
     await expect(figure.sentence).toContainText('Step 30 of 90')
-    expect((await figure.readouts())['step']).toBe('30 of 90')
+    expect((await figure.readouts())['always_resampled']).toBe('30 of 30steps')
     await page.mouse.move(5, 5)
     await figure.step.click()
     await figure.settled()
@@ -109,6 +109,7 @@ test.describe('at rest', () => {
     await figure.scrubTo(100)
     expect((await figure.readouts())['selective_right']).toMatch(/^\d+ of 16$/)
     await expect(figure.sentence).toContainText('right wing')
+    expect(Object.keys(await figure.readouts())).not.toContain('selective_resampled')
     await figure.toggle('wings').click()
     await figure.scrubTo(50)
     expect([await figure.readouts(), await figure.last()]).toEqual(before)

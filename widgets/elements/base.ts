@@ -460,6 +460,7 @@ export abstract class FigureElement extends HTMLElement {
     this.#recipe = figure.query()
     this.#say(figure.describe())
     const detail: FigureDetail = { step, values: values(figure), readouts }
+    this.#controls!.showValues(this.#specs, detail.values) // time may take a value along, as it does a cursor
     if (this.#changeToTell) this.#tell('fastslam-change', detail)
     this.#changeToTell = false
     if (step !== this.#toldStep) this.#tell('fastslam-step', detail)
@@ -481,7 +482,9 @@ export abstract class FigureElement extends HTMLElement {
 
   #showReadouts(readouts: Readout[]): void {
     const list = this.#readouts
-    if (list.childElementCount !== readouts.length) {
+    const names = readouts.map(({ name }) => name).join(' ') // another course may have others
+    if (list.dataset['names'] !== names) {
+      list.dataset['names'] = names
       list.replaceChildren(
         ...readouts.map(({ name, help }) =>
           h(

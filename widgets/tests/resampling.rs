@@ -31,6 +31,11 @@ fn value(figure: &Figure, name: &str) -> f64 {
     figure.model().readouts().into_iter().find(|r| r.name == name).unwrap().value.unwrap()
 }
 
+/// The step that is read.
+fn read(figure: &Figure) -> f64 {
+    scene(figure, 800.0).handles[0].value
+}
+
 fn texts(scene: &Scene) -> Vec<&Text> {
     scene.marks.iter().filter_map(|m| if let Mark::Text(t) = m { Some(t) } else { None }).collect()
 }
@@ -133,13 +138,13 @@ fn to_point_at_a_step_is_to_read_it_in_every_column() {
                 let x = column.charts[0].x + column.charts[0].w * f64::from(step) / f64::from(last);
                 let at = [x, column.charts[1].centre()[1]].map(|c| c * width / scene_width);
                 figure.drag("cursor", at[0], at[1], width);
-                let (read, word) = (value(&figure, "step"), figure.model().value("cursor").unwrap());
-                assert_eq!(read, f64::from(step.min(60)), "{width}");
+                let (at, word) = (read(&figure), figure.model().value("cursor").unwrap());
+                assert_eq!(at, f64::from(step.min(60)), "{width}");
                 assert_eq!(word, if step < 60 { step.to_string() } else { "now".into() }, "the newest is followed");
             }
         }
         figure.drag("cursor", -1e9, 0.0, width);
-        assert_eq!(value(&figure, "step"), 0.0);
+        assert_eq!(read(&figure), 0.0);
     }
 }
 
@@ -156,12 +161,12 @@ fn arrow_keys_move_the_cursor_and_time_takes_it_along() {
     assert_eq!(by(-100.0), "0");
     assert_eq!(by(1000.0), "now");
     assert_eq!(by(-3.0), "27");
-    let read = scene(&figure, 800.0).handles.remove(0);
-    assert_eq!(read.value, 27.0);
-    assert!(read.text.starts_with("step 27: never N_eff ") && figure.model().describe().starts_with("Step 27 "));
+    let handle = scene(&figure, 800.0).handles.remove(0);
+    assert_eq!(handle.value, 27.0);
+    assert!(handle.text.starts_with("step 27: never N_eff ") && figure.model().describe().starts_with("Step 27 "));
     figure.model_mut().seek(31);
     figure.model_mut().settle();
-    assert_eq!((figure.model().value("cursor").unwrap(), value(&figure, "step")), ("now".into(), 31.0));
+    assert_eq!((figure.model().value("cursor").unwrap(), read(&figure)), ("now".into(), 31.0));
 }
 
 #[test]
@@ -248,7 +253,9 @@ fn the_right_wing_is_told_where_there_are_two_and_lost_in_words() {
     let before = resampling("wings=on&step=20");
     assert!(texts(&scene(&before, 1000.0)).iter().any(|t| t.text == "not lost yet"));
     assert!(before.model().readouts().iter().filter(|r| r.name.ends_with("_right")).all(|r| r.value.is_none()));
-    assert!(resampling("step=5").model().readouts().iter().all(|r| !r.name.ends_with("_right")));
+    let lap = resampling("step=5");
+    assert!(lap.model().readouts().iter().all(|r| !r.name.ends_with("_right")));
+    assert_eq!(["never_resampled", "always_resampled"].map(|name| value(&lap, name)), [0.0, 5.0]);
 }
 
 #[test]

@@ -243,14 +243,7 @@ impl Model for ResamplingModel {
 
     fn readouts(&self) -> Vec<Readout> {
         let (step, m) = (self.cursor(), self.setup().particles);
-        let mut readouts = vec![Readout::new(
-            "step",
-            "Step read",
-            f64::from(step),
-            format!("{step} of {}", self.step_count()),
-            "",
-            "The step whose values are shown, and the last one of the course.",
-        )];
+        let mut readouts = Vec::new();
         for (policy, names) in NAMES.iter().enumerate() {
             let Moment { report, resampled, .. } = self.read(policy);
             let of_all = |x: f64, text: String| (x, format!("{text} of {m}"));
@@ -293,18 +286,24 @@ impl Model for ResamplingModel {
                     "Poses that the particles still need, each counted once, of those that as many separate paths would hold.",
                 ),
             ]);
-            if policy == SELECTIVE {
-                let (x, text) = (f64::from(*resampled), format!("{resampled} of {step}"));
-                let help = "Steps at which N_eff was below the threshold, so that the filter resampled.";
-                readouts.push(Readout::new(resampled_name.0, resampled_name.1, x, text, "steps", help));
-            }
-            if self.setup().course == PolicyCourse::Wings {
-                let right = report.right.map_or(f64::NAN, f64::from);
-                let text = format!("{} of {m}", report.right.unwrap_or(0));
-                let help =
-                    "Particles that hold the explanation that is true: they are near the robot and look its way.";
-                readouts.push(Readout::new(right_name.0, right_name.1, right, text, "", help));
-            }
+            readouts.push(match (self.setup().course, report.right) {
+                (PolicyCourse::Lap, _) => Readout::new(
+                    resampled_name.0,
+                    resampled_name.1,
+                    f64::from(*resampled),
+                    format!("{resampled} of {step}"),
+                    "steps",
+                    "How many steps resampled.",
+                ),
+                (PolicyCourse::Wings, right) => Readout::new(
+                    right_name.0,
+                    right_name.1,
+                    right.map_or(f64::NAN, f64::from),
+                    format!("{} of {m}", right.unwrap_or(0)),
+                    "",
+                    "Particles that hold the true explanation: they are near the robot and look its way.",
+                ),
+            });
         }
         readouts
     }

@@ -182,11 +182,24 @@ impl Filter<'_> {
         self.model.history(self.policy).map(point).collect()
     }
 
-    fn frame(&self, scene: &mut Scene, chart: usize, heights: &[f64], dash: Option<[f64; 2]>, role: Role) {
-        let Rect { x, w, h, .. } = self.column.charts[chart];
-        let at = |height: &f64| self.column.charts[chart].bottom() - h * height;
-        let lines = heights.iter().map(|height| vec![[x, at(height)], [x + w, at(height)]]).collect();
-        scene.marks.push(Mark::Lines { lines, width: 1.0, dash, role });
+    /// The ends of a chart's axis.
+    fn frame(&self, scene: &mut Scene, chart: usize) {
+        let Rect { x, y, w, h } = self.column.charts[chart];
+        for y in [y, y + h] {
+            scene.marks.push(Mark::Fill { area: Rect::new(x, y - 0.5, w, 1.0), role: Role::Frame });
+        }
+    }
+
+    /// Where N_eff calls for resampling.
+    fn threshold(&self, scene: &mut Scene) {
+        let Rect { x, w, h, .. } = self.column.charts[0];
+        let y = self.column.charts[0].bottom() - h * self.model.setup().threshold;
+        let [dash, gap] = THRESHOLD;
+        let count = ((w / (dash + gap)) as usize).min(1000); // whatever the width of the figure
+        let dashes = (0..count).map(|k| x + (dash + gap) * k as f64);
+        let lines = dashes.map(|x| vec![[x, y], [x + dash, y]]).collect();
+        let role = if self.policy == SELECTIVE { Role::Accent } else { Role::Muted };
+        scene.marks.push(Mark::Strands { lines, width: 1.0, role });
     }
 
     /// Two curves, the second dashed below the first, and dots where the cursor cuts them.
@@ -211,9 +224,8 @@ impl Filter<'_> {
         ];
         let rest = self.label(scene, 0, &values);
         n_eff(scene, &rest, Role::Muted);
-        self.frame(scene, 0, &[0.0, 1.0], None, Role::Frame);
-        let role = if self.policy == SELECTIVE { Role::Accent } else { Role::Muted };
-        self.frame(scene, 0, &[self.model.setup().threshold], Some(THRESHOLD), role);
+        self.frame(scene, 0);
+        self.threshold(scene);
         let curve = self.curve(0, |moment| moment.report.ess / m);
         let history = self.model.history(self.policy).zip(&curve);
         let centres = history.filter(|(moment, _)| moment.report.resampled).map(|(_, at)| *at).collect();
@@ -231,7 +243,7 @@ impl Filter<'_> {
         ];
         let rest = self.label(scene, 1, &values);
         self.name(scene, &rest, "Ancestors");
-        self.frame(scene, 1, &[0.0, 1.0], None, Role::Frame);
+        self.frame(scene, 1);
         let of = |back: u32| self.curve(1, |moment| f64::from(moment.report.descent.lineage(back)) / m);
         self.curves(scene, of(u32::MAX), Some(of(back)));
     }
@@ -245,7 +257,7 @@ impl Filter<'_> {
         ];
         let rest = self.label(scene, 2, &values);
         self.name(scene, &rest, &format!("Error to {} m", write(self.error_scale)));
-        self.frame(scene, 2, &[0.0, 1.0], None, Role::Frame);
+        self.frame(scene, 2);
         let best = self.curve(2, |moment| moment.report.error_best / self.error_scale);
         let mean = self.curve(2, |moment| moment.report.error_mean / self.error_scale);
         self.curves(scene, best, Some(mean));
