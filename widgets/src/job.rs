@@ -6,6 +6,9 @@
 use crate::{model::FigureError, param, query, resampling};
 use core::ops::Range;
 
+/// Names and values of parameters, as a figure's link has them.
+pub type Setting = [(String, String)];
+
 /// Numbers, a row for each seed.
 pub type Rows = Vec<Vec<f64>>;
 
@@ -16,7 +19,7 @@ pub struct Job {
     /// What the numbers of a row are.
     pub columns: &'static [&'static str],
     /// A row for each seed, in a setting written as a figure's link.
-    pub run: fn(&[(String, String)], Range<u64>) -> Result<Rows, FigureError>,
+    pub run: fn(&Setting, Range<u64>) -> Result<Rows, FigureError>,
 }
 
 /// Every experiment there is.

@@ -2,7 +2,7 @@
 
 use super::{model::set, params};
 use crate::{
-    job::{Job, Rows},
+    job::{Job, Rows, Setting},
     model::{FigureError, Group},
     param::unknown,
 };
@@ -28,7 +28,7 @@ pub const WINGS: Job = Job {
 };
 
 /// The setting is that of the figure's link; what it says about the seed and the view makes no difference.
-fn run(setting: &[(String, String)], seeds: Range<u64>) -> Result<Rows, FigureError> {
+fn run(setting: &Setting, seeds: Range<u64>) -> Result<Rows, FigureError> {
     let (mut setup, specs) = (params::setup(), params::specs(0));
     for (name, text) in setting {
         let spec = specs.iter().find(|s| s.name == name).ok_or_else(|| unknown(name, &specs))?;
