@@ -2,38 +2,43 @@
 
 use crate::scene::Point;
 use fastslam::exact::one_step::Posterior;
-use std::collections::BTreeMap;
+
+/// No crossing follows.
+const END: usize = usize::MAX;
 
 /// The lines \[m\] on which the density between the middles of the cells is that of the region's edge, each closed where it does not
 /// leave the grid: marching squares (Lorensen, Cline 1987, in the plane).
 pub fn outline(posterior: &Posterior) -> Vec<Vec<Point>> {
     let Posterior { cells, densities, level, .. } = posterior;
-    // From each crossing, named by the two middles it lies between, to the next: the region is always on the same side.
-    let mut next = BTreeMap::new();
+    // A crossing lies between the middle of a cell and the next one in its row, 2 k, or in its column, 2 k + 1.
+    let crossing = |a: usize, b: usize| 2 * a.min(b) + usize::from(a.abs_diff(b) == cells.side);
+    // From each crossing to the next: the region is always on the same side.
+    let mut next = vec![END; 2 * densities.len()];
     for k in (0..cells.count() - cells.side).filter(|k| k % cells.side != cells.side - 1) {
         let corners = [k, k + 1, k + 1 + cells.side, k + cells.side];
-        let (mut leaves, mut enters) = (Vec::new(), Vec::new());
-        for side in 0..4 {
-            let (a, b) = (corners[side], corners[(side + 1) % 4]);
-            match (densities[a] >= *level, densities[b] >= *level) {
-                (true, false) => leaves.push((a.min(b), a.max(b))),
-                (false, true) => enters.push((a.min(b), a.max(b))),
-                _ => (),
-            }
+        let inside = corners.map(|corner| densities[corner] >= *level);
+        // A saddle is crossed twice: each way in is followed by the first way out after it.
+        for enter in (0..4).filter(|side| !inside[*side] && inside[(side + 1) % 4]) {
+            let leave = (1..4).map(|turn| (enter + turn) % 4).find(|side| inside[*side] && !inside[(side + 1) % 4]);
+            let at = |side: usize| crossing(corners[side], corners[(side + 1) % 4]);
+            next[at(enter)] = leave.map_or(END, at);
         }
-        next.extend(enters.into_iter().zip(leaves));
     }
-    let place = |(a, b): (usize, usize)| {
+    let place = |crossing: usize| {
+        let (a, b) = (crossing / 2, crossing / 2 + [1, cells.side][crossing % 2]);
         let t = (level - densities[a]) / (densities[b] - densities[a]);
         let (from, to) = (cells.centre(a), cells.centre(b));
         [0, 1].map(|axis| from[axis] + t * (to[axis] - from[axis]))
     };
     let mut lines = Vec::new();
-    while let Some((first, mut crossing)) = next.pop_first() {
-        let mut line = vec![place(first), place(crossing)];
-        while let Some(following) = next.remove(&crossing) {
-            line.push(place(following));
-            crossing = following;
+    for first in 0..next.len() {
+        if next[first] == END {
+            continue;
+        }
+        let (mut line, mut at) = (Vec::new(), first);
+        while at != END {
+            line.push(place(at));
+            at = core::mem::replace(&mut next[at], END);
         }
         lines.push(line);
     }

@@ -116,7 +116,7 @@ impl ProposalModel {
         let specs = self.params();
         let near = numbers.map(|(name, x)| {
             let [min, max] = specs.iter().find(|s| s.name == name).map_or([x; 2], |s| [s.min, s.max]);
-            (name.to_string(), fixed(x.clamp(min, max), decimals))
+            (name.to_string(), fixed(x.max(min).min(max), decimals))
         });
         self.configure(&near);
     }
@@ -150,20 +150,21 @@ impl Model for ProposalModel {
     }
 
     fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
-        let (mut refused, mut checked) = (Vec::new(), Vec::new());
         let specs = self.params();
+        let (mut refused, mut checked) = (Vec::new(), vec![None; specs.len()]);
         for (name, text) in values {
             match specs.iter().position(|s| s.name == name) {
                 Some(rank) => match specs[rank].check(text) {
-                    Ok(value) => checked.push((rank, value)),
+                    Ok(value) => checked[rank] = Some(value),
                     Err(error) => refused.push(error),
                 },
                 None => refused.push(unknown(name, &specs)),
             }
         }
         // In the order of the parameters: the guess before the run.
-        checked.sort_by_key(|(rank, _)| *rank);
-        checked.into_iter().for_each(|(rank, value)| self.set(specs[rank].name, value));
+        for (spec, value) in specs.iter().zip(checked) {
+            value.into_iter().for_each(|value| self.set(spec.name, value));
+        }
         refused
     }
 
