@@ -450,3 +450,71 @@ pub fn golden_policies() -> Vec<(&'static str, PoliciesSetup)> {
         ("policies-wings-systematic", PoliciesSetup { scheme: Scheme::Systematic, particles: 40, seed: 5, ..wings() }),
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_three_differ_in_nothing_until_one_resamples() {
+        for course in [PolicyCourse::Lap, PolicyCourse::Wings] {
+            let mut policies = Policies::new(&PoliciesSetup { threshold: 0.0, ..PoliciesSetup::of(course) }).unwrap();
+            policies.step().unwrap();
+            let [never, always, selective] = policies.reports();
+            assert_eq!(never, selective, "{course}: N_eff is never below zero");
+            assert_eq!((never.ess, never.resampled, always.resampled), (always.ess, false, true), "{course}");
+            while policies.step().is_some() {}
+            let [never, always, selective] = policies.reports();
+            assert_eq!(never, selective, "{course}");
+            assert_eq!(never.step, policies.step_count());
+            assert_eq!(never.tree_nodes(), never.path_nodes(16), "{course}: nothing was ever shared");
+            assert!(always.tree_nodes() < always.path_nodes(16) / 4, "{course}");
+        }
+    }
+
+    #[test]
+    fn a_clone_goes_its_own_way_to_the_same_end() {
+        let mut policies = Policies::new(&PoliciesSetup::of(PolicyCourse::Wings)).unwrap();
+        (0..70).for_each(|_| {
+            policies.step();
+        });
+        let kept = policies.clone();
+        while policies.step().is_some() {}
+        assert_eq!(kept.step_number(), 70);
+        assert_eq!(kept.trace(), {
+            let mut again = Policies::new(policies.setup()).unwrap();
+            (0..70).for_each(|_| {
+                again.step();
+            });
+            again.trace()
+        });
+    }
+
+    #[test]
+    fn what_is_alive_in_a_drawing_is_what_the_reports_count() {
+        let mut policies = Policies::new(&PoliciesSetup::of(PolicyCourse::Wings)).unwrap();
+        while policies.step().is_some() {}
+        for policy in 0..3 {
+            let (tree, report) = (policies.ancestry(policy), &policies.reports()[policy]);
+            let alive = tree.alive(&policies.nodes(policy));
+            let widths: Vec<u32> = (0..tree.steps())
+                .map(|step| tree.nodes(step).filter(|node| alive[*node as usize]).count() as u32)
+                .collect();
+            assert_eq!(widths, report.descent.widths);
+            assert_eq!(tree.edges(0..tree.steps()).count(), 16 * policies.step_count() as usize);
+        }
+    }
+
+    #[test]
+    fn settings_out_of_range_are_refused_by_name() {
+        let setup = PoliciesSetup::default;
+        for (setup, name) in [
+            (PoliciesSetup { particles: 0, ..setup() }, "particles"),
+            (PoliciesSetup { threshold: f64::NAN, ..setup() }, "threshold"),
+            (PoliciesSetup { odometry_scale: -1.0, ..setup() }, "odometry_scale"),
+            (PoliciesSetup { sensor_scale: 0.0, ..setup() }, "sensor_scale"),
+        ] {
+            assert_eq!(Policies::new(&setup).unwrap_err().parameter, name);
+        }
+    }
+}
