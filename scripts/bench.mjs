@@ -4,13 +4,15 @@ import { existsSync, readdirSync, readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { launchChromium } from './browser.mjs'
 import { buildWasm } from './build.mjs'
-import { bold, capture, green, isMain, main, red, root, run, say, step, StepError } from './lib.mjs'
+import { bold, cache, capture, green, isMain, main, red, root, run, say, step, StepError } from './lib.mjs'
 import { startServer } from './serve.mjs'
 import { setUp } from './setup.mjs'
 
 /** The criterion benchmark of one whole lap of 16 universes on one thread, which is what WebAssembly runs. */
 const nativeLap = 'lap/serial/16'
 const laps = 5
+/** What wasm-pack makes of tests/speed. */
+const landmarks = cache('speed')
 const width = 1280
 const height = 800
 
@@ -25,22 +27,28 @@ function criterionTimes(folder) {
   return times
 }
 
-/** What a lap costs in the browser [ms]. Whole laps are timed, as Chromium's clock is coarser than a step. */
-async function browserTimes() {
-  const server = await startServer({ folder: join(root, 'widgets', 'pkg') })
+/**
+ * Times in the browser, of what a folder serves.
+ * @template A, R @param {string} folder @param {(options: A) => Promise<R>} work runs in the page @param {A[]} options
+ * @returns {Promise<R[]>}
+ */
+async function browserTimes(folder, work, ...options) {
+  const server = await startServer({ folder })
   const browser = await launchChromium()
   try {
     const page = await browser.newPage()
     await page.route('**/bench', route => route.fulfill({ contentType: 'text/html', body: '<!doctype html><title>bench</title>' }))
     await page.goto(`${server.url}bench`)
-    return await page.evaluate(timeLaps, { laps, width, height })
+    const times = []
+    for (const option of options) times.push(await page.evaluate(/** @type {any} */ (work), option))
+    return times
   } finally {
     await browser.close()
     await server.close()
   }
 }
 
-/** Runs in the page. @param {{ laps: number, width: number, height: number }} size */
+/** Runs in the page. Whole laps are timed, as Chromium's clock is coarser than a step. @param {{ laps: number, width: number, height: number }} size */
 async function timeLaps({ laps, width, height }) {
   const module = '/fastslam_widgets.js'
   const { default: init, Figure } = await import(module)
@@ -86,6 +94,25 @@ async function timeLaps({ laps, width, height }) {
   return { ...total, perLap: figure.step_count() }
 }
 
+/** Runs in the page: a step of FastSLAM 2.0 with six sightings, for one particle [µs]. @param {{ known: boolean }} options */
+async function timeLandmarks({ known }) {
+  const module = '/speed.js'
+  const { default: init, Thousand } = await import(module)
+  await init()
+  const start = new Thousand(known)
+  const repeats = 100
+  let total = 0
+  // The first rounds are for the compiler to warm up.
+  for (let round = -20; round < repeats; round++) {
+    const filter = start.again()
+    const started = performance.now()
+    filter.step()
+    if (round >= 0) total += performance.now() - started
+    filter.free()
+  }
+  return total / repeats // [ms] for a thousand particles is [µs] for one
+}
+
 /** @param {number} ms */
 const milliseconds = ms => `${ms.toFixed(3)} ms`
 
@@ -99,13 +126,17 @@ if (isMain(import.meta)) {
   await main(async () => {
     await setUp({ browser: true })
     await buildWasm()
-    await step('Benchmarks, native (criterion)', () => run('cargo', ['bench', '--package', 'fastslam', '--bench', '*']))
+    await step('Landmark filters to WebAssembly', () =>
+      run('wasm-pack', ['build', 'tests/speed', '--target', 'web', '--release', '--no-pack', '--out-dir', landmarks]),
+    )
+    await step('Benchmarks, native (criterion)', () => run('cargo', ['bench', '--package', 'speed']))
     await step('Benchmarks, WebAssembly in Chromium', async () => {
       const folder = JSON.parse(capture('cargo', 'metadata', '--no-deps', '--format-version', '1') ?? '{}').target_directory
       const native = criterionTimes(join(folder, 'criterion'))
       const lap = native.get(nativeLap)
       if (lap === undefined) throw new StepError(`Criterion has no benchmark ${nativeLap}, only: ${[...native.keys()].join(', ')}`)
-      const wasm = await browserTimes()
+      const [wasm] = await browserTimes(join(root, 'widgets', 'pkg'), timeLaps, { laps, width, height })
+      const [known, unknown] = await browserTimes(landmarks, timeLandmarks, { known: true }, { known: false })
       const [nativeStep, wasmStep, shownStep] = [lap / wasm.perLap, wasm.alone / wasm.steps, wasm.work / wasm.steps]
       say(bold('\n  Criterion, mean of one run'))
       for (const [id, time] of [...native].sort()) say(`  ${milliseconds(time).padStart(14)}  ${id}`)
@@ -116,10 +147,19 @@ if (isMain(import.meta)) {
       say(`  ${milliseconds(wasm.paint / wasm.steps).padStart(14)}  scene and paint at ${width} × ${height}, WebAssembly`)
       say(`  ${milliseconds(wasm.put / wasm.steps).padStart(14)}  pixels to the canvas`)
       say(`  ${milliseconds(wasm.slowest).padStart(14)}  the slowest step with its scene and paint`)
+      const micros = (/** @type {number} */ us) => `${us.toFixed(2)} µs`
+      const particle = (/** @type {string} */ id) => (native.get(`landmarks-step-1000-particles/${id}`) ?? NaN)
+      say(bold('\n  FastSLAM 2.0, one particle and step, 6 sightings, 24 landmarks'))
+      say(`  ${micros(particle('known')).padStart(14)}  native, known correspondence`)
+      say(`  ${micros(known).padStart(14)}  WebAssembly, known correspondence`)
+      say(`  ${micros(particle('unknown')).padStart(14)}  native, unknown correspondence`)
+      say(`  ${micros(unknown).padStart(14)}  WebAssembly, unknown correspondence`)
       say(bold('\n  Targets'))
       const met = [
         verdict('step, WebAssembly over native', wasmStep / nativeStep, 1.5, ratio => `${ratio.toFixed(2)} ×`),
         verdict('step, WebAssembly', wasmStep, 2),
+        verdict('FastSLAM 2.0 a particle, native', particle('known'), 5, micros),
+        verdict('FastSLAM 2.0 a particle, WebAssembly', known, 8, micros),
         verdict('step, scene and paint, WebAssembly', shownStep + wasm.paint / wasm.steps, 12),
       ]
       say('')

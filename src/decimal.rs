@@ -54,6 +54,28 @@ pub fn fixed(x: f64, decimals: i32) -> String {
     format!("{sign}{digits}")
 }
 
+/// With at most this many significant digits and no zeros at the end: the number, and the power of ten it is to be multiplied by,
+/// which is 0 unless it would be below 0.001 or have more digits before the point than asked for.
+pub fn significant(x: f64, digits: i32) -> (String, i32) {
+    if x == 0.0 || !x.is_finite() {
+        return (write(x), 0);
+    }
+    let (mut mantissa, mut exponent) = (x, 0);
+    while mantissa.abs() >= 10.0 {
+        (mantissa, exponent) = (mantissa / 10.0, exponent + 1);
+    }
+    while mantissa.abs() < 1.0 {
+        (mantissa, exponent) = (mantissa * 10.0, exponent - 1);
+    }
+    let (number, exponent) = if (-3..digits).contains(&exponent) {
+        (fixed(x, digits - 1 - exponent), 0)
+    } else {
+        (fixed(mantissa, digits - 1), exponent)
+    };
+    let short = if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { &number };
+    (short.into(), exponent)
+}
+
 /// 10ᵏ for a k that is not negative; exact up to 10²².
 fn power(k: i32) -> f64 {
     (0..k.min(400)).fold(1.0, |power, _| 10.0 * power)
@@ -117,6 +139,28 @@ mod tests {
                 let value = parse(&text).unwrap();
                 assert_eq!(parse(&write(value)), Some(value), "{text}");
             }
+        }
+    }
+
+    #[test]
+    fn significant_digits_are_all_that_is_written() {
+        let cases = [
+            (0.0, "0", 0),
+            (-0.0, "0", 0),
+            (0.09999999999999964, "0.1", 0),
+            (-31.41592653, "-31.416", 0),
+            (0.00123456, "0.0012346", 0),
+            (-0.000123456, "-1.2346", -4),
+            (12345.6, "12346", 0),
+            (99999.9, "100000", 0),
+            (123456.0, "1.2346", 5),
+            (4.5e-300, "4.5", -300),
+            (-2e300, "-2", 300),
+            (5e-324, "4.9407", -324),
+            (f64::NAN, "NaN", 0),
+        ];
+        for (x, number, exponent) in cases {
+            assert_eq!(significant(x, 5), (number.into(), exponent));
         }
     }
 

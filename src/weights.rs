@@ -41,7 +41,7 @@ impl Weights {
         &self.weights
     }
 
-    /// N_eff = 1 / Σ w̃², between 1 and M (Kong, Liu, Wong 1994).
+    /// N_eff = 1 / Σ w̃², between 1 and M (Kong, Liu, Wong 1994): M to the last bit where all weights are equal.
     ///
     /// ```
     /// let uniform = fastslam::weights::Weights::uniform(2);
@@ -50,6 +50,9 @@ impl Weights {
     /// assert!((weights.ess() - 1.5708708376).abs() < 1e-9);
     /// ```
     pub fn ess(&self) -> f64 {
+        if self.weights.iter().all(|w| *w == self.weights[0]) {
+            return self.weights.len() as f64; // what rounding in the sum would miss
+        }
         1.0 / self.weights.iter().map(|w| w * w).sum::<f64>()
     }
 
@@ -69,6 +72,14 @@ mod tests {
         assert!((weights.as_slice().iter().sum::<f64>() - 1.0).abs() < 1e-12);
         assert!(weights.as_slice()[0] > 0.7 && (-1001.0..-1000.0).contains(&log_evidence));
         assert_eq!(weights.best(), 0);
+    }
+
+    #[test]
+    fn equal_weights_are_worth_exactly_their_number() {
+        for count in 1..200 {
+            let (weights, _) = Weights::uniform(count).reweighted(&vec![-1.234; count]);
+            assert_eq!(weights.ess(), count as f64);
+        }
     }
 
     #[test]

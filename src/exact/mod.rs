@@ -1,1 +1,7 @@
 //! What a particle filter approximates, computed without particles: the oracle of tests and of figures.
+
+mod ekf;
+pub mod joint;
+pub mod one_step;
+
+pub use ekf::{EkfSlam, EkfStep};

@@ -2,6 +2,7 @@
 
 use crate::digest::Digest;
 use crate::error::ParameterError;
+use crate::exact::EkfSlam;
 use crate::execute::Executor;
 use crate::geometry::{Pose2, align, rms};
 use crate::map::Footprint;
@@ -168,6 +169,15 @@ pub enum Association {
     Unknown,
 }
 
+impl Association {
+    fn correspondence(self, tuning: &Tuning) -> Correspondence {
+        match self {
+            Self::Known => Correspondence::Known,
+            Self::Unknown => Correspondence::Unknown(tuning.gate),
+        }
+    }
+}
+
 /// What a reader can set.
 #[derive(Clone, PartialEq, Debug)]
 pub struct LandmarkSetup {
@@ -250,11 +260,7 @@ impl LandmarkRun {
             ProposalKind::Motion => Either::Left(FromMotion { motion, likelihood: Marginal }),
             ProposalKind::Aware => Either::Right(FromMeasurement { motion }),
         };
-        let correspondence = match setup.association {
-            Association::Known => Correspondence::Known,
-            Association::Unknown => Correspondence::Unknown(tuning.gate),
-        };
-        let map = Landmarks::new(tuning.sensor, correspondence);
+        let map = Landmarks::new(tuning.sensor, setup.association.correspondence(tuning));
         let start = log.truth.first().copied().unwrap_or_default();
         let filter = Rbpf::new(proposal, setup.policy, setup.scheme, setup.seed, setup.particles, start, map);
         Ok(Self { log, filter, step: 0 })
@@ -333,6 +339,19 @@ impl LandmarkRun {
     /// Root mean square error of position of raw odometry so far \[m\].
     pub fn rms_odometry(&self) -> f64 {
         rms(&self.log.odometry[..=self.step as usize], &self.log.truth)
+    }
+
+    /// Position errors \[m\], at each step when it was made, of an EKF-SLAM that is told the same of the same drive: RMS over the
+    /// steps. Its one Gaussian must commit to one association.
+    pub fn rms_ekf(&self, setup: &LandmarkSetup, tuning: &Tuning) -> f64 {
+        let start = self.log.truth.first().copied().unwrap_or_default();
+        let mut ekf = EkfSlam::new(tuning.motion, tuning.sensor, setup.association.correspondence(tuning), start);
+        let mut path = vec![start];
+        for (control, features) in self.log.controls.iter().zip(&self.log.sightings) {
+            ekf.step(control, features);
+            path.push(*ekf.pose());
+        }
+        rms(&path, &self.log.truth)
     }
 
     /// Runs to the end. Returns a fingerprint of every pose and weight on the way, and of all maps at the end, bit for bit.

@@ -442,7 +442,7 @@ impl FromStr for PolicyCourse {
 }
 
 /// Named comparisons whose fingerprints are kept with the tests, and must be the same on every platform.
-pub fn golden_policies() -> Vec<(&'static str, PoliciesSetup)> {
+pub fn golden_setups() -> Vec<(&'static str, PoliciesSetup)> {
     let wings = || PoliciesSetup::of(PolicyCourse::Wings);
     vec![
         ("policies-lap", PoliciesSetup::default()),

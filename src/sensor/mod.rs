@@ -37,6 +37,18 @@ pub trait LandmarkSensor: Clone + Send + Sync {
     /// z − ẑ, angles wrapped.
     fn residual(&self, z: &Vector2<f64>, predicted: &Vector2<f64>) -> Vector2<f64>;
 
+    /// A lower bound of νᵀ S⁻¹ ν that costs less than it, for a landmark whose place relative to the robot has the covariance
+    /// `spread` (2 × 2, \[m²\]): what lies beyond a gate by it need not be looked at.
+    fn least_mahalanobis_squared(
+        &self,
+        _world_from_robot: &Pose2,
+        _landmark: &Vector2<f64>,
+        _spread: &Matrix2<f64>,
+        _z: &Vector2<f64>,
+    ) -> f64 {
+        0.0
+    }
+
     /// h⁻¹: the landmark that is seen without noise as z.
     fn locate(&self, world_from_robot: &Pose2, z: &Vector2<f64>) -> Vector2<f64>;
 

@@ -58,6 +58,21 @@ impl LandmarkSensor for RangeBearing {
         Vector2::new(z.x - predicted.x, ops::wrap_angle(z.y - predicted.y))
     }
 
+    /// That of the range alone, which knows no heading: no angle is computed.
+    #[inline]
+    fn least_mahalanobis_squared(
+        &self,
+        world_from_robot: &Pose2,
+        landmark: &Vector2<f64>,
+        spread: &Matrix2<f64>,
+        z: &Vector2<f64>,
+    ) -> f64 {
+        let d = Vector2::new(landmark.x - world_from_robot.x, landmark.y - world_from_robot.y);
+        let q = d.norm_squared().max(NEAREST * NEAREST);
+        let nu = z.x - q.sqrt();
+        nu * nu / (d.dot(&(spread * d)) / q + self.range_std * self.range_std)
+    }
+
     fn locate(&self, world_from_robot: &Pose2, z: &Vector2<f64>) -> Vector2<f64> {
         // Never right on the robot, where there would be no bearing.
         let r = z.x.max(1e3 * NEAREST);

@@ -1,6 +1,7 @@
 //! Fields of landmarks, and what is driven among them.
 
 use crate::motion::Velocity;
+use crate::ops;
 use crate::random::{Purpose, Stream};
 use core::f64::consts::{PI, TAU};
 use nalgebra::Vector2;
@@ -28,21 +29,33 @@ pub const WINGS_LOST: usize = 2 * 2 * WINGS_DEPTH + WINGS_ABOUT + WINGS_SPINS;
 pub const WINGS_SIGN: u32 = 9;
 
 impl Field {
-    /// Two and a half times a figure of eight through twenty-four landmarks: every one of them is left and met again.
+    /// A look round at rest, then a figure of eight, two and a half times, among twenty-four landmarks: every one of them is left
+    /// and met again. The rest anchors the gauge, as the first scans of the lap do: what is seen from the known start says
+    /// later where that was.
     pub fn figure_of_eight() -> Self {
         const RADIUS: f64 = 5.0;
         const STEP: f64 = 0.5;
+        const CLEARANCE: f64 = 0.5;
+        const REST: usize = 20;
         let circle = (TAU * RADIUS / STEP).round();
         let arc = |turn: f64| Velocity { speed: 1.0, turn_rate: turn * TAU / (circle * STEP), duration: STEP };
         let loops = [1.0, -1.0, 1.0, -1.0, 1.0];
-        let controls = loops.iter().flat_map(|turn| core::iter::repeat_n(arc(*turn), circle as usize)).collect();
-        // A lattice of 4 × 6, shaken: landmarks neither in rows nor on top of each other.
-        let landmarks = (0..24).map(|k| {
-            let mut stream = Stream::at(17, Purpose::Trial, 0, k);
-            let (row, column) = (f64::from(k / 6), f64::from(k % 6));
-            let mut shaken = |at: f64, by: f64| at + by * (2.0 * stream.uniform() - 1.0);
-            Vector2::new(shaken(3.2 * (row - 1.5), 0.9), shaken(4.2 * (column - 2.5), 1.2))
-        });
+        let rest = Velocity { speed: 0.0, turn_rate: 0.0, duration: STEP };
+        let driven = loops.iter().flat_map(|turn| core::iter::repeat_n(arc(*turn), circle as usize));
+        let controls = core::iter::repeat_n(rest, REST).chain(driven).collect();
+        // A lattice of 4 × 6, shaken: landmarks neither in rows, nor on top of each other, nor in the robot's way.
+        let clear =
+            |m: &Vector2<f64>| [-RADIUS, RADIUS].iter().all(|y| (ops::hypot(m.x, m.y - y) - RADIUS).abs() > CLEARANCE);
+        let shaken = |k: u32| {
+            let (x, y) = (3.2 * (f64::from(k / 6) - 1.5), 4.2 * (f64::from(k % 6) - 2.5));
+            let shake = |attempt| {
+                let mut stream = Stream::at(17, Purpose::Trial, attempt, k);
+                let mut by = |most: f64| most * (2.0 * stream.uniform() - 1.0);
+                Vector2::new(x + by(0.9), y + by(1.2))
+            };
+            (0..).map(shake).find(clear).expect("most of the field is clear")
+        };
+        let landmarks = (0..24).map(shaken);
         Self { landmarks: landmarks.collect(), controls }
     }
 
@@ -129,7 +142,7 @@ mod tests {
         for control in &field.controls {
             pose = control.apply(&pose);
             let nearest = field.landmarks.iter().map(|m| pose.distance(&Pose2::new(m.x, m.y, 0.0)));
-            assert!(nearest.fold(f64::INFINITY, f64::min) > 0.3, "{pose:?}");
+            assert!(nearest.fold(f64::INFINITY, f64::min) > 0.45, "{pose:?}");
         }
         assert!(pose.minus(&Pose2::default()).norm() < 1e-9);
     }

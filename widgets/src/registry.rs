@@ -1,6 +1,9 @@
 //! All figures by tag. Tests and tools iterate over this list.
 
-use crate::{lap::LapModel, model::Model};
+use crate::{
+    conditioning::ConditioningModel, lap::LapModel, model::Model, proposal::ProposalModel,
+    worked_example::WorkedExampleModel,
+};
 
 /// A kind of figure.
 pub struct Entry {
@@ -13,8 +16,20 @@ pub struct Entry {
 }
 
 /// Every kind there is.
-pub const FIGURES: &[Entry] =
-    &[Entry { tag: "fastslam-lap", title: LapModel::TITLE, make: || Box::new(LapModel::default()) }];
+pub const FIGURES: &[Entry] = &[
+    Entry { tag: "fastslam-lap", title: LapModel::TITLE, make: || Box::new(LapModel::default()) },
+    Entry {
+        tag: "fastslam-conditioning",
+        title: ConditioningModel::TITLE,
+        make: || Box::new(ConditioningModel::default()),
+    },
+    Entry { tag: "fastslam-proposal", title: ProposalModel::TITLE, make: || Box::new(ProposalModel::default()) },
+    Entry {
+        tag: "fastslam-worked-example",
+        title: WorkedExampleModel::TITLE,
+        make: || Box::new(WorkedExampleModel::default()),
+    },
+];
 
 /// The figure of a tag.
 pub fn find(tag: &str) -> Option<&'static Entry> {

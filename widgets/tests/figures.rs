@@ -3,8 +3,9 @@
 use fastslam_widgets::{
     figure::Figure,
     model::Kind,
+    paint::Theme,
     registry::FIGURES,
-    scene::{Handle, Rect, Scene},
+    scene::{Handle, Rect, Role, Scene},
 };
 
 fn scene(figure: &Figure, width: f64) -> Scene {
@@ -55,6 +56,17 @@ fn every_default_and_every_choice_is_accepted() {
             }
         }
         assert_eq!(figure.query(), "");
+    }
+}
+
+#[test]
+fn the_first_pixel_is_paper_because_the_page_takes_its_colour() {
+    for entry in FIGURES {
+        for (width, dpr) in [(340, 1.0), (1000, 2.0)] {
+            let mut figure = Figure::new(entry.tag).unwrap();
+            figure.paint(width, width, dpr, Theme::Dark);
+            assert_eq!(figure.canvas().pixels()[..3], Theme::Dark.color(Role::Paper), "{} at {width}", entry.tag);
+        }
     }
 }
 

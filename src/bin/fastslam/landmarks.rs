@@ -73,6 +73,10 @@ struct Output {
     rms_best_aligned: f64,
     /// \[m\]
     rms_odometry: f64,
+    /// RMS over the steps of the errors of the weighted mean, each when it was made \[m\].
+    rms_online: f64,
+    /// The same of EKF-SLAM on the same drive \[m\].
+    rms_ekf: f64,
     /// In the best particle's map.
     landmarks: u32,
     /// Share of the steps that resampled.
@@ -96,6 +100,8 @@ struct Summary {
     rms_aligned_median: f64,
     /// Median \[m\].
     odometry_rms_median: f64,
+    /// Median of EKF-SLAM on the same drives, its errors as it went \[m\].
+    ekf_rms_median: f64,
 }
 
 /// Where runs get their drive from: a simulation makes one for each seed, a log is the same for all.
@@ -136,17 +142,22 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let run = |seed| LandmarkRun::new(&setup(seed), &source.tuning(), source.log(seed));
     match arguments.seeds {
-        None => one(arguments, run(arguments.seed)?),
+        None => {
+            let run = run(arguments.seed)?;
+            let rms_ekf = run.rms_ekf(&setup(arguments.seed), &source.tuning());
+            one(arguments, run, rms_ekf)
+        }
         Some(seeds) => {
             run(1)?; // refused before anything is run, if it is
             let seeds: Vec<u64> = (1..=seeds).collect();
-            let errors: Result<Vec<[f64; 3]>, _> = seeds
+            let errors: Result<Vec<[f64; 4]>, _> = seeds
                 .par_iter()
                 .progress_with(progress(seeds.len(), "runs"))
                 .map(|seed| {
                     let mut run = run(*seed)?;
                     while run.step().is_some() {}
-                    Ok::<_, Failure>([run.rms_best(), run.rms_best_aligned(), run.rms_odometry()])
+                    let rms_ekf = run.rms_ekf(&setup(*seed), &source.tuning());
+                    Ok::<_, Failure>([run.rms_best(), run.rms_best_aligned(), run.rms_odometry(), rms_ekf])
                 })
                 .collect();
             many(arguments, &errors?)
@@ -154,7 +165,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-fn one(arguments: &Arguments, mut run: LandmarkRun) -> Result<(), Failure> {
+fn one(arguments: &Arguments, mut run: LandmarkRun, rms_ekf: f64) -> Result<(), Failure> {
     let mut steps = Vec::new();
     while let Some(report) = run.step() {
         steps.push(report);
@@ -168,6 +179,8 @@ fn one(arguments: &Arguments, mut run: LandmarkRun) -> Result<(), Failure> {
         rms_best: run.rms_best(),
         rms_best_aligned: run.rms_best_aligned(),
         rms_odometry: run.rms_odometry(),
+        rms_online: mean_square(steps.iter().map(|step| step.error_mean)).sqrt(),
+        rms_ekf,
         landmarks: run.particles()[run.best()].map.iter().count() as u32,
         resampled_fraction: resampled as f64 / steps.len().max(1) as f64,
         map_bytes_unique: footprint.unique,
@@ -182,6 +195,7 @@ fn one(arguments: &Arguments, mut run: LandmarkRun) -> Result<(), Failure> {
          RMS position error of the best    {:8.3} m\n\
          the same after rigid alignment    {:8.3} m\n\
          RMS position error of odometry    {:8.3} m\n\
+         RMS error as it went, of the mean {:8.3} m, of EKF-SLAM {:.3} m\n\
          landmarks in the best map         {:8} (there are {})\n\
          steps that resampled              {:8.0} %\n\
          maps                              {:8.1} kB, {:.1} kB as dense copies\n",
@@ -190,6 +204,8 @@ fn one(arguments: &Arguments, mut run: LandmarkRun) -> Result<(), Failure> {
         output.rms_best,
         output.rms_best_aligned,
         output.rms_odometry,
+        output.rms_online,
+        output.rms_ekf,
         output.landmarks,
         run.log().landmarks.len(),
         100.0 * output.resampled_fraction,
@@ -198,7 +214,12 @@ fn one(arguments: &Arguments, mut run: LandmarkRun) -> Result<(), Failure> {
     ))
 }
 
-fn many(arguments: &Arguments, errors: &[[f64; 3]]) -> Result<(), Failure> {
+fn mean_square(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len().max(1) as f64;
+    values.map(|x| x * x).sum::<f64>() / count
+}
+
+fn many(arguments: &Arguments, errors: &[[f64; 4]]) -> Result<(), Failure> {
     let sorted = |k: usize| {
         let mut values: Vec<f64> = errors.iter().map(|error| error[k]).collect();
         values.sort_unstable_by(f64::total_cmp);
@@ -212,16 +233,19 @@ fn many(arguments: &Arguments, errors: &[[f64; 3]]) -> Result<(), Failure> {
         rms_worst: quantile(&best, 1.0),
         rms_aligned_median: quantile(&sorted(1), 0.5),
         odometry_rms_median: quantile(&sorted(2), 0.5),
+        ekf_rms_median: quantile(&sorted(3), 0.5),
     };
     if arguments.json {
         return print_json(&summary);
     }
-    let Summary { seeds, rms_median, rms_p90, rms_worst, rms_aligned_median, odometry_rms_median } = summary;
+    let Summary { seeds, rms_median, rms_p90, rms_worst, rms_aligned_median, odometry_rms_median, ekf_rms_median } =
+        summary;
     print(&format!(
         "{seeds} seeds, {} particles\n\
          RMS position error of the best    {rms_median:8.3} m median, {rms_p90:.3} m p90, {rms_worst:.3} m worst\n\
          the same after rigid alignment    {rms_aligned_median:8.3} m median\n\
-         RMS position error of odometry    {odometry_rms_median:8.3} m median\n",
+         RMS position error of odometry    {odometry_rms_median:8.3} m median\n\
+         RMS error of EKF-SLAM as it went  {ekf_rms_median:8.3} m median\n",
         arguments.particles
     ))
 }

@@ -3,7 +3,7 @@
 use super::{Innovation, Landmarks, Store};
 use crate::geometry::Pose2;
 use crate::ops;
-use crate::sensor::{Feature, LandmarkSensor};
+use crate::sensor::{Feature, LandmarkSensor, Prediction};
 use nalgebra::Matrix3;
 
 /// How sightings are told apart.
@@ -61,44 +61,63 @@ pub struct Matched {
     pub log_likelihood: f64,
 }
 
-impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
+impl Correspondence {
     // anchor: associate
-    /// Decides what one feature is, for a pose of this mean and covariance P (3 × 3; zeros for a pose that is sure), after
-    /// `taken` was decided for the features before it.
-    pub fn associate(&self, pose: &Pose2, p: &Matrix3<f64>, feature: &Feature, taken: &[Sighted]) -> Matched {
+    /// Decides what one feature is, after `taken` was decided for the features before it. Indices up to `len` are in use;
+    /// `innovation` is what the feature says of the landmark of an index, `None` where there is none, or where it surely lies
+    /// beyond the gate that is asked for.
+    pub fn decide(
+        &self,
+        feature: &Feature,
+        taken: &[Sighted],
+        len: u32,
+        innovation: impl Fn(u32, Option<f64>) -> Option<Innovation>,
+    ) -> Matched {
         let free = |index: u32| !taken.contains(&Sighted::Again(index)) && !taken.contains(&Sighted::First(index));
-        match self.correspondence {
-            Correspondence::Known => {
-                let Some(index) = feature.signature.filter(|index| free(*index)) else {
-                    return Matched { sighted: Sighted::Nothing, innovation: None, log_likelihood: 0.0 };
-                };
-                match self.get(index) {
-                    Some(landmark) => {
-                        let innovation = landmark.innovation(&self.sensor, pose, &feature.z).with_pose(p);
-                        again(index, innovation)
-                    }
+        match self {
+            Self::Known => match feature.signature.filter(|index| free(*index)) {
+                Some(index) => match innovation(index, None) {
+                    Some(innovation) => again(index, innovation),
                     None => Matched { sighted: Sighted::First(index), innovation: None, log_likelihood: 0.0 },
-                }
-            }
-            Correspondence::Unknown(gate) => {
+                },
+                None => Matched { sighted: Sighted::Nothing, innovation: None, log_likelihood: 0.0 },
+            },
+            Self::Unknown(gate) => {
                 let mut best: Option<Matched> = None;
-                for (index, landmark) in self.iter().filter(|(index, _)| free(*index)) {
-                    let innovation = landmark.innovation(&self.sensor, pose, &feature.z).with_pose(p);
+                for index in 0..len {
+                    let Some(innovation) = innovation(index, Some(gate.mahalanobis_squared)) else { continue };
+                    let within = innovation.mahalanobis_squared < gate.mahalanobis_squared;
                     let to_beat = best.map_or(gate.log_new, |best| best.log_likelihood);
-                    if innovation.mahalanobis_squared < gate.mahalanobis_squared && innovation.log_likelihood > to_beat
-                    {
+                    if within && innovation.log_likelihood > to_beat && free(index) {
                         best = Some(again(index, innovation));
                     }
                 }
                 best.unwrap_or_else(|| {
                     let founded = taken.iter().filter(|sighted| matches!(sighted, Sighted::First(_))).count() as u32;
-                    let sighted = Sighted::First(self.store.len() + founded);
-                    Matched { sighted, innovation: None, log_likelihood: gate.log_new }
+                    Matched { sighted: Sighted::First(len + founded), innovation: None, log_likelihood: gate.log_new }
                 })
             }
         }
     }
     // end: associate
+}
+
+impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
+    /// Decides what one feature is, for a pose of this mean and covariance P (3 × 3; zeros for a pose that is sure), after
+    /// `taken` was decided for the features before it.
+    pub fn associate(&self, pose: &Pose2, p: &Matrix3<f64>, feature: &Feature, taken: &[Sighted]) -> Matched {
+        let of_position = p.fixed_view::<2, 2>(0, 0).into_owned();
+        self.correspondence.decide(feature, taken, self.store.len(), |index, gate| {
+            let landmark = self.get(index)?;
+            let spread = landmark.covariance + of_position;
+            let least = || self.sensor.least_mahalanobis_squared(pose, &landmark.mean, &spread, &feature.z);
+            let beyond = gate.is_some_and(|gate| least() >= gate);
+            (!beyond).then(|| {
+                let of_pose = |prediction: &Prediction| prediction.h_x * p * prediction.h_x.transpose();
+                landmark.innovation_with(&self.sensor, pose, &feature.z, of_pose)
+            })
+        })
+    }
 }
 
 fn again(index: u32, innovation: Innovation) -> Matched {

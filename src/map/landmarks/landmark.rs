@@ -37,11 +37,10 @@ pub struct Innovation {
 
 impl Innovation {
     fn new(prediction: Prediction, residual: Vector2<f64>, given_pose: Matrix2<f64>, covariance: Matrix2<f64>) -> Self {
-        let s = &covariance;
-        let det = s.m11 * s.m22 - s.m12 * s.m21;
-        let inverse = Matrix2::new(s.m22, -s.m12, -s.m21, s.m11) / det;
+        let inverse = inverse(&covariance);
         let mahalanobis_squared = residual.dot(&(inverse * residual));
-        let log_likelihood = -0.5 * (mahalanobis_squared + ops::ln(det)) - ops::ln(core::f64::consts::TAU);
+        let log_likelihood =
+            -0.5 * (mahalanobis_squared + ops::ln(determinant(&covariance))) - ops::ln(core::f64::consts::TAU);
         Self { prediction, residual, given_pose, covariance, inverse, log_likelihood, mahalanobis_squared }
     }
 
@@ -51,6 +50,11 @@ impl Innovation {
         let covariance = symmetric(self.given_pose + h_x * pose_covariance * h_x.transpose());
         Self::new(self.prediction, self.residual, self.given_pose, covariance)
     }
+
+    /// det S.
+    pub fn determinant(&self) -> f64 {
+        determinant(&self.covariance)
+    }
 }
 
 impl Landmark {
@@ -58,8 +62,7 @@ impl Landmark {
     /// The first sighting: μ = h⁻¹(x, z), Σ = H_m⁻¹ Q H_m⁻ᵀ.
     pub fn first<Z: LandmarkSensor>(sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) -> Self {
         let mean = sensor.locate(world_from_robot, z);
-        let h = sensor.predict(world_from_robot, &mean).h_m;
-        let inverse = Matrix2::new(h.m22, -h.m12, -h.m21, h.m11) / (h.m11 * h.m22 - h.m12 * h.m21);
+        let inverse = inverse(&sensor.predict(world_from_robot, &mean).h_m);
         Self { mean, covariance: symmetric(inverse * sensor.noise() * inverse.transpose()), evidence: 1 }
     }
     // end: first
@@ -68,10 +71,23 @@ impl Landmark {
     /// ν = z − h(x, μ), S = H_m Σ H_mᵀ + Q: exp(`log_likelihood`) is the marginal ∫ p(z | x, m) p(m | path) dm of a sighting.
     #[inline]
     pub fn innovation<Z: LandmarkSensor>(&self, sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) -> Innovation {
+        self.innovation_with(sensor, world_from_robot, z, |_| Matrix2::zeros())
+    }
+
+    /// The same with more noise (2 × 2) than the landmark's and the sensor's: of a pose of covariance P, H_x P H_xᵀ.
+    #[inline]
+    pub fn innovation_with<Z: LandmarkSensor>(
+        &self,
+        sensor: &Z,
+        world_from_robot: &Pose2,
+        z: &Vector2<f64>,
+        more: impl Fn(&Prediction) -> Matrix2<f64>,
+    ) -> Innovation {
         let prediction = sensor.predict(world_from_robot, &self.mean);
         let h = &prediction.h_m;
-        let covariance = symmetric(h * self.covariance * h.transpose() + sensor.noise());
-        Innovation::new(prediction, sensor.residual(z, &prediction.z), covariance, covariance)
+        let given_pose = symmetric(h * self.covariance * h.transpose() + sensor.noise());
+        let covariance = symmetric(given_pose + more(&prediction));
+        Innovation::new(prediction, sensor.residual(z, &prediction.z), given_pose, covariance)
     }
     // end: innovation
 
@@ -79,15 +95,21 @@ impl Landmark {
     /// K = Σ H_mᵀ S⁻¹, μ ← μ + K ν, Σ ← (I − K H_m) Σ (I − K H_m)ᵀ + K Q Kᵀ: Joseph's form, which stays symmetric and positive
     /// definite whatever rounding does.
     pub fn update<Z: LandmarkSensor>(&mut self, sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) {
-        let Innovation { prediction, residual, inverse, .. } = self.innovation(sensor, world_from_robot, z);
-        let gain = self.covariance * prediction.h_m.transpose() * inverse;
-        let keep = Matrix2::identity() - gain * prediction.h_m;
-        self.mean += gain * residual;
+        let innovation = self.innovation(sensor, world_from_robot, z);
+        let gain = self.gain(&innovation);
+        let keep = Matrix2::identity() - gain * innovation.prediction.h_m;
+        self.mean += gain * innovation.residual;
         self.covariance =
             symmetric(keep * self.covariance * keep.transpose() + gain * sensor.noise() * gain.transpose());
         self.evidence = self.evidence.saturating_add(1);
     }
     // end: update
+
+    /// K = Σ H_mᵀ S⁻¹ (2 × 2): how far the mean follows a residual.
+    #[inline]
+    pub fn gain(&self, innovation: &Innovation) -> Matrix2<f64> {
+        self.covariance * innovation.prediction.h_m.transpose() * innovation.inverse
+    }
 
     /// √ of the larger eigenvalue of Σ \[m\].
     pub fn largest_std(&self) -> f64 {
@@ -95,6 +117,16 @@ impl Landmark {
         let (half_sum, half_difference) = (0.5 * (s.m11 + s.m22), 0.5 * (s.m11 - s.m22));
         (half_sum + (half_difference * half_difference + s.m12 * s.m12).sqrt()).sqrt()
     }
+}
+
+#[inline]
+fn determinant(m: &Matrix2<f64>) -> f64 {
+    m.m11 * m.m22 - m.m12 * m.m21
+}
+
+#[inline]
+fn inverse(m: &Matrix2<f64>) -> Matrix2<f64> {
+    Matrix2::new(m.m22, -m.m12, -m.m21, m.m11) / determinant(m)
 }
 
 /// Both off-diagonals their mean: the last bits of a product of symmetric matrices need not agree.
@@ -119,6 +151,9 @@ mod tests {
         for (z, weight) in [([4.1, 0.05], 2.753_451_476_665), ([4.3, 0.15], 0.863_168_987_665)] {
             let innovation = landmark.innovation(&SENSOR, &Pose2::default(), &Vector2::from(z));
             assert!((innovation.covariance - Matrix2::new(0.25, 0.0, 0.0, 0.01)).norm() < 1e-15);
+            assert!((innovation.determinant() - 0.0025).abs() < 1e-15);
+            // Of the range what the map lacks, of the bearing 4 m of it.
+            assert!((landmark.gain(&innovation) - Matrix2::new(0.84, 0.0, 0.0, 3.0)).norm() < 1e-14);
             assert!((ops::exp(innovation.log_likelihood) - weight).abs() < 1e-9);
         }
     }

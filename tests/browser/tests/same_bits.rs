@@ -2,16 +2,9 @@
 //! The goldens are written natively, by `tests/portability` and `tests/figures`.
 #![cfg(target_arch = "wasm32")]
 
-use fastslam::{
-    digest::Digest,
-    experiment::{
-        landmarks::{LandmarkRun, golden_runs},
-        lap::{Lap, golden_setups},
-        policies::{Policies, golden_policies},
-    },
-};
+use fastslam::{digest::Digest, execute::Executor, experiment::golden_traces};
 use fastslam_widgets::shell::Figure;
-use figures::{LAPS, PICTURES, line, put_readout};
+use figures::{PICTURES, SETUPS, line, put_readout};
 use js_sys::{Reflect, Uint8Array, WebAssembly};
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
@@ -63,24 +56,14 @@ fn pixels(figure: &Figure, [width, height]: [u32; 2]) -> Vec<u8> {
 
 #[wasm_bindgen_test]
 fn whole_runs_leave_the_traces_of_the_native_build() {
-    let traces = golden_setups().into_iter().map(|(name, setup)| {
-        let lap = Lap::new(&setup).expect("a golden setup is valid");
-        line(name, &lap.trace())
-    });
-    let runs = golden_runs().into_iter().map(|(name, course, setup)| {
-        let run = LandmarkRun::new(&setup, &course.tuning(), course.simulate(setup.seed).into());
-        line(name, &run.expect("a golden setup is valid").trace())
-    });
-    let policies = golden_policies()
-        .into_iter()
-        .map(|(name, setup)| line(name, &Policies::new(&setup).expect("a golden setup is valid").trace()));
-    same_lines(&traces.chain(runs).chain(policies).collect::<Vec<_>>(), TRACES);
+    let traces = golden_traces(&Executor::Serial).into_iter().map(|(name, digest)| line(name, &digest));
+    same_lines(&traces.collect::<Vec<_>>(), TRACES);
 }
 
 #[wasm_bindgen_test]
 fn every_readout_of_every_step_has_the_bits_of_the_native_build() {
-    let readouts = LAPS.iter().map(|query| {
-        let mut figure = figure("fastslam-lap", query);
+    let readouts = SETUPS.iter().map(|(tag, query)| {
+        let mut figure = figure(tag, query);
         let mut digest = Digest::new();
         for step in 0..=figure.step_count() {
             figure.seek(step);
@@ -95,7 +78,7 @@ fn every_readout_of_every_step_has_the_bits_of_the_native_build() {
             }
             digest.bytes(figure.describe().as_bytes());
         }
-        line(&format!("fastslam-lap?{query}"), &digest)
+        line(&format!("{tag}?{query}"), &digest)
     });
     same_lines(&readouts.collect::<Vec<_>>(), READOUTS);
 }
@@ -108,7 +91,7 @@ fn every_golden_picture_has_the_pixels_of_the_native_build() {
         figure.paint(size[0], size[1], picture.dpr, picture.theme);
         let mut digest = Digest::new();
         digest.bytes(&pixels(&figure, size));
-        line(picture.name, &digest)
+        picture.line(&digest)
     });
     same_lines(&pictures.collect::<Vec<_>>(), PIXELS);
 }

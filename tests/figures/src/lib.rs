@@ -21,36 +21,84 @@ pub struct Picture {
     pub theme: &'static str,
 }
 
-const fn lap(name: &'static str, query: &'static str, width: u32, dpr: f64, theme: &'static str) -> Picture {
-    Picture { name, tag: "fastslam-lap", query, width, dpr, theme }
+const LAP: &str = "fastslam-lap";
+const CONDITIONING: &str = "fastslam-conditioning";
+const PROPOSAL: &str = "fastslam-proposal";
+const WORKED: &str = "fastslam-worked-example";
+
+const fn picture(
+    tag: &'static str,
+    name: &'static str,
+    query: &'static str,
+    width: u32,
+    dpr: f64,
+    theme: &'static str,
+) -> Picture {
+    Picture { name, tag, query, width, dpr, theme }
 }
 
 /// The first two are what readers without JavaScript see: the default lap on its way back, just resampled. At 1.5 px per css px
 /// they are sharp enough for most screens, and 80 KB each.
 pub const PICTURES: &[Picture] = &[
-    lap("fastslam-lap-light", RESAMPLED, 800, 1.5, "light"),
-    lap("fastslam-lap-dark", RESAMPLED, 800, 1.5, "dark"),
-    lap("start", "", 800, 1.0, "light"),
-    lap("overlays", "step=60&universe=9&truth=on&raw=on", 800, 1.0, "dark"),
-    lap("end-narrow", "step=90&truth=on&raw=on", 340, 2.0, "light"),
-    lap("phone", RESAMPLED, 380, 1.0, "contrast-dark"),
-    lap("tiny", RESAMPLED, 240, 1.0, "contrast-light"),
-    lap("one", "universes=1&step=30", 640, 1.0, "light"),
-    lap("motion-64", "universes=64&proposal=motion&matcher=cell&step=41", 800, 1.0, "light"),
-    lap("motion-256", "universes=256&proposal=motion&matcher=cell&step=12", 800, 1.0, "dark"),
-    lap("motion-256-narrow", "universes=256&proposal=motion&matcher=cell&step=12", 340, 1.0, "light"),
+    picture(LAP, "fastslam-lap-light", RESAMPLED, 800, 1.5, "light"),
+    picture(LAP, "fastslam-lap-dark", RESAMPLED, 800, 1.5, "dark"),
+    picture(LAP, "start", "", 800, 1.0, "light"),
+    picture(LAP, "overlays", "step=60&universe=9&truth=on&raw=on", 800, 1.0, "dark"),
+    picture(LAP, "end-narrow", "step=90&truth=on&raw=on", 340, 2.0, "light"),
+    picture(LAP, "phone", RESAMPLED, 380, 1.0, "contrast-dark"),
+    picture(LAP, "tiny", RESAMPLED, 240, 1.0, "contrast-light"),
+    picture(LAP, "one", "universes=1&step=30", 640, 1.0, "light"),
+    picture(LAP, "motion-64", "universes=64&proposal=motion&matcher=cell&step=41", 800, 1.0, "light"),
+    picture(LAP, "motion-256", "universes=256&proposal=motion&matcher=cell&step=12", 800, 1.0, "dark"),
+    picture(LAP, "motion-256-narrow", "universes=256&proposal=motion&matcher=cell&step=12", 340, 1.0, "light"),
+    picture(PROPOSAL, "fastslam-proposal-light", "", 800, 1.5, "light"),
+    picture(PROPOSAL, "fastslam-proposal-dark", "", 800, 1.5, "dark"),
+    picture(PROPOSAL, "proposal-pair", "landmarks=pair", 1000, 1.0, "light"),
+    picture(PROPOSAL, "proposal-guess", "predict=on&guess=3.5&range-std=0.1", 380, 1.0, "contrast-light"),
+    picture(PROPOSAL, "proposal-run", "predict=on&guess=3.5&run=on&samples=4096", 800, 1.0, "dark"),
+    picture(PROPOSAL, "proposal-near", "odometry=2&landmark-x=0.9&landmark-y=-0.5&range-std=0.02", 640, 1.0, "light"),
+    picture(PROPOSAL, "proposal-tiny", "landmarks=pair&samples=1&predict=on&run=on", 240, 1.0, "contrast-dark"),
+    picture(WORKED, "fastslam-worked-example-light", "", 800, 1.5, "light"),
+    picture(WORKED, "fastslam-worked-example-dark", "", 800, 1.5, "dark"),
+    picture(WORKED, "worked-phone", "", 340, 2.0, "light"),
+    picture(WORKED, "worked-poses", POSES, 980, 1.0, "light"),
+    picture(WORKED, "worked-extremes", EXTREMES, 720, 1.0, "contrast-dark"),
+    picture(CONDITIONING, "fastslam-conditioning-light", "", 800, 1.5, "light"),
+    picture(CONDITIONING, "fastslam-conditioning-dark", "", 800, 1.5, "dark"),
+    picture(CONDITIONING, "conditioned", "condition=on", 1280, 1.0, "light"),
+    picture(CONDITIONING, "conditioning-24", "landmarks=24&poses=12&step=12&row=5&column=40", 800, 1.0, "dark"),
+    picture(CONDITIONING, "conditioning-half", "landmarks=12&step=4&row=3&column=3", 340, 2.0, "light"),
+    picture(CONDITIONING, "conditioning-phone", "", 380, 1.0, "contrast-dark"),
+    picture(CONDITIONING, "conditioning-tiny", "landmarks=24&odometry=3&condition=on", 240, 1.0, "contrast-light"),
 ];
+
+/// What a filter does: one sighting for both particles, from two poses; and the landmark's ellipse is turned.
+const POSES: &str = "x2=0.4&y2=-0.3&theta2=0.08&r2=4.1&phi2=0.05&sigma-xy=0.09&threshold=0.8";
+
+/// Numbers of every size.
+const EXTREMES: &str = "x1=-99.123456&y1=-12.5&theta1=-3.1415926&x2=4.000001&y2=0.000001&sigma-xx=0.0000321&sigma-xy=-0.0000123456&bearing-std=0.00123";
 
 /// A step of the default lap at which it resampled.
 const RESAMPLED: &str = "step=62";
 
-/// Setups whose readouts are kept for every step.
-pub const LAPS: &[&str] = &[
-    "",
-    "universes=1",
-    "universes=7&seed=5&proposal=motion&matcher=cell",
-    "universes=24&policy=always&scheme=residual&odometry=1.5",
-    "policy=never&range-std=0.1&scheme=multinomial",
+/// Figures and setups whose readouts are kept for every step.
+pub const SETUPS: &[(&str, &str)] = &[
+    (LAP, ""),
+    (LAP, "universes=1"),
+    (LAP, "universes=7&seed=5&proposal=motion&matcher=cell"),
+    (LAP, "universes=24&policy=always&scheme=residual&odometry=1.5"),
+    (LAP, "policy=never&range-std=0.1&scheme=multinomial"),
+    (PROPOSAL, ""),
+    (PROPOSAL, "landmarks=pair&seed=8"),
+    (PROPOSAL, "range-std=0.005&bearing-std=0.01&samples=4096&predict=on&guess=7.5&run=on"),
+    (PROPOSAL, "odometry=2&range-std=0.5&landmark-x=-0.1&landmark-y=0.3&samples=1"),
+    (WORKED, ""),
+    (WORKED, POSES),
+    (WORKED, EXTREMES),
+    (CONDITIONING, ""),
+    (CONDITIONING, "condition=on&row=3&column=4"),
+    (CONDITIONING, "odometry=3&range-std=0.01&landmarks=24&poses=12&row=48&column=7"),
+    (CONDITIONING, "odometry=0&range-std=0.5&landmarks=3&poses=2"),
 ];
 
 /// The figure of a tag in the state that a link names, simulated.
@@ -71,6 +119,12 @@ impl Picture {
         [f64::from(self.width), height].map(|side| (side * self.dpr).round() as u32)
     }
 
+    /// Its line in the golden file: all that it takes to paint it again, and the size and value of its pixels' digest.
+    pub fn line(&self, pixels: &Digest) -> String {
+        let Self { name, tag, query, width, dpr, theme } = self;
+        line(&format!("{name} {tag}?{query} {width} {dpr} {theme}"), pixels)
+    }
+
     /// Paints it: the figure, and its width and height \[device px\].
     pub fn paint(&self) -> (Figure, [u32; 2]) {
         let mut figure = figure(self.tag, self.query);
@@ -88,7 +142,7 @@ pub fn put_readout(digest: &mut Digest, name: &str, value: Option<f64>, text: &s
     digest.bytes(text.as_bytes());
 }
 
-/// Every readout of every step of a lap, and what is said of it, as a fingerprint.
+/// Every readout of every step of a figure, and what is said of it, as a fingerprint.
 pub fn readouts(tag: &str, query: &str) -> Digest {
     let mut figure = figure(tag, query);
     let mut digest = Digest::new();

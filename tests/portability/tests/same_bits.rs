@@ -4,28 +4,16 @@
 //! A change that is meant to change numbers is written with `UPDATE_GOLDENS=1 cargo test -p portability`.
 
 use fastslam::execute::Executor;
-use fastslam::experiment::landmarks::{LandmarkRun, golden_runs};
-use fastslam::experiment::lap::{Lap, golden_setups};
-use fastslam::experiment::policies::{Policies, golden_policies};
+use fastslam::experiment::golden_traces;
+use fastslam::experiment::lap::{Lap, LapSetup, golden_setups};
 use std::fmt::Write;
-use std::sync::Arc;
 
 const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/golden.txt");
 
 /// Lines `name size digest`.
 fn fingerprints(executor: &Executor) -> String {
     let mut lines = String::new();
-    for (name, setup) in golden_setups() {
-        let digest = Lap::new(&setup).unwrap().with_executor(executor.clone()).trace();
-        writeln!(lines, "{name} {} {:016x}", digest.size(), digest.value()).unwrap();
-    }
-    for (name, course, setup) in golden_runs() {
-        let run = LandmarkRun::new(&setup, &course.tuning(), Arc::new(course.simulate(setup.seed))).unwrap();
-        let digest = run.with_executor(executor.clone()).trace();
-        writeln!(lines, "{name} {} {:016x}", digest.size(), digest.value()).unwrap();
-    }
-    for (name, setup) in golden_policies() {
-        let digest = Policies::new(&setup).unwrap().with_executor(executor.clone()).trace();
+    for (name, digest) in golden_traces(executor) {
         writeln!(lines, "{name} {} {:016x}", digest.size(), digest.value()).unwrap();
     }
     lines
@@ -55,7 +43,7 @@ fn another_seed_has_another_fingerprint() {
     let mut values: Vec<u64> = (0..4)
         .map(|seed| {
             let (_, setup) = golden_setups().swap_remove(0);
-            Lap::new(&fastslam::experiment::lap::LapSetup { seed, ..setup }).unwrap().trace().value()
+            Lap::new(&LapSetup { seed, ..setup }).unwrap().trace().value()
         })
         .collect();
     values.sort_unstable();

@@ -1,10 +1,9 @@
 //! From the world to the figure: metres to css px, cells to shades.
 
-use crate::scene::{Cells, FREE, OCCUPIED, Point, Rect, UNKNOWN, clip_polyline};
+use crate::scene::{Cells, FREE, OCCUPIED, Point, Rect, UNKNOWN, clip_polyline, robot};
 use fastslam::{
     geometry::Pose2,
     map::grid::{CellRect, Grid},
-    ops,
 };
 
 /// The cells shown: the apartment, [0, 40) × [0, 30), and two cells around it for maps that drifted.
@@ -53,13 +52,8 @@ impl View {
 
     /// An arrow head of this length from centre to nose \[css px\] that points where the robot looks; `None` out of view.
     pub fn robot(&self, pose: &Pose2, length: f64) -> Option<Vec<Point>> {
-        let [x, y] = self.point([pose.x, pose.y]);
-        let (sin, cos) = ops::sin_cos(pose.theta);
-        let corner = |[along, across]: [f64; 2]| {
-            [x + length * (along * cos - across * sin), y - length * (along * sin + across * cos)]
-        };
-        let corners = [[1.0, 0.0], [-0.8, 0.75], [-0.4, 0.0], [-0.8, -0.75]];
-        self.area.inset(1.5 * length).contains([x, y]).then(|| corners.map(corner).to_vec())
+        let at = self.point([pose.x, pose.y]);
+        self.area.inset(1.5 * length).contains(at).then(|| robot(at, pose.theta, length))
     }
 }
 

@@ -38,13 +38,48 @@ pub fn disc(pixels: &mut Pixmap, [x, y]: [f32; 2], radius: f32, color: Color) {
     for (j, row) in pixels.pixels_mut().chunks_exact_mut(width).enumerate().take(y1).skip(y0) {
         for (i, pixel) in row.iter_mut().enumerate().take(x1).skip(x0) {
             let (dx, dy) = (i as f32 + 0.5 - x, j as f32 + 0.5 - y);
-            let cover = (255.0 * (reach - (dx * dx + dy * dy).sqrt()).clamp(0.0, 1.0) + 0.5) as i32;
-            let mix = |from: u8, to: u8| (i32::from(from) + (i32::from(to) - i32::from(from)) * cover / 255) as u8;
-            let [r, g, b] =
-                [mix(pixel.red(), color.red()), mix(pixel.green(), color.green()), mix(pixel.blue(), color.blue())];
-            *pixel = Color::from_rgba(r, g, b, 255).unwrap_or(color); // opaque stays opaque
+            cover(pixel, color, reach - (dx * dx + dy * dy).sqrt());
         }
     }
+}
+
+/// A thin line without ends: of each column it crosses (of each row, where it is steep), it covers the pixels as its strip does.
+/// The pieces of a curve share no column, so that no joint is darker.
+pub fn strand(pixels: &mut Pixmap, a: [f32; 2], b: [f32; 2], width: f32, color: Color) {
+    let steep = (b[1] - a[1]).abs() > (b[0] - a[0]).abs();
+    // Along the line, then across.
+    let turn = |[x, y]: [f32; 2]| if steep { [y, x] } else { [x, y] };
+    let [mut a, mut b] = [turn(a), turn(b)];
+    if a[0] > b[0] {
+        (a, b) = (b, a);
+    }
+    let stride = pixels.width() as usize;
+    let [length, breadth] = turn([pixels.width() as f32, pixels.height() as f32]);
+    let slope = (b[1] - a[1]) / (b[0] - a[0]);
+    let half = 0.5 * width * (1.0 + slope * slope).sqrt();
+    let first = |edge: f32| (edge - 0.5).ceil().min(length) as usize; // the first whose middle is beyond
+    if ![a[0], a[1], b[0], b[1], half].iter().all(|x| x.is_finite()) {
+        return;
+    }
+    for i in first(a[0])..first(b[0]) {
+        let middle = a[1] + slope * (i as f32 + 0.5 - a[0]);
+        let (from, to) = ((middle - half).max(0.0), (middle + half).min(breadth));
+        for j in from as usize..to.ceil() as usize {
+            let at = if steep { i * stride + j } else { j * stride + i };
+            let share = to.min(j as f32 + 1.0) - from.max(j as f32);
+            if let Some(pixel) = pixels.pixels_mut().get_mut(at) {
+                cover(pixel, color, share);
+            }
+        }
+    }
+}
+
+/// Covers a share of a pixel, 0 to 1.
+fn cover(pixel: &mut Color, color: Color, share: f32) {
+    let cover = (255.0 * share.clamp(0.0, 1.0) + 0.5) as i32;
+    let mix = |from: u8, to: u8| (i32::from(from) + (i32::from(to) - i32::from(from)) * cover / 255) as u8;
+    let [r, g, b] = [mix(pixel.red(), color.red()), mix(pixel.green(), color.green()), mix(pixel.blue(), color.blue())];
+    *pixel = Color::from_rgba(r, g, b, 255).unwrap_or(color); // opaque stays opaque
 }
 
 /// Cells, each in the colour of its shade. A cell becomes a block of whole device pixels; where cells are smaller than

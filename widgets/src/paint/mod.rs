@@ -2,7 +2,7 @@
 //!
 //! Maps, borders and plates are written straight into whole device pixels, which is crisp and fast; lines, discs and glyphs are
 //! paths, filled by tiny-skia. All shapes of a mark go into one path, because a fill costs more to begin than to go on with;
-//! clouds of samples are written straight into pixels too.
+//! clouds of samples and bundles of thin lines are written straight into pixels too.
 
 mod blit;
 mod theme;
@@ -22,6 +22,9 @@ pub const MAX_SIDE: u32 = 8191;
 
 /// From this many on, discs are no path: 4096 would take a frame of their own.
 const CLOUD: usize = 512;
+
+/// Strands wider than this \[device px\] are a path: their joints would be seen.
+const THIN: f32 = 2.5;
 
 /// Reusable pixels.
 pub struct Canvas {
@@ -96,6 +99,17 @@ impl Brush<'_> {
                 lines.iter().for_each(|line| self.polyline(&mut path, line));
                 let stroke = self.stroke(*width, *dash);
                 self.fill(path, Some(stroke), *role);
+            }
+            Mark::Strands { lines, width, role } => {
+                let (device, color) = ((width * self.scale) as f32, opaque(self.theme.color(*role)));
+                if device > THIN {
+                    let (lines, width, dash, role) = (lines.clone(), *width, None, *role);
+                    return self.mark(&Mark::Lines { lines, width, dash, role });
+                }
+                for pair in lines.iter().flat_map(|line| line.windows(2)) {
+                    let [a, b] = [pair[0], pair[1]].map(|point| self.at(point));
+                    blit::strand(&mut self.canvas.pixels, a, b, device, color);
+                }
             }
             Mark::Polygons { polygons, role } => {
                 let mut path = self.scratch();
@@ -216,13 +230,51 @@ impl Brush<'_> {
 mod tests {
     use super::*;
 
-    fn discs(centres: Vec<Point>) -> Vec<u8> {
-        let marks = vec![Mark::Discs { centres, radius: 1.5, role: Role::Ink }];
-        let (regions, handles) = (Vec::new(), Vec::new());
+    fn painted(mark: Mark) -> Vec<u8> {
+        let (marks, regions, handles) = (vec![mark], Vec::new(), Vec::new());
         let scene = Scene { width: 40.0, height: 40.0, marks, regions, handles, description: String::new() };
         let mut canvas = Canvas::default();
         canvas.paint(&scene, 40, 40, Theme::Light);
         canvas.pixels().to_vec()
+    }
+
+    fn discs(centres: Vec<Point>) -> Vec<u8> {
+        painted(Mark::Discs { centres, radius: 1.5, role: Role::Ink })
+    }
+
+    #[test]
+    fn a_strand_has_the_ink_of_a_line_and_lies_where_it_does() {
+        for k in 0..24 {
+            let (sin, cos) = fastslam::ops::sin_cos(f64::from(k) * 0.27);
+            // In two pieces, as of a curve, and one of them partly outside.
+            let line = [-25.0, 3.0, 14.0].map(|along| [20.3 + along * cos, 19.6 + along * sin]).to_vec();
+            for width in [1.0, 2.0] {
+                let [lines, other] = [vec![line.clone()], vec![line.clone()]];
+                let strand = painted(Mark::Strands { lines, width, role: Role::Ink });
+                let stroke = painted(Mark::Lines { lines: other, width, dash: None, role: Role::Ink });
+                let ink = |pixels: &[u8]| pixels.chunks_exact(4).map(|p| f64::from(255 - p[1])).sum::<f64>();
+                let ratio = ink(&strand) / ink(&stroke);
+                assert!((0.93..1.07).contains(&ratio), "{k}, {width}: {ratio}");
+                // A line that lay a pixel aside would differ by all of its ink.
+                let differ: f64 =
+                    strand.iter().zip(&stroke).step_by(4).map(|(a, b)| f64::from(a.abs_diff(*b))).sum::<f64>();
+                assert!(differ < 0.3 * ink(&stroke), "{k}, {width}: {differ} of {}", ink(&stroke));
+            }
+        }
+    }
+
+    #[test]
+    fn strands_outside_or_nowhere_draw_nothing() {
+        let blank = painted(Mark::Discs { centres: Vec::new(), radius: 1.0, role: Role::Ink });
+        for line in [
+            [[-9.0, -9.0], [-1.5, 50.0]],
+            [[f64::NAN, 1.0], [5.0, 5.0]],
+            [[7.0, 7.0], [7.0, 7.0]],
+            [[-1e300, 60.0], [1e300, 60.0]],
+        ] {
+            let strand = Mark::Strands { lines: vec![line.to_vec(), Vec::new()], width: 1.0, role: Role::Ink };
+            assert_eq!(painted(strand), blank, "{line:?}");
+        }
     }
 
     #[test]

@@ -4,15 +4,17 @@
 //! painted in any theme.
 
 mod clip;
+mod formula;
 mod handle;
 mod rect;
 mod shape;
 mod text;
 
 pub use clip::clip_polyline;
+pub use formula::{Formula, number};
 pub use handle::Handle;
 pub use rect::Rect;
-pub use shape::{closed, ellipse};
+pub use shape::{closed, ellipse, robot};
 pub use text::{Anchor, Text, heading, text};
 
 /// A point \[css px\].
@@ -49,6 +51,8 @@ pub enum Role {
     Posterior,
     /// A landmark, and what is known of it.
     Landmark,
+    /// One of the particles that are compared, from 0 on.
+    Particle(u8),
     /// What the reader moves or has switched on.
     Accent,
     /// A line that tells a size, from 0 (faint) to 255 (as [`Role::Ink`]).
@@ -120,6 +124,15 @@ pub enum Mark {
         width: f64,
         /// Lengths of dash and gap \[css px\]; `None` for solid.
         dash: Option<[f64; 2]>,
+        /// Its meaning.
+        role: Role,
+    },
+    /// Open polylines of one kind by the hundred, all over the picture: painted quicker where they are thin.
+    Strands {
+        /// Each one's points.
+        lines: Vec<Vec<Point>>,
+        /// Thickness \[css px\].
+        width: f64,
         /// Its meaning.
         role: Role,
     },

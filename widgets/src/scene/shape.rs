@@ -27,6 +27,16 @@ pub fn ellipse(centre: Point, covariance: [[f64; 2]; 2], scale: f64) -> Vec<Poin
     (0..CORNERS).map(corner).collect()
 }
 
+/// A robot: an arrow head of this length from centre to nose \[css px\], which points along `theta` \[rad\], counter-clockwise from
+/// the right.
+pub fn robot([x, y]: Point, theta: f64, length: f64) -> Vec<Point> {
+    let (sin, cos) = ops::sin_cos(theta);
+    let corner = |[along, across]: [f64; 2]| {
+        [x + length * (along * cos - across * sin), y - length * (along * sin + across * cos)]
+    };
+    [[1.0, 0.0], [-0.8, 0.75], [-0.4, 0.0], [-0.8, -0.75]].map(corner).to_vec()
+}
+
 /// A polygon as a line that ends where it begins: its outline.
 pub fn closed(mut polygon: Vec<Point>) -> Vec<Point> {
     polygon.extend(polygon.first().copied());

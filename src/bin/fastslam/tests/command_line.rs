@@ -128,7 +128,7 @@ fn files_that_cannot_be_used_are_named() {
 fn landmarks_print_what_they_are_asked_for() {
     let one = json("landmarks --particles 5 --seed 2 --proposal 2.0 --association unknown --json");
     assert!(one["rms_best"].as_f64().unwrap() > 0.0 && one["rms_odometry"].as_f64() > one["rms_best"].as_f64());
-    assert_eq!(one["steps"].as_array().unwrap().len(), 315);
+    assert_eq!(one["steps"].as_array().unwrap().len(), 335);
     let many = json("landmarks --course tags --particles 4 --proposal 1.0 --association known --seeds 3 --json");
     let [median, p90, worst] = ["rms_median", "rms_p90", "rms_worst"].map(|key| many[key].as_f64().unwrap());
     assert!(0.0 < median && median <= p90 && p90 <= worst);

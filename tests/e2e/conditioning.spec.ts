@@ -1,0 +1,195 @@
+// What a reader does with the graphical model.
+import AxeBuilder from '@axe-core/playwright'
+import { expect, test } from './fixtures'
+import { Figure } from './figure'
+
+const open = (page: import('@playwright/test').Page, address = './') => new Figure(page, 'fastslam-conditioning').open(address)
+
+/** The row and the column of the entry that is named. */
+async function entry(figure: Figure): Promise<[number, number]> {
+  return [Number(await figure.box('row').inputValue()), Number(await figure.box('column').inputValue())]
+}
+
+/** A point of the page that lies in the matrix, by shares of its width and height: its corner and size come from two entries. */
+async function inMatrix(figure: Figure, across: number, down: number): Promise<{ x: number; y: number }> {
+  const middle = async (row: number, column: number) => {
+    await figure.box('row').fill(String(row))
+    await figure.box('row').press('Enter')
+    await figure.box('column').fill(String(column))
+    await figure.box('column').press('Enter')
+    await figure.settled()
+    const box = (await figure.handle('entry').boundingBox())!
+    return [box.x + box.width / 2, box.y + box.height / 2] as const
+  }
+  const last = Number(await figure.box('row').getAttribute('max'))
+  await figure.canvas.evaluate(canvas => canvas.scrollIntoView({ block: 'center', behavior: 'instant' }))
+  const [x0, y0] = await middle(1, 1)
+  const [x1, y1] = await middle(last, last)
+  return { x: x0 + across * (x1 - x0), y: y0 + down * (y1 - y0) }
+}
+
+test.describe('at rest', () => {
+  test.use({ contextOptions: { reducedMotion: 'reduce' } })
+
+  test('it says what it shows before anyone touches it', async ({ page }) => {
+    const figure = await open(page)
+    await expect(figure.sentence).toContainText('no pose saw both')
+    expect((await figure.readouts())['off_block']).toMatch(/^[1-9]\d* of \d+$/)
+  })
+
+  test('the toggle makes every entry off the blocks 0, by mouse and by keyboard, and brings them back', async ({ page }) => {
+    const figure = await open(page)
+    const toggle = figure.toggle('condition')
+    const [before, picture] = [await figure.readouts(), await figure.picture()]
+    await toggle.click()
+    await figure.settled()
+    await expect(toggle).toHaveAttribute('aria-pressed', 'true')
+    const given = await figure.readouts()
+    expect(given['off_block']).toMatch(/^0 of [1-9]\d*$/)
+    expect([given['largest'], given['mean'], given['rho']]).toEqual(['0', '0', '0'])
+    expect(await figure.picture()).not.toBe(picture)
+    await expect(figure.sentence).toContainText('stands alone')
+    await toggle.focus()
+    await page.keyboard.press('Enter')
+    await figure.settled()
+    await expect(toggle).toHaveAttribute('aria-pressed', 'false')
+    expect([await figure.readouts(), await figure.picture()]).toEqual([before, picture])
+    await page.keyboard.press('Space')
+    await figure.settled()
+    expect(await figure.readouts()).toEqual(given)
+  })
+
+  test('the pointer over the matrix names the entry below, without a click', async ({ page }) => {
+    const figure = await open(page)
+    const at = await inMatrix(figure, 0, 0.5)
+    await page.mouse.move(5, 5)
+    await page.mouse.move(at.x, at.y, { steps: 3 })
+    await figure.settled()
+    expect((await entry(figure))[1]).toBe(1)
+    const [row] = await entry(figure)
+    expect(row).toBeGreaterThan(1)
+    const words = (await figure.handle('entry').getAttribute('aria-valuetext'))!
+    expect(words).toMatch(/^m\d+\.[xy] and m1\.x: ρ = −?\d/)
+    await expect(figure.sentence).toContainText(words)
+    // Away from the matrix it stays.
+    await page.mouse.move(5, 5)
+    await figure.settled()
+    expect(await entry(figure)).toEqual([row, 1])
+  })
+
+  test('the entry takes the focus and moves by arrow keys', async ({ page }) => {
+    const figure = await open(page)
+    const handle = figure.handle('entry')
+    const [row, column] = await entry(figure)
+    const [words, picture] = [await handle.getAttribute('aria-valuetext'), await figure.picture()]
+    await handle.focus()
+    await page.keyboard.press('ArrowRight')
+    await page.keyboard.press('ArrowDown')
+    await figure.settled()
+    expect(await entry(figure)).toEqual([row + 1, column + 1])
+    expect(await handle.getAttribute('aria-valuetext')).not.toBe(words)
+    expect(await figure.picture()).not.toBe(picture)
+    await expect(handle).toBeFocused()
+    await page.keyboard.press('Alt+ArrowUp')
+    await page.keyboard.press('Shift+ArrowLeft')
+    await figure.settled()
+    expect(await entry(figure)).toEqual([row, Math.max(1, column + 1 - 10)])
+  })
+
+  for (const colorScheme of ['light', 'dark'] as const) {
+    test(`axe finds nothing, with the path unknown and known: ${colorScheme}`, async ({ page }) => {
+      await page.emulateMedia({ colorScheme })
+      const figure = await open(page)
+      await figure.openSettings()
+      for (const _ of ['unknown', 'known']) {
+        const found = await new AxeBuilder({ page }).include('fastslam-conditioning').analyze()
+        expect(found.violations.map(violation => `${violation.id}: ${violation.nodes.map(node => node.html).join(' | ')}`)).toEqual([])
+        await figure.toggle('condition').click()
+        await figure.settled()
+      }
+    })
+  }
+
+  for (const name of ['odometry', 'range-std', 'landmarks', 'poses']) {
+    test(`dragging ${name} changes what is known, and back gives the same numbers`, async ({ page }) => {
+      const figure = await open(page)
+      await figure.openSettings()
+      const [before, value] = [await figure.readouts(), await figure.box(name).inputValue()]
+      const slider = figure.slider(name)
+      await slider.scrollIntoViewIfNeeded()
+      const box = (await slider.boundingBox())!
+      await page.mouse.click(box.x + box.width * 0.85, box.y + box.height / 2)
+      await figure.settled()
+      expect(await figure.box(name).inputValue()).not.toBe(value)
+      expect(await figure.readouts()).not.toEqual(before)
+      await figure.box(name).fill(value)
+      await figure.box(name).press('Enter')
+      await figure.settled()
+      expect(await figure.readouts()).toEqual(before)
+    })
+  }
+
+  test('perfect wheels leave next to nothing, but not nothing', async ({ page }) => {
+    const figure = await open(page)
+    await figure.openSettings()
+    const { off_block } = await figure.readouts()
+    await figure.box('odometry').fill('0')
+    await figure.box('odometry').press('Enter')
+    await figure.settled()
+    expect(await figure.readouts()).toMatchObject({ off_block, largest: '0.00' })
+  })
+
+  test('the drive is made pose by pose, and played from its start', async ({ page }) => {
+    const figure = await open(page)
+    const last = await figure.last()
+    expect(await figure.position()).toBe(last)
+    const end = await figure.picture()
+    await figure.stepBack.click()
+    await figure.settled()
+    expect(await figure.position()).toBe(last - 1)
+    expect(await figure.picture()).not.toBe(end)
+    await figure.scrubTo(0)
+    await expect(figure.sentence).toContainText('known start')
+    await figure.play.click()
+    await expect.poll(() => figure.position()).toBe(last)
+    await figure.settled()
+    expect(await figure.picture()).toBe(end)
+  })
+
+  test('its link brings back the whole state', async ({ page }) => {
+    const figure = await open(page)
+    await figure.openSettings()
+    await figure.toggle('condition').click()
+    await figure.box('landmarks').fill('11')
+    await figure.box('landmarks').press('Enter')
+    await figure.handle('entry').focus()
+    await page.keyboard.press('ArrowLeft')
+    await figure.scrubTo(5)
+    const before = [await figure.readouts(), await entry(figure), await figure.picture()]
+    const link = await figure.element.evaluate((element: HTMLElement & { link: string }) => element.link)
+    expect(link).toContain('#fastslam-conditioning?')
+    await page.goto('about:blank')
+    const again = await open(page, link)
+    expect([await again.readouts(), await entry(again), await again.picture()]).toEqual(before)
+  })
+})
+
+test.describe('on a phone', () => {
+  test.use({ viewport: { width: 380, height: 800 }, hasTouch: true, isMobile: true, contextOptions: { reducedMotion: 'reduce' } })
+
+  test('a tap on the matrix names the entry, and nothing is wider than the screen', async ({ page }) => {
+    const figure = await open(page)
+    const width = await page.evaluate(() => document.documentElement.scrollWidth)
+    expect(width).toBeLessThanOrEqual(380)
+    const at = await inMatrix(figure, 1, 0.25)
+    await page.touchscreen.tap(at.x, at.y)
+    await figure.settled()
+    const last = Number(await figure.box('row').getAttribute('max'))
+    const [row, column] = await entry(figure)
+    expect(column).toBe(last)
+    expect(row).toBeLessThan(last / 2)
+    await figure.toggle('condition').tap()
+    await figure.settled()
+    expect((await figure.readouts())['rho']).toBe('0')
+  })
+})

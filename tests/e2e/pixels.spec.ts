@@ -1,0 +1,64 @@
+// The wasm that readers get, after all that was done to make it small, against every golden picture.
+import { readFileSync } from 'node:fs'
+import { join } from 'node:path'
+import { root } from '../../scripts/lib.mjs'
+import { startServer } from '../../scripts/serve.mjs'
+import { expect, test } from './fixtures'
+
+interface Picture {
+  name: string
+  tag: string
+  query: string
+  width: number
+  dpr: number
+  theme: string
+  /** Size and value of the digest, as in the golden file. */
+  digest: string
+}
+
+const pictures = readFileSync(join(root, 'tests', 'figures', 'golden', 'pixels.txt'), 'utf8')
+  .trim()
+  .split('\n')
+  .map((line): Picture => {
+    const [name, figure, width, dpr, theme, ...digest] = line.split(' ')
+    const [tag, query] = figure!.split(/\?(.*)/)
+    return { name: name!, tag: tag!, query: query!, width: Number(width), dpr: Number(dpr), theme: theme!, digest: digest.join(' ') }
+  })
+
+/** Runs in the page: the digests of these pictures, by the calls that the page makes. */
+async function digests(wanted: Picture[]): Promise<string[]> {
+  const module = '/fastslam_widgets.js'
+  const { default: init, Figure } = (await import(module)) as typeof import('../../widgets/pkg/fastslam_widgets')
+  const { memory } = await init()
+  return wanted.map(({ tag, query, width, dpr, theme }) => {
+    const figure = new Figure(tag)
+    figure.load(query)
+    while (figure.pending() > 0) figure.work()
+    const [w, h] = [width, figure.height(width)].map(side => Math.round(side * dpr))
+    figure.paint(w!, h!, dpr, theme)
+    // FNV-1a of 64 bits, in halves: × 0x100000001b3 is × 0x1b3, and a shift by 40.
+    let [high, low] = [0xcbf29ce4, 0x84222325]
+    for (const byte of new Uint8Array(memory.buffer, figure.pixels(), 4 * w! * h!)) {
+      low = (low ^ byte) >>> 0
+      const product = low * 0x1b3
+      high = (Math.imul(high, 0x1b3) + Math.floor(product / 2 ** 32) + (low << 8)) >>> 0
+      low = product >>> 0
+    }
+    figure.free()
+    const hex = (x: number) => x.toString(16).padStart(8, '0')
+    return `${4 * w! * h!} ${hex(high)}${hex(low)}`
+  })
+}
+
+test('the optimised wasm paints every golden picture to the last pixel', async ({ browser }) => {
+  test.slow()
+  const server = await startServer({ folder: join(root, 'widgets', 'pkg') })
+  // A context of its own: the fixture's may not leave the site.
+  const page = await (await browser.newContext()).newPage()
+  await page.route('**/blank', route => route.fulfill({ contentType: 'text/html', body: '<!doctype html><title>pixels</title>' }))
+  await page.goto(`${server.url}blank`)
+  const painted = await page.evaluate(digests, pictures)
+  expect(pictures.map(({ name }, i) => `${name} ${painted[i]}`)).toEqual(pictures.map(({ name, digest }) => `${name} ${digest}`))
+  await page.context().close()
+  await server.close()
+})

@@ -1,0 +1,238 @@
+// What a reader does with the two proposals.
+import AxeBuilder from '@axe-core/playwright'
+import { readFile } from 'node:fs/promises'
+import type { Page } from '@playwright/test'
+import { expect, test } from './fixtures'
+import { Figure } from './figure'
+
+test.use({ contextOptions: { reducedMotion: 'reduce' } })
+
+const open = (page: Page, query?: string) =>
+  new Figure(page, 'fastslam-proposal').open(query === undefined ? './' : `./#fastslam-proposal?${query}`)
+
+/** The middle of a handle [px of the window]. */
+async function middle(figure: Figure, handle: string): Promise<{ x: number; y: number }> {
+  await figure.handle(handle).scrollIntoViewIfNeeded()
+  const box = (await figure.handle(handle).boundingBox())!
+  return { x: box.x + box.width / 2, y: box.y + box.height / 2 }
+}
+
+test('it says what it shows before anyone touches it, and has no timeline', async ({ page }) => {
+  const figure = await open(page)
+  await expect(figure.sentence).toContainText(/in the posterior's 90 % region/)
+  await expect(figure.play).toBeHidden()
+  await expect(figure.scrub).toBeHidden()
+  const { ess_aware, inside_motion } = await figure.readouts()
+  expect(ess_aware).toContain('1000.0 of 1000')
+  expect(inside_motion).toMatch(/^\d\d\.\d/)
+})
+
+for (const handle of ['landmark', 'landmark-again']) {
+  test(`${handle} is dragged by the mouse, and numbers and picture follow`, async ({ page }) => {
+    const figure = await open(page)
+    await figure.openSettings()
+    const [readouts, picture] = [await figure.readouts(), await figure.picture()]
+    const { x, y } = await middle(figure, handle)
+    await page.mouse.move(x + 3, y - 2)
+    await page.mouse.down()
+    await page.mouse.move(x - 80, y + 40, { steps: 12 })
+    await figure.settled()
+    expect(await figure.readouts()).not.toEqual(readouts)
+    await page.mouse.up()
+    expect(await figure.picture()).not.toBe(picture)
+    expect(Number(await figure.box('landmark-x').inputValue())).toBeLessThan(2.4)
+    expect(Number(await figure.box('landmark-y').inputValue())).toBeLessThan(-0.2)
+    // Back by typing: the same numbers to the last digit.
+    for (const [name, value] of [['landmark-x', '2.7'], ['landmark-y', '-0.1']] as const) {
+      await figure.box(name).fill(value)
+      await figure.box(name).press('Enter')
+    }
+    await figure.settled()
+    expect(await figure.readouts()).toEqual(readouts)
+  })
+}
+
+test('a drag shows a picture at every frame', async ({ page }) => {
+  const figure = await open(page)
+  const { x, y } = await middle(figure, 'landmark')
+  await page.mouse.move(x, y)
+  await page.mouse.down()
+  const slowest = figure.element.evaluate(
+    () =>
+      new Promise<number>(resolve => {
+        const times: number[] = []
+        const frame = (now: number) => {
+          times.push(now)
+          if (times.length < 60) requestAnimationFrame(frame)
+          else resolve(times.slice(1).map((t, i) => t - times[i]!).sort((a, b) => a - b)[50]!)
+        }
+        requestAnimationFrame(frame)
+      }),
+  )
+  for (let i = 0; i < 120; i++) await page.mouse.move(x - i / 2, y + 20 * Math.sin(i / 10))
+  await page.mouse.up()
+  // Most frames in two of the screen's: the machines that test are slower than those that read.
+  expect(await slowest).toBeLessThan(40)
+})
+
+test('the landmark is moved by keyboard, coarsely with Shift and finely with Alt', async ({ page }) => {
+  const figure = await open(page)
+  await figure.openSettings()
+  await figure.handle('landmark').focus()
+  for (const [keys, x, y] of [
+    ['ArrowLeft', '2.65', '-0.1'],
+    ['ArrowUp', '2.65', '-0.05'],
+    ['Shift+ArrowLeft', '2.15', '-0.05'],
+    ['Alt+ArrowRight', '2.155', '-0.05'],
+  ] as const) {
+    await page.keyboard.press(keys)
+    await figure.settled()
+    await expect(figure.box('landmark-x')).toHaveValue(x)
+    await expect(figure.box('landmark-y')).toHaveValue(y)
+  }
+  await expect(figure.handle('landmark')).toBeFocused()
+  await expect(figure.handle('landmark')).toHaveAttribute('aria-valuetext', '2.155 m ahead of the start, -0.05 m to the left')
+})
+
+test('a sharper sensor makes the ratio larger, a blunt one small', async ({ page }) => {
+  const figure = await open(page)
+  await figure.openSettings()
+  const ratio = async () => Number.parseFloat((await figure.readouts())['ratio']!)
+  const before = await ratio()
+  await figure.slider('range-std').focus()
+  await page.keyboard.press('Home')
+  await figure.settled()
+  expect(await ratio()).toBeGreaterThan(before)
+  await page.keyboard.press('End')
+  await figure.settled()
+  expect(await ratio()).toBeLessThan(2)
+  for (const name of ['bearing-std', 'odometry', 'samples']) {
+    const readouts = await figure.readouts()
+    await figure.slider(name).focus()
+    await page.keyboard.press('End')
+    await figure.settled()
+    expect(await figure.readouts(), name).not.toEqual(readouts)
+  }
+})
+
+test('of a pair, 2.0 loses the one and 1.0 keeps both', async ({ page }) => {
+  const figure = await open(page)
+  await figure.openSettings()
+  await figure.element.locator('select[name=landmarks]').selectOption('pair')
+  await figure.settled()
+  const { a_motion, a_aware, ess_aware } = await figure.readouts()
+  expect(Number.parseFloat(a_motion!)).toBeGreaterThan(5)
+  expect(Number.parseFloat(a_aware!)).toBe(0)
+  expect(ess_aware).toContain('1000.0 of 1000')
+  await expect(figure.sentence).toContainText('What speaks for A is lost')
+})
+
+test('predict first: a guess is dragged, run, compared, and part of the link', async ({ page }) => {
+  const figure = await open(page)
+  await expect(figure.handle('guess')).toHaveCount(0)
+  await figure.toggle('predict').click()
+  await figure.settled()
+  const { x, y } = await middle(figure, 'guess')
+  await page.mouse.move(x, y)
+  await page.mouse.down()
+  await page.mouse.move(x + 150, y, { steps: 6 })
+  await page.mouse.up()
+  await figure.settled()
+  await expect(figure.sentence).toContainText('it has not been run')
+  await figure.handle('guess').focus()
+  const guess = Number(await figure.handle('guess').getAttribute('aria-valuenow'))
+  await page.keyboard.press('ArrowRight')
+  await figure.settled()
+  expect(Number(await figure.handle('guess').getAttribute('aria-valuenow'))).toBeCloseTo(guess + 0.1, 5)
+  expect((await figure.readouts())['ratio_half']).toContain('–')
+  await figure.toggle('run').click()
+  await figure.settled()
+  await expect(figure.toggle('run')).toHaveAttribute('aria-pressed', 'true')
+  await expect(figure.sentence).toContainText('At half the range noise')
+  const result = [await figure.readouts(), await figure.picture()]
+  expect(result[0]).not.toEqual(expect.objectContaining({ ratio_half: expect.stringContaining('–') }))
+
+  // The link brings guess and result to another reader.
+  const link = await figure.element.evaluate(element => (element as HTMLElement & { link: string }).link)
+  expect(link).toContain('predict=on')
+  await page.goto('about:blank')
+  const other = await new Figure(page, 'fastslam-proposal').open(link)
+  expect([await other.readouts(), await other.picture()]).toEqual(result)
+
+  // Another guess is another try.
+  await other.handle('guess').focus()
+  await page.keyboard.press('ArrowLeft')
+  await other.settled()
+  await expect(other.toggle('run')).toHaveAttribute('aria-pressed', 'false')
+  await expect(other.sentence).toContainText('it has not been run')
+})
+
+test('a link that asks too much is told of, and the rest of it shown', async ({ page }) => {
+  const figure = await open(page, 'range-std=7&landmark-x=1.5')
+  await expect(figure.alert).toContainText('range-std')
+  await expect(figure.alert).toContainText('from 0.005 to 0.5 m')
+  await figure.openSettings()
+  await expect(figure.box('landmark-x')).toHaveValue('1.5')
+})
+
+test('data has a row for every sample', async ({ page }) => {
+  const figure = await open(page, 'samples=64')
+  const [file] = await Promise.all([page.waitForEvent('download'), figure.menu('Save data (CSV)')])
+  const lines = (await readFile(await file.path())).toString().trim().split('\n')
+  expect(lines[0]).toContain('motion_weight')
+  expect(lines.length).toBe(1 + 64)
+})
+
+test.describe('on a phone', () => {
+  test.use({ viewport: { width: 380, height: 740 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 })
+
+  test('a finger drags the landmark and not the page, and elsewhere the page and not the landmark', async ({ page }) => {
+    const figure = await open(page)
+    await figure.openSettings()
+    await figure.canvas.evaluate(canvas => canvas.scrollIntoView({ block: 'start', behavior: 'instant' }))
+    await figure.settled()
+    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(380)
+    const client = await page.context().newCDPSession(page)
+    const touch = (type: 'touchStart' | 'touchMove' | 'touchEnd', ...touchPoints: { x: number; y: number }[]) =>
+      client.send('Input.dispatchTouchEvent', { type, touchPoints })
+    const swipe = async (x: number, y: number, dx: number, dy: number) => {
+      await touch('touchStart', { x, y })
+      for (let i = 1; i <= 10; i++) {
+        await touch('touchMove', { x: x + (dx * i) / 10, y: y + (dy * i) / 10 })
+        await page.waitForTimeout(16)
+      }
+      await touch('touchEnd')
+      await page.waitForTimeout(400)
+    }
+    const grip = (await figure.handle('landmark').boundingBox())!
+    const before = await page.evaluate(() => scrollY)
+    await swipe(grip.x + grip.width / 2, grip.y + grip.height / 2, -90, -30)
+    await figure.settled()
+    expect(await page.evaluate(() => scrollY)).toBe(before)
+    const x = await figure.box('landmark-x').inputValue()
+    expect(Number(x)).toBeLessThan(2.2)
+    const canvas = (await figure.canvas.boundingBox())!
+    await swipe(canvas.x + 100, canvas.y + 330, 0, -200)
+    expect(await page.evaluate(() => scrollY)).toBeGreaterThan(before + 100)
+    await expect(figure.box('landmark-x')).toHaveValue(x)
+  })
+})
+
+for (const [what, options] of Object.entries({
+  light: { colorScheme: 'light' },
+  'a dark phone': { colorScheme: 'dark', viewport: { width: 380, height: 800 } },
+} as const)) {
+  test.describe(what, () => {
+    test.use({ ...options })
+
+    test('axe finds nothing while a guess is asked for', async ({ page }) => {
+      const figure = await open(page, 'predict=on&landmarks=pair')
+      await figure.openSettings()
+      const found = await new AxeBuilder({ page })
+        .include('fastslam-proposal')
+        .withTags(['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'])
+        .analyze()
+      expect(found.violations.map(violation => `${violation.id}: ${violation.nodes.map(node => node.html).join(' | ')}`)).toEqual([])
+    })
+  })
+}

@@ -1,0 +1,946 @@
+//! Laws of FastSLAM with landmarks: against the Kalman filter where all is linear, against sums over dense grids where it is not.
+
+use fastslam::exact::EkfSlam;
+use fastslam::geometry::{Pose2, sample_semidefinite};
+use fastslam::map::ConditionalMap;
+use fastslam::map::landmarks::{Balanced, Blocks, Correspondence, Gate, Landmark, Landmarks, Matched, Sighted, Store};
+use fastslam::motion::{Motion, Odometry, OdometryModel, Velocity, VelocityModel};
+use fastslam::ops;
+use fastslam::proposal::{FromMeasurement, FromMotion, Likelihood, Marginal, Proposal, ProposalTrace};
+use fastslam::random::{Purpose, Stream};
+use fastslam::rbpf::{Particle, Rbpf};
+use fastslam::resampling::{ResamplePolicy, Scheme};
+use fastslam::sensor::{Feature, LandmarkSensor, Prediction, RangeBearing};
+use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
+use proptest::prelude::*;
+
+// A world in which everything is linear and Gaussian.
+
+/// x' = x + u + noise, in the world's frame.
+#[derive(Clone, Copy, Debug)]
+struct Drift;
+
+const R: Matrix3<f64> = Matrix3::new(0.04, 0.01, 0.005, 0.01, 0.03, -0.004, 0.005, -0.004, 0.01);
+
+impl Motion for Drift {
+    type Control = Vector3<f64>;
+
+    fn apply(&self, from: &Pose2, u: &Vector3<f64>) -> Pose2 {
+        from.plus(u)
+    }
+
+    fn sample(&self, from: &Pose2, u: &Vector3<f64>, stream: &mut Stream) -> Pose2 {
+        sample_semidefinite(&self.apply(from, u), &R, stream)
+    }
+
+    fn covariance(&self, _: &Pose2, _: &Vector3<f64>) -> Matrix3<f64> {
+        R
+    }
+
+    fn jacobian(&self, _: &Pose2, _: &Vector3<f64>) -> Matrix3<f64> {
+        Matrix3::identity()
+    }
+}
+
+/// z = m − (x, y) + noise.
+#[derive(Clone, Copy, Debug)]
+struct Offset;
+
+const Q: Matrix2<f64> = Matrix2::new(0.05, 0.01, 0.01, 0.04);
+
+impl LandmarkSensor for Offset {
+    fn predict(&self, at: &Pose2, landmark: &Vector2<f64>) -> Prediction {
+        Prediction {
+            z: landmark - Vector2::new(at.x, at.y),
+            h_x: Matrix2x3::new(-1.0, 0.0, 0.0, 0.0, -1.0, 0.0),
+            h_m: Matrix2::identity(),
+        }
+    }
+
+    fn residual(&self, z: &Vector2<f64>, predicted: &Vector2<f64>) -> Vector2<f64> {
+        z - predicted
+    }
+
+    fn locate(&self, at: &Pose2, z: &Vector2<f64>) -> Vector2<f64> {
+        z + Vector2::new(at.x, at.y)
+    }
+
+    fn noise(&self) -> Matrix2<f64> {
+        Q
+    }
+
+    fn sees(&self, _: &Pose2, _: &Vector2<f64>, _: f64) -> bool {
+        true
+    }
+}
+
+const STEPS: u32 = 5;
+
+/// What happened in that world: every step's control and sightings of the first `landmarks` landmarks.
+fn linear_log(landmarks: u32) -> Vec<(Vector3<f64>, Vec<Feature>)> {
+    let mut pose = Pose2::default();
+    let step = |k| {
+        let mut stream = Stream::at(1, Purpose::WorldOdometry, k, 0);
+        let u = Vector3::new(0.5, 0.1 * f64::from(k), 0.05);
+        pose = Drift.sample(&pose, &u, &mut stream);
+        let see = |j| {
+            let landmark = Vector2::new(2.0 + f64::from(j), 1.0 - f64::from(j * j));
+            let noise = Vector2::from(stream.normals::<2>());
+            let z = Offset.predict(&pose, &landmark).z + Q.cholesky().unwrap().l() * noise;
+            Feature { z, signature: Some(j) }
+        };
+        (u, (0..landmarks).map(see).collect())
+    };
+    (0..STEPS).map(step).collect()
+}
+
+fn empty<S: Store>() -> Landmarks<Offset, S> {
+    Landmarks::new(Offset, Correspondence::Known)
+}
+
+fn kalman(log: &[(Vector3<f64>, Vec<Feature>)]) -> (EkfSlam<Drift, Offset>, f64) {
+    let mut filter = EkfSlam::new(Drift, Offset, Correspondence::Known, Pose2::default());
+    let log_evidence = log.iter().map(|(u, features)| filter.step(u, features).log_evidence).sum();
+    (filter, log_evidence)
+}
+
+/// The normal equations of all poses and landmarks at once, solved in one go: no recursion, no gain. To 1e-10, as the numbers of
+/// condition are below 1e3.
+#[test]
+fn the_joint_filter_is_the_kalman_filter_where_all_is_linear() {
+    const N: u32 = 3;
+    let log = linear_log(N);
+    let (poses, n) = (3 * STEPS as usize, 3 * STEPS as usize + 2 * N as usize);
+    let (mut information, mut vector) = (DMatrix::<f64>::zeros(n, n), DVector::<f64>::zeros(n));
+    let mut observe = |h: DMatrix<f64>, noise: DMatrix<f64>, z: DVector<f64>| {
+        let weighted = h.transpose() * noise.try_inverse().unwrap();
+        information += &weighted * h;
+        vector += weighted * z;
+    };
+    for (k, (u, features)) in log.iter().enumerate() {
+        let mut h = DMatrix::zeros(3, n);
+        h.view_mut((0, 3 * k), (3, 3)).fill_with_identity();
+        if k > 0 {
+            h.view_mut((0, 3 * k - 3), (3, 3)).copy_from(&-Matrix3::identity());
+        }
+        observe(h, DMatrix::from_iterator(3, 3, R.iter().copied()), DVector::from_iterator(3, u.iter().copied()));
+        for (j, feature) in features.iter().enumerate() {
+            let mut h = DMatrix::zeros(2, n);
+            h.view_mut((0, 3 * k), (2, 2)).copy_from(&-Matrix2::identity());
+            h.view_mut((0, poses + 2 * j), (2, 2)).fill_with_identity();
+            let z = DVector::from_iterator(2, feature.z.iter().copied());
+            observe(h, DMatrix::from_iterator(2, 2, Q.iter().copied()), z);
+        }
+    }
+    let covariance = information.try_inverse().unwrap();
+    let mean = &covariance * vector;
+    // The filter keeps the last pose and the landmarks: the marginal of those.
+    let kept = poses - 3;
+    let (filter, _) = kalman(&log);
+    let pose = Vector3::new(filter.pose().x, filter.pose().y, filter.pose().theta);
+    assert!((pose - mean.fixed_rows::<3>(kept)).norm() < 1e-10);
+    for (index, landmark) in filter.iter() {
+        assert!((landmark.mean - mean.fixed_rows::<2>(poses + 2 * index as usize)).norm() < 1e-10);
+    }
+    let size = n - kept;
+    assert!((filter.covariance() - covariance.view((kept, kept), (size, size))).norm() < 1e-10);
+}
+
+/// Mean and covariance of the pose and of the landmark of a population, and the log of its evidence: 15 numbers.
+fn linear_moments<P>(proposal: P, policy: ResamplePolicy, seed: u64, count: usize) -> [f64; 15]
+where
+    P: Proposal<Landmarks<Offset>, Control = Vector3<f64>>,
+{
+    let mut filter = Rbpf::new(proposal, policy, Scheme::Systematic, seed, count, Pose2::default(), empty());
+    let mut log_evidence = 0.0;
+    let mut weights = filter.weights().clone();
+    for (u, features) in linear_log(1) {
+        let report = filter.step(&u, &features);
+        log_evidence += weights.reweighted(&report.log_increments).1;
+        weights = filter.weights().clone();
+    }
+    let weighted = || filter.particles().iter().zip(weights.as_slice());
+    let pose: Vector3<f64> = weighted().map(|(p, w)| p.world_from_robot.minus(&Pose2::default()) * *w).sum();
+    let outer = |p: &Particle<Landmarks<Offset>>| {
+        let d = p.world_from_robot.minus(&Pose2::default()) - pose;
+        d * d.transpose()
+    };
+    let pose_covariance: Matrix3<f64> = weighted().map(|(p, w)| outer(p) * *w).sum();
+    let (mean, covariance) = mixture(weighted().map(|(p, w)| (p.map.get(0).unwrap(), *w)));
+    moments(&pose, &pose_covariance, &mean, &covariance, log_evidence)
+}
+
+/// Mean and covariance of a mixture of Gaussians.
+fn mixture<'a>(parts: impl Iterator<Item = (&'a Landmark, f64)> + Clone) -> (Vector2<f64>, Matrix2<f64>) {
+    let mean: Vector2<f64> = parts.clone().map(|(landmark, w)| landmark.mean * w).sum();
+    let spread =
+        |landmark: &Landmark| landmark.covariance + (landmark.mean - mean) * (landmark.mean - mean).transpose();
+    (mean, parts.map(|(landmark, w)| spread(landmark) * w).sum())
+}
+
+fn moments(pose: &Vector3<f64>, p: &Matrix3<f64>, m: &Vector2<f64>, s: &Matrix2<f64>, log_evidence: f64) -> [f64; 15] {
+    [pose.x, pose.y, pose.z, p.m11, p.m12, p.m13, p.m22, p.m23, p.m33, m.x, m.y, s.m11, s.m12, s.m22, log_evidence]
+}
+
+fn exact_moments() -> [f64; 15] {
+    let (filter, log_evidence) = kalman(&linear_log(1));
+    let landmark = filter.landmark(0).unwrap();
+    let pose = filter.pose().minus(&Pose2::default());
+    moments(&pose, &filter.pose_covariance(), &landmark.mean, &landmark.covariance, log_evidence)
+}
+
+/// Errors of all moments, for each of `seeds` filters; of the evidence the ratio less one, which has no bias.
+fn linear_errors(aware: bool, policy: ResamplePolicy, count: usize, seeds: u64) -> Vec<[f64; 15]> {
+    let exact = exact_moments();
+    let error = |seed| {
+        let of = if aware {
+            linear_moments(FromMeasurement { motion: Drift }, policy, seed, count)
+        } else {
+            linear_moments(FromMotion { motion: Drift, likelihood: Marginal }, policy, seed, count)
+        };
+        let mut error: [f64; 15] = core::array::from_fn(|k| of[k] - exact[k]);
+        error[14] = ops::exp(error[14]) - 1.0;
+        error
+    };
+    (0..seeds).map(error).collect()
+}
+
+/// n = 20 filters of 10 000 particles. The standard error of a mean over filters comes from their scatter; |t| < 6.1 is α = 7e-6
+/// for each of 60 numbers (Student's t with 19 degrees of freedom). The bias of a weighted mean is 1/M_eff of a deviation, a tenth
+/// of the standard error.
+#[test]
+fn with_many_particles_both_proposals_are_the_kalman_filter() {
+    for aware in [true, false] {
+        for policy in [ResamplePolicy::Never, ResamplePolicy::EssBelow(0.9)] {
+            let errors = linear_errors(aware, policy, 10_000, 20);
+            for k in 0..15 {
+                let mean = errors.iter().map(|e| e[k]).sum::<f64>() / 20.0;
+                let variance = errors.iter().map(|e| (e[k] - mean) * (e[k] - mean)).sum::<f64>() / 19.0;
+                let t = mean / (variance / 20.0).sqrt();
+                assert!(t.abs() < 6.1, "aware {aware}, {policy}, number {k}: {mean} is {t} standard errors");
+                // Not vacuous: filters of 10 000 agree.
+                assert!(variance < 0.05 * 0.05, "aware {aware}, {policy}, number {k}: scatters by {}", variance.sqrt());
+            }
+        }
+    }
+}
+
+/// n = 40 filters of 400 and of 10 000 particles: √25 = 5. The root mean square of four independent numbers over 40 filters has a
+/// relative standard error of 1/√320, the quotient of two of √2 as much, 0.08: from 3.6 to 6.9 is ± 4 of it in logarithms.
+#[test]
+fn the_error_shrinks_with_the_root_of_the_number_of_particles() {
+    for aware in [true, false] {
+        let rms = |count| {
+            let exact = exact_moments();
+            let errors = linear_errors(aware, ResamplePolicy::EssBelow(0.9), count, 40);
+            // x and y of the pose and of the landmark, each in its own deviations.
+            let square = |e: &[f64; 15]| [(0, 3), (1, 6), (9, 11), (10, 13)].map(|(k, s)| e[k] * e[k] / exact[s]);
+            (errors.iter().flat_map(square).sum::<f64>() / 160.0).sqrt()
+        };
+        let ratio = rms(400) / rms(10_000);
+        assert!((3.6..6.9).contains(&ratio), "aware {aware}: {ratio}");
+    }
+}
+
+/// ∫ p(z | x) p(x | u) dx, once by draws of the motion prior and once in closed form. n = 40 000, 4 standard errors: α = 6e-5.
+#[test]
+fn the_mean_weight_of_1_0_is_the_weight_of_2_0() {
+    let known = [(2.0, 1.0), (3.0, 0.0)].map(|(x, y)| Landmark {
+        mean: Vector2::new(x, y),
+        covariance: Matrix2::new(0.02, 0.005, 0.005, 0.03),
+        evidence: 1,
+    });
+    let particle = Particle { world_from_robot: Pose2::default(), map: empty::<Blocks>().with(known), node: 0 };
+    let (u, features) = linear_log(2).remove(0);
+    let one = FromMotion { motion: Drift, likelihood: Marginal };
+    let n = 40_000_u32;
+    let draws: Vec<f64> = (0..n)
+        .map(|k| {
+            let mut stream = Stream::at(3, Purpose::Trial, k, 0);
+            ops::exp(one.propose(&particle, &u, &features, &mut stream).log_increment)
+        })
+        .collect();
+    let mean = draws.iter().sum::<f64>() / f64::from(n);
+    let variance = draws.iter().map(|w| (w - mean) * (w - mean)).sum::<f64>() / f64::from(n);
+    let two = FromMeasurement { motion: Drift }.fold(&particle.map, &particle.world_from_robot, &u, &features);
+    let (expected, error) = (ops::exp(two.log_evidence), (variance / f64::from(n)).sqrt());
+    assert!((mean - expected).abs() < 4.0 * error, "{mean} for {expected} ± {error}");
+    assert!(error < 0.02 * expected);
+}
+
+// Range and bearing.
+
+const SENSOR: RangeBearing =
+    RangeBearing { range_std: 0.08, bearing_std: 0.05, max_range: 8.0, field_of_view: core::f64::consts::TAU };
+
+const ODOMETRY: OdometryModel = OdometryModel { alphas: [0.1, 0.02, 0.08, 0.02] };
+const TURN: Odometry = Odometry { rot1: 0.2, trans: 1.0, rot2: 0.1 };
+
+fn landmark(x: f64, y: f64, variance: f64) -> Landmark {
+    Landmark { mean: Vector2::new(x, y), covariance: Matrix2::identity() * variance, evidence: 1 }
+}
+
+fn seen(sensor: &RangeBearing, from: &Pose2, landmark: &Vector2<f64>, signature: u32, offset: [f64; 2]) -> Feature {
+    Feature { z: sensor.predict(from, landmark).z + Vector2::from(offset), signature: Some(signature) }
+}
+
+/// One particle, two landmarks of its map, a step and what it saw; everything's noise times `scale`.
+struct OneStep {
+    motion: OdometryModel,
+    particle: Particle<Landmarks<RangeBearing>>,
+    features: Vec<Feature>,
+}
+
+fn one_step(scale: f64) -> OneStep {
+    let sensor =
+        RangeBearing { range_std: SENSOR.range_std * scale, bearing_std: SENSOR.bearing_std * scale, ..SENSOR };
+    let known = [landmark(4.0, 1.2, 0.01 * scale * scale), landmark(-1.0, 3.0, 0.01 * scale * scale)];
+    let to = TURN.apply(&Pose2::default());
+    let off = |a: f64, b: f64| [a * sensor.range_std, b * sensor.bearing_std];
+    let features = vec![
+        seen(&sensor, &to, &known[0].mean, 0, off(0.7, -0.4)),
+        seen(&sensor, &to, &known[1].mean, 1, off(-0.5, 0.9)),
+    ];
+    let map = Landmarks::new(sensor, Correspondence::Known).with(known);
+    let particle = Particle { world_from_robot: Pose2::default(), map, node: 0 };
+    OneStep { motion: ODOMETRY.scaled(scale), particle, features }
+}
+
+impl OneStep {
+    /// The posterior's mean from x ⊕ u and covariance, summed on a lattice of 61³ poses to ± 5 σ: those that the noises of
+    /// the control lead to, which are (x, y, θ) in other coordinates.
+    fn dense(&self) -> (Vector3<f64>, Matrix3<f64>) {
+        let (origin, stds) = (TURN.apply(&Pose2::default()), self.motion.stds(&TURN));
+        let side: Vec<f64> = (-30..=30).map(|k| f64::from(k) / 6.0).collect();
+        let mut sum = (0.0, Vector3::zeros(), Matrix3::zeros());
+        let mut add = |a: f64, b: f64, c: f64| {
+            let u = Odometry {
+                rot1: TURN.rot1 + stds[0] * a,
+                trans: TURN.trans + stds[1] * b,
+                rot2: TURN.rot2 + stds[2] * c,
+            };
+            let pose = u.apply(&Pose2::default());
+            let (log_likelihood, _) = Marginal.log_likelihood(&self.particle.map, &pose, &self.features);
+            let (weight, d) = (ops::exp(log_likelihood - 0.5 * (a * a + b * b + c * c)), pose.minus(&origin));
+            sum.0 += weight;
+            sum.1 += d * weight;
+            sum.2 += d * d.transpose() * weight;
+        };
+        side.iter().for_each(|a| side.iter().for_each(|b| side.iter().for_each(|c| add(*a, *b, *c))));
+        let mean = sum.1 / sum.0;
+        (mean, sum.2 / sum.0 - mean * mean.transpose())
+    }
+
+    /// All nine moments of 10 000 weighted draws against the dense ones, in standard errors.
+    fn deviations(&self, proposal: &impl Proposal<Landmarks<RangeBearing>, Control = Odometry>) -> Vec<f64> {
+        let (origin, (mean, covariance)) = (TURN.apply(&Pose2::default()), self.dense());
+        let draw = |slot| {
+            let mut stream = Stream::at(11, Purpose::Proposal, 1, slot);
+            let proposed = proposal.propose(&self.particle, &TURN, &self.features, &mut stream);
+            (proposed.world_from_robot.minus(&origin), proposed.log_increment)
+        };
+        let draws: Vec<(Vector3<f64>, f64)> = (0..10_000).map(draw).collect();
+        let log_sum = ops::log_sum_exp(&draws.iter().map(|(_, w)| *w).collect::<Vec<_>>());
+        let deviation = |value: &dyn Fn(&Vector3<f64>) -> f64, expected: f64| {
+            let weighted = || draws.iter().map(|(d, w)| (value(d), ops::exp(w - log_sum)));
+            let estimate = weighted().map(|(v, w)| v * w).sum::<f64>();
+            let variance = weighted().map(|(v, w)| (v - estimate) * (v - estimate) * w * w).sum::<f64>();
+            (estimate - expected) / variance.sqrt()
+        };
+        let pairs = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+        let first = (0..3).map(|i| deviation(&|d| d[i], mean[i]));
+        let second =
+            pairs.iter().map(|&(i, j)| deviation(&|d| (d[i] - mean[i]) * (d[j] - mean[j]), covariance[(i, j)]));
+        first.chain(second).collect()
+    }
+}
+
+/// n = 10 000 draws, 3 standard errors: α = 0.0027 for each of nine moments. No linearisation is in it but the landmark's own, which
+/// the dense sum shares.
+#[test]
+fn one_step_of_1_0_has_the_posteriors_mean_and_covariance() {
+    let step = one_step(1.0);
+    let deviations = step.deviations(&FromMotion { motion: step.motion, likelihood: Marginal });
+    assert!(deviations.iter().all(|z| z.abs() < 3.0), "{deviations:?}");
+}
+
+/// The same for 2.0, whose claim is the linearised posterior. What linearising shifts, in deviations, is of first order in the noises:
+/// 4.5 standard errors at full noise, 0.45 at a tenth of it, where this is. The first assertion holds that shift, without draws.
+#[test]
+fn one_step_of_2_0_has_the_posteriors_mean_and_covariance() {
+    let step = one_step(0.1);
+    let proposal = FromMeasurement { motion: step.motion };
+    let folded = proposal.fold(&step.particle.map, &step.particle.world_from_robot, &TURN, &step.features);
+    let (mean, covariance) = step.dense();
+    let shift = folded.mean.minus(&TURN.apply(&Pose2::default())) - mean;
+    assert!((0..3).all(|k| shift[k].abs() < 0.5 * (covariance[(k, k)] / 10_000.0).sqrt()), "{shift}");
+    let deviations = step.deviations(&proposal);
+    assert!(deviations.iter().all(|z| z.abs() < 3.0), "{deviations:?}");
+}
+
+/// PR 13.3: Σ_x = (H_xᵀ Q_j⁻¹ H_x + R_t⁻¹)⁻¹, μ_x = x̂ + Σ_x H_xᵀ Q_j⁻¹ ν, feature by feature. To 1e-9: numbers of condition are
+/// below 1e4.
+#[test]
+fn the_fold_is_the_information_form() {
+    let OneStep { motion, particle, features } = one_step(1.0);
+    let from = &particle.world_from_robot;
+    let (mut mean, mut p, mut log_weight) = (motion.apply(from, &TURN), motion.covariance(from, &TURN), 0.0);
+    for feature in &features {
+        let known = particle.map.get(feature.signature.unwrap()).unwrap();
+        let innovation = known.innovation(&SENSOR, &mean, &feature.z);
+        let (h_x, q_j) = (innovation.prediction.h_x, innovation.covariance);
+        let s = h_x * p * h_x.transpose() + q_j;
+        let nu = innovation.residual;
+        let quadratic = nu.dot(&(s.try_inverse().unwrap() * nu));
+        log_weight -= 0.5 * (quadratic + ops::ln(s.determinant())) + ops::ln(core::f64::consts::TAU);
+        let weighted = h_x.transpose() * q_j.try_inverse().unwrap();
+        p = (weighted * h_x + p.try_inverse().unwrap()).try_inverse().unwrap();
+        mean = mean.plus(&(p * weighted * nu));
+    }
+    let folded = FromMeasurement { motion }.fold(&particle.map, from, &TURN, &features);
+    assert!(folded.informed);
+    assert!(folded.mean.minus(&mean).norm() < 1e-9);
+    assert!((folded.covariance - p).norm() < 1e-9);
+    assert!((folded.log_evidence - log_weight).abs() < 1e-9);
+}
+
+/// A motion with this much added to its covariance's diagonal.
+#[derive(Clone, Copy, Debug)]
+struct Floored<D>(D, f64);
+
+impl<D: Motion> Motion for Floored<D> {
+    type Control = D::Control;
+
+    fn apply(&self, from: &Pose2, u: &D::Control) -> Pose2 {
+        self.0.apply(from, u)
+    }
+
+    fn sample(&self, from: &Pose2, u: &D::Control, stream: &mut Stream) -> Pose2 {
+        self.0.sample(from, u, stream)
+    }
+
+    fn covariance(&self, from: &Pose2, u: &D::Control) -> Matrix3<f64> {
+        self.0.covariance(from, u) + Matrix3::identity() * self.1
+    }
+}
+
+fn is_the_limit_of_a_vanishing_floor<D: Motion + Copy>(motion: D, u: &D::Control, rank: usize) {
+    let OneStep { particle, features, .. } = one_step(1.0);
+    let from = &particle.world_from_robot;
+    assert_eq!(motion.covariance(from, u).symmetric_eigenvalues().iter().filter(|e| **e > 1e-12).count(), rank);
+    let singular = FromMeasurement { motion }.fold(&particle.map, from, u, &features);
+    for floor in [1e-4, 1e-6, 1e-8] {
+        let floored = FromMeasurement { motion: Floored(motion, floor) }.fold(&particle.map, from, u, &features);
+        // Of first order in the floor: the information of both sightings, less than 2000, times residuals below ten deviations.
+        assert!(floored.mean.minus(&singular.mean).norm() < 2e3 * floor, "{floor}: {floored:?} for {singular:?}");
+        assert!(
+            (floored.covariance - singular.covariance).norm() < 1e2 * floor,
+            "{floor}: {floored:?} for {singular:?}"
+        );
+    }
+    for slot in 0..100 {
+        let mut stream = Stream::at(1, Purpose::Proposal, 0, slot);
+        let pose = FromMeasurement { motion }.propose(&particle, u, &features, &mut stream).world_from_robot;
+        assert!([pose.x, pose.y, pose.theta].iter().all(|x| x.is_finite()));
+        assert!(rank > 0 || pose == *from, "a robot that surely stands still moved to {pose:?}");
+    }
+}
+
+#[test]
+fn the_fold_needs_no_inverse_of_the_motions_covariance() {
+    let velocity = VelocityModel { speed_std: 0.1, turn_rate_std: 0.05, alphas: [0.02, 0.01, 0.03, 0.04] };
+    is_the_limit_of_a_vanishing_floor(ODOMETRY, &Odometry { rot1: 0.0, trans: 0.0, rot2: 0.0 }, 0);
+    let translation = OdometryModel { alphas: [0.1, 0.0, 0.08, 0.02] };
+    is_the_limit_of_a_vanishing_floor(translation, &Odometry { rot1: 0.0, trans: 1.0, rot2: 0.0 }, 1);
+    is_the_limit_of_a_vanishing_floor(velocity, &Velocity { speed: 1.0, turn_rate: 0.3, duration: 1.0 }, 2);
+}
+
+#[test]
+fn with_nothing_mapped_in_view_the_motion_model_is_drawn_from() {
+    let OneStep { motion, particle, features } = one_step(1.0);
+    let unmapped: Vec<Feature> =
+        features.iter().map(|f| Feature { signature: f.signature.map(|s| s + 2), ..*f }).collect();
+    for features in [unmapped, Vec::new()] {
+        for slot in 0..100 {
+            let stream = || Stream::at(1, Purpose::Proposal, 3, slot);
+            let one = FromMotion { motion, likelihood: Marginal }.propose(&particle, &TURN, &features, &mut stream());
+            let two = FromMeasurement { motion }.propose(&particle, &TURN, &features, &mut stream());
+            assert_eq!((two.trace, one.trace), (ProposalTrace::Motion, ProposalTrace::Motion));
+            assert_eq!(bits(&one.world_from_robot), bits(&two.world_from_robot));
+            assert_eq!((one.association, one.log_increment), (two.association, two.log_increment));
+        }
+    }
+}
+
+fn bits(pose: &Pose2) -> [u64; 3] {
+    [pose.x, pose.y, pose.theta].map(f64::to_bits)
+}
+
+/// N_eff to 1e-12 of M, the rounding of the sum: what it is made of is equal to the last bit.
+#[test]
+fn particles_of_one_history_weigh_the_same_in_2_0() {
+    for count in [2, 100, 1000] {
+        let OneStep { motion, particle, features } = one_step(1.0);
+        let proposal = FromMeasurement { motion };
+        let (policy, scheme) = (ResamplePolicy::Never, Scheme::Systematic);
+        let mut filter = Rbpf::new(proposal, policy, scheme, 1, count, particle.world_from_robot, particle.map);
+        let report = filter.weigh(&TURN, &features);
+        assert!(report.weights.iter().all(|w| w.to_bits() == report.weights[0].to_bits()));
+        assert!((report.ess / count as f64 - 1.0).abs() < 1e-12, "{} of {count}", report.ess);
+    }
+}
+
+// Whole runs.
+
+const FIELD: [(f64, f64); 4] = [(0.0, 3.5), (3.0, 1.0), (-2.5, 2.0), (0.5, -1.5)];
+
+const ARC: Odometry = Odometry { rot1: core::f64::consts::PI / 12.0, trans: 0.8, rot2: core::f64::consts::PI / 12.0 };
+
+/// An arc of 1.5 m radius between the landmarks of [`FIELD`], which are all in view all the time. The world is the filter's own
+/// model, so that the filter is what is tested, and not the model.
+fn arc_poses(motion: &OdometryModel, run: u64, steps: u32) -> Vec<Pose2> {
+    let mut pose = Pose2::default();
+    let mut step = |step| {
+        pose = motion.sample(&pose, &ARC, &mut Stream::at(run, Purpose::WorldOdometry, step, 0));
+        pose
+    };
+    (0..steps).map(&mut step).collect()
+}
+
+/// Controls and features on that arc.
+fn arc(motion: &OdometryModel, run: u64, steps: u32) -> Vec<(Odometry, Vec<Feature>)> {
+    let at = |(step, pose): (u32, Pose2)| {
+        let mut stream = Stream::at(run, Purpose::WorldSensor, step, 0);
+        let see =
+            |(j, (x, y))| Feature { z: SENSOR.measure(&pose, &Vector2::new(x, y), &mut stream), signature: Some(j) };
+        (ARC, (0..).zip(FIELD).map(see).collect())
+    };
+    (0..).zip(arc_poses(motion, run, steps)).map(at).collect()
+}
+
+/// NEES of every landmark under the mixture that 500 particles hold of it, after one run.
+fn nees(run: u64) -> [f64; 4] {
+    let motion = ODOMETRY.scaled(0.1);
+    let map = Landmarks::<_, Blocks>::new(SENSOR, Correspondence::Known);
+    let (policy, proposal) = (ResamplePolicy::EssBelow(0.5), FromMeasurement { motion });
+    let mut filter = Rbpf::new(proposal, policy, Scheme::Systematic, run, 500, Pose2::default(), map);
+    for (u, features) in arc(&motion, run, 8) {
+        filter.step(&u, &features);
+    }
+    core::array::from_fn(|j| {
+        let weighted = filter.particles().iter().zip(filter.weights().as_slice());
+        let (mean, covariance) = mixture(weighted.map(|(p, w)| (p.map.get(j as u32).unwrap(), *w)));
+        let error = Vector2::new(FIELD[j].0, FIELD[j].1) - mean;
+        error.dot(&(covariance.try_inverse().unwrap() * error))
+    })
+}
+
+/// n = 200 runs, α = 0.01 for each of the four landmarks: χ² of 400 degrees of freedom, over 200, lies in 1.655 … 2.383.
+///
+/// Known correspondence, M = 500, 8 steps (240° of the arc). The course is short on purpose. A particle filter forgets: whatever
+/// M is, after enough resamplings all particles share their early path, and the spread of that path is missing from the mixture
+/// (Bailey, Nieto, Nebot 2006). Here the first step still has most of its lineages, and over 1000 runs the four means are 1.94 to
+/// 2.14; with 10 particles they are 2.9 to 5.8, and that is starvation, not a wrong filter.
+#[test]
+fn the_landmarks_of_2_0_err_as_they_say() {
+    let runs: Vec<[f64; 4]> = (0..200).map(nees).collect();
+    for j in 0..4 {
+        let mean = runs.iter().map(|run| run[j]).sum::<f64>() / 200.0;
+        assert!((1.655..2.383).contains(&mean), "landmark {j}: {mean}");
+    }
+}
+
+/// What a new landmark shares with the pose, against central differences of h⁻¹ along the pose: to 1e-9 of numbers below 1.
+#[test]
+fn a_new_landmark_of_the_joint_filter_owes_its_place_to_the_pose() {
+    let mut filter = EkfSlam::new(ODOMETRY, SENSOR, Correspondence::Known, Pose2::default());
+    let z = Vector2::new(3.0, 0.7);
+    filter.step(&TURN, &[Feature { z, signature: Some(0) }]);
+    let (pose, p, h) = (*filter.pose(), filter.pose_covariance(), 1e-5);
+    let column = |axis| {
+        let mut step = Vector3::zeros();
+        step[axis] = h;
+        (SENSOR.locate(&pose.plus(&step), &z) - SENSOR.locate(&pose.plus(&-step), &z)) / (2.0 * h)
+    };
+    let j = Matrix2x3::from_columns(&[column(0), column(1), column(2)]);
+    let cross = filter.covariance().fixed_view::<2, 3>(3, 0).into_owned();
+    assert!((cross - j * p).norm() < 1e-9);
+    let own = Landmark::first(&SENSOR, &pose, &z).covariance + j * p * j.transpose();
+    assert!((filter.landmark(0).unwrap().covariance - own).norm() < 1e-9);
+}
+
+/// n = 200 runs of 8 steps, α = 0.01: χ² of 11 · 200 degrees of freedom (the pose and four landmarks), over 200, lies in
+/// 10.164 … 11.873. At this noise linearising costs nothing yet; a wrong derivative of the motion, of the sensor or of what a new
+/// landmark owes to the pose would.
+#[test]
+fn the_joint_filter_errs_as_it_says() {
+    let motion = ODOMETRY.scaled(0.1);
+    let nees = |run| {
+        let log = arc(&motion, run, 8);
+        let mut filter = EkfSlam::new(motion, SENSOR, Correspondence::Known, Pose2::default());
+        log.iter().for_each(|(u, features)| drop(filter.step(u, features)));
+        let pose = arc_poses(&motion, run, 8)[7].minus(filter.pose());
+        let errors = filter.iter().map(|(j, m)| Vector2::new(FIELD[j as usize].0, FIELD[j as usize].1) - m.mean);
+        let error = DVector::from_iterator(11, pose.iter().copied().chain(errors.flat_map(|e| [e.x, e.y])));
+        error.dot(&filter.covariance().clone().cholesky().unwrap().solve(&error))
+    };
+    let mean = (0..200).map(nees).sum::<f64>() / 200.0;
+    assert!((10.164..11.873).contains(&mean), "{mean}");
+}
+
+/// Every number that a filter holds after a run, bit for bit.
+fn run_bits<S: Store>(run: u64, steps: u32, count: usize, policy: ResamplePolicy, gate: Option<Gate>) -> Vec<u64> {
+    let motion = ODOMETRY.scaled(0.3);
+    let map = Landmarks::<_, S>::new(SENSOR, gate.map_or(Correspondence::Known, Correspondence::Unknown));
+    let proposal = FromMeasurement { motion };
+    let mut filter = Rbpf::new(proposal, policy, Scheme::Systematic, run, count, Pose2::default(), map);
+    let mut all = Vec::new();
+    for (u, features) in arc(&motion, run, steps) {
+        // Signatures far apart, so that the trees have several levels.
+        let spread = |f: Feature| Feature { signature: f.signature.map(|s| s * 37), ..f };
+        let report = filter.step(&u, &features.into_iter().map(spread).collect());
+        all.extend(report.weights.iter().chain(&report.log_increments).map(|x| x.to_bits()));
+        for particle in filter.particles() {
+            all.extend(bits(&particle.world_from_robot));
+            for (index, landmark) in particle.map.iter() {
+                all.push(u64::from(index));
+                all.push(landmark.evidence as u64);
+                all.extend(landmark.mean.iter().chain(&landmark.covariance).map(|x| x.to_bits()));
+            }
+        }
+    }
+    all
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 32, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_store_gives_the_same_bits_for_a_whole_run(
+        run in 0..1000_u64,
+        steps in 1..12_u32,
+        count in 1..30_usize,
+        always: bool,
+        gate in prop::option::of((2.0..12.0, -12.0..0.0, any::<bool>())),
+    ) {
+        let policy = if always { ResamplePolicy::Always } else { ResamplePolicy::EssBelow(0.5) };
+        // A tight gate and a cheap new landmark found many.
+        let gate = gate.map(|(mahalanobis_squared, log_new, removal)| Gate { mahalanobis_squared, log_new, removal });
+        let plain = run_bits::<Vec<Option<Landmark>>>(run, steps, count, policy, gate);
+        prop_assert!(plain == run_bits::<Blocks>(run, steps, count, policy, gate));
+        prop_assert!(plain == run_bits::<Balanced>(run, steps, count, policy, gate));
+    }
+
+    /// A bound that was too high would turn sightings into new landmarks.
+    #[test]
+    fn what_the_sensor_rejects_in_advance_never_changes_an_association(
+        field in prop::collection::vec((-6.0..6.0_f64, -6.0..6.0_f64, 1e-4..1.0_f64, -0.9..0.9_f64), 1..12),
+        factor in prop::array::uniform6(-0.5..0.5_f64),
+        z in (0.0..9.0_f64, -3.1..3.1_f64),
+        robot in (-6.0..6.0_f64, -6.0..6.0_f64, -3.0..3.0_f64),
+    ) {
+        let known = field.iter().map(|&(x, y, variance, rho)| Landmark {
+            mean: Vector2::new(x, y),
+            covariance: Matrix2::new(variance, rho * variance, rho * variance, variance),
+            evidence: 1,
+        });
+        let [a, b, c, d, e, f] = factor;
+        let l = Matrix3::new(a, 0.0, 0.0, b, c, 0.0, d, e, f);
+        let (pose, p) = (Pose2::new(robot.0, robot.1, robot.2), l * l.transpose());
+        let feature = Feature { z: Vector2::new(z.0, z.1), signature: None };
+        let correspondence = Correspondence::Unknown(Gate { log_new: -30.0, ..Gate::default() });
+        let early = Landmarks::<_, Blocks>::new(SENSOR, correspondence).with(known.clone());
+        let late = Landmarks::<_, Blocks>::new(Patient(SENSOR), correspondence).with(known.clone());
+        prop_assert_eq!(early.associate(&pose, &p, &feature, &[]), late.associate(&pose, &p, &feature, &[]));
+        for landmark in known {
+            let spread = landmark.covariance + p.fixed_view::<2, 2>(0, 0);
+            let least = SENSOR.least_mahalanobis_squared(&pose, &landmark.mean, &spread, &feature.z);
+            let whole = landmark.innovation(&SENSOR, &pose, &feature.z).with_pose(&p).mahalanobis_squared;
+            prop_assert!(least <= whole * (1.0 + 1e-9), "{} > {}", least, whole);
+        }
+    }
+
+    /// A family of copies, each written to in turn, holds what maps hold that never shared anything.
+    #[test]
+    fn copies_of_a_map_never_see_each_others_writes(
+        trunk in prop::collection::vec(sighting(), 0..20),
+        branches in prop::collection::vec(prop::collection::vec(sighting(), 0..6), 1..5),
+    ) {
+        copies_are_independent::<Blocks>(&trunk, &branches);
+        copies_are_independent::<Balanced>(&trunk, &branches);
+    }
+}
+
+/// The same sensor without its lower bound.
+#[derive(Clone, Copy, Debug)]
+struct Patient(RangeBearing);
+
+impl LandmarkSensor for Patient {
+    fn predict(&self, at: &Pose2, landmark: &Vector2<f64>) -> Prediction {
+        self.0.predict(at, landmark)
+    }
+
+    fn residual(&self, z: &Vector2<f64>, predicted: &Vector2<f64>) -> Vector2<f64> {
+        self.0.residual(z, predicted)
+    }
+
+    fn locate(&self, at: &Pose2, z: &Vector2<f64>) -> Vector2<f64> {
+        self.0.locate(at, z)
+    }
+
+    fn noise(&self) -> Matrix2<f64> {
+        self.0.noise()
+    }
+
+    fn sees(&self, at: &Pose2, landmark: &Vector2<f64>, margin: f64) -> bool {
+        self.0.sees(at, landmark, margin)
+    }
+}
+
+fn sighting() -> impl Strategy<Value = (Pose2, Feature)> {
+    let pose = (-9.0..9.0_f64, -9.0..9.0_f64, -4.0..4.0_f64).prop_map(|(x, y, theta)| Pose2::new(x, y, theta));
+    let feature = (0.1..9.0_f64, -3.0..3.0_f64, 0..90_u32)
+        .prop_map(|(r, phi, s)| Feature { z: Vector2::new(r, phi), signature: Some(s) });
+    (pose, feature)
+}
+
+fn assimilate_one<S: Store>(map: &mut Landmarks<RangeBearing, S>, (pose, feature): &(Pose2, Feature)) {
+    let sighted = map.associate(pose, &Matrix3::zeros(), feature, &[]).sighted;
+    map.assimilate(pose, &vec![*feature], &vec![sighted]);
+}
+
+fn copies_are_independent<S: Store>(trunk: &[(Pose2, Feature)], branches: &[Vec<(Pose2, Feature)>]) {
+    let content = |map: &Landmarks<RangeBearing, S>| map.iter().map(|(i, l)| (i, *l)).collect::<Vec<_>>();
+    let mut shared = Landmarks::<_, S>::new(SENSOR, Correspondence::Known);
+    trunk.iter().for_each(|sighting| assimilate_one(&mut shared, sighting));
+    let before = content(&shared);
+    let mut family: Vec<_> = branches.iter().map(|_| shared.clone()).collect();
+    for turn in 0..6 {
+        for (map, sightings) in family.iter_mut().zip(branches) {
+            sightings.get(turn).into_iter().for_each(|sighting| assimilate_one(map, sighting));
+        }
+    }
+    assert_eq!(content(&shared), before);
+    for (map, sightings) in family.iter().zip(branches) {
+        let mut alone = Landmarks::<_, S>::new(SENSOR, Correspondence::Known);
+        trunk.iter().chain(sightings).for_each(|sighting| assimilate_one(&mut alone, sighting));
+        assert_eq!(content(map), content(&alone));
+    }
+}
+
+fn is_symmetric_and_positive_definite(s: &Matrix2<f64>) -> bool {
+    s.m12.to_bits() == s.m21.to_bits() && s.m11 > 0.0 && s.m22 > 0.0 && s.m11 * s.m22 > s.m12 * s.m12
+}
+
+/// 10 000 sightings from poses all around, also by sensors a million times better one way than the other.
+#[test]
+fn josephs_form_keeps_covariances_symmetric_and_positive_definite() {
+    for (range_std, bearing_std) in [(0.08, 0.05), (1e-6, 0.5), (1.0, 1e-7)] {
+        let sensor = RangeBearing { range_std, bearing_std, ..SENSOR };
+        let truth = Vector2::new(1.0, 2.0);
+        let mut known: Option<Landmark> = None;
+        for k in 0..10_000 {
+            let mut stream = Stream::at(5, Purpose::Trial, k, 0);
+            let pose = Pose2::new(6.0 * stream.uniform(), 6.0 * stream.uniform(), 6.0 * stream.uniform());
+            let z = sensor.measure(&pose, &truth, &mut stream);
+            match &mut known {
+                Some(landmark) => landmark.update(&sensor, &pose, &z),
+                None => known = Some(Landmark::first(&sensor, &pose, &z)),
+            }
+            let s = known.unwrap().covariance;
+            assert!(is_symmetric_and_positive_definite(&s), "sighting {k}: {s}");
+        }
+    }
+}
+
+/// Known to 10 km, seen to a micrometre: (I − K H) Σ alone would be rounding, of any sign. What remains is the sensor's own,
+/// to 1e-9: rounding enters Joseph's form squared, (1e-16)² · 1e8 m² against 1e-12 m².
+#[test]
+fn one_good_sighting_of_what_was_unknown_is_as_good_as_a_first_one() {
+    let sensor = RangeBearing { range_std: 1e-6, bearing_std: 1e-6, ..SENSOR };
+    for slot in 0..1000 {
+        let [x, y, theta] = Stream::at(6, Purpose::Trial, 0, slot).normals();
+        let pose = Pose2::new(x, y, theta);
+        let z = sensor.predict(&pose, &Vector2::new(3.0, 1.0)).z;
+        let mut vague = landmark(3.0, 1.0, 1e8);
+        vague.update(&sensor, &pose, &z);
+        assert!(is_symmetric_and_positive_definite(&vague.covariance), "{:?}", vague);
+        let first = Landmark::first(&sensor, &pose, &z);
+        let error = (vague.covariance - first.covariance).norm() / first.covariance.norm();
+        assert!(error < 1e-9, "{error}");
+    }
+}
+
+// Who is who.
+
+fn unknown(sensor: RangeBearing, gate: Gate, known: &[Landmark]) -> Landmarks<RangeBearing> {
+    Landmarks::new(sensor, Correspondence::Unknown(gate)).with(known.iter().copied())
+}
+
+fn decide(map: &Landmarks<RangeBearing>, z: [f64; 2], taken: &[Sighted]) -> Matched {
+    let feature = Feature { z: Vector2::from(z), signature: None };
+    map.associate(&Pose2::default(), &Matrix3::zeros(), &feature, taken)
+}
+
+/// Straight ahead S = diag(σ_r² + Σ_xx, σ_φ² + Σ_yy/r²), so that every number is known.
+#[test]
+fn a_feature_beyond_the_gate_is_a_new_landmark_and_within_it_is_not() {
+    let map = unknown(SENSOR, Gate { log_new: -1e9, ..Gate::default() }, &[landmark(4.0, 0.0, 0.01)]);
+    let gate = Gate::default().mahalanobis_squared.sqrt();
+    assert!((gate * gate - 9.210_340_371_976).abs() < 1e-9);
+    let (range_std, bearing_std) = ((0.0064_f64 + 0.01).sqrt(), (0.0025_f64 + 0.01 / 16.0).sqrt());
+    for [r, phi] in [[range_std, 0.0], [0.0, bearing_std], [0.6 * range_std, 0.8 * bearing_std]] {
+        let at = |factor: f64| decide(&map, [4.0 + factor * gate * r, factor * gate * phi], &[]);
+        assert_eq!(at(0.999).sighted, Sighted::Again(0));
+        let new = at(1.001);
+        assert_eq!((new.sighted, new.log_likelihood, new.innovation), (Sighted::First(1), -1e9, None));
+    }
+}
+
+#[test]
+fn a_feature_is_a_new_landmark_where_p0_explains_it_better() {
+    let known = [landmark(4.0, 0.0, 0.01)];
+    let z = [4.1, 0.02];
+    let likely = decide(&unknown(SENSOR, Gate { log_new: -1e9, ..Gate::default() }, &known), z, &[]).log_likelihood;
+    let with = |log_new| decide(&unknown(SENSOR, Gate { log_new, ..Gate::default() }, &known), z, &[]);
+    assert_eq!(with(likely - 1e-9).sighted, Sighted::Again(0));
+    assert_eq!(with(likely - 1e-9).log_likelihood, likely);
+    assert_eq!(with(likely + 1e-9).sighted, Sighted::First(1));
+    assert_eq!(with(likely + 1e-9).log_likelihood, likely + 1e-9);
+}
+
+#[test]
+fn the_likeliest_landmark_wins_even_where_another_is_nearer() {
+    // 0 is nearer in its own deviations, but so uncertain that its density is lower.
+    let map = unknown(SENSOR, Gate::default(), &[landmark(4.3, 0.0, 4.0), landmark(4.1, 0.0, 1e-4)]);
+    let distance = |index| map.get(index).unwrap().innovation(&SENSOR, &Pose2::default(), &Vector2::new(4.2, 0.0));
+    assert!(distance(0).mahalanobis_squared < distance(1).mahalanobis_squared);
+    assert_eq!(decide(&map, [4.2, 0.0], &[]).sighted, Sighted::Again(1));
+}
+
+#[test]
+fn two_features_of_one_step_never_share_a_landmark() {
+    let known = [landmark(4.0, 0.0, 0.01), landmark(4.05, 0.0, 0.01)];
+    let feature = |signature| Feature { z: Vector2::new(4.0, 0.0), signature };
+    let proposal = FromMeasurement { motion: ODOMETRY };
+    let still = Odometry { rot1: 0.0, trans: 0.0, rot2: 0.0 };
+    let map = unknown(SENSOR, Gate::default(), &known);
+    let folded = proposal.fold(&map, &Pose2::default(), &still, &[feature(None); 4]);
+    assert_eq!(folded.sighted, [Sighted::Again(0), Sighted::Again(1), Sighted::First(2), Sighted::First(3)]);
+    assert_eq!(Marginal.log_likelihood(&map, &Pose2::default(), &vec![feature(None); 4]).1, folded.sighted);
+
+    let map = Landmarks::<_, Blocks>::new(SENSOR, Correspondence::Known).with(known);
+    let features = [Some(1), Some(1), Some(7), Some(7), None].map(feature);
+    let folded = proposal.fold(&map, &Pose2::default(), &still, &features);
+    let (again, first, nothing) = (Sighted::Again(1), Sighted::First(7), Sighted::Nothing);
+    assert_eq!(folded.sighted, [again, nothing, first, nothing, nothing]);
+    let alone = proposal.fold(&map, &Pose2::default(), &still, &features[..1]);
+    assert_eq!((folded.mean, folded.log_evidence), (alone.mean, alone.log_evidence));
+
+    let mut joint = EkfSlam::new(Drift, Offset, Correspondence::Known, Pose2::default());
+    let offset = |s| Feature { z: Vector2::new(1.0, 1.0), signature: Some(s) };
+    let sighted = joint.step(&Vector3::zeros(), &[offset(2), offset(2), offset(0)]).sighted;
+    assert_eq!(sighted, [Sighted::First(2), nothing, Sighted::First(0)]);
+    assert_eq!(joint.step(&Vector3::zeros(), &[offset(2), offset(2)]).sighted, [Sighted::Again(2), nothing]);
+}
+
+/// Landmarks metres apart and a gate that only one sighting in a million misses: the default one takes one in
+/// a hundred for a new landmark. The first step gives the numbers; its p₀, which all particles pay alike, shifts weights by rounding.
+#[test]
+fn well_separated_landmarks_are_told_apart_without_signatures() {
+    let motion = ODOMETRY.scaled(0.1);
+    let gate = Gate { mahalanobis_squared: -2.0 * ops::ln(1e-6), log_new: -30.0, removal: false };
+    let turned = |features: &[Feature], by: usize| {
+        let mut features = features.to_vec();
+        features.rotate_left(by);
+        features
+    };
+    let run = |correspondence, by| {
+        let map = Landmarks::<_, Blocks>::new(SENSOR, correspondence);
+        let (policy, proposal) = (ResamplePolicy::EssBelow(0.5), FromMeasurement { motion });
+        let mut filter = Rbpf::new(proposal, policy, Scheme::Systematic, 1, 50, Pose2::default(), map);
+        for (u, features) in arc(&motion, 1, 12) {
+            filter.step(&u, &turned(&features, by));
+        }
+        filter
+    };
+    for by in 0..4 {
+        let (known, unknown) = (run(Correspondence::Known, by), run(Correspondence::Unknown(gate), by));
+        for (a, b) in known.particles().iter().zip(unknown.particles()) {
+            assert!(a.world_from_robot.minus(&b.world_from_robot).norm() < 1e-12);
+            assert_eq!(b.map.iter().count(), 4);
+            for (index, landmark) in b.map.iter() {
+                // Numbered as they came in the first step.
+                let named = a.map.get((index + by as u32) % 4).unwrap();
+                assert!((named.mean - landmark.mean).norm() < 1e-12 && named.evidence == landmark.evidence);
+            }
+        }
+    }
+    let joint = |correspondence| {
+        let mut filter = EkfSlam::new(motion, SENSOR, correspondence, Pose2::default());
+        arc(&motion, 1, 12).iter().for_each(|(u, features)| drop(filter.step(u, features)));
+        filter
+    };
+    let (known, unknown) = (joint(Correspondence::Known), joint(Correspondence::Unknown(gate)));
+    assert_eq!(known.covariance(), unknown.covariance());
+    assert_eq!(known.iter().collect::<Vec<_>>(), unknown.iter().collect::<Vec<_>>());
+}
+
+/// One landmark ahead, one that is never seen: in view, at the edge of the range, or behind.
+#[test]
+fn what_should_be_seen_and_is_not_is_struck_off_and_nothing_else() {
+    let sensor = RangeBearing { field_of_view: core::f64::consts::PI, ..SENSOR };
+    // Three deviations of 0.1 m reach from 7.8 m over the edge of 8 m, and from 7.6 m they do not.
+    for (x, y, goes) in [(2.0, 2.0, true), (7.6, 0.0, true), (7.8, 0.0, false), (-2.0, 0.0, false), (0.2, 2.0, false)] {
+        for removal in [true, false] {
+            let gate = Gate { removal, ..Gate::default() };
+            let missed = Landmark { evidence: 3, ..landmark(x, y, 0.01) };
+            let mut map = unknown(sensor, gate, &[landmark(3.0, -1.0, 0.01), missed]);
+            let z = sensor.predict(&Pose2::default(), &Vector2::new(3.0, -1.0)).z;
+            for step in 0..6 {
+                let feature = Feature { z, signature: None };
+                let (_, sighted) = Marginal.log_likelihood(&map, &Pose2::default(), &vec![feature]);
+                assert_eq!(sighted, [Sighted::Again(0)]);
+                map.assimilate(&Pose2::default(), &vec![feature], &sighted);
+                let there = !(goes && removal && step >= 3);
+                assert_eq!(map.get(1).is_some(), there, "({x}, {y}), removal {removal}, step {step}");
+            }
+            assert_eq!(map.get(0).unwrap().evidence, 7);
+        }
+    }
+}
+
+/// The index of a landmark that was struck off is never given again: a path that names it means the old one.
+#[test]
+fn a_joint_filter_strikes_off_what_it_should_see_and_does_not() {
+    let still = Odometry { rot1: 0.0, trans: 0.0, rot2: 0.0 };
+    let gate = Gate { removal: true, ..Gate::default() };
+    let mut filter = EkfSlam::new(ODOMETRY, SENSOR, Correspondence::Unknown(gate), Pose2::default());
+    let see = |x, y| seen(&SENSOR, &Pose2::default(), &Vector2::new(x, y), 0, [0.0, 0.0]);
+    let (a, ghost, b) = (see(3.0, -1.0), see(2.0, 2.0), see(-2.0, 2.0));
+    filter.step(&still, &[a, ghost, b]);
+    assert_eq!(filter.step(&still, &[b, a]).sighted, [Sighted::Again(2), Sighted::Again(0)]);
+    assert_eq!(filter.landmark(1).unwrap().evidence, 0);
+    filter.step(&still, &[a, b]);
+    assert!(filter.landmark(1).is_none() && filter.covariance().nrows() == 7);
+    let sighted = filter.step(&still, &[ghost, b]).sighted;
+    assert_eq!(sighted, [Sighted::First(3), Sighted::Again(2)]);
+    assert!((filter.landmark(2).unwrap().mean - Vector2::new(-2.0, 2.0)).norm() < 1e-12);
+}
+
+/// Rounding apart, and after as many steps as a robot drives in an hour.
+#[test]
+fn the_joint_covariance_stays_symmetric_and_positive_definite() {
+    let motion = ODOMETRY.scaled(0.1);
+    let mut filter = EkfSlam::new(motion, SENSOR, Correspondence::Known, Pose2::default());
+    for (u, features) in arc(&motion, 2, 3000) {
+        filter.step(&u, &features);
+        let p = filter.covariance();
+        assert!(*p == p.transpose());
+    }
+    assert!(filter.covariance().clone().cholesky().is_some());
+    for (index, landmark) in filter.iter() {
+        let (x, y) = FIELD[index as usize];
+        assert!((landmark.mean - Vector2::new(x, y)).norm() < 0.5, "{landmark:?}");
+    }
+}

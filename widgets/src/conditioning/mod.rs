@@ -1,0 +1,9 @@
+//! Figure w17.4, the graphical model: what couples landmarks, and what is left of it once the path is known.
+
+mod layout;
+mod model;
+mod params;
+mod scene;
+
+pub use layout::Layout;
+pub use model::ConditioningModel;

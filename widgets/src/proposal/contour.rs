@@ -1,0 +1,72 @@
+//! The outline of a region of highest density.
+
+use crate::scene::Point;
+use fastslam::exact::one_step::Posterior;
+
+/// No crossing follows.
+const END: usize = usize::MAX;
+
+/// The lines \[m\] on which the density between the middles of the cells is that of the region's edge, each closed where it does not
+/// leave the grid: marching squares (Lorensen, Cline 1987, in the plane).
+pub fn outline(posterior: &Posterior) -> Vec<Vec<Point>> {
+    let Posterior { cells, densities, level, .. } = posterior;
+    // A crossing lies between the middle of a cell and the next one in its row, 2 k, or in its column, 2 k + 1.
+    let crossing = |a: usize, b: usize| 2 * a.min(b) + usize::from(a.abs_diff(b) == cells.side);
+    // From each crossing to the next: the region is always on the same side.
+    let mut next = vec![END; 2 * densities.len()];
+    for k in (0..cells.count() - cells.side).filter(|k| k % cells.side != cells.side - 1) {
+        let corners = [k, k + 1, k + 1 + cells.side, k + cells.side];
+        let inside = corners.map(|corner| densities[corner] >= *level);
+        // A saddle is crossed twice: each way in is followed by the first way out after it.
+        for enter in (0..4).filter(|side| !inside[*side] && inside[(side + 1) % 4]) {
+            let leave = (1..4).map(|turn| (enter + turn) % 4).find(|side| inside[*side] && !inside[(side + 1) % 4]);
+            let at = |side: usize| crossing(corners[side], corners[(side + 1) % 4]);
+            next[at(enter)] = leave.map_or(END, at);
+        }
+    }
+    let place = |crossing: usize| {
+        let (a, b) = (crossing / 2, crossing / 2 + [1, cells.side][crossing % 2]);
+        let t = (level - densities[a]) / (densities[b] - densities[a]);
+        let (from, to) = (cells.centre(a), cells.centre(b));
+        [0, 1].map(|axis| from[axis] + t * (to[axis] - from[axis]))
+    };
+    let mut lines = Vec::new();
+    for first in 0..next.len() {
+        if next[first] == END {
+            continue;
+        }
+        let (mut line, mut at) = (Vec::new(), first);
+        while at != END {
+            line.push(place(at));
+            at = core::mem::replace(&mut next[at], END);
+        }
+        lines.push(line);
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fastslam::experiment::proposals::{Proposals, ProposalsSetup};
+
+    #[test]
+    fn the_outline_lies_on_the_edge_of_the_region_and_is_closed() {
+        for twins in [false, true] {
+            let posterior = Proposals::new(&ProposalsSetup { twins, samples: 1, ..Default::default() }).unwrap().exact;
+            let lines = outline(&posterior);
+            assert!(!lines.is_empty());
+            let size = posterior.cells.size();
+            for line in &lines {
+                assert!(line.len() > 40 && line[0] == line[line.len() - 1], "{line:?}");
+                for pair in line.windows(2) {
+                    let [x, y] = [0, 1].map(|axis| 0.5 * (pair[0][axis] + pair[1][axis]));
+                    let around = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]]
+                        .map(|[u, v]| [x + u * size[0], y + v * size[1]]);
+                    let inside = around.iter().filter(|place| posterior.in_region(**place)).count();
+                    assert!((1..=3).contains(&inside), "{pair:?}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,366 @@
+//! The step as a deterministic state: what was set, what both proposals drew, and the reader's guess.
+
+use super::{
+    contour, gauge,
+    layout::{Layout, NARROWEST},
+    params, scene,
+};
+use crate::{
+    model::{Column, FigureError, Model, ParamSpec, Readout, Series},
+    param::{Value, flag_text, unknown},
+    scene::{Point, Scene},
+};
+use fastslam::{
+    decimal::{fixed, write},
+    experiment::proposals::{Cloud, Proposals, ProposalsSetup},
+};
+
+/// Figure w17.3.
+pub struct ProposalModel {
+    recipe: Recipe,
+    /// The recipe of what is shown.
+    computed: Recipe,
+    shown: Proposals,
+    /// Outline of the region of highest density \[m\].
+    outline: Vec<Vec<Point>>,
+    /// The ratio at half the range noise, once it was run.
+    at_half: Option<f64>,
+}
+
+#[derive(Clone, PartialEq)]
+struct Recipe {
+    setup: ProposalsSetup,
+    /// Whether the reader is asked to predict.
+    predict: bool,
+    /// The ratio the reader expects at half the range noise.
+    guess: f64,
+    /// Whether it was run.
+    run: bool,
+}
+
+impl Default for ProposalModel {
+    fn default() -> Self {
+        let recipe = Recipe { setup: ProposalsSetup::default(), predict: false, guess: params::GUESS, run: false };
+        let shown = propose(&recipe.setup);
+        let outline = contour::outline(&shown.exact);
+        Self { computed: recipe.clone(), recipe, shown, outline, at_half: None }
+    }
+}
+
+fn propose(setup: &ProposalsSetup) -> Proposals {
+    Proposals::new(setup).unwrap_or_else(|error| unreachable!("the parameters' ranges are within the core's: {error}"))
+}
+
+impl ProposalModel {
+    /// Title for readers.
+    pub const TITLE: &'static str = "Two proposals for one step";
+
+    /// Both clouds, and what they should be like.
+    pub fn proposals(&self) -> &Proposals {
+        &self.shown
+    }
+
+    /// Outline of the posterior's 90 % region \[m\].
+    pub fn outline(&self) -> &[Vec<Point>] {
+        &self.outline
+    }
+
+    /// What was set.
+    pub fn setup(&self) -> &ProposalsSetup {
+        &self.computed.setup
+    }
+
+    /// The reader's guess, if one is asked for.
+    pub fn guess(&self) -> Option<f64> {
+        self.recipe.predict.then_some(self.recipe.guess)
+    }
+
+    /// The ratio at half the range noise, once it was run.
+    pub fn at_half(&self) -> Option<f64> {
+        self.at_half
+    }
+
+    /// The landmark, of two, that the posterior has not ruled out and none of the measurement-aware samples speaks for.
+    pub fn lost(&self) -> Option<usize> {
+        let Proposals { exact, aware, .. } = &self.shown;
+        let lost = |k: &usize| exact.candidates[*k] > 0.01 && !aware.candidates.contains(&(*k as u32));
+        (0..exact.candidates.len()).find(lost)
+    }
+
+    /// Half the range noise \[m\].
+    pub fn half(&self) -> String {
+        write(0.5 * self.setup().range_std)
+    }
+
+    fn set(&mut self, name: &str, value: Value) {
+        let Recipe { setup, predict, guess, run } = &mut self.recipe;
+        match (name, value) {
+            ("range-std", Value::Number(x)) => setup.range_std = x,
+            ("bearing-std", Value::Number(x)) => setup.bearing_std = x,
+            ("odometry", Value::Number(x)) => setup.odometry_scale = x,
+            ("samples", Value::Number(x)) => setup.samples = x as u32,
+            ("seed", Value::Number(x)) => setup.seed = x as u64,
+            ("landmarks", Value::Word(word)) => setup.twins = word == "pair",
+            ("landmark-x", Value::Number(x)) => setup.landmark[0] = x,
+            ("landmark-y", Value::Number(x)) => setup.landmark[1] = x,
+            ("predict", Value::Flag(on)) => (*predict, *run) = (on, *run && on),
+            // Another guess is another try.
+            ("guess", Value::Number(x)) => (*guess, *run) = (x, *run && *guess == x),
+            ("run", Value::Flag(on)) => (*predict, *run) = (*predict || on, on),
+            _ => (),
+        }
+    }
+
+    /// Sets numbers to the nearest that their ranges and `decimals` allow.
+    fn set_near<const N: usize>(&mut self, numbers: [(&str, f64); N], decimals: i32) {
+        let specs = self.params();
+        let near = numbers.map(|(name, x)| {
+            let [min, max] = specs.iter().find(|s| s.name == name).map_or([x; 2], |s| [s.min, s.max]);
+            (name.to_string(), fixed(x.max(min).min(max), decimals))
+        });
+        self.configure(&near);
+    }
+}
+
+impl Model for ProposalModel {
+    fn title(&self) -> &'static str {
+        Self::TITLE
+    }
+
+    fn params(&self) -> Vec<ParamSpec> {
+        params::specs()
+    }
+
+    fn value(&self, name: &str) -> Option<String> {
+        let Recipe { setup, predict, guess, run } = &self.recipe;
+        Some(match name {
+            "range-std" => write(setup.range_std),
+            "bearing-std" => write(setup.bearing_std),
+            "odometry" => write(setup.odometry_scale),
+            "samples" => setup.samples.to_string(),
+            "seed" => setup.seed.to_string(),
+            "landmarks" => if setup.twins { "pair" } else { "one" }.into(),
+            "landmark-x" => write(setup.landmark[0]),
+            "landmark-y" => write(setup.landmark[1]),
+            "predict" => flag_text(*predict),
+            "guess" => write(*guess),
+            "run" => flag_text(*run),
+            _ => return None,
+        })
+    }
+
+    fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
+        let specs = self.params();
+        let (mut refused, mut checked) = (Vec::new(), vec![None; specs.len()]);
+        for (name, text) in values {
+            match specs.iter().position(|s| s.name == name) {
+                Some(rank) => match specs[rank].check(text) {
+                    Ok(value) => checked[rank] = Some(value),
+                    Err(error) => refused.push(error),
+                },
+                None => refused.push(unknown(name, &specs)),
+            }
+        }
+        // In the order of the parameters: the guess before the run.
+        for (spec, value) in specs.iter().zip(checked) {
+            value.into_iter().for_each(|value| self.set(spec.name, value));
+        }
+        refused
+    }
+
+    fn drag(&mut self, handle: &str, to: Point, width: f64) {
+        let layout = Layout::new(width);
+        match handle {
+            scene::LANDMARK | scene::LANDMARK_AGAIN => {
+                let [x, y] = layout.panels[usize::from(handle == scene::LANDMARK_AGAIN)].place(to);
+                self.set_near([("landmark-x", x), ("landmark-y", y)], 2);
+            }
+            scene::GUESS => self.set_near([("guess", gauge::ratio(&layout.axis, to[0]))], 1),
+            _ => (),
+        }
+    }
+
+    fn nudge(&mut self, handle: &str, [right, up]: [f64; 2]) {
+        let ([x, y], step) = (self.recipe.setup.landmark, 0.05);
+        match handle {
+            scene::LANDMARK | scene::LANDMARK_AGAIN => {
+                self.set_near([("landmark-x", x + step * right), ("landmark-y", y + step * up)], 3);
+            }
+            scene::GUESS => self.set_near([("guess", self.recipe.guess + 0.1 * (right + up))], 2),
+            _ => (),
+        }
+    }
+
+    fn pending(&self) -> u32 {
+        u32::from(self.recipe != self.computed)
+    }
+
+    fn work(&mut self) {
+        let same = self.recipe.setup == self.computed.setup;
+        if !same {
+            self.shown = propose(&self.recipe.setup);
+            self.outline = contour::outline(&self.shown.exact);
+        }
+        let half = || {
+            let setup = &self.recipe.setup;
+            propose(&ProposalsSetup { range_std: 0.5 * setup.range_std, ..setup.clone() }).ratio()
+        };
+        self.at_half = match self.at_half {
+            Some(ratio) if same && self.recipe.run => Some(ratio),
+            _ => self.recipe.run.then(half),
+        };
+        self.computed = self.recipe.clone();
+    }
+
+    fn readouts(&self) -> Vec<Readout> {
+        let Proposals { motion, aware, exact, z, .. } = &self.shown;
+        let m = self.setup().samples;
+        let percent = |name, title, share: f64, help| {
+            let x = 100.0 * share;
+            Readout::new(name, title, x, fixed(x, 1), "%", help)
+        };
+        let ess = |name, title, cloud: &Cloud, help| {
+            let x = cloud.ess();
+            Readout::new(name, title, x, format!("{} of {m}", fixed(x, 1)), "", help)
+        };
+        let times = |name, title, x: f64, help| Readout::new(name, title, x, fixed(x, 2), "×", help);
+        let first = |x: f64| if self.setup().twins { x } else { f64::NAN };
+        vec![
+            percent(
+                "inside_motion",
+                "Samples in 90 %, motion prior",
+                motion.share_inside(None),
+                "Share of FastSLAM 1.0's samples in the region of highest posterior density that holds 90 %.",
+            ),
+            percent(
+                "inside_aware",
+                "Samples in 90 %, aware",
+                aware.share_inside(None),
+                "The same of FastSLAM 2.0's; 90 % would be perfect.",
+            ),
+            ess(
+                "ess_motion",
+                "N_eff, motion prior",
+                motion,
+                "What FastSLAM 1.0's weighted samples are worth, in equal ones.",
+            ),
+            ess(
+                "ess_aware",
+                "N_eff, aware",
+                aware,
+                "The same for FastSLAM 2.0: all weights are equal, whatever was drawn.",
+            ),
+            times("ratio", "Ratio of N_eff", self.shown.ratio(), "How many samples of 1.0 do the work of one of 2.0."),
+            times(
+                "ratio_half",
+                "Ratio at half σ",
+                self.at_half.unwrap_or(f64::NAN),
+                "The same at half the range noise, once it was run.",
+            ),
+            percent(
+                "a_posterior",
+                "Posterior of A",
+                first(exact.candidates[0]),
+                "Probability that the sighting is of landmark A, of two.",
+            ),
+            percent(
+                "a_motion",
+                "Motion prior at A",
+                first(motion.share_inside(Some(0))),
+                "Share of FastSLAM 1.0's samples in the part of the region where the sighting is of A.",
+            ),
+            percent(
+                "a_aware",
+                "Aware at A",
+                first(aware.share_inside(Some(0))),
+                "The same of FastSLAM 2.0's: nothing, where it took the other landmark.",
+            ),
+            Readout::new("range", "Range seen", z.x, fixed(z.x, 2), "m", "What the sensor reports, without any noise."),
+            Readout::new(
+                "bearing",
+                "Bearing seen",
+                z.y,
+                fixed(z.y, 2),
+                "rad",
+                "The same, from straight ahead to the left.",
+            ),
+        ]
+    }
+
+    fn series(&self) -> Series {
+        const COLUMNS: &[Column] = &[
+            Column::new("sample", "number of the sample"),
+            Column::new("motion_x_m", "x of FastSLAM 1.0's sample [m]"),
+            Column::new("motion_y_m", "y of it [m]"),
+            Column::new("motion_theta_rad", "heading of it [rad]"),
+            Column::new("motion_weight", "normalised weight of it"),
+            Column::new("motion_inside", "1 where it is in the posterior's 90 % region"),
+            Column::new("motion_landmark", "landmark that it takes the sighting to be of, from 0"),
+            Column::new("aware_x_m", "x of FastSLAM 2.0's sample [m]"),
+            Column::new("aware_y_m", "y of it [m]"),
+            Column::new("aware_theta_rad", "heading of it [rad]"),
+            Column::new("aware_weight", "normalised weight of it"),
+            Column::new("aware_inside", "1 where it is in the posterior's 90 % region"),
+            Column::new("aware_landmark", "landmark that it takes the sighting to be of, from 0"),
+        ];
+        let half = |cloud: &Cloud, k: usize| {
+            let (pose, inside) = (cloud.poses[k], f64::from(u8::from(cloud.inside[k])));
+            [pose.x, pose.y, pose.theta, cloud.weights.as_slice()[k], inside, f64::from(cloud.candidates[k])]
+        };
+        let Proposals { motion, aware, .. } = &self.shown;
+        let row = |k| [k as f64].into_iter().chain(half(motion, k)).chain(half(aware, k)).collect();
+        Series { columns: COLUMNS, rows: (0..motion.poses.len()).map(row).collect() }
+    }
+
+    fn describe(&self) -> String {
+        let Proposals { motion, aware, exact, .. } = &self.shown;
+        let m = self.setup().samples;
+        let percent = |share: f64| format!("{} %", fixed(100.0 * share, 0));
+        let samples = if m == 1 { "1 sample".into() } else { format!("{m} samples") };
+        let mut text = format!(
+            "{samples} of each proposal, range noise {} m. Of the motion prior's, {} are in the posterior's 90 % region and N_eff is \
+             {}; of the measurement-aware proposal's, {} are, and N_eff is {}: {} times as much.",
+            write(self.setup().range_std),
+            percent(motion.share_inside(None)),
+            fixed(motion.ess(), 0),
+            percent(aware.share_inside(None)),
+            fixed(aware.ess(), 0),
+            fixed(self.shown.ratio(), 1),
+        );
+        if self.setup().twins {
+            let shares = |cloud: &Cloud| [0, 1].map(|k| percent(cloud.share_inside(Some(k))));
+            let ([a, b], [c, d]) = (shares(motion), shares(aware));
+            text.push_str(&format!(
+                " The sighting may be of A or of B, with {} and {} of the posterior. The motion prior has {a} and {b} of its \
+                 samples there, the measurement-aware proposal {c} and {d}.",
+                percent(exact.candidates[0]),
+                percent(exact.candidates[1]),
+            ));
+            if let Some(lost) = self.lost() {
+                text.push_str(&format!(" What speaks for {} is lost, and N_eff does not tell.", ["A", "B"][lost]));
+            }
+        }
+        match (self.guess(), self.at_half) {
+            (Some(guess), Some(ratio)) => text.push_str(&format!(
+                " At half the range noise, {} m, the ratio is {}; the guess was {}.",
+                self.half(),
+                fixed(ratio, 1),
+                write(guess)
+            )),
+            (Some(guess), None) => {
+                text.push_str(&format!(" The guess for half the range noise is {}; it has not been run.", write(guess)))
+            }
+            _ => (),
+        }
+        text
+    }
+
+    fn height(&self, width: f64) -> f64 {
+        // Narrower than the layout goes, the figure is made smaller as a whole.
+        Layout::new(width).height * (width / width.max(NARROWEST))
+    }
+
+    fn scene(&self, width: f64, height: f64) -> Scene {
+        scene::build(self, width, height)
+    }
+}

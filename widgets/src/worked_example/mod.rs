@@ -1,0 +1,10 @@
+//! One update by hand: two particles, one landmark, one sighting each, and every number between input and decision.
+
+mod layout;
+mod model;
+mod params;
+mod scene;
+mod steps;
+
+pub use layout::Layout;
+pub use model::WorkedExampleModel;

@@ -1,0 +1,257 @@
+//! The example as a deterministic state: its inputs.
+
+use super::{
+    layout::{Layout, NARROWEST},
+    params::{self, SIGMA},
+    scene,
+};
+use crate::{
+    model::{Column, FigureError, Model, ParamSpec, Readout, Series},
+    param::{Value, quoted, unknown},
+    scene::Scene,
+};
+use fastslam::{
+    decimal::{fixed, significant, write},
+    experiment::worked_example::{Inputs, Update, WorkedExample},
+};
+
+/// Significant digits of readouts: what a phone has room for.
+const DIGITS: i32 = 7;
+
+/// The figure of the worked example.
+pub struct WorkedExampleModel {
+    inputs: Inputs,
+    example: WorkedExample,
+}
+
+impl Default for WorkedExampleModel {
+    fn default() -> Self {
+        let inputs = Inputs::default();
+        Self { inputs, example: WorkedExample::new(&inputs) }
+    }
+}
+
+impl WorkedExampleModel {
+    /// Title for readers.
+    pub const TITLE: &'static str = "One update by hand";
+
+    /// Every number of it.
+    pub fn example(&self) -> &WorkedExample {
+        &self.example
+    }
+
+    /// N_eff against the threshold, and what follows: "1.57 > 1: do not resample".
+    pub fn verdict(&self) -> String {
+        let WorkedExample { ess, limit, resamples, .. } = self.example;
+        // With as many decimals as tell the two apart, up to six.
+        let differ = |decimals: &i32| fixed(ess, *decimals) != fixed(limit, *decimals);
+        let decimals = (2..=6).find(differ);
+        let (sign, what) = match decimals {
+            _ if resamples => ("<", "resample"),
+            Some(_) => (">", "do not resample"),
+            None => ("≥", "do not resample"),
+        };
+        let decimals = decimals.unwrap_or(2);
+        let limit = fixed(limit, decimals);
+        format!("{} {sign} {}: {what}", fixed(ess, decimals), limit.trim_end_matches('0').trim_end_matches('.'))
+    }
+}
+
+/// A number as plain text.
+fn plain(x: f64, digits: i32) -> String {
+    match significant(x, digits) {
+        (number, 0) => number,
+        (number, exponent) => format!("{number}e{exponent}"),
+    }
+}
+
+impl Model for WorkedExampleModel {
+    fn title(&self) -> &'static str {
+        Self::TITLE
+    }
+
+    fn params(&self) -> Vec<ParamSpec> {
+        params::specs()
+    }
+
+    fn value(&self, name: &str) -> Option<String> {
+        let index = params::specs().iter().position(|s| s.name == name)?;
+        Some(write(params::values(&self.inputs)[index]))
+    }
+
+    fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
+        let specs = params::specs();
+        let (mut refused, old) = (Vec::new(), params::values(&self.inputs));
+        let mut next = old;
+        for (name, text) in values {
+            let Some(index) = specs.iter().position(|s| s.name == name) else {
+                refused.push(unknown(name, &specs));
+                continue;
+            };
+            match specs[index].check(text) {
+                Ok(Value::Number(x)) => next[index] = x,
+                Ok(_) => (),
+                Err(error) => refused.push(error),
+            }
+        }
+        // All values at once, because it is together that they make a covariance or none.
+        let [xx, xy, yy] = SIGMA.map(|k| next[k]);
+        if xy * xy >= xx * yy {
+            let bound = plain((xx * yy).sqrt(), 4);
+            let allowed = [
+                format!("more than {}", plain(xy * xy / yy, 4)),
+                format!("between -{bound} and {bound}"),
+                format!("more than {}", plain(xy * xy / xx, 4)),
+            ];
+            for (k, allowed) in SIGMA.into_iter().zip(allowed) {
+                if next[k] != old[k] {
+                    let allowed = format!("{allowed} m², so that Σ is positive definite");
+                    refused.push(FigureError::new(specs[k].name, quoted(&write(next[k])), allowed));
+                    next[k] = old[k];
+                }
+            }
+        }
+        self.inputs = params::inputs(&next);
+        self.example = WorkedExample::new(&self.inputs);
+        refused
+    }
+
+    fn readouts(&self) -> Vec<Readout> {
+        let WorkedExample { updates: [one, two], weights, ess, resamples, .. } = &self.example;
+        let density = |name, title, update: &Update| {
+            let help = "Density of the sighting as this particle foretold it: N(ν; 0, S).";
+            Readout::new(name, title, update.weight, plain(update.weight, DIGITS), "/(m rad)", help)
+        };
+        let log = |name, title, update: &Update| {
+            let (x, help) =
+                (update.innovation.log_likelihood, "Its natural logarithm, which is what the filter keeps.");
+            Readout::new(name, title, x, plain(x, DIGITS), "nats", help)
+        };
+        let share = |name, title, slot: usize| {
+            let (x, help) = (weights.as_slice()[slot], "Its weight as a share of both.");
+            Readout::new(name, title, x, plain(x, DIGITS), "", help)
+        };
+        vec![
+            density("w1", "w, particle 1", one),
+            density("w2", "w, particle 2", two),
+            log("log_w1", "ln w, particle 1", one),
+            log("log_w2", "ln w, particle 2", two),
+            share("normalized1", "w̃, particle 1", 0),
+            share("normalized2", "w̃, particle 2", 1),
+            Readout::new(
+                "ess",
+                "N_eff",
+                *ess,
+                format!("{} of 2", plain(*ess, DIGITS)),
+                "",
+                "1 / Σ w̃²: how many particles of equal weight these two are worth.",
+            ),
+            Readout::new(
+                "verdict",
+                "N_eff against threshold · M",
+                f64::from(u8::from(*resamples)),
+                self.verdict(),
+                "",
+                "1 where the particles are to be resampled, else 0.",
+            ),
+        ]
+    }
+
+    fn series(&self) -> Series {
+        const COLUMNS: &[Column] = &[
+            Column::new("particle", "1 or 2; the last three columns tell of both"),
+            Column::new("x_m", "its pose, x [m]"),
+            Column::new("y_m", "its pose, y [m]"),
+            Column::new("theta_rad", "its pose, direction [rad]"),
+            Column::new("z_r_m", "measured range [m]"),
+            Column::new("z_phi_rad", "measured bearing [rad]"),
+            Column::new("mu_x_m", "landmark before, x [m]"),
+            Column::new("mu_y_m", "landmark before, y [m]"),
+            Column::new("sigma_xx_m2", "its covariance, xx [m²]"),
+            Column::new("sigma_xy_m2", "its covariance, xy [m²]"),
+            Column::new("sigma_yy_m2", "its covariance, yy [m²]"),
+            Column::new("q_rr_m2", "variance of a measured range [m²]"),
+            Column::new("q_phiphi_rad2", "variance of a measured bearing [rad²]"),
+            Column::new("expected_r_m", "expected range [m]"),
+            Column::new("expected_phi_rad", "expected bearing [rad]"),
+            Column::new("nu_r_m", "innovation of the range [m]"),
+            Column::new("nu_phi_rad", "innovation of the bearing [rad]"),
+            Column::new("h_rx", "H_m: range by x"),
+            Column::new("h_ry", "H_m: range by y"),
+            Column::new("h_phix", "H_m: bearing by x [rad/m]"),
+            Column::new("h_phiy", "H_m: bearing by y [rad/m]"),
+            Column::new("s_rr", "S, range [m²]"),
+            Column::new("s_rphi", "S, off-diagonal [m rad]"),
+            Column::new("s_phiphi", "S, bearing [rad²]"),
+            Column::new("s_inverse_rr", "inverse of S, range [1/m²]"),
+            Column::new("s_inverse_rphi", "inverse of S, off-diagonal [1/(m rad)]"),
+            Column::new("s_inverse_phiphi", "inverse of S, bearing [1/rad²]"),
+            Column::new("s_determinant", "determinant of S [m² rad²]"),
+            Column::new("mahalanobis_squared", "squared Mahalanobis distance of the innovation"),
+            Column::new("log_weight", "log-weight [nats]"),
+            Column::new("weight", "weight [1/(m rad)]"),
+            Column::new("k_xr", "gain: x by range"),
+            Column::new("k_xphi", "gain: x by bearing [m/rad]"),
+            Column::new("k_yr", "gain: y by range"),
+            Column::new("k_yphi", "gain: y by bearing [m/rad]"),
+            Column::new("after_x_m", "landmark after, x [m]"),
+            Column::new("after_y_m", "landmark after, y [m]"),
+            Column::new("after_xx_m2", "its covariance, xx [m²]"),
+            Column::new("after_xy_m2", "its covariance, xy [m²]"),
+            Column::new("after_yy_m2", "its covariance, yy [m²]"),
+            Column::new("normalized_weight", "weight as a share of both"),
+            Column::new("ess", "effective number of particles"),
+            Column::new("ess_limit", "threshold times the number of particles"),
+            Column::new("resampled", "1 where the particles are to be resampled"),
+        ];
+        let WorkedExample { before, noise: q, updates, weights, ess, limit, resamples } = &self.example;
+        let resampled = f64::from(u8::from(*resamples));
+        let row = |(slot, update): (usize, &Update)| {
+            let Update { world_from_robot: pose, z, innovation, weight, gain: k, after, .. } = update;
+            let (h, s, i) = (&innovation.prediction.h_m, &innovation.covariance, &innovation.inverse);
+            let (expected, nu) = (&innovation.prediction.z, &innovation.residual);
+            let (b, a) = (&before.covariance, &after.covariance);
+            [
+                [slot as f64 + 1.0, pose.x, pose.y, pose.theta].as_slice(),
+                &[z.x, z.y, before.mean.x, before.mean.y, b.m11, b.m12, b.m22, q.m11, q.m22],
+                &[expected.x, expected.y, nu.x, nu.y, h.m11, h.m12, h.m21, h.m22],
+                &[s.m11, s.m12, s.m22, i.m11, i.m12, i.m22, innovation.determinant()],
+                &[innovation.mahalanobis_squared, innovation.log_likelihood, *weight],
+                &[k.m11, k.m12, k.m21, k.m22, after.mean.x, after.mean.y, a.m11, a.m12, a.m22],
+                &[weights.as_slice()[slot], *ess, *limit, resampled],
+            ]
+            .concat()
+        };
+        Series { columns: COLUMNS, rows: updates.iter().enumerate().map(row).collect() }
+    }
+
+    fn describe(&self) -> String {
+        let WorkedExample { updates, weights, ess, .. } = &self.example;
+        let [one, two] = updates.each_ref().map(|update| {
+            let Update { z, innovation, .. } = update;
+            let (expected, nu) = (innovation.prediction.z, innovation.residual);
+            let [r, phi, r0, phi0, nu_r, nu_phi, distance, weight] =
+                [z.x, z.y, expected.x, expected.y, nu.x, nu.y, innovation.mahalanobis_squared, update.weight]
+                    .map(|x| plain(x, 4));
+            format!(
+                "expects the landmark at {r0} m and {phi0} rad and sees it at {r} m and {phi} rad. The difference of {nu_r} m and \
+                 {nu_phi} rad has a squared Mahalanobis distance of {distance}, the weight is {weight}."
+            )
+        });
+        let [share1, share2] = [0, 1].map(|slot| plain(weights.as_slice()[slot], 3));
+        let ess = plain(*ess, 4);
+        format!(
+            "Particle 1 {one} Particle 2 {two} As shares that is {share1} and {share2}; N_eff is {ess} of 2. {}.",
+            self.verdict()
+        )
+    }
+
+    fn height(&self, width: f64) -> f64 {
+        // Narrower than the layout goes, the figure is made smaller as a whole.
+        Layout::new(width).height * (width / width.max(NARROWEST))
+    }
+
+    fn scene(&self, width: f64, _: f64) -> Scene {
+        scene::build(self, width)
+    }
+}

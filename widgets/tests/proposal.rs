@@ -1,0 +1,263 @@
+//! Laws of the proposals' figure, by its public face: what a page can do to it.
+
+use fastslam_widgets::{
+    figure::Figure,
+    model::Model,
+    proposal::{Layout, ProposalModel},
+    scene::{Mark, Rect, Scene},
+};
+
+const TAG: &str = "fastslam-proposal";
+
+fn proposal(query: &str) -> Figure {
+    let mut figure = Figure::new(TAG).unwrap();
+    assert_eq!(figure.load(query), [], "{query}");
+    figure.model_mut().settle();
+    figure
+}
+
+fn scene(figure: &Figure, width: f64) -> Scene {
+    figure.model().scene(width, figure.model().height(width))
+}
+
+/// Everything a reader gets from a state, for comparing two ways to it.
+fn state(figure: &Figure) -> (String, Vec<String>, Scene) {
+    let readouts = figure.model().readouts().iter().map(|r| format!("{r:?} {:?}", r.value.map(f64::to_bits))).collect();
+    (figure.query(), readouts, scene(figure, 800.0))
+}
+
+fn readout(figure: &Figure, name: &str) -> f64 {
+    figure.model().readouts().into_iter().find(|r| r.name == name).and_then(|r| r.value).unwrap_or(f64::NAN)
+}
+
+/// Where a handle is in a figure of this width \[css px\].
+fn handle(figure: &Figure, name: &str, width: f64) -> [f64; 2] {
+    let scene = scene(figure, width);
+    let at = scene.handles.iter().find(|h| h.name == name).unwrap().at;
+    at.map(|x| x * width / scene.width)
+}
+
+const STATES: [&str; 6] = [
+    "",
+    "landmarks=pair",
+    "predict=on&guess=30",
+    "samples=4096&range-std=0.005&bearing-std=0.01&odometry=2&predict=on&guess=29.55&run=on&landmarks=pair",
+    "samples=1&range-std=0.5&bearing-std=0.3&odometry=0.25&landmark-x=-0.1&landmark-y=0.75&landmarks=pair",
+    "landmark-x=2.8&landmark-y=-0.75&seed=4294967295&odometry=2&predict=on&run=on",
+];
+
+#[test]
+fn dragging_is_setting_in_both_panels_and_at_any_width() {
+    for width in [200.0, 340.0, 800.0, 1200.0] {
+        for name in ["landmark", "landmark-again"] {
+            let mut figure = proposal("samples=50");
+            let [x, y] = handle(&proposal("samples=50&landmark-x=1.9&landmark-y=0.4"), name, width);
+            figure.drag(name, x, y, width);
+            figure.model_mut().settle();
+            assert_eq!(
+                state(&figure),
+                state(&proposal("samples=50&landmark-x=1.9&landmark-y=0.4")),
+                "{name} at {width}"
+            );
+        }
+        let mut figure = proposal("predict=on");
+        let [x, y] = handle(&proposal("predict=on&guess=6.5"), "guess", width);
+        figure.drag("guess", x, y, width);
+        assert_eq!(figure.query(), "predict=on&guess=6.5", "at {width}");
+    }
+}
+
+#[test]
+fn a_landmark_dragged_out_of_its_panel_stays_at_the_edge() {
+    let mut figure = proposal("");
+    figure.drag("landmark", 1e6, -1e6, 800.0);
+    let specs = figure.model().params();
+    for name in ["landmark-x", "landmark-y"] {
+        let max = specs.iter().find(|s| s.name == name).unwrap().max;
+        assert_eq!(
+            figure.model().value(name).unwrap().parse::<f64>().unwrap(),
+            (100.0 * max).round() / 100.0,
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn arrow_keys_move_by_a_step_coarsely_by_ten_and_finely_by_a_tenth() {
+    let mut figure = proposal("landmark-x=1&landmark-y=0.1&predict=on&guess=4");
+    for (right, up, x, y) in [
+        (1.0, 0.0, "1.05", "0.1"),
+        (0.0, -1.0, "1.05", "0.05"),
+        (-10.0, 0.0, "0.55", "0.05"),
+        (0.0, 0.1, "0.55", "0.055"),
+    ] {
+        figure.nudge("landmark", right, up);
+        let value = |name| figure.model().value(name).unwrap();
+        assert_eq!((value("landmark-x").as_str(), value("landmark-y").as_str()), (x, y));
+    }
+    for (right, up, guess) in [(1.0, 0.0, "4.1"), (0.0, 10.0, "5.1"), (-0.1, 0.0, "5.09"), (-1000.0, 0.0, "1")] {
+        figure.nudge("guess", right, up);
+        assert_eq!(figure.model().value("guess").unwrap(), guess);
+    }
+}
+
+#[test]
+fn a_link_brings_back_the_whole_state() {
+    for query in STATES {
+        let figure = proposal(query);
+        assert_eq!(state(&figure), state(&proposal(&figure.query())), "{query}");
+    }
+    // In whatever order: the run is of the guess that the link names.
+    assert_eq!(proposal("run=on&guess=7&predict=on").query(), "predict=on&guess=7&run=on");
+    let mut figure = proposal(STATES[3]);
+    assert_eq!(figure.load("seed=5"), []);
+    assert_eq!(figure.query(), "seed=5");
+}
+
+#[test]
+fn the_guess_is_asked_for_then_run_and_another_guess_starts_anew() {
+    let mut figure = proposal("");
+    assert!(scene(&figure, 800.0).handles.iter().all(|h| h.name != "guess"));
+    figure.set("predict", "on").unwrap();
+    assert!(readout(&figure, "ratio_half").is_nan());
+    figure.drag("guess", 400.0, 0.0, 800.0);
+    let guess = figure.model().value("guess").unwrap();
+    figure.set("run", "on").unwrap();
+    figure.model_mut().settle();
+    // What is run is what a reader gets who halves the noise.
+    assert_eq!(readout(&figure, "ratio_half").to_bits(), readout(&proposal("range-std=0.025"), "ratio").to_bits());
+    assert!(figure.model().describe().contains(&format!("the guess was {guess}")), "{}", figure.model().describe());
+    figure.set("guess", &guess).unwrap();
+    assert_eq!(figure.model().value("run").unwrap(), "on", "the same guess is no other try");
+    figure.nudge("guess", 1.0, 0.0);
+    figure.model_mut().settle();
+    assert_eq!(figure.model().value("run").unwrap(), "off");
+    assert!(readout(&figure, "ratio_half").is_nan());
+    // Without a guess there is nothing to run, and who runs it is asked.
+    figure.set("predict", "off").unwrap();
+    figure.set("run", "on").unwrap();
+    assert_eq!(figure.model().value("predict").unwrap(), "on");
+    figure.set("predict", "off").unwrap();
+    assert_eq!(figure.model().value("run").unwrap(), "off");
+}
+
+#[test]
+fn what_changes_no_sample_draws_none() {
+    let mut figure = proposal("");
+    let before = figure.model().series();
+    figure.set("seed", &figure.model().value("seed").unwrap()).unwrap();
+    assert_eq!(figure.model().pending(), 0);
+    figure.set("predict", "on").unwrap();
+    figure.model_mut().settle();
+    assert_eq!(figure.model().series(), before);
+    figure.set("seed", "1").unwrap();
+    assert_eq!(figure.model().pending(), 1);
+    figure.model_mut().settle();
+    assert_ne!(figure.model().series(), before);
+}
+
+#[test]
+fn what_is_lost_is_told_in_words() {
+    let model = |query: &str| {
+        let figure = proposal(query);
+        let texts = scene(&figure, 800.0).marks;
+        let words = texts.iter().filter_map(|m| if let Mark::Text(t) = m { Some(t.text.clone()) } else { None });
+        (figure.model().describe(), words.collect::<Vec<_>>().join("\n"))
+    };
+    let (told, drawn) = model("landmarks=pair");
+    assert!(told.contains("What speaks for A is lost") && drawn.contains("2.0 has lost A"), "{told}\n{drawn}");
+    let (told, drawn) = model("");
+    assert!(!told.contains("lost") && !drawn.contains("lost"));
+    assert!(drawn.contains("all weights are exactly equal"));
+}
+
+#[test]
+fn data_has_a_row_for_every_sample_and_the_readouts_follow_from_it() {
+    let figure = proposal("samples=300");
+    let export = figure.export();
+    let (header, rows) = (export.header(), export.rows());
+    assert_eq!(rows.len(), 300);
+    assert!(rows.iter().all(|row| row.len() == header.len() && row.iter().all(Option::is_some)));
+    let column = |name: &str| {
+        let k = header.iter().position(|h| *h == name).unwrap();
+        rows.iter().map(|row| row[k].unwrap()).collect::<Vec<f64>>()
+    };
+    for proposal in ["motion", "aware"] {
+        let squares: f64 = column(&format!("{proposal}_weight")).iter().map(|w| w * w).sum();
+        assert!((1.0 / squares - readout(&figure, &format!("ess_{proposal}"))).abs() < 1e-9);
+        let inside = column(&format!("{proposal}_inside")).iter().sum::<f64>() / 3.0;
+        assert!((inside - readout(&figure, &format!("inside_{proposal}"))).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn texts_fit_their_boxes_and_the_figure_and_cover_no_other() {
+    for query in STATES {
+        let figure = proposal(query);
+        for width in [240.0, 300.0, 340.0, 380.0, 399.0, 400.0, 500.0, 639.0, 640.0, 700.0, 800.0, 1100.0, 1280.0] {
+            let scene = scene(&figure, width);
+            let bounds = Rect::new(0.0, 0.0, scene.width, scene.height);
+            let mut inked: Vec<(Rect, &str)> = Vec::new();
+            for mark in &scene.marks {
+                let Mark::Text(text) = mark else { continue };
+                assert!(text.width() <= text.area.w + 1e-9 && text.size <= text.area.h, "{query} at {width}: {text:?}");
+                assert!(bounds.encloses(&text.area), "{query} at {width}: {text:?}");
+                assert!(!text.text.ends_with('…'), "{query} at {width}: {text:?} was shortened");
+                let [x, y] = text.origin();
+                let ink = Rect::new(x, y - 0.7 * text.size, text.width(), 0.7 * text.size);
+                for (other, words) in &inked {
+                    assert!(!ink.overlaps(other), "{query} at {width}: {:?} covers {words:?}", text.text);
+                }
+                inked.push((ink, &text.text));
+            }
+        }
+    }
+}
+
+#[test]
+fn samples_outlines_and_densities_stay_in_their_panels() {
+    for query in STATES {
+        let figure = proposal(query);
+        for width in [300.0, 800.0] {
+            let panels = Layout::new(width).panels.map(|panel| panel.view);
+            let below = panels.iter().map(Rect::bottom).fold(0.0, f64::max);
+            let inside = |points: &[[f64; 2]]| {
+                let grown = panels.map(|p| p.inset(-0.01));
+                points.iter().all(|p| p[1] > below || grown.iter().any(|panel| panel.contains(*p)))
+            };
+            for mark in scene(&figure, width).marks {
+                let fits = match &mark {
+                    Mark::Lines { lines, .. } => lines.iter().all(|line| inside(line)),
+                    Mark::Polygons { polygons, .. } => polygons.iter().all(|polygon| inside(polygon)),
+                    Mark::Discs { centres, .. } => inside(centres),
+                    Mark::Raster { area, .. } => area.y > below || panels.iter().any(|panel| panel.encloses(area)),
+                    _ => true,
+                };
+                assert!(fits, "{query} at {width}: {mark:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_height_depends_on_the_width_only() {
+    for width in [100.0, 340.0, 640.0, 1280.0] {
+        for query in STATES {
+            assert_eq!(proposal(query).model().height(width), ProposalModel::default().height(width));
+        }
+    }
+}
+
+#[test]
+fn no_size_makes_it_panic() {
+    let mut figure = proposal(STATES[3]);
+    for (width, height, dpr) in [(0, 0, 1.0), (1, 1, f64::NAN), (3, 4000, 0.0), (4000, 3, 1e300), (300, 200, -1.0)] {
+        figure.paint(width, height, dpr, Default::default());
+        assert!(figure.canvas().pixels().chunks_exact(4).all(|p| p[3] == 255));
+    }
+    for width in [f64::NAN, f64::INFINITY, 0.0, -5.0, 1e-300, 1e300] {
+        figure.pick(1.0, 1.0, width);
+        figure.drag("landmark", 1.0, 1.0, width);
+        figure.model().height(width);
+    }
+}
