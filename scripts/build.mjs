@@ -47,10 +47,12 @@ const painted = new Set([
   'source_over_rgba_tail',
 ])
 
-/** Is a function, by its name in Rust, a stage that no figure paints with? @param {string} name */
+/** Is a function, by its name in Rust, one that no figure paints with? @param {string} name */
 function neverPainted(name) {
   const stage = /^tiny_skia::pipeline::(lowp|highp)::(\w+)(::h[0-9a-f]{16})?$/.exec(name)
-  return stage !== null && (stage[1] === 'highp' || !painted.has(stage[2] ?? ''))
+  if (stage) return stage[1] === 'highp' || !painted.has(stage[2] ?? '')
+  // Shaders that are no plain colour; and strokes along curves, as only straight lines are stroked.
+  return /^tiny_skia::shaders::\w*(gradient|pattern)|^tiny_skia_path::stroker::PathStroker::(cubic|quad|conic)/.test(name)
 }
 
 /** The module without the bodies of what is never painted. @param {Buffer} input */
@@ -96,7 +98,7 @@ export async function build() {
 async function optimise() {
   const input = readFileSync(wasm)
   const binaryen = readFileSync(join(root, 'node_modules', 'binaryen', 'package.json'))
-  const key = createHash('sha256').update(input).update(binaryen).update(optimiser.join()).update([...painted].join()).digest('hex')
+  const key = createHash('sha256').update(input).update(binaryen).update(optimiser.join()).update([...painted].join()).update(String(neverPainted)).digest('hex')
   const kept = cache('wasm-opt', `${key}.wasm`)
   if (!existsSync(kept)) {
     rmSync(cache('wasm-opt'), { recursive: true, force: true })

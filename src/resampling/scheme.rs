@@ -31,31 +31,43 @@ impl Scheme {
                 invert(w, (0..n).map(|k| (k as f64 + shift) / n as f64))
             }
             Self::Stratified => invert(w, (0..n).map(|k| (k as f64 + stream.uniform()) / n as f64)),
-            Self::Multinomial => invert(w, sorted_uniforms(n, stream)),
+            Self::Multinomial => expand(&offspring(w, 1.0, n, stream)),
             Self::Residual => {
                 let expected: Vec<f64> = w.iter().map(|w| w * n as f64).collect();
-                let certain: Vec<u32> = (0..w.len()).flat_map(|i| repeat(i, expected[i].floor() as usize)).collect();
+                let certain: Vec<usize> = expected.iter().map(|e| e.floor() as usize).collect();
                 let rest: Vec<f64> = expected.iter().map(|e| e - e.floor()).collect();
-                let total: f64 = rest.iter().sum();
-                let missing = n.saturating_sub(certain.len());
-                let drawn = invert(&rest, sorted_uniforms(missing, stream).map(|u| u * total));
-                let mut ancestors: Vec<u32> = certain.into_iter().take(n).chain(drawn).collect();
-                ancestors.sort_unstable();
+                let missing = n.saturating_sub(certain.iter().sum());
+                let drawn = offspring(&rest, rest.iter().sum(), missing, stream);
+                let counts: Vec<usize> = certain.iter().zip(drawn).map(|(certain, drawn)| certain + drawn).collect();
+                let mut ancestors = expand(&counts);
+                ancestors.truncate(n); // rounding up a weight can make one too many certain
                 ancestors
             }
         }
     }
 }
 
-fn repeat(slot: usize, count: usize) -> impl Iterator<Item = u32> {
-    core::iter::repeat_n(slot as u32, count)
+/// Each slot as often as it has offspring.
+fn expand(offspring: &[usize]) -> Vec<u32> {
+    (0..).zip(offspring).flat_map(|(slot, count)| core::iter::repeat_n(slot, *count)).collect()
 }
 
-/// n uniforms in ascending order.
-fn sorted_uniforms(n: usize, stream: &mut Stream) -> impl Iterator<Item = f64> + use<> {
-    let mut uniforms: Vec<f64> = (0..n).map(|_| stream.uniform()).collect();
-    uniforms.sort_unstable_by(f64::total_cmp);
-    uniforms.into_iter()
+/// How many of `n` independent draws fall to each slot, by weights of this sum.
+fn offspring(weights: &[f64], total: f64, n: usize, stream: &mut Stream) -> Vec<usize> {
+    let cumulative: Vec<f64> = weights
+        .iter()
+        .scan(0.0, |sum, weight| {
+            *sum += weight;
+            Some(*sum)
+        })
+        .collect();
+    let last = weights.iter().rposition(|w| *w > 0.0).unwrap_or(0);
+    let mut counts = vec![0; weights.len()];
+    for _ in 0..n {
+        let point = stream.uniform() * total;
+        counts[cumulative.partition_point(|sum| *sum <= point).min(last)] += 1;
+    }
+    counts
 }
 
 /// For each point, in ascending order, the slot whose piece of the cumulative weights holds it.

@@ -172,19 +172,13 @@ impl Grid {
     /// show the same number.
     pub fn footprint<'a>(grids: impl IntoIterator<Item = &'a Self>) -> Footprint {
         const POINTER: usize = 8;
-        let mut footprint = Footprint::default();
-        let mut directories: Vec<&Arc<Directory>> = grids.into_iter().map(|grid| &grid.directory).collect();
-        for directory in &directories {
-            footprint.dense += (directory.tiles.len() * tile::DENSE_BYTES) as u64;
-        }
-        directories.sort_unstable_by_key(|directory| Arc::as_ptr(directory));
-        directories.dedup_by_key(|directory| Arc::as_ptr(directory));
-        footprint.unique += directories.iter().map(|d| (d.tiles.len() * POINTER) as u64).sum::<u64>();
-        let mut tiles: Vec<&Arc<Tile>> = directories.iter().flat_map(|d| d.tiles.iter().flatten()).collect();
-        tiles.sort_unstable_by_key(|tile| Arc::as_ptr(tile));
-        tiles.dedup_by_key(|tile| Arc::as_ptr(tile));
-        footprint.unique += tiles.iter().map(|tile| tile.bytes() as u64).sum::<u64>();
-        footprint
+        let directories: Vec<&Arc<Directory>> = grids.into_iter().map(|grid| &grid.directory).collect();
+        let dense: usize = directories.iter().map(|d| d.tiles.len() * tile::DENSE_BYTES).sum();
+        let directories = distinct(directories);
+        let pointers: usize = directories.iter().map(|d| d.tiles.len() * POINTER).sum();
+        let tiles = distinct(directories.iter().flat_map(|d| d.tiles.iter().flatten()).collect());
+        let unique = pointers + tiles.iter().map(|tile| tile.bytes()).sum::<usize>();
+        Footprint { unique: unique as u64, dense: dense as u64 }
     }
 
     /// The tile of a cell, made its own and allocated if need be; `None` where the directory does not reach.
@@ -193,6 +187,14 @@ impl Grid {
         let index = directory.index(ti, tj)?;
         Some(Arc::make_mut(directory.tiles[index].get_or_insert_default()))
     }
+}
+
+/// Each shared thing once.
+fn distinct<T>(shared: Vec<&Arc<T>>) -> Vec<&Arc<T>> {
+    let mut places: Vec<(usize, usize)> = shared.iter().map(|arc| Arc::as_ptr(arc).addr()).zip(0..).collect();
+    places.sort_unstable(); // addresses, so that all kinds of things are sorted by the same code
+    places.dedup_by_key(|(address, _)| *address);
+    places.into_iter().map(|(_, index)| shared[index]).collect()
 }
 
 impl Directory {
