@@ -143,8 +143,9 @@ pub struct PolicySummary {
     pub ess_meanwhile: f64,
     /// Mean number of nodes of the ancestry tree at the end.
     pub tree_nodes: f64,
-    /// c of t + 1 + c M ln M, fitted to the tree's nodes over the second half of the runs (Jacob, Murray, Rubenthaler 2015). `None`
-    /// where M is one, or where nothing was ever resampled: then nothing coalesces.
+    /// c of t + 1 + c M ln M, fitted to the tree's nodes over the second half of the runs (Jacob, Murray, Rubenthaler 2015, who
+    /// resample at every step: who does so seldom has a larger one). `None` where M is one, or where nothing was ever resampled:
+    /// then nothing coalesces.
     pub tree_c: Option<f64>,
     /// Runs in which the right wing was alive before the sign; on the wings' course.
     pub alive: Option<Fraction>,
