@@ -121,7 +121,7 @@ impl ResamplingModel {
 
     /// Reads a step, as near to it as there is one. The newest is followed.
     fn look(&mut self, step: f64) {
-        let step = step.clamp(0.0, f64::from(self.step())) as u32;
+        let step = step.min(f64::from(self.step())).max(0.0) as u32;
         self.cursor = (step < self.step()).then_some(step);
     }
 }

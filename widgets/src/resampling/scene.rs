@@ -69,10 +69,9 @@ pub fn build(model: &ResamplingModel, width: f64, height: f64) -> Scene {
 fn told(model: &ResamplingModel) -> String {
     let of = |policy| {
         let Moment { report, .. } = model.read(policy);
-        let lineage = report.descent.lineage(report.step);
-        format!("{} N_eff {}, lineage {lineage}", NAMES[policy].to_lowercase(), fixed(report.ess, 1))
+        format!("N_eff {}, lineage {}", fixed(report.ess, 1), report.descent.lineage(report.step))
     };
-    format!("step {}: {}; {}; {}", model.cursor(), of(0), of(1), of(2))
+    format!("step {}: never {}; every step {}; selective {}", model.cursor(), of(0), of(1), of(2))
 }
 
 const NAMES: [&str; 3] = ["Never", "Every step", "Selective"];
@@ -337,7 +336,7 @@ impl Filter<'_> {
             let width = room + font::measure(&label, size, Weight::Regular) + 0.01;
             // A ring stands below the one in the tree, with its step beside it.
             let wanted = self.x(step) - if ring { 4.5 } else { 0.5 * width };
-            let left = wanted.clamp(x, x + w - width);
+            let left = wanted.min(x + w - width).max(x);
             if taken.iter().any(|[from, to]| left < *to + 6.0 && *from < left + width + 6.0) {
                 continue;
             }
