@@ -1,4 +1,5 @@
 // What a reader does with the three filters, and with the count over many seeds.
+import AxeBuilder from '@axe-core/playwright'
 import type { Locator, Page } from '@playwright/test'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
@@ -222,6 +223,19 @@ test.describe('at rest', () => {
     await panel(figure).stop.click()
     expect(fetched).toHaveLength(1)
   })
+
+  for (const colorScheme of ['light', 'dark'] as const) {
+    test(`axe finds nothing in it, counted and open, ${colorScheme}`, async ({ page }) => {
+      await page.emulateMedia({ colorScheme })
+      const figure = await open(page, './#fastslam-resampling?wings=on&step=80&cursor=70')
+      await figure.openSettings()
+      await panel(figure).runs.selectOption('50')
+      await panel(figure).start.click()
+      await expect(panel(figure).said).toContainText('50 seeds counted.', { timeout: 45_000 })
+      const { violations } = await new AxeBuilder({ page }).include('fastslam-resampling').analyze()
+      expect(violations.map(({ id, nodes }) => `${id}: ${nodes.map(node => node.html).join(' | ')}`)).toEqual([])
+    })
+  }
 
   test('where workers are forbidden it says so, and the figure goes on', async ({ page, complaints }) => {
     await page.route('./', async route => {
