@@ -82,7 +82,7 @@ fn the_tree_has_every_edge_once_and_the_living_ones_are_those_still_needed() {
                 let step = area.w / f64::from(figure.model().step_count());
                 let edges = |role| {
                     let lines = strands(&scene, role, area);
-                    let length = |line: &Vec<Point>| (line[1][0] - line[0][0]) / step;
+                    let length = |line: &Vec<Point>| (line[line.len() - 1][0] - line[0][0]) / step;
                     lines.iter().map(length).sum::<f64>()
                 };
                 let dead = scene.marks.iter().find_map(|mark| match mark {

@@ -89,6 +89,23 @@ fn error_scale(largest: f64) -> f64 {
         .unwrap_or(50.0)
 }
 
+/// A line of descent in the tree.
+#[derive(Clone)]
+struct Line {
+    points: Vec<Point>,
+    lives: bool,
+}
+
+impl Line {
+    /// On to a point; what goes straight on in its slot is one piece.
+    fn go(&mut self, [x, y]: Point) {
+        match &mut self.points[..] {
+            [.., [_, y0], last @ [_, _]] if *y0 == y && last[1] == y => last[0] = x,
+            _ => self.points.push([x, y]),
+        }
+    }
+}
+
 /// One filter in its column.
 struct Filter<'a> {
     model: &'a ResamplingModel,
@@ -273,32 +290,22 @@ impl Filter<'_> {
         let ancestry = self.model.run().ancestry(self.policy);
         let alive = ancestry.alive(nodes);
         let [mut dead, mut living] = [Vec::new(), Vec::new()];
-        // What goes on in its slot is one line, as long as it does.
-        let mut runs: Vec<Option<(u32, bool)>> = vec![None; self.particles()];
+        let mut close = |line: Line| if line.lives { living.push(line.points) } else { dead.push(line.points) };
+        // The lines that end at the step before, by slot: one child of each goes on with its line.
+        let mut open: Vec<Option<Line>> = vec![None; self.particles()];
         for step in 1..=report.step {
             let [before, here] = [step - 1, step].map(|step| ancestry.nodes(step).start);
+            let mut longer = vec![None; self.particles()];
             for (parent, child) in ancestry.edges(step..step + 1) {
                 let (from, to, lives) = ((parent - before) as usize, (child - here) as usize, alive[child as usize]);
-                let lines = if lives { &mut living } else { &mut dead };
-                if from != to {
-                    lines.push(vec![self.node(step - 1, from), self.node(step, to)]);
-                }
-                let goes_on = from == to && runs[to].is_some_and(|(_, alive)| alive == lives);
-                if !goes_on && let Some((since, alive)) = runs[to].take() {
-                    let lines = if alive { &mut living } else { &mut dead };
-                    lines.push(vec![self.node(since, to), self.node(step - 1, to)]);
-                }
-                if from == to && !goes_on {
-                    runs[to] = Some((step - 1, lives));
-                }
+                let line = open[from].take_if(|line| line.lives == lives);
+                let mut line = line.unwrap_or_else(|| Line { points: vec![self.node(step - 1, from)], lives });
+                line.go(self.node(step, to));
+                longer[to] = Some(line);
             }
+            core::mem::replace(&mut open, longer).into_iter().flatten().for_each(&mut close);
         }
-        for (slot, run) in runs.into_iter().enumerate() {
-            if let Some((since, lives)) = run {
-                let lines = if lives { &mut living } else { &mut dead };
-                lines.push(vec![self.node(since, slot), self.node(report.step, slot)]);
-            }
-        }
+        open.into_iter().flatten().for_each(close);
         let apart = self.column.charts[3].h / self.particles() as f64;
         scene.marks.push(Mark::Strands { lines: dead, width: (0.16 * apart).clamp(0.6, 1.0), role: Role::Level(DEAD) });
         scene.marks.push(Mark::Strands { lines: living, width: (0.3 * apart).clamp(1.0, 2.0), role: Role::Path });
