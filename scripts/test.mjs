@@ -49,6 +49,17 @@ function count(output) {
 /** @param {string[]} args */
 const cargoTest = (...args) => counted(() => run('cargo', ['test', '--no-fail-fast', ...args]))
 
+/** Holds resampling against a Python package, which it installs at its first run. Without Python or PyPI it passes, and says why. */
+async function oracle() {
+  let said = ''
+  const passed = await counted(async () => {
+    const result = await run('cargo', ['test', '-p', 'laws', '--test', 'oracle', '--', '--ignored', '--nocapture'])
+    said = /^(?:.*\.\.\. )?(skipped: .*|\d+ resamplings agree)$/m.exec(result.output)?.[1] ?? ''
+    return result
+  })
+  return said.startsWith('skipped') ? said : `${passed}, ${said}`
+}
+
 /** wasm-pack's tests in the Chromium that set-up found, which need not be the one ChromeDriver would choose. */
 function wasmTest() {
   const settings = JSON.parse(readFileSync(join(root, 'tests', 'browser', 'webdriver.json'), 'utf8'))
@@ -87,6 +98,7 @@ await main(async () => {
   await buildPages()
   for (const check of otherChecks) await attempt(...check)
   await attempt('Tests, native, with all checks on', () => cargoTest('--workspace'))
+  await attempt('Resampling against the Python package particles', oracle)
   await attempt('Same bits, as tests are built', () => cargoTest('-p', 'portability'))
   await attempt('Same bits, as releases are built', () => cargoTest('--release', '-p', 'portability'))
   await attempt('Tests in WebAssembly, in Chromium', wasmTest)

@@ -2,7 +2,7 @@
 
 use crate::execute::Executor;
 use crate::geometry::Pose2;
-use crate::lineage::{Ancestry, NodeId};
+use crate::lineage::{Ancestry, Descent, NodeId};
 use crate::map::ConditionalMap;
 use crate::proposal::{Proposal, ProposalTrace};
 use crate::random::{Purpose, Stream};
@@ -147,7 +147,16 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
 
     /// Distinct ancestors at step 0 of the present population.
     pub fn lineage(&self) -> usize {
-        let nodes: Vec<NodeId> = self.particles.iter().map(|p| p.node).collect();
-        self.ancestry.distinct_ancestors(&nodes, self.step)
+        self.descent().lineage(self.step) as usize
+    }
+
+    /// What the present population descends from.
+    pub fn descent(&self) -> Descent {
+        self.ancestry.descent(&self.nodes())
+    }
+
+    /// Newest node of each particle, by slot.
+    pub fn nodes(&self) -> Vec<NodeId> {
+        self.particles.iter().map(|p| p.node).collect()
     }
 }

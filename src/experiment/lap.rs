@@ -109,6 +109,11 @@ impl Default for LapSetup {
 }
 
 impl LapSetup {
+    /// Noise of the wheels.
+    pub fn motion(&self) -> OdometryModel {
+        OdometryModel { alphas: ALPHAS }.scaled(self.odometry_scale)
+    }
+
     fn validate(&self) -> Result<(), ParameterError> {
         let check = |ok: bool, name, value: &dyn core::fmt::Display, allowed| {
             if ok { Ok(()) } else { Err(ParameterError::new(name, value, allowed)) }
@@ -213,11 +218,14 @@ pub struct StepReport {
     pub map_bytes_dense: u64,
 }
 
+/// The filter of a lap.
+pub type Filter = Rbpf<Grid, Either<FromMotion<OdometryModel, ScanModel>, FromScan>>;
+
 /// A lap under way. Cloning one is cheap: the world and the maps are shared.
 #[derive(Clone, Debug)]
 pub struct Lap {
     world: Arc<LapWorld>,
-    filter: Rbpf<Grid, Either<FromMotion<OdometryModel, ScanModel>, FromScan>>,
+    filter: Filter,
     report: StepReport,
 }
 
@@ -228,8 +236,16 @@ impl Lap {
     /// Where a setting is out of its range.
     pub fn new(setup: &LapSetup) -> Result<Self, ParameterError> {
         setup.validate()?;
-        let motion = OdometryModel { alphas: ALPHAS }.scaled(setup.odometry_scale);
-        let world = LapWorld::new(setup.seed, &motion, setup.range_std);
+        Self::in_world(setup, Arc::new(LapWorld::new(setup.seed, &setup.motion(), setup.range_std)))
+    }
+
+    /// The same in a world that is there: one for several filters.
+    ///
+    /// # Errors
+    /// Where a setting is out of its range.
+    pub fn in_world(setup: &LapSetup, world: Arc<LapWorld>) -> Result<Self, ParameterError> {
+        setup.validate()?;
+        let motion = setup.motion();
         let start = world.truth[0];
         let mut map = Grid::new(GRID);
         for (pose, scan) in &world.start_scans {
@@ -249,7 +265,7 @@ impl Lap {
             ancestors: None,
             traces: Vec::new(),
         };
-        let mut lap = Self { world: Arc::new(world), filter, report: StepReport::default() };
+        let mut lap = Self { world, filter, report: StepReport::default() };
         lap.report = lap.judge(uniform);
         Ok(lap)
     }
@@ -305,6 +321,11 @@ impl Lap {
     /// The truth, for drawing and judging.
     pub fn world(&self) -> &LapWorld {
         &self.world
+    }
+
+    /// The filter, for those who watch it.
+    pub fn filter(&self) -> &Filter {
+        &self.filter
     }
 
     /// The universes, by slot.

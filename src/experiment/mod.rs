@@ -3,6 +3,8 @@
 pub mod conditioning;
 pub mod landmarks;
 pub mod lap;
+pub mod policies;
+pub mod policy_counts;
 pub mod proposals;
 pub mod table;
 pub mod worked_example;
@@ -25,7 +27,10 @@ pub fn golden_traces(executor: &Executor) -> Vec<(&'static str, Digest)> {
     let joints = joints.map(|(name, setup)| (name, conditioning::Conditioning::new(&setup).expect(VALID).trace()));
     let clouds = proposals::golden_setups().into_iter();
     let clouds = clouds.map(|(name, setup)| (name, proposals::Proposals::new(&setup).expect(VALID).trace()));
-    laps.chain(drives).chain(joints).chain(clouds).collect()
+    let policies = policies::golden_setups().into_iter().map(|(name, setup)| {
+        (name, policies::Policies::new(&setup).expect(VALID).with_executor(executor.clone()).trace())
+    });
+    laps.chain(drives).chain(joints).chain(clouds).chain(policies).collect()
 }
 
 /// The q-quantile of ascending values, interpolated linearly between neighbours (type 7 of Hyndman and Fan 1996).

@@ -42,6 +42,15 @@ pub struct VelocityModel {
 }
 
 impl VelocityModel {
+    /// The same model with every standard deviation multiplied by `scale`.
+    pub fn scaled(&self, scale: f64) -> Self {
+        Self {
+            speed_std: self.speed_std * scale,
+            turn_rate_std: self.turn_rate_std * scale,
+            alphas: self.alphas.map(|alpha| alpha * scale * scale),
+        }
+    }
+
     /// Standard deviations of (v, ω) \[m/s, rad/s\] for a control.
     pub fn stds(&self, u: &Velocity) -> [f64; 2] {
         let ([a1, a2, a3, a4], v2, w2) = (self.alphas, u.speed * u.speed, u.turn_rate * u.turn_rate);

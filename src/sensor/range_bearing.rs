@@ -28,6 +28,11 @@ pub struct RangeBearing {
 const NEAREST: f64 = 1e-6;
 
 impl RangeBearing {
+    /// The same sensor with both standard deviations multiplied by `scale`.
+    pub fn scaled(&self, scale: f64) -> Self {
+        Self { range_std: self.range_std * scale, bearing_std: self.bearing_std * scale, ..*self }
+    }
+
     /// What is measured of a landmark, with noise. Takes four `u64`s.
     pub fn measure(&self, world_from_robot: &Pose2, landmark: &Vector2<f64>, stream: &mut Stream) -> Vector2<f64> {
         let ([a, b], exact) = (stream.normals(), self.predict(world_from_robot, landmark).z);

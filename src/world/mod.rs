@@ -5,5 +5,5 @@ mod field;
 mod floor_plan;
 
 pub use drive::drive;
-pub use field::Field;
+pub use field::{Field, WINGS_LOST, WINGS_SIGN};
 pub use floor_plan::{FloorPlan, Segment};

@@ -31,7 +31,7 @@ pub struct Arguments {
     /// When to resample: never, always or neff:F, where N_eff < F M
     #[arg(long, default_value_t = LandmarkSetup::default().policy)]
     policy: ResamplePolicy,
-    /// The simulated course: eight, or tags (the setting of PythonRobotics)
+    /// The simulated course: eight, tags (the setting of PythonRobotics) or wings (two that look the same)
     #[arg(long, default_value_t = Course::Eight)]
     course: Course,
     /// Read a UTIAS MRCLAM log instead: PREFIX-robot1-odometry.dat, -robot1-measurement.dat, -robot1-groundtruth.dat,

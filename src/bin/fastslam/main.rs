@@ -4,6 +4,7 @@ mod landmarks;
 mod lap;
 mod mrclam;
 mod picture;
+mod policies;
 mod table;
 
 use clap::Parser;
@@ -25,6 +26,7 @@ struct Arguments {
 enum Command {
     Lap(lap::Arguments),
     Landmarks(landmarks::Arguments),
+    Policies(policies::Arguments),
     Table(table::Arguments),
 }
 
@@ -77,6 +79,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     pool.install(|| match arguments.command {
         Command::Lap(arguments) => lap::run(&arguments),
         Command::Landmarks(arguments) => landmarks::run(&arguments),
+        Command::Policies(arguments) => policies::run(&arguments),
         Command::Table(arguments) => table::run(&arguments),
     })
 }
@@ -84,7 +87,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
 /// What clap says before it advises, in one line.
 fn one_line(message: &clap::Error) -> String {
     if message.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "a command is missing: lap, landmarks or table (fastslam --help explains)".to_owned();
+        return "a command is missing: lap, landmarks, policies or table (fastslam --help explains)".to_owned();
     }
     let text = message.to_string();
     let said =

@@ -82,7 +82,7 @@ fn shards_merge_to_the_rows_of_one_run() {
 #[test]
 fn bad_arguments_are_refused_in_one_line_with_status_2() {
     for (arguments, said) in [
-        ("", "lap, landmarks or table"),
+        ("", "lap, landmarks, policies or table"),
         ("laps", "laps"),
         ("lap --particles 0", "from 1 to 4096"),
         ("lap --particles 1e9", "--particles"),
@@ -99,8 +99,13 @@ fn bad_arguments_are_refused_in_one_line_with_status_2() {
         ("landmarks --association guessed", "known or unknown"),
         ("landmarks --particles 0", "from 1 to 100000"),
         ("landmarks --particles 0 --seeds 2", "from 1 to 100000"),
-        ("landmarks --course moon", "eight or tags"),
+        ("landmarks --course moon", "eight, tags or wings"),
         ("landmarks --seeds 0", "--seeds"),
+        ("policies --course moon", "lap or wings"),
+        ("policies --seeds 0", "--seeds"),
+        ("policies --particles 0", "from 1 to 4096"),
+        ("policies --threshold -0.5", "from 0 to 1"),
+        ("policies --scheme lottery", "systematic, stratified, multinomial or residual"),
         ("table --seeds 0", "--seeds"),
         ("table --shard 4/3 --json", "I from 1 to N"),
         ("table --shard 1/3", "--json"),
@@ -133,6 +138,32 @@ fn landmarks_print_what_they_are_asked_for() {
     fastslam(&format!("landmarks --particles 3 --png {}", path.display())).success();
     assert!(std::fs::read(&path).unwrap().starts_with(b"\x89PNG"));
     std::fs::remove_file(path).unwrap();
+}
+
+#[test]
+fn policies_print_what_the_figure_must_show() {
+    let wings = json("policies --course wings --seeds 6 --particles 8 --json --threads 2");
+    assert_eq!(wings, json("policies --course wings --seeds 6 --particles 8 --scheme multinomial --json --threads 1"));
+    let policies = wings["policies"].as_array().unwrap();
+    let names: Vec<_> = policies.iter().map(|policy| policy["policy"].as_str().unwrap()).collect();
+    assert_eq!(names, ["never", "always", "selective"]);
+    for policy in policies {
+        let [low, high] = [0, 1].map(|end| policy["alive_interval"][end].as_f64().unwrap());
+        let share = policy["alive"]["successes"].as_f64().unwrap() / 6.0;
+        assert!(policy["alive"]["total"] == 6 && low <= share && share <= high);
+    }
+    assert_eq!([0, 1].map(|k| policies[k]["resampled_fraction"].as_f64().unwrap()), [0.0, 1.0]);
+
+    let lap = json("policies --seeds 2 --particles 6 --threshold 0.4 --json");
+    let [never, always, selective] = [0, 1, 2].map(|k| &lap["policies"][k]);
+    assert_eq!((lap["scheme"].as_str(), lap["threshold"].as_f64()), (Some("systematic"), Some(0.4)));
+    assert_eq!((&never["tree_nodes"], &never["tree_c"]), (&546.0.into(), &Value::Null), "6 paths of 91 poses");
+    assert!(always["lineage_one_step_median"].as_f64().unwrap() > 0.0 && always["tree_c"].as_f64().unwrap() > 0.0);
+    assert_eq!((selective["error_factor"][1].as_f64(), &selective["alive"]), (Some(1.0), &Value::Null));
+
+    let said = fastslam("policies --course wings --seeds 2 --particles 4").success();
+    let said = String::from_utf8_lossy(&said.get_output().stdout).into_owned();
+    assert_eq!((said.lines().count(), said.matches("95 %").count()), (3 + 3 + 6, 6), "{said}");
 }
 
 /// Files of one small log, of which one is not what it should be.

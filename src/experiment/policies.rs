@@ -1,0 +1,520 @@
+//! When to resample: three filters on one log and one noise, which differ in that alone.
+//!
+//! Never, every step, and where N_eff < threshold · M. On the lap the three differ in what they waste; on the course of the two
+//! wings ([`Field::two_wings`]) they differ in whether they still have the hypothesis that turns out to be right.
+//!
+//! Why the wings tell them apart. For some forty steps half the particles hold either explanation, and both predict every
+//! sighting equally well. Each resampling is a lottery all the same: the number of particles in the right wing does a random
+//! walk from generation to generation, and none and all are its traps. Who resamples every step walks forty steps of it. Equal
+//! weights keep N_eff high: who waits for N_eff to fall resamples once or twice. Who never resamples keeps all explanations, and
+//! pays elsewhere: hardly any particle has a weight.
+//!
+//! [`Field::two_wings`]: crate::world::Field::two_wings
+
+use super::landmarks::{Association, Course, LandmarkLog, LandmarkRun, LandmarkSetup};
+use super::lap::{Lap, LapSetup, LapWorld};
+use crate::decimal;
+use crate::digest::Digest;
+use crate::error::ParameterError;
+use crate::execute::Executor;
+use crate::geometry::{Pose2, rms};
+use crate::lineage::{Ancestry, Descent, NodeId};
+use crate::matching::Matcher;
+use crate::ops;
+use crate::proposal::ProposalKind;
+use crate::resampling::{ResamplePolicy, Scheme};
+use crate::sensor::Feature;
+use crate::world::{WINGS_LOST, WINGS_SIGN};
+use core::f64::consts::FRAC_PI_2;
+use core::{fmt, str::FromStr};
+use std::sync::Arc;
+
+/// The policies compared, by their index everywhere here.
+pub const POLICIES: [&str; 3] = ["never", "always", "selective"];
+
+/// Where the filters are compared.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum PolicyCourse {
+    /// The Apartment lap: grid maps.
+    Lap,
+    /// Two wings that look the same: landmarks of unknown correspondence, FastSLAM 2.0.
+    Wings,
+}
+
+/// What a reader can set.
+#[derive(Clone, PartialEq, Debug)]
+pub struct PoliciesSetup {
+    /// The course.
+    pub course: PolicyCourse,
+    /// Number of particles M of each filter, 1 to 4096.
+    pub particles: usize,
+    /// Seed of the world's noise and of the filters': the same for all three.
+    pub seed: u64,
+    /// The selective filter resamples where N_eff < threshold · M, 0 to 1.
+    pub threshold: f64,
+    /// How to resample.
+    pub scheme: Scheme,
+    /// Factor on the standard deviations of the odometry's noise, 0 to 10: of the world's, and of what the filters expect.
+    pub odometry_scale: f64,
+    /// The same for the sensor, 0.1 to 10.
+    pub sensor_scale: f64,
+    /// Where new poses are drawn from on the lap.
+    pub proposal: ProposalKind,
+    /// What an end point is compared with on the lap.
+    pub matcher: Matcher,
+}
+
+impl PoliciesSetup {
+    /// What a course begins with: M = 16, threshold ½, and a scheme by the course.
+    ///
+    /// In the wings it is the multinomial one, that of the bootstrap filter. The explanations weigh nearly the same there, and
+    /// what resampling does to equal weights is the scheme's own noise: a systematic one copies nearly everybody once and does
+    /// little harm, a multinomial one is the drift of genes. Over seeds 1 to 3000 some particle is still in the right wing before
+    /// the sign, resampling always against by N_eff: systematic 77 % against 89 %, stratified 72 against 89, residual 55
+    /// against 87, multinomial 41 against 84.
+    pub fn of(course: PolicyCourse) -> Self {
+        Self {
+            course,
+            particles: 16,
+            seed: 3,
+            threshold: 0.5,
+            scheme: match course {
+                PolicyCourse::Lap => Scheme::Systematic,
+                PolicyCourse::Wings => Scheme::Multinomial,
+            },
+            odometry_scale: 1.0,
+            sensor_scale: 1.0,
+            proposal: ProposalKind::Aware,
+            matcher: Matcher::SubCell,
+        }
+    }
+}
+
+impl Default for PoliciesSetup {
+    fn default() -> Self {
+        Self::of(PolicyCourse::Lap)
+    }
+}
+
+impl PoliciesSetup {
+    /// Whether all settings are in range.
+    ///
+    /// # Errors
+    /// Where one is not.
+    pub fn validate(&self) -> Result<(), ParameterError> {
+        let check = |ok: bool, name, value: String, allowed| {
+            if ok { Ok(()) } else { Err(ParameterError::new(name, value, allowed)) }
+        };
+        let within = |name, value: f64, low: f64, allowed| {
+            check((low..=10.0).contains(&value), name, decimal::write(value), allowed)
+        };
+        let particles = (1..=4096).contains(&self.particles);
+        check(particles, "particles", self.particles.to_string(), "a whole number from 1 to 4096")?;
+        let threshold = (0.0..=1.0).contains(&self.threshold);
+        check(threshold, "threshold", decimal::write(self.threshold), "a number from 0 to 1")?;
+        within("odometry_scale", self.odometry_scale, 0.0, "a number from 0 to 10")?;
+        within("sensor_scale", self.sensor_scale, 0.1, "a number from 0.1 to 10")
+    }
+
+    /// When the filters resample, in the order of [`POLICIES`].
+    pub fn policies(&self) -> [ResamplePolicy; 3] {
+        [ResamplePolicy::Never, ResamplePolicy::Always, ResamplePolicy::EssBelow(self.threshold)]
+    }
+}
+
+/// What one filter did in one step, and how far from the truth it is.
+#[derive(Clone, PartialEq, Debug)]
+pub struct PolicyReport {
+    /// The step; 0 is the start.
+    pub step: u32,
+    /// N_eff before resampling.
+    pub ess: f64,
+    /// Whether the step resampled.
+    pub resampled: bool,
+    /// What the population descends from: the lineage gauge at any distance, the size of the tree, the coalescence.
+    pub descent: Descent,
+    /// Distance of the best particle from the truth \[m\].
+    pub error_best: f64,
+    /// Distance of the weighted mean of all particles from the truth \[m\].
+    pub error_mean: f64,
+    /// Root mean square error of position over the best particle's path so far \[m\].
+    pub rms_best: f64,
+    /// Root mean square of `error_mean` so far, over steps 0 to now \[m\].
+    pub rms_mean: f64,
+    /// Particles that hold the right one of the two explanations: within [`RIGHT_WITHIN`] of the truth, and looking its way to
+    /// a quarter turn. `None` on the lap, and on the wings' course before the robot is lost.
+    pub right: Option<u32>,
+}
+
+impl PolicyReport {
+    /// Nodes of the ancestry tree that the population still needs.
+    pub fn tree_nodes(&self) -> u32 {
+        self.descent.size()
+    }
+
+    /// Nodes of M paths kept apart: M (t + 1).
+    pub fn path_nodes(&self, particles: usize) -> u32 {
+        particles as u32 * (self.step + 1)
+    }
+}
+
+/// A particle so near the truth is in the right wing \[m\].
+///
+/// A universe in the right wing knows its place to decimetres; one in the wrong wing is on the other side of the hall, at twice
+/// the robot's distance from its centre: 12 m and more at the court. Anything between serves.
+pub const RIGHT_WITHIN: f64 = 2.0;
+
+/// Whether a particle holds the right explanation.
+fn is_right(pose: &Pose2, truth: &Pose2) -> bool {
+    pose.distance(truth) < RIGHT_WITHIN && ops::wrap_angle(pose.theta - truth.theta).abs() < FRAC_PI_2
+}
+
+/// The world that all three filters share.
+#[derive(Clone, Debug)]
+enum World {
+    Lap(Arc<LapWorld>),
+    Wings(Arc<LandmarkLog>),
+}
+
+impl World {
+    fn truth(&self) -> &[Pose2] {
+        match self {
+            Self::Lap(world) => &world.truth,
+            Self::Wings(log) => &log.truth,
+        }
+    }
+}
+
+#[derive(Clone, Debug)]
+enum Run {
+    Lap(Box<Lap>),
+    Wings(Box<LandmarkRun>),
+}
+
+/// The same of either filter.
+macro_rules! of_filter {
+    ($run:expr, $filter:ident => $value:expr) => {
+        match $run {
+            Run::Lap(run) => {
+                let $filter = run.filter();
+                $value
+            }
+            Run::Wings(run) => {
+                let $filter = run.filter();
+                $value
+            }
+        }
+    };
+}
+
+impl Run {
+    fn with_executor(self, executor: Executor) -> Self {
+        match self {
+            Self::Lap(run) => Self::Lap(Box::new(run.with_executor(executor))),
+            Self::Wings(run) => Self::Wings(Box::new(run.with_executor(executor))),
+        }
+    }
+
+    /// N_eff before resampling, and whether the step resampled.
+    fn step(&mut self) -> Option<(f64, bool)> {
+        match self {
+            Self::Lap(run) => run.step().map(|report| (report.ess, report.ancestors.is_some())),
+            Self::Wings(run) => run.step().map(|report| (report.ess, report.resampled)),
+        }
+    }
+}
+
+/// Three filters under way. Cloning is cheap: the world, the maps and the past are shared.
+#[derive(Clone, Debug)]
+pub struct Policies {
+    setup: PoliciesSetup,
+    world: World,
+    runs: [Run; 3],
+    reports: [PolicyReport; 3],
+}
+
+impl Policies {
+    /// All three at the start.
+    ///
+    /// # Errors
+    /// Where a setting is out of its range.
+    pub fn new(setup: &PoliciesSetup) -> Result<Self, ParameterError> {
+        setup.validate()?;
+        let &PoliciesSetup { particles, seed, scheme, odometry_scale, sensor_scale, proposal, matcher, .. } = setup;
+        let (world, runs) = match setup.course {
+            PolicyCourse::Lap => {
+                let range_std = LapSetup::default().range_std * sensor_scale;
+                let lap =
+                    |policy| LapSetup { particles, seed, proposal, matcher, policy, scheme, odometry_scale, range_std };
+                let world = Arc::new(LapWorld::new(seed, &lap(ResamplePolicy::Never).motion(), range_std));
+                let run = |policy| Ok(Run::Lap(Box::new(Lap::in_world(&lap(policy), Arc::clone(&world))?)));
+                (World::Lap(Arc::clone(&world)), setup.policies().map(run))
+            }
+            PolicyCourse::Wings => {
+                let tuning = Course::Wings.tuning().scaled(odometry_scale, sensor_scale);
+                let log = Arc::new(Course::Wings.simulate_with(&tuning, seed));
+                let (proposal, association) = (ProposalKind::Aware, Association::Unknown);
+                let of = |policy| LandmarkSetup { particles, seed, proposal, association, policy, scheme };
+                let run = |policy| Ok(Run::Wings(Box::new(LandmarkRun::new(&of(policy), &tuning, Arc::clone(&log))?)));
+                (World::Wings(Arc::clone(&log)), setup.policies().map(run))
+            }
+        };
+        let [never, always, selective] = runs;
+        let runs = [never?, always?, selective?];
+        let start = PolicyReport {
+            step: 0,
+            ess: particles as f64,
+            resampled: false,
+            descent: Descent { widths: vec![particles as u32] },
+            error_best: 0.0,
+            error_mean: 0.0,
+            rms_best: 0.0,
+            rms_mean: 0.0,
+            right: None,
+        };
+        let reports = [start.clone(), start.clone(), start];
+        Ok(Self { setup: setup.clone(), world, runs, reports })
+    }
+
+    /// The same, computed by another executor: the results are the same.
+    pub fn with_executor(self, executor: Executor) -> Self {
+        Self { runs: self.runs.map(|run| run.with_executor(executor.clone())), ..self }
+    }
+
+    /// One step of all three; `None` after the last.
+    pub fn step(&mut self) -> Option<&[PolicyReport; 3]> {
+        for policy in 0..3 {
+            let (ess, resampled) = self.runs[policy].step()?;
+            self.reports[policy] = self.judge(policy, ess, resampled);
+        }
+        Some(&self.reports)
+    }
+
+    /// Compares a filter's newest state with the truth.
+    fn judge(&self, policy: usize, ess: f64, resampled: bool) -> PolicyReport {
+        let before = &self.reports[policy];
+        let step = before.step + 1;
+        let (truth, poses, best) = (self.world.truth(), self.poses(policy), self.best(policy));
+        let here = &truth[step as usize];
+        let (x, y) =
+            poses.iter().zip(self.weights(policy)).fold((0.0, 0.0), |(x, y), (p, w)| (x + w * p.x, y + w * p.y));
+        let error_mean = ops::hypot(x - here.x, y - here.y);
+        let squares = before.rms_mean * before.rms_mean * f64::from(step) + error_mean * error_mean;
+        let lost = self.lost_from().is_some_and(|from| step >= from);
+        PolicyReport {
+            step,
+            ess,
+            resampled,
+            descent: of_filter!(&self.runs[policy], filter => filter.descent()),
+            error_best: poses[best].distance(here),
+            error_mean,
+            rms_best: rms(&self.ancestry(policy).path(self.nodes(policy)[best]), &truth[..=step as usize]),
+            rms_mean: (squares / f64::from(step + 1)).sqrt(),
+            right: lost.then(|| poses.iter().filter(|pose| is_right(pose, here)).count() as u32),
+        }
+    }
+
+    /// What was set.
+    pub fn setup(&self) -> &PoliciesSetup {
+        &self.setup
+    }
+
+    /// Reports of the newest step, in the order of [`POLICIES`].
+    pub fn reports(&self) -> &[PolicyReport; 3] {
+        &self.reports
+    }
+
+    /// The newest step.
+    pub fn step_number(&self) -> u32 {
+        self.reports[0].step
+    }
+
+    /// The last step.
+    pub fn step_count(&self) -> u32 {
+        self.truth().len() as u32 - 1
+    }
+
+    /// True poses of steps 0 to the last.
+    pub fn truth(&self) -> &[Pose2] {
+        self.world.truth()
+    }
+
+    /// Poses by raw odometry alone, of steps 0 to the last.
+    pub fn odometry(&self) -> &[Pose2] {
+        match &self.world {
+            World::Lap(world) => &world.odometry,
+            World::Wings(log) => &log.odometry,
+        }
+    }
+
+    /// The lap's world, on the lap.
+    pub fn lap_world(&self) -> Option<&LapWorld> {
+        match &self.world {
+            World::Lap(world) => Some(world),
+            World::Wings(_) => None,
+        }
+    }
+
+    /// The drive among landmarks, on the wings' course.
+    pub fn wings_log(&self) -> Option<&LandmarkLog> {
+        match &self.world {
+            World::Lap(_) => None,
+            World::Wings(log) => Some(log),
+        }
+    }
+
+    /// On the wings' course, the step from which the robot is lost: the first at which the wings can be confused.
+    pub fn lost_from(&self) -> Option<u32> {
+        self.wings_log().map(|_| WINGS_LOST as u32)
+    }
+
+    /// On the wings' course, the step at which the sign is in sight again: the first evidence of which wing it is.
+    pub fn evidence_at(&self) -> Option<u32> {
+        let is_sign = |feature: &Feature| feature.signature == Some(WINGS_SIGN);
+        let seen = self.wings_log()?.sightings[WINGS_LOST..].iter().position(|seen| seen.iter().any(is_sign))?;
+        Some((WINGS_LOST + seen) as u32 + 1)
+    }
+
+    /// All paths of one filter.
+    pub fn ancestry(&self, policy: usize) -> &Ancestry {
+        of_filter!(&self.runs[policy], filter => filter.ancestry())
+    }
+
+    /// Newest node of each particle of one filter, by slot: what [`Ancestry::alive`] asks for.
+    pub fn nodes(&self, policy: usize) -> Vec<NodeId> {
+        of_filter!(&self.runs[policy], filter => filter.nodes())
+    }
+
+    /// Poses of one filter's particles, by slot.
+    pub fn poses(&self, policy: usize) -> Vec<Pose2> {
+        of_filter!(&self.runs[policy], filter => filter.particles().iter().map(|p| p.world_from_robot).collect())
+    }
+
+    /// Normalised weights of one filter as they are now, by slot: uniform after a resampling.
+    pub fn weights(&self, policy: usize) -> &[f64] {
+        of_filter!(&self.runs[policy], filter => filter.weights().as_slice())
+    }
+
+    /// Slot of one filter's best particle.
+    pub fn best(&self, policy: usize) -> usize {
+        of_filter!(&self.runs[policy], filter => filter.best())
+    }
+
+    /// Runs to the end. Returns a fingerprint of every report, pose and weight on the way, bit for bit.
+    pub fn trace(mut self) -> Digest {
+        let mut digest = Digest::new();
+        while self.step().is_some() {
+            for (policy, report) in self.reports.iter().enumerate() {
+                let PolicyReport { step, ess, resampled, descent, error_best, error_mean, rms_best, rms_mean, right } =
+                    report;
+                [*step, u32::from(*resampled), right.unwrap_or(u32::MAX)].into_iter().for_each(|x| digest.u32(x));
+                [ess, error_best, error_mean, rms_best, rms_mean].into_iter().for_each(|x| digest.f64(*x));
+                descent.widths.iter().for_each(|width| digest.u32(*width));
+                for Pose2 { x, y, theta } in self.poses(policy) {
+                    [x, y, theta].into_iter().for_each(|x| digest.f64(x));
+                }
+                self.weights(policy).iter().for_each(|weight| digest.f64(*weight));
+            }
+        }
+        digest
+    }
+}
+
+impl fmt::Display for PolicyCourse {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Lap => "lap",
+            Self::Wings => "wings",
+        })
+    }
+}
+
+impl FromStr for PolicyCourse {
+    type Err = ParameterError;
+
+    fn from_str(text: &str) -> Result<Self, ParameterError> {
+        match text {
+            "lap" => Ok(Self::Lap),
+            "wings" => Ok(Self::Wings),
+            _ => Err(ParameterError::new("course", text, "lap or wings")),
+        }
+    }
+}
+
+/// Named comparisons whose fingerprints are kept with the tests, and must be the same on every platform.
+pub fn golden_setups() -> Vec<(&'static str, PoliciesSetup)> {
+    let wings = || PoliciesSetup::of(PolicyCourse::Wings);
+    vec![
+        ("policies-lap", PoliciesSetup::default()),
+        ("policies-wings", wings()),
+        ("policies-wings-systematic", PoliciesSetup { scheme: Scheme::Systematic, particles: 40, seed: 5, ..wings() }),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_three_differ_in_nothing_until_one_resamples() {
+        for course in [PolicyCourse::Lap, PolicyCourse::Wings] {
+            let mut policies = Policies::new(&PoliciesSetup { threshold: 0.0, ..PoliciesSetup::of(course) }).unwrap();
+            policies.step().unwrap();
+            let [never, always, selective] = policies.reports();
+            assert_eq!(never, selective, "{course}: N_eff is never below zero");
+            assert_eq!((never.ess, never.resampled, always.resampled), (always.ess, false, true), "{course}");
+            while policies.step().is_some() {}
+            let [never, always, selective] = policies.reports();
+            assert_eq!(never, selective, "{course}");
+            assert_eq!(never.step, policies.step_count());
+            assert_eq!(never.tree_nodes(), never.path_nodes(16), "{course}: nothing was ever shared");
+            assert!(always.tree_nodes() < always.path_nodes(16) / 4, "{course}");
+        }
+    }
+
+    #[test]
+    fn a_clone_goes_its_own_way_to_the_same_end() {
+        let mut policies = Policies::new(&PoliciesSetup::of(PolicyCourse::Wings)).unwrap();
+        (0..70).for_each(|_| {
+            policies.step();
+        });
+        let kept = policies.clone();
+        while policies.step().is_some() {}
+        assert_eq!(kept.step_number(), 70);
+        assert_eq!(kept.trace(), {
+            let mut again = Policies::new(policies.setup()).unwrap();
+            (0..70).for_each(|_| {
+                again.step();
+            });
+            again.trace()
+        });
+    }
+
+    #[test]
+    fn what_is_alive_in_a_drawing_is_what_the_reports_count() {
+        let mut policies = Policies::new(&PoliciesSetup::of(PolicyCourse::Wings)).unwrap();
+        while policies.step().is_some() {}
+        for policy in 0..3 {
+            let (tree, report) = (policies.ancestry(policy), &policies.reports()[policy]);
+            let alive = tree.alive(&policies.nodes(policy));
+            let widths: Vec<u32> = (0..tree.steps())
+                .map(|step| tree.nodes(step).filter(|node| alive[*node as usize]).count() as u32)
+                .collect();
+            assert_eq!(widths, report.descent.widths);
+            assert_eq!(tree.edges(0..tree.steps()).count(), 16 * policies.step_count() as usize);
+        }
+    }
+
+    #[test]
+    fn settings_out_of_range_are_refused_by_name() {
+        let setup = PoliciesSetup::default;
+        for (setup, name) in [
+            (PoliciesSetup { particles: 0, ..setup() }, "particles"),
+            (PoliciesSetup { threshold: f64::NAN, ..setup() }, "threshold"),
+            (PoliciesSetup { odometry_scale: -1.0, ..setup() }, "odometry_scale"),
+            (PoliciesSetup { sensor_scale: 0.0, ..setup() }, "sensor_scale"),
+        ] {
+            assert_eq!(Policies::new(&setup).unwrap_err().parameter, name);
+        }
+    }
+}
