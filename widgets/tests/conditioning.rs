@@ -1,5 +1,8 @@
 //! Laws of the figure of the graphical model, by its public face: what a page can do to it.
 
+mod common;
+
+use common::{assert_texts_fit, figure, scene, state};
 use fastslam_widgets::{
     conditioning::Layout,
     figure::Figure,
@@ -7,20 +10,7 @@ use fastslam_widgets::{
 };
 
 fn conditioning(query: &str) -> Figure {
-    let mut figure = Figure::new("fastslam-conditioning").unwrap();
-    assert_eq!(figure.load(query), [], "{query}");
-    assert_eq!(figure.model().pending(), 0);
-    figure
-}
-
-fn scene(figure: &Figure, width: f64) -> Scene {
-    figure.model().scene(width, figure.model().height(width))
-}
-
-/// Everything a reader gets from a state, for comparing two ways to it.
-fn state(figure: &Figure) -> (String, Vec<String>, Scene) {
-    let readouts = figure.model().readouts().iter().map(|r| format!("{r:?} {:?}", r.value.map(f64::to_bits))).collect();
-    (figure.query(), readouts, scene(figure, 800.0))
+    figure("fastslam-conditioning", query)
 }
 
 fn value(figure: &Figure, name: &str) -> f64 {
@@ -235,23 +225,10 @@ fn texts_fit_their_boxes_and_the_figure_and_cover_no_other() {
             let figure = conditioning(&format!("landmarks={n}&{rest}"));
             for width in [240.0, 300.0, 320.0, 340.0, 380.0, 500.0, 719.0, 720.0, 800.0, 1280.0] {
                 let scene = scene(&figure, width);
-                let bounds = Rect::new(0.0, 0.0, scene.width, scene.height);
-                let mut inked: Vec<(Rect, &str)> = Vec::new();
-                for mark in &scene.marks {
-                    let Mark::Text(text) = mark else { continue };
-                    let which = format!("{n} {rest} at {width}: {text:?}");
-                    assert!(text.width() <= text.area.w + 1e-9 && text.size <= text.area.h, "{which}");
-                    assert!(bounds.encloses(&text.area), "{which}");
-                    assert!(!text.text.ends_with('…'), "{which} was shortened");
-                    let [x, y] = text.origin();
-                    let ink = Rect::new(x, y - 0.7 * text.size, text.width(), 0.7 * text.size);
-                    for (other, words) in &inked {
-                        assert!(!ink.overlaps(other), "{which} covers {words:?}");
-                    }
-                    inked.push((ink, &text.text));
-                }
-                let below = inked.iter().filter(|(ink, _)| Layout::new(scene.width).legend.overlaps(ink));
-                assert!(below.count() >= 6, "{n} {rest} at {width}: the legend left its place");
+                let which = format!("{n} {rest} at {width}");
+                let inked = assert_texts_fit(&scene, &which);
+                let below = inked.iter().filter(|ink| Layout::new(scene.width).legend.overlaps(ink));
+                assert!(below.count() >= 6, "{which}: the legend left its place");
             }
         }
     }

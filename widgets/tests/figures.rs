@@ -1,5 +1,8 @@
 //! Laws of every figure in the registry, by its public face.
 
+mod common;
+
+use common::{scene, state};
 use fastslam_widgets::{
     figure::Figure,
     model::Kind,
@@ -7,16 +10,6 @@ use fastslam_widgets::{
     registry::FIGURES,
     scene::{Handle, Rect, Role, Scene},
 };
-
-fn scene(figure: &Figure, width: f64) -> Scene {
-    figure.model().scene(width, figure.model().height(width))
-}
-
-/// Everything a reader gets from a state, for comparing two ways to it.
-fn state(figure: &Figure) -> (String, Vec<String>, Scene) {
-    let readouts = figure.model().readouts().iter().map(|r| format!("{r:?} {:?}", r.value.map(f64::to_bits))).collect();
-    (figure.query(), readouts, scene(figure, 800.0))
-}
 
 #[test]
 fn every_parameter_refuses_what_is_out_of_range_and_stays_as_it_was() {

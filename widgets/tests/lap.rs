@@ -1,28 +1,17 @@
 //! Laws of the lap's figure, by its public face: what a page can do to it.
 
+mod common;
+
+use common::{assert_texts_fit, figure, scene, state};
 use fastslam_widgets::{
     figure::Figure,
     lap::{LapModel, Layout},
     model::{Action, Model},
-    scene::{Mark, Rect, Scene},
+    scene::Mark,
 };
 
 fn lap(query: &str) -> Figure {
-    let mut figure = Figure::new("fastslam-lap").unwrap();
-    assert_eq!(figure.load(query), [], "{query}");
-    figure.model_mut().settle();
-    figure
-}
-
-/// Everything a reader gets from a state, for comparing two ways to it.
-fn state(figure: &Figure) -> (String, Vec<String>, Scene) {
-    let model = figure.model();
-    let readouts = model.readouts().iter().map(|r| format!("{r:?} {:?}", r.value.map(f64::to_bits))).collect();
-    (figure.query(), readouts, model.scene(800.0, model.height(800.0)))
-}
-
-fn scene(figure: &Figure, width: f64) -> Scene {
-    figure.model().scene(width, figure.model().height(width))
+    figure("fastslam-lap", query)
 }
 
 #[test]
@@ -154,21 +143,7 @@ fn texts_fit_their_boxes_and_the_figure_and_cover_no_other() {
     {
         let figure = lap(query);
         for width in [240.0, 300.0, 340.0, 380.0, 500.0, 639.0, 640.0, 700.0, 800.0, 1280.0] {
-            let scene = scene(&figure, width);
-            let bounds = Rect::new(0.0, 0.0, scene.width, scene.height);
-            let mut inked: Vec<(Rect, &str)> = Vec::new();
-            for mark in &scene.marks {
-                let Mark::Text(text) = mark else { continue };
-                assert!(text.width() <= text.area.w + 1e-9 && text.size <= text.area.h, "{query} at {width}: {text:?}");
-                assert!(bounds.encloses(&text.area), "{query} at {width}: {text:?}");
-                assert!(!text.text.ends_with('…'), "{query} at {width}: {text:?} was shortened");
-                let [x, y] = text.origin();
-                let ink = Rect::new(x, y - 0.7 * text.size, text.width(), 0.7 * text.size);
-                for (other, words) in &inked {
-                    assert!(!ink.overlaps(other), "{query} at {width}: {:?} covers {words:?}", text.text);
-                }
-                inked.push((ink, &text.text));
-            }
+            assert_texts_fit(&scene(&figure, width), &format!("{query} at {width}"));
         }
     }
 }

@@ -1,19 +1,16 @@
 //! Laws of the worked example, by its public face.
 
+mod common;
+
+use common::{figure, scene};
 use fastslam_widgets::{
     figure::Figure,
     font,
-    scene::{Mark, Rect, Scene},
+    scene::{Mark, Rect},
 };
 
 fn example(query: &str) -> Figure {
-    let mut figure = Figure::new("fastslam-worked-example").unwrap();
-    assert_eq!(figure.load(query), [], "{query}");
-    figure
-}
-
-fn scene(figure: &Figure, width: f64) -> Scene {
-    figure.model().scene(width, figure.model().height(width))
+    figure("fastslam-worked-example", query)
 }
 
 fn number(figure: &Figure, name: &str) -> f64 {

@@ -5,7 +5,7 @@
 //! scan therefore pays for the tiles it changes, whatever the size of the map.
 //!
 //! Each cell keeps two things: log-odds of being occupied, updated by the inverse sensor model (*Probabilistic Robotics*,
-//! table 9.1), and the normal distribution of the end points that fell into it, its [`Surface`]: the normal distributions
+//! table 9.1), and the normal distribution of the end points that fell into it, its `Surface`: the normal distributions
 //! transform of Biber and Straßer (2003). The first knows which cell an end point is in; the second knows where in the cell.
 
 mod ray;

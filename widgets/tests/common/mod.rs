@@ -1,0 +1,45 @@
+//! What the laws of all figures share: a figure by its public face, as a page has it.
+#![allow(dead_code, reason = "each test takes what it needs")]
+
+use fastslam_widgets::{
+    figure::Figure,
+    scene::{Mark, Rect, Scene},
+};
+
+/// The figure of a tag in the state that a link names, simulated.
+pub fn figure(tag: &str, query: &str) -> Figure {
+    let mut figure = Figure::new(tag).unwrap();
+    assert_eq!(figure.load(query), [], "{query}");
+    figure.model_mut().settle();
+    figure
+}
+
+/// What is to be seen at this width, in the height that the figure wants.
+pub fn scene(figure: &Figure, width: f64) -> Scene {
+    figure.model().scene(width, figure.model().height(width))
+}
+
+/// Everything a reader gets from a state, for comparing two ways to it.
+pub fn state(figure: &Figure) -> (String, Vec<String>, Scene) {
+    let readouts = figure.model().readouts().iter().map(|r| format!("{r:?} {:?}", r.value.map(f64::to_bits))).collect();
+    (figure.query(), readouts, scene(figure, 800.0))
+}
+
+/// That every text lies in its box and the figure, whole, and over no other. Returns where there is ink.
+pub fn assert_texts_fit(scene: &Scene, which: &str) -> Vec<Rect> {
+    let bounds = Rect::new(0.0, 0.0, scene.width, scene.height);
+    let mut inked: Vec<(Rect, &str)> = Vec::new();
+    for mark in &scene.marks {
+        let Mark::Text(text) = mark else { continue };
+        assert!(text.width() <= text.area.w + 1e-9 && text.size <= text.area.h, "{which}: {text:?}");
+        assert!(bounds.encloses(&text.area), "{which}: {text:?}");
+        assert!(!text.text.ends_with('…'), "{which}: {text:?} was shortened");
+        let [x, y] = text.origin();
+        let ink = Rect::new(x, y - 0.7 * text.size, text.width(), 0.7 * text.size);
+        for (other, words) in &inked {
+            assert!(!ink.overlaps(other), "{which}: {:?} covers {words:?}", text.text);
+        }
+        inked.push((ink, &text.text));
+    }
+    inked.into_iter().map(|(ink, _)| ink).collect()
+}
