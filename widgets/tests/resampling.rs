@@ -1,5 +1,8 @@
 //! Laws of the figure of resampling, by its public face: what a page can do to it.
 
+mod common;
+
+use common::{assert_texts_fit, figure, scene, state};
 use fastslam::experiment::policies::RIGHT_WITHIN;
 use fastslam_widgets::{
     fastslam,
@@ -11,20 +14,7 @@ use fastslam_widgets::{
 };
 
 fn resampling(query: &str) -> Figure {
-    let mut figure = Figure::new("fastslam-resampling").unwrap();
-    assert_eq!(figure.load(query), [], "{query}");
-    figure.model_mut().settle();
-    figure
-}
-
-fn scene(figure: &Figure, width: f64) -> Scene {
-    figure.model().scene(width, figure.model().height(width))
-}
-
-/// Everything a reader gets from a state, for comparing two ways to it.
-fn state(figure: &Figure) -> (String, Vec<String>, Scene) {
-    let readouts = figure.model().readouts().iter().map(|r| format!("{r:?} {:?}", r.value.map(f64::to_bits))).collect();
-    (figure.query(), readouts, scene(figure, 800.0))
+    figure("fastslam-resampling", query)
 }
 
 fn value(figure: &Figure, name: &str) -> f64 {
@@ -311,22 +301,9 @@ fn texts_fit_their_boxes_and_the_figure_and_cover_no_other() {
             [240.0, 300.0, 320.0, 340.0, 369.0, 370.0, 380.0, 459.0, 460.0, 719.0, 720.0, 800.0, 1000.0, 1280.0]
         {
             let scene = scene(&figure, width);
-            let bounds = Rect::new(0.0, 0.0, scene.width, scene.height);
-            let mut inked: Vec<(Rect, &str)> = Vec::new();
-            for text in texts(&scene) {
-                let which = format!("{query} at {width}: {text:?}");
-                assert!(text.width() <= text.area.w + 1e-9 && text.size <= text.area.h, "{which}");
-                assert!(bounds.encloses(&text.area), "{which}");
-                assert!(!text.text.ends_with('…'), "{which} was shortened");
-                let [x, y] = text.origin();
-                let ink = Rect::new(x, y - 0.7 * text.size, text.width(), 0.7 * text.size);
-                for (other, words) in &inked {
-                    assert!(!ink.overlaps(other), "{which} covers {words:?}");
-                }
-                inked.push((ink, &text.text));
-            }
+            let inked = assert_texts_fit(&scene, &format!("{query} at {width}"));
             let layout = Layout::new(scene.width);
-            let last = inked.iter().map(|(ink, _)| ink.bottom()).fold(0.0, f64::max);
+            let last = inked.iter().map(Rect::bottom).fold(0.0, f64::max);
             assert!(last <= layout.legend.bottom() + 1e-9, "{query} at {width}: the legend left its place");
         }
     }
