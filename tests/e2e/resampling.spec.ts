@@ -181,18 +181,21 @@ test.describe('at rest', () => {
   test('the count can be stopped, and begins again when a setting changes', async ({ page }) => {
     const figure = await open(page)
     const { start, stop, said, runs } = panel(figure)
+    let workers = 0
+    page.on('worker', () => workers++)
     await runs.selectOption('1000')
     await start.click()
     await expect.poll(() => counted(figure)).toBeGreaterThan(5)
     await figure.openSettings()
     await figure.box('threshold').fill('0.9')
     await figure.box('threshold').press('Enter')
-    await expect.poll(() => counted(figure)).toBeLessThan(5)
+    await expect.poll(() => workers).toBe(2)
     await expect.poll(() => counted(figure)).toBeGreaterThan(2)
     // What only concerns the picture does not disturb it.
     await figure.step.click()
     await figure.settled()
     await stop.click()
+    expect(workers).toBe(2)
     await expect(said).toContainText(/^Stopped after \d+ of 1000 seeds/)
     const stopped = await counted(figure)
     expect(stopped).toBeGreaterThan(2)
