@@ -116,6 +116,9 @@ async function timeLandmarks({ known }) {
 /** @param {number} ms */
 const milliseconds = ms => `${ms.toFixed(3)} ms`
 
+/** @param {number} us */
+const micros = us => `${us.toFixed(us < 1 ? 3 : 2)} µs`
+
 /** @param {string} what @param {number} is @param {number} atMost @param {(value: number) => string} [show] */
 function verdict(what, is, atMost, show = milliseconds) {
   say(`  ${is <= atMost ? green('✓') : red('✗')} ${what}: ${show(is)}, at most ${show(atMost)}`)
@@ -139,7 +142,7 @@ if (isMain(import.meta)) {
       const [known, unknown] = await browserTimes(landmarks, timeLandmarks, { known: true }, { known: false })
       const [nativeStep, wasmStep, shownStep] = [lap / wasm.perLap, wasm.alone / wasm.steps, wasm.work / wasm.steps]
       say(bold('\n  Criterion, mean of one run'))
-      for (const [id, time] of [...native].sort()) say(`  ${milliseconds(time).padStart(14)}  ${id}`)
+      for (const [id, time] of [...native].sort()) say(`  ${(time < 0.1 ? micros(1000 * time) : milliseconds(time)).padStart(14)}  ${id}`)
       say(bold(`\n  A lap of 16 universes, mean of ${wasm.steps} steps`))
       say(`  ${milliseconds(nativeStep).padStart(14)}  step, native, one thread`)
       say(`  ${milliseconds(wasmStep).padStart(14)}  step, WebAssembly`)
@@ -147,7 +150,6 @@ if (isMain(import.meta)) {
       say(`  ${milliseconds(wasm.paint / wasm.steps).padStart(14)}  scene and paint at ${width} × ${height}, WebAssembly`)
       say(`  ${milliseconds(wasm.put / wasm.steps).padStart(14)}  pixels to the canvas`)
       say(`  ${milliseconds(wasm.slowest).padStart(14)}  the slowest step with its scene and paint`)
-      const micros = (/** @type {number} */ us) => `${us.toFixed(2)} µs`
       const particle = (/** @type {string} */ id) => (native.get(`landmarks-step-1000-particles/${id}`) ?? NaN)
       say(bold('\n  FastSLAM 2.0, one particle and step, 6 sightings, 24 landmarks'))
       say(`  ${micros(particle('known')).padStart(14)}  native, known correspondence`)

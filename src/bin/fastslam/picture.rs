@@ -73,8 +73,7 @@ pub fn of_landmarks(run: &LandmarkRun) -> Canvas {
         marks.push(text(area, Anchor::Start, 14.0, Weight::Regular, Role::Ink, name));
     }
     let mut canvas = Canvas::default();
-    let scene =
-        Scene { width: WIDTH, height, marks, regions: Vec::new(), handles: Vec::new(), description: String::new() };
+    let scene = Scene { marks, ..Scene::new(WIDTH, height, String::new()) };
     canvas.paint(&scene, WIDTH as u32, height as u32, Theme::Light);
     canvas
 }

@@ -33,14 +33,7 @@ const SIGHTING: [f64; 2] = [2.0, 3.0];
 /// The whole figure at this size \[css px\].
 pub fn build(model: &ConditioningModel, width: f64, height: f64) -> Scene {
     let layout = Layout::new(width);
-    let mut scene = Scene {
-        width: width.max(NARROWEST),
-        height: height.max(layout.height),
-        marks: Vec::new(),
-        regions: Vec::new(),
-        handles: Vec::new(),
-        description: model.describe(),
-    };
+    let mut scene = Scene::new(width.max(NARROWEST), height.max(layout.height), model.describe());
     let (title, rest, role) = if model.conditioned() {
         ("Given the path", "every landmark stands alone", Role::Accent)
     } else {

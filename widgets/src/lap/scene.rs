@@ -29,14 +29,7 @@ const GHOST_FROM: f64 = 58.0;
 /// The whole figure at this size \[css px\].
 pub fn build(model: &LapModel, width: f64, height: f64) -> Scene {
     let layout = Layout::new(width);
-    let mut scene = Scene {
-        width: width.max(NARROWEST),
-        height: height.max(layout.height),
-        marks: Vec::new(),
-        regions: Vec::new(),
-        handles: Vec::new(),
-        description: model.describe(),
-    };
+    let mut scene = Scene::new(width.max(NARROWEST), height.max(layout.height), model.describe());
     large(&mut scene, model, &layout);
     legend(&mut scene, model, &layout.legend);
     let tiles = Tiles::fit(&layout.mosaic.inset(RING), model.lap().particles().len(), ASPECT);

@@ -108,16 +108,13 @@ impl Panel {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::assert_apart;
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
         for width in (300..2000).step_by(7).map(f64::from) {
             let layout = Layout::new(width);
-            let (parts, figure) = (layout.parts(), Rect::new(0.0, 0.0, width, layout.height));
-            for (k, a) in parts.iter().enumerate() {
-                assert!(figure.encloses(a), "{width}: part {k}");
-                assert!(parts[..k].iter().all(|b| !a.overlaps(b)), "{width}: part {k}");
-            }
+            assert_apart(&layout.parts(), &Rect::new(0.0, 0.0, width, layout.height));
         }
     }
 

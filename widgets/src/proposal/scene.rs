@@ -37,14 +37,7 @@ const NINE_TENTHS: f64 = 2.145_966_026_289_347;
 /// The whole figure at this size \[css px\].
 pub fn build(model: &ProposalModel, width: f64, height: f64) -> Scene {
     let layout = Layout::new(width);
-    let mut scene = Scene {
-        width: width.max(NARROWEST),
-        height: height.max(layout.height),
-        marks: Vec::new(),
-        regions: Vec::new(),
-        handles: Vec::new(),
-        description: model.describe(),
-    };
+    let mut scene = Scene::new(width.max(NARROWEST), height.max(layout.height), model.describe());
     let found = model.proposals();
     let proposals = [
         ("FastSLAM 1.0", "motion prior, then weigh", &found.motion, Role::Prior),

@@ -14,6 +14,8 @@ pub use clip::clip_polyline;
 pub use formula::{Formula, number};
 pub use handle::Handle;
 pub use rect::Rect;
+#[cfg(test)]
+pub use rect::assert_apart;
 pub use shape::{closed, ellipse, robot};
 pub use text::{Anchor, Text, heading, text};
 
@@ -183,6 +185,11 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Of this size \[css px\], with nothing in it yet; the same in words.
+    pub fn new(width: f64, height: f64, description: String) -> Self {
+        Self { width, height, marks: Vec::new(), regions: Vec::new(), handles: Vec::new(), description }
+    }
+
     /// What a click at this point \[css px\] picks.
     pub fn hit(&self, point: Point) -> Option<u32> {
         self.regions.iter().find(|r| r.area.contains(point)).map(|r| r.target)

@@ -61,3 +61,12 @@ impl Rect {
             && other.bottom() <= self.bottom() + e
     }
 }
+
+/// That the parts of a layout lie inside of the figure, and nowhere over each other.
+#[cfg(test)]
+pub fn assert_apart(parts: &[Rect], figure: &Rect) {
+    for (k, a) in parts.iter().enumerate() {
+        assert!(figure.encloses(a), "{}: part {k}", figure.w);
+        assert!(parts[..k].iter().all(|b| !a.overlaps(b)), "{}: part {k}", figure.w);
+    }
+}

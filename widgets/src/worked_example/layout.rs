@@ -110,6 +110,7 @@ fn rows(x: f64, y: &mut f64, [label, value]: [f64; 2], steps: &[Step]) -> Vec<Pl
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::assert_apart;
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
@@ -120,11 +121,7 @@ mod tests {
             parts.extend(layout.given.iter().chain(&layout.steps[0]).flat_map(|place| [place.label, place.value]));
             let labels = layout.steps[1].iter().map(|place| place.label).filter(|_| !layout.wide);
             parts.extend(layout.steps[1].iter().map(|place| place.value).chain(labels));
-            let figure = Rect::new(0.0, 0.0, width, layout.height);
-            for (k, a) in parts.iter().enumerate() {
-                assert!(figure.encloses(a), "{width}: part {k}");
-                assert!(parts[..k].iter().all(|b| !a.overlaps(b)), "{width}: part {k}");
-            }
+            assert_apart(&parts, &Rect::new(0.0, 0.0, width, layout.height));
         }
     }
 }

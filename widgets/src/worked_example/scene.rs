@@ -27,14 +27,7 @@ const SIGMAS: f64 = 2.0;
 pub fn build(model: &WorkedExampleModel, width: f64) -> Scene {
     let layout = Layout::new(width);
     let example = model.example();
-    let mut scene = Scene {
-        width: width.max(NARROWEST),
-        height: layout.height,
-        marks: Vec::new(),
-        regions: Vec::new(),
-        handles: Vec::new(),
-        description: model.describe(),
-    };
+    let mut scene = Scene::new(width.max(NARROWEST), layout.height, model.describe());
     plot(&mut scene, example, &layout.plot);
     legend(&mut scene, &layout.legend);
     for (step, place) in GIVEN.iter().zip(&layout.given) {
