@@ -3,6 +3,7 @@
 import { readdirSync } from 'node:fs'
 import { basename, join } from 'node:path'
 import { defineConfig } from 'vite'
+import { chapter } from './chapter/plugin.mjs'
 import { root } from './lib.mjs'
 
 const www = join(root, 'www')
@@ -16,6 +17,7 @@ const assetFileNames = asset => (asset.names.some(name => basename(name).endsWit
 export default defineConfig({
   root: www,
   base: './',
+  plugins: [chapter(root)],
   build: {
     outDir: join(root, 'dist'),
     emptyOutDir: true,
