@@ -4,6 +4,7 @@ import { h } from 'hastscript'
 import { visit } from 'unist-util-visit'
 import { attribute, content, idOf, inline, nameOf, parts } from './context.mjs'
 import { display, formula } from './inline.mjs'
+import { curly } from './quotes.mjs'
 
 /** @typedef {import('./context.mjs').Handler} Handler */
 
@@ -55,7 +56,7 @@ export function predict(context, state, node) {
   if (!question) context.problems.add(context.file, node, ':::predict has no question')
   return h(
     'div.predict',
-    h('label', h('b', 'Predict first'), ' ', question, ' ', h('input', { type: 'text', placeholder: 'Your guess unfolds what follows', autocomplete: 'off' })),
+    h('label', h('b', 'Predict first'), ' ', curly(question, ''), ' ', h('input', { type: 'text', placeholder: 'Your guess unfolds what follows', autocomplete: 'off' })),
     h('div.fold', content(state, node.children)),
   )
 }
@@ -98,5 +99,5 @@ export function captioned(context, node, caption, plain) {
     first.children.unshift(name, { type: 'text', value: ' ' })
     return caption
   }
-  return [h('p', name, ' ', plain ?? ''), ...caption]
+  return [h('p', name, ' ', curly(plain ?? '', '')), ...caption]
 }

@@ -19,6 +19,7 @@ import { page } from './page.mjs'
 import { parse } from './parse.mjs'
 import { Problems } from './problems.mjs'
 import { Sources } from './source.mjs'
+import { together } from './together.mjs'
 
 /**
  * @typedef {import('hast').ElementContent} ElementContent
@@ -117,7 +118,7 @@ function titleOf({ file, tree }, problems) {
 function renderPage({ chapter, texts, front, kicker, script, ...shared }) {
   const labels = new Labels(chapter)
   /** @type {Context} */
-  const context = { ...shared, file: '', labels, listings: new Map(), lines: new Set(), heads: [], depth: 1, notes: 0 }
+  const context = { ...shared, file: '', labels, listings: new Map(), lines: new Set(), heads: [], depth: 1, notes: 0, last: '' }
   context.citations.beginPage()
   context.glossary.beginPage()
   for (const text of texts) labels.collect(text, context.problems)
@@ -157,6 +158,7 @@ function toContent(context, tree) {
   const root = toHast(tree, { handlers: handlers(context) })
   const nodes = root.type === 'root' ? root.children.filter(isContent) : isContent(root) ? [root] : []
   visit({ type: 'root', children: nodes }, 'element', element => {
+    if (![element.properties.className].flat().includes('w')) element.children = together(element.children)
     if (element.properties.align) {
       element.properties.className = [`to-${element.properties.align}`]
       delete element.properties.align

@@ -11,6 +11,7 @@ import { idOf, inline } from './context.mjs'
 /** @type {import('./context.mjs').Handler} */
 export function heading(context, state, node) {
   const id = idOf(node) ?? ''
+  context.last = ''
   const text = inline(state, node)
   context.depth = node.depth
   context.heads.push({ depth: node.depth, id, content: text })

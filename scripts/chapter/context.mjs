@@ -27,6 +27,7 @@
  * @property {Head[]} heads
  * @property {number} depth of the last heading
  * @property {number} notes side notes so far
+ * @property {string} last the last character that was set, for quotes
  */
 
 /** The text of an attribute. @param {Directive} node @param {string} name */

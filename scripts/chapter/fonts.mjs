@@ -27,7 +27,7 @@ const faceOf = { b: 'bold', strong: 'bold', dt: 'bold', em: 'italic', i: 'italic
 /** Whole paragraphs in italics. */
 const italicClasses = ['lead', 'title', 'kind']
 
-/** Which letters are set in which face. */
+/** Which letters are set in which face. Upright Latin letters and figures in formulas are those of the text: the two faces share them. */
 export class Letters {
   /** @type {Record<Face, Set<string>>} */
   sets = { text: new Set(), italic: new Set(), bold: new Set(), math: new Set(), mono: new Set() }
@@ -38,7 +38,7 @@ export class Letters {
       if (node.type === 'text') this.add(face, node.value)
       if (node.type !== 'element') continue
       if (node.tagName === 'math') {
-        this.add('math', lettersOf(node))
+        for (const letter of lettersOf(node)) this.add(/[A-Za-z0-9.%]/.test(letter) ? 'text' : 'math', letter)
         continue
       }
       const classes = /** @type {string[]} */ ([node.properties.className ?? []].flat())

@@ -1,7 +1,9 @@
 // Which module renders what. A directive that is not in these lists is a mistake of the writer.
+import { h } from 'hastscript'
 import { algorithm } from './algorithm.mjs'
 import { derivation, equation, exercise, hint, lapTable, margin, predict, solution, table, theorem } from './blocks.mjs'
 import { heading } from './contents.mjs'
+import { inline } from './context.mjs'
 import { figure } from './figure.mjs'
 import { footnoteReference, inlineMath, link, math, num, term, text } from './inline.mjs'
 import { code, listing } from './listing.mjs'
@@ -40,6 +42,18 @@ const html = (context, _, node) => {
   return []
 }
 
+/** @type {Handler} */
+const paragraph = (context, state, node) => {
+  context.last = ''
+  return h('p', inline(state, node))
+}
+
+/** @type {Handler} */
+const inlineCode = (context, _, node) => {
+  context.last = 'x'
+  return h('code', node.value)
+}
+
 /** @type {Record<string, Handler>} */
 const all = {
   code,
@@ -47,10 +61,12 @@ const all = {
   footnoteReference,
   heading,
   html,
+  inlineCode,
   inlineMath,
   leafDirective: directive('::', leaves),
   link,
   math,
+  paragraph,
   text,
   textDirective: directive(':', texts),
 }

@@ -2,6 +2,7 @@
 import { h } from 'hastscript'
 import { attribute, inline } from './context.mjs'
 import { breakable, widthOf } from './math.mjs'
+import { curly } from './quotes.mjs'
 
 /** @typedef {import('./context.mjs').Handler} Handler */
 
@@ -19,6 +20,7 @@ export function num(context, _, node) {
     percent: attribute(node, 'percent') !== undefined,
   })
   if (text === undefined) context.problems.add(context.file, node, `www/data/numbers.json has no number ${key}`)
+  context.last = 'x'
   return { type: 'text', value: text ?? '' }
 }
 
@@ -43,7 +45,9 @@ export function link(context, state, node) {
 
 /** Citations in running text. @type {Handler} */
 export function text(context, _, node) {
-  const trimmed = node.value.replace(/[ \t]*(\r?\n)[ \t]*/g, '$1')
+  if (node.value.includes(':::')) context.problems.add(context.file, node, 'a stray ::: (a container that holds others has more colons than they)')
+  const trimmed = curly(node.value.replace(/[ \t]*(\r?\n)[ \t]*/g, '$1'), context.last)
+  context.last = trimmed.at(-1) ?? context.last
   return context.citations.link(trimmed, key => context.problems.add(context.file, node, `www/references.json has no work ${key}`))
 }
 
@@ -66,6 +70,7 @@ export function footnoteReference(context, state, node) {
 
 /** `$…$` @type {Handler} */
 export function inlineMath(context, _, node) {
+  context.last = 'x'
   return breakable(formula(context, node, false))
 }
 
@@ -76,7 +81,7 @@ export function math(context, _, node) {
 
 /** A formula on a line of its own; one too long for the column may use the margin. @param {import('hast').Element} formula @param {string} [id] @param {string} [name] */
 export function display(formula, id, name) {
-  const long = widthOf(formula) > (name ? 29 : 32)
+  const long = widthOf(formula) > (name ? 26 : 30)
   return h(long ? 'div.eq.long' : 'div.eq', { id }, h('div.scroll', formula), name ? h('a.number', { href: `#${id}` }, name) : [])
 }
 

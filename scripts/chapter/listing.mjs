@@ -2,6 +2,7 @@
 import { h } from 'hastscript'
 import { attribute, idOf, nameOf } from './context.mjs'
 import { textOf } from './inline.mjs'
+import { curly } from './quotes.mjs'
 
 /**
  * @typedef {import('./context.mjs').Context} Context
@@ -49,11 +50,11 @@ export function listing(context, _, node) {
   })
   const caption = attribute(node, 'caption') ?? textOf(node)
   const name = h('a.file', { href: repositoryAddress(context, piece.file, piece.first, piece.last) }, piece.file)
-  return h('figure.listing', { id }, h('figcaption', h('p', h('b', nameOf(context, node)), ' ', inlineCode(caption), ' ', name)), h('pre.scroll', h('code', lines)))
+  return h('figure.wide.listing', { id }, h('figcaption', h('p', h('b', nameOf(context, node)), ' ', inlineCode(caption), ' ', name)), h('pre.scroll', h('code', lines)))
 }
 
 /** A caption is an attribute, so its `code` is not Markdown yet. @param {string} text */
-const inlineCode = text => text.split('`').map((part, i) => (i % 2 === 1 ? h('code', part) : part))
+const inlineCode = text => text.split('`').map((part, i) => (i % 2 === 1 ? h('code', part) : curly(part, i === 0 ? '' : 'x')))
 
 /** @type {Handler} */
 export function code(context, _, node) {

@@ -17,7 +17,7 @@ const theme = {
   fg: '#000000',
   bg: '#ffffff',
   settings: [
-    { scope: ['comment'], settings: { foreground: '#000001' } },
+    { scope: ['comment', 'punctuation.definition.comment'], settings: { foreground: '#000001' } },
     { scope: ['keyword', 'storage'], settings: { foreground: '#000002' } },
     { scope: ['string', 'constant'], settings: { foreground: '#000003' } },
     { scope: ['entity.name.type', 'entity.name.lifetime'], settings: { foreground: '#000004' } },
