@@ -26,6 +26,9 @@ const theme = {
   ],
 }
 
+/** One for all: it takes a second to set up. @type {Promise<import('shiki').Highlighter> | undefined} */
+let highlighter
+
 export class Sources {
   /** @type {Map<string, string[] | undefined>} */
   #files = new Map()
@@ -38,7 +41,7 @@ export class Sources {
   }
 
   async open() {
-    this.#highlighter = await createHighlighter({ langs: ['rust', 'toml', 'javascript', 'html', 'shell'], themes: [theme] })
+    this.#highlighter = await (highlighter ??= createHighlighter({ langs: ['rust', 'toml', 'javascript', 'html', 'shell'], themes: [theme] }))
     return this
   }
 
