@@ -75,13 +75,15 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         Self { executor, ..self }
     }
 
-    // anchor: step
+    // ANCHOR: step
     /// One step of the filter: propose, weigh, map, and select if the policy calls for it.
     pub fn step(&mut self, control: &P::Control, observation: &M::Observation) -> Report {
         let mut report = self.weigh(control, observation);
+        // ANCHOR: policy
         if self.policy.calls_for(report.ess, self.particles.len()) {
             report.ancestors = Some(self.resample());
         }
+        // ANCHOR_END: policy
         report
     }
 
@@ -96,11 +98,15 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
             particle.map.assimilate(&proposed.world_from_robot, observation, &proposed.association);
             proposed
         });
+        // ANCHOR: extend
         for particle in &mut self.particles {
             particle.node = self.ancestry.push(Some(particle.node), particle.world_from_robot);
         }
+        // ANCHOR_END: extend
         let log_increments: Vec<f64> = proposed.iter().map(|p| p.log_increment).collect();
+        // ANCHOR: normalise
         (self.weights, _) = self.weights.reweighted(&log_increments);
+        // ANCHOR_END: normalise
         self.best = self.weights.best();
         Report {
             step,
@@ -112,6 +118,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         }
     }
 
+    // ANCHOR: resample
     /// The second half: universes are drawn by their weights, and what is not drawn is extinct. Returns the slot that each
     /// particle was copied from.
     pub fn resample(&mut self) -> Vec<u32> {
@@ -123,7 +130,8 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         self.weights = Weights::uniform(count);
         ancestors
     }
-    // end: step
+    // ANCHOR_END: resample
+    // ANCHOR_END: step
 
     /// The population, by slot.
     pub fn particles(&self) -> &[Particle<M>] {

@@ -82,7 +82,9 @@ impl ScanModel {
                 return f64::NEG_INFINITY;
             }
         }
+        // ANCHOR: temper
         self.temper * sum
+        // ANCHOR_END: temper
     }
 
     /// ln p_cell of a cell's log-odds in units.

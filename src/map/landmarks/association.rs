@@ -62,7 +62,7 @@ pub struct Matched {
 }
 
 impl Correspondence {
-    // anchor: associate
+    // ANCHOR: associate
     /// Decides what one feature is, after `taken` was decided for the features before it. Indices up to `len` are in use;
     /// `innovation` is what the feature says of the landmark of an index, `None` where there is none, or where it surely lies
     /// beyond the gate that is asked for.
@@ -86,20 +86,24 @@ impl Correspondence {
                 let mut best: Option<Matched> = None;
                 for index in 0..len {
                     let Some(innovation) = innovation(index, Some(gate.mahalanobis_squared)) else { continue };
+                    // ANCHOR: gate
                     let within = innovation.mahalanobis_squared < gate.mahalanobis_squared;
+                    // ANCHOR_END: gate
                     let to_beat = best.map_or(gate.log_new, |best| best.log_likelihood);
                     if within && innovation.log_likelihood > to_beat && free(index) {
                         best = Some(again(index, innovation));
                     }
                 }
+                // ANCHOR: found
                 best.unwrap_or_else(|| {
                     let founded = taken.iter().filter(|sighted| matches!(sighted, Sighted::First(_))).count() as u32;
                     Matched { sighted: Sighted::First(len + founded), innovation: None, log_likelihood: gate.log_new }
                 })
+                // ANCHOR_END: found
             }
         }
     }
-    // end: associate
+    // ANCHOR_END: associate
 }
 
 impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
