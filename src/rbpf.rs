@@ -75,7 +75,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         Self { executor, ..self }
     }
 
-    // ANCHOR: step
+    // anchor: step
     /// One step of the filter: propose, weigh, map, and select if the policy calls for it.
     pub fn step(&mut self, control: &P::Control, observation: &M::Observation) -> Report {
         let mut report = self.weigh(control, observation);
@@ -118,20 +118,20 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         }
     }
 
-    // ANCHOR: resample
     /// The second half: universes are drawn by their weights, and what is not drawn is extinct. Returns the slot that each
     /// particle was copied from.
     pub fn resample(&mut self) -> Vec<u32> {
         let count = self.particles.len();
         let mut stream = Stream::at(self.seed, Purpose::Resampling, self.step, 0);
+        // ANCHOR: resample
         let ancestors = self.scheme.ancestors(&self.weights, count, &mut stream);
+        // ANCHOR_END: resample
         self.best = ancestors.iter().position(|slot| *slot as usize == self.best).unwrap_or(0);
         self.particles = ancestors.iter().map(|slot| self.particles[*slot as usize].clone()).collect();
         self.weights = Weights::uniform(count);
         ancestors
     }
-    // ANCHOR_END: resample
-    // ANCHOR_END: step
+    // end: step
 
     /// The population, by slot.
     pub fn particles(&self) -> &[Particle<M>] {

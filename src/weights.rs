@@ -49,14 +49,14 @@ impl Weights {
     /// assert!((weights.as_slice()[0] - 0.761332714843).abs() < 1e-9);
     /// assert!((weights.ess() - 1.5708708376).abs() < 1e-9);
     /// ```
-    // ANCHOR: ess
     pub fn ess(&self) -> f64 {
         if self.weights.iter().all(|w| *w == self.weights[0]) {
             return self.weights.len() as f64; // what rounding in the sum would miss
         }
+        // ANCHOR: ess
         1.0 / self.weights.iter().map(|w| w * w).sum::<f64>()
+        // ANCHOR_END: ess
     }
-    // ANCHOR_END: ess
 
     /// Slot of the largest weight, the lowest of equals.
     pub fn best(&self) -> usize {

@@ -35,7 +35,7 @@ pub struct Measured {
 }
 
 impl<D: Motion> FromMeasurement<D> {
-    // ANCHOR: fold
+    // anchor: fold
     /// Folds every feature of a mapped landmark into N(x̂, R_t), each from where the one before left it: with
     /// S = H_x P H_xᵀ + H_m Σ_j H_mᵀ + Q and K = P H_xᵀ S⁻¹, μ ← μ + K ν, and P by Joseph's form.
     pub fn fold<Z: LandmarkSensor, S: Store>(
@@ -71,13 +71,13 @@ impl<D: Motion> FromMeasurement<D> {
         }
         Measured { mean, covariance: p, sighted, log_evidence, informed }
     }
-    // ANCHOR_END: fold
+    // end: fold
 }
 
 impl<Z: LandmarkSensor, S: Store, D: Motion> Proposal<Landmarks<Z, S>> for FromMeasurement<D> {
     type Control = D::Control;
 
-    // ANCHOR: propose
+    // anchor: propose
     /// The weight does not contain the pose that was drawn: particles of one history weigh the same.
     fn propose(
         &self,
@@ -98,5 +98,5 @@ impl<Z: LandmarkSensor, S: Store, D: Motion> Proposal<Landmarks<Z, S>> for FromM
         // ANCHOR_END: draw
         Proposed { world_from_robot, association: measured.sighted, log_increment: measured.log_evidence, trace }
     }
-    // ANCHOR_END: propose
+    // end: propose
 }

@@ -59,7 +59,7 @@ pub struct FromMotion<D, L> {
 impl<M: ConditionalMap, D: Motion, L: Likelihood<M>> Proposal<M> for FromMotion<D, L> {
     type Control = D::Control;
 
-    // ANCHOR: propose
+    // anchor: propose
     fn propose(
         &self,
         particle: &Particle<M>,
@@ -76,5 +76,5 @@ impl<M: ConditionalMap, D: Motion, L: Likelihood<M>> Proposal<M> for FromMotion<
         // ANCHOR_END: weigh
         Proposed { world_from_robot, association, log_increment, trace: ProposalTrace::Motion }
     }
-    // ANCHOR_END: propose
+    // end: propose
 }

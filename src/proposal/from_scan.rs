@@ -49,7 +49,7 @@ pub struct FromScan {
 impl Proposal<Grid> for FromScan {
     type Control = Odometry;
 
-    // ANCHOR: propose
+    // anchor: propose
     fn propose(&self, particle: &Particle<Grid>, u: &Odometry, scan: &Scan, stream: &mut Stream) -> Proposed<()> {
         let settings = &self.settings;
         // ANCHOR: predict
@@ -132,7 +132,7 @@ impl Proposal<Grid> for FromScan {
             trace: ProposalTrace::Matched { mode: mode.pose },
         }
     }
-    // ANCHOR_END: propose
+    // end: propose
 }
 
 impl FromScan {

@@ -62,7 +62,7 @@ pub struct Matched {
 }
 
 impl Correspondence {
-    // ANCHOR: associate
+    // anchor: associate
     /// Decides what one feature is, after `taken` was decided for the features before it. Indices up to `len` are in use;
     /// `innovation` is what the feature says of the landmark of an index, `None` where there is none, or where it surely lies
     /// beyond the gate that is asked for.
@@ -103,7 +103,7 @@ impl Correspondence {
             }
         }
     }
-    // ANCHOR_END: associate
+    // end: associate
 }
 
 impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {

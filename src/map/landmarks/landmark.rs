@@ -58,16 +58,16 @@ impl Innovation {
 }
 
 impl Landmark {
-    // ANCHOR: first
+    // anchor: first
     /// The first sighting: μ = h⁻¹(x, z), Σ = H_m⁻¹ Q H_m⁻ᵀ.
     pub fn first<Z: LandmarkSensor>(sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) -> Self {
         let mean = sensor.locate(world_from_robot, z);
         let inverse = inverse(&sensor.predict(world_from_robot, &mean).h_m);
         Self { mean, covariance: symmetric(inverse * sensor.noise() * inverse.transpose()), evidence: 1 }
     }
-    // ANCHOR_END: first
+    // end: first
 
-    // ANCHOR: innovation
+    // anchor: innovation
     /// ν = z − h(x, μ), S = H_m Σ H_mᵀ + Q: exp(`log_likelihood`) is the marginal ∫ p(z | x, m) p(m | path) dm of a sighting.
     #[inline]
     pub fn innovation<Z: LandmarkSensor>(&self, sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) -> Innovation {
@@ -89,9 +89,9 @@ impl Landmark {
         let covariance = symmetric(given_pose + more(&prediction));
         Innovation::new(prediction, sensor.residual(z, &prediction.z), given_pose, covariance)
     }
-    // ANCHOR_END: innovation
+    // end: innovation
 
-    // ANCHOR: update
+    // anchor: update
     /// K = Σ H_mᵀ S⁻¹, μ ← μ + K ν, Σ ← (I − K H_m) Σ (I − K H_m)ᵀ + K Q Kᵀ: Joseph's form, which stays symmetric and positive
     /// definite whatever rounding does.
     pub fn update<Z: LandmarkSensor>(&mut self, sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) {
@@ -103,7 +103,7 @@ impl Landmark {
             symmetric(keep * self.covariance * keep.transpose() + gain * sensor.noise() * gain.transpose());
         self.evidence = self.evidence.saturating_add(1);
     }
-    // ANCHOR_END: update
+    // end: update
 
     /// K = Σ H_mᵀ S⁻¹ (2 × 2): how far the mean follows a residual.
     #[inline]

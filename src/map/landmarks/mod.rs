@@ -74,7 +74,7 @@ impl<Z: LandmarkSensor, S: Store> ConditionalMap for Landmarks<Z, S> {
     type Observation = Vec<Feature>;
     type Association = Vec<Sighted>;
 
-    // ANCHOR: assimilate
+    // anchor: assimilate
     /// A first sighting makes a landmark, every further one is a Kalman update of that landmark alone. Where landmarks may be
     /// struck off, those that should have been seen and were not lose evidence.
     fn assimilate(&mut self, world_from_robot: &Pose2, features: &Vec<Feature>, sighted: &Vec<Sighted>) {
@@ -95,7 +95,7 @@ impl<Z: LandmarkSensor, S: Store> ConditionalMap for Landmarks<Z, S> {
             }
         }
     }
-    // ANCHOR_END: assimilate
+    // end: assimilate
 }
 
 impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
