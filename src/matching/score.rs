@@ -82,9 +82,7 @@ impl ScanModel {
                 return f64::NEG_INFINITY;
             }
         }
-        // ANCHOR: temper
         self.temper * sum
-        // ANCHOR_END: temper
     }
 
     /// ln p_cell of a cell's log-odds in units.

@@ -94,12 +94,10 @@ impl Correspondence {
                         best = Some(again(index, innovation));
                     }
                 }
-                // ANCHOR: found
                 best.unwrap_or_else(|| {
                     let founded = taken.iter().filter(|sighted| matches!(sighted, Sighted::First(_))).count() as u32;
                     Matched { sighted: Sighted::First(len + founded), innovation: None, log_likelihood: gate.log_new }
                 })
-                // ANCHOR_END: found
             }
         }
     }
