@@ -79,9 +79,11 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
     /// One step of the filter: propose, weigh, map, and select if the policy calls for it.
     pub fn step(&mut self, control: &P::Control, observation: &M::Observation) -> Report {
         let mut report = self.weigh(control, observation);
+        // ANCHOR: policy
         if self.policy.calls_for(report.ess, self.particles.len()) {
             report.ancestors = Some(self.resample());
         }
+        // ANCHOR_END: policy
         report
     }
 
@@ -96,11 +98,15 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
             particle.map.assimilate(&proposed.world_from_robot, observation, &proposed.association);
             proposed
         });
+        // ANCHOR: extend
         for particle in &mut self.particles {
             particle.node = self.ancestry.push(Some(particle.node), particle.world_from_robot);
         }
+        // ANCHOR_END: extend
         let log_increments: Vec<f64> = proposed.iter().map(|p| p.log_increment).collect();
+        // ANCHOR: normalise
         (self.weights, _) = self.weights.reweighted(&log_increments);
+        // ANCHOR_END: normalise
         self.best = self.weights.best();
         Report {
             step,
@@ -117,7 +123,9 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
     pub fn resample(&mut self) -> Vec<u32> {
         let count = self.particles.len();
         let mut stream = Stream::at(self.seed, Purpose::Resampling, self.step, 0);
+        // ANCHOR: resample
         let ancestors = self.scheme.ancestors(&self.weights, count, &mut stream);
+        // ANCHOR_END: resample
         self.best = ancestors.iter().position(|slot| *slot as usize == self.best).unwrap_or(0);
         self.particles = ancestors.iter().map(|slot| self.particles[*slot as usize].clone()).collect();
         self.weights = Weights::uniform(count);
