@@ -20,9 +20,9 @@ pub struct Particle<M> {
     pub node: NodeId,
 }
 
-/// What one step did.
+/// What one step did. `A` is what a map takes an observation for: [`ConditionalMap::Association`].
 #[derive(Clone, Debug)]
-pub struct Report {
+pub struct Report<A> {
     /// The step, from 1 on.
     pub step: u32,
     /// Log weight increment of each slot \[nats\].
@@ -35,6 +35,8 @@ pub struct Report {
     pub ancestors: Option<Vec<u32>>,
     /// How each slot came by its pose.
     pub traces: Vec<ProposalTrace>,
+    /// What each slot took the observation for.
+    pub associations: Vec<A>,
 }
 
 /// A population of particles with one proposal and one policy of resampling.
@@ -77,7 +79,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
 
     // anchor: step
     /// One step of the filter: propose, weigh, map, and select if the policy calls for it.
-    pub fn step(&mut self, control: &P::Control, observation: &M::Observation) -> Report {
+    pub fn step(&mut self, control: &P::Control, observation: &M::Observation) -> Report<M::Association> {
         let mut report = self.weigh(control, observation);
         // ANCHOR: policy
         if self.policy.calls_for(report.ess, self.particles.len()) {
@@ -88,7 +90,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
     }
 
     /// The first half of a step: every particle draws its new pose, pays for it, and maps what it sees from there.
-    pub fn weigh(&mut self, control: &P::Control, observation: &M::Observation) -> Report {
+    pub fn weigh(&mut self, control: &P::Control, observation: &M::Observation) -> Report<M::Association> {
         self.step += 1;
         let (proposal, seed, step) = (&self.proposal, self.seed, self.step);
         let proposed = self.executor.map(&mut self.particles, |slot, particle| {
@@ -114,7 +116,8 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
             weights: self.weights.as_slice().to_vec(),
             ess: self.weights.ess(),
             ancestors: None,
-            traces: proposed.into_iter().map(|p| p.trace).collect(),
+            traces: proposed.iter().map(|p| p.trace).collect(),
+            associations: proposed.into_iter().map(|p| p.association).collect(),
         }
     }
 

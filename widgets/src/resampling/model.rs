@@ -6,7 +6,7 @@ use super::{
     scene,
 };
 use crate::{
-    model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series},
+    model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series, TraceLine, ess_text, pose_text},
     param::{Value, flag_text, unknown},
     scene::{Point, Scene},
 };
@@ -345,6 +345,43 @@ impl Model for ResamplingModel {
             text.push_str(&format!(" In the right wing are {a}, {b} and {c} of {m}."));
         }
         text
+    }
+
+    /// Of the selective filter's best particle at the step that is read, among landmarks.
+    fn trace(&self) -> Vec<TraceLine> {
+        let (m, moment) = (self.setup().particles, self.read(SELECTIVE));
+        let Some((opinion, answers)) = moment.report.opinion else { return Vec::new() };
+        let pose = self.run.ancestry(SELECTIVE).pose(moment.nodes[moment.best]);
+        let survivors = moment.report.descent.lineage(0);
+        let ess = ess_text(moment.report.ess, m);
+        let mut lines = vec![TraceLine::new("predict", "")];
+        if opinion.again + opinion.first > 0 {
+            let made_of_it =
+                format!("{} known, {} new; {answers} different answers in all", opinion.again, opinion.first);
+            lines.extend([
+                TraceLine::new("gate", ""),
+                TraceLine::new("associate", made_of_it),
+                TraceLine::new("weigh", format!("{} nats", fixed(opinion.log_increment, 1))),
+            ]);
+        }
+        if opinion.again > 0 {
+            lines.push(TraceLine::new("fold", ""));
+        }
+        lines.push(TraceLine::new("draw", pose_text([pose.x, pose.y, pose.theta])));
+        if opinion.again + opinion.first > 0 {
+            let done = format!("{} updated, {} founded", opinion.again, opinion.first);
+            lines.push(TraceLine::new("assimilate", done));
+        }
+        lines.push(TraceLine::new("extend", format!("{} nodes", moment.report.tree_nodes())));
+        lines.push(TraceLine::new(
+            "resample",
+            if moment.report.resampled {
+                format!("N_eff {ess}: yes, {survivors} survive")
+            } else {
+                format!("N_eff {ess}: no")
+            },
+        ));
+        lines
     }
 
     fn height(&self, width: f64) -> f64 {
