@@ -107,6 +107,8 @@ function titleOf({ file, tree }, problems) {
   }
   tree.children.shift()
   takeHeadingId(heading)
+  // Whatever rank the title was written in, it is the page's first, and the others follow it.
+  visit(tree, 'heading', other => void (other.depth = /** @type {1 | 2 | 3 | 4 | 5 | 6} */ (Math.max(2, other.depth - heading.depth + 1))))
   return { title: toString(heading) }
 }
 
