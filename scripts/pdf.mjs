@@ -22,7 +22,7 @@ export async function makePdf(site, folder = dist) {
         // Paper does not scroll: all pictures now.
         .replaceAll(' loading="lazy"', '')
         .replace(/<noscript>[^]*?<\/noscript>/, '')
-        .replace(/(<p class="live">Live: )<a href="(#[^"]*)">[^<]*/g, (_, label, anchor) => `${label}<a href="${site}${anchor}">${site}${anchor}`)
+        .replace(/(<p class="address">Live: )<a href="(#[^"]*)">[^<]*/g, (_, label, anchor) => `${label}<a href="${site}${anchor}">${site}${anchor}`)
       await route.fulfill({ response, body: html })
     })
     await page.goto(server.url, { waitUntil: 'networkidle' })

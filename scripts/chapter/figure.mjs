@@ -33,6 +33,6 @@ export function figure(context, state, node) {
         h('img', { src: `../${light}`, ...size, loading: 'lazy', alt }),
       ]),
     ]),
-    h('figcaption', captioned(context, node, content(state, node.children)), h('p.live', 'Live: ', h('a', { href: `#${id}` }, `#${id}`))),
+    h('figcaption', captioned(context, node, content(state, node.children)), h('p.address', 'Live: ', h('a', { href: `#${id}` }, `#${id}`))),
   ])
 }

@@ -68,7 +68,7 @@ test.describe('without JavaScript', () => {
 
   test('text, formulas, tables and pictures are there, and terms lead to their entries', async ({ page }) => {
     await page.goto('./')
-    await expect(page.getByText('The figures run with JavaScript')).toBeVisible()
+    await expect(page.locator('noscript .hint')).toBeVisible()
     for (const what of ['.eq math', 'table', 'pre', '.algorithm li']) await expect(page.locator(`main > section > ${what}, main > section > * > ${what}, main > section > section > * ${what}`).first()).toBeVisible()
     for (const picture of await page.locator('main figure picture img').all()) {
       await picture.scrollIntoViewIfNeeded()
@@ -211,5 +211,5 @@ test('on paper a figure is its picture, and everything is unfolded', async ({ pa
   await expect(lap.locator('canvas')).toBeHidden()
   await expect(lap.locator('.transport')).toBeHidden()
   await expect(page.locator('.derivation > .fold').first()).toBeVisible()
-  await expect(page.locator('#fig-lap .live')).toBeVisible()
+  await expect(page.locator('#fig-lap .address')).toBeVisible()
 })

@@ -129,6 +129,7 @@ export abstract class FigureElement extends HTMLElement {
     onThemeChange(() => this.#repaint(), signal)
     document.addEventListener('visibilitychange', () => this.#wake(), { signal })
     addEventListener('hashchange', () => this.#followLink(), { signal })
+    this.#body.classList.toggle('pictured', this.querySelector('img, picture') !== null)
     this.#approach.observe(this)
     this.#intersections.observe(this)
     this.#intersections.observe(this.#stage)
