@@ -27,7 +27,7 @@ function lines(context, state, list) {
     const named = last?.type === 'textDirective' && last.name === 'line' ? last : undefined
     const shown = named ? { ...first, children: first.children.slice(0, -1) } : first
     const nested = rest.map((/** @type {any} */ child) => (child.type === 'list' ? lines(context, state, child) : content(state, [child]))).flat()
-    return h('li', { dataLine: named ? textOf(named) : undefined }, h('span.step', shown ? inline(state, shown) : [], named ? [' ', sourceLink(context, named)] : []), nested)
+    return h('li', { dataLine: named ? textOf(named) : undefined }, h('span.step', h('span.what', shown ? inline(state, shown) : []), named ? [' ', sourceLink(context, named)] : []), nested)
   }))
 }
 

@@ -13,7 +13,7 @@ import { Glossary } from './glossary.mjs'
 import { handlers } from './handlers.mjs'
 import { Labels, takeHeadingId } from './labels.mjs'
 import { readLine, readListing } from './listing.mjs'
-import { Maths } from './math.mjs'
+import { lettersOf, Maths } from './math.mjs'
 import { Numbers } from './numbers.mjs'
 import { page } from './page.mjs'
 import { parse } from './parse.mjs'
@@ -161,12 +161,20 @@ function toContent(context, tree) {
   const nodes = root.type === 'root' ? root.children.filter(isContent) : isContent(root) ? [root] : []
   visit({ type: 'root', children: nodes }, 'element', element => {
     if (![element.properties.className].flat().includes('w')) element.children = together(element.children)
+    if (element.tagName === 'th') nameHeader(element)
     if (element.properties.align) {
       element.properties.className = [`to-${element.properties.align}`]
       delete element.properties.align
     }
   })
   return nodes
+}
+
+/** A corner without words is no header; one of a formula alone is named by its letters, which screen readers may not find in it. @param {import('hast').Element} cell */
+function nameHeader(cell) {
+  const [only] = cell.children
+  if (!only) cell.tagName = 'td'
+  else if (cell.children.length === 1 && only.type === 'element' && only.tagName === 'math') cell.properties.ariaLabel = lettersOf(only)
 }
 
 /** @param {Context} context @param {string} file @param {string} text @returns {ElementContent[]} */

@@ -74,6 +74,10 @@ test('typewriter quotes become typographic ones', () => {
   assert.equal(curly('" it', 'x'), '” it')
 })
 
+test('a corner of a table without words is no header, and a formula in one is named', async () => {
+  assert.match(await html('## A {#a}\n\n| | $M$ |\n|---|---|\n| 1 | 2 |'), /<tr>\s*<td><\/td>\s*<th aria-label="𝑀"><math>/)
+})
+
 test('headings are sections, and the contents list them', async () => {
   const { pages } = await book('## A {#a}\n\nx\n\n### B {#b}\n\ny\n\n#### C\n\nz\n\n## D {#d}')
   const text = JSON.stringify(pages['index.html'])
