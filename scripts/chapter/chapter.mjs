@@ -174,7 +174,8 @@ function toContent(context, tree) {
 function nameHeader(cell) {
   const [only] = cell.children
   if (!only) cell.tagName = 'td'
-  else if (cell.children.length === 1 && only.type === 'element' && only.tagName === 'math') cell.properties.ariaLabel = lettersOf(only)
+  else cell.properties.scope ??= 'col'
+  if (cell.children.length === 1 && only?.type === 'element' && only.tagName === 'math') cell.properties.ariaLabel = lettersOf(only)
 }
 
 /** @param {Context} context @param {string} file @param {string} text @returns {ElementContent[]} */

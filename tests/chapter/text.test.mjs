@@ -75,7 +75,7 @@ test('typewriter quotes become typographic ones', () => {
 })
 
 test('a corner of a table without words is no header, and a formula in one is named', async () => {
-  assert.match(await html('## A {#a}\n\n| | $M$ |\n|---|---|\n| 1 | 2 |'), /<tr>\s*<td><\/td>\s*<th aria-label="𝑀"><math>/)
+  assert.match(await html('## A {#a}\n\n| | $M$ |\n|---|---|\n| 1 | 2 |'), /<tr>\s*<td><\/td>\s*<th scope="col" aria-label="𝑀"><math>/)
 })
 
 test('headings are sections, and the contents list them', async () => {

@@ -23,7 +23,9 @@ for (const [what, options] of Object.entries({
     await lap.box('universes').press('Enter')
     await expect(lap.alert).not.toBeEmpty()
     await lap.element.locator('summary[aria-label=Menu]').click()
+    // The text around it has its own test, and takes axe a minute.
     const found = await new AxeBuilder({ page })
+      .include('#fig-lap')
       .withTags(['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'])
       .analyze()
     expect(found.violations.map(violation => `${violation.id}: ${violation.nodes.map(node => node.html).join(' | ')}`)).toEqual([])
