@@ -2,9 +2,8 @@
 import { fromHtml } from 'hast-util-from-html'
 import { h } from 'hastscript'
 import { visit } from 'unist-util-visit'
-import { attribute, content, idOf, inline, nameOf, parts } from './context.mjs'
+import { attribute, content, idOf, inline, nameOf, parts, sentence } from './context.mjs'
 import { display, formula } from './inline.mjs'
-import { curly } from './quotes.mjs'
 
 /** @typedef {import('./context.mjs').Handler} Handler */
 
@@ -56,7 +55,7 @@ export function predict(context, state, node) {
   if (!question) context.problems.add(context.file, node, ':::predict has no question')
   return h(
     'div.predict',
-    h('label', h('b', 'Predict first'), ' ', curly(question, ''), ' ', h('input', { type: 'text', placeholder: 'Your guess unfolds what follows', autocomplete: 'off' })),
+    h('label', h('b', 'Predict first'), ' ', sentence(context, state, question), ' ', h('input', { type: 'text', placeholder: 'Your guess unfolds what follows', autocomplete: 'off' })),
     h('div.fold', content(state, node.children)),
   )
 }
@@ -84,20 +83,20 @@ export function lapTable(context, state, node) {
 
 /** @param {import('./context.mjs').Context} context @param {any} state @param {any} node @param {any[]} tables @param {any[]} caption */
 function tableFigure(context, state, node, tables, caption) {
-  return h('figure.table', { id: idOf(node) }, h('figcaption', captioned(context, node, content(state, caption), attribute(node, 'caption'))), h('div.scroll', tables))
+  return h('figure.table', { id: idOf(node) }, h('figcaption', captioned(context, node, content(state, caption), sentence(context, state, attribute(node, 'caption') ?? ''))), h('div.scroll', tables))
 }
 
 /**
  * A caption that begins with the name of what it belongs to.
  * @param {import('./context.mjs').Context} context @param {any} node @param {import('hast').ElementContent[]} caption
- * @param {string} [plain] the caption where it is an attribute
+ * @param {import('hast').ElementContent[]} [short] the caption where it is an attribute
  */
-export function captioned(context, node, caption, plain) {
+export function captioned(context, node, caption, short = []) {
   const name = h('b', nameOf(context, node))
   const first = caption.find(child => child.type === 'element')
   if (first?.type === 'element' && first.tagName === 'p') {
     first.children.unshift(name, { type: 'text', value: ' ' })
     return caption
   }
-  return [h('p', name, ' ', curly(plain ?? '', '')), ...caption]
+  return [h('p', name, ' ', short), ...caption]
 }

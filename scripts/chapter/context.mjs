@@ -1,4 +1,5 @@
 // What the handlers share: where they are, and what has been gathered.
+import { parse } from './parse.mjs'
 
 /**
  * @typedef {import('hast').ElementContent} ElementContent
@@ -51,6 +52,13 @@ export const isContent = node => node.type === 'element' || node.type === 'text'
 
 /** @param {State} state @param {import('mdast').Nodes} node */
 export const inline = (state, node) => /** @type {ElementContent[]} */ (state.all(/** @type {any} */ (node)))
+
+/** The text of an attribute, which may hold formulas and code as any sentence. @param {Context} context @param {State} state @param {string} text */
+export function sentence(context, state, text) {
+  const [paragraph] = parse(context.file, text, context.problems).tree.children
+  context.last = ''
+  return paragraph ? inline(state, paragraph) : []
+}
 
 /** “Figure 17.1” and the like, as captions and boxes begin. @param {Context} context @param {import('unist').Node} node */
 export const nameOf = (context, node) => context.labels.get(idOf(node) ?? '')?.name ?? ''

@@ -1,8 +1,7 @@
 // `::listing`: a piece of the crate's own source. Other fenced code is highlighted alike.
 import { h } from 'hastscript'
-import { attribute, idOf, nameOf } from './context.mjs'
+import { attribute, idOf, nameOf, sentence } from './context.mjs'
 import { textOf } from './inline.mjs'
-import { curly } from './quotes.mjs'
 
 /**
  * @typedef {import('./context.mjs').Context} Context
@@ -38,7 +37,7 @@ export function addressOf(context, file, line) {
 const repositoryAddress = (context, file, line, last) => `${context.repository}/blob/main/${file}${line ? `#L${line}` : ''}${last ? `-L${last}` : ''}`
 
 /** @type {Handler} */
-export function listing(context, _, node) {
+export function listing(context, state, node) {
   const found = context.listings.get(idOf(node) ?? '')
   if (!found) return []
   const { id, piece } = found
@@ -50,11 +49,8 @@ export function listing(context, _, node) {
   })
   const caption = attribute(node, 'caption') ?? textOf(node)
   const name = h('a.file', { href: repositoryAddress(context, piece.file, piece.first, piece.last) }, piece.file)
-  return h('figure.wide.listing', { id }, h('figcaption', h('p', h('b', nameOf(context, node)), ' ', inlineCode(caption), ' ', name)), h('pre.scroll', h('code', lines)))
+  return h('figure.wide.listing', { id }, h('figcaption', h('p', h('b', nameOf(context, node)), ' ', sentence(context, state, caption), ' ', name)), h('pre.scroll', h('code', lines)))
 }
-
-/** A caption is an attribute, so its `code` is not Markdown yet. @param {string} text */
-const inlineCode = text => text.split('`').map((part, i) => (i % 2 === 1 ? h('code', part) : curly(part, i === 0 ? '' : 'x')))
 
 /** @type {Handler} */
 export function code(context, _, node) {

@@ -59,6 +59,13 @@ test('a listing shows the source without its anchors, and an algorithm links to 
   assert.match(text, /<li data-line="two">.*href="https:\/\/example\.org\/repo\/blob\/main\/src\/a\.rs#L9"/)
 })
 
+test('the question of a prediction and the caption of a listing are sentences like any other', async () => {
+  const others = { 'src/a.rs': '// ANCHOR: all\nfn a() {}\n// ANCHOR_END: all\n' }
+  const text = await html('## A {#a}\n\n:::predict{question="Is \'it\' $x$ or `y`?"}\nz\n:::\n\n::listing{#lst-a src="src/a.rs#all" caption="The `a` of $x$."}', others)
+  assert.match(text, /Is ‘it’ <math><mi>x<\/mi><\/math> or <code>y<\/code>\? <input/)
+  assert.match(text, /The <code>a<\/code> of <span class="w"><math>/)
+})
+
 test('a page has nothing that the content security policy forbids', async () => {
   const text = await html('## A {#a}\n\n$$\\begin{aligned} a &= \\hat b \\\\ &= \\begin{pmatrix} 1 & 2 \\end{pmatrix} \\end{aligned}$$\n\n```rust\nlet x = 1;\n```\n\n| a |\n|--:|\n| 1 |')
   assert.match(text, /<mtable/)
