@@ -144,9 +144,9 @@ async function timePage() {
     await reader.goto(server.url)
     const paint = await reader.evaluate(() => performance.getEntriesByName('first-contentful-paint')[0]?.startTime ?? NaN)
     const end = await reader.evaluate(() => document.documentElement.scrollHeight)
-    for (let y = 0; y < end; y += 300) {
+    for (let y = 0; y < end; y += 400) {
       await reader.evaluate(top => scrollTo({ top, behavior: 'instant' }), y)
-      await reader.waitForTimeout(100)
+      await reader.waitForTimeout(250)
     }
     const seen = await reader.evaluate(() => /** @type {any} */ (window).seen)
     return { paint, alive, .../** @type {{ shift: number, longest: number }} */ (seen) }
