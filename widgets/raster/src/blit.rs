@@ -66,22 +66,27 @@ pub fn strand(pixels: &mut Pixels, a: [f32; 2], b: [f32; 2], width: f32, color: 
         (a, b) = (b, a);
     }
     let stride = pixels.width;
-    let [length, breadth] = turn(pixels.size().map(|side| side as f32));
+    let (length, breadth) = if steep { (pixels.height(), stride) } else { (stride, pixels.height()) };
+    let breadth = (breadth * WHOLE as usize) as i32;
     let slope = (b[1] - a[1]) / (b[0] - a[0]);
     let half = 0.5 * width * (1.0 + slope * slope).sqrt();
-    let first = |edge: f32| (edge - 0.5).ceil().min(length) as usize; // the first whose middle is beyond
     if ![a[0], a[1], b[0], b[1], half].iter().all(|x| x.is_finite()) {
         return;
     }
-    for i in first(a[0])..first(b[0]) {
+    // The first whose middle is beyond.
+    let [first, end] = [a[0], b[0]].map(|edge| ((edge - 0.5).ceil() as usize).min(length));
+    let parts = |x: f32| (WHOLE as f32 * x) as i32;
+    for i in first..end {
         let middle = a[1] + slope * (i as f32 + 0.5 - a[0]);
-        let (from, to) = ((middle - half).max(0.0), (middle + half).min(breadth));
-        for j in from as usize..to.ceil() as usize {
-            let at = if steep { i * stride + j } else { j * stride + i };
-            let part = to.min(j as f32 + 1.0) - from.max(j as f32);
+        let (mut from, to) = (parts(middle - half).max(0), parts(middle + half).min(breadth));
+        while from < to {
+            let j = from / WHOLE as i32;
+            let next = ((j + 1) * WHOLE as i32).min(to);
+            let at = if steep { i * stride + j as usize } else { j as usize * stride + i };
             if let Some(pixel) = pixels.colors.get_mut(at) {
-                cover(pixel, color, share(part));
+                cover(pixel, color, (next - from) as u32);
             }
+            from = next;
         }
     }
 }

@@ -154,7 +154,7 @@ impl Filler {
             let number = crossings[i].1;
             let edge = &edges[number as usize];
             // What is left or right of the canvas still winds.
-            let x = ((edge.x + edge.slope * (line as f32 - edge.y) + 0.5).floor() as i32).max(0).min(right);
+            let x = ((edge.x + edge.slope * (line as f32 - edge.y) + 0.5) as i32).max(0).min(right);
             let mut place = i;
             while place > 0 && crossings[place - 1].0 > x {
                 crossings[place] = crossings[place - 1];
@@ -203,22 +203,20 @@ fn length([x, y]: [f32; 2]) -> f32 {
 fn paint(pixels: &mut [Color], steps: &mut [i16], color: Color) {
     let mut share = 0;
     for (pixels, steps) in pixels.chunks_mut(8).zip(steps.chunks_mut(8)) {
-        if *steps == [0; 8] {
-            match share {
-                0 => continue,
-                256 => {
-                    pixels.fill(color);
-                    continue;
-                }
-                _ => {}
+        if let Ok(&[0, 0, 0, 0, 0, 0, 0, 0]) = <&[i16; 8]>::try_from(&*steps)
+            && (share == 0 || share == WHOLE as i16)
+        {
+            if share > 0 {
+                pixels.fill(color);
             }
+            continue;
         }
         for (pixel, step) in pixels.iter_mut().zip(steps.iter_mut()) {
             share += core::mem::take(step);
-            match share {
+            match share as u32 {
                 0 => {}
-                256 => *pixel = color,
-                _ => cover(pixel, color, share as u32),
+                WHOLE => *pixel = color,
+                share => cover(pixel, color, share),
             }
         }
     }
