@@ -1,7 +1,8 @@
 // Builds the chapter: the widgets to WebAssembly (widgets/pkg), then the pages around them (dist).
 import { createHash } from 'node:crypto'
-import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs'
+import { copyFileSync, existsSync, mkdirSync, readFileSync, renameSync, rmSync, statSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
+import { fileURLToPath } from 'node:url'
 import { setUp } from './setup.mjs'
 import { cache, isMain, main, npmBin, root, run, step, StepError } from './lib.mjs'
 
@@ -9,11 +10,7 @@ export const dist = join(root, 'dist')
 const wasm = join(root, 'widgets', 'pkg', 'fastslam_widgets_bg.wasm')
 
 /** The features Rust's target has by default, and SIMD of fixed width. Nothing that may change a bit: no fast-math, no relaxed SIMD. */
-const optimiser = [
-  '-Oz',
-  // Functions that LLVM left apart stay apart, and lie beside their like: what Brotli sends is 3 KB less.
-  '--one-caller-inline-max-function-size=1',
-  '--reorder-functions',
+const features = [
   '--enable-simd',
   '--enable-bulk-memory',
   '--enable-bulk-memory-opt',
@@ -24,53 +21,56 @@ const optimiser = [
   '--enable-reference-types',
 ]
 
+// Functions that LLVM left apart stay apart, and lie beside their like: what Brotli sends is 3 KB less.
+const optimiser = [...features, '-Oz', '--one-caller-inline-max-function-size=1', '--reorder-functions']
+
+/** After functions have become traps: what only they reached goes, and the rest moves together. */
+const sweep = ['--duplicate-function-elimination', '--remove-unused-module-elements', '--reorder-functions', '--strip-debug']
+
 /**
- * tiny-skia keeps the stages of every paint it knows in tables, so no linker can tell that gradients, blend modes, filters and masks are
- * never run: a fifth of the page. Our one painter (widgets/src/paint) fills paths with opaque colours, which takes these few.
- * The others become traps; tests/e2e/pixels.spec.ts holds what is left against every golden picture.
+ * tiny-skia-path strokes and dashes curves as well, and no linker can tell that the painter (widgets/src/paint) strokes polylines only.
+ * @param {string} name a function's, in Rust
  */
-const painted = new Set([
-  'start',
-  'just_return',
-  'uniform_color',
-  'seed_shader',
-  'load_dst',
-  'load_dst_tail',
-  'store',
-  'store_tail',
-  'lerp_1_float',
-  'lerp_u8',
-  'scale_1_float',
-  'scale_u8',
-  'source_over',
-  'source_over_rgba',
-  'source_over_rgba_tail',
-])
+const neverRun = name => /^<?tiny_skia_path\b.*(::PathStroker>?::(cubic|quad|conic)|ContourMeasure>?::compute_(cubic|quad|conic))/.test(name.replace(disambiguator, ''))
 
-/** Is a function, by its name in Rust, one that no figure paints with? @param {string} name */
-function neverPainted(name) {
-  const stage = /^tiny_skia::pipeline::(lowp|highp)::(\w+)(::h[0-9a-f]{16})?$/.exec(name)
-  if (stage) return stage[1] === 'highp' || !painted.has(stage[2] ?? '')
-  // Shaders that are no plain colour; and strokes along curves, as only straight lines are stroked.
-  return /^tiny_skia::shaders::\w*(gradient|pattern)|^tiny_skia_path::stroker::PathStroker::(cubic|quad|conic)/.test(name)
-}
+/** What Rust writes behind the name of a crate. */
+const disambiguator = /\[[0-9a-f]{16}\]/g
 
-/** The module without the bodies of what is never painted. @param {Buffer} input */
-async function withoutNeverPainted(input) {
+/** All figures: their tags, and the modules of widgets/src that only they use. */
+export const figures = [...readFileSync(join(root, 'widgets', 'src', 'registry.rs'), 'utf8').matchAll(/tag: "(fastslam-([a-z-]+))"/g)].map(
+  ([, tag = '', name = '']) => ({ tag, module: name.replaceAll('-', '_') }),
+)
+
+/** The program with one figure only. @param {string} tag */
+export const figureWasm = tag => join(root, 'widgets', 'pkg', `${tag}.wasm`)
+
+/**
+ * Makes traps of functions, by their names in Rust.
+ * @param {Buffer} input @param {(name: string) => boolean} which @param {number} least how many there must be, or the names have changed
+ */
+async function withTraps(input, which, least) {
   const { default: binaryen } = await import('binaryen')
+  binaryen.setDebugInfo(true)
   const module = binaryen.readBinary(input)
   const { SIMD128, BulkMemory, BulkMemoryOpt, NontrappingFPToInt, SignExt, MutableGlobals, Multivalue, ReferenceTypes } = binaryen.Features
   module.setFeatures(SIMD128 | BulkMemory | BulkMemoryOpt | NontrappingFPToInt | SignExt | MutableGlobals | Multivalue | ReferenceTypes)
   const functions = Array.from({ length: module.getNumFunctions() }, (_, i) => binaryen.getFunctionInfo(module.getFunctionByIndex(i)))
-  const traps = functions.filter(({ name }) => neverPainted(name))
-  if (traps.length < 50) throw new StepError(`Only ${traps.length} stages of tiny-skia were found by name: has it been renamed?`)
+  const traps = functions.filter(({ name }) => which(name))
+  if (traps.length < least) throw new StepError(`Only ${traps.length} functions that never run were found by name: have they been renamed?`)
   for (const { name, params, results } of traps) {
     module.removeFunction(name)
     module.addFunction(name, params, results, [], module.unreachable())
   }
-  const output = module.emitBinary()
+  const output = Buffer.from(module.emitBinary())
   module.dispose()
   return output
+}
+
+/** Whether only another figure calls a function. @param {string} module */
+const ofOthers = module => {
+  const others = figures.map(figure => figure.module).filter(other => other !== module)
+  const names = new RegExp(`\\bfastslam_widgets::(${others.join('|')})::`)
+  return (/** @type {string} */ name) => names.test(name.replace(disambiguator, ''))
 }
 
 export async function buildWasm() {
@@ -94,22 +94,31 @@ export async function build() {
   await buildPages()
 }
 
-/** wasm-opt takes far longer than an incremental build: what it made of the same input is kept. */
+/**
+ * The program, and for embeds one with each figure alone: what belongs to the others becomes traps, and what only they reached goes.
+ * wasm-opt takes far longer than an incremental build: what it made of the same input is kept.
+ */
 async function optimise() {
   const input = readFileSync(wasm)
-  const binaryen = readFileSync(join(root, 'node_modules', 'binaryen', 'package.json'))
-  const key = createHash('sha256').update(input).update(binaryen).update(optimiser.join()).update([...painted].join()).update(String(neverPainted)).digest('hex')
-  const kept = cache('wasm-opt', `${key}.wasm`)
+  const key = createHash('sha256')
+  for (const file of [fileURLToPath(import.meta.url), join(root, 'node_modules', 'binaryen', 'package.json')]) key.update(readFileSync(file))
+  const kept = cache('wasm-opt', key.update(input).digest('hex'))
   if (!existsSync(kept)) {
+    const part = cache('wasm-opt', 'part')
     rmSync(cache('wasm-opt'), { recursive: true, force: true })
-    mkdirSync(cache('wasm-opt'), { recursive: true })
-    const part = `${kept}.part`
-    writeFileSync(part, await withoutNeverPainted(input))
-    await run(npmBin('wasm-opt'), [...optimiser, part, '-o', part])
-    copyFileSync(part, kept)
-    rmSync(part)
+    mkdirSync(part, { recursive: true })
+    const named = join(part, 'named')
+    writeFileSync(named, await withTraps(input, neverRun, 5))
+    await run(npmBin('wasm-opt'), [...optimiser, '--debuginfo', named, '-o', named])
+    await run(npmBin('wasm-opt'), [...features, '--strip-debug', named, '-o', join(part, 'all')])
+    for (const { tag, module } of figures) {
+      writeFileSync(join(part, tag), await withTraps(readFileSync(named), ofOthers(module), 50))
+      await run(npmBin('wasm-opt'), [...features, ...sweep, join(part, tag), '-o', join(part, tag)])
+    }
+    renameSync(part, kept)
   }
-  copyFileSync(kept, wasm)
+  copyFileSync(join(kept, 'all'), wasm)
+  for (const { tag } of figures) copyFileSync(join(kept, tag), figureWasm(tag))
   return `${kilobytes(input.length)} → ${kilobytes(statSync(wasm).size)}`
 }
 
