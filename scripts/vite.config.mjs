@@ -19,7 +19,7 @@ const figurePrograms = {
   name: 'figure-programs',
   /** @this {import('vite').Rolldown.PluginContext} */
   generateBundle() {
-    for (const { tag } of figures) this.emitFile({ type: 'asset', name: `${tag}.wasm`, source: readFileSync(figureWasm(tag)) })
+    for (const tag of figures) this.emitFile({ type: 'asset', name: `${tag}.wasm`, source: readFileSync(figureWasm(tag)) })
   },
 }
 

@@ -55,7 +55,7 @@ async function digests({ program, wanted }: { program: string; wanted: Picture[]
 
 const programs = [
   { program: 'fastslam_widgets_bg', wanted: pictures },
-  ...figures.map(({ tag }) => ({ program: tag, wanted: pictures.filter(picture => picture.tag === tag) })),
+  ...figures.map(tag => ({ program: tag, wanted: pictures.filter(picture => picture.tag === tag) })),
 ]
 
 for (const { program, wanted } of programs) {
