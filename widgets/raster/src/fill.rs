@@ -225,3 +225,81 @@ fn paint(pixels: &mut [Color], steps: &mut [i16], color: Color) {
         rest.fill(0);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tiny_skia_path::{PathBuilder, Rect};
+
+    const INK: Color = [255, 0, 0, 255];
+
+    /// Red of a row of pixels under what is filled.
+    fn filled(size: [u32; 2], row: usize, path: impl FnOnce(&mut PathBuilder)) -> Vec<u8> {
+        let mut builder = PathBuilder::new();
+        path(&mut builder);
+        let (mut pixels, mut filler) = (Pixels::new(size), Filler::default());
+        filler.fill(&mut pixels, &builder.finish().unwrap(), INK);
+        assert!(filler.steps.iter().all(|&step| step == 0), "the next path starts from nothing");
+        pixels.rows().nth(row).unwrap().iter().map(|[red, ..]| *red).collect()
+    }
+
+    fn rect(path: &mut PathBuilder, [left, top, right, bottom]: [f32; 4]) {
+        path.push_rect(Rect::from_ltrb(left, top, right, bottom).unwrap());
+    }
+
+    #[test]
+    fn a_pixel_is_covered_by_its_share() {
+        let row = filled([4, 3], 1, |path| rect(path, [0.75, 0.5, 2.25, 1.5]));
+        assert_eq!(row, [32, 128, 32, 0], "half of the row, and quarters of the outer pixels");
+    }
+
+    #[test]
+    fn what_is_drawn_twice_is_drawn_once_and_what_winds_back_is_a_hole() {
+        let twice = filled([4, 1], 0, |path| {
+            rect(path, [0.5, 0.0, 2.5, 1.0]);
+            rect(path, [0.5, 0.0, 2.5, 1.0]);
+        });
+        assert_eq!(twice, [128, 255, 128, 0]);
+        let hole = filled([4, 1], 0, |path| {
+            rect(path, [0.0, 0.0, 4.0, 1.0]);
+            for (k, [x, y]) in [[1.0, 0.0], [1.0, 1.0], [3.0, 1.0], [3.0, 0.0]].into_iter().enumerate() {
+                if k == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
+            }
+        });
+        assert_eq!(hole, [255, 0, 0, 255]);
+    }
+
+    #[test]
+    fn what_lies_outside_is_cut_off() {
+        let row = filled([3, 2], 1, |path| rect(path, [-9.0, -1e30, 1.5, 1e30]));
+        assert_eq!(row, [255, 128, 0]);
+        for rest in [[5.0, 0.0, 9.0, 2.0], [-9.0, 0.0, -1.0, 2.0], [0.0, 2.0, 3.0, 9.0], [0.0, -9.0, 3.0, 0.0]] {
+            assert_eq!(filled([3, 2], 1, |path| rect(path, rest)), [0, 0, 0], "{rest:?}");
+        }
+        let right = filled([3, 2], 1, |path| rect(path, [1.5, 0.0, 3.0, 2.0]));
+        assert_eq!(right, [0, 128, 255], "ends with the canvas");
+    }
+
+    #[test]
+    fn a_disc_has_its_area() {
+        for radius in [0.4, 1.5, 7.3] {
+            let ink: u32 = (0..20)
+                .flat_map(|row| filled([20, 20], row, |path| path.push_circle(9.8, 10.3, radius)))
+                .map(u32::from)
+                .sum();
+            let area = core::f32::consts::PI * radius * radius;
+            // Four lines in a pixel; of the smallest, three or four are crossed.
+            assert!((ink as f32 / 255.0 / area - 1.0).abs() < 0.06, "{radius}: {} of {area}", ink as f32 / 255.0);
+        }
+    }
+
+    #[test]
+    fn coordinates_of_any_size_are_taken() {
+        let huge = filled([3, 1], 0, |path| {
+            path.move_to(-1e38, -1e38);
+            path.cubic_to(3e38, -3e38, -3e38, 3e38, 1e38, 1e38);
+            path.quad_to(-3e38, 3e38, 0.0, -2e38);
+        });
+        assert_eq!(huge.len(), 3);
+    }
+}
