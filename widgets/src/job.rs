@@ -3,7 +3,7 @@
 //! A job is a pure function of a figure's link and a range of seeds. It can be cut into pieces, stopped between them, and put
 //! together again in the order of the seeds.
 
-use crate::{model::FigureError, param, query, resampling};
+use crate::{model::FigureError, param, query};
 use core::ops::Range;
 
 /// Names and values of parameters, as a figure's link has them.
@@ -23,7 +23,10 @@ pub struct Job {
 }
 
 /// Every experiment there is.
-pub const JOBS: &[Job] = &[resampling::WINGS];
+pub const JOBS: &[Job] = &[
+    #[cfg(feature = "resampling")]
+    crate::resampling::WINGS,
+];
 
 /// A row for each of these seeds.
 ///
