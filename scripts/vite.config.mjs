@@ -4,6 +4,7 @@ import { readdirSync, readFileSync } from 'node:fs'
 import { basename, join } from 'node:path'
 import { defineConfig } from 'vite'
 import { figures, figureWasm } from './build.mjs'
+import { chapter } from './chapter/plugin.mjs'
 import { root } from './lib.mjs'
 
 const www = join(root, 'www')
@@ -25,8 +26,8 @@ const figurePrograms = {
 
 export default defineConfig({
   root: www,
-  plugins: [figurePrograms],
   base: './',
+  plugins: [chapter(root), figurePrograms],
   build: {
     outDir: join(root, 'dist'),
     emptyOutDir: true,

@@ -52,6 +52,7 @@ export abstract class FigureElement extends HTMLElement {
   #timeline = true // whether there are steps to play
   #target = 0 // the step asked for; the step shown may still be on its way to it
 
+  #near = false // within a screen of being seen: built and painted, so that nothing on the page moves when it comes into view
   #inView = false
   #frameRequest = 0
   #mustPaint = false
@@ -88,6 +89,7 @@ export abstract class FigureElement extends HTMLElement {
   readonly #menu = this.#makeMenu()
   readonly #body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title' })
 
+  readonly #approach = new IntersectionObserver(entries => this.#onApproach(entries[entries.length - 1]!), { rootMargin: '100% 0px' })
   readonly #intersections = new IntersectionObserver(entries => this.#onIntersection(entries), { threshold: [0, SEEN] })
   readonly #sizes = new ResizeObserver(entries => this.#onResize(entries[entries.length - 1]!))
 
@@ -127,6 +129,7 @@ export abstract class FigureElement extends HTMLElement {
     onThemeChange(() => this.#repaint(), signal)
     document.addEventListener('visibilitychange', () => this.#wake(), { signal })
     addEventListener('hashchange', () => this.#followLink(), { signal })
+    this.#approach.observe(this)
     this.#intersections.observe(this)
     this.#intersections.observe(this.#stage)
     this.#watchSize()
@@ -135,10 +138,12 @@ export abstract class FigureElement extends HTMLElement {
 
   disconnectedCallback(): void {
     this.#disconnected.abort()
+    this.#approach.disconnect()
     this.#intersections.disconnect()
     this.#sizes.disconnect()
     cancelAnimationFrame(this.#frameRequest)
     this.#frameRequest = 0
+    this.#near = false
     this.#inView = false
     this.#guard(figure => {
       this.#recipe = figure.query()
@@ -417,15 +422,16 @@ export abstract class FigureElement extends HTMLElement {
   }
 
   #wake(): void {
-    if (!this.#figure || !this.#inView || document.hidden) return
+    if (!this.#figure || !this.#near || document.hidden) return
     this.#frameRequest ||= requestAnimationFrame(now => this.#frame(now))
   }
 
   #frame(now: number): void {
     this.#frameRequest = 0
-    if (!this.#inView || document.hidden) return
+    if (!this.#near || document.hidden) return
     this.#guard(figure => {
-      if (this.#playing && figure.pending() === 0) this.#advance(figure, now)
+      const plays = this.#playing && this.#inView
+      if (plays && figure.pending() === 0) this.#advance(figure, now)
       const end = performance.now() + WORK_BUDGET
       while (figure.pending() > 0 && performance.now() < end) {
         figure.work()
@@ -435,7 +441,7 @@ export abstract class FigureElement extends HTMLElement {
       // On the way to a step far off, a look now and then is enough: painting costs more than simulating.
       const hurry = figure.pending() > 0 && now < this.#paintedAt + CATCH_UP_PAINT
       if (this.#mustPaint && !hurry) this.#show(figure)
-      if (this.#playing || figure.pending() > 0) this.#wake()
+      if (plays || figure.pending() > 0) this.#wake()
     })
   }
 
@@ -589,11 +595,16 @@ export abstract class FigureElement extends HTMLElement {
 
   // --- Reader's input ----------------------------------------------------------------------------------------------------
 
+  #onApproach({ isIntersecting }: IntersectionObserverEntry): void {
+    this.#near = isIntersecting
+    if (isIntersecting) void this.#start()
+    this.#wake()
+  }
+
   #onIntersection(entries: IntersectionObserverEntry[]): void {
     for (const entry of entries) {
       if (entry.target === this) {
         this.#inView = entry.isIntersecting
-        if (this.#inView) void this.#start()
       } else if (entry.intersectionRatio >= SEEN && this.#mayAutoplay && !reducedMotion.matches) {
         this.#mayAutoplay = false
         this.#playing = true

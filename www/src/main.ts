@@ -1,2 +1,4 @@
-// The chapter is a plain page; its figures are all that needs script.
+// The chapter: a page like any other, with figures and algorithms that run.
 import '../../widgets/elements/index'
+import './algorithm'
+import './page'
