@@ -63,6 +63,7 @@ impl Descent {
 }
 
 impl Ancestry {
+    // ANCHOR: listing-push
     /// Appends a pose after `parent`, or as a root, and returns its number. Parents are of the step before.
     pub fn push(&mut self, parent: Option<NodeId>, world_from_robot: Pose2) -> NodeId {
         let opens = match parent {
@@ -80,6 +81,7 @@ impl Ancestry {
         self.firsts[last + 1] += 1;
         self.firsts[last + 1] - 1
     }
+    // ANCHOR_END: listing-push
 
     /// Number of steps, with step 0.
     pub fn steps(&self) -> u32 {

@@ -9,6 +9,7 @@ use crate::random::{Purpose, Stream};
 use crate::resampling::{ResamplePolicy, Scheme};
 use crate::weights::Weights;
 
+// ANCHOR: listing-particle
 /// One hypothesis: a path and the map that follows from it.
 #[derive(Clone, Debug)]
 pub struct Particle<M> {
@@ -19,6 +20,7 @@ pub struct Particle<M> {
     /// Newest node of the path in the ancestry tree.
     pub node: NodeId,
 }
+// ANCHOR_END: listing-particle
 
 /// What one step did.
 #[derive(Clone, Debug)]
@@ -85,6 +87,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         report
     }
 
+    // ANCHOR: listing-weigh
     /// The first half of a step: every particle draws its new pose, pays for it, and maps what it sees from there.
     pub fn weigh(&mut self, control: &P::Control, observation: &M::Observation) -> Report {
         self.step += 1;
@@ -111,7 +114,9 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
             traces: proposed.into_iter().map(|p| p.trace).collect(),
         }
     }
+    // ANCHOR_END: listing-weigh
 
+    // ANCHOR: listing-resample
     /// The second half: universes are drawn by their weights, and what is not drawn is extinct. Returns the slot that each
     /// particle was copied from.
     pub fn resample(&mut self) -> Vec<u32> {
@@ -123,6 +128,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         self.weights = Weights::uniform(count);
         ancestors
     }
+    // ANCHOR_END: listing-resample
     // end: step
 
     /// The population, by slot.

@@ -36,6 +36,7 @@ pub struct Measured {
 
 impl<D: Motion> FromMeasurement<D> {
     // anchor: fold
+    // ANCHOR: listing-fold
     /// Folds every feature of a mapped landmark into N(x̂, R_t), each from where the one before left it: with
     /// S = H_x P H_xᵀ + H_m Σ_j H_mᵀ + Q and K = P H_xᵀ S⁻¹, μ ← μ + K ν, and P by Joseph's form.
     pub fn fold<Z: LandmarkSensor, S: Store>(
@@ -65,6 +66,7 @@ impl<D: Motion> FromMeasurement<D> {
         }
         Measured { mean, covariance: p, sighted, log_evidence, informed }
     }
+    // ANCHOR_END: listing-fold
     // end: fold
 }
 

@@ -181,12 +181,14 @@ impl Grid {
         Footprint { unique: unique as u64, dense: dense as u64 }
     }
 
+    // ANCHOR: listing-tile
     /// The tile of a cell, made its own and allocated if need be; `None` where the directory does not reach.
     fn tile_mut(&mut self, ti: i32, tj: i32) -> Option<&mut Tile> {
         let directory = Arc::make_mut(&mut self.directory);
         let index = directory.index(ti, tj)?;
         Some(Arc::make_mut(directory.tiles[index].get_or_insert_default()))
     }
+    // ANCHOR_END: listing-tile
 }
 
 /// Each shared thing once.
