@@ -8,6 +8,7 @@ use crate::experiment::landmarks::{Association, Course, LandmarkRun, LandmarkSet
 use crate::experiment::policy_counts::Fraction;
 use crate::geometry::rms;
 use crate::proposal::ProposalKind;
+use crate::resampling::ResamplePolicy;
 use std::sync::Arc;
 
 /// All recipes among landmarks.
@@ -19,18 +20,20 @@ pub fn recipes() -> Vec<Recipe> {
 fn six_doors() -> Recipe {
     const PARTICLES: [usize; 3] = [25, 100, 400];
     Recipe::new("doors", SEEDS, |runs| {
-        let found: Vec<[DoorsOutcome; 3]> = runs.over(|seed| {
-            let run = |particles| doors::outcomes(&DoorsSetup { particles, ..DoorsSetup::default() }, seed..seed + 1);
-            PARTICLES.map(|particles| run(particles).expect(VALID)[0])
+        let found: Vec<[DoorsOutcome; 4]> = runs.over(|seed| {
+            let run = |setup: DoorsSetup| doors::outcomes(&setup, seed..seed + 1).expect(VALID)[0];
+            let [few, some, many] = PARTICLES.map(|particles| run(DoorsSetup { particles, ..DoorsSetup::default() }));
+            let always = DoorsSetup { particles: PARTICLES[2], policy: ResamplePolicy::Always };
+            [few, some, many, run(always)]
         });
         let of = format!("over seeds 1 to {} of the doors (src/experiment/doors.rs)", runs.seeds);
-        let right = |filter: &str, is_right: &dyn Fn(&[DoorsOutcome; 3]) -> bool| {
+        let right = |filter: &str, is_right: &dyn Fn(&[DoorsOutcome; 4]) -> bool| {
             let what = format!("the runs that end within a metre of the truth, {of}");
             Group(format!("doors.{filter}")).share("right", &Fraction::of(found.iter().map(is_right)), &what)
         };
         let group = Group("doors".into());
         let hypotheses = |key: &str, when: &str, count: fn(&DoorsOutcome) -> u32| {
-            let counts: Vec<f64> = found.iter().map(|[.., most]| f64::from(count(most))).collect();
+            let counts: Vec<f64> = found.iter().map(|[_, _, many, _]| f64::from(count(many))).collect();
             let made =
                 format!("Median number of explanations with 1 % of the weight {when}, M = {}, {of}", PARTICLES[2]);
             group.number(key, Spread::of(&counts).median, "", made)
@@ -44,6 +47,7 @@ fn six_doors() -> Recipe {
         for (k, particles) in PARTICLES.into_iter().enumerate() {
             numbers.extend(right(&format!("fastslam.m{particles}"), &|outcomes| outcomes[k].fastslam_right));
         }
+        numbers.extend(right(&format!("always.m{}", PARTICLES[2]), &|[.., always]| always.fastslam_right));
         numbers.into()
     })
 }

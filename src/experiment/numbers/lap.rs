@@ -2,12 +2,15 @@
 
 use super::{Group, Made, Number, Recipe, Runs, SEEDS, VALID};
 use crate::execute::Executor;
+use crate::experiment::Spread;
 use crate::experiment::lap::{BEAMS, GRID, Lap, LapSetup, LapWorld, MAX_RANGE, STEPS};
 use crate::experiment::table::{LapResult, PARTICLES, rms_best};
-use crate::experiment::{Spread, quantile};
 use crate::geometry::rms;
 use crate::matching::Matcher;
 use crate::proposal::ProposalKind;
+
+/// What a lap is judged by.
+const ERROR: &str = "the RMS position error of the best particle's path over the Apartment lap";
 
 /// All recipes of the lap.
 pub fn recipes() -> Vec<Recipe> {
@@ -22,9 +25,16 @@ pub fn recipes() -> Vec<Recipe> {
         let cell = LapCell { proposal, matcher: Matcher::SubCell, particles };
         Recipe::new(cell.name(), SEEDS, move |runs| cell.numbers(&cell.errors(runs)).into())
     });
-    let others = [setting(), odometry(), memory(), lineage()];
+    let aligned = "the RMS position error of the best particle's path after its best rigid alignment with the truth";
+    let of_one = "the first step at which all particles descend from one";
+    let medians = [
+        median_of(ProposalKind::Aware, Matcher::Cell, "aligned", "m", aligned, |lap| lap.rms_best_aligned),
+        median_of(ProposalKind::Aware, Matcher::SubCell, "aligned", "m", aligned, |lap| lap.rms_best_aligned),
+        median_of(ProposalKind::Motion, Matcher::SubCell, "lineage_one_step", "", of_one, lineage_of),
+    ];
+    let others = [setting(), odometry(), memory(), blunt(1), blunt(16)];
     let sufficient = [ProposalKind::Aware, ProposalKind::Motion].map(sufficient);
-    table.chain(beside).chain(others).chain(sufficient).collect()
+    table.chain(beside).chain(medians).chain(others).chain(sufficient).collect()
 }
 
 /// A cell of the lap table: errors over many laps.
@@ -59,13 +69,16 @@ impl LapCell {
         LapSetup { proposal, matcher, particles, seed, ..LapSetup::default() }
     }
 
+    /// What runs its laps natively.
+    fn command(&self) -> String {
+        let Self { proposal, matcher, particles } = self;
+        format!("fastslam lap --proposal {proposal} --matcher {matcher} --particles {particles} --seed N")
+    }
+
     /// The numbers of the cell, from the errors of seeds 1 to their number.
     pub fn numbers(&self, errors: &[f64]) -> Vec<Number> {
-        let Self { proposal, matcher, particles } = self;
         let group = Group(self.name());
-        let what = format!(
-            "the RMS position error of the best particle's path over the Apartment lap: fastslam lap --proposal {proposal} --matcher {matcher} --particles {particles} --seed N"
-        );
+        let what = format!("{ERROR}: {}", self.command());
         let [low, high] = Spread::of(errors).median_interval;
         let end = |which| {
             format!(
@@ -131,22 +144,38 @@ fn memory() -> Recipe {
     })
 }
 
-/// When the best row of the motion prior is of one descent.
-fn lineage() -> Recipe {
-    let cell = LapCell { proposal: ProposalKind::Motion, matcher: Matcher::SubCell, particles: 40 };
-    let key = format!("{}.lineage_one_step", cell.name());
+/// A median of what else is known of a cell's laps, where there is one.
+fn median_of(
+    proposal: ProposalKind,
+    matcher: Matcher,
+    key: &str,
+    unit: &'static str,
+    what: &'static str,
+    measure: fn(&LapResult) -> f64,
+) -> Recipe {
+    let cell = LapCell { proposal, matcher, particles: 40 };
+    let key = format!("{}.{key}", cell.name());
     Recipe::new(key.clone(), SEEDS, move |runs| {
-        let step = |seed| LapResult::of(&cell.setup(seed)).expect(VALID).lineage_one_step;
-        let mut steps: Vec<f64> =
-            runs.over(step).into_iter().map(|step| step.map_or(f64::INFINITY, f64::from)).collect();
-        steps.sort_unstable_by(f64::total_cmp);
-        let made = format!(
-            "Median over seeds 1 to {} of the first step at which all particles descend from one: fastslam table --seeds {} --matcher subcell",
-            runs.seeds, runs.seeds
-        );
-        let value = quantile(&steps, 0.5);
-        let number = value.is_finite().then(|| Number { key: key.clone(), value, unit: "", made });
-        Vec::from_iter(number).into()
+        let found = runs.over(|seed| measure(&LapResult::of(&cell.setup(seed)).expect(VALID)));
+        let value = Spread::of(&found).median;
+        let made = format!("Median over seeds 1 to {} of {what}: {}", runs.seeds, cell.command());
+        Vec::from_iter(value.is_finite().then(|| Number { key: key.clone(), value, unit, made })).into()
+    })
+}
+
+fn lineage_of(lap: &LapResult) -> f64 {
+    lap.lineage_one_step.map_or(f64::INFINITY, f64::from)
+}
+
+/// Laps whose sensor is ten times as blunt.
+fn blunt(particles: usize) -> Recipe {
+    let cell = LapCell { proposal: ProposalKind::Aware, matcher: Matcher::SubCell, particles };
+    let name = format!("lap.blunt.{}.m{particles}", cell.matcher);
+    Recipe::new(name.clone(), SEEDS, move |runs| {
+        let setup = |seed| LapSetup { range_std: 10.0 * LapSetup::default().range_std, ..cell.setup(seed) };
+        let errors = runs.over(|seed| rms_best(&setup(seed)).expect(VALID));
+        let what = format!("{ERROR}: {} --range-std {}", cell.command(), setup(1).range_std);
+        Group(name.clone()).spread(&errors, &what).into()
     })
 }
 

@@ -55,11 +55,11 @@ const MEASURED: [&str; 4] = [
     "N_eff of FastSLAM 2.0 over that of 1.0",
 ];
 
-/// The sensors of which it is measured, by factors on the range noise: the last but one is a millimetre.
+/// The sensors of which it is measured, by factors on the range noise.
 const SENSORS: [(f64, &str); 4] = [
     (1.0, ""),
     (0.5, ", with half the range noise"),
-    (0.02, ", with a fiftieth of the range noise"),
+    (0.1, ", with a tenth of the range noise"),
     (10.0, ", with ten times the range noise"),
 ];
 
