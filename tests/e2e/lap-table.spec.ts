@@ -51,7 +51,7 @@ test('a cell computed here has the digits printed, seed by seed, and says so onc
   await expect(button(page, SLOW)).toHaveAccessibleName(/measurement-aware proposal, sub-cell score, M = 8\. About \d+ seconds\.$/)
   await button(page, CHEAP).focus()
   await page.keyboard.press('Enter')
-  await expect(panel(page).getByRole('status')).toContainText('The first 5 laps end with the errors printed, to the last bit.')
+  await expect(panel(page).getByRole('status')).toContainText('The first 5 laps end with the errors printed, to the last bit.', { timeout: 30_000 })
   await expect(panel(page)).toContainText('of 200 seeds, each error as printed. Median')
   await expect(panel(page).getByRole('status')).toContainText('The same digits as printed', { timeout: 45_000 })
   const value = (key: string) => numbers[`lap.${CHEAP}.${key}`].value.toFixed(3)
@@ -95,7 +95,7 @@ test('digits that differ are said loudly', async ({ page }) => {
 test('a run ends with its table', async ({ page }) => {
   await open(page)
   await button(page, SLOW).click()
-  await expect.poll(() => page.workers().length).toBe(1)
+  await expect.poll(() => page.workers().length, { timeout: 30_000 }).toBe(1)
   await page.locator('fastslam-lap-table').evaluate(table => table.remove())
   await expect.poll(() => page.workers().length).toBe(0)
 })
