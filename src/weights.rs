@@ -55,7 +55,9 @@ impl Weights {
         if self.weights.iter().all(|w| *w == self.weights[0]) {
             return self.weights.len() as f64; // what rounding in the sum would miss
         }
+        // ANCHOR: ess
         1.0 / self.weights.iter().map(|w| w * w).sum::<f64>()
+        // ANCHOR_END: ess
     }
 
     /// Slot of the largest weight, the lowest of equals.

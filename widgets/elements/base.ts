@@ -2,7 +2,7 @@
 // A figure's own file only names its tag; everything that differs comes from the shell (parameters, readouts, pixels).
 import { Controls } from './controls'
 import { h, icon, write } from './dom'
-import { engine, isRefusal, panicMessage, type Engine, type Handle, type ParamSpec, type Readout, type Shell } from './engine'
+import { engine, isRefusal, panicMessage, type Engine, type Handle, type ParamSpec, type Readout, type Shell, type TraceLine } from './engine'
 import css from './figure.css?inline'
 import { Handles } from './handles'
 import { linkedQuery, linkTo } from './link'
@@ -26,6 +26,11 @@ export interface FigureDetail {
   step: number
   values: Record<string, string>
   readouts: Readout[]
+}
+
+export interface TraceDetail {
+  step: number
+  lines: TraceLine[]
 }
 
 export abstract class FigureElement extends HTMLElement {
@@ -52,6 +57,7 @@ export abstract class FigureElement extends HTMLElement {
   #mustPaint = false
   #paintedAt = -Infinity // [ms]
   #mustShowValues = false
+  #mustTrace = false
   #changeToTell = false
   #toldStep = -1
   #toldSentence = 0
@@ -161,7 +167,11 @@ export abstract class FigureElement extends HTMLElement {
 
   /** A method; but frameworks that set properties write the parameter `step` here, and mean it. */
   get step(): () => void {
-    return () => this.seek(this.#target + 1)
+    return () => {
+      this.#mustTrace = true
+      this.seek(this.#target + 1)
+      if (!this.#inView) void this.#workUnseen()
+    }
   }
 
   set step(step: number | string) {
@@ -465,6 +475,7 @@ export abstract class FigureElement extends HTMLElement {
     this.#changeToTell = false
     if (step !== this.#toldStep) this.#tell('fastslam-step', detail)
     this.#toldStep = step
+    this.#tellTrace(figure)
   }
 
   /** Where there is nothing to play, the picture has no keys. */
@@ -478,6 +489,23 @@ export abstract class FigureElement extends HTMLElement {
 
   #tell(type: string, detail: FigureDetail): void {
     this.dispatchEvent(new CustomEvent(type, { bubbles: true, composed: true, detail }))
+  }
+
+  /** After a step that was asked for by itself: which lines of the algorithm it ran, and what came out of them. */
+  #tellTrace(figure: Shell): void {
+    if (!this.#mustTrace) return
+    this.#mustTrace = false
+    const detail: TraceDetail = { step: figure.step(), lines: figure.trace() as TraceLine[] }
+    this.dispatchEvent(new CustomEvent('fastslam-trace', { bubbles: true, composed: true, detail }))
+  }
+
+  /** A step asked for from elsewhere on the page, by the box of an algorithm: the picture waits until it is seen, the lines do not. */
+  async #workUnseen(): Promise<void> {
+    await this.#start()
+    this.#guard(figure => {
+      while (figure.pending() > 0) figure.work()
+      this.#tellTrace(figure)
+    })
   }
 
   #showReadouts(readouts: Readout[]): void {

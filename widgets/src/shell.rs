@@ -129,6 +129,11 @@ impl Figure {
         self.0.model().describe()
     }
 
+    /// The lines of its algorithm that led to what is shown: an array of `TraceLine`.
+    pub fn trace(&self) -> Array {
+        plain(&self.0.model().trace())
+    }
+
     /// Height \[css px\] that the figure wants at this width \[css px\].
     pub fn height(&self, width_css: f64) -> f64 {
         self.0.model().height(width_css)

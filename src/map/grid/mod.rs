@@ -253,6 +253,7 @@ impl ConditionalMap for Grid {
             self.directory = Arc::new(self.directory.grown(touched));
         }
         let (hit, pass) = (tile::units(self.model.log_odds_hit), tile::units(self.model.log_odds_pass));
+        // ANCHOR: map
         for tj in touched.j0..touched.j1 {
             for ti in touched.i0..touched.i1 {
                 // Look before writing: a tile in which nothing would change stays shared.
@@ -271,6 +272,7 @@ impl ConditionalMap for Grid {
                 }
             }
         }
+        // ANCHOR_END: map
         let (size, surface_std) = (self.model.cell_size, self.model.surface_std);
         for &([x, y], i, j) in &marks.hits {
             let center = |k: i32| (f64::from(k) + 0.5) * size;
