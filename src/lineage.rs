@@ -144,10 +144,9 @@ impl Ancestry {
         let mut step = self.step(nodes[0]);
         let mut widths = vec![1; step as usize + 1];
         let mut front = nodes.to_vec();
+        let mut seen = vec![false; self.firsts[self.generations.len()] as usize];
         loop {
-            // Nodes of one step are numbered in slot order and have parents of one step: equal ones lie together once sorted.
-            front.sort_unstable();
-            front.dedup();
+            front.retain(|&node| !core::mem::replace(&mut seen[node as usize], true));
             widths[step as usize] = front.len() as u32;
             if front.len() == 1 || step == 0 {
                 return Descent { widths };

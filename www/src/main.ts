@@ -1,5 +1,7 @@
-// The chapter: a page like any other, with figures and algorithms that run.
+// The chapter: a page like any other, with figures, algorithms and a table that run.
 import '../../widgets/elements/index'
+import '../../widgets/elements/lap-table'
 import './addresses'
 import './algorithm'
+import './lap-table.css'
 import './page'

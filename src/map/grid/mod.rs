@@ -192,11 +192,10 @@ impl Grid {
 }
 
 /// Each shared thing once.
-fn distinct<T>(shared: Vec<&Arc<T>>) -> Vec<&Arc<T>> {
-    let mut places: Vec<(usize, usize)> = shared.iter().map(|arc| Arc::as_ptr(arc).addr()).zip(0..).collect();
-    places.sort_unstable(); // addresses, so that all kinds of things are sorted by the same code
-    places.dedup_by_key(|(address, _)| *address);
-    places.into_iter().map(|(_, index)| shared[index]).collect()
+fn distinct<T>(mut shared: Vec<&Arc<T>>) -> Vec<&Arc<T>> {
+    let mut seen = std::collections::BTreeSet::new();
+    shared.retain(|arc| seen.insert(Arc::as_ptr(arc).addr()));
+    shared
 }
 
 impl Directory {

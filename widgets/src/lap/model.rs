@@ -42,19 +42,26 @@ pub struct LapModel {
 
 /// What decides the numbers.
 #[derive(Clone, PartialEq)]
-struct Recipe {
-    setup: LapSetup,
+pub(super) struct Recipe {
+    pub(super) setup: LapSetup,
     /// Of the policy "N_eff below", kept while another policy is chosen.
     threshold: f64,
 }
 
-impl Default for LapModel {
+impl Default for Recipe {
     fn default() -> Self {
         let setup = LapSetup::default();
         let threshold = if let ResamplePolicy::EssBelow(t) = setup.policy { t } else { params::THRESHOLD };
-        let lap = Lap::new(&setup).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
+        Self { setup, threshold }
+    }
+}
+
+impl Default for LapModel {
+    fn default() -> Self {
+        let recipe = Recipe::default();
+        let lap = Lap::new(&recipe.setup).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
         Self {
-            recipe: Recipe { setup, threshold },
+            recipe,
             universe: None,
             truth: false,
             raw: false,
@@ -152,7 +159,7 @@ impl LapModel {
 }
 
 impl Recipe {
-    fn set(&mut self, name: &str, value: Value) -> Result<(), FigureError> {
+    pub(super) fn set(&mut self, name: &str, value: Value) -> Result<(), FigureError> {
         let setup = &mut self.setup;
         match (name, value) {
             ("universes", Value::Number(x)) => setup.particles = x as usize,
