@@ -87,6 +87,7 @@ export async function checkHtml() {
   })
   const validator = new HtmlValidate(loader)
   const files = pagesOf(dist).map(file => join(dist, file))
+  if (files.length === 0) throw new StepError('There is not one page: has the site been built?')
   const report = await validator.validateMultipleFiles(files)
   if (!report.valid) throw new StepError(`HTML that is not valid:\n${formatterFactory('text')(report.results)}`)
   return `${files.length} pages`
