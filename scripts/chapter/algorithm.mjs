@@ -16,7 +16,7 @@ export function algorithm(context, state, node) {
   if (lists.length !== 1) context.problems.add(context.file, node, `:::algorithm holds one numbered list, not ${lists.length}`)
   const children = body.map(child => (child.type === 'list' ? lines(context, state, child) : content(state, [child]))).flat()
   const title = h('p.head', { id: `${id}-title` }, h('b', nameOf(context, node)), ' ', h('span.title', label ? inline(state, label) : []))
-  return h('div.algorithm', { id, role: 'group', ariaLabelledBy: `${id}-title`, dataFigure: figure }, title, children)
+  return h('div.algorithm', { id, role: 'group', ariaLabelledBy: `${id}-title`, dataFigure: figure, dataSetting: attribute(node, 'setting') }, title, children)
 }
 
 /** @param {Context} context @param {any} state @param {any} list @returns {import('hast').Element} */

@@ -192,14 +192,20 @@ test('under reduced motion all lines that ran are lit at once', async ({ page })
   await expect(page.locator('.algorithm[data-figure]').first().locator('.lit')).toHaveCount(keys.length)
 })
 
-test('the button of an algorithm steps its figure, also one that nobody has seen yet, and the lines it ran light up', async ({ page }) => {
-  await page.goto('./')
-  const box = page.locator('.algorithm[data-figure=fig-lap]')
-  await box.getByRole('button', { name: 'Run one step' }).click()
-  await expect(box.locator('.lit').first()).toBeVisible({ timeout: 20_000 })
-  await expect(box.locator('.value').first()).not.toBeEmpty()
-  expect(await page.locator('fastslam-lap').evaluate(element => (element as unknown as { currentStep: number }).currentStep)).toBe(1)
-})
+for (const [id, step, lines] of [
+  ['fig-lap', 1, { ess: / of 16$/, draw: /^\(.*\)$/ }],
+  ['fig-resampling', 1, { associate: / known, \d+ new; \d+ different answers/, resample: /^N_eff .* of 16: / }],
+  ['fig-worked-example', 0, { weigh: /^2\.753 \/ 0\.8632$/, resample: /^no$/ }],
+] as const) {
+  test(`the button of an algorithm steps its figure, also one that nobody has seen yet, and the lines it ran light up: ${id}`, async ({ page }) => {
+    await page.goto('./')
+    const box = page.locator(`.algorithm[data-figure=${id}]`)
+    await box.getByRole('button', { name: 'Run one step' }).click()
+    for (const [line, value] of Object.entries(lines)) await expect(box.locator(`[data-line=${line}] .value`).first()).toHaveText(value, { timeout: 20_000 })
+    const figure = page.locator(`#${id} > *`).first()
+    expect(await figure.evaluate(element => (element as unknown as { currentStep: number }).currentStep)).toBe(step)
+  })
+}
 
 test('on paper a figure is its picture, and everything is unfolded', async ({ page }) => {
   await page.goto('./')

@@ -6,6 +6,7 @@ interface Traced {
 
 interface Steppable extends HTMLElement {
   step(): void
+  setParameter(name: string, value: string): void
 }
 
 const DWELL = 450 // [ms] a line is lit before the next one
@@ -14,7 +15,11 @@ const still = matchMedia('(prefers-reduced-motion: reduce)')
 function follow(box: HTMLElement, figure: Steppable): void {
   const button = Object.assign(document.createElement('button'), { type: 'button', textContent: 'Run one step' })
   box.querySelector('.head')!.append(button)
-  button.addEventListener('click', () => figure.step())
+  button.addEventListener('click', () => {
+    // What the figure has to be set to for this algorithm to be the one it runs.
+    for (const [name, value] of new URLSearchParams(box.dataset['setting'])) figure.setParameter(name, value)
+    figure.step()
+  })
   let timer = 0
 
   const lineOf = (key: string) => box.querySelector<HTMLElement>(`[data-line="${CSS.escape(key)}"]`)
