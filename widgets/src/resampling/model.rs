@@ -356,8 +356,8 @@ impl Model for ResamplingModel {
         let ess = ess_text(moment.report.ess, m);
         let mut lines = vec![TraceLine::new("predict", "")];
         if opinion.again + opinion.first > 0 {
-            let made_of_it =
-                format!("{} known, {} new; {answers} different answers in all", opinion.again, opinion.first);
+            let agreed = if answers == 1 { "all agree".into() } else { format!("{answers} different answers in all") };
+            let made_of_it = format!("{} known, {} new; {agreed}", opinion.again, opinion.first);
             lines.extend([
                 TraceLine::new("gate", ""),
                 TraceLine::new("associate", made_of_it),
