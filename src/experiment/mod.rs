@@ -3,6 +3,7 @@
 pub mod conditioning;
 pub mod landmarks;
 pub mod lap;
+pub mod log;
 pub mod policies;
 pub mod policy_counts;
 pub mod proposals;

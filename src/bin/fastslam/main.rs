@@ -2,6 +2,7 @@
 
 mod landmarks;
 mod lap;
+mod log;
 mod mrclam;
 mod picture;
 mod policies;
@@ -25,6 +26,7 @@ struct Arguments {
 #[derive(clap::Subcommand)]
 enum Command {
     Lap(lap::Arguments),
+    Log(log::Arguments),
     Landmarks(landmarks::Arguments),
     Policies(policies::Arguments),
     Table(table::Arguments),
@@ -78,6 +80,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| Failure::Run(e.to_string()))?;
     pool.install(|| match arguments.command {
         Command::Lap(arguments) => lap::run(&arguments),
+        Command::Log(arguments) => log::run(&arguments),
         Command::Landmarks(arguments) => landmarks::run(&arguments),
         Command::Policies(arguments) => policies::run(&arguments),
         Command::Table(arguments) => table::run(&arguments),
