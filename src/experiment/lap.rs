@@ -45,7 +45,7 @@ pub const START_SCANS: u32 = 30;
 ///
 /// A pass weighs a ninth of a hit: in cells this wide most beams that pass a wall's cell pass beside the wall. With
 /// −0.4, walls seen at a grazing angle wear away, and with the cell matcher one lap in ten drifts.
-pub const GRID: GridModel = GridModel { cell_size: 0.3, log_odds_hit: 0.9, log_odds_pass: -0.1, surface_std: 0.1 };
+pub const GRID: GridModel = GridModel { cell_size: 0.3, log_odds_hit: 0.9, log_odds_pass: -0.1, surface_std: 0.1, reach: 0 };
 
 /// κ: the share of each beam's log-likelihood that counts. One for both proposals, both matchers and every M.
 ///
@@ -67,6 +67,8 @@ pub const FROM_SCAN: FromScanSettings = FromScanSettings {
     seeds: 8,
     // e^½: an optimum less than two thirds better than the average pose is no optimum.
     gain: 0.5,
+    weight_share: 1.0,
+    lattice: 0.0,
     probes: 12,
     // From half a centimetre, below which there is nothing to see, to a third of a cell, the plateau of the cell matcher.
     probe_stds: [[0.005, 0.005, 0.003], [0.1, 0.1, 0.05]],

@@ -50,7 +50,8 @@ pub struct LogStep {
     pub matched: u32,
 }
 
-pub type Filter = Rbpf<Grid, FromScan>;
+pub type LogMap = Grid<4>;
+pub type Filter = Rbpf<LogMap, FromScan>;
 
 /// A log under way.
 pub struct LogRun {
@@ -73,18 +74,21 @@ impl LogRun {
             cell_size: setup.cell_size,
             log_odds_hit: knob("HIT", 0.9),
             log_odds_pass: knob("PASS", -0.4),
-            surface_std: knob("SURF", 0.03),
+            surface_std: knob("SURF", 0.06),
+            reach: 2,
         };
-        let mut map = Grid::new(model);
+        let mut map = LogMap::new(model);
         map.assimilate(&Pose2::default(), &end_points(&log.scans[0], no_return, setup.max_range), &());
         let motion = OdometryModel { alphas: [knob("A1", 0.04), knob("A2", 0.01), knob("A3", 0.01), knob("A4", 0.01)] };
-        let likelihood = ScanModel::new(Matcher::SubCell, knob("TEMPER", 0.2), knob("OUTLIER", 0.05));
+        let likelihood = ScanModel::new(Matcher::SubCell, knob("TEMPER", 0.85), knob("OUTLIER", 0.05));
         let settings = FromScanSettings {
             motion_floor: [0.02, 0.02, 0.01],
             climb: ClimbSteps { linear: knob("LIN", 0.08), angular: knob("ANG", 0.04), halvings: 4 },
             climb_stride: 2,
-            seeds: 8,
+            seeds: knob("SEEDS", 8.0) as u32,
             gain: 0.5,
+            lattice: knob("LATTICE", 0.15),
+            weight_share: knob("WSHARE", 1.0),
             probes: 12,
             probe_stds: [[0.005, 0.005, 0.003], [0.05, 0.05, 0.03]],
         };
@@ -127,7 +131,7 @@ impl LogRun {
         })
     }
 
-    pub fn particles(&self) -> &[Particle<Grid>] {
+    pub fn particles(&self) -> &[Particle<LogMap>] {
         self.filter.particles()
     }
 
@@ -135,7 +139,7 @@ impl LogRun {
         &self.filter
     }
 
-    pub fn map(&self) -> &Grid {
+    pub fn map(&self) -> &LogMap {
         &self.particles()[self.filter.best()].map
     }
 
@@ -144,7 +148,7 @@ impl LogRun {
     }
 
     pub fn footprint(&self) -> Footprint {
-        Grid::footprint(self.particles().iter().map(|p| &p.map))
+        LogMap::footprint(self.particles().iter().map(|p| &p.map))
     }
 
     /// The best particle's path: time \[s\] and pose.

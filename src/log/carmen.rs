@@ -49,7 +49,6 @@ pub fn parse(bytes: &[u8], lenient: bool) -> Result<LaserLog, LogError> {
     // Messages come over a network: some are late. The sorts are stable, so that equal stamps keep the file's order.
     log.notes.out_of_order = log.scans.windows(2).filter(|pair| pair[1].time < pair[0].time).count() as u32;
     log.scans.sort_by(|a, b| a.time.total_cmp(&b.time));
-    log.odometry.extend(log.scans.iter().map(|scan| (scan.time, scan.odometry)));
     log.odometry.sort_by(|a, b| a.0.total_cmp(&b.0));
     Ok(log)
 }
@@ -102,6 +101,7 @@ impl Reader {
         let odometry = words.pose("odom_x, odom_y, odom_theta")?;
         let time = words.time()?;
         let (first_angle, angle_step) = fan(ranges.len());
+        self.log.odometry.push((time, odometry));
         self.log.scans.push(LaserScan {
             time,
             odometry,
@@ -139,6 +139,7 @@ impl Reader {
         let time = words.time()?;
         let robot_from_laser = odometry.between(&laser);
         let mounted = odometry.distance(&laser) < LASER_REACH;
+        self.log.odometry.push((time, odometry));
         self.log.scans.push(LaserScan {
             time,
             odometry,

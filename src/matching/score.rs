@@ -2,7 +2,7 @@
 
 use crate::error::ParameterError;
 use crate::geometry::Pose2;
-use crate::map::grid::{Grid, UNIT};
+use crate::map::grid::{FAR, Grid, UNIT};
 use crate::ops;
 use crate::sensor::Scan;
 use core::{fmt, str::FromStr};
@@ -33,6 +33,7 @@ pub struct ScanModel {
     temper: f64,
     /// ln p_cell for each stored value of log-odds, from −128 units up.
     log_cell: [f64; 256],
+    gm: f64, mode: i32, near: f64,
 }
 
 impl ScanModel {
@@ -45,11 +46,11 @@ impl ScanModel {
             let log_odds = if matcher == Matcher::SubCell { log_odds.min(0.0) } else { log_odds };
             ops::ln(outlier + (1.0 - outlier) / (1.0 + ops::exp(-log_odds)))
         });
-        Self { matcher, temper, log_cell }
+        Self { matcher, temper, log_cell, gm: crate::experiment::log::knob("GM",3.0), mode: crate::experiment::log::knob("MODE",0.0) as i32, near: crate::experiment::log::knob("NEAR",0.64) }
     }
 
     /// ln p(z | x, m) \[nats\], up to a constant that neither pose nor map changes; 0 at best.
-    pub fn log_likelihood(&self, grid: &Grid, world_from_robot: &Pose2, scan: &Scan) -> f64 {
+    pub fn log_likelihood<const FINE: usize>(&self, grid: &Grid<FINE>, world_from_robot: &Pose2, scan: &Scan) -> f64 {
         self.log_likelihood_above(f64::NEG_INFINITY, grid, world_from_robot, scan)
     }
 
@@ -57,7 +58,13 @@ impl ScanModel {
     ///
     /// No beam adds anything positive, so the sum is given up as soon as it falls below the floor: a hill climb that only asks
     /// whether a step improves is spared most of the beams.
-    pub fn log_likelihood_above(&self, floor: f64, grid: &Grid, world_from_robot: &Pose2, scan: &Scan) -> f64 {
+    pub fn log_likelihood_above<const FINE: usize>(
+        &self,
+        floor: f64,
+        grid: &Grid<FINE>,
+        world_from_robot: &Pose2,
+        scan: &Scan,
+    ) -> f64 {
         /// Beams between two looks at the floor.
         const BEAMS: usize = 6;
         let (sin, cos) = ops::sin_cos(world_from_robot.theta);
@@ -74,7 +81,11 @@ impl ScanModel {
                     }
                     Matcher::SubCell => {
                         let (d2, units) = grid.nearest_surface(wx, wy);
-                        (-0.5 * d2).max(self.log_cell(units))
+                        if FINE == 1 { (-0.5 * d2).max(self.log_cell(units)) } else {
+                            let c = self.gm;
+                            let l = if d2.is_finite() { -c * d2 / (d2 + 2.0 * c) } else { -c };
+                            match self.mode { 0 => l.max(self.log_cell(units)), 1 => if d2.is_finite() { l } else { self.log_cell(units) }, _ => (-0.5*d2).max(if d2.is_finite() {-self.near} else {self.log_cell(units)}) }
+                        }
                     }
                 };
             }
@@ -85,12 +96,28 @@ impl ScanModel {
         self.temper * sum
     }
 
+    /// A coarse likelihood \[nats\]: how many squares each end point is from the nearest surface.
+    pub fn coarse<const FINE: usize>(&self, grid: &Grid<FINE>, world_from_robot: &Pose2, scan: &Scan) -> f64 {
+        let (sin, cos) = ops::sin_cos(world_from_robot.theta);
+        let mut counts = [0_u32; FAR + 1];
+        for [x, y] in &scan.hits {
+            let wx = world_from_robot.x + cos * x - sin * y;
+            let wy = world_from_robot.y + sin * x + cos * y;
+            counts[grid.nearness(wx, wy)] += 1;
+        }
+        let sum: f64 = counts.iter().zip(COARSE).map(|(count, log)| f64::from(*count) * log).sum();
+        self.temper * sum
+    }
+
     /// ln p_cell of a cell's log-odds in units.
     #[inline]
     fn log_cell(&self, units: i8) -> f64 {
         self.log_cell[(i32::from(units) + UNKNOWN) as usize]
     }
 }
+
+/// By squares from the nearest surface.
+const COARSE: [f64; FAR + 1] = [0.0, -0.5, -1.0, -1.5];
 
 /// Where log-odds 0 stand in the table.
 const UNKNOWN: i32 = 128;

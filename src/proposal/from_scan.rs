@@ -23,10 +23,14 @@ pub struct FromScanSettings {
     pub climb: ClimbSteps,
     /// The climb looks at every n-th beam.
     pub climb_stride: usize,
+    /// Step of the coarse lattice.
+    pub lattice: f64,
     /// Seeds of the climb besides the odometry's prediction.
     pub seeds: u32,
     /// How much better than the mean likelihood over the seeds the mode must be for the matcher to be trusted \[nats\].
     pub gain: f64,
+    /// Share of ln η that goes into the weight, 0 to 1.
+    pub weight_share: f64,
     /// Number of probes K.
     pub probes: u32,
     /// Limits of the standard deviations of the probes along each axis \[m, m, rad\]: least and most.
@@ -46,11 +50,11 @@ pub struct FromScan {
     pub settings: FromScanSettings,
 }
 
-impl Proposal<Grid> for FromScan {
+impl<const FINE: usize> Proposal<Grid<FINE>> for FromScan {
     type Control = Odometry;
 
     // anchor: propose
-    fn propose(&self, particle: &Particle<Grid>, u: &Odometry, scan: &Scan, stream: &mut Stream) -> Proposed<()> {
+    fn propose(&self, particle: &Particle<Grid<FINE>>, u: &Odometry, scan: &Scan, stream: &mut Stream) -> Proposed<()> {
         let settings = &self.settings;
         let prior = self.fallback.motion.gaussian(&particle.world_from_robot, u, settings.motion_floor);
         let log_target =
@@ -64,6 +68,37 @@ impl Proposal<Grid> for FromScan {
         // Seeds: the prediction, and poses spread over the prior's heading, so that the climb begins on the right slope.
         let mut log_seeds = vec![log_thin(prior.mean(), f64::NEG_INFINITY)];
         let mut best = Climb { pose: *prior.mean(), value: log_seeds[0] + prior.log_density(prior.mean()) };
+        let mut starts: Vec<(f64, Pose2)> = Vec::new();
+        if settings.lattice > 0.0 {
+            let few = scan.thinned(crate::experiment::log::knob("CSTRIDE", 4.0) as usize);
+            let share = scan.hits.len() as f64 / few.hits.len().max(1) as f64;
+            let c = prior.covariance();
+            let [sx, sy, st] = [c.m11, c.m22, c.m33].map(f64::sqrt);
+            let astep = crate::experiment::log::knob("ASTEP", 0.05);
+            let n = |s: f64, step: f64, most: f64| ((SPREAD * s / step).ceil().min(most)) as i32;
+            let m = prior.mean();
+            let (nx, ny, nt) = (n(sx, settings.lattice, 5.0), n(sy, settings.lattice, 5.0), n(st, astep, 20.0));
+            for t in -nt..=nt { for j in -ny..=ny { for i in -nx..=nx {
+                let pose = m.plus(&Vector3::new(f64::from(i) * settings.lattice, f64::from(j) * settings.lattice, f64::from(t) * astep));
+                let v = prior.log_density(&pose) + share * self.fallback.likelihood.coarse(&particle.map, &pose, &few);
+                starts.push((v, pose));
+            }}}
+            starts.sort_by(|a, b| b.0.total_cmp(&a.0));
+            let climbs = crate::experiment::log::knob("CLIMBS", 3.0) as usize;
+            let mut picked: Vec<Pose2> = Vec::new();
+            for (_, pose) in &starts {
+                if picked.len() >= climbs { break; }
+                if picked.iter().all(|p| { let d = p.minus(pose); d.x.abs().max(d.y.abs()) > 1.5 * settings.lattice || d.z.abs() > 1.5 * astep }) { picked.push(*pose); }
+            }
+            for pose in picked {
+                let value = log_thin(&pose, f64::NEG_INFINITY) + prior.log_density(&pose);
+                let end = climb(Climb { pose, value }, settings.climb, |pose, value| {
+                    let log_prior = prior.log_density(pose);
+                    log_prior + log_thin(pose, value - log_prior)
+                });
+                if end.value > best.value { best = end; }
+            }
+        }
         for k in 0..settings.seeds {
             let heading = SPREAD * ((f64::from(k) + 0.5) / f64::from(settings.seeds) * 2.0 - 1.0);
             let [a, b] = stream.normals();
@@ -112,7 +147,7 @@ impl Proposal<Grid> for FromScan {
         Proposed {
             world_from_robot: fitted.sample(stream),
             association: (),
-            log_increment: log_eta,
+            log_increment: settings.weight_share * log_eta,
             trace: ProposalTrace::Matched { mode: mode.pose },
         }
     }

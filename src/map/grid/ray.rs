@@ -1,6 +1,6 @@
 //! Which cells a scan touches: passed by a beam, or hit by its end.
 
-use super::{CellRect, TILE, tile};
+use super::CellRect;
 use crate::geometry::Pose2;
 use crate::ops;
 use crate::sensor::Scan;
@@ -23,13 +23,15 @@ const FARTHEST: f64 = 32_768.0;
 pub(super) struct Marks {
     /// In cells, a multiple of tiles.
     window: CellRect,
+    /// Cells along a side of a tile.
+    tile: i32,
     cells: Vec<u8>,
     /// End points \[m\], world frame, with their cells.
     pub hits: Vec<([f64; 2], i32, i32)>,
 }
 
-/// Follows every beam from the robot to its end.
-pub(super) fn trace(world_from_robot: &Pose2, scan: &Scan, cell_size: f64) -> Marks {
+/// Follows every beam from the robot to its end, through a grid whose tiles have `tile` × `tile` cells.
+pub(super) fn trace(world_from_robot: &Pose2, scan: &Scan, cell_size: f64, tile: i32) -> Marks {
     let (sin, cos) = ops::sin_cos(world_from_robot.theta);
     let to_world =
         |&[x, y]: &[f64; 2]| [world_from_robot.x + cos * x - sin * y, world_from_robot.y + sin * x + cos * y];
@@ -38,7 +40,7 @@ pub(super) fn trace(world_from_robot: &Pose2, scan: &Scan, cell_size: f64) -> Ma
     let reachable = |p: &[f64; 2]| p.iter().all(|c| (c * per_cell).abs() < FARTHEST);
 
     let origin = [world_from_robot.x, world_from_robot.y];
-    let mut marks = Marks { window: CellRect::default(), cells: Vec::new(), hits: Vec::new() };
+    let mut marks = Marks { window: CellRect::default(), tile, cells: Vec::new(), hits: Vec::new() };
     if !reachable(&origin) {
         return marks;
     }
@@ -52,8 +54,8 @@ pub(super) fn trace(world_from_robot: &Pose2, scan: &Scan, cell_size: f64) -> Ma
         }
     }
     // One cell of margin: a beam along a border may step aside by a rounding error.
-    let down = |c: f64| ((c.floor() as i32 - 1) >> tile::SHIFT) << tile::SHIFT;
-    let up = |c: f64| (((c.floor() as i32 + 1) >> tile::SHIFT) + 1) << tile::SHIFT;
+    let down = |c: f64| (c.floor() as i32 - 1).div_euclid(tile) * tile;
+    let up = |c: f64| ((c.floor() as i32 + 1).div_euclid(tile) + 1) * tile;
     marks.window = CellRect { i0: down(low[0]), j0: down(low[1]), i1: up(high[0]), j1: up(high[1]) };
     marks.cells = vec![UNTOUCHED; marks.window.width() * marks.window.height()];
 
@@ -102,17 +104,19 @@ impl Marks {
     /// The tiles of the window; `None` where nothing was touched.
     pub fn touched_tiles(&self) -> Option<CellRect> {
         let CellRect { i0, j0, i1, j1 } = self.window;
-        (!self.cells.is_empty()).then_some(CellRect { i0: i0 / TILE, j0: j0 / TILE, i1: i1 / TILE, j1: j1 / TILE })
+        let tile = self.tile;
+        (!self.cells.is_empty()).then_some(CellRect { i0: i0 / tile, j0: j0 / tile, i1: i1 / tile, j1: j1 / tile })
     }
 
-    /// The touched cells of one tile, as (index in the tile, mark).
-    pub fn in_tile(&self, ti: i32, tj: i32) -> impl Iterator<Item = (usize, Mark)> + '_ {
-        (0..TILE).flat_map(move |dj| {
-            let start = self.index(ti * TILE, tj * TILE + dj);
-            let row = &self.cells[start..start + TILE as usize];
+    /// The touched cells of one tile, as (column and row in the tile, mark).
+    pub fn in_tile(&self, ti: i32, tj: i32) -> impl Iterator<Item = (usize, usize, Mark)> + '_ {
+        let side = self.tile as usize;
+        (0..side).flat_map(move |dj| {
+            let start = self.index(ti * self.tile, tj * self.tile + dj as i32);
+            let row = &self.cells[start..start + side];
             row.iter().enumerate().filter(|(_, mark)| **mark != UNTOUCHED).map(move |(di, mark)| {
                 let mark = if *mark == HIT { Mark::Hit } else { Mark::Passed };
-                (dj as usize * TILE as usize + di, mark)
+                (di, dj, mark)
             })
         })
     }
