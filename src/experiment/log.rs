@@ -80,7 +80,7 @@ impl LogRun {
         let mut map = LogMap::new(model);
         map.assimilate(&Pose2::default(), &end_points(&log.scans[0], no_return, setup.max_range), &());
         let motion = OdometryModel { alphas: [knob("A1", 0.04), knob("A2", 0.01), knob("A3", 0.01), knob("A4", 0.01)] };
-        let likelihood = ScanModel::new(Matcher::SubCell, knob("TEMPER", 0.85), knob("OUTLIER", 0.05));
+        let likelihood = ScanModel::new(Matcher::SubCell, knob("TEMPER", 0.85), knob("OUTLIER", 0.05)).robust();
         let settings = FromScanSettings {
             motion_floor: [0.02, 0.02, 0.01],
             climb: ClimbSteps { linear: knob("LIN", 0.08), angular: knob("ANG", 0.04), halvings: 4 },

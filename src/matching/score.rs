@@ -2,7 +2,7 @@
 
 use crate::error::ParameterError;
 use crate::geometry::Pose2;
-use crate::map::grid::{FAR, Grid, UNIT};
+use crate::map::grid::{FAR, Surfaces, UNIT, View};
 use crate::ops;
 use crate::sensor::Scan;
 use core::{fmt, str::FromStr};
@@ -46,11 +46,13 @@ impl ScanModel {
             let log_odds = if matcher == Matcher::SubCell { log_odds.min(0.0) } else { log_odds };
             ops::ln(outlier + (1.0 - outlier) / (1.0 + ops::exp(-log_odds)))
         });
-        Self { matcher, temper, log_cell, gm: crate::experiment::log::knob("GM",3.0), mode: crate::experiment::log::knob("MODE",0.0) as i32, near: crate::experiment::log::knob("NEAR",0.64) }
+        Self { matcher, temper, log_cell, gm: crate::experiment::log::knob("GM",1.0), mode: -1, near: crate::experiment::log::knob("NEAR",0.64) }
     }
 
+    pub fn robust(self) -> Self { Self { mode: 1, ..self } }
+
     /// ln p(z | x, m) \[nats\], up to a constant that neither pose nor map changes; 0 at best.
-    pub fn log_likelihood<const FINE: usize>(&self, grid: &Grid<FINE>, world_from_robot: &Pose2, scan: &Scan) -> f64 {
+    pub(crate) fn log_likelihood(&self, grid: &impl Surfaces, world_from_robot: &Pose2, scan: &Scan) -> f64 {
         self.log_likelihood_above(f64::NEG_INFINITY, grid, world_from_robot, scan)
     }
 
@@ -58,10 +60,10 @@ impl ScanModel {
     ///
     /// No beam adds anything positive, so the sum is given up as soon as it falls below the floor: a hill climb that only asks
     /// whether a step improves is spared most of the beams.
-    pub fn log_likelihood_above<const FINE: usize>(
+    pub(crate) fn log_likelihood_above(
         &self,
         floor: f64,
-        grid: &Grid<FINE>,
+        grid: &impl Surfaces,
         world_from_robot: &Pose2,
         scan: &Scan,
     ) -> f64 {
@@ -76,12 +78,11 @@ impl ScanModel {
                 let wy = world_from_robot.y + sin * x + cos * y;
                 sum += match self.matcher {
                     Matcher::Cell => {
-                        let (i, j) = grid.cell_of(wx, wy);
-                        self.log_cell(grid.units(i, j))
+                        self.log_cell(grid.units_at(wx, wy))
                     }
                     Matcher::SubCell => {
                         let (d2, units) = grid.nearest_surface(wx, wy);
-                        if FINE == 1 { (-0.5 * d2).max(self.log_cell(units)) } else {
+                        if self.mode < 0 { (-0.5 * d2).max(self.log_cell(units)) } else {
                             let c = self.gm;
                             let l = if d2.is_finite() { -c * d2 / (d2 + 2.0 * c) } else { -c };
                             match self.mode { 0 => l.max(self.log_cell(units)), 1 => if d2.is_finite() { l } else { self.log_cell(units) }, _ => (-0.5*d2).max(if d2.is_finite() {-self.near} else {self.log_cell(units)}) }
@@ -96,14 +97,13 @@ impl ScanModel {
         self.temper * sum
     }
 
-    /// A coarse likelihood \[nats\]: how many squares each end point is from the nearest surface.
-    pub fn coarse<const FINE: usize>(&self, grid: &Grid<FINE>, world_from_robot: &Pose2, scan: &Scan) -> f64 {
-        let (sin, cos) = ops::sin_cos(world_from_robot.theta);
+    /// A coarse likelihood \[nats\] of every shift of a scan: how many squares each of its end points is from the nearest
+    /// surface. The end points are given turned, and like the shifts \[m\] from the origin of the map.
+    pub(crate) fn coarse<const FINE: usize>(&self, view: &View<'_, FINE>, ends: &[[f64; 2]], shift: [f64; 2]) -> f64 {
+        let [u, v] = shift.map(|c| c * view.per_square());
         let mut counts = [0_u32; FAR + 1];
-        for [x, y] in &scan.hits {
-            let wx = world_from_robot.x + cos * x - sin * y;
-            let wy = world_from_robot.y + sin * x + cos * y;
-            counts[grid.nearness(wx, wy)] += 1;
+        for end in ends {
+            counts[view.nearness(end[0] + u, end[1] + v)] += 1;
         }
         let sum: f64 = counts.iter().zip(COARSE).map(|(count, log)| f64::from(*count) * log).sum();
         self.temper * sum

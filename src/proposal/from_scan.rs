@@ -5,7 +5,7 @@
 
 use super::{FromMotion, Proposal, ProposalTrace, Proposed};
 use crate::geometry::{Gaussian3, Pose2};
-use crate::map::grid::Grid;
+use crate::map::grid::{Grid, View};
 use crate::matching::{Climb, ClimbSteps, ScanModel, climb};
 use crate::motion::{Odometry, OdometryModel};
 use crate::ops;
@@ -41,6 +41,9 @@ pub struct FromScanSettings {
 /// by: a few degrees more, and far end points fall on the wrong wall.
 const SPREAD: f64 = 3.0;
 
+/// How far from the prediction a match may lie \[m\] and be looked up fast.
+const SLACK: f64 = 1.0;
+
 /// The gmapping recipe: find the mode, probe around it, fit a Gaussian, sample it, pay the normaliser η.
 #[derive(Clone, Debug)]
 pub struct FromScan {
@@ -57,12 +60,14 @@ impl<const FINE: usize> Proposal<Grid<FINE>> for FromScan {
     fn propose(&self, particle: &Particle<Grid<FINE>>, u: &Odometry, scan: &Scan, stream: &mut Stream) -> Proposed<()> {
         let settings = &self.settings;
         let prior = self.fallback.motion.gaussian(&particle.world_from_robot, u, settings.motion_floor);
+        let reach = scan.hits.iter().map(|[x, y]| x * x + y * y).fold(0.0, f64::max).sqrt();
+        let view = View::new(&particle.map, [prior.mean().x, prior.mean().y], reach + SLACK);
         let log_target =
-            |pose: &Pose2| self.fallback.likelihood.log_likelihood(&particle.map, pose, scan) + prior.log_density(pose);
+            |pose: &Pose2| self.fallback.likelihood.log_likelihood(&view, pose, scan) + prior.log_density(pose);
         // The search looks at a thinner scan, in which each beam counts for those left out.
         let (thin, share) = (scan.thinned(settings.climb_stride), settings.climb_stride as f64);
         let log_thin = |pose: &Pose2, floor: f64| {
-            share * self.fallback.likelihood.log_likelihood_above(floor / share, &particle.map, pose, &thin)
+            share * self.fallback.likelihood.log_likelihood_above(floor / share, &view, pose, &thin)
         };
 
         // Seeds: the prediction, and poses spread over the prior's heading, so that the climb begins on the right slope.
@@ -78,11 +83,20 @@ impl<const FINE: usize> Proposal<Grid<FINE>> for FromScan {
             let n = |s: f64, step: f64, most: f64| ((SPREAD * s / step).ceil().min(most)) as i32;
             let m = prior.mean();
             let (nx, ny, nt) = (n(sx, settings.lattice, 5.0), n(sy, settings.lattice, 5.0), n(st, astep, 20.0));
-            for t in -nt..=nt { for j in -ny..=ny { for i in -nx..=nx {
-                let pose = m.plus(&Vector3::new(f64::from(i) * settings.lattice, f64::from(j) * settings.lattice, f64::from(t) * astep));
-                let v = prior.log_density(&pose) + share * self.fallback.likelihood.coarse(&particle.map, &pose, &few);
-                starts.push((v, pose));
-            }}}
+            let least = prior.log_density(m) - 0.5 * SPREAD * SPREAD;
+            for t in -nt..=nt {
+                let theta = m.theta + f64::from(t) * astep;
+                let (sin, cos) = ops::sin_cos(theta);
+                let k = view.per_square();
+                let turned: Vec<[f64; 2]> = few.hits.iter().map(|[x, y]| [(cos * x - sin * y) * k, (sin * x + cos * y) * k]).collect();
+                for j in -ny..=ny { for i in -nx..=nx {
+                    let pose = Pose2::new(m.x + f64::from(i) * settings.lattice, m.y + f64::from(j) * settings.lattice, theta);
+                    let log_prior = prior.log_density(&pose);
+                    if log_prior >= least {
+                        starts.push((log_prior + share * self.fallback.likelihood.coarse(&view, &turned, [pose.x, pose.y]), pose));
+                    }
+                }}
+            }
             starts.sort_by(|a, b| b.0.total_cmp(&a.0));
             let climbs = crate::experiment::log::knob("CLIMBS", 3.0) as usize;
             let mut picked: Vec<Pose2> = Vec::new();

@@ -12,8 +12,10 @@
 
 mod ray;
 mod tile;
+mod view;
 
 pub(crate) use tile::{FAR, UNIT};
+pub(crate) use view::View;
 use tile::{Surface, TILE};
 
 use super::{ConditionalMap, Footprint};
@@ -137,68 +139,10 @@ impl<const FINE: usize> Grid<FINE> {
         (floor(x * self.per_cell), floor(y * self.per_cell))
     }
 
-    /// What is known at a point \[m\]: the smallest squared Mahalanobis distance to the surfaces of the four squares whose
-    /// centres are nearest, infinite where none of them was hit, and the log-odds of its own cell in [`UNIT`]s.
-    ///
-    /// The four squares contain everything within half a square of the point.
-    #[inline]
-    pub(crate) fn nearest_surface(&self, x: f64, y: f64) -> (f64, i8) {
-        let (u, v) = (x * self.per_square - 0.5, y * self.per_square - 0.5);
-        let (i, j) = (fast_floor(u), fast_floor(v));
-        // In squares from the centre of square (i, j), 0 to 1: its own square is the right one of each pair from one half on.
-        let (du, dv) = (u - f64::from(i), v - f64::from(j));
-        let (own_i, own_j) = (i32::from(du >= 0.5), i32::from(dv >= 0.5));
-        // Single precision is what surfaces are kept in.
-        let size = self.square_size as f32;
-        let (x, y) = (du as f32 * size, dv as f32 * size);
-        let mut nearest = f32::INFINITY;
-        let mut consider = |surface: Option<&Surface>, x: f32, y: f32| {
-            if let Some(surface) = surface {
-                let d2 = surface.mahalanobis2(x, y);
-                nearest = if d2 < nearest { d2 } else { nearest };
-            }
-        };
-        let inner = |k: i32| k & (TILE - 1) != TILE - 1;
-        let cell = |tile: &Tile<FINE>, local: usize| {
-            if FINE == 1 {
-                return tile.log_odds[local][0][0];
-            }
-            // Of its own square, 0 to 1 from side to side.
-            let place = |d: f64, own: i32| (((d + 0.5 - f64::from(own)) * FINE as f64) as usize).min(FINE - 1);
-            tile.log_odds[local][place(dv, own_j)][place(du, own_i)]
-        };
-        let units = if inner(i) && inner(j) {
-            // The four lie in one tile: look it up once.
-            let Some(tile) = self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT) else { return (f64::INFINITY, 0) };
-            let first = tile::local(i, j);
-            consider(tile.surface(first), x, y);
-            consider(tile.surface(first + 1), x - size, y);
-            consider(tile.surface(first + TILE as usize), x, y - size);
-            consider(tile.surface(first + TILE as usize + 1), x - size, y - size);
-            cell(tile, first + (own_i + own_j * TILE) as usize)
-        } else {
-            let (right, above) = (i.wrapping_add(1), j.wrapping_add(1));
-            consider(self.surface(i, j), x, y);
-            consider(self.surface(right, j), x - size, y);
-            consider(self.surface(i, above), x, y - size);
-            consider(self.surface(right, above), x - size, y - size);
-            let (i, j) = (i.wrapping_add(own_i), j.wrapping_add(own_j));
-            self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT).map_or(0, |tile| cell(tile, tile::local(i, j)))
-        };
-        (f64::from(nearest), units)
-    }
-
     /// The surface of a square, relative to its centre.
     #[inline]
     fn surface(&self, i: i32, j: i32) -> Option<&Surface> {
         self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT)?.surface(tile::local(i, j))
-    }
-
-    /// Squares from a point \[m\] to the nearest surface: 0 in a square that was hit, [`FAR`] where none is near.
-    #[inline]
-    pub(crate) fn nearness(&self, x: f64, y: f64) -> usize {
-        let (i, j) = (fast_floor(x * self.per_square), fast_floor(y * self.per_square));
-        self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT).map_or(FAR, |tile| tile.nearness(tile::local(i, j)))
     }
 
     /// Tells the squares around one with a new surface.
@@ -235,6 +179,67 @@ impl<const FINE: usize> Grid<FINE> {
         let directory = Arc::make_mut(&mut self.directory);
         let index = directory.index(ti, tj)?;
         Some(Arc::make_mut(directory.tiles[index].get_or_insert_default()))
+    }
+}
+
+/// What a scan is held against.
+pub(crate) trait Surfaces {
+    /// Log-odds of the cell of a point \[m\], in [`UNIT`]s.
+    fn units_at(&self, x: f64, y: f64) -> i8;
+
+    /// What is known at a point \[m\]: the smallest squared Mahalanobis distance to the surfaces of the four squares whose
+    /// centres are nearest, infinite where none of them was hit, and the log-odds of the middle of
+    /// its own square in [`UNIT`]s.
+    ///
+    /// The four squares contain everything within half a square of the point.
+    fn nearest_surface(&self, x: f64, y: f64) -> (f64, i8);
+}
+
+impl<const FINE: usize> Surfaces for Grid<FINE> {
+    #[inline]
+    fn units_at(&self, x: f64, y: f64) -> i8 {
+        let (i, j) = self.cell_of(x, y);
+        self.units(i, j)
+    }
+
+    #[inline]
+    fn nearest_surface(&self, x: f64, y: f64) -> (f64, i8) {
+        let (u, v) = (x * self.per_square - 0.5, y * self.per_square - 0.5);
+        let (i, j) = (fast_floor(u), fast_floor(v));
+        // In squares from the centre of square (i, j), 0 to 1: its own square is the right one of each pair from one half on.
+        let (du, dv) = (u - f64::from(i), v - f64::from(j));
+        let (own_i, own_j) = (i32::from(du >= 0.5), i32::from(dv >= 0.5));
+        // Single precision is what surfaces are kept in.
+        let size = self.square_size as f32;
+        let (x, y) = (du as f32 * size, dv as f32 * size);
+        let mut nearest = f32::INFINITY;
+        let mut consider = |surface: Option<&Surface>, x: f32, y: f32| {
+            if let Some(surface) = surface {
+                let d2 = surface.mahalanobis2(x, y);
+                nearest = if d2 < nearest { d2 } else { nearest };
+            }
+        };
+        let inner = |k: i32| k & (TILE - 1) != TILE - 1;
+        let cell = |tile: &Tile<FINE>, local: usize| tile.log_odds[local][FINE / 2][FINE / 2];
+        let units = if inner(i) && inner(j) {
+            // The four lie in one tile: look it up once.
+            let Some(tile) = self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT) else { return (f64::INFINITY, 0) };
+            let first = tile::local(i, j);
+            consider(tile.surface(first), x, y);
+            consider(tile.surface(first + 1), x - size, y);
+            consider(tile.surface(first + TILE as usize), x, y - size);
+            consider(tile.surface(first + TILE as usize + 1), x - size, y - size);
+            cell(tile, first + (own_i + own_j * TILE) as usize)
+        } else {
+            let (right, above) = (i.wrapping_add(1), j.wrapping_add(1));
+            consider(self.surface(i, j), x, y);
+            consider(self.surface(right, j), x - size, y);
+            consider(self.surface(i, above), x, y - size);
+            consider(self.surface(right, above), x - size, y - size);
+            let (i, j) = (i.wrapping_add(own_i), j.wrapping_add(own_j));
+            self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT).map_or(0, |tile| cell(tile, tile::local(i, j)))
+        };
+        (f64::from(nearest), units)
     }
 }
 

@@ -64,9 +64,15 @@ impl Surface {
     /// (p − mean)ᵀ Σ⁻¹ (p − mean) of a point relative to the centre of the cell \[m\].
     #[inline]
     pub fn mahalanobis2(&self, x: f32, y: f32) -> f32 {
-        let (dx, dy, [xx, xy, yy]) = (x - self.mean[0], y - self.mean[1], self.information);
-        xx * dx * dx + 2.0 * xy * dx * dy + yy * dy * dy
+        mahalanobis2(self.mean, self.information, x, y)
     }
+}
+
+/// (p − mean)ᵀ Σ⁻¹ (p − mean) by Σ⁻¹ (xx, xy, yy).
+#[inline]
+pub(super) fn mahalanobis2(mean: [f32; 2], [xx, xy, yy]: [f32; 3], x: f32, y: f32) -> f32 {
+    let (dx, dy) = (x - mean[0], y - mean[1]);
+    xx * dx * dx + 2.0 * xy * dx * dy + yy * dy * dy
 }
 
 /// Log-odds of every cell, and surfaces of the squares that were hit.
@@ -93,6 +99,18 @@ impl<const FINE: usize> Default for Tile<FINE> {
 impl<const FINE: usize> Tile<FINE> {
     /// The same content in a dense array of squares, each with its cells' log-odds and its surface.
     pub const DENSE_BYTES: usize = SQUARES * (FINE * FINE + size_of::<Surface>());
+
+    /// All surfaces.
+    pub fn surfaces(&self) -> &[Surface] {
+        &self.surfaces
+    }
+
+    /// Which of the surfaces is that of a square.
+    #[inline]
+    pub fn place(&self, local: usize) -> Option<usize> {
+        let place = self.places[local];
+        (1..=SQUARES as u8).contains(&place).then(|| usize::from(place) - 1)
+    }
 
     #[inline]
     pub fn surface(&self, local: usize) -> Option<&Surface> {
