@@ -12,7 +12,7 @@ use crate::map::grid::{Grid, GridModel};
 use crate::map::{ConditionalMap, Footprint};
 use crate::matching::{ClimbSteps, Matcher, ScanModel};
 use crate::motion::{Odometry, OdometryModel};
-use crate::proposal::{Either, FromMotion, FromScan, FromScanSettings, ProposalKind, ProposalTrace};
+use crate::proposal::{Either, FromMotion, FromScan, FromScanSettings, ProposalKind, ProposalTrace, Search};
 use crate::random::{Purpose, Stream};
 use crate::rbpf::{Particle, Rbpf, Report};
 use crate::resampling::{ResamplePolicy, Scheme};
@@ -60,15 +60,14 @@ pub const OUTLIER: f64 = 0.05;
 pub const FROM_SCAN: FromScanSettings = FromScanSettings {
     // Keeps R_t invertible at a stand, and lets a centimetre of slip be.
     motion_floor: [0.02, 0.02, 0.01],
+    // With the spread of 3 σ one every 0.75 σ, some five degrees here: about the slope's width.
+    search: Search::Spread { seeds: 8 },
     // From a third of a cell down to a centimetre; the fit takes over from there.
     climb: ClimbSteps { linear: 0.08, angular: 0.04, halvings: 3 },
     climb_stride: 2,
-    // With the spread of 3 σ one every 0.75 σ, some five degrees here: about the slope's width.
-    seeds: 8,
     // e^½: an optimum less than two thirds better than the average pose is no optimum.
     gain: 0.5,
-    weight_share: 1.0,
-    lattice: 0.0,
+    full_weight: 0.0,
     probes: 12,
     // From half a centimetre, below which there is nothing to see, to a third of a cell, the plateau of the cell matcher.
     probe_stds: [[0.005, 0.005, 0.003], [0.1, 0.1, 0.05]],

@@ -31,7 +31,12 @@ pub fn golden_traces(executor: &Executor) -> Vec<(&'static str, Digest)> {
     let policies = policies::golden_setups().into_iter().map(|(name, setup)| {
         (name, policies::Policies::new(&setup).expect(VALID).with_executor(executor.clone()).trace())
     });
-    laps.chain(drives).chain(joints).chain(clouds).chain(policies).collect()
+    let logs = log::golden_runs().into_iter().map(|(name, run)| {
+        let mut run = run.with_executor(executor.clone());
+        while run.step().is_some() {}
+        (name, run.digest())
+    });
+    laps.chain(drives).chain(joints).chain(clouds).chain(policies).chain(logs).collect()
 }
 
 /// The q-quantile of ascending values, interpolated linearly between neighbours (type 7 of Hyndman and Fan 1996).

@@ -53,6 +53,25 @@ pub fn parse(bytes: &[u8], lenient: bool) -> Result<LaserLog, LogError> {
     Ok(log)
 }
 
+/// The scans of a log as FLASER messages, which [`parse`] reads back: ranges to a centimetre, poses to a millimetre, angles to a
+/// ten-thousandth. For lasers in the robot's centre that sweep half a circle.
+pub fn write(log: &LaserLog) -> String {
+    let mut text = String::new();
+    for scan in &log.scans {
+        let Pose2 { x, y, theta } = scan.odometry;
+        let pose = [decimal::fixed(x, 3), decimal::fixed(y, 3), decimal::fixed(theta, 4)].join(" ");
+        let time = decimal::fixed(scan.time, 2);
+        text.push_str("FLASER ");
+        text.push_str(&scan.ranges.len().to_string());
+        for range in &scan.ranges {
+            text.push(' ');
+            text.push_str(&decimal::fixed(f64::from(*range), 2));
+        }
+        text.push_str(&[" ", &pose, " ", &pose, " ", &time, " - ", &time, "\n"].concat());
+    }
+    text
+}
+
 #[derive(Default)]
 struct Reader {
     log: LaserLog,

@@ -6,10 +6,12 @@
 mod carmen;
 mod relations;
 
-pub use carmen::parse;
+pub use carmen::{parse, write};
 pub use relations::{Relation, RelationErrors, parse_relations, relation_errors};
 
 use crate::geometry::Pose2;
+use crate::ops;
+use crate::sensor::Scan;
 use core::fmt;
 
 /// One sweep of a laser.
@@ -31,6 +33,24 @@ pub struct LaserScan {
     pub ranges: Vec<f32>,
 }
 
+impl LaserScan {
+    /// Where the beams ended, in the robot's frame. A reading of `longest` \[m\] or more met nothing, and says nothing: what it passed
+    /// may be glass. One of `max_range` \[m\] or more is cut there, and says that the way is free.
+    pub fn end_points(&self, longest: f64, max_range: f64) -> Scan {
+        let longest = self.max_range.map_or(longest, |declared| declared.min(longest));
+        let mut ends = Scan::default();
+        for (k, range) in self.ranges.iter().map(|range| f64::from(*range)).enumerate() {
+            if range > 0.0 && range < longest {
+                let (sin, cos) = ops::sin_cos(self.first_angle + k as f64 * self.angle_step);
+                let length = range.min(max_range);
+                let end = self.robot_from_laser.transform([length * cos, length * sin]);
+                if range < max_range { ends.hits.push(end) } else { ends.misses.push(end) }
+            }
+        }
+        ends
+    }
+}
+
 /// A log, read.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct LaserLog {
@@ -40,6 +60,14 @@ pub struct LaserLog {
     pub odometry: Vec<(f64, Pose2)>,
     /// What else was met.
     pub notes: Notes,
+}
+
+impl LaserLog {
+    /// The longest finite range \[m\] that was read; 0 without any.
+    pub fn longest_reading(&self) -> f64 {
+        let ranges = self.scans.iter().flat_map(|scan| &scan.ranges).filter(|range| range.is_finite());
+        f64::from(ranges.copied().fold(0.0, f32::max))
+    }
 }
 
 /// What was met in a log besides what is used.

@@ -19,21 +19,35 @@ pub enum Matcher {
     SubCell,
 }
 
+/// What a distance from a surface costs.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Kernel {
+    /// ℓ = −½ d²: what lies far from a surface is judged by its cell.
+    Gaussian,
+    /// ℓ = −c d² / (d² + 2 c): Gaussian near the surface, and never below −c (Geman and McClure 1985). Its slope reaches far, so
+    /// that a climb finds a surface from further away, and a chair that was moved pulls at nothing.
+    Robust {
+        /// c \[nats\].
+        most: f64,
+    },
+}
+
 /// The likelihood of a scan.
 ///
 /// ln p(z | x, m) = κ Σ_b max(ℓ_b, ln p_cell(b)), summed over the beams that met something: a maximum in place of the sum of a
 /// mixture (Olson and Agarwal 2013), which costs no logarithm. p_cell = ε + (1 − ε) p(occupied) judges the cell an end point
-/// falls in; ℓ_b = −½ d² is the surface term of [`Matcher::SubCell`], absent for [`Matcher::Cell`].
+/// falls in; ℓ_b, of the squared distance d² to the nearest surface, is the term of [`Matcher::SubCell`], absent for
+/// [`Matcher::Cell`]. With a robust kernel ℓ_b alone counts wherever there is a surface near.
 ///
 /// κ < 1 tempers the product over beams: neighbouring beams meet the same wall and err together (GSB, *likelihood
 /// smoothing*; PR §6.3.4).
 #[derive(Clone, Debug)]
 pub struct ScanModel {
     matcher: Matcher,
+    kernel: Kernel,
     temper: f64,
     /// ln p_cell for each stored value of log-odds, from −128 units up.
     log_cell: [f64; 256],
-    gm: f64, mode: i32, near: f64,
 }
 
 impl ScanModel {
@@ -46,10 +60,13 @@ impl ScanModel {
             let log_odds = if matcher == Matcher::SubCell { log_odds.min(0.0) } else { log_odds };
             ops::ln(outlier + (1.0 - outlier) / (1.0 + ops::exp(-log_odds)))
         });
-        Self { matcher, temper, log_cell, gm: crate::experiment::log::knob("GM",1.0), mode: -1, near: crate::experiment::log::knob("NEAR",0.64) }
+        Self { matcher, kernel: Kernel::Gaussian, temper, log_cell }
     }
 
-    pub fn robust(self) -> Self { Self { mode: 1, ..self } }
+    /// The same model with another kernel.
+    pub fn with_kernel(self, kernel: Kernel) -> Self {
+        Self { kernel, ..self }
+    }
 
     /// ln p(z | x, m) \[nats\], up to a constant that neither pose nor map changes; 0 at best.
     pub(crate) fn log_likelihood(&self, grid: &impl Surfaces, world_from_robot: &Pose2, scan: &Scan) -> f64 {
@@ -82,10 +99,14 @@ impl ScanModel {
                     }
                     Matcher::SubCell => {
                         let (d2, units) = grid.nearest_surface(wx, wy);
-                        if self.mode < 0 { (-0.5 * d2).max(self.log_cell(units)) } else {
-                            let c = self.gm;
-                            let l = if d2.is_finite() { -c * d2 / (d2 + 2.0 * c) } else { -c };
-                            match self.mode { 0 => l.max(self.log_cell(units)), 1 => if d2.is_finite() { l } else { self.log_cell(units) }, _ => (-0.5*d2).max(if d2.is_finite() {-self.near} else {self.log_cell(units)}) }
+                        match self.kernel {
+                            Kernel::Gaussian => (-0.5 * d2).max(self.log_cell(units)),
+                            Kernel::Robust { most } if d2 < f64::INFINITY => {
+                                // −c d² / (d² + 2 c), with one division in the precision of the surfaces.
+                                let (d2, most) = (d2 as f32, most as f32);
+                                f64::from(2.0 * most * most / (d2 + 2.0 * most) - most)
+                            }
+                            Kernel::Robust { .. } => self.log_cell(units),
                         }
                     }
                 };
@@ -97,15 +118,15 @@ impl ScanModel {
         self.temper * sum
     }
 
-    /// A coarse likelihood \[nats\] of every shift of a scan: how many squares each of its end points is from the nearest
-    /// surface. The end points are given turned, and like the shifts \[m\] from the origin of the map.
-    pub(crate) fn coarse<const FINE: usize>(&self, view: &View<'_, FINE>, ends: &[[f64; 2]], shift: [f64; 2]) -> f64 {
+    /// A coarse likelihood \[nats\] of a scan that is turned already: how many squares each of its end points, shifted by
+    /// (x, y) \[m\], is from the nearest surface. The end points are given in squares.
+    pub(crate) fn coarse<const FINE: usize>(&self, view: &View<'_, FINE>, turned: &[[f64; 2]], shift: [f64; 2]) -> f64 {
         let [u, v] = shift.map(|c| c * view.per_square());
         let mut counts = [0_u32; FAR + 1];
-        for end in ends {
+        for end in turned {
             counts[view.nearness(end[0] + u, end[1] + v)] += 1;
         }
-        let sum: f64 = counts.iter().zip(COARSE).map(|(count, log)| f64::from(*count) * log).sum();
+        let sum: f64 = counts.iter().zip(LOG_COARSE).map(|(count, log)| f64::from(*count) * log).sum();
         self.temper * sum
     }
 
@@ -116,8 +137,8 @@ impl ScanModel {
     }
 }
 
-/// By squares from the nearest surface.
-const COARSE: [f64; FAR + 1] = [0.0, -0.5, -1.0, -1.5];
+/// ln p of an end point by its squares from the nearest surface, up to a constant \[nats\].
+const LOG_COARSE: [f64; FAR + 1] = [0.0, -0.5, -1.0, -1.5];
 
 /// Where log-odds 0 stand in the table.
 const UNKNOWN: i32 = 128;

@@ -92,13 +92,18 @@ impl<const FINE: usize> Grid<FINE> {
     const SQUARE: i32 = FINE as i32;
 
     /// Cells along a side of a tile.
-    const TILE_CELLS: i32 = TILE * Self::SQUARE;
+    pub const TILE_CELLS: i32 = TILE * Self::SQUARE;
 
     /// An unknown world.
     pub fn new(model: GridModel) -> Self {
         let square_size = FINE as f64 * model.cell_size;
         let directory = Directory { rect: CellRect::default(), tiles: Vec::new() }.into();
         Self { model, per_cell: 1.0 / model.cell_size, square_size, per_square: 1.0 / square_size, directory }
+    }
+
+    /// Bytes of a tile with so many surfaces.
+    pub fn tile_bytes(surfaces: usize) -> usize {
+        tile::bytes::<FINE>(surfaces)
     }
 
     /// Side of a cell \[m\].
@@ -309,27 +314,34 @@ impl<const FINE: usize> ConditionalMap for Grid<FINE> {
             self.directory = Arc::new(self.directory.grown(needed));
         }
         let (hit, pass) = (tile::units(self.model.log_odds_hit), tile::units(self.model.log_odds_pass));
-        let square = |di: usize, dj: usize| (di / FINE + dj / FINE * TILE as usize, dj % FINE, di % FINE);
+        let add = [0, pass, hit]; // by mark
         for tj in touched.j0..touched.j1 {
             for ti in touched.i0..touched.i1 {
+                // Rows of one square's cells, with their marks.
+                let rows = (0..Self::TILE_CELLS as usize).map(|row| (row, marks.row(ti, tj, row)));
+                let rows = rows.filter(|(_, marks)| marks.iter().any(|mark| *mark != ray::UNTOUCHED));
+                let rows = rows.flat_map(|(row, marks)| {
+                    let squares = marks.chunks_exact(FINE).zip(row / FINE * TILE as usize..);
+                    squares.map(move |(marks, local)| (local, row % FINE, marks))
+                });
                 // Look before writing: a tile in which nothing would change stays shared.
                 let before = self.directory.tile(ti, tj);
-                let changes = marks.in_tile(ti, tj).any(|(di, dj, mark)| match mark {
-                    ray::Mark::Hit => true,
-                    ray::Mark::Passed => before.is_none_or(|tile| {
-                        let (local, row, column) = square(di, dj);
-                        tile.log_odds[local][row][column] > i8::MIN + 1
-                    }),
+                let changes = rows.clone().any(|(local, row, marks)| {
+                    let changes = |(column, mark): (usize, &u8)| match *mark {
+                        ray::HIT => true,
+                        ray::PASSED => before.is_none_or(|tile| tile.log_odds[local][row][column] > i8::MIN + 1),
+                        _ => false,
+                    };
+                    marks.iter().enumerate().any(changes)
                 });
                 if !changes {
                     continue;
                 }
                 let tile = self.tile_mut(ti, tj).expect("the directory was grown to cover the scan");
-                for (di, dj, mark) in marks.in_tile(ti, tj) {
-                    let add = if mark == ray::Mark::Hit { hit } else { pass };
-                    let (local, row, column) = square(di, dj);
-                    let cell = &mut tile.log_odds[local][row][column];
-                    *cell = cell.saturating_add(add).max(i8::MIN + 1);
+                for (local, row, marks) in rows {
+                    for (cell, mark) in tile.log_odds[local][row].iter_mut().zip(marks) {
+                        *cell = cell.saturating_add(add[usize::from(*mark)]).max(i8::MIN + 1);
+                    }
                 }
             }
         }

@@ -5,15 +5,10 @@ use crate::geometry::Pose2;
 use crate::ops;
 use crate::sensor::Scan;
 
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Mark {
-    Passed,
-    Hit,
-}
-
-const UNTOUCHED: u8 = 0;
-const PASSED: u8 = 1;
-const HIT: u8 = 2;
+/// What happened to a cell: nothing, a beam passed, a beam ended.
+pub(super) const UNTOUCHED: u8 = 0;
+pub(super) const PASSED: u8 = 1;
+pub(super) const HIT: u8 = 2;
 
 /// Farthest cell from the origin that is mapped: end points beyond it are dropped, so that an absurd pose cannot exhaust
 /// memory nor overflow a cell's index.
@@ -80,7 +75,7 @@ impl Marks {
     /// Marks the cells from `a` up to, but not including, the one of `b` (both in cells): the traversal of Amanatides and
     /// Woo (1987).
     fn pass(&mut self, a: [f64; 2], b: [f64; 2]) {
-        let mut cell = a.map(|c| c.floor() as i32);
+        let cell = a.map(|c| c.floor() as i32);
         let last = b.map(|c| c.floor() as i32);
         let direction = [b[0] - a[0], b[1] - a[1]];
         let step = direction.map(|d| if d > 0.0 { 1 } else { -1 });
@@ -90,14 +85,25 @@ impl Marks {
             let border = f64::from(cell[k]) + if step[k] > 0 { 1.0 } else { 0.0 };
             if direction[k] == 0.0 { f64::INFINITY } else { (border - a[k]) / direction[k] }
         });
-        let count = cell[0].abs_diff(last[0]) + cell[1].abs_diff(last[1]);
-        for _ in 0..count {
-            let index = self.index(cell[0], cell[1]);
-            self.cells[index] = PASSED;
-            // Along an axis whose last row or column is reached there is nothing left to do, whatever rounding says.
-            let k = if cell[0] == last[0] { 1 } else { usize::from(cell[1] != last[1] && next[1] < next[0]) };
-            cell[k] += step[k];
-            next[k] += per_cell[k];
+        // Cells still to go along each axis: one whose last row or column is reached has nothing left to do, whatever rounding
+        // says. The choice between the axes is as good as random, so it is made without a branch.
+        let mut left = [0, 1].map(|k: usize| cell[k].abs_diff(last[k]));
+        let stride = [step[0] as isize, step[1] as isize * self.window.width() as isize];
+        let mut index = self.index(cell[0], cell[1]) as isize;
+        while left[0] > 0 && left[1] > 0 {
+            self.cells[index as usize] = PASSED;
+            let second = next[1] < next[0];
+            index += if second { stride[1] } else { stride[0] };
+            next[0] += if second { 0.0 } else { per_cell[0] };
+            next[1] += if second { per_cell[1] } else { 0.0 };
+            left[0] -= u32::from(!second);
+            left[1] -= u32::from(second);
+        }
+        for k in 0..2 {
+            for _ in 0..left[k] {
+                self.cells[index as usize] = PASSED;
+                index += stride[k];
+            }
         }
     }
 
@@ -108,16 +114,9 @@ impl Marks {
         (!self.cells.is_empty()).then_some(CellRect { i0: i0 / tile, j0: j0 / tile, i1: i1 / tile, j1: j1 / tile })
     }
 
-    /// The touched cells of one tile, as (column and row in the tile, mark).
-    pub fn in_tile(&self, ti: i32, tj: i32) -> impl Iterator<Item = (usize, usize, Mark)> + '_ {
-        let side = self.tile as usize;
-        (0..side).flat_map(move |dj| {
-            let start = self.index(ti * self.tile, tj * self.tile + dj as i32);
-            let row = &self.cells[start..start + side];
-            row.iter().enumerate().filter(|(_, mark)| **mark != UNTOUCHED).map(move |(di, mark)| {
-                let mark = if *mark == HIT { Mark::Hit } else { Mark::Passed };
-                (di, dj, mark)
-            })
-        })
+    /// The marks of one row of a tile: [`UNTOUCHED`], [`PASSED`] or [`HIT`].
+    pub fn row(&self, ti: i32, tj: i32, row: usize) -> &[u8] {
+        let start = self.index(ti * self.tile, tj * self.tile + row as i32);
+        &self.cells[start..start + self.tile as usize]
     }
 }

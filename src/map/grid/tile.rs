@@ -146,8 +146,14 @@ impl<const FINE: usize> Tile<FINE> {
         first
     }
 
-    /// What it holds, as on a 64-bit machine: a byte a cell, one a square, the vector's three words, and the surfaces.
+    /// What it holds.
     pub fn bytes(&self) -> usize {
-        SQUARES * (FINE * FINE + 1) + 3 * 8 + self.surfaces.len() * size_of::<Surface>()
+        bytes::<FINE>(self.surfaces.len())
     }
+}
+
+/// What a tile with so many surfaces holds, as on a 64-bit machine: a byte a cell, one a square, the vector's three words, and
+/// the surfaces.
+pub(super) fn bytes<const FINE: usize>(surfaces: usize) -> usize {
+    SQUARES * (FINE * FINE + 1) + 3 * 8 + surfaces * size_of::<Surface>()
 }
