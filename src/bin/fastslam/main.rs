@@ -27,6 +27,7 @@ struct Arguments {
 enum Command {
     Lap(lap::Arguments),
     Log(log::Arguments),
+    ExampleLog(log::ExampleArguments),
     Landmarks(landmarks::Arguments),
     Policies(policies::Arguments),
     Table(table::Arguments),
@@ -81,6 +82,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     pool.install(|| match arguments.command {
         Command::Lap(arguments) => lap::run(&arguments),
         Command::Log(arguments) => log::run(&arguments),
+        Command::ExampleLog(arguments) => log::example(&arguments),
         Command::Landmarks(arguments) => landmarks::run(&arguments),
         Command::Policies(arguments) => policies::run(&arguments),
         Command::Table(arguments) => table::run(&arguments),
@@ -90,7 +92,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
 /// What clap says before it advises, in one line.
 fn one_line(message: &clap::Error) -> String {
     if message.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "a command is missing: lap, landmarks, policies or table (fastslam --help explains)".to_owned();
+        return "a command is missing: lap, landmarks, log, example-log, policies or table (fastslam --help explains)".to_owned();
     }
     let text = message.to_string();
     let said =

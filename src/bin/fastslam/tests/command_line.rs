@@ -82,7 +82,7 @@ fn shards_merge_to_the_rows_of_one_run() {
 #[test]
 fn bad_arguments_are_refused_in_one_line_with_status_2() {
     for (arguments, said) in [
-        ("", "lap, landmarks, policies or table"),
+        ("", "lap, landmarks, log, example-log, policies or table"),
         ("laps", "laps"),
         ("lap --particles 0", "from 1 to 4096"),
         ("lap --particles 1e9", "--particles"),
