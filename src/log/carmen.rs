@@ -83,7 +83,8 @@ struct Reader {
 
 impl Reader {
     fn line(&mut self, bytes: &[u8]) -> Result<(), String> {
-        let text = core::str::from_utf8(bytes).map_err(|_| "expected a message in plain text, found binary".to_owned())?;
+        let text =
+            core::str::from_utf8(bytes).map_err(|_| "expected a message in plain text, found binary".to_owned())?;
         let mut words = Words { words: text.split_ascii_whitespace(), kind: "" };
         let Some(kind) = words.words.next() else { return Ok(()) };
         words.kind = kind;
@@ -214,7 +215,7 @@ impl<'a> Words<'a> {
     }
 
     fn count(&mut self, name: &str) -> Result<u32, String> {
-        let word = self.word(name)?;
+        let word = self.word(&format!("the number of {name}"))?;
         word.parse().map_err(|_| format!("{}: expected the number of {name}, found {}", self.kind, shown(word)))
     }
 

@@ -94,9 +94,7 @@ impl ScanModel {
                 let wx = world_from_robot.x + cos * x - sin * y;
                 let wy = world_from_robot.y + sin * x + cos * y;
                 sum += match self.matcher {
-                    Matcher::Cell => {
-                        self.log_cell(grid.units_at(wx, wy))
-                    }
+                    Matcher::Cell => self.log_cell(grid.units_at(wx, wy)),
                     Matcher::SubCell => {
                         let (d2, units) = grid.nearest_surface(wx, wy);
                         match self.kernel {

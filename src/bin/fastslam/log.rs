@@ -142,7 +142,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 pub fn example(arguments: &ExampleArguments) -> Result<(), Failure> {
     let example = Example::new(usize::MAX);
     let save = |path: &Path, text: &str| std::fs::write(path, text).map_err(|error| Failure::file(path, error));
-    let heading = "# A simulated building of our own, free to use. CARMEN log: raw odometry, 180 beams over 180 deg, metres.\n";
+    let heading =
+        "# A simulated building of our own, free to use. CARMEN log: raw odometry, 180 beams over 180 deg, metres.\n";
     save(&arguments.file, &(heading.to_owned() + &write(&example.log)))?;
     if let Some(path) = &arguments.relations {
         let line = |relation: &fastslam::log::Relation| {

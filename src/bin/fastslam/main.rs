@@ -92,7 +92,8 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
 /// What clap says before it advises, in one line.
 fn one_line(message: &clap::Error) -> String {
     if message.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "a command is missing: lap, landmarks, log, example-log, policies or table (fastslam --help explains)".to_owned();
+        return "a command is missing: lap, landmarks, log, example-log, policies or table (fastslam --help explains)"
+            .to_owned();
     }
     let text = message.to_string();
     let said =

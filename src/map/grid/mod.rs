@@ -15,8 +15,8 @@ mod tile;
 mod view;
 
 pub(crate) use tile::{FAR, UNIT};
-pub(crate) use view::View;
 use tile::{Surface, TILE};
+pub(crate) use view::View;
 
 use super::{ConditionalMap, Footprint};
 use crate::geometry::Pose2;
@@ -158,7 +158,9 @@ impl<const FINE: usize> Grid<FINE> {
             let (i, j) = (i + di, j + dj);
             let local = tile::local(i, j);
             let near = self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT).map_or(FAR, |tile| tile.nearness(local));
-            if squares < near && let Some(tile) = self.tile_mut(i >> tile::SHIFT, j >> tile::SHIFT) {
+            if squares < near
+                && let Some(tile) = self.tile_mut(i >> tile::SHIFT, j >> tile::SHIFT)
+            {
                 tile.mark_near(local, squares);
             }
         }

@@ -1,7 +1,8 @@
 use super::*;
 use crate::sensor::BeamSensor;
 
-const MODEL: GridModel = GridModel { cell_size: 0.3, log_odds_hit: 0.9, log_odds_pass: -0.4, surface_std: 0.1, reach: 0 };
+const MODEL: GridModel =
+    GridModel { cell_size: 0.3, log_odds_hit: 0.9, log_odds_pass: -0.4, surface_std: 0.1, reach: 0 };
 
 fn one_beam(range: f64) -> Scan {
     BeamSensor::panorama(1, 8.0, 0.0).scan(&[range])

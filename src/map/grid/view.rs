@@ -57,8 +57,7 @@ impl<'a, const FINE: usize> View<'a, FINE> {
             i1: clip(i.saturating_add(reach + TILE), known.i0, known.i1),
             j1: clip(j.saturating_add(reach + TILE), known.j0, known.j1),
         };
-        let rect =
-            CellRect { i0: tiles.i0 * TILE, j0: tiles.j0 * TILE, i1: tiles.i1 * TILE, j1: tiles.j1 * TILE };
+        let rect = CellRect { i0: tiles.i0 * TILE, j0: tiles.j0 * TILE, i1: tiles.i1 * TILE, j1: tiles.j1 * TILE };
         let unknown = Square { surface: 0, units: 0, near: FAR as u8 };
         let mut squares = vec![unknown; rect.width() * rect.height()];
         let mut surfaces = vec![Flat::NONE];
@@ -109,7 +108,8 @@ impl<const FINE: usize> Surfaces for View<'_, FINE> {
     fn nearest_surface(&self, x: f64, y: f64) -> (f64, i8) {
         let (u, v) = (x * self.grid.per_square - 0.5, y * self.grid.per_square - 0.5);
         let (i, j) = (fast_floor(u), fast_floor(v));
-        let (column, row) = (i.wrapping_sub(self.rect.i0) as u32 as usize, j.wrapping_sub(self.rect.j0) as u32 as usize);
+        let (column, row) =
+            (i.wrapping_sub(self.rect.i0) as u32 as usize, j.wrapping_sub(self.rect.j0) as u32 as usize);
         let width = self.rect.width();
         if column + 1 >= width || row + 1 >= self.rect.height() {
             return self.grid.nearest_surface(x, y);
