@@ -109,6 +109,3 @@ pub fn odometry_at(odometry: &[(f64, Pose2)], time: f64) -> Option<Pose2> {
     let share = if t1 > t0 { ((time - t0) / (t1 - t0)).clamp(0.0, 1.0) } else { 1.0 };
     Some(a.plus(&(b.minus(&a) * share)))
 }
-
-#[cfg(test)]
-mod tests;

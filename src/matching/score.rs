@@ -2,7 +2,7 @@
 
 use crate::error::ParameterError;
 use crate::geometry::Pose2;
-use crate::map::grid::{FAR, Surfaces, UNIT, View};
+use crate::map::grid::{FAR, Grid, Surfaces, UNIT, View};
 use crate::ops;
 use crate::sensor::Scan;
 use core::{fmt, str::FromStr};
@@ -69,7 +69,7 @@ impl ScanModel {
     }
 
     /// ln p(z | x, m) \[nats\], up to a constant that neither pose nor map changes; 0 at best.
-    pub(crate) fn log_likelihood(&self, grid: &impl Surfaces, world_from_robot: &Pose2, scan: &Scan) -> f64 {
+    pub fn log_likelihood<const FINE: usize>(&self, grid: &Grid<FINE>, world_from_robot: &Pose2, scan: &Scan) -> f64 {
         self.log_likelihood_above(f64::NEG_INFINITY, grid, world_from_robot, scan)
     }
 

@@ -87,8 +87,10 @@ impl<const FINE: usize> Proposal<Grid<FINE>> for FromScan {
         let prior = self.fallback.motion.gaussian(&particle.world_from_robot, u, settings.motion_floor);
         let reach = scan.hits.iter().map(|[x, y]| x * x + y * y).fold(0.0, f64::max).sqrt();
         let view = View::new(&particle.map, [prior.mean().x, prior.mean().y], reach + SLACK);
-        let log_target =
-            |pose: &Pose2| self.fallback.likelihood.log_likelihood(&view, pose, scan) + prior.log_density(pose);
+        let log_target = |pose: &Pose2| {
+            self.fallback.likelihood.log_likelihood_above(f64::NEG_INFINITY, &view, pose, scan)
+                + prior.log_density(pose)
+        };
         // The search looks at a thinner scan, in which each beam counts for those left out.
         let (thin, share) = (scan.thinned(settings.climb_stride), settings.climb_stride as f64);
         let log_thin = |pose: &Pose2, floor: f64| {
@@ -103,7 +105,7 @@ impl<const FINE: usize> Proposal<Grid<FINE>> for FromScan {
         // Starts of the climb, and the mean likelihood that its end must beat.
         let (starts, log_mean) = match settings.search {
             Search::Spread { seeds } => {
-                let (best, log_mean) = spread(&prior, seeds, &log_thin, stream);
+                let (best, log_mean) = spread(&prior, seeds, log_thin, stream);
                 (vec![best], log_mean)
             }
             Search::Lattice { stride, .. } => {
@@ -219,8 +221,8 @@ impl FromScan {
         }
         let best = log_likelihoods.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let log_mean = ops::log_sum_exp(&log_likelihoods) - ops::ln(log_likelihoods.len() as f64);
-        // Written so that NaN, from a pose that is none, counts as flat.
-        if !(best - log_mean >= self.settings.gain) {
+        let gain = best - log_mean;
+        if gain.is_nan() || gain < self.settings.gain {
             return Vec::new();
         }
         found.sort_by(|a, b| b.0.total_cmp(&a.0)); // stable: equal ones stay in the lattice's order

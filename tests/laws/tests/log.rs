@@ -1,7 +1,11 @@
-use super::*;
-use crate::experiment::log::{Example, LogRun, LogSetup};
-use crate::random::{Purpose, Stream};
-use core::f64::consts::PI;
+//! Logs: what the parser reads and refuses, the benchmark's metric, and that no input makes either panic.
+
+use fastslam::experiment::log::{Example, LogRun, LogSetup};
+use fastslam::geometry::Pose2;
+use fastslam::log::{LogError, Relation, RelationErrors, parse, parse_relations, relation_errors, write};
+use fastslam::ops;
+use fastslam::random::{Purpose, Stream};
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// One message of each kind, with two lasers of different fans.
@@ -31,7 +35,7 @@ fn every_message_is_read_as_carmen_wrote_it() {
     assert_eq!(front.robot_from_laser, Pose2::new(0.25, 0.0, 0.0));
     assert_eq!(front.ranges, [1.0, 2.0, f32::INFINITY, 0.0, 8.19]);
     assert_eq!((robot.first_angle, robot.angle_step, robot.max_range), (-1.5, 1.5, Some(30.0)));
-    assert!((robot.robot_from_laser.x - 0.3 * crate::ops::cos(0.1)).abs() < 1e-12, "seen from a robot that is turned");
+    assert!((robot.robot_from_laser.x - 0.3 * ops::cos(0.1)).abs() < 1e-12, "seen from a robot that is turned");
     assert_eq!(log.odometry.iter().map(|(time, _)| *time).collect::<Vec<_>>(), [10.0, 10.5, 11.0, 12.0]);
     assert_eq!((log.notes.rear, log.notes.unknown), (1, vec![("SYNC".to_owned(), 1)]));
     assert_eq!((log.notes.malformed, log.notes.out_of_order), (0, 0));
