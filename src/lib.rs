@@ -16,6 +16,7 @@ pub mod execute;
 pub mod experiment;
 pub mod geometry;
 pub mod lineage;
+pub mod log;
 pub mod map;
 pub mod matching;
 pub mod motion;

@@ -12,7 +12,7 @@ use crate::map::grid::{Grid, GridModel};
 use crate::map::{ConditionalMap, Footprint};
 use crate::matching::{ClimbSteps, Matcher, ScanModel};
 use crate::motion::{Odometry, OdometryModel};
-use crate::proposal::{Either, FromMotion, FromScan, FromScanSettings, ProposalKind, ProposalTrace};
+use crate::proposal::{Either, FromMotion, FromScan, FromScanSettings, ProposalKind, ProposalTrace, Search};
 use crate::random::{Purpose, Stream};
 use crate::rbpf::{Particle, Rbpf, Report};
 use crate::resampling::{ResamplePolicy, Scheme};
@@ -45,7 +45,8 @@ pub const START_SCANS: u32 = 30;
 ///
 /// A pass weighs a ninth of a hit: in cells this wide most beams that pass a wall's cell pass beside the wall. With
 /// −0.4, walls seen at a grazing angle wear away, and with the cell matcher one lap in ten drifts.
-pub const GRID: GridModel = GridModel { cell_size: 0.3, log_odds_hit: 0.9, log_odds_pass: -0.1, surface_std: 0.1 };
+pub const GRID: GridModel =
+    GridModel { cell_size: 0.3, log_odds_hit: 0.9, log_odds_pass: -0.1, surface_std: 0.1, reach: 0 };
 
 /// κ: the share of each beam's log-likelihood that counts. One for both proposals, both matchers and every M.
 ///
@@ -60,13 +61,14 @@ pub const OUTLIER: f64 = 0.05;
 pub const FROM_SCAN: FromScanSettings = FromScanSettings {
     // Keeps R_t invertible at a stand, and lets a centimetre of slip be.
     motion_floor: [0.02, 0.02, 0.01],
+    // With the spread of 3 σ one every 0.75 σ, some five degrees here: about the slope's width.
+    search: Search::Spread { seeds: 8 },
     // From a third of a cell down to a centimetre; the fit takes over from there.
     climb: ClimbSteps { linear: 0.08, angular: 0.04, halvings: 3 },
     climb_stride: 2,
-    // With the spread of 3 σ one every 0.75 σ, some five degrees here: about the slope's width.
-    seeds: 8,
     // e^½: an optimum less than two thirds better than the average pose is no optimum.
     gain: 0.5,
+    full_weight: 0.0,
     probes: 12,
     // From half a centimetre, below which there is nothing to see, to a third of a cell, the plateau of the cell matcher.
     probe_stds: [[0.005, 0.005, 0.003], [0.1, 0.1, 0.05]],

@@ -4,6 +4,7 @@ pub mod conditioning;
 pub mod doors;
 pub mod landmarks;
 pub mod lap;
+pub mod log;
 pub mod numbers;
 pub mod policies;
 pub mod policy_counts;
@@ -35,5 +36,10 @@ pub fn golden_traces(executor: &Executor) -> Vec<(&'static str, Digest)> {
     let policies = policies::golden_setups().into_iter().map(|(name, setup)| {
         (name, policies::Policies::new(&setup).expect(VALID).with_executor(executor.clone()).trace())
     });
-    laps.chain(drives).chain(joints).chain(clouds).chain(policies).collect()
+    let logs = log::golden_runs().into_iter().map(|(name, run)| {
+        let mut run = run.with_executor(executor.clone());
+        while run.step().is_some() {}
+        (name, run.digest())
+    });
+    laps.chain(drives).chain(joints).chain(clouds).chain(policies).chain(logs).collect()
 }

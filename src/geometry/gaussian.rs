@@ -32,6 +32,13 @@ impl Gaussian3 {
         &self.mean
     }
 
+    /// Σ (3 × 3, \[m, m, rad\]).
+    pub fn covariance(&self) -> Matrix3<f64> {
+        let l = self.cholesky.l();
+        let s = l * l.transpose(); // heading first
+        Matrix3::new(s.m22, s.m23, s.m21, s.m32, s.m33, s.m31, s.m12, s.m13, s.m11)
+    }
+
     /// ln N(pose; mean, Σ) \[nats\].
     pub fn log_density(&self, pose: &Pose2) -> f64 {
         // Forward substitution with the lower factor: ‖L⁻¹d‖² is the squared Mahalanobis distance.

@@ -5,4 +5,4 @@ mod score;
 
 pub(crate) use climb::climb;
 pub use climb::{Climb, ClimbSteps};
-pub use score::{Matcher, ScanModel};
+pub use score::{Kernel, Matcher, ScanModel};

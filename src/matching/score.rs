@@ -2,7 +2,7 @@
 
 use crate::error::ParameterError;
 use crate::geometry::Pose2;
-use crate::map::grid::{Grid, UNIT};
+use crate::map::grid::{FAR, Grid, Surfaces, UNIT, View};
 use crate::ops;
 use crate::sensor::Scan;
 use core::{fmt, str::FromStr};
@@ -19,17 +19,32 @@ pub enum Matcher {
     SubCell,
 }
 
+/// What a distance from a surface costs.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Kernel {
+    /// ℓ = −½ d²: what lies far from a surface is judged by its cell.
+    Gaussian,
+    /// ℓ = −c d² / (d² + 2 c): Gaussian near the surface, and never below −c (Geman and McClure 1985). Its slope reaches far, so
+    /// that a climb finds a surface from further away, and a chair that was moved pulls at nothing.
+    Robust {
+        /// c \[nats\].
+        most: f64,
+    },
+}
+
 /// The likelihood of a scan.
 ///
 /// ln p(z | x, m) = κ Σ_b max(ℓ_b, ln p_cell(b)), summed over the beams that met something: a maximum in place of the sum of a
 /// mixture (Olson and Agarwal 2013), which costs no logarithm. p_cell = ε + (1 − ε) p(occupied) judges the cell an end point
-/// falls in; ℓ_b = −½ d² is the surface term of [`Matcher::SubCell`], absent for [`Matcher::Cell`].
+/// falls in; ℓ_b, of the squared distance d² to the nearest surface, is the term of [`Matcher::SubCell`], absent for
+/// [`Matcher::Cell`]. With a robust kernel ℓ_b alone counts wherever there is a surface near.
 ///
 /// κ < 1 tempers the product over beams: neighbouring beams meet the same wall and err together (GSB, *likelihood
 /// smoothing*; PR §6.3.4).
 #[derive(Clone, Debug)]
 pub struct ScanModel {
     matcher: Matcher,
+    kernel: Kernel,
     temper: f64,
     /// ln p_cell for each stored value of log-odds, from −128 units up.
     log_cell: [f64; 256],
@@ -45,11 +60,16 @@ impl ScanModel {
             let log_odds = if matcher == Matcher::SubCell { log_odds.min(0.0) } else { log_odds };
             ops::ln(outlier + (1.0 - outlier) / (1.0 + ops::exp(-log_odds)))
         });
-        Self { matcher, temper, log_cell }
+        Self { matcher, kernel: Kernel::Gaussian, temper, log_cell }
+    }
+
+    /// The same model with another kernel.
+    pub fn with_kernel(self, kernel: Kernel) -> Self {
+        Self { kernel, ..self }
     }
 
     /// ln p(z | x, m) \[nats\], up to a constant that neither pose nor map changes; 0 at best.
-    pub fn log_likelihood(&self, grid: &Grid, world_from_robot: &Pose2, scan: &Scan) -> f64 {
+    pub fn log_likelihood<const FINE: usize>(&self, grid: &Grid<FINE>, world_from_robot: &Pose2, scan: &Scan) -> f64 {
         self.log_likelihood_above(f64::NEG_INFINITY, grid, world_from_robot, scan)
     }
 
@@ -57,7 +77,13 @@ impl ScanModel {
     ///
     /// No beam adds anything positive, so the sum is given up as soon as it falls below the floor: a hill climb that only asks
     /// whether a step improves is spared most of the beams.
-    pub fn log_likelihood_above(&self, floor: f64, grid: &Grid, world_from_robot: &Pose2, scan: &Scan) -> f64 {
+    pub(crate) fn log_likelihood_above(
+        &self,
+        floor: f64,
+        grid: &impl Surfaces,
+        world_from_robot: &Pose2,
+        scan: &Scan,
+    ) -> f64 {
         /// Beams between two looks at the floor.
         const BEAMS: usize = 6;
         let (sin, cos) = ops::sin_cos(world_from_robot.theta);
@@ -68,13 +94,18 @@ impl ScanModel {
                 let wx = world_from_robot.x + cos * x - sin * y;
                 let wy = world_from_robot.y + sin * x + cos * y;
                 sum += match self.matcher {
-                    Matcher::Cell => {
-                        let (i, j) = grid.cell_of(wx, wy);
-                        self.log_cell(grid.units(i, j))
-                    }
+                    Matcher::Cell => self.log_cell(grid.units_at(wx, wy)),
                     Matcher::SubCell => {
                         let (d2, units) = grid.nearest_surface(wx, wy);
-                        (-0.5 * d2).max(self.log_cell(units))
+                        match self.kernel {
+                            Kernel::Gaussian => (-0.5 * d2).max(self.log_cell(units)),
+                            Kernel::Robust { most } if d2 < f64::INFINITY => {
+                                // −c d² / (d² + 2 c), with one division in the precision of the surfaces.
+                                let (d2, most) = (d2 as f32, most as f32);
+                                f64::from(2.0 * most * most / (d2 + 2.0 * most) - most)
+                            }
+                            Kernel::Robust { .. } => self.log_cell(units),
+                        }
                     }
                 };
             }
@@ -85,12 +116,27 @@ impl ScanModel {
         self.temper * sum
     }
 
+    /// A coarse likelihood \[nats\] of a scan that is turned already: how many squares each of its end points, shifted by
+    /// (x, y) \[m\], is from the nearest surface. The end points are given in squares.
+    pub(crate) fn coarse<const FINE: usize>(&self, view: &View<'_, FINE>, turned: &[[f64; 2]], shift: [f64; 2]) -> f64 {
+        let [u, v] = shift.map(|c| c * view.per_square());
+        let mut counts = [0_u32; FAR + 1];
+        for end in turned {
+            counts[view.nearness(end[0] + u, end[1] + v)] += 1;
+        }
+        let sum: f64 = counts.iter().zip(LOG_COARSE).map(|(count, log)| f64::from(*count) * log).sum();
+        self.temper * sum
+    }
+
     /// ln p_cell of a cell's log-odds in units.
     #[inline]
     fn log_cell(&self, units: i8) -> f64 {
         self.log_cell[(i32::from(units) + UNKNOWN) as usize]
     }
 }
+
+/// ln p of an end point by its squares from the nearest surface, up to a constant \[nats\].
+const LOG_COARSE: [f64; FAR + 1] = [0.0, -0.5, -1.0, -1.5];
 
 /// Where log-odds 0 stand in the table.
 const UNKNOWN: i32 = 128;

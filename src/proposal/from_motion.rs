@@ -17,8 +17,8 @@ pub trait Likelihood<M: ConditionalMap>: Sync {
     fn log_likelihood(&self, map: &M, world_from_robot: &Pose2, observation: &M::Observation) -> (f64, M::Association);
 }
 
-impl Likelihood<Grid> for ScanModel {
-    fn log_likelihood(&self, grid: &Grid, world_from_robot: &Pose2, scan: &Scan) -> (f64, ()) {
+impl<const FINE: usize> Likelihood<Grid<FINE>> for ScanModel {
+    fn log_likelihood(&self, grid: &Grid<FINE>, world_from_robot: &Pose2, scan: &Scan) -> (f64, ()) {
         (Self::log_likelihood(self, grid, world_from_robot, scan), ())
     }
 }

@@ -5,7 +5,7 @@
 
 use super::{FromMotion, Proposal, ProposalTrace, Proposed};
 use crate::geometry::{Gaussian3, Pose2};
-use crate::map::grid::Grid;
+use crate::map::grid::{Grid, View};
 use crate::matching::{Climb, ClimbSteps, ScanModel, climb};
 use crate::motion::{Odometry, OdometryModel};
 use crate::ops;
@@ -14,28 +14,60 @@ use crate::rbpf::Particle;
 use crate::sensor::Scan;
 use nalgebra::{Matrix3, Vector3};
 
+/// Where the climb begins.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Search {
+    /// At the best of the odometry's prediction and so many poses spread over the prior's heading: enough where a step's error
+    /// is about as wide as a square of the map.
+    Spread {
+        /// Poses besides the prediction.
+        seeds: u32,
+    },
+    /// At the best poses of a lattice over the whole prior, judged coarsely (after the correlative matching of Olson 2009): for
+    /// odometry that is off by several squares.
+    Lattice {
+        /// Step along each axis \[m\].
+        linear: f64,
+        /// Step of the heading \[rad\].
+        angular: f64,
+        /// The lattice looks at every n-th beam.
+        stride: usize,
+        /// How many of the best poses, a step or more apart, are climbed from.
+        climbs: usize,
+    },
+}
+
 /// Settings of [`FromScan`].
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct FromScanSettings {
     /// Floor of the motion Gaussian's standard deviations \[m, m, rad\].
     pub motion_floor: [f64; 3],
+    /// Where the climb begins.
+    pub search: Search,
     /// Step sizes of the hill climb.
     pub climb: ClimbSteps,
     /// The climb looks at every n-th beam.
     pub climb_stride: usize,
-    /// Seeds of the climb besides the odometry's prediction.
-    pub seeds: u32,
-    /// How much better than the mean likelihood over the seeds the mode must be for the matcher to be trusted \[nats\].
+    /// How much better than the mean likelihood over the search the best must be for the matcher to be trusted \[nats\].
     pub gain: f64,
+    /// Motion \[m, or rad of turns\] from which on a scan weighs in full. After a shorter one it weighs in proportion: scans taken
+    /// from nearly one place repeat each other's errors, and ten a second would choose between particles by them.
+    pub full_weight: f64,
     /// Number of probes K.
     pub probes: u32,
     /// Limits of the standard deviations of the probes along each axis \[m, m, rad\]: least and most.
     pub probe_stds: [[f64; 3]; 2],
 }
 
-/// Seeds reach this many standard deviations of the heading to each side. Heading is what a climb is lost
+/// A search reaches this many standard deviations of the prior to each side. Heading is what a climb is lost
 /// by: a few degrees more, and far end points fall on the wrong wall.
 const SPREAD: f64 = 3.0;
+
+/// Most steps of a lattice to each side, of position and of heading: an absurd motion must not hang a reader's page.
+const MOST_STEPS: [f64; 2] = [8.0, 24.0];
+
+/// How far from the prediction a match may lie \[m\] and be looked up fast.
+const SLACK: f64 = 1.0;
 
 /// The gmapping recipe: find the mode, probe around it, fit a Gaussian, sample it, pay the normaliser η.
 #[derive(Clone, Debug)]
@@ -46,52 +78,58 @@ pub struct FromScan {
     pub settings: FromScanSettings,
 }
 
-impl Proposal<Grid> for FromScan {
+impl<const FINE: usize> Proposal<Grid<FINE>> for FromScan {
     type Control = Odometry;
 
     // anchor: propose
-    fn propose(&self, particle: &Particle<Grid>, u: &Odometry, scan: &Scan, stream: &mut Stream) -> Proposed<()> {
+    fn propose(&self, particle: &Particle<Grid<FINE>>, u: &Odometry, scan: &Scan, stream: &mut Stream) -> Proposed<()> {
         let settings = &self.settings;
         // ANCHOR: predict
         let prior = self.fallback.motion.gaussian(&particle.world_from_robot, u, settings.motion_floor);
         // ANCHOR_END: predict
-        let log_target =
-            |pose: &Pose2| self.fallback.likelihood.log_likelihood(&particle.map, pose, scan) + prior.log_density(pose);
+        let reach = scan.hits.iter().map(|[x, y]| x * x + y * y).fold(0.0, f64::max).sqrt();
+        let view = View::new(&particle.map, [prior.mean().x, prior.mean().y], reach + SLACK);
+        let log_target = |pose: &Pose2| {
+            self.fallback.likelihood.log_likelihood_above(f64::NEG_INFINITY, &view, pose, scan)
+                + prior.log_density(pose)
+        };
         // The search looks at a thinner scan, in which each beam counts for those left out.
         let (thin, share) = (scan.thinned(settings.climb_stride), settings.climb_stride as f64);
         let log_thin = |pose: &Pose2, floor: f64| {
-            share * self.fallback.likelihood.log_likelihood_above(floor / share, &particle.map, pose, &thin)
+            share * self.fallback.likelihood.log_likelihood_above(floor / share, &view, pose, &thin)
         };
 
-        // Seeds: the prediction, and poses spread over the prior's heading, so that the climb begins on the right slope.
+        let log_posterior = |pose: &Pose2, floor: f64| {
+            let log_prior = prior.log_density(pose);
+            log_prior + log_thin(pose, floor - log_prior)
+        };
+
         // ANCHOR: seeds
-        let mut log_seeds = vec![log_thin(prior.mean(), f64::NEG_INFINITY)];
-        let mut best = Climb { pose: *prior.mean(), value: log_seeds[0] + prior.log_density(prior.mean()) };
-        for k in 0..settings.seeds {
-            let heading = SPREAD * ((f64::from(k) + 0.5) / f64::from(settings.seeds) * 2.0 - 1.0);
-            let [a, b] = stream.normals();
-            let pose = prior.at([heading, a, b]);
-            let log_seed = log_thin(&pose, f64::NEG_INFINITY);
-            log_seeds.push(log_seed);
-            let value = log_seed + prior.log_density(&pose);
-            if value > best.value {
-                best = Climb { pose, value };
+        // Starts of the climb, and the mean likelihood that its end must beat.
+        let (starts, log_mean) = match settings.search {
+            Search::Spread { seeds } => {
+                let (best, log_mean) = spread(&prior, seeds, log_thin, stream);
+                (vec![best], log_mean)
             }
-        }
+            Search::Lattice { stride, .. } => {
+                let few = scan.thinned(stride);
+                let share = scan.hits.len() as f64 / few.hits.len().max(1) as f64;
+                let starts = self.lattice(&prior, &view, &few, share);
+                let start = |pose: Pose2| Climb { pose, value: log_posterior(&pose, f64::NEG_INFINITY) };
+                (starts.into_iter().map(start).collect(), f64::NEG_INFINITY)
+            }
+        };
         // ANCHOR_END: seeds
         // ANCHOR: match
-        let top = climb(best, settings.climb, |pose, value| {
-            let log_prior = prior.log_density(pose);
-            log_prior + log_thin(pose, value - log_prior)
-        });
+        let climbs = starts.into_iter().map(|start| climb(start, settings.climb, log_posterior));
+        let top = climbs.reduce(|best, end| if end.value > best.value { end } else { best });
         // ANCHOR_END: match
 
-        // The guard: on a flat score surface the optimum is noise, no better than what the motion model would draw anyway.
         // ANCHOR: guard
-        let log_mean = ops::log_sum_exp(&log_seeds) - ops::ln(log_seeds.len() as f64);
-        if top.value - prior.log_density(&top.pose) - log_mean < settings.gain {
+        // The guard: on a flat score surface the optimum is noise, no better than what the motion model would draw anyway.
+        let Some(top) = top.filter(|top| top.value - prior.log_density(&top.pose) - log_mean >= settings.gain) else {
             return self.fallback.propose(particle, u, scan, stream);
-        }
+        };
         // ANCHOR_END: guard
         let mode = Climb { pose: top.pose, value: log_target(&top.pose) };
 
@@ -122,20 +160,104 @@ impl Proposal<Grid> for FromScan {
         // ANCHOR_END: fit
         // ANCHOR: eta
         let log_eta = log_sum - ops::ln(f64::from(settings.probes));
+        let motion = u.trans + u.rot1.abs() + u.rot2.abs();
+        let share = if motion < settings.full_weight { motion / settings.full_weight } else { 1.0 };
         // ANCHOR_END: eta
         Proposed {
             // ANCHOR: draw
             world_from_robot: fitted.sample(stream),
             // ANCHOR_END: draw
             association: (),
-            log_increment: log_eta,
+            log_increment: share * log_eta,
             trace: ProposalTrace::Matched { mode: mode.pose },
         }
     }
     // end: propose
 }
 
+/// The best of the prediction and of poses spread over the prior's heading, so that the climb begins on the right slope; and the
+/// log of their mean likelihood.
+fn spread(
+    prior: &Gaussian3,
+    seeds: u32,
+    log_likelihood: impl Fn(&Pose2, f64) -> f64,
+    stream: &mut Stream,
+) -> (Climb, f64) {
+    let mut log_seeds = vec![log_likelihood(prior.mean(), f64::NEG_INFINITY)];
+    let mut best = Climb { pose: *prior.mean(), value: log_seeds[0] + prior.log_density(prior.mean()) };
+    for k in 0..seeds {
+        let heading = SPREAD * ((f64::from(k) + 0.5) / f64::from(seeds) * 2.0 - 1.0);
+        let [a, b] = stream.normals();
+        let pose = prior.at([heading, a, b]);
+        let log_seed = log_likelihood(&pose, f64::NEG_INFINITY);
+        log_seeds.push(log_seed);
+        let value = log_seed + prior.log_density(&pose);
+        if value > best.value {
+            best = Climb { pose, value };
+        }
+    }
+    (best, ops::log_sum_exp(&log_seeds) - ops::ln(log_seeds.len() as f64))
+}
+
 impl FromScan {
+    /// The best poses of the lattice, apart from each other; none where all of it looks alike. Each of the few beams counts for
+    /// `share` of them.
+    fn lattice<const FINE: usize>(
+        &self,
+        prior: &Gaussian3,
+        view: &View<'_, FINE>,
+        few: &Scan,
+        share: f64,
+    ) -> Vec<Pose2> {
+        let Search::Lattice { linear, angular, climbs, .. } = self.settings.search else { return Vec::new() };
+        let mean = prior.mean();
+        let steps = |variance: f64, step: f64, most: f64| (SPREAD * variance.sqrt() / step).ceil().min(most) as i32;
+        let covariance = prior.covariance();
+        let [columns, rows] = [covariance.m11, covariance.m22].map(|v| steps(v, linear, MOST_STEPS[0]));
+        let turns = steps(covariance.m33, angular, MOST_STEPS[1]);
+        let least = prior.log_density(mean) - 0.5 * SPREAD * SPREAD;
+        let (mut found, mut log_likelihoods) = (Vec::new(), Vec::new());
+        for turn in -turns..=turns {
+            let theta = ops::wrap_angle(mean.theta + f64::from(turn) * angular);
+            // Turned once for all shifts.
+            let (sin, cos) = ops::sin_cos(theta);
+            let k = view.per_square();
+            let turn = |[x, y]: &[f64; 2]| [k * (cos * x - sin * y), k * (sin * x + cos * y)];
+            let turned: Vec<[f64; 2]> = few.hits.iter().map(turn).collect();
+            for (row, column) in (-rows..=rows).flat_map(|row| (-columns..=columns).map(move |column| (row, column))) {
+                let [x, y] = [mean.x + f64::from(column) * linear, mean.y + f64::from(row) * linear];
+                let pose = Pose2 { x, y, theta };
+                let log_prior = prior.log_density(&pose);
+                if log_prior >= least {
+                    let log_likelihood = share * self.fallback.likelihood.coarse(view, &turned, [x, y]);
+                    found.push((log_prior + log_likelihood, pose));
+                    log_likelihoods.push(log_likelihood);
+                }
+            }
+        }
+        let best = log_likelihoods.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let log_mean = ops::log_sum_exp(&log_likelihoods) - ops::ln(log_likelihoods.len() as f64);
+        let gain = best - log_mean;
+        if gain.is_nan() || gain < self.settings.gain {
+            return Vec::new();
+        }
+        found.sort_by(|a, b| b.0.total_cmp(&a.0)); // stable: equal ones stay in the lattice's order
+        let mut picked: Vec<Pose2> = Vec::new();
+        for (_, pose) in found {
+            let apart = |other: &Pose2| {
+                let d = other.minus(&pose);
+                d.x.abs().max(d.y.abs()) > 1.5 * linear || d.z.abs() > 1.5 * angular
+            };
+            if picked.iter().all(apart) {
+                picked.push(pose);
+            }
+            if picked.len() == climbs {
+                break;
+            }
+        }
+        picked
+    }
+
     /// A Gaussian at the mode, with standard deviations from the curvature of the target along each axis (Laplace), kept within
     /// the limits.
     fn probe_gaussian(&self, mode: &Climb, log_target: impl Fn(&Pose2) -> f64) -> Gaussian3 {

@@ -71,6 +71,77 @@ impl FloorPlan {
         Self { size: [12.0, 9.0], walls, furniture }
     }
 
+    /// Our own building, 40 m × 24 m: rooms along the outer walls, a corridor round two inner halls, and one between them, so that
+    /// there are three ways round.
+    pub fn building() -> Self {
+        let mut walls = Vec::new();
+        // At `at` from one end to the other along x, or along y if `upright`, with a door at each of these places.
+        let mut wall = |upright: bool, at: f64, from: f64, to: f64, doors: &[f64]| {
+            const DOOR: f64 = 1.0;
+            let place = |along: f64| if upright { [at, along] } else { [along, at] };
+            let mut begin = from;
+            for door in doors {
+                walls.push(Segment { a: place(begin), b: place(*door) });
+                begin = door + DOOR;
+            }
+            walls.push(Segment { a: place(begin), b: place(to) });
+        };
+        for (upright, at, end) in [(false, 0.0, 40.0), (false, 24.0, 40.0), (true, 0.0, 24.0), (true, 40.0, 24.0)] {
+            wall(upright, at, 0.0, end, &[]);
+        }
+        // The rooms' side of the corridor, and between the rooms.
+        wall(false, 5.0, 0.0, 40.0, &[2.0, 7.5, 11.6, 13.3, 18.0, 24.5, 30.0, 36.0]);
+        wall(false, 19.0, 0.0, 40.0, &[1.5, 9.0, 14.0, 22.0, 25.6, 27.3, 32.0, 37.5]);
+        wall(true, 5.0, 5.0, 19.0, &[8.0, 15.0]);
+        wall(true, 35.0, 5.0, 19.0, &[6.5, 11.4, 12.7, 16.0]);
+        for x in [5.5, 10.5, 16.0, 22.5, 28.0, 34.0] {
+            wall(true, x, 0.0, 5.0, &[]);
+        }
+        for x in [7.0, 12.5, 19.5, 24.0, 30.5, 35.5] {
+            wall(true, x, 19.0, 24.0, &[]);
+        }
+        for (y, west) in [(12.0, true), (9.5, false), (14.5, false)] {
+            wall(false, y, if west { 0.0 } else { 35.0 }, if west { 5.0 } else { 40.0 }, &[]);
+        }
+        // The two halls inside.
+        for (x0, x1, doors) in [(7.2, 19.0, [10.0, 15.5]), (21.0, 32.8, [23.0, 29.0])] {
+            wall(false, 7.2, x0, x1, &doors[..1]);
+            wall(false, 16.8, x0, x1, &doors[1..]);
+            wall(true, x0, 7.2, 16.8, &[]);
+            wall(true, x1, 7.2, 16.8, &[11.0]);
+        }
+        let mut furniture = Vec::new();
+        let mut block = |x0: f64, y0: f64, dx: f64, dy: f64| {
+            let corners = [[x0, y0], [x0 + dx, y0], [x0 + dx, y0 + dy], [x0, y0 + dy]];
+            furniture.extend((0..4).map(|k| Segment { a: corners[k], b: corners[(k + 1) % 4] }));
+        };
+        for k in 0..7_u32 {
+            let x = 0.6 + 5.6 * f64::from(k);
+            block(x, 0.2, 1.4 + 0.1 * f64::from(k % 3), 0.7); // desks
+            block(x + 0.9, 23.0, 1.1, 0.5 + 0.1 * f64::from(k % 4)); // shelves
+        }
+        for (x, y, dx, dy) in [
+            (9.0, 9.5, 2.0, 1.0),
+            (14.0, 12.5, 1.0, 2.2),
+            (23.5, 11.0, 3.0, 0.9),
+            (29.5, 13.0, 0.8, 1.6),
+            (5.0, 6.9, 0.3, 0.9),
+            (18.4, 5.0, 0.9, 0.25),
+            (26.2, 6.95, 1.2, 0.25),
+            (34.7, 8.4, 0.3, 1.1),
+            (16.2, 18.7, 1.5, 0.3),
+            (30.2, 16.8, 0.9, 0.25),
+            (18.8, 9.0, 0.45, 0.6),
+            (1.0, 6.0, 1.2, 1.2),
+            (1.8, 16.5, 0.8, 1.6),
+            (38.6, 6.5, 1.0, 2.0),
+            (38.8, 17.0, 1.2, 1.2),
+        ] {
+            block(x, y, dx, dy);
+        }
+        Self { size: [40.0, 24.0], walls, furniture }
+    }
+
     /// Distance \[m\] from (x, y) along the direction \[rad\] to the nearest wall or piece of furniture; infinite for none.
     pub fn raycast(&self, origin: [f64; 2], direction: f64) -> f64 {
         let (sin, cos) = ops::sin_cos(direction);

@@ -2,6 +2,7 @@
 
 mod landmarks;
 mod lap;
+mod log;
 mod mrclam;
 mod numbers;
 mod picture;
@@ -26,6 +27,8 @@ struct Arguments {
 #[derive(clap::Subcommand)]
 enum Command {
     Lap(lap::Arguments),
+    Log(log::Arguments),
+    ExampleLog(log::ExampleArguments),
     Landmarks(landmarks::Arguments),
     Numbers(numbers::Arguments),
     Policies(policies::Arguments),
@@ -80,6 +83,8 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| Failure::Run(e.to_string()))?;
     pool.install(|| match arguments.command {
         Command::Lap(arguments) => lap::run(&arguments),
+        Command::Log(arguments) => log::run(&arguments),
+        Command::ExampleLog(arguments) => log::example(&arguments),
         Command::Landmarks(arguments) => landmarks::run(&arguments),
         Command::Numbers(arguments) => numbers::run(&arguments),
         Command::Policies(arguments) => policies::run(&arguments),
@@ -90,7 +95,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
 /// What clap says before it advises, in one line.
 fn one_line(message: &clap::Error) -> String {
     if message.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "a command is missing: lap, landmarks, numbers, policies or table (fastslam --help explains)"
+        return "a command is missing: lap, log, example-log, landmarks, numbers, policies or table (fastslam --help explains)"
             .to_owned();
     }
     let text = message.to_string();

@@ -1,18 +1,22 @@
 //! An occupancy grid that a resampling clones for nothing: two levels of copy-on-write.
 //!
-//! A [`Grid`] holds one shared pointer to a directory, and the directory one to each tile of 8 × 8 cells. Cloning a grid copies
+//! A [`Grid`] holds one shared pointer to a directory, and the directory one to each tile of 8 × 8 squares. Cloning a grid copies
 //! one pointer. The first write afterwards copies the directory (pointers only), and each tile when it is first written to. A
 //! scan therefore pays for the tiles it changes, whatever the size of the map.
 //!
-//! Each cell keeps two things: log-odds of being occupied, updated by the inverse sensor model (*Probabilistic Robotics*,
-//! table 9.1), and the normal distribution of the end points that fell into it, its `Surface`: the normal distributions
-//! transform of Biber and Straßer (2003). The first knows which cell an end point is in; the second knows where in the cell.
+//! Each cell keeps its log-odds of being occupied, updated by the inverse sensor model (*Probabilistic Robotics*, table 9.1).
+//! Each square of FINE × FINE cells keeps the normal distribution of the end points that fell into it, its `Surface`: the
+//! normal distributions transform of Biber and Straßer (2003). The first knows which cell an end point is in; the second
+//! knows where in the square the wall is, and which way it runs. With cells as wide as a wall is looked for, a square is one
+//! cell; with finer cells it must be wider, or it holds too few points to tell a wall's direction.
 
 mod ray;
 mod tile;
+mod view;
 
-pub(crate) use tile::UNIT;
+pub(crate) use tile::{FAR, UNIT};
 use tile::{Surface, TILE};
+pub(crate) use view::View;
 
 use super::{ConditionalMap, Footprint};
 use crate::geometry::Pose2;
@@ -56,31 +60,50 @@ pub struct GridModel {
     pub log_odds_pass: f64,
     /// Standard deviation \[m\] of the two pseudo-hits that every surface begins with: what one hit alone is trusted for.
     pub surface_std: f64,
+    /// How many squares away a surface is felt by [`Grid::nearness`], 0 to 2: what a coarse search looks at.
+    pub reach: u32,
 }
 
-/// Occupancy and surfaces in cells of `cell_size`, growing to wherever scans reach.
+/// Occupancy in cells of `cell_size` and surfaces in squares of FINE × FINE cells, growing to wherever scans reach.
 ///
 /// Cell (i, j) covers [i s, (i + 1) s) × [j s, (j + 1) s) of the world frame.
 #[derive(Clone, Debug)]
-pub struct Grid {
+pub struct Grid<const FINE: usize = 1> {
     model: GridModel,
     /// 1 / cell_size \[1/m\].
     per_cell: f64,
-    directory: Arc<Directory>,
+    /// Side of a square \[m\].
+    square_size: f64,
+    /// 1 / square_size \[1/m\].
+    per_square: f64,
+    directory: Arc<Directory<FINE>>,
 }
 
 /// The upper level: a rectangle of tiles. `None` is a tile nobody has written to.
-#[derive(Clone, Debug, Default)]
-struct Directory {
+#[derive(Clone, Debug)]
+struct Directory<const FINE: usize> {
     /// In tiles.
     rect: CellRect,
-    tiles: Vec<Option<Arc<Tile>>>,
+    tiles: Vec<Option<Arc<Tile<FINE>>>>,
 }
 
-impl Grid {
+impl<const FINE: usize> Grid<FINE> {
+    /// Cells along a side of a square.
+    const SQUARE: i32 = FINE as i32;
+
+    /// Cells along a side of a tile.
+    pub const TILE_CELLS: i32 = TILE * Self::SQUARE;
+
     /// An unknown world.
     pub fn new(model: GridModel) -> Self {
-        Self { model, per_cell: 1.0 / model.cell_size, directory: Arc::default() }
+        let square_size = FINE as f64 * model.cell_size;
+        let directory = Directory { rect: CellRect::default(), tiles: Vec::new() }.into();
+        Self { model, per_cell: 1.0 / model.cell_size, square_size, per_square: 1.0 / square_size, directory }
+    }
+
+    /// Bytes of a tile with so many surfaces.
+    pub fn tile_bytes(surfaces: usize) -> usize {
+        tile::bytes::<FINE>(surfaces)
     }
 
     /// Side of a cell \[m\].
@@ -91,7 +114,8 @@ impl Grid {
     /// The cells that have been allocated.
     pub fn bounds(&self) -> CellRect {
         let CellRect { i0, j0, i1, j1 } = self.directory.rect;
-        CellRect { i0: i0 * TILE, j0: j0 * TILE, i1: i1 * TILE, j1: j1 * TILE }
+        let tile = Self::TILE_CELLS;
+        CellRect { i0: i0 * tile, j0: j0 * tile, i1: i1 * tile, j1: j1 * tile }
     }
 
     /// Log-odds of a cell being occupied \[nats\]: 0 for a cell that nothing is known of, at most about ±4.
@@ -99,17 +123,19 @@ impl Grid {
         f64::from(self.units(i, j)) * tile::UNIT
     }
 
-    /// Mean of the end points in a cell \[m\], world frame.
+    /// Mean of the end points in a square \[m\], world frame.
     pub fn hit_mean(&self, i: i32, j: i32) -> Option<[f64; 2]> {
         let surface = self.surface(i, j)?;
-        let center = |k: i32| (f64::from(k) + 0.5) * self.model.cell_size;
+        let center = |k: i32| (f64::from(k) + 0.5) * self.square_size;
         Some([center(i) + f64::from(surface.mean[0]), center(j) + f64::from(surface.mean[1])])
     }
 
     /// Log-odds in their stored units of [`UNIT`] nats.
     #[inline]
     pub(crate) fn units(&self, i: i32, j: i32) -> i8 {
-        self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT).map_or(0, |t| t.log_odds[tile::local(i, j)])
+        let [si, sj] = [i, j].map(|k| k.div_euclid(Self::SQUARE));
+        let [di, dj] = [i, j].map(|k| k.rem_euclid(Self::SQUARE) as usize);
+        self.directory.tile(si >> tile::SHIFT, sj >> tile::SHIFT).map_or(0, |t| t.log_odds[tile::local(si, sj)][dj][di])
     }
 
     /// The cell of a point \[m\].
@@ -118,19 +144,82 @@ impl Grid {
         (floor(x * self.per_cell), floor(y * self.per_cell))
     }
 
-    /// What is known at a point \[m\]: the smallest squared Mahalanobis distance to the surfaces of the four cells whose
-    /// centres are nearest, infinite where none of them was hit, and the log-odds of its own cell in [`UNIT`]s.
-    ///
-    /// The four cells contain everything within half a cell of the point.
+    /// The surface of a square, relative to its centre.
     #[inline]
-    pub(crate) fn nearest_surface(&self, x: f64, y: f64) -> (f64, i8) {
-        let (u, v) = (x * self.per_cell - 0.5, y * self.per_cell - 0.5);
+    fn surface(&self, i: i32, j: i32) -> Option<&Surface> {
+        self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT)?.surface(tile::local(i, j))
+    }
+
+    /// Tells the squares around one with a new surface.
+    fn mark_near(&mut self, i: i32, j: i32) {
+        let reach = self.model.reach as i32;
+        for (di, dj) in (-reach..=reach).flat_map(|dj| (-reach..=reach).map(move |di| (di, dj))) {
+            let squares = di.abs().max(dj.abs()) as usize;
+            let (i, j) = (i + di, j + dj);
+            let local = tile::local(i, j);
+            let near = self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT).map_or(FAR, |tile| tile.nearness(local));
+            if squares < near
+                && let Some(tile) = self.tile_mut(i >> tile::SHIFT, j >> tile::SHIFT)
+            {
+                tile.mark_near(local, squares);
+            }
+        }
+    }
+
+    /// Bytes that these grids hold together, each shared part counted once, against dense arrays of their own.
+    ///
+    /// Counted as on a 64-bit machine everywhere, and without the allocator's slack: a reader's browser and the native build must
+    /// show the same number.
+    pub fn footprint<'a>(grids: impl IntoIterator<Item = &'a Self>) -> Footprint {
+        const POINTER: usize = 8;
+        let directories: Vec<&Arc<Directory<FINE>>> = grids.into_iter().map(|grid| &grid.directory).collect();
+        let dense: usize = directories.iter().map(|d| d.tiles.len() * Tile::<FINE>::DENSE_BYTES).sum();
+        let directories = distinct(directories);
+        let pointers: usize = directories.iter().map(|d| d.tiles.len() * POINTER).sum();
+        let tiles = distinct(directories.iter().flat_map(|d| d.tiles.iter().flatten()).collect());
+        let unique = pointers + tiles.iter().map(|tile| tile.bytes()).sum::<usize>();
+        Footprint { unique: unique as u64, dense: dense as u64 }
+    }
+
+    // ANCHOR: listing-tile
+    /// A tile, made its own and allocated if need be; `None` where the directory does not reach.
+    fn tile_mut(&mut self, ti: i32, tj: i32) -> Option<&mut Tile<FINE>> {
+        let directory = Arc::make_mut(&mut self.directory);
+        let index = directory.index(ti, tj)?;
+        Some(Arc::make_mut(directory.tiles[index].get_or_insert_default()))
+    }
+    // ANCHOR_END: listing-tile
+}
+
+/// What a scan is held against.
+pub(crate) trait Surfaces {
+    /// Log-odds of the cell of a point \[m\], in [`UNIT`]s.
+    fn units_at(&self, x: f64, y: f64) -> i8;
+
+    /// What is known at a point \[m\]: the smallest squared Mahalanobis distance to the surfaces of the four squares whose
+    /// centres are nearest, infinite where none of them was hit, and the log-odds of the middle of
+    /// its own square in [`UNIT`]s.
+    ///
+    /// The four squares contain everything within half a square of the point.
+    fn nearest_surface(&self, x: f64, y: f64) -> (f64, i8);
+}
+
+impl<const FINE: usize> Surfaces for Grid<FINE> {
+    #[inline]
+    fn units_at(&self, x: f64, y: f64) -> i8 {
+        let (i, j) = self.cell_of(x, y);
+        self.units(i, j)
+    }
+
+    #[inline]
+    fn nearest_surface(&self, x: f64, y: f64) -> (f64, i8) {
+        let (u, v) = (x * self.per_square - 0.5, y * self.per_square - 0.5);
         let (i, j) = (fast_floor(u), fast_floor(v));
-        // In cells from the centre of cell (i, j), 0 to 1: its own cell is the right one of each pair from one half on.
+        // In squares from the centre of square (i, j), 0 to 1: its own square is the right one of each pair from one half on.
         let (du, dv) = (u - f64::from(i), v - f64::from(j));
         let (own_i, own_j) = (i32::from(du >= 0.5), i32::from(dv >= 0.5));
         // Single precision is what surfaces are kept in.
-        let size = self.model.cell_size as f32;
+        let size = self.square_size as f32;
         let (x, y) = (du as f32 * size, dv as f32 * size);
         let mut nearest = f32::INFINITY;
         let mut consider = |surface: Option<&Surface>, x: f32, y: f32| {
@@ -140,6 +229,7 @@ impl Grid {
             }
         };
         let inner = |k: i32| k & (TILE - 1) != TILE - 1;
+        let cell = |tile: &Tile<FINE>, local: usize| tile.log_odds[local][FINE / 2][FINE / 2];
         let units = if inner(i) && inner(j) {
             // The four lie in one tile: look it up once.
             let Some(tile) = self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT) else { return (f64::INFINITY, 0) };
@@ -148,47 +238,18 @@ impl Grid {
             consider(tile.surface(first + 1), x - size, y);
             consider(tile.surface(first + TILE as usize), x, y - size);
             consider(tile.surface(first + TILE as usize + 1), x - size, y - size);
-            tile.log_odds[first + (own_i + own_j * TILE) as usize]
+            cell(tile, first + (own_i + own_j * TILE) as usize)
         } else {
             let (right, above) = (i.wrapping_add(1), j.wrapping_add(1));
             consider(self.surface(i, j), x, y);
             consider(self.surface(right, j), x - size, y);
             consider(self.surface(i, above), x, y - size);
             consider(self.surface(right, above), x - size, y - size);
-            self.units(i.wrapping_add(own_i), j.wrapping_add(own_j))
+            let (i, j) = (i.wrapping_add(own_i), j.wrapping_add(own_j));
+            self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT).map_or(0, |tile| cell(tile, tile::local(i, j)))
         };
         (f64::from(nearest), units)
     }
-
-    /// The surface of a cell, relative to the centre of the cell.
-    #[inline]
-    fn surface(&self, i: i32, j: i32) -> Option<&Surface> {
-        self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT)?.surface(tile::local(i, j))
-    }
-
-    /// Bytes that these grids hold together, each shared part counted once, against dense arrays of their own.
-    ///
-    /// Counted as on a 64-bit machine everywhere, and without the allocator's slack: a reader's browser and the native build must
-    /// show the same number.
-    pub fn footprint<'a>(grids: impl IntoIterator<Item = &'a Self>) -> Footprint {
-        const POINTER: usize = 8;
-        let directories: Vec<&Arc<Directory>> = grids.into_iter().map(|grid| &grid.directory).collect();
-        let dense: usize = directories.iter().map(|d| d.tiles.len() * tile::DENSE_BYTES).sum();
-        let directories = distinct(directories);
-        let pointers: usize = directories.iter().map(|d| d.tiles.len() * POINTER).sum();
-        let tiles = distinct(directories.iter().flat_map(|d| d.tiles.iter().flatten()).collect());
-        let unique = pointers + tiles.iter().map(|tile| tile.bytes()).sum::<usize>();
-        Footprint { unique: unique as u64, dense: dense as u64 }
-    }
-
-    // ANCHOR: listing-tile
-    /// The tile of a cell, made its own and allocated if need be; `None` where the directory does not reach.
-    fn tile_mut(&mut self, ti: i32, tj: i32) -> Option<&mut Tile> {
-        let directory = Arc::make_mut(&mut self.directory);
-        let index = directory.index(ti, tj)?;
-        Some(Arc::make_mut(directory.tiles[index].get_or_insert_default()))
-    }
-    // ANCHOR_END: listing-tile
 }
 
 /// Each shared thing once.
@@ -198,7 +259,7 @@ fn distinct<T>(mut shared: Vec<&Arc<T>>) -> Vec<&Arc<T>> {
     shared
 }
 
-impl Directory {
+impl<const FINE: usize> Directory<FINE> {
     #[inline]
     fn index(&self, ti: i32, tj: i32) -> Option<usize> {
         let CellRect { i0, j0, i1, j1 } = self.rect;
@@ -209,7 +270,7 @@ impl Directory {
     }
 
     #[inline]
-    fn tile(&self, ti: i32, tj: i32) -> Option<&Tile> {
+    fn tile(&self, ti: i32, tj: i32) -> Option<&Tile<FINE>> {
         self.tiles.get(self.index(ti, tj)?)?.as_deref()
     }
 
@@ -239,46 +300,67 @@ impl Directory {
     }
 }
 
-impl ConditionalMap for Grid {
+impl<const FINE: usize> ConditionalMap for Grid<FINE> {
     type Observation = Scan;
     type Association = ();
 
     /// Every cell is updated once a scan at the most, however many beams touch it: beams are not independent, and a wall seen
     /// at a grazing angle would be erased by the beams that pass along it. A cell that a beam ended in counts as hit.
     fn assimilate(&mut self, world_from_robot: &Pose2, scan: &Scan, (): &()) {
-        let marks = ray::trace(world_from_robot, scan, self.model.cell_size);
+        let marks = ray::trace(world_from_robot, scan, self.model.cell_size, Self::TILE_CELLS);
         let Some(touched) = marks.touched_tiles() else { return };
-        if !covers(self.directory.rect, touched) {
-            self.directory = Arc::new(self.directory.grown(touched));
+        // What is marked around a surface may lie in the next tile.
+        let margin = i32::from(self.model.reach > 0);
+        let CellRect { i0, j0, i1, j1 } = touched;
+        let needed = CellRect { i0: i0 - margin, j0: j0 - margin, i1: i1 + margin, j1: j1 + margin };
+        if !covers(self.directory.rect, needed) {
+            self.directory = Arc::new(self.directory.grown(needed));
         }
         let (hit, pass) = (tile::units(self.model.log_odds_hit), tile::units(self.model.log_odds_pass));
         // ANCHOR: map
+        let add = [0, pass, hit]; // by mark
         for tj in touched.j0..touched.j1 {
             for ti in touched.i0..touched.i1 {
+                // Rows of one square's cells, with their marks.
+                let rows = (0..Self::TILE_CELLS as usize).map(|row| (row, marks.row(ti, tj, row)));
+                let rows = rows.filter(|(_, marks)| marks.iter().any(|mark| *mark != ray::UNTOUCHED));
+                let rows = rows.flat_map(|(row, marks)| {
+                    let squares = marks.chunks_exact(FINE).zip(row / FINE * TILE as usize..);
+                    squares.map(move |(marks, local)| (local, row % FINE, marks))
+                });
                 // Look before writing: a tile in which nothing would change stays shared.
                 let before = self.directory.tile(ti, tj);
-                let changes = marks.in_tile(ti, tj).any(|(local, mark)| match mark {
-                    ray::Mark::Hit => true,
-                    ray::Mark::Passed => before.is_none_or(|tile| tile.log_odds[local] > i8::MIN + 1),
+                let changes = rows.clone().any(|(local, row, marks)| {
+                    let changes = |(column, mark): (usize, &u8)| match *mark {
+                        ray::HIT => true,
+                        ray::PASSED => before.is_none_or(|tile| tile.log_odds[local][row][column] > i8::MIN + 1),
+                        _ => false,
+                    };
+                    marks.iter().enumerate().any(changes)
                 });
                 if !changes {
                     continue;
                 }
                 let tile = self.tile_mut(ti, tj).expect("the directory was grown to cover the scan");
-                for (local, mark) in marks.in_tile(ti, tj) {
-                    let add = if mark == ray::Mark::Hit { hit } else { pass };
-                    tile.log_odds[local] = tile.log_odds[local].saturating_add(add).max(i8::MIN + 1);
+                for (local, row, marks) in rows {
+                    for (cell, mark) in tile.log_odds[local][row].iter_mut().zip(marks) {
+                        *cell = cell.saturating_add(add[usize::from(*mark)]).max(i8::MIN + 1);
+                    }
                 }
             }
         }
         // ANCHOR_END: map
-        let (size, surface_std) = (self.model.cell_size, self.model.surface_std);
+        let (size, surface_std) = (self.square_size, self.model.surface_std);
         for &([x, y], i, j) in &marks.hits {
+            let [i, j] = [i, j].map(|k| k.div_euclid(Self::SQUARE));
             let center = |k: i32| (f64::from(k) + 0.5) * size;
             let offset = [(x - center(i)) as f32, (y - center(j)) as f32];
             let tile =
                 self.tile_mut(i >> tile::SHIFT, j >> tile::SHIFT).expect("the directory was grown to cover the scan");
-            tile.add_hit(tile::local(i, j), offset, surface_std as f32);
+            let first = tile.add_hit(tile::local(i, j), offset, surface_std as f32);
+            if first && self.model.reach > 0 {
+                self.mark_near(i, j);
+            }
         }
     }
 }

@@ -1,7 +1,8 @@
 use super::*;
 use crate::sensor::BeamSensor;
 
-const MODEL: GridModel = GridModel { cell_size: 0.3, log_odds_hit: 0.9, log_odds_pass: -0.4, surface_std: 0.1 };
+const MODEL: GridModel =
+    GridModel { cell_size: 0.3, log_odds_hit: 0.9, log_odds_pass: -0.4, surface_std: 0.1, reach: 0 };
 
 fn one_beam(range: f64) -> Scan {
     BeamSensor::panorama(1, 8.0, 0.0).scan(&[range])
@@ -9,7 +10,7 @@ fn one_beam(range: f64) -> Scan {
 
 #[test]
 fn a_beam_frees_what_it_passes_and_fills_where_it_ends() {
-    let mut grid = Grid::new(MODEL);
+    let mut grid = Grid::<1>::new(MODEL);
     grid.assimilate(&Pose2::new(0.15, 0.15, 0.0), &one_beam(1.5), &());
     for i in 0..5 {
         assert_eq!(grid.log_odds(i, 0), -0.40625, "cell {i}");
@@ -25,7 +26,7 @@ fn a_beam_frees_what_it_passes_and_fills_where_it_ends() {
 fn beams_reach_the_right_cells_in_every_direction() {
     for k in 0..720 {
         let angle = core::f64::consts::TAU * f64::from(k) / 720.0;
-        let mut grid = Grid::new(MODEL);
+        let mut grid = Grid::<1>::new(MODEL);
         let pose = Pose2::new(-0.17, 0.41, angle);
         grid.assimilate(&pose, &one_beam(3.3), &());
         let [x, y] = pose.transform([3.3, 0.0]);
@@ -41,7 +42,7 @@ fn beams_reach_the_right_cells_in_every_direction() {
 
 #[test]
 fn writing_to_a_clone_never_touches_its_sibling() {
-    let mut original = Grid::new(MODEL);
+    let mut original = Grid::<1>::new(MODEL);
     original.assimilate(&Pose2::default(), &one_beam(2.0), &());
     let before = original.log_odds(6, 0);
     let mut copy = original.clone();
@@ -54,7 +55,7 @@ fn writing_to_a_clone_never_touches_its_sibling() {
 
 #[test]
 fn a_clone_costs_no_memory_until_it_is_written_to() {
-    let mut original = Grid::new(MODEL);
+    let mut original = Grid::<1>::new(MODEL);
     original.assimilate(&Pose2::default(), &BeamSensor::panorama(90, 8.0, 0.0).scan(&[7.0; 90]), &());
     let alone = Grid::footprint([&original]);
     let mut copy = original.clone();
@@ -68,7 +69,7 @@ fn a_clone_costs_no_memory_until_it_is_written_to() {
 #[test]
 fn absurd_poses_and_ranges_change_nothing_and_exhaust_nothing() {
     for pose in [Pose2::new(1e300, 0.0, 0.0), Pose2 { x: f64::NAN, y: 0.0, theta: 0.0 }, Pose2::new(0.0, -1e12, 1.0)] {
-        let mut grid = Grid::new(MODEL);
+        let mut grid = Grid::<1>::new(MODEL);
         grid.assimilate(&pose, &one_beam(2.0), &());
         assert_eq!(grid.bounds().width(), 0);
     }
@@ -76,7 +77,7 @@ fn absurd_poses_and_ranges_change_nothing_and_exhaust_nothing() {
 
 #[test]
 fn a_surface_has_the_moments_of_its_hits() {
-    let mut tile = tile::Tile::default();
+    let mut tile = tile::Tile::<1>::default();
     let hits = [[0.01_f32, 0.02], [-0.05, 0.1], [0.07, -0.03], [0.0, 0.04]];
     for hit in hits {
         tile.add_hit(9, hit, 0.1);
@@ -98,7 +99,7 @@ fn a_surface_has_the_moments_of_its_hits() {
 
 #[test]
 fn the_nearest_surface_is_that_of_all_cells_around() {
-    let mut grid = Grid::new(MODEL);
+    let mut grid = Grid::<1>::new(MODEL);
     grid.assimilate(&Pose2::new(2.0, 1.0, 0.3), &BeamSensor::panorama(90, 8.0, 0.0).scan(&[1.7; 90]), &());
     for k in 0..4000 {
         let (x, y) = (f64::from(k % 80) * 0.05 + 0.013, f64::from(k / 80) * 0.05 - 0.71);

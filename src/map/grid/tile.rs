@@ -1,6 +1,6 @@
-//! A tile of 8 × 8 cells: the unit that is shared and copied.
+//! A tile of 8 × 8 surfaces, each with its square of cells: the unit that is shared and copied.
 
-/// Cells along a side of a tile.
+/// Surfaces along a side of a tile.
 pub(super) const TILE: i32 = 1 << SHIFT;
 
 /// log₂ of [`TILE`].
@@ -15,7 +15,7 @@ pub(super) fn units(log_odds: f64) -> i8 {
     (log_odds / UNIT).round() as i8
 }
 
-/// Index of a cell in its tile.
+/// Index of a surface in its tile.
 #[inline]
 pub(super) fn local(i: i32, j: i32) -> usize {
     (((j & (TILE - 1)) << SHIFT) | (i & (TILE - 1))) as usize
@@ -27,7 +27,10 @@ const SETTLED: u32 = 64;
 /// Pseudo-hits every surface begins with, so that one hit is a round blob and not a point.
 const PSEUDO_HITS: f32 = 2.0;
 
-/// Normal distribution of the end points in one cell (Biber and Straßer 2003), relative to the centre of the cell.
+/// Squares away at which a surface is not felt any more.
+pub(crate) const FAR: usize = 3;
+
+/// Normal distribution of the end points in one square (Biber and Straßer 2003), relative to its centre.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(super) struct Surface {
     /// End points seen.
@@ -61,40 +64,78 @@ impl Surface {
     /// (p − mean)ᵀ Σ⁻¹ (p − mean) of a point relative to the centre of the cell \[m\].
     #[inline]
     pub fn mahalanobis2(&self, x: f32, y: f32) -> f32 {
-        let (dx, dy, [xx, xy, yy]) = (x - self.mean[0], y - self.mean[1], self.information);
-        xx * dx * dx + 2.0 * xy * dx * dy + yy * dy * dy
+        mahalanobis2(self.mean, self.information, x, y)
     }
 }
 
-/// Log-odds of every cell, and surfaces of those that were hit.
+/// (p − mean)ᵀ Σ⁻¹ (p − mean) by Σ⁻¹ (xx, xy, yy).
+#[inline]
+pub(super) fn mahalanobis2(mean: [f32; 2], [xx, xy, yy]: [f32; 3], x: f32, y: f32) -> f32 {
+    let (dx, dy) = (x - mean[0], y - mean[1]);
+    xx * dx * dx + 2.0 * xy * dx * dy + yy * dy * dy
+}
+
+/// Log-odds of every cell, and surfaces of the squares that were hit.
 #[derive(Clone, Debug)]
-pub(super) struct Tile {
-    /// In [`UNIT`]s; 0 is unknown.
-    pub log_odds: [i8; CELLS],
-    /// One more than the place of a cell's surface in `surfaces`; 0 for a cell that was never hit.
-    places: [u8; CELLS],
-    /// Surfaces in the order in which cells were first hit: walls are few, so a tile stays small.
+pub(super) struct Tile<const FINE: usize> {
+    /// In [`UNIT`]s; 0 is unknown. By square, then by row and column in it.
+    pub log_odds: [[[i8; FINE]; FINE]; SQUARES],
+    /// One more than the place of a square's surface in `surfaces`; for a square that was never hit, 0, or 256 minus how many
+    /// squares away the nearest surface is, where that is marked.
+    places: [u8; SQUARES],
+    /// Surfaces in the order in which squares were first hit: walls are few, so a tile stays small.
     surfaces: Vec<Surface>,
 }
 
-/// Cells of a tile.
-const CELLS: usize = (TILE * TILE) as usize;
+/// Squares of a tile.
+const SQUARES: usize = (TILE * TILE) as usize;
 
-impl Default for Tile {
+impl<const FINE: usize> Default for Tile<FINE> {
     fn default() -> Self {
-        Self { log_odds: [0; CELLS], places: [0; CELLS], surfaces: Vec::new() }
+        Self { log_odds: [[[0; FINE]; FINE]; SQUARES], places: [0; SQUARES], surfaces: Vec::new() }
     }
 }
 
-impl Tile {
+impl<const FINE: usize> Tile<FINE> {
+    /// The same content in a dense array of squares, each with its cells' log-odds and its surface.
+    pub const DENSE_BYTES: usize = SQUARES * (FINE * FINE + size_of::<Surface>());
+
+    /// All surfaces.
+    pub fn surfaces(&self) -> &[Surface] {
+        &self.surfaces
+    }
+
+    /// Which of the surfaces is that of a square.
+    #[inline]
+    pub fn place(&self, local: usize) -> Option<usize> {
+        let place = self.places[local];
+        (1..=SQUARES as u8).contains(&place).then(|| usize::from(place) - 1)
+    }
+
     #[inline]
     pub fn surface(&self, local: usize) -> Option<&Surface> {
         // Place 0 wraps to an index past any surface: one comparison serves both questions.
         self.surfaces.get(usize::from(self.places[local].wrapping_sub(1)))
     }
 
-    pub fn add_hit(&mut self, local: usize, offset: [f32; 2], surface_std: f32) {
-        if self.places[local] == 0 {
+    /// Squares to the nearest surface: 0 in a square that was hit, [`FAR`] where none is marked.
+    #[inline]
+    pub fn nearness(&self, local: usize) -> usize {
+        let place = self.places[local];
+        if place == 0 { FAR } else { usize::from(if place <= SQUARES as u8 { 0 } else { place.wrapping_neg() }) }
+    }
+
+    /// Marks that a surface is so many squares away, fewer than [`FAR`].
+    pub fn mark_near(&mut self, local: usize, squares: usize) {
+        if squares < self.nearness(local) {
+            self.places[local] = (squares as u8).wrapping_neg();
+        }
+    }
+
+    /// Whether it is the first hit of its square.
+    pub fn add_hit(&mut self, local: usize, offset: [f32; 2], surface_std: f32) -> bool {
+        let first = self.nearness(local) > 0;
+        if first {
             self.surfaces.push(Surface::default());
             self.places[local] = self.surfaces.len() as u8;
         }
@@ -102,13 +143,17 @@ impl Tile {
         if surface.hits < SETTLED {
             surface.add(offset, surface_std);
         }
+        first
     }
 
-    /// What it holds, as on a 64-bit machine: two bytes a cell, the vector's three words, and the surfaces.
+    /// What it holds.
     pub fn bytes(&self) -> usize {
-        2 * CELLS + 3 * 8 + self.surfaces.len() * size_of::<Surface>()
+        bytes::<FINE>(self.surfaces.len())
     }
 }
 
-/// The same content in a dense array of cells, each with its own log-odds and surface.
-pub(super) const DENSE_BYTES: usize = CELLS * (1 + size_of::<Surface>());
+/// What a tile with so many surfaces holds, as on a 64-bit machine: a byte a cell, one a square, the vector's three words, and
+/// the surfaces.
+pub(super) fn bytes<const FINE: usize>(surfaces: usize) -> usize {
+    SQUARES * (FINE * FINE + 1) + 3 * 8 + surfaces * size_of::<Surface>()
+}

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules of `fastslam`, each after all that it may use.
-const ORDER: [&str; 20] = [
+const ORDER: [&str; 21] = [
     "decimal",
     "error",
     "digest",
@@ -14,6 +14,7 @@ const ORDER: [&str; 20] = [
     "geometry",
     "motion",
     "sensor",
+    "log",
     "map",
     "matching",
     "weights",

@@ -51,7 +51,7 @@ proptest! {
 
     #[test]
     fn shared_maps_never_hold_more_than_copies_would(trunk in prop::collection::vec(sighting(), 1..4), count in 1_usize..20) {
-        let mut grid = Grid::new(GRID);
+        let mut grid = <Grid>::new(GRID);
         trunk.iter().for_each(|(pose, scan)| grid.assimilate(pose, scan, &()));
         let alone = Grid::footprint([&grid]);
         let family = vec![grid; count];

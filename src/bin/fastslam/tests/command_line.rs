@@ -82,7 +82,7 @@ fn shards_merge_to_the_rows_of_one_run() {
 #[test]
 fn bad_arguments_are_refused_in_one_line_with_status_2() {
     for (arguments, said) in [
-        ("", "lap, landmarks, numbers, policies or table"),
+        ("", "lap, log, example-log, landmarks, numbers, policies or table"),
         ("laps", "laps"),
         ("lap --particles 0", "from 1 to 4096"),
         ("lap --particles 1e9", "--particles"),
@@ -101,6 +101,8 @@ fn bad_arguments_are_refused_in_one_line_with_status_2() {
         ("landmarks --particles 0 --seeds 2", "from 1 to 100000"),
         ("landmarks --course moon", "eight, tags or wings"),
         ("landmarks --seeds 0", "--seeds"),
+        ("log", "FILE"),
+        ("log x.clf --particles many", "--particles"),
         ("policies --course moon", "lap or wings"),
         ("policies --seeds 0", "--seeds"),
         ("policies --particles 0", "from 1 to 4096"),
@@ -246,4 +248,118 @@ fn numbers_are_written_by_key_and_some_can_be_measured_again() {
         .code(2)
         .stderr("fastslam: --only nothing: no number begins so\n");
     std::fs::remove_dir_all(&folder).unwrap();
+}
+
+/// A folder for the files of one test, empty.
+fn folder(name: &str) -> std::path::PathBuf {
+    let folder = std::env::temp_dir().join(format!("fastslam-log-{name}-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// The first scans of the example log.
+fn short_log(folder: &std::path::Path, scans: usize) -> String {
+    let [log, relations] = ["example.clf", "example.relations"].map(|name| folder.join(name).display().to_string());
+    fastslam(&format!("example-log {log} --relations {relations}")).success();
+    let text = std::fs::read_to_string(&log).unwrap();
+    std::fs::write(&log, text.lines().take(scans + 1).map(|line| format!("{line}\n")).collect::<String>()).unwrap();
+    log
+}
+
+#[test]
+fn a_log_is_mapped_and_its_path_map_and_errors_are_written() {
+    let folder = folder("good");
+    let log = short_log(&folder, 60);
+    let [path, map, relations] =
+        ["path.tum", "map", "example.relations"].map(|name| folder.join(name).display().to_string());
+    let outputs = format!("--trajectory {path} --map {map} --relations {relations}");
+    let run = json(&format!("log {log} --particles 3 --seed 2 --threads 1 --json {outputs}"));
+    assert_eq!((run["scans"].as_u64(), run["digest"].as_str().unwrap().len()), (Some(60), 16));
+    assert!(
+        run["translation_mean"].as_f64().unwrap() < 0.1 && run["rotation_mean_deg"].as_f64().unwrap() < 2.0,
+        "{run}"
+    );
+    assert!(run["peak_map_bytes"].as_f64().unwrap() < run["dense_map_bytes"].as_f64().unwrap());
+    for key in ["ms_per_scan_particle", "translation_std", "resampled_fraction", "lineage_one_scan"] {
+        assert!(run.get(key).is_some(), "{key}");
+    }
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert_eq!(text.lines().count(), 60);
+    assert_eq!(text.lines().next(), Some("1000000000.000000 0.000000 0.000000 0 0 0 0.000000000 1.000000000"));
+    let pgm = std::fs::read(format!("{map}.pgm")).unwrap();
+    let png = std::fs::read(format!("{map}.png")).unwrap();
+    let (width, height) = png::Decoder::new(std::io::Cursor::new(png)).read_info().unwrap().info().size();
+    assert!(pgm.starts_with(format!("P5\n{width} {height}\n255\n").as_bytes()));
+    let yaml = std::fs::read_to_string(format!("{map}.yaml")).unwrap();
+    assert!(yaml.contains("image: \"map.pgm\"") && yaml.contains("resolution: 0.05"), "{yaml}");
+
+    let threads = json(&format!("log {log} --particles 3 --seed 2 --threads 3 --json"));
+    assert_eq!((&threads["digest"], threads.get("translation_mean")), (&run["digest"], None));
+    let said = fastslam(&format!("log {log} --particles 2 --relations {relations}")).success();
+    assert!(String::from_utf8_lossy(&said.get_output().stdout).contains("over"));
+
+    // Compressed, it is the same log.
+    let packed = format!("{log}.gz");
+    let mut encoder =
+        flate2::write::GzEncoder::new(std::fs::File::create(&packed).unwrap(), flate2::Compression::fast());
+    std::io::Write::write_all(&mut encoder, &std::fs::read(&log).unwrap()).unwrap();
+    encoder.finish().unwrap();
+    assert_eq!(json(&format!("log {packed} --particles 3 --seed 2 --json"))["digest"], run["digest"]);
+    std::fs::write(&packed, &std::fs::read(&packed).unwrap()[..999]).unwrap();
+    let refused = fastslam(&format!("log {packed}")).code(2);
+    assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains("cannot be unpacked"));
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn a_log_that_cannot_be_read_is_refused_by_line_and_one_with_flaws_is_read_if_asked() {
+    let folder = folder("bad");
+    let log = short_log(&folder, 3);
+    let good = std::fs::read_to_string(&log).unwrap();
+    for (text, said) in [
+        ("".to_owned(), "no FLASER"),
+        ("\0\u{1}\u{2}".to_owned(), "line 1: expected the name of a message"),
+        (good.clone() + "ODOM 1 2\n", "line 5: ODOM: expected x, y, theta, found the end of the line"),
+    ] {
+        std::fs::write(&log, text).unwrap();
+        let refused = fastslam(&format!("log {log}")).code(2).stdout("");
+        let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+        assert!(message.contains(said) && message.trim_end().lines().count() == 1, "{message}");
+    }
+    let flawed = fastslam(&format!("log {log} --lenient --particles 2 --json")).success();
+    assert!(String::from_utf8_lossy(&flawed.get_output().stderr).contains("malformed lines passed over: 1"));
+    std::fs::write(&log, good + "RLASER 0\nGPS 1\n").unwrap();
+    let noted = fastslam(&format!("log {log} --particles 2 --json")).success();
+    let notes = String::from_utf8_lossy(&noted.get_output().stderr).into_owned();
+    assert!(notes.contains("1 messages of a rear laser") && notes.contains("1 GPS"), "{notes}");
+
+    let relations = folder.join("bad.relations").display().to_string();
+    std::fs::write(&relations, "1 2 3\n").unwrap();
+    for (arguments, status, said) in [
+        ("--cell 7".to_owned(), 2, "cell = 7: must be a number from 0.02 to 0.2"),
+        ("--max-range NaN".to_owned(), 2, "max-range = NaN"),
+        ("--min-travel -1".to_owned(), 2, "min-travel = -1"),
+        ("--particles 0".to_owned(), 2, "from 1 to 4096"),
+        (format!("--relations {relations}"), 2, "line 1: expected 8 numbers"),
+        ("--trajectory no/such/folder/path".to_owned(), 1, "no/such/folder/path"),
+        ("--map no/such/folder/map".to_owned(), 1, "no/such/folder/map.png"),
+    ] {
+        let refused = fastslam(&format!("log {log} {arguments}")).code(status);
+        assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains(said), "{arguments}");
+    }
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+/// The log of shared/data, which may not be shipped: the test says so where it is absent.
+#[test]
+fn the_recorded_building_is_mapped_better_than_any_published_particle_filter_did() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../../shared/data/intel");
+    if !std::path::Path::new(&format!("{file}.clf")).exists() {
+        eprintln!("skipped: {file}.clf is not here");
+        return;
+    }
+    let run = json(&format!("log {file}.clf --particles 8 --seed 1 --relations {file}.relations --json"));
+    assert_eq!(run["scans"], 910);
+    let [translation, rotation] = ["translation_mean", "rotation_mean_deg"].map(|key| run[key].as_f64().unwrap());
+    assert!(translation <= 0.07 && rotation <= 2.4, "{translation} m, {rotation}°");
 }

@@ -1,0 +1,283 @@
+//! `fastslam log`: a recorded log, mapped; `fastslam example-log`: one of our own.
+
+use crate::{Failure, picture, print, print_json, progress};
+use cpu_time::ProcessTime;
+use fastslam::experiment::log::{Example, LogRun, LogSetup, memory_estimate};
+use fastslam::geometry::Pose2;
+use fastslam::log::{LaserLog, LogError, Notes, RelationErrors, parse, parse_relations, relation_errors, write};
+use fastslam::map::Footprint;
+use fastslam::ops;
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Map a recorded log of a robot with a laser (CARMEN format)
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The log, as text or compressed by gzip
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Number of particles M, 1 to 4096
+    #[arg(long, value_name = "M", default_value_t = LogSetup::default().particles)]
+    particles: usize,
+    /// Seed of the filter's draws
+    #[arg(long, default_value_t = LogSetup::default().seed)]
+    seed: u64,
+    /// Side of a cell of the map [m], 0.02 to 0.2
+    #[arg(long, value_name = "METRES", default_value_t = LogSetup::default().cell_size, allow_negative_numbers = true)]
+    cell: f64,
+    /// Ranges beyond this [m], 0.5 to 200, are not matched
+    #[arg(long, value_name = "METRES", default_value_t = LogSetup::default().max_range, allow_negative_numbers = true)]
+    max_range: f64,
+    /// Pass scans over until the robot has driven this far [m], or turned by as many radians, 0 to 5
+    #[arg(long, value_name = "METRES", default_value_t = LogSetup::default().min_travel, allow_negative_numbers = true)]
+    min_travel: f64,
+    /// Pass malformed lines over, and count them
+    #[arg(long)]
+    lenient: bool,
+    /// True relations between poses (t1 t2 x y z roll pitch yaw) to hold the path against
+    #[arg(long, value_name = "FILE")]
+    relations: Option<PathBuf>,
+    /// Write the best path into this file, in TUM format: time x y z qx qy qz qw
+    #[arg(long, value_name = "FILE")]
+    trajectory: Option<PathBuf>,
+    /// Write the best map as NAME.png, and as the pair NAME.pgm and NAME.yaml that ROS reads
+    #[arg(long, value_name = "NAME")]
+    map: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+/// Write the example log: our own building, simulated
+#[derive(clap::Args)]
+pub struct ExampleArguments {
+    /// The log to write (CARMEN format)
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Write its true relations into this file
+    #[arg(long, value_name = "FILE")]
+    relations: Option<PathBuf>,
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Output {
+    /// In the log.
+    scans: u32,
+    /// That the filter took.
+    scans_used: u32,
+    /// CPU time of all threads, for each scan taken and particle \[ms\].
+    ms_per_scan_particle: f64,
+    peak_map_bytes: u64,
+    /// At the same time, if every map were kept whole and apart.
+    dense_map_bytes: u64,
+    #[serde(flatten)]
+    errors: Option<RelationErrors>,
+    resampled_fraction: f64,
+    /// First scan at which all particles descend from one; null if they never do.
+    lineage_one_scan: Option<u32>,
+    /// Of weights, paths and map.
+    digest: String,
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let log = read(&arguments.file, arguments.lenient)?;
+    let relations = match &arguments.relations {
+        Some(path) => Some(parse_relations(&bytes_of(path)?).map_err(|error| what(path, error))?),
+        None => None,
+    };
+    let setup = LogSetup {
+        particles: arguments.particles,
+        seed: arguments.seed,
+        cell_size: arguments.cell,
+        max_range: arguments.max_range,
+        min_travel: arguments.min_travel,
+    };
+    let log = Arc::new(log);
+    let mut run = LogRun::new(&setup, Arc::clone(&log))?;
+    // Before minutes of work: whether the results can be written.
+    let outputs = Outputs::open(arguments)?;
+
+    let bar = progress(run.step_count() as usize, "scans").with_style(
+        indicatif::ProgressStyle::with_template("{wide_bar} {pos}/{len} scans, {per_sec}, {eta} to go, {msg}")
+            .expect("the template is right"),
+    );
+    let (mut cpu, mut peak, mut resampled) = (Duration::ZERO, run.footprint(), 0);
+    loop {
+        let start = ProcessTime::now();
+        let Some(step) = run.step() else { break };
+        cpu += start.elapsed();
+        let Footprint { unique, .. } = run.footprint();
+        if unique > peak.unique {
+            peak = run.footprint();
+        }
+        resampled += u32::from(step.resampled);
+        bar.set_message(format!("N_eff {:.1}, {resampled} resamplings, lineage {}", step.ess, step.lineage));
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+
+    let path = run.path();
+    outputs.write(&run, &path)?;
+    let output = Output {
+        scans: log.scans.len() as u32,
+        scans_used: run.step_count() + 1,
+        ms_per_scan_particle: 1e3 * cpu.as_secs_f64() / f64::from(run.step_count().max(1)) / setup.particles as f64,
+        peak_map_bytes: peak.unique,
+        dense_map_bytes: peak.dense,
+        errors: relations.map(|relations| relation_errors(&path, &log.odometry, &relations)),
+        resampled_fraction: run.resampled_fraction(),
+        lineage_one_scan: run.lineage_one_scan(),
+        digest: format!("{:016x}", run.digest().value()),
+    };
+    if arguments.json { print_json(&output) } else { print(&summary(&setup, &log, &output)) }
+}
+
+/// Writes the example.
+pub fn example(arguments: &ExampleArguments) -> Result<(), Failure> {
+    let example = Example::new(usize::MAX);
+    let save = |path: &Path, text: &str| std::fs::write(path, text).map_err(|error| Failure::file(path, error));
+    let heading =
+        "# A simulated building of our own, free to use. CARMEN log: raw odometry, 180 beams over 180 deg, metres.\n";
+    save(&arguments.file, &(heading.to_owned() + &write(&example.log)))?;
+    if let Some(path) = &arguments.relations {
+        let line = |relation: &fastslam::log::Relation| {
+            let ([t1, t2], Pose2 { x, y, theta }) = (relation.times, relation.first_from_second);
+            format!("{t1:.2} {t2:.2} {x:.6} {y:.6} 0 0 0 {theta:.6}\n")
+        };
+        save(path, &example.relations.iter().map(line).collect::<String>())?;
+    }
+    Ok(())
+}
+
+fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
+    std::fs::read(path).map_err(|error| Failure::file(path, error))
+}
+
+fn what(path: &Path, error: LogError) -> Failure {
+    // Line 0 is the file as a whole.
+    if error.line == 0 { Failure::usage_of(path, error.message) } else { Failure::usage_of(path, error) }
+}
+
+/// Reads a log, which may be compressed, and says on standard error what of it is not used.
+fn read(path: &Path, lenient: bool) -> Result<LaserLog, Failure> {
+    /// Most bytes that are unpacked: a small file may hold any number of zeros.
+    const MOST: u64 = 4 << 30;
+    let mut bytes = bytes_of(path)?;
+    if bytes.starts_with(&[0x1f, 0x8b]) {
+        let mut unpacked = Vec::new();
+        let unpack = flate2::read::MultiGzDecoder::new(&bytes[..]).take(MOST).read_to_end(&mut unpacked);
+        unpack.map_err(|error| Failure::usage_of(path, format_args!("cannot be unpacked: {error}")))?;
+        bytes = unpacked;
+    }
+    let log = parse(&bytes, lenient).map_err(|error| what(path, error))?;
+    for note in notes(&log.notes) {
+        eprintln!("fastslam: {}: {note}", path.display());
+    }
+    Ok(log)
+}
+
+fn notes(notes: &Notes) -> Vec<String> {
+    let Notes { rear, unknown, malformed, first_malformed, out_of_order } = notes;
+    let mut said = Vec::new();
+    if *rear > 0 {
+        said.push(format!("{rear} messages of a rear laser are passed over"));
+    }
+    if !unknown.is_empty() {
+        let kinds: Vec<String> = unknown.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
+        said.push(format!("messages that are not known here are passed over: {}", kinds.join(", ")));
+    }
+    if let Some(first) = first_malformed {
+        said.push(format!("malformed lines passed over: {malformed}, the first of them {first}"));
+    }
+    if *out_of_order > 0 {
+        said.push(format!("scans whose stamps go back: {out_of_order}; they were put in order"));
+    }
+    said
+}
+
+fn summary(setup: &LogSetup, log: &LaserLog, output: &Output) -> String {
+    let mut text = format!(
+        "{} scans, of which {} taken: {} particles, seed {}, cells of {} m\n\
+         CPU time per scan and particle    {:8.3} ms\n\
+         maps at their peak                {:8.1} MB, {:.1} MB as dense copies, {:.1} MB estimated\n\
+         steps that resampled              {:8.0} %\n",
+        output.scans,
+        output.scans_used,
+        setup.particles,
+        setup.seed,
+        setup.cell_size,
+        output.ms_per_scan_particle,
+        output.peak_map_bytes as f64 / 1e6,
+        output.dense_map_bytes as f64 / 1e6,
+        memory_estimate(setup, log) as f64 / 1e6,
+        100.0 * output.resampled_fraction,
+    );
+    match output.lineage_one_scan {
+        Some(scan) => _ = writeln!(text, "all descend from one particle from scan {scan} on"),
+        None => text.push_str("the particles never come to descend from one\n"),
+    }
+    if let Some(errors) = &output.errors {
+        _ = writeln!(
+            text,
+            "errors over {} relations: translation {:.4} ± {:.4} m, rotation {:.2} ± {:.2}°",
+            errors.relations,
+            errors.translation_mean,
+            errors.translation_std,
+            errors.rotation_mean_deg,
+            errors.rotation_std_deg
+        );
+    }
+    _ = writeln!(text, "digest {}", output.digest);
+    text
+}
+
+/// The files that results go to.
+struct Outputs {
+    trajectory: Option<PathBuf>,
+    /// png, pgm and yaml.
+    map: Option<[PathBuf; 3]>,
+}
+
+impl Outputs {
+    /// Creates them, empty.
+    fn open(arguments: &Arguments) -> Result<Self, Failure> {
+        let named = |name: &PathBuf| {
+            ["png", "pgm", "yaml"].map(|extension| {
+                let mut file = name.clone().into_os_string();
+                file.push(".");
+                file.push(extension);
+                PathBuf::from(file)
+            })
+        };
+        let outputs = Self { trajectory: arguments.trajectory.clone(), map: arguments.map.as_ref().map(named) };
+        for path in outputs.trajectory.iter().chain(outputs.map.iter().flatten()) {
+            std::fs::File::create(path).map_err(|error| Failure::file(path, error))?;
+        }
+        Ok(outputs)
+    }
+
+    fn write(&self, run: &LogRun, path: &[(f64, Pose2)]) -> Result<(), Failure> {
+        let save = |path: &Path, bytes: &[u8]| std::fs::write(path, bytes).map_err(|error| Failure::file(path, error));
+        if let Some(file) = &self.trajectory {
+            let line = |(time, pose): &(f64, Pose2)| {
+                let (sin, cos) = ops::sin_cos(0.5 * pose.theta);
+                format!("{time:.6} {:.6} {:.6} 0 0 0 {sin:.9} {cos:.9}\n", pose.x, pose.y)
+            };
+            save(file, path.iter().map(line).collect::<String>().as_bytes())?;
+        }
+        if let Some([png, pgm, yaml]) = &self.map {
+            let shown = picture::OfMap::new(run.map());
+            shown.save(path, png)?;
+            save(pgm, &shown.pgm())?;
+            let image = pgm.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            save(yaml, shown.yaml(&image).as_bytes())?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,495 @@
+//! A recorded log, mapped: the filter of the lap, its matcher and its maps, on what a real robot drove and saw.
+//!
+//! One setting for every log, robot and laser: nothing here is to be tuned to a building.
+
+use crate::decimal;
+use crate::digest::Digest;
+use crate::error::ParameterError;
+use crate::execute::Executor;
+use crate::geometry::Pose2;
+use crate::log::{LaserLog, Relation};
+use crate::map::grid::{Grid, GridModel};
+use crate::map::{ConditionalMap, Footprint};
+use crate::matching::{ClimbSteps, Kernel, Matcher, ScanModel};
+use crate::motion::{Odometry, OdometryModel};
+use crate::proposal::{FromMotion, FromScan, FromScanSettings, ProposalTrace, Search};
+use crate::random::{Purpose, Stream};
+use crate::rbpf::{Particle, Rbpf};
+use crate::resampling::{ResamplePolicy, Scheme};
+use crate::sensor::BeamSensor;
+use crate::world::{FloorPlan, drive};
+use core::f64::consts::PI;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// Cells along a side of a square that keeps one surface: squares of 0.2 m with the default cells. In squares of 0.1 m hits are
+/// too few to tell which way a wall runs, in squares of 0.3 m there is more than a wall in one.
+pub const FINE: usize = 4;
+
+/// A particle's map.
+pub type LogMap = Grid<FINE>;
+
+/// The filter of a log.
+pub type Filter = Rbpf<LogMap, FromScan>;
+
+/// Noise of the wheels: 0.2 rad a radian of turns, 0.1 rad and 0.1 m a metre. Wide on purpose: real wheels slip, and are off by
+/// a bias that no noise describes (some 4° a metre in one log). Too wide a prior only costs time.
+pub const ALPHAS: [f64; 4] = [0.04, 0.01, 0.01, 0.01];
+
+/// κ: the share of each beam's log-likelihood that counts. With half of it the odometry's bias pulls at every pose.
+pub const TEMPER: f64 = 0.85;
+
+/// ε: probability of a reading that has nothing to do with the map.
+pub const OUTLIER: f64 = 0.05;
+
+/// What a distance from a surface costs. With c = 1 three quarters of the pull are left at 0.6 σ, and a third at 2 σ.
+pub const KERNEL: Kernel = Kernel::Robust { most: 1.0 };
+
+/// The proposal.
+pub const FROM_SCAN: FromScanSettings = FromScanSettings {
+    motion_floor: [0.02, 0.02, 0.01],
+    // Half a square, and as much at 3 m. Three starts: of two, one is often the neighbour of the other's hill.
+    search: Search::Lattice { linear: 0.1, angular: 0.035, stride: 4, climbs: 3 },
+    // From half the lattice's step down to half a centimetre.
+    climb: ClimbSteps { linear: 0.05, angular: 0.02, halvings: 3 },
+    climb_stride: 2,
+    gain: 0.5,
+    full_weight: 0.5,
+    probes: 12,
+    probe_stds: [[0.005, 0.005, 0.003], [0.05, 0.05, 0.03]],
+};
+
+/// A robot that has moved by less than this \[m, or rad\] stands still: another look from there tells nothing new.
+pub const STILL: f64 = 0.02;
+
+/// Share of the longest range from which on a reading says *nothing met*: lasers write that range, or one a little different.
+pub const NOTHING_MET: f64 = 0.99;
+
+/// What a reader can set.
+#[derive(Clone, PartialEq, Debug)]
+pub struct LogSetup {
+    /// Number of particles M, 1 to 4096.
+    pub particles: usize,
+    /// Seed of the filter's draws.
+    pub seed: u64,
+    /// Side of a cell \[m\], 0.02 to 0.2.
+    pub cell_size: f64,
+    /// Ranges beyond this \[m\], 0.5 to 200, are not matched: up to it they say that the way is free.
+    pub max_range: f64,
+    /// Scans are passed over until the robot has driven this far \[m\], or turned by as many radians, 0 to 5.
+    pub min_travel: f64,
+}
+
+impl Default for LogSetup {
+    fn default() -> Self {
+        Self { particles: 16, seed: 1, cell_size: 0.05, max_range: 30.0, min_travel: 0.0 }
+    }
+}
+
+impl LogSetup {
+    fn validate(&self) -> Result<(), ParameterError> {
+        if !(1..=4096).contains(&self.particles) {
+            return Err(ParameterError::new("particles", self.particles, "a whole number from 1 to 4096"));
+        }
+        for (name, value, [low, high]) in [
+            ("cell", self.cell_size, [0.02, 0.2]),
+            ("max-range", self.max_range, [0.5, 200.0]),
+            ("min-travel", self.min_travel, [0.0, 5.0]),
+        ] {
+            if !(low..=high).contains(&value) {
+                let allowed = format!("a number from {} to {} [m]", decimal::write(low), decimal::write(high));
+                return Err(ParameterError::new(name, decimal::write(value), allowed));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What one step did.
+#[derive(Clone, Debug)]
+pub struct LogStep {
+    /// The step, from 1 on.
+    pub step: u32,
+    /// N_eff before resampling.
+    pub ess: f64,
+    /// Whether the step resampled.
+    pub resampled: bool,
+    /// Particles whose matcher was trusted.
+    pub matched: u32,
+    /// Distinct ancestors at the start.
+    pub lineage: u32,
+}
+
+/// A log under way.
+#[derive(Clone, Debug)]
+pub struct LogRun {
+    log: Arc<LaserLog>,
+    setup: LogSetup,
+    /// Numbers of the scans that the filter takes, the first included.
+    used: Arc<Vec<u32>>,
+    /// Readings from this on \[m\] say that nothing was met.
+    longest: f64,
+    filter: Filter,
+    step: u32,
+    resampled: u32,
+    lineage_one_scan: Option<u32>,
+}
+
+impl LogRun {
+    /// At the log's start, which is the origin, with the first scan mapped.
+    ///
+    /// # Errors
+    /// Where a setting is out of its range, or the log has no scan.
+    pub fn new(setup: &LogSetup, log: Arc<LaserLog>) -> Result<Self, ParameterError> {
+        setup.validate()?;
+        let Some(first) = log.scans.first() else {
+            return Err(ParameterError::new("log", "no scan", "a log with at least one scan"));
+        };
+        let longest = NOTHING_MET * log.longest_reading();
+        let mut map = LogMap::new(GridModel {
+            cell_size: setup.cell_size,
+            log_odds_hit: 0.9,
+            log_odds_pass: -0.4,
+            surface_std: 0.06,
+            reach: 2,
+        });
+        map.assimilate(&Pose2::default(), &first.end_points(longest, setup.max_range), &());
+        let likelihood = ScanModel::new(Matcher::SubCell, TEMPER, OUTLIER).with_kernel(KERNEL);
+        let fallback = FromMotion { motion: OdometryModel { alphas: ALPHAS }, likelihood };
+        let filter = Rbpf::new(
+            FromScan { fallback, settings: FROM_SCAN },
+            ResamplePolicy::EssBelow(0.5),
+            Scheme::Systematic,
+            setup.seed,
+            setup.particles,
+            Pose2::default(),
+            map,
+        );
+        let used = Arc::new(used(&log, setup.min_travel.max(STILL)));
+        let lineage_one_scan = (setup.particles == 1).then_some(0);
+        Ok(Self { log, setup: setup.clone(), used, longest, filter, step: 0, resampled: 0, lineage_one_scan })
+    }
+
+    /// The same run, computed by another executor: the results are the same.
+    pub fn with_executor(self, executor: Executor) -> Self {
+        Self { filter: self.filter.with_executor(executor), ..self }
+    }
+
+    /// The last step.
+    pub fn step_count(&self) -> u32 {
+        self.used.len() as u32 - 1
+    }
+
+    /// One scan of the log; `None` after the last.
+    pub fn step(&mut self) -> Option<LogStep> {
+        let to = &self.log.scans[*self.used.get(self.step as usize + 1)? as usize];
+        let from = &self.log.scans[self.used[self.step as usize] as usize];
+        let control = Odometry::between(&from.odometry, &to.odometry);
+        let report = self.filter.step(&control, &to.end_points(self.longest, self.setup.max_range));
+        self.step = report.step;
+        let lineage = self.filter.lineage() as u32;
+        if lineage == 1 {
+            self.lineage_one_scan.get_or_insert(report.step);
+        }
+        let resampled = report.ancestors.is_some();
+        self.resampled += u32::from(resampled);
+        let matched = report.traces.iter().filter(|t| matches!(t, ProposalTrace::Matched { .. })).count() as u32;
+        Some(LogStep { step: report.step, ess: report.ess, resampled, matched, lineage })
+    }
+
+    /// The particles, by slot.
+    pub fn particles(&self) -> &[Particle<LogMap>] {
+        self.filter.particles()
+    }
+
+    /// The best particle's map.
+    pub fn map(&self) -> &LogMap {
+        &self.particles()[self.filter.best()].map
+    }
+
+    /// The best particle's path, a pose for each scan so far with its time \[s\], in the frame of the first. A scan that was passed
+    /// over has the pose of the scan before, moved by raw odometry.
+    pub fn path(&self) -> Vec<(f64, Pose2)> {
+        let poses = self.filter.ancestry().path(self.particles()[self.filter.best()].node);
+        let ends = self.used[1..].iter().map(|next| *next as usize).chain([self.log.scans.len()]);
+        let mut path = Vec::new();
+        for ((pose, first), end) in poses.iter().zip(self.used.iter()).zip(ends) {
+            let scans = &self.log.scans[*first as usize..end];
+            path.extend(scans.iter().map(|s| (s.time, pose.compose(&scans[0].odometry.between(&s.odometry)))));
+        }
+        path
+    }
+
+    /// Share of the steps so far that resampled.
+    pub fn resampled_fraction(&self) -> f64 {
+        f64::from(self.resampled) / f64::from(self.step.max(1))
+    }
+
+    /// First step at which all particles descend from one, if they do.
+    pub fn lineage_one_scan(&self) -> Option<u32> {
+        self.lineage_one_scan
+    }
+
+    /// Bytes of all maps.
+    pub fn footprint(&self) -> Footprint {
+        LogMap::footprint(self.particles().iter().map(|p| &p.map))
+    }
+
+    /// Fingerprint of the weights and of every particle's path and map, bit for bit.
+    pub fn digest(&self) -> Digest {
+        let mut digest = Digest::new();
+        self.filter.weights().as_slice().iter().for_each(|w| digest.f64(*w));
+        for particle in self.particles() {
+            for pose in self.filter.ancestry().path(particle.node) {
+                [pose.x, pose.y, pose.theta].into_iter().for_each(|x| digest.f64(x));
+            }
+        }
+        let map = self.map();
+        let cells = map.bounds();
+        for (i, j) in (cells.j0..cells.j1).flat_map(|j| (cells.i0..cells.i1).map(move |i| (i, j))) {
+            digest.f64(map.log_odds(i, j));
+        }
+        digest
+    }
+}
+
+/// Numbers of the scans that are at least so far \[m, or rad\] from the one taken before them; the first always.
+fn used(log: &LaserLog, travel: f64) -> Vec<u32> {
+    let mut used = vec![0];
+    let mut last = log.scans[0].odometry;
+    for (k, scan) in (0..).zip(&log.scans).skip(1) {
+        let moved = last.between(&scan.odometry);
+        if moved.distance(&Pose2::default()).max(moved.theta.abs()) >= travel {
+            used.push(k);
+            last = scan.odometry;
+        }
+    }
+    used
+}
+
+/// About how many bytes the maps of a run will take at most: the tiles that end points fall into by raw odometry once, and for
+/// each particle those of one scan. Where odometry drifts it counts walls more than once.
+pub fn memory_estimate(setup: &LogSetup, log: &LaserLog) -> u64 {
+    /// Surfaces in a tile, about.
+    const SURFACES: usize = 12;
+    let tile = f64::from(LogMap::TILE_CELLS) * setup.cell_size;
+    let longest = NOTHING_MET * log.longest_reading();
+    let mut all = BTreeSet::new();
+    let mut most = 0;
+    for scan in &log.scans {
+        let pose = &scan.odometry;
+        let mut tiles = BTreeSet::new();
+        for end in scan.end_points(longest, setup.max_range).hits {
+            // The tiles on the way are free space that is kept as well.
+            let length = crate::ops::hypot(end[0], end[1]);
+            let parts = (length / tile).ceil().max(1.0);
+            for part in 0..=parts as u32 {
+                let share = f64::from(part) / parts;
+                let [x, y] = pose.transform([end[0] * share, end[1] * share]);
+                tiles.insert(((x / tile).floor() as i64, (y / tile).floor() as i64));
+            }
+        }
+        most = tiles.len().max(most);
+        all.extend(tiles);
+    }
+    // A particle that lives on beside others differs from them by a few scans, which overlap.
+    ((all.len() + 2 * setup.particles * most) * LogMap::tile_bytes(SURFACES)) as u64
+}
+
+/// A log of our own, free to ship: a robot with a laser of 180 beams in [`FloorPlan::building`], twice round its corridors.
+#[derive(Clone, Debug)]
+pub struct Example {
+    /// What the robot reported.
+    pub log: LaserLog,
+    /// Where it was, for each scan.
+    pub truth: Vec<Pose2>,
+    /// True relations between neighbouring scans, and between scans of one place at different times.
+    pub relations: Vec<Relation>,
+}
+
+impl Example {
+    /// Always the same; of its key scans the first so many.
+    pub fn new(scans: usize) -> Self {
+        const SEED: u64 = 17;
+        /// \[m\]
+        const SPACING: f64 = 0.35;
+        /// \[s\]
+        const INTERVAL: f64 = 0.7;
+        /// Scans between two that see a place at different times.
+        const APART: usize = 60;
+        let plan = FloorPlan::building();
+        let (route, length) = route();
+        let truth: Vec<Pose2> = drive(&route, (length / SPACING) as usize).into_iter().take(scans).collect();
+        let angle_step = PI / 180.0;
+        let angles: Vec<f64> = (0..180).map(|k| (f64::from(k) - 90.0) * angle_step).collect();
+        let sensor = BeamSensor { angles, max_range: 30.0, range_std: 0.015 };
+        let motion = OdometryModel { alphas: [0.01, 0.0004, 0.002, 0.001] };
+        let mut log = LaserLog::default();
+        let mut odometry = Pose2::default();
+        for (step, pose) in (0..).zip(&truth) {
+            if step > 0 {
+                let driven = Odometry::between(&truth[step as usize - 1], pose);
+                odometry =
+                    motion.perturb(&driven, &mut Stream::at(SEED, Purpose::WorldOdometry, step, 0)).apply(&odometry);
+            }
+            // With the digits that a file has: what is read from it is the same log.
+            let odometry =
+                Pose2 { x: rounded(odometry.x, 1e3), y: rounded(odometry.y, 1e3), theta: rounded(odometry.theta, 1e4) };
+            let time = rounded(1_000_000_000.0 + INTERVAL * f64::from(step), 1e2);
+            let ranges = plan.ranges(pose, &sensor, &mut Stream::at(SEED, Purpose::WorldSensor, step, 0));
+            let ranges = ranges.iter().map(|range| rounded(range.min(sensor.max_range), 1e2) as f32).collect();
+            log.odometry.push((time, odometry));
+            log.scans.push(crate::log::LaserScan {
+                time,
+                odometry,
+                robot_from_laser: Pose2::default(),
+                first_angle: -0.5 * PI,
+                angle_step,
+                max_range: None,
+                ranges,
+            });
+        }
+        let relation = |a: usize, b: usize| Relation {
+            times: [log.scans[a].time, log.scans[b].time],
+            first_from_second: truth[a].between(&truth[b]),
+        };
+        let mut relations: Vec<Relation> = (1..truth.len()).map(|k| relation(k - 1, k)).collect();
+        for k in APART..truth.len() {
+            let near =
+                (0..=k - APART).min_by(|a, b| truth[*a].distance(&truth[k]).total_cmp(&truth[*b].distance(&truth[k])));
+            relations.extend(near.filter(|near| truth[*near].distance(&truth[k]) < 1.0).map(|near| relation(near, k)));
+        }
+        Self { log, truth, relations }
+    }
+}
+
+/// To so many parts of one.
+fn rounded(x: f64, parts: f64) -> f64 {
+    (x * parts).round() / parts
+}
+
+/// The way points of [`ROUTE`], with more near the corners so that these are cut short; and the length of it all \[m\].
+fn route() -> (Vec<[f64; 2]>, f64) {
+    /// From a corner \[m\].
+    const NEAR: f64 = 1.2;
+    let (mut points, mut total) = (Vec::new(), 0.0);
+    for leg in ROUTE.windows(2) {
+        let [a, b] = [leg[0], leg[1]];
+        let length = crate::ops::hypot(b[0] - a[0], b[1] - a[1]);
+        let at = |along: f64| [0, 1].map(|k: usize| a[k] + along / length * (b[k] - a[k]));
+        points.push(a);
+        if length > 2.5 * NEAR {
+            points.extend([at(NEAR), at(length - NEAR)]);
+        }
+        total += length;
+    }
+    points.push(ROUTE[ROUTE.len() - 1]);
+    (points, total)
+}
+
+/// Through the building \[m\]: round its west half, round its east half, then all round, and home.
+const ROUTE: [[f64; 2]; 30] = [
+    [6.0, 10.0],
+    [6.0, 17.9],
+    [19.8, 17.9],
+    [20.0, 12.0],
+    [20.1, 6.2],
+    [12.5, 6.1],
+    [12.0, 3.0],
+    [13.8, 2.6],
+    [13.6, 6.0],
+    [6.1, 6.0],
+    [5.9, 12.0],
+    [6.2, 18.0],
+    [20.0, 18.0],
+    [33.0, 17.8],
+    [33.9, 12.0],
+    [37.0, 11.8],
+    [37.4, 13.4],
+    [34.0, 12.8],
+    [33.8, 6.2],
+    [20.2, 6.0],
+    [19.9, 12.0],
+    [20.0, 17.9],
+    [26.0, 18.2],
+    [26.4, 21.4],
+    [28.0, 21.2],
+    [27.8, 17.9],
+    [33.8, 18.0],
+    [34.0, 6.1],
+    [6.0, 6.2],
+    [6.1, 10.5],
+];
+
+/// Runs whose fingerprints are kept with the tests.
+pub fn golden_runs() -> Vec<(&'static str, LogRun)> {
+    let log = Arc::new(Example::new(40).log);
+    let run = |setup: LogSetup| LogRun::new(&setup, Arc::clone(&log)).expect("a golden setup is valid");
+    vec![
+        ("log", run(LogSetup { particles: 5, ..LogSetup::default() })),
+        (
+            "log-sparse",
+            run(LogSetup { particles: 3, min_travel: 0.8, cell_size: 0.1, max_range: 6.0, ..LogSetup::default() }),
+        ),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::log::relation_errors;
+
+    #[test]
+    fn our_own_building_is_mapped_within_centimetres() {
+        let Example { log, relations, .. } = Example::new(usize::MAX);
+        let log = Arc::new(log);
+        let raw = relation_errors(&log.odometry, &log.odometry, &relations);
+        let setup = LogSetup { particles: 8, ..LogSetup::default() };
+        let mut run = LogRun::new(&setup, Arc::clone(&log)).unwrap();
+        while run.step().is_some() {}
+        assert_eq!(run.path().len(), log.scans.len());
+        let errors = relation_errors(&run.path(), &log.odometry, &relations);
+        assert!(raw.translation_mean > 0.5, "odometry alone must fail: {raw:?}");
+        assert!(errors.translation_mean < 0.06 && errors.rotation_mean_deg < 0.5, "{errors:?}");
+        let (footprint, estimate) = (run.footprint(), memory_estimate(&setup, &log));
+        assert!(
+            footprint.unique < footprint.dense / 3 && footprint.unique < estimate && estimate < 10 * footprint.unique
+        );
+    }
+
+    #[test]
+    fn the_robot_of_the_example_drives_through_doors_and_not_through_walls() {
+        let (plan, Example { truth, .. }) = (FloorPlan::building(), Example::new(usize::MAX));
+        for (k, pair) in truth.windows(2).enumerate() {
+            let [dx, dy] = [pair[1].x - pair[0].x, pair[1].y - pair[0].y];
+            let free = plan.raycast([pair[0].x, pair[0].y], crate::ops::atan2(dy, dx));
+            assert!(free > pair[0].distance(&pair[1]) + 0.1, "step {k} at {:?}: a wall after {free} m", pair[0]);
+        }
+    }
+
+    #[test]
+    fn settings_out_of_range_are_refused() {
+        let log = Arc::new(Example::new(2).log);
+        let refused = |setup: LogSetup| LogRun::new(&setup, Arc::clone(&log)).unwrap_err().parameter;
+        let setup = LogSetup::default;
+        assert_eq!(refused(LogSetup { particles: 0, ..setup() }), "particles");
+        assert_eq!(refused(LogSetup { cell_size: f64::NAN, ..setup() }), "cell");
+        assert_eq!(refused(LogSetup { max_range: 1e9, ..setup() }), "max-range");
+        assert_eq!(refused(LogSetup { min_travel: -1.0, ..setup() }), "min-travel");
+        assert_eq!(LogRun::new(&setup(), Arc::default()).unwrap_err().parameter, "log");
+    }
+
+    #[test]
+    fn a_robot_that_stands_still_looks_once_and_its_path_goes_on() {
+        let mut log = Example::new(3).log;
+        let still = log.scans[1].clone();
+        log.scans.splice(
+            2..2,
+            (1..=5).map(|k| crate::log::LaserScan { time: still.time + 0.01 * f64::from(k), ..still.clone() }),
+        );
+        let mut run = LogRun::new(&LogSetup { particles: 2, ..LogSetup::default() }, Arc::new(log)).unwrap();
+        while run.step().is_some() {}
+        assert_eq!((run.step_count(), run.path().len()), (2, 8));
+        assert_eq!(run.path()[1].1, run.path()[6].1);
+    }
+}

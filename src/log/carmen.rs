@@ -1,0 +1,264 @@
+//! Logs of CARMEN, the Carnegie Mellon robot navigation toolkit: one message a line, words between blanks.
+//!
+//! ```text
+//! ODOM x y theta tv rv accel time host logger_time
+//! FLASER n range… x y theta odom_x odom_y odom_theta time host logger_time
+//! ROBOTLASER1 type first_angle field_of_view angle_step max_range accuracy remission_mode n range… m remission…
+//!     laser_x laser_y laser_theta robot_x robot_y robot_theta tv rv forward_safety side_safety turn_axis time host logger_time
+//! PARAM name value …
+//! ```
+//!
+//! Reference: the file format of CARMEN's logger, as its log files describe it in their own comments.
+
+use super::{LaserLog, LaserScan, LogError};
+use crate::decimal;
+use crate::geometry::Pose2;
+use core::f64::consts::PI;
+
+/// Farthest a coordinate may be from the log's origin \[m\]: beyond it a number is no place.
+const FARTHEST: f64 = 1e7;
+
+/// A laser farther than this from the robot's centre \[m\] does not sit on it: then the two poses of a message are not what they
+/// should be (some logs hold a corrected pose in one of them), and the laser is taken to be in the centre.
+const LASER_REACH: f64 = 3.0;
+
+/// Reads a log. A malformed line ends it with an error, or, if `lenient`, is counted and passed over.
+///
+/// # Errors
+/// The first malformed line, and what was expected there; with line 0, that there is no scan at all.
+pub fn parse(bytes: &[u8], lenient: bool) -> Result<LaserLog, LogError> {
+    let mut reader = Reader::default();
+    for (line, bytes) in (1..).zip(bytes.split(|byte| *byte == b'\n')) {
+        if let Err(message) = reader.line(bytes) {
+            let error = LogError { line, message };
+            if !lenient {
+                return Err(error);
+            }
+            reader.log.notes.malformed += 1;
+            reader.log.notes.first_malformed.get_or_insert(error);
+        }
+    }
+    let mut log = reader.log;
+    if log.scans.is_empty() {
+        let found = match log.notes.unknown.first() {
+            Some((kind, _)) => format!("no FLASER or ROBOTLASER1 message in it (but {kind})"),
+            None => "no FLASER or ROBOTLASER1 message in it".into(),
+        };
+        return Err(LogError { line: 0, message: found });
+    }
+    // Messages come over a network: some are late. The sorts are stable, so that equal stamps keep the file's order.
+    log.notes.out_of_order = log.scans.windows(2).filter(|pair| pair[1].time < pair[0].time).count() as u32;
+    log.scans.sort_by(|a, b| a.time.total_cmp(&b.time));
+    log.odometry.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Ok(log)
+}
+
+/// The scans of a log as FLASER messages, which [`parse`] reads back: ranges to a centimetre, poses to a millimetre, angles to a
+/// ten-thousandth. For lasers in the robot's centre that sweep half a circle.
+pub fn write(log: &LaserLog) -> String {
+    let mut text = String::new();
+    for scan in &log.scans {
+        let Pose2 { x, y, theta } = scan.odometry;
+        let pose = [decimal::fixed(x, 3), decimal::fixed(y, 3), decimal::fixed(theta, 4)].join(" ");
+        let time = decimal::fixed(scan.time, 2);
+        text.push_str("FLASER ");
+        text.push_str(&scan.ranges.len().to_string());
+        for range in &scan.ranges {
+            text.push(' ');
+            text.push_str(&decimal::fixed(f64::from(*range), 2));
+        }
+        text.push_str(&[" ", &pose, " ", &pose, " ", &time, " - ", &time, "\n"].concat());
+    }
+    text
+}
+
+#[derive(Default)]
+struct Reader {
+    log: LaserLog,
+    /// `robot_frontlaser_offset`: how far ahead of the robot's centre the laser of FLASER sits \[m\].
+    offset: f64,
+    /// `robot_front_laser_max` \[m\].
+    max_range: Option<f64>,
+}
+
+impl Reader {
+    fn line(&mut self, bytes: &[u8]) -> Result<(), String> {
+        let text =
+            core::str::from_utf8(bytes).map_err(|_| "expected a message in plain text, found binary".to_owned())?;
+        let mut words = Words { words: text.split_ascii_whitespace(), kind: "" };
+        let Some(kind) = words.words.next() else { return Ok(()) };
+        words.kind = kind;
+        match kind {
+            _ if kind.starts_with('#') => {}
+            "FLASER" => self.front_laser(&mut words)?,
+            "ROBOTLASER1" => self.robot_laser(&mut words)?,
+            "ODOM" => {
+                let pose = words.pose("x, y, theta")?;
+                for name in ["tv", "rv", "accel"] {
+                    words.number(name)?;
+                }
+                let time = words.time()?;
+                self.log.odometry.push((time, pose));
+            }
+            "PARAM" => self.parameter(&mut words)?,
+            "RLASER" | "ROBOTLASER2" => self.log.notes.rear += 1,
+            _ if kind.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_-./".contains(&byte)) => {
+                let unknown = &mut self.log.notes.unknown;
+                match unknown.iter().position(|(name, _)| name == kind) {
+                    Some(k) => unknown[k].1 += 1,
+                    None if unknown.len() < MOST_KINDS => unknown.push((kind.into(), 1)),
+                    None => return Err(format!("expected one of the known messages, found {}", shown(kind))),
+                }
+            }
+            _ => return Err(format!("expected the name of a message, found {}", shown(kind))),
+        }
+        Ok(())
+    }
+
+    fn front_laser(&mut self, words: &mut Words<'_>) -> Result<(), String> {
+        let ranges = words.ranges()?;
+        words.pose("x, y, theta")?;
+        let odometry = words.pose("odom_x, odom_y, odom_theta")?;
+        let time = words.time()?;
+        let (first_angle, angle_step) = fan(ranges.len());
+        self.log.odometry.push((time, odometry));
+        self.log.scans.push(LaserScan {
+            time,
+            odometry,
+            robot_from_laser: Pose2::new(self.offset, 0.0, 0.0),
+            first_angle,
+            angle_step,
+            max_range: self.max_range,
+            ranges,
+        });
+        Ok(())
+    }
+
+    fn robot_laser(&mut self, words: &mut Words<'_>) -> Result<(), String> {
+        words.number("laser_type")?;
+        let first_angle = words.number("start_angle [rad]")?;
+        words.number("field_of_view [rad]")?;
+        let angle_step = words.number("angular_resolution [rad]")?;
+        let max_range = words.number("maximum_range [m]")?;
+        if first_angle.abs() > 2.0 * PI || angle_step.abs() > PI || angle_step == 0.0 {
+            let found = [first_angle, angle_step].map(decimal::write).join(" and ");
+            return Err(format!("{}: expected angles in radians, found {found}", words.kind));
+        }
+        words.number("accuracy")?;
+        words.number("remission_mode")?;
+        let ranges = words.ranges()?;
+        let remissions = words.count("remissions")?;
+        for _ in 0..remissions {
+            words.word("remissions")?;
+        }
+        let laser = words.pose("laser_x, laser_y, laser_theta")?;
+        let odometry = words.pose("robot_x, robot_y, robot_theta")?;
+        for name in ["tv", "rv", "forward_safety_dist", "side_safety_dist", "turn_axis"] {
+            words.number(name)?;
+        }
+        let time = words.time()?;
+        let robot_from_laser = odometry.between(&laser);
+        let mounted = odometry.distance(&laser) < LASER_REACH;
+        self.log.odometry.push((time, odometry));
+        self.log.scans.push(LaserScan {
+            time,
+            odometry,
+            robot_from_laser: if mounted { robot_from_laser } else { Pose2::default() },
+            first_angle,
+            angle_step,
+            max_range: Some(max_range).filter(|range| *range > 0.0),
+            ranges,
+        });
+        Ok(())
+    }
+
+    fn parameter(&mut self, words: &mut Words<'_>) -> Result<(), String> {
+        match words.word("a name")? {
+            "robot_frontlaser_offset" => self.offset = words.number("metres")?.clamp(-LASER_REACH, LASER_REACH),
+            "robot_front_laser_max" => self.max_range = Some(words.number("metres")?).filter(|range| *range > 0.0),
+            _ => {} // a value may be anything, or nothing
+        }
+        Ok(())
+    }
+}
+
+/// Kinds of unknown messages that are counted apart: a log has a few, a file of another sort has no end of them.
+const MOST_KINDS: usize = 64;
+
+/// Direction of the first beam and the angle between beams \[rad\] of a message that says only how many there are.
+///
+/// The lasers of the time swept half a circle, or 100° at a quarter of a degree. An odd number of beams has one at each end;
+/// an even number leaves the last out.
+fn fan(count: usize) -> (f64, f64) {
+    let degrees = if [100, 101, 200, 201, 400, 401].contains(&count) { 100.0 } else { 180.0 };
+    let field_of_view = degrees * PI / 180.0;
+    (-0.5 * field_of_view, field_of_view / (count - count % 2).max(1) as f64)
+}
+
+/// The words of one message.
+struct Words<'a> {
+    words: core::str::SplitAsciiWhitespace<'a>,
+    kind: &'a str,
+}
+
+impl<'a> Words<'a> {
+    fn word(&mut self, name: &str) -> Result<&'a str, String> {
+        self.words.next().ok_or_else(|| format!("{}: expected {name}, found the end of the line", self.kind))
+    }
+
+    /// A finite number.
+    fn number(&mut self, name: &str) -> Result<f64, String> {
+        let word = self.word(name)?;
+        decimal::parse(word)
+            .filter(|x| x.is_finite())
+            .ok_or_else(|| format!("{}: expected {name}, found {}", self.kind, shown(word)))
+    }
+
+    fn count(&mut self, name: &str) -> Result<u32, String> {
+        let word = self.word(&format!("the number of {name}"))?;
+        word.parse().map_err(|_| format!("{}: expected the number of {name}, found {}", self.kind, shown(word)))
+    }
+
+    /// A count, and as many ranges. What a laser writes for *nothing met* (nan, inf) is kept as infinite.
+    fn ranges(&mut self) -> Result<Vec<f32>, String> {
+        let count = self.count("ranges")?;
+        let mut ranges = Vec::new(); // not as long as the count says: it may say anything
+        for k in 0..count {
+            let name = || format!("{count} ranges, of them number {}", k + 1);
+            let word = self.word(&name())?;
+            let range = match decimal::parse(word) {
+                Some(range) => range as f32,
+                None if is_no_number(word) => f32::INFINITY,
+                None => return Err(format!("{}: expected {}, found {}", self.kind, name(), shown(word))),
+            };
+            ranges.push(range);
+        }
+        Ok(ranges)
+    }
+
+    fn pose(&mut self, names: &str) -> Result<Pose2, String> {
+        let [x, y, theta] = [self.number(names)?, self.number(names)?, self.number(names)?];
+        if x.abs().max(y.abs()) > FARTHEST || theta.abs() > FARTHEST {
+            let found = [x, y, theta].map(decimal::write).join(" ");
+            return Err(format!("{}: expected {names} within 10000 km and as many turns, found {found}", self.kind));
+        }
+        Ok(Pose2::new(x, y, theta))
+    }
+
+    /// The first stamp at the end of the line.
+    fn time(&mut self) -> Result<f64, String> {
+        self.number("a time [s]")
+    }
+}
+
+fn is_no_number(word: &str) -> bool {
+    let unsigned = word.trim_start_matches(['-', '+']);
+    ["nan", "inf", "infinity"].iter().any(|name| unsigned.eq_ignore_ascii_case(name))
+}
+
+/// A word as a message shows it: the start of it, without control characters.
+fn shown(word: &str) -> String {
+    const MOST: usize = 24;
+    let start: String = word.chars().take(MOST).flat_map(char::escape_debug).collect();
+    if word.chars().count() > MOST { format!("“{start}…”") } else { format!("“{start}”") }
+}

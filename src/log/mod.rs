@@ -1,0 +1,111 @@
+//! Recorded logs of robots with a laser: what was driven and seen, and how well an estimate of the path agrees with known
+//! relations between poses.
+//!
+//! No I/O: bytes in, structures out, so that a page reads a reader's file by the same code as the command line.
+
+mod carmen;
+mod relations;
+
+pub use carmen::{parse, write};
+pub use relations::{Relation, RelationErrors, parse_relations, relation_errors};
+
+use crate::geometry::Pose2;
+use crate::ops;
+use crate::sensor::Scan;
+use core::fmt;
+
+/// One sweep of a laser.
+#[derive(Clone, PartialEq, Debug)]
+pub struct LaserScan {
+    /// When \[s\], on the log's clock.
+    pub time: f64,
+    /// Pose of the robot by raw odometry.
+    pub odometry: Pose2,
+    /// Where the laser sits.
+    pub robot_from_laser: Pose2,
+    /// Direction of the first beam in the laser's frame \[rad\].
+    pub first_angle: f64,
+    /// From one beam to the next \[rad\].
+    pub angle_step: f64,
+    /// Longest range \[m\] as the log itself declares it.
+    pub max_range: Option<f64>,
+    /// Ranges \[m\]; what is not finite or not positive met nothing.
+    pub ranges: Vec<f32>,
+}
+
+impl LaserScan {
+    /// Where the beams ended, in the robot's frame. A reading of `longest` \[m\] or more met nothing, and says nothing: what it passed
+    /// may be glass. One of `max_range` \[m\] or more is cut there, and says that the way is free.
+    pub fn end_points(&self, longest: f64, max_range: f64) -> Scan {
+        let longest = self.max_range.map_or(longest, |declared| declared.min(longest));
+        let mut ends = Scan::default();
+        for (k, range) in self.ranges.iter().map(|range| f64::from(*range)).enumerate() {
+            if range > 0.0 && range < longest {
+                let (sin, cos) = ops::sin_cos(self.first_angle + k as f64 * self.angle_step);
+                let length = range.min(max_range);
+                let end = self.robot_from_laser.transform([length * cos, length * sin]);
+                if range < max_range { ends.hits.push(end) } else { ends.misses.push(end) }
+            }
+        }
+        ends
+    }
+}
+
+/// A log, read.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct LaserLog {
+    /// Sweeps of the front laser, by time.
+    pub scans: Vec<LaserScan>,
+    /// Raw odometry by time \[s\]: that of the scans, and what was reported between them.
+    pub odometry: Vec<(f64, Pose2)>,
+    /// What else was met.
+    pub notes: Notes,
+}
+
+impl LaserLog {
+    /// The longest finite range \[m\] that was read; 0 without any.
+    pub fn longest_reading(&self) -> f64 {
+        let ranges = self.scans.iter().flat_map(|scan| &scan.ranges).filter(|range| range.is_finite());
+        f64::from(ranges.copied().fold(0.0, f32::max))
+    }
+}
+
+/// What was met in a log besides what is used.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Notes {
+    /// Messages of rear lasers, which are passed over.
+    pub rear: u32,
+    /// Messages of kinds that are not known here, by kind.
+    pub unknown: Vec<(String, u32)>,
+    /// Malformed lines that were passed over.
+    pub malformed: u32,
+    /// The first of them.
+    pub first_malformed: Option<LogError>,
+    /// Scans whose stamp is before that of the scan above them: they were put in order.
+    pub out_of_order: u32,
+}
+
+/// A line that cannot be read.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct LogError {
+    /// Its number, from 1 on.
+    pub line: u32,
+    /// What should be there, and what is.
+    pub message: String,
+}
+
+impl fmt::Display for LogError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "line {}: {}", self.line, self.message)
+    }
+}
+
+impl core::error::Error for LogError {}
+
+/// Raw odometry at a time \[s\], interpolated between its neighbours and held beyond its ends; `None` without any.
+pub fn odometry_at(odometry: &[(f64, Pose2)], time: f64) -> Option<Pose2> {
+    let after = odometry.partition_point(|(t, _)| *t < time).min(odometry.len().checked_sub(1)?);
+    let ((t0, a), (t1, b)) = (odometry[after.max(1) - 1], odometry[after]);
+    let share = if t1 > t0 { ((time - t0) / (t1 - t0)).clamp(0.0, 1.0) } else { 1.0 };
+    Some(a.plus(&(b.minus(&a) * share)))
+}

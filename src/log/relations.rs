@@ -1,0 +1,91 @@
+//! The benchmark's metric: relations between poses that are known to be true.
+//!
+//! Reference: Kümmerle et al., *On measuring the accuracy of SLAM algorithms*, Autonomous Robots 2009.
+
+use super::{LogError, odometry_at};
+use crate::decimal;
+use crate::geometry::Pose2;
+
+/// Where a robot was at one time, seen from where it was at another.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Relation {
+    /// The two times \[s\].
+    pub times: [f64; 2],
+    /// The pose at the second in the frame of the pose at the first.
+    pub first_from_second: Pose2,
+}
+
+/// How far an estimated path is from the relations.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct RelationErrors {
+    /// Relations that were held against the path.
+    pub relations: u32,
+    /// Mean of the translational errors \[m\].
+    pub translation_mean: f64,
+    /// Their standard deviation \[m\].
+    pub translation_std: f64,
+    /// Mean of the absolute rotational errors \[deg\].
+    pub rotation_mean_deg: f64,
+    /// Their standard deviation \[deg\].
+    pub rotation_std_deg: f64,
+}
+
+/// Reads lines `t1 t2 x y z roll pitch yaw`, of which x, y and yaw are used; lines that begin with # are comments.
+///
+/// # Errors
+/// The first line that is not eight numbers; with line 0, that there is none.
+pub fn parse_relations(bytes: &[u8]) -> Result<Vec<Relation>, LogError> {
+    let mut relations = Vec::new();
+    for (line, bytes) in (1..).zip(bytes.split(|byte| *byte == b'\n')) {
+        let text = core::str::from_utf8(bytes).unwrap_or("?").trim();
+        if text.is_empty() || text.starts_with('#') {
+            continue;
+        }
+        let numbers: Option<Vec<f64>> =
+            text.split_ascii_whitespace().map(|word| decimal::parse(word).filter(|x| x.is_finite())).collect();
+        let Some([t1, t2, x, y, _, _, _, yaw]) = numbers.and_then(|numbers| <[f64; 8]>::try_from(numbers).ok()) else {
+            return Err(LogError { line, message: "expected 8 numbers: t1 t2 x y z roll pitch yaw".into() });
+        };
+        relations.push(Relation { times: [t1, t2], first_from_second: Pose2::new(x, y, yaw) });
+    }
+    if relations.is_empty() {
+        return Err(LogError { line: 0, message: "no line of 8 numbers: t1 t2 x y z roll pitch yaw".into() });
+    }
+    Ok(relations)
+}
+
+/// δ = x_{t1}⁻¹ ⊕ x_{t2} of the estimate against δ\* of each relation: ‖t(δ) − t(δ\*)‖ \[m\] and |θ(δ) − θ(δ\*)| \[deg\], their means and
+/// standard deviations.
+///
+/// `path` and `odometry` are poses by ascending time \[s\]. A time at which there is no estimate takes the nearest one, moved
+/// by raw odometry. Without a pose or a relation, all is zero.
+pub fn relation_errors(path: &[(f64, Pose2)], odometry: &[(f64, Pose2)], relations: &[Relation]) -> RelationErrors {
+    if path.is_empty() || relations.is_empty() {
+        return RelationErrors::default();
+    }
+    let pose_at = |time: f64| {
+        let after = path.partition_point(|(t, _)| *t < time).min(path.len() - 1);
+        let before = after.saturating_sub(1);
+        let nearest = if (path[before].0 - time).abs() < (path[after].0 - time).abs() { before } else { after };
+        let (estimated, pose) = path[nearest];
+        match (odometry_at(odometry, estimated), odometry_at(odometry, time)) {
+            (Some(from), Some(to)) if estimated != time => pose.compose(&from.between(&to)),
+            _ => pose,
+        }
+    };
+    let errors = relations.iter().map(|Relation { times: [t1, t2], first_from_second: truth }| {
+        let delta = pose_at(*t1).between(&pose_at(*t2));
+        [delta.distance(truth), delta.minus(truth).z.abs().to_degrees()]
+    });
+    let errors: Vec<[f64; 2]> = errors.collect();
+    let n = errors.len() as f64;
+    let moments = |k: usize| {
+        let mean = errors.iter().map(|e| e[k]).sum::<f64>() / n;
+        let variance = errors.iter().map(|e| (e[k] - mean) * (e[k] - mean)).sum::<f64>() / n;
+        (mean, variance.sqrt())
+    };
+    let ((translation_mean, translation_std), (rotation_mean_deg, rotation_std_deg)) = (moments(0), moments(1));
+    let relations = errors.len() as u32;
+    RelationErrors { relations, translation_mean, translation_std, rotation_mean_deg, rotation_std_deg }
+}
