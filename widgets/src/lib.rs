@@ -2,6 +2,7 @@
 //! without colours), the one painter of [`paint`] and, in the browser, a `shell` whose methods are one line each. Native tests and
 //! the command line use the same [`figure::Figure`] as the page.
 
+mod comma;
 pub mod conditioning;
 pub mod export;
 pub mod figure;
