@@ -661,7 +661,7 @@ export abstract class FigureElement extends HTMLElement {
       // Other widths have other layouts, so the one is looked for that can be shown largest. What would be too small to read is scrolled.
       let best = LEGIBLE * scale
       for (let wide = 0.5 * scene, most = 2 * scene; wide <= most; wide += 10) {
-        if (fitting(wide) > best) [scene, scale, best] = [wide, fitting(wide), fitting(wide)]
+        if (fitting(wide) >= best) [scene, scale, best] = [wide, fitting(wide), fitting(wide)]
       }
     }
     this.#scale = scale

@@ -15,6 +15,10 @@ export const FRAME_WIDTH = 800
 /** Heights that show all of a figure in a frame of that width, settings closed [px]; tests/e2e/embed.spec.ts measures them. */
 const FRAME_HEIGHTS: Record<string, number> = {
   'fastslam-lap': 770,
+  'fastslam-conditioning': 790,
+  'fastslam-proposal': 840,
+  'fastslam-resampling': 1190,
+  'fastslam-worked-example': 1360,
 }
 
 export const frameHeight = (tag: string): number => FRAME_HEIGHTS[tag] ?? 800
