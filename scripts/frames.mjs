@@ -4,7 +4,7 @@ import { readdirSync, readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { figures, manifest, types, write } from './elements.mjs'
 import { root, StepError } from './lib.mjs'
-import { singleFile } from './single.mjs'
+import { notebook, singleFile } from './single.mjs'
 
 const dist = join(root, 'dist')
 
@@ -87,6 +87,6 @@ export async function writeFrames() {
   }
   write(join(dist, 'custom-elements.json'), `${JSON.stringify(manifest(all), undefined, 2)}\n`)
   write(join(dist, 'fastslam.d.ts'), types(all))
-  write(join(dist, 'fastslam-anywidget.js'), await singleFile())
+  write(join(dist, 'fastslam-anywidget.js'), await singleFile(notebook))
   return `of ${all.length} figures`
 }

@@ -8,7 +8,7 @@ import { isMain, main, root, run, step } from './lib.mjs'
 import { python, pythonFiles } from './python.mjs'
 import { setUp } from './setup.mjs'
 
-const widgets = join(root, 'widgets')
+const npm = join(root, 'widgets', 'npm')
 export const packages = join(root, 'packages')
 
 /** Types of the tags in React's JSX, beside those of the elements. @param {import('./elements.mjs').FigureInfo[]} all */
@@ -32,9 +32,9 @@ ${all.map(({ tag, className }) => `      '${tag}': Tag<'${tag}', ${className}>`)
 }
 `
 
-/** Fills widgets/npm from dist/. */
+/** Fills widgets/npm/dist from dist/. */
 export async function npmFiles() {
-  const to = join(widgets, 'npm')
+  const to = join(npm, 'dist')
   rmSync(to, { recursive: true, force: true })
   mkdirSync(join(to, 'assets'), { recursive: true })
   const all = await figures()
@@ -47,15 +47,14 @@ export async function npmFiles() {
   writeFileSync(join(to, 'fastslam.d.ts'), types(all))
   writeFileSync(join(to, 'react.d.ts'), reactTypes(all))
   writeFileSync(join(to, 'server.js'), '// Pages rendered on a server hold the tags; the elements come to life in the browser.\nexport {}\n')
-  for (const file of ['LICENSE-MIT', 'LICENSE-APACHE']) cpSync(join(root, file), join(widgets, file))
-  cpSync(join(widgets, 'elements', 'npm.md'), join(widgets, 'README.md'))
+  for (const file of ['LICENSE-MIT', 'LICENSE-APACHE']) cpSync(join(root, file), join(npm, file))
 }
 
 /** The npm package. @returns {Promise<string>} its path */
 export async function packNpm() {
   await npmFiles()
   mkdirSync(packages, { recursive: true })
-  const { output } = await run('npm', ['pack', '--json', '--ignore-scripts', '--pack-destination', packages], { cwd: widgets })
+  const { output } = await run('npm', ['pack', '--json', '--ignore-scripts', '--pack-destination', packages], { cwd: npm })
   const [{ filename, size }] = JSON.parse(output.slice(output.indexOf('[\n'), output.lastIndexOf(']') + 1))
   console.log(`  ${filename}: ${(size / 1e6).toFixed(2)} MB`)
   return join(packages, filename)
@@ -67,7 +66,7 @@ export async function packWheel() {
   await pythonFiles()
   for (const file of readdirSync(packages)) if (file.endsWith('.whl')) rmSync(join(packages, file))
   const interpreter = await python('build', 'build', 'hatchling')
-  await run(interpreter, ['-m', 'build', '--wheel', '--no-isolation', '--outdir', packages, join(widgets, 'python')])
+  await run(interpreter, ['-m', 'build', '--wheel', '--no-isolation', '--outdir', packages, join(root, 'widgets', 'python')])
   return join(packages, readdirSync(packages).find(file => file.endsWith('.whl')) ?? '')
 }
 

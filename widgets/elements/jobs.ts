@@ -47,7 +47,7 @@ function hire(): Worker {
     const own = 'address' in file && new URL(file.address, location.href).origin === self.origin
     const script = 'text' in file ? file.text : `import ${JSON.stringify(new URL(file.address, location.href).href)}`
     const url = own ? file.address : URL.createObjectURL(new Blob([script], { type: 'text/javascript' }))
-    const worker = new Worker(url, { type: 'module' })
+    const worker = new Worker(url, { type: 'text' in file ? 'classic' : 'module' })
     if (!own) setTimeout(() => URL.revokeObjectURL(url), 10_000) // when it has been read
     return worker
   } catch (error) {
