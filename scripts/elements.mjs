@@ -78,6 +78,12 @@ function type({ kind, choices }) {
   return kind === 'choice' ? words.join(' | ') : ['number', ...words].join(' | ')
 }
 
+/** The same as an attribute: text is as good. @param {ParamSpec} spec */
+function attributeType(spec) {
+  const text = { flag: " | 'on' | 'off'", toggle: " | 'on' | 'off'", choice: '', number: ' | `${number}`', integer: ' | `${number}`' }
+  return type(spec) + text[spec.kind]
+}
+
 /** What it does, and the values it takes. @param {ParamSpec} spec */
 export function describe({ kind, min, max, unit, help, choices }) {
   if (kind === 'flag' || kind === 'toggle' || kind === 'choice') return help
@@ -144,7 +150,7 @@ export function types(all) {
   )
   const attributes = all.map(
     ({ className, params }) =>
-      `export interface ${className}Attributes extends FigureAttributes {\n${params.map(spec => `  '${spec.name}'?: ${type(spec)} | 'on' | 'off'`.replace(/('on' \| 'off')$/, words => (type(spec) === 'boolean' ? words : 'string'))).join('\n')}\n}`,
+      `export interface ${className}Attributes extends FigureAttributes {\n${params.map(spec => `  '${spec.name}'?: ${attributeType(spec)}`).join('\n')}\n}`,
   )
   return `// Made by scripts/elements.mjs from what the figures tell of themselves.
 
