@@ -21,7 +21,7 @@ for (const name of FIGURES) {
     expect(code).toContain(`${baseURL}embed.html?figure=${name}`)
     const left = sanitised(code.replace('allow-scripts allow-downloads', 'allow-scripts'))
     expect(left).not.toMatch(/title|style|onload/)
-    await openHost(page, baseURL!, left)
+    await openHost(page, left)
     const frame = page.frames()[1]!
     await live(frame, `fastslam-${name}`)
     await page.waitForTimeout(500)
@@ -34,7 +34,7 @@ for (const name of FIGURES) {
 }
 
 test('a frame without scripts of its host, storage or an origin runs, and the keyboard gets in and out', async ({ page, baseURL, complaints }) => {
-  await openHost(page, baseURL!, `<button>before</button><iframe sandbox="allow-scripts" width="800" height="790" src="${baseURL}embed.html?figure=lap&m=4&step=2"></iframe><button>after</button>`)
+  await openHost(page, `<button>before</button><iframe sandbox="allow-scripts" width="800" height="790" src="${baseURL}embed.html?figure=lap&m=4&step=2"></iframe><button>after</button>`)
   const frame = page.frames()[1]!
   await live(frame, 'fastslam-lap')
   expect(await frame.evaluate(() => self.origin)).toBe('null')
@@ -68,7 +68,7 @@ test('hosts that listen are told the height, in our words and in those of LTI', 
       if (data.subject === 'lti.frameResize') document.querySelector('iframe')!.height = data.height
     })
   })
-  await openHost(page, baseURL!, `<iframe sandbox="allow-scripts" width="800" height="400" src="${baseURL}embed.html?figure=lap"></iframe>`)
+  await openHost(page, `<iframe sandbox="allow-scripts" width="800" height="400" src="${baseURL}embed.html?figure=lap"></iframe>`)
   const told = () => page.evaluate(() => (self as unknown as { told: { type?: string; subject?: string; height: number }[] }).told)
   await expect.poll(async () => (await told()).some(({ subject }) => subject === 'lti.frameResize')).toBe(true)
   expect((await told()).some(({ type }) => type === 'fastslam-height')).toBe(true)
@@ -170,7 +170,7 @@ test('the menu copies code that works as it is: element, iframe, MyST and Python
 
   // Both on a page of another site.
   const readouts = await lap.readouts()
-  await openHost(page, baseURL!, `${element}${iframe}`)
+  await openHost(page, `${element}${iframe}`)
   const pasted = new Figure(page, 'body > fastslam-lap')
   await pasted.live()
   expect(await pasted.readouts()).toEqual(readouts)
@@ -239,14 +239,13 @@ test('a page with all five figures as elements, and one with all five in frames,
   test.slow()
   const rules = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice']
   const violations = async () => (await new AxeBuilder({ page }).withTags(rules).analyze()).violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' | ')}`)
-  await openHost(page, baseURL!, `<main><h1>Five</h1>${FIGURES.map(name => `<fastslam-${name}></fastslam-${name}>`).join('')}</main>`, `<script type="module" src="${baseURL}fastslam.js"></script>`)
+  await openHost(page, `<main><h1>Five</h1>${FIGURES.map(name => `<fastslam-${name}></fastslam-${name}>`).join('')}</main>`, `<script type="module" src="${baseURL}fastslam.js"></script>`)
   for (const name of FIGURES) {
     await page.locator(`fastslam-${name}`).scrollIntoViewIfNeeded()
     await live(page, `fastslam-${name}`)
   }
   expect(await violations()).toEqual([])
-  await page.unrouteAll()
-  await openHost(page, baseURL!, `<main><h1>Five</h1>${FIGURES.map(name => `<iframe title="${name}" width="800" height="900" src="${baseURL}embed.html?figure=${name}"></iframe>`).join('')}</main>`)
+  await openHost(page, `<main><h1>Five</h1>${FIGURES.map(name => `<iframe title="${name}" width="800" height="900" src="${baseURL}embed.html?figure=${name}"></iframe>`).join('')}</main>`)
   for (const [i, name] of FIGURES.entries()) {
     await page.locator('iframe').nth(i).scrollIntoViewIfNeeded()
     await live(page.frames()[i + 1]!, `fastslam-${name}`)

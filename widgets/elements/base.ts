@@ -288,10 +288,11 @@ export abstract class FigureElement extends HTMLElement {
   /** The author's picture, or our own of a figure of which nothing was asked. Returns what is to be said of it. */
   #showPicture(): string {
     const slot = this.#fallback.firstElementChild!
+    const own = this.querySelector('img, picture')
     const src = pictureAddress(this.localName, themeName(this.getAttribute('theme')).endsWith('dark') ? 'dark' : 'light')
-    if (src && !slot.hasChildNodes()) slot.append(h('img', { src, alt: `${this.#heading.textContent}, at rest` }))
+    if (src && !own && !slot.hasChildNodes()) slot.append(h('img', { src, alt: `${this.#heading.textContent}, at rest` }))
     this.#stage.classList.add('still')
-    return this.querySelector('img, picture') || slot.hasChildNodes() ? ' The picture shows it at rest.' : ''
+    return own || slot.hasChildNodes() ? ' The picture shows it at rest.' : ''
   }
 
   /** A new figure from the recipe; without one, from the attributes. */
@@ -665,7 +666,7 @@ export abstract class FigureElement extends HTMLElement {
       }
     }
     this.#scale = scale
-    this.#stage.style.setProperty('--_width', `${Math.floor(Math.min(width, scene * scale))}px`)
+    this.#stage.style.setProperty('--_width', this.#fits ? `${Math.floor(Math.min(width, scene * scale))}px` : '100%')
     const height = `${Math.round(figure.height(scene) * scale)}px`
     if (this.#canvas.style.height !== height) this.#canvas.style.height = height // the resize observer then asks for the paint
   }

@@ -1,8 +1,8 @@
 // What an author may fix about any figure, besides its parameters: attributes that every figure has.
 
-/** The words each of them takes, the first being the default. `lock` takes names of parameters. */
+/** The words each of them takes. `lock` takes names of parameters. */
 export const OPTIONS: Record<string, string[] | undefined> = {
-  theme: ['auto', 'light', 'dark'],
+  theme: ['light', 'dark', 'auto'],
   controls: ['all', 'playback', 'none'],
   lock: undefined,
   decimal: ['point', 'comma'],
