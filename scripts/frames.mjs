@@ -80,8 +80,8 @@ export async function writeFrames() {
     ]
     const own = page
       .replace(/<title>.*?<\/title>/, `<title>${escape(figure.title)}</title>\n    ${head.join('\n    ')}`)
-      .replace(/(<main>)/, `$1\n      ${element(figure)}`)
-    if (!own.includes(head[0] ?? '') || !own.includes(`<${figure.tag}`)) throw new StepError('dist/embed.html has no title or no <main> to put a figure in.')
+      .replace(/(<div id="figure">)/, `$1\n      ${element(figure)}`)
+    if (!own.includes(head[0] ?? '') || !own.includes(`<${figure.tag}`)) throw new StepError('dist/embed.html has no title or no box to put a figure in.')
     write(join(dist, file), own)
     write(join(dist, 'oembed', `${figure.name}.json`), `${JSON.stringify(oembed(figure, codes), undefined, 2)}\n`)
   }

@@ -4,10 +4,12 @@ import { join } from 'node:path'
 import AxeBuilder from '@axe-core/playwright'
 import type { Frame, Page } from '@playwright/test'
 import { root } from '../../scripts/lib.mjs'
-import type { FigureElement } from '../../widgets/elements/base'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
 import { FIGURES, forgiveHost, openHost, sanitised } from './host'
+
+/** What a page's script may ask of a figure. */
+type FigureElement = HTMLElement & { embedCode(name: string): string | undefined; naturalHeight: number; state: string }
 
 test.use({ contextOptions: { reducedMotion: 'reduce' }, permissions: ['clipboard-read', 'clipboard-write'] })
 

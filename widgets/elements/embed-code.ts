@@ -15,8 +15,8 @@ export const FRAME_WIDTH = 800
 /** Heights that show all of a figure in a frame of that width, settings closed [px]; tests/e2e/embed.spec.ts measures them. */
 const FRAME_HEIGHTS: Record<string, number> = {
   'fastslam-lap': 770,
-  'fastslam-conditioning': 790,
-  'fastslam-proposal': 840,
+  'fastslam-conditioning': 800,
+  'fastslam-proposal': 870,
   'fastslam-resampling': 1190,
   'fastslam-worked-example': 1360,
 }

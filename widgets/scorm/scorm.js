@@ -1,7 +1,7 @@
 // Ties the figure to a learning system that speaks SCORM 1.2: what the learner set is kept in suspend_data and is there at the next visit.
 // Without such a system around it, the page is the figure alone.
 {
-  const figure = document.querySelector('main > :not(p)')
+  const figure = document.querySelector('#figure > :not(p)')
   const key = 'cmi.suspend_data'
 
   /** The system's API is in a window above, or in that of the opener; other sites' windows are not ours to look into. */

@@ -14,7 +14,9 @@ const SHORT: Record<string, string[]> = {
   'sigma-phi': ['bearing-std'],
 }
 
-const main = document.querySelector('main')!
+const main = document.querySelector('#figure')!
+// In a frame it is no landmark: the page around has its own.
+if (parent === self) main.role = 'main'
 const query = new URLSearchParams(location.search)
 
 /** A page of its own for each figure has the figure in it; the common one makes what the address asks for. */
@@ -63,7 +65,7 @@ function tellHeight(figure: FigureElement): void {
   }
   figure.addEventListener('fastslam-step', tell)
   figure.addEventListener('fastslam-change', tell)
-  figure.addEventListener('toggle', tell, { capture: true })
+  figure.addEventListener('fastslam-step', () => figure.shadowRoot!.querySelector('.settings')?.addEventListener('toggle', tell), { once: true })
   addEventListener('resize', () => requestAnimationFrame(tell))
 }
 
