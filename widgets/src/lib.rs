@@ -22,3 +22,8 @@ pub mod shell;
 pub mod worked_example;
 
 pub use fastslam;
+
+/// The example of the package's front page, as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
