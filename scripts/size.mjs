@@ -1,5 +1,5 @@
 // npm run size: what a reader's first view of the page transfers, as our server sends it to Chromium (Brotli). Fails over 200 KB.
-import { existsSync } from 'node:fs'
+import { existsSync, readdirSync } from 'node:fs'
 import { join } from 'node:path'
 import { build, dist, kilobytes } from './build.mjs'
 import { isMain, main, say, step, StepError } from './lib.mjs'
@@ -8,9 +8,32 @@ import { launchChromium } from './browser.mjs'
 
 const target = 150_000
 const limit = 200_000
+/** What one figure may cost that is embedded, nothing cached: its page for frames with all that it loads. */
+const embedLimit = 110_000
+
+/** The same for each figure's page for frames. */
+export async function checkEmbedSizes() {
+  const pages = readdirSync(dist).filter(file => /^embed-.*\.html$/.test(file))
+  const sizes = []
+  for (const page of pages) {
+    const loaded = (await transferred(page)).filter(({ status }) => status === 200)
+    if (!loaded.some(({ path }) => path.endsWith('.wasm'))) throw new StepError(`${page} did not load its WebAssembly.`)
+    sizes.push({ page, sent: loaded.reduce((bytes, { sent }) => bytes + sent, 0) })
+  }
+  for (const { page, sent } of sizes) say(`${kilobytes(sent).padStart(12)}  ${page}`)
+  const heaviest = Math.max(...sizes.map(({ sent }) => sent))
+  const result = `${kilobytes(heaviest)} at most, of ${kilobytes(embedLimit)}`
+  if (sizes.length === 0 || heaviest > embedLimit) throw new StepError(`A figure's page for frames is too heavy: ${result}.`)
+  return result
+}
 
 /** Loads the page, reads it to its end, and adds up the answers of the server. */
 export async function checkSize() {
+  return report(await transferred(''))
+}
+
+/** What the server answers for a page that is read to its end. @param {string} path */
+async function transferred(path) {
   /** @type {import('./serve.mjs').Served[]} */
   const answers = []
   const server = await startServer({ folder: dist, onServed: served => answers.push(served) })
@@ -18,7 +41,7 @@ export async function checkSize() {
   try {
     const page = await browser.newPage({ viewport: { width: 1280, height: 800 } })
     const quiet = watchRequests(page)
-    await page.goto(server.url)
+    await page.goto(server.url + path)
     await quiet()
     // Figures and pictures further down are loaded when they are seen: a reader who reads on loads those too.
     const end = await page.evaluate(() => document.documentElement.scrollHeight)
@@ -30,7 +53,7 @@ export async function checkSize() {
     await browser.close()
     await server.close()
   }
-  return report(answers)
+  return answers
 }
 
 /** Waits until no request has been open for a while. @param {import('@playwright/test').Page} page */
@@ -67,5 +90,6 @@ if (isMain(import.meta)) {
   await main(async () => {
     if (!existsSync(join(dist, 'index.html'))) await build()
     await step('Size of the page', checkSize)
+    await step('Size of an embedded figure', checkEmbedSizes)
   })
 }
