@@ -2,7 +2,7 @@
 // and each figure as a SCORM 1.2 package for learning systems, which keeps a learner's state. All in packages/offline/.
 import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs'
 import { dirname, join, posix } from 'node:path'
-import { build, dist, kilobytes } from './build.mjs'
+import { build, dist, figureWasm, kilobytes } from './build.mjs'
 import { figures } from './elements.mjs'
 import { escape } from './frames.mjs'
 import { isMain, main, root, say, step, StepError } from './lib.mjs'
@@ -42,7 +42,7 @@ function inlined(file, script) {
   }
   let html = readFileSync(join(dist, file), 'utf8')
   html = html
-    .replace(/<link[^>]*rel="(?:modulepreload|canonical|alternate)"[^>]*>\s*/g, '')
+    .replace(/<link[^>]*rel="(?:modulepreload|canonical|alternate|fastslam-program)"[^>]*>\s*/g, '')
     .replace(/<meta property="og:[^>]*>\s*/g, '')
     .replace(/<link[^>]*rel="stylesheet"[^>]*href="([^"]+)"[^>]*>/g, (_, address) => `<style>\n${styles(address)}</style>`)
     .replace(/(<link[^>]*rel="icon"[^>]*href=")([^"]+)("[^>]*>)/g, (_, before, address, after) => before + dataAddress(local(folder, address) ?? '') + after)
@@ -95,9 +95,8 @@ export async function writeOffline() {
     return statSync(path).size
   }
   const scorm = readFileSync(join(root, 'widgets', 'scorm', 'scorm.js'), 'utf8')
-  const script = await singleFile(join(root, 'www', 'src', 'embed.ts'))
   for (const figure of await figures()) {
-    const page = inlined(`embed-${figure.name}.html`, script)
+    const page = inlined(`embed-${figure.name}.html`, await singleFile(join(root, 'www', 'src', 'embed.ts'), figureWasm(figure.tag)))
     const size = put(`${figure.tag}.html`, page)
     if (size > limit) throw new StepError(`${figure.tag}.html has ${kilobytes(size)}, over the limit of ${kilobytes(limit)}.`)
     const started = page.replace('</body>', () => '<script defer src="scorm.js"></script>\n  </body>')

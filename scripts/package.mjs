@@ -2,11 +2,10 @@
 // Both hold what the site's build made, so what is tested on the site is what they ship.
 import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { buildPages, buildWasm, dist } from './build.mjs'
+import { build, dist } from './build.mjs'
 import { figures, types } from './elements.mjs'
 import { isMain, main, root, run, step } from './lib.mjs'
 import { python, pythonFiles } from './python.mjs'
-import { setUp } from './setup.mjs'
 
 const npm = join(root, 'widgets', 'npm')
 export const packages = join(root, 'packages')
@@ -38,7 +37,7 @@ export async function npmFiles() {
   rmSync(to, { recursive: true, force: true })
   mkdirSync(join(to, 'assets'), { recursive: true })
   const all = await figures()
-  const program = readdirSync(dist).filter(file => file.endsWith('.wasm'))
+  const program = readdirSync(dist).filter(file => /^fastslam_widgets_bg-.*\.wasm$/.test(file))
   for (const file of [...program, 'fastslam.js', 'custom-elements.json']) cpSync(join(dist, file), join(to, file))
   // What fastslam.js names, and nothing of the chapter's.
   const script = readFileSync(join(dist, 'fastslam.js'), 'utf8')
@@ -73,9 +72,7 @@ export async function packWheel() {
 if (isMain(import.meta)) {
   await main(async () => {
     if (process.argv.includes('--npm-files')) return step('Files of the npm package', npmFiles)
-    await setUp()
-    await buildWasm()
-    await buildPages()
+    await build()
     await step('npm package', packNpm)
     await step('Python wheel', packWheel)
   })

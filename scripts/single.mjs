@@ -30,9 +30,13 @@ async function bundle(entry, format, plugins = []) {
   return scripts[0].code
 }
 
-/** The script, as text. @param {string} entry its source @returns {Promise<string>} */
-export async function singleFile(entry) {
-  const program = gzipSync(readFileSync(join(root, 'widgets', 'pkg', 'fastslam_widgets_bg.wasm')), { level: 9 }).toString('base64')
+/**
+ * The script, as text.
+ * @param {string} entry its source @param {string} [wasm] the program that it carries
+ * @returns {Promise<string>}
+ */
+export async function singleFile(entry, wasm = join(root, 'widgets', 'pkg', 'fastslam_widgets_bg.wasm')) {
+  const program = gzipSync(readFileSync(wasm), { level: 9 }).toString('base64')
   // No module: pages opened from a file may not start workers that are modules.
   const worker = await bundle(join(elements, 'worker.ts'), 'iife')
   const carried = `export const program = ${JSON.stringify(program)}; export const worker = ${JSON.stringify(worker)}`

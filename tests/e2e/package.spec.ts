@@ -110,7 +110,7 @@ test('the crates are packed without a warning, and each has what it is built fro
   const widgets = list('fastslam-widgets')
   for (const file of ['src/registry.rs', 'build.rs', 'fonts/', 'README.md', 'LICENSE-MIT']) expect(widgets).toContain(file)
   expect(widgets).not.toMatch(/elements\/|npm\/|python\/|pkg\//)
-  const { stderr } = spawnSync('cargo', ['package', '--allow-dirty', '--no-verify', '-p', 'fastslam', '-p', 'fastslam-widgets'], { cwd: root, encoding: 'utf8' })
+  const { stderr } = spawnSync('cargo', ['package', '--allow-dirty', '--no-verify', '-p', 'fastslam', '-p', 'fastslam-raster', '-p', 'fastslam-widgets'], { cwd: root, encoding: 'utf8' })
   expect(stderr).not.toMatch(/warning|error/)
   expect(stderr).toMatch(/Packaged/)
 })

@@ -3,7 +3,7 @@
 import { Controls } from './controls'
 import { CODES, embedCode, type CodeName } from './embed-code'
 import { h, icon, write } from './dom'
-import { engine, isRefusal, panicMessage, type Engine, type Handle, type ParamSpec, type Readout, type Shell } from './engine'
+import { engine, isRefusal, panicMessage, type Engine, type Handle, type ParamSpec, type Readout, type Shell, type TraceLine } from './engine'
 import css from './figure.css?inline'
 import { homeAddress, pictureAddress } from './files'
 import { FIGURES } from './generated/figures'
@@ -37,6 +37,11 @@ export interface FigureDetail {
   readouts: Readout[]
 }
 
+export interface TraceDetail {
+  step: number
+  lines: TraceLine[]
+}
+
 export abstract class FigureElement extends HTMLElement {
   #engine?: Engine
   #figure?: Shell // lives while the element is connected and has been seen
@@ -56,11 +61,13 @@ export abstract class FigureElement extends HTMLElement {
   #timeline = true // whether there are steps to play
   #target = 0 // the step asked for; the step shown may still be on its way to it
 
+  #near = false // within a screen of being seen: built and painted, so that nothing on the page moves when it comes into view
   #inView = false
   #frameRequest = 0
   #mustPaint = false
   #paintedAt = -Infinity // [ms]
   #mustShowValues = false
+  #mustTrace = false
   #changeToTell = false
   #toldStep = -1
   #toldSentence = 0
@@ -94,6 +101,7 @@ export abstract class FigureElement extends HTMLElement {
   readonly #menu = this.#makeMenu()
   readonly #body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title' })
 
+  readonly #approach = new IntersectionObserver(entries => this.#onApproach(entries[entries.length - 1]!), { rootMargin: '100% 0px' })
   readonly #intersections = new IntersectionObserver(entries => this.#onIntersection(entries), { threshold: [0, SEEN] })
   readonly #sizes = new ResizeObserver(entries => this.#onResize(entries))
 
@@ -134,6 +142,7 @@ export abstract class FigureElement extends HTMLElement {
     onThemeChange(() => this.#repaint(), signal)
     document.addEventListener('visibilitychange', () => this.#wake(), { signal })
     addEventListener('hashchange', () => this.#followLink(), { signal })
+    this.#approach.observe(this)
     this.#intersections.observe(this)
     this.#intersections.observe(this.#stage)
     this.#watchSize()
@@ -142,10 +151,12 @@ export abstract class FigureElement extends HTMLElement {
 
   disconnectedCallback(): void {
     this.#disconnected.abort()
+    this.#approach.disconnect()
     this.#intersections.disconnect()
     this.#sizes.disconnect()
     cancelAnimationFrame(this.#frameRequest)
     this.#frameRequest = 0
+    this.#near = false
     this.#inView = false
     this.#guard(figure => {
       this.#recipe = figure.query()
@@ -174,7 +185,11 @@ export abstract class FigureElement extends HTMLElement {
 
   /** A method; but frameworks that set properties write the parameter `step` here, and mean it. */
   get step(): () => void {
-    return () => this.seek(this.#target + 1)
+    return () => {
+      this.#mustTrace = true
+      this.seek(this.#target + 1)
+      if (!this.#inView) void this.#workUnseen()
+    }
   }
 
   set step(step: number | string) {
@@ -502,15 +517,16 @@ export abstract class FigureElement extends HTMLElement {
   }
 
   #wake(): void {
-    if (!this.#figure || !this.#inView || document.hidden) return
+    if (!this.#figure || !this.#near || document.hidden) return
     this.#frameRequest ||= requestAnimationFrame(now => this.#frame(now))
   }
 
   #frame(now: number): void {
     this.#frameRequest = 0
-    if (!this.#inView || document.hidden) return
+    if (!this.#near || document.hidden) return
     this.#guard(figure => {
-      if (this.#playing && figure.pending() === 0) this.#advance(figure, now)
+      const plays = this.#playing && this.#inView
+      if (plays && figure.pending() === 0) this.#advance(figure, now)
       const end = performance.now() + WORK_BUDGET
       while (figure.pending() > 0 && performance.now() < end) {
         figure.work()
@@ -520,7 +536,7 @@ export abstract class FigureElement extends HTMLElement {
       // On the way to a step far off, a look now and then is enough: painting costs more than simulating.
       const hurry = figure.pending() > 0 && now < this.#paintedAt + CATCH_UP_PAINT
       if (this.#mustPaint && !hurry) this.#show(figure)
-      if (this.#playing || figure.pending() > 0) this.#wake()
+      if (plays || figure.pending() > 0) this.#wake()
     })
   }
 
@@ -560,6 +576,7 @@ export abstract class FigureElement extends HTMLElement {
     this.#changeToTell = false
     if (step !== this.#toldStep) this.#tell('fastslam-step', detail)
     this.#toldStep = step
+    this.#tellTrace(figure)
   }
 
   /** Where there is nothing to play, the picture has no keys. */
@@ -573,6 +590,23 @@ export abstract class FigureElement extends HTMLElement {
 
   #tell(type: string, detail: FigureDetail): void {
     this.dispatchEvent(new CustomEvent(type, { bubbles: true, composed: true, detail }))
+  }
+
+  /** After a step that was asked for by itself: which lines of the algorithm it ran, and what came out of them. */
+  #tellTrace(figure: Shell): void {
+    if (!this.#mustTrace) return
+    this.#mustTrace = false
+    const detail: TraceDetail = { step: figure.step(), lines: figure.trace() as TraceLine[] }
+    this.dispatchEvent(new CustomEvent('fastslam-trace', { bubbles: true, composed: true, detail }))
+  }
+
+  /** A step asked for from elsewhere on the page, by the box of an algorithm: the picture waits until it is seen, the lines do not. */
+  async #workUnseen(): Promise<void> {
+    await this.#start()
+    this.#guard(figure => {
+      while (figure.pending() > 0) figure.work()
+      this.#tellTrace(figure)
+    })
   }
 
   #showReadouts(readouts: Readout[]): void {
@@ -688,11 +722,16 @@ export abstract class FigureElement extends HTMLElement {
 
   // --- Reader's input ----------------------------------------------------------------------------------------------------
 
+  #onApproach({ isIntersecting }: IntersectionObserverEntry): void {
+    this.#near = isIntersecting
+    if (isIntersecting) void this.#start()
+    this.#wake()
+  }
+
   #onIntersection(entries: IntersectionObserverEntry[]): void {
     for (const entry of entries) {
       if (entry.target === this) {
         this.#inView = entry.isIntersecting
-        if (this.#inView) void this.#start()
       } else if (entry.intersectionRatio >= SEEN && this.#mayAutoplay && !reducedMotion.matches) {
         this.#mayAutoplay = false
         this.#playing = true

@@ -5,10 +5,10 @@ const PICTURES = import.meta.glob<string>('../../tests/figures/golden/fastslam-*
 
 /**
  * The program of this page, and the one place where it is chosen: a page with one kind of figure may name that figure's own, which is
- * smaller, by `<link data-fastslam-program href="…">`; every other page gets the program with all figures.
+ * smaller, by `<link rel="fastslam-program" href="…">`; every other page gets the program with all figures.
  */
 export function fetchProgram(): Promise<Response> {
-  const named = document.querySelector<HTMLLinkElement>('link[data-fastslam-program]')
+  const named = document.querySelector<HTMLLinkElement>('link[rel=fastslam-program]')
   return fetch(named?.href ?? new URL('../pkg/fastslam_widgets_bg.wasm', import.meta.url))
 }
 

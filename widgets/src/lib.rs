@@ -3,22 +3,27 @@
 //! the command line use the same [`figure::Figure`] as the page.
 
 mod comma;
+#[cfg(feature = "conditioning")]
 pub mod conditioning;
 pub mod export;
 pub mod figure;
 pub mod font;
 pub mod job;
+#[cfg(feature = "lap")]
 pub mod lap;
 pub mod model;
 pub mod paint;
 mod param;
+#[cfg(feature = "proposal")]
 pub mod proposal;
 mod query;
 pub mod registry;
+#[cfg(feature = "resampling")]
 pub mod resampling;
 pub mod scene;
 #[cfg(target_arch = "wasm32")]
 pub mod shell;
+#[cfg(feature = "worked-example")]
 pub mod worked_example;
 
 pub use fastslam;

@@ -71,6 +71,8 @@ function tellHeight(figure: FigureElement): void {
 
 const figure = figureAsked()
 if (figure) {
+  // One figure only: its own program will do.
+  for (const link of document.querySelectorAll<HTMLLinkElement>('link[rel=fastslam-program]')) if (link.title !== figure.localName) link.remove()
   configure(figure)
   document.title = FIGURES[figure.localName]!.title
   if (parent !== window) tellHeight(figure)

@@ -3,6 +3,7 @@
 mod landmarks;
 mod lap;
 mod mrclam;
+mod numbers;
 mod picture;
 mod policies;
 mod table;
@@ -26,6 +27,7 @@ struct Arguments {
 enum Command {
     Lap(lap::Arguments),
     Landmarks(landmarks::Arguments),
+    Numbers(numbers::Arguments),
     Policies(policies::Arguments),
     Table(table::Arguments),
 }
@@ -79,6 +81,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     pool.install(|| match arguments.command {
         Command::Lap(arguments) => lap::run(&arguments),
         Command::Landmarks(arguments) => landmarks::run(&arguments),
+        Command::Numbers(arguments) => numbers::run(&arguments),
         Command::Policies(arguments) => policies::run(&arguments),
         Command::Table(arguments) => table::run(&arguments),
     })
@@ -87,7 +90,8 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
 /// What clap says before it advises, in one line.
 fn one_line(message: &clap::Error) -> String {
     if message.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "a command is missing: lap, landmarks, policies or table (fastslam --help explains)".to_owned();
+        return "a command is missing: lap, landmarks, numbers, policies or table (fastslam --help explains)"
+            .to_owned();
     }
     let text = message.to_string();
     let said =
