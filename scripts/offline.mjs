@@ -42,7 +42,7 @@ function inlined(file, script) {
   }
   let html = readFileSync(join(dist, file), 'utf8')
   html = html
-    .replace(/<link[^>]*rel="(?:modulepreload|canonical|alternate|fastslam-program)"[^>]*>\s*/g, '')
+    .replace(/<link[^>]*rel="(?:preload|modulepreload|canonical|alternate|fastslam-program)"[^>]*>\s*/g, '')
     .replace(/<meta property="og:[^>]*>\s*/g, '')
     .replace(/<link[^>]*rel="stylesheet"[^>]*href="([^"]+)"[^>]*>/g, (_, address) => `<style>\n${styles(address)}</style>`)
     .replace(/(<link[^>]*rel="icon"[^>]*href=")([^"]+)("[^>]*>)/g, (_, before, address, after) => before + dataAddress(local(folder, address) ?? '') + after)

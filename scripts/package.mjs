@@ -37,10 +37,10 @@ export async function npmFiles() {
   rmSync(to, { recursive: true, force: true })
   mkdirSync(join(to, 'assets'), { recursive: true })
   const all = await figures()
-  const program = readdirSync(dist).filter(file => /^fastslam_widgets_bg-.*\.wasm$/.test(file))
-  for (const file of [...program, 'fastslam.js', 'custom-elements.json']) cpSync(join(dist, file), join(to, file))
-  // What fastslam.js names, and nothing of the chapter's.
-  const script = readFileSync(join(dist, 'fastslam.js'), 'utf8')
+  const files = readdirSync(dist).filter(file => /^fastslam(-[\w-]{8})?\.js$|^fastslam_widgets_bg-.*\.wasm$/.test(file))
+  for (const file of [...files, 'custom-elements.json']) cpSync(join(dist, file), join(to, file))
+  // What they name, and nothing of the chapter's.
+  const script = files.filter(file => file.endsWith('.js')).map(file => readFileSync(join(dist, file), 'utf8')).join('')
   for (const file of readdirSync(join(dist, 'assets'))) if (script.includes(`assets/${file}`)) cpSync(join(dist, 'assets', file), join(to, 'assets', file))
   cpSync(join(dist, 'fastslam-anywidget.js'), join(to, 'standalone.js'))
   writeFileSync(join(to, 'fastslam.d.ts'), types(all))

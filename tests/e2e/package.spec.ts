@@ -1,6 +1,6 @@
 // The npm package as a course's developer meets it: packed, installed, and used with no bundler, in a fresh Vite project, and on a server.
 import { execFileSync, spawn, spawnSync } from 'node:child_process'
-import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
+import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { cache, npmBin, root } from '../../scripts/lib.mjs'
 import { packNpm } from '../../scripts/package.mjs'
@@ -44,8 +44,11 @@ test('it is what its README says: exports with types, no word of the chapter, no
   const files = Object.values(exports).flatMap(target => (typeof target === 'string' ? [target] : Object.values(target as Record<string, string>)))
   for (const file of files) expect(readFileSync(join(installed, file)).length, file).toBeGreaterThan(0)
   expect(sideEffects).toContain('./dist/*.js')
-  const script = readFileSync(join(installed, 'dist', 'fastslam.js'), 'utf8')
-  for (const [, asset] of script.matchAll(/new URL\([`"']([^`"']+\.(?:wasm|png|js))[`"'],/g)) expect(readFileSync(join(installed, 'dist', asset!)).length, asset).toBeGreaterThan(0)
+  const scripts = readdirSync(join(installed, 'dist')).filter(file => /^fastslam(-|\.js)/.test(file))
+  const script = scripts.map(file => readFileSync(join(installed, 'dist', file), 'utf8')).join('')
+  const named = [...script.matchAll(/new URL\([`"']([^`"']+\.(?:wasm|png|js))[`"'],/g)]
+  expect(named.length).toBeGreaterThan(10)
+  for (const [, asset] of named) expect(readFileSync(join(installed, 'dist', asset!)).length, asset).toBeGreaterThan(0)
 })
 
 for (const file of ['plain.html', 'standalone.html']) {

@@ -25,5 +25,5 @@ export function pictureAddress(tag: string, shade: 'light' | 'dark'): string | u
 /** The folder of the site that serves this script, where it is one: the pages for frames lie beside it. Else empty. */
 export function homeAddress(): string {
   const { protocol, pathname, href } = new URL(import.meta.url)
-  return /^https?:$/.test(protocol) && pathname.endsWith('/fastslam.js') ? new URL('.', href).href : ''
+  return /^https?:$/.test(protocol) && /\/fastslam(-[\w-]{8})?\.js$/.test(pathname) ? new URL('.', href).href : ''
 }
