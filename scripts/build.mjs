@@ -3,6 +3,8 @@ import { createHash } from 'node:crypto'
 import { copyFileSync, existsSync, mkdirSync, readFileSync, renameSync, rmSync, statSync, writeFileSync } from 'node:fs'
 import { basename, join } from 'node:path'
 import { fileURLToPath } from 'node:url'
+import { writeNames } from './elements.mjs'
+import { writeFrames } from './frames.mjs'
 import { setUp } from './setup.mjs'
 import { cache, isMain, main, npmBin, root, run, step, StepError } from './lib.mjs'
 
@@ -58,6 +60,7 @@ async function withoutNeverRun(input) {
 export async function buildWasm() {
   await step('Widgets to WebAssembly', () => run('wasm-pack', ['build', 'widgets', '--target', 'web', '--release', '--no-pack']))
   await step('Optimise WebAssembly', () => optimise(wasm))
+  await step('Names of the figures', writeNames)
 }
 
 /** For embeds, a program for each figure; all use the same glue. */
@@ -76,11 +79,12 @@ export async function buildFigures() {
 export async function buildPages() {
   await step('Pages', async () => {
     await run(npmBin('vite'), ['build', '--config', join(root, 'scripts', 'vite.config.mjs'), '--logLevel', 'warn'])
-    for (const file of ['index.html', 'fastslam.js']) {
+    for (const file of ['index.html', 'embed.html', 'fastslam.js']) {
       if (!existsSync(join(dist, file))) throw new StepError(`The build did not write dist/${file}.`)
     }
     return 'in dist/'
   })
+  await step('Frames, oEmbed and the files for other pages', writeFrames)
 }
 
 export async function build() {

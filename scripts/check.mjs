@@ -24,7 +24,7 @@ function clippyWasm() {
 }
 
 async function checkTypes() {
-  for (const project of ['.', 'scripts', 'tests/e2e']) await run(npmBin('tsc'), ['--noEmit', '-p', join(root, project)])
+  for (const project of ['.', 'scripts', 'tests/e2e', 'tests/clients']) await run(npmBin('tsc'), ['--noEmit', '-p', join(root, project)])
 }
 
 if (isMain(import.meta)) {

@@ -6,7 +6,7 @@ import { buildFigures, buildPages, buildWasm } from './build.mjs'
 import { checks } from './check.mjs'
 import { bold, cache, main, npmBin, readIfThere, red, root, run, step, StepError } from './lib.mjs'
 import { findChrome, findChromeDriver, setUp } from './setup.mjs'
-import { checkSize } from './size.mjs'
+import { checkEmbedSizes, checkSize } from './size.mjs'
 
 const total = { passed: 0, failed: 0 }
 /** @type {string[]} */
@@ -124,6 +124,7 @@ await main(async () => {
   await attempt('Tests in WebAssembly, in Chromium', wasmTest)
   await attempt('Tests of the page, in Chromium', playwright)
   await attempt('Size of the page', checkSize)
+  await attempt('Size of an embedded figure', checkEmbedSizes)
 
   const minutes = ((performance.now() - started) / 60_000).toFixed(1)
   if (failures.length > 0) console.log(red(bold(`\nFailed after ${minutes} min: ${failures.join('; ')}`)))

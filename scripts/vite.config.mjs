@@ -45,7 +45,8 @@ export default defineConfig({
       preserveEntrySignatures: 'allow-extension',
       output: {
         entryFileNames: chunk => (chunk.name === 'fastslam' ? '[name].js' : 'assets/[name]-[hash].js'),
-        chunkFileNames: 'assets/[name]-[hash].js',
+        // The figures lie beside fastslam.js, which only names them: they find the site's other pages from there.
+        chunkFileNames: chunk => (chunk.moduleIds.some(id => id.endsWith('/elements/base.ts')) ? 'fastslam-[hash].js' : 'assets/[name]-[hash].js'),
         assetFileNames,
       },
     },

@@ -1,11 +1,15 @@
 // The base of every figure: life cycle, attributes and links, frame loop, canvas, keyboard, errors.
 // A figure's own file only names its tag; everything that differs comes from the shell (parameters, readouts, pixels).
 import { Controls } from './controls'
+import { CODES, embedCode, type CodeName } from './embed-code'
 import { h, icon, write } from './dom'
 import { engine, isRefusal, panicMessage, type Engine, type Handle, type ParamSpec, type Readout, type Shell, type TraceLine } from './engine'
 import css from './figure.css?inline'
+import { homeAddress, pictureAddress } from './files'
+import { FIGURES } from './generated/figures'
 import { Handles } from './handles'
 import { linkedQuery, linkTo } from './link'
+import { locked, OPTIONS, refusal } from './options'
 import { copy, download } from './save'
 import { onThemeChange, reducedMotion, themeName } from './theme'
 
@@ -16,10 +20,15 @@ const WORK_BUDGET = 8 // [ms] of simulation a frame, which leaves half of a 60 H
 const CATCH_UP_PAINT = 100 // [ms] between pictures while the simulation catches up
 const SEEN = 0.35 // share of the canvas in view at which the figure begins to play
 const WIDE = 620 // [px] from here on the settings are open at first
+const LARGE = 1.5 // letters and lines of the presentation size, over the normal one
+const SLOW = 3000 // [ms] of loading after which the picture is shown meanwhile
+const PADDING = 14 // [px] beside the picture, as in figure.css
+const LEGIBLE = 0.5 // a picture is not made smaller than that to fit
+const PICTURE_SHARE = 0.6 // of a frame's height, which the picture takes if the rest has to be scrolled
 const MAX_PIXELS = 6e6 // a canvas beyond this is painted coarser: no screen shows the difference, every phone feels it
 
 // Attributes that are not parameters and are no mistake: those of every element, and those frameworks add.
-const COMMON = new Set(['class', 'part', 'is', 'theme', 'role', 'exportparts', ...Object.keys(properties(HTMLElement.prototype))])
+const COMMON = new Set(['class', 'part', 'is', 'role', 'exportparts', ...Object.keys(properties(HTMLElement.prototype))])
 const FOREIGN = /^(aria|data|hx|js|ng|v|wire|x)-|[^a-z0-9-]/
 
 export interface FigureDetail {
@@ -64,15 +73,18 @@ export abstract class FigureElement extends HTMLElement {
   #toldSentence = 0
   #saidAt = -Infinity // [ms]
   #cssWidth = 0
+  #scale = 1 // css px of the canvas for one of the scene
   #deviceWidth = 0
   #deviceHeight = 0
   #disconnected = new AbortController()
+  #locked = new Set<string>()
+  #linked = false // the recipe is a reader's link and not the figure's own
 
   readonly #heading = h('p', { class: 'title', part: 'title', id: 'title' })
   readonly #status = h('span', { class: 'status', role: 'status' })
   readonly #canvas = h('canvas', { part: 'canvas', role: 'img', 'aria-labelledby': 'title', 'aria-describedby': 'sentence' })
   readonly #handles = new Handles({
-    drag: (name, x, y) => this.#move(figure => figure.drag(name, x, y, this.#cssWidth)),
+    drag: (name, x, y) => this.#move(figure => figure.drag(name, x / this.#scale, y / this.#scale, this.#cssWidth / this.#scale)),
     nudge: (name, right, up) => this.#move(figure => figure.nudge(name, right, up)),
   })
   readonly #fallback = h('div', { class: 'fallback' }, h('slot'))
@@ -91,10 +103,11 @@ export abstract class FigureElement extends HTMLElement {
 
   readonly #approach = new IntersectionObserver(entries => this.#onApproach(entries[entries.length - 1]!), { rootMargin: '100% 0px' })
   readonly #intersections = new IntersectionObserver(entries => this.#onIntersection(entries), { threshold: [0, SEEN] })
-  readonly #sizes = new ResizeObserver(entries => this.#onResize(entries[entries.length - 1]!))
+  readonly #sizes = new ResizeObserver(entries => this.#onResize(entries))
 
   constructor() {
     super()
+    defineProperties(this)
     const root = this.attachShadow({ mode: 'open' })
     root.adoptedStyleSheets = [sheet]
     this.#body.append(
@@ -221,9 +234,40 @@ export abstract class FigureElement extends HTMLElement {
     this.seek(step)
   }
 
+  /** The whole state, as a link has it: `name=value&…`, what differs from the defaults. */
+  get state(): string {
+    return this.#figure?.query() ?? this.#recipe ?? ''
+  }
+
+  set state(query: string) {
+    this.#mayAutoplay = false // the sender meant this very state
+    this.#playing = false
+    this.#recipe = query
+    this.#waiting.clear()
+    this.#changeToTell = true
+    if (this.#engine && !this.#stopped) this.#rebuild()
+  }
+
   /** The address of this page with this figure's whole state. */
   get link(): string {
-    return linkTo(this, this.#figure?.query() ?? this.#recipe ?? '')
+    return linkTo(this, this.state)
+  }
+
+  /** The code that puts this figure, as it stands, into another page; undefined where that would need an address it does not have. */
+  embedCode(name: CodeName): string | undefined {
+    const home = homeAddress()
+    if (!home && (name === 'iframe' || name === 'myst')) return undefined
+    const options = Object.keys(OPTIONS).filter(option => option !== 'fit' && this.hasAttribute(option))
+    const attributes: [string, string][] = [...new URLSearchParams(this.state), ...options.map((o): [string, string] => [o, this.getAttribute(o)!])]
+    return embedCode(name, { tag: this.localName, attributes }, home, this.#heading.textContent)
+  }
+
+  /** Height [css px] that shows all of the figure at its present width, the picture as large as it would like to be. */
+  get naturalHeight(): number {
+    const scale = this.#largeness
+    const width = this.#stage.clientWidth - 2 * PADDING
+    const wanted = this.#figure && width > 0 ? this.#figure.height(width / scale) * scale : this.#stage.offsetHeight
+    return Math.ceil(this.#aroundStage() + wanted)
   }
 
   /** Something of a figure's own, below everything else. */
@@ -236,19 +280,35 @@ export abstract class FigureElement extends HTMLElement {
   async #start(): Promise<void> {
     if (this.#figure || this.#starting || this.#stopped) return
     this.#starting = true
+    write(this.#heading, FIGURES[this.localName]?.title ?? '')
     write(this.#status, 'Loading …')
+    const slow = setTimeout(() => {
+      this.#showPicture()
+      write(this.#status, 'Still loading, the network is slow …')
+    }, SLOW)
     try {
       this.#engine = await engine()
+      clearTimeout(slow)
       write(this.#status, '')
+      this.#stage.classList.remove('still')
       if (this.isConnected) this.#rebuild()
     } catch (error) {
+      clearTimeout(slow)
       write(this.#status, '')
       this.#stopped = true
-      this.#stage.classList.add('still')
-      const picture = this.querySelector('img, picture') ? ' The picture shows it at rest.' : ''
-      this.#notice('start', `This figure is not live here: ${(error as Error).message}.${picture}`, 'Try again', () => this.reset())
+      this.#notice('start', `This figure is not live here: ${(error as Error).message}.${this.#showPicture()}`, 'Try again', () => this.reset())
     }
     this.#starting = false
+  }
+
+  /** The author's picture, or our own of a figure of which nothing was asked. Returns what is to be said of it. */
+  #showPicture(): string {
+    const slot = this.#fallback.firstElementChild!
+    const own = this.querySelector('img, picture')
+    const src = pictureAddress(this.localName, themeName(this.getAttribute('theme')).endsWith('dark') ? 'dark' : 'light')
+    if (src && !own && !slot.hasChildNodes()) slot.append(h('img', { src, alt: `${this.#heading.textContent}, at rest` }))
+    this.#stage.classList.add('still')
+    return own || slot.hasChildNodes() ? ' The picture shows it at rest.' : ''
   }
 
   /** A new figure from the recipe; without one, from the attributes. */
@@ -259,6 +319,7 @@ export abstract class FigureElement extends HTMLElement {
       old?.free()
       const figure = this.#engine!.create(this.localName)
       this.#figure = figure
+      figure.set_decimal_comma(this.getAttribute('decimal') === 'comma')
       if (!this.#controls) this.#introduce(figure)
       if (this.#recipe === undefined) {
         // In the order of the parameters, so that the order of the attributes makes no difference.
@@ -267,6 +328,8 @@ export abstract class FigureElement extends HTMLElement {
         this.#takeEarlyProperties()
       } else {
         this.#notice('link', figure.load(this.#recipe).join('\n'))
+        if (this.#linked) this.#keepLocked(figure, this.#authored())
+        this.#linked = false
       }
       for (const [name, text] of this.#waiting) this.#take(name, text)
       this.#waiting.clear()
@@ -302,10 +365,11 @@ export abstract class FigureElement extends HTMLElement {
       },
     })
     this.#controls = controls
-    controls.settings.open = this.clientWidth >= WIDE
+    controls.settings.open = this.clientWidth >= WIDE && !this.#fits
+    this.#onOption('lock')
+    this.#onOption('decimal')
     this.#stage.after(controls.transport, controls.view)
     this.#readouts.after(controls.settings)
-    defineProperties(this, this.#specs)
   }
 
   /** Properties set before this class was known, or before its parameters were. */
@@ -322,26 +386,57 @@ export abstract class FigureElement extends HTMLElement {
   #followLink(): void {
     const query = linkedQuery(this)
     if (query === undefined) return
-    this.#mayAutoplay = false // the sender meant this very state
-    this.#playing = false
-    this.#recipe = query
-    this.#waiting.clear()
-    this.#changeToTell = true
+    this.#linked = true
     this.scrollIntoView({ block: 'nearest' })
-    if (this.#engine && !this.#stopped) this.#rebuild()
+    this.state = query
   }
 
   // --- Parameters --------------------------------------------------------------------------------------------------------
 
   #onAttribute(name: string): void {
     const text = this.getAttribute(name)
-    if (name === 'theme') {
-      const known = text === null || ['light', 'dark', 'auto'].includes(text)
-      this.#notice(name, known ? '' : `theme must be light, dark or auto, not “${text}”`)
-      this.#repaint()
+    if (name in OPTIONS) {
+      this.#onOption(name)
     } else if (!COMMON.has(name) && !FOREIGN.test(name)) {
       if (this.#figure) this.#take(name, text)
       else this.#waiting.set(name, text)
+    }
+  }
+
+  #onOption(name: string): void {
+    const text = this.getAttribute(name)
+    let wrong = refusal(name, text)
+    if (name === 'lock' && this.#controls) {
+      const names = this.#specs.map(spec => spec.name)
+      const wish = locked(text, names)
+      this.#locked = wish.locked
+      this.#controls.lock(wish.locked)
+      if (wish.unknown.length > 0) wrong = `lock names “${wish.unknown[0]!.slice(0, 40)}”, but this figure has ${names.join(', ')}, all`
+    } else if (name === 'decimal' && this.#controls) {
+      this.#controls.writeComma(text === 'comma')
+      this.#guard(figure => figure.set_decimal_comma(text === 'comma'))
+      this.#mustShowValues = true
+    }
+    this.#notice(name, wrong)
+    this.#repaint()
+  }
+
+  /** What the author gave: attributes, and else the defaults. */
+  #authored(): Record<string, string> {
+    return Object.fromEntries(this.#specs.map(spec => [spec.name, this.getAttribute(spec.name) ?? spec.default]))
+  }
+
+  /** Puts back what is locked, where a reader's link or hand has moved it. */
+  #keepLocked(figure: Shell, before: Record<string, string>): void {
+    const now = values(figure)
+    for (const name of this.#locked) {
+      if (now[name] === before[name]) continue
+      try {
+        figure.set(name, before[name]!)
+      } catch (error) {
+        if (!isRefusal(error)) throw error // the author's own value is refused, which has been said
+      }
+      if (now[name] !== values(figure)[name]) this.#notice('locked', `${name} is fixed on this page`)
     }
   }
 
@@ -362,14 +457,14 @@ export abstract class FigureElement extends HTMLElement {
     else this.#waiting.set(name, toText(value))
   }
 
-  /** @internal Undefined until the figure has been seen. */
+  /** @internal The value; of a figure that does not live, what it will begin with, or undefined for the default. */
   getParameter(name: string): unknown {
-    const value = this.#figure && values(this.#figure)[name]
-    const spec = this.#specs.find(candidate => candidate.name === name)
-    if (value === undefined || !spec) return undefined
-    if (spec.kind === 'flag' || spec.kind === 'toggle') return value === 'on'
-    const number = Number(value)
-    return spec.kind === 'choice' || Number.isNaN(number) ? value : number
+    const value = this.#figure
+      ? values(this.#figure)[name]
+      : (this.#waiting.get(name) ?? (this.#recipe === undefined ? this.getAttribute(name) : new URLSearchParams(this.#recipe).get(name)))
+    if (value === undefined || value === null) return undefined
+    if (value === 'on' || value === 'off') return value === 'on'
+    return value === '' || Number.isNaN(Number(value)) ? value : Number(value)
   }
 
   #set(name: string, value: string): void {
@@ -552,7 +647,18 @@ export abstract class FigureElement extends HTMLElement {
 
   // --- Canvas --------------------------------------------------------------------------------------------------------------
 
+  /** Letters and lines that the author wishes over normal ones. */
+  get #largeness(): number {
+    return this.getAttribute('size') === 'presentation' ? LARGE : 1
+  }
+
+  /** Whether the picture takes what height there is, rather than all of the width. */
+  get #fits(): boolean {
+    return (this.hasAttribute('fit') && this.getAttribute('fit') !== 'off') || this.matches(':fullscreen')
+  }
+
   #watchSize(): void {
+    this.#sizes.observe(this.#stage)
     try {
       this.#sizes.observe(this.#canvas, { box: 'device-pixel-content-box' })
     } catch {
@@ -560,7 +666,9 @@ export abstract class FigureElement extends HTMLElement {
     }
   }
 
-  #onResize(entry: ResizeObserverEntry): void {
+  #onResize(entries: ResizeObserverEntry[]): void {
+    const entry = entries.findLast(({ target }) => target === this.#canvas)
+    if (!entry) return this.#repaint() // there may be another height to fit
     const { width, height } = entry.contentRect
     this.#cssWidth = width
     let [w, h] = [Math.round(width * devicePixelRatio), Math.round(height * devicePixelRatio)]
@@ -573,9 +681,28 @@ export abstract class FigureElement extends HTMLElement {
     this.#repaint()
   }
 
+  /** All of the figure but its picture [css px]. */
+  #aroundStage(): number {
+    return this.#body.scrollHeight + this.#body.offsetHeight - this.#body.clientHeight - this.#stage.offsetHeight
+  }
+
   #fitHeight(figure: Shell): void {
     if (this.#cssWidth === 0) return
-    const height = `${Math.round(figure.height(this.#cssWidth))}px`
+    const width = this.#stage.clientWidth - 2 * PADDING
+    let [scene, scale] = [width / this.#largeness, this.#largeness]
+    if (this.#fits) {
+      const height = this.#body.offsetHeight
+      const room = Math.max(height - this.#aroundStage(), PICTURE_SHARE * height)
+      const fitting = (wide: number) => Math.min(this.#largeness, width / wide, room / figure.height(wide))
+      // Other widths have other layouts, so the one is looked for that can be shown largest. What would be too small to read is scrolled.
+      let best = LEGIBLE * scale
+      for (let wide = 0.5 * scene, most = 2 * scene; wide <= most; wide += 10) {
+        if (fitting(wide) >= best) [scene, scale, best] = [wide, fitting(wide), fitting(wide)]
+      }
+    }
+    this.#scale = scale
+    this.#stage.style.setProperty('--_width', this.#fits ? `${Math.floor(Math.min(width, scene * scale))}px` : '100%')
+    const height = `${Math.round(figure.height(scene) * scale)}px`
     if (this.#canvas.style.height !== height) this.#canvas.style.height = height // the resize observer then asks for the paint
   }
 
@@ -585,7 +712,7 @@ export abstract class FigureElement extends HTMLElement {
     const context = this.#canvas.getContext('2d', { alpha: false })!
     if (this.#canvas.width !== width) this.#canvas.width = width
     if (this.#canvas.height !== height) this.#canvas.height = height
-    figure.paint(width, height, width / this.#cssWidth, themeName(this.getAttribute('theme')))
+    figure.paint(width, height, (width / this.#cssWidth) * this.#scale, themeName(this.getAttribute('theme')))
     // The view is made now and dropped now: the next call into wasm may grow the memory and detach it.
     const pixels = new Uint8ClampedArray(this.#engine!.memory.buffer, figure.pixels(), width * height * 4)
     context.putImageData(new ImageData(pixels, width, height), 0, 0)
@@ -642,7 +769,10 @@ export abstract class FigureElement extends HTMLElement {
   #onClick(event: MouseEvent): void {
     this.#mayAutoplay = false
     this.#guard(figure => {
-      if (figure.pick(event.offsetX, event.offsetY, this.#cssWidth)) this.#changed()
+      const before = values(figure)
+      if (!figure.pick(event.offsetX / this.#scale, event.offsetY / this.#scale, this.#cssWidth / this.#scale)) return
+      this.#keepLocked(figure, before)
+      this.#changed()
     })
   }
 
@@ -650,8 +780,9 @@ export abstract class FigureElement extends HTMLElement {
   #move(action: (figure: Shell) => void): void {
     this.#mayAutoplay = false
     this.#guard(figure => {
-      const before = figure.query()
+      const [before, given] = [figure.query(), values(figure)]
       action(figure)
+      this.#keepLocked(figure, given)
       if (figure.query() === before) return
       this.#adoptTarget()
       this.#changed()
@@ -670,7 +801,11 @@ export abstract class FigureElement extends HTMLElement {
     const items = h(
       'div',
       { class: 'items' },
-      item('Copy link', () => void this.#copyLink()),
+      item('Copy link', () => void this.#copy('Link', this.link)),
+      ...(Object.keys(CODES) as CodeName[]).flatMap(name => {
+        const button = item(`Copy code: ${CODES[name]}`, () => void this.#copy('Code', this.embedCode(name)!))
+        return name === 'python' || name === 'element' || homeAddress() ? [button] : []
+      }),
       item('Save picture (PNG)', () => this.#canvas.toBlob(blob => blob && download(this.#fileName('png'), blob))),
       item('Save data (CSV)', () => this.#saveText('csv', 'text/csv')),
       item('Save data (JSON)', () => this.#saveText('json', 'application/json')),
@@ -688,13 +823,12 @@ export abstract class FigureElement extends HTMLElement {
     return menu
   }
 
-  async #copyLink(): Promise<void> {
-    const link = this.link
-    if (await copy(link)) {
-      write(this.#status, 'Link copied')
+  async #copy(what: 'Link' | 'Code', text: string): Promise<void> {
+    if (await copy(text)) {
+      write(this.#status, `${what} copied`)
       setTimeout(() => write(this.#status, ''), 3000)
     } else {
-      this.#notice('copy', `The browser does not let this page write to the clipboard. The link: ${link}`)
+      this.#notice('copy', `The browser does not let this page write to the clipboard. The ${what.toLowerCase()}:\n${text}`)
     }
   }
 
@@ -752,12 +886,12 @@ function values(figure: Shell): Record<string, string> {
 
 const equipped = new WeakSet<object>()
 
-/** A property for every parameter, on the class of the first figure that tells them: rangeStd for `range-std`. */
-function defineProperties(element: FigureElement, specs: ParamSpec[]): void {
+/** A property for every parameter, on the class: rangeStd for `range-std`. */
+function defineProperties(element: FigureElement): void {
   const prototype = Object.getPrototypeOf(element) as object
   if (equipped.has(prototype)) return
   equipped.add(prototype)
-  for (const { name } of specs) {
+  for (const name of FIGURES[element.localName]?.parameters ?? []) {
     const property = camelCase(name)
     if (property in prototype) continue // `step` stays the method
     Object.defineProperty(prototype, property, {

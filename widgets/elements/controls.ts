@@ -30,6 +30,11 @@ const NORMAL_PACE = 6
 const SEED = 'seed'
 const STEP = 'step'
 
+/** How numbers are written in boxes; the shell writes all others. */
+interface Mark {
+  comma: boolean
+}
+
 let made = 0 // ids must be unique in a shadow root only, but a counter over the page is simpler to trust
 
 export class Controls {
@@ -43,6 +48,8 @@ export class Controls {
   private readonly forth: HTMLButtonElement
   private readonly scrub: HTMLInputElement
   private readonly position: HTMLOutputElement
+  private readonly mark: Mark = { comma: false }
+  private readonly pace: HTMLSelectElement
   private readonly playback: HTMLElement[] // all that a figure without steps has no use for
 
   constructor(specs: ParamSpec[], actions: Actions) {
@@ -58,6 +65,7 @@ export class Controls {
       PACES.map(p => [String(p), `${p / NORMAL_PACE}×`]),
       v => actions.pace(Number(v)),
     )
+    this.pace = pace
     pace.value = String(NORMAL_PACE)
     const timeline = h('span', { class: 'timeline' }, this.scrub, this.position)
     this.playback = [this.back, this.play, this.forth, timeline, pace]
@@ -77,7 +85,7 @@ export class Controls {
     const choices: HTMLElement[] = [] // after the sliders, so that the grid has even rows
     for (const spec of specs) {
       if (spec.name === STEP) continue
-      const field = fieldFor(spec, value => actions.change(spec.name, value))
+      const field = fieldFor(spec, this.mark, value => actions.change(spec.name, value))
       this.fields.set(spec.name, field)
       for (const input of field.element.querySelectorAll<HTMLElement>('input, select')) input.title = spec.help // read out after the name
       if (spec.name === SEED) this.transport.lastElementChild!.append(field.element)
@@ -106,6 +114,30 @@ export class Controls {
     }
   }
 
+  /** Numbers in boxes with a comma or a point, from the next {@link showValues} on. */
+  writeComma(comma: boolean): void {
+    if (comma === this.mark.comma) return
+    this.mark.comma = comma
+    this.shown.clear()
+    // A box of numbers writes them as the browser's language has it, so those with decimals become boxes of text.
+    for (const { element } of this.fields.values()) {
+      for (const box of element.querySelectorAll<HTMLInputElement>('input[inputmode=decimal]')) {
+        box.type = comma ? 'text' : 'number'
+        box.role = comma ? 'spinbutton' : null
+      }
+    }
+    for (const option of this.pace.options) option.text = written(`${Number(option.value) / NORMAL_PACE}×`, this.mark)
+  }
+
+  /** Parameters that are the author's alone: their controls show the value and do nothing. */
+  lock(names: Set<string>): void {
+    for (const [name, { element }] of this.fields) {
+      const inputs = element.matches('button') ? [element as HTMLButtonElement] : element.querySelectorAll<HTMLInputElement>('input, select, button')
+      for (const input of inputs) input.disabled = names.has(name)
+    }
+    this.scrub.disabled = names.has(STEP)
+  }
+
   showPosition(step: number, last: number, playing: boolean, busy: boolean): void {
     const steps = last > 0
     for (const element of this.playback) element.hidden = !steps
@@ -129,12 +161,12 @@ export class Controls {
   }
 }
 
-function fieldFor(spec: ParamSpec, change: (value: string) => void): Field {
-  if (spec.name === SEED) return seedField(spec, change)
+function fieldFor(spec: ParamSpec, mark: Mark, change: (value: string) => void): Field {
+  if (spec.name === SEED) return seedField(spec, mark, change)
   if (spec.kind === 'flag') return flagField(spec, change)
   if (spec.kind === 'toggle') return toggleField(spec, change)
   if (spec.kind === 'choice' || spec.choices.length > 0) return choiceField(spec, change)
-  return spec.slider ? sliderField(spec, change) : numberField(spec, change)
+  return spec.slider ? sliderField(spec, mark, change) : numberField(spec, mark, change)
 }
 
 function toggleField(spec: ParamSpec, change: (value: string) => void): Field {
@@ -180,13 +212,13 @@ function choiceField(spec: ParamSpec, change: (value: string) => void): Field {
   }
 }
 
-function sliderField(spec: ParamSpec, change: (value: string) => void): Field {
+function sliderField(spec: ParamSpec, mark: Mark, change: (value: string) => void): Field {
   const stops = geometricStops(spec)
-  const box = numberBox(spec, change)
+  const box = numberBox(spec, mark, change)
   box.id = `box-${++made}`
   const range = h('input', { type: 'range', name: spec.name, 'aria-label': `${spec.title}, slider` })
   Object.assign(range, stops ? { min: 0, max: stops.length - 1, step: 1 } : { min: spec.min, max: spec.max, step: spec.step })
-  const describe = (value: string) => range.setAttribute('aria-valuetext', `${value} ${spec.unit}`.trim())
+  const describe = (value: string) => range.setAttribute('aria-valuetext', `${written(value, mark)} ${spec.unit}`.trim())
   range.addEventListener('input', () => change(stops ? String(stops[range.valueAsNumber]) : range.value))
   return {
     element: h(
@@ -197,7 +229,7 @@ function sliderField(spec: ParamSpec, change: (value: string) => void): Field {
       range,
     ),
     show(value) {
-      box.value = value
+      showNumber(box, value, mark)
       range.value = stops ? String(nearest(stops, Number(value))) : value
       describe(value)
     },
@@ -206,8 +238,8 @@ function sliderField(spec: ParamSpec, change: (value: string) => void): Field {
 }
 
 /** A number without a slider: for figures that have many. */
-function numberField(spec: ParamSpec, change: (value: string) => void): Field {
-  const box = numberBox(spec, change)
+function numberField(spec: ParamSpec, mark: Mark, change: (value: string) => void): Field {
+  const box = numberBox(spec, mark, change)
   return {
     element: h(
       'label',
@@ -215,7 +247,7 @@ function numberField(spec: ParamSpec, change: (value: string) => void): Field {
       h('span', { class: 'name' }, spec.title),
       h('span', { class: 'value' }, box, h('span', { class: 'unit' }, spec.unit)),
     ),
-    show: value => void (box.value = value),
+    show: value => showNumber(box, value, mark),
     limit: spec => limit(box, spec),
   }
 }
@@ -227,8 +259,8 @@ function limit(input: HTMLInputElement, { min, max }: ParamSpec): boolean {
   return true
 }
 
-function seedField(spec: ParamSpec, change: (value: string) => void): Field {
-  const box = numberBox(spec, change)
+function seedField(spec: ParamSpec, mark: Mark, change: (value: string) => void): Field {
+  const box = numberBox(spec, mark, change)
   const roll = button('dice', 'Re-roll the seed', () => {
     // Short seeds are easier to read out in a classroom; they are as good as long ones.
     let seed: number
@@ -247,26 +279,41 @@ function seedField(spec: ParamSpec, change: (value: string) => void): Field {
   }
 }
 
-function numberBox(spec: ParamSpec, change: (value: string) => void): HTMLInputElement {
+/** Numbers are points inside, whatever the box writes; who types a comma means one. */
+function read(box: HTMLInputElement): string {
+  return box.value.replace(',', '.')
+}
+
+function written(number: string, { comma }: Mark): string {
+  return comma ? number.replace('.', ',') : number
+}
+
+function showNumber(box: HTMLInputElement, value: string, mark: Mark): void {
+  box.value = written(value, mark)
+  box.ariaValueNow = box.type === 'text' ? value : null // a box of numbers tells it by itself
+}
+
+function numberBox(spec: ParamSpec, mark: Mark, change: (value: string) => void): HTMLInputElement {
   const box = h('input', {
     type: 'number',
+    class: 'number-box',
     name: spec.name,
     inputmode: spec.kind === 'integer' ? 'numeric' : 'decimal',
     autocomplete: 'off',
   })
   // `any`: a typed value need not lie on the slider's steps. The shell judges it, and says why it refuses one.
   Object.assign(box, { min: spec.min, max: spec.max, step: spec.kind === 'integer' ? '1' : 'any' })
-  box.addEventListener('change', () => change(box.value))
+  box.addEventListener('change', () => change(read(box)))
   // By the parameter's own steps: those of `any` would be 1.
   box.addEventListener('keydown', event => {
     const up = event.key === 'ArrowUp' ? 1 : event.key === 'ArrowDown' ? -1 : 0
     if (!up || event.ctrlKey || event.metaKey) return
     event.preventDefault()
     const steps = spec.kind === 'integer' ? Math.max(1, stride(event)) : stride(event)
-    const value = Math.min(Number(box.max), Math.max(Number(box.min), box.valueAsNumber + up * steps * spec.step))
+    const value = Math.min(Number(box.max), Math.max(Number(box.min), Number(read(box)) + up * steps * spec.step))
     if (Number.isNaN(value)) return
-    box.value = String(Number(value.toPrecision(12))) // 0.3, not 0.30000000000000004
-    change(box.value)
+    showNumber(box, String(Number(value.toPrecision(12))), mark) // 0.3, not 0.30000000000000004
+    change(read(box))
   })
   return box
 }

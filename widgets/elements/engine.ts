@@ -1,5 +1,6 @@
 // One WebAssembly instance a page, shared by every figure. It is fetched when the first figure is seen, never before.
 import init, { Figure, last_panic, program } from '../pkg/fastslam_widgets.js'
+import { fetchProgram } from './files'
 
 export type Shell = Figure
 
@@ -63,7 +64,7 @@ export function engine(): Promise<Engine> {
 
 async function start(): Promise<Engine> {
   if (typeof WebAssembly === 'undefined') throw new Error('this browser runs no WebAssembly')
-  const response = await fetch(new URL('../pkg/fastslam_widgets_bg.wasm', import.meta.url)).catch(() => {
+  const response = await fetchProgram().catch(() => {
     throw new Error('its program could not be fetched, because the network is down or a rule blocks it')
   })
   if (!response.ok) throw new Error(`its program could not be fetched (the server answered ${response.status})`)
@@ -75,6 +76,7 @@ async function start(): Promise<Engine> {
     if (/unsafe-eval|security policy|csp|disallowed/i.test(String(error))) {
       throw new Error("the security policy of this page does not allow WebAssembly ('wasm-unsafe-eval')")
     }
+    if (/network|fetch|load failed/i.test(String(error))) throw new Error('the network broke off while its program was on its way')
     throw new Error(`its program could not be started (${error instanceof Error ? error.message : String(error)})`)
   }
 }

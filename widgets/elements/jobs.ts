@@ -1,6 +1,6 @@
 // Experiments over many seeds, beside the page: in a Web Worker, so that nothing else has to wait for them.
 import { engine } from './engine'
-import address from './worker?worker&url'
+import { workerScript } from './files'
 
 /** What is to be run: an experiment of the shell, its setting as a figure's link, and seeds from `from` to before `to`. */
 export interface Job {
@@ -37,12 +37,17 @@ export async function runInWorker(job: Job, onRows: (rows: number[][]) => void, 
   }
 }
 
-/** A worker's file must be of the page's own site. Where the figures come from another one, a line that imports it is. */
+/**
+ * A worker's file must be of the page's own site. Where the figures come from another one, or the page has no site (a sandboxed frame),
+ * a line that imports it is; and a file for offline use carries it along.
+ */
 function hire(): Worker {
   try {
-    const own = new URL(address, location.href).origin === location.origin
-    const url = own ? address : URL.createObjectURL(new Blob([`import ${JSON.stringify(address)}`], { type: 'text/javascript' }))
-    const worker = new Worker(url, { type: 'module' })
+    const file = workerScript()
+    const own = 'address' in file && new URL(file.address, location.href).origin === self.origin
+    const script = 'text' in file ? file.text : `import ${JSON.stringify(new URL(file.address, location.href).href)}`
+    const url = own ? file.address : URL.createObjectURL(new Blob([script], { type: 'text/javascript' }))
+    const worker = new Worker(url, { type: 'text' in file ? 'classic' : 'module' })
     if (!own) setTimeout(() => URL.revokeObjectURL(url), 10_000) // when it has been read
     return worker
   } catch (error) {

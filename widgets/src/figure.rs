@@ -2,12 +2,13 @@
 //! here.
 
 use crate::{
+    comma,
     export::{Entries, Export},
-    model::{Action, FigureError, Model},
+    model::{Action, FigureError, Model, Readout},
     paint::{Canvas, Theme},
     param, query,
     registry::{self, Entry},
-    scene::{Handle, Point, Rect},
+    scene::{Handle, Point, Rect, Scene},
 };
 use serde::Serialize;
 
@@ -18,6 +19,7 @@ pub struct Figure {
     canvas: Canvas,
     /// Of the scene painted last, and that scene's width \[css px\].
     handles: (Vec<Handle>, f64),
+    decimal_comma: bool,
 }
 
 /// A [`Handle`] where it lies on the page.
@@ -49,7 +51,13 @@ impl Figure {
             let tags: Vec<&str> = registry::FIGURES.iter().map(|f| f.tag).collect();
             FigureError::new("tag", param::quoted(tag), format!("one of {}", tags.join(", ")))
         })?;
-        Ok(Self { entry, model: (entry.make)(), canvas: Canvas::default(), handles: (Vec::new(), 1.0) })
+        Ok(Self {
+            entry,
+            model: (entry.make)(),
+            canvas: Canvas::default(),
+            handles: (Vec::new(), 1.0),
+            decimal_comma: false,
+        })
     }
 
     /// What the figure is about.
@@ -76,11 +84,40 @@ impl Figure {
         self.model.apply(&Action::Set { name: name.into(), value: value.into() })
     }
 
+    /// Writes numbers with a decimal comma, in the picture and in words.
+    pub fn set_decimal_comma(&mut self, on: bool) {
+        self.decimal_comma = on;
+    }
+
+    /// [`Model::readouts`], in the figure's way of writing numbers.
+    pub fn readouts(&self) -> Vec<Readout> {
+        let readouts = self.model.readouts().into_iter();
+        readouts.map(|readout| Readout { text: self.written(readout.text), ..readout }).collect()
+    }
+
+    /// [`Model::describe`], in the figure's way of writing numbers.
+    pub fn describe(&self) -> String {
+        self.written(self.model.describe())
+    }
+
+    /// [`Model::scene`], in the figure's way of writing numbers.
+    pub fn scene(&self, width: f64, height: f64) -> Scene {
+        let mut scene = self.model.scene(width, height);
+        if self.decimal_comma {
+            comma::in_scene(&mut scene);
+        }
+        scene
+    }
+
+    fn written(&self, text: String) -> String {
+        if self.decimal_comma { comma::in_text(&text) } else { text }
+    }
+
     /// Paints the figure: size in device px, device px per css px, and colours. Sizes no screen has are clamped.
     pub fn paint(&mut self, width_px: u32, height_px: u32, dpr: f64, theme: Theme) {
         let dpr = if dpr.is_finite() { dpr.clamp(0.25, 16.0) } else { 1.0 };
         let side = |px: u32| f64::from(px.max(1)) / dpr;
-        let scene = self.model.scene(side(width_px), side(height_px));
+        let scene = self.scene(side(width_px), side(height_px));
         self.canvas.paint(&scene, width_px, height_px, theme);
         self.handles = (scene.handles, scene.width);
     }
@@ -151,10 +188,7 @@ fn in_scene(point: Point, scale: f64) -> Point {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        model::{ParamSpec, Readout, Series},
-        scene::Scene,
-    };
+    use crate::model::{ParamSpec, Series};
     use std::{cell::RefCell, rc::Rc};
 
     /// A point in a scene that is never narrower than 300 px. What it is told is written down.
@@ -251,7 +285,7 @@ mod tests {
 
     #[test]
     fn a_readout_that_is_no_number_is_a_dash() {
-        let readout = &point().0.model().readouts()[0];
+        let readout = &point().0.readouts()[0];
         assert_eq!((readout.value, readout.text.as_str()), (None, "–"));
     }
 }

@@ -2,6 +2,7 @@
 //! without colours), the one painter of [`paint`] and, in the browser, a `shell` whose methods are one line each. Native tests and
 //! the command line use the same [`figure::Figure`] as the page.
 
+mod comma;
 #[cfg(feature = "conditioning")]
 pub mod conditioning;
 pub mod export;
@@ -26,3 +27,8 @@ pub mod shell;
 pub mod worked_example;
 
 pub use fastslam;
+
+/// The example of the package's front page, as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -119,14 +119,19 @@ impl Figure {
         self.0.model_mut().work();
     }
 
+    /// Writes numbers with a decimal comma, in the picture and in words.
+    pub fn set_decimal_comma(&mut self, on: bool) {
+        self.0.set_decimal_comma(on);
+    }
+
     /// The numbers of the state shown: an array of `Readout`.
     pub fn readouts(&self) -> Array {
-        plain(&self.0.model().readouts())
+        plain(&self.0.readouts())
     }
 
     /// One or two sentences that tell what is shown now.
     pub fn describe(&self) -> String {
-        self.0.model().describe()
+        self.0.describe()
     }
 
     /// The lines of its algorithm that led to what is shown: an array of `TraceLine`.

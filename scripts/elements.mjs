@@ -1,0 +1,220 @@
+// What the compiled figures tell of themselves, and all that is made from it: the names that elements/ needs before a program runs,
+// the types, the manifest of the custom elements, and the classes of the Python package. A new parameter needs no other line.
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs'
+import { join } from 'node:path'
+import { pathToFileURL } from 'node:url'
+import { isMain, main, readIfThere, root, step } from './lib.mjs'
+
+/**
+ * @typedef {import('../widgets/elements/engine').ParamSpec} ParamSpec
+ * @typedef {import('../widgets/elements/engine').Readout} Readout
+ * @typedef {{ tag: string, name: string, className: string, title: string, describe: string, params: ParamSpec[], readouts: Readout[] }} FigureInfo
+ */
+
+/** Every figure, asked in Node. @returns {Promise<FigureInfo[]>} */
+export async function figures() {
+  const shell = await import(pathToFileURL(join(root, 'widgets', 'pkg', 'fastslam_widgets.js')).href)
+  shell.initSync({ module: readFileSync(join(root, 'widgets', 'pkg', 'fastslam_widgets_bg.wasm')) })
+  return shell.tags().map((/** @type {string} */ tag) => {
+    const figure = new shell.Figure(tag)
+    return {
+      tag,
+      name: tag.replace('fastslam-', ''),
+      className: pascal(tag),
+      title: figure.title(),
+      describe: figure.describe(),
+      params: figure.params(),
+      readouts: figure.readouts(),
+    }
+  })
+}
+
+/** @param {string} name */
+const pascal = name => name.replace(/(?:^|-)(.)/g, (_, letter) => letter.toUpperCase())
+/** @param {string} name */
+export const camel = name => name.replace(/-(.)/g, (_, letter) => letter.toUpperCase())
+
+/** Attributes of every figure that are no parameters. */
+export const options = [
+  { name: 'theme', values: ['auto', 'light', 'dark'], help: 'Colours; auto follows the reader’s system.' },
+  { name: 'controls', values: ['all', 'playback', 'none'], help: 'What readers see of the controls: all, those of playback, or none.' },
+  { name: 'lock', values: undefined, help: 'Names of parameters, apart by spaces, that readers cannot change; or all. lock="seed" fixes the seed.' },
+  { name: 'decimal', values: ['point', 'comma'], help: 'How numbers are written.' },
+  { name: 'size', values: ['normal', 'presentation'], help: 'presentation makes letters and lines half as large again, for a projector.' },
+  { name: 'fit', values: ['off', 'on'], help: 'on: the picture takes the height of its box rather than all of its width.' },
+]
+
+const methods = [
+  { name: 'play', type: '() => void', help: 'Plays on; from the start where it is at its end.' },
+  { name: 'pause', type: '() => void', help: 'Stops at the step shown.' },
+  { name: 'step', type: '() => void', help: 'One step on.' },
+  { name: 'stepBack', type: '() => void', help: 'One step back.' },
+  { name: 'seek', type: '(step: number) => void', help: 'To a step.' },
+  { name: 'reset', type: '() => void', help: 'Back to what the page’s author gave.' },
+]
+
+const properties = [
+  { name: 'playing', type: 'boolean', readonly: true, help: 'Whether it plays.' },
+  { name: 'currentStep', type: 'number', readonly: false, help: 'The step asked for.' },
+  { name: 'state', type: 'string', readonly: false, help: 'The whole state, as a link has it: name=value&…' },
+  { name: 'link', type: 'string', readonly: true, help: 'The address of this page with the figure’s whole state.' },
+  { name: 'naturalHeight', type: 'number', readonly: true, help: 'Height [css px] that shows all of the figure at its present width.' },
+]
+
+const events = [
+  { name: 'fastslam-step', type: 'CustomEvent<FigureDetail>', help: 'Another step is shown; also once when the figure comes to life.' },
+  { name: 'fastslam-change', type: 'CustomEvent<FigureDetail>', help: 'A parameter has changed, whoever did it.' },
+]
+
+const parts =
+  'figure title stage canvas transport button primary play step-back step reset scrub seed view control notices notice sentence readouts readout settings menu toggle handle count stop'.split(' ')
+
+const cssProperties = ['accent', 'ink', 'muted', 'line', 'paper', 'radius', 'font'].map(name => `--fastslam-${name}`)
+
+/** The type of a parameter in TypeScript. @param {ParamSpec} spec */
+function type({ kind, choices }) {
+  const words = choices.map(({ value }) => `'${value}'`)
+  if (kind === 'flag' || kind === 'toggle') return 'boolean'
+  return kind === 'choice' ? words.join(' | ') : ['number', ...words].join(' | ')
+}
+
+/** The same as an attribute: text is as good. @param {ParamSpec} spec */
+function attributeType(spec) {
+  const text = { flag: " | 'on' | 'off'", toggle: " | 'on' | 'off'", choice: '', number: ' | `${number}`', integer: ' | `${number}`' }
+  return type(spec) + text[spec.kind]
+}
+
+/** What it does, and the values it takes. @param {ParamSpec} spec */
+export function describe({ kind, min, max, unit, help, choices }) {
+  if (kind === 'flag' || kind === 'toggle' || kind === 'choice') return help
+  const words = choices.map(({ value }) => value).join(', ')
+  return `${help} ${words && `${words} or `}${kind === 'integer' ? 'A whole number from' : 'From'} ${round(min)} to ${round(max)}${unit && ` ${unit}`}.`.replace('or A', 'or a')
+}
+
+/** @param {number} x */
+export const round = x => Number(x.toPrecision(12))
+
+/** The manifest, of the schema of custom-elements-manifest. @param {FigureInfo[]} all */
+export function manifest(all) {
+  const attribute = (/** @type {FigureInfo} */ _) => (/** @type {ParamSpec} */ spec) => ({
+    name: spec.name,
+    fieldName: spec.name === 'step' ? 'currentStep' : camel(spec.name),
+    description: describe(spec),
+    type: { text: type(spec) },
+    default: spec.default,
+  })
+  const declarations = all.map(figure => ({
+    kind: 'class',
+    customElement: true,
+    name: figure.className,
+    tagName: figure.tag,
+    summary: figure.title,
+    attributes: [
+      ...figure.params.map(attribute(figure)),
+      ...options.map(({ name, values, help }) => ({
+        name,
+        description: help,
+        type: { text: values ? values.map(v => `'${v}'`).join(' | ') : 'string' },
+        ...(values && { default: values[0] }),
+      })),
+    ],
+    members: [
+      ...figure.params
+        .filter(({ name }) => name !== 'step')
+        .map(spec => ({ kind: 'field', name: camel(spec.name), attribute: spec.name, type: { text: type(spec) }, description: describe(spec) })),
+      ...properties.map(({ name, type: text, readonly, help }) => ({ kind: 'field', name, type: { text }, readonly, description: help })),
+      ...methods.map(({ name, help }) => ({ kind: 'method', name, description: help })),
+    ],
+    events: events.map(({ name, type: text, help }) => ({ name, type: { text }, description: help })),
+    cssParts: parts.map(name => ({ name })),
+    cssProperties: cssProperties.map(name => ({ name })),
+    slots: [{ name: '', description: 'A picture of the figure, for where it cannot run.' }],
+  }))
+  const exported = declarations.flatMap(({ name, tagName }) => [
+    { kind: 'js', name, declaration: { name, module: 'fastslam.js' } },
+    { kind: 'custom-element-definition', name: tagName, declaration: { name, module: 'fastslam.js' } },
+  ])
+  return { schemaVersion: '1.0.0', readme: 'README.md', modules: [{ kind: 'javascript-module', path: 'fastslam.js', declarations, exports: exported }] }
+}
+
+/** The types of the elements. @param {FigureInfo[]} all */
+export function types(all) {
+  const doc = (/** @type {string} */ text) => `  /** ${text} */`
+  const field = (/** @type {ParamSpec} */ spec) => `${doc(describe(spec))}\n  ${camel(spec.name)}: ${type(spec)}`
+  const classes = all.map(
+    ({ className, title, params }) =>
+      `/** ${title}. */\nexport declare class ${className} extends FigureElement {\n${params
+        .filter(({ name }) => name !== 'step')
+        .map(field)
+        .join('\n')}\n}`,
+  )
+  const attributes = all.map(
+    ({ className, params }) =>
+      `export interface ${className}Attributes extends FigureAttributes {\n${params.map(spec => `  '${spec.name}'?: ${attributeType(spec)}`).join('\n')}\n}`,
+  )
+  return `// Made by scripts/elements.mjs from what the figures tell of themselves.
+
+export interface FigureReadout {
+  name: string
+  title: string
+  value: number | null
+  text: string
+  unit: string
+  help: string
+}
+
+export interface FigureDetail {
+  step: number
+  values: Record<string, string>
+  readouts: FigureReadout[]
+}
+
+export interface FigureEventMap extends HTMLElementEventMap {
+${events.map(({ name, type: text, help }) => `${doc(help)}\n  '${name}': ${text}`).join('\n')}
+}
+
+export declare abstract class FigureElement extends HTMLElement {
+${[...methods, ...properties].map(item => `${doc(item.help)}\n  ${'readonly' in item && item.readonly ? 'readonly ' : ''}${item.name}: ${item.type}`).join('\n')}
+  addEventListener<K extends keyof FigureEventMap>(type: K, listener: (this: this, event: FigureEventMap[K]) => unknown, options?: boolean | AddEventListenerOptions): void
+  addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void
+}
+
+/** Attributes of every figure. */
+export interface FigureAttributes {
+${options.map(({ name, values, help }) => `${doc(help)}\n  ${name}?: ${values ? values.map(v => `'${v}'`).join(' | ') : 'string'}`).join('\n')}
+}
+
+${classes.join('\n\n')}
+
+${attributes.join('\n\n')}
+
+export interface FigureTagAttributes {
+${all.map(({ tag, className }) => `  '${tag}': ${className}Attributes`).join('\n')}
+}
+
+declare global {
+  interface HTMLElementTagNameMap {
+${all.map(({ tag, className }) => `    '${tag}': ${className}`).join('\n')}
+  }
+}
+`
+}
+
+/** Writes a file unless it is so already, so that nothing is built anew for nothing. @param {string} path @param {string} text */
+export function write(path, text) {
+  mkdirSync(join(path, '..'), { recursive: true })
+  if (readIfThere(path) !== text) writeFileSync(path, text)
+}
+
+/** The names that the elements need before a program runs. */
+export async function writeNames() {
+  const all = await figures()
+  const rows = all.map(({ tag, title, params }) => `  '${tag}': { title: ${JSON.stringify(title)}, parameters: ${JSON.stringify(params.map(({ name }) => name).join(' '))}.split(' ') },`)
+  write(
+    join(root, 'widgets', 'elements', 'generated', 'figures.ts'),
+    `// Made by scripts/elements.mjs from what the figures tell of themselves.\nexport const FIGURES: Record<string, { title: string; parameters: string[] } | undefined> = {\n${rows.join('\n')}\n}\n`,
+  )
+  return `${all.length} figures`
+}
+
+if (isMain(import.meta)) await main(() => step('Names of the figures', writeNames))

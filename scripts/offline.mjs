@@ -1,0 +1,116 @@
+// npm run offline: each figure, and the whole chapter, as one HTML file that works from a stick or an e-mail, opened by a double click;
+// and each figure as a SCORM 1.2 package for learning systems, which keeps a learner's state. All in packages/offline/.
+import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs'
+import { dirname, join, posix } from 'node:path'
+import { build, dist, figureWasm, kilobytes } from './build.mjs'
+import { figures } from './elements.mjs'
+import { escape } from './frames.mjs'
+import { isMain, main, root, say, step, StepError } from './lib.mjs'
+import { singleFile } from './single.mjs'
+
+export const offline = join(root, 'packages', 'offline')
+/** What one figure's file may weigh [bytes]. */
+export const limit = 500_000
+
+/** @type {Record<string, string>} */
+const types = { '.svg': 'image/svg+xml', '.png': 'image/png', '.woff2': 'font/woff2', '.webp': 'image/webp', '.jpg': 'image/jpeg' }
+
+/** @param {string} folder @param {string} address */
+const local = (folder, address) => (/^(\w+:|#|\/\/)/.test(address) ? undefined : join(dist, posix.join(folder, address.replace(/[?#].*$/, ''))))
+
+/** @param {string} path */
+function dataAddress(path) {
+  const type = types[posix.extname(path)]
+  if (!type) throw new StepError(`${path} is of no type that a file for offline use can hold.`)
+  return `data:${type};base64,${readFileSync(path).toString('base64')}`
+}
+
+/**
+ * A page of dist/ with all it loads inside, and its script as one that carries its program along. Pictures of figures stay out, as
+ * there is nothing here that could fail to arrive.
+ * @param {string} file @param {string} script
+ */
+function inlined(file, script) {
+  const folder = posix.dirname(file)
+  const styles = (/** @type {string} */ address) => {
+    const path = local(folder, address) ?? ''
+    const from = posix.dirname(posix.join(folder, address))
+    return readFileSync(path, 'utf8').replace(/url\((['"]?)([^'")]+)\1\)/g, (whole, _, inner) => {
+      const asset = local(from, inner)
+      return asset ? `url(${dataAddress(asset)})` : whole
+    })
+  }
+  let html = readFileSync(join(dist, file), 'utf8')
+  html = html
+    .replace(/<link[^>]*rel="(?:preload|modulepreload|canonical|alternate|fastslam-program)"[^>]*>\s*/g, '')
+    .replace(/<meta property="og:[^>]*>\s*/g, '')
+    .replace(/<link[^>]*rel="stylesheet"[^>]*href="([^"]+)"[^>]*>/g, (_, address) => `<style>\n${styles(address)}</style>`)
+    .replace(/(<link[^>]*rel="icon"[^>]*href=")([^"]+)("[^>]*>)/g, (_, before, address, after) => before + dataAddress(local(folder, address) ?? '') + after)
+  html = html.replace(/<picture>.*?<\/picture>/gs, '').replace(/(<fastslam-[a-z-]+[^>]*>)\s*<img[^>]*>/g, '$1')
+  html = html.replace(/(<img[^>]*src=")([^"]+)("[^>]*>)/g, (whole, before, address, after) => {
+    const path = local(folder, address)
+    return path ? before + dataAddress(path) + after : whole
+  })
+  html = html.replace(/<script[^>]*src="[^"]+"[^>]*><\/script>\s*/g, '')
+  return html.replace('</body>', () => `<script type="module">\n${script.replaceAll('</script', '<\\/script')}</script>\n  </body>`)
+}
+
+/** What a learning system asks for: what is in the package, and what to start. @param {import('./elements.mjs').FigureInfo} figure */
+const imsManifest = ({ name, title }) => `<?xml version="1.0" encoding="UTF-8"?>
+<manifest identifier="fastslam-${name}" version="1.0" xmlns="http://www.imsproject.org/xsd/imscp_rootv1p1p2" xmlns:adlcp="http://www.adlnet.org/xsd/adlcp_rootv1p2">
+  <metadata>
+    <schema>ADL SCORM</schema>
+    <schemaversion>1.2</schemaversion>
+  </metadata>
+  <organizations default="fastslam">
+    <organization identifier="fastslam">
+      <title>${escape(title)}</title>
+      <item identifier="figure" identifierref="page">
+        <title>${escape(title)}</title>
+      </item>
+    </organization>
+  </organizations>
+  <resources>
+    <resource identifier="page" type="webcontent" adlcp:scormtype="sco" href="index.html">
+      <file href="index.html" />
+      <file href="scorm.js" />
+    </resource>
+  </resources>
+</manifest>
+`
+
+/** Every figure's file and package, and the chapter. @returns {Promise<string[]>} the files */
+export async function writeOffline() {
+  const { zipSync, strToU8 } = await import('fflate')
+  rmSync(offline, { recursive: true, force: true })
+  mkdirSync(offline, { recursive: true })
+  /** @type {string[]} */
+  const files = []
+  const put = (/** @type {string} */ name, /** @type {string | Uint8Array} */ content) => {
+    const path = join(offline, name)
+    mkdirSync(dirname(path), { recursive: true })
+    writeFileSync(path, content)
+    files.push(path)
+    say(`  ${kilobytes(statSync(path).size).padStart(10)}  ${name}`)
+    return statSync(path).size
+  }
+  const scorm = readFileSync(join(root, 'widgets', 'scorm', 'scorm.js'), 'utf8')
+  for (const figure of await figures()) {
+    const page = inlined(`embed-${figure.name}.html`, await singleFile(join(root, 'www', 'src', 'embed.ts'), figureWasm(figure.tag)))
+    const size = put(`${figure.tag}.html`, page)
+    if (size > limit) throw new StepError(`${figure.tag}.html has ${kilobytes(size)}, over the limit of ${kilobytes(limit)}.`)
+    const started = page.replace('</body>', () => '<script defer src="scorm.js"></script>\n  </body>')
+    // The same time in every package, so that the same figure gives the same file.
+    const entries = { 'imsmanifest.xml': imsManifest(figure), 'index.html': started, 'scorm.js': scorm }
+    put(`${figure.tag}-scorm.zip`, zipSync(Object.fromEntries(Object.entries(entries).map(([name, text]) => [name, strToU8(text)])), { level: 9, mtime: '1980-01-01T00:00:00' }))
+  }
+  put('chapter.html', inlined('index.html', await singleFile(join(root, 'www', 'src', 'main.ts'))))
+  return files
+}
+
+if (isMain(import.meta)) {
+  await main(async () => {
+    if (!existsSync(join(dist, 'fastslam-anywidget.js'))) await build()
+    await step('Files for offline use, and SCORM packages', async () => `${(await writeOffline()).length} files in packages/offline/`)
+  })
+}

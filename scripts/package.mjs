@@ -1,0 +1,79 @@
+// The packages for other pages: `npm run package` writes the npm package and the Python wheel to packages/.
+// Both hold what the site's build made, so what is tested on the site is what they ship.
+import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
+import { join } from 'node:path'
+import { build, dist } from './build.mjs'
+import { figures, types } from './elements.mjs'
+import { isMain, main, root, run, step } from './lib.mjs'
+import { python, pythonFiles } from './python.mjs'
+
+const npm = join(root, 'widgets', 'npm')
+export const packages = join(root, 'packages')
+
+/** Types of the tags in React's JSX, beside those of the elements. @param {import('./elements.mjs').FigureInfo[]} all */
+const reactTypes = all => `import type { HTMLAttributes, RefAttributes } from 'react'
+import type { FigureDetail, FigureTagAttributes${all.map(({ className }) => `, ${className}`).join('')} } from './fastslam.js'
+
+export * from './fastslam.js'
+
+type Tag<T extends keyof FigureTagAttributes, E> = Omit<HTMLAttributes<E>, keyof FigureTagAttributes[T]> & RefAttributes<E> & FigureTagAttributes[T] & {
+  class?: string
+  'onfastslam-step'?: (event: CustomEvent<FigureDetail>) => void
+  'onfastslam-change'?: (event: CustomEvent<FigureDetail>) => void
+}
+
+declare module 'react' {
+  namespace JSX {
+    interface IntrinsicElements {
+${all.map(({ tag, className }) => `      '${tag}': Tag<'${tag}', ${className}>`).join('\n')}
+    }
+  }
+}
+`
+
+/** Fills widgets/npm/dist from dist/. */
+export async function npmFiles() {
+  const to = join(npm, 'dist')
+  rmSync(to, { recursive: true, force: true })
+  mkdirSync(join(to, 'assets'), { recursive: true })
+  const all = await figures()
+  const files = readdirSync(dist).filter(file => /^fastslam(-[\w-]{8})?\.js$|^fastslam_widgets_bg-.*\.wasm$/.test(file))
+  for (const file of [...files, 'custom-elements.json']) cpSync(join(dist, file), join(to, file))
+  // What they name, and nothing of the chapter's.
+  const script = files.filter(file => file.endsWith('.js')).map(file => readFileSync(join(dist, file), 'utf8')).join('')
+  for (const file of readdirSync(join(dist, 'assets'))) if (script.includes(`assets/${file}`)) cpSync(join(dist, 'assets', file), join(to, 'assets', file))
+  cpSync(join(dist, 'fastslam-anywidget.js'), join(to, 'standalone.js'))
+  writeFileSync(join(to, 'fastslam.d.ts'), types(all))
+  writeFileSync(join(to, 'react.d.ts'), reactTypes(all))
+  writeFileSync(join(to, 'server.js'), '// Pages rendered on a server hold the tags; the elements come to life in the browser.\nexport {}\n')
+  for (const file of ['LICENSE-MIT', 'LICENSE-APACHE']) cpSync(join(root, file), join(npm, file))
+}
+
+/** The npm package. @returns {Promise<string>} its path */
+export async function packNpm() {
+  await npmFiles()
+  mkdirSync(packages, { recursive: true })
+  const { output } = await run('npm', ['pack', '--json', '--ignore-scripts', '--pack-destination', packages], { cwd: npm })
+  const [{ filename, size }] = JSON.parse(output.slice(output.indexOf('[\n'), output.lastIndexOf(']') + 1))
+  console.log(`  ${filename}: ${(size / 1e6).toFixed(2)} MB`)
+  return join(packages, filename)
+}
+
+/** The Python wheel. @returns {Promise<string>} its path */
+export async function packWheel() {
+  mkdirSync(packages, { recursive: true })
+  await pythonFiles()
+  for (const file of readdirSync(packages)) if (file.endsWith('.whl')) rmSync(join(packages, file))
+  const interpreter = await python('build', 'build', 'hatchling')
+  await run(interpreter, ['-m', 'build', '--wheel', '--no-isolation', '--outdir', packages, join(root, 'widgets', 'python')])
+  return join(packages, readdirSync(packages).find(file => file.endsWith('.whl')) ?? '')
+}
+
+if (isMain(import.meta)) {
+  await main(async () => {
+    if (process.argv.includes('--npm-files')) return step('Files of the npm package', npmFiles)
+    await build()
+    await step('npm package', packNpm)
+    await step('Python wheel', packWheel)
+  })
+}

@@ -1,0 +1,54 @@
+// A script, and all it needs, as one file that carries the figures' program along: for notebooks, and for pages opened from a file.
+import { readFileSync } from 'node:fs'
+import { join } from 'node:path'
+import { gzipSync } from 'node:zlib'
+import { root, StepError } from './lib.mjs'
+
+const elements = join(root, 'widgets', 'elements')
+export const notebook = join(elements, 'notebook.ts')
+
+/** One script of a source and all it imports. @param {string} entry @param {'es' | 'iife'} format @param {import('vite').Plugin[]} plugins */
+async function bundle(entry, format, plugins = []) {
+  const { build } = await import('vite')
+  const built = await build({
+    configFile: false,
+    root: elements,
+    base: './',
+    logLevel: 'error', // it warns of addresses that only modules have, which nothing here asks for
+    build: {
+      write: false,
+      target: 'es2022',
+      assetsInlineLimit: 0,
+      reportCompressedSize: false,
+      rollupOptions: { input: entry, preserveEntrySignatures: 'strict', output: { format, entryFileNames: '[name].js', codeSplitting: false } },
+    },
+    plugins,
+  })
+  const output = [built].flat().flatMap(result => ('output' in result ? result.output : []))
+  const scripts = output.filter(file => file.type === 'chunk')
+  if (scripts.length !== 1 || !scripts[0]) throw new StepError(`${entry} came out as ${scripts.length} scripts: ${scripts.map(({ fileName }) => fileName).join(', ')}`)
+  return scripts[0].code
+}
+
+/**
+ * The script, as text.
+ * @param {string} entry its source @param {string} [wasm] the program that it carries
+ * @returns {Promise<string>}
+ */
+export async function singleFile(entry, wasm = join(root, 'widgets', 'pkg', 'fastslam_widgets_bg.wasm')) {
+  const program = gzipSync(readFileSync(wasm), { level: 9 }).toString('base64')
+  // No module: pages opened from a file may not start workers that are modules.
+  const worker = await bundle(join(elements, 'worker.ts'), 'iife')
+  const carried = `export const program = ${JSON.stringify(program)}; export const worker = ${JSON.stringify(worker)}`
+  return bundle(entry, 'es', [
+    {
+      name: 'fastslam-files',
+      enforce: 'pre',
+      resolveId(source, importer) {
+        if (source === 'virtual:fastslam-files') return `\0${source}`
+        return source === './files' && importer?.startsWith(elements) ? join(elements, 'files-inline.ts') : undefined
+      },
+      load: id => (id === '\0virtual:fastslam-files' ? carried : undefined),
+    },
+  ])
+}

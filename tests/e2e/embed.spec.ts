@@ -1,0 +1,257 @@
+// Figures in pages of others: in frames with and without an origin, in learning systems, and the code that puts them there.
+import { readFileSync } from 'node:fs'
+import { join } from 'node:path'
+import AxeBuilder from '@axe-core/playwright'
+import type { Frame, Page } from '@playwright/test'
+import { root } from '../../scripts/lib.mjs'
+import { expect, test } from './fixtures'
+import { Figure } from './figure'
+import { FIGURES, forgiveHost, openHost, sanitised } from './host'
+
+/** What a page's script may ask of a figure. */
+type FigureElement = HTMLElement & { embedCode(name: string): string | undefined; naturalHeight: number; state: string }
+
+test.use({ contextOptions: { reducedMotion: 'reduce' }, permissions: ['clipboard-read', 'clipboard-write'] })
+
+const live = (frame: Page | Frame, tag: string) => expect(frame.locator(`${tag} .stage.live`)).toBeVisible({ timeout: 20_000 })
+
+for (const name of FIGURES) {
+  test(`the pasted iframe of ${name} shows all of it, after a sanitiser that strips all but five attributes`, async ({ page, baseURL, complaints }) => {
+    await page.goto(`./embed-${name}.html`)
+    await live(page, `fastslam-${name}`)
+    const code = await page.locator(`fastslam-${name}`).evaluate(figure => (figure as FigureElement).embedCode('iframe')!)
+    expect(code).toContain(`${baseURL}embed.html?figure=${name}`)
+    const left = sanitised(code.replace('allow-scripts allow-downloads', 'allow-scripts'))
+    expect(left).not.toMatch(/title|style|onload/)
+    await openHost(page, left)
+    const frame = page.frames()[1]!
+    await live(frame, `fastslam-${name}`)
+    await page.waitForTimeout(500)
+    const heights = await frame.locator(`fastslam-${name}`).evaluate(figure => [(figure as FigureElement).naturalHeight, innerHeight])
+    // The height in the code is measured, not guessed: neither is the figure cut off nor the frame half empty.
+    expect(heights[1]! - heights[0]!, `natural height ${heights[0]}`).toBeGreaterThanOrEqual(-4)
+    expect(heights[1]! - heights[0]!, `natural height ${heights[0]}`).toBeLessThan(50)
+    forgiveHost(complaints)
+  })
+}
+
+test('a frame without scripts of its host, storage or an origin runs, and the keyboard gets in and out', async ({ page, baseURL, complaints }) => {
+  await openHost(page, `<button>before</button><iframe sandbox="allow-scripts" width="800" height="790" src="${baseURL}embed.html?figure=lap&m=4&step=2"></iframe><button>after</button>`)
+  const frame = page.frames()[1]!
+  await live(frame, 'fastslam-lap')
+  expect(await frame.evaluate(() => self.origin)).toBe('null')
+  expect(await frame.evaluate(() => { try { return String(localStorage) } catch { return 'refused' } })).toBe('refused')
+  const position = frame.locator('fastslam-lap output')
+  await expect(position).toHaveText(/^2 \//)
+  await page.getByRole('button', { name: 'before' }).focus()
+  let stage = false
+  for (let i = 0; i < 60; i++) {
+    await page.keyboard.press('Tab')
+    if (await page.getByRole('button', { name: 'after' }).evaluate(button => button === document.activeElement)) break
+    if (!stage && (await frame.evaluate(() => document.activeElement?.shadowRoot?.activeElement?.matches('.stage') ?? false))) {
+      stage = true
+      await page.keyboard.press('ArrowRight')
+      await expect(position).toHaveText(/^3 \//)
+    }
+  }
+  expect(stage).toBe(true)
+  await expect(page.getByRole('button', { name: 'after' })).toBeFocused()
+  await page.keyboard.press('Shift+Tab')
+  expect(await page.evaluate(() => document.activeElement?.localName)).toBe('iframe')
+  forgiveHost(complaints)
+})
+
+test('hosts that listen are told the height, in our words and in those of LTI', async ({ page, baseURL, complaints }) => {
+  await page.addInitScript(() => {
+    if (parent !== self) return
+    const told: unknown[] = ((self as unknown as { told: unknown[] }).told = [])
+    addEventListener('message', ({ data }) => {
+      told.push(data)
+      if (data.subject === 'lti.frameResize') document.querySelector('iframe')!.height = data.height
+    })
+  })
+  await openHost(page, `<iframe sandbox="allow-scripts" width="800" height="400" src="${baseURL}embed.html?figure=lap"></iframe>`)
+  const told = () => page.evaluate(() => (self as unknown as { told: { type?: string; subject?: string; height: number }[] }).told)
+  await expect.poll(async () => (await told()).some(({ subject }) => subject === 'lti.frameResize')).toBe(true)
+  expect((await told()).some(({ type }) => type === 'fastslam-height')).toBe(true)
+  const height = () => page.locator('iframe').evaluate((frame: HTMLIFrameElement) => frame.offsetHeight)
+  await expect.poll(height).toBeGreaterThan(600)
+  await page.waitForTimeout(600)
+  const closed = await height()
+  await page.frames()[1]!.locator('details[part=settings] summary').click()
+  await expect.poll(height).toBeGreaterThan(closed + 50)
+  const count = (await told()).length
+  await page.waitForTimeout(800)
+  expect((await told()).length, 'the two do not chase each other').toBeLessThanOrEqual(count + 2)
+  forgiveHost(complaints)
+})
+
+test('short names of formulas are taken in addresses, and options too', async ({ page }) => {
+  await page.goto('./embed.html?figure=proposal&sigma_r=0.08&m=16&theme=dark')
+  await live(page, 'fastslam-proposal')
+  const figure = new Figure(page, 'fastslam-proposal')
+  await figure.openSettings()
+  await expect(figure.box('range-std')).toHaveValue('0.08')
+  await expect(figure.box('samples')).toHaveValue('16')
+  await expect(figure.element).toHaveAttribute('theme', 'dark')
+  await expect(page).toHaveTitle('Two proposals for one step')
+})
+
+test('an unknown figure is said, with those there are', async ({ page }) => {
+  await page.goto('./embed.html?figure=%3Cimg%20src=x%20onerror=alert(1)%3E')
+  await expect(page.getByRole('alert')).toContainText('There is no figure “<img')
+  for (const name of FIGURES) await expect(page.getByRole('alert').getByRole('link', { name, exact: true })).toBeVisible()
+  await page.getByRole('link', { name: 'lap', exact: true }).click()
+  await live(page, 'fastslam-lap')
+})
+
+test('parameters that are unknown, out of range or hostile are refused in the figure, and never become attributes', async ({ page }) => {
+  await page.goto('./embed.html?figure=lap&universes=999&nonsense=1&onclick=alert(1)&style=display:none&step=4')
+  const lap = new Figure(page, 'fastslam-lap')
+  await lap.live()
+  await expect(lap.alert).toContainText(/universes.*1 to 256/)
+  await expect(lap.alert).toContainText(/"nonsense" is not a parameter/)
+  await expect(lap.alert).toContainText(/"onclick" is not a parameter/)
+  expect(await lap.position()).toBe(4)
+  expect(await lap.element.evaluate(element => element.getAttributeNames().sort())).toEqual(['fit', 'step', 'universes'])
+})
+
+test('each figure has a page with its picture, its oEmbed answer and a link to it', async ({ page, baseURL, request }) => {
+  for (const name of FIGURES) {
+    const html = await (await request.get(`./embed-${name}.html`)).text()
+    const link = /<link rel="alternate" type="application\/json\+oembed" href="([^"]+)"/.exec(html)
+    expect(link, name).not.toBeNull()
+    const answer = await request.get(link![1]!)
+    expect(answer.headers()['content-type']).toContain('application/json')
+    const oembed = await answer.json()
+    expect(oembed).toMatchObject({ version: '1.0', type: 'rich', width: 800 })
+    expect(oembed.html).toMatch(new RegExp(`^<iframe src="https?://[^"]+/embed\\.html\\?figure=${name}" .*height="${oembed.height}"`))
+    expect(new URL(oembed.thumbnail_url).pathname.split('/').slice(-2)[0]).toBe('assets')
+  }
+  await page.goto(`${baseURL}embed-lap.html`)
+  await live(page, 'fastslam-lap')
+})
+
+test.describe('without the script', () => {
+  for (const [what, javaScriptEnabled] of [['scripts are off', false], ['the script is blocked', true]] as const) {
+    test.describe(what, () => {
+      test.use({ javaScriptEnabled })
+      test(`where ${what}, the picture stands with a line that says so`, async ({ page, complaints }) => {
+        await page.route('**/*.js', route => route.abort())
+        await page.goto('./embed-lap.html')
+        await expect(page.locator('fastslam-lap img')).toBeVisible({ timeout: 10_000 })
+        await expect(page.getByText('This figure needs JavaScript')).toBeVisible({ timeout: 10_000 })
+        expect(await page.locator('fastslam-lap img').evaluate((image: HTMLImageElement) => image.decode().then(() => image.naturalWidth))).toBeGreaterThan(300)
+        complaints.splice(0, Infinity, ...complaints.filter(line => !/Failed to load resource/.test(line)))
+      })
+    })
+  }
+})
+
+test('the menu copies code that works as it is: element, iframe, MyST and Python', async ({ page, baseURL, complaints }) => {
+  const lap = await new Figure(page, 'fastslam-lap').open()
+  await lap.element.evaluate(element => element.setAttribute('decimal', 'comma'))
+  await lap.openSettings()
+  await lap.box('universes').fill('5')
+  await lap.box('universes').press('Enter')
+  await lap.element.locator('input[name=truth]').check()
+  await lap.scrubTo(6)
+  const copied = async (item: string) => {
+    await lap.menu(item)
+    await expect(lap.element.getByText('Code copied')).toBeVisible()
+    return page.evaluate(() => navigator.clipboard.readText())
+  }
+  const element = await copied('Copy code: HTML element')
+  expect(element).toBe(`<script type="module" src="${baseURL}fastslam.js"></script>\n<fastslam-lap universes="5" step="6" truth="on" decimal="comma"></fastslam-lap>`)
+  const iframe = await copied('Copy code: iframe')
+  expect(iframe).toMatch(/embed\.html\?figure=lap&amp;universes=5&amp;step=6&amp;truth=on&amp;decimal=comma"/)
+  expect(await copied('Copy code: MyST')).toBe(
+    `\`\`\`{anywidget} ${baseURL}fastslam-anywidget.js\n{\n  "figure": "lap",\n  "universes": "5",\n  "step": "6",\n  "truth": "on",\n  "decimal": "comma"\n}\n\`\`\``,
+  )
+  expect(await copied('Copy code: Python')).toBe('from fastslam_widgets import FastslamLap\n\nFastslamLap(universes=5, step=6, truth=True, decimal="comma")')
+
+  // Both on a page of another site.
+  const readouts = await lap.readouts()
+  await openHost(page, `${element}${iframe}`)
+  const pasted = new Figure(page, 'body > fastslam-lap')
+  await pasted.live()
+  expect(await pasted.readouts()).toEqual(readouts)
+  await page.locator('iframe').scrollIntoViewIfNeeded()
+  const frame = page.frames()[1]!
+  await live(frame, 'fastslam-lap')
+  await expect(frame.locator('fastslam-lap output')).toHaveText(/^6 \//)
+  forgiveHost(complaints)
+})
+
+test('the module for MyST shows what its JSON asks for, and says what it does not know', async ({ page, baseURL }) => {
+  await page.route('**/myst', route => route.fulfill({ contentType: 'text/html', body: '<!doctype html><html lang="en"><title>MyST</title><main></main></html>' }))
+  await page.goto('./myst')
+  // As MyST's theme calls it: a model of the JSON, which nobody else changes.
+  const show = (json: Record<string, unknown>) =>
+    page.evaluate(
+      async ([address, values]) => {
+        const { default: widget } = await import(address)
+        const model = { get: (name: string) => values[name], set() {}, save_changes() {}, on() {}, off() {} }
+        const el = document.querySelector('main')!.appendChild(document.createElement('div'))
+        ;(self as unknown as { end: () => void }).end = widget.render({ model, el })
+      },
+      [`${baseURL}fastslam-anywidget.js`, json] as const,
+    )
+  await show({ figure: 'lap', universes: '5', 'range-std': 0.1, step: 3 })
+  const lap = new Figure(page, 'fastslam-lap')
+  await lap.live()
+  expect(await lap.position()).toBe(3)
+  await lap.openSettings()
+  await expect(lap.box('universes')).toHaveValue('5')
+  await expect(lap.box('range-std')).toHaveValue('0.1')
+  await page.evaluate(() => (self as unknown as { end: () => void }).end())
+  await expect(lap.element).toHaveCount(0)
+  await show({ figure: 'psychic' })
+  await expect(page.getByText('There is no figure “psychic”.')).toBeVisible()
+})
+
+test('the manifest names every attribute, part and property that there is', async ({ page, request }) => {
+  const manifest = await (await request.get('./custom-elements.json')).json()
+  const css = readFileSync(join(root, 'widgets', 'elements', 'figure.css'), 'utf8')
+  const parts = new Set<string>()
+  for (const name of FIGURES) {
+    await page.goto(`./embed-${name}.html`)
+    const figure = page.locator(`fastslam-${name}`)
+    await live(page, `fastslam-${name}`)
+    const declared = manifest.modules[0].declarations.find(({ tagName }: { tagName: string }) => tagName === `fastslam-${name}`)
+    const fields: string[] = declared.members.filter(({ kind }: { kind: string }) => kind === 'field').map((member: { name: string }) => member.name)
+    const missing = await figure.evaluate((element, names) => names.filter(field => !(field in element)), [...fields, ...declared.members.map(({ name: member }: { name: string }) => member)])
+    expect(missing, name).toEqual([])
+    // Every parameter of a link is an attribute of the manifest.
+    const values = await figure.evaluate(element => new Promise<string[]>(done => {
+      element.addEventListener('fastslam-change', event => done(Object.keys((event as CustomEvent).detail.values)), { once: true })
+      ;(element as FigureElement).state = ''
+    }))
+    expect(declared.attributes.map(({ name: attribute }: { name: string }) => attribute)).toEqual(expect.arrayContaining(values))
+    for (const part of await figure.evaluate(element => [...element.shadowRoot!.querySelectorAll('[part]')].flatMap(inner => [...inner.part]))) parts.add(part)
+    for (const { name: property } of declared.cssProperties) expect(css).toContain(`var(${property},`)
+    const named = declared.cssParts.map((part: { name: string }) => part.name)
+    for (const part of parts) expect(named, name).toContain(part)
+  }
+  // A notice is there only when there is something to say.
+  expect(manifest.modules[0].declarations[0].cssParts.map((part: { name: string }) => part.name).filter((part: string) => !parts.has(part))).toEqual(['notice'])
+})
+
+test('a page with all five figures as elements, and one with all five in frames, pass axe', async ({ page, baseURL, complaints }) => {
+  test.slow()
+  const rules = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice']
+  const violations = async () => (await new AxeBuilder({ page }).withTags(rules).analyze()).violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' | ')}`)
+  await openHost(page, `<main><h1>Five</h1>${FIGURES.map(name => `<fastslam-${name}></fastslam-${name}>`).join('')}</main>`, `<script type="module" src="${baseURL}fastslam.js"></script>`)
+  for (const name of FIGURES) {
+    await page.locator(`fastslam-${name}`).scrollIntoViewIfNeeded()
+    await live(page, `fastslam-${name}`)
+  }
+  expect(await violations()).toEqual([])
+  await openHost(page, `<main><h1>Five</h1>${FIGURES.map(name => `<iframe title="${name}" width="800" height="900" src="${baseURL}embed.html?figure=${name}"></iframe>`).join('')}</main>`)
+  for (const [i, name] of FIGURES.entries()) {
+    await page.locator('iframe').nth(i).scrollIntoViewIfNeeded()
+    await live(page.frames()[i + 1]!, `fastslam-${name}`)
+  }
+  expect(await violations()).toEqual([])
+  forgiveHost(complaints)
+})

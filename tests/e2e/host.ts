@@ -1,0 +1,31 @@
+// Pages of others that a figure is put into: a course site on another origin, and what a learning system leaves of pasted code.
+import { createServer } from 'node:http'
+import type { AddressInfo } from 'node:net'
+import type { Page } from '@playwright/test'
+
+export const FIGURES = ['lap', 'conditioning', 'proposal', 'worked-example', 'resampling']
+
+/** A course's own site, on another origin: it serves one page with this in its body, and nothing else. */
+export async function openHost(page: Page, body: string, head = ''): Promise<void> {
+  const html = `<!doctype html><html lang="en"><head><title>Course</title><link rel="icon" href="data:," />${head}</head><body>${body}</body></html>`
+  const server = createServer((_, response) => response.writeHead(200, { 'Content-Type': 'text/html' }).end(html))
+  await new Promise<void>(done => server.listen(0, '127.0.0.1', done))
+  page.once('close', () => server.close())
+  await page.goto(`http://127.0.0.1:${(server.address() as AddressInfo).port}/course`)
+}
+
+/** A page on another origin is where this test meant to go. */
+export function forgiveHost(complaints: string[]): void {
+  complaints.splice(0, Infinity, ...complaints.filter(line => !/^left the site: http:\/\/127\.0\.0\.1:\d+\/course$/.test(line)))
+}
+
+/** What the editors of learning systems leave of HTML: iframes, with these attributes only. */
+export function sanitised(html: string): string {
+  const kept = ['src', 'width', 'height', 'allowfullscreen', 'sandbox']
+  return [...html.matchAll(/<iframe\b([^>]*)>\s*<\/iframe>/g)]
+    .map(([, attributes]) => {
+      const pairs = [...attributes!.matchAll(/([\w-]+)(?:="([^"]*)")?/g)].filter(([, name]) => kept.includes(name!))
+      return `<iframe ${pairs.map(([, name, value]) => (value === undefined ? name : `${name}="${value}"`)).join(' ')}></iframe>`
+    })
+    .join('')
+}

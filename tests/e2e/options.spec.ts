@@ -1,0 +1,110 @@
+// What an author may fix about a figure: controls, locked parameters, seed, first step, decimal commas, size.
+import { expect, test } from './fixtures'
+import { Figure } from './figure'
+
+test.use({ contextOptions: { reducedMotion: 'reduce' } })
+
+const open = (page: ConstructorParameters<typeof Figure>[0], name: string, query: string) => new Figure(page, `fastslam-${name}`).open(`./embed.html?figure=${name}&${query}`)
+
+test('controls are all there, those of playback, or none; the figure itself stays', async ({ page }) => {
+  const lap = await open(page, 'lap', 'controls=playback')
+  await expect(lap.play).toBeVisible()
+  await expect(lap.element.locator('[part=settings]')).toBeHidden()
+  await expect(lap.element.locator('[part=view]')).toBeHidden()
+  await lap.element.evaluate(element => element.setAttribute('controls', 'none'))
+  await expect(lap.play).toBeHidden()
+  await expect(lap.element.locator('summary[aria-label=Menu]')).toBeHidden()
+  await expect(lap.canvas).toBeVisible()
+  await expect(lap.sentence).not.toBeEmpty()
+  await lap.element.evaluate(element => element.setAttribute('controls', 'some'))
+  await expect(lap.alert).toContainText('controls must be all, playback or none')
+})
+
+test('a locked parameter yields to no control, no link and no hand, and others are free', async ({ page }) => {
+  const lap = await open(page, 'lap', 'universes=8&lock=universes%20seed%20universe#fastslam-lap?universes=32&seed=9&step=5')
+  expect(await lap.position()).toBe(5)
+  await lap.element.evaluate(element => ((element as unknown as { fit: string }).fit, element.removeAttribute('fit')))
+  await lap.openSettings()
+  await expect(lap.box('universes')).toHaveValue('8')
+  await expect(lap.box('universes')).toBeDisabled()
+  await expect(lap.slider('universes')).toBeDisabled()
+  await expect(lap.seed).toHaveValue('3')
+  await expect(lap.reroll).toBeDisabled()
+  await expect(lap.alert).toContainText('is fixed on this page')
+  await expect(lap.box('odometry')).toBeEnabled()
+  // A click on a tile would choose its universe.
+  const box = (await lap.canvas.boundingBox())!
+  await lap.canvas.click({ position: { x: box.width * 0.9, y: box.height * 0.3 } })
+  await lap.settled()
+  await expect(lap.element.locator('select[name=universe]')).toHaveValue('best')
+  await lap.element.evaluate(element => element.setAttribute('lock', 'all'))
+  await expect(lap.box('odometry')).toBeDisabled()
+  await lap.element.evaluate(element => element.setAttribute('lock', 'univers'))
+  await expect(lap.alert).toContainText('lock names “univers”')
+  await expect(lap.box('universes')).toBeEnabled()
+})
+
+test('a handle moves what is free and leaves what is locked', async ({ page }) => {
+  const figure = await open(page, 'proposal', 'lock=landmark-x')
+  const before = await figure.element.evaluate(element => [(element as never as { landmarkX: number }).landmarkX, (element as never as { landmarkY: number }).landmarkY])
+  const handle = figure.element.locator('[part=handle]').first()
+  await handle.focus()
+  for (const key of ['ArrowLeft', 'ArrowLeft', 'ArrowUp']) await page.keyboard.press(key)
+  await figure.settled()
+  const after = await figure.element.evaluate(element => [(element as never as { landmarkX: number }).landmarkX, (element as never as { landmarkY: number }).landmarkY])
+  expect(after[0]).toBe(before[0])
+  expect(after[1]).not.toBe(before[1])
+})
+
+test('decimal commas: in boxes, readouts, the sentence and the picture, and typed ones are understood', async ({ page }) => {
+  const point = await open(page, 'proposal', '')
+  const [written, picture] = [await point.readouts(), await point.picture()]
+  const figure = await open(page, 'proposal', 'decimal=comma')
+  await expect(figure.alert).toBeEmpty()
+  const commas = await figure.readouts()
+  expect(Object.values(commas)).toEqual(Object.values(written).map(text => text.replace(/(\d)\.(\d)/g, '$1,$2')))
+  expect(Object.values(commas).filter(text => /\d,\d/.test(text)).length).toBeGreaterThan(3)
+  expect(await figure.picture()).not.toBe(picture)
+  await expect(figure.sentence).toContainText('0,05 m')
+  await figure.element.evaluate(element => element.removeAttribute('fit'))
+  await figure.openSettings()
+  const box = figure.element.getByRole('spinbutton', { name: /Range noise/ })
+  await expect(box).toHaveValue('0,05')
+  await box.fill('0,12')
+  await box.press('Enter')
+  await expect(figure.sentence).toContainText('0,12 m')
+  await expect(box).toHaveValue('0,12')
+  await box.press('ArrowUp')
+  await expect(box).toHaveValue(/^0,1[23]\d*$/)
+  // Data and links keep the point.
+  expect(await figure.element.evaluate(element => (element as never as { link: string }).link)).toMatch(/range-std=0\.1/)
+  await figure.element.evaluate(element => element.setAttribute('decimal', 'point'))
+  await expect(figure.box('range-std')).toHaveValue(/^0\.1/)
+})
+
+test('the presentation size is half as large again, in the picture and beside it, and pointers still hit', async ({ page }) => {
+  const normal = await open(page, 'lap', 'step=20')
+  const letters = (figure: Figure) => figure.sentence.evaluate(element => parseFloat(getComputedStyle(element).fontSize))
+  const [before, handles] = [await letters(normal), await normal.play.evaluate(button => (button as HTMLElement).offsetHeight)]
+  const figure = await open(page, 'lap', 'step=20&size=presentation')
+  await figure.element.evaluate(element => element.removeAttribute('fit'))
+  await figure.settled()
+  expect(await letters(figure)).toBe(1.5 * before)
+  expect(await figure.play.evaluate(button => (button as HTMLElement).offsetHeight)).toBeGreaterThan(1.4 * handles)
+  const box = (await figure.canvas.boundingBox())!
+  await figure.canvas.click({ position: { x: box.width * 0.93, y: box.height * 0.2 } })
+  await figure.settled()
+  await expect(figure.element.locator('select[name=universe]')).toHaveValue('3')
+})
+
+test('a start step waits there, and Reset returns to what the author gave', async ({ browser, baseURL }) => {
+  const page = await (await browser.newContext({ baseURL: baseURL!, reducedMotion: 'no-preference' })).newPage()
+  const lap = await open(page, 'lap', 'step=12&universes=4&lock=seed')
+  await page.waitForTimeout(1500)
+  expect(await lap.position()).toBe(12)
+  await lap.scrubTo(30)
+  await lap.reset.click()
+  await lap.settled()
+  expect(await lap.position()).toBe(12)
+  await page.context().close()
+})

@@ -1,0 +1,60 @@
+// The code that puts a figure, as it stands, into another page: for the menu, and for the page that documents embedding.
+
+/** A figure as its author would write it: tag, and attributes in their order. */
+export interface Recipe {
+  tag: string
+  attributes: [string, string][]
+}
+
+/** What there is code for, and how a menu names it. */
+export const CODES = { element: 'HTML element', iframe: 'iframe', myst: 'MyST', python: 'Python' } as const
+export type CodeName = keyof typeof CODES
+
+/** Width of a frame as it is pasted [px]; the height goes with the figure. */
+export const FRAME_WIDTH = 800
+/** Heights that show all of a figure in a frame of that width, settings closed [px]; tests/e2e/embed.spec.ts measures them. */
+const FRAME_HEIGHTS: Record<string, number> = {
+  'fastslam-lap': 770,
+  'fastslam-conditioning': 800,
+  'fastslam-proposal': 870,
+  'fastslam-resampling': 1190,
+  'fastslam-worked-example': 1360,
+}
+
+export const frameHeight = (tag: string): number => FRAME_HEIGHTS[tag] ?? 800
+
+/** The code, for figures whose files are in the folder `home` (an address with a slash at its end). */
+export function embedCode(name: CodeName, { tag, attributes }: Recipe, home: string, title: string): string {
+  const short = tag.replace('fastslam-', '')
+  if (name === 'element') {
+    const text = attributes.map(([key, value]) => ` ${key}="${escape(value)}"`).join('')
+    return `<script type="module" src="${home}fastslam.js"></script>\n<${tag}${text}></${tag}>`
+  }
+  if (name === 'iframe') {
+    const query = new URLSearchParams([['figure', short], ...attributes])
+    return (
+      `<iframe src="${escape(`${home}embed.html?${query}`)}" title="${escape(title)}" width="${FRAME_WIDTH}" height="${frameHeight(tag)}" ` +
+      `sandbox="allow-scripts allow-downloads" allowfullscreen></iframe>`
+    )
+  }
+  if (name === 'myst') {
+    const model = JSON.stringify({ figure: short, ...Object.fromEntries(attributes) }, undefined, 2)
+    return '```{anywidget} ' + `${home}fastslam-anywidget.js\n${model}\n` + '```'
+  }
+  const keywords = attributes.map(([key, value]) => `${key.replaceAll('-', '_')}=${python(value)}`).join(', ')
+  return `from fastslam_widgets import ${className(tag)}\n\n${className(tag)}(${keywords})`
+}
+
+/** FastslamLap for fastslam-lap: the class of the element, and of the widget in Python. */
+export function className(tag: string): string {
+  return tag.replace(/(?:^|-)(.)/g, (_, letter: string) => letter.toUpperCase())
+}
+
+function python(value: string): string {
+  if (value === 'on' || value === 'off') return value === 'on' ? 'True' : 'False'
+  return value !== '' && Number.isFinite(Number(value)) ? value : JSON.stringify(value)
+}
+
+function escape(text: string): string {
+  return text.replaceAll('&', '&amp;').replaceAll('"', '&quot;').replaceAll('<', '&lt;')
+}

@@ -1,0 +1,29 @@
+// Where the files of the figures are: beside this script. A script that carries them along has files-inline.ts in place of this one.
+import worker from './worker?worker&url'
+
+const PICTURES = import.meta.glob<string>('../../tests/figures/golden/fastslam-*.png', { eager: true, query: '?url', import: 'default' })
+
+/**
+ * The program of this page, and the one place where it is chosen: a page with one kind of figure may name that figure's own, which is
+ * smaller, by `<link rel="fastslam-program" href="…">`; every other page gets the program with all figures.
+ */
+export function fetchProgram(): Promise<Response> {
+  const named = document.querySelector<HTMLLinkElement>('link[rel=fastslam-program]')
+  return fetch(named?.href ?? new URL('../pkg/fastslam_widgets_bg.wasm', import.meta.url))
+}
+
+/** The worker's script: an address, or what is in it. */
+export function workerScript(): { address: string } | { text: string } {
+  return { address: worker }
+}
+
+/** The picture of a figure at rest; undefined where the program came without pictures. */
+export function pictureAddress(tag: string, shade: 'light' | 'dark'): string | undefined {
+  return PICTURES[`../../tests/figures/golden/${tag}-${shade}.png`]
+}
+
+/** The folder of the site that serves this script, where it is one: the pages for frames lie beside it. Else empty. */
+export function homeAddress(): string {
+  const { protocol, pathname, href } = new URL(import.meta.url)
+  return /^https?:$/.test(protocol) && /\/fastslam(-[\w-]{8})?\.js$/.test(pathname) ? new URL('.', href).href : ''
+}

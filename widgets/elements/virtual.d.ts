@@ -1,0 +1,4 @@
+declare module 'virtual:fastslam-files' {
+  export const program: string
+  export const worker: string
+}

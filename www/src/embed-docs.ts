@@ -1,0 +1,115 @@
+// The page on embedding: an editor of a figure's attributes beside the figure, the code to paste, and tables of all there is, both made
+// from the manifest of the elements.
+import type { FigureElement } from '../../widgets/elements/base'
+import { h } from '../../widgets/elements/dom'
+import { CODES, embedCode, type CodeName } from '../../widgets/elements/embed-code'
+import { FIGURES } from '../../widgets/elements/generated/figures'
+import '../../widgets/elements/index'
+import { OPTIONS } from '../../widgets/elements/options'
+import { copy } from '../../widgets/elements/save'
+
+interface Described {
+  name: string
+  description?: string
+  type?: { text: string }
+  default?: string
+  kind?: string
+}
+interface Declaration {
+  tagName: string
+  summary: string
+  attributes: Described[]
+  members: Described[]
+  events: Described[]
+  cssParts: Described[]
+  cssProperties: Described[]
+}
+
+const home = new URL('../', location.href).href
+const form = document.querySelector<HTMLFormElement>('#editor')!
+const preview = document.querySelector('#preview')!
+const codes = document.querySelector('#codes')!
+
+/** A field for an attribute; empty means that it is left away. */
+function field({ name, description, type, default: value }: Described): HTMLElement {
+  const words = [...(type?.text ?? '').matchAll(/'([^']*)'/g)].map(match => match[1]!)
+  const choices = type?.text === 'boolean' ? ['on', 'off'] : type?.text.includes('number') ? [] : words
+  const input = choices.length > 0 ? h('select', { name }, new Option(`${value ?? choices[0]} (default)`, ''), ...choices.map(word => new Option(word, word))) : h('input', { name, placeholder: value ?? '', autocomplete: 'off' })
+  return h('label', { title: description ?? '' }, h('span', { class: 'name' }, name), input)
+}
+
+function edit(declarations: Declaration[]): void {
+  const choose = h('select', { name: 'figure' }, ...declarations.map(({ tagName, summary }) => new Option(summary, tagName)))
+  const fields = h('fieldset', { 'aria-label': 'Attributes of the figure' })
+  const outputs = (Object.entries(CODES) as [CodeName, string][]).map(([name, title]) => {
+    const code = h('code')
+    const button = h('button', { type: 'button', 'aria-label': `Copy the code: ${title}` }, 'Copy')
+    button.addEventListener('click', () => {
+      void copy(code.textContent).then(done => {
+        button.textContent = done ? 'Copied' : 'Select it by hand'
+        setTimeout(() => (button.textContent = 'Copy'), 2000)
+      })
+    })
+    codes.append(h('div', {}, h('div', { class: 'head' }, h('h3', {}, title), button), h('pre', { tabindex: '0', 'aria-label': `Code: ${title}` }, code)))
+    return { name, code }
+  })
+
+  let figure: FigureElement
+  const attributes = (): [string, string][] => [...new FormData(form)].filter(([name, value]) => name !== 'figure' && value !== '') as [string, string][]
+  const print = () => {
+    for (const { name, code } of outputs) {
+      const text = embedCode(name, { tag: figure.localName, attributes: attributes() }, home, FIGURES[figure.localName]!.title)
+      if (code.textContent !== text) code.textContent = text
+    }
+  }
+  const begin = () => {
+    const declared = declarations.find(({ tagName }) => tagName === choose.value)!
+    const own = declared.attributes.filter(({ name }) => !(name in OPTIONS))
+    const common = declared.attributes.filter(({ name }) => name in OPTIONS)
+    fields.replaceChildren(h('h3', {}, 'Parameters'), ...own.map(field), h('h3', {}, 'Options'), ...common.map(field))
+    figure = document.createElement(declared.tagName) as FigureElement
+    preview.replaceChildren(figure)
+    print()
+  }
+  choose.addEventListener('change', begin)
+  fields.addEventListener('input', event => {
+    const { name, value } = event.target as HTMLInputElement
+    if (value === '') figure.removeAttribute(name)
+    else figure.setAttribute(name, value)
+    print()
+  })
+  form.addEventListener('submit', event => event.preventDefault())
+  form.replaceChildren(h('label', {}, h('span', { class: 'name' }, 'Figure'), choose), fields)
+  begin()
+}
+
+function table(caption: string, heads: string[], rows: (string | HTMLElement)[][]): HTMLElement[] {
+  const cells = (row: (string | HTMLElement)[]) => h('tr', {}, ...row.map((cell, i) => (i === 0 ? h('th', { scope: 'row' }, cell) : h('td', {}, cell))))
+  return [h('h3', {}, caption), h('table', {}, h('thead', {}, h('tr', {}, ...heads.map(head => h('th', { scope: 'col' }, head)))), h('tbody', {}, ...rows.map(cells)))]
+}
+
+function list(declarations: Declaration[]): void {
+  const reference = document.querySelector('#reference')!
+  const code = (text: string) => h('code', {}, text)
+  const attributes = (all: Described[]) => all.map(({ name, type, default: value, description }) => [code(name), code(type?.text ?? ''), code(value ?? ''), description ?? ''])
+  for (const { tagName, summary, attributes: all } of declarations) {
+    const rows = attributes(all.filter(({ name }) => !(name in OPTIONS)))
+    reference.append(h('details', {}, h('summary', {}, code(`<${tagName}>`), ` ${summary}`), ...table('Attributes', ['Attribute', 'Values', 'Default', 'What it does'], rows)))
+  }
+  const { attributes: every, members, events, cssParts, cssProperties } = declarations[0]!
+  const methods = members.filter(({ kind }) => kind === 'method')
+  const properties = members.filter(({ name, kind }) => kind === 'field' && !FIGURES[declarations[0]!.tagName]!.parameters.some(parameter => parameter.replace(/-(.)/g, (_, letter: string) => letter.toUpperCase()) === name))
+  reference.append(
+    ...table('Attributes of every figure', ['Attribute', 'Values', 'Default', 'What it does'], attributes(every.filter(({ name }) => name in OPTIONS))),
+    ...table('Methods, properties and events', ['Name', 'What it does'], [
+      ...methods.map(({ name, description }) => [code(`${name}()`), description ?? '']),
+      ...properties.map(({ name, description }) => [code(name), description ?? '']),
+      ...events.map(({ name, description }) => [code(name), `${description} It bubbles, and its detail is { step, values, readouts }.`]),
+    ]),
+    h('p', {}, 'Every parameter is a property too, its name without dashes: ', code('range-std'), ' is ', code('rangeStd'), '. For style sheets: the properties ', ...cssProperties.flatMap(({ name }, i) => [i > 0 ? ', ' : '', code(name)]), ' and, by ', code('::part()'), ', the parts ', ...cssParts.flatMap(({ name }, i) => [i > 0 ? ', ' : '', code(name)]), '.'),
+  )
+}
+
+const manifest = (await (await fetch(new URL('custom-elements.json', home))).json()) as { modules: { declarations: Declaration[] }[] }
+edit(manifest.modules[0]!.declarations)
+list(manifest.modules[0]!.declarations)
