@@ -59,8 +59,12 @@ pub fn parse_relations(bytes: &[u8]) -> Result<Vec<Relation>, LogError> {
 /// standard deviations.
 ///
 /// `path` and `odometry` are poses by ascending time \[s\]. A time at which there is no estimate takes the nearest one, moved
-/// by raw odometry. Without a pose or a relation, all is zero.
+/// by raw odometry. Relations that reach out of the time of both are left out; without a pose or a relation, all is zero.
 pub fn relation_errors(path: &[(f64, Pose2)], odometry: &[(f64, Pose2)], relations: &[Relation]) -> RelationErrors {
+    let times = || path.iter().chain(odometry).map(|(time, _)| *time);
+    let (first, last) = (times().fold(f64::INFINITY, f64::min), times().fold(f64::NEG_INFINITY, f64::max));
+    let known = |relation: &&Relation| relation.times.iter().all(|time| (first..=last).contains(time));
+    let relations: Vec<&Relation> = relations.iter().filter(known).collect();
     if path.is_empty() || relations.is_empty() {
         return RelationErrors::default();
     }

@@ -193,6 +193,7 @@ fn errors_are_those_computed_by_hand() {
         relation(0.0, 10.0, 3.0, 0.4, -PI / 18.0), // 0.4 m and 10° off
         relation(0.0, 11.0, 3.5, 0.0, 0.1 * PI),   // exact, with the odometry's half metre
         relation(10.0, 0.0, -3.0, 0.0, 0.0),       // back, exact
+        relation(10.0, 99.0, 7.0, 7.0, 1.0),       // when the log was over
     ];
     let errors = relation_errors(&path, &odometry, &relations);
     assert!((errors.translation_mean - 0.4 / 3.0).abs() < 1e-12, "{errors:?}");
