@@ -29,11 +29,20 @@ pub struct LogSetup {
     pub max_range: f64,
     /// A scan is passed over until the robot has driven this far \[m\], or turned by as many radians, 0 to 10.
     pub min_travel: f64,
+    /// When the particles are resampled.
+    pub policy: ResamplePolicy,
 }
 
 impl Default for LogSetup {
     fn default() -> Self {
-        Self { particles: 16, seed: 1, cell_size: 0.05, max_range: 30.0, min_travel: 0.0 }
+        Self {
+            particles: 16,
+            seed: 1,
+            cell_size: 0.05,
+            max_range: 30.0,
+            min_travel: 0.0,
+            policy: ResamplePolicy::EssBelow(0.5),
+        }
     }
 }
 
@@ -89,15 +98,8 @@ impl LogRun {
             probe_stds: [[0.005, 0.005, 0.003], [0.05, 0.05, 0.03]],
         };
         let proposal = FromScan { fallback: FromMotion { motion, likelihood }, settings };
-        let filter = Rbpf::new(
-            proposal,
-            ResamplePolicy::EssBelow(0.5),
-            Scheme::Systematic,
-            setup.seed,
-            setup.particles,
-            Pose2::default(),
-            map,
-        );
+        let filter =
+            Rbpf::new(proposal, setup.policy, Scheme::Systematic, setup.seed, setup.particles, Pose2::default(), map);
         Ok(Self { log, used, setup: setup.clone(), no_return, filter, step: 0, resampled: 0 })
     }
 

@@ -4,6 +4,7 @@ pub mod conditioning;
 pub mod landmarks;
 pub mod lap;
 pub mod log;
+pub mod log_files;
 pub mod policies;
 pub mod policy_counts;
 pub mod proposals;

@@ -65,7 +65,8 @@ struct Reader {
 
 impl Reader {
     fn line(&mut self, bytes: &[u8]) -> Result<(), String> {
-        let text = core::str::from_utf8(bytes).map_err(|_| "expected a message in plain text, found binary".to_owned())?;
+        let text =
+            core::str::from_utf8(bytes).map_err(|_| "expected a message in plain text, found binary".to_owned())?;
         let mut words = Words { words: text.split_ascii_whitespace(), kind: "" };
         let Some(kind) = words.words.next() else { return Ok(()) };
         words.kind = kind;

@@ -8,6 +8,7 @@ pub mod figure;
 pub mod font;
 pub mod job;
 pub mod lap;
+pub mod log;
 pub mod model;
 pub mod paint;
 mod param;

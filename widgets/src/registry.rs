@@ -1,8 +1,8 @@
 //! All figures by tag. Tests and tools iterate over this list.
 
 use crate::{
-    conditioning::ConditioningModel, lap::LapModel, model::Model, proposal::ProposalModel, resampling::ResamplingModel,
-    worked_example::WorkedExampleModel,
+    conditioning::ConditioningModel, lap::LapModel, log::LogModel, model::Model, proposal::ProposalModel,
+    resampling::ResamplingModel, worked_example::WorkedExampleModel,
 };
 
 /// A kind of figure.
@@ -29,6 +29,7 @@ pub const FIGURES: &[Entry] = &[
         title: WorkedExampleModel::TITLE,
         make: || Box::new(WorkedExampleModel::default()),
     },
+    Entry { tag: "fastslam-log", title: LogModel::TITLE, make: || Box::new(LogModel::default()) },
     Entry { tag: "fastslam-resampling", title: ResamplingModel::TITLE, make: || Box::new(ResamplingModel::default()) },
 ];
 

@@ -66,7 +66,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let errors = match &arguments.relations {
         Some(path) => {
             let bytes = std::fs::read(path).map_err(|e| Failure::file(path, e))?;
-            relation_errors(&run.path(), &log.odometry, &parse_relations(&bytes).map_err(|e| Failure::usage_of(path, e))?)
+            relation_errors(
+                &run.path(),
+                &log.odometry,
+                &parse_relations(&bytes).map_err(|e| Failure::usage_of(path, e))?,
+            )
         }
         None => Default::default(),
     };

@@ -3,7 +3,7 @@
 mod grid;
 mod layout;
 mod model;
-mod params;
+pub(crate) mod params;
 mod scene;
 mod view;
 

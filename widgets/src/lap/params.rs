@@ -17,7 +17,8 @@ const PROPOSALS: &[Choice] = &[
 const MATCHERS: &[Choice] =
     &[Choice { value: "subcell", title: "sub-cell (hit means)" }, Choice { value: "cell", title: "cell (occupancy)" }];
 
-const POLICIES: &[Choice] = &[
+/// When to resample, in words.
+pub const POLICIES: &[Choice] = &[
     Choice { value: "neff", title: "N_eff below threshold" },
     Choice { value: "always", title: "at every step" },
     Choice { value: "never", title: "never" },
