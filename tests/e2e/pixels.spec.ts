@@ -16,7 +16,8 @@ interface Picture {
   digest: string
 }
 
-const pictures = readFileSync(join(root, 'tests', 'figures', 'golden', 'pixels.txt'), 'utf8')
+const golden = join(root, 'tests', 'figures', 'golden')
+const pictures = readFileSync(join(golden, 'pixels.txt'), 'utf8')
   .trim()
   .split('\n')
   .map((line): Picture => {
@@ -26,13 +27,17 @@ const pictures = readFileSync(join(root, 'tests', 'figures', 'golden', 'pixels.t
   })
 
 /** Runs in the page: the digests of these pictures, by the calls that the page makes. */
-async function digests(wanted: Picture[]): Promise<string[]> {
+async function digests({ wanted, log }: { wanted: Picture[]; log: string }): Promise<string[]> {
   const module = '/fastslam_widgets.js'
   const { default: init, Figure } = (await import(module)) as typeof import('../../widgets/pkg/fastslam_widgets')
   const { memory } = await init()
   return wanted.map(({ tag, query, width, dpr, theme }) => {
     const figure = new Figure(tag)
     figure.load(query)
+    if (tag === 'fastslam-log') {
+      figure.open(new TextEncoder().encode(log))
+      figure.seek(figure.step_count())
+    }
     while (figure.pending() > 0) figure.work()
     const [w, h] = [width, figure.height(width)].map(side => Math.round(side * dpr))
     figure.paint(w!, h!, dpr, theme)
@@ -57,7 +62,7 @@ test('the optimised wasm paints every golden picture to the last pixel', async (
   const page = await (await browser.newContext()).newPage()
   await page.route('**/blank', route => route.fulfill({ contentType: 'text/html', body: '<!doctype html><title>pixels</title>' }))
   await page.goto(`${server.url}blank`)
-  const painted = await page.evaluate(digests, pictures)
+  const painted = await page.evaluate(digests, { wanted: pictures, log: readFileSync(join(golden, 'tiny.clf'), 'utf8') })
   expect(pictures.map(({ name }, i) => `${name} ${painted[i]}`)).toEqual(pictures.map(({ name, digest }) => `${name} ${digest}`))
   await page.context().close()
   await server.close()
