@@ -38,7 +38,7 @@ export async function runInWorker(job: Job, onRows: (rows: number[][]) => void, 
 }
 
 /** A worker's file must be of the page's own site. Where the figures come from another one, a line that imports it is. */
-function hire(): Worker {
+export function hire(): Worker {
   try {
     const own = new URL(address, location.href).origin === location.origin
     const url = own ? address : URL.createObjectURL(new Blob([`import ${JSON.stringify(address)}`], { type: 'text/javascript' }))
@@ -50,6 +50,6 @@ function hire(): Worker {
   }
 }
 
-function refused(why: string | undefined): Error {
+export function refused(why: string | undefined): Error {
   return new Error(`this page lets nothing run in the background${why ? ` (${why})` : ''}`)
 }

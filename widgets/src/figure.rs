@@ -127,11 +127,11 @@ impl Figure {
         }
     }
 
-    /// Magnifies the picture about a point of a figure of this width \[css px\].
+    /// Magnifies the picture about a point of a figure of this width \[css px\]; about its middle, where that is no point.
     pub fn zoom(&mut self, factor: f64, x: f64, y: f64, width: f64) {
         let scale = self.scene_px(width);
-        let at = in_scene([x, y], scale);
-        if at.iter().chain([&factor]).all(|c| c.is_finite()) && factor > 0.0 {
+        let at = Some(in_scene([x, y], scale)).filter(|at| at.iter().all(|c| c.is_finite()));
+        if factor.is_finite() && factor > 0.0 {
             self.model.zoom(factor, at, width * scale);
         }
     }

@@ -133,8 +133,9 @@ pub trait Model {
         None
     }
 
-    /// Magnifies the picture about a point \[css px\] of a scene of this width \[css px\]. What is looked at is no part of the recipe.
-    fn zoom(&mut self, _factor: f64, _at: Point, _width: f64) {}
+    /// Magnifies the picture about a point \[css px\] of a scene of this width \[css px\], or about its middle. What is looked at is no
+    /// part of the recipe.
+    fn zoom(&mut self, _factor: f64, _at: Option<Point>, _width: f64) {}
 
     /// Moves the picture right and down \[css px\].
     fn pan(&mut self, _by: Point, _width: f64) {}

@@ -172,7 +172,7 @@ impl Figure {
         self.0.model().file(name)
     }
 
-    /// Magnifies the picture about a point of a figure of this width \[css px\].
+    /// Magnifies the picture about a point of a figure of this width \[css px\], or about its middle where that is NaN.
     pub fn zoom(&mut self, factor: f64, x_css: f64, y_css: f64, width_css: f64) {
         self.0.zoom(factor, x_css, y_css, width_css);
     }

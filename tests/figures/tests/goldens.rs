@@ -9,7 +9,7 @@ use fastslam::{
     sensor::BeamSensor,
 };
 use fastslam_widgets::job;
-use figures::{JOBS, PICTURES, SETUPS, figure, line, readouts, rows};
+use figures::{JOBS, LOG, PICTURES, SETUPS, figure, line, readouts, rows};
 use std::{
     collections::BTreeSet,
     env, fs,
@@ -128,6 +128,13 @@ fn simulated_log() -> String {
 #[test]
 fn the_tiny_log_is_what_the_simulator_writes() {
     same_text("tiny.clf", &simulated_log());
+}
+
+#[test]
+fn the_tiny_log_has_the_fingerprint_that_the_page_shows() {
+    let readouts = figure(LOG, "cell=0.1").model().readouts();
+    let digest = readouts.iter().find(|readout| readout.name == "digest").unwrap();
+    same_text("log-digest.txt", &format!("{}\n", digest.text));
 }
 
 #[test]

@@ -13,7 +13,6 @@ pub const LINE: f64 = 18.0;
 
 const HEADER: f64 = 26.0;
 const PAD: f64 = 8.0;
-const CHART: f64 = 56.0;
 
 /// A gauge over the scans \[css px\].
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -52,12 +51,13 @@ impl Layout {
         } else {
             Rect::new(0.0, HEADER, width, 0.9 * width)
         };
+        let chart = if wide { (0.12 * width).clamp(70.0, 130.0) } else { 56.0 };
         let gauge = |x: f64, y: f64, w: f64| Gauge {
             label: Rect::new(x, y, w, LINE),
-            chart: Rect::new(x, y + LINE + 2.0, w, CHART),
+            chart: Rect::new(x, y + LINE + 2.0, w, chart),
         };
         let (gauges, legend) = if wide {
-            let (x, step) = (map.right() + 16.0, LINE + 2.0 + CHART + 2.0 * PAD);
+            let (x, step) = (map.right() + 16.0, LINE + 2.0 + chart + 2.0 * PAD);
             let gauges = [0.0, 1.0].map(|k| gauge(x, map.y + k * step, side));
             let y = gauges[1].chart.bottom() + 2.0 * PAD;
             (gauges, Rect::new(x, y, side, map.bottom() - y))
@@ -65,11 +65,11 @@ impl Layout {
             let w = 0.5 * (width - 2.0 * PAD);
             let gauges = [0.0, 1.0].map(|k| gauge(k * (w + 2.0 * PAD), map.bottom() + PAD, w));
             let lines = if width >= 560.0 {
-                3.0
+                2.0
             } else if width >= 400.0 {
-                4.0
+                3.0
             } else {
-                6.0
+                4.0
             };
             (gauges, Rect::new(0.0, gauges[0].chart.bottom() + PAD, width, lines * LINE))
         };

@@ -32,8 +32,10 @@ pub const BACK: u32 = 20;
 /// Most memory that the maps may take \[bytes\]: what a phone's browser gives to one page without ending it.
 const LIMIT: f64 = 512e6;
 
-/// What a cell of a map takes at the most \[bytes\], as the swept area counts cells: the tests hold a mapped log against it.
-const CELL_BYTES: f64 = 6.0;
+/// What a map takes at the most: for each cell of the swept area, and for the walls in it, of which a square metre has about two
+/// metres, a cell thick \[bytes\]. The tests hold mapped logs against it.
+const CELL_BYTES: f64 = 4.0;
+const WALL_BYTES: f64 = 2.0 * 45.0;
 
 /// What a pose in the tree of all paths takes \[bytes\].
 const NODE_BYTES: f64 = 28.0;
@@ -140,7 +142,7 @@ impl Opened {
 
     /// Memory \[bytes\] that one universe takes at the most: a map that shares nothing, and its path.
     fn universe_bytes(&self, cell_size: f64) -> f64 {
-        CELL_BYTES * self.swept / (cell_size * cell_size) + NODE_BYTES * self.log.scans.len() as f64
+        self.swept / cell_size * (CELL_BYTES / cell_size + WALL_BYTES) + NODE_BYTES * self.log.scans.len() as f64
     }
 }
 
@@ -426,8 +428,8 @@ impl Model for LogModel {
         })
     }
 
-    fn zoom(&mut self, factor: f64, at: Point, width: f64) {
-        self.look(|view| view.zoomed(factor, at), width);
+    fn zoom(&mut self, factor: f64, at: Option<Point>, width: f64) {
+        self.look(|view| view.zoomed(factor, at.unwrap_or(view.area.centre())), width);
     }
 
     fn pan(&mut self, by: Point, width: f64) {

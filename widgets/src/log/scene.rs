@@ -196,9 +196,9 @@ fn lineage(scene: &mut Scene, model: &LogModel, layout: &Layout) {
     let (gauge, m) = (&layout.gauges[1], model.setup().particles);
     let now = model.history().last().map_or("–".into(), |moment| moment.lineage.to_string());
     let name = value(scene, &gauge.label, format!("{now} of {m}"));
-    let long = format!("Ancestors {BACK} scans ago");
-    let fits = font::measure(&long, SIZE, Weight::Regular) < name.w;
-    let label = if fits { long } else { format!("Lineage, {BACK} back") };
+    let names = [format!("Ancestors {BACK} scans ago"), format!("Lineage, {BACK} back")];
+    let fits = |label: &String| font::measure(label, SIZE, Weight::Regular) < name.w;
+    let label = names.into_iter().find(fits).unwrap_or("Lineage".into());
     scene.marks.push(text(name, Anchor::Start, SIZE, Weight::Regular, Role::Muted, label));
     curve(scene, model, &gauge.chart, |moment| f64::from(moment.lineage) / m as f64);
 }

@@ -9,7 +9,7 @@ const LEAST: f64 = 0.5;
 const MOST: f64 = 2e5;
 
 /// A view of the whole grows by whole steps \[m\], so that a map that grows does not make it tremble.
-const STEP: f64 = 4.0;
+const STEP: f64 = 2.0;
 
 /// A part of the world, upright.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -159,8 +159,8 @@ mod tests {
     #[test]
     fn a_whole_is_framed_by_steps_so_that_it_does_not_tremble() {
         let frame = Frame::around([-0.1, 0.2], [7.9, 3.0]);
-        assert_eq!((frame.centre, frame.size), ([2.0, 2.0], [12.0, 4.0]));
-        assert_eq!(Frame::around([-0.5, 0.9], [5.0, 3.9]), frame);
+        assert_eq!((frame.centre, frame.size), ([3.0, 2.0], [10.0, 4.0]));
+        assert_eq!(Frame::around([-0.5, 0.9], [6.5, 3.9]), frame);
         assert_eq!(Frame::around([1.0; 2], [1.0; 2]).size, [STEP; 2]);
     }
 }
