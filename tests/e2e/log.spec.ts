@@ -138,7 +138,7 @@ test('it pauses, goes on, and stops, and what is mapped by then can be saved', a
 
   await log.button('Start').click()
   await expect.poll(at).toBeGreaterThan(3)
-  await expect(log.element.locator('output')).toContainText('left')
+  await expect(log.element.locator('.run .position')).toContainText('left')
   await log.button('Pause').click()
   await expect(log.button('Resume')).toBeVisible()
   const paused = await at()

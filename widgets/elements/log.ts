@@ -64,7 +64,7 @@ export class FastslamLog extends HTMLElement {
   readonly #go = this.#button('Start', () => this.#playPause(), { class: 'primary', part: 'button play' })
   readonly #halt = this.#button('Stop', () => this.stop(), { part: 'button stop' })
   readonly #progress = h('progress', { 'aria-label': 'Scans mapped', value: '0' })
-  readonly #left = h('output', { class: 'position' })
+  readonly #left = h('span', { class: 'position' })
   readonly #saves = FILES.map(([what, name]) => this.#button(name, () => this.#ask({ ask: 'save', what })))
   readonly #readouts = h('dl', { class: 'readouts', part: 'readouts' })
   readonly #sentence = h('p', { class: 'sentence', part: 'sentence', id: 'sentence', 'aria-live': 'polite' })

@@ -36,7 +36,7 @@ impl View {
 
     /// The positions of a path, cut at the edge of the view. Points nearer than `least` \[css px\] to the one before are left out.
     pub fn path(&self, poses: &[Pose2], least: f64) -> Vec<Vec<Point>> {
-        clip_polyline(&thinned(poses.iter().map(|pose| self.point([pose.x, pose.y])), least), &self.area)
+        clip_polyline(&thinned(&mut poses.iter().map(|pose| self.point([pose.x, pose.y])), least), &self.area)
     }
 
     /// An arrow head of this length from centre to nose \[css px\] that points where the robot looks; `None` out of view.

@@ -100,7 +100,7 @@ fn odometry(scene: &mut Scene, model: &LogModel, view: &View) {
     let mapped = model.run().and_then(|run| run.path().last().map(|(time, _)| *time));
     let scans = log.scans.iter().take_while(|scan| mapped.is_none_or(|time| scan.time <= time));
     let placed = |pose: &Pose2| if model.run().is_some() { first.between(pose) } else { *pose };
-    let lines = view.path(scans.map(|scan| placed(&scan.odometry)), 1.0);
+    let lines = view.path(&scans.map(|scan| placed(&scan.odometry)).collect::<Vec<_>>(), 1.0);
     scene.marks.push(Mark::Lines { lines, width: 1.5, dash: Some([7.0, 4.0]), role: Role::Odometry });
 }
 
@@ -110,15 +110,15 @@ fn paths(scene: &mut Scene, model: &LogModel, view: &View) {
     let tree = Tree::new(run, model.deaths());
     for age in (0..FADE).rev() {
         let dead = tree.dead.iter().filter(|(a, _)| *a == age);
-        let lines: Vec<_> = dead.flat_map(|(_, line)| view.path(line.iter().copied(), 1.0)).collect();
+        let lines: Vec<_> = dead.flat_map(|(_, line)| view.path(line, 1.0)).collect();
         if !lines.is_empty() {
             let width = DIED * f64::from(FADE - age) / f64::from(FADE);
             scene.marks.push(Mark::Strands { lines, width, role: Role::Extinct });
         }
     }
-    let others = tree.others.iter().flat_map(|line| view.path(line.iter().copied(), 1.0)).collect();
+    let others = tree.others.iter().flat_map(|line| view.path(line, 1.0)).collect();
     scene.marks.push(Mark::Strands { lines: others, width: LIVES, role: Role::Copied });
-    let best = view.path(tree.best.iter().copied(), 1.0);
+    let best = view.path(&tree.best, 1.0);
     scene.marks.push(Mark::Strands { lines: best, width: 2.0, role: Role::Path });
     let robots = run.particles().iter().filter_map(|particle| view.robot(&particle.world_from_robot, 5.0));
     scene.marks.push(Mark::Polygons { polygons: robots.collect(), role: Role::Copied });
@@ -165,7 +165,11 @@ fn curve(scene: &mut Scene, model: &LogModel, chart: &Rect, share: impl Fn(&Mome
         [chart.x + chart.w * (k + 1) as f64 / last, chart.bottom() - chart.h * share(moment).clamp(0.0, 1.0)]
     };
     let points: Vec<Point> = model.history().iter().enumerate().map(at).collect();
-    scene.marks.push(Mark::Strands { lines: vec![thinned(points.iter().copied(), 0.5)], width: 1.25, role: Role::Ink });
+    scene.marks.push(Mark::Strands {
+        lines: vec![thinned(&mut points.iter().copied(), 0.5)],
+        width: 1.25,
+        role: Role::Ink,
+    });
     points
 }
 
@@ -186,8 +190,8 @@ fn ess(scene: &mut Scene, model: &LogModel, layout: &Layout) {
         let lines = vec![vec![[chart.x, y], [chart.right(), y]]];
         scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some([2.0, 2.0]), role: Role::Accent });
     }
-    let resampled = points.iter().zip(model.history()).filter(|(_, moment)| moment.resampled).map(|(at, _)| *at);
-    let centres = thinned(resampled, 1.0);
+    let mut resampled = points.iter().zip(model.history()).filter(|(_, moment)| moment.resampled).map(|(at, _)| *at);
+    let centres = thinned(&mut resampled, 1.0);
     scene.marks.push(Mark::Discs { centres, radius: 1.75, role: Role::Extinct });
 }
 

@@ -82,15 +82,16 @@ impl View {
     /// Magnified; what was at this point \[css px\] stays there.
     pub fn zoomed(&self, factor: f64, at: Point) -> Self {
         let least = self.area.w.min(self.area.h);
-        let scale = (self.scale * factor).clamp(least / MOST, least / LEAST);
+        // Not `clamp`, which would bring the page 20 KB to write down limits that are the wrong way round.
+        let scale = (self.scale * factor).max(least / MOST).min(least / LEAST);
         let (world, [cx, cy]) = (self.world(at), self.area.centre());
         let centre = [world[0] - (at[0] - cx) / scale, world[1] + (at[1] - cy) / scale];
         Self { scale, centre, ..*self }.panned([0.0; 2])
     }
 
     /// The positions of a path, cut at the edge of the view. Points nearer than `least` \[css px\] to the one before are left out.
-    pub fn path(&self, poses: impl IntoIterator<Item = Pose2>, least: f64) -> Vec<Vec<Point>> {
-        clip_polyline(&thinned(poses.into_iter().map(|pose| self.point([pose.x, pose.y])), least), &self.area)
+    pub fn path(&self, poses: &[Pose2], least: f64) -> Vec<Vec<Point>> {
+        clip_polyline(&thinned(&mut poses.iter().map(|pose| self.point([pose.x, pose.y])), least), &self.area)
     }
 
     /// An arrow head of this length from centre to nose \[css px\] that points where the robot looks; `None` out of view.
