@@ -1,6 +1,6 @@
 //! How large a building is before it is mapped: what decides whether its maps fit into memory.
 
-use super::LaserLog;
+use super::LaserScan;
 use crate::ops;
 
 /// Side of the squares that are counted \[m\].
@@ -10,13 +10,13 @@ const SQUARE: f64 = 1.0;
 const MOST_SCANS: usize = 1000;
 const MOST_BEAMS: usize = 32;
 
-/// Area \[m²\] that the beams sweep up to `max_range` \[m\], from where raw odometry says the robot was.
+/// Area \[m²\] that the beams of these scans sweep up to `max_range` \[m\], from where raw odometry says the robot was.
 ///
 /// Counted in whole squares of 1 m. Raw odometry drifts, so that ground seen twice may count twice: rather too much than too little.
-pub fn swept_area(log: &LaserLog, max_range: f64) -> f64 {
+pub fn swept_area(scans: &[LaserScan], max_range: f64) -> f64 {
     let mut squares: Vec<(usize, usize)> = Vec::new();
     let mut kept = 0;
-    for scan in log.scans.iter().step_by(log.scans.len().div_ceil(MOST_SCANS).max(1)) {
+    for scan in scans.iter().step_by(scans.len().div_ceil(MOST_SCANS).max(1)) {
         let world_from_laser = scan.odometry.compose(&scan.robot_from_laser);
         for k in (0..scan.ranges.len()).step_by(scan.ranges.len().div_ceil(MOST_BEAMS).max(1)) {
             let range = f64::from(scan.ranges[k]);
@@ -48,9 +48,9 @@ pub fn swept_area(log: &LaserLog, max_range: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{geometry::Pose2, log::LaserScan};
+    use crate::geometry::Pose2;
 
-    fn log(scans: &[(f64, Vec<f32>)]) -> LaserLog {
+    fn log(scans: &[(f64, Vec<f32>)]) -> Vec<LaserScan> {
         let scan = |(x, ranges): &(f64, Vec<f32>)| LaserScan {
             time: 0.0,
             odometry: Pose2::new(*x, 0.5, 0.0),
@@ -60,7 +60,7 @@ mod tests {
             max_range: None,
             ranges: ranges.clone(),
         };
-        LaserLog { scans: scans.iter().map(scan).collect(), ..LaserLog::default() }
+        scans.iter().map(scan).collect()
     }
 
     #[test]

@@ -16,7 +16,7 @@ const EXAMPLE = new URL('../../www/public/example.clf.gz', import.meta.url)
 const WIDE = 620 // [px] from here on the settings are open at first
 const STEP = 1.4 // magnified by one press of + or −
 const SHIFT = 60 // [px] moved by one arrow key
-const SAID = 8000 // [ms] between two sentences of a log under way
+const SAID = 1000 // [ms] between two sentences of a log under way: what an eye can read
 const MINUTE = 60
 
 /** What the buttons save. */
@@ -38,6 +38,7 @@ export class FastslamLog extends HTMLElement {
   #shown: Shown | undefined
   #frame = 0
   #saidAt = -Infinity // [ms]
+  #unfit = '' // what was said to stand in the way
   #cssWidth = 0
   #deviceWidth = 0
   #disconnected = new AbortController()
@@ -103,7 +104,7 @@ export class FastslamLog extends HTMLElement {
       h('div', { class: 'work saves', part: 'saves', role: 'group', 'aria-label': 'Save' }, h('span', { class: 'name' }, 'Save'), ...this.#saves),
     )
     root.append(this.#body)
-    this.#showPhase('empty', 0, 0, NaN)
+    this.#showPhase('empty')
     this.#file.addEventListener('change', () => {
       const file = this.#file.files?.[0]
       this.#file.value = '' // the same file may be chosen again
@@ -222,6 +223,8 @@ export class FastslamLog extends HTMLElement {
     cancelAnimationFrame(this.#frame)
     this.#frame = 0
     this.#shown = undefined
+    this.#unfit = ''
+    notice(this.#notices, 'unfit', '')
   }
 
   #hear(told: Told): void {
@@ -259,7 +262,7 @@ export class FastslamLog extends HTMLElement {
     this.#source = undefined
     console.warn(`${this.localName}:`, why)
     write(this.#status, '')
-    this.#showPhase('empty', 0, 0, NaN)
+    this.#showPhase('empty')
     this.#notice('file', `Something failed while this log was mapped (${why}), so it has stopped.`, 'Run the example', () => void this.example())
     void this.#start()
   }
@@ -290,29 +293,28 @@ export class FastslamLog extends HTMLElement {
     showReadouts(this.#readouts, shown.readouts)
     this.#controls!.showValues(shown.specs, shown.values)
     this.#showUnfit(shown)
-    const changed = phase !== this.#phase
-    this.#showPhase(phase, shown.step, shown.last, shown.left)
+    this.#showPhase(phase, shown.step, shown.last, shown.left, shown.unfit !== undefined)
     write(this.#status, phase === 'empty' ? '' : shown.log)
-    this.#say(shown.sentence, changed)
+    this.#say(shown.sentence)
     const { step, values, readouts } = shown
     this.dispatchEvent(new CustomEvent('fastslam-step', { bubbles: true, composed: true, detail: { step, values, readouts, phase } }))
   }
 
-  #showUnfit({ unfit, phase }: Shown): void {
-    const key = 'unfit'
-    if (!unfit) return notice(this.#notices, key, '')
-    const [parameter, message] = unfit
-    if (parameter !== 'lenient') return this.#notice(key, message)
-    this.#notice(key, message, 'Skip malformed lines', () => this.#ask({ ask: 'set', name: 'lenient', value: 'on' }))
-    void phase
+  /** Why it cannot be started; told once, not with every picture. */
+  #showUnfit({ unfit, log }: Shown): void {
+    const [parameter, message] = unfit ?? ['', '']
+    if (message === this.#unfit) return
+    this.#unfit = message
+    if (parameter !== 'lenient') return this.#notice('unfit', message)
+    this.#notice('unfit', `${log}, ${message}.`, 'Skip malformed lines', () => this.#ask({ ask: 'set', name: 'lenient', value: 'on' }))
   }
 
-  #showPhase(phase: Phase, step: number, last: number, left: number): void {
+  #showPhase(phase: Phase, step = 0, last = 0, left = 0, unfit = false): void {
     const held = document.activeElement === this && this.shadowRoot!.activeElement
     this.#phase = phase
     const under = phase === 'running' || phase === 'paused'
     write(this.#go, phase === 'running' ? 'Pause' : phase === 'paused' ? 'Resume' : phase === 'ready' || phase === 'empty' ? 'Start' : 'Start again')
-    this.#go.disabled = phase === 'empty'
+    this.#go.disabled = phase === 'empty' || unfit
     this.#halt.disabled = !under
     // The focus does not fall out of the figure with the button that had it.
     if (held === this.#halt && !under) this.#go.focus()
@@ -325,11 +327,13 @@ export class FastslamLog extends HTMLElement {
     this.#zoom.inert = phase === 'empty'
   }
 
-  /** Read out when something has changed; while a log is under way, now and then. */
-  #say(sentence: string, changed: boolean): void {
+  /** Read out when nothing moves. */
+  #say(sentence: string): void {
     const now = performance.now()
-    if (this.#phase === 'running' && !changed && now < this.#saidAt + SAID) return
+    const running = this.#phase === 'running'
+    if (running && now < this.#saidAt + SAID) return
     this.#saidAt = now
+    this.#sentence.setAttribute('aria-live', running ? 'off' : 'polite')
     write(this.#sentence, sentence)
   }
 

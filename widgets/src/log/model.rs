@@ -29,13 +29,20 @@ use std::sync::Arc;
 /// Steps back of the lineage gauge.
 pub const BACK: u32 = 20;
 
-/// Most memory that the maps may take \[bytes\]: what a phone's browser gives to one page without ending it.
-const LIMIT: f64 = 512e6;
+/// Most memory that maps and paths may take \[bytes\]: a quarter of what WebAssembly can address.
+const LIMIT: f64 = 1e9;
 
 /// What a map takes at the most: for each cell of the swept area, and for the walls in it, of which a square metre has about two
 /// metres, a cell thick \[bytes\]. The tests hold mapped logs against it.
 const CELL_BYTES: f64 = 4.0;
 const WALL_BYTES: f64 = 2.0 * 45.0;
+
+/// A population that resamples shares its past. What it does not share has some M log₂ M nodes (Jacob, Murray and Rubenthaler 2015), and
+/// each node has written one scan: this many times as many are reckoned with.
+const BUSH: f64 = 2.0;
+
+/// Scans of which one's own area is taken.
+const SAMPLES: usize = 32;
 
 /// What a pose in the tree of all paths takes \[bytes\].
 const NODE_BYTES: f64 = 28.0;
@@ -75,8 +82,8 @@ struct Recipe {
 /// A log that was read.
 struct Opened {
     log: Arc<LaserLog>,
-    /// Area \[m²\] that its beams sweep up to the longest range \[m\] that is set.
-    swept: f64,
+    /// Area \[m²\] that its beams sweep up to the longest range that is set, and a single scan's.
+    swept: [f64; 2],
     /// Length of the way by raw odometry \[m\].
     way: f64,
 }
@@ -137,13 +144,32 @@ impl Recipe {
 impl Opened {
     fn new(log: LaserLog, setup: &LogSetup) -> Self {
         let way = log.scans.windows(2).map(|pair| pair[0].odometry.distance(&pair[1].odometry)).sum();
-        Self { swept: swept_area(&log, setup.max_range), log: Arc::new(log), way }
+        Self { swept: swept(&log, setup.max_range), log: Arc::new(log), way }
     }
 
-    /// Memory \[bytes\] that one universe takes at the most: a map that shares nothing, and its path.
-    fn universe_bytes(&self, cell_size: f64) -> f64 {
-        self.swept / cell_size * (CELL_BYTES / cell_size + WALL_BYTES) + NODE_BYTES * self.log.scans.len() as f64
+    /// Memory \[bytes\] that so many universes with cells of this size take at the most.
+    fn bytes(&self, setup: &LogSetup, universes: usize) -> f64 {
+        let m = universes as f64;
+        let map = |area: f64| area / setup.cell_size * (CELL_BYTES / setup.cell_size + WALL_BYTES);
+        let [all, one] = self.swept.map(map);
+        let shares = match setup.policy {
+            ResamplePolicy::Never => false,
+            ResamplePolicy::Always => true,
+            ResamplePolicy::EssBelow(fraction) => fraction > 0.0,
+        };
+        let unshared = m * all;
+        // Whole numbers: the bits of M.
+        let bush = BUSH * m * f64::from(usize::BITS - universes.leading_zeros()) * one;
+        let maps = if shares { unshared.min(all + bush) } else { unshared };
+        maps + NODE_BYTES * m * self.log.scans.len() as f64
     }
+}
+
+/// Areas \[m²\] that all scans sweep together, and one alone, the largest of some.
+fn swept(log: &LaserLog, max_range: f64) -> [f64; 2] {
+    let samples = log.scans.iter().step_by(log.scans.len().div_ceil(SAMPLES));
+    let one = samples.map(|scan| swept_area(core::slice::from_ref(scan), max_range)).fold(0.0, f64::max);
+    [swept_area(&log.scans, max_range), one]
 }
 
 impl LogModel {
@@ -199,8 +225,7 @@ impl LogModel {
 
     /// Memory that the maps may take at the most \[bytes\].
     pub fn estimate(&self) -> Option<f64> {
-        let setup = self.setup();
-        Some(self.opened.as_ref()?.universe_bytes(setup.cell_size) * setup.particles as f64)
+        Some(self.opened.as_ref()?.bytes(self.setup(), self.setup().particles))
     }
 
     /// Forgets what was computed.
@@ -246,7 +271,7 @@ impl LogModel {
         let (log, setup) = (&opened.log, self.setup());
         let minutes = (log.scans[log.scans.len() - 1].time - log.scans[0].time) / 60.0;
         let mut text = format!(
-            "{} scans of up to {} beams, over {} m by raw odometry and {} minutes. ",
+            "{} scans of up to {} beams, over {} m by raw odometry and {} min. ",
             log.scans.len(),
             log.scans.iter().map(|scan| scan.ranges.len()).max().unwrap_or(0),
             fixed(opened.way, 0),
@@ -260,7 +285,7 @@ impl LogModel {
             (notes.rear, "scans of a rear laser"),
         ] {
             if count > 0 {
-                text += &format!("Without {count} {what}. ");
+                text += &format!("Left out: {what}, {count}. ");
             }
         }
         let estimate = self.estimate().unwrap_or(0.0);
@@ -350,7 +375,7 @@ impl Model for LogModel {
         if recipe.setup != self.recipe.setup {
             if let Some(opened) = &mut self.opened {
                 if recipe.setup.max_range != self.recipe.setup.max_range {
-                    opened.swept = swept_area(&opened.log, recipe.setup.max_range);
+                    opened.swept = swept(&opened.log, recipe.setup.max_range);
                 }
             }
             self.restart();
@@ -393,28 +418,27 @@ impl Model for LogModel {
             return Err(FigureError { parameter: "lenient".into(), message: unreadable(first).message + &more });
         }
         let setup = self.setup();
-        let each = opened.universe_bytes(setup.cell_size);
-        let most = (LIMIT / each).floor();
-        if setup.particles as f64 <= most {
+        let needed = opened.bytes(setup, setup.particles);
+        if needed <= LIMIT {
             return Ok(());
         }
         let why = format!(
-            "with cells of {} m each universe may take {} MB, and the limit is {} MB",
+            "with cells of {} m they may take {} MB, and the limit is {} MB",
             write(setup.cell_size),
-            megabytes(each),
+            megabytes(needed),
             megabytes(LIMIT)
         );
-        // Where not even one fits, it is the cells that are too small. Rounded up to what can be set.
-        Err(if most >= 1.0 {
-            FigureError::new(
-                "universes",
-                setup.particles,
-                format!("a whole number from 1 to {} here: {why}", write(most)),
-            )
-        } else {
-            let least = setup.cell_size * (each / LIMIT).sqrt();
-            let least = write((100.0 * least).ceil() / 100.0);
-            FigureError::new("cell", write(setup.cell_size), format!("at least {least} m for this log: {why}"))
+        let most = (1..setup.particles).rev().find(|universes| opened.bytes(setup, *universes) <= LIMIT);
+        Err(match most {
+            Some(most) => {
+                FigureError::new("universes", setup.particles, format!("a whole number from 1 to {most} here: {why}"))
+            }
+            // Where not even one fits, it is the cells that are too small. Rounded up to what can be set.
+            None => {
+                let least = setup.cell_size * (opened.bytes(setup, 1) / LIMIT).sqrt();
+                let least = write((100.0 * least).ceil() / 100.0);
+                FigureError::new("cell", write(setup.cell_size), format!("at least {least} m for this log: {why}"))
+            }
         })
     }
 
@@ -541,7 +565,7 @@ impl Model for LogModel {
                 "estimate",
                 "Memory at most",
                 self.estimate().unwrap_or(0.0),
-                "What maps and paths would take if no two universes shared anything, from the area that raw odometry sweeps.",
+                "What maps and paths may take, reckoned from the area that the beams sweep along raw odometry, M and the policy.",
             ),
             memory(
                 "map_unique",

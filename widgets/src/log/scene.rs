@@ -29,6 +29,9 @@ const RIM: f64 = 1.25;
 const LIVES: f64 = 1.25;
 const DIED: f64 = 2.0;
 
+/// Height of the mark of a scan that resampled \[css px\].
+const TICK: f64 = 6.0;
+
 /// The whole figure at this size \[css px\].
 pub fn build(model: &LogModel, width: f64, height: f64) -> Scene {
     let layout = Layout::new(width);
@@ -190,9 +193,10 @@ fn ess(scene: &mut Scene, model: &LogModel, layout: &Layout) {
         let lines = vec![vec![[chart.x, y], [chart.right(), y]]];
         scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some([2.0, 2.0]), role: Role::Accent });
     }
-    let mut resampled = points.iter().zip(model.history()).filter(|(_, moment)| moment.resampled).map(|(at, _)| *at);
-    let centres = thinned(&mut resampled, 1.0);
-    scene.marks.push(Mark::Discs { centres, radius: 1.75, role: Role::Extinct });
+    let resampled = points.iter().zip(model.history()).filter(|(_, moment)| moment.resampled);
+    let lines = thinned(&mut resampled.map(|(at, _)| [at[0], chart.bottom()]), 0.75);
+    let lines = lines.into_iter().map(|[x, y]| vec![[x, y], [x, y - TICK]]).collect();
+    scene.marks.push(Mark::Strands { lines, width: 1.0, role: Role::Extinct });
 }
 
 /// Distinct ancestors some scans ago.
@@ -212,7 +216,7 @@ fn lineage(scene: &mut Scene, model: &LogModel, layout: &Layout) {
 enum Sample {
     Cell(u8),
     Line(Role, f64, Option<[f64; 2]>),
-    Dot(Role),
+    Tick,
 }
 
 fn legend(scene: &mut Scene, area: &Rect) {
@@ -224,7 +228,7 @@ fn legend(scene: &mut Scene, area: &Rect) {
         (Sample::Line(Role::Copied, LIVES, None), "the others"),
         (Sample::Line(Role::Extinct, DIED, None), "just died out"),
         (Sample::Line(Role::Odometry, 1.5, Some([7.0, 4.0])), "raw odometry"),
-        (Sample::Dot(Role::Extinct), "resampled"),
+        (Sample::Tick, "resampled"),
         (Sample::Line(Role::Accent, 1.0, Some([2.0, 2.0])), "threshold"),
     ];
     let (width, gap) = (18.0, 14.0);
@@ -246,7 +250,11 @@ fn legend(scene: &mut Scene, area: &Rect) {
                 let lines = vec![vec![[place.x, cy], [place.right(), cy]]];
                 scene.marks.push(Mark::Lines { lines, width, dash, role });
             }
-            Sample::Dot(role) => scene.marks.push(Mark::Discs { centres: vec![place.centre()], radius: 1.75, role }),
+            Sample::Tick => {
+                let [x, y] = place.centre();
+                let lines = vec![vec![[x, y - 0.5 * TICK], [x, y + 0.5 * TICK]]];
+                scene.marks.push(Mark::Lines { lines, width: 1.25, dash: None, role: Role::Extinct });
+            }
         }
         let words = Rect::new(place.right() + 5.0, y, name_width, LINE);
         scene.marks.push(text(words, Anchor::Start, SIZE, Weight::Regular, Role::Muted, name));
