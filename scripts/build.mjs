@@ -1,7 +1,8 @@
 // Builds the chapter: the widgets to WebAssembly (widgets/pkg), then the pages around them (dist).
 import { createHash } from 'node:crypto'
-import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs'
-import { join } from 'node:path'
+import { copyFileSync, existsSync, mkdirSync, readFileSync, renameSync, rmSync, statSync, writeFileSync } from 'node:fs'
+import { basename, join } from 'node:path'
+import { fileURLToPath } from 'node:url'
 import { setUp } from './setup.mjs'
 import { cache, isMain, main, npmBin, root, run, step, StepError } from './lib.mjs'
 
@@ -9,11 +10,7 @@ export const dist = join(root, 'dist')
 const wasm = join(root, 'widgets', 'pkg', 'fastslam_widgets_bg.wasm')
 
 /** The features Rust's target has by default, and SIMD of fixed width. Nothing that may change a bit: no fast-math, no relaxed SIMD. */
-const optimiser = [
-  '-Oz',
-  // Functions that LLVM left apart stay apart, and lie beside their like: what Brotli sends is 3 KB less.
-  '--one-caller-inline-max-function-size=1',
-  '--reorder-functions',
+const features = [
   '--enable-simd',
   '--enable-bulk-memory',
   '--enable-bulk-memory-opt',
@@ -24,46 +21,30 @@ const optimiser = [
   '--enable-reference-types',
 ]
 
+// Functions that LLVM left apart stay apart, and lie beside their like: what Brotli sends is 3 KB less.
+const optimiser = [...features, '-Oz', '--one-caller-inline-max-function-size=1', '--reorder-functions', '--strip-debug']
+
 /**
- * tiny-skia keeps the stages of every paint it knows in tables, so no linker can tell that gradients, blend modes, filters and masks are
- * never run: a fifth of the page. Our one painter (widgets/src/paint) fills paths with opaque colours, which takes these few.
- * The others become traps; tests/e2e/pixels.spec.ts holds what is left against every golden picture.
+ * tiny-skia-path strokes and dashes curves as well, and no linker can tell that the painter (widgets/src/paint) strokes polylines only.
+ * @param {string} name a function's, in Rust
  */
-const painted = new Set([
-  'start',
-  'just_return',
-  'uniform_color',
-  'seed_shader',
-  'load_dst',
-  'load_dst_tail',
-  'store',
-  'store_tail',
-  'lerp_1_float',
-  'lerp_u8',
-  'scale_1_float',
-  'scale_u8',
-  'source_over',
-  'source_over_rgba',
-  'source_over_rgba_tail',
-])
+const neverRun = name => /^<?tiny_skia_path\b.*(::PathStroker>?::(cubic|quad|conic)|ContourMeasure>?::compute_(cubic|quad|conic))/.test(name)
 
-/** Is a function, by its name in Rust, one that no figure paints with? @param {string} name */
-function neverPainted(name) {
-  const stage = /^tiny_skia::pipeline::(lowp|highp)::(\w+)(::h[0-9a-f]{16})?$/.exec(name)
-  if (stage) return stage[1] === 'highp' || !painted.has(stage[2] ?? '')
-  // Shaders that are no plain colour; and strokes along curves, as only straight lines are stroked.
-  return /^tiny_skia::shaders::\w*(gradient|pattern)|^tiny_skia_path::stroker::PathStroker::(cubic|quad|conic)/.test(name)
-}
+/** Tags of all figures. */
+export const figures = [...readFileSync(join(root, 'widgets', 'src', 'registry.rs'), 'utf8').matchAll(/tag: "([a-z-]+)"/g)].map(([, tag = '']) => tag)
 
-/** The module without the bodies of what is never painted. @param {Buffer} input */
-async function withoutNeverPainted(input) {
+/** The program with one figure only. @param {string} tag */
+export const figureWasm = tag => join(root, 'widgets', 'pkg', `${tag}.wasm`)
+
+/** The module with traps for what never runs. @param {Buffer} input */
+async function withoutNeverRun(input) {
   const { default: binaryen } = await import('binaryen')
   const module = binaryen.readBinary(input)
   const { SIMD128, BulkMemory, BulkMemoryOpt, NontrappingFPToInt, SignExt, MutableGlobals, Multivalue, ReferenceTypes } = binaryen.Features
   module.setFeatures(SIMD128 | BulkMemory | BulkMemoryOpt | NontrappingFPToInt | SignExt | MutableGlobals | Multivalue | ReferenceTypes)
   const functions = Array.from({ length: module.getNumFunctions() }, (_, i) => binaryen.getFunctionInfo(module.getFunctionByIndex(i)))
-  const traps = functions.filter(({ name }) => neverPainted(name))
-  if (traps.length < 50) throw new StepError(`Only ${traps.length} stages of tiny-skia were found by name: has it been renamed?`)
+  const traps = functions.filter(({ name }) => neverRun(name))
+  if (traps.length < 5) throw new StepError(`Only ${traps.length} functions that never run were found by name: have they been renamed?`)
   for (const { name, params, results } of traps) {
     module.removeFunction(name)
     module.addFunction(name, params, results, [], module.unreachable())
@@ -73,9 +54,23 @@ async function withoutNeverPainted(input) {
   return output
 }
 
+/** The program with all figures. */
 export async function buildWasm() {
   await step('Widgets to WebAssembly', () => run('wasm-pack', ['build', 'widgets', '--target', 'web', '--release', '--no-pack']))
-  await step('Optimise WebAssembly', optimise)
+  await step('Optimise WebAssembly', () => optimise(wasm))
+}
+
+/** For embeds, a program for each figure; all use the same glue. */
+export async function buildFigures() {
+  const folder = cache('figures')
+  for (const tag of figures) {
+    const wanted = ['--no-default-features', '--features', `single-threaded,${tag.replace('fastslam-', '')}`]
+    await step(`${tag} alone`, async () => {
+      await run('wasm-pack', ['build', 'widgets', '--target', 'web', '--release', '--no-pack', '--no-typescript', '--out-dir', folder, ...wanted])
+      copyFileSync(join(folder, basename(wasm)), figureWasm(tag))
+      return optimise(figureWasm(tag))
+    })
+  }
 }
 
 export async function buildPages() {
@@ -91,26 +86,27 @@ export async function buildPages() {
 export async function build() {
   await setUp()
   await buildWasm()
+  await buildFigures()
   await buildPages()
 }
 
-/** wasm-opt takes far longer than an incremental build: what it made of the same input is kept. */
-async function optimise() {
-  const input = readFileSync(wasm)
-  const binaryen = readFileSync(join(root, 'node_modules', 'binaryen', 'package.json'))
-  const key = createHash('sha256').update(input).update(binaryen).update(optimiser.join()).update([...painted].join()).update(String(neverPainted)).digest('hex')
-  const kept = cache('wasm-opt', `${key}.wasm`)
+/** wasm-opt takes far longer than an incremental build: what it made of the same input is kept, of each program once. @param {string} file */
+async function optimise(file) {
+  const input = readFileSync(file)
+  const hash = createHash('sha256')
+  for (const other of [fileURLToPath(import.meta.url), join(root, 'node_modules', 'binaryen', 'package.json')]) hash.update(readFileSync(other))
+  const folder = cache('wasm-opt', basename(file))
+  const kept = join(folder, hash.update(input).digest('hex'))
   if (!existsSync(kept)) {
-    rmSync(cache('wasm-opt'), { recursive: true, force: true })
-    mkdirSync(cache('wasm-opt'), { recursive: true })
+    rmSync(folder, { recursive: true, force: true })
+    mkdirSync(folder, { recursive: true })
     const part = `${kept}.part`
-    writeFileSync(part, await withoutNeverPainted(input))
+    writeFileSync(part, await withoutNeverRun(input))
     await run(npmBin('wasm-opt'), [...optimiser, part, '-o', part])
-    copyFileSync(part, kept)
-    rmSync(part)
+    renameSync(part, kept)
   }
-  copyFileSync(kept, wasm)
-  return `${kilobytes(input.length)} → ${kilobytes(statSync(wasm).size)}`
+  copyFileSync(kept, file)
+  return `${kilobytes(input.length)} → ${kilobytes(statSync(file).size)}`
 }
 
 /** @param {number} bytes */

@@ -1,7 +1,7 @@
-// npm run check: format, lints and types, without running a test.
+// npm run check: format, lints, types and spelling, and the links and the HTML of the built pages, without running a test.
 import { existsSync } from 'node:fs'
 import { join } from 'node:path'
-import { buildWasm } from './build.mjs'
+import { buildPages, buildWasm } from './build.mjs'
 import { isMain, main, npmBin, root, run, step } from './lib.mjs'
 import { setUp } from './setup.mjs'
 
@@ -11,6 +11,10 @@ export const checks = [
   ['Lints (clippy)', () => run('cargo', ['clippy', '--workspace', '--all-targets', '--', '-D', 'warnings'])],
   ['Lints for WebAssembly (clippy)', clippyWasm],
   ['Types (TypeScript)', checkTypes],
+  ['Spelling (cspell)', () => run(npmBin('cspell'), ['--no-progress', '--config', join(root, 'cspell.json')], { hint: 'A word of the field goes into www/words.txt.' })],
+  // Imported late: set-up may be what installs the packages that they stand on.
+  ['Links', async () => (await import('./site.mjs')).checkLinks()],
+  ['HTML (html-validate)', async () => (await import('./site.mjs')).checkHtml()],
 ]
 
 /** Code behind cfg(target_arch = "wasm32") is seen by this run alone. */
@@ -28,6 +32,7 @@ if (isMain(import.meta)) {
     await setUp()
     // The elements are typed against what wasm-pack writes.
     if (!existsSync(join(root, 'widgets', 'pkg', 'fastslam_widgets.d.ts'))) await buildWasm()
+    await buildPages()
     for (const [name, action] of checks) await step(name, action)
   })
 }

@@ -1,8 +1,10 @@
 // npm run size: what a reader's first view of the page transfers, as our server sends it to Chromium (Brotli). Fails over 200 KB.
-import { existsSync } from 'node:fs'
+// And the programs with one figure each, which the page does not load.
+import { existsSync, readdirSync, readFileSync } from 'node:fs'
 import { join } from 'node:path'
+import { brotliCompressSync } from 'node:zlib'
 import { build, dist, kilobytes } from './build.mjs'
-import { isMain, main, say, step, StepError } from './lib.mjs'
+import { bold, isMain, main, say, step, StepError } from './lib.mjs'
 import { startServer } from './serve.mjs'
 import { launchChromium } from './browser.mjs'
 
@@ -58,6 +60,11 @@ function report(answers) {
   const rows = [...loaded.map(({ path, raw, sent }) => [path, raw, sent]), ['all', sum('raw'), sum('sent')]]
   say(`${'transferred'.padStart(12)}${'raw'.padStart(12)}`)
   for (const [path, raw, sent] of rows) say(`${kilobytes(Number(sent)).padStart(12)}${kilobytes(Number(raw)).padStart(12)}  ${path}`)
+  say(bold('\n  Programs with one figure each, for embeds'))
+  for (const file of readdirSync(dist).filter(name => name.endsWith('.wasm') && !loaded.some(({ path }) => path.endsWith(name)))) {
+    const program = readFileSync(join(dist, file))
+    say(`${kilobytes(brotliCompressSync(program).length).padStart(12)}${kilobytes(program.length).padStart(12)}  /${file}`)
+  }
   const result = `${kilobytes(sum('sent'))} of at most ${kilobytes(limit)}, the target being ${kilobytes(target)}`
   if (sum('sent') > limit) throw new StepError(`The page is too heavy: ${result}.`)
   return result

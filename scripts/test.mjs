@@ -1,8 +1,8 @@
 // npm test: sets up, builds, checks, and runs every test there is. A step that fails is named; those after it still run, so that
 // one run shows all that is wrong. The last line is the total of all the runners: `N passed, M failed`.
-import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
+import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { buildPages, buildWasm } from './build.mjs'
+import { buildFigures, buildPages, buildWasm } from './build.mjs'
 import { checks } from './check.mjs'
 import { bold, cache, main, npmBin, readIfThere, red, root, run, step, StepError } from './lib.mjs'
 import { findChrome, findChromeDriver, setUp } from './setup.mjs'
@@ -44,6 +44,24 @@ function count(output) {
   total.passed += passed
   if (passed === 0) throw new StepError('Not one test passed: have the tests been lost?')
   return `${passed} passed`
+}
+
+/** Tests of scripts, by Node's own runner. */
+async function nodeTest() {
+  const files = readdirSync(join(root, 'tests', 'chapter')).filter(file => file.endsWith('.test.mjs'))
+  return counted(async () => {
+    const args = ['--test', '--test-reporter=tap', ...files.map(file => join(root, 'tests', 'chapter', file))]
+    // Told in cargo's words, so that all runners are added up alike.
+    const inCargosWords = (/** @type {{ output?: string }} */ { output = '' }) => {
+      const [good, bad] = ['pass', 'fail'].map(name => new RegExp(`^# ${name} (\\d+)$`, 'm').exec(output)?.[1] ?? '0')
+      return { output: `test result: ${good} passed; ${bad} failed` }
+    }
+    try {
+      return inCargosWords(await run(process.execPath, args))
+    } catch (error) {
+      throw Object.assign(/** @type {Error} */ (error), inCargosWords(/** @type {{ output?: string }} */ (error)))
+    }
+  })
 }
 
 /** @param {string[]} args */
@@ -95,8 +113,10 @@ await main(async () => {
   await attempt(...format)
   // Without these there is nothing to test: a failure here ends the run.
   await buildWasm()
+  await buildFigures()
   await buildPages()
   for (const check of otherChecks) await attempt(...check)
+  await attempt('Tests of the chapter’s making', nodeTest)
   await attempt('Tests, native, with all checks on', () => cargoTest('--workspace'))
   await attempt('Resampling against the Python package particles', oracle)
   await attempt('Same bits, as tests are built', () => cargoTest('-p', 'portability'))

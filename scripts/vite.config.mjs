@@ -1,8 +1,10 @@
 // The pages of www/ and the elements of widgets/elements, to dist/. Relative addresses, so that dist/ works in any folder of
 // any site; hashed names, except for fastslam.js: the one line of a teacher's page names it.
-import { readdirSync } from 'node:fs'
+import { readdirSync, readFileSync } from 'node:fs'
 import { basename, join } from 'node:path'
 import { defineConfig } from 'vite'
+import { figures, figureWasm } from './build.mjs'
+import { chapter } from './chapter/plugin.mjs'
 import { root } from './lib.mjs'
 
 const www = join(root, 'www')
@@ -13,9 +15,19 @@ const pages = readdirSync(www, { recursive: true, encoding: 'utf8' }).filter(
 /** @param {{ names: string[] }} asset */
 const assetFileNames = asset => (asset.names.some(name => basename(name).endsWith('.wasm')) ? '[name]-[hash][extname]' : 'assets/[name]-[hash][extname]')
 
+/** The programs with one figure each, for embeds; one that a script names by `new URL('../pkg/….wasm', import.meta.url)` is the same file. */
+const figurePrograms = {
+  name: 'figure-programs',
+  /** @this {import('vite').Rolldown.PluginContext} */
+  generateBundle() {
+    for (const tag of figures) this.emitFile({ type: 'asset', name: `${tag}.wasm`, source: readFileSync(figureWasm(tag)) })
+  },
+}
+
 export default defineConfig({
   root: www,
   base: './',
+  plugins: [chapter(root), figurePrograms],
   build: {
     outDir: join(root, 'dist'),
     emptyOutDir: true,

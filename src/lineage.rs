@@ -63,6 +63,7 @@ impl Descent {
 }
 
 impl Ancestry {
+    // ANCHOR: listing-push
     /// Appends a pose after `parent`, or as a root, and returns its number. Parents are of the step before.
     pub fn push(&mut self, parent: Option<NodeId>, world_from_robot: Pose2) -> NodeId {
         let opens = match parent {
@@ -80,6 +81,7 @@ impl Ancestry {
         self.firsts[last + 1] += 1;
         self.firsts[last + 1] - 1
     }
+    // ANCHOR_END: listing-push
 
     /// Number of steps, with step 0.
     pub fn steps(&self) -> u32 {
@@ -142,10 +144,9 @@ impl Ancestry {
         let mut step = self.step(nodes[0]);
         let mut widths = vec![1; step as usize + 1];
         let mut front = nodes.to_vec();
+        let mut seen = vec![false; self.firsts[self.generations.len()] as usize];
         loop {
-            // Nodes of one step are numbered in slot order and have parents of one step: equal ones lie together once sorted.
-            front.sort_unstable();
-            front.dedup();
+            front.retain(|&node| !core::mem::replace(&mut seen[node as usize], true));
             widths[step as usize] = front.len() as u32;
             if front.len() == 1 || step == 0 {
                 return Descent { widths };

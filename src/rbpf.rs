@@ -9,6 +9,7 @@ use crate::random::{Purpose, Stream};
 use crate::resampling::{ResamplePolicy, Scheme};
 use crate::weights::Weights;
 
+// ANCHOR: listing-particle
 /// One hypothesis: a path and the map that follows from it.
 #[derive(Clone, Debug)]
 pub struct Particle<M> {
@@ -19,10 +20,11 @@ pub struct Particle<M> {
     /// Newest node of the path in the ancestry tree.
     pub node: NodeId,
 }
+// ANCHOR_END: listing-particle
 
-/// What one step did.
+/// What one step did. `A` is what a map takes an observation for: [`ConditionalMap::Association`].
 #[derive(Clone, Debug)]
-pub struct Report {
+pub struct Report<A> {
     /// The step, from 1 on.
     pub step: u32,
     /// Log weight increment of each slot \[nats\].
@@ -35,6 +37,8 @@ pub struct Report {
     pub ancestors: Option<Vec<u32>>,
     /// How each slot came by its pose.
     pub traces: Vec<ProposalTrace>,
+    /// What each slot took the observation for.
+    pub associations: Vec<A>,
 }
 
 /// A population of particles with one proposal and one policy of resampling.
@@ -77,16 +81,19 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
 
     // anchor: step
     /// One step of the filter: propose, weigh, map, and select if the policy calls for it.
-    pub fn step(&mut self, control: &P::Control, observation: &M::Observation) -> Report {
+    pub fn step(&mut self, control: &P::Control, observation: &M::Observation) -> Report<M::Association> {
         let mut report = self.weigh(control, observation);
+        // ANCHOR: policy
         if self.policy.calls_for(report.ess, self.particles.len()) {
             report.ancestors = Some(self.resample());
         }
+        // ANCHOR_END: policy
         report
     }
 
+    // ANCHOR: listing-weigh
     /// The first half of a step: every particle draws its new pose, pays for it, and maps what it sees from there.
-    pub fn weigh(&mut self, control: &P::Control, observation: &M::Observation) -> Report {
+    pub fn weigh(&mut self, control: &P::Control, observation: &M::Observation) -> Report<M::Association> {
         self.step += 1;
         let (proposal, seed, step) = (&self.proposal, self.seed, self.step);
         let proposed = self.executor.map(&mut self.particles, |slot, particle| {
@@ -96,11 +103,15 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
             particle.map.assimilate(&proposed.world_from_robot, observation, &proposed.association);
             proposed
         });
+        // ANCHOR: extend
         for particle in &mut self.particles {
             particle.node = self.ancestry.push(Some(particle.node), particle.world_from_robot);
         }
+        // ANCHOR_END: extend
         let log_increments: Vec<f64> = proposed.iter().map(|p| p.log_increment).collect();
+        // ANCHOR: normalise
         (self.weights, _) = self.weights.reweighted(&log_increments);
+        // ANCHOR_END: normalise
         self.best = self.weights.best();
         Report {
             step,
@@ -108,21 +119,27 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
             weights: self.weights.as_slice().to_vec(),
             ess: self.weights.ess(),
             ancestors: None,
-            traces: proposed.into_iter().map(|p| p.trace).collect(),
+            traces: proposed.iter().map(|p| p.trace).collect(),
+            associations: proposed.into_iter().map(|p| p.association).collect(),
         }
     }
+    // ANCHOR_END: listing-weigh
 
+    // ANCHOR: listing-resample
     /// The second half: universes are drawn by their weights, and what is not drawn is extinct. Returns the slot that each
     /// particle was copied from.
     pub fn resample(&mut self) -> Vec<u32> {
         let count = self.particles.len();
         let mut stream = Stream::at(self.seed, Purpose::Resampling, self.step, 0);
+        // ANCHOR: resample
         let ancestors = self.scheme.ancestors(&self.weights, count, &mut stream);
+        // ANCHOR_END: resample
         self.best = ancestors.iter().position(|slot| *slot as usize == self.best).unwrap_or(0);
         self.particles = ancestors.iter().map(|slot| self.particles[*slot as usize].clone()).collect();
         self.weights = Weights::uniform(count);
         ancestors
     }
+    // ANCHOR_END: listing-resample
     // end: step
 
     /// The population, by slot.

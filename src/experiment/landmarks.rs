@@ -6,7 +6,7 @@ use crate::exact::EkfSlam;
 use crate::execute::Executor;
 use crate::geometry::{Pose2, align, rms};
 use crate::map::Footprint;
-use crate::map::landmarks::{Correspondence, Gate, Landmarks};
+use crate::map::landmarks::{Correspondence, Gate, Landmarks, Sighted};
 use crate::motion::{Velocity, VelocityModel};
 use crate::ops;
 use crate::proposal::{Either, FromMeasurement, FromMotion, Marginal, ProposalKind};
@@ -236,6 +236,22 @@ pub struct LandmarkReport {
     pub landmarks: u32,
     /// Distinct ancestors at step 0.
     pub lineage: u32,
+    /// What the best particle made of what was seen.
+    pub best: Opinion,
+    /// Different answers, in the population before resampling, to which landmarks were seen.
+    pub answers: u32,
+}
+
+/// What one particle made of the features of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Opinion {
+    /// Features taken for landmarks of its map.
+    pub again: u32,
+    /// Features taken for landmarks never seen before.
+    pub first: u32,
+    /// Log weight increment \[nats\].
+    pub log_increment: f64,
 }
 
 /// A run under way.
@@ -280,6 +296,15 @@ impl LandmarkRun {
         let (truth, odometry) = (&self.log.truth[k + 1], &self.log.odometry[k + 1]);
         let particles = self.filter.particles();
         let best = &particles[self.filter.best()];
+        // The slot the best had before resampling.
+        let slot = report.ancestors.as_ref().map_or(self.filter.best(), |from| from[self.filter.best()] as usize);
+        let count = |of: fn(&Sighted) -> bool| report.associations[slot].iter().filter(|sighted| of(sighted)).count();
+        let mut answers: Vec<&Vec<Sighted>> = Vec::new();
+        for association in &report.associations {
+            if !answers.contains(&association) {
+                answers.push(association);
+            }
+        }
         let (x, y) = particles
             .iter()
             .zip(self.filter.weights().as_slice())
@@ -294,6 +319,12 @@ impl LandmarkRun {
             error_odometry: odometry.distance(truth),
             landmarks: best.map.iter().count() as u32,
             lineage: self.filter.lineage() as u32,
+            best: Opinion {
+                again: count(|sighted| matches!(sighted, Sighted::Again(_))) as u32,
+                first: count(|sighted| matches!(sighted, Sighted::First(_))) as u32,
+                log_increment: report.log_increments[slot],
+            },
+            answers: answers.len() as u32,
         })
     }
 

@@ -212,6 +212,10 @@ pub struct StepReport {
     pub lineage: u32,
     /// Universes whose matcher was trusted.
     pub matched: u32,
+    /// Log weight increment of each slot before resampling \[nats\]; empty at the start.
+    pub log_increments: Vec<f64>,
+    /// How each slot came by its pose before resampling; empty at the start.
+    pub traces: Vec<ProposalTrace>,
     /// Bytes of all maps, shared parts counted once.
     pub map_bytes_unique: u64,
     /// Bytes that dense maps, one for each universe, would take.
@@ -264,6 +268,7 @@ impl Lap {
             ess: filter.weights().ess(),
             ancestors: None,
             traces: Vec::new(),
+            associations: Vec::new(),
         };
         let mut lap = Self { world, filter, report: StepReport::default() };
         lap.report = lap.judge(uniform);
@@ -290,7 +295,7 @@ impl Lap {
     }
 
     /// Compares the filter's newest state with the truth.
-    fn judge(&self, report: Report) -> StepReport {
+    fn judge(&self, report: Report<()>) -> StepReport {
         let best = self.best();
         let path = self.path(best);
         let truth = &self.world.truth[..path.len()];
@@ -308,6 +313,8 @@ impl Lap {
             rms_odometry: rms(&self.world.odometry[..path.len()], truth),
             lineage: self.filter.lineage() as u32,
             matched: report.traces.iter().filter(|t| matches!(t, ProposalTrace::Matched { .. })).count() as u32,
+            log_increments: report.log_increments,
+            traces: report.traces,
             map_bytes_unique: unique,
             map_bytes_dense: dense,
         }

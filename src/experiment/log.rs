@@ -11,7 +11,7 @@ use crate::matching::{ClimbSteps, Matcher, ScanModel};
 use crate::motion::{Odometry, OdometryModel};
 use crate::ops;
 use crate::proposal::{FromMotion, FromScan, FromScanSettings, ProposalTrace};
-use crate::rbpf::{Particle, Rbpf, Report};
+use crate::rbpf::{Particle, Rbpf};
 use crate::resampling::{ResamplePolicy, Scheme};
 use crate::sensor::Scan;
 use std::sync::Arc;
@@ -117,7 +117,7 @@ impl LogRun {
         let from = &self.log.scans[self.used[self.step] as usize];
         let control = Odometry::between(&from.odometry, &to.odometry);
         let scan = end_points(to, self.no_return, self.setup.max_range);
-        let report: Report = self.filter.step(&control, &scan);
+        let report = self.filter.step(&control, &scan);
         self.step += 1;
         let resampled = report.ancestors.is_some();
         self.resampled += u32::from(resampled);

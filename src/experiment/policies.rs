@@ -11,7 +11,7 @@
 //!
 //! [`Field::two_wings`]: crate::world::Field::two_wings
 
-use super::landmarks::{Association, Course, LandmarkLog, LandmarkRun, LandmarkSetup};
+use super::landmarks::{Association, Course, LandmarkLog, LandmarkRun, LandmarkSetup, Opinion};
 use super::lap::{Lap, LapSetup, LapWorld};
 use crate::decimal;
 use crate::digest::Digest;
@@ -144,6 +144,8 @@ pub struct PolicyReport {
     /// Particles that hold the right one of the two explanations: within [`RIGHT_WITHIN`] of the truth, and looking its way to
     /// a quarter turn. `None` on the lap, and on the wings' course before the robot is lost.
     pub right: Option<u32>,
+    /// On the wings' course, what the best particle made of what was seen, and how many different answers the population gave.
+    pub opinion: Option<(Opinion, u32)>,
 }
 
 impl PolicyReport {
@@ -207,6 +209,9 @@ macro_rules! of_filter {
     };
 }
 
+/// N_eff before resampling, whether the step resampled, and [`PolicyReport::opinion`].
+type Stepped = (f64, bool, Option<(Opinion, u32)>);
+
 impl Run {
     fn with_executor(self, executor: Executor) -> Self {
         match self {
@@ -215,11 +220,12 @@ impl Run {
         }
     }
 
-    /// N_eff before resampling, and whether the step resampled.
-    fn step(&mut self) -> Option<(f64, bool)> {
+    fn step(&mut self) -> Option<Stepped> {
         match self {
-            Self::Lap(run) => run.step().map(|report| (report.ess, report.ancestors.is_some())),
-            Self::Wings(run) => run.step().map(|report| (report.ess, report.resampled)),
+            Self::Lap(run) => run.step().map(|report| (report.ess, report.ancestors.is_some(), None)),
+            Self::Wings(run) => {
+                run.step().map(|report| (report.ess, report.resampled, Some((report.best, report.answers))))
+            }
         }
     }
 }
@@ -271,6 +277,7 @@ impl Policies {
             rms_best: 0.0,
             rms_mean: 0.0,
             right: None,
+            opinion: None,
         };
         let reports = [start.clone(), start.clone(), start];
         Ok(Self { setup: setup.clone(), world, runs, reports })
@@ -284,8 +291,8 @@ impl Policies {
     /// One step of all three; `None` after the last.
     pub fn step(&mut self) -> Option<&[PolicyReport; 3]> {
         for policy in 0..3 {
-            let (ess, resampled) = self.runs[policy].step()?;
-            self.reports[policy] = self.judge(policy, ess, resampled);
+            let (ess, resampled, opinion) = self.runs[policy].step()?;
+            self.reports[policy] = PolicyReport { opinion, ..self.judge(policy, ess, resampled) };
         }
         Some(&self.reports)
     }
@@ -311,6 +318,7 @@ impl Policies {
             rms_best: rms(&self.ancestry(policy).path(self.nodes(policy)[best]), &truth[..=step as usize]),
             rms_mean: (squares / f64::from(step + 1)).sqrt(),
             right: lost.then(|| poses.iter().filter(|pose| is_right(pose, here)).count() as u32),
+            opinion: None,
         }
     }
 
@@ -405,11 +413,13 @@ impl Policies {
         let mut digest = Digest::new();
         while self.step().is_some() {
             for (policy, report) in self.reports.iter().enumerate() {
-                let PolicyReport { step, ess, resampled, descent, error_best, error_mean, rms_best, rms_mean, right } =
-                    report;
-                [*step, u32::from(*resampled), right.unwrap_or(u32::MAX)].into_iter().for_each(|x| digest.u32(x));
-                [ess, error_best, error_mean, rms_best, rms_mean].into_iter().for_each(|x| digest.f64(*x));
-                descent.widths.iter().for_each(|width| digest.u32(*width));
+                let r = report;
+                let (opinion, answers) = r.opinion.unwrap_or_default();
+                let counts = [r.step, u32::from(r.resampled), r.right.unwrap_or(u32::MAX)];
+                counts.into_iter().chain([opinion.again, opinion.first, answers]).for_each(|x| digest.u32(x));
+                let errors = [r.error_best, r.error_mean, r.rms_best, r.rms_mean];
+                [r.ess, opinion.log_increment].into_iter().chain(errors).for_each(|x| digest.f64(x));
+                r.descent.widths.iter().for_each(|width| digest.u32(*width));
                 for Pose2 { x, y, theta } in self.poses(policy) {
                     [x, y, theta].into_iter().for_each(|x| digest.f64(x));
                 }

@@ -21,6 +21,8 @@ pub struct PolicyOutcome {
     pub resampled_fraction: f64,
     /// First step at which all particles descend from one, if any did.
     pub lineage_one_step: Option<u32>,
+    /// N_eff at that step, before resampling.
+    pub ess_at_lineage_one: Option<f64>,
     /// Mean N_eff up to that step, or over the whole run.
     pub ess_meanwhile: f64,
     /// Nodes of the ancestry tree at the end.
@@ -68,6 +70,7 @@ fn judge(steps: &[PolicyReport], evidence_at: Option<u32>) -> PolicyOutcome {
         rms_best: last.rms_best,
         resampled_fraction: steps.iter().filter(|report| report.resampled).count() as f64 / count as f64,
         lineage_one_step: lineage_one.map(|k| steps[k].step),
+        ess_at_lineage_one: lineage_one.map(|k| steps[k].ess),
         ess_meanwhile: meanwhile.iter().map(|report| report.ess).sum::<f64>() / meanwhile.len() as f64,
         tree_nodes: last.tree_nodes(),
         tree_crown: crowns.sum::<f64>() / (count - count / 2) as f64,
@@ -139,6 +142,8 @@ pub struct PolicySummary {
     pub resampled_fraction: f64,
     /// Median of the step at which all particles descend from one; `None` where half the runs or more never come to it.
     pub lineage_one_step_median: Option<f64>,
+    /// Median N_eff at that step, over the runs that come to it; `None` where none does.
+    pub ess_at_lineage_one_median: Option<f64>,
     /// Mean N_eff up to then.
     pub ess_meanwhile: f64,
     /// Mean number of nodes of the ancestry tree at the end.
@@ -172,6 +177,8 @@ pub fn summary(outcomes: &[[PolicyOutcome; 3]], particles: usize) -> [PolicySumm
         let mean = |f: fn(&PolicyOutcome) -> f64| of(f).iter().sum::<f64>() / outcomes.len() as f64;
         let factors = sorted(&|outcome| outcome[policy].rms_best / outcome[2].rms_best);
         let lineage = quantile(&of(|run| run.lineage_one_step.map_or(f64::INFINITY, f64::from)), 0.5);
+        let mut at_lineage_one: Vec<f64> = outcomes.iter().filter_map(|run| run[policy].ess_at_lineage_one).collect();
+        at_lineage_one.sort_unstable_by(f64::total_cmp);
         let kept = |f: fn(&Kept) -> bool| {
             let kept: Option<Vec<bool>> = outcomes.iter().map(|outcome| outcome[policy].kept.as_ref().map(f)).collect();
             kept.map(|kept| Fraction::of(kept.into_iter()))
@@ -187,6 +194,7 @@ pub fn summary(outcomes: &[[PolicyOutcome; 3]], particles: usize) -> [PolicySumm
             error_factor: [0.1, 0.5, 0.9].map(|q| quantile(&factors, q)),
             resampled_fraction,
             lineage_one_step_median: lineage.is_finite().then_some(lineage),
+            ess_at_lineage_one_median: (!at_lineage_one.is_empty()).then(|| quantile(&at_lineage_one, 0.5)),
             ess_meanwhile: mean(|run| run.ess_meanwhile),
             tree_nodes: mean(|run| f64::from(run.tree_nodes)),
             tree_c: (particles > 1 && resampled_fraction > 0.0).then(|| mean(|run| run.tree_crown) / (m * ops::ln(m))),

@@ -1,12 +1,24 @@
 //! The lap table: errors over many seeds, for both proposals and several M.
 
 use super::lap::{Lap, LapSetup};
-use super::quantile;
+use super::{Spread, quantile};
+use crate::error::ParameterError;
+use crate::execute::Executor;
 use crate::matching::Matcher;
 use crate::proposal::ProposalKind;
 
 /// The table's numbers of particles.
 pub const PARTICLES: [usize; 5] = [4, 8, 16, 24, 40];
+
+/// RMS error of position of the best universe's path at the end of one lap \[m\], on the calling thread: seeds are what is spread.
+///
+/// # Errors
+/// Where a setting is out of its range.
+pub fn rms_best(setup: &LapSetup) -> Result<f64, ParameterError> {
+    let mut lap = Lap::new(setup)?.with_executor(Executor::Serial);
+    while lap.step().is_some() {}
+    Ok(lap.report().rms_best)
+}
 
 /// What is kept of one lap.
 #[derive(Clone, PartialEq, Debug)]
@@ -39,7 +51,7 @@ impl LapResult {
     ///
     /// # Errors
     /// Where a setting is out of its range.
-    pub fn of(setup: &LapSetup) -> Result<Self, crate::error::ParameterError> {
+    pub fn of(setup: &LapSetup) -> Result<Self, ParameterError> {
         let mut lap = Lap::new(setup)?;
         let (mut resampled, mut lineage_one_step) = (0, None);
         while let Some(report) = lap.step() {
@@ -78,6 +90,8 @@ pub struct Row {
     pub seeds: usize,
     /// Median of the RMS error of position \[m\].
     pub rms_median: f64,
+    /// 95 % confidence interval of the median \[m\].
+    pub rms_median_interval: [f64; 2],
     /// Its 90th percentile \[m\].
     pub rms_p90: f64,
     /// Its worst \[m\].
@@ -118,16 +132,17 @@ fn row(laps: &[&LapResult]) -> Row {
         values.sort_unstable_by(f64::total_cmp);
         values
     };
-    let errors = sorted(&|lap| lap.rms_best);
+    let Spread { median, median_interval, p90, worst } = Spread::of(&sorted(&|lap| lap.rms_best));
     let lineage = quantile(&sorted(&|lap| lap.lineage_one_step.map_or(f64::INFINITY, f64::from)), 0.5);
     Row {
         proposal: laps[0].proposal,
         matcher: laps[0].matcher,
         particles: laps[0].particles,
         seeds: laps.len(),
-        rms_median: quantile(&errors, 0.5),
-        rms_p90: quantile(&errors, 0.9),
-        rms_worst: quantile(&errors, 1.0),
+        rms_median: median,
+        rms_median_interval: median_interval,
+        rms_p90: p90,
+        rms_worst: worst,
         rms_aligned_median: quantile(&sorted(&|lap| lap.rms_best_aligned), 0.5),
         odometry_rms_median: quantile(&sorted(&|lap| lap.rms_odometry), 0.5),
         // Summed in sorted order: the same bits however the results were spread over shards.

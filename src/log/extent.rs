@@ -2,6 +2,7 @@
 
 use super::LaserScan;
 use crate::ops;
+use std::collections::BTreeSet;
 
 /// Side of the squares that are counted \[m\].
 const SQUARE: f64 = 1.0;
@@ -14,8 +15,8 @@ const MOST_BEAMS: usize = 32;
 ///
 /// Counted in whole squares of 1 m. Raw odometry drifts, so that ground seen twice may count twice: rather too much than too little.
 pub fn swept_area(scans: &[LaserScan], max_range: f64) -> f64 {
-    let mut squares: Vec<(usize, usize)> = Vec::new();
-    let mut kept = 0;
+    let mut squares = BTreeSet::new();
+    let mut last = None;
     for scan in scans.iter().step_by(scans.len().div_ceil(MOST_SCANS).max(1)) {
         let world_from_laser = scan.odometry.compose(&scan.robot_from_laser);
         for k in (0..scan.ranges.len()).step_by(scan.ranges.len().div_ceil(MOST_BEAMS).max(1)) {
@@ -26,22 +27,15 @@ pub fn swept_area(scans: &[LaserScan], max_range: f64) -> f64 {
             for step in 0..=(length / SQUARE) as u32 {
                 let along = f64::from(step) * SQUARE;
                 let [x, y] = [world_from_laser.x + along * cos, world_from_laser.y + along * sin];
-                let [i, j] = [x, y].map(|c| (c / SQUARE).floor() as i32 as u32 as usize);
-                // Along a beam, and from one beam to the next, squares come again and again.
-                if squares.last() != Some(&(i, j)) {
-                    squares.push((i, j));
+                // Squares 65 km apart count as one: no building is as large.
+                let [i, j] = [x, y].map(|c| (c / SQUARE).floor() as i32 as u32 as usize & 0xffff);
+                let square = (i << 16) | j;
+                if last.replace(square) != Some(square) {
+                    squares.insert(square);
                 }
             }
         }
-        // Now and then, so that memory is that of the squares.
-        if squares.len() > 2 * kept + 100_000 {
-            squares.sort_unstable();
-            squares.dedup();
-            kept = squares.len();
-        }
     }
-    squares.sort_unstable();
-    squares.dedup();
     squares.len() as f64 * SQUARE * SQUARE
 }
 

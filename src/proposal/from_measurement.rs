@@ -36,6 +36,7 @@ pub struct Measured {
 
 impl<D: Motion> FromMeasurement<D> {
     // anchor: fold
+    // ANCHOR: listing-fold
     /// Folds every feature of a mapped landmark into N(x̂, R_t), each from where the one before left it: with
     /// S = H_x P H_xᵀ + H_m Σ_j H_mᵀ + Q and K = P H_xᵀ S⁻¹, μ ← μ + K ν, and P by Joseph's form.
     pub fn fold<Z: LandmarkSensor, S: Store>(
@@ -45,26 +46,33 @@ impl<D: Motion> FromMeasurement<D> {
         control: &D::Control,
         features: &[Feature],
     ) -> Measured {
+        // ANCHOR: predict
         let mut mean = self.motion.apply(from, control);
         let mut p = self.motion.covariance(from, control);
+        // ANCHOR_END: predict
         let (mut log_evidence, mut sighted) = (0.0, Vec::with_capacity(features.len()));
         let mut informed = false;
         for feature in features {
             let matched = map.associate(&mean, &p, feature, &sighted);
             if let Some(innovation) = matched.innovation {
                 let h_x = innovation.prediction.h_x;
+                // ANCHOR: pull
                 let gain = p * h_x.transpose() * innovation.inverse;
                 let keep = Matrix3::identity() - gain * h_x;
                 mean = mean.plus(&(gain * innovation.residual));
                 p = keep * p * keep.transpose() + gain * innovation.given_pose * gain.transpose();
                 p = (p + p.transpose()) * 0.5;
+                // ANCHOR_END: pull
                 informed = true;
             }
+            // ANCHOR: pay
             log_evidence += matched.log_likelihood;
+            // ANCHOR_END: pay
             sighted.push(matched.sighted);
         }
         Measured { mean, covariance: p, sighted, log_evidence, informed }
     }
+    // ANCHOR_END: listing-fold
     // end: fold
 }
 
@@ -82,12 +90,14 @@ impl<Z: LandmarkSensor, S: Store, D: Motion> Proposal<Landmarks<Z, S>> for FromM
     ) -> Proposed<Vec<Sighted>> {
         let from = &particle.world_from_robot;
         let measured = self.fold(&particle.map, from, control, features);
+        // ANCHOR: draw
         let (world_from_robot, trace) = if measured.informed {
             let pose = sample_semidefinite(&measured.mean, &measured.covariance, stream);
             (pose, ProposalTrace::Matched { mode: measured.mean })
         } else {
             (self.motion.sample(from, control, stream), ProposalTrace::Motion)
         };
+        // ANCHOR_END: draw
         Proposed { world_from_robot, association: measured.sighted, log_increment: measured.log_evidence, trace }
     }
     // end: propose

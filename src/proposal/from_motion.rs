@@ -34,12 +34,14 @@ impl<Z: LandmarkSensor, S: Store> Likelihood<Landmarks<Z, S>> for Marginal {
         world_from_robot: &Pose2,
         features: &Vec<Feature>,
     ) -> (f64, Vec<Sighted>) {
+        // ANCHOR: marginal
         let (mut log_likelihood, mut sighted) = (0.0, Vec::with_capacity(features.len()));
         for feature in features {
             let matched = map.associate(world_from_robot, &Matrix3::zeros(), feature, &sighted);
             log_likelihood += matched.log_likelihood;
             sighted.push(matched.sighted);
         }
+        // ANCHOR_END: marginal
         (log_likelihood, sighted)
     }
 }
@@ -65,9 +67,13 @@ impl<M: ConditionalMap, D: Motion, L: Likelihood<M>> Proposal<M> for FromMotion<
         observation: &M::Observation,
         stream: &mut Stream,
     ) -> Proposed<M::Association> {
+        // ANCHOR: draw
         let world_from_robot = self.motion.sample(&particle.world_from_robot, control, stream);
+        // ANCHOR_END: draw
+        // ANCHOR: weigh
         let (log_increment, association) =
             self.likelihood.log_likelihood(&particle.map, &world_from_robot, observation);
+        // ANCHOR_END: weigh
         Proposed { world_from_robot, association, log_increment, trace: ProposalTrace::Motion }
     }
     // end: propose

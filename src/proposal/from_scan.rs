@@ -52,7 +52,9 @@ impl Proposal<Grid> for FromScan {
     // anchor: propose
     fn propose(&self, particle: &Particle<Grid>, u: &Odometry, scan: &Scan, stream: &mut Stream) -> Proposed<()> {
         let settings = &self.settings;
+        // ANCHOR: predict
         let prior = self.fallback.motion.gaussian(&particle.world_from_robot, u, settings.motion_floor);
+        // ANCHOR_END: predict
         let log_target =
             |pose: &Pose2| self.fallback.likelihood.log_likelihood(&particle.map, pose, scan) + prior.log_density(pose);
         // The search looks at a thinner scan, in which each beam counts for those left out.
@@ -62,6 +64,7 @@ impl Proposal<Grid> for FromScan {
         };
 
         // Seeds: the prediction, and poses spread over the prior's heading, so that the climb begins on the right slope.
+        // ANCHOR: seeds
         let mut log_seeds = vec![log_thin(prior.mean(), f64::NEG_INFINITY)];
         let mut best = Climb { pose: *prior.mean(), value: log_seeds[0] + prior.log_density(prior.mean()) };
         for k in 0..settings.seeds {
@@ -75,19 +78,25 @@ impl Proposal<Grid> for FromScan {
                 best = Climb { pose, value };
             }
         }
+        // ANCHOR_END: seeds
+        // ANCHOR: match
         let top = climb(best, settings.climb, |pose, value| {
             let log_prior = prior.log_density(pose);
             log_prior + log_thin(pose, value - log_prior)
         });
+        // ANCHOR_END: match
 
         // The guard: on a flat score surface the optimum is noise, no better than what the motion model would draw anyway.
+        // ANCHOR: guard
         let log_mean = ops::log_sum_exp(&log_seeds) - ops::ln(log_seeds.len() as f64);
         if top.value - prior.log_density(&top.pose) - log_mean < settings.gain {
             return self.fallback.propose(particle, u, scan, stream);
         }
+        // ANCHOR_END: guard
         let mode = Climb { pose: top.pose, value: log_target(&top.pose) };
 
         // Probes around the mode, as wide as the target is there; each weighs τ_k = target / density of the probes.
+        // ANCHOR: probe
         let around = self.probe_gaussian(&mode, log_target);
         let probes: Vec<(Pose2, f64)> = (0..settings.probes)
             .map(|_| around.sample(stream))
@@ -95,8 +104,10 @@ impl Proposal<Grid> for FromScan {
             .collect();
         let log_taus: Vec<f64> = probes.iter().map(|(_, log_tau)| *log_tau).collect();
         let log_sum = ops::log_sum_exp(&log_taus);
+        // ANCHOR_END: probe
 
         // μ and Σ of the weighted probes, as differences from the mode (angles wrapped).
+        // ANCHOR: fit
         let (mut mu, mut second) = (Vector3::zeros(), Matrix3::zeros());
         for (pose, log_tau) in &probes {
             let (d, tau) = (pose.minus(&mode.pose), ops::exp(log_tau - log_sum));
@@ -108,9 +119,14 @@ impl Proposal<Grid> for FromScan {
         let Some(fitted) = Gaussian3::new(mode.pose.plus(&mu), sigma) else {
             return self.fallback.propose(particle, u, scan, stream);
         };
+        // ANCHOR_END: fit
+        // ANCHOR: eta
         let log_eta = log_sum - ops::ln(f64::from(settings.probes));
+        // ANCHOR_END: eta
         Proposed {
+            // ANCHOR: draw
             world_from_robot: fitted.sample(stream),
+            // ANCHOR_END: draw
             association: (),
             log_increment: log_eta,
             trace: ProposalTrace::Matched { mode: mode.pose },

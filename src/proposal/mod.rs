@@ -48,6 +48,7 @@ pub struct Proposed<A> {
 
 /// How a pose was found, for those who watch.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum ProposalTrace {
     /// Drawn from the motion model: by choice, because the matcher was not trusted, or because nothing seen was in the map.
     Motion,

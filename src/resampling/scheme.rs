@@ -26,10 +26,12 @@ impl Scheme {
     pub fn ancestors(&self, weights: &Weights, n: usize, stream: &mut Stream) -> Vec<u32> {
         let w = weights.as_slice();
         match self {
+            // ANCHOR: systematic
             Self::Systematic => {
                 let shift = stream.uniform();
                 invert(w, (0..n).map(|k| (k as f64 + shift) / n as f64))
             }
+            // ANCHOR_END: systematic
             Self::Stratified => invert(w, (0..n).map(|k| (k as f64 + stream.uniform()) / n as f64)),
             Self::Multinomial => expand(&offspring(w, 1.0, n, stream)),
             Self::Residual => {

@@ -1,6 +1,8 @@
-// The wasm that readers get, after all that was done to make it small, against every golden picture.
+// The wasm that readers get, after all that was done to make it small, against every golden picture: the page's with all figures, and
+// the embeds' with one.
 import { readFileSync } from 'node:fs'
 import { join } from 'node:path'
+import { figures } from '../../scripts/build.mjs'
 import { root } from '../../scripts/lib.mjs'
 import { startServer } from '../../scripts/serve.mjs'
 import { expect, test } from './fixtures'
@@ -27,10 +29,11 @@ const pictures = readFileSync(join(golden, 'pixels.txt'), 'utf8')
   })
 
 /** Runs in the page: the digests of these pictures, by the calls that the page makes. */
-async function digests({ wanted, log }: { wanted: Picture[]; log: string }): Promise<string[]> {
-  const module = '/fastslam_widgets.js'
+async function digests({ program, wanted, log }: { program: string; wanted: Picture[]; log: string }): Promise<string[]> {
+  // The glue holds one program: each gets its own.
+  const module = `/fastslam_widgets.js?${program}`
   const { default: init, Figure } = (await import(module)) as typeof import('../../widgets/pkg/fastslam_widgets')
-  const { memory } = await init()
+  const { memory } = await init({ module_or_path: `/${program}.wasm` })
   return wanted.map(({ tag, query, width, dpr, theme }) => {
     const figure = new Figure(tag)
     figure.load(query)
@@ -55,15 +58,23 @@ async function digests({ wanted, log }: { wanted: Picture[]; log: string }): Pro
   })
 }
 
-test('the optimised wasm paints every golden picture to the last pixel', async ({ browser }) => {
-  test.slow()
-  const server = await startServer({ folder: join(root, 'widgets', 'pkg') })
-  // A context of its own: the fixture's may not leave the site.
-  const page = await (await browser.newContext()).newPage()
-  await page.route('**/blank', route => route.fulfill({ contentType: 'text/html', body: '<!doctype html><title>pixels</title>' }))
-  await page.goto(`${server.url}blank`)
-  const painted = await page.evaluate(digests, { wanted: pictures, log: readFileSync(join(golden, 'tiny.clf'), 'utf8') })
-  expect(pictures.map(({ name }, i) => `${name} ${painted[i]}`)).toEqual(pictures.map(({ name, digest }) => `${name} ${digest}`))
-  await page.context().close()
-  await server.close()
-})
+const programs = [
+  { program: 'fastslam_widgets_bg', wanted: pictures },
+  ...figures.map(tag => ({ program: tag, wanted: pictures.filter(picture => picture.tag === tag) })),
+]
+
+for (const { program, wanted } of programs) {
+  test(`${program}.wasm paints its golden pictures to the last pixel`, async ({ browser }) => {
+    test.slow()
+    const server = await startServer({ folder: join(root, 'widgets', 'pkg') })
+    // A context of its own: the fixture's may not leave the site.
+    const page = await (await browser.newContext()).newPage()
+    await page.route('**/blank', route => route.fulfill({ contentType: 'text/html', body: '<!doctype html><title>pixels</title>' }))
+    await page.goto(`${server.url}blank`)
+    const painted = await page.evaluate(digests, { program, wanted, log: readFileSync(join(golden, 'tiny.clf'), 'utf8') })
+    expect(wanted.map(({ name }, i) => `${name} ${painted[i]}`)).toEqual(wanted.map(({ name, digest }) => `${name} ${digest}`))
+    expect(wanted.length).toBeGreaterThan(0)
+    await page.context().close()
+    await server.close()
+  })
+}

@@ -2,7 +2,7 @@
 // A figure's own file only names its tag; everything that differs comes from the shell (parameters, readouts, pixels).
 import { Controls } from './controls'
 import { h, icon, write } from './dom'
-import { engine, isRefusal, panicMessage, type Engine, type Handle, type ParamSpec, type Readout, type Shell } from './engine'
+import { engine, isRefusal, panicMessage, type Engine, type Handle, type ParamSpec, type Readout, type Shell, type TraceLine } from './engine'
 import css from './figure.css?inline'
 import { Handles } from './handles'
 import { linkedQuery, linkTo } from './link'
@@ -35,6 +35,11 @@ export interface FigureDetail {
   readouts: Readout[]
 }
 
+export interface TraceDetail {
+  step: number
+  lines: TraceLine[]
+}
+
 export abstract class FigureElement extends HTMLElement {
   #engine?: Engine
   #figure?: Shell // lives while the element is connected and has been seen
@@ -54,11 +59,13 @@ export abstract class FigureElement extends HTMLElement {
   #timeline = true // whether there are steps to play
   #target = 0 // the step asked for; the step shown may still be on its way to it
 
+  #near = false // within a screen of being seen: built and painted, so that nothing on the page moves when it comes into view
   #inView = false
   #frameRequest = 0
   #mustPaint = false
   #paintedAt = -Infinity // [ms]
   #mustShowValues = false
+  #mustTrace = false
   #changeToTell = false
   #toldStep = -1
   #toldSentence = 0
@@ -89,6 +96,7 @@ export abstract class FigureElement extends HTMLElement {
   readonly #menu = this.#makeMenu()
   readonly #body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title' })
 
+  readonly #approach = new IntersectionObserver(entries => this.#onApproach(entries[entries.length - 1]!), { rootMargin: '100% 0px' })
   readonly #intersections = new IntersectionObserver(entries => this.#onIntersection(entries), { threshold: [0, SEEN] })
   readonly #sizes = new ResizeObserver(entries => this.#onResize(entries[entries.length - 1]!))
 
@@ -128,6 +136,7 @@ export abstract class FigureElement extends HTMLElement {
     onThemeChange(() => this.#repaint(), signal)
     document.addEventListener('visibilitychange', () => this.#wake(), { signal })
     addEventListener('hashchange', () => this.#followLink(), { signal })
+    this.#approach.observe(this)
     this.#intersections.observe(this)
     this.#intersections.observe(this.#stage)
     this.#watchSize()
@@ -136,10 +145,12 @@ export abstract class FigureElement extends HTMLElement {
 
   disconnectedCallback(): void {
     this.#disconnected.abort()
+    this.#approach.disconnect()
     this.#intersections.disconnect()
     this.#sizes.disconnect()
     cancelAnimationFrame(this.#frameRequest)
     this.#frameRequest = 0
+    this.#near = false
     this.#inView = false
     this.#guard(figure => {
       this.#recipe = figure.query()
@@ -168,7 +179,11 @@ export abstract class FigureElement extends HTMLElement {
 
   /** A method; but frameworks that set properties write the parameter `step` here, and mean it. */
   get step(): () => void {
-    return () => this.seek(this.#target + 1)
+    return () => {
+      this.#mustTrace = true
+      this.seek(this.#target + 1)
+      if (!this.#inView) void this.#workUnseen()
+    }
   }
 
   set step(step: number | string) {
@@ -414,15 +429,16 @@ export abstract class FigureElement extends HTMLElement {
   }
 
   #wake(): void {
-    if (!this.#figure || !this.#inView || document.hidden) return
+    if (!this.#figure || !this.#near || document.hidden) return
     this.#frameRequest ||= requestAnimationFrame(now => this.#frame(now))
   }
 
   #frame(now: number): void {
     this.#frameRequest = 0
-    if (!this.#inView || document.hidden) return
+    if (!this.#near || document.hidden) return
     this.#guard(figure => {
-      if (this.#playing && figure.pending() === 0) this.#advance(figure, now)
+      const plays = this.#playing && this.#inView
+      if (plays && figure.pending() === 0) this.#advance(figure, now)
       const end = performance.now() + WORK_BUDGET
       while (figure.pending() > 0 && performance.now() < end) {
         figure.work()
@@ -432,7 +448,7 @@ export abstract class FigureElement extends HTMLElement {
       // On the way to a step far off, a look now and then is enough: painting costs more than simulating.
       const hurry = figure.pending() > 0 && now < this.#paintedAt + CATCH_UP_PAINT
       if (this.#mustPaint && !hurry) this.#show(figure)
-      if (this.#playing || figure.pending() > 0) this.#wake()
+      if (plays || figure.pending() > 0) this.#wake()
     })
   }
 
@@ -472,6 +488,7 @@ export abstract class FigureElement extends HTMLElement {
     this.#changeToTell = false
     if (step !== this.#toldStep) this.#tell('fastslam-step', detail)
     this.#toldStep = step
+    this.#tellTrace(figure)
   }
 
   /** Where there is nothing to play, the picture has no keys. */
@@ -485,6 +502,23 @@ export abstract class FigureElement extends HTMLElement {
 
   #tell(type: string, detail: FigureDetail): void {
     this.dispatchEvent(new CustomEvent(type, { bubbles: true, composed: true, detail }))
+  }
+
+  /** After a step that was asked for by itself: which lines of the algorithm it ran, and what came out of them. */
+  #tellTrace(figure: Shell): void {
+    if (!this.#mustTrace) return
+    this.#mustTrace = false
+    const detail: TraceDetail = { step: figure.step(), lines: figure.trace() as TraceLine[] }
+    this.dispatchEvent(new CustomEvent('fastslam-trace', { bubbles: true, composed: true, detail }))
+  }
+
+  /** A step asked for from elsewhere on the page, by the box of an algorithm: the picture waits until it is seen, the lines do not. */
+  async #workUnseen(): Promise<void> {
+    await this.#start()
+    this.#guard(figure => {
+      while (figure.pending() > 0) figure.work()
+      this.#tellTrace(figure)
+    })
   }
 
   /** The sentence under the picture: always up to date for eyes; read out only when nothing moves. */
@@ -544,11 +578,16 @@ export abstract class FigureElement extends HTMLElement {
 
   // --- Reader's input ----------------------------------------------------------------------------------------------------
 
+  #onApproach({ isIntersecting }: IntersectionObserverEntry): void {
+    this.#near = isIntersecting
+    if (isIntersecting) void this.#start()
+    this.#wake()
+  }
+
   #onIntersection(entries: IntersectionObserverEntry[]): void {
     for (const entry of entries) {
       if (entry.target === this) {
         this.#inView = entry.isIntersecting
-        if (this.#inView) void this.#start()
       } else if (entry.intersectionRatio >= SEEN && this.#mayAutoplay && !reducedMotion.matches) {
         this.#mayAutoplay = false
         this.#playing = true

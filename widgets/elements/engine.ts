@@ -28,6 +28,12 @@ export interface Readout {
   help: string
 }
 
+/** A line of the figure's algorithm that the step shown has run. */
+export interface TraceLine {
+  key: string
+  text: string
+}
+
 /** A point of the picture that a reader moves, where it lies on the canvas [css px]. */
 export interface Handle {
   name: string

@@ -3,7 +3,11 @@
 //! A job is a pure function of a figure's link and a range of seeds. It can be cut into pieces, stopped between them, and put
 //! together again in the order of the seeds.
 
-use crate::{model::FigureError, param, query, resampling};
+use crate::{
+    model::{FigureError, Group, ParamSpec},
+    param::{self, Value},
+    query,
+};
 use core::ops::Range;
 
 /// Names and values of parameters, as a figure's link has them.
@@ -23,7 +27,30 @@ pub struct Job {
 }
 
 /// Every experiment there is.
-pub const JOBS: &[Job] = &[resampling::WINGS];
+pub const JOBS: &[Job] = &[
+    #[cfg(feature = "lap")]
+    crate::lap::LAPS,
+    #[cfg(feature = "resampling")]
+    crate::resampling::WINGS,
+];
+
+/// Sets what a link says about the numbers; what it says about the view makes none.
+///
+/// # Errors
+/// For a parameter that is not among these, or a value that is refused.
+pub fn apply(
+    setting: &Setting,
+    specs: &[ParamSpec],
+    mut set: impl FnMut(&str, Value) -> Result<(), FigureError>,
+) -> Result<(), FigureError> {
+    for (name, text) in setting {
+        let spec = specs.iter().find(|s| s.name == name).ok_or_else(|| param::unknown(name, specs))?;
+        if spec.group == Group::Setup {
+            set(name, spec.check(text)?)?;
+        }
+    }
+    Ok(())
+}
 
 /// A row for each of these seeds.
 ///

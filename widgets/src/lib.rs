@@ -2,23 +2,31 @@
 //! without colours), the one painter of [`paint`] and, in the browser, a `shell` whose methods are one line each. Native tests and
 //! the command line use the same [`figure::Figure`] as the page.
 
+#[cfg(feature = "conditioning")]
 pub mod conditioning;
 pub mod export;
 pub mod figure;
 pub mod font;
 pub mod job;
+#[cfg(feature = "lap")]
 pub mod lap;
+#[cfg(feature = "log")]
 pub mod log;
 pub mod model;
 pub mod paint;
 mod param;
+#[cfg(any(feature = "lap", feature = "log"))]
+mod policy;
+#[cfg(feature = "proposal")]
 pub mod proposal;
 mod query;
 pub mod registry;
+#[cfg(feature = "resampling")]
 pub mod resampling;
 pub mod scene;
 #[cfg(target_arch = "wasm32")]
 pub mod shell;
+#[cfg(feature = "worked-example")]
 pub mod worked_example;
 
 pub use fastslam;

@@ -6,6 +6,7 @@
 
 pub use crate::param::{Choice, Group, Kind, ParamSpec};
 use crate::scene::{Point, Scene};
+use fastslam::decimal::fixed;
 /// Why a value was refused: the parameter, and one line that names it, what was given and what is allowed.
 pub use fastslam::error::ParameterError as FigureError;
 use serde::Serialize;
@@ -57,6 +58,32 @@ impl Readout {
         let text = if known { text.into() } else { "–".into() };
         Self { name, title, value: known.then_some(value), text, unit, help }
     }
+}
+
+/// A line of an algorithm that the step shown has run, for a page that shows the algorithm beside the figure.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct TraceLine {
+    /// What the line does: `propose`, `weigh`, `resample` …
+    pub key: &'static str,
+    /// What came out, with its unit; empty where there is nothing to tell.
+    pub text: String,
+}
+
+impl TraceLine {
+    /// A line, and what came out of it.
+    pub fn new(key: &'static str, text: impl Into<String>) -> Self {
+        Self { key, text: text.into() }
+    }
+}
+
+/// A pose, or a difference of poses \[m, m, rad\], as text.
+pub fn pose_text([x, y, theta]: [f64; 3]) -> String {
+    format!("({}, {}, {})", fixed(x, 2), fixed(y, 2), fixed(theta, 3))
+}
+
+/// N_eff of so many, as text.
+pub fn ess_text(ess: f64, particles: usize) -> String {
+    format!("{} of {particles}", fixed(ess, 1))
 }
 
 /// A column of the measured data.
@@ -169,6 +196,11 @@ pub trait Model {
 
     /// One or two sentences that tell what is shown now.
     fn describe(&self) -> String;
+
+    /// The lines of its algorithm that led to what is shown, in the order in which they ran. None before the first step.
+    fn trace(&self) -> Vec<TraceLine> {
+        Vec::new()
+    }
 
     /// Height \[css px\] the scene wants at this width \[css px\]. Does not depend on the state, so that nothing below a
     /// figure ever jumps.

@@ -3,7 +3,7 @@
 
 use crate::{figure, job, model::FigureError, paint::Theme, registry};
 use core::cell::RefCell;
-use fastslam::experiment::policy_counts::Fraction;
+use fastslam::experiment::{Spread, policy_counts::Fraction};
 use js_sys::{Array, Error, JSON, Object};
 use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
@@ -53,6 +53,13 @@ pub fn job(name: &str, query: &str, from: u32, to: u32) -> Result<Array, Error> 
 #[wasm_bindgen]
 pub fn interval(successes: u32, total: u32) -> Vec<f64> {
     Fraction { successes, total }.wilson().to_vec()
+}
+
+/// Of errors: their median, the ends of its 95 % confidence interval, the 90th percentile and the worst.
+#[wasm_bindgen]
+pub fn spread(errors: &[f64]) -> Vec<f64> {
+    let Spread { median, median_interval: [low, high], p90, worst } = Spread::of(errors);
+    vec![median, low, high, p90, worst]
 }
 
 /// One figure on a page; to be freed when it leaves the page.
@@ -120,6 +127,11 @@ impl Figure {
     /// One or two sentences that tell what is shown now.
     pub fn describe(&self) -> String {
         self.0.model().describe()
+    }
+
+    /// The lines of its algorithm that led to what is shown: an array of `TraceLine`.
+    pub fn trace(&self) -> Array {
+        plain(&self.0.model().trace())
     }
 
     /// Height \[css px\] that the figure wants at this width \[css px\].

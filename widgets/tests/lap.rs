@@ -4,7 +4,9 @@ mod common;
 
 use common::{assert_texts_fit, figure, scene, state};
 use fastslam_widgets::{
+    fastslam::experiment::{numbers::LapCell, table::rms_best},
     figure::Figure,
+    job,
     lap::{LapModel, Layout},
     model::{Action, Model},
     scene::Mark,
@@ -200,4 +202,17 @@ fn data_has_a_row_for_every_step_so_far() {
     assert_eq!(data["query"], "universes=4&step=6");
     assert_eq!(data["steps"][6]["step"], 6.0);
     assert_eq!(data["columns"].as_object().unwrap().len(), header.len());
+}
+
+/// What the page's button asks for is what the chapter prints.
+#[test]
+fn a_cell_of_the_lap_table_is_the_job_of_its_link() {
+    for cell in LapCell::all().filter(|cell| cell.particles == 4) {
+        let link = format!("universes=4&proposal={}&matcher={}", cell.proposal, cell.matcher);
+        let errors = [1, 2].map(|seed| vec![seed as f64, rms_best(&cell.setup(seed)).unwrap()]);
+        assert_eq!(job::run("laps", &link, 1..3).unwrap(), errors, "{link}");
+    }
+    let refused = |link| job::run("laps", link, 1..2).unwrap_err().message;
+    assert!(refused("universes=257").starts_with("universes = 257"), "{}", refused("universes=257"));
+    assert!(refused("universe=1&wings=on").contains("wings"), "{}", refused("wings=on"));
 }

@@ -199,7 +199,7 @@ fn a_bad_link_is_told_of_and_the_rest_of_it_applied() {
         "particles = \"65\": must be a whole number from 4 to 64",
         "step = \"91\": must be a whole number from 0 to 90",
         "cursor = \"-2\"",
-        "scheme = \"magic\": must be one of systematic, stratified, multinomial, residual",
+        "scheme = \"magic\": must be one of usual, systematic, stratified, multinomial, residual",
         "back = \"0\": must be a whole number from 1 to 60 steps",
         "tempo",
     ] {

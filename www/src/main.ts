@@ -1,2 +1,6 @@
-// The chapter is a plain page; its figures are all that needs script.
+// The chapter: a page like any other, with figures, algorithms and a table that run.
 import '../../widgets/elements/index'
+import '../../widgets/elements/lap-table'
+import './algorithm'
+import './lap-table.css'
+import './page'

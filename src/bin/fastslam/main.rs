@@ -4,6 +4,7 @@ mod landmarks;
 mod lap;
 mod log;
 mod mrclam;
+mod numbers;
 mod picture;
 mod policies;
 mod table;
@@ -28,6 +29,7 @@ enum Command {
     Lap(lap::Arguments),
     Log(log::Arguments),
     Landmarks(landmarks::Arguments),
+    Numbers(numbers::Arguments),
     Policies(policies::Arguments),
     Table(table::Arguments),
 }
@@ -82,6 +84,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Lap(arguments) => lap::run(&arguments),
         Command::Log(arguments) => log::run(&arguments),
         Command::Landmarks(arguments) => landmarks::run(&arguments),
+        Command::Numbers(arguments) => numbers::run(&arguments),
         Command::Policies(arguments) => policies::run(&arguments),
         Command::Table(arguments) => table::run(&arguments),
     })
@@ -90,7 +93,8 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
 /// What clap says before it advises, in one line.
 fn one_line(message: &clap::Error) -> String {
     if message.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "a command is missing: lap, landmarks, policies or table (fastslam --help explains)".to_owned();
+        return "a command is missing: lap, landmarks, numbers, policies or table (fastslam --help explains)"
+            .to_owned();
     }
     let text = message.to_string();
     let said =

@@ -135,14 +135,14 @@ fn merge(files: &[PathBuf]) -> Result<Vec<LapResult>, Failure> {
 
 fn text(rows: &[Row]) -> String {
     let mut text = String::from(
-        "proposal matcher   M  seeds   RMS position error [m]        aligned  odometry  resampled  lineage one  N_eff\n\
-         \x20                            median     p90   worst       median    median   fraction      at step    end\n",
+        "proposal matcher   M  seeds   RMS position error [m]                          aligned  odometry  resampled  lineage one  N_eff\n\
+         \x20                            median           95 %     p90   worst       median    median   fraction      at step    end\n",
     );
     for row in rows {
         let lineage = row.lineage_one_step_median.map_or("never".to_owned(), |step| format!("{step:.0}"));
-        let Row { particles, seeds, rms_median, rms_p90, rms_worst, .. } = row;
+        let Row { particles, seeds, rms_median, rms_median_interval: [low, high], rms_p90, rms_worst, .. } = row;
         text += &format!(
-            "{:8} {:8}{particles:3} {seeds:6}   {rms_median:6.3}  {rms_p90:6.3}  {rms_worst:6.3}       {:6.3}    {:6.2}     {:6.2}  {lineage:>11} {:6.1}\n",
+            "{:8} {:8}{particles:3} {seeds:6}   {rms_median:6.3}  {low:5.3}–{high:5.3}  {rms_p90:6.3}  {rms_worst:6.3}       {:6.3}    {:6.2}     {:6.2}  {lineage:>11} {:6.1}\n",
             row.proposal.to_string(),
             row.matcher.to_string(),
             row.rms_aligned_median,

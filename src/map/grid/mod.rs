@@ -181,20 +181,21 @@ impl Grid {
         Footprint { unique: unique as u64, dense: dense as u64 }
     }
 
+    // ANCHOR: listing-tile
     /// The tile of a cell, made its own and allocated if need be; `None` where the directory does not reach.
     fn tile_mut(&mut self, ti: i32, tj: i32) -> Option<&mut Tile> {
         let directory = Arc::make_mut(&mut self.directory);
         let index = directory.index(ti, tj)?;
         Some(Arc::make_mut(directory.tiles[index].get_or_insert_default()))
     }
+    // ANCHOR_END: listing-tile
 }
 
 /// Each shared thing once.
-fn distinct<T>(shared: Vec<&Arc<T>>) -> Vec<&Arc<T>> {
-    let mut places: Vec<(usize, usize)> = shared.iter().map(|arc| Arc::as_ptr(arc).addr()).zip(0..).collect();
-    places.sort_unstable(); // addresses, so that all kinds of things are sorted by the same code
-    places.dedup_by_key(|(address, _)| *address);
-    places.into_iter().map(|(_, index)| shared[index]).collect()
+fn distinct<T>(mut shared: Vec<&Arc<T>>) -> Vec<&Arc<T>> {
+    let mut seen = std::collections::BTreeSet::new();
+    shared.retain(|arc| seen.insert(Arc::as_ptr(arc).addr()));
+    shared
 }
 
 impl Directory {
@@ -251,6 +252,7 @@ impl ConditionalMap for Grid {
             self.directory = Arc::new(self.directory.grown(touched));
         }
         let (hit, pass) = (tile::units(self.model.log_odds_hit), tile::units(self.model.log_odds_pass));
+        // ANCHOR: map
         for tj in touched.j0..touched.j1 {
             for ti in touched.i0..touched.i1 {
                 // Look before writing: a tile in which nothing would change stays shared.
@@ -269,6 +271,7 @@ impl ConditionalMap for Grid {
                 }
             }
         }
+        // ANCHOR_END: map
         let (size, surface_std) = (self.model.cell_size, self.model.surface_std);
         for &([x, y], i, j) in &marks.hits {
             let center = |k: i32| (f64::from(k) + 0.5) * size;

@@ -86,7 +86,9 @@ impl Correspondence {
                 let mut best: Option<Matched> = None;
                 for index in 0..len {
                     let Some(innovation) = innovation(index, Some(gate.mahalanobis_squared)) else { continue };
+                    // ANCHOR: gate
                     let within = innovation.mahalanobis_squared < gate.mahalanobis_squared;
+                    // ANCHOR_END: gate
                     let to_beat = best.map_or(gate.log_new, |best| best.log_likelihood);
                     if within && innovation.log_likelihood > to_beat && free(index) {
                         best = Some(again(index, innovation));

@@ -5,6 +5,7 @@ use crate::ops;
 use crate::sensor::{LandmarkSensor, Prediction};
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
+// ANCHOR: listing-landmark
 /// p(m | path, sightings) = N(mean, covariance).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Landmark {
@@ -15,6 +16,7 @@ pub struct Landmark {
     /// Sightings less the times it should have been seen and was not; struck off below 0.
     pub evidence: i32,
 }
+// ANCHOR_END: listing-landmark
 
 /// What a sighting says against what was expected.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -92,6 +94,7 @@ impl Landmark {
     // end: innovation
 
     // anchor: update
+    // ANCHOR: listing-update
     /// K = Σ H_mᵀ S⁻¹, μ ← μ + K ν, Σ ← (I − K H_m) Σ (I − K H_m)ᵀ + K Q Kᵀ: Joseph's form, which stays symmetric and positive
     /// definite whatever rounding does.
     pub fn update<Z: LandmarkSensor>(&mut self, sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) {
@@ -103,6 +106,7 @@ impl Landmark {
             symmetric(keep * self.covariance * keep.transpose() + gain * sensor.noise() * gain.transpose());
         self.evidence = self.evidence.saturating_add(1);
     }
+    // ANCHOR_END: listing-update
     // end: update
 
     /// K = Σ H_mᵀ S⁻¹ (2 × 2): how far the mean follows a residual.
@@ -143,6 +147,7 @@ mod tests {
     const SENSOR: RangeBearing =
         RangeBearing { range_std: 0.2, bearing_std: 0.05, max_range: 10.0, field_of_view: core::f64::consts::TAU };
 
+    // ANCHOR: listing-worked
     /// The worked example of the chapter.
     #[test]
     fn the_worked_example_is_met_to_the_last_digit_shown() {
@@ -157,6 +162,7 @@ mod tests {
             assert!((ops::exp(innovation.log_likelihood) - weight).abs() < 1e-9);
         }
     }
+    // ANCHOR_END: listing-worked
 
     #[test]
     fn many_sightings_from_one_pose_are_their_mean() {

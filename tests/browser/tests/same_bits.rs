@@ -1,5 +1,5 @@
-//! What the native build computed, computed again in the browser: the same bits of every trace, every readout and every pixel.
-//! The goldens are written natively, by `tests/portability` and `tests/figures`.
+//! What the native build computed, computed again in the browser: the same bits of every trace, every readout, every pixel and
+//! the chapter's numbers. The goldens are written natively, by `tests/portability`, `tests/figures` and `npm run numbers`.
 #![cfg(target_arch = "wasm32")]
 
 use fastslam::{digest::Digest, execute::Executor, experiment::golden_traces};
@@ -109,4 +109,9 @@ fn every_job_gives_the_rows_of_the_native_build() {
         line(&format!("{name}?{query}"), &rows(numbers.filter_map(|x| x.as_f64())))
     });
     same_lines(&jobs.collect::<Vec<_>>(), ROWS);
+}
+
+#[wasm_bindgen_test]
+fn the_chapter_s_numbers_are_those_of_the_native_build() {
+    portability::assert_fresh(&Executor::Serial);
 }

@@ -140,8 +140,12 @@ pub const SETUPS: &[(&str, &str)] = &[
 const COALESCED: &str = "step=70";
 
 /// Experiments over the seeds from the first to before the second, whose rows are kept.
-pub const JOBS: &[(&str, &str, [u32; 2])] =
-    &[("wings", "", [1, 5]), ("wings", "particles=9&threshold=0.7&odometry=1.5&range=0.5&scheme=stratified", [40, 43])];
+pub const JOBS: &[(&str, &str, [u32; 2])] = &[
+    ("wings", "", [1, 5]),
+    ("wings", "particles=9&threshold=0.7&odometry=1.5&range=0.5&scheme=stratified", [40, 43]),
+    ("laps", "", [1, 3]),
+    ("laps", "universes=4&proposal=motion&matcher=cell&policy=always&range-std=0.1&step=7", [1, 4]),
+];
 
 /// The rows of a job, as a fingerprint.
 pub fn rows(rows: impl IntoIterator<Item = f64>) -> Digest {

@@ -1,1 +1,96 @@
-//! The same bits in every build: see `tests/`.
+//! The chapter's numbers made again, to the bit: what the native tests and those in the browser share.
+
+use fastslam::execute::Executor;
+use fastslam::experiment::numbers::{FIRST_SEEDS, LapCell, Number, Recipe, SEEDS, owner, recipes};
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use std::collections::BTreeMap;
+
+/// What the chapter's prose takes its numbers from.
+pub const NUMBERS: &str = include_str!("../../../www/data/numbers.json");
+const LAPS: &str = include_str!("../../../www/data/lap-table.json");
+const FIRST: &str = include_str!("../../../www/data/first-seeds.json");
+
+/// What a line of the file says.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+pub struct Entry {
+    /// In its unit.
+    pub value: f64,
+    /// Empty for pure numbers.
+    pub unit: String,
+    /// How it is made.
+    pub made: String,
+}
+
+/// By key.
+pub type Entries = BTreeMap<String, Entry>;
+
+/// # Panics
+/// Where a file was not written by `fastslam numbers`.
+pub fn read<T: DeserializeOwned>(text: &str) -> BTreeMap<String, T> {
+    serde_json::from_str(text).expect("`npm run numbers` writes the files in www/data")
+}
+
+/// What in these files does not hold, in a line each. Of what takes minutes the first seeds are run, and the lap table is worked
+/// out anew from the errors kept of every seed; all else is made in full.
+pub fn differences(entries: &Entries, executor: &Executor) -> Vec<String> {
+    let (laps, first_seeds) = (read::<Vec<f64>>(LAPS), read::<String>(FIRST));
+    let recipes = recipes();
+    let mut found: Vec<String> = entries
+        .keys()
+        .filter(|key| owner(&recipes, key).is_none())
+        .map(|key| format!("{key}: nothing makes it"))
+        .collect();
+    for recipe in &recipes {
+        let Recipe { name, seeds, .. } = recipe;
+        let first = recipe.make(*seeds.min(&FIRST_SEEDS), executor, &|| ());
+        if first_seeds.get(name) != Some(&format!("{:016x}", first.digest().value())) {
+            found.push(format!("{name}: its first seeds come to other numbers, or to others than before"));
+        }
+        if let Some(cell) = LapCell::all().find(|cell| cell.name() == *name) {
+            let kept = laps.get(name).map_or(&[][..], Vec::as_slice);
+            if kept.len() != SEEDS as usize || !same_bits(&kept[..first.errors.len()], &first.errors) {
+                found.push(format!("{name}: lap-table.json has other errors"));
+            } else {
+                compare(entries, &recipes, recipe, &cell.numbers(kept), &mut found);
+            }
+        } else if *seeds < SEEDS {
+            compare(entries, &recipes, recipe, &recipe.make(*seeds, executor, &|| ()).numbers, &mut found);
+        }
+    }
+    found
+}
+
+fn same_bits(a: &[f64], b: &[f64]) -> bool {
+    a.iter().map(|x| x.to_bits()).eq(b.iter().map(|x| x.to_bits()))
+}
+
+/// Whether what the file has of a recipe is among these numbers. It need not have all: `npm run numbers` leaves out those that no
+/// page uses, and one that a page misses fails the build of the pages.
+fn compare(entries: &Entries, recipes: &[Recipe], of: &Recipe, numbers: &[Number], found: &mut Vec<String>) {
+    for Number { key, value, unit, made } in numbers {
+        match entries.get(key) {
+            Some(kept) if kept.value.to_bits() != value.to_bits() => {
+                found.push(format!("{key}: {} in the file, {value} now", kept.value));
+            }
+            Some(kept) if kept.unit != *unit || kept.made != *made => {
+                found.push(format!("{key}: it is made otherwise now"))
+            }
+            _ => (),
+        }
+    }
+    let is_left = |key: &&String| owner(recipes, key).is_some_and(|owner| owner.name == of.name);
+    let left = entries.keys().filter(is_left).filter(|key| numbers.iter().all(|number| number.key != **key));
+    found.extend(left.map(|key| format!("{key}: its recipe makes no such number any more")));
+}
+
+/// # Panics
+/// Where the files do not hold, with what to do about it.
+pub fn assert_fresh(executor: &Executor) {
+    let found = differences(&read(NUMBERS), executor);
+    assert!(
+        found.is_empty(),
+        "www/data is stale; if this change is wanted, `npm run numbers` writes it:\n{}",
+        found.join("\n")
+    );
+}

@@ -2,10 +2,12 @@
 
 mod grid;
 mod layout;
+mod many;
 mod model;
-pub(crate) mod params;
+mod params;
 mod scene;
 mod view;
 
 pub use layout::Layout;
+pub use many::LAPS;
 pub use model::LapModel;

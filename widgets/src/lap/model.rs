@@ -5,14 +5,16 @@ use super::{
     params, scene,
 };
 use crate::{
-    model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series},
+    model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series, TraceLine, ess_text, pose_text},
     param::{Value, flag_text, unknown},
+    policy,
     scene::Scene,
 };
 use fastslam::{
     decimal::{fixed, write},
     experiment::lap::{Lap, LapSetup, StepReport},
-    resampling::ResamplePolicy,
+    geometry::Pose2,
+    proposal::{ProposalKind, ProposalTrace},
 };
 
 /// Most universes that keyframes keep, all steps together. Each holds the tiles that were written since the one before: about
@@ -40,19 +42,26 @@ pub struct LapModel {
 
 /// What decides the numbers.
 #[derive(Clone, PartialEq)]
-struct Recipe {
-    setup: LapSetup,
+pub(super) struct Recipe {
+    pub(super) setup: LapSetup,
     /// Of the policy "N_eff below", kept while another policy is chosen.
     threshold: f64,
 }
 
-impl Default for LapModel {
+impl Default for Recipe {
     fn default() -> Self {
         let setup = LapSetup::default();
-        let threshold = if let ResamplePolicy::EssBelow(t) = setup.policy { t } else { params::THRESHOLD };
-        let lap = Lap::new(&setup).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
+        let threshold = policy::threshold(setup.policy);
+        Self { setup, threshold }
+    }
+}
+
+impl Default for LapModel {
+    fn default() -> Self {
+        let recipe = Recipe::default();
+        let lap = Lap::new(&recipe.setup).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
         Self {
-            recipe: Recipe { setup, threshold },
+            recipe,
             universe: None,
             truth: false,
             raw: false,
@@ -150,7 +159,7 @@ impl LapModel {
 }
 
 impl Recipe {
-    fn set(&mut self, name: &str, value: Value) -> Result<(), FigureError> {
+    pub(super) fn set(&mut self, name: &str, value: Value) -> Result<(), FigureError> {
         let setup = &mut self.setup;
         match (name, value) {
             ("universes", Value::Number(x)) => setup.particles = x as usize,
@@ -160,14 +169,10 @@ impl Recipe {
             ("proposal", Value::Word(word)) => setup.proposal = word.parse()?,
             ("matcher", Value::Word(word)) => setup.matcher = word.parse()?,
             ("scheme", Value::Word(word)) => setup.scheme = word.parse()?,
-            ("policy", Value::Word("never")) => setup.policy = ResamplePolicy::Never,
-            ("policy", Value::Word("always")) => setup.policy = ResamplePolicy::Always,
-            ("policy", Value::Word(_)) => setup.policy = ResamplePolicy::EssBelow(self.threshold),
+            ("policy", Value::Word(word)) => setup.policy = policy::of(word, self.threshold),
             ("threshold", Value::Number(x)) => {
                 self.threshold = x;
-                if let ResamplePolicy::EssBelow(fraction) = &mut setup.policy {
-                    *fraction = x;
-                }
+                setup.policy = policy::of(policy::name(setup.policy), x);
             }
             _ => (),
         }
@@ -193,7 +198,7 @@ impl Model for LapModel {
             "range-std" => write(setup.range_std),
             "proposal" => setup.proposal.to_string(),
             "matcher" => setup.matcher.to_string(),
-            "policy" => params::policy_name(setup.policy).into(),
+            "policy" => policy::name(setup.policy).into(),
             "threshold" => write(self.recipe.threshold),
             "scheme" => setup.scheme.to_string(),
             "step" => self.asked.to_string(),
@@ -324,7 +329,7 @@ impl Model for LapModel {
                 "ess",
                 "N_eff",
                 report.ess,
-                format!("{} of {m}", fixed(report.ess, 1)),
+                ess_text(report.ess, m),
                 "",
                 "Effective number of universes before resampling: M if all weigh the same, 1 if one has all the weight.",
             ),
@@ -425,6 +430,54 @@ impl Model for LapModel {
             }
         }
         text
+    }
+
+    /// Of the universe shown large, and of all where the line is about all.
+    fn trace(&self) -> Vec<TraceLine> {
+        let (report, slot) = (self.report(), self.selected() as usize);
+        let [.., from, to] = self.shown.path(slot)[..] else { return Vec::new() };
+        // Where the universe was before it was copied.
+        let slot = report.ancestors.as_ref().map_or(slot, |ancestors| ancestors[slot] as usize);
+        let m = self.recipe.setup.particles;
+        let pose = |pose: &Pose2| pose_text([pose.x, pose.y, pose.theta]);
+        let nats = |x: f64| format!("{} nats", fixed(x, 1));
+        let predicted = self.shown.world().controls[report.step as usize - 1].apply(&from);
+        let paid = nats(report.log_increments[slot]);
+        let mut lines = Vec::new();
+        if self.recipe.setup.proposal == ProposalKind::Aware {
+            lines.extend([TraceLine::new("predict", pose(&predicted)), TraceLine::new("seed", "")]);
+            let doubt =
+                |word| TraceLine::new("doubt", format!("{word}; in {} of {m} universes trusted", report.matched));
+            match report.traces[slot] {
+                ProposalTrace::Matched { mode } => lines.extend([
+                    TraceLine::new("match", format!("moved by {}", pose_text(mode.minus(&predicted).into()))),
+                    doubt("trusted"),
+                    TraceLine::new("probe", ""),
+                    TraceLine::new("fit", ""),
+                    TraceLine::new("draw", pose(&to)),
+                    TraceLine::new("pay", paid),
+                ]),
+                ProposalTrace::Motion => lines.extend([
+                    TraceLine::new("match", ""),
+                    doubt("not trusted"),
+                    TraceLine::new("fallback", pose(&to)),
+                    TraceLine::new("weigh", paid),
+                ]),
+            }
+        } else {
+            lines.extend([TraceLine::new("fallback", pose(&to)), TraceLine::new("weigh", paid)]);
+        }
+        let largest = report.weights.iter().copied().fold(0.0, f64::max);
+        let resample =
+            if report.ancestors.is_some() { format!("yes: {} died out", self.extinct().len()) } else { "no".into() };
+        lines.extend([
+            TraceLine::new("map", format!("all maps: {} KB", fixed(report.map_bytes_unique as f64 / 1000.0, 0))),
+            TraceLine::new("extend", ""),
+            TraceLine::new("normalise", format!("largest {}", fixed(largest, 2))),
+            TraceLine::new("ess", ess_text(report.ess, m)),
+            TraceLine::new("resample", resample),
+        ]);
+        lines
     }
 
     fn height(&self, width: f64) -> f64 {

@@ -9,9 +9,9 @@ use super::{
     view::{Frame, View},
 };
 use crate::{
-    lap::params::policy_name,
     model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series},
     param::{Value, flag_text, unknown},
+    policy,
     scene::{Point, Scene},
 };
 use fastslam::{
@@ -106,7 +106,7 @@ pub struct Moment {
 impl Default for LogModel {
     fn default() -> Self {
         let setup = LogSetup::default();
-        let threshold = if let ResamplePolicy::EssBelow(t) = setup.policy { t } else { params::THRESHOLD };
+        let threshold = policy::threshold(setup.policy);
         Self {
             recipe: Recipe { setup, threshold },
             lenient: false,
@@ -133,9 +133,9 @@ impl Recipe {
             ("min-travel", Value::Number(x)) => setup.min_travel = x,
             ("threshold", Value::Number(x)) => {
                 self.threshold = x;
-                setup.policy = params::policy(policy_name(setup.policy), x);
+                setup.policy = policy::of(policy::name(setup.policy), x);
             }
-            ("policy", Value::Word(word)) => setup.policy = params::policy(word, self.threshold),
+            ("policy", Value::Word(word)) => setup.policy = policy::of(word, self.threshold),
             _ => (),
         }
     }
@@ -348,7 +348,7 @@ impl Model for LogModel {
             "cell" => write(setup.cell_size),
             "max-range" => write(setup.max_range),
             "min-travel" => write(setup.min_travel),
-            "policy" => policy_name(setup.policy).into(),
+            "policy" => policy::name(setup.policy).into(),
             "threshold" => write(self.recipe.threshold),
             "lenient" => flag_text(self.lenient),
             "raw" => flag_text(self.raw),

@@ -1,23 +1,16 @@
 //! What a reader can set about the mapping of a log.
 
-use crate::{
-    lap::params::{POLICIES, policy_name},
-    model::ParamSpec,
-};
-use fastslam::{experiment::log::LogSetup, resampling::ResamplePolicy};
+use crate::{model::ParamSpec, policy};
+use fastslam::experiment::log::LogSetup;
 
 /// Least and most of each number, and the step of its slider.
 const CELL: (f64, f64, f64) = (0.01, 1.0, 0.01);
 const RANGE: (f64, f64, f64) = (1.0, 100.0, 1.0);
 const TRAVEL: (f64, f64, f64) = (0.0, 2.0, 0.05);
 
-/// Threshold of the policy "N_eff below", where another policy is chosen.
-pub const THRESHOLD: f64 = 0.5;
-
 /// All parameters.
 pub fn specs() -> Vec<ParamSpec> {
-    let LogSetup { particles, seed, cell_size, max_range, min_travel, policy } = LogSetup::default();
-    let threshold = if let ResamplePolicy::EssBelow(fraction) = policy { fraction } else { THRESHOLD };
+    let LogSetup { particles, seed, cell_size, max_range, min_travel, policy: selected } = LogSetup::default();
     vec![
         ParamSpec::integer(
             "universes",
@@ -57,10 +50,16 @@ pub fn specs() -> Vec<ParamSpec> {
             "Threshold",
             "of M",
             (0.0, 1.0, 0.05),
-            threshold,
+            policy::threshold(selected),
             "Share of M below which N_eff calls for resampling, under the policy neff.",
         ),
-        ParamSpec::choice("policy", "Resample", POLICIES, policy_name(policy), "When the universes are resampled."),
+        ParamSpec::choice(
+            "policy",
+            "Resample",
+            policy::POLICIES,
+            policy::name(selected),
+            "When the universes are resampled.",
+        ),
         ParamSpec::flag(
             "lenient",
             "Skip malformed lines",
@@ -70,13 +69,4 @@ pub fn specs() -> Vec<ParamSpec> {
         .view(),
         ParamSpec::flag("raw", "Raw odometry", false, "Draws where the wheels alone would have led.").view(),
     ]
-}
-
-/// The policy of a word and a threshold.
-pub fn policy(word: &str, threshold: f64) -> ResamplePolicy {
-    match word {
-        "never" => ResamplePolicy::Never,
-        "always" => ResamplePolicy::Always,
-        _ => ResamplePolicy::EssBelow(threshold),
-    }
 }

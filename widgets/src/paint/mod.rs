@@ -1,23 +1,22 @@
 //! The painter: a scene, a theme and a number of device pixels in, opaque RGBA out, the same bytes on every machine.
 //!
 //! Maps, borders and plates are written straight into whole device pixels, which is crisp and fast; lines, discs and glyphs are
-//! paths, filled by tiny-skia. All shapes of a mark go into one path, because a fill costs more to begin than to go on with;
+//! paths of tiny-skia, filled by `fastslam-raster`. All shapes of a mark go into one path, because a fill costs more to begin than to go on with;
 //! clouds of samples and bundles of thin lines are written straight into pixels too.
 
-mod blit;
 mod theme;
 
 pub use theme::{Rgb, Theme};
 
 use crate::{
     font,
-    scene::{Mark, Point, Rect, Role, Scene, Shading, Text},
+    scene::{Mark, Point, Rect, Role, Scene, Shading, Text, UNKNOWN},
 };
-use tiny_skia::{
-    FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Stroke, StrokeDash, Transform,
-};
+pub use fastslam_raster::{Color, Pixels};
+use fastslam_raster::{blit, fill::Filler};
+use tiny_skia_path::{LineCap, LineJoin, Path, PathBuilder, Stroke, StrokeDash};
 
-/// Largest width and height of a canvas \[device px\]: what tiny-skia fills in one go.
+/// Largest width and height of a canvas \[device px\].
 pub const MAX_SIDE: u32 = 8191;
 
 /// From this many on, discs are no path: 4096 would take a frame of their own.
@@ -28,66 +27,75 @@ const THIN: f32 = 2.5;
 
 /// Reusable pixels.
 pub struct Canvas {
-    pixels: Pixmap,
+    pixels: Pixels,
+    filler: Filler,
     /// Memory of the last path.
     scratch: PathBuilder,
 }
 
 impl Default for Canvas {
     fn default() -> Self {
-        Self { pixels: blank([1, 1]), scratch: PathBuilder::new() }
+        Self { pixels: Pixels::new([1, 1]), filler: Filler::default(), scratch: PathBuilder::new() }
     }
-}
-
-fn blank([width, height]: [u32; 2]) -> Pixmap {
-    Pixmap::new(width, height).expect("a side is 1 to 8191")
 }
 
 impl Canvas {
     /// RGBA, row by row; every pixel is opaque.
     pub fn pixels(&self) -> &[u8] {
-        self.pixels.data()
+        self.pixels.bytes()
     }
 
     /// Width and height \[device px\].
     pub fn size(&self) -> [u32; 2] {
-        [self.pixels.width(), self.pixels.height()]
+        self.pixels.size()
     }
 
     /// Paints the scene over a canvas of this size \[device px\], 1 to [`MAX_SIDE`]; the scene's width fills the canvas's.
     pub fn paint(&mut self, scene: &Scene, width: u32, height: u32, theme: Theme) {
+        let mut filler = core::mem::take(&mut self.filler);
+        self.paint_with(scene, width, height, theme, &mut |pixels, path, color| filler.fill(pixels, path, color));
+        self.filler = filler;
+    }
+
+    /// The same with another fill of paths, which the tests hold ours against.
+    pub fn paint_with(&mut self, scene: &Scene, width: u32, height: u32, theme: Theme, fill: &mut Fill<'_>) {
         let size = [width.clamp(1, MAX_SIDE), height.clamp(1, MAX_SIDE)];
         if self.size() != size {
-            self.pixels = blank(size);
+            self.pixels = Pixels::new(size);
         }
-        self.pixels.pixels_mut().fill(opaque(theme.color(Role::Paper)));
+        self.pixels.clear(opaque(theme.color(Role::Paper)));
         let scale = f64::from(size[0]) / scene.width;
         let shades = [Shading::Map, Shading::Ghost, Shading::Correlation, Shading::Density]
             .map(|shading| theme.shades(shading).map(opaque));
-        let mut brush = Brush { canvas: self, scale, theme, shades };
+        let mut brush = Brush { canvas: self, fill, scale, theme, shades };
         scene.marks.iter().for_each(|mark| brush.mark(mark));
     }
 }
 
-fn opaque([r, g, b]: Rgb) -> PremultipliedColorU8 {
-    PremultipliedColorU8::from_rgba(r, g, b, 255).expect("no component is above an alpha of 255")
+/// Fills a path with a colour where its winding number is not 0.
+pub type Fill<'a> = dyn FnMut(&mut Pixels, &Path, Color) + 'a;
+
+fn opaque([r, g, b]: Rgb) -> Color {
+    [r, g, b, 255]
 }
 
-/// A canvas, device pixels per css px, and the colours.
-struct Brush<'a> {
+/// A canvas, how its paths are filled, device pixels per css px, and the colours.
+struct Brush<'a, 'f> {
     canvas: &'a mut Canvas,
+    fill: &'a mut Fill<'f>,
     scale: f64,
     theme: Theme,
-    shades: [[PremultipliedColorU8; 256]; 4],
+    shades: [[Color; 256]; 4],
 }
 
-impl Brush<'_> {
+impl Brush<'_, '_> {
     fn mark(&mut self, mark: &Mark) {
         match mark {
             Mark::Raster { area, cells, shading } => {
                 let area = self.device(area);
-                let walls = matches!(shading, Shading::Map | Shading::Ghost);
-                blit::raster(&mut self.canvas.pixels, area, cells, walls, &self.shades[*shading as usize]);
+                let walls = matches!(shading, Shading::Map | Shading::Ghost).then_some(UNKNOWN);
+                let cells = blit::Cells { columns: cells.columns, shades: &cells.shades, walls };
+                blit::cells(&mut self.canvas.pixels, area, &cells, &self.shades[*shading as usize]);
             }
             Mark::Fill { area, role } => {
                 let area = self.device(area);
@@ -190,14 +198,10 @@ impl Brush<'_> {
     /// Fills a path, or its stroke; what has no area or no finite bounds draws nothing.
     fn fill(&mut self, path: PathBuilder, stroke: Option<Stroke>, role: Role) {
         let Some(path) = path.finish() else { return };
-        let [r, g, b] = self.theme.color(role);
-        let mut paint = Paint::default();
-        paint.set_color_rgba8(r, g, b, 255);
-        // Not `stroke_path`: its hairlines, for lines of a pixel or less, would be as much code again as filling.
         let dashed = stroke.as_ref().and_then(|stroke| path.dash(stroke.dash.as_ref()?, 1.0));
         let stroked = stroke.as_ref().and_then(|stroke| dashed.as_ref().unwrap_or(&path).stroke(stroke, 1.0));
         if let Some(outline) = if stroke.is_some() { stroked.as_ref() } else { Some(&path) } {
-            self.canvas.pixels.fill_path(outline, &paint, FillRule::Winding, Transform::identity(), None);
+            (self.fill)(&mut self.canvas.pixels, outline, opaque(self.theme.color(role)));
         }
         self.canvas.scratch = path.clear();
     }

@@ -2,10 +2,11 @@
 
 use super::{
     layout::{Layout, NARROWEST},
-    params, scene,
+    params::{self, Asked},
+    scene,
 };
 use crate::{
-    model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series},
+    model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series, TraceLine, ess_text, pose_text},
     param::{Value, flag_text, unknown},
     scene::{Point, Scene},
 };
@@ -17,6 +18,8 @@ use fastslam::{
 
 /// Figure w17.2.
 pub struct ResamplingModel {
+    /// What was set.
+    set: Asked,
     /// Steps back of the second lineage gauge.
     back: u32,
     /// The step whose values are written; `None` is the one shown.
@@ -44,9 +47,10 @@ pub struct Moment {
 
 impl Default for ResamplingModel {
     fn default() -> Self {
-        let run = Policies::new(&params::setup()).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
+        let set = Asked::default();
+        let run = Policies::new(&set.setup()).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
         let moments = vec![moments(&run, None)];
-        Self { back: params::BACK, cursor: None, asked: 0, run, moments }
+        Self { set, back: params::BACK, cursor: None, asked: 0, run, moments }
     }
 }
 
@@ -63,7 +67,7 @@ impl ResamplingModel {
     /// Title for readers.
     pub const TITLE: &'static str = "When to resample";
 
-    /// What was set.
+    /// The setup of the filters.
     pub fn setup(&self) -> &PoliciesSetup {
         self.run.setup()
     }
@@ -126,21 +130,6 @@ impl ResamplingModel {
     }
 }
 
-/// Gives one value of a setup.
-pub fn set(setup: &mut PoliciesSetup, name: &str, value: Value) -> Result<(), FigureError> {
-    match (name, value) {
-        ("wings", Value::Flag(on)) => setup.course = if on { PolicyCourse::Wings } else { PolicyCourse::Lap },
-        ("particles", Value::Number(x)) => setup.particles = x as usize,
-        ("seed", Value::Number(x)) => setup.seed = x as u64,
-        ("threshold", Value::Number(x)) => setup.threshold = x,
-        ("odometry", Value::Number(x)) => setup.odometry_scale = x,
-        ("range", Value::Number(x)) => setup.sensor_scale = x,
-        ("scheme", Value::Word(word)) => setup.scheme = word.parse()?,
-        _ => (),
-    }
-    Ok(())
-}
-
 impl Model for ResamplingModel {
     fn title(&self) -> &'static str {
         Self::TITLE
@@ -159,7 +148,7 @@ impl Model for ResamplingModel {
             "threshold" => write(setup.threshold),
             "odometry" => write(setup.odometry_scale),
             "range" => write(setup.sensor_scale),
-            "scheme" => setup.scheme.to_string(),
+            "scheme" => self.set.scheme(),
             "back" => self.back.to_string(),
             "step" => self.asked.to_string(),
             "cursor" => self.cursor.map_or("now".into(), |step| step.to_string()),
@@ -169,17 +158,19 @@ impl Model for ResamplingModel {
 
     fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
         let mut refused = Vec::new();
-        let mut setup = self.setup().clone();
+        let mut set = self.set.clone();
         let specs = self.params();
         for (name, text) in values {
             match specs.iter().find(|s| s.name == name) {
                 Some(spec) if spec.group == Group::Setup => {
-                    refused.extend(spec.check(text).and_then(|value| set(&mut setup, name, value)).err());
+                    refused.extend(spec.check(text).and_then(|value| set.set(name, value)).err());
                 }
                 Some(_) => (),
                 None => refused.push(unknown(name, &specs)),
             }
         }
+        let setup = set.setup();
+        self.set = set;
         if setup != *self.setup() {
             refused.extend(self.rebuild(&setup).err());
         }
@@ -341,8 +332,9 @@ impl Model for ResamplingModel {
             n => format!("they descend from {n} particles of the start"),
         };
         text.push_str(&format!(
-            "Never resampled, N_eff is {}. Resampled at every step, it is {}, but {}. Selective, at {} of {step} steps, it is {}, and {}.",
+            "Never resampled, N_eff is {}. Resampled at every step (by the {} scheme), it is {}, but {}. Selective, at {} of {step} steps, it is {}, and {}.",
             fixed(never.report.ess, 1),
+            self.setup().scheme,
             fixed(always.report.ess, 1),
             lines(always),
             selective.resampled,
@@ -353,6 +345,43 @@ impl Model for ResamplingModel {
             text.push_str(&format!(" In the right wing are {a}, {b} and {c} of {m}."));
         }
         text
+    }
+
+    /// Of the selective filter's best particle at the step that is read, among landmarks.
+    fn trace(&self) -> Vec<TraceLine> {
+        let (m, moment) = (self.setup().particles, self.read(SELECTIVE));
+        let Some((opinion, answers)) = moment.report.opinion else { return Vec::new() };
+        let pose = self.run.ancestry(SELECTIVE).pose(moment.nodes[moment.best]);
+        let survivors = moment.report.descent.lineage(0);
+        let ess = ess_text(moment.report.ess, m);
+        let mut lines = vec![TraceLine::new("predict", "")];
+        if opinion.again + opinion.first > 0 {
+            let made_of_it =
+                format!("{} known, {} new; {answers} different answers in all", opinion.again, opinion.first);
+            lines.extend([
+                TraceLine::new("gate", ""),
+                TraceLine::new("associate", made_of_it),
+                TraceLine::new("weigh", format!("{} nats", fixed(opinion.log_increment, 1))),
+            ]);
+        }
+        if opinion.again > 0 {
+            lines.push(TraceLine::new("fold", ""));
+        }
+        lines.push(TraceLine::new("draw", pose_text([pose.x, pose.y, pose.theta])));
+        if opinion.again + opinion.first > 0 {
+            let done = format!("{} updated, {} founded", opinion.again, opinion.first);
+            lines.push(TraceLine::new("assimilate", done));
+        }
+        lines.push(TraceLine::new("extend", format!("{} nodes", moment.report.tree_nodes())));
+        lines.push(TraceLine::new(
+            "resample",
+            if moment.report.resampled {
+                format!("N_eff {ess}: yes, {survivors} survive")
+            } else {
+                format!("N_eff {ess}: no")
+            },
+        ));
+        lines
     }
 
     fn height(&self, width: f64) -> f64 {

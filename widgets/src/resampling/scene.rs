@@ -267,9 +267,11 @@ impl Filter<'_> {
     /// Position errors of the best particle and of the weighted mean.
     fn errors(&self, scene: &mut Scene) {
         let Moment { report, .. } = self.model.read(self.policy);
+        // Three digits, for want of room.
+        let metres = |x: f64| fixed(x, if x < 10.0 { 2 } else { 1 });
         let values = [
-            (format!("mean {}", fixed(report.error_mean, 2)), Weight::Regular, Role::Muted),
-            (format!("best {} m", fixed(report.error_best, 2)), Weight::SemiBold, Role::Ink),
+            (format!("mean {}", metres(report.error_mean)), Weight::Regular, Role::Muted),
+            (format!("best {} m", metres(report.error_best)), Weight::SemiBold, Role::Ink),
         ];
         let rest = self.label(scene, 2, &values);
         self.name(scene, &rest, &format!("Error to {} m", write(self.error_scale)));

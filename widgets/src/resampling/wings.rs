@@ -1,10 +1,9 @@
 //! The loop of ambiguity over many seeds.
 
-use super::{model::set, params};
+use super::params::{Asked, specs};
 use crate::{
-    job::{Job, Rows, Setting},
-    model::{FigureError, Group},
-    param::unknown,
+    job::{self, Job, Rows, Setting},
+    model::FigureError,
 };
 use core::ops::Range;
 use fastslam::experiment::{
@@ -29,17 +28,11 @@ pub const WINGS: Job = Job {
 
 /// The setting is that of the figure's link; what it says about the seed and the view makes no difference.
 fn run(setting: &Setting, seeds: Range<u64>) -> Result<Rows, FigureError> {
-    let (mut setup, specs) = (params::setup(), params::specs(0));
-    for (name, text) in setting {
-        let spec = specs.iter().find(|s| s.name == name).ok_or_else(|| unknown(name, &specs))?;
-        if spec.group == Group::Setup {
-            set(&mut setup, name, spec.check(text)?)?;
-        }
-    }
-    setup.course = PolicyCourse::Wings;
+    let mut asked = Asked::default();
+    job::apply(setting, &specs(0), |name, value| asked.set(name, value))?;
     let row = |(seed, all): (u64, [PolicyOutcome; 3])| {
         let kept = all.into_iter().flat_map(|outcome| outcome.kept.map(|kept| [kept.alive, kept.settled]));
         core::iter::once(seed as f64).chain(kept.flatten().map(|yes| f64::from(u8::from(yes)))).collect()
     };
-    Ok(seeds.clone().zip(outcomes(&setup, seeds)?).map(row).collect())
+    Ok(seeds.clone().zip(outcomes(&asked.on(PolicyCourse::Wings), seeds)?).map(row).collect())
 }

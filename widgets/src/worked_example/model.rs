@@ -6,13 +6,14 @@ use super::{
     scene,
 };
 use crate::{
-    model::{Column, FigureError, Model, ParamSpec, Readout, Series},
+    model::{Column, FigureError, Model, ParamSpec, Readout, Series, TraceLine, ess_text, pose_text},
     param::{Value, quoted, unknown},
     scene::Scene,
 };
 use fastslam::{
     decimal::{fixed, significant, write},
     experiment::worked_example::{Inputs, Update, WorkedExample},
+    geometry::Pose2,
 };
 
 /// Significant digits of readouts: what a phone has room for.
@@ -244,6 +245,30 @@ impl Model for WorkedExampleModel {
             "Particle 1 {one} Particle 2 {two} As shares that is {share1} and {share2}; N_eff is {ess} of 2. {}.",
             self.verdict()
         )
+    }
+
+    /// Of both particles.
+    fn trace(&self) -> Vec<TraceLine> {
+        let WorkedExample { updates, weights, ess, resamples, .. } = &self.example;
+        let both = |key, of: &dyn Fn(usize) -> String| TraceLine::new(key, format!("{} / {}", of(0), of(1)));
+        let pair = |x: f64, y: f64| format!("({}, {})", plain(x, 3), plain(y, 3));
+        vec![
+            both("propose", &|slot| {
+                let Pose2 { x, y, theta } = updates[slot].world_from_robot;
+                pose_text([x, y, theta])
+            }),
+            both("innovate", &|slot| {
+                let innovation = &updates[slot].innovation;
+                let d2 = plain(innovation.mahalanobis_squared, 3);
+                format!("ν = {}, d² = {d2}", pair(innovation.residual.x, innovation.residual.y))
+            }),
+            both("weigh", &|slot| plain(updates[slot].weight, 4)),
+            both("update", &|slot| format!("μ = {}", pair(updates[slot].after.mean.x, updates[slot].after.mean.y))),
+            TraceLine::new("extend", ""),
+            both("normalise", &|slot| plain(weights.as_slice()[slot], 3)),
+            TraceLine::new("ess", ess_text(*ess, updates.len())),
+            TraceLine::new("resample", if *resamples { "yes" } else { "no" }),
+        ]
     }
 
     fn height(&self, width: f64) -> f64 {

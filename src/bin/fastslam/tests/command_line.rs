@@ -82,7 +82,7 @@ fn shards_merge_to_the_rows_of_one_run() {
 #[test]
 fn bad_arguments_are_refused_in_one_line_with_status_2() {
     for (arguments, said) in [
-        ("", "lap, landmarks, policies or table"),
+        ("", "lap, landmarks, numbers, policies or table"),
         ("laps", "laps"),
         ("lap --particles 0", "from 1 to 4096"),
         ("lap --particles 1e9", "--particles"),
@@ -229,4 +229,21 @@ fn the_recorded_log_is_far_better_than_its_odometry() {
         let [best, odometry] = ["rms_best", "rms_odometry"].map(|key| run[key].as_f64().unwrap());
         assert!(best < 0.5 * odometry, "{arguments}: {best} against {odometry}");
     }
+}
+
+#[test]
+fn numbers_are_written_by_key_and_some_can_be_measured_again() {
+    let folder = std::env::temp_dir().join(format!("fastslam-numbers-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let out = folder.join("numbers.json");
+    let read = || serde_json::from_slice::<Value>(&std::fs::read(&out).unwrap()).unwrap();
+    std::fs::write(&out, r#"{"worked.ess": {"value": 9, "unit": "", "made": ""}, "worked.old": {"value": 9, "unit": "", "made": ""}, "lap.cell": {"value": 7, "unit": "", "made": ""}}"#).unwrap();
+    fastslam(&format!("numbers --only worked --out {}", out.display())).success();
+    let numbers = read();
+    assert!((numbers["worked.ess"]["value"].as_f64().unwrap() - 1.570_870_837_6).abs() < 1e-9);
+    assert_eq!((&numbers["worked.old"], &numbers["lap.cell"]["value"]), (&Value::Null, &Value::from(7.0)), "{numbers}");
+    fastslam(&format!("numbers --only nothing --out {}", out.display()))
+        .code(2)
+        .stderr("fastslam: --only nothing: no number begins so\n");
+    std::fs::remove_dir_all(&folder).unwrap();
 }

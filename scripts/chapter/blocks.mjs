@@ -1,0 +1,103 @@
+// Boxes of running text: equations with numbers, theorems, derivations that unfold, remarks in the margin, exercises, tables.
+import { fromHtml } from 'hast-util-from-html'
+import { h } from 'hastscript'
+import { visit } from 'unist-util-visit'
+import { attribute, content, idOf, inline, nameOf, parts } from './context.mjs'
+import { display, formula } from './inline.mjs'
+import { curly } from './quotes.mjs'
+
+/** @typedef {import('./context.mjs').Handler} Handler */
+
+/** `:::equation{#eq-x}` around one `$$…$$` @type {Handler} */
+export function equation(context, _, node) {
+  /** @type {any[]} */
+  const formulas = []
+  visit(node, 'math', found => void formulas.push(found))
+  if (formulas.length !== 1) context.problems.add(context.file, node, `:::equation holds one $$ formula, not ${formulas.length}`)
+  return display(formulas[0] ? formula(context, formulas[0], true) : h('math'), idOf(node), nameOf(context, node))
+}
+
+/** The first line of a box: its name, and its title. @param {import('./context.mjs').Context} context @param {any} state @param {any} node */
+function head(context, state, node) {
+  const { label } = parts(node)
+  return [h('b', nameOf(context, node)), ...(label ? [' ', h('span.title', inline(state, label))] : [])]
+}
+
+/** @type {Handler} */
+export function theorem(context, state, node) {
+  return h('div.theorem', { id: idOf(node) }, h('p.head', head(context, state, node)), content(state, parts(node).body))
+}
+
+/** The anchor is inside: a link to it then opens what is folded. @type {Handler} */
+export function derivation(context, state, node) {
+  return h('details.derivation', h('summary', head(context, state, node)), h('div.fold', { id: idOf(node) }, content(state, parts(node).body)))
+}
+
+/** @type {Handler} */
+export function margin(_, state, node) {
+  return h('div.margin', { role: 'note' }, content(state, node.children))
+}
+
+/** @type {Handler} */
+export function exercise(context, state, node) {
+  const { label, body } = parts(node)
+  const level = Number(attribute(node, 'level') ?? NaN)
+  const kind = attribute(node, 'kind')
+  if (!(level >= 1 && level <= 3)) context.problems.add(context.file, node, 'an exercise has a level from 1 to 3')
+  if (!kind) context.problems.add(context.file, node, 'an exercise has a kind')
+  const dots = h('span.level', { role: 'img', ariaLabel: `level ${level} of 3` }, '●'.repeat(level || 0) + '○'.repeat(3 - (level || 0)))
+  const title = h(`h${Math.min(6, context.depth + 1)}`, h('b', nameOf(context, node)), ' ', h('span.title', label ? inline(state, label) : []))
+  return h('div.exercise', { id: idOf(node) }, h('div.head', title, h('p.kind', kind ?? '', ' ', dots)), content(state, body))
+}
+
+/** Folded until a guess is written: by style alone, so it needs no script. @type {Handler} */
+export function predict(context, state, node) {
+  const question = attribute(node, 'question') ?? ''
+  if (!question) context.problems.add(context.file, node, ':::predict has no question')
+  return h(
+    'div.predict',
+    h('label', h('b', 'Predict first'), ' ', curly(question, ''), ' ', h('input', { type: 'text', placeholder: 'Your guess unfolds what follows', autocomplete: 'off' })),
+    h('div.fold', content(state, node.children)),
+  )
+}
+
+/** @param {string} name @param {string} title @returns {Handler} */
+const folded = (name, title) => (_, state, node) => h(`details.${name}`, h('summary', title), h('div.fold', content(state, node.children)))
+export const hint = folded('hint', 'Hint')
+export const solution = folded('solution', 'Solution')
+
+/** `:::table{#tab-x}`: the table, then its caption. @type {Handler} */
+export function table(context, state, node) {
+  const tables = node.children.filter((/** @type {any} */ child) => child.type === 'table')
+  const caption = node.children.filter((/** @type {any} */ child) => child.type !== 'table')
+  if (tables.length !== 1) context.problems.add(context.file, node, `:::table holds one table, not ${tables.length}`)
+  return tableFigure(context, state, node, content(state, tables), caption)
+}
+
+/** The measured laps, rendered from the numbers by their own module. @type {Handler} */
+export function lapTable(context, state, node) {
+  if (!context.lapTable) context.problems.add(context.file, node, '::lap-table needs scripts/chapter/lap-table.mjs')
+  const caption = node.type === 'containerDirective' ? node.children : []
+  const html = context.lapTable?.(context.numbers.all) ?? ''
+  return tableFigure(context, state, node, fromHtml(html, { fragment: true }).children, caption)
+}
+
+/** @param {import('./context.mjs').Context} context @param {any} state @param {any} node @param {any[]} tables @param {any[]} caption */
+function tableFigure(context, state, node, tables, caption) {
+  return h('figure.table', { id: idOf(node) }, h('figcaption', captioned(context, node, content(state, caption), attribute(node, 'caption'))), h('div.scroll', tables))
+}
+
+/**
+ * A caption that begins with the name of what it belongs to.
+ * @param {import('./context.mjs').Context} context @param {any} node @param {import('hast').ElementContent[]} caption
+ * @param {string} [plain] the caption where it is an attribute
+ */
+export function captioned(context, node, caption, plain) {
+  const name = h('b', nameOf(context, node))
+  const first = caption.find(child => child.type === 'element')
+  if (first?.type === 'element' && first.tagName === 'p') {
+    first.children.unshift(name, { type: 'text', value: ' ' })
+    return caption
+  }
+  return [h('p', name, ' ', curly(plain ?? '', '')), ...caption]
+}

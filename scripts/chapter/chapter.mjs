@@ -1,0 +1,209 @@
+// The chapter: www/chapter/*.md, and www/model.md, to pages.
+import { existsSync, readdirSync, readFileSync } from 'node:fs'
+import { join, relative } from 'node:path'
+import { fileURLToPath, pathToFileURL } from 'node:url'
+import { h } from 'hastscript'
+import { toHast } from 'mdast-util-to-hast'
+import { toString } from 'mdast-util-to-string'
+import { visit } from 'unist-util-visit'
+import { Citations } from './citations.mjs'
+import { isContent } from './context.mjs'
+import { sections } from './contents.mjs'
+import { Glossary } from './glossary.mjs'
+import { handlers } from './handlers.mjs'
+import { Labels, takeHeadingId } from './labels.mjs'
+import { readLine, readListing } from './listing.mjs'
+import { Maths } from './math.mjs'
+import { Numbers } from './numbers.mjs'
+import { page } from './page.mjs'
+import { parse } from './parse.mjs'
+import { Problems } from './problems.mjs'
+import { Sources } from './source.mjs'
+import { together } from './together.mjs'
+
+/**
+ * @typedef {import('hast').ElementContent} ElementContent
+ * @typedef {import('./context.mjs').Context} Context
+ * @typedef {import('./parse.mjs').Source} Source
+ * @typedef {{ head: ElementContent[], body: ElementContent[] }} Rendered
+ * @typedef {{ pages: Record<string, Rendered>, css: string, files: string[] }} Chapter `files`: what it was made from
+ */
+
+const home = fileURLToPath(new URL('.', import.meta.url))
+const licence = 'Text: CC BY 4.0. Code: MIT or Apache-2.0.'
+
+/**
+ * @param {string} root of the repository
+ * @returns {Promise<Chapter>}
+ * @throws {import('../lib.mjs').StepError} that lists everything wrong, each with file and line
+ */
+export async function renderChapter(root) {
+  const problems = new Problems()
+  const www = join(root, 'www')
+  /** @type {string[]} */
+  const files = []
+  const name = (/** @type {string} */ path) => relative(root, path)
+  const read = (/** @type {string} */ path) => {
+    files.push(path)
+    return parse(name(path), readFileSync(path, 'utf8'), problems)
+  }
+  const json = (/** @type {string} */ path, /** @type {any} */ empty) => {
+    files.push(path)
+    return existsSync(path) ? JSON.parse(readFileSync(path, 'utf8')) : empty
+  }
+  const texts = readdirSync(join(www, 'chapter')).filter(file => /^\d\d-.*\.md$/.test(file)).sort()
+  const [first, ...rest] = texts.map(file => read(join(www, 'chapter', file)))
+  if (!first || !first.file.endsWith('00-title.md')) problems.add('www/chapter/00-title.md', 1, 'the chapter has no title page')
+
+  const glossaryFile = join(www, 'glossary.md')
+  files.push(glossaryFile)
+  const [numbersFile, worksFile] = [join(www, 'data', 'numbers.json'), join(www, 'references.json')]
+  const numbers = new Numbers(json(numbersFile, {}))
+  const citations = new Citations(json(worksFile, []))
+  const glossary = new Glossary(existsSync(glossaryFile) ? read(glossaryFile) : parse(name(glossaryFile), '', problems), problems)
+  const sources = await new Sources(root).open()
+  const lapTableFile = join(home, 'lap-table.mjs')
+  const lapTable = existsSync(lapTableFile) ? (await import(pathToFileURL(lapTableFile).href)).renderLapTable : undefined
+  const maths = new Maths()
+  const shared = { root, problems, maths, numbers, citations, glossary, sources, lapTable, repository: repositoryOf(root) }
+
+  /** @type {Record<string, Rendered>} */
+  const pages = {}
+  const front = first?.front ?? {}
+  const number = String(front.number ?? '')
+  if (first) {
+    for (const key of ['title', 'number', 'lead']) if (!front[key]) problems.add(first.file, 1, `the front matter has no ${key}`)
+    pages['index.html'] = renderPage({ ...shared, chapter: number, texts: [first, ...rest], front, kicker: `Chapter ${number}`, script: './src/main.ts' })
+  }
+  const model = join(www, 'model.md')
+  if (existsSync(model)) {
+    const text = read(model)
+    pages['model.html'] = renderPage({ ...shared, chapter: number, texts: [text], front: { ...titleOf(text, problems), ...text.front }, kicker: `Chapter ${number}`, script: './src/page.ts' })
+  }
+
+  // A number, a work or a term that nobody uses was forgotten, by the text or in its list.
+  for (const key of numbers.unused()) problems.add(name(numbersFile), lineWith(numbersFile, `"${key}"`), `no page uses the number ${key}`)
+  for (const key of citations.unused()) problems.add(name(worksFile), lineWith(worksFile, `"${key}"`), `nobody cites ${key}`)
+  for (const [key, { line }] of glossary.unused()) problems.add(glossary.file, line, `nobody uses the term ${key}`)
+  problems.throwIfAny()
+  return { pages, css: maths.css(), files: [...files, ...sources.files] }
+}
+
+/** @param {string} path @param {string} text */
+const lineWith = (path, text) => readFileSync(path, 'utf8').slice(0, readFileSync(path, 'utf8').indexOf(text)).split('\n').length
+
+/** The repository's address, from the crate's metadata. @param {string} root */
+function repositoryOf(root) {
+  const found = /^repository = "(.*)"$/m.exec(readFileSync(join(root, 'Cargo.toml'), 'utf8'))
+  return found?.[1] ?? ''
+}
+
+/** A page that stands alone begins with its title, and may say in a paragraph what it is. @param {Source} source @param {Problems} problems */
+function titleOf({ file, tree }, problems) {
+  const heading = tree.children.find(child => child.type === 'heading')
+  if (!heading || tree.children[0] !== heading) {
+    problems.add(file, 1, 'the page does not begin with its title')
+    return {}
+  }
+  tree.children.shift()
+  takeHeadingId(heading)
+  // Whatever rank the title was written in, it is the page's first, and the others follow it.
+  visit(tree, 'heading', other => void (other.depth = /** @type {1 | 2 | 3 | 4 | 5 | 6} */ (Math.max(2, other.depth - heading.depth + 1))))
+  return { title: toString(heading) }
+}
+
+/**
+ * @param {Pick<Context, 'root' | 'problems' | 'maths' | 'numbers' | 'citations' | 'glossary' | 'sources' | 'lapTable' | 'repository'>
+ *   & { chapter: string, texts: Source[], front: Record<string, any>, kicker: string, script: string }} options
+ * @returns {Rendered}
+ */
+function renderPage({ chapter, texts, front, kicker, script, ...shared }) {
+  const labels = new Labels(chapter)
+  /** @type {Context} */
+  const context = { ...shared, file: '', labels, listings: new Map(), lines: new Set(), heads: [], depth: 1, notes: 0, last: '' }
+  context.citations.beginPage()
+  context.glossary.beginPage()
+  for (const text of texts) labels.collect(text, context.problems)
+  for (const { file, tree } of texts) {
+    context.file = file
+    visit(tree, { type: 'leafDirective', name: 'listing' }, node => readListing(context, node))
+  }
+  // Only lines that an algorithm links to get an anchor, and the algorithm may stand below the listing.
+  for (const { tree } of texts) visit(tree, { type: 'textDirective', name: 'line' }, node => void readLine(context, node))
+  const nodes = texts.flatMap(({ file, tree }) => {
+    context.file = file
+    return toContent(context, tree)
+  })
+  replaceReferences(context, nodes)
+  const terms = context.glossary.here()
+  const main = [...sections(nodes), ...(terms.length > 0 ? [glossarySection(context, terms)] : [])]
+  const lead = inlineMarkdown(context, texts[0]?.file ?? '', String(front.lead ?? ''))
+  return page({
+    title: String(front.title ?? ''),
+    heading: unbroken(String(front.title ?? '')),
+    kicker,
+    lead,
+    description: String(front.description ?? front.lead ?? front.title ?? ''),
+    script,
+    heads: context.heads,
+    main,
+    previous: front.previous,
+    next: front.next,
+    live: texts.some(({ tree }) => tree.children.length > 0) && script.endsWith('main.ts'),
+    foot: licence,
+    fonts: ['text', 'italic', 'bold', 'math', 'mono'],
+  })
+}
+
+/** @param {Context} context @param {import('mdast').Root} tree @returns {ElementContent[]} */
+function toContent(context, tree) {
+  const root = toHast(tree, { handlers: handlers(context) })
+  const nodes = root.type === 'root' ? root.children.filter(isContent) : isContent(root) ? [root] : []
+  visit({ type: 'root', children: nodes }, 'element', element => {
+    if (![element.properties.className].flat().includes('w')) element.children = together(element.children)
+    if (element.properties.align) {
+      element.properties.className = [`to-${element.properties.align}`]
+      delete element.properties.align
+    }
+  })
+  return nodes
+}
+
+/** @param {Context} context @param {string} file @param {string} text @returns {ElementContent[]} */
+function inlineMarkdown(context, file, text) {
+  if (!text) return []
+  const [paragraph] = toContent({ ...context, file }, parse(file, text, context.problems).tree)
+  return paragraph?.type === 'element' ? paragraph.children : []
+}
+
+/** The list of works, where the text asks for it; at the end, where it does not. @param {Context} context @param {ElementContent[]} nodes */
+function replaceReferences(context, nodes) {
+  let placed = false
+  visit({ type: 'root', children: nodes }, 'element', element => {
+    if (element.tagName !== 'references') return
+    placed = true
+    Object.assign(element, context.citations.list())
+  })
+  if (placed || !context.citations.citedHere) return
+  context.heads.push({ depth: 2, id: 'references', content: [{ type: 'text', value: 'References' }] })
+  nodes.push(h('h2', { id: 'references' }, h('a', { href: '#references' }, 'References')), context.citations.list())
+}
+
+/** @param {Context} context @param {[key: string, entry: import('./glossary.mjs').Entry][]} terms */
+function glossarySection(context, terms) {
+  context.heads.push({ depth: 2, id: 'glossary', content: [{ type: 'text', value: 'Terms' }] })
+  const entries = terms.map(([key, { name, also, text }]) =>
+    h('div', { id: `gloss-${key}` }, h('dt', name, also.length > 0 ? h('span.also', `, ${also.join(', ')}`) : []), h('dd', inlineOf({ ...context, file: context.glossary.file }, text))),
+  )
+  return h('section.glossary', h('h2', { id: 'glossary' }, h('a', { href: '#glossary' }, 'Terms')), h('dl', entries))
+}
+
+/** @param {Context} context @param {import('mdast').Paragraph} paragraph */
+function inlineOf(context, paragraph) {
+  const [rendered] = toContent(context, { type: 'root', children: [paragraph] })
+  return rendered?.type === 'element' ? rendered.children : []
+}
+
+/** A title, in which a word with a hyphen is not broken where there is room for it. @param {string} title @returns {ElementContent[]} */
+const unbroken = title => title.split(/(\S*-\S*)/).map(part => (part.includes('-') ? h('span.whole', part) : { type: /** @type {const} */ ('text'), value: part }))
+

@@ -1,0 +1,38 @@
+// `:::figure`: the live element, with its golden picture for readers without script, for paper, and until it wakes.
+import { existsSync, readFileSync } from 'node:fs'
+import { join } from 'node:path'
+import { h } from 'hastscript'
+import { attribute, content, idOf } from './context.mjs'
+import { captioned } from './blocks.mjs'
+
+const golden = 'tests/figures/golden'
+const own = new Set(['id', 'class', 'tag', 'alt'])
+
+/** Width and height [px] from a PNG's header. @param {Buffer} png */
+const sizeOf = png => ({ width: png.readUInt32BE(16), height: png.readUInt32BE(20) })
+
+/** @type {import('./context.mjs').Handler} */
+export function figure(context, state, node) {
+  const { file, problems, root } = context
+  const tag = attribute(node, 'tag') ?? ''
+  const alt = attribute(node, 'alt')
+  if (!/^fastslam-[a-z-]+$/.test(tag)) problems.add(file, node, `:::figure has no tag of ours, but “${tag}”`)
+  if (!alt) problems.add(file, node, ':::figure has no alt: say in words what its picture shows')
+  const [light, dark] = ['light', 'dark'].map(theme => `${golden}/${tag}-${theme}.png`)
+  for (const picture of [light, dark]) {
+    if (!existsSync(join(root, picture ?? ''))) problems.add(file, node, `there is no picture ${picture} for this figure`)
+  }
+  const size = existsSync(join(root, light ?? '')) ? sizeOf(readFileSync(join(root, light ?? ''))) : {}
+  const passed = Object.entries(node.attributes ?? {}).filter(([name]) => !own.has(name))
+  const id = idOf(node)
+  return h('figure.wide', { id }, [
+    h(tag || 'div', Object.fromEntries(passed), [
+      h('picture', [
+        // Paper is light.
+        h('source', { srcset: `../${dark}`, media: 'screen and (prefers-color-scheme: dark)' }),
+        h('img', { src: `../${light}`, ...size, loading: 'lazy', alt }),
+      ]),
+    ]),
+    h('figcaption', captioned(context, node, content(state, node.children)), h('p.live', 'Live: ', h('a', { href: `#${id}` }, `#${id}`))),
+  ])
+}

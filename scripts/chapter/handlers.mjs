@@ -1,0 +1,76 @@
+// Which module renders what. A directive that is not in these lists is a mistake of the writer.
+import { h } from 'hastscript'
+import { algorithm } from './algorithm.mjs'
+import { derivation, equation, exercise, hint, lapTable, margin, predict, solution, table, theorem } from './blocks.mjs'
+import { heading } from './contents.mjs'
+import { inline } from './context.mjs'
+import { figure } from './figure.mjs'
+import { footnoteReference, inlineMath, link, math, num, term, text } from './inline.mjs'
+import { code, listing } from './listing.mjs'
+
+/**
+ * @typedef {import('./context.mjs').Context} Context
+ * @typedef {import('./context.mjs').Handler} Handler
+ */
+
+/** The works cited on the page, known when all of it has been rendered. @type {Handler} */
+const references = () => /** @type {any} */ ({ type: 'element', tagName: 'references', properties: {}, children: [] })
+
+/** @type {Record<string, Handler>} */
+const containers = { algorithm, derivation, equation, exercise, figure, hint, 'lap-table': lapTable, margin, predict, solution, table, theorem }
+/** @type {Record<string, Handler>} */
+const leaves = { 'lap-table': lapTable, listing, references }
+/** @type {Record<string, Handler>} */
+const texts = { num, term }
+
+/** @param {string} colons @param {Record<string, Handler>} known @returns {Handler} */
+const directive = (colons, known) => (context, state, node) => {
+  const handler = Object.hasOwn(known, node.name) ? known[node.name] : undefined
+  if (handler) return handler(context, state, node)
+  // A colon before a letter is often just a colon: 1:n.
+  if (node.type === 'textDirective' && node.children.length === 0 && Object.keys(node.attributes ?? {}).length === 0) {
+    return { type: 'text', value: `:${node.name}` }
+  }
+  const where = node.name === 'line' ? ' at the end of a line of an :::algorithm only' : `; known are ${Object.keys(known).join(', ')}`
+  context.problems.add(context.file, node, `there is no directive ${colons}${node.name}${where}`)
+  return []
+}
+
+/** @type {Handler} */
+const html = (context, _, node) => {
+  if (!/^<!--[^]*-->$/.test(node.value)) context.problems.add(context.file, node, `HTML has no place in the Markdown: ${node.value.split('\n')[0]}`)
+  return []
+}
+
+/** @type {Handler} */
+const paragraph = (context, state, node) => {
+  context.last = ''
+  return h('p', inline(state, node))
+}
+
+/** @type {Handler} */
+const inlineCode = (context, _, node) => {
+  context.last = 'x'
+  return h('code', node.value)
+}
+
+/** @type {Record<string, Handler>} */
+const all = {
+  code,
+  containerDirective: directive(':::', containers),
+  footnoteReference,
+  heading,
+  html,
+  inlineCode,
+  inlineMath,
+  leafDirective: directive('::', leaves),
+  link,
+  math,
+  paragraph,
+  text,
+  textDirective: directive(':', texts),
+}
+
+/** @param {Context} context @returns {import('mdast-util-to-hast').Handlers} */
+export const handlers = context =>
+  Object.fromEntries(Object.entries(all).map(([type, handler]) => [type, (/** @type {any} */ state, /** @type {any} */ node) => handler(context, state, node)]))

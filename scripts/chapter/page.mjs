@@ -1,0 +1,60 @@
+// The document around the text: title, contents, main part, terms, neighbours.
+import { toHtml } from 'hast-util-to-html'
+import { h } from 'hastscript'
+import { contents } from './contents.mjs'
+
+/**
+ * @typedef {import('hast').ElementContent} ElementContent
+ * @typedef {{ title: string, href: string }} Neighbour
+ */
+
+/**
+ * @typedef {object} Page
+ * @property {string} title
+ * @property {ElementContent[]} heading the title as it is set
+ * @property {string} kicker
+ * @property {ElementContent[]} lead
+ * @property {string} description for search engines
+ * @property {string} script the module that the page runs
+ * @property {import('./context.mjs').Head[]} heads
+ * @property {ElementContent[]} main
+ * @property {Neighbour | undefined} previous
+ * @property {Neighbour | undefined} next
+ * @property {boolean} live whether there are figures on it
+ * @property {string} foot who may do what with it
+ * @property {string[]} fonts those to fetch at once
+ */
+
+/** @param {Page} page @returns {{ head: ElementContent[], body: ElementContent[] }} */
+export function page({ title, heading, kicker, lead, description, script, heads, main, previous, next, live, foot, fonts }) {
+  const neighbour = (/** @type {string} */ rel, /** @type {string} */ name, /** @type {Neighbour | undefined} */ to) =>
+    to ? [h('a', { href: to.href, rel }, h('small', name), ' ', to.title)] : []
+  const around = [...neighbour('prev', 'Previous', previous), ...neighbour('next', 'Next', next)]
+  return {
+    head: [
+      h('meta', { charset: 'utf-8' }),
+      h('meta', { name: 'viewport', content: 'width=device-width, initial-scale=1' }),
+      h('title', title),
+      h('meta', { name: 'description', content: description }),
+      h('meta', { name: 'color-scheme', content: 'light dark' }),
+      h('link', { rel: 'icon', href: './favicon.svg', type: 'image/svg+xml' }),
+      ...fonts.map(font => h('link', { rel: 'preload', href: `./generated/${font}.woff2`, as: 'font', type: 'font/woff2', crossorigin: '' })),
+      h('link', { rel: 'stylesheet', href: './src/style.css' }),
+      h('script', { type: 'module', src: script }),
+    ],
+    body: [
+      h('a.skip', { href: '#chapter' }, 'Skip to the chapter'),
+      h('header', h('p.kicker', kicker), h('h1', heading), lead.length > 0 ? h('p.lead', lead) : []),
+      heads.length > 1 ? h('nav.contents', { ariaLabel: 'Contents' }, h('details', h('summary', 'Contents'), contents(heads))) : [],
+      h('main', { id: 'chapter', tabIndex: -1 }, [
+        ...(live ? [h('noscript', h('p.hint', 'The figures run with JavaScript and WebAssembly. Without them you see them at rest.'))] : []),
+        ...main,
+      ]),
+      around.length > 0 ? h('nav.around', { ariaLabel: 'Other chapters' }, around) : [],
+      h('footer', h('p', foot)),
+    ].flat(),
+  }
+}
+
+/** @param {ElementContent[]} nodes */
+export const serialize = nodes => toHtml(nodes, { characterReferences: { useNamedReferences: true } })

@@ -1,0 +1,107 @@
+//! `fastslam numbers`: every measured number of the chapter, into the file that its prose takes them from.
+
+use crate::{Failure, progress};
+use fastslam::execute::Executor;
+use fastslam::experiment::numbers::{FIRST_SEEDS, Made, Number, Recipe, owner, recipes};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::to_string as json;
+use std::collections::BTreeMap;
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
+
+/// Measure every number of the chapter, and write them by key
+///
+/// Beside the file it writes the errors behind the lap table (lap-table.json) and fingerprints of what the first seeds alone come
+/// to (first-seeds.json), by which tests see in seconds whether the numbers still hold.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The file
+    #[arg(long, value_name = "FILE", default_value = "www/data/numbers.json")]
+    out: PathBuf,
+    /// Measure only those whose key begins so, and leave the others in the file as they are
+    #[arg(long, value_name = "PREFIX")]
+    only: Option<String>,
+}
+
+/// What the file says of one number.
+#[derive(Serialize, Deserialize)]
+struct Entry {
+    value: f64,
+    unit: String,
+    made: String,
+}
+
+/// A file of one JSON object, whose lines are its properties.
+struct Properties<T> {
+    path: PathBuf,
+    values: BTreeMap<String, T>,
+}
+
+impl<T: Serialize + DeserializeOwned> Properties<T> {
+    /// What the file holds, where that is to be kept.
+    fn read(path: PathBuf, keep: bool) -> Result<Self, Failure> {
+        let values = match std::fs::read_to_string(&path) {
+            Ok(text) if keep => serde_json::from_str(&text).map_err(|error| Failure::file(&path, error))?,
+            _ => BTreeMap::new(),
+        };
+        Ok(Self { path, values })
+    }
+
+    /// Forgets what these recipes made, and what nobody makes any more.
+    fn forget(&mut self, all: &[Recipe], again: &[&Recipe]) {
+        self.values.retain(|key, _| {
+            let maker = all.iter().find(|recipe| recipe.name == *key).or_else(|| owner(all, key));
+            maker.is_some_and(|maker| again.iter().all(|recipe| recipe.name != maker.name))
+        });
+    }
+
+    /// A line for each property, so that a change of one is seen as one.
+    fn write(&self) -> Result<(), Failure> {
+        let wrong = |error: &dyn Display| Failure::file(&self.path, error);
+        let line = |(key, value)| Ok(format!("{}: {}", json(key)?, json(value)?));
+        let lines: Result<Vec<String>, serde_json::Error> = self.values.iter().map(line).collect();
+        let text = format!("{{\n{}\n}}\n", lines.map_err(|error| wrong(&error))?.join(",\n"));
+        std::fs::write(&self.path, text).map_err(|error| wrong(&error))
+    }
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let (all, prefix) = (recipes(), arguments.only.as_deref().unwrap_or_default());
+    let asked: Vec<&Recipe> =
+        all.iter().filter(|recipe| recipe.name.starts_with(prefix) || recipe.could_own(prefix)).collect();
+    if asked.is_empty() {
+        return Err(Failure::Usage(format!("--only {prefix}: no number begins so")));
+    }
+    let beside = |name: &str| arguments.out.parent().unwrap_or(Path::new("")).join(name);
+    let keep = arguments.only.is_some();
+    let mut numbers: Properties<Entry> = Properties::read(arguments.out.clone(), keep)?;
+    let mut laps: Properties<Vec<f64>> = Properties::read(beside("lap-table.json"), keep)?;
+    let mut first_seeds: Properties<String> = Properties::read(beside("first-seeds.json"), keep)?;
+    numbers.forget(&all, &asked);
+    laps.forget(&all, &asked);
+    first_seeds.forget(&all, &asked);
+    let seeds: u32 = asked.iter().map(|recipe| recipe.seeds + recipe.seeds.min(FIRST_SEEDS)).sum();
+    let bar = progress(seeds as usize, "seeds");
+    let made: Vec<(Made, Made)> = asked
+        .iter()
+        .map(|recipe| {
+            let make = |seeds| recipe.make(seeds, &Executor::default(), &|| bar.inc(1));
+            (make(recipe.seeds), make(recipe.seeds.min(FIRST_SEEDS)))
+        })
+        .collect();
+    bar.finish_and_clear();
+    for (recipe, (made, first)) in asked.iter().zip(made) {
+        first_seeds.values.insert(recipe.name.clone(), format!("{:016x}", first.digest().value()));
+        if !made.errors.is_empty() {
+            laps.values.insert(recipe.name.clone(), made.errors);
+        }
+        for Number { key, value, unit, made } in made.numbers {
+            numbers.values.insert(key, Entry { value, unit: unit.to_owned(), made });
+        }
+    }
+    numbers.write()?;
+    laps.write()?;
+    first_seeds.write()
+}

@@ -1,0 +1,122 @@
+//! Among landmarks: the figure of eight, and the doors that look alike.
+
+use super::{Group, Recipe, SEEDS, VALID};
+use crate::execute::Executor;
+use crate::experiment::Spread;
+use crate::experiment::doors::{self, DoorsOutcome, DoorsSetup};
+use crate::experiment::landmarks::{Association, Course, LandmarkRun, LandmarkSetup};
+use crate::experiment::policy_counts::Fraction;
+use crate::geometry::rms;
+use crate::proposal::ProposalKind;
+use crate::resampling::ResamplePolicy;
+use std::sync::Arc;
+
+/// All recipes among landmarks.
+pub fn recipes() -> Vec<Recipe> {
+    eight().into_iter().chain([six_doors()]).collect()
+}
+
+/// Identical doors: who ends at the right one.
+fn six_doors() -> Recipe {
+    const PARTICLES: [usize; 3] = [25, 100, 400];
+    Recipe::new("doors", SEEDS, |runs| {
+        let found: Vec<[DoorsOutcome; 4]> = runs.over(|seed| {
+            let run = |setup: DoorsSetup| doors::outcomes(&setup, seed..seed + 1).expect(VALID)[0];
+            let [few, some, many] = PARTICLES.map(|particles| run(DoorsSetup { particles, ..DoorsSetup::default() }));
+            let always = DoorsSetup { particles: PARTICLES[2], policy: ResamplePolicy::Always };
+            [few, some, many, run(always)]
+        });
+        let of = format!("over seeds 1 to {} of the doors (src/experiment/doors.rs)", runs.seeds);
+        let right = |filter: &str, is_right: &dyn Fn(&[DoorsOutcome; 4]) -> bool| {
+            let what = format!("the runs that end within a metre of the truth, {of}");
+            Group(format!("doors.{filter}")).share("right", &Fraction::of(found.iter().map(is_right)), &what)
+        };
+        let group = Group("doors".into());
+        let hypotheses = |key: &str, when: &str, count: fn(&DoorsOutcome) -> u32| {
+            let counts: Vec<f64> = found.iter().map(|[_, _, many, _]| f64::from(count(many))).collect();
+            let made =
+                format!("Median number of explanations with 1 % of the weight {when}, M = {}, {of}", PARTICLES[2]);
+            group.number(key, Spread::of(&counts).median, "", made)
+        };
+        let mut numbers = vec![
+            group.number("runs", f64::from(runs.seeds), "", "Seeds of the doors, from 1 on"),
+            hypotheses("hypotheses.first", "after the first door that follows the ride", |outcome| outcome.first),
+            hypotheses("hypotheses.last", "when the sign comes in sight", |outcome| outcome.last),
+        ];
+        numbers.extend(right("ekf", &|[outcome, ..]| outcome.ekf_right));
+        for (k, particles) in PARTICLES.into_iter().enumerate() {
+            numbers.extend(right(&format!("fastslam.m{particles}"), &|outcomes| outcomes[k].fastslam_right));
+        }
+        numbers.extend(right(&format!("always.m{}", PARTICLES[2]), &|[.., always]| always.fastslam_right));
+        numbers.into()
+    })
+}
+
+/// The figure of eight among landmarks.
+fn eight() -> Vec<Recipe> {
+    const NAME: &str = "landmarks.eight";
+    const COURSE: Course = Course::Eight;
+    let setup = |proposal, association, particles| LandmarkSetup {
+        proposal,
+        association,
+        particles,
+        ..LandmarkSetup::default()
+    };
+    let run = move |setup: LandmarkSetup, seed| {
+        let setup = LandmarkSetup { seed, ..setup };
+        let run = LandmarkRun::new(&setup, &COURSE.tuning(), Arc::new(COURSE.simulate(seed))).expect(VALID);
+        run.with_executor(Executor::Serial)
+    };
+    let versions = [("fastslam1", "1.0", ProposalKind::Motion), ("fastslam2", "2.0", ProposalKind::Aware)];
+    let mut recipes = Vec::new();
+    for association in [Association::Known, Association::Unknown] {
+        for (version, number, proposal) in versions {
+            for particles in [10, 100] {
+                let name = format!("{NAME}.{association}.{version}.m{particles}");
+                let what = format!(
+                    "the RMS position error of the best particle's path at the end: fastslam landmarks --course eight --proposal {number} --association {association} --particles {particles} --seed N"
+                );
+                recipes.push(Recipe::new(name.clone(), SEEDS, move |runs| {
+                    let errors = runs.over(|seed| {
+                        let mut run = run(setup(proposal, association, particles), seed);
+                        while run.step().is_some() {}
+                        [run.rms_best(), run.rms_best_aligned()]
+                    });
+                    let [best, aligned] = [0, 1].map(|k| errors.iter().map(|error| error[k]).collect::<Vec<_>>());
+                    let group = Group(name.clone());
+                    let mut numbers = group.spread(&best, &what);
+                    let made = format!(
+                        "Median over seeds 1 to {}, after the best rigid alignment with the truth, of {what}",
+                        runs.seeds
+                    );
+                    numbers.push(group.number("aligned", Spread::of(&aligned).median, "m", made));
+                    numbers.into()
+                }));
+            }
+        }
+        let name = format!("{NAME}.{association}.ekf");
+        recipes.push(Recipe::new(name.clone(), SEEDS, move |runs| {
+            let setup = setup(ProposalKind::Aware, association, 1);
+            let errors = runs.over(|seed| run(setup.clone(), seed).rms_ekf(&setup, &COURSE.tuning()));
+            let what = format!("the RMS position error of EKF-SLAM as it went: fastslam landmarks --course eight --association {association} --seed N");
+            Group(name.clone()).spread(&errors, &what).into()
+        }));
+    }
+    recipes.push(Recipe::new(format!("{NAME}.odometry"), SEEDS, |runs| {
+        let errors = runs.over(|seed| {
+            let log = COURSE.simulate(seed);
+            rms(&log.odometry, &log.truth)
+        });
+        let what = "the RMS position error of raw odometry: fastslam landmarks --course eight --seed N";
+        Group(format!("{NAME}.odometry")).spread(&errors, what).into()
+    }));
+    recipes.push(Recipe::fixed(NAME, |group| {
+        let log = COURSE.simulate(1);
+        let of = "of the course: src/experiment/landmarks.rs";
+        vec![
+            group.number("landmarks", log.landmarks.len() as f64, "", format!("Landmarks {of}")),
+            group.number("steps", log.controls.len() as f64, "", format!("Steps {of}")),
+        ]
+    }));
+    recipes
+}

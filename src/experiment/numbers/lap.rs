@@ -1,0 +1,201 @@
+//! The Apartment lap: its setting, the lap table and what stands beside it, and the memory of its maps.
+
+use super::{Group, Made, Number, Recipe, Runs, SEEDS, VALID};
+use crate::execute::Executor;
+use crate::experiment::Spread;
+use crate::experiment::lap::{BEAMS, GRID, Lap, LapSetup, LapWorld, MAX_RANGE, STEPS};
+use crate::experiment::table::{LapResult, PARTICLES, rms_best};
+use crate::geometry::rms;
+use crate::matching::Matcher;
+use crate::proposal::ProposalKind;
+
+/// What a lap is judged by.
+const ERROR: &str = "the RMS position error of the best particle's path over the Apartment lap";
+
+/// All recipes of the lap.
+pub fn recipes() -> Vec<Recipe> {
+    let table = LapCell::all().map(|cell| {
+        Recipe::new(cell.name(), SEEDS, move |runs| {
+            let errors = cell.errors(runs);
+            Made { numbers: cell.numbers(&errors), errors }
+        })
+    });
+    // A scan matcher that never looks back, and as many scores of scans as four measurement-aware particles take.
+    let beside = [(ProposalKind::Aware, 1), (ProposalKind::Motion, 208)].map(|(proposal, particles)| {
+        let cell = LapCell { proposal, matcher: Matcher::SubCell, particles };
+        Recipe::new(cell.name(), SEEDS, move |runs| cell.numbers(&cell.errors(runs)).into())
+    });
+    let aligned = "the RMS position error of the best particle's path after its best rigid alignment with the truth";
+    let of_one = "the first step at which all particles descend from one";
+    let medians = [
+        median_of(ProposalKind::Aware, Matcher::Cell, "aligned", "m", aligned, |lap| lap.rms_best_aligned),
+        median_of(ProposalKind::Aware, Matcher::SubCell, "aligned", "m", aligned, |lap| lap.rms_best_aligned),
+        median_of(ProposalKind::Motion, Matcher::SubCell, "lineage_one_step", "", of_one, lineage_of),
+    ];
+    let others = [setting(), odometry(), memory(), blunt(1), blunt(16)];
+    let sufficient = [ProposalKind::Aware, ProposalKind::Motion].map(sufficient);
+    table.chain(beside).chain(medians).chain(others).chain(sufficient).collect()
+}
+
+/// A cell of the lap table: errors over many laps.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct LapCell {
+    /// Its column.
+    pub proposal: ProposalKind,
+    /// Its column.
+    pub matcher: Matcher,
+    /// M, its row.
+    pub particles: usize,
+}
+
+impl LapCell {
+    /// All cells, column by column.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let columns = [ProposalKind::Aware, ProposalKind::Motion]
+            .into_iter()
+            .flat_map(|proposal| [Matcher::Cell, Matcher::SubCell].map(|matcher| (proposal, matcher)));
+        columns.flat_map(|(proposal, matcher)| PARTICLES.map(|particles| Self { proposal, matcher, particles }))
+    }
+
+    /// What its keys begin with: `lap.aware.cell.m16`.
+    pub fn name(&self) -> String {
+        let Self { proposal, matcher, particles } = self;
+        format!("lap.{proposal}.{matcher}.m{particles}")
+    }
+
+    /// Its lap with a seed.
+    pub fn setup(&self, seed: u64) -> LapSetup {
+        let &Self { proposal, matcher, particles } = self;
+        LapSetup { proposal, matcher, particles, seed, ..LapSetup::default() }
+    }
+
+    /// What runs its laps natively.
+    fn command(&self) -> String {
+        let Self { proposal, matcher, particles } = self;
+        format!("fastslam lap --proposal {proposal} --matcher {matcher} --particles {particles} --seed N")
+    }
+
+    /// The numbers of the cell, from the errors of seeds 1 to their number.
+    pub fn numbers(&self, errors: &[f64]) -> Vec<Number> {
+        let group = Group(self.name());
+        let what = format!("{ERROR}: {}", self.command());
+        let [low, high] = Spread::of(errors).median_interval;
+        let end = |which| {
+            format!(
+                "{which} end of the 95 % confidence interval of the median (order statistics) over seeds 1 to {} of {what}",
+                errors.len()
+            )
+        };
+        let mut numbers = group.spread(errors, &what);
+        numbers.push(group.number("median_low", low, "m", end("Lower")));
+        numbers.push(group.number("median_high", high, "m", end("Upper")));
+        numbers
+    }
+
+    fn errors(&self, runs: &Runs<'_>) -> Vec<f64> {
+        runs.over(|seed| rms_best(&self.setup(seed)).expect(VALID))
+    }
+}
+
+/// What is set on the lap.
+fn setting() -> Recipe {
+    Recipe::fixed("lap", |group| {
+        let start = "The setting of the lap (src/experiment/lap.rs)";
+        vec![
+            group.number("steps", STEPS as f64, "", format!("{start}: steps after the start")),
+            group.number("runs", f64::from(SEEDS), "", "Seeds of every cell of the lap table, from 1 on"),
+            group.number("cell", GRID.cell_size, "m", format!("{start}: width of a cell of the maps")),
+            group.number("scan.beams", BEAMS as f64, "", format!("{start}: beams of a scan")),
+            group.number("scan.range", MAX_RANGE, "m", format!("{start}: longest range of a beam")),
+            group.number("scan.range_std", LapSetup::default().range_std, "m", format!("{start}: σ of a range")),
+            group.number(
+                "particles.default",
+                LapSetup::default().particles as f64,
+                "",
+                format!("{start}: M of the figure"),
+            ),
+        ]
+    })
+}
+
+fn odometry() -> Recipe {
+    Recipe::new("lap.odometry", SEEDS, |runs| {
+        let error = |seed| {
+            let setup = LapSetup::default();
+            let world = LapWorld::new(seed, &setup.motion(), setup.range_std);
+            rms(&world.odometry, &world.truth)
+        };
+        let what = "the RMS position error of raw odometry over the Apartment lap: fastslam lap --seed N";
+        Group("lap.odometry".into()).spread(&runs.over(error), what).into()
+    })
+}
+
+fn memory() -> Recipe {
+    Recipe::fixed("memory.lap", |group| {
+        let setup = LapSetup::default();
+        let (lap, _) = Lap::new(&setup).expect(VALID).with_executor(Executor::Serial).run(|_| ());
+        let (unique, dense) = (lap.report().map_bytes_unique as f64, lap.report().map_bytes_dense as f64);
+        let of = format!("at the end of a lap: fastslam lap --particles {} --seed {}", setup.particles, setup.seed);
+        vec![
+            group.number("unique", unique, "bytes", format!("All maps, shared tiles counted once, {of}")),
+            group.number("dense", dense, "bytes", format!("As many dense maps of the same extent, {of}")),
+            group.number("ratio", dense / unique, "", format!("Dense over shared bytes {of}")),
+        ]
+    })
+}
+
+/// A median of what else is known of a cell's laps, where there is one.
+fn median_of(
+    proposal: ProposalKind,
+    matcher: Matcher,
+    key: &str,
+    unit: &'static str,
+    what: &'static str,
+    measure: fn(&LapResult) -> f64,
+) -> Recipe {
+    let cell = LapCell { proposal, matcher, particles: 40 };
+    let key = format!("{}.{key}", cell.name());
+    Recipe::new(key.clone(), SEEDS, move |runs| {
+        let found = runs.over(|seed| measure(&LapResult::of(&cell.setup(seed)).expect(VALID)));
+        let value = Spread::of(&found).median;
+        let made = format!("Median over seeds 1 to {} of {what}: {}", runs.seeds, cell.command());
+        Vec::from_iter(value.is_finite().then(|| Number { key: key.clone(), value, unit, made })).into()
+    })
+}
+
+fn lineage_of(lap: &LapResult) -> f64 {
+    lap.lineage_one_step.map_or(f64::INFINITY, f64::from)
+}
+
+/// Laps whose sensor is ten times as blunt.
+fn blunt(particles: usize) -> Recipe {
+    let cell = LapCell { proposal: ProposalKind::Aware, matcher: Matcher::SubCell, particles };
+    let name = format!("lap.blunt.{}.m{particles}", cell.matcher);
+    Recipe::new(name.clone(), SEEDS, move |runs| {
+        let setup = |seed| LapSetup { range_std: 10.0 * LapSetup::default().range_std, ..cell.setup(seed) };
+        let errors = runs.over(|seed| rms_best(&setup(seed)).expect(VALID));
+        let what = format!("{ERROR}: {} --range-std {}", cell.command(), setup(1).range_std);
+        Group(name.clone()).spread(&errors, &what).into()
+    })
+}
+
+/// The smallest M with which most laps end well.
+fn sufficient(proposal: ProposalKind) -> Recipe {
+    const TRIED: [usize; 11] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 40];
+    const WELL: f64 = 0.5; // [m]
+    let matcher = Matcher::SubCell;
+    let key = format!("lap.sufficient.{proposal}.{matcher}");
+    Recipe::new(key.clone(), SEEDS, move |runs| {
+        let enough = |particles: &usize| {
+            let errors = LapCell { proposal, matcher, particles: *particles }.errors(&runs.quietly());
+            5 * errors.iter().filter(|error| **error < WELL).count() >= 4 * errors.len()
+        };
+        let least = TRIED.into_iter().find(enough);
+        runs.all_done();
+        let made = format!(
+            "Smallest M of {TRIED:?} with which at least four fifths of seeds 1 to {} end with an RMS position error under {WELL} m: fastslam lap --proposal {proposal} --matcher {matcher} --particles M --seed N",
+            runs.seeds
+        );
+        Vec::from_iter(least.map(|least| Number { key: key.clone(), value: least as f64, unit: "", made })).into()
+    })
+}

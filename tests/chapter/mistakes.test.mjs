@@ -1,0 +1,60 @@
+// Whatever a writer can get wrong is said with file, line and what is wrong. Every test also holds that the same text without the mistake is fine.
+import assert from 'node:assert/strict'
+import { test } from 'node:test'
+import { wrong } from './book.mjs'
+
+const numbers = (/** @type {string[]} */ ...keys) => ({
+  'www/data/numbers.json': `{\n${keys.map(key => `"${key}": {"made": "by a test", "unit": "m", "value": 0.5}`).join(',\n')}\n}`,
+})
+const works = (/** @type {string[]} */ ...ids) => ({
+  'www/references.json': `[\n${ids.map(id => `{"id": "${id}", "title": "On ${id}", "author": [{"family": "Rao"}], "issued": {"date-parts": [[1945]]}}`).join(',\n')}\n]`,
+})
+const rust = { 'src/a.rs': 'fn a() {\n    // ANCHOR: body\n    let x = 1;\n    // ANCHOR_END: body\n}\n' }
+const file = 'www/chapter/01-text.md'
+
+/** @type {[name: string, good: string, bad: string, expected: RegExp, others?: Record<string, string>][]} */
+const mistakes = [
+  ['a dead reference', '## A {#a}\n\nSee [](#a).', '## A {#a}\n\nSee [](#b).', /01-text\.md:3: .*#b/],
+  ['a reference to an equation that is not there', '## A {#a}\n\n:::equation{#eq-x}\n$$x$$\n:::\n\n[](#eq-x)', '## A {#a}\n\n[](#eq-x)', /:3: .*#eq-x/],
+  ['an anchor that is there twice', '## A {#a}\n\n### B {#b}', '## A {#a}\n\n### B {#a}', /:3: .*#a is there twice/],
+  ['a section without an anchor', '## A {#a}', '## A', /:1: .*“A” has no anchor/],
+  ['a figure without an anchor', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap" alt="a"}\nA.\n:::', '## A {#a}\n\n:::figure{tag="fastslam-lap" alt="a"}\nA.\n:::', /:3: :::figure has no anchor/],
+  ['a figure without words for its picture', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap" alt="a"}\nA.\n:::', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap"}\nA.\n:::', /:3: .*alt/],
+  ['a figure that has no picture', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap" alt="a"}\nA.\n:::', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-none" alt="a"}\nA.\n:::', /:3: .*fastslam-none-light\.png/],
+  ['a missing number', '## A {#a}\n\n:num[a.b]', '## A {#a}\n\n:num[a.b] and :num[a.c]', /:3: .*no number a\.c/, numbers('a.b')],
+  ['an option that a number does not have', '## A {#a}\n\n:num[a.b]{digits=1}', '## A {#a}\n\n:num[a.b]{digit=1}', /:3: .*no option digit/, numbers('a.b')],
+  ['a directive that nobody knows', '## A {#a}\n\n:::margin\nx\n:::', '## A {#a}\n\n:::marginal\nx\n:::', /:3: there is no directive :::marginal/],
+  ['a text directive that nobody knows', '## A {#a}\n\nOf 1:n.', '## A {#a}\n\nOf :number[a.b].', /:3: there is no directive :number/],
+  ['a container that was closed too early', '## A {#a}\n\n::::exercise[A]{#ex-a kind="k" level="1"}\n:::hint\nx\n:::\n::::', '## A {#a}\n\n:::exercise[A]{#ex-a kind="k" level="1"}\n:::hint\nx\n:::\ny\n:::', /stray :::/],
+  ['an unknown work', '## A {#a}\n\n[@rao] says.', '## A {#a}\n\n[@rao] says, and [@blackwell].', /:3: .*no work blackwell/, works('rao')],
+  ['an unknown term', '## A {#a}\n\n:term[x]{#ess}', '## A {#a}\n\n:term[x]{#ess} and :term[y]{#why}', /:3: .*no entry why/, { 'www/glossary.md': '## ess: sample size\n\nText.\n' }],
+  ['a listing without its anchor in the source', '## A {#a}\n\n::listing{#lst-a src="src/a.rs#body"}', '## A {#a}\n\n::listing{#lst-a src="src/a.rs#legs"}', /:3: .*src\/a\.rs has no .*legs/, rust],
+  ['a listing of a file that is not there', '## A {#a}\n\n::listing{#lst-a src="src/a.rs#body"}', '## A {#a}\n\n::listing{#lst-a src="src/b.rs#body"}', /:3: .*no file src\/b\.rs/, rust],
+  ['a line of an algorithm that links to nowhere', '## A {#a}\n\n:::algorithm[A]{#alg-a}\n1. do :line[a]{src="src/a.rs#body"}\n:::', '## A {#a}\n\n:::algorithm[A]{#alg-a}\n1. do :line[a]{src="src/a.rs#legs"}\n:::', /:4: .*legs/, rust],
+  ['an algorithm for a figure that is not there', '## A {#a}\n\n:::algorithm[A]{#alg-a}\n1. do\n:::', '## A {#a}\n\n:::algorithm[A]{#alg-a figure="fig-a"}\n1. do\n:::', /:3: .*#fig-a/],
+  ['TeX that is none', '## A {#a}\n\n$\\frac12$', '## A {#a}\n\n$\\fraction12$', /:3: TeX: .*\\fraction/],
+  ['HTML', '## A {#a}\n\n<!-- a remark -->', '## A {#a}\n\n<div>x</div>', /:3: HTML has no place/],
+  ['an exercise without a level', '## A {#a}\n\n::::exercise[A]{#ex-a kind="k" level="2"}\nx\n::::', '## A {#a}\n\n::::exercise[A]{#ex-a kind="k"}\nx\n::::', /:3: .*level/],
+]
+
+for (const [name, good, bad, expected, others = {}] of mistakes) {
+  test(`${name} is said`, async () => {
+    assert.deepEqual(await wrong(good, others), [])
+    const lines = await wrong(bad, others)
+    assert.match(lines.join('\n'), expected)
+    assert.ok(lines.every(line => line.startsWith(`${file}:`)), lines.join('\n'))
+  })
+}
+
+test('a number, a work or a term that nobody uses is said, with its line in the list', async () => {
+  const lines = await wrong('## A {#a}\n\n:num[a.b] [@rao]', { ...numbers('a.b', 'a.c'), ...works('rao', 'blackwell'), 'www/glossary.md': '\n## ess: x\n\nText.\n' })
+  assert.deepEqual(lines, [
+    'www/data/numbers.json:3: no page uses the number a.c',
+    'www/references.json:3: nobody cites blackwell',
+    'www/glossary.md:2: nobody uses the term ess',
+  ])
+})
+
+test('all mistakes are said at once', async () => {
+  assert.equal((await wrong('## A\n\n[](#b) [](#c)\n\n:::what\n:::')).length, 4)
+})

@@ -1,0 +1,92 @@
+// What the dialect becomes.
+import assert from 'node:assert/strict'
+import { test } from 'node:test'
+import { Letters } from '../../scripts/chapter/fonts.mjs'
+import { Numbers } from '../../scripts/chapter/numbers.mjs'
+import { curly } from '../../scripts/chapter/quotes.mjs'
+import { book, html } from './book.mjs'
+
+const number = (/** @type {number} */ value, unit = 'm') => ({ value, unit, made: 'by a test' })
+
+test('a number is set with the figures that count, its unit, a true minus and thin spaces', () => {
+  const numbers = new Numbers({ small: number(0.0613), cm: number(0.194), ess: number(1.5709, ''), steps: number(91, ''), bytes: number(1234567, 'B'), minus: number(-2.5), share: number(0.4287, '1'), tiny: number(0.012, '') })
+  const text = (/** @type {string} */ key, /** @type {object} */ options = {}) => numbers.text(key, options)
+  assert.equal(text('small'), '0.061\u00a0m')
+  assert.equal(text('cm'), '0.19\u00a0m')
+  assert.equal(text('cm', { digits: 3, unit: false }), '0.194')
+  assert.equal(text('ess'), '1.57')
+  assert.equal(text('steps'), '91')
+  assert.equal(text('bytes'), '1\u202f234\u202f567\u00a0B')
+  assert.equal(text('minus'), '−2.50\u00a0m')
+  assert.equal(text('share', { percent: true }), '43\u00a0%')
+  assert.equal(text('tiny', { percent: true }), '1.2\u00a0%')
+  assert.equal(text('nothing'), undefined)
+})
+
+test('whatever is read of the numbers counts as used', () => {
+  const numbers = new Numbers({ a: number(1), b: number(2), c: number(3) })
+  numbers.text('a')
+  void numbers.all['b']
+  assert.deepEqual(numbers.unused(), ['c'])
+})
+
+test('equations, figures and the rest are counted, and an empty link names them', async () => {
+  const text = await html(
+    '## A {#a}\n\n[](#eq-x) [](#eq-y) [](#fig-a) [](#thm-a) [](#der-a) [](#ex-a) [](#a) [own](#a)\n\n:::equation{#eq-x}\n$$x$$\n:::\n\n:::equation{#eq-y}\n$$y$$\n:::\n\n' +
+      ':::figure{#fig-a tag="fastslam-lap" alt="a" seed="4"}\nCaption.\n:::\n\n:::theorem[T]{#thm-a}\nx\n:::\n\n:::derivation[D]{#der-a}\nx\n:::\n\n::::exercise[E]{#ex-a kind="k" level="1"}\nx\n::::',
+  )
+  for (const name of ['(17.1)', '(17.2)', 'Figure\u00a017.1', 'Theorem\u00a017.1', 'Derivation\u00a017.1', 'Exercise\u00a01', 'A', 'own']) assert.ok(text.includes(`>${name}</a>`), name)
+  assert.match(text, /<fastslam-lap seed="4"><picture>/)
+  assert.match(text, /width="120" height="60"/)
+})
+
+test('citations are part of the sentence, or in parentheses of the writer’s own', async () => {
+  const works = { 'www/references.json': JSON.stringify([
+    { id: 'a', title: 'A', author: [{ family: 'Rao' }, { family: 'Blackwell' }], issued: { 'date-parts': [[1945]] }, DOI: '10.1/x' },
+    { id: 'b', title: 'B', author: [{ family: 'One' }, { family: 'Two' }, { family: 'Three' }], issued: { 'date-parts': [[2007]] }, note: 'Read it.' },
+  ]) }
+  const text = (await html('## A {#a}\n\n[@b, §IV] says, as proven ([@a; @b]); One and others [-@b].\n\n::references', works)).replace(/<[^>]*>/g, '')
+  assert.match(text, /One et al\. \(2007, §IV\) says, as proven \(Rao and Blackwell 1945; One et al\. 2007\); One and others \(2007\)\./)
+  assert.match(text, /Read it\./)
+})
+
+test('a listing shows the source without its anchors, and an algorithm links to the line in it or to the repository', async () => {
+  const others = { 'src/a.rs': 'fn a() {\n    // ANCHOR: all\n    // ANCHOR: one\n    let x = "1"; // why\n    // ANCHOR_END: one\n    // ANCHOR_END: all\n}\n// ANCHOR: two\nfn b() {}\n// ANCHOR_END: two\n' }
+  const text = await html('## A {#a}\n\n:::algorithm[A]{#alg-a}\n1. one :line[one]{src="src/a.rs#one"}\n   1. two :line[two]{src="src/a.rs#two"}\n:::\n\n::listing{#lst-a src="src/a.rs#all" caption="C"}', others)
+  assert.ok(!text.includes('ANCHOR'))
+  assert.match(text, /<code><span id="lst-a-4"><span class="k">let<\/span>/)
+  assert.match(text, /<li data-line="one">.*href="#lst-a-4"/)
+  assert.match(text, /<li data-line="two">.*href="https:\/\/example\.org\/repo\/blob\/main\/src\/a\.rs#L9"/)
+})
+
+test('a page has nothing that the content security policy forbids', async () => {
+  const text = await html('## A {#a}\n\n$$\\begin{aligned} a &= \\hat b \\\\ &= \\begin{pmatrix} 1 & 2 \\end{pmatrix} \\end{aligned}$$\n\n```rust\nlet x = 1;\n```\n\n| a |\n|--:|\n| 1 |')
+  assert.match(text, /<mtable/)
+  assert.ok(!/ style=|<script| on[a-z]+=| align=/.test(text), text)
+})
+
+test('what touches a formula stays on its line', async () => {
+  assert.match(await html('## A {#a}\n\nall ($x$), and'), /all <span class="w">\(<math>.*<\/math>\),<\/span> and/)
+})
+
+test('typewriter quotes become typographic ones', () => {
+  assert.equal(curly(`"It's 'so'," (he said) "and the rest".`, ''), '“It’s ‘so’,” (he said) “and the rest”.')
+  assert.equal(curly('" it', 'x'), '” it')
+})
+
+test('headings are sections, and the contents list them', async () => {
+  const { pages } = await book('## A {#a}\n\nx\n\n### B {#b}\n\ny\n\n#### C\n\nz\n\n## D {#d}')
+  const text = JSON.stringify(pages['index.html'])
+  assert.match(await html('## A {#a}\n\n### B {#b}\n\ny\n\n## D {#d}'), /<section><h2 id="a">[^]*<section><h3 id="b">[^]*<p>y<\/p>\n<\/section><\/section><section><h2 id="d">/)
+  assert.match(text, /"#c"/)
+})
+
+test('every letter is counted to the face it is set in, a lone variable as mathematical italic', async () => {
+  const { pages } = await book('## Ah {#a}\n\nt *i* **ß** `m` $x = \\sqrt{h}$')
+  const letters = new Letters()
+  letters.collect(pages['index.html']?.body ?? [])
+  const { text, italic, bold, math, mono } = letters.sets
+  assert.ok(['A', 't'].every(letter => text.has(letter)) && italic.has('i') && bold.has('ß') && mono.has('m'))
+  assert.ok(['𝑥', 'ℎ', '=', '√'].every(letter => math.has(letter)))
+  assert.ok(!math.has('x') && !text.has('ß'))
+})

@@ -1,0 +1,215 @@
+// The chapter as a text: to read, to print, to follow by keyboard, on every screen, with and without script.
+import AxeBuilder from '@axe-core/playwright'
+import type { Page } from '@playwright/test'
+import { expect, test } from './fixtures'
+
+test.use({ contextOptions: { reducedMotion: 'reduce' } })
+
+/** Opens what is folded, so that all of the text is there. */
+const unfold = (page: Page) => page.evaluate(() => document.querySelectorAll('details').forEach(details => (details.open = true)))
+
+for (const colorScheme of ['light', 'dark'] as const) {
+  test(`axe finds nothing in the ${colorScheme} text, unfolded`, async ({ page }) => {
+    test.slow()
+    await page.emulateMedia({ colorScheme })
+    for (const address of ['./', './model.html']) {
+      await page.goto(address)
+      await unfold(page)
+      const found = await new AxeBuilder({ page })
+        .withTags(['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'])
+        // The figures have their own tests.
+        .exclude('figure > :not(figcaption)')
+        .analyze()
+      expect(found.violations.map(violation => `${violation.id}: ${violation.nodes.map(node => node.html).join(' | ')}`)).toEqual([])
+    }
+  })
+}
+
+for (const width of [320, 380, 820, 1080, 1440, 2560, 3840]) {
+  test(`nothing is wider than a window of ${width} px, and lines are no longer than 75 letters`, async ({ page }) => {
+    await page.setViewportSize({ width, height: 900 })
+    await page.goto('./')
+    await unfold(page)
+    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(width)
+    const letters = await page.evaluate(() => {
+      const lines = [...document.querySelectorAll('main > section > p')].flatMap(p => {
+        const height = Number.parseFloat(getComputedStyle(p).lineHeight)
+        const count = Math.round(p.getBoundingClientRect().height / height)
+        return count > 4 ? [p.textContent!.length / (count - 0.4)] : []
+      })
+      return lines.reduce((sum, line) => sum + line, 0) / lines.length
+    })
+    expect(letters).toBeLessThan(75)
+    if (width > 700) expect(letters).toBeGreaterThan(65)
+  })
+}
+
+test('nothing moves while one reads from top to end', async ({ page }) => {
+  test.slow()
+  await page.addInitScript(() => {
+    const seen = Object.assign(window, { shifts: [] as string[] }).shifts
+    new PerformanceObserver(list => {
+      for (const entry of list.getEntries() as (PerformanceEntry & { value: number; sources: { node?: Node }[] })[]) {
+        seen.push(`${entry.value.toFixed(5)} at ${scrollY}: ${entry.sources.map(({ node }) => (node as Element)?.outerHTML?.slice(0, 60)).join(' ')}`)
+      }
+    }).observe({ type: 'layout-shift', buffered: true })
+  })
+  await page.goto('./')
+  const end = await page.evaluate(() => document.documentElement.scrollHeight)
+  for (let y = 0; y < end; y += 250) {
+    await page.evaluate(top => scrollTo({ top, behavior: 'instant' }), y)
+    await page.waitForTimeout(100)
+  }
+  expect(await page.evaluate(() => (window as unknown as { shifts: string[] }).shifts)).toEqual([])
+})
+
+test.describe('without JavaScript', () => {
+  test.use({ javaScriptEnabled: false })
+
+  test('text, formulas, tables and pictures are there, and terms lead to their entries', async ({ page }) => {
+    await page.goto('./')
+    await expect(page.getByText('The figures run with JavaScript')).toBeVisible()
+    for (const what of ['.eq math', 'table', 'pre', '.algorithm li']) await expect(page.locator(`main > section > ${what}, main > section > * > ${what}, main > section > section > * ${what}`).first()).toBeVisible()
+    for (const picture of await page.locator('main figure picture img').all()) {
+      await picture.scrollIntoViewIfNeeded()
+      await expect(picture).toBeVisible()
+    }
+    const term = page.locator('main a.term').first()
+    const entry = page.locator((await term.getAttribute('href'))!)
+    await term.click()
+    await expect(entry).toBeInViewport()
+  })
+
+  test('a side note unfolds on a phone, and stands in the margin where there is one', async ({ page }) => {
+    await page.goto('./')
+    const mark = page.locator('main > section .nref').first()
+    test.skip((await mark.count()) === 0, 'the chapter has no footnotes')
+    const note = page.locator('main > section .sidenote').first()
+    await expect(note).toBeVisible()
+    await page.setViewportSize({ width: 380, height: 800 })
+    await expect(note).toBeHidden()
+    await mark.locator('input').check()
+    await expect(note).toBeVisible()
+  })
+})
+
+test('a link into a folded derivation unfolds it', async ({ page }) => {
+  await page.goto('./')
+  const fold = page.locator('.derivation > .fold').first()
+  await expect(fold).toBeHidden()
+  await page.goto(`./#${await fold.getAttribute('id')}`)
+  await expect(fold).toBeVisible()
+})
+
+test('the contents say where the reader is', async ({ page }) => {
+  await page.goto('./#mathematics')
+  await expect(page.locator('.contents [aria-current]')).toHaveText('The mathematics')
+  await page.goto('./#references')
+  await expect(page.locator('.contents [aria-current]')).toHaveText('References')
+})
+
+test('a term, a work and an equation show their card on focus and on pointing, and Escape closes it', async ({ page }) => {
+  await page.goto('./')
+  const card = page.locator('#card')
+  for (const kind of ['a.term', 'a.cite', 'a.eqref']) {
+    const link = page.locator(`main > section > p ${kind}, main > section > section > p ${kind}`).first()
+    await link.scrollIntoViewIfNeeded()
+    await link.hover()
+    await expect(card).toBeVisible()
+    await expect(link).toHaveAttribute('aria-describedby', 'card')
+    expect((await card.textContent())!.length).toBeGreaterThan(3)
+    const box = (await card.boundingBox())!
+    expect(box.x).toBeGreaterThanOrEqual(0)
+    expect(box.x + box.width).toBeLessThanOrEqual(1280)
+    await page.keyboard.press('Escape')
+    await expect(card).toBeHidden()
+    await page.mouse.move(0, 0)
+    await page.keyboard.press('Tab') // from now on the keyboard is in use
+    await link.focus()
+    await expect(card).toBeVisible()
+    await page.keyboard.press('Escape')
+    await expect(card).toBeHidden()
+  }
+})
+
+test.describe('by touch', () => {
+  test.use({ hasTouch: true, isMobile: true, viewport: { width: 380, height: 740 } })
+
+  test('the first tap on a term shows its card, the second follows the link', async ({ page }) => {
+    await page.goto('./')
+    const term = page.locator('main a.term').first()
+    await term.scrollIntoViewIfNeeded()
+    const before = page.url()
+    await term.tap()
+    await expect(page.locator('#card')).toBeVisible()
+    expect(page.url()).toBe(before)
+    await term.tap()
+    expect(page.url()).toContain('#gloss-')
+  })
+})
+
+test('what follows a question is folded until a guess is written', async ({ page }) => {
+  await page.goto('./')
+  await unfold(page)
+  const question = page.locator('.predict').first()
+  await expect(question.locator('.fold')).toBeHidden()
+  await question.getByRole('textbox').fill('about half')
+  await expect(question.locator('.fold')).toBeVisible()
+})
+
+/** What a figure tells when it has run a step: the first named lines of the box, with a value each. */
+async function tellTrace(page: Page): Promise<string[]> {
+  return page.locator('.algorithm[data-figure]').first().evaluate(box => {
+    const keys = [...box.querySelectorAll<HTMLElement>('[data-line]')].map(line => line.dataset['line']!)
+    const figure = [...document.getElementById((box as HTMLElement).dataset['figure']!)!.children].find(child => child.localName.includes('-'))!
+    const lines = keys.map((key, i) => ({ key, text: `value ${i}` }))
+    figure.dispatchEvent(new CustomEvent('fastslam-trace', { bubbles: true, composed: true, detail: { lines } }))
+    return keys
+  })
+}
+
+test('an algorithm lights up line by line with the values that its figure tells', async ({ page }) => {
+  await page.emulateMedia({ reducedMotion: 'no-preference' })
+  await page.goto('./')
+  const box = page.locator('.algorithm[data-figure]').first()
+  await box.evaluate(element => {
+    const seen = Object.assign(window, { seen: [] as string[] }).seen
+    const look = () => {
+      const lit = [...element.querySelectorAll<HTMLElement>('.lit')].map(line => `${line.dataset['line']}: ${line.querySelector('.value')?.textContent}`).join(' and ')
+      if (lit && lit !== seen.at(-1)) seen.push(lit)
+    }
+    new MutationObserver(look).observe(element, { subtree: true, attributes: true, attributeFilter: ['class'] })
+  })
+  const keys = await tellTrace(page)
+  expect(keys.length).toBeGreaterThan(1)
+  await expect(box.locator('.value')).toHaveCount(keys.length, { timeout: 20_000 })
+  expect(await page.evaluate(() => (window as unknown as { seen: string[] }).seen)).toEqual(keys.map((key, i) => `${key}: value ${i}`))
+})
+
+test('under reduced motion all lines that ran are lit at once', async ({ page }) => {
+  await page.goto('./')
+  const keys = await tellTrace(page)
+  await expect(page.locator('.algorithm[data-figure]').first().locator('.lit')).toHaveCount(keys.length)
+})
+
+test('the button of an algorithm steps its figure, also one that nobody has seen yet, and the lines it ran light up', async ({ page }) => {
+  await page.goto('./')
+  const box = page.locator('.algorithm[data-figure=fig-lap]')
+  await box.getByRole('button', { name: 'Run one step' }).click()
+  await expect(box.locator('.lit').first()).toBeVisible({ timeout: 20_000 })
+  await expect(box.locator('.value').first()).not.toBeEmpty()
+  expect(await page.locator('fastslam-lap').evaluate(element => (element as unknown as { currentStep: number }).currentStep)).toBe(1)
+})
+
+test('on paper a figure is its picture, and everything is unfolded', async ({ page }) => {
+  await page.goto('./')
+  const lap = page.locator('fastslam-lap')
+  await lap.scrollIntoViewIfNeeded()
+  await expect(lap.locator('.stage.live')).toBeVisible()
+  await page.emulateMedia({ media: 'print' })
+  await expect(lap.locator('img')).toBeVisible()
+  await expect(lap.locator('canvas')).toBeHidden()
+  await expect(lap.locator('.transport')).toBeHidden()
+  await expect(page.locator('.derivation > .fold').first()).toBeVisible()
+  await expect(page.locator('#fig-lap .live')).toBeVisible()
+})
