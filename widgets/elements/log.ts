@@ -387,6 +387,7 @@ export class FastslamLog extends HTMLElement {
     if (query === undefined) return
     this.#query = query
     this.#ask({ ask: 'load', query })
+    void this.#start() // also where figures above grow, and push it out of sight again
     this.scrollIntoView({ block: 'nearest' })
   }
 

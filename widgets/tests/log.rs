@@ -4,6 +4,7 @@ mod common;
 
 use common::{assert_texts_fit, figure, scene, state};
 use fastslam_widgets::{
+    fastslam::ops,
     figure::Figure,
     log::Layout,
     scene::{Mark, Rect, Role, Scene, Shading},
@@ -295,7 +296,8 @@ fn files_hold_the_best_path_and_map() {
     for (pose, row) in poses.iter().zip(&rows) {
         let [time, x, y, theta] = [1, 2, 3, 4].map(|k| row[k].unwrap());
         assert!((pose[0] - time).abs() < 1e-6 && (pose[1] - x).abs() < 1e-6 && (pose[2] - y).abs() < 1e-6);
-        assert!((2.0 * pose[6].atan2(pose[7]) - theta).sin().abs() < 1e-5, "half angles");
+        let (sin, cos) = ops::sin_cos(0.5 * theta);
+        assert!((pose[6] - sin).abs() < 1e-6 && (pose[7] - cos).abs() < 1e-6, "half angles");
         assert_eq!(pose[3..6], [0.0; 3]);
     }
     let yaml = String::from_utf8(file("map.yaml")).unwrap();

@@ -373,10 +373,10 @@ impl Model for LogModel {
             }
         }
         if recipe.setup != self.recipe.setup {
-            if let Some(opened) = &mut self.opened {
-                if recipe.setup.max_range != self.recipe.setup.max_range {
-                    opened.swept = swept(&opened.log, recipe.setup.max_range);
-                }
+            if let Some(opened) = &mut self.opened
+                && recipe.setup.max_range != self.recipe.setup.max_range
+            {
+                opened.swept = swept(&opened.log, recipe.setup.max_range);
             }
             self.restart();
         }
@@ -494,10 +494,10 @@ impl Model for LogModel {
     }
 
     fn work(&mut self) {
-        if self.pending() > 0 {
-            if let Some(step) = self.run.as_mut().and_then(LogRun::step) {
-                self.note(step.ess, step.resampled);
-            }
+        if self.pending() > 0
+            && let Some(step) = self.run.as_mut().and_then(LogRun::step)
+        {
+            self.note(step.ess, step.resampled);
         }
     }
 
