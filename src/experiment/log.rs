@@ -78,11 +78,20 @@ pub struct LogSetup {
     pub max_range: f64,
     /// Scans are passed over until the robot has driven this far \[m\], or turned by as many radians, 0 to 5.
     pub min_travel: f64,
+    /// When the particles are resampled.
+    pub policy: ResamplePolicy,
 }
 
 impl Default for LogSetup {
     fn default() -> Self {
-        Self { particles: 16, seed: 1, cell_size: 0.05, max_range: 30.0, min_travel: 0.0 }
+        Self {
+            particles: 16,
+            seed: 1,
+            cell_size: 0.05,
+            max_range: 30.0,
+            min_travel: 0.0,
+            policy: ResamplePolicy::EssBelow(0.5),
+        }
     }
 }
 
@@ -158,7 +167,7 @@ impl LogRun {
         let fallback = FromMotion { motion: OdometryModel { alphas: ALPHAS }, likelihood };
         let filter = Rbpf::new(
             FromScan { fallback, settings: FROM_SCAN },
-            ResamplePolicy::EssBelow(0.5),
+            setup.policy,
             Scheme::Systematic,
             setup.seed,
             setup.particles,
@@ -195,6 +204,11 @@ impl LogRun {
         self.resampled += u32::from(resampled);
         let matched = report.traces.iter().filter(|t| matches!(t, ProposalTrace::Matched { .. })).count() as u32;
         Some(LogStep { step: report.step, ess: report.ess, resampled, matched, lineage })
+    }
+
+    /// The filter, for those who watch it.
+    pub fn filter(&self) -> &Filter {
+        &self.filter
     }
 
     /// The particles, by slot.

@@ -5,6 +5,7 @@ pub mod doors;
 pub mod landmarks;
 pub mod lap;
 pub mod log;
+pub mod log_files;
 pub mod numbers;
 pub mod policies;
 pub mod policy_counts;

@@ -4,9 +4,11 @@
 //! No I/O: bytes in, structures out, so that a page reads a reader's file by the same code as the command line.
 
 mod carmen;
+mod extent;
 mod relations;
 
 pub use carmen::{parse, write};
+pub use extent::swept_area;
 pub use relations::{Relation, RelationErrors, parse_relations, relation_errors};
 
 use crate::geometry::Pose2;

@@ -18,7 +18,8 @@ interface Picture {
   digest: string
 }
 
-const pictures = readFileSync(join(root, 'tests', 'figures', 'golden', 'pixels.txt'), 'utf8')
+const golden = join(root, 'tests', 'figures', 'golden')
+const pictures = readFileSync(join(golden, 'pixels.txt'), 'utf8')
   .trim()
   .split('\n')
   .map((line): Picture => {
@@ -28,7 +29,7 @@ const pictures = readFileSync(join(root, 'tests', 'figures', 'golden', 'pixels.t
   })
 
 /** Runs in the page: the digests of these pictures, by the calls that the page makes. */
-async function digests({ program, wanted }: { program: string; wanted: Picture[] }): Promise<string[]> {
+async function digests({ program, wanted, log }: { program: string; wanted: Picture[]; log: string }): Promise<string[]> {
   // The glue holds one program: each gets its own.
   const module = `/fastslam_widgets.js?${program}`
   const { default: init, Figure } = (await import(module)) as typeof import('../../widgets/pkg/fastslam_widgets')
@@ -36,6 +37,10 @@ async function digests({ program, wanted }: { program: string; wanted: Picture[]
   return wanted.map(({ tag, query, width, dpr, theme }) => {
     const figure = new Figure(tag)
     figure.load(query)
+    if (tag === 'fastslam-log') {
+      figure.open(new TextEncoder().encode(log))
+      figure.seek(figure.step_count())
+    }
     while (figure.pending() > 0) figure.work()
     const [w, h] = [width, figure.height(width)].map(side => Math.round(side * dpr))
     figure.paint(w!, h!, dpr, theme)
@@ -66,7 +71,7 @@ for (const { program, wanted } of programs) {
     const page = await (await browser.newContext()).newPage()
     await page.route('**/blank', route => route.fulfill({ contentType: 'text/html', body: '<!doctype html><title>pixels</title>' }))
     await page.goto(`${server.url}blank`)
-    const painted = await page.evaluate(digests, { program, wanted })
+    const painted = await page.evaluate(digests, { program, wanted, log: readFileSync(join(golden, 'tiny.clf'), 'utf8') })
     expect(wanted.map(({ name }, i) => `${name} ${painted[i]}`)).toEqual(wanted.map(({ name, digest }) => `${name} ${digest}`))
     expect(wanted.length).toBeGreaterThan(0)
     await page.context().close()

@@ -10,10 +10,12 @@ import { FIGURES } from './generated/figures'
 import { Handles } from './handles'
 import { linkedQuery, linkTo } from './link'
 import { locked, OPTIONS, refusal } from './options'
+import { notice } from './notices'
+import { showReadouts } from './readouts'
 import { copy, download } from './save'
 import { onThemeChange, reducedMotion, themeName } from './theme'
 
-const sheet = new CSSStyleSheet()
+export const sheet = new CSSStyleSheet()
 sheet.replaceSync(css)
 
 const WORK_BUDGET = 8 // [ms] of simulation a frame, which leaves half of a 60 Hz frame to painting and the page
@@ -30,6 +32,11 @@ const MAX_PIXELS = 6e6 // a canvas beyond this is painted coarser: no screen sho
 // Attributes that are not parameters and are no mistake: those of every element, and those frameworks add.
 const COMMON = new Set(['class', 'part', 'is', 'role', 'exportparts', ...Object.keys(properties(HTMLElement.prototype))])
 const FOREIGN = /^(aria|data|hx|js|ng|v|wire|x)-|[^a-z0-9-]/
+
+/** Whether an attribute of this name is meant to be a parameter. */
+export function isParameter(attribute: string): boolean {
+  return !COMMON.has(attribute) && !FOREIGN.test(attribute)
+}
 
 export interface FigureDetail {
   step: number
@@ -397,7 +404,7 @@ export abstract class FigureElement extends HTMLElement {
     const text = this.getAttribute(name)
     if (name in OPTIONS) {
       this.#onOption(name)
-    } else if (!COMMON.has(name) && !FOREIGN.test(name)) {
+    } else if (isParameter(name)) {
       if (this.#figure) this.#take(name, text)
       else this.#waiting.set(name, text)
     }
@@ -562,7 +569,7 @@ export abstract class FigureElement extends HTMLElement {
     const step = figure.step()
     const readouts = figure.readouts() as Readout[]
     this.#paint(figure)
-    this.#showReadouts(readouts)
+    showReadouts(this.#readouts, readouts)
     this.#handles.show(figure.handles(this.#cssWidth) as Handle[])
     this.#showTimeline(figure.step_count() > 0)
     this.#controls!.showPosition(this.#target, figure.step_count(), this.#playing, busy)
@@ -607,30 +614,6 @@ export abstract class FigureElement extends HTMLElement {
     this.#guard(figure => {
       while (figure.pending() > 0) figure.work()
       this.#tellTrace(figure)
-    })
-  }
-
-  #showReadouts(readouts: Readout[]): void {
-    const list = this.#readouts
-    const names = readouts.map(({ name }) => name).join(' ') // another course may have others
-    if (list.dataset['names'] !== names) {
-      list.dataset['names'] = names
-      list.replaceChildren(
-        ...readouts.map(({ name, help }) =>
-          h(
-            'div',
-            { part: 'readout', 'data-name': name, title: help },
-            h('dt'),
-            h('dd', {}, h('span'), h('span', { class: 'unit' })),
-          ),
-        ),
-      )
-    }
-    readouts.forEach((readout, i) => {
-      const [title, value] = list.children[i]!.children as unknown as [HTMLElement, HTMLElement]
-      write(title, readout.title)
-      write(value.firstElementChild as HTMLElement, readout.text)
-      write(value.lastElementChild as HTMLElement, readout.unit)
     })
   }
 
@@ -868,15 +851,8 @@ export abstract class FigureElement extends HTMLElement {
     }
   }
 
-  /** A calm line in the figure, one for each cause; an empty text takes it away. */
-  #notice(key: string, text: string, actionName = 'Dismiss', action?: () => void): void {
-    const old = [...this.#notices.children].find(child => (child as HTMLElement).dataset['key'] === key)
-    if (!text) return old?.remove()
-    const button = h('button', { type: 'button' }, actionName)
-    const line = h('p', { part: 'notice', 'data-key': key }, h('span', {}, text), button)
-    button.addEventListener('click', action ?? (() => line.remove()))
-    if (old) old.replaceWith(line)
-    else this.#notices.append(line)
+  #notice(key: string, text: string, actionName?: string, action?: () => void): void {
+    notice(this.#notices, key, text, actionName, action)
   }
 }
 

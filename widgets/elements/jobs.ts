@@ -41,7 +41,7 @@ export async function runInWorker(job: Job, onRows: (rows: number[][]) => void, 
  * A worker's file must be of the page's own site. Where the figures come from another one, or the page has no site (a sandboxed frame),
  * a line that imports it is; and a file for offline use carries it along.
  */
-function hire(): Worker {
+export function hire(): Worker {
   try {
     const file = workerScript()
     const own = 'address' in file && new URL(file.address, location.href).origin === self.origin
@@ -55,6 +55,6 @@ function hire(): Worker {
   }
 }
 
-function refused(why: string | undefined): Error {
+export function refused(why: string | undefined): Error {
   return new Error(`this page lets nothing run in the background${why ? ` (${why})` : ''}`)
 }

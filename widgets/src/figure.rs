@@ -164,6 +164,29 @@ impl Figure {
         }
     }
 
+    /// Magnifies the picture about a point of a figure of this width \[css px\]; about its middle, where that is no point.
+    pub fn zoom(&mut self, factor: f64, x: f64, y: f64, width: f64) {
+        let scale = self.scene_px(width);
+        let at = Some(in_scene([x, y], scale)).filter(|at| at.iter().all(|c| c.is_finite()));
+        if factor.is_finite() && factor > 0.0 {
+            self.model.zoom(factor, at, width * scale);
+        }
+    }
+
+    /// Moves the picture right and down in a figure of this width \[css px\].
+    pub fn pan(&mut self, right: f64, down: f64, width: f64) {
+        let scale = self.scene_px(width);
+        let by = in_scene([right, down], scale);
+        if by.iter().all(|c| c.is_finite()) {
+            self.model.pan(by, width * scale);
+        }
+    }
+
+    /// Px of the scene painted last in a css px of a figure of this width.
+    fn scene_px(&self, width: f64) -> f64 {
+        self.handles.1 / width
+    }
+
     /// The link that makes this figure again: `name=value&…`.
     pub fn query(&self) -> String {
         query::write(self.model())

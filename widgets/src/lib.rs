@@ -11,9 +11,13 @@ pub mod font;
 pub mod job;
 #[cfg(feature = "lap")]
 pub mod lap;
+#[cfg(feature = "log")]
+pub mod log;
 pub mod model;
 pub mod paint;
 mod param;
+#[cfg(any(feature = "lap", feature = "log"))]
+mod policy;
 #[cfg(feature = "proposal")]
 pub mod proposal;
 mod query;

@@ -139,6 +139,37 @@ pub trait Model {
     /// Moves a handle right and up by steps of its parameters: 1 for an arrow key, 10 for a coarse one, 0.1 for a fine one.
     fn nudge(&mut self, _handle: &str, _steps: [f64; 2]) {}
 
+    /// Takes a reader's file instead of the one before.
+    ///
+    /// # Errors
+    /// For a file that cannot be read, and for a figure that has no use for any; it is as it was.
+    fn open(&mut self, _file: &[u8]) -> Result<(), FigureError> {
+        Err(FigureError { parameter: "file".into(), message: "this figure has no use for a file".into() })
+    }
+
+    /// Whether what was set can be computed at all: asked before a computation that takes long.
+    ///
+    /// # Errors
+    /// The parameter that stands in the way, and its range.
+    fn ready(&self) -> Result<(), FigureError> {
+        Ok(())
+    }
+
+    /// A file of this name made of the state shown, if there is such a one.
+    fn file(&self, _name: &str) -> Option<Vec<u8>> {
+        None
+    }
+
+    /// Magnifies the picture about a point \[css px\] of a scene of this width \[css px\], or about its middle. What is looked at is no
+    /// part of the recipe.
+    fn zoom(&mut self, _factor: f64, _at: Option<Point>, _width: f64) {}
+
+    /// Moves the picture right and down \[css px\].
+    fn pan(&mut self, _by: Point, _width: f64) {}
+
+    /// Shows the whole again.
+    fn fit(&mut self) {}
+
     /// Number of the last step; 0 for a figure without a timeline.
     fn step_count(&self) -> u32 {
         0

@@ -4,6 +4,8 @@
 use crate::conditioning::ConditioningModel;
 #[cfg(feature = "lap")]
 use crate::lap::LapModel;
+#[cfg(feature = "log")]
+use crate::log::LogModel;
 use crate::model::Model;
 #[cfg(feature = "proposal")]
 use crate::proposal::ProposalModel;
@@ -40,6 +42,8 @@ pub const FIGURES: &[Entry] = &[
         title: WorkedExampleModel::TITLE,
         make: || Box::new(WorkedExampleModel::default()),
     },
+    #[cfg(feature = "log")]
+    Entry { tag: "fastslam-log", title: LogModel::TITLE, make: || Box::new(LogModel::default()) },
     #[cfg(feature = "resampling")]
     Entry { tag: "fastslam-resampling", title: ResamplingModel::TITLE, make: || Box::new(ResamplingModel::default()) },
 ];

@@ -174,6 +174,36 @@ impl Figure {
         self.0.nudge(handle, right, up);
     }
 
+    /// Takes a reader's file; throws a `FigureError` if it cannot be read.
+    pub fn open(&mut self, file: &[u8]) -> Result<(), Error> {
+        self.0.model_mut().open(file).map_err(thrown)
+    }
+
+    /// Throws a `FigureError` if what was set cannot be computed.
+    pub fn ready(&self) -> Result<(), Error> {
+        self.0.model().ready().map_err(thrown)
+    }
+
+    /// A file of this name made of the state shown, if there is such a one.
+    pub fn file(&self, name: &str) -> Option<Vec<u8>> {
+        self.0.model().file(name)
+    }
+
+    /// Magnifies the picture about a point of a figure of this width \[css px\], or about its middle where that is NaN.
+    pub fn zoom(&mut self, factor: f64, x_css: f64, y_css: f64, width_css: f64) {
+        self.0.zoom(factor, x_css, y_css, width_css);
+    }
+
+    /// Moves the picture right and down in a figure of this width \[css px\].
+    pub fn pan(&mut self, right_css: f64, down_css: f64, width_css: f64) {
+        self.0.pan(right_css, down_css, width_css);
+    }
+
+    /// Shows the whole again.
+    pub fn fit(&mut self) {
+        self.0.model_mut().fit();
+    }
+
     /// The link that makes this figure again.
     pub fn query(&self) -> String {
         self.0.query()

@@ -3,10 +3,10 @@
 use crate::{Failure, picture, print, print_json, progress};
 use cpu_time::ProcessTime;
 use fastslam::experiment::log::{Example, LogRun, LogSetup, memory_estimate};
+use fastslam::experiment::log_files::{Picture, trajectory};
 use fastslam::geometry::Pose2;
 use fastslam::log::{LaserLog, LogError, Notes, RelationErrors, parse, parse_relations, relation_errors, write};
 use fastslam::map::Footprint;
-use fastslam::ops;
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::io::Read;
@@ -97,6 +97,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         cell_size: arguments.cell,
         max_range: arguments.max_range,
         min_travel: arguments.min_travel,
+        ..LogSetup::default()
     };
     let log = Arc::new(log);
     let mut run = LogRun::new(&setup, Arc::clone(&log))?;
@@ -265,18 +266,13 @@ impl Outputs {
     fn write(&self, run: &LogRun, path: &[(f64, Pose2)]) -> Result<(), Failure> {
         let save = |path: &Path, bytes: &[u8]| std::fs::write(path, bytes).map_err(|error| Failure::file(path, error));
         if let Some(file) = &self.trajectory {
-            let line = |(time, pose): &(f64, Pose2)| {
-                let (sin, cos) = ops::sin_cos(0.5 * pose.theta);
-                format!("{time:.6} {:.6} {:.6} 0 0 0 {sin:.9} {cos:.9}\n", pose.x, pose.y)
-            };
-            save(file, path.iter().map(line).collect::<String>().as_bytes())?;
+            save(file, trajectory(run).as_bytes())?;
         }
         if let Some([png, pgm, yaml]) = &self.map {
-            let shown = picture::OfMap::new(run.map());
-            shown.save(path, png)?;
-            save(pgm, &shown.pgm())?;
-            let image = pgm.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            save(yaml, shown.yaml(&image).as_bytes())?;
+            let map = Picture::of(run);
+            picture::save_map(&map, path, png)?;
+            save(pgm, &map.pgm())?;
+            save(yaml, map.yaml(&pgm.file_name().unwrap_or_default().to_string_lossy()).as_bytes())?;
         }
         Ok(())
     }

@@ -2,11 +2,9 @@
 
 use crate::Failure;
 use fastslam::experiment::landmarks::LandmarkRun;
-use fastslam::experiment::log::LogMap;
+use fastslam::experiment::log_files::Picture;
 use fastslam::geometry::Pose2;
-use fastslam::map::grid::CellRect;
 use fastslam::map::landmarks::Landmark;
-use fastslam::ops;
 use fastslam_widgets::font::Weight;
 use fastslam_widgets::paint::{Canvas, Theme};
 use fastslam_widgets::scene::{Anchor, Mark, Point, Rect, Role, Scene, closed, ellipse, text};
@@ -91,92 +89,32 @@ pub fn save(canvas: &Canvas, path: &Path) -> Result<(), Failure> {
     write(encoder).map_err(|error| Failure::file(path, error))
 }
 
-/// The part of a map that something is known of.
-pub struct OfMap<'a> {
-    map: &'a LogMap,
-    cells: CellRect,
-}
-
-/// Shades of the pair that ROS reads, by its convention: occupied, free, unknown.
-const SHADES: [u8; 3] = [0, 254, 205];
-
-/// Probabilities from which on, and up to which, ROS takes a cell for occupied, and for free.
-const THRESHOLDS: [f64; 2] = [0.65, 0.25];
-
-impl<'a> OfMap<'a> {
-    /// Of a map; of one where nothing is known, a single cell.
-    pub fn new(map: &'a LogMap) -> Self {
-        let all = map.bounds();
-        let mut cells = CellRect { i0: i32::MAX, j0: i32::MAX, i1: i32::MIN, j1: i32::MIN };
-        for (i, j) in (all.j0..all.j1).flat_map(|j| (all.i0..all.i1).map(move |i| (i, j))) {
-            if map.log_odds(i, j) != 0.0 {
-                let CellRect { i0, j0, i1, j1 } = cells;
-                cells = CellRect { i0: i0.min(i), j0: j0.min(j), i1: i1.max(i + 1), j1: j1.max(j + 1) };
+/// Writes a map with the path on it as PNG, one pixel a cell.
+pub fn save_map(map: &Picture, path: &[(f64, Pose2)], file: &Path) -> Result<(), Failure> {
+    /// Red, green, blue of the path.
+    const PATH: [u8; 3] = [190, 60, 30];
+    let [width, height] = [map.width, map.height].map(|side| side as usize);
+    let mut pixels: Vec<u8> = map.grey.iter().flat_map(|grey| [*grey; 3]).collect();
+    let at = |pose: &Pose2| {
+        let [x, y] = [pose.x - map.origin[0], pose.y - map.origin[1]].map(|metres| metres / map.cell_size);
+        [x, height as f64 - y]
+    };
+    for leg in path.windows(2) {
+        let (a, b) = (at(&leg[0].1), at(&leg[1].1));
+        let steps = (b[0] - a[0]).abs().max((b[1] - a[1]).abs()).ceil().max(1.0);
+        for k in 0..=(steps as u32).min(10_000) {
+            let share = f64::from(k) / steps;
+            let [x, y] = [0, 1].map(|k: usize| a[k] + share * (b[k] - a[k]));
+            if (0.0..width as f64).contains(&x) && (0.0..height as f64).contains(&y) {
+                let first = 3 * (y as usize * width + x as usize);
+                pixels[first..first + 3].copy_from_slice(&PATH);
             }
         }
-        if cells.i0 > cells.i1 {
-            cells = CellRect { i0: 0, j0: 0, i1: 1, j1: 1 };
-        }
-        Self { map, cells }
     }
-
-    /// Rows from the top (largest y), one byte a cell.
-    fn shades(&self) -> Vec<u8> {
-        let CellRect { i0, j0, i1, j1 } = self.cells;
-        let log_odds = THRESHOLDS.map(|p| ops::ln(p / (1.0 - p)));
-        let shade = |(i, j)| match self.map.log_odds(i, j) {
-            occupied if occupied >= log_odds[0] => SHADES[0],
-            free if free <= log_odds[1] => SHADES[1],
-            _ => SHADES[2],
-        };
-        (j0..j1).rev().flat_map(|j| (i0..i1).map(move |i| (i, j))).map(shade).collect()
-    }
-
-    /// The map as PGM.
-    pub fn pgm(&self) -> Vec<u8> {
-        let mut bytes = format!("P5\n{} {}\n255\n", self.cells.width(), self.cells.height()).into_bytes();
-        bytes.extend(self.shades());
-        bytes
-    }
-
-    /// What ROS has to know of it.
-    pub fn yaml(&self, image: &str) -> String {
-        let cell = self.map.cell_size();
-        let [x, y] = [self.cells.i0, self.cells.j0].map(|k| f64::from(k) * cell);
-        let [occupied, free] = THRESHOLDS;
-        format!(
-            "image: {image:?}\nresolution: {cell}\norigin: [{x:.6}, {y:.6}, 0.0]\nnegate: 0\n\
-             occupied_thresh: {occupied}\nfree_thresh: {free}\n"
-        )
-    }
-
-    /// The map with the path on it as PNG, one pixel a cell.
-    pub fn save(&self, path: &[(f64, Pose2)], file: &Path) -> Result<(), Failure> {
-        /// Red, green, blue of the path.
-        const PATH: [u8; 3] = [190, 60, 30];
-        let (width, height) = (self.cells.width(), self.cells.height());
-        let mut pixels: Vec<u8> = self.shades().iter().flat_map(|shade| [*shade; 3]).collect();
-        let at = |pose: &Pose2| {
-            let cell = self.map.cell_size();
-            [pose.x / cell - f64::from(self.cells.i0), f64::from(self.cells.j1) - pose.y / cell]
-        };
-        for leg in path.windows(2) {
-            let (a, b) = (at(&leg[0].1), at(&leg[1].1));
-            let steps = (b[0] - a[0]).abs().max((b[1] - a[1]).abs()).ceil().max(1.0);
-            for k in 0..=(steps as u32).min(10_000) {
-                let share = f64::from(k) / steps;
-                let [x, y] = [0, 1].map(|k: usize| a[k] + share * (b[k] - a[k]));
-                if (0.0..width as f64).contains(&x) && (0.0..height as f64).contains(&y) {
-                    let first = 3 * (y as usize * width + x as usize);
-                    pixels[first..first + 3].copy_from_slice(&PATH);
-                }
-            }
-        }
-        let write = || {
-            let mut encoder = png::Encoder::new(BufWriter::new(File::create(file)?), width as u32, height as u32);
-            encoder.set_color(png::ColorType::Rgb);
-            encoder.write_header()?.write_image_data(&pixels)
-        };
-        write().map_err(|error: png::EncodingError| Failure::file(file, error))
-    }
+    let write = || {
+        let mut encoder = png::Encoder::new(BufWriter::new(File::create(file)?), map.width, map.height);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.write_header()?.write_image_data(&pixels)
+    };
+    write().map_err(|error: png::EncodingError| Failure::file(file, error))
 }

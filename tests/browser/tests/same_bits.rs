@@ -4,7 +4,7 @@
 
 use fastslam::{digest::Digest, execute::Executor, experiment::golden_traces};
 use fastslam_widgets::shell::{Figure, job};
-use figures::{JOBS, PICTURES, SETUPS, line, put_readout, rows};
+use figures::{JOBS, LOG, PICTURES, SETUPS, TINY_LOG, line, put_readout, rows};
 use js_sys::{Array, Reflect, Uint8Array, WebAssembly};
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
@@ -36,6 +36,10 @@ fn text(object: &JsValue, name: &str) -> String {
 fn figure(tag: &str, query: &str) -> Figure {
     let mut figure = Figure::new(tag).unwrap_or_else(|_| panic!("no figure {tag}"));
     assert!(figure.load(query).is_empty(), "{query}");
+    if tag == LOG {
+        assert!(figure.open(TINY_LOG).is_ok());
+        figure.seek(u32::MAX);
+    }
     settle(&mut figure);
     figure
 }

@@ -26,6 +26,11 @@ const CONDITIONING: &str = "fastslam-conditioning";
 const PROPOSAL: &str = "fastslam-proposal";
 const WORKED: &str = "fastslam-worked-example";
 const RESAMPLING: &str = "fastslam-resampling";
+/// Its pictures and readouts are those of [`TINY_LOG`], mapped to its end.
+pub const LOG: &str = "fastslam-log";
+
+/// A lap of the apartment as a robot would have recorded it: what `tests/goldens.rs` simulates, and its readers open.
+pub const TINY_LOG: &[u8] = include_bytes!("../golden/tiny.clf");
 
 const fn picture(
     tag: &'static str,
@@ -71,6 +76,11 @@ pub const PICTURES: &[Picture] = &[
     picture(CONDITIONING, "conditioning-half", "landmarks=12&step=4&row=3&column=3", 340, 2.0, "light"),
     picture(CONDITIONING, "conditioning-phone", "", 380, 1.0, "contrast-dark"),
     picture(CONDITIONING, "conditioning-tiny", "landmarks=24&odometry=3&condition=on", 240, 1.0, "contrast-light"),
+    picture(LOG, "fastslam-log-light", TINY, 800, 1.5, "light"),
+    picture(LOG, "fastslam-log-dark", TINY, 800, 1.5, "dark"),
+    picture(LOG, "log-phone", "universes=40&cell=0.1&min-travel=0.3&raw=on", 340, 2.0, "light"),
+    picture(LOG, "log-contrast", "universes=1&cell=0.2", 380, 1.0, "contrast-dark"),
+    picture(LOG, "log-tiny", "policy=always&cell=0.1&seed=4", 240, 1.0, "contrast-light"),
     picture(RESAMPLING, "fastslam-resampling-light", COALESCED, 800, 1.5, "light"),
     picture(RESAMPLING, "fastslam-resampling-dark", COALESCED, 800, 1.5, "dark"),
     picture(RESAMPLING, "resampling-wings", "wings=on&step=101", 1280, 1.0, "light"),
@@ -94,6 +104,9 @@ const POSES: &str = "x2=0.4&y2=-0.3&theta2=0.08&r2=4.1&phi2=0.05&sigma-xy=0.09&t
 /// Numbers of every size.
 const EXTREMES: &str = "x1=-99.123456&y1=-12.5&theta1=-3.1415926&x2=4.000001&y2=0.000001&sigma-xx=0.0000321&sigma-xy=-0.0000123456&bearing-std=0.00123";
 
+/// Cells as small as those of a large building would be more than a phone's screen has pixels.
+const TINY: &str = "cell=0.1&raw=on";
+
 /// A step of the default lap at which it resampled.
 const RESAMPLED: &str = "step=62";
 
@@ -115,6 +128,8 @@ pub const SETUPS: &[(&str, &str)] = &[
     (CONDITIONING, "condition=on&row=3&column=4"),
     (CONDITIONING, "odometry=3&range-std=0.01&landmarks=24&poses=12&row=48&column=7"),
     (CONDITIONING, "odometry=0&range-std=0.5&landmarks=3&poses=2"),
+    (LOG, "cell=0.1"),
+    (LOG, "universes=5&cell=0.2&max-range=4&policy=never&seed=3"),
     (RESAMPLING, ""),
     (RESAMPLING, "particles=5&seed=9&threshold=0.8&scheme=residual&odometry=2&range=3&back=4"),
     (RESAMPLING, "wings=on"),
@@ -147,6 +162,10 @@ pub fn figure(tag: &str, query: &str) -> Figure {
     let mut figure = Figure::new(tag).expect("a tag of the registry");
     let refused = figure.load(query);
     assert!(refused.is_empty(), "{query}: {refused:?}");
+    if tag == LOG {
+        figure.model_mut().open(TINY_LOG).expect("the tiny log is a log");
+        figure.model_mut().seek(u32::MAX);
+    }
     figure.model_mut().settle();
     figure
 }

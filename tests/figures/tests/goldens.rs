@@ -1,9 +1,15 @@
 //! Exact pictures and numbers. A change that is wanted is written with `UPDATE_GOLDENS=1 cargo test -p figures`, looked at, and
 //! committed.
 
-use fastslam::digest::Digest;
+use fastslam::{
+    decimal::fixed,
+    digest::Digest,
+    experiment::lap::{LapSetup, LapWorld},
+    random::{Purpose, Stream},
+    sensor::BeamSensor,
+};
 use fastslam_widgets::job;
-use figures::{JOBS, PICTURES, SETUPS, figure, line, readouts, rows};
+use figures::{JOBS, LOG, PICTURES, SETUPS, figure, line, readouts, rows};
 use std::{
     collections::BTreeSet,
     env, fs,
@@ -96,6 +102,39 @@ fn every_picture_is_the_golden_one_to_the_last_pixel() {
 fn every_readout_of_every_step_is_the_golden_one() {
     let kept = SETUPS.iter().map(|(tag, query)| line(&format!("{tag}?{query}"), &readouts(tag, query)));
     same_text("readouts.txt", &kept.collect::<String>());
+}
+
+/// A lap of the apartment as CARMEN would have logged it: 120 beams all around, of at most 8 m, in millimetres.
+fn simulated_log() -> String {
+    const BEAMS: usize = 120;
+    let world = LapWorld::new(7, &LapSetup::default().motion(), 0.02);
+    let sensor = BeamSensor::panorama(BEAMS, 8.0, 0.02);
+    let mut log = String::from("# A simulated lap, written by tests/figures.\n");
+    for (k, (truth, odometry)) in world.truth.iter().zip(&world.odometry).enumerate() {
+        let ranges = world.plan.ranges(truth, &sensor, &mut Stream::at(7, Purpose::WorldSensor, k as u32, 9));
+        let ranges: Vec<String> = ranges.iter().map(|range| fixed(range.min(sensor.max_range), 3)).collect();
+        let pose = [odometry.x, odometry.y, odometry.theta].map(|x| fixed(x, 6)).join(" ");
+        let step = fixed(core::f64::consts::TAU / BEAMS as f64, 9);
+        let time = fixed(0.5 * k as f64, 3);
+        log += &format!(
+            "ROBOTLASER1 0 0 {} {step} 8 0.01 0 {BEAMS} {} 0 {pose} {pose} 0 0 0 0 0 {time} simulated {time}\n",
+            fixed(core::f64::consts::TAU, 6),
+            ranges.join(" ")
+        );
+    }
+    log
+}
+
+#[test]
+fn the_tiny_log_is_what_the_simulator_writes() {
+    same_text("tiny.clf", &simulated_log());
+}
+
+#[test]
+fn the_tiny_log_has_the_fingerprint_that_the_page_shows() {
+    let readouts = figure(LOG, "cell=0.1").model().readouts();
+    let digest = readouts.iter().find(|readout| readout.name == "digest").unwrap();
+    same_text("log-digest.txt", &format!("{}\n", digest.text));
 }
 
 #[test]

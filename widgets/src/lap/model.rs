@@ -7,6 +7,7 @@ use super::{
 use crate::{
     model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series, TraceLine, ess_text, pose_text},
     param::{Value, flag_text, unknown},
+    policy,
     scene::Scene,
 };
 use fastslam::{
@@ -14,7 +15,6 @@ use fastslam::{
     experiment::lap::{Lap, LapSetup, StepReport},
     geometry::Pose2,
     proposal::{ProposalKind, ProposalTrace},
-    resampling::ResamplePolicy,
 };
 
 /// Most universes that keyframes keep, all steps together. Each holds the tiles that were written since the one before: about
@@ -51,7 +51,7 @@ pub(super) struct Recipe {
 impl Default for Recipe {
     fn default() -> Self {
         let setup = LapSetup::default();
-        let threshold = if let ResamplePolicy::EssBelow(t) = setup.policy { t } else { params::THRESHOLD };
+        let threshold = policy::threshold(setup.policy);
         Self { setup, threshold }
     }
 }
@@ -169,14 +169,10 @@ impl Recipe {
             ("proposal", Value::Word(word)) => setup.proposal = word.parse()?,
             ("matcher", Value::Word(word)) => setup.matcher = word.parse()?,
             ("scheme", Value::Word(word)) => setup.scheme = word.parse()?,
-            ("policy", Value::Word("never")) => setup.policy = ResamplePolicy::Never,
-            ("policy", Value::Word("always")) => setup.policy = ResamplePolicy::Always,
-            ("policy", Value::Word(_)) => setup.policy = ResamplePolicy::EssBelow(self.threshold),
+            ("policy", Value::Word(word)) => setup.policy = policy::of(word, self.threshold),
             ("threshold", Value::Number(x)) => {
                 self.threshold = x;
-                if let ResamplePolicy::EssBelow(fraction) = &mut setup.policy {
-                    *fraction = x;
-                }
+                setup.policy = policy::of(policy::name(setup.policy), x);
             }
             _ => (),
         }
@@ -202,7 +198,7 @@ impl Model for LapModel {
             "range-std" => write(setup.range_std),
             "proposal" => setup.proposal.to_string(),
             "matcher" => setup.matcher.to_string(),
-            "policy" => params::policy_name(setup.policy).into(),
+            "policy" => policy::name(setup.policy).into(),
             "threshold" => write(self.recipe.threshold),
             "scheme" => setup.scheme.to_string(),
             "step" => self.asked.to_string(),

@@ -1,13 +1,10 @@
 //! What a reader can set about the lap.
 
-use crate::model::{Choice, ParamSpec};
-use fastslam::{
-    experiment::lap::{LapSetup, STEPS},
-    resampling::ResamplePolicy,
+use crate::{
+    model::{Choice, ParamSpec},
+    policy,
 };
-
-/// Threshold of the policy "N_eff below", where another policy is chosen.
-pub const THRESHOLD: f64 = 0.5;
+use fastslam::experiment::lap::{LapSetup, STEPS};
 
 const PROPOSALS: &[Choice] = &[
     Choice { value: "aware", title: "measurement-aware" },
@@ -16,12 +13,6 @@ const PROPOSALS: &[Choice] = &[
 
 const MATCHERS: &[Choice] =
     &[Choice { value: "subcell", title: "sub-cell (hit means)" }, Choice { value: "cell", title: "cell (occupancy)" }];
-
-const POLICIES: &[Choice] = &[
-    Choice { value: "neff", title: "N_eff below threshold" },
-    Choice { value: "always", title: "at every step" },
-    Choice { value: "never", title: "never" },
-];
 
 const SCHEMES: &[Choice] = &[
     Choice { value: "systematic", title: "systematic" },
@@ -32,20 +23,10 @@ const SCHEMES: &[Choice] = &[
 
 const BEST: &[Choice] = &[Choice { value: "best", title: "the best" }];
 
-/// A policy as the parameter of its name has it: without its threshold.
-pub fn policy_name(policy: ResamplePolicy) -> &'static str {
-    match policy {
-        ResamplePolicy::Never => "never",
-        ResamplePolicy::Always => "always",
-        ResamplePolicy::EssBelow(_) => "neff",
-    }
-}
-
 /// All parameters, for a mosaic of `universes`.
 pub fn specs(universes: usize) -> Vec<ParamSpec> {
-    let LapSetup { particles, seed, proposal, matcher, policy, scheme, odometry_scale, range_std } =
+    let LapSetup { particles, seed, proposal, matcher, policy: selected, scheme, odometry_scale, range_std } =
         LapSetup::default();
-    let threshold = if let ResamplePolicy::EssBelow(fraction) = policy { fraction } else { THRESHOLD };
     vec![
         ParamSpec::integer(
             "universes",
@@ -93,13 +74,19 @@ pub fn specs(universes: usize) -> Vec<ParamSpec> {
             matcher.to_string(),
             "What the end of a beam is compared with: the mean of the hits in a cell, or the cell as a whole.",
         ),
-        ParamSpec::choice("policy", "Resample", POLICIES, policy_name(policy), "When the universes are resampled."),
+        ParamSpec::choice(
+            "policy",
+            "Resample",
+            policy::POLICIES,
+            policy::name(selected),
+            "When the universes are resampled.",
+        ),
         ParamSpec::number(
             "threshold",
             "Threshold",
             "of M",
             (0.0, 1.0, 0.05),
-            threshold,
+            policy::threshold(selected),
             "Share of M below which N_eff calls for resampling, under the policy neff.",
         ),
         ParamSpec::choice("scheme", "Scheme", SCHEMES, scheme.to_string(), "How the survivors are drawn."),

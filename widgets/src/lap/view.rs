@@ -1,6 +1,6 @@
 //! From the world to the figure: metres to css px, cells to shades.
 
-use crate::scene::{Cells, FREE, OCCUPIED, Point, Rect, UNKNOWN, clip_polyline, robot};
+use crate::scene::{Cells, Point, Rect, clip_polyline, robot, shade, thinned};
 use fastslam::{
     geometry::Pose2,
     map::grid::{CellRect, Grid},
@@ -14,9 +14,6 @@ pub const ASPECT: f64 = 44.0 / 34.0;
 
 /// Side of a cell \[m\].
 const CELL: f64 = 0.3;
-
-/// Log-odds \[nats\] at which a cell is drawn as surely free, and as surely occupied.
-const SURE: [f64; 2] = [-1.5, 2.7];
 
 /// A map view at a place in the figure.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -39,15 +36,7 @@ impl View {
 
     /// The positions of a path, cut at the edge of the view. Points nearer than `least` \[css px\] to the one before are left out.
     pub fn path(&self, poses: &[Pose2], least: f64) -> Vec<Vec<Point>> {
-        let mut points: Vec<Point> = Vec::with_capacity(poses.len());
-        for (k, pose) in poses.iter().enumerate() {
-            let point = self.point([pose.x, pose.y]);
-            let far = points.last().is_none_or(|last| distance_squared(*last, point) >= least * least);
-            if far || k + 1 == poses.len() {
-                points.push(point);
-            }
-        }
-        clip_polyline(&points, &self.area)
+        clip_polyline(&thinned(&mut poses.iter().map(|pose| self.point([pose.x, pose.y])), least), &self.area)
     }
 
     /// An arrow head of this length from centre to nose \[css px\] that points where the robot looks; `None` out of view.
@@ -57,11 +46,6 @@ impl View {
     }
 }
 
-fn distance_squared(a: Point, b: Point) -> f64 {
-    let [dx, dy] = [a[0] - b[0], a[1] - b[1]];
-    dx * dx + dy * dy
-}
-
 /// The shades of the cells shown, from the upper row down.
 pub fn shades(map: &Grid) -> Cells {
     let mut shades = Vec::with_capacity(CELLS.width() * CELLS.height());
@@ -69,13 +53,6 @@ pub fn shades(map: &Grid) -> Cells {
         shades.extend((CELLS.i0..CELLS.i1).map(|i| shade(map.log_odds(i, j))));
     }
     Cells { columns: CELLS.width(), shades }
-}
-
-fn shade(log_odds: f64) -> u8 {
-    // Square roots: the first looks matter more than the last, above all whether there was any.
-    let (end, sure) = if log_odds < 0.0 { (FREE, SURE[0]) } else { (OCCUPIED, SURE[1]) };
-    let t = (log_odds / sure).min(1.0).sqrt();
-    (f64::from(UNKNOWN) + t * (f64::from(end) - f64::from(UNKNOWN))).round() as u8
 }
 
 /// Means of the hits in the occupied cells shown \[m\].
@@ -104,12 +81,6 @@ mod tests {
         assert!((x - 120.0).abs() < 1e-9 && (y - 370.0).abs() < 1e-9);
         let [x, y] = view.point([12.0, 9.0]);
         assert!((x - 520.0).abs() < 1e-9 && (y - 70.0).abs() < 1e-9);
-    }
-
-    #[test]
-    fn shades_run_from_free_over_unknown_to_occupied() {
-        assert_eq!([-4.0, 0.0, 4.0].map(shade), [FREE, UNKNOWN, OCCUPIED]);
-        assert!(shade(-0.4) < UNKNOWN && shade(0.9) > UNKNOWN);
     }
 
     #[test]

@@ -2,6 +2,22 @@
 
 use super::{Point, Rect};
 
+/// A polyline without the points nearer than `least` \[css px\] to the one before; its end stays.
+pub fn thinned(points: &mut dyn Iterator<Item = Point>, least: f64) -> Vec<Point> {
+    let mut kept: Vec<Point> = Vec::new();
+    let mut left_out = None;
+    for point in points {
+        let far = kept.last().is_none_or(|last| {
+            let [dx, dy] = [point[0] - last[0], point[1] - last[1]];
+            dx * dx + dy * dy >= least * least
+        });
+        left_out = (!far).then_some(point);
+        kept.extend(far.then_some(point));
+    }
+    kept.extend(left_out);
+    kept
+}
+
 /// The parts of a polyline inside a rectangle.
 pub fn clip_polyline(points: &[Point], area: &Rect) -> Vec<Vec<Point>> {
     let mut parts: Vec<Vec<Point>> = Vec::new();
@@ -48,6 +64,14 @@ mod tests {
     use super::*;
 
     const AREA: Rect = Rect::new(0.0, 0.0, 10.0, 10.0);
+
+    #[test]
+    fn a_thinned_line_keeps_its_ends_and_what_is_apart() {
+        let line = [0.0, 0.4, 0.8, 1.2, 2.9, 3.0].map(|x| [x, 0.0]);
+        assert_eq!(thinned(&mut line.into_iter(), 1.0), [0.0, 1.2, 2.9, 3.0].map(|x| [x, 0.0]));
+        assert_eq!(thinned(&mut line[..2].iter().copied(), 1.0), line[..2]);
+        assert_eq!(thinned(&mut core::iter::empty(), 1.0), [[0.0; 2]; 0]);
+    }
 
     #[test]
     fn a_line_inside_stays_as_it_is() {

@@ -10,7 +10,7 @@ mod rect;
 mod shape;
 mod text;
 
-pub use clip::clip_polyline;
+pub use clip::{clip_polyline, thinned};
 pub use formula::{Formula, number};
 pub use handle::Handle;
 pub use rect::Rect;
@@ -89,6 +89,17 @@ pub const FREE: u8 = 0;
 pub const UNKNOWN: u8 = 128;
 /// The shade of a cell that is surely occupied.
 pub const OCCUPIED: u8 = 255;
+
+/// Log-odds \[nats\] at which a cell is drawn as surely free, and as surely occupied.
+const SURE: [f64; 2] = [-1.5, 2.7];
+
+/// The shade of a cell with these log-odds of being occupied \[nats\].
+pub fn shade(log_odds: f64) -> u8 {
+    // Square roots: the first looks matter more than the last, above all whether there was any.
+    let (end, sure) = if log_odds < 0.0 { (FREE, SURE[0]) } else { (OCCUPIED, SURE[1]) };
+    let t = (log_odds / sure).min(1.0).sqrt();
+    (f64::from(UNKNOWN) + t * (f64::from(end) - f64::from(UNKNOWN))).round() as u8
+}
 
 /// Something to draw. Later marks cover earlier ones.
 #[derive(Clone, PartialEq, Debug)]
@@ -193,5 +204,16 @@ impl Scene {
     /// What a click at this point \[css px\] picks.
     pub fn hit(&self, point: Point) -> Option<u32> {
         self.regions.iter().find(|r| r.area.contains(point)).map(|r| r.target)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shades_run_from_free_over_unknown_to_occupied() {
+        assert_eq!([-4.0, 0.0, 4.0].map(shade), [FREE, UNKNOWN, OCCUPIED]);
+        assert!(shade(-0.4) < UNKNOWN && shade(0.9) > UNKNOWN);
     }
 }

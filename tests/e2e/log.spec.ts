@@ -1,0 +1,423 @@
+// The figure that maps a log: the example and files of a reader's own, pause and stop, looking around, saving, and what goes wrong.
+import AxeBuilder from '@axe-core/playwright'
+import type { Download, Locator, Page } from '@playwright/test'
+import { existsSync, readFileSync } from 'node:fs'
+import { join } from 'node:path'
+import { gzipSync } from 'node:zlib'
+import { root } from '../../scripts/lib.mjs'
+import { expect, test } from './fixtures'
+
+const TINY = join(root, 'tests', 'figures', 'golden', 'tiny.clf')
+const INTEL = join(root, '..', 'shared', 'data', 'intel.clf')
+
+class LogFigure {
+  readonly element: Locator
+  readonly alert: Locator
+  readonly sentence: Locator
+  readonly status: Locator
+  readonly stage: Locator
+
+  constructor(readonly page: Page) {
+    this.element = page.locator('fastslam-log')
+    this.alert = this.element.getByRole('alert')
+    this.sentence = this.element.locator('[part=sentence]')
+    this.status = this.element.getByRole('status')
+    this.stage = this.element.locator('.stage')
+  }
+
+  async open(): Promise<this> {
+    await this.page.goto('./')
+    await this.element.scrollIntoViewIfNeeded()
+    await expect(this.element.locator('.stage.live')).toBeVisible()
+    return this
+  }
+
+  button(name: string): Locator {
+    return this.element.getByRole('button', { name, exact: true })
+  }
+
+  /** A reader's file. */
+  async choose(name: string, content: string | Buffer): Promise<void> {
+    await this.element.locator('input[type=file]').setInputFiles({ name, mimeType: '', buffer: Buffer.from(content) })
+  }
+
+  async done(timeout = 30_000): Promise<void> {
+    await expect(this.sentence).toContainText('All scans are mapped', { timeout })
+  }
+
+  readout(name: string): Locator {
+    return this.element.locator(`[part=readout][data-name=${name}] dd`)
+  }
+
+  async set(name: string, value: string): Promise<void> {
+    const settings = this.element.locator('details[part=settings]')
+    if (!(await settings.evaluate((details: HTMLDetailsElement) => details.open))) await settings.locator('summary').click()
+    const box = this.element.locator(`input[type=number][name=${name}]`)
+    await box.fill(value)
+    await box.press('Enter')
+  }
+
+  /** A fingerprint of the pixels. */
+  async picture(): Promise<number> {
+    await this.page.waitForTimeout(150)
+    return this.element.locator('canvas').evaluate((canvas: HTMLCanvasElement) => {
+      const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d', { willReadFrequently: true })!
+      copy.drawImage(canvas, 0, 0)
+      const { data } = copy.getImageData(0, 0, canvas.width, canvas.height)
+      let hash = 2166136261
+      for (const pixel of new Uint32Array(data.buffer)) hash = Math.imul(hash ^ pixel, 16777619)
+      return hash
+    })
+  }
+}
+
+async function content(download: Download): Promise<Buffer> {
+  return readFileSync(await download.path())
+}
+
+test('the example is mapped with one click, and map, path and report are saved', async ({ page }) => {
+  const log = await new LogFigure(page).open()
+  await expect(log.sentence).toContainText('No log is open')
+  await expect(log.button('Start')).toBeDisabled()
+  await log.button('Run the example').click()
+  await log.done(120_000)
+  await expect(log.status).toHaveText('the example')
+  await expect(log.readout('digest')).toHaveText(/^[0-9a-f]{16}$/)
+
+  const save = async (name: string) => {
+    const [download] = await Promise.all([page.waitForEvent('download'), log.button(name).click()])
+    return download
+  }
+  const png = await save('Map (PNG)')
+  expect(png.suggestedFilename()).toBe('map.png')
+  expect((await content(png)).subarray(1, 4).toString()).toBe('PNG')
+
+  const path = (await content(await save('Path (TUM)'))).toString().trim().split('\n').slice(1)
+  const last = Number((await log.readout('scan').textContent())!.split(' of ')[1])
+  expect(path.length).toBe(last + 1)
+  for (const line of path) expect(line.split(' ').map(Number).filter(Number.isFinite)).toHaveLength(8)
+
+  const report = JSON.parse((await content(await save('Report (JSON)'))).toString()) as {
+    log: string
+    results: { digest: { text: string } }
+    settings: Record<string, string>
+    steps: unknown[]
+  }
+  expect(report.log).toBe('the example')
+  expect(report.results.digest.text).toBe(await log.readout('digest').textContent())
+  expect(report.settings['universes']).toBe('16')
+  expect(report.steps).toHaveLength(last + 1)
+
+  const both: Download[] = []
+  page.on('download', download => both.push(download))
+  await log.button('Map for ROS (PGM, YAML)').click()
+  await expect.poll(() => both.map(download => download.suggestedFilename()).sort()).toEqual(['map.pgm', 'map.yaml'])
+  const [pgm, yaml] = await Promise.all(both.sort((a, b) => a.suggestedFilename().localeCompare(b.suggestedFilename())).map(content))
+  expect(pgm!.subarray(0, 3).toString()).toBe('P5\n')
+  expect(yaml!.toString()).toContain('image: map.pgm')
+})
+
+test('the same log and settings give the bits of the native build', async ({ page }) => {
+  const log = await new LogFigure(page).open()
+  await log.choose('tiny.clf', readFileSync(TINY))
+  await log.set('cell', '0.1')
+  await log.button('Start').click()
+  await log.done()
+  const golden = readFileSync(join(root, 'tests', 'figures', 'golden', 'log-digest.txt'), 'utf8').trim()
+  await expect(log.readout('digest')).toHaveText(golden)
+})
+
+test('it pauses, goes on, and stops, and what is mapped by then can be saved', async ({ page }) => {
+  const log = await new LogFigure(page).open()
+  await log.choose('tiny.clf', readFileSync(TINY))
+  await expect(log.sentence).toContainText('91 scans of up to 120 beams')
+  await expect(log.sentence).toContainText('16 universes with cells of 0.05 m take at most')
+  await log.set('universes', '128')
+  await expect(log.sentence).toContainText('128 universes')
+  const at = async () => Number((await log.readout('scan').textContent())!.split(' of ')[0])
+
+  await log.button('Start').click()
+  await expect.poll(at).toBeGreaterThan(3)
+  await expect(log.element.locator('.run .position')).toContainText('left')
+  await log.button('Pause').click()
+  await expect(log.button('Resume')).toBeVisible()
+  const paused = await at()
+  await page.waitForTimeout(400)
+  expect(await at()).toBe(paused)
+  expect(paused).toBeLessThan(90)
+  // The keys of the picture do the same.
+  await log.stage.focus()
+  await page.keyboard.press('Space')
+  await expect.poll(at).toBeGreaterThan(paused)
+  await log.button('Stop').click()
+  await expect(log.button('Start again')).toBeFocused() // the button that was pressed cannot hold the focus any more
+  await expect(log.button('Stop')).toBeDisabled()
+  const stopped = await at()
+  expect(stopped).toBeLessThan(90)
+  const [download] = await Promise.all([page.waitForEvent('download'), log.button('Path (TUM)').click()])
+  expect((await content(download)).toString().trim().split('\n')).toHaveLength(stopped + 2)
+  // Other settings begin anew.
+  await log.set('universes', '2')
+  await expect(log.button('Start')).toBeEnabled()
+  await log.button('Start').click()
+  await log.done()
+})
+
+test('a log is dropped, compressed or not', async ({ page }) => {
+  const log = await new LogFigure(page).open()
+  for (const [name, bytes] of [
+    ['tiny.clf', readFileSync(TINY)],
+    ['packed.log.gz', gzipSync(readFileSync(TINY))],
+  ] as const) {
+    const data = await page.evaluateHandle(
+      ({ name, base64 }) => {
+        const transfer = new DataTransfer()
+        transfer.items.add(new File([Uint8Array.from(atob(base64), c => c.charCodeAt(0))], name))
+        return transfer
+      },
+      { name, base64: bytes.toString('base64') },
+    )
+    await log.stage.dispatchEvent('dragover', { dataTransfer: data })
+    await log.stage.dispatchEvent('drop', { dataTransfer: data })
+    await expect(log.status).toHaveText(name)
+    await expect(log.sentence).toContainText('91 scans')
+    await expect(log.alert).toBeEmpty()
+  }
+})
+
+test('what cannot be read is told with line and reason, and the example is a click away', async ({ page }) => {
+  const log = await new LogFigure(page).open()
+  for (const [name, bytes, says] of [
+    ['empty.clf', '', 'empty.clf cannot be mapped: the file is empty.'],
+    ['photo.png', Buffer.from([0x89, 0x50, 0x4e, 0x47, 0xd, 0xa, 0x1a, 0xa, 0, 0]), 'photo.png cannot be mapped: line 1: '],
+    ['table.csv', 'x,y\n1,2\n', 'table.csv cannot be mapped: line 1: '],
+    ['odometry.clf', 'ODOM 0 0 0 0 0 0 1 host 1\n', 'no FLASER'],
+    ['nan.clf', 'ODOM nan 0 0 0 0 0 1 host 1\n', 'line 1: ODOM: expected '],
+    ['broken.gz', Buffer.from([0x1f, 0x8b, 1, 2, 3, 4, 5, 6]), 'broken.gz cannot be mapped: it begins like a gzip file, but cannot be unpacked.'],
+  ] as const) {
+    await log.choose(name, bytes as string | Buffer)
+    await expect(log.alert).toContainText(says)
+    await expect(log.alert.getByRole('button', { name: 'Run the example' })).toBeVisible()
+    await expect(log.button('Start')).toBeDisabled()
+  }
+  await log.alert.getByRole('button', { name: 'Run the example' }).click()
+  await expect(log.alert).toBeEmpty()
+  await expect(log.status).toHaveText('the example')
+})
+
+test('malformed lines are named, and skipped if the reader says so', async ({ page }) => {
+  const lines = readFileSync(TINY, 'utf8').split('\n')
+  lines[4] = lines[4]!.slice(0, 60)
+  lines[9] = 'ROBOTLASER1 what'
+  const log = await new LogFigure(page).open()
+  await log.choose('damaged.clf', lines.join('\n'))
+  await expect(log.alert).toContainText('line 5: ROBOTLASER1: expected ')
+  await expect(log.alert).toContainText('2 malformed lines')
+  await expect(log.button('Start')).toBeDisabled()
+  await log.alert.getByRole('button', { name: 'Skip malformed lines' }).click()
+  await expect(log.alert).toBeEmpty()
+  await log.set('cell', '0.2')
+  await log.button('Start').click()
+  await log.done()
+})
+
+test('what does not fit into memory is refused before it starts', async ({ page }) => {
+  const log = await new LogFigure(page).open()
+  await log.choose('tiny.clf', readFileSync(TINY))
+  await log.set('cell', '0.01')
+  await log.set('universes', '256')
+  await log.element.locator('select[name=policy]').selectOption('never')
+  await expect(log.alert).toContainText(/universes = 256: must be a whole number from 1 to \d+ here: .* the limit is 1000 MB/)
+  await expect(log.button('Start')).toBeDisabled()
+  await log.set('universes', '4')
+  await expect(log.alert).toBeEmpty()
+  await log.set('universes', '1000')
+  await expect(log.alert).toContainText('universes')
+  await expect(log.element.locator('input[type=number][name=universes]')).toHaveValue('4')
+})
+
+test('the map is moved and magnified by keys, buttons, mouse and touchpad, and the wheel scrolls the page', async ({ page }) => {
+  const log = await new LogFigure(page).open()
+  await log.choose('tiny.clf', readFileSync(TINY))
+  await log.set('cell', '0.2')
+  await log.button('Start').click()
+  await log.done()
+  const whole = await log.picture()
+  const box = (await log.element.locator('canvas').boundingBox())!
+  const [x, y] = [box.x + 0.3 * box.width, box.y + 0.5 * box.height]
+  const acts: [string, () => Promise<void>][] = [
+    ['+', () => page.keyboard.press('+')],
+    ['−', () => page.keyboard.press('-')],
+    ['left', () => page.keyboard.press('ArrowLeft')],
+    ['down', () => page.keyboard.press('ArrowDown')],
+    ['button', () => log.button('Magnify').click()],
+    [
+      'mouse',
+      async () => {
+        await page.mouse.move(x, y)
+        await page.mouse.down()
+        await page.mouse.move(x + 50, y + 30, { steps: 4 })
+        await page.mouse.up()
+      },
+    ],
+    ['double click', () => page.mouse.dblclick(x, y)],
+    [
+      'touchpad',
+      async () => {
+        await page.keyboard.down('Control')
+        await page.mouse.wheel(0, -100)
+        await page.keyboard.up('Control')
+      },
+    ],
+  ]
+  for (const [name, act] of acts) {
+    await log.stage.focus()
+    await act()
+    await expect.poll(() => log.picture(), name).not.toBe(whole)
+    await log.stage.focus()
+    await page.keyboard.press('0')
+    await expect.poll(() => log.picture(), `${name}, and back`).toBe(whole)
+  }
+  const before = await page.evaluate(() => scrollY)
+  await page.mouse.move(x, y)
+  await page.mouse.wheel(0, -200)
+  await expect.poll(() => page.evaluate(() => scrollY)).toBeLessThan(before)
+  expect(await log.picture()).toBe(whole)
+})
+
+test('two fingers magnify the map, one scrolls the page', async ({ browser, baseURL }) => {
+  const context = await browser.newContext({ baseURL: baseURL!, hasTouch: true, isMobile: true, viewport: { width: 380, height: 800 } })
+  const page = await context.newPage()
+  const log = await new LogFigure(page).open()
+  await log.choose('tiny.clf', readFileSync(TINY))
+  await log.element.locator('details[part=settings] summary').click()
+  await log.set('cell', '0.2')
+  await log.button('Start').tap()
+  await log.done()
+  await log.stage.scrollIntoViewIfNeeded()
+  const whole = await log.picture()
+  const box = (await log.element.locator('canvas').boundingBox())!
+  const [x, y] = [box.x + box.width / 2, box.y + 200]
+  const client = await context.newCDPSession(page)
+  const touch = (type: 'touchStart' | 'touchMove' | 'touchEnd', ...points: [number, number][]) =>
+    client.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) })
+
+  const before = await page.evaluate(() => scrollY)
+  await touch('touchStart', [x - 30, y], [x + 30, y])
+  for (let k = 1; k <= 6; k++) await touch('touchMove', [x - 30 - 8 * k, y - 5 * k], [x + 30 + 8 * k, y - 5 * k])
+  await touch('touchEnd')
+  await expect.poll(() => log.picture()).not.toBe(whole)
+  expect(await page.evaluate(() => scrollY)).toBe(before)
+  const near = await log.picture()
+
+  await touch('touchStart', [x, y])
+  for (let k = 1; k <= 8; k++) await touch('touchMove', [x, y - 20 * k])
+  await touch('touchEnd')
+  await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(before)
+  expect(await log.picture()).toBe(near)
+  await context.close()
+})
+
+test('a program that dies says so, and the example is still possible', async ({ page, complaints }) => {
+  const log = await new LogFigure(page).open()
+  await log.choose('tiny.clf', readFileSync(TINY))
+  await expect(log.sentence).toContainText('91 scans')
+  // What a panic would do to it.
+  await page.evaluate(() => {
+    const post = Worker.prototype.postMessage
+    Worker.prototype.postMessage = function (this: Worker, message: { ask?: string }) {
+      if (message.ask !== 'run') return post.call(this, message)
+      this.dispatchEvent(new MessageEvent('message', { data: { told: 'failed', message: 'panicked at nothing' } }))
+      Worker.prototype.postMessage = post
+    }
+  })
+  await log.button('Start').click()
+  await expect(log.alert).toContainText('Something failed while this log was mapped (panicked at nothing), so it has stopped.')
+  await log.alert.getByRole('button', { name: 'Run the example' }).click()
+  await expect(log.status).toHaveText('the example')
+  await expect(log.alert).toBeEmpty()
+  expect(complaints.splice(0).every(complaint => complaint.includes('panicked at nothing'))).toBe(true)
+})
+
+test('a link holds the settings, and attributes set them', async ({ page }) => {
+  await page.goto('./#fastslam-log?universes=7&cell=0.2&policy=always&cell=9')
+  const log = new LogFigure(page)
+  await expect(log.element.locator('.stage.live')).toBeVisible()
+  await expect(log.alert).toContainText('cell')
+  await expect(log.element.locator('input[type=number][name=universes]')).toHaveValue('7')
+  const link = await log.element.evaluate((element: HTMLElement & { link: string }) => element.link)
+  expect(link.split('#')[1]).toBe('fastslam-log?universes=7&cell=0.2&policy=always')
+  await log.element.evaluate(element => element.setAttribute('universes', '9'))
+  await expect(log.element.locator('input[type=number][name=universes]')).toHaveValue('9')
+  await log.element.evaluate(element => element.setAttribute('universes', 'many'))
+  await expect(log.alert).toContainText('universes = "many": must be a whole number from 1 to 256')
+})
+
+test('nothing leaves the machine, and the figure says so', async ({ page }) => {
+  const log = await new LogFigure(page).open()
+  const asked: string[] = []
+  page.on('request', request => asked.push(request.url()))
+  await log.choose('secret.clf', readFileSync(TINY))
+  await log.set('cell', '0.2')
+  await log.button('Start').click()
+  await log.done()
+  expect(asked.filter(url => !url.startsWith('blob:'))).toEqual([])
+  await expect(log.element.locator('[part=source]')).toContainText('nothing leaves your machine')
+})
+
+test('the page answers while a log is mapped', async ({ page }) => {
+  const log = await new LogFigure(page).open()
+  await log.choose('tiny.clf', readFileSync(TINY))
+  await log.set('universes', '256')
+  await log.button('Start').click()
+  await expect(log.button('Pause')).toBeVisible()
+  const late = await page.evaluate(async () => {
+    const late: number[] = []
+    const end = performance.now() + 3000
+    while (performance.now() < end) {
+      const due = performance.now() + 10
+      await new Promise(done => setTimeout(done, 10))
+      late.push(performance.now() - due)
+    }
+    return late.sort((a, b) => a - b)
+  })
+  const [median, worst] = [late[late.length >> 1]!, late[late.length - 1]!]
+  console.log(`a timer of the page was ${median.toFixed(1)} ms late in the median, ${worst.toFixed(1)} ms at worst`)
+  expect(median).toBeLessThan(50)
+})
+
+for (const [what, options] of Object.entries({
+  light: { colorScheme: 'light' },
+  'a dark phone': { colorScheme: 'dark', viewport: { width: 380, height: 800 } },
+  'forced colours': { forcedColors: 'active' },
+} as const)) {
+  test(`axe finds nothing: ${what}`, async ({ browser, baseURL }) => {
+    const context = await browser.newContext({ ...options, baseURL: baseURL!, reducedMotion: 'reduce' })
+    const page = await context.newPage()
+    const log = await new LogFigure(page).open()
+    await log.choose('none.clf', 'nonsense')
+    await expect(log.alert).not.toBeEmpty()
+    await log.choose('tiny.clf', readFileSync(TINY))
+    await log.set('cell', '0.2')
+    await log.button('Start').click()
+    await log.done()
+    const found = await new AxeBuilder({ page })
+      .include('fastslam-log')
+      .withTags(['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'])
+      .analyze()
+    expect(found.violations.map(violation => `${violation.id}: ${violation.nodes.map(node => node.html).join(' | ')}`)).toEqual([])
+    await context.close()
+  })
+}
+
+test('how long the Intel log takes with 16 universes', async ({ page }) => {
+  test.skip(!existsSync(INTEL), 'intel.clf is not on this machine')
+  test.setTimeout(900_000)
+  const log = await new LogFigure(page).open()
+  await log.choose('intel.clf', readFileSync(INTEL))
+  await expect(log.sentence).toContainText('910 scans', { timeout: 30_000 })
+  const from = Date.now()
+  await log.button('Start').click()
+  await log.done(900_000)
+  console.log(`the Intel log, 16 universes: ${((Date.now() - from) / 1000).toFixed(1)} s in the browser, fingerprint ${await log.readout('digest').textContent()}`)
+})

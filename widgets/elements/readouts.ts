@@ -1,0 +1,21 @@
+// The numbers of the state shown, as a list of names and values.
+import { h, write } from './dom'
+import type { Readout } from './engine'
+
+export function showReadouts(list: HTMLElement, readouts: Readout[]): void {
+  const names = readouts.map(({ name }) => name).join(' ') // another course may have others
+  if (list.dataset['names'] !== names) {
+    list.dataset['names'] = names
+    list.replaceChildren(
+      ...readouts.map(({ name, help }) =>
+        h('div', { part: 'readout', 'data-name': name, title: help }, h('dt'), h('dd', {}, h('span'), h('span', { class: 'unit' }))),
+      ),
+    )
+  }
+  readouts.forEach((readout, i) => {
+    const [title, value] = list.children[i]!.children as unknown as [HTMLElement, HTMLElement]
+    write(title, readout.title)
+    write(value.firstElementChild as HTMLElement, readout.text)
+    write(value.lastElementChild as HTMLElement, readout.unit)
+  })
+}

@@ -1,0 +1,11 @@
+//! A recorded log of a robot with a laser: the building that the best universe has mapped, and the paths of all of them.
+
+mod layout;
+mod model;
+mod params;
+mod scene;
+mod tree;
+mod view;
+
+pub use layout::Layout;
+pub use model::LogModel;

@@ -1,0 +1,641 @@
+//! The mapping of a log as a deterministic state: what was set, which log is open, and how far it is mapped.
+//!
+//! A link holds the settings alone: the log is a reader's file, and no link can bring it.
+
+use super::{
+    layout::{Layout, NARROWEST},
+    params, scene,
+    tree::Death,
+    view::{Frame, View},
+};
+use crate::{
+    model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series},
+    param::{Value, flag_text, unknown},
+    policy,
+    scene::{Point, Scene},
+};
+use fastslam::{
+    decimal::{fixed, write},
+    experiment::{
+        log::{LogRun, LogSetup},
+        log_files::{Picture, trajectory},
+    },
+    log::{LaserLog, LogError, parse, swept_area},
+    map::Footprint,
+    resampling::ResamplePolicy,
+};
+use std::sync::Arc;
+
+/// Steps back of the lineage gauge.
+pub const BACK: u32 = 20;
+
+/// Most memory that maps and paths may take \[bytes\]: a quarter of what WebAssembly can address.
+const LIMIT: f64 = 1e9;
+
+/// What a map takes at the most: for each cell of the swept area, and for the walls in it, of which a square metre has about two
+/// metres, a cell thick \[bytes\]. The tests hold mapped logs against it.
+const CELL_BYTES: f64 = 4.0;
+const WALL_BYTES: f64 = 2.0 * 45.0;
+
+/// A population that resamples shares its past. What it does not share has some M log₂ M nodes (Jacob, Murray and Rubenthaler 2015), and
+/// each node has written one scan: this many times as many are reckoned with.
+const BUSH: f64 = 2.0;
+
+/// Scans of which one's own area is taken.
+const SAMPLES: usize = 32;
+
+/// What a pose in the tree of all paths takes \[bytes\].
+const NODE_BYTES: f64 = 28.0;
+
+/// Steps between two looks at the memory of all maps: a look takes as long as a step does.
+const LOOK: u32 = 50;
+
+/// A recorded log, mapped.
+pub struct LogModel {
+    recipe: Recipe,
+    /// Maps a log with malformed lines without them.
+    lenient: bool,
+    /// Draws raw odometry.
+    raw: bool,
+    opened: Option<Opened>,
+    /// The step asked for.
+    asked: u32,
+    /// From the first step on.
+    run: Option<LogRun>,
+    /// Of every step, from 1 on.
+    history: Vec<Moment>,
+    deaths: Vec<Death>,
+    /// The maps' memory at its largest.
+    peak: Footprint,
+    /// What the reader looks at; `None` is the whole.
+    frame: Option<Frame>,
+}
+
+/// What decides the numbers.
+#[derive(Clone, PartialEq)]
+struct Recipe {
+    setup: LogSetup,
+    /// Of the policy "N_eff below", kept while another policy is chosen.
+    threshold: f64,
+}
+
+/// A log that was read.
+struct Opened {
+    log: Arc<LaserLog>,
+    /// Area \[m²\] that its beams sweep up to the longest range that is set, and a single scan's.
+    swept: [f64; 2],
+    /// Length of the way by raw odometry \[m\].
+    way: f64,
+}
+
+/// What one step did.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Moment {
+    /// N_eff before resampling.
+    pub ess: f64,
+    /// Whether it resampled.
+    pub resampled: bool,
+    /// Universes without offspring.
+    pub died: u32,
+    /// Distinct ancestors [`BACK`] steps ago.
+    pub lineage: u32,
+    /// The latest step up to which all universes share one path.
+    pub shared: u32,
+}
+
+impl Default for LogModel {
+    fn default() -> Self {
+        let setup = LogSetup::default();
+        let threshold = policy::threshold(setup.policy);
+        Self {
+            recipe: Recipe { setup, threshold },
+            lenient: false,
+            raw: false,
+            opened: None,
+            asked: 0,
+            run: None,
+            history: Vec::new(),
+            deaths: Vec::new(),
+            peak: Footprint { unique: 0, dense: 0 },
+            frame: None,
+        }
+    }
+}
+
+impl Recipe {
+    fn set(&mut self, name: &str, value: Value) {
+        let setup = &mut self.setup;
+        match (name, value) {
+            ("universes", Value::Number(x)) => setup.particles = x as usize,
+            ("seed", Value::Number(x)) => setup.seed = x as u64,
+            ("cell", Value::Number(x)) => setup.cell_size = x,
+            ("max-range", Value::Number(x)) => setup.max_range = x,
+            ("min-travel", Value::Number(x)) => setup.min_travel = x,
+            ("threshold", Value::Number(x)) => {
+                self.threshold = x;
+                setup.policy = policy::of(policy::name(setup.policy), x);
+            }
+            ("policy", Value::Word(word)) => setup.policy = policy::of(word, self.threshold),
+            _ => (),
+        }
+    }
+}
+
+impl Opened {
+    fn new(log: LaserLog, setup: &LogSetup) -> Self {
+        let way = log.scans.windows(2).map(|pair| pair[0].odometry.distance(&pair[1].odometry)).sum();
+        Self { swept: swept(&log, setup.max_range), log: Arc::new(log), way }
+    }
+
+    /// Memory \[bytes\] that so many universes with cells of this size take at the most.
+    fn bytes(&self, setup: &LogSetup, universes: usize) -> f64 {
+        let m = universes as f64;
+        let map = |area: f64| area / setup.cell_size * (CELL_BYTES / setup.cell_size + WALL_BYTES);
+        let [all, one] = self.swept.map(map);
+        let shares = match setup.policy {
+            ResamplePolicy::Never => false,
+            ResamplePolicy::Always => true,
+            ResamplePolicy::EssBelow(fraction) => fraction > 0.0,
+        };
+        let unshared = m * all;
+        // Whole numbers: the bits of M.
+        let bush = BUSH * m * f64::from(usize::BITS - universes.leading_zeros()) * one;
+        let maps = if shares { unshared.min(all + bush) } else { unshared };
+        maps + NODE_BYTES * m * self.log.scans.len() as f64
+    }
+}
+
+/// Areas \[m²\] that all scans sweep together, and one alone, the largest of some.
+fn swept(log: &LaserLog, max_range: f64) -> [f64; 2] {
+    let samples = log.scans.iter().step_by(log.scans.len().div_ceil(SAMPLES));
+    let one = samples.map(|scan| swept_area(core::slice::from_ref(scan), max_range)).fold(0.0, f64::max);
+    [swept_area(&log.scans, max_range), one]
+}
+
+impl LogModel {
+    /// Title for readers.
+    pub const TITLE: &'static str = "A real building: map a log of your own";
+
+    /// The log, once one is open.
+    pub fn log(&self) -> Option<&LaserLog> {
+        self.opened.as_ref().map(|opened| &*opened.log)
+    }
+
+    /// What was set.
+    pub fn setup(&self) -> &LogSetup {
+        &self.recipe.setup
+    }
+
+    /// The filter, once it was asked for.
+    pub fn run(&self) -> Option<&LogRun> {
+        self.run.as_ref()
+    }
+
+    /// Of every step, from 1 on.
+    pub fn history(&self) -> &[Moment] {
+        &self.history
+    }
+
+    /// What died out, by step.
+    pub fn deaths(&self) -> &[Death] {
+        &self.deaths
+    }
+
+    /// Whether raw odometry is drawn: what there is to see before the first step.
+    pub fn shows_raw(&self) -> bool {
+        self.raw || self.run.is_none()
+    }
+
+    /// The part of the world that is shown.
+    pub fn view(&self, layout: &Layout) -> Option<View> {
+        let whole = || match (&self.run, self.log()) {
+            (Some(run), _) => Some(Frame::of_map(run)),
+            (None, Some(log)) => {
+                let corner = |pick: fn(f64, f64) -> f64, start: f64| {
+                    let fold = |corner: [f64; 2], x, y| [pick(corner[0], x), pick(corner[1], y)];
+                    log.scans.iter().fold([start; 2], |c, scan| fold(c, scan.odometry.x, scan.odometry.y))
+                };
+                Some(Frame::around(corner(f64::min, f64::INFINITY), corner(f64::max, f64::NEG_INFINITY)))
+            }
+            _ => None,
+        };
+        let frame = self.frame.or_else(whole)?;
+        Some(View::new(layout.map, &frame))
+    }
+
+    /// Memory that the maps may take at the most \[bytes\].
+    pub fn estimate(&self) -> Option<f64> {
+        Some(self.opened.as_ref()?.bytes(self.setup(), self.setup().particles))
+    }
+
+    /// Forgets what was computed.
+    fn restart(&mut self) {
+        self.run = None;
+        self.asked = 0;
+        self.history.clear();
+        self.deaths.clear();
+        self.peak = Footprint { unique: 0, dense: 0 };
+    }
+
+    fn look(&mut self, move_to: impl Fn(View) -> View, width: f64) {
+        self.frame = self.view(&Layout::new(width)).map(|view| move_to(view).frame());
+    }
+
+    /// What the step that was just made did.
+    fn note(&mut self, ess: f64, resampled: bool) {
+        let Some(run) = &self.run else { return };
+        let (filter, step) = (run.filter(), self.history.len() as u32 + 1);
+        let alive = filter.nodes();
+        let nodes: Vec<_> = filter.ancestry().nodes(step).filter(|node| alive.binary_search(node).is_err()).collect();
+        let descent = filter.descent();
+        self.history.push(Moment {
+            ess,
+            resampled,
+            died: nodes.len() as u32,
+            lineage: descent.lineage(BACK),
+            shared: descent.coalescence().unwrap_or(0),
+        });
+        if !nodes.is_empty() {
+            self.deaths.push(Death { step, nodes });
+        }
+        if step.is_multiple_of(LOOK) || step == run.step_count() {
+            let now = run.footprint();
+            if now.unique > self.peak.unique {
+                self.peak = now;
+            }
+        }
+    }
+
+    /// The log in words, before it is mapped.
+    fn told(&self, opened: &Opened) -> String {
+        let (log, setup) = (&opened.log, self.setup());
+        let minutes = (log.scans[log.scans.len() - 1].time - log.scans[0].time) / 60.0;
+        let mut text = format!(
+            "{} scans of up to {} beams, over {} m by raw odometry and {} min. ",
+            log.scans.len(),
+            log.scans.iter().map(|scan| scan.ranges.len()).max().unwrap_or(0),
+            fixed(opened.way, 0),
+            fixed(minutes, 0)
+        );
+        let notes = &log.notes;
+        let unknown: u32 = notes.unknown.iter().map(|(_, count)| count).sum();
+        for (count, what) in [
+            (notes.malformed, "malformed lines"),
+            (unknown, "messages of other kinds"),
+            (notes.rear, "scans of a rear laser"),
+        ] {
+            if count > 0 {
+                text += &format!("Left out: {what}, {count}. ");
+            }
+        }
+        let estimate = self.estimate().unwrap_or(0.0);
+        text += &format!(
+            "{} universes with cells of {} m take at most {} MB of memory.",
+            setup.particles,
+            write(setup.cell_size),
+            megabytes(estimate)
+        );
+        text
+    }
+
+    fn progress(&self, run: &LogRun) -> String {
+        let (step, last) = (self.history.len() as u32, run.step_count());
+        let m = self.setup().particles;
+        let start =
+            if step == last { "All scans are mapped".into() } else { format!("Scan {step} of {last} is mapped") };
+        let Some(moment) = self.history.last() else { return "All universes start alike, with the first scan.".into() };
+        let mut text = format!(
+            "{start}. N_eff is {} of {m}; all universes share one path up to scan {}. ",
+            fixed(moment.ess, 1),
+            moment.shared
+        );
+        text += &match self.deaths.last() {
+            Some(Death { step, nodes }) => {
+                format!("At the last resampling, at scan {step}, {} of {m} died out.", nodes.len())
+            }
+            None => "None has died out.".into(),
+        };
+        text
+    }
+}
+
+/// In whole MB, or tenths where there are few.
+fn megabytes(bytes: f64) -> String {
+    let megabytes = bytes / 1e6;
+    if megabytes < 10.0 { fixed(megabytes, 1) } else { fixed(megabytes, 0) }
+}
+
+/// What is wrong with a file, in a line.
+fn unreadable(LogError { line, message }: &LogError) -> FigureError {
+    let place = if *line > 0 { format!("line {line}: ") } else { String::new() };
+    FigureError { parameter: "file".into(), message: format!("{place}{message}") }
+}
+
+impl Model for LogModel {
+    fn title(&self) -> &'static str {
+        Self::TITLE
+    }
+
+    fn params(&self) -> Vec<ParamSpec> {
+        params::specs()
+    }
+
+    fn value(&self, name: &str) -> Option<String> {
+        let setup = self.setup();
+        Some(match name {
+            "universes" => setup.particles.to_string(),
+            "seed" => setup.seed.to_string(),
+            "cell" => write(setup.cell_size),
+            "max-range" => write(setup.max_range),
+            "min-travel" => write(setup.min_travel),
+            "policy" => policy::name(setup.policy).into(),
+            "threshold" => write(self.recipe.threshold),
+            "lenient" => flag_text(self.lenient),
+            "raw" => flag_text(self.raw),
+            _ => return None,
+        })
+    }
+
+    fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
+        let mut refused = Vec::new();
+        let (mut recipe, specs) = (self.recipe.clone(), self.params());
+        for (name, text) in values {
+            let Some(spec) = specs.iter().find(|s| s.name == name) else {
+                refused.push(unknown(name, &specs));
+                continue;
+            };
+            match (spec.check(text), spec.group, name.as_str()) {
+                (Err(error), ..) => refused.push(error),
+                (Ok(value), Group::Setup, _) => recipe.set(name, value),
+                (Ok(Value::Flag(on)), _, "lenient") => self.lenient = on,
+                (Ok(Value::Flag(on)), ..) => self.raw = on,
+                _ => (),
+            }
+        }
+        if recipe.setup != self.recipe.setup {
+            if let Some(opened) = &mut self.opened
+                && recipe.setup.max_range != self.recipe.setup.max_range
+            {
+                opened.swept = swept(&opened.log, recipe.setup.max_range);
+            }
+            self.restart();
+        }
+        self.recipe = recipe;
+        refused
+    }
+
+    fn open(&mut self, file: &[u8]) -> Result<(), FigureError> {
+        if file.is_empty() {
+            return Err(unreadable(&LogError { line: 0, message: "the file is empty".into() }));
+        }
+        // Without its malformed lines first, to count them. Where nothing is left, the first of them tells most.
+        let log = parse(file, true).map_err(|_| parse(file, false).err()).map_err(|error| {
+            unreadable(&error.unwrap_or(LogError { line: 0, message: "there is no scan in it".into() }))
+        })?;
+        if log.scans.len() < 2 {
+            return Err(unreadable(&LogError {
+                line: 0,
+                message: "there is one scan only, and nothing to map".into(),
+            }));
+        }
+        self.opened = Some(Opened::new(log, self.setup()));
+        self.frame = None;
+        self.restart();
+        Ok(())
+    }
+
+    fn ready(&self) -> Result<(), FigureError> {
+        let Some(opened) = &self.opened else {
+            return Err(FigureError { parameter: "file".into(), message: "there is no log to map yet".into() });
+        };
+        let notes = &opened.log.notes;
+        if let (false, Some(first)) = (self.lenient, &notes.first_malformed) {
+            let more = if notes.malformed > 1 {
+                format!(" ({} malformed lines in all)", notes.malformed)
+            } else {
+                String::new()
+            };
+            return Err(FigureError { parameter: "lenient".into(), message: unreadable(first).message + &more });
+        }
+        let setup = self.setup();
+        let needed = opened.bytes(setup, setup.particles);
+        if needed <= LIMIT {
+            return Ok(());
+        }
+        let why = format!(
+            "with cells of {} m they may take {} MB, and the limit is {} MB",
+            write(setup.cell_size),
+            megabytes(needed),
+            megabytes(LIMIT)
+        );
+        let most = (1..setup.particles).rev().find(|universes| opened.bytes(setup, *universes) <= LIMIT);
+        Err(match most {
+            Some(most) => {
+                FigureError::new("universes", setup.particles, format!("a whole number from 1 to {most} here: {why}"))
+            }
+            // Where not even one fits, it is the cells that are too small. Rounded up to what can be set.
+            None => {
+                let least = setup.cell_size * (opened.bytes(setup, 1) / LIMIT).sqrt();
+                let least = write((100.0 * least).ceil() / 100.0);
+                FigureError::new("cell", write(setup.cell_size), format!("at least {least} m for this log: {why}"))
+            }
+        })
+    }
+
+    fn file(&self, name: &str) -> Option<Vec<u8>> {
+        let run = self.run.as_ref()?;
+        Some(match name {
+            "path.tum" => trajectory(run).into_bytes(),
+            "map.pgm" => Picture::of(run).pgm(),
+            "map.yaml" => Picture::of(run).yaml("map.pgm").into_bytes(),
+            _ => return None,
+        })
+    }
+
+    fn zoom(&mut self, factor: f64, at: Option<Point>, width: f64) {
+        self.look(|view| view.zoomed(factor, at.unwrap_or(view.area.centre())), width);
+    }
+
+    fn pan(&mut self, by: Point, width: f64) {
+        self.look(|view| view.panned(by), width);
+    }
+
+    fn fit(&mut self) {
+        self.frame = None;
+    }
+
+    /// Goes on to a step; to one that is past, by beginning again.
+    fn seek(&mut self, step: u32) {
+        let Some(opened) = self.opened.as_ref().filter(|_| self.ready().is_ok()) else { return };
+        let log = opened.log.clone();
+        if step < self.step() {
+            self.restart();
+        }
+        if self.run.is_none() && step > 0 {
+            self.run = LogRun::new(self.setup(), log).ok(); // the parameters' ranges are within the core's
+        }
+        self.asked = step.min(self.step_count());
+    }
+
+    fn step_count(&self) -> u32 {
+        match (&self.run, self.log()) {
+            (Some(run), _) => run.step_count(),
+            (None, Some(log)) => log.scans.len() as u32 - 1,
+            _ => 0,
+        }
+    }
+
+    fn step(&self) -> u32 {
+        self.history.len() as u32
+    }
+
+    fn pending(&self) -> u32 {
+        self.asked - self.step()
+    }
+
+    fn work(&mut self) {
+        if self.pending() > 0
+            && let Some(step) = self.run.as_mut().and_then(LogRun::step)
+        {
+            self.note(step.ess, step.resampled);
+        }
+    }
+
+    fn readouts(&self) -> Vec<Readout> {
+        let (m, step) = (self.setup().particles, self.step());
+        let moment = self.history.last();
+        let of_m = |x: Option<f64>, decimals| {
+            let x = x.unwrap_or(f64::NAN);
+            (x, format!("{} of {m}", fixed(x, decimals)))
+        };
+        let (ess, ess_text) = of_m(moment.map(|moment| moment.ess), 1);
+        let (lineage, lineage_text) = of_m(moment.map(|moment| moment.lineage.into()), 0);
+        let resampled = self.history.iter().filter(|moment| moment.resampled).count();
+        let scan = if self.opened.is_some() { f64::from(step) } else { f64::NAN };
+        let shared = moment.map_or(f64::NAN, |moment| moment.shared.into());
+        let memory = |name, title, bytes: f64, help| {
+            let bytes = if bytes > 0.0 { bytes } else { f64::NAN };
+            Readout::new(name, title, bytes / 1e6, megabytes(bytes), "MB", help)
+        };
+        let done = step > 0 && step == self.step_count();
+        let digest =
+            self.run.as_ref().filter(|_| done).map_or("–".into(), |run| format!("{:016x}", run.digest().value()));
+        vec![
+            Readout::new(
+                "scan",
+                "Scan",
+                scan,
+                format!("{step} of {}", self.step_count()),
+                "",
+                "Scans that are mapped, after the first, and all of them.",
+            ),
+            Readout::new(
+                "ess",
+                "N_eff",
+                ess,
+                ess_text,
+                "",
+                "Effective number of universes before resampling: M if all weigh the same, 1 if one has all the weight.",
+            ),
+            Readout::new(
+                "lineage",
+                "Lineage, 20 scans back",
+                lineage,
+                lineage_text,
+                "",
+                "Distinct ancestors of the universes 20 scans ago.",
+            ),
+            Readout::new(
+                "shared",
+                "One path up to scan",
+                shared,
+                fixed(shared, 0),
+                "",
+                "The latest scan at which all universes have one ancestor: up to there they share one path.",
+            ),
+            Readout::new(
+                "resampled",
+                "Resampled",
+                if step > 0 { resampled as f64 } else { f64::NAN },
+                format!("{resampled} of {step}"),
+                "",
+                "Scans after which the universes were resampled.",
+            ),
+            memory(
+                "estimate",
+                "Memory at most",
+                self.estimate().unwrap_or(0.0),
+                "What maps and paths may take, reckoned from the area that the beams sweep along raw odometry, M and the policy.",
+            ),
+            memory(
+                "map_unique",
+                "Memory of the maps",
+                self.peak.unique as f64,
+                "What all maps held together at the most, shared tiles counted once; looked at every 50 scans.",
+            ),
+            memory(
+                "map_dense",
+                "… as dense arrays",
+                self.peak.dense as f64,
+                "What the maps would have held then if each were an array of its own.",
+            ),
+            Readout {
+                name: "digest",
+                title: "Fingerprint",
+                value: None,
+                text: digest,
+                unit: "",
+                help: "Of all paths and weights at the end, bit for bit: the command line gives the same for the same log and settings.",
+            },
+        ]
+    }
+
+    fn series(&self) -> Series {
+        const COLUMNS: &[Column] = &[
+            Column::new("scan", "number of the scan, the first being 0"),
+            Column::new("time_s", "its stamp in the log [s]"),
+            Column::new("x_m", "best path at the end [m]"),
+            Column::new("y_m", "best path at the end [m]"),
+            Column::new("theta_rad", "best path at the end [rad]"),
+            Column::new("ess", "effective number of universes before resampling"),
+            Column::new("resampled", "1 where the step resampled"),
+            Column::new("died_out", "universes without offspring at this resampling"),
+            Column::new("lineage_20", "distinct ancestors 20 scans ago"),
+            Column::new("shared", "latest scan up to which all universes share one path"),
+        ];
+        let path = self.run.as_ref().map(LogRun::path).unwrap_or_default();
+        let row = |(k, (time, pose)): (usize, &(f64, fastslam::geometry::Pose2))| {
+            let of =
+                |value: fn(&Moment) -> f64| k.checked_sub(1).and_then(|k| self.history.get(k)).map_or(f64::NAN, value);
+            vec![
+                k as f64,
+                *time,
+                pose.x,
+                pose.y,
+                pose.theta,
+                of(|m| m.ess),
+                of(|m| f64::from(u8::from(m.resampled))),
+                of(|m| m.died.into()),
+                of(|m| m.lineage.into()),
+                of(|m| m.shared.into()),
+            ]
+        };
+        Series { columns: COLUMNS, rows: path.iter().enumerate().map(row).collect() }
+    }
+
+    fn describe(&self) -> String {
+        match (&self.run, &self.opened) {
+            (Some(run), _) => self.progress(run),
+            (None, Some(opened)) => self.told(opened),
+            _ => "No log is open yet. Run the example, or choose or drop a log of your own: a CARMEN log, as text or compressed by gzip.".into(),
+        }
+    }
+
+    fn height(&self, width: f64) -> f64 {
+        Layout::new(width).height * (width / width.max(NARROWEST))
+    }
+
+    fn scene(&self, width: f64, height: f64) -> Scene {
+        scene::build(self, width, height)
+    }
+}
