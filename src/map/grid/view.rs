@@ -111,7 +111,8 @@ impl<const FINE: usize> Surfaces for View<'_, FINE> {
         let (column, row) =
             (i.wrapping_sub(self.rect.i0) as u32 as usize, j.wrapping_sub(self.rect.j0) as u32 as usize);
         let width = self.rect.width();
-        if column + 1 >= width || row + 1 >= self.rect.height() {
+        // Left of the first column is the largest number of 32 bits: one more must not be the first on a 32-bit machine.
+        if column.saturating_add(1) >= width || row.saturating_add(1) >= self.rect.height() {
             return self.grid.nearest_surface(x, y);
         }
         let (du, dv) = (u - f64::from(i), v - f64::from(j));
