@@ -49,9 +49,7 @@ impl OutlineBuilder for Outlines {
     fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
         self.put('C', &[[x1, y1], [x2, y2], [x, y]]);
     }
-    fn close(&mut self) {
-        self.put('Z', &[]);
-    }
+    fn close(&mut self) {} // a fill closes every contour
 }
 
 /// All characters of the font in code point order, with the glyph of each.
