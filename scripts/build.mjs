@@ -32,7 +32,7 @@ export const figureWasm = tag => join(root, 'widgets', 'pkg', `${tag}.wasm`)
 
 /** The program with all figures. */
 export async function buildWasm() {
-  await step('Widgets to WebAssembly', () => run('wasm-pack', ['build', 'widgets', '--target', 'web', '--release', '--no-pack']))
+  await step('Widgets to WebAssembly', () => run('wasm-pack', ['build', 'widgets', '--target', 'web', '--profile', 'page', '--no-pack']))
   await step('Optimise WebAssembly', () => optimise(wasm))
 }
 
@@ -42,7 +42,7 @@ export async function buildFigures() {
   for (const tag of figures) {
     const wanted = ['--no-default-features', '--features', `single-threaded,${tag.replace('fastslam-', '')}`]
     await step(`${tag} alone`, async () => {
-      await run('wasm-pack', ['build', 'widgets', '--target', 'web', '--release', '--no-pack', '--no-typescript', '--out-dir', folder, ...wanted])
+      await run('wasm-pack', ['build', 'widgets', '--target', 'web', '--profile', 'page', '--no-pack', '--no-typescript', '--out-dir', folder, ...wanted])
       copyFileSync(join(folder, basename(wasm)), figureWasm(tag))
       return optimise(figureWasm(tag))
     })
