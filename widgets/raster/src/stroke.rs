@@ -97,8 +97,9 @@ fn dashes(points: &[Point], dash: [f32; 2], mut put: impl FnMut(&[Point])) {
         dot(way, way).sqrt()
     };
     let whole: f32 = points.windows(2).map(length).sum();
-    // Not a number in any of them, or dashes of no length: whole.
-    if !(whole <= DASHES * (dash[0] + dash[1])) {
+    // False as well where one of them is no number.
+    let countable = whole <= DASHES * (dash[0] + dash[1]);
+    if !countable {
         return put(points);
     }
     let mut piece: Vec<Point> = points.first().copied().into_iter().collect();
