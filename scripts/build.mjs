@@ -1,6 +1,6 @@
 // Builds the chapter: the widgets to WebAssembly (widgets/pkg), then the pages around them (dist).
 import { createHash } from 'node:crypto'
-import { copyFileSync, existsSync, mkdirSync, readFileSync, renameSync, rmSync, statSync, writeFileSync } from 'node:fs'
+import { copyFileSync, existsSync, mkdirSync, readFileSync, renameSync, rmSync, statSync } from 'node:fs'
 import { basename, join } from 'node:path'
 import { fileURLToPath } from 'node:url'
 import { writeNames } from './elements.mjs'
@@ -26,39 +26,15 @@ const features = [
 // Functions that LLVM left apart stay apart, and lie beside their like: what Brotli sends is 3 KB less.
 const optimiser = [...features, '-Oz', '--one-caller-inline-max-function-size=1', '--reorder-functions', '--strip-debug']
 
-/**
- * tiny-skia-path strokes and dashes curves as well, and no linker can tell that the painter (widgets/src/paint) strokes polylines only.
- * @param {string} name a function's, in Rust
- */
-const neverRun = name => /^<?tiny_skia_path\b.*(::PathStroker>?::(cubic|quad|conic)|ContourMeasure>?::compute_(cubic|quad|conic))/.test(name)
-
 /** Tags of all figures. */
 export const figures = [...readFileSync(join(root, 'widgets', 'src', 'registry.rs'), 'utf8').matchAll(/tag: "([a-z-]+)"/g)].map(([, tag = '']) => tag)
 
 /** The program with one figure only. @param {string} tag */
 export const figureWasm = tag => join(root, 'widgets', 'pkg', `${tag}.wasm`)
 
-/** The module with traps for what never runs. @param {Buffer} input */
-async function withoutNeverRun(input) {
-  const { default: binaryen } = await import('binaryen')
-  const module = binaryen.readBinary(input)
-  const { SIMD128, BulkMemory, BulkMemoryOpt, NontrappingFPToInt, SignExt, MutableGlobals, Multivalue, ReferenceTypes } = binaryen.Features
-  module.setFeatures(SIMD128 | BulkMemory | BulkMemoryOpt | NontrappingFPToInt | SignExt | MutableGlobals | Multivalue | ReferenceTypes)
-  const functions = Array.from({ length: module.getNumFunctions() }, (_, i) => binaryen.getFunctionInfo(module.getFunctionByIndex(i)))
-  const traps = functions.filter(({ name }) => neverRun(name))
-  if (traps.length < 5) throw new StepError(`Only ${traps.length} functions that never run were found by name: have they been renamed?`)
-  for (const { name, params, results } of traps) {
-    module.removeFunction(name)
-    module.addFunction(name, params, results, [], module.unreachable())
-  }
-  const output = module.emitBinary()
-  module.dispose()
-  return output
-}
-
 /** The program with all figures. */
 export async function buildWasm() {
-  await step('Widgets to WebAssembly', () => run('wasm-pack', ['build', 'widgets', '--target', 'web', '--release', '--no-pack']))
+  await step('Widgets to WebAssembly', () => run('wasm-pack', ['build', 'widgets', '--target', 'web', '--profile', 'page', '--no-pack']))
   await step('Optimise WebAssembly', () => optimise(wasm))
   await step('Names of the figures', writeNames)
 }
@@ -69,7 +45,7 @@ export async function buildFigures() {
   for (const tag of figures) {
     const wanted = ['--no-default-features', '--features', `single-threaded,${tag.replace('fastslam-', '')}`]
     await step(`${tag} alone`, async () => {
-      await run('wasm-pack', ['build', 'widgets', '--target', 'web', '--release', '--no-pack', '--no-typescript', '--out-dir', folder, ...wanted])
+      await run('wasm-pack', ['build', 'widgets', '--target', 'web', '--profile', 'page', '--no-pack', '--no-typescript', '--out-dir', folder, ...wanted])
       copyFileSync(join(folder, basename(wasm)), figureWasm(tag))
       return optimise(figureWasm(tag))
     })
@@ -105,8 +81,7 @@ async function optimise(file) {
     rmSync(folder, { recursive: true, force: true })
     mkdirSync(folder, { recursive: true })
     const part = `${kept}.part`
-    writeFileSync(part, await withoutNeverRun(input))
-    await run(npmBin('wasm-opt'), [...optimiser, part, '-o', part])
+    await run(npmBin('wasm-opt'), [...optimiser, file, '-o', part])
     renameSync(part, kept)
   }
   copyFileSync(kept, file)

@@ -3,6 +3,8 @@
 //! A figure writes with these and not with the browser's fonts, so that its text has the same pixels on every machine and
 //! is as crisp as its lines at any zoom. The subset's digits are tabular: a number that changes keeps its width.
 
+use fastslam_raster::path::Segment;
+
 /// Weight of the strokes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Weight {
@@ -10,19 +12,6 @@ pub enum Weight {
     Regular,
     /// Inter SemiBold.
     SemiBold,
-}
-
-/// A piece of an outline in em (1 = the font size), y up, the baseline at 0.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Segment {
-    /// Starts a contour.
-    Move([f32; 2]),
-    /// Straight to the point.
-    Line([f32; 2]),
-    /// Cubic curve by its two control points.
-    Cubic([f32; 2], [f32; 2], [f32; 2]),
-    /// Ends a contour.
-    Close,
 }
 
 /// Width of a line of text at this font size, in the unit of `size`. Characters the font lacks are as wide as `?`.
@@ -38,7 +27,7 @@ pub fn cap_height(size: f64, weight: Weight) -> f64 {
     f64::from(table.cap_height) * size / f64::from(table.units_per_em)
 }
 
-/// Calls `put` with every piece of the text's outline and the distance in em from the text's start to its glyph's.
+/// Calls `put` with every piece of the text's outline in em (1 = the font size, y up, the baseline at 0) and the distance in em from the text's start to its glyph's.
 pub fn outline(text: &str, weight: Weight, mut put: impl FnMut(f32, Segment)) {
     let table = weight.table();
     let em = 1.0 / table.units_per_em;
@@ -55,7 +44,6 @@ pub fn outline(text: &str, weight: Weight, mut put: impl FnMut(f32, Segment)) {
                 b'M' => Segment::Move(point()),
                 b'L' => Segment::Line(point()),
                 b'C' => Segment::Cubic(point(), point(), point()),
-                b'Z' => Segment::Close,
                 _ => break,
             };
             put(pen, segment);

@@ -4,8 +4,8 @@
 //! are found: their ends to a 64th of a pixel, so that a pixel's share is exact along the line and one of [`LINES`] across it. All
 //! arithmetic on the way is that of IEEE or of integers, so every machine gets the same.
 
+use crate::path::{Path, Point, Segment, dot};
 use crate::{Color, Pixels, WHOLE, cover};
-use tiny_skia_path::{Path, PathSegment};
 
 /// Lines in a row of pixels.
 const LINES: i32 = 4;
@@ -45,9 +45,12 @@ struct Edge {
 const NONE: u32 = u32::MAX;
 
 impl Filler {
-    /// Fills a path with a colour.
+    /// Fills a path with a colour; one with a point that is nowhere draws nothing.
     pub fn fill(&mut self, pixels: &mut Pixels, path: &Path, color: Color) {
         let [width, height] = pixels.size().map(|side| side as i32);
+        if !path.segments().iter().all(Segment::is_finite) {
+            return;
+        }
         self.edges.clear();
         self.outline(path, LINES * height);
         let Some((first, last)) = self.sort() else { return };
@@ -73,31 +76,19 @@ impl Filler {
     /// All contours, closed, as edges.
     fn outline(&mut self, path: &Path, lines: i32) {
         let (mut start, mut at) = ([0.0; 2], [0.0; 2]);
-        for segment in path.segments() {
+        for &segment in path.segments() {
             let a = at;
             match segment {
-                PathSegment::MoveTo(point) => {
+                Segment::Move(point) => {
                     self.edge(a, start, lines);
-                    at = [point.x, point.y];
-                    start = at;
+                    (start, at) = (point, point);
                 }
-                PathSegment::LineTo(point) => {
-                    at = [point.x, point.y];
-                    self.edge(a, at, lines);
+                Segment::Line(point) => {
+                    self.edge(a, point, lines);
+                    at = point;
                 }
-                PathSegment::QuadTo(b, c) => {
-                    // a + 2 t (b − a) + t² (a − 2 b + c)
-                    let [b, c] = [b, c].map(|p| [p.x, p.y]);
-                    let bend = |i: usize| a[i] - b[i] - b[i] + c[i];
-                    for t in pieces(length([0, 1].map(bend))) {
-                        let point = [0, 1].map(|i| a[i] + t * (2.0 * (b[i] - a[i]) + t * bend(i)));
-                        self.edge(at, point, lines);
-                        at = point;
-                    }
-                }
-                PathSegment::CubicTo(b, c, d) => {
+                Segment::Cubic(b, c, d) => {
                     // a + 3 t (b − a) + 3 t² (a − 2 b + c) + t³ (d − a + 3 (b − c))
-                    let [b, c, d] = [b, c, d].map(|p| [p.x, p.y]);
                     let bends = [[a, b, c], [b, c, d]].map(|[a, b, c]| [0, 1].map(|i| a[i] - b[i] - b[i] + c[i]));
                     for t in pieces(3.0 * length(bends[0]).max(length(bends[1]))) {
                         let point = [0, 1].map(|i| {
@@ -108,17 +99,13 @@ impl Filler {
                         at = point;
                     }
                 }
-                PathSegment::Close => {
-                    at = start;
-                    self.edge(a, at, lines);
-                }
             }
         }
         self.edge(at, start, lines);
     }
 
     /// Takes a straight piece, if it crosses a line.
-    fn edge(&mut self, a: [f32; 2], b: [f32; 2], lines: i32) {
+    fn edge(&mut self, a: Point, b: Point, lines: i32) {
         let [a, b] = [a, b].map(|[x, y]| [x * PARTS as f32, y * LINES as f32]);
         let (winding, a, b) = if a[1] < b[1] { (1, a, b) } else { (-1, b, a) };
         // A line is looked at in its middle.
@@ -195,8 +182,8 @@ fn pieces(bend: f32) -> impl Iterator<Item = f32> {
     (1..=count).map(move |k| k as f32 / count as f32)
 }
 
-fn length([x, y]: [f32; 2]) -> f32 {
-    (x * x + y * y).sqrt()
+fn length(way: Point) -> f32 {
+    dot(way, way).sqrt()
 }
 
 /// Covers a row of pixels by shares, whose steps are taken out. Most pixels are wholly inside or outside: eight at a time.
@@ -229,22 +216,21 @@ fn paint(pixels: &mut [Color], steps: &mut [i16], color: Color) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tiny_skia_path::{PathBuilder, Rect};
 
     const INK: Color = [255, 0, 0, 255];
 
     /// Red of a row of pixels under what is filled.
-    fn filled(size: [u32; 2], row: usize, path: impl FnOnce(&mut PathBuilder)) -> Vec<u8> {
-        let mut builder = PathBuilder::new();
-        path(&mut builder);
+    fn filled(size: [u32; 2], row: usize, draw: impl FnOnce(&mut Path)) -> Vec<u8> {
+        let mut path = Path::default();
+        draw(&mut path);
         let (mut pixels, mut filler) = (Pixels::new(size), Filler::default());
-        filler.fill(&mut pixels, &builder.finish().unwrap(), INK);
+        filler.fill(&mut pixels, &path, INK);
         assert!(filler.steps.iter().all(|&step| step == 0), "the next path starts from nothing");
         pixels.rows().nth(row).unwrap().iter().map(|[red, ..]| *red).collect()
     }
 
-    fn rect(path: &mut PathBuilder, [left, top, right, bottom]: [f32; 4]) {
-        path.push_rect(Rect::from_ltrb(left, top, right, bottom).unwrap());
+    fn rect(path: &mut Path, [left, top, right, bottom]: [f32; 4]) {
+        path.polygon([[left, top], [right, top], [right, bottom], [left, bottom]]);
     }
 
     #[test]
@@ -262,9 +248,7 @@ mod tests {
         assert_eq!(twice, [128, 255, 128, 0]);
         let hole = filled([4, 1], 0, |path| {
             rect(path, [0.0, 0.0, 4.0, 1.0]);
-            for (k, [x, y]) in [[1.0, 0.0], [1.0, 1.0], [3.0, 1.0], [3.0, 0.0]].into_iter().enumerate() {
-                if k == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
-            }
+            path.polygon([[1.0, 0.0], [1.0, 1.0], [3.0, 1.0], [3.0, 0.0]]);
         });
         assert_eq!(hole, [255, 0, 0, 255]);
     }
@@ -284,7 +268,7 @@ mod tests {
     fn a_disc_has_its_area() {
         for radius in [1.5, 4.0, 7.3] {
             let ink: u32 = (0..20)
-                .flat_map(|row| filled([20, 20], row, |path| path.push_circle(9.8, 10.3, radius)))
+                .flat_map(|row| filled([20, 20], row, |path| path.circle([9.8, 10.3], radius)))
                 .map(u32::from)
                 .sum();
             let area = core::f32::consts::PI * radius * radius;
@@ -296,9 +280,9 @@ mod tests {
     #[test]
     fn coordinates_of_any_size_are_taken() {
         let huge = filled([3, 1], 0, |path| {
-            path.move_to(-1e30, -1e30);
-            path.cubic_to(3e30, -3e30, -3e30, 3e30, 1e30, 1e30);
-            path.quad_to(-3e30, 3e30, 0.0, -2e30);
+            path.push(Segment::Move([-1e30, -1e30]));
+            path.push(Segment::Cubic([3e30, -3e30], [-3e30, 3e30], [1e30, 1e30]));
+            path.push(Segment::Line([0.0, -2e30]));
         });
         assert_eq!(huge.len(), 3);
     }

@@ -1,7 +1,7 @@
 //! The painter: a scene, a theme and a number of device pixels in, opaque RGBA out, the same bytes on every machine.
 //!
 //! Maps, borders and plates are written straight into whole device pixels, which is crisp and fast; lines, discs and glyphs are
-//! paths of tiny-skia, filled by `fastslam-raster`. All shapes of a mark go into one path, because a fill costs more to begin than to go on with;
+//! paths, filled by `fastslam-raster`. All shapes of a mark go into one path, because a fill costs more to begin than to go on with;
 //! clouds of samples and bundles of thin lines are written straight into pixels too.
 
 mod theme;
@@ -12,9 +12,8 @@ use crate::{
     font,
     scene::{Mark, Point, Rect, Role, Scene, Shading, Text, UNKNOWN},
 };
-pub use fastslam_raster::{Color, Pixels};
-use fastslam_raster::{blit, fill::Filler};
-use tiny_skia_path::{LineCap, LineJoin, Path, PathBuilder, Stroke, StrokeDash};
+pub use fastslam_raster::{Color, Pixels, path};
+use fastslam_raster::{blit, fill::Filler, path::Path, stroke::Stroke};
 
 /// Largest width and height of a canvas \[device px\].
 pub const MAX_SIDE: u32 = 8191;
@@ -30,12 +29,12 @@ pub struct Canvas {
     pixels: Pixels,
     filler: Filler,
     /// Memory of the last path.
-    scratch: PathBuilder,
+    scratch: Path,
 }
 
 impl Default for Canvas {
     fn default() -> Self {
-        Self { pixels: Pixels::new([1, 1]), filler: Filler::default(), scratch: PathBuilder::new() }
+        Self { pixels: Pixels::new([1, 1]), filler: Filler::default(), scratch: Path::default() }
     }
 }
 
@@ -103,10 +102,15 @@ impl Brush<'_, '_> {
             }
             Mark::Frame { area, width, role } => self.frame(area, *width, *role),
             Mark::Lines { lines, width, dash, role } => {
-                let mut path = self.scratch();
-                lines.iter().for_each(|line| self.polyline(&mut path, line));
                 let stroke = self.stroke(*width, *dash);
-                self.fill(path, Some(stroke), *role);
+                let mut points = Vec::new();
+                self.fill(*role, |brush, path| {
+                    for line in lines {
+                        points.clear();
+                        points.extend(line.iter().map(|&point| brush.at(point)));
+                        stroke.outline(path, &points);
+                    }
+                });
             }
             Mark::Strands { lines, width, role } => {
                 let (device, color) = ((width * self.scale) as f32, opaque(self.theme.color(*role)));
@@ -119,14 +123,9 @@ impl Brush<'_, '_> {
                     blit::strand(&mut self.canvas.pixels, a, b, device, color);
                 }
             }
-            Mark::Polygons { polygons, role } => {
-                let mut path = self.scratch();
-                for polygon in polygons {
-                    self.polyline(&mut path, polygon);
-                    path.close();
-                }
-                self.fill(path, None, *role);
-            }
+            Mark::Polygons { polygons, role } => self.fill(*role, |brush, path| {
+                polygons.iter().for_each(|polygon| path.polygon(polygon.iter().map(|&point| brush.at(point))));
+            }),
             Mark::Discs { centres, radius, role } if centres.len() >= CLOUD => {
                 let (radius, color) = ((radius * self.scale) as f32, opaque(self.theme.color(*role)));
                 for &centre in centres {
@@ -134,14 +133,10 @@ impl Brush<'_, '_> {
                     blit::disc(&mut self.canvas.pixels, centre, radius, color);
                 }
             }
-            Mark::Discs { centres, radius, role } => {
-                let mut path = self.scratch();
-                for &centre in centres {
-                    let [x, y] = self.at(centre);
-                    path.push_circle(x, y, (radius * self.scale) as f32);
-                }
-                self.fill(path, None, *role);
-            }
+            Mark::Discs { centres, radius, role } => self.fill(*role, |brush, path| {
+                let radius = (radius * brush.scale) as f32;
+                centres.iter().for_each(|&centre| path.circle(brush.at(centre), radius));
+            }),
             Mark::Text(text) => self.text(text),
         }
     }
@@ -150,37 +145,11 @@ impl Brush<'_, '_> {
         // On whole device pixels, so that the same word has the same pixels wherever it stands.
         let [x, y] = self.at(text.origin()).map(|c| (c + 0.5).floor());
         let size = (text.size * self.scale) as f32;
-        let mut path = self.scratch();
-        font::outline(&text.text, text.weight, |pen, segment| {
-            let at = |[u, v]: [f32; 2]| [x + (pen + u) * size, y - v * size];
-            match segment {
-                font::Segment::Move(p) => {
-                    let [x, y] = at(p);
-                    path.move_to(x, y);
-                }
-                font::Segment::Line(p) => {
-                    let [x, y] = at(p);
-                    path.line_to(x, y);
-                }
-                font::Segment::Cubic(c, d, p) => {
-                    let [[x1, y1], [x2, y2], [x, y]] = [c, d, p].map(at);
-                    path.cubic_to(x1, y1, x2, y2, x, y);
-                }
-                font::Segment::Close => path.close(),
-            }
+        self.fill(text.role, |_, path| {
+            font::outline(&text.text, text.weight, |pen, segment| {
+                path.push(segment.map(|[u, v]| [x + (pen + u) * size, y - v * size]));
+            });
         });
-        self.fill(path, None, text.role);
-    }
-
-    fn scratch(&mut self) -> PathBuilder {
-        core::mem::take(&mut self.canvas.scratch)
-    }
-
-    fn polyline(&self, path: &mut PathBuilder, points: &[Point]) {
-        for (k, &point) in points.iter().enumerate() {
-            let [x, y] = self.at(point);
-            if k == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
-        }
     }
 
     fn stroke(&self, width: f64, dash: Option<[f64; 2]>) -> Stroke {
@@ -188,22 +157,19 @@ impl Brush<'_, '_> {
         // Round where it can be seen: the arcs of thin lines are most of their edges, and edges are what filling costs.
         Stroke {
             width,
-            line_cap: if width > 1.5 && dash.is_none() { LineCap::Round } else { LineCap::Butt },
-            line_join: if width > 4.0 { LineJoin::Round } else { LineJoin::Miter },
-            dash: dash.and_then(|dash| StrokeDash::new(dash.map(|d| (d * self.scale) as f32).to_vec(), 0.0)),
-            ..Stroke::default()
+            round_ends: width > 1.5 && dash.is_none(),
+            round_joints: width > 4.0,
+            dash: dash.map(|dash| dash.map(|length| (length * self.scale) as f32)),
         }
     }
 
-    /// Fills a path, or its stroke; what has no area or no finite bounds draws nothing.
-    fn fill(&mut self, path: PathBuilder, stroke: Option<Stroke>, role: Role) {
-        let Some(path) = path.finish() else { return };
-        let dashed = stroke.as_ref().and_then(|stroke| path.dash(stroke.dash.as_ref()?, 1.0));
-        let stroked = stroke.as_ref().and_then(|stroke| dashed.as_ref().unwrap_or(&path).stroke(stroke, 1.0));
-        if let Some(outline) = if stroke.is_some() { stroked.as_ref() } else { Some(&path) } {
-            (self.fill)(&mut self.canvas.pixels, outline, opaque(self.theme.color(role)));
-        }
-        self.canvas.scratch = path.clear();
+    /// Fills the path that is drawn.
+    fn fill(&mut self, role: Role, draw: impl FnOnce(&Self, &mut Path)) {
+        let mut path = core::mem::take(&mut self.canvas.scratch);
+        draw(self, &mut path);
+        (self.fill)(&mut self.canvas.pixels, &path, opaque(self.theme.color(role)));
+        path.clear();
+        self.canvas.scratch = path;
     }
 
     fn at(&self, point: Point) -> [f32; 2] {

@@ -1,0 +1,72 @@
+//! The characters that each figure writes: programs for the page have no others (`widgets/build.rs`), and would draw a question mark.
+
+use fastslam_widgets::{
+    figure::Figure,
+    font::{Weight, has},
+    model::{Kind, ParamSpec},
+    registry::FIGURES,
+    scene::Mark,
+};
+use figures::{PICTURES, SETUPS};
+use std::{collections::BTreeSet, env, fs, path::Path};
+
+/// Links to a figure's states: those of the goldens, and every parameter by itself at each of its ends and choices.
+fn links(tag: &str) -> Vec<String> {
+    let kept = PICTURES.iter().map(|picture| (picture.tag, picture.query)).chain(SETUPS.iter().copied());
+    let mut links: Vec<String> = kept.filter(|(of, _)| *of == tag).map(|(_, query)| query.to_string()).collect();
+    for spec in Figure::new(tag).unwrap().model().params() {
+        links.extend(values(&spec).into_iter().map(|value| format!("{}={value}", spec.name)));
+    }
+    links
+}
+
+fn values(spec: &ParamSpec) -> Vec<String> {
+    let ends = [spec.min, 0.5 * (spec.min + spec.max), spec.max];
+    let mut values: Vec<String> = spec.choices.iter().map(|choice| choice.value.to_string()).collect();
+    match spec.kind {
+        Kind::Number => values.extend(ends.map(|x| x.to_string())),
+        Kind::Integer => values.extend(ends.map(|x| x.floor().to_string())),
+        Kind::Flag | Kind::Toggle => values.extend(["on", "off"].map(String::from)),
+        Kind::Choice => {}
+    }
+    values
+}
+
+/// All characters a figure writes in a weight, in code point order.
+fn written(tag: &str) -> [BTreeSet<char>; 2] {
+    let mut written = [BTreeSet::new(), BTreeSet::new()];
+    for link in links(tag) {
+        let mut figure = Figure::new(tag).unwrap();
+        figure.load(&link); // what is refused, since it does not go with the rest, changes nothing
+        let last = figure.model().step_count();
+        for step in (0..=last).step_by(9).chain([last]) {
+            figure.model_mut().seek(step);
+            figure.model_mut().settle();
+            for width in [240.0, 300.0, 340.0, 380.0, 480.0, 640.0, 800.0, 1280.0] {
+                for mark in figure.model().scene(width, figure.model().height(width)).marks {
+                    if let Mark::Text(text) = mark {
+                        written[usize::from(text.weight == Weight::SemiBold)].extend(text.text.chars());
+                    }
+                }
+            }
+        }
+    }
+    written
+}
+
+#[test]
+fn programs_for_the_page_have_the_characters_that_their_figures_write_and_no_others() {
+    let mut lines = String::new();
+    for tag in FIGURES.iter().map(|entry| entry.tag) {
+        for (weight, characters) in [Weight::Regular, Weight::SemiBold].into_iter().zip(written(tag)) {
+            assert!(characters.iter().all(|&character| has(character, weight)), "{tag} {weight:?}: {characters:?}");
+            let characters: String = characters.into_iter().collect();
+            lines += &format!("{} {weight:?}\t{characters}\n", tag.trim_start_matches("fastslam-"));
+        }
+    }
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../widgets/fonts/written.txt");
+    if env::var_os("UPDATE_GOLDENS").is_some() {
+        fs::write(&path, &lines).unwrap();
+    }
+    assert_eq!(fs::read_to_string(&path).unwrap_or_default(), lines, "UPDATE_GOLDENS=1 writes what is written now");
+}
