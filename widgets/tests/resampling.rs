@@ -279,7 +279,7 @@ fn a_job_can_be_cut_anywhere_and_counts_what_the_figure_shows() {
 
 #[test]
 fn a_job_refuses_what_it_does_not_know() {
-    assert!(job::run("weather", "", 0..1).unwrap_err().message.contains("one of wings"));
+    assert!(job::run("weather", "", 0..1).unwrap_err().message.contains("one of laps, wings"));
     for (setting, part) in [("particles=99", "from 4 to 64"), ("tempo=3", "tempo"), ("scheme=", "systematic")] {
         let message = job::run("wings", setting, 0..1).unwrap_err().message;
         assert!(message.contains(part), "{message}");

@@ -4,7 +4,7 @@ use crate::{model::ParamSpec, policy};
 use fastslam::experiment::log::LogSetup;
 
 /// Least and most of each number, and the step of its slider.
-const CELL: (f64, f64, f64) = (0.01, 1.0, 0.01);
+const CELL: (f64, f64, f64) = (0.02, 0.2, 0.01);
 const RANGE: (f64, f64, f64) = (1.0, 100.0, 1.0);
 const TRAVEL: (f64, f64, f64) = (0.0, 2.0, 0.05);
 
