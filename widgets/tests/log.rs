@@ -118,7 +118,7 @@ fn a_setting_that_changes_numbers_begins_anew_and_one_of_the_view_does_not() {
     assert_eq!(figure.model().step(), 9);
     for (name, value) in [
         ("universes", "5"),
-        ("cell", "0.3"),
+        ("cell", "0.1"),
         ("policy", "never"),
         ("max-range", "5"),
         ("min-travel", "0.5"),
@@ -173,7 +173,13 @@ fn malformed_lines_are_named_and_skipped_only_if_the_reader_says_so() {
 
 #[test]
 fn what_does_not_fit_is_refused_before_it_starts_with_parameter_and_range() {
-    let mut figure = opened("universes=256&cell=0.02&policy=never");
+    // So many scans, 900 m apart.
+    let far = |scans: u32| -> String {
+        let line = |k| format!("FLASER 2 80 80 {0} {1} 0 {0} {1} 0 {k} host {k}\n", 900 * k, 70 * (k % 9));
+        (0..scans).map(line).collect()
+    };
+    let mut figure = opened("universes=256&cell=0.02&policy=never&max-range=80");
+    figure.model_mut().open(far(20).as_bytes()).unwrap();
     let error = figure.model().ready().unwrap_err();
     assert_eq!(error.parameter, "universes");
     assert!(
@@ -189,12 +195,8 @@ fn what_does_not_fit_is_refused_before_it_starts_with_parameter_and_range() {
     figure.set("universes", &more.to_string()).unwrap();
     assert_eq!(figure.model().ready().unwrap_err().parameter, "universes");
 
-    // A drive of 900 m at a time: not even one map fits.
-    let far: String = (0..1000)
-        .map(|k| format!("FLASER 2 80 80 {0} {1} 0 {0} {1} 0 {k} host {k}\n", 900 * k, 70 * (k % 9)))
-        .collect();
-    figure.set("max-range", "80").unwrap();
-    figure.model_mut().open(far.as_bytes()).unwrap();
+    // Not even one map fits.
+    figure.model_mut().open(far(1000).as_bytes()).unwrap();
     let error = figure.model().ready().unwrap_err();
     assert_eq!(error.parameter, "cell");
     assert!(error.message.contains("at least 0."), "{error}");
