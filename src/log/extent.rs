@@ -60,7 +60,7 @@ mod tests {
     #[test]
     fn squares_along_the_beams_are_counted_once() {
         let one = (0.5, vec![4.2, 2.2]);
-        assert_eq!(swept_area(&log(&[one.clone()]), 30.0), 5.0 + 2.0);
+        assert_eq!(swept_area(&log(core::slice::from_ref(&one)), 30.0), 5.0 + 2.0);
         assert_eq!(swept_area(&log(&[one.clone(), one.clone()]), 30.0), 7.0);
         assert_eq!(swept_area(&log(&[one, (20.5, vec![1.0])]), 30.0), 7.0 + 2.0);
     }
