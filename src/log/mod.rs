@@ -65,10 +65,14 @@ pub struct LaserLog {
 }
 
 impl LaserLog {
-    /// The longest finite range \[m\] that was read; 0 without any.
+    /// The range \[m\] that all but one in a thousand of the finite readings stay within, 0 without any: the longest one is
+    /// often an error, or says something else than the laser's *nothing met*.
     pub fn longest_reading(&self) -> f64 {
         let ranges = self.scans.iter().flat_map(|scan| &scan.ranges).filter(|range| range.is_finite());
-        f64::from(ranges.copied().fold(0.0, f32::max))
+        let mut ranges: Vec<f32> = ranges.copied().collect();
+        let within = ranges.len() - ranges.len() / 1000;
+        let Some(last) = within.checked_sub(1) else { return 0.0 };
+        f64::from(*ranges.select_nth_unstable_by(last, f32::total_cmp).1)
     }
 }
 

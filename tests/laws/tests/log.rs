@@ -1,6 +1,6 @@
 //! Logs: what the parser reads and refuses, the benchmark's metric, and that no input makes either panic.
 
-use fastslam::experiment::log::{Example, LogRun, LogSetup};
+use fastslam::experiment::log::{Example, LogRun, LogSetup, NOTHING_MET};
 use fastslam::geometry::Pose2;
 use fastslam::log::{LogError, Relation, RelationErrors, parse, parse_relations, relation_errors, write};
 use fastslam::ops;
@@ -48,6 +48,15 @@ fn readings_that_met_nothing_are_no_end_points_and_far_ones_are_cut() {
     assert_eq!((ends.hits.len(), ends.misses.len()), (1, 1));
     assert!((ends.hits[0][0] - 0.25).abs() < 1e-12 && (ends.hits[0][1] + 1.0).abs() < 1e-12, "{ends:?}");
     assert_eq!(log.longest_reading(), 30.0);
+}
+
+#[test]
+fn a_few_errors_beyond_the_longest_range_do_not_make_walls_of_it() {
+    let scan = |longest: f64| format!("FLASER 4 2.0 3.0 8.19 {longest} 0 0 0 0 0 0 1 h 1\n");
+    let log = parse([scan(8.0).repeat(999), scan(81.91)].concat().as_bytes(), false).unwrap();
+    let longest = NOTHING_MET * log.longest_reading();
+    assert!((7.9..8.0).contains(&longest), "{longest}");
+    assert_eq!(log.scans[0].end_points(longest, 30.0).hits.len(), 2);
 }
 
 #[test]
