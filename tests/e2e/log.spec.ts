@@ -92,7 +92,7 @@ test('the example is mapped with one click, and map, path and report are saved',
   expect(png.suggestedFilename()).toBe('map.png')
   expect((await content(png)).subarray(1, 4).toString()).toBe('PNG')
 
-  const path = (await content(await save('Path (TUM)'))).toString().trim().split('\n').slice(1)
+  const path = (await content(await save('Path (TUM)'))).toString().trim().split('\n')
   const last = Number((await log.readout('scan').textContent())!.split(' of ')[1])
   expect(path.length).toBe(last + 1)
   for (const line of path) expect(line.split(' ').map(Number).filter(Number.isFinite)).toHaveLength(8)

@@ -218,6 +218,18 @@ fn a_recorded_log_is_read_and_a_bad_line_of_it_named() {
     fastslam("landmarks --mrclam no/such/log").code(1);
 }
 
+#[test]
+fn the_example_that_the_page_ships_is_the_one_that_is_written() {
+    let folder = folder("example");
+    let log = folder.join("example.clf").display().to_string();
+    fastslam(&format!("example-log {log}")).success();
+    let shipped = include_bytes!("../../../../www/public/example.clf.gz");
+    let mut text = String::new();
+    std::io::Read::read_to_string(&mut flate2::read::GzDecoder::new(&shipped[..]), &mut text).unwrap();
+    assert!(text == std::fs::read_to_string(&log).unwrap(), "write it again: fastslam example-log, gzip -9n");
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
 /// The log of shared/data, which may not be shipped: the test says so where it is absent.
 #[test]
 fn the_recorded_log_is_far_better_than_its_odometry() {
