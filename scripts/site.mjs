@@ -5,6 +5,7 @@ import { fromHtml } from 'hast-util-from-html'
 import { FileSystemConfigLoader, formatterFactory, HtmlValidate } from 'html-validate'
 import { visit } from 'unist-util-visit'
 import { dist } from './build.mjs'
+import { site } from './frames.mjs'
 import { StepError } from './lib.mjs'
 
 /** @param {string} folder */
@@ -31,9 +32,10 @@ function read(html) {
 /**
  * What is wrong with the links of a folder of pages. Links to other sites are looked at, not followed: a check that needs the network fails
  * for reasons that are not ours.
- * @param {string} folder @returns {{ wrong: string[], count: number }}
+ * @param {string} folder @param {string} [home] where the folder is served, for links that have to be whole addresses
+ * @returns {{ wrong: string[], count: number }}
  */
-export function brokenLinks(folder) {
+export function brokenLinks(folder, home) {
   const pages = new Map(pagesOf(folder).map(file => [join(folder, file), read(readFileSync(join(folder, file), 'utf8'))]))
   /** @type {string[]} */
   const wrong = []
@@ -41,8 +43,9 @@ export function brokenLinks(folder) {
   for (const [path, { links, twice }] of pages) {
     const complain = (/** @type {string} */ text) => wrong.push(`${relative(folder, path)}: ${text}`)
     for (const id of twice) complain(`the id ${id} is there twice`)
-    for (const link of links) {
+    for (const address of links) {
       count++
+      const link = home && address.startsWith(home) ? relative(dirname(path), join(folder, address.slice(home.length) || 'index.html')) : address
       if (/^[a-z]+:/i.test(link)) {
         if (!URL.canParse(link) || !/^(https|mailto|data|blob):/.test(link)) complain(`${link} is no address, or not a secure one`)
         continue
@@ -63,7 +66,7 @@ export function brokenLinks(folder) {
 }
 
 export async function checkLinks() {
-  const { wrong, count } = brokenLinks(dist)
+  const { wrong, count } = brokenLinks(dist, site())
   if (count === 0) throw new StepError('There is not one link: has the site been built?')
   if (wrong.length > 0) throw new StepError(`Links that lead nowhere:\n${wrong.join('\n')}`)
   return `${count} links`

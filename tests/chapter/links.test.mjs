@@ -20,6 +20,8 @@ test('links to files, places and states of figures are followed; those to nowher
     assert.deepEqual(brokenLinks(folder), { wrong: [], count: 5 })
     writeFileSync(join(folder, 'index.html'), `<p id="a"></p><p id="a"></p><fastslam-lap></fastslam-lap>${good}${bad}`)
     assert.deepEqual(brokenLinks(folder).wrong.map(line => line.split(' ')[1]), ['the', '#z:', 'sub/#z:', 'none.html', '#fastslam-none?seed=3:', 'http://example.org/', 'q.png'])
+    writeFileSync(join(folder, 'index.html'), '<a href="http://localhost:1/sub/#b"></a><a href="http://localhost:1/none.html"></a>')
+    assert.deepEqual(brokenLinks(folder, 'http://localhost:1/').wrong, ['index.html: none.html leads to no file'])
   } finally {
     rmSync(folder, { recursive: true })
   }
