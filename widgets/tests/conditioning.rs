@@ -2,11 +2,11 @@
 
 mod common;
 
-use common::{assert_texts_fit, figure, scene, state};
+use common::{assert_drawn_inside, assert_texts_fit, figure, scene, state};
 use fastslam_widgets::{
     conditioning::Layout,
     figure::Figure,
-    scene::{Mark, Rect, Role, Scene, Shading},
+    scene::{Mark, Role, Scene, Shading},
 };
 
 fn conditioning(query: &str) -> Figure {
@@ -238,24 +238,7 @@ fn texts_fit_their_boxes_and_the_figure_and_cover_no_other() {
 fn nothing_is_drawn_outside_of_the_figure() {
     for query in ["odometry=3", "landmarks=24&poses=12&odometry=3&range-std=0.5&row=48&column=48", "row=1&column=14"] {
         for width in [240.0, 380.0, 1000.0] {
-            let scene = scene(&conditioning(query), width);
-            let bounds = Rect::new(0.0, 0.0, scene.width, scene.height);
-            for mark in &scene.marks {
-                let points: Vec<_> = match mark {
-                    Mark::Lines { lines, .. } | Mark::Strands { lines, .. } => {
-                        lines.iter().flatten().copied().collect()
-                    }
-                    Mark::Polygons { polygons, .. } => polygons.iter().flatten().copied().collect(),
-                    Mark::Discs { centres, .. } => centres.clone(),
-                    Mark::Raster { area, .. } | Mark::Fill { area, .. } | Mark::Frame { area, .. } => {
-                        assert!(bounds.encloses(area), "{query} at {width}: {mark:?}");
-                        continue;
-                    }
-                    Mark::Text(_) => continue,
-                };
-                let outside = points.iter().find(|p| !bounds.encloses(&Rect::new(p[0], p[1], 0.0, 0.0)));
-                assert_eq!(outside, None, "{query} at {width}");
-            }
+            assert_drawn_inside(&scene(&conditioning(query), width), &format!("{query} at {width}"));
         }
     }
 }

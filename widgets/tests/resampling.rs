@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{assert_texts_fit, figure, scene, state};
+use common::{assert_drawn_inside, assert_texts_fit, figure, scene, state};
 use fastslam::experiment::policies::RIGHT_WITHIN;
 use fastslam_widgets::{
     fastslam,
@@ -313,24 +313,7 @@ fn texts_fit_their_boxes_and_the_figure_and_cover_no_other() {
 fn nothing_is_drawn_outside_of_the_figure() {
     for query in ["wings=on&particles=20&step=104&odometry=2&range=4", "step=90&odometry=2&range=4&particles=4"] {
         for width in [240.0, 380.0, 1000.0] {
-            let scene = scene(&resampling(query), width);
-            let bounds = Rect::new(0.0, 0.0, scene.width, scene.height);
-            for mark in &scene.marks {
-                let points: Vec<_> = match mark {
-                    Mark::Lines { lines, .. } | Mark::Strands { lines, .. } => {
-                        lines.iter().flatten().copied().collect()
-                    }
-                    Mark::Polygons { polygons, .. } => polygons.iter().flatten().copied().collect(),
-                    Mark::Discs { centres, .. } => centres.clone(),
-                    Mark::Raster { area, .. } | Mark::Fill { area, .. } | Mark::Frame { area, .. } => {
-                        assert!(bounds.encloses(area), "{query} at {width}: {mark:?}");
-                        continue;
-                    }
-                    Mark::Text(_) => continue,
-                };
-                let outside = points.iter().find(|p| !bounds.encloses(&Rect::new(p[0], p[1], 0.0, 0.0)));
-                assert_eq!(outside, None, "{query} at {width}");
-            }
+            assert_drawn_inside(&scene(&resampling(query), width), &format!("{query} at {width}"));
         }
     }
 }

@@ -43,3 +43,22 @@ pub fn assert_texts_fit(scene: &Scene, which: &str) -> Vec<Rect> {
     }
     inked.into_iter().map(|(ink, _)| ink).collect()
 }
+
+/// That every mark but the texts, for which there is [`assert_texts_fit`], lies in the figure.
+pub fn assert_drawn_inside(scene: &Scene, which: &str) {
+    let bounds = Rect::new(0.0, 0.0, scene.width, scene.height);
+    for mark in &scene.marks {
+        let points: Vec<_> = match mark {
+            Mark::Lines { lines, .. } | Mark::Strands { lines, .. } => lines.iter().flatten().copied().collect(),
+            Mark::Polygons { polygons, .. } => polygons.iter().flatten().copied().collect(),
+            Mark::Discs { centres, .. } => centres.clone(),
+            Mark::Raster { area, .. } | Mark::Fill { area, .. } | Mark::Frame { area, .. } => {
+                assert!(bounds.encloses(area), "{which}: {mark:?}");
+                continue;
+            }
+            Mark::Text(_) => continue,
+        };
+        let outside = points.iter().find(|p| !bounds.encloses(&Rect::new(p[0], p[1], 0.0, 0.0)));
+        assert_eq!(outside, None, "{which}");
+    }
+}
