@@ -95,6 +95,23 @@ export class Figure {
     if (!(await settings.evaluate((details: HTMLDetailsElement) => details.open))) await settings.locator('summary').click()
   }
 
+  /** That a slider changes the readouts, and the value before, typed, brings them back. */
+  async expectSliderAndBack(name: string): Promise<void> {
+    await this.openSettings()
+    const [before, value] = [await this.readouts(), await this.box(name).inputValue()]
+    const slider = this.slider(name)
+    await slider.scrollIntoViewIfNeeded()
+    const box = (await slider.boundingBox())!
+    await this.page.mouse.click(box.x + box.width * 0.85, box.y + box.height / 2)
+    await this.settled()
+    expect(await this.box(name).inputValue()).not.toBe(value)
+    expect(await this.readouts()).not.toEqual(before)
+    await this.box(name).fill(value)
+    await this.box(name).press('Enter')
+    await this.settled()
+    expect(await this.readouts()).toEqual(before)
+  }
+
   async menu(item: string): Promise<void> {
     await this.element.locator('summary[aria-label=Menu]').click()
     await this.element.getByRole('button', { name: item }).click()

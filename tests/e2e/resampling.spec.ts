@@ -119,19 +119,7 @@ test.describe('at rest', () => {
   for (const name of ['particles', 'threshold', 'odometry', 'range']) {
     test(`dragging ${name} changes the filters, and back gives the same numbers`, async ({ page }) => {
       const figure = await open(page, './#fastslam-resampling?step=25')
-      await figure.openSettings()
-      const [before, value] = [await figure.readouts(), await figure.box(name).inputValue()]
-      const slider = figure.slider(name)
-      await slider.scrollIntoViewIfNeeded()
-      const box = (await slider.boundingBox())!
-      await page.mouse.click(box.x + box.width * 0.85, box.y + box.height / 2)
-      await figure.settled()
-      expect(await figure.box(name).inputValue()).not.toBe(value)
-      expect(await figure.readouts()).not.toEqual(before)
-      await figure.box(name).fill(value)
-      await figure.box(name).press('Enter')
-      await figure.settled()
-      expect(await figure.readouts()).toEqual(before)
+      await figure.expectSliderAndBack(name)
     })
   }
 
