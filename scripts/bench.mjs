@@ -1,7 +1,7 @@
 // npm run bench: the native benchmarks (criterion), then the same laps timed in WebAssembly in headless Chromium, side by side
 // with the targets they are held to.
 import { existsSync, readdirSync, readFileSync } from 'node:fs'
-import { join } from 'node:path'
+import { basename, join } from 'node:path'
 import { launchChromium } from './browser.mjs'
 import { buildFigures, buildPages, buildWasm, dist } from './build.mjs'
 import { bold, cache, capture, green, isMain, main, red, root, run, say, step, StepError } from './lib.mjs'
@@ -172,6 +172,49 @@ async function timePage() {
   }
 }
 
+/** A recorded log in its figure, as a reader maps it, and natively on one thread. @param {string} log */
+async function timeLog(log) {
+  const native = JSON.parse(
+    (await run('cargo', ['run', '--quiet', '--release', '--bin', 'fastslam', '--', 'log', log, '--particles', '16', '--threads', '1', '--json'])).output,
+  )
+  const server = await startServer({ folder: dist })
+  const browser = await launchChromium()
+  try {
+    const page = await browser.newPage({ viewport: { width, height } })
+    await page.goto(`${server.url}embed-log.html`)
+    await page.locator('.stage.live').waitFor()
+    await page.locator('input[type=file]').setInputFiles(log)
+    await page.locator('[part=sentence]', { hasText: 'scans' }).waitFor()
+    // How late the page's own timer is, all the while: as late as the answer to a click or a key would begin.
+    await page.evaluate(() => {
+      const late = Object.assign(window, { late: /** @type {number[]} */ ([]) }).late
+      const tick = (/** @type {number} */ due) => {
+        late.push(performance.now() - due)
+        const next = performance.now() + 10
+        setTimeout(() => tick(next), 10)
+      }
+      tick(performance.now())
+    })
+    const started = performance.now()
+    await page.getByRole('button', { name: 'Start', exact: true }).click()
+    await page.locator('[part=sentence]', { hasText: 'All scans are mapped' }).waitFor({ timeout: 600_000 })
+    const seconds = (performance.now() - started) / 1000
+    const late = await page.evaluate(() => /** @type {any} */ (window).late.sort((/** @type {number} */ a, /** @type {number} */ b) => a - b))
+    const digest = await page.locator('[data-name=digest] dd').textContent()
+    if (digest !== native.digest) throw new StepError(`The fingerprints of ${log} differ: ${digest} in the browser, ${native.digest} natively`)
+    return {
+      seconds,
+      native: native.ms_per_scan_particle,
+      wasm: (1000 * seconds) / (native.scans_used * 16),
+      median: late[late.length >> 1],
+      worst: late[late.length - 1],
+    }
+  } finally {
+    await browser.close()
+    await server.close()
+  }
+}
+
 /** @param {number} ms */
 const milliseconds = ms => `${ms.toFixed(3)} ms`
 
@@ -203,6 +246,23 @@ if (isMain(import.meta)) {
         verdict('longest task of the main thread', longest, 50),
       ]
       return `${met.filter(Boolean).length} of ${met.length} targets met`
+    })
+    await step('Logs in their figure and natively', async () => {
+      const intel = join(root, '..', 'shared', 'data', 'intel.clf')
+      const recorded = existsSync(intel)
+      const log = recorded ? intel : join(root, 'www', 'public', 'example.clf.gz')
+      const { seconds, native, wasm, median, worst } = await timeLog(log)
+      say(bold(`\n  ${basename(log)}, 16 universes, one scan and particle`))
+      say(`  ${milliseconds(native).padStart(14)}  native, one thread, CPU time`)
+      say(`  ${milliseconds(wasm).padStart(14)}  WebAssembly, with all that the figure draws on the way`)
+      const met = [
+        verdict('a scan and particle, native', native, 1),
+        verdict('WebAssembly over native', wasm / native, 1.5, ratio => `${ratio.toFixed(2)} ×`),
+        ...(recorded ? [verdict('the whole log in the page', seconds, 30, s => `${s.toFixed(1)} s`)] : []),
+        verdict('the page answers meanwhile, median', median, 50),
+        verdict('the page answers meanwhile, worst', worst, 50),
+      ]
+      return `${recorded ? '' : 'intel.clf is not in ../shared/data: the example instead; '}${met.filter(Boolean).length} of ${met.length} targets met`
     })
     await step('Benchmarks, WebAssembly in Chromium', async () => {
       const folder = JSON.parse(capture('cargo', 'metadata', '--no-deps', '--format-version', '1') ?? '{}').target_directory

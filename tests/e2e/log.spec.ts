@@ -1,6 +1,7 @@
 // The figure that maps a log: the example and files of a reader's own, pause and stop, looking around, saving, and what goes wrong.
 import AxeBuilder from '@axe-core/playwright'
 import type { Download, Locator, Page } from '@playwright/test'
+import { execFileSync } from 'node:child_process'
 import { existsSync, readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { gzipSync } from 'node:zlib'
@@ -375,19 +376,15 @@ test('the page answers while a log is mapped', async ({ page }) => {
   await log.set('universes', '256')
   await log.button('Start').click()
   await expect(log.button('Pause')).toBeVisible()
-  const late = await page.evaluate(async () => {
-    const late: number[] = []
-    const end = performance.now() + 3000
-    while (performance.now() < end) {
-      const due = performance.now() + 10
-      await new Promise(done => setTimeout(done, 10))
-      late.push(performance.now() - due)
-    }
-    return late.sort((a, b) => a - b)
-  })
-  const [median, worst] = [late[late.length >> 1]!, late[late.length - 1]!]
-  console.log(`a timer of the page was ${median.toFixed(1)} ms late in the median, ${worst.toFixed(1)} ms at worst`)
-  expect(median).toBeLessThan(50)
+  // How soon is the machine's, and `npm run bench` tells it. That another thread does the work is ours.
+  expect(page.workers()).toHaveLength(1)
+  await log.stage.focus()
+  for (let i = 0; i < 5; i++) {
+    const before = await log.picture()
+    await page.keyboard.press('ArrowLeft')
+    await expect.poll(() => log.picture()).not.toBe(before)
+    await expect(log.button('Pause')).toBeVisible()
+  }
 })
 
 for (const [what, options] of Object.entries({
@@ -414,14 +411,16 @@ for (const [what, options] of Object.entries({
   })
 }
 
-test('how long the Intel log takes with 16 universes', async ({ page }) => {
+test('the Intel log has the fingerprint that the command line tells', async ({ page }) => {
   test.skip(!existsSync(INTEL), 'intel.clf is not on this machine')
-  test.setTimeout(900_000)
+  test.setTimeout(600_000)
   const log = await new LogFigure(page).open()
   await log.choose('intel.clf', readFileSync(INTEL))
   await expect(log.sentence).toContainText('910 scans', { timeout: 30_000 })
-  const from = Date.now()
+  await log.set('universes', '4')
   await log.button('Start').click()
-  await log.done(900_000)
-  console.log(`the Intel log, 16 universes: ${((Date.now() - from) / 1000).toFixed(1)} s in the browser, fingerprint ${await log.readout('digest').textContent()}`)
+  const command = ['run', '--quiet', '--release', '--bin', 'fastslam', '--', 'log', INTEL, '--particles', '4', '--json']
+  const { digest } = JSON.parse(execFileSync('cargo', command, { cwd: root, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }))
+  await log.done(300_000)
+  await expect(log.readout('digest')).toHaveText(digest)
 })

@@ -13,6 +13,9 @@ import { FIGURES, forgiveHost } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
+// One worker, as what comes first is written once.
+test.describe.configure({ mode: 'default' })
+
 test.beforeAll(() => writeOffline())
 
 for (const name of FIGURES) {

@@ -14,6 +14,9 @@ const project = cache('e2e-package')
 const page = (script: string) =>
   `<!doctype html><html lang="en"><head><title>Fresh</title><link rel="icon" href="data:," />${script}</head><body><fastslam-lap universes="4" step="3"></fastslam-lap></body></html>`
 
+// One worker, as what comes first is written once.
+test.describe.configure({ mode: 'default' })
+
 test.beforeAll(async () => {
   const packed = await packNpm()
   rmSync(project, { recursive: true, force: true })

@@ -57,22 +57,17 @@ test('a drag shows a picture at every frame', async ({ page }) => {
   const { x, y } = await middle(figure, 'landmark')
   await page.mouse.move(x, y)
   await page.mouse.down()
-  const slowest = figure.element.evaluate(
-    () =>
-      new Promise<number>(resolve => {
-        const times: number[] = []
-        const frame = (now: number) => {
-          times.push(now)
-          if (times.length < 60) requestAnimationFrame(frame)
-          else resolve(times.slice(1).map((t, i) => t - times[i]!).sort((a, b) => a - b)[50]!)
-        }
-        requestAnimationFrame(frame)
-      }),
-  )
-  for (let i = 0; i < 120; i++) await page.mouse.move(x - i / 2, y + 20 * Math.sin(i / 10))
+  // Frames, not milliseconds: how fast they come is the machine's, and `npm run bench` tells it.
+  const frames = () => page.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))))
+  let before = await figure.picture()
+  for (let i = 1; i <= 20; i++) {
+    await page.mouse.move(x - 3 * i, y + 20 * Math.sin(i))
+    await frames()
+    const now = await figure.picture()
+    expect(now, `the picture after move ${i}`).not.toBe(before)
+    before = now
+  }
   await page.mouse.up()
-  // Most frames in two of the screen's: the machines that test are slower than those that read.
-  expect(await slowest).toBeLessThan(40)
 })
 
 test('the landmark is moved by keyboard, coarsely with Shift and finely with Alt', async ({ page }) => {
