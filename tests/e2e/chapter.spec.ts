@@ -2,6 +2,7 @@
 import AxeBuilder from '@axe-core/playwright'
 import type { Page } from '@playwright/test'
 import { expect, test } from './fixtures'
+import { Figure } from './figure'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -44,8 +45,8 @@ for (const width of [320, 380, 820, 1080, 1440, 2560, 3840]) {
   })
 }
 
-test('nothing moves while one reads from top to end', async ({ page }) => {
-  test.slow()
+/** What moved without the reader's doing, from the start on; asked when it is over. */
+async function watchShifts(page: Page): Promise<() => Promise<string[]>> {
   await page.addInitScript(() => {
     const seen = Object.assign(window, { shifts: [] as string[] }).shifts
     new PerformanceObserver(list => {
@@ -54,14 +55,43 @@ test('nothing moves while one reads from top to end', async ({ page }) => {
       }
     }).observe({ type: 'layout-shift', buffered: true })
   })
+  return () => page.evaluate(() => (window as unknown as { shifts: string[] }).shifts)
+}
+
+test('nothing moves while one reads from top to end', async ({ page }) => {
+  test.slow()
+  const shifts = await watchShifts(page)
   await page.goto('./')
   const end = await page.evaluate(() => document.documentElement.scrollHeight)
   for (let y = 0; y < end; y += 400) {
     await page.evaluate(top => scrollTo({ top, behavior: 'instant' }), y)
     await page.waitForTimeout(250) // faster than anybody reads
   }
-  expect(await page.evaluate(() => (window as unknown as { shifts: string[] }).shifts)).toEqual([])
+  expect(await shifts()).toEqual([])
 })
+
+for (const width of [1280, 380]) {
+  test(`nothing moves below a figure that comes to life under the reader's eyes, ${width} px`, async ({ page }) => {
+    await page.setViewportSize({ width, height: 800 })
+    const shifts = await watchShifts(page)
+    let open = () => {}
+    const gate = new Promise<void>(done => (open = done))
+    await page.route('**/*.wasm', async route => {
+      await gate
+      await route.continue()
+    })
+    await page.goto('./')
+    const figure = new Figure(page, 'fastslam-lap')
+    await figure.element.evaluate(element => element.scrollIntoView({ block: 'end', behavior: 'instant' }))
+    await expect(figure.element.locator('.title')).not.toBeEmpty()
+    const height = () => figure.element.evaluate(element => element.getBoundingClientRect().height)
+    const before = await height()
+    open()
+    await figure.live()
+    expect(Math.abs((await height()) - before)).toBeLessThan(width > 500 ? 3 : 64)
+    if (width > 500) expect(await shifts()).toEqual([])
+  })
+}
 
 test.describe('without JavaScript', () => {
   test.use({ javaScriptEnabled: false })

@@ -8,6 +8,7 @@ import css from './figure.css?inline'
 import { homeAddress, pictureAddress } from './files'
 import { FIGURES } from './generated/figures'
 import { Handles } from './handles'
+import { release, reserve } from './heights'
 import { linkedQuery, linkTo } from './link'
 import { locked, OPTIONS, refusal } from './options'
 import { notice } from './notices'
@@ -303,6 +304,7 @@ export abstract class FigureElement extends HTMLElement {
       clearTimeout(slow)
       write(this.#status, '')
       this.#stopped = true
+      release(this.#body)
       this.#notice('start', `This figure is not live here: ${(error as Error).message}.${this.#showPicture()}`, 'Try again', () => this.reset())
     }
     this.#starting = false
@@ -377,6 +379,10 @@ export abstract class FigureElement extends HTMLElement {
     this.#onOption('decimal')
     this.#stage.after(controls.transport, controls.view)
     this.#readouts.after(controls.settings)
+    // All in one frame, so that nothing of it need move in the next.
+    this.#fitHeight(figure)
+    showReadouts(this.#readouts, figure.readouts() as Readout[])
+    this.#say(figure.describe())
   }
 
   /** Properties set before this class was known, or before its parameters were. */
@@ -578,6 +584,7 @@ export abstract class FigureElement extends HTMLElement {
     if (busy) return
     this.#recipe = figure.query()
     this.#say(figure.describe())
+    if (this.#stage.matches('.live')) release(this.#body)
     const detail: FigureDetail = { step, values: values(figure), readouts }
     this.#controls!.showValues(this.#specs, detail.values) // time may take a value along, as it does a cursor
     if (this.#changeToTell) this.#tell('fastslam-change', detail)
@@ -624,7 +631,8 @@ export abstract class FigureElement extends HTMLElement {
     // While it plays, a sentence a second is what an eye can read.
     if (this.#playing && performance.now() < this.#saidAt + 1000) return
     this.#saidAt = performance.now()
-    if (this.#playing) write(this.#sentence, text)
+    // The first at once, as it makes the figure higher.
+    if (this.#playing || !this.#sentence.hasChildNodes()) write(this.#sentence, text)
     else this.#toldSentence = setTimeout(() => write(this.#sentence, text), 120) // one sentence for a whole drag
   }
 
@@ -650,6 +658,7 @@ export abstract class FigureElement extends HTMLElement {
   }
 
   #onResize(entries: ResizeObserverEntry[]): void {
+    if (!this.#stage.matches('.live') && !this.#stopped && !this.matches('[fit], [size], [controls]')) reserve(this.#body, this.localName, this.clientWidth)
     const entry = entries.findLast(({ target }) => target === this.#canvas)
     if (!entry) return this.#repaint() // there may be another height to fit
     const { width, height } = entry.contentRect

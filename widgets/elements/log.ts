@@ -5,6 +5,7 @@ import { Controls } from './controls'
 import { h, icon, write } from './dom'
 import { engine, type ParamSpec } from './engine'
 import { hire, refused } from './jobs'
+import { release, reserve } from './heights'
 import { linkedQuery, linkTo } from './link'
 import type { Ask, Phase, Save, Shown, Told } from './log-work'
 import { notice } from './notices'
@@ -207,6 +208,7 @@ export class FastslamLog extends HTMLElement {
     } catch (error) {
       write(this.#status, '')
       this.#stage.classList.add('still')
+      release(this.#body)
       this.#notice('start', `This figure is not live here: ${(error as Error).message}.`, 'Try again', () => void this.#start())
     } finally {
       this.#starting = false
@@ -296,6 +298,7 @@ export class FastslamLog extends HTMLElement {
     this.#showPhase(phase, shown.step, shown.last, shown.left, shown.unfit !== undefined)
     write(this.#status, phase === 'empty' ? '' : shown.log)
     this.#say(shown.sentence)
+    release(this.#body)
     const { step, values, readouts } = shown
     this.dispatchEvent(new CustomEvent('fastslam-step', { bubbles: true, composed: true, detail: { step, values, readouts, phase } }))
   }
@@ -360,6 +363,7 @@ export class FastslamLog extends HTMLElement {
 
   #onResize(entry: ResizeObserverEntry): void {
     const css = entry.contentRect.width
+    if (!this.#stage.matches('.live, .still') && !this.matches('[fit], [size], [controls]')) reserve(this.#body, this.localName, this.clientWidth)
     let device = Math.round(css * devicePixelRatio)
     const box = entry.devicePixelContentBoxSize?.[0]
     if (box && Math.abs(box.inlineSize - device) < 2) device = box.inlineSize

@@ -1,0 +1,65 @@
+// Nothing moves when a figure comes to life: before, it keeps the place free that it will take.
+// UPDATE_GOLDENS=1 measures that anew, into widgets/elements/heights.json.
+import { readFileSync, writeFileSync } from 'node:fs'
+import { join } from 'node:path'
+import { figures } from '../../scripts/build.mjs'
+import { root } from '../../scripts/lib.mjs'
+import { expect, test } from './fixtures'
+
+const FILE = join(root, 'widgets', 'elements', 'heights.json')
+const UPDATE = process.env.UPDATE_GOLDENS === '1'
+// From the narrowest phone to the figures of the chapter on a large screen.
+const [first, apart, last] = [288, 16, 1056]
+const SAMPLES = Array.from({ length: (last - first) / apart + 1 }, (_, i) => first + apart * i)
+const WIDTHS = [320, 343, 363, 470, 576, 720, 832, 836, 960]
+// Between two samples, lines may break at another width than the middle: at most that much is at stake.
+const ROW = 64
+
+test.use({ contextOptions: { reducedMotion: 'reduce' } })
+
+const updated: Record<string, number[]> = {}
+
+for (const tag of figures) {
+  test(`${tag} keeps its place free before it lives`, async ({ page }) => {
+    const widths = UPDATE ? SAMPLES : WIDTHS
+    // One above the other, so that all are seen.
+    const html = widths.map(width => `<div style="position: absolute; inset: 0 auto auto 0; width: ${width}px"><${tag}></${tag}></div>`)
+    await page.route('**/heights', route =>
+      route.fulfill({
+        contentType: 'text/html',
+        body: `<!doctype html><html lang="en"><title>Heights</title><link rel="icon" href="data:," /><script type="module" src="fastslam.js"></script><body>${html.join('')}`,
+      }),
+    )
+    let open = () => {}
+    const gate = new Promise<void>(done => (open = done))
+    await page.route('**/*.wasm', async route => {
+      await gate
+      await route.continue()
+    })
+    await page.goto('heights')
+    const all = page.locator(tag)
+    const heights = () => all.evaluateAll(elements => elements.map(element => Math.round(element.getBoundingClientRect().height)))
+    await expect(all.locator('.title:not(:empty)')).toHaveCount(widths.length)
+    await page.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))))
+    const before = await heights()
+    open()
+    await expect(all.locator('.stage.live')).toHaveCount(widths.length)
+    await expect(all.locator('.sentence:not(:empty)')).toHaveCount(widths.length)
+    const after = await heights()
+    if (UPDATE) updated[tag] = after
+    else {
+      for (const [i, width] of widths.entries()) {
+        // Below 3 px, nothing counts as moved.
+        const most = (width - first) % apart === 0 ? 3 : ROW
+        expect(Math.abs(before[i]! - after[i]!), `${before[i]} px kept, ${after[i]} px taken, ${width} px wide`).toBeLessThan(most)
+      }
+    }
+  })
+}
+
+test.afterAll(() => {
+  if (!UPDATE) return
+  const { heights } = JSON.parse(readFileSync(FILE, 'utf8'))
+  const lines = figures.map(tag => `    "${tag}": [${(updated[tag] ?? heights[tag]).join(', ')}]`)
+  writeFileSync(FILE, `{\n  "first": ${first},\n  "apart": ${apart},\n  "heights": {\n${lines.join(',\n')}\n  }\n}\n`)
+})

@@ -1,0 +1,20 @@
+// How high a figure will be once it lives, so that it keeps that place free and nothing below it moves.
+import { apart, first, heights } from './heights.json'
+
+/** Keeps free what this figure took where tests/e2e/heights.spec.ts measured it, `width` css px wide, with the usual settings. */
+export function reserve(body: HTMLElement, tag: string, width: number): void {
+  body.style.minHeight = `${height((heights as Record<string, number[] | undefined>)[tag] ?? [], width)}px`
+  body.classList.add('reserved')
+}
+
+export function release(body: HTMLElement): void {
+  body.style.minHeight = ''
+  body.classList.remove('reserved')
+}
+
+function height(samples: number[], width: number): number {
+  const at = Math.min((width - first) / apart, samples.length - 1)
+  if (at < 0) return 0
+  const [below, above] = [samples[Math.floor(at)]!, samples[Math.ceil(at)]!]
+  return Math.round(below + (above - below) * (at % 1))
+}
