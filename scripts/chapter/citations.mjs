@@ -5,7 +5,7 @@ import { h } from 'hastscript'
 /**
  * @typedef {import('hast').ElementContent} ElementContent
  * @typedef {{ family?: string, given?: string, literal?: string }} Author
- * @typedef {{ id: string, author?: Author[], title: string, issued?: { 'date-parts': number[][] }, DOI?: string, URL?: string,
+ * @typedef {{ id: string, author?: Author[], editor?: Author[], title: string, issued?: { 'date-parts': number[][] }, DOI?: string, URL?: string,
  *   note?: string, volume?: string | number, issue?: string | number, page?: string, publisher?: string, type?: string,
  *   'container-title'?: string, edition?: string | number }} Work
  */
@@ -18,9 +18,12 @@ const family = author => author.family ?? author.literal ?? ''
 /** @param {Work} work */
 const year = work => String(work.issued?.['date-parts']?.[0]?.[0] ?? 'n.d.')
 
-/** Who wrote it, as it is said in a sentence. @param {Work} work */
+/** Who wrote it; of a collection, who edited it. @param {Work} work */
+const people = work => work.author ?? work.editor ?? []
+
+/** The same, as it is said in a sentence. @param {Work} work */
 function authors(work) {
-  const names = (work.author ?? []).map(family)
+  const names = people(work).map(family)
   if (names.length > 2) return `${names[0]} et al.`
   return names.length > 0 ? names.join(' and ') : work.title
 }
@@ -99,7 +102,7 @@ export class Citations {
 function entry(work) {
   const link = work.DOI ? `https://doi.org/${work.DOI}` : work.URL
   const title = link ? h('a', { href: link }, work.title) : work.title
-  const names = (work.author ?? []).map(inList).join('; ')
+  const names = people(work).map(inList).join('; ') + (work.editor && !work.author ? ' (eds.)' : '')
   const where = [
     work['container-title'] ? h('i', work['container-title']) : undefined,
     work.volume === undefined ? undefined : `${work.volume}${work.issue === undefined ? '' : ` (${work.issue})`}`,

@@ -44,9 +44,11 @@ test('citations are part of the sentence, or in parentheses of the writer’s ow
   const works = { 'www/references.json': JSON.stringify([
     { id: 'a', title: 'A', author: [{ family: 'Rao' }, { family: 'Blackwell' }], issued: { 'date-parts': [[1945]] }, DOI: '10.1/x' },
     { id: 'b', title: 'B', author: [{ family: 'One' }, { family: 'Two' }, { family: 'Three' }], issued: { 'date-parts': [[2007]] }, note: 'Read it.' },
+    { id: 'c', title: 'C', editor: [{ family: 'Last', given: 'F.' }, { family: 'Least' }], issued: { 'date-parts': [[2026]] } },
   ]) }
-  const text = (await html('## A {#a}\n\n[@b, §IV] says, as proven ([@a; @b]); One and others [-@b].\n\n::references', works)).replace(/<[^>]*>/g, '')
-  assert.match(text, /One et al\. \(2007, §IV\) says, as proven \(Rao and Blackwell 1945; One et al\. 2007\); One and others \(2007\)\./)
+  const text = (await html('## A {#a}\n\n[@b, §IV] says, as proven ([@a; @b]); One and others [-@b]; [@c].\n\n::references', works)).replace(/<[^>]*>/g, '')
+  assert.match(text, /One et al\. \(2007, §IV\) says, as proven \(Rao and Blackwell 1945; One et al\. 2007\); One and others \(2007\); Last and Least \(2026\)\./)
+  assert.match(text, /Last, F\.; Least \(eds\.\) \(2026\)\. C/)
   assert.match(text, /Read it\./)
 })
 

@@ -4,7 +4,10 @@ import { readFileSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { figures } from '../../scripts/build.mjs'
 import { root } from '../../scripts/lib.mjs'
+import { Figure, initSync } from '../../widgets/pkg/fastslam_widgets.js'
 import { expect, test } from './fixtures'
+
+initSync({ module: readFileSync(join(root, 'widgets', 'pkg', 'fastslam_widgets_bg.wasm')) })
 
 const FILE = join(root, 'widgets', 'elements', 'heights.json')
 const UPDATE = process.env.UPDATE_GOLDENS === '1'
@@ -46,6 +49,11 @@ for (const tag of figures) {
     await expect(all.locator('.stage.live')).toHaveCount(widths.length)
     await expect(all.locator('.sentence:not(:empty)')).toHaveCount(widths.length)
     const after = await heights()
+    // And the picture is as high as what is painted there: nothing of it is cut off.
+    const canvases = await all.locator('canvas').evaluateAll(elements => elements.map(element => element.getBoundingClientRect()).map(({ width, height }) => [width, height]))
+    const figure = new Figure(tag)
+    for (const [width, height] of canvases) expect(height, `picture ${width} px wide`).toBeCloseTo(figure.height(width!), 0)
+    figure.free()
     if (UPDATE) updated[tag] = after
     else {
       for (const [i, width] of widths.entries()) {

@@ -25,7 +25,6 @@ const SEEN = 0.35 // share of the canvas in view at which the figure begins to p
 const WIDE = 620 // [px] from here on the settings are open at first
 const LARGE = 1.5 // letters and lines of the presentation size, over the normal one
 const SLOW = 3000 // [ms] of loading after which the picture is shown meanwhile
-const PADDING = 14 // [px] beside the picture, as in figure.css
 const LEGIBLE = 0.5 // a picture is not made smaller than that to fit
 const PICTURE_SHARE = 0.6 // of a frame's height, which the picture takes if the rest has to be scrolled
 const MAX_PIXELS = 6e6 // a canvas beyond this is painted coarser: no screen shows the difference, every phone feels it
@@ -82,6 +81,7 @@ export abstract class FigureElement extends HTMLElement {
   #saidAt = -Infinity // [ms]
   #cssWidth = 0
   #scale = 1 // css px of the canvas for one of the scene
+  #room = 0 // [css px] for the picture, sideways
   #deviceWidth = 0
   #deviceHeight = 0
   #disconnected = new AbortController()
@@ -273,8 +273,7 @@ export abstract class FigureElement extends HTMLElement {
   /** Height [css px] that shows all of the figure at its present width, the picture as large as it would like to be. */
   get naturalHeight(): number {
     const scale = this.#largeness
-    const width = this.#stage.clientWidth - 2 * PADDING
-    const wanted = this.#figure && width > 0 ? this.#figure.height(width / scale) * scale : this.#stage.offsetHeight
+    const wanted = this.#figure && this.#room > 0 ? this.#figure.height(this.#room / scale) * scale : this.#stage.offsetHeight
     return Math.ceil(this.#aroundStage() + wanted)
   }
 
@@ -659,6 +658,7 @@ export abstract class FigureElement extends HTMLElement {
 
   #onResize(entries: ResizeObserverEntry[]): void {
     if (!this.#stage.matches('.live') && !this.#stopped && !this.matches('[fit], [size], [controls]')) reserve(this.#body, this.localName, this.clientWidth)
+    this.#room = entries.findLast(({ target }) => target === this.#stage)?.contentRect.width ?? this.#room
     const entry = entries.findLast(({ target }) => target === this.#canvas)
     if (!entry) return this.#repaint() // there may be another height to fit
     const { width, height } = entry.contentRect
@@ -679,8 +679,8 @@ export abstract class FigureElement extends HTMLElement {
   }
 
   #fitHeight(figure: Shell): void {
-    if (this.#cssWidth === 0) return
-    const width = this.#stage.clientWidth - 2 * PADDING
+    const width = this.#room
+    if (width === 0) return
     let [scene, scale] = [width / this.#largeness, this.#largeness]
     if (this.#fits) {
       const height = this.#body.offsetHeight
