@@ -14,6 +14,8 @@ export default defineConfig({
   workers: 2,
   retries: 0,
   timeout: 60_000,
+  // What a busy machine takes longer for is no failure.
+  expect: { timeout: 20_000 },
   reporter: [['list'], ['json', { outputFile: cache('e2e.json') }]],
   use: {
     // Set by server.ts, which runs before the workers read this file.
