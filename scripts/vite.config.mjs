@@ -45,8 +45,10 @@ export default defineConfig({
       preserveEntrySignatures: 'allow-extension',
       output: {
         entryFileNames: chunk => (chunk.name === 'fastslam' ? '[name].js' : 'assets/[name]-[hash].js'),
-        // The figures lie beside fastslam.js, which only names them: they find the site's other pages from there.
-        chunkFileNames: chunk => (chunk.moduleIds.some(id => id.endsWith('/elements/base.ts')) ? 'fastslam-[hash].js' : 'assets/[name]-[hash].js'),
+        // What all figures share is one file, and what only one has is a file of its own: a page for frames loads no other's.
+        codeSplitting: { groups: [{ name: 'shared', test: /widgets[/\\](pkg[/\\]|elements[/\\](?!log\.|count\.|resampling\.|lap-table\.|index\.))/ }] },
+        // It lies beside fastslam.js, which only names them: figures find the site's other pages from there.
+        chunkFileNames: chunk => (chunk.name === 'shared' ? 'fastslam-[hash].js' : 'assets/[name]-[hash].js'),
         assetFileNames,
       },
     },
