@@ -42,11 +42,19 @@ export async function checkEmbedSizes() {
 
 /** Loads the page, reads it to its end, and adds up the answers of the server. */
 export async function checkSize() {
-  return report(await transferred(''))
+  const page = report(await transferred(''))
+  // The figure that maps logs is there, and works; its program comes when something is asked of it.
+  const asked = await transferred('', page => page.locator('fastslam-log .stage').click())
+  const sent = asked.reduce((bytes, answer) => bytes + answer.sent, 0)
+  if (!asked.some(({ path }) => path.endsWith('.wasm'))) throw new StepError('The figure that maps logs did not load its WebAssembly.')
+  return `${page}; whoever maps a log loads ${kilobytes(sent)} more`
 }
 
-/** What the server answers for a page that is read to its end. @param {string} path */
-async function transferred(path) {
+/**
+ * What the server answers for a page that is read to its end; or, where something is asked of it then, what it answers to that.
+ * @param {string} path @param {(page: import('@playwright/test').Page) => Promise<void>} [ask]
+ */
+async function transferred(path, ask) {
   /** @type {import('./serve.mjs').Served[]} */
   const answers = []
   const server = await startServer({ folder: dist, onServed: served => answers.push(served) })
@@ -60,6 +68,11 @@ async function transferred(path) {
     const end = await page.evaluate(() => document.documentElement.scrollHeight)
     for (let y = 0; y < end; y += 800) {
       await page.evaluate(top => scrollTo({ top, behavior: 'instant' }), y)
+      await quiet()
+    }
+    if (ask) {
+      answers.length = 0
+      await ask(page)
       await quiet()
     }
   } finally {
