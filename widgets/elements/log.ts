@@ -541,7 +541,7 @@ export class FastslamLog extends HTMLElement {
       'div',
       { class: 'items' },
       item('Copy link to the settings', () => void this.#copyLink()),
-      item('Save picture (PNG)', () => this.#canvas.toBlob(blob => blob && download(`${this.localName}.png`, blob))),
+      item('Save picture (PNG)', () => this.#shown && this.#canvas.toBlob(blob => blob && download(`${this.localName}.png`, blob))),
     )
     const summary = h('summary', { 'aria-label': 'Menu', title: 'Menu', part: 'button menu' }, icon('more'))
     const menu = h('details', { class: 'menu', part: 'menu' }, summary, items)
