@@ -10,6 +10,7 @@ import { hire, refused } from './jobs'
 import { linkedQuery, linkTo } from './link'
 import type { Ask, Phase, Save, Shown, Told } from './log-work'
 import { notice } from './notices'
+import { OPTIONS } from './options'
 import { showReadouts } from './readouts'
 import { copy, download } from './save'
 import { onThemeChange, themeName } from './theme'
@@ -200,7 +201,7 @@ export class FastslamLog extends HTMLElement {
 
   #onSeen(): void {
     if (!this.#controls) this.#introduce()
-    if (this.#query || this.#source || this.getAttributeNames().some(isParameter)) void this.#start()
+    if (this.#query || this.#source || this.getAttributeNames().some(isSetting)) void this.#start()
   }
 
   async #start(): Promise<void> {
@@ -407,7 +408,7 @@ export class FastslamLog extends HTMLElement {
 
   #onAttribute(name: string): void {
     if (name === 'theme') return this.#resize()
-    if (!isParameter(name)) return
+    if (!isSetting(name)) return
     const text = this.getAttribute(name)
     const value = text ?? this.#specs.find(spec => spec.name === name)?.default
     if (value !== undefined) this.#ask({ ask: 'set', name, value })
@@ -563,6 +564,11 @@ export class FastslamLog extends HTMLElement {
     if (await copy(this.link)) write(this.#status, 'Link copied')
     else this.#notice('copy', `The browser does not let this page write to the clipboard. The link: ${this.link}`)
   }
+}
+
+/** Frames ask every figure to fit: no setting of this one. */
+function isSetting(attribute: string): boolean {
+  return isParameter(attribute) && !(attribute in OPTIONS)
 }
 
 /** In words as short as the number is rough. */
