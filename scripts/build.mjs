@@ -29,25 +29,28 @@ const optimiser = [...features, '-Oz', '--one-caller-inline-max-function-size=1'
 /** Tags of all figures. */
 export const figures = [...readFileSync(join(root, 'widgets', 'src', 'registry.rs'), 'utf8').matchAll(/tag: "([a-z-]+)"/g)].map(([, tag = '']) => tag)
 
-/** The program with one figure only. @param {string} tag */
-export const figureWasm = tag => join(root, 'widgets', 'pkg', `${tag}.wasm`)
+/** The program of all figures that run on the page itself. */
+export const pageProgram = 'fastslam-page'
 
-/** The program with all figures. */
+/** A program with some figures only: one, by its tag, or those of the page. @param {string} name */
+export const partWasm = name => join(root, 'widgets', 'pkg', `${name}.wasm`)
+
+/** The program with all figures: for whatever carries it along, and to be asked what there is. */
 export async function buildWasm() {
   await step('Widgets to WebAssembly', () => run('wasm-pack', ['build', 'widgets', '--target', 'web', '--profile', 'page', '--no-pack']))
   await step('Optimise WebAssembly', () => optimise(wasm))
   await step('Names of the figures', writeNames)
 }
 
-/** For embeds, a program for each figure; all use the same glue. */
-export async function buildFigures() {
+/** The page's program, and for embeds one for each figure; all use the same glue. */
+export async function buildParts() {
   const folder = cache('figures')
-  for (const tag of figures) {
-    const wanted = ['--no-default-features', '--features', `single-threaded,${tag.replace('fastslam-', '')}`]
-    await step(`${tag} alone`, async () => {
+  for (const name of [pageProgram, ...figures]) {
+    const wanted = ['--no-default-features', '--features', `single-threaded,${name.replace('fastslam-', '')}`]
+    await step(`${name}.wasm`, async () => {
       await run('wasm-pack', ['build', 'widgets', '--target', 'web', '--profile', 'page', '--no-pack', '--no-typescript', '--out-dir', folder, ...wanted])
-      copyFileSync(join(folder, basename(wasm)), figureWasm(tag))
-      return optimise(figureWasm(tag))
+      copyFileSync(join(folder, basename(wasm)), partWasm(name))
+      return optimise(partWasm(name))
     })
   }
 }
@@ -66,7 +69,7 @@ export async function buildPages() {
 export async function build() {
   await setUp()
   await buildWasm()
-  await buildFigures()
+  await buildParts()
   await buildPages()
 }
 

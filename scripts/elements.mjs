@@ -3,7 +3,7 @@
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { pathToFileURL } from 'node:url'
-import { isMain, main, readIfThere, root, step } from './lib.mjs'
+import { isMain, main, readIfThere, root, step, StepError } from './lib.mjs'
 
 /**
  * @typedef {import('../widgets/elements/engine').ParamSpec} ParamSpec
@@ -213,6 +213,13 @@ export async function writeNames() {
   write(
     join(root, 'widgets', 'elements', 'generated', 'figures.ts'),
     `// Made by scripts/elements.mjs from what the figures tell of themselves.\nexport const FIGURES: Record<string, { title: string; parameters: string[] } | undefined> = {\n${rows.join('\n')}\n}\n`,
+  )
+  const log = all.find(({ tag }) => tag === 'fastslam-log')
+  if (!log) throw new StepError('There is no figure that maps logs.')
+  const { title, params, readouts, describe } = log
+  write(
+    join(root, 'widgets', 'elements', 'generated', 'log.ts'),
+    `// Made by scripts/elements.mjs from what the figure that maps logs tells of itself.\nimport type { AtRest } from '../log'\n\nexport const AT_REST: AtRest = ${JSON.stringify({ title, params, readouts, describe })}\n`,
   )
   return `${all.length} figures`
 }

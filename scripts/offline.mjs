@@ -2,7 +2,7 @@
 // and each figure as a SCORM 1.2 package for learning systems, which keeps a learner's state. All in packages/offline/.
 import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs'
 import { dirname, join, posix } from 'node:path'
-import { build, dist, figureWasm, kilobytes } from './build.mjs'
+import { build, dist, kilobytes, partWasm } from './build.mjs'
 import { figures } from './elements.mjs'
 import { escape } from './frames.mjs'
 import { isMain, main, root, say, step, StepError } from './lib.mjs'
@@ -96,7 +96,7 @@ export async function writeOffline() {
   }
   const scorm = readFileSync(join(root, 'widgets', 'scorm', 'scorm.js'), 'utf8')
   for (const figure of await figures()) {
-    const page = inlined(`embed-${figure.name}.html`, await singleFile(join(root, 'www', 'src', 'embed.ts'), figureWasm(figure.tag)))
+    const page = inlined(`embed-${figure.name}.html`, await singleFile(join(root, 'www', 'src', 'embed.ts'), partWasm(figure.tag)))
     const size = put(`${figure.tag}.html`, page)
     if (size > limit) throw new StepError(`${figure.tag}.html has ${kilobytes(size)}, over the limit of ${kilobytes(limit)}.`)
     const started = page.replace('</body>', () => '<script defer src="scorm.js"></script>\n  </body>')

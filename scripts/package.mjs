@@ -37,7 +37,7 @@ export async function npmFiles() {
   rmSync(to, { recursive: true, force: true })
   mkdirSync(join(to, 'assets'), { recursive: true })
   const all = await figures()
-  const files = readdirSync(dist).filter(file => /^fastslam(-[\w-]{8})?\.js$|^fastslam_widgets_bg-.*\.wasm$/.test(file))
+  const files = readdirSync(dist).filter(file => /^fastslam(-[\w-]{8})?\.js$|^fastslam-(page|log)-.*\.wasm$/.test(file))
   for (const file of [...files, 'custom-elements.json']) cpSync(join(dist, file), join(to, file))
   // What they name, and nothing of the chapter's.
   const script = files.filter(file => file.endsWith('.js')).map(file => readFileSync(join(dist, file), 'utf8')).join('')

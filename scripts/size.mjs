@@ -8,14 +8,14 @@ import { launchChromium } from './browser.mjs'
 
 /**
  * Bytes. `target` is what was asked for, `limit` what fails: where a target is missed, the limit keeps the gap from growing. The chapter's
- * text alone is 57 KB, its fonts 41, and six figures with their filters 200.
+ * text alone is 57 KB, its fonts 41, and five figures with their filters 166; the sixth's come when it is asked for something.
  */
 const budgets = {
-  page: { target: 200_000, limit: 336_000 },
+  page: { target: 200_000, limit: 301_500 },
   /** HTML and CSS: what is there before any script or program. */
-  text: { target: 60_000, limit: 63_000 },
+  text: { target: 60_000, limit: 62_900 },
   /** One figure's page for frames with all that it loads, nothing cached. */
-  embed: { target: 110_000, limit: 134_000 },
+  embed: { target: 110_000, limit: 126_300 },
 }
 
 /** A size against its budget, in words. @param {string} what @param {number} bytes @param {{ target: number, limit: number }} budget */
@@ -31,7 +31,10 @@ export async function checkEmbedSizes() {
   const pages = readdirSync(dist).filter(file => /^embed-.*\.html$/.test(file))
   const sizes = []
   for (const page of pages) {
-    const loaded = (await transferred(page)).filter(({ status }) => status === 200)
+    const answers = await transferred(page)
+    // The figure that maps logs loads its program when it is asked for something, as whoever opens its page will do.
+    if (!answers.some(({ path }) => path.endsWith('.wasm'))) answers.push(...(await transferred(page, page => page.locator('.stage').click())))
+    const loaded = answers.filter(({ status }) => status === 200)
     if (!loaded.some(({ path }) => path.endsWith('.wasm'))) throw new StepError(`${page} did not load its WebAssembly.`)
     sizes.push({ page, sent: loaded.reduce((bytes, { sent }) => bytes + sent, 0) })
   }
@@ -42,11 +45,19 @@ export async function checkEmbedSizes() {
 
 /** Loads the page, reads it to its end, and adds up the answers of the server. */
 export async function checkSize() {
-  return report(await transferred(''))
+  const page = report(await transferred(''))
+  // The figure that maps logs is there, and works; its program comes when something is asked of it.
+  const asked = await transferred('', page => page.locator('fastslam-log .stage').click())
+  const sent = asked.reduce((bytes, answer) => bytes + answer.sent, 0)
+  if (!asked.some(({ path }) => path.endsWith('.wasm'))) throw new StepError('The figure that maps logs did not load its WebAssembly.')
+  return `${page}; whoever maps a log loads ${kilobytes(sent)} more`
 }
 
-/** What the server answers for a page that is read to its end. @param {string} path */
-async function transferred(path) {
+/**
+ * What the server answers for a page that is read to its end; or, where something is asked of it then, what it answers to that.
+ * @param {string} path @param {(page: import('@playwright/test').Page) => Promise<void>} [ask]
+ */
+async function transferred(path, ask) {
   /** @type {import('./serve.mjs').Served[]} */
   const answers = []
   const server = await startServer({ folder: dist, onServed: served => answers.push(served) })
@@ -60,6 +71,11 @@ async function transferred(path) {
     const end = await page.evaluate(() => document.documentElement.scrollHeight)
     for (let y = 0; y < end; y += 800) {
       await page.evaluate(top => scrollTo({ top, behavior: 'instant' }), y)
+      await quiet()
+    }
+    if (ask) {
+      answers.length = 0
+      await ask(page)
       await quiet()
     }
   } finally {

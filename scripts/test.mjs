@@ -2,7 +2,7 @@
 // one run shows all that is wrong. The last line is the total of all the runners: `N passed, M failed`.
 import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { buildFigures, buildPages, buildWasm } from './build.mjs'
+import { buildPages, buildParts, buildWasm } from './build.mjs'
 import { checks } from './check.mjs'
 import { bold, cache, main, npmBin, readIfThere, red, root, run, step, StepError } from './lib.mjs'
 import { findChrome, findChromeDriver, setUp } from './setup.mjs'
@@ -113,7 +113,7 @@ await main(async () => {
   await attempt(...format)
   // Without these there is nothing to test: a failure here ends the run.
   await buildWasm()
-  await buildFigures()
+  await buildParts()
   await buildPages()
   for (const check of otherChecks) await attempt(...check)
   await attempt('Tests of the chapter’s making', nodeTest)

@@ -3,7 +3,7 @@
 import { readdirSync, readFileSync } from 'node:fs'
 import { basename, join } from 'node:path'
 import { defineConfig } from 'vite'
-import { figures, figureWasm } from './build.mjs'
+import { figures, partWasm } from './build.mjs'
 import { chapter } from './chapter/plugin.mjs'
 import { root } from './lib.mjs'
 
@@ -20,14 +20,24 @@ const figurePrograms = {
   name: 'figure-programs',
   /** @this {import('vite').Rolldown.PluginContext} */
   generateBundle() {
-    for (const tag of figures) this.emitFile({ type: 'asset', name: `${tag}.wasm`, source: readFileSync(figureWasm(tag)) })
+    for (const tag of figures) this.emitFile({ type: 'asset', name: `${tag}.wasm`, source: readFileSync(partWasm(tag)) })
+  },
+}
+
+/** The glue would name the program with all figures, which it is never left to fetch: files.ts knows which one is wanted. */
+const withoutAddress = {
+  name: 'glue-without-address',
+  transform: {
+    filter: { id: /[/\\]fastslam_widgets\.js$/ },
+    /** @param {string} code */
+    handler: code => code.replace("new URL('fastslam_widgets_bg.wasm', import.meta.url)", 'undefined'),
   },
 }
 
 export default defineConfig({
   root: www,
   base: './',
-  plugins: [chapter(root), figurePrograms],
+  plugins: [chapter(root), figurePrograms, withoutAddress],
   build: {
     outDir: join(root, 'dist'),
     emptyOutDir: true,
@@ -45,14 +55,15 @@ export default defineConfig({
       preserveEntrySignatures: 'allow-extension',
       output: {
         entryFileNames: chunk => (chunk.name === 'fastslam' ? '[name].js' : 'assets/[name]-[hash].js'),
-        // The figures lie beside fastslam.js, which only names them: they find the site's other pages from there.
-        chunkFileNames: chunk => (chunk.moduleIds.some(id => id.endsWith('/elements/base.ts')) ? 'fastslam-[hash].js' : 'assets/[name]-[hash].js'),
+        // What all figures share is one file, and what only one has is a file of its own: a page for frames loads no other's.
+        codeSplitting: { groups: [{ name: 'shared', test: /widgets[/\\](pkg[/\\]|elements[/\\](?!(generated[/\\])?(log|count|resampling|lap-table|index)\.))/ }] },
+        // It lies beside fastslam.js, which only names them: figures find the site's other pages from there.
+        chunkFileNames: chunk => (chunk.name === 'shared' ? 'fastslam-[hash].js' : 'assets/[name]-[hash].js'),
         assetFileNames,
       },
     },
   },
-  // The worker's glue names the same program: it must be the same file.
-  worker: { format: 'es', rollupOptions: { output: { entryFileNames: 'assets/[name]-[hash].js', assetFileNames } } },
+  worker: { format: 'es', plugins: () => [withoutAddress], rollupOptions: { output: { entryFileNames: 'assets/[name]-[hash].js', assetFileNames } } },
   // The elements, and what wasm-pack makes, are outside www/.
   server: { fs: { allow: [root] } },
 })

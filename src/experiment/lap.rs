@@ -12,7 +12,7 @@ use crate::map::grid::{Grid, GridModel};
 use crate::map::{ConditionalMap, Footprint};
 use crate::matching::{ClimbSteps, Matcher, ScanModel};
 use crate::motion::{Odometry, OdometryModel};
-use crate::proposal::{Either, FromMotion, FromScan, FromScanSettings, ProposalKind, ProposalTrace, Search};
+use crate::proposal::{Either, FromMotion, FromScan, FromScanSettings, ProposalKind, ProposalTrace, Spread};
 use crate::random::{Purpose, Stream};
 use crate::rbpf::{Particle, Rbpf, Report};
 use crate::resampling::{ResamplePolicy, Scheme};
@@ -58,11 +58,11 @@ pub const TEMPER: f64 = 0.85;
 pub const OUTLIER: f64 = 0.05;
 
 /// The measurement-aware proposal: one setting for every M and both matchers.
-pub const FROM_SCAN: FromScanSettings = FromScanSettings {
+pub const FROM_SCAN: FromScanSettings<Spread> = FromScanSettings {
     // Keeps R_t invertible at a stand, and lets a centimetre of slip be.
     motion_floor: [0.02, 0.02, 0.01],
     // With the spread of 3 σ one every 0.75 σ, some five degrees here: about the slope's width.
-    search: Search::Spread { seeds: 8 },
+    search: Spread { seeds: 8 },
     // From a third of a cell down to a centimetre; the fit takes over from there.
     climb: ClimbSteps { linear: 0.08, angular: 0.04, halvings: 3 },
     climb_stride: 2,
@@ -225,7 +225,7 @@ pub struct StepReport {
 }
 
 /// The filter of a lap.
-pub type Filter = Rbpf<Grid, Either<FromMotion<OdometryModel, ScanModel>, FromScan>>;
+pub type Filter = Rbpf<Grid, Either<FromMotion<OdometryModel, ScanModel>, FromScan<Spread>>>;
 
 /// A lap under way. Cloning one is cheap: the world and the maps are shared.
 #[derive(Clone, Debug)]

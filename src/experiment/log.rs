@@ -12,7 +12,7 @@ use crate::map::grid::{Grid, GridModel};
 use crate::map::{ConditionalMap, Footprint};
 use crate::matching::{ClimbSteps, Kernel, Matcher, ScanModel};
 use crate::motion::{Odometry, OdometryModel};
-use crate::proposal::{FromMotion, FromScan, FromScanSettings, ProposalTrace, Search};
+use crate::proposal::{FromMotion, FromScan, FromScanSettings, Lattice, ProposalTrace};
 use crate::random::{Purpose, Stream};
 use crate::rbpf::{Particle, Rbpf};
 use crate::resampling::{ResamplePolicy, Scheme};
@@ -30,7 +30,7 @@ pub const FINE: usize = 4;
 pub type LogMap = Grid<FINE>;
 
 /// The filter of a log.
-pub type Filter = Rbpf<LogMap, FromScan>;
+pub type Filter = Rbpf<LogMap, FromScan<Lattice>>;
 
 /// Noise of the wheels: 0.2 rad a radian of turns, 0.1 rad and 0.1 m a metre. Wide on purpose: real wheels slip, and are off by
 /// a bias that no noise describes (some 4° a metre in one log). Too wide a prior only costs time.
@@ -47,10 +47,10 @@ pub const OUTLIER: f64 = 0.05;
 pub const KERNEL: Kernel = Kernel::Robust { most: 1.0 };
 
 /// The proposal, for a laser of [`BEAMS`] beams.
-pub const FROM_SCAN: FromScanSettings = FromScanSettings {
+pub const FROM_SCAN: FromScanSettings<Lattice> = FromScanSettings {
     motion_floor: [0.02, 0.02, 0.01],
     // Half a square, and as much at 3 m. Three starts: of two, one is often the neighbour of the other's hill.
-    search: Search::Lattice { linear: 0.1, angular: 0.035, stride: 4, climbs: 3 },
+    search: Lattice { linear: 0.1, angular: 0.035, stride: 4, climbs: 3 },
     // From half the lattice's step down to half a centimetre.
     climb: ClimbSteps { linear: 0.05, angular: 0.02, halvings: 3 },
     climb_stride: 2,
@@ -64,15 +64,13 @@ pub const FROM_SCAN: FromScanSettings = FromScanSettings {
 const BEAMS: usize = 180;
 
 /// [`FROM_SCAN`] with strides for the beams of a log.
-fn from_scan(log: &LaserLog) -> FromScanSettings {
+fn from_scan(log: &LaserLog) -> FromScanSettings<Lattice> {
     let mut beams: Vec<usize> = log.scans.iter().map(|scan| scan.ranges.len()).collect();
     let middle = beams.len() / 2;
     let times = ((*beams.select_nth_unstable(middle).1 + BEAMS / 2) / BEAMS).max(1);
     let mut settings = FROM_SCAN;
     settings.climb_stride *= times;
-    if let Search::Lattice { stride, .. } = &mut settings.search {
-        *stride *= times;
-    }
+    settings.search.stride *= times;
     settings
 }
 
@@ -517,10 +515,8 @@ mod tests {
         assert_eq!(from_scan(&log), FROM_SCAN);
         for (beams, times) in [(1, 1), (181, 1), (361, 2), (1081, 6)] {
             log.scans.iter_mut().skip(1).for_each(|scan| scan.ranges = vec![1.0; beams]);
-            let Search::Lattice { stride, .. } = from_scan(&log).search else {
-                panic!("a log is searched by a lattice")
-            };
-            assert_eq!((from_scan(&log).climb_stride, stride), (2 * times, 4 * times));
+            let settings = from_scan(&log);
+            assert_eq!((settings.climb_stride, settings.search.stride), (2 * times, 4 * times));
         }
     }
 

@@ -9,7 +9,7 @@ mod from_scan;
 
 pub use from_measurement::{FromMeasurement, Measured};
 pub use from_motion::{FromMotion, Likelihood, Marginal};
-pub use from_scan::{FromScan, FromScanSettings, Search};
+pub use from_scan::{FromScan, FromScanSettings, Lattice, Search, Spread};
 
 use crate::error::ParameterError;
 use crate::geometry::Pose2;

@@ -29,6 +29,7 @@ class LogFigure {
   async open(): Promise<this> {
     await this.page.goto('./')
     await this.element.scrollIntoViewIfNeeded()
+    await this.stage.click() // its program comes when something is asked of it
     await expect(this.element.locator('.stage.live')).toBeVisible()
     return this
   }
@@ -116,6 +117,40 @@ test('the example is mapped with one click, and map, path and report are saved',
   const [pgm, yaml] = await Promise.all(both.sort((a, b) => a.suggestedFilename().localeCompare(b.suggestedFilename())).map(content))
   expect(pgm!.subarray(0, 3).toString()).toBe('P5\n')
   expect(yaml!.toString()).toContain('image: "map.pgm"')
+})
+
+test('its program is not fetched until something is asked of it, and what was asked first is not lost', async ({ page }) => {
+  const fetched: string[] = []
+  page.on('request', request => /fastslam-log.*(wasm|png)$/.test(request.url()) && fetched.push(request.url()))
+  await page.goto('./')
+  const log = new LogFigure(page)
+  await log.element.scrollIntoViewIfNeeded()
+  await expect(log.stage).toContainText('No log is open')
+  await expect(log.element.locator('input[type=number][name=universes]')).toHaveValue('16')
+  await page.waitForTimeout(500)
+  expect(fetched).toEqual([])
+  expect(page.workers()).toHaveLength(0)
+  await log.set('universes', '7')
+  await expect(log.element.locator('.stage.live')).toBeVisible()
+  await expect(log.stage.getByText('No log is open')).toBeHidden()
+  await expect(log.element.locator('input[type=number][name=universes]')).toHaveValue('7')
+  await expect.poll(() => log.element.evaluate((element: HTMLElement & { link: string }) => element.link)).toContain('universes=7')
+  expect(fetched).toHaveLength(1)
+})
+
+test('a log that is chosen wakes it, and so does an attribute', async ({ page }) => {
+  await page.goto('./')
+  const log = new LogFigure(page)
+  await log.element.scrollIntoViewIfNeeded()
+  await expect(log.stage).toContainText('No log is open')
+  await log.choose('tiny.clf', readFileSync(TINY))
+  await expect(log.sentence).toContainText('91 scans')
+  await page.reload()
+  await log.element.scrollIntoViewIfNeeded()
+  await expect(log.stage).toContainText('No log is open')
+  await log.element.evaluate(element => element.setAttribute('universes', '9'))
+  await expect(log.element.locator('.stage.live')).toBeVisible()
+  await expect(log.element.locator('input[type=number][name=universes]')).toHaveValue('9')
 })
 
 test('the same log and settings give the bits of the native build', async ({ page }) => {

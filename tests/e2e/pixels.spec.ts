@@ -1,8 +1,8 @@
-// The wasm that readers get, after all that was done to make it small, against every golden picture: the page's with all figures, and
-// the embeds' with one.
+// The wasm that readers get, after all that was done to make it small, against every golden picture: with all figures, with those
+// of the page, and with one.
 import { readFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { figures } from '../../scripts/build.mjs'
+import { figures, pageProgram } from '../../scripts/build.mjs'
 import { root } from '../../scripts/lib.mjs'
 import { startServer } from '../../scripts/serve.mjs'
 import { expect, test } from './fixtures'
@@ -60,6 +60,7 @@ async function digests({ program, wanted, log }: { program: string; wanted: Pict
 
 const programs = [
   { program: 'fastslam_widgets_bg', wanted: pictures },
+  { program: pageProgram, wanted: pictures.filter(picture => picture.tag !== 'fastslam-log') },
   ...figures.map(tag => ({ program: tag, wanted: pictures.filter(picture => picture.tag === tag) })),
 ]
 

@@ -1,6 +1,6 @@
 // One WebAssembly instance a page, shared by every figure. It is fetched when the first figure is seen, never before.
 import init, { Figure, last_panic, program } from '../pkg/fastslam_widgets.js'
-import { fetchProgram } from './files'
+import { fetchLogProgram, fetchProgram } from './files'
 
 export type Shell = Figure
 
@@ -53,24 +53,32 @@ export interface Engine {
   create(tag: string): Shell
 }
 
-let shared: Promise<Engine> | undefined
+export const engine = once(async (): Promise<Engine> => {
+  const { memory } = await begun(fetchProgram, response => init({ module_or_path: response }))
+  return { memory, program: program() as WebAssembly.Module, create: tag => new Figure(tag) }
+})
 
-export function engine(): Promise<Engine> {
-  return (shared ??= start().catch((error: unknown) => {
-    shared = undefined // the network may be back at the next try
-    throw error
-  }))
+/** The program of the figure that maps logs, for its worker. */
+export const logProgram = once(() => begun(fetchLogProgram, async response => WebAssembly.compile(await response.arrayBuffer())))
+
+function once<T>(start: () => Promise<T>): () => Promise<T> {
+  let shared: Promise<T> | undefined
+  return () =>
+    (shared ??= start().catch((error: unknown) => {
+      shared = undefined // the network may be back at the next try
+      throw error
+    }))
 }
 
-async function start(): Promise<Engine> {
+/** Fetches a program and begins with it, or says in words why it cannot. */
+async function begun<T>(fetched: () => Promise<Response>, begin: (response: Response) => Promise<T>): Promise<T> {
   if (typeof WebAssembly === 'undefined') throw new Error('this browser runs no WebAssembly')
-  const response = await fetchProgram().catch(() => {
+  const response = await fetched().catch(() => {
     throw new Error('its program could not be fetched, because the network is down or a rule blocks it')
   })
   if (!response.ok) throw new Error(`its program could not be fetched (the server answered ${response.status})`)
   try {
-    const { memory } = await init({ module_or_path: response })
-    return { memory, program: program() as WebAssembly.Module, create: tag => new Figure(tag) }
+    return await begin(response)
   } catch (error) {
     // Chromium and Firefox word a refusal by policy differently; both name one of these.
     if (/unsafe-eval|security policy|csp|disallowed/i.test(String(error))) {

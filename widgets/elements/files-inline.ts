@@ -8,6 +8,9 @@ export async function fetchProgram(): Promise<Response> {
   return new Response(stream, { headers: { 'Content-Type': 'application/wasm' } })
 }
 
+/** There is one program. */
+export const fetchLogProgram = fetchProgram
+
 export function workerScript(): { text: string } {
   return { text: worker }
 }

@@ -5,11 +5,16 @@ const PICTURES = import.meta.glob<string>('../../tests/figures/golden/fastslam-*
 
 /**
  * The program of this page, and the one place where it is chosen: a page with one kind of figure may name that figure's own, which is
- * smaller, by `<link rel="fastslam-program" href="…">`; every other page gets the program with all figures.
+ * smaller, by `<link rel="fastslam-program" href="…">`; every other page gets that of all figures that run on the page itself.
  */
 export function fetchProgram(): Promise<Response> {
   const named = document.querySelector<HTMLLinkElement>('link[rel=fastslam-program]')
-  return fetch(named?.href ?? new URL('../pkg/fastslam_widgets_bg.wasm', import.meta.url))
+  return fetch(named?.href ?? new URL('../pkg/fastslam-page.wasm', import.meta.url))
+}
+
+/** The program of the figure that maps logs, for its worker. */
+export function fetchLogProgram(): Promise<Response> {
+  return fetch(new URL('../pkg/fastslam-log.wasm', import.meta.url))
 }
 
 /** The worker's script: an address, or what is in it. */

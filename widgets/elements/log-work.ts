@@ -27,7 +27,6 @@ export interface Shown {
   last: number
   /** [s] until the end, at the pace so far. */
   left: number
-  title: string
   specs: ParamSpec[]
   values: Record<string, string>
   query: string
@@ -208,7 +207,6 @@ function show(): void {
         step,
         last,
         left: step > 0 ? ((spent / step) * (last - step)) / 1000 : NaN,
-        title: figure.title(),
         specs: figure.params() as ParamSpec[],
         values: figure.values() as Record<string, string>,
         query: figure.query(),

@@ -1,14 +1,17 @@
 // A recorded log, mapped. Unlike the other figures it lives in a worker: the file is read, the filter runs and the picture is painted
-// there, so that the page answers at once whatever the size of the log.
+// there, so that the page answers at once whatever the size of the log. Its program is large, and many a reader never maps a log: it is
+// fetched when the first thing is asked of the figure.
 import { isParameter, sheet } from './base'
 import { Controls } from './controls'
 import { h, icon, write } from './dom'
-import { engine, type ParamSpec } from './engine'
+import { logProgram, type ParamSpec, type Readout } from './engine'
+import { AT_REST } from './generated/log'
 import { hire, refused } from './jobs'
 import { release, reserve } from './heights'
 import { linkedQuery, linkTo } from './link'
 import type { Ask, Phase, Save, Shown, Told } from './log-work'
 import { notice } from './notices'
+import { OPTIONS } from './options'
 import { showReadouts } from './readouts'
 import { copy, download } from './save'
 import { onThemeChange, themeName } from './theme'
@@ -28,13 +31,21 @@ const FILES: [Save, string][] = [
   ['report.json', 'Report (JSON)'],
 ]
 
+/** What is shown before its program is there. */
+export interface AtRest {
+  title: string
+  params: ParamSpec[]
+  readouts: Readout[]
+  describe: string
+}
+
 export class FastslamLog extends HTMLElement {
   #worker: Worker | undefined
-  #starting = false
+  #starting: Promise<void> | undefined
   #phase: Phase = 'empty'
   #query = '' // the settings: what a link holds
   #source: { file: Blob; name: string } | undefined // read again by another worker, after a move of the element
-  #specs: ParamSpec[] = []
+  #specs = AT_REST.params
   #controls: Controls | undefined
   #shown: Shown | undefined
   #frame = 0
@@ -60,6 +71,7 @@ export class FastslamLog extends HTMLElement {
     { class: 'stage map', part: 'stage', role: 'group', tabindex: '0', 'aria-labelledby': 'title', 'aria-describedby': 'keys' },
     this.#canvas,
     this.#zoom,
+    h('p', { class: 'idle' }, h('b', {}, 'No log is open'), 'Run the example, or choose or drop a log.'),
     h('div', { class: 'fallback' }, h('slot')),
   )
   readonly #file = h('input', { type: 'file', class: 'hidden', accept: '.clf,.log,.gz,.txt', id: 'file', tabindex: '-1', 'aria-hidden': 'true' })
@@ -74,7 +86,7 @@ export class FastslamLog extends HTMLElement {
   readonly #menu = this.#makeMenu()
   readonly #body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title' })
 
-  readonly #seen = new IntersectionObserver(entries => entries.some(entry => entry.isIntersecting) && void this.#start())
+  readonly #seen = new IntersectionObserver(entries => entries.some(entry => entry.isIntersecting) && this.#onSeen())
   readonly #sizes = new ResizeObserver(entries => this.#onResize(entries[entries.length - 1]!))
 
   constructor() {
@@ -111,6 +123,8 @@ export class FastslamLog extends HTMLElement {
       this.#file.value = '' // the same file may be chosen again
       if (file) void this.open(file)
     })
+    // What comes after a press: nothing moves away from under it.
+    for (const type of ['click', 'keyup', 'dragenter'] as const) this.#body.addEventListener(type, () => void this.#start())
     this.#takeDrops()
     this.#takeMoves()
     new MutationObserver(records => {
@@ -186,11 +200,21 @@ export class FastslamLog extends HTMLElement {
 
   // --- The worker --------------------------------------------------------------------------------------------------------
 
+  #onSeen(): void {
+    if (!this.#controls) this.#introduce()
+    if (this.#query || this.#source || this.getAttributeNames().some(isSetting)) void this.#start()
+  }
+
   async #start(): Promise<void> {
-    if (this.#worker || this.#starting) return
-    this.#starting = true
+    if (this.#worker) return
+    await (this.#starting ??= this.#begin())
+    this.#starting = undefined
+  }
+
+  async #begin(): Promise<void> {
     try {
-      const { program } = await engine()
+      if (!this.#status.textContent) write(this.#status, 'Loading …')
+      const program = await logProgram()
       if (!this.isConnected) return
       const worker = hire()
       this.#worker = worker
@@ -210,13 +234,17 @@ export class FastslamLog extends HTMLElement {
       this.#stage.classList.add('still')
       release(this.#body)
       this.#notice('start', `This figure is not live here: ${(error as Error).message}.`, 'Try again', () => void this.#start())
-    } finally {
-      this.#starting = false
     }
   }
 
   #ask(ask: Ask): void {
     this.#worker?.postMessage(ask)
+  }
+
+  /** The same for what may be the first thing asked. */
+  async #order(ask: Ask): Promise<void> {
+    await this.#start()
+    this.#ask(ask)
   }
 
   #dismiss(): void {
@@ -278,8 +306,6 @@ export class FastslamLog extends HTMLElement {
     const { picture, phase } = shown
     this.#specs = shown.specs
     this.#query = shown.query
-    write(this.#heading, shown.title)
-    if (!this.#controls) this.#introduce(shown.specs)
     if (picture) {
       const { width, height, cssHeight } = picture
       if (this.#canvas.width !== width) this.#canvas.width = width
@@ -340,15 +366,21 @@ export class FastslamLog extends HTMLElement {
     write(this.#sentence, sentence)
   }
 
-  #introduce(specs: ParamSpec[]): void {
+  /** Once: all there is before anything was asked. */
+  #introduce(): void {
+    const { title, params, readouts, describe } = AT_REST
+    write(this.#heading, title)
+    showReadouts(this.#readouts, readouts)
+    write(this.#sentence, describe)
     const idle = () => undefined
     const change = (name: string, value: string) => {
       notice(this.#notices, name, '')
-      this.#ask({ ask: 'set', name, value })
+      void this.#order({ ask: 'set', name, value })
     }
-    const reset = () => this.#ask({ ask: 'load', query: '' })
-    const controls = new Controls(specs, { playPause: idle, step: idle, stepBack: idle, seek: idle, pace: idle, reset, change })
+    const reset = () => void this.#order({ ask: 'load', query: '' })
+    const controls = new Controls(params, { playPause: idle, step: idle, stepBack: idle, seek: idle, pace: idle, reset, change })
     controls.showPosition(0, 0, false, false)
+    controls.showValues(params, Object.fromEntries(params.map(spec => [spec.name, spec.default])))
     controls.transport.setAttribute('aria-label', 'Settings of the draw')
     controls.settings.open = this.clientWidth >= WIDE
     this.#body.append(controls.view, controls.transport, controls.settings)
@@ -380,10 +412,13 @@ export class FastslamLog extends HTMLElement {
 
   #onAttribute(name: string): void {
     if (name === 'theme') return this.#resize()
-    if (!isParameter(name)) return
+    if (!isSetting(name)) return
     const text = this.getAttribute(name)
     const value = text ?? this.#specs.find(spec => spec.name === name)?.default
     if (value !== undefined) this.#ask({ ask: 'set', name, value })
+    if (this.#worker || !this.isConnected) return
+    this.#seen.unobserve(this)
+    this.#seen.observe(this) // tells again whether it is in view
   }
 
   #followLink(): void {
@@ -511,7 +546,7 @@ export class FastslamLog extends HTMLElement {
       'div',
       { class: 'items' },
       item('Copy link to the settings', () => void this.#copyLink()),
-      item('Save picture (PNG)', () => this.#canvas.toBlob(blob => blob && download(`${this.localName}.png`, blob))),
+      item('Save picture (PNG)', () => this.#shown && this.#canvas.toBlob(blob => blob && download(`${this.localName}.png`, blob))),
     )
     const summary = h('summary', { 'aria-label': 'Menu', title: 'Menu', part: 'button menu' }, icon('more'))
     const menu = h('details', { class: 'menu', part: 'menu' }, summary, items)
@@ -533,6 +568,11 @@ export class FastslamLog extends HTMLElement {
     if (await copy(this.link)) write(this.#status, 'Link copied')
     else this.#notice('copy', `The browser does not let this page write to the clipboard. The link: ${this.link}`)
   }
+}
+
+/** Frames ask every figure to fit: no setting of this one. */
+function isSetting(attribute: string): boolean {
+  return isParameter(attribute) && !(attribute in OPTIONS)
 }
 
 /** In words as short as the number is rough. */

@@ -13,10 +13,11 @@ pub fn in_text(text: &str) -> String {
     let bytes = text.as_bytes();
     let digit = |i: usize| bytes.get(i).is_some_and(u8::is_ascii_digit);
     let version = |point: usize| {
-        let (before, rest) = text.split_at(point - 1);
-        VERSIONS.iter().any(|v| rest.starts_with(v))
+        // Of bytes: what Rust says of a text cut in the middle of a letter would be 2 KB of every program.
+        let (before, rest) = bytes.split_at(point - 1);
+        VERSIONS.iter().any(|v| rest.starts_with(v.as_bytes()))
             && !digit(point + 2)
-            && BEFORE_VERSION.iter().any(|word| before.ends_with(word))
+            && BEFORE_VERSION.iter().any(|word| before.ends_with(word.as_bytes()))
     };
     let mark = |(i, c)| if c == '.' && i > 0 && digit(i - 1) && digit(i + 1) && !version(i) { ',' } else { c };
     text.char_indices().map(mark).collect()

@@ -9,6 +9,10 @@ use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::prelude::*;
 
+/// As fast as the one of the standard library, and 2.4 KB less.
+#[global_allocator]
+static ALLOCATOR: rlsf::SmallGlobalTlsf = rlsf::SmallGlobalTlsf::new();
+
 thread_local! {
     /// What the last panic said. The instance is dead after it, but its memory can still be read.
     static LAST_PANIC: RefCell<Option<String>> = const { RefCell::new(None) };

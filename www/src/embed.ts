@@ -1,9 +1,18 @@
 // A page of one figure, for frames: embed.html?figure=proposal&range-std=0.05&samples=16. It needs no storage and no origin of its own,
 // so it runs in a frame with sandbox="allow-scripts".
-import type { FigureElement } from '../../widgets/elements/index'
-import '../../widgets/elements/index'
+import type { FigureElement } from '../../widgets/elements/base'
+import '../../widgets/elements/conditioning'
+import '../../widgets/elements/lap'
+import '../../widgets/elements/proposal'
+import '../../widgets/elements/worked-example'
 import { FIGURES } from '../../widgets/elements/generated/figures'
 import { OPTIONS } from '../../widgets/elements/options'
+
+/** Figures with much code of their own, which is loaded where one of them is asked for. */
+const LATER: Record<string, () => Promise<unknown>> = {
+  'fastslam-log': () => import('../../widgets/elements/log'),
+  'fastslam-resampling': () => import('../../widgets/elements/resampling'),
+}
 
 /** Short names of parameters, as formulas have them: the first that a figure has. */
 const SHORT: Record<string, string[]> = {
@@ -21,7 +30,7 @@ const query = new URLSearchParams(location.search)
 
 /** A page of its own for each figure has the figure in it; the common one makes what the address asks for. */
 function figureAsked(): FigureElement | undefined {
-  const there = main.querySelector<FigureElement>(':defined:not(p, a, img)')
+  const there = main.querySelector<FigureElement>(Object.keys(FIGURES).join())
   if (there) return there
   const name = query.get('figure') ?? ''
   const tag = `fastslam-${name.replace(/^fastslam-/, '')}`
@@ -71,6 +80,7 @@ function tellHeight(figure: FigureElement): void {
 
 const figure = figureAsked()
 if (figure) {
+  await LATER[figure.localName]?.()
   // One figure only: its own program will do.
   for (const link of document.querySelectorAll<HTMLLinkElement>('link[rel=fastslam-program]')) if (link.title !== figure.localName) link.remove()
   configure(figure)

@@ -6,7 +6,7 @@ use fastslam::map::{ConditionalMap, grid::Grid};
 use fastslam::matching::{Matcher, ScanModel};
 use fastslam::motion::{Motion, Odometry, OdometryModel};
 use fastslam::ops;
-use fastslam::proposal::{FromMotion, FromScan, Proposal, ProposalTrace, Proposed};
+use fastslam::proposal::{FromMotion, FromScan, Proposal, ProposalTrace, Proposed, Spread};
 use fastslam::random::{Purpose, Stream};
 use fastslam::rbpf::Particle;
 use nalgebra::Vector3;
@@ -15,7 +15,7 @@ use nalgebra::Vector3;
 struct OneStep {
     particle: Particle<Grid>,
     world: LapWorld,
-    from_scan: FromScan,
+    from_scan: FromScan<Spread>,
 }
 
 fn one_step(matcher: Matcher) -> OneStep {
