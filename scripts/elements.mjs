@@ -61,6 +61,23 @@ const properties = [
   { name: 'naturalHeight', type: 'number', readonly: true, help: 'Height [css px] that shows all of the figure at its present width.' },
 ]
 
+/** The figure that maps logs has no steps to go back and forth in, and files to open. */
+const log = {
+  options: options.filter(({ name }) => ['theme', 'controls', 'lock', 'size'].includes(name)),
+  methods: [
+    { name: 'open', type: '(file: Blob, name?: string, start?: boolean) => Promise<void>', help: 'Reads a log; maps it too if it is to start.' },
+    { name: 'example', type: '() => Promise<void>', help: 'Maps the log that comes with the figure.' },
+    { name: 'play', type: '() => void', help: 'Maps from the start, or goes on after a pause.' },
+    { name: 'pause', type: '() => void', help: 'Waits.' },
+    { name: 'stop', type: '() => void', help: 'Ends where it is; what is mapped can still be looked at and saved.' },
+    { name: 'reset', type: '() => void', help: 'Back to the defaults; the log stays open.' },
+  ],
+  properties: properties.filter(({ name }) => name !== 'currentStep'),
+}
+
+/** What a figure has besides its parameters. @param {{ tag: string }} figure */
+const membersOf = ({ tag }) => (tag === 'fastslam-log' ? log : { options, methods, properties })
+
 const events = [
   { name: 'fastslam-step', type: 'CustomEvent<FigureDetail>', help: 'Another step is shown; also once when the figure comes to life.' },
   { name: 'fastslam-change', type: 'CustomEvent<FigureDetail>', help: 'A parameter has changed, whoever did it.' },
@@ -111,7 +128,7 @@ export function manifest(all) {
     summary: figure.title,
     attributes: [
       ...figure.params.map(attribute(figure)),
-      ...options.map(({ name, values, help }) => ({
+      ...membersOf(figure).options.map(({ name, values, help }) => ({
         name,
         description: help,
         type: { text: values ? values.map(v => `'${v}'`).join(' | ') : 'string' },
@@ -122,8 +139,8 @@ export function manifest(all) {
       ...figure.params
         .filter(({ name }) => name !== 'step')
         .map(spec => ({ kind: 'field', name: camel(spec.name), attribute: spec.name, type: { text: type(spec) }, description: describe(spec) })),
-      ...properties.map(({ name, type: text, readonly, help }) => ({ kind: 'field', name, type: { text }, readonly, description: help })),
-      ...methods.map(({ name, help }) => ({ kind: 'method', name, description: help })),
+      ...membersOf(figure).properties.map(({ name, type: text, readonly, help }) => ({ kind: 'field', name, type: { text }, readonly, description: help })),
+      ...membersOf(figure).methods.map(({ name, help }) => ({ kind: 'method', name, description: help })),
     ],
     events: events.map(({ name, type: text, help }) => ({ name, type: { text }, description: help })),
     cssParts: parts.map(name => ({ name })),
@@ -141,16 +158,21 @@ export function manifest(all) {
 export function types(all) {
   const doc = (/** @type {string} */ text) => `  /** ${text} */`
   const field = (/** @type {ParamSpec} */ spec) => `${doc(describe(spec))}\n  ${camel(spec.name)}: ${type(spec)}`
+  const member = (/** @type {{ name: string, type: string, help: string, readonly?: boolean }} */ item) =>
+    `${doc(item.help)}\n  ${item.readonly ? 'readonly ' : ''}${item.name}: ${item.type}`
+  const listeners = `  addEventListener<K extends keyof FigureEventMap>(type: K, listener: (this: this, event: FigureEventMap[K]) => unknown, options?: boolean | AddEventListenerOptions): void
+  addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void`
+  const isLog = (/** @type {FigureInfo} */ { tag }) => tag === 'fastslam-log'
   const classes = all.map(
-    ({ className, title, params }) =>
-      `/** ${title}. */\nexport declare class ${className} extends FigureElement {\n${params
-        .filter(({ name }) => name !== 'step')
-        .map(field)
-        .join('\n')}\n}`,
+    figure =>
+      `/** ${figure.title}. */\nexport declare class ${figure.className} extends ${isLog(figure) ? 'HTMLElement' : 'FigureElement'} {\n${[
+        ...(isLog(figure) ? [...[...log.methods, ...log.properties].map(member), listeners] : []),
+        ...figure.params.filter(({ name }) => name !== 'step').map(field),
+      ].join('\n')}\n}`,
   )
   const attributes = all.map(
-    ({ className, params }) =>
-      `export interface ${className}Attributes extends FigureAttributes {\n${params.map(spec => `  '${spec.name}'?: ${attributeType(spec)}`).join('\n')}\n}`,
+    ({ className, params, tag }) =>
+      `export interface ${className}Attributes extends ${tag === 'fastslam-log' ? "Pick<FigureAttributes, 'theme' | 'controls' | 'lock' | 'size'>" : 'FigureAttributes'} {\n${params.map(spec => `  '${spec.name}'?: ${attributeType(spec)}`).join('\n')}\n}`,
   )
   return `// Made by scripts/elements.mjs from what the figures tell of themselves.
 
@@ -174,9 +196,8 @@ ${events.map(({ name, type: text, help }) => `${doc(help)}\n  '${name}': ${text}
 }
 
 export declare abstract class FigureElement extends HTMLElement {
-${[...methods, ...properties].map(item => `${doc(item.help)}\n  ${'readonly' in item && item.readonly ? 'readonly ' : ''}${item.name}: ${item.type}`).join('\n')}
-  addEventListener<K extends keyof FigureEventMap>(type: K, listener: (this: this, event: FigureEventMap[K]) => unknown, options?: boolean | AddEventListenerOptions): void
-  addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void
+${[...methods, ...properties].map(member).join('\n')}
+${listeners}
 }
 
 /** Attributes of every figure. */

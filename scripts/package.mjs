@@ -38,7 +38,7 @@ export async function npmFiles() {
   mkdirSync(join(to, 'assets'), { recursive: true })
   const all = await figures()
   const files = readdirSync(dist).filter(file => /^fastslam(-[\w-]{8})?\.js$|^fastslam-(page|log)-.*\.wasm$/.test(file))
-  for (const file of [...files, 'custom-elements.json']) cpSync(join(dist, file), join(to, file))
+  for (const file of [...files, 'custom-elements.json', 'example.clf.gz']) cpSync(join(dist, file), join(to, file))
   // What they name, and nothing of the chapter's.
   const script = files.filter(file => file.endsWith('.js')).map(file => readFileSync(join(dist, file), 'utf8')).join('')
   for (const file of readdirSync(join(dist, 'assets'))) if (script.includes(`assets/${file}`)) cpSync(join(dist, 'assets', file), join(to, 'assets', file))

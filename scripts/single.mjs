@@ -39,7 +39,8 @@ export async function singleFile(entry, wasm = join(root, 'widgets', 'pkg', 'fas
   const program = gzipSync(readFileSync(wasm), { level: 9 }).toString('base64')
   // No module: pages opened from a file may not start workers that are modules.
   const worker = await bundle(join(elements, 'worker.ts'), 'iife')
-  const carried = `export const program = ${JSON.stringify(program)}; export const worker = ${JSON.stringify(worker)}`
+  const example = readFileSync(join(root, 'www', 'public', 'example.clf.gz')).toString('base64')
+  const carried = `export const example = ${JSON.stringify(example)}; export const program = ${JSON.stringify(program)}; export const worker = ${JSON.stringify(worker)}`
   return bundle(entry, 'es', [
     {
       name: 'fastslam-files',

@@ -10,7 +10,7 @@ import { FIGURES } from './generated/figures'
 import { Handles } from './handles'
 import { release, reserve } from './heights'
 import { linkedQuery, linkTo } from './link'
-import { locked, OPTIONS, refusal } from './options'
+import { locked, OPTIONS, refusal, unlockable } from './options'
 import { notice } from './notices'
 import { showReadouts } from './readouts'
 import { copy, download } from './save'
@@ -423,7 +423,7 @@ export abstract class FigureElement extends HTMLElement {
       const wish = locked(text, names)
       this.#locked = wish.locked
       this.#controls.lock(wish.locked)
-      if (wish.unknown.length > 0) wrong = `lock names “${wish.unknown[0]!.slice(0, 40)}”, but this figure has ${names.join(', ')}, all`
+      wrong = unlockable(wish.unknown, names)
     } else if (name === 'decimal' && this.#controls) {
       this.#controls.writeComma(text === 'comma')
       this.#guard(figure => figure.set_decimal_comma(text === 'comma'))
@@ -474,9 +474,7 @@ export abstract class FigureElement extends HTMLElement {
     const value = this.#figure
       ? values(this.#figure)[name]
       : (this.#waiting.get(name) ?? (this.#recipe === undefined ? this.getAttribute(name) : new URLSearchParams(this.#recipe).get(name)))
-    if (value === undefined || value === null) return undefined
-    if (value === 'on' || value === 'off') return value === 'on'
-    return value === '' || Number.isNaN(Number(value)) ? value : Number(value)
+    return fromText(value)
   }
 
   #set(name: string, value: string): void {
@@ -871,8 +869,14 @@ function values(figure: Shell): Record<string, string> {
 
 const equipped = new WeakSet<object>()
 
+/** An element whose parameters can be given and asked for by name. */
+export interface Parametric extends HTMLElement {
+  getParameter(name: string): unknown
+  setParameter(name: string, value: unknown): void
+}
+
 /** A property for every parameter, on the class: rangeStd for `range-std`. */
-function defineProperties(element: FigureElement): void {
+export function defineProperties(element: Parametric): void {
   const prototype = Object.getPrototypeOf(element) as object
   if (equipped.has(prototype)) return
   equipped.add(prototype)
@@ -882,10 +886,10 @@ function defineProperties(element: FigureElement): void {
     Object.defineProperty(prototype, property, {
       configurable: true,
       enumerable: true,
-      get(this: FigureElement) {
+      get(this: Parametric) {
         return this.getParameter(name)
       },
-      set(this: FigureElement, value: unknown) {
+      set(this: Parametric, value: unknown) {
         this.setParameter(name, value)
       },
     })
@@ -896,7 +900,13 @@ function camelCase(name: string): string {
   return name.replace(/-(.)/g, (_, letter: string) => letter.toUpperCase())
 }
 
-function toText(value: unknown): string {
+export function fromText(value: string | null | undefined): unknown {
+  if (value === undefined || value === null) return undefined
+  if (value === 'on' || value === 'off') return value === 'on'
+  return value === '' || Number.isNaN(Number(value)) ? value : Number(value)
+}
+
+export function toText(value: unknown): string {
   return value === true ? 'on' : value === false ? 'off' : String(value)
 }
 

@@ -1,11 +1,19 @@
 // The same as files.ts for a script that carries its files along (scripts/single.mjs): notebooks, pages from file://, learning systems.
-import { program, worker } from 'virtual:fastslam-files'
+import { example, program, worker } from 'virtual:fastslam-files'
 
 /** Packed as gzip in base64: a third smaller than the program itself. */
 export async function fetchProgram(): Promise<Response> {
-  const bytes = Uint8Array.from(atob(program), character => character.charCodeAt(0))
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))
+  const stream = new Blob([bytes(program)]).stream().pipeThrough(new DecompressionStream('gzip'))
   return new Response(stream, { headers: { 'Content-Type': 'application/wasm' } })
+}
+
+function bytes(base64: string): Uint8Array<ArrayBuffer> {
+  return Uint8Array.from(atob(base64), character => character.charCodeAt(0))
+}
+
+/** Only the figure that maps logs asks for it: other figures' files come without. */
+export async function fetchExample(): Promise<Response> {
+  return new Response(bytes(example))
 }
 
 /** There is one program. */

@@ -17,6 +17,11 @@ export function fetchLogProgram(): Promise<Response> {
   return fetch(new URL('../pkg/fastslam-log.wasm', import.meta.url))
 }
 
+/** The log that comes with that figure. */
+export function fetchExample(): Promise<Response> {
+  return fetch(new URL('../../www/public/example.clf.gz', import.meta.url))
+}
+
 /** The worker's script: an address, or what is in it. */
 export function workerScript(): { address: string } | { text: string } {
   return { address: worker }

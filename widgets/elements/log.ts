@@ -1,22 +1,22 @@
 // A recorded log, mapped. Unlike the other figures it lives in a worker: the file is read, the filter runs and the picture is painted
 // there, so that the page answers at once whatever the size of the log. Its program is large, and many a reader never maps a log: it is
 // fetched when the first thing is asked of the figure.
-import { isParameter, sheet } from './base'
+import { defineProperties, fromText, isParameter, sheet, toText } from './base'
 import { Controls } from './controls'
 import { h, icon, write } from './dom'
 import { logProgram, type ParamSpec, type Readout } from './engine'
 import { AT_REST } from './generated/log'
-import { hire, refused } from './jobs'
+import { fetchExample } from './files'
 import { release, reserve } from './heights'
+import { hire, refused } from './jobs'
 import { linkedQuery, linkTo } from './link'
 import type { Ask, Phase, Save, Shown, Told } from './log-work'
 import { notice } from './notices'
-import { OPTIONS } from './options'
+import { locked, OPTIONS, unlockable } from './options'
 import { showReadouts } from './readouts'
 import { copy, download } from './save'
 import { onThemeChange, themeName } from './theme'
 
-const EXAMPLE = new URL('../../www/public/example.clf.gz', import.meta.url)
 const WIDE = 620 // [px] from here on the settings are open at first
 const STEP = 1.4 // magnified by one press of + or −
 const SHIFT = 60 // [px] moved by one arrow key
@@ -91,6 +91,7 @@ export class FastslamLog extends HTMLElement {
 
   constructor() {
     super()
+    defineProperties(this)
     const root = this.attachShadow({ mode: 'open' })
     root.adoptedStyleSheets = [sheet]
     const choose = this.#button('Choose a log …', () => this.#file.click())
@@ -168,7 +169,7 @@ export class FastslamLog extends HTMLElement {
   /** Reads and maps the log that comes with the figure. */
   async example(): Promise<void> {
     write(this.#status, 'Loading the example …')
-    const response = await fetch(EXAMPLE).catch(() => undefined)
+    const response = await fetchExample().catch(() => undefined)
     if (response?.ok) return this.open(await response.blob(), 'the example', true)
     write(this.#status, '')
     const why = response ? `the server answered ${response.status}` : 'the network is down, or a rule blocks it'
@@ -176,7 +177,7 @@ export class FastslamLog extends HTMLElement {
   }
 
   /** Maps from the start, or goes on after a pause. */
-  start(): void {
+  play(): void {
     this.#ask({ ask: 'run' })
   }
 
@@ -189,8 +190,37 @@ export class FastslamLog extends HTMLElement {
     this.#ask({ ask: 'stop' })
   }
 
+  /** Back to the defaults. The log stays open. */
+  reset(): void {
+    void this.#order({ ask: 'load', query: '' })
+  }
+
   get playing(): boolean {
     return this.#phase === 'running'
+  }
+
+  /** @internal As the attribute of this name would. */
+  setParameter(name: string, value: unknown): void {
+    void this.#order({ ask: 'set', name, value: toText(value) })
+  }
+
+  /** @internal The value; undefined for the default. */
+  getParameter(name: string): unknown {
+    return fromText(this.#shown?.values[name] ?? this.getAttribute(name))
+  }
+
+  /** Height [css px] that shows all of the figure at its present width. */
+  get naturalHeight(): number {
+    return this.#body.scrollHeight + this.#body.offsetHeight - this.#body.clientHeight
+  }
+
+  /** The settings, as a link has them: name=value&… */
+  get state(): string {
+    return this.#query
+  }
+
+  set state(query: string) {
+    void this.#order({ ask: 'load', query })
   }
 
   /** The address of this page with the settings. The log itself is not in it: it is a file of the reader's. */
@@ -202,6 +232,7 @@ export class FastslamLog extends HTMLElement {
 
   #onSeen(): void {
     if (!this.#controls) this.#introduce()
+    release(this.#body)
     if (this.#query || this.#source || this.getAttributeNames().some(isSetting)) void this.#start()
   }
 
@@ -232,7 +263,6 @@ export class FastslamLog extends HTMLElement {
     } catch (error) {
       write(this.#status, '')
       this.#stage.classList.add('still')
-      release(this.#body)
       this.#notice('start', `This figure is not live here: ${(error as Error).message}.`, 'Try again', () => void this.#start())
     }
   }
@@ -305,6 +335,7 @@ export class FastslamLog extends HTMLElement {
     if (!shown) return
     const { picture, phase } = shown
     this.#specs = shown.specs
+    const changed = this.#query !== '' && this.#query !== shown.query
     this.#query = shown.query
     if (picture) {
       const { width, height, cssHeight } = picture
@@ -324,9 +355,10 @@ export class FastslamLog extends HTMLElement {
     this.#showPhase(phase, shown.step, shown.last, shown.left, shown.unfit !== undefined)
     write(this.#status, phase === 'empty' ? '' : shown.log)
     this.#say(shown.sentence)
-    release(this.#body)
     const { step, values, readouts } = shown
-    this.dispatchEvent(new CustomEvent('fastslam-step', { bubbles: true, composed: true, detail: { step, values, readouts, phase } }))
+    for (const type of changed ? ['fastslam-change', 'fastslam-step'] : ['fastslam-step']) {
+      this.dispatchEvent(new CustomEvent(type, { bubbles: true, composed: true, detail: { step, values, readouts, phase } }))
+    }
   }
 
   /** Why it cannot be started; told once, not with every picture. */
@@ -377,14 +409,22 @@ export class FastslamLog extends HTMLElement {
       notice(this.#notices, name, '')
       void this.#order({ ask: 'set', name, value })
     }
-    const reset = () => void this.#order({ ask: 'load', query: '' })
-    const controls = new Controls(params, { playPause: idle, step: idle, stepBack: idle, seek: idle, pace: idle, reset, change })
+    const controls = new Controls(params, { playPause: idle, step: idle, stepBack: idle, seek: idle, pace: idle, reset: () => this.reset(), change })
     controls.showPosition(0, 0, false, false)
     controls.showValues(params, Object.fromEntries(params.map(spec => [spec.name, spec.default])))
     controls.transport.setAttribute('aria-label', 'Settings of the draw')
     controls.settings.open = this.clientWidth >= WIDE
     this.#body.append(controls.view, controls.transport, controls.settings)
     this.#controls = controls
+    this.#lock()
+  }
+
+  /** Readers cannot change what the author has locked. */
+  #lock(): void {
+    const names = AT_REST.params.map(({ name }) => name)
+    const wish = locked(this.getAttribute('lock'), names)
+    this.#controls?.lock(wish.locked)
+    this.#notice('lock', unlockable(wish.unknown, names))
   }
 
   #notice(key: string, text: string, action?: string, act?: () => void): void {
@@ -395,7 +435,7 @@ export class FastslamLog extends HTMLElement {
 
   #onResize(entry: ResizeObserverEntry): void {
     const css = entry.contentRect.width
-    if (!this.#stage.matches('.live, .still') && !this.matches('[fit], [size], [controls]')) reserve(this.#body, this.localName, this.clientWidth)
+    if (!this.#controls && !this.matches('[fit], [size], [controls]')) reserve(this.#body, this.localName, this.clientWidth)
     let device = Math.round(css * devicePixelRatio)
     const box = entry.devicePixelContentBoxSize?.[0]
     if (box && Math.abs(box.inlineSize - device) < 2) device = box.inlineSize
@@ -412,6 +452,7 @@ export class FastslamLog extends HTMLElement {
 
   #onAttribute(name: string): void {
     if (name === 'theme') return this.#resize()
+    if (name === 'lock') return this.#lock()
     if (!isSetting(name)) return
     const text = this.getAttribute(name)
     const value = text ?? this.#specs.find(spec => spec.name === name)?.default
@@ -434,7 +475,7 @@ export class FastslamLog extends HTMLElement {
 
   #playPause(): void {
     if (this.#phase === 'running') this.pause()
-    else this.start()
+    else this.play()
   }
 
   #key(key: string): boolean {

@@ -24,3 +24,8 @@ export function locked(text: string | null, names: string[]): { locked: Set<stri
   if (words.includes('all')) return { locked: new Set(names), unknown: [] }
   return { locked: new Set(words.filter(word => names.includes(word))), unknown: words.filter(word => !names.includes(word)) }
 }
+
+/** What is wrong with names to lock; empty if nothing is. */
+export function unlockable(unknown: string[], names: string[]): string {
+  return unknown.length > 0 ? `lock names “${unknown[0]!.slice(0, 40)}”, but this figure has ${names.join(', ')}, all` : ''
+}
