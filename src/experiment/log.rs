@@ -211,7 +211,7 @@ impl LogRun {
     pub fn step(&mut self) -> Option<LogStep> {
         let to = &self.log.scans[*self.used.get(self.step as usize + 1)? as usize];
         let from = &self.log.scans[self.used[self.step as usize] as usize];
-        let control = Odometry::between(&from.odometry, &to.odometry);
+        let control = Odometry::recorded(&from.odometry, &to.odometry, STILL);
         let report = self.filter.step(&control, &to.end_points(self.longest, self.setup.max_range));
         self.step = report.step;
         let lineage = self.filter.lineage() as u32;
