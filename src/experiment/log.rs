@@ -44,9 +44,9 @@ pub const TEMPER: f64 = 0.85;
 pub const OUTLIER: f64 = 0.05;
 
 /// How many times further than its end points a surface reaches. End points spread evenly over a square have a standard deviation
-/// of 0.29 of its side: with 4 a surface is felt as far as the next square, and a wall is one wall. With 1, scans of new
+/// of 0.29 of its side: with 3 a surface is felt into the next square, and a wall is one wall. With 1, scans of new
 /// walls fitted a place half a metre off better than their own.
-pub const SURFACE_STRETCH: f64 = 4.0;
+pub const SURFACE_STRETCH: f64 = 3.0;
 
 /// What a distance from a surface costs. With c = 1 the pull is greatest at √⅔ σ, and at 2 σ half of that is left.
 pub const KERNEL: Kernel = Kernel::Robust { most: 1.0 };
