@@ -45,8 +45,14 @@ pub const START_SCANS: u32 = 30;
 ///
 /// A pass weighs a ninth of a hit: in cells this wide most beams that pass a wall's cell pass beside the wall. With
 /// −0.4, walls seen at a grazing angle wear away, and with the cell matcher one lap in ten drifts.
-pub const GRID: GridModel =
-    GridModel { cell_size: 0.3, log_odds_hit: 0.9, log_odds_pass: -0.1, surface_std: 0.1, reach: 0 };
+pub const GRID: GridModel = GridModel {
+    cell_size: 0.3,
+    log_odds_hit: 0.9,
+    log_odds_pass: -0.1,
+    surface_std: 0.1,
+    surface_stretch: 1.0,
+    reach: 0,
+};
 
 /// κ: the share of each beam's log-likelihood that counts. One for both proposals, both matchers and every M.
 ///

@@ -9,6 +9,7 @@ use super::Motion;
 use crate::geometry::{Gaussian3, Pose2};
 use crate::ops;
 use crate::random::Stream;
+use core::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::{Matrix3, Vector3};
 
 /// u = (δ_rot1, δ_trans, δ_rot2): turn, drive, turn.
@@ -16,7 +17,7 @@ use nalgebra::{Matrix3, Vector3};
 pub struct Odometry {
     /// First turn \[rad\].
     pub rot1: f64,
-    /// Straight drive \[m\], not negative.
+    /// Straight drive \[m\]; below 0 backwards.
     pub trans: f64,
     /// Second turn \[rad\].
     pub rot2: f64,
@@ -31,6 +32,24 @@ impl Odometry {
         let delta = from.between(to);
         let trans = ops::hypot(delta.x, delta.y);
         let rot1 = if trans < Self::SPOT { 0.0 } else { ops::atan2(delta.y, delta.x) };
+        Self { rot1, trans, rot2: ops::wrap_angle(delta.theta - rot1) }
+    }
+
+    /// The control between two recorded poses, by the least turns: a drive shorter than `spot` \[m\] has no direction of its own,
+    /// and one that leads back was driven backwards.
+    ///
+    /// By [`Self::between`] a turn on the spot in which the wheels counted a millimetre astern is two turns by about half a circle
+    /// each, with the noise of both: a prior so wide that a scan is matched the wrong way round.
+    pub fn recorded(from: &Pose2, to: &Pose2, spot: f64) -> Self {
+        let delta = from.between(to);
+        let Self { rot1, trans, .. } = Self::between(from, to);
+        let (rot1, trans) = if trans < spot {
+            (0.0, delta.x)
+        } else if rot1.abs() > FRAC_PI_2 {
+            (ops::wrap_angle(rot1 + PI), -trans)
+        } else {
+            (rot1, trans)
+        };
         Self { rot1, trans, rot2: ops::wrap_angle(delta.theta - rot1) }
     }
 
@@ -114,6 +133,23 @@ mod tests {
         assert!(Odometry::between(&a, &b).apply(&a).minus(&b).norm() < 1e-14);
         let spot = Odometry::between(&a, &Pose2::new(0.0, 1.0, 2.4));
         assert_eq!((spot.rot1, spot.trans), (0.0, 0.0));
+    }
+
+    #[test]
+    fn recorded_wheels_turn_no_more_than_the_robot_did() {
+        let (a, noise) = (Pose2::new(3.0, -1.0, 2.0), OdometryModel { alphas: [0.04, 0.01, 0.01, 0.01] });
+        let to = |x: f64, y: f64, theta: f64| a.compose(&Pose2 { x, y, theta });
+        // A turn on the spot, in which the wheels slip by millimetres; and a way back.
+        let slipped = to(-0.002, -0.001, 0.5);
+        let turn = Odometry::recorded(&a, &slipped, 0.02);
+        assert!(turn.rot1 == 0.0 && (turn.rot2 - 0.5).abs() < 1e-12, "{turn:?}");
+        assert!(turn.apply(&a).minus(&slipped).norm() < 0.0011);
+        assert!(noise.stds(&Odometry::between(&a, &slipped))[2] > 5.0 * noise.stds(&turn)[2]);
+        let back = Odometry::recorded(&a, &to(-0.5, 0.05, 0.1), 0.02);
+        assert!(back.trans < -0.5 && back.rot1.abs() < 0.11 && back.rot2.abs() < 0.21, "{back:?}");
+        for pose in [to(-0.5, 0.05, 0.1), to(0.5, -0.3, 1.0), to(0.0, 0.4, -3.0)] {
+            assert!(Odometry::recorded(&a, &pose, 0.02).apply(&a).minus(&pose).norm() < 1e-14);
+        }
     }
 
     #[test]

@@ -145,7 +145,7 @@ impl<S: Search + Sync, const FINE: usize> Proposal<Grid<FINE>> for FromScan<S> {
         // ANCHOR_END: fit
         // ANCHOR: eta
         let log_eta = log_sum - ops::ln(f64::from(settings.probes));
-        let motion = u.trans + u.rot1.abs() + u.rot2.abs();
+        let motion = u.trans.abs() + u.rot1.abs() + u.rot2.abs();
         let share = if motion < settings.full_weight { motion / settings.full_weight } else { 1.0 };
         // ANCHOR_END: eta
         Proposed {

@@ -60,6 +60,9 @@ pub struct GridModel {
     pub log_odds_pass: f64,
     /// Standard deviation \[m\] of the two pseudo-hits that every surface begins with: what one hit alone is trusted for.
     pub surface_std: f64,
+    /// How many times further than its end points a surface reaches along itself: 1 or more. A wall goes on from square to square,
+    /// but a normal distribution in each is a string of beads: between two of them, even the right pose fits badly.
+    pub surface_stretch: f64,
     /// How many squares away a surface is felt by [`Grid::nearness`], 0 to 2: what a coarse search looks at.
     pub reach: u32,
 }
@@ -350,14 +353,15 @@ impl<const FINE: usize> ConditionalMap for Grid<FINE> {
             }
         }
         // ANCHOR_END: map
-        let (size, surface_std) = (self.square_size, self.model.surface_std);
+        let size = self.square_size;
+        let [surface_std, stretch] = [self.model.surface_std, self.model.surface_stretch].map(|c| c as f32);
         for &([x, y], i, j) in &marks.hits {
             let [i, j] = [i, j].map(|k| k.div_euclid(Self::SQUARE));
             let center = |k: i32| (f64::from(k) + 0.5) * size;
             let offset = [(x - center(i)) as f32, (y - center(j)) as f32];
             let tile =
                 self.tile_mut(i >> tile::SHIFT, j >> tile::SHIFT).expect("the directory was grown to cover the scan");
-            let first = tile.add_hit(tile::local(i, j), offset, surface_std as f32);
+            let first = tile.add_hit(tile::local(i, j), offset, surface_std, stretch);
             if first && self.model.reach > 0 {
                 self.mark_near(i, j);
             }

@@ -1,8 +1,14 @@
 use super::*;
 use crate::sensor::BeamSensor;
 
-const MODEL: GridModel =
-    GridModel { cell_size: 0.3, log_odds_hit: 0.9, log_odds_pass: -0.4, surface_std: 0.1, reach: 0 };
+const MODEL: GridModel = GridModel {
+    cell_size: 0.3,
+    log_odds_hit: 0.9,
+    log_odds_pass: -0.4,
+    surface_std: 0.1,
+    surface_stretch: 1.0,
+    reach: 0,
+};
 
 fn one_beam(range: f64) -> Scan {
     BeamSensor::panorama(1, 8.0, 0.0).scan(&[range])
@@ -80,7 +86,7 @@ fn a_surface_has_the_moments_of_its_hits() {
     let mut tile = tile::Tile::<1>::default();
     let hits = [[0.01_f32, 0.02], [-0.05, 0.1], [0.07, -0.03], [0.0, 0.04]];
     for hit in hits {
-        tile.add_hit(9, hit, 0.1);
+        tile.add_hit(9, hit, 0.1, 1.0);
     }
     let surface = tile.surface(9).unwrap();
     let mean = |k: usize| hits.iter().map(|h| h[k]).sum::<f32>() / 4.0;
@@ -124,4 +130,20 @@ fn floor_is_floor() {
         assert!(fast_floor(x) == floor(x) || (x.fract() == 0.0 && fast_floor(x) == floor(x) - 1), "{x}");
     }
     assert_eq!((floor(f64::NAN), floor(1e300), floor(-1e300)), (0, i32::MAX, i32::MIN));
+}
+
+#[test]
+fn a_stretched_surface_makes_a_row_of_squares_one_wall() {
+    // A wall along y = 2.05, seen evenly; then points on it, and 5 cm off it.
+    let scan = Scan { hits: (0..400).map(|k| [-2.0 + 0.01 * f64::from(k), 2.05]).collect(), misses: Vec::new() };
+    let least_and_most = |surface_stretch: f64, off: f64| {
+        let mut grid = Grid::<4>::new(GridModel { cell_size: 0.05, surface_std: 0.06, surface_stretch, ..MODEL });
+        grid.assimilate(&Pose2::default(), &scan, &());
+        let along = (0..150).map(|k| grid.nearest_surface(-1.5 + 0.02 * f64::from(k), 2.05 + off).0);
+        along.fold((f64::INFINITY, 0.0_f64), |(low, high), d2| (low.min(d2), high.max(d2)))
+    };
+    let (beads, wall) = (least_and_most(1.0, 0.0), least_and_most(4.0, 0.0));
+    assert!(beads.1 > 2.0 && wall.1 < 0.3, "{beads:?} {wall:?}");
+    let (beads, wall) = (least_and_most(1.0, 0.05), least_and_most(4.0, 0.05));
+    assert!((beads.0 - wall.0).abs() < 0.2 && wall.1 - wall.0 < 1.0, "across, nothing changes: {beads:?} {wall:?}");
 }

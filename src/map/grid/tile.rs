@@ -39,12 +39,12 @@ pub(super) struct Surface {
     pub mean: [f32; 2],
     /// Sums of squared deviations (xx, xy, yy) \[m²\].
     scatter: [f32; 3],
-    /// Σ⁻¹ (xx, xy, yy) \[m⁻²\], with Σ = (scatter + n₀ σ₀² I) / (hits + n₀).
+    /// Σ′⁻¹ (xx, xy, yy) \[m⁻²\]: Σ′ is Σ = (scatter + n₀ σ₀² I) / (hits + n₀), stretched along the surface.
     pub information: [f32; 3],
 }
 
 impl Surface {
-    fn add(&mut self, [x, y]: [f32; 2], surface_std: f32) {
+    fn add(&mut self, [x, y]: [f32; 2], surface_std: f32, stretch: f32) {
         // Welford's recurrence: mean and scatter in one pass, without cancellation.
         self.hits += 1;
         let n = self.hits as f32;
@@ -57,6 +57,11 @@ impl Surface {
         let (prior, weight) = (PSEUDO_HITS * surface_std * surface_std, 1.0 / (n + PSEUDO_HITS));
         let (xx, xy, yy) =
             ((self.scatter[0] + prior) * weight, self.scatter[1] * weight, (self.scatter[2] + prior) * weight);
+        // Σ′ = λ I + s² (Σ − λ I), with λ the smaller eigenvalue of Σ: what lies across the surface stays as it is.
+        let half = 0.5 * (xx - yy);
+        let across = 0.5 * (xx + yy) - (half * half + xy * xy).sqrt();
+        let (times, rest) = (stretch * stretch, (stretch * stretch - 1.0) * across);
+        let (xx, xy, yy) = (times * xx - rest, times * xy, times * yy - rest);
         let det = xx * yy - xy * xy;
         self.information = [yy / det, -xy / det, xx / det];
     }
@@ -133,7 +138,7 @@ impl<const FINE: usize> Tile<FINE> {
     }
 
     /// Whether it is the first hit of its square.
-    pub fn add_hit(&mut self, local: usize, offset: [f32; 2], surface_std: f32) -> bool {
+    pub fn add_hit(&mut self, local: usize, offset: [f32; 2], surface_std: f32, stretch: f32) -> bool {
         let first = self.nearness(local) > 0;
         if first {
             self.surfaces.push(Surface::default());
@@ -141,7 +146,7 @@ impl<const FINE: usize> Tile<FINE> {
         }
         let surface = &mut self.surfaces[usize::from(self.places[local]) - 1];
         if surface.hits < SETTLED {
-            surface.add(offset, surface_std);
+            surface.add(offset, surface_std, stretch);
         }
         first
     }
