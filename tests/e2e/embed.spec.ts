@@ -116,6 +116,19 @@ test('parameters that are unknown, out of range or hostile are refused in the fi
   expect(await lap.element.evaluate(element => element.getAttributeNames().sort())).toEqual(['fit', 'step', 'universes'])
 })
 
+test('the figure of logs is no exception: refusals, locks, the height that its frame should have', async ({ page, baseURL, complaints }) => {
+  await openHost(page, `<iframe title="log" width="700" height="300" src="${baseURL}embed.html?figure=log&universes=4&cell=7&nonsense=1&lock=universes"></iframe>`, '<script>heights = []; addEventListener("message", ({ data }) => data.type === "fastslam-height" && heights.push(data.height))</script>')
+  const figure = page.frameLocator('iframe').locator('fastslam-log')
+  await expect(figure.getByRole('alert')).toContainText('cell = "7": must be a number from 0.02 to 0.2 m')
+  await expect(figure.getByRole('alert')).toContainText('nonsense')
+  await expect(figure.locator('input[type=number][name=universes]')).toHaveValue('4')
+  await expect(figure.locator('input[type=number][name=universes]')).toBeDisabled()
+  await expect.poll(() => page.evaluate('heights.length')).toBeGreaterThan(0)
+  const heights = (await page.evaluate('heights')) as number[]
+  for (const height of heights) expect(height).toBeGreaterThan(600)
+  forgiveHost(complaints)
+})
+
 test('each figure has a page with its picture, its oEmbed answer and a link to it', async ({ page, baseURL, request }) => {
   for (const name of FIGURES) {
     const html = await (await request.get(`./embed-${name}.html`)).text()

@@ -42,17 +42,18 @@ for (const tag of figures) {
     await page.goto('heights')
     const all = page.locator(tag)
     const heights = () => all.evaluateAll(elements => elements.map(element => Math.round(element.getBoundingClientRect().height)))
-    await expect(all.locator('.title:not(:empty)')).toHaveCount(widths.length)
+    await expect(all.locator('.reserved')).toHaveCount(tag === 'fastslam-log' ? 0 : widths.length)
     await page.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))))
     const before = await heights()
     open()
-    await expect(all.locator('.stage.live')).toHaveCount(widths.length)
+    // The figure of logs has its program only when something is asked of it, and is whole without.
+    await expect(all.locator(tag === 'fastslam-log' ? '.idle' : '.stage.live')).toHaveCount(widths.length)
     await expect(all.locator('.sentence:not(:empty)')).toHaveCount(widths.length)
     const after = await heights()
     // And the picture is as high as what is painted there: nothing of it is cut off.
     const canvases = await all.locator('canvas').evaluateAll(elements => elements.map(element => element.getBoundingClientRect()).map(({ width, height }) => [width, height]))
     const figure = new Figure(tag)
-    for (const [width, height] of canvases) expect(height, `picture ${width} px wide`).toBeCloseTo(figure.height(width!), 0)
+    if (tag !== 'fastslam-log') for (const [width, height] of canvases) expect(height, `picture ${width} px wide`).toBeCloseTo(figure.height(width!), 0)
     figure.free()
     if (UPDATE) updated[tag] = after
     else {

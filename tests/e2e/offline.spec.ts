@@ -44,6 +44,19 @@ test('a count in the background runs from file:// too', async ({ page }) => {
   await expect(figure.element.getByRole('progressbar')).toHaveAttribute('value', /[1-9]/, { timeout: 30_000 })
 })
 
+test('the example is mapped from file:// too', async ({ page, context }) => {
+  const path = join(offline, 'fastslam-log.html')
+  expect(statSync(path).size).toBeLessThanOrEqual(limit)
+  const asked: string[] = []
+  context.on('request', request => !/^(data|blob):/.test(request.url()) && asked.push(request.url()))
+  const address = pathToFileURL(path).href
+  await page.goto(address)
+  const figure = page.locator('fastslam-log')
+  await figure.getByRole('button', { name: 'Run the example' }).click()
+  await expect(figure.getByRole('progressbar')).toHaveAttribute('value', /^[1-9]\d/)
+  expect(asked).toEqual([address])
+})
+
 test('the whole chapter lives from one file', async ({ page, context }) => {
   const asked: string[] = []
   context.on('request', request => !/^(data|blob):/.test(request.url()) && asked.push(request.url()))

@@ -64,6 +64,26 @@ for (const file of ['plain.html', 'standalone.html']) {
   })
 }
 
+test('the example comes with it; where a page lets no worker run that comes in the script, the figure says so', async ({ browser }) => {
+  const server = await startServer({ folder: project })
+  const context = await browser.newContext({ reducedMotion: 'reduce' })
+  for (const file of ['plain.html', 'standalone.html']) {
+    const course = await context.newPage()
+    const warnings: string[] = []
+    course.on('console', message => warnings.push(message.text()))
+    await course.goto(`${server.url}${file}`)
+    await course.evaluate(() => document.body.append(document.createElement('fastslam-log')))
+    const figure = course.locator('fastslam-log')
+    await figure.getByRole('button', { name: 'Run the example' }).click()
+    if (file === 'plain.html') await expect(figure.getByRole('progressbar')).toHaveAttribute('value', /^[1-9]\d/)
+    else await expect(figure.getByRole('alert')).toContainText('This figure is not live here: this page lets nothing run in the background.')
+    await course.waitForTimeout(500)
+    expect(warnings.length, 'it does not try for ever').toBeLessThan(10)
+  }
+  await context.close()
+  await server.close()
+})
+
 test('a fresh Vite project, built', async ({ browser }) => {
   execFileSync(npmBin('vite'), ['build'], { cwd: project, stdio: 'pipe' })
   const server = await startServer({ folder: join(project, 'dist') })

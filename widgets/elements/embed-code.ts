@@ -17,7 +17,7 @@ const FRAME_HEIGHTS: Record<string, number> = {
   'fastslam-lap': 770,
   'fastslam-conditioning': 800,
   'fastslam-proposal': 870,
-  'fastslam-resampling': 1190,
+  'fastslam-resampling': 1230,
   'fastslam-worked-example': 1360,
 }
 

@@ -204,9 +204,9 @@ export class FastslamLog extends HTMLElement {
     void this.#order({ ask: 'set', name, value: toText(value) })
   }
 
-  /** @internal The value; undefined for the default. */
+  /** @internal */
   getParameter(name: string): unknown {
-    return fromText(this.#shown?.values[name] ?? this.getAttribute(name))
+    return fromText(this.#shown?.values[name] ?? this.getAttribute(name) ?? this.#specs.find(spec => spec.name === name)?.default)
   }
 
   /** Height [css px] that shows all of the figure at its present width. */
@@ -318,11 +318,14 @@ export class FastslamLog extends HTMLElement {
 
   /** What ran in the worker is lost with it; the figure and the example are not. */
   #die(why: string): void {
+    const lived = this.#shown !== undefined
     this.#dismiss()
     this.#source = undefined
     console.warn(`${this.localName}:`, why)
     write(this.#status, '')
     this.#showPhase('empty')
+    // What was refused before it said a word would be refused again.
+    if (!lived) return this.#notice('start', `This figure is not live here: ${why}.`, 'Try again', () => void this.#start())
     this.#notice('file', `Something failed while this log was mapped (${why}), so it has stopped.`, 'Run the example', () => void this.example())
     void this.#start()
   }
@@ -334,6 +337,7 @@ export class FastslamLog extends HTMLElement {
     const shown = this.#shown
     if (!shown) return
     const { picture, phase } = shown
+    if (!this.#controls) this.#introduce() // asked by a script or a link before anybody has seen it
     this.#specs = shown.specs
     const changed = this.#query !== '' && this.#query !== shown.query
     this.#query = shown.query
@@ -356,9 +360,8 @@ export class FastslamLog extends HTMLElement {
     write(this.#status, phase === 'empty' ? '' : shown.log)
     this.#say(shown.sentence)
     const { step, values, readouts } = shown
-    for (const type of changed ? ['fastslam-change', 'fastslam-step'] : ['fastslam-step']) {
-      this.dispatchEvent(new CustomEvent(type, { bubbles: true, composed: true, detail: { step, values, readouts, phase } }))
-    }
+    if (changed) this.#tell('fastslam-change', step, values, readouts, phase)
+    this.#tell('fastslam-step', step, values, readouts, phase)
   }
 
   /** Why it cannot be started; told once, not with every picture. */
@@ -411,12 +414,19 @@ export class FastslamLog extends HTMLElement {
     }
     const controls = new Controls(params, { playPause: idle, step: idle, stepBack: idle, seek: idle, pace: idle, reset: () => this.reset(), change })
     controls.showPosition(0, 0, false, false)
-    controls.showValues(params, Object.fromEntries(params.map(spec => [spec.name, spec.default])))
+    const values = Object.fromEntries(params.map(spec => [spec.name, spec.default]))
+    controls.showValues(params, values)
     controls.transport.setAttribute('aria-label', 'Settings of the draw')
     controls.settings.open = this.clientWidth >= WIDE
     this.#body.append(controls.view, controls.transport, controls.settings)
     this.#controls = controls
     this.#lock()
+    // Where more is on its way, that will be told.
+    if (!this.#starting) this.#tell('fastslam-step', 0, values, readouts, 'empty')
+  }
+
+  #tell(type: string, step: number, values: Record<string, string>, readouts: Readout[], phase: Phase): void {
+    this.dispatchEvent(new CustomEvent(type, { bubbles: true, composed: true, detail: { step, values, readouts, phase } }))
   }
 
   /** Readers cannot change what the author has locked. */

@@ -81,6 +81,7 @@ function tellHeight(figure: FigureElement): void {
 const figure = figureAsked()
 if (figure) {
   await LATER[figure.localName]?.()
+  customElements.upgrade(figure) // it may have been made before its class was there
   // One figure only: its own program will do.
   for (const link of document.querySelectorAll<HTMLLinkElement>('link[rel=fastslam-program]')) if (link.title !== figure.localName) link.remove()
   configure(figure)
