@@ -159,8 +159,8 @@ async function timePage() {
     })
     await reader.goto(server.url)
     const paint = await reader.evaluate(() => performance.getEntriesByName('first-contentful-paint')[0]?.startTime ?? NaN)
-    const end = await reader.evaluate(() => document.documentElement.scrollHeight)
-    for (let y = 0; y < end; y += 400) {
+    const end = () => reader.evaluate(() => document.documentElement.scrollHeight) // grows while the rest is laid out
+    for (let y = 0; y < (await end()); y += 400) {
       await reader.evaluate(top => scrollTo({ top, behavior: 'instant' }), y)
       await reader.waitForTimeout(250)
     }
@@ -182,7 +182,6 @@ async function timeLog(log) {
   try {
     const page = await browser.newPage({ viewport: { width, height } })
     await page.goto(`${server.url}embed-log.html`)
-    await page.locator('.stage.live').waitFor()
     await page.locator('input[type=file]').setInputFiles(log)
     await page.locator('[part=sentence]', { hasText: 'scans' }).waitFor()
     // How late the page's own timer is, all the while: as late as the answer to a click or a key would begin.
