@@ -39,9 +39,9 @@ export const options = [
   { name: 'theme', values: ['auto', 'light', 'dark'], help: 'Colours; auto follows the reader’s system.' },
   { name: 'controls', values: ['all', 'playback', 'none'], help: 'What readers see of the controls: all, those of playback, or none.' },
   { name: 'lock', values: undefined, help: 'Names of parameters, apart by spaces, that readers cannot change; or all. lock="seed" fixes the seed.' },
-  { name: 'decimal', values: ['point', 'comma'], help: 'How numbers are written.' },
+  { name: 'decimal', values: ['point', 'comma'], help: 'How numbers are written; the figure of logs has the point alone.' },
   { name: 'size', values: ['normal', 'presentation'], help: 'presentation makes letters and lines half as large again, for a projector.' },
-  { name: 'fit', values: ['off', 'on'], help: 'on: the picture takes the height of its box rather than all of its width.' },
+  { name: 'fit', values: ['off', 'on'], help: 'on: the picture takes the height of its box rather than all of its width; not that of a log.' },
 ]
 
 const methods = [

@@ -15,7 +15,7 @@ const budgets = {
   /** HTML and CSS: what is there before any script or program. */
   text: { target: 60_000, limit: 62_900 },
   /** One figure's page for frames with all that it loads, nothing cached. */
-  embed: { target: 110_000, limit: 126_300 },
+  embed: { target: 110_000, limit: 127_000 },
 }
 
 /** A size against its budget, in words. @param {string} what @param {number} bytes @param {{ target: number, limit: number }} budget */
