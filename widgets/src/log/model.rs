@@ -48,7 +48,7 @@ const SAMPLES: usize = 32;
 const NODE_BYTES: f64 = 28.0;
 
 /// Steps between two looks at the memory of all maps: a look takes as long as a step does.
-const LOOK: u32 = 50;
+const LOOK: u32 = 20;
 
 /// A recorded log, mapped.
 pub struct LogModel {
@@ -571,7 +571,7 @@ impl Model for LogModel {
                 "map_unique",
                 "Memory of the maps",
                 self.peak.unique as f64,
-                "What all maps held together at the most, shared tiles counted once; looked at every 50 scans.",
+                "What all maps held together at the most, shared tiles counted once; looked at every 20 scans.",
             ),
             memory(
                 "map_dense",
