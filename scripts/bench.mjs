@@ -159,7 +159,7 @@ async function timePage() {
     })
     await reader.goto(server.url)
     const paint = await reader.evaluate(() => performance.getEntriesByName('first-contentful-paint')[0]?.startTime ?? NaN)
-    const end = () => reader.evaluate(() => document.documentElement.scrollHeight) // grows while the rest is laid out
+    const end = () => reader.evaluate(() => document.documentElement.scrollHeight)
     for (let y = 0; y < (await end()); y += 400) {
       await reader.evaluate(top => scrollTo({ top, behavior: 'instant' }), y)
       await reader.waitForTimeout(250)

@@ -6,12 +6,6 @@ import { Figure } from './figure'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
-/** Opens the chapter, and waits until all of it is laid out. */
-async function openWhole(page: Page, address = './'): Promise<void> {
-  await page.goto(address)
-  await page.waitForFunction(() => [...document.querySelectorAll('main section')].every(section => getComputedStyle(section).contentVisibility === 'visible'))
-}
-
 /** Opens what is folded, so that all of the text is there. */
 const unfold = (page: Page) => page.evaluate(() => document.querySelectorAll('details').forEach(details => (details.open = true)))
 
@@ -20,7 +14,7 @@ for (const colorScheme of ['light', 'dark'] as const) {
     test.slow()
     await page.emulateMedia({ colorScheme })
     for (const address of ['./', './model.html']) {
-      await openWhole(page, address)
+      await page.goto(address)
       await unfold(page)
       const found = await new AxeBuilder({ page })
         .withTags(['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'])
@@ -35,7 +29,7 @@ for (const colorScheme of ['light', 'dark'] as const) {
 for (const width of [320, 380, 820, 1080, 1440, 2560, 3840]) {
   test(`nothing is wider than a window of ${width} px, and lines are no longer than 75 letters`, async ({ page }) => {
     await page.setViewportSize({ width, height: 900 })
-    await openWhole(page)
+    await page.goto('./')
     await unfold(page)
     expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(width)
     const letters = await page.evaluate(() => {
@@ -67,7 +61,7 @@ async function watchShifts(page: Page): Promise<() => Promise<string[]>> {
 test('nothing moves while one reads from top to end', async ({ page }) => {
   test.slow()
   const shifts = await watchShifts(page)
-  await openWhole(page)
+  await page.goto('./')
   const end = await page.evaluate(() => document.documentElement.scrollHeight)
   for (let y = 0; y < end; y += 400) {
     await page.evaluate(top => scrollTo({ top, behavior: 'instant' }), y)

@@ -1,5 +1,4 @@
 // What script adds to a page of text; without it, all is there: links lead to the terms, and everything can be scrolled.
 import './cards'
-import './layout'
 import './contents'
 import './scrollers'
