@@ -75,8 +75,11 @@ const log = {
   properties: properties.filter(({ name }) => name !== 'currentStep'),
 }
 
+/** @param {{ tag: string }} figure */
+const isLog = ({ tag }) => tag === 'fastslam-log'
+
 /** What a figure has besides its parameters. @param {{ tag: string }} figure */
-const membersOf = ({ tag }) => (tag === 'fastslam-log' ? log : { options, methods, properties })
+const membersOf = figure => (isLog(figure) ? log : { options, methods, properties })
 
 const events = [
   { name: 'fastslam-step', type: 'CustomEvent<FigureDetail>', help: 'Another step is shown; also once when the figure comes to life.' },
@@ -162,7 +165,6 @@ export function types(all) {
     `${doc(item.help)}\n  ${item.readonly ? 'readonly ' : ''}${item.name}: ${item.type}`
   const listeners = `  addEventListener<K extends keyof FigureEventMap>(type: K, listener: (this: this, event: FigureEventMap[K]) => unknown, options?: boolean | AddEventListenerOptions): void
   addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void`
-  const isLog = (/** @type {FigureInfo} */ { tag }) => tag === 'fastslam-log'
   const classes = all.map(
     figure =>
       `/** ${figure.title}. */\nexport declare class ${figure.className} extends ${isLog(figure) ? 'HTMLElement' : 'FigureElement'} {\n${[
@@ -171,8 +173,8 @@ export function types(all) {
       ].join('\n')}\n}`,
   )
   const attributes = all.map(
-    ({ className, params, tag }) =>
-      `export interface ${className}Attributes extends ${tag === 'fastslam-log' ? "Pick<FigureAttributes, 'theme' | 'controls' | 'lock' | 'size'>" : 'FigureAttributes'} {\n${params.map(spec => `  '${spec.name}'?: ${attributeType(spec)}`).join('\n')}\n}`,
+    figure =>
+      `export interface ${figure.className}Attributes extends ${isLog(figure) ? `Pick<FigureAttributes, ${log.options.map(({ name }) => `'${name}'`).join(' | ')}>` : 'FigureAttributes'} {\n${figure.params.map(spec => `  '${spec.name}'?: ${attributeType(spec)}`).join('\n')}\n}`,
   )
   return `// Made by scripts/elements.mjs from what the figures tell of themselves.
 
@@ -235,9 +237,9 @@ export async function writeNames() {
     join(root, 'widgets', 'elements', 'generated', 'figures.ts'),
     `// Made by scripts/elements.mjs from what the figures tell of themselves.\nexport const FIGURES: Record<string, { title: string; parameters: string[] } | undefined> = {\n${rows.join('\n')}\n}\n`,
   )
-  const log = all.find(({ tag }) => tag === 'fastslam-log')
-  if (!log) throw new StepError('There is no figure that maps logs.')
-  const { title, params, readouts, describe } = log
+  const mapper = all.find(isLog)
+  if (!mapper) throw new StepError('There is no figure that maps logs.')
+  const { title, params, readouts, describe } = mapper
   write(
     join(root, 'widgets', 'elements', 'generated', 'log.ts'),
     `// Made by scripts/elements.mjs from what the figure that maps logs tells of itself.\nimport type { AtRest } from '../log'\n\nexport const AT_REST: AtRest = ${JSON.stringify({ title, params, readouts, describe })}\n`,

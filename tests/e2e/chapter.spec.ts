@@ -2,7 +2,7 @@
 import AxeBuilder from '@axe-core/playwright'
 import type { Page } from '@playwright/test'
 import { expect, test } from './fixtures'
-import { Figure } from './figure'
+import { Figure, holdPrograms } from './figure'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -74,12 +74,7 @@ for (const width of [1280, 380]) {
   test(`nothing moves below a figure that comes to life under the reader's eyes, ${width} px`, async ({ page }) => {
     await page.setViewportSize({ width, height: 800 })
     const shifts = await watchShifts(page)
-    let open = () => {}
-    const gate = new Promise<void>(done => (open = done))
-    await page.route('**/*.wasm', async route => {
-      await gate
-      await route.continue()
-    })
+    const open = await holdPrograms(page)
     await page.goto('./')
     const figure = new Figure(page, 'fastslam-lap')
     await figure.element.evaluate(element => element.scrollIntoView({ block: 'end', behavior: 'instant' }))

@@ -2,6 +2,17 @@
 import type { Locator, Page } from '@playwright/test'
 import { expect } from './fixtures'
 
+/** Keeps the programs back that the page fetches, as a slow network does, until they are let through. */
+export async function holdPrograms(page: Page): Promise<() => void> {
+  let open = () => {}
+  const gate = new Promise<void>(done => (open = done))
+  await page.route('**/*.wasm', async route => {
+    await gate
+    await route.continue()
+  })
+  return open
+}
+
 export class Figure {
   readonly element: Locator
   readonly play: Locator

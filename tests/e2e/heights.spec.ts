@@ -5,6 +5,7 @@ import { join } from 'node:path'
 import { figures } from '../../scripts/build.mjs'
 import { root } from '../../scripts/lib.mjs'
 import { Figure, initSync } from '../../widgets/pkg/fastslam_widgets.js'
+import { holdPrograms } from './figure'
 import { expect, test } from './fixtures'
 
 initSync({ module: readFileSync(join(root, 'widgets', 'pkg', 'fastslam_widgets_bg.wasm')) })
@@ -33,12 +34,7 @@ for (const tag of figures) {
         body: `<!doctype html><html lang="en"><title>Heights</title><link rel="icon" href="data:," /><script type="module" src="fastslam.js"></script><body>${html.join('')}`,
       }),
     )
-    let open = () => {}
-    const gate = new Promise<void>(done => (open = done))
-    await page.route('**/*.wasm', async route => {
-      await gate
-      await route.continue()
-    })
+    const open = await holdPrograms(page)
     await page.goto('heights')
     const all = page.locator(tag)
     const heights = () => all.evaluateAll(elements => elements.map(element => Math.round(element.getBoundingClientRect().height)))

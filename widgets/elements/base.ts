@@ -655,7 +655,7 @@ export abstract class FigureElement extends HTMLElement {
   }
 
   #onResize(entries: ResizeObserverEntry[]): void {
-    if (!this.#stage.matches('.live') && !this.#stopped && !this.matches('[fit], [size], [controls]')) reserve(this.#body, this.localName, this.clientWidth)
+    if (!this.#stage.matches('.live') && !this.#stopped) reserve(this.#body, this)
     this.#room = entries.findLast(({ target }) => target === this.#stage)?.contentRect.width ?? this.#room
     const entry = entries.findLast(({ target }) => target === this.#canvas)
     if (!entry) return this.#repaint() // there may be another height to fit

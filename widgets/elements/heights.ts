@@ -1,9 +1,10 @@
 // How high a figure will be once it lives, so that it keeps that place free and nothing below it moves.
 import { apart, first, heights } from './heights.json'
 
-/** Keeps free what this figure took where tests/e2e/heights.spec.ts measured it, `width` css px wide, with the usual settings. */
-export function reserve(body: HTMLElement, tag: string, width: number): void {
-  body.style.minHeight = `${height((heights as Record<string, number[] | undefined>)[tag] ?? [], width)}px`
+/** Keeps free what this figure took where tests/e2e/heights.spec.ts measured it at this width, unless its author has set options that make it another. */
+export function reserve(body: HTMLElement, figure: HTMLElement): void {
+  if (figure.matches('[fit], [size], [controls]')) return
+  body.style.minHeight = `${height((heights as Record<string, number[] | undefined>)[figure.localName] ?? [], figure.clientWidth)}px`
   body.classList.add('reserved')
 }
 

@@ -445,7 +445,7 @@ export class FastslamLog extends HTMLElement {
 
   #onResize(entry: ResizeObserverEntry): void {
     const css = entry.contentRect.width
-    if (!this.#controls && !this.matches('[fit], [size], [controls]')) reserve(this.#body, this.localName, this.clientWidth)
+    if (!this.#controls) reserve(this.#body, this)
     let device = Math.round(css * devicePixelRatio)
     const box = entry.devicePixelContentBoxSize?.[0]
     if (box && Math.abs(box.inlineSize - device) < 2) device = box.inlineSize

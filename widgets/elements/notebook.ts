@@ -1,6 +1,6 @@
 // The figures in notebooks and in MyST: a module in anywidget's format, which is served by one file.
 // Every trait of the model that names a parameter or an option is the figure's; readouts and the step go back.
-import type { FigureDetail, FigureElement } from './base'
+import { toText, type FigureDetail, type FigureElement } from './base'
 import { FIGURES } from './generated/figures'
 import './index'
 import { OPTIONS } from './options'
@@ -39,7 +39,7 @@ function render({ model, el }: { model: Model; el: HTMLElement }): () => void {
   const same = (a: unknown, b: unknown) => a === b || (typeof a === typeof b && JSON.stringify(a) === JSON.stringify(b))
   const give = (name: string, value: unknown) => {
     if (value === undefined || value === null) return
-    if (name in OPTIONS) figure.setAttribute(name, Array.isArray(value) ? value.join(' ') : value === true ? 'on' : value === false ? 'off' : String(value))
+    if (name in OPTIONS) figure.setAttribute(name, Array.isArray(value) ? value.join(' ') : toText(value))
     else figure.setParameter(name, value)
   }
   for (const name of [...known.parameters, ...Object.keys(OPTIONS)]) {
