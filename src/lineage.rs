@@ -1,173 +1,147 @@
-//! Where particles come from: one append-only tree of all paths.
+//! Where particles come from: the tree of all paths that are still needed.
 //!
-//! A particle holds the number of its newest node; a node holds its pose and its parent. Cloning a path is copying one number,
-//! and what two particles have in common they share. The tree that is still reachable from a population has an expected size of
-//! t + O(M log M) nodes (Jacob, Murray, Rubenthaler 2015), against M · t for paths kept apart.
+//! A particle holds its newest node, a node its pose and the node before. Cloning a path is counting one reference more, and what
+//! two particles have in common they share. A node that nobody descends from any more is freed with its last reference, and its
+//! memory is used again. So the tree never holds more than what the population needs, and what the copies of it need that somebody
+//! keeps. With multinomial resampling at every step that is t + O(M log M) nodes in expectation (Jacob, Murray, Rubenthaler 2015),
+//! against M · t for paths kept apart; other schemes and policies are not covered by their proof, but share just as well.
 
 use crate::geometry::Pose2;
-use core::ops::Range;
+use core::fmt;
 use std::sync::Arc;
 
-/// Number of a node in the ancestry tree.
-pub type NodeId = u32;
+// ANCHOR: listing-push
+/// A path, from a pose at step 0 on. A clone is the same node: it costs a reference, and so does a copy of a whole population.
+#[derive(Clone)]
+pub struct Path(Arc<Node>);
 
-/// Parent of a root.
-const NO_PARENT: NodeId = NodeId::MAX;
-
-/// The nodes of one step.
-#[derive(Clone, Debug, Default)]
-struct Generation {
-    parents: Vec<NodeId>,
-    poses: Vec<Pose2>,
+/// A pose, and how the robot came there.
+struct Node {
+    world_from_robot: Pose2,
+    step: u32,
+    before: Option<Path>,
 }
 
-/// A forest of paths, a root for each particle of step 0.
-///
-/// Nodes are numbered as they are appended, step after step. A clone shares the steps: it costs a pointer for each.
-#[derive(Clone, Debug)]
-pub struct Ancestry {
-    generations: Vec<Arc<Generation>>,
-    /// Number of the first node of each step, and of the node to come.
-    firsts: Vec<NodeId>,
+impl Path {
+    /// A path of one pose, at step 0.
+    pub fn start(world_from_robot: Pose2) -> Self {
+        Self(Arc::new(Node { world_from_robot, step: 0, before: None }))
+    }
+
+    /// Goes on to a pose. Whoever shares the path so far is not moved.
+    pub fn push(&mut self, world_from_robot: Pose2) {
+        let (step, before) = (self.step() + 1, Some(self.clone()));
+        *self = Self(Arc::new(Node { world_from_robot, step, before }));
+    }
 }
 
-impl Default for Ancestry {
-    fn default() -> Self {
-        Self { generations: Vec::new(), firsts: vec![0] }
+impl Drop for Node {
+    /// Frees what only this node held, in a loop: by recursion a long path would need a stack as deep.
+    fn drop(&mut self) {
+        let mut before = self.before.take();
+        while let Some(path) = before {
+            before = Arc::into_inner(path.0).and_then(|mut node| node.before.take());
+        }
+    }
+}
+// ANCHOR_END: listing-push
+
+impl Path {
+    /// The newest pose.
+    pub fn pose(&self) -> Pose2 {
+        self.0.world_from_robot
+    }
+
+    /// The step of the newest pose.
+    pub fn step(&self) -> u32 {
+        self.0.step
+    }
+
+    /// The path up to one step earlier; `None` at step 0.
+    pub fn before(&self) -> Option<&Self> {
+        self.0.before.as_ref()
+    }
+
+    /// The path and all those before it, newest first: a path for each step.
+    pub fn back(&self) -> impl Iterator<Item = &Self> {
+        core::iter::successors(Some(self), |path| path.before())
+    }
+
+    /// The poses, from step 0 on.
+    pub fn poses(&self) -> Vec<Pose2> {
+        let mut poses: Vec<Pose2> = self.back().map(Self::pose).collect();
+        poses.reverse();
+        poses
+    }
+
+    /// The same number for those paths, of all that are held, that are one and the same. It says nothing else: where a path was
+    /// freed, its number is given away again.
+    pub fn id(&self) -> usize {
+        Arc::as_ptr(&self.0).addr()
+    }
+}
+
+/// The newest pose only: a path is as long as the drive.
+impl fmt::Debug for Path {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Node { world_from_robot, step, .. } = &*self.0;
+        f.debug_struct("Path").field("world_from_robot", world_from_robot).field("step", step).finish_non_exhaustive()
     }
 }
 
 /// What a population descends from.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Descent {
-    /// Distinct ancestors at each step, from step 0 to the population's own. They never fall from one step to the next.
-    pub widths: Vec<u32>,
+    /// The step of the first of `widths`: 0, or the latest at which all have one ancestor.
+    first: u32,
+    /// Distinct ancestors at each step from there to the population's own. They never fall from one step to the next.
+    widths: Vec<u32>,
 }
 
 impl Descent {
+    /// What these paths, all of one step, descend from. Goes back node by node to the common ancestor, and no further.
+    ///
+    /// # Panics
+    /// Without any path.
+    pub fn of<'a>(paths: impl IntoIterator<Item = &'a Path>) -> Self {
+        let mut front: Vec<&Path> = paths.into_iter().collect();
+        let last = front[0].step();
+        let mut widths = Vec::new();
+        loop {
+            // Siblings are neighbours already where particles were resampled in the order of their slots.
+            front.sort_unstable_by_key(|path| path.id());
+            front.dedup_by_key(|path| path.id());
+            widths.push(front.len() as u32);
+            if front.len() == 1 || front[0].before().is_none() {
+                break;
+            }
+            front.iter_mut().for_each(|path| *path = path.before().unwrap_or(path));
+        }
+        widths.reverse();
+        Self { first: last + 1 - widths.len() as u32, widths }
+    }
+
+    /// Distinct ancestors at each step, from step 0 to the population's own.
+    pub fn widths(&self) -> impl Iterator<Item = u32> {
+        core::iter::repeat_n(1, self.first as usize).chain(self.widths.iter().copied())
+    }
+
     /// Nodes of the tree that the population still needs.
     pub fn size(&self) -> u32 {
-        self.widths.iter().sum()
+        self.first + self.widths.iter().sum::<u32>()
     }
 
     /// Distinct ancestors so many steps before the population's own, or at step 0, whichever is later: the lineage gauge. Seen
     /// from a later population it never rises.
     pub fn lineage(&self, steps_back: u32) -> u32 {
+        // Before the first there is one: that is what the first says, or there are no steps before it.
         self.widths[(self.widths.len() - 1).saturating_sub(steps_back as usize)]
     }
 
     /// The latest step at which all have one ancestor: up to there they share one path. `None` where they share none.
     pub fn coalescence(&self) -> Option<u32> {
-        (self.widths.partition_point(|width| *width == 1) as u32).checked_sub(1)
-    }
-}
-
-impl Ancestry {
-    // ANCHOR: listing-push
-    /// Appends a pose after `parent`, or as a root, and returns its number. Parents are of the step before.
-    pub fn push(&mut self, parent: Option<NodeId>, world_from_robot: Pose2) -> NodeId {
-        let opens = match parent {
-            Some(parent) => parent >= self.firsts[self.generations.len() - 1],
-            None => self.generations.is_empty(),
-        };
-        if opens {
-            self.firsts.push(self.firsts[self.generations.len()]);
-            self.generations.push(Arc::default());
-        }
-        let last = self.generations.len() - 1;
-        let generation = Arc::make_mut(&mut self.generations[last]);
-        generation.parents.push(parent.unwrap_or(NO_PARENT));
-        generation.poses.push(world_from_robot);
-        self.firsts[last + 1] += 1;
-        self.firsts[last + 1] - 1
-    }
-    // ANCHOR_END: listing-push
-
-    /// Number of steps, with step 0.
-    pub fn steps(&self) -> u32 {
-        self.generations.len() as u32
-    }
-
-    /// The nodes of a step, by slot.
-    pub fn nodes(&self, step: u32) -> Range<NodeId> {
-        self.firsts[step as usize]..self.firsts[step as usize + 1]
-    }
-
-    /// The step of a node.
-    pub fn step(&self, node: NodeId) -> u32 {
-        self.firsts.partition_point(|first| *first <= node) as u32 - 1
-    }
-
-    /// The node before, one step earlier; `None` for a root.
-    pub fn parent(&self, node: NodeId) -> Option<NodeId> {
-        self.parent_at(node, self.step(node))
-    }
-
-    /// The pose of a node.
-    pub fn pose(&self, node: NodeId) -> Pose2 {
-        self.pose_at(node, self.step(node))
-    }
-
-    fn parent_at(&self, node: NodeId, step: u32) -> Option<NodeId> {
-        let parent = self.generations[step as usize].parents[(node - self.firsts[step as usize]) as usize];
-        (parent != NO_PARENT).then_some(parent)
-    }
-
-    fn pose_at(&self, node: NodeId, step: u32) -> Pose2 {
-        self.generations[step as usize].poses[(node - self.firsts[step as usize]) as usize]
-    }
-
-    /// Every edge once, as (parent, child) in the order of the children: of the nodes of these steps, from 1 on. For drawings.
-    pub fn edges(&self, steps: Range<u32>) -> impl Iterator<Item = (NodeId, NodeId)> {
-        let steps = steps.start.max(1)..steps.end.min(self.steps());
-        steps.flat_map(move |step| self.nodes(step).filter_map(move |node| Some((self.parent_at(node, step)?, node))))
-    }
-
-    /// The path that ends in a node, from step 0 on.
-    pub fn path(&self, node: NodeId) -> Vec<Pose2> {
-        let mut path: Vec<Pose2> = self.line(node).map(|(node, step)| self.pose_at(node, step)).collect();
-        path.reverse();
-        path
-    }
-
-    /// A node and its ancestors with their steps, newest first.
-    fn line(&self, node: NodeId) -> impl Iterator<Item = (NodeId, u32)> {
-        let first = (node, self.step(node));
-        core::iter::successors(Some(first), |(node, step)| Some((self.parent_at(*node, *step)?, step - 1)))
-    }
-
-    /// What these nodes, all of one step, descend from. Goes back node by node to the common ancestor, and no further.
-    ///
-    /// # Panics
-    /// Without any node.
-    pub fn descent(&self, nodes: &[NodeId]) -> Descent {
-        let mut step = self.step(nodes[0]);
-        let mut widths = vec![1; step as usize + 1];
-        let mut front = nodes.to_vec();
-        let mut seen = vec![false; self.firsts[self.generations.len()] as usize];
-        loop {
-            front.retain(|&node| !core::mem::replace(&mut seen[node as usize], true));
-            widths[step as usize] = front.len() as u32;
-            if front.len() == 1 || step == 0 {
-                return Descent { widths };
-            }
-            front.iter_mut().for_each(|node| *node = self.parent_at(*node, step).unwrap_or(NO_PARENT));
-            step -= 1;
-        }
-    }
-
-    /// Of every node, by number, whether these nodes descend from it, or are it: what of a drawing is alive.
-    pub fn alive(&self, nodes: &[NodeId]) -> Vec<bool> {
-        let mut alive = vec![false; self.firsts[self.generations.len()] as usize];
-        for node in nodes {
-            // Where another line has been, it went on to the root.
-            for (node, _) in self.line(*node) {
-                if core::mem::replace(&mut alive[node as usize], true) {
-                    break;
-                }
-            }
-        }
-        alive
+        // One particle is its own ancestor; of several, only the first width can be one.
+        (self.widths[0] == 1).then_some(self.first)
     }
 }
 
@@ -175,48 +149,82 @@ impl Ancestry {
 mod tests {
     use super::*;
 
-    /// Three steps of three: both ends of the first step have died out, and one of the second.
-    fn tree() -> (Ancestry, Vec<NodeId>) {
-        let mut tree = Ancestry::default();
-        let at = |x: f64| Pose2::new(x, 0.0, 0.0);
-        let roots: Vec<_> = (0..3).map(|k| tree.push(None, at(f64::from(k)))).collect();
-        let first = [0, 1, 1].map(|k| tree.push(Some(roots[k]), at(10.0)));
-        let second = [1, 2, 2].map(|k| tree.push(Some(first[k]), at(20.0)));
-        (tree, second.into())
+    fn at(x: f64) -> Pose2 {
+        Pose2::new(x, 0.0, 0.0)
+    }
+
+    fn then(path: &Path, x: f64) -> Path {
+        let mut path = path.clone();
+        path.push(at(x));
+        path
+    }
+
+    /// Three steps of three, by slot: both ends of the first step have died out, and one of the second.
+    fn tree() -> [[Path; 3]; 3] {
+        let roots = [0.0, 1.0, 2.0].map(|x| Path::start(at(x)));
+        let first = [0, 1, 1].map(|k: usize| then(&roots[k], 10.0));
+        let second = [1, 2, 2].map(|k: usize| then(&first[k], 20.0));
+        [roots, first, second]
     }
 
     #[test]
     fn paths_share_their_past_and_the_gauge_counts_it() {
-        let (tree, second) = tree();
-        assert_eq!(tree.path(second[2]).iter().map(|pose| pose.x).collect::<Vec<_>>(), [1.0, 10.0, 20.0]);
-        let descent = tree.descent(&second);
-        assert_eq!(descent.widths, [1, 2, 3]);
+        let [_, first, second] = tree();
+        assert_eq!(second[2].poses().iter().map(|pose| pose.x).collect::<Vec<_>>(), [1.0, 10.0, 20.0]);
+        let descent = Descent::of(&second);
+        assert_eq!(descent.widths().collect::<Vec<_>>(), [1, 2, 3]);
         assert_eq!([0, 1, 2, 9].map(|steps_back| descent.lineage(steps_back)), [3, 2, 1, 1]);
         assert_eq!((descent.size(), descent.coalescence()), (6, Some(0)));
-        let first: Vec<_> = tree.nodes(1).collect();
-        assert_eq!((tree.descent(&first).widths, tree.descent(&first).coalescence()), (vec![2, 3], None));
-        assert_eq!(tree.descent(&first[1..=1]).coalescence(), Some(1), "one node is its own ancestor");
+        let descent = Descent::of(&first);
+        assert_eq!((descent.widths().collect::<Vec<_>>(), descent.coalescence()), (vec![2, 3], None));
+        let alone = Descent::of(&first[1..=1]);
+        assert_eq!((alone.size(), alone.coalescence()), (2, Some(1)), "one node is its own ancestor");
     }
 
     #[test]
-    fn a_drawing_gets_every_edge_once_and_knows_which_live() {
-        let (tree, second) = tree();
-        assert_eq!(tree.edges(0..9).collect::<Vec<_>>(), [(0, 3), (1, 4), (1, 5), (4, 6), (5, 7), (5, 8)]);
-        assert_eq!(tree.edges(2..3).count(), 3);
-        let alive = tree.alive(&second);
-        let dead: Vec<_> = (0..9).filter(|node| !alive[*node]).collect();
-        assert_eq!(dead, [0, 2, 3]);
-        assert_eq!(alive.iter().filter(|alive| **alive).count() as u32, tree.descent(&second).size());
-        assert!((0..9).all(|node| tree.nodes(tree.step(node)).contains(&node)));
+    fn the_order_of_the_slots_does_not_matter() {
+        let [_, _, [a, b, c]] = tree();
+        let descents = [[&a, &b, &c], [&b, &a, &c], [&c, &b, &a]].map(Descent::of);
+        assert!(descents.iter().all(|descent| *descent == descents[0]), "{descents:?}");
+    }
+
+    #[test]
+    fn what_is_shared_before_the_common_ancestor_is_not_gone_through() {
+        let mut trunk = Path::start(at(0.0));
+        (0..99).for_each(|_| trunk.push(at(1.0)));
+        let ends = [then(&trunk, 2.0), then(&trunk, 3.0)];
+        let descent = Descent::of(&ends);
+        assert_eq!((descent.first, &descent.widths[..]), (99, &[1, 2][..]));
+        assert_eq!((descent.size(), descent.coalescence(), descent.widths().count()), (102, Some(99), 101));
+        assert_eq!([0, 1, 2, 1000].map(|steps_back| descent.lineage(steps_back)), [2, 1, 1, 1]);
+    }
+
+    #[test]
+    fn a_node_is_freed_with_the_last_that_descends_from_it() {
+        let [roots, first, second] = tree();
+        let watched = [&roots[0], &roots[1], &first[0]].map(|path| Arc::downgrade(&path.0));
+        let held = || [0, 1, 2].map(|k: usize| watched[k].strong_count() > 0);
+        drop((roots, first));
+        assert_eq!(held(), [false, true, false], "slots 0 and 2 of the start and 0 of step 1 have no descendants");
+        drop(second);
+        assert_eq!(held(), [false; 3]);
+    }
+
+    #[test]
+    fn a_long_path_is_freed_without_a_deep_stack() {
+        let mut path = Path::start(at(0.0));
+        // A test has a stack of 2 MB, by default: two bytes for each pose.
+        (0..1_000_000).for_each(|_| path.push(at(1.0)));
+        drop(path);
     }
 
     #[test]
     fn what_is_appended_to_a_clone_stays_there() {
-        let (mut tree, second) = tree();
-        let kept = tree.clone();
-        let third = tree.push(Some(second[0]), Pose2::default());
-        assert_eq!((tree.steps(), kept.steps(), third), (4, 3, 9));
-        tree.push(Some(second[1]), Pose2::default());
-        assert_eq!((tree.nodes(3), kept.nodes(2)), (9..11, 6..9));
+        let [_, _, [kept, ..]] = tree();
+        let mut longer = kept.clone();
+        assert_eq!(longer.id(), kept.id());
+        longer.push(at(30.0));
+        assert_eq!((longer.step(), kept.step(), longer.before().map(Path::id)), (3, 2, Some(kept.id())));
+        assert_eq!(format!("{kept:?}").matches("Pose2").count(), 1, "a path is not written out");
     }
 }

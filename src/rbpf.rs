@@ -2,7 +2,7 @@
 
 use crate::execute::Executor;
 use crate::geometry::Pose2;
-use crate::lineage::{Ancestry, Descent, NodeId};
+use crate::lineage::{Descent, Path};
 use crate::map::ConditionalMap;
 use crate::proposal::{Proposal, ProposalTrace};
 use crate::random::{Purpose, Stream};
@@ -17,8 +17,8 @@ pub struct Particle<M> {
     pub world_from_robot: Pose2,
     /// Map given the path.
     pub map: M,
-    /// Newest node of the path in the ancestry tree.
-    pub node: NodeId,
+    /// The path, a branch of the tree that all particles share.
+    pub path: Path,
 }
 // ANCHOR_END: listing-particle
 
@@ -33,12 +33,23 @@ pub struct Report<A> {
     pub weights: Vec<f64>,
     /// N_eff before resampling.
     pub ess: f64,
+    /// The path of each slot before resampling: nobody else holds those that the step let die.
+    pub paths: Vec<Path>,
     /// Slot each particle was copied from, where the step resampled.
     pub ancestors: Option<Vec<u32>>,
     /// How each slot came by its pose.
     pub traces: Vec<ProposalTrace>,
     /// What each slot took the observation for.
     pub associations: Vec<A>,
+}
+
+impl<A> Report<A> {
+    /// Paths of the slots that nobody was copied from, where the step resampled.
+    pub fn extinct(&self) -> impl Iterator<Item = &Path> {
+        let mut extinct = vec![self.ancestors.is_some(); self.paths.len()];
+        self.ancestors.iter().flatten().for_each(|slot| extinct[*slot as usize] = false);
+        self.paths.iter().zip(extinct).filter_map(|(path, extinct)| extinct.then_some(path))
+    }
 }
 
 /// A population of particles with one proposal and one policy of resampling.
@@ -53,7 +64,6 @@ pub struct Rbpf<M, P> {
     particles: Vec<Particle<M>>,
     weights: Weights,
     best: usize,
-    ancestry: Ancestry,
 }
 
 impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
@@ -67,11 +77,10 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         start: Pose2,
         map: M,
     ) -> Self {
-        let mut ancestry = Ancestry::default();
-        let mut particle = || Particle { world_from_robot: start, map: map.clone(), node: ancestry.push(None, start) };
+        let particle = || Particle { world_from_robot: start, map: map.clone(), path: Path::start(start) };
         let particles = (0..count).map(|_| particle()).collect();
         let (executor, weights) = (Executor::default(), Weights::uniform(count));
-        Self { proposal, policy, scheme, seed, executor, step: 0, particles, weights, best: 0, ancestry }
+        Self { proposal, policy, scheme, seed, executor, step: 0, particles, weights, best: 0 }
     }
 
     /// The same filter, computed by another executor: the results are the same.
@@ -105,7 +114,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         });
         // ANCHOR: extend
         for particle in &mut self.particles {
-            particle.node = self.ancestry.push(Some(particle.node), particle.world_from_robot);
+            particle.path.push(particle.world_from_robot);
         }
         // ANCHOR_END: extend
         let log_increments: Vec<f64> = proposed.iter().map(|p| p.log_increment).collect();
@@ -118,6 +127,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
             log_increments,
             weights: self.weights.as_slice().to_vec(),
             ess: self.weights.ess(),
+            paths: self.particles.iter().map(|p| p.path.clone()).collect(),
             ancestors: None,
             traces: proposed.iter().map(|p| p.trace).collect(),
             associations: proposed.into_iter().map(|p| p.association).collect(),
@@ -157,11 +167,6 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         self.best
     }
 
-    /// All paths.
-    pub fn ancestry(&self) -> &Ancestry {
-        &self.ancestry
-    }
-
     /// Distinct ancestors at step 0 of the present population.
     pub fn lineage(&self) -> usize {
         self.descent().lineage(self.step) as usize
@@ -169,11 +174,6 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
 
     /// What the present population descends from.
     pub fn descent(&self) -> Descent {
-        self.ancestry.descent(&self.nodes())
-    }
-
-    /// Newest node of each particle, by slot.
-    pub fn nodes(&self) -> Vec<NodeId> {
-        self.particles.iter().map(|p| p.node).collect()
+        Descent::of(self.particles.iter().map(|p| &p.path))
     }
 }

@@ -224,8 +224,8 @@ pub struct LandmarkReport {
     pub seen: u32,
     /// N_eff before resampling.
     pub ess: f64,
-    /// Whether the step resampled.
-    pub resampled: bool,
+    /// Slot each particle was copied from, where the step resampled.
+    pub ancestors: Option<Vec<u32>>,
     /// Distance of the best particle from the truth \[m\].
     pub error_best: f64,
     /// Distance of the weighted mean of all particles from the truth \[m\].
@@ -313,7 +313,7 @@ impl LandmarkRun {
             step: self.step,
             seen: features.len() as u32,
             ess: report.ess,
-            resampled: report.ancestors.is_some(),
+            ancestors: report.ancestors,
             error_best: best.world_from_robot.distance(truth),
             error_mean: ops::hypot(x - truth.x, y - truth.y),
             error_odometry: odometry.distance(truth),
@@ -350,7 +350,7 @@ impl LandmarkRun {
 
     /// Poses of one particle, step 0 to now.
     pub fn path(&self, slot: usize) -> Vec<Pose2> {
-        self.filter.ancestry().path(self.particles()[slot].node)
+        self.particles()[slot].path.poses()
     }
 
     /// Root mean square error of position of the best particle's path so far \[m\].

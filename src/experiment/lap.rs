@@ -274,6 +274,7 @@ impl Lap {
             log_increments: Vec::new(),
             weights: filter.weights().as_slice().to_vec(),
             ess: filter.weights().ess(),
+            paths: Vec::new(),
             ancestors: None,
             traces: Vec::new(),
             associations: Vec::new(),
@@ -355,7 +356,7 @@ impl Lap {
 
     /// Poses of one universe, step 0 to now.
     pub fn path(&self, slot: usize) -> Vec<Pose2> {
-        self.filter.ancestry().path(self.particles()[slot].node)
+        self.particles()[slot].path.poses()
     }
 
     /// Slot of the best universe: of the largest weight, or its first copy after a resampling.

@@ -7,6 +7,7 @@ use crate::digest::Digest;
 use crate::error::ParameterError;
 use crate::execute::Executor;
 use crate::geometry::Pose2;
+use crate::lineage::Path;
 use crate::log::{LaserLog, Relation};
 use crate::map::grid::{Grid, GridModel};
 use crate::map::{ConditionalMap, Footprint};
@@ -148,6 +149,8 @@ pub struct LogStep {
     pub matched: u32,
     /// Distinct ancestors at the start.
     pub lineage: u32,
+    /// Paths of the particles that the step let die: the filter does not keep them.
+    pub extinct: Vec<Path>,
 }
 
 /// A log under way.
@@ -225,7 +228,8 @@ impl LogRun {
         let resampled = report.ancestors.is_some();
         self.resampled += u32::from(resampled);
         let matched = report.traces.iter().filter(|t| matches!(t, ProposalTrace::Matched { .. })).count() as u32;
-        Some(LogStep { step: report.step, ess: report.ess, resampled, matched, lineage })
+        let extinct = report.extinct().cloned().collect();
+        Some(LogStep { step: report.step, ess: report.ess, resampled, matched, lineage, extinct })
     }
 
     /// The filter, for those who watch it.
@@ -246,7 +250,7 @@ impl LogRun {
     /// The best particle's path, a pose for each scan so far with its time \[s\], in the frame of the first. A scan that was passed
     /// over has the pose of the scan before, moved by raw odometry.
     pub fn path(&self) -> Vec<(f64, Pose2)> {
-        let poses = self.filter.ancestry().path(self.particles()[self.filter.best()].node);
+        let poses = self.particles()[self.filter.best()].path.poses();
         let ends = self.used[1..].iter().map(|next| *next as usize).chain([self.log.scans.len()]);
         let mut path = Vec::new();
         for ((pose, first), end) in poses.iter().zip(self.used.iter()).zip(ends) {
@@ -276,7 +280,7 @@ impl LogRun {
         let mut digest = Digest::new();
         self.filter.weights().as_slice().iter().for_each(|w| digest.f64(*w));
         for particle in self.particles() {
-            for pose in self.filter.ancestry().path(particle.node) {
+            for pose in particle.path.poses() {
                 [pose.x, pose.y, pose.theta].into_iter().for_each(|x| digest.f64(x));
             }
         }

@@ -18,7 +18,7 @@ use crate::digest::Digest;
 use crate::error::ParameterError;
 use crate::execute::Executor;
 use crate::geometry::{Pose2, rms};
-use crate::lineage::{Ancestry, Descent, NodeId};
+use crate::lineage::{Descent, Path};
 use crate::matching::Matcher;
 use crate::ops;
 use crate::proposal::ProposalKind;
@@ -129,8 +129,8 @@ pub struct PolicyReport {
     pub step: u32,
     /// N_eff before resampling.
     pub ess: f64,
-    /// Whether the step resampled.
-    pub resampled: bool,
+    /// Slot each particle was copied from, where the step resampled.
+    pub ancestors: Option<Vec<u32>>,
     /// What the population descends from: the lineage gauge at any distance, the size of the tree, the coalescence.
     pub descent: Descent,
     /// Distance of the best particle from the truth \[m\].
@@ -149,6 +149,11 @@ pub struct PolicyReport {
 }
 
 impl PolicyReport {
+    /// Whether the step resampled.
+    pub fn resampled(&self) -> bool {
+        self.ancestors.is_some()
+    }
+
     /// Nodes of the ancestry tree that the population still needs.
     pub fn tree_nodes(&self) -> u32 {
         self.descent.size()
@@ -209,8 +214,8 @@ macro_rules! of_filter {
     };
 }
 
-/// N_eff before resampling, whether the step resampled, and [`PolicyReport::opinion`].
-type Stepped = (f64, bool, Option<(Opinion, u32)>);
+/// N_eff before resampling, [`PolicyReport::ancestors`], and [`PolicyReport::opinion`].
+type Stepped = (f64, Option<Vec<u32>>, Option<(Opinion, u32)>);
 
 impl Run {
     fn with_executor(self, executor: Executor) -> Self {
@@ -222,9 +227,9 @@ impl Run {
 
     fn step(&mut self) -> Option<Stepped> {
         match self {
-            Self::Lap(run) => run.step().map(|report| (report.ess, report.ancestors.is_some(), None)),
+            Self::Lap(run) => run.step().map(|report| (report.ess, report.ancestors.clone(), None)),
             Self::Wings(run) => {
-                run.step().map(|report| (report.ess, report.resampled, Some((report.best, report.answers))))
+                run.step().map(|report| (report.ess, report.ancestors, Some((report.best, report.answers))))
             }
         }
     }
@@ -267,11 +272,11 @@ impl Policies {
         };
         let [never, always, selective] = runs;
         let runs = [never?, always?, selective?];
-        let start = PolicyReport {
+        let start = |run: &Run| PolicyReport {
             step: 0,
             ess: particles as f64,
-            resampled: false,
-            descent: Descent { widths: vec![particles as u32] },
+            ancestors: None,
+            descent: of_filter!(run, filter => filter.descent()),
             error_best: 0.0,
             error_mean: 0.0,
             rms_best: 0.0,
@@ -279,7 +284,7 @@ impl Policies {
             right: None,
             opinion: None,
         };
-        let reports = [start.clone(), start.clone(), start];
+        let reports = [0, 1, 2].map(|policy| start(&runs[policy]));
         Ok(Self { setup: setup.clone(), world, runs, reports })
     }
 
@@ -291,14 +296,14 @@ impl Policies {
     /// One step of all three; `None` after the last.
     pub fn step(&mut self) -> Option<&[PolicyReport; 3]> {
         for policy in 0..3 {
-            let (ess, resampled, opinion) = self.runs[policy].step()?;
-            self.reports[policy] = PolicyReport { opinion, ..self.judge(policy, ess, resampled) };
+            let (ess, ancestors, opinion) = self.runs[policy].step()?;
+            self.reports[policy] = PolicyReport { opinion, ..self.judge(policy, ess, ancestors) };
         }
         Some(&self.reports)
     }
 
     /// Compares a filter's newest state with the truth.
-    fn judge(&self, policy: usize, ess: f64, resampled: bool) -> PolicyReport {
+    fn judge(&self, policy: usize, ess: f64, ancestors: Option<Vec<u32>>) -> PolicyReport {
         let before = &self.reports[policy];
         let step = before.step + 1;
         let (truth, poses, best) = (self.world.truth(), self.poses(policy), self.best(policy));
@@ -311,11 +316,11 @@ impl Policies {
         PolicyReport {
             step,
             ess,
-            resampled,
+            ancestors,
             descent: of_filter!(&self.runs[policy], filter => filter.descent()),
             error_best: poses[best].distance(here),
             error_mean,
-            rms_best: rms(&self.ancestry(policy).path(self.nodes(policy)[best]), &truth[..=step as usize]),
+            rms_best: rms(&self.paths(policy)[best].poses(), &truth[..=step as usize]),
             rms_mean: (squares / f64::from(step + 1)).sqrt(),
             right: lost.then(|| poses.iter().filter(|pose| is_right(pose, here)).count() as u32),
             opinion: None,
@@ -383,14 +388,9 @@ impl Policies {
         Some((WINGS_LOST + seen) as u32 + 1)
     }
 
-    /// All paths of one filter.
-    pub fn ancestry(&self, policy: usize) -> &Ancestry {
-        of_filter!(&self.runs[policy], filter => filter.ancestry())
-    }
-
-    /// Newest node of each particle of one filter, by slot: what [`Ancestry::alive`] asks for.
-    pub fn nodes(&self, policy: usize) -> Vec<NodeId> {
-        of_filter!(&self.runs[policy], filter => filter.nodes())
+    /// Paths of one filter's particles, by slot.
+    pub fn paths(&self, policy: usize) -> Vec<&Path> {
+        of_filter!(&self.runs[policy], filter => filter.particles().iter().map(|p| &p.path).collect())
     }
 
     /// Poses of one filter's particles, by slot.
@@ -415,11 +415,11 @@ impl Policies {
             for (policy, report) in self.reports.iter().enumerate() {
                 let r = report;
                 let (opinion, answers) = r.opinion.unwrap_or_default();
-                let counts = [r.step, u32::from(r.resampled), r.right.unwrap_or(u32::MAX)];
+                let counts = [r.step, u32::from(r.resampled()), r.right.unwrap_or(u32::MAX)];
                 counts.into_iter().chain([opinion.again, opinion.first, answers]).for_each(|x| digest.u32(x));
                 let errors = [r.error_best, r.error_mean, r.rms_best, r.rms_mean];
                 [r.ess, opinion.log_increment].into_iter().chain(errors).for_each(|x| digest.f64(x));
-                r.descent.widths.iter().for_each(|width| digest.u32(*width));
+                r.descent.widths().for_each(|width| digest.u32(width));
                 for Pose2 { x, y, theta } in self.poses(policy) {
                     [x, y, theta].into_iter().for_each(|x| digest.f64(x));
                 }
@@ -464,6 +464,7 @@ pub fn golden_setups() -> Vec<(&'static str, PoliciesSetup)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::BTreeSet;
 
     #[test]
     fn the_three_differ_in_nothing_until_one_resamples() {
@@ -472,7 +473,7 @@ mod tests {
             policies.step().unwrap();
             let [never, always, selective] = policies.reports();
             assert_eq!(never, selective, "{course}: N_eff is never below zero");
-            assert_eq!((never.ess, never.resampled, always.resampled), (always.ess, false, true), "{course}");
+            assert_eq!((never.ess, never.resampled(), always.resampled()), (always.ess, false, true), "{course}");
             while policies.step().is_some() {}
             let [never, always, selective] = policies.reports();
             assert_eq!(never, selective, "{course}");
@@ -501,17 +502,17 @@ mod tests {
     }
 
     #[test]
-    fn what_is_alive_in_a_drawing_is_what_the_reports_count() {
+    fn the_paths_that_are_held_are_those_that_the_reports_count() {
         let mut policies = Policies::new(&PoliciesSetup::of(PolicyCourse::Wings)).unwrap();
         while policies.step().is_some() {}
-        for policy in 0..3 {
-            let (tree, report) = (policies.ancestry(policy), &policies.reports()[policy]);
-            let alive = tree.alive(&policies.nodes(policy));
-            let widths: Vec<u32> = (0..tree.steps())
-                .map(|step| tree.nodes(step).filter(|node| alive[*node as usize]).count() as u32)
-                .collect();
-            assert_eq!(widths, report.descent.widths);
-            assert_eq!(tree.edges(0..tree.steps()).count(), 16 * policies.step_count() as usize);
+        for (policy, name) in POLICIES.into_iter().enumerate() {
+            let report = &policies.reports()[policy];
+            let mut ancestors = vec![BTreeSet::new(); report.step as usize + 1];
+            for path in policies.paths(policy).into_iter().flat_map(Path::back) {
+                ancestors[path.step() as usize].insert(path.id());
+            }
+            let widths: Vec<u32> = ancestors.iter().map(|step| step.len() as u32).collect();
+            assert_eq!(widths, report.descent.widths().collect::<Vec<_>>(), "{name}");
         }
     }
 

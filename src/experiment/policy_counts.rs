@@ -68,7 +68,7 @@ fn judge(steps: &[PolicyReport], evidence_at: Option<u32>) -> PolicyOutcome {
     PolicyOutcome {
         final_ess: last.ess,
         rms_best: last.rms_best,
-        resampled_fraction: steps.iter().filter(|report| report.resampled).count() as f64 / count as f64,
+        resampled_fraction: steps.iter().filter(|report| report.resampled()).count() as f64 / count as f64,
         lineage_one_step: lineage_one.map(|k| steps[k].step),
         ess_at_lineage_one: lineage_one.map(|k| steps[k].ess),
         ess_meanwhile: meanwhile.iter().map(|report| report.ess).sum::<f64>() / meanwhile.len() as f64,

@@ -12,7 +12,7 @@ use crate::digest::Digest;
 use crate::error::ParameterError;
 use crate::exact::one_step::{OneStep, Posterior};
 use crate::geometry::Pose2;
-use crate::lineage::Ancestry;
+use crate::lineage::Path;
 use crate::map::landmarks::{Correspondence, Gate, Landmark, Landmarks, Sighted};
 use crate::motion::{Odometry, OdometryModel};
 use crate::proposal::{FromMeasurement, FromMotion, Marginal, Measured, Proposal, Proposed};
@@ -175,7 +175,7 @@ impl Proposals {
             Correspondence::Known
         };
         let map = Landmarks::<_>::new(sensor, correspondence).with(landmarks.iter().copied());
-        let particle = Particle { world_from_robot: FROM, map, node: Ancestry::default().push(None, FROM) };
+        let particle = Particle { world_from_robot: FROM, map, path: Path::start(FROM) };
         let features = vec![Feature { z, signature: (!setup.twins).then_some(0) }];
         let aware = FromMeasurement { motion };
         let draw = |proposal: &dyn Proposal<_, Control = Odometry>| {

@@ -179,7 +179,7 @@ fn one(arguments: &Arguments, mut run: LandmarkRun, rms_ekf: f64) -> Result<(), 
         picture::save(&picture::of_landmarks(&run), path)?;
     }
     let footprint = run.footprint();
-    let resampled = steps.iter().filter(|step| step.resampled).count();
+    let resampled = steps.iter().filter(|step| step.ancestors.is_some()).count();
     let output = Output {
         rms_best: run.rms_best(),
         rms_best_aligned: run.rms_best_aligned(),

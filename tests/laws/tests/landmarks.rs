@@ -2,6 +2,7 @@
 
 use fastslam::exact::EkfSlam;
 use fastslam::geometry::{Pose2, sample_semidefinite};
+use fastslam::lineage::Path;
 use fastslam::map::ConditionalMap;
 use fastslam::map::landmarks::{Balanced, Blocks, Correspondence, Gate, Landmark, Landmarks, Matched, Sighted, Store};
 use fastslam::motion::{Motion, Odometry, OdometryModel, Velocity, VelocityModel};
@@ -250,7 +251,11 @@ fn the_mean_weight_of_1_0_is_the_weight_of_2_0() {
         covariance: Matrix2::new(0.02, 0.005, 0.005, 0.03),
         evidence: 1,
     });
-    let particle = Particle { world_from_robot: Pose2::default(), map: empty::<Blocks>().with(known), node: 0 };
+    let particle = Particle {
+        world_from_robot: Pose2::default(),
+        map: empty::<Blocks>().with(known),
+        path: Path::start(Pose2::default()),
+    };
     let (u, features) = linear_log(2).remove(0);
     let one = FromMotion { motion: Drift, likelihood: Marginal };
     let n = 40_000_u32;
@@ -302,7 +307,7 @@ fn one_step(scale: f64) -> OneStep {
         seen(&sensor, &to, &known[1].mean, 1, off(-0.5, 0.9)),
     ];
     let map = Landmarks::new(sensor, Correspondence::Known).with(known);
-    let particle = Particle { world_from_robot: Pose2::default(), map, node: 0 };
+    let particle = Particle { world_from_robot: Pose2::default(), map, path: Path::start(Pose2::default()) };
     OneStep { motion: ODOMETRY.scaled(scale), particle, features }
 }
 

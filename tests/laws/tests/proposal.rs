@@ -2,6 +2,7 @@
 
 use fastslam::experiment::lap::{ALPHAS, FROM_SCAN, GRID, LapWorld, OUTLIER, TEMPER};
 use fastslam::geometry::{Gaussian3, Pose2};
+use fastslam::lineage::Path;
 use fastslam::map::{ConditionalMap, grid::Grid};
 use fastslam::matching::{Matcher, ScanModel};
 use fastslam::motion::{Motion, Odometry, OdometryModel};
@@ -26,7 +27,7 @@ fn one_step(matcher: Matcher) -> OneStep {
     for (pose, scan) in &world.start_scans {
         map.assimilate(pose, scan, &());
     }
-    let particle = Particle { world_from_robot: world.truth[0], map, node: 0 };
+    let particle = Particle { world_from_robot: world.truth[0], map, path: Path::start(world.truth[0]) };
     // Tempered harder, or the posterior is too narrow for a dense grid and for the motion model's samples to meet it.
     let scan = ScanModel::new(matcher, TEMPER * 0.4, OUTLIER);
     OneStep {

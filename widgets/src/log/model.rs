@@ -5,7 +5,7 @@
 use super::{
     layout::{Layout, NARROWEST},
     params, scene,
-    tree::Death,
+    tree::{Death, FADE},
     view::{Frame, View},
 };
 use crate::{
@@ -17,7 +17,7 @@ use crate::{
 use fastslam::{
     decimal::{fixed, write},
     experiment::{
-        log::{LogRun, LogSetup},
+        log::{LogRun, LogSetup, LogStep},
         log_files::{Picture, trajectory},
     },
     log::{LaserLog, LogError, parse, swept_area},
@@ -64,6 +64,7 @@ pub struct LogModel {
     run: Option<LogRun>,
     /// Of every step, from 1 on.
     history: Vec<Moment>,
+    /// Of the last [`FADE`] steps.
     deaths: Vec<Death>,
     /// The maps' memory at its largest.
     peak: Footprint,
@@ -196,7 +197,7 @@ impl LogModel {
         &self.history
     }
 
-    /// What died out, by step.
+    /// What died out in the last [`FADE`] steps, by step.
     pub fn deaths(&self) -> &[Death] {
         &self.deaths
     }
@@ -242,21 +243,19 @@ impl LogModel {
     }
 
     /// What the step that was just made did.
-    fn note(&mut self, ess: f64, resampled: bool) {
+    fn note(&mut self, LogStep { step, ess, resampled, extinct: paths, .. }: LogStep) {
         let Some(run) = &self.run else { return };
-        let (filter, step) = (run.filter(), self.history.len() as u32 + 1);
-        let alive = filter.nodes();
-        let nodes: Vec<_> = filter.ancestry().nodes(step).filter(|node| alive.binary_search(node).is_err()).collect();
-        let descent = filter.descent();
+        let descent = run.filter().descent();
         self.history.push(Moment {
             ess,
             resampled,
-            died: nodes.len() as u32,
+            died: paths.len() as u32,
             lineage: descent.lineage(BACK),
             shared: descent.coalescence().unwrap_or(0),
         });
-        if !nodes.is_empty() {
-            self.deaths.push(Death { step, nodes });
+        self.deaths.retain(|death| step - death.step < FADE);
+        if !paths.is_empty() {
+            self.deaths.push(Death { step, paths });
         }
         if step.is_multiple_of(LOOK) || step == run.step_count() {
             let now = run.footprint();
@@ -309,9 +308,9 @@ impl LogModel {
             fixed(moment.ess, 1),
             moment.shared
         );
-        text += &match self.deaths.last() {
-            Some(Death { step, nodes }) => {
-                format!("At the last resampling, at scan {step}, {} of {m} died out.", nodes.len())
+        text += &match self.history.iter().rposition(|moment| moment.died > 0) {
+            Some(last) => {
+                format!("At the last resampling, at scan {}, {} of {m} died out.", last + 1, self.history[last].died)
             }
             None => "None has died out.".into(),
         };
@@ -497,7 +496,7 @@ impl Model for LogModel {
         if self.pending() > 0
             && let Some(step) = self.run.as_mut().and_then(LogRun::step)
         {
-            self.note(step.ess, step.resampled);
+            self.note(step);
         }
     }
 

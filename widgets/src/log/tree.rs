@@ -1,19 +1,16 @@
 //! The paths of all universes, every piece once: the best from start to end, each of the others up to where it joins what was drawn,
 //! and what died out a short while ago.
 
-use fastslam::{
-    experiment::log::LogRun,
-    geometry::Pose2,
-    lineage::{Ancestry, NodeId},
-};
+use fastslam::{experiment::log::LogRun, geometry::Pose2, lineage::Path};
+use std::collections::BTreeSet;
 
-/// The universes that one resampling let die out.
-#[derive(Clone, PartialEq, Debug)]
+/// The universes that one resampling let die out. The filter does not keep them: this does.
+#[derive(Clone, Debug)]
 pub struct Death {
     /// The step.
     pub step: u32,
-    /// Their newest nodes.
-    pub nodes: Vec<NodeId>,
+    /// Their paths.
+    pub paths: Vec<Path>,
 }
 
 /// Steps for which a path that died out is still drawn, fading.
@@ -32,28 +29,42 @@ pub struct Tree {
 impl Tree {
     /// Of the present population, and of these deaths.
     pub fn new(run: &LogRun, deaths: &[Death]) -> Self {
-        let filter = run.filter();
-        let (ancestry, nodes) = (filter.ancestry(), filter.nodes());
-        let best = nodes[filter.best()];
-        let mut drawn = ancestry.alive(&[best]);
-        let path = ancestry.path(best).into_iter().rev().collect();
-        let others =
-            nodes.iter().map(|node| branch(ancestry, *node, &mut drawn)).filter(|line| line.len() > 1).collect();
-        let now = ancestry.steps() - 1;
-        let recent = deaths.iter().rev().filter(|death| now - death.step < FADE);
-        let dead = recent.flat_map(|death| death.nodes.iter().map(move |node| (now - death.step, *node)));
-        let dead = dead.map(|(age, node)| (age, branch(ancestry, node, &mut drawn)));
-        Self { best: path, others, dead: dead.filter(|(_, line)| line.len() > 1).collect() }
+        let best = &run.particles()[run.filter().best()].path;
+        let mut drawn = Drawn { best: best.back().map(Path::id).collect(), now: best.step(), others: BTreeSet::new() };
+        let others = run.particles().iter().map(|particle| drawn.branch(&particle.path)).filter(|line| line.len() > 1);
+        let others = others.collect();
+        let recent = deaths.iter().rev().filter(|death| best.step() - death.step < FADE);
+        let dead = recent.flat_map(|death| death.paths.iter().map(move |path| (best.step() - death.step, path)));
+        let dead = dead.map(|(age, path)| (age, drawn.branch(path))).filter(|(_, line)| line.len() > 1);
+        let dead = dead.collect();
+        Self { best: best.back().map(Path::pose).collect(), others, dead }
     }
 }
 
-/// From a node back to the first that is drawn already, and that one.
-fn branch(ancestry: &Ancestry, node: NodeId, drawn: &mut [bool]) -> Vec<Pose2> {
-    let mut line = vec![ancestry.pose(node)];
-    let mut next = Some(node).filter(|node| !core::mem::replace(&mut drawn[*node as usize], true));
-    while let Some(parent) = next.and_then(|node| ancestry.parent(node)) {
-        line.push(ancestry.pose(parent));
-        next = Some(parent).filter(|node| !core::mem::replace(&mut drawn[*node as usize], true));
+/// What is drawn already.
+struct Drawn {
+    /// The nodes of the best path, newest first: its step tells where to look for a node.
+    best: Vec<usize>,
+    /// The newest step.
+    now: u32,
+    /// Nodes of other paths.
+    others: BTreeSet<usize>,
+}
+
+impl Drawn {
+    /// Whether a node was not drawn yet.
+    fn draw(&mut self, path: &Path) -> bool {
+        self.best[(self.now - path.step()) as usize] != path.id() && self.others.insert(path.id())
     }
-    line
+
+    /// From a path's end back to the first that is drawn already, and that one.
+    fn branch(&mut self, path: &Path) -> Vec<Pose2> {
+        let mut line = vec![path.pose()];
+        let mut next = Some(path).filter(|path| self.draw(path));
+        while let Some(before) = next.and_then(Path::before) {
+            line.push(before.pose());
+            next = Some(before).filter(|path| self.draw(path));
+        }
+        line
+    }
 }

@@ -13,7 +13,7 @@ use crate::{
 use fastslam::{
     decimal::{fixed, write},
     experiment::policies::{POLICIES, Policies, PoliciesSetup, PolicyCourse, PolicyReport},
-    lineage::NodeId,
+    geometry::Pose2,
 };
 
 /// Figure w17.2.
@@ -26,9 +26,10 @@ pub struct ResamplingModel {
     cursor: Option<u32>,
     /// The step asked for.
     asked: u32,
-    /// All three, as far as they ran. Their paths grow and never change, so that any step before can be shown from them.
+    /// All three, as far as they ran.
     run: Policies,
-    /// Of every step simulated so far, from 0 on, one for each policy.
+    /// Of every step simulated so far, from 0 on, one for each policy: any of them can be shown, and whoever died out since,
+    /// whom the filters forget.
     moments: Vec<[Moment; 3]>,
 }
 
@@ -37,8 +38,8 @@ pub struct ResamplingModel {
 pub struct Moment {
     /// What the step did.
     pub report: PolicyReport,
-    /// Newest node of each particle, by slot.
-    pub nodes: Vec<NodeId>,
+    /// Pose of each particle, by slot.
+    pub poses: Vec<Pose2>,
     /// Slot of the best particle.
     pub best: usize,
     /// Steps that resampled, up to this one.
@@ -58,9 +59,16 @@ impl Default for ResamplingModel {
 fn moments(run: &Policies, before: Option<&[Moment; 3]>) -> [Moment; 3] {
     [0, 1, 2].map(|policy| {
         let report = run.reports()[policy].clone();
-        let resampled = before.map_or(0, |b| b[policy].resampled) + u32::from(report.resampled);
-        Moment { report, nodes: run.nodes(policy), best: run.best(policy), resampled }
+        let resampled = before.map_or(0, |b| b[policy].resampled) + u32::from(report.resampled());
+        Moment { report, poses: run.poses(policy), best: run.best(policy), resampled }
     })
+}
+
+impl Moment {
+    /// The slot that a particle was copied from in this step: its own, where nothing was resampled.
+    pub fn copied_from(&self, slot: usize) -> usize {
+        self.report.ancestors.as_ref().map_or(slot, |ancestors| ancestors[slot] as usize)
+    }
 }
 
 impl ResamplingModel {
@@ -85,6 +93,22 @@ impl ResamplingModel {
     /// One filter at the step shown.
     pub fn now(&self, policy: usize) -> &Moment {
         &self.moments[self.step() as usize][policy]
+    }
+
+    /// Of steps 0 to the one shown, and of each slot as it was before the step resampled, whether a particle of the step shown
+    /// descends from it.
+    pub fn alive(&self, policy: usize) -> Vec<Vec<bool>> {
+        let mut alive = vec![true; self.setup().particles];
+        let back = self.history(policy).rev().map(|moment| {
+            let mut before = vec![false; alive.len()];
+            let slots = alive.iter().enumerate().filter(|(_, alive)| **alive);
+            slots.for_each(|(slot, _)| before[moment.copied_from(slot)] = true);
+            alive.clone_from(&before);
+            before
+        });
+        let mut steps: Vec<_> = back.collect();
+        steps.reverse();
+        steps
     }
 
     /// One filter at the step that is read.
@@ -304,7 +328,7 @@ impl Model for ResamplingModel {
             let of = |Moment { report, .. }: &Moment| {
                 [
                     report.ess,
-                    f64::from(u8::from(report.resampled)),
+                    f64::from(u8::from(report.resampled())),
                     f64::from(report.descent.lineage(report.step)),
                     f64::from(report.descent.lineage(self.back)),
                     report.error_best,
@@ -351,7 +375,7 @@ impl Model for ResamplingModel {
     fn trace(&self) -> Vec<TraceLine> {
         let (m, moment) = (self.setup().particles, self.read(SELECTIVE));
         let Some((opinion, answers)) = moment.report.opinion else { return Vec::new() };
-        let pose = self.run.ancestry(SELECTIVE).pose(moment.nodes[moment.best]);
+        let pose = moment.poses[moment.best];
         let survivors = moment.report.descent.lineage(0);
         let ess = ess_text(moment.report.ess, m);
         let mut lines = vec![TraceLine::new("predict", "")];
@@ -375,7 +399,7 @@ impl Model for ResamplingModel {
         lines.push(TraceLine::new("extend", format!("{} nodes", moment.report.tree_nodes())));
         lines.push(TraceLine::new(
             "resample",
-            if moment.report.resampled {
+            if moment.report.resampled() {
                 format!("N_eff {ess}: yes, {survivors} survive")
             } else {
                 format!("N_eff {ess}: no")

@@ -244,7 +244,7 @@ impl Filter<'_> {
         self.threshold(scene);
         let curve = self.curve(0, |moment| moment.report.ess / m);
         let history = self.model.history(self.policy).zip(&curve);
-        let centres = history.filter(|(moment, _)| moment.report.resampled).map(|(_, at)| *at).collect();
+        let centres = history.filter(|(moment, _)| moment.report.resampled()).map(|(_, at)| *at).collect();
         self.curves(scene, curve.clone(), None);
         scene.marks.push(Mark::Discs { centres, radius: 1.75, role: Role::Copied });
     }
@@ -288,18 +288,15 @@ impl Filter<'_> {
         let rest = self.label(scene, 3, &[(size, Weight::SemiBold, Role::Ink)]);
         self.name(scene, &rest, "Ancestry tree");
 
-        let Moment { report, nodes, .. } = self.model.now(self.policy);
-        let ancestry = self.model.run().ancestry(self.policy);
-        let alive = ancestry.alive(nodes);
+        let alive = self.model.alive(self.policy);
         let [mut dead, mut living] = [Vec::new(), Vec::new()];
         let mut close = |line: Line| if line.lives { living.push(line.points) } else { dead.push(line.points) };
         // The lines that end at the step before, by slot: one child of each goes on with its line.
         let mut open: Vec<Option<Line>> = vec![None; self.particles()];
-        for step in 1..=report.step {
-            let [before, here] = [step - 1, step].map(|step| ancestry.nodes(step).start);
+        for ((before, step), alive) in self.model.history(self.policy).zip(1..).zip(&alive[1..]) {
             let mut longer = vec![None; self.particles()];
-            for (parent, child) in ancestry.edges(step..step + 1) {
-                let (from, to, lives) = ((parent - before) as usize, (child - here) as usize, alive[child as usize]);
+            for (to, &lives) in alive.iter().enumerate() {
+                let from = before.copied_from(to);
                 let line = open[from].take_if(|line| line.lives == lives);
                 let mut line = line.unwrap_or_else(|| Line { points: vec![self.node(step - 1, from)], lives });
                 line.go(self.node(step, to));
@@ -315,10 +312,9 @@ impl Filter<'_> {
     }
 
     /// The latest common ancestor of all particles.
-    fn coalescence(&self, scene: &mut Scene, alive: &[bool]) {
+    fn coalescence(&self, scene: &mut Scene, alive: &[Vec<bool>]) {
         let Some(step) = self.model.now(self.policy).report.descent.coalescence() else { return };
-        let nodes = self.model.run().ancestry(self.policy).nodes(step);
-        let Some(slot) = nodes.clone().position(|node| alive[node as usize]) else { return };
+        let Some(slot) = alive[step as usize].iter().position(|alive| *alive) else { return };
         let at = self.node(step, slot);
         scene.marks.push(Mark::Discs { centres: vec![at], radius: 6.0, role: Role::Paper });
         common(scene, at);
@@ -362,7 +358,7 @@ impl Filter<'_> {
     /// Where the particles are, and the robot.
     fn map(&self, scene: &mut Scene, wide: bool) {
         let (model, area, label) = (self.model, self.column.map, self.column.map_label);
-        let Moment { report, nodes, best, .. } = model.read(self.policy);
+        let Moment { report, poses, best, .. } = model.read(self.policy);
         let lines = [0.0, 1.0].map(|k| Rect::new(label.x, label.y + k * LINE, label.w, LINE));
         let (name, says) = if wide { ("Particles", lines[0]) } else { (NAMES[self.policy], lines[1]) };
         let role = if wide { Role::Muted } else { Role::Ink };
@@ -398,8 +394,6 @@ impl Filter<'_> {
         let truth = &model.run().truth()[..=report.step as usize];
         let path: Vec<Point> = truth.iter().map(|p| view.point([p.x, p.y])).collect();
         scene.marks.push(Mark::Lines { lines: vec![path], width: 1.0, dash: Some([2.0, 3.0]), role: Role::Truth });
-        let ancestry = model.run().ancestry(self.policy);
-        let poses: Vec<Pose2> = nodes.iter().map(|node| ancestry.pose(*node)).collect();
         let noses = poses.iter().map(|pose| view.nose(pose, 6.0));
         let noses = noses.flat_map(|line| clip_polyline(&line, &area)).collect();
         scene.marks.push(Mark::Lines { lines: noses, width: 1.0, dash: None, role: Role::Path });
