@@ -68,6 +68,9 @@ pub struct Rbpf<M, P> {
 
 impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
     /// `count` particles that all stand at `start` with a copy of `map`.
+    ///
+    /// # Panics
+    /// If `count` is 0.
     pub fn new(
         proposal: P,
         policy: ResamplePolicy,
@@ -77,6 +80,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         start: Pose2,
         map: M,
     ) -> Self {
+        assert!(count > 0, "count is 0: a filter needs at least one particle");
         let particle = || Particle { world_from_robot: start, map: map.clone(), path: Path::start(start) };
         let particles = (0..count).map(|_| particle()).collect();
         let (executor, weights) = (Executor::default(), Weights::uniform(count));
