@@ -311,10 +311,10 @@ impl<const FINE: usize> ConditionalMap for Grid<FINE> {
     /// at a grazing angle would be erased by the beams that pass along it. A cell that a beam ended in counts as hit.
     fn assimilate(&mut self, world_from_robot: &Pose2, scan: &Scan, (): &()) {
         let marks = ray::trace(world_from_robot, scan, self.model.cell_size, Self::TILE_CELLS);
-        let Some(touched) = marks.touched_tiles() else { return };
+        let Some(window) = marks.window() else { return };
         // What is marked around a surface may lie in the next tile.
         let margin = i32::from(self.model.reach > 0);
-        let CellRect { i0, j0, i1, j1 } = touched;
+        let CellRect { i0, j0, i1, j1 } = window;
         let needed = CellRect { i0: i0 - margin, j0: j0 - margin, i1: i1 + margin, j1: j1 + margin };
         if !covers(self.directory.rect, needed) {
             self.directory = Arc::new(self.directory.grown(needed));
@@ -322,33 +322,32 @@ impl<const FINE: usize> ConditionalMap for Grid<FINE> {
         let (hit, pass) = (tile::units(self.model.log_odds_hit), tile::units(self.model.log_odds_pass));
         // ANCHOR: map
         let add = [0, pass, hit]; // by mark
-        for tj in touched.j0..touched.j1 {
-            for ti in touched.i0..touched.i1 {
-                // Rows of one square's cells, with their marks.
-                let rows = (0..Self::TILE_CELLS as usize).map(|row| (row, marks.row(ti, tj, row)));
-                let rows = rows.filter(|(_, marks)| marks.iter().any(|mark| *mark != ray::UNTOUCHED));
-                let rows = rows.flat_map(|(row, marks)| {
-                    let squares = marks.chunks_exact(FINE).zip(row / FINE * TILE as usize..);
-                    squares.map(move |(marks, local)| (local, row % FINE, marks))
-                });
-                // Look before writing: a tile in which nothing would change stays shared.
-                let before = self.directory.tile(ti, tj);
-                let changes = rows.clone().any(|(local, row, marks)| {
-                    let changes = |(column, mark): (usize, &u8)| match *mark {
-                        ray::HIT => true,
-                        ray::PASSED => before.is_none_or(|tile| tile.log_odds[local][row][column] > i8::MIN + 1),
-                        _ => false,
-                    };
-                    marks.iter().enumerate().any(changes)
-                });
-                if !changes {
-                    continue;
-                }
-                let tile = self.tile_mut(ti, tj).expect("the directory was grown to cover the scan");
-                for (local, row, marks) in rows {
-                    for (cell, mark) in tile.log_odds[local][row].iter_mut().zip(marks) {
-                        *cell = cell.saturating_add(add[usize::from(*mark)]).max(i8::MIN + 1);
-                    }
+        let side = Self::TILE_CELLS as usize;
+        for (ti, tj, block) in marks.tiles() {
+            // Rows of one square's cells, with their marks.
+            let rows = block.chunks(marks.side as usize).map(|row| &row[..side]).take(side).enumerate();
+            let rows = rows.filter(|(_, marks)| marks.iter().any(|mark| *mark != ray::UNTOUCHED));
+            let rows = rows.flat_map(|(row, marks)| {
+                let squares = marks.chunks_exact(FINE).zip(row / FINE * TILE as usize..);
+                squares.map(move |(marks, local)| (local, row % FINE, marks))
+            });
+            // Look before writing: a tile in which nothing would change stays shared.
+            let before = self.directory.tile(ti, tj);
+            let changes = rows.clone().any(|(local, row, marks)| {
+                let changes = |(column, mark): (usize, &u8)| match *mark {
+                    ray::HIT => true,
+                    ray::PASSED => before.is_none_or(|tile| tile.log_odds[local][row][column] > i8::MIN + 1),
+                    _ => false,
+                };
+                marks.iter().enumerate().any(changes)
+            });
+            if !changes {
+                continue;
+            }
+            let tile = self.tile_mut(ti, tj).expect("the directory was grown to cover the scan");
+            for (local, row, marks) in rows {
+                for (cell, mark) in tile.log_odds[local][row].iter_mut().zip(marks) {
+                    *cell = cell.saturating_add(add[usize::from(*mark)]).max(i8::MIN + 1);
                 }
             }
         }

@@ -34,15 +34,22 @@ fn beams_reach_the_right_cells_in_every_direction() {
         let angle = core::f64::consts::TAU * f64::from(k) / 720.0;
         let mut grid = Grid::<1>::new(MODEL);
         let pose = Pose2::new(-0.17, 0.41, angle);
-        grid.assimilate(&pose, &one_beam(3.3), &());
-        let [x, y] = pose.transform([3.3, 0.0]);
+        // Through several tiles.
+        grid.assimilate(&pose, &one_beam(7.7), &());
+        let [x, y] = pose.transform([7.7, 0.0]);
         let cell = |c: f64| (c / 0.3).floor() as i32;
         assert!(grid.log_odds(cell(x), cell(y)) > 0.5, "direction {angle}");
         let rect = grid.bounds();
         let passed = (rect.j0..rect.j1).flat_map(|j| (rect.i0..rect.i1).map(move |i| (i, j)));
-        let passed = passed.filter(|&(i, j)| grid.log_odds(i, j) < 0.0).count() as u32;
+        let passed: Vec<_> = passed.filter(|&(i, j)| grid.log_odds(i, j) < 0.0).collect();
         let expected = cell(x).abs_diff(cell(pose.x)) + cell(y).abs_diff(cell(pose.y));
-        assert_eq!(passed, expected, "direction {angle}: the cells between the two, each once");
+        assert_eq!(passed.len() as u32, expected, "direction {angle}: the cells between the two, each once");
+        let across = |(i, j)| {
+            let [dx, dy] = [(i, pose.x), (j, pose.y)].map(|(k, from)| (f64::from(k) + 0.5) * 0.3 - from);
+            (dx * (y - pose.y) - dy * (x - pose.x)).abs() / 7.7
+        };
+        // Half a diagonal, and a rounding error.
+        assert!(passed.into_iter().all(|cell| across(cell) < 0.2122), "direction {angle}");
     }
 }
 
@@ -78,6 +85,26 @@ fn absurd_poses_and_ranges_change_nothing_and_exhaust_nothing() {
         let mut grid = Grid::<1>::new(MODEL);
         grid.assimilate(&pose, &one_beam(2.0), &());
         assert_eq!(grid.bounds().width(), 0);
+    }
+}
+
+/// At the ends of what a log's cells and ranges may be, with a laser that reaches as far as they make, and a reading at its end
+/// wherever it looks: what has to be marked is never more than what the map then holds of it.
+#[test]
+fn the_marks_of_a_scan_take_no_more_than_the_tiles_that_it_maps() {
+    let side = Grid::<4>::TILE_CELLS;
+    for cell_size in [0.02, 0.2] {
+        for range in [0.5, 81.9, 200.0] {
+            let scan = BeamSensor::panorama(361, 2.0 * range, 0.0).scan(&[range; 361]);
+            let (pose, model) = (Pose2::new(3.0, -2.0, 0.3), GridModel { cell_size, reach: 2, ..MODEL });
+            let mut grid = Grid::<4>::new(model);
+            grid.assimilate(&pose, &scan, &());
+            let [marked, mapped] =
+                [ray::trace(&pose, &scan, cell_size, side).bytes(), Grid::footprint([&grid]).unique as usize];
+            assert!(marked <= mapped, "cells of {cell_size} m, {range} m: {marked} bytes marked, {mapped} mapped");
+            // A byte for each cell of the rectangle around would be 400 MB at the worst.
+            assert!(marked < 200_000_000, "cells of {cell_size} m, {range} m: {marked} bytes");
+        }
     }
 }
 
