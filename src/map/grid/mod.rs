@@ -1,8 +1,8 @@
 //! An occupancy grid that a resampling clones for nothing: two levels of copy-on-write.
 //!
 //! A [`Grid`] holds one shared pointer to a directory, and the directory one to each tile of 8 × 8 squares. Cloning a grid copies
-//! one pointer. The first write afterwards copies the directory (pointers only), and each tile when it is first written to. A
-//! scan therefore pays for the tiles it changes, whatever the size of the map.
+//! one pointer. The first write afterwards copies the directory, which is a pointer for each tile of the map's rectangle, and each
+//! tile when it is first written to. Of what the map holds, a scan therefore copies only the tiles it changes.
 //!
 //! Each cell keeps its log-odds of being occupied, updated by the inverse sensor model (*Probabilistic Robotics*, table 9.1).
 //! Each square of FINE × FINE cells keeps the normal distribution of the end points that fell into it, its `Surface`: the
