@@ -1,4 +1,4 @@
-// npm run bench: the native benchmarks (criterion), then the same laps timed in WebAssembly in headless Chromium, side by side
+// npm run bench: the native benchmarks (criterion), what the tree of paths holds, then the same laps timed in WebAssembly in headless Chromium, side by side
 // with the targets they are held to.
 import { existsSync, readdirSync, readFileSync } from 'node:fs'
 import { basename, join } from 'node:path'
@@ -214,6 +214,21 @@ async function timeLog(log) {
   }
 }
 
+/** What the tree of all paths holds, by way of resampling: t + 1 + c M ln M nodes. */
+async function treeOfPaths() {
+  const { output } = await run('cargo', ['bench', '--quiet', '--package', 'speed', '--bench', 'lineage'])
+  const trees = output.split('\n').filter(line => line.startsWith('{"tree"')).map(line => JSON.parse(line))
+  if (trees.length === 0) throw new StepError('The benchmark of the tree printed nothing that can be read.')
+  const { steps, particles } = trees[0]
+  say(bold(`\n  Nodes after ${steps} steps of ${particles} particles, bytes of all that the filter holds, and c of t + 1 + c M ln M`))
+  for (const { tree, nodes, bytes, c_mean, c_most } of trees) {
+    say(`  ${nodes} nodes, ${(bytes / 1e6).toFixed(1)} MB, c = ${c_mean.toFixed(2)} in the mean, ${c_most.toFixed(2)} at the most: ${tree}`)
+  }
+  // What the law in tests/laws asks of fewer steps.
+  const met = trees.map(({ tree, c_most }) => verdict(`c, ${tree}`, c_most, 4, c => c.toFixed(2)))
+  return `${met.filter(Boolean).length} of ${met.length} targets met`
+}
+
 /** @param {number} ms */
 const milliseconds = ms => `${ms.toFixed(3)} ms`
 
@@ -235,7 +250,8 @@ if (isMain(import.meta)) {
     await step('Landmark filters to WebAssembly', () =>
       run('wasm-pack', ['build', 'tests/speed', '--target', 'web', '--release', '--no-pack', '--out-dir', landmarks]),
     )
-    await step('Benchmarks, native (criterion)', () => run('cargo', ['bench', '--package', 'speed']))
+    await step('Benchmarks, native (criterion)', () => run('cargo', ['bench', '--package', 'speed', '--bench', 'lap', '--bench', 'landmarks']))
+    await step('The tree of all paths, over 10⁵ steps', treeOfPaths)
     await step('The page in Chromium', async () => {
       const { paint, alive, shift, longest } = await timePage()
       const met = [
