@@ -45,7 +45,7 @@ const BUSH: f64 = 2.0;
 const SAMPLES: usize = 32;
 
 /// What a pose in the tree of all paths takes \[bytes\].
-const NODE_BYTES: f64 = 28.0;
+const NODE_BYTES: f64 = 56.0;
 
 /// Steps between two looks at the memory of all maps: a look takes as long as a step does.
 const LOOK: u32 = 20;
@@ -158,11 +158,11 @@ impl Opened {
             ResamplePolicy::Always => true,
             ResamplePolicy::EssBelow(fraction) => fraction > 0.0,
         };
-        let unshared = m * all;
         // Whole numbers: the bits of M.
-        let bush = BUSH * m * f64::from(usize::BITS - universes.leading_zeros()) * one;
-        let maps = if shares { unshared.min(all + bush) } else { unshared };
-        maps + NODE_BYTES * m * self.log.scans.len() as f64
+        let bush = BUSH * m * f64::from(usize::BITS - universes.leading_zeros());
+        // Of maps and of paths: what all have, and for each node of the bush what one step adds.
+        let of = |all: f64, one: f64| if shares { (m * all).min(all + bush * one) } else { m * all };
+        of(all, one) + of(NODE_BYTES * self.log.scans.len() as f64, NODE_BYTES)
     }
 }
 
