@@ -479,12 +479,12 @@ mod tests {
     fn our_own_building_is_mapped_within_centimetres() {
         let Example { log, relations, .. } = Example::new(usize::MAX);
         let log = Arc::new(log);
-        let raw = relation_errors(&log.odometry, &log.odometry, &relations);
+        let raw = relation_errors(&log.odometry, &log.odometry, &relations).unwrap();
         let setup = LogSetup { particles: 8, ..LogSetup::default() };
         let mut run = LogRun::new(&setup, Arc::clone(&log)).unwrap();
         while run.step().is_some() {}
         assert_eq!(run.path().len(), log.scans.len());
-        let errors = relation_errors(&run.path(), &log.odometry, &relations);
+        let errors = relation_errors(&run.path(), &log.odometry, &relations).unwrap();
         assert!(raw.translation_mean > 0.5, "odometry alone must fail: {raw:?}");
         assert!(errors.translation_mean < 0.06 && errors.rotation_mean_deg < 0.5, "{errors:?}");
         let (footprint, estimate) = (run.footprint(), memory_estimate(&setup, &log));
