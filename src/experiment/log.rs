@@ -271,7 +271,7 @@ impl LogRun {
         LogMap::footprint(self.particles().iter().map(|p| &p.map))
     }
 
-    /// Fingerprint of the weights and of every particle's path and map, bit for bit.
+    /// Fingerprint of the weights and of every particle's path and whole map, bit for bit.
     pub fn digest(&self) -> Digest {
         let mut digest = Digest::new();
         self.filter.weights().as_slice().iter().for_each(|w| digest.f64(*w));
@@ -280,11 +280,7 @@ impl LogRun {
                 [pose.x, pose.y, pose.theta].into_iter().for_each(|x| digest.f64(x));
             }
         }
-        let map = self.map();
-        let cells = map.bounds();
-        for (i, j) in (cells.j0..cells.j1).flat_map(|j| (cells.i0..cells.i1).map(move |i| (i, j))) {
-            digest.f64(map.log_odds(i, j));
-        }
+        LogMap::put(self.particles().iter().map(|particle| &particle.map), &mut digest);
         digest
     }
 }

@@ -81,7 +81,7 @@ struct Output {
     resampled_fraction: f64,
     /// First scan at which all particles descend from one; null if they never do.
     lineage_one_scan: Option<u32>,
-    /// Of weights, paths and map.
+    /// Of the weights and of every particle's path and map.
     digest: String,
 }
 
