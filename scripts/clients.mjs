@@ -27,7 +27,8 @@ if (isMain(import.meta)) {
       await step('Tests in JupyterLab, marimo and React', () => run(npmBin('playwright'), ['test', '--config', join(root, 'tests', 'clients')]))
     } finally {
       const stats = JSON.parse(readIfThere(report) ?? '{}').stats
-      console.log(`${stats?.expected ?? 0} passed, ${stats ? stats.unexpected + stats.flaky : 1} failed`)
+      const failed = stats ? stats.unexpected + stats.flaky : 1
+      console.log(`${stats?.expected ?? 0} passed, ${failed} failed, ${stats?.skipped ?? 0} skipped`)
     }
   })
 }

@@ -365,7 +365,7 @@ impl Lap {
     }
 
     /// Runs the lap to its end and shows every report, the present one first. Returns the end, and a fingerprint of every
-    /// weight, path, map and report on the way, bit for bit.
+    /// report, weight and pose on the way and of every universe's whole map at the end, bit for bit.
     pub fn run(mut self, mut show: impl FnMut(&StepReport)) -> (Self, Digest) {
         let mut digest = Digest::new();
         loop {
@@ -375,13 +375,7 @@ impl Lap {
                 break;
             }
         }
-        for particle in self.particles() {
-            let cells = particle.map.bounds();
-            for (i, j) in (cells.j0..cells.j1).flat_map(|j| (cells.i0..cells.i1).map(move |i| (i, j))) {
-                digest.f64(particle.map.log_odds(i, j));
-                particle.map.hit_mean(i, j).into_iter().flatten().for_each(|x| digest.f64(x));
-            }
-        }
+        Grid::put(self.particles().iter().map(|particle| &particle.map), &mut digest);
         (self, digest)
     }
 
@@ -403,7 +397,7 @@ impl Lap {
     }
 }
 
-/// Named laps whose fingerprints are kept with the tests, and must be the same on every platform.
+/// Named laps whose fingerprints are kept with the tests, and must be the same natively and in WebAssembly.
 pub fn golden_setups() -> Vec<(&'static str, LapSetup)> {
     let setup = LapSetup::default;
     vec![

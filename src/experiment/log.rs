@@ -275,7 +275,7 @@ impl LogRun {
         LogMap::footprint(self.particles().iter().map(|p| &p.map))
     }
 
-    /// Fingerprint of the weights and of every particle's path and map, bit for bit.
+    /// Fingerprint of the weights and of every particle's path and whole map, bit for bit.
     pub fn digest(&self) -> Digest {
         let mut digest = Digest::new();
         self.filter.weights().as_slice().iter().for_each(|w| digest.f64(*w));
@@ -284,11 +284,7 @@ impl LogRun {
                 [pose.x, pose.y, pose.theta].into_iter().for_each(|x| digest.f64(x));
             }
         }
-        let map = self.map();
-        let cells = map.bounds();
-        for (i, j) in (cells.j0..cells.j1).flat_map(|j| (cells.i0..cells.i1).map(move |i| (i, j))) {
-            digest.f64(map.log_odds(i, j));
-        }
+        LogMap::put(self.particles().iter().map(|particle| &particle.map), &mut digest);
         digest
     }
 }
@@ -483,12 +479,12 @@ mod tests {
     fn our_own_building_is_mapped_within_centimetres() {
         let Example { log, relations, .. } = Example::new(usize::MAX);
         let log = Arc::new(log);
-        let raw = relation_errors(&log.odometry, &log.odometry, &relations);
+        let raw = relation_errors(&log.odometry, &log.odometry, &relations).unwrap();
         let setup = LogSetup { particles: 8, ..LogSetup::default() };
         let mut run = LogRun::new(&setup, Arc::clone(&log)).unwrap();
         while run.step().is_some() {}
         assert_eq!(run.path().len(), log.scans.len());
-        let errors = relation_errors(&run.path(), &log.odometry, &relations);
+        let errors = relation_errors(&run.path(), &log.odometry, &relations).unwrap();
         assert!(raw.translation_mean > 0.5, "odometry alone must fail: {raw:?}");
         assert!(errors.translation_mean < 0.06 && errors.rotation_mean_deg < 0.5, "{errors:?}");
         let (footprint, estimate) = (run.footprint(), memory_estimate(&setup, &log));

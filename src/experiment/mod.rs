@@ -19,8 +19,8 @@ pub use spread::{Spread, median_interval, quantile};
 use crate::digest::Digest;
 use crate::execute::Executor;
 
-/// Fingerprints of whole runs by name, which are kept with the tests and must be the same on every platform, with any number of
-/// threads.
+/// Fingerprints of whole runs by name, which are kept with the tests and must be the same natively and in WebAssembly, with any
+/// number of threads.
 pub fn golden_traces(executor: &Executor) -> Vec<(&'static str, Digest)> {
     const VALID: &str = "a golden setup is valid";
     let laps = lap::golden_setups()

@@ -451,7 +451,7 @@ impl FromStr for PolicyCourse {
     }
 }
 
-/// Named comparisons whose fingerprints are kept with the tests, and must be the same on every platform.
+/// Named comparisons whose fingerprints are kept with the tests, and must be the same natively and in WebAssembly.
 pub fn golden_setups() -> Vec<(&'static str, PoliciesSetup)> {
     let wings = || PoliciesSetup::of(PolicyCourse::Wings);
     vec![

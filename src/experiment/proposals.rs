@@ -234,7 +234,7 @@ impl Cloud {
     }
 }
 
-/// Named experiments whose fingerprints are kept with the tests, and must be the same on every platform.
+/// Named experiments whose fingerprints are kept with the tests, and must be the same natively and in WebAssembly.
 pub fn golden_setups() -> Vec<(&'static str, ProposalsSetup)> {
     let setup = ProposalsSetup::default;
     vec![

@@ -9,7 +9,7 @@ mod relations;
 
 pub use carmen::{parse, write};
 pub use extent::swept_area;
-pub use relations::{Relation, RelationErrors, parse_relations, relation_errors};
+pub use relations::{NEAR, Relation, RelationErrors, parse_relations, relation_errors};
 
 use crate::geometry::Pose2;
 use crate::ops;
@@ -108,10 +108,11 @@ impl fmt::Display for LogError {
 
 impl core::error::Error for LogError {}
 
-/// Raw odometry at a time \[s\], interpolated between its neighbours and held beyond its ends; `None` without any.
+/// Raw odometry at a time \[s\], interpolated between its neighbours and held beyond its ends; `None` without any. Poses
+/// with one stamp are in the order of the file, and at that stamp the first of them counts.
 pub fn odometry_at(odometry: &[(f64, Pose2)], time: f64) -> Option<Pose2> {
     let after = odometry.partition_point(|(t, _)| *t < time).min(odometry.len().checked_sub(1)?);
     let ((t0, a), (t1, b)) = (odometry[after.max(1) - 1], odometry[after]);
-    let share = if t1 > t0 { ((time - t0) / (t1 - t0)).clamp(0.0, 1.0) } else { 1.0 };
+    let share = if t1 > t0 { ((time - t0) / (t1 - t0)).clamp(0.0, 1.0) } else { 0.0 };
     Some(a.plus(&(b.minus(&a) * share)))
 }

@@ -19,6 +19,7 @@ use tile::{Surface, TILE};
 pub(crate) use view::View;
 
 use super::{ConditionalMap, Footprint};
+use crate::digest::Digest;
 use crate::geometry::Pose2;
 use crate::sensor::Scan;
 use std::sync::Arc;
@@ -182,6 +183,21 @@ impl<const FINE: usize> Grid<FINE> {
         let tiles = distinct(directories.iter().flat_map(|d| d.tiles.iter().flatten()).collect());
         let unique = pointers + tiles.iter().map(|tile| tile.bytes()).sum::<usize>();
         Footprint { unique: unique as u64, dense: dense as u64 }
+    }
+
+    /// Puts all that these grids hold into a fingerprint: the log-odds of every cell, and every surface. A tile that several of
+    /// them share is read once, so that a family of maps costs what its [`Self::footprint`] is and not so many copies.
+    pub fn put<'a>(grids: impl IntoIterator<Item = &'a Self>, digest: &mut Digest) {
+        let mut known = std::collections::BTreeMap::new();
+        for Directory { rect, tiles } in grids.into_iter().map(|grid| &*grid.directory) {
+            [rect.i0, rect.j0, rect.i1, rect.j1].into_iter().for_each(|k| digest.bytes(&k.to_le_bytes()));
+            for tile in tiles {
+                let value = |tile: &Arc<Tile<FINE>>| {
+                    *known.entry(Arc::as_ptr(tile).addr()).or_insert_with(|| tile.digest().value())
+                };
+                digest.bytes(&tile.as_ref().map_or(0, value).to_le_bytes());
+            }
+        }
     }
 
     // ANCHOR: listing-tile

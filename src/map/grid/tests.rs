@@ -80,7 +80,7 @@ fn a_clone_costs_no_memory_until_it_is_written_to() {
 }
 
 #[test]
-fn absurd_poses_and_ranges_change_nothing_and_exhaust_nothing() {
+fn absurd_poses_change_nothing_and_exhaust_nothing() {
     for pose in [Pose2::new(1e300, 0.0, 0.0), Pose2 { x: f64::NAN, y: 0.0, theta: 0.0 }, Pose2::new(0.0, -1e12, 1.0)] {
         let mut grid = Grid::<1>::new(MODEL);
         grid.assimilate(&pose, &one_beam(2.0), &());
@@ -106,6 +106,61 @@ fn the_marks_of_a_scan_take_no_more_than_the_tiles_that_it_maps() {
             assert!(marked < 200_000_000, "cells of {cell_size} m, {range} m: {marked} bytes");
         }
     }
+}
+
+/// End points as a careless caller might make them, beside a sound one: that one alone is mapped.
+#[test]
+fn absurd_ranges_change_nothing_and_exhaust_nothing() {
+    let pose = Pose2::new(0.15, 0.15, 0.3);
+    let mut sound = Grid::<1>::new(MODEL);
+    sound.assimilate(&pose, &one_beam(1.5), &());
+    for range in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -1e300, 1e12, 12_000.0] {
+        for end in [[range, 0.0], [0.3, range], [range, range]] {
+            let ends = vec![end, [1.5, 0.0]];
+            for scan in [Scan { hits: ends, misses: Vec::new() }, Scan { hits: vec![[1.5, 0.0]], misses: vec![end] }] {
+                let mut grid = Grid::<1>::new(MODEL);
+                grid.assimilate(&pose, &scan, &());
+                assert_eq!(grid.bounds(), sound.bounds(), "{scan:?}");
+                assert_eq!(fingerprint([&grid]), fingerprint([&sound]), "{scan:?}");
+            }
+        }
+    }
+}
+
+fn fingerprint<'a, const FINE: usize>(grids: impl IntoIterator<Item = &'a Grid<FINE>>) -> (u64, u64) {
+    let mut digest = Digest::new();
+    Grid::put(grids, &mut digest);
+    (digest.size(), digest.value())
+}
+
+/// What a golden file rests on. Two hits of one cell that differ by a millimetre leave all log-odds alike; a hit on a settled wall
+/// changes a cell only; a square near a surface differs from one that is not.
+#[test]
+fn the_fingerprint_of_maps_sees_every_cell_and_every_surface_of_every_one() {
+    let model = GridModel { reach: 2, ..MODEL };
+    let grid_of = |model, ranges: &[f64]| {
+        let mut grid = Grid::<2>::new(model);
+        ranges.iter().for_each(|range| grid.assimilate(&Pose2::new(0.15, 0.15, 0.0), &one_beam(*range), &()));
+        grid
+    };
+    let base = grid_of(model, &[1.5]);
+    let moved = grid_of(model, &[1.501]);
+    let wider = grid_of(GridModel { surface_std: 0.11, ..model }, &[1.5]);
+    let unmarked = grid_of(GridModel { reach: 1, ..model }, &[1.5]);
+    let louder = grid_of(GridModel { log_odds_hit: 0.95, ..model }, &[1.5]);
+    let cells = base.bounds();
+    for other in [&moved, &wider, &unmarked] {
+        assert_eq!(other.bounds(), cells);
+        for (i, j) in (cells.j0..cells.j1).flat_map(|j| (cells.i0..cells.i1).map(move |i| (i, j))) {
+            assert_eq!(other.log_odds(i, j), base.log_odds(i, j), "the difference is not in the cells");
+        }
+    }
+    for other in [moved, wider, unmarked, louder] {
+        assert_ne!(fingerprint([&other]), fingerprint([&base]));
+        assert_ne!(fingerprint([&base, &other]), fingerprint([&base, &base]), "only the second map differs");
+    }
+    // Shared or not, the same content is the same.
+    assert_eq!(fingerprint([&base, &base.clone()]), fingerprint([&base, &grid_of(model, &[1.5])]));
 }
 
 #[test]

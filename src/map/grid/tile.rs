@@ -1,5 +1,7 @@
 //! A tile of 8 × 8 surfaces, each with its square of cells: the unit that is shared and copied.
 
+use crate::digest::Digest;
+
 /// Surfaces along a side of a tile.
 pub(super) const TILE: i32 = 1 << SHIFT;
 
@@ -149,6 +151,18 @@ impl<const FINE: usize> Tile<FINE> {
             surface.add(offset, surface_std, stretch);
         }
         first
+    }
+
+    /// Fingerprint of all that it holds: every cell, which squares have a surface or are near one, and every surface.
+    pub fn digest(&self) -> Digest {
+        let mut digest = Digest::new();
+        self.log_odds.as_flattened().iter().for_each(|row| digest.bytes(&row.map(|units| units as u8)));
+        digest.bytes(&self.places);
+        for Surface { hits, mean, scatter, information } in &self.surfaces {
+            digest.u32(*hits);
+            mean.iter().chain(scatter).chain(information).for_each(|x| digest.u32(x.to_bits()));
+        }
+        digest
     }
 
     /// What it holds.

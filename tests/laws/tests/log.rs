@@ -2,7 +2,7 @@
 
 use fastslam::experiment::log::{Example, LogRun, LogSetup, NOTHING_MET};
 use fastslam::geometry::Pose2;
-use fastslam::log::{LogError, Relation, RelationErrors, parse, parse_relations, relation_errors, write};
+use fastslam::log::{LogError, NEAR, Relation, parse, parse_relations, relation_errors, write};
 use fastslam::ops;
 use fastslam::random::{Purpose, Stream};
 use std::f64::consts::PI;
@@ -185,10 +185,17 @@ fn the_truth_has_no_errors_and_a_shift_of_the_frame_makes_none() {
     let Example { log, truth, relations } = Example::new(80);
     let frame = Pose2::new(3.0, -2.0, 1.0);
     let path: Vec<_> = log.scans.iter().zip(&truth).map(|(scan, pose)| (scan.time, frame.compose(pose))).collect();
-    let errors = relation_errors(&path, &log.odometry, &relations);
+    let errors = relation_errors(&path, &log.odometry, &relations).unwrap();
     assert_eq!(errors.relations as usize, relations.len());
     assert!(errors.translation_mean < 1e-9 && errors.rotation_mean_deg < 1e-9, "{errors:?}");
-    assert_eq!(relation_errors(&[], &log.odometry, &relations), RelationErrors::default());
+
+    // Nothing to judge is not an error of zero.
+    assert_eq!(relation_errors(&[], &log.odometry, &relations), None);
+    let another = relations.iter().map(|Relation { times, first_from_second }| Relation {
+        times: times.map(|time| time + 1e6),
+        first_from_second: *first_from_second,
+    });
+    assert_eq!(relation_errors(&path, &log.odometry, &another.collect::<Vec<_>>()), None);
 }
 
 #[test]
@@ -204,10 +211,50 @@ fn errors_are_those_computed_by_hand() {
         relation(10.0, 0.0, -3.0, 0.0, 0.0),       // back, exact
         relation(10.0, 99.0, 7.0, 7.0, 1.0),       // when the log was over
     ];
-    let errors = relation_errors(&path, &odometry, &relations);
+    let errors = relation_errors(&path, &odometry, &relations).unwrap();
     assert!((errors.translation_mean - 0.4 / 3.0).abs() < 1e-12, "{errors:?}");
     assert!((errors.rotation_mean_deg - 10.0 / 3.0).abs() < 1e-9, "{errors:?}");
     assert!((errors.translation_std - 0.4 * (2.0_f64 / 9.0).sqrt()).abs() < 1e-12, "{errors:?}");
+}
+
+/// The rule of the published figures, branch by branch: which estimate a stamp takes, and whether odometry moves it.
+#[test]
+fn a_stamp_takes_the_estimate_within_a_tenth_of_a_second_as_it_stands_and_else_moves_the_nearest() {
+    let at = |x: f64| Pose2::new(x, 0.0, 0.0);
+    // Estimated at 0, 10 and, twice, 20 s; by odometry half a metre a second, and at 30 s the wheels jump.
+    let path = [(0.0, at(0.0)), (10.0, at(100.0)), (20.0, at(200.0)), (20.0, at(300.0))];
+    let odometry = [(0.0, at(0.0)), (30.0, at(15.0)), (30.0, at(55.0)), (40.0, at(60.0))];
+    let cases = [
+        (10.0, 100.0),
+        (10.0 + 0.99 * NEAR, 100.0),
+        (10.0 - 0.99 * NEAR, 100.0),
+        (NEAR, 0.0), // the bound itself is near
+        (10.0 + 1.01 * NEAR, 100.0 + 0.5 * 1.01 * NEAR),
+        (10.0 - 1.01 * NEAR, 100.0 - 0.5 * 1.01 * NEAR),
+        (4.0, 2.0),           // moved on from 0 s
+        (6.0, 98.0),          // moved back from 10 s
+        (5.0, 2.5),           // of two as near the earlier
+        (20.05, 200.0),       // of two with one stamp the first
+        (24.0, 202.0),        // and so where it is moved
+        (30.0, 205.0),        // of odometry with one stamp the first of the file
+        (32.0, 200.0 + 46.0), // and after it the last
+    ];
+    let off = |(time, expected)| {
+        let relation = Relation { times: [0.0, time], first_from_second: at(expected) };
+        relation_errors(&path, &odometry, &[relation]).unwrap().translation_mean
+    };
+    let wrong: Vec<_> = cases.into_iter().filter(|case| off(*case) > 1e-9).collect();
+    assert!(wrong.is_empty(), "times [s] at which it was somewhere else [m]: {wrong:?}");
+}
+
+#[test]
+fn odometry_of_one_stamp_keeps_the_order_of_the_file() {
+    let odom = |x: f64, time: f64| format!("ODOM {x} 0 0 0 0 0 {time} h 0\n");
+    let scan = "FLASER 1 1 0 0 0 3 0 0 2.0 h 0\n";
+    let text = [&odom(1.0, 2.0), &odom(9.0, 5.0), &odom(2.0, 2.0), scan, &odom(0.5, 1.0)].concat();
+    let log = parse(text.as_bytes(), false).unwrap();
+    let odometry: Vec<(f64, f64)> = log.odometry.iter().map(|(time, pose)| (*time, pose.x)).collect();
+    assert_eq!(odometry, [(1.0, 0.5), (2.0, 1.0), (2.0, 2.0), (2.0, 3.0), (5.0, 9.0)]);
 }
 
 #[test]

@@ -1,17 +1,25 @@
 //! Laws of the copy-on-write grid: sharing is never seen.
 
+use fastslam::digest::Digest;
 use fastslam::experiment::lap::GRID;
 use fastslam::geometry::Pose2;
 use fastslam::map::{ConditionalMap, grid::Grid};
 use fastslam::sensor::{BeamSensor, Scan};
 use proptest::prelude::*;
 
-/// Everything a grid says of itself, bit for bit.
-fn content(grid: &Grid) -> Vec<(i32, i32, u64, Option<[u64; 2]>)> {
+/// What a grid says of a cell: where, log-odds, and the mean of the end points in it.
+type Cell = (i32, i32, u64, Option<[u64; 2]>);
+
+/// What a grid says of its cells, and the fingerprint of all that it holds.
+fn content(grid: &Grid) -> (Vec<Cell>, Digest) {
     let cells = grid.bounds();
     let all = (cells.j0..cells.j1).flat_map(|j| (cells.i0..cells.i1).map(move |i| (i, j)));
-    all.map(|(i, j)| (i, j, grid.log_odds(i, j).to_bits(), grid.hit_mean(i, j).map(|mean| mean.map(f64::to_bits))))
-        .collect()
+    let said = all
+        .map(|(i, j)| (i, j, grid.log_odds(i, j).to_bits(), grid.hit_mean(i, j).map(|mean| mean.map(f64::to_bits))))
+        .collect();
+    let mut digest = Digest::new();
+    Grid::put([grid], &mut digest);
+    (said, digest)
 }
 
 fn sighting() -> impl Strategy<Value = (Pose2, Scan)> {
@@ -49,14 +57,30 @@ proptest! {
         }
     }
 
+    /// Before anybody writes, maps of one trunk hold what one does. Where each then writes 200 m away, no tile of the trunk is
+    /// touched: together they hold what copies would, less the trunk's tiles for all but one.
     #[test]
-    fn shared_maps_never_hold_more_than_copies_would(trunk in prop::collection::vec(sighting(), 1..4), count in 1_usize..20) {
+    fn shared_maps_hold_what_they_share_once(
+        trunk in prop::collection::vec(sighting(), 1..4),
+        branches in prop::collection::vec(sighting(), 1..10),
+    ) {
         let mut grid = <Grid>::new(GRID);
         trunk.iter().for_each(|(pose, scan)| grid.assimilate(pose, scan, &()));
         let alone = Grid::footprint([&grid]);
-        let family = vec![grid; count];
-        let together = Grid::footprint(&family);
-        prop_assert_eq!(together.unique, alone.unique);
-        prop_assert_eq!(together.dense, count as u64 * alone.dense);
+        let cells = grid.bounds();
+        // The directory holds a pointer of 8 bytes for each tile of its rectangle.
+        let pointers = 8 * cells.width() * cells.height() / (<Grid>::TILE_CELLS * <Grid>::TILE_CELLS) as usize;
+        let trunk_tiles = alone.unique - pointers as u64;
+        let mut family = vec![grid; branches.len()];
+        let (together, copies) = (Grid::footprint(&family), family.len() as u64);
+        prop_assert_eq!((together.unique, together.dense), (alone.unique, copies * alone.dense));
+
+        for (grid, (pose, scan)) in family.iter_mut().zip(&branches) {
+            grid.assimilate(&Pose2::new(pose.x + 200.0, pose.y, pose.theta), scan, &());
+        }
+        let (together, each) = (Grid::footprint(&family), family.iter().map(|grid| Grid::footprint([grid])));
+        let unique: u64 = each.clone().map(|footprint| footprint.unique).sum();
+        prop_assert_eq!(together.unique, unique - (copies - 1) * trunk_tiles);
+        prop_assert_eq!(together.dense, each.map(|footprint| footprint.dense).sum::<u64>());
     }
 }

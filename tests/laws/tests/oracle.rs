@@ -3,7 +3,7 @@
 //!
 //! Not among the tests that `cargo test` runs by itself: the first run installs the package, into a virtual environment of its
 //! own under `.cache`. `npm test` runs it as a step; by hand, `cargo test -p laws --test oracle -- --ignored --nocapture`. Without
-//! Python or PyPI it says so and passes.
+//! Python or PyPI it says so, and `npm test` counts it as skipped.
 
 use fastslam::random::{Purpose, Stream};
 use fastslam::resampling::Scheme;

@@ -584,7 +584,7 @@ impl Model for LogModel {
                 value: None,
                 text: digest,
                 unit: "",
-                help: "Of all paths and weights at the end, bit for bit: the command line gives the same for the same log and settings.",
+                help: "Of all weights, paths and maps at the end, bit for bit: the command line gives the same for the same log and settings.",
             },
         ]
     }

@@ -230,14 +230,20 @@ fn the_example_that_the_page_ships_is_the_one_that_is_written() {
     std::fs::remove_dir_all(folder).unwrap();
 }
 
-/// The log of shared/data, which may not be shipped: the test says so where it is absent.
+/// Where a log of shared/data is, which may not be shipped. Where one of its files is absent `npm test` counts the test as skipped, by
+/// the line that this prints.
+fn recorded(name: &str, files: [&str; 2]) -> Option<String> {
+    let prefix = format!("{}/../../../../shared/data/{name}", env!("CARGO_MANIFEST_DIR"));
+    match files.iter().find(|file| !std::path::Path::new(&format!("{prefix}{file}")).exists()) {
+        Some(file) => println!("skipped: {name}{file} is not in ../shared/data"),
+        None => return Some(prefix),
+    }
+    None
+}
+
 #[test]
 fn the_recorded_log_is_far_better_than_its_odometry() {
-    let prefix = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../../shared/data/mrclam6");
-    if !std::path::Path::new(&format!("{prefix}-landmarks.dat")).exists() {
-        eprintln!("skipped: {prefix}-*.dat is not here");
-        return;
-    }
+    let Some(prefix) = recorded("mrclam6", ["-landmarks.dat", "-robot1-odometry.dat"]) else { return };
     for arguments in ["--proposal 1.0 --association known", "--proposal 2.0 --association unknown"] {
         let run = json(&format!("landmarks --particles 30 --seed 1 --json {arguments} --mrclam {prefix}"));
         let [best, odometry] = ["rms_best", "rms_odometry"].map(|key| run[key].as_f64().unwrap());
@@ -347,12 +353,19 @@ fn a_log_that_cannot_be_read_is_refused_by_line_and_one_with_flaws_is_read_if_as
 
     let relations = folder.join("bad.relations").display().to_string();
     std::fs::write(&relations, "1 2 3\n").unwrap();
+    let another = folder.join("another.relations").display().to_string();
+    std::fs::write(&another, "1 2 0 0 0 0 0 0\n3 4 0 0 0 0 0 0\n").unwrap();
     for (arguments, status, said) in [
         ("--cell 7".to_owned(), 2, "cell = 7: must be a number from 0.02 to 0.2"),
         ("--max-range NaN".to_owned(), 2, "max-range = NaN"),
         ("--min-travel -1".to_owned(), 2, "min-travel = -1"),
         ("--particles 0".to_owned(), 2, "from 1 to 4096"),
         (format!("--relations {relations}"), 2, "line 1: expected 8 numbers"),
+        (
+            format!("--relations {another}"),
+            2,
+            "another.relations: none of its 2 relations is within the time of the log",
+        ),
         ("--trajectory no/such/folder/path".to_owned(), 1, "no/such/folder/path"),
         ("--map no/such/folder/map".to_owned(), 1, "no/such/folder/map.png"),
     ] {
@@ -362,16 +375,15 @@ fn a_log_that_cannot_be_read_is_refused_by_line_and_one_with_flaws_is_read_if_as
     std::fs::remove_dir_all(folder).unwrap();
 }
 
-/// The log of shared/data, which may not be shipped: the test says so where it is absent.
+/// The Intel Research Lab, by the rule of the published figures. With these settings seeds 1 to 3 gave 0.068, 0.070 and 0.066 m, and
+/// 2.4° each; gmapping, run on the same log, 0.068 to 0.070 m. The bounds leave as much above the worst as lies between seeds.
 #[test]
-fn the_recorded_building_is_mapped_better_than_any_published_particle_filter_did() {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../../shared/data/intel");
-    if !std::path::Path::new(&format!("{file}.clf")).exists() {
-        eprintln!("skipped: {file}.clf is not here");
-        return;
+fn three_runs_of_the_intel_log_err_by_75_millimetres_and_2_5_degrees_at_most() {
+    let Some(file) = recorded("intel", [".clf", ".relations"]) else { return };
+    for seed in 1..=3 {
+        let run = json(&format!("log {file}.clf --particles 8 --seed {seed} --relations {file}.relations --json"));
+        assert_eq!((&run["scans"], &run["relations"]), (&Value::from(910), &Value::from(2984)));
+        let [translation, rotation] = ["translation_mean", "rotation_mean_deg"].map(|key| run[key].as_f64().unwrap());
+        assert!(translation <= 0.075 && rotation <= 2.5, "seed {seed}: {translation} m, {rotation}°");
     }
-    let run = json(&format!("log {file}.clf --particles 8 --seed 1 --relations {file}.relations --json"));
-    assert_eq!(run["scans"], 910);
-    let [translation, rotation] = ["translation_mean", "rotation_mean_deg"].map(|key| run[key].as_f64().unwrap());
-    assert!(translation <= 0.07 && rotation <= 2.4, "{translation} m, {rotation}°");
 }
