@@ -145,9 +145,6 @@ impl<D: Motion, Z: LandmarkSensor> EkfSlam<D, Z> {
     fn update(&mut self, index: u32, innovation: &Innovation) {
         let Some(row) = self.row(index) else { return };
         let Innovation { prediction: Prediction { h_x, h_m, .. }, residual, inverse, .. } = innovation;
-        if inverse.iter().any(|entry| !entry.is_finite()) {
-            return; // a sighting without any noise, of what is known without any: it can say nothing
-        }
         let times_h = |p: &DMatrix<f64>| -> Tall {
             p.fixed_columns::<3>(0) * h_x.transpose() + p.fixed_columns::<2>(3 + 2 * row) * h_m.transpose()
         };

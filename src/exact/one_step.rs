@@ -11,7 +11,7 @@
 //! or backwards after the opposite turn.
 
 use crate::geometry::Pose2;
-use crate::map::landmarks::Landmark;
+use crate::map::landmarks::{Innovation, Landmark};
 use crate::motion::{Odometry, OdometryModel};
 use crate::ops;
 use crate::sensor::RangeBearing;
@@ -133,6 +133,19 @@ impl OneStep {
     }
 }
 
+/// N_eff / M of samples of a Gaussian motion that one sighting weighs, where all is linear and the sighting is the one expected:
+/// 1 / ρ = √(|Q_j| |Q_j + 2 H_x R_t H_xᵀ|) / |L| with L = Q_j + H_x R_t H_xᵀ, for the innovation at the motion's mean and R_t
+/// (3 × 3, \[m, m, rad\]).
+///
+/// It is E\[w\]² / E\[w²\] of the weight w = N(z; h(x), Q_j): a normal density squared is one of half the variance, so that
+/// E\[w\] = N(0; 0, L) and E\[w²\] = |4π Q_j|^(−1/2) N(0; 0, Q_j / 2 + H_x R_t H_xᵀ).
+pub fn predicted_ess(innovation: &Innovation, motion: &Matrix3<f64>) -> f64 {
+    let Innovation { given_pose, prediction, .. } = innovation;
+    let of_motion = prediction.h_x * motion * prediction.h_x.transpose();
+    let [once, twice] = [1.0, 2.0].map(|times| (given_pose + of_motion * times).determinant());
+    (given_pose.determinant() * twice).sqrt() / once
+}
+
 /// A rectangle of the world.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Area {
@@ -243,7 +256,6 @@ fn level(densities: &[f64], side: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::map::landmarks::Innovation;
     use nalgebra::Matrix2;
 
     fn step(scale: f64, candidates: &[[f64; 2]]) -> OneStep {
@@ -309,6 +321,25 @@ mod tests {
             }
             for (share, p) in shares.iter().zip(&posterior.candidates) {
                 assert!((share / sum - p).abs() < near, "{} {p}", share / sum);
+            }
+        }
+    }
+
+    /// One number that is moved and seen as it is: √(1 + 2 s) / (1 + s) for a motion of s times the sighting's variance.
+    #[test]
+    fn of_one_number_the_predicted_ess_is_the_textbook_s() {
+        let sensor = RangeBearing { range_std: 0.2, bearing_std: 0.1, max_range: 10.0, field_of_view: TAU };
+        let exactly_known = Landmark { mean: Vector2::new(2.0, 0.0), covariance: Matrix2::zeros(), evidence: 1 };
+        for s in [0.0, 0.5, 3.0, 100.0_f64] {
+            // Of a landmark straight ahead, x moves the range only, and θ the bearing.
+            let innovation = exactly_known.innovation(&sensor, &Pose2::default(), &Vector2::new(2.0, 0.0));
+            let motion = |x, theta| Matrix3::from_diagonal(&Vector3::new(x, 0.0, theta));
+            let expected = (1.0 + 2.0 * s).sqrt() / (1.0 + s);
+            for (motion, factors) in
+                [(motion(0.04 * s, 0.0), 1), (motion(0.0, 0.01 * s), 1), (motion(0.04 * s, 0.01 * s), 2)]
+            {
+                let expected = if factors == 2 { expected * expected } else { expected };
+                assert!((predicted_ess(&innovation, &motion) / expected - 1.0).abs() < 1e-12, "{s}");
             }
         }
     }

@@ -260,6 +260,8 @@ pub struct LandmarkRun {
     log: Arc<LandmarkLog>,
     filter: Filter,
     step: u32,
+    /// Sum over the steps so far of the squared error of the weighted mean \[m²\].
+    squared_errors: f64,
 }
 
 impl LandmarkRun {
@@ -279,7 +281,7 @@ impl LandmarkRun {
         let map = Landmarks::new(tuning.sensor, setup.association.correspondence(tuning));
         let start = log.truth.first().copied().unwrap_or_default();
         let filter = Rbpf::new(proposal, setup.policy, setup.scheme, setup.seed, setup.particles, start, map);
-        Ok(Self { log, filter, step: 0 })
+        Ok(Self { log, filter, step: 0, squared_errors: 0.0 })
     }
 
     /// The same run, computed by another executor: the results are the same.
@@ -309,13 +311,15 @@ impl LandmarkRun {
             .iter()
             .zip(self.filter.weights().as_slice())
             .fold((0.0, 0.0), |(x, y), (p, w)| (x + w * p.world_from_robot.x, y + w * p.world_from_robot.y));
+        let error_mean = ops::hypot(x - truth.x, y - truth.y);
+        self.squared_errors += error_mean * error_mean;
         Some(LandmarkReport {
             step: self.step,
             seen: features.len() as u32,
             ess: report.ess,
             ancestors: report.ancestors,
             error_best: best.world_from_robot.distance(truth),
-            error_mean: ops::hypot(x - truth.x, y - truth.y),
+            error_mean,
             error_odometry: odometry.distance(truth),
             landmarks: best.map.iter().count() as u32,
             lineage: self.filter.lineage() as u32,
@@ -353,7 +357,14 @@ impl LandmarkRun {
         self.particles()[slot].path.poses()
     }
 
-    /// Root mean square error of position of the best particle's path so far \[m\].
+    /// Root mean square over the steps so far of the error of the weighted mean's position, each when it was made \[m\]: as the filter
+    /// went, without hindsight. 0 before the first step.
+    pub fn rms_online(&self) -> f64 {
+        (self.squared_errors / f64::from(self.step.max(1))).sqrt()
+    }
+
+    /// Root mean square error of position of the best particle's path so far \[m\]: with hindsight, as that path is what is left of all
+    /// that was tried.
     pub fn rms_best(&self) -> f64 {
         rms(&self.path(self.best()), &self.log.truth)
     }
@@ -372,17 +383,17 @@ impl LandmarkRun {
         rms(&self.log.odometry[..=self.step as usize], &self.log.truth)
     }
 
-    /// Position errors \[m\], at each step when it was made, of an EKF-SLAM that is told the same of the same drive: RMS over the
-    /// steps. Its one Gaussian must commit to one association.
+    /// What [`Self::rms_online`] is at the end for an EKF-SLAM that is told the same of the same drive \[m\]. Its one Gaussian must commit
+    /// to one association.
     pub fn rms_ekf(&self, setup: &LandmarkSetup, tuning: &Tuning) -> f64 {
         let start = self.log.truth.first().copied().unwrap_or_default();
         let mut ekf = EkfSlam::new(tuning.motion, tuning.sensor, setup.association.correspondence(tuning), start);
-        let mut path = vec![start];
+        let mut path = Vec::with_capacity(self.log.controls.len());
         for (control, features) in self.log.controls.iter().zip(&self.log.sightings) {
             ekf.step(control, features);
             path.push(*ekf.pose());
         }
-        rms(&path, &self.log.truth)
+        rms(&path, self.log.truth.get(1..).unwrap_or_default())
     }
 
     /// Runs to the end. Returns a fingerprint of every pose and weight on the way, and of all maps at the end, bit for bit.
@@ -467,4 +478,41 @@ pub fn golden_runs() -> Vec<(&'static str, Course, LandmarkSetup)> {
         ("tags-2.0", Course::Tags, setup()),
         ("tags-1.0-unknown", Course::Tags, unknown(motion())),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The mean over the same steps: what is judged as it went is judged alike, whoever went.
+    #[test]
+    fn the_error_as_it_went_is_the_root_mean_square_of_the_reported_ones() {
+        let (course, setup) = (Course::Tags, LandmarkSetup { particles: 5, ..LandmarkSetup::default() });
+        let mut run = LandmarkRun::new(&setup, &course.tuning(), course.simulate(1).into()).unwrap();
+        assert_eq!(run.rms_online(), 0.0);
+        let mut squares = Vec::new();
+        while let Some(report) = run.step() {
+            squares.push(report.error_mean * report.error_mean);
+        }
+        let expected = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+        assert_eq!((squares.len(), run.rms_online()), (run.log().controls.len(), expected));
+    }
+
+    /// One particle without any noise of the wheels, and a sensor too blunt to say anything: both go by the wheels alone.
+    #[test]
+    fn a_particle_and_the_joint_filter_are_judged_alike() {
+        let course = Course::Eight;
+        let tuning = course.tuning().scaled(0.0, 1e9);
+        let setup = LandmarkSetup { particles: 1, ..LandmarkSetup::default() };
+        let mut run = LandmarkRun::new(&setup, &tuning, course.simulate(2).into()).unwrap();
+        while run.step().is_some() {}
+        let [particle, joint] = [run.rms_online(), run.rms_ekf(&setup, &tuning)];
+        // Of step 0, where nobody errs, both say nothing: the path's error has it in.
+        let steps = run.log().controls.len() as f64;
+        let wheels = run.rms_odometry() * ((steps + 1.0) / steps).sqrt();
+        assert!(
+            (particle - wheels).abs() < 1e-6 * wheels && (joint - wheels).abs() < 1e-6 * wheels,
+            "{particle} {joint} {wheels}"
+        );
+    }
 }

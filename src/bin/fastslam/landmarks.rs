@@ -1,10 +1,10 @@
 //! `fastslam landmarks`: FastSLAM 1.0 and 2.0 on simulated courses and recorded logs.
 
 use crate::{Failure, mrclam, picture, print, print_json, progress};
+use fastslam::experiment::Spread;
 use fastslam::experiment::landmarks::{
     Association, Course, LandmarkLog, LandmarkReport, LandmarkRun, LandmarkSetup, Tuning,
 };
-use fastslam::experiment::quantile;
 use fastslam::proposal::ProposalKind;
 use fastslam::resampling::ResamplePolicy;
 use indicatif::ParallelProgressIterator;
@@ -38,7 +38,7 @@ pub struct Arguments {
     /// PREFIX-barcodes.dat, PREFIX-landmarks.dat
     #[arg(long, value_name = "PREFIX", conflicts_with = "course")]
     mrclam: Option<PathBuf>,
-    /// Run seeds 1 to N, and report their median, 90th percentile and worst
+    /// Run seeds 1 to N, and report median, 90th percentile and worst
     #[arg(long, value_name = "N", conflicts_with_all = ["seed", "png"], value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     seeds: Option<u64>,
     /// Print one JSON object
@@ -67,7 +67,9 @@ impl std::str::FromStr for Version {
 /// What `--json` prints of one run.
 #[derive(Serialize)]
 struct Output {
-    /// \[m\]
+    /// Where the noises that the filters are told come from.
+    noises: &'static str,
+    /// Of the best particle's path at the end \[m\].
     rms_best: f64,
     /// \[m\]
     rms_best_aligned: f64,
@@ -86,22 +88,22 @@ struct Output {
     steps: Vec<LandmarkReport>,
 }
 
-/// What `--json` prints of many.
+/// What `--json` prints of many: errors of position \[m\].
 #[derive(Serialize)]
 struct Summary {
     seeds: usize,
-    /// \[m\]
-    rms_median: f64,
-    /// \[m\]
-    rms_p90: f64,
-    /// \[m\]
-    rms_worst: f64,
-    /// Median after the best rigid alignment \[m\].
-    rms_aligned_median: f64,
-    /// Median \[m\].
-    odometry_rms_median: f64,
-    /// Median of EKF-SLAM on the same drives, its errors as it went \[m\].
-    ekf_rms_median: f64,
+    /// Where the noises that the filters are told come from.
+    noises: &'static str,
+    /// RMS over the steps of the errors of the weighted mean, each when it was made.
+    online: Spread,
+    /// The same of EKF-SLAM on the same drives.
+    ekf: Spread,
+    /// RMS of the best particle's path at the end.
+    best: Spread,
+    /// The same after the best rigid alignment.
+    best_aligned: Spread,
+    /// RMS of raw odometry.
+    odometry: Spread,
 }
 
 /// Where runs get their drive from: a simulation makes one for each seed, a log is the same for all.
@@ -122,6 +124,14 @@ impl Source {
         match self {
             Self::Simulated(course) => course.tuning(),
             Self::Recorded(_) => mrclam::tuning(),
+        }
+    }
+
+    /// Where the tuning comes from.
+    fn noises(&self) -> &'static str {
+        match self {
+            Self::Simulated(_) => "those of the course",
+            Self::Recorded(_) => mrclam::NOISES,
         }
     }
 }
@@ -145,7 +155,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         None => {
             let run = run(arguments.seed)?;
             let rms_ekf = run.rms_ekf(&setup(arguments.seed), &source.tuning());
-            one(arguments, run, rms_ekf)
+            one(arguments, run, rms_ekf, source.noises())
         }
         Some(seeds) => {
             let first = run(1)?; // refused before anything is run, if it is
@@ -155,22 +165,31 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
                 Source::Simulated(_) => None,
             };
             let seeds: Vec<u64> = (1..=seeds).collect();
-            let errors: Result<Vec<[f64; 4]>, _> = seeds
+            let errors: Result<Vec<Errors>, _> = seeds
                 .par_iter()
                 .progress_with(progress(seeds.len(), "runs"))
                 .map(|seed| {
                     let mut run = run(*seed)?;
                     while run.step().is_some() {}
                     let rms_ekf = recorded.unwrap_or_else(|| run.rms_ekf(&setup(*seed), &source.tuning()));
-                    Ok::<_, Failure>([run.rms_best(), run.rms_best_aligned(), run.rms_odometry(), rms_ekf])
+                    let path = [run.rms_best(), run.rms_best_aligned(), run.rms_odometry()];
+                    Ok::<_, Failure>(Errors { online: run.rms_online(), ekf: rms_ekf, path })
                 })
                 .collect();
-            many(arguments, &errors?)
+            many(arguments, &errors?, source.noises())
         }
     }
 }
 
-fn one(arguments: &Arguments, mut run: LandmarkRun, rms_ekf: f64) -> Result<(), Failure> {
+/// What is kept of one of many runs \[m\].
+struct Errors {
+    online: f64,
+    ekf: f64,
+    /// Of the best particle's path at the end, of the same aligned, and of raw odometry.
+    path: [f64; 3],
+}
+
+fn one(arguments: &Arguments, mut run: LandmarkRun, rms_ekf: f64, noises: &'static str) -> Result<(), Failure> {
     let mut steps = Vec::new();
     while let Some(report) = run.step() {
         steps.push(report);
@@ -181,10 +200,11 @@ fn one(arguments: &Arguments, mut run: LandmarkRun, rms_ekf: f64) -> Result<(), 
     let footprint = run.footprint();
     let resampled = steps.iter().filter(|step| step.ancestors.is_some()).count();
     let output = Output {
+        noises,
         rms_best: run.rms_best(),
         rms_best_aligned: run.rms_best_aligned(),
         rms_odometry: run.rms_odometry(),
-        rms_online: mean_square(steps.iter().map(|step| step.error_mean)).sqrt(),
+        rms_online: run.rms_online(),
         rms_ekf,
         landmarks: run.particles()[run.best()].map.iter().count() as u32,
         resampled_fraction: resampled as f64 / steps.len().max(1) as f64,
@@ -196,21 +216,21 @@ fn one(arguments: &Arguments, mut run: LandmarkRun, rms_ekf: f64) -> Result<(), 
         return print_json(&output);
     }
     print(&format!(
-        "{} steps, {} particles\n\
-         RMS position error of the best    {:8.3} m\n\
-         the same after rigid alignment    {:8.3} m\n\
-         RMS position error of odometry    {:8.3} m\n\
+        "{} steps, {} particles; noises {noises}\n\
          RMS error as it went, of the mean {:8.3} m, of EKF-SLAM {:.3} m\n\
+         the best path at the end          {:8.3} m\n\
+         the same after rigid alignment    {:8.3} m\n\
+         raw odometry                      {:8.3} m\n\
          landmarks in the best map         {:8} (there are {})\n\
          steps that resampled              {:8.0} %\n\
          maps                              {:8.1} kB, {:.1} kB as dense copies\n",
         output.steps.len(),
         arguments.particles,
+        output.rms_online,
+        output.rms_ekf,
         output.rms_best,
         output.rms_best_aligned,
         output.rms_odometry,
-        output.rms_online,
-        output.rms_ekf,
         output.landmarks,
         run.log().landmarks.len(),
         100.0 * output.resampled_fraction,
@@ -219,38 +239,32 @@ fn one(arguments: &Arguments, mut run: LandmarkRun, rms_ekf: f64) -> Result<(), 
     ))
 }
 
-fn mean_square(values: impl ExactSizeIterator<Item = f64>) -> f64 {
-    let count = values.len().max(1) as f64;
-    values.map(|x| x * x).sum::<f64>() / count
-}
-
-fn many(arguments: &Arguments, errors: &[[f64; 4]]) -> Result<(), Failure> {
-    let sorted = |k: usize| {
-        let mut values: Vec<f64> = errors.iter().map(|error| error[k]).collect();
-        values.sort_unstable_by(f64::total_cmp);
-        values
-    };
-    let best = sorted(0);
+fn many(arguments: &Arguments, errors: &[Errors], noises: &'static str) -> Result<(), Failure> {
+    let spread = |of: &dyn Fn(&Errors) -> f64| Spread::of(&errors.iter().map(of).collect::<Vec<f64>>());
     let summary = Summary {
         seeds: errors.len(),
-        rms_median: quantile(&best, 0.5),
-        rms_p90: quantile(&best, 0.9),
-        rms_worst: quantile(&best, 1.0),
-        rms_aligned_median: quantile(&sorted(1), 0.5),
-        odometry_rms_median: quantile(&sorted(2), 0.5),
-        ekf_rms_median: quantile(&sorted(3), 0.5),
+        noises,
+        online: spread(&|errors| errors.online),
+        ekf: spread(&|errors| errors.ekf),
+        best: spread(&|errors| errors.path[0]),
+        best_aligned: spread(&|errors| errors.path[1]),
+        odometry: spread(&|errors| errors.path[2]),
     };
     if arguments.json {
         return print_json(&summary);
     }
-    let Summary { seeds, rms_median, rms_p90, rms_worst, rms_aligned_median, odometry_rms_median, ekf_rms_median } =
-        summary;
-    print(&format!(
-        "{seeds} seeds, {} particles\n\
-         RMS position error of the best    {rms_median:8.3} m median, {rms_p90:.3} m p90, {rms_worst:.3} m worst\n\
-         the same after rigid alignment    {rms_aligned_median:8.3} m median\n\
-         RMS position error of odometry    {odometry_rms_median:8.3} m median\n\
-         RMS error of EKF-SLAM as it went  {ekf_rms_median:8.3} m median\n",
-        arguments.particles
-    ))
+    let row = |name: &str, Spread { median, p90, worst, .. }: &Spread| {
+        format!("{name:34}{median:8.3} m median, {p90:.3} m p90, {worst:.3} m worst\n")
+    };
+    print(
+        &[
+            format!("{} seeds, {} particles; noises {noises}\n", summary.seeds, arguments.particles),
+            row("RMS error as it went, of the mean", &summary.online),
+            row("of EKF-SLAM as it went", &summary.ekf),
+            row("the best path at the end", &summary.best),
+            row("the same after rigid alignment", &summary.best_aligned),
+            row("raw odometry", &summary.odometry),
+        ]
+        .concat(),
+    )
 }

@@ -2,7 +2,7 @@
 
 use crate::{Failure, progress};
 use fastslam::execute::Executor;
-use fastslam::experiment::numbers::{FIRST_SEEDS, Made, Number, Recipe, owner, recipes};
+use fastslam::experiment::numbers::{Errors, FIRST_SEEDS, Number, Recipe, owner, recipes};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::to_string as json;
@@ -84,24 +84,26 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     first_seeds.forget(&all, &asked);
     let seeds: u32 = asked.iter().map(|recipe| recipe.seeds + recipe.seeds.min(FIRST_SEEDS)).sum();
     let bar = progress(seeds as usize, "seeds");
-    let made: Vec<(Made, Made)> = asked
-        .iter()
-        .map(|recipe| {
-            let make = |seeds| recipe.make(seeds, &Executor::default(), &|| bar.inc(1));
-            (make(recipe.seeds), make(recipe.seeds.min(FIRST_SEEDS)))
-        })
-        .collect();
-    bar.finish_and_clear();
-    for (recipe, (made, first)) in asked.iter().zip(made) {
+    let mut first_errors: Errors = laps.values.iter().map(|(name, errors)| (name.clone(), first_of(errors))).collect();
+    for recipe in asked {
+        let make = |seeds, before: &Errors| recipe.make(seeds, &Executor::default(), before, &|| bar.inc(1));
+        let made = make(recipe.seeds, &laps.values);
+        let first = make(recipe.seeds.min(FIRST_SEEDS), &first_errors);
         first_seeds.values.insert(recipe.name.clone(), format!("{:016x}", first.digest().value()));
         if !made.errors.is_empty() {
             laps.values.insert(recipe.name.clone(), made.errors);
+            first_errors.insert(recipe.name.clone(), first.errors);
         }
         for Number { key, value, unit, made } in made.numbers {
             numbers.values.insert(key, Entry { value, unit: unit.to_owned(), made });
         }
     }
+    bar.finish_and_clear();
     numbers.write()?;
     laps.write()?;
     first_seeds.write()
+}
+
+fn first_of(errors: &[f64]) -> Vec<f64> {
+    errors.iter().copied().take(FIRST_SEEDS as usize).collect()
 }

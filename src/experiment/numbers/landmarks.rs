@@ -73,23 +73,27 @@ fn eight() -> Vec<Recipe> {
         for (version, number, proposal) in versions {
             for particles in [10, 100] {
                 let name = format!("{NAME}.{association}.{version}.m{particles}");
-                let what = format!(
-                    "the RMS position error of the best particle's path at the end: fastslam landmarks --course eight --proposal {number} --association {association} --particles {particles} --seed N"
+                let of = format!(
+                    "fastslam landmarks --course eight --proposal {number} --association {association} --particles {particles} --seed N"
                 );
                 recipes.push(Recipe::new(name.clone(), SEEDS, move |runs| {
                     let errors = runs.over(|seed| {
                         let mut run = run(setup(proposal, association, particles), seed);
                         while run.step().is_some() {}
-                        [run.rms_best(), run.rms_best_aligned()]
+                        [run.rms_online(), run.rms_best(), run.rms_best_aligned()]
                     });
-                    let [best, aligned] = [0, 1].map(|k| errors.iter().map(|error| error[k]).collect::<Vec<_>>());
+                    let [online, path, aligned] =
+                        [0, 1, 2].map(|k| errors.iter().map(|error| error[k]).collect::<Vec<_>>());
                     let group = Group(name.clone());
-                    let mut numbers = group.spread(&best, &what);
-                    let made = format!(
-                        "Median over seeds 1 to {}, after the best rigid alignment with the truth, of {what}",
-                        runs.seeds
-                    );
-                    numbers.push(group.number("aligned", Spread::of(&aligned).median, "m", made));
+                    let mut numbers = group
+                        .spread(&online, &format!("the RMS position error of the particles' mean as it went: {of}"));
+                    let path_of = "the RMS position error of the best particle's path at the end";
+                    for (key, errors, how) in
+                        [("path", path, ""), ("aligned", aligned, ", after the best rigid alignment with the truth")]
+                    {
+                        let made = format!("Median over seeds 1 to {} of {path_of}{how}: {of}", runs.seeds);
+                        numbers.push(group.number(key, Spread::of(&errors).median, "m", made));
+                    }
                     numbers.into()
                 }));
             }
@@ -102,6 +106,17 @@ fn eight() -> Vec<Recipe> {
             Group(name.clone()).spread(&errors, &what).into()
         }));
     }
+    let ahead = format!("{NAME}.unknown.ahead");
+    recipes.push(Recipe::new(ahead.clone(), SEEDS, move |runs| {
+        let setup = setup(ProposalKind::Aware, Association::Unknown, 100);
+        let is_ahead = runs.over(|seed| {
+            let mut run = run(setup.clone(), seed);
+            while run.step().is_some() {}
+            run.rms_online() < run.rms_ekf(&setup, &COURSE.tuning())
+        });
+        let what = format!("seeds 1 to {} on which the particles' mean has a smaller RMS position error than EKF-SLAM, both as they went: fastslam landmarks --course eight --proposal 2.0 --association unknown --particles 100 --seed N", runs.seeds);
+        Group(ahead.clone()).share("share", &Fraction::of(is_ahead.into_iter()), &what).into()
+    }));
     recipes.push(Recipe::new(format!("{NAME}.odometry"), SEEDS, |runs| {
         let errors = runs.over(|seed| {
             let log = COURSE.simulate(seed);
@@ -115,6 +130,7 @@ fn eight() -> Vec<Recipe> {
         let of = "of the course: src/experiment/landmarks.rs";
         vec![
             group.number("landmarks", log.landmarks.len() as f64, "", format!("Landmarks {of}")),
+            group.number("runs", f64::from(SEEDS), "", "Seeds of every row of the landmark table, from 1 on"),
             group.number("steps", log.controls.len() as f64, "", format!("Steps {of}")),
         ]
     }));

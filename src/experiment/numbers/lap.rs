@@ -9,6 +9,9 @@ use crate::geometry::rms;
 use crate::matching::Matcher;
 use crate::proposal::ProposalKind;
 
+/// A lap that ends with a larger error \[m\] is counted as a disaster: that floor plan serves nobody.
+const DISASTER: f64 = 1.0;
+
 /// What a lap is judged by.
 const ERROR: &str = "the RMS position error of the best particle's path over the Apartment lap";
 
@@ -32,7 +35,7 @@ pub fn recipes() -> Vec<Recipe> {
         median_of(ProposalKind::Aware, Matcher::SubCell, "aligned", "m", aligned, |lap| lap.rms_best_aligned),
         median_of(ProposalKind::Motion, Matcher::SubCell, "lineage_one_step", "", of_one, lineage_of),
     ];
-    let others = [setting(), odometry(), memory(), blunt(1), blunt(16)];
+    let others = [setting(), odometry(), memory(), blunt(1), blunt(16), four_seeds()];
     let sufficient = [ProposalKind::Aware, ProposalKind::Motion].map(sufficient);
     table.chain(beside).chain(medians).chain(others).chain(sufficient).collect()
 }
@@ -89,12 +92,60 @@ impl LapCell {
         let mut numbers = group.spread(errors, &what);
         numbers.push(group.number("median_low", low, "m", end("Lower")));
         numbers.push(group.number("median_high", high, "m", end("Upper")));
+        let disasters: Vec<f64> = errors.iter().copied().filter(|error| *error > DISASTER).collect();
+        let of = format!("of seeds 1 to {} that ended with more than {DISASTER} m of {what}", errors.len());
+        numbers.push(group.number("disasters", disasters.len() as f64, "", format!("Number of those {of}")));
+        if !disasters.is_empty() {
+            let median = Spread::of(&disasters).median;
+            numbers.push(group.number("disasters.median", median, "m", format!("Median of those {of}")));
+        }
         numbers
     }
 
     fn errors(&self, runs: &Runs<'_>) -> Vec<f64> {
         runs.over(|seed| rms_best(&self.setup(seed)).expect(VALID))
     }
+}
+
+/// How often a table of four laps in each cell would have a larger worst error in its last row than in some row above, column by
+/// column: worked out from the errors of all laps of the table.
+fn four_seeds() -> Recipe {
+    Recipe::new("lap.four", 0, |runs| {
+        let group = Group("lap.four".into());
+        let columns = LapCell::all().filter(|cell| cell.particles == PARTICLES[0]);
+        let of_column = |column: LapCell| {
+            let errors = PARTICLES.map(|particles| runs.before.get(&LapCell { particles, ..column }.name()));
+            let rows: Vec<&[f64]> =
+                errors.into_iter().map(|errors| errors.map(Vec::as_slice)).collect::<Option<_>>()?;
+            let LapCell { proposal, matcher, .. } = column;
+            let made = format!(
+                "Chance that of four laps drawn at random for each M of {PARTICLES:?}, from the {} of the lap table, the worst of the last M is larger than that of some smaller: {proposal}, {matcher}",
+                rows[0].len()
+            );
+            Some(group.number(&format!("{proposal}.{matcher}"), chance_of_a_worse_last(&rows), "", made))
+        };
+        columns.filter_map(of_column).collect::<Vec<_>>().into()
+    })
+}
+
+/// The chance that the largest of four errors drawn at random from the last row is larger than the largest of four from some row above;
+/// what was drawn may be drawn again.
+///
+/// 1 − Σ_v P(largest of the last = v) ∏ P(largest of the row ≥ v), where P(largest of four ≤ v) = F(v)⁴ for the share F of a row.
+fn chance_of_a_worse_last(rows: &[&[f64]]) -> f64 {
+    let all_four = |share: f64| share * share * share * share;
+    let Some((last, above)) = rows.split_last() else { return 0.0 };
+    let share = |of: &[f64], under: &dyn Fn(f64) -> bool| {
+        of.iter().filter(|error| under(**error)).count() as f64 / of.len() as f64
+    };
+    let mut values = last.to_vec();
+    values.sort_unstable_by(f64::total_cmp);
+    values.dedup();
+    let none_is_smaller = |v: f64| -> f64 {
+        let is_v = all_four(share(last, &|error| error <= v)) - all_four(share(last, &|error| error < v));
+        is_v * above.iter().map(|row| 1.0 - all_four(share(row, &|error| error < v))).product::<f64>()
+    };
+    1.0 - values.into_iter().map(none_is_smaller).sum::<f64>()
 }
 
 /// What is set on the lap.
@@ -198,4 +249,34 @@ fn sufficient(proposal: ProposalKind) -> Recipe {
         );
         Vec::from_iter(least.map(|least| Number { key: key.clone(), value: least as f64, unit: "", made })).into()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every table of four out of two errors in each of three rows, 2¹² of them, counted one by one; sums of 16 parts of 4096.
+    #[test]
+    fn the_chance_of_a_worse_last_row_is_that_of_counting_all_tables() {
+        let rows = [[0.1, 0.5], [0.3, 0.4], [0.2, 0.4]];
+        let table = |code: u32| {
+            let drawn = |row: usize| (0..4).map(move |k| rows[row][(code >> (4 * row + k) & 1) as usize]);
+            [0, 1, 2].map(|row| drawn(row).fold(0.0, f64::max))
+        };
+        let worse = (0..1 << 12).map(table).filter(|[first, second, last]| last > first || last > second).count();
+        let chance = chance_of_a_worse_last(&rows.each_ref().map(|row| &row[..]));
+        assert!((chance - worse as f64 / 4096.0).abs() < 1e-12, "{chance} {worse}");
+    }
+
+    #[test]
+    fn disasters_are_the_errors_over_a_metre() {
+        let cell = LapCell { proposal: ProposalKind::Motion, matcher: Matcher::SubCell, particles: 4 };
+        let of = |errors: &[f64], key: &str| {
+            let key = format!("{}.{key}", cell.name());
+            cell.numbers(errors).into_iter().find(|number| number.key == key).map(|number| number.value)
+        };
+        let errors = [0.2, 3.0, 1.0, 1.5, 2.0];
+        assert_eq!((of(&errors, "disasters"), of(&errors, "disasters.median")), (Some(3.0), Some(2.0)));
+        assert_eq!((of(&[0.2, 1.0], "disasters"), of(&[0.2, 1.0], "disasters.median")), (Some(0.0), None));
+    }
 }

@@ -15,6 +15,7 @@ use super::Spread;
 use super::policy_counts::Fraction;
 use crate::digest::Digest;
 use crate::execute::Executor;
+use std::collections::BTreeMap;
 
 /// Seeds of what is counted over many.
 pub const SEEDS: u32 = 200;
@@ -59,13 +60,16 @@ impl Made {
     }
 }
 
+/// The errors that recipes made \[m\], from seed 1 on, by their names.
+pub type Errors = BTreeMap<String, Vec<f64>>;
+
 type Make = dyn Fn(&Runs<'_>) -> Made + Send + Sync;
 
 /// How a group of numbers is made.
 pub struct Recipe {
     /// What its keys begin with, before a dot, or its only key.
     pub name: String,
-    /// It runs seeds 1 to this one; 0 where nothing is drawn, or only by the one seed of a figure.
+    /// It runs seeds 1 to this one; 0 where nothing is drawn, only by the one seed of a figure, or by recipes before it.
     pub seeds: u32,
     make: Box<Make>,
 }
@@ -81,10 +85,11 @@ impl Recipe {
         Self::new(name, 0, move |_| numbers(&group).into())
     }
 
-    /// Makes the numbers from seeds 1 to `seeds` alone, which is to be [`Self::seeds`] for those of the chapter. `done` hears of every seed
-    /// that has been run.
-    pub fn make(&self, seeds: u32, executor: &Executor, done: &(dyn Fn() + Sync)) -> Made {
-        (self.make)(&Runs { seeds, executor, done })
+    /// Makes the numbers from seeds 1 to `seeds` alone, which is to be [`Self::seeds`] for those of the chapter. `before` are the errors
+    /// of the recipes that stand before this one in [`recipes`], for those that are worked out from them. `done` hears of every seed that
+    /// has been run.
+    pub fn make(&self, seeds: u32, executor: &Executor, before: &Errors, done: &(dyn Fn() + Sync)) -> Made {
+        (self.make)(&Runs { seeds, executor, before, done })
     }
 
     /// Whether a key is of this recipe, if it is of no other whose name is longer.
@@ -108,6 +113,7 @@ impl From<Vec<Number>> for Made {
 struct Runs<'a> {
     seeds: u32,
     executor: &'a Executor,
+    before: &'a Errors,
     done: &'a (dyn Fn() + Sync),
 }
 
@@ -183,9 +189,10 @@ mod tests {
     #[test]
     fn every_key_is_made_once_and_by_the_recipe_that_owns_it() {
         let recipes = recipes();
+        let before = LapCell::all().map(|cell| (cell.name(), vec![0.1, 0.3, 0.2])).collect();
         let mut keys = Vec::new();
         for recipe in recipes.iter().filter(|recipe| recipe.seeds == 0 || recipe.name.starts_with("policies.wings")) {
-            let made = recipe.make(recipe.seeds.min(2), &Executor::default(), &|| ());
+            let made = recipe.make(recipe.seeds.min(2), &Executor::default(), &before, &|| ());
             assert!(!made.numbers.is_empty(), "{}", recipe.name);
             for Number { key, value, made, .. } in made.numbers {
                 assert_eq!(owner(&recipes, &key).map(|owner| &owner.name), Some(&recipe.name), "{key}");
@@ -207,7 +214,7 @@ mod tests {
         let recipes = recipes();
         let recipe = recipes.iter().find(|recipe| recipe.name == cell.name()).unwrap();
         let heard = std::sync::atomic::AtomicU32::new(0);
-        let made = recipe.make(3, &Executor::default(), &|| {
+        let made = recipe.make(3, &Executor::default(), &Errors::new(), &|| {
             heard.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
         });
         assert_eq!(heard.into_inner(), 3);

@@ -14,6 +14,7 @@ pub fn recipes() -> Vec<Recipe> {
     let default = ConditioningSetup::default;
     vec![
         proposal(),
+        predicted(),
         pair(),
         conditioning("conditioning.default", default()),
         conditioning("conditioning.large", ConditioningSetup { landmarks: 24, poses: 12, ..default() }),
@@ -94,6 +95,29 @@ fn proposal() -> Recipe {
             ("ratio_blunt", 3, 3),
         ];
         keys.into_iter().flat_map(of).collect::<Vec<_>>().into()
+    })
+}
+
+/// What the closed form says of the same sensors.
+fn predicted() -> Recipe {
+    Recipe::fixed("proposal.predicted", |group| {
+        let keys = [
+            ["ess.motion", "ratio"],
+            ["half.ess.motion", "ratio_half_range"],
+            ["sharp.ess.motion", "sharp.ratio"],
+            ["blunt.ess.motion", "ratio_blunt"],
+        ];
+        let of = |(keys, (factor, sensor)): ([&str; 2], (f64, &str))| {
+            let setup = ProposalsSetup::default();
+            let found = Proposals::new(&ProposalsSetup { range_std: factor * setup.range_std, ..setup }).expect(VALID);
+            let values = [(found.predicted_ess, MEASURED[2]), (found.predicted_ratio(), MEASURED[3])];
+            let by = "by the closed form, nothing drawn: src/exact/one_step.rs";
+            let number = |(key, (value, what)): (&str, (f64, &str))| {
+                group.number(key, value, "", format!("{what}{sensor}, {by}"))
+            };
+            keys.into_iter().zip(values).map(number).collect::<Vec<_>>()
+        };
+        keys.into_iter().zip(SENSORS).flat_map(of).collect()
     })
 }
 

@@ -55,7 +55,8 @@ pub enum Sighted {
 pub struct Matched {
     /// What was decided.
     pub sighted: Sighted,
-    /// What was seen against what was expected, where the landmark is in the map.
+    /// What was seen against what was expected, where the landmark is in the map and the sighting can say anything: see
+    /// [`Innovation::is_regular`].
     pub innovation: Option<Innovation>,
     /// ln p(z) under the decision \[nats\].
     pub log_likelihood: f64,
@@ -66,6 +67,9 @@ impl Correspondence {
     /// Decides what one feature is, after `taken` was decided for the features before it. Indices up to `len` are in use;
     /// `innovation` is what the feature says of the landmark of an index, `None` where there is none, or where it surely lies
     /// beyond the gate that is asked for.
+    ///
+    /// A sighting that can say nothing (S has no inverse) says nothing: by its signature it is of its landmark and changes neither
+    /// pose, landmark nor weight; without one it is of no landmark in the map, since there is no likelihood to choose by.
     pub fn decide(
         &self,
         feature: &Feature,
@@ -77,7 +81,8 @@ impl Correspondence {
         match self {
             Self::Known => match feature.signature.filter(|index| free(*index)) {
                 Some(index) => match innovation(index, None) {
-                    Some(innovation) => again(index, innovation),
+                    Some(innovation) if innovation.is_regular() => again(index, innovation),
+                    Some(_) => Matched { sighted: Sighted::Again(index), innovation: None, log_likelihood: 0.0 },
                     None => Matched { sighted: Sighted::First(index), innovation: None, log_likelihood: 0.0 },
                 },
                 None => Matched { sighted: Sighted::Nothing, innovation: None, log_likelihood: 0.0 },
@@ -85,7 +90,8 @@ impl Correspondence {
             Self::Unknown(gate) => {
                 let mut best: Option<Matched> = None;
                 for index in 0..len {
-                    let Some(innovation) = innovation(index, Some(gate.mahalanobis_squared)) else { continue };
+                    let innovation = innovation(index, Some(gate.mahalanobis_squared)).filter(Innovation::is_regular);
+                    let Some(innovation) = innovation else { continue };
                     // ANCHOR: gate
                     let within = innovation.mahalanobis_squared < gate.mahalanobis_squared;
                     // ANCHOR_END: gate

@@ -57,6 +57,13 @@ impl Innovation {
     pub fn determinant(&self) -> f64 {
         determinant(&self.covariance)
     }
+
+    /// Whether S has an inverse. It has none where a sighting without noise is of what is known without any, and what rounding
+    /// leaves of such an S, 10⁻¹² and less of the product of its variances, is no better. Then the sighting can say nothing.
+    #[inline]
+    pub fn is_regular(&self) -> bool {
+        self.determinant() > 1e-12 * self.covariance.m11 * self.covariance.m22
+    }
 }
 
 impl Landmark {
@@ -96,9 +103,12 @@ impl Landmark {
     // anchor: update
     // ANCHOR: listing-update
     /// K = Σ H_mᵀ S⁻¹, μ ← μ + K ν, Σ ← (I − K H_m) Σ (I − K H_m)ᵀ + K Q Kᵀ: Joseph's form, which stays symmetric and positive
-    /// definite whatever rounding does.
+    /// definite whatever rounding does. Where S has no inverse nothing is learnt.
     pub fn update<Z: LandmarkSensor>(&mut self, sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) {
         let innovation = self.innovation(sensor, world_from_robot, z);
+        if !innovation.is_regular() {
+            return;
+        }
         let gain = self.gain(&innovation);
         let keep = Matrix2::identity() - gain * innovation.prediction.h_m;
         self.mean += gain * innovation.residual;

@@ -949,3 +949,50 @@ fn the_joint_covariance_stays_symmetric_and_positive_definite() {
         assert!((landmark.mean - Vector2::new(x, y)).norm() < 0.5, "{landmark:?}");
     }
 }
+
+/// A robot stands, drives and stands again; its sensor has no noise, and its wheels none where they stand still. Then S has no
+/// inverse, and the sighting may say nothing: to no pose, no landmark and no weight.
+#[test]
+fn a_sensor_without_noise_leaves_every_number_finite() {
+    let [stand, drive] =
+        [[0.0, 0.0], [1.0, 0.3]].map(|[speed, turn_rate]| Velocity { speed, turn_rate, duration: 0.5 });
+    let motion = VelocityModel { speed_std: 0.0, turn_rate_std: 0.0, alphas: [0.04, 0.0, 0.01, 0.04] };
+    let controls = [stand, stand, stand, drive, drive, stand, stand];
+    for (range_std, bearing_std) in [(0.0, 0.0), (0.1, 0.0), (0.0, 0.1)] {
+        let sensor = RangeBearing { range_std, bearing_std, ..SENSOR };
+        for correspondence in [Correspondence::Known, Correspondence::Unknown(Gate::default())] {
+            let map = || Landmarks::<RangeBearing>::new(sensor, correspondence);
+            let of = format!("{range_std} {bearing_std} {correspondence:?}");
+            let (policy, scheme) = (ResamplePolicy::EssBelow(0.5), Scheme::Systematic);
+            let marginal = FromMotion { motion, likelihood: Marginal };
+            let mut first = Rbpf::new(marginal, policy, scheme, 1, 8, Pose2::default(), map());
+            let mut second = Rbpf::new(FromMeasurement { motion }, policy, scheme, 1, 8, Pose2::default(), map());
+            let mut joint = EkfSlam::new(motion, sensor, correspondence, Pose2::default());
+            let mut truth = Pose2::default();
+            for u in &controls {
+                truth = u.apply(&truth);
+                let sighted =
+                    (0..).zip(FIELD).map(|(j, (x, y))| seen(&sensor, &truth, &Vector2::new(x, y), j, [0.0; 2]));
+                let features: Vec<Feature> = sighted.collect();
+                let reports = [first.step(u, &features), second.step(u, &features)];
+                let step = joint.step(u, &features);
+                for report in &reports {
+                    let numbers = report.log_increments.iter().chain(&report.weights).chain([&report.ess]);
+                    assert!(numbers.into_iter().all(|x| x.is_finite()), "{of}: {report:?}");
+                }
+                for Particle { world_from_robot: pose, map, .. } in first.particles().iter().chain(second.particles()) {
+                    assert!([pose.x, pose.y, pose.theta].iter().all(|x| x.is_finite()), "{of}: {pose:?}");
+                    for (_, Landmark { mean, covariance, .. }) in map.iter() {
+                        assert!(mean.iter().chain(covariance).all(|x| x.is_finite()), "{of}: {mean} {covariance}");
+                    }
+                }
+                assert!(step.log_evidence.is_finite() && joint.covariance().iter().all(|x| x.is_finite()), "{of}");
+                // As long as it has not moved there is nothing to be uncertain of.
+                if *u == stand && truth == Pose2::default() {
+                    let still = |particle: &Particle<_>| particle.world_from_robot == truth;
+                    assert!(first.particles().iter().all(still) && second.particles().iter().all(still), "{of}");
+                }
+            }
+        }
+    }
+}

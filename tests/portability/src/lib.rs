@@ -1,7 +1,7 @@
 //! The chapter's numbers made again, to the bit: what the native tests and those in the browser share.
 
 use fastslam::execute::Executor;
-use fastslam::experiment::numbers::{FIRST_SEEDS, LapCell, Number, Recipe, SEEDS, owner, recipes};
+use fastslam::experiment::numbers::{Errors, FIRST_SEEDS, LapCell, Number, Recipe, SEEDS, owner, recipes};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
@@ -35,6 +35,8 @@ pub fn read<T: DeserializeOwned>(text: &str) -> BTreeMap<String, T> {
 /// out anew from the errors kept of every seed; all else is made in full.
 pub fn differences(entries: &Entries, executor: &Executor) -> Vec<String> {
     let (laps, first_seeds) = (read::<Vec<f64>>(LAPS), read::<String>(FIRST));
+    let first = |errors: &Vec<f64>| errors.iter().copied().take(FIRST_SEEDS as usize).collect();
+    let first_laps: Errors = laps.iter().map(|(name, errors)| (name.clone(), first(errors))).collect();
     let recipes = recipes();
     let mut found: Vec<String> = entries
         .keys()
@@ -43,7 +45,7 @@ pub fn differences(entries: &Entries, executor: &Executor) -> Vec<String> {
         .collect();
     for recipe in &recipes {
         let Recipe { name, seeds, .. } = recipe;
-        let first = recipe.make(*seeds.min(&FIRST_SEEDS), executor, &|| ());
+        let first = recipe.make(*seeds.min(&FIRST_SEEDS), executor, &first_laps, &|| ());
         if first_seeds.get(name) != Some(&format!("{:016x}", first.digest().value())) {
             found.push(format!("{name}: its first seeds come to other numbers, or to others than before"));
         }
@@ -55,7 +57,7 @@ pub fn differences(entries: &Entries, executor: &Executor) -> Vec<String> {
                 compare(entries, &recipes, recipe, &cell.numbers(kept), &mut found);
             }
         } else if *seeds < SEEDS {
-            compare(entries, &recipes, recipe, &recipe.make(*seeds, executor, &|| ()).numbers, &mut found);
+            compare(entries, &recipes, recipe, &recipe.make(*seeds, executor, &laps, &|| ()).numbers, &mut found);
         }
     }
     found
