@@ -142,6 +142,58 @@ impl FloorPlan {
         Self { size: [40.0, 24.0], walls, furniture }
     }
 
+    /// Our own ring, 11 m × 8 m: a corridor 1.8 m wide round a block, which has up to two `niches` on each side: 0.5 m deep, and the only
+    /// thing that tells one stretch of the corridor from the next. In the south-west corner, where the drive begins, a few
+    /// pieces of furniture are there to be known again.
+    ///
+    /// ```text
+    /// 8.0  +-----------------------------------------------+
+    ///      |                                               |
+    /// 6.2  |       +----+  4  +-----------+  8  +----+     |
+    ///      |       |    +-----+           +-----+    |     |   1 2 3 4  niches if there is one a side
+    ///      |       +--+                              |     |   5 6 7 8  the second ones
+    ///      |        7 |                           +--+     |   a  block      (3.3, 1.45)–(3.7, 1.8)
+    ///      |       +--+                           | 6      |   b  cupboard   (0.0, 0.0)–(0.7, 0.4)
+    ///      |       +--+                           +--+     |   c  cupboard   (2.3, 0.0)–(3.2, 0.4)
+    ///      |        3 |                           +--+     |   d  cupboard   (0.0, 1.6)–(0.35, 2.5)
+    ///      |d      +--+ +-----+           +-----+ | 2      |   >  the start, looking east
+    /// 1.8  |d      +----+  1  +-----------+  5  +-+--+     |
+    ///      |           a                                   |
+    ///      |b    >   c                                     |
+    /// 0.0  +-----------------------------------------------+
+    ///      0.0    1.8                              9.2   11.0
+    /// ```
+    pub fn ring(niches: usize) -> Self {
+        const WIDTH: f64 = 0.9;
+        const DEPTH: f64 = 0.5;
+        let size = [11.0, 8.0];
+        let (low, high) = ([1.8, 1.8], [9.2, 6.2]);
+        let mut walls = rectangle([0.0, 0.0], size).to_vec();
+        // A side of the block: from one end to the other along x, or along y if `upright`, with a niche from each of these places on,
+        // whose back is at `back`.
+        let mut side = |upright: bool, at: f64, back: f64, places: [f64; 2]| {
+            let axis = usize::from(upright);
+            let mut corners = vec![[low[axis], at]];
+            for place in &places[..niches.min(2)] {
+                corners.extend([[*place, at], [*place, back], [place + WIDTH, back], [place + WIDTH, at]]);
+            }
+            corners.push([high[axis], at]);
+            let point = |[along, across]: [f64; 2]| if upright { [across, along] } else { [along, across] };
+            walls.extend(corners.windows(2).map(|pair| Segment { a: point(pair[0]), b: point(pair[1]) }));
+        };
+        side(false, low[1], low[1] + DEPTH, [4.6, 7.3]);
+        side(true, high[0], high[0] - DEPTH, [2.7, 4.5]);
+        side(false, high[1], high[1] - DEPTH, [3.4, 6.6]);
+        side(true, low[0], low[0] + DEPTH, [3.0, 4.7]);
+        let furniture = [
+            rectangle([3.3, 1.45], [3.7, 1.8]),
+            rectangle([0.0, 0.0], [0.7, 0.4]),
+            rectangle([2.3, 0.0], [3.2, 0.4]),
+            rectangle([0.0, 1.6], [0.35, 2.5]),
+        ];
+        Self { size, walls, furniture: furniture.concat() }
+    }
+
     /// Distance \[m\] from (x, y) along the direction \[rad\] to the nearest wall or piece of furniture; infinite for none.
     pub fn raycast(&self, origin: [f64; 2], direction: f64) -> f64 {
         let (sin, cos) = ops::sin_cos(direction);
@@ -173,6 +225,12 @@ impl FloorPlan {
         };
         sensor.angles.iter().map(&mut noisy).collect()
     }
+}
+
+/// The four sides between two opposite corners \[m\].
+fn rectangle([x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> [Segment; 4] {
+    let corners = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
+    core::array::from_fn(|k| Segment { a: corners[k], b: corners[(k + 1) % 4] })
 }
 
 #[cfg(test)]
