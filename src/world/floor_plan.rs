@@ -251,6 +251,35 @@ mod tests {
     }
 
     #[test]
+    fn no_beam_leaves_the_ring_or_enters_its_block() {
+        for niches in 0..=2 {
+            let plan = FloorPlan::ring(niches);
+            for (origin, most) in [([1.6, 0.9], 9.5), ([10.1, 7.1], 10.2), ([0.9, 4.0], 4.4)] {
+                for k in 0..720 {
+                    let range = plan.raycast(origin, PI * f64::from(k) / 360.0);
+                    assert!(range > 0.2 && range < most, "{niches} niches, {origin:?}, beam {k}: {range} m");
+                }
+            }
+            // From the middle of the south, north, east and west corridors to the block: once in 2 cm a wall, or a niche's back.
+            let deep = |upright: bool| {
+                let [from, to, length] = if upright { [1.8, 6.2, 0.02] } else { [1.8, 9.2, 0.02] };
+                let ahead = |along: f64| match upright {
+                    true => [([0.9, along], 0.0), ([10.1, along], PI)],
+                    false => [([along, 0.9], FRAC_PI_2), ([along, 7.1], -FRAC_PI_2)],
+                };
+                let count = ((to - from) / length) as u32;
+                let places = (0..count).map(|k| from + length * (f64::from(k) + 0.5));
+                let ranges = places.flat_map(ahead).map(|(origin, angle)| plan.raycast(origin, angle));
+                length * ranges.filter(|range| (range - 1.4).abs() < 1e-9).count() as f64
+            };
+            // Two sides each way, niches of 0.9 m.
+            for upright in [false, true] {
+                assert!((deep(upright) - 2.0 * 0.9 * niches as f64).abs() < 0.1, "{niches}: {}", deep(upright));
+            }
+        }
+    }
+
+    #[test]
     fn no_beam_leaves_the_apartment() {
         let plan = FloorPlan::apartment();
         for k in 0..720 {

@@ -4,13 +4,14 @@ use crate::{Failure, print, print_json, progress};
 use fastslam::error::ParameterError;
 use fastslam::experiment::lap::{Course, LapSetup};
 use fastslam::experiment::quantile;
-use fastslam::experiment::ring::{AFTER, PriceNoise, RingRun, RingSetup, median, price_noise};
+use fastslam::experiment::ring::{AFTER, NoiseProbe, PriceNoise, RingRun, RingSetup, median, price_noise};
 use fastslam::matching::Matcher;
 use fastslam::proposal::ProposalKind;
 use fastslam::resampling::{ResamplePolicy, Scheme};
 use indicatif::ParallelProgressIterator;
 use rayon::prelude::*;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// Drive round the ring for many seeds: how different the universes are just before the loop closes, and what the closing leaves
 #[derive(clap::Args)]
@@ -49,11 +50,14 @@ pub struct Arguments {
     #[arg(long)]
     price_noise: bool,
     /// With --price-noise: at every K-th step
-    #[arg(long, value_name = "K", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=110))]
+    #[arg(long, value_name = "K", default_value_t = NoiseProbe::default().every, value_parser = clap::value_parser!(u32).range(1..=110))]
     every: u32,
     /// With --price-noise: how many times each particle draws
-    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(2..=10_000))]
+    #[arg(long, value_name = "N", default_value_t = NoiseProbe::default().draws, value_parser = clap::value_parser!(u32).range(2..=10_000))]
     draws: u32,
+    /// With --price-noise: the n-th draw of all particles is from one stream
+    #[arg(long, requires = "price_noise")]
+    shared_streams: bool,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
@@ -65,6 +69,8 @@ struct Output<T> {
     particles: usize,
     niches: usize,
     max_range: f64,
+    /// Of each measure, over the seeds.
+    medians: BTreeMap<&'static str, f64>,
     /// One run a seed.
     runs: Vec<T>,
 }
@@ -89,13 +95,19 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     setup(1).start()?; // refused before anything is run, if it is
     if arguments.price_noise {
-        let runs = sweep(arguments.seeds, |seed| price_noise(&setup(seed), arguments.every, arguments.draws))?;
+        let &Arguments { every, draws, shared_streams: shared, .. } = arguments;
+        let probe = NoiseProbe { every, draws, shared };
+        let runs = sweep(arguments.seeds, |seed| price_noise(&setup(seed), probe))?;
+        let of = |f: fn(&PriceNoise) -> f64| median(runs.iter().flatten().map(f).collect());
+        let medians = NOISES.map(|(name, _, f)| (name, of(f))).into();
         let text = noise_text(arguments, &runs);
-        if arguments.json { print_json(&Output { particles, niches, max_range, runs }) } else { print(&text) }
+        if arguments.json { print_json(&Output { particles, niches, max_range, medians, runs }) } else { print(&text) }
     } else {
         let runs = sweep(arguments.seeds, |seed| RingRun::of(&setup(seed)))?;
+        let of = |k: usize| median(runs.iter().map(|run| run.measures()[k].2).collect());
+        let medians = runs[0].measures().iter().enumerate().map(|(k, (name, ..))| (*name, of(k))).collect();
         let text = text(arguments, &runs);
-        if arguments.json { print_json(&Output { particles, niches, max_range, runs }) } else { print(&text) }
+        if arguments.json { print_json(&Output { particles, niches, max_range, medians, runs }) } else { print(&text) }
     }
 }
 
@@ -118,27 +130,43 @@ fn text(arguments: &Arguments, runs: &[RingRun]) -> String {
     let mut text = head(arguments);
     text += &format!("closing at step {}; before: one step earlier; after: {AFTER} steps later\n", runs[0].closing);
     text += &format!("{:38} {:>8} {:>8} {:>8}\n", "over the seeds", "p10", "median", "p90");
-    for (k, (name, _)) in runs[0].measures().into_iter().enumerate() {
-        let mut values: Vec<f64> = runs.iter().map(|run| run.measures()[k].1).collect();
+    for (k, (_, title, _)) in runs[0].measures().into_iter().enumerate() {
+        let mut values: Vec<f64> = runs.iter().map(|run| run.measures()[k].2).collect();
         values.sort_unstable_by(f64::total_cmp);
         let [p10, median, p90] = [0.1, 0.5, 0.9].map(|q| quantile(&values, q));
-        text += &format!("{name:38} {p10:8.3} {median:8.3} {p90:8.3}\n");
+        text += &format!("{title:38} {p10:8.3} {median:8.3} {p90:8.3}\n");
     }
     text
 }
 
+/// What is told of a particle's price: key in JSON, head of the column, value.
+type Noise = (&'static str, &'static str, fn(&PriceNoise) -> f64);
+const NOISES: [Noise; 4] = [
+    ("noise", "of one particle", |noise| noise.noise),
+    ("noise_relative", "above the mean", |noise| noise.noise_relative),
+    ("spread", "between particles", |noise| noise.spread),
+    ("matched", "matched", |noise| noise.matched),
+];
+
 fn noise_text(arguments: &Arguments, runs: &[Vec<PriceNoise>]) -> String {
     let mut text = head(arguments);
-    text += &format!("ln of the price, {} draws [nats]: medians over the seeds\n", arguments.draws);
-    text += "    step  of one particle   between particles  matched\n";
+    text += &format!(
+        "ln of the price, {} draws: standard deviations [nats], medians over the seeds\n\
+         of one particle: from draw to draw; above the mean: the same less the population's mean of the draw;\n\
+         between particles: of the means of their draws\n",
+        arguments.draws
+    );
+    text += &format!("{:>8}", "step");
+    NOISES.iter().for_each(|(_, head, _)| text += &format!("{head:>20}"));
     let mut line = |name: &str, of: &[&PriceNoise]| {
-        let of = |f: fn(&PriceNoise) -> f64| median(of.iter().map(|noise| f(noise)).collect());
-        let (noise, spread, matched) = (of(|n| n.noise), of(|n| n.spread), of(|n| n.matched));
-        text += &format!("{name:>8} {noise:16.2} {spread:19.2} {matched:8.2}\n");
+        text += &format!("\n{name:>8}");
+        for (.., f) in NOISES {
+            text += &format!("{:20.2}", median(of.iter().map(|noise| f(noise)).collect()));
+        }
     };
     for (k, first) in runs[0].iter().enumerate() {
         line(&first.step.to_string(), &runs.iter().map(|run| &run[k]).collect::<Vec<_>>());
     }
     line("all", &runs.iter().flatten().collect::<Vec<_>>());
-    text
+    text + "\n"
 }
