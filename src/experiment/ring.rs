@@ -227,7 +227,7 @@ pub fn died(count: usize, resamplings: &[Vec<u32>]) -> f64 {
 /// What the noise of prices is measured by.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct NoiseProbe {
-    /// At every so manieth step.
+    /// At every so many steps.
     pub every: u32,
     /// How many times each particle draws.
     pub draws: u32,
