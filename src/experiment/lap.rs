@@ -1,4 +1,5 @@
-//! The Apartment lap: to the far end of the corridor, round the sun room, and home through what is mapped by then.
+//! The Apartment lap: to the far end of the corridor, round the sun room, and home through what is mapped by then. And, as another
+//! [`Course`], the ring: round a block through ground never seen before, until the start comes in sight again.
 //!
 //! The filter is told where the lap starts and with what noise wheels and sensor err. It is never told the truth: that stays
 //! in [`LapWorld`], and only the errors of a [`StepReport`] are taken from it.
@@ -17,10 +18,11 @@ use crate::random::{Purpose, Stream};
 use crate::rbpf::{Particle, Rbpf, Report};
 use crate::resampling::{ResamplePolicy, Scheme};
 use crate::sensor::{BeamSensor, Scan};
-use crate::world::{FloorPlan, drive};
+use crate::world::{FloorPlan, corners_cut_short, drive};
+use core::{fmt, str::FromStr};
 use std::sync::Arc;
 
-/// Steps of the lap, besides the start.
+/// Steps of the apartment's lap, besides the start.
 pub const STEPS: usize = 90;
 
 /// Noise of the wheels at scale 1: α₁ \[–\], α₂ \[rad²/m²\], α₃ \[–\], α₄ \[m²/rad²\].
@@ -31,7 +33,7 @@ pub const ALPHAS: [f64; 4] = [0.1, 0.12, 0.01, 0.01];
 /// Beams of a scan, all around.
 pub const BEAMS: usize = 72;
 
-/// Longest range of a beam \[m\].
+/// Longest range of a beam in the apartment \[m\].
 pub const MAX_RANGE: f64 = 8.0;
 
 /// Scans taken at the known start, before the first motion, while the robot turns by one beam's spacing.
@@ -80,9 +82,83 @@ pub const FROM_SCAN: FromScanSettings<Spread> = FromScanSettings {
     probe_stds: [[0.005, 0.005, 0.003], [0.1, 0.1, 0.05]],
 };
 
+/// Where a lap is driven.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
+pub enum Course {
+    /// Out along the corridor of [`FloorPlan::apartment`] and back: nearly all is seen from afar, and seen again.
+    #[default]
+    Apartment,
+    /// Once round [`FloorPlan::ring`] and a little further, with a laser that sees no further than 3 m and two niches on each side of the
+    /// block: for most of the way nothing seen has been seen before.
+    Ring,
+}
+
+impl Course {
+    /// The place and the way through it.
+    pub fn route(self) -> Route {
+        match self {
+            Self::Apartment => Route {
+                plan: FloorPlan::apartment(),
+                way_points: WAY_POINTS.to_vec(),
+                steps: STEPS,
+                max_range: MAX_RANGE,
+            },
+            Self::Ring => Route::ring(2, 3.0),
+        }
+    }
+}
+
+impl fmt::Display for Course {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Apartment => "apartment",
+            Self::Ring => "ring",
+        })
+    }
+}
+
+impl FromStr for Course {
+    type Err = ParameterError;
+
+    fn from_str(text: &str) -> Result<Self, ParameterError> {
+        match text {
+            "apartment" => Ok(Self::Apartment),
+            "ring" => Ok(Self::Ring),
+            _ => Err(ParameterError::new("course", text, "apartment or ring")),
+        }
+    }
+}
+
+/// A place, a way through it, and how far the laser sees there.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Route {
+    /// The place.
+    pub plan: FloorPlan,
+    /// What [`drive`] goes through \[m\].
+    pub way_points: Vec<[f64; 2]>,
+    /// Steps, besides the start.
+    pub steps: usize,
+    /// Longest range of a beam \[m\].
+    pub max_range: f64,
+}
+
+impl Route {
+    /// The ring with so many niches on each side of the block, 0 to 2, and a laser of this range \[m\]: round it against the clock, and
+    /// on along the first side. 110 steps of some 0.3 m.
+    pub fn ring(niches: usize, max_range: f64) -> Self {
+        const CORNERS: [[f64; 2]; 6] = [[1.6, 0.9], [10.1, 0.9], [10.1, 7.1], [0.9, 7.1], [0.9, 0.9], [6.6, 0.9]];
+        // A drive leaves a leg half-way to the corner: of legs as long as these, it would cut the block's corners.
+        let way_points = corners_cut_short(&CORNERS, 1.2);
+        Self { plan: FloorPlan::ring(niches), way_points, steps: 110, max_range }
+    }
+}
+
 /// What a reader can set.
 #[derive(Clone, PartialEq, Debug)]
 pub struct LapSetup {
+    /// Where the lap is driven.
+    pub course: Course,
     /// Number of particles M, 1 to 4096.
     pub particles: usize,
     /// Seed of the world's noise and of the filter's.
@@ -104,6 +180,7 @@ pub struct LapSetup {
 impl Default for LapSetup {
     fn default() -> Self {
         Self {
+            course: Course::Apartment,
             particles: 16,
             seed: 3,
             proposal: ProposalKind::Aware,
@@ -122,7 +199,22 @@ impl LapSetup {
         OdometryModel { alphas: ALPHAS }.scaled(self.odometry_scale)
     }
 
-    fn validate(&self) -> Result<(), ParameterError> {
+    /// The world of this seed and these noises.
+    pub fn world(&self) -> LapWorld {
+        LapWorld::on(&self.course.route(), self.seed, &self.motion(), self.range_std)
+    }
+
+    /// What the filter draws poses from.
+    pub fn proposals(&self) -> Proposals {
+        let motion = self.motion();
+        let from_motion = FromMotion { motion, likelihood: ScanModel::new(self.matcher, TEMPER, OUTLIER) };
+        match self.proposal {
+            ProposalKind::Motion => Either::Left(from_motion),
+            ProposalKind::Aware => Either::Right(FromScan { fallback: from_motion, settings: FROM_SCAN }),
+        }
+    }
+
+    pub(super) fn validate(&self) -> Result<(), ParameterError> {
         let check = |ok: bool, name, value: &dyn core::fmt::Display, allowed| {
             if ok { Ok(()) } else { Err(ParameterError::new(name, value, allowed)) }
         };
@@ -149,26 +241,33 @@ impl LapSetup {
 /// The truth of one lap, and what sensors reported of it.
 #[derive(Clone, Debug)]
 pub struct LapWorld {
-    /// The apartment.
+    /// The place.
     pub plan: FloorPlan,
-    /// True poses of steps 0 to [`STEPS`].
+    /// The laser.
+    pub sensor: BeamSensor,
+    /// True poses of step 0 to the last.
     pub truth: Vec<Pose2>,
     /// Poses by raw odometry alone, from the same start.
     pub odometry: Vec<Pose2>,
     /// Reported controls; the k-th leads from step k to k + 1.
     pub controls: Vec<Odometry>,
-    /// Scans of steps 1 to [`STEPS`].
+    /// Scans of step 1 to the last.
     pub scans: Vec<Scan>,
     /// Scans taken at the start, with the poses they were taken from.
     pub start_scans: Vec<(Pose2, Scan)>,
 }
 
 impl LapWorld {
-    /// The lap that this seed and these noises give: the truth is always the same.
+    /// The lap of the apartment that this seed and these noises give: the truth is always the same.
     pub fn new(seed: u64, motion: &OdometryModel, range_std: f64) -> Self {
-        let plan = FloorPlan::apartment();
-        let sensor = BeamSensor::panorama(BEAMS, MAX_RANGE, range_std);
-        let truth = drive(&WAY_POINTS, STEPS);
+        Self::on(&Course::Apartment.route(), seed, motion, range_std)
+    }
+
+    /// The same on another route.
+    pub fn on(route: &Route, seed: u64, motion: &OdometryModel, range_std: f64) -> Self {
+        let plan = route.plan.clone();
+        let sensor = BeamSensor::panorama(BEAMS, route.max_range, range_std);
+        let truth = drive(&route.way_points, route.steps);
         let mut odometry = vec![truth[0]];
         let mut controls = Vec::with_capacity(STEPS);
         for (k, pair) in truth.windows(2).enumerate() {
@@ -181,13 +280,13 @@ impl LapWorld {
             let mut stream = Stream::at(seed, Purpose::WorldSensor, step as u32, look);
             sensor.scan(&plan.ranges(pose, &sensor, &mut stream))
         };
-        let scans = (1..=STEPS).map(|step| look(&truth[step], step, 0)).collect();
+        let scans = (1..=route.steps).map(|step| look(&truth[step], step, 0)).collect();
         let turned = |k: u32| {
             let spacing = core::f64::consts::TAU / BEAMS as f64;
             truth[0].compose(&Pose2::new(0.0, 0.0, spacing * f64::from(k) / f64::from(START_SCANS)))
         };
         let start_scans = (0..START_SCANS).map(turned).zip(0..).map(|(pose, k)| (pose, look(&pose, 0, k))).collect();
-        Self { plan, truth, odometry, controls, scans, start_scans }
+        Self { plan, sensor, truth, odometry, controls, scans, start_scans }
     }
 }
 
@@ -230,8 +329,11 @@ pub struct StepReport {
     pub map_bytes_dense: u64,
 }
 
+/// What a lap's filter draws poses from.
+pub type Proposals = Either<FromMotion<OdometryModel, ScanModel>, FromScan<Spread>>;
+
 /// The filter of a lap.
-pub type Filter = Rbpf<Grid, Either<FromMotion<OdometryModel, ScanModel>, FromScan<Spread>>>;
+pub type Filter = Rbpf<Grid, Proposals>;
 
 /// A lap under way. Cloning one is cheap: the world and the maps are shared.
 #[derive(Clone, Debug)]
@@ -248,27 +350,21 @@ impl Lap {
     /// Where a setting is out of its range.
     pub fn new(setup: &LapSetup) -> Result<Self, ParameterError> {
         setup.validate()?;
-        Self::in_world(setup, Arc::new(LapWorld::new(setup.seed, &setup.motion(), setup.range_std)))
+        Self::in_world(setup, Arc::new(setup.world()))
     }
 
-    /// The same in a world that is there: one for several filters.
+    /// The same in a world that is there, whatever the course of the setup: one for several filters.
     ///
     /// # Errors
     /// Where a setting is out of its range.
     pub fn in_world(setup: &LapSetup, world: Arc<LapWorld>) -> Result<Self, ParameterError> {
         setup.validate()?;
-        let motion = setup.motion();
         let start = world.truth[0];
         let mut map = Grid::new(GRID);
         for (pose, scan) in &world.start_scans {
             map.assimilate(pose, scan, &());
         }
-        let from_motion = FromMotion { motion, likelihood: ScanModel::new(setup.matcher, TEMPER, OUTLIER) };
-        let proposal = match setup.proposal {
-            ProposalKind::Motion => Either::Left(from_motion),
-            ProposalKind::Aware => Either::Right(FromScan { fallback: from_motion, settings: FROM_SCAN }),
-        };
-        let filter = Rbpf::new(proposal, setup.policy, setup.scheme, setup.seed, setup.particles, start, map);
+        let filter = Rbpf::new(setup.proposals(), setup.policy, setup.scheme, setup.seed, setup.particles, start, map);
         let uniform = Report {
             step: 0,
             log_increments: Vec::new(),
@@ -291,7 +387,7 @@ impl Lap {
 
     /// The last step.
     pub fn step_count(&self) -> u32 {
-        STEPS as u32
+        self.world.controls.len() as u32
     }
 
     /// One step of the filter; `None` after the last.
@@ -411,5 +507,53 @@ pub fn golden_setups() -> Vec<(&'static str, LapSetup)> {
         ("multinomial", LapSetup { scheme: Scheme::Multinomial, seed: 12, particles: 8, ..setup() }),
         ("one", LapSetup { particles: 1, ..setup() }),
         ("quiet", LapSetup { odometry_scale: 0.0, range_std: 0.0, particles: 4, ..setup() }),
+        ("ring", LapSetup { course: Course::Ring, ..setup() }),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ops;
+
+    const COURSES: [Course; 2] = [Course::Apartment, Course::Ring];
+
+    #[test]
+    fn courses_are_read_as_they_are_printed() {
+        for course in COURSES {
+            assert_eq!(course.to_string().parse(), Ok(course));
+        }
+        assert_eq!("moon".parse::<Course>().unwrap_err().message, "course = moon: must be apartment or ring");
+    }
+
+    /// A robot is some 0.4 m wide.
+    #[test]
+    fn no_drive_goes_through_a_wall_or_scrapes_along_one() {
+        let rings = [0, 1, 2].map(|niches| Route::ring(niches, 3.0));
+        for Route { plan, way_points, steps, .. } in COURSES.map(Course::route).into_iter().chain(rings) {
+            let truth = drive(&way_points, steps);
+            for (k, pair) in truth.windows(2).enumerate() {
+                let ahead = ops::atan2(pair[1].y - pair[0].y, pair[1].x - pair[0].x);
+                let free = plan.raycast([pair[0].x, pair[0].y], ahead);
+                assert!(free > pair[0].distance(&pair[1]) + 0.2, "step {k} at {:?}: a wall after {free} m", pair[0]);
+                let around = (0..360).map(|degree| f64::from(degree).to_radians());
+                let room =
+                    around.map(|angle| plan.raycast([pair[0].x, pair[0].y], angle)).fold(f64::INFINITY, f64::min);
+                assert!(room > 0.2, "step {k} at {:?}: {room} m to a wall", pair[0]);
+            }
+        }
+    }
+
+    #[test]
+    fn each_course_has_its_own_world() {
+        let setup = |course| LapSetup { course, ..LapSetup::default() };
+        let [apartment, ring] = COURSES.map(|course| Lap::new(&setup(course)).unwrap());
+        assert_eq!((apartment.step_count(), ring.step_count()), (STEPS as u32, 110));
+        let furthest = |lap: &Lap| {
+            let ends = lap.world().scans.iter().flat_map(|scan| scan.hits.iter().chain(&scan.misses));
+            ends.map(|[x, y]| ops::hypot(*x, *y)).fold(0.0, f64::max)
+        };
+        assert!(furthest(&apartment) > 4.0 && furthest(&ring) <= 3.0 + 1e-9);
+        assert_eq!(apartment.world().plan, FloorPlan::apartment());
+    }
 }

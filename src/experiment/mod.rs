@@ -10,6 +10,7 @@ pub mod numbers;
 pub mod policies;
 pub mod policy_counts;
 pub mod proposals;
+pub mod ring;
 mod spread;
 pub mod table;
 pub mod worked_example;

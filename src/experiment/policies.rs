@@ -255,9 +255,18 @@ impl Policies {
         let (world, runs) = match setup.course {
             PolicyCourse::Lap => {
                 let range_std = LapSetup::default().range_std * sensor_scale;
-                let lap =
-                    |policy| LapSetup { particles, seed, proposal, matcher, policy, scheme, odometry_scale, range_std };
-                let world = Arc::new(LapWorld::new(seed, &lap(ResamplePolicy::Never).motion(), range_std));
+                let lap = |policy| LapSetup {
+                    particles,
+                    seed,
+                    proposal,
+                    matcher,
+                    policy,
+                    scheme,
+                    odometry_scale,
+                    range_std,
+                    ..LapSetup::default()
+                };
+                let world = Arc::new(lap(ResamplePolicy::Never).world());
                 let run = |policy| Ok(Run::Lap(Box::new(Lap::in_world(&lap(policy), Arc::clone(&world))?)));
                 (World::Lap(Arc::clone(&world)), setup.policies().map(run))
             }

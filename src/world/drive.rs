@@ -39,6 +39,25 @@ pub fn drive(way_points: &[[f64; 2]], steps: usize) -> Vec<Pose2> {
         .collect()
 }
 
+/// The same way points with two more on every long leg, `near` \[m\] from its ends: [`drive`] then leaves the legs there, and not
+/// half-way, to round a corner.
+///
+/// A leg of up to 2.5 × `near` stays as it is.
+pub fn corners_cut_short(way_points: &[[f64; 2]], near: f64) -> Vec<[f64; 2]> {
+    let mut points = Vec::new();
+    for leg in way_points.windows(2) {
+        let [a, b] = [leg[0], leg[1]];
+        let length = ops::hypot(b[0] - a[0], b[1] - a[1]);
+        let at = |along: f64| [0, 1].map(|k: usize| a[k] + along / length * (b[k] - a[k]));
+        points.push(a);
+        if length > 2.5 * near {
+            points.extend([at(near), at(length - near)]);
+        }
+    }
+    points.extend(way_points.last());
+    points
+}
+
 fn between(a: [f64; 2], b: [f64; 2], t: f64) -> [f64; 2] {
     [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]
 }
@@ -54,5 +73,20 @@ mod tests {
         assert_eq!((poses[0], poses[40].distance(&Pose2::new(4.0, 3.0, 0.0))), (Pose2::default(), 0.0));
         let lengths: Vec<f64> = poses.windows(2).map(|p| p[0].distance(&p[1])).collect();
         assert!(lengths.iter().all(|l| (l - lengths[0]).abs() < 0.01 * lengths[0]), "{lengths:?}");
+    }
+
+    #[test]
+    fn corners_are_cut_where_they_are_asked_to_be() {
+        let way_points = [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [6.0, 7.0]];
+        let points = corners_cut_short(&way_points, 1.0);
+        assert_eq!(
+            points,
+            [[0.0, 0.0], [1.0, 0.0], [5.0, 0.0], [6.0, 0.0], [6.0, 1.0], [6.0, 5.0], [6.0, 6.0], [6.0, 7.0]]
+        );
+        // An arc may begin half-way between two points: from there on, the corner's leg is left.
+        let straight = |pose: &Pose2| pose.y == 0.0;
+        let leaves =
+            |points: &[[f64; 2]]| drive(points, 100).iter().take_while(|pose| straight(pose)).last().unwrap().x;
+        assert!((5.0..5.6).contains(&leaves(&points)) && leaves(&way_points) < 4.0);
     }
 }

@@ -142,6 +142,58 @@ impl FloorPlan {
         Self { size: [40.0, 24.0], walls, furniture }
     }
 
+    /// Our own ring, 11 m × 8 m: a corridor 1.8 m wide round a block, which has up to two `niches` on each side: 0.5 m deep, and the only
+    /// thing that tells one stretch of the corridor from the next. In the south-west corner, where the drive begins, a few
+    /// pieces of furniture are there to be known again.
+    ///
+    /// ```text
+    /// 8.0  +-----------------------------------------------+
+    ///      |                                               |
+    /// 6.2  |       +----+  4  +-----------+  8  +----+     |
+    ///      |       |    +-----+           +-----+    |     |   1 2 3 4  niches if there is one a side
+    ///      |       +--+                              |     |   5 6 7 8  the second ones
+    ///      |        7 |                           +--+     |   a  block      (3.3, 1.45)–(3.7, 1.8)
+    ///      |       +--+                           | 6      |   b  cupboard   (0.0, 0.0)–(0.7, 0.4)
+    ///      |       +--+                           +--+     |   c  cupboard   (2.3, 0.0)–(3.2, 0.4)
+    ///      |        3 |                           +--+     |   d  cupboard   (0.0, 1.6)–(0.35, 2.5)
+    ///      |d      +--+ +-----+           +-----+ | 2      |   >  the start, looking east
+    /// 1.8  |d      +----+  1  +-----------+  5  +-+--+     |
+    ///      |           a                                   |
+    ///      |b    >   c                                     |
+    /// 0.0  +-----------------------------------------------+
+    ///      0.0    1.8                              9.2   11.0
+    /// ```
+    pub fn ring(niches: usize) -> Self {
+        const WIDTH: f64 = 0.9;
+        const DEPTH: f64 = 0.5;
+        let size = [11.0, 8.0];
+        let (low, high) = ([1.8, 1.8], [9.2, 6.2]);
+        let mut walls = rectangle([0.0, 0.0], size).to_vec();
+        // A side of the block: from one end to the other along x, or along y if `upright`, with a niche from each of these places on,
+        // whose back is at `back`.
+        let mut side = |upright: bool, at: f64, back: f64, places: [f64; 2]| {
+            let axis = usize::from(upright);
+            let mut corners = vec![[low[axis], at]];
+            for place in &places[..niches.min(2)] {
+                corners.extend([[*place, at], [*place, back], [place + WIDTH, back], [place + WIDTH, at]]);
+            }
+            corners.push([high[axis], at]);
+            let point = |[along, across]: [f64; 2]| if upright { [across, along] } else { [along, across] };
+            walls.extend(corners.windows(2).map(|pair| Segment { a: point(pair[0]), b: point(pair[1]) }));
+        };
+        side(false, low[1], low[1] + DEPTH, [4.6, 7.3]);
+        side(true, high[0], high[0] - DEPTH, [2.7, 4.5]);
+        side(false, high[1], high[1] - DEPTH, [3.4, 6.6]);
+        side(true, low[0], low[0] + DEPTH, [3.0, 4.7]);
+        let furniture = [
+            rectangle([3.3, 1.45], [3.7, 1.8]),
+            rectangle([0.0, 0.0], [0.7, 0.4]),
+            rectangle([2.3, 0.0], [3.2, 0.4]),
+            rectangle([0.0, 1.6], [0.35, 2.5]),
+        ];
+        Self { size, walls, furniture: furniture.concat() }
+    }
+
     /// Distance \[m\] from (x, y) along the direction \[rad\] to the nearest wall or piece of furniture; infinite for none.
     pub fn raycast(&self, origin: [f64; 2], direction: f64) -> f64 {
         let (sin, cos) = ops::sin_cos(direction);
@@ -175,6 +227,12 @@ impl FloorPlan {
     }
 }
 
+/// The four sides between two opposite corners \[m\].
+fn rectangle([x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> [Segment; 4] {
+    let corners = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
+    core::array::from_fn(|k| Segment { a: corners[k], b: corners[(k + 1) % 4] })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -190,6 +248,35 @@ mod tests {
         assert!((room.raycast([1.0, 1.0], 0.0) - 2.0).abs() < 1e-12);
         assert!((room.raycast([1.0, 1.0], FRAC_PI_2) - 2.0).abs() < 1e-12);
         assert_eq!(room.raycast([1.0, 1.0], PI), f64::INFINITY);
+    }
+
+    #[test]
+    fn no_beam_leaves_the_ring_or_enters_its_block() {
+        for niches in 0..=2 {
+            let plan = FloorPlan::ring(niches);
+            for (origin, most) in [([1.6, 0.9], 9.5), ([10.1, 7.1], 10.2), ([0.9, 4.0], 4.4)] {
+                for k in 0..720 {
+                    let range = plan.raycast(origin, PI * f64::from(k) / 360.0);
+                    assert!(range > 0.2 && range < most, "{niches} niches, {origin:?}, beam {k}: {range} m");
+                }
+            }
+            // From the middle of the south, north, east and west corridors to the block: once in 2 cm a wall, or a niche's back.
+            let deep = |upright: bool| {
+                let [from, to, length] = if upright { [1.8, 6.2, 0.02] } else { [1.8, 9.2, 0.02] };
+                let ahead = |along: f64| match upright {
+                    true => [([0.9, along], 0.0), ([10.1, along], PI)],
+                    false => [([along, 0.9], FRAC_PI_2), ([along, 7.1], -FRAC_PI_2)],
+                };
+                let count = ((to - from) / length) as u32;
+                let places = (0..count).map(|k| from + length * (f64::from(k) + 0.5));
+                let ranges = places.flat_map(ahead).map(|(origin, angle)| plan.raycast(origin, angle));
+                length * ranges.filter(|range| (range - 1.4).abs() < 1e-9).count() as f64
+            };
+            // Two sides each way, niches of 0.9 m.
+            for upright in [false, true] {
+                assert!((deep(upright) - 2.0 * 0.9 * niches as f64).abs() < 0.1, "{niches}: {}", deep(upright));
+            }
+        }
     }
 
     #[test]

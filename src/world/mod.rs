@@ -4,6 +4,6 @@ mod drive;
 mod field;
 mod floor_plan;
 
-pub use drive::drive;
+pub use drive::{corners_cut_short, drive};
 pub use field::{Field, WINGS_LOST, WINGS_SIGN};
 pub use floor_plan::{FloorPlan, Segment};

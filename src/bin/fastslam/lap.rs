@@ -1,7 +1,7 @@
-//! `fastslam lap`: one lap of the apartment.
+//! `fastslam lap`: one lap of the apartment, or of the ring.
 
 use crate::{Failure, picture, print, print_json};
-use fastslam::experiment::lap::{Lap, LapSetup, StepReport};
+use fastslam::experiment::lap::{Course, Lap, LapSetup, StepReport};
 use fastslam::matching::Matcher;
 use fastslam::proposal::ProposalKind;
 use fastslam::resampling::{ResamplePolicy, Scheme};
@@ -9,9 +9,12 @@ use fastslam_widgets::{figure::Figure, paint::Theme};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// Drive one lap of the apartment and report every step
+/// Drive one lap and report every step
 #[derive(clap::Args)]
 pub struct Arguments {
+    /// Where: apartment (out along its corridor and back), or ring (round a block, with a laser that sees 3 m)
+    #[arg(long, default_value_t = LapSetup::default().course)]
+    course: Course,
     /// Number of particles M, 1 to 4096
     #[arg(long, value_name = "M", default_value_t = LapSetup::default().particles)]
     particles: usize,
@@ -39,7 +42,7 @@ pub struct Arguments {
     /// Print one JSON object
     #[arg(long)]
     json: bool,
-    /// Paint the end of the lap, as the page would, into this file
+    /// Paint the end of the lap, as the page would, into this file: of the apartment only
     #[arg(long, value_name = "FILE")]
     png: Option<PathBuf>,
 }
@@ -62,7 +65,11 @@ struct Output {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.png.is_some() && arguments.course != Course::Apartment {
+        return Err(Failure::Usage(format!("--png: the figure has no course {}", arguments.course)));
+    }
     let setup = LapSetup {
+        course: arguments.course,
         particles: arguments.particles,
         seed: arguments.seed,
         proposal: arguments.proposal,
@@ -93,9 +100,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 fn summary(setup: &LapSetup, output: &Output) -> String {
     let last = &output.steps[output.steps.len() - 1];
     let resampled = output.steps.iter().filter(|step| step.ancestors.is_some()).count();
-    let LapSetup { particles, seed, proposal, matcher, policy, scheme, .. } = setup;
+    let LapSetup { course, particles, seed, proposal, matcher, policy, scheme, .. } = setup;
     format!(
-        "lap of {} steps: {particles} particles, seed {seed}, proposal {proposal}, matcher {matcher}, policy {policy} ({scheme})\n\
+        "{course}, {} steps: {particles} particles, seed {seed}, proposal {proposal}, matcher {matcher}, policy {policy} ({scheme})\n\
          RMS position error of the best    {:8.3} m\n\
          the same after rigid alignment    {:8.3} m\n\
          RMS position error of odometry    {:8.3} m\n\

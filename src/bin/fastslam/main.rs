@@ -7,6 +7,7 @@ mod mrclam;
 mod numbers;
 mod picture;
 mod policies;
+mod ring;
 mod table;
 
 use clap::Parser;
@@ -32,6 +33,7 @@ enum Command {
     Landmarks(landmarks::Arguments),
     Numbers(numbers::Arguments),
     Policies(policies::Arguments),
+    Ring(ring::Arguments),
     Table(table::Arguments),
 }
 
@@ -88,6 +90,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Landmarks(arguments) => landmarks::run(&arguments),
         Command::Numbers(arguments) => numbers::run(&arguments),
         Command::Policies(arguments) => policies::run(&arguments),
+        Command::Ring(arguments) => ring::run(&arguments),
         Command::Table(arguments) => table::run(&arguments),
     })
 }
@@ -95,7 +98,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
 /// What clap says before it advises, in one line.
 fn one_line(message: &clap::Error) -> String {
     if message.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "a command is missing: lap, log, example-log, landmarks, numbers, policies or table (fastslam --help explains)"
+        return "a command is missing: lap, log, example-log, landmarks, numbers, policies, ring or table (fastslam --help explains)"
             .to_owned();
     }
     let text = message.to_string();

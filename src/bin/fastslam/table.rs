@@ -1,7 +1,7 @@
 //! `fastslam table`: errors over many seeds, whole or in shards.
 
 use crate::{Failure, print, print_json, progress};
-use fastslam::experiment::lap::LapSetup;
+use fastslam::experiment::lap::{Course, LapSetup};
 use fastslam::experiment::table::{LapResult, PARTICLES, Row, rows};
 use fastslam::matching::Matcher;
 use fastslam::proposal::ProposalKind;
@@ -20,6 +20,9 @@ pub struct Arguments {
     /// Seeds 1 to N of every row
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     seeds: u64,
+    /// Where: apartment or ring
+    #[arg(long, default_value_t = LapSetup::default().course)]
+    course: Course,
     /// What the end point of a beam is compared with: cell, subcell or both
     #[arg(long, default_value = "subcell")]
     matcher: Matchers,
@@ -27,7 +30,7 @@ pub struct Arguments {
     #[arg(long, value_name = "I/N", requires = "json")]
     shard: Option<Shard>,
     /// Read the shares from these files instead of running anything
-    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["shard", "seeds", "matcher"])]
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["shard", "seeds", "course", "matcher"])]
     merge: Vec<PathBuf>,
     /// Print JSON: an array of rows, or the laps of a share
     #[arg(long)]
@@ -74,6 +77,7 @@ impl FromStr for Shard {
 struct Share {
     shard: Shard,
     seeds: u64,
+    course: Course,
     laps: Vec<LapResult>,
 }
 
@@ -81,7 +85,7 @@ struct Share {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let laps = if arguments.merge.is_empty() { sweep(arguments)? } else { merge(&arguments.merge)? };
     match arguments.shard {
-        Some(shard) => print_json(&Share { shard, seeds: arguments.seeds, laps }),
+        Some(shard) => print_json(&Share { shard, seeds: arguments.seeds, course: arguments.course, laps }),
         None if arguments.json => print_json(&rows(&laps)),
         None => print(&text(&rows(&laps))),
     }
@@ -93,7 +97,14 @@ fn sweep(arguments: &Arguments) -> Result<Vec<LapResult>, Failure> {
     for seed in 1..=arguments.seeds {
         for &matcher in &arguments.matcher.0 {
             for proposal in [ProposalKind::Aware, ProposalKind::Motion] {
-                let setup = |particles| LapSetup { particles, seed, proposal, matcher, ..LapSetup::default() };
+                let setup = |particles| LapSetup {
+                    course: arguments.course,
+                    particles,
+                    seed,
+                    proposal,
+                    matcher,
+                    ..LapSetup::default()
+                };
                 setups.extend(PARTICLES.map(setup));
             }
         }
@@ -112,7 +123,7 @@ fn merge(files: &[PathBuf]) -> Result<Vec<LapResult>, Failure> {
             Failure::file(path, format_args!("not the output of table --shard I/N --json: {error}"))
         })?;
         if let Some(first) = shares.first() {
-            if (first.seeds, first.shard.count) != (share.seeds, share.shard.count) {
+            if (first.seeds, first.course, first.shard.count) != (share.seeds, share.course, share.shard.count) {
                 return Err(Failure::file(path, "a share of another sweep than the first file"));
             }
             if shares.iter().any(|other| other.shard == share.shard) {

@@ -25,7 +25,7 @@ const BEST: &[Choice] = &[Choice { value: "best", title: "the best" }];
 
 /// All parameters, for a mosaic of `universes`.
 pub fn specs(universes: usize) -> Vec<ParamSpec> {
-    let LapSetup { particles, seed, proposal, matcher, policy: selected, scheme, odometry_scale, range_std } =
+    let LapSetup { particles, seed, proposal, matcher, policy: selected, scheme, odometry_scale, range_std, .. } =
         LapSetup::default();
     vec![
         ParamSpec::integer(

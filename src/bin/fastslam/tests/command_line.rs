@@ -82,7 +82,7 @@ fn shards_merge_to_the_rows_of_one_run() {
 #[test]
 fn bad_arguments_are_refused_in_one_line_with_status_2() {
     for (arguments, said) in [
-        ("", "lap, log, example-log, landmarks, numbers, policies or table"),
+        ("", "lap, log, example-log, landmarks, numbers, policies, ring or table"),
         ("laps", "laps"),
         ("lap --particles 0", "from 1 to 4096"),
         ("lap --particles 1e9", "--particles"),
@@ -94,6 +94,8 @@ fn bad_arguments_are_refused_in_one_line_with_status_2() {
         ("lap --odometry NaN", "from 0 to 10"),
         ("lap --range-std 7", "from 0 to 1"),
         ("lap --particles 300 --png x.png", "universes"),
+        ("lap --course moon", "apartment or ring"),
+        ("lap --course ring --png x.png", "no course ring"),
         ("lap --bogus", "--bogus"),
         ("landmarks --proposal 3.0", "1.0 or 2.0"),
         ("landmarks --association guessed", "known or unknown"),
@@ -108,6 +110,10 @@ fn bad_arguments_are_refused_in_one_line_with_status_2() {
         ("policies --particles 0", "from 1 to 4096"),
         ("policies --threshold -0.5", "from 0 to 1"),
         ("policies --scheme lottery", "systematic, stratified, multinomial or residual"),
+        ("ring --niches 3", "0, 1 or 2"),
+        ("ring --max-range 0", "from 0.5 to 20"),
+        ("ring --particles 0", "from 1 to 4096"),
+        ("ring --shared-streams", "--price-noise"),
         ("table --seeds 0", "--seeds"),
         ("table --shard 4/3 --json", "I from 1 to N"),
         ("table --shard 1/3", "--json"),
@@ -142,6 +148,27 @@ fn landmarks_print_what_they_are_asked_for() {
     fastslam(&format!("landmarks --particles 3 --png {}", path.display())).success();
     assert!(std::fs::read(&path).unwrap().starts_with(b"\x89PNG"));
     std::fs::remove_file(path).unwrap();
+}
+
+#[test]
+fn the_ring_prints_what_the_closing_leaves() {
+    let ring = json("ring --seeds 3 --particles 6 --json --threads 2");
+    assert_eq!(ring, json("ring --seeds 3 --particles 6 --json --threads 1"));
+    let runs = ring["runs"].as_array().unwrap();
+    assert_eq!(runs.iter().map(|run| run["seed"].as_u64().unwrap()).collect::<Vec<_>>(), [1, 2, 3]);
+    for (key, value) in ring["medians"].as_object().unwrap() {
+        let below = runs.iter().filter(|run| run[key].as_f64().unwrap() <= value.as_f64().unwrap()).count();
+        assert!(below >= 2, "{key}");
+    }
+    let lap = json("lap --course ring --seed 2 --particles 6 --json");
+    assert_eq!(lap["rms_best"], runs[1]["rms_best"]);
+    assert_ne!(ring["medians"], json("ring --seeds 3 --particles 6 --niches 1 --max-range 2.5 --json")["medians"]);
+    fastslam("ring --seeds 2 --particles 2").success();
+
+    let noise = json("ring --price-noise --every 50 --draws 3 --seeds 2 --particles 2 --json");
+    assert_eq!(noise["runs"][1].as_array().unwrap().len(), 2, "steps 50 and 100");
+    assert!(noise["medians"]["noise"].as_f64().unwrap() > 0.0);
+    fastslam("ring --price-noise --every 110 --draws 2 --seeds 1 --particles 2 --shared-streams").success();
 }
 
 #[test]

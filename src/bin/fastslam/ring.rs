@@ -1,0 +1,172 @@
+//! `fastslam ring`: what a filter keeps until a loop closes, over many seeds.
+
+use crate::{Failure, print, print_json, progress};
+use fastslam::error::ParameterError;
+use fastslam::experiment::lap::{Course, LapSetup};
+use fastslam::experiment::quantile;
+use fastslam::experiment::ring::{AFTER, NoiseProbe, PriceNoise, RingRun, RingSetup, median, price_noise};
+use fastslam::matching::Matcher;
+use fastslam::proposal::ProposalKind;
+use fastslam::resampling::{ResamplePolicy, Scheme};
+use indicatif::ParallelProgressIterator;
+use rayon::prelude::*;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Drive round the ring for many seeds: how different the universes are just before the loop closes, and what the closing leaves
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// Seeds 1 to N
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    seeds: u64,
+    /// Number of particles M, 1 to 4096
+    #[arg(long, value_name = "M", default_value_t = LapSetup::default().particles)]
+    particles: usize,
+    /// Niches on each side of the block, 0 to 2
+    #[arg(long, value_name = "N", default_value_t = RingSetup::default().niches)]
+    niches: usize,
+    /// Longest range of the laser [m], 0.5 to 20
+    #[arg(long, value_name = "METRES", default_value_t = RingSetup::default().max_range, allow_negative_numbers = true)]
+    max_range: f64,
+    /// Where new poses are drawn from: aware (of the scan) or motion
+    #[arg(long, default_value_t = LapSetup::default().proposal)]
+    proposal: ProposalKind,
+    /// What the end point of a beam is compared with: cell or subcell
+    #[arg(long, default_value_t = LapSetup::default().matcher)]
+    matcher: Matcher,
+    /// When to resample: never, always or neff:F, where N_eff < F M
+    #[arg(long, default_value_t = LapSetup::default().policy)]
+    policy: ResamplePolicy,
+    /// How to resample: systematic, stratified, multinomial or residual
+    #[arg(long, default_value_t = LapSetup::default().scheme)]
+    scheme: Scheme,
+    /// Factor on the standard deviations of the odometry's noise, 0 to 10
+    #[arg(long, value_name = "FACTOR", default_value_t = LapSetup::default().odometry_scale, allow_negative_numbers = true)]
+    odometry: f64,
+    /// Standard deviation of a range [m], 0 to 1
+    #[arg(long, value_name = "METRES", default_value_t = LapSetup::default().range_std, allow_negative_numbers = true)]
+    range_std: f64,
+    /// Measure instead how much of a particle's price is noise: at every 10th step each particle draws its next pose 60 times
+    #[arg(long)]
+    price_noise: bool,
+    /// With --price-noise: at every K-th step
+    #[arg(long, value_name = "K", default_value_t = NoiseProbe::default().every, value_parser = clap::value_parser!(u32).range(1..=110))]
+    every: u32,
+    /// With --price-noise: how many times each particle draws
+    #[arg(long, value_name = "N", default_value_t = NoiseProbe::default().draws, value_parser = clap::value_parser!(u32).range(2..=10_000))]
+    draws: u32,
+    /// With --price-noise: the n-th draw of all particles is from one stream
+    #[arg(long, requires = "price_noise")]
+    shared_streams: bool,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Output<T> {
+    particles: usize,
+    niches: usize,
+    max_range: f64,
+    /// Of each measure, over the seeds.
+    medians: BTreeMap<&'static str, f64>,
+    /// One run a seed.
+    runs: Vec<T>,
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let &Arguments { particles, niches, max_range, .. } = arguments;
+    let setup = |seed| RingSetup {
+        lap: LapSetup {
+            course: Course::Ring,
+            particles,
+            seed,
+            proposal: arguments.proposal,
+            matcher: arguments.matcher,
+            policy: arguments.policy,
+            scheme: arguments.scheme,
+            odometry_scale: arguments.odometry,
+            range_std: arguments.range_std,
+        },
+        niches,
+        max_range,
+    };
+    setup(1).start()?; // refused before anything is run, if it is
+    if arguments.price_noise {
+        let &Arguments { every, draws, shared_streams: shared, .. } = arguments;
+        let probe = NoiseProbe { every, draws, shared };
+        let runs = sweep(arguments.seeds, |seed| price_noise(&setup(seed), probe))?;
+        let of = |f: fn(&PriceNoise) -> f64| median(runs.iter().flatten().map(f).collect());
+        let medians = NOISES.map(|(name, _, f)| (name, of(f))).into();
+        let text = noise_text(arguments, &runs);
+        if arguments.json { print_json(&Output { particles, niches, max_range, medians, runs }) } else { print(&text) }
+    } else {
+        let runs = sweep(arguments.seeds, |seed| RingRun::of(&setup(seed)))?;
+        let of = |k: usize| median(runs.iter().map(|run| run.measures()[k].2).collect());
+        let medians = runs[0].measures().iter().enumerate().map(|(k, (name, ..))| (*name, of(k))).collect();
+        let text = text(arguments, &runs);
+        if arguments.json { print_json(&Output { particles, niches, max_range, medians, runs }) } else { print(&text) }
+    }
+}
+
+/// In the order of the seeds, which are spread over the threads.
+fn sweep<T: Send>(seeds: u64, run: impl Fn(u64) -> Result<T, ParameterError> + Sync + Send) -> Result<Vec<T>, Failure> {
+    let bar = progress(seeds as usize, "seeds");
+    let runs: Result<Vec<T>, _> =
+        (1..seeds + 1).collect::<Vec<u64>>().into_par_iter().progress_with(bar).map(run).collect();
+    Ok(runs?)
+}
+
+fn head(arguments: &Arguments) -> String {
+    let Arguments { seeds, particles, niches, max_range, policy, scheme, .. } = arguments;
+    format!(
+        "ring, {seeds} seeds, {particles} particles, {policy} ({scheme}), {niches} niches a side, laser {max_range} m\n"
+    )
+}
+
+fn text(arguments: &Arguments, runs: &[RingRun]) -> String {
+    let mut text = head(arguments);
+    text += &format!("closing at step {}; before: one step earlier; after: {AFTER} steps later\n", runs[0].closing);
+    text += &format!("{:38} {:>8} {:>8} {:>8}\n", "over the seeds", "p10", "median", "p90");
+    for (k, (_, title, _)) in runs[0].measures().into_iter().enumerate() {
+        let mut values: Vec<f64> = runs.iter().map(|run| run.measures()[k].2).collect();
+        values.sort_unstable_by(f64::total_cmp);
+        let [p10, median, p90] = [0.1, 0.5, 0.9].map(|q| quantile(&values, q));
+        text += &format!("{title:38} {p10:8.3} {median:8.3} {p90:8.3}\n");
+    }
+    text
+}
+
+/// What is told of a particle's price: key in JSON, head of the column, value.
+type Noise = (&'static str, &'static str, fn(&PriceNoise) -> f64);
+const NOISES: [Noise; 4] = [
+    ("noise", "of one particle", |noise| noise.noise),
+    ("noise_relative", "above the mean", |noise| noise.noise_relative),
+    ("spread", "between particles", |noise| noise.spread),
+    ("matched", "matched", |noise| noise.matched),
+];
+
+fn noise_text(arguments: &Arguments, runs: &[Vec<PriceNoise>]) -> String {
+    let mut text = head(arguments);
+    text += &format!(
+        "ln of the price, {} draws: standard deviations [nats], medians over the seeds\n\
+         of one particle: from draw to draw; above the mean: the same less the population's mean of the draw;\n\
+         between particles: of the means of their draws\n",
+        arguments.draws
+    );
+    text += &format!("{:>8}", "step");
+    NOISES.iter().for_each(|(_, head, _)| text += &format!("{head:>20}"));
+    let mut line = |name: &str, of: &[&PriceNoise]| {
+        text += &format!("\n{name:>8}");
+        for (.., f) in NOISES {
+            text += &format!("{:20.2}", median(of.iter().map(|noise| f(noise)).collect()));
+        }
+    };
+    for (k, first) in runs[0].iter().enumerate() {
+        line(&first.step.to_string(), &runs.iter().map(|run| &run[k]).collect::<Vec<_>>());
+    }
+    line("all", &runs.iter().flatten().collect::<Vec<_>>());
+    text + "\n"
+}
