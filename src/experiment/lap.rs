@@ -13,7 +13,7 @@ use crate::map::grid::{Grid, GridModel};
 use crate::map::{ConditionalMap, Footprint};
 use crate::matching::{ClimbSteps, Matcher, ScanModel};
 use crate::motion::{Odometry, OdometryModel};
-use crate::proposal::{Either, FromMotion, FromScan, FromScanSettings, ProposalKind, ProposalTrace, Spread};
+use crate::proposal::{Either, FitLimits, FromMotion, FromScan, FromScanSettings, ProposalKind, ProposalTrace, Spread};
 use crate::random::{Purpose, Stream};
 use crate::rbpf::{Particle, Rbpf, Report};
 use crate::resampling::{ResamplePolicy, Scheme};
@@ -43,6 +43,13 @@ pub const MAX_RANGE: f64 = 8.0;
 /// repeated from one heading, the scans leave walls of separate dots, between which the next scan falls.
 pub const START_SCANS: u32 = 30;
 
+/// L: a scan is weighed against the map of so many scans ago, or of up to half as many more. By then the robot is some 6 m further,
+/// out of sight of most of what it saw for the first time.
+pub const LAG: u32 = 20;
+
+/// λ: the share of that log-likelihood that counts.
+pub const EVIDENCE: f64 = 0.3;
+
 /// How the map learns.
 ///
 /// A pass weighs a ninth of a hit: in cells this wide most beams that pass a wall's cell pass beside the wall. With
@@ -53,6 +60,7 @@ pub const GRID: GridModel = GridModel {
     log_odds_pass: -0.1,
     surface_std: 0.1,
     surface_stretch: 1.0,
+    lag: LAG,
     reach: 0,
 };
 
@@ -70,16 +78,16 @@ pub const FROM_SCAN: FromScanSettings<Spread> = FromScanSettings {
     // Keeps R_t invertible at a stand, and lets a centimetre of slip be.
     motion_floor: [0.02, 0.02, 0.01],
     // With the spread of 3 σ one every 0.75 σ, some five degrees here: about the slope's width.
-    search: Spread { seeds: 8 },
+    search: Spread { seeds: 8, climbs: 3 },
     // From a third of a cell down to a centimetre; the fit takes over from there.
-    climb: ClimbSteps { linear: 0.08, angular: 0.04, halvings: 3 },
+    climb: ClimbSteps { linear: 0.08, angular: 0.04, halvings: 2 },
     climb_stride: 2,
     // e^½: an optimum less than two thirds better than the average pose is no optimum.
     gain: 0.5,
     full_weight: 0.0,
-    probes: 12,
     // From half a centimetre, below which there is nothing to see, to a third of a cell, the plateau of the cell matcher.
-    probe_stds: [[0.005, 0.005, 0.003], [0.1, 0.1, 0.05]],
+    limits: FitLimits { least: [0.005, 0.003], most: [0.1, 0.05] },
+    evidence: EVIDENCE,
 };
 
 /// Where a lap is driven.
@@ -364,6 +372,7 @@ impl Lap {
         for (pose, scan) in &world.start_scans {
             map.assimilate(pose, scan, &());
         }
+        map.settle();
         let filter = Rbpf::new(setup.proposals(), setup.policy, setup.scheme, setup.seed, setup.particles, start, map);
         let uniform = Report {
             step: 0,

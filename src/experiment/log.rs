@@ -2,6 +2,7 @@
 //!
 //! One setting for every log, robot and laser: nothing here is to be tuned to a building.
 
+use super::lap::{EVIDENCE, LAG};
 use crate::decimal;
 use crate::digest::Digest;
 use crate::error::ParameterError;
@@ -13,7 +14,7 @@ use crate::map::grid::{Grid, GridModel};
 use crate::map::{ConditionalMap, Footprint};
 use crate::matching::{ClimbSteps, Kernel, Matcher, ScanModel};
 use crate::motion::{Odometry, OdometryModel};
-use crate::proposal::{FromMotion, FromScan, FromScanSettings, Lattice, ProposalTrace};
+use crate::proposal::{FitLimits, FromMotion, FromScan, FromScanSettings, Lattice, ProposalTrace};
 use crate::random::{Purpose, Stream};
 use crate::rbpf::{Particle, Rbpf};
 use crate::resampling::{ResamplePolicy, Scheme};
@@ -62,8 +63,8 @@ pub const FROM_SCAN: FromScanSettings<Lattice> = FromScanSettings {
     climb_stride: 2,
     gain: 0.5,
     full_weight: 0.5,
-    probes: 12,
-    probe_stds: [[0.005, 0.005, 0.003], [0.05, 0.05, 0.03]],
+    limits: FitLimits { least: [0.005, 0.003], most: [0.05, 0.03] },
+    evidence: EVIDENCE,
 };
 
 /// Beams for which [`FROM_SCAN`] is made. Of a denser laser the search takes fewer: neighbours tell it the same.
@@ -185,9 +186,11 @@ impl LogRun {
             log_odds_pass: -0.4,
             surface_std: 0.06,
             surface_stretch: SURFACE_STRETCH,
+            lag: LAG,
             reach: 2,
         });
         map.assimilate(&Pose2::default(), &first.end_points(longest, setup.max_range), &());
+        map.settle();
         let likelihood = ScanModel::new(Matcher::SubCell, TEMPER, OUTLIER).with_kernel(KERNEL);
         let fallback = FromMotion { motion: OdometryModel { alphas: ALPHAS }, likelihood };
         let filter = Rbpf::new(

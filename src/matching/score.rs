@@ -1,4 +1,4 @@
-//! The map-match likelihood p(z | x, m) of a scan against a grid.
+//! The score of a scan against a grid, which stands for ln p(z | x, m).
 
 use crate::error::ParameterError;
 use crate::geometry::Pose2;
@@ -32,12 +32,16 @@ pub enum Kernel {
     },
 }
 
-/// The likelihood of a scan.
+/// How well a scan fits a map: a score \[nats\] that the filters use as ln p(z | x, m).
 ///
-/// ln p(z | x, m) = κ Σ_b max(ℓ_b, ln p_cell(b)), summed over the beams that met something: a maximum in place of the sum of a
+/// score = κ Σ_b max(ℓ_b, ln p_cell(b)), summed over the beams that met something: a maximum in place of the sum of a
 /// mixture (Olson and Agarwal 2013), which costs no logarithm. p_cell = ε + (1 − ε) p(occupied) judges the cell an end point
 /// falls in; ℓ_b, of the squared distance d² to the nearest surface, is the term of [`Matcher::SubCell`], absent for
 /// [`Matcher::Cell`]. With a robust kernel ℓ_b alone counts wherever there is a surface near.
+///
+/// It is not a density over scans: the normaliser −½ ln |Σ′| of each surface is left out, as Biber and Straßer (2003) leave it
+/// out, and it differs from surface to surface. So a scan may be compared between poses, and between maps of one place, but
+/// its sum over all scans is not one.
 ///
 /// κ < 1 tempers the product over beams: neighbouring beams meet the same wall and err together (GSB, *likelihood
 /// smoothing*; PR §6.3.4).
@@ -68,16 +72,16 @@ impl ScanModel {
         Self { kernel, ..self }
     }
 
-    /// ln p(z | x, m) \[nats\], up to a constant that neither pose nor map changes; 0 at best.
-    pub fn log_likelihood<const FINE: usize>(&self, grid: &Grid<FINE>, world_from_robot: &Pose2, scan: &Scan) -> f64 {
-        self.log_likelihood_above(f64::NEG_INFINITY, grid, world_from_robot, scan)
+    /// The score \[nats\] of a scan taken at a pose; 0 at best.
+    pub fn log_score<const FINE: usize>(&self, grid: &Grid<FINE>, world_from_robot: &Pose2, scan: &Scan) -> f64 {
+        self.log_score_above(f64::NEG_INFINITY, grid, world_from_robot, scan)
     }
 
-    /// [`Self::log_likelihood`] where it exceeds `floor`, else −∞.
+    /// [`Self::log_score`] where it exceeds `floor`, else −∞.
     ///
     /// No beam adds anything positive, so the sum is given up as soon as it falls below the floor: a hill climb that only asks
     /// whether a step improves is spared most of the beams.
-    pub(crate) fn log_likelihood_above(
+    pub(crate) fn log_score_above(
         &self,
         floor: f64,
         grid: &impl Surfaces,
@@ -120,7 +124,7 @@ impl ScanModel {
         self.temper * sum
     }
 
-    /// A coarse likelihood \[nats\] of a scan that is turned already: how many squares each of its end points, shifted by
+    /// A coarse score \[nats\] of a scan that is turned already: how many squares each of its end points, shifted by
     /// (x, y) \[m\], is from the nearest surface. The end points are given in squares.
     pub(crate) fn coarse<const FINE: usize>(&self, view: &View<'_, FINE>, turned: &[[f64; 2]], shift: [f64; 2]) -> f64 {
         let [u, v] = shift.map(|c| c * view.per_square());

@@ -93,7 +93,7 @@ impl<Z: LandmarkSensor, S: Store, D: Motion> Proposal<Landmarks<Z, S>> for FromM
         // ANCHOR: draw
         let (world_from_robot, trace) = if measured.informed {
             let pose = sample_semidefinite(&measured.mean, &measured.covariance, stream);
-            (pose, ProposalTrace::Matched { mode: measured.mean })
+            (pose, ProposalTrace::Matched { mode: measured.mean, log_integral: measured.log_evidence })
         } else {
             (self.motion.sample(from, control, stream), ProposalTrace::Motion)
         };

@@ -19,7 +19,7 @@ pub trait Likelihood<M: ConditionalMap>: Sync {
 
 impl<const FINE: usize> Likelihood<Grid<FINE>> for ScanModel {
     fn log_likelihood(&self, grid: &Grid<FINE>, world_from_robot: &Pose2, scan: &Scan) -> (f64, ()) {
-        (Self::log_likelihood(self, grid, world_from_robot, scan), ())
+        (self.log_score(grid, world_from_robot, scan), ())
     }
 }
 

@@ -3,21 +3,20 @@
 //! Reference: Grisetti, Stachniss, Burgard, *Improved techniques for grid mapping with Rao-Blackwellized particle filters*,
 //! T-RO 2007, §IV and algorithm 1.
 
-use super::{FromMotion, Proposal, ProposalTrace, Proposed};
+use super::{Fit, FitLimits, FromMotion, Proposal, ProposalTrace, Proposed};
 use crate::geometry::{Gaussian3, Pose2};
 use crate::map::grid::{Grid, View};
 use crate::matching::{Climb, ClimbSteps, ScanModel, climb};
-use crate::motion::{Odometry, OdometryModel};
+use crate::motion::{Motion, Odometry, OdometryModel};
 use crate::ops;
 use crate::random::Stream;
 use crate::rbpf::Particle;
 use crate::sensor::Scan;
-use nalgebra::{Matrix3, Vector3};
 
 /// Where a climb begins. A type for each way: a program that searches in one only is without the other.
 pub trait Search {
     /// Starts of the climb, and the mean log-likelihood that its end must beat \[nats\].
-    fn starts<const FINE: usize>(&self, target: &Target<'_, FINE>, stream: &mut Stream) -> (Vec<Climb>, f64);
+    fn starts<const FINE: usize>(&self, target: &Target<'_, FINE>) -> (Vec<Climb>, f64);
 }
 
 /// At the best of the odometry's prediction and so many poses spread over the prior's heading: enough where a step's error is
@@ -26,6 +25,8 @@ pub trait Search {
 pub struct Spread {
     /// Poses besides the prediction.
     pub seeds: u32,
+    /// How many of the best are climbed from.
+    pub climbs: usize,
 }
 
 /// At the best poses of a lattice over the whole prior, judged coarsely (after the correlative matching of Olson 2009): for
@@ -58,10 +59,10 @@ pub struct FromScanSettings<S> {
     /// Motion \[m, or rad of turns\] from which on a scan weighs in full. After a shorter one it weighs in proportion: scans taken
     /// from nearly one place repeat each other's errors, and ten a second would choose between particles by them.
     pub full_weight: f64,
-    /// Number of probes K.
-    pub probes: u32,
-    /// Limits of the standard deviations of the probes along each axis \[m, m, rad\]: least and most.
-    pub probe_stds: [[f64; 3]; 2],
+    /// Limits of the standard deviations of the fit.
+    pub limits: FitLimits,
+    /// λ: the share of the log-likelihood by the map of some scans ago ([`Grid::past`]) that is evidence on the path, 0 to 1.
+    pub evidence: f64,
 }
 
 /// A search reaches this many standard deviations of the prior to each side. Heading is what a climb is lost
@@ -74,10 +75,24 @@ const MOST_STEPS: [f64; 2] = [8.0, 24.0];
 /// How far from the prediction a match may lie \[m\] and be looked up fast.
 const SLACK: f64 = 1.0;
 
-/// The gmapping recipe: find the mode, probe around it, fit a Gaussian, sample it, pay the normaliser η.
+/// The measurement-aware proposal of a grid: find the mode of ln p(z | x, m) + ln p(x | x′, u), fit a Gaussian there, draw from it; and
+/// pay what the scan says of the path.
+///
+/// # What a scan says of the path
+///
+/// The paper's weight is the normaliser η = ∫ p(z | x, m) p(x | x′, u) dx of the map as it is. Split the map into what was seen for the
+/// first time in the last L scans, and the rest. Where a scan meets the first part only, η depends on the last poses relative to each
+/// other, and on nothing before: move the path with its map rigidly, and it stays what it is. There every particle whose last steps
+/// fit has the same η in truth; what is computed differs by where the raster happens to lie, and resampling by it is a
+/// lottery, which spends the diversity that the closing of a loop will need. So a scan is weighed against the other part alone,
+///
+/// ln w ← ln w + λ ln p(z | x, m of L scans ago), x the pose that was drawn,
+///
+/// whether it was drawn from the fit or, where the matcher is not trusted, from the motion. Ground that the old map does not know
+/// says the same of all. λ < 1, since a place is in sight for many scans, which repeat each other's errors.
 #[derive(Clone, Debug)]
 pub struct FromScan<S> {
-    /// The models, and what is done where the matcher fails.
+    /// The models, and what is drawn from where the matcher fails.
     pub fallback: FromMotion<OdometryModel, ScanModel>,
     /// Tuning.
     pub settings: FromScanSettings<S>,
@@ -88,20 +103,15 @@ impl<S: Search + Sync, const FINE: usize> Proposal<Grid<FINE>> for FromScan<S> {
 
     // anchor: propose
     fn propose(&self, particle: &Particle<Grid<FINE>>, u: &Odometry, scan: &Scan, stream: &mut Stream) -> Proposed<()> {
-        let settings = &self.settings;
+        let Self { fallback: FromMotion { motion, likelihood }, settings } = self;
         // ANCHOR: predict
-        let prior = self.fallback.motion.gaussian(&particle.world_from_robot, u, settings.motion_floor);
+        let prior = motion.gaussian(&particle.world_from_robot, u, settings.motion_floor);
         // ANCHOR_END: predict
-        let reach = scan.hits.iter().map(|[x, y]| x * x + y * y).fold(0.0, f64::max).sqrt();
-        let view = View::new(&particle.map, [prior.mean().x, prior.mean().y], reach + SLACK);
-        // The search looks at a thinner scan, in which each beam counts for those left out.
-        let thin = scan.thinned(settings.climb_stride);
-        let (likelihood, share) = (&self.fallback.likelihood, settings.climb_stride as f64);
-        let target = Target { prior: &prior, likelihood, view, scan, thin, share, gain: settings.gain };
+        let target = Target::new(&prior, likelihood, &particle.map, scan, settings);
 
         // ANCHOR: seeds
         // Starts of the climb, and the mean likelihood that its end must beat.
-        let (starts, log_mean) = settings.search.starts(&target, stream);
+        let (starts, log_mean) = settings.search.starts(&target);
         // ANCHOR_END: seeds
         // ANCHOR: match
         let climbs = starts
@@ -109,55 +119,41 @@ impl<S: Search + Sync, const FINE: usize> Proposal<Grid<FINE>> for FromScan<S> {
             .map(|start| climb(start, settings.climb, |pose, floor| target.log_posterior(pose, floor)));
         let top = climbs.reduce(|best, end| if end.value > best.value { end } else { best });
         // ANCHOR_END: match
-
         // ANCHOR: guard
-        // The guard: on a flat score surface the optimum is noise, no better than what the motion model would draw anyway.
-        let Some(top) = top.filter(|top| top.value - prior.log_density(&top.pose) - log_mean >= settings.gain) else {
-            return self.fallback.propose(particle, u, scan, stream);
-        };
+        // On a flat score surface the optimum is noise, no better than what the motion model would draw anyway.
+        let top = top.filter(|top| top.value - prior.log_density(&top.pose) - log_mean >= settings.gain);
         // ANCHOR_END: guard
-        let mode = Climb { pose: top.pose, value: target.log_value(&top.pose) };
 
-        // Probes around the mode, as wide as the target is there; each weighs τ_k = target / density of the probes.
-        // ANCHOR: probe
-        let around = self.probe_gaussian(&mode, &target);
-        let probes: Vec<(Pose2, f64)> = (0..settings.probes)
-            .map(|_| around.sample(stream))
-            .map(|pose| (pose, target.log_value(&pose) - around.log_density(&pose)))
-            .collect();
-        let log_taus: Vec<f64> = probes.iter().map(|(_, log_tau)| *log_tau).collect();
-        let log_sum = ops::log_sum_exp(&log_taus);
-        // ANCHOR_END: probe
-
-        // μ and Σ of the weighted probes, as differences from the mode (angles wrapped).
         // ANCHOR: fit
-        let (mut mu, mut second) = (Vector3::zeros(), Matrix3::zeros());
-        for (pose, log_tau) in &probes {
-            let (d, tau) = (pose.minus(&mode.pose), ops::exp(log_tau - log_sum));
-            mu += d * tau;
-            second += d * d.transpose() * tau;
-        }
-        let floor = Matrix3::from_diagonal(&Vector3::from(settings.probe_stds[0].map(|std| 0.25 * std * std)));
-        let sigma = second - mu * mu.transpose() + floor;
-        let Some(fitted) = Gaussian3::new(mode.pose.plus(&mu), sigma) else {
-            return self.fallback.propose(particle, u, scan, stream);
-        };
+        let fit = top.and_then(|top| Fit::around(&top.pose, &settings.limits, |pose| target.log_value(pose)));
         // ANCHOR_END: fit
-        // ANCHOR: eta
-        let log_eta = log_sum - ops::ln(f64::from(settings.probes));
-        let motion = u.trans.abs() + u.rot1.abs() + u.rot2.abs();
-        let share = if motion < settings.full_weight { motion / settings.full_weight } else { 1.0 };
-        // ANCHOR_END: eta
-        Proposed {
-            // ANCHOR: draw
-            world_from_robot: fitted.sample(stream),
-            // ANCHOR_END: draw
-            association: (),
-            log_increment: share * log_eta,
-            trace: ProposalTrace::Matched { mode: mode.pose },
-        }
+        let (world_from_robot, trace) = match (fit, top) {
+            (Some(fit), Some(top)) => {
+                // ANCHOR: draw
+                let drawn = fit.gaussian.sample(stream);
+                // ANCHOR_END: draw
+                (drawn, ProposalTrace::Matched { mode: top.pose, log_integral: fit.log_integral })
+            }
+            // ANCHOR: fallback
+            _ => (motion.sample(&particle.world_from_robot, u, stream), ProposalTrace::Motion),
+            // ANCHOR_END: fallback
+        };
+
+        // ANCHOR: price
+        let log_old = likelihood.log_score(&particle.map.past(), &world_from_robot, scan);
+        let log_increment = settings.evidence * settings.share(u) * log_old;
+        // ANCHOR_END: price
+        Proposed { world_from_robot, association: (), log_increment, trace }
     }
     // end: propose
+}
+
+impl<S> FromScanSettings<S> {
+    /// The share in which a scan after this motion weighs, 0 to 1.
+    fn share(&self, u: &Odometry) -> f64 {
+        let motion = u.trans.abs() + u.rot1.abs() + u.rot2.abs();
+        if motion < self.full_weight { motion / self.full_weight } else { 1.0 }
+    }
 }
 
 /// What a search looks for: a pose that explains the scan and the motion.
@@ -173,16 +169,29 @@ pub struct Target<'a, const FINE: usize> {
     gain: f64,
 }
 
-impl<const FINE: usize> Target<'_, FINE> {
+impl<'a, const FINE: usize> Target<'a, FINE> {
+    fn new<S>(
+        prior: &'a Gaussian3,
+        likelihood: &'a ScanModel,
+        map: &'a Grid<FINE>,
+        scan: &'a Scan,
+        settings: &FromScanSettings<S>,
+    ) -> Self {
+        let reach = scan.hits.iter().map(|[x, y]| x * x + y * y).fold(0.0, f64::max).sqrt();
+        let view = View::new(map, [prior.mean().x, prior.mean().y], reach + SLACK);
+        // The search looks at a thinner scan, in which each beam counts for those left out.
+        let (thin, share) = (scan.thinned(settings.climb_stride), settings.climb_stride as f64);
+        Self { prior, likelihood, view, scan, thin, share, gain: settings.gain }
+    }
+
     /// ln p(z | x, m) + ln N(x), of the whole scan.
     fn log_value(&self, pose: &Pose2) -> f64 {
-        self.likelihood.log_likelihood_above(f64::NEG_INFINITY, &self.view, pose, self.scan)
-            + self.prior.log_density(pose)
+        self.likelihood.log_score_above(f64::NEG_INFINITY, &self.view, pose, self.scan) + self.prior.log_density(pose)
     }
 
     /// ln p(z | x, m) by the thinner scan; need not be exact at or below `floor`.
     fn log_thin(&self, pose: &Pose2, floor: f64) -> f64 {
-        self.share * self.likelihood.log_likelihood_above(floor / self.share, &self.view, pose, &self.thin)
+        self.share * self.likelihood.log_score_above(floor / self.share, &self.view, pose, &self.thin)
     }
 
     /// The same with the prior.
@@ -193,29 +202,33 @@ impl<const FINE: usize> Target<'_, FINE> {
 }
 
 impl Search for Spread {
-    /// One start on the right slope, and the mean over all poses looked at.
-    fn starts<const FINE: usize>(&self, target: &Target<'_, FINE>, stream: &mut Stream) -> (Vec<Climb>, f64) {
+    /// The best poses looked at, and the mean over all of them.
+    fn starts<const FINE: usize>(&self, target: &Target<'_, FINE>) -> (Vec<Climb>, f64) {
         let prior = target.prior;
-        let mut log_seeds = vec![target.log_thin(prior.mean(), f64::NEG_INFINITY)];
-        let mut best = Climb { pose: *prior.mean(), value: log_seeds[0] + prior.log_density(prior.mean()) };
-        for k in 0..self.seeds {
+        // Evenly over the heading; over the position by the plastic number's sequence (Roberts 2018), in the share that a normal
+        // distribution has of each place.
+        let spread = (0..self.seeds).map(|k| {
+            let share = |step: f64| (0.5 + f64::from(k) * step).fract();
             let heading = SPREAD * ((f64::from(k) + 0.5) / f64::from(self.seeds) * 2.0 - 1.0);
-            let [a, b] = stream.normals();
-            let pose = prior.at([heading, a, b]);
+            let radius = (-2.0 * ops::ln(1.0 - share(0.754_877_666_246_693))).sqrt();
+            let (sin, cos) = ops::sin_cos(core::f64::consts::TAU * share(0.569_840_290_998_053));
+            prior.at([heading, radius * cos, radius * sin])
+        });
+        let (mut starts, mut log_seeds) = (Vec::new(), Vec::new());
+        for pose in core::iter::once(*prior.mean()).chain(spread) {
             let log_seed = target.log_thin(&pose, f64::NEG_INFINITY);
             log_seeds.push(log_seed);
-            let value = log_seed + prior.log_density(&pose);
-            if value > best.value {
-                best = Climb { pose, value };
-            }
+            starts.push(Climb { pose, value: log_seed + prior.log_density(&pose) });
         }
-        (vec![best], ops::log_sum_exp(&log_seeds) - ops::ln(log_seeds.len() as f64))
+        starts.sort_by(|a, b| b.value.total_cmp(&a.value));
+        starts.truncate(self.climbs);
+        (starts, ops::log_sum_exp(&log_seeds) - ops::ln(log_seeds.len() as f64))
     }
 }
 
 impl Search for Lattice {
     /// Starts of which each is worth a climb.
-    fn starts<const FINE: usize>(&self, target: &Target<'_, FINE>, _: &mut Stream) -> (Vec<Climb>, f64) {
+    fn starts<const FINE: usize>(&self, target: &Target<'_, FINE>) -> (Vec<Climb>, f64) {
         let start = |pose: Pose2| Climb { pose, value: target.log_posterior(&pose, f64::NEG_INFINITY) };
         (self.poses(target).into_iter().map(start).collect(), f64::NEG_INFINITY)
     }
@@ -277,25 +290,5 @@ impl Lattice {
             picked.push(*best);
         }
         picked
-    }
-}
-
-impl<S> FromScan<S> {
-    /// A Gaussian at the mode, with standard deviations from the curvature of the target along each axis (Laplace), kept within
-    /// the limits.
-    fn probe_gaussian<const FINE: usize>(&self, mode: &Climb, target: &Target<'_, FINE>) -> Gaussian3 {
-        let [least, most] = self.settings.probe_stds;
-        let mut variances = Vector3::zeros();
-        for axis in 0..3 {
-            let mut step = Vector3::zeros();
-            step[axis] = least[axis].max(0.25 * most[axis]);
-            let drop =
-                2.0 * mode.value - target.log_value(&mode.pose.plus(&step)) - target.log_value(&mode.pose.plus(&-step));
-            // −f″ ≈ drop / h²; σ² = h² / drop, and a plateau takes the most.
-            let std = if drop > 0.0 { (step[axis] * step[axis] / drop).sqrt() } else { most[axis] };
-            let std = std.max(least[axis]).min(most[axis]);
-            variances[axis] = std * std;
-        }
-        Gaussian3::new(mode.pose, Matrix3::from_diagonal(&variances)).expect("limits of probe_stds are positive")
     }
 }

@@ -3,10 +3,12 @@
 //! Every proposal pays for its choice by one formula: the log weight increment is ln p(z | x, m) + ln p(x | x′, u) − ln q(x), or
 //! its integral over q where that can be had.
 
+mod fit;
 mod from_measurement;
 mod from_motion;
 mod from_scan;
 
+pub use fit::{Fit, FitLimits};
 pub use from_measurement::{FromMeasurement, Measured};
 pub use from_motion::{FromMotion, Likelihood, Marginal};
 pub use from_scan::{FromScan, FromScanSettings, Lattice, Search, Spread};
@@ -56,6 +58,8 @@ pub enum ProposalTrace {
     Matched {
         /// The mode x̂.
         mode: Pose2,
+        /// ln η̂ \[nats\]: the normaliser of likelihood times motion prior, as the fit has it.
+        log_integral: f64,
     },
 }
 

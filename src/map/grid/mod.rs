@@ -64,7 +64,9 @@ pub struct GridModel {
     /// How many times further than its end points a surface reaches along itself: 1 or more. A wall goes on from square to square,
     /// but a normal distribution in each is a string of beads: between two of them, even the right pose fits badly.
     pub surface_stretch: f64,
-    /// How many squares away a surface is felt by [`Grid::nearness`], 0 to 2: what a coarse search looks at.
+    /// How many scans old [`Grid::past`] is, at the least; with 0 no past is kept, and it is the present.
+    pub lag: u32,
+    /// How many squares away a surface is felt by a coarse search, 0 to 2.
     pub reach: u32,
 }
 
@@ -81,6 +83,10 @@ pub struct Grid<const FINE: usize = 1> {
     /// 1 / square_size \[1/m\].
     per_square: f64,
     directory: Arc<Directory<FINE>>,
+    /// Scans mapped so far.
+    scans: u32,
+    /// The directory as it was after so many scans, oldest first: what [`Grid::past`] is now, and what it will be.
+    past: Vec<(u32, Arc<Directory<FINE>>)>,
 }
 
 /// The upper level: a rectangle of tiles. `None` is a tile nobody has written to.
@@ -102,12 +108,46 @@ impl<const FINE: usize> Grid<FINE> {
     pub fn new(model: GridModel) -> Self {
         let square_size = FINE as f64 * model.cell_size;
         let directory = Directory { rect: CellRect::default(), tiles: Vec::new() }.into();
-        Self { model, per_cell: 1.0 / model.cell_size, square_size, per_square: 1.0 / square_size, directory }
+        Self {
+            model,
+            per_cell: 1.0 / model.cell_size,
+            square_size,
+            per_square: 1.0 / square_size,
+            directory,
+            scans: 0,
+            past: Vec::new(),
+        }
     }
 
     /// Bytes of a tile with so many surfaces.
     pub fn tile_bytes(surfaces: usize) -> usize {
         tile::bytes::<FINE>(surfaces)
+    }
+
+    /// The map as it was [`GridModel::lag`] scans ago, up to one and a half times that; before that, as it was when it was
+    /// [settled](Self::settle), or empty.
+    ///
+    /// Costs pointers only. What is kept for it are the tiles that have been written to since, as they were.
+    pub fn past(&self) -> Self {
+        let directory = self.past.first().map_or(&self.directory, |(_, directory)| directory);
+        Self { directory: Arc::clone(directory), past: Vec::new(), ..*self }
+    }
+
+    /// From now on, [`Self::past`] is never older than what is mapped by now: for scans that were taken at known poses.
+    pub fn settle(&mut self) {
+        self.past = vec![(self.scans, Arc::clone(&self.directory))];
+    }
+
+    /// Keeps the map before another scan for [`Self::past`]: one for every half of the lag, and none that will not be asked for.
+    fn remember(&mut self) {
+        let lag = self.model.lag;
+        if lag > 0 && self.scans.is_multiple_of(lag.div_ceil(2)) {
+            self.past.push((self.scans, Arc::clone(&self.directory)));
+        }
+        self.scans += 1;
+        while self.past.get(1).is_some_and(|(scans, _)| scans + lag <= self.scans) {
+            self.past.remove(0);
+        }
     }
 
     /// Side of a cell \[m\].
@@ -154,18 +194,21 @@ impl<const FINE: usize> Grid<FINE> {
         self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT)?.surface(tile::local(i, j))
     }
 
+    /// How many squares away the surface nearest to a square is: 0 where it was hit, [`FAR`] where none is near.
+    pub(crate) fn nearness(&self, i: i32, j: i32) -> usize {
+        self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT).map_or(FAR, |tile| tile.nearness(tile::local(i, j)))
+    }
+
     /// Tells the squares around one with a new surface.
     fn mark_near(&mut self, i: i32, j: i32) {
         let reach = self.model.reach as i32;
         for (di, dj) in (-reach..=reach).flat_map(|dj| (-reach..=reach).map(move |di| (di, dj))) {
             let squares = di.abs().max(dj.abs()) as usize;
             let (i, j) = (i + di, j + dj);
-            let local = tile::local(i, j);
-            let near = self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT).map_or(FAR, |tile| tile.nearness(local));
-            if squares < near
+            if squares < self.nearness(i, j)
                 && let Some(tile) = self.tile_mut(i >> tile::SHIFT, j >> tile::SHIFT)
             {
-                tile.mark_near(local, squares);
+                tile.mark_near(tile::local(i, j), squares);
             }
         }
     }
@@ -176,9 +219,9 @@ impl<const FINE: usize> Grid<FINE> {
     /// show the same number.
     pub fn footprint<'a>(grids: impl IntoIterator<Item = &'a Self>) -> Footprint {
         const POINTER: usize = 8;
-        let directories: Vec<&Arc<Directory<FINE>>> = grids.into_iter().map(|grid| &grid.directory).collect();
-        let dense: usize = directories.iter().map(|d| d.tiles.len() * Tile::<FINE>::DENSE_BYTES).sum();
-        let directories = distinct(directories);
+        let grids: Vec<&Self> = grids.into_iter().collect();
+        let dense: usize = grids.iter().map(|grid| grid.directory.tiles.len() * Tile::<FINE>::DENSE_BYTES).sum();
+        let directories = distinct(grids.into_iter().flat_map(Self::directories).collect());
         let pointers: usize = directories.iter().map(|d| d.tiles.len() * POINTER).sum();
         let tiles = distinct(directories.iter().flat_map(|d| d.tiles.iter().flatten()).collect());
         let unique = pointers + tiles.iter().map(|tile| tile.bytes()).sum::<usize>();
@@ -189,7 +232,7 @@ impl<const FINE: usize> Grid<FINE> {
     /// them share is read once, so that a family of maps costs what its [`Self::footprint`] is and not so many copies.
     pub fn put<'a>(grids: impl IntoIterator<Item = &'a Self>, digest: &mut Digest) {
         let mut known = std::collections::BTreeMap::new();
-        for Directory { rect, tiles } in grids.into_iter().map(|grid| &*grid.directory) {
+        for Directory { rect, tiles } in grids.into_iter().flat_map(Self::directories).map(|directory| &**directory) {
             [rect.i0, rect.j0, rect.i1, rect.j1].into_iter().for_each(|k| digest.bytes(&k.to_le_bytes()));
             for tile in tiles {
                 let value = |tile: &Arc<Tile<FINE>>| {
@@ -198,6 +241,11 @@ impl<const FINE: usize> Grid<FINE> {
                 digest.bytes(&tile.as_ref().map_or(0, value).to_le_bytes());
             }
         }
+    }
+
+    /// Of the present and of the past.
+    fn directories(&self) -> impl Iterator<Item = &Arc<Directory<FINE>>> {
+        core::iter::once(&self.directory).chain(self.past.iter().map(|(_, directory)| directory))
     }
 
     // ANCHOR: listing-tile
@@ -326,6 +374,7 @@ impl<const FINE: usize> ConditionalMap for Grid<FINE> {
     /// Every cell is updated once a scan at the most, however many beams touch it: beams are not independent, and a wall seen
     /// at a grazing angle would be erased by the beams that pass along it. A cell that a beam ended in counts as hit.
     fn assimilate(&mut self, world_from_robot: &Pose2, scan: &Scan, (): &()) {
+        self.remember();
         let marks = ray::trace(world_from_robot, scan, self.model.cell_size, Self::TILE_CELLS);
         let Some(window) = marks.window() else { return };
         // What is marked around a surface may lie in the next tile.

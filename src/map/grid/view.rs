@@ -84,12 +84,13 @@ impl<'a, const FINE: usize> View<'a, FINE> {
     /// Squares from a point, in squares, to the nearest surface: 0 in a square that was hit, [`FAR`] where none is near.
     #[inline]
     pub fn nearness(&self, u: f64, v: f64) -> usize {
-        let (column, row) = (fast_floor(u).wrapping_sub(self.rect.i0), fast_floor(v).wrapping_sub(self.rect.j0));
+        let (i, j) = (fast_floor(u), fast_floor(v));
+        let (column, row) = (i.wrapping_sub(self.rect.i0), j.wrapping_sub(self.rect.j0));
         let (width, height) = (self.rect.width(), self.rect.height());
         if (column as u32 as usize) < width && (row as u32 as usize) < height {
             usize::from(self.squares[row as usize * width + column as usize].near)
         } else {
-            FAR
+            self.grid.nearness(i, j)
         }
     }
 

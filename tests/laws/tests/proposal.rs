@@ -56,8 +56,7 @@ impl OneStep {
                 for c in &side {
                     let pose = prior.at([*a, *b, *c]);
                     let log_normal = -0.5 * (a * a + b * b + c * c) - 1.5 * ops::ln(core::f64::consts::TAU);
-                    let log_likelihood =
-                        self.from_scan.fallback.likelihood.log_likelihood(&self.particle.map, &pose, scan);
+                    let log_likelihood = self.from_scan.fallback.likelihood.log_score(&self.particle.map, &pose, scan);
                     poses.push((pose.minus(prior.mean()), log_likelihood + log_normal + cell));
                 }
             }

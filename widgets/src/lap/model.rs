@@ -449,11 +449,10 @@ impl Model for LapModel {
             let doubt =
                 |word| TraceLine::new("doubt", format!("{word}; in {} of {m} universes trusted", report.matched));
             match report.traces[slot] {
-                ProposalTrace::Matched { mode } => lines.extend([
+                ProposalTrace::Matched { mode, log_integral } => lines.extend([
                     TraceLine::new("match", format!("moved by {}", pose_text(mode.minus(&predicted).into()))),
                     doubt("trusted"),
-                    TraceLine::new("probe", ""),
-                    TraceLine::new("fit", ""),
+                    TraceLine::new("fit", format!("ln η̂ = {}", nats(log_integral))),
                     TraceLine::new("draw", pose(&to)),
                     TraceLine::new("pay", paid),
                 ]),
@@ -461,7 +460,7 @@ impl Model for LapModel {
                     TraceLine::new("match", ""),
                     doubt("not trusted"),
                     TraceLine::new("fallback", pose(&to)),
-                    TraceLine::new("weigh", paid),
+                    TraceLine::new("pay", paid),
                 ]),
             }
         } else {
