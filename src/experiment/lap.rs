@@ -78,7 +78,7 @@ pub const FROM_SCAN: FromScanSettings<Spread> = FromScanSettings {
     // Keeps R_t invertible at a stand, and lets a centimetre of slip be.
     motion_floor: [0.02, 0.02, 0.01],
     // With the spread of 3 σ one every 0.75 σ, some five degrees here: about the slope's width.
-    search: Spread { seeds: 8, climbs: 3 },
+    search: Spread { seeds: 8, climbs: 2 },
     // From a third of a cell down to a centimetre; the fit takes over from there.
     climb: ClimbSteps { linear: 0.08, angular: 0.04, halvings: 2 },
     climb_stride: 2,
