@@ -79,7 +79,7 @@ pub const FROM_SCAN: FromScanSettings<Spread> = FromScanSettings {
     motion_floor: [0.02, 0.02, 0.01],
     // With the spread of 3 σ one every 0.75 σ, some five degrees here: about the slope's width.
     search: Spread { seeds: 8, climbs: 2 },
-    // From a third of a cell down to a centimetre; the fit takes over from there.
+    // From a third of a cell down to two centimetres; the fit's first step takes over from there.
     climb: ClimbSteps { linear: 0.08, angular: 0.04, halvings: 2 },
     climb_stride: 2,
     // e^½: an optimum less than two thirds better than the average pose is no optimum.

@@ -51,10 +51,11 @@ pub struct Fit {
 impl Fit {
     /// Fits exp(`log_target`) \[density over m² rad\] around its mode.
     ///
-    /// First the mode and twelve points around it, for which a cheaper `log_rough` will do, give gradient and 3 × 3 matrix of second derivatives: Newton's step to the top,
-    /// and the principal axes of the hill (Laplace). The top and twelve points √5 standard deviations from it correct for
-    /// what is no parabola: importance weights τ = target / Gaussian in a quadrature of degree five give the integral, the mean and the
-    /// covariance. For a Gaussian target within the limits all three are exact, however it is turned.
+    /// First the mode and twelve points around it, for which a cheaper `log_rough` will do, give gradient and 3 × 3 matrix of second
+    /// derivatives: Newton's step to the top, and the principal axes of the hill (Laplace). The top and twelve points √5
+    /// standard deviations from it correct for what is no parabola: importance weights τ = target / Gaussian in a quadrature of
+    /// degree five give the integral, the mean and the covariance. For a Gaussian target within the limits all three are exact,
+    /// however it is turned.
     ///
     /// `None` where the values are not finite enough for a definite covariance.
     pub fn around(
