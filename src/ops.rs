@@ -64,10 +64,11 @@ pub fn wrap_angle(x: f64) -> f64 {
     }
 }
 
-/// ln Σ exp(xᵢ) of log values \[nats\], shifted by the largest so that nothing overflows; −∞ for no values, or all −∞.
+/// ln Σ exp(xᵢ) of log values \[nats\], shifted by the largest so that nothing overflows; −∞ for no values, or all −∞;
+/// +∞ where one is.
 pub fn log_sum_exp(log_values: &[f64]) -> f64 {
     let max = log_values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    if max == f64::NEG_INFINITY {
+    if max.is_infinite() {
         return max;
     }
     max + ln(log_values.iter().map(|x| exp(x - max)).sum())
@@ -92,5 +93,6 @@ mod tests {
         assert!((log_sum_exp(&[-2000.0, -2000.0]) - (-2000.0 + ln(2.0))).abs() < 1e-12);
         assert_eq!(log_sum_exp(&[f64::NEG_INFINITY]), f64::NEG_INFINITY);
         assert_eq!(log_sum_exp(&[]), f64::NEG_INFINITY);
+        assert_eq!(log_sum_exp(&[0.0, f64::INFINITY, f64::INFINITY]), f64::INFINITY);
     }
 }

@@ -20,17 +20,23 @@ impl Weights {
     /// The weights after each has been multiplied by exp(increment), with the log of their sum before normalising \[nats\]:
     /// the filter's estimate of ln p(z_t | z₁..ₜ₋₁).
     ///
-    /// Increments that are not numbers count as −∞. Where no particle has any weight left the old weights stay: a population
-    /// that explains nothing is no reason to lose it.
+    /// Increments that are not numbers count as −∞. Where some are +∞, so is the sum, and their particles share the weight in
+    /// proportion to their old weights. Where no particle has any weight left, the sum is −∞ and the old weights stay: a
+    /// population that explains nothing is no reason to lose it.
     pub fn reweighted(&self, log_increments: &[f64]) -> (Self, f64) {
         assert_eq!(log_increments.len(), self.log_weights.len(), "one increment for each weight");
-        let sum = |(log_weight, increment): (&f64, &f64)| {
-            if increment.is_nan() { f64::NEG_INFINITY } else { log_weight + increment }
+        let product = |(log_weight, increment): (&f64, &f64)| {
+            let sum = log_weight + increment;
+            if sum.is_nan() { f64::NEG_INFINITY } else { sum } // also of −∞ and +∞: what has no weight gets none back
         };
-        let unnormalized: Vec<f64> = self.log_weights.iter().zip(log_increments).map(sum).collect();
+        let unnormalized: Vec<f64> = self.log_weights.iter().zip(log_increments).map(product).collect();
         let log_evidence = ops::log_sum_exp(&unnormalized);
-        if !log_evidence.is_finite() {
+        if log_evidence == f64::NEG_INFINITY {
             return (self.clone(), log_evidence);
+        }
+        if log_evidence == f64::INFINITY {
+            let share = |w: &f64| if *w == f64::INFINITY { 0.0 } else { f64::NEG_INFINITY };
+            return (self.reweighted(&unnormalized.iter().map(share).collect::<Vec<_>>()).0, log_evidence);
         }
         let log_weights: Vec<f64> = unnormalized.iter().map(|w| w - log_evidence).collect();
         let weights = log_weights.iter().map(|w| ops::exp(*w)).collect();
@@ -92,5 +98,23 @@ mod tests {
         for increments in [[f64::NEG_INFINITY; 4], [f64::NAN; 4]] {
             assert_eq!(before.reweighted(&increments).0, before);
         }
+    }
+
+    #[test]
+    fn particles_that_are_infinitely_likely_share_the_weight_as_they_did() {
+        const INFINITY: f64 = f64::INFINITY;
+        let log = |weights: [f64; 4]| weights.map(ops::ln);
+        let (before, _) = Weights::uniform(4).reweighted(&log([0.1, 0.2, 0.3, 0.4]));
+        let (after, log_evidence) = before.reweighted(&[INFINITY, 0.0, INFINITY, f64::NAN]);
+        assert_eq!(log_evidence, INFINITY);
+        // Four sums and logarithms of numbers about 1: a few of the last bits.
+        for (weight, expected) in after.as_slice().iter().zip([0.25, 0.0, 0.75, 0.0]) {
+            assert!((weight - expected).abs() < 1e-15, "{after:?}");
+        }
+        // Slots 1 and 3 have lost everything, and nothing brings it back.
+        let (later, log_evidence) = after.reweighted(&[0.0, INFINITY, 0.0, INFINITY]);
+        assert!(log_evidence.abs() < 1e-15 && (later.as_slice()[2] - 0.75).abs() < 1e-15, "{later:?}");
+        let nobody = [f64::NEG_INFINITY, INFINITY, f64::NAN, INFINITY];
+        assert_eq!(after.reweighted(&nobody), (after.clone(), f64::NEG_INFINITY));
     }
 }
