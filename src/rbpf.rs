@@ -63,7 +63,8 @@ pub struct Rbpf<M, P> {
     step: u32,
     particles: Vec<Particle<M>>,
     weights: Weights,
-    best: usize,
+    /// The same, but for resamplings: copies keep the weight of their original.
+    path_weights: Weights,
 }
 
 impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
@@ -84,7 +85,8 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         let particle = || Particle { world_from_robot: start, map: map.clone(), path: Path::start(start) };
         let particles = (0..count).map(|_| particle()).collect();
         let (executor, weights) = (Executor::default(), Weights::uniform(count));
-        Self { proposal, policy, scheme, seed, executor, step: 0, particles, weights, best: 0 }
+        let path_weights = weights.clone();
+        Self { proposal, policy, scheme, seed, executor, step: 0, particles, weights, path_weights }
     }
 
     /// The same filter, computed by another executor: the results are the same.
@@ -125,7 +127,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         // ANCHOR: normalise
         (self.weights, _) = self.weights.reweighted(&log_increments);
         // ANCHOR_END: normalise
-        self.best = self.weights.best();
+        (self.path_weights, _) = self.path_weights.reweighted(&log_increments);
         Report {
             step,
             log_increments,
@@ -148,9 +150,9 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         // ANCHOR: resample
         let ancestors = self.scheme.ancestors(&self.weights, count, &mut stream);
         // ANCHOR_END: resample
-        self.best = ancestors.iter().position(|slot| *slot as usize == self.best).unwrap_or(0);
         self.particles = ancestors.iter().map(|slot| self.particles[*slot as usize].clone()).collect();
         self.weights = Weights::uniform(count);
+        self.path_weights = self.path_weights.copied(&ancestors);
         ancestors
     }
     // ANCHOR_END: listing-resample
@@ -166,9 +168,15 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         &self.weights
     }
 
-    /// Slot of the largest weight; after a resampling, which makes all weights equal, its first copy.
+    /// Weights accumulated along the paths, as if no step had resampled, normalised.
+    pub fn path_weights(&self) -> &Weights {
+        &self.path_weights
+    }
+
+    /// Slot of the best particle: that whose path has accumulated the largest weight, the lowest of equals, as in gmapping
+    /// (Grisetti, Stachniss, Burgard 2007).
     pub fn best(&self) -> usize {
-        self.best
+        self.path_weights.heaviest()
     }
 
     /// Distinct ancestors at step 0 of the present population.

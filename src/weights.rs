@@ -44,6 +44,12 @@ impl Weights {
     }
     // ANCHOR_END: listing-reweighted
 
+    /// Weights of copies of these slots, each as heavy as its original before they are normalised.
+    pub fn copied(&self, slots: &[u32]) -> Self {
+        let log_weights: Vec<f64> = slots.iter().map(|slot| self.log_weights[*slot as usize]).collect();
+        Self::uniform(slots.len()).reweighted(&log_weights).0
+    }
+
     /// w̃, which sum to one.
     pub fn as_slice(&self) -> &[f64] {
         &self.weights
@@ -67,8 +73,9 @@ impl Weights {
     }
 
     /// Slot of the largest weight, the lowest of equals.
-    pub fn best(&self) -> usize {
-        (1..self.weights.len()).fold(0, |best, slot| if self.weights[slot] > self.weights[best] { slot } else { best })
+    pub fn heaviest(&self) -> usize {
+        let log_weights = &self.log_weights; // which tell apart what exp rounds to 0
+        (1..log_weights.len()).fold(0, |top, slot| if log_weights[slot] > log_weights[top] { slot } else { top })
     }
 }
 
@@ -81,7 +88,7 @@ mod tests {
         let (weights, log_evidence) = Weights::uniform(3).reweighted(&[-1000.0, -1001.0, -3000.0]);
         assert!((weights.as_slice().iter().sum::<f64>() - 1.0).abs() < 1e-12);
         assert!(weights.as_slice()[0] > 0.7 && (-1001.0..-1000.0).contains(&log_evidence));
-        assert_eq!(weights.best(), 0);
+        assert_eq!(weights.heaviest(), 0);
     }
 
     #[test]
@@ -116,5 +123,22 @@ mod tests {
         assert!(log_evidence.abs() < 1e-15 && (later.as_slice()[2] - 0.75).abs() < 1e-15, "{later:?}");
         let nobody = [f64::NEG_INFINITY, INFINITY, f64::NAN, INFINITY];
         assert_eq!(after.reweighted(&nobody), (after.clone(), f64::NEG_INFINITY));
+    }
+
+    #[test]
+    fn copies_are_as_heavy_as_their_originals() {
+        let (weights, _) = Weights::uniform(3).reweighted(&[0.5_f64, 0.2, 0.3].map(ops::ln));
+        let copied = weights.copied(&[0, 2, 2]);
+        for (weight, expected) in copied.as_slice().iter().zip([0.5 / 1.1, 0.3 / 1.1, 0.3 / 1.1]) {
+            assert!((weight - expected).abs() < 1e-15, "{copied:?}");
+        }
+    }
+
+    #[test]
+    fn the_heaviest_is_found_among_weights_that_round_to_nothing() {
+        let (weights, _) = Weights::uniform(4).reweighted(&[-2000.0, -1000.0, 0.0, -1000.0]);
+        assert_eq!((weights.as_slice()[1], weights.heaviest()), (0.0, 2));
+        let (light, _) = weights.reweighted(&[0.0, 0.0, f64::NEG_INFINITY, 0.0]);
+        assert_eq!(light.heaviest(), 1);
     }
 }

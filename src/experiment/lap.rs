@@ -464,7 +464,7 @@ impl Lap {
         self.particles()[slot].path.poses()
     }
 
-    /// Slot of the best universe: of the largest weight, or its first copy after a resampling.
+    /// Slot of the best universe: of the largest weight along its path.
     pub fn best(&self) -> usize {
         self.filter.best()
     }

@@ -97,7 +97,7 @@ pub fn specs(universes: usize) -> Vec<ParamSpec> {
             "",
             (-1, universes as i64 - 1),
             -1,
-            "The slot shown large; best, or −1, is the one of largest weight.",
+            "The slot shown large; best, or −1, is the one of the largest weight along its path.",
         )
         .or_words(BEST)
         .view(),

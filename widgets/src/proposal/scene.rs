@@ -217,7 +217,7 @@ fn counters(scene: &mut Scene, model: &ProposalModel, panel: &Panel, cloud: &Clo
     } else if weights.iter().all(|w| w.to_bits() == weights[0].to_bits()) {
         ["all weights are exactly equal".into(), "all weights are equal".into()]
     } else {
-        let heaviest = weights[cloud.weights.best()] * weights.len() as f64;
+        let heaviest = weights[cloud.weights.heaviest()] * weights.len() as f64;
         let share = fixed(heaviest, 1);
         [format!("largest weight: {share} times its share"), format!("largest weight: {share}/M")]
     };
