@@ -31,6 +31,9 @@ pub struct Report<A> {
     pub log_increments: Vec<f64>,
     /// Normalised weights before resampling.
     pub weights: Vec<f64>,
+    /// ln p̂(z_t | z₁..ₜ₋₁) \[nats\], the log of the weighted mean of the increments' exponentials: an estimate whose exponential has
+    /// no bias, nor has the product over the steps. −∞ where the step explained nothing, +∞ where an increment is.
+    pub log_evidence: f64,
     /// N_eff before resampling.
     pub ess: f64,
     /// The path of each slot before resampling: nobody else holds those that the step let die.
@@ -44,6 +47,11 @@ pub struct Report<A> {
 }
 
 impl<A> Report<A> {
+    /// Whether any particle of weight explains the observation. Where none does, the weights stay as they were.
+    pub fn explained(&self) -> bool {
+        self.log_evidence > f64::NEG_INFINITY
+    }
+
     /// Paths of the slots that nobody was copied from, where the step resampled.
     pub fn extinct(&self) -> impl Iterator<Item = &Path> {
         let mut extinct = vec![self.ancestors.is_some(); self.paths.len()];
@@ -125,12 +133,14 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         // ANCHOR_END: extend
         let log_increments: Vec<f64> = proposed.iter().map(|p| p.log_increment).collect();
         // ANCHOR: normalise
-        (self.weights, _) = self.weights.reweighted(&log_increments);
+        let (weights, log_evidence) = self.weights.reweighted(&log_increments);
         // ANCHOR_END: normalise
+        self.weights = weights;
         (self.path_weights, _) = self.path_weights.reweighted(&log_increments);
         Report {
             step,
             log_increments,
+            log_evidence,
             weights: self.weights.as_slice().to_vec(),
             ess: self.weights.ess(),
             paths: self.particles.iter().map(|p| p.path.clone()).collect(),

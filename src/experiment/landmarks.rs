@@ -222,6 +222,9 @@ pub struct LandmarkReport {
     pub step: u32,
     /// Landmarks seen at this step.
     pub seen: u32,
+    /// ln p̂(z_t | z₁..ₜ₋₁) by the filter \[nats\], of what is taken for known landmarks: each that is founded counts as p₀, or as 1
+    /// where it has a name. −∞ where the step explained nothing (`null` in JSON).
+    pub log_evidence: f64,
     /// N_eff before resampling.
     pub ess: f64,
     /// Slot each particle was copied from, where the step resampled.
@@ -316,6 +319,7 @@ impl LandmarkRun {
         Some(LandmarkReport {
             step: self.step,
             seen: features.len() as u32,
+            log_evidence: report.log_evidence,
             ess: report.ess,
             ancestors: report.ancestors,
             error_best: best.world_from_robot.distance(truth),

@@ -308,6 +308,9 @@ const WAY_POINTS: [[f64; 2]; 9] =
 pub struct StepReport {
     /// The step; 0 is the start.
     pub step: u32,
+    /// ln p̂(z_t | z₁..ₜ₋₁) by the filter \[nats\], in which the matcher's score stands for the density of a scan; −∞ where the step
+    /// explained nothing (`null` in JSON), 0 at the start.
+    pub log_evidence: f64,
     /// N_eff before resampling.
     pub ess: f64,
     /// Normalised weights before resampling, by slot.
@@ -378,6 +381,7 @@ impl Lap {
             step: 0,
             log_increments: Vec::new(),
             weights: filter.weights().as_slice().to_vec(),
+            log_evidence: 0.0,
             ess: filter.weights().ess(),
             paths: Vec::new(),
             ancestors: None,
@@ -418,6 +422,7 @@ impl Lap {
         let Footprint { unique, dense } = Grid::footprint(self.particles().iter().map(|p| &p.map));
         StepReport {
             step: report.step,
+            log_evidence: report.log_evidence,
             ess: report.ess,
             weights: report.weights,
             ancestors: report.ancestors,

@@ -16,7 +16,7 @@ use crate::matching::{ClimbSteps, Kernel, Matcher, ScanModel};
 use crate::motion::{Odometry, OdometryModel};
 use crate::proposal::{FitLimits, FromMotion, FromScan, FromScanSettings, Lattice, ProposalTrace};
 use crate::random::{Purpose, Stream};
-use crate::rbpf::{Particle, Rbpf};
+use crate::rbpf::{Particle, Rbpf, Report};
 use crate::resampling::{ResamplePolicy, Scheme};
 use crate::sensor::BeamSensor;
 use crate::world::{FloorPlan, drive};
@@ -142,6 +142,9 @@ impl LogSetup {
 pub struct LogStep {
     /// The step, from 1 on.
     pub step: u32,
+    /// ln p̂(z_t | z₁..ₜ₋₁) by the filter \[nats\], in which the matcher's score stands for the density of a scan; −∞ where the step
+    /// explained nothing.
+    pub log_evidence: f64,
     /// N_eff before resampling.
     pub ess: f64,
     /// Whether the step resampled.
@@ -232,7 +235,8 @@ impl LogRun {
         self.resampled += u32::from(resampled);
         let matched = report.traces.iter().filter(|t| matches!(t, ProposalTrace::Matched { .. })).count() as u32;
         let extinct = report.extinct().cloned().collect();
-        Some(LogStep { step: report.step, ess: report.ess, resampled, matched, lineage, extinct })
+        let Report { step, log_evidence, ess, .. } = report;
+        Some(LogStep { step, log_evidence, ess, resampled, matched, lineage, extinct })
     }
 
     /// The filter, for those who watch it.

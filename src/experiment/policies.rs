@@ -127,6 +127,8 @@ impl PoliciesSetup {
 pub struct PolicyReport {
     /// The step; 0 is the start.
     pub step: u32,
+    /// ln p̂(z_t | z₁..ₜ₋₁) by the filter \[nats\]; −∞ where the step explained nothing, 0 at the start.
+    pub log_evidence: f64,
     /// N_eff before resampling.
     pub ess: f64,
     /// Slot each particle was copied from, where the step resampled.
@@ -214,8 +216,13 @@ macro_rules! of_filter {
     };
 }
 
-/// N_eff before resampling, [`PolicyReport::ancestors`], and [`PolicyReport::opinion`].
-type Stepped = (f64, Option<Vec<u32>>, Option<(Opinion, u32)>);
+/// What of a [`PolicyReport`] the filter itself reports.
+struct Stepped {
+    log_evidence: f64,
+    ess: f64,
+    ancestors: Option<Vec<u32>>,
+    opinion: Option<(Opinion, u32)>,
+}
 
 impl Run {
     fn with_executor(self, executor: Executor) -> Self {
@@ -227,10 +234,18 @@ impl Run {
 
     fn step(&mut self) -> Option<Stepped> {
         match self {
-            Self::Lap(run) => run.step().map(|report| (report.ess, report.ancestors.clone(), None)),
-            Self::Wings(run) => {
-                run.step().map(|report| (report.ess, report.ancestors, Some((report.best, report.answers))))
-            }
+            Self::Lap(run) => run.step().map(|report| Stepped {
+                log_evidence: report.log_evidence,
+                ess: report.ess,
+                ancestors: report.ancestors.clone(),
+                opinion: None,
+            }),
+            Self::Wings(run) => run.step().map(|report| Stepped {
+                log_evidence: report.log_evidence,
+                ess: report.ess,
+                ancestors: report.ancestors,
+                opinion: Some((report.best, report.answers)),
+            }),
         }
     }
 }
@@ -283,6 +298,7 @@ impl Policies {
         let runs = [never?, always?, selective?];
         let start = |run: &Run| PolicyReport {
             step: 0,
+            log_evidence: 0.0,
             ess: particles as f64,
             ancestors: None,
             descent: of_filter!(run, filter => filter.descent()),
@@ -305,14 +321,14 @@ impl Policies {
     /// One step of all three; `None` after the last.
     pub fn step(&mut self) -> Option<&[PolicyReport; 3]> {
         for policy in 0..3 {
-            let (ess, ancestors, opinion) = self.runs[policy].step()?;
-            self.reports[policy] = PolicyReport { opinion, ..self.judge(policy, ess, ancestors) };
+            let stepped = self.runs[policy].step()?;
+            self.reports[policy] = self.judge(policy, stepped);
         }
         Some(&self.reports)
     }
 
     /// Compares a filter's newest state with the truth.
-    fn judge(&self, policy: usize, ess: f64, ancestors: Option<Vec<u32>>) -> PolicyReport {
+    fn judge(&self, policy: usize, stepped: Stepped) -> PolicyReport {
         let before = &self.reports[policy];
         let step = before.step + 1;
         let (truth, poses, best) = (self.world.truth(), self.poses(policy), self.best(policy));
@@ -322,8 +338,10 @@ impl Policies {
         let error_mean = ops::hypot(x - here.x, y - here.y);
         let squares = before.rms_mean * before.rms_mean * f64::from(step) + error_mean * error_mean;
         let lost = self.lost_from().is_some_and(|from| step >= from);
+        let Stepped { log_evidence, ess, ancestors, opinion } = stepped;
         PolicyReport {
             step,
+            log_evidence,
             ess,
             ancestors,
             descent: of_filter!(&self.runs[policy], filter => filter.descent()),
@@ -332,7 +350,7 @@ impl Policies {
             rms_best: rms(&self.paths(policy)[best].poses(), &truth[..=step as usize]),
             rms_mean: (squares / f64::from(step + 1)).sqrt(),
             right: lost.then(|| poses.iter().filter(|pose| is_right(pose, here)).count() as u32),
-            opinion: None,
+            opinion,
         }
     }
 

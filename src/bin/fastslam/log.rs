@@ -79,6 +79,8 @@ struct Output {
     #[serde(flatten)]
     errors: Option<RelationErrors>,
     resampled_fraction: f64,
+    /// Scans that no particle explains.
+    scans_unexplained: u32,
     /// First scan at which all particles descend from one; null if they never do.
     lineage_one_scan: Option<u32>,
     /// Of the weights and of every particle's path and map.
@@ -118,7 +120,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         indicatif::ProgressStyle::with_template("{wide_bar} {pos}/{len} scans, {per_sec}, {eta} to go, {msg}")
             .expect("the template is right"),
     );
-    let (mut cpu, mut peak, mut resampled) = (Duration::ZERO, run.footprint(), 0);
+    let (mut cpu, mut peak, mut resampled, mut scans_unexplained) = (Duration::ZERO, run.footprint(), 0, 0);
     loop {
         let start = ProcessTime::now();
         let Some(step) = run.step() else { break };
@@ -128,6 +130,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             peak = run.footprint();
         }
         resampled += u32::from(step.resampled);
+        scans_unexplained += u32::from(step.log_evidence == f64::NEG_INFINITY);
         bar.set_message(format!("N_eff {:.1}, {resampled} resamplings, lineage {}", step.ess, step.lineage));
         bar.inc(1);
     }
@@ -143,6 +146,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         dense_map_bytes: peak.dense,
         errors: relations.and_then(|relations| relation_errors(&path, &log.odometry, &relations)),
         resampled_fraction: run.resampled_fraction(),
+        scans_unexplained,
         lineage_one_scan: run.lineage_one_scan(),
         digest: format!("{:016x}", run.digest().value()),
     };
@@ -229,6 +233,9 @@ fn summary(setup: &LogSetup, log: &LaserLog, output: &Output) -> String {
         memory_estimate(setup, log) as f64 / 1e6,
         100.0 * output.resampled_fraction,
     );
+    if output.scans_unexplained > 0 {
+        _ = writeln!(text, "scans that no particle explains   {:8}", output.scans_unexplained);
+    }
     match output.lineage_one_scan {
         Some(scan) => _ = writeln!(text, "all descend from one particle from scan {scan} on"),
         None => text.push_str("the particles never come to descend from one\n"),

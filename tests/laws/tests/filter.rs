@@ -2,6 +2,7 @@
 
 use fastslam::geometry::Pose2;
 use fastslam::map::ConditionalMap;
+use fastslam::ops;
 use fastslam::proposal::{Proposal, ProposalTrace, Proposed};
 use fastslam::random::Stream;
 use fastslam::rbpf::{Particle, Rbpf};
@@ -69,4 +70,49 @@ fn the_best_is_the_survivor_that_has_explained_most_along_its_path() {
         }
     }
     assert!(steps == 500 && died > 100, "the best died {died} times of {steps}");
+}
+
+#[test]
+fn the_evidence_is_the_mean_of_what_the_particles_paid_by_their_weights() {
+    let mut filter = filter(ResamplePolicy::Never, Scheme::Systematic, 1);
+    for _ in 0..3 {
+        let before = filter.weights().clone();
+        let report = filter.step(&SOME, &());
+        let paid = before.as_slice().iter().zip(&report.log_increments).map(|(w, x)| w * ops::exp(*x));
+        // Sums of 16 numbers about 1: some of the last bits.
+        assert!((report.log_evidence - ops::ln(paid.sum())).abs() < 1e-14 && report.explained());
+        assert_ne!(report.log_evidence, 0.0);
+    }
+}
+
+#[test]
+fn a_step_that_explains_nothing_says_so_and_leaves_weights_and_best_as_they_were() {
+    for nothing in [|_| f64::NEG_INFINITY, |_| f64::NAN] as [fn(f64) -> f64; 2] {
+        let mut filter = filter(ResamplePolicy::Never, Scheme::Systematic, 1);
+        filter.step(&SOME, &());
+        let before = (filter.weights().clone(), filter.path_weights().clone(), filter.best());
+        let report = filter.step(&nothing, &());
+        assert_eq!((report.log_evidence, report.explained()), (f64::NEG_INFINITY, false));
+        assert_eq!((filter.weights().clone(), filter.path_weights().clone(), filter.best()), before);
+        assert!(filter.step(&SOME, &()).explained());
+    }
+}
+
+/// A density without bound is no density that a filter can weigh, but it is no reason to believe all particles alike either.
+#[test]
+fn particles_that_are_infinitely_likely_take_all_the_weight() {
+    let mut filter = filter(ResamplePolicy::Never, Scheme::Systematic, 1);
+    filter.step(&SOME, &());
+    let before = filter.weights().as_slice().to_vec();
+    let half: fn(f64) -> f64 = |normal| if normal > 0.0 { f64::INFINITY } else { 0.0 };
+    let report = filter.step(&half, &());
+    assert_eq!((report.log_evidence, report.explained()), (f64::INFINITY, true));
+    let sure: Vec<bool> = report.log_increments.iter().map(|x| *x > 0.0).collect();
+    assert!(sure.contains(&true) && sure.contains(&false) && sure[filter.best()]);
+    let shared: f64 = before.iter().zip(&sure).filter_map(|(w, sure)| sure.then_some(w)).sum();
+    for ((after, before), sure) in filter.weights().as_slice().iter().zip(&before).zip(&sure) {
+        let expected = if *sure { before / shared } else { 0.0 };
+        // Of numbers below 1: some of the last bits.
+        assert!((after - expected).abs() < 1e-14, "{after} for {expected}");
+    }
 }

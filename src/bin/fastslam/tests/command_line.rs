@@ -21,6 +21,7 @@ fn a_lap_reports_every_step() {
     assert_eq!(lap["digest"].as_str().unwrap().len(), 16);
     for step in &steps[1..] {
         assert_eq!(step["weights"].as_array().unwrap().len(), 5);
+        assert!(step["log_evidence"].is_f64());
         assert_eq!(step["ancestors"].as_array().unwrap().len(), 5, "policy always resamples every step");
     }
 }
@@ -137,6 +138,7 @@ fn landmarks_print_what_they_are_asked_for() {
     let one = json("landmarks --particles 5 --seed 2 --proposal 2.0 --association unknown --json");
     assert!(one["rms_best"].as_f64().unwrap() > 0.0 && one["rms_odometry"].as_f64() > one["rms_best"].as_f64());
     assert_eq!(one["steps"].as_array().unwrap().len(), 335);
+    assert!(one["steps"][1]["log_evidence"].is_f64());
     let many = json("landmarks --course tags --particles 4 --proposal 1.0 --association known --seeds 3 --json");
     for judged in ["online", "ekf", "best", "best_aligned", "odometry"] {
         let [median, p90, worst] = ["median", "p90", "worst"].map(|key| many[judged][key].as_f64().unwrap());
