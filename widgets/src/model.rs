@@ -86,6 +86,11 @@ pub fn ess_text(ess: f64, particles: usize) -> String {
     format!("{} of {particles}", fixed(ess, 1))
 }
 
+/// What a sentence says of a step of this log evidence \[nats\], if no universe explains what it saw; else nothing.
+pub fn unexplained(log_evidence: f64) -> &'static str {
+    if log_evidence == f64::NEG_INFINITY { "No universe explains this scan: the weights stay. " } else { "" }
+}
+
 /// A column of the measured data.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Column {

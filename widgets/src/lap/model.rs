@@ -5,7 +5,9 @@ use super::{
     params, scene,
 };
 use crate::{
-    model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series, TraceLine, ess_text, pose_text},
+    model::{
+        Column, FigureError, Group, Model, ParamSpec, Readout, Series, TraceLine, ess_text, pose_text, unexplained,
+    },
     param::{Value, flag_text, unknown},
     policy,
     scene::Scene,
@@ -155,6 +157,42 @@ impl LapModel {
             ("raw", Value::Flag(on)) => self.raw = on,
             _ => (),
         }
+    }
+
+    /// A step in words.
+    fn told(&self, report: &StepReport) -> String {
+        let (m, slot) = (self.recipe.setup.particles, self.selected());
+        let universes = if m == 1 { "1 universe".into() } else { format!("{m} universes") };
+        let who = if slot == report.best {
+            format!("universe {slot}, the best")
+        } else {
+            format!("universe {slot}; the best is {}", report.best)
+        };
+        let mut text = format!("Step {} of {}, {universes}. Shown large is {who}. ", report.step, self.step_count());
+        if report.step == 0 {
+            text.push_str("All start at the same known place with the same map.");
+            return text;
+        }
+        text.push_str(unexplained(report.log_evidence));
+        text.push_str(&format!(
+            "The best path is off by {} m (RMS), raw odometry by {} m. N_eff is {} of {m}: ",
+            fixed(report.rms_best, 2),
+            fixed(report.rms_odometry, 2),
+            fixed(report.ess, 1)
+        ));
+        match &report.ancestors {
+            None => text.push_str("no resampling at this step."),
+            Some(ancestors) => {
+                let parent = ancestors[slot as usize];
+                let origin =
+                    if parent == slot { "kept its slot".into() } else { format!("is a copy of universe {parent}") };
+                text.push_str(&format!(
+                    "resampled, {} of {m} died out; universe {slot} {origin}.",
+                    died_out(ancestors)
+                ));
+            }
+        }
+        text
     }
 }
 
@@ -370,6 +408,10 @@ impl Model for LapModel {
             Column::new("rms_best_m", "RMS position error of the best universe's path so far [m]"),
             Column::new("rms_best_aligned_m", "the same after the best rigid alignment [m]"),
             Column::new("rms_odometry_m", "RMS position error of raw odometry so far [m]"),
+            Column::new(
+                "log_evidence_nats",
+                "log of the evidence as the filter estimates it, by the matcher's score [nats]",
+            ),
             Column::new("ess", "effective number of universes before resampling"),
             Column::new("best", "slot of the best universe"),
             Column::new("resampled", "1 where the step resampled"),
@@ -385,6 +427,7 @@ impl Model for LapModel {
                 r.rms_best,
                 r.rms_best_aligned,
                 r.rms_odometry,
+                r.log_evidence,
                 r.ess,
                 f64::from(r.best),
                 f64::from(u8::from(r.ancestors.is_some())),
@@ -399,37 +442,7 @@ impl Model for LapModel {
     }
 
     fn describe(&self) -> String {
-        let (report, m, slot) = (self.report(), self.recipe.setup.particles, self.selected());
-        let universes = if m == 1 { "1 universe".into() } else { format!("{m} universes") };
-        let who = if slot == report.best {
-            format!("universe {slot}, the best")
-        } else {
-            format!("universe {slot}; the best is {}", report.best)
-        };
-        let mut text = format!("Step {} of {}, {universes}. Shown large is {who}. ", report.step, self.step_count());
-        if report.step == 0 {
-            text.push_str("All start at the same known place with the same map.");
-            return text;
-        }
-        text.push_str(&format!(
-            "The best path is off by {} m (RMS), raw odometry by {} m. N_eff is {} of {m}: ",
-            fixed(report.rms_best, 2),
-            fixed(report.rms_odometry, 2),
-            fixed(report.ess, 1)
-        ));
-        match &report.ancestors {
-            None => text.push_str("no resampling at this step."),
-            Some(ancestors) => {
-                let parent = ancestors[slot as usize];
-                let origin =
-                    if parent == slot { "kept its slot".into() } else { format!("is a copy of universe {parent}") };
-                text.push_str(&format!(
-                    "resampled, {} of {m} died out; universe {slot} {origin}.",
-                    died_out(ancestors)
-                ));
-            }
-        }
-        text
+        self.told(self.report())
     }
 
     /// Of the universe shown large, and of all where the line is about all.
@@ -493,4 +506,18 @@ impl Model for LapModel {
 pub fn died_out(ancestors: &[u32]) -> usize {
     let survivors = 1 + ancestors.windows(2).filter(|pair| pair[0] != pair[1]).count();
     ancestors.len() - survivors
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sentence_says_when_no_universe_explains_a_scan() {
+        let model = LapModel::default();
+        let report = StepReport { step: 1, ..model.report().clone() };
+        assert!(!model.told(&report).contains("explains"));
+        let report = StepReport { log_evidence: f64::NEG_INFINITY, ..report };
+        assert!(model.told(&report).contains("No universe explains this scan: the weights stay."));
+    }
 }

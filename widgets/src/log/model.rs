@@ -9,7 +9,7 @@ use super::{
     view::{Frame, View},
 };
 use crate::{
-    model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series},
+    model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series, unexplained},
     param::{Value, flag_text, unknown},
     policy,
     scene::{Point, Scene},
@@ -92,6 +92,8 @@ struct Opened {
 /// What one step did.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Moment {
+    /// Log of the evidence by the filter \[nats\]; −∞ where no universe explains the scan.
+    pub log_evidence: f64,
     /// N_eff before resampling.
     pub ess: f64,
     /// Whether it resampled.
@@ -243,10 +245,11 @@ impl LogModel {
     }
 
     /// What the step that was just made did.
-    fn note(&mut self, LogStep { step, ess, resampled, extinct: paths, .. }: LogStep) {
+    fn note(&mut self, LogStep { step, log_evidence, ess, resampled, extinct: paths, .. }: LogStep) {
         let Some(run) = &self.run else { return };
         let descent = run.filter().descent();
         self.history.push(Moment {
+            log_evidence,
             ess,
             resampled,
             died: paths.len() as u32,
@@ -304,7 +307,8 @@ impl LogModel {
             if step == last { "All scans are mapped".into() } else { format!("Scan {step} of {last} is mapped") };
         let Some(moment) = self.history.last() else { return "All universes start alike, with the first scan.".into() };
         let mut text = format!(
-            "{start}. N_eff is {} of {m}; all universes share one path up to scan {}. ",
+            "{start}. {}N_eff is {} of {m}; all universes share one path up to scan {}. ",
+            unexplained(moment.log_evidence),
             fixed(moment.ess, 1),
             moment.shared
         );
@@ -596,6 +600,10 @@ impl Model for LogModel {
             Column::new("x_m", "best path at the end [m]"),
             Column::new("y_m", "best path at the end [m]"),
             Column::new("theta_rad", "best path at the end [rad]"),
+            Column::new(
+                "log_evidence_nats",
+                "log of the evidence as the filter estimates it, by the matcher's score [nats]",
+            ),
             Column::new("ess", "effective number of universes before resampling"),
             Column::new("resampled", "1 where the step resampled"),
             Column::new("died_out", "universes without offspring at this resampling"),
@@ -612,6 +620,7 @@ impl Model for LogModel {
                 pose.x,
                 pose.y,
                 pose.theta,
+                of(|m| m.log_evidence),
                 of(|m| m.ess),
                 of(|m| f64::from(u8::from(m.resampled))),
                 of(|m| m.died.into()),
@@ -636,5 +645,21 @@ impl Model for LogModel {
 
     fn scene(&self, width: f64, height: f64) -> Scene {
         scene::build(self, width, height)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sentence_says_when_no_universe_explains_a_scan() {
+        let mut model = LogModel::default();
+        model.open(include_bytes!("../../../tests/figures/golden/tiny.clf")).unwrap();
+        model.seek(1);
+        model.settle();
+        assert!(!model.describe().contains("explains"));
+        model.history[0].log_evidence = f64::NEG_INFINITY;
+        assert!(model.describe().contains("No universe explains this scan: the weights stay."));
     }
 }

@@ -327,6 +327,7 @@ impl Model for ResamplingModel {
         let row = |(step, all): (usize, &[Moment; 3])| {
             let of = |Moment { report, .. }: &Moment| {
                 [
+                    report.log_evidence,
                     report.ess,
                     f64::from(u8::from(report.resampled())),
                     f64::from(report.descent.lineage(report.step)),
@@ -365,6 +366,15 @@ impl Model for ResamplingModel {
             fixed(selective.report.ess, 1),
             lines(selective),
         ));
+        for (moment, which) in
+            [(never, "never resamples"), (always, "resamples at every step"), (selective, "resamples selectively")]
+        {
+            if moment.report.log_evidence == f64::NEG_INFINITY {
+                text.push_str(&format!(
+                    " In the filter that {which} no particle explains what is seen: the weights stay."
+                ));
+            }
+        }
         if let [Some(a), Some(b), Some(c)] = [never, always, selective].map(|m| m.report.right) {
             text.push_str(&format!(" In the right wing are {a}, {b} and {c} of {m}."));
         }
@@ -451,6 +461,7 @@ macro_rules! columns {
         &[
             Column::new("step", "step of the course"),
             $(
+                Column::new(concat!($name, "_log_evidence_nats"), "log of the evidence as the filter estimates it [nats]"),
                 Column::new(concat!($name, "_ess"), "effective number of particles before resampling"),
                 Column::new(concat!($name, "_resampled"), "1 where the step resampled"),
                 Column::new(concat!($name, "_lineage"), "distinct ancestors at step 0"),
@@ -466,3 +477,20 @@ macro_rules! columns {
 }
 
 const COLUMNS: &[Column] = columns!("never" "always" "selective");
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sentence_says_which_filter_does_not_explain_what_is_seen() {
+        let mut model = ResamplingModel::default();
+        model.seek(1);
+        model.settle();
+        assert!(!model.describe().contains("explains"));
+        model.moments[1][2].report.log_evidence = f64::NEG_INFINITY;
+        let told = model.describe();
+        assert!(told.contains("resamples selectively no particle explains what is seen"), "{told}");
+        assert!(!told.contains("never resamples"), "{told}");
+    }
+}
