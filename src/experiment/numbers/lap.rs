@@ -23,8 +23,8 @@ pub fn recipes() -> Vec<Recipe> {
             Made { numbers: cell.numbers(&errors), errors }
         })
     });
-    // A scan matcher that never looks back; and as many particles as look up about as many beams as four measurement-aware ones do, 59
-    // scans each at the least: 63 poses of the search by every second beam, 27 of fit and price by all.
+    // A scan matcher that never looks back; and more particles than it takes to look up as many beams as four measurement-aware ones
+    // do, 43 scans each at the least: 58 poses of search and curvature by every second beam, 14 of quadrature and price by all.
     let beside = [(ProposalKind::Aware, 1), (ProposalKind::Motion, 240)].map(|(proposal, particles)| {
         let cell = LapCell { proposal, matcher: Matcher::SubCell, particles };
         Recipe::new(cell.name(), SEEDS, move |runs| cell.numbers(&cell.errors(runs)).into())
