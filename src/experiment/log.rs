@@ -1,4 +1,4 @@
-//! A recorded log, mapped: the filter of the lap, its matcher and its maps, on what a real robot drove and saw.
+//! A log, mapped: the filter of the lap, its matcher and its maps, on what a robot drove and saw.
 //!
 //! One setting for every log, robot and laser: nothing here is to be tuned to a building.
 

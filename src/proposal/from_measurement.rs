@@ -38,7 +38,7 @@ impl<D: Motion> FromMeasurement<D> {
     // anchor: fold
     // ANCHOR: listing-fold
     /// Folds every feature of a mapped landmark into N(x̂, R_t), each from where the one before left it: with
-    /// S = H_x P H_xᵀ + H_m Σ_j H_mᵀ + Q and K = P H_xᵀ S⁻¹, μ ← μ + K ν, and P by Joseph's form.
+    /// L = H_x P H_xᵀ + H_m Σ_j H_mᵀ + Q and K = P H_xᵀ L⁻¹, μ ← μ + K ν, and P by Joseph's form.
     pub fn fold<Z: LandmarkSensor, S: Store>(
         &self,
         map: &Landmarks<Z, S>,

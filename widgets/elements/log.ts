@@ -55,7 +55,7 @@ export class FastslamLog extends HTMLElement {
   #deviceWidth = 0
   #disconnected = new AbortController()
 
-  readonly #heading = h('p', { class: 'title', part: 'title', id: 'title' }, 'A real building')
+  readonly #heading = h('p', { class: 'title', part: 'title', id: 'title' }, 'A building from a log')
   readonly #status = h('span', { class: 'status', role: 'status' })
   readonly #canvas = h('canvas', { part: 'canvas', role: 'img', 'aria-labelledby': 'title', 'aria-describedby': 'sentence' })
   readonly #zoom = h(

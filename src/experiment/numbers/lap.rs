@@ -3,7 +3,7 @@
 use super::{Group, Made, Number, Recipe, Runs, SEEDS, VALID};
 use crate::execute::Executor;
 use crate::experiment::Spread;
-use crate::experiment::lap::{BEAMS, GRID, Lap, LapSetup, LapWorld, MAX_RANGE, STEPS};
+use crate::experiment::lap::{BEAMS, EVIDENCE, GRID, LAG, Lap, LapSetup, LapWorld, MAX_RANGE, STEPS};
 use crate::experiment::table::{LapResult, PARTICLES, rms_best};
 use crate::geometry::rms;
 use crate::matching::Matcher;
@@ -23,8 +23,9 @@ pub fn recipes() -> Vec<Recipe> {
             Made { numbers: cell.numbers(&errors), errors }
         })
     });
-    // A scan matcher that never looks back, and as many scores of scans as four measurement-aware particles take.
-    let beside = [(ProposalKind::Aware, 1), (ProposalKind::Motion, 208)].map(|(proposal, particles)| {
+    // A scan matcher that never looks back; and more particles than it takes to look up as many beams as four measurement-aware ones
+    // do, 43 scans each at the least: 58 poses of search and curvature by every second beam, 14 of quadrature and price by all.
+    let beside = [(ProposalKind::Aware, 1), (ProposalKind::Motion, 240)].map(|(proposal, particles)| {
         let cell = LapCell { proposal, matcher: Matcher::SubCell, particles };
         Recipe::new(cell.name(), SEEDS, move |runs| cell.numbers(&cell.errors(runs)).into())
     });
@@ -155,6 +156,13 @@ fn setting() -> Recipe {
         vec![
             group.number("steps", STEPS as f64, "", format!("{start}: steps after the start")),
             group.number("runs", f64::from(SEEDS), "", "Seeds of every cell of the lap table, from 1 on"),
+            group.number(
+                "lag",
+                f64::from(LAG),
+                "",
+                format!("{start}: scans since the map that a scan is weighed against"),
+            ),
+            group.number("evidence", EVIDENCE, "", format!("{start}: share λ of that log-likelihood that counts")),
             group.number("cell", GRID.cell_size, "m", format!("{start}: width of a cell of the maps")),
             group.number("scan.beams", BEAMS as f64, "", format!("{start}: beams of a scan")),
             group.number("scan.range", MAX_RANGE, "m", format!("{start}: longest range of a beam")),

@@ -8,6 +8,7 @@ mod landmarks;
 mod lap;
 mod policies;
 mod proposals;
+mod ring;
 
 pub use lap::LapCell;
 
@@ -176,7 +177,10 @@ impl Group {
 
 /// Every recipe of the chapter.
 pub fn recipes() -> Vec<Recipe> {
-    [lap::recipes(), policies::recipes(), proposals::recipes(), landmarks::recipes()].into_iter().flatten().collect()
+    [lap::recipes(), ring::recipes(), policies::recipes(), proposals::recipes(), landmarks::recipes()]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ const MODEL: GridModel = GridModel {
     log_odds_pass: -0.4,
     surface_std: 0.1,
     surface_stretch: 1.0,
+    lag: 0,
     reach: 0,
 };
 

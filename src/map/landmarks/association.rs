@@ -18,7 +18,7 @@ pub enum Correspondence {
 /// Settings of the maximum-likelihood association.
 ///
 /// A feature goes to the landmark of the largest π_j = N(ν_j; 0, S_j) among those with ν_jᵀ S_j⁻¹ ν_j within the gate, if
-/// that exceeds p₀; else it is a new landmark, at the price p₀ (PR tables 13.2 and 13.4).
+/// that exceeds p₀; else it is a new landmark, at the price p₀ (PR tables 13.2 and 13.3).
 ///
 /// No landmark is given two features of one step. The rule: features choose in the order in which the sensor reports them, and
 /// a landmark that was chosen is not to be had again in this step; who comes later takes the next best, or founds a new one.

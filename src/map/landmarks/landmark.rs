@@ -102,8 +102,8 @@ impl Landmark {
 
     // anchor: update
     // ANCHOR: listing-update
-    /// K = Σ H_mᵀ S⁻¹, μ ← μ + K ν, Σ ← (I − K H_m) Σ (I − K H_m)ᵀ + K Q Kᵀ: Joseph's form, which stays symmetric and positive
-    /// definite whatever rounding does. Where S has no inverse nothing is learnt.
+    /// K = Σ H_mᵀ S⁻¹, μ ← μ + K ν, Σ ← (I − K H_m) Σ (I − K H_m)ᵀ + K Q Kᵀ: Joseph's form, a sum of two terms that
+    /// stay positive whatever K is. Where S has no inverse nothing is learnt.
     pub fn update<Z: LandmarkSensor>(&mut self, sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) {
         let innovation = self.innovation(sensor, world_from_robot, z);
         if !innovation.is_regular() {

@@ -3,7 +3,7 @@
 //! p(m | x₁..ₜ, z₁..ₜ, c₁..ₜ) = ∏ⱼ p(mⱼ | x₁..ₜ, z₁..ₜ, c₁..ₜ): a sighting touches one mean of two numbers and one covariance of
 //! four, whatever the number of landmarks. Nothing larger than 3 × 3 is ever inverted.
 //!
-//! References: Montemerlo, Thrun, Koller, Wegbreit, *FastSLAM* (AAAI 2002; IJCAI 2003); PR tables 13.1 to 13.4.
+//! References: Montemerlo, Thrun, Koller, Wegbreit, *FastSLAM* (AAAI 2002; IJCAI 2003); PR tables 13.1 to 13.3.
 
 mod association;
 mod landmark;

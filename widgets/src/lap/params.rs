@@ -11,8 +11,10 @@ const PROPOSALS: &[Choice] = &[
     Choice { value: "motion", title: "motion model only (FastSLAM 1.0)" },
 ];
 
-const MATCHERS: &[Choice] =
-    &[Choice { value: "subcell", title: "sub-cell (hit means)" }, Choice { value: "cell", title: "cell (occupancy)" }];
+const MATCHERS: &[Choice] = &[
+    Choice { value: "subcell", title: "sub-cell (a Gaussian per cell)" },
+    Choice { value: "cell", title: "cell (occupancy)" },
+];
 
 const SCHEMES: &[Choice] = &[
     Choice { value: "systematic", title: "systematic" },

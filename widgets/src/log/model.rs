@@ -177,7 +177,7 @@ fn swept(log: &LaserLog, max_range: f64) -> [f64; 2] {
 
 impl LogModel {
     /// Title for readers.
-    pub const TITLE: &'static str = "A real building: map a log of your own";
+    pub const TITLE: &'static str = "A building from a log: map one of your own";
 
     /// The log, once one is open.
     pub fn log(&self) -> Option<&LaserLog> {
