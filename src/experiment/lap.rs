@@ -47,9 +47,6 @@ pub const START_SCANS: u32 = 30;
 /// out of sight of most of what it saw for the first time.
 pub const LAG: u32 = 20;
 
-/// λ: the share of that log-likelihood that counts.
-pub const EVIDENCE: f64 = 0.3;
-
 /// How the map learns.
 ///
 /// A pass weighs a ninth of a hit: in cells this wide most beams that pass a wall's cell pass beside the wall. With
@@ -87,7 +84,6 @@ pub const FROM_SCAN: FromScanSettings<Spread> = FromScanSettings {
     full_weight: 0.0,
     // From half a centimetre, below which there is nothing to see, to a third of a cell, the plateau of the cell matcher.
     limits: FitLimits { least: [0.005, 0.003], most: [0.1, 0.05] },
-    evidence: EVIDENCE,
 };
 
 /// Where a lap is driven.

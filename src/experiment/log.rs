@@ -2,7 +2,7 @@
 //!
 //! One setting for every log, robot and laser: nothing here is to be tuned to a building.
 
-use super::lap::{EVIDENCE, LAG};
+use super::lap::LAG;
 use crate::decimal;
 use crate::digest::Digest;
 use crate::error::ParameterError;
@@ -64,7 +64,6 @@ pub const FROM_SCAN: FromScanSettings<Lattice> = FromScanSettings {
     gain: 0.5,
     full_weight: 0.5,
     limits: FitLimits { least: [0.005, 0.003], most: [0.05, 0.03] },
-    evidence: EVIDENCE,
 };
 
 /// Beams for which [`FROM_SCAN`] is made. Of a denser laser the search takes fewer: neighbours tell it the same.

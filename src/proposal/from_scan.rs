@@ -61,8 +61,6 @@ pub struct FromScanSettings<S> {
     pub full_weight: f64,
     /// Limits of the standard deviations of the fit.
     pub limits: FitLimits,
-    /// λ: the share of the log-likelihood by the map of some scans ago ([`Grid::past`]) that is evidence on the path, 0 to 1.
-    pub evidence: f64,
 }
 
 /// A search reaches this many standard deviations of the prior to each side. Heading is what a climb is lost
@@ -86,10 +84,10 @@ const SLACK: f64 = 1.0;
 /// fit has the same η in truth; what is computed differs by where the raster happens to lie, and resampling by it is a
 /// lottery, which spends the diversity that the closing of a loop will need. So a scan is weighed against the other part alone,
 ///
-/// ln w ← ln w + λ ln p(z | x, m of L scans ago), x the pose that was drawn,
+/// ln w ← ln w + ln p(z | x, m of L scans ago), x the pose that was drawn,
 ///
 /// whether it was drawn from the fit or, where the matcher is not trusted, from the motion. Ground that the old map does not know
-/// says the same of all. λ < 1, since a place is in sight for many scans, which repeat each other's errors.
+/// says the same of all.
 #[derive(Clone, Debug)]
 pub struct FromScan<S> {
     /// The models, and what is drawn from where the matcher fails.
@@ -148,7 +146,7 @@ impl<S: Search + Sync, const FINE: usize> Proposal<Grid<FINE>> for FromScan<S> {
 
         // ANCHOR: price
         let log_old = likelihood.log_score(&particle.map.past(), &world_from_robot, scan);
-        let log_increment = settings.evidence * settings.share(u) * log_old;
+        let log_increment = settings.share(u) * log_old;
         // ANCHOR_END: price
         Proposed { world_from_robot, association: (), log_increment, trace }
     }

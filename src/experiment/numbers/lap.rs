@@ -3,7 +3,7 @@
 use super::{Group, Made, Number, Recipe, Runs, SEEDS, VALID};
 use crate::execute::Executor;
 use crate::experiment::Spread;
-use crate::experiment::lap::{BEAMS, EVIDENCE, GRID, LAG, Lap, LapSetup, LapWorld, MAX_RANGE, STEPS};
+use crate::experiment::lap::{BEAMS, GRID, LAG, Lap, LapSetup, LapWorld, MAX_RANGE, STEPS};
 use crate::experiment::table::{LapResult, PARTICLES, rms_best};
 use crate::geometry::rms;
 use crate::matching::Matcher;
@@ -162,7 +162,6 @@ fn setting() -> Recipe {
                 "",
                 format!("{start}: scans since the map that a scan is weighed against"),
             ),
-            group.number("evidence", EVIDENCE, "", format!("{start}: share λ of that log-likelihood that counts")),
             group.number("cell", GRID.cell_size, "m", format!("{start}: width of a cell of the maps")),
             group.number("scan.beams", BEAMS as f64, "", format!("{start}: beams of a scan")),
             group.number("scan.range", MAX_RANGE, "m", format!("{start}: longest range of a beam")),
