@@ -108,7 +108,7 @@ test('a learning system that speaks SCORM 1.2 keeps the state and gives it back 
   await page.evaluate(() => document.querySelector('iframe')!.remove())
   await expect.poll(() => page.evaluate(() => sessionStorage['finished'] ?? '')).toBe('yes')
   await page.goto(address)
-  await expect(figure().locator('output')).toHaveText(/^3 \//)
+  await expect(figure().locator('.timeline .position')).toHaveText(/^3 \//)
   await figure().locator('details[part=settings] summary').click()
   await expect(universes()).toHaveValue('6')
   server.close()

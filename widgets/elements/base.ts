@@ -20,6 +20,8 @@ import { onThemeChange, reducedMotion, themeName } from './theme'
 export const sheet = new CSSStyleSheet()
 sheet.replaceSync(css)
 
+export const WORDS = 'en' // language of all that figures say, whatever that of the page
+
 const WORK_BUDGET = 8 // [ms] of simulation a frame, which leaves half of a 60 Hz frame to painting and the page
 const CATCH_UP_PAINT = 100 // [ms] between pictures while the simulation catches up
 const SEEN = 0.35 // share of the canvas in view at which the figure begins to play
@@ -108,7 +110,7 @@ export abstract class FigureElement extends HTMLElement {
   readonly #sentence = h('p', { class: 'sentence', part: 'sentence', id: 'sentence', 'aria-live': 'off' })
   readonly #notices = h('div', { class: 'notices', part: 'notices', role: 'alert' })
   readonly #menu = this.#makeMenu()
-  readonly #body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title' })
+  readonly #body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title', lang: WORDS })
 
   readonly #approach = new IntersectionObserver(entries => this.#onApproach(entries[entries.length - 1]!), { rootMargin: '100% 0px' })
   readonly #intersections = new IntersectionObserver(entries => this.#onIntersection(entries), { threshold: [0, SEEN] })

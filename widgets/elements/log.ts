@@ -1,7 +1,7 @@
 // A recorded log, mapped. Unlike the other figures it lives in a worker: the file is read, the filter runs and the picture is painted
 // there, so that the page answers at once whatever the size of the log. Its program is large, and many a reader never maps a log: it is
 // fetched when the first thing is asked of the figure.
-import { sheet, type Cause } from './base'
+import { sheet, WORDS, type Cause } from './base'
 import { Controls } from './controls'
 import { h, icon, write } from './dom'
 import { logProgram, type ParamSpec, type Readout } from './engine'
@@ -92,7 +92,7 @@ export class FastslamLog extends HTMLElement {
   readonly #sentence = h('p', { class: 'sentence', part: 'sentence', id: 'sentence', 'aria-live': 'polite' })
   readonly #notices = h('div', { class: 'notices', part: 'notices', role: 'alert' })
   readonly #menu = this.#makeMenu()
-  readonly #body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title' })
+  readonly #body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title', lang: WORDS })
 
   readonly #seen = new IntersectionObserver(entries => entries.some(entry => entry.isIntersecting) && this.#onSeen())
   readonly #sizes = new ResizeObserver(entries => this.#onResize(entries[entries.length - 1]!))
