@@ -9,6 +9,7 @@ import { homeAddress, pictureAddress } from './files'
 import { FIGURES } from './generated/figures'
 import { Handles } from './handles'
 import { release, reserve } from './heights'
+import { keepKeys } from './keys'
 import { linkedQuery, linkTo } from './link'
 import { locked, OPTIONS, refusal, unlockable } from './options'
 import { notice } from './notices'
@@ -134,7 +135,7 @@ export abstract class FigureElement extends HTMLElement {
       this.#readouts,
     )
     root.append(this.#body)
-    this.#body.addEventListener('keydown', event => this.#onKey(event))
+    keepKeys(this.#body, event => this.#onKey(event))
     this.#canvas.addEventListener('click', event => this.#onClick(event))
     for (const type of ['pointerdown', 'pointermove', 'pointerup'] as const) {
       this.#canvas.addEventListener(type, event => this.#handles.follow(event))

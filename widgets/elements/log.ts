@@ -9,6 +9,7 @@ import { AT_REST } from './generated/log'
 import { fetchExample } from './files'
 import { release, reserve } from './heights'
 import { hire, refused } from './jobs'
+import { keepKeys } from './keys'
 import { linkedQuery, linkTo } from './link'
 import type { Ask, Phase, Save, Shown, Told } from './log-work'
 import { notice } from './notices'
@@ -134,7 +135,7 @@ export class FastslamLog extends HTMLElement {
     // What comes after a press: nothing moves away from under it.
     for (const type of ['click', 'keyup', 'dragenter'] as const) this.#body.addEventListener(type, () => void this.#start())
     for (const type of ['click', 'keydown', 'input', 'change', 'drop'] as const) this.#body.addEventListener(type, () => (this.#cause = 'reader'))
-    this.#body.addEventListener('keydown', event => this.#onKey(event))
+    keepKeys(this.#body, event => this.#onKey(event))
     this.#takeDrops()
     this.#takeMoves()
     watchUnknown(this, name => this.#onAttribute(name))
