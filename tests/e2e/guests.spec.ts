@@ -72,3 +72,42 @@ test('the keys of a map are the page’s until there is a map to move', async ({
   expect(await heard(page, stage, ['ArrowRight', 'ArrowUp', '+', '-', '0'])).toEqual([])
   expect(await heard(page, stage, ['b', 'PageDown', 'F2', 'Control+k'])).toEqual(['b', 'PageDown', 'F2', 'k'])
 })
+
+test('a log that is dropped beside the figure does not make the browser leave, and the page’s own zones and boxes take theirs', async ({ page }) => {
+  await openCourse(
+    page,
+    `<fastslam-log></fastslam-log><p id="beside" style="height: 200px">beside</p><input id="box" type="file" /><p id="zone" style="height: 100px">zone</p>
+    <script>
+      zone.addEventListener('dragover', event => event.preventDefault())
+      zone.addEventListener('drop', event => { event.preventDefault(); zone.textContent = event.dataTransfer.files[0].name })
+    </script>`,
+  )
+  await expect(page.locator('fastslam-log').getByText('No log is open', { exact: true })).toBeVisible()
+  const client = await page.context().newCDPSession(page)
+  const drop = async (where: string) => {
+    await page.locator(where).scrollIntoViewIfNeeded()
+    const box = (await page.locator(where).boundingBox())!
+    const data = { items: [], files: [join(root, 'tests', 'figures', 'golden', 'tiny.clf')], dragOperationsMask: 1 }
+    for (const type of ['dragEnter', 'dragOver', 'drop'] as const) {
+      await client.send('Input.dispatchDragEvent', { type, x: box.x + box.width / 2, y: box.y + box.height / 2, data })
+    }
+  }
+  // Whether the browser is kept from doing what it does with a file by itself; headless it does nothing.
+  const kept = await page.evaluateHandle(() => {
+    const kept: boolean[] = []
+    addEventListener('dragover', event => kept.push(event.defaultPrevented))
+    return kept
+  })
+  const address = page.url()
+  await drop('#beside')
+  expect(await kept.evaluate(list => [...new Set(list.splice(0))])).toEqual([true])
+  await drop('#zone')
+  await expect(page.locator('#zone')).toHaveText('tiny.clf')
+  await kept.evaluate(list => list.splice(0))
+  await drop('#box')
+  expect(await kept.evaluate(list => [...new Set(list.splice(0))])).toEqual([false])
+  expect(await page.locator('#box').evaluate((box: HTMLInputElement) => box.files!.length)).toBe(1)
+  await drop('fastslam-log .stage')
+  await expect(page.locator('fastslam-log').getByRole('status')).toHaveText('tiny.clf')
+  expect(page.url()).toBe(address)
+})

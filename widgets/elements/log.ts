@@ -150,6 +150,7 @@ export class FastslamLog extends HTMLElement {
     const { signal } = this.#disconnected
     onThemeChange(() => this.#resize(), signal)
     addEventListener('hashchange', () => this.followLink(), { signal })
+    keepPage(signal)
     this.#seen.observe(this)
     try {
       this.#sizes.observe(this.#canvas, { box: 'device-pixel-content-box' })
@@ -700,6 +701,26 @@ export class FastslamLog extends HTMLElement {
   async #copyLink(): Promise<void> {
     if (await copy(this.link)) write(this.#status, 'Link copied')
     else this.#notice('copy', `The browser does not let this page write to the clipboard. The link: ${this.link}`)
+  }
+}
+
+/**
+ * A log dropped beside the figure would make the browser leave the page and show the file. Zones of the page's own that take files,
+ * boxes for files and editors are left alone.
+ */
+function keepPage(signal: AbortSignal): void {
+  for (const type of ['dragover', 'drop'] as const) {
+    addEventListener(
+      type,
+      event => {
+        const target = event.composedPath()[0]
+        if (event.defaultPrevented || !event.dataTransfer?.types.includes('Files')) return
+        if (target instanceof HTMLElement && (target.matches('input, textarea') || target.isContentEditable)) return
+        event.preventDefault()
+        event.dataTransfer.dropEffect = 'none'
+      },
+      { signal },
+    )
   }
 }
 
