@@ -189,6 +189,10 @@ export interface FigureReadout {
 
 export interface FigureDetail {
   step: number
+  /** The last step there is; 0 where there is nothing to play. */
+  last: number
+  /** Whose doing it was: the reader's own hand, playing, or the page (an attribute, a property, a link, a script). */
+  by: 'reader' | 'playback' | 'page'
   values: Record<string, string>
   readouts: FigureReadout[]
 }

@@ -2,6 +2,7 @@
 import AxeBuilder from '@axe-core/playwright'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
+import { openCourse } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -150,6 +151,45 @@ test('the sentence is told to screen readers at rest, and not at every step whil
   await expect(lap.sentence).toHaveAttribute('aria-live', 'off')
   await lap.pause.click()
   await expect(lap.sentence).toHaveAttribute('aria-live', 'polite')
+})
+
+test('a few quick steps are read out as one sentence, and nothing else is', async ({ page }) => {
+  await openCourse(page, '<fastslam-lap universes="2"></fastslam-lap>')
+  const lap = new Figure(page, 'fastslam-lap')
+  await lap.live()
+  await expect(lap.sentence).not.toBeEmpty()
+  // Every change of text in what a screen reader listens to.
+  const said = await lap.element.evaluateHandle(element => {
+    const said: string[] = []
+    new MutationObserver(records => {
+      for (const { target } of records) {
+        const region = (target instanceof Element ? target : target.parentElement!).closest('[aria-live], [role=status], [role=alert], [role=log], output')
+        if (region && region.getAttribute('aria-live') !== 'off') said.push(region.textContent)
+      }
+    }).observe(element.shadowRoot!, { subtree: true, childList: true, characterData: true })
+    return said
+  })
+  await lap.element.evaluate(async element => {
+    for (let i = 0; i < 4; i++) {
+      ;(element as HTMLElement & { step(): void }).step()
+      await new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))
+    }
+  })
+  const spoken = () => said.evaluate(lines => lines)
+  await expect.poll(async () => (await spoken()).length).toBeGreaterThan(0)
+  await expect.poll(() => lap.position()).toBe(4)
+  expect(await spoken()).toEqual([await lap.sentence.textContent()])
+})
+
+test('the words of a figure are in a language that they name, on a page in any other', async ({ page }) => {
+  await openCourse(page, ['lap', 'conditioning', 'proposal', 'worked-example', 'resampling', 'log'].map(name => `<fastslam-${name}></fastslam-${name}>`).join(''), { lang: 'fr' })
+  for (const name of ['lap', 'conditioning', 'proposal', 'worked-example', 'resampling', 'log']) {
+    const menu = page.locator(`fastslam-${name} summary[aria-label=Menu]`)
+    // `closest` ends at the shadow root: what is found is the figure's own.
+    expect(await menu.evaluate(element => element.closest('[lang]')?.getAttribute('lang')), name).toBe('en')
+    const loose = await page.locator(`fastslam-${name}`).evaluate(element => [...element.shadowRoot!.children].filter(child => !child.matches('[lang]')).length)
+    expect(loose, name).toBe(0)
+  }
 })
 
 test('the theme follows the system while the page is open, unless the attribute decides', async ({ page }) => {

@@ -41,7 +41,7 @@ test('a frame without scripts of its host, storage or an origin runs, and the ke
   await live(frame, 'fastslam-lap')
   expect(await frame.evaluate(() => self.origin)).toBe('null')
   expect(await frame.evaluate(() => { try { return String(localStorage) } catch { return 'refused' } })).toBe('refused')
-  const position = frame.locator('fastslam-lap output')
+  const position = frame.locator('fastslam-lap .timeline .position')
   await expect(position).toHaveText(/^2 \//)
   await page.getByRole('button', { name: 'before' }).focus()
   let stage = false
@@ -192,7 +192,7 @@ test('the menu copies code that works as it is: element, iframe, MyST and Python
   await page.locator('iframe').scrollIntoViewIfNeeded()
   const frame = page.frames()[1]!
   await live(frame, 'fastslam-lap')
-  await expect(frame.locator('fastslam-lap output')).toHaveText(/^6 \//)
+  await expect(frame.locator('fastslam-lap .timeline .position')).toHaveText(/^6 \//)
   forgiveHost(complaints)
 })
 

@@ -1,5 +1,5 @@
 // A figure as a reader meets it: found by role and name, never by internals that a reader cannot see.
-import type { Locator, Page } from '@playwright/test'
+import type { Frame, Locator, Page } from '@playwright/test'
 import { expect } from './fixtures'
 
 /** Keeps the programs back that the page fetches, as a slow network does, until they are let through. */
@@ -28,7 +28,7 @@ export class Figure {
   readonly canvas: Locator
 
   constructor(
-    readonly page: Page,
+    readonly page: Page | Frame,
     selector: string,
   ) {
     this.element = page.locator(selector)
@@ -61,13 +61,13 @@ export class Figure {
 
   /** Until what was asked for is shown. */
   async settled(): Promise<void> {
-    await expect(this.element.locator('output.busy')).toHaveCount(0, { timeout: 30_000 })
+    await expect(this.element.locator('.position.busy')).toHaveCount(0, { timeout: 30_000 })
     // The sentence follows within a few frames, so that a drag says one thing and not a hundred.
     await this.page.waitForTimeout(250)
   }
 
   async position(): Promise<number> {
-    return Number((await this.element.locator('output').textContent())!.split('/')[0])
+    return Number((await this.element.locator('.timeline .position').textContent())!.split('/')[0])
   }
 
   async last(): Promise<number> {
@@ -113,7 +113,7 @@ export class Figure {
     const slider = this.slider(name)
     await slider.scrollIntoViewIfNeeded()
     const box = (await slider.boundingBox())!
-    await this.page.mouse.click(box.x + box.width * 0.85, box.y + box.height / 2)
+    await slider.click({ position: { x: box.width * 0.85, y: box.height / 2 } })
     await this.settled()
     expect(await this.box(name).inputValue()).not.toBe(value)
     expect(await this.readouts()).not.toEqual(before)

@@ -29,3 +29,10 @@ export function sanitised(html: string): string {
     })
     .join('')
 }
+
+/** A page of our own site with this in its body and nothing else; `#…` of a link may follow. */
+export async function openCourse(page: Page, body: string, { link = '', lang = 'en' } = {}): Promise<void> {
+  const html = `<!doctype html><html lang="${lang}"><head><title>Course</title><link rel="icon" href="data:," /><script type="module" src="fastslam.js"></script></head><body>${body}</body></html>`
+  await page.route('**/course', route => route.fulfill({ contentType: 'text/html', body: html }))
+  await page.goto(`./course${link}`)
+}

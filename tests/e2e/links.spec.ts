@@ -2,6 +2,7 @@
 import type { Page } from '@playwright/test'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
+import { openCourse } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' }, permissions: ['clipboard-read', 'clipboard-write'] })
 
@@ -208,3 +209,119 @@ test('where the clipboard is refused, the link is shown', async ({ page }) => {
   await lap.menu('Copy link')
   await expect(lap.alert).toContainText('#fastslam-lap?step=3')
 })
+
+/** Every way in which an author's value comes to a figure. */
+const WAYS = {
+  'a parsed tag': '<fastslam-lap universes="8" lock="LOCK"></fastslam-lap>',
+  'a tag made by a script': `<script type="module">
+    import './fastslam.js'
+    const lap = document.createElement('fastslam-lap')
+    lap.setAttribute('universes', '8')
+    lap.setAttribute('lock', 'LOCK')
+    document.body.append(lap)
+  </script>`,
+  'a tag made before its class was known': `<script>
+    const lap = document.createElement('fastslam-lap')
+    lap.setAttribute('universes', '8')
+    lap.setAttribute('lock', 'LOCK')
+    document.body.append(lap)
+  </script>`,
+  'a copy': `<script type="module">
+    import './fastslam.js'
+    const lap = document.createElement('fastslam-lap')
+    lap.setAttribute('universes', '8')
+    lap.setAttribute('lock', 'LOCK')
+    document.body.append(lap.cloneNode())
+  </script>`,
+  'a property': `<script type="module">
+    import './fastslam.js'
+    const lap = document.createElement('fastslam-lap')
+    lap.universes = 8
+    lap.setAttribute('lock', 'LOCK')
+    document.body.append(lap)
+  </script>`,
+  'a property set before its class was known': `<script>
+    const lap = document.createElement('fastslam-lap')
+    lap.universes = 8
+    lap.setAttribute('lock', 'LOCK')
+    document.body.append(lap)
+  </script>`,
+}
+
+for (const [way, body] of Object.entries(WAYS)) {
+  test(`a link stands over ${way}, what is locked over the link, and what the author gives over the default`, async ({ page }) => {
+    const universes = (lap: Figure) => lap.element.evaluate(element => (element as HTMLElement & { universes: number }).universes)
+    const lap = new Figure(page, 'fastslam-lap')
+    for (const [link, lock, expected] of [
+      ['#fastslam-lap?universes=4&step=5', '', 4],
+      ['#fastslam-lap?step=5', '', 16], // the whole state: what it does not name is at its default
+      ['#fastslam-lap?universes=4&step=5', 'universes', 8],
+      ['', '', 8],
+      ['', 'universes', 8],
+    ] as const) {
+      await page.unrouteAll()
+      await page.goto('about:blank')
+      await openCourse(page, body.replace('LOCK', lock), { link })
+      await lap.live()
+      expect(await universes(lap), `${link}, locked: ${lock}`).toBe(expected)
+      expect(await lap.position()).toBe(link ? 5 : 0)
+      await expect(lap.box('universes')).toHaveValue(String(expected))
+    }
+  })
+}
+
+test('an attribute that is set is the property that is read, before the figure lives and after, in the page and out of it', async ({ page }) => {
+  const read = (lap: Figure) =>
+    lap.element.evaluate(element => {
+      const figure = element as HTMLElement & { universes?: number; raw?: boolean }
+      const values: unknown[] = []
+      for (const text of ['5', '7']) {
+        figure.setAttribute('universes', text)
+        values.push(figure.universes)
+      }
+      figure.universes = 9
+      values.push(figure.universes)
+      figure.setAttribute('universes', '6')
+      values.push(figure.universes)
+      figure.remove()
+      figure.setAttribute('universes', '3')
+      values.push(figure.universes)
+      document.body.append(figure)
+      values.push(figure.universes)
+      return values
+    })
+  const lap = new Figure(page, 'fastslam-lap')
+  for (const link of ['', '#fastslam-lap?universes=4']) {
+    await page.unrouteAll()
+    await page.goto('about:blank')
+    let answer = () => {}
+    const answered = new Promise<void>(done => (answer = done))
+    await page.route('**/*.wasm', async route => {
+      await answered
+      await route.continue()
+    })
+    await openCourse(page, '<fastslam-lap></fastslam-lap>', { link })
+    await page.evaluate(() => customElements.whenDefined('fastslam-lap').then(() => undefined))
+    expect(await read(lap)).toEqual([5, 7, 9, 6, 3, 3])
+    answer()
+    await lap.live()
+    await expect(lap.box('universes')).toHaveValue('3')
+    expect(await read(lap)).toEqual([5, 7, 9, 6, 3, 3])
+    await lap.element.evaluate(element => element.removeAttribute('universes'))
+    await expect(lap.box('universes')).toHaveValue('16')
+  }
+})
+
+for (const address of ['embed.html?figure=lap&', 'embed-lap.html?']) {
+  test(`in a frame, a link stands over the parameters of its address: ${address}`, async ({ page }) => {
+    const lap = await new Figure(page, 'fastslam-lap').open(`./${address}universes=8&seed=5&step=10#fastslam-lap?universes=4&step=20`)
+    expect(await lap.position()).toBe(20)
+    await expect(lap.box('universes')).toHaveValue('4')
+    await expect(lap.seed).toHaveValue('3')
+    const link = await lap.element.evaluate(element => (element as HTMLElement & { link: string }).link)
+    expect(link.split('#')[1], 'what is copied is what was opened').toBe('fastslam-lap?universes=4&step=20')
+    await lap.reset.click()
+    await expect.poll(() => lap.position()).toBe(10)
+    await expect(lap.box('universes')).toHaveValue('8')
+  })
+}

@@ -7,6 +7,7 @@ import { join } from 'node:path'
 import { gzipSync } from 'node:zlib'
 import { root } from '../../scripts/lib.mjs'
 import { expect, test } from './fixtures'
+import { openCourse } from './host'
 
 const TINY = join(root, 'tests', 'figures', 'golden', 'tiny.clf')
 const INTEL = join(root, '..', 'shared', 'data', 'intel.clf')
@@ -459,3 +460,117 @@ test('the Intel log has the fingerprint that the command line tells', async ({ p
   await log.done(300_000)
   await expect(log.readout('digest')).toHaveText(digest)
 })
+
+/** What the page sends the worker, by name, from now on. */
+async function tapWorker(page: Page): Promise<() => Promise<string[]>> {
+  await page.addInitScript(() => {
+    const asked: string[] = []
+    Object.assign(self, { asked })
+    const post = Worker.prototype.postMessage
+    Worker.prototype.postMessage = function (this: Worker, message: { ask?: string }) {
+      asked.push(message.ask ?? '')
+      return post.call(this, message)
+    }
+  })
+  return () => page.evaluate(() => (self as unknown as { asked: string[] }).asked)
+}
+
+test('the first log that a script opens is read once, and a refusal names its file', async ({ page }) => {
+  const asked = await tapWorker(page)
+  await openCourse(page, '<fastslam-log></fastslam-log>')
+  const log = new LogFigure(page)
+  await expect(log.stage).toContainText('No log is open')
+  await log.element.evaluate((element: HTMLElement & { open(file: Blob, name: string): Promise<void> }) => element.open(new Blob(['x,y\n1,2\n']), 'table.csv'))
+  await expect(log.alert).toContainText('table.csv cannot be mapped: line 1: ')
+  expect((await asked()).filter(ask => ask === 'open')).toHaveLength(1)
+  // Each refusal names its own file, also where the next one is on its way.
+  const text = readFileSync(TINY, 'utf8')
+  await log.element.evaluate(async (element: HTMLElement & { open(file: Blob, name: string): Promise<void> }, text) => {
+    await element.open(new Blob(['a,b\n']), 'other.csv')
+    await element.open(new Blob([text]), 'tiny.clf')
+  }, text)
+  await expect(log.status).toHaveText('tiny.clf')
+  await expect(log.alert).toContainText('other.csv cannot be mapped')
+  // The one that is open is read again after a move.
+  await log.element.evaluate(element => document.body.prepend(element))
+  await expect(log.status).toHaveText('tiny.clf')
+  await expect(log.sentence).toContainText('91 scans')
+  expect((await asked()).filter(ask => ask === 'open')).toHaveLength(4)
+})
+
+test('settings obey one order, parsed or scripted: locked, link, attribute, default; what is set is what is read', async ({ page }) => {
+  const universes = (log: LogFigure) => log.element.evaluate(element => (element as HTMLElement & { universes: number }).universes)
+  const scripted = (set: string) => `<script type="module">
+    import './fastslam.js'
+    const log = document.createElement('fastslam-log')
+    ${set}
+    log.setAttribute('lock', 'LOCK')
+    document.body.append(log)
+  </script>`
+  for (const body of ['<fastslam-log universes="8" lock="LOCK"></fastslam-log>', scripted("log.setAttribute('universes', '8')"), scripted('log.universes = 8')]) {
+    for (const [link, lock, expected] of [
+      ['#fastslam-log?universes=4&cell=0.1', '', 4],
+      ['#fastslam-log?universes=4&cell=0.1', 'universes', 8],
+      ['', '', 8],
+    ] as const) {
+      await page.unrouteAll()
+      await page.goto('about:blank')
+      await openCourse(page, body.replace('LOCK', lock), { link })
+      const log = new LogFigure(page)
+      await expect(log.element.locator('.stage.live')).toBeVisible()
+      await expect(log.element.locator('input[type=number][name=universes]')).toHaveValue(String(expected))
+      expect(await universes(log), `${body}, ${link}`).toBe(expected)
+      const read = await log.element.evaluate(element => {
+        const figure = element as HTMLElement & { universes: number }
+        figure.setAttribute('universes', '5')
+        const values = [figure.universes]
+        figure.universes = 7
+        return [...values, figure.universes]
+      })
+      expect(read).toEqual([5, 7])
+      await expect(log.element.locator('input[type=number][name=universes]')).toHaveValue('7')
+    }
+  }
+})
+
+for (const type of ['fastslam-step', 'fastslam-change']) {
+  test(`in ${type} of a log, to remove, move, reset or clone the figure is harmless`, async ({ page }) => {
+    for (const deed of ['remove', 'move', 'reset', 'clone'] as const) {
+      await page.unrouteAll()
+      await openCourse(page, '<fastslam-log></fastslam-log><aside></aside>')
+      const log = new LogFigure(page)
+      await expect(log.stage).toContainText('No log is open')
+      await log.choose('tiny.clf', readFileSync(TINY))
+      await expect(log.sentence).toContainText('91 scans')
+      await log.element.evaluate(
+        (element, [type, deed]) =>
+          new Promise<void>(done => {
+            const figure = element as HTMLElement & { reset(): void }
+            const deeds = {
+              remove: () => figure.remove(),
+              move: () => document.querySelector('aside')!.append(figure),
+              reset: () => figure.reset(),
+              clone: () => figure.after(Object.assign(figure.cloneNode(true), { id: 'copy' })),
+            }
+            figure.addEventListener(
+              type,
+              () => {
+                deeds[deed]()
+                requestAnimationFrame(() => {
+                  if (!figure.isConnected) document.body.append(figure)
+                  done()
+                })
+              },
+              { once: true },
+            )
+            figure.setAttribute('universes', '3')
+          }),
+        [type, deed] as const,
+      )
+      const original = page.locator('fastslam-log:not(#copy)')
+      await expect(original.getByRole('status')).toHaveText('tiny.clf')
+      await expect(original.locator('[part=sentence]')).toContainText('91 scans')
+      await expect(original.getByRole('alert')).toBeEmpty()
+    }
+  })
+}

@@ -1,15 +1,16 @@
 // The files for offline use, opened as a double click does; and the SCORM packages in a run-time that learning systems are built on.
-import { createServer } from 'node:http'
+import { createServer, type IncomingMessage, type ServerResponse } from 'node:http'
 import { readFileSync, statSync } from 'node:fs'
 import { createRequire } from 'node:module'
 import type { AddressInfo } from 'node:net'
 import { join } from 'node:path'
 import { pathToFileURL } from 'node:url'
+import type { Page } from '@playwright/test'
 import { strFromU8, unzipSync } from 'fflate'
 import { limit, offline, writeOffline } from '../../scripts/offline.mjs'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
-import { FIGURES, forgiveHost } from './host'
+import { FIGURES } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -68,50 +69,145 @@ test('the whole chapter lives from one file', async ({ page, context }) => {
   expect(asked).toEqual([address])
 })
 
+/** A learning system: a page with scorm-again around a frame with the package in it, which keeps what the run-time commits. */
+class LearningSystem {
+  address = ''
+  private readonly server = createServer()
+
+  constructor(
+    readonly page: Page,
+    private readonly name: string,
+  ) {}
+
+  /** The learner opens the package, for the first time or again. */
+  async visit(): Promise<Figure> {
+    if (!this.address) await this.listen()
+    await this.page.goto(this.address)
+    const figure = new Figure(this.page.frames()[1]!, `fastslam-${this.name}`)
+    await expect(figure.element.locator('.stage.live')).toBeVisible()
+    return figure
+  }
+
+  /** What a window that is closed does, until the run-time has been told that it is over. */
+  async leave(): Promise<void> {
+    await this.page.evaluate(() => {
+      delete sessionStorage['finished']
+      document.querySelector('iframe')!.remove()
+    })
+    await expect.poll(() => this.page.evaluate(() => sessionStorage['finished'] ?? '')).toBe('yes')
+  }
+
+  /** What the package set last. */
+  told(element: string): Promise<string | undefined> {
+    return this.page.evaluate(name => JSON.parse(sessionStorage['told'] ?? '{}')[name] as string | undefined, element)
+  }
+
+  close(): void {
+    this.server.close()
+  }
+
+  private async listen(): Promise<void> {
+    const files = unzipSync(readFileSync(join(offline, `fastslam-${this.name}-scorm.zip`)))
+    expect(Object.keys(files).sort()).toEqual(['imsmanifest.xml', 'index.html', 'scorm.js'])
+    const manifest = strFromU8(files['imsmanifest.xml']!)
+    expect(manifest).toMatch(/<schemaversion>1\.2<\/schemaversion>/)
+    const start = /adlcp:scormtype="sco" href="([^"]+)"/.exec(manifest)![1]!
+    for (const [, file] of manifest.matchAll(/<file href="([^"]+)"/g)) expect(files[file!]).toBeDefined()
+    const runtime = readFileSync(createRequire(import.meta.url).resolve('scorm-again/scorm12'), 'utf8')
+    const system = `<!doctype html><html lang="en"><head><title>LMS</title><link rel="icon" href="data:," /><script src="runtime.js"></script></head><body><script>
+      const kept = JSON.parse(sessionStorage.kept ?? '{}')
+      window.API = new Scorm12API({ logLevel: 5 })
+      if (kept.cmi) API.loadFromJSON(kept.cmi, 'cmi')
+      const set = API.LMSSetValue.bind(API)
+      API.LMSSetValue = (name, value) => {
+        sessionStorage.told = JSON.stringify({ ...JSON.parse(sessionStorage.told ?? '{}'), [name]: value })
+        return set(name, value)
+      }
+      API.on('LMSCommit', () => (sessionStorage.kept = JSON.stringify({ cmi: API.renderCMIToJSONObject().cmi })))
+      API.on('LMSFinish', () => (sessionStorage.finished = 'yes'))
+    </script><iframe src="${start}" width="800" height="780"></iframe></body></html>`
+    const types: Record<string, string> = { html: 'text/html', js: 'text/javascript' }
+    this.server.on('request', ({ url }: IncomingMessage, response: ServerResponse) => {
+      const name = url!.slice(1).split('?')[0]!
+      const body = name === 'lms' ? system : name === 'runtime.js' ? runtime : files[name]
+      response.writeHead(body ? 200 : 404, { 'Content-Type': types[name.split('.')[1] ?? 'html']! }).end(body)
+    })
+    await new Promise<void>(done => this.server.listen(0, '127.0.0.1', done))
+    this.address = `http://127.0.0.1:${(this.server.address() as AddressInfo).port}/lms`
+  }
+}
+
+const forgiveSystem = (complaints: string[]) => complaints.splice(0, Infinity, ...complaints.filter(line => !/^left the site: http:\/\/127\.0\.0\.1/.test(line)))
+const STATUS = 'cmi.core.lesson_status'
+
 test('a learning system that speaks SCORM 1.2 keeps the state and gives it back at the next visit', async ({ page, complaints }) => {
-  const files = unzipSync(readFileSync(join(offline, 'fastslam-lap-scorm.zip')))
-  expect(Object.keys(files).sort()).toEqual(['imsmanifest.xml', 'index.html', 'scorm.js'])
-  const manifest = strFromU8(files['imsmanifest.xml']!)
-  expect(manifest).toMatch(/<schemaversion>1\.2<\/schemaversion>/)
-  const start = /adlcp:scormtype="sco" href="([^"]+)"/.exec(manifest)![1]!
-  for (const [, file] of manifest.matchAll(/<file href="([^"]+)"/g)) expect(files[file!]).toBeDefined()
-
-  // The learning system: a page with scorm-again around a frame, which keeps what the run-time commits.
-  const runtime = readFileSync(createRequire(import.meta.url).resolve('scorm-again/scorm12'), 'utf8')
-  const system = `<!doctype html><html lang="en"><head><title>LMS</title><link rel="icon" href="data:," /><script src="runtime.js"></script></head><body><script>
-    const kept = JSON.parse(sessionStorage.kept ?? '{}')
-    window.API = new Scorm12API({ logLevel: 5 })
-    if (kept.cmi) API.loadFromJSON(kept.cmi, 'cmi')
-    API.on('LMSCommit', () => (sessionStorage.kept = JSON.stringify({ cmi: API.renderCMIToJSONObject().cmi })))
-    API.on('LMSFinish', () => (sessionStorage.finished = 'yes'))
-  </script><iframe src="${start}" width="800" height="780"></iframe></body></html>`
-  const types: Record<string, string> = { html: 'text/html', js: 'text/javascript' }
-  const server = createServer(({ url }, response) => {
-    const name = url!.slice(1).split('?')[0]!
-    const body = name === 'lms' ? system : name === 'runtime.js' ? runtime : files[name]
-    response.writeHead(body ? 200 : 404, { 'Content-Type': types[name.split('.')[1] ?? 'html']! }).end(body)
-  })
-  await new Promise<void>(done => server.listen(0, '127.0.0.1', done))
-  const address = `http://127.0.0.1:${(server.address() as AddressInfo).port}/lms`
-  const figure = () => page.frames()[1]!.locator('fastslam-lap')
-  await page.goto(address)
-  await expect(figure().locator('.stage.live')).toBeVisible()
-  const universes = () => figure().locator('input[type=number][name=universes]')
-  await figure().locator('details[part=settings] summary').click()
-  await universes().fill('6')
-  await universes().press('Enter')
-  for (let i = 0; i < 3; i++) await figure().getByRole('button', { name: 'Step', exact: true }).click()
+  const system = new LearningSystem(page, 'lap')
+  const first = await system.visit()
+  await first.openSettings()
+  await first.box('universes').fill('6')
+  await first.box('universes').press('Enter')
+  for (let i = 0; i < 3; i++) await first.step.click()
   await expect.poll(() => page.evaluate(() => sessionStorage['kept'] ?? ''), { timeout: 10_000 }).toContain('universes=6&step=3')
-  expect(await page.evaluate(() => (window as unknown as { API: { LMSGetValue(name: string): string } }).API.LMSGetValue('cmi.core.lesson_status'))).toBe('completed')
+  await system.leave()
+  expect(await system.told('cmi.core.exit'), 'the next visit is told to begin with what was kept').toBe('suspend')
+  const second = await system.visit()
+  await expect.poll(() => second.position()).toBe(3)
+  await expect(second.box('universes')).toHaveValue('6')
+  system.close()
+  forgiveSystem(complaints)
+})
 
-  // The learner leaves, and comes back.
-  await page.evaluate(() => document.querySelector('iframe')!.remove())
-  await expect.poll(() => page.evaluate(() => sessionStorage['finished'] ?? '')).toBe('yes')
-  await page.goto(address)
-  await expect(figure().locator('output')).toHaveText(/^3 \//)
-  await figure().locator('details[part=settings] summary').click()
-  await expect(universes()).toHaveValue('6')
-  server.close()
-  complaints.splice(0, Infinity, ...complaints.filter(line => !/^left the site: http:\/\/127\.0\.0\.1/.test(line)))
-  forgiveHost(complaints)
+test('in a learning system, what merely played completes nothing, and the last step reached by hand does', async ({ browser }) => {
+  const page = await (await browser.newContext({ reducedMotion: 'no-preference' })).newPage()
+  const system = new LearningSystem(page, 'lap')
+  const first = await system.visit()
+  // It begins by itself: nobody touches it.
+  await expect.poll(() => first.position()).toBeGreaterThan(1)
+  await system.leave()
+  expect(await system.told('cmi.suspend_data')).toMatch(/step=\d/)
+  expect(await system.told(STATUS)).toBe('incomplete')
+
+  const second = await system.visit()
+  await second.element.evaluate((element: HTMLElement & { state: string }) => (element.state = 'universes=2'))
+  const last = await second.last()
+  await second.element.evaluate((element: HTMLElement & { seek(step: number): void }, step) => element.seek(step), last - 2)
+  await second.play.click()
+  await expect.poll(() => second.position()).toBe(last)
+  await expect(second.play).toBeVisible()
+  await second.element.locator('input[name=raw]').click()
+  await expect.poll(() => page.evaluate(() => sessionStorage['told'] ?? '')).toContain('raw=')
+  await system.leave()
+  expect(await system.told('cmi.suspend_data')).toContain(`step=${last}`)
+  expect(await system.told(STATUS), 'played to the end').toBe('incomplete')
+
+  const third = await system.visit()
+  await expect.poll(() => third.position()).toBe(last)
+  await third.stepBack.click()
+  await expect.poll(() => third.position()).toBe(last - 1)
+  expect(await system.told(STATUS), 'opened at the end, and a step back').toBe('incomplete')
+  await third.step.click()
+  await expect.poll(() => system.told(STATUS)).toBe('completed')
+  await system.leave()
+
+  await system.visit()
+  await system.leave()
+  expect(await system.told(STATUS), 'what is completed stays so').toBe('completed')
+  system.close()
+  await page.context().close()
+})
+
+test('in a learning system, a prediction completes what has no steps, once it was placed and run', async ({ page, complaints }) => {
+  const system = new LearningSystem(page, 'proposal')
+  const figure = await system.visit()
+  await figure.reroll.click()
+  await figure.toggle('predict').click()
+  await expect(figure.toggle('predict')).toHaveAttribute('aria-pressed', 'true')
+  await figure.handle('guess').focus()
+  await figure.handle('guess').press('ArrowUp')
+  await expect.poll(() => system.told('cmi.suspend_data')).toContain('guess=')
+  expect(await system.told(STATUS), 'placed, and not yet run').toBe('incomplete')
+  await figure.toggle('run').click()
+  await expect.poll(() => system.told(STATUS)).toBe('completed')
+  system.close()
+  forgiveSystem(complaints)
 })

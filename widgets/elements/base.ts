@@ -9,15 +9,19 @@ import { homeAddress, pictureAddress } from './files'
 import { FIGURES } from './generated/figures'
 import { Handles } from './handles'
 import { release, reserve } from './heights'
+import { keepKeys } from './keys'
 import { linkedQuery, linkTo } from './link'
 import { locked, OPTIONS, refusal, unlockable } from './options'
 import { notice } from './notices'
+import { fromText, isParameter, takeEarlyProperties, toText, watchUnknown } from './parameters'
 import { showReadouts } from './readouts'
 import { copy, download } from './save'
 import { onThemeChange, reducedMotion, themeName } from './theme'
 
 export const sheet = new CSSStyleSheet()
 sheet.replaceSync(css)
+
+export const WORDS = 'en' // language of all that figures say, whatever that of the page
 
 const WORK_BUDGET = 8 // [ms] of simulation a frame, which leaves half of a 60 Hz frame to painting and the page
 const CATCH_UP_PAINT = 100 // [ms] between pictures while the simulation catches up
@@ -29,17 +33,14 @@ const LEGIBLE = 0.5 // a picture is not made smaller than that to fit
 const PICTURE_SHARE = 0.6 // of a frame's height, which the picture takes if the rest has to be scrolled
 const MAX_PIXELS = 6e6 // a canvas beyond this is painted coarser: no screen shows the difference, every phone feels it
 
-// Attributes that are not parameters and are no mistake: those of every element, and those frameworks add.
-const COMMON = new Set(['class', 'part', 'is', 'role', 'exportparts', ...Object.keys(properties(HTMLElement.prototype))])
-const FOREIGN = /^(aria|data|hx|js|ng|v|wire|x)-|[^a-z0-9-]/
-
-/** Whether an attribute of this name is meant to be a parameter. */
-export function isParameter(attribute: string): boolean {
-  return !COMMON.has(attribute) && !FOREIGN.test(attribute)
-}
+/** Who made a state what it is: the reader's own hand, playing, or the page (an attribute, a property, a link, a script). */
+export type Cause = 'reader' | 'playback' | 'page'
 
 export interface FigureDetail {
   step: number
+  /** The last step there is; 0 where there is nothing to play. */
+  last: number
+  by: Cause
   values: Record<string, string>
   readouts: Readout[]
 }
@@ -60,6 +61,7 @@ export abstract class FigureElement extends HTMLElement {
 
   #recipe?: string // the last good state as a query; a figure is rebuilt from it after a move, a link or a panic
   #waiting = new Map<string, string | null>() // values given while no figure lives: applied to the next one
+  #given = new Map<string, string>() // values that a script gave by property, since the attribute was last set
 
   #playing = false
   #mayAutoplay = true
@@ -76,6 +78,8 @@ export abstract class FigureElement extends HTMLElement {
   #mustShowValues = false
   #mustTrace = false
   #changeToTell = false
+  #cause: Cause = 'page' // of what is told next
+  #events: CustomEvent[] = [] // to be sent last of all
   #toldStep = -1
   #toldSentence = 0
   #saidAt = -Infinity // [ms]
@@ -107,7 +111,7 @@ export abstract class FigureElement extends HTMLElement {
   readonly #sentence = h('p', { class: 'sentence', part: 'sentence', id: 'sentence', 'aria-live': 'off' })
   readonly #notices = h('div', { class: 'notices', part: 'notices', role: 'alert' })
   readonly #menu = this.#makeMenu()
-  readonly #body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title' })
+  readonly #body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title', lang: WORDS })
 
   readonly #approach = new IntersectionObserver(entries => this.#onApproach(entries[entries.length - 1]!), { rootMargin: '100% 0px' })
   readonly #intersections = new IntersectionObserver(entries => this.#onIntersection(entries), { threshold: [0, SEEN] })
@@ -115,7 +119,6 @@ export abstract class FigureElement extends HTMLElement {
 
   constructor() {
     super()
-    defineProperties(this)
     const root = this.attachShadow({ mode: 'open' })
     root.adoptedStyleSheets = [sheet]
     this.#body.append(
@@ -132,16 +135,16 @@ export abstract class FigureElement extends HTMLElement {
       this.#readouts,
     )
     root.append(this.#body)
-    this.#body.addEventListener('keydown', event => this.#onKey(event))
+    keepKeys(this.#body, event => this.#onKey(event))
     this.#canvas.addEventListener('click', event => this.#onClick(event))
     for (const type of ['pointerdown', 'pointermove', 'pointerup'] as const) {
       this.#canvas.addEventListener(type, event => this.#handles.follow(event))
     }
-    // Parameters are known only once the wasm runs, so every attribute is watched, also while the element is out of the document.
-    new MutationObserver(records => {
-      const names = new Set(records.map(record => record.attributeName!))
-      for (const name of names) this.#onAttribute(name)
-    }).observe(this, { attributes: true })
+    watchUnknown(this, name => this.#onAttribute(name))
+  }
+
+  attributeChangedCallback(name: string): void {
+    this.#onAttribute(name)
   }
 
   connectedCallback(): void {
@@ -149,13 +152,14 @@ export abstract class FigureElement extends HTMLElement {
     const { signal } = this.#disconnected
     onThemeChange(() => this.#repaint(), signal)
     document.addEventListener('visibilitychange', () => this.#wake(), { signal })
-    addEventListener('hashchange', () => this.#followLink(), { signal })
+    addEventListener('hashchange', () => this.followLink(), { signal })
     this.#body.classList.toggle('pictured', this.querySelector('img, picture') !== null)
     this.#approach.observe(this)
     this.#intersections.observe(this)
     this.#intersections.observe(this.#stage)
     this.#watchSize()
-    if (this.#recipe === undefined) this.#followLink() // a node that was only moved goes on from where it was
+    takeEarlyProperties(this)
+    if (this.#recipe === undefined) this.followLink() // a node that was only moved goes on from where it was
   }
 
   disconnectedCallback(): void {
@@ -178,6 +182,7 @@ export abstract class FigureElement extends HTMLElement {
 
   play(): void {
     this.#mayAutoplay = false
+    this.#cause = 'playback'
     this.#guard(figure => {
       if (this.#target >= figure.step_count()) this.#seek(0)
     })
@@ -211,6 +216,7 @@ export abstract class FigureElement extends HTMLElement {
 
   seek(step: number): void {
     this.pause()
+    this.#cause = 'page'
     if (!this.#figure) this.#waiting.set('step', String(step))
     this.#seek(step)
   }
@@ -219,6 +225,7 @@ export abstract class FigureElement extends HTMLElement {
   reset(): void {
     this.#mayAutoplay = false
     this.#playing = false
+    this.#cause = 'page'
     this.#recipe = undefined
     this.#crashes = 0
     this.#stopped = false
@@ -250,6 +257,7 @@ export abstract class FigureElement extends HTMLElement {
   set state(query: string) {
     this.#mayAutoplay = false // the sender meant this very state
     this.#playing = false
+    this.#cause = 'page'
     this.#recipe = query
     this.#waiting.clear()
     this.#changeToTell = true
@@ -332,8 +340,10 @@ export abstract class FigureElement extends HTMLElement {
       if (this.#recipe === undefined) {
         // In the order of the parameters, so that the order of the attributes makes no difference.
         const rank = (name: string) => this.#specs.findIndex(spec => spec.name === name)
-        for (const name of this.getAttributeNames().sort((a, b) => rank(a) - rank(b))) this.#onAttribute(name)
-        this.#takeEarlyProperties()
+        for (const name of this.getAttributeNames().sort((a, b) => rank(a) - rank(b))) {
+          if (name in OPTIONS) this.#onOption(name)
+          else if (isParameter(name)) this.#take(name, this.getAttribute(name))
+        }
       } else {
         this.#notice('link', figure.load(this.#recipe).join('\n'))
         if (this.#linked) this.#keepLocked(figure, this.#authored())
@@ -362,14 +372,14 @@ export abstract class FigureElement extends HTMLElement {
     write(this.#heading, figure.title())
     const controls = new Controls(this.#specs, {
       playPause: () => (this.#playing ? this.pause() : this.play()),
-      step: () => this.step(),
-      stepBack: () => this.stepBack(),
-      seek: step => this.seek(step),
-      reset: () => this.reset(),
+      step: () => this.#byHand(() => this.step()),
+      stepBack: () => this.#byHand(() => this.stepBack()),
+      seek: step => this.#byHand(() => this.seek(step)),
+      reset: () => this.#byHand(() => this.reset()),
       pace: pace => (this.#pace = pace),
       change: (name, value) => {
         this.#mayAutoplay = false
-        this.#set(name, value)
+        this.#byHand(() => this.#set(name, value))
       },
     })
     this.#controls = controls
@@ -384,18 +394,8 @@ export abstract class FigureElement extends HTMLElement {
     this.#say(figure.describe())
   }
 
-  /** Properties set before this class was known, or before its parameters were. */
-  #takeEarlyProperties(): void {
-    for (const { name } of this.#specs) {
-      const property = camelCase(name)
-      const early = Object.getOwnPropertyDescriptor(this, property)
-      if (!early) continue
-      delete (this as Record<string, unknown>)[property]
-      this.#take(name, toText(early.value))
-    }
-  }
-
-  #followLink(): void {
+  /** @internal Takes the state that the page's address holds for this figure, over what was given until now. */
+  followLink(): void {
     const query = linkedQuery(this)
     if (query === undefined) return
     this.#linked = true
@@ -406,13 +406,14 @@ export abstract class FigureElement extends HTMLElement {
   // --- Parameters --------------------------------------------------------------------------------------------------------
 
   #onAttribute(name: string): void {
+    if (name in OPTIONS) return this.#onOption(name)
+    if (!isParameter(name)) return
     const text = this.getAttribute(name)
-    if (name in OPTIONS) {
-      this.#onOption(name)
-    } else if (isParameter(name)) {
-      if (this.#figure) this.#take(name, text)
-      else this.#waiting.set(name, text)
-    }
+    this.#given.delete(name)
+    this.#cause = 'page'
+    if (this.#figure) this.#take(name, text)
+    else if (this.#recipe === undefined) this.#waiting.delete(name) // the attribute itself is read when the figure is made
+    else this.#waiting.set(name, text)
   }
 
   #onOption(name: string): void {
@@ -433,9 +434,9 @@ export abstract class FigureElement extends HTMLElement {
     this.#repaint()
   }
 
-  /** What the author gave: attributes, and else the defaults. */
+  /** What the author gave: properties and attributes, the last of them, and else the defaults. */
   #authored(): Record<string, string> {
-    return Object.fromEntries(this.#specs.map(spec => [spec.name, this.getAttribute(spec.name) ?? spec.default]))
+    return Object.fromEntries(this.#specs.map(({ name, default: usual }) => [name, this.#given.get(name) ?? this.getAttribute(name) ?? usual]))
   }
 
   /** Puts back what is locked, where a reader's link or hand has moved it. */
@@ -465,8 +466,11 @@ export abstract class FigureElement extends HTMLElement {
 
   /** @internal For the properties that are made from the parameters. */
   setParameter(name: string, value: unknown): void {
-    if (this.#figure) this.#take(name, toText(value))
-    else this.#waiting.set(name, toText(value))
+    const text = toText(value)
+    this.#given.set(name, text)
+    this.#cause = 'page'
+    if (this.#figure) this.#take(name, text)
+    else this.#waiting.set(name, text)
   }
 
   /** @internal The value; of a figure that does not live, what it will begin with, or undefined for the default. */
@@ -549,6 +553,7 @@ export abstract class FigureElement extends HTMLElement {
       if (this.#mustPaint && !hurry) this.#show(figure)
       if (plays || figure.pending() > 0) this.#wake()
     })
+    this.#send()
   }
 
   #advance(figure: Shell, now: number): void {
@@ -562,6 +567,7 @@ export abstract class FigureElement extends HTMLElement {
     // Where the machine is too slow for the pace the lap takes longer; no step is ever skipped.
     this.#due = Math.max(this.#due + interval, now + interval / 2)
     this.#target += 1
+    this.#cause = 'playback'
     figure.seek(this.#target)
   }
 
@@ -582,7 +588,7 @@ export abstract class FigureElement extends HTMLElement {
     this.#recipe = figure.query()
     this.#say(figure.describe())
     if (this.#stage.matches('.live')) release(this.#body)
-    const detail: FigureDetail = { step, values: values(figure), readouts }
+    const detail: FigureDetail = { step, last: figure.step_count(), by: this.#cause, values: values(figure), readouts }
     this.#controls!.showValues(this.#specs, detail.values) // time may take a value along, as it does a cursor
     if (this.#changeToTell) this.#tell('fastslam-change', detail)
     this.#changeToTell = false
@@ -600,8 +606,13 @@ export abstract class FigureElement extends HTMLElement {
     else this.#stage.removeAttribute('aria-describedby')
   }
 
-  #tell(type: string, detail: FigureDetail): void {
-    this.dispatchEvent(new CustomEvent(type, { bubbles: true, composed: true, detail }))
+  #tell(type: string, detail: FigureDetail | TraceDetail): void {
+    this.#events.push(new CustomEvent(type, { bubbles: true, composed: true, detail }))
+  }
+
+  /** Always the last thing done: who listens may remove, reset, move or clone this figure. */
+  #send(): void {
+    for (const event of this.#events.splice(0)) this.dispatchEvent(event)
   }
 
   /** After a step that was asked for by itself: which lines of the algorithm it ran, and what came out of them. */
@@ -609,7 +620,7 @@ export abstract class FigureElement extends HTMLElement {
     if (!this.#mustTrace) return
     this.#mustTrace = false
     const detail: TraceDetail = { step: figure.step(), lines: figure.trace() as TraceLine[] }
-    this.dispatchEvent(new CustomEvent('fastslam-trace', { bubbles: true, composed: true, detail }))
+    this.#tell('fastslam-trace', detail)
   }
 
   /** A step asked for from elsewhere on the page, by the box of an algorithm: the picture waits until it is seen, the lines do not. */
@@ -619,6 +630,7 @@ export abstract class FigureElement extends HTMLElement {
       while (figure.pending() > 0) figure.work()
       this.#tellTrace(figure)
     })
+    this.#send()
   }
 
   /** The sentence under the picture: always up to date for eyes; read out only when nothing moves. */
@@ -731,29 +743,33 @@ export abstract class FigureElement extends HTMLElement {
     this.#wake()
   }
 
-  #onKey(event: KeyboardEvent): void {
-    if (event.ctrlKey || event.metaKey || event.altKey) return
+  /** Whether the figure uses the key. */
+  #onKey(event: KeyboardEvent): boolean {
+    if (event.ctrlKey || event.metaKey || event.altKey) return false
     const target = event.target as HTMLElement
     if (event.key === 'Escape' && this.#menu.open) {
       this.#menu.open = false
       this.#menu.querySelector('summary')!.focus()
-    } else if (!this.#timeline) {
-      return
-    } else if (event.key === ' ' && !target.matches('button, summary, select, input:not([type=range])')) {
-      event.preventDefault()
-      if (this.#playing) this.pause()
-      else this.play()
-    } else if (target === this.#stage) {
-      const jump: Record<string, () => void> = {
-        ArrowRight: () => this.step(),
-        ArrowLeft: () => this.stepBack(),
-        Home: () => this.seek(0),
-        End: () => this.seek(Infinity),
-      }
-      if (!jump[event.key]) return
-      event.preventDefault()
-      jump[event.key]!()
+      return true
     }
+    if (!this.#timeline) return false
+    const stageKeys: Record<string, () => void> = {
+      ArrowRight: () => this.#byHand(() => this.step()),
+      ArrowLeft: () => this.#byHand(() => this.stepBack()),
+      Home: () => this.#byHand(() => this.seek(0)),
+      End: () => this.#byHand(() => this.seek(Infinity)),
+    }
+    const anywhere = event.key === ' ' && !target.matches('button, summary, select, input:not([type=range])')
+    const act = anywhere ? () => (this.#playing ? this.pause() : this.play()) : target === this.#stage ? stageKeys[event.key] : undefined
+    if (!act) return false
+    event.preventDefault()
+    act()
+    return true
+  }
+
+  #byHand(action: () => void): void {
+    action()
+    this.#cause = 'reader'
   }
 
   #onClick(event: MouseEvent): void {
@@ -762,7 +778,7 @@ export abstract class FigureElement extends HTMLElement {
       const before = values(figure)
       if (!figure.pick(event.offsetX / this.#scale, event.offsetY / this.#scale, this.#cssWidth / this.#scale)) return
       this.#keepLocked(figure, before)
-      this.#changed()
+      this.#byHand(() => this.#changed())
     })
   }
 
@@ -775,7 +791,7 @@ export abstract class FigureElement extends HTMLElement {
       this.#keepLocked(figure, given)
       if (figure.query() === before) return
       this.#adoptTarget()
-      this.#changed()
+      this.#byHand(() => this.#changed())
     })
   }
 
@@ -865,53 +881,4 @@ export abstract class FigureElement extends HTMLElement {
 
 function values(figure: Shell): Record<string, string> {
   return figure.values() as Record<string, string>
-}
-
-const equipped = new WeakSet<object>()
-
-/** An element whose parameters can be given and asked for by name. */
-export interface Parametric extends HTMLElement {
-  getParameter(name: string): unknown
-  setParameter(name: string, value: unknown): void
-}
-
-/** A property for every parameter, on the class: rangeStd for `range-std`. */
-export function defineProperties(element: Parametric): void {
-  const prototype = Object.getPrototypeOf(element) as object
-  if (equipped.has(prototype)) return
-  equipped.add(prototype)
-  for (const name of FIGURES[element.localName]?.parameters ?? []) {
-    const property = camelCase(name)
-    if (property in prototype) continue // `step` stays the method
-    Object.defineProperty(prototype, property, {
-      configurable: true,
-      enumerable: true,
-      get(this: Parametric) {
-        return this.getParameter(name)
-      },
-      set(this: Parametric, value: unknown) {
-        this.setParameter(name, value)
-      },
-    })
-  }
-}
-
-function camelCase(name: string): string {
-  return name.replace(/-(.)/g, (_, letter: string) => letter.toUpperCase())
-}
-
-export function fromText(value: string | null | undefined): unknown {
-  if (value === undefined || value === null) return undefined
-  if (value === 'on' || value === 'off') return value === 'on'
-  return value === '' || Number.isNaN(Number(value)) ? value : Number(value)
-}
-
-export function toText(value: unknown): string {
-  return value === true ? 'on' : value === false ? 'off' : String(value)
-}
-
-function properties(prototype: object): Record<string, true> {
-  const names: Record<string, true> = {}
-  for (const name in prototype) names[name.toLowerCase()] = true
-  return names
 }

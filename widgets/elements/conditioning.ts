@@ -1,6 +1,7 @@
 import { FigureElement } from './base'
+import { register } from './parameters'
 
 /** w17.4, the graphical model: what conditioning on the path does to the covariance. */
 export class FastslamConditioning extends FigureElement {}
 
-if (!customElements.get('fastslam-conditioning')) customElements.define('fastslam-conditioning', FastslamConditioning)
+register('fastslam-conditioning', FastslamConditioning)

@@ -47,7 +47,7 @@ export class Controls {
   private readonly back: HTMLButtonElement
   private readonly forth: HTMLButtonElement
   private readonly scrub: HTMLInputElement
-  private readonly position: HTMLOutputElement
+  private readonly position: HTMLElement
   private readonly mark: Mark = { comma: false }
   private readonly pace: HTMLSelectElement
   private readonly playback: HTMLElement[] // all that a figure without steps has no use for
@@ -59,7 +59,7 @@ export class Controls {
     const reset = button('reset', 'Reset', actions.reset, 'reset')
     this.scrub = h('input', { type: 'range', class: 'scrub', part: 'scrub', min: '0', step: '1', 'aria-label': 'Step shown' })
     this.scrub.addEventListener('input', () => actions.seek(this.scrub.valueAsNumber))
-    this.position = h('output', { class: 'position' })
+    this.position = h('span', { class: 'position' })
     const pace = select(
       'Speed',
       PACES.map(p => [String(p), `${p / NORMAL_PACE}×`]),

@@ -1,6 +1,7 @@
 import { FigureElement } from './base'
+import { register } from './parameters'
 
 /** w17.1, the Apartment lap: every particle's own map, path and robot. */
 export class FastslamLap extends FigureElement {}
 
-if (!customElements.get('fastslam-lap')) customElements.define('fastslam-lap', FastslamLap)
+register('fastslam-lap', FastslamLap)

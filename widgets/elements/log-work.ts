@@ -27,6 +27,8 @@ export interface Shown {
   last: number
   /** [s] until the end, at the pace so far. */
   left: number
+  /** Messages of the page that had been answered. */
+  asks: number
   specs: ParamSpec[]
   values: Record<string, string>
   query: string
@@ -39,7 +41,7 @@ export interface Shown {
 
 export type Told =
   | { told: 'shown'; shown: Shown }
-  | { told: 'refused'; parameter: string; message: string }
+  | { told: 'refused'; parameter: string; message: string; file?: string }
   | { told: 'reading'; megabytes: number }
   | { told: 'saved'; name: string; data: Blob }
   | { told: 'failed'; message: string }
@@ -57,6 +59,7 @@ let phase: Phase = 'empty'
 let log = ''
 let size: { css: number; device: number; theme: string } | undefined
 let spent = 0 // [ms] of mapping
+let asks = 0
 let mustShow = false
 let looping = false
 let dead = false
@@ -67,16 +70,21 @@ const tell = (told: Told, transfer: Transferable[] = []) => postMessage(told, { 
 let before = Promise.resolve()
 
 export function answer(ask: Ask): void {
-  before = before.then(() => attempt(() => answered(ask))).then(show)
+  before = before
+    .then(() => attempt(() => answered(ask), ask.ask === 'open' ? ask.name : undefined))
+    .then(() => {
+      asks += 1
+      show()
+    })
 }
 
-/** Refusals are told; anything else has killed the program. */
-async function attempt(action: () => void | Promise<void>): Promise<void> {
+/** Refusals are told, those of a file with its name; anything else has killed the program. */
+async function attempt(action: () => void | Promise<void>, file?: string): Promise<void> {
   if (dead) return
   try {
     await action()
   } catch (error) {
-    if (isRefusal(error)) return tell({ told: 'refused', parameter: error.parameter, message: error.message })
+    if (isRefusal(error)) return tell({ told: 'refused', parameter: error.parameter, message: error.message, ...(file !== undefined && { file }) })
     dead = true
     tell({ told: 'failed', message: panicMessage(error) })
   }
@@ -206,6 +214,7 @@ function show(): void {
         log,
         step,
         last,
+        asks,
         left: step > 0 ? ((spent / step) * (last - step)) / 1000 : NaN,
         specs: figure.params() as ParamSpec[],
         values: figure.values() as Record<string, string>,

@@ -1,7 +1,7 @@
 // A recorded log, mapped. Unlike the other figures it lives in a worker: the file is read, the filter runs and the picture is painted
 // there, so that the page answers at once whatever the size of the log. Its program is large, and many a reader never maps a log: it is
 // fetched when the first thing is asked of the figure.
-import { defineProperties, fromText, isParameter, sheet, toText } from './base'
+import { sheet, WORDS, type Cause } from './base'
 import { Controls } from './controls'
 import { h, icon, write } from './dom'
 import { logProgram, type ParamSpec, type Readout } from './engine'
@@ -9,10 +9,12 @@ import { AT_REST } from './generated/log'
 import { fetchExample } from './files'
 import { release, reserve } from './heights'
 import { hire, refused } from './jobs'
+import { keepKeys } from './keys'
 import { linkedQuery, linkTo } from './link'
 import type { Ask, Phase, Save, Shown, Told } from './log-work'
 import { notice } from './notices'
-import { locked, OPTIONS, unlockable } from './options'
+import { locked, unlockable } from './options'
+import { fromText, isParameter, register, takeEarlyProperties, toText, watchUnknown } from './parameters'
 import { showReadouts } from './readouts'
 import { copy, download } from './save'
 import { onThemeChange, themeName } from './theme'
@@ -43,8 +45,15 @@ export class FastslamLog extends HTMLElement {
   #worker: Worker | undefined
   #starting: Promise<void> | undefined
   #phase: Phase = 'empty'
-  #query = '' // the settings: what a link holds
-  #source: { file: Blob; name: string } | undefined // read again by another worker, after a move of the element
+  #query: string | undefined // the settings: what a link holds; undefined until there was a link or a worker
+  #waiting = new Map<string, string>() // settings given while there is no worker: the next one begins with them
+  #given = new Map<string, string>() // settings that a script gave by property, since the attribute was last set
+  #asked = new Map<string, { text: string; asks: number }>() // settings on their way to the worker, and which message took them
+  #asks = 0 // messages sent to this worker
+  #source: { file: Blob; name: string; start: boolean } | undefined // read again by another worker, after a move of the element
+  #opened: unknown // the source that this worker was given
+  #cause: Cause = 'page' // of what is told next
+  #events: CustomEvent[] = [] // to be sent last of all
   #specs = AT_REST.params
   #controls: Controls | undefined
   #shown: Shown | undefined
@@ -84,14 +93,13 @@ export class FastslamLog extends HTMLElement {
   readonly #sentence = h('p', { class: 'sentence', part: 'sentence', id: 'sentence', 'aria-live': 'polite' })
   readonly #notices = h('div', { class: 'notices', part: 'notices', role: 'alert' })
   readonly #menu = this.#makeMenu()
-  readonly #body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title' })
+  readonly #body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title', lang: WORDS })
 
   readonly #seen = new IntersectionObserver(entries => entries.some(entry => entry.isIntersecting) && this.#onSeen())
   readonly #sizes = new ResizeObserver(entries => this.#onResize(entries[entries.length - 1]!))
 
   constructor() {
     super()
-    defineProperties(this)
     const root = this.attachShadow({ mode: 'open' })
     root.adoptedStyleSheets = [sheet]
     const choose = this.#button('Choose a log …', () => this.#file.click())
@@ -126,32 +134,39 @@ export class FastslamLog extends HTMLElement {
     })
     // What comes after a press: nothing moves away from under it.
     for (const type of ['click', 'keyup', 'dragenter'] as const) this.#body.addEventListener(type, () => void this.#start())
+    for (const type of ['click', 'keydown', 'input', 'change', 'drop'] as const) this.#body.addEventListener(type, () => (this.#cause = 'reader'))
+    keepKeys(this.#body, event => this.#onKey(event))
     this.#takeDrops()
     this.#takeMoves()
-    new MutationObserver(records => {
-      const names = new Set(records.map(record => record.attributeName!))
-      for (const name of names) this.#onAttribute(name)
-    }).observe(this, { attributes: true })
+    watchUnknown(this, name => this.#onAttribute(name))
+  }
+
+  attributeChangedCallback(name: string): void {
+    this.#onAttribute(name)
   }
 
   connectedCallback(): void {
     this.#disconnected = new AbortController()
     const { signal } = this.#disconnected
     onThemeChange(() => this.#resize(), signal)
-    addEventListener('hashchange', () => this.#followLink(), { signal })
+    addEventListener('hashchange', () => this.followLink(), { signal })
+    keepPage(signal)
     this.#seen.observe(this)
     try {
       this.#sizes.observe(this.#canvas, { box: 'device-pixel-content-box' })
     } catch {
       this.#sizes.observe(this.#canvas) // Safari
     }
-    this.#followLink()
+    takeEarlyProperties(this)
+    if (this.#query === undefined) this.followLink() // an element that was only moved goes on with its settings
+    if (this.#waiting.size > 0) this.#lookAgain()
   }
 
   disconnectedCallback(): void {
     this.#disconnected.abort()
     this.#seen.disconnect()
     this.#sizes.disconnect()
+    for (const [name, { text }] of this.#asked) this.#waiting.set(name, text) // it may not have come to them
     this.#dismiss()
   }
 
@@ -160,14 +175,23 @@ export class FastslamLog extends HTMLElement {
   /** Reads a log. Nothing is mapped yet, unless it is to start at once. */
   async open(file: Blob, name = file instanceof File ? file.name : 'log', start = false): Promise<void> {
     notice(this.#notices, 'file', '')
-    this.#source = { file, name }
+    this.#source = { file, name, start }
     write(this.#status, `Reading ${name} …`)
     await this.#start()
-    this.#ask({ ask: 'open', file, name, start })
+    this.#openSource()
+  }
+
+  /** Gives the worker what is to be read, once: whether it was there before or has just begun. */
+  #openSource(): void {
+    if (!this.#worker || !this.#source || this.#opened === this.#source) return
+    this.#opened = this.#source
+    this.#ask({ ask: 'open', ...this.#source })
+    this.#source.start = false // after a move of the element it waits for its reader
   }
 
   /** Reads and maps the log that comes with the figure. */
   async example(): Promise<void> {
+    this.#cause = 'page'
     write(this.#status, 'Loading the example …')
     const response = await fetchExample().catch(() => undefined)
     if (response?.ok) return this.open(await response.blob(), 'the example', true)
@@ -178,6 +202,7 @@ export class FastslamLog extends HTMLElement {
 
   /** Maps from the start, or goes on after a pause. */
   play(): void {
+    this.#cause = 'page'
     this.#ask({ ask: 'run' })
   }
 
@@ -192,6 +217,7 @@ export class FastslamLog extends HTMLElement {
 
   /** Back to the defaults. The log stays open. */
   reset(): void {
+    this.#cause = 'page'
     void this.#order({ ask: 'load', query: '' })
   }
 
@@ -201,12 +227,16 @@ export class FastslamLog extends HTMLElement {
 
   /** @internal As the attribute of this name would. */
   setParameter(name: string, value: unknown): void {
-    void this.#order({ ask: 'set', name, value: toText(value) })
+    this.#cause = 'page'
+    this.#given.set(name, toText(value))
+    this.#give(name, toText(value))
   }
 
   /** @internal */
   getParameter(name: string): unknown {
-    return fromText(this.#shown?.values[name] ?? this.getAttribute(name) ?? this.#specs.find(spec => spec.name === name)?.default)
+    const given = this.#asked.get(name)?.text ?? this.#waiting.get(name) ?? this.#shown?.values[name]
+    const before = this.#query === undefined ? this.getAttribute(name) : new URLSearchParams(this.#query).get(name)
+    return fromText(given ?? before ?? this.#specs.find(spec => spec.name === name)?.default)
   }
 
   /** Height [css px] that shows all of the figure at its present width. */
@@ -216,16 +246,20 @@ export class FastslamLog extends HTMLElement {
 
   /** The settings, as a link has them: name=value&… */
   get state(): string {
-    return this.#query
+    return this.#query ?? ''
   }
 
   set state(query: string) {
-    void this.#order({ ask: 'load', query })
+    this.#cause = 'page'
+    this.#waiting.clear()
+    this.#query = query
+    if (this.#worker) this.#ask({ ask: 'load', query })
+    else if (this.isConnected) void this.#start() // which begins with it
   }
 
   /** The address of this page with the settings. The log itself is not in it: it is a file of the reader's. */
   get link(): string {
-    return linkTo(this, this.#query)
+    return linkTo(this, this.state)
   }
 
   // --- The worker --------------------------------------------------------------------------------------------------------
@@ -233,7 +267,8 @@ export class FastslamLog extends HTMLElement {
   #onSeen(): void {
     if (!this.#controls) this.#introduce()
     release(this.#body)
-    if (this.#query || this.#source || this.getAttributeNames().some(isSetting)) void this.#start()
+    if (this.#query || this.#source || this.#waiting.size > 0 || this.getAttributeNames().some(isParameter)) void this.#start()
+    this.#send()
   }
 
   async #start(): Promise<void> {
@@ -254,12 +289,14 @@ export class FastslamLog extends HTMLElement {
         event.preventDefault()
         if (worker === this.#worker) this.#die(refused(event.message).message)
       })
-      this.#ask({ ask: 'begin', program, tag: this.localName, query: this.#query })
-      if (!this.#query) for (const name of this.getAttributeNames()) this.#onAttribute(name)
+      this.#ask({ ask: 'begin', program, tag: this.localName, query: this.state })
+      if (this.#query === undefined) for (const name of this.getAttributeNames().filter(isParameter)) this.#set(name, this.getAttribute(name)!)
+      for (const [name, text] of this.#waiting) this.#set(name, text)
+      this.#waiting.clear()
       this.#resize()
       this.#stage.classList.remove('still')
       notice(this.#notices, 'start', '')
-      if (this.#source) this.#ask({ ask: 'open', ...this.#source, start: false })
+      this.#openSource()
     } catch (error) {
       write(this.#status, '')
       this.#stage.classList.add('still')
@@ -268,7 +305,27 @@ export class FastslamLog extends HTMLElement {
   }
 
   #ask(ask: Ask): void {
-    this.#worker?.postMessage(ask)
+    if (!this.#worker) return
+    this.#asks += 1
+    this.#worker.postMessage(ask)
+  }
+
+  #set(name: string, text: string): void {
+    this.#ask({ ask: 'set', name, value: text })
+    this.#asked.set(name, { text, asks: this.#asks })
+  }
+
+  /** A setting, for the worker or, until there is one, to be kept for it. */
+  #give(name: string, text: string): void {
+    if (this.#worker) return this.#set(name, text)
+    this.#waiting.set(name, text)
+    if (this.isConnected) this.#lookAgain()
+  }
+
+  /** Tells again whether it is in view. */
+  #lookAgain(): void {
+    this.#seen.unobserve(this)
+    this.#seen.observe(this)
   }
 
   /** The same for what may be the first thing asked. */
@@ -283,6 +340,9 @@ export class FastslamLog extends HTMLElement {
     cancelAnimationFrame(this.#frame)
     this.#frame = 0
     this.#shown = undefined
+    this.#asked.clear()
+    this.#asks = 0
+    this.#opened = undefined
     this.#unfit = ''
     notice(this.#notices, 'unfit', '')
   }
@@ -291,6 +351,7 @@ export class FastslamLog extends HTMLElement {
     switch (told.told) {
       case 'shown':
         this.#shown = told.shown
+        for (const [name, { asks }] of this.#asked) if (asks <= told.shown.asks) this.#asked.delete(name)
         // Once a frame, and not at all while nobody looks.
         this.#frame ||= requestAnimationFrame(() => this.#show())
         break
@@ -298,11 +359,10 @@ export class FastslamLog extends HTMLElement {
         write(this.#status, `Reading, ${told.megabytes} MB …`)
         break
       case 'refused':
-        if (told.parameter === 'file') {
+        if (told.file !== undefined) {
           write(this.#status, '')
-          const name = this.#source?.name ?? 'This file'
-          this.#source = undefined
-          this.#notice('file', `${name} cannot be mapped: ${told.message}.`, 'Run the example', () => void this.example())
+          if (this.#source?.name === told.file) this.#source = undefined
+          this.#notice('file', `${told.file} cannot be mapped: ${told.message}.`, 'Run the example', () => void this.example())
         } else {
           this.#notice(told.parameter, told.message)
           this.#controls?.showValues(this.#specs, this.#shown?.values ?? {}, told.parameter)
@@ -339,7 +399,7 @@ export class FastslamLog extends HTMLElement {
     const { picture, phase } = shown
     if (!this.#controls) this.#introduce() // asked by a script or a link before anybody has seen it
     this.#specs = shown.specs
-    const changed = this.#query !== '' && this.#query !== shown.query
+    const changed = this.#query !== undefined && this.#query !== shown.query
     this.#query = shown.query
     if (picture) {
       const { width, height, cssHeight } = picture
@@ -359,9 +419,9 @@ export class FastslamLog extends HTMLElement {
     this.#showPhase(phase, shown.step, shown.last, shown.left, shown.unfit !== undefined)
     write(this.#status, phase === 'empty' ? '' : shown.log)
     this.#say(shown.sentence)
-    const { step, values, readouts } = shown
-    if (changed) this.#tell('fastslam-change', step, values, readouts, phase)
-    this.#tell('fastslam-step', step, values, readouts, phase)
+    if (changed) this.#tell('fastslam-change', shown)
+    this.#tell('fastslam-step', shown)
+    this.#send()
   }
 
   /** Why it cannot be started; told once, not with every picture. */
@@ -370,7 +430,7 @@ export class FastslamLog extends HTMLElement {
     if (message === this.#unfit) return
     this.#unfit = message
     if (parameter !== 'lenient') return this.#notice('unfit', message)
-    this.#notice('unfit', `${log}, ${message}.`, 'Skip malformed lines', () => this.#ask({ ask: 'set', name: 'lenient', value: 'on' }))
+    this.#notice('unfit', `${log}, ${message}.`, 'Skip malformed lines', () => this.#set('lenient', 'on'))
   }
 
   #showPhase(phase: Phase, step = 0, last = 0, left = 0, unfit = false): void {
@@ -410,7 +470,8 @@ export class FastslamLog extends HTMLElement {
     const idle = () => undefined
     const change = (name: string, value: string) => {
       notice(this.#notices, name, '')
-      void this.#order({ ask: 'set', name, value })
+      this.#give(name, value)
+      void this.#start()
     }
     const controls = new Controls(params, { playPause: idle, step: idle, stepBack: idle, seek: idle, pace: idle, reset: () => this.reset(), change })
     controls.showPosition(0, 0, false, false)
@@ -422,11 +483,17 @@ export class FastslamLog extends HTMLElement {
     this.#controls = controls
     this.#lock()
     // Where more is on its way, that will be told.
-    if (!this.#starting) this.#tell('fastslam-step', 0, values, readouts, 'empty')
+    if (!this.#starting) this.#tell('fastslam-step', { step: 0, last: 0, values, readouts, phase: 'empty' })
   }
 
-  #tell(type: string, step: number, values: Record<string, string>, readouts: Readout[], phase: Phase): void {
-    this.dispatchEvent(new CustomEvent(type, { bubbles: true, composed: true, detail: { step, values, readouts, phase } }))
+  #tell(type: string, { step, last, values, readouts, phase }: Pick<Shown, 'step' | 'last' | 'values' | 'readouts' | 'phase'>): void {
+    const detail = { step, last, by: this.#cause, values, readouts, phase }
+    this.#events.push(new CustomEvent(type, { bubbles: true, composed: true, detail }))
+  }
+
+  /** Always the last thing done: who listens may remove, reset, move or clone this figure. */
+  #send(): void {
+    for (const event of this.#events.splice(0)) this.dispatchEvent(event)
   }
 
   /** Readers cannot change what the author has locked. */
@@ -463,21 +530,31 @@ export class FastslamLog extends HTMLElement {
   #onAttribute(name: string): void {
     if (name === 'theme') return this.#resize()
     if (name === 'lock') return this.#lock()
-    if (!isSetting(name)) return
+    if (!isParameter(name)) return
     const text = this.getAttribute(name)
     const value = text ?? this.#specs.find(spec => spec.name === name)?.default
-    if (value !== undefined) this.#ask({ ask: 'set', name, value })
-    if (this.#worker || !this.isConnected) return
-    this.#seen.unobserve(this)
-    this.#seen.observe(this) // tells again whether it is in view
+    this.#cause = 'page'
+    this.#given.delete(name)
+    if (this.#worker || this.#query !== undefined) {
+      if (value !== undefined) this.#give(name, value)
+    } else {
+      this.#waiting.delete(name) // the attribute itself is read at the start
+      if (this.isConnected) this.#lookAgain()
+    }
   }
 
-  #followLink(): void {
+  /** @internal Takes the settings that the page's address holds for this figure, over what was given until now; but not those locked. */
+  followLink(): void {
     const query = linkedQuery(this)
     if (query === undefined) return
-    this.#query = query
-    this.#ask({ ask: 'load', query })
-    void this.#start() // also where figures above grow, and push it out of sight again
+    const settings = new URLSearchParams(query)
+    const fixed = locked(this.getAttribute('lock'), AT_REST.params.map(({ name }) => name)).locked
+    for (const { name, default: usual } of AT_REST.params.filter(({ name }) => fixed.has(name))) {
+      const authored = this.#given.get(name) ?? this.getAttribute(name) ?? usual
+      if ((settings.get(name) ?? usual) !== authored) this.#notice('locked', `${name} is fixed on this page`)
+      settings.set(name, authored)
+    }
+    this.state = fixed.size > 0 ? settings.toString() : query // also where figures above grow, and push it out of sight again
     this.scrollIntoView({ block: 'nearest' })
   }
 
@@ -500,17 +577,28 @@ export class FastslamLog extends HTMLElement {
       ArrowDown: { ask: 'pan', right: 0, down: -SHIFT },
     }
     const ask = asks[key === '=' ? '+' : key === '-' || key === '_' ? '−' : key]
-    if (ask && this.#phase !== 'empty') this.#ask(ask)
-    return ask !== undefined
+    if (!ask || this.#phase === 'empty') return false
+    this.#ask(ask)
+    return true
+  }
+
+  /** Whether the figure uses the key. */
+  #onKey(event: KeyboardEvent): boolean {
+    if (event.ctrlKey || event.metaKey || event.altKey) return false
+    if (event.key === 'Escape' && this.#menu.open) {
+      this.#menu.open = false
+      this.#menu.querySelector('summary')!.focus()
+      return true
+    }
+    if (event.target !== this.#stage || this.#phase === 'empty') return false
+    const space = event.key === ' '
+    if (space) this.#playPause()
+    if (!space && !this.#key(event.key)) return false
+    event.preventDefault()
+    return true
   }
 
   #takeMoves(): void {
-    this.#stage.addEventListener('keydown', event => {
-      if (event.ctrlKey || event.metaKey || event.altKey || event.target !== this.#stage) return
-      const space = event.key === ' '
-      if (space) this.#playPause()
-      if (space || this.#key(event.key)) event.preventDefault()
-    })
     // A mouse drags the map; a finger scrolls the page.
     let held: { x: number; y: number } | undefined
     this.#canvas.addEventListener('pointerdown', event => {
@@ -607,11 +695,6 @@ export class FastslamLog extends HTMLElement {
     menu.addEventListener('focusout', event => {
       if (!menu.contains(event.relatedTarget as Node | null)) menu.open = false
     })
-    menu.addEventListener('keydown', event => {
-      if (event.key !== 'Escape' || !menu.open) return
-      menu.open = false
-      summary.focus()
-    })
     return menu
   }
 
@@ -621,9 +704,24 @@ export class FastslamLog extends HTMLElement {
   }
 }
 
-/** Frames ask every figure to fit: no setting of this one. */
-function isSetting(attribute: string): boolean {
-  return isParameter(attribute) && !(attribute in OPTIONS)
+/**
+ * A log dropped beside the figure would make the browser leave the page and show the file. Zones of the page's own that take files,
+ * boxes for files and editors are left alone.
+ */
+function keepPage(signal: AbortSignal): void {
+  for (const type of ['dragover', 'drop'] as const) {
+    addEventListener(
+      type,
+      event => {
+        const target = event.composedPath()[0]
+        if (event.defaultPrevented || !event.dataTransfer?.types.includes('Files')) return
+        if (target instanceof HTMLElement && (target.matches('input, textarea') || target.isContentEditable)) return
+        event.preventDefault()
+        event.dataTransfer.dropEffect = 'none'
+      },
+      { signal },
+    )
+  }
 }
 
 /** In words as short as the number is rough. */
@@ -632,4 +730,4 @@ function duration(seconds: number): string {
   return seconds < 1.5 * MINUTE ? `${Math.round(seconds)} s` : `${Math.round(seconds / MINUTE)} min`
 }
 
-if (!customElements.get('fastslam-log')) customElements.define('fastslam-log', FastslamLog)
+register('fastslam-log', FastslamLog)

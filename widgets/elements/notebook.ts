@@ -1,9 +1,10 @@
 // The figures in notebooks and in MyST: a module in anywidget's format, which is served by one file.
 // Every trait of the model that names a parameter or an option is the figure's; readouts and the step go back.
-import { toText, type FigureDetail, type FigureElement } from './base'
+import type { FigureDetail, FigureElement } from './base'
 import { FIGURES } from './generated/figures'
 import './index'
 import { OPTIONS } from './options'
+import { toText } from './parameters'
 
 /** What anywidget, marimo and MyST give: MyST only ever reads. */
 interface Model {

@@ -1,5 +1,6 @@
 import { FigureElement } from './base'
 import { Count } from './count'
+import { register } from './parameters'
 
 /** w17.2, when to resample: three filters on one log, their ancestry, and a count over many seeds. */
 export class FastslamResampling extends FigureElement {
@@ -17,4 +18,4 @@ export class FastslamResampling extends FigureElement {
   }
 }
 
-if (!customElements.get('fastslam-resampling')) customElements.define('fastslam-resampling', FastslamResampling)
+register('fastslam-resampling', FastslamResampling)

@@ -1,6 +1,7 @@
 import { FigureElement } from './base'
+import { register } from './parameters'
 
 /** One update by hand: every number of it, to be changed. */
 export class FastslamWorkedExample extends FigureElement {}
 
-if (!customElements.get('fastslam-worked-example')) customElements.define('fastslam-worked-example', FastslamWorkedExample)
+register('fastslam-worked-example', FastslamWorkedExample)

@@ -18,8 +18,20 @@
     return undefined
   }
 
+  /**
+   * Whether the learner's own hand has done what there is to do: placed a prediction and let it be judged, else gone to the last step,
+   * else, where there is nothing to step through, changed something. What merely played, or was kept from an earlier visit, is none of it.
+   */
+  const isDone = ({ type, detail: { by, step, last, values, phase } }) => {
+    if (by !== 'reader') return false
+    if (phase) return phase === 'done' // of a log: every scan is mapped
+    if (values.predict !== undefined) return values.run === 'on'
+    return last > 0 ? type === 'fastslam-step' && step === last : type === 'fastslam-change'
+  }
+
   const api = find(window) ?? (window.opener && find(window.opener))
   if (api && String(api.LMSInitialize('')) === 'true') {
+    api.LMSSetValue('cmi.core.exit', 'suspend') // else a learning system may begin the next visit without what was kept
     const kept = api.LMSGetValue(key)
     if (kept) figure.state = kept
     if (['not attempted', ''].includes(api.LMSGetValue('cmi.core.lesson_status'))) api.LMSSetValue('cmi.core.lesson_status', 'incomplete')
@@ -28,13 +40,12 @@
     const keep = () => {
       clearTimeout(timer)
       api.LMSSetValue(key, figure.state)
-      // Who has moved something has worked with the figure; there is nothing here to be graded.
-      if (figure.state) api.LMSSetValue('cmi.core.lesson_status', 'completed')
       api.LMSCommit('')
     }
     for (const type of ['fastslam-change', 'fastslam-step']) {
-      figure.addEventListener(type, () => {
+      figure.addEventListener(type, event => {
         clearTimeout(timer)
+        if (isDone(event)) api.LMSSetValue('cmi.core.lesson_status', 'completed')
         timer = setTimeout(keep, 1000)
       })
     }

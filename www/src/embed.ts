@@ -85,6 +85,7 @@ if (figure) {
   // One figure only: its own program will do.
   for (const link of document.querySelectorAll<HTMLLinkElement>('link[rel=fastslam-program]')) if (link.title !== figure.localName) link.remove()
   configure(figure)
+  if (figure.isConnected) figure.followLink() // which stands over what the address gives, as it does where the figure comes later
   document.title = FIGURES[figure.localName]!.title
   if (parent !== window) tellHeight(figure)
   if (!figure.isConnected) main.replaceChildren(figure)

@@ -1,4 +1,4 @@
-//! The shell as the page sees it, in a browser: `wasm-pack test --headless --chrome widgets`.
+//! The shell as the page sees it, in a browser.
 #![cfg(target_arch = "wasm32")]
 
 use fastslam_widgets::shell::{Figure, tags};
