@@ -19,7 +19,7 @@ use crate::random::{Purpose, Stream};
 use crate::rbpf::{Particle, Rbpf, Report};
 use crate::resampling::{ResamplePolicy, Scheme};
 use crate::sensor::BeamSensor;
-use crate::world::{FloorPlan, drive};
+use crate::world::{FloorPlan, corners_cut_short, drive};
 use core::f64::consts::PI;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -338,7 +338,97 @@ pub fn memory_estimate(setup: &LogSetup, log: &LaserLog) -> u64 {
     ((all.len() + 2 * setup.particles * most) * LogMap::tile_bytes(SURFACES)) as u64
 }
 
-/// A log of our own, free to ship: a robot with a laser of 180 beams in [`FloorPlan::building`], twice round its corridors.
+/// How a log of our own comes about.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Recipe {
+    /// Seed of the noises.
+    pub seed: u64,
+    /// Where.
+    pub plan: FloorPlan,
+    /// Way points \[m\].
+    pub route: Vec<[f64; 2]>,
+    /// How far from its way the robot looks at first \[rad\]; it turns on the spot before it drives. A map begins with the
+    /// first pose, so by this angle the building lies askew in its cells.
+    pub askew: f64,
+    /// From one scan to the next \[m\].
+    pub spacing: f64,
+    /// Beams of the laser, at least two, from right to left: 2 n of them from −90° on by π / n, or 2 n + 1 with +90° too.
+    pub beams: u32,
+    /// Longest range of the laser \[m\].
+    pub max_range: f64,
+    /// Standard deviation of a range \[m\].
+    pub range_std: f64,
+    /// Share of the beams, 0 to 1, that end before the wall, anywhere from a fifth of the way on: people who walk by.
+    pub people: f64,
+    /// Noise of the wheels.
+    pub wheels: OdometryModel,
+    /// What the wheels turn too far on every metre \[rad/m\].
+    pub bias: f64,
+    /// Share of the steps, 0 to 1, in which a wheel slips: the drive is reported 0.1 m too long, and a turn of up to 0.1 rad to
+    /// either side that was none.
+    pub slip: f64,
+}
+
+impl Recipe {
+    /// A robot with a laser of 180 beams in [`FloorPlan::building`], twice round its corridors.
+    pub fn building() -> Self {
+        Self {
+            seed: 17,
+            plan: FloorPlan::building(),
+            route: ROUTE.to_vec(),
+            askew: 0.0,
+            spacing: 0.35,
+            beams: 180,
+            max_range: 30.0,
+            range_std: 0.015,
+            people: 0.0,
+            wheels: OdometryModel { alphas: [0.01, 0.0004, 0.002, 0.001] },
+            bias: 0.0,
+            slip: 0.0,
+        }
+    }
+
+    /// Where the robot is, for each scan.
+    fn truth(&self) -> Vec<Pose2> {
+        /// From a corner, where the robot begins to cut it \[m\].
+        const NEAR: f64 = 1.2;
+        /// On the spot, from one scan to the next \[rad\].
+        const TURN: f64 = PI / 12.0;
+        let length: f64 = self.route.windows(2).map(|l| crate::ops::hypot(l[1][0] - l[0][0], l[1][1] - l[0][1])).sum();
+        let way = drive(&corners_cut_short(&self.route, NEAR), (length / self.spacing) as usize);
+        let turns = (self.askew.abs() / TURN).ceil() as u32;
+        let left = |k: u32| self.askew * f64::from(turns - k) / f64::from(turns);
+        let on_the_spot = (0..turns).map(|k| Pose2::new(way[0].x, way[0].y, way[0].theta + left(k)));
+        on_the_spot.chain(way.iter().copied()).collect()
+    }
+
+    /// What the wheels report of a drive, the step-th.
+    fn reported(&self, driven: &Odometry, step: u32) -> Odometry {
+        let mut reported = self.wheels.perturb(driven, &mut Stream::at(self.seed, Purpose::WorldOdometry, step, 0));
+        reported.rot2 += self.bias * driven.trans;
+        let mut stream = Stream::at(self.seed, Purpose::WorldOdometry, step, 1);
+        if stream.uniform() < self.slip {
+            reported.trans += 0.1;
+            reported.rot2 += 0.2 * (stream.uniform() - 0.5);
+        }
+        reported
+    }
+
+    /// Ranges \[m\] at a pose, of the step-th scan; the longest where nothing is met.
+    fn ranges(&self, pose: &Pose2, sensor: &BeamSensor, step: u32) -> Vec<f64> {
+        let mut ranges = self.plan.ranges(pose, sensor, &mut Stream::at(self.seed, Purpose::WorldSensor, step, 0));
+        let mut stream = Stream::at(self.seed, Purpose::WorldSensor, step, 1);
+        for range in &mut ranges {
+            *range = range.min(sensor.max_range);
+            if stream.uniform() < self.people {
+                *range *= 0.2 + 0.8 * stream.uniform();
+            }
+        }
+        ranges
+    }
+}
+
+/// A log of our own, free to ship.
 #[derive(Clone, Debug)]
 pub struct Example {
     /// What the robot reported.
@@ -350,36 +440,40 @@ pub struct Example {
 }
 
 impl Example {
-    /// Always the same; of its key scans the first so many.
+    /// By [`Recipe::building`]: always the same; of its key scans the first so many.
     pub fn new(scans: usize) -> Self {
-        const SEED: u64 = 17;
-        /// \[m\]
-        const SPACING: f64 = 0.35;
+        Self::of(&Recipe::building(), scans)
+    }
+
+    /// By a recipe; of its key scans the first so many.
+    ///
+    /// # Panics
+    /// For fewer than two beams or way points, or a spacing longer than the route.
+    pub fn of(recipe: &Recipe, scans: usize) -> Self {
         /// \[s\]
         const INTERVAL: f64 = 0.7;
         /// Scans between two that see a place at different times.
         const APART: usize = 60;
-        let plan = FloorPlan::building();
-        let (route, length) = route();
-        let truth: Vec<Pose2> = drive(&route, (length / SPACING) as usize).into_iter().take(scans).collect();
-        let angle_step = PI / 180.0;
-        let angles: Vec<f64> = (0..180).map(|k| (f64::from(k) - 90.0) * angle_step).collect();
-        let sensor = BeamSensor { angles, max_range: 30.0, range_std: 0.015 };
-        let motion = OdometryModel { alphas: [0.01, 0.0004, 0.002, 0.001] };
+        let mut truth = recipe.truth();
+        truth.truncate(scans);
+        let half = recipe.beams / 2;
+        assert!(half > 0, "a laser of ours needs two beams");
+        let angle_step = PI / f64::from(2 * half);
+        let angles = (0..recipe.beams).map(|k| (f64::from(k) - f64::from(half)) * angle_step).collect();
+        let sensor = BeamSensor { angles, max_range: recipe.max_range, range_std: recipe.range_std };
         let mut log = LaserLog::default();
         let mut odometry = Pose2::default();
         for (step, pose) in (0..).zip(&truth) {
             if step > 0 {
                 let driven = Odometry::between(&truth[step as usize - 1], pose);
-                odometry =
-                    motion.perturb(&driven, &mut Stream::at(SEED, Purpose::WorldOdometry, step, 0)).apply(&odometry);
+                odometry = recipe.reported(&driven, step).apply(&odometry);
             }
             // With the digits that a file has: what is read from it is the same log.
             let odometry =
                 Pose2 { x: rounded(odometry.x, 1e3), y: rounded(odometry.y, 1e3), theta: rounded(odometry.theta, 1e4) };
             let time = rounded(1_000_000_000.0 + INTERVAL * f64::from(step), 1e2);
-            let ranges = plan.ranges(pose, &sensor, &mut Stream::at(SEED, Purpose::WorldSensor, step, 0));
-            let ranges = ranges.iter().map(|range| rounded(range.min(sensor.max_range), 1e2) as f32).collect();
+            let ranges = recipe.ranges(pose, &sensor, step);
+            let ranges = ranges.iter().map(|range| rounded(*range, 1e2) as f32).collect();
             log.odometry.push((time, odometry));
             log.scans.push(crate::log::LaserScan {
                 time,
@@ -408,25 +502,6 @@ impl Example {
 /// To so many parts of one.
 fn rounded(x: f64, parts: f64) -> f64 {
     (x * parts).round() / parts
-}
-
-/// The way points of [`ROUTE`], with more near the corners so that these are cut short; and the length of it all \[m\].
-fn route() -> (Vec<[f64; 2]>, f64) {
-    /// From a corner \[m\].
-    const NEAR: f64 = 1.2;
-    let (mut points, mut total) = (Vec::new(), 0.0);
-    for leg in ROUTE.windows(2) {
-        let [a, b] = [leg[0], leg[1]];
-        let length = crate::ops::hypot(b[0] - a[0], b[1] - a[1]);
-        let at = |along: f64| [0, 1].map(|k: usize| a[k] + along / length * (b[k] - a[k]));
-        points.push(a);
-        if length > 2.5 * NEAR {
-            points.extend([at(NEAR), at(length - NEAR)]);
-        }
-        total += length;
-    }
-    points.push(ROUTE[ROUTE.len() - 1]);
-    (points, total)
 }
 
 /// Through the building \[m\]: round its west half, round its east half, then all round, and home.

@@ -13,6 +13,7 @@ pub mod proposals;
 pub mod ring;
 mod spread;
 pub mod table;
+pub mod variants;
 pub mod worked_example;
 
 pub use spread::{Spread, median_interval, quantile};

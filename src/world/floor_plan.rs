@@ -169,17 +169,10 @@ impl FloorPlan {
         let size = [11.0, 8.0];
         let (low, high) = ([1.8, 1.8], [9.2, 6.2]);
         let mut walls = rectangle([0.0, 0.0], size).to_vec();
-        // A side of the block: from one end to the other along x, or along y if `upright`, with a niche from each of these places on,
-        // whose back is at `back`.
         let mut side = |upright: bool, at: f64, back: f64, places: [f64; 2]| {
             let axis = usize::from(upright);
-            let mut corners = vec![[low[axis], at]];
-            for place in &places[..niches.min(2)] {
-                corners.extend([[*place, at], [*place, back], [place + WIDTH, back], [place + WIDTH, at]]);
-            }
-            corners.push([high[axis], at]);
-            let point = |[along, across]: [f64; 2]| if upright { [across, along] } else { [along, across] };
-            walls.extend(corners.windows(2).map(|pair| Segment { a: point(pair[0]), b: point(pair[1]) }));
+            let places = &places[..niches.min(2)];
+            walls.extend(wall_with_niches(upright, [low[axis], high[axis]], [at, back], WIDTH, places));
         };
         side(false, low[1], low[1] + DEPTH, [4.6, 7.3]);
         side(true, high[0], high[0] - DEPTH, [2.7, 4.5]);
@@ -192,6 +185,32 @@ impl FloorPlan {
             rectangle([0.0, 1.6], [0.35, 2.5]),
         ];
         Self { size, walls, furniture: furniture.concat() }
+    }
+
+    /// Our own long corridors, 62 m × 42 m: corridors 2.2 m wide all round two blocks and between them, of 40 m and 60 m. All that there
+    /// is to see in them are closed doors, 1 m wide and set back by 0.2 m, every 7 to 12 m on each side.
+    pub fn long_corridors() -> Self {
+        const DOOR: f64 = 1.0;
+        const DEEP: f64 = 0.2;
+        let size = [62.0, 42.0];
+        let mut walls = Vec::new();
+        let mut side = |upright: bool, ends: [f64; 2], at: f64, back: f64, doors: &[f64]| {
+            walls.extend(wall_with_niches(upright, ends, [at, back], DOOR, doors));
+        };
+        side(false, [0.2, 61.8], 0.2, 0.0, &[6.1, 14.7, 25.2, 33.8, 41.3, 52.6]);
+        side(false, [0.2, 61.8], 41.8, 42.0, &[8.4, 17.2, 24.6, 36.1, 45.9, 54.3]);
+        side(true, [0.2, 41.8], 0.2, 0.0, &[7.3, 16.9, 25.0, 34.4]);
+        side(true, [0.2, 41.8], 61.8, 62.0, &[9.2, 18.0, 29.3, 37.1]);
+        for (west, east, doors) in [
+            (2.4, 29.9, [[8.8, 18.1, 26.3], [5.2, 14.0, 23.7], [6.0, 15.5, 27.1], [10.4, 19.3, 30.8]]),
+            (32.1, 59.6, [[36.4, 47.3, 55.0], [39.7, 48.5, 56.8], [8.1, 19.9, 29.0], [12.6, 21.4, 33.0]]),
+        ] {
+            side(false, [west, east], 2.4, 2.4 + DEEP, &doors[0]);
+            side(false, [west, east], 39.6, 39.6 - DEEP, &doors[1]);
+            side(true, [2.4, 39.6], west, west + DEEP, &doors[2]);
+            side(true, [2.4, 39.6], east, east - DEEP, &doors[3]);
+        }
+        Self { size, walls, furniture: Vec::new() }
     }
 
     /// Distance \[m\] from (x, y) along the direction \[rad\] to the nearest wall or piece of furniture; infinite for none.
@@ -225,6 +244,24 @@ impl FloorPlan {
         };
         sensor.angles.iter().map(&mut noisy).collect()
     }
+}
+
+/// A wall between two `ends` along x, or along y if `upright`, with a niche of this width from each of these places on: the wall is at
+/// `at`, the niches' backs are at `back` \[m\].
+fn wall_with_niches(
+    upright: bool,
+    ends: [f64; 2],
+    [at, back]: [f64; 2],
+    width: f64,
+    places: &[f64],
+) -> impl Iterator<Item = Segment> {
+    let mut corners = vec![[ends[0], at]];
+    for place in places {
+        corners.extend([[*place, at], [*place, back], [place + width, back], [place + width, at]]);
+    }
+    corners.push([ends[1], at]);
+    let point = move |[along, across]: [f64; 2]| if upright { [across, along] } else { [along, across] };
+    (1..corners.len()).map(move |k| Segment { a: point(corners[k - 1]), b: point(corners[k]) })
 }
 
 /// The four sides between two opposite corners \[m\].
@@ -277,6 +314,21 @@ mod tests {
                 assert!((deep(upright) - 2.0 * 0.9 * niches as f64).abs() < 0.1, "{niches}: {}", deep(upright));
             }
         }
+    }
+
+    #[test]
+    fn no_beam_leaves_the_long_corridors_or_enters_a_block() {
+        let plan = FloorPlan::long_corridors();
+        // In the corners and the middle corridor; from there the furthest end of a corridor is 60.7 m away.
+        for origin in [[1.3, 1.3], [60.7, 40.7], [31.0, 40.7], [31.0, 20.0]] {
+            for k in 0..720 {
+                let range = plan.raycast(origin, PI * f64::from(k) / 360.0 + 1e-4);
+                assert!(range > 1.0 && range < 61.0, "{origin:?}, beam {k}: {range} m");
+            }
+        }
+        // A door's back in one of some nine beams across: 27 m of south wall of the west block have three doors of 1 m.
+        let deep = (0..2700).filter(|k| plan.raycast([2.6 + 0.01 * f64::from(*k), 1.3], FRAC_PI_2) > 1.2).count();
+        assert!((295..=305).contains(&deep), "{deep} cm");
     }
 
     #[test]

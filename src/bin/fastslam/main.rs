@@ -9,6 +9,7 @@ mod picture;
 mod policies;
 mod ring;
 mod table;
+mod variants;
 
 use clap::Parser;
 use fastslam::error::ParameterError;
@@ -35,6 +36,7 @@ enum Command {
     Policies(policies::Arguments),
     Ring(ring::Arguments),
     Table(table::Arguments),
+    Variants(variants::Arguments),
 }
 
 /// Why a command ended early, in one line.
@@ -92,13 +94,14 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Policies(arguments) => policies::run(&arguments),
         Command::Ring(arguments) => ring::run(&arguments),
         Command::Table(arguments) => table::run(&arguments),
+        Command::Variants(arguments) => variants::run(&arguments),
     })
 }
 
 /// What clap says before it advises, in one line.
 fn one_line(message: &clap::Error) -> String {
     if message.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "a command is missing: lap, log, example-log, landmarks, numbers, policies, ring or table (fastslam --help explains)"
+        return "a command is missing: lap, log, example-log, landmarks, numbers, policies, ring, table or variants (fastslam --help explains)"
             .to_owned();
     }
     let text = message.to_string();

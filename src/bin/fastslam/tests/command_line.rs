@@ -83,7 +83,7 @@ fn shards_merge_to_the_rows_of_one_run() {
 #[test]
 fn bad_arguments_are_refused_in_one_line_with_status_2() {
     for (arguments, said) in [
-        ("", "lap, log, example-log, landmarks, numbers, policies, ring or table"),
+        ("", "lap, log, example-log, landmarks, numbers, policies, ring, table or variants"),
         ("laps", "laps"),
         ("lap --particles 0", "from 1 to 4096"),
         ("lap --particles 1e9", "--particles"),
@@ -118,6 +118,9 @@ fn bad_arguments_are_refused_in_one_line_with_status_2() {
         ("table --seeds 0", "--seeds"),
         ("table --shard 4/3 --json", "I from 1 to N"),
         ("table --shard 1/3", "--json"),
+        ("variants --seeds 0", "--seeds"),
+        ("variants --particles 0", "from 1 to 4096"),
+        ("variants --only moon", "people"),
     ] {
         let refused = fastslam(arguments).code(2).stdout("");
         let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
@@ -150,6 +153,23 @@ fn landmarks_print_what_they_are_asked_for() {
     fastslam(&format!("landmarks --particles 3 --png {}", path.display())).success();
     assert!(std::fs::read(&path).unwrap().starts_with(b"\x89PNG"));
     std::fs::remove_file(path).unwrap();
+}
+
+#[test]
+fn variants_are_judged_over_seeds_whatever_the_number_of_threads() {
+    let runs = |threads: u32| {
+        let table = json(&format!("variants --only sparse --seeds 2 --particles 1 --json --threads {threads}"));
+        let row = &table["variants"].as_array().unwrap()[0];
+        assert!(table["variants"].as_array().unwrap().len() == 1 && row["cpu_ms"]["median"].as_f64().unwrap() > 0.0);
+        let [median, worst] = ["median", "worst"].map(|key| row["translation"][key].as_f64().unwrap());
+        let errors: Vec<f64> =
+            row["runs"].as_array().unwrap().iter().map(|run| run["translation_mean"].as_f64().unwrap()).collect();
+        // Of two, the median is the mean.
+        assert!((errors[0] + errors[1] - 2.0 * median).abs() < 1e-15 && worst == errors[0].max(errors[1]));
+        row["runs"].as_array().unwrap().iter().map(|run| run["digest"].clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(runs(1), runs(2));
+    fastslam("variants --only sparse --seeds 1 --particles 1").success();
 }
 
 #[test]
