@@ -49,22 +49,17 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// Fits exp(`log_target`) \[density over m² rad\] around its mode.
+    /// Fits exp(`log_target`) \[density over m² rad\] around its mode: 26 values are asked for.
     ///
-    /// First the mode and twelve points around it, for which a cheaper `log_rough` will do, give gradient and 3 × 3 matrix of second
+    /// First the mode and twelve points around it give gradient and 3 × 3 matrix of second
     /// derivatives: Newton's step to the top, and the principal axes of the hill (Laplace). The top and twelve points √5
     /// standard deviations from it correct for what is no parabola: importance weights τ = target / Gaussian in a quadrature of
     /// degree five give the integral, the mean and the covariance. For a Gaussian target within the limits all three are exact,
     /// however it is turned.
     ///
     /// `None` where the values are not finite enough for a definite covariance.
-    pub fn around(
-        mode: &Pose2,
-        limits: &FitLimits,
-        log_rough: impl Fn(&Pose2) -> f64,
-        log_target: impl Fn(&Pose2) -> f64,
-    ) -> Option<Self> {
-        let (shift, axes) = newton_step(mode, limits, log_rough);
+    pub fn around(mode: &Pose2, limits: &FitLimits, log_target: impl Fn(&Pose2) -> f64) -> Option<Self> {
+        let (shift, axes) = newton_step(mode, limits, &log_target);
         let center = mode.plus(&shift);
         let laplace = Gaussian3::new(center, axes * axes.transpose())?;
 
@@ -92,12 +87,12 @@ impl Fit {
     }
 }
 
-/// From the differences of a log target along the six diagonals of an icosahedron: Newton's step to the top of the parabola, and the
+/// From the differences of `log_target` along the six diagonals of an icosahedron: Newton's step to the top of the parabola, and the
 /// principal axes of the hill as columns, each as long as the standard deviation along it \[m, m, rad\].
 ///
 /// Lengths are in units of `limits.most`, in the robot's frame: what is found turns with the world. The step is no longer than
 /// the differences reach.
-fn newton_step(mode: &Pose2, limits: &FitLimits, log_target: impl Fn(&Pose2) -> f64) -> (Vector3<f64>, Matrix3<f64>) {
+fn newton_step(mode: &Pose2, limits: &FitLimits, log_target: &impl Fn(&Pose2) -> f64) -> (Vector3<f64>, Matrix3<f64>) {
     let [most, turn] = limits.most;
     let (sin, cos) = ops::sin_cos(mode.theta);
     let frame = Matrix3::new(most * cos, -most * sin, 0.0, most * sin, most * cos, 0.0, 0.0, 0.0, turn);

@@ -123,14 +123,7 @@ impl<S: Search + Sync, const FINE: usize> Proposal<Grid<FINE>> for FromScan<S> {
         // ANCHOR_END: guard
 
         // ANCHOR: fit
-        let fit = top.and_then(|top| {
-            Fit::around(
-                &top.pose,
-                &settings.limits,
-                |pose| target.log_posterior(pose, f64::NEG_INFINITY),
-                |pose| target.log_value(pose),
-            )
-        });
+        let fit = top.and_then(|top| Fit::around(&top.pose, &settings.limits, |pose| target.log_value(pose)));
         // ANCHOR_END: fit
         let (world_from_robot, trace) = match (fit, top) {
             (Some(fit), Some(top)) => {

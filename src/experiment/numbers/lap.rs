@@ -24,7 +24,7 @@ pub fn recipes() -> Vec<Recipe> {
         })
     });
     // A scan matcher that never looks back; and more particles than it takes to look up as many beams as four measurement-aware ones
-    // do, 43 scans each at the least: 58 poses of search and curvature by every second beam, 14 of quadrature and price by all.
+    // do, 50 scans each at the least: 45 poses of the search by every second beam, 27 of curvature, quadrature and price by all.
     let beside = [(ProposalKind::Aware, 1), (ProposalKind::Motion, 240)].map(|(proposal, particles)| {
         let cell = LapCell { proposal, matcher: Matcher::SubCell, particles };
         Recipe::new(cell.name(), SEEDS, move |runs| cell.numbers(&cell.errors(runs)).into())
