@@ -342,6 +342,7 @@ mod tests {
         assert!((295..=305).contains(&deep), "{deep} cm");
     }
 
+    #[test]
     fn a_robot_that_is_moved_with_the_place_sees_the_same() {
         let (plan, pose, motion) = (FloorPlan::apartment(), Pose2::new(6.0, 4.7, 0.3), Pose2::new(3.0, -2.0, 0.8));
         let (moved, there) = (plan.moved(&motion), motion.compose(&pose));
