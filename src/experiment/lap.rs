@@ -156,6 +156,12 @@ impl Route {
         let way_points = corners_cut_short(&CORNERS, 1.2);
         Self { plan: FloorPlan::ring(niches), way_points, steps: 110, max_range }
     }
+
+    /// The same place and way after a rigid motion of the plane.
+    pub fn moved(&self, motion: &Pose2) -> Self {
+        let way_points = self.way_points.iter().map(|point| motion.transform(*point)).collect();
+        Self { plan: self.plan.moved(motion), way_points, ..*self }
+    }
 }
 
 /// What a reader can set.

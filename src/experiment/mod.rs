@@ -2,6 +2,7 @@
 
 pub mod conditioning;
 pub mod doors;
+pub mod hill;
 pub mod landmarks;
 pub mod lap;
 pub mod log;

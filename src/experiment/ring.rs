@@ -5,16 +5,18 @@
 //! right. For that choice there must be a choice: the measures here say how different the universes are just before the
 //! closing, and how many of them it ends.
 
-use super::lap::{Lap, LapSetup, LapWorld, Route};
+use super::hill::Hill;
+use super::lap::{FROM_SCAN, Lap, LapSetup, LapWorld, Route};
 use super::quantile;
 use crate::error::ParameterError;
 use crate::execute::Executor;
 use crate::geometry::Pose2;
 use crate::map::grid::Grid;
-
-use crate::proposal::{Proposal, ProposalTrace};
+use crate::motion::Odometry;
+use crate::proposal::{Either, Fit, Proposal, ProposalTrace};
 use crate::random::{Purpose, Stream};
-use crate::sensor::BeamSensor;
+use crate::rbpf::Particle;
+use crate::sensor::{BeamSensor, Scan};
 use crate::world::drive;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -254,6 +256,9 @@ pub struct PriceNoise {
     /// Standard deviation \[nats\] over the particles of their increments, each the mean of its draws: what one is better by, or its
     /// map's accident. The noise that the mean of n draws still has, 1/√n of one draw's, is in it.
     pub spread: f64,
+    /// Standard deviation \[nats\] over the particles of the fit's error: ln η̂ less the logarithm of the integral that a dense
+    /// lattice has. An error that all share is none. `None` where the matcher was trusted for fewer than two.
+    pub fit_error: Option<f64>,
     /// Share of the draws in which the matcher was trusted.
     pub matched: f64,
 }
@@ -267,16 +272,24 @@ pub struct PriceNoise {
 /// # Panics
 /// Where `every` is 0 or `draws` is less than 2.
 pub fn price_noise(setup: &RingSetup, probe: NoiseProbe) -> Result<Vec<PriceNoise>, ParameterError> {
+    Ok(price_noise_on(setup.start()?, &setup.lap, probe))
+}
+
+/// The same on any lap at its start, of this setup.
+///
+/// # Panics
+/// Where `every` is 0 or `draws` is less than 2.
+pub fn price_noise_on(lap: Lap, setup: &LapSetup, probe: NoiseProbe) -> Vec<PriceNoise> {
     assert!(probe.every > 0 && probe.draws > 1, "a deviation needs two draws");
-    let mut lap = setup.start()?.with_executor(Executor::Serial);
+    let mut lap = lap.with_executor(Executor::Serial);
     let mut found = Vec::new();
     for step in 1..=lap.step_count() {
         if step % probe.every == 0 {
-            found.push(noise_at(&lap, &setup.lap, probe, step));
+            found.push(noise_at(&lap, setup, probe, step));
         }
         lap.step();
     }
-    Ok(found)
+    found
 }
 
 /// Of the step that this lap takes next.
@@ -304,13 +317,35 @@ fn noise_at(lap: &Lap, setup: &LapSetup, probe: NoiseProbe, step: u32) -> PriceN
         of_particle.iter().zip(&population).map(|(increment, mean)| increment - mean).collect()
     };
     let means: Vec<f64> = increments.iter().map(|of_particle| mean_and_std(of_particle).0).collect();
+    let errors: Vec<f64> =
+        lap.particles().iter().filter_map(|particle| fit_error(setup, particle, control, scan)).collect();
     PriceNoise {
         step,
         noise: median(increments.iter().map(|of_particle| mean_and_std(of_particle).1).collect()),
         noise_relative: median(increments.iter().map(|of_particle| mean_and_std(&relative(of_particle)).1).collect()),
         spread: mean_and_std(&means).1,
+        fit_error: (errors.len() > 1).then(|| mean_and_std(&errors).1),
         matched: f64::from(matched) / (f64::from(probe.draws) * count),
     }
+}
+
+/// ln η̂ of the fit less that of a dense lattice, for a particle that sees this scan after this motion; `None` where it is not
+/// drawn from a fit.
+pub fn fit_error(setup: &LapSetup, particle: &Particle<Grid>, control: &Odometry, scan: &Scan) -> Option<f64> {
+    /// Steps of three quarters of a standard deviation.
+    const STEPS: u32 = 6;
+    let Either::Right(from_scan) = setup.proposals() else { return None };
+    // No draw has a part in the fit.
+    let stream = &mut Stream::at(setup.seed, Purpose::Trial, 0, 0);
+    let ProposalTrace::Matched { mode, log_integral } = from_scan.propose(particle, control, scan, stream).trace else {
+        return None;
+    };
+    let (motion, likelihood) = (&from_scan.fallback.motion, &from_scan.fallback.likelihood);
+    let prior = motion.gaussian(&particle.world_from_robot, control, FROM_SCAN.motion_floor);
+    let log_target = |pose: &Pose2| likelihood.log_score(&particle.map, pose, scan) + prior.log_density(pose);
+    // Where the hill is; how the proposal's own fit came by its curvature does not matter.
+    let fit = Fit::around(&mode, &FROM_SCAN.limits, log_target, log_target)?;
+    Some(log_integral - Hill::summed(&fit.gaussian, STEPS, log_target)?.log_integral)
 }
 
 /// The median of these values.

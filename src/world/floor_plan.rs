@@ -213,6 +213,17 @@ impl FloorPlan {
         Self { size, walls, furniture: Vec::new() }
     }
 
+    /// The same place after a rigid motion of the plane.
+    pub fn moved(&self, motion: &Pose2) -> Self {
+        let moved = |segments: &[Segment]| -> Vec<Segment> {
+            segments.iter().map(|s| Segment { a: motion.transform(s.a), b: motion.transform(s.b) }).collect()
+        };
+        let (walls, furniture) = (moved(&self.walls), moved(&self.furniture));
+        let ends = walls.iter().chain(&furniture).flat_map(|s| [s.a, s.b]);
+        let size = ends.fold([0.0, 0.0], |[x, y]: [f64; 2], end| [x.max(end[0]), y.max(end[1])]);
+        Self { size, walls, furniture }
+    }
+
     /// Distance \[m\] from (x, y) along the direction \[rad\] to the nearest wall or piece of furniture; infinite for none.
     pub fn raycast(&self, origin: [f64; 2], direction: f64) -> f64 {
         let (sin, cos) = ops::sin_cos(direction);
@@ -329,6 +340,18 @@ mod tests {
         // A door's back in one of some nine beams across: 27 m of south wall of the west block have three doors of 1 m.
         let deep = (0..2700).filter(|k| plan.raycast([2.6 + 0.01 * f64::from(*k), 1.3], FRAC_PI_2) > 1.2).count();
         assert!((295..=305).contains(&deep), "{deep} cm");
+    }
+
+    #[test]
+    fn a_robot_that_is_moved_with_the_place_sees_the_same() {
+        let (plan, pose, motion) = (FloorPlan::apartment(), Pose2::new(6.0, 4.7, 0.3), Pose2::new(3.0, -2.0, 0.8));
+        let (moved, there) = (plan.moved(&motion), motion.compose(&pose));
+        for k in 0..90 {
+            let angle = PI * f64::from(k) / 45.0;
+            let (here, moved) = ([pose.x, pose.y], moved.raycast([there.x, there.y], there.theta + angle));
+            assert!((plan.raycast(here, pose.theta + angle) - moved).abs() < 1e-9, "beam {k}");
+        }
+        assert_eq!(plan.moved(&Pose2::default()), plan);
     }
 
     #[test]

@@ -98,7 +98,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         let &Arguments { every, draws, shared_streams: shared, .. } = arguments;
         let probe = NoiseProbe { every, draws, shared };
         let runs = sweep(arguments.seeds, |seed| price_noise(&setup(seed), probe))?;
-        let of = |f: fn(&PriceNoise) -> f64| median(runs.iter().flatten().map(f).collect());
+        let of = |f: fn(&PriceNoise) -> Option<f64>| median_of(runs.iter().flatten().filter_map(f).collect());
         let medians = NOISES.map(|(name, _, f)| (name, of(f))).into();
         let text = noise_text(arguments, &runs);
         if arguments.json { print_json(&Output { particles, niches, max_range, medians, runs }) } else { print(&text) }
@@ -140,20 +140,26 @@ fn text(arguments: &Arguments, runs: &[RingRun]) -> String {
 }
 
 /// What is told of a particle's price: key in JSON, head of the column, value.
-type Noise = (&'static str, &'static str, fn(&PriceNoise) -> f64);
-const NOISES: [Noise; 4] = [
-    ("noise", "of one particle", |noise| noise.noise),
-    ("noise_relative", "above the mean", |noise| noise.noise_relative),
-    ("spread", "between particles", |noise| noise.spread),
-    ("matched", "matched", |noise| noise.matched),
+type Noise = (&'static str, &'static str, fn(&PriceNoise) -> Option<f64>);
+const NOISES: [Noise; 5] = [
+    ("noise", "of one particle", |noise| Some(noise.noise)),
+    ("noise_relative", "above the mean", |noise| Some(noise.noise_relative)),
+    ("spread", "between particles", |noise| Some(noise.spread)),
+    ("fit_error", "of the fit", |noise| noise.fit_error),
+    ("matched", "matched", |noise| Some(noise.matched)),
 ];
+
+/// Not a number where nothing was measured.
+fn median_of(values: Vec<f64>) -> f64 {
+    if values.is_empty() { f64::NAN } else { median(values) }
+}
 
 fn noise_text(arguments: &Arguments, runs: &[Vec<PriceNoise>]) -> String {
     let mut text = head(arguments);
     text += &format!(
         "ln of the price, {} draws: standard deviations [nats], medians over the seeds\n\
          of one particle: from draw to draw; above the mean: the same less the population's mean of the draw;\n\
-         between particles: of the means of their draws\n",
+         between particles: of the means of their draws; of the fit: over particles, of its integral's error\n",
         arguments.draws
     );
     text += &format!("{:>8}", "step");
@@ -161,7 +167,7 @@ fn noise_text(arguments: &Arguments, runs: &[Vec<PriceNoise>]) -> String {
     let mut line = |name: &str, of: &[&PriceNoise]| {
         text += &format!("\n{name:>8}");
         for (.., f) in NOISES {
-            text += &format!("{:20.2}", median(of.iter().map(|noise| f(noise)).collect()));
+            text += &format!("{:20.2}", median_of(of.iter().filter_map(|noise| f(noise)).collect()));
         }
     };
     for (k, first) in runs[0].iter().enumerate() {

@@ -1,0 +1,44 @@
+//! What the fit of a particle is worth, and what a filter keeps until a loop closes.
+
+use fastslam::experiment::lap::{Lap, LapSetup};
+use fastslam::experiment::ring::{NoiseProbe, PriceNoise, RingRun, RingSetup, median, price_noise, price_noise_on};
+
+/// The ring on which universes can be told apart least: one niche a side, a laser of 2.5 m.
+fn bare(seed: u64, particles: usize) -> RingSetup {
+    let lap = LapSetup { seed, particles, ..LapSetup::default() };
+    RingSetup { lap, niches: 1, max_range: 2.5 }
+}
+
+/// Medians over six seeds and every 18th step. Nothing in the fit is drawn; what is left is how far twenty-odd values miss the
+/// integral: 0.14 nats on both courses with the curvature of the whole scan. On the ring, where nothing has been seen before, the price of a pose is the same
+/// for all; it was 0.4 to 3.4 nats of noise when probes were drawn.
+#[test]
+fn of_two_particles_the_fits_errors_differ_by_less_than_a_quarter_of_a_nat() {
+    let probe = NoiseProbe { every: 18, draws: 5, shared: false };
+    let rings: Vec<PriceNoise> = (1..7).flat_map(|seed| price_noise(&bare(seed, 8), probe).unwrap()).collect();
+    let lap = |seed| {
+        let setup = LapSetup { seed, particles: 8, ..LapSetup::default() };
+        price_noise_on(Lap::new(&setup).unwrap(), &setup, probe)
+    };
+    let laps: Vec<PriceNoise> = (1..7).flat_map(lap).collect();
+    for (name, noises) in [("ring", &rings), ("lap", &laps)] {
+        let errors: Vec<f64> = noises.iter().filter_map(|noise| noise.fit_error).collect();
+        assert_eq!(errors.len(), noises.len(), "{name}: the matcher is trusted");
+        let error = median(errors);
+        assert!(error < 0.25, "{name}: {error:.3} nats");
+    }
+    let noise = median(rings.iter().map(|noise| noise.noise).collect());
+    assert!(noise < 0.25, "{noise:.3} nats");
+}
+
+/// Medians of 20 seeds at M = 16: 2 resamplings, 0.39 m and 0.02 m when this was written; 53, 0.04 m and 0.02 m when every scan was weighed
+/// by the map as it is.
+#[test]
+fn universes_stay_apart_until_the_loop_closes_and_agree_afterwards() {
+    let runs: Vec<RingRun> = (1..21).map(|seed| RingRun::of(&bare(seed, 16)).unwrap()).collect();
+    let of = |f: fn(&RingRun) -> f64| median(runs.iter().map(f).collect());
+    let resampled = of(|run| f64::from(run.resampled_before));
+    assert!(resampled <= 10.0, "{resampled} resamplings");
+    let (before, after) = (of(|run| run.deviation_before), of(|run| run.deviation_after));
+    assert!(before >= 0.2 && after <= 0.1, "deviation of position {before:.3} m before, {after:.3} m after");
+}
