@@ -343,8 +343,8 @@ pub fn fit_error(setup: &LapSetup, particle: &Particle<Grid>, control: &Odometry
     let (motion, likelihood) = (&from_scan.fallback.motion, &from_scan.fallback.likelihood);
     let prior = motion.gaussian(&particle.world_from_robot, control, FROM_SCAN.motion_floor);
     let log_target = |pose: &Pose2| likelihood.log_score(&particle.map, pose, scan) + prior.log_density(pose);
-    // Where the hill is; how the proposal's own fit came by its curvature does not matter.
-    let fit = Fit::around(&mode, &FROM_SCAN.limits, log_target, log_target)?;
+    // Where the hill is.
+    let fit = Fit::around(&mode, &FROM_SCAN.limits, log_target)?;
     Some(log_integral - Hill::summed(&fit.gaussian, STEPS, log_target)?.log_integral)
 }
 

@@ -22,7 +22,7 @@ fn turn(angle: f64) -> Matrix3<f64> {
 }
 
 fn fit(mode: &Pose2, limits: &FitLimits, log_target: impl Fn(&Pose2) -> f64) -> Fit {
-    Fit::around(mode, limits, &log_target, &log_target).unwrap()
+    Fit::around(mode, limits, &log_target).unwrap()
 }
 
 /// What a fit adds to the covariance.

@@ -46,10 +46,7 @@ impl<S: Search + Sync, const FINE: usize> Scene<S, FINE> {
         let stream = || Stream::at(1, Purpose::Trial, seed, 0);
         let proposed = self.from_scan.propose(particle, control, scan, &mut stream());
         let ProposalTrace::Matched { mode, log_integral } = proposed.trace else { return None };
-        let (thin, share) = (scan.thinned(settings.climb_stride), settings.climb_stride as f64);
-        let rough =
-            |pose: &Pose2| share * fallback.likelihood.log_score(&particle.map, pose, &thin) + prior.log_density(pose);
-        let fit = Fit::around(&mode, &settings.limits, rough, target)?;
+        let fit = Fit::around(&mode, &settings.limits, target)?;
         // What is judged here is what was drawn from.
         assert!((fit.log_integral - log_integral).abs() < 1e-9);
         assert!(fit.gaussian.sample(&mut stream()).minus(&proposed.world_from_robot).norm() < 1e-9);
