@@ -39,8 +39,8 @@ fn one_step_by<S>(matcher: Matcher, search: S) -> OneStep<S> {
     let particle = Particle { world_from_robot: world.truth[0], map, path: Path::start(world.truth[0]) };
     // Tempered harder, or the posterior is too narrow for a dense grid and for the motion model's samples to meet it.
     let scan = ScanModel::new(matcher, TEMPER * 0.4, OUTLIER);
-    let FromScanSettings { motion_floor, climb, climb_stride, gain, full_weight, limits, evidence, .. } = FROM_SCAN;
-    let settings = FromScanSettings { motion_floor, search, climb, climb_stride, gain, full_weight, limits, evidence };
+    let FromScanSettings { motion_floor, climb, climb_stride, gain, full_weight, limits, .. } = FROM_SCAN;
+    let settings = FromScanSettings { motion_floor, search, climb, climb_stride, gain, full_weight, limits };
     OneStep { particle, world, from_scan: FromScan { fallback: FromMotion { motion, likelihood: scan }, settings } }
 }
 
@@ -190,7 +190,7 @@ fn a_short_step_weighs_in_proportion_in_both_branches_of_the_guard() {
                     };
                     let (old, new) = (score(&step.particle.map.past()), score(&step.particle.map));
                     assert!((old - new).abs() > 1e-3, "the two maps differ: {old} and {new}");
-                    let expected = FROM_SCAN.evidence * share * old;
+                    let expected = share * old;
                     assert!(
                         (proposed.log_increment - expected).abs() <= 1e-12 * expected.abs(),
                         "{matcher}, trusted {trusted}, share {share}: {} for {expected}",

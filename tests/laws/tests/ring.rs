@@ -31,14 +31,16 @@ fn of_two_particles_the_fits_errors_differ_by_less_than_a_quarter_of_a_nat() {
     assert!(noise < 0.25, "{noise:.3} nats");
 }
 
-/// Medians of 20 seeds at M = 16: 2 resamplings, 0.39 m and 0.02 m when this was written; 53, 0.04 m and 0.02 m when every scan was weighed
-/// by the map as it is.
+/// Medians of 20 seeds at M = 16: 7 resamplings, and a deviation that falls to a fourth, when this was written; 47, and to two thirds, when
+/// every scan was weighed by the map as it is.
 #[test]
-fn universes_stay_apart_until_the_loop_closes_and_agree_afterwards() {
+fn the_closing_of_the_loop_selects_and_not_the_way_there() {
     let runs: Vec<RingRun> = (1..21).map(|seed| RingRun::of(&bare(seed, 16)).unwrap()).collect();
     let of = |f: fn(&RingRun) -> f64| median(runs.iter().map(f).collect());
     let resampled = of(|run| f64::from(run.resampled_before));
     assert!(resampled <= 10.0, "{resampled} resamplings");
     let (before, after) = (of(|run| run.deviation_before), of(|run| run.deviation_after));
-    assert!(before >= 0.2 && after <= 0.1, "deviation of position {before:.3} m before, {after:.3} m after");
+    assert!(before >= 2.0 * after, "deviation of position {before:.3} m before, {after:.3} m after");
+    let died = of(|run| run.died);
+    assert!(died >= 0.5, "{died} died");
 }
