@@ -409,8 +409,8 @@ mod tests {
             assert!(closing + 2 * AFTER as usize <= route.steps);
             let nearest =
                 |pose: &Pose2| truth[..20].iter().map(|early| early.distance(pose)).fold(f64::INFINITY, f64::min);
-            // Before, the robot has been nowhere near.
-            assert!(nearest(&truth[closing]) < max_range, "{}", nearest(&truth[closing]));
+            // What is seen again may lie between here and there; before, the robot has been nowhere near.
+            assert!(nearest(&truth[closing]) < 2.0 * max_range, "{}", nearest(&truth[closing]));
             for (step, pose) in truth.iter().enumerate().take(closing - 10).skip(40) {
                 assert!(nearest(pose) > max_range, "step {step}: {:?}", pose);
             }
