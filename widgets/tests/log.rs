@@ -232,7 +232,9 @@ fn all_universes_are_drawn_and_those_that_died_fade_and_go() {
     let figure = mapped("universes=24&cell=0.2&policy=always", 40);
     let dead = strands(&scene(&figure, 800.0), Role::Extinct);
     assert!(dead.len() > 5 && dead.windows(2).all(|pair| pair[0].0 < pair[1].0), "older ones are thinner: {dead:?}");
-    let died = figure.export().rows().iter().filter_map(|row| row[7]).sum::<f64>();
+    let export = figure.export();
+    let died_out = export.header().iter().position(|name| *name == "died_out").unwrap();
+    let died = export.rows().iter().filter_map(|row| row[died_out]).sum::<f64>();
     let drawn: usize = dead.iter().map(|(_, count)| count).sum();
     assert!(died > 2.0 * drawn as f64, "{died} died, {drawn} are drawn");
 }

@@ -60,8 +60,9 @@ fn nothing_has_run_before_the_first_step() {
 #[test]
 fn either_the_match_is_trusted_or_the_motion_model_asked() {
     let [mut trusted, mut doubted] = [0, 0];
+    // Where the wheels are sure there is least to find, and the guard has most to doubt.
     for matcher in ["subcell", "cell"] {
-        let mut figure = figure("fastslam-lap", &format!("universes=4&universe=0&range-std=0.3&matcher={matcher}"));
+        let mut figure = figure("fastslam-lap", &format!("universes=4&universe=0&odometry=0&matcher={matcher}"));
         for step in 1..=figure.model().step_count() {
             figure.model_mut().seek(step);
             figure.model_mut().settle();
@@ -69,7 +70,8 @@ fn either_the_match_is_trusted_or_the_motion_model_asked() {
             let ran = keys(&lines);
             let drew = ran.contains(&"draw");
             assert_eq!(drew, text(&lines, "doubt").starts_with("trusted"));
-            assert_eq!([drew; 3], [ran.contains(&"pay"), !ran.contains(&"fallback"), !ran.contains(&"weigh")]);
+            assert_eq!(drew, !ran.contains(&"fallback"));
+            assert!(ran.contains(&"pay"), "both branches pay");
             if drew { trusted += 1 } else { doubted += 1 }
         }
     }

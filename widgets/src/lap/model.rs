@@ -477,7 +477,8 @@ impl Model for LapModel {
                 ]),
             }
         } else {
-            lines.extend([TraceLine::new("fallback", pose(&to)), TraceLine::new("weigh", paid)]);
+            // What it pays, by its whole map, is no line of this box.
+            lines.push(TraceLine::new("fallback", pose(&to)));
         }
         let largest = report.weights.iter().copied().fold(0.0, f64::max);
         let resample =
