@@ -1,6 +1,6 @@
 // Figures take their room when their classes are known, which may be after the browser has gone to the place that the address
 // names: then it is gone to once more, unless the reader has moved on or comes back to where they were.
-const place = document.querySelector(':target')
+const place = document.getElementById(location.hash.slice(1))
 const [visit] = performance.getEntriesByType('navigation') as PerformanceNavigationTiming[]
 if (place && visit?.type === 'navigate') {
   const moved = new AbortController()
