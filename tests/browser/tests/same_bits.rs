@@ -9,7 +9,8 @@ use js_sys::{Array, Reflect, Uint8Array, WebAssembly};
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
 
-wasm_bindgen_test_configure!(run_in_browser);
+// In a worker: a lap takes seconds, and a page that is busy for so long does not answer the driver, which gives up after thirty.
+wasm_bindgen_test_configure!(run_in_dedicated_worker);
 
 const TRACES: &str = include_str!("../../portability/golden.txt");
 const READOUTS: &str = include_str!("../../figures/golden/readouts.txt");
