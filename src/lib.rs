@@ -8,14 +8,13 @@
 //! Every result is meant to be the same to the last bit on every platform, with any number of threads: see [`ops`], [`random`]
 //! and [`execute`]. Tested are native builds on x86-64 and WebAssembly in Chromium.
 
-pub mod decimal;
-pub mod digest;
+/// The linear algebra of this crate’s interface.
+pub use nalgebra;
+
 pub mod error;
-pub mod exact;
 pub mod execute;
-pub mod experiment;
+pub mod genealogy;
 pub mod geometry;
-pub mod lineage;
 pub mod log;
 pub mod map;
 pub mod matching;
@@ -27,4 +26,3 @@ pub mod rbpf;
 pub mod resampling;
 pub mod sensor;
 pub mod weights;
-pub mod world;

@@ -10,18 +10,25 @@ use rand::RngExt;
 use rand_pcg::Pcg64;
 
 /// What a stream is drawn for: streams of different purposes are independent.
+///
+/// A filter takes [`PROPOSAL`](Self::PROPOSAL) and [`RESAMPLING`](Self::RESAMPLING). Whoever simulates its world takes others of their
+/// own, by [`Purpose::new`].
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Purpose {
-    /// Noise of the odometry that the world hands to the filter.
-    WorldOdometry = 1,
-    /// Noise of the measurements that the world hands to the filter.
-    WorldSensor = 2,
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Purpose(u64);
+
+impl Purpose {
     /// What a proposal draws for one particle in one step.
-    Proposal = 3,
+    pub const PROPOSAL: Self = Self(3);
     /// What a resampling draws.
-    Resampling = 4,
+    pub const RESAMPLING: Self = Self(4);
     /// Draws of tests and of experiments about the filters.
-    Trial = 5,
+    pub const TRIAL: Self = Self(5);
+
+    /// A purpose of one's own; 3, 4 and 5 are those above.
+    pub const fn new(number: u64) -> Self {
+        Self(number)
+    }
 }
 
 /// A stream of random numbers at one address.
@@ -36,7 +43,7 @@ impl Stream {
     pub fn at(seed: u64, purpose: Purpose, step: u32, slot: u32) -> Self {
         let address = (u64::from(step) << 32) | u64::from(slot);
         let mut hash = Hash(seed);
-        hash.absorb(purpose as u64);
+        hash.absorb(purpose.0);
         hash.absorb(address);
         let state = (u128::from(hash.squeeze()) << 64) | u128::from(hash.squeeze());
         let stream = (u128::from(hash.squeeze()) << 64) | u128::from(hash.squeeze());
@@ -84,7 +91,7 @@ mod tests {
 
     #[test]
     fn values_are_stable_across_versions() {
-        let mut stream = Stream::at(3, Purpose::Proposal, 7, 11);
+        let mut stream = Stream::at(3, Purpose::PROPOSAL, 7, 11);
         assert_eq!(stream.uniform().to_bits(), 0x3fae_3b78_09f5_7d80);
         assert_eq!(stream.normal().to_bits(), 0x3fea_3a43_80d1_bddb);
     }
@@ -100,10 +107,10 @@ mod tests {
             let mut stream = Stream::at(seed, purpose, step, slot);
             [stream.uniform(), stream.uniform()]
         };
-        let purpose = Purpose::Proposal;
+        let purpose = Purpose::PROPOSAL;
         let neighbours: [(&str, Neighbour<'_>); 5] = [
             ("seed", &|seed, step, slot| draws(seed + 1, purpose, step, slot)),
-            ("purpose", &|seed, step, slot| draws(seed, Purpose::Resampling, step, slot)),
+            ("purpose", &|seed, step, slot| draws(seed, Purpose::RESAMPLING, step, slot)),
             ("step", &|seed, step, slot| draws(seed, purpose, step + 1, slot)),
             ("slot", &|seed, step, slot| draws(seed, purpose, step, slot + 1)),
             ("step and slot", &|seed, step, slot| draws(seed, purpose, step + 1, slot.wrapping_sub(1))),
@@ -132,7 +139,7 @@ mod tests {
     fn first_draws_over_addresses_are_standard_normal() {
         let n = 40_000_u32;
         let draws: Vec<f64> =
-            (0..n).map(|slot| Stream::at(9, Purpose::Trial, slot / 200, slot % 200).normal()).collect();
+            (0..n).map(|slot| Stream::at(9, Purpose::TRIAL, slot / 200, slot % 200).normal()).collect();
         let mean = draws.iter().sum::<f64>() / f64::from(n);
         let variance = draws.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / f64::from(n);
         let sigma = 1.0 / f64::from(n).sqrt();

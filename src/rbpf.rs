@@ -1,8 +1,8 @@
 //! The Rao–Blackwellized particle filter.
 
 use crate::execute::Executor;
+use crate::genealogy::{Descent, Path};
 use crate::geometry::Pose2;
-use crate::lineage::{Descent, Path};
 use crate::map::ConditionalMap;
 use crate::proposal::{Proposal, ProposalTrace};
 use crate::random::{Purpose, Stream};
@@ -107,7 +107,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
     pub fn step(&mut self, control: &P::Control, observation: &M::Observation) -> Report<M::Association> {
         let mut report = self.weigh(control, observation);
         // ANCHOR: policy
-        if self.policy.calls_for(report.ess, self.particles.len()) {
+        if self.policy.should_resample(report.ess, self.particles.len()) {
             report.ancestors = Some(self.resample());
         }
         // ANCHOR_END: policy
@@ -120,7 +120,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         self.step += 1;
         let (proposal, seed, step) = (&self.proposal, self.seed, self.step);
         let proposed = self.executor.map(&mut self.particles, |slot, particle| {
-            let mut stream = Stream::at(seed, Purpose::Proposal, step, slot as u32);
+            let mut stream = Stream::at(seed, Purpose::PROPOSAL, step, slot as u32);
             let proposed = proposal.propose(particle, control, observation, &mut stream);
             particle.world_from_robot = proposed.world_from_robot;
             particle.map.assimilate(&proposed.world_from_robot, observation, &proposed.association);
@@ -156,7 +156,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
     /// particle was copied from.
     pub fn resample(&mut self) -> Vec<u32> {
         let count = self.particles.len();
-        let mut stream = Stream::at(self.seed, Purpose::Resampling, self.step, 0);
+        let mut stream = Stream::at(self.seed, Purpose::RESAMPLING, self.step, 0);
         // ANCHOR: resample
         let ancestors = self.scheme.ancestors(&self.weights, count, &mut stream);
         // ANCHOR_END: resample

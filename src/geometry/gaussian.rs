@@ -121,7 +121,7 @@ mod tests {
     fn a_singular_covariance_moves_nothing_where_it_has_no_variance() {
         let along = Vector3::new(0.3, 0.4, 0.0);
         for slot in 0..100 {
-            let mut stream = Stream::at(1, crate::random::Purpose::Trial, 0, slot);
+            let mut stream = Stream::at(1, crate::random::Purpose::TRIAL, 0, slot);
             let still = sample_semidefinite(&Pose2::new(1.0, 2.0, 3.0), &Matrix3::zeros(), &mut stream);
             assert_eq!(still, Pose2::new(1.0, 2.0, 3.0));
             let pose = sample_semidefinite(&Pose2::default(), &(along * along.transpose()), &mut stream);
@@ -136,7 +136,7 @@ mod tests {
         let n = 20_000_u32;
         let mut second = Matrix3::zeros();
         for slot in 0..n {
-            let mut stream = Stream::at(2, crate::random::Purpose::Trial, 0, slot);
+            let mut stream = Stream::at(2, crate::random::Purpose::TRIAL, 0, slot);
             let d = sample_semidefinite(&Pose2::default(), &sigma, &mut stream).minus(&Pose2::default());
             second += d * d.transpose() / f64::from(n);
         }

@@ -10,8 +10,9 @@
 //!
 //! Reference: the file format of CARMEN's logger, as its log files describe it in their own comments.
 
+use super::fixed;
 use super::{LaserLog, LaserScan, LogError};
-use crate::decimal;
+use crate::error::Shown;
 use crate::geometry::Pose2;
 use core::f64::consts::PI;
 
@@ -59,13 +60,13 @@ pub fn write(log: &LaserLog) -> String {
     let mut text = String::new();
     for scan in &log.scans {
         let Pose2 { x, y, theta } = scan.odometry;
-        let pose = [decimal::fixed(x, 3), decimal::fixed(y, 3), decimal::fixed(theta, 4)].join(" ");
-        let time = decimal::fixed(scan.time, 2);
+        let pose = [fixed(x, 3), fixed(y, 3), fixed(theta, 4)].join(" ");
+        let time = fixed(scan.time, 2);
         text.push_str("FLASER ");
         text.push_str(&scan.ranges.len().to_string());
         for range in &scan.ranges {
             text.push(' ');
-            text.push_str(&decimal::fixed(f64::from(*range), 2));
+            text.push_str(&fixed(f64::from(*range), 2));
         }
         text.push_str(&[" ", &pose, " ", &pose, " ", &time, " - ", &time, "\n"].concat());
     }
@@ -141,7 +142,7 @@ impl Reader {
         let angle_step = words.number("angular_resolution [rad]")?;
         let max_range = words.number("maximum_range [m]")?;
         if first_angle.abs() > 2.0 * PI || angle_step.abs() > PI || angle_step == 0.0 {
-            let found = [first_angle, angle_step].map(decimal::write).join(" and ");
+            let found = [first_angle, angle_step].map(|x| Shown(x).to_string()).join(" and ");
             return Err(format!("{}: expected angles in radians, found {found}", words.kind));
         }
         words.number("accuracy")?;
@@ -209,7 +210,8 @@ impl<'a> Words<'a> {
     /// A finite number.
     fn number(&mut self, name: &str) -> Result<f64, String> {
         let word = self.word(name)?;
-        decimal::parse(word)
+        word.parse::<f64>()
+            .ok()
             .filter(|x| x.is_finite())
             .ok_or_else(|| format!("{}: expected {name}, found {}", self.kind, shown(word)))
     }
@@ -226,7 +228,7 @@ impl<'a> Words<'a> {
         for k in 0..count {
             let name = || format!("{count} ranges, of them number {}", k + 1);
             let word = self.word(&name())?;
-            let range = match decimal::parse(word) {
+            let range = match word.parse::<f64>().ok().filter(|range| !range.is_nan()) {
                 Some(range) => range as f32,
                 None if is_no_number(word) => f32::INFINITY,
                 None => return Err(format!("{}: expected {}, found {}", self.kind, name(), shown(word))),
@@ -239,7 +241,7 @@ impl<'a> Words<'a> {
     fn pose(&mut self, names: &str) -> Result<Pose2, String> {
         let [x, y, theta] = [self.number(names)?, self.number(names)?, self.number(names)?];
         if x.abs().max(y.abs()) > FARTHEST || theta.abs() > FARTHEST {
-            let found = [x, y, theta].map(decimal::write).join(" ");
+            let found = [x, y, theta].map(|x| Shown(x).to_string()).join(" ");
             return Err(format!("{}: expected {names} within 10000 km and as many turns, found {found}", self.kind));
         }
         Ok(Pose2::new(x, y, theta))

@@ -6,10 +6,12 @@
 mod carmen;
 mod extent;
 mod relations;
+mod tum;
 
 pub use carmen::{parse, write};
 pub use extent::swept_area;
 pub use relations::{NEAR, Relation, RelationErrors, parse_relations, relation_errors};
+pub use tum::write_tum;
 
 use crate::geometry::Pose2;
 use crate::ops;
@@ -115,4 +117,13 @@ pub fn odometry_at(odometry: &[(f64, Pose2)], time: f64) -> Option<Pose2> {
     let ((t0, a), (t1, b)) = (odometry[after.max(1) - 1], odometry[after]);
     let share = if t1 > t0 { ((time - t0) / (t1 - t0)).clamp(0.0, 1.0) } else { 0.0 };
     Some(a.plus(&(b.minus(&a) * share)))
+}
+
+/// A number with so many decimals, and 0 without a sign.
+pub(crate) fn fixed(x: f64, decimals: usize) -> String {
+    let text = format!("{x:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(digits) if digits.bytes().all(|byte| matches!(byte, b'0' | b'.')) => digits.into(),
+        _ => text,
+    }
 }

@@ -7,7 +7,6 @@
 //! Reference: Kümmerle et al., *On measuring the accuracy of SLAM algorithms*, Autonomous Robots 2009.
 
 use super::{LogError, odometry_at};
-use crate::decimal;
 use crate::geometry::Pose2;
 
 /// Where a robot was at one time, seen from where it was at another.
@@ -47,7 +46,7 @@ pub fn parse_relations(bytes: &[u8]) -> Result<Vec<Relation>, LogError> {
             continue;
         }
         let numbers: Option<Vec<f64>> =
-            text.split_ascii_whitespace().map(|word| decimal::parse(word).filter(|x| x.is_finite())).collect();
+            text.split_ascii_whitespace().map(|word| word.parse().ok().filter(|x: &f64| x.is_finite())).collect();
         let Some([t1, t2, x, y, _, _, _, yaw]) = numbers.and_then(|numbers| <[f64; 8]>::try_from(numbers).ok()) else {
             return Err(LogError { line, message: "expected 8 numbers: t1 t2 x y z roll pitch yaw".into() });
         };

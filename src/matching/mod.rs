@@ -1,8 +1,8 @@
 //! How well a scan fits a map, and where it fits best.
 
-mod climb;
+mod hill_climb;
 mod score;
 
-pub(crate) use climb::climb;
-pub use climb::{Climb, ClimbSteps};
+pub use hill_climb::hill_climb;
+pub use hill_climb::{HillClimbSteps, ScoredPose};
 pub use score::{Kernel, Matcher, ScanModel};

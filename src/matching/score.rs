@@ -1,14 +1,16 @@
 //! The score of a scan against a grid, which stands for ln p(z | x, m).
 
-use crate::error::ParameterError;
+use crate::error::SettingError;
 use crate::geometry::Pose2;
-use crate::map::grid::{FAR, Grid, Surfaces, UNIT, View};
+use crate::map::grid::{Grid, LocalMap, MAX_DISTANCE, NdtField, UNIT};
 use crate::ops;
 use crate::sensor::Scan;
-use core::{fmt, str::FromStr};
 
 /// What an end point is compared with: a reader's choice.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(
+    Clone, Copy, PartialEq, Eq, Debug, strum::Display, strum::EnumString, strum::VariantNames, strum::VariantArray,
+)]
+#[strum(serialize_all = "lowercase", parse_err_ty = SettingError, parse_err_fn = unknown_matcher)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
 pub enum Matcher {
     /// The occupancy of the cell it falls in. Every pose that moves no end point out of its cell scores the same, so the error
@@ -17,6 +19,10 @@ pub enum Matcher {
     /// The nearest normal distribution of earlier end points (Biber and Straßer 2003) in the four cells nearest to it: the same
     /// grid, but a score that knows where in the cell the wall is.
     SubCell,
+}
+
+fn unknown_matcher(given: &str) -> SettingError {
+    SettingError::unknown_word("matcher", given, <Matcher as strum::VariantNames>::VARIANTS)
 }
 
 /// What a distance from a surface costs.
@@ -73,7 +79,12 @@ impl ScanModel {
     }
 
     /// The score \[nats\] of a scan taken at a pose; 0 at best.
-    pub fn log_score<const FINE: usize>(&self, grid: &Grid<FINE>, world_from_robot: &Pose2, scan: &Scan) -> f64 {
+    pub fn log_score<const CELLS_PER_NDT: usize>(
+        &self,
+        grid: &Grid<CELLS_PER_NDT>,
+        world_from_robot: &Pose2,
+        scan: &Scan,
+    ) -> f64 {
         self.log_score_above(f64::NEG_INFINITY, grid, world_from_robot, scan)
     }
 
@@ -84,7 +95,7 @@ impl ScanModel {
     pub(crate) fn log_score_above(
         &self,
         floor: f64,
-        grid: &impl Surfaces,
+        grid: &impl NdtField,
         world_from_robot: &Pose2,
         scan: &Scan,
     ) -> f64 {
@@ -100,7 +111,7 @@ impl ScanModel {
                 sum += match self.matcher {
                     Matcher::Cell => self.log_cell(grid.units_at(wx, wy)),
                     Matcher::SubCell => {
-                        let (d2, units) = grid.nearest_surface(wx, wy);
+                        let (d2, units) = grid.nearest_ndt(wx, wy);
                         match self.kernel {
                             Kernel::Gaussian => {
                                 let (surface, cell) = (-0.5 * d2, self.log_cell(units));
@@ -126,11 +137,16 @@ impl ScanModel {
 
     /// A coarse score \[nats\] of a scan that is turned already: how many squares each of its end points, shifted by
     /// (x, y) \[m\], is from the nearest surface. The end points are given in squares.
-    pub(crate) fn coarse<const FINE: usize>(&self, view: &View<'_, FINE>, turned: &[[f64; 2]], shift: [f64; 2]) -> f64 {
-        let [u, v] = shift.map(|c| c * view.per_square());
-        let mut counts = [0_u32; FAR + 1];
+    pub(crate) fn coarse<const CELLS_PER_NDT: usize>(
+        &self,
+        view: &LocalMap<'_, CELLS_PER_NDT>,
+        turned: &[[f64; 2]],
+        shift: [f64; 2],
+    ) -> f64 {
+        let [u, v] = shift.map(|c| c * view.per_ndt());
+        let mut counts = [0_u32; MAX_DISTANCE + 1];
         for end in turned {
-            counts[view.nearness(end[0] + u, end[1] + v)] += 1;
+            counts[view.distance(end[0] + u, end[1] + v)] += 1;
         }
         let sum: f64 = counts.iter().zip(LOG_COARSE).map(|(count, log)| f64::from(*count) * log).sum();
         self.temper * sum
@@ -144,28 +160,7 @@ impl ScanModel {
 }
 
 /// ln p of an end point by its squares from the nearest surface, up to a constant \[nats\].
-const LOG_COARSE: [f64; FAR + 1] = [0.0, -0.5, -1.0, -1.5];
+const LOG_COARSE: [f64; MAX_DISTANCE + 1] = [0.0, -0.5, -1.0, -1.5];
 
 /// Where log-odds 0 stand in the table.
 const UNKNOWN: i32 = 128;
-
-impl fmt::Display for Matcher {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Cell => "cell",
-            Self::SubCell => "subcell",
-        })
-    }
-}
-
-impl FromStr for Matcher {
-    type Err = ParameterError;
-
-    fn from_str(text: &str) -> Result<Self, ParameterError> {
-        match text {
-            "cell" => Ok(Self::Cell),
-            "subcell" => Ok(Self::SubCell),
-            _ => Err(ParameterError::new("matcher", text, "cell or subcell")),
-        }
-    }
-}

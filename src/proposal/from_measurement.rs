@@ -5,7 +5,7 @@
 
 use super::{Proposal, ProposalTrace, Proposed};
 use crate::geometry::{Pose2, sample_semidefinite};
-use crate::map::landmarks::{Landmarks, Sighted, Store};
+use crate::map::landmarks::{Association, Landmarks, Store};
 use crate::motion::Motion;
 use crate::random::Stream;
 use crate::rbpf::Particle;
@@ -27,7 +27,7 @@ pub struct Measured {
     /// Σ_x (3 × 3, \[m, m, rad\]).
     pub covariance: Matrix3<f64>,
     /// What the features were taken to be.
-    pub sighted: Vec<Sighted>,
+    pub associations: Vec<Association>,
     /// ln ∏ N(ν; 0, H_x P H_xᵀ + Q_j), times p₀ for each new landmark \[nats\].
     pub log_evidence: f64,
     /// Whether any feature was of a landmark in the map.
@@ -50,11 +50,11 @@ impl<D: Motion> FromMeasurement<D> {
         let mut mean = self.motion.apply(from, control);
         let mut p = self.motion.covariance(from, control);
         // ANCHOR_END: predict
-        let (mut log_evidence, mut sighted) = (0.0, Vec::with_capacity(features.len()));
+        let (mut log_evidence, mut associations) = (0.0, Vec::with_capacity(features.len()));
         let mut informed = false;
         for feature in features {
-            let matched = map.associate(&mean, &p, feature, &sighted);
-            if let Some(innovation) = matched.innovation {
+            let decision = map.associate(&mean, &p, feature, &associations);
+            if let Some(innovation) = decision.innovation {
                 let h_x = innovation.prediction.h_x;
                 // ANCHOR: pull
                 let gain = p * h_x.transpose() * innovation.inverse;
@@ -66,11 +66,11 @@ impl<D: Motion> FromMeasurement<D> {
                 informed = true;
             }
             // ANCHOR: pay
-            log_evidence += matched.log_likelihood;
+            log_evidence += decision.log_likelihood;
             // ANCHOR_END: pay
-            sighted.push(matched.sighted);
+            associations.push(decision.association);
         }
-        Measured { mean, covariance: p, sighted, log_evidence, informed }
+        Measured { mean, covariance: p, associations, log_evidence, informed }
     }
     // ANCHOR_END: listing-fold
     // end: fold
@@ -87,7 +87,7 @@ impl<Z: LandmarkSensor, S: Store, D: Motion> Proposal<Landmarks<Z, S>> for FromM
         control: &D::Control,
         features: &Vec<Feature>,
         stream: &mut Stream,
-    ) -> Proposed<Vec<Sighted>> {
+    ) -> Proposed<Vec<Association>> {
         let from = &particle.world_from_robot;
         let measured = self.fold(&particle.map, from, control, features);
         // ANCHOR: draw
@@ -98,7 +98,7 @@ impl<Z: LandmarkSensor, S: Store, D: Motion> Proposal<Landmarks<Z, S>> for FromM
             (self.motion.sample(from, control, stream), ProposalTrace::Motion)
         };
         // ANCHOR_END: draw
-        Proposed { world_from_robot, association: measured.sighted, log_increment: measured.log_evidence, trace }
+        Proposed { world_from_robot, association: measured.associations, log_increment: measured.log_evidence, trace }
     }
     // end: propose
 }

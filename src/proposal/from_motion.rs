@@ -2,7 +2,7 @@
 
 use super::{Proposal, ProposalTrace, Proposed};
 use crate::geometry::Pose2;
-use crate::map::landmarks::{Landmarks, Sighted, Store};
+use crate::map::landmarks::{Association, Landmarks, Store};
 use crate::map::{ConditionalMap, grid::Grid};
 use crate::matching::ScanModel;
 use crate::motion::Motion;
@@ -17,8 +17,8 @@ pub trait Likelihood<M: ConditionalMap>: Sync {
     fn log_likelihood(&self, map: &M, world_from_robot: &Pose2, observation: &M::Observation) -> (f64, M::Association);
 }
 
-impl<const FINE: usize> Likelihood<Grid<FINE>> for ScanModel {
-    fn log_likelihood(&self, grid: &Grid<FINE>, world_from_robot: &Pose2, scan: &Scan) -> (f64, ()) {
+impl<const CELLS_PER_NDT: usize> Likelihood<Grid<CELLS_PER_NDT>> for ScanModel {
+    fn log_likelihood(&self, grid: &Grid<CELLS_PER_NDT>, world_from_robot: &Pose2, scan: &Scan) -> (f64, ()) {
         (self.log_score(grid, world_from_robot, scan), ())
     }
 }
@@ -33,16 +33,16 @@ impl<Z: LandmarkSensor, S: Store> Likelihood<Landmarks<Z, S>> for Marginal {
         map: &Landmarks<Z, S>,
         world_from_robot: &Pose2,
         features: &Vec<Feature>,
-    ) -> (f64, Vec<Sighted>) {
+    ) -> (f64, Vec<Association>) {
         // ANCHOR: marginal
-        let (mut log_likelihood, mut sighted) = (0.0, Vec::with_capacity(features.len()));
+        let (mut log_likelihood, mut associations) = (0.0, Vec::with_capacity(features.len()));
         for feature in features {
-            let matched = map.associate(world_from_robot, &Matrix3::zeros(), feature, &sighted);
-            log_likelihood += matched.log_likelihood;
-            sighted.push(matched.sighted);
+            let decision = map.associate(world_from_robot, &Matrix3::zeros(), feature, &associations);
+            log_likelihood += decision.log_likelihood;
+            associations.push(decision.association);
         }
         // ANCHOR_END: marginal
-        (log_likelihood, sighted)
+        (log_likelihood, associations)
     }
 }
 

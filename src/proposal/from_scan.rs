@@ -5,8 +5,8 @@
 
 use super::{Fit, FitLimits, FromMotion, Proposal, ProposalTrace, Proposed};
 use crate::geometry::{Gaussian3, Pose2};
-use crate::map::grid::{Grid, View};
-use crate::matching::{Climb, ClimbSteps, ScanModel, climb};
+use crate::map::grid::{Grid, LocalMap};
+use crate::matching::{HillClimbSteps, ScanModel, ScoredPose, hill_climb};
 use crate::motion::{Motion, Odometry, OdometryModel};
 use crate::ops;
 use crate::random::Stream;
@@ -16,13 +16,13 @@ use crate::sensor::Scan;
 /// Where a climb begins. A type for each way: a program that searches in one only is without the other.
 pub trait Search {
     /// Starts of the climb, and the mean log-likelihood that its end must beat \[nats\].
-    fn starts<const FINE: usize>(&self, target: &Target<'_, FINE>) -> (Vec<Climb>, f64);
+    fn starts<const CELLS_PER_NDT: usize>(&self, target: &Target<'_, CELLS_PER_NDT>) -> (Vec<ScoredPose>, f64);
 }
 
 /// At the best of the odometry's prediction and so many poses spread over the prior's heading: enough where a step's error is
 /// about as wide as a square of the map.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Spread {
+pub struct HeadingSeeds {
     /// Poses besides the prediction.
     pub seeds: u32,
     /// How many of the best are climbed from.
@@ -32,7 +32,7 @@ pub struct Spread {
 /// At the best poses of a lattice over the whole prior, judged coarsely (after the correlative matching of Olson 2009): for
 /// odometry that is off by several squares.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Lattice {
+pub struct CorrelativeSearch {
     /// Step along each axis \[m\].
     pub linear: f64,
     /// Step of the heading \[rad\].
@@ -51,11 +51,11 @@ pub struct FromScanSettings<S> {
     /// Where the climb begins.
     pub search: S,
     /// Step sizes of the hill climb.
-    pub climb: ClimbSteps,
+    pub climb: HillClimbSteps,
     /// The climb looks at every n-th beam.
     pub climb_stride: usize,
     /// How much better than the mean likelihood over the search the best must be for the matcher to be trusted \[nats\].
-    pub gain: f64,
+    pub minimum_improvement: f64,
     /// Motion \[m, or rad of turns\] from which on a scan weighs in full. After a shorter one it weighs in proportion: scans taken
     /// from nearly one place repeat each other's errors, and ten a second would choose between particles by them.
     pub full_weight: f64,
@@ -65,7 +65,7 @@ pub struct FromScanSettings<S> {
 
 /// A search reaches this many standard deviations of the prior to each side. Heading is what a climb is lost
 /// by: a few degrees more, and far end points fall on the wrong wall.
-const SPREAD: f64 = 3.0;
+const SEARCH_STDS: f64 = 3.0;
 
 /// Most steps of a lattice to each side, of position and of heading: an absurd motion must not hang a reader's page.
 const MOST_STEPS: [f64; 2] = [8.0, 24.0];
@@ -96,11 +96,17 @@ pub struct FromScan<S> {
     pub settings: FromScanSettings<S>,
 }
 
-impl<S: Search + Sync, const FINE: usize> Proposal<Grid<FINE>> for FromScan<S> {
+impl<S: Search + Sync, const CELLS_PER_NDT: usize> Proposal<Grid<CELLS_PER_NDT>> for FromScan<S> {
     type Control = Odometry;
 
     // anchor: propose
-    fn propose(&self, particle: &Particle<Grid<FINE>>, u: &Odometry, scan: &Scan, stream: &mut Stream) -> Proposed<()> {
+    fn propose(
+        &self,
+        particle: &Particle<Grid<CELLS_PER_NDT>>,
+        u: &Odometry,
+        scan: &Scan,
+        stream: &mut Stream,
+    ) -> Proposed<()> {
         let Self { fallback: FromMotion { motion, likelihood }, settings } = self;
         // ANCHOR: predict
         let prior = motion.gaussian(&particle.world_from_robot, u, settings.motion_floor);
@@ -114,12 +120,12 @@ impl<S: Search + Sync, const FINE: usize> Proposal<Grid<FINE>> for FromScan<S> {
         // ANCHOR: match
         let climbs = starts
             .into_iter()
-            .map(|start| climb(start, settings.climb, |pose, floor| target.log_posterior(pose, floor)));
+            .map(|start| hill_climb(start, settings.climb, |pose, floor| target.log_posterior(pose, floor)));
         let top = climbs.reduce(|best, end| if end.value > best.value { end } else { best });
         // ANCHOR_END: match
         // ANCHOR: guard
         // On a flat score surface the optimum is noise, no better than what the motion model would draw anyway.
-        let top = top.filter(|top| top.value - prior.log_density(&top.pose) - log_mean >= settings.gain);
+        let top = top.filter(|top| top.value - prior.log_density(&top.pose) - log_mean >= settings.minimum_improvement);
         // ANCHOR_END: guard
 
         // ANCHOR: fit
@@ -155,10 +161,10 @@ impl<S> FromScanSettings<S> {
 }
 
 /// What a search looks for: a pose that explains the scan and the motion.
-pub struct Target<'a, const FINE: usize> {
+pub struct Target<'a, const CELLS_PER_NDT: usize> {
     prior: &'a Gaussian3,
     likelihood: &'a ScanModel,
-    view: View<'a, FINE>,
+    view: LocalMap<'a, CELLS_PER_NDT>,
     scan: &'a Scan,
     /// A part of the scan, of which each beam counts for `share`.
     thin: Scan,
@@ -167,19 +173,19 @@ pub struct Target<'a, const FINE: usize> {
     gain: f64,
 }
 
-impl<'a, const FINE: usize> Target<'a, FINE> {
+impl<'a, const CELLS_PER_NDT: usize> Target<'a, CELLS_PER_NDT> {
     fn new<S>(
         prior: &'a Gaussian3,
         likelihood: &'a ScanModel,
-        map: &'a Grid<FINE>,
+        map: &'a Grid<CELLS_PER_NDT>,
         scan: &'a Scan,
         settings: &FromScanSettings<S>,
     ) -> Self {
         let reach = scan.hits.iter().map(|[x, y]| x * x + y * y).fold(0.0, f64::max).sqrt();
-        let view = View::new(map, [prior.mean().x, prior.mean().y], reach + SLACK);
+        let view = LocalMap::new(map, [prior.mean().x, prior.mean().y], reach + SLACK);
         // The search looks at a thinner scan, in which each beam counts for those left out.
         let (thin, share) = (scan.thinned(settings.climb_stride), settings.climb_stride as f64);
-        Self { prior, likelihood, view, scan, thin, share, gain: settings.gain }
+        Self { prior, likelihood, view, scan, thin, share, gain: settings.minimum_improvement }
     }
 
     /// ln p(z | x, m) + ln N(x), of the whole scan.
@@ -199,15 +205,15 @@ impl<'a, const FINE: usize> Target<'a, FINE> {
     }
 }
 
-impl Search for Spread {
+impl Search for HeadingSeeds {
     /// The best poses looked at, and the mean over all of them.
-    fn starts<const FINE: usize>(&self, target: &Target<'_, FINE>) -> (Vec<Climb>, f64) {
+    fn starts<const CELLS_PER_NDT: usize>(&self, target: &Target<'_, CELLS_PER_NDT>) -> (Vec<ScoredPose>, f64) {
         let prior = target.prior;
         // Evenly over the heading; over the position by the plastic number's sequence (Roberts 2018), in the share that a normal
         // distribution has of each place.
         let spread = (0..self.seeds).map(|k| {
             let share = |step: f64| (0.5 + f64::from(k) * step).fract();
-            let heading = SPREAD * ((f64::from(k) + 0.5) / f64::from(self.seeds) * 2.0 - 1.0);
+            let heading = SEARCH_STDS * ((f64::from(k) + 0.5) / f64::from(self.seeds) * 2.0 - 1.0);
             let radius = (-2.0 * ops::ln(1.0 - share(0.754_877_666_246_693))).sqrt();
             let (sin, cos) = ops::sin_cos(core::f64::consts::TAU * share(0.569_840_290_998_053));
             prior.at([heading, radius * cos, radius * sin])
@@ -216,7 +222,7 @@ impl Search for Spread {
         for pose in core::iter::once(*prior.mean()).chain(spread) {
             let log_seed = target.log_thin(&pose, f64::NEG_INFINITY);
             log_seeds.push(log_seed);
-            starts.push(Climb { pose, value: log_seed + prior.log_density(&pose) });
+            starts.push(ScoredPose { pose, value: log_seed + prior.log_density(&pose) });
         }
         starts.sort_by(|a, b| b.value.total_cmp(&a.value));
         starts.truncate(self.climbs);
@@ -224,34 +230,35 @@ impl Search for Spread {
     }
 }
 
-impl Search for Lattice {
+impl Search for CorrelativeSearch {
     /// Starts of which each is worth a climb.
-    fn starts<const FINE: usize>(&self, target: &Target<'_, FINE>) -> (Vec<Climb>, f64) {
-        let start = |pose: Pose2| Climb { pose, value: target.log_posterior(&pose, f64::NEG_INFINITY) };
+    fn starts<const CELLS_PER_NDT: usize>(&self, target: &Target<'_, CELLS_PER_NDT>) -> (Vec<ScoredPose>, f64) {
+        let start = |pose: Pose2| ScoredPose { pose, value: target.log_posterior(&pose, f64::NEG_INFINITY) };
         (self.poses(target).into_iter().map(start).collect(), f64::NEG_INFINITY)
     }
 }
 
-impl Lattice {
+impl CorrelativeSearch {
     /// The best poses of the lattice, apart from each other; none where all of it looks alike.
-    fn poses<const FINE: usize>(&self, target: &Target<'_, FINE>) -> Vec<Pose2> {
+    fn poses<const CELLS_PER_NDT: usize>(&self, target: &Target<'_, CELLS_PER_NDT>) -> Vec<Pose2> {
         let Self { linear, angular, stride, climbs } = *self;
         let Target { prior, likelihood, view, scan, .. } = target;
         // Each of the few beams counts for those left out.
         let few = scan.thinned(stride);
         let share = scan.hits.len() as f64 / few.hits.len().max(1) as f64;
         let mean = prior.mean();
-        let steps = |variance: f64, step: f64, most: f64| (SPREAD * variance.sqrt() / step).ceil().min(most) as i32;
+        let steps =
+            |variance: f64, step: f64, most: f64| (SEARCH_STDS * variance.sqrt() / step).ceil().min(most) as i32;
         let covariance = prior.covariance();
         let [columns, rows] = [covariance.m11, covariance.m22].map(|v| steps(v, linear, MOST_STEPS[0]));
         let turns = steps(covariance.m33, angular, MOST_STEPS[1]);
-        let least = prior.log_density(mean) - 0.5 * SPREAD * SPREAD;
+        let least = prior.log_density(mean) - 0.5 * SEARCH_STDS * SEARCH_STDS;
         let (mut found, mut log_likelihoods) = (Vec::new(), Vec::new());
         for turn in -turns..=turns {
             let theta = ops::wrap_angle(mean.theta + f64::from(turn) * angular);
             // Turned once for all shifts.
             let (sin, cos) = ops::sin_cos(theta);
-            let k = view.per_square();
+            let k = view.per_ndt();
             let turn = |[x, y]: &[f64; 2]| [k * (cos * x - sin * y), k * (sin * x + cos * y)];
             let turned: Vec<[f64; 2]> = few.hits.iter().map(turn).collect();
             for (row, column) in (-rows..=rows).flat_map(|row| (-columns..=columns).map(move |column| (row, column))) {

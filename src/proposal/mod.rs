@@ -11,14 +11,12 @@ mod from_scan;
 pub use fit::{Fit, FitLimits};
 pub use from_measurement::{FromMeasurement, Measured};
 pub use from_motion::{FromMotion, Likelihood, Marginal};
-pub use from_scan::{FromScan, FromScanSettings, Lattice, Search, Spread};
+pub use from_scan::{CorrelativeSearch, FromScan, FromScanSettings, HeadingSeeds, Search};
 
-use crate::error::ParameterError;
 use crate::geometry::Pose2;
 use crate::map::ConditionalMap;
 use crate::random::Stream;
 use crate::rbpf::Particle;
-use core::{fmt, str::FromStr};
 
 /// Draws the next pose of a particle and says what it costs.
 pub trait Proposal<M: ConditionalMap>: Sync {
@@ -85,37 +83,6 @@ impl<M: ConditionalMap, P: Proposal<M>, Q: Proposal<M, Control = P::Control>> Pr
         match self {
             Self::Left(proposal) => proposal.propose(particle, control, observation, stream),
             Self::Right(proposal) => proposal.propose(particle, control, observation, stream),
-        }
-    }
-}
-
-/// The two proposals a reader chooses from.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
-pub enum ProposalKind {
-    /// Measurement-aware: [`FromScan`], [`FromMeasurement`].
-    Aware,
-    /// The motion prior: [`FromMotion`].
-    Motion,
-}
-
-impl fmt::Display for ProposalKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Aware => "aware",
-            Self::Motion => "motion",
-        })
-    }
-}
-
-impl FromStr for ProposalKind {
-    type Err = ParameterError;
-
-    fn from_str(text: &str) -> Result<Self, ParameterError> {
-        match text {
-            "aware" => Ok(Self::Aware),
-            "motion" => Ok(Self::Motion),
-            _ => Err(ParameterError::new("proposal", text, "aware or motion")),
         }
     }
 }

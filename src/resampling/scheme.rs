@@ -1,14 +1,16 @@
 //! How to resample: weights in, ancestor indices out.
 
-use crate::error::ParameterError;
+use crate::error::SettingError;
 use crate::random::Stream;
 use crate::weights::Weights;
-use core::{fmt, str::FromStr};
 
 /// A resampling scheme. All are unbiased: slot i is expected n · w̃ᵢ offspring. They differ in the variance of that number.
 ///
 /// Reference: Douc, Cappé, Moulines, *Comparison of resampling schemes for particle filtering* (2005).
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(
+    Clone, Copy, PartialEq, Eq, Debug, strum::Display, strum::EnumString, strum::VariantNames, strum::VariantArray,
+)]
+#[strum(serialize_all = "lowercase", parse_err_ty = SettingError, parse_err_fn = unknown_scheme)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
 pub enum Scheme {
     /// One uniform shifts a comb of n teeth: ⌊n w̃⌋ or ⌈n w̃⌉ offspring. The low-variance sampler, PR table 4.4.
@@ -19,6 +21,10 @@ pub enum Scheme {
     Multinomial,
     /// ⌊n w̃⌋ offspring for certain, the rest drawn independently by what was cut off.
     Residual,
+}
+
+fn unknown_scheme(given: &str) -> SettingError {
+    SettingError::unknown_word("scheme", given, <Scheme as strum::VariantNames>::VARIANTS)
 }
 
 impl Scheme {
@@ -88,29 +94,4 @@ fn invert(weights: &[f64], points: impl Iterator<Item = f64>) -> Vec<u32> {
             slot as u32
         })
         .collect()
-}
-
-impl fmt::Display for Scheme {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Systematic => "systematic",
-            Self::Stratified => "stratified",
-            Self::Multinomial => "multinomial",
-            Self::Residual => "residual",
-        })
-    }
-}
-
-impl FromStr for Scheme {
-    type Err = ParameterError;
-
-    fn from_str(text: &str) -> Result<Self, ParameterError> {
-        match text {
-            "systematic" => Ok(Self::Systematic),
-            "stratified" => Ok(Self::Stratified),
-            "multinomial" => Ok(Self::Multinomial),
-            "residual" => Ok(Self::Residual),
-            _ => Err(ParameterError::new("scheme", text, "systematic, stratified, multinomial or residual")),
-        }
-    }
 }

@@ -102,7 +102,7 @@ mod tests {
     fn derivatives_match_central_differences() {
         let h = 1e-6;
         for k in 0..200 {
-            let mut stream = Stream::at(4, crate::random::Purpose::Trial, 0, k);
+            let mut stream = Stream::at(4, crate::random::Purpose::TRIAL, 0, k);
             let [x, y, theta, mx, my] = stream.normals();
             let (pose, landmark) = (Pose2::new(3.0 * x, 3.0 * y, 2.0 * theta), Vector2::new(5.0 * mx, 5.0 * my));
             let Prediction { z, h_x, h_m } = SENSOR.predict(&pose, &landmark);

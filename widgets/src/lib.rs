@@ -5,6 +5,7 @@
 mod comma;
 #[cfg(feature = "conditioning")]
 pub mod conditioning;
+pub mod decimal;
 pub mod export;
 pub mod figure;
 pub mod font;

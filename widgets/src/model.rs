@@ -4,11 +4,11 @@
 //! link, a saved figure and a replay are the same thing. Long computations are cut into steps: an action says what is
 //! asked for, [`Model::pending`] how far that is away, and [`Model::work`] goes one step nearer.
 
+use crate::decimal::fixed;
 pub use crate::param::{Choice, Group, Kind, ParamSpec};
 use crate::scene::{Point, Scene};
-use fastslam::decimal::fixed;
-/// Why a value was refused: the parameter, and one line that names it, what was given and what is allowed.
-pub use fastslam::error::ParameterError as FigureError;
+use core::fmt;
+use fastslam::error::SettingError;
 use serde::Serialize;
 
 /// What a reader can do to a figure.
@@ -26,6 +26,36 @@ pub enum Action {
     /// Chooses one of the things drawn (of the lap: the universe of this slot), or lets go of it if it was chosen.
     Pick(u32),
 }
+
+/// Why a value was refused: the parameter, and one line that names it, what was given and what is allowed.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct FigureError {
+    /// Name of the parameter as its reader knows it.
+    pub parameter: String,
+    /// What was given and what is allowed.
+    pub message: String,
+}
+
+impl FigureError {
+    /// `parameter` was given as `value`, where `allowed` names the range or the choices.
+    pub fn new(parameter: &str, value: impl fmt::Display, allowed: impl fmt::Display) -> Self {
+        Self { parameter: parameter.into(), message: format!("{parameter} = {value}: must be {allowed}") }
+    }
+}
+
+impl From<SettingError> for FigureError {
+    fn from(error: SettingError) -> Self {
+        Self { parameter: error.field().into(), message: error.to_string() }
+    }
+}
+
+impl fmt::Display for FigureError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl core::error::Error for FigureError {}
 
 /// A measured quantity of the state shown.
 #[derive(Clone, PartialEq, Debug, Serialize)]

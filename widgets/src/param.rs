@@ -1,8 +1,8 @@
 //! The parameters of a figure: one table that attributes, controls and links are all made from, and the one place where
 //! text from outside becomes a value or a refusal.
 
+use crate::decimal;
 use crate::model::FigureError;
-use fastslam::decimal;
 use serde::Serialize;
 
 /// What values a parameter takes.

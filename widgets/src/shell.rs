@@ -3,7 +3,7 @@
 
 use crate::{figure, job, model::FigureError, paint::Theme, registry};
 use core::cell::RefCell;
-use fastslam::experiment::{Spread, policy_counts::Fraction};
+use fastslam_lab::experiment::{ErrorSummary, policy_counts::Fraction};
 use js_sys::{Array, Error, JSON, Object};
 use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
@@ -62,7 +62,7 @@ pub fn interval(successes: u32, total: u32) -> Vec<f64> {
 /// Of errors: their median, the ends of its 95 % confidence interval, the 90th percentile and the worst.
 #[wasm_bindgen]
 pub fn spread(errors: &[f64]) -> Vec<f64> {
-    let Spread { median, median_interval: [low, high], p90, worst } = Spread::of(errors);
+    let ErrorSummary { median, median_interval: [low, high], p90, worst } = ErrorSummary::of(errors);
     vec![median, low, high, p90, worst]
 }
 

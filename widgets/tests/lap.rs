@@ -4,7 +4,7 @@ mod common;
 
 use common::{assert_texts_fit, figure, scene, state};
 use fastslam_widgets::{
-    fastslam::experiment::{numbers::LapCell, table::rms_best},
+    fastslam_lab::experiment::{numbers::LapCell, table::rms_best},
     figure::Figure,
     job,
     lap::{LapModel, Layout},

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{assert_drawn_inside, assert_texts_fit, figure, scene, state};
-use fastslam::experiment::policies::RIGHT_WITHIN;
+use fastslam_lab::experiment::policies::RIGHT_WITHIN;
 use fastslam_widgets::{
     fastslam,
     figure::Figure,

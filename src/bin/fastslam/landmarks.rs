@@ -1,12 +1,12 @@
 //! `fastslam landmarks`: FastSLAM 1.0 and 2.0 on simulated courses and recorded logs.
 
 use crate::{Failure, mrclam, picture, print, print_json, progress};
-use fastslam::experiment::Spread;
-use fastslam::experiment::landmarks::{
-    Association, Course, LandmarkLog, LandmarkReport, LandmarkRun, LandmarkSetup, Tuning,
-};
-use fastslam::proposal::ProposalKind;
 use fastslam::resampling::ResamplePolicy;
+use fastslam_lab::experiment::ErrorSummary;
+use fastslam_lab::experiment::ProposalKind;
+use fastslam_lab::experiment::landmarks::{
+    CorrespondenceKind, Course, LandmarkLog, LandmarkReport, LandmarkRun, LandmarkSetup, Tuning,
+};
 use indicatif::ParallelProgressIterator;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -26,8 +26,8 @@ pub struct Arguments {
     #[arg(long, default_value = "2.0")]
     proposal: Version,
     /// Whether the filter may read which landmark it sees: known or unknown
-    #[arg(long, default_value_t = LandmarkSetup::default().association)]
-    association: Association,
+    #[arg(long, default_value_t = LandmarkSetup::default().correspondence)]
+    association: CorrespondenceKind,
     /// When to resample: never, always or neff:F, where N_eff < F M
     #[arg(long, default_value_t = LandmarkSetup::default().policy)]
     policy: ResamplePolicy,
@@ -58,7 +58,7 @@ impl std::str::FromStr for Version {
     fn from_str(text: &str) -> Result<Self, String> {
         match text {
             "1.0" => Ok(Self(ProposalKind::Motion)),
-            "2.0" => Ok(Self(ProposalKind::Aware)),
+            "2.0" => Ok(Self(ProposalKind::Improved)),
             _ => Err("must be 1.0 or 2.0".to_owned()),
         }
     }
@@ -95,15 +95,15 @@ struct Summary {
     /// Where the noises that the filters are told come from.
     noises: &'static str,
     /// RMS over the steps of the errors of the weighted mean, each when it was made.
-    online: Spread,
+    online: ErrorSummary,
     /// The same of EKF-SLAM on the same drives.
-    ekf: Spread,
+    ekf: ErrorSummary,
     /// RMS of the best particle's path at the end.
-    best: Spread,
+    best: ErrorSummary,
     /// The same after the best rigid alignment.
-    best_aligned: Spread,
+    best_aligned: ErrorSummary,
     /// RMS of raw odometry.
-    odometry: Spread,
+    odometry: ErrorSummary,
 }
 
 /// Where runs get their drive from: a simulation makes one for each seed, a log is the same for all.
@@ -146,7 +146,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         particles: arguments.particles,
         seed,
         proposal: arguments.proposal.0,
-        association: arguments.association,
+        correspondence: arguments.association,
         policy: arguments.policy,
         ..LandmarkSetup::default()
     };
@@ -240,7 +240,7 @@ fn one(arguments: &Arguments, mut run: LandmarkRun, rms_ekf: f64, noises: &'stat
 }
 
 fn many(arguments: &Arguments, errors: &[Errors], noises: &'static str) -> Result<(), Failure> {
-    let spread = |of: &dyn Fn(&Errors) -> f64| Spread::of(&errors.iter().map(of).collect::<Vec<f64>>());
+    let spread = |of: &dyn Fn(&Errors) -> f64| ErrorSummary::of(&errors.iter().map(of).collect::<Vec<f64>>());
     let summary = Summary {
         seeds: errors.len(),
         noises,
@@ -253,7 +253,7 @@ fn many(arguments: &Arguments, errors: &[Errors], noises: &'static str) -> Resul
     if arguments.json {
         return print_json(&summary);
     }
-    let row = |name: &str, Spread { median, p90, worst, .. }: &Spread| {
+    let row = |name: &str, ErrorSummary { median, p90, worst, .. }: &ErrorSummary| {
         format!("{name:34}{median:8.3} m median, {p90:.3} m p90, {worst:.3} m worst\n")
     };
     print(

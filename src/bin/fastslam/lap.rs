@@ -1,10 +1,10 @@
 //! `fastslam lap`: one lap of the apartment, or of the ring.
 
 use crate::{Failure, picture, print, print_json};
-use fastslam::experiment::lap::{Course, Lap, LapSetup, StepReport};
 use fastslam::matching::Matcher;
-use fastslam::proposal::ProposalKind;
 use fastslam::resampling::{ResamplePolicy, Scheme};
+use fastslam_lab::experiment::ProposalKind;
+use fastslam_lab::experiment::lap::{Course, Lap, LapSetup, StepReport};
 use fastslam_widgets::{figure::Figure, paint::Theme};
 use serde::Serialize;
 use std::path::{Path, PathBuf};

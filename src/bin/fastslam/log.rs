@@ -2,11 +2,13 @@
 
 use crate::{Failure, picture, print, print_json, progress};
 use cpu_time::ProcessTime;
-use fastslam::experiment::log::{Example, LogRun, LogSetup, memory_estimate};
-use fastslam::experiment::log_files::{Picture, trajectory};
 use fastslam::geometry::Pose2;
-use fastslam::log::{LaserLog, LogError, Notes, RelationErrors, parse, parse_relations, relation_errors, write};
+use fastslam::log::{
+    LaserLog, LogError, Notes, RelationErrors, parse, parse_relations, relation_errors, write, write_tum,
+};
 use fastslam::map::Footprint;
+use fastslam::map::grid::MapImage;
+use fastslam_lab::experiment::log::{Example, LogRun, LogSetup, memory_estimate};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::io::Read;
@@ -283,10 +285,10 @@ impl Outputs {
     fn write(&self, run: &LogRun, path: &[(f64, Pose2)]) -> Result<(), Failure> {
         let save = |path: &Path, bytes: &[u8]| std::fs::write(path, bytes).map_err(|error| Failure::file(path, error));
         if let Some(file) = &self.trajectory {
-            save(file, trajectory(run).as_bytes())?;
+            save(file, write_tum(&run.path()).as_bytes())?;
         }
         if let Some([png, pgm, yaml]) = &self.map {
-            let map = Picture::of(run);
+            let map = MapImage::of(run.map());
             picture::save_map(&map, path, png)?;
             save(pgm, &map.pgm())?;
             save(yaml, map.yaml(&pgm.file_name().unwrap_or_default().to_string_lossy()).as_bytes())?;

@@ -12,7 +12,8 @@ mod table;
 mod variants;
 
 use clap::Parser;
-use fastslam::error::ParameterError;
+use fastslam::error::SettingError;
+use fastslam_widgets::model::FigureError;
 use std::process::ExitCode;
 
 /// Rao-Blackwellized particle filters for SLAM: the chapter's laps and tables, native and with the same bits as in the browser.
@@ -59,8 +60,14 @@ impl Failure {
     }
 }
 
-impl From<ParameterError> for Failure {
-    fn from(error: ParameterError) -> Self {
+impl From<SettingError> for Failure {
+    fn from(error: SettingError) -> Self {
+        Self::Usage(error.to_string())
+    }
+}
+
+impl From<FigureError> for Failure {
+    fn from(error: FigureError) -> Self {
         Self::Usage(error.to_string())
     }
 }

@@ -2,12 +2,12 @@
 //! true path by motion capture.
 
 use crate::Failure;
-use fastslam::experiment::landmarks::{LandmarkLog, Tuning};
 use fastslam::geometry::Pose2;
 use fastslam::map::landmarks::Gate;
 use fastslam::motion::{Velocity, VelocityModel};
 use fastslam::ops;
 use fastslam::sensor::{Feature, RangeBearing};
+use fastslam_lab::experiment::landmarks::{LandmarkLog, Tuning};
 use nalgebra::Vector2;
 use std::path::{Path, PathBuf};
 

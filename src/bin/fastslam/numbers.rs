@@ -2,7 +2,7 @@
 
 use crate::{Failure, progress};
 use fastslam::execute::Executor;
-use fastslam::experiment::numbers::{Errors, FIRST_SEEDS, Number, Recipe, owner, recipes};
+use fastslam_lab::experiment::numbers::{Errors, FIRST_SEEDS, Number, Recipe, owner, recipes};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::to_string as json;

@@ -1,10 +1,10 @@
 //! Pictures for files, by the painter of the figures.
 
 use crate::Failure;
-use fastslam::experiment::landmarks::LandmarkRun;
-use fastslam::experiment::log_files::Picture;
 use fastslam::geometry::Pose2;
+use fastslam::map::grid::MapImage;
 use fastslam::map::landmarks::Landmark;
+use fastslam_lab::experiment::landmarks::LandmarkRun;
 use fastslam_widgets::font::Weight;
 use fastslam_widgets::paint::{Canvas, Theme};
 use fastslam_widgets::scene::{Anchor, Mark, Point, Rect, Role, Scene, closed, ellipse, text};
@@ -90,7 +90,7 @@ pub fn save(canvas: &Canvas, path: &Path) -> Result<(), Failure> {
 }
 
 /// Writes a map with the path on it as PNG, one pixel a cell.
-pub fn save_map(map: &Picture, path: &[(f64, Pose2)], file: &Path) -> Result<(), Failure> {
+pub fn save_map(map: &MapImage, path: &[(f64, Pose2)], file: &Path) -> Result<(), Failure> {
     /// Red, green, blue of the path.
     const PATH: [u8; 3] = [190, 60, 30];
     let [width, height] = [map.width, map.height].map(|side| side as usize);

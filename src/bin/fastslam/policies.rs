@@ -1,9 +1,9 @@
 //! `fastslam policies`: when to resample, over many seeds.
 
 use crate::{Failure, print, print_json, progress};
-use fastslam::experiment::policies::{PoliciesSetup, PolicyCourse};
-use fastslam::experiment::policy_counts::{Fraction, PolicySummary, outcomes, summary};
 use fastslam::resampling::Scheme;
+use fastslam_lab::experiment::policies::{PoliciesSetup, PolicyCourse};
+use fastslam_lab::experiment::policy_counts::{Fraction, PolicySummary, outcomes, summary};
 use indicatif::ParallelProgressIterator;
 use rayon::prelude::*;
 use serde::Serialize;

@@ -1,13 +1,13 @@
 //! `fastslam ring`: what a filter keeps until a loop closes, over many seeds.
 
 use crate::{Failure, print, print_json, progress};
-use fastslam::error::ParameterError;
-use fastslam::experiment::lap::{Course, LapSetup};
-use fastslam::experiment::quantile;
-use fastslam::experiment::ring::{AFTER, NoiseProbe, PriceNoise, RingRun, RingSetup, median, price_noise};
+use fastslam::error::SettingError;
 use fastslam::matching::Matcher;
-use fastslam::proposal::ProposalKind;
 use fastslam::resampling::{ResamplePolicy, Scheme};
+use fastslam_lab::experiment::ProposalKind;
+use fastslam_lab::experiment::lap::{Course, LapSetup};
+use fastslam_lab::experiment::quantile;
+use fastslam_lab::experiment::ring::{AFTER, NoiseProbe, PriceNoise, RingRun, RingSetup, median, price_noise};
 use indicatif::ParallelProgressIterator;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -112,7 +112,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// In the order of the seeds, which are spread over the threads.
-fn sweep<T: Send>(seeds: u64, run: impl Fn(u64) -> Result<T, ParameterError> + Sync + Send) -> Result<Vec<T>, Failure> {
+fn sweep<T: Send>(seeds: u64, run: impl Fn(u64) -> Result<T, SettingError> + Sync + Send) -> Result<Vec<T>, Failure> {
     let bar = progress(seeds as usize, "seeds");
     let runs: Result<Vec<T>, _> =
         (1..seeds + 1).collect::<Vec<u64>>().into_par_iter().progress_with(bar).map(run).collect();

@@ -1,10 +1,10 @@
 //! `fastslam table`: errors over many seeds, whole or in shards.
 
 use crate::{Failure, print, print_json, progress};
-use fastslam::experiment::lap::{Course, LapSetup};
-use fastslam::experiment::table::{LapResult, PARTICLES, Row, rows};
 use fastslam::matching::Matcher;
-use fastslam::proposal::ProposalKind;
+use fastslam_lab::experiment::ProposalKind;
+use fastslam_lab::experiment::lap::{Course, LapSetup};
+use fastslam_lab::experiment::table::{LapResult, PARTICLES, Row, rows};
 use indicatif::ParallelProgressIterator;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -96,7 +96,7 @@ fn sweep(arguments: &Arguments) -> Result<Vec<LapResult>, Failure> {
     let mut setups = Vec::new();
     for seed in 1..=arguments.seeds {
         for &matcher in &arguments.matcher.0 {
-            for proposal in [ProposalKind::Aware, ProposalKind::Motion] {
+            for proposal in [ProposalKind::Improved, ProposalKind::Motion] {
                 let setup = |particles| LapSetup {
                     course: arguments.course,
                     particles,

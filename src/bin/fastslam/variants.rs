@@ -2,9 +2,9 @@
 
 use crate::{Failure, print, print_json, progress};
 use cpu_time::ThreadTime;
-use fastslam::experiment::Spread;
-use fastslam::experiment::variants::{Variant, VariantRun, variants};
 use fastslam::log::RelationErrors;
+use fastslam_lab::experiment::ErrorSummary;
+use fastslam_lab::experiment::variants::{Variant, VariantRun, variants};
 use indicatif::ParallelProgressIterator;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -40,13 +40,13 @@ struct Row {
     name: &'static str,
     title: &'static str,
     /// Over the seeds, means over the relations \[m\].
-    translation: Spread,
+    translation: ErrorSummary,
     /// The same \[deg\].
-    rotation_deg: Spread,
+    rotation_deg: ErrorSummary,
     /// Median over the seeds of the share of steps that resampled.
     resampled_fraction: f64,
     /// Over the seeds, for each scan taken and particle \[ms\].
-    cpu_ms: Spread,
+    cpu_ms: ErrorSummary,
     /// One a seed.
     runs: Vec<Run>,
 }
@@ -111,7 +111,7 @@ fn one(variant: &Variant, particles: usize, seed: u64) -> Result<Run, Failure> {
 }
 
 fn row(variant: &Variant, runs: &[Run]) -> Row {
-    let spread = |f: &dyn Fn(&Run) -> f64| Spread::of(&runs.iter().map(f).collect::<Vec<_>>());
+    let spread = |f: &dyn Fn(&Run) -> f64| ErrorSummary::of(&runs.iter().map(f).collect::<Vec<_>>());
     Row {
         name: variant.name,
         title: variant.title,

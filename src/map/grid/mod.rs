@@ -1,27 +1,30 @@
 //! An occupancy grid that a resampling clones for nothing: two levels of copy-on-write.
 //!
-//! A [`Grid`] holds one shared pointer to a directory, and the directory one to each tile of 8 × 8 squares. Cloning a grid copies
+//! A [`Grid`] holds one shared pointer to a directory, and the directory one to each tile of 8 × 8 NDT cells. Cloning a grid copies
 //! one pointer. The first write afterwards copies the directory, which is a pointer for each tile of the map's rectangle, and each
 //! tile when it is first written to. Of what the map holds, a scan therefore copies only the tiles it changes.
 //!
 //! Each cell keeps its log-odds of being occupied, updated by the inverse sensor model (*Probabilistic Robotics*, table 9.1).
-//! Each square of FINE × FINE cells keeps the normal distribution of the end points that fell into it, its `Surface`: the
+//! Each square of CELLS_PER_NDT × CELLS_PER_NDT cells keeps the normal distribution of the end points that fell into it, its `NdtCell`: the
 //! normal distributions transform of Biber and Straßer (2003). The first knows which cell an end point is in; the second
-//! knows where in the square the wall is, and which way it runs. With cells as wide as a wall is looked for, a square is one
+//! knows where in the NDT cell the wall is, and which way it runs. With cells as wide as a wall is looked for, a NDT cell is one
 //! cell; with finer cells it must be wider, or it holds too few points to tell a wall's direction.
 
-mod ray;
+mod image;
+mod local_map;
+mod ray_trace;
 mod tile;
-mod view;
 
-pub(crate) use tile::{FAR, UNIT};
-use tile::{Surface, TILE};
-pub(crate) use view::View;
+pub(crate) use local_map::LocalMap;
+pub(crate) use tile::{MAX_DISTANCE, UNIT};
+use tile::{NdtCell, TILE};
+
+pub use image::MapImage;
 
 use super::{ConditionalMap, Footprint};
-use crate::digest::Digest;
 use crate::geometry::Pose2;
 use crate::sensor::Scan;
+use core::hash::Hasher;
 use std::sync::Arc;
 use tile::Tile;
 
@@ -59,69 +62,69 @@ pub struct GridModel {
     pub log_odds_hit: f64,
     /// Added to the log-odds of a cell that beams only passed through \[nats\], negative.
     pub log_odds_pass: f64,
-    /// Standard deviation \[m\] of the two pseudo-hits that every surface begins with: what one hit alone is trusted for.
-    pub surface_std: f64,
-    /// How many times further than its end points a surface reaches along itself: 1 or more. A wall goes on from square to square,
+    /// Standard deviation \[m\] of the two pseudo-hits that every NDT cell begins with: what one hit alone is trusted for.
+    pub ndt_std: f64,
+    /// How many times further than its end points a NDT cell reaches along itself: 1 or more. A wall goes on from NDT cell to NDT cell,
     /// but a normal distribution in each is a string of beads: between two of them, even the right pose fits badly.
-    pub surface_stretch: f64,
+    pub ndt_stretch: f64,
     /// How many scans old [`Grid::past`] is, at the least; with 0 no past is kept, and it is the present.
     pub lag: u32,
-    /// How many squares away a surface is felt by a coarse search, 0 to 2.
+    /// How many NDT cells away a NDT cell is felt by a coarse search, 0 to 2.
     pub reach: u32,
 }
 
-/// Occupancy in cells of `cell_size` and surfaces in squares of FINE × FINE cells, growing to wherever scans reach.
+/// Occupancy in cells of `cell_size` and NDT cells in NDT cells of CELLS_PER_NDT × CELLS_PER_NDT cells, growing to wherever scans reach.
 ///
 /// Cell (i, j) covers [i s, (i + 1) s) × [j s, (j + 1) s) of the world frame.
 #[derive(Clone, Debug)]
-pub struct Grid<const FINE: usize = 1> {
+pub struct Grid<const CELLS_PER_NDT: usize = 1> {
     model: GridModel,
     /// 1 / cell_size \[1/m\].
     per_cell: f64,
-    /// Side of a square \[m\].
-    square_size: f64,
-    /// 1 / square_size \[1/m\].
-    per_square: f64,
-    directory: Arc<Directory<FINE>>,
+    /// Side of a NDT cell \[m\].
+    ndt_size: f64,
+    /// 1 / ndt_size \[1/m\].
+    per_ndt: f64,
+    directory: Arc<Directory<CELLS_PER_NDT>>,
     /// Scans mapped so far.
     scans: u32,
     /// The directory as it was after so many scans, oldest first: what [`Grid::past`] is now, and what it will be.
-    past: Vec<(u32, Arc<Directory<FINE>>)>,
+    past: Vec<(u32, Arc<Directory<CELLS_PER_NDT>>)>,
 }
 
 /// The upper level: a rectangle of tiles. `None` is a tile nobody has written to.
 #[derive(Clone, Debug)]
-struct Directory<const FINE: usize> {
+struct Directory<const CELLS_PER_NDT: usize> {
     /// In tiles.
     rect: CellRect,
-    tiles: Vec<Option<Arc<Tile<FINE>>>>,
+    tiles: Vec<Option<Arc<Tile<CELLS_PER_NDT>>>>,
 }
 
-impl<const FINE: usize> Grid<FINE> {
-    /// Cells along a side of a square.
-    const SQUARE: i32 = FINE as i32;
+impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
+    /// Cells along a side of a NDT cell.
+    const NDT: i32 = CELLS_PER_NDT as i32;
 
     /// Cells along a side of a tile.
-    pub const TILE_CELLS: i32 = TILE * Self::SQUARE;
+    pub const TILE_CELLS: i32 = TILE * Self::NDT;
 
     /// An unknown world.
     pub fn new(model: GridModel) -> Self {
-        let square_size = FINE as f64 * model.cell_size;
+        let ndt_size = CELLS_PER_NDT as f64 * model.cell_size;
         let directory = Directory { rect: CellRect::default(), tiles: Vec::new() }.into();
         Self {
             model,
             per_cell: 1.0 / model.cell_size,
-            square_size,
-            per_square: 1.0 / square_size,
+            ndt_size,
+            per_ndt: 1.0 / ndt_size,
             directory,
             scans: 0,
             past: Vec::new(),
         }
     }
 
-    /// Bytes of a tile with so many surfaces.
-    pub fn tile_bytes(surfaces: usize) -> usize {
-        tile::bytes::<FINE>(surfaces)
+    /// Bytes of a tile with so many NDT cells.
+    pub fn tile_bytes(ndt_cells: usize) -> usize {
+        tile::bytes::<CELLS_PER_NDT>(ndt_cells)
     }
 
     /// The map as it was [`GridModel::lag`] scans ago, up to one and a half times that; before that, as it was when it was
@@ -167,18 +170,18 @@ impl<const FINE: usize> Grid<FINE> {
         f64::from(self.units(i, j)) * tile::UNIT
     }
 
-    /// Mean of the end points in a square \[m\], world frame.
-    pub fn hit_mean(&self, i: i32, j: i32) -> Option<[f64; 2]> {
-        let surface = self.surface(i, j)?;
-        let center = |k: i32| (f64::from(k) + 0.5) * self.square_size;
-        Some([center(i) + f64::from(surface.mean[0]), center(j) + f64::from(surface.mean[1])])
+    /// Mean of the end points in a NDT cell \[m\], world frame.
+    pub fn ndt_mean(&self, i: i32, j: i32) -> Option<[f64; 2]> {
+        let ndt_cell = self.ndt_cell(i, j)?;
+        let center = |k: i32| (f64::from(k) + 0.5) * self.ndt_size;
+        Some([center(i) + f64::from(ndt_cell.mean[0]), center(j) + f64::from(ndt_cell.mean[1])])
     }
 
     /// Log-odds in their stored units of [`UNIT`] nats.
     #[inline]
     pub(crate) fn units(&self, i: i32, j: i32) -> i8 {
-        let [si, sj] = [i, j].map(|k| k.div_euclid(Self::SQUARE));
-        let [di, dj] = [i, j].map(|k| k.rem_euclid(Self::SQUARE) as usize);
+        let [si, sj] = [i, j].map(|k| k.div_euclid(Self::NDT));
+        let [di, dj] = [i, j].map(|k| k.rem_euclid(Self::NDT) as usize);
         self.directory.tile(si >> tile::SHIFT, sj >> tile::SHIFT).map_or(0, |t| t.log_odds[tile::local(si, sj)][dj][di])
     }
 
@@ -188,27 +191,29 @@ impl<const FINE: usize> Grid<FINE> {
         (floor(x * self.per_cell), floor(y * self.per_cell))
     }
 
-    /// The surface of a square, relative to its centre.
+    /// The NDT cell of a NDT cell, relative to its centre.
     #[inline]
-    fn surface(&self, i: i32, j: i32) -> Option<&Surface> {
-        self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT)?.surface(tile::local(i, j))
+    fn ndt_cell(&self, i: i32, j: i32) -> Option<&NdtCell> {
+        self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT)?.ndt_cell(tile::local(i, j))
     }
 
-    /// How many squares away the surface nearest to a square is: 0 where it was hit, [`FAR`] where none is near.
-    pub(crate) fn nearness(&self, i: i32, j: i32) -> usize {
-        self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT).map_or(FAR, |tile| tile.nearness(tile::local(i, j)))
+    /// How many NDT cells away the NDT cell nearest to a NDT cell is: 0 where it was hit, [`MAX_DISTANCE`] where none is near.
+    pub(crate) fn distance(&self, i: i32, j: i32) -> usize {
+        self.directory
+            .tile(i >> tile::SHIFT, j >> tile::SHIFT)
+            .map_or(MAX_DISTANCE, |tile| tile.distance(tile::local(i, j)))
     }
 
-    /// Tells the squares around one with a new surface.
-    fn mark_near(&mut self, i: i32, j: i32) {
+    /// Tells the NDT cells around one with a new NDT cell.
+    fn lower_distance(&mut self, i: i32, j: i32) {
         let reach = self.model.reach as i32;
         for (di, dj) in (-reach..=reach).flat_map(|dj| (-reach..=reach).map(move |di| (di, dj))) {
             let squares = di.abs().max(dj.abs()) as usize;
             let (i, j) = (i + di, j + dj);
-            if squares < self.nearness(i, j)
+            if squares < self.distance(i, j)
                 && let Some(tile) = self.tile_mut(i >> tile::SHIFT, j >> tile::SHIFT)
             {
-                tile.mark_near(tile::local(i, j), squares);
+                tile.lower_distance(tile::local(i, j), squares);
             }
         }
     }
@@ -220,7 +225,8 @@ impl<const FINE: usize> Grid<FINE> {
     pub fn footprint<'a>(grids: impl IntoIterator<Item = &'a Self>) -> Footprint {
         const POINTER: usize = 8;
         let grids: Vec<&Self> = grids.into_iter().collect();
-        let dense: usize = grids.iter().map(|grid| grid.directory.tiles.len() * Tile::<FINE>::DENSE_BYTES).sum();
+        let dense: usize =
+            grids.iter().map(|grid| grid.directory.tiles.len() * Tile::<CELLS_PER_NDT>::DENSE_BYTES).sum();
         let directories = distinct(grids.into_iter().flat_map(Self::directories).collect());
         let pointers: usize = directories.iter().map(|d| d.tiles.len() * POINTER).sum();
         let tiles = distinct(directories.iter().flat_map(|d| d.tiles.iter().flatten()).collect());
@@ -228,29 +234,33 @@ impl<const FINE: usize> Grid<FINE> {
         Footprint { unique: unique as u64, dense: dense as u64 }
     }
 
-    /// Puts all that these grids hold into a fingerprint: the log-odds of every cell, and every surface. A tile that several of
-    /// them share is read once, so that a family of maps costs what its [`Self::footprint`] is and not so many copies.
-    pub fn put<'a>(grids: impl IntoIterator<Item = &'a Self>, digest: &mut Digest) {
+    /// Puts all that these grids hold into a fingerprint: the log-odds of every cell, and every NDT cell, bit for bit. A tile that
+    /// several of them share is read once, so that a family of maps costs what its [`Self::footprint`] is and not so many copies.
+    pub fn hash_all<'a, H: Hasher + Default>(grids: impl IntoIterator<Item = &'a Self>, hasher: &mut H) {
         let mut known = std::collections::BTreeMap::new();
         for Directory { rect, tiles } in grids.into_iter().flat_map(Self::directories).map(|directory| &**directory) {
-            [rect.i0, rect.j0, rect.i1, rect.j1].into_iter().for_each(|k| digest.bytes(&k.to_le_bytes()));
+            [rect.i0, rect.j0, rect.i1, rect.j1].into_iter().for_each(|k| hasher.write(&k.to_le_bytes()));
             for tile in tiles {
-                let value = |tile: &Arc<Tile<FINE>>| {
-                    *known.entry(Arc::as_ptr(tile).addr()).or_insert_with(|| tile.digest().value())
+                let value = |tile: &Arc<Tile<CELLS_PER_NDT>>| {
+                    *known.entry(Arc::as_ptr(tile).addr()).or_insert_with(|| {
+                        let mut hasher = H::default();
+                        tile.hash_into(&mut hasher);
+                        hasher.finish()
+                    })
                 };
-                digest.bytes(&tile.as_ref().map_or(0, value).to_le_bytes());
+                hasher.write(&tile.as_ref().map_or(0, value).to_le_bytes());
             }
         }
     }
 
     /// Of the present and of the past.
-    fn directories(&self) -> impl Iterator<Item = &Arc<Directory<FINE>>> {
+    fn directories(&self) -> impl Iterator<Item = &Arc<Directory<CELLS_PER_NDT>>> {
         core::iter::once(&self.directory).chain(self.past.iter().map(|(_, directory)| directory))
     }
 
     // ANCHOR: listing-tile
     /// A tile, made its own and allocated if need be; `None` where the directory does not reach.
-    fn tile_mut(&mut self, ti: i32, tj: i32) -> Option<&mut Tile<FINE>> {
+    fn tile_mut(&mut self, ti: i32, tj: i32) -> Option<&mut Tile<CELLS_PER_NDT>> {
         let directory = Arc::make_mut(&mut self.directory);
         let index = directory.index(ti, tj)?;
         Some(Arc::make_mut(directory.tiles[index].get_or_insert_default()))
@@ -259,19 +269,19 @@ impl<const FINE: usize> Grid<FINE> {
 }
 
 /// What a scan is held against.
-pub(crate) trait Surfaces {
+pub(crate) trait NdtField {
     /// Log-odds of the cell of a point \[m\], in [`UNIT`]s.
     fn units_at(&self, x: f64, y: f64) -> i8;
 
-    /// What is known at a point \[m\]: the smallest squared Mahalanobis distance to the surfaces of the four squares whose
+    /// What is known at a point \[m\]: the smallest squared Mahalanobis distance to the NDT cells of the four NDT cells whose
     /// centres are nearest, infinite where none of them was hit, and the log-odds of the middle of
-    /// its own square in [`UNIT`]s.
+    /// its own NDT cell in [`UNIT`]s.
     ///
-    /// The four squares contain everything within half a square of the point.
-    fn nearest_surface(&self, x: f64, y: f64) -> (f64, i8);
+    /// The four NDT cells contain everything within half a square of the point.
+    fn nearest_ndt(&self, x: f64, y: f64) -> (f64, i8);
 }
 
-impl<const FINE: usize> Surfaces for Grid<FINE> {
+impl<const CELLS_PER_NDT: usize> NdtField for Grid<CELLS_PER_NDT> {
     #[inline]
     fn units_at(&self, x: f64, y: f64) -> i8 {
         let (i, j) = self.cell_of(x, y);
@@ -279,39 +289,40 @@ impl<const FINE: usize> Surfaces for Grid<FINE> {
     }
 
     #[inline]
-    fn nearest_surface(&self, x: f64, y: f64) -> (f64, i8) {
-        let (u, v) = (x * self.per_square - 0.5, y * self.per_square - 0.5);
+    fn nearest_ndt(&self, x: f64, y: f64) -> (f64, i8) {
+        let (u, v) = (x * self.per_ndt - 0.5, y * self.per_ndt - 0.5);
         let (i, j) = (fast_floor(u), fast_floor(v));
-        // In squares from the centre of square (i, j), 0 to 1: its own square is the right one of each pair from one half on.
+        // In NDT cells from the centre of NDT cell (i, j), 0 to 1: its own NDT cell is the right one of each pair from one half on.
         let (du, dv) = (u - f64::from(i), v - f64::from(j));
         let (own_i, own_j) = (i32::from(du >= 0.5), i32::from(dv >= 0.5));
-        // Single precision is what surfaces are kept in.
-        let size = self.square_size as f32;
+        // Single precision is what NDT cells are kept in.
+        let size = self.ndt_size as f32;
         let (x, y) = (du as f32 * size, dv as f32 * size);
         let mut nearest = f32::INFINITY;
-        let mut consider = |surface: Option<&Surface>, x: f32, y: f32| {
-            if let Some(surface) = surface {
-                let d2 = surface.mahalanobis2(x, y);
+        let mut consider = |ndt_cell: Option<&NdtCell>, x: f32, y: f32| {
+            if let Some(ndt_cell) = ndt_cell {
+                let d2 = ndt_cell.mahalanobis2(x, y);
                 nearest = if d2 < nearest { d2 } else { nearest };
             }
         };
         let inner = |k: i32| k & (TILE - 1) != TILE - 1;
-        let cell = |tile: &Tile<FINE>, local: usize| tile.log_odds[local][FINE / 2][FINE / 2];
+        let cell =
+            |tile: &Tile<CELLS_PER_NDT>, local: usize| tile.log_odds[local][CELLS_PER_NDT / 2][CELLS_PER_NDT / 2];
         let units = if inner(i) && inner(j) {
             // The four lie in one tile: look it up once.
             let Some(tile) = self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT) else { return (f64::INFINITY, 0) };
             let first = tile::local(i, j);
-            consider(tile.surface(first), x, y);
-            consider(tile.surface(first + 1), x - size, y);
-            consider(tile.surface(first + TILE as usize), x, y - size);
-            consider(tile.surface(first + TILE as usize + 1), x - size, y - size);
+            consider(tile.ndt_cell(first), x, y);
+            consider(tile.ndt_cell(first + 1), x - size, y);
+            consider(tile.ndt_cell(first + TILE as usize), x, y - size);
+            consider(tile.ndt_cell(first + TILE as usize + 1), x - size, y - size);
             cell(tile, first + (own_i + own_j * TILE) as usize)
         } else {
             let (right, above) = (i.wrapping_add(1), j.wrapping_add(1));
-            consider(self.surface(i, j), x, y);
-            consider(self.surface(right, j), x - size, y);
-            consider(self.surface(i, above), x, y - size);
-            consider(self.surface(right, above), x - size, y - size);
+            consider(self.ndt_cell(i, j), x, y);
+            consider(self.ndt_cell(right, j), x - size, y);
+            consider(self.ndt_cell(i, above), x, y - size);
+            consider(self.ndt_cell(right, above), x - size, y - size);
             let (i, j) = (i.wrapping_add(own_i), j.wrapping_add(own_j));
             self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT).map_or(0, |tile| cell(tile, tile::local(i, j)))
         };
@@ -326,7 +337,7 @@ fn distinct<T>(mut shared: Vec<&Arc<T>>) -> Vec<&Arc<T>> {
     shared
 }
 
-impl<const FINE: usize> Directory<FINE> {
+impl<const CELLS_PER_NDT: usize> Directory<CELLS_PER_NDT> {
     #[inline]
     fn index(&self, ti: i32, tj: i32) -> Option<usize> {
         let CellRect { i0, j0, i1, j1 } = self.rect;
@@ -337,7 +348,7 @@ impl<const FINE: usize> Directory<FINE> {
     }
 
     #[inline]
-    fn tile(&self, ti: i32, tj: i32) -> Option<&Tile<FINE>> {
+    fn tile(&self, ti: i32, tj: i32) -> Option<&Tile<CELLS_PER_NDT>> {
         self.tiles.get(self.index(ti, tj)?)?.as_deref()
     }
 
@@ -367,7 +378,7 @@ impl<const FINE: usize> Directory<FINE> {
     }
 }
 
-impl<const FINE: usize> ConditionalMap for Grid<FINE> {
+impl<const CELLS_PER_NDT: usize> ConditionalMap for Grid<CELLS_PER_NDT> {
     type Observation = Scan;
     type Association = ();
 
@@ -375,9 +386,9 @@ impl<const FINE: usize> ConditionalMap for Grid<FINE> {
     /// at a grazing angle would be erased by the beams that pass along it. A cell that a beam ended in counts as hit.
     fn assimilate(&mut self, world_from_robot: &Pose2, scan: &Scan, (): &()) {
         self.remember();
-        let marks = ray::trace(world_from_robot, scan, self.model.cell_size, Self::TILE_CELLS);
+        let marks = ray_trace::trace(world_from_robot, scan, self.model.cell_size, Self::TILE_CELLS);
         let Some(window) = marks.window() else { return };
-        // What is marked around a surface may lie in the next tile.
+        // What is marked around a NDT cell may lie in the next tile.
         let margin = i32::from(self.model.reach > 0);
         let CellRect { i0, j0, i1, j1 } = window;
         let needed = CellRect { i0: i0 - margin, j0: j0 - margin, i1: i1 + margin, j1: j1 + margin };
@@ -389,19 +400,19 @@ impl<const FINE: usize> ConditionalMap for Grid<FINE> {
         let add = [0, pass, hit]; // by mark
         let side = Self::TILE_CELLS as usize;
         for (ti, tj, block) in marks.tiles() {
-            // Rows of one square's cells, with their marks.
+            // Rows of one NDT cell's cells, with their marks.
             let rows = block.chunks(marks.side as usize).map(|row| &row[..side]).take(side).enumerate();
-            let rows = rows.filter(|(_, marks)| marks.iter().any(|mark| *mark != ray::UNTOUCHED));
+            let rows = rows.filter(|(_, marks)| marks.iter().any(|mark| *mark != ray_trace::UNTOUCHED));
             let rows = rows.flat_map(|(row, marks)| {
-                let squares = marks.chunks_exact(FINE).zip(row / FINE * TILE as usize..);
-                squares.map(move |(marks, local)| (local, row % FINE, marks))
+                let squares = marks.chunks_exact(CELLS_PER_NDT).zip(row / CELLS_PER_NDT * TILE as usize..);
+                squares.map(move |(marks, local)| (local, row % CELLS_PER_NDT, marks))
             });
             // Look before writing: a tile in which nothing would change stays shared.
             let before = self.directory.tile(ti, tj);
             let changes = rows.clone().any(|(local, row, marks)| {
                 let changes = |(column, mark): (usize, &u8)| match *mark {
-                    ray::HIT => true,
-                    ray::PASSED => before.is_none_or(|tile| tile.log_odds[local][row][column] > i8::MIN + 1),
+                    ray_trace::HIT => true,
+                    ray_trace::PASSED => before.is_none_or(|tile| tile.log_odds[local][row][column] > i8::MIN + 1),
                     _ => false,
                 };
                 marks.iter().enumerate().any(changes)
@@ -417,17 +428,17 @@ impl<const FINE: usize> ConditionalMap for Grid<FINE> {
             }
         }
         // ANCHOR_END: map
-        let size = self.square_size;
-        let [surface_std, stretch] = [self.model.surface_std, self.model.surface_stretch].map(|c| c as f32);
+        let size = self.ndt_size;
+        let [ndt_std, stretch] = [self.model.ndt_std, self.model.ndt_stretch].map(|c| c as f32);
         for &([x, y], i, j) in &marks.hits {
-            let [i, j] = [i, j].map(|k| k.div_euclid(Self::SQUARE));
+            let [i, j] = [i, j].map(|k| k.div_euclid(Self::NDT));
             let center = |k: i32| (f64::from(k) + 0.5) * size;
             let offset = [(x - center(i)) as f32, (y - center(j)) as f32];
             let tile =
                 self.tile_mut(i >> tile::SHIFT, j >> tile::SHIFT).expect("the directory was grown to cover the scan");
-            let first = tile.add_hit(tile::local(i, j), offset, surface_std, stretch);
+            let first = tile.add_hit(tile::local(i, j), offset, ndt_std, stretch);
             if first && self.model.reach > 0 {
-                self.mark_near(i, j);
+                self.lower_distance(i, j);
             }
         }
     }

@@ -5,8 +5,8 @@ const MODEL: GridModel = GridModel {
     cell_size: 0.3,
     log_odds_hit: 0.9,
     log_odds_pass: -0.4,
-    surface_std: 0.1,
-    surface_stretch: 1.0,
+    ndt_std: 0.1,
+    ndt_stretch: 1.0,
     lag: 0,
     reach: 0,
 };
@@ -24,9 +24,9 @@ fn a_beam_frees_what_it_passes_and_fills_where_it_ends() {
     }
     assert_eq!(grid.log_odds(5, 0), 0.90625);
     assert_eq!((grid.log_odds(6, 0), grid.log_odds(0, 1), grid.log_odds(-100, 7)), (0.0, 0.0, 0.0));
-    let mean = grid.hit_mean(5, 0).unwrap();
+    let mean = grid.ndt_mean(5, 0).unwrap();
     assert!((mean[0] - 1.65).abs() < 1e-6 && (mean[1] - 0.15).abs() < 1e-6, "{mean:?}");
-    assert!(grid.hit_mean(4, 0).is_none());
+    assert!(grid.ndt_mean(4, 0).is_none());
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn the_marks_of_a_scan_take_no_more_than_the_tiles_that_it_maps() {
             let mut grid = Grid::<4>::new(model);
             grid.assimilate(&pose, &scan, &());
             let [marked, mapped] =
-                [ray::trace(&pose, &scan, cell_size, side).bytes(), Grid::footprint([&grid]).unique as usize];
+                [ray_trace::trace(&pose, &scan, cell_size, side).bytes(), Grid::footprint([&grid]).unique as usize];
             assert!(marked <= mapped, "cells of {cell_size} m, {range} m: {marked} bytes marked, {mapped} mapped");
             // A byte for each cell of the rectangle around would be 400 MB at the worst.
             assert!(marked < 200_000_000, "cells of {cell_size} m, {range} m: {marked} bytes");
@@ -128,14 +128,14 @@ fn absurd_ranges_change_nothing_and_exhaust_nothing() {
     }
 }
 
-fn fingerprint<'a, const FINE: usize>(grids: impl IntoIterator<Item = &'a Grid<FINE>>) -> (u64, u64) {
+fn fingerprint<'a, const CELLS_PER_NDT: usize>(grids: impl IntoIterator<Item = &'a Grid<CELLS_PER_NDT>>) -> (u64, u64) {
     let mut digest = Digest::new();
     Grid::put(grids, &mut digest);
     (digest.size(), digest.value())
 }
 
 /// What a golden file rests on. Two hits of one cell that differ by a millimetre leave all log-odds alike; a hit on a settled wall
-/// changes a cell only; a square near a surface differs from one that is not.
+/// changes a cell only; a NDT cell near a NDT cell differs from one that is not.
 #[test]
 fn the_fingerprint_of_maps_sees_every_cell_and_every_surface_of_every_one() {
     let model = GridModel { reach: 2, ..MODEL };
@@ -146,7 +146,7 @@ fn the_fingerprint_of_maps_sees_every_cell_and_every_surface_of_every_one() {
     };
     let base = grid_of(model, &[1.5]);
     let moved = grid_of(model, &[1.501]);
-    let wider = grid_of(GridModel { surface_std: 0.11, ..model }, &[1.5]);
+    let wider = grid_of(GridModel { ndt_std: 0.11, ..model }, &[1.5]);
     let unmarked = grid_of(GridModel { reach: 1, ..model }, &[1.5]);
     let louder = grid_of(GridModel { log_odds_hit: 0.95, ..model }, &[1.5]);
     let cells = base.bounds();
@@ -171,17 +171,17 @@ fn a_surface_has_the_moments_of_its_hits() {
     for hit in hits {
         tile.add_hit(9, hit, 0.1, 1.0);
     }
-    let surface = tile.surface(9).unwrap();
+    let ndt_cell = tile.ndt_cell(9).unwrap();
     let mean = |k: usize| hits.iter().map(|h| h[k]).sum::<f32>() / 4.0;
-    assert!((surface.mean[0] - mean(0)).abs() < 1e-6 && (surface.mean[1] - mean(1)).abs() < 1e-6);
+    assert!((ndt_cell.mean[0] - mean(0)).abs() < 1e-6 && (ndt_cell.mean[1] - mean(1)).abs() < 1e-6);
     let moment = |a: usize, b: usize| hits.iter().map(|h| (h[a] - mean(a)) * (h[b] - mean(b))).sum::<f32>();
     let sigma = nalgebra::Matrix2::new(moment(0, 0) + 0.02, moment(0, 1), moment(0, 1), moment(1, 1) + 0.02) / 6.0;
     let product = sigma
         * nalgebra::Matrix2::new(
-            surface.information[0],
-            surface.information[1],
-            surface.information[1],
-            surface.information[2],
+            ndt_cell.information[0],
+            ndt_cell.information[1],
+            ndt_cell.information[1],
+            ndt_cell.information[2],
         );
     assert!((product - nalgebra::Matrix2::identity()).norm() < 1e-4, "{product}");
 }
@@ -196,9 +196,9 @@ fn the_nearest_surface_is_that_of_all_cells_around() {
         let relative = |c: f64, k: i32| (c - (f64::from(k) + 0.5) * 0.3) as f32;
         let four = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)];
         let near =
-            four.iter().filter_map(|&(i, j)| Some(grid.surface(i, j)?.mahalanobis2(relative(x, i), relative(y, j))));
+            four.iter().filter_map(|&(i, j)| Some(grid.ndt_cell(i, j)?.mahalanobis2(relative(x, i), relative(y, j))));
         let expected = near.fold(f32::INFINITY, f32::min);
-        let (found, units) = grid.nearest_surface(x, y);
+        let (found, units) = grid.nearest_ndt(x, y);
         let (found, own) = (found as f32, grid.cell_of(x, y));
         assert_eq!(units, grid.units(own.0, own.1), "({x}, {y})");
         assert!(found == expected || (found - expected).abs() < 1e-3 * expected, "({x}, {y}): {found} {expected}");
@@ -219,10 +219,10 @@ fn floor_is_floor() {
 fn a_stretched_surface_makes_a_row_of_squares_one_wall() {
     // A wall along y = 2.05, seen evenly; then points on it, and 5 cm off it.
     let scan = Scan { hits: (0..400).map(|k| [-2.0 + 0.01 * f64::from(k), 2.05]).collect(), misses: Vec::new() };
-    let least_and_most = |surface_stretch: f64, off: f64| {
-        let mut grid = Grid::<4>::new(GridModel { cell_size: 0.05, surface_std: 0.06, surface_stretch, ..MODEL });
+    let least_and_most = |ndt_stretch: f64, off: f64| {
+        let mut grid = Grid::<4>::new(GridModel { cell_size: 0.05, ndt_std: 0.06, ndt_stretch, ..MODEL });
         grid.assimilate(&Pose2::default(), &scan, &());
-        let along = (0..150).map(|k| grid.nearest_surface(-1.5 + 0.02 * f64::from(k), 2.05 + off).0);
+        let along = (0..150).map(|k| grid.nearest_ndt(-1.5 + 0.02 * f64::from(k), 2.05 + off).0);
         along.fold((f64::INFINITY, 0.0_f64), |(low, high), d2| (low.min(d2), high.max(d2)))
     };
     let (beads, wall) = (least_and_most(1.0, 0.0), least_and_most(4.0, 0.0));

@@ -28,7 +28,7 @@ pub struct Gate {
     pub mahalanobis_squared: f64,
     /// ln p₀: log-density of a sighting \[nats, per unit of z\] below which a new landmark explains it better.
     pub log_new: f64,
-    /// Whether landmarks that should have been seen and were not lose evidence, and are struck off without any.
+    /// Whether landmarks that should have been seen and were not lose existence count, and are struck off without any.
     pub removal: bool,
 }
 
@@ -41,20 +41,20 @@ impl Default for Gate {
 
 /// What a feature is taken to be.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Sighted {
+pub enum Association {
     /// The landmark of this index, seen before.
-    Again(u32),
+    Matched(u32),
     /// A landmark seen for the first time, to get this index.
-    First(u32),
+    New(u32),
     /// Not to be used: no signature, or a second feature of a landmark in one step.
-    Nothing,
+    Ignored,
 }
 
 /// A decision with its likelihood.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Matched {
+pub struct Decision {
     /// What was decided.
-    pub sighted: Sighted,
+    pub association: Association,
     /// What was seen against what was expected, where the landmark is in the map and the sighting can say anything: see
     /// [`Innovation::is_regular`].
     pub innovation: Option<Innovation>,
@@ -73,22 +73,25 @@ impl Correspondence {
     pub fn decide(
         &self,
         feature: &Feature,
-        taken: &[Sighted],
+        taken: &[Association],
         len: u32,
         innovation: impl Fn(u32, Option<f64>) -> Option<Innovation>,
-    ) -> Matched {
-        let free = |index: u32| !taken.contains(&Sighted::Again(index)) && !taken.contains(&Sighted::First(index));
+    ) -> Decision {
+        let free =
+            |index: u32| !taken.contains(&Association::Matched(index)) && !taken.contains(&Association::New(index));
         match self {
             Self::Known => match feature.signature.filter(|index| free(*index)) {
                 Some(index) => match innovation(index, None) {
-                    Some(innovation) if innovation.is_regular() => again(index, innovation),
-                    Some(_) => Matched { sighted: Sighted::Again(index), innovation: None, log_likelihood: 0.0 },
-                    None => Matched { sighted: Sighted::First(index), innovation: None, log_likelihood: 0.0 },
+                    Some(innovation) if innovation.is_regular() => matched(index, innovation),
+                    Some(_) => {
+                        Decision { association: Association::Matched(index), innovation: None, log_likelihood: 0.0 }
+                    }
+                    None => Decision { association: Association::New(index), innovation: None, log_likelihood: 0.0 },
                 },
-                None => Matched { sighted: Sighted::Nothing, innovation: None, log_likelihood: 0.0 },
+                None => Decision { association: Association::Ignored, innovation: None, log_likelihood: 0.0 },
             },
             Self::Unknown(gate) => {
-                let mut best: Option<Matched> = None;
+                let mut best: Option<Decision> = None;
                 for index in 0..len {
                     let innovation = innovation(index, Some(gate.mahalanobis_squared)).filter(Innovation::is_regular);
                     let Some(innovation) = innovation else { continue };
@@ -97,12 +100,16 @@ impl Correspondence {
                     // ANCHOR_END: gate
                     let to_beat = best.map_or(gate.log_new, |best| best.log_likelihood);
                     if within && innovation.log_likelihood > to_beat && free(index) {
-                        best = Some(again(index, innovation));
+                        best = Some(matched(index, innovation));
                     }
                 }
                 best.unwrap_or_else(|| {
-                    let founded = taken.iter().filter(|sighted| matches!(sighted, Sighted::First(_))).count() as u32;
-                    Matched { sighted: Sighted::First(len + founded), innovation: None, log_likelihood: gate.log_new }
+                    let founded = taken.iter().filter(|other| matches!(other, Association::New(_))).count() as u32;
+                    Decision {
+                        association: Association::New(len + founded),
+                        innovation: None,
+                        log_likelihood: gate.log_new,
+                    }
                 })
             }
         }
@@ -113,7 +120,7 @@ impl Correspondence {
 impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
     /// Decides what one feature is, for a pose of this mean and covariance P (3 × 3; zeros for a pose that is sure), after
     /// `taken` was decided for the features before it.
-    pub fn associate(&self, pose: &Pose2, p: &Matrix3<f64>, feature: &Feature, taken: &[Sighted]) -> Matched {
+    pub fn associate(&self, pose: &Pose2, p: &Matrix3<f64>, feature: &Feature, taken: &[Association]) -> Decision {
         let of_position = p.fixed_view::<2, 2>(0, 0).into_owned();
         self.correspondence.decide(feature, taken, self.store.len(), |index, gate| {
             let landmark = self.get(index)?;
@@ -128,6 +135,10 @@ impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
     }
 }
 
-fn again(index: u32, innovation: Innovation) -> Matched {
-    Matched { sighted: Sighted::Again(index), log_likelihood: innovation.log_likelihood, innovation: Some(innovation) }
+fn matched(index: u32, innovation: Innovation) -> Decision {
+    Decision {
+        association: Association::Matched(index),
+        log_likelihood: innovation.log_likelihood,
+        innovation: Some(innovation),
+    }
 }

@@ -14,7 +14,7 @@ pub struct Landmark {
     /// Σ \[m²\].
     pub covariance: Matrix2<f64>,
     /// Sightings less the times it should have been seen and was not; struck off below 0.
-    pub evidence: i32,
+    pub existence_count: i32,
 }
 // ANCHOR_END: listing-landmark
 
@@ -72,7 +72,7 @@ impl Landmark {
     pub fn first<Z: LandmarkSensor>(sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) -> Self {
         let mean = sensor.locate(world_from_robot, z);
         let inverse = inverse(&sensor.predict(world_from_robot, &mean).h_m);
-        Self { mean, covariance: symmetric(inverse * sensor.noise() * inverse.transpose()), evidence: 1 }
+        Self { mean, covariance: symmetric(inverse * sensor.noise() * inverse.transpose()), existence_count: 1 }
     }
     // end: first
 
@@ -114,7 +114,7 @@ impl Landmark {
         self.mean += gain * innovation.residual;
         self.covariance =
             symmetric(keep * self.covariance * keep.transpose() + gain * sensor.noise() * gain.transpose());
-        self.evidence = self.evidence.saturating_add(1);
+        self.existence_count = self.existence_count.saturating_add(1);
     }
     // ANCHOR_END: listing-update
     // end: update
@@ -161,8 +161,11 @@ mod tests {
     /// The worked example of the chapter.
     #[test]
     fn the_worked_example_is_met_to_the_last_digit_shown() {
-        let landmark =
-            Landmark { mean: Vector2::new(4.0, 0.0), covariance: Matrix2::new(0.21, 0.0, 0.0, 0.12), evidence: 1 };
+        let landmark = Landmark {
+            mean: Vector2::new(4.0, 0.0),
+            covariance: Matrix2::new(0.21, 0.0, 0.0, 0.12),
+            existence_count: 1,
+        };
         for (z, weight) in [([4.1, 0.05], 2.753_451_476_665), ([4.3, 0.15], 0.863_168_987_665)] {
             let innovation = landmark.innovation(&SENSOR, &Pose2::default(), &Vector2::from(z));
             assert!((innovation.covariance - Matrix2::new(0.25, 0.0, 0.0, 0.01)).norm() < 1e-15);
@@ -185,13 +188,13 @@ mod tests {
         }
         assert!((landmark.covariance * 100.0 - first).norm() < 1e-12);
         assert!((landmark.mean - SENSOR.locate(&pose, &z)).norm() < 1e-12);
-        assert_eq!(landmark.evidence, 100);
+        assert_eq!(landmark.existence_count, 100);
     }
 
     #[test]
     fn the_largest_deviation_is_that_of_the_longer_axis() {
         let covariance = Matrix2::new(2.5, 1.5, 1.5, 2.5);
-        let landmark = Landmark { mean: Vector2::zeros(), covariance, evidence: 1 };
+        let landmark = Landmark { mean: Vector2::zeros(), covariance, existence_count: 1 };
         assert!((landmark.largest_std() - 2.0).abs() < 1e-15);
     }
 

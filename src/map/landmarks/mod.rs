@@ -10,7 +10,7 @@ mod landmark;
 mod shared;
 mod store;
 
-pub use association::{Correspondence, Gate, Matched, Sighted};
+pub use association::{Association, Correspondence, Decision, Gate};
 pub use landmark::{Innovation, Landmark};
 pub use shared::{Balanced, Blocks, Shared};
 pub use store::Store;
@@ -72,26 +72,26 @@ impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
 
 impl<Z: LandmarkSensor, S: Store> ConditionalMap for Landmarks<Z, S> {
     type Observation = Vec<Feature>;
-    type Association = Vec<Sighted>;
+    type Association = Vec<Association>;
 
     // anchor: assimilate
     /// A first sighting makes a landmark, every further one is a Kalman update of that landmark alone. Where landmarks may be
-    /// struck off, those that should have been seen and were not lose evidence.
-    fn assimilate(&mut self, world_from_robot: &Pose2, features: &Vec<Feature>, sighted: &Vec<Sighted>) {
+    /// struck off, those that should have been seen and were not lose existence count.
+    fn assimilate(&mut self, world_from_robot: &Pose2, features: &Vec<Feature>, associations: &Vec<Association>) {
         if let Correspondence::Unknown(Gate { removal: true, .. }) = self.correspondence {
-            self.doubt(world_from_robot, sighted);
+            self.apply_negative_information(world_from_robot, associations);
         }
-        for (feature, sighted) in features.iter().zip(sighted) {
-            match *sighted {
-                Sighted::Again(index) => {
+        for (feature, association) in features.iter().zip(associations) {
+            match *association {
+                Association::Matched(index) => {
                     if let Some(landmark) = self.store.entry(index) {
                         landmark.update(&self.sensor, world_from_robot, &feature.z);
                     }
                 }
-                Sighted::First(index) => {
+                Association::New(index) => {
                     *self.store.entry(index) = Some(Landmark::first(&self.sensor, world_from_robot, &feature.z));
                 }
-                Sighted::Nothing => (),
+                Association::Ignored => (),
             }
         }
     }
@@ -99,17 +99,17 @@ impl<Z: LandmarkSensor, S: Store> ConditionalMap for Landmarks<Z, S> {
 }
 
 impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
-    /// Takes evidence from landmarks that are surely in view and were not sighted; without any left they are struck off. What
-    /// was sighted gains evidence in its update.
-    fn doubt(&mut self, world_from_robot: &Pose2, sighted: &[Sighted]) {
+    /// Takes existence count from landmarks that are surely in view and were not sighted; without any left they are struck off. What
+    /// was sighted gains existence count in its update.
+    fn apply_negative_information(&mut self, world_from_robot: &Pose2, associations: &[Association]) {
         for index in 0..self.store.len() {
             let Some(landmark) = self.store.get(index) else { continue };
-            let missed = !sighted.contains(&Sighted::Again(index))
+            let missed = !associations.contains(&Association::Matched(index))
                 && self.sensor.sees(world_from_robot, &landmark.mean, 3.0 * landmark.largest_std());
             if missed {
                 let entry = self.store.entry(index);
                 match entry {
-                    Some(landmark) if landmark.evidence > 0 => landmark.evidence -= 1,
+                    Some(landmark) if landmark.existence_count > 0 => landmark.existence_count -= 1,
                     _ => *entry = None,
                 }
             }

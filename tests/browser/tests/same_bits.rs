@@ -2,7 +2,8 @@
 //! the chapter's numbers. The goldens are written natively, by `tests/portability`, `tests/figures` and `npm run numbers`.
 #![cfg(target_arch = "wasm32")]
 
-use fastslam::{digest::Digest, execute::Executor, experiment::golden_traces};
+use fastslam::execute::Executor;
+use fastslam_lab::{digest::Digest, experiment::golden_traces};
 use fastslam_widgets::shell::{Figure, job};
 use figures::{JOBS, LOG, PICTURES, SETUPS, TINY_LOG, line, put_readout, rows};
 use js_sys::{Array, Reflect, Uint8Array, WebAssembly};

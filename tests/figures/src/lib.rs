@@ -1,7 +1,8 @@
 //! The states of the figures whose pixels and numbers are kept: `tests/goldens.rs` compares them natively, `tests/browser` in
 //! WebAssembly.
 
-use fastslam::digest::Digest;
+use core::hash::Hasher as _;
+use fastslam_lab::digest::Digest;
 use fastslam_widgets::{figure::Figure, model::Readout, paint::Theme};
 
 /// A figure in a state, at a size, in a theme.
@@ -193,10 +194,10 @@ impl Picture {
 
 /// Puts one readout's bits and text into a digest, by what the page gets of it.
 pub fn put_readout(digest: &mut Digest, name: &str, value: Option<f64>, text: &str) {
-    digest.bytes(name.as_bytes());
+    digest.write(name.as_bytes());
     digest.u32(u32::from(value.is_some()));
     digest.f64(value.unwrap_or(0.0));
-    digest.bytes(text.as_bytes());
+    digest.write(text.as_bytes());
 }
 
 /// Every readout of every step of a figure, and what is said of it, as a fingerprint.
@@ -209,7 +210,7 @@ pub fn readouts(tag: &str, query: &str) -> Digest {
         for Readout { name, value, text, .. } in figure.model().readouts() {
             put_readout(&mut digest, name, value, &text);
         }
-        digest.bytes(figure.model().describe().as_bytes());
+        digest.write(figure.model().describe().as_bytes());
     }
     digest
 }

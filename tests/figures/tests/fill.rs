@@ -9,7 +9,7 @@ use figures::{PICTURES, Picture, figure};
 use tiny_skia::{FillRule, Mask, Paint, PathBuilder, PixmapMut, Transform};
 
 /// Finer by this.
-const FINE: u32 = 4;
+const CELLS_PER_NDT: u32 = 4;
 
 /// As tiny-skia has it; none if there is nothing to fill.
 fn theirs(path: &Path) -> Option<tiny_skia::Path> {
@@ -33,22 +33,23 @@ fn tiny_skia(pixels: &mut Pixels, path: &Path, [r, g, b, a]: Color) {
     pixels.fill_path(&path, &paint, FillRule::Winding, Transform::identity(), None);
 }
 
-/// tiny-skia at [`FINE`] times the size, averaged.
+/// tiny-skia at [`CELLS_PER_NDT`] times the size, averaged.
 fn fine(pixels: &mut Pixels, path: &Path, color: Color) {
     let Some(path) = theirs(path) else { return };
     let [width, height] = pixels.size();
     let bounds = path.bounds();
     let [x0, x1] = [bounds.left().floor(), bounds.right().ceil()].map(|x| x.clamp(0.0, width as f32) as u32);
     let [y0, y1] = [bounds.top().floor(), bounds.bottom().ceil()].map(|y| y.clamp(0.0, height as f32) as u32);
-    let Some(mut mask) = Mask::new(FINE * (x1 - x0), FINE * (y1 - y0)) else { return };
-    let larger = Transform::from_translate(-(x0 as f32), -(y0 as f32)).post_scale(FINE as f32, FINE as f32);
+    let Some(mut mask) = Mask::new(CELLS_PER_NDT * (x1 - x0), CELLS_PER_NDT * (y1 - y0)) else { return };
+    let larger =
+        Transform::from_translate(-(x0 as f32), -(y0 as f32)).post_scale(CELLS_PER_NDT as f32, CELLS_PER_NDT as f32);
     mask.fill_path(&path, FillRule::Winding, true, larger);
     let bytes = pixels.bytes_mut();
     for (y, x) in (y0..y1).flat_map(|y| (x0..x1).map(move |x| (y, x))) {
-        let [left, top] = [FINE * (x - x0), FINE * (y - y0)];
-        let row = |y: u32| &mask.data()[(y * mask.width() + left) as usize..][..FINE as usize];
-        let sum: u32 = (top..top + FINE).flat_map(row).map(|&share| u32::from(share)).sum();
-        let share = f64::from(sum) / f64::from(255 * FINE * FINE);
+        let [left, top] = [CELLS_PER_NDT * (x - x0), CELLS_PER_NDT * (y - y0)];
+        let row = |y: u32| &mask.data()[(y * mask.width() + left) as usize..][..CELLS_PER_NDT as usize];
+        let sum: u32 = (top..top + CELLS_PER_NDT).flat_map(row).map(|&share| u32::from(share)).sum();
+        let share = f64::from(sum) / f64::from(255 * CELLS_PER_NDT * CELLS_PER_NDT);
         for (byte, to) in bytes[4 * (y * width + x) as usize..].iter_mut().zip(color) {
             *byte = (f64::from(*byte) + share * (f64::from(to) - f64::from(*byte))).round() as u8;
         }

@@ -1,13 +1,16 @@
 //! Exact pictures and numbers. A change that is wanted is written with `UPDATE_GOLDENS=1 cargo test -p figures`, looked at, and
 //! committed.
 
+use core::hash::Hasher as _;
 use fastslam::{
-    decimal::fixed,
-    digest::Digest,
-    experiment::lap::{LapSetup, LapWorld},
-    random::{Purpose, Stream},
+    random::Stream,
     sensor::BeamSensor,
 };
+use fastslam_lab::{
+    digest::Digest,
+    experiment::lap::{LapSetup, LapWorld},
+};
+use fastslam_widgets::decimal::fixed;
 use fastslam_widgets::job;
 use figures::{JOBS, LOG, PICTURES, SETUPS, figure, line, readouts, rows};
 use std::{
@@ -81,7 +84,7 @@ fn every_picture_is_the_golden_one_to_the_last_pixel() {
     for picture in PICTURES {
         let (figure, size) = picture.paint();
         let mut digest = Digest::new();
-        digest.bytes(figure.canvas().pixels());
+        digest.write(figure.canvas().pixels());
         digests += &picture.line(&digest);
         let pixels = rgb(figure.canvas().pixels());
         let file = format!("{}.png", picture.name);
@@ -111,7 +114,7 @@ fn simulated_log() -> String {
     let sensor = BeamSensor::panorama(BEAMS, 8.0, 0.02);
     let mut log = String::from("# A simulated lap, written by tests/figures.\n");
     for (k, (truth, odometry)) in world.truth.iter().zip(&world.odometry).enumerate() {
-        let ranges = world.plan.ranges(truth, &sensor, &mut Stream::at(7, Purpose::WorldSensor, k as u32, 9));
+        let ranges = world.plan.ranges(truth, &sensor, &mut Stream::at(7, fastslam_lab::WORLD_SENSOR, k as u32, 9));
         let ranges: Vec<String> = ranges.iter().map(|range| fixed(range.min(sensor.max_range), 3)).collect();
         let pose = [odometry.x, odometry.y, odometry.theta].map(|x| fixed(x, 6)).join(" ");
         let step = fixed(core::f64::consts::TAU / BEAMS as f64, 9);

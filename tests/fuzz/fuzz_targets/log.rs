@@ -1,7 +1,7 @@
 //! Any bytes as a log: the parser refuses or reads them, and the filter maps what was read, without a panic.
 #![no_main]
 
-use fastslam::experiment::log::{LogRun, LogSetup};
+use fastslam_lab::experiment::log::{LogRun, LogSetup};
 use fastslam::log::{parse, parse_relations};
 use libfuzzer_sys::fuzz_target;
 use std::sync::Arc;

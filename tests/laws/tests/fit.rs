@@ -1,11 +1,11 @@
 //! The fit of a Gaussian through few values, which must not know north from east.
 
-use fastslam::experiment::hill::Hill;
-use fastslam::experiment::lap::FROM_SCAN;
-use fastslam::experiment::log;
 use fastslam::geometry::{Gaussian3, Pose2};
 use fastslam::ops;
 use fastslam::proposal::{Fit, FitLimits};
+use fastslam_lab::experiment::hill::Hill;
+use fastslam_lab::experiment::lap::FROM_SCAN;
+use fastslam_lab::experiment::log;
 use nalgebra::{Matrix3, Vector3};
 
 const LIMITS: FitLimits = FROM_SCAN.limits;

@@ -1,11 +1,12 @@
 //! Laws of FastSLAM with landmarks: against the Kalman filter where all is linear, against sums over dense grids where it is not.
 
-use fastslam::exact::EkfSlam;
 use fastslam::execute::Executor;
+use fastslam::genealogy::Path;
 use fastslam::geometry::{Pose2, sample_semidefinite};
-use fastslam::lineage::Path;
 use fastslam::map::ConditionalMap;
-use fastslam::map::landmarks::{Balanced, Blocks, Correspondence, Gate, Landmark, Landmarks, Matched, Sighted, Store};
+use fastslam::map::landmarks::{
+    Association, Balanced, Blocks, Correspondence, Decision, Gate, Landmark, Landmarks, Store,
+};
 use fastslam::motion::{Motion, Odometry, OdometryModel, Velocity, VelocityModel};
 use fastslam::ops;
 use fastslam::proposal::{FromMeasurement, FromMotion, Likelihood, Marginal, Proposal, ProposalTrace};
@@ -13,6 +14,7 @@ use fastslam::random::{Purpose, Stream};
 use fastslam::rbpf::{Particle, Rbpf};
 use fastslam::resampling::{ResamplePolicy, Scheme};
 use fastslam::sensor::{Feature, LandmarkSensor, Prediction, RangeBearing};
+use fastslam_lab::baseline::EkfSlam;
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
 use proptest::prelude::*;
 
@@ -82,7 +84,7 @@ const STEPS: u32 = 5;
 fn linear_log(landmarks: u32) -> Vec<(Vector3<f64>, Vec<Feature>)> {
     let mut pose = Pose2::default();
     let step = |k| {
-        let mut stream = Stream::at(1, Purpose::WorldOdometry, k, 0);
+        let mut stream = Stream::at(1, fastslam_lab::WORLD_ODOMETRY, k, 0);
         let u = Vector3::new(0.5, 0.1 * f64::from(k), 0.05);
         pose = Drift.sample(&pose, &u, &mut stream);
         let see = |j| {
@@ -297,7 +299,7 @@ fn the_mean_weight_of_1_0_is_the_weight_of_2_0() {
     let known = [(2.0, 1.0), (3.0, 0.0)].map(|(x, y)| Landmark {
         mean: Vector2::new(x, y),
         covariance: Matrix2::new(0.02, 0.005, 0.005, 0.03),
-        evidence: 1,
+        existence_count: 1,
     });
     let particle = Particle {
         world_from_robot: Pose2::default(),
@@ -309,7 +311,7 @@ fn the_mean_weight_of_1_0_is_the_weight_of_2_0() {
     let n = 40_000_u32;
     let draws: Vec<f64> = (0..n)
         .map(|k| {
-            let mut stream = Stream::at(3, Purpose::Trial, k, 0);
+            let mut stream = Stream::at(3, Purpose::TRIAL, k, 0);
             ops::exp(one.propose(&particle, &u, &features, &mut stream).log_increment)
         })
         .collect();
@@ -330,7 +332,7 @@ const ODOMETRY: OdometryModel = OdometryModel { alphas: [0.1, 0.02, 0.08, 0.02] 
 const TURN: Odometry = Odometry { rot1: 0.2, trans: 1.0, rot2: 0.1 };
 
 fn landmark(x: f64, y: f64, variance: f64) -> Landmark {
-    Landmark { mean: Vector2::new(x, y), covariance: Matrix2::identity() * variance, evidence: 1 }
+    Landmark { mean: Vector2::new(x, y), covariance: Matrix2::identity() * variance, existence_count: 1 }
 }
 
 fn seen(sensor: &RangeBearing, from: &Pose2, landmark: &Vector2<f64>, signature: u32, offset: [f64; 2]) -> Feature {
@@ -388,7 +390,7 @@ impl OneStep {
     fn deviations(&self, proposal: &impl Proposal<Landmarks<RangeBearing>, Control = Odometry>) -> Vec<f64> {
         let (origin, (mean, covariance)) = (TURN.apply(&Pose2::default()), self.dense());
         let draw = |slot| {
-            let mut stream = Stream::at(11, Purpose::Proposal, 1, slot);
+            let mut stream = Stream::at(11, Purpose::PROPOSAL, 1, slot);
             let proposed = proposal.propose(&self.particle, &TURN, &self.features, &mut stream);
             (proposed.world_from_robot.minus(&origin), proposed.log_increment)
         };
@@ -492,7 +494,7 @@ fn is_the_limit_of_a_vanishing_floor<D: Motion + Copy>(motion: D, u: &D::Control
         );
     }
     for slot in 0..100 {
-        let mut stream = Stream::at(1, Purpose::Proposal, 0, slot);
+        let mut stream = Stream::at(1, Purpose::PROPOSAL, 0, slot);
         let pose = FromMeasurement { motion }.propose(&particle, u, &features, &mut stream).world_from_robot;
         assert!([pose.x, pose.y, pose.theta].iter().all(|x| x.is_finite()));
         assert!(rank > 0 || pose == *from, "a robot that surely stands still moved to {pose:?}");
@@ -515,7 +517,7 @@ fn with_nothing_mapped_in_view_the_motion_model_is_drawn_from() {
         features.iter().map(|f| Feature { signature: f.signature.map(|s| s + 2), ..*f }).collect();
     for features in [unmapped, Vec::new()] {
         for slot in 0..100 {
-            let stream = || Stream::at(1, Purpose::Proposal, 3, slot);
+            let stream = || Stream::at(1, Purpose::PROPOSAL, 3, slot);
             let one = FromMotion { motion, likelihood: Marginal }.propose(&particle, &TURN, &features, &mut stream());
             let two = FromMeasurement { motion }.propose(&particle, &TURN, &features, &mut stream());
             assert_eq!((two.trace, one.trace), (ProposalTrace::Motion, ProposalTrace::Motion));
@@ -554,7 +556,7 @@ const ARC: Odometry = Odometry { rot1: core::f64::consts::PI / 12.0, trans: 0.8,
 fn arc_poses(motion: &OdometryModel, run: u64, steps: u32) -> Vec<Pose2> {
     let mut pose = Pose2::default();
     let mut step = |step| {
-        pose = motion.sample(&pose, &ARC, &mut Stream::at(run, Purpose::WorldOdometry, step, 0));
+        pose = motion.sample(&pose, &ARC, &mut Stream::at(run, fastslam_lab::WORLD_ODOMETRY, step, 0));
         pose
     };
     (0..steps).map(&mut step).collect()
@@ -563,7 +565,7 @@ fn arc_poses(motion: &OdometryModel, run: u64, steps: u32) -> Vec<Pose2> {
 /// Controls and features on that arc.
 fn arc(motion: &OdometryModel, run: u64, steps: u32) -> Vec<(Odometry, Vec<Feature>)> {
     let at = |(step, pose): (u32, Pose2)| {
-        let mut stream = Stream::at(run, Purpose::WorldSensor, step, 0);
+        let mut stream = Stream::at(run, fastslam_lab::WORLD_SENSOR, step, 0);
         let see =
             |(j, (x, y))| Feature { z: SENSOR.measure(&pose, &Vector2::new(x, y), &mut stream), signature: Some(j) };
         (ARC, (0..).zip(FIELD).map(see).collect())
@@ -657,7 +659,7 @@ fn run_bits<S: Store>(run: u64, steps: u32, count: usize, policy: ResamplePolicy
             all.extend(bits(&particle.world_from_robot));
             for (index, landmark) in particle.map.iter() {
                 all.push(u64::from(index));
-                all.push(landmark.evidence as u64);
+                all.push(landmark.existence_count as u64);
                 all.extend(landmark.mean.iter().chain(&landmark.covariance).map(|x| x.to_bits()));
             }
         }
@@ -695,7 +697,7 @@ proptest! {
         let known = field.iter().map(|&(x, y, variance, rho)| Landmark {
             mean: Vector2::new(x, y),
             covariance: Matrix2::new(variance, rho * variance, rho * variance, variance),
-            evidence: 1,
+            existence_count: 1,
         });
         let [a, b, c, d, e, f] = factor;
         let l = Matrix3::new(a, 0.0, 0.0, b, c, 0.0, d, e, f);
@@ -758,7 +760,7 @@ fn sighting() -> impl Strategy<Value = (Pose2, Feature)> {
 }
 
 fn assimilate_one<S: Store>(map: &mut Landmarks<RangeBearing, S>, (pose, feature): &(Pose2, Feature)) {
-    let sighted = map.associate(pose, &Matrix3::zeros(), feature, &[]).sighted;
+    let sighted = map.associate(pose, &Matrix3::zeros(), feature, &[]).association;
     map.assimilate(pose, &vec![*feature], &vec![sighted]);
 }
 
@@ -793,7 +795,7 @@ fn josephs_form_keeps_covariances_symmetric_and_positive_definite() {
         let truth = Vector2::new(1.0, 2.0);
         let mut known: Option<Landmark> = None;
         for k in 0..10_000 {
-            let mut stream = Stream::at(5, Purpose::Trial, k, 0);
+            let mut stream = Stream::at(5, Purpose::TRIAL, k, 0);
             let pose = Pose2::new(6.0 * stream.uniform(), 6.0 * stream.uniform(), 6.0 * stream.uniform());
             let z = sensor.measure(&pose, &truth, &mut stream);
             match &mut known {
@@ -812,7 +814,7 @@ fn josephs_form_keeps_covariances_symmetric_and_positive_definite() {
 fn one_good_sighting_of_what_was_unknown_is_as_good_as_a_first_one() {
     let sensor = RangeBearing { range_std: 1e-6, bearing_std: 1e-6, ..SENSOR };
     for slot in 0..1000 {
-        let [x, y, theta] = Stream::at(6, Purpose::Trial, 0, slot).normals();
+        let [x, y, theta] = Stream::at(6, Purpose::TRIAL, 0, slot).normals();
         let pose = Pose2::new(x, y, theta);
         let z = sensor.predict(&pose, &Vector2::new(3.0, 1.0)).z;
         let mut vague = landmark(3.0, 1.0, 1e8);
@@ -830,7 +832,7 @@ fn unknown(sensor: RangeBearing, gate: Gate, known: &[Landmark]) -> Landmarks<Ra
     Landmarks::new(sensor, Correspondence::Unknown(gate)).with(known.iter().copied())
 }
 
-fn decide(map: &Landmarks<RangeBearing>, z: [f64; 2], taken: &[Sighted]) -> Matched {
+fn decide(map: &Landmarks<RangeBearing>, z: [f64; 2], taken: &[Association]) -> Decision {
     let feature = Feature { z: Vector2::from(z), signature: None };
     map.associate(&Pose2::default(), &Matrix3::zeros(), &feature, taken)
 }
@@ -844,9 +846,9 @@ fn a_feature_beyond_the_gate_is_a_new_landmark_and_within_it_is_not() {
     let (range_std, bearing_std) = ((0.0064_f64 + 0.01).sqrt(), (0.0025_f64 + 0.01 / 16.0).sqrt());
     for [r, phi] in [[range_std, 0.0], [0.0, bearing_std], [0.6 * range_std, 0.8 * bearing_std]] {
         let at = |factor: f64| decide(&map, [4.0 + factor * gate * r, factor * gate * phi], &[]);
-        assert_eq!(at(0.999).sighted, Sighted::Again(0));
+        assert_eq!(at(0.999).association, Association::Matched(0));
         let new = at(1.001);
-        assert_eq!((new.sighted, new.log_likelihood, new.innovation), (Sighted::First(1), -1e9, None));
+        assert_eq!((new.association, new.log_likelihood, new.innovation), (Association::New(1), -1e9, None));
     }
 }
 
@@ -856,9 +858,9 @@ fn a_feature_is_a_new_landmark_where_p0_explains_it_better() {
     let z = [4.1, 0.02];
     let likely = decide(&unknown(SENSOR, Gate { log_new: -1e9, ..Gate::default() }, &known), z, &[]).log_likelihood;
     let with = |log_new| decide(&unknown(SENSOR, Gate { log_new, ..Gate::default() }, &known), z, &[]);
-    assert_eq!(with(likely - 1e-9).sighted, Sighted::Again(0));
+    assert_eq!(with(likely - 1e-9).association, Association::Matched(0));
     assert_eq!(with(likely - 1e-9).log_likelihood, likely);
-    assert_eq!(with(likely + 1e-9).sighted, Sighted::First(1));
+    assert_eq!(with(likely + 1e-9).association, Association::New(1));
     assert_eq!(with(likely + 1e-9).log_likelihood, likely + 1e-9);
 }
 
@@ -868,7 +870,7 @@ fn the_likeliest_landmark_wins_even_where_another_is_nearer() {
     let map = unknown(SENSOR, Gate::default(), &[landmark(4.3, 0.0, 4.0), landmark(4.1, 0.0, 1e-4)]);
     let distance = |index| map.get(index).unwrap().innovation(&SENSOR, &Pose2::default(), &Vector2::new(4.2, 0.0));
     assert!(distance(0).mahalanobis_squared < distance(1).mahalanobis_squared);
-    assert_eq!(decide(&map, [4.2, 0.0], &[]).sighted, Sighted::Again(1));
+    assert_eq!(decide(&map, [4.2, 0.0], &[]).association, Association::Matched(1));
 }
 
 #[test]
@@ -879,22 +881,25 @@ fn two_features_of_one_step_never_share_a_landmark() {
     let still = Odometry { rot1: 0.0, trans: 0.0, rot2: 0.0 };
     let map = unknown(SENSOR, Gate::default(), &known);
     let folded = proposal.fold(&map, &Pose2::default(), &still, &[feature(None); 4]);
-    assert_eq!(folded.sighted, [Sighted::Again(0), Sighted::Again(1), Sighted::First(2), Sighted::First(3)]);
-    assert_eq!(Marginal.log_likelihood(&map, &Pose2::default(), &vec![feature(None); 4]).1, folded.sighted);
+    assert_eq!(
+        folded.associations,
+        [Association::Matched(0), Association::Matched(1), Association::New(2), Association::New(3)]
+    );
+    assert_eq!(Marginal.log_likelihood(&map, &Pose2::default(), &vec![feature(None); 4]).1, folded.associations);
 
     let map = Landmarks::<_, Blocks>::new(SENSOR, Correspondence::Known).with(known);
     let features = [Some(1), Some(1), Some(7), Some(7), None].map(feature);
     let folded = proposal.fold(&map, &Pose2::default(), &still, &features);
-    let (again, first, nothing) = (Sighted::Again(1), Sighted::First(7), Sighted::Nothing);
-    assert_eq!(folded.sighted, [again, nothing, first, nothing, nothing]);
+    let (again, first, nothing) = (Association::Matched(1), Association::New(7), Association::Ignored);
+    assert_eq!(folded.associations, [again, nothing, first, nothing, nothing]);
     let alone = proposal.fold(&map, &Pose2::default(), &still, &features[..1]);
     assert_eq!((folded.mean, folded.log_evidence), (alone.mean, alone.log_evidence));
 
     let mut joint = EkfSlam::new(Drift, Offset, Correspondence::Known, Pose2::default());
     let offset = |s| Feature { z: Vector2::new(1.0, 1.0), signature: Some(s) };
-    let sighted = joint.step(&Vector3::zeros(), &[offset(2), offset(2), offset(0)]).sighted;
-    assert_eq!(sighted, [Sighted::First(2), nothing, Sighted::First(0)]);
-    assert_eq!(joint.step(&Vector3::zeros(), &[offset(2), offset(2)]).sighted, [Sighted::Again(2), nothing]);
+    let sighted = joint.step(&Vector3::zeros(), &[offset(2), offset(2), offset(0)]).associations;
+    assert_eq!(sighted, [Association::New(2), nothing, Association::New(0)]);
+    assert_eq!(joint.step(&Vector3::zeros(), &[offset(2), offset(2)]).associations, [Association::Matched(2), nothing]);
 }
 
 /// Landmarks metres apart and a gate that only one sighting in a million misses: the default one takes one in
@@ -925,7 +930,7 @@ fn well_separated_landmarks_are_told_apart_without_signatures() {
             for (index, landmark) in b.map.iter() {
                 // Numbered as they came in the first step.
                 let named = a.map.get((index + by as u32) % 4).unwrap();
-                assert!((named.mean - landmark.mean).norm() < 1e-12 && named.evidence == landmark.evidence);
+                assert!((named.mean - landmark.mean).norm() < 1e-12 && named.evidence == landmark.existence_count);
             }
         }
     }
@@ -953,7 +958,7 @@ fn what_should_be_seen_and_is_not_is_struck_off_and_nothing_else() {
             for step in 0..6 {
                 let feature = Feature { z, signature: None };
                 let (_, sighted) = Marginal.log_likelihood(&map, &Pose2::default(), &vec![feature]);
-                assert_eq!(sighted, [Sighted::Again(0)]);
+                assert_eq!(sighted, [Association::Matched(0)]);
                 map.assimilate(&Pose2::default(), &vec![feature], &sighted);
                 let there = !(goes && removal && step >= 3);
                 assert_eq!(map.get(1).is_some(), there, "({x}, {y}), removal {removal}, step {step}");
@@ -972,12 +977,12 @@ fn a_joint_filter_strikes_off_what_it_should_see_and_does_not() {
     let see = |x, y| seen(&SENSOR, &Pose2::default(), &Vector2::new(x, y), 0, [0.0, 0.0]);
     let (a, ghost, b) = (see(3.0, -1.0), see(2.0, 2.0), see(-2.0, 2.0));
     filter.step(&still, &[a, ghost, b]);
-    assert_eq!(filter.step(&still, &[b, a]).sighted, [Sighted::Again(2), Sighted::Again(0)]);
+    assert_eq!(filter.step(&still, &[b, a]).associations, [Association::Matched(2), Association::Matched(0)]);
     assert_eq!(filter.landmark(1).unwrap().evidence, 0);
     filter.step(&still, &[a, b]);
     assert!(filter.landmark(1).is_none() && filter.covariance().nrows() == 7);
-    let sighted = filter.step(&still, &[ghost, b]).sighted;
-    assert_eq!(sighted, [Sighted::First(3), Sighted::Again(2)]);
+    let sighted = filter.step(&still, &[ghost, b]).associations;
+    assert_eq!(sighted, [Association::New(3), Association::Matched(2)]);
     assert!((filter.landmark(2).unwrap().mean - Vector2::new(-2.0, 2.0)).norm() < 1e-12);
 }
 

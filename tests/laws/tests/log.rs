@@ -1,10 +1,10 @@
 //! Logs: what the parser reads and refuses, the benchmark's metric, and that no input makes either panic.
 
-use fastslam::experiment::log::{Example, LogRun, LogSetup, NOTHING_MET};
 use fastslam::geometry::Pose2;
 use fastslam::log::{LogError, NEAR, Relation, parse, parse_relations, relation_errors, write};
 use fastslam::ops;
 use fastslam::random::{Purpose, Stream};
+use fastslam_lab::experiment::log::{Example, LogRun, LogSetup, NOTHING_MET};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -140,7 +140,7 @@ fn mutilated_logs_are_refused_or_mapped_but_never_panic() {
     ];
     let (mut read, mut mapped) = (0, 0);
     for trial in 0..400 {
-        let mut stream = Stream::at(5, Purpose::Trial, trial, 0);
+        let mut stream = Stream::at(5, Purpose::TRIAL, trial, 0);
         let mut below = |n: usize| (stream.uniform() * n as f64) as usize;
         let mut bytes = [SMALL.as_bytes(), b"\n", example.as_bytes()].concat();
         for _ in 0..=below(4) {

@@ -1,10 +1,10 @@
 //! Laws of the copy-on-write grid: sharing is never seen.
 
-use fastslam::digest::Digest;
-use fastslam::experiment::lap::GRID;
 use fastslam::geometry::Pose2;
 use fastslam::map::{ConditionalMap, grid::Grid};
 use fastslam::sensor::{BeamSensor, Scan};
+use fastslam_lab::digest::Digest;
+use fastslam_lab::experiment::lap::GRID;
 use proptest::prelude::*;
 
 /// What a grid says of a cell: where, log-odds, and the mean of the end points in it.
@@ -15,10 +15,10 @@ fn content(grid: &Grid) -> (Vec<Cell>, Digest) {
     let cells = grid.bounds();
     let all = (cells.j0..cells.j1).flat_map(|j| (cells.i0..cells.i1).map(move |i| (i, j)));
     let said = all
-        .map(|(i, j)| (i, j, grid.log_odds(i, j).to_bits(), grid.hit_mean(i, j).map(|mean| mean.map(f64::to_bits))))
+        .map(|(i, j)| (i, j, grid.log_odds(i, j).to_bits(), grid.ndt_mean(i, j).map(|mean| mean.map(f64::to_bits))))
         .collect();
     let mut digest = Digest::new();
-    Grid::put([grid], &mut digest);
+    Grid::hash_all([grid], &mut digest);
     (said, digest)
 }
 

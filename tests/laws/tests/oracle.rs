@@ -39,12 +39,12 @@ fn cases() -> (String, Vec<Vec<u32>>) {
     let (mut lines, mut ours) = (String::new(), Vec::new());
     for scheme in [Scheme::Systematic, Scheme::Stratified, Scheme::Multinomial, Scheme::Residual] {
         for case in 0..60 {
-            let mut draw = Stream::at(11, Purpose::Trial, case, 0);
+            let mut draw = Stream::at(11, Purpose::TRIAL, case, 0);
             let spread = if case % 3 == 0 { 300.0 } else { 4.0 };
             let log_weights: Vec<f64> = (0..=case).map(|_| -spread * draw.uniform()).collect();
             let n = 1 + (100.0 * draw.uniform()) as usize;
             let weights = Weights::uniform(log_weights.len()).reweighted(&log_weights).0;
-            let stream = || Stream::at(12, Purpose::Resampling, case, 0);
+            let stream = || Stream::at(12, Purpose::RESAMPLING, case, 0);
             ours.push(scheme.ancestors(&weights, n, &mut stream()));
             let mut uniforms = stream();
             let join = |values: Vec<f64>| values.iter().map(|x| format!("{x:e}")).collect::<Vec<_>>().join(",");

@@ -1,23 +1,23 @@
 //! The grid proposals against the posterior of one step, summed on a dense grid of poses.
 
-use fastslam::experiment::lap::{ALPHAS, FROM_SCAN, GRID, LapWorld, OUTLIER, TEMPER};
-use fastslam::experiment::log;
+use fastslam::genealogy::Path;
 use fastslam::geometry::{Gaussian3, Pose2};
-use fastslam::lineage::Path;
 use fastslam::map::ConditionalMap;
 use fastslam::map::grid::{Grid, GridModel};
 use fastslam::matching::{Matcher, ScanModel};
 use fastslam::motion::{Motion, Odometry, OdometryModel};
 use fastslam::ops;
 use fastslam::proposal::{
-    Fit, FromMotion, FromScan, FromScanSettings, Proposal, ProposalTrace, Proposed, Search, Spread,
+    Fit, FromMotion, FromScan, FromScanSettings, HeadingSeeds, Proposal, ProposalTrace, Proposed, Search,
 };
 use fastslam::random::{Purpose, Stream};
 use fastslam::rbpf::Particle;
+use fastslam_lab::experiment::lap::{ALPHAS, FROM_SCAN, GRID, LapWorld, OUTLIER, TEMPER};
+use fastslam_lab::experiment::log;
 use nalgebra::{Matrix3, Vector3};
 
 /// A particle at the start of the lap, its map made there, and the first step's control and scan.
-struct OneStep<S = Spread> {
+struct OneStep<S = HeadingSeeds> {
     particle: Particle<Grid>,
     world: LapWorld,
     from_scan: FromScan<S>,
@@ -39,8 +39,10 @@ fn one_step_by<S>(matcher: Matcher, search: S) -> OneStep<S> {
     let particle = Particle { world_from_robot: world.truth[0], map, path: Path::start(world.truth[0]) };
     // Tempered harder, or the posterior is too narrow for a dense grid and for the motion model's samples to meet it.
     let scan = ScanModel::new(matcher, TEMPER * 0.4, OUTLIER);
-    let FromScanSettings { motion_floor, climb, climb_stride, gain, full_weight, limits, .. } = FROM_SCAN;
-    let settings = FromScanSettings { motion_floor, search, climb, climb_stride, gain, full_weight, limits };
+    let FromScanSettings { motion_floor, climb, climb_stride, minimum_improvement, full_weight, limits, .. } =
+        FROM_SCAN;
+    let settings =
+        FromScanSettings { motion_floor, search, climb, climb_stride, minimum_improvement, full_weight, limits };
     OneStep { particle, world, from_scan: FromScan { fallback: FromMotion { motion, likelihood: scan }, settings } }
 }
 
@@ -85,7 +87,7 @@ impl<S> OneStep<S> {
         let prior = self.prior(NO_FLOOR);
         let drawn: Vec<(Vector3<f64>, f64)> = (0..draws)
             .map(|k| {
-                let mut stream = Stream::at(7, Purpose::Trial, k, 0);
+                let mut stream = Stream::at(7, Purpose::TRIAL, k, 0);
                 let p = proposal.propose(&self.particle, &self.world.controls[0], &self.world.scans[0], &mut stream);
                 (p.world_from_robot.minus(prior.mean()), p.log_increment)
             })
@@ -125,7 +127,7 @@ fn compare<S: Search + Sync>(name: &str, step: &OneStep<S>) {
     let FromScan { fallback, settings } = &step.from_scan;
     let (prior, control, scan) = (step.prior(settings.motion_floor), &step.world.controls[0], &step.world.scans[0]);
     let target = |pose: &Pose2| fallback.likelihood.log_score(&step.particle.map, pose, scan) + prior.log_density(pose);
-    let stream = || Stream::at(7, Purpose::Trial, 0, 0);
+    let stream = || Stream::at(7, Purpose::TRIAL, 0, 0);
     let proposed = step.from_scan.propose(&step.particle, control, scan, &mut stream());
     let ProposalTrace::Matched { mode, log_integral } = proposed.trace else { panic!("{name}: {proposed:?}") };
     let fit = Fit::around(&mode, &settings.limits, target).unwrap();
@@ -148,9 +150,9 @@ fn the_measurement_aware_proposal_has_the_posteriors_mean_covariance_and_integra
     for matcher in [Matcher::Cell, Matcher::SubCell] {
         let (mut spread, mut lattice) = (one_step(matcher), one_step_by(matcher, log::FROM_SCAN.search));
         // So hard a temper leaves cells, and the coarse look of the lattice, too little for the guard to trust them.
-        lattice.from_scan.settings.gain = f64::NEG_INFINITY;
+        lattice.from_scan.settings.minimum_improvement = f64::NEG_INFINITY;
         if matcher == Matcher::Cell {
-            spread.from_scan.settings.gain = f64::NEG_INFINITY;
+            spread.from_scan.settings.minimum_improvement = f64::NEG_INFINITY;
         }
         compare(&format!("{matcher} spread"), &spread);
         compare(&format!("{matcher} lattice"), &lattice);
@@ -180,9 +182,9 @@ fn a_short_step_weighs_in_proportion_in_both_branches_of_the_guard() {
         {
             step.from_scan.settings.full_weight = full_weight;
             for (gain, trusted) in [(f64::NEG_INFINITY, true), (f64::INFINITY, false)] {
-                step.from_scan.settings.gain = gain;
+                step.from_scan.settings.minimum_improvement = gain;
                 for k in 0..5 {
-                    let mut stream = Stream::at(7, Purpose::Trial, k, 0);
+                    let mut stream = Stream::at(7, Purpose::TRIAL, k, 0);
                     let proposed = step.from_scan.propose(&step.particle, &control, scan, &mut stream);
                     assert_eq!(matches!(proposed.trace, ProposalTrace::Matched { .. }), trusted);
                     let score = |map: &Grid| {
@@ -209,7 +211,7 @@ fn the_matcher_fails_on_a_flat_score_surface() {
     step.particle.map = Grid::new(GRID);
     for slot in 0..50 {
         let draw =
-            |proposal: &dyn Fn(&mut Stream) -> Proposed<()>| proposal(&mut Stream::at(3, Purpose::Trial, 0, slot));
+            |proposal: &dyn Fn(&mut Stream) -> Proposed<()>| proposal(&mut Stream::at(3, Purpose::TRIAL, 0, slot));
         let (control, scan) = (&step.world.controls[0], &step.world.scans[0]);
         let aware = draw(&|stream| step.from_scan.propose(&step.particle, control, scan, stream));
         assert_eq!(aware.trace, ProposalTrace::Motion);
@@ -231,8 +233,8 @@ fn sampled_motions_have_the_models_moments() {
     let u = Odometry { rot1: 0.2, trans: 1.0, rot2: 0.1 };
     let draws: Vec<Vector3<f64>> = (0..n)
         .map(|k| {
-            let noisy = model.perturb(&u, &mut Stream::at(2, Purpose::Trial, k, 0));
-            assert!(model.sample(&from, &u, &mut Stream::at(2, Purpose::Trial, k, 0)) == noisy.apply(&from));
+            let noisy = model.perturb(&u, &mut Stream::at(2, Purpose::TRIAL, k, 0));
+            assert!(model.sample(&from, &u, &mut Stream::at(2, Purpose::TRIAL, k, 0)) == noisy.apply(&from));
             Vector3::new(noisy.rot1 - u.rot1, noisy.trans - u.trans, noisy.rot2 - u.rot2)
         })
         .collect();

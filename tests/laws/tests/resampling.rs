@@ -14,7 +14,7 @@ fn weights(log_weights: &[f64]) -> Weights {
 
 fn counts(scheme: Scheme, weights: &Weights, n: usize, trial: u32) -> Vec<u32> {
     let mut counts = vec![0; weights.as_slice().len()];
-    let mut stream = Stream::at(1, Purpose::Trial, trial, 0);
+    let mut stream = Stream::at(1, Purpose::TRIAL, trial, 0);
     scheme.ancestors(weights, n, &mut stream).iter().for_each(|slot| counts[*slot as usize] += 1);
     counts
 }
@@ -34,7 +34,7 @@ proptest! {
     ) {
         let weights = weights(&log_weights);
         for scheme in SCHEMES {
-            let ancestors = scheme.ancestors(&weights, n, &mut Stream::at(seed, Purpose::Resampling, 3, 0));
+            let ancestors = scheme.ancestors(&weights, n, &mut Stream::at(seed, Purpose::RESAMPLING, 3, 0));
             prop_assert_eq!(ancestors.len(), n);
             prop_assert!(ancestors.is_sorted());
             prop_assert!(ancestors.iter().all(|slot| (*slot as usize) < log_weights.len()));

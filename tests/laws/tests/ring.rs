@@ -1,7 +1,7 @@
 //! What the fit of a particle is worth, and what a filter keeps until a loop closes.
 
-use fastslam::experiment::lap::{Lap, LapSetup};
-use fastslam::experiment::ring::{NoiseProbe, PriceNoise, RingRun, RingSetup, median, price_noise, price_noise_on};
+use fastslam_lab::experiment::lap::{Lap, LapSetup};
+use fastslam_lab::experiment::ring::{NoiseProbe, PriceNoise, RingRun, RingSetup, median, price_noise, price_noise_on};
 
 /// The ring on which universes can be told apart least: one niche a side, a laser of 2.5 m.
 fn bare(seed: u64, particles: usize) -> RingSetup {

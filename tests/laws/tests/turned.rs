@@ -1,10 +1,7 @@
 //! A world that is turned with all that is in it, and a filter that must not notice.
 
-use fastslam::experiment::hill::Hill;
-use fastslam::experiment::lap::{self, BEAMS, Lap, LapSetup, LapWorld};
-use fastslam::experiment::{Spread as Errors, log};
+use fastslam::genealogy::Path;
 use fastslam::geometry::Pose2;
-use fastslam::lineage::Path;
 use fastslam::map::ConditionalMap;
 use fastslam::map::grid::{Grid, GridModel};
 use fastslam::matching::{Matcher, ScanModel};
@@ -14,7 +11,10 @@ use fastslam::proposal::{Fit, FromMotion, FromScan, Proposal, ProposalTrace, Sea
 use fastslam::random::{Purpose, Stream};
 use fastslam::rbpf::Particle;
 use fastslam::sensor::{BeamSensor, Scan};
-use fastslam::world::{FloorPlan, Segment};
+use fastslam_lab::experiment::hill::Hill;
+use fastslam_lab::experiment::lap::{self, BEAMS, Lap, LapSetup, LapWorld};
+use fastslam_lab::experiment::{ErrorSummary as Errors, log};
+use fastslam_lab::world::{FloorPlan, Segment};
 use nalgebra::Matrix3;
 use std::sync::Arc;
 
@@ -22,9 +22,9 @@ use std::sync::Arc;
 const ANGLES: [f64; 7] = [0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0];
 
 /// A particle before a step.
-struct Scene<S, const FINE: usize> {
+struct Scene<S, const CELLS_PER_NDT: usize> {
     from_scan: FromScan<S>,
-    particle: Particle<Grid<FINE>>,
+    particle: Particle<Grid<CELLS_PER_NDT>>,
     control: Odometry,
     scan: Scan,
 }
@@ -37,13 +37,13 @@ struct Judged {
     dense: Matrix3<f64>,
 }
 
-impl<S: Search + Sync, const FINE: usize> Scene<S, FINE> {
+impl<S: Search + Sync, const CELLS_PER_NDT: usize> Scene<S, CELLS_PER_NDT> {
     /// `None` where the matcher is not trusted.
     fn judged(&self, seed: u32) -> Option<Judged> {
         let Self { from_scan: FromScan { fallback, settings }, particle, control, scan } = self;
         let prior = fallback.motion.gaussian(&particle.world_from_robot, control, settings.motion_floor);
         let target = |pose: &Pose2| fallback.likelihood.log_score(&particle.map, pose, scan) + prior.log_density(pose);
-        let stream = || Stream::at(1, Purpose::Trial, seed, 0);
+        let stream = || Stream::at(1, Purpose::TRIAL, seed, 0);
         let proposed = self.from_scan.propose(particle, control, scan, &mut stream());
         let ProposalTrace::Matched { mode, log_integral } = proposed.trace else { return None };
         let fit = Fit::around(&mode, &settings.limits, target)?;
@@ -63,7 +63,7 @@ const HALF: f64 = 0.9;
 /// chance, which the mean over `seed` averages.
 fn turned_about(center: [f64; 2], angle: f64, seed: u32) -> Pose2 {
     let [x, y] = center;
-    let mut stream = Stream::at(6, Purpose::Trial, seed, 0);
+    let mut stream = Stream::at(6, Purpose::TRIAL, seed, 0);
     let [dx, dy] = [0, 1].map(|_| lap::GRID.cell_size * stream.uniform());
     Pose2::new(x + dx, y + dy, angle.to_radians()).compose(&Pose2::new(-x, -y, 0.0))
 }
@@ -73,22 +73,22 @@ const WHEELS: OdometryModel = OdometryModel { alphas: log::ALPHAS };
 
 /// A corridor with no end in sight, mapped on twelve steps of 0.3 m from known poses, and a scan `trans` \[m\] further: the `seed`-th
 /// of places where raster and noise differ, the world turned.
-fn corridor<S, const FINE: usize>(
+fn corridor<S, const CELLS_PER_NDT: usize>(
     from_scan: FromScan<S>,
     model: GridModel,
     trans: f64,
     seed: u32,
     angle: f64,
-) -> Scene<S, FINE> {
+) -> Scene<S, CELLS_PER_NDT> {
     let wall = |y: f64| Segment { a: [-40.0, y], b: [40.0, y] };
     let motion = turned_about([0.0, 0.0], angle, seed);
     let plan = FloorPlan { size: [40.0, HALF], walls: vec![wall(-HALF), wall(HALF)], furniture: Vec::new() };
     let plan = plan.moved(&motion);
     let sensor = BeamSensor::panorama(BEAMS, lap::MAX_RANGE, 0.02);
     let look = |pose: &Pose2, k: u32| {
-        sensor.scan(&plan.ranges(pose, &sensor, &mut Stream::at(4, Purpose::WorldSensor, seed, k)))
+        sensor.scan(&plan.ranges(pose, &sensor, &mut Stream::at(4, fastslam_lab::WORLD_SENSOR, seed, k)))
     };
-    let mut stream = Stream::at(4, Purpose::Trial, seed, 0);
+    let mut stream = Stream::at(4, Purpose::TRIAL, seed, 0);
     let mut within = |half: f64| half * (2.0 * stream.uniform() - 1.0);
     let y = within(0.3);
     let mut drive = (0..12).map(|k| Pose2::new(0.3 * f64::from(k), y + within(0.05), within(0.1)));
@@ -99,7 +99,7 @@ fn corridor<S, const FINE: usize>(
     }
     let (here, ahead) = (truth[11], truth[11].compose(&Pose2::new(trans, 0.0, 0.0)));
     let driven = Odometry::between(&here, &ahead);
-    let control = WHEELS.perturb(&driven, &mut Stream::at(4, Purpose::WorldOdometry, seed, 0));
+    let control = WHEELS.perturb(&driven, &mut Stream::at(4, fastslam_lab::WORLD_ODOMETRY, seed, 0));
     let particle = Particle { world_from_robot: here, map, path: Path::start(here) };
     Scene { from_scan, particle, control, scan: look(&ahead, 12) }
 }
@@ -118,12 +118,12 @@ fn corridor_of_a_log(seed: u32, angle: f64) -> Option<Judged> {
     let model = GridModel {
         cell_size: 0.05,
         log_odds_pass: -0.4,
-        surface_std: 0.06,
-        surface_stretch: log::SURFACE_STRETCH,
+        ndt_std: 0.06,
+        ndt_stretch: log::NDT_STRETCH,
         reach: 2,
         ..lap::GRID
     };
-    corridor::<_, { log::FINE }>(from_scan, model, 0.4, seed, angle).judged(seed)
+    corridor::<_, { log::CELLS_PER_NDT }>(from_scan, model, 0.4, seed, angle).judged(seed)
 }
 
 /// The first step of the lap, turned about its start.

@@ -1,7 +1,7 @@
 //! The chapter's numbers made again, to the bit: what the native tests and those in the browser share.
 
 use fastslam::execute::Executor;
-use fastslam::experiment::numbers::{Errors, FIRST_SEEDS, LapCell, Number, Recipe, SEEDS, owner, recipes};
+use fastslam_lab::experiment::numbers::{Errors, FIRST_SEEDS, LapCell, Number, Recipe, SEEDS, owner, recipes};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;

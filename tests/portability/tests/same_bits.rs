@@ -4,8 +4,8 @@
 //! A change that is meant to change numbers is written with `UPDATE_GOLDENS=1 cargo test -p portability`.
 
 use fastslam::execute::Executor;
-use fastslam::experiment::golden_traces;
-use fastslam::experiment::lap::{Lap, LapSetup, golden_setups};
+use fastslam_lab::experiment::golden_traces;
+use fastslam_lab::experiment::lap::{Lap, LapSetup, golden_setups};
 use std::fmt::Write;
 
 const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/golden.txt");

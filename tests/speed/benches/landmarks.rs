@@ -5,7 +5,7 @@ use core::hint::black_box;
 use criterion::{BatchSize, BenchmarkId, Criterion, criterion_group, criterion_main};
 use fastslam::geometry::Pose2;
 use fastslam::map::ConditionalMap;
-use fastslam::map::landmarks::{Balanced, Blocks, Correspondence, Landmark, Landmarks, Sighted, Store};
+use fastslam::map::landmarks::{Association, Balanced, Blocks, Correspondence, Landmark, Landmarks, Store};
 use speed::{SENSOR, Thousand, field, six};
 
 /// A step of a thousand particles; divide by a thousand.
@@ -22,7 +22,7 @@ fn steps(criterion: &mut Criterion) {
 }
 
 fn observation<S: Store>(criterion: &mut Criterion, name: &str) {
-    let (features, sighted) = (six()[..1].to_vec(), vec![Sighted::Again(3)]);
+    let (features, sighted) = (six()[..1].to_vec(), vec![Association::Matched(3)]);
     for count in [10, 100, 1000, 10_000] {
         let map = Landmarks::<_, S>::new(SENSOR, Correspondence::Known).with(field(count));
         criterion.benchmark_group("landmarks-copy-and-observe").bench_with_input(

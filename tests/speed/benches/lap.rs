@@ -4,9 +4,9 @@
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use fastslam::execute::Executor;
-use fastslam::experiment::lap::{Lap, LapSetup};
 use fastslam::matching::Matcher;
-use fastslam::proposal::ProposalKind;
+use fastslam_lab::experiment::ProposalKind;
+use fastslam_lab::experiment::lap::{Lap, LapSetup};
 
 fn drive(setup: &LapSetup, executor: &Executor) -> f64 {
     let mut lap = Lap::new(setup).expect("the setup is in range").with_executor(executor.clone());

@@ -1,7 +1,7 @@
 //! Where the parts of the figure stand: the graph beside the matrix where there is room, above it on a phone.
 
 use crate::scene::Rect;
-use fastslam::experiment::conditioning::SIZE;
+use fastslam_lab::experiment::conditioning::SIZE;
 
 /// What is shown around the place \[m\]: what is known of a landmark at its edge reaches beyond.
 pub const MARGIN: f64 = 0.5;

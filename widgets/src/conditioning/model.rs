@@ -4,15 +4,15 @@ use super::{
     layout::{Layout, NARROWEST},
     params, scene,
 };
+use crate::decimal::{fixed, write};
 use crate::{
     model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series},
     param::{Value, flag_text, unknown},
     scene::{Point, Scene},
 };
-use fastslam::{
-    decimal::{fixed, write},
-    exact::joint::MapCovariance,
-    experiment::conditioning::{Conditioning, ConditioningSetup, Knowledge},
+use fastslam_lab::{
+    baseline::joint::MapCovariance,
+    experiment::conditioning::{Conditioning, ConditioningSetup, Covariances},
 };
 
 /// Figure w17.4.
@@ -21,7 +21,7 @@ pub struct ConditioningModel {
     /// How many poses have been driven.
     step: usize,
     /// What is known after them.
-    knowledge: Knowledge,
+    covariances: Covariances,
     /// Whether the path counts as known.
     conditioned: bool,
     /// Row and column of the entry that is named, from 0 to 2 N − 1.
@@ -42,8 +42,8 @@ impl Default for ConditioningModel {
     fn default() -> Self {
         let setup = ConditioningSetup::default();
         let drive = Conditioning::new(&setup).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
-        let knowledge = drive.after(setup.poses);
-        Self { drive, step: setup.poses, knowledge, conditioned: false, entry: params::ENTRY }
+        let covariances = drive.after(setup.poses);
+        Self { drive, step: setup.poses, covariances, conditioned: false, entry: params::ENTRY }
     }
 }
 
@@ -57,8 +57,8 @@ impl ConditioningModel {
     }
 
     /// What is known after the poses driven.
-    pub fn knowledge(&self) -> &Knowledge {
-        &self.knowledge
+    pub fn covariances(&self) -> &Covariances {
+        &self.covariances
     }
 
     /// Whether the path counts as known.
@@ -68,7 +68,7 @@ impl ConditioningModel {
 
     /// The covariance of the landmarks seen that is shown.
     pub fn map(&self) -> &MapCovariance {
-        if self.conditioned { &self.knowledge.conditional } else { &self.knowledge.marginal }
+        if self.conditioned { &self.covariances.conditional } else { &self.covariances.marginal }
     }
 
     /// Row and column of the entry that is named, from 0 to 2 N − 1.
@@ -84,7 +84,7 @@ impl ConditioningModel {
 
     /// Where a landmark stands among those seen.
     pub fn place(&self, landmark: usize) -> Option<usize> {
-        self.knowledge.seen.iter().position(|&j| j == landmark)
+        self.covariances.seen.iter().position(|&j| j == landmark)
     }
 
     /// From how many of the poses driven both landmarks were seen.
@@ -109,7 +109,7 @@ impl ConditioningModel {
 
     /// How many entries of a map of the landmarks seen lie outside the blocks.
     pub fn off_block(&self) -> usize {
-        let n = self.knowledge.seen.len();
+        let n = self.covariances.seen.len();
         4 * n * n.saturating_sub(1)
     }
 
@@ -121,14 +121,14 @@ impl ConditioningModel {
         let step = step.min(self.setup().poses);
         if step != self.step {
             self.step = step;
-            self.knowledge = self.drive.after(step);
+            self.covariances = self.drive.after(step);
         }
     }
 
     fn rebuild(&mut self, setup: &ConditioningSetup) -> Result<(), FigureError> {
         self.drive = Conditioning::new(setup)?;
         self.step = self.step.min(setup.poses);
-        self.knowledge = self.drive.after(self.step);
+        self.covariances = self.drive.after(self.step);
         self.choose(self.entry.map(|k| k as f64));
         Ok(())
     }
@@ -279,7 +279,7 @@ impl Model for ConditioningModel {
             count(
                 "seen",
                 "Landmarks seen",
-                self.knowledge.seen.len(),
+                self.covariances.seen.len(),
                 self.setup().landmarks,
                 "How many landmarks were in range of a pose driven; the others are in no covariance yet.",
             ),
@@ -355,7 +355,7 @@ impl Model for ConditioningModel {
             ),
         ];
         let row = |step: usize| {
-            let Knowledge { seen, marginal, conditional, .. } = self.drive.after(step);
+            let Covariances { seen, marginal, conditional, .. } = self.drive.after(step);
             let (free, given) = (couplings(&marginal), couplings(&conditional));
             vec![
                 step as f64,
@@ -375,7 +375,7 @@ impl Model for ConditioningModel {
         if self.step == 0 {
             return "No pose driven yet: the robot stands at its known start, and has seen no landmark.".into();
         }
-        let (seen, off_block) = (self.knowledge.seen.len(), self.off_block());
+        let (seen, off_block) = (self.covariances.seen.len(), self.off_block());
         let driven = format!("{} of {} poses driven, {seen} landmarks seen. ", self.step, self.setup().poses);
         let coupled =
             format!("{} of {off_block} entries outside the blocks are not 0. ", self.map().off_block_nonzeros());

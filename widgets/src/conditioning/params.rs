@@ -1,7 +1,8 @@
 //! What a reader can set about the graphical model.
 
 use crate::model::ParamSpec;
-use fastslam::experiment::conditioning::{ConditioningSetup, LANDMARKS, POSES};
+use fastslam::error::Range;
+use fastslam_lab::experiment::conditioning::{ConditioningSetup, LANDMARKS, POSES};
 
 /// The entry named at first, counted from 0: of two landmarks that no pose sees together.
 pub const ENTRY: [usize; 2] = [1, 7];
@@ -9,7 +10,7 @@ pub const ENTRY: [usize; 2] = [1, 7];
 /// All parameters, for a drive of so many poses past so many landmarks.
 pub fn specs(setup: &ConditioningSetup) -> Vec<ParamSpec> {
     let ConditioningSetup { landmarks, poses, odometry_scale, range_std } = ConditioningSetup::default();
-    let range = |range: std::ops::RangeInclusive<usize>| (*range.start() as i64, *range.end() as i64);
+    let range = |range: Range| (range.least as i64, range.most as i64);
     let entry = |name, title, default: usize, help| {
         let entries = (1, 2 * setup.landmarks as i64);
         ParamSpec::integer(name, title, "", entries, default as i64 + 1, help).without_slider().view()

@@ -12,7 +12,7 @@ use crate::{
         text,
     },
 };
-use fastslam::experiment::conditioning::SIZE;
+use fastslam_lab::experiment::conditioning::SIZE;
 
 /// Name of the handle that chooses an entry of the matrix.
 pub const ENTRY: &str = "entry";
@@ -90,7 +90,7 @@ impl<'a> Graph<'a> {
 
     fn draw(&self, scene: &mut Scene) {
         let (model, now) = (self.model, self.model.step() as usize);
-        let seen = &model.knowledge().seen;
+        let seen = &model.covariances().seen;
         let sightings = (1..=now).flat_map(|t| model.drive().sightings(t).into_iter().map(move |j| (t, j)));
         let lines = sightings.flat_map(|(t, j)| dashes(self.pose(t), self.landmark(j))).collect();
         scene.marks.push(Mark::Strands { lines, width: 1.0, role: Role::Muted });
@@ -112,7 +112,7 @@ impl<'a> Graph<'a> {
         }
 
         if !model.conditioned() {
-            let regions = model.knowledge().path.iter().enumerate();
+            let regions = model.covariances().path.iter().enumerate();
             let lines = regions.flat_map(|(k, p)| self.region(self.pose(k + 1), [p.m11, p.m12, p.m22])).collect();
             scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some([4.0, 3.0]), role: Role::Path });
         }
@@ -156,7 +156,7 @@ impl<'a> Graph<'a> {
 
     /// An arc between any two landmarks seen: as wide and as strong as |ρ|, and none where that is 0.
     fn arcs(&self, scene: &mut Scene) {
-        let (map, seen) = (self.model.map(), &self.model.knowledge().seen);
+        let (map, seen) = (self.model.map(), &self.model.covariances().seen);
         let mut levels: Vec<Vec<Vec<Point>>> = vec![Vec::new(); LEVELS + 1];
         let mut accent = None;
         for b in 0..seen.len() {

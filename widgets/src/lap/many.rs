@@ -6,7 +6,7 @@ use crate::{
     model::FigureError,
 };
 use core::ops::Range;
-use fastslam::experiment::{lap::LapSetup, table::rms_best};
+use fastslam_lab::experiment::{lap::LapSetup, table::rms_best};
 
 /// How far from the truth each lap ends.
 pub const LAPS: Job = Job { name: "laps", columns: &["seed", "rms_best"], run };

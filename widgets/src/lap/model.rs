@@ -4,6 +4,7 @@ use super::{
     layout::{Layout, NARROWEST},
     params, scene,
 };
+use crate::decimal::{fixed, write};
 use crate::{
     model::{
         Column, FigureError, Group, Model, ParamSpec, Readout, Series, TraceLine, ess_text, pose_text, unexplained,
@@ -12,12 +13,9 @@ use crate::{
     policy,
     scene::Scene,
 };
-use fastslam::{
-    decimal::{fixed, write},
-    experiment::lap::{Lap, LapSetup, StepReport},
-    geometry::Pose2,
-    proposal::{ProposalKind, ProposalTrace},
-};
+use fastslam::{geometry::Pose2, proposal::ProposalTrace};
+use fastslam_lab::experiment::ProposalKind;
+use fastslam_lab::experiment::lap::{Lap, LapSetup, StepReport};
 
 /// Most universes that keyframes keep, all steps together. Each holds the tiles that were written since the one before: about
 /// 30 KB, and all of them 64 MB.
@@ -457,7 +455,7 @@ impl Model for LapModel {
         let predicted = self.shown.world().controls[report.step as usize - 1].apply(&from);
         let paid = nats(report.log_increments[slot]);
         let mut lines = Vec::new();
-        if self.recipe.setup.proposal == ProposalKind::Aware {
+        if self.recipe.setup.proposal == ProposalKind::Improved {
             lines.extend([TraceLine::new("predict", pose(&predicted)), TraceLine::new("seed", "")]);
             let doubt =
                 |word| TraceLine::new("doubt", format!("{word}; in {} of {m} universes trusted", report.matched));

@@ -4,7 +4,7 @@ use crate::{
     model::{Choice, ParamSpec},
     policy,
 };
-use fastslam::experiment::lap::{LapSetup, STEPS};
+use fastslam_lab::experiment::lap::{LapSetup, STEPS};
 
 const PROPOSALS: &[Choice] = &[
     Choice { value: "aware", title: "measurement-aware" },

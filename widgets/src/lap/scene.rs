@@ -6,6 +6,7 @@ use super::{
     model::LapModel,
     view::{self, ASPECT, View},
 };
+use crate::decimal::fixed;
 use crate::{
     font::{self, Weight},
     model::Model,
@@ -13,7 +14,7 @@ use crate::{
         Anchor, Cells, FREE, Mark, OCCUPIED, Point, Rect, Region, Role, Scene, Shading, Text, UNKNOWN, heading, text,
     },
 };
-use fastslam::{decimal::fixed, geometry::Pose2, resampling::ResamplePolicy};
+use fastslam::{geometry::Pose2, resampling::ResamplePolicy};
 
 /// Width of the paper-coloured rim that lifts a line off the map \[css px\], on each side.
 const RIM: f64 = 1.25;

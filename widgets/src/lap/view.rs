@@ -59,7 +59,7 @@ pub fn shades(map: &Grid) -> Cells {
 pub fn hits(map: &Grid) -> Vec<[f64; 2]> {
     let mut means = Vec::new();
     for j in CELLS.j0..CELLS.j1 {
-        means.extend((CELLS.i0..CELLS.i1).filter(|&i| map.log_odds(i, j) > 0.0).filter_map(|i| map.hit_mean(i, j)));
+        means.extend((CELLS.i0..CELLS.i1).filter(|&i| map.log_odds(i, j) > 0.0).filter_map(|i| map.ndt_mean(i, j)));
     }
     means
 }
@@ -67,7 +67,7 @@ pub fn hits(map: &Grid) -> Vec<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fastslam::experiment::lap::GRID;
+    use fastslam_lab::experiment::lap::GRID;
 
     #[test]
     fn the_cell_is_the_one_of_the_filter() {

@@ -8,6 +8,7 @@ use super::{
     tree::{Death, FADE},
     view::{Frame, View},
 };
+use crate::decimal::{fixed, write};
 use crate::{
     model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series, unexplained},
     param::{Value, flag_text, unknown},
@@ -15,15 +16,11 @@ use crate::{
     scene::{Point, Scene},
 };
 use fastslam::{
-    decimal::{fixed, write},
-    experiment::{
-        log::{LogRun, LogSetup, LogStep},
-        log_files::{Picture, trajectory},
-    },
-    log::{LaserLog, LogError, parse, swept_area},
-    map::Footprint,
+    log::{LaserLog, LogError, parse, swept_area, write_tum},
+    map::{Footprint, grid::MapImage},
     resampling::ResamplePolicy,
 };
+use fastslam_lab::experiment::log::{LogRun, LogSetup, LogStep};
 use std::sync::Arc;
 
 /// Steps back of the lineage gauge.
@@ -448,9 +445,9 @@ impl Model for LogModel {
     fn file(&self, name: &str) -> Option<Vec<u8>> {
         let run = self.run.as_ref()?;
         Some(match name {
-            "path.tum" => trajectory(run).into_bytes(),
-            "map.pgm" => Picture::of(run).pgm(),
-            "map.yaml" => Picture::of(run).yaml("map.pgm").into_bytes(),
+            "path.tum" => write_tum(&run.path()).into_bytes(),
+            "map.pgm" => MapImage::of(run.map()).pgm(),
+            "map.yaml" => MapImage::of(run.map()).yaml("map.pgm").into_bytes(),
             _ => return None,
         })
     }

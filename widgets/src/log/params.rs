@@ -1,7 +1,7 @@
 //! What a reader can set about the mapping of a log.
 
 use crate::{model::ParamSpec, policy};
-use fastslam::experiment::log::LogSetup;
+use fastslam_lab::experiment::log::LogSetup;
 
 /// Least and most of each number, and the step of its slider.
 const CELL: (f64, f64, f64) = (0.02, 0.2, 0.01);

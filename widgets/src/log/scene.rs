@@ -6,6 +6,7 @@ use super::{
     tree::{FADE, Tree},
     view::View,
 };
+use crate::decimal::{fixed, write};
 use crate::{
     font::{self, Weight},
     model::Model,
@@ -13,11 +14,7 @@ use crate::{
         Anchor, Cells, FREE, Mark, OCCUPIED, Point, Rect, Role, Scene, Shading, Text, UNKNOWN, heading, text, thinned,
     },
 };
-use fastslam::{
-    decimal::{fixed, write},
-    geometry::Pose2,
-    resampling::ResamplePolicy,
-};
+use fastslam::{geometry::Pose2, resampling::ResamplePolicy};
 
 /// Font size of what is written beside the map \[css px\].
 const SIZE: f64 = 11.5;

@@ -1,7 +1,8 @@
 //! The paths of all universes, every piece once: the best from start to end, each of the others up to where it joins what was drawn,
 //! and what died out a short while ago.
 
-use fastslam::{experiment::log::LogRun, geometry::Pose2, lineage::Path};
+use fastslam::{genealogy::Path, geometry::Pose2};
+use fastslam_lab::experiment::log::LogRun;
 use std::collections::BTreeSet;
 
 /// The universes that one resampling let die out. The filter does not keep them: this does.

@@ -2,7 +2,8 @@
 
 use crate::scene::{Cells, Point, Rect, shade, thinned};
 use crate::scene::{clip_polyline, robot};
-use fastslam::{experiment::log::LogRun, geometry::Pose2, map::grid::CellRect};
+use fastslam::{geometry::Pose2, map::grid::CellRect};
+use fastslam_lab::experiment::log::LogRun;
 
 /// Least and most of the world in a view \[m\].
 const LEAST: f64 = 0.5;

@@ -1,7 +1,7 @@
 //! The outline of a region of highest density.
 
 use crate::scene::Point;
-use fastslam::exact::one_step::Posterior;
+use fastslam_lab::baseline::one_step::Posterior;
 
 /// No crossing follows.
 const END: usize = usize::MAX;
@@ -48,7 +48,7 @@ pub fn outline(posterior: &Posterior) -> Vec<Vec<Point>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fastslam::experiment::proposals::{Proposals, ProposalsSetup};
+    use fastslam_lab::experiment::proposals::{Proposals, ProposalsSetup};
 
     #[test]
     fn the_outline_lies_on_the_edge_of_the_region_and_is_closed() {

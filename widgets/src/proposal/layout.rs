@@ -1,7 +1,7 @@
 //! Where the parts of the figure stand, and what part of the world the panels show.
 
 use crate::scene::{Point, Rect};
-use fastslam::exact::one_step::Area;
+use fastslam_lab::baseline::one_step::Area;
 
 /// From this width on \[css px\], the panels stand side by side.
 pub const WIDE: f64 = 640.0;

@@ -5,15 +5,13 @@ use super::{
     layout::{Layout, NARROWEST},
     params, scene,
 };
+use crate::decimal::{fixed, write};
 use crate::{
     model::{Column, FigureError, Model, ParamSpec, Readout, Series},
     param::{Value, flag_text, unknown},
     scene::{Point, Scene},
 };
-use fastslam::{
-    decimal::{fixed, write},
-    experiment::proposals::{Cloud, Proposals, ProposalsSetup},
-};
+use fastslam_lab::experiment::proposals::{Cloud, Proposals, ProposalsSetup};
 
 /// Figure w17.3.
 pub struct ProposalModel {

@@ -2,7 +2,7 @@
 
 use super::{gauge, layout::WORLD};
 use crate::model::{Choice, ParamSpec};
-use fastslam::{exact::one_step::Area, experiment::proposals::ProposalsSetup};
+use fastslam_lab::{baseline::one_step::Area, experiment::proposals::ProposalsSetup};
 
 /// Most samples of each proposal.
 pub const MOST: u32 = 4096;

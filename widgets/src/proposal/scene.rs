@@ -5,6 +5,7 @@ use super::{
     layout::{LINE, Layout, NARROWEST, Panel},
     model::ProposalModel,
 };
+use crate::decimal::{fixed, write};
 use crate::{
     font::{self, Weight},
     model::Model,
@@ -13,11 +14,10 @@ use crate::{
         text,
     },
 };
-use fastslam::{
-    decimal::{fixed, write},
-    exact::one_step::{Area, Posterior},
+use fastslam::geometry::Pose2;
+use fastslam_lab::{
+    baseline::one_step::{Area, Posterior},
     experiment::proposals::{CONTROL, Cloud, FROM, TWIN},
-    geometry::Pose2,
 };
 
 /// The landmark, in the panel of the motion prior and in the other.

@@ -5,16 +5,14 @@ use super::{
     params::{self, Asked},
     scene,
 };
+use crate::decimal::{fixed, write};
 use crate::{
     model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series, TraceLine, ess_text, pose_text},
     param::{Value, flag_text, unknown},
     scene::{Point, Scene},
 };
-use fastslam::{
-    decimal::{fixed, write},
-    experiment::policies::{POLICIES, Policies, PoliciesSetup, PolicyCourse, PolicyReport},
-    geometry::Pose2,
-};
+use fastslam::geometry::Pose2;
+use fastslam_lab::experiment::policies::{POLICIES, Policies, PoliciesSetup, PolicyCourse, PolicyReport};
 
 /// Figure w17.2.
 pub struct ResamplingModel {
@@ -384,26 +382,26 @@ impl Model for ResamplingModel {
     /// Of the selective filter's best particle at the step that is read, among landmarks.
     fn trace(&self) -> Vec<TraceLine> {
         let (m, moment) = (self.setup().particles, self.read(SELECTIVE));
-        let Some((opinion, answers)) = moment.report.opinion else { return Vec::new() };
+        let Some((associations, answers)) = moment.report.associations else { return Vec::new() };
         let pose = moment.poses[moment.best];
         let survivors = moment.report.descent.lineage(0);
         let ess = ess_text(moment.report.ess, m);
         let mut lines = vec![TraceLine::new("predict", "")];
-        if opinion.again + opinion.first > 0 {
+        if associations.again + associations.first > 0 {
             let agreed = if answers == 1 { "all agree".into() } else { format!("{answers} different answers in all") };
-            let made_of_it = format!("{} known, {} new; {agreed}", opinion.again, opinion.first);
+            let made_of_it = format!("{} known, {} new; {agreed}", associations.again, associations.first);
             lines.extend([
                 TraceLine::new("gate", ""),
                 TraceLine::new("associate", made_of_it),
-                TraceLine::new("weigh", format!("{} nats", fixed(opinion.log_increment, 1))),
+                TraceLine::new("weigh", format!("{} nats", fixed(associations.log_increment, 1))),
             ]);
         }
-        if opinion.again > 0 {
+        if associations.again > 0 {
             lines.push(TraceLine::new("fold", ""));
         }
         lines.push(TraceLine::new("draw", pose_text([pose.x, pose.y, pose.theta])));
-        if opinion.again + opinion.first > 0 {
-            let done = format!("{} updated, {} founded", opinion.again, opinion.first);
+        if associations.again + associations.first > 0 {
+            let done = format!("{} updated, {} founded", associations.again, associations.first);
             lines.push(TraceLine::new("assimilate", done));
         }
         lines.push(TraceLine::new("extend", format!("{} nodes", moment.report.tree_nodes())));

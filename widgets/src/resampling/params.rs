@@ -4,10 +4,8 @@ use crate::{
     model::{Choice, FigureError, ParamSpec},
     param::Value,
 };
-use fastslam::{
-    experiment::policies::{PoliciesSetup, PolicyCourse},
-    resampling::Scheme,
-};
+use fastslam::resampling::Scheme;
+use fastslam_lab::experiment::policies::{PoliciesSetup, PolicyCourse};
 
 /// How far back the second lineage gauge looks at first.
 pub const BACK: u32 = 10;

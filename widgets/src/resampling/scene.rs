@@ -4,16 +4,13 @@ use super::{
     layout::{Column, LINE, Layout, NARROWEST},
     model::{Moment, ResamplingModel, SELECTIVE},
 };
+use crate::decimal::{fixed, write};
 use crate::{
     font::{self, Weight},
     model::Model,
     scene::{Anchor, Handle, Mark, Point, Rect, Role, Scene, Text, clip_polyline, heading, text},
 };
-use fastslam::{
-    decimal::{fixed, write},
-    geometry::Pose2,
-    ops,
-};
+use fastslam::{geometry::Pose2, ops};
 
 /// Name of the handle that chooses the step read.
 pub const CURSOR: &str = "cursor";

@@ -6,7 +6,7 @@ use crate::{
     model::FigureError,
 };
 use core::ops::Range;
-use fastslam::experiment::{
+use fastslam_lab::experiment::{
     policies::PolicyCourse,
     policy_counts::{PolicyOutcome, outcomes},
 };

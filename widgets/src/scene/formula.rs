@@ -4,8 +4,8 @@
 //! together. A letter before U+0302 or U+0303 wears a hat or a tilde; the font has neither those letters nor ᵀ.
 
 use super::{Anchor, Mark, Point, Rect, Role, Scene, Text};
+use crate::decimal;
 use crate::font::{self, Weight};
-use fastslam::decimal;
 
 /// Size of indices, exponents and accents, as a share of the size of the line.
 const SMALL: f64 = 0.68;

@@ -5,16 +5,14 @@ use super::{
     params::{self, SIGMA},
     scene,
 };
+use crate::decimal::{fixed, significant, write};
 use crate::{
     model::{Column, FigureError, Model, ParamSpec, Readout, Series, TraceLine, ess_text, pose_text},
     param::{Value, quoted, unknown},
     scene::Scene,
 };
-use fastslam::{
-    decimal::{fixed, significant, write},
-    experiment::worked_example::{Inputs, Update, WorkedExample},
-    geometry::Pose2,
-};
+use fastslam::geometry::Pose2;
+use fastslam_lab::experiment::worked_example::{Inputs, Update, WorkedExample};
 
 /// Significant digits of readouts: what a phone has room for.
 const DIGITS: i32 = 7;

@@ -1,7 +1,7 @@
 //! What a reader can set: all numbers that the example begins with.
 
 use crate::model::ParamSpec;
-use fastslam::experiment::worked_example::Inputs;
+use fastslam_lab::experiment::worked_example::Inputs;
 
 /// How many there are.
 pub const COUNT: usize = 18;

@@ -5,16 +5,14 @@ use super::{
     model::WorkedExampleModel,
     steps::{DIGITS, GIVEN, STEPS, Step},
 };
+use crate::decimal::write;
 use crate::{
     font::{self, Weight},
     model::Model,
     scene::{Anchor, Formula, Mark, Point, Rect, Role, Scene, closed, ellipse, number, robot, text},
 };
-use fastslam::{
-    decimal::write,
-    experiment::worked_example::{Update, WorkedExample},
-    map::landmarks::Landmark,
-};
+use fastslam::map::landmarks::Landmark;
+use fastslam_lab::experiment::worked_example::{Update, WorkedExample};
 
 /// Font sizes of formulas and values, and of words \[css px\].
 const SIZE: f64 = 14.5;

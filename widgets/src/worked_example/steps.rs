@@ -3,7 +3,7 @@
 //! Matrices are transposed on their way: they are kept column by column and written row by row.
 
 use crate::scene::{Formula, number};
-use fastslam::experiment::worked_example::WorkedExample;
+use fastslam_lab::experiment::worked_example::WorkedExample;
 
 /// Significant digits of what is shown.
 pub const DIGITS: i32 = 5;

@@ -1,0 +1,493 @@
+//! FastSLAM among landmarks: simulated courses and recorded logs, and how far from the truth a run ends.
+
+use crate::baseline::EkfSlam;
+use crate::digest::Digest;
+use crate::experiment::ProposalKind;
+use crate::world::Field;
+use crate::{WORLD_ODOMETRY, WORLD_SENSOR};
+use core::f64::consts::{PI, TAU};
+use core::hash::Hasher as _;
+use fastslam::error::{Range, SettingError};
+use fastslam::execute::Executor;
+use fastslam::geometry::{Pose2, align, rms};
+use fastslam::map::Footprint;
+use fastslam::map::landmarks::{Association, Correspondence, Gate, Landmarks};
+use fastslam::motion::{Velocity, VelocityModel};
+use fastslam::nalgebra::Vector2;
+use fastslam::ops;
+use fastslam::proposal::{Either, FromMeasurement, FromMotion, Marginal};
+use fastslam::random::Stream;
+use fastslam::rbpf::{Particle, Rbpf};
+use fastslam::resampling::{ResamplePolicy, Scheme};
+use fastslam::sensor::{Feature, LandmarkSensor, RangeBearing};
+use std::sync::Arc;
+
+/// A drive as its robot reported it, with the truth beside it for those who judge.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct LandmarkLog {
+    /// True poses of steps 0 to T.
+    pub truth: Vec<Pose2>,
+    /// Poses by the reported controls alone, from the same start.
+    pub odometry: Vec<Pose2>,
+    /// Reported controls; the k-th leads from step k to k + 1.
+    pub controls: Vec<Velocity>,
+    /// What was seen at steps 1 to T.
+    pub sightings: Vec<Vec<Feature>>,
+    /// Where the landmarks truly are \[m\], by signature.
+    pub landmarks: Vec<Vector2<f64>>,
+}
+
+/// What a filter is told of the noise, and of how landmarks are to be told apart.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Tuning {
+    /// Noise of the reported velocities.
+    pub motion: VelocityModel,
+    /// The sensor.
+    pub sensor: RangeBearing,
+    /// Settings of the association, where signatures are not to be used.
+    pub gate: Gate,
+}
+
+impl Tuning {
+    /// The same with every standard deviation of the motion, and of the sensor, multiplied.
+    pub fn scaled(&self, odometry_scale: f64, sensor_scale: f64) -> Self {
+        Self { motion: self.motion.scaled(odometry_scale), sensor: self.sensor.scaled(sensor_scale), gate: self.gate }
+    }
+}
+
+/// The simulated courses.
+#[derive(
+    Clone, Copy, PartialEq, Eq, Debug, strum::Display, strum::EnumString, strum::VariantNames, strum::VariantArray,
+)]
+#[strum(serialize_all = "lowercase", parse_err_ty = SettingError, parse_err_fn = unknown_course)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "lowercase"))]
+pub enum Course {
+    /// A figure of eight through twenty-four landmarks, with a sharp sensor and poor odometry.
+    Eight,
+    /// Eight tags around a circle: the setting of the FastSLAM examples of PythonRobotics, with its landmarks, ranges and
+    /// noises.
+    Tags,
+    /// Two wings that look the same: see [`Field::two_wings`].
+    Wings,
+}
+
+fn unknown_course(given: &str) -> SettingError {
+    SettingError::unknown_word("course", given, <Course as strum::VariantNames>::VARIANTS)
+}
+
+impl Course {
+    /// The noise of the world, which is also what its filter is told.
+    pub fn tuning(self) -> Tuning {
+        match self {
+            Self::Eight => Tuning {
+                motion: VelocityModel { speed_std: 0.0, turn_rate_std: 0.0, alphas: [0.04, 0.0, 0.01, 0.04] },
+                sensor: RangeBearing { range_std: 0.05, bearing_std: 0.01, max_range: 6.0, field_of_view: PI },
+                gate: Gate { removal: true, ..Gate::default() },
+            },
+            Self::Tags => Tuning {
+                motion: VelocityModel { speed_std: 0.5, turn_rate_std: 10.0 * PI / 180.0, alphas: [0.0; 4] },
+                sensor: RangeBearing {
+                    range_std: 0.3,
+                    bearing_std: 2.0 * PI / 180.0,
+                    max_range: 20.0,
+                    field_of_view: TAU,
+                },
+                gate: Gate::default(),
+            },
+            // A robot that drives well and turns badly: 0.3 % of the way, 5 % of a turn. Twenty turns leave 6 rad of doubt.
+            // Were the way as bad, the two maps would fit the hall unequally well, and chance would decide for one of them.
+            Self::Wings => Tuning {
+                motion: VelocityModel { speed_std: 0.0, turn_rate_std: 0.0, alphas: [1e-5, 0.0, 1e-7, 0.0025] },
+                sensor: RangeBearing {
+                    range_std: 0.2,
+                    bearing_std: 0.04,
+                    max_range: 6.0,
+                    field_of_view: 2.0 * PI / 3.0,
+                },
+                gate: Gate::default(),
+            },
+        }
+    }
+
+    /// What wheels report beyond the truth, on average \[m/s, rad/s\]. No filter is told.
+    fn bias(self) -> [f64; 2] {
+        match self {
+            Self::Eight | Self::Wings => [0.0, 0.0],
+            Self::Tags => [0.0, 0.01],
+        }
+    }
+
+    /// The world's noise of the sensor as a share of what the filter is told.
+    ///
+    /// In the wings the filter is told five times the noise there is. Each wing was mapped in one drive; told the truth, a
+    /// filter takes the twenty numbers by which the two maps happen to differ for evidence of several nats, and chance decides
+    /// between the wings. Told five times as much, it takes them for a twenty-fifth of that: the explanations stay equal.
+    fn sharper(self) -> f64 {
+        match self {
+            Self::Eight | Self::Tags => 1.0,
+            Self::Wings => 0.2,
+        }
+    }
+
+    /// The drive with the noise of a seed; the truth is always the same.
+    pub fn simulate(self, seed: u64) -> LandmarkLog {
+        self.simulate_with(&self.tuning(), seed)
+    }
+
+    /// The drive with another noise than the course's own.
+    pub fn simulate_with(self, tuning: &Tuning, seed: u64) -> LandmarkLog {
+        let field = match self {
+            Self::Eight => Field::figure_of_eight(),
+            Self::Tags => Field::eight_tags(),
+            Self::Wings => Field::two_wings(),
+        };
+        let [speed_bias, turn_rate_bias] = self.bias();
+        let sensor = tuning.sensor.scaled(self.sharper());
+        let mut log = LandmarkLog {
+            truth: vec![Pose2::default()],
+            odometry: vec![Pose2::default()],
+            landmarks: field.landmarks,
+            ..LandmarkLog::default()
+        };
+        for (step, driven) in (1..).zip(&field.controls) {
+            let truth = driven.apply(&log.truth[log.truth.len() - 1]);
+            let mut reported = tuning.motion.perturb(driven, &mut Stream::at(seed, WORLD_ODOMETRY, step, 0));
+            reported.speed += speed_bias;
+            reported.turn_rate += turn_rate_bias;
+            log.odometry.push(reported.apply(&log.odometry[log.odometry.len() - 1]));
+            log.truth.push(truth);
+            log.controls.push(reported);
+            let visible = (0..).zip(&log.landmarks).filter(|(_, m)| tuning.sensor.sees(&truth, m, 0.0));
+            let see = |(signature, landmark)| {
+                let mut stream = Stream::at(seed, WORLD_SENSOR, step, signature);
+                Feature { z: sensor.measure(&truth, landmark, &mut stream), signature: Some(signature) }
+            };
+            log.sightings.push(visible.map(see).collect());
+        }
+        log
+    }
+}
+
+/// Whether a filter may read the signatures of what it sees.
+#[derive(
+    Clone, Copy, PartialEq, Eq, Debug, strum::Display, strum::EnumString, strum::VariantNames, strum::VariantArray,
+)]
+#[strum(serialize_all = "lowercase", parse_err_ty = SettingError, parse_err_fn = unknown_association)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "lowercase"))]
+pub enum CorrespondenceKind {
+    /// It may.
+    Known,
+    /// Every particle decides for itself.
+    Unknown,
+}
+
+fn unknown_association(given: &str) -> SettingError {
+    SettingError::unknown_word("association", given, <CorrespondenceKind as strum::VariantNames>::VARIANTS)
+}
+
+impl CorrespondenceKind {
+    fn of(self, tuning: &Tuning) -> Correspondence {
+        match self {
+            Self::Known => Correspondence::Known,
+            Self::Unknown => Correspondence::Unknown(tuning.gate),
+        }
+    }
+}
+
+/// What a reader can set.
+#[derive(Clone, PartialEq, Debug)]
+pub struct LandmarkSetup {
+    /// Number of particles M, 1 to 100 000.
+    pub particles: usize,
+    /// Seed of the filter's draws.
+    pub seed: u64,
+    /// FastSLAM 1.0 is [`ProposalKind::Motion`], 2.0 is [`ProposalKind::Improved`].
+    pub proposal: ProposalKind,
+    /// Known or unknown correspondence.
+    pub correspondence: CorrespondenceKind,
+    /// When to resample.
+    pub policy: ResamplePolicy,
+    /// How to resample.
+    pub scheme: Scheme,
+}
+
+impl Default for LandmarkSetup {
+    fn default() -> Self {
+        Self {
+            particles: 100,
+            seed: 1,
+            proposal: ProposalKind::Improved,
+            correspondence: CorrespondenceKind::Known,
+            policy: ResamplePolicy::EssBelow(0.5),
+            scheme: Scheme::Systematic,
+        }
+    }
+}
+
+/// A particle's map.
+pub type LandmarkMap = Landmarks<RangeBearing>;
+
+/// FastSLAM 1.0 or 2.0.
+pub type Filter = Rbpf<LandmarkMap, Either<FromMotion<VelocityModel, Marginal>, FromMeasurement<VelocityModel>>>;
+
+/// What one step did, and how far from the truth it led.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct LandmarkReport {
+    /// The step; 0 is the start.
+    pub step: u32,
+    /// Landmarks seen at this step.
+    pub seen: u32,
+    /// ln p̂(z_t | z₁..ₜ₋₁) by the filter \[nats\], of what is taken for known landmarks: each that is founded counts as p₀, or as 1
+    /// where it has a name. −∞ where the step explained nothing (`null` in JSON).
+    pub log_evidence: f64,
+    /// N_eff before resampling.
+    pub ess: f64,
+    /// Slot each particle was copied from, where the step resampled.
+    pub ancestors: Option<Vec<u32>>,
+    /// Distance of the best particle from the truth \[m\].
+    pub error_best: f64,
+    /// Distance of the weighted mean of all particles from the truth \[m\].
+    pub error_mean: f64,
+    /// Distance of raw odometry from the truth \[m\].
+    pub error_odometry: f64,
+    /// Landmarks in the best particle's map.
+    pub landmarks: u32,
+    /// Distinct ancestors at step 0.
+    pub lineage: u32,
+    /// What the best particle made of what was seen.
+    pub best: AssociationSummary,
+    /// Different answers, in the population before resampling, to which landmarks were seen.
+    pub answers: u32,
+}
+
+/// What one particle made of the features of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct AssociationSummary {
+    /// Features taken for landmarks of its map.
+    pub again: u32,
+    /// Features taken for landmarks never seen before.
+    pub first: u32,
+    /// Log weight increment \[nats\].
+    pub log_increment: f64,
+}
+
+/// A run under way.
+#[derive(Clone, Debug)]
+pub struct LandmarkRun {
+    log: Arc<LandmarkLog>,
+    filter: Filter,
+    step: u32,
+    /// Sum over the steps so far of the squared error of the weighted mean \[m²\].
+    squared_errors: f64,
+}
+
+impl LandmarkRun {
+    /// At the log's start, which is known.
+    ///
+    /// # Errors
+    /// Where a setting is out of its range.
+    pub fn new(setup: &LandmarkSetup, tuning: &Tuning, log: Arc<LandmarkLog>) -> Result<Self, SettingError> {
+        Range::whole(1, 100_000).check("particles", setup.particles as f64)?;
+        let motion = tuning.motion;
+        let proposal = match setup.proposal {
+            ProposalKind::Motion => Either::Left(FromMotion { motion, likelihood: Marginal }),
+            ProposalKind::Improved => Either::Right(FromMeasurement { motion }),
+        };
+        let map = Landmarks::new(tuning.sensor, setup.correspondence.of(tuning));
+        let start = log.truth.first().copied().unwrap_or_default();
+        let filter = Rbpf::new(proposal, setup.policy, setup.scheme, setup.seed, setup.particles, start, map);
+        Ok(Self { log, filter, step: 0, squared_errors: 0.0 })
+    }
+
+    /// The same run, computed by another executor: the results are the same.
+    pub fn with_executor(self, executor: Executor) -> Self {
+        Self { filter: self.filter.with_executor(executor), ..self }
+    }
+
+    /// One step of the filter; `None` after the last.
+    pub fn step(&mut self) -> Option<LandmarkReport> {
+        let k = self.step as usize;
+        let (control, features) = (self.log.controls.get(k)?, self.log.sightings.get(k)?);
+        let report = self.filter.step(control, features);
+        self.step += 1;
+        let (truth, odometry) = (&self.log.truth[k + 1], &self.log.odometry[k + 1]);
+        let particles = self.filter.particles();
+        let best = &particles[self.filter.best()];
+        // The slot the best had before resampling.
+        let slot = report.ancestors.as_ref().map_or(self.filter.best(), |from| from[self.filter.best()] as usize);
+        let count =
+            |of: fn(&Association) -> bool| report.associations[slot].iter().filter(|sighted| of(sighted)).count();
+        let mut answers: Vec<&Vec<Association>> = Vec::new();
+        for association in &report.associations {
+            if !answers.contains(&association) {
+                answers.push(association);
+            }
+        }
+        let (x, y) = particles
+            .iter()
+            .zip(self.filter.weights().as_slice())
+            .fold((0.0, 0.0), |(x, y), (p, w)| (x + w * p.world_from_robot.x, y + w * p.world_from_robot.y));
+        let error_mean = ops::hypot(x - truth.x, y - truth.y);
+        self.squared_errors += error_mean * error_mean;
+        Some(LandmarkReport {
+            step: self.step,
+            seen: features.len() as u32,
+            log_evidence: report.log_evidence,
+            ess: report.ess,
+            ancestors: report.ancestors,
+            error_best: best.world_from_robot.distance(truth),
+            error_mean,
+            error_odometry: odometry.distance(truth),
+            landmarks: best.map.iter().count() as u32,
+            lineage: self.filter.lineage() as u32,
+            best: AssociationSummary {
+                again: count(|sighted| matches!(sighted, Association::Matched(_))) as u32,
+                first: count(|sighted| matches!(sighted, Association::New(_))) as u32,
+                log_increment: report.log_increments[slot],
+            },
+            answers: answers.len() as u32,
+        })
+    }
+
+    /// The drive.
+    pub fn log(&self) -> &LandmarkLog {
+        &self.log
+    }
+
+    /// The population, by slot.
+    pub fn particles(&self) -> &[Particle<LandmarkMap>] {
+        self.filter.particles()
+    }
+
+    /// The filter, for those who watch it.
+    pub fn filter(&self) -> &Filter {
+        &self.filter
+    }
+
+    /// Slot of the best particle.
+    pub fn best(&self) -> usize {
+        self.filter.best()
+    }
+
+    /// Poses of one particle, step 0 to now.
+    pub fn path(&self, slot: usize) -> Vec<Pose2> {
+        self.particles()[slot].path.poses()
+    }
+
+    /// Root mean square over the steps so far of the error of the weighted mean's position, each when it was made \[m\]: as the filter
+    /// went, without hindsight. 0 before the first step.
+    pub fn rms_online(&self) -> f64 {
+        (self.squared_errors / f64::from(self.step.max(1))).sqrt()
+    }
+
+    /// Root mean square error of position of the best particle's path so far \[m\]: with hindsight, as that path is what is left of all
+    /// that was tried.
+    pub fn rms_best(&self) -> f64 {
+        rms(&self.path(self.best()), &self.log.truth)
+    }
+
+    /// The same after the best rigid motion of that path onto the truth \[m\]: what is left when map and path may be moved as a
+    /// whole.
+    pub fn rms_best_aligned(&self) -> f64 {
+        let path = self.path(self.best());
+        let gauge = align(&path, &self.log.truth[..path.len()]);
+        let aligned: Vec<Pose2> = path.iter().map(|pose| gauge.compose(pose)).collect();
+        rms(&aligned, &self.log.truth)
+    }
+
+    /// Root mean square error of position of raw odometry so far \[m\].
+    pub fn rms_odometry(&self) -> f64 {
+        rms(&self.log.odometry[..=self.step as usize], &self.log.truth)
+    }
+
+    /// What [`Self::rms_online`] is at the end for an EKF-SLAM that is told the same of the same drive \[m\]. Its one Gaussian must commit
+    /// to one association.
+    pub fn rms_ekf(&self, setup: &LandmarkSetup, tuning: &Tuning) -> f64 {
+        let start = self.log.truth.first().copied().unwrap_or_default();
+        let mut ekf = EkfSlam::new(tuning.motion, tuning.sensor, setup.correspondence.of(tuning), start);
+        let mut path = Vec::with_capacity(self.log.controls.len());
+        for (control, features) in self.log.controls.iter().zip(&self.log.sightings) {
+            ekf.step(control, features);
+            path.push(*ekf.pose());
+        }
+        rms(&path, self.log.truth.get(1..).unwrap_or_default())
+    }
+
+    /// Runs to the end. Returns a fingerprint of every pose and weight on the way, and of all maps at the end, bit for bit.
+    pub fn trace(mut self) -> Digest {
+        let mut digest = Digest::new();
+        while let Some(report) = self.step() {
+            [report.ess, report.error_best, report.error_mean].into_iter().for_each(|x| digest.f64(x));
+            for particle in self.particles() {
+                let Pose2 { x, y, theta } = particle.world_from_robot;
+                [x, y, theta].into_iter().for_each(|x| digest.f64(x));
+            }
+            self.filter.weights().as_slice().iter().for_each(|weight| digest.f64(*weight));
+        }
+        for (index, landmark) in self.particles().iter().flat_map(|particle| particle.map.iter()) {
+            digest.u32(index);
+            landmark.mean.iter().chain(&landmark.covariance).for_each(|x| digest.f64(*x));
+            digest.write(&landmark.existence_count.to_le_bytes());
+        }
+        digest
+    }
+
+    /// Memory of all maps.
+    pub fn footprint(&self) -> Footprint {
+        Landmarks::footprint(self.particles().iter().map(|p| &p.map))
+    }
+}
+
+/// Named runs whose fingerprints are kept with the tests, and must be the same natively and in WebAssembly.
+pub fn golden_runs() -> Vec<(&'static str, Course, LandmarkSetup)> {
+    let setup = || LandmarkSetup { particles: 12, ..LandmarkSetup::default() };
+    let motion = || LandmarkSetup { proposal: ProposalKind::Motion, ..setup() };
+    let unknown = |setup| LandmarkSetup { correspondence: CorrespondenceKind::Unknown, ..setup };
+    vec![
+        ("eight-2.0", Course::Eight, setup()),
+        ("eight-1.0", Course::Eight, motion()),
+        ("eight-2.0-unknown", Course::Eight, unknown(setup())),
+        ("eight-1.0-unknown", Course::Eight, unknown(motion())),
+        ("tags-2.0", Course::Tags, setup()),
+        ("tags-1.0-unknown", Course::Tags, unknown(motion())),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The mean over the same steps: what is judged as it went is judged alike, whoever went.
+    #[test]
+    fn the_error_as_it_went_is_the_root_mean_square_of_the_reported_ones() {
+        let (course, setup) = (Course::Tags, LandmarkSetup { particles: 5, ..LandmarkSetup::default() });
+        let mut run = LandmarkRun::new(&setup, &course.tuning(), course.simulate(1).into()).unwrap();
+        assert_eq!(run.rms_online(), 0.0);
+        let mut squares = Vec::new();
+        while let Some(report) = run.step() {
+            squares.push(report.error_mean * report.error_mean);
+        }
+        let expected = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+        assert_eq!((squares.len(), run.rms_online()), (run.log().controls.len(), expected));
+    }
+
+    /// One particle without any noise of the wheels, and a sensor too blunt to say anything: both go by the wheels alone.
+    #[test]
+    fn a_particle_and_the_joint_filter_are_judged_alike() {
+        let course = Course::Eight;
+        let tuning = course.tuning().scaled(0.0, 1e9);
+        let setup = LandmarkSetup { particles: 1, ..LandmarkSetup::default() };
+        let mut run = LandmarkRun::new(&setup, &tuning, course.simulate(2).into()).unwrap();
+        while run.step().is_some() {}
+        let [particle, joint] = [run.rms_online(), run.rms_ekf(&setup, &tuning)];
+        // Of step 0, where nobody errs, both say nothing: the path's error has it in.
+        let steps = run.log().controls.len() as f64;
+        let wheels = run.rms_odometry() * ((steps + 1.0) / steps).sqrt();
+        assert!(
+            (particle - wheels).abs() < 1e-6 * wheels && (joint - wheels).abs() < 1e-6 * wheels,
+            "{particle} {joint} {wheels}"
+        );
+    }
+}

@@ -1,0 +1,557 @@
+//! The Apartment lap: to the far end of the corridor, round the sun room, and home through what is mapped by then. And, as another
+//! [`Course`], the ring: round a block through ground never seen before, until the start comes in sight again.
+//!
+//! The filter is told where the lap starts and with what noise wheels and sensor err. It is never told the truth: that stays
+//! in [`LapWorld`], and only the errors of a [`StepReport`] are taken from it.
+
+use crate::digest::Digest;
+use crate::experiment::ProposalKind;
+use crate::world::{FloorPlan, corners_cut_short, drive};
+use crate::{WORLD_ODOMETRY, WORLD_SENSOR};
+use fastslam::error::{Range, SettingError};
+use fastslam::execute::Executor;
+use fastslam::geometry::{Pose2, align, rms};
+use fastslam::map::grid::{Grid, GridModel};
+use fastslam::map::{ConditionalMap, Footprint};
+use fastslam::matching::{HillClimbSteps, Matcher, ScanModel};
+use fastslam::motion::{Odometry, OdometryModel};
+use fastslam::proposal::{Either, FitLimits, FromMotion, FromScan, FromScanSettings, HeadingSeeds, ProposalTrace};
+use fastslam::random::Stream;
+use fastslam::rbpf::{Particle, Rbpf, Report};
+use fastslam::resampling::{ResamplePolicy, Scheme};
+use fastslam::sensor::{BeamSensor, Scan};
+use std::sync::Arc;
+
+/// Steps of the apartment's lap, besides the start.
+pub const STEPS: usize = 90;
+
+/// How many particles a lap may have.
+pub const PARTICLES: Range = Range::whole(1, 4096);
+
+/// Noise of the wheels at scale 1: α₁ \[–\], α₂ \[rad²/m²\], α₃ \[–\], α₄ \[m²/rad²\].
+///
+/// Chosen so that raw odometry drifts by metres: the median RMS of its position over a lap is 3.0 to 3.7 m.
+pub const ALPHAS: [f64; 4] = [0.1, 0.12, 0.01, 0.01];
+
+/// Beams of a scan, all around.
+pub const BEAMS: usize = 72;
+
+/// Longest range of a beam in the apartment \[m\].
+pub const MAX_RANGE: f64 = 8.0;
+
+/// Scans taken at the known start, before the first motion, while the robot turns by one beam's spacing.
+///
+/// They anchor the gauge. With one scan only, every universe's map is turned as a whole by the first errors of heading:
+/// consistent with itself, and metres wrong at the far end. Looking between the beams matters as much as looking often:
+/// repeated from one heading, the scans leave walls of separate dots, between which the next scan falls.
+pub const START_SCANS: u32 = 30;
+
+/// L: a scan is weighed against the map of so many scans ago, or of up to half as many more. By then the robot is some 6 m further,
+/// out of sight of most of what it saw for the first time.
+pub const LAG: u32 = 20;
+
+/// How the map learns.
+///
+/// A pass weighs a ninth of a hit: in cells this wide most beams that pass a wall's cell pass beside the wall. With
+/// −0.4, walls seen at a grazing angle wear away, and with the cell matcher one lap in ten drifts.
+pub const GRID: GridModel = GridModel {
+    cell_size: 0.3,
+    log_odds_hit: 0.9,
+    log_odds_pass: -0.1,
+    ndt_std: 0.1,
+    ndt_stretch: 1.0,
+    lag: LAG,
+    reach: 0,
+};
+
+/// κ: the share of each beam's log-likelihood that counts. One for both proposals, both matchers and every M.
+///
+/// Near one, since surfaces are kept five times as wide as the sensor's noise and are a tempering of their own. At 0.15 the
+/// matcher follows the odometry too long, and laps end metres off.
+pub const TEMPER: f64 = 0.85;
+
+/// ε: probability of a reading that has nothing to do with the map. Anything from 0.02 to 0.1 serves.
+pub const OUTLIER: f64 = 0.05;
+
+/// The measurement-aware proposal: one setting for every M and both matchers.
+pub const FROM_SCAN: FromScanSettings<HeadingSeeds> = FromScanSettings {
+    // Keeps R_t invertible at a stand, and lets a centimetre of slip be.
+    motion_floor: [0.02, 0.02, 0.01],
+    // With the spread of 3 σ one every 0.75 σ, some five degrees here: about the slope's width.
+    search: HeadingSeeds { seeds: 8, climbs: 2 },
+    // From a third of a cell down to two centimetres; the fit's first step takes over from there.
+    climb: HillClimbSteps { linear: 0.08, angular: 0.04, halvings: 2 },
+    climb_stride: 2,
+    // e^½: an optimum less than two thirds better than the average pose is no optimum.
+    minimum_improvement: 0.5,
+    full_weight: 0.0,
+    // From half a centimetre, below which there is nothing to see, to a third of a cell, the plateau of the cell matcher.
+    limits: FitLimits { least: [0.005, 0.003], most: [0.1, 0.05] },
+};
+
+/// Where a lap is driven.
+#[derive(
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Debug,
+    Default,
+    strum::Display,
+    strum::EnumString,
+    strum::VariantNames,
+    strum::VariantArray,
+)]
+#[strum(serialize_all = "lowercase", parse_err_ty = SettingError, parse_err_fn = unknown_course)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
+pub enum Course {
+    /// Out along the corridor of [`FloorPlan::apartment`] and back: nearly all is seen from afar, and seen again.
+    #[default]
+    Apartment,
+    /// Once round [`FloorPlan::ring`] and a little further, with a laser that sees no further than 3 m and two niches on each side of the
+    /// block: for most of the way nothing seen has been seen before.
+    Ring,
+}
+
+fn unknown_course(given: &str) -> SettingError {
+    SettingError::unknown_word("course", given, <Course as strum::VariantNames>::VARIANTS)
+}
+
+impl Course {
+    /// The place and the way through it.
+    pub fn route(self) -> Route {
+        match self {
+            Self::Apartment => Route {
+                plan: FloorPlan::apartment(),
+                way_points: WAY_POINTS.to_vec(),
+                steps: STEPS,
+                max_range: MAX_RANGE,
+            },
+            Self::Ring => Route::ring(2, 3.0),
+        }
+    }
+}
+
+/// A place, a way through it, and how far the laser sees there.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Route {
+    /// The place.
+    pub plan: FloorPlan,
+    /// What [`drive`] goes through \[m\].
+    pub way_points: Vec<[f64; 2]>,
+    /// Steps, besides the start.
+    pub steps: usize,
+    /// Longest range of a beam \[m\].
+    pub max_range: f64,
+}
+
+impl Route {
+    /// The ring with so many niches on each side of the block, 0 to 2, and a laser of this range \[m\]: round it against the clock, and
+    /// on along the first side. 110 steps of some 0.3 m.
+    pub fn ring(niches: usize, max_range: f64) -> Self {
+        const CORNERS: [[f64; 2]; 6] = [[1.6, 0.9], [10.1, 0.9], [10.1, 7.1], [0.9, 7.1], [0.9, 0.9], [6.6, 0.9]];
+        // A drive leaves a leg half-way to the corner: of legs as long as these, it would cut the block's corners.
+        let way_points = corners_cut_short(&CORNERS, 1.2);
+        Self { plan: FloorPlan::ring(niches), way_points, steps: 110, max_range }
+    }
+
+    /// The same place and way after a rigid motion of the plane.
+    pub fn moved(&self, motion: &Pose2) -> Self {
+        let way_points = self.way_points.iter().map(|point| motion.transform(*point)).collect();
+        Self { plan: self.plan.moved(motion), way_points, ..*self }
+    }
+}
+
+/// What a reader can set.
+#[derive(Clone, PartialEq, Debug)]
+pub struct LapSetup {
+    /// Where the lap is driven.
+    pub course: Course,
+    /// Number of particles M, 1 to 4096.
+    pub particles: usize,
+    /// Seed of the world's noise and of the filter's.
+    pub seed: u64,
+    /// Where new poses are drawn from.
+    pub proposal: ProposalKind,
+    /// What an end point is compared with.
+    pub matcher: Matcher,
+    /// When to resample.
+    pub policy: ResamplePolicy,
+    /// How to resample.
+    pub scheme: Scheme,
+    /// Factor on the standard deviations of the odometry's noise, 0 to 10: of the world's, and of what the filter expects.
+    pub odometry_scale: f64,
+    /// Standard deviation of a range \[m\], 0 to 1.
+    pub range_std: f64,
+}
+
+impl Default for LapSetup {
+    fn default() -> Self {
+        Self {
+            course: Course::Apartment,
+            particles: 16,
+            seed: 3,
+            proposal: ProposalKind::Improved,
+            matcher: Matcher::SubCell,
+            policy: ResamplePolicy::EssBelow(0.5),
+            scheme: Scheme::Systematic,
+            odometry_scale: 1.0,
+            range_std: 0.02,
+        }
+    }
+}
+
+impl LapSetup {
+    /// Noise of the wheels.
+    pub fn motion(&self) -> OdometryModel {
+        OdometryModel { alphas: ALPHAS }.scaled(self.odometry_scale)
+    }
+
+    /// The world of this seed and these noises.
+    pub fn world(&self) -> LapWorld {
+        LapWorld::on(&self.course.route(), self.seed, &self.motion(), self.range_std)
+    }
+
+    /// What the filter draws poses from.
+    pub fn proposals(&self) -> Proposals {
+        let motion = self.motion();
+        let from_motion = FromMotion { motion, likelihood: ScanModel::new(self.matcher, TEMPER, OUTLIER) };
+        match self.proposal {
+            ProposalKind::Motion => Either::Left(from_motion),
+            ProposalKind::Improved => Either::Right(FromScan { fallback: from_motion, settings: FROM_SCAN }),
+        }
+    }
+
+    pub(super) fn validate(&self) -> Result<(), SettingError> {
+        PARTICLES.check("particles", self.particles as f64)?;
+        Range::number(0.0, 10.0, "").check("odometry_scale", self.odometry_scale)?;
+        Range::number(0.0, 1.0, "m").check("range_std", self.range_std)?;
+        self.policy.validate()
+    }
+}
+
+/// The truth of one lap, and what sensors reported of it.
+#[derive(Clone, Debug)]
+pub struct LapWorld {
+    /// The place.
+    pub plan: FloorPlan,
+    /// The laser.
+    pub sensor: BeamSensor,
+    /// True poses of step 0 to the last.
+    pub truth: Vec<Pose2>,
+    /// Poses by raw odometry alone, from the same start.
+    pub odometry: Vec<Pose2>,
+    /// Reported controls; the k-th leads from step k to k + 1.
+    pub controls: Vec<Odometry>,
+    /// Scans of step 1 to the last.
+    pub scans: Vec<Scan>,
+    /// Scans taken at the start, with the poses they were taken from.
+    pub start_scans: Vec<(Pose2, Scan)>,
+}
+
+impl LapWorld {
+    /// The lap of the apartment that this seed and these noises give: the truth is always the same.
+    pub fn new(seed: u64, motion: &OdometryModel, range_std: f64) -> Self {
+        Self::on(&Course::Apartment.route(), seed, motion, range_std)
+    }
+
+    /// The same on another route.
+    pub fn on(route: &Route, seed: u64, motion: &OdometryModel, range_std: f64) -> Self {
+        let plan = route.plan.clone();
+        let sensor = BeamSensor::panorama(BEAMS, route.max_range, range_std);
+        let truth = drive(&route.way_points, route.steps);
+        let mut odometry = vec![truth[0]];
+        let mut controls = Vec::with_capacity(STEPS);
+        for (k, pair) in truth.windows(2).enumerate() {
+            let mut stream = Stream::at(seed, WORLD_ODOMETRY, k as u32 + 1, 0);
+            let control = motion.perturb(&Odometry::between(&pair[0], &pair[1]), &mut stream);
+            odometry.push(control.apply(&odometry[k]));
+            controls.push(control);
+        }
+        let look = |pose: &Pose2, step: usize, look: u32| {
+            let mut stream = Stream::at(seed, WORLD_SENSOR, step as u32, look);
+            sensor.scan(&plan.ranges(pose, &sensor, &mut stream))
+        };
+        let scans = (1..=route.steps).map(|step| look(&truth[step], step, 0)).collect();
+        let turned = |k: u32| {
+            let spacing = core::f64::consts::TAU / BEAMS as f64;
+            truth[0].compose(&Pose2::new(0.0, 0.0, spacing * f64::from(k) / f64::from(START_SCANS)))
+        };
+        let start_scans = (0..START_SCANS).map(turned).zip(0..).map(|(pose, k)| (pose, look(&pose, 0, k))).collect();
+        Self { plan, sensor, truth, odometry, controls, scans, start_scans }
+    }
+}
+
+/// Out from the west end of the corridor, round the sun room, and back \[m\].
+const WAY_POINTS: [[f64; 2]; 9] =
+    [[0.7, 4.6], [8.6, 4.6], [9.9, 4.9], [10.1, 6.2], [9.6, 7.6], [10.9, 7.3], [10.6, 5.6], [10.0, 4.8], [0.9, 4.75]];
+
+/// What one step did, and how far from the truth it led.
+#[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct StepReport {
+    /// The step; 0 is the start.
+    pub step: u32,
+    /// ln p̂(z_t | z₁..ₜ₋₁) by the filter \[nats\], in which the matcher's score stands for the density of a scan; −∞ where the step
+    /// explained nothing (`null` in JSON), 0 at the start.
+    pub log_evidence: f64,
+    /// N_eff before resampling.
+    pub ess: f64,
+    /// Normalised weights before resampling, by slot.
+    pub weights: Vec<f64>,
+    /// Slot that each universe was copied from, where the step resampled.
+    pub ancestors: Option<Vec<u32>>,
+    /// Slot of the best universe after the step.
+    pub best: u32,
+    /// RMS error of position over the best universe's path so far \[m\].
+    pub rms_best: f64,
+    /// The same after the best rigid motion of that path onto the truth \[m\]: what is left when map and path may be moved as a
+    /// whole.
+    pub rms_best_aligned: f64,
+    /// RMS error of position of raw odometry so far \[m\].
+    pub rms_odometry: f64,
+    /// Distinct ancestors at step 0.
+    pub lineage: u32,
+    /// Universes whose matcher was trusted.
+    pub matched: u32,
+    /// Log weight increment of each slot before resampling \[nats\]; empty at the start.
+    pub log_increments: Vec<f64>,
+    /// How each slot came by its pose before resampling; empty at the start.
+    pub traces: Vec<ProposalTrace>,
+    /// Bytes of all maps, shared parts counted once.
+    pub map_bytes_unique: u64,
+    /// Bytes that dense maps, one for each universe, would take.
+    pub map_bytes_dense: u64,
+}
+
+/// What a lap's filter draws poses from.
+pub type Proposals = Either<FromMotion<OdometryModel, ScanModel>, FromScan<HeadingSeeds>>;
+
+/// The filter of a lap.
+pub type Filter = Rbpf<Grid, Proposals>;
+
+/// A lap under way. Cloning one is cheap: the world and the maps are shared.
+#[derive(Clone, Debug)]
+pub struct Lap {
+    world: Arc<LapWorld>,
+    filter: Filter,
+    report: StepReport,
+}
+
+impl Lap {
+    /// At the start, the first scans mapped.
+    ///
+    /// # Errors
+    /// Where a setting is out of its range.
+    pub fn new(setup: &LapSetup) -> Result<Self, SettingError> {
+        setup.validate()?;
+        Self::in_world(setup, Arc::new(setup.world()))
+    }
+
+    /// The same in a world that is there, whatever the course of the setup: one for several filters.
+    ///
+    /// # Errors
+    /// Where a setting is out of its range.
+    pub fn in_world(setup: &LapSetup, world: Arc<LapWorld>) -> Result<Self, SettingError> {
+        setup.validate()?;
+        let start = world.truth[0];
+        let mut map = Grid::new(GRID);
+        for (pose, scan) in &world.start_scans {
+            map.assimilate(pose, scan, &());
+        }
+        map.settle();
+        let filter = Rbpf::new(setup.proposals(), setup.policy, setup.scheme, setup.seed, setup.particles, start, map);
+        let uniform = Report {
+            step: 0,
+            log_increments: Vec::new(),
+            weights: filter.weights().as_slice().to_vec(),
+            log_evidence: 0.0,
+            ess: filter.weights().ess(),
+            paths: Vec::new(),
+            ancestors: None,
+            traces: Vec::new(),
+            associations: Vec::new(),
+        };
+        let mut lap = Self { world, filter, report: StepReport::default() };
+        lap.report = lap.judge(uniform);
+        Ok(lap)
+    }
+
+    /// The same lap, computed by another executor: the results are the same.
+    pub fn with_executor(self, executor: Executor) -> Self {
+        Self { filter: self.filter.with_executor(executor), ..self }
+    }
+
+    /// The last step.
+    pub fn step_count(&self) -> u32 {
+        self.world.controls.len() as u32
+    }
+
+    /// One step of the filter; `None` after the last.
+    pub fn step(&mut self) -> Option<&StepReport> {
+        let k = self.report.step as usize;
+        let (control, scan) = (self.world.controls.get(k)?, self.world.scans.get(k)?);
+        let report = self.filter.step(control, scan);
+        self.report = self.judge(report);
+        Some(&self.report)
+    }
+
+    /// Compares the filter's newest state with the truth.
+    fn judge(&self, report: Report<()>) -> StepReport {
+        let best = self.best();
+        let path = self.path(best);
+        let truth = &self.world.truth[..path.len()];
+        let gauge = align(&path, truth);
+        let aligned: Vec<Pose2> = path.iter().map(|pose| gauge.compose(pose)).collect();
+        let Footprint { unique, dense } = Grid::footprint(self.particles().iter().map(|p| &p.map));
+        StepReport {
+            step: report.step,
+            log_evidence: report.log_evidence,
+            ess: report.ess,
+            weights: report.weights,
+            ancestors: report.ancestors,
+            best: best as u32,
+            rms_best: rms(&path, truth),
+            rms_best_aligned: rms(&aligned, truth),
+            rms_odometry: rms(&self.world.odometry[..path.len()], truth),
+            lineage: self.filter.lineage() as u32,
+            matched: report.traces.iter().filter(|t| matches!(t, ProposalTrace::Matched { .. })).count() as u32,
+            log_increments: report.log_increments,
+            traces: report.traces,
+            map_bytes_unique: unique,
+            map_bytes_dense: dense,
+        }
+    }
+
+    /// Report of the newest step.
+    pub fn report(&self) -> &StepReport {
+        &self.report
+    }
+
+    /// The truth, for drawing and judging.
+    pub fn world(&self) -> &LapWorld {
+        &self.world
+    }
+
+    /// The filter, for those who watch it.
+    pub fn filter(&self) -> &Filter {
+        &self.filter
+    }
+
+    /// The universes, by slot.
+    pub fn particles(&self) -> &[Particle<Grid>] {
+        self.filter.particles()
+    }
+
+    /// Normalised weights as they are now, by slot: uniform after a resampling.
+    pub fn weights(&self) -> &[f64] {
+        self.filter.weights().as_slice()
+    }
+
+    /// Poses of one universe, step 0 to now.
+    pub fn path(&self, slot: usize) -> Vec<Pose2> {
+        self.particles()[slot].path.poses()
+    }
+
+    /// Slot of the best universe: of the largest weight along its path.
+    pub fn best(&self) -> usize {
+        self.filter.best()
+    }
+
+    /// Runs the lap to its end and shows every report, the present one first. Returns the end, and a fingerprint of every
+    /// report, weight and pose on the way and of every universe's whole map at the end, bit for bit.
+    pub fn run(mut self, mut show: impl FnMut(&StepReport)) -> (Self, Digest) {
+        let mut digest = Digest::new();
+        loop {
+            show(&self.report);
+            self.put(&mut digest);
+            if self.step().is_none() {
+                break;
+            }
+        }
+        Grid::hash_all(self.particles().iter().map(|particle| &particle.map), &mut digest);
+        (self, digest)
+    }
+
+    /// The fingerprint of [`Self::run`].
+    pub fn trace(self) -> Digest {
+        self.run(|_| ()).1
+    }
+
+    fn put(&self, digest: &mut Digest) {
+        let r = &self.report;
+        [r.step, r.best, r.lineage, r.matched].into_iter().for_each(|x| digest.u32(x));
+        [r.ess, r.rms_best, r.rms_best_aligned, r.rms_odometry].into_iter().for_each(|x| digest.f64(x));
+        r.weights.iter().for_each(|x| digest.f64(*x));
+        r.ancestors.iter().flatten().for_each(|x| digest.u32(*x));
+        for particle in self.particles() {
+            let Pose2 { x, y, theta } = particle.world_from_robot;
+            [x, y, theta].into_iter().for_each(|x| digest.f64(x));
+        }
+    }
+}
+
+/// Named laps whose fingerprints are kept with the tests, and must be the same natively and in WebAssembly.
+pub fn golden_setups() -> Vec<(&'static str, LapSetup)> {
+    let setup = LapSetup::default;
+    vec![
+        ("default", setup()),
+        ("motion", LapSetup { proposal: ProposalKind::Motion, ..setup() }),
+        ("cell", LapSetup { matcher: Matcher::Cell, ..setup() }),
+        ("motion-cell", LapSetup { proposal: ProposalKind::Motion, matcher: Matcher::Cell, particles: 40, ..setup() }),
+        ("never", LapSetup { policy: ResamplePolicy::Never, seed: 7, ..setup() }),
+        ("always-residual", LapSetup { policy: ResamplePolicy::Always, scheme: Scheme::Residual, ..setup() }),
+        ("stratified", LapSetup { scheme: Scheme::Stratified, seed: 11, particles: 24, ..setup() }),
+        ("multinomial", LapSetup { scheme: Scheme::Multinomial, seed: 12, particles: 8, ..setup() }),
+        ("one", LapSetup { particles: 1, ..setup() }),
+        ("quiet", LapSetup { odometry_scale: 0.0, range_std: 0.0, particles: 4, ..setup() }),
+        ("ring", LapSetup { course: Course::Ring, ..setup() }),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fastslam::ops;
+
+    const COURSES: [Course; 2] = [Course::Apartment, Course::Ring];
+
+    #[test]
+    fn courses_are_read_as_they_are_printed() {
+        for course in COURSES {
+            assert_eq!(course.to_string().parse(), Ok(course));
+        }
+        assert_eq!("moon".parse::<Course>().unwrap_err().to_string(), "course = moon: must be apartment or ring");
+    }
+
+    /// A robot is some 0.4 m wide.
+    #[test]
+    fn no_drive_goes_through_a_wall_or_scrapes_along_one() {
+        let rings = [0, 1, 2].map(|niches| Route::ring(niches, 3.0));
+        for Route { plan, way_points, steps, .. } in COURSES.map(Course::route).into_iter().chain(rings) {
+            let truth = drive(&way_points, steps);
+            for (k, pair) in truth.windows(2).enumerate() {
+                let ahead = ops::atan2(pair[1].y - pair[0].y, pair[1].x - pair[0].x);
+                let free = plan.raycast([pair[0].x, pair[0].y], ahead);
+                assert!(free > pair[0].distance(&pair[1]) + 0.2, "step {k} at {:?}: a wall after {free} m", pair[0]);
+                let around = (0..360).map(|degree| f64::from(degree).to_radians());
+                let room =
+                    around.map(|angle| plan.raycast([pair[0].x, pair[0].y], angle)).fold(f64::INFINITY, f64::min);
+                assert!(room > 0.2, "step {k} at {:?}: {room} m to a wall", pair[0]);
+            }
+        }
+    }
+
+    #[test]
+    fn each_course_has_its_own_world() {
+        let setup = |course| LapSetup { course, ..LapSetup::default() };
+        let [apartment, ring] = COURSES.map(|course| Lap::new(&setup(course)).unwrap());
+        assert_eq!((apartment.step_count(), ring.step_count()), (STEPS as u32, 110));
+        let furthest = |lap: &Lap| {
+            let ends = lap.world().scans.iter().flat_map(|scan| scan.hits.iter().chain(&scan.misses));
+            ends.map(|[x, y]| ops::hypot(*x, *y)).fold(0.0, f64::max)
+        };
+        assert!(furthest(&apartment) > 4.0 && furthest(&ring) <= 3.0 + 1e-9);
+        assert_eq!(apartment.world().plan, FloorPlan::apartment());
+    }
+}

@@ -1,0 +1,69 @@
+//! What the chapter's figures and numbers come from: a world, a filter, and a comparison with the truth.
+
+pub mod conditioning;
+pub mod doors;
+pub mod hill;
+pub mod landmarks;
+pub mod lap;
+pub mod log;
+pub mod numbers;
+pub mod policies;
+pub mod policy_counts;
+pub mod proposals;
+pub mod ring;
+mod summary;
+pub mod table;
+pub mod variants;
+pub mod worked_example;
+
+pub use summary::{ErrorSummary, median_interval, quantile};
+
+use crate::digest::Digest;
+use fastslam::error::SettingError;
+use fastslam::execute::Executor;
+
+/// The two proposals a reader chooses from.
+#[derive(
+    Clone, Copy, PartialEq, Eq, Debug, strum::Display, strum::EnumString, strum::VariantNames, strum::VariantArray,
+)]
+#[strum(serialize_all = "lowercase", parse_err_ty = SettingError, parse_err_fn = unknown_proposal)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
+pub enum ProposalKind {
+    /// The improved proposal, which the chapter calls measurement-aware: [`FromScan`](fastslam::proposal::FromScan),
+    /// [`FromMeasurement`](fastslam::proposal::FromMeasurement).
+    #[strum(to_string = "aware", serialize = "improved")]
+    #[cfg_attr(feature = "serde", serde(rename = "aware"))]
+    Improved,
+    /// The motion prior: [`FromMotion`](fastslam::proposal::FromMotion).
+    Motion,
+}
+
+fn unknown_proposal(given: &str) -> SettingError {
+    SettingError::unknown_word("proposal", given, <ProposalKind as strum::VariantNames>::VARIANTS)
+}
+
+/// Fingerprints of whole runs by name, which are kept with the tests and must be the same natively and in WebAssembly, with any
+/// number of threads.
+pub fn golden_traces(executor: &Executor) -> Vec<(&'static str, Digest)> {
+    const VALID: &str = "a golden setup is valid";
+    let laps = lap::golden_setups()
+        .into_iter()
+        .map(|(name, setup)| (name, lap::Lap::new(&setup).expect(VALID).with_executor(executor.clone()).trace()));
+    let drives = landmarks::golden_runs().into_iter().map(|(name, course, setup)| {
+        let run = landmarks::LandmarkRun::new(&setup, &course.tuning(), course.simulate(setup.seed).into());
+        (name, run.expect(VALID).with_executor(executor.clone()).trace())
+    });
+    let joints = conditioning::golden_setups().into_iter();
+    let joints = joints.map(|(name, setup)| (name, conditioning::Conditioning::new(&setup).expect(VALID).trace()));
+    let clouds = proposals::golden_setups().into_iter();
+    let clouds = clouds.map(|(name, setup)| (name, proposals::Proposals::new(&setup).expect(VALID).trace()));
+    let policies = policies::golden_setups().into_iter().map(|(name, setup)| {
+        (name, policies::Policies::new(&setup).expect(VALID).with_executor(executor.clone()).trace())
+    });
+    let logs = log::golden_runs().into_iter().map(|(name, run)| {
+        let mut run = run.with_executor(executor.clone());
+        while run.step().is_some() {}
+        (name, run.digest())
+    });
+    laps.chain(drives).chain(joints).chain(clouds).chain(policies).chain(logs).collect()
+}

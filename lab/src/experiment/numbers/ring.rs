@@ -1,0 +1,64 @@
+//! The ring: what a filter keeps until its loop closes, and what the closing leaves.
+
+use super::{Group, Number, Recipe, Runs, SEEDS, VALID};
+use crate::experiment::ErrorSummary;
+use crate::experiment::ProposalKind;
+use crate::experiment::ring::{AFTER, RingRun, RingSetup, closing};
+
+/// All recipes of the ring: the course, and both proposals on it.
+pub fn recipes() -> Vec<Recipe> {
+    let proposals = [ProposalKind::Improved, ProposalKind::Motion].map(|proposal| {
+        let name = format!("ring.{proposal}");
+        let group = Group(name.clone());
+        Recipe::new(name, SEEDS, move |runs| runs_of(&group, proposal, runs).into())
+    });
+    [course()].into_iter().chain(proposals).collect()
+}
+
+fn course() -> Recipe {
+    Recipe::fixed("ring", |group| {
+        let ring = "The ring (Route::ring in src/experiment/lap.rs)";
+        let route = RingSetup::default().route();
+        let step = f64::from(closing(&route).expect("the ring comes back to where it began"));
+        vec![
+            group.number("steps", route.steps as f64, "", format!("{ring}: steps after the start")),
+            group.number("range", route.max_range, "m", format!("{ring}: longest range of a beam")),
+            group.number("closing", step, "", format!("{ring}: first step that sees the start again")),
+            group.number("after", f64::from(AFTER), "", format!("{ring}: steps from there to the second look")),
+        ]
+    })
+}
+
+/// The medians over the seeds to be run.
+fn runs_of(group: &Group, proposal: ProposalKind, runs: &Runs<'_>) -> Vec<Number> {
+    let setup = |seed| {
+        let mut setup = RingSetup::default();
+        (setup.lap.proposal, setup.lap.seed) = (proposal, seed);
+        setup
+    };
+    let particles = setup(1).lap.particles;
+    let found = runs.over(|seed| RingRun::of(&setup(seed)).expect(VALID));
+    let command = format!("fastslam ring --proposal {proposal} --particles {particles} --seeds {}", runs.seeds);
+    let median = |key: &str, unit, what: &str, of: fn(&RingRun) -> f64| {
+        let values: Vec<f64> = found.iter().map(of).collect();
+        let made = format!("Median over seeds 1 to {} of {what}: {command}", runs.seeds);
+        group.number(key, ErrorSummary::of(&values).median, unit, made)
+    };
+    vec![
+        median("resampled", "", "the steps that resample before the loop closes", |run| {
+            f64::from(run.resampled_before)
+        }),
+        median("lineage", "", "the distinct ancestors at the start, one step before the closing", |run| {
+            f64::from(run.lineage_before)
+        }),
+        median("before", "m", "the standard deviation of position one step before the closing", |run| {
+            run.deviation_before
+        }),
+        median("after", "m", "the standard deviation of position some steps after the closing", |run| {
+            run.deviation_after
+        }),
+        median("died", "", "the share of universes that the closing ends", |run| run.died),
+        median("end", "m", "the best universe's error at the last step", |run| run.end_best),
+        median("odometry", "m", "raw odometry's error at the last step", |run| run.end_odometry),
+    ]
+}

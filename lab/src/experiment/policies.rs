@@ -1,0 +1,535 @@
+//! When to resample: three filters on one log and one noise, which differ in that alone.
+//!
+//! Never, every step, and where N_eff < threshold · M. On the lap the three differ in what they waste; on the course of the two
+//! wings ([`Field::two_wings`]) they differ in whether they still have the hypothesis that turns out to be right.
+//!
+//! Why the wings tell them apart. For some forty steps half the particles hold either explanation, and both predict every
+//! sighting equally well. Each resampling is a lottery all the same: the number of particles in the right wing does a random
+//! walk from generation to generation, and none and all are its traps. Who resamples every step walks forty steps of it. Equal
+//! weights keep N_eff high: who waits for N_eff to fall resamples once or twice. Who never resamples keeps all explanations, and
+//! pays elsewhere: hardly any particle has a weight.
+//!
+//! [`Field::two_wings`]: crate::world::Field::two_wings
+
+use super::landmarks::{AssociationSummary, CorrespondenceKind, Course, LandmarkLog, LandmarkRun, LandmarkSetup};
+use super::lap::PARTICLES;
+use super::lap::{Lap, LapSetup, LapWorld};
+use crate::digest::Digest;
+use crate::experiment::ProposalKind;
+use crate::world::{WINGS_LOST, WINGS_SIGN};
+use core::f64::consts::FRAC_PI_2;
+use fastslam::error::{Range, SettingError};
+use fastslam::execute::Executor;
+use fastslam::genealogy::{Descent, Path};
+use fastslam::geometry::{Pose2, rms};
+use fastslam::matching::Matcher;
+use fastslam::ops;
+use fastslam::resampling::{ResamplePolicy, Scheme};
+use fastslam::sensor::Feature;
+use std::sync::Arc;
+
+/// The policies compared, by their index everywhere here.
+pub const POLICIES: [&str; 3] = ["never", "always", "selective"];
+
+/// Where the filters are compared.
+#[derive(
+    Clone, Copy, PartialEq, Eq, Debug, strum::Display, strum::EnumString, strum::VariantNames, strum::VariantArray,
+)]
+#[strum(serialize_all = "lowercase", parse_err_ty = SettingError, parse_err_fn = unknown_course)]
+pub enum PolicyCourse {
+    /// The Apartment lap: grid maps.
+    Lap,
+    /// Two wings that look the same: landmarks of unknown correspondence, FastSLAM 2.0.
+    Wings,
+}
+
+fn unknown_course(given: &str) -> SettingError {
+    SettingError::unknown_word("course", given, <PolicyCourse as strum::VariantNames>::VARIANTS)
+}
+
+/// What a reader can set.
+#[derive(Clone, PartialEq, Debug)]
+pub struct PoliciesSetup {
+    /// The course.
+    pub course: PolicyCourse,
+    /// Number of particles M of each filter, 1 to 4096.
+    pub particles: usize,
+    /// Seed of the world's noise and of the filters': the same for all three.
+    pub seed: u64,
+    /// The selective filter resamples where N_eff < threshold · M, 0 to 1.
+    pub threshold: f64,
+    /// How to resample.
+    pub scheme: Scheme,
+    /// Factor on the standard deviations of the odometry's noise, 0 to 10: of the world's, and of what the filters expect.
+    pub odometry_scale: f64,
+    /// The same for the sensor, 0.1 to 10.
+    pub sensor_scale: f64,
+    /// Where new poses are drawn from on the lap.
+    pub proposal: ProposalKind,
+    /// What an end point is compared with on the lap.
+    pub matcher: Matcher,
+}
+
+impl PoliciesSetup {
+    /// What a course begins with: M = 16, threshold ½, and a scheme by the course.
+    ///
+    /// In the wings it is the multinomial one, that of the bootstrap filter. The explanations weigh nearly the same there, and
+    /// what resampling does to equal weights is the scheme's own noise: a systematic one copies nearly everybody once and does
+    /// little harm, a multinomial one is the drift of genes. Over seeds 1 to 3000 some particle is still in the right wing before
+    /// the sign, resampling always against by N_eff: systematic 77 % against 89 %, stratified 72 against 89, residual 55
+    /// against 87, multinomial 41 against 84.
+    pub fn of(course: PolicyCourse) -> Self {
+        Self {
+            course,
+            particles: 16,
+            seed: 3,
+            threshold: 0.5,
+            scheme: match course {
+                PolicyCourse::Lap => Scheme::Systematic,
+                PolicyCourse::Wings => Scheme::Multinomial,
+            },
+            odometry_scale: 1.0,
+            sensor_scale: 1.0,
+            proposal: ProposalKind::Improved,
+            matcher: Matcher::SubCell,
+        }
+    }
+}
+
+impl Default for PoliciesSetup {
+    fn default() -> Self {
+        Self::of(PolicyCourse::Lap)
+    }
+}
+
+impl PoliciesSetup {
+    /// Whether all settings are in range.
+    ///
+    /// # Errors
+    /// Where one is not.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        PARTICLES.check("particles", self.particles as f64)?;
+        ResamplePolicy::FRACTION.check("threshold", self.threshold)?;
+        Range::number(0.0, 10.0, "").check("odometry_scale", self.odometry_scale)?;
+        Range::number(0.1, 10.0, "").check("sensor_scale", self.sensor_scale).map(drop)
+    }
+
+    /// When the filters resample, in the order of [`POLICIES`].
+    pub fn policies(&self) -> [ResamplePolicy; 3] {
+        [ResamplePolicy::Never, ResamplePolicy::Always, ResamplePolicy::EssBelow(self.threshold)]
+    }
+}
+
+/// What one filter did in one step, and how far from the truth it is.
+#[derive(Clone, PartialEq, Debug)]
+pub struct PolicyReport {
+    /// The step; 0 is the start.
+    pub step: u32,
+    /// ln p̂(z_t | z₁..ₜ₋₁) by the filter \[nats\]; −∞ where the step explained nothing, 0 at the start.
+    pub log_evidence: f64,
+    /// N_eff before resampling.
+    pub ess: f64,
+    /// Slot each particle was copied from, where the step resampled.
+    pub ancestors: Option<Vec<u32>>,
+    /// What the population descends from: the lineage gauge at any distance, the size of the tree, the coalescence.
+    pub descent: Descent,
+    /// Distance of the best particle from the truth \[m\].
+    pub error_best: f64,
+    /// Distance of the weighted mean of all particles from the truth \[m\].
+    pub error_mean: f64,
+    /// Root mean square error of position over the best particle's path so far \[m\].
+    pub rms_best: f64,
+    /// Root mean square of `error_mean` so far, over steps 0 to now \[m\].
+    pub rms_mean: f64,
+    /// Particles that hold the right one of the two explanations: within [`RIGHT_WITHIN`] of the truth, and looking its way to
+    /// a quarter turn. `None` on the lap, and on the wings' course before the robot is lost.
+    pub right: Option<u32>,
+    /// On the wings' course, what the best particle made of what was seen, and how many different answers the population gave.
+    pub associations: Option<(AssociationSummary, u32)>,
+}
+
+impl PolicyReport {
+    /// Whether the step resampled.
+    pub fn resampled(&self) -> bool {
+        self.ancestors.is_some()
+    }
+
+    /// Nodes of the ancestry tree that the population still needs.
+    pub fn tree_nodes(&self) -> u32 {
+        self.descent.size()
+    }
+
+    /// Nodes of M paths kept apart: M (t + 1).
+    pub fn path_nodes(&self, particles: usize) -> u32 {
+        particles as u32 * (self.step + 1)
+    }
+}
+
+/// A particle so near the truth is in the right wing \[m\].
+///
+/// A universe in the right wing knows its place to decimetres; one in the wrong wing is on the other side of the hall, at twice
+/// the robot's distance from its centre: 12 m and more at the court. Anything between serves.
+pub const RIGHT_WITHIN: f64 = 2.0;
+
+/// Whether a particle holds the right explanation.
+fn is_right(pose: &Pose2, truth: &Pose2) -> bool {
+    pose.distance(truth) < RIGHT_WITHIN && ops::wrap_angle(pose.theta - truth.theta).abs() < FRAC_PI_2
+}
+
+/// The world that all three filters share.
+#[derive(Clone, Debug)]
+enum World {
+    Lap(Arc<LapWorld>),
+    Wings(Arc<LandmarkLog>),
+}
+
+impl World {
+    fn truth(&self) -> &[Pose2] {
+        match self {
+            Self::Lap(world) => &world.truth,
+            Self::Wings(log) => &log.truth,
+        }
+    }
+}
+
+#[derive(Clone, Debug)]
+enum Run {
+    Lap(Box<Lap>),
+    Wings(Box<LandmarkRun>),
+}
+
+/// The same of either filter.
+macro_rules! of_filter {
+    ($run:expr, $filter:ident => $value:expr) => {
+        match $run {
+            Run::Lap(run) => {
+                let $filter = run.filter();
+                $value
+            }
+            Run::Wings(run) => {
+                let $filter = run.filter();
+                $value
+            }
+        }
+    };
+}
+
+/// What of a [`PolicyReport`] the filter itself reports.
+struct Stepped {
+    log_evidence: f64,
+    ess: f64,
+    ancestors: Option<Vec<u32>>,
+    associations: Option<(AssociationSummary, u32)>,
+}
+
+impl Run {
+    fn with_executor(self, executor: Executor) -> Self {
+        match self {
+            Self::Lap(run) => Self::Lap(Box::new(run.with_executor(executor))),
+            Self::Wings(run) => Self::Wings(Box::new(run.with_executor(executor))),
+        }
+    }
+
+    fn step(&mut self) -> Option<Stepped> {
+        match self {
+            Self::Lap(run) => run.step().map(|report| Stepped {
+                log_evidence: report.log_evidence,
+                ess: report.ess,
+                ancestors: report.ancestors.clone(),
+                associations: None,
+            }),
+            Self::Wings(run) => run.step().map(|report| Stepped {
+                log_evidence: report.log_evidence,
+                ess: report.ess,
+                ancestors: report.ancestors,
+                associations: Some((report.best, report.answers)),
+            }),
+        }
+    }
+}
+
+/// Three filters under way. Cloning is cheap: the world, the maps and the past are shared.
+#[derive(Clone, Debug)]
+pub struct Policies {
+    setup: PoliciesSetup,
+    world: World,
+    runs: [Run; 3],
+    reports: [PolicyReport; 3],
+}
+
+impl Policies {
+    /// All three at the start.
+    ///
+    /// # Errors
+    /// Where a setting is out of its range.
+    pub fn new(setup: &PoliciesSetup) -> Result<Self, SettingError> {
+        setup.validate()?;
+        let &PoliciesSetup { particles, seed, scheme, odometry_scale, sensor_scale, proposal, matcher, .. } = setup;
+        let (world, runs) = match setup.course {
+            PolicyCourse::Lap => {
+                let range_std = LapSetup::default().range_std * sensor_scale;
+                let lap = |policy| LapSetup {
+                    particles,
+                    seed,
+                    proposal,
+                    matcher,
+                    policy,
+                    scheme,
+                    odometry_scale,
+                    range_std,
+                    ..LapSetup::default()
+                };
+                let world = Arc::new(lap(ResamplePolicy::Never).world());
+                let run = |policy| Ok(Run::Lap(Box::new(Lap::in_world(&lap(policy), Arc::clone(&world))?)));
+                (World::Lap(Arc::clone(&world)), setup.policies().map(run))
+            }
+            PolicyCourse::Wings => {
+                let tuning = Course::Wings.tuning().scaled(odometry_scale, sensor_scale);
+                let log = Arc::new(Course::Wings.simulate_with(&tuning, seed));
+                let (proposal, correspondence) = (ProposalKind::Improved, CorrespondenceKind::Unknown);
+                let of = |policy| LandmarkSetup { particles, seed, proposal, correspondence, policy, scheme };
+                let run = |policy| Ok(Run::Wings(Box::new(LandmarkRun::new(&of(policy), &tuning, Arc::clone(&log))?)));
+                (World::Wings(Arc::clone(&log)), setup.policies().map(run))
+            }
+        };
+        let [never, always, selective] = runs;
+        let runs = [never?, always?, selective?];
+        let start = |run: &Run| PolicyReport {
+            step: 0,
+            log_evidence: 0.0,
+            ess: particles as f64,
+            ancestors: None,
+            descent: of_filter!(run, filter => filter.descent()),
+            error_best: 0.0,
+            error_mean: 0.0,
+            rms_best: 0.0,
+            rms_mean: 0.0,
+            right: None,
+            associations: None,
+        };
+        let reports = [0, 1, 2].map(|policy| start(&runs[policy]));
+        Ok(Self { setup: setup.clone(), world, runs, reports })
+    }
+
+    /// The same, computed by another executor: the results are the same.
+    pub fn with_executor(self, executor: Executor) -> Self {
+        Self { runs: self.runs.map(|run| run.with_executor(executor.clone())), ..self }
+    }
+
+    /// One step of all three; `None` after the last.
+    pub fn step(&mut self) -> Option<&[PolicyReport; 3]> {
+        for policy in 0..3 {
+            let stepped = self.runs[policy].step()?;
+            self.reports[policy] = self.judge(policy, stepped);
+        }
+        Some(&self.reports)
+    }
+
+    /// Compares a filter's newest state with the truth.
+    fn judge(&self, policy: usize, stepped: Stepped) -> PolicyReport {
+        let before = &self.reports[policy];
+        let step = before.step + 1;
+        let (truth, poses, best) = (self.world.truth(), self.poses(policy), self.best(policy));
+        let here = &truth[step as usize];
+        let (x, y) =
+            poses.iter().zip(self.weights(policy)).fold((0.0, 0.0), |(x, y), (p, w)| (x + w * p.x, y + w * p.y));
+        let error_mean = ops::hypot(x - here.x, y - here.y);
+        let squares = before.rms_mean * before.rms_mean * f64::from(step) + error_mean * error_mean;
+        let lost = self.lost_from().is_some_and(|from| step >= from);
+        let Stepped { log_evidence, ess, ancestors, associations } = stepped;
+        PolicyReport {
+            step,
+            log_evidence,
+            ess,
+            ancestors,
+            descent: of_filter!(&self.runs[policy], filter => filter.descent()),
+            error_best: poses[best].distance(here),
+            error_mean,
+            rms_best: rms(&self.paths(policy)[best].poses(), &truth[..=step as usize]),
+            rms_mean: (squares / f64::from(step + 1)).sqrt(),
+            right: lost.then(|| poses.iter().filter(|pose| is_right(pose, here)).count() as u32),
+            associations,
+        }
+    }
+
+    /// What was set.
+    pub fn setup(&self) -> &PoliciesSetup {
+        &self.setup
+    }
+
+    /// Reports of the newest step, in the order of [`POLICIES`].
+    pub fn reports(&self) -> &[PolicyReport; 3] {
+        &self.reports
+    }
+
+    /// The newest step.
+    pub fn step_number(&self) -> u32 {
+        self.reports[0].step
+    }
+
+    /// The last step.
+    pub fn step_count(&self) -> u32 {
+        self.truth().len() as u32 - 1
+    }
+
+    /// True poses of steps 0 to the last.
+    pub fn truth(&self) -> &[Pose2] {
+        self.world.truth()
+    }
+
+    /// Poses by raw odometry alone, of steps 0 to the last.
+    pub fn odometry(&self) -> &[Pose2] {
+        match &self.world {
+            World::Lap(world) => &world.odometry,
+            World::Wings(log) => &log.odometry,
+        }
+    }
+
+    /// The lap's world, on the lap.
+    pub fn lap_world(&self) -> Option<&LapWorld> {
+        match &self.world {
+            World::Lap(world) => Some(world),
+            World::Wings(_) => None,
+        }
+    }
+
+    /// The drive among landmarks, on the wings' course.
+    pub fn wings_log(&self) -> Option<&LandmarkLog> {
+        match &self.world {
+            World::Lap(_) => None,
+            World::Wings(log) => Some(log),
+        }
+    }
+
+    /// On the wings' course, the step from which the robot is lost: the first at which the wings can be confused.
+    pub fn lost_from(&self) -> Option<u32> {
+        self.wings_log().map(|_| WINGS_LOST as u32)
+    }
+
+    /// On the wings' course, the step at which the sign is in sight again: the first evidence of which wing it is.
+    pub fn evidence_at(&self) -> Option<u32> {
+        let is_sign = |feature: &Feature| feature.signature == Some(WINGS_SIGN);
+        let seen = self.wings_log()?.sightings[WINGS_LOST..].iter().position(|seen| seen.iter().any(is_sign))?;
+        Some((WINGS_LOST + seen) as u32 + 1)
+    }
+
+    /// Paths of one filter's particles, by slot.
+    pub fn paths(&self, policy: usize) -> Vec<&Path> {
+        of_filter!(&self.runs[policy], filter => filter.particles().iter().map(|p| &p.path).collect())
+    }
+
+    /// Poses of one filter's particles, by slot.
+    pub fn poses(&self, policy: usize) -> Vec<Pose2> {
+        of_filter!(&self.runs[policy], filter => filter.particles().iter().map(|p| p.world_from_robot).collect())
+    }
+
+    /// Normalised weights of one filter as they are now, by slot: uniform after a resampling.
+    pub fn weights(&self, policy: usize) -> &[f64] {
+        of_filter!(&self.runs[policy], filter => filter.weights().as_slice())
+    }
+
+    /// Slot of one filter's best particle.
+    pub fn best(&self, policy: usize) -> usize {
+        of_filter!(&self.runs[policy], filter => filter.best())
+    }
+
+    /// Runs to the end. Returns a fingerprint of every report, pose and weight on the way, bit for bit.
+    pub fn trace(mut self) -> Digest {
+        let mut digest = Digest::new();
+        while self.step().is_some() {
+            for (policy, report) in self.reports.iter().enumerate() {
+                let r = report;
+                let (associations, answers) = r.associations.unwrap_or_default();
+                let counts = [r.step, u32::from(r.resampled()), r.right.unwrap_or(u32::MAX)];
+                counts.into_iter().chain([associations.again, associations.first, answers]).for_each(|x| digest.u32(x));
+                let errors = [r.error_best, r.error_mean, r.rms_best, r.rms_mean];
+                [r.ess, associations.log_increment].into_iter().chain(errors).for_each(|x| digest.f64(x));
+                r.descent.widths().for_each(|width| digest.u32(width));
+                for Pose2 { x, y, theta } in self.poses(policy) {
+                    [x, y, theta].into_iter().for_each(|x| digest.f64(x));
+                }
+                self.weights(policy).iter().for_each(|weight| digest.f64(*weight));
+            }
+        }
+        digest
+    }
+}
+
+/// Named comparisons whose fingerprints are kept with the tests, and must be the same natively and in WebAssembly.
+pub fn golden_setups() -> Vec<(&'static str, PoliciesSetup)> {
+    let wings = || PoliciesSetup::of(PolicyCourse::Wings);
+    vec![
+        ("policies-lap", PoliciesSetup::default()),
+        ("policies-wings", wings()),
+        ("policies-wings-systematic", PoliciesSetup { scheme: Scheme::Systematic, particles: 40, seed: 5, ..wings() }),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn the_three_differ_in_nothing_until_one_resamples() {
+        for course in [PolicyCourse::Lap, PolicyCourse::Wings] {
+            let mut policies = Policies::new(&PoliciesSetup { threshold: 0.0, ..PoliciesSetup::of(course) }).unwrap();
+            policies.step().unwrap();
+            let [never, always, selective] = policies.reports();
+            assert_eq!(never, selective, "{course}: N_eff is never below zero");
+            assert_eq!((never.ess, never.resampled(), always.resampled()), (always.ess, false, true), "{course}");
+            while policies.step().is_some() {}
+            let [never, always, selective] = policies.reports();
+            assert_eq!(never, selective, "{course}");
+            assert_eq!(never.step, policies.step_count());
+            assert_eq!(never.tree_nodes(), never.path_nodes(16), "{course}: nothing was ever shared");
+            assert!(always.tree_nodes() < always.path_nodes(16) / 4, "{course}");
+        }
+    }
+
+    #[test]
+    fn a_clone_goes_its_own_way_to_the_same_end() {
+        let mut policies = Policies::new(&PoliciesSetup::of(PolicyCourse::Wings)).unwrap();
+        (0..70).for_each(|_| {
+            policies.step();
+        });
+        let kept = policies.clone();
+        while policies.step().is_some() {}
+        assert_eq!(kept.step_number(), 70);
+        assert_eq!(kept.trace(), {
+            let mut again = Policies::new(policies.setup()).unwrap();
+            (0..70).for_each(|_| {
+                again.step();
+            });
+            again.trace()
+        });
+    }
+
+    #[test]
+    fn the_paths_that_are_held_are_those_that_the_reports_count() {
+        let mut policies = Policies::new(&PoliciesSetup::of(PolicyCourse::Wings)).unwrap();
+        while policies.step().is_some() {}
+        for (policy, name) in POLICIES.into_iter().enumerate() {
+            let report = &policies.reports()[policy];
+            let mut ancestors = vec![BTreeSet::new(); report.step as usize + 1];
+            for path in policies.paths(policy).into_iter().flat_map(Path::back) {
+                ancestors[path.step() as usize].insert(path.id());
+            }
+            let widths: Vec<u32> = ancestors.iter().map(|step| step.len() as u32).collect();
+            assert_eq!(widths, report.descent.widths().collect::<Vec<_>>(), "{name}");
+        }
+    }
+
+    #[test]
+    fn settings_out_of_range_are_refused_by_name() {
+        let setup = PoliciesSetup::default;
+        for (setup, name) in [
+            (PoliciesSetup { particles: 0, ..setup() }, "particles"),
+            (PoliciesSetup { threshold: f64::NAN, ..setup() }, "threshold"),
+            (PoliciesSetup { odometry_scale: -1.0, ..setup() }, "odometry_scale"),
+            (PoliciesSetup { sensor_scale: 0.0, ..setup() }, "sensor_scale"),
+        ] {
+            assert_eq!(Policies::new(&setup).unwrap_err().field(), name);
+        }
+    }
+}

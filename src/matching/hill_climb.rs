@@ -1,0 +1,88 @@
+//! Greedy hill climbing over poses.
+
+use crate::geometry::Pose2;
+
+/// Step sizes of a climb.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct HillClimbSteps {
+    /// First step along and across the robot \[m\].
+    pub linear: f64,
+    /// First turn \[rad\].
+    pub angular: f64,
+    /// How often the steps are halved before the climb ends.
+    pub halvings: u32,
+}
+
+/// Where a climb ended.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ScoredPose {
+    /// The local optimum, to within the last steps.
+    pub pose: Pose2,
+    /// The objective there.
+    pub value: f64,
+}
+
+/// Climbs `objective` greedily from `start`: tries a step ahead, back, left, right and a turn to each side, takes each that
+/// improves, and halves the steps where none of the six does (after the matcher of gmapping; GSB §IV).
+///
+/// `objective(pose, bar)` need not be exact where it does not exceed `bar`: −∞ will do.
+pub fn hill_climb(
+    start: ScoredPose,
+    steps: HillClimbSteps,
+    mut objective: impl FnMut(&Pose2, f64) -> f64,
+) -> ScoredPose {
+    let mut best = start;
+    let (mut linear, mut angular) = (steps.linear, steps.angular);
+    for _ in 0..=steps.halvings {
+        let (mut failed, mut moves) = (0, MOVES.iter().cycle());
+        // Only a hostile objective climbs on for ever; the bound keeps it from hanging a reader's page.
+        for _ in 0..MOST_TRIES {
+            let (ahead, left, turn) = moves.next().copied().unwrap_or_default();
+            let [x, y] = best.pose.transform([ahead * linear, left * linear]);
+            let pose = Pose2::new(x, y, best.pose.theta + turn * angular);
+            let value = objective(&pose, best.value);
+            if value > best.value {
+                best = ScoredPose { pose, value };
+                failed = 0;
+            } else {
+                failed += 1;
+            }
+            if failed == MOVES.len() {
+                break;
+            }
+        }
+        linear *= 0.5;
+        angular *= 0.5;
+    }
+    best
+}
+
+/// Steps (ahead, left, turn).
+const MOVES: [(f64, f64, f64); 6] =
+    [(1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)];
+
+/// Most evaluations at one step size.
+const MOST_TRIES: u32 = 100;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_climb_finds_the_top_of_a_smooth_hill() {
+        let top = Pose2::new(0.31, -0.22, 0.17);
+        let hill = |pose: &Pose2| -pose.minus(&top).norm_squared();
+        let start = ScoredPose { pose: Pose2::default(), value: hill(&Pose2::default()) };
+        let steps = HillClimbSteps { linear: 0.1, angular: 0.1, halvings: 6 };
+        let end = hill_climb(start, steps, |pose, _| hill(pose));
+        assert!(end.pose.minus(&top).norm() < 0.1 / 32.0, "{end:?}");
+    }
+
+    #[test]
+    fn a_flat_objective_leaves_the_start() {
+        let start = ScoredPose { pose: Pose2::new(1.0, 2.0, 3.0), value: 0.0 };
+        let steps = HillClimbSteps { linear: 0.1, angular: 0.1, halvings: 3 };
+        assert_eq!(hill_climb(start, steps, |_, _| 0.0), start);
+        assert_eq!(hill_climb(start, steps, |_, _| f64::NAN), start);
+    }
+}
