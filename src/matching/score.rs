@@ -1,5 +1,6 @@
 //! The score of a scan against a grid, which stands for ln p(z | x, m).
 
+use super::{Likelihood, Score, ScoreNear};
 use crate::error::SettingError;
 use crate::geometry::Pose2;
 use crate::map::grid::{Grid, LocalMap, MAX_DISTANCE, NdtField, UNIT};
@@ -135,27 +136,79 @@ impl ScanModel {
         self.temper * sum
     }
 
-    /// A coarse score \[nats\] of a scan that is turned already: how many squares each of its end points, shifted by
-    /// (x, y) \[m\], is from the nearest surface. The end points are given in squares.
-    pub(crate) fn coarse<const CELLS_PER_NDT: usize>(
-        &self,
-        view: &LocalMap<'_, CELLS_PER_NDT>,
-        turned: &[[f64; 2]],
-        shift: [f64; 2],
-    ) -> f64 {
-        let [u, v] = shift.map(|c| c * view.per_ndt());
-        let mut counts = [0_u32; MAX_DISTANCE + 1];
-        for end in turned {
-            counts[view.distance(end[0] + u, end[1] + v)] += 1;
-        }
-        let sum: f64 = counts.iter().zip(LOG_COARSE).map(|(count, log)| f64::from(*count) * log).sum();
-        self.temper * sum
-    }
-
     /// ln p_cell of a cell's log-odds in units.
     #[inline]
     fn log_cell(&self, units: i8) -> f64 {
         self.log_cell[(i32::from(units) + UNKNOWN) as usize]
+    }
+}
+
+impl<const CELLS_PER_NDT: usize> Likelihood<Grid<CELLS_PER_NDT>> for ScanModel {
+    fn log_likelihood(&self, grid: &Grid<CELLS_PER_NDT>, world_from_robot: &Pose2, scan: &Scan) -> (f64, ()) {
+        (self.log_score(grid, world_from_robot, scan), ())
+    }
+}
+
+impl<const CELLS_PER_NDT: usize> Score<Grid<CELLS_PER_NDT>> for ScanModel {
+    type Near<'a> = ScanNear<'a, CELLS_PER_NDT>;
+
+    fn near<'a>(
+        &'a self,
+        grid: &'a Grid<CELLS_PER_NDT>,
+        place: &Pose2,
+        scan: &'a Scan,
+        stride: usize,
+    ) -> ScanNear<'a, CELLS_PER_NDT> {
+        let reach = scan.hits.iter().map(|[x, y]| x * x + y * y).fold(0.0, f64::max).sqrt();
+        let map = LocalMap::new(grid, [place.x, place.y], reach + SLACK);
+        ScanNear { model: self, map, scan, thinned: scan.thinned(stride), share: stride as f64 }
+    }
+
+    /// By [`Grid::past`].
+    fn log_weight(&self, grid: &Grid<CELLS_PER_NDT>, world_from_robot: &Pose2, scan: &Scan) -> f64 {
+        self.log_score(&grid.past(), world_from_robot, scan)
+    }
+}
+
+/// How far from the place a pose may lie \[m\] and be looked up fast.
+const SLACK: f64 = 1.0;
+
+/// A scan against the part of a grid that it can reach from one place.
+pub struct ScanNear<'a, const CELLS_PER_NDT: usize> {
+    model: &'a ScanModel,
+    map: LocalMap<'a, CELLS_PER_NDT>,
+    scan: &'a Scan,
+    /// A part of the scan, of which each beam counts for `share`.
+    thinned: Scan,
+    share: f64,
+}
+
+impl<const CELLS_PER_NDT: usize> ScoreNear for ScanNear<'_, CELLS_PER_NDT> {
+    fn log_score(&self, world_from_robot: &Pose2) -> f64 {
+        self.model.log_score_above(f64::NEG_INFINITY, &self.map, world_from_robot, self.scan)
+    }
+
+    fn log_score_above(&self, world_from_robot: &Pose2, floor: f64) -> f64 {
+        self.share * self.model.log_score_above(floor / self.share, &self.map, world_from_robot, &self.thinned)
+    }
+
+    /// How many NDT cells each end point is from the nearest that was hit decides. The scan is turned once for all positions.
+    fn coarse(&self, theta: f64, stride: usize) -> impl Fn([f64; 2]) -> f64 {
+        let (sin, cos) = ops::sin_cos(theta);
+        let k = self.map.per_ndt();
+        let turn = |[x, y]: &[f64; 2]| [k * (cos * x - sin * y), k * (sin * x + cos * y)];
+        let turned: Vec<[f64; 2]> = self.scan.hits.iter().step_by(stride.max(1)).map(turn).collect();
+        // Each of the few beams counts for those left out.
+        let share = self.scan.hits.len() as f64 / turned.len().max(1) as f64;
+        move |position: [f64; 2]| {
+            let [u, v] = position.map(|c| c * k);
+            let mut counts = [0_u32; MAX_DISTANCE + 1];
+            for end in &turned {
+                counts[self.map.distance(end[0] + u, end[1] + v)] += 1;
+            }
+            let sum: f64 = counts.iter().zip(LOG_COARSE).map(|(count, log)| f64::from(*count) * log).sum();
+            share * (self.model.temper * sum)
+        }
     }
 }
 

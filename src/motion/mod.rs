@@ -6,10 +6,10 @@ mod velocity;
 pub use odometry::{Odometry, OdometryModel};
 pub use velocity::{Velocity, VelocityModel};
 
-use crate::geometry::Pose2;
+use crate::geometry::{Gaussian3, Pose2};
 use crate::ops;
 use crate::random::Stream;
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 /// p(x_t | x_{t−1}, u_t): to draw from, and as a Gaussian.
 pub trait Motion: Sync {
@@ -24,6 +24,22 @@ pub trait Motion: Sync {
 
     /// R_t (3 × 3, \[m, m, rad\]): the noise of the control carried into pose space. May be singular.
     fn covariance(&self, from: &Pose2, control: &Self::Control) -> Matrix3<f64>;
+
+    /// p(x_t | x_{t−1}, u_t) as a Gaussian in pose space: mean g(x, u), covariance R_t + diag(floor²), where `floor_stds` are standard
+    /// deviations \[m, m, rad\] that keep it invertible when the robot stands still. `None` where it is not positive definite all the same.
+    ///
+    /// In pose space, and not over the controls: the density of a turn, a drive and a turn (PR table 5.5) has a pole where a pose lies
+    /// near a turn on the spot. The direction of a short drive is arbitrary, and a probe a centimetre aside is fined hundreds of nats.
+    fn gaussian(&self, from: &Pose2, control: &Self::Control, floor_stds: [f64; 3]) -> Option<Gaussian3> {
+        let floor = Matrix3::from_diagonal(&Vector3::from(floor_stds.map(|std| std * std)));
+        Gaussian3::new(self.apply(from, control), self.covariance(from, control) + floor)
+    }
+
+    /// How far a control goes: metres driven and radians turned, added up.
+    fn travel(&self, control: &Self::Control) -> f64 {
+        let to = self.apply(&Pose2::default(), control);
+        ops::hypot(to.x, to.y) + to.theta.abs()
+    }
 
     /// ∂g/∂x (3 × 3). As given here for motions that are the same from wherever they start, seen from there.
     fn jacobian(&self, from: &Pose2, control: &Self::Control) -> Matrix3<f64> {

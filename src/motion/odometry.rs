@@ -6,7 +6,7 @@
 //! Reference: Thrun, Burgard, Fox, *Probabilistic Robotics* (2005), tables 5.5 and 5.6.
 
 use super::Motion;
-use crate::geometry::{Gaussian3, Pose2};
+use crate::geometry::Pose2;
 use crate::ops;
 use crate::random::Stream;
 use core::f64::consts::{FRAC_PI_2, PI};
@@ -87,19 +87,6 @@ impl OdometryModel {
         let ([s1, st, s2], [e1, et, e2]) = (self.stds(u), stream.normals());
         Odometry { rot1: u.rot1 + s1 * e1, trans: u.trans + st * et, rot2: u.rot2 + s2 * e2 }
     }
-
-    /// p(x_t | x_{t−1}, u_t) as a Gaussian in pose space: mean x ⊕ u, covariance R_t + diag(floor²).
-    ///
-    /// The density over decomposed angles (table 5.5) has a pole where a pose lies near a turn on the spot: the direction of
-    /// a short drive is arbitrary, and a probe a centimetre aside is fined hundreds of nats. In pose space the same noise
-    /// stays smooth; the floor keeps it invertible when the robot stands still.
-    ///
-    /// # Panics
-    /// Where a floor (standard deviations \[m, m, rad\]) is not positive.
-    pub fn gaussian(&self, from: &Pose2, u: &Odometry, floor_stds: [f64; 3]) -> Gaussian3 {
-        let floor = Matrix3::from_diagonal(&Vector3::from(floor_stds.map(|std| std * std)));
-        Gaussian3::new(u.apply(from), self.covariance(from, u) + floor).expect("a positive floor makes R_t definite")
-    }
 }
 
 impl Motion for OdometryModel {
@@ -120,6 +107,10 @@ impl Motion for OdometryModel {
         let v = Matrix3::new(-u.trans * sin, cos, 0.0, u.trans * cos, sin, 0.0, 1.0, 0.0, 1.0);
         let m = Matrix3::from_diagonal(&Vector3::from(self.stds(u).map(|std| std * std)));
         v * m * v.transpose()
+    }
+
+    fn travel(&self, u: &Odometry) -> f64 {
+        u.trans.abs() + u.rot1.abs() + u.rot2.abs()
     }
 }
 
@@ -175,7 +166,7 @@ mod tests {
     fn a_robot_that_stands_still_has_a_density_all_the_same() {
         let model = OdometryModel { alphas: [0.1, 0.02, 0.08, 0.02] };
         let still = Odometry { rot1: 0.0, trans: 0.0, rot2: 0.0 };
-        let density = model.gaussian(&Pose2::default(), &still, [0.01, 0.01, 0.005]);
+        let density = model.gaussian(&Pose2::default(), &still, [0.01, 0.01, 0.005]).unwrap();
         assert!(density.log_density(&Pose2::default()).is_finite());
     }
 }

@@ -59,26 +59,20 @@ impl Fit {
     ///
     /// `None` where the values are not finite enough for a definite covariance.
     pub fn around(mode: &Pose2, limits: &FitLimits, log_target: impl Fn(&Pose2) -> f64) -> Option<Self> {
-        let (shift, axes) = newton_step(mode, limits, &log_target);
+        let (shift, axes) = curvature(mode, limits, &log_target);
         let center = mode.plus(&shift);
-        let laplace = Gaussian3::new(center, axes * axes.transpose())?;
+        let probes = probes(&center, &axes, &log_target)?;
+        Self::through(&center, &probes, limits)
+    }
 
-        // τ of the centre and of the corners, times the weights of the quadrature.
-        let corners =
-            CORNERS.iter().flat_map(|corner| [REACH, -REACH].map(|side| axes * Vector3::from(*corner) * side));
-        let points: Vec<(Vector3<f64>, f64)> = core::iter::once((Vector3::zeros(), WEIGHTS[0]))
-            .chain(corners.map(|d| (d, WEIGHTS[1])))
-            .map(|(d, weight)| {
-                let pose = center.plus(&d);
-                (d, ops::ln(weight) + log_target(&pose) - laplace.log_density(&pose))
-            })
-            .collect();
-        let log_integral = ops::log_sum_exp(&points.iter().map(|(_, log_tau)| *log_tau).collect::<Vec<_>>());
+    /// The Gaussian with the moments of these probes, and their sum.
+    fn through(center: &Pose2, probes: &[Probe], limits: &FitLimits) -> Option<Self> {
+        let log_integral = ops::log_sum_exp(&probes.iter().map(|probe| probe.log_tau).collect::<Vec<_>>());
         let (mut mu, mut second) = (Vector3::zeros(), Matrix3::zeros());
-        for (d, log_tau) in &points {
+        for Probe { offset, log_tau } in probes {
             let tau = ops::exp(log_tau - log_integral);
-            mu += d * tau;
-            second += d * d.transpose() * tau;
+            mu += offset * tau;
+            second += offset * offset.transpose() * tau;
         }
         let [least, turn] = limits.least;
         let floor = Matrix3::from_diagonal(&Vector3::new(least, least, turn).map(|std| 0.25 * std * std));
@@ -87,12 +81,33 @@ impl Fit {
     }
 }
 
+/// A point of the quadrature.
+struct Probe {
+    /// From the centre \[m, m, rad\].
+    offset: Vector3<f64>,
+    /// ln of τ = target / Gaussian, times the weight of the quadrature.
+    log_tau: f64,
+}
+
+/// The target at the centre and at twelve corners around it, against the Gaussian with these principal axes. `None` where they span
+/// nothing.
+fn probes(center: &Pose2, axes: &Matrix3<f64>, log_target: &impl Fn(&Pose2) -> f64) -> Option<Vec<Probe>> {
+    let laplace = Gaussian3::new(*center, axes * axes.transpose())?;
+    let corners = CORNERS.iter().flat_map(|corner| [REACH, -REACH].map(|side| axes * Vector3::from(*corner) * side));
+    let points = core::iter::once((Vector3::zeros(), WEIGHTS[0])).chain(corners.map(|offset| (offset, WEIGHTS[1])));
+    let probe = |(offset, weight): (Vector3<f64>, f64)| {
+        let pose = center.plus(&offset);
+        Probe { offset, log_tau: ops::ln(weight) + log_target(&pose) - laplace.log_density(&pose) }
+    };
+    Some(points.map(probe).collect())
+}
+
 /// From the differences of `log_target` along the six diagonals of an icosahedron: Newton's step to the top of the parabola, and the
 /// principal axes of the hill as columns, each as long as the standard deviation along it \[m, m, rad\].
 ///
 /// Lengths are in units of `limits.most`, in the robot's frame: what is found turns with the world. The step is no longer than
 /// the differences reach.
-fn newton_step(mode: &Pose2, limits: &FitLimits, log_target: &impl Fn(&Pose2) -> f64) -> (Vector3<f64>, Matrix3<f64>) {
+fn curvature(mode: &Pose2, limits: &FitLimits, log_target: &impl Fn(&Pose2) -> f64) -> (Vector3<f64>, Matrix3<f64>) {
     let [most, turn] = limits.most;
     let (sin, cos) = ops::sin_cos(mode.theta);
     let frame = Matrix3::new(most * cos, -most * sin, 0.0, most * sin, most * cos, 0.0, 0.0, 0.0, turn);

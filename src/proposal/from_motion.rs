@@ -2,26 +2,14 @@
 
 use super::{Proposal, ProposalTrace, Proposed};
 use crate::geometry::Pose2;
+use crate::map::ConditionalMap;
 use crate::map::landmarks::{Association, Landmarks, Store};
-use crate::map::{ConditionalMap, grid::Grid};
-use crate::matching::ScanModel;
+use crate::matching::Likelihood;
 use crate::motion::Motion;
 use crate::random::Stream;
 use crate::rbpf::Particle;
-use crate::sensor::{Feature, LandmarkSensor, Scan};
+use crate::sensor::{Feature, LandmarkSensor};
 use nalgebra::Matrix3;
-
-/// ln p(z | x, m), and what the observation is taken to be of at x.
-pub trait Likelihood<M: ConditionalMap>: Sync {
-    /// The log-likelihood \[nats\] of an observation at a pose, by a map.
-    fn log_likelihood(&self, map: &M, world_from_robot: &Pose2, observation: &M::Observation) -> (f64, M::Association);
-}
-
-impl<const CELLS_PER_NDT: usize> Likelihood<Grid<CELLS_PER_NDT>> for ScanModel {
-    fn log_likelihood(&self, grid: &Grid<CELLS_PER_NDT>, world_from_robot: &Pose2, scan: &Scan) -> (f64, ()) {
-        (self.log_score(grid, world_from_robot, scan), ())
-    }
-}
 
 /// The likelihood that a map of landmarks has by itself: ln ∏ ∫ p(z | x, m_j) p(m_j | path) dm_j.
 #[derive(Clone, Copy, Debug)]
@@ -34,14 +22,12 @@ impl<Z: LandmarkSensor, S: Store> Likelihood<Landmarks<Z, S>> for Marginal {
         world_from_robot: &Pose2,
         features: &Vec<Feature>,
     ) -> (f64, Vec<Association>) {
-        // ANCHOR: marginal
         let (mut log_likelihood, mut associations) = (0.0, Vec::with_capacity(features.len()));
         for feature in features {
             let decision = map.associate(world_from_robot, &Matrix3::zeros(), feature, &associations);
             log_likelihood += decision.log_likelihood;
             associations.push(decision.association);
         }
-        // ANCHOR_END: marginal
         (log_likelihood, associations)
     }
 }
@@ -59,7 +45,6 @@ pub struct FromMotion<D, L> {
 impl<M: ConditionalMap, D: Motion, L: Likelihood<M>> Proposal<M> for FromMotion<D, L> {
     type Control = D::Control;
 
-    // anchor: propose
     fn propose(
         &self,
         particle: &Particle<M>,
@@ -67,14 +52,9 @@ impl<M: ConditionalMap, D: Motion, L: Likelihood<M>> Proposal<M> for FromMotion<
         observation: &M::Observation,
         stream: &mut Stream,
     ) -> Proposed<M::Association> {
-        // ANCHOR: draw
         let world_from_robot = self.motion.sample(&particle.world_from_robot, control, stream);
-        // ANCHOR_END: draw
-        // ANCHOR: weigh
         let (log_increment, association) =
             self.likelihood.log_likelihood(&particle.map, &world_from_robot, observation);
-        // ANCHOR_END: weigh
         Proposed { world_from_robot, association, log_increment, trace: ProposalTrace::Motion }
     }
-    // end: propose
 }

@@ -7,11 +7,13 @@ mod fit;
 mod from_measurement;
 mod from_motion;
 mod from_scan;
+mod search;
 
 pub use fit::{Fit, FitLimits};
 pub use from_measurement::{FromMeasurement, Measured};
-pub use from_motion::{FromMotion, Likelihood, Marginal};
-pub use from_scan::{CorrelativeSearch, FromScan, FromScanSettings, HeadingSeeds, Search};
+pub use from_motion::{FromMotion, Marginal};
+pub use from_scan::{FromScan, FromScanSettings};
+pub use search::{CorrelativeSearch, HeadingSeeds, Search, Starts, Target};
 
 use crate::geometry::Pose2;
 use crate::map::ConditionalMap;

@@ -3,8 +3,8 @@
 mod common;
 
 use common::{assert_texts_fit, figure, scene, state};
+use fastslam_lab::experiment::{numbers::LapCell, table::rms_best};
 use fastslam_widgets::{
-    fastslam_lab::experiment::{numbers::LapCell, table::rms_best},
     figure::Figure,
     job,
     lap::{LapModel, Layout},

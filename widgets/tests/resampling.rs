@@ -5,7 +5,6 @@ mod common;
 use common::{assert_drawn_inside, assert_texts_fit, figure, scene, state};
 use fastslam_lab::experiment::policies::RIGHT_WITHIN;
 use fastslam_widgets::{
-    fastslam,
     figure::Figure,
     job,
     model::Model,

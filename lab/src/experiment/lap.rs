@@ -215,10 +215,10 @@ impl LapSetup {
     /// What the filter draws poses from.
     pub fn proposals(&self) -> Proposals {
         let motion = self.motion();
-        let from_motion = FromMotion { motion, likelihood: ScanModel::new(self.matcher, TEMPER, OUTLIER) };
+        let score = ScanModel::new(self.matcher, TEMPER, OUTLIER);
         match self.proposal {
-            ProposalKind::Motion => Either::Left(from_motion),
-            ProposalKind::Improved => Either::Right(FromScan { fallback: from_motion, settings: FROM_SCAN }),
+            ProposalKind::Motion => Either::Left(FromMotion { motion, likelihood: score }),
+            ProposalKind::Improved => Either::Right(FromScan { motion, score, settings: FROM_SCAN }),
         }
     }
 
@@ -325,7 +325,7 @@ pub struct StepReport {
 }
 
 /// What a lap's filter draws poses from.
-pub type Proposals = Either<FromMotion<OdometryModel, ScanModel>, FromScan<HeadingSeeds>>;
+pub type Proposals = Either<FromMotion<OdometryModel, ScanModel>, FromScan<OdometryModel, ScanModel, HeadingSeeds>>;
 
 /// The filter of a lap.
 pub type Filter = Rbpf<Grid, Proposals>;

@@ -16,7 +16,7 @@ use fastslam::map::grid::{Grid, GridModel};
 use fastslam::map::{ConditionalMap, Footprint};
 use fastslam::matching::{HillClimbSteps, Kernel, Matcher, ScanModel};
 use fastslam::motion::{Odometry, OdometryModel};
-use fastslam::proposal::{CorrelativeSearch, FitLimits, FromMotion, FromScan, FromScanSettings, ProposalTrace};
+use fastslam::proposal::{CorrelativeSearch, FitLimits, FromScan, FromScanSettings, ProposalTrace};
 use fastslam::random::Stream;
 use fastslam::rbpf::{Particle, Rbpf, Report};
 use fastslam::resampling::{ResamplePolicy, Scheme};
@@ -32,7 +32,7 @@ pub const CELLS_PER_NDT: usize = 4;
 pub type LogMap = Grid<CELLS_PER_NDT>;
 
 /// The filter of a log.
-pub type Filter = Rbpf<LogMap, FromScan<CorrelativeSearch>>;
+pub type Filter = Rbpf<LogMap, FromScan<OdometryModel, ScanModel, CorrelativeSearch>>;
 
 /// Noise of the wheels: 0.2 rad a radian of turns, 0.1 rad and 0.1 m a metre. Wide on purpose: real wheels slip, and are off by
 /// a bias that no noise describes (some 4° a metre in one log). Too wide a prior only costs time.
@@ -184,10 +184,10 @@ impl LogRun {
         });
         map.assimilate(&Pose2::default(), &first.end_points(longest, setup.max_range), &());
         map.settle();
-        let likelihood = ScanModel::new(Matcher::SubCell, TEMPER, OUTLIER).with_kernel(KERNEL);
-        let fallback = FromMotion { motion: OdometryModel { alphas: ALPHAS }, likelihood };
+        let score = ScanModel::new(Matcher::SubCell, TEMPER, OUTLIER).with_kernel(KERNEL);
+        let motion = OdometryModel { alphas: ALPHAS };
         let filter = Rbpf::new(
-            FromScan { fallback, settings: from_scan(&log) },
+            FromScan { motion, score, settings: from_scan(&log) },
             setup.policy,
             Scheme::Systematic,
             setup.seed,

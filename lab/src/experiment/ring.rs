@@ -13,6 +13,7 @@ use fastslam::error::{Range, SettingError};
 use fastslam::execute::Executor;
 use fastslam::geometry::Pose2;
 use fastslam::map::grid::Grid;
+use fastslam::motion::Motion as _;
 use fastslam::motion::Odometry;
 use fastslam::proposal::{Either, Fit, Proposal, ProposalTrace};
 use fastslam::random::{Purpose, Stream};
@@ -336,8 +337,8 @@ pub fn fit_error(setup: &LapSetup, particle: &Particle<Grid>, control: &Odometry
     let ProposalTrace::Matched { mode, log_integral } = from_scan.propose(particle, control, scan, stream).trace else {
         return None;
     };
-    let (motion, likelihood) = (&from_scan.fallback.motion, &from_scan.fallback.likelihood);
-    let prior = motion.gaussian(&particle.world_from_robot, control, FROM_SCAN.motion_floor);
+    let (motion, likelihood) = (&from_scan.motion, &from_scan.score);
+    let prior = motion.gaussian(&particle.world_from_robot, control, FROM_SCAN.motion_floor)?;
     let log_target = |pose: &Pose2| likelihood.log_score(&particle.map, pose, scan) + prior.log_density(pose);
     // Where the hill is.
     let fit = Fit::around(&mode, &FROM_SCAN.limits, log_target)?;

@@ -2,10 +2,7 @@
 //! committed.
 
 use core::hash::Hasher as _;
-use fastslam::{
-    random::Stream,
-    sensor::BeamSensor,
-};
+use fastslam::{random::Stream, sensor::BeamSensor};
 use fastslam_lab::{
     digest::Digest,
     experiment::lap::{LapSetup, LapWorld},

@@ -7,9 +7,10 @@ use fastslam::map::ConditionalMap;
 use fastslam::map::landmarks::{
     Association, Balanced, Blocks, Correspondence, Decision, Gate, Landmark, Landmarks, Store,
 };
+use fastslam::matching::Likelihood;
 use fastslam::motion::{Motion, Odometry, OdometryModel, Velocity, VelocityModel};
 use fastslam::ops;
-use fastslam::proposal::{FromMeasurement, FromMotion, Likelihood, Marginal, Proposal, ProposalTrace};
+use fastslam::proposal::{FromMeasurement, FromMotion, Marginal, Proposal, ProposalTrace};
 use fastslam::random::{Purpose, Stream};
 use fastslam::rbpf::{Particle, Rbpf};
 use fastslam::resampling::{ResamplePolicy, Scheme};
@@ -930,7 +931,9 @@ fn well_separated_landmarks_are_told_apart_without_signatures() {
             for (index, landmark) in b.map.iter() {
                 // Numbered as they came in the first step.
                 let named = a.map.get((index + by as u32) % 4).unwrap();
-                assert!((named.mean - landmark.mean).norm() < 1e-12 && named.evidence == landmark.existence_count);
+                assert!(
+                    (named.mean - landmark.mean).norm() < 1e-12 && named.existence_count == landmark.existence_count
+                );
             }
         }
     }
@@ -952,7 +955,7 @@ fn what_should_be_seen_and_is_not_is_struck_off_and_nothing_else() {
     for (x, y, goes) in [(2.0, 2.0, true), (7.6, 0.0, true), (7.8, 0.0, false), (-2.0, 0.0, false), (0.2, 2.0, false)] {
         for removal in [true, false] {
             let gate = Gate { removal, ..Gate::default() };
-            let missed = Landmark { evidence: 3, ..landmark(x, y, 0.01) };
+            let missed = Landmark { existence_count: 3, ..landmark(x, y, 0.01) };
             let mut map = unknown(sensor, gate, &[landmark(3.0, -1.0, 0.01), missed]);
             let z = sensor.predict(&Pose2::default(), &Vector2::new(3.0, -1.0)).z;
             for step in 0..6 {
@@ -963,7 +966,7 @@ fn what_should_be_seen_and_is_not_is_struck_off_and_nothing_else() {
                 let there = !(goes && removal && step >= 3);
                 assert_eq!(map.get(1).is_some(), there, "({x}, {y}), removal {removal}, step {step}");
             }
-            assert_eq!(map.get(0).unwrap().evidence, 7);
+            assert_eq!(map.get(0).unwrap().existence_count, 7);
         }
     }
 }
@@ -978,7 +981,7 @@ fn a_joint_filter_strikes_off_what_it_should_see_and_does_not() {
     let (a, ghost, b) = (see(3.0, -1.0), see(2.0, 2.0), see(-2.0, 2.0));
     filter.step(&still, &[a, ghost, b]);
     assert_eq!(filter.step(&still, &[b, a]).associations, [Association::Matched(2), Association::Matched(0)]);
-    assert_eq!(filter.landmark(1).unwrap().evidence, 0);
+    assert_eq!(filter.landmark(1).unwrap().existence_count, 0);
     filter.step(&still, &[a, b]);
     assert!(filter.landmark(1).is_none() && filter.covariance().nrows() == 7);
     let sighted = filter.step(&still, &[ghost, b]).associations;

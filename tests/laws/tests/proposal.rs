@@ -20,7 +20,7 @@ use nalgebra::{Matrix3, Vector3};
 struct OneStep<S = HeadingSeeds> {
     particle: Particle<Grid>,
     world: LapWorld,
-    from_scan: FromScan<S>,
+    from_scan: FromScan<OdometryModel, ScanModel, S>,
 }
 
 fn one_step(matcher: Matcher) -> OneStep {
@@ -43,7 +43,7 @@ fn one_step_by<S>(matcher: Matcher, search: S) -> OneStep<S> {
         FROM_SCAN;
     let settings =
         FromScanSettings { motion_floor, search, climb, climb_stride, minimum_improvement, full_weight, limits };
-    OneStep { particle, world, from_scan: FromScan { fallback: FromMotion { motion, likelihood: scan }, settings } }
+    OneStep { particle, world, from_scan: FromScan { motion, score: scan, settings } }
 }
 
 /// Small enough to change nothing, and enough to make a covariance definite.
@@ -51,7 +51,7 @@ const NO_FLOOR: [f64; 3] = [1e-4; 3];
 
 impl<S> OneStep<S> {
     fn prior(&self, floor: [f64; 3]) -> Gaussian3 {
-        self.from_scan.fallback.motion.gaussian(&self.particle.world_from_robot, &self.world.controls[0], floor)
+        self.from_scan.motion.gaussian(&self.particle.world_from_robot, &self.world.controls[0], floor).unwrap()
     }
 
     /// Mean (from the prior's) and covariance of p(x | z, u, m), and ln ∫ p(z | x, m) p(x | u) dx, by summing a lattice of the prior's own axes
@@ -66,7 +66,7 @@ impl<S> OneStep<S> {
                 for c in &side {
                     let pose = prior.at([*a, *b, *c]);
                     let log_normal = -0.5 * (a * a + b * b + c * c) - 1.5 * ops::ln(core::f64::consts::TAU);
-                    let log_likelihood = self.from_scan.fallback.likelihood.log_score(&self.particle.map, &pose, scan);
+                    let log_likelihood = self.from_scan.score.log_score(&self.particle.map, &pose, scan);
                     poses.push((pose.minus(prior.mean()), log_likelihood + log_normal + cell));
                 }
             }
@@ -108,7 +108,8 @@ fn the_motion_prior_weighted_by_the_scan_has_the_posteriors_mean() {
     for matcher in [Matcher::Cell, Matcher::SubCell] {
         let step = one_step(matcher);
         let (expected, _, log_evidence) = step.dense(NO_FLOOR);
-        let (mean, error, log_mean_weight) = step.sampled(&step.from_scan.fallback, 20_000);
+        let from_motion = FromMotion { motion: step.from_scan.motion, likelihood: step.from_scan.score.clone() };
+        let (mean, error, log_mean_weight) = step.sampled(&from_motion, 20_000);
         for axis in 0..3 {
             let bound = 4.0 * error[axis] + 0.02 * spread(&step, NO_FLOOR)[axis];
             assert!(
@@ -123,10 +124,10 @@ fn the_motion_prior_weighted_by_the_scan_has_the_posteriors_mean() {
 }
 
 /// What the proposal draws from, beside the posterior.
-fn compare<S: Search + Sync>(name: &str, step: &OneStep<S>) {
-    let FromScan { fallback, settings } = &step.from_scan;
+fn compare<S: Search>(name: &str, step: &OneStep<S>) {
+    let FromScan { score, settings, .. } = &step.from_scan;
     let (prior, control, scan) = (step.prior(settings.motion_floor), &step.world.controls[0], &step.world.scans[0]);
-    let target = |pose: &Pose2| fallback.likelihood.log_score(&step.particle.map, pose, scan) + prior.log_density(pose);
+    let target = |pose: &Pose2| score.log_score(&step.particle.map, pose, scan) + prior.log_density(pose);
     let stream = || Stream::at(7, Purpose::TRIAL, 0, 0);
     let proposed = step.from_scan.propose(&step.particle, control, scan, &mut stream());
     let ProposalTrace::Matched { mode, log_integral } = proposed.trace else { panic!("{name}: {proposed:?}") };
@@ -187,9 +188,7 @@ fn a_short_step_weighs_in_proportion_in_both_branches_of_the_guard() {
                     let mut stream = Stream::at(7, Purpose::TRIAL, k, 0);
                     let proposed = step.from_scan.propose(&step.particle, &control, scan, &mut stream);
                     assert_eq!(matches!(proposed.trace, ProposalTrace::Matched { .. }), trusted);
-                    let score = |map: &Grid| {
-                        step.from_scan.fallback.likelihood.log_score(map, &proposed.world_from_robot, scan)
-                    };
+                    let score = |map: &Grid| step.from_scan.score.log_score(map, &proposed.world_from_robot, scan);
                     let (old, new) = (score(&step.particle.map.past()), score(&step.particle.map));
                     assert!((old - new).abs() > 1e-3, "the two maps differ: {old} and {new}");
                     let expected = share * old;
@@ -220,8 +219,7 @@ fn the_matcher_fails_on_a_flat_score_surface() {
 
 /// Standard deviations along x, y, θ of the prior with this floor.
 fn spread<S>(step: &OneStep<S>, floor: [f64; 3]) -> Vector3<f64> {
-    let covariance =
-        step.from_scan.fallback.motion.covariance(&step.particle.world_from_robot, &step.world.controls[0]);
+    let covariance = step.from_scan.motion.covariance(&step.particle.world_from_robot, &step.world.controls[0]);
     (covariance.diagonal() + Vector3::from(floor.map(|std| std * std))).map(f64::sqrt)
 }
 

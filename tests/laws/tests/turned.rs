@@ -5,9 +5,9 @@ use fastslam::geometry::Pose2;
 use fastslam::map::ConditionalMap;
 use fastslam::map::grid::{Grid, GridModel};
 use fastslam::matching::{Matcher, ScanModel};
-use fastslam::motion::{Odometry, OdometryModel};
+use fastslam::motion::{Motion as _, Odometry, OdometryModel};
 use fastslam::ops;
-use fastslam::proposal::{Fit, FromMotion, FromScan, Proposal, ProposalTrace, Search};
+use fastslam::proposal::{Fit, FromScan, Proposal, ProposalTrace, Search};
 use fastslam::random::{Purpose, Stream};
 use fastslam::rbpf::Particle;
 use fastslam::sensor::{BeamSensor, Scan};
@@ -23,7 +23,7 @@ const ANGLES: [f64; 7] = [0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0];
 
 /// A particle before a step.
 struct Scene<S, const CELLS_PER_NDT: usize> {
-    from_scan: FromScan<S>,
+    from_scan: FromScan<OdometryModel, ScanModel, S>,
     particle: Particle<Grid<CELLS_PER_NDT>>,
     control: Odometry,
     scan: Scan,
@@ -37,12 +37,12 @@ struct Judged {
     dense: Matrix3<f64>,
 }
 
-impl<S: Search + Sync, const CELLS_PER_NDT: usize> Scene<S, CELLS_PER_NDT> {
+impl<S: Search, const CELLS_PER_NDT: usize> Scene<S, CELLS_PER_NDT> {
     /// `None` where the matcher is not trusted.
     fn judged(&self, seed: u32) -> Option<Judged> {
-        let Self { from_scan: FromScan { fallback, settings }, particle, control, scan } = self;
-        let prior = fallback.motion.gaussian(&particle.world_from_robot, control, settings.motion_floor);
-        let target = |pose: &Pose2| fallback.likelihood.log_score(&particle.map, pose, scan) + prior.log_density(pose);
+        let Self { from_scan: FromScan { motion, score, settings }, particle, control, scan } = self;
+        let prior = motion.gaussian(&particle.world_from_robot, control, settings.motion_floor).unwrap();
+        let target = |pose: &Pose2| score.log_score(&particle.map, pose, scan) + prior.log_density(pose);
         let stream = || Stream::at(1, Purpose::TRIAL, seed, 0);
         let proposed = self.from_scan.propose(particle, control, scan, &mut stream());
         let ProposalTrace::Matched { mode, log_integral } = proposed.trace else { return None };
@@ -74,7 +74,7 @@ const WHEELS: OdometryModel = OdometryModel { alphas: log::ALPHAS };
 /// A corridor with no end in sight, mapped on twelve steps of 0.3 m from known poses, and a scan `trans` \[m\] further: the `seed`-th
 /// of places where raster and noise differ, the world turned.
 fn corridor<S, const CELLS_PER_NDT: usize>(
-    from_scan: FromScan<S>,
+    from_scan: FromScan<OdometryModel, ScanModel, S>,
     model: GridModel,
     trans: f64,
     seed: u32,
@@ -107,14 +107,14 @@ fn corridor<S, const CELLS_PER_NDT: usize>(
 /// With the lap's map and settings.
 fn corridor_of_the_lap(seed: u32, angle: f64) -> Option<Judged> {
     let likelihood = ScanModel::new(Matcher::SubCell, lap::TEMPER, lap::OUTLIER);
-    let from_scan = FromScan { fallback: FromMotion { motion: WHEELS, likelihood }, settings: lap::FROM_SCAN };
+    let from_scan = FromScan { motion: WHEELS, score: likelihood, settings: lap::FROM_SCAN };
     corridor::<_, 1>(from_scan, lap::GRID, 0.8, seed, angle).judged(seed)
 }
 
 /// With the map and settings for logs, in which 4 to 5 cm are unknown along a step.
 fn corridor_of_a_log(seed: u32, angle: f64) -> Option<Judged> {
     let likelihood = ScanModel::new(Matcher::SubCell, log::TEMPER, log::OUTLIER).with_kernel(log::KERNEL);
-    let from_scan = FromScan { fallback: FromMotion { motion: WHEELS, likelihood }, settings: log::FROM_SCAN };
+    let from_scan = FromScan { motion: WHEELS, score: likelihood, settings: log::FROM_SCAN };
     let model = GridModel {
         cell_size: 0.05,
         log_odds_pass: -0.4,
@@ -135,7 +135,7 @@ fn start_of_the_lap(seed: u32, angle: f64) -> Option<Judged> {
     let here = world.truth[0];
     let likelihood = ScanModel::new(setup.matcher, lap::TEMPER, lap::OUTLIER);
     let scene = Scene {
-        from_scan: FromScan { fallback: FromMotion { motion: setup.motion(), likelihood }, settings: lap::FROM_SCAN },
+        from_scan: FromScan { motion: setup.motion(), score: likelihood, settings: lap::FROM_SCAN },
         particle: Particle { world_from_robot: here, map, path: Path::start(here) },
         control: world.controls[0],
         scan: world.scans[0].clone(),
