@@ -24,7 +24,6 @@ impl Default for Executor {
 }
 
 impl Executor {
-    // ANCHOR: listing-map
     /// `f(slot, &mut items[slot])` for every slot, results in slot order.
     pub fn map<T: Send, R: Send>(&self, items: &mut [T], f: impl Fn(usize, &mut T) -> R + Sync + Send) -> Vec<R> {
         match self {
@@ -36,5 +35,4 @@ impl Executor {
             }
         }
     }
-    // ANCHOR_END: listing-map
 }

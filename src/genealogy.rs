@@ -10,7 +10,6 @@ use crate::geometry::Pose2;
 use core::fmt;
 use std::sync::Arc;
 
-// ANCHOR: listing-push
 /// A path, from a pose at step 0 on. A clone is the same node: it costs a reference, and so does a copy of a whole population.
 #[derive(Clone)]
 pub struct Path(Arc<Node>);
@@ -44,7 +43,6 @@ impl Drop for Node {
         }
     }
 }
-// ANCHOR_END: listing-push
 
 impl Path {
     /// The newest pose.

@@ -38,7 +38,6 @@ impl Purpose {
 pub struct Stream(Pcg64);
 
 impl Stream {
-    // ANCHOR: listing-stream
     /// The stream of `purpose` at `step` for `slot` under `seed`.
     pub fn at(seed: u64, purpose: Purpose, step: u32, slot: u32) -> Self {
         let address = (u64::from(step) << 32) | u64::from(slot);
@@ -49,7 +48,6 @@ impl Stream {
         let stream = (u128::from(hash.squeeze()) << 64) | u128::from(hash.squeeze());
         Self(Pcg64::new(state, stream))
     }
-    // ANCHOR_END: listing-stream
 
     /// Uniform on [0, 1), 53 bits; takes one `u64`.
     pub fn uniform(&mut self) -> f64 {

@@ -16,7 +16,6 @@ impl Weights {
         Self { log_weights: vec![ops::ln(weight); count], weights: vec![weight; count] }
     }
 
-    // ANCHOR: listing-reweighted
     /// The weights after each has been multiplied by exp(increment), with the log of their sum before normalising \[nats\]:
     /// the filter's estimate of ln p(z_t | z₁..ₜ₋₁).
     ///
@@ -42,7 +41,6 @@ impl Weights {
         let weights = log_weights.iter().map(|w| ops::exp(*w)).collect();
         (Self { log_weights, weights }, log_evidence)
     }
-    // ANCHOR_END: listing-reweighted
 
     /// Weights of copies of these slots, each as heavy as its original before they are normalised.
     pub fn copied(&self, slots: &[u32]) -> Self {
@@ -67,9 +65,7 @@ impl Weights {
         if self.weights.iter().all(|w| *w == self.weights[0]) {
             return self.weights.len() as f64; // what rounding in the sum would miss
         }
-        // ANCHOR: ess
         1.0 / self.weights.iter().map(|w| w * w).sum::<f64>()
-        // ANCHOR_END: ess
     }
 
     /// Slot of the largest weight, the lowest of equals.

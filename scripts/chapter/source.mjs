@@ -1,4 +1,4 @@
-// Rust taken from the source itself: pieces between `// ANCHOR: name` and `// ANCHOR_END: name`, highlighted by Shiki with classes.
+// Rust taken from the source itself, found by the names of its items, highlighted by Shiki with classes.
 import { readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { createHighlighter } from 'shiki'
@@ -6,8 +6,8 @@ import { createHighlighter } from 'shiki'
 /** @typedef {{ file: string, first: number, last: number, lines: { number: number, text: string }[] }} Piece `first` and `last` are lines of the file */
 /** @typedef {{ text: string, kind: string }} Token kind "" is plain text */
 
-/** Both the chapter's spelling and the one that the crate's own anchors use. */
-const mark = /^\s*\/\/ *(anchor|end|anchor_end): *([\w-]+)\s*$/i
+/** The first line of an item, with its indentation, kind and name. */
+const itemStart = /^(\s*)(?:pub(?:\([^)]*\))? )?(?:const |async |unsafe )*(fn|struct|enum|trait|type|const|static|mod|impl)\b\s*(.*)$/
 
 /** Colours that stand for classes: Shiki paints, the style sheet decides. @type {Record<string, string>} */
 const kinds = { '#000001': 'c', '#000002': 'k', '#000003': 's', '#000004': 't', '#000005': 'f' }
@@ -62,27 +62,33 @@ export class Sources {
     return this.#files.get(file)
   }
 
-  /** `path#anchor` @param {string} src @returns {Piece | string} what is wrong, in words, where there is no such piece */
+  /**
+   * `path#name`: an item of Rust with the comments above it, as rustfmt lays it out. `Type::name` is a method, `a+b` shows two items with a
+   * blank line between them, and `name:text` is the one line of an item that contains a text.
+   * @param {string} src @returns {Piece | string} what is wrong, in words, where there is no such piece
+   */
   piece(src) {
-    const [file = '', anchor] = src.split('#')
+    const [file = '', names] = src.split('#')
     if (file.startsWith('/') || file.split('/').includes('..')) return `${file} is not a path inside the repository`
     const lines = this.#lines(file)
     if (!lines) return `there is no file ${file}`
-    if (!anchor) return `${src} names no anchor: write ${file}#name`
-    let [start, end] = [-1, -1]
-    lines.forEach((line, i) => {
-      const [, kind = '', name] = mark.exec(line) ?? []
-      if (name !== anchor) return
-      if (kind.toLowerCase() === 'anchor') start = i
-      else end = i
-    })
-    if (start < 0) return `${file} has no // ANCHOR: ${anchor}`
-    if (end < start) return `${file} has no // ANCHOR_END: ${anchor}`
-    const kept = lines.map((text, i) => ({ number: i + 1, text })).slice(start + 1, end).filter(({ text }) => !mark.test(text))
-    const indent = Math.min(...kept.filter(({ text }) => text.trim()).map(({ text }) => text.search(/\S/)))
-    const shown = kept.map(({ number, text }) => ({ number, text: text.slice(indent) }))
-    if (shown.length === 0) return `${src} is empty`
-    return { file, first: kept[0]?.number ?? 0, last: kept.at(-1)?.number ?? 0, lines: shown }
+    if (!names) return `${src} names no item: write ${file}#name`
+    const [, listed = '', text] = /^((?:\w|::|\+)+)(?::([^:].*))?$/.exec(names) ?? []
+    /** @type {{ number: number, text: string }[]} */
+    const shown = []
+    for (const name of listed.split('+')) {
+      const found = item(lines, name)
+      if (typeof found === 'string') return `${file} ${found}`
+      if (shown.length > 0) shown.push({ number: 0, text: '' })
+      shown.push(...found)
+    }
+    if (text) {
+      const [line, more] = shown.filter(line => line.text.includes(text) && !line.text.trimStart().startsWith('//'))
+      if (!line) return `${file}: no line of ${listed} contains ${text}`
+      if (more) return `${file}: more than one line of ${listed} contains ${text}`
+      return { file, first: line.number, last: line.number, lines: [line] }
+    }
+    return { file, first: shown[0]?.number ?? 0, last: shown.at(-1)?.number ?? 0, lines: shown }
   }
 
   /** Code by lines, each in as few pieces as its colours allow. @param {string} code @param {string} language @returns {Token[][]} */
@@ -102,4 +108,38 @@ export class Sources {
       return merged
     })
   }
+}
+
+/** The lines of an item, without their common indentation; in words, why there are none. @param {string[]} lines @param {string} name */
+function item(lines, name) {
+  const [type, method] = name.includes('::') ? name.split('::') : [undefined, name]
+  const starts = lines.flatMap((line, i) => (isNamed(line, method ?? '') && (!type || ownerOf(lines, i) === type) ? [i] : []))
+  const [start] = starts
+  if (start === undefined) return `has no item ${name}`
+  if (starts.length > 1) return `has more than one ${name}: write Type::${name}`
+  const indent = lines[start]?.search(/\S/) ?? 0
+  let first = start
+  while (first > 0 && /^\s*(\/\/\/|#\[)/.test(lines[first - 1] ?? '')) first--
+  const last = lines.findIndex((line, i) => i >= start && line.search(/\S/) === indent && /(;|\}|\},)$/.test(line))
+  if (last < 0) return `has no end of ${name}`
+  return lines.slice(first, last + 1).map((text, i) => ({ number: first + i + 1, text: text.slice(indent) }))
+}
+
+/** Whether a line begins an item of this name. @param {string} line @param {string} name */
+function isNamed(line, name) {
+  const [, , kind, rest = ''] = itemStart.exec(line) ?? []
+  return kind !== undefined && kind !== 'impl' && /^\w+/.exec(rest)?.[0] === name
+}
+
+/** The type whose `impl`, or the trait or module, that a line stands in. @param {string[]} lines @param {number} at */
+function ownerOf(lines, at) {
+  const indent = lines[at]?.search(/\S/) ?? 0
+  for (let i = at - 1; i >= 0; i--) {
+    const [, space = '', kind, rest = ''] = itemStart.exec(lines[i] ?? '') ?? []
+    if (kind === undefined || space.length >= indent) continue
+    if (kind !== 'impl') return /^\w+/.exec(rest)?.[0]
+    const subject = rest.replace(/^<[^{]*?>\s+(?=\w)/, '').replace(/^.*\bfor\s+/, '')
+    return /^\w+/.exec(subject.trim())?.[0]
+  }
+  return undefined
 }

@@ -35,8 +35,6 @@ pub struct Measured {
 }
 
 impl<D: Motion> FromMeasurement<D> {
-    // anchor: fold
-    // ANCHOR: listing-fold
     /// Folds every feature of a mapped landmark into N(x̂, R_t), each from where the one before left it: with
     /// L = H_x P H_xᵀ + H_m Σ_j H_mᵀ + Q and K = P H_xᵀ L⁻¹, μ ← μ + K ν, and P by Joseph's form.
     pub fn fold<Z: LandmarkSensor, S: Store>(
@@ -46,40 +44,31 @@ impl<D: Motion> FromMeasurement<D> {
         control: &D::Control,
         features: &[Feature],
     ) -> Measured {
-        // ANCHOR: predict
         let mut mean = self.motion.apply(from, control);
         let mut p = self.motion.covariance(from, control);
-        // ANCHOR_END: predict
         let (mut log_evidence, mut associations) = (0.0, Vec::with_capacity(features.len()));
         let mut informed = false;
         for feature in features {
             let decision = map.associate(&mean, &p, feature, &associations);
             if let Some(innovation) = decision.innovation {
                 let h_x = innovation.prediction.h_x;
-                // ANCHOR: pull
                 let gain = p * h_x.transpose() * innovation.inverse;
                 let keep = Matrix3::identity() - gain * h_x;
                 mean = mean.plus(&(gain * innovation.residual));
                 p = keep * p * keep.transpose() + gain * innovation.given_pose * gain.transpose();
                 p = (p + p.transpose()) * 0.5;
-                // ANCHOR_END: pull
                 informed = true;
             }
-            // ANCHOR: pay
             log_evidence += decision.log_likelihood;
-            // ANCHOR_END: pay
             associations.push(decision.association);
         }
         Measured { mean, covariance: p, associations, log_evidence, informed }
     }
-    // ANCHOR_END: listing-fold
-    // end: fold
 }
 
 impl<Z: LandmarkSensor, S: Store, D: Motion> Proposal<Landmarks<Z, S>> for FromMeasurement<D> {
     type Control = D::Control;
 
-    // anchor: propose
     /// The weight does not contain the pose that was drawn: particles of one history weigh the same.
     fn propose(
         &self,
@@ -90,15 +79,12 @@ impl<Z: LandmarkSensor, S: Store, D: Motion> Proposal<Landmarks<Z, S>> for FromM
     ) -> Proposed<Vec<Association>> {
         let from = &particle.world_from_robot;
         let measured = self.fold(&particle.map, from, control, features);
-        // ANCHOR: draw
         let (world_from_robot, trace) = if measured.informed {
             let pose = sample_semidefinite(&measured.mean, &measured.covariance, stream);
             (pose, ProposalTrace::Matched { mode: measured.mean, log_integral: measured.log_evidence })
         } else {
             (self.motion.sample(from, control, stream), ProposalTrace::Motion)
         };
-        // ANCHOR_END: draw
         Proposed { world_from_robot, association: measured.associations, log_increment: measured.log_evidence, trace }
     }
-    // end: propose
 }

@@ -32,12 +32,7 @@ impl Scheme {
     pub fn ancestors(&self, weights: &Weights, n: usize, stream: &mut Stream) -> Vec<u32> {
         let w = weights.as_slice();
         match self {
-            // ANCHOR: systematic
-            Self::Systematic => {
-                let shift = stream.uniform();
-                invert(w, (0..n).map(|k| (k as f64 + shift) / n as f64))
-            }
-            // ANCHOR_END: systematic
+            Self::Systematic => systematic(w, n, stream),
             Self::Stratified => invert(w, (0..n).map(|k| (k as f64 + stream.uniform()) / n as f64)),
             Self::Multinomial => expand(&offspring(w, 1.0, n, stream)),
             Self::Residual => {
@@ -53,6 +48,12 @@ impl Scheme {
             }
         }
     }
+}
+
+/// One random number shifts a comb of n teeth over the cumulative weights, and each tooth picks the slot under it.
+fn systematic(weights: &[f64], n: usize, stream: &mut Stream) -> Vec<u32> {
+    let shift = stream.uniform();
+    invert(weights, (0..n).map(|k| (k as f64 + shift) / n as f64))
 }
 
 /// Each slot as often as it has offspring.

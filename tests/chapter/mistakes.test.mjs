@@ -9,7 +9,7 @@ const numbers = (/** @type {string[]} */ ...keys) => ({
 const works = (/** @type {string[]} */ ...ids) => ({
   'www/references.json': `[\n${ids.map(id => `{"id": "${id}", "title": "On ${id}", "author": [{"family": "Rao"}], "issued": {"date-parts": [[1945]]}}`).join(',\n')}\n]`,
 })
-const rust = { 'src/a.rs': 'fn a() {\n    // ANCHOR: body\n    let x = 1;\n    // ANCHOR_END: body\n}\n' }
+const rust = { 'src/a.rs': 'fn body() {\n    let x = 1;\n}\n\nstruct A;\n\nimpl A {\n    fn twin() {}\n}\n\nfn twin() {}\n' }
 const file = 'www/chapter/01-text.md'
 
 /** @type {[name: string, good: string, bad: string, expected: RegExp, others?: Record<string, string>][]} */
@@ -28,8 +28,10 @@ const mistakes = [
   ['a container that was closed too early', '## A {#a}\n\n::::exercise[A]{#ex-a kind="k" level="1"}\n:::hint\nx\n:::\n::::', '## A {#a}\n\n:::exercise[A]{#ex-a kind="k" level="1"}\n:::hint\nx\n:::\ny\n:::', /stray :::/],
   ['an unknown work', '## A {#a}\n\n[@rao] says.', '## A {#a}\n\n[@rao] says, and [@blackwell].', /:3: .*no work blackwell/, works('rao')],
   ['an unknown term', '## A {#a}\n\n:term[x]{#ess}', '## A {#a}\n\n:term[x]{#ess} and :term[y]{#why}', /:3: .*no entry why/, { 'www/glossary.md': '## ess: sample size\n\nText.\n' }],
-  ['a listing without its anchor in the source', '## A {#a}\n\n::listing{#lst-a src="src/a.rs#body"}', '## A {#a}\n\n::listing{#lst-a src="src/a.rs#legs"}', /:3: .*src\/a\.rs has no .*legs/, rust],
+  ['a listing of an item that is not in the source', '## A {#a}\n\n::listing{#lst-a src="src/a.rs#body"}', '## A {#a}\n\n::listing{#lst-a src="src/a.rs#legs"}', /:3: .*src\/a\.rs has no .*legs/, rust],
   ['a listing of a file that is not there', '## A {#a}\n\n::listing{#lst-a src="src/a.rs#body"}', '## A {#a}\n\n::listing{#lst-a src="src/b.rs#body"}', /:3: .*no file src\/b\.rs/, rust],
+  ['a listing of one of two items', '## A {#a}\n\n::listing{#lst-a src="src/a.rs#A::twin"}', '## A {#a}\n\n::listing{#lst-a src="src/a.rs#twin"}', /:3: .*more than one twin/, rust],
+  ['a line of an item that does not have it', '## A {#a}\n\n:::algorithm[A]{#alg-a}\n1. do :line[a]{src="src/a.rs#body:let x"}\n:::', '## A {#a}\n\n:::algorithm[A]{#alg-a}\n1. do :line[a]{src="src/a.rs#body:let y"}\n:::', /:4: .*no line of body contains let y/, rust],
   ['a line of an algorithm that links to nowhere', '## A {#a}\n\n:::algorithm[A]{#alg-a}\n1. do :line[a]{src="src/a.rs#body"}\n:::', '## A {#a}\n\n:::algorithm[A]{#alg-a}\n1. do :line[a]{src="src/a.rs#legs"}\n:::', /:4: .*legs/, rust],
   ['an algorithm for a figure that is not there', '## A {#a}\n\n:::algorithm[A]{#alg-a}\n1. do\n:::', '## A {#a}\n\n:::algorithm[A]{#alg-a figure="fig-a"}\n1. do\n:::', /:3: .*#fig-a/],
   ['TeX that is none', '## A {#a}\n\n$\\frac12$', '## A {#a}\n\n$\\fraction12$', /:3: TeX: .*\\fraction/],

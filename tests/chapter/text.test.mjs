@@ -52,17 +52,18 @@ test('citations are part of the sentence, or in parentheses of the writer’s ow
   assert.match(text, /Read it\./)
 })
 
-test('a listing shows the source without its anchors, and an algorithm links to the line in it or to the repository', async () => {
-  const others = { 'src/a.rs': 'fn a() {\n    // ANCHOR: all\n    // ANCHOR: one\n    let x = "1"; // why\n    // ANCHOR_END: one\n    // ANCHOR_END: all\n}\n// ANCHOR: two\nfn b() {}\n// ANCHOR_END: two\n' }
-  const text = await html('## A {#a}\n\n:::algorithm[A]{#alg-a}\n1. one :line[one]{src="src/a.rs#one"}\n   1. two :line[two]{src="src/a.rs#two"}\n:::\n\n::listing{#lst-a src="src/a.rs#all" caption="C"}', others)
-  assert.ok(!text.includes('ANCHOR'))
-  assert.match(text, /<code><span id="lst-a-4"><span class="k">let<\/span>/)
-  assert.match(text, /<li data-line="one">.*href="#lst-a-4"/)
-  assert.match(text, /<li data-line="two">.*href="https:\/\/example\.org\/repo\/blob\/main\/src\/a\.rs#L9"/)
+test('a listing shows items with their comments, and an algorithm links to a line in it or to the repository', async () => {
+  const others = { 'src/a.rs': 'struct B;\n\nimpl B {\n    /// First.\n    fn all(&self) -> u32 {\n        let x = "1"; // why\n        2\n    }\n}\n\nfn two() {}\n' }
+  const text = await html('## A {#a}\n\n:::algorithm[A]{#alg-a}\n1. one :line[one]{src="src/a.rs#all:let x"}\n   1. two :line[two]{src="src/a.rs#two"}\n:::\n\n::listing{#lst-a src="src/a.rs#B+B::all" caption="C"}', others)
+  const shown = text.replace(/<\/?span[^>]*>/g, '')
+  assert.match(shown, /<code>struct B;\n\n\/\/\/ First\.\nfn all\(&amp;self\) -> u32 {\n    let x = "1"; \/\/ why\n    2\n}\n<\/code>/)
+  assert.match(text, /<span id="lst-a-6"> *<span class="k">let<\/span>/)
+  assert.match(text, /<li data-line="one">.*href="#lst-a-6"/)
+  assert.match(text, /<li data-line="two">.*href="https:\/\/example\.org\/repo\/blob\/main\/src\/a\.rs#L11"/)
 })
 
 test('the question of a prediction and the caption of a listing are sentences like any other', async () => {
-  const others = { 'src/a.rs': '// ANCHOR: all\nfn a() {}\n// ANCHOR_END: all\n' }
+  const others = { 'src/a.rs': 'fn all() {}\n' }
   const text = await html('## A {#a}\n\n:::predict{question="Is \'it\' $x$ or `y`?"}\nz\n:::\n\n::listing{#lst-a src="src/a.rs#all" caption="The `a` of $x$."}', others)
   assert.match(text, /Is ‘it’ <math><mi>x<\/mi><\/math> or <code>y<\/code>\? <input/)
   assert.match(text, /The <code>a<\/code> of <span class="w"><math>/)

@@ -66,7 +66,6 @@ impl Joint {
         &self.information
     }
 
-    // anchor: marginal
     /// Covariance of the landmarks with the path marginalised out; `None` where a landmark was never sighted.
     pub fn marginal(&self) -> Option<MapCovariance> {
         let path = 0..3 * self.poses;
@@ -81,7 +80,6 @@ impl Joint {
         let map = 3 * self.poses;
         inverse(self.information.view_range(map.., map..)).map(MapCovariance)
     }
-    // end: marginal
 
     /// Covariances of the poses x_1 … x_T (3 × 3, \[m, m, rad\]) with the map marginalised out; `None` where a landmark was never
     /// sighted.

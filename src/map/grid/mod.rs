@@ -258,14 +258,12 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
         core::iter::once(&self.directory).chain(self.past.iter().map(|(_, directory)| directory))
     }
 
-    // ANCHOR: listing-tile
     /// A tile, made its own and allocated if need be; `None` where the directory does not reach.
     fn tile_mut(&mut self, ti: i32, tj: i32) -> Option<&mut Tile<CELLS_PER_NDT>> {
         let directory = Arc::make_mut(&mut self.directory);
         let index = directory.index(ti, tj)?;
         Some(Arc::make_mut(directory.tiles[index].get_or_insert_default()))
     }
-    // ANCHOR_END: listing-tile
 }
 
 /// What a scan is held against.
@@ -396,7 +394,6 @@ impl<const CELLS_PER_NDT: usize> ConditionalMap for Grid<CELLS_PER_NDT> {
             self.directory = Arc::new(self.directory.grown(needed));
         }
         let (hit, pass) = (tile::units(self.model.log_odds_hit), tile::units(self.model.log_odds_pass));
-        // ANCHOR: map
         let add = [0, pass, hit]; // by mark
         let side = Self::TILE_CELLS as usize;
         for (ti, tj, block) in marks.tiles() {
@@ -427,7 +424,6 @@ impl<const CELLS_PER_NDT: usize> ConditionalMap for Grid<CELLS_PER_NDT> {
                 }
             }
         }
-        // ANCHOR_END: map
         let size = self.ndt_size;
         let [ndt_std, stretch] = [self.model.ndt_std, self.model.ndt_stretch].map(|c| c as f32);
         for &([x, y], i, j) in &marks.hits {

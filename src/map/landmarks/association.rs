@@ -63,7 +63,6 @@ pub struct Decision {
 }
 
 impl Correspondence {
-    // anchor: associate
     /// Decides what one feature is, after `taken` was decided for the features before it. Indices up to `len` are in use;
     /// `innovation` is what the feature says of the landmark of an index, `None` where there is none, or where it surely lies
     /// beyond the gate that is asked for.
@@ -95,9 +94,7 @@ impl Correspondence {
                 for index in 0..len {
                     let innovation = innovation(index, Some(gate.mahalanobis_squared)).filter(Innovation::is_regular);
                     let Some(innovation) = innovation else { continue };
-                    // ANCHOR: gate
                     let within = innovation.mahalanobis_squared < gate.mahalanobis_squared;
-                    // ANCHOR_END: gate
                     let to_beat = best.map_or(gate.log_new, |best| best.log_likelihood);
                     if within && innovation.log_likelihood > to_beat && free(index) {
                         best = Some(matched(index, innovation));
@@ -114,7 +111,6 @@ impl Correspondence {
             }
         }
     }
-    // end: associate
 }
 
 impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {

@@ -5,7 +5,6 @@ use crate::ops;
 use crate::sensor::{LandmarkSensor, Prediction};
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
-// ANCHOR: listing-landmark
 /// p(m | path, sightings) = N(mean, covariance).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Landmark {
@@ -16,7 +15,6 @@ pub struct Landmark {
     /// Sightings less the times it should have been seen and was not; struck off below 0.
     pub existence_count: i32,
 }
-// ANCHOR_END: listing-landmark
 
 /// What a sighting says against what was expected.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -67,16 +65,13 @@ impl Innovation {
 }
 
 impl Landmark {
-    // anchor: first
     /// The first sighting: μ = h⁻¹(x, z), Σ = H_m⁻¹ Q H_m⁻ᵀ.
     pub fn first<Z: LandmarkSensor>(sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) -> Self {
         let mean = sensor.locate(world_from_robot, z);
         let inverse = inverse(&sensor.predict(world_from_robot, &mean).h_m);
         Self { mean, covariance: symmetric(inverse * sensor.noise() * inverse.transpose()), existence_count: 1 }
     }
-    // end: first
 
-    // anchor: innovation
     /// ν = z − h(x, μ), S = H_m Σ H_mᵀ + Q: exp(`log_likelihood`) is the marginal ∫ p(z | x, m) p(m | path) dm of a sighting.
     #[inline]
     pub fn innovation<Z: LandmarkSensor>(&self, sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) -> Innovation {
@@ -98,10 +93,7 @@ impl Landmark {
         let covariance = symmetric(given_pose + more(&prediction));
         Innovation::new(prediction, sensor.residual(z, &prediction.z), given_pose, covariance)
     }
-    // end: innovation
 
-    // anchor: update
-    // ANCHOR: listing-update
     /// K = Σ H_mᵀ S⁻¹, μ ← μ + K ν, Σ ← (I − K H_m) Σ (I − K H_m)ᵀ + K Q Kᵀ: Joseph's form, a sum of two terms that
     /// stay positive whatever K is. Where S has no inverse nothing is learnt.
     pub fn update<Z: LandmarkSensor>(&mut self, sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) {
@@ -116,8 +108,6 @@ impl Landmark {
             symmetric(keep * self.covariance * keep.transpose() + gain * sensor.noise() * gain.transpose());
         self.existence_count = self.existence_count.saturating_add(1);
     }
-    // ANCHOR_END: listing-update
-    // end: update
 
     /// K = Σ H_mᵀ S⁻¹ (2 × 2): how far the mean follows a residual.
     #[inline]
@@ -157,7 +147,6 @@ mod tests {
     const SENSOR: RangeBearing =
         RangeBearing { range_std: 0.2, bearing_std: 0.05, max_range: 10.0, field_of_view: core::f64::consts::TAU };
 
-    // ANCHOR: listing-worked
     /// The worked example of the chapter.
     #[test]
     fn the_worked_example_is_met_to_the_last_digit_shown() {
@@ -175,7 +164,6 @@ mod tests {
             assert!((ops::exp(innovation.log_likelihood) - weight).abs() < 1e-9);
         }
     }
-    // ANCHOR_END: listing-worked
 
     #[test]
     fn many_sightings_from_one_pose_are_their_mean() {

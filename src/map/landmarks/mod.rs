@@ -74,7 +74,6 @@ impl<Z: LandmarkSensor, S: Store> ConditionalMap for Landmarks<Z, S> {
     type Observation = Vec<Feature>;
     type Association = Vec<Association>;
 
-    // anchor: assimilate
     /// A first sighting makes a landmark, every further one is a Kalman update of that landmark alone. Where landmarks may be
     /// struck off, those that should have been seen and were not lose existence count.
     fn assimilate(&mut self, world_from_robot: &Pose2, features: &Vec<Feature>, associations: &Vec<Association>) {
@@ -95,7 +94,6 @@ impl<Z: LandmarkSensor, S: Store> ConditionalMap for Landmarks<Z, S> {
             }
         }
     }
-    // end: assimilate
 }
 
 impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {

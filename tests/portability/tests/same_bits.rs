@@ -28,7 +28,6 @@ fn serial_runs_have_their_golden_fingerprints() {
     assert_eq!(found, std::fs::read_to_string(GOLDEN).unwrap());
 }
 
-// ANCHOR: listing-threads
 #[test]
 fn runs_on_any_number_of_threads_have_the_same_fingerprints() {
     let golden = std::fs::read_to_string(GOLDEN).unwrap();
@@ -37,7 +36,6 @@ fn runs_on_any_number_of_threads_have_the_same_fingerprints() {
         assert_eq!(pool.install(|| fingerprints(&Executor::Rayon)), golden, "{threads} threads");
     }
 }
-// ANCHOR_END: listing-threads
 
 /// What makes the other tests able to fail: one bit of noise changes every fingerprint.
 #[test]
