@@ -2,6 +2,7 @@
 //! the chapter's numbers. The goldens are written natively, by `tests/portability`, `tests/figures` and `npm run numbers`.
 #![cfg(target_arch = "wasm32")]
 
+use core::hash::Hasher as _;
 use fastslam::execute::Executor;
 use fastslam_lab::{digest::Digest, experiment::golden_traces};
 use fastslam_widgets::shell::{Figure, job};
@@ -83,7 +84,7 @@ fn every_readout_of_every_step_has_the_bits_of_the_native_build() {
                     &text(&readout, "text"),
                 );
             }
-            digest.bytes(figure.describe().as_bytes());
+            digest.write(figure.describe().as_bytes());
         }
         line(&format!("{tag}?{query}"), &digest)
     });
@@ -97,7 +98,7 @@ fn every_golden_picture_has_the_pixels_of_the_native_build() {
         let size = picture.size(figure.height(f64::from(picture.width)));
         figure.paint(size[0], size[1], picture.dpr, picture.theme);
         let mut digest = Digest::new();
-        digest.bytes(&pixels(&figure, size));
+        digest.write(&pixels(&figure, size));
         picture.line(&digest)
     });
     same_lines(&pictures.collect::<Vec<_>>(), PIXELS);
