@@ -41,7 +41,7 @@ pub const MAX_RANGE: f64 = 8.0;
 
 /// Scans taken at the known start, before the first motion, while the robot turns by one beam's spacing.
 ///
-/// They anchor the gauge. With one scan only, every universe's map is turned as a whole by the first errors of heading:
+/// They anchor the gauge. With one scan only, every particle's map is turned as a whole by the first errors of heading:
 /// consistent with itself, and metres wrong at the far end. Looking between the beams matters as much as looking often:
 /// repeated from one heading, the scans leave walls of separate dots, between which the next scan falls.
 pub const START_SCANS: u32 = 30;
@@ -299,11 +299,11 @@ pub struct StepReport {
     pub ess: f64,
     /// Normalised weights before resampling, by slot.
     pub weights: Vec<f64>,
-    /// Slot that each universe was copied from, where the step resampled.
+    /// Slot that each particle was copied from, where the step resampled.
     pub ancestors: Option<Vec<u32>>,
-    /// Slot of the best universe after the step.
+    /// Slot of the best particle after the step.
     pub best: u32,
-    /// RMS error of position over the best universe's path so far \[m\].
+    /// RMS error of position over the best particle's path so far \[m\].
     pub rms_best: f64,
     /// The same after the best rigid motion of that path onto the truth \[m\]: what is left when map and path may be moved as a
     /// whole.
@@ -312,7 +312,7 @@ pub struct StepReport {
     pub rms_odometry: f64,
     /// Distinct ancestors at step 0.
     pub lineage: u32,
-    /// Universes whose matcher was trusted.
+    /// Particles whose matcher was trusted.
     pub matched: u32,
     /// Log weight increment of each slot before resampling \[nats\]; empty at the start.
     pub log_increments: Vec<f64>,
@@ -320,7 +320,7 @@ pub struct StepReport {
     pub traces: Vec<ProposalTrace>,
     /// Bytes of all maps, shared parts counted once.
     pub map_bytes_unique: u64,
-    /// Bytes that dense maps, one for each universe, would take.
+    /// Bytes that dense maps, one for each particle, would take.
     pub map_bytes_dense: u64,
 }
 
@@ -438,7 +438,7 @@ impl Lap {
         &self.filter
     }
 
-    /// The universes, by slot.
+    /// The particles, by slot.
     pub fn particles(&self) -> &[Particle<Grid>] {
         self.filter.particles()
     }
@@ -448,18 +448,18 @@ impl Lap {
         self.filter.weights().as_slice()
     }
 
-    /// Poses of one universe, step 0 to now.
+    /// Poses of one particle, step 0 to now.
     pub fn path(&self, slot: usize) -> Vec<Pose2> {
         self.particles()[slot].path.poses()
     }
 
-    /// Slot of the best universe: of the largest weight along its path.
+    /// Slot of the best particle: of the largest weight along its path.
     pub fn best(&self) -> usize {
         self.filter.best()
     }
 
     /// Runs the lap to its end and shows every report, the present one first. Returns the end, and a fingerprint of every
-    /// report, weight and pose on the way and of every universe's whole map at the end, bit for bit.
+    /// report, weight and pose on the way and of every particle's whole map at the end, bit for bit.
     pub fn run(mut self, mut show: impl FnMut(&StepReport)) -> (Self, Digest) {
         let mut digest = Digest::new();
         loop {

@@ -167,7 +167,7 @@ impl PolicyReport {
 
 /// A particle so near the truth is in the right wing \[m\].
 ///
-/// A universe in the right wing knows its place to decimetres; one in the wrong wing is on the other side of the hall, at twice
+/// A particle in the right wing knows its place to decimetres; one in the wrong wing is on the other side of the hall, at twice
 /// the robot's distance from its centre: 12 m and more at the court. Anything between serves.
 pub const RIGHT_WITHIN: f64 = 2.0;
 

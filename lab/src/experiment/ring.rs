@@ -1,8 +1,8 @@
 //! The ring: what a filter keeps until a loop closes, what the closing leaves of it, and how noisy the price of a pose is.
 //!
-//! Round the block of [`Route::ring`] the robot drives through ground never seen before, of which no universe can be told from
+//! Round the block of [`Route::ring`] the robot drives through ground never seen before, of which no particle can be told from
 //! another. Then the start comes in sight again: of all the maps drawn on the way, those that meet their own beginning are
-//! right. For that choice there must be a choice: the measures here say how different the universes are just before the
+//! right. For that choice there must be a choice: the measures here say how different the particles are just before the
 //! closing, and how many of them it ends.
 
 use super::hill::Hill;
@@ -22,14 +22,14 @@ use fastslam::sensor::{BeamSensor, Scan};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// Steps from the closing to the second look at the universes: of some 0.3 m, so about 2 m on.
+/// Steps from the closing to the second look at the particles: of some 0.3 m, so about 2 m on.
 pub const AFTER: u32 = 6;
 
 /// Steps that must lie between two looks at a wall for the second to be a return.
 const APART: u32 = 60;
 
 /// The share of a scan's hits that must be known again for the loop to be closing. Less, and a beam that grazes a wall from afar
-/// closes it; more, and universes have begun to be told apart before.
+/// closes it; more, and particles have begun to be told apart before.
 const KNOWN: f64 = 0.1;
 
 /// A ring and the filter in it.
@@ -100,16 +100,16 @@ pub struct RingRun {
     pub deviation_before: f64,
     /// The same [`AFTER`] steps after it.
     pub deviation_after: f64,
-    /// Mean over pairs of universes of what their walls have in common, one step before the closing: intersection over union of
-    /// the cells of log-odds above 0. One universe has all in common with itself.
+    /// Mean over pairs of particles of what their walls have in common, one step before the closing: intersection over union of
+    /// the cells of log-odds above 0. One particle has all in common with itself.
     pub overlap_before: f64,
-    /// Share of the universes alive one step before the closing that have no descendant [`AFTER`] steps after it.
+    /// Share of the particles alive one step before the closing that have no descendant [`AFTER`] steps after it.
     pub died: f64,
     /// Distinct ancestors at the start, one step before the closing.
     pub lineage_before: u32,
     /// The same at the end.
     pub lineage: u32,
-    /// RMS error of position over the best universe's path \[m\].
+    /// RMS error of position over the best particle's path \[m\].
     pub rms_best: f64,
     /// Error of its last position \[m\].
     pub end_best: f64,

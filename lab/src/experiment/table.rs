@@ -10,7 +10,7 @@ use fastslam::matching::Matcher;
 /// The table's numbers of particles.
 pub const PARTICLES: [usize; 5] = [4, 8, 16, 24, 40];
 
-/// RMS error of position of the best universe's path at the end of one lap \[m\], on the calling thread: seeds are what is spread.
+/// RMS error of position of the best particle's path at the end of one lap \[m\], on the calling thread: seeds are what is spread.
 ///
 /// # Errors
 /// Where a setting is out of its range.
@@ -32,7 +32,7 @@ pub struct LapResult {
     pub particles: usize,
     /// Its seed.
     pub seed: u64,
-    /// RMS error of position of the best universe \[m\].
+    /// RMS error of position of the best particle \[m\].
     pub rms_best: f64,
     /// The same after the best rigid alignment \[m\].
     pub rms_best_aligned: f64,
@@ -40,7 +40,7 @@ pub struct LapResult {
     pub rms_odometry: f64,
     /// Share of the steps that resampled.
     pub resampled_fraction: f64,
-    /// First step at which all universes descend from one, if any did.
+    /// First step at which all particles descend from one, if any did.
     pub lineage_one_step: Option<u32>,
     /// N_eff at the end.
     pub final_ess: f64,
@@ -102,7 +102,7 @@ pub struct Row {
     pub odometry_rms_median: f64,
     /// Mean share of the steps that resampled.
     pub resampled_fraction: f64,
-    /// Median of the step at which all universes descend from one; `None` where half the laps or more never come to it.
+    /// Median of the step at which all particles descend from one; `None` where half the laps or more never come to it.
     pub lineage_one_step_median: Option<f64>,
     /// Median N_eff at the end.
     pub final_ess_median: f64,

@@ -66,7 +66,7 @@ impl Field {
     /// every pillar is where it would be in the other wing too. Only at the end comes the sign, which hangs left in the first
     /// wing and right in the second.
     ///
-    /// Why opposite: to be lost is then a matter of the heading alone. A bearing is linear in it, so that every universe locks
+    /// Why opposite: to be lost is then a matter of the heading alone. A bearing is linear in it, so that every particle locks
     /// on to the nearer explanation, whatever its error; and half of them are nearer to either, whatever the seed.
     pub fn two_wings() -> Self {
         // In the frame of a wing: x outwards from the hall's centre. To be seen ahead from there, not from the side.

@@ -12,7 +12,7 @@ pub(crate) struct LocalMap<'a, const CELLS_PER_NDT: usize> {
     /// In NDT cells, one more on each side than is known of.
     rect: CellRect,
     squares: Vec<FlatCell>,
-    /// The NDT cells of all these NDT cells; the first is that of a NDT cell that was never hit.
+    /// The NDT cells of all these NDT cells; the first is that of an NDT cell that was never hit.
     ndt_cells: Vec<Flat>,
 }
 
@@ -81,7 +81,7 @@ impl<'a, const CELLS_PER_NDT: usize> LocalMap<'a, CELLS_PER_NDT> {
         Self { grid, rect, squares, ndt_cells }
     }
 
-    /// NDT cells from a point, in NDT cells, to the nearest NDT cell: 0 in a NDT cell that was hit, [`MAX_DISTANCE`] where none is near.
+    /// NDT cells from a point, in NDT cells, to the nearest NDT cell: 0 in an NDT cell that was hit, [`MAX_DISTANCE`] where none is near.
     #[inline]
     pub fn distance(&self, u: f64, v: f64) -> usize {
         let (i, j) = (fast_floor(u), fast_floor(v));

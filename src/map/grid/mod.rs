@@ -4,11 +4,13 @@
 //! one pointer. The first write afterwards copies the directory, which is a pointer for each tile of the map's rectangle, and each
 //! tile when it is first written to. Of what the map holds, a scan therefore copies only the tiles it changes.
 //!
-//! Each cell keeps its log-odds of being occupied, updated by the inverse sensor model (*Probabilistic Robotics*, table 9.1).
-//! Each square of CELLS_PER_NDT × CELLS_PER_NDT cells keeps the normal distribution of the end points that fell into it, its `NdtCell`: the
-//! normal distributions transform of Biber and Straßer (2003). The first knows which cell an end point is in; the second
-//! knows where in the NDT cell the wall is, and which way it runs. With cells as wide as a wall is looked for, a NDT cell is one
-//! cell; with finer cells it must be wider, or it holds too few points to tell a wall's direction.
+//! Two layers lie over each other:
+//! - *occupancy*: each cell keeps its log-odds of being occupied, updated by the inverse sensor model (*Probabilistic Robotics*, table 9.1);
+//! - the *normal distributions transform* (Biber and Straßer 2003): each NDT cell, a block of `CELLS_PER_NDT` × `CELLS_PER_NDT` cells,
+//!   keeps the normal distribution of the end points that fell into it.
+//!
+//! The first knows which cell an end point is in; the second knows where in it the wall is, and which way the wall runs. With cells as wide
+//! as a wall is looked for, an NDT cell is one cell; with finer cells it must be wider, or it holds too few points to tell a direction.
 
 mod image;
 mod local_map;
@@ -25,6 +27,7 @@ use super::{ConditionalMap, Footprint};
 use crate::geometry::Pose2;
 use crate::sensor::Scan;
 use core::hash::Hasher;
+use ray_trace::RayTrace;
 use std::sync::Arc;
 use tile::Tile;
 
@@ -64,12 +67,12 @@ pub struct GridModel {
     pub log_odds_pass: f64,
     /// Standard deviation \[m\] of the two pseudo-hits that every NDT cell begins with: what one hit alone is trusted for.
     pub ndt_std: f64,
-    /// How many times further than its end points a NDT cell reaches along itself: 1 or more. A wall goes on from NDT cell to NDT cell,
+    /// How many times further than its end points an NDT cell reaches along itself: 1 or more. A wall goes on from NDT cell to NDT cell,
     /// but a normal distribution in each is a string of beads: between two of them, even the right pose fits badly.
     pub ndt_stretch: f64,
     /// How many scans old [`Grid::past`] is, at the least; with 0 no past is kept, and it is the present.
     pub lag: u32,
-    /// How many NDT cells away a NDT cell is felt by a coarse search, 0 to 2.
+    /// How many NDT cells away an NDT cell is felt by a coarse search, 0 to 2.
     pub reach: u32,
 }
 
@@ -81,7 +84,7 @@ pub struct Grid<const CELLS_PER_NDT: usize = 1> {
     model: GridModel,
     /// 1 / cell_size \[1/m\].
     per_cell: f64,
-    /// Side of a NDT cell \[m\].
+    /// Side of an NDT cell \[m\].
     ndt_size: f64,
     /// 1 / ndt_size \[1/m\].
     per_ndt: f64,
@@ -101,7 +104,7 @@ struct Directory<const CELLS_PER_NDT: usize> {
 }
 
 impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
-    /// Cells along a side of a NDT cell.
+    /// Cells along a side of an NDT cell.
     const NDT: i32 = CELLS_PER_NDT as i32;
 
     /// Cells along a side of a tile.
@@ -170,7 +173,7 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
         f64::from(self.units(i, j)) * tile::UNIT
     }
 
-    /// Mean of the end points in a NDT cell \[m\], world frame.
+    /// Mean of the end points in an NDT cell \[m\], world frame.
     pub fn ndt_mean(&self, i: i32, j: i32) -> Option<[f64; 2]> {
         let ndt_cell = self.ndt_cell(i, j)?;
         let center = |k: i32| (f64::from(k) + 0.5) * self.ndt_size;
@@ -191,13 +194,13 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
         (floor(x * self.per_cell), floor(y * self.per_cell))
     }
 
-    /// The NDT cell of a NDT cell, relative to its centre.
+    /// The NDT cell of an NDT cell, relative to its centre.
     #[inline]
     fn ndt_cell(&self, i: i32, j: i32) -> Option<&NdtCell> {
         self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT)?.ndt_cell(tile::local(i, j))
     }
 
-    /// How many NDT cells away the NDT cell nearest to a NDT cell is: 0 where it was hit, [`MAX_DISTANCE`] where none is near.
+    /// How many NDT cells away the NDT cell nearest to an NDT cell is: 0 where it was hit, [`MAX_DISTANCE`] where none is near.
     pub(crate) fn distance(&self, i: i32, j: i32) -> usize {
         self.directory
             .tile(i >> tile::SHIFT, j >> tile::SHIFT)
@@ -384,25 +387,36 @@ impl<const CELLS_PER_NDT: usize> ConditionalMap for Grid<CELLS_PER_NDT> {
     /// at a grazing angle would be erased by the beams that pass along it. A cell that a beam ended in counts as hit.
     fn assimilate(&mut self, world_from_robot: &Pose2, scan: &Scan, (): &()) {
         self.remember();
-        let marks = ray_trace::trace(world_from_robot, scan, self.model.cell_size, Self::TILE_CELLS);
-        let Some(window) = marks.window() else { return };
-        // What is marked around a NDT cell may lie in the next tile.
+        let trace = ray_trace::trace(world_from_robot, scan, self.model.cell_size, Self::TILE_CELLS);
+        let Some(window) = trace.window() else { return };
+        self.grow(window);
+        self.update_cells(&trace);
+        self.update_ndt_cells(&trace);
+    }
+}
+
+impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
+    /// Makes the directory cover these tiles, and those that a hit at their border is felt in.
+    fn grow(&mut self, CellRect { i0, j0, i1, j1 }: CellRect) {
         let margin = i32::from(self.model.reach > 0);
-        let CellRect { i0, j0, i1, j1 } = window;
         let needed = CellRect { i0: i0 - margin, j0: j0 - margin, i1: i1 + margin, j1: j1 + margin };
         if !covers(self.directory.rect, needed) {
             self.directory = Arc::new(self.directory.grown(needed));
         }
+    }
+
+    /// Adds the log-odds of a hit or of a pass to every cell that a beam touched (PR table 9.1).
+    fn update_cells(&mut self, trace: &RayTrace) {
         let (hit, pass) = (tile::units(self.model.log_odds_hit), tile::units(self.model.log_odds_pass));
         let add = [0, pass, hit]; // by mark
         let side = Self::TILE_CELLS as usize;
-        for (ti, tj, block) in marks.tiles() {
-            // Rows of one NDT cell's cells, with their marks.
-            let rows = block.chunks(marks.side as usize).map(|row| &row[..side]).take(side).enumerate();
+        for (ti, tj, block) in trace.tiles() {
+            // Rows of the cells of one NDT cell, with their marks.
+            let rows = block.chunks(trace.side as usize).map(|row| &row[..side]).take(side).enumerate();
             let rows = rows.filter(|(_, marks)| marks.iter().any(|mark| *mark != ray_trace::UNTOUCHED));
             let rows = rows.flat_map(|(row, marks)| {
-                let squares = marks.chunks_exact(CELLS_PER_NDT).zip(row / CELLS_PER_NDT * TILE as usize..);
-                squares.map(move |(marks, local)| (local, row % CELLS_PER_NDT, marks))
+                let ndt_cells = marks.chunks_exact(CELLS_PER_NDT).zip(row / CELLS_PER_NDT * TILE as usize..);
+                ndt_cells.map(move |(marks, local)| (local, row % CELLS_PER_NDT, marks))
             });
             // Look before writing: a tile in which nothing would change stays shared.
             let before = self.directory.tile(ti, tj);
@@ -424,9 +438,13 @@ impl<const CELLS_PER_NDT: usize> ConditionalMap for Grid<CELLS_PER_NDT> {
                 }
             }
         }
+    }
+
+    /// Adds every end point to the normal distribution of its NDT cell.
+    fn update_ndt_cells(&mut self, trace: &RayTrace) {
         let size = self.ndt_size;
         let [ndt_std, stretch] = [self.model.ndt_std, self.model.ndt_stretch].map(|c| c as f32);
-        for &([x, y], i, j) in &marks.hits {
+        for &([x, y], i, j) in &trace.hits {
             let [i, j] = [i, j].map(|k| k.div_euclid(Self::NDT));
             let center = |k: i32| (f64::from(k) + 0.5) * size;
             let offset = [(x - center(i)) as f32, (y - center(j)) as f32];

@@ -135,7 +135,7 @@ fn fingerprint<'a, const CELLS_PER_NDT: usize>(grids: impl IntoIterator<Item = &
 }
 
 /// What a golden file rests on. Two hits of one cell that differ by a millimetre leave all log-odds alike; a hit on a settled wall
-/// changes a cell only; a NDT cell near a NDT cell differs from one that is not.
+/// changes a cell only; an NDT cell near an NDT cell differs from one that is not.
 #[test]
 fn the_fingerprint_of_maps_sees_every_cell_and_every_surface_of_every_one() {
     let model = GridModel { reach: 2, ..MODEL };

@@ -17,19 +17,19 @@ pub(super) fn units(log_odds: f64) -> i8 {
     (log_odds / UNIT).round() as i8
 }
 
-/// Index of a NDT cell in its tile.
+/// Index of an NDT cell in its tile.
 #[inline]
 pub(super) fn local(i: i32, j: i32) -> usize {
     (((j & (TILE - 1)) << SHIFT) | (i & (TILE - 1))) as usize
 }
 
-/// Hits after which a NDT cell is settled: it stops changing, and its tile may stay shared.
+/// Hits after which an NDT cell is settled: it stops changing, and its tile may stay shared.
 const SETTLED: u32 = 64;
 
 /// Pseudo-hits every NDT cell begins with, so that one hit is a round blob and not a point.
 const PSEUDO_HITS: f32 = 2.0;
 
-/// NDT cells away at which a NDT cell is not felt any more.
+/// NDT cells away at which an NDT cell is not felt any more.
 pub(crate) const MAX_DISTANCE: usize = 3;
 
 /// Normal distribution of the end points in one NDT cell (Biber and Straßer 2003), relative to its centre.
@@ -87,7 +87,7 @@ pub(super) fn mahalanobis2(mean: [f32; 2], [xx, xy, yy]: [f32; 3], x: f32, y: f3
 pub(super) struct Tile<const CELLS_PER_NDT: usize> {
     /// In [`UNIT`]s; 0 is unknown. By NDT cell, then by row and column in it.
     pub log_odds: [[[i8; CELLS_PER_NDT]; CELLS_PER_NDT]; NDT_CELLS],
-    /// One more than the place of a NDT cell's NDT cell in `NDT cells`; for a NDT cell that was never hit, 0, or 256 minus how many
+    /// One more than the place of an NDT cell's NDT cell in `NDT cells`; for an NDT cell that was never hit, 0, or 256 minus how many
     /// NDT cells away the nearest NDT cell is, where that is marked.
     places: [u8; NDT_CELLS],
     /// NdtField in the order in which NDT cells were first hit: walls are few, so a tile stays small.
@@ -116,7 +116,7 @@ impl<const CELLS_PER_NDT: usize> Tile<CELLS_PER_NDT> {
         &self.ndt_cells
     }
 
-    /// Which of the NDT cells is that of a NDT cell.
+    /// Which of the NDT cells is that of an NDT cell.
     #[inline]
     pub fn place(&self, local: usize) -> Option<usize> {
         let place = self.places[local];
@@ -129,7 +129,7 @@ impl<const CELLS_PER_NDT: usize> Tile<CELLS_PER_NDT> {
         self.ndt_cells.get(usize::from(self.places[local].wrapping_sub(1)))
     }
 
-    /// NDT cells to the nearest NDT cell: 0 in a NDT cell that was hit, [`MAX_DISTANCE`] where none is marked.
+    /// NDT cells to the nearest NDT cell: 0 in an NDT cell that was hit, [`MAX_DISTANCE`] where none is marked.
     #[inline]
     pub fn distance(&self, local: usize) -> usize {
         let place = self.places[local];
@@ -140,7 +140,7 @@ impl<const CELLS_PER_NDT: usize> Tile<CELLS_PER_NDT> {
         }
     }
 
-    /// RayTrace that a NDT cell is so many NDT cells away, fewer than [`MAX_DISTANCE`].
+    /// RayTrace that an NDT cell is so many NDT cells away, fewer than [`MAX_DISTANCE`].
     pub fn lower_distance(&mut self, local: usize, squares: usize) {
         if squares < self.distance(local) {
             self.places[local] = (squares as u8).wrapping_neg();
@@ -177,7 +177,7 @@ impl<const CELLS_PER_NDT: usize> Tile<CELLS_PER_NDT> {
     }
 }
 
-/// What a tile with so many NDT cells holds, as on a 64-bit machine: a byte a cell, one a NDT cell, the vector's three words, and
+/// What a tile with so many NDT cells holds, as on a 64-bit machine: a byte a cell, one an NDT cell, the vector's three words, and
 /// the NDT cells.
 pub(super) fn bytes<const CELLS_PER_NDT: usize>(ndt_cells: usize) -> usize {
     NDT_CELLS * (CELLS_PER_NDT * CELLS_PER_NDT + 1) + 3 * 8 + ndt_cells * size_of::<NdtCell>()
