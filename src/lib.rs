@@ -20,6 +20,7 @@ pub mod map;
 pub mod matching;
 pub mod motion;
 pub mod ops;
+pub mod particle;
 pub mod proposal;
 pub mod random;
 pub mod rbpf;

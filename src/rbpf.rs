@@ -4,23 +4,11 @@ use crate::execute::Executor;
 use crate::genealogy::{Descent, Path};
 use crate::geometry::Pose2;
 use crate::map::ConditionalMap;
+use crate::particle::Particle;
 use crate::proposal::{Proposal, ProposalTrace};
 use crate::random::{Purpose, Stream};
 use crate::resampling::{ResamplePolicy, Scheme};
 use crate::weights::Weights;
-
-// ANCHOR: listing-particle
-/// One hypothesis: a path and the map that follows from it.
-#[derive(Clone, Debug)]
-pub struct Particle<M> {
-    /// Newest pose of the path.
-    pub world_from_robot: Pose2,
-    /// Map given the path.
-    pub map: M,
-    /// The path, a branch of the tree that all particles share.
-    pub path: Path,
-}
-// ANCHOR_END: listing-particle
 
 /// What one step did. `A` is what a map takes an observation for: [`ConditionalMap::Association`].
 #[derive(Clone, Debug)]
@@ -90,8 +78,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         map: M,
     ) -> Self {
         assert!(count > 0, "count is 0: a filter needs at least one particle");
-        let particle = || Particle { world_from_robot: start, map: map.clone(), path: Path::start(start) };
-        let particles = (0..count).map(|_| particle()).collect();
+        let particles = (0..count).map(|_| Particle::start(start, map.clone())).collect();
         let (executor, weights) = (Executor::default(), Weights::uniform(count));
         let path_weights = weights.clone();
         Self { proposal, policy, scheme, seed, executor, step: 0, particles, weights, path_weights }

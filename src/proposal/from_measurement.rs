@@ -7,8 +7,8 @@ use super::{Proposal, ProposalTrace, Proposed};
 use crate::geometry::{Pose2, sample_semidefinite};
 use crate::map::landmarks::{Association, Landmarks, Store};
 use crate::motion::Motion;
+use crate::particle::Particle;
 use crate::random::Stream;
-use crate::rbpf::Particle;
 use crate::sensor::{Feature, LandmarkSensor};
 use nalgebra::Matrix3;
 

@@ -6,8 +6,8 @@ use crate::map::ConditionalMap;
 use crate::map::landmarks::{Association, Landmarks, Store};
 use crate::matching::Likelihood;
 use crate::motion::Motion;
+use crate::particle::Particle;
 use crate::random::Stream;
-use crate::rbpf::Particle;
 use crate::sensor::{Feature, LandmarkSensor};
 use nalgebra::Matrix3;
 

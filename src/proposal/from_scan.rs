@@ -9,8 +9,8 @@ use crate::geometry::{Gaussian3, Pose2};
 use crate::map::ConditionalMap;
 use crate::matching::{HillClimbSteps, Score, ScoreNear, ScoredPose, hill_climb};
 use crate::motion::Motion;
+use crate::particle::Particle;
 use crate::random::Stream;
-use crate::rbpf::Particle;
 
 /// Settings of [`FromScan`].
 #[derive(Clone, Copy, PartialEq, Debug)]

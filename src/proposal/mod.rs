@@ -17,8 +17,8 @@ pub use search::{CorrelativeSearch, HeadingSeeds, Search, Starts, Target};
 
 use crate::geometry::Pose2;
 use crate::map::ConditionalMap;
+use crate::particle::Particle;
 use crate::random::Stream;
-use crate::rbpf::Particle;
 
 /// Draws the next pose of a particle and says what it costs.
 pub trait Proposal<M: ConditionalMap>: Sync {

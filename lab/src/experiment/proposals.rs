@@ -10,14 +10,13 @@
 use crate::baseline::one_step::{OneStep, Posterior, predicted_ess};
 use crate::digest::Digest;
 use fastslam::error::{Range, SettingError};
-use fastslam::genealogy::Path;
 use fastslam::geometry::Pose2;
 use fastslam::map::landmarks::{Association, Correspondence, Gate, Landmark, Landmarks};
 use fastslam::motion::{Motion, Odometry, OdometryModel};
 use fastslam::nalgebra::{Matrix2, Vector2};
+use fastslam::particle::Particle;
 use fastslam::proposal::{FromMeasurement, FromMotion, Marginal, Measured, Proposal, Proposed};
 use fastslam::random::{Purpose, Stream};
-use fastslam::rbpf::Particle;
 use fastslam::sensor::{Feature, LandmarkSensor, RangeBearing};
 use fastslam::weights::Weights;
 
@@ -173,7 +172,7 @@ impl Proposals {
             Correspondence::Known
         };
         let map = Landmarks::<_>::new(sensor, correspondence).with(landmarks.iter().copied());
-        let particle = Particle { world_from_robot: FROM, map, path: Path::start(FROM) };
+        let particle = Particle::start(FROM, map);
         let features = vec![Feature { z, signature: (!setup.twins).then_some(0) }];
         let aware = FromMeasurement { motion };
         let at_mean = landmarks[0].innovation(&sensor, &CONTROL.apply(&FROM), &z);

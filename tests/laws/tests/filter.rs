@@ -3,9 +3,10 @@
 use fastslam::geometry::Pose2;
 use fastslam::map::ConditionalMap;
 use fastslam::ops;
+use fastslam::particle::Particle;
 use fastslam::proposal::{Proposal, ProposalTrace, Proposed};
 use fastslam::random::Stream;
-use fastslam::rbpf::{Particle, Rbpf};
+use fastslam::rbpf::Rbpf;
 use fastslam::resampling::{ResamplePolicy, Scheme};
 
 /// A map of nothing.

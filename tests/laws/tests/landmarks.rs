@@ -1,7 +1,6 @@
 //! Laws of FastSLAM with landmarks: against the Kalman filter where all is linear, against sums over dense grids where it is not.
 
 use fastslam::execute::Executor;
-use fastslam::genealogy::Path;
 use fastslam::geometry::{Pose2, sample_semidefinite};
 use fastslam::map::ConditionalMap;
 use fastslam::map::landmarks::{
@@ -10,9 +9,10 @@ use fastslam::map::landmarks::{
 use fastslam::matching::Likelihood;
 use fastslam::motion::{Motion, Odometry, OdometryModel, Velocity, VelocityModel};
 use fastslam::ops;
+use fastslam::particle::Particle;
 use fastslam::proposal::{FromMeasurement, FromMotion, Marginal, Proposal, ProposalTrace};
 use fastslam::random::{Purpose, Stream};
-use fastslam::rbpf::{Particle, Rbpf};
+use fastslam::rbpf::Rbpf;
 use fastslam::resampling::{ResamplePolicy, Scheme};
 use fastslam::sensor::{Feature, LandmarkSensor, Prediction, RangeBearing};
 use fastslam_lab::baseline::EkfSlam;
@@ -302,11 +302,7 @@ fn the_mean_weight_of_1_0_is_the_weight_of_2_0() {
         covariance: Matrix2::new(0.02, 0.005, 0.005, 0.03),
         existence_count: 1,
     });
-    let particle = Particle {
-        world_from_robot: Pose2::default(),
-        map: empty::<Blocks>().with(known),
-        path: Path::start(Pose2::default()),
-    };
+    let particle = Particle::start(Pose2::default(), empty::<Blocks>().with(known));
     let (u, features) = linear_log(2).remove(0);
     let one = FromMotion { motion: Drift, likelihood: Marginal };
     let n = 40_000_u32;
@@ -358,7 +354,7 @@ fn one_step(scale: f64) -> OneStep {
         seen(&sensor, &to, &known[1].mean, 1, off(-0.5, 0.9)),
     ];
     let map = Landmarks::new(sensor, Correspondence::Known).with(known);
-    let particle = Particle { world_from_robot: Pose2::default(), map, path: Path::start(Pose2::default()) };
+    let particle = Particle::start(Pose2::default(), map);
     OneStep { motion: ODOMETRY.scaled(scale), particle, features }
 }
 

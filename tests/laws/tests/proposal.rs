@@ -1,17 +1,16 @@
 //! The grid proposals against the posterior of one step, summed on a dense grid of poses.
 
-use fastslam::genealogy::Path;
 use fastslam::geometry::{Gaussian3, Pose2};
 use fastslam::map::ConditionalMap;
 use fastslam::map::grid::{Grid, GridModel};
 use fastslam::matching::{Matcher, ScanModel};
 use fastslam::motion::{Motion, Odometry, OdometryModel};
 use fastslam::ops;
+use fastslam::particle::Particle;
 use fastslam::proposal::{
     Fit, FromMotion, FromScan, FromScanSettings, HeadingSeeds, Proposal, ProposalTrace, Proposed, Search,
 };
 use fastslam::random::{Purpose, Stream};
-use fastslam::rbpf::Particle;
 use fastslam_lab::experiment::lap::{ALPHAS, FROM_SCAN, GRID, LapWorld, OUTLIER, TEMPER};
 use fastslam_lab::experiment::log;
 use nalgebra::{Matrix3, Vector3};
@@ -36,7 +35,7 @@ fn one_step_by<S>(matcher: Matcher, search: S) -> OneStep<S> {
     for (pose, scan) in &world.start_scans {
         map.assimilate(pose, scan, &());
     }
-    let particle = Particle { world_from_robot: world.truth[0], map, path: Path::start(world.truth[0]) };
+    let particle = Particle::start(world.truth[0], map);
     // Tempered harder, or the posterior is too narrow for a dense grid and for the motion model's samples to meet it.
     let scan = ScanModel::new(matcher, TEMPER * 0.4, OUTLIER);
     let FromScanSettings { motion_floor, climb, climb_stride, minimum_improvement, full_weight, limits, .. } =

@@ -1,15 +1,14 @@
 //! A world that is turned with all that is in it, and a filter that must not notice.
 
-use fastslam::genealogy::Path;
 use fastslam::geometry::Pose2;
 use fastslam::map::ConditionalMap;
 use fastslam::map::grid::{Grid, GridModel};
 use fastslam::matching::{Matcher, ScanModel};
 use fastslam::motion::{Motion as _, Odometry, OdometryModel};
 use fastslam::ops;
+use fastslam::particle::Particle;
 use fastslam::proposal::{Fit, FromScan, Proposal, ProposalTrace, Search};
 use fastslam::random::{Purpose, Stream};
-use fastslam::rbpf::Particle;
 use fastslam::sensor::{BeamSensor, Scan};
 use fastslam_lab::experiment::hill::Hill;
 use fastslam_lab::experiment::lap::{self, BEAMS, Lap, LapSetup, LapWorld};
@@ -100,7 +99,7 @@ fn corridor<S, const CELLS_PER_NDT: usize>(
     let (here, ahead) = (truth[11], truth[11].compose(&Pose2::new(trans, 0.0, 0.0)));
     let driven = Odometry::between(&here, &ahead);
     let control = WHEELS.perturb(&driven, &mut Stream::at(4, fastslam_lab::WORLD_ODOMETRY, seed, 0));
-    let particle = Particle { world_from_robot: here, map, path: Path::start(here) };
+    let particle = Particle::start(here, map);
     Scene { from_scan, particle, control, scan: look(&ahead, 12) }
 }
 
@@ -136,7 +135,7 @@ fn start_of_the_lap(seed: u32, angle: f64) -> Option<Judged> {
     let likelihood = ScanModel::new(setup.matcher, lap::TEMPER, lap::OUTLIER);
     let scene = Scene {
         from_scan: FromScan { motion: setup.motion(), score: likelihood, settings: lap::FROM_SCAN },
-        particle: Particle { world_from_robot: here, map, path: Path::start(here) },
+        particle: Particle::start(here, map),
         control: world.controls[0],
         scan: world.scans[0].clone(),
     };
