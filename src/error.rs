@@ -76,6 +76,11 @@ impl Range {
         Self { least, most, whole: false, unit }
     }
 
+    /// All numbers but infinities and NaN, in this unit.
+    pub const fn finite(unit: &'static str) -> Self {
+        Self::number(f64::MIN, f64::MAX, unit)
+    }
+
     /// Whole numbers from `least` to `most`, both allowed.
     pub const fn whole(least: u32, most: u32) -> Self {
         Self { least: least as f64, most: most as f64, whole: true, unit: "" }
@@ -100,7 +105,10 @@ impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { least, most, whole, unit } = *self;
         let kind = if whole { "a whole number" } else { "a number" };
-        write!(f, "{kind} from {} to {}", Shown(least), Shown(most))?;
+        match (least, most) {
+            (f64::MIN, f64::MAX) => f.write_str("a finite number")?,
+            _ => write!(f, "{kind} from {} to {}", Shown(least), Shown(most))?,
+        }
         if unit.is_empty() { Ok(()) } else { write!(f, " [{unit}]") }
     }
 }
@@ -134,6 +142,7 @@ mod tests {
         assert_eq!(refused(range, f64::NAN), "cell_size = NaN: must be a number from 0.02 to 0.2 [m]");
         assert_eq!(refused(range, -1e300), "cell_size = -1e300: must be a number from 0.02 to 0.2 [m]");
         assert_eq!(refused(Range::whole(1, 10), 1.5), "cell_size = 1.5: must be a whole number from 1 to 10");
+        assert_eq!(refused(Range::finite("rad"), f64::INFINITY), "cell_size = inf: must be a finite number [rad]");
     }
 
     #[test]

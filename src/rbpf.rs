@@ -1,8 +1,11 @@
 //! The Rao–Blackwellized particle filter.
 
+mod builder;
+
+pub use builder::{Builder, Start};
+
 use crate::execute::Executor;
 use crate::genealogy::{Descent, Path};
-use crate::geometry::Pose2;
 use crate::map::ConditionalMap;
 use crate::particle::Particle;
 use crate::proposal::{Proposal, ProposalTrace};
@@ -49,6 +52,33 @@ impl<A> Report<A> {
 }
 
 /// A population of particles with one proposal and one policy of resampling.
+///
+/// ```
+/// use fastslam::map::landmarks::{Correspondence, Landmarks};
+/// use fastslam::motion::{Odometry, OdometryModel};
+/// use fastslam::proposal::FromMeasurement;
+/// use fastslam::rbpf::Rbpf;
+/// use fastslam::sensor::{Feature, RangeBearing};
+/// # use fastslam::nalgebra::Vector2;
+///
+/// // FastSLAM 2.0 with landmarks that are told apart by their signatures.
+/// let sensor = RangeBearing { range_std: 0.1, bearing_std: 0.02, max_range: 8.0, field_of_view: 6.3 };
+/// let motion = OdometryModel { alphas: [0.01, 0.001, 0.01, 0.001] };
+/// let map = <Landmarks<_>>::new(sensor, Correspondence::Known);
+/// let mut filter = Rbpf::builder(map, FromMeasurement { motion }).particles(50).seed(1).build()?;
+///
+/// // Half a metre ahead a step, past a landmark that is seen 2 m ahead and 1 m to the left of the start.
+/// for step in 1..=3 {
+///     let ahead: f64 = 2.0 - 0.5 * f64::from(step);
+///     let seen = Feature { z: Vector2::new(ahead.hypot(1.0), 1.0_f64.atan2(ahead)), signature: Some(0) };
+///     let report = filter.step(&Odometry { rot1: 0.0, trans: 0.5, rot2: 0.0 }, &vec![seen]);
+///     assert!(report.explained());
+/// }
+/// let best = &filter.particles()[filter.best()];
+/// assert!((best.world_from_robot.x - 1.5).abs() < 0.2);
+/// assert!((best.map.get(0).unwrap().mean - Vector2::new(2.0, 1.0)).norm() < 0.2);
+/// # Ok::<(), fastslam::error::SettingError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Rbpf<M, P> {
     proposal: P,
@@ -64,24 +94,9 @@ pub struct Rbpf<M, P> {
 }
 
 impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
-    /// `count` particles that all stand at `start` with a copy of `map`.
-    ///
-    /// # Panics
-    /// If `count` is 0.
-    pub fn new(
-        proposal: P,
-        policy: ResamplePolicy,
-        scheme: Scheme,
-        seed: u64,
-        count: usize,
-        start: Pose2,
-        map: M,
-    ) -> Self {
-        assert!(count > 0, "count is 0: a filter needs at least one particle");
-        let particles = (0..count).map(|_| Particle::start(start, map.clone())).collect();
-        let (executor, weights) = (Executor::default(), Weights::uniform(count));
-        let path_weights = weights.clone();
-        Self { proposal, policy, scheme, seed, executor, step: 0, particles, weights, path_weights }
+    /// A filter that is still to be set up: particles that map by copies of `map`, and move by `proposal`.
+    pub fn builder(map: M, proposal: P) -> Builder<M, P> {
+        Builder::new(map, proposal)
     }
 
     /// The same filter, computed by another executor: the results are the same.
@@ -89,19 +104,15 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         Self { executor, ..self }
     }
 
-    // anchor: step
     /// One step of the filter: propose, weigh, map, and select if the policy calls for it.
     pub fn step(&mut self, control: &P::Control, observation: &M::Observation) -> Report<M::Association> {
         let mut report = self.weigh(control, observation);
-        // ANCHOR: policy
         if self.policy.should_resample(report.ess, self.particles.len()) {
             report.ancestors = Some(self.resample());
         }
-        // ANCHOR_END: policy
         report
     }
 
-    // ANCHOR: listing-weigh
     /// The first half of a step: every particle draws its new pose, pays for it, and maps what it sees from there.
     pub fn weigh(&mut self, control: &P::Control, observation: &M::Observation) -> Report<M::Association> {
         self.step += 1;
@@ -113,15 +124,11 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
             particle.map.assimilate(&proposed.world_from_robot, observation, &proposed.association);
             proposed
         });
-        // ANCHOR: extend
         for particle in &mut self.particles {
             particle.path.push(particle.world_from_robot);
         }
-        // ANCHOR_END: extend
         let log_increments: Vec<f64> = proposed.iter().map(|p| p.log_increment).collect();
-        // ANCHOR: normalise
         let (weights, log_evidence) = self.weights.reweighted(&log_increments);
-        // ANCHOR_END: normalise
         self.weights = weights;
         (self.path_weights, _) = self.path_weights.reweighted(&log_increments);
         Report {
@@ -136,24 +143,18 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
             associations: proposed.into_iter().map(|p| p.association).collect(),
         }
     }
-    // ANCHOR_END: listing-weigh
 
-    // ANCHOR: listing-resample
     /// The second half: universes are drawn by their weights, and what is not drawn is extinct. Returns the slot that each
     /// particle was copied from.
     pub fn resample(&mut self) -> Vec<u32> {
         let count = self.particles.len();
         let mut stream = Stream::at(self.seed, Purpose::RESAMPLING, self.step, 0);
-        // ANCHOR: resample
         let ancestors = self.scheme.ancestors(&self.weights, count, &mut stream);
-        // ANCHOR_END: resample
         self.particles = ancestors.iter().map(|slot| self.particles[*slot as usize].clone()).collect();
         self.weights = Weights::uniform(count);
         self.path_weights = self.path_weights.copied(&ancestors);
         ancestors
     }
-    // ANCHOR_END: listing-resample
-    // end: step
 
     /// The population, by slot.
     pub fn particles(&self) -> &[Particle<M>] {

@@ -19,7 +19,7 @@ use fastslam::nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector2};
 use fastslam::proposal::{FromMotion, Marginal};
 use fastslam::random::Stream;
 use fastslam::rbpf::Rbpf;
-use fastslam::resampling::{ResamplePolicy, Scheme};
+use fastslam::resampling::ResamplePolicy;
 use fastslam::sensor::{Feature, LandmarkSensor, Prediction};
 
 /// Number of doors.
@@ -96,15 +96,15 @@ pub struct DoorsOutcome {
 /// Where a setting is out of its range.
 pub fn outcomes(setup: &DoorsSetup, seeds: core::ops::Range<u64>) -> Result<Vec<DoorsOutcome>, SettingError> {
     setup.validate()?;
-    Ok(seeds.map(|seed| outcome(setup, seed)).collect())
+    seeds.map(|seed| outcome(setup, seed)).collect()
 }
 
-fn outcome(setup: &DoorsSetup, seed: u64) -> DoorsOutcome {
+fn outcome(setup: &DoorsSetup, seed: u64) -> Result<DoorsOutcome, SettingError> {
     let log = Log::new(seed);
-    let (particles, ekf) = (run_particles(setup, seed, &log), run_ekf(&log));
+    let (particles, ekf) = (run_particles(setup, seed, &log)?, run_ekf(&log));
     let right = |pose: &Pose2| (pose.x - log.truth[log.truth.len() - 1]).abs() < RIGHT_WITHIN;
     let [first, last] = particles.held;
-    DoorsOutcome { first, last, fastslam_right: right(&particles.best), ekf_right: right(ekf.pose()) }
+    Ok(DoorsOutcome { first, last, fastslam_right: right(&particles.best), ekf_right: right(ekf.pose()) })
 }
 
 struct ParticleRun {
@@ -113,12 +113,15 @@ struct ParticleRun {
     best: Pose2,
 }
 
-fn run_particles(setup: &DoorsSetup, seed: u64, log: &Log) -> ParticleRun {
+fn run_particles(setup: &DoorsSetup, seed: u64, log: &Log) -> Result<ParticleRun, SettingError> {
     let map = Landmarks::<_>::new(Offset, correspondence());
     let proposal = FromMotion { motion: Corridor, likelihood: Marginal };
-    let start = Pose2::default();
-    let mut filter = Rbpf::new(proposal, setup.policy, Scheme::Systematic, seed, setup.particles, start, map)
-        .with_executor(Executor::Serial);
+    let mut filter = Rbpf::builder(map, proposal)
+        .particles(setup.particles)
+        .seed(seed)
+        .policy(setup.policy)
+        .executor(Executor::Serial)
+        .build()?;
     let mut held = [0; 2];
     for (k, (control, features)) in log.controls.iter().zip(&log.sightings).enumerate() {
         filter.step(control, features);
@@ -129,7 +132,7 @@ fn run_particles(setup: &DoorsSetup, seed: u64, log: &Log) -> ParticleRun {
             held = [0, 1].map(|which| if now[which] { count } else { held[which] });
         }
     }
-    ParticleRun { held, best: filter.particles()[filter.best()].world_from_robot }
+    Ok(ParticleRun { held, best: filter.particles()[filter.best()].world_from_robot })
 }
 
 fn run_ekf(log: &Log) -> EkfSlam<Corridor, Offset> {

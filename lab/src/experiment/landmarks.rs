@@ -298,7 +298,13 @@ impl LandmarkRun {
         };
         let map = Landmarks::new(tuning.sensor, setup.correspondence.of(tuning));
         let start = log.truth.first().copied().unwrap_or_default();
-        let filter = Rbpf::new(proposal, setup.policy, setup.scheme, setup.seed, setup.particles, start, map);
+        let filter = Rbpf::builder(map, proposal)
+            .particles(setup.particles)
+            .seed(setup.seed)
+            .start(start)
+            .policy(setup.policy)
+            .scheme(setup.scheme)
+            .build()?;
         Ok(Self { log, filter, step: 0, squared_errors: 0.0 })
     }
 

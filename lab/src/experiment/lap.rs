@@ -361,7 +361,13 @@ impl Lap {
             map.assimilate(pose, scan, &());
         }
         map.settle();
-        let filter = Rbpf::new(setup.proposals(), setup.policy, setup.scheme, setup.seed, setup.particles, start, map);
+        let filter = Rbpf::builder(map, setup.proposals())
+            .particles(setup.particles)
+            .seed(setup.seed)
+            .start(start)
+            .policy(setup.policy)
+            .scheme(setup.scheme)
+            .build()?;
         let uniform = Report {
             step: 0,
             log_increments: Vec::new(),

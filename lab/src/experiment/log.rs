@@ -20,7 +20,7 @@ use fastslam::particle::Particle;
 use fastslam::proposal::{CorrelativeSearch, FitLimits, FromScan, FromScanSettings, ProposalTrace};
 use fastslam::random::Stream;
 use fastslam::rbpf::{Rbpf, Report};
-use fastslam::resampling::{ResamplePolicy, Scheme};
+use fastslam::resampling::ResamplePolicy;
 use fastslam::sensor::BeamSensor;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -187,15 +187,11 @@ impl LogRun {
         map.settle();
         let score = ScanModel::new(Matcher::SubCell, TEMPER, OUTLIER).with_kernel(KERNEL);
         let motion = OdometryModel { alphas: ALPHAS };
-        let filter = Rbpf::new(
-            FromScan { motion, score, settings: from_scan(&log) },
-            setup.policy,
-            Scheme::Systematic,
-            setup.seed,
-            setup.particles,
-            Pose2::default(),
-            map,
-        );
+        let filter = Rbpf::builder(map, FromScan { motion, score, settings: from_scan(&log) })
+            .particles(setup.particles)
+            .seed(setup.seed)
+            .policy(setup.policy)
+            .build()?;
         let used = Arc::new(used(&log, setup.min_travel.max(STILL)));
         let lineage_one_scan = (setup.particles == 1).then_some(0);
         Ok(Self { log, setup: setup.clone(), used, longest, filter, step: 0, resampled: 0, lineage_one_scan })

@@ -39,8 +39,8 @@ impl Proposal<Nothing> for Drift {
 
 /// A filter of paths alone: what it holds is the tree.
 pub fn drifting(policy: ResamplePolicy, scheme: Scheme, particles: usize) -> Rbpf<Nothing, Drift> {
-    let start = Pose2::default();
-    Rbpf::new(Drift, policy, scheme, 1, particles, start, Nothing).with_executor(Executor::Serial)
+    let builder = Rbpf::builder(Nothing, Drift).particles(particles).seed(1).policy(policy).scheme(scheme);
+    builder.executor(Executor::Serial).build().expect("there are particles, and the policy is in its range")
 }
 
 /// The c of t + 1 + c M ln M: what a tree of so many nodes holds beyond one path.

@@ -36,7 +36,7 @@ impl Proposal<Nothing> for Price {
 const COUNT: usize = 16;
 
 fn filter(policy: ResamplePolicy, scheme: Scheme, seed: u64) -> Rbpf<Nothing, Price> {
-    Rbpf::new(Price, policy, scheme, seed, COUNT, Pose2::default(), Nothing)
+    Rbpf::builder(Nothing, Price).particles(COUNT).seed(seed).policy(policy).scheme(scheme).build().unwrap()
 }
 
 /// What all particles explain, some of them better.

@@ -13,7 +13,7 @@ use fastslam::particle::Particle;
 use fastslam::proposal::{FromMeasurement, FromMotion, Marginal, Proposal, ProposalTrace};
 use fastslam::random::{Purpose, Stream};
 use fastslam::rbpf::Rbpf;
-use fastslam::resampling::{ResamplePolicy, Scheme};
+use fastslam::resampling::ResamplePolicy;
 use fastslam::sensor::{Feature, LandmarkSensor, Prediction, RangeBearing};
 use fastslam_lab::baseline::EkfSlam;
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
@@ -156,7 +156,7 @@ fn linear_moments<P>(proposal: P, policy: ResamplePolicy, seed: u64, count: usiz
 where
     P: Proposal<Landmarks<Offset>, Control = Vector3<f64>>,
 {
-    let mut filter = Rbpf::new(proposal, policy, Scheme::Systematic, seed, count, Pose2::default(), empty());
+    let mut filter = Rbpf::builder(empty(), proposal).particles(count).seed(seed).policy(policy).build().unwrap();
     let log_evidence = linear_log(1).iter().map(|(u, features)| filter.step(u, features).log_evidence).sum();
     let weighted = || filter.particles().iter().zip(filter.weights().as_slice());
     let pose: Vector3<f64> = weighted().map(|(p, w)| p.world_from_robot.minus(&Pose2::default()) * *w).sum();
@@ -233,9 +233,8 @@ where
     let (_, exact) = kalman(&log);
     let mut resampled = 0;
     let ratio = |seed| {
-        let (proposal, start) = (proposal.clone(), Pose2::default());
-        let filter = Rbpf::new(proposal, policy, Scheme::Systematic, seed, 8, start, empty());
-        let mut filter = filter.with_executor(Executor::Serial);
+        let builder = Rbpf::builder(empty(), proposal.clone()).particles(8).seed(seed).policy(policy);
+        let mut filter = builder.executor(Executor::Serial).build().unwrap();
         let mut log_evidence = -exact;
         for (u, features) in &log {
             let report = filter.step(u, features);
@@ -534,8 +533,8 @@ fn particles_of_one_history_weigh_the_same_in_2_0() {
     for count in [2, 100, 1000] {
         let OneStep { motion, particle, features } = one_step(1.0);
         let proposal = FromMeasurement { motion };
-        let (policy, scheme) = (ResamplePolicy::Never, Scheme::Systematic);
-        let mut filter = Rbpf::new(proposal, policy, scheme, 1, count, particle.world_from_robot, particle.map);
+        let builder = Rbpf::builder(particle.map, proposal).start(particle.world_from_robot);
+        let mut filter = builder.particles(count).seed(1).policy(ResamplePolicy::Never).build().unwrap();
         let report = filter.weigh(&TURN, &features);
         assert!(report.weights.iter().all(|w| w.to_bits() == report.weights[0].to_bits()));
         assert!((report.ess / count as f64 - 1.0).abs() < 1e-12, "{} of {count}", report.ess);
@@ -574,8 +573,7 @@ fn arc(motion: &OdometryModel, run: u64, steps: u32) -> Vec<(Odometry, Vec<Featu
 fn nees(run: u64) -> [f64; 4] {
     let motion = ODOMETRY.scaled(0.1);
     let map = Landmarks::<_, Blocks>::new(SENSOR, Correspondence::Known);
-    let (policy, proposal) = (ResamplePolicy::EssBelow(0.5), FromMeasurement { motion });
-    let mut filter = Rbpf::new(proposal, policy, Scheme::Systematic, run, 500, Pose2::default(), map);
+    let mut filter = Rbpf::builder(map, FromMeasurement { motion }).particles(500).seed(run).build().unwrap();
     for (u, features) in arc(&motion, run, 8) {
         filter.step(&u, &features);
     }
@@ -644,8 +642,8 @@ fn the_joint_filter_errs_as_it_says() {
 fn run_bits<S: Store>(run: u64, steps: u32, count: usize, policy: ResamplePolicy, gate: Option<Gate>) -> Vec<u64> {
     let motion = ODOMETRY.scaled(0.3);
     let map = Landmarks::<_, S>::new(SENSOR, gate.map_or(Correspondence::Known, Correspondence::Unknown));
-    let proposal = FromMeasurement { motion };
-    let mut filter = Rbpf::new(proposal, policy, Scheme::Systematic, run, count, Pose2::default(), map);
+    let builder = Rbpf::builder(map, FromMeasurement { motion }).particles(count).seed(run).policy(policy);
+    let mut filter = builder.build().unwrap();
     let mut all = Vec::new();
     for (u, features) in arc(&motion, run, steps) {
         // Signatures far apart, so that the trees have several levels.
@@ -912,8 +910,7 @@ fn well_separated_landmarks_are_told_apart_without_signatures() {
     };
     let run = |correspondence, by| {
         let map = Landmarks::<_, Blocks>::new(SENSOR, correspondence);
-        let (policy, proposal) = (ResamplePolicy::EssBelow(0.5), FromMeasurement { motion });
-        let mut filter = Rbpf::new(proposal, policy, Scheme::Systematic, 1, 50, Pose2::default(), map);
+        let mut filter = Rbpf::builder(map, FromMeasurement { motion }).particles(50).seed(1).build().unwrap();
         for (u, features) in arc(&motion, 1, 12) {
             filter.step(&u, &turned(&features, by));
         }
@@ -1015,10 +1012,9 @@ fn a_sensor_without_noise_leaves_every_number_finite() {
         for correspondence in [Correspondence::Known, Correspondence::Unknown(Gate::default())] {
             let map = || Landmarks::<RangeBearing>::new(sensor, correspondence);
             let of = format!("{range_std} {bearing_std} {correspondence:?}");
-            let (policy, scheme) = (ResamplePolicy::EssBelow(0.5), Scheme::Systematic);
             let marginal = FromMotion { motion, likelihood: Marginal };
-            let mut first = Rbpf::new(marginal, policy, scheme, 1, 8, Pose2::default(), map());
-            let mut second = Rbpf::new(FromMeasurement { motion }, policy, scheme, 1, 8, Pose2::default(), map());
+            let mut first = Rbpf::builder(map(), marginal).particles(8).seed(1).build().unwrap();
+            let mut second = Rbpf::builder(map(), FromMeasurement { motion }).particles(8).seed(1).build().unwrap();
             let mut joint = EkfSlam::new(motion, sensor, correspondence, Pose2::default());
             let mut truth = Pose2::default();
             for u in &controls {

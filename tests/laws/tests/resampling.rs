@@ -1,9 +1,8 @@
 //! Laws of selection, for every scheme.
 
 use fastslam::random::{Purpose, Stream};
-use fastslam::resampling::{ResamplePolicy, Scheme};
+use fastslam::resampling::Scheme;
 use fastslam::weights::Weights;
-use laws::drifting;
 use proptest::prelude::*;
 
 const SCHEMES: [Scheme; 4] = [Scheme::Systematic, Scheme::Stratified, Scheme::Multinomial, Scheme::Residual];
@@ -17,12 +16,6 @@ fn counts(scheme: Scheme, weights: &Weights, n: usize, trial: u32) -> Vec<u32> {
     let mut stream = Stream::at(1, Purpose::TRIAL, trial, 0);
     scheme.ancestors(weights, n, &mut stream).iter().for_each(|slot| counts[*slot as usize] += 1);
     counts
-}
-
-#[test]
-#[should_panic(expected = "count is 0")]
-fn a_filter_of_no_particles_is_refused_where_it_is_made() {
-    drifting(ResamplePolicy::Never, Scheme::Systematic, 0);
 }
 
 proptest! {

@@ -7,7 +7,7 @@ use fastslam::map::landmarks::{Blocks, Correspondence, Gate, Landmark, Landmarks
 use fastslam::motion::{Odometry, OdometryModel};
 use fastslam::proposal::FromMeasurement;
 use fastslam::rbpf::Rbpf;
-use fastslam::resampling::{ResamplePolicy, Scheme};
+use fastslam::resampling::ResamplePolicy;
 use fastslam::sensor::{Feature, LandmarkSensor, RangeBearing};
 use nalgebra::{Matrix2, Vector2};
 
@@ -51,10 +51,14 @@ impl Thousand {
     pub fn new(known: bool) -> Self {
         let correspondence = if known { Correspondence::Known } else { Correspondence::Unknown(Gate::default()) };
         let map = Landmarks::new(SENSOR, correspondence).with(field(24));
-        let (policy, scheme, proposal) =
-            (ResamplePolicy::Never, Scheme::Systematic, FromMeasurement { motion: MOTION });
-        let filter = Rbpf::new(proposal, policy, scheme, 1, 1000, Pose2::default(), map);
-        Self { filter: filter.with_executor(Executor::Serial), features: six() }
+        let filter = Rbpf::builder(map, FromMeasurement { motion: MOTION })
+            .particles(1000)
+            .seed(1)
+            .policy(ResamplePolicy::Never)
+            .executor(Executor::Serial)
+            .build()
+            .expect("there are particles");
+        Self { filter, features: six() }
     }
 
     /// The same again: its copies share their blocks with it, and every one of them is written to in the next step, as after a

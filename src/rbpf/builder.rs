@@ -1,0 +1,198 @@
+//! How a filter begins.
+
+use super::Rbpf;
+use crate::error::{Range, SettingError};
+use crate::execute::Executor;
+use crate::geometry::{Gaussian3, Pose2};
+use crate::map::ConditionalMap;
+use crate::particle::Particle;
+use crate::proposal::Proposal;
+use crate::random::{Purpose, Stream};
+use crate::resampling::{ResamplePolicy, Scheme};
+use crate::weights::Weights;
+
+/// Slots are counted in 32 bits on every platform.
+const PARTICLES: Range = Range::whole(1, u32::MAX);
+
+/// Where the particles stand at step 0.
+#[derive(Clone, Debug)]
+pub enum Start {
+    /// All at one pose, which is known: it defines the frame of the map.
+    Pose(Pose2),
+    /// Each at a draw of its own, from the stream (seed, [`Purpose::PROPOSAL`], step 0, slot).
+    Gaussian(Gaussian3),
+}
+
+impl Start {
+    fn draw(&self, seed: u64, slot: u32) -> Pose2 {
+        match self {
+            Self::Pose(pose) => *pose,
+            Self::Gaussian(gaussian) => gaussian.sample(&mut Stream::at(seed, Purpose::PROPOSAL, 0, slot)),
+        }
+    }
+
+    fn validate(&self) -> Result<(), SettingError> {
+        // A Gaussian's covariance is finite: it has a Cholesky factor.
+        let Pose2 { x, y, theta } = match self {
+            Self::Pose(pose) => pose,
+            Self::Gaussian(gaussian) => gaussian.mean(),
+        };
+        Range::finite("m").check("start.x", *x)?;
+        Range::finite("m").check("start.y", *y)?;
+        Range::finite("rad").check("start.theta", *theta).map(drop)
+    }
+}
+
+impl From<Pose2> for Start {
+    fn from(pose: Pose2) -> Self {
+        Self::Pose(pose)
+    }
+}
+
+impl From<Gaussian3> for Start {
+    fn from(gaussian: Gaussian3) -> Self {
+        Self::Gaussian(gaussian)
+    }
+}
+
+/// A filter's settings, from [`Rbpf::builder`] to [`Builder::build`].
+#[derive(Clone, Debug)]
+#[must_use = "a builder does nothing before `build`"]
+pub struct Builder<M, P> {
+    map: M,
+    proposal: P,
+    particles: usize,
+    seed: u64,
+    start: Start,
+    policy: ResamplePolicy,
+    scheme: Scheme,
+    executor: Executor,
+}
+
+impl<M: ConditionalMap, P: Proposal<M>> Builder<M, P> {
+    pub(super) fn new(map: M, proposal: P) -> Self {
+        Self {
+            map,
+            proposal,
+            particles: 30,
+            seed: 0,
+            start: Start::Pose(Pose2::default()),
+            policy: ResamplePolicy::EssBelow(0.5),
+            scheme: Scheme::Systematic,
+            executor: Executor::default(),
+        }
+    }
+
+    /// Number of particles M, 1 or more; by default 30, as in gmapping.
+    pub fn particles(self, particles: usize) -> Self {
+        Self { particles, ..self }
+    }
+
+    /// Seed of all draws; by default 0. Filters of one seed and one input give the same bits.
+    pub fn seed(self, seed: u64) -> Self {
+        Self { seed, ..self }
+    }
+
+    /// A pose that is known, or a [`Gaussian3`] to draw from; by default the origin.
+    pub fn start(self, start: impl Into<Start>) -> Self {
+        Self { start: start.into(), ..self }
+    }
+
+    /// When to resample; by default where N_eff < M / 2 (Grisetti, Stachniss, Burgard 2007).
+    pub fn policy(self, policy: ResamplePolicy) -> Self {
+        Self { policy, ..self }
+    }
+
+    /// How to resample; by default systematically.
+    pub fn scheme(self, scheme: Scheme) -> Self {
+        Self { scheme, ..self }
+    }
+
+    /// Who computes; by default [`Executor::default`]. No number depends on it.
+    pub fn executor(self, executor: Executor) -> Self {
+        Self { executor, ..self }
+    }
+
+    /// The filter at step 0: every particle with a copy of the map, all of one weight.
+    ///
+    /// # Errors
+    /// [`SettingError::OutOfRange`] where there are no particles, where the policy's fraction is out of its range, or where the start
+    /// is not finite.
+    pub fn build(self) -> Result<Rbpf<M, P>, SettingError> {
+        let Self { map, proposal, particles: count, seed, start, policy, scheme, executor } = self;
+        PARTICLES.check("particles", count as f64)?;
+        policy.validate()?;
+        start.validate()?;
+        Ok(Rbpf {
+            proposal,
+            policy,
+            scheme,
+            seed,
+            executor,
+            step: 0,
+            particles: (0..count as u32).map(|slot| Particle::start(start.draw(seed, slot), map.clone())).collect(),
+            weights: Weights::uniform(count),
+            path_weights: Weights::uniform(count),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::map::landmarks::{Correspondence, Landmarks};
+    use crate::motion::OdometryModel;
+    use crate::proposal::FromMeasurement;
+    use crate::sensor::RangeBearing;
+    use nalgebra::{Matrix3, Vector3};
+
+    type Map = Landmarks<RangeBearing>;
+    type Improved = FromMeasurement<OdometryModel>;
+
+    fn builder() -> Builder<Map, Improved> {
+        let sensor = RangeBearing { range_std: 0.1, bearing_std: 0.02, max_range: 5.0, field_of_view: 3.0 };
+        let motion = OdometryModel { alphas: [0.1; 4] };
+        Rbpf::builder(Landmarks::new(sensor, Correspondence::Known), FromMeasurement { motion })
+    }
+
+    #[test]
+    fn what_cannot_be_built_is_refused_by_the_name_of_its_field() {
+        let refused = |builder: Builder<Map, Improved>| builder.build().unwrap_err().to_string();
+        let particles = "must be a whole number from 1 to 4294967295";
+        assert_eq!(refused(builder().particles(0)), format!("particles = 0: {particles}"));
+        assert_eq!(refused(builder().particles(1 << 32)), format!("particles = 4294967296: {particles}"));
+        for (fraction, shown) in [(1.5, "1.5"), (-0.1, "-0.1"), (f64::NAN, "NaN")] {
+            let policy = ResamplePolicy::EssBelow(fraction);
+            assert_eq!(refused(builder().policy(policy)), format!("policy = {shown}: must be a number from 0 to 1"));
+        }
+        let lost = Pose2 { x: f64::INFINITY, y: 0.0, theta: 0.0 };
+        assert_eq!(refused(builder().start(lost)), "start.x = inf: must be a finite number [m]");
+        let lost = Pose2 { x: 0.0, y: 0.0, theta: f64::NAN };
+        assert_eq!(refused(builder().start(lost)), "start.theta = NaN: must be a finite number [rad]");
+    }
+
+    #[test]
+    fn all_stand_at_a_start_that_is_known_and_the_defaults_are_those_documented() {
+        let filter = builder().build().unwrap();
+        assert_eq!(filter.particles().len(), 30);
+        assert!(filter.particles().iter().all(|p| p.path.poses() == [Pose2::default()]));
+        let (policy, scheme) = (filter.policy, filter.scheme);
+        assert_eq!((filter.seed, policy, scheme), (0, ResamplePolicy::EssBelow(0.5), Scheme::Systematic));
+        let start = Pose2::new(1.0, 2.0, 3.0);
+        let filter = builder().particles(3).start(start).build().unwrap();
+        assert!(filter.particles().len() == 3 && filter.particles().iter().all(|p| p.world_from_robot == start));
+    }
+
+    /// Where several filters of one seed begin at one Gaussian, slot k begins at one pose in all of them.
+    #[test]
+    fn a_start_that_is_a_gaussian_is_drawn_for_each_slot_at_its_address() {
+        let covariance = Matrix3::from_diagonal(&Vector3::new(0.04, 0.09, 0.01));
+        let gaussian = Gaussian3::new(Pose2::new(1.0, 2.0, 3.0), covariance).unwrap();
+        let filter = builder().particles(8).seed(7).start(gaussian.clone()).build().unwrap();
+        for (slot, particle) in (0..).zip(filter.particles()) {
+            let expected = gaussian.sample(&mut Stream::at(7, Purpose::PROPOSAL, 0, slot));
+            assert_eq!((particle.world_from_robot, particle.path.pose()), (expected, expected), "slot {slot}");
+        }
+        assert_eq!(filter.lineage(), 8, "each is a root of its own");
+    }
+}
