@@ -8,7 +8,7 @@ use crate::execute::Executor;
 use crate::genealogy::{Descent, Path};
 use crate::map::ConditionalMap;
 use crate::particle::Particle;
-use crate::proposal::{Proposal, ProposalTrace};
+use crate::proposal::{Proposal, ProposalTrace, Proposed};
 use crate::random::{Purpose, Stream};
 use crate::resampling::{ResamplePolicy, Scheme};
 use crate::weights::Weights;
@@ -87,6 +87,8 @@ pub struct Rbpf<M, P> {
     seed: u64,
     executor: Executor,
     step: u32,
+    /// Resamplings in this step.
+    resamplings: u32,
     particles: Vec<Particle<M>>,
     weights: Weights,
     /// The same, but for resamplings: copies keep the weight of their original.
@@ -104,35 +106,60 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         Self { executor, ..self }
     }
 
-    /// One step of the filter: propose, weigh, map, and select if the policy calls for it.
+    /// One step of the filter: propose, map, weigh, and select if the policy calls for it.
     pub fn step(&mut self, control: &P::Control, observation: &M::Observation) -> Report<M::Association> {
         let mut report = self.weigh(control, observation);
-        if self.policy.should_resample(report.ess, self.particles.len()) {
-            report.ancestors = Some(self.resample());
-        }
+        report.ancestors = self.select(report.ess);
         report
     }
 
     /// The first half of a step: every particle draws its new pose, pays for it, and maps what it sees from there.
     pub fn weigh(&mut self, control: &P::Control, observation: &M::Observation) -> Report<M::Association> {
-        self.step += 1;
+        (self.step, self.resamplings) = (self.step + 1, 0);
+        let proposed = self.propose_and_map(control, observation);
+        self.extend_paths();
+        let log_increments: Vec<f64> = proposed.iter().map(|p| p.log_increment).collect();
+        let log_evidence = self.reweigh(&log_increments);
+        self.report(proposed, log_increments, log_evidence)
+    }
+
+    /// Draws a pose for each particle, and maps what is seen from it: each slot by itself, so that it does not matter who computes
+    /// which.
+    fn propose_and_map(&mut self, control: &P::Control, observation: &M::Observation) -> Vec<Proposed<M::Association>> {
         let (proposal, seed, step) = (&self.proposal, self.seed, self.step);
-        let proposed = self.executor.map(&mut self.particles, |slot, particle| {
+        self.executor.map(&mut self.particles, |slot, particle| {
             let mut stream = Stream::at(seed, Purpose::PROPOSAL, step, slot as u32);
             let proposed = proposal.propose(particle, control, observation, &mut stream);
             particle.world_from_robot = proposed.world_from_robot;
             particle.map.assimilate(&proposed.world_from_robot, observation, &proposed.association);
             proposed
-        });
+        })
+    }
+
+    /// Appends the new poses to the paths.
+    fn extend_paths(&mut self) {
         for particle in &mut self.particles {
             particle.path.push(particle.world_from_robot);
         }
-        let log_increments: Vec<f64> = proposed.iter().map(|p| p.log_increment).collect();
-        let (weights, log_evidence) = self.weights.reweighted(&log_increments);
+    }
+
+    /// Multiplies the weights by what the particles have paid, and divides them by their sum. Returns the sum's log \[nats\].
+    fn reweigh(&mut self, log_increments: &[f64]) -> f64 {
+        let (weights, log_evidence) = self.weights.reweighted(log_increments);
         self.weights = weights;
-        (self.path_weights, _) = self.path_weights.reweighted(&log_increments);
+        (self.path_weights, _) = self.path_weights.reweighted(log_increments);
+        log_evidence
+    }
+
+    /// What there is to tell of the step so far.
+    fn report(
+        &self,
+        proposed: Vec<Proposed<M::Association>>,
+        log_increments: Vec<f64>,
+        log_evidence: f64,
+    ) -> Report<M::Association> {
         Report {
-            step,
+            step: self.step,
             log_increments,
             log_evidence,
             weights: self.weights.as_slice().to_vec(),
@@ -144,11 +171,19 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         }
     }
 
-    /// The second half: universes are drawn by their weights, and what is not drawn is extinct. Returns the slot that each
+    /// Resamples where the policy calls for it, at this N_eff.
+    fn select(&mut self, ess: f64) -> Option<Vec<u32>> {
+        self.policy.should_resample(ess, self.particles.len()).then(|| self.resample())
+    }
+
+    /// The second half of a step: particles are drawn by their weights, and what is not drawn is extinct. Returns the slot that each
     /// particle was copied from.
+    ///
+    /// The n-th resampling of a step, from 0 on, draws from the stream (seed, [`Purpose::RESAMPLING`], step, n).
     pub fn resample(&mut self) -> Vec<u32> {
         let count = self.particles.len();
-        let mut stream = Stream::at(self.seed, Purpose::RESAMPLING, self.step, 0);
+        let mut stream = Stream::at(self.seed, Purpose::RESAMPLING, self.step, self.resamplings);
+        self.resamplings += 1;
         let ancestors = self.scheme.ancestors(&self.weights, count, &mut stream);
         self.particles = ancestors.iter().map(|slot| self.particles[*slot as usize].clone()).collect();
         self.weights = Weights::uniform(count);

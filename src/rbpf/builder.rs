@@ -130,6 +130,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Builder<M, P> {
             seed,
             executor,
             step: 0,
+            resamplings: 0,
             particles: (0..count as u32).map(|slot| Particle::start(start.draw(seed, slot), map.clone())).collect(),
             weights: Weights::uniform(count),
             path_weights: Weights::uniform(count),

@@ -5,7 +5,7 @@ use fastslam::map::ConditionalMap;
 use fastslam::ops;
 use fastslam::particle::Particle;
 use fastslam::proposal::{Proposal, ProposalTrace, Proposed};
-use fastslam::random::Stream;
+use fastslam::random::{Purpose, Stream};
 use fastslam::rbpf::Rbpf;
 use fastslam::resampling::{ResamplePolicy, Scheme};
 
@@ -115,5 +115,20 @@ fn particles_that_are_infinitely_likely_take_all_the_weight() {
         let expected = if *sure { before / shared } else { 0.0 };
         // Of numbers below 1: some of the last bits.
         assert!((after - expected).abs() < 1e-14, "{after} for {expected}");
+    }
+}
+
+/// By one stream for both, the second resampling of a step would repeat the first. Whoever resamples once a step draws from slot 0.
+#[test]
+fn every_resampling_of_a_step_draws_from_a_stream_of_its_own() {
+    let scheme = Scheme::Multinomial;
+    let mut filter = filter(ResamplePolicy::Never, scheme, 7);
+    for step in 1..=3 {
+        filter.weigh(&SOME, &());
+        for slot in 0..3 {
+            let mut stream = Stream::at(7, Purpose::RESAMPLING, step, slot);
+            let expected = scheme.ancestors(filter.weights(), COUNT, &mut stream);
+            assert_eq!(filter.resample(), expected, "resampling {slot} of step {step}");
+        }
     }
 }
