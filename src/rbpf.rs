@@ -1,8 +1,10 @@
 //! The Rao–Blackwellized particle filter.
 
 mod builder;
+mod estimate;
 
 pub use builder::{Builder, Start};
+pub use estimate::Estimate;
 
 use crate::execute::Executor;
 use crate::genealogy::{Descent, Path};
@@ -74,8 +76,9 @@ impl<A> Report<A> {
 ///     let report = filter.step(&Odometry { rot1: 0.0, trans: 0.5, rot2: 0.0 }, &vec![seen]);
 ///     assert!(report.explained());
 /// }
-/// let best = &filter.particles()[filter.best()];
-/// assert!((best.world_from_robot.x - 1.5).abs() < 0.2);
+/// let estimate = filter.estimate();
+/// assert!((estimate.mean.x - 1.5).abs() < 0.2);
+/// let best = &filter.particles()[estimate.best];
 /// assert!((best.map.get(0).unwrap().mean - Vector2::new(2.0, 1.0)).norm() < 0.2);
 /// # Ok::<(), fastslam::error::SettingError>(())
 /// ```

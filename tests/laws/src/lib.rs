@@ -37,9 +37,14 @@ impl Proposal<Nothing> for Drift {
     }
 }
 
-/// A filter of paths alone: what it holds is the tree.
+/// A filter of paths alone: what it holds is the tree. It begins at the origin.
 pub fn drifting(policy: ResamplePolicy, scheme: Scheme, particles: usize) -> Rbpf<Nothing, Drift> {
-    let builder = Rbpf::builder(Nothing, Drift).particles(particles).seed(1).policy(policy).scheme(scheme);
+    drifting_from(Pose2::default(), policy, scheme, particles)
+}
+
+/// The same from another start: the same draws, moved rigidly.
+pub fn drifting_from(start: Pose2, policy: ResamplePolicy, scheme: Scheme, particles: usize) -> Rbpf<Nothing, Drift> {
+    let builder = Rbpf::builder(Nothing, Drift).start(start).particles(particles).seed(1).policy(policy).scheme(scheme);
     builder.executor(Executor::Serial).build().expect("there are particles, and the policy is in its range")
 }
 

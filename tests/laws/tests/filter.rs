@@ -2,12 +2,14 @@
 
 use fastslam::geometry::Pose2;
 use fastslam::map::ConditionalMap;
+use fastslam::nalgebra::Matrix3;
 use fastslam::ops;
 use fastslam::particle::Particle;
 use fastslam::proposal::{Proposal, ProposalTrace, Proposed};
 use fastslam::random::{Purpose, Stream};
 use fastslam::rbpf::Rbpf;
 use fastslam::resampling::{ResamplePolicy, Scheme};
+use laws::drifting_from;
 
 /// A map of nothing.
 #[derive(Clone)]
@@ -130,5 +132,27 @@ fn every_resampling_of_a_step_draws_from_a_stream_of_its_own() {
             let expected = scheme.ancestors(filter.weights(), COUNT, &mut stream);
             assert_eq!(filter.resample(), expected, "resampling {slot} of step {step}");
         }
+    }
+}
+
+/// What all particles are moved by moves the mean, and turns the covariance of the position: R Σ Rᵀ. Headings cross the cut at π.
+#[test]
+fn an_estimate_moves_and_turns_with_its_particles() {
+    let run = |start| {
+        let mut filter = drifting_from(start, ResamplePolicy::EssBelow(0.5), Scheme::Systematic, 100);
+        (0..30).for_each(|_| drop(filter.step(&(), &())));
+        filter.estimate()
+    };
+    let here = run(Pose2::default());
+    assert!(here.covariance.symmetric_eigenvalues().min() > 1e-6, "a cloud with an extent: {}", here.covariance);
+    for motion in [Pose2::new(3.0, -1.0, 0.0), Pose2::new(0.0, 0.0, 1.3), Pose2::new(-20.0, 7.0, 3.1)] {
+        let there = run(motion);
+        assert_eq!(there.best, here.best);
+        // Of numbers about 20, after 30 steps: some of the last bits.
+        assert!(there.mean.minus(&motion.compose(&here.mean)).norm() < 1e-12, "{motion:?}");
+        let (sin, cos) = ops::sin_cos(motion.theta);
+        let turn = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
+        let expected = turn * here.covariance * turn.transpose();
+        assert!((there.covariance - expected).norm() < 1e-12, "{motion:?}: {} {expected}", there.covariance);
     }
 }
