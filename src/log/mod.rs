@@ -1,7 +1,7 @@
 //! Recorded logs of robots with a laser: what was driven and seen, and how well an estimate of the path agrees with known
 //! relations between poses.
 //!
-//! No I/O: bytes in, structures out, so that a page reads a reader's file by the same code as the command line.
+//! No I/O: bytes in, structures out. Whoever has the bytes, from a file, a network or a browser, reads them by the same code.
 
 mod carmen;
 mod extent;

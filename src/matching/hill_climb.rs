@@ -13,10 +13,10 @@ pub struct HillClimbSteps {
     pub halvings: u32,
 }
 
-/// Where a climb ended.
+/// A pose with its value: where a climb starts, and where it ends.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ScoredPose {
-    /// The local optimum, to within the last steps.
+    /// The pose; at the end of a climb the local optimum, to within the last steps.
     pub pose: Pose2,
     /// The objective there.
     pub value: f64,
@@ -35,7 +35,7 @@ pub fn hill_climb(
     let (mut linear, mut angular) = (steps.linear, steps.angular);
     for _ in 0..=steps.halvings {
         let (mut failed, mut moves) = (0, MOVES.iter().cycle());
-        // Only a hostile objective climbs on for ever; the bound keeps it from hanging a reader's page.
+        // The bound ends the climb of an objective that never stops improving.
         for _ in 0..MOST_TRIES {
             let (ahead, left, turn) = moves.next().copied().unwrap_or_default();
             let [x, y] = best.pose.transform([ahead * linear, left * linear]);

@@ -7,7 +7,7 @@ use crate::map::grid::{Grid, LocalMap, MAX_DISTANCE, NdtField, UNIT};
 use crate::ops;
 use crate::sensor::Scan;
 
-/// What an end point is compared with: a reader's choice.
+/// What an end point is compared with.
 #[derive(
     Clone, Copy, PartialEq, Eq, Debug, strum::Display, strum::EnumString, strum::VariantNames, strum::VariantArray,
 )]
@@ -26,13 +26,13 @@ fn unknown_matcher(given: &str) -> SettingError {
     SettingError::unknown_word("matcher", given, <Matcher as strum::VariantNames>::VARIANTS)
 }
 
-/// What a distance from a surface costs.
+/// What a distance from a wall costs, in standard deviations d of the nearest normal distribution.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Kernel {
-    /// ℓ = −½ d²: what lies far from a surface is judged by its cell.
+    /// ℓ = −½ d²: what lies far from every distribution is judged by its cell.
     Gaussian,
-    /// ℓ = −c d² / (d² + 2 c): Gaussian near the surface, and never below −c (Geman and McClure 1985). Its slope reaches far, so
-    /// that a climb finds a surface from further away, and a chair that was moved pulls at nothing.
+    /// ℓ = −c d² / (d² + 2 c): Gaussian near the wall, and never below −c (Geman and McClure 1985). Its slope reaches far, so
+    /// that a climb finds a wall from further away, and a chair that was moved pulls at nothing.
     Robust {
         /// c \[nats\].
         most: f64,
@@ -43,11 +43,11 @@ pub enum Kernel {
 ///
 /// score = κ Σ_b max(ℓ_b, ln p_cell(b)), summed over the beams that met something: a maximum in place of the sum of a
 /// mixture (Olson and Agarwal 2013), which costs no logarithm. p_cell = ε + (1 − ε) p(occupied) judges the cell an end point
-/// falls in; ℓ_b, of the squared distance d² to the nearest surface, is the term of [`Matcher::SubCell`], absent for
-/// [`Matcher::Cell`]. With a robust kernel ℓ_b alone counts wherever there is a surface near.
+/// falls in; ℓ_b, of the squared Mahalanobis distance d² to the nearest distribution, is the term of [`Matcher::SubCell`], absent for
+/// [`Matcher::Cell`]. With a robust kernel ℓ_b alone counts wherever there is a distribution near.
 ///
-/// It is not a density over scans: the normaliser −½ ln |Σ′| of each surface is left out, as Biber and Straßer (2003) leave it
-/// out, and it differs from surface to surface. So a scan may be compared between poses, and between maps of one place, but
+/// It is not a density over scans: the normaliser −½ ln |Σ′| of each distribution is left out, as Biber and Straßer (2003) leave it
+/// out, and it differs from one to the next. So a scan may be compared between poses, and between maps of one place, but
 /// its sum over all scans is not one.
 ///
 /// κ < 1 tempers the product over beams: neighbouring beams meet the same wall and err together (GSB, *likelihood
@@ -66,7 +66,7 @@ impl ScanModel {
     pub fn new(matcher: Matcher, temper: f64, outlier: f64) -> Self {
         let log_cell = core::array::from_fn(|k| {
             let log_odds = (k as f64 - f64::from(UNKNOWN)) * UNIT;
-            // Against the cell as it is: for sub-cell matching a wall is judged by its surface, so a cell scores no better
+            // Against the cell as it is: for sub-cell matching a wall is judged by its distribution, so a cell scores no better
             // than one that nothing is known of.
             let log_odds = if matcher == Matcher::SubCell { log_odds.min(0.0) } else { log_odds };
             ops::ln(outlier + (1.0 - outlier) / (1.0 + ops::exp(-log_odds)))
@@ -115,12 +115,12 @@ impl ScanModel {
                         let (d2, units) = grid.nearest_ndt(wx, wy);
                         match self.kernel {
                             Kernel::Gaussian => {
-                                let (surface, cell) = (-0.5 * d2, self.log_cell(units));
-                                // Not `max`, which is a call in WebAssembly: a fourteenth of a lap.
-                                if surface > cell { surface } else { cell }
+                                let (ndt, cell) = (-0.5 * d2, self.log_cell(units));
+                                // Not `f64::max`: a call of a library on WebAssembly, which costs a fourteenth of a lap.
+                                if ndt > cell { ndt } else { cell }
                             }
                             Kernel::Robust { most } if d2 < f64::INFINITY => {
-                                // −c d² / (d² + 2 c), with one division in the precision of the surfaces.
+                                // −c d² / (d² + 2 c), with one division in the precision in which distributions are kept.
                                 let (d2, most) = (d2 as f32, most as f32);
                                 f64::from(2.0 * most * most / (d2 + 2.0 * most) - most)
                             }
@@ -192,7 +192,7 @@ impl<const CELLS_PER_NDT: usize> ScoreNear for ScanNear<'_, CELLS_PER_NDT> {
         self.share * self.model.log_score_above(floor / self.share, &self.map, world_from_robot, &self.thinned)
     }
 
-    /// How many NDT cells each end point is from the nearest that was hit decides. The scan is turned once for all positions.
+    /// By the distance of each end point from the nearest hit. The scan is turned once for all positions.
     fn coarse(&self, theta: f64, stride: usize) -> impl Fn([f64; 2]) -> f64 {
         let (sin, cos) = ops::sin_cos(theta);
         let k = self.map.per_ndt();
@@ -212,7 +212,7 @@ impl<const CELLS_PER_NDT: usize> ScoreNear for ScanNear<'_, CELLS_PER_NDT> {
     }
 }
 
-/// ln p of an end point by its squares from the nearest surface, up to a constant \[nats\].
+/// ln p of an end point by its distance from the nearest hit \[NDT cells\], up to a constant \[nats\].
 const LOG_COARSE: [f64; MAX_DISTANCE + 1] = [0.0, -0.5, -1.0, -1.5];
 
 /// Where log-odds 0 stand in the table.

@@ -62,7 +62,7 @@ pub const GRID: GridModel = GridModel {
     ndt_std: 0.1,
     ndt_stretch: 1.0,
     lag: LAG,
-    reach: 0,
+    distance_reach: 0,
 };
 
 /// κ: the share of each beam's log-likelihood that counts. One for both proposals, both matchers and every M.

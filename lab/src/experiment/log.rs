@@ -181,7 +181,7 @@ impl LogRun {
             ndt_std: 0.06,
             ndt_stretch: NDT_STRETCH,
             lag: LAG,
-            reach: 2,
+            distance_reach: 2,
         });
         map.assimilate(&Pose2::default(), &first.end_points(longest, setup.max_range), &());
         map.settle();

@@ -1,28 +1,28 @@
-//! The neighbourhood of a robot, laid flat: what a matcher looks at thousands of times in one step.
+//! The part of a grid around a robot, copied into one array: a matcher looks at it thousands of times in one step.
 
 use super::tile::{MAX_DISTANCE, NdtCell, SHIFT, TILE, mahalanobis2};
 use super::{CellRect, Grid, NdtField, fast_floor};
 
-/// Farthest from the robot that is laid flat \[m\]; what lies beyond is looked up in the grid.
+/// Farthest from the robot that is copied \[m\]; what lies beyond is looked up in the grid.
 const RADIUS: f64 = 12.0;
 
 /// The NDT cells around a place, each with what is known of it, without the two levels of pointers that a grid has.
 pub(crate) struct LocalMap<'a, const CELLS_PER_NDT: usize> {
     grid: &'a Grid<CELLS_PER_NDT>,
-    /// In NDT cells, one more on each side than is known of.
+    /// In NDT cells.
     rect: CellRect,
-    squares: Vec<FlatCell>,
-    /// The NDT cells of all these NDT cells; the first is that of an NDT cell that was never hit.
+    cells: Vec<FlatCell>,
+    /// Distributions of these NDT cells; the first stands for all that were never hit.
     ndt_cells: Vec<Flat>,
 }
 
 #[derive(Clone, Copy)]
 struct FlatCell {
-    /// Place in `NDT cells`.
+    /// Place of its distribution.
     ndt_cell: u16,
     /// Log-odds in units of the cell in its middle.
     units: i8,
-    /// NDT cells to the nearest NDT cell.
+    /// Distance from the nearest hit \[NDT cells\].
     near: u8,
 }
 
@@ -31,7 +31,7 @@ struct FlatCell {
 struct Flat {
     mean: [f32; 2],
     information: [f32; 3],
-    /// Added to every distance: infinite for no NDT cell, so that all are computed alike.
+    /// Added to every distance: infinite where there is no distribution, so that all are computed alike.
     base: f32,
 }
 
@@ -59,7 +59,7 @@ impl<'a, const CELLS_PER_NDT: usize> LocalMap<'a, CELLS_PER_NDT> {
         };
         let rect = CellRect { i0: tiles.i0 * TILE, j0: tiles.j0 * TILE, i1: tiles.i1 * TILE, j1: tiles.j1 * TILE };
         let unknown = FlatCell { ndt_cell: 0, units: 0, near: MAX_DISTANCE as u8 };
-        let mut squares = vec![unknown; rect.width() * rect.height()];
+        let mut cells = vec![unknown; rect.width() * rect.height()];
         let mut ndt_cells = vec![Flat::NONE];
         for (tj, ti) in (tiles.j0..tiles.j1).flat_map(|tj| (tiles.i0..tiles.i1).map(move |ti| (tj, ti))) {
             let Some(tile) = grid.directory.tile(ti, tj) else { continue };
@@ -68,27 +68,27 @@ impl<'a, const CELLS_PER_NDT: usize> LocalMap<'a, CELLS_PER_NDT> {
             ndt_cells.extend(tile.ndt_cells().iter().map(flat));
             for row in 0..TILE {
                 let start = (tj * TILE + row - rect.j0) as usize * rect.width() + (ti * TILE - rect.i0) as usize;
-                for (column, square) in squares[start..start + TILE as usize].iter_mut().enumerate() {
+                for (column, cell) in cells[start..start + TILE as usize].iter_mut().enumerate() {
                     let local = (row << SHIFT) as usize + column;
                     let ndt_cell = tile.place(local).map_or(0, |place| first + place);
                     let units = tile.log_odds[local][CELLS_PER_NDT / 2][CELLS_PER_NDT / 2];
-                    // More NDT cells than fit are left out: a radius of RADIUS holds fewer in any building.
+                    // More distributions than fit are left out: a radius of RADIUS holds fewer in any building.
                     let ndt_cell = u16::try_from(ndt_cell).unwrap_or(0);
-                    *square = FlatCell { ndt_cell, units, near: tile.distance(local) as u8 };
+                    *cell = FlatCell { ndt_cell, units, near: tile.distance(local) as u8 };
                 }
             }
         }
-        Self { grid, rect, squares, ndt_cells }
+        Self { grid, rect, cells, ndt_cells }
     }
 
-    /// NDT cells from a point, in NDT cells, to the nearest NDT cell: 0 in an NDT cell that was hit, [`MAX_DISTANCE`] where none is near.
+    /// The distance field \[NDT cells\] at a point given in NDT cells: 0 where an end point fell, [`MAX_DISTANCE`] where none fell near.
     #[inline]
     pub fn distance(&self, u: f64, v: f64) -> usize {
         let (i, j) = (fast_floor(u), fast_floor(v));
         let (column, row) = (i.wrapping_sub(self.rect.i0), j.wrapping_sub(self.rect.j0));
         let (width, height) = (self.rect.width(), self.rect.height());
         if (column as u32 as usize) < width && (row as u32 as usize) < height {
-            usize::from(self.squares[row as usize * width + column as usize].near)
+            usize::from(self.cells[row as usize * width + column as usize].near)
         } else {
             self.grid.distance(i, j)
         }
@@ -121,16 +121,16 @@ impl<const CELLS_PER_NDT: usize> NdtField for LocalMap<'_, CELLS_PER_NDT> {
         let size = self.grid.ndt_size as f32;
         let (x, y) = (du as f32 * size, dv as f32 * size);
         let first = row * width + column;
-        let squares = [&self.squares[first..first + 2], &self.squares[first + width..first + width + 2]];
-        let d2 = |square: &FlatCell, x: f32, y: f32| self.ndt_cells[usize::from(square.ndt_cell)].mahalanobis2(x, y);
+        let cells = [&self.cells[first..first + 2], &self.cells[first + width..first + width + 2]];
+        let d2 = |cell: &FlatCell, x: f32, y: f32| self.ndt_cells[usize::from(cell.ndt_cell)].mahalanobis2(x, y);
         let nearest = [
-            d2(&squares[0][0], x, y),
-            d2(&squares[0][1], x - size, y),
-            d2(&squares[1][0], x, y - size),
-            d2(&squares[1][1], x - size, y - size),
+            d2(&cells[0][0], x, y),
+            d2(&cells[0][1], x - size, y),
+            d2(&cells[1][0], x, y - size),
+            d2(&cells[1][1], x - size, y - size),
         ];
         let least = |a: f32, b: f32| if b < a { b } else { a };
         let nearest = least(least(nearest[0], nearest[1]), least(nearest[2], nearest[3]));
-        (f64::from(nearest), squares[own_j][own_i].units)
+        (f64::from(nearest), cells[own_j][own_i].units)
     }
 }

@@ -65,18 +65,19 @@ pub struct GridModel {
     pub log_odds_hit: f64,
     /// Added to the log-odds of a cell that beams only passed through \[nats\], negative.
     pub log_odds_pass: f64,
-    /// Standard deviation \[m\] of the two pseudo-hits that every NDT cell begins with: what one hit alone is trusted for.
+    /// Standard deviation \[m\] of the two pseudo-hits that every NDT cell begins with: how far one hit alone is trusted.
     pub ndt_std: f64,
-    /// How many times further than its end points an NDT cell reaches along itself: 1 or more. A wall goes on from NDT cell to NDT cell,
+    /// How many times longer than its end points say a distribution is along the wall: 1 or more. A wall goes on from NDT cell to NDT cell,
     /// but a normal distribution in each is a string of beads: between two of them, even the right pose fits badly.
     pub ndt_stretch: f64,
     /// How many scans old [`Grid::past`] is, at the least; with 0 no past is kept, and it is the present.
     pub lag: u32,
-    /// How many NDT cells away an NDT cell is felt by a coarse search, 0 to 2.
-    pub reach: u32,
+    /// How far from a hit the distance field is kept \[NDT cells\], 0 to 2: what a coarse search looks at. With 0 there is none.
+    pub distance_reach: u32,
 }
 
-/// Occupancy in cells of `cell_size` and NDT cells in NDT cells of CELLS_PER_NDT × CELLS_PER_NDT cells, growing to wherever scans reach.
+/// Occupancy in cells of `cell_size`, and normal distributions in NDT cells of `CELLS_PER_NDT` × `CELLS_PER_NDT` cells, growing to
+/// wherever scans reach.
 ///
 /// Cell (i, j) covers [i s, (i + 1) s) × [j s, (j + 1) s) of the world frame.
 #[derive(Clone, Debug)]
@@ -125,7 +126,7 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
         }
     }
 
-    /// Bytes of a tile with so many NDT cells.
+    /// Bytes of a tile of which so many NDT cells were hit.
     pub fn tile_bytes(ndt_cells: usize) -> usize {
         tile::bytes::<CELLS_PER_NDT>(ndt_cells)
     }
@@ -173,7 +174,8 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
         f64::from(self.units(i, j)) * tile::UNIT
     }
 
-    /// Mean of the end points in an NDT cell \[m\], world frame.
+    /// Mean of the end points in the NDT cell (i, j) \[m\], world frame; `None` where there are none. Its indices count NDT cells, of which
+    /// [`Self::log_odds`] has `CELLS_PER_NDT` to each side.
     pub fn ndt_mean(&self, i: i32, j: i32) -> Option<[f64; 2]> {
         let ndt_cell = self.ndt_cell(i, j)?;
         let center = |k: i32| (f64::from(k) + 0.5) * self.ndt_size;
@@ -194,37 +196,36 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
         (floor(x * self.per_cell), floor(y * self.per_cell))
     }
 
-    /// The NDT cell of an NDT cell, relative to its centre.
+    /// The distribution of an NDT cell, relative to its centre.
     #[inline]
     fn ndt_cell(&self, i: i32, j: i32) -> Option<&NdtCell> {
         self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT)?.ndt_cell(tile::local(i, j))
     }
 
-    /// How many NDT cells away the NDT cell nearest to an NDT cell is: 0 where it was hit, [`MAX_DISTANCE`] where none is near.
+    /// The distance field \[NDT cells\]: 0 where an end point fell, [`MAX_DISTANCE`] where none fell near.
     pub(crate) fn distance(&self, i: i32, j: i32) -> usize {
         self.directory
             .tile(i >> tile::SHIFT, j >> tile::SHIFT)
             .map_or(MAX_DISTANCE, |tile| tile.distance(tile::local(i, j)))
     }
 
-    /// Tells the NDT cells around one with a new NDT cell.
+    /// Lowers the distance field around an NDT cell that was hit for the first time.
     fn lower_distance(&mut self, i: i32, j: i32) {
-        let reach = self.model.reach as i32;
+        let reach = self.model.distance_reach as i32;
         for (di, dj) in (-reach..=reach).flat_map(|dj| (-reach..=reach).map(move |di| (di, dj))) {
-            let squares = di.abs().max(dj.abs()) as usize;
+            let distance = di.abs().max(dj.abs()) as usize;
             let (i, j) = (i + di, j + dj);
-            if squares < self.distance(i, j)
+            if distance < self.distance(i, j)
                 && let Some(tile) = self.tile_mut(i >> tile::SHIFT, j >> tile::SHIFT)
             {
-                tile.lower_distance(tile::local(i, j), squares);
+                tile.lower_distance(tile::local(i, j), distance);
             }
         }
     }
 
     /// Bytes that these grids hold together, each shared part counted once, against dense arrays of their own.
     ///
-    /// Counted as on a 64-bit machine everywhere, and without the allocator's slack: a reader's browser and the native build must
-    /// show the same number.
+    /// Counted as on a 64-bit machine everywhere, and without the allocator's slack: the same number on every platform.
     pub fn footprint<'a>(grids: impl IntoIterator<Item = &'a Self>) -> Footprint {
         const POINTER: usize = 8;
         let grids: Vec<&Self> = grids.into_iter().collect();
@@ -237,7 +238,7 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
         Footprint { unique: unique as u64, dense: dense as u64 }
     }
 
-    /// Puts all that these grids hold into a fingerprint: the log-odds of every cell, and every NDT cell, bit for bit. A tile that
+    /// Puts all that these grids hold into a fingerprint: the log-odds of every cell, and every distribution, bit for bit. A tile that
     /// several of them share is read once, so that a family of maps costs what its [`Self::footprint`] is and not so many copies.
     pub fn hash_all<'a, H: Hasher + Default>(grids: impl IntoIterator<Item = &'a Self>, hasher: &mut H) {
         let mut known = std::collections::BTreeMap::new();
@@ -274,11 +275,11 @@ pub(crate) trait NdtField {
     /// Log-odds of the cell of a point \[m\], in [`UNIT`]s.
     fn units_at(&self, x: f64, y: f64) -> i8;
 
-    /// What is known at a point \[m\]: the smallest squared Mahalanobis distance to the NDT cells of the four NDT cells whose
+    /// What is known at a point \[m\]: the smallest squared Mahalanobis distance to the distributions of the four NDT cells whose
     /// centres are nearest, infinite where none of them was hit, and the log-odds of the middle of
     /// its own NDT cell in [`UNIT`]s.
     ///
-    /// The four NDT cells contain everything within half a square of the point.
+    /// The four contain everything within half an NDT cell of the point.
     fn nearest_ndt(&self, x: f64, y: f64) -> (f64, i8);
 }
 
@@ -293,10 +294,10 @@ impl<const CELLS_PER_NDT: usize> NdtField for Grid<CELLS_PER_NDT> {
     fn nearest_ndt(&self, x: f64, y: f64) -> (f64, i8) {
         let (u, v) = (x * self.per_ndt - 0.5, y * self.per_ndt - 0.5);
         let (i, j) = (fast_floor(u), fast_floor(v));
-        // In NDT cells from the centre of NDT cell (i, j), 0 to 1: its own NDT cell is the right one of each pair from one half on.
+        // In NDT cells from the centre of (i, j), 0 to 1: from one half on, the point itself lies in the next.
         let (du, dv) = (u - f64::from(i), v - f64::from(j));
         let (own_i, own_j) = (i32::from(du >= 0.5), i32::from(dv >= 0.5));
-        // Single precision is what NDT cells are kept in.
+        // In single precision, as distributions are kept.
         let size = self.ndt_size as f32;
         let (x, y) = (du as f32 * size, dv as f32 * size);
         let mut nearest = f32::INFINITY;
@@ -398,7 +399,7 @@ impl<const CELLS_PER_NDT: usize> ConditionalMap for Grid<CELLS_PER_NDT> {
 impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
     /// Makes the directory cover these tiles, and those that a hit at their border is felt in.
     fn grow(&mut self, CellRect { i0, j0, i1, j1 }: CellRect) {
-        let margin = i32::from(self.model.reach > 0);
+        let margin = i32::from(self.model.distance_reach > 0);
         let needed = CellRect { i0: i0 - margin, j0: j0 - margin, i1: i1 + margin, j1: j1 + margin };
         if !covers(self.directory.rect, needed) {
             self.directory = Arc::new(self.directory.grown(needed));
@@ -451,7 +452,7 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
             let tile =
                 self.tile_mut(i >> tile::SHIFT, j >> tile::SHIFT).expect("the directory was grown to cover the scan");
             let first = tile.add_hit(tile::local(i, j), offset, ndt_std, stretch);
-            if first && self.model.reach > 0 {
+            if first && self.model.distance_reach > 0 {
                 self.lower_distance(i, j);
             }
         }

@@ -1,8 +1,7 @@
 //! Which cells a scan touches: passed by a beam, or hit by its end.
 //!
-//! Only blocks that a beam goes through are laid out, a byte a cell: with a log's cells, of which a tile is as wide as a block, no more
-//! than what the map's own tiles take that the scan is going to write to. Of the others in the rectangle around the scan there is a
-//! number each, half of what the map's directory has for them.
+//! Marks are kept in blocks, a byte a cell, and only for blocks that a beam goes through: no more memory than the tiles of the map that
+//! the scan is going to write to. Every other block of the rectangle around the scan costs one number.
 
 use super::CellRect;
 use crate::geometry::Pose2;
@@ -127,7 +126,7 @@ impl RayTrace {
         cursor.first = self.open(cursor.block);
     }
 
-    /// RayTrace the cells from `a` up to, but not including, the one of `b` (both in cells): the traversal of Amanatides and
+    /// Marks the cells from `a` up to, but not including, the one of `b` (both in cells): the traversal of Amanatides and
     /// Woo (1987).
     fn pass(&mut self, a: [f64; 2], b: [f64; 2]) {
         let cell = a.map(|c| c.floor() as i32);

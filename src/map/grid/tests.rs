@@ -8,7 +8,7 @@ const MODEL: GridModel = GridModel {
     ndt_std: 0.1,
     ndt_stretch: 1.0,
     lag: 0,
-    reach: 0,
+    distance_reach: 0,
 };
 
 fn one_beam(range: f64) -> Scan {
@@ -97,7 +97,7 @@ fn the_marks_of_a_scan_take_no_more_than_the_tiles_that_it_maps() {
     for cell_size in [0.02, 0.2] {
         for range in [0.5, 81.9, 200.0] {
             let scan = BeamSensor::panorama(361, 2.0 * range, 0.0).scan(&[range; 361]);
-            let (pose, model) = (Pose2::new(3.0, -2.0, 0.3), GridModel { cell_size, reach: 2, ..MODEL });
+            let (pose, model) = (Pose2::new(3.0, -2.0, 0.3), GridModel { cell_size, distance_reach: 2, ..MODEL });
             let mut grid = Grid::<4>::new(model);
             grid.assimilate(&pose, &scan, &());
             let [marked, mapped] =
@@ -137,8 +137,8 @@ fn fingerprint<'a, const CELLS_PER_NDT: usize>(grids: impl IntoIterator<Item = &
 /// What a golden file rests on. Two hits of one cell that differ by a millimetre leave all log-odds alike; a hit on a settled wall
 /// changes a cell only; an NDT cell near an NDT cell differs from one that is not.
 #[test]
-fn the_fingerprint_of_maps_sees_every_cell_and_every_surface_of_every_one() {
-    let model = GridModel { reach: 2, ..MODEL };
+fn the_fingerprint_of_maps_sees_every_cell_and_every_distribution_of_every_one() {
+    let model = GridModel { distance_reach: 2, ..MODEL };
     let grid_of = |model, ranges: &[f64]| {
         let mut grid = Grid::<2>::new(model);
         ranges.iter().for_each(|range| grid.assimilate(&Pose2::new(0.15, 0.15, 0.0), &one_beam(*range), &()));
@@ -147,7 +147,7 @@ fn the_fingerprint_of_maps_sees_every_cell_and_every_surface_of_every_one() {
     let base = grid_of(model, &[1.5]);
     let moved = grid_of(model, &[1.501]);
     let wider = grid_of(GridModel { ndt_std: 0.11, ..model }, &[1.5]);
-    let unmarked = grid_of(GridModel { reach: 1, ..model }, &[1.5]);
+    let unmarked = grid_of(GridModel { distance_reach: 1, ..model }, &[1.5]);
     let louder = grid_of(GridModel { log_odds_hit: 0.95, ..model }, &[1.5]);
     let cells = base.bounds();
     for other in [&moved, &wider, &unmarked] {
@@ -165,7 +165,7 @@ fn the_fingerprint_of_maps_sees_every_cell_and_every_surface_of_every_one() {
 }
 
 #[test]
-fn a_surface_has_the_moments_of_its_hits() {
+fn a_distribution_has_the_moments_of_its_hits() {
     let mut tile = tile::Tile::<1>::default();
     let hits = [[0.01_f32, 0.02], [-0.05, 0.1], [0.07, -0.03], [0.0, 0.04]];
     for hit in hits {
@@ -187,7 +187,7 @@ fn a_surface_has_the_moments_of_its_hits() {
 }
 
 #[test]
-fn the_nearest_surface_is_that_of_all_cells_around() {
+fn the_nearest_distribution_is_that_of_all_cells_around() {
     let mut grid = Grid::<1>::new(MODEL);
     grid.assimilate(&Pose2::new(2.0, 1.0, 0.3), &BeamSensor::panorama(90, 8.0, 0.0).scan(&[1.7; 90]), &());
     for k in 0..4000 {
@@ -216,7 +216,7 @@ fn floor_is_floor() {
 }
 
 #[test]
-fn a_stretched_surface_makes_a_row_of_squares_one_wall() {
+fn stretched_distributions_make_a_row_of_cells_one_wall() {
     // A wall along y = 2.05, seen evenly; then points on it, and 5 cm off it.
     let scan = Scan { hits: (0..400).map(|k| [-2.0 + 0.01 * f64::from(k), 2.05]).collect(), misses: Vec::new() };
     let least_and_most = |ndt_stretch: f64, off: f64| {

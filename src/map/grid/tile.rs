@@ -1,8 +1,8 @@
-//! A tile of 8 × 8 NDT cells, each with its square of cells: the unit that is shared and copied.
+//! A tile of 8 × 8 NDT cells, each a block of occupancy cells: the unit that is shared and copied.
 
 use core::hash::Hasher;
 
-/// NdtField along a side of a tile.
+/// NDT cells along a side of a tile.
 pub(super) const TILE: i32 = 1 << SHIFT;
 
 /// log₂ of [`TILE`].
@@ -29,10 +29,10 @@ const SETTLED: u32 = 64;
 /// Pseudo-hits every NDT cell begins with, so that one hit is a round blob and not a point.
 const PSEUDO_HITS: f32 = 2.0;
 
-/// NDT cells away at which an NDT cell is not felt any more.
+/// Distance of a place that no hit is near \[NDT cells\]: the end of the distance field.
 pub(crate) const MAX_DISTANCE: usize = 3;
 
-/// Normal distribution of the end points in one NDT cell (Biber and Straßer 2003), relative to its centre.
+/// Normal distribution of the end points that fell into one NDT cell (Biber and Straßer 2003), relative to its centre.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(super) struct NdtCell {
     /// End points seen.
@@ -41,7 +41,7 @@ pub(super) struct NdtCell {
     pub mean: [f32; 2],
     /// Sums of squared deviations (xx, xy, yy) \[m²\].
     scatter: [f32; 3],
-    /// Σ′⁻¹ (xx, xy, yy) \[m⁻²\]: Σ′ is Σ = (scatter + n₀ σ₀² I) / (hits + n₀), stretched along the NDT cell.
+    /// Σ′⁻¹ (xx, xy, yy) \[m⁻²\]: Σ′ is Σ = (scatter + n₀ σ₀² I) / (hits + n₀), stretched along the wall.
     pub information: [f32; 3],
 }
 
@@ -59,7 +59,7 @@ impl NdtCell {
         let (prior, weight) = (PSEUDO_HITS * ndt_std * ndt_std, 1.0 / (n + PSEUDO_HITS));
         let (xx, xy, yy) =
             ((self.scatter[0] + prior) * weight, self.scatter[1] * weight, (self.scatter[2] + prior) * weight);
-        // Σ′ = λ I + s² (Σ − λ I), with λ the smaller eigenvalue of Σ: what lies across the NDT cell stays as it is.
+        // Σ′ = λ I + s² (Σ − λ I), with λ the smaller eigenvalue of Σ: across the wall nothing is stretched.
         let half = 0.5 * (xx - yy);
         let across = 0.5 * (xx + yy) - (half * half + xy * xy).sqrt();
         let (times, rest) = (stretch * stretch, (stretch * stretch - 1.0) * across);
@@ -68,7 +68,7 @@ impl NdtCell {
         self.information = [yy / det, -xy / det, xx / det];
     }
 
-    /// (p − mean)ᵀ Σ⁻¹ (p − mean) of a point relative to the centre of the cell \[m\].
+    /// (p − mean)ᵀ Σ⁻¹ (p − mean) of a point relative to the centre of the NDT cell \[m\].
     #[inline]
     pub fn mahalanobis2(&self, x: f32, y: f32) -> f32 {
         mahalanobis2(self.mean, self.information, x, y)
@@ -82,15 +82,15 @@ pub(super) fn mahalanobis2(mean: [f32; 2], [xx, xy, yy]: [f32; 3], x: f32, y: f3
     xx * dx * dx + 2.0 * xy * dx * dy + yy * dy * dy
 }
 
-/// Log-odds of every cell, and NDT cells of the NDT cells that were hit.
+/// Log-odds of every occupancy cell, and the distributions of the NDT cells that were hit.
 #[derive(Clone, Debug)]
 pub(super) struct Tile<const CELLS_PER_NDT: usize> {
     /// In [`UNIT`]s; 0 is unknown. By NDT cell, then by row and column in it.
     pub log_odds: [[[i8; CELLS_PER_NDT]; CELLS_PER_NDT]; NDT_CELLS],
-    /// One more than the place of an NDT cell's NDT cell in `NDT cells`; for an NDT cell that was never hit, 0, or 256 minus how many
-    /// NDT cells away the nearest NDT cell is, where that is marked.
+    /// By NDT cell: one more than the place of its distribution in `ndt_cells`. For one that was never hit it is 256 minus its distance
+    /// from the nearest that was, or 0 where none is near.
     places: [u8; NDT_CELLS],
-    /// NdtField in the order in which NDT cells were first hit: walls are few, so a tile stays small.
+    /// Distributions in the order in which their NDT cells were first hit: walls are few, so a tile stays small.
     ndt_cells: Vec<NdtCell>,
 }
 
@@ -108,15 +108,15 @@ impl<const CELLS_PER_NDT: usize> Default for Tile<CELLS_PER_NDT> {
 }
 
 impl<const CELLS_PER_NDT: usize> Tile<CELLS_PER_NDT> {
-    /// The same content in a dense array of NDT cells, each with its cells' log-odds and its NDT cell.
+    /// The same content in a dense array: for each NDT cell its occupancy cells and a distribution.
     pub const DENSE_BYTES: usize = NDT_CELLS * (CELLS_PER_NDT * CELLS_PER_NDT + size_of::<NdtCell>());
 
-    /// All NDT cells.
+    /// All distributions.
     pub fn ndt_cells(&self) -> &[NdtCell] {
         &self.ndt_cells
     }
 
-    /// Which of the NDT cells is that of an NDT cell.
+    /// Which of the distributions is that of an NDT cell.
     #[inline]
     pub fn place(&self, local: usize) -> Option<usize> {
         let place = self.places[local];
@@ -125,11 +125,11 @@ impl<const CELLS_PER_NDT: usize> Tile<CELLS_PER_NDT> {
 
     #[inline]
     pub fn ndt_cell(&self, local: usize) -> Option<&NdtCell> {
-        // Place 0 wraps to an index past any NDT cell: one comparison serves both questions.
+        // Place 0 wraps to an index past the end: one comparison serves both questions.
         self.ndt_cells.get(usize::from(self.places[local].wrapping_sub(1)))
     }
 
-    /// NDT cells to the nearest NDT cell: 0 in an NDT cell that was hit, [`MAX_DISTANCE`] where none is marked.
+    /// The distance field \[NDT cells\]: 0 where an end point fell, [`MAX_DISTANCE`] where none fell near.
     #[inline]
     pub fn distance(&self, local: usize) -> usize {
         let place = self.places[local];
@@ -140,10 +140,10 @@ impl<const CELLS_PER_NDT: usize> Tile<CELLS_PER_NDT> {
         }
     }
 
-    /// RayTrace that an NDT cell is so many NDT cells away, fewer than [`MAX_DISTANCE`].
-    pub fn lower_distance(&mut self, local: usize, squares: usize) {
-        if squares < self.distance(local) {
-            self.places[local] = (squares as u8).wrapping_neg();
+    /// Notes that a hit is no further away than this \[NDT cells\], which is less than [`MAX_DISTANCE`].
+    pub fn lower_distance(&mut self, local: usize, distance: usize) {
+        if distance < self.distance(local) {
+            self.places[local] = (distance as u8).wrapping_neg();
         }
     }
 
@@ -177,8 +177,8 @@ impl<const CELLS_PER_NDT: usize> Tile<CELLS_PER_NDT> {
     }
 }
 
-/// What a tile with so many NDT cells holds, as on a 64-bit machine: a byte a cell, one an NDT cell, the vector's three words, and
-/// the NDT cells.
+/// Bytes of a tile with so many distributions, as on a 64-bit machine: a byte an occupancy cell, one an NDT cell, the vector's three
+/// words, and the distributions.
 pub(super) fn bytes<const CELLS_PER_NDT: usize>(ndt_cells: usize) -> usize {
     NDT_CELLS * (CELLS_PER_NDT * CELLS_PER_NDT + 1) + 3 * 8 + ndt_cells * size_of::<NdtCell>()
 }

@@ -39,7 +39,7 @@ impl<const W: usize> Default for Shared<W> {
     }
 }
 
-/// Of a pointer \[bytes\]: as on a 64-bit machine everywhere, so that a page shows the footprint of the native build.
+/// Of a pointer \[bytes\]: as on a 64-bit machine everywhere: the same footprint on every platform.
 const POINTER: u64 = 8;
 
 impl<const W: usize> Shared<W> {

@@ -31,7 +31,7 @@ fn one_step_by<S>(matcher: Matcher, search: S) -> OneStep<S> {
     let motion = OdometryModel { alphas: ALPHAS }.scaled(0.2);
     let world = LapWorld::new(5, &motion, 0.02);
     // What a lattice of starts looks at is kept too.
-    let mut map = Grid::new(GridModel { reach: 2, ..GRID });
+    let mut map = Grid::new(GridModel { distance_reach: 2, ..GRID });
     for (pose, scan) in &world.start_scans {
         map.assimilate(pose, scan, &());
     }

@@ -119,7 +119,7 @@ fn corridor_of_a_log(seed: u32, angle: f64) -> Option<Judged> {
         log_odds_pass: -0.4,
         ndt_std: 0.06,
         ndt_stretch: log::NDT_STRETCH,
-        reach: 2,
+        distance_reach: 2,
         ..lap::GRID
     };
     corridor::<_, { log::CELLS_PER_NDT }>(from_scan, model, 0.4, seed, angle).judged(seed)
