@@ -1,4 +1,9 @@
 //! Who computes: one map over the slots of a population, serial or on threads. The results never differ.
+//!
+//! Feature `parallel`, which is on by default, compiles threads in. Features add up over a tree of dependencies, so whatever one crate
+//! asks for must not take threads from another: natively they are the default wherever `parallel` is on. Feature
+//! `single-threaded` speaks of WebAssembly alone, where a program that compiles threads in may still have to run on a page
+//! without them: there it makes [`Executor::Serial`] the default. Each filter can be given the other executor.
 
 /// Runs one function over all slots.
 ///
@@ -14,11 +19,12 @@ pub enum Executor {
 }
 
 impl Default for Executor {
-    /// rayon where feature `parallel` is on and `single-threaded` is not.
+    /// rayon where feature `parallel` is on; but on WebAssembly, with `single-threaded`, serial.
     fn default() -> Self {
-        #[cfg(all(feature = "parallel", not(feature = "single-threaded")))]
-        return Self::Rayon;
-        #[cfg(not(all(feature = "parallel", not(feature = "single-threaded"))))]
+        #[cfg(feature = "parallel")]
+        if !cfg!(all(target_arch = "wasm32", feature = "single-threaded")) {
+            return Self::Rayon;
+        }
         Self::Serial
     }
 }
@@ -34,5 +40,18 @@ impl Executor {
                 items.par_iter_mut().enumerate().map(|(slot, item)| f(slot, item)).collect()
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whatever else is on: `npm test` compiles the workspace with `single-threaded` as well, for the figures.
+    #[test]
+    #[cfg(not(target_arch = "wasm32"))]
+    fn natively_threads_are_the_default_wherever_they_are_compiled_in() {
+        let expected = if cfg!(feature = "parallel") { "Rayon" } else { "Serial" };
+        assert_eq!(format!("{:?}", Executor::default()), expected);
     }
 }
