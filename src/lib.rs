@@ -1,15 +1,16 @@
 //! FastSLAM and Rao-Blackwellization: particle filters over paths, each particle towing a map it can compute exactly.
 //!
 //! Modules are the mathematics, in the order in which they depend on each other:
-//! [`ops`] → [`random`] → [`geometry`] → [`motion`], [`sensor`] → [`map`] → [`matching`] → [`proposal`] → [`rbpf`] →
-//! [`experiment`]. [`exact`] has what a filter only approximates, for tests and figures to hold it against. [`world`] is the
-//! truth, which only experiments may ask.
+//! [`ops`] → [`random`] → [`geometry`] → [`motion`], [`sensor`] → [`map`] → [`matching`] → [`proposal`] → [`rbpf`].
 //!
 //! Every result is meant to be the same to the last bit on every platform, with any number of threads: see [`ops`], [`random`]
 //! and [`execute`]. Tested are native builds on x86-64 and WebAssembly in Chromium.
 
-/// The linear algebra of this crate’s interface.
+/// The linear algebra of this crate’s interface: covariances, Jacobians and landmarks are its fixed-size matrices. Taken from here it is the
+/// version that they are made of.
 pub use nalgebra;
+/// The generators and distributions of random numbers: a [`Stream`](random::Stream) is a generator by the traits of this version.
+pub use rand;
 
 pub mod error;
 pub mod execute;

@@ -6,7 +6,8 @@
 //! one figure share their world, and the order in which threads reach the particles does not matter.
 
 use crate::ops;
-use rand::RngExt;
+use core::convert::Infallible;
+use rand::{RngExt, TryRng};
 use rand_pcg::Pcg64;
 
 /// What a stream is drawn for: streams of different purposes are independent.
@@ -34,6 +35,26 @@ impl Purpose {
 /// A stream of random numbers at one address.
 ///
 /// PCG-XSL-RR 128/64 (O'Neill 2014) of `rand_pcg`; the address is hashed into both its state and its stream number.
+///
+/// A stream is a generator of [`rand`], by its traits [`TryRng`] and so [`rand::Rng`]: any distribution can draw from it. How many
+/// `u64`s that takes, and whether the same bits come out on every platform, is then the distribution's matter: those with
+/// logarithms and the like of the standard library differ from one to the other.
+///
+/// ```
+/// use fastslam::random::{Purpose, Stream};
+/// use fastslam::rand::distr::{Bernoulli, Distribution, Uniform};
+/// use fastslam::rand::seq::SliceRandom;
+///
+/// const OUTLIERS: Purpose = Purpose::new(100);
+/// let mut stream = Stream::at(1, OUTLIERS, 0, 0);
+/// let range = Uniform::new(0.5, 8.0)?.sample(&mut stream);
+/// assert!((0.5..8.0).contains(&range));
+/// let struck = Bernoulli::new(0.05)?.sample_iter(&mut stream).take(1000).filter(|hit| *hit).count();
+/// assert!((20..80).contains(&struck));
+/// let mut order = [0, 1, 2, 3];
+/// order.shuffle(&mut stream);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Stream(Pcg64);
 
@@ -66,6 +87,22 @@ impl Stream {
     }
 }
 
+impl TryRng for Stream {
+    type Error = Infallible;
+
+    fn try_next_u32(&mut self) -> Result<u32, Infallible> {
+        self.0.try_next_u32()
+    }
+
+    fn try_next_u64(&mut self) -> Result<u64, Infallible> {
+        self.0.try_next_u64()
+    }
+
+    fn try_fill_bytes(&mut self, bytes: &mut [u8]) -> Result<(), Infallible> {
+        self.0.try_fill_bytes(bytes)
+    }
+}
+
 /// SplitMix64 (Steele, Lea, Flood 2014) as a small hash: absorb words, squeeze words.
 struct Hash(u64);
 
@@ -92,6 +129,20 @@ mod tests {
         let mut stream = Stream::at(3, Purpose::PROPOSAL, 7, 11);
         assert_eq!(stream.uniform().to_bits(), 0x3fae_3b78_09f5_7d80);
         assert_eq!(stream.normal().to_bits(), 0x3fea_3a43_80d1_bddb);
+    }
+
+    /// What is drawn through the traits and by the stream's own functions comes from one sequence.
+    #[test]
+    fn as_a_generator_of_rand_it_gives_its_own_numbers() {
+        let [mut own, mut generator] = [(); 2].map(|()| Stream::at(3, Purpose::PROPOSAL, 7, 11));
+        for _ in 0..9 {
+            // The upper 53 bits of a `u64`.
+            let expected = (rand::Rng::next_u64(&mut generator) >> 11) as f64 / (1_u64 << 53) as f64;
+            assert_eq!(own.uniform(), expected);
+        }
+        let mut bytes = [0; 8];
+        rand::Rng::fill_bytes(&mut own, &mut bytes);
+        assert_eq!(u64::from_le_bytes(bytes), rand::Rng::next_u64(&mut generator));
     }
 
     /// n = 40 000 addresses, each against its neighbours of five kinds, the first draw of the one against the first and the second
