@@ -1,6 +1,7 @@
 //! `fastslam landmarks`: FastSLAM 1.0 and 2.0 on simulated courses and recorded logs.
 
-use crate::{Failure, mrclam, picture, print, print_json, progress};
+use crate::{mrclam, picture, print, print_json, progress};
+use anyhow::Result;
 use fastslam::resampling::ResamplePolicy;
 use fastslam_lab::experiment::ErrorSummary;
 use fastslam_lab::experiment::ProposalKind;
@@ -23,8 +24,8 @@ pub struct Arguments {
     #[arg(long, default_value_t = LandmarkSetup::default().seed)]
     seed: u64,
     /// FastSLAM 1.0 (poses from the motion model) or 2.0 (from the measurement too)
-    #[arg(long, default_value = "2.0")]
-    proposal: Version,
+    #[arg(long, default_value = "2.0", value_parser = version)]
+    proposal: ProposalKind,
     /// Whether the filter may read which landmark it sees: known or unknown
     #[arg(long, default_value_t = LandmarkSetup::default().correspondence)]
     association: CorrespondenceKind,
@@ -49,18 +50,12 @@ pub struct Arguments {
     png: Option<PathBuf>,
 }
 
-#[derive(Clone, Copy)]
-struct Version(ProposalKind);
-
-impl std::str::FromStr for Version {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        match text {
-            "1.0" => Ok(Self(ProposalKind::Motion)),
-            "2.0" => Ok(Self(ProposalKind::Improved)),
-            _ => Err("must be 1.0 or 2.0".to_owned()),
-        }
+/// The proposal of a version of FastSLAM.
+fn version(text: &str) -> Result<ProposalKind, &'static str> {
+    match text {
+        "1.0" => Ok(ProposalKind::Motion),
+        "2.0" => Ok(ProposalKind::Improved),
+        _ => Err("must be 1.0 or 2.0"),
     }
 }
 
@@ -137,7 +132,7 @@ impl Source {
 }
 
 /// Runs the command.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+pub fn run(arguments: &Arguments) -> Result<()> {
     let source = match &arguments.mrclam {
         Some(prefix) => Source::Recorded(Arc::new(mrclam::read(prefix)?)),
         None => Source::Simulated(arguments.course),
@@ -145,7 +140,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let setup = |seed| LandmarkSetup {
         particles: arguments.particles,
         seed,
-        proposal: arguments.proposal.0,
+        proposal: arguments.proposal,
         correspondence: arguments.association,
         policy: arguments.policy,
         ..LandmarkSetup::default()
@@ -165,7 +160,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
                 Source::Simulated(_) => None,
             };
             let seeds: Vec<u64> = (1..=seeds).collect();
-            let errors: Result<Vec<Errors>, _> = seeds
+            let errors: Result<Vec<Errors>> = seeds
                 .par_iter()
                 .progress_with(progress(seeds.len(), "runs"))
                 .map(|seed| {
@@ -173,7 +168,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
                     while run.step().is_some() {}
                     let rms_ekf = recorded.unwrap_or_else(|| run.rms_ekf(&setup(*seed), &source.tuning()));
                     let path = [run.rms_best(), run.rms_best_aligned(), run.rms_odometry()];
-                    Ok::<_, Failure>(Errors { online: run.rms_online(), ekf: rms_ekf, path })
+                    Ok(Errors { online: run.rms_online(), ekf: rms_ekf, path })
                 })
                 .collect();
             many(arguments, &errors?, source.noises())
@@ -189,7 +184,7 @@ struct Errors {
     path: [f64; 3],
 }
 
-fn one(arguments: &Arguments, mut run: LandmarkRun, rms_ekf: f64, noises: &'static str) -> Result<(), Failure> {
+fn one(arguments: &Arguments, mut run: LandmarkRun, rms_ekf: f64, noises: &'static str) -> Result<()> {
     let mut steps = Vec::new();
     while let Some(report) = run.step() {
         steps.push(report);
@@ -239,7 +234,7 @@ fn one(arguments: &Arguments, mut run: LandmarkRun, rms_ekf: f64, noises: &'stat
     ))
 }
 
-fn many(arguments: &Arguments, errors: &[Errors], noises: &'static str) -> Result<(), Failure> {
+fn many(arguments: &Arguments, errors: &[Errors], noises: &'static str) -> Result<()> {
     let spread = |of: &dyn Fn(&Errors) -> f64| ErrorSummary::of(&errors.iter().map(of).collect::<Vec<f64>>());
     let summary = Summary {
         seeds: errors.len(),

@@ -1,6 +1,7 @@
 //! `fastslam lap`: one lap of the apartment, or of the ring.
 
-use crate::{Failure, picture, print, print_json};
+use crate::{Usage, picture, print, print_json};
+use anyhow::{Result, bail};
 use fastslam::matching::Matcher;
 use fastslam::resampling::{ResamplePolicy, Scheme};
 use fastslam_lab::experiment::ProposalKind;
@@ -15,12 +16,25 @@ pub struct Arguments {
     /// Where: apartment (out along its corridor and back), or ring (round a block, with a laser that sees 3 m)
     #[arg(long, default_value_t = LapSetup::default().course)]
     course: Course,
-    /// Number of particles M, 1 to 4096
-    #[arg(long, value_name = "M", default_value_t = LapSetup::default().particles)]
-    particles: usize,
     /// Seed of the world's noise and of the filter's
     #[arg(long, default_value_t = LapSetup::default().seed)]
     seed: u64,
+    #[command(flatten)]
+    options: Options,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+    /// Paint the end of the lap, as the page would, into this file: of the apartment only
+    #[arg(long, value_name = "FILE")]
+    png: Option<PathBuf>,
+}
+
+/// What can be set of any lap: those of `fastslam ring` as well.
+#[derive(clap::Args)]
+pub struct Options {
+    /// Number of particles M, 1 to 4096
+    #[arg(long, value_name = "M", default_value_t = LapSetup::default().particles)]
+    pub particles: usize,
     /// Where new poses are drawn from: aware (of the scan) or motion
     #[arg(long, default_value_t = LapSetup::default().proposal)]
     proposal: ProposalKind,
@@ -29,22 +43,24 @@ pub struct Arguments {
     matcher: Matcher,
     /// When to resample: never, always or neff:F, where N_eff < F M
     #[arg(long, default_value_t = LapSetup::default().policy)]
-    policy: ResamplePolicy,
+    pub policy: ResamplePolicy,
     /// How to resample: systematic, stratified, multinomial or residual
     #[arg(long, default_value_t = LapSetup::default().scheme)]
-    scheme: Scheme,
+    pub scheme: Scheme,
     /// Factor on the standard deviations of the odometry's noise, 0 to 10
     #[arg(long, value_name = "FACTOR", default_value_t = LapSetup::default().odometry_scale, allow_negative_numbers = true)]
     odometry: f64,
     /// Standard deviation of a range [m], 0 to 1
     #[arg(long, value_name = "METRES", default_value_t = LapSetup::default().range_std, allow_negative_numbers = true)]
     range_std: f64,
-    /// Print one JSON object
-    #[arg(long)]
-    json: bool,
-    /// Paint the end of the lap, as the page would, into this file: of the apartment only
-    #[arg(long, value_name = "FILE")]
-    png: Option<PathBuf>,
+}
+
+impl Options {
+    /// The lap of a seed.
+    pub fn setup(&self, course: Course, seed: u64) -> LapSetup {
+        let &Self { particles, proposal, matcher, policy, scheme, odometry, range_std } = self;
+        LapSetup { course, particles, seed, proposal, matcher, policy, scheme, odometry_scale: odometry, range_std }
+    }
 }
 
 /// What `--json` prints.
@@ -64,21 +80,11 @@ struct Output {
 }
 
 /// Runs the command.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+pub fn run(arguments: &Arguments) -> Result<()> {
     if arguments.png.is_some() && arguments.course != Course::Apartment {
-        return Err(Failure::Usage(format!("--png: the figure has no course {}", arguments.course)));
+        bail!(Usage(format!("--png: the figure has no course {}", arguments.course)));
     }
-    let setup = LapSetup {
-        course: arguments.course,
-        particles: arguments.particles,
-        seed: arguments.seed,
-        proposal: arguments.proposal,
-        matcher: arguments.matcher,
-        policy: arguments.policy,
-        scheme: arguments.scheme,
-        odometry_scale: arguments.odometry,
-        range_std: arguments.range_std,
-    };
+    let setup = arguments.options.setup(arguments.course, arguments.seed);
     let lap = Lap::new(&setup)?;
     if let Some(path) = &arguments.png {
         paint(&setup, path)?;
@@ -124,7 +130,7 @@ fn summary(setup: &LapSetup, output: &Output) -> String {
 }
 
 /// Paints the figure `<fastslam-lap>` at the end of this lap.
-fn paint(setup: &LapSetup, path: &Path) -> Result<(), Failure> {
+fn paint(setup: &LapSetup, path: &Path) -> Result<()> {
     let mut figure = Figure::new("fastslam-lap")?;
     let (policy, threshold) = match setup.policy {
         ResamplePolicy::Never => ("never", None),

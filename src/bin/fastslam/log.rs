@@ -1,6 +1,7 @@
 //! `fastslam log`: a recorded log, mapped; `fastslam example-log`: one of our own.
 
-use crate::{Failure, picture, print, print_json, progress};
+use crate::{Usage, in_file, picture, print, print_json, progress};
+use anyhow::{Context, Result, bail};
 use cpu_time::ProcessTime;
 use fastslam::geometry::Pose2;
 use fastslam::log::{
@@ -90,7 +91,7 @@ struct Output {
 }
 
 /// Runs the command.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+pub fn run(arguments: &Arguments) -> Result<()> {
     let log = read(&arguments.file, arguments.lenient)?;
     let relations = match &arguments.relations {
         Some(path) => Some(parse_relations(&bytes_of(path)?).map_err(|error| what(path, error))?),
@@ -103,7 +104,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         let count = relations.len();
         let message =
             format_args!("none of its {count} relations is within the time of the log: are they of another one?");
-        return Err(Failure::usage_of(path, message));
+        bail!(Usage::of_file(path, message));
     }
     let setup = LogSetup {
         particles: arguments.particles,
@@ -156,9 +157,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// Writes the example.
-pub fn example(arguments: &ExampleArguments) -> Result<(), Failure> {
+pub fn example(arguments: &ExampleArguments) -> Result<()> {
     let example = Example::new(usize::MAX);
-    let save = |path: &Path, text: &str| std::fs::write(path, text).map_err(|error| Failure::file(path, error));
+    let save = |path: &Path, text: &str| std::fs::write(path, text).with_context(in_file(path));
     let heading =
         "# A simulated building of our own, free to use. CARMEN log: raw odometry, 180 beams over 180 deg, metres.\n";
     save(&arguments.file, &(heading.to_owned() + &write(&example.log)))?;
@@ -172,24 +173,24 @@ pub fn example(arguments: &ExampleArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
-    std::fs::read(path).map_err(|error| Failure::file(path, error))
+fn bytes_of(path: &Path) -> Result<Vec<u8>> {
+    std::fs::read(path).with_context(in_file(path))
 }
 
-fn what(path: &Path, error: LogError) -> Failure {
+fn what(path: &Path, error: LogError) -> Usage {
     // Line 0 is the file as a whole.
-    if error.line == 0 { Failure::usage_of(path, error.message) } else { Failure::usage_of(path, error) }
+    if error.line == 0 { Usage::of_file(path, error.message) } else { Usage::of_file(path, error) }
 }
 
 /// Reads a log, which may be compressed, and says on standard error what of it is not used.
-fn read(path: &Path, lenient: bool) -> Result<LaserLog, Failure> {
+fn read(path: &Path, lenient: bool) -> Result<LaserLog> {
     /// Most bytes that are unpacked: a small file may hold any number of zeros.
     const MOST: u64 = 4 << 30;
     let mut bytes = bytes_of(path)?;
     if bytes.starts_with(&[0x1f, 0x8b]) {
         let mut unpacked = Vec::new();
         let unpack = flate2::read::MultiGzDecoder::new(&bytes[..]).take(MOST).read_to_end(&mut unpacked);
-        unpack.map_err(|error| Failure::usage_of(path, format_args!("cannot be unpacked: {error}")))?;
+        unpack.map_err(|error| Usage::of_file(path, format_args!("cannot be unpacked: {error}")))?;
         bytes = unpacked;
     }
     let log = parse(&bytes, lenient).map_err(|error| what(path, error))?;
@@ -266,7 +267,7 @@ struct Outputs {
 
 impl Outputs {
     /// Creates them, empty.
-    fn open(arguments: &Arguments) -> Result<Self, Failure> {
+    fn open(arguments: &Arguments) -> Result<Self> {
         let named = |name: &PathBuf| {
             ["png", "pgm", "yaml"].map(|extension| {
                 let mut file = name.clone().into_os_string();
@@ -277,13 +278,13 @@ impl Outputs {
         };
         let outputs = Self { trajectory: arguments.trajectory.clone(), map: arguments.map.as_ref().map(named) };
         for path in outputs.trajectory.iter().chain(outputs.map.iter().flatten()) {
-            std::fs::File::create(path).map_err(|error| Failure::file(path, error))?;
+            std::fs::File::create(path).with_context(in_file(path))?;
         }
         Ok(outputs)
     }
 
-    fn write(&self, run: &LogRun, path: &[(f64, Pose2)]) -> Result<(), Failure> {
-        let save = |path: &Path, bytes: &[u8]| std::fs::write(path, bytes).map_err(|error| Failure::file(path, error));
+    fn write(&self, run: &LogRun, path: &[(f64, Pose2)]) -> Result<()> {
+        let save = |path: &Path, bytes: &[u8]| std::fs::write(path, bytes).with_context(in_file(path));
         if let Some(file) = &self.trajectory {
             save(file, write_tum(&run.path()).as_bytes())?;
         }

@@ -11,9 +11,13 @@ mod ring;
 mod table;
 mod variants;
 
-use clap::Parser;
+use anyhow::{Context, Result};
+use clap::{CommandFactory, Parser};
 use fastslam::error::SettingError;
 use fastslam_widgets::model::FigureError;
+use std::fmt::Display;
+use std::io::{ErrorKind, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 /// Rao-Blackwellized particle filters for SLAM: the chapter's laps and tables, native and with the same bits as in the browser.
@@ -40,58 +44,33 @@ enum Command {
     Variants(variants::Arguments),
 }
 
-/// Why a command ended early, in one line.
-enum Failure {
-    /// The arguments cannot be used: exit status 2.
-    Usage(String),
-    /// They can, but something else failed: exit status 1.
-    Run(String),
-}
+/// What was asked for cannot be done as it was asked: exit status 2, where any other failure is 1.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+struct Usage(String);
 
-impl Failure {
-    /// What the system said of a file.
-    fn file(path: &std::path::Path, error: impl std::fmt::Display) -> Self {
-        Self::Run(format!("{}: {error}", path.display()))
-    }
-
+impl Usage {
     /// What is wrong with what a file says.
-    fn usage_of(path: &std::path::Path, what: impl std::fmt::Display) -> Self {
-        Self::Usage(format!("{}: {what}", path.display()))
-    }
-}
-
-impl From<SettingError> for Failure {
-    fn from(error: SettingError) -> Self {
-        Self::Usage(error.to_string())
-    }
-}
-
-impl From<FigureError> for Failure {
-    fn from(error: FigureError) -> Self {
-        Self::Usage(error.to_string())
+    fn of_file(path: &Path, what: impl Display) -> Self {
+        Self(format!("{}: {what}", path.display()))
     }
 }
 
 fn main() -> ExitCode {
-    let failure = match Arguments::try_parse() {
-        Err(message) if message.use_stderr() => Failure::Usage(one_line(&message)),
+    let result = match Arguments::try_parse() {
+        Err(message) if message.use_stderr() => Err(Usage(one_line(&message)).into()),
         Err(message) => message.exit(), // what was asked for: help or version
-        Ok(arguments) => match run(arguments) {
-            Ok(()) => return ExitCode::SUCCESS,
-            Err(failure) => failure,
-        },
+        Ok(arguments) => run(arguments),
     };
-    let (message, status) = match failure {
-        Failure::Usage(message) => (message, 2),
-        Failure::Run(message) => (message, 1),
-    };
-    eprintln!("fastslam: {message}");
-    ExitCode::from(status)
+    let Err(error) = result else { return ExitCode::SUCCESS };
+    eprintln!("fastslam: {error:#}");
+    let usage = error.is::<Usage>() || error.is::<SettingError>() || error.is::<FigureError>();
+    ExitCode::from(if usage { 2 } else { 1 })
 }
 
-fn run(arguments: Arguments) -> Result<(), Failure> {
+fn run(arguments: Arguments) -> Result<()> {
     let threads = arguments.threads.map_or(0, usize::from); // 0: as many as there are processors
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| Failure::Run(e.to_string()))?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     pool.install(|| match arguments.command {
         Command::Lap(arguments) => lap::run(&arguments),
         Command::Log(arguments) => log::run(&arguments),
@@ -108,8 +87,10 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
 /// What clap says before it advises, in one line.
 fn one_line(message: &clap::Error) -> String {
     if message.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "a command is missing: lap, log, example-log, landmarks, numbers, policies, ring, table or variants (fastslam --help explains)"
-            .to_owned();
+        let command = Arguments::command();
+        let names = command.get_subcommands().map(clap::Command::get_name).collect::<Vec<_>>().join(", ");
+        let (others, last) = names.rsplit_once(", ").unwrap_or_default();
+        return format!("a command is missing: {others} or {last} (fastslam --help explains)");
     }
     let text = message.to_string();
     let said =
@@ -125,17 +106,20 @@ fn progress(count: usize, what: &str) -> indicatif::ProgressBar {
     indicatif::ProgressBar::new(count as u64).with_style(style)
 }
 
+/// What failed with a file: its name, for [`Context`].
+fn in_file(path: &Path) -> impl FnOnce() -> String {
+    || path.display().to_string()
+}
+
 /// Prints to standard output; a reader that has gone away is no error.
-fn print(text: &str) -> Result<(), Failure> {
-    use std::io::{ErrorKind, Write};
+fn print(text: &str) -> Result<()> {
     match std::io::stdout().write_all(text.as_bytes()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::Run(format!("standard output: {error}"))),
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(error).context("standard output"),
         _ => Ok(()),
     }
 }
 
 /// One JSON value to standard output.
-fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
-    let text = serde_json::to_string(value).map_err(|error| Failure::Run(error.to_string()))?;
-    print(&format!("{text}\n"))
+fn print_json(value: &impl serde::Serialize) -> Result<()> {
+    print(&(serde_json::to_string(value)? + "\n"))
 }

@@ -1,7 +1,8 @@
 //! Logs of the UTIAS multi-robot dataset (Leung, Halpern, Barfoot, Liu, IJRR 2011): one robot among landmarks with bar codes, and its
 //! true path by motion capture.
 
-use crate::Failure;
+use crate::{Usage, in_file};
+use anyhow::{Context, Result, bail};
 use fastslam::geometry::Pose2;
 use fastslam::map::landmarks::Gate;
 use fastslam::motion::{Velocity, VelocityModel};
@@ -36,7 +37,7 @@ const LONGEST_STEP: f64 = 0.5;
 
 /// Reads PREFIX-barcodes.dat, -landmarks.dat and -robot1-{odometry,measurement,groundtruth}.dat. PREFIX may name the robot:
 /// PREFIX-robot2.
-pub fn read(prefix: &Path) -> Result<LandmarkLog, Failure> {
+pub fn read(prefix: &Path) -> Result<LandmarkLog> {
     let text = prefix.to_string_lossy();
     let text = text.trim_end_matches('-');
     let (set, robot) = match text.rsplit_once("-robot") {
@@ -95,7 +96,7 @@ pub fn read(prefix: &Path) -> Result<LandmarkLog, Failure> {
         last = step(&mut log, time, look.iter().map(feature).collect());
     }
     if log.controls.is_empty() {
-        return Err(Failure::usage_of(prefix, "no measurement falls into the time of both odometry and ground truth"));
+        bail!(Usage::of_file(prefix, "no measurement falls into the time of both odometry and ground truth"));
     }
     Ok(log)
 }
@@ -127,17 +128,17 @@ fn pose_at(truth: &[[f64; 4]], time: f64) -> Pose2 {
 }
 
 /// A table whose first column is a time that never goes back.
-fn timed<const N: usize>(path: &Path, columns: [&str; N]) -> Result<Vec<[f64; N]>, Failure> {
+fn timed<const N: usize>(path: &Path, columns: [&str; N]) -> Result<Vec<[f64; N]>> {
     let rows = table(path, columns)?;
     match rows.windows(2).position(|pair| pair[1][0] < pair[0][0]) {
-        Some(k) => Err(Failure::usage_of(path, format_args!("times go back: {} after {}", rows[k + 1][0], rows[k][0]))),
+        Some(k) => bail!(Usage::of_file(path, format_args!("times go back: {} after {}", rows[k + 1][0], rows[k][0]))),
         None => Ok(rows),
     }
 }
 
 /// The rows of a file of numbers in columns; lines that begin with # are comments.
-fn table<const N: usize>(path: &Path, columns: [&str; N]) -> Result<Vec<[f64; N]>, Failure> {
-    let text = std::fs::read_to_string(path).map_err(|error| Failure::file(path, error))?;
+fn table<const N: usize>(path: &Path, columns: [&str; N]) -> Result<Vec<[f64; N]>> {
+    let text = std::fs::read_to_string(path).with_context(in_file(path))?;
     let mut rows = Vec::new();
     for (number, line) in (1..).zip(text.lines()) {
         if line.trim_start().starts_with('#') || line.trim().is_empty() {
@@ -149,12 +150,12 @@ fn table<const N: usize>(path: &Path, columns: [&str; N]) -> Result<Vec<[f64; N]
             Some(row) => rows.push(row),
             None => {
                 let expected = format_args!("line {number}: expected {N} numbers: {}", columns.join(", "));
-                return Err(Failure::usage_of(path, expected));
+                bail!(Usage::of_file(path, expected));
             }
         }
     }
     if rows.is_empty() {
-        return Err(Failure::usage_of(path, format_args!("no line with {N} numbers: {}", columns.join(", "))));
+        bail!(Usage::of_file(path, format_args!("no line with {N} numbers: {}", columns.join(", "))));
     }
     Ok(rows)
 }

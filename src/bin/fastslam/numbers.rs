@@ -1,13 +1,13 @@
 //! `fastslam numbers`: every measured number of the chapter, into the file that its prose takes them from.
 
-use crate::{Failure, progress};
+use crate::{Usage, in_file, progress};
+use anyhow::{Context, Result, bail};
 use fastslam::execute::Executor;
 use fastslam_lab::experiment::numbers::{Errors, FIRST_SEEDS, Number, Recipe, owner, recipes};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::to_string as json;
 use std::collections::BTreeMap;
-use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 /// Measure every number of the chapter, and write them by key
@@ -40,9 +40,9 @@ struct Properties<T> {
 
 impl<T: Serialize + DeserializeOwned> Properties<T> {
     /// What the file holds, where that is to be kept.
-    fn read(path: PathBuf, keep: bool) -> Result<Self, Failure> {
+    fn read(path: PathBuf, keep: bool) -> Result<Self> {
         let values = match std::fs::read_to_string(&path) {
-            Ok(text) if keep => serde_json::from_str(&text).map_err(|error| Failure::file(&path, error))?,
+            Ok(text) if keep => serde_json::from_str(&text).with_context(in_file(&path))?,
             _ => BTreeMap::new(),
         };
         Ok(Self { path, values })
@@ -57,22 +57,21 @@ impl<T: Serialize + DeserializeOwned> Properties<T> {
     }
 
     /// A line for each property, so that a change of one is seen as one.
-    fn write(&self) -> Result<(), Failure> {
-        let wrong = |error: &dyn Display| Failure::file(&self.path, error);
+    fn write(&self) -> Result<()> {
         let line = |(key, value)| Ok(format!("{}: {}", json(key)?, json(value)?));
-        let lines: Result<Vec<String>, serde_json::Error> = self.values.iter().map(line).collect();
-        let text = format!("{{\n{}\n}}\n", lines.map_err(|error| wrong(&error))?.join(",\n"));
-        std::fs::write(&self.path, text).map_err(|error| wrong(&error))
+        let lines: Result<Vec<String>> = self.values.iter().map(line).collect();
+        let text = format!("{{\n{}\n}}\n", lines.with_context(in_file(&self.path))?.join(",\n"));
+        std::fs::write(&self.path, text).with_context(in_file(&self.path))
     }
 }
 
 /// Runs the command.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+pub fn run(arguments: &Arguments) -> Result<()> {
     let (all, prefix) = (recipes(), arguments.only.as_deref().unwrap_or_default());
     let asked: Vec<&Recipe> =
         all.iter().filter(|recipe| recipe.name.starts_with(prefix) || recipe.could_own(prefix)).collect();
     if asked.is_empty() {
-        return Err(Failure::Usage(format!("--only {prefix}: no number begins so")));
+        bail!(Usage(format!("--only {prefix}: no number begins so")));
     }
     let beside = |name: &str| arguments.out.parent().unwrap_or(Path::new("")).join(name);
     let keep = arguments.only.is_some();

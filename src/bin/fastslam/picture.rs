@@ -1,6 +1,7 @@
 //! Pictures for files, by the painter of the figures.
 
-use crate::Failure;
+use crate::in_file;
+use anyhow::{Context, Result};
 use fastslam::geometry::Pose2;
 use fastslam::map::grid::MapImage;
 use fastslam::map::landmarks::Landmark;
@@ -80,17 +81,12 @@ pub fn of_landmarks(run: &LandmarkRun) -> Canvas {
 }
 
 /// Writes what was painted last as PNG.
-pub fn save(canvas: &Canvas, path: &Path) -> Result<(), Failure> {
-    let file = File::create(path).map_err(|error| Failure::file(path, error))?;
-    let [width, height] = canvas.size();
-    let mut encoder = png::Encoder::new(BufWriter::new(file), width, height);
-    encoder.set_color(png::ColorType::Rgba);
-    let write = |encoder: png::Encoder<'_, _>| encoder.write_header()?.write_image_data(canvas.pixels());
-    write(encoder).map_err(|error| Failure::file(path, error))
+pub fn save(canvas: &Canvas, path: &Path) -> Result<()> {
+    write_png(path, canvas.size(), png::ColorType::Rgba, canvas.pixels())
 }
 
 /// Writes a map with the path on it as PNG, one pixel a cell.
-pub fn save_map(map: &MapImage, path: &[(f64, Pose2)], file: &Path) -> Result<(), Failure> {
+pub fn save_map(map: &MapImage, path: &[(f64, Pose2)], file: &Path) -> Result<()> {
     /// Red, green, blue of the path.
     const PATH: [u8; 3] = [190, 60, 30];
     let [width, height] = [map.width, map.height].map(|side| side as usize);
@@ -111,10 +107,14 @@ pub fn save_map(map: &MapImage, path: &[(f64, Pose2)], file: &Path) -> Result<()
             }
         }
     }
-    let write = || {
-        let mut encoder = png::Encoder::new(BufWriter::new(File::create(file)?), map.width, map.height);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.write_header()?.write_image_data(&pixels)
+    write_png(file, [map.width, map.height], png::ColorType::Rgb, &pixels)
+}
+
+fn write_png(path: &Path, [width, height]: [u32; 2], colours: png::ColorType, pixels: &[u8]) -> Result<()> {
+    let write = || -> std::io::Result<()> {
+        let mut encoder = png::Encoder::new(BufWriter::new(File::create(path)?), width, height);
+        encoder.set_color(colours);
+        Ok(encoder.write_header()?.write_image_data(pixels)?)
     };
-    write().map_err(|error: png::EncodingError| Failure::file(file, error))
+    write().with_context(in_file(path))
 }

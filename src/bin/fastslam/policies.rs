@@ -1,6 +1,7 @@
 //! `fastslam policies`: when to resample, over many seeds.
 
-use crate::{Failure, print, print_json, progress};
+use crate::{print, print_json, progress};
+use anyhow::Result;
 use fastslam::resampling::Scheme;
 use fastslam_lab::experiment::policies::{PoliciesSetup, PolicyCourse};
 use fastslam_lab::experiment::policy_counts::{Fraction, PolicySummary, outcomes, summary};
@@ -43,7 +44,7 @@ struct Output {
 }
 
 /// Runs the command.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+pub fn run(arguments: &Arguments) -> Result<()> {
     let &Arguments { course, seeds, particles, threshold, .. } = arguments;
     let of_course = PoliciesSetup::of(course);
     let scheme = arguments.scheme.unwrap_or(of_course.scheme);

@@ -1,11 +1,10 @@
 //! `fastslam ring`: what a filter keeps until a loop closes, over many seeds.
 
-use crate::{Failure, print, print_json, progress};
+use crate::lap::Options;
+use crate::{print, print_json, progress};
+use anyhow::Result;
 use fastslam::error::SettingError;
-use fastslam::matching::Matcher;
-use fastslam::resampling::{ResamplePolicy, Scheme};
-use fastslam_lab::experiment::ProposalKind;
-use fastslam_lab::experiment::lap::{Course, LapSetup};
+use fastslam_lab::experiment::lap::Course;
 use fastslam_lab::experiment::quantile;
 use fastslam_lab::experiment::ring::{AFTER, NoiseProbe, PriceNoise, RingRun, RingSetup, median, price_noise};
 use indicatif::ParallelProgressIterator;
@@ -19,33 +18,14 @@ pub struct Arguments {
     /// Seeds 1 to N
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     seeds: u64,
-    /// Number of particles M, 1 to 4096
-    #[arg(long, value_name = "M", default_value_t = LapSetup::default().particles)]
-    particles: usize,
     /// Niches on each side of the block, 0 to 2
     #[arg(long, value_name = "N", default_value_t = RingSetup::default().niches)]
     niches: usize,
     /// Longest range of the laser [m], 0.5 to 20
     #[arg(long, value_name = "METRES", default_value_t = RingSetup::default().max_range, allow_negative_numbers = true)]
     max_range: f64,
-    /// Where new poses are drawn from: aware (of the scan) or motion
-    #[arg(long, default_value_t = LapSetup::default().proposal)]
-    proposal: ProposalKind,
-    /// What the end point of a beam is compared with: cell or subcell
-    #[arg(long, default_value_t = LapSetup::default().matcher)]
-    matcher: Matcher,
-    /// When to resample: never, always or neff:F, where N_eff < F M
-    #[arg(long, default_value_t = LapSetup::default().policy)]
-    policy: ResamplePolicy,
-    /// How to resample: systematic, stratified, multinomial or residual
-    #[arg(long, default_value_t = LapSetup::default().scheme)]
-    scheme: Scheme,
-    /// Factor on the standard deviations of the odometry's noise, 0 to 10
-    #[arg(long, value_name = "FACTOR", default_value_t = LapSetup::default().odometry_scale, allow_negative_numbers = true)]
-    odometry: f64,
-    /// Standard deviation of a range [m], 0 to 1
-    #[arg(long, value_name = "METRES", default_value_t = LapSetup::default().range_std, allow_negative_numbers = true)]
-    range_std: f64,
+    #[command(flatten)]
+    options: Options,
     /// Measure instead how much of a particle's price is noise: at every 10th step each particle draws its next pose 60 times
     #[arg(long)]
     price_noise: bool,
@@ -76,23 +56,9 @@ struct Output<T> {
 }
 
 /// Runs the command.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let &Arguments { particles, niches, max_range, .. } = arguments;
-    let setup = |seed| RingSetup {
-        lap: LapSetup {
-            course: Course::Ring,
-            particles,
-            seed,
-            proposal: arguments.proposal,
-            matcher: arguments.matcher,
-            policy: arguments.policy,
-            scheme: arguments.scheme,
-            odometry_scale: arguments.odometry,
-            range_std: arguments.range_std,
-        },
-        niches,
-        max_range,
-    };
+pub fn run(arguments: &Arguments) -> Result<()> {
+    let &Arguments { niches, max_range, options: Options { particles, .. }, .. } = arguments;
+    let setup = |seed| RingSetup { lap: arguments.options.setup(Course::Ring, seed), niches, max_range };
     setup(1).start()?; // refused before anything is run, if it is
     if arguments.price_noise {
         let &Arguments { every, draws, shared_streams: shared, .. } = arguments;
@@ -112,7 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// In the order of the seeds, which are spread over the threads.
-fn sweep<T: Send>(seeds: u64, run: impl Fn(u64) -> Result<T, SettingError> + Sync + Send) -> Result<Vec<T>, Failure> {
+fn sweep<T: Send>(seeds: u64, run: impl Fn(u64) -> Result<T, SettingError> + Sync + Send) -> Result<Vec<T>> {
     let bar = progress(seeds as usize, "seeds");
     let runs: Result<Vec<T>, _> =
         (1..seeds + 1).collect::<Vec<u64>>().into_par_iter().progress_with(bar).map(run).collect();
@@ -120,7 +86,7 @@ fn sweep<T: Send>(seeds: u64, run: impl Fn(u64) -> Result<T, SettingError> + Syn
 }
 
 fn head(arguments: &Arguments) -> String {
-    let Arguments { seeds, particles, niches, max_range, policy, scheme, .. } = arguments;
+    let Arguments { seeds, niches, max_range, options: Options { particles, policy, scheme, .. }, .. } = arguments;
     format!(
         "ring, {seeds} seeds, {particles} particles, {policy} ({scheme}), {niches} niches a side, laser {max_range} m\n"
     )

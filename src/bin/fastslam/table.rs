@@ -1,6 +1,7 @@
 //! `fastslam table`: errors over many seeds, whole or in shards.
 
-use crate::{Failure, print, print_json, progress};
+use crate::{in_file, print, print_json, progress};
+use anyhow::{Context, Result, ensure};
 use fastslam::matching::Matcher;
 use fastslam_lab::experiment::ProposalKind;
 use fastslam_lab::experiment::lap::{Course, LapSetup};
@@ -82,7 +83,7 @@ struct Share {
 }
 
 /// Runs the command.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+pub fn run(arguments: &Arguments) -> Result<()> {
     let laps = if arguments.merge.is_empty() { sweep(arguments)? } else { merge(&arguments.merge)? };
     match arguments.shard {
         Some(shard) => print_json(&Share { shard, seeds: arguments.seeds, course: arguments.course, laps }),
@@ -91,7 +92,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-fn sweep(arguments: &Arguments) -> Result<Vec<LapResult>, Failure> {
+fn sweep(arguments: &Arguments) -> Result<Vec<LapResult>> {
     let Shard { index, count } = arguments.shard.unwrap_or(Shard { index: 1, count: 1 });
     let mut setups = Vec::new();
     for seed in 1..=arguments.seeds {
@@ -115,22 +116,20 @@ fn sweep(arguments: &Arguments) -> Result<Vec<LapResult>, Failure> {
     Ok(laps?)
 }
 
-fn merge(files: &[PathBuf]) -> Result<Vec<LapResult>, Failure> {
+fn merge(files: &[PathBuf]) -> Result<Vec<LapResult>> {
     let mut shares: Vec<Share> = Vec::new();
     for path in files {
-        let text = std::fs::read_to_string(path).map_err(|error| Failure::file(path, error))?;
-        let share: Share = serde_json::from_str(&text).map_err(|error| {
-            Failure::file(path, format_args!("not the output of table --shard I/N --json: {error}"))
-        })?;
+        let text = std::fs::read_to_string(path).with_context(in_file(path))?;
+        let file = path.display();
+        let share: Share = serde_json::from_str(&text)
+            .with_context(|| format!("{file}: not the output of table --shard I/N --json"))?;
+        let Shard { index, count } = share.shard;
         if let Some(first) = shares.first() {
-            if (first.seeds, first.course, first.shard.count) != (share.seeds, share.course, share.shard.count) {
-                return Err(Failure::file(path, "a share of another sweep than the first file"));
-            }
-            if shares.iter().any(|other| other.shard == share.shard) {
-                let Shard { index, count } = share.shard;
-                return Err(Failure::file(path, format_args!("share {index}/{count} is there twice")));
-            }
+            let same = (first.seeds, first.course, first.shard.count) == (share.seeds, share.course, count);
+            ensure!(same, "{file}: a share of another sweep than the first file");
         }
+        let twice = shares.iter().any(|other| other.shard == share.shard);
+        ensure!(!twice, "{file}: share {index}/{count} is there twice");
         shares.push(share);
     }
     let count = shares[0].shard.count;
@@ -138,9 +137,7 @@ fn merge(files: &[PathBuf]) -> Result<Vec<LapResult>, Failure> {
         .filter(|index| shares.iter().all(|share| share.shard.index != *index))
         .map(|index| format!("{index}/{count}"))
         .collect();
-    if !missing.is_empty() {
-        return Err(Failure::Run(format!("--merge: shares missing: {}", missing.join(", "))));
-    }
+    ensure!(missing.is_empty(), "--merge: shares missing: {}", missing.join(", "));
     Ok(shares.into_iter().flat_map(|share| share.laps).collect())
 }
 

@@ -1,6 +1,7 @@
 //! `fastslam variants`: the mapper of logs in worlds of our own that ask more of it than its example, over some seeds.
 
-use crate::{Failure, print, print_json, progress};
+use crate::{Usage, print, print_json, progress};
+use anyhow::{Result, bail};
 use cpu_time::ThreadTime;
 use fastslam::log::RelationErrors;
 use fastslam_lab::experiment::ErrorSummary;
@@ -66,30 +67,26 @@ struct Run {
 }
 
 /// Runs the command.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+pub fn run(arguments: &Arguments) -> Result<()> {
     let &Arguments { particles, seeds, .. } = arguments;
     let all = variants();
     let asked: Vec<&Variant> = all.iter().filter(|variant| variant.name.starts_with(&arguments.only)).collect();
     if asked.is_empty() {
         let names: Vec<&str> = all.iter().map(|variant| variant.name).collect();
-        return Err(Failure::Usage(format!(
-            "--only {}: no such variant, there are {}",
-            arguments.only,
-            names.join(", ")
-        )));
+        bail!(Usage(format!("--only {}: no such variant, there are {}", arguments.only, names.join(", "))));
     }
     // A seed after the other of each variant, in the order of the table; which thread runs which makes no difference.
     let tasks: Vec<(&Variant, u64)> =
         asked.iter().flat_map(|variant| (1..=seeds).map(|seed| (*variant, seed))).collect();
     let bar = progress(tasks.len(), "runs");
-    let runs: Result<Vec<Run>, Failure> =
+    let runs: Result<Vec<Run>> =
         tasks.into_par_iter().progress_with(bar).map(|(variant, seed)| one(variant, particles, seed)).collect();
     let rows = asked.iter().zip(runs?.chunks(seeds as usize)).map(|(variant, runs)| row(variant, runs)).collect();
     let output = Output { particles, variants: rows };
     if arguments.json { print_json(&output) } else { print(&text(arguments, &output)) }
 }
 
-fn one(variant: &Variant, particles: usize, seed: u64) -> Result<Run, Failure> {
+fn one(variant: &Variant, particles: usize, seed: u64) -> Result<Run> {
     let mut run = VariantRun::new(variant, particles, seed)?;
     let mut cpu = Duration::ZERO;
     loop {
