@@ -2,6 +2,7 @@
 
 use assert_cmd::Command;
 use serde_json::Value;
+use tempfile::{TempDir, tempdir};
 
 fn fastslam(arguments: &str) -> assert_cmd::assert::Assert {
     Command::new(env!("CARGO_BIN_EXE_fastslam")).args(arguments.split_whitespace()).assert()
@@ -34,21 +35,20 @@ fn the_number_of_threads_does_not_change_a_lap() {
 
 #[test]
 fn a_lap_is_painted_into_a_file() {
-    let path = std::env::temp_dir().join(format!("fastslam-lap-{}.png", std::process::id()));
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("lap.png");
     fastslam(&format!("lap --particles 3 --png {}", path.display())).success();
     let png = std::fs::read(&path).unwrap();
-    std::fs::remove_file(&path).unwrap();
     let info = png::Decoder::new(std::io::Cursor::new(png)).read_info().unwrap().info().size();
     assert_eq!(info.0, 1280);
 }
 
 #[test]
 fn shards_merge_to_the_rows_of_one_run() {
-    let folder = std::env::temp_dir().join(format!("fastslam-shards-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
+    let folder = tempdir().unwrap();
     let files: Vec<String> = (1..=3)
         .map(|index| {
-            let path = folder.join(format!("{index}.json"));
+            let path = folder.path().join(format!("{index}.json"));
             let share = fastslam(&format!("table --seeds 2 --matcher cell --shard {index}/3 --json")).success();
             std::fs::write(&path, &share.get_output().stdout).unwrap();
             path.display().to_string()
@@ -59,7 +59,6 @@ fn shards_merge_to_the_rows_of_one_run() {
     fastslam(&format!("table --merge {} {}", files[0], files[1]))
         .code(1)
         .stderr("fastslam: --merge: shares missing: 3/3\n");
-    std::fs::remove_dir_all(&folder).unwrap();
 
     assert_eq!(merged, whole);
     let rows = whole.as_array().unwrap();
@@ -149,10 +148,10 @@ fn landmarks_print_what_they_are_asked_for() {
     }
     fastslam("landmarks --particles 3").success();
 
-    let path = std::env::temp_dir().join(format!("fastslam-landmarks-{}.png", std::process::id()));
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("landmarks.png");
     fastslam(&format!("landmarks --particles 3 --png {}", path.display())).success();
     assert!(std::fs::read(&path).unwrap().starts_with(b"\x89PNG"));
-    std::fs::remove_file(path).unwrap();
 }
 
 #[test]
@@ -220,9 +219,8 @@ fn policies_print_what_the_figure_must_show() {
 }
 
 /// Files of one small log, of which one is not what it should be.
-fn small_log(name: &str, replaced: &str, text: &str) -> std::path::PathBuf {
-    let folder = std::env::temp_dir().join(format!("fastslam-mrclam-{name}-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
+fn small_log(replaced: &str, text: &str) -> TempDir {
+    let folder = tempdir().unwrap();
     for (file, content) in [
         ("barcodes", "# comment\n  6 \t 63\n"),
         ("landmarks", "6 1.0 1.0 0.0 0.0\n"),
@@ -231,28 +229,27 @@ fn small_log(name: &str, replaced: &str, text: &str) -> std::path::PathBuf {
         ("robot1-groundtruth", "9.9 0 0 0\n13.1 0.3 0 0.1\n"),
     ] {
         let content = if file == replaced { text } else { content };
-        std::fs::write(folder.join(format!("small-{file}.dat")), content).unwrap();
+        std::fs::write(folder.path().join(format!("small-{file}.dat")), content).unwrap();
     }
     folder
 }
 
 #[test]
 fn a_recorded_log_is_read_and_a_bad_line_of_it_named() {
-    let folder = small_log("good", "", "");
+    let folder = small_log("", "");
     for prefix in ["small", "small-", "small-robot1"] {
-        let run = json(&format!("landmarks --particles 2 --json --mrclam {}", folder.join(prefix).display()));
+        let run = json(&format!("landmarks --particles 2 --json --mrclam {}", folder.path().join(prefix).display()));
         // 0.4 s, then 1.5 s in three steps, then 0.1 s.
         assert_eq!((run["steps"].as_array().unwrap().len(), &run["landmarks"]), (5, &1.into()));
     }
     // Of the bar codes one is another robot's. Who reads them passes it over, who does not takes it for a landmark like any other.
-    let prefix = folder.join("small").display().to_string();
+    let prefix = folder.path().join("small").display().to_string();
     for (association, landmarks) in [("known", 1), ("unknown", 2)] {
         let run = json(&format!("landmarks --particles 2 --association {association} --json --mrclam {prefix}"));
         let seen: u64 = run["steps"].as_array().unwrap().iter().map(|step| step["seen"].as_u64().unwrap()).sum();
         assert_eq!((seen, &run["landmarks"]), (3, &landmarks.into()), "{association}");
         assert!(run["noises"].as_str().unwrap().starts_with("calibrated on robot 1 of data set 6"));
     }
-    std::fs::remove_dir_all(folder).unwrap();
 
     for (name, file, text, said) in [
         (
@@ -268,25 +265,23 @@ fn a_recorded_log_is_read_and_a_bad_line_of_it_named() {
         ("apart", "robot1-measurement", "99.0 63 1.4 0.7\n", "no measurement"),
         ("binary", "landmarks", "\0\u{1}\u{2}", "line 1: expected 5 numbers"),
     ] {
-        let folder = small_log(name, file, text);
-        let refused = fastslam(&format!("landmarks --mrclam {}", folder.join("small").display())).code(2);
+        let folder = small_log(file, text);
+        let refused = fastslam(&format!("landmarks --mrclam {}", folder.path().join("small").display())).code(2);
         let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
         assert!(message.contains(said) && message.trim_end().lines().count() == 1, "{name}: {message}");
-        std::fs::remove_dir_all(folder).unwrap();
     }
     fastslam("landmarks --mrclam no/such/log").code(1);
 }
 
 #[test]
 fn the_example_that_the_page_ships_is_the_one_that_is_written() {
-    let folder = folder("example");
-    let log = folder.join("example.clf").display().to_string();
+    let folder = tempdir().unwrap();
+    let log = folder.path().join("example.clf").display().to_string();
     fastslam(&format!("example-log {log}")).success();
     let shipped = include_bytes!("../../../../www/public/example.clf.gz");
     let mut text = String::new();
     std::io::Read::read_to_string(&mut flate2::read::GzDecoder::new(&shipped[..]), &mut text).unwrap();
     assert!(text == std::fs::read_to_string(&log).unwrap(), "write it again: fastslam example-log, gzip -9n");
-    std::fs::remove_dir_all(folder).unwrap();
 }
 
 /// Where a log of shared/data is, which may not be shipped. Where one of its files is absent `npm test` counts the test as skipped, by
@@ -312,9 +307,8 @@ fn the_recorded_log_is_far_better_than_its_odometry() {
 
 #[test]
 fn numbers_are_written_by_key_and_some_can_be_measured_again() {
-    let folder = std::env::temp_dir().join(format!("fastslam-numbers-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    let out = folder.join("numbers.json");
+    let folder = tempdir().unwrap();
+    let out = folder.path().join("numbers.json");
     let read = || serde_json::from_slice::<Value>(&std::fs::read(&out).unwrap()).unwrap();
     std::fs::write(&out, r#"{"worked.ess": {"value": 9, "unit": "", "made": ""}, "worked.old": {"value": 9, "unit": "", "made": ""}, "lap.cell": {"value": 7, "unit": "", "made": ""}}"#).unwrap();
     fastslam(&format!("numbers --only worked --out {}", out.display())).success();
@@ -324,19 +318,12 @@ fn numbers_are_written_by_key_and_some_can_be_measured_again() {
     fastslam(&format!("numbers --only nothing --out {}", out.display()))
         .code(2)
         .stderr("fastslam: --only nothing: no number begins so\n");
-    std::fs::remove_dir_all(&folder).unwrap();
-}
-
-/// A folder for the files of one test, empty.
-fn folder(name: &str) -> std::path::PathBuf {
-    let folder = std::env::temp_dir().join(format!("fastslam-log-{name}-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    folder
 }
 
 /// The first scans of the example log.
-fn short_log(folder: &std::path::Path, scans: usize) -> String {
-    let [log, relations] = ["example.clf", "example.relations"].map(|name| folder.join(name).display().to_string());
+fn short_log(folder: &TempDir, scans: usize) -> String {
+    let [log, relations] =
+        ["example.clf", "example.relations"].map(|name| folder.path().join(name).display().to_string());
     fastslam(&format!("example-log {log} --relations {relations}")).success();
     let text = std::fs::read_to_string(&log).unwrap();
     std::fs::write(&log, text.lines().take(scans + 1).map(|line| format!("{line}\n")).collect::<String>()).unwrap();
@@ -345,10 +332,10 @@ fn short_log(folder: &std::path::Path, scans: usize) -> String {
 
 #[test]
 fn a_log_is_mapped_and_its_path_map_and_errors_are_written() {
-    let folder = folder("good");
+    let folder = tempdir().unwrap();
     let log = short_log(&folder, 60);
     let [path, map, relations] =
-        ["path.tum", "map", "example.relations"].map(|name| folder.join(name).display().to_string());
+        ["path.tum", "map", "example.relations"].map(|name| folder.path().join(name).display().to_string());
     let outputs = format!("--trajectory {path} --map {map} --relations {relations}");
     let run = json(&format!("log {log} --particles 3 --seed 2 --threads 1 --json {outputs}"));
     assert_eq!((run["scans"].as_u64(), run["digest"].as_str().unwrap().len()), (Some(60), 16));
@@ -385,12 +372,11 @@ fn a_log_is_mapped_and_its_path_map_and_errors_are_written() {
     std::fs::write(&packed, &std::fs::read(&packed).unwrap()[..999]).unwrap();
     let refused = fastslam(&format!("log {packed}")).code(2);
     assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains("cannot be unpacked"));
-    std::fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
 fn a_log_that_cannot_be_read_is_refused_by_line_and_one_with_flaws_is_read_if_asked() {
-    let folder = folder("bad");
+    let folder = tempdir().unwrap();
     let log = short_log(&folder, 3);
     let good = std::fs::read_to_string(&log).unwrap();
     for (text, said) in [
@@ -410,9 +396,9 @@ fn a_log_that_cannot_be_read_is_refused_by_line_and_one_with_flaws_is_read_if_as
     let notes = String::from_utf8_lossy(&noted.get_output().stderr).into_owned();
     assert!(notes.contains("1 messages of a rear laser") && notes.contains("1 GPS"), "{notes}");
 
-    let relations = folder.join("bad.relations").display().to_string();
+    let relations = folder.path().join("bad.relations").display().to_string();
     std::fs::write(&relations, "1 2 3\n").unwrap();
-    let another = folder.join("another.relations").display().to_string();
+    let another = folder.path().join("another.relations").display().to_string();
     std::fs::write(&another, "1 2 0 0 0 0 0 0\n3 4 0 0 0 0 0 0\n").unwrap();
     for (arguments, status, said) in [
         ("--cell 7".to_owned(), 2, "cell = 7: must be a number from 0.02 to 0.2"),
@@ -431,7 +417,6 @@ fn a_log_that_cannot_be_read_is_refused_by_line_and_one_with_flaws_is_read_if_as
         let refused = fastslam(&format!("log {log} {arguments}")).code(status);
         assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains(said), "{arguments}");
     }
-    std::fs::remove_dir_all(folder).unwrap();
 }
 
 /// The Intel Research Lab, by the rule of the published figures. With these settings seeds 1 to 3 gave 0.068, 0.070 and 0.066 m, and
