@@ -110,7 +110,7 @@ fn bad_arguments_are_refused_in_one_line_with_status_2() {
         ("policies --particles 0", "from 1 to 4096"),
         ("policies --threshold -0.5", "from 0 to 1"),
         ("policies --scheme lottery", "systematic, stratified, multinomial or residual"),
-        ("ring --niches 3", "0, 1 or 2"),
+        ("ring --niches 3", "from 0 to 2"),
         ("ring --max-range 0", "from 0.5 to 20"),
         ("ring --particles 0", "from 1 to 4096"),
         ("ring --shared-streams", "--price-noise"),
