@@ -49,6 +49,22 @@ impl SettingError {
         Self::UnknownWord { field, given: given.chars().take(40).collect(), choices }
     }
 
+    /// The same refusal under the name by which the readers of a program know the setting: a flag, a control.
+    ///
+    /// ```
+    /// # use fastslam::error::Range;
+    /// let error = Range::number(0.02, 0.2, "m").check("cell_size", 7.0).unwrap_err().called("cell");
+    /// assert_eq!(error.to_string(), "cell = 7: must be a number from 0.02 to 0.2 [m]");
+    /// ```
+    pub fn called(mut self, name: &'static str) -> Self {
+        match &mut self {
+            Self::OutOfRange { field, .. } | Self::UnknownWord { field, .. } | Self::Missing { field, .. } => {
+                *field = name;
+            }
+        }
+        self
+    }
+
     /// Name of the setting that is refused.
     pub fn field(&self) -> &'static str {
         match self {
