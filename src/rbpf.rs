@@ -45,6 +45,16 @@ impl<A> Report<A> {
         self.log_evidence > f64::NEG_INFINITY
     }
 
+    /// Whether the step resampled.
+    pub fn resampled(&self) -> bool {
+        self.ancestors.is_some()
+    }
+
+    /// How many particles came by their pose by looking first, and not by the motion alone.
+    pub fn matched(&self) -> usize {
+        self.traces.iter().filter(|trace| matches!(trace, ProposalTrace::Matched { .. })).count()
+    }
+
     /// Paths of the slots that nobody was copied from, where the step resampled.
     pub fn extinct(&self) -> impl Iterator<Item = &Path> {
         let mut extinct = vec![self.ancestors.is_some(); self.paths.len()];

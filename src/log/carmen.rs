@@ -10,14 +10,10 @@
 //!
 //! Reference: the file format of CARMEN's logger, as its log files describe it in their own comments.
 
-use super::fixed;
-use super::{LaserLog, LaserScan, LogError};
+use super::{FARTHEST, LaserLog, LaserScan, LogError, fixed};
 use crate::error::Shown;
 use crate::geometry::Pose2;
 use core::f64::consts::PI;
-
-/// Farthest a coordinate may be from the log's origin \[m\]: beyond it a number is no place.
-const FARTHEST: f64 = 1e7;
 
 /// A laser farther than this from the robot's centre \[m\] does not sit on it: then the two poses of a message are not what they
 /// should be (some logs hold a corrected pose in one of them), and the laser is taken to be in the centre.

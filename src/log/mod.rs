@@ -18,6 +18,9 @@ use crate::ops;
 use crate::sensor::Scan;
 use core::fmt;
 
+/// Farthest a coordinate may be from the log's origin \[m\]: beyond it a number is no place.
+const FARTHEST: f64 = 1e7;
+
 /// One sweep of a laser.
 #[derive(Clone, PartialEq, Debug)]
 pub struct LaserScan {
@@ -38,6 +41,13 @@ pub struct LaserScan {
 }
 
 impl LaserScan {
+    /// Whether all that says when, where and which way the laser looked is a number, and each coordinate that of a place.
+    pub(crate) fn is_placed(&self) -> bool {
+        let Self { time, odometry, robot_from_laser, first_angle, angle_step, .. } = self;
+        [odometry.x, odometry.y, robot_from_laser.x, robot_from_laser.y].iter().all(|x| x.abs() <= FARTHEST)
+            && [*time, odometry.theta, robot_from_laser.theta, *first_angle, *angle_step].iter().all(|x| x.is_finite())
+    }
+
     /// Where the beams ended, in the robot's frame. A reading of `longest` \[m\] or more met nothing, and says nothing: what it passed
     /// may be glass. One of `max_range` \[m\] or more is cut there, and says that the way is free.
     pub fn end_points(&self, longest: f64, max_range: f64) -> Scan {

@@ -1,0 +1,200 @@
+//! A ready-made mapper for a robot with odometry and a laser: scans in, one by one, a map and a path out.
+//!
+#![doc = include_str!("example.md")]
+//!
+//! [`LaserMapper`] is a Rao-Blackwellized particle filter ([`Rbpf`]) over paths. Each particle draws its next pose by looking first
+//! ([`FromScan`](crate::proposal::FromScan), after Grisetti, Stachniss and Burgard 2007), and keeps a copy-on-write occupancy grid with
+//! a normal distribution for each piece of wall ([`Grid`](crate::map::grid::Grid)). It runs online and needs to know nothing of the
+//! scans that will come; whoever has a whole log lets [`Replay`] push it, or fills the laser's settings in by
+//! [`LaserMapperSettings::for_log`]. What is not a setting has one value for every building and robot: [`tuning`] says why.
+
+mod replay;
+mod settings;
+#[cfg(test)]
+mod tests;
+pub mod tuning;
+
+pub use replay::Replay;
+pub use settings::LaserMapperSettings;
+pub use tuning::Map;
+
+use crate::error::SettingError;
+use crate::execute::Executor;
+use crate::geometry::Pose2;
+use crate::log::LaserScan;
+use crate::map::{ConditionalMap, Footprint};
+use crate::motion::Odometry;
+use crate::particle::Particle;
+use crate::rbpf::{Rbpf, Report};
+
+/// The filter of a [`LaserMapper`].
+pub type Filter = Rbpf<Map, tuning::Proposal>;
+
+/// A scan that was pushed.
+#[derive(Clone, Copy, PartialEq, Debug)]
+struct Stamp {
+    /// When \[s\].
+    time: f64,
+    /// The step of the filter that took it, or the last one before it.
+    step: u32,
+    /// The robot as seen from where it was in that step, by raw odometry.
+    step_from_robot: Pose2,
+}
+
+/// A map and a path of a robot with a laser, under way.
+///
+/// The first scan is the origin: its pose is (0, 0, 0) of the map's frame, and what it saw is mapped from there.
+/// A clone goes its own way and shares what is mapped so far.
+#[derive(Clone, Debug)]
+pub struct LaserMapper {
+    settings: LaserMapperSettings,
+    executor: Executor,
+    filter: Filter,
+    /// Raw odometry of the last scan that the filter took; `None` before the first.
+    last: Option<Pose2>,
+    /// Steps of the filter: scans it took after the first.
+    steps: u32,
+    /// Of these, how many resampled.
+    resampled: u32,
+    /// The first step after which all particles descended from one.
+    single_lineage_since: Option<u32>,
+    /// Of every scan that has a place on the path.
+    stamps: Vec<Stamp>,
+}
+
+impl LaserMapper {
+    /// Before the first scan.
+    ///
+    /// # Errors
+    /// [`SettingError::OutOfRange`] where a setting is, by the name of its field.
+    pub fn new(settings: LaserMapperSettings) -> Result<Self, SettingError> {
+        settings.validate()?;
+        let map = Map::new(tuning::grid(settings.cell_size));
+        Ok(Self {
+            settings,
+            executor: Executor::default(),
+            filter: filter(&settings, settings.beams.unwrap_or(tuning::BEAMS), map)?,
+            last: None,
+            steps: 0,
+            resampled: 0,
+            single_lineage_since: (settings.particles == 1).then_some(0),
+            stamps: Vec::new(),
+        })
+    }
+
+    /// The same mapper, computed by another executor: the results are the same.
+    pub fn with_executor(self, executor: Executor) -> Self {
+        Self { executor: executor.clone(), filter: self.filter.with_executor(executor), ..self }
+    }
+
+    /// The next scan, with the pose that raw odometry gives for it. Odometry may be in any frame, as long as it is one: only
+    /// motions count.
+    ///
+    /// What the filter's step did; `None` where there was none: of the first scan, with which the map begins, and of one before
+    /// which the robot moved by less than [`LaserMapperSettings::min_travel`]. A pose that is not finite, or further than 10 000 km
+    /// from odometry's origin, is no place: such a scan is left out of the path too.
+    pub fn push(&mut self, scan: &LaserScan) -> Option<Report<()>> {
+        if !scan.is_placed() {
+            return None;
+        }
+        let Some(last) = self.last else {
+            self.begin(scan);
+            return None;
+        };
+        let moved = last.between(&scan.odometry);
+        if !self.settings.takes(&moved) {
+            self.stamps.push(Stamp { time: scan.time, step: self.steps, step_from_robot: moved });
+            return None;
+        }
+        let control = Odometry::recorded(&last, &scan.odometry, tuning::STILL);
+        let report = self.filter.step(&control, &self.settings.end_points(scan));
+        self.steps = report.step;
+        self.resampled += u32::from(report.resampled());
+        if self.single_lineage_since.is_none() && self.filter.lineage() == 1 {
+            self.single_lineage_since = Some(report.step);
+        }
+        self.take(scan);
+        Some(report)
+    }
+
+    /// Maps the first scan, once for all particles.
+    fn begin(&mut self, scan: &LaserScan) {
+        let mut map = Map::new(tuning::grid(self.settings.cell_size));
+        map.assimilate(&Pose2::default(), &self.settings.end_points(scan), &());
+        map.settle();
+        let beams = self.settings.beams.unwrap_or(scan.ranges.len() as u32);
+        let filter = filter(&self.settings, beams, map).expect("`new` has built one of these settings");
+        self.filter = filter.with_executor(self.executor.clone());
+        self.take(scan);
+    }
+
+    /// Writes down a scan that the filter took.
+    fn take(&mut self, scan: &LaserScan) {
+        self.stamps.push(Stamp { time: scan.time, step: self.steps, step_from_robot: Pose2::default() });
+        self.last = Some(scan.odometry);
+    }
+
+    /// As they were set.
+    pub fn settings(&self) -> &LaserMapperSettings {
+        &self.settings
+    }
+
+    /// The filter, for those who watch it: its particles, their weights, and what they descend from.
+    pub fn filter(&self) -> &Filter {
+        &self.filter
+    }
+
+    /// Steps of the filter so far: the scans that it took, without the first.
+    pub fn steps(&self) -> u32 {
+        self.steps
+    }
+
+    /// The best particle's map, in the frame of the first scan's pose; an unknown world before that scan.
+    pub fn map(&self) -> &Map {
+        &self.best().map
+    }
+
+    /// Where the best particle has the robot now, in the frame of the first scan's pose.
+    pub fn pose(&self) -> Pose2 {
+        let pose = self.best().world_from_robot;
+        self.stamps.last().map_or(pose, |stamp| pose.compose(&stamp.step_from_robot))
+    }
+
+    /// The best particle's path: a pose for each scan so far with its time \[s\], in the frame of the first. A scan that was passed
+    /// over has the pose of the last one before it that was taken, moved by raw odometry. The whole path may change with every
+    /// scan, as another particle becomes the best.
+    pub fn path(&self) -> Vec<(f64, Pose2)> {
+        let poses = self.best().path.poses();
+        let placed = |stamp: &Stamp| (stamp.time, poses[stamp.step as usize].compose(&stamp.step_from_robot));
+        self.stamps.iter().map(placed).collect()
+    }
+
+    /// Share of the steps so far that resampled, 0 to 1.
+    pub fn resampled_fraction(&self) -> f64 {
+        f64::from(self.resampled) / f64::from(self.steps.max(1))
+    }
+
+    /// The first step after which all particles descended from one, if they do: there is one path only up to some scan then, and
+    /// a mistake in it cannot be undone.
+    pub fn single_lineage_since(&self) -> Option<u32> {
+        self.single_lineage_since
+    }
+
+    /// Bytes of all particles' maps.
+    pub fn footprint(&self) -> Footprint {
+        Map::footprint(self.filter.particles().iter().map(|particle| &particle.map))
+    }
+
+    fn best(&self) -> &Particle<Map> {
+        &self.filter.particles()[self.filter.best()]
+    }
+}
+
+/// The filter at the origin, with this map in each particle.
+fn filter(settings: &LaserMapperSettings, beams: u32, map: Map) -> Result<Filter, SettingError> {
+    Rbpf::builder(map, tuning::proposal(beams))
+        .particles(settings.particles)
+        .seed(settings.seed)
+        .policy(settings.policy)
+        .build()
+}

@@ -1,0 +1,134 @@
+//! What can be set about a mapper, and what a log tells of its laser.
+
+use super::tuning::{Map, NOTHING_MET, STILL};
+use crate::error::{Range, SettingError};
+use crate::geometry::Pose2;
+use crate::log::{LaserLog, LaserScan};
+use crate::ops;
+use crate::resampling::ResamplePolicy;
+use crate::sensor::Scan;
+use std::collections::BTreeSet;
+
+/// Settings of a [`LaserMapper`](super::LaserMapper). The defaults suit a building and a laser of 180°.
+///
+/// ```
+/// use fastslam::mapper::{LaserMapper, LaserMapperSettings};
+/// let settings = LaserMapperSettings { particles: 30, cell_size: 0.1, ..LaserMapperSettings::default() };
+/// assert!(LaserMapper::new(settings).is_ok());
+/// let error = LaserMapper::new(LaserMapperSettings { particles: 0, ..settings }).unwrap_err();
+/// assert_eq!(error.to_string(), "particles = 0: must be a whole number from 1 to 4096");
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct LaserMapperSettings {
+    /// Number of particles M, in [`Self::PARTICLES`]. 16 do for a building; a long loop asks for more.
+    pub particles: usize,
+    /// Seed of the filter's draws: the same scans, settings and seed give the same map, bit for bit.
+    pub seed: u64,
+    /// Side of a cell \[m\], in [`Self::CELL_SIZE`].
+    pub cell_size: f64,
+    /// Readings beyond this \[m\], in [`Self::MAX_RANGE`], are not matched: up to it they say that the way is free.
+    pub max_range: f64,
+    /// Scans are passed over until the robot has driven this far \[m\], or turned by as many radians; in [`Self::MIN_TRAVEL`].
+    /// One that has moved by less than [`STILL`] is always taken to stand still.
+    pub min_travel: f64,
+    /// When the particles are resampled.
+    pub policy: ResamplePolicy,
+    /// A reading of this length \[m\] or more, 0 or above, met nothing and says nothing: what it passed may be glass. `None` leaves
+    /// it to what each scan declares, [`LaserScan::max_range`](crate::log::LaserScan::max_range); where it declares nothing,
+    /// every finite reading met something.
+    pub no_return: Option<f64>,
+    /// Beams of a scan: of a dense laser the search looks at fewer of them. `None` goes by the first scan.
+    pub beams: Option<u32>,
+}
+
+impl Default for LaserMapperSettings {
+    fn default() -> Self {
+        Self {
+            particles: 16,
+            seed: 1,
+            cell_size: 0.05,
+            max_range: 30.0,
+            min_travel: 0.0,
+            policy: ResamplePolicy::EssBelow(0.5),
+            no_return: None,
+            beams: None,
+        }
+    }
+}
+
+impl LaserMapperSettings {
+    /// Range of [`Self::particles`].
+    pub const PARTICLES: Range = Range::whole(1, 4096);
+    /// Range of [`Self::cell_size`].
+    pub const CELL_SIZE: Range = Range::number(0.02, 0.2, "m");
+    /// Range of [`Self::max_range`].
+    pub const MAX_RANGE: Range = Range::number(0.5, 200.0, "m");
+    /// Range of [`Self::min_travel`].
+    pub const MIN_TRAVEL: Range = Range::number(0.0, 5.0, "m");
+    /// Range of [`Self::no_return`].
+    const NO_RETURN: Range = Range::number(0.0, f64::INFINITY, "m");
+
+    /// Whether every setting is in its range.
+    ///
+    /// # Errors
+    /// [`SettingError::OutOfRange`] of the first that is not, by the name of its field.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        Self::PARTICLES.check("particles", self.particles as f64)?;
+        Self::CELL_SIZE.check("cell_size", self.cell_size)?;
+        Self::MAX_RANGE.check("max_range", self.max_range)?;
+        Self::MIN_TRAVEL.check("min_travel", self.min_travel)?;
+        self.no_return.map_or(Ok(0.0), |length| Self::NO_RETURN.check("no_return", length))?;
+        self.policy.validate()
+    }
+
+    /// The same settings, with what is not said about the laser read off a whole log: [`Self::no_return`] is
+    /// [`NOTHING_MET`] times its longest reading, as lasers write what they like for *nothing met*, and [`Self::beams`] the median
+    /// over its scans.
+    pub fn for_log(self, log: &LaserLog) -> Self {
+        let mut beams: Vec<u32> = log.scans.iter().map(|scan| scan.ranges.len() as u32).collect();
+        beams.sort_unstable();
+        Self {
+            no_return: self.no_return.or_else(|| Some((NOTHING_MET * log.longest_reading()).max(0.0))),
+            beams: self.beams.or_else(|| beams.get(beams.len() / 2).copied()),
+            ..self
+        }
+    }
+
+    /// Whether a scan is taken when the robot has moved by this since the one that was taken last.
+    pub(super) fn takes(&self, moved: &Pose2) -> bool {
+        moved.distance(&Pose2::default()).max(moved.theta.abs()) >= self.min_travel.max(STILL)
+    }
+
+    /// What the filter sees of a scan.
+    pub(super) fn end_points(&self, scan: &LaserScan) -> Scan {
+        scan.end_points(self.no_return.unwrap_or(f64::INFINITY), self.max_range)
+    }
+
+    /// About how many bytes the maps will take when this log is mapped: the tiles that end points fall into by raw odometry once,
+    /// and for each particle those of two scans. Where odometry drifts it counts walls more than once; it is no bound.
+    pub fn memory_estimate(&self, log: &LaserLog) -> u64 {
+        /// NDT cells in a tile, about.
+        const NDT_CELLS: usize = 12;
+        let settings = self.for_log(log);
+        let tile = f64::from(Map::TILE_CELLS) * settings.cell_size;
+        let mut all = BTreeSet::new();
+        let mut most = 0;
+        for scan in &log.scans {
+            let mut tiles = BTreeSet::new();
+            for end in settings.end_points(scan).hits {
+                // The tiles on the way are free space that is kept as well.
+                let length = ops::hypot(end[0], end[1]);
+                let parts = (length / tile).ceil().max(1.0);
+                for part in 0..=parts as u32 {
+                    let share = f64::from(part) / parts;
+                    let [x, y] = scan.odometry.transform([end[0] * share, end[1] * share]);
+                    tiles.insert(((x / tile).floor() as i64, (y / tile).floor() as i64));
+                }
+            }
+            most = tiles.len().max(most);
+            all.extend(tiles);
+        }
+        // A particle that lives on beside others differs from them by a few scans, which overlap.
+        ((all.len() + 2 * settings.particles * most) * Map::tile_bytes(NDT_CELLS)) as u64
+    }
+}

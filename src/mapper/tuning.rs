@@ -1,0 +1,108 @@
+//! What the mapper does not let anybody set: one tuning for every building, robot and laser, with the reason for each number.
+
+use crate::map::grid::{Grid, GridModel};
+use crate::matching::{HillClimbSteps, Kernel, Matcher, ScanModel};
+use crate::motion::OdometryModel;
+use crate::proposal::{CorrelativeSearch, FitLimits, FromScan, FromScanSettings};
+
+/// Cells along a side of an NDT cell: NDT cells of 0.2 m with the default cells. Much smaller ones hold too few hits to tell which
+/// way a wall runs, much larger ones more than one wall.
+pub const CELLS_PER_NDT: usize = 4;
+
+/// A particle's map.
+pub type Map = Grid<CELLS_PER_NDT>;
+
+/// Where a particle's next pose is drawn from.
+pub type Proposal = FromScan<OdometryModel, ScanModel, CorrelativeSearch>;
+
+/// α of the odometry: 0.2 rad a radian of turns, 0.1 rad and 0.1 m a metre. Wide on purpose: real wheels slip, and are off by
+/// a bias that no noise describes (some 4° a metre in one log). Too wide a prior only costs time.
+pub const ALPHAS: [f64; 4] = [0.04, 0.01, 0.01, 0.01];
+
+/// κ: the share of each beam's log-likelihood that counts. A real log is mapped as well with 0.5; with 0.3 the odometry's bias
+/// pulls at every pose, and its errors grow by half.
+pub const TEMPER: f64 = 0.85;
+
+/// ε: probability of a reading that has nothing to do with the map.
+pub const OUTLIER: f64 = 0.05;
+
+/// What a distance from a wall costs. With c = 1 the pull is greatest at √⅔ σ, and at 2 σ half of that is left.
+pub const KERNEL: Kernel = Kernel::Robust { most: 1.0 };
+
+/// How many times further than its end points an NDT cell reaches. End points spread evenly over a square have a standard deviation
+/// of 0.29 of its side: with 3 a wall is felt into the next NDT cell, and is one wall. With 1, scans of new walls fitted a
+/// place half a metre off better than their own.
+pub const NDT_STRETCH: f64 = 3.0;
+
+/// L: a scan is weighed against the map of so many scans ago, or of up to half as many more. By then the robot is some 6 m further,
+/// out of sight of most of what it saw for the first time.
+pub const LAG: u32 = 20;
+
+/// A robot that has moved by less than this \[m, or rad\] stands still: another look from there tells nothing new.
+pub const STILL: f64 = 0.02;
+
+/// Share of a log's longest reading from which on a reading says *nothing met*: lasers write their longest range then, or one a
+/// little different (81.83, 80 and 81.91 m in one log).
+pub const NOTHING_MET: f64 = 0.97;
+
+/// Beams for which [`FROM_SCAN`] is made.
+pub const BEAMS: u32 = 180;
+
+/// The proposal, for a laser of [`BEAMS`] beams.
+pub const FROM_SCAN: FromScanSettings<CorrelativeSearch> = FromScanSettings {
+    motion_floor: [0.02, 0.02, 0.01],
+    // Half an NDT cell, and as much at 3 m. Three starts: of two, one is often the neighbour of the other's hill.
+    search: CorrelativeSearch { linear: 0.1, angular: 0.035, stride: 4, climbs: 3 },
+    // From half the lattice's step down to half a centimetre.
+    climb: HillClimbSteps { linear: 0.05, angular: 0.02, halvings: 3 },
+    climb_stride: 2,
+    minimum_improvement: 0.5,
+    full_weight: 0.5,
+    limits: FitLimits { least: [0.005, 0.003], most: [0.05, 0.03] },
+};
+
+/// [`FROM_SCAN`] for a laser of so many beams: of a denser one the search takes fewer, since neighbours tell it the same.
+pub fn from_scan(beams: u32) -> FromScanSettings<CorrelativeSearch> {
+    let times = (beams.saturating_add(BEAMS / 2) / BEAMS).max(1) as usize;
+    let mut settings = FROM_SCAN;
+    settings.climb_stride *= times;
+    settings.search.stride *= times;
+    settings
+}
+
+/// How a map with cells of this size \[m\] learns from a scan.
+pub const fn grid(cell_size: f64) -> GridModel {
+    GridModel {
+        cell_size,
+        log_odds_hit: 0.9,
+        log_odds_pass: -0.4,
+        ndt_std: 0.06,
+        ndt_stretch: NDT_STRETCH,
+        lag: LAG,
+        distance_reach: 2,
+    }
+}
+
+/// How well a scan fits a map.
+pub fn score() -> ScanModel {
+    ScanModel::new(Matcher::SubCell, TEMPER, OUTLIER).with_kernel(KERNEL)
+}
+
+/// The whole proposal, for a laser of so many beams.
+pub fn proposal(beams: u32) -> Proposal {
+    FromScan { motion: OdometryModel { alphas: ALPHAS }, score: score(), settings: from_scan(beams) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_search_takes_as_many_beams_of_a_dense_laser() {
+        for (beams, times) in [(0, 1), (1, 1), (180, 1), (181, 1), (270, 2), (361, 2), (1081, 6)] {
+            let settings = from_scan(beams);
+            assert_eq!((settings.climb_stride, settings.search.stride), (2 * times, 4 * times), "{beams}");
+        }
+        assert_eq!(from_scan(180), FROM_SCAN);
+    }
+}
