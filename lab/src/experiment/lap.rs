@@ -47,9 +47,8 @@ pub const MAX_RANGE: f64 = 8.0;
 /// repeated from one heading, the scans leave walls of separate dots, between which the next scan falls.
 pub const START_SCANS: u32 = 30;
 
-/// L: a scan is weighed against the map of so many scans ago, or of up to half as many more. By then the robot is some 6 m further,
-/// out of sight of most of what it saw for the first time.
-pub const LAG: u32 = 20;
+/// L: a scan is weighed against the map of so many scans ago, as in the mapper for lasers.
+pub const LAG: u32 = fastslam::mapper::tuning::LAG;
 
 /// How the map learns.
 ///

@@ -1,330 +1,17 @@
-//! A log, mapped: the filter of the lap, its matcher and its maps, on what a robot drove and saw.
-//!
-//! One setting for every log, robot and laser: nothing here is to be tuned to a building.
+//! Logs of our own, free to ship: a robot with a laser in a building of which the truth is known, for the
+//! [mapper](fastslam::mapper) to map.
 
-use super::lap::LAG;
 use crate::digest::Digest;
 use crate::world::{FloorPlan, corners_cut_short, drive};
 use crate::{WORLD_ODOMETRY, WORLD_SENSOR};
 use core::f64::consts::PI;
-use fastslam::error::{Range, SettingError};
-use fastslam::execute::Executor;
-use fastslam::genealogy::Path;
 use fastslam::geometry::Pose2;
-use fastslam::log::{LaserLog, Relation};
-use fastslam::map::grid::{Grid, GridModel};
-use fastslam::map::{ConditionalMap, Footprint};
-use fastslam::matching::{HillClimbSteps, Kernel, Matcher, ScanModel};
+use fastslam::log::{LaserLog, LaserScan, Relation};
+use fastslam::mapper::{LaserMapper, LaserMapperSettings, Map, Replay};
 use fastslam::motion::{Odometry, OdometryModel};
-use fastslam::particle::Particle;
-use fastslam::proposal::{CorrelativeSearch, FitLimits, FromScan, FromScanSettings, ProposalTrace};
 use fastslam::random::Stream;
-use fastslam::rbpf::{Rbpf, Report};
-use fastslam::resampling::ResamplePolicy;
 use fastslam::sensor::BeamSensor;
-use std::collections::BTreeSet;
 use std::sync::Arc;
-
-/// Cells along a side of a square that keeps one surface: squares of 0.2 m with the default cells. Much smaller ones hold too few
-/// hits to tell which way a wall runs, much larger ones more than one wall.
-pub const CELLS_PER_NDT: usize = 4;
-
-/// A particle's map.
-pub type LogMap = Grid<CELLS_PER_NDT>;
-
-/// The filter of a log.
-pub type Filter = Rbpf<LogMap, FromScan<OdometryModel, ScanModel, CorrelativeSearch>>;
-
-/// Noise of the wheels: 0.2 rad a radian of turns, 0.1 rad and 0.1 m a metre. Wide on purpose: real wheels slip, and are off by
-/// a bias that no noise describes (some 4° a metre in one log). Too wide a prior only costs time.
-pub const ALPHAS: [f64; 4] = [0.04, 0.01, 0.01, 0.01];
-
-/// κ: the share of each beam's log-likelihood that counts. A real log is mapped as well with 0.5; with 0.3 the odometry's bias
-/// pulls at every pose, and its errors grow by half.
-pub const TEMPER: f64 = 0.85;
-
-/// ε: probability of a reading that has nothing to do with the map.
-pub const OUTLIER: f64 = 0.05;
-
-/// How many times further than its end points a surface reaches. End points spread evenly over a square have a standard deviation
-/// of 0.29 of its side: with 3 a surface is felt into the next square, and a wall is one wall. With 1, scans of new
-/// walls fitted a place half a metre off better than their own.
-pub const NDT_STRETCH: f64 = 3.0;
-
-/// What a distance from a surface costs. With c = 1 the pull is greatest at √⅔ σ, and at 2 σ half of that is left.
-pub const KERNEL: Kernel = Kernel::Robust { most: 1.0 };
-
-/// The proposal, for a laser of [`BEAMS`] beams.
-pub const FROM_SCAN: FromScanSettings<CorrelativeSearch> = FromScanSettings {
-    motion_floor: [0.02, 0.02, 0.01],
-    // Half a square, and as much at 3 m. Three starts: of two, one is often the neighbour of the other's hill.
-    search: CorrelativeSearch { linear: 0.1, angular: 0.035, stride: 4, climbs: 3 },
-    // From half the lattice's step down to half a centimetre.
-    climb: HillClimbSteps { linear: 0.05, angular: 0.02, halvings: 3 },
-    climb_stride: 2,
-    minimum_improvement: 0.5,
-    full_weight: 0.5,
-    limits: FitLimits { least: [0.005, 0.003], most: [0.05, 0.03] },
-};
-
-/// Beams for which [`FROM_SCAN`] is made. Of a denser laser the search takes fewer: neighbours tell it the same.
-const BEAMS: usize = 180;
-
-/// [`FROM_SCAN`] with strides for the beams of a log.
-fn from_scan(log: &LaserLog) -> FromScanSettings<CorrelativeSearch> {
-    let mut beams: Vec<usize> = log.scans.iter().map(|scan| scan.ranges.len()).collect();
-    let middle = beams.len() / 2;
-    let times = ((*beams.select_nth_unstable(middle).1 + BEAMS / 2) / BEAMS).max(1);
-    let mut settings = FROM_SCAN;
-    settings.climb_stride *= times;
-    settings.search.stride *= times;
-    settings
-}
-
-/// A robot that has moved by less than this \[m, or rad\] stands still: another look from there tells nothing new.
-pub const STILL: f64 = 0.02;
-
-/// Share of the longest range from which on a reading says *nothing met*: lasers write that range, or one a little different
-/// (81.83, 80 and 81.91 m in one log).
-pub const NOTHING_MET: f64 = 0.97;
-
-/// What a reader can set.
-#[derive(Clone, PartialEq, Debug)]
-pub struct LogSetup {
-    /// Number of particles M, 1 to 4096.
-    pub particles: usize,
-    /// Seed of the filter's draws.
-    pub seed: u64,
-    /// Side of a cell \[m\], 0.02 to 0.2.
-    pub cell_size: f64,
-    /// Ranges beyond this \[m\], 0.5 to 200, are not matched: up to it they say that the way is free.
-    pub max_range: f64,
-    /// Scans are passed over until the robot has driven this far \[m\], or turned by as many radians, 0 to 5.
-    pub min_travel: f64,
-    /// When the particles are resampled.
-    pub policy: ResamplePolicy,
-}
-
-impl Default for LogSetup {
-    fn default() -> Self {
-        Self {
-            particles: 16,
-            seed: 1,
-            cell_size: 0.05,
-            max_range: 30.0,
-            min_travel: 0.0,
-            policy: ResamplePolicy::EssBelow(0.5),
-        }
-    }
-}
-
-impl LogSetup {
-    fn validate(&self) -> Result<(), SettingError> {
-        Range::whole(1, 4096).check("particles", self.particles as f64)?;
-        Range::number(0.02, 0.2, "m").check("cell_size", self.cell_size)?;
-        Range::number(0.5, 200.0, "m").check("max_range", self.max_range)?;
-        Range::number(0.0, 5.0, "m").check("min_travel", self.min_travel)?;
-        self.policy.validate()
-    }
-}
-
-/// What one step did.
-#[derive(Clone, Debug)]
-pub struct LogStep {
-    /// The step, from 1 on.
-    pub step: u32,
-    /// ln p̂(z_t | z₁..ₜ₋₁) by the filter \[nats\], in which the matcher's score stands for the density of a scan; −∞ where the step
-    /// explained nothing.
-    pub log_evidence: f64,
-    /// N_eff before resampling.
-    pub ess: f64,
-    /// Whether the step resampled.
-    pub resampled: bool,
-    /// Particles whose matcher was trusted.
-    pub matched: u32,
-    /// Distinct ancestors at the start.
-    pub lineage: u32,
-    /// Paths of the particles that the step let die: the filter does not keep them.
-    pub extinct: Vec<Path>,
-}
-
-/// A log under way.
-#[derive(Clone, Debug)]
-pub struct LogRun {
-    log: Arc<LaserLog>,
-    setup: LogSetup,
-    /// Numbers of the scans that the filter takes, the first included.
-    used: Arc<Vec<u32>>,
-    /// Readings from this on \[m\] say that nothing was met.
-    longest: f64,
-    filter: Filter,
-    step: u32,
-    resampled: u32,
-    lineage_one_scan: Option<u32>,
-}
-
-impl LogRun {
-    /// At the log's start, which is the origin, with the first scan mapped.
-    ///
-    /// # Errors
-    /// Where a setting is out of its range, or the log has no scan.
-    pub fn new(setup: &LogSetup, log: Arc<LaserLog>) -> Result<Self, SettingError> {
-        setup.validate()?;
-        let Some(first) = log.scans.first() else {
-            return Err(SettingError::Missing { field: "log", needed: "at least one scan" });
-        };
-        let longest = NOTHING_MET * log.longest_reading();
-        let mut map = LogMap::new(GridModel {
-            cell_size: setup.cell_size,
-            log_odds_hit: 0.9,
-            log_odds_pass: -0.4,
-            ndt_std: 0.06,
-            ndt_stretch: NDT_STRETCH,
-            lag: LAG,
-            distance_reach: 2,
-        });
-        map.assimilate(&Pose2::default(), &first.end_points(longest, setup.max_range), &());
-        map.settle();
-        let score = ScanModel::new(Matcher::SubCell, TEMPER, OUTLIER).with_kernel(KERNEL);
-        let motion = OdometryModel { alphas: ALPHAS };
-        let filter = Rbpf::builder(map, FromScan { motion, score, settings: from_scan(&log) })
-            .particles(setup.particles)
-            .seed(setup.seed)
-            .policy(setup.policy)
-            .build()?;
-        let used = Arc::new(used(&log, setup.min_travel.max(STILL)));
-        let lineage_one_scan = (setup.particles == 1).then_some(0);
-        Ok(Self { log, setup: setup.clone(), used, longest, filter, step: 0, resampled: 0, lineage_one_scan })
-    }
-
-    /// The same run, computed by another executor: the results are the same.
-    pub fn with_executor(self, executor: Executor) -> Self {
-        Self { filter: self.filter.with_executor(executor), ..self }
-    }
-
-    /// The last step.
-    pub fn step_count(&self) -> u32 {
-        self.used.len() as u32 - 1
-    }
-
-    /// One scan of the log; `None` after the last.
-    pub fn step(&mut self) -> Option<LogStep> {
-        let to = &self.log.scans[*self.used.get(self.step as usize + 1)? as usize];
-        let from = &self.log.scans[self.used[self.step as usize] as usize];
-        let control = Odometry::recorded(&from.odometry, &to.odometry, STILL);
-        let report = self.filter.step(&control, &to.end_points(self.longest, self.setup.max_range));
-        self.step = report.step;
-        let lineage = self.filter.lineage() as u32;
-        if lineage == 1 {
-            self.lineage_one_scan.get_or_insert(report.step);
-        }
-        let resampled = report.ancestors.is_some();
-        self.resampled += u32::from(resampled);
-        let matched = report.traces.iter().filter(|t| matches!(t, ProposalTrace::Matched { .. })).count() as u32;
-        let extinct = report.extinct().cloned().collect();
-        let Report { step, log_evidence, ess, .. } = report;
-        Some(LogStep { step, log_evidence, ess, resampled, matched, lineage, extinct })
-    }
-
-    /// The filter, for those who watch it.
-    pub fn filter(&self) -> &Filter {
-        &self.filter
-    }
-
-    /// The particles, by slot.
-    pub fn particles(&self) -> &[Particle<LogMap>] {
-        self.filter.particles()
-    }
-
-    /// The best particle's map.
-    pub fn map(&self) -> &LogMap {
-        &self.particles()[self.filter.best()].map
-    }
-
-    /// The best particle's path, a pose for each scan so far with its time \[s\], in the frame of the first. A scan that was passed
-    /// over has the pose of the scan before, moved by raw odometry.
-    pub fn path(&self) -> Vec<(f64, Pose2)> {
-        let poses = self.particles()[self.filter.best()].path.poses();
-        let ends = self.used[1..].iter().map(|next| *next as usize).chain([self.log.scans.len()]);
-        let mut path = Vec::new();
-        for ((pose, first), end) in poses.iter().zip(self.used.iter()).zip(ends) {
-            let scans = &self.log.scans[*first as usize..end];
-            path.extend(scans.iter().map(|s| (s.time, pose.compose(&scans[0].odometry.between(&s.odometry)))));
-        }
-        path
-    }
-
-    /// Share of the steps so far that resampled.
-    pub fn resampled_fraction(&self) -> f64 {
-        f64::from(self.resampled) / f64::from(self.step.max(1))
-    }
-
-    /// First step at which all particles descend from one, if they do.
-    pub fn lineage_one_scan(&self) -> Option<u32> {
-        self.lineage_one_scan
-    }
-
-    /// Bytes of all maps.
-    pub fn footprint(&self) -> Footprint {
-        LogMap::footprint(self.particles().iter().map(|p| &p.map))
-    }
-
-    /// Fingerprint of the weights and of every particle's path and whole map, bit for bit.
-    pub fn digest(&self) -> Digest {
-        let mut digest = Digest::new();
-        self.filter.weights().as_slice().iter().for_each(|w| digest.f64(*w));
-        for particle in self.particles() {
-            for pose in particle.path.poses() {
-                [pose.x, pose.y, pose.theta].into_iter().for_each(|x| digest.f64(x));
-            }
-        }
-        LogMap::hash_all(self.particles().iter().map(|particle| &particle.map), &mut digest);
-        digest
-    }
-}
-
-/// Numbers of the scans that are at least so far \[m, or rad\] from the one taken before them; the first always.
-fn used(log: &LaserLog, travel: f64) -> Vec<u32> {
-    let mut used = vec![0];
-    let mut last = log.scans[0].odometry;
-    for (k, scan) in (0..).zip(&log.scans).skip(1) {
-        let moved = last.between(&scan.odometry);
-        if moved.distance(&Pose2::default()).max(moved.theta.abs()) >= travel {
-            used.push(k);
-            last = scan.odometry;
-        }
-    }
-    used
-}
-
-/// About how many bytes the maps of a run will take: the tiles that end points fall into by raw odometry once, and for
-/// each particle those of two scans. Where odometry drifts it counts walls more than once; it is no bound.
-pub fn memory_estimate(setup: &LogSetup, log: &LaserLog) -> u64 {
-    /// NdtField in a tile, about.
-    const SURFACES: usize = 12;
-    let tile = f64::from(LogMap::TILE_CELLS) * setup.cell_size;
-    let longest = NOTHING_MET * log.longest_reading();
-    let mut all = BTreeSet::new();
-    let mut most = 0;
-    for scan in &log.scans {
-        let pose = &scan.odometry;
-        let mut tiles = BTreeSet::new();
-        for end in scan.end_points(longest, setup.max_range).hits {
-            // The tiles on the way are free space that is kept as well.
-            let length = fastslam::ops::hypot(end[0], end[1]);
-            let parts = (length / tile).ceil().max(1.0);
-            for part in 0..=parts as u32 {
-                let share = f64::from(part) / parts;
-                let [x, y] = pose.transform([end[0] * share, end[1] * share]);
-                tiles.insert(((x / tile).floor() as i64, (y / tile).floor() as i64));
-            }
-        }
-        most = tiles.len().max(most);
-        all.extend(tiles);
-    }
-    // A particle that lives on beside others differs from them by a few scans, which overlap.
-    ((all.len() + 2 * setup.particles * most) * LogMap::tile_bytes(SURFACES)) as u64
-}
 
 /// How a log of our own comes about.
 #[derive(Clone, PartialEq, Debug)]
@@ -464,7 +151,7 @@ impl Example {
             let ranges = recipe.ranges(pose, &sensor, step);
             let ranges = ranges.iter().map(|range| rounded(*range, 1e2) as f32).collect();
             log.odometry.push((time, odometry));
-            log.scans.push(fastslam::log::LaserScan {
+            log.scans.push(LaserScan {
                 time,
                 odometry,
                 robot_from_laser: Pose2::default(),
@@ -527,15 +214,30 @@ const ROUTE: [[f64; 2]; 30] = [
     [6.1, 10.5],
 ];
 
+/// Fingerprint of a mapper's weights and of every particle's path and whole map, bit for bit.
+pub fn digest(mapper: &LaserMapper) -> Digest {
+    let (mut digest, filter) = (Digest::new(), mapper.filter());
+    filter.weights().as_slice().iter().for_each(|w| digest.f64(*w));
+    for particle in filter.particles() {
+        for pose in particle.path.poses() {
+            [pose.x, pose.y, pose.theta].into_iter().for_each(|x| digest.f64(x));
+        }
+    }
+    Map::hash_all(filter.particles().iter().map(|particle| &particle.map), &mut digest);
+    digest
+}
+
 /// Runs whose fingerprints are kept with the tests.
-pub fn golden_runs() -> Vec<(&'static str, LogRun)> {
+pub fn golden_runs() -> Vec<(&'static str, Replay)> {
     let log = Arc::new(Example::new(40).log);
-    let run = |setup: LogSetup| LogRun::new(&setup, Arc::clone(&log)).expect("a golden setup is valid");
+    let run =
+        |settings: LaserMapperSettings| Replay::new(settings, Arc::clone(&log)).expect("a golden setting is valid");
+    let settings = LaserMapperSettings::default();
     vec![
-        ("log", run(LogSetup { particles: 5, ..LogSetup::default() })),
+        ("log", run(LaserMapperSettings { particles: 5, ..settings })),
         (
             "log-sparse",
-            run(LogSetup { particles: 3, min_travel: 0.8, cell_size: 0.1, max_range: 6.0, ..LogSetup::default() }),
+            run(LaserMapperSettings { particles: 3, min_travel: 0.8, cell_size: 0.1, max_range: 6.0, ..settings }),
         ),
     ]
 }
@@ -550,14 +252,15 @@ mod tests {
         let Example { log, relations, .. } = Example::new(usize::MAX);
         let log = Arc::new(log);
         let raw = relation_errors(&log.odometry, &log.odometry, &relations).unwrap();
-        let setup = LogSetup { particles: 8, ..LogSetup::default() };
-        let mut run = LogRun::new(&setup, Arc::clone(&log)).unwrap();
-        while run.step().is_some() {}
-        assert_eq!(run.path().len(), log.scans.len());
-        let errors = relation_errors(&run.path(), &log.odometry, &relations).unwrap();
+        let settings = LaserMapperSettings { particles: 8, ..LaserMapperSettings::default() };
+        let mut replay = Replay::new(settings, Arc::clone(&log)).unwrap();
+        replay.by_ref().for_each(drop);
+        let mapper = replay.mapper();
+        assert_eq!(mapper.path().len(), log.scans.len());
+        let errors = relation_errors(&mapper.path(), &log.odometry, &relations).unwrap();
         assert!(raw.translation_mean > 0.5, "odometry alone must fail: {raw:?}");
         assert!(errors.translation_mean < 0.06 && errors.rotation_mean_deg < 0.5, "{errors:?}");
-        let (footprint, estimate) = (run.footprint(), memory_estimate(&setup, &log));
+        let (footprint, estimate) = (mapper.footprint(), settings.memory_estimate(&log));
         assert!(
             footprint.unique < footprint.dense / 3 && footprint.unique < estimate && estimate < 10 * footprint.unique
         );
@@ -571,42 +274,5 @@ mod tests {
             let free = plan.raycast([pair[0].x, pair[0].y], fastslam::ops::atan2(dy, dx));
             assert!(free > pair[0].distance(&pair[1]) + 0.1, "step {k} at {:?}: a wall after {free} m", pair[0]);
         }
-    }
-
-    #[test]
-    fn settings_out_of_range_are_refused() {
-        let log = Arc::new(Example::new(2).log);
-        let refused = |setup: LogSetup| LogRun::new(&setup, Arc::clone(&log)).unwrap_err().field();
-        let setup = LogSetup::default;
-        assert_eq!(refused(LogSetup { particles: 0, ..setup() }), "particles");
-        assert_eq!(refused(LogSetup { cell_size: f64::NAN, ..setup() }), "cell");
-        assert_eq!(refused(LogSetup { max_range: 1e9, ..setup() }), "max-range");
-        assert_eq!(refused(LogSetup { min_travel: -1.0, ..setup() }), "min-travel");
-        assert_eq!(LogRun::new(&setup(), Arc::default()).unwrap_err().field(), "log");
-    }
-
-    #[test]
-    fn the_search_takes_as_many_beams_of_a_dense_laser() {
-        let mut log = Example::new(5).log;
-        assert_eq!(from_scan(&log), FROM_SCAN);
-        for (beams, times) in [(1, 1), (181, 1), (361, 2), (1081, 6)] {
-            log.scans.iter_mut().skip(1).for_each(|scan| scan.ranges = vec![1.0; beams]);
-            let settings = from_scan(&log);
-            assert_eq!((settings.climb_stride, settings.search.stride), (2 * times, 4 * times));
-        }
-    }
-
-    #[test]
-    fn a_robot_that_stands_still_looks_once_and_its_path_goes_on() {
-        let mut log = Example::new(3).log;
-        let still = log.scans[1].clone();
-        log.scans.splice(
-            2..2,
-            (1..=5).map(|k| fastslam::log::LaserScan { time: still.time + 0.01 * f64::from(k), ..still.clone() }),
-        );
-        let mut run = LogRun::new(&LogSetup { particles: 2, ..LogSetup::default() }, Arc::new(log)).unwrap();
-        while run.step().is_some() {}
-        assert_eq!((run.step_count(), run.path().len()), (2, 8));
-        assert_eq!(run.path()[1].1, run.path()[6].1);
     }
 }

@@ -1,14 +1,15 @@
-//! The mapper of [`log`](super::log) in worlds that ask more of it than its example does: worse wheels, worse lasers, people, and corridors
+//! The [mapper](fastslam::mapper) in worlds that ask more of it than [`Example`] does: worse wheels, worse lasers, people, and corridors
 //! in which there is little to see.
 //!
 //! A change to the filter that pleases one building is to be held against all of these. The truth is known: errors are by the
 //! benchmark's metric against the true relations.
 
-use super::log::{Example, LogRun, LogSetup, Recipe};
+use super::log::{Example, Recipe};
 use crate::world::FloorPlan;
 use fastslam::error::SettingError;
 use fastslam::execute::Executor;
 use fastslam::log::{LaserLog, Relation, RelationErrors, relation_errors};
+use fastslam::mapper::{LaserMapper, LaserMapperSettings, Replay};
 use std::sync::Arc;
 
 /// A world and a robot by name.
@@ -70,7 +71,7 @@ const LONG_ROUTE: [[f64; 2]; 10] = [
 /// A log of a variant under way, on the calling thread.
 #[derive(Clone, Debug)]
 pub struct VariantRun {
-    run: LogRun,
+    replay: Replay,
     log: Arc<LaserLog>,
     relations: Vec<Relation>,
 }
@@ -81,26 +82,27 @@ impl VariantRun {
     /// # Errors
     /// Where the number of particles is out of its range.
     pub fn new(variant: &Variant, particles: usize, seed: u64) -> Result<Self, SettingError> {
-        let setup = LogSetup { particles, seed, ..LogSetup::default() };
+        let settings = LaserMapperSettings { particles, seed, ..LaserMapperSettings::default() };
         let Example { log, relations, .. } = Example::of(&Recipe { seed, ..variant.recipe.clone() }, usize::MAX);
         let log = Arc::new(log);
-        let run = LogRun::new(&setup, Arc::clone(&log))?.with_executor(Executor::Serial);
-        Ok(Self { run, log, relations })
+        let replay = Replay::new(settings, Arc::clone(&log))?.with_executor(Executor::Serial);
+        Ok(Self { replay, log, relations })
     }
 
-    /// The filter.
-    pub fn run(&self) -> &LogRun {
-        &self.run
+    /// The mapper, as far as it has come.
+    pub fn mapper(&self) -> &LaserMapper {
+        self.replay.mapper()
     }
 
     /// One scan; `false` after the last.
     pub fn step(&mut self) -> bool {
-        self.run.step().is_some()
+        self.replay.next().is_some()
     }
 
     /// How far the best path so far is from the true relations.
     pub fn errors(&self) -> RelationErrors {
-        relation_errors(&self.run.path(), &self.log.odometry, &self.relations).expect("a world of ours has relations")
+        relation_errors(&self.mapper().path(), &self.log.odometry, &self.relations)
+            .expect("a world of ours has relations")
     }
 
     /// The same of raw odometry.

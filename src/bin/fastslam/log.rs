@@ -3,13 +3,14 @@
 use crate::{Usage, in_file, picture, print, print_json, progress};
 use anyhow::{Context, Result, bail};
 use cpu_time::ProcessTime;
+use fastslam::error::SettingError;
 use fastslam::geometry::Pose2;
 use fastslam::log::{
     LaserLog, LogError, Notes, RelationErrors, parse, parse_relations, relation_errors, write, write_tum,
 };
-use fastslam::map::Footprint;
 use fastslam::map::grid::MapImage;
-use fastslam_lab::experiment::log::{Example, LogRun, LogSetup, memory_estimate};
+use fastslam::mapper::{LaserMapper, LaserMapperSettings, Replay};
+use fastslam_lab::experiment::log::{Example, digest};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::io::Read;
@@ -24,19 +25,19 @@ pub struct Arguments {
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Number of particles M, 1 to 4096
-    #[arg(long, value_name = "M", default_value_t = LogSetup::default().particles)]
+    #[arg(long, value_name = "M", default_value_t = LaserMapperSettings::default().particles)]
     particles: usize,
     /// Seed of the filter's draws
-    #[arg(long, default_value_t = LogSetup::default().seed)]
+    #[arg(long, default_value_t = LaserMapperSettings::default().seed)]
     seed: u64,
     /// Side of a cell of the map [m], 0.02 to 0.2
-    #[arg(long, value_name = "METRES", default_value_t = LogSetup::default().cell_size, allow_negative_numbers = true)]
+    #[arg(long, value_name = "METRES", default_value_t = LaserMapperSettings::default().cell_size, allow_negative_numbers = true)]
     cell: f64,
     /// Ranges beyond this [m], 0.5 to 200, are not matched
-    #[arg(long, value_name = "METRES", default_value_t = LogSetup::default().max_range, allow_negative_numbers = true)]
+    #[arg(long, value_name = "METRES", default_value_t = LaserMapperSettings::default().max_range, allow_negative_numbers = true)]
     max_range: f64,
     /// Pass scans over until the robot has driven this far [m], or turned by as many radians, 0 to 5
-    #[arg(long, value_name = "METRES", default_value_t = LogSetup::default().min_travel, allow_negative_numbers = true)]
+    #[arg(long, value_name = "METRES", default_value_t = LaserMapperSettings::default().min_travel, allow_negative_numbers = true)]
     min_travel: f64,
     /// Pass malformed lines over, and count them
     #[arg(long)]
@@ -106,54 +107,68 @@ pub fn run(arguments: &Arguments) -> Result<()> {
             format_args!("none of its {count} relations is within the time of the log: are they of another one?");
         bail!(Usage::of_file(path, message));
     }
-    let setup = LogSetup {
+    let settings = LaserMapperSettings {
         particles: arguments.particles,
         seed: arguments.seed,
         cell_size: arguments.cell,
         max_range: arguments.max_range,
         min_travel: arguments.min_travel,
-        ..LogSetup::default()
+        ..LaserMapperSettings::default()
     };
     let log = Arc::new(log);
-    let mut run = LogRun::new(&setup, Arc::clone(&log))?;
+    let mut replay = Replay::new(settings, Arc::clone(&log)).map_err(by_flag)?;
     // Before minutes of work: whether the results can be written.
     let outputs = Outputs::open(arguments)?;
 
-    let bar = progress(run.step_count() as usize, "scans").with_style(
+    let bar = progress(replay.len(), "scans").with_style(
         indicatif::ProgressStyle::with_template("{wide_bar} {pos}/{len} scans, {per_sec}, {eta} to go, {msg}")
             .expect("the template is right"),
     );
-    let (mut cpu, mut peak, mut resampled, mut scans_unexplained) = (Duration::ZERO, run.footprint(), 0, 0);
+    let (mut cpu, mut peak) = (Duration::ZERO, replay.mapper().footprint());
+    let (mut resampled, mut scans_unexplained) = (0, 0);
     loop {
         let start = ProcessTime::now();
-        let Some(step) = run.step() else { break };
+        let Some(report) = replay.next() else { break };
         cpu += start.elapsed();
-        let Footprint { unique, .. } = run.footprint();
-        if unique > peak.unique {
-            peak = run.footprint();
+        let now = replay.mapper().footprint();
+        if now.unique > peak.unique {
+            peak = now;
         }
-        resampled += u32::from(step.resampled);
-        scans_unexplained += u32::from(step.log_evidence == f64::NEG_INFINITY);
-        bar.set_message(format!("N_eff {:.1}, {resampled} resamplings, lineage {}", step.ess, step.lineage));
+        resampled += u32::from(report.resampled());
+        scans_unexplained += u32::from(!report.explained());
+        let lineage = replay.mapper().filter().lineage();
+        bar.set_message(format!("N_eff {:.1}, {resampled} resamplings, lineage {lineage}", report.ess));
         bar.inc(1);
     }
     bar.finish_and_clear();
 
-    let path = run.path();
-    outputs.write(&run, &path)?;
+    let mapper = replay.mapper();
+    let path = mapper.path();
+    outputs.write(mapper, &path)?;
+    let steps = mapper.steps();
     let output = Output {
         scans: log.scans.len() as u32,
-        scans_used: run.step_count() + 1,
-        ms_per_scan_particle: 1e3 * cpu.as_secs_f64() / f64::from(run.step_count().max(1)) / setup.particles as f64,
+        scans_used: steps + 1,
+        ms_per_scan_particle: 1e3 * cpu.as_secs_f64() / f64::from(steps.max(1)) / settings.particles as f64,
         peak_map_bytes: peak.unique,
         dense_map_bytes: peak.dense,
         errors: relations.and_then(|relations| relation_errors(&path, &log.odometry, &relations)),
-        resampled_fraction: run.resampled_fraction(),
+        resampled_fraction: mapper.resampled_fraction(),
         scans_unexplained,
-        lineage_one_scan: run.lineage_one_scan(),
-        digest: format!("{:016x}", run.digest().value()),
+        lineage_one_scan: mapper.single_lineage_since(),
+        digest: format!("{:016x}", digest(mapper).value()),
     };
-    if arguments.json { print_json(&output) } else { print(&summary(&setup, &log, &output)) }
+    if arguments.json { print_json(&output) } else { print(&summary(&settings, &log, &output)) }
+}
+
+/// A refusal by the flag that its reader gave.
+fn by_flag(error: SettingError) -> SettingError {
+    match error.field() {
+        "cell_size" => error.called("cell"),
+        "max_range" => error.called("max-range"),
+        "min_travel" => error.called("min-travel"),
+        _ => error,
+    }
 }
 
 /// Writes the example.
@@ -219,7 +234,7 @@ fn notes(notes: &Notes) -> Vec<String> {
     said
 }
 
-fn summary(setup: &LogSetup, log: &LaserLog, output: &Output) -> String {
+fn summary(settings: &LaserMapperSettings, log: &LaserLog, output: &Output) -> String {
     let mut text = format!(
         "{} scans, of which {} taken: {} particles, seed {}, cells of {} m\n\
          CPU time per scan and particle    {:8.3} ms\n\
@@ -227,13 +242,13 @@ fn summary(setup: &LogSetup, log: &LaserLog, output: &Output) -> String {
          steps that resampled              {:8.0} %\n",
         output.scans,
         output.scans_used,
-        setup.particles,
-        setup.seed,
-        setup.cell_size,
+        settings.particles,
+        settings.seed,
+        settings.cell_size,
         output.ms_per_scan_particle,
         output.peak_map_bytes as f64 / 1e6,
         output.dense_map_bytes as f64 / 1e6,
-        memory_estimate(setup, log) as f64 / 1e6,
+        settings.memory_estimate(log) as f64 / 1e6,
         100.0 * output.resampled_fraction,
     );
     if output.scans_unexplained > 0 {
@@ -283,13 +298,13 @@ impl Outputs {
         Ok(outputs)
     }
 
-    fn write(&self, run: &LogRun, path: &[(f64, Pose2)]) -> Result<()> {
+    fn write(&self, mapper: &LaserMapper, path: &[(f64, Pose2)]) -> Result<()> {
         let save = |path: &Path, bytes: &[u8]| std::fs::write(path, bytes).with_context(in_file(path));
         if let Some(file) = &self.trajectory {
-            save(file, write_tum(&run.path()).as_bytes())?;
+            save(file, write_tum(path).as_bytes())?;
         }
         if let Some([png, pgm, yaml]) = &self.map {
-            let map = MapImage::of(run.map());
+            let map = MapImage::of(mapper.map());
             picture::save_map(&map, path, png)?;
             save(pgm, &map.pgm())?;
             save(yaml, map.yaml(&pgm.file_name().unwrap_or_default().to_string_lossy()).as_bytes())?;

@@ -5,6 +5,7 @@ use anyhow::{Result, bail};
 use cpu_time::ThreadTime;
 use fastslam::log::RelationErrors;
 use fastslam_lab::experiment::ErrorSummary;
+use fastslam_lab::experiment::log::digest;
 use fastslam_lab::experiment::variants::{Variant, VariantRun, variants};
 use indicatif::ParallelProgressIterator;
 use rayon::prelude::*;
@@ -96,14 +97,14 @@ fn one(variant: &Variant, particles: usize, seed: u64) -> Result<Run> {
         }
         cpu += start.elapsed();
     }
-    let steps = run.run().step_count();
+    let steps = run.mapper().steps();
     Ok(Run {
         seed,
         scans_used: steps + 1,
         errors: run.errors(),
-        resampled_fraction: run.run().resampled_fraction(),
+        resampled_fraction: run.mapper().resampled_fraction(),
         cpu_ms: 1e3 * cpu.as_secs_f64() / f64::from(steps.max(1)) / particles as f64,
-        digest: format!("{:016x}", run.run().digest().value()),
+        digest: format!("{:016x}", digest(run.mapper()).value()),
     })
 }
 

@@ -1,11 +1,11 @@
 //! The fit of a Gaussian through few values, which must not know north from east.
 
 use fastslam::geometry::{Gaussian3, Pose2};
+use fastslam::mapper::tuning;
 use fastslam::ops;
 use fastslam::proposal::{Fit, FitLimits};
 use fastslam_lab::experiment::hill::Hill;
 use fastslam_lab::experiment::lap::FROM_SCAN;
-use fastslam_lab::experiment::log;
 use nalgebra::{Matrix3, Vector3};
 
 const LIMITS: FitLimits = FROM_SCAN.limits;
@@ -126,6 +126,6 @@ fn of_a_bent_hill_the_integral_is_near_at_every_angle() {
 /// no weight. But it is short by as much at every angle; 1e-6 nats are what rounding leaves.
 #[test]
 fn a_hill_of_robust_beams_is_missed_by_as_much_at_every_angle() {
-    let errors = errors(&log::FROM_SCAN.limits, robust);
+    let errors = errors(&tuning::FROM_SCAN.limits, robust);
     assert!(errors.iter().all(|error| (error - errors[0]).abs() < 1e-6), "{errors:?}");
 }

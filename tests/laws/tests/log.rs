@@ -2,9 +2,10 @@
 
 use fastslam::geometry::Pose2;
 use fastslam::log::{LogError, NEAR, Relation, parse, parse_relations, relation_errors, write};
+use fastslam::mapper::{LaserMapperSettings, Replay};
 use fastslam::ops;
 use fastslam::random::{Purpose, Stream};
-use fastslam_lab::experiment::log::{Example, LogRun, LogSetup, NOTHING_MET};
+use fastslam_lab::experiment::log::Example;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -54,7 +55,7 @@ fn readings_that_met_nothing_are_no_end_points_and_far_ones_are_cut() {
 fn a_few_errors_beyond_the_longest_range_do_not_make_walls_of_it() {
     let scan = |longest: f64| format!("FLASER 4 2.0 3.0 8.19 {longest} 0 0 0 0 0 0 1 h 1\n");
     let log = parse([scan(8.0).repeat(999), scan(81.91)].concat().as_bytes(), false).unwrap();
-    let longest = NOTHING_MET * log.longest_reading();
+    let longest = LaserMapperSettings::default().for_log(&log).no_return.unwrap();
     assert!((7.9..8.0).contains(&longest), "{longest}");
     assert_eq!(log.scans[0].end_points(longest, 30.0).hits.len(), 2);
 }
@@ -170,10 +171,10 @@ fn mutilated_logs_are_refused_or_mapped_but_never_panic() {
         assert!(strict.is_err() == (log.notes.malformed > 0), "the two ways to read agree on what is malformed");
         assert!(log.scans.windows(2).all(|pair| pair[0].time <= pair[1].time));
         if trial % 4 == 0 {
-            let setup = LogSetup { particles: 2, max_range: 5.0, ..LogSetup::default() };
-            let mut run = LogRun::new(&setup, Arc::new(log)).unwrap();
-            while run.step().is_some() {}
-            assert!(run.path().iter().all(|(_, pose)| pose.x.is_finite() && pose.y.is_finite()));
+            let settings = LaserMapperSettings { particles: 2, max_range: 5.0, ..LaserMapperSettings::default() };
+            let mut replay = Replay::new(settings, Arc::new(log)).unwrap();
+            replay.by_ref().for_each(drop);
+            assert!(replay.mapper().path().iter().all(|(_, pose)| pose.x.is_finite() && pose.y.is_finite()));
             mapped += 1;
         }
     }

@@ -3,6 +3,7 @@
 use fastslam::geometry::{Gaussian3, Pose2};
 use fastslam::map::ConditionalMap;
 use fastslam::map::grid::{Grid, GridModel};
+use fastslam::mapper::tuning;
 use fastslam::matching::{Matcher, ScanModel};
 use fastslam::motion::{Motion, Odometry, OdometryModel};
 use fastslam::ops;
@@ -12,7 +13,6 @@ use fastslam::proposal::{
 };
 use fastslam::random::{Purpose, Stream};
 use fastslam_lab::experiment::lap::{ALPHAS, FROM_SCAN, GRID, LapWorld, OUTLIER, TEMPER};
-use fastslam_lab::experiment::log;
 use nalgebra::{Matrix3, Vector3};
 
 /// A particle at the start of the lap, its map made there, and the first step's control and scan.
@@ -148,7 +148,7 @@ fn compare<S: Search>(name: &str, step: &OneStep<S>) {
 #[test]
 fn the_measurement_aware_proposal_has_the_posteriors_mean_covariance_and_integral() {
     for matcher in [Matcher::Cell, Matcher::SubCell] {
-        let (mut spread, mut lattice) = (one_step(matcher), one_step_by(matcher, log::FROM_SCAN.search));
+        let (mut spread, mut lattice) = (one_step(matcher), one_step_by(matcher, tuning::FROM_SCAN.search));
         // So hard a temper leaves cells, and the coarse look of the lattice, too little for the guard to trust them.
         lattice.from_scan.settings.minimum_improvement = f64::NEG_INFINITY;
         if matcher == Matcher::Cell {

@@ -3,6 +3,7 @@
 use fastslam::geometry::Pose2;
 use fastslam::map::ConditionalMap;
 use fastslam::map::grid::{Grid, GridModel};
+use fastslam::mapper::tuning;
 use fastslam::matching::{Matcher, ScanModel};
 use fastslam::motion::{Motion as _, Odometry, OdometryModel};
 use fastslam::ops;
@@ -10,9 +11,9 @@ use fastslam::particle::Particle;
 use fastslam::proposal::{Fit, FromScan, Proposal, ProposalTrace, Search};
 use fastslam::random::{Purpose, Stream};
 use fastslam::sensor::{BeamSensor, Scan};
+use fastslam_lab::experiment::ErrorSummary as Errors;
 use fastslam_lab::experiment::hill::Hill;
 use fastslam_lab::experiment::lap::{self, BEAMS, Lap, LapSetup, LapWorld};
-use fastslam_lab::experiment::{ErrorSummary as Errors, log};
 use fastslam_lab::world::{FloorPlan, Segment};
 use nalgebra::Matrix3;
 use std::sync::Arc;
@@ -68,7 +69,7 @@ fn turned_about(center: [f64; 2], angle: f64, seed: u32) -> Pose2 {
 }
 
 /// Wheels for the corridor: 0.8 m on, 8 cm are unknown along it.
-const WHEELS: OdometryModel = OdometryModel { alphas: log::ALPHAS };
+const WHEELS: OdometryModel = OdometryModel { alphas: tuning::ALPHAS };
 
 /// A corridor with no end in sight, mapped on twelve steps of 0.3 m from known poses, and a scan `trans` \[m\] further: the `seed`-th
 /// of places where raster and noise differ, the world turned.
@@ -112,17 +113,8 @@ fn corridor_of_the_lap(seed: u32, angle: f64) -> Option<Judged> {
 
 /// With the map and settings for logs, in which 4 to 5 cm are unknown along a step.
 fn corridor_of_a_log(seed: u32, angle: f64) -> Option<Judged> {
-    let likelihood = ScanModel::new(Matcher::SubCell, log::TEMPER, log::OUTLIER).with_kernel(log::KERNEL);
-    let from_scan = FromScan { motion: WHEELS, score: likelihood, settings: log::FROM_SCAN };
-    let model = GridModel {
-        cell_size: 0.05,
-        log_odds_pass: -0.4,
-        ndt_std: 0.06,
-        ndt_stretch: log::NDT_STRETCH,
-        distance_reach: 2,
-        ..lap::GRID
-    };
-    corridor::<_, { log::CELLS_PER_NDT }>(from_scan, model, 0.4, seed, angle).judged(seed)
+    corridor::<_, { tuning::CELLS_PER_NDT }>(tuning::proposal(tuning::BEAMS), tuning::grid(0.05), 0.4, seed, angle)
+        .judged(seed)
 }
 
 /// The first step of the lap, turned about its start.

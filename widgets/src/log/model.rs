@@ -18,9 +18,11 @@ use crate::{
 use fastslam::{
     log::{LaserLog, LogError, parse, swept_area, write_tum},
     map::{Footprint, grid::MapImage},
+    mapper::{LaserMapper, LaserMapperSettings, Replay},
+    rbpf::Report,
     resampling::ResamplePolicy,
 };
-use fastslam_lab::experiment::log::{LogRun, LogSetup, LogStep};
+use fastslam_lab::experiment::log::digest;
 use std::sync::Arc;
 
 /// Steps back of the lineage gauge.
@@ -58,7 +60,7 @@ pub struct LogModel {
     /// The step asked for.
     asked: u32,
     /// From the first step on.
-    run: Option<LogRun>,
+    replay: Option<Replay>,
     /// Of every step, from 1 on.
     history: Vec<Moment>,
     /// Of the last [`FADE`] steps.
@@ -72,7 +74,7 @@ pub struct LogModel {
 /// What decides the numbers.
 #[derive(Clone, PartialEq)]
 struct Recipe {
-    setup: LogSetup,
+    setup: LaserMapperSettings,
     /// Of the policy "N_eff below", kept while another policy is chosen.
     threshold: f64,
 }
@@ -105,7 +107,7 @@ pub struct Moment {
 
 impl Default for LogModel {
     fn default() -> Self {
-        let setup = LogSetup::default();
+        let setup = LaserMapperSettings::default();
         let threshold = policy::threshold(setup.policy);
         Self {
             recipe: Recipe { setup, threshold },
@@ -113,7 +115,7 @@ impl Default for LogModel {
             raw: false,
             opened: None,
             asked: 0,
-            run: None,
+            replay: None,
             history: Vec::new(),
             deaths: Vec::new(),
             peak: Footprint { unique: 0, dense: 0 },
@@ -142,13 +144,13 @@ impl Recipe {
 }
 
 impl Opened {
-    fn new(log: LaserLog, setup: &LogSetup) -> Self {
+    fn new(log: LaserLog, setup: &LaserMapperSettings) -> Self {
         let way = log.scans.windows(2).map(|pair| pair[0].odometry.distance(&pair[1].odometry)).sum();
         Self { swept: swept(&log, setup.max_range), log: Arc::new(log), way }
     }
 
     /// Memory \[bytes\] that so many universes with cells of this size take at the most.
-    fn bytes(&self, setup: &LogSetup, universes: usize) -> f64 {
+    fn bytes(&self, setup: &LaserMapperSettings, universes: usize) -> f64 {
         let m = universes as f64;
         let map = |area: f64| area / setup.cell_size * (CELL_BYTES / setup.cell_size + WALL_BYTES);
         let [all, one] = self.swept.map(map);
@@ -182,13 +184,13 @@ impl LogModel {
     }
 
     /// What was set.
-    pub fn setup(&self) -> &LogSetup {
+    pub fn setup(&self) -> &LaserMapperSettings {
         &self.recipe.setup
     }
 
-    /// The filter, once it was asked for.
-    pub fn run(&self) -> Option<&LogRun> {
-        self.run.as_ref()
+    /// The mapper, once it was asked for.
+    pub fn mapper(&self) -> Option<&LaserMapper> {
+        self.replay.as_ref().map(Replay::mapper)
     }
 
     /// Of every step, from 1 on.
@@ -203,13 +205,13 @@ impl LogModel {
 
     /// Whether raw odometry is drawn: what there is to see before the first step.
     pub fn shows_raw(&self) -> bool {
-        self.raw || self.run.is_none()
+        self.raw || self.replay.is_none()
     }
 
     /// The part of the world that is shown.
     pub fn view(&self, layout: &Layout) -> Option<View> {
-        let whole = || match (&self.run, self.log()) {
-            (Some(run), _) => Some(Frame::of_map(run)),
+        let whole = || match (self.mapper(), self.log()) {
+            (Some(mapper), _) => Some(Frame::of_map(mapper.map())),
             (None, Some(log)) => {
                 let corner = |pick: fn(f64, f64) -> f64, start: f64| {
                     let fold = |corner: [f64; 2], x, y| [pick(corner[0], x), pick(corner[1], y)];
@@ -230,7 +232,7 @@ impl LogModel {
 
     /// Forgets what was computed.
     fn restart(&mut self) {
-        self.run = None;
+        self.replay = None;
         self.asked = 0;
         self.history.clear();
         self.deaths.clear();
@@ -242,13 +244,14 @@ impl LogModel {
     }
 
     /// What the step that was just made did.
-    fn note(&mut self, LogStep { step, log_evidence, ess, resampled, extinct: paths, .. }: LogStep) {
-        let Some(run) = &self.run else { return };
-        let descent = run.filter().descent();
+    fn note(&mut self, report: &Report<()>) {
+        let Some(replay) = &self.replay else { return };
+        let descent = replay.mapper().filter().descent();
+        let (step, paths): (u32, Vec<_>) = (report.step, report.extinct().cloned().collect());
         self.history.push(Moment {
-            log_evidence,
-            ess,
-            resampled,
+            log_evidence: report.log_evidence,
+            ess: report.ess,
+            resampled: report.resampled(),
             died: paths.len() as u32,
             lineage: descent.lineage(BACK),
             shared: descent.coalescence().unwrap_or(0),
@@ -257,8 +260,8 @@ impl LogModel {
         if !paths.is_empty() {
             self.deaths.push(Death { step, paths });
         }
-        if step.is_multiple_of(LOOK) || step == run.step_count() {
-            let now = run.footprint();
+        if step.is_multiple_of(LOOK) || step == replay.step_count() {
+            let now = replay.mapper().footprint();
             if now.unique > self.peak.unique {
                 self.peak = now;
             }
@@ -297,8 +300,8 @@ impl LogModel {
         text
     }
 
-    fn progress(&self, run: &LogRun) -> String {
-        let (step, last) = (self.history.len() as u32, run.step_count());
+    fn progress(&self, replay: &Replay) -> String {
+        let (step, last) = (self.history.len() as u32, replay.step_count());
         let m = self.setup().particles;
         let start =
             if step == last { "All scans are mapped".into() } else { format!("Scan {step} of {last} is mapped") };
@@ -443,11 +446,11 @@ impl Model for LogModel {
     }
 
     fn file(&self, name: &str) -> Option<Vec<u8>> {
-        let run = self.run.as_ref()?;
+        let mapper = self.mapper()?;
         Some(match name {
-            "path.tum" => write_tum(&run.path()).into_bytes(),
-            "map.pgm" => MapImage::of(run.map()).pgm(),
-            "map.yaml" => MapImage::of(run.map()).yaml("map.pgm").into_bytes(),
+            "path.tum" => write_tum(&mapper.path()).into_bytes(),
+            "map.pgm" => MapImage::of(mapper.map()).pgm(),
+            "map.yaml" => MapImage::of(mapper.map()).yaml("map.pgm").into_bytes(),
             _ => return None,
         })
     }
@@ -471,15 +474,15 @@ impl Model for LogModel {
         if step < self.step() {
             self.restart();
         }
-        if self.run.is_none() && step > 0 {
-            self.run = LogRun::new(self.setup(), log).ok(); // the parameters' ranges are within the core's
+        if self.replay.is_none() && step > 0 {
+            self.replay = Replay::new(*self.setup(), log).ok(); // the parameters' ranges are within the mapper's
         }
         self.asked = step.min(self.step_count());
     }
 
     fn step_count(&self) -> u32 {
-        match (&self.run, self.log()) {
-            (Some(run), _) => run.step_count(),
+        match (&self.replay, self.log()) {
+            (Some(replay), _) => replay.step_count(),
             (None, Some(log)) => log.scans.len() as u32 - 1,
             _ => 0,
         }
@@ -495,9 +498,9 @@ impl Model for LogModel {
 
     fn work(&mut self) {
         if self.pending() > 0
-            && let Some(step) = self.run.as_mut().and_then(LogRun::step)
+            && let Some(report) = self.replay.as_mut().and_then(Replay::next)
         {
-            self.note(step);
+            self.note(&report);
         }
     }
 
@@ -519,7 +522,7 @@ impl Model for LogModel {
         };
         let done = step > 0 && step == self.step_count();
         let digest =
-            self.run.as_ref().filter(|_| done).map_or("–".into(), |run| format!("{:016x}", run.digest().value()));
+            self.mapper().filter(|_| done).map_or("–".into(), |mapper| format!("{:016x}", digest(mapper).value()));
         vec![
             Readout::new(
                 "scan",
@@ -607,7 +610,7 @@ impl Model for LogModel {
             Column::new("lineage_20", "distinct ancestors 20 scans ago"),
             Column::new("shared", "latest scan up to which all universes share one path"),
         ];
-        let path = self.run.as_ref().map(LogRun::path).unwrap_or_default();
+        let path = self.mapper().map(LaserMapper::path).unwrap_or_default();
         let row = |(k, (time, pose)): (usize, &(f64, fastslam::geometry::Pose2))| {
             let of =
                 |value: fn(&Moment) -> f64| k.checked_sub(1).and_then(|k| self.history.get(k)).map_or(f64::NAN, value);
@@ -629,8 +632,8 @@ impl Model for LogModel {
     }
 
     fn describe(&self) -> String {
-        match (&self.run, &self.opened) {
-            (Some(run), _) => self.progress(run),
+        match (&self.replay, &self.opened) {
+            (Some(replay), _) => self.progress(replay),
             (None, Some(opened)) => self.told(opened),
             _ => "No log is open yet. Run the example, or choose or drop a log of your own: a CARMEN log, as text or compressed by gzip.".into(),
         }

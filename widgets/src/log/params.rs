@@ -1,7 +1,7 @@
 //! What a reader can set about the mapping of a log.
 
 use crate::{model::ParamSpec, policy};
-use fastslam_lab::experiment::log::LogSetup;
+use fastslam::mapper::LaserMapperSettings;
 
 /// Least and most of each number, and the step of its slider.
 const CELL: (f64, f64, f64) = (0.02, 0.2, 0.01);
@@ -10,7 +10,8 @@ const TRAVEL: (f64, f64, f64) = (0.0, 2.0, 0.05);
 
 /// All parameters.
 pub fn specs() -> Vec<ParamSpec> {
-    let LogSetup { particles, seed, cell_size, max_range, min_travel, policy: selected } = LogSetup::default();
+    let LaserMapperSettings { particles, seed, cell_size, max_range, min_travel, policy: selected, .. } =
+        LaserMapperSettings::default();
     vec![
         ParamSpec::integer(
             "universes",

@@ -14,7 +14,7 @@ use crate::{
         Anchor, Cells, FREE, Mark, OCCUPIED, Point, Rect, Role, Scene, Shading, Text, UNKNOWN, heading, text, thinned,
     },
 };
-use fastslam::{geometry::Pose2, resampling::ResamplePolicy};
+use fastslam::{geometry::Pose2, mapper::LaserMapper, resampling::ResamplePolicy};
 
 /// Font size of what is written beside the map \[css px\].
 const SIZE: f64 = 11.5;
@@ -43,7 +43,7 @@ pub fn build(model: &LogModel, width: f64, height: f64) -> Scene {
 
 fn header(scene: &mut Scene, model: &LogModel, area: &Rect) {
     let (step, last) = (model.step(), model.step_count());
-    let (strong, rest) = match (model.log(), model.run()) {
+    let (strong, rest) = match (model.log(), model.mapper()) {
         (None, _) => ("No log yet".into(), String::new()),
         (_, None) => (format!("{} scans", last + 1), "raw odometry".into()),
         _ => {
@@ -60,7 +60,7 @@ fn map(scene: &mut Scene, model: &LogModel, layout: &Layout) {
     let unknown = Cells { columns: 1, shades: vec![UNKNOWN] };
     scene.marks.push(Mark::Raster { area, cells: unknown, shading: Shading::Map });
     if let Some(view) = model.view(layout) {
-        if let Some((area, cells)) = model.run().and_then(|run| view.cells(run)) {
+        if let Some((area, cells)) = model.mapper().and_then(|mapper| view.cells(mapper.map())) {
             scene.marks.push(Mark::Raster { area, cells, shading: Shading::Map });
         }
         around(scene, &area);
@@ -97,17 +97,17 @@ fn odometry(scene: &mut Scene, model: &LogModel, view: &View) {
     let Some(log) = model.log().filter(|_| model.shows_raw()) else { return };
     // From the first scan on, as the map has it; up to the scan that is mapped.
     let first = log.scans[0].odometry;
-    let mapped = model.run().and_then(|run| run.path().last().map(|(time, _)| *time));
+    let mapped = model.mapper().and_then(|mapper| mapper.path().last().map(|(time, _)| *time));
     let scans = log.scans.iter().take_while(|scan| mapped.is_none_or(|time| scan.time <= time));
-    let placed = |pose: &Pose2| if model.run().is_some() { first.between(pose) } else { *pose };
+    let placed = |pose: &Pose2| if model.mapper().is_some() { first.between(pose) } else { *pose };
     let lines = view.path(&scans.map(|scan| placed(&scan.odometry)).collect::<Vec<_>>(), 1.0);
     scene.marks.push(Mark::Lines { lines, width: 1.5, dash: Some([7.0, 4.0]), role: Role::Odometry });
 }
 
 /// The paths of all universes, and of those that died out a short while ago.
 fn paths(scene: &mut Scene, model: &LogModel, view: &View) {
-    let Some(run) = model.run() else { return };
-    let tree = Tree::new(run, model.deaths());
+    let Some(filter) = model.mapper().map(LaserMapper::filter) else { return };
+    let tree = Tree::new(filter, model.deaths());
     for age in (0..FADE).rev() {
         let dead = tree.dead.iter().filter(|(a, _)| *a == age);
         let lines: Vec<_> = dead.flat_map(|(_, line)| view.path(line, 1.0)).collect();
@@ -120,9 +120,9 @@ fn paths(scene: &mut Scene, model: &LogModel, view: &View) {
     scene.marks.push(Mark::Strands { lines: others, width: LIVES, role: Role::Copied });
     let best = view.path(&tree.best, 1.0);
     scene.marks.push(Mark::Strands { lines: best, width: 2.0, role: Role::Path });
-    let robots = run.particles().iter().filter_map(|particle| view.robot(&particle.world_from_robot, 5.0));
+    let robots = filter.particles().iter().filter_map(|particle| view.robot(&particle.world_from_robot, 5.0));
     scene.marks.push(Mark::Polygons { polygons: robots.collect(), role: Role::Copied });
-    let best = &run.particles()[run.filter().best()].world_from_robot;
+    let best = &filter.particles()[filter.best()].world_from_robot;
     if let Some(corners) = view.robot(best, 9.0) {
         let outline = corners.iter().chain(&corners[..2]).copied().collect();
         scene.marks.push(Mark::Lines { lines: vec![outline], width: 2.0 * RIM, dash: None, role: Role::Paper });

@@ -1,8 +1,7 @@
 //! The paths of all universes, every piece once: the best from start to end, each of the others up to where it joins what was drawn,
 //! and what died out a short while ago.
 
-use fastslam::{genealogy::Path, geometry::Pose2};
-use fastslam_lab::experiment::log::LogRun;
+use fastslam::{genealogy::Path, geometry::Pose2, mapper::Filter};
 use std::collections::BTreeSet;
 
 /// The universes that one resampling let die out. The filter does not keep them: this does.
@@ -29,10 +28,11 @@ pub struct Tree {
 
 impl Tree {
     /// Of the present population, and of these deaths.
-    pub fn new(run: &LogRun, deaths: &[Death]) -> Self {
-        let best = &run.particles()[run.filter().best()].path;
+    pub fn new(filter: &Filter, deaths: &[Death]) -> Self {
+        let best = &filter.particles()[filter.best()].path;
         let mut drawn = Drawn { best: best.back().map(Path::id).collect(), now: best.step(), others: BTreeSet::new() };
-        let others = run.particles().iter().map(|particle| drawn.branch(&particle.path)).filter(|line| line.len() > 1);
+        let others =
+            filter.particles().iter().map(|particle| drawn.branch(&particle.path)).filter(|line| line.len() > 1);
         let others = others.collect();
         let recent = deaths.iter().rev().filter(|death| best.step() - death.step < FADE);
         let dead = recent.flat_map(|death| death.paths.iter().map(move |path| (best.step() - death.step, path)));

@@ -2,8 +2,7 @@
 
 use crate::scene::{Cells, Point, Rect, shade, thinned};
 use crate::scene::{clip_polyline, robot};
-use fastslam::{geometry::Pose2, map::grid::CellRect};
-use fastslam_lab::experiment::log::LogRun;
+use fastslam::{geometry::Pose2, map::grid::CellRect, mapper::Map};
 
 /// Least and most of the world in a view \[m\].
 const LEAST: f64 = 0.5;
@@ -31,8 +30,8 @@ impl Frame {
     }
 
     /// All cells that a map has.
-    pub fn of_map(run: &LogRun) -> Self {
-        let (CellRect { i0, j0, i1, j1 }, size) = (run.map().bounds(), run.map().cell_size());
+    pub fn of_map(map: &Map) -> Self {
+        let (CellRect { i0, j0, i1, j1 }, size) = (map.bounds(), map.cell_size());
         let metres = |k: i32| f64::from(k) * size;
         Self::around([metres(i0), metres(j0)], [metres(i1), metres(j1)])
     }
@@ -101,10 +100,9 @@ impl View {
         self.area.inset(1.5 * length).contains(at).then(|| robot(at, pose.theta, length))
     }
 
-    /// The cells of the best universe's map that are seen, if there are any, and where they lie: whole cells, which may reach over the
+    /// The cells of a map that are seen, if there are any, and where they lie: whole cells, which may reach over the
     /// edge of the view.
-    pub fn cells(&self, run: &LogRun) -> Option<(Rect, Cells)> {
-        let map = run.map();
+    pub fn cells(&self, map: &Map) -> Option<(Rect, Cells)> {
         let (bounds, size) = (map.bounds(), map.cell_size());
         let ([x0, y1], [x1, y0]) =
             (self.world([self.area.x, self.area.y]), self.world([self.area.right(), self.area.bottom()]));
