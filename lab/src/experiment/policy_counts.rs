@@ -109,7 +109,7 @@ impl Fraction {
     /// for shares near its ends.
     ///
     /// ```
-    /// let [low, high] = fastslam::experiment::policy_counts::Fraction { successes: 8, total: 10 }.wilson();
+    /// let [low, high] = fastslam_lab::experiment::policy_counts::Fraction { successes: 8, total: 10 }.wilson();
     /// assert!((low - 0.4902).abs() < 1e-4 && (high - 0.9433).abs() < 1e-4);
     /// ```
     pub fn wilson(&self) -> [f64; 2] {

@@ -19,7 +19,7 @@ pub fn quantile(ascending: &[f64], q: f64) -> f64 {
 /// Of 10 and of 200 values it is that of R's `qbinom(0.025, n, 0.5)`:
 ///
 /// ```
-/// use fastslam::experiment::median_interval;
+/// use fastslam_lab::experiment::median_interval;
 /// let values = |n: u32| (1..n + 1).map(f64::from).collect::<Vec<_>>();
 /// assert_eq!(median_interval(&values(10)), [2.0, 9.0]);
 /// assert_eq!(median_interval(&values(200)), [86.0, 115.0]);

@@ -1,7 +1,7 @@
 //! Filling a path: where its winding number is not 0.
 //!
-//! A row of pixels is looked at along [`LINES`] lines. On each, the crossings with the path's edges are sorted and the stretches inside
-//! are found: their ends to a 64th of a pixel, so that a pixel's share is exact along the line and one of [`LINES`] across it. All
+//! A row of pixels is looked at along `LINES` lines. On each, the crossings with the path's edges are sorted and the stretches inside
+//! are found: their ends to a 64th of a pixel, so that a pixel's share is exact along the line and one of `LINES` across it. All
 //! arithmetic on the way is that of IEEE or of integers, so every machine gets the same.
 
 use crate::path::{Path, Point, Segment, dot};

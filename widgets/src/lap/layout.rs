@@ -30,7 +30,7 @@ pub struct Layout {
     pub legend: Rect,
     /// How many universes there are, and what became of them.
     pub mosaic_header: Rect,
-    /// All of them, and a margin of [`RING`] around them.
+    /// All of them, and a margin of `RING` around them.
     pub mosaic: Rect,
     /// What borders and marks of the mosaic mean.
     pub notes: Rect,

@@ -63,7 +63,7 @@ pub struct LogModel {
     replay: Option<Replay>,
     /// Of every step, from 1 on.
     history: Vec<Moment>,
-    /// Of the last [`FADE`] steps.
+    /// Of the last `FADE` steps.
     deaths: Vec<Death>,
     /// The maps' memory at its largest.
     peak: Footprint,
@@ -198,7 +198,7 @@ impl LogModel {
         &self.history
     }
 
-    /// What died out in the last [`FADE`] steps, by step.
+    /// What died out in the last `FADE` steps, by step.
     pub fn deaths(&self) -> &[Death] {
         &self.deaths
     }
