@@ -1,8 +1,10 @@
-//! The laboratory of the chapter: what the filters of [`fastslam`] are held against.
+#![doc = include_str!("../README.md")]
 //!
-//! [`world`] is the truth, which a filter never sees. [`baseline`] has what a particle filter only approximates, computed without
-//! particles. [`experiment`] lets filters run in these worlds and compares them with the truth: every figure and every measured number of
-//! the chapter is one of them. [`digest`] is the fingerprint by which a native run and one in a browser are found to be the same.
+//! # Modules
+//!
+//! [`world`] is the truth, which a filter of [`fastslam`] never sees. [`baseline`] has what a particle filter only approximates, computed
+//! without particles. [`experiment`] lets filters run in these worlds and compares them with the truth: every figure and every measured
+//! number of the chapter is one of them. [`digest`] is the fingerprint by which a native run and one in a browser are found to be the same.
 
 pub mod baseline;
 pub mod digest;

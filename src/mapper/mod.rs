@@ -1,6 +1,6 @@
 //! A ready-made mapper for a robot with odometry and a laser: scans in, one by one, a map and a path out.
 //!
-#![doc = include_str!("example.md")]
+//! The [first page](crate) of the crate has an example.
 //!
 //! [`LaserMapper`] is a Rao-Blackwellized particle filter ([`Rbpf`]) over paths. Each particle draws its next pose by looking first
 //! ([`FromScan`](crate::proposal::FromScan), after Grisetti, Stachniss and Burgard 2007), and keeps a copy-on-write occupancy grid with

@@ -1,4 +1,8 @@
-//! The chapter's figures. A figure is a [`model`] (deterministic, without clock or pixels), a [`scene`] (marks with meanings,
+#![doc = include_str!("../README.md")]
+//!
+//! # Modules
+//!
+//! A figure is a [`model`] (deterministic, without clock or pixels), a [`scene`] (marks with meanings,
 //! without colours), the one painter of [`paint`] and, in the browser, a `shell` whose methods are one line each. Native tests and
 //! the command line use the same [`figure::Figure`] as the page.
 
@@ -32,8 +36,3 @@ pub mod shell;
 pub mod worked_example;
 
 pub use fastslam;
-
-/// The example of the package's front page, as a test.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

@@ -1,4 +1,8 @@
-//! Fills of one opaque colour, and nothing else: paths ([`fill`]), lines with a width ([`stroke`]), and what needs no path ([`blit`]).
+#![doc = include_str!("../README.md")]
+//!
+//! # Why it is here
+//!
+//! Paths are filled by [`fill`], lines with a width by [`stroke`], and what needs no path by [`blit`]; there is nothing else.
 //! tiny-skia's filling knows gradients, blend modes, filters and masks in tables that no linker can see through, and its strokes
 //! know curves, together 35 KB of the page; the tests hold ours against it.
 //!
