@@ -2,7 +2,7 @@
 import { existsSync } from 'node:fs'
 import { join } from 'node:path'
 import { buildPages, buildParts, buildWasm, pageProgram } from './build.mjs'
-import { isMain, main, npmBin, root, run, step } from './lib.mjs'
+import { isMain, main, npmBin, root, run, step, StepError } from './lib.mjs'
 import { setUp } from './setup.mjs'
 
 /** The checks, as [name, action]: the tests run them as well. @type {[string, () => Promise<unknown>][]} */
@@ -10,6 +10,8 @@ export const checks = [
   ['Format (cargo fmt)', () => run('cargo', ['fmt', '--all', '--check'], { hint: 'cargo fmt --all puts it right.' })],
   ['Lints (clippy)', () => run('cargo', ['clippy', '--workspace', '--all-targets', '--', '-D', 'warnings'])],
   ['Lints for WebAssembly (clippy)', clippyWasm],
+  ['Documentation (cargo doc)', () => run('cargo', ['doc', '--workspace', '--no-deps', '--all-features'], { env: { RUSTDOCFLAGS: '-D warnings' } })],
+  ['Crates as they would be published (cargo package)', checkPackages],
   ['Types (TypeScript)', checkTypes],
   ['Spelling (cspell)', () => run(npmBin('cspell'), ['--no-progress', '--config', join(root, 'cspell.json')], { hint: 'A word of the field goes into www/words.txt.' })],
   // Imported late: set-up may be what installs the packages that they stand on.
@@ -21,6 +23,21 @@ export const checks = [
 function clippyWasm() {
   const packages = ['-p', 'fastslam-widgets', '-p', 'browser']
   return run('cargo', ['clippy', ...packages, '--all-targets', '--target', 'wasm32-unknown-unknown', '--', '-D', 'warnings'])
+}
+
+/**
+ * Packs the crates, and builds each from its package alone, with the others out of a registry that cargo makes for the purpose.
+ * What they depend on besides is there from the lints: the network is not asked.
+ */
+async function checkPackages() {
+  const crates = ['fastslam', 'fastslam-lab', 'fastslam-raster', 'fastslam-widgets']
+  for (const crate of crates) {
+    const { output } = await run('cargo', ['package', '--list', '--allow-dirty', '--package', crate])
+    const packed = output.split('\n')
+    const missing = ['LICENSE-APACHE', 'LICENSE-MIT'].filter(file => !packed.includes(file))
+    if (missing.length > 0) throw new StepError(`The package ${crate} is without ${missing.join(', ')}.`)
+  }
+  await run('cargo', ['package', '--offline', '--allow-dirty', ...crates.flatMap(crate => ['--package', crate])])
 }
 
 async function checkTypes() {
