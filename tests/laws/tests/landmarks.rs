@@ -18,6 +18,8 @@ use fastslam::sensor::{Feature, LandmarkSensor, Prediction, RangeBearing};
 use fastslam_lab::baseline::EkfSlam;
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
 use proptest::prelude::*;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+use std::ops::Range;
 
 // A world in which everything is linear and Gaussian.
 
@@ -585,7 +587,14 @@ fn nees(run: u64) -> [f64; 4] {
     })
 }
 
-/// n = 200 runs, α = 0.01 for each of the four landmarks: χ² of 400 degrees of freedom, over 200, lies in 1.655 … 2.383.
+/// Where the mean of `n` independent normalised squared errors lies with probability 1 − α, each of χ² with so many degrees of freedom.
+fn mean_of_squared_errors(degrees: u32, n: u32, alpha: f64) -> Range<f64> {
+    let sum = ChiSquared::new(f64::from(degrees * n)).unwrap();
+    let quantile = |p| sum.inverse_cdf(p) / f64::from(n);
+    quantile(alpha / 2.0)..quantile(1.0 - alpha / 2.0)
+}
+
+/// n = 200 runs, α = 0.01 for each of the four landmarks, of two degrees of freedom.
 ///
 /// Known correspondence, M = 500, 8 steps (240° of the arc). The course is short on purpose. A particle filter forgets: whatever
 /// M is, after enough resamplings all particles share their early path, and the spread of that path is missing from the mixture
@@ -594,9 +603,10 @@ fn nees(run: u64) -> [f64; 4] {
 #[test]
 fn the_landmarks_of_2_0_err_as_they_say() {
     let runs: Vec<[f64; 4]> = (0..200).map(nees).collect();
+    let expected = mean_of_squared_errors(2, 200, 0.01);
     for j in 0..4 {
         let mean = runs.iter().map(|run| run[j]).sum::<f64>() / 200.0;
-        assert!((1.655..2.383).contains(&mean), "landmark {j}: {mean}");
+        assert!(expected.contains(&mean), "landmark {j}: {mean} in {expected:?}");
     }
 }
 
@@ -619,9 +629,8 @@ fn a_new_landmark_of_the_joint_filter_owes_its_place_to_the_pose() {
     assert!((filter.landmark(0).unwrap().covariance - own).norm() < 1e-9);
 }
 
-/// n = 200 runs of 8 steps, α = 0.01: χ² of 11 · 200 degrees of freedom (the pose and four landmarks), over 200, lies in
-/// 10.164 … 11.873. At this noise linearising costs nothing yet; a wrong derivative of the motion, of the sensor or of what a new
-/// landmark owes to the pose would.
+/// n = 200 runs of 8 steps, α = 0.01, 11 degrees of freedom: the pose and four landmarks. At this noise linearising costs nothing yet; a
+/// wrong derivative of the motion, of the sensor or of what a new landmark owes to the pose would.
 #[test]
 fn the_joint_filter_errs_as_it_says() {
     let motion = ODOMETRY.scaled(0.1);
@@ -635,7 +644,8 @@ fn the_joint_filter_errs_as_it_says() {
         error.dot(&filter.covariance().clone().cholesky().unwrap().solve(&error))
     };
     let mean = (0..200).map(nees).sum::<f64>() / 200.0;
-    assert!((10.164..11.873).contains(&mean), "{mean}");
+    let expected = mean_of_squared_errors(11, 200, 0.01);
+    assert!(expected.contains(&mean), "{mean} in {expected:?}");
 }
 
 /// Every number that a filter holds after a run, bit for bit.
@@ -837,7 +847,7 @@ fn decide(map: &Landmarks<RangeBearing>, z: [f64; 2], taken: &[Association]) -> 
 fn a_feature_beyond_the_gate_is_a_new_landmark_and_within_it_is_not() {
     let map = unknown(SENSOR, Gate { log_new: -1e9, ..Gate::default() }, &[landmark(4.0, 0.0, 0.01)]);
     let gate = Gate::default().mahalanobis_squared.sqrt();
-    assert!((gate * gate - 9.210_340_371_976).abs() < 1e-9);
+    assert!((gate * gate - ChiSquared::new(2.0).unwrap().inverse_cdf(0.99)).abs() < 1e-9);
     let (range_std, bearing_std) = ((0.0064_f64 + 0.01).sqrt(), (0.0025_f64 + 0.01 / 16.0).sqrt());
     for [r, phi] in [[range_std, 0.0], [0.0, bearing_std], [0.6 * range_std, 0.8 * bearing_std]] {
         let at = |factor: f64| decide(&map, [4.0 + factor * gate * r, factor * gate * phi], &[]);

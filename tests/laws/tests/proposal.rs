@@ -14,6 +14,7 @@ use fastslam::proposal::{
 use fastslam::random::{Purpose, Stream};
 use fastslam_lab::experiment::lap::{ALPHAS, FROM_SCAN, GRID, LapWorld, OUTLIER, TEMPER};
 use nalgebra::{Matrix3, Vector3};
+use statrs::distribution::{ContinuousCDF, Normal};
 
 /// A particle at the start of the lap, its map made there, and the first step's control and scan.
 struct OneStep<S = HeadingSeeds> {
@@ -222,7 +223,7 @@ fn spread<S>(step: &OneStep<S>, floor: [f64; 3]) -> Vector3<f64> {
     (covariance.diagonal() + Vector3::from(floor.map(|std| std * std))).map(f64::sqrt)
 }
 
-/// α = 0.001 two-sided over 6 moments, n = 100 000.
+/// α = 0.001 two-sided over 6 moments (Bonferroni), n = 100 000.
 #[test]
 fn sampled_motions_have_the_models_moments() {
     let model = OdometryModel { alphas: [0.01, 0.002, 0.008, 0.002] };
@@ -238,7 +239,7 @@ fn sampled_motions_have_the_models_moments() {
     for (axis, std) in model.stds(&u).into_iter().enumerate() {
         let mean = draws.iter().map(|d| d[axis]).sum::<f64>() / f64::from(n);
         let variance = draws.iter().map(|d| d[axis] * d[axis]).sum::<f64>() / f64::from(n);
-        let z = 3.8 / f64::from(n).sqrt();
+        let z = Normal::standard().inverse_cdf(1.0 - 0.001 / 2.0 / 6.0) / f64::from(n).sqrt();
         assert!(mean.abs() < z * std, "axis {axis}: mean {mean}");
         assert!((variance / (std * std) - 1.0).abs() < z * 2.0_f64.sqrt(), "axis {axis}: variance {variance}");
     }

@@ -4,6 +4,7 @@ use fastslam::random::{Purpose, Stream};
 use fastslam::resampling::Scheme;
 use fastslam::weights::Weights;
 use proptest::prelude::*;
+use statrs::distribution::{ContinuousCDF, Normal};
 
 const SCHEMES: [Scheme; 4] = [Scheme::Systematic, Scheme::Stratified, Scheme::Multinomial, Scheme::Residual];
 
@@ -80,11 +81,12 @@ fn variance(scheme: Scheme, weights: &[f64], n: usize, slot: usize) -> f64 {
     }
 }
 
-/// α = 0.001 two-sided for each slot, scheme and moment, Bonferroni over 6 × 4 × 2: z = 4.3; n = 20 000 resamplings of 10.
+/// α = 0.001 two-sided over all slots, schemes and moments, Bonferroni over 6 × 4 × 2; n = 20 000 resamplings of 10.
 #[test]
 fn expected_offspring_is_n_times_weight_and_their_variance_that_of_the_scheme() {
     let weights = weights(&[0.0, -0.3, -1.0, -2.0, -3.5, -9.0]);
     let (trials, n) = (20_000, 10);
+    let z = Normal::standard().inverse_cdf(1.0 - 0.001 / 2.0 / (6.0 * 4.0 * 2.0));
     for scheme in SCHEMES {
         let counts: Vec<Vec<u32>> = (0..trials).map(|trial| counts(scheme, &weights, n, trial)).collect();
         for (slot, w) in weights.as_slice().iter().enumerate() {
@@ -96,7 +98,7 @@ fn expected_offspring_is_n_times_weight_and_their_variance_that_of_the_scheme() 
             let (mean, square) = (mean_of(&|x| x), mean_of(&|x| (x - expected) * (x - expected)));
             let fourth = mean_of(&|x| (x - expected) * (x - expected) * (x - expected) * (x - expected));
             // At least a Poisson's worth of doubt, for the slot that is hardly ever drawn.
-            let bound = |variance: f64| 4.3 * (variance.max(expected / n as f64) / f64::from(trials)).sqrt();
+            let bound = |variance: f64| z * (variance.max(expected / n as f64) / f64::from(trials)).sqrt();
             let off = (mean - expected).abs();
             assert!(off < bound(exact), "{scheme} slot {slot}: mean {mean} for {expected}");
             let off = (square - exact).abs();
