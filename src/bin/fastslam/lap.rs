@@ -132,11 +132,10 @@ fn summary(setup: &LapSetup, output: &Output) -> String {
 /// Paints the figure `<fastslam-lap>` at the end of this lap.
 fn paint(setup: &LapSetup, path: &Path) -> Result<()> {
     let mut figure = Figure::new("fastslam-lap")?;
-    let (policy, threshold) = match setup.policy {
-        ResamplePolicy::Never => ("never", None),
-        ResamplePolicy::Always => ("always", None),
-        ResamplePolicy::EssBelow(fraction) => ("neff", Some(fraction)),
-    };
+    // The figure has the two parts of neff:F apart.
+    let policy = setup.policy.to_string();
+    let (policy, threshold) =
+        policy.split_once(':').map_or((&*policy, None), |(word, fraction)| (word, Some(fraction)));
     for (name, value) in [
         ("universes", setup.particles.to_string()),
         ("seed", setup.seed.to_string()),
@@ -152,7 +151,7 @@ fn paint(setup: &LapSetup, path: &Path) -> Result<()> {
         figure.set(name, &value)?;
     }
     if let Some(threshold) = threshold {
-        figure.set("threshold", &threshold.to_string())?;
+        figure.set("threshold", threshold)?;
     }
     let last = figure.model().step_count();
     figure.model_mut().seek(last);
