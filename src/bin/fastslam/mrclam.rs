@@ -137,6 +137,9 @@ fn timed<const N: usize>(path: &Path, columns: [&str; N]) -> Result<Vec<[f64; N]
 }
 
 /// The rows of a file of numbers in columns; lines that begin with # are comments.
+//
+// Not by the crate csv: columns are apart by blanks and tabs in any number, where it takes one character, and the line that it gives of
+// a record is that of the comments before it.
 fn table<const N: usize>(path: &Path, columns: [&str; N]) -> Result<Vec<[f64; N]>> {
     let text = std::fs::read_to_string(path).with_context(in_file(path))?;
     let mut rows = Vec::new();
