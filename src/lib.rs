@@ -42,6 +42,8 @@ pub mod error;
 pub mod execute;
 pub mod genealogy;
 pub mod geometry;
+#[cfg(any(test, feature = "laws"))]
+pub mod laws;
 pub mod log;
 pub mod map;
 pub mod mapper;

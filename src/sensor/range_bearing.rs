@@ -98,39 +98,17 @@ mod tests {
     const SENSOR: RangeBearing =
         RangeBearing { range_std: 0.1, bearing_std: 0.02, max_range: 5.0, field_of_view: core::f64::consts::PI };
 
-    #[test]
-    fn derivatives_match_central_differences() {
-        let h = 1e-6;
-        for k in 0..200 {
-            let mut stream = Stream::at(4, crate::random::Purpose::TRIAL, 0, k);
-            let [x, y, theta, mx, my] = stream.normals();
-            let (pose, landmark) = (Pose2::new(3.0 * x, 3.0 * y, 2.0 * theta), Vector2::new(5.0 * mx, 5.0 * my));
-            let Prediction { z, h_x, h_m } = SENSOR.predict(&pose, &landmark);
-            // An error of rounding is about 1e-16 z / h, one of the third derivative h² / r³.
-            let tolerance = 1e-8 * (1.0 + 1.0 / (z.x * z.x * z.x));
-            for axis in 0..3 {
-                let mut step = nalgebra::Vector3::zeros();
-                step[axis] = h;
-                let at = |step| SENSOR.predict(&pose.plus(&step), &landmark).z;
-                let column = SENSOR.residual(&at(step), &at(-step)) / (2.0 * h);
-                assert!((h_x.column(axis) - column).norm() < tolerance, "{k}: x{axis}");
-            }
-            for axis in 0..2 {
-                let mut step = Vector2::zeros();
-                step[axis] = h;
-                let at = |step: Vector2<f64>| SENSOR.predict(&pose, &(landmark + step)).z;
-                let column = SENSOR.residual(&at(step), &at(-step)) / (2.0 * h);
-                assert!((h_m.column(axis) - column).norm() < tolerance, "{k}: m{axis}");
-            }
-        }
+    /// 200 poses with landmarks near and far all around.
+    fn views() -> Vec<(Pose2, Vector2<f64>)> {
+        let view = |k| {
+            let [x, y, theta, mx, my] = Stream::at(4, crate::random::Purpose::TRIAL, 0, k).normals();
+            (Pose2::new(3.0 * x, 3.0 * y, 2.0 * theta), Vector2::new(5.0 * mx, 5.0 * my))
+        };
+        (0..200).map(view).collect()
     }
 
-    #[test]
-    fn what_is_located_is_seen_where_it_was() {
-        let pose = Pose2::new(1.0, 2.0, 3.0);
-        let z = Vector2::new(2.5, -0.8);
-        assert!((SENSOR.predict(&pose, &SENSOR.locate(&pose, &z)).z - z).norm() < 1e-14);
-    }
+    crate::sensor_laws!(half, SENSOR, views());
+    crate::sensor_laws!(all_around, RangeBearing { field_of_view: core::f64::consts::TAU, ..SENSOR }, views());
 
     #[test]
     fn it_sees_ahead_and_not_behind_nor_beyond_its_range_nor_near_the_edge() {
