@@ -3,16 +3,17 @@
 //! A proposal that takes any motion and any sensor of landmarks is tested with [`Drift`] and [`Offset`] in their places.
 
 use super::STANDARD_ERRORS;
-use super::proposal::{Step, particle};
+use super::proposal::Step;
 use crate::execute::Executor;
 use crate::geometry::{Pose2, sample_semidefinite};
 use crate::map::landmarks::{Correspondence, Landmark, Landmarks};
 use crate::motion::Motion;
 use crate::ops;
+use crate::particle::Particle;
 use crate::proposal::Proposal;
 use crate::random::{Purpose, Stream};
 use crate::rbpf::Rbpf;
-use crate::resampling::{ResamplePolicy, Scheme};
+use crate::resampling::ResamplePolicy;
 use crate::sensor::{Feature, LandmarkSensor, Prediction};
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
 
@@ -129,7 +130,7 @@ pub fn one_step(world: &Pose2) -> Step<Landmarks<Offset>, Vector3<f64>> {
     let known = known.map(|mean| Landmark { mean, covariance, existence_count: 1 });
     let (control, observation) = drive(2).remove(0);
     let start = Pose2::new(world.x, world.y, 0.0);
-    Step { particle: particle(start, empty().with(known)), control, observation }
+    Step { particle: Particle::start(start, empty().with(known)), control, observation }
 }
 
 /// What the Kalman filter knows.
@@ -192,7 +193,7 @@ impl Exact {
         let p_h = &self.covariance * h.transpose();
         let s = Matrix2::from_iterator((&h * &p_h).iter().copied()) + Q;
         let inverse = s.try_inverse().expect("Q is positive definite");
-        let quadratic = residual.dot(&(inverse * &residual));
+        let quadratic = residual.dot(&(inverse * residual));
         self.log_evidence -= 0.5 * (quadratic + ops::ln(s.determinant())) + ops::ln(core::f64::consts::TAU);
         let gain = p_h * inverse;
         self.mean += &gain * residual;
@@ -221,8 +222,8 @@ fn filter<P>(proposal: &P, policy: ResamplePolicy, seed: u64, count: usize) -> R
 where
     P: Proposal<Landmarks<Offset>, Control = Vector3<f64>> + Clone,
 {
-    let filter = Rbpf::new(proposal.clone(), policy, Scheme::Systematic, seed, count, Pose2::default(), empty());
-    filter.with_executor(Executor::Serial)
+    let filter = Rbpf::builder(empty(), proposal.clone()).particles(count).seed(seed).policy(policy);
+    filter.executor(Executor::Serial).build().expect("all settings are in range")
 }
 
 /// The same numbers of a population after the drive past one landmark, less those of the Kalman filter; of the evidence the ratio less

@@ -1,7 +1,9 @@
 //! Laws of the copy-on-write grid: sharing is never seen.
 
 use fastslam::geometry::Pose2;
+use fastslam::laws::map::a_family_of_clones_is_independent;
 use fastslam::map::{ConditionalMap, grid::Grid};
+use fastslam::matching::{Matcher, ScanModel};
 use fastslam::sensor::{BeamSensor, Scan};
 use fastslam_lab::digest::Digest;
 use fastslam_lab::experiment::lap::GRID;
@@ -28,6 +30,17 @@ fn sighting() -> impl Strategy<Value = (Pose2, Scan)> {
     (pose, ranges).prop_map(|(pose, ranges)| (pose, BeamSensor::panorama(24, 8.0, 0.0).scan(&ranges)))
 }
 
+/// Scans of a room from 12 places.
+fn scans() -> Vec<(Pose2, Scan)> {
+    let at = |k: u32| {
+        let ranges: Vec<f64> = (0..24).map(|beam| 2.0 + 0.2 * f64::from((7 * beam + 3 * k) % 11)).collect();
+        (Pose2::new(0.3 * f64::from(k), 0.0, 0.1 * f64::from(k)), BeamSensor::panorama(24, 8.0, 0.0).scan(&ranges))
+    };
+    (0..12).map(at).collect()
+}
+
+fastslam::map_laws!(grid, || Grid::new(GRID), ScanModel::new(Matcher::SubCell, 1.0, 0.1), scans(), content);
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, cases: 64, ..ProptestConfig::default() })]
 
@@ -37,24 +50,9 @@ proptest! {
         trunk in prop::collection::vec(sighting(), 0..6),
         branches in prop::collection::vec(prop::collection::vec(sighting(), 0..4), 1..5),
     ) {
-        let mut shared = Grid::new(GRID);
-        trunk.iter().for_each(|(pose, scan)| shared.assimilate(pose, scan, &()));
-        let before = content(&shared);
-        let mut family: Vec<Grid> = branches.iter().map(|_| shared.clone()).collect();
-        // Interleaved, as particles write in turn.
-        for turn in 0..4 {
-            for (grid, sightings) in family.iter_mut().zip(&branches) {
-                if let Some((pose, scan)) = sightings.get(turn) {
-                    grid.assimilate(pose, scan, &());
-                }
-            }
-        }
-        prop_assert_eq!(content(&shared), before);
-        for (grid, sightings) in family.iter().zip(&branches) {
-            let mut alone = Grid::new(GRID);
-            trunk.iter().chain(sightings).for_each(|(pose, scan)| alone.assimilate(pose, scan, &()));
-            prop_assert_eq!(content(grid), content(&alone));
-        }
+        let score = ScanModel::new(Matcher::SubCell, 1.0, 0.1);
+        let branches: Vec<Vec<_>> = branches.iter().map(|branch| branch.iter().collect()).collect();
+        a_family_of_clones_is_independent(|| Grid::new(GRID), &score, &trunk, &branches, content);
     }
 
     /// Before anybody writes, maps of one trunk hold what one does. Where each then writes 200 m away, no tile of the trunk is
