@@ -84,6 +84,22 @@ const cargoTest = (...args) =>
 /** Holds resampling against a Python package, which it installs at its first run. Without Python or PyPI it is skipped. */
 const oracle = () => counted(() => run('cargo', ['test', '-p', 'laws', '--test', 'oracle', '--', '--ignored', '--show-output']))
 
+/** Somebody else's package, outside the workspace; in this target folder, where most of what it needs is built. */
+const outside = () =>
+  counted(() =>
+    run('cargo', ['test', '--no-fail-fast', '--', '--show-output'], {
+      cwd: join(root, 'tests', 'outside'),
+      env: { CARGO_TARGET_DIR: process.env.CARGO_TARGET_DIR ?? join(root, 'target') },
+    }),
+  )
+
+/** The fuzz target needs a nightly compiler to run, but none to compile. */
+const fuzz = () =>
+  run('cargo', ['check'], {
+    cwd: join(root, 'tests', 'fuzz'),
+    env: { CARGO_TARGET_DIR: process.env.CARGO_TARGET_DIR ?? join(root, 'target') },
+  })
+
 /** wasm-pack's tests in the Chromium that set-up found, which need not be the one ChromeDriver would choose. */
 function wasmTest() {
   const settings = JSON.parse(readFileSync(join(root, 'tests', 'browser', 'webdriver.json'), 'utf8'))
@@ -125,6 +141,8 @@ await main(async () => {
   for (const check of otherChecks) await attempt(...check)
   await attempt('Tests of the chapter’s making', nodeTest)
   await attempt('Tests, native, with all checks on', () => cargoTest('--workspace'))
+  await attempt('Tests of a package outside the workspace', outside)
+  await attempt('The fuzz target compiles', fuzz)
   await attempt('Resampling against the Python package particles', oracle)
   await attempt('Same bits, as tests are built', () => cargoTest('-p', 'portability'))
   await attempt('Same bits, as releases are built', () => cargoTest('--release', '-p', 'portability'))
