@@ -92,6 +92,11 @@ impl Range {
         Self { least, most, whole: false, unit }
     }
 
+    /// Finite numbers from `least` on, in this unit.
+    pub const fn at_least(least: f64, unit: &'static str) -> Self {
+        Self::number(least, f64::MAX, unit)
+    }
+
     /// All numbers but infinities and NaN, in this unit.
     pub const fn finite(unit: &'static str) -> Self {
         Self::number(f64::MIN, f64::MAX, unit)
@@ -123,6 +128,7 @@ impl fmt::Display for Range {
         let kind = if whole { "a whole number" } else { "a number" };
         match (least, most) {
             (f64::MIN, f64::MAX) => f.write_str("a finite number")?,
+            (_, f64::MAX) => write!(f, "{kind} of at least {}", Shown(least))?,
             _ => write!(f, "{kind} from {} to {}", Shown(least), Shown(most))?,
         }
         if unit.is_empty() { Ok(()) } else { write!(f, " [{unit}]") }
@@ -158,6 +164,7 @@ mod tests {
         assert_eq!(refused(range, f64::NAN), "cell_size = NaN: must be a number from 0.02 to 0.2 [m]");
         assert_eq!(refused(range, -1e300), "cell_size = -1e300: must be a number from 0.02 to 0.2 [m]");
         assert_eq!(refused(Range::whole(1, 10), 1.5), "cell_size = 1.5: must be a whole number from 1 to 10");
+        assert_eq!(refused(Range::at_least(0.0, ""), -1.0), "cell_size = -1: must be a number of at least 0");
         assert_eq!(refused(Range::finite("rad"), f64::INFINITY), "cell_size = inf: must be a finite number [rad]");
     }
 

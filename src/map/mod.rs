@@ -3,6 +3,7 @@
 pub mod grid;
 pub mod landmarks;
 
+use crate::error::SettingError;
 use crate::geometry::Pose2;
 
 /// A map posterior that has a closed form once the path is given: the *conditional* of Rao and Blackwell.
@@ -22,6 +23,14 @@ pub trait ConditionalMap: Clone + Send + Sync {
         observation: &Self::Observation,
         association: &Self::Association,
     );
+
+    /// Whether all settings are in range: asked once, when a filter is built.
+    ///
+    /// # Errors
+    /// Where one is not. As given here there are none.
+    fn validate(&self) -> Result<(), SettingError> {
+        Ok(())
+    }
 }
 
 /// Bytes that many maps take.

@@ -10,6 +10,7 @@ mod score;
 pub use hill_climb::{HillClimbSteps, ScoredPose, hill_climb};
 pub use score::{Kernel, Matcher, ScanModel, ScanNear};
 
+use crate::error::SettingError;
 use crate::geometry::Pose2;
 use crate::map::ConditionalMap;
 
@@ -17,6 +18,14 @@ use crate::map::ConditionalMap;
 pub trait Likelihood<M: ConditionalMap>: Sync {
     /// The log-likelihood \[nats\] of an observation at a pose, by a map.
     fn log_likelihood(&self, map: &M, world_from_robot: &Pose2, observation: &M::Observation) -> (f64, M::Association);
+
+    /// Whether all settings are in range: asked once, when a filter is built.
+    ///
+    /// # Errors
+    /// Where one is not. As given here there are none.
+    fn validate(&self) -> Result<(), SettingError> {
+        Ok(())
+    }
 }
 
 /// A likelihood that a proposal can search with, for maps in which the place alone decides what was seen.

@@ -1,7 +1,7 @@
 //! The score of a scan against a grid, which stands for ln p(z | x, m).
 
 use super::{Likelihood, Score, ScoreNear};
-use crate::error::SettingError;
+use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
 use crate::map::grid::{Grid, LocalMap, MAX_DISTANCE, NdtField, UNIT};
 use crate::ops;
@@ -57,6 +57,7 @@ pub struct ScanModel {
     matcher: Matcher,
     kernel: Kernel,
     temper: f64,
+    outlier: f64,
     /// ln p_cell for each stored value of log-odds, from −128 units up.
     log_cell: [f64; 256],
 }
@@ -71,7 +72,7 @@ impl ScanModel {
             let log_odds = if matcher == Matcher::SubCell { log_odds.min(0.0) } else { log_odds };
             ops::ln(outlier + (1.0 - outlier) / (1.0 + ops::exp(-log_odds)))
         });
-        Self { matcher, kernel: Kernel::Gaussian, temper, log_cell }
+        Self { matcher, kernel: Kernel::Gaussian, temper, outlier, log_cell }
     }
 
     /// The same model with another kernel.
@@ -146,6 +147,15 @@ impl ScanModel {
 impl<const CELLS_PER_NDT: usize> Likelihood<Grid<CELLS_PER_NDT>> for ScanModel {
     fn log_likelihood(&self, grid: &Grid<CELLS_PER_NDT>, world_from_robot: &Pose2, scan: &Scan) -> (f64, ()) {
         (self.log_score(grid, world_from_robot, scan), ())
+    }
+
+    fn validate(&self) -> Result<(), SettingError> {
+        Range::number(1e-6, 1.0, "").check("score.temper", self.temper)?;
+        Range::number(0.0, 1.0, "").check("score.outlier", self.outlier)?;
+        match self.kernel {
+            Kernel::Gaussian => Ok(()),
+            Kernel::Robust { most } => Range::number(1e-6, 1e6, "nats").check("score.kernel", most).map(drop),
+        }
     }
 }
 

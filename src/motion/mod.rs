@@ -6,6 +6,7 @@ mod velocity;
 pub use odometry::{Odometry, OdometryModel};
 pub use velocity::{Velocity, VelocityModel};
 
+use crate::error::SettingError;
 use crate::geometry::{Gaussian3, Pose2};
 use crate::ops;
 use crate::random::Stream;
@@ -45,6 +46,14 @@ pub trait Motion: Sync {
     fn jacobian(&self, from: &Pose2, control: &Self::Control) -> Matrix3<f64> {
         let to = self.apply(from, control);
         Matrix3::new(1.0, 0.0, from.y - to.y, 0.0, 1.0, to.x - from.x, 0.0, 0.0, 1.0)
+    }
+
+    /// Whether all settings are in range: asked once, when a filter is built.
+    ///
+    /// # Errors
+    /// Where one is not. As given here there are none.
+    fn validate(&self) -> Result<(), SettingError> {
+        Ok(())
     }
 }
 

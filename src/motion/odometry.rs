@@ -6,6 +6,7 @@
 //! Reference: Thrun, Burgard, Fox, *Probabilistic Robotics* (2005), tables 5.5 and 5.6.
 
 use super::Motion;
+use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
 use crate::ops;
 use crate::random::Stream;
@@ -111,6 +112,10 @@ impl Motion for OdometryModel {
 
     fn travel(&self, u: &Odometry) -> f64 {
         u.trans.abs() + u.rot1.abs() + u.rot2.abs()
+    }
+
+    fn validate(&self) -> Result<(), SettingError> {
+        self.alphas.iter().try_for_each(|alpha| Range::at_least(0.0, "").check("motion.alphas", *alpha).map(drop))
     }
 }
 

@@ -3,6 +3,7 @@
 //! Reference: Thrun, Burgard, Fox, *Probabilistic Robotics* (2005), table 5.3, without its last turn.
 
 use super::{Motion, sinc};
+use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
 use crate::ops;
 use crate::random::Stream;
@@ -87,6 +88,12 @@ impl Motion for VelocityModel {
             Matrix3x2::new(t * s * cos, longer * cos - turned * sin, t * s * sin, longer * sin + turned * cos, 0.0, t);
         let m = Matrix2::from_diagonal(&Vector2::from(self.stds(u).map(|std| std * std)));
         v * m * v.transpose()
+    }
+
+    fn validate(&self) -> Result<(), SettingError> {
+        Range::at_least(0.0, "m/s").check("motion.speed_std", self.speed_std)?;
+        Range::at_least(0.0, "rad/s").check("motion.turn_rate_std", self.turn_rate_std)?;
+        self.alphas.iter().try_for_each(|alpha| Range::at_least(0.0, "").check("motion.alphas", *alpha).map(drop))
     }
 }
 

@@ -4,6 +4,7 @@
 //! same in the form of the Kalman gain, which never inverts R_t: a robot that stands still has none.
 
 use super::{Proposal, ProposalTrace, Proposed};
+use crate::error::SettingError;
 use crate::geometry::{Pose2, sample_semidefinite};
 use crate::map::landmarks::{Association, Landmarks, Store};
 use crate::motion::Motion;
@@ -86,5 +87,9 @@ impl<Z: LandmarkSensor, S: Store, D: Motion> Proposal<Landmarks<Z, S>> for FromM
             (self.motion.sample(from, control, stream), ProposalTrace::Motion)
         };
         Proposed { world_from_robot, association: measured.associations, log_increment: measured.log_evidence, trace }
+    }
+
+    fn validate(&self) -> Result<(), SettingError> {
+        self.motion.validate()
     }
 }

@@ -1,6 +1,7 @@
 //! The motion prior as proposal: move first, judge afterwards.
 
 use super::{Proposal, ProposalTrace, Proposed};
+use crate::error::SettingError;
 use crate::geometry::Pose2;
 use crate::map::ConditionalMap;
 use crate::map::landmarks::{Association, Landmarks, Store};
@@ -56,5 +57,10 @@ impl<M: ConditionalMap, D: Motion, L: Likelihood<M>> Proposal<M> for FromMotion<
         let (log_increment, association) =
             self.likelihood.log_likelihood(&particle.map, &world_from_robot, observation);
         Proposed { world_from_robot, association, log_increment, trace: ProposalTrace::Motion }
+    }
+
+    fn validate(&self) -> Result<(), SettingError> {
+        self.motion.validate()?;
+        self.likelihood.validate()
     }
 }

@@ -111,6 +111,12 @@ where
         let log_increment = self.price(&particle.map, &world_from_robot, control, observation);
         Proposed { world_from_robot, association: (), log_increment, trace }
     }
+
+    fn validate(&self) -> Result<(), SettingError> {
+        self.motion.validate()?;
+        self.score.validate()?;
+        self.settings.validate()
+    }
 }
 
 impl<D: Motion, L, S: Search> FromScan<D, L, S> {

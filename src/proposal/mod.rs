@@ -15,6 +15,7 @@ pub use from_motion::{FromMotion, Marginal};
 pub use from_scan::{FromScan, FromScanSettings};
 pub use search::{CorrelativeSearch, HeadingSeeds, Search, Starts, Target};
 
+use crate::error::SettingError;
 use crate::geometry::Pose2;
 use crate::map::ConditionalMap;
 use crate::particle::Particle;
@@ -33,6 +34,14 @@ pub trait Proposal<M: ConditionalMap>: Sync {
         observation: &M::Observation,
         stream: &mut Stream,
     ) -> Proposed<M::Association>;
+
+    /// Whether all settings are in range: asked once, when a filter is built.
+    ///
+    /// # Errors
+    /// Where one is not. As given here there are none.
+    fn validate(&self) -> Result<(), SettingError> {
+        Ok(())
+    }
 }
 
 /// A drawn pose with its price.
@@ -85,6 +94,13 @@ impl<M: ConditionalMap, P: Proposal<M>, Q: Proposal<M, Control = P::Control>> Pr
         match self {
             Self::Left(proposal) => proposal.propose(particle, control, observation, stream),
             Self::Right(proposal) => proposal.propose(particle, control, observation, stream),
+        }
+    }
+
+    fn validate(&self) -> Result<(), SettingError> {
+        match self {
+            Self::Left(proposal) => proposal.validate(),
+            Self::Right(proposal) => proposal.validate(),
         }
     }
 }

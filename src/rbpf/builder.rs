@@ -116,11 +116,13 @@ impl<M: ConditionalMap, P: Proposal<M>> Builder<M, P> {
     /// The filter at step 0: every particle with a copy of the map, all of one weight.
     ///
     /// # Errors
-    /// [`SettingError::OutOfRange`] where there are no particles, where the policy's fraction is out of its range, or where the start
-    /// is not finite.
+    /// [`SettingError::OutOfRange`] where there are no particles, where the policy's fraction is out of its range, where the start
+    /// is not finite, or where the map or the proposal refuses one of its settings.
     pub fn build(self) -> Result<Rbpf<M, P>, SettingError> {
         let Self { map, proposal, particles: count, seed, start, policy, scheme, executor } = self;
         PARTICLES.check("particles", count as f64)?;
+        map.validate()?;
+        proposal.validate()?;
         policy.validate()?;
         start.validate()?;
         Ok(Rbpf {
@@ -141,9 +143,11 @@ impl<M: ConditionalMap, P: Proposal<M>> Builder<M, P> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::map::landmarks::{Correspondence, Landmarks};
+    use crate::map::grid::{Grid, GridModel};
+    use crate::map::landmarks::{Correspondence, Gate, Landmarks};
+    use crate::matching::{Matcher, ScanModel};
     use crate::motion::OdometryModel;
-    use crate::proposal::FromMeasurement;
+    use crate::proposal::{Either, FromMeasurement, FromMotion};
     use crate::sensor::RangeBearing;
     use nalgebra::{Matrix3, Vector3};
 
@@ -195,5 +199,52 @@ mod tests {
             assert_eq!((particle.world_from_robot, particle.path.pose()), (expected, expected), "slot {slot}");
         }
         assert_eq!(filter.lineage(), 8, "each is a root of its own");
+    }
+
+    /// Every part of a filter is asked, through whatever it is wrapped in.
+    #[test]
+    fn a_part_that_cannot_be_used_is_refused_with_the_filter() {
+        let refused = |sensor, motion, correspondence| {
+            let built = Rbpf::builder(<Map>::new(sensor, correspondence), FromMeasurement { motion }).build();
+            built.err().map(|error| error.field())
+        };
+        let sensor = RangeBearing { range_std: 0.0, bearing_std: 0.02, max_range: f64::INFINITY, field_of_view: 7.0 };
+        let motion = OdometryModel { alphas: [0.1, 0.0, 0.1, 0.1] };
+        assert_eq!(refused(sensor, motion, Correspondence::Known), None);
+        let blunt = RangeBearing { range_std: f64::NAN, ..sensor };
+        assert_eq!(refused(blunt, motion, Correspondence::Known), Some("sensor.range_std"));
+        let wild = OdometryModel { alphas: [0.1, f64::INFINITY, 0.1, 0.1] };
+        assert_eq!(refused(sensor, wild, Correspondence::Known), Some("motion.alphas"));
+        let shut = Correspondence::Unknown(Gate { mahalanobis_squared: -1.0, ..Gate::default() });
+        assert_eq!(refused(sensor, motion, shut), Some("gate.mahalanobis_squared"));
+
+        let grid = GridModel {
+            cell_size: 0.1,
+            log_odds_hit: 0.9,
+            log_odds_pass: -0.4,
+            ndt_std: 0.1,
+            ndt_stretch: 1.0,
+            lag: 0,
+            distance_reach: 0,
+        };
+        let refused = |model, temper| {
+            let likelihood = ScanModel::new(Matcher::Cell, temper, 0.1);
+            let proposal = Either::<_, FromMotion<OdometryModel, ScanModel>>::Left(FromMotion { motion, likelihood });
+            Rbpf::builder(<Grid>::new(model), proposal).build().err().map(|error| error.field())
+        };
+        assert_eq!(refused(grid, 0.3), None);
+        assert_eq!(refused(grid, 0.0), Some("score.temper"));
+        for (model, field) in [
+            (GridModel { cell_size: 0.0, ..grid }, "grid.cell_size"),
+            (GridModel { cell_size: f64::NAN, ..grid }, "grid.cell_size"),
+            (GridModel { log_odds_hit: -0.1, ..grid }, "grid.log_odds_hit"),
+            (GridModel { log_odds_pass: 0.1, ..grid }, "grid.log_odds_pass"),
+            (GridModel { ndt_std: 0.0, ..grid }, "grid.ndt_std"),
+            (GridModel { ndt_stretch: 0.5, ..grid }, "grid.ndt_stretch"),
+            (GridModel { lag: u32::MAX, ..grid }, "grid.lag"),
+            (GridModel { distance_reach: 3, ..grid }, "grid.distance_reach"),
+        ] {
+            assert_eq!(refused(model, 0.3), Some(field));
+        }
     }
 }

@@ -6,6 +6,7 @@ mod range_bearing;
 pub use beam::{BeamSensor, Scan};
 pub use range_bearing::RangeBearing;
 
+use crate::error::SettingError;
 use crate::geometry::Pose2;
 use nalgebra::{Matrix2, Matrix2x3, Vector2};
 
@@ -57,4 +58,12 @@ pub trait LandmarkSensor: Clone + Send + Sync {
 
     /// Whether all points up to `margin` \[m\] around the landmark are in range and in view.
     fn sees(&self, world_from_robot: &Pose2, landmark: &Vector2<f64>, margin: f64) -> bool;
+
+    /// Whether all settings are in range: asked once, when a filter is built.
+    ///
+    /// # Errors
+    /// Where one is not. As given here there are none.
+    fn validate(&self) -> Result<(), SettingError> {
+        Ok(())
+    }
 }

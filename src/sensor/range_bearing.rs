@@ -3,6 +3,7 @@
 //! Reference: Thrun, Burgard, Fox, *Probabilistic Robotics* (2005), §6.6.
 
 use super::{LandmarkSensor, Prediction};
+use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
 use crate::ops;
 use crate::random::Stream;
@@ -88,6 +89,16 @@ impl LandmarkSensor for RangeBearing {
         let z = self.predict(world_from_robot, landmark).z;
         let all_around = self.field_of_view >= core::f64::consts::TAU;
         z.x + margin <= self.max_range && (all_around || z.x * (0.5 * self.field_of_view - z.y.abs()) >= margin)
+    }
+
+    /// Standard deviations of 0, of a sensor without noise, are in range: what such a sighting cannot say is passed over. See
+    /// [`Innovation::is_regular`](crate::map::landmarks::Innovation::is_regular).
+    fn validate(&self) -> Result<(), SettingError> {
+        Range::at_least(0.0, "m").check("sensor.range_std", self.range_std)?;
+        Range::at_least(0.0, "rad").check("sensor.bearing_std", self.bearing_std)?;
+        // Infinite is as far as one likes.
+        Range::number(0.0, f64::INFINITY, "m").check("sensor.max_range", self.max_range)?;
+        Range::at_least(0.0, "rad").check("sensor.field_of_view", self.field_of_view).map(drop)
     }
 }
 

@@ -24,6 +24,7 @@ use tile::{NdtCell, TILE};
 pub use image::MapImage;
 
 use super::{ConditionalMap, Footprint};
+use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
 use crate::sensor::Scan;
 use core::hash::Hasher;
@@ -74,6 +75,27 @@ pub struct GridModel {
     pub lag: u32,
     /// How far from a hit the distance field is kept \[NDT cells\], 0 to 2: what a coarse search looks at. With 0 there is none.
     pub distance_reach: u32,
+}
+
+impl GridModel {
+    /// Whether all settings are in range.
+    ///
+    /// # Errors
+    /// Where one is not: with cells of no size there is no map, and what is felt further than two NDT cells away would be kept in no byte.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        /// More than a byte of log-odds holds.
+        const MOST: f64 = 4.0;
+        /// Lengths for which single precision is no worry.
+        const LENGTH: Range = Range::number(1e-6, 1e6, "m");
+        let Self { cell_size, log_odds_hit, log_odds_pass, ndt_std, ndt_stretch, lag, distance_reach } = *self;
+        LENGTH.check("grid.cell_size", cell_size)?;
+        Range::number(0.0, MOST, "nats").check("grid.log_odds_hit", log_odds_hit)?;
+        Range::number(-MOST, 0.0, "nats").check("grid.log_odds_pass", log_odds_pass)?;
+        LENGTH.check("grid.ndt_std", ndt_std)?;
+        Range::number(1.0, 1e3, "").check("grid.ndt_stretch", ndt_stretch)?;
+        Range::whole(0, 1_000_000).check("grid.lag", f64::from(lag))?;
+        Range::whole(0, MAX_DISTANCE as u32 - 1).check("grid.distance_reach", f64::from(distance_reach)).map(drop)
+    }
 }
 
 /// Occupancy in cells of `cell_size`, and normal distributions in NDT cells of `CELLS_PER_NDT` × `CELLS_PER_NDT` cells, growing to
@@ -393,6 +415,10 @@ impl<const CELLS_PER_NDT: usize> ConditionalMap for Grid<CELLS_PER_NDT> {
         self.grow(window);
         self.update_cells(&trace);
         self.update_ndt_cells(&trace);
+    }
+
+    fn validate(&self) -> Result<(), SettingError> {
+        self.model.validate()
     }
 }
 

@@ -1,6 +1,7 @@
 //! Which landmark a sighting is of. Every particle decides for itself, and lives or dies by it.
 
 use super::{Innovation, Landmarks, Store};
+use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
 use crate::ops;
 use crate::sensor::{Feature, LandmarkSensor, Prediction};
@@ -36,6 +37,17 @@ impl Default for Gate {
     /// χ²₂,₀.₉₉ = −2 ln 0.01; p₀ = 10⁻³ per metre and radian; no removal.
     fn default() -> Self {
         Self { mahalanobis_squared: -2.0 * ops::ln(0.01), log_new: ops::ln(1e-3), removal: false }
+    }
+}
+
+impl Gate {
+    /// Whether all settings are in range.
+    ///
+    /// # Errors
+    /// Where the gate is not a number of 0 or more, or ln p₀ is not finite.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        Range::at_least(0.0, "").check("gate.mahalanobis_squared", self.mahalanobis_squared)?;
+        Range::finite("nats").check("gate.log_new", self.log_new).map(drop)
     }
 }
 

@@ -16,6 +16,7 @@ pub use shared::{Balanced, Blocks, Shared};
 pub use store::Store;
 
 use super::{ConditionalMap, Footprint};
+use crate::error::SettingError;
 use crate::geometry::Pose2;
 use crate::sensor::{Feature, LandmarkSensor};
 
@@ -92,6 +93,14 @@ impl<Z: LandmarkSensor, S: Store> ConditionalMap for Landmarks<Z, S> {
                 }
                 Association::Ignored => (),
             }
+        }
+    }
+
+    fn validate(&self) -> Result<(), SettingError> {
+        self.sensor.validate()?;
+        match &self.correspondence {
+            Correspondence::Known => Ok(()),
+            Correspondence::Unknown(gate) => gate.validate(),
         }
     }
 }
