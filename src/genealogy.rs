@@ -6,6 +6,12 @@
 //! keeps. With multinomial resampling at every step that is t + O(M log M) nodes in expectation (Jacob, Murray, Rubenthaler 2015),
 //! against M · t for paths kept apart; other schemes and policies are not covered by their proof, but share just as well.
 
+#[cfg(feature = "serde")]
+mod saved;
+
+#[cfg(feature = "serde")]
+pub use saved::SavedPaths;
+
 use crate::geometry::Pose2;
 use core::fmt;
 use std::sync::Arc;

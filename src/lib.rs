@@ -55,5 +55,7 @@ pub mod proposal;
 pub mod random;
 pub mod rbpf;
 pub mod resampling;
+#[cfg(feature = "serde")]
+pub mod save;
 pub mod sensor;
 pub mod weights;

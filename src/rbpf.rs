@@ -2,9 +2,13 @@
 
 mod builder;
 mod estimate;
+#[cfg(feature = "serde")]
+mod saved;
 
 pub use builder::{Builder, Start};
 pub use estimate::Estimate;
+#[cfg(feature = "serde")]
+pub use saved::Saved;
 
 use crate::execute::Executor;
 use crate::genealogy::{Descent, Path};

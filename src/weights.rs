@@ -1,6 +1,8 @@
 //! Weights of a population: log-scale, normalised, immutable.
 
 use crate::ops;
+#[cfg(feature = "serde")]
+use crate::save::{self, RestoreError};
 
 /// Normalised importance weights w̃ of M particles, kept as logarithms.
 #[derive(Clone, PartialEq, Debug)]
@@ -72,6 +74,35 @@ impl Weights {
     pub fn heaviest(&self) -> usize {
         let log_weights = &self.log_weights; // which tell apart what exp rounds to 0
         (1..log_weights.len()).fold(0, |top, slot| if log_weights[slot] > log_weights[top] { slot } else { top })
+    }
+}
+
+/// Weights in plain numbers. Both forms: 1 / M and exp(ln(1 / M)) may differ in the last bit.
+#[cfg(feature = "serde")]
+#[derive(Clone, PartialEq, Debug, serde::Serialize, serde::Deserialize)]
+pub(crate) struct SavedWeights {
+    /// None for −∞, which not every format can write.
+    log_weights: Vec<Option<f64>>,
+    weights: Vec<f64>,
+}
+
+#[cfg(feature = "serde")]
+impl Weights {
+    pub(crate) fn save(&self) -> SavedWeights {
+        let log_weight = |log_weight: &f64| log_weight.is_finite().then_some(*log_weight);
+        SavedWeights { log_weights: self.log_weights.iter().map(log_weight).collect(), weights: self.weights.clone() }
+    }
+
+    pub(crate) fn restore(SavedWeights { log_weights, weights }: SavedWeights) -> Result<Self, RestoreError> {
+        /// Far more than rounding does to the sum of a billion weights.
+        const SLACK: f64 = 1e-6;
+        save::count("weights", log_weights.len(), weights.len())?;
+        save::finite("weights", log_weights.iter().copied().flatten().chain(weights.iter().copied()))?;
+        let log_weights: Vec<f64> = log_weights.into_iter().map(|w| w.unwrap_or(f64::NEG_INFINITY)).collect();
+        let alike = |(w, log_w): (&f64, &f64)| *w >= 0.0 && (ops::exp(*log_w) - w).abs() < SLACK;
+        save::holds(weights.iter().zip(&log_weights).all(alike), "weights", "what their logarithms are of")?;
+        save::holds((weights.iter().sum::<f64>() - 1.0).abs() < SLACK, "weights", "of sum 1")?;
+        Ok(Self { log_weights, weights })
     }
 }
 

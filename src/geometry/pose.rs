@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 ///
 /// `world_from_robot` carries points given in the robot's frame into the world's.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pose2 {
     /// \[m\]
     pub x: f64,

@@ -12,7 +12,7 @@ use crate::resampling::{ResamplePolicy, Scheme};
 use crate::weights::Weights;
 
 /// Slots are counted in 32 bits on every platform.
-const PARTICLES: Range = Range::whole(1, u32::MAX);
+pub(super) const PARTICLES: Range = Range::whole(1, u32::MAX);
 
 /// Where the particles stand at step 0.
 #[derive(Clone, Debug)]

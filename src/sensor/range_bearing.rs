@@ -14,6 +14,7 @@ use nalgebra::{Matrix2, Matrix2x3, Vector2};
 /// With d = m − (x, y), q = dᵀd and r = √q: h = (r, atan2(d_y, d_x) − θ),
 /// H_m = \[\[d_x/r, d_y/r\], \[−d_y/q, d_x/q\]\], H_x = \[\[−d_x/r, −d_y/r, 0\], \[d_y/q, −d_x/q, −1\]\].
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RangeBearing {
     /// σ_r \[m\].
     pub range_std: f64,

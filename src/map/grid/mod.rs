@@ -15,6 +15,8 @@
 mod image;
 mod local_map;
 mod ray_trace;
+#[cfg(feature = "serde")]
+mod saved;
 mod tile;
 
 pub(crate) use local_map::LocalMap;
@@ -22,6 +24,8 @@ pub(crate) use tile::{MAX_DISTANCE, UNIT};
 use tile::{NdtCell, TILE};
 
 pub use image::MapImage;
+#[cfg(feature = "serde")]
+pub use saved::SavedGrids;
 
 use super::{ConditionalMap, Footprint};
 use crate::error::{Range, SettingError};
@@ -59,6 +63,7 @@ impl CellRect {
 
 /// How a grid learns from a scan.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct GridModel {
     /// Side of a cell \[m\].
     pub cell_size: f64,

@@ -15,7 +15,7 @@ pub(super) const HIT: u8 = 2;
 
 /// Farthest cell from the origin that is mapped: end points beyond it are dropped, so that an absurd pose cannot exhaust
 /// memory nor overflow a cell's index.
-const FARTHEST: f64 = 32_768.0;
+pub(super) const FARTHEST: f64 = 32_768.0;
 
 /// Fewest cells along a side of a block: small blocks are little memory, but a beam is soon out of them.
 const BLOCK: u32 = 32;

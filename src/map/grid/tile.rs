@@ -1,5 +1,7 @@
 //! A tile of 8 × 8 NDT cells, each a block of occupancy cells: the unit that is shared and copied.
 
+#[cfg(feature = "serde")]
+use crate::save::{self, RestoreError};
 use core::hash::Hasher;
 
 /// NDT cells along a side of a tile.
@@ -34,6 +36,7 @@ pub(crate) const MAX_DISTANCE: usize = 3;
 
 /// Normal distribution of the end points that fell into one NDT cell (Biber and Straßer 2003), relative to its centre.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct NdtCell {
     /// End points seen.
     pub hits: u32,
@@ -181,4 +184,54 @@ impl<const CELLS_PER_NDT: usize> Tile<CELLS_PER_NDT> {
 /// words, and the distributions.
 pub(super) fn bytes<const CELLS_PER_NDT: usize>(ndt_cells: usize) -> usize {
     NDT_CELLS * (CELLS_PER_NDT * CELLS_PER_NDT + 1) + 3 * 8 + ndt_cells * size_of::<NdtCell>()
+}
+
+/// A tile in plain numbers.
+#[cfg(feature = "serde")]
+#[derive(Clone, PartialEq, Debug, serde::Serialize, serde::Deserialize)]
+pub(super) struct SavedTile {
+    /// Flat, in the order of [`Tile::log_odds`].
+    log_odds: Vec<i8>,
+    places: Vec<u8>,
+    ndt_cells: Vec<NdtCell>,
+}
+
+#[cfg(feature = "serde")]
+impl<const CELLS_PER_NDT: usize> Tile<CELLS_PER_NDT> {
+    pub fn save(&self) -> SavedTile {
+        SavedTile {
+            log_odds: self.log_odds.as_flattened().as_flattened().to_vec(),
+            places: self.places.to_vec(),
+            ndt_cells: self.ndt_cells.clone(),
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl SavedTile {
+    pub fn restore<const CELLS_PER_NDT: usize>(&self) -> Result<Tile<CELLS_PER_NDT>, RestoreError> {
+        let Self { log_odds, places, ndt_cells } = self;
+        let mut tile = Tile::<CELLS_PER_NDT>::default();
+        let cells = tile.log_odds.as_flattened_mut().as_flattened_mut();
+        save::count("maps.tiles.log_odds", log_odds.len(), cells.len())?;
+        cells.copy_from_slice(log_odds);
+        save::count("maps.tiles.places", places.len(), NDT_CELLS)?;
+        tile.places.copy_from_slice(places);
+        // All that are no distance: see `places`.
+        let mut hit: Vec<u8> =
+            places.iter().copied().filter(|p| usize::from(p.wrapping_neg()) >= MAX_DISTANCE).collect();
+        hit.sort_unstable();
+        let each_once = hit.into_iter().map(usize::from).eq(1..=ndt_cells.len());
+        save::holds(each_once, "maps.tiles.places", "the place of each distribution once, and distances")?;
+        for NdtCell { hits, mean, scatter, information } in ndt_cells {
+            save::holds(
+                (1..=SETTLED).contains(hits),
+                "maps.tiles.hits",
+                "at least one, and no more than settle a cell",
+            )?;
+            save::finite("maps.tiles.ndt_cells", mean.iter().chain(scatter).chain(information).map(|x| f64::from(*x)))?;
+        }
+        tile.ndt_cells.clone_from(ndt_cells);
+        Ok(tile)
+    }
 }

@@ -9,6 +9,7 @@ use nalgebra::Matrix3;
 
 /// How sightings are told apart.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Correspondence {
     /// By the signature that each feature brings; a feature without one is passed over.
     Known,
@@ -24,6 +25,7 @@ pub enum Correspondence {
 /// No landmark is given two features of one step. The rule: features choose in the order in which the sensor reports them, and
 /// a landmark that was chosen is not to be had again in this step; who comes later takes the next best, or founds a new one.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Gate {
     /// Largest νᵀ S⁻¹ ν: a quantile of χ² with two degrees of freedom.
     pub mahalanobis_squared: f64,

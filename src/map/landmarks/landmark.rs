@@ -7,6 +7,11 @@ use nalgebra::{Matrix2, Matrix3, Vector2};
 
 /// p(m | path, sightings) = N(mean, covariance).
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(from = "super::saved::SavedLandmark", into = "super::saved::SavedLandmark")
+)]
 pub struct Landmark {
     /// μ \[m\].
     pub mean: Vector2<f64>,

@@ -7,11 +7,15 @@
 
 mod association;
 mod landmark;
+#[cfg(feature = "serde")]
+mod saved;
 mod shared;
 mod store;
 
 pub use association::{Association, Correspondence, Decision, Gate};
 pub use landmark::{Innovation, Landmark};
+#[cfg(feature = "serde")]
+pub use saved::{SavedLandmarks, SavedTrees};
 pub use shared::{Balanced, Blocks, Shared};
 pub use store::Store;
 

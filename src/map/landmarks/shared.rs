@@ -14,14 +14,14 @@ pub type Blocks = Shared<8>;
 /// are its path (Bagwell 2001). It grows at the root.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Shared<const W: usize> {
-    root: Node<W>,
+    pub(super) root: Node<W>,
     /// Levels above the leaves.
-    height: u32,
-    len: u32,
+    pub(super) height: u32,
+    pub(super) len: u32,
 }
 
 #[derive(Clone, PartialEq, Debug)]
-enum Node<const W: usize> {
+pub(super) enum Node<const W: usize> {
     Inner(Arc<[Option<Node<W>>; W]>),
     Leaf(Arc<[Option<Landmark>; W]>),
 }
@@ -30,6 +30,17 @@ impl<const W: usize> Node<W> {
     /// Without any landmark, this many levels above the leaves.
     fn empty(height: u32) -> Self {
         if height == 0 { Self::Leaf(Arc::new([None; W])) } else { Self::Inner(Arc::new([const { None }; W])) }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<const W: usize> Node<W> {
+    /// The same for those that are one and the same.
+    pub(super) fn address(&self) -> usize {
+        match self {
+            Self::Inner(children) => Arc::as_ptr(children).addr(),
+            Self::Leaf(places) => Arc::as_ptr(places).addr(),
+        }
     }
 }
 
@@ -56,6 +67,14 @@ impl<const W: usize> Shared<W> {
     fn reaches(&self, index: u32) -> bool {
         let bits = (self.height + 1) * Self::BITS;
         bits >= u32::BITS || index >> bits == 0
+    }
+
+    /// Whether a tree of this height exists, and may have this length.
+    #[cfg(feature = "serde")]
+    pub(super) fn is_high_enough(height: u32, len: u32) -> bool {
+        // Its root tells apart by at least one bit of an index.
+        let possible = height.saturating_mul(Self::BITS) < u32::BITS;
+        possible && (len == 0 || Self { root: Node::empty(0), height, len }.reaches(len - 1))
     }
 }
 

@@ -1,0 +1,366 @@
+//! Laws of a saved state: it goes on with the same bits, it shares what was shared, and what is none is refused.
+
+use fastslam::geometry::Pose2;
+use fastslam::map::grid::{Grid, GridModel};
+use fastslam::map::landmarks::{Balanced, Correspondence, Gate, Landmark, Landmarks, Store};
+use fastslam::map::{ConditionalMap, Footprint};
+use fastslam::matching::{Matcher, ScanModel};
+use fastslam::motion::{Odometry, OdometryModel};
+use fastslam::particle::Particle;
+use fastslam::proposal::{FromMeasurement, FromMotion, Proposal, ProposalTrace, Proposed};
+use fastslam::random::{Purpose, Stream};
+use fastslam::rbpf::Rbpf;
+use fastslam::resampling::ResamplePolicy;
+use fastslam::save::{RestoreError, SaveShared};
+use fastslam::sensor::{BeamSensor, Feature, LandmarkSensor, RangeBearing, Scan};
+use fastslam_lab::digest::Digest;
+use fastslam_lab::experiment::ProposalKind;
+use fastslam_lab::experiment::lap::{GRID, Lap, LapSetup, Proposals};
+use serde_json::Value;
+use std::hash::Hasher;
+
+/// A map that tells all that it holds, with what its population shares.
+trait Told: ConditionalMap + SaveShared {
+    fn hash<'a>(maps: impl Iterator<Item = &'a Self>, digest: &mut Digest)
+    where
+        Self: 'a;
+
+    fn memory<'a>(maps: impl Iterator<Item = &'a Self>) -> Footprint
+    where
+        Self: 'a;
+}
+
+impl<const CELLS_PER_NDT: usize> Told for Grid<CELLS_PER_NDT> {
+    fn hash<'a>(maps: impl Iterator<Item = &'a Self>, digest: &mut Digest) {
+        Self::hash_all(maps, digest);
+    }
+
+    fn memory<'a>(maps: impl Iterator<Item = &'a Self>) -> Footprint {
+        Self::footprint(maps)
+    }
+}
+
+impl<S: Store + SaveShared> Told for Landmarks<RangeBearing, S> {
+    fn hash<'a>(maps: impl Iterator<Item = &'a Self>, digest: &mut Digest)
+    where
+        Self: 'a,
+    {
+        for (index, Landmark { mean, covariance, existence_count }) in maps.flat_map(Self::iter) {
+            digest.u32(index);
+            mean.iter().chain(covariance).for_each(|x| digest.f64(*x));
+            digest.u32(existence_count.cast_unsigned());
+        }
+    }
+
+    fn memory<'a>(maps: impl Iterator<Item = &'a Self>) -> Footprint
+    where
+        Self: 'a,
+    {
+        Self::footprint(maps)
+    }
+}
+
+/// All poses, weights and maps, and what they hold of the memory: paths as nodes, maps in bytes.
+fn state<M: Told, P: Proposal<M>>(filter: &Rbpf<M, P>) -> (Digest, u32, Footprint) {
+    let mut digest = Digest::new();
+    for pose in filter.particles().iter().flat_map(|p| p.path.poses().into_iter().chain([p.world_from_robot])) {
+        [pose.x, pose.y, pose.theta].into_iter().for_each(|x| digest.f64(x));
+    }
+    let weights = filter.weights().as_slice().iter().chain(filter.path_weights().as_slice());
+    weights.for_each(|weight| digest.f64(*weight));
+    digest.write(&[filter.best() as u8]);
+    let maps = || filter.particles().iter().map(|p| &p.map);
+    M::hash(maps(), &mut digest);
+    (digest, filter.descent().size(), M::memory(maps()))
+}
+
+fn written<M: Told, P: Proposal<M>>(filter: &Rbpf<M, P>) -> String {
+    serde_json::to_string(&filter.save()).unwrap()
+}
+
+fn read<M: Told, P: Proposal<M>>(text: &str, proposal: P) -> Result<Rbpf<M, P>, String> {
+    let saved = serde_json::from_str(text).map_err(|error| error.to_string())?;
+    Rbpf::restore(saved, proposal).map_err(|error| error.to_string())
+}
+
+/// Steps a filter through a log; after every 20 steps it is written, read again, and its copy goes on beside it to the end.
+fn assert_it_goes_on<M: Told, P: Proposal<M> + Clone>(
+    mut filter: Rbpf<M, P>,
+    proposal: &P,
+    log: &[(P::Control, M::Observation)],
+) {
+    let mut copies: Vec<Rbpf<M, P>> = Vec::new();
+    let mut resampled = 0;
+    for (k, (control, observation)) in log.iter().enumerate() {
+        if k % 20 == 0 {
+            let text = written(&filter);
+            let copy = read(&text, proposal.clone()).unwrap();
+            assert_eq!(state(&copy), state(&filter), "restored at step {k}");
+            assert_eq!(written(&copy), text, "written again at step {k}");
+            copies.push(copy);
+        }
+        let report = filter.step(control, observation);
+        resampled += u32::from(report.ancestors.is_some());
+        for copy in &mut copies {
+            let other = copy.step(control, observation);
+            assert_eq!(
+                (other.step, &other.weights, &other.ancestors),
+                (report.step, &report.weights, &report.ancestors)
+            );
+            assert_eq!(other.log_evidence.to_bits(), report.log_evidence.to_bits());
+        }
+    }
+    assert!(resampled > 2, "what is never resampled shares little: {resampled}");
+    for copy in &copies {
+        assert_eq!(state(copy), state(&filter));
+    }
+}
+
+fn lap(proposal: ProposalKind) -> (Lap, Proposals) {
+    let setup = LapSetup { particles: 6, proposal, odometry_scale: 1.5, ..LapSetup::default() };
+    (Lap::new(&setup).unwrap(), setup.proposals())
+}
+
+#[test]
+fn a_lap_goes_on_from_its_saved_state_with_the_same_bits_and_shares_the_same_memory() {
+    for kind in [ProposalKind::Improved, ProposalKind::Motion] {
+        let (lap, proposals) = lap(kind);
+        let world = lap.world();
+        let log: Vec<_> = world.controls.iter().copied().zip(world.scans.iter().cloned()).collect();
+        assert_it_goes_on(lap.filter().clone(), &proposals, &log);
+    }
+}
+
+const SENSOR: RangeBearing =
+    RangeBearing { range_std: 0.1, bearing_std: 0.03, max_range: 6.0, field_of_view: core::f64::consts::TAU };
+const MOTION: OdometryModel = OdometryModel { alphas: [0.02, 0.004, 0.02, 0.004] };
+
+/// Around a circle, past landmarks on both sides of it. Their signatures are far apart, so that the trees have several levels.
+fn circle(steps: u32) -> Vec<(Odometry, Vec<Feature>)> {
+    let landmarks: Vec<[f64; 2]> = (0..16_i32)
+        .map(|k| Pose2::new(0.0, 4.0, f64::from(k) * 0.393).transform([if k % 2 == 0 { 6.0 } else { 3.0 }, 0.0]))
+        .collect();
+    let mut pose = Pose2::default();
+    (0..steps)
+        .map(|step| {
+            let mut stream = Stream::at(3, Purpose::TRIAL, step, 0);
+            let control = Odometry { rot1: 0.05, trans: 0.4, rot2: 0.05 };
+            pose = control.apply(&pose);
+            let see = |(k, &[x, y]): (u32, &[f64; 2])| {
+                let landmark = fastslam::nalgebra::Vector2::new(x, y);
+                let z = SENSOR.measure(&pose, &landmark, &mut stream);
+                SENSOR.sees(&pose, &landmark, 0.0).then_some(Feature { z, signature: Some(k * 37) })
+            };
+            (
+                MOTION.perturb(&control, &mut Stream::at(3, Purpose::TRIAL, step, 1)),
+                (0..).zip(&landmarks).filter_map(see).collect(),
+            )
+        })
+        .collect()
+}
+
+fn landmarks<S: Store>(
+    correspondence: Correspondence,
+) -> Rbpf<Landmarks<RangeBearing, S>, FromMeasurement<OdometryModel>> {
+    let builder = Rbpf::builder(Landmarks::new(SENSOR, correspondence), FromMeasurement { motion: MOTION });
+    builder.particles(12).seed(5).build().unwrap()
+}
+
+#[test]
+fn a_map_of_landmarks_goes_on_from_its_saved_state_whatever_it_is_kept_in() {
+    fn run<S: Store + SaveShared>(correspondence: Correspondence) {
+        assert_it_goes_on(landmarks::<S>(correspondence), &FromMeasurement { motion: MOTION }, &circle(90));
+    }
+    let unknown = Correspondence::Unknown(Gate { removal: true, ..Gate::default() });
+    for correspondence in [Correspondence::Known, unknown] {
+        run::<fastslam::map::landmarks::Blocks>(correspondence);
+        run::<Balanced>(correspondence);
+        run::<Vec<Option<Landmark>>>(correspondence);
+    }
+}
+
+/// Stopped where a reader may stop: weighed, and resampled, but not moved on.
+#[test]
+fn a_state_between_the_halves_of_a_step_goes_on_as_well() {
+    let mut filter = landmarks::<Balanced>(Correspondence::Known);
+    let proposal = FromMeasurement { motion: MOTION };
+    for (control, features) in &circle(10) {
+        filter.weigh(control, features);
+        for _ in 0..2 {
+            let mut copy: Rbpf<Landmarks<_, Balanced>, _> = read(&written(&filter), proposal.clone()).unwrap();
+            assert_eq!(copy.resample(), filter.resample());
+            assert_eq!(state(&copy), state(&filter));
+        }
+    }
+}
+
+/// A map of one's own that shares nothing: how often it was told of something.
+#[derive(Clone)]
+struct Count(u32);
+
+impl ConditionalMap for Count {
+    type Observation = ();
+    type Association = ();
+
+    fn assimilate(&mut self, _: &Pose2, (): &(), (): &()) {
+        self.0 += 1;
+    }
+}
+
+impl SaveShared for Count {
+    type Saved = Vec<u32>;
+
+    fn save_all<'a>(all: impl IntoIterator<Item = &'a Self>) -> Vec<u32> {
+        all.into_iter().map(|count| count.0).collect()
+    }
+
+    fn restore_all(saved: Vec<u32>) -> Result<Vec<Self>, RestoreError> {
+        Ok(saved.into_iter().map(Self).collect())
+    }
+}
+
+/// Half of the particles, by lot, cannot explain what they see.
+#[derive(Clone)]
+struct Half;
+
+impl Proposal<Count> for Half {
+    type Control = ();
+
+    fn propose(&self, _: &Particle<Count>, (): &(), (): &(), stream: &mut Stream) -> Proposed<()> {
+        let log_increment = if stream.uniform() < 0.5 { f64::NEG_INFINITY } else { 0.0 };
+        Proposed { world_from_robot: Pose2::default(), association: (), log_increment, trace: ProposalTrace::Motion }
+    }
+}
+
+/// Their logarithms are infinite, which JSON cannot write.
+#[test]
+fn weights_that_are_lost_stay_lost() {
+    let mut filter = Rbpf::builder(Count(0), Half).particles(16).policy(ResamplePolicy::Never).build().unwrap();
+    filter.step(&(), &());
+    let text = serde_json::to_string(&filter.save()).unwrap();
+    let mut copy: Rbpf<Count, _> = Rbpf::restore(serde_json::from_str(&text).unwrap(), Half).unwrap();
+    assert_eq!((copy.weights(), copy.path_weights()), (filter.weights(), filter.path_weights()));
+    assert!(copy.weights().as_slice().contains(&0.0));
+    copy.step(&(), &());
+    filter.step(&(), &());
+    assert_eq!(copy.weights(), filter.weights());
+    assert!(copy.particles().iter().all(|particle| particle.map.0 == 2));
+}
+
+// What is no state.
+
+/// A state, as small as can be that has all of a state's parts.
+fn small_grid() -> (Rbpf<Grid<2>, FromMotion<OdometryModel, ScanModel>>, Odometry, Scan) {
+    let model = GridModel { cell_size: 0.2, distance_reach: 2, lag: 2, ..GRID };
+    let (scan, control) =
+        (BeamSensor::panorama(8, 3.0, 0.0).scan(&[1.5; 8]), Odometry { rot1: 0.1, trans: 0.3, rot2: 0.0 });
+    let proposal = FromMotion { motion: MOTION, likelihood: ScanModel::new(Matcher::SubCell, 0.3, 0.1) };
+    let mut filter =
+        Rbpf::builder(Grid::new(model), proposal).particles(3).policy(ResamplePolicy::Never).build().unwrap();
+    (0..5).for_each(|_| drop(filter.step(&control, &scan)));
+    filter.resample();
+    (filter, control, scan)
+}
+
+fn small_landmarks() -> (Rbpf<Landmarks<RangeBearing, Balanced>, FromMeasurement<OdometryModel>>, Odometry, Vec<Feature>)
+{
+    let mut filter = landmarks::<Balanced>(Correspondence::Unknown(Gate::default()));
+    let log = circle(6);
+    log.iter().for_each(|(control, features)| drop(filter.step(control, features)));
+    let (control, features) = log[0].clone();
+    (filter, control, features)
+}
+
+/// The places in a document of all that it holds.
+fn places(value: &Value, at: String, found: &mut Vec<String>) {
+    match value {
+        Value::Array(values) => {
+            // The ends of a long list are as good as all of it.
+            let ends = values.iter().enumerate().filter(|(k, _)| *k < 3 || k + 2 > values.len());
+            ends.for_each(|(k, value)| places(value, format!("{at}/{k}"), found));
+        }
+        Value::Object(fields) => fields.iter().for_each(|(name, value)| places(value, format!("{at}/{name}"), found)),
+        _ => (),
+    }
+    found.push(at);
+}
+
+/// At every place each of several values that do not belong there, and each list too short and too long. What can still be read is
+/// used: most of it is a state like any other. Returns how many were refused and how many were not.
+fn mutilate<M: Told, P: Proposal<M> + Clone>(
+    filter: &Rbpf<M, P>,
+    proposal: &P,
+    control: &P::Control,
+    observation: &M::Observation,
+) -> [u32; 2] {
+    let document = serde_json::to_value(filter.save()).unwrap();
+    let (mut all, mut outcomes) = (Vec::new(), [0, 0]);
+    places(&document, String::new(), &mut all);
+    for place in &all {
+        let was = document.pointer(place).unwrap();
+        let numbers = [0, 1, 3, 7, 64, 200, 255, 1 << 20, u64::from(u32::MAX), u64::MAX].map(Value::from);
+        let mut values =
+            [numbers.as_slice(), &[Value::Null, (-1).into(), 0.5.into(), 1e300.into(), "x".into()]].concat();
+        if let Value::Array(list) = was {
+            let last = list.len().saturating_sub(1);
+            values.extend([list[..last].into(), [list, &list[last..]].concat().into(), Value::Array(Vec::new())]);
+        }
+        for value in values {
+            let mut changed = document.clone();
+            *changed.pointer_mut(place).unwrap() = value;
+            let restored =
+                serde_json::from_value(changed).ok().and_then(|saved| Rbpf::restore(saved, proposal.clone()).ok());
+            outcomes[usize::from(restored.is_some())] += 1;
+            if let Some(mut filter) = restored {
+                (0..3).for_each(|_| drop(filter.step(control, observation)));
+                filter.resample();
+                state(&filter);
+                filter.estimate();
+            }
+        }
+    }
+    outcomes
+}
+
+#[test]
+fn a_mutilated_state_is_refused_or_used_and_never_panics() {
+    let (filter, control, scan) = small_grid();
+    let proposal = FromMotion { motion: MOTION, likelihood: ScanModel::new(Matcher::SubCell, 0.3, 0.1) };
+    let [refused, used] = mutilate(&filter, &proposal, &control, &scan);
+    assert!(refused > 1000 && used > 100, "{refused} refused, {used} used");
+    let (filter, control, features) = small_landmarks();
+    let [refused, used] = mutilate(&filter, &FromMeasurement { motion: MOTION }, &control, &features);
+    assert!(refused > 1000 && used > 100, "{refused} refused, {used} used");
+}
+
+#[test]
+fn what_is_wrong_with_a_state_is_named() {
+    let (filter, ..) = small_grid();
+    let document = serde_json::to_value(filter.save()).unwrap();
+    let refused = |place: &str, value: Value| {
+        let mut changed = document.clone();
+        *changed.pointer_mut(place).unwrap_or_else(|| panic!("{place}")) = value;
+        let proposal = FromMotion { motion: MOTION, likelihood: ScanModel::new(Matcher::SubCell, 0.3, 0.1) };
+        let restored: Result<Rbpf<Grid<2>, _>, _> = Rbpf::restore(serde_json::from_value(changed).unwrap(), proposal);
+        restored.unwrap_err().to_string()
+    };
+    assert_eq!(refused("/version", 2.into()), "version = 2: must be 1");
+    let tiles = document["maps"]["tiles"].as_array().unwrap().len();
+    assert_eq!(
+        refused("/maps/directories/0/tiles/0", 999.into()),
+        format!("maps.tiles: number 999 is referred to, of {tiles}")
+    );
+    assert_eq!(refused("/paths/nodes/0/before", 0.into()), "paths.nodes: number 0 is referred to, of 0");
+    assert_eq!(refused("/weights/weights/0", 0.5.into()), "weights: must be what their logarithms are of");
+    assert_eq!(
+        refused("/maps/grids/0/model/cell_size", 0.into()),
+        "grid.cell_size = 0: must be a number from 0.000001 to 1000000 [m]"
+    );
+    assert_eq!(refused("/policy", serde_json::json!({ "EssBelow": 2 })), "policy = 2: must be a number from 0 to 1");
+    assert_eq!(refused("/maps/grids", Value::Array(Vec::new())), "maps: 0 of them, where there must be 3");
+    assert_eq!(
+        refused("/paths/ends", Value::Array(Vec::new())),
+        "particles = 0: must be a whole number from 1 to 4294967295"
+    );
+    assert_eq!(refused("/paths/ends/1", 0.into()), "paths: must be all of one step");
+}
