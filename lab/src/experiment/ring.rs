@@ -456,7 +456,7 @@ mod tests {
     fn settings_out_of_range_are_refused() {
         let refused = |setup: RingSetup| setup.start().unwrap_err().field();
         assert_eq!(refused(RingSetup { niches: 3, ..RingSetup::default() }), "niches");
-        assert_eq!(refused(RingSetup { max_range: f64::NAN, ..RingSetup::default() }), "max-range");
+        assert_eq!(refused(RingSetup { max_range: f64::NAN, ..RingSetup::default() }), "max_range");
         let lap = LapSetup { particles: 0, ..LapSetup::default() };
         assert_eq!(refused(RingSetup { lap, ..RingSetup::default() }), "particles");
     }

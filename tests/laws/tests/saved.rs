@@ -262,8 +262,9 @@ fn small_grid() -> (Rbpf<Grid<2>, FromMotion<OdometryModel, ScanModel>>, Odometr
     (filter, control, scan)
 }
 
-fn small_landmarks() -> (Rbpf<Landmarks<RangeBearing, Balanced>, FromMeasurement<OdometryModel>>, Odometry, Vec<Feature>)
-{
+type FastSlam2 = Rbpf<Landmarks<RangeBearing, Balanced>, FromMeasurement<OdometryModel>>;
+
+fn small_landmarks() -> (FastSlam2, Odometry, Vec<Feature>) {
     let mut filter = landmarks::<Balanced>(Correspondence::Unknown(Gate::default()));
     let log = circle(6);
     log.iter().for_each(|(control, features)| drop(filter.step(control, features)));

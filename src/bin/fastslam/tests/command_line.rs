@@ -401,9 +401,9 @@ fn a_log_that_cannot_be_read_is_refused_by_line_and_one_with_flaws_is_read_if_as
     let another = folder.path().join("another.relations").display().to_string();
     std::fs::write(&another, "1 2 0 0 0 0 0 0\n3 4 0 0 0 0 0 0\n").unwrap();
     for (arguments, status, said) in [
-        ("--cell 7".to_owned(), 2, "cell_size = 7: must be a number from 0.02 to 0.2"),
-        ("--max-range NaN".to_owned(), 2, "max_range = NaN"),
-        ("--min-travel -1".to_owned(), 2, "min_travel = -1"),
+        ("--cell 7".to_owned(), 2, "cell = 7: must be a number from 0.02 to 0.2"),
+        ("--max-range NaN".to_owned(), 2, "max-range = NaN"),
+        ("--min-travel -1".to_owned(), 2, "min-travel = -1"),
         ("--particles 0".to_owned(), 2, "from 1 to 4096"),
         (format!("--relations {relations}"), 2, "line 1: expected 8 numbers"),
         (
