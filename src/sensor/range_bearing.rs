@@ -7,6 +7,7 @@ use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
 use crate::ops;
 use crate::random::Stream;
+use core::f64::consts::FRAC_PI_2;
 use nalgebra::{Matrix2, Matrix2x3, Vector2};
 
 /// z = (r, φ): distance \[m\], and direction from straight ahead \[rad\].
@@ -89,7 +90,10 @@ impl LandmarkSensor for RangeBearing {
     fn sees(&self, world_from_robot: &Pose2, landmark: &Vector2<f64>, margin: f64) -> bool {
         let z = self.predict(world_from_robot, landmark).z;
         let all_around = self.field_of_view >= core::f64::consts::TAU;
-        z.x + margin <= self.max_range && (all_around || z.x * (0.5 * self.field_of_view - z.y.abs()) >= margin)
+        // From the landmark to the nearest point that is out of view: on the edge's ray, or the robot itself where that ray leads away.
+        let aside = (0.5 * self.field_of_view - z.y.abs()).min(FRAC_PI_2);
+        let to_edge = || if aside < 0.0 { f64::NEG_INFINITY } else { z.x * ops::sin(aside) };
+        z.x + margin <= self.max_range && (all_around || to_edge() >= margin)
     }
 
     /// Standard deviations of 0, of a sensor without noise, are in range: what such a sighting cannot say is passed over. See
@@ -116,7 +120,8 @@ mod tests {
             let [x, y, theta, mx, my] = Stream::at(4, crate::random::Purpose::TRIAL, 0, k).normals();
             (Pose2::new(3.0 * x, 3.0 * y, 2.0 * theta), Vector2::new(5.0 * mx, 5.0 * my))
         };
-        (0..200).map(view).collect()
+        let near = (Pose2::new(1.0, 2.0, 0.4), Vector2::new(1.8, 2.3));
+        (0..200).map(view).chain([near]).collect()
     }
 
     crate::sensor_laws!(half, SENSOR, views());
