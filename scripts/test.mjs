@@ -93,6 +93,14 @@ const outside = () =>
     }),
   )
 
+/** Those of the filter crate, which check their own results. */
+async function examples() {
+  const log = [join(root, 'tests', 'figures', 'golden', 'tiny.clf'), cache('example')]
+  for (const [name, ...args] of [['landmarks'], ['laser_log', ...log], ['own_sensor'], ['own_map']]) {
+    await run('cargo', ['run', '--quiet', '--profile', 'test', '--example', name, '--', ...args])
+  }
+}
+
 /** The fuzz target needs a nightly compiler to run, but none to compile. */
 const fuzz = () =>
   run('cargo', ['check'], {
@@ -142,6 +150,7 @@ await main(async () => {
   await attempt('Tests of the chapter’s making', nodeTest)
   await attempt('Tests, native, with all checks on', () => cargoTest('--workspace'))
   await attempt('Tests of a package outside the workspace', outside)
+  await attempt('Examples run', examples)
   await attempt('The fuzz target compiles', fuzz)
   await attempt('Resampling against the Python package particles', oracle)
   await attempt('Same bits, as tests are built', () => cargoTest('-p', 'portability'))

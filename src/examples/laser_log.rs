@@ -1,0 +1,41 @@
+//! From a log of a robot with a laser, in CARMEN's format, to a map as ROS reads it and a path as evo reads it.
+//!
+//! `cargo run --release --example laser_log -- robot.clf folder`
+
+use fastslam::log::{parse, write_tum};
+use fastslam::map::grid::MapImage;
+use fastslam::mapper::{LaserMapper, LaserMapperSettings};
+use std::error::Error;
+use std::fs;
+use std::path::Path;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [log, folder] = arguments.as_slice() else {
+        return Err("needs two arguments: the log, and the folder for map.pgm, map.yaml and path.tum".into());
+    };
+    // A line that is not CARMEN's is refused with its number; `true` would pass over it and note so.
+    let log = parse(&fs::read(log)?, false)?;
+
+    let settings = LaserMapperSettings { particles: 30, seed: 1, ..LaserMapperSettings::default() };
+    let mut mapper = LaserMapper::new(settings.for_log(&log))?;
+    for scan in &log.scans {
+        // No report of the first scan, and of those for which the robot stood still.
+        let Some(report) = mapper.push(scan) else { continue };
+        if report.step % 100 == 0 {
+            let (step, ess) = (report.step, report.ess);
+            println!(
+                "step {step}: effective sample size {ess:.1}, {} paths left at the start",
+                mapper.filter().lineage()
+            );
+        }
+    }
+
+    let (folder, map) = (Path::new(folder), MapImage::of(mapper.map()));
+    fs::create_dir_all(folder)?;
+    fs::write(folder.join("map.pgm"), map.pgm())?;
+    fs::write(folder.join("map.yaml"), map.yaml("map.pgm"))?;
+    fs::write(folder.join("path.tum"), write_tum(&mapper.path()))?;
+    println!("{} of {} scans mapped, into {}", mapper.steps() + 1, log.scans.len(), folder.display());
+    Ok(())
+}
