@@ -1,0 +1,79 @@
+//! Links that readers and teachers have made: each opens in every later build with the same numbers. `golden/links.txt` has a
+//! link a line, and behind a tab the readouts at the step that it names, as they were when the line was written. Lines are added,
+//! never changed and never removed: other courses point here.
+
+use fastslam_widgets::figure::Figure;
+use figures::{LOG, TINY_LOG};
+
+const LINKS: &str = include_str!("../golden/links.txt");
+
+/// The figure that a link makes, and what it says of the link.
+fn open(link: &str) -> (Figure, Vec<String>) {
+    let (tag, query) = link.split_once('?').expect("a link has a ?");
+    let mut figure = Figure::new(tag).expect("a tag of the registry");
+    let said = figure.load(query).into_iter().map(|error| error.message).collect();
+    if tag == LOG {
+        let asked = figure.values().0.iter().find(|(name, _)| *name == "step").map(|(_, step)| step.parse().unwrap());
+        figure.model_mut().open(TINY_LOG).expect("the tiny log is a log");
+        figure.model_mut().seek(asked.unwrap_or(u32::MAX));
+    }
+    figure.model_mut().settle();
+    (figure, said)
+}
+
+/// Names and numbers, in as many digits as tell their bits.
+fn numbers(figure: &Figure) -> Vec<String> {
+    let readouts = figure.model().readouts().into_iter();
+    readouts
+        .map(|readout| format!("{}={}", readout.name, readout.value.map_or("–".into(), |x| x.to_string())))
+        .collect()
+}
+
+/// A test for each figure, so that they run side by side.
+fn keep_their_numbers(tag: &str) {
+    let mut changed = Vec::new();
+    let links: Vec<_> = LINKS.lines().map(|line| line.split_once('\t').expect("a link and its numbers")).collect();
+    let of_tag = links.iter().filter(|(link, _)| link.split('?').next() == Some(tag));
+    let mut count = 0;
+    for (link, kept) in of_tag {
+        let (figure, said) = open(link);
+        let now = numbers(&figure);
+        let other: Vec<&str> = kept.split('\t').filter(|number| !now.iter().any(|n| n == number)).collect();
+        if !(said.is_empty() && other.is_empty()) {
+            changed.push(format!("{link}: says {said:?}; no longer {other:?}"));
+        }
+        count += 1;
+    }
+    assert!(changed.is_empty(), "{} of {count} links:\n{}", changed.len(), changed.join("\n"));
+    assert!(count > 20, "{count} links: have some been lost?");
+}
+
+#[test]
+fn links_to_the_lap_keep_their_numbers() {
+    keep_their_numbers("fastslam-lap");
+}
+
+#[test]
+fn links_to_the_conditioning_keep_their_numbers() {
+    keep_their_numbers("fastslam-conditioning");
+}
+
+#[test]
+fn links_to_the_proposal_keep_their_numbers() {
+    keep_their_numbers("fastslam-proposal");
+}
+
+#[test]
+fn links_to_the_worked_example_keep_their_numbers() {
+    keep_their_numbers("fastslam-worked-example");
+}
+
+#[test]
+fn links_to_the_resampling_keep_their_numbers() {
+    keep_their_numbers("fastslam-resampling");
+}
+
+#[test]
+fn links_to_the_log_keep_their_numbers() {
+    keep_their_numbers(LOG);
+}
