@@ -54,7 +54,7 @@ function wasmBindgenVersion() {
 async function cargoInstall(crate, program, version) {
   if (capture(program, '--version')?.split(' ')[1] === version) return `${version}, there already`
   // Away from the workspace, whose settings are for our own crates.
-  await run('cargo', ['install', '--force', crate, '--version', `=${version}`], { cwd: homedir() })
+  await run('cargo', ['install', '--locked', '--force', crate, '--version', `=${version}`], { cwd: homedir() })
   if (capture(program, '--version')?.split(' ')[1] !== version) {
     throw new StepError(`Another ${program} stands before the one just installed: ${which(program)}`, `Remove it, or put ~/.cargo/bin before it on PATH.`)
   }
@@ -66,7 +66,8 @@ async function installPackages() {
   const wanted = files.reduce((hash, file) => hash.update(file), createHash('sha256').update(process.version)).digest('hex')
   const stamp = join(root, 'node_modules', '.installed-for')
   if (readIfThere(stamp) === wanted) return 'there already'
-  await run('npm', ['ci', '--no-audit', '--no-fund'], {
+  // No package needs a script of its own to be installed, and none may run one.
+  await run('npm', ['ci', '--ignore-scripts', '--no-audit', '--no-fund'], {
     env: { PLAYWRIGHT_SKIP_BROWSER_DOWNLOAD: '1' },
     hint: 'If package.json was edited: npm install writes package-lock.json anew. If the registry cannot be reached: try again online.',
   })
