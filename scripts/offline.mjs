@@ -12,6 +12,9 @@ export const offline = join(root, 'packages', 'offline')
 /** What one figure's file may weigh [bytes]. */
 export const limit = 500_000
 
+/** Of a file that carries all it needs. */
+const policy = "default-src 'none'; script-src 'self' 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; img-src data: blob:; font-src data:; worker-src blob:; base-uri 'none'"
+
 /** @type {Record<string, string>} */
 const types = { '.svg': 'image/svg+xml', '.png': 'image/png', '.woff2': 'font/woff2', '.webp': 'image/webp', '.jpg': 'image/jpeg' }
 
@@ -43,6 +46,8 @@ function inlined(file, script) {
   let html = readFileSync(join(dist, file), 'utf8')
   html = html
     .replace(/<link[^>]*rel="(?:preload|modulepreload|canonical|alternate|fastslam-program)"[^>]*>\s*/g, '')
+    // All is inside, and nothing may come from outside, which the site's policy could not say.
+    .replace(/(<meta http-equiv="Content-Security-Policy" content=")[^"]+/, `$1${policy}`)
     .replace(/<meta property="og:[^>]*>\s*/g, '')
     .replace(/<link[^>]*rel="stylesheet"[^>]*href="([^"]+)"[^>]*>/g, (_, address) => `<style>\n${styles(address)}</style>`)
     .replace(/(<link[^>]*rel="icon"[^>]*href=")([^"]+)("[^>]*>)/g, (_, before, address, after) => before + dataAddress(local(folder, address) ?? '') + after)

@@ -7,18 +7,7 @@ import { extname, join, resolve, sep } from 'node:path'
 import { promisify } from 'node:util'
 import { brotliCompress, constants, gzip } from 'node:zlib'
 import { isMain, main, StepError } from './lib.mjs'
-
-const policy = [
-  "default-src 'none'",
-  "script-src 'self' 'wasm-unsafe-eval'",
-  "style-src 'self'",
-  "img-src 'self' blob: data:",
-  "connect-src 'self'",
-  "font-src 'self'",
-  "worker-src 'self'",
-  "frame-src 'self'",
-  "base-uri 'none'",
-].join('; ')
+import { policy } from './policy.mjs'
 
 /** Other sites may frame the pages that are made for it, and no other. A course would name its learning system in place of the star. */
 const frameAncestors = (/** @type {string} */ path) => `frame-ancestors ${/(^|\/)embed(-[a-z-]+)?\.html$/.test(path) ? '*' : "'self'"}`

@@ -6,6 +6,7 @@ import { defineConfig } from 'vite'
 import { figures, partWasm } from './build.mjs'
 import { chapter } from './chapter/plugin.mjs'
 import { root } from './lib.mjs'
+import { policy } from './policy.mjs'
 
 const www = join(root, 'www')
 const pages = readdirSync(www, { recursive: true, encoding: 'utf8' }).filter(
@@ -34,10 +35,17 @@ const withoutAddress = {
   },
 }
 
+/** In the head of every page, before all that it loads; vite's own server needs what the policy forbids. @type {import('vite').Plugin} */
+const policyInHead = {
+  name: 'policy-in-head',
+  apply: 'build',
+  transformIndexHtml: () => [{ tag: 'meta', attrs: { 'http-equiv': 'Content-Security-Policy', content: policy }, injectTo: 'head-prepend' }],
+}
+
 export default defineConfig({
   root: www,
   base: './',
-  plugins: [chapter(root), figurePrograms, withoutAddress],
+  plugins: [chapter(root), figurePrograms, withoutAddress, policyInHead],
   build: {
     outDir: join(root, 'dist'),
     emptyOutDir: true,

@@ -97,6 +97,25 @@ test('where a policy forbids WebAssembly, the picture stays and the reason is sa
   complaints.splice(0, Infinity, ...complaints.filter(line => !/wasm|WebAssembly/i.test(line)))
 })
 
+test('where a host sends no policy, the page has its own, and lives under it', async ({ page, complaints }) => {
+  await page.route('./', async route => {
+    const response = await route.fetch()
+    const { 'content-security-policy': _, ...headers } = response.headers()
+    await route.fulfill({ response, headers })
+  })
+  await page.goto('./')
+  await new Figure(page, 'fastslam-lap').live()
+  const ran = await page.evaluate(() => {
+    const script = document.createElement('script')
+    script.textContent = 'document.title = "injected"'
+    document.head.append(script)
+    return document.title
+  })
+  expect(ran).not.toBe('injected')
+  expect(complaints.join()).toMatch(/inline script/)
+  complaints.length = 0
+})
+
 test('where there is no WebAssembly at all, the picture stays and the reason is said', async ({ page }) => {
   await page.addInitScript(() => Reflect.deleteProperty(window, 'WebAssembly'))
   await page.goto('./')
