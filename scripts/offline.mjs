@@ -10,7 +10,7 @@ import { singleFile } from './single.mjs'
 
 export const offline = join(root, 'packages', 'offline')
 /** What one figure's file may weigh [bytes]. */
-export const limit = 500_000
+export const limit = 1_000_000
 
 /** Of a file that carries all it needs. */
 const policy = "default-src 'none'; script-src 'self' 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; img-src data: blob:; font-src data:; worker-src blob:; base-uri 'none'"
