@@ -33,11 +33,14 @@ async function checkPackages() {
   const crates = ['fastslam', 'fastslam-lab', 'fastslam-raster', 'fastslam-widgets']
   for (const crate of crates) {
     const { output } = await run('cargo', ['package', '--list', '--allow-dirty', '--package', crate])
-    const packed = output.split('\n')
-    const missing = ['LICENSE-APACHE', 'LICENSE-MIT'].filter(file => !packed.includes(file))
+    const packed = output.trim().split(/\s+/)
+    const missing = ['README.md', 'LICENSE-APACHE', 'LICENSE-MIT'].filter(file => !packed.some(path => path.endsWith(file)))
     if (missing.length > 0) throw new StepError(`The package ${crate} is without ${missing.join(', ')}.`)
+    const other = packed.filter(file => !/^(src|tests|fonts)\/|^[^/]+$/.test(file))
+    if (other.length > 0) throw new StepError(`The package ${crate} holds what no crate needs: ${other.join(', ')}.`)
   }
-  await run('cargo', ['package', '--offline', '--allow-dirty', ...crates.flatMap(crate => ['--package', crate])])
+  const { output } = await run('cargo', ['package', '--offline', '--allow-dirty', ...crates.flatMap(crate => ['--package', crate])])
+  if (/^warning: (?!profile package spec)/m.test(output)) throw new StepError('Packing the crates gives warnings: see above.')
 }
 
 async function checkTypes() {
