@@ -43,6 +43,16 @@ pub fn write(x: f64) -> String {
     fixed(x, (0..DIGITS).find(reads_back).unwrap_or(DIGITS))
 }
 
+/// The number that [`write`] writes for it.
+pub fn as_written(x: f64) -> f64 {
+    parse(&write(x)).unwrap_or(x)
+}
+
+/// The number of so many decimals nearest to it.
+pub fn rounded(x: f64, decimals: i32) -> f64 {
+    parse(&fixed(x, decimals)).unwrap_or(x)
+}
+
 /// With this many decimals.
 pub fn fixed(x: f64, decimals: i32) -> String {
     let scaled = (x.abs() * power(decimals) + 0.5).floor() as u64;

@@ -4,7 +4,7 @@
 use crate::{
     comma,
     export::{Entries, Export},
-    model::{Action, FigureError, Model, Readout},
+    model::{FigureError, Model, Readout},
     paint::{Canvas, Theme},
     param, query,
     registry::{self, Entry},
@@ -81,7 +81,7 @@ impl Figure {
     /// # Errors
     /// For a name or a value that is refused; the figure is as it was.
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), FigureError> {
-        self.model.apply(&Action::Set { name: name.into(), value: value.into() })
+        self.model.configure(&[(name.into(), value.into())]).pop().map_or(Ok(()), Err)
     }
 
     /// Writes numbers with a decimal comma, in the picture and in words.
@@ -211,7 +211,8 @@ fn in_scene(point: Point, scale: f64) -> Point {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{ParamSpec, Series};
+    use crate::model::{Declared, Series};
+    use crate::recipe::{Param, Recipe};
     use std::{cell::RefCell, rc::Rc};
 
     /// A point in a scene that is never narrower than 300 px. What it is told is written down.
@@ -220,18 +221,29 @@ mod tests {
         told: Rc<RefCell<Vec<String>>>,
     }
 
+    /// Nothing can be set about it.
+    #[derive(Clone, PartialEq, Default)]
+    struct Nothing;
+
+    impl Recipe for Nothing {
+        fn table() -> &'static [Param<Self>] {
+            &[]
+        }
+    }
+
+    impl Declared for OnePoint {
+        type Recipe = Nothing;
+        fn recipe(&self) -> &Nothing {
+            &Nothing
+        }
+        fn adopt(&mut self, _: Nothing) -> Result<(), FigureError> {
+            Ok(())
+        }
+    }
+
     impl Model for OnePoint {
         fn title(&self) -> &'static str {
             "A point"
-        }
-        fn params(&self) -> Vec<ParamSpec> {
-            Vec::new()
-        }
-        fn value(&self, _: &str) -> Option<String> {
-            None
-        }
-        fn configure(&mut self, _: &[(String, String)]) -> Vec<FigureError> {
-            Vec::new()
         }
         fn readouts(&self) -> Vec<Readout> {
             vec![Readout::new("x", "x", f64::NAN, "NaN", "m", "")]

@@ -4,9 +4,9 @@
 //! together again in the order of the seeds.
 
 use crate::{
-    model::{FigureError, Group, ParamSpec},
-    param::{self, Value},
-    query,
+    model::{FigureError, Group},
+    param, query,
+    recipe::{self, Recipe},
 };
 use core::ops::Range;
 
@@ -34,22 +34,16 @@ pub const JOBS: &[Job] = &[
     crate::resampling::WINGS,
 ];
 
-/// Sets what a link says about the numbers; what it says about the view makes none.
+/// The recipe of a setting. What that says about the view makes no numbers, and may be of another setup.
 ///
 /// # Errors
 /// For a parameter that is not among these, or a value that is refused.
-pub fn apply(
-    setting: &Setting,
-    specs: &[ParamSpec],
-    mut set: impl FnMut(&str, Value) -> Result<(), FigureError>,
-) -> Result<(), FigureError> {
-    for (name, text) in setting {
-        let spec = specs.iter().find(|s| s.name == name).ok_or_else(|| param::unknown(name, specs))?;
-        if spec.group == Group::Setup {
-            set(name, spec.check(text)?)?;
-        }
-    }
-    Ok(())
+pub fn recipe<R: Recipe>(setting: &Setting) -> Result<R, FigureError> {
+    let specs = recipe::specs(&R::default());
+    let shown = |name: &str| specs.iter().any(|spec| spec.name == name && spec.group == Group::View);
+    let numbers: Vec<_> = setting.iter().filter(|(name, _)| !shown(name)).cloned().collect();
+    let (recipe, refused) = recipe::with(&R::default(), &numbers);
+    refused.into_iter().next().map_or(Ok(recipe), Err)
 }
 
 /// A row for each of these seeds.

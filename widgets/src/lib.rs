@@ -20,18 +20,19 @@ pub mod lap;
 pub mod log;
 pub mod model;
 pub mod paint;
-mod param;
-#[cfg(any(feature = "lap", feature = "log"))]
+pub mod param;
 mod policy;
 #[cfg(feature = "proposal")]
 pub mod proposal;
 mod query;
+pub mod recipe;
 pub mod registry;
 #[cfg(feature = "resampling")]
 pub mod resampling;
 pub mod scene;
 #[cfg(target_arch = "wasm32")]
 pub mod shell;
+mod words;
 #[cfg(feature = "worked-example")]
 pub mod worked_example;
 

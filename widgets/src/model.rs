@@ -1,31 +1,16 @@
-//! What a figure is to everyone else: a deterministic state that actions change and readouts describe.
+//! What a figure is to everyone else: a deterministic state that parameters change and readouts describe.
 //!
 //! A model has no clock and no frame time. Its state is a function of the *recipe*, the values of its parameters, so that a
-//! link, a saved figure and a replay are the same thing. Long computations are cut into steps: an action says what is
+//! link, a saved figure and a replay are the same thing. Long computations are cut into steps: [`Model::seek`] says what is
 //! asked for, [`Model::pending`] how far that is away, and [`Model::work`] goes one step nearer.
 
 use crate::decimal::fixed;
 pub use crate::param::{Choice, Group, Kind, ParamSpec};
+use crate::recipe::{self, Recipe};
 use crate::scene::{Point, Scene};
 use core::fmt;
 use fastslam::error::SettingError;
 use serde::Serialize;
-
-/// What a reader can do to a figure.
-#[derive(Clone, PartialEq, Debug)]
-pub enum Action {
-    /// Gives a parameter a new value.
-    Set {
-        /// [`ParamSpec::name`].
-        name: String,
-        /// As text, from an attribute, a control or a link.
-        value: String,
-    },
-    /// Asks for a step of the simulation; beyond the last means the last.
-    Seek(u32),
-    /// Chooses one of the things drawn (of the lap: the universe of this slot), or lets go of it if it was chosen.
-    Pick(u32),
-}
 
 /// Why a value was refused: the parameter, and one line that names it, what was given and what is allowed.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -146,20 +131,73 @@ pub struct Series {
     pub rows: Vec<Vec<f64>>,
 }
 
-/// A figure, without its pixels. One without a timeline leaves out everything about steps.
-pub trait Model {
-    /// Title for readers.
-    fn title(&self) -> &'static str;
+/// A model that has a recipe. It is all that a figure writes of its parameters besides their table: [`Parameters`] follows.
+pub trait Declared {
+    /// Everything that a link says.
+    type Recipe: Recipe;
 
+    /// What it is made by.
+    fn recipe(&self) -> &Self::Recipe;
+
+    /// Becomes what another recipe says, and simulates anew only what that changes.
+    ///
+    /// # Errors
+    /// Where what goes on inside refuses a value; all is as it was.
+    fn adopt(&mut self, recipe: Self::Recipe) -> Result<(), FigureError>;
+
+    /// Changes the recipe by hand. Numbers end in their ranges, so that there is nothing to refuse.
+    fn change(&mut self, change: impl FnOnce(&mut Self::Recipe))
+    where
+        Self: Sized,
+    {
+        let mut recipe = self.recipe().clone();
+        change(&mut recipe);
+        let _ = self.adopt(recipe::confined(recipe));
+    }
+}
+
+/// The parameters of any model, by name and as text: what attributes, controls and links need.
+pub trait Parameters {
     /// All parameters with their ranges as they are now (the last step and the number of slots depend on the setup).
     fn params(&self) -> Vec<ParamSpec>;
 
-    /// Current value of a parameter, as text that [`Model::configure`] takes; `None` for a name it does not know.
+    /// Current value of a parameter, as text that [`Parameters::configure`] takes; `None` for a name it does not know.
     fn value(&self, name: &str) -> Option<String>;
 
     /// Gives several parameters new values at once, rebuilding once. What is refused is returned and changes nothing; the
     /// rest is applied. Values of the setup come first, whatever their order.
     fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError>;
+
+    /// The same from the defaults on: what is not named is the default again.
+    fn load(&mut self, values: &[(String, String)]) -> Vec<FigureError>;
+}
+
+impl<M: Declared> Parameters for M {
+    fn params(&self) -> Vec<ParamSpec> {
+        recipe::specs(self.recipe())
+    }
+
+    fn value(&self, name: &str) -> Option<String> {
+        recipe::value(self.recipe(), name)
+    }
+
+    fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
+        let (recipe, mut refused) = recipe::with(self.recipe(), values);
+        refused.extend(self.adopt(recipe).err());
+        refused
+    }
+
+    fn load(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
+        let (recipe, mut refused) = recipe::with(&M::Recipe::default(), values);
+        refused.extend(self.adopt(recipe).err());
+        refused
+    }
+}
+
+/// A figure, without its pixels. One without a timeline leaves out everything about steps.
+pub trait Model: Parameters {
+    /// Title for readers.
+    fn title(&self) -> &'static str;
 
     /// Asks for a step of the simulation; beyond the last means the last.
     fn seek(&mut self, _step: u32) {}
@@ -243,21 +281,6 @@ pub trait Model {
 
     /// What is to be seen, at this size \[css px\].
     fn scene(&self, width: f64, height: f64) -> Scene;
-
-    /// Does what a reader asks. A refused value leaves the state as it was.
-    fn apply(&mut self, action: &Action) -> Result<(), FigureError> {
-        match action {
-            Action::Set { name, value } => self.configure(&[(name.clone(), value.clone())]).pop().map_or(Ok(()), Err),
-            Action::Seek(step) => {
-                self.seek(*step);
-                Ok(())
-            }
-            Action::Pick(target) => {
-                self.pick(*target);
-                Ok(())
-            }
-        }
-    }
 
     /// Does all pending work.
     fn settle(&mut self) {

@@ -1,9 +1,9 @@
-//! The parameters of a figure: one table that attributes, controls and links are all made from, and the one place where
-//! text from outside becomes a value or a refusal.
+//! What a parameter is called and may be, and the one place where text from outside becomes a value or a refusal.
 
 use crate::decimal;
 use crate::model::FigureError;
 use serde::Serialize;
+use std::fmt::Display;
 
 /// What values a parameter takes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
@@ -32,12 +32,19 @@ pub enum Group {
 }
 
 /// A word that a parameter takes, and its name for readers.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 pub struct Choice {
     /// As written in attributes and links.
-    pub value: &'static str,
+    pub value: String,
     /// As written on controls.
     pub title: &'static str,
+}
+
+impl Choice {
+    /// A word and its name.
+    pub fn new(value: impl Display, title: &'static str) -> Self {
+        Self { value: value.to_string(), title }
+    }
 }
 
 /// Everything about a parameter but its value.
@@ -58,7 +65,7 @@ pub struct ParamSpec {
     /// Distance of neighbouring values on a slider.
     pub step: f64,
     /// The words of a [`Kind::Choice`]; for a number, words that are allowed besides.
-    pub choices: &'static [Choice],
+    pub choices: Vec<Choice>,
     /// Value of a figure of which nothing was asked.
     pub default: String,
     /// What it belongs to.
@@ -74,94 +81,27 @@ pub struct ParamSpec {
 pub enum Value {
     /// Within the range of its parameter, and whole if that must be.
     Number(f64),
-    /// One of the parameter's choices.
-    Word(&'static str),
+    /// The rank of one of the parameter's choices.
+    Word(usize),
     /// On or off.
     Flag(bool),
 }
 
 impl ParamSpec {
-    /// A number of the setup, from `min` to `max`.
-    pub fn number(
-        name: &'static str,
-        title: &'static str,
-        unit: &'static str,
-        (min, max, step): (f64, f64, f64),
-        default: f64,
-        help: &'static str,
-    ) -> Self {
-        Self {
-            name,
-            title,
-            unit,
-            kind: Kind::Number,
-            min,
-            max,
-            step,
-            choices: &[],
-            default: decimal::write(default),
-            group: Group::Setup,
-            slider: true,
-            help,
+    /// A value as text: what [`ParamSpec::check`] takes.
+    pub(crate) fn text(&self, value: Value) -> String {
+        match value {
+            Value::Number(x) => decimal::write(x),
+            Value::Word(rank) => self.choices[rank].value.clone(),
+            Value::Flag(on) => if on { "on" } else { "off" }.into(),
         }
-    }
-
-    /// A whole number of the setup, from `min` to `max`.
-    pub fn integer(
-        name: &'static str,
-        title: &'static str,
-        unit: &'static str,
-        (min, max): (i64, i64),
-        default: i64,
-        help: &'static str,
-    ) -> Self {
-        let spec = Self::number(name, title, unit, (min as f64, max as f64, 1.0), default as f64, help);
-        Self { kind: Kind::Integer, ..spec }
-    }
-
-    /// One of some words.
-    pub fn choice(
-        name: &'static str,
-        title: &'static str,
-        choices: &'static [Choice],
-        default: impl Into<String>,
-        help: &'static str,
-    ) -> Self {
-        let spec = Self::number(name, title, "", (0.0, 0.0, 0.0), 0.0, help);
-        Self { kind: Kind::Choice, choices, default: default.into(), ..spec }
-    }
-
-    /// A checkbox.
-    pub fn flag(name: &'static str, title: &'static str, default: bool, help: &'static str) -> Self {
-        let spec = Self::number(name, title, "", (0.0, 1.0, 1.0), 0.0, help);
-        Self { kind: Kind::Flag, default: flag_text(default), ..spec }
-    }
-
-    /// A button that stays pressed.
-    pub fn toggle(name: &'static str, title: &'static str, default: bool, help: &'static str) -> Self {
-        Self { kind: Kind::Toggle, ..Self::flag(name, title, default, help) }
-    }
-
-    /// The same as a parameter of what is shown.
-    pub fn view(self) -> Self {
-        Self { group: Group::View, ..self }
-    }
-
-    /// The same set by its box alone: where there are twenty numbers, a slider each is too much.
-    pub fn without_slider(self) -> Self {
-        Self { slider: false, ..self }
-    }
-
-    /// The same number, which may also be one of some words, the first of them unless another is asked for.
-    pub fn or_words(self, words: &'static [Choice]) -> Self {
-        Self { choices: words, default: words[0].value.into(), ..self }
     }
 
     /// The value that `text` means, or what is wrong with it.
     pub fn check(&self, text: &str) -> Result<Value, FigureError> {
         let text = text.trim();
-        if let Some(choice) = self.choices.iter().find(|c| c.value == text) {
-            return Ok(Value::Word(choice.value));
+        if let Some(rank) = self.choices.iter().position(|c| c.value == text) {
+            return Ok(Value::Word(rank));
         }
         let value = match self.kind {
             Kind::Integer => decimal::parse(text).filter(|x| x.trunc() == *x).and_then(|x| self.within(x)),
@@ -172,13 +112,14 @@ impl ParamSpec {
         value.ok_or_else(|| FigureError::new(self.name, quoted(text), self.allowed()))
     }
 
-    fn within(&self, x: f64) -> Option<Value> {
+    /// A number, if it is in the range.
+    pub(crate) fn within(&self, x: f64) -> Option<Value> {
         (self.min <= x && x <= self.max).then_some(Value::Number(x))
     }
 
     /// The range, in words that follow "must be".
     pub fn allowed(&self) -> String {
-        let words: Vec<&str> = self.choices.iter().map(|c| c.value).collect();
+        let words: Vec<&str> = self.choices.iter().map(|c| c.value.as_str()).collect();
         let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
         let [min, max] = [self.min, self.max].map(decimal::write);
         let range = match self.kind {
@@ -198,11 +139,6 @@ fn flag(text: &str) -> Option<bool> {
         "off" | "false" | "0" => Some(false),
         _ => None,
     }
-}
-
-/// A flag as text: what [`ParamSpec::check`] takes.
-pub fn flag_text(on: bool) -> String {
-    if on { "on" } else { "off" }.into()
 }
 
 /// What was given, on one short line whatever it was.
@@ -227,11 +163,13 @@ mod tests {
     use super::*;
 
     fn spec(kind: Kind) -> ParamSpec {
-        let choices: &[Choice] = match kind {
-            Kind::Choice => &[Choice { value: "red", title: "Red" }, Choice { value: "blue", title: "Blue" }],
-            _ => &[],
+        let choices = match kind {
+            Kind::Choice => vec![Choice::new("red", "Red"), Choice::new("blue", "Blue")],
+            _ => Vec::new(),
         };
-        ParamSpec { kind, choices, ..ParamSpec::number("speed", "Speed", "m/s", (0.5, 8.0, 0.5), 1.0, "") }
+        let (name, title, unit, min, max, step) = ("speed", "Speed", "m/s", 0.5, 8.0, 0.5);
+        let (default, group, slider, help) = (String::new(), Group::Setup, true, "");
+        ParamSpec { name, title, unit, kind, min, max, step, choices, default, group, slider, help }
     }
 
     #[test]
@@ -239,29 +177,10 @@ mod tests {
         assert_eq!(spec(Kind::Number).check(" 0.5 "), Ok(Value::Number(0.5)));
         assert_eq!(spec(Kind::Number).check("8e0"), Ok(Value::Number(8.0)));
         assert_eq!(spec(Kind::Integer).check("3"), Ok(Value::Number(3.0)));
-        assert_eq!(spec(Kind::Choice).check("blue"), Ok(Value::Word("blue")));
+        assert_eq!(spec(Kind::Choice).check("blue"), Ok(Value::Word(1)));
         assert_eq!(spec(Kind::Flag).check("on"), Ok(Value::Flag(true)));
         assert_eq!(spec(Kind::Flag).check("false"), Ok(Value::Flag(false)));
         assert_eq!(spec(Kind::Toggle).check("on"), Ok(Value::Flag(true)));
-    }
-
-    #[test]
-    fn every_constructor_s_default_is_a_value_that_it_takes() {
-        const WORDS: &[Choice] = &[Choice { value: "best", title: "the best" }];
-        let integer = ParamSpec::integer("count", "Count", "", (-1, 4), 2, "");
-        assert_eq!(integer.check(&integer.default), Ok(Value::Number(2.0)));
-        assert!(integer.check("0.5").is_err());
-        let number = ParamSpec::number("speed", "Speed", "m/s", (0.0, 1.0, 0.1), 0.3, "").without_slider();
-        assert_eq!((number.check(&number.default), number.slider), (Ok(Value::Number(0.3)), false));
-        let words = integer.or_words(WORDS).view();
-        assert_eq!((words.check(&words.default), words.group), (Ok(Value::Word("best")), Group::View));
-        let choice = ParamSpec::choice("best", "Best", WORDS, "best", "");
-        assert_eq!(choice.check(&choice.default), Ok(Value::Word("best")));
-        for on in [false, true] {
-            for spec in [ParamSpec::flag("a", "A", on, ""), ParamSpec::toggle("a", "A", on, "")] {
-                assert_eq!(spec.check(&spec.default), Ok(Value::Flag(on)));
-            }
-        }
     }
 
     #[test]

@@ -1,9 +1,6 @@
 //! Links: the parameters of a figure that differ from their defaults, written as the query of a URL.
 
-use crate::{
-    model::{FigureError, Model},
-    param,
-};
+use crate::model::{FigureError, Model};
 
 /// `name=value&…`, in the order of the parameters, percent-encoded; empty for a figure of which nothing was asked.
 pub fn write(model: &dyn Model) -> String {
@@ -20,22 +17,7 @@ pub fn write(model: &dyn Model) -> String {
 /// Makes the figure what the link says, and everything it does not name the default. What is refused is returned, and the
 /// rest is applied.
 pub fn read(model: &mut dyn Model, query: &str) -> Vec<FigureError> {
-    let specs = model.params();
-    let mut refused = Vec::new();
-    let mut values: Vec<(String, String)> = specs.iter().map(|s| (s.name.into(), s.default.clone())).collect();
-    let defaults = values.len();
-    for (name, value) in pairs(query) {
-        if specs.iter().any(|s| s.name == name) {
-            values.push((name, value));
-        } else {
-            refused.push(param::unknown(&name, &specs));
-        }
-    }
-    // A default is applied first, so that it stands where the link's own value is refused.
-    let given = values.split_off(defaults);
-    refused.extend(model.configure(&values));
-    refused.extend(model.configure(&given));
-    refused
+    model.load(&pairs(query))
 }
 
 /// Names and values as they are written, decoded.

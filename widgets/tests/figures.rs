@@ -43,7 +43,7 @@ fn every_default_and_every_choice_is_accepted() {
         let mut figure = Figure::new(entry.tag).unwrap();
         for spec in figure.model().params() {
             assert_eq!(figure.model().value(spec.name).as_ref(), Some(&spec.default), "{}", spec.name);
-            for value in spec.choices.iter().map(|c| c.value).chain([spec.default.as_str()]) {
+            for value in spec.choices.iter().map(|c| c.value.as_str()).chain([spec.default.as_str()]) {
                 figure.set(spec.name, value).unwrap();
                 assert_eq!(figure.model().value(spec.name).as_deref(), Some(value), "{}", spec.name);
             }

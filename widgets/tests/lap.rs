@@ -8,7 +8,7 @@ use fastslam_widgets::{
     figure::Figure,
     job,
     lap::{LapModel, Layout},
-    model::{Action, Model},
+    model::{Model, Parameters},
     scene::Mark,
 };
 
@@ -122,7 +122,7 @@ fn a_click_on_a_tile_chooses_its_universe_and_another_lets_go() {
 #[test]
 fn extinction_is_told_in_words_marks_and_data() {
     let mut model = LapModel::default();
-    model.apply(&Action::Set { name: "policy".into(), value: "always".into() }).unwrap();
+    assert_eq!(model.configure(&[("policy".into(), "always".into())]), []);
     model.seek(4);
     model.settle();
     let extinct = model.extinct();

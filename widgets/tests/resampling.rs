@@ -7,7 +7,7 @@ use fastslam_lab::experiment::policies::RIGHT_WITHIN;
 use fastslam_widgets::{
     figure::Figure,
     job,
-    model::Model,
+    model::{Model, Parameters},
     resampling::{Layout, ResamplingModel},
     scene::{Mark, Point, Rect, Role, Scene, Text},
 };

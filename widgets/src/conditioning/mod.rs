@@ -2,7 +2,7 @@
 
 mod layout;
 mod model;
-mod params;
+mod recipe;
 mod scene;
 
 pub use layout::Layout;

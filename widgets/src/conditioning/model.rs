@@ -2,12 +2,12 @@
 
 use super::{
     layout::{Layout, NARROWEST},
-    params, scene,
+    recipe::Recipe,
+    scene,
 };
-use crate::decimal::{fixed, write};
+use crate::decimal::fixed;
 use crate::{
-    model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series},
-    param::{Value, flag_text, unknown},
+    model::{Column, Declared, FigureError, Model, Readout, Series},
     scene::{Point, Scene},
 };
 use fastslam_lab::{
@@ -17,15 +17,10 @@ use fastslam_lab::{
 
 /// Figure w17.4.
 pub struct ConditioningModel {
+    recipe: Recipe,
     drive: Conditioning,
-    /// How many poses have been driven.
-    step: usize,
-    /// What is known after them.
+    /// What is known after the poses driven.
     covariances: Covariances,
-    /// Whether the path counts as known.
-    conditioned: bool,
-    /// Row and column of the entry that is named, from 0 to 2 N − 1.
-    entry: [usize; 2],
 }
 
 /// What the landmarks have to do with each other, in numbers.
@@ -40,10 +35,10 @@ struct Couplings {
 
 impl Default for ConditioningModel {
     fn default() -> Self {
-        let setup = ConditioningSetup::default();
-        let drive = Conditioning::new(&setup).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
-        let covariances = drive.after(setup.poses);
-        Self { drive, step: setup.poses, covariances, conditioned: false, entry: params::ENTRY }
+        let recipe = Recipe::default();
+        let drive = Conditioning::new(&recipe.setup).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
+        let covariances = drive.after(recipe.step);
+        Self { recipe, drive, covariances }
     }
 }
 
@@ -63,22 +58,22 @@ impl ConditioningModel {
 
     /// Whether the path counts as known.
     pub fn conditioned(&self) -> bool {
-        self.conditioned
+        self.recipe.conditioned
     }
 
     /// The covariance of the landmarks seen that is shown.
     pub fn map(&self) -> &MapCovariance {
-        if self.conditioned { &self.covariances.conditional } else { &self.covariances.marginal }
+        if self.recipe.conditioned { &self.covariances.conditional } else { &self.covariances.marginal }
     }
 
     /// Row and column of the entry that is named, from 0 to 2 N − 1.
     pub fn entry(&self) -> [usize; 2] {
-        self.entry
+        self.recipe.entry
     }
 
     /// ρ of the entry that is named; `None` where one of its landmarks was not seen yet.
     pub fn correlation(&self) -> Option<f64> {
-        let [row, column] = self.entry.map(|k| self.place(k / 2).map(|j| 2 * j + k % 2));
+        let [row, column] = self.recipe.entry.map(|k| self.place(k / 2).map(|j| 2 * j + k % 2));
         Some(self.map().correlation(row?, column?))
     }
 
@@ -89,12 +84,12 @@ impl ConditioningModel {
 
     /// From how many of the poses driven both landmarks were seen.
     pub fn seen_together(&self, a: usize, b: usize) -> usize {
-        (1..=self.step).filter(|&t| [a, b].iter().all(|j| self.drive.sightings(t).contains(j))).count()
+        (1..=self.recipe.step).filter(|&t| [a, b].iter().all(|j| self.drive.sightings(t).contains(j))).count()
     }
 
     /// The entry in words: `m1.y and m4.y: ρ = 0.62`.
     pub fn entry_text(&self) -> String {
-        let [a, b] = self.entry.map(coordinate);
+        let [a, b] = self.recipe.entry.map(coordinate);
         match self.correlation() {
             Some(rho) => format!("{a} and {b}: ρ = {}", signed(rho)),
             None => format!("{a} and {b}: not seen yet"),
@@ -117,36 +112,12 @@ impl ConditioningModel {
         self.drive.setup()
     }
 
-    fn go(&mut self, step: usize) {
-        let step = step.min(self.setup().poses);
-        if step != self.step {
-            self.step = step;
-            self.covariances = self.drive.after(step);
-        }
-    }
-
-    fn rebuild(&mut self, setup: &ConditioningSetup) -> Result<(), FigureError> {
-        self.drive = Conditioning::new(setup)?;
-        self.step = self.step.min(setup.poses);
-        self.covariances = self.drive.after(self.step);
-        self.choose(self.entry.map(|k| k as f64));
-        Ok(())
-    }
-
-    /// The entry nearest to a row and a column.
-    fn choose(&mut self, entry: [f64; 2]) {
-        let last = (2 * self.setup().landmarks - 1) as f64;
-        self.entry = entry.map(|k| k.max(0.0).min(last) as usize);
-    }
-
-    fn set_view(&mut self, name: &str, value: Value) {
-        match (name, value) {
-            ("condition", Value::Flag(on)) => self.conditioned = on,
-            ("step", Value::Number(x)) => self.go(x as usize),
-            ("row", Value::Number(x)) => self.entry[0] = x as usize - 1,
-            ("column", Value::Number(x)) => self.entry[1] = x as usize - 1,
-            _ => (),
-        }
+    /// Names the entry of a row and a column, or the nearest there is.
+    pub fn choose(&mut self, entry: [f64; 2]) {
+        self.change(|recipe| {
+            let last = (2 * recipe.setup.landmarks - 1) as f64;
+            recipe.entry = entry.map(|k| k.max(0.0).min(last) as usize);
+        });
     }
 }
 
@@ -175,65 +146,33 @@ fn couplings(map: &MapCovariance) -> Couplings {
     }
 }
 
+impl Declared for ConditioningModel {
+    type Recipe = Recipe;
+
+    fn recipe(&self) -> &Recipe {
+        &self.recipe
+    }
+
+    fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
+        let anew = recipe.setup != self.recipe.setup;
+        if anew {
+            self.drive = Conditioning::new(&recipe.setup)?;
+        }
+        if anew || recipe.step != self.recipe.step {
+            self.covariances = self.drive.after(recipe.step);
+        }
+        self.recipe = recipe;
+        Ok(())
+    }
+}
+
 impl Model for ConditioningModel {
     fn title(&self) -> &'static str {
         Self::TITLE
     }
 
-    fn params(&self) -> Vec<ParamSpec> {
-        params::specs(self.setup())
-    }
-
-    fn value(&self, name: &str) -> Option<String> {
-        let setup = self.setup();
-        Some(match name {
-            "odometry" => write(setup.odometry_scale),
-            "range-std" => write(setup.range_std),
-            "landmarks" => setup.landmarks.to_string(),
-            "poses" => setup.poses.to_string(),
-            "condition" => flag_text(self.conditioned),
-            "step" => self.step.to_string(),
-            "row" => (self.entry[0] + 1).to_string(),
-            "column" => (self.entry[1] + 1).to_string(),
-            _ => return None,
-        })
-    }
-
-    fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
-        let mut refused = Vec::new();
-        let mut setup = self.setup().clone();
-        let specs = self.params();
-        for (name, text) in values {
-            match specs.iter().find(|s| s.name == name) {
-                Some(spec) if spec.group == Group::Setup => match (name.as_str(), spec.check(text)) {
-                    ("odometry", Ok(Value::Number(x))) => setup.odometry_scale = x,
-                    ("range-std", Ok(Value::Number(x))) => setup.range_std = x,
-                    ("landmarks", Ok(Value::Number(x))) => setup.landmarks = x as usize,
-                    ("poses", Ok(Value::Number(x))) => setup.poses = x as usize,
-                    (_, result) => refused.extend(result.err()),
-                },
-                Some(_) => (),
-                None => refused.push(unknown(name, &specs)),
-            }
-        }
-        if setup != *self.setup() {
-            refused.extend(self.rebuild(&setup).err());
-        }
-        // After the setup, which decides how many steps and entries there are.
-        let specs = self.params();
-        for (name, text) in values {
-            if let Some(spec) = specs.iter().find(|s| s.name == name && s.group == Group::View) {
-                match spec.check(text) {
-                    Ok(value) => self.set_view(name, value),
-                    Err(error) => refused.push(error),
-                }
-            }
-        }
-        refused
-    }
-
     fn seek(&mut self, step: u32) {
-        self.go(step as usize);
+        self.change(|recipe| recipe.step = step as usize);
     }
 
     fn drag(&mut self, handle: &str, to: Point, width: f64) {
@@ -248,7 +187,7 @@ impl Model for ConditioningModel {
         if handle == scene::ENTRY {
             // There is nothing between two entries: a fine step is a whole one too.
             let whole = |steps: f64| if steps == 0.0 { 0.0 } else { steps.signum() * steps.abs().max(1.0) };
-            let [row, column] = self.entry.map(|k| k as f64);
+            let [row, column] = self.recipe.entry.map(|k| k as f64);
             self.choose([row - whole(up), column + whole(right)]);
         }
     }
@@ -258,7 +197,7 @@ impl Model for ConditioningModel {
     }
 
     fn step(&self) -> u32 {
-        self.step as u32
+        self.recipe.step as u32
     }
 
     fn readouts(&self) -> Vec<Readout> {
@@ -272,7 +211,7 @@ impl Model for ConditioningModel {
             count(
                 "step",
                 "Poses driven",
-                self.step,
+                self.recipe.step,
                 self.setup().poses,
                 "How many poses the graph has, besides the known start.",
             ),
@@ -368,18 +307,18 @@ impl Model for ConditioningModel {
                 given.largest_std,
             ]
         };
-        Series { columns: COLUMNS, rows: (0..=self.step).map(row).collect() }
+        Series { columns: COLUMNS, rows: (0..=self.recipe.step).map(row).collect() }
     }
 
     fn describe(&self) -> String {
-        if self.step == 0 {
+        if self.recipe.step == 0 {
             return "No pose driven yet: the robot stands at its known start, and has seen no landmark.".into();
         }
         let (seen, off_block) = (self.covariances.seen.len(), self.off_block());
-        let driven = format!("{} of {} poses driven, {seen} landmarks seen. ", self.step, self.setup().poses);
+        let driven = format!("{} of {} poses driven, {seen} landmarks seen. ", self.recipe.step, self.setup().poses);
         let coupled =
             format!("{} of {off_block} entries outside the blocks are not 0. ", self.map().off_block_nonzeros());
-        let how = if self.conditioned {
+        let how = if self.recipe.conditioned {
             "Given the path every landmark stands alone: "
         } else {
             "With the path unknown, its errors are in every landmark: "
@@ -400,8 +339,8 @@ impl Model for ConditioningModel {
 impl ConditioningModel {
     /// What the landmarks of the entry have to do with each other, after its number.
     fn why(&self) -> &'static str {
-        let [a, b] = self.entry.map(|k| k / 2);
-        let coupled = a != b && self.correlation().is_some() && !self.conditioned;
+        let [a, b] = self.recipe.entry.map(|k| k / 2);
+        let coupled = a != b && self.correlation().is_some() && !self.recipe.conditioned;
         match self.seen_together(a, b) {
             0 if coupled => ", though no pose saw both",
             _ if coupled => ", both seen from one pose",

@@ -1,6 +1,6 @@
 //! The lap over many seeds: what a cell of the chapter's table is made of.
 
-use super::{model::Recipe, params};
+use super::recipe::Recipe;
 use crate::{
     job::{self, Job, Rows, Setting},
     model::FigureError,
@@ -13,8 +13,7 @@ pub const LAPS: Job = Job { name: "laps", columns: &["seed", "rms_best"], run };
 
 /// The setting is that of the figure's link; what it says about the seed and the view makes no difference.
 fn run(setting: &Setting, seeds: Range<u64>) -> Result<Rows, FigureError> {
-    let mut recipe = Recipe::default();
-    job::apply(setting, &params::specs(1), |name, value| recipe.set(name, value))?;
+    let recipe: Recipe = job::recipe(setting)?;
     let row = |seed| Ok(vec![seed as f64, rms_best(&LapSetup { seed, ..recipe.setup.clone() })?]);
     seeds.map(row).collect()
 }

@@ -4,7 +4,7 @@ mod grid;
 mod layout;
 mod many;
 mod model;
-mod params;
+mod recipe;
 mod scene;
 mod view;
 

@@ -2,15 +2,12 @@
 
 use super::{
     layout::{Layout, NARROWEST},
-    params, scene,
+    recipe::Recipe,
+    scene,
 };
-use crate::decimal::{fixed, write};
+use crate::decimal::fixed;
 use crate::{
-    model::{
-        Column, FigureError, Group, Model, ParamSpec, Readout, Series, TraceLine, ess_text, pose_text, unexplained,
-    },
-    param::{Value, flag_text, unknown},
-    policy,
+    model::{Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text, unexplained},
     scene::Scene,
 };
 use fastslam::{geometry::Pose2, proposal::ProposalTrace};
@@ -24,12 +21,6 @@ const KEPT: u32 = 2048;
 /// Figure w17.1.
 pub struct LapModel {
     recipe: Recipe,
-    /// The universe chosen for the large view; `None` is the best.
-    universe: Option<u32>,
-    truth: bool,
-    raw: bool,
-    /// The step asked for.
-    asked: u32,
     /// The step shown.
     shown: Lap,
     /// The step before it, unless that was not simulated on the way: the maps of universes that died out since.
@@ -40,37 +31,11 @@ pub struct LapModel {
     reports: Vec<StepReport>,
 }
 
-/// What decides the numbers.
-#[derive(Clone, PartialEq)]
-pub(super) struct Recipe {
-    pub(super) setup: LapSetup,
-    /// Of the policy "N_eff below", kept while another policy is chosen.
-    threshold: f64,
-}
-
-impl Default for Recipe {
-    fn default() -> Self {
-        let setup = LapSetup::default();
-        let threshold = policy::threshold(setup.policy);
-        Self { setup, threshold }
-    }
-}
-
 impl Default for LapModel {
     fn default() -> Self {
         let recipe = Recipe::default();
         let lap = Lap::new(&recipe.setup).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
-        Self {
-            recipe,
-            universe: None,
-            truth: false,
-            raw: false,
-            asked: 0,
-            keyframes: vec![lap.clone()],
-            reports: vec![lap.report().clone()],
-            before: None,
-            shown: lap,
-        }
+        Self { recipe, keyframes: vec![lap.clone()], reports: vec![lap.report().clone()], before: None, shown: lap }
     }
 }
 
@@ -105,22 +70,22 @@ impl LapModel {
 
     /// Slot of the universe in the large view.
     pub fn selected(&self) -> u32 {
-        self.universe.unwrap_or(self.report().best)
+        self.recipe.universe.unwrap_or(self.report().best)
     }
 
     /// True if the large view follows the best universe.
     pub fn follows_best(&self) -> bool {
-        self.universe.is_none()
+        self.recipe.universe.is_none()
     }
 
     /// Whether the truth is drawn.
     pub fn shows_truth(&self) -> bool {
-        self.truth
+        self.recipe.truth
     }
 
     /// Whether raw odometry is drawn.
     pub fn shows_raw(&self) -> bool {
-        self.raw
+        self.recipe.raw
     }
 
     /// Slots whose universe died out at the step shown, in ascending order; none where it did not resample.
@@ -132,29 +97,6 @@ impl LapModel {
     /// Steps between keyframes: every step of a few universes is kept, and some of hundreds.
     fn interval(&self) -> u32 {
         (self.step_count() * self.recipe.setup.particles as u32).div_ceil(KEPT).max(1)
-    }
-
-    /// Starts anew with another recipe, keeping the view.
-    fn rebuild(&mut self, recipe: Recipe) -> Result<(), FigureError> {
-        let lap = Lap::new(&recipe.setup)?;
-        self.recipe = recipe;
-        self.universe = self.universe.filter(|&slot| (slot as usize) < self.recipe.setup.particles);
-        self.keyframes = vec![lap.clone()];
-        self.reports = vec![lap.report().clone()];
-        self.before = None;
-        self.shown = lap;
-        Ok(())
-    }
-
-    fn set_view(&mut self, name: &str, value: Value) {
-        match (name, value) {
-            ("step", Value::Number(x)) => self.seek(x as u32),
-            ("universe", Value::Word(_)) => self.universe = None,
-            ("universe", Value::Number(x)) => self.universe = (x >= 0.0).then_some(x as u32),
-            ("truth", Value::Flag(on)) => self.truth = on,
-            ("raw", Value::Flag(on)) => self.raw = on,
-            _ => (),
-        }
     }
 
     /// A step in words.
@@ -194,24 +136,23 @@ impl LapModel {
     }
 }
 
-impl Recipe {
-    pub(super) fn set(&mut self, name: &str, value: Value) -> Result<(), FigureError> {
-        let setup = &mut self.setup;
-        match (name, value) {
-            ("universes", Value::Number(x)) => setup.particles = x as usize,
-            ("seed", Value::Number(x)) => setup.seed = x as u64,
-            ("odometry", Value::Number(x)) => setup.odometry_scale = x,
-            ("range-std", Value::Number(x)) => setup.range_std = x,
-            ("proposal", Value::Word(word)) => setup.proposal = word.parse()?,
-            ("matcher", Value::Word(word)) => setup.matcher = word.parse()?,
-            ("scheme", Value::Word(word)) => setup.scheme = word.parse()?,
-            ("policy", Value::Word(word)) => setup.policy = policy::of(word, self.threshold),
-            ("threshold", Value::Number(x)) => {
-                self.threshold = x;
-                setup.policy = policy::of(policy::name(setup.policy), x);
-            }
-            _ => (),
+impl Declared for LapModel {
+    type Recipe = Recipe;
+
+    fn recipe(&self) -> &Recipe {
+        &self.recipe
+    }
+
+    fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
+        if recipe.setup != self.recipe.setup {
+            let lap = Lap::new(&recipe.setup)?;
+            self.keyframes = vec![lap.clone()];
+            self.reports = vec![lap.report().clone()];
+            self.before = None;
+            self.shown = lap;
         }
+        self.recipe = recipe;
+        self.seek(self.recipe.step);
         Ok(())
     }
 }
@@ -221,72 +162,15 @@ impl Model for LapModel {
         Self::TITLE
     }
 
-    fn params(&self) -> Vec<ParamSpec> {
-        params::specs(self.recipe.setup.particles)
-    }
-
-    fn value(&self, name: &str) -> Option<String> {
-        let setup = &self.recipe.setup;
-        Some(match name {
-            "universes" => setup.particles.to_string(),
-            "seed" => setup.seed.to_string(),
-            "odometry" => write(setup.odometry_scale),
-            "range-std" => write(setup.range_std),
-            "proposal" => setup.proposal.to_string(),
-            "matcher" => setup.matcher.to_string(),
-            "policy" => policy::name(setup.policy).into(),
-            "threshold" => write(self.recipe.threshold),
-            "scheme" => setup.scheme.to_string(),
-            "step" => self.asked.to_string(),
-            "universe" => self.universe.map_or("best".into(), |slot| slot.to_string()),
-            "truth" => flag_text(self.truth),
-            "raw" => flag_text(self.raw),
-            _ => return None,
-        })
-    }
-
-    fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
-        let mut refused = Vec::new();
-        let mut recipe = self.recipe.clone();
-        let specs = self.params();
-        for (name, text) in values {
-            match specs.iter().find(|s| s.name == name) {
-                Some(spec) if spec.group == Group::Setup => {
-                    let result = spec.check(text).and_then(|value| recipe.set(name, value));
-                    refused.extend(result.err());
-                }
-                Some(_) => (),
-                None => refused.push(unknown(name, &specs)),
-            }
-        }
-        if recipe != self.recipe {
-            if recipe.setup == self.recipe.setup {
-                self.recipe = recipe; // a threshold that waits for its policy changes no number
-            } else {
-                refused.extend(self.rebuild(recipe).err());
-            }
-        }
-        // After the setup, because the number of universes decides which of them can be chosen.
-        let specs = self.params();
-        for (name, text) in values {
-            if let Some(spec) = specs.iter().find(|s| s.name == name && s.group == Group::View) {
-                match spec.check(text) {
-                    Ok(value) => self.set_view(name, value),
-                    Err(error) => refused.push(error),
-                }
-            }
-        }
-        refused
-    }
-
     fn seek(&mut self, step: u32) {
-        self.asked = step.min(self.step_count());
+        let asked = step.min(self.step_count());
+        self.recipe.step = asked;
         // From the newest keyframe before the asked-for step, not at it: the step itself has to be simulated for its
         // `before` to be known.
-        let index = (self.asked.saturating_sub(1) / self.interval()).min(self.keyframes.len() as u32 - 1);
+        let index = (asked.saturating_sub(1) / self.interval()).min(self.keyframes.len() as u32 - 1);
         let start = index * self.interval();
         let shown = self.step();
-        if self.asked < shown || start > shown {
+        if asked < shown || start > shown {
             self.shown = self.keyframes[index as usize].clone();
             self.before = None;
         }
@@ -294,7 +178,7 @@ impl Model for LapModel {
 
     fn pick(&mut self, target: u32) {
         if (target as usize) < self.recipe.setup.particles {
-            self.universe = if self.universe == Some(target) { None } else { Some(target) };
+            self.recipe.universe = Some(target).filter(|_| self.recipe.universe != Some(target));
         }
     }
 
@@ -307,7 +191,7 @@ impl Model for LapModel {
     }
 
     fn pending(&self) -> u32 {
-        self.asked - self.step()
+        self.recipe.step - self.step()
     }
 
     fn work(&mut self) {

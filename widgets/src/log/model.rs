@@ -4,15 +4,14 @@
 
 use super::{
     layout::{Layout, NARROWEST},
-    params, scene,
+    recipe::Recipe,
+    scene,
     tree::{Death, FADE},
     view::{Frame, View},
 };
 use crate::decimal::{fixed, write};
 use crate::{
-    model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series, unexplained},
-    param::{Value, flag_text, unknown},
-    policy,
+    model::{Column, Declared, FigureError, Model, Readout, Series, unexplained},
     scene::{Point, Scene},
 };
 use fastslam::{
@@ -52,10 +51,6 @@ const LOOK: u32 = 20;
 /// A recorded log, mapped.
 pub struct LogModel {
     recipe: Recipe,
-    /// Maps a log with malformed lines without them.
-    lenient: bool,
-    /// Draws raw odometry.
-    raw: bool,
     opened: Option<Opened>,
     /// The step asked for.
     asked: u32,
@@ -69,14 +64,6 @@ pub struct LogModel {
     peak: Footprint,
     /// What the reader looks at; `None` is the whole.
     frame: Option<Frame>,
-}
-
-/// What decides the numbers.
-#[derive(Clone, PartialEq)]
-struct Recipe {
-    setup: LaserMapperSettings,
-    /// Of the policy "N_eff below", kept while another policy is chosen.
-    threshold: f64,
 }
 
 /// A log that was read.
@@ -107,12 +94,8 @@ pub struct Moment {
 
 impl Default for LogModel {
     fn default() -> Self {
-        let setup = LaserMapperSettings::default();
-        let threshold = policy::threshold(setup.policy);
         Self {
-            recipe: Recipe { setup, threshold },
-            lenient: false,
-            raw: false,
+            recipe: Recipe::default(),
             opened: None,
             asked: 0,
             replay: None,
@@ -120,25 +103,6 @@ impl Default for LogModel {
             deaths: Vec::new(),
             peak: Footprint { unique: 0, dense: 0 },
             frame: None,
-        }
-    }
-}
-
-impl Recipe {
-    fn set(&mut self, name: &str, value: Value) {
-        let setup = &mut self.setup;
-        match (name, value) {
-            ("universes", Value::Number(x)) => setup.particles = x as usize,
-            ("seed", Value::Number(x)) => setup.seed = x as u64,
-            ("cell", Value::Number(x)) => setup.cell_size = x,
-            ("max-range", Value::Number(x)) => setup.max_range = x,
-            ("min-travel", Value::Number(x)) => setup.min_travel = x,
-            ("threshold", Value::Number(x)) => {
-                self.threshold = x;
-                setup.policy = policy::of(policy::name(setup.policy), x);
-            }
-            ("policy", Value::Word(word)) => setup.policy = policy::of(word, self.threshold),
-            _ => (),
         }
     }
 }
@@ -205,7 +169,7 @@ impl LogModel {
 
     /// Whether raw odometry is drawn: what there is to see before the first step.
     pub fn shows_raw(&self) -> bool {
-        self.raw || self.replay.is_none()
+        self.recipe.raw || self.replay.is_none()
     }
 
     /// The part of the world that is shown.
@@ -334,47 +298,14 @@ fn unreadable(LogError { line, message }: &LogError) -> FigureError {
     FigureError { parameter: "file".into(), message: format!("{place}{message}") }
 }
 
-impl Model for LogModel {
-    fn title(&self) -> &'static str {
-        Self::TITLE
+impl Declared for LogModel {
+    type Recipe = Recipe;
+
+    fn recipe(&self) -> &Recipe {
+        &self.recipe
     }
 
-    fn params(&self) -> Vec<ParamSpec> {
-        params::specs()
-    }
-
-    fn value(&self, name: &str) -> Option<String> {
-        let setup = self.setup();
-        Some(match name {
-            "universes" => setup.particles.to_string(),
-            "seed" => setup.seed.to_string(),
-            "cell" => write(setup.cell_size),
-            "max-range" => write(setup.max_range),
-            "min-travel" => write(setup.min_travel),
-            "policy" => policy::name(setup.policy).into(),
-            "threshold" => write(self.recipe.threshold),
-            "lenient" => flag_text(self.lenient),
-            "raw" => flag_text(self.raw),
-            _ => return None,
-        })
-    }
-
-    fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
-        let mut refused = Vec::new();
-        let (mut recipe, specs) = (self.recipe.clone(), self.params());
-        for (name, text) in values {
-            let Some(spec) = specs.iter().find(|s| s.name == name) else {
-                refused.push(unknown(name, &specs));
-                continue;
-            };
-            match (spec.check(text), spec.group, name.as_str()) {
-                (Err(error), ..) => refused.push(error),
-                (Ok(value), Group::Setup, _) => recipe.set(name, value),
-                (Ok(Value::Flag(on)), _, "lenient") => self.lenient = on,
-                (Ok(Value::Flag(on)), ..) => self.raw = on,
-                _ => (),
-            }
-        }
+    fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
         if recipe.setup != self.recipe.setup {
             if let Some(opened) = &mut self.opened
                 && recipe.setup.max_range != self.recipe.setup.max_range
@@ -384,7 +315,13 @@ impl Model for LogModel {
             self.restart();
         }
         self.recipe = recipe;
-        refused
+        Ok(())
+    }
+}
+
+impl Model for LogModel {
+    fn title(&self) -> &'static str {
+        Self::TITLE
     }
 
     fn open(&mut self, file: &[u8]) -> Result<(), FigureError> {
@@ -412,7 +349,7 @@ impl Model for LogModel {
             return Err(FigureError { parameter: "file".into(), message: "there is no log to map yet".into() });
         };
         let notes = &opened.log.notes;
-        if let (false, Some(first)) = (self.lenient, &notes.first_malformed) {
+        if let (false, Some(first)) = (self.recipe.lenient, &notes.first_malformed) {
             let more = if notes.malformed > 1 {
                 format!(" ({} malformed lines in all)", notes.malformed)
             } else {

@@ -1,10 +1,8 @@
 //! The scale of ratios: logarithmic, because twice is twice anywhere.
 
+use super::recipe::RATIOS as ENDS;
 use crate::scene::Rect;
 use fastslam::ops;
-
-/// Ends of the scale.
-pub const ENDS: [f64; 2] = [1.0, 30.0];
 
 /// Ratios with a name on the scale.
 pub const TICKS: [f64; 7] = [1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 30.0];

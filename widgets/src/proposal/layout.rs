@@ -1,5 +1,6 @@
 //! Where the parts of the figure stand, and what part of the world the panels show.
 
+use super::recipe::WORLD;
 use crate::scene::{Point, Rect};
 use fastslam_lab::baseline::one_step::Area;
 
@@ -11,9 +12,6 @@ pub const NARROWEST: f64 = 300.0;
 
 /// Height of a line of text \[css px\].
 pub const LINE: f64 = 18.0;
-
-/// What both panels show \[m\].
-pub const WORLD: Area = Area { low: [-0.25, -0.9], high: [2.95, 0.9] };
 
 const HEADER: f64 = 26.0;
 const COUNTERS: f64 = 48.0;

@@ -4,7 +4,7 @@ mod contour;
 mod gauge;
 mod layout;
 mod model;
-mod params;
+mod recipe;
 mod scene;
 
 pub use layout::Layout;

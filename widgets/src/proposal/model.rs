@@ -3,12 +3,12 @@
 use super::{
     contour, gauge,
     layout::{Layout, NARROWEST},
-    params, scene,
+    recipe::Recipe,
+    scene,
 };
-use crate::decimal::{fixed, write};
+use crate::decimal::{fixed, rounded, write};
 use crate::{
-    model::{Column, FigureError, Model, ParamSpec, Readout, Series},
-    param::{Value, flag_text, unknown},
+    model::{Column, Declared, FigureError, Model, Readout, Series},
     scene::{Point, Scene},
 };
 use fastslam_lab::experiment::proposals::{Cloud, Proposals, ProposalsSetup};
@@ -25,20 +25,9 @@ pub struct ProposalModel {
     at_half: Option<f64>,
 }
 
-#[derive(Clone, PartialEq)]
-struct Recipe {
-    setup: ProposalsSetup,
-    /// Whether the reader is asked to predict.
-    predict: bool,
-    /// The ratio the reader expects at half the range noise.
-    guess: f64,
-    /// Whether it was run.
-    run: bool,
-}
-
 impl Default for ProposalModel {
     fn default() -> Self {
-        let recipe = Recipe { setup: ProposalsSetup::default(), predict: false, guess: params::GUESS, run: false };
+        let recipe = Recipe::default();
         let shown = propose(&recipe.setup);
         let outline = contour::outline(&shown.exact);
         Self { computed: recipe.clone(), recipe, shown, outline, at_half: None }
@@ -85,38 +74,32 @@ impl ProposalModel {
         (0..exact.candidates.len()).find(lost)
     }
 
+    /// Puts the landmark to a place \[m\], or as near as it can be.
+    pub fn put_landmark(&mut self, place: [f64; 2]) {
+        self.change(|recipe| recipe.setup.landmark = place);
+    }
+
+    /// Guesses a ratio, or the nearest that can be guessed. Another guess is another try.
+    pub fn guess_at(&mut self, ratio: f64) {
+        self.change(|recipe| recipe.guess_at(ratio));
+    }
+
     /// Half the range noise \[m\].
     pub fn half(&self) -> String {
         write(0.5 * self.setup().range_std)
     }
+}
 
-    fn set(&mut self, name: &str, value: Value) {
-        let Recipe { setup, predict, guess, run } = &mut self.recipe;
-        match (name, value) {
-            ("range-std", Value::Number(x)) => setup.range_std = x,
-            ("bearing-std", Value::Number(x)) => setup.bearing_std = x,
-            ("odometry", Value::Number(x)) => setup.odometry_scale = x,
-            ("samples", Value::Number(x)) => setup.samples = x as u32,
-            ("seed", Value::Number(x)) => setup.seed = x as u64,
-            ("landmarks", Value::Word(word)) => setup.twins = word == "pair",
-            ("landmark-x", Value::Number(x)) => setup.landmark[0] = x,
-            ("landmark-y", Value::Number(x)) => setup.landmark[1] = x,
-            ("predict", Value::Flag(on)) => (*predict, *run) = (on, *run && on),
-            // Another guess is another try.
-            ("guess", Value::Number(x)) => (*guess, *run) = (x, *run && *guess == x),
-            ("run", Value::Flag(on)) => (*predict, *run) = (*predict || on, on),
-            _ => (),
-        }
+impl Declared for ProposalModel {
+    type Recipe = Recipe;
+
+    fn recipe(&self) -> &Recipe {
+        &self.recipe
     }
 
-    /// Sets numbers to the nearest that their ranges and `decimals` allow.
-    fn set_near<const N: usize>(&mut self, numbers: [(&str, f64); N], decimals: i32) {
-        let specs = self.params();
-        let near = numbers.map(|(name, x)| {
-            let [min, max] = specs.iter().find(|s| s.name == name).map_or([x; 2], |s| [s.min, s.max]);
-            (name.to_string(), fixed(x.max(min).min(max), decimals))
-        });
-        self.configure(&near);
+    fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
+        self.recipe = recipe;
+        Ok(())
     }
 }
 
@@ -125,55 +108,14 @@ impl Model for ProposalModel {
         Self::TITLE
     }
 
-    fn params(&self) -> Vec<ParamSpec> {
-        params::specs()
-    }
-
-    fn value(&self, name: &str) -> Option<String> {
-        let Recipe { setup, predict, guess, run } = &self.recipe;
-        Some(match name {
-            "range-std" => write(setup.range_std),
-            "bearing-std" => write(setup.bearing_std),
-            "odometry" => write(setup.odometry_scale),
-            "samples" => setup.samples.to_string(),
-            "seed" => setup.seed.to_string(),
-            "landmarks" => if setup.twins { "pair" } else { "one" }.into(),
-            "landmark-x" => write(setup.landmark[0]),
-            "landmark-y" => write(setup.landmark[1]),
-            "predict" => flag_text(*predict),
-            "guess" => write(*guess),
-            "run" => flag_text(*run),
-            _ => return None,
-        })
-    }
-
-    fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
-        let specs = self.params();
-        let (mut refused, mut checked) = (Vec::new(), vec![None; specs.len()]);
-        for (name, text) in values {
-            match specs.iter().position(|s| s.name == name) {
-                Some(rank) => match specs[rank].check(text) {
-                    Ok(value) => checked[rank] = Some(value),
-                    Err(error) => refused.push(error),
-                },
-                None => refused.push(unknown(name, &specs)),
-            }
-        }
-        // In the order of the parameters: the guess before the run.
-        for (spec, value) in specs.iter().zip(checked) {
-            value.into_iter().for_each(|value| self.set(spec.name, value));
-        }
-        refused
-    }
-
     fn drag(&mut self, handle: &str, to: Point, width: f64) {
         let layout = Layout::new(width);
         match handle {
             scene::LANDMARK | scene::LANDMARK_AGAIN => {
-                let [x, y] = layout.panels[usize::from(handle == scene::LANDMARK_AGAIN)].place(to);
-                self.set_near([("landmark-x", x), ("landmark-y", y)], 2);
+                let place = layout.panels[usize::from(handle == scene::LANDMARK_AGAIN)].place(to);
+                self.put_landmark(place.map(|c| rounded(c, 2)));
             }
-            scene::GUESS => self.set_near([("guess", gauge::ratio(&layout.axis, to[0]))], 1),
+            scene::GUESS => self.guess_at(rounded(gauge::ratio(&layout.axis, to[0]), 1)),
             _ => (),
         }
     }
@@ -182,9 +124,9 @@ impl Model for ProposalModel {
         let ([x, y], step) = (self.recipe.setup.landmark, 0.05);
         match handle {
             scene::LANDMARK | scene::LANDMARK_AGAIN => {
-                self.set_near([("landmark-x", x + step * right), ("landmark-y", y + step * up)], 3);
+                self.put_landmark([x + step * right, y + step * up].map(|c| rounded(c, 3)));
             }
-            scene::GUESS => self.set_near([("guess", self.recipe.guess + 0.1 * (right + up))], 2),
+            scene::GUESS => self.guess_at(rounded(self.recipe.guess + 0.1 * (right + up), 2)),
             _ => (),
         }
     }

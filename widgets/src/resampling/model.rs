@@ -2,13 +2,12 @@
 
 use super::{
     layout::{Layout, NARROWEST},
-    params::{self, Asked},
+    recipe::Recipe,
     scene,
 };
-use crate::decimal::{fixed, write};
+use crate::decimal::fixed;
 use crate::{
-    model::{Column, FigureError, Group, Model, ParamSpec, Readout, Series, TraceLine, ess_text, pose_text},
-    param::{Value, flag_text, unknown},
+    model::{Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text},
     scene::{Point, Scene},
 };
 use fastslam::geometry::Pose2;
@@ -16,14 +15,7 @@ use fastslam_lab::experiment::policies::{POLICIES, Policies, PoliciesSetup, Poli
 
 /// Figure w17.2.
 pub struct ResamplingModel {
-    /// What was set.
-    set: Asked,
-    /// Steps back of the second lineage gauge.
-    back: u32,
-    /// The step whose values are written; `None` is the one shown.
-    cursor: Option<u32>,
-    /// The step asked for.
-    asked: u32,
+    recipe: Recipe,
     /// All three, as far as they ran.
     run: Policies,
     /// Of every step simulated so far, from 0 on, one for each policy: any of them can be shown, and whoever died out since,
@@ -46,10 +38,10 @@ pub struct Moment {
 
 impl Default for ResamplingModel {
     fn default() -> Self {
-        let set = Asked::default();
-        let run = Policies::new(&set.setup()).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
+        let recipe = Recipe::default();
+        let run = Policies::new(&recipe.setup()).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
         let moments = vec![moments(&run, None)];
-        Self { set, back: params::BACK, cursor: None, asked: 0, run, moments }
+        Self { recipe, run, moments }
     }
 }
 
@@ -116,7 +108,7 @@ impl ResamplingModel {
 
     /// The step that is read.
     pub fn cursor(&self) -> u32 {
-        self.cursor.unwrap_or(u32::MAX).min(self.step())
+        self.recipe.cursor.unwrap_or(u32::MAX).min(self.step())
     }
 
     /// Whether the step that is read is not the newest.
@@ -126,7 +118,7 @@ impl ResamplingModel {
 
     /// Steps back of the second lineage gauge.
     pub fn back(&self) -> u32 {
-        self.back
+        self.recipe.back
     }
 
     /// Largest position error of any filter up to the step shown \[m\].
@@ -136,19 +128,28 @@ impl ResamplingModel {
         errors.fold(0.0, f64::max)
     }
 
-    /// Starts anew with another setup, keeping the view.
-    fn rebuild(&mut self, setup: &PoliciesSetup) -> Result<(), FigureError> {
-        self.run = Policies::new(setup)?;
-        self.moments = vec![moments(&self.run, None)];
-        self.asked = self.asked.min(self.step_count());
-        self.cursor = self.cursor.filter(|step| *step <= self.step_count());
-        Ok(())
-    }
-
     /// Reads a step, as near to it as there is one. The newest is followed.
     fn look(&mut self, step: f64) {
         let step = step.min(f64::from(self.step())).max(0.0) as u32;
-        self.cursor = (step < self.step()).then_some(step);
+        self.recipe.cursor = (step < self.step()).then_some(step);
+    }
+}
+
+impl Declared for ResamplingModel {
+    type Recipe = Recipe;
+
+    fn recipe(&self) -> &Recipe {
+        &self.recipe
+    }
+
+    fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
+        let setup = recipe.setup();
+        if setup != *self.setup() {
+            self.run = Policies::new(&setup)?;
+            self.moments = vec![moments(&self.run, None)];
+        }
+        self.recipe = recipe;
+        Ok(())
     }
 }
 
@@ -157,65 +158,10 @@ impl Model for ResamplingModel {
         Self::TITLE
     }
 
-    fn params(&self) -> Vec<ParamSpec> {
-        params::specs(self.step_count())
-    }
-
-    fn value(&self, name: &str) -> Option<String> {
-        let setup = self.setup();
-        Some(match name {
-            "wings" => flag_text(setup.course == PolicyCourse::Wings),
-            "particles" => setup.particles.to_string(),
-            "seed" => setup.seed.to_string(),
-            "threshold" => write(setup.threshold),
-            "odometry" => write(setup.odometry_scale),
-            "range" => write(setup.sensor_scale),
-            "scheme" => self.set.scheme(),
-            "back" => self.back.to_string(),
-            "step" => self.asked.to_string(),
-            "cursor" => self.cursor.map_or("now".into(), |step| step.to_string()),
-            _ => return None,
-        })
-    }
-
-    fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
-        let mut refused = Vec::new();
-        let mut set = self.set.clone();
-        let specs = self.params();
-        for (name, text) in values {
-            match specs.iter().find(|s| s.name == name) {
-                Some(spec) if spec.group == Group::Setup => {
-                    refused.extend(spec.check(text).and_then(|value| set.set(name, value)).err());
-                }
-                Some(_) => (),
-                None => refused.push(unknown(name, &specs)),
-            }
-        }
-        let setup = set.setup();
-        self.set = set;
-        if setup != *self.setup() {
-            refused.extend(self.rebuild(&setup).err());
-        }
-        // After the setup, because the course decides how many steps there are.
-        let specs = self.params();
-        for (name, text) in values {
-            if let Some(spec) = specs.iter().find(|s| s.name == name && s.group == Group::View) {
-                match (spec.name, spec.check(text)) {
-                    ("back", Ok(Value::Number(x))) => self.back = x as u32,
-                    ("step", Ok(Value::Number(x))) => self.asked = x as u32,
-                    ("cursor", Ok(Value::Number(x))) => self.cursor = (x >= 0.0).then_some(x as u32),
-                    ("cursor", Ok(_)) => self.cursor = None,
-                    (_, result) => refused.extend(result.err()),
-                }
-            }
-        }
-        refused
-    }
-
     /// Time moves: the cursor goes along.
     fn seek(&mut self, step: u32) {
-        self.asked = step.min(self.step_count());
-        self.cursor = None;
+        self.recipe.step = step.min(self.step_count());
+        self.recipe.cursor = None;
     }
 
     fn drag(&mut self, handle: &str, to: Point, width: f64) {
@@ -240,11 +186,11 @@ impl Model for ResamplingModel {
     }
 
     fn step(&self) -> u32 {
-        self.asked.min(self.run.step_number())
+        self.recipe.step.min(self.run.step_number())
     }
 
     fn pending(&self) -> u32 {
-        self.asked - self.step()
+        self.recipe.step - self.step()
     }
 
     fn work(&mut self) {
@@ -329,7 +275,7 @@ impl Model for ResamplingModel {
                     report.ess,
                     f64::from(u8::from(report.resampled())),
                     f64::from(report.descent.lineage(report.step)),
-                    f64::from(report.descent.lineage(self.back)),
+                    f64::from(report.descent.lineage(self.recipe.back)),
                     report.error_best,
                     report.error_mean,
                     report.rms_best,

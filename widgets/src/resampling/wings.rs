@@ -1,6 +1,6 @@
 //! The loop of ambiguity over many seeds.
 
-use super::params::{Asked, specs};
+use super::recipe::Recipe;
 use crate::{
     job::{self, Job, Rows, Setting},
     model::FigureError,
@@ -28,11 +28,10 @@ pub const WINGS: Job = Job {
 
 /// The setting is that of the figure's link; what it says about the seed and the view makes no difference.
 fn run(setting: &Setting, seeds: Range<u64>) -> Result<Rows, FigureError> {
-    let mut asked = Asked::default();
-    job::apply(setting, &specs(0), |name, value| asked.set(name, value))?;
+    let recipe: Recipe = job::recipe(setting)?;
     let row = |(seed, all): (u64, [PolicyOutcome; 3])| {
         let kept = all.into_iter().flat_map(|outcome| outcome.kept.map(|kept| [kept.alive, kept.settled]));
         core::iter::once(seed as f64).chain(kept.flatten().map(|yes| f64::from(u8::from(yes)))).collect()
     };
-    Ok(seeds.clone().zip(outcomes(&asked.on(PolicyCourse::Wings), seeds)?).map(row).collect())
+    Ok(seeds.clone().zip(outcomes(&recipe.on(PolicyCourse::Wings), seeds)?).map(row).collect())
 }

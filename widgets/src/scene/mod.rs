@@ -174,7 +174,7 @@ pub enum Mark {
 pub struct Region {
     /// Where.
     pub area: Rect,
-    /// Argument of [`crate::model::Action::Pick`].
+    /// Argument of [`crate::model::Model::pick`].
     pub target: u32,
 }
 

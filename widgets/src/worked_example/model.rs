@@ -2,13 +2,12 @@
 
 use super::{
     layout::{Layout, NARROWEST},
-    params::{self, SIGMA},
+    recipe::plain,
     scene,
 };
-use crate::decimal::{fixed, significant, write};
+use crate::decimal::fixed;
 use crate::{
-    model::{Column, FigureError, Model, ParamSpec, Readout, Series, TraceLine, ess_text, pose_text},
-    param::{Value, quoted, unknown},
+    model::{Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text},
     scene::Scene,
 };
 use fastslam::geometry::Pose2;
@@ -56,63 +55,22 @@ impl WorkedExampleModel {
     }
 }
 
-/// A number as plain text.
-fn plain(x: f64, digits: i32) -> String {
-    match significant(x, digits) {
-        (number, 0) => number,
-        (number, exponent) => format!("{number}e{exponent}"),
+impl Declared for WorkedExampleModel {
+    type Recipe = Inputs;
+
+    fn recipe(&self) -> &Inputs {
+        &self.inputs
+    }
+
+    fn adopt(&mut self, inputs: Inputs) -> Result<(), FigureError> {
+        *self = Self { inputs, example: WorkedExample::new(&inputs) };
+        Ok(())
     }
 }
 
 impl Model for WorkedExampleModel {
     fn title(&self) -> &'static str {
         Self::TITLE
-    }
-
-    fn params(&self) -> Vec<ParamSpec> {
-        params::specs()
-    }
-
-    fn value(&self, name: &str) -> Option<String> {
-        let index = params::specs().iter().position(|s| s.name == name)?;
-        Some(write(params::values(&self.inputs)[index]))
-    }
-
-    fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
-        let specs = params::specs();
-        let (mut refused, old) = (Vec::new(), params::values(&self.inputs));
-        let mut next = old;
-        for (name, text) in values {
-            let Some(index) = specs.iter().position(|s| s.name == name) else {
-                refused.push(unknown(name, &specs));
-                continue;
-            };
-            match specs[index].check(text) {
-                Ok(Value::Number(x)) => next[index] = x,
-                Ok(_) => (),
-                Err(error) => refused.push(error),
-            }
-        }
-        // All values at once, because it is together that they make a covariance or none.
-        let [xx, xy, yy] = SIGMA.map(|k| next[k]);
-        if xy * xy >= xx * yy {
-            let bound = plain((xx * yy).sqrt(), 4);
-            let allowed = [
-                format!("more than {}", plain(xy * xy / yy, 4)),
-                format!("between -{bound} and {bound}"),
-                format!("more than {}", plain(xy * xy / xx, 4)),
-            ];
-            for (k, allowed) in SIGMA.into_iter().zip(allowed) {
-                if next[k] != old[k] {
-                    let allowed = format!("{allowed} m², so that Σ is positive definite");
-                    refused.push(FigureError::new(specs[k].name, quoted(&write(next[k])), allowed));
-                    next[k] = old[k];
-                }
-            }
-        }
-        self.inputs = params::inputs(&next);
-        self.example = WorkedExample::new(&self.inputs);
-        refused
     }
 
     fn readouts(&self) -> Vec<Readout> {

@@ -1,0 +1,143 @@
+//! What a reader can set about the lap.
+
+use crate::{
+    field, policy,
+    recipe::{self, Field, Menu, Param},
+    words,
+};
+use fastslam_lab::experiment::lap::{LapSetup, STEPS};
+use std::sync::LazyLock;
+
+/// Everything that a link can say of the lap.
+#[derive(Clone, PartialEq)]
+pub struct Recipe {
+    /// What decides the numbers.
+    pub setup: LapSetup,
+    /// Of the policy "N_eff below", kept while another policy is chosen.
+    pub threshold: f64,
+    /// The step asked for.
+    pub step: u32,
+    /// The universe chosen for the large view; `None` is the best.
+    pub universe: Option<u32>,
+    /// Whether the truth is drawn.
+    pub truth: bool,
+    /// Whether raw odometry is drawn.
+    pub raw: bool,
+}
+
+impl Default for Recipe {
+    fn default() -> Self {
+        let setup = LapSetup::default();
+        let threshold = policy::threshold(setup.policy);
+        Self { setup, threshold, step: 0, universe: None, truth: false, raw: false }
+    }
+}
+
+impl recipe::Recipe for Recipe {
+    fn table() -> &'static [Param<Self>] {
+        static TABLE: LazyLock<Vec<Param<Recipe>>> = LazyLock::new(table);
+        &TABLE
+    }
+}
+
+fn table() -> Vec<Param<Recipe>> {
+    type P = Param<Recipe>;
+    let usual = LapSetup::default();
+    vec![
+        P::integer(
+            "universes",
+            "Universes M",
+            "",
+            (1, 256),
+            field!(setup.particles),
+            "How many particles the filter has: each is a path with a map of its own.",
+        ),
+        P::integer(
+            "seed",
+            "Seed",
+            "",
+            (0, u32::MAX),
+            field!(setup.seed),
+            "Picks the noise of the world and of the filter; the same seed gives the same lap, bit for bit.",
+        ),
+        P::number(
+            "odometry",
+            "Odometry noise σ",
+            "× α",
+            (0.0, 2.0, 0.05),
+            field!(setup.odometry_scale),
+            "Factor on the standard deviations of the wheels' noise, in the world and in what the filter expects.",
+        ),
+        P::number(
+            "range-std",
+            "Range noise σ",
+            "m",
+            (0.01, 0.3, 0.01),
+            field!(setup.range_std),
+            "Standard deviation of each measured range.",
+        ),
+        P::choice(
+            "proposal",
+            "Proposal",
+            Menu::of(usual.proposal, words::proposal),
+            field!(setup.proposal),
+            "Where new poses are drawn from: near the scan's best match, or from the motion model alone.",
+        ),
+        P::choice(
+            "matcher",
+            "Matcher",
+            Menu::of(usual.matcher, words::matcher),
+            field!(setup.matcher),
+            "What the end of a beam is compared with: the mean of the hits in a cell, or the cell as a whole.",
+        ),
+        P::choice(
+            "policy",
+            "Resample",
+            policy::menu(),
+            Field {
+                get: |recipe| policy::kind(recipe.setup.policy),
+                set: |recipe, kind| recipe.setup.policy = kind.with(recipe.threshold),
+            },
+            "When the universes are resampled.",
+        ),
+        P::number(
+            "threshold",
+            "Threshold",
+            "of M",
+            (0.0, 1.0, 0.05),
+            Field {
+                get: |recipe| recipe.threshold,
+                set: |recipe, threshold| {
+                    recipe.threshold = threshold;
+                    recipe.setup.policy = policy::kind(recipe.setup.policy).with(threshold);
+                },
+            },
+            "Share of M below which N_eff calls for resampling, under the policy neff.",
+        ),
+        P::choice(
+            "scheme",
+            "Scheme",
+            Menu::of(usual.scheme, words::scheme),
+            field!(setup.scheme),
+            "How the survivors are drawn.",
+        ),
+        P::integer("step", "Step", "", (0, STEPS as u32), field!(step), "The step shown.").view(),
+        P::integer_or(
+            "universe",
+            "Universe shown large",
+            ("best", "the best"),
+            |recipe| recipe.setup.particles as f64 - 1.0,
+            field!(universe),
+            "The slot shown large; best, or −1, is the one of the largest weight along its path.",
+        )
+        .view(),
+        P::flag(
+            "truth",
+            "Truth",
+            field!(truth),
+            "Draws the true path and the walls of the apartment, which the filter never sees.",
+        )
+        .view(),
+        P::flag("raw", "Raw odometry", field!(raw), "Draws where the wheels alone would have led.").view(),
+    ]
+}

@@ -1,0 +1,320 @@
+//! A figure's declaration: one typed table, from which its attributes, controls, links and files all follow.
+//!
+//! A [`Recipe`] is a plain struct of everything that a link can say of a figure. Its table has a [`Param`] a row: what a parameter
+//! is called and may be ([`ParamSpec`]), and the [`Field`] of the recipe that holds it.
+//!
+//! ```
+//! use fastslam_widgets::{field, recipe::{Param, Recipe, with}};
+//! use std::sync::LazyLock;
+//!
+//! #[derive(Clone, PartialEq, Default)]
+//! struct Walk {
+//!     steps: u32,
+//! }
+//!
+//! impl Recipe for Walk {
+//!     fn table() -> &'static [Param<Self>] {
+//!         type P = Param<Walk>;
+//!         static TABLE: LazyLock<Vec<P>> =
+//!             LazyLock::new(|| vec![P::integer("steps", "Steps", "", (0, 9), field!(steps), "How far it goes.")]);
+//!         &TABLE
+//!     }
+//! }
+//!
+//! let (walk, refused) = with(&Walk::default(), &[("steps".into(), "7".into()), ("steps".into(), "x".into())]);
+//! assert_eq!((walk.steps, refused.len()), (7, 1));
+//! ```
+//!
+//! A parameter that cannot be set does not compile, nor one whose field is of another type than its values:
+//!
+//! ```compile_fail,E0063
+//! # use fastslam_widgets::recipe::Field;
+//! let field: Field<u32, f64> = Field { get: |_| 0.0 };
+//! ```
+
+use crate::decimal;
+use crate::model::FigureError;
+use crate::param::{Choice, Group, Kind, ParamSpec, Value, unknown};
+use std::fmt::Display;
+use strum::VariantArray;
+
+/// A place in a recipe: how its value is read, and how it is written. [`field!`] makes one of a path.
+pub struct Field<R, T> {
+    /// Its value.
+    pub get: fn(&R) -> T,
+    /// Gives it another.
+    pub set: fn(&mut R, T),
+}
+
+/// The [`Field`] at a path of a recipe: `field!(setup.particles)`.
+#[macro_export]
+macro_rules! field {
+    ($($path:tt)+) => {
+        $crate::recipe::Field {
+            get: |recipe| recipe.$($path)+,
+            set: |recipe, value| recipe.$($path)+ = value,
+        }
+    };
+}
+
+/// A whole number of a recipe, whatever its type.
+pub trait Whole: Copy + 'static {
+    /// From a number that is whole and in its range.
+    fn of(x: f64) -> Self;
+    /// As a number: all that parameters hold are below 2⁵³.
+    fn number(self) -> f64;
+}
+
+macro_rules! whole {
+    ($($type:ty)*) => { $(
+        impl Whole for $type {
+            fn of(x: f64) -> Self {
+                x as Self
+            }
+            fn number(self) -> f64 {
+                self as f64
+            }
+        }
+    )* };
+}
+
+whole!(u32 u64 usize);
+
+/// The words of a choice, each with its name for readers and what it means.
+pub struct Menu<T> {
+    choices: Vec<Choice>,
+    meanings: Vec<T>,
+}
+
+impl<T: 'static> Menu<T> {
+    /// Words, names and meanings.
+    pub fn new(items: impl IntoIterator<Item = (impl Display, &'static str, T)>) -> Self {
+        let items = items.into_iter().map(|(word, title, meaning)| (Choice::new(word, title), meaning));
+        let (choices, meanings) = items.unzip();
+        Self { choices, meanings }
+    }
+
+    /// All variants of an enum by the words that it has for itself, `first` before the others; a variant without a name for
+    /// readers does not compile.
+    pub fn of(first: T, title: fn(T) -> &'static str) -> Self
+    where
+        T: VariantArray + Display + Copy + PartialEq,
+    {
+        let others = T::VARIANTS.iter().copied().filter(|variant| *variant != first);
+        Self::new(core::iter::once(first).chain(others).map(|variant| (variant, title(variant), variant)))
+    }
+
+    /// The same in another type, after a word and a meaning of its own.
+    pub fn after<U: 'static>(self, (word, title, meaning): (&str, &'static str, U), wrap: fn(T) -> U) -> Menu<U> {
+        let mut menu = Menu::new([(word, title, meaning)]);
+        menu.choices.extend(self.choices);
+        menu.meanings.extend(self.meanings.into_iter().map(wrap));
+        menu
+    }
+}
+
+type Get<R> = Box<dyn Fn(&R) -> Value + Send + Sync>;
+type Set<R> = Box<dyn Fn(&mut R, Value) + Send + Sync>;
+
+/// A row of a figure's table: a parameter, and where its recipe holds it.
+pub struct Param<R> {
+    spec: ParamSpec,
+    /// Its largest number, where that depends on rows above.
+    most: Option<fn(&R) -> f64>,
+    get: Get<R>,
+    set: Set<R>,
+}
+
+/// Everything that a link can say of a figure, and nothing else.
+pub trait Recipe: Clone + PartialEq + Default + 'static {
+    /// A row for each parameter. The range of one may depend on those above it.
+    fn table() -> &'static [Param<Self>];
+
+    /// Refuses values that are each in range but do not go together: they become what they were `before`.
+    fn refuse(&mut self, _before: &Self) -> Vec<FigureError> {
+        Vec::new()
+    }
+}
+
+impl<R: Recipe> Param<R> {
+    fn new(name: &'static str, title: &'static str, kind: Kind, get: Get<R>, set: Set<R>, help: &'static str) -> Self {
+        let (min, max, step) = if kind == Kind::Choice { (0.0, 0.0, 0.0) } else { (0.0, 1.0, 1.0) };
+        let (group, slider) = (Group::Setup, true);
+        let (choices, default, unit) = (Vec::new(), String::new(), "");
+        let spec = ParamSpec { name, title, unit, kind, min, max, step, choices, default, group, slider, help };
+        Self { spec, most: None, get, set }
+    }
+
+    /// A number of the setup, from the first of the range to the second; a slider goes by the third.
+    pub fn number(
+        name: &'static str,
+        title: &'static str,
+        unit: &'static str,
+        (min, max, step): (f64, f64, f64),
+        Field { get, set }: Field<R, f64>,
+        help: &'static str,
+    ) -> Self {
+        let set: Set<R> = Box::new(move |recipe, value| {
+            if let Value::Number(x) = value {
+                set(recipe, x);
+            }
+        });
+        let param = Self::new(name, title, Kind::Number, Box::new(move |recipe| Value::Number(get(recipe))), set, help);
+        // A sum of decimals is a little beside the decimal that is written for it.
+        let [min, max] = [min, max].map(decimal::as_written);
+        Self { spec: ParamSpec { unit, min, max, step, ..param.spec }, ..param }
+    }
+
+    /// A whole number of the setup, from the first of the range to the second.
+    pub fn integer<I: Whole>(
+        name: &'static str,
+        title: &'static str,
+        unit: &'static str,
+        (min, max): (u32, u32),
+        Field { get, set }: Field<R, I>,
+        help: &'static str,
+    ) -> Self {
+        let set: Set<R> = Box::new(move |recipe, value| {
+            if let Value::Number(x) = value {
+                set(recipe, I::of(x));
+            }
+        });
+        let get: Get<R> = Box::new(move |recipe| Value::Number(get(recipe).number()));
+        let param = Self::new(name, title, Kind::Integer, get, set, help);
+        Self { spec: ParamSpec { unit, min: min.into(), max: max.into(), ..param.spec }, ..param }
+    }
+
+    /// A whole number from 0 on, up to a bound that depends on rows above; or none of them, which is the word, and −1.
+    pub fn integer_or<I: Whole>(
+        name: &'static str,
+        title: &'static str,
+        (word, word_title): (&'static str, &'static str),
+        most: fn(&R) -> f64,
+        Field { get, set }: Field<R, Option<I>>,
+        help: &'static str,
+    ) -> Self {
+        let set: Set<R> = Box::new(move |recipe, value| {
+            set(recipe, if let Value::Number(x) = value { (x >= 0.0).then(|| I::of(x)) } else { None });
+        });
+        let get: Get<R> = Box::new(move |recipe| get(recipe).map_or(Value::Word(0), |i| Value::Number(i.number())));
+        let param = Self::new(name, title, Kind::Integer, get, set, help);
+        let choices = vec![Choice::new(word, word_title)];
+        Self { spec: ParamSpec { min: -1.0, choices, ..param.spec }, ..param }.at_most(most)
+    }
+
+    /// One of some words.
+    pub fn choice<T: PartialEq + Copy + Send + Sync + 'static>(
+        name: &'static str,
+        title: &'static str,
+        Menu { choices, meanings }: Menu<T>,
+        Field { get, set }: Field<R, T>,
+        help: &'static str,
+    ) -> Self {
+        let words = meanings.clone();
+        let get: Get<R> = Box::new(move |recipe| {
+            let now = get(recipe);
+            Value::Word(meanings.iter().position(|meaning| *meaning == now).unwrap_or(0))
+        });
+        let set: Set<R> = Box::new(move |recipe, value| {
+            if let Value::Word(rank) = value {
+                set(recipe, words[rank]);
+            }
+        });
+        let param = Self::new(name, title, Kind::Choice, get, set, help);
+        Self { spec: ParamSpec { choices, ..param.spec }, ..param }
+    }
+
+    /// A checkbox.
+    pub fn flag(
+        name: &'static str,
+        title: &'static str,
+        Field { get, set }: Field<R, bool>,
+        help: &'static str,
+    ) -> Self {
+        let set: Set<R> = Box::new(move |recipe, value| {
+            if let Value::Flag(on) = value {
+                set(recipe, on);
+            }
+        });
+        Self::new(name, title, Kind::Flag, Box::new(move |recipe| Value::Flag(get(recipe))), set, help)
+    }
+
+    /// A button that stays pressed.
+    pub fn toggle(name: &'static str, title: &'static str, field: Field<R, bool>, help: &'static str) -> Self {
+        let param = Self::flag(name, title, field, help);
+        Self { spec: ParamSpec { kind: Kind::Toggle, ..param.spec }, ..param }
+    }
+
+    /// The same as a parameter of what is shown.
+    pub fn view(self) -> Self {
+        Self { spec: ParamSpec { group: Group::View, ..self.spec }, ..self }
+    }
+
+    /// The same set by its box alone: where there are twenty numbers, a slider each is too much.
+    pub fn without_slider(self) -> Self {
+        Self { spec: ParamSpec { slider: false, ..self.spec }, ..self }
+    }
+
+    /// The same up to a bound that depends on rows above.
+    pub fn at_most(self, most: fn(&R) -> f64) -> Self {
+        Self { most: Some(most), ..self }
+    }
+
+    /// Its range in this recipe, and its value in the default one.
+    fn spec(&self, recipe: &R) -> ParamSpec {
+        let default = self.spec.text((self.get)(&R::default()));
+        let max = self.most.map_or(self.spec.max, |most| most(recipe));
+        ParamSpec { max, default, ..self.spec.clone() }
+    }
+
+    /// Brings a value that is out of its range to the nearest in it, or where there is a word besides, to that.
+    fn confine(&self, recipe: &mut R) {
+        let (spec, value) = (self.spec(recipe), (self.get)(recipe));
+        let Value::Number(x) = value else { return };
+        let near = if spec.choices.is_empty() { Value::Number(x.max(spec.min).min(spec.max)) } else { Value::Word(0) };
+        if spec.within(x).is_none() {
+            (self.set)(recipe, near);
+        }
+    }
+}
+
+/// All parameters with their ranges in this recipe.
+pub fn specs<R: Recipe>(recipe: &R) -> Vec<ParamSpec> {
+    R::table().iter().map(|param| param.spec(recipe)).collect()
+}
+
+/// A parameter's value as text; `None` for a name that no parameter has.
+pub fn value<R: Recipe>(recipe: &R, name: &str) -> Option<String> {
+    let param = R::table().iter().find(|param| param.spec.name == name)?;
+    Some(param.spec.text((param.get)(recipe)))
+}
+
+/// The recipe with these values by name, and what was refused of them. Row by row, whatever the order of the values: a row finds the ones
+/// above it as they will be, and what no longer fits to them is brought into its range.
+pub fn with<R: Recipe>(before: &R, values: &[(String, String)]) -> (R, Vec<FigureError>) {
+    let (mut recipe, mut refused) = (before.clone(), Vec::new());
+    for param in R::table() {
+        param.confine(&mut recipe);
+        let spec = param.spec(&recipe);
+        for (_, text) in values.iter().filter(|(name, _)| name == spec.name) {
+            match spec.check(text) {
+                Ok(value) => (param.set)(&mut recipe, value),
+                Err(error) => refused.push(error),
+            }
+        }
+    }
+    refused.extend(recipe.refuse(before));
+    let known = |name: &str| R::table().iter().any(|param| param.spec.name == name);
+    let others = values.iter().filter(|(name, _)| !known(name));
+    refused.extend(others.map(|(name, _)| unknown(name, &specs(&recipe))));
+    (recipe, refused)
+}
+
+/// The recipe with every number in its range.
+pub fn confined<R: Recipe>(mut recipe: R) -> R {
+    R::table().iter().for_each(|param| param.confine(&mut recipe));
+    recipe
+}
+
+#[cfg(test)]
+mod tests;
