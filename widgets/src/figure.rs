@@ -4,18 +4,19 @@
 use crate::{
     comma,
     export::{Entries, Export},
-    model::{FigureError, Model, Readout},
+    model::{FigureError, Files, Model, Readout},
     paint::{Canvas, Theme},
     param, query,
     registry::{self, Entry},
     scene::{Handle, Point, Rect, Scene},
+    view::Shown,
 };
 use serde::Serialize;
 
 /// One figure on a page.
 pub struct Figure {
     entry: &'static Entry,
-    model: Box<dyn Model>,
+    shown: Box<dyn Shown>,
     canvas: Canvas,
     /// Of the scene painted last, and that scene's width \[css px\].
     handles: (Vec<Handle>, f64),
@@ -53,7 +54,7 @@ impl Figure {
         })?;
         Ok(Self {
             entry,
-            model: (entry.make)(),
+            shown: (entry.make)(),
             canvas: Canvas::default(),
             handles: (Vec::new(), 1.0),
             decimal_comma: false,
@@ -62,18 +63,18 @@ impl Figure {
 
     /// What the figure is about.
     pub fn model(&self) -> &dyn Model {
-        &*self.model
+        self.shown.model()
     }
 
     /// The same, to be acted upon.
     pub fn model_mut(&mut self) -> &mut dyn Model {
-        &mut *self.model
+        self.shown.model_mut()
     }
 
     /// Current values by name, in the order of the parameters.
     pub fn values(&self) -> Entries<String> {
-        let names = self.model.params().into_iter().map(|p| p.name);
-        Entries(names.filter_map(|name| Some((name, self.model.value(name)?))).collect())
+        let names = self.model().params().into_iter().map(|p| p.name);
+        Entries(names.filter_map(|name| Some((name, self.model().value(name)?))).collect())
     }
 
     /// Gives a parameter a new value.
@@ -81,7 +82,7 @@ impl Figure {
     /// # Errors
     /// For a name or a value that is refused; the figure is as it was.
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), FigureError> {
-        self.model.configure(&[(name.into(), value.into())]).pop().map_or(Ok(()), Err)
+        self.model_mut().configure(&[(name.into(), value.into())]).pop().map_or(Ok(()), Err)
     }
 
     /// Writes numbers with a decimal comma, in the picture and in words.
@@ -91,18 +92,23 @@ impl Figure {
 
     /// [`Model::readouts`], in the figure's way of writing numbers.
     pub fn readouts(&self) -> Vec<Readout> {
-        let readouts = self.model.readouts().into_iter();
+        let readouts = self.model().readouts().into_iter();
         readouts.map(|readout| Readout { text: self.written(readout.text), ..readout }).collect()
     }
 
     /// [`Model::describe`], in the figure's way of writing numbers.
     pub fn describe(&self) -> String {
-        self.written(self.model.describe())
+        self.written(self.model().describe())
     }
 
-    /// [`Model::scene`], in the figure's way of writing numbers.
+    /// Height \[css px\] that the figure wants at this width \[css px\].
+    pub fn height(&self, width: f64) -> f64 {
+        self.shown.height(width)
+    }
+
+    /// What is to be seen at this size \[css px\], in the figure's way of writing numbers.
     pub fn scene(&self, width: f64, height: f64) -> Scene {
-        let mut scene = self.model.scene(width, height);
+        let mut scene = self.shown.scene(width, height);
         if self.decimal_comma {
             comma::in_scene(&mut scene);
         }
@@ -129,9 +135,9 @@ impl Figure {
 
     /// A click at a point of a figure of this width \[css px\]. True if it changed something.
     pub fn pick(&mut self, x: f64, y: f64, width: f64) -> bool {
-        let scene = self.model.scene(width, self.model.height(width));
+        let scene = self.shown.scene(width, self.height(width));
         let target = scene.hit(in_scene([x, y], scene.width / width));
-        target.into_iter().for_each(|target| self.model.pick(target));
+        target.into_iter().for_each(|target| self.shown.pick(target));
         target.is_some()
     }
 
@@ -150,17 +156,17 @@ impl Figure {
 
     /// Moves a handle to a point of a figure of this width \[css px\].
     pub fn drag(&mut self, handle: &str, x: f64, y: f64, width: f64) {
-        let scene_width = self.model.scene(width, self.model.height(width)).width;
+        let scene_width = self.shown.scene_width(width);
         let to = in_scene([x, y], scene_width / width);
         if to.iter().all(|c| c.is_finite()) {
-            self.model.drag(handle, to, scene_width);
+            self.shown.drag(handle, to, scene_width);
         }
     }
 
     /// Moves a handle right and up, in steps of its parameters.
     pub fn nudge(&mut self, handle: &str, right: f64, up: f64) {
         if right.is_finite() && up.is_finite() {
-            self.model.nudge(handle, [right, up]);
+            self.shown.nudge(handle, [right, up]);
         }
     }
 
@@ -169,7 +175,7 @@ impl Figure {
         let scale = self.scene_px(width);
         let at = Some(in_scene([x, y], scale)).filter(|at| at.iter().all(|c| c.is_finite()));
         if factor.is_finite() && factor > 0.0 {
-            self.model.zoom(factor, at, width * scale);
+            self.shown.zoom(factor, at, width * scale);
         }
     }
 
@@ -178,8 +184,35 @@ impl Figure {
         let scale = self.scene_px(width);
         let by = in_scene([right, down], scale);
         if by.iter().all(|c| c.is_finite()) {
-            self.model.pan(by, width * scale);
+            self.shown.pan(by, width * scale);
         }
+    }
+
+    /// Shows the whole again.
+    pub fn fit(&mut self) {
+        self.shown.fit();
+    }
+
+    /// Takes a reader's file instead of the one before.
+    ///
+    /// # Errors
+    /// For a file that cannot be read, and for a figure that has no use for any; it is as it was.
+    pub fn open(&mut self, file: &[u8]) -> Result<(), FigureError> {
+        let none = FigureError { parameter: "file".into(), message: "this figure has no use for a file".into() };
+        self.model_mut().files_mut().ok_or(none)?.open(file)
+    }
+
+    /// Whether what was set can be computed at all.
+    ///
+    /// # Errors
+    /// The parameter that stands in the way, and its range.
+    pub fn ready(&self) -> Result<(), FigureError> {
+        self.model().files().map_or(Ok(()), Files::ready)
+    }
+
+    /// A file of this name made of the state shown, if there is such a one.
+    pub fn file(&self, name: &str) -> Option<Vec<u8>> {
+        self.model().files()?.file(name)
     }
 
     /// Px of the scene painted last in a css px of a figure of this width.
@@ -213,6 +246,7 @@ mod tests {
     use super::*;
     use crate::model::{Declared, Series};
     use crate::recipe::{Param, Recipe};
+    use crate::view::{Shows, View};
     use std::{cell::RefCell, rc::Rc};
 
     /// A point in a scene that is never narrower than 300 px. What it is told is written down.
@@ -254,29 +288,35 @@ mod tests {
         fn describe(&self) -> String {
             "A point.".into()
         }
-        fn height(&self, width: f64) -> f64 {
-            0.5 * width
+    }
+
+    #[derive(Default)]
+    struct OnePointView;
+
+    impl View for OnePointView {
+        type Model = OnePoint;
+        const NARROWEST: f64 = 300.0;
+        fn layout_height(width: f64) -> f64 {
+            0.5 * width.max(Self::NARROWEST)
         }
-        fn scene(&self, width: f64, height: f64) -> Scene {
+        fn draw(&self, _: &OnePoint, scene: &mut Scene) {
             let hover = Some(Rect::new(30.0, 60.0, 90.0, 30.0));
             let (name, title, text) = ("point", "The point".into(), "3 m east".into());
-            let handles = vec![Handle { name, title, at: [150.0, 75.0], value: 3.0, text, hover }];
-            let (marks, regions, description) = (Vec::new(), Vec::new(), self.describe());
-            Scene { width: width.max(300.0), height, marks, regions, handles, description }
+            scene.handles.push(Handle { name, title, at: [150.0, 75.0], value: 3.0, text, hover });
         }
-        fn drag(&mut self, handle: &str, to: Point, width: f64) {
-            self.told.borrow_mut().push(format!("{handle} to {to:?} of {width}"));
+        fn drag(&self, model: &mut OnePoint, handle: &str, to: Point, width: f64) {
+            model.told.borrow_mut().push(format!("{handle} to {to:?} of {width}"));
         }
-        fn nudge(&mut self, handle: &str, steps: [f64; 2]) {
-            self.told.borrow_mut().push(format!("{handle} by {steps:?}"));
+        fn nudge(&self, model: &mut OnePoint, handle: &str, steps: [f64; 2]) {
+            model.told.borrow_mut().push(format!("{handle} by {steps:?}"));
         }
     }
 
     fn point() -> (Figure, Rc<RefCell<Vec<String>>>) {
-        let model = OnePoint::default();
-        let told = model.told.clone();
+        let shown = Shows::<OnePointView>::default();
+        let told = shown.model.told.clone();
         let mut figure = Figure::new(registry::FIGURES[0].tag).unwrap();
-        figure.model = Box::new(model);
+        figure.shown = Box::new(shown);
         (figure, told)
     }
 
@@ -322,5 +362,17 @@ mod tests {
     fn a_readout_that_is_no_number_is_a_dash() {
         let readout = &point().0.readouts()[0];
         assert_eq!((readout.value, readout.text.as_str()), (None, "–"));
+    }
+
+    #[test]
+    fn a_figure_without_files_takes_none_and_one_without_navigation_stays_where_it_is() {
+        let (mut figure, told) = point();
+        assert_eq!(figure.open(b"x").unwrap_err().parameter, "file");
+        assert_eq!((figure.ready(), figure.file("map.pgm")), (Ok(()), None));
+        let before = figure.scene(400.0, 200.0);
+        figure.zoom(2.0, 9.0, 9.0, 400.0);
+        figure.pan(9.0, 9.0, 400.0);
+        figure.fit();
+        assert_eq!((figure.scene(400.0, 200.0), told.borrow().len()), (before, 0));
     }
 }

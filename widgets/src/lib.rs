@@ -2,8 +2,8 @@
 //!
 //! # Modules
 //!
-//! A figure is a [`model`] (deterministic, without clock or pixels), a [`scene`] (marks with meanings,
-//! without colours), the one painter of [`paint`] and, in the browser, a `shell` whose methods are one line each. Native tests and
+//! A figure is a [`recipe`] (a typed table of parameters), a [`model`] (deterministic, without clock or pixels), a [`view`] that makes
+//! a [`scene`] of it (marks with meanings, without colours), the one painter of [`paint`] and, in the browser, a `shell` whose methods are one line each. Native tests and
 //! the command line use the same [`figure::Figure`] as the page.
 
 mod comma;
@@ -32,6 +32,7 @@ pub mod resampling;
 pub mod scene;
 #[cfg(target_arch = "wasm32")]
 pub mod shell;
+pub mod view;
 mod words;
 #[cfg(feature = "worked-example")]
 pub mod worked_example;

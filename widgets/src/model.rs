@@ -7,7 +7,6 @@
 use crate::decimal::fixed;
 pub use crate::param::{Choice, Group, Kind, ParamSpec};
 use crate::recipe::{self, Recipe};
-use crate::scene::{Point, Scene};
 use core::fmt;
 use fastslam::error::SettingError;
 use serde::Serialize;
@@ -202,47 +201,6 @@ pub trait Model: Parameters {
     /// Asks for a step of the simulation; beyond the last means the last.
     fn seek(&mut self, _step: u32) {}
 
-    /// Chooses a thing drawn, or lets go of it if it was chosen.
-    fn pick(&mut self, _target: u32) {}
-
-    /// Moves a handle ([`crate::scene::Handle::name`]) to a point \[css px\] of a scene of this width \[css px\], or as near to it
-    /// as the ranges of its parameters allow. Only parameters move: a page takes no notice of a drag after which the link is the same.
-    fn drag(&mut self, _handle: &str, _to: Point, _width: f64) {}
-
-    /// Moves a handle right and up by steps of its parameters: 1 for an arrow key, 10 for a coarse one, 0.1 for a fine one.
-    fn nudge(&mut self, _handle: &str, _steps: [f64; 2]) {}
-
-    /// Takes a reader's file instead of the one before.
-    ///
-    /// # Errors
-    /// For a file that cannot be read, and for a figure that has no use for any; it is as it was.
-    fn open(&mut self, _file: &[u8]) -> Result<(), FigureError> {
-        Err(FigureError { parameter: "file".into(), message: "this figure has no use for a file".into() })
-    }
-
-    /// Whether what was set can be computed at all: asked before a computation that takes long.
-    ///
-    /// # Errors
-    /// The parameter that stands in the way, and its range.
-    fn ready(&self) -> Result<(), FigureError> {
-        Ok(())
-    }
-
-    /// A file of this name made of the state shown, if there is such a one.
-    fn file(&self, _name: &str) -> Option<Vec<u8>> {
-        None
-    }
-
-    /// Magnifies the picture about a point \[css px\] of a scene of this width \[css px\], or about its middle. What is looked at is no
-    /// part of the recipe.
-    fn zoom(&mut self, _factor: f64, _at: Option<Point>, _width: f64) {}
-
-    /// Moves the picture right and down \[css px\].
-    fn pan(&mut self, _by: Point, _width: f64) {}
-
-    /// Shows the whole again.
-    fn fit(&mut self) {}
-
     /// Number of the last step; 0 for a figure without a timeline.
     fn step_count(&self) -> u32 {
         0
@@ -275,12 +233,15 @@ pub trait Model: Parameters {
         Vec::new()
     }
 
-    /// Height \[css px\] the scene wants at this width \[css px\]. Does not depend on the state, so that nothing below a
-    /// figure ever jumps.
-    fn height(&self, width: f64) -> f64;
+    /// What it does with files, if it takes or makes any.
+    fn files(&self) -> Option<&dyn Files> {
+        None
+    }
 
-    /// What is to be seen, at this size \[css px\].
-    fn scene(&self, width: f64, height: f64) -> Scene;
+    /// The same, to be given one.
+    fn files_mut(&mut self) -> Option<&mut dyn Files> {
+        None
+    }
 
     /// Does all pending work.
     fn settle(&mut self) {
@@ -288,4 +249,22 @@ pub trait Model: Parameters {
             self.work();
         }
     }
+}
+
+/// What a model does with files.
+pub trait Files {
+    /// Takes a reader's file instead of the one before.
+    ///
+    /// # Errors
+    /// For a file that cannot be read; the model is as it was.
+    fn open(&mut self, file: &[u8]) -> Result<(), FigureError>;
+
+    /// Whether what was set can be computed at all: asked before a computation that takes long.
+    ///
+    /// # Errors
+    /// The parameter that stands in the way, and its range.
+    fn ready(&self) -> Result<(), FigureError>;
+
+    /// A file of this name made of the state shown, if there is such a one.
+    fn file(&self, name: &str) -> Option<Vec<u8>>;
 }

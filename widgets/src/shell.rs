@@ -145,7 +145,7 @@ impl Figure {
 
     /// Height \[css px\] that the figure wants at this width \[css px\].
     pub fn height(&self, width_css: f64) -> f64 {
-        self.0.model().height(width_css)
+        self.0.height(width_css)
     }
 
     /// Paints: size \[device px\], device px per css px, and "light", "dark", "contrast-light" or "contrast-dark".
@@ -180,17 +180,17 @@ impl Figure {
 
     /// Takes a reader's file; throws a `FigureError` if it cannot be read.
     pub fn open(&mut self, file: &[u8]) -> Result<(), Error> {
-        self.0.model_mut().open(file).map_err(thrown)
+        self.0.open(file).map_err(thrown)
     }
 
     /// Throws a `FigureError` if what was set cannot be computed.
     pub fn ready(&self) -> Result<(), Error> {
-        self.0.model().ready().map_err(thrown)
+        self.0.ready().map_err(thrown)
     }
 
     /// A file of this name made of the state shown, if there is such a one.
     pub fn file(&self, name: &str) -> Option<Vec<u8>> {
-        self.0.model().file(name)
+        self.0.file(name)
     }
 
     /// Magnifies the picture about a point of a figure of this width \[css px\], or about its middle where that is NaN.
@@ -205,7 +205,7 @@ impl Figure {
 
     /// Shows the whole again.
     pub fn fit(&mut self) {
-        self.0.model_mut().fit();
+        self.0.fit();
     }
 
     /// The link that makes this figure again.

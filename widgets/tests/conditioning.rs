@@ -247,8 +247,8 @@ fn nothing_is_drawn_outside_of_the_figure() {
 fn the_height_depends_on_the_width_only() {
     let (a, b) = (conditioning("landmarks=3&poses=2&step=0"), conditioning("landmarks=24&condition=on"));
     for width in [100.0, 340.0, 640.0, 1280.0] {
-        assert_eq!(a.model().height(width), b.model().height(width));
-        assert!(a.model().height(width) > 0.4 * width);
+        assert_eq!(a.height(width), b.height(width));
+        assert!(a.height(width) > 0.4 * width);
     }
 }
 
@@ -263,7 +263,7 @@ fn no_size_makes_it_panic() {
         }
         for width in [f64::NAN, f64::INFINITY, 0.0, -5.0, 1e-300, 1e300] {
             figure.drag("entry", 1.0, 1.0, width);
-            figure.model().height(width);
+            figure.height(width);
         }
     }
 }

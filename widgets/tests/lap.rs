@@ -7,9 +7,10 @@ use fastslam_lab::experiment::{numbers::LapCell, table::rms_best};
 use fastslam_widgets::{
     figure::Figure,
     job,
-    lap::{LapModel, Layout},
+    lap::{LapModel, LapView, Layout},
     model::{Model, Parameters},
     scene::Mark,
+    view::View,
 };
 
 fn lap(query: &str) -> Figure {
@@ -129,7 +130,7 @@ fn extinction_is_told_in_words_marks_and_data() {
     assert!(!extinct.is_empty() && extinct.len() < 16);
     let told = format!("{} of 16 died out", extinct.len());
     assert!(model.describe().contains(&told), "{}", model.describe());
-    let scene = model.scene(800.0, model.height(800.0));
+    let scene = LapView.scene(&model, 800.0, LapView::height(800.0));
     let texts: Vec<&str> =
         scene.marks.iter().filter_map(|m| if let Mark::Text(t) = m { Some(t.text.as_str()) } else { None }).collect();
     assert!(texts.contains(&format!("Resampled: {told}").as_str()), "{texts:?}");
@@ -174,8 +175,8 @@ fn tiles_are_disjoint_and_inside_the_figure_for_every_number_of_universes() {
 fn the_height_depends_on_the_width_only() {
     let (a, b) = (lap("universes=1"), lap("universes=256&proposal=motion&step=1&truth=on&raw=on"));
     for width in [100.0, 340.0, 640.0, 1280.0] {
-        assert_eq!(a.model().height(width), b.model().height(width));
-        assert!(a.model().height(width) > 0.4 * width);
+        assert_eq!(a.height(width), b.height(width));
+        assert!(a.height(width) > 0.4 * width);
     }
 }
 
@@ -188,7 +189,7 @@ fn no_size_makes_it_panic() {
     }
     for width in [f64::NAN, f64::INFINITY, 0.0, -5.0, 1e-300, 1e300] {
         figure.pick(1.0, 1.0, width);
-        figure.model().height(width);
+        figure.height(width);
     }
 }
 

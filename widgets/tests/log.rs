@@ -17,7 +17,7 @@ const QUICK: &str = "universes=4&cell=0.2";
 
 fn opened(query: &str) -> Figure {
     let mut figure = figure("fastslam-log", query);
-    figure.model_mut().open(TINY).unwrap();
+    figure.open(TINY).unwrap();
     figure
 }
 
@@ -71,14 +71,14 @@ fn damaged(lines: &[usize]) -> Vec<u8> {
 fn a_log_is_mapped_to_its_end_and_told_at_every_stage() {
     let mut figure = figure("fastslam-log", QUICK);
     assert!(figure.model().describe().contains("No log is open"));
-    assert_eq!(figure.model().ready().unwrap_err().parameter, "file");
-    figure.model_mut().open(TINY).unwrap();
+    assert_eq!(figure.ready().unwrap_err().parameter, "file");
+    figure.open(TINY).unwrap();
     assert!(
         figure.model().describe().starts_with("91 scans of up to 120 beams, over "),
         "{}",
         figure.model().describe()
     );
-    assert_eq!(figure.model().ready(), Ok(()));
+    assert_eq!(figure.ready(), Ok(()));
     assert_eq!((figure.model().step(), figure.model().step_count()), (0, 90));
     figure.model_mut().seek(40);
     figure.model_mut().settle();
@@ -103,7 +103,7 @@ fn pauses_and_looks_on_the_way_change_no_bit() {
         let _ = state(&halting);
     }
     assert_ne!(state(&straight).2, state(&halting).2, "it is looked at elsewhere");
-    halting.model_mut().fit();
+    halting.fit();
     assert_eq!(state(&straight), state(&halting));
     // And going back is beginning again.
     halting.model_mut().seek(3);
@@ -145,7 +145,7 @@ fn files_that_are_no_logs_are_refused_with_line_and_reason_and_the_log_before_st
         (b"ODOM 0 0 0 0 0 0 1 host 1\n", "no FLASER"),
         (b"FLASER 1 2 0 0 0 0 0 0 1 host 1\n", "one scan only"),
     ] {
-        let error = figure.model_mut().open(file).unwrap_err();
+        let error = figure.open(file).unwrap_err();
         assert!(error.message.contains(says), "{error}");
         assert_eq!((error.parameter.as_str(), error.message.lines().count()), ("file", 1));
         assert_eq!(state(&figure), before);
@@ -155,8 +155,8 @@ fn files_that_are_no_logs_are_refused_with_line_and_reason_and_the_log_before_st
 #[test]
 fn malformed_lines_are_named_and_skipped_only_if_the_reader_says_so() {
     let mut figure = figure("fastslam-log", QUICK);
-    figure.model_mut().open(&damaged(&[7, 30])).unwrap();
-    let error = figure.model().ready().unwrap_err();
+    figure.open(&damaged(&[7, 30])).unwrap();
+    let error = figure.ready().unwrap_err();
     assert_eq!(error.parameter, "lenient");
     assert!(
         error.message.starts_with("line 7: ROBOTLASER1: expected ") && error.message.contains("2 malformed lines"),
@@ -168,7 +168,7 @@ fn malformed_lines_are_named_and_skipped_only_if_the_reader_says_so() {
     figure.model_mut().seek(5);
     figure.model_mut().settle();
     assert_eq!((figure.model().step(), figure.model().step_count()), (5, 88));
-    assert!(mapped("", 0).model().ready().is_ok());
+    assert!(mapped("", 0).ready().is_ok());
 }
 
 #[test]
@@ -179,8 +179,8 @@ fn what_does_not_fit_is_refused_before_it_starts_with_parameter_and_range() {
         (0..scans).map(line).collect()
     };
     let mut figure = opened("universes=256&cell=0.02&policy=never&max-range=80");
-    figure.model_mut().open(far(20).as_bytes()).unwrap();
-    let error = figure.model().ready().unwrap_err();
+    figure.open(far(20).as_bytes()).unwrap();
+    let error = figure.ready().unwrap_err();
     assert_eq!(error.parameter, "universes");
     assert!(
         error.message.contains("must be a whole number from 1 to ") && error.message.contains("limit is 1000 MB"),
@@ -190,14 +190,14 @@ fn what_does_not_fit_is_refused_before_it_starts_with_parameter_and_range() {
     assert_eq!(figure.model().pending(), 0);
     let most = error.message.split("from 1 to ").nth(1).unwrap().split(' ').next().unwrap().to_owned();
     figure.set("universes", &most).unwrap();
-    assert_eq!(figure.model().ready(), Ok(()));
+    assert_eq!(figure.ready(), Ok(()));
     let more = most.parse::<u32>().unwrap() + 1;
     figure.set("universes", &more.to_string()).unwrap();
-    assert_eq!(figure.model().ready().unwrap_err().parameter, "universes");
+    assert_eq!(figure.ready().unwrap_err().parameter, "universes");
 
     // Not even one map fits.
-    figure.model_mut().open(far(1000).as_bytes()).unwrap();
-    let error = figure.model().ready().unwrap_err();
+    figure.open(far(1000).as_bytes()).unwrap();
+    let error = figure.ready().unwrap_err();
     assert_eq!(error.parameter, "cell");
     assert!(error.message.contains("at least 0."), "{error}");
 }
@@ -244,7 +244,7 @@ fn the_map_stays_in_its_frame_however_it_is_magnified() {
     for width in [340.0, 800.0] {
         let layout = Layout::new(width);
         let mut figure = mapped(QUICK, 20);
-        figure.paint(width as u32, figure.model().height(width) as u32, 1.0, Default::default());
+        figure.paint(width as u32, figure.height(width) as u32, 1.0, Default::default());
         let whole = cells(&scene(&figure, width));
         for _ in 0..3 {
             figure.zoom(2.0, f64::NAN, f64::NAN, width);
@@ -260,7 +260,7 @@ fn the_map_stays_in_its_frame_however_it_is_magnified() {
             Mark::Fill { area, role: Role::Paper } if !layout.map.overlaps(area) => Some(area.w * area.h),
             _ => None,
         });
-        let figure_area = width * figure.model().height(width);
+        let figure_area = width * figure.height(width);
         assert!((paper.sum::<f64>() - (figure_area - layout.map.w * layout.map.h)).abs() < 2.0 * width);
         // Far away nothing is left, and nothing breaks.
         figure.pan(1e7, -1e9, width);
@@ -268,7 +268,7 @@ fn the_map_stays_in_its_frame_however_it_is_magnified() {
         figure.zoom(f64::INFINITY, 0.0, 0.0, width);
         figure.pan(f64::NAN, 0.0, width);
         assert_texts_fit(&scene(&figure, width), "far away");
-        figure.model_mut().fit();
+        figure.fit();
         assert_eq!(cells(&scene(&figure, width)), whole);
     }
 }
@@ -291,7 +291,7 @@ fn every_text_fits_at_every_width() {
 #[test]
 fn files_hold_the_best_path_and_map() {
     let figure = mapped(QUICK, 90);
-    let file = |name: &str| figure.model().file(name).unwrap();
+    let file = |name: &str| figure.file(name).unwrap();
     let path = String::from_utf8(file("path.tum")).unwrap();
     let poses: Vec<Vec<f64>> = path.lines().map(|l| l.split(' ').map(|x| x.parse().unwrap()).collect()).collect();
     assert_eq!(poses.len(), 91);
@@ -317,6 +317,6 @@ fn files_hold_the_best_path_and_map() {
     let origin: Vec<f64> = yaml.split(['[', ']']).nth(1).unwrap().split(", ").map(|x| x.parse().unwrap()).collect();
     let [column, row] = [0, 1].map(|k| (-origin[k] / 0.2).round() as usize);
     assert_eq!(cells[(size[1] - 1 - row) * size[0] + column], 254);
-    assert_eq!(figure.model().file("map.exe"), None);
-    assert_eq!(opened(QUICK).model().file("map.pgm"), None);
+    assert_eq!(figure.file("map.exe"), None);
+    assert_eq!(opened(QUICK).file("map.pgm"), None);
 }

@@ -5,9 +5,9 @@ mod common;
 use common::{assert_texts_fit, figure, scene, state};
 use fastslam_widgets::{
     figure::Figure,
-    model::Model,
-    proposal::{Layout, ProposalModel},
+    proposal::{Layout, ProposalView},
     scene::{Mark, Rect},
+    view::View,
 };
 
 const TAG: &str = "fastslam-proposal";
@@ -219,7 +219,7 @@ fn samples_outlines_and_densities_stay_in_their_panels() {
 fn the_height_depends_on_the_width_only() {
     for width in [100.0, 340.0, 640.0, 1280.0] {
         for query in STATES {
-            assert_eq!(proposal(query).model().height(width), ProposalModel::default().height(width));
+            assert_eq!(proposal(query).height(width), ProposalView::height(width));
         }
     }
 }
@@ -234,6 +234,6 @@ fn no_size_makes_it_panic() {
     for width in [f64::NAN, f64::INFINITY, 0.0, -5.0, 1e-300, 1e300] {
         figure.pick(1.0, 1.0, width);
         figure.drag("landmark", 1.0, 1.0, width);
-        figure.model().height(width);
+        figure.height(width);
     }
 }

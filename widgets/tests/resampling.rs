@@ -8,8 +8,9 @@ use fastslam_widgets::{
     figure::Figure,
     job,
     model::{Model, Parameters},
-    resampling::{Layout, ResamplingModel},
+    resampling::{Layout, ResamplingModel, ResamplingView},
     scene::{Mark, Point, Rect, Role, Scene, Text},
+    view::View,
 };
 
 fn resampling(query: &str) -> Figure {
@@ -96,7 +97,7 @@ fn the_common_ancestor_is_ringed_and_its_step_told_where_there_is_one() {
             query.split('&').filter_map(|p| p.split_once('=')).map(|(n, v)| (n.into(), v.into())).collect();
         assert_eq!(model.configure(&link), []);
         model.settle();
-        let scene = model.scene(1000.0, model.height(1000.0));
+        let scene = ResamplingView.scene(&model, 1000.0, ResamplingView::height(1000.0));
         for (policy, column) in Layout::new(1000.0).columns.iter().enumerate() {
             let coalescence = model.now(policy).report.descent.coalescence();
             let told = texts(&scene).into_iter().find(|t| column.axis.encloses(&t.area) && t.role == Role::Ink);
@@ -321,8 +322,8 @@ fn nothing_is_drawn_outside_of_the_figure() {
 fn the_height_depends_on_the_width_only() {
     let (a, b) = (resampling("particles=4"), resampling("wings=on&particles=64&step=12"));
     for width in [100.0, 340.0, 640.0, 1280.0] {
-        assert_eq!(a.model().height(width), b.model().height(width));
-        assert!(a.model().height(width) > 0.4 * width);
+        assert_eq!(a.height(width), b.height(width));
+        assert!(a.height(width) > 0.4 * width);
     }
 }
 
@@ -335,7 +336,7 @@ fn no_size_makes_it_panic() {
     }
     for width in [f64::NAN, f64::INFINITY, 0.0, -5.0, 1e-300, 1e300] {
         figure.drag("cursor", 1.0, 1.0, width);
-        figure.model().height(width);
+        figure.height(width);
     }
 }
 

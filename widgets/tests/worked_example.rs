@@ -200,7 +200,7 @@ fn the_drawing_lies_in_its_frame() {
 #[test]
 fn the_height_depends_on_the_width_only() {
     for width in [100.0, 340.0, 719.0, 720.0, 1280.0] {
-        let height = example("").model().height(width);
-        assert!(hostile().iter().all(|query| example(query).model().height(width) == height));
+        let height = example("").height(width);
+        assert!(hostile().iter().all(|query| example(query).height(width) == height));
     }
 }

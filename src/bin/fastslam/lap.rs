@@ -160,7 +160,7 @@ fn paint(setup: &LapSetup, path: &Path) -> Result<()> {
     }
     const WIDTH: u32 = 1280;
     const DPR: u32 = 2;
-    let height = figure.model().height(f64::from(WIDTH / DPR)) as u32 * DPR;
+    let height = figure.height(f64::from(WIDTH / DPR)) as u32 * DPR;
     figure.paint(WIDTH, height, f64::from(DPR), Theme::named("light"));
     picture::save(figure.canvas(), path)
 }

@@ -164,7 +164,7 @@ pub fn figure(tag: &str, query: &str) -> Figure {
     let refused = figure.load(query);
     assert!(refused.is_empty(), "{query}: {refused:?}");
     if tag == LOG {
-        figure.model_mut().open(TINY_LOG).expect("the tiny log is a log");
+        figure.open(TINY_LOG).expect("the tiny log is a log");
         figure.model_mut().seek(u32::MAX);
     }
     figure.model_mut().settle();
@@ -186,7 +186,7 @@ impl Picture {
     /// Paints it: the figure, and its width and height \[device px\].
     pub fn paint(&self) -> (Figure, [u32; 2]) {
         let mut figure = figure(self.tag, self.query);
-        let size = self.size(figure.model().height(f64::from(self.width)));
+        let size = self.size(figure.height(f64::from(self.width)));
         figure.paint(size[0], size[1], self.dpr, Theme::named(self.theme));
         (figure, size)
     }

@@ -45,7 +45,7 @@ fn written(tag: &str) -> [BTreeSet<char>; 2] {
     for (link, file) in links(tag).into_iter().flat_map(|link| files.iter().map(move |file| (link.clone(), *file))) {
         let mut figure = Figure::new(tag).unwrap();
         if let Some(file) = file {
-            figure.model_mut().open(file).unwrap();
+            figure.open(file).unwrap();
         }
         figure.load(&link); // what is refused, since it does not go with the rest, changes nothing
         let last = figure.model().step_count();
@@ -53,7 +53,7 @@ fn written(tag: &str) -> [BTreeSet<char>; 2] {
             figure.model_mut().seek(step);
             figure.model_mut().settle();
             for width in [240.0, 300.0, 340.0, 380.0, 480.0, 640.0, 800.0, 1280.0] {
-                for mark in figure.model().scene(width, figure.model().height(width)).marks {
+                for mark in figure.scene(width, figure.height(width)).marks {
                     if let Mark::Text(text) = mark {
                         written[usize::from(text.weight == Weight::SemiBold)].extend(text.text.chars());
                     }

@@ -59,10 +59,10 @@ fn fine(pixels: &mut Pixels, path: &Path, color: Color) {
 /// A golden picture, its paths filled by another.
 fn painted(picture: &Picture, fill: &mut Fill<'_>) -> Vec<u8> {
     let figure = figure(picture.tag, picture.query);
-    let size = picture.size(figure.model().height(f64::from(picture.width)));
+    let size = picture.size(figure.height(f64::from(picture.width)));
     let [width, height] = size.map(|side| f64::from(side) / picture.dpr);
     let mut canvas = Canvas::default();
-    let scene = figure.model().scene(width, height);
+    let scene = figure.scene(width, height);
     canvas.paint_with(&scene, size[0], size[1], Theme::named(picture.theme), fill);
     canvas.pixels().to_vec()
 }

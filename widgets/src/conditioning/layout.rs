@@ -1,6 +1,6 @@
 //! Where the parts of the figure stand: the graph beside the matrix where there is room, above it on a phone.
 
-use crate::scene::Rect;
+use crate::scene::{LINE, Rect};
 use fastslam_lab::experiment::conditioning::SIZE;
 
 /// What is shown around the place \[m\]: what is known of a landmark at its edge reaches beyond.
@@ -11,9 +11,6 @@ pub const WIDE: f64 = 720.0;
 
 /// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
 pub const NARROWEST: f64 = 300.0;
-
-/// Height of a line of text below the drawings \[css px\].
-pub const LINE: f64 = 18.0;
 
 const HEADER: f64 = 26.0;
 const PAD: f64 = 8.0;

@@ -1,15 +1,8 @@
 //! The graphical model as a deterministic state: a drive, how much of it was driven, and whether the path is known.
 
-use super::{
-    layout::{Layout, NARROWEST},
-    recipe::Recipe,
-    scene,
-};
+use super::recipe::Recipe;
 use crate::decimal::fixed;
-use crate::{
-    model::{Column, Declared, FigureError, Model, Readout, Series},
-    scene::{Point, Scene},
-};
+use crate::model::{Column, Declared, FigureError, Model, Readout, Series};
 use fastslam_lab::{
     baseline::joint::MapCovariance,
     experiment::conditioning::{Conditioning, ConditioningSetup, Covariances},
@@ -175,23 +168,6 @@ impl Model for ConditioningModel {
         self.change(|recipe| recipe.step = step as usize);
     }
 
-    fn drag(&mut self, handle: &str, to: Point, width: f64) {
-        if handle == scene::ENTRY {
-            let area = Layout::new(width).matrix;
-            let cell = area.w / (2 * self.setup().landmarks) as f64;
-            self.choose([(to[1] - area.y) / cell, (to[0] - area.x) / cell]);
-        }
-    }
-
-    fn nudge(&mut self, handle: &str, [right, up]: [f64; 2]) {
-        if handle == scene::ENTRY {
-            // There is nothing between two entries: a fine step is a whole one too.
-            let whole = |steps: f64| if steps == 0.0 { 0.0 } else { steps.signum() * steps.abs().max(1.0) };
-            let [row, column] = self.recipe.entry.map(|k| k as f64);
-            self.choose([row - whole(up), column + whole(right)]);
-        }
-    }
-
     fn step_count(&self) -> u32 {
         self.setup().poses as u32
     }
@@ -324,15 +300,6 @@ impl Model for ConditioningModel {
             "With the path unknown, its errors are in every landmark: "
         };
         driven + how + &coupled + &self.entry_text() + self.why() + "."
-    }
-
-    fn height(&self, width: f64) -> f64 {
-        // Narrower than the layout goes, the figure is made smaller as a whole.
-        Layout::new(width).height * (width / width.max(NARROWEST))
-    }
-
-    fn scene(&self, width: f64, height: f64) -> Scene {
-        scene::build(self, width, height)
     }
 }
 

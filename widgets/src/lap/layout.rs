@@ -1,16 +1,13 @@
 //! Where the parts of the figure stand: side by side where there is room, below each other on a phone.
 
-use super::view::ASPECT;
-use crate::scene::Rect;
+use super::map::ASPECT;
+use crate::scene::{LINE, Rect};
 
 /// From this width on \[css px\], the mosaic stands beside the large view.
 pub const WIDE: f64 = 640.0;
 
 /// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
 pub const NARROWEST: f64 = 300.0;
-
-/// Height of a line of the legends \[css px\].
-pub const LINE: f64 = 18.0;
 
 /// How far the ring around the chosen tile reaches beyond it \[css px\].
 pub const RING: f64 = 3.0;

@@ -3,11 +3,13 @@
 mod grid;
 mod layout;
 mod many;
+mod map;
 mod model;
+mod mosaic;
 mod recipe;
-mod scene;
 mod view;
 
 pub use layout::Layout;
 pub use many::LAPS;
 pub use model::LapModel;
+pub use view::LapView;

@@ -1,14 +1,9 @@
 //! The lap as a deterministic state: what was set, which step is shown, and keyframes to go back by.
 
-use super::{
-    layout::{Layout, NARROWEST},
-    recipe::Recipe,
-    scene,
-};
+use super::recipe::Recipe;
 use crate::decimal::fixed;
-use crate::{
-    model::{Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text, unexplained},
-    scene::Scene,
+use crate::model::{
+    Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text, unexplained,
 };
 use fastslam::{geometry::Pose2, proposal::ProposalTrace};
 use fastslam_lab::experiment::ProposalKind;
@@ -86,6 +81,13 @@ impl LapModel {
     /// Whether raw odometry is drawn.
     pub fn shows_raw(&self) -> bool {
         self.recipe.raw
+    }
+
+    /// Chooses a slot for the large view, or lets go of it if it was chosen.
+    pub fn pick(&mut self, target: u32) {
+        if (target as usize) < self.recipe.setup.particles {
+            self.recipe.universe = Some(target).filter(|_| self.recipe.universe != Some(target));
+        }
     }
 
     /// Slots whose universe died out at the step shown, in ascending order; none where it did not resample.
@@ -173,12 +175,6 @@ impl Model for LapModel {
         if asked < shown || start > shown {
             self.shown = self.keyframes[index as usize].clone();
             self.before = None;
-        }
-    }
-
-    fn pick(&mut self, target: u32) {
-        if (target as usize) < self.recipe.setup.particles {
-            self.recipe.universe = Some(target).filter(|_| self.recipe.universe != Some(target));
         }
     }
 
@@ -373,15 +369,6 @@ impl Model for LapModel {
             TraceLine::new("resample", resample),
         ]);
         lines
-    }
-
-    fn height(&self, width: f64) -> f64 {
-        // Narrower than the layout goes, the figure is made smaller as a whole.
-        Layout::new(width).height * (width / width.max(NARROWEST))
-    }
-
-    fn scene(&self, width: f64, height: f64) -> Scene {
-        scene::build(self, width, height)
     }
 }
 

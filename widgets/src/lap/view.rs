@@ -1,94 +1,151 @@
-//! From the world to the figure: metres to css px, cells to shades.
+//! What is to be seen of the lap: one universe large, all universes small, and N_eff over the steps.
 
-use crate::scene::{Cells, Point, Rect, clip_polyline, robot, shade, thinned};
-use fastslam::{
-    geometry::Pose2,
-    map::grid::{CellRect, Grid},
+use super::{
+    grid::Tiles,
+    layout::{Layout, NARROWEST, RING},
+    map::{self, ASPECT},
+    model::LapModel,
+    mosaic::{LABEL_FROM, mosaic, notes},
 };
+use crate::decimal::fixed;
+use crate::{
+    font::{self, Weight},
+    model::Model,
+    scene::{
+        Anchor, Chart, FREE, Legend, Mark, OCCUPIED, Plane, Rect, Role, Sample, Scene, Shading, UNKNOWN, cloud,
+        heading, joined, n_eff, rimmed, rimmed_polygon, scale_bar, text,
+    },
+    view::View,
+};
+use fastslam::{geometry::Pose2, resampling::ResamplePolicy};
 
-/// The cells shown: the apartment, [0, 40) × [0, 30), and two cells around it for maps that drifted.
-pub const CELLS: CellRect = CellRect { i0: -2, j0: -2, i1: 42, j1: 32 };
+/// Dashes and gaps of the truth and of raw odometry \[css px\].
+const TRUTH: [f64; 2] = [2.0, 3.0];
+const RAW: [f64; 2] = [7.0, 4.0];
 
-/// Width over height of what is shown.
-pub const ASPECT: f64 = 44.0 / 34.0;
+/// Figure w17.1, as it is seen.
+#[derive(Default)]
+pub struct LapView;
 
-/// Side of a cell \[m\].
-const CELL: f64 = 0.3;
+impl View for LapView {
+    type Model = LapModel;
+    const NARROWEST: f64 = NARROWEST;
 
-/// A map view at a place in the figure.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct View {
-    /// Where it is drawn \[css px\].
-    pub area: Rect,
+    fn layout_height(width: f64) -> f64 {
+        Layout::new(width).height
+    }
+
+    fn draw(&self, model: &LapModel, scene: &mut Scene) {
+        let layout = Layout::new(scene.width);
+        large(scene, model, &layout);
+        legend(scene, model, &layout.legend);
+        let tiles = Tiles::fit(&layout.mosaic.inset(RING), model.lap().particles().len(), ASPECT);
+        mosaic(scene, model, &layout, &tiles);
+        notes(scene, model, &layout.notes, tiles.size[0] >= LABEL_FROM);
+        meter(scene, model, &layout.meter);
+    }
+
+    fn pick(&self, model: &mut LapModel, target: u32) {
+        model.pick(target);
+    }
 }
 
-impl View {
-    /// Css px per metre.
-    pub fn scale(&self) -> f64 {
-        self.area.w / (f64::from(CELLS.i1 - CELLS.i0) * CELL)
-    }
+fn large(scene: &mut Scene, model: &LapModel, layout: &Layout) {
+    let (lap, slot) = (model.lap(), model.selected());
+    let step = format!("step {} of {}", model.step(), model.step_count());
+    let step_width = font::measure(&step, 12.5, Weight::Regular) + 2.0;
+    let Rect { x, y, w, h } = layout.large_header;
+    let weight = lap.weights()[slot as usize];
+    let best = if slot == model.report().best { "best · " } else { "" };
+    let title = Rect::new(x, y, w - step_width - 8.0, h);
+    heading(scene, &title, (&format!("Universe {slot}"), Role::Ink), &format!("{best}weight {}", fixed(weight, 3)));
+    let step_area = Rect::new(x + w - step_width, y, step_width, h);
+    scene.marks.push(text(step_area, Anchor::End, 12.5, Weight::Regular, Role::Muted, step));
 
-    /// A point of the world \[m\].
-    pub fn point(&self, [x, y]: [f64; 2]) -> Point {
-        let s = self.scale();
-        [self.area.x + (x - f64::from(CELLS.i0) * CELL) * s, self.area.y + (f64::from(CELLS.j1) * CELL - y) * s]
+    let plane = map::plane(layout.large);
+    let particle = &lap.particles()[slot as usize];
+    scene.marks.push(Mark::Raster { area: plane.area, cells: map::shades(&particle.map), shading: Shading::Map });
+    let world = lap.world();
+    let now = model.step() as usize;
+    if model.shows_truth() {
+        let walls = world.plan.walls.iter().chain(&world.plan.furniture);
+        let walls = walls.map(|s| vec![plane.point(s.a), plane.point(s.b)]).collect();
+        rimmed(scene, walls, 1.25, None, Role::Truth);
     }
-
-    /// The positions of a path, cut at the edge of the view. Points nearer than `least` \[css px\] to the one before are left out.
-    pub fn path(&self, poses: &[Pose2], least: f64) -> Vec<Vec<Point>> {
-        clip_polyline(&thinned(&mut poses.iter().map(|pose| self.point([pose.x, pose.y])), least), &self.area)
+    let hits = map::hits(&particle.map).into_iter().map(|place| plane.point(place));
+    scene.marks.push(cloud(hits, &plane.area.inset(2.0), (0.035 * plane.scale).max(1.0), Role::Hit));
+    if model.shows_raw() {
+        let lines = plane.path(&world.odometry[..=now], 0.5);
+        rimmed(scene, lines, 2.0, Some(RAW), Role::Odometry);
+        robot(scene, &plane, &world.odometry[now], 7.0, Role::Odometry);
     }
+    rimmed(scene, plane.path(&lap.path(slot as usize), 0.5), 2.25, None, Role::Path);
+    if model.shows_truth() {
+        // Over the estimate, thin and dashed: where both agree, both are seen.
+        let lines = plane.path(&world.truth[..=now], 0.5);
+        scene.marks.push(Mark::Lines { lines, width: 1.5, dash: Some(TRUTH), role: Role::Truth });
+        robot(scene, &plane, &world.truth[now], 7.0, Role::Truth);
+    }
+    robot(scene, &plane, &particle.world_from_robot, 9.0, Role::Path);
+    scale_bar(scene, &plane, 1.0, f64::INFINITY);
+    scene.marks.push(Mark::Frame { area: plane.area, width: 1.0, role: Role::Frame });
+}
 
-    /// An arrow head of this length from centre to nose \[css px\] that points where the robot looks; `None` out of view.
-    pub fn robot(&self, pose: &Pose2, length: f64) -> Option<Vec<Point>> {
-        let at = self.point([pose.x, pose.y]);
-        self.area.inset(1.5 * length).contains(at).then(|| robot(at, pose.theta, length))
+fn robot(scene: &mut Scene, plane: &Plane, pose: &Pose2, length: f64, role: Role) {
+    if let Some(corners) = plane.robot(pose, length) {
+        rimmed_polygon(scene, corners, joined, role);
     }
 }
 
-/// The shades of the cells shown, from the upper row down.
-pub fn shades(map: &Grid) -> Cells {
-    let mut shades = Vec::with_capacity(CELLS.width() * CELLS.height());
-    for j in (CELLS.j0..CELLS.j1).rev() {
-        shades.extend((CELLS.i0..CELLS.i1).map(|i| shade(map.log_odds(i, j))));
+/// Samples as far apart as names of one word allow.
+pub(super) const SAMPLES: Legend = Legend { size: 11.5, apart: 6.0, gap: 13.99 };
+
+fn legend(scene: &mut Scene, model: &LapModel, area: &Rect) {
+    let hit = |place: &Rect| {
+        let mean = Mark::Discs { centres: vec![place.centre()], radius: 1.5, role: Role::Hit };
+        Sample::cell(OCCUPIED).marks(place).into_iter().chain([mean]).collect()
+    };
+    let mut items = vec![
+        (Sample::cell(OCCUPIED), "wall"),
+        (Sample::cell(FREE), "free"),
+        (Sample::cell(UNKNOWN), "unknown"),
+        (Sample::new(hit), "mean of hits"),
+        (Sample::line(Role::Path, 2.25, None), "its path"),
+    ];
+    if model.shows_truth() {
+        items.push((Sample::line(Role::Truth, 1.5, Some(TRUTH)), "truth"));
     }
-    Cells { columns: CELLS.width(), shades }
+    if model.shows_raw() {
+        items.push((Sample::line(Role::Odometry, 2.0, Some(RAW)), "raw odometry"));
+    }
+    SAMPLES.draw(scene, area, items);
 }
 
-/// Means of the hits in the occupied cells shown \[m\].
-pub fn hits(map: &Grid) -> Vec<[f64; 2]> {
-    let mut means = Vec::new();
-    for j in CELLS.j0..CELLS.j1 {
-        means.extend((CELLS.i0..CELLS.i1).filter(|&i| map.log_odds(i, j) > 0.0).filter_map(|i| map.ndt_mean(i, j)));
-    }
-    means
-}
+/// N_eff over the steps, with the threshold that calls for resampling and the steps that did.
+fn meter(scene: &mut Scene, model: &LapModel, area: &Rect) {
+    let count = model.lap().particles().len();
+    let m = count as f64;
+    let label_width = 66.0;
+    let chart = Rect::new(area.x + label_width, area.y + 4.0, area.w - label_width - 3.0, area.h - 8.0);
+    let line = |k: f64| Rect::new(area.x, chart.y + 0.5 * chart.h - 17.0 + 17.0 * k, label_width - 6.0, 17.0);
+    let end = n_eff(scene, &line(0.0), 12.5, Weight::SemiBold, Role::Ink);
+    let value = Rect::new(end, line(0.0).y, label_width - 6.0 - (end - area.x), 17.0);
+    let ess = fixed(model.report().ess, 1);
+    scene.marks.push(text(value, Anchor::End, 12.5, Weight::Regular, Role::Ink, ess));
+    scene.marks.push(text(line(1.0), Anchor::Start, 11.5, Weight::Regular, Role::Muted, format!("of {count}")));
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use fastslam_lab::experiment::lap::GRID;
-
-    #[test]
-    fn the_cell_is_the_one_of_the_filter() {
-        assert_eq!(CELL, GRID.cell_size);
+    let chart = Chart { area: chart, last: model.step_count() };
+    let lines = vec![chart.level(0.0), chart.level(1.0)];
+    scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role: Role::Frame });
+    if let ResamplePolicy::EssBelow(fraction) = model.setup().policy {
+        let lines = vec![chart.level(fraction)];
+        scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some([3.0, 3.0]), role: Role::Weight(0) });
     }
-
-    #[test]
-    fn a_corner_of_the_apartment_is_two_cells_from_the_corner_of_the_view() {
-        let view = View { area: Rect::new(100.0, 50.0, 440.0, 340.0) };
-        let [x, y] = view.point([0.0, 0.0]);
-        assert!((x - 120.0).abs() < 1e-9 && (y - 370.0).abs() < 1e-9);
-        let [x, y] = view.point([12.0, 9.0]);
-        assert!((x - 520.0).abs() < 1e-9 && (y - 70.0).abs() < 1e-9);
-    }
-
-    #[test]
-    fn a_robot_that_looks_up_points_up() {
-        let view = View { area: Rect::new(0.0, 0.0, 440.0, 340.0) };
-        let pose = Pose2::new(6.0, 4.5, core::f64::consts::FRAC_PI_2);
-        let corners = view.robot(&pose, 10.0).unwrap();
-        assert!(corners[1..].iter().all(|c| c[1] > corners[0][1]));
-        assert_eq!(view.robot(&Pose2::new(90.0, 0.0, 0.0), 10.0), None);
-    }
+    let history = model.history();
+    let curve = chart.curve(history.iter().map(|r| (r.step, r.ess / m)));
+    let resampled = history.iter().zip(&curve).filter(|(r, _)| r.ancestors.is_some()).map(|(_, at)| *at).collect();
+    let now = curve[curve.len() - 1];
+    scene.marks.push(Mark::Lines { lines: vec![curve], width: 1.25, dash: None, role: Role::Muted });
+    scene.marks.push(Mark::Discs { centres: resampled, radius: 2.0, role: Role::Copied });
+    scene.marks.push(Mark::Discs { centres: vec![now], radius: 3.0, role: Role::Ink });
 }

@@ -1,15 +1,12 @@
 //! Where the parts of the figure stand: gauges beside the map where there is room, below it on a phone.
 
-use crate::scene::Rect;
+use crate::scene::{LINE, Rect};
 
 /// From this width on \[css px\], the gauges stand beside the map.
 pub const WIDE: f64 = 640.0;
 
 /// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
 pub const NARROWEST: f64 = 300.0;
-
-/// Height of a line of text \[css px\].
-pub const LINE: f64 = 18.0;
 
 const HEADER: f64 = 26.0;
 const PAD: f64 = 8.0;

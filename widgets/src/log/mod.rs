@@ -1,11 +1,14 @@
 //! A recorded log of a robot with a laser: the building that the best universe has mapped, and the paths of all of them.
 
 mod layout;
+mod map;
 mod model;
+mod opened;
 mod recipe;
-mod scene;
+mod told;
 mod tree;
 mod view;
 
 pub use layout::Layout;
 pub use model::LogModel;
+pub use view::LogView;

@@ -1,166 +1,267 @@
-//! From the world to the picture: which part of the building is shown, and where.
+//! What is to be seen of a log: the best universe's map with the paths of all, and N_eff and lineage over the scans.
 
-use crate::scene::{Cells, Point, Rect, shade, thinned};
-use crate::scene::{clip_polyline, robot};
-use fastslam::{geometry::Pose2, map::grid::CellRect, mapper::Map};
+use super::{
+    layout::{Layout, NARROWEST},
+    map::{Frame, MapView},
+    model::{BACK, LogModel, Moment},
+    tree::{FADE, Tree},
+};
+use crate::decimal::fixed;
+use crate::{
+    font::{self, Weight},
+    model::Model,
+    scene::{
+        Anchor, Cells, Chart, FREE, Legend, Mark, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN,
+        heading, joined, n_eff, rimmed_polygon, scale_bar, text, thinned,
+    },
+    view::{Navigation, View},
+};
+use fastslam::{geometry::Pose2, mapper::LaserMapper, resampling::ResamplePolicy};
 
-/// Least and most of the world in a view \[m\].
-const LEAST: f64 = 0.5;
-const MOST: f64 = 2e5;
+/// Font size of what is written beside the map \[css px\].
+const SIZE: f64 = 11.5;
 
-/// A view of the whole grows by whole steps \[m\], so that a map that grows does not make it tremble.
-const STEP: f64 = 2.0;
+/// Dashes and gaps of raw odometry and of the threshold \[css px\].
+const RAW: [f64; 2] = [7.0, 4.0];
+const THRESHOLD: [f64; 2] = [2.0, 2.0];
 
-/// A part of the world, upright.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Frame {
-    /// Its middle \[m\].
-    pub centre: [f64; 2],
-    /// Width and height \[m\] that are seen at least.
-    pub size: [f64; 2],
+/// Widths \[css px\] of a path that lives on, and of one that has just died out: it fades by growing thinner.
+const LIVES: f64 = 1.25;
+const DIED: f64 = 2.0;
+
+/// Height of the mark of a scan that resampled \[css px\].
+const TICK: f64 = 6.0;
+
+/// A recorded log, as it is seen.
+#[derive(Default)]
+pub struct LogView {
+    /// What the reader looks at, and in which log; `None` is the whole, as it is for every other log.
+    frame: Option<(u32, Frame)>,
 }
 
-impl Frame {
-    /// All between two corners \[m\], and some more.
-    pub fn around(least: [f64; 2], most: [f64; 2]) -> Self {
-        let low = least.map(|c| (c / STEP).floor() * STEP);
-        let high = most.map(|c| (c / STEP).ceil() * STEP);
-        let size = [0, 1].map(|k| (high[k] - low[k]).clamp(STEP, MOST));
-        Self { centre: [0, 1].map(|k| 0.5 * (low[k] + high[k])), size }
+impl View for LogView {
+    type Model = LogModel;
+    const NARROWEST: f64 = NARROWEST;
+
+    fn layout_height(width: f64) -> f64 {
+        Layout::new(width).height
     }
 
-    /// All cells that a map has.
-    pub fn of_map(map: &Map) -> Self {
-        let (CellRect { i0, j0, i1, j1 }, size) = (map.bounds(), map.cell_size());
-        let metres = |k: i32| f64::from(k) * size;
-        Self::around([metres(i0), metres(j0)], [metres(i1), metres(j1)])
+    fn draw(&self, model: &LogModel, scene: &mut Scene) {
+        let layout = Layout::new(scene.width);
+        map(scene, model, &layout, self.map_view(model, &layout).as_ref());
+        header(scene, model, &layout.header);
+        ess(scene, model, &layout);
+        lineage(scene, model, &layout);
+        legend(scene, &layout.legend);
+    }
+
+    fn navigation(&mut self) -> Option<&mut dyn Navigation<LogModel>> {
+        Some(self)
     }
 }
 
-/// A frame at a place in the figure.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct View {
-    /// Where it is drawn \[css px\].
-    pub area: Rect,
-    /// The middle of what is shown \[m\].
-    pub centre: [f64; 2],
-    /// Css px per metre.
-    pub scale: f64,
+impl LogView {
+    /// The part of the world that is shown.
+    fn map_view(&self, model: &LogModel, layout: &Layout) -> Option<MapView> {
+        let chosen = self.frame.filter(|(log, _)| *log == model.log_number());
+        let frame = chosen.map(|(_, frame)| frame).or_else(|| whole(model))?;
+        Some(MapView::new(layout.map, &frame))
+    }
+
+    fn look(&mut self, model: &LogModel, move_to: impl Fn(MapView) -> MapView, width: f64) {
+        let view = self.map_view(model, &Layout::new(width));
+        self.frame = view.map(|view| (model.log_number(), move_to(view).frame()));
+    }
 }
 
-impl View {
-    /// The frame, as large as it fits.
-    pub fn new(area: Rect, frame: &Frame) -> Self {
-        let scale = (area.w / frame.size[0]).min(area.h / frame.size[1]);
-        Self { area, centre: frame.centre, scale }
+impl Navigation<LogModel> for LogView {
+    fn zoom(&mut self, model: &LogModel, factor: f64, at: Option<Point>, width: f64) {
+        self.look(model, |view| view.zoomed(factor, at.unwrap_or(view.0.area.centre())), width);
     }
 
-    /// What is seen of the world.
-    pub fn frame(&self) -> Frame {
-        Frame { centre: self.centre, size: [self.area.w / self.scale, self.area.h / self.scale] }
+    fn pan(&mut self, model: &LogModel, by: Point, width: f64) {
+        self.look(model, |view| view.panned(by), width);
     }
 
-    /// A point of the world \[m\].
-    pub fn point(&self, [x, y]: [f64; 2]) -> Point {
-        let [cx, cy] = self.area.centre();
-        [cx + (x - self.centre[0]) * self.scale, cy - (y - self.centre[1]) * self.scale]
+    fn fit(&mut self) {
+        self.frame = None;
     }
+}
 
-    /// The world below a point of the picture \[m\].
-    pub fn world(&self, [x, y]: Point) -> [f64; 2] {
-        let [cx, cy] = self.area.centre();
-        [self.centre[0] + (x - cx) / self.scale, self.centre[1] - (y - cy) / self.scale]
-    }
-
-    /// Moved by \[css px\]: what was below the pointer goes with it.
-    pub fn panned(&self, [right, down]: Point) -> Self {
-        let bounded = |c: f64| c.clamp(-MOST, MOST);
-        let centre = [self.centre[0] - right / self.scale, self.centre[1] + down / self.scale].map(bounded);
-        Self { centre, ..*self }
-    }
-
-    /// Magnified; what was at this point \[css px\] stays there.
-    pub fn zoomed(&self, factor: f64, at: Point) -> Self {
-        let least = self.area.w.min(self.area.h);
-        // Not `clamp`, which would bring the page 20 KB to write down limits that are the wrong way round.
-        let scale = (self.scale * factor).max(least / MOST).min(least / LEAST);
-        let (world, [cx, cy]) = (self.world(at), self.area.centre());
-        let centre = [world[0] - (at[0] - cx) / scale, world[1] + (at[1] - cy) / scale];
-        Self { scale, centre, ..*self }.panned([0.0; 2])
-    }
-
-    /// The positions of a path, cut at the edge of the view. Points nearer than `least` \[css px\] to the one before are left out.
-    pub fn path(&self, poses: &[Pose2], least: f64) -> Vec<Vec<Point>> {
-        clip_polyline(&thinned(&mut poses.iter().map(|pose| self.point([pose.x, pose.y])), least), &self.area)
-    }
-
-    /// An arrow head of this length from centre to nose \[css px\] that points where the robot looks; `None` out of view.
-    pub fn robot(&self, pose: &Pose2, length: f64) -> Option<Vec<Point>> {
-        let at = self.point([pose.x, pose.y]);
-        self.area.inset(1.5 * length).contains(at).then(|| robot(at, pose.theta, length))
-    }
-
-    /// The cells of a map that are seen, if there are any, and where they lie: whole cells, which may reach over the
-    /// edge of the view.
-    pub fn cells(&self, map: &Map) -> Option<(Rect, Cells)> {
-        let (bounds, size) = (map.bounds(), map.cell_size());
-        let ([x0, y1], [x1, y0]) =
-            (self.world([self.area.x, self.area.y]), self.world([self.area.right(), self.area.bottom()]));
-        let cell = |c: f64| (c / size).floor() as i32;
-        let (i0, i1) = (cell(x0).max(bounds.i0), (cell(x1) + 1).min(bounds.i1));
-        let (j0, j1) = (cell(y0).max(bounds.j0), (cell(y1) + 1).min(bounds.j1));
-        if i0 >= i1 || j0 >= j1 {
-            return None;
+/// All that there is to see: of the map, or before there is one, of raw odometry.
+fn whole(model: &LogModel) -> Option<Frame> {
+    match (model.mapper(), model.log()) {
+        (Some(mapper), _) => Some(Frame::of_map(mapper.map())),
+        (None, Some(log)) => {
+            let corner = |pick: fn(f64, f64) -> f64, start: f64| {
+                let fold = |corner: [f64; 2], x, y| [pick(corner[0], x), pick(corner[1], y)];
+                log.scans.iter().fold([start; 2], |c, scan| fold(c, scan.odometry.x, scan.odometry.y))
+            };
+            Some(Frame::around(corner(f64::min, f64::INFINITY), corner(f64::max, f64::NEG_INFINITY)))
         }
-        let rows = (j0..j1).rev();
-        let shades = rows.flat_map(|j| (i0..i1).map(move |i| shade(map.log_odds(i, j)))).collect();
-        let [x, y] = self.point([f64::from(i0) * size, f64::from(j1) * size]);
-        let side = |k: i32| f64::from(k) * size * self.scale;
-        Some((Rect::new(x, y, side(i1 - i0), side(j1 - j0)), Cells { columns: (i1 - i0) as usize, shades }))
+        _ => None,
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn view() -> View {
-        View::new(Rect::new(10.0, 20.0, 400.0, 300.0), &Frame { centre: [3.0, -2.0], size: [40.0, 10.0] })
-    }
-
-    #[test]
-    fn a_frame_is_seen_as_large_as_it_fits_and_upright() {
-        assert_eq!(view().scale, 10.0);
-        assert_eq!(view().point([3.0, -2.0]), [210.0, 170.0]);
-        assert_eq!(view().point([4.0, -1.0]), [220.0, 160.0]);
-        assert_eq!(view().world([220.0, 160.0]), [4.0, -1.0]);
-    }
-
-    #[test]
-    fn what_is_below_the_pointer_stays_there() {
-        let at = [50.0, 60.0];
-        let world = view().world(at);
-        for factor in [0.5, 1.0, 3.0] {
-            let [x, y] = view().zoomed(factor, at).point(world);
-            assert!((x - at[0]).abs() < 1e-9 && (y - at[1]).abs() < 1e-9, "{factor}");
+fn header(scene: &mut Scene, model: &LogModel, area: &Rect) {
+    let (step, last) = (model.step(), model.step_count());
+    let (strong, rest) = match (model.log(), model.mapper()) {
+        (None, _) => ("No log yet".into(), String::new()),
+        (_, None) => (format!("{} scans", last + 1), "raw odometry".into()),
+        _ => {
+            let m = model.setup().particles;
+            let universes = if m == 1 { "1 universe".into() } else { format!("{m} universes") };
+            (format!("Scan {step} of {last}"), universes)
         }
-        let [x, y] = view().panned([7.0, -3.0]).point(world);
-        assert!((x - 57.0).abs() < 1e-9 && (y - 57.0).abs() < 1e-9);
-    }
+    };
+    heading(scene, area, (&strong, Role::Ink), &rest);
+}
 
-    #[test]
-    fn no_view_is_nearer_than_half_a_metre_or_farther_than_the_world() {
-        let near = (0..99).fold(view(), |view, _| view.zoomed(9.0, [11.0, 21.0]));
-        assert_eq!(near.scale, 300.0 / LEAST);
-        let far = (0..99).fold(view(), |view, _| view.zoomed(0.1, [11.0, 21.0]).panned([1e9, 1e9]));
-        assert!(far.centre.iter().all(|c| c.abs() <= MOST) && far.scale == 300.0 / MOST);
+fn map(scene: &mut Scene, model: &LogModel, layout: &Layout, view: Option<&MapView>) {
+    let area = layout.map;
+    let unknown = Cells { columns: 1, shades: vec![UNKNOWN] };
+    scene.marks.push(Mark::Raster { area, cells: unknown, shading: Shading::Map });
+    if let Some(view) = view {
+        if let Some((area, cells)) = model.mapper().and_then(|mapper| view.cells(mapper.map())) {
+            scene.marks.push(Mark::Raster { area, cells, shading: Shading::Map });
+        }
+        around(scene, &area);
+        odometry(scene, model, &view.0);
+        paths(scene, model, &view.0);
+        round_scale_bar(scene, &view.0);
+    } else {
+        let [_, y] = area.centre();
+        let lines = [
+            (13.5, Weight::SemiBold, Role::Ink, "No log is open"),
+            (12.5, Weight::Regular, Role::Muted, "Run the example, or choose or drop a log."),
+        ];
+        for (k, (size, weight, role, words)) in lines.into_iter().enumerate() {
+            let area = Rect::new(area.x, y + 22.0 * (k as f64 - 1.0), area.w, 22.0);
+            scene.marks.push(text(area, Anchor::Middle, size, weight, role, words));
+        }
     }
+    scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
+}
 
-    #[test]
-    fn a_whole_is_framed_by_steps_so_that_it_does_not_tremble() {
-        let frame = Frame::around([-0.1, 0.2], [7.9, 3.0]);
-        assert_eq!((frame.centre, frame.size), ([3.0, 2.0], [10.0, 4.0]));
-        assert_eq!(Frame::around([-0.5, 0.9], [6.5, 3.9]), frame);
-        assert_eq!(Frame::around([1.0; 2], [1.0; 2]).size, [STEP; 2]);
+/// Paper over the cells that reach beyond the edge of the map.
+fn around(scene: &mut Scene, area: &Rect) {
+    let (w, h) = (scene.width, scene.height);
+    let strips = [
+        Rect::new(0.0, 0.0, w, area.y),
+        Rect::new(0.0, area.bottom(), w, h - area.bottom()),
+        Rect::new(0.0, area.y, area.x, area.h),
+        Rect::new(area.right(), area.y, w - area.right(), area.h),
+    ];
+    scene.marks.extend(strips.map(|area| Mark::Fill { area, role: Role::Paper }));
+}
+
+fn odometry(scene: &mut Scene, model: &LogModel, plane: &Plane) {
+    let Some(log) = model.log().filter(|_| model.shows_raw()) else { return };
+    // From the first scan on, as the map has it; up to the scan that is mapped.
+    let first = log.scans[0].odometry;
+    let mapped = model.mapper().and_then(|mapper| mapper.path().last().map(|(time, _)| *time));
+    let scans = log.scans.iter().take_while(|scan| mapped.is_none_or(|time| scan.time <= time));
+    let placed = |pose: &Pose2| if model.mapper().is_some() { first.between(pose) } else { *pose };
+    let lines = plane.path(&scans.map(|scan| placed(&scan.odometry)).collect::<Vec<_>>(), 1.0);
+    scene.marks.push(Mark::Lines { lines, width: 1.5, dash: Some(RAW), role: Role::Odometry });
+}
+
+/// The paths of all universes, and of those that died out a short while ago.
+fn paths(scene: &mut Scene, model: &LogModel, plane: &Plane) {
+    let Some(filter) = model.mapper().map(LaserMapper::filter) else { return };
+    let tree = Tree::new(filter, model.deaths());
+    for age in (0..FADE).rev() {
+        let dead = tree.dead.iter().filter(|(a, _)| *a == age);
+        let lines: Vec<_> = dead.flat_map(|(_, line)| plane.path(line, 1.0)).collect();
+        if !lines.is_empty() {
+            let width = DIED * f64::from(FADE - age) / f64::from(FADE);
+            scene.marks.push(Mark::Strands { lines, width, role: Role::Extinct });
+        }
     }
+    let others = tree.others.iter().flat_map(|line| plane.path(line, 1.0)).collect();
+    scene.marks.push(Mark::Strands { lines: others, width: LIVES, role: Role::Copied });
+    let best = plane.path(&tree.best, 1.0);
+    scene.marks.push(Mark::Strands { lines: best, width: 2.0, role: Role::Path });
+    let robots = filter.particles().iter().filter_map(|particle| plane.robot(&particle.world_from_robot, 5.0));
+    scene.marks.push(Mark::Polygons { polygons: robots.collect(), role: Role::Copied });
+    let best = &filter.particles()[filter.best()].world_from_robot;
+    if let Some(corners) = plane.robot(best, 9.0) {
+        rimmed_polygon(scene, corners, joined, Role::Path);
+    }
+}
+
+/// A round length, in the lower right corner.
+fn round_scale_bar(scene: &mut Scene, plane: &Plane) {
+    let metres = [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 5000.0, 20000.0];
+    let room = 0.25 * plane.area.w;
+    let fitting = metres.into_iter().rev().find(|metres| metres * plane.scale <= room);
+    scale_bar(scene, plane, fitting.unwrap_or(metres[0]), room);
+}
+
+/// The end of a gauge's label, and what is left before it.
+fn value(scene: &mut Scene, label: &Rect, words: String) -> Rect {
+    let width = font::measure(&words, SIZE, Weight::SemiBold) + 0.01;
+    let area = Rect::new(label.right() - width, label.y, width, label.h);
+    scene.marks.push(text(area, Anchor::Start, SIZE, Weight::SemiBold, Role::Ink, words));
+    Rect::new(label.x, label.y, (label.w - width - 6.0).max(0.0), label.h)
+}
+
+/// A curve over the scans: a share of the chart's height for each step.
+fn curve(scene: &mut Scene, model: &LogModel, chart: &Chart, share: impl Fn(&Moment) -> f64) -> Vec<Point> {
+    scene.marks.extend(chart.edges());
+    let points = chart.curve((1..).zip(model.history().iter().map(share)));
+    let line = thinned(&mut points.iter().copied(), 0.5);
+    scene.marks.push(Mark::Strands { lines: vec![line], width: 1.25, role: Role::Ink });
+    points
+}
+
+/// N_eff, the threshold, and the steps that resampled.
+fn ess(scene: &mut Scene, model: &LogModel, layout: &Layout) {
+    let (gauge, m) = (&layout.gauges[0], model.setup().particles);
+    let now = model.history().last().map_or("–".into(), |moment| fixed(moment.ess, 1));
+    let name = value(scene, &gauge.label, format!("{now} of {m}"));
+    n_eff(scene, &name, SIZE, Weight::Regular, Role::Muted);
+    let chart = &Chart { area: gauge.chart, last: model.step_count() };
+    let points = curve(scene, model, chart, |moment| moment.ess / m as f64);
+    if let ResamplePolicy::EssBelow(fraction) = model.setup().policy {
+        let lines = vec![chart.level(fraction)];
+        scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some(THRESHOLD), role: Role::Accent });
+    }
+    let resampled = points.iter().zip(model.history()).filter(|(_, moment)| moment.resampled);
+    let lines = thinned(&mut resampled.map(|(at, _)| [at[0], chart.area.bottom()]), 0.75);
+    let lines = lines.into_iter().map(|[x, y]| vec![[x, y], [x, y - TICK]]).collect();
+    scene.marks.push(Mark::Strands { lines, width: 1.0, role: Role::Extinct });
+}
+
+/// Distinct ancestors some scans ago.
+fn lineage(scene: &mut Scene, model: &LogModel, layout: &Layout) {
+    let (gauge, m) = (&layout.gauges[1], model.setup().particles);
+    let now = model.history().last().map_or("–".into(), |moment| moment.lineage.to_string());
+    let name = value(scene, &gauge.label, format!("{now} of {m}"));
+    let names = [format!("Ancestors {BACK} scans ago"), format!("Lineage, {BACK} back")];
+    let fits = |label: &String| font::measure(label, SIZE, Weight::Regular) < name.w;
+    let label = names.into_iter().find(fits).unwrap_or("Lineage".into());
+    scene.marks.push(text(name, Anchor::Start, SIZE, Weight::Regular, Role::Muted, label));
+    let chart = Chart { area: gauge.chart, last: model.step_count() };
+    curve(scene, model, &chart, |moment| f64::from(moment.lineage) / m as f64);
+}
+
+fn legend(scene: &mut Scene, area: &Rect) {
+    let tick = |[x, y]: Point| {
+        let lines = vec![vec![[x, y - 0.5 * TICK], [x, y + 0.5 * TICK]]];
+        Mark::Lines { lines, width: 1.25, dash: None, role: Role::Extinct }
+    };
+    let items = [
+        (Sample::cell(OCCUPIED), "wall"),
+        (Sample::cell(FREE), "free"),
+        (Sample::cell(UNKNOWN), "unknown"),
+        (Sample::line(Role::Path, 2.0, None), "best universe"),
+        (Sample::line(Role::Copied, LIVES, None), "the others"),
+        (Sample::line(Role::Extinct, DIED, None), "just died out"),
+        (Sample::line(Role::Odometry, 1.5, Some(RAW)), "raw odometry"),
+        (Sample::at(tick), "resampled"),
+        (Sample::line(Role::Accent, 1.0, Some(THRESHOLD)), "threshold"),
+    ];
+    Legend::default().draw(scene, area, items);
 }

@@ -1,6 +1,5 @@
 //! The outline of a region of highest density.
 
-use crate::scene::Point;
 use fastslam_lab::baseline::one_step::Posterior;
 
 /// No crossing follows.
@@ -8,7 +7,7 @@ const END: usize = usize::MAX;
 
 /// The lines \[m\] on which the density between the middles of the cells is that of the region's edge, each closed where it does not
 /// leave the grid: marching squares (Lorensen, Cline 1987, in the plane).
-pub fn outline(posterior: &Posterior) -> Vec<Vec<Point>> {
+pub fn outline(posterior: &Posterior) -> Vec<Vec<[f64; 2]>> {
     let Posterior { cells, densities, level, .. } = posterior;
     // A crossing lies between the middle of a cell and the next one in its row, 2 k, or in its column, 2 k + 1.
     let crossing = |a: usize, b: usize| 2 * a.min(b) + usize::from(a.abs_diff(b) == cells.side);

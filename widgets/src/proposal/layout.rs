@@ -1,7 +1,7 @@
 //! Where the parts of the figure stand, and what part of the world the panels show.
 
 use super::recipe::WORLD;
-use crate::scene::{Point, Rect};
+use crate::scene::{LINE, Plane, Rect};
 use fastslam_lab::baseline::one_step::Area;
 
 /// From this width on \[css px\], the panels stand side by side.
@@ -9,9 +9,6 @@ pub const WIDE: f64 = 640.0;
 
 /// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
 pub const NARROWEST: f64 = 300.0;
-
-/// Height of a line of text \[css px\].
-pub const LINE: f64 = 18.0;
 
 const HEADER: f64 = 26.0;
 const COUNTERS: f64 = 48.0;
@@ -85,21 +82,10 @@ impl Layout {
 }
 
 impl Panel {
-    /// Of a metre \[css px\].
-    pub fn scale(&self) -> f64 {
-        self.view.w / (WORLD.high[0] - WORLD.low[0])
-    }
-
-    /// Where a place of the world \[m\] is \[css px\].
-    pub fn at(&self, [x, y]: [f64; 2]) -> Point {
-        let scale = self.scale();
-        [self.view.x + (x - WORLD.low[0]) * scale, self.view.y + (WORLD.high[1] - y) * scale]
-    }
-
-    /// What place of the world \[m\] is at a point \[css px\].
-    pub fn place(&self, [x, y]: Point) -> [f64; 2] {
-        let scale = self.scale();
-        [WORLD.low[0] + (x - self.view.x) / scale, WORLD.high[1] - (y - self.view.y) / scale]
+    /// The world in it.
+    pub fn plane(&self) -> Plane {
+        let scale = self.view.w / (WORLD.high[0] - WORLD.low[0]);
+        Plane::from_upper_left(self.view, [WORLD.low[0], WORLD.high[1]], scale)
     }
 }
 
@@ -117,12 +103,10 @@ mod tests {
     }
 
     #[test]
-    fn both_panels_have_one_scale_and_a_point_is_found_where_it_was_put() {
+    fn both_panels_have_one_scale() {
         for width in [300.0, 639.0, 640.0, 1200.0] {
             let [first, second] = Layout::new(width).panels;
-            assert_eq!(first.scale(), second.scale());
-            let [x, y] = second.place(second.at([1.5, -0.3]));
-            assert!((x - 1.5).abs() < 1e-12 && (y + 0.3).abs() < 1e-12);
+            assert_eq!(first.plane().scale, second.plane().scale);
         }
     }
 }

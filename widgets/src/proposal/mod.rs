@@ -5,7 +5,8 @@ mod gauge;
 mod layout;
 mod model;
 mod recipe;
-mod scene;
+mod view;
 
 pub use layout::Layout;
 pub use model::ProposalModel;
+pub use view::ProposalView;

@@ -1,16 +1,8 @@
 //! The step as a deterministic state: what was set, what both proposals drew, and the reader's guess.
 
-use super::{
-    contour, gauge,
-    layout::{Layout, NARROWEST},
-    recipe::Recipe,
-    scene,
-};
-use crate::decimal::{fixed, rounded, write};
-use crate::{
-    model::{Column, Declared, FigureError, Model, Readout, Series},
-    scene::{Point, Scene},
-};
+use super::{contour, recipe::Recipe};
+use crate::decimal::{fixed, write};
+use crate::model::{Column, Declared, FigureError, Model, Readout, Series};
 use fastslam_lab::experiment::proposals::{Cloud, Proposals, ProposalsSetup};
 
 /// Figure w17.3.
@@ -20,7 +12,7 @@ pub struct ProposalModel {
     computed: Recipe,
     shown: Proposals,
     /// Outline of the region of highest density \[m\].
-    outline: Vec<Vec<Point>>,
+    outline: Vec<Vec<[f64; 2]>>,
     /// The ratio at half the range noise, once it was run.
     at_half: Option<f64>,
 }
@@ -48,7 +40,7 @@ impl ProposalModel {
     }
 
     /// Outline of the posterior's 90 % region \[m\].
-    pub fn outline(&self) -> &[Vec<Point>] {
+    pub fn outline(&self) -> &[Vec<[f64; 2]>] {
         &self.outline
     }
 
@@ -106,29 +98,6 @@ impl Declared for ProposalModel {
 impl Model for ProposalModel {
     fn title(&self) -> &'static str {
         Self::TITLE
-    }
-
-    fn drag(&mut self, handle: &str, to: Point, width: f64) {
-        let layout = Layout::new(width);
-        match handle {
-            scene::LANDMARK | scene::LANDMARK_AGAIN => {
-                let place = layout.panels[usize::from(handle == scene::LANDMARK_AGAIN)].place(to);
-                self.put_landmark(place.map(|c| rounded(c, 2)));
-            }
-            scene::GUESS => self.guess_at(rounded(gauge::ratio(&layout.axis, to[0]), 1)),
-            _ => (),
-        }
-    }
-
-    fn nudge(&mut self, handle: &str, [right, up]: [f64; 2]) {
-        let ([x, y], step) = (self.recipe.setup.landmark, 0.05);
-        match handle {
-            scene::LANDMARK | scene::LANDMARK_AGAIN => {
-                self.put_landmark([x + step * right, y + step * up].map(|c| rounded(c, 3)));
-            }
-            scene::GUESS => self.guess_at(rounded(self.recipe.guess + 0.1 * (right + up), 2)),
-            _ => (),
-        }
     }
 
     fn pending(&self) -> u32 {
@@ -293,14 +262,5 @@ impl Model for ProposalModel {
             _ => (),
         }
         text
-    }
-
-    fn height(&self, width: f64) -> f64 {
-        // Narrower than the layout goes, the figure is made smaller as a whole.
-        Layout::new(width).height * (width / width.max(NARROWEST))
-    }
-
-    fn scene(&self, width: f64, height: f64) -> Scene {
-        scene::build(self, width, height)
     }
 }

@@ -1,15 +1,12 @@
 //! Where the parts of the figure stand: a column for each filter where there is room, the filters below each other on a phone.
 
-use crate::scene::Rect;
+use crate::scene::{LINE, Rect};
 
 /// From this width on \[css px\], the filters stand side by side.
 pub const WIDE: f64 = 720.0;
 
 /// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
 pub const NARROWEST: f64 = 300.0;
-
-/// Height of a line of text \[css px\].
-pub const LINE: f64 = 18.0;
 
 const HEADER: f64 = 26.0;
 const PAD: f64 = 8.0;

@@ -1,17 +1,10 @@
 //! Three filters as a deterministic state: what was set, how far they ran, and which step of that is shown.
 
-use super::{
-    layout::{Layout, NARROWEST},
-    recipe::Recipe,
-    scene,
-};
+use super::{recipe::Recipe, told};
 use crate::decimal::fixed;
-use crate::{
-    model::{Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text},
-    scene::{Point, Scene},
-};
+use crate::model::{Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text};
 use fastslam::geometry::Pose2;
-use fastslam_lab::experiment::policies::{POLICIES, Policies, PoliciesSetup, PolicyCourse, PolicyReport};
+use fastslam_lab::experiment::policies::{Policies, PoliciesSetup, PolicyReport};
 
 /// Figure w17.2.
 pub struct ResamplingModel {
@@ -75,6 +68,11 @@ impl ResamplingModel {
         &self.run
     }
 
+    /// All three at every step simulated so far.
+    pub(super) fn moments(&self) -> &[[Moment; 3]] {
+        &self.moments
+    }
+
     /// One filter at steps 0 to the one shown.
     pub fn history(&self, policy: usize) -> impl DoubleEndedIterator<Item = &Moment> + ExactSizeIterator {
         self.moments[..=self.step() as usize].iter().map(move |all| &all[policy])
@@ -129,7 +127,7 @@ impl ResamplingModel {
     }
 
     /// Reads a step, as near to it as there is one. The newest is followed.
-    fn look(&mut self, step: f64) {
+    pub fn look(&mut self, step: f64) {
         let step = step.min(f64::from(self.step())).max(0.0) as u32;
         self.recipe.cursor = (step < self.step()).then_some(step);
     }
@@ -164,23 +162,6 @@ impl Model for ResamplingModel {
         self.recipe.cursor = None;
     }
 
-    fn drag(&mut self, handle: &str, to: Point, width: f64) {
-        if handle == scene::CURSOR {
-            let layout = Layout::new(width);
-            let column = layout.columns.iter().rev().find(|c| c.header.x <= to[0]).unwrap_or(&layout.columns[0]);
-            let chart = &column.charts[0];
-            self.look(((to[0] - chart.x) / chart.w * f64::from(self.step_count())).round());
-        }
-    }
-
-    fn nudge(&mut self, handle: &str, [right, _]: [f64; 2]) {
-        if handle == scene::CURSOR {
-            // There is nothing between two steps: a fine step is a whole one too.
-            let whole = if right == 0.0 { 0.0 } else { right.signum() * right.abs().max(1.0) };
-            self.look(f64::from(self.cursor()) + whole);
-        }
-    }
-
     fn step_count(&self) -> u32 {
         self.run.step_count()
     }
@@ -201,91 +182,11 @@ impl Model for ResamplingModel {
     }
 
     fn readouts(&self) -> Vec<Readout> {
-        let (step, m) = (self.cursor(), self.setup().particles);
-        let mut readouts = Vec::new();
-        for (policy, names) in NAMES.iter().enumerate() {
-            let Moment { report, resampled, .. } = self.read(policy);
-            let of_all = |x: f64, text: String| (x, format!("{text} of {m}"));
-            let (ess, ess_text) = of_all(report.ess, fixed(report.ess, 1));
-            let lineage = report.descent.lineage(step);
-            let (lineage, lineage_text) = of_all(lineage.into(), lineage.to_string());
-            let (nodes, paths) = (report.tree_nodes(), report.path_nodes(m));
-            let [ess_name, lineage_name, error_name, tree_name, right_name, resampled_name] = names.readouts;
-            readouts.extend([
-                Readout::new(
-                    ess_name.0,
-                    ess_name.1,
-                    ess,
-                    ess_text,
-                    "",
-                    "Effective number of particles before resampling: M if all weigh the same, 1 if one has all the weight.",
-                ),
-                Readout::new(
-                    lineage_name.0,
-                    lineage_name.1,
-                    lineage,
-                    lineage_text,
-                    "",
-                    "How many of the particles of step 0 still have a descendant.",
-                ),
-                Readout::new(
-                    error_name.0,
-                    error_name.1,
-                    report.error_best,
-                    fixed(report.error_best, 2),
-                    "m",
-                    "Distance of the best particle from the truth.",
-                ),
-                Readout::new(
-                    tree_name.0,
-                    tree_name.1,
-                    f64::from(nodes),
-                    format!("{nodes} of {paths}"),
-                    "nodes",
-                    "Poses that the particles still need, each counted once, of those that as many separate paths would hold.",
-                ),
-            ]);
-            readouts.push(match (self.setup().course, report.right) {
-                (PolicyCourse::Lap, _) => Readout::new(
-                    resampled_name.0,
-                    resampled_name.1,
-                    f64::from(*resampled),
-                    format!("{resampled} of {step}"),
-                    "steps",
-                    "How many steps resampled.",
-                ),
-                (PolicyCourse::Wings, right) => Readout::new(
-                    right_name.0,
-                    right_name.1,
-                    right.map_or(f64::NAN, f64::from),
-                    format!("{} of {m}", right.unwrap_or(0)),
-                    "",
-                    "Particles that hold the true explanation: they are near the robot and look its way.",
-                ),
-            });
-        }
-        readouts
+        told::readouts(self)
     }
 
     fn series(&self) -> Series {
-        let row = |(step, all): (usize, &[Moment; 3])| {
-            let of = |Moment { report, .. }: &Moment| {
-                [
-                    report.log_evidence,
-                    report.ess,
-                    f64::from(u8::from(report.resampled())),
-                    f64::from(report.descent.lineage(report.step)),
-                    f64::from(report.descent.lineage(self.recipe.back)),
-                    report.error_best,
-                    report.error_mean,
-                    report.rms_best,
-                    f64::from(report.tree_nodes()),
-                    report.right.map_or(f64::NAN, f64::from),
-                ]
-            };
-            core::iter::once(step as f64).chain(all.iter().flat_map(of)).collect()
-        };
-        Series { columns: COLUMNS, rows: self.moments.iter().enumerate().map(row).collect() }
+        told::series(self)
     }
 
     fn describe(&self) -> String {
@@ -361,66 +262,10 @@ impl Model for ResamplingModel {
         ));
         lines
     }
-
-    fn height(&self, width: f64) -> f64 {
-        // Narrower than the layout goes, the figure is made smaller as a whole.
-        Layout::new(width).height * (width / width.max(NARROWEST))
-    }
-
-    fn scene(&self, width: f64, height: f64) -> Scene {
-        scene::build(self, width, height)
-    }
 }
 
 /// Index of the selective filter among [`POLICIES`].
 pub const SELECTIVE: usize = 2;
-
-/// What one filter's numbers are called.
-struct Names {
-    /// Identifier and title of N_eff, lineage, error, tree, right wing and steps resampled.
-    readouts: [(&'static str, &'static str); 6],
-}
-
-macro_rules! names {
-    ($name:literal, $title:literal) => {
-        Names {
-            readouts: [
-                (concat!($name, "_ess"), concat!($title, ": N_eff")),
-                (concat!($name, "_lineage"), concat!($title, ": lineage")),
-                (concat!($name, "_error_best"), concat!($title, ": error of the best")),
-                (concat!($name, "_tree"), concat!($title, ": tree")),
-                (concat!($name, "_right"), concat!($title, ": right wing")),
-                (concat!($name, "_resampled"), concat!($title, ": resampled")),
-            ],
-        }
-    };
-}
-
-/// In the order of [`POLICIES`].
-const NAMES: [Names; POLICIES.len()] =
-    [names!("never", "Never"), names!("always", "Every step"), names!("selective", "Selective")];
-
-macro_rules! columns {
-    ($($name:literal)*) => {
-        &[
-            Column::new("step", "step of the course"),
-            $(
-                Column::new(concat!($name, "_log_evidence_nats"), "log of the evidence as the filter estimates it [nats]"),
-                Column::new(concat!($name, "_ess"), "effective number of particles before resampling"),
-                Column::new(concat!($name, "_resampled"), "1 where the step resampled"),
-                Column::new(concat!($name, "_lineage"), "distinct ancestors at step 0"),
-                Column::new(concat!($name, "_lineage_back"), "distinct ancestors as many steps back as the second gauge looks"),
-                Column::new(concat!($name, "_error_best_m"), "distance of the best particle from the truth [m]"),
-                Column::new(concat!($name, "_error_mean_m"), "distance of the weighted mean from the truth [m]"),
-                Column::new(concat!($name, "_rms_best_m"), "RMS position error of the best particle's path so far [m]"),
-                Column::new(concat!($name, "_tree_nodes"), "poses that the particles still need, each counted once"),
-                Column::new(concat!($name, "_right"), "particles that hold the true explanation, from where there are two"),
-            )*
-        ]
-    };
-}
-
-const COLUMNS: &[Column] = columns!("never" "always" "selective");
 
 #[cfg(test)]
 mod tests {

@@ -3,21 +3,31 @@
 //! A scene is a pure function of a model and a size. It can be tested without looking at a pixel, told in words, and
 //! painted in any theme.
 
+mod chart;
 mod clip;
 mod formula;
 mod handle;
+mod legend;
+mod marker;
+mod plane;
 mod rect;
+mod scale_bar;
 mod shape;
 mod text;
 
+pub use chart::Chart;
 pub use clip::{clip_polyline, thinned};
 pub use formula::{Formula, number};
 pub use handle::Handle;
+pub use legend::{LINE, Legend, Sample};
+pub use marker::{RIM, cloud, cross, diamond, joined, rimmed, rimmed_polygon};
+pub use plane::Plane;
 pub use rect::Rect;
 #[cfg(test)]
 pub use rect::assert_apart;
-pub use shape::{closed, ellipse, robot};
-pub use text::{Anchor, Text, heading, text};
+pub use scale_bar::{bar, scale_bar};
+pub use shape::{NINE_TENTHS, closed, ellipse, robot};
+pub use text::{Anchor, Text, heading, n_eff, text};
 
 /// A point \[css px\].
 pub type Point = [f64; 2];

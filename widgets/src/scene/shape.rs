@@ -6,6 +6,9 @@ use fastslam::ops;
 /// Corners of an ellipse: enough that no edge is seen at any size of a figure.
 const CORNERS: usize = 64;
 
+/// How many deviations a region reaches that holds 90 % of a Gaussian of the plane: √χ²₂,₀.₉ = √(−2 ln 0.1).
+pub const NINE_TENTHS: f64 = 2.145_966_026_289_347;
+
 /// The points at Mahalanobis distance `scale` from a Gaussian's mean, as a polygon: `centre + scale · L (cos t, sin t)`, where
 /// L Lᵀ is the covariance.
 ///

@@ -80,6 +80,15 @@ pub fn heading(scene: &mut Scene, area: &Rect, strong: (&str, Role), rest: &str)
     scene.marks.push(text(rest_area, Anchor::Start, 12.5, Weight::Regular, Role::Muted, rest));
 }
 
+/// N with the index "eff", smaller and lower; returns where it ends \[css px\].
+pub fn n_eff(scene: &mut Scene, area: &Rect, size: f64, weight: Weight, role: Role) -> f64 {
+    let n = Text::new(*area, Anchor::Start, size, weight, role, "N");
+    let index = Rect::new(area.x + n.width() + 0.5, area.y + 3.5, 20.0, area.h);
+    scene.marks.push(Mark::Text(n));
+    scene.marks.push(text(index, Anchor::Start, 8.5, weight, role, "eff"));
+    index.x + 16.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,16 +1,13 @@
 //! Where the parts stand: a table with a column for each particle, or on a phone one particle below the other.
 
 use super::steps::{GIVEN, STEPS, Step};
-use crate::scene::Rect;
+use crate::scene::{LINE, Rect};
 
 /// From this width on \[css px\], the particles stand side by side.
 pub const WIDE: f64 = 720.0;
 
 /// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
 pub const NARROWEST: f64 = 330.0;
-
-/// Height of a line of words \[css px\].
-pub const LINE: f64 = 18.0;
 
 /// The corner of the figure is paper: the page takes its colour from there.
 const TOP: f64 = 2.0;

@@ -3,8 +3,9 @@
 mod layout;
 mod model;
 mod recipe;
-mod scene;
 mod steps;
+mod view;
 
 pub use layout::Layout;
 pub use model::WorkedExampleModel;
+pub use view::WorkedExampleView;

@@ -1,15 +1,8 @@
 //! The example as a deterministic state: its inputs.
 
-use super::{
-    layout::{Layout, NARROWEST},
-    recipe::plain,
-    scene,
-};
+use super::recipe::plain;
 use crate::decimal::fixed;
-use crate::{
-    model::{Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text},
-    scene::Scene,
-};
+use crate::model::{Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text};
 use fastslam::geometry::Pose2;
 use fastslam_lab::experiment::worked_example::{Inputs, Update, WorkedExample};
 
@@ -225,14 +218,5 @@ impl Model for WorkedExampleModel {
             TraceLine::new("ess", ess_text(*ess, updates.len())),
             TraceLine::new("resample", if *resamples { "yes" } else { "no" }),
         ]
-    }
-
-    fn height(&self, width: f64) -> f64 {
-        // Narrower than the layout goes, the figure is made smaller as a whole.
-        Layout::new(width).height * (width / width.max(NARROWEST))
-    }
-
-    fn scene(&self, width: f64, _: f64) -> Scene {
-        scene::build(self, width)
     }
 }

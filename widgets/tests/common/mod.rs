@@ -16,7 +16,7 @@ pub fn figure(tag: &str, query: &str) -> Figure {
 
 /// What is to be seen at this width, in the height that the figure wants.
 pub fn scene(figure: &Figure, width: f64) -> Scene {
-    figure.model().scene(width, figure.model().height(width))
+    figure.scene(width, figure.height(width))
 }
 
 /// Everything a reader gets from a state, for comparing two ways to it.

@@ -2,23 +2,28 @@
 
 use super::{
     gauge,
-    layout::{LINE, Layout, NARROWEST, Panel},
+    layout::{Layout, NARROWEST, Panel},
     model::ProposalModel,
+    recipe::Recipe,
 };
-use crate::decimal::{fixed, write};
+use crate::decimal::{fixed, rounded, write};
 use crate::{
     font::{self, Weight},
-    model::Model,
+    model::Declared,
     scene::{
-        Anchor, Cells, Handle, Mark, Point, Rect, Role, Scene, Shading, Text, clip_polyline, closed, ellipse, heading,
-        text,
+        Anchor, Cells, Handle, LINE, Legend, Mark, NINE_TENTHS, Plane, Point, Rect, Role, Sample, Scene, Shading, bar,
+        clip_polyline, closed, cloud, diamond, ellipse, heading, rimmed_polygon, text,
     },
+    view::View,
 };
 use fastslam::geometry::Pose2;
 use fastslam_lab::{
     baseline::one_step::{Area, Posterior},
     experiment::proposals::{CONTROL, Cloud, FROM, TWIN},
 };
+
+/// What an arrow key moves the landmark by \[m\].
+const STEP: f64 = 0.05;
 
 /// The landmark, in the panel of the motion prior and in the other.
 pub const LANDMARK: &str = "landmark";
@@ -31,64 +36,94 @@ fn dot(samples: usize) -> f64 {
     (700.0 / samples as f64).sqrt().clamp(0.7, 1.8)
 }
 
-/// √χ²₂,₀.₉: how many deviations an ellipse of 90 % reaches.
-const NINE_TENTHS: f64 = 2.145_966_026_289_347;
+/// Figure w17.3, as it is seen.
+#[derive(Default)]
+pub struct ProposalView;
 
-/// The whole figure at this size \[css px\].
-pub fn build(model: &ProposalModel, width: f64, height: f64) -> Scene {
-    let layout = Layout::new(width);
-    let mut scene = Scene::new(width.max(NARROWEST), height.max(layout.height), model.describe());
-    let found = model.proposals();
-    let proposals = [
-        ("FastSLAM 1.0", "motion prior, then weigh", &found.motion, Role::Prior),
-        ("FastSLAM 2.0", "measurement-aware", &found.aware, Role::Posterior),
-    ];
-    for (panel, (name, what, cloud, role)) in layout.panels.iter().zip(proposals) {
-        heading(&mut scene, &panel.header, (name, Role::Ink), what);
-        view(&mut scene, model, panel, cloud, role);
-        counters(&mut scene, model, panel, cloud);
+impl View for ProposalView {
+    type Model = ProposalModel;
+    const NARROWEST: f64 = NARROWEST;
+
+    fn layout_height(width: f64) -> f64 {
+        Layout::new(width).height
     }
-    let [x, y] = model.setup().landmark;
-    for (panel, name) in layout.panels.iter().zip([LANDMARK, LANDMARK_AGAIN]) {
-        scene.handles.push(Handle {
-            name,
-            title: if name == LANDMARK { "Landmark".into() } else { "Landmark, second panel".into() },
-            at: panel.at([x, y]),
-            value: x,
-            text: format!("{} m ahead of the start, {} m to the left", write(x), write(y)),
-            hover: None,
-        });
+
+    fn draw(&self, model: &ProposalModel, scene: &mut Scene) {
+        let layout = Layout::new(scene.width);
+        let found = model.proposals();
+        let proposals = [
+            ("FastSLAM 1.0", "motion prior, then weigh", &found.motion, Role::Prior),
+            ("FastSLAM 2.0", "measurement-aware", &found.aware, Role::Posterior),
+        ];
+        for (panel, (name, what, cloud, role)) in layout.panels.iter().zip(proposals) {
+            heading(scene, &panel.header, (name, Role::Ink), what);
+            panel_view(scene, model, panel, cloud, role);
+            counters(scene, model, panel, cloud);
+        }
+        let [x, y] = model.setup().landmark;
+        for (panel, name) in layout.panels.iter().zip([LANDMARK, LANDMARK_AGAIN]) {
+            scene.handles.push(Handle {
+                name,
+                title: if name == LANDMARK { "Landmark".into() } else { "Landmark, second panel".into() },
+                at: panel.plane().point([x, y]),
+                value: x,
+                text: format!("{} m ahead of the start, {} m to the left", write(x), write(y)),
+                hover: None,
+            });
+        }
+        ratio(scene, model, &layout);
+        legend(scene, model, &layout.legend);
     }
-    ratio(&mut scene, model, &layout);
-    legend(&mut scene, model, &layout.legend);
-    scene
+
+    fn drag(&self, model: &mut ProposalModel, handle: &str, to: Point, width: f64) {
+        let layout = Layout::new(width);
+        match handle {
+            LANDMARK | LANDMARK_AGAIN => {
+                let place = layout.panels[usize::from(handle == LANDMARK_AGAIN)].plane().world(to);
+                model.put_landmark(place.map(|c| rounded(c, 2)));
+            }
+            GUESS => model.guess_at(rounded(gauge::ratio(&layout.axis, to[0]), 1)),
+            _ => (),
+        }
+    }
+
+    fn nudge(&self, model: &mut ProposalModel, handle: &str, [right, up]: [f64; 2]) {
+        let Recipe { setup, guess, .. } = model.recipe();
+        let ([x, y], guess) = (setup.landmark, *guess);
+        match handle {
+            LANDMARK | LANDMARK_AGAIN => {
+                model.put_landmark([x + STEP * right, y + STEP * up].map(|c| rounded(c, 3)));
+            }
+            GUESS => model.guess_at(rounded(guess + 0.1 * (right + up), 2)),
+            _ => (),
+        }
+    }
 }
 
-fn view(scene: &mut Scene, model: &ProposalModel, panel: &Panel, cloud: &Cloud, role: Role) {
-    let (found, area) = (model.proposals(), &panel.view);
-    scene.marks.extend(density(&found.exact, panel));
+fn panel_view(scene: &mut Scene, model: &ProposalModel, panel: &Panel, drawn: &Cloud, role: Role) {
+    let (found, plane, area) = (model.proposals(), panel.plane(), &panel.view);
+    scene.marks.extend(density(&found.exact, &plane));
 
     // What was known before the sighting, and the sighting.
-    let robot_at = |pose: &Pose2| panel.at([pose.x, pose.y]);
-    let landmarks: Vec<Point> = found.landmarks.iter().map(|l| panel.at([l.mean.x, l.mean.y])).collect();
+    let landmarks: Vec<Point> = found.landmarks.iter().map(|l| plane.point([l.mean.x, l.mean.y])).collect();
     let line = |a: Point, b: Point| clip_polyline(&[a, b], area);
     let odometry = CONTROL.apply(&FROM);
-    let drive = line(robot_at(&FROM), robot_at(&odometry));
+    let drive = line(plane.position(&FROM), plane.position(&odometry));
     scene.marks.push(Mark::Lines { lines: drive, width: 1.25, dash: None, role: Role::Muted });
-    let sight = line(robot_at(&found.truth), landmarks[0]);
+    let sight = line(plane.position(&found.truth), landmarks[0]);
     scene.marks.push(Mark::Lines { lines: sight, width: 1.25, dash: Some([2.0, 4.0]), role: Role::Landmark });
 
-    let radius = dot(cloud.poses.len());
-    let centres = cloud.poses.iter().map(robot_at).filter(|place| area.inset(radius).contains(*place)).collect();
-    scene.marks.push(Mark::Discs { centres, radius, role });
+    let radius = dot(drawn.poses.len());
+    let samples = drawn.poses.iter().map(|pose| plane.position(pose));
+    scene.marks.push(cloud(samples, &area.inset(radius), radius, role));
     let outline = model.outline().iter();
     let region: Vec<_> = outline
-        .flat_map(|line| clip_polyline(&line.iter().map(|place| panel.at(*place)).collect::<Vec<_>>(), area))
+        .flat_map(|line| clip_polyline(&line.iter().map(|place| plane.point(*place)).collect::<Vec<_>>(), area))
         .collect();
     let gaussian = match role {
         Role::Posterior => {
             let covariance = found.gaussian.covariance.fixed_view::<2, 2>(0, 0).into_owned();
-            oval(panel, [found.gaussian.mean.x, found.gaussian.mean.y], &covariance.into())
+            plane.region([found.gaussian.mean.x, found.gaussian.mean.y], covariance.into(), NINE_TENTHS)
         }
         _ => Vec::new(),
     };
@@ -99,21 +134,21 @@ fn view(scene: &mut Scene, model: &ProposalModel, panel: &Panel, cloud: &Cloud, 
     scene.marks.push(Mark::Lines { lines: region, width: 1.75, dash: None, role: Role::Ink });
     scene.marks.push(Mark::Lines { lines: gaussian, width: 1.75, dash: Some([5.0, 3.0]), role });
     for (k, (landmark, at)) in found.landmarks.iter().zip(&landmarks).enumerate() {
-        let reach = oval(panel, [landmark.mean.x, landmark.mean.y], &landmark.covariance.into());
+        let reach = plane.region([landmark.mean.x, landmark.mean.y], landmark.covariance.into(), NINE_TENTHS);
         scene.marks.push(Mark::Lines { lines: reach, width: 1.25, dash: None, role: Role::Landmark });
         if area.inset(8.0).contains(*at) {
             if k == 0 {
                 scene.marks.push(ring(*at, 10.0));
             }
-            scene.marks.push(diamond(*at, 6.0, Role::Landmark));
+            scene.marks.push(filled_diamond(*at, 6.0, Role::Landmark));
         }
     }
-    robot(scene, panel, &FROM, Role::Muted);
-    robot(scene, panel, &found.truth, Role::Ink);
+    triangle(scene, &plane, &FROM, Role::Muted);
+    triangle(scene, &plane, &found.truth, Role::Ink);
     if let [[ax, ay], [bx, by]] = landmarks[..] {
         // Where the robot is if the sighting is of A, or of B: the same sighting of another place is made from another place.
         let other = Pose2::new(found.truth.x + TWIN[0], found.truth.y + TWIN[1], found.truth.theta);
-        let below = |pose: &Pose2| panel.at([pose.x, pose.y - 0.42]);
+        let below = |pose: &Pose2| plane.point([pose.x, pose.y - 0.42]);
         for (label, [x, y]) in
             [("A", [ax, ay - 19.0]), ("B", [bx, by - 19.0]), ("if A", below(&found.truth)), ("if B", below(&other))]
         {
@@ -125,16 +160,19 @@ fn view(scene: &mut Scene, model: &ProposalModel, panel: &Panel, cloud: &Cloud, 
             }
         }
     }
-    scale_bar(scene, panel);
+    // Half a metre, in the lower left corner.
+    let (x, y, length) = (area.x + 10.0, area.bottom() - 8.0, 0.5 * plane.scale);
+    scene.marks.push(bar([x, y], length));
+    let name = Rect::new(x, y - 14.0, length, 12.0);
+    scene.marks.push(text(name, Anchor::Middle, 9.5, Weight::Regular, Role::Ink, "0.5 m"));
     scene.marks.push(Mark::Frame { area: *area, width: 1.0, role: Role::Frame });
 }
 
 /// The posterior's cells that lie wholly in the panel.
-fn density(posterior: &Posterior, panel: &Panel) -> Option<Mark> {
-    let Posterior { cells, densities, .. } = posterior;
+fn density(posterior: &Posterior, plane: &Plane) -> Option<Mark> {
+    let (Posterior { cells, densities, .. }, area) = (posterior, &plane.area);
     let (Area { low, .. }, size) = (cells.area, cells.size());
-    let (left_below, right_above) =
-        (panel.place([panel.view.x, panel.view.bottom()]), panel.place([panel.view.right(), panel.view.y]));
+    let (left_below, right_above) = (plane.world([area.x, area.bottom()]), plane.world([area.right(), area.y]));
     let first = [0, 1].map(|a| ((left_below[a] - low[a]) / size[a]).ceil().max(0.0) as usize);
     let end = [0, 1].map(|a| (((right_above[a] - low[a]) / size[a]).floor().max(0.0) as usize).min(cells.side));
     if first[0] >= end[0] || first[1] >= end[1] {
@@ -144,47 +182,29 @@ fn density(posterior: &Posterior, panel: &Panel) -> Option<Mark> {
     let shade = |k: usize| (255.0 * densities[k] / peak).round() as u8;
     let rows = (first[1]..end[1]).rev();
     let shades = rows.flat_map(|j| (first[0]..end[0]).map(move |i| j * cells.side + i)).map(shade).collect();
-    let corner = |i: usize, j: usize| panel.at([low[0] + i as f64 * size[0], low[1] + j as f64 * size[1]]);
+    let corner = |i: usize, j: usize| plane.point([low[0] + i as f64 * size[0], low[1] + j as f64 * size[1]]);
     let ([x, bottom], [right, y]) = (corner(first[0], first[1]), corner(end[0], end[1]));
     let cells = Cells { columns: end[0] - first[0], shades };
     Some(Mark::Raster { area: Rect::new(x, y, right - x, bottom - y), cells, shading: Shading::Density })
 }
 
-/// The ellipse that holds 90 % of a Gaussian of the world, cut at the panel's edge.
-fn oval(panel: &Panel, mean: [f64; 2], covariance: &[[f64; 2]; 2]) -> Vec<Vec<Point>> {
-    let [[xx, xy], [_, yy]] = *covariance;
-    let square = panel.scale() * panel.scale();
-    let [xx, xy, yy] = [xx * square, -xy * square, yy * square];
-    clip_polyline(&closed(ellipse(panel.at(mean), [[xx, xy], [xy, yy]], NINE_TENTHS)), &panel.view)
-}
-
 /// A triangle that points where the robot looks.
-fn robot(scene: &mut Scene, panel: &Panel, pose: &Pose2, role: Role) {
-    let length = 9.0 / panel.scale();
-    let corners = [[1.0, 0.0], [-0.6, 0.6], [-0.6, -0.6]].map(|c| panel.at(pose.transform(c.map(|x| x * length))));
-    if corners.iter().all(|corner| panel.view.contains(*corner)) {
-        let rim = Mark::Lines { lines: vec![closed(corners.to_vec())], width: 2.5, dash: None, role: Role::Paper };
-        scene.marks.extend([rim, Mark::Polygons { polygons: vec![corners.to_vec()], role }]);
+fn triangle(scene: &mut Scene, plane: &Plane, pose: &Pose2, role: Role) {
+    let length = 9.0 / plane.scale;
+    let corners = [[1.0, 0.0], [-0.6, 0.6], [-0.6, -0.6]].map(|c| plane.point(pose.transform(c.map(|x| x * length))));
+    if corners.iter().all(|corner| plane.area.contains(*corner)) {
+        rimmed_polygon(scene, corners.to_vec(), closed, role);
     }
 }
 
-fn diamond([x, y]: Point, r: f64, role: Role) -> Mark {
-    Mark::Polygons { polygons: vec![vec![[x, y - r], [x + r, y], [x, y + r], [x - r, y]]], role }
+fn filled_diamond(at: Point, r: f64, role: Role) -> Mark {
+    Mark::Polygons { polygons: vec![diamond(at, r)], role }
 }
 
 /// Around what can be moved.
 fn ring(centre: Point, radius: f64) -> Mark {
     let circle = closed(ellipse(centre, [[1.0, 0.0], [0.0, 1.0]], radius));
     Mark::Lines { lines: vec![circle], width: 2.0, dash: None, role: Role::Accent }
-}
-
-/// Half a metre, in the lower left corner.
-fn scale_bar(scene: &mut Scene, panel: &Panel) {
-    let (x, y, length) = (panel.view.x + 10.0, panel.view.bottom() - 8.0, 0.5 * panel.scale());
-    let bar = vec![[x, y - 3.0], [x, y], [x + length, y], [x + length, y - 3.0]];
-    scene.marks.push(Mark::Lines { lines: vec![bar], width: 1.0, dash: None, role: Role::Ink });
-    let area = Rect::new(x, y - 14.0, length, 12.0);
-    scene.marks.push(text(area, Anchor::Middle, 9.5, Weight::Regular, Role::Ink, "0.5 m"));
 }
 
 fn counters(scene: &mut Scene, model: &ProposalModel, panel: &Panel, cloud: &Cloud) {
@@ -278,7 +298,7 @@ fn ratio(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
     if let (Some(guess), Some(ratio)) = (model.guess(), model.at_half()) {
         let between = vec![[at(guess), y - 9.0], [at(ratio), y - 9.0]];
         scene.marks.push(Mark::Lines { lines: vec![between], width: 2.0, dash: Some([3.0, 3.0]), role: Role::Accent });
-        scene.marks.push(diamond([at(ratio), y - 9.0], 7.0, Role::Ink));
+        scene.marks.push(filled_diamond([at(ratio), y - 9.0], 7.0, Role::Ink));
     }
     scene.marks.push(Mark::Discs { centres: vec![[at(now), y]], radius: 5.0, role: Role::Ink });
     if let Some(guess) = model.guess() {
@@ -299,82 +319,39 @@ fn pointer([x, y]: Point, r: f64) -> Mark {
     Mark::Polygons { polygons: vec![vec![[x, y], [x - r, y - 1.7 * r], [x + r, y - 1.7 * r]]], role: Role::Accent }
 }
 
-/// What a legend's sample looks like.
-#[derive(Clone, Copy)]
-enum Sample {
-    Dots,
-    Density,
-    Line(Role, Option<[f64; 2]>),
-    Landmark,
-    Robot(Role),
-    Now,
-    Guess,
-    Half,
-}
-
 fn legend(scene: &mut Scene, model: &ProposalModel, area: &Rect) {
+    let line = |role, dash| Sample::line(role, 1.75, dash);
+    let density = |place: &Rect| {
+        let cells = Cells { columns: 3, shades: vec![90, 255, 90] };
+        vec![Mark::Raster { area: *place, cells, shading: Shading::Density }]
+    };
+    let samples = |place: &Rect| {
+        let [x, y] = place.centre();
+        let dot = |(dx, role)| Mark::Discs { centres: vec![[x + dx, y]], radius: 1.8, role };
+        [(-4.0, Role::Prior), (4.0, Role::Posterior)].map(dot).into()
+    };
+    let landmark = |place: &Rect| vec![ring(place.centre(), 7.0), filled_diamond(place.centre(), 4.0, Role::Landmark)];
+    let robot = |role| {
+        Sample::at(move |[x, y]| {
+            let polygons = vec![vec![[x + 7.0, y], [x - 4.5, y + 4.5], [x - 4.5, y - 4.5]]];
+            Mark::Polygons { polygons, role }
+        })
+    };
     let mut items = vec![
-        (Sample::Density, "posterior"),
-        (Sample::Line(Role::Ink, None), "its 90 %"),
-        (Sample::Line(Role::Posterior, Some([5.0, 3.0])), "Gaussian of 2.0"),
-        (Sample::Dots, "samples"),
-        (Sample::Landmark, "landmark"),
-        (Sample::Robot(Role::Muted), "robot before,"),
-        (Sample::Robot(Role::Ink), "after"),
-        (Sample::Now, "ratio"),
+        (Sample::new(density), "posterior"),
+        (line(Role::Ink, None), "its 90 %"),
+        (line(Role::Posterior, Some([5.0, 3.0])), "Gaussian of 2.0"),
+        (Sample::new(samples), "samples"),
+        (Sample::new(landmark), "landmark"),
+        (robot(Role::Muted), "robot before,"),
+        (robot(Role::Ink), "after"),
+        (Sample::dot(Role::Ink, 4.5), "ratio"),
     ];
     if model.guess().is_some() {
-        items.push((Sample::Guess, "guess"));
+        items.push((Sample::at(|[x, y]| pointer([x, y + 6.0], 6.0)), "guess"));
     }
     if model.at_half().is_some() {
-        items.push((Sample::Half, "at half"));
+        items.push((Sample::at(|at| filled_diamond(at, 5.5, Role::Ink)), "at half"));
     }
-    let (size, width, gap) = (11.5, 18.0, 12.0);
-    let [mut x, mut y] = [area.x, area.y];
-    for (sample, name) in items {
-        let words = font::measure(name, size, Weight::Regular) + 0.01;
-        if x > area.x && x + width + 5.0 + words > area.right() {
-            (x, y) = (area.x, y + LINE);
-        }
-        let place = Rect::new(x, y + 0.5 * (LINE - 12.0), width, 12.0);
-        draw_sample(scene, sample, &place);
-        let line = Text::new(
-            Rect::new(place.right() + 5.0, y, words, LINE),
-            Anchor::Start,
-            size,
-            Weight::Regular,
-            Role::Muted,
-            name,
-        );
-        x = place.right() + 5.0 + words + gap;
-        scene.marks.push(Mark::Text(line));
-    }
-}
-
-fn draw_sample(scene: &mut Scene, sample: Sample, place: &Rect) {
-    let [cx, cy] = place.centre();
-    let marks = &mut scene.marks;
-    match sample {
-        Sample::Dots => {
-            for (dx, role) in [(-4.0, Role::Prior), (4.0, Role::Posterior)] {
-                marks.push(Mark::Discs { centres: vec![[cx + dx, cy]], radius: 1.8, role });
-            }
-        }
-        Sample::Density => {
-            let cells = Cells { columns: 3, shades: vec![90, 255, 90] };
-            marks.push(Mark::Raster { area: *place, cells, shading: Shading::Density });
-        }
-        Sample::Line(role, dash) => {
-            let lines = vec![vec![[place.x, cy], [place.right(), cy]]];
-            marks.push(Mark::Lines { lines, width: 1.75, dash, role });
-        }
-        Sample::Landmark => marks.extend([ring([cx, cy], 7.0), diamond([cx, cy], 4.0, Role::Landmark)]),
-        Sample::Robot(role) => {
-            let polygons = vec![vec![[cx + 7.0, cy], [cx - 4.5, cy + 4.5], [cx - 4.5, cy - 4.5]]];
-            marks.push(Mark::Polygons { polygons, role });
-        }
-        Sample::Now => marks.push(Mark::Discs { centres: vec![[cx, cy]], radius: 4.5, role: Role::Ink }),
-        Sample::Guess => marks.push(pointer([cx, cy + 6.0], 6.0)),
-        Sample::Half => marks.push(diamond([cx, cy], 5.5, Role::Ink)),
-    }
+    Legend { gap: 12.0, ..Legend::default() }.draw(scene, area, items);
 }

@@ -1,0 +1,195 @@
+//! One filter in its column: its name, and N_eff, lineage and errors over the steps.
+
+use super::{
+    layout::Column,
+    model::{Moment, ResamplingModel, SELECTIVE},
+};
+use crate::decimal::{fixed, write};
+use crate::{
+    font::{self, Weight},
+    model::Model,
+    scene::{Anchor, Chart, Mark, Point, Rect, Role, Scene, heading, n_eff, text},
+};
+
+/// Font size of what is written above the charts \[css px\].
+pub const SIZE: f64 = 11.5;
+
+/// Dash and gap of the second curve of a chart and of the threshold, and from dot to dot where something happens \[css px\].
+pub const SECOND: [f64; 2] = [4.0, 3.0];
+pub const THRESHOLD: [f64; 2] = [2.0, 2.0];
+const EVENT: f64 = 4.0;
+
+/// The end of the axis for errors up to this \[m\]: a round number.
+pub fn error_scale(largest: f64) -> f64 {
+    [0.2, 0.3, 0.5, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0]
+        .into_iter()
+        .find(|end| largest <= *end)
+        .unwrap_or(50.0)
+}
+
+pub const NAMES: [&str; 3] = ["Never", "Every step", "Selective"];
+
+/// One filter in its column.
+pub struct Filter<'a> {
+    pub model: &'a ResamplingModel,
+    pub policy: usize,
+    pub column: &'a Column,
+    /// End of the axis of errors \[m\].
+    pub error_scale: f64,
+}
+
+impl Filter<'_> {
+    /// A chart, by its rank.
+    pub fn chart(&self, rank: usize) -> Chart {
+        Chart { area: self.column.charts[rank], last: self.model.step_count() }
+    }
+
+    pub fn particles(&self) -> usize {
+        self.model.setup().particles
+    }
+
+    pub fn header(&self, scene: &mut Scene) {
+        let Rect { x, y, w, h } = self.column.header;
+        let step = format!("step {}", self.model.cursor());
+        let role = if self.model.looks_back() { Role::Accent } else { Role::Muted };
+        let step_width = font::measure(&step, 12.5, Weight::Regular) + 2.0;
+        let rest = match self.policy {
+            0 => "weights only multiply".into(),
+            1 => "weights reset".into(),
+            _ => format!("below {} M", write(self.model.setup().threshold)),
+        };
+        let title = Rect::new(x, y, w - step_width - 8.0, h);
+        let room = title.w - font::measure(NAMES[self.policy], 13.5, Weight::SemiBold) - 8.0;
+        let rest = if font::measure(&rest, 12.5, Weight::Regular) < room { &rest } else { "" };
+        heading(scene, &title, (NAMES[self.policy], Role::Ink), rest);
+        let area = Rect::new(x + w - step_width, y, step_width, h);
+        scene.marks.push(text(area, Anchor::End, 12.5, Weight::Regular, role, step));
+    }
+
+    /// A line through all charts at the step read, and at what happens on the course.
+    pub fn cursor(&self, scene: &mut Scene) {
+        let through = |step: u32| {
+            let x = self.chart(0).x(step);
+            self.column.charts.iter().map(move |chart| (x, chart.y, chart.bottom()))
+        };
+        let events = self.events().into_iter().flat_map(|(step, _)| through(step));
+        let dots = events.flat_map(|(x, y0, y1)| {
+            let count = ((y1 - y0) / EVENT) as usize;
+            (0..count).map(move |k| y0 + EVENT * k as f64).map(move |y| vec![[x, y], [x, y + 1.0]])
+        });
+        scene.marks.push(Mark::Strands { lines: dots.collect(), width: 1.0, role: Role::Muted });
+        let role = if self.model.looks_back() { Role::Accent } else { Role::Muted };
+        let lines = through(self.model.cursor()).map(|(x, y0, y1)| vec![[x, y0], [x, y1]]).collect();
+        scene.marks.push(Mark::Strands { lines, width: 1.0, role });
+    }
+
+    /// Steps of the course that have a name.
+    pub fn events(&self) -> Vec<(u32, &'static str)> {
+        let run = self.model.run();
+        let named = [(run.lost_from(), "lost"), (run.evidence_at(), "sign")];
+        named.into_iter().filter_map(|(step, name)| Some((step?, name))).collect()
+    }
+
+    /// Name of a chart at the left of its line, and at the right what is written beside its curves.
+    pub fn label(&self, scene: &mut Scene, chart: usize, values: &[(String, Weight, Role)]) -> Rect {
+        let Rect { x, y, w, h } = self.column.labels[chart];
+        let mut right = x + w;
+        for (value, weight, role) in values.iter().rev() {
+            let width = font::measure(value, SIZE, *weight) + 0.01;
+            scene.marks.push(text(
+                Rect::new(right - width, y, width, h),
+                Anchor::Start,
+                SIZE,
+                *weight,
+                *role,
+                value.clone(),
+            ));
+            right -= width + 8.0;
+        }
+        Rect::new(x, y, right - x, h)
+    }
+
+    pub fn name(&self, scene: &mut Scene, area: &Rect, name: &str) {
+        scene.marks.push(text(*area, Anchor::Start, SIZE, Weight::Regular, Role::Muted, name));
+    }
+
+    /// A curve over the steps shown, by the share of the chart's height.
+    fn curve(&self, chart: usize, height: impl Fn(&Moment) -> f64) -> Vec<Point> {
+        self.chart(chart).curve(self.model.history(self.policy).map(|moment| (moment.report.step, height(moment))))
+    }
+
+    /// Where N_eff calls for resampling.
+    fn threshold(&self, scene: &mut Scene) {
+        let Rect { x, w, h, .. } = self.column.charts[0];
+        let y = self.column.charts[0].bottom() - h * self.model.setup().threshold;
+        let [dash, gap] = THRESHOLD;
+        let count = ((w / (dash + gap)) as usize).min(1000); // whatever the width of the figure
+        let dashes = (0..count).map(|k| x + (dash + gap) * k as f64);
+        let lines = dashes.map(|x| vec![[x, y], [x + dash, y]]).collect();
+        let role = if self.policy == SELECTIVE { Role::Accent } else { Role::Muted };
+        scene.marks.push(Mark::Strands { lines, width: 1.0, role });
+    }
+
+    /// Two curves, the second dashed below the first, and dots where the cursor cuts them.
+    fn curves(&self, scene: &mut Scene, first: Vec<Point>, second: Option<Vec<Point>>) {
+        let at = self.model.cursor() as usize;
+        let mut dots = vec![first[at]];
+        if let Some(second) = second {
+            dots.push(second[at]);
+            scene.marks.push(Mark::Lines { lines: vec![second], width: 1.25, dash: Some(SECOND), role: Role::Muted });
+        }
+        scene.marks.push(Mark::Lines { lines: vec![first], width: 1.5, dash: None, role: Role::Ink });
+        scene.marks.push(Mark::Discs { centres: dots, radius: 3.0, role: Role::Ink });
+    }
+
+    /// N_eff, the threshold, and the steps that resampled.
+    pub fn ess(&self, scene: &mut Scene) {
+        let (m, Moment { report, resampled, .. }) = (self.particles() as f64, self.model.read(self.policy));
+        let times = format!("resampled {resampled}×");
+        let values = [
+            (times, Weight::Regular, if *resampled > 0 { Role::Copied } else { Role::Muted }),
+            (format!("{} of {}", fixed(report.ess, 1), self.particles()), Weight::SemiBold, Role::Ink),
+        ];
+        let rest = self.label(scene, 0, &values);
+        n_eff(scene, &rest, SIZE, Weight::Regular, Role::Muted);
+        scene.marks.extend(self.chart(0).edges());
+        self.threshold(scene);
+        let curve = self.curve(0, |moment| moment.report.ess / m);
+        let history = self.model.history(self.policy).zip(&curve);
+        let centres = history.filter(|(moment, _)| moment.report.resampled()).map(|(_, at)| *at).collect();
+        self.curves(scene, curve.clone(), None);
+        scene.marks.push(Mark::Discs { centres, radius: 1.75, role: Role::Copied });
+    }
+
+    /// Distinct ancestors at the start, and some steps back.
+    pub fn lineage(&self, scene: &mut Scene) {
+        let (m, back) = (self.particles() as f64, self.model.back());
+        let Moment { report, .. } = self.model.read(self.policy);
+        let values = [
+            (format!("{back} back: {}", report.descent.lineage(back)), Weight::Regular, Role::Muted),
+            (format!("at the start: {}", report.descent.lineage(report.step)), Weight::SemiBold, Role::Ink),
+        ];
+        let rest = self.label(scene, 1, &values);
+        self.name(scene, &rest, "Ancestors");
+        scene.marks.extend(self.chart(1).edges());
+        let of = |back: u32| self.curve(1, |moment| f64::from(moment.report.descent.lineage(back)) / m);
+        self.curves(scene, of(u32::MAX), Some(of(back)));
+    }
+
+    /// Position errors of the best particle and of the weighted mean.
+    pub fn errors(&self, scene: &mut Scene) {
+        let Moment { report, .. } = self.model.read(self.policy);
+        // Three digits, for want of room.
+        let metres = |x: f64| fixed(x, if x < 10.0 { 2 } else { 1 });
+        let values = [
+            (format!("mean {}", metres(report.error_mean)), Weight::Regular, Role::Muted),
+            (format!("best {} m", metres(report.error_best)), Weight::SemiBold, Role::Ink),
+        ];
+        let rest = self.label(scene, 2, &values);
+        self.name(scene, &rest, &format!("Error to {} m", write(self.error_scale)));
+        scene.marks.extend(self.chart(2).edges());
+        let best = self.curve(2, |moment| moment.report.error_best / self.error_scale);
+        let mean = self.curve(2, |moment| moment.report.error_mean / self.error_scale);
+        self.curves(scene, best, Some(mean));
+    }
+}

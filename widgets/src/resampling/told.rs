@@ -1,0 +1,143 @@
+//! What is told of the three filters: the readouts and the data.
+
+use super::model::{Moment, ResamplingModel};
+use crate::decimal::fixed;
+use crate::model::{Column, Readout, Series};
+use fastslam_lab::experiment::policies::{POLICIES, PolicyCourse};
+
+/// The numbers of the step that is read.
+pub fn readouts(model: &ResamplingModel) -> Vec<Readout> {
+    let (step, m) = (model.cursor(), model.setup().particles);
+    let mut readouts = Vec::new();
+    for (policy, names) in NAMES.iter().enumerate() {
+        let Moment { report, resampled, .. } = model.read(policy);
+        let of_all = |x: f64, text: String| (x, format!("{text} of {m}"));
+        let (ess, ess_text) = of_all(report.ess, fixed(report.ess, 1));
+        let lineage = report.descent.lineage(step);
+        let (lineage, lineage_text) = of_all(lineage.into(), lineage.to_string());
+        let (nodes, paths) = (report.tree_nodes(), report.path_nodes(m));
+        let [ess_name, lineage_name, error_name, tree_name, right_name, resampled_name] = names.readouts;
+        readouts.extend([
+            Readout::new(
+                ess_name.0,
+                ess_name.1,
+                ess,
+                ess_text,
+                "",
+                "Effective number of particles before resampling: M if all weigh the same, 1 if one has all the weight.",
+            ),
+            Readout::new(
+                lineage_name.0,
+                lineage_name.1,
+                lineage,
+                lineage_text,
+                "",
+                "How many of the particles of step 0 still have a descendant.",
+            ),
+            Readout::new(
+                error_name.0,
+                error_name.1,
+                report.error_best,
+                fixed(report.error_best, 2),
+                "m",
+                "Distance of the best particle from the truth.",
+            ),
+            Readout::new(
+                tree_name.0,
+                tree_name.1,
+                f64::from(nodes),
+                format!("{nodes} of {paths}"),
+                "nodes",
+                "Poses that the particles still need, each counted once, of those that as many separate paths would hold.",
+            ),
+        ]);
+        readouts.push(match (model.setup().course, report.right) {
+            (PolicyCourse::Lap, _) => Readout::new(
+                resampled_name.0,
+                resampled_name.1,
+                f64::from(*resampled),
+                format!("{resampled} of {step}"),
+                "steps",
+                "How many steps resampled.",
+            ),
+            (PolicyCourse::Wings, right) => Readout::new(
+                right_name.0,
+                right_name.1,
+                right.map_or(f64::NAN, f64::from),
+                format!("{} of {m}", right.unwrap_or(0)),
+                "",
+                "Particles that hold the true explanation: they are near the robot and look its way.",
+            ),
+        });
+    }
+    readouts
+}
+
+/// A row for each step simulated so far.
+pub fn series(model: &ResamplingModel) -> Series {
+    let row = |(step, all): (usize, &[Moment; 3])| {
+        let of = |Moment { report, .. }: &Moment| {
+            [
+                report.log_evidence,
+                report.ess,
+                f64::from(u8::from(report.resampled())),
+                f64::from(report.descent.lineage(report.step)),
+                f64::from(report.descent.lineage(model.back())),
+                report.error_best,
+                report.error_mean,
+                report.rms_best,
+                f64::from(report.tree_nodes()),
+                report.right.map_or(f64::NAN, f64::from),
+            ]
+        };
+        core::iter::once(step as f64).chain(all.iter().flat_map(of)).collect()
+    };
+    Series { columns: COLUMNS, rows: model.moments().iter().enumerate().map(row).collect() }
+}
+
+/// What one filter's numbers are called.
+struct Names {
+    /// Identifier and title of N_eff, lineage, error, tree, right wing and steps resampled.
+    readouts: [(&'static str, &'static str); 6],
+}
+
+macro_rules! names {
+    ($name:literal, $title:literal) => {
+        Names {
+            readouts: [
+                (concat!($name, "_ess"), concat!($title, ": N_eff")),
+                (concat!($name, "_lineage"), concat!($title, ": lineage")),
+                (concat!($name, "_error_best"), concat!($title, ": error of the best")),
+                (concat!($name, "_tree"), concat!($title, ": tree")),
+                (concat!($name, "_right"), concat!($title, ": right wing")),
+                (concat!($name, "_resampled"), concat!($title, ": resampled")),
+            ],
+        }
+    };
+}
+
+/// In the order of [`POLICIES`].
+const NAMES: [Names; POLICIES.len()] =
+    [names!("never", "Never"), names!("always", "Every step"), names!("selective", "Selective")];
+
+macro_rules! columns {
+    ($($name:literal)*) => {
+        &[
+            Column::new("step", "step of the course"),
+            $(
+                Column::new(concat!($name, "_log_evidence_nats"), "log of the evidence as the filter estimates it [nats]"),
+                Column::new(concat!($name, "_ess"), "effective number of particles before resampling"),
+                Column::new(concat!($name, "_resampled"), "1 where the step resampled"),
+                Column::new(concat!($name, "_lineage"), "distinct ancestors at step 0"),
+                Column::new(concat!($name, "_lineage_back"), "distinct ancestors as many steps back as the second gauge looks"),
+                Column::new(concat!($name, "_error_best_m"), "distance of the best particle from the truth [m]"),
+                Column::new(concat!($name, "_error_mean_m"), "distance of the weighted mean from the truth [m]"),
+                Column::new(concat!($name, "_rms_best_m"), "RMS position error of the best particle's path so far [m]"),
+                Column::new(concat!($name, "_tree_nodes"), "poses that the particles still need, each counted once"),
+                Column::new(concat!($name, "_right"), "particles that hold the true explanation, from where there are two"),
+            )*
+        ]
+    };
+}
+
+const COLUMNS: &[Column] = columns!("never" "always" "selective");

@@ -1,0 +1,109 @@
+//! The tree of a filter's ancestry, and the steps below it.
+
+use super::{filter::Filter, model::Moment};
+use crate::{
+    font::{self, Weight},
+    model::Model,
+    scene::{Anchor, Mark, Point, Rect, Role, Scene, text},
+};
+
+/// Strength of a branch that died out, of 255.
+pub const DEAD: u8 = 25;
+
+/// A line of descent in the tree.
+#[derive(Clone)]
+struct Line {
+    points: Vec<Point>,
+    lives: bool,
+}
+
+impl Line {
+    /// On to a point; what goes straight on in its slot is one piece.
+    fn go(&mut self, [x, y]: Point) {
+        match &mut self.points[..] {
+            [.., [_, y0], last @ [_, _]] if *y0 == y && last[1] == y => last[0] = x,
+            _ => self.points.push([x, y]),
+        }
+    }
+}
+
+impl Filter<'_> {
+    /// Who descends from whom: every edge once.
+    pub fn tree(&self, scene: &mut Scene) {
+        let Moment { report, .. } = self.model.read(self.policy);
+        let size = format!("{} of {} nodes", report.tree_nodes(), report.path_nodes(self.particles()));
+        let rest = self.label(scene, 3, &[(size, Weight::SemiBold, Role::Ink)]);
+        self.name(scene, &rest, "Ancestry tree");
+
+        let alive = self.model.alive(self.policy);
+        let [mut dead, mut living] = [Vec::new(), Vec::new()];
+        let mut close = |line: Line| if line.lives { living.push(line.points) } else { dead.push(line.points) };
+        // The lines that end at the step before, by slot: one child of each goes on with its line.
+        let mut open: Vec<Option<Line>> = vec![None; self.particles()];
+        for ((before, step), alive) in self.model.history(self.policy).zip(1..).zip(&alive[1..]) {
+            let mut longer = vec![None; self.particles()];
+            for (to, &lives) in alive.iter().enumerate() {
+                let from = before.copied_from(to);
+                let line = open[from].take_if(|line| line.lives == lives);
+                let mut line = line.unwrap_or_else(|| Line { points: vec![self.node(step - 1, from)], lives });
+                line.go(self.node(step, to));
+                longer[to] = Some(line);
+            }
+            core::mem::replace(&mut open, longer).into_iter().flatten().for_each(&mut close);
+        }
+        open.into_iter().flatten().for_each(close);
+        let apart = self.column.charts[3].h / self.particles() as f64;
+        scene.marks.push(Mark::Strands { lines: dead, width: (0.16 * apart).clamp(0.6, 1.0), role: Role::Level(DEAD) });
+        scene.marks.push(Mark::Strands { lines: living, width: (0.3 * apart).clamp(1.0, 2.0), role: Role::Path });
+        self.coalescence(scene, &alive);
+    }
+
+    /// The latest common ancestor of all particles.
+    fn coalescence(&self, scene: &mut Scene, alive: &[Vec<bool>]) {
+        let Some(step) = self.model.now(self.policy).report.descent.coalescence() else { return };
+        let Some(slot) = alive[step as usize].iter().position(|alive| *alive) else { return };
+        let at = self.node(step, slot);
+        scene.marks.push(Mark::Discs { centres: vec![at], radius: 6.0, role: Role::Paper });
+        scene.marks.extend(common(at));
+    }
+
+    /// Where a particle of a step is drawn.
+    fn node(&self, step: u32, slot: usize) -> Point {
+        let area = &self.column.charts[3];
+        [self.chart(3).x(step), area.y + area.h * (slot as f64 + 0.5) / self.particles() as f64]
+    }
+
+    /// Steps below the tree.
+    pub fn axis(&self, scene: &mut Scene) {
+        let Rect { x, y, w, h } = self.column.axis;
+        let size = 10.5;
+        let mut taken: Vec<[f64; 2]> = Vec::new();
+        let last = self.model.step_count();
+        let ancestor = self.model.now(self.policy).report.descent.coalescence();
+        let ancestor = ancestor.map(|step| (step, format!("step {step}"), true));
+        let [start, end] = [(0, "step 0".to_string(), false), (last, last.to_string(), false)];
+        let events = self.events().into_iter().map(|(step, name)| (step, name.to_string(), false));
+        for (step, label, ring) in ancestor.into_iter().chain([start]).chain(events).chain([end]) {
+            let room = if ring { 12.0 } else { 0.0 };
+            let width = room + font::measure(&label, size, Weight::Regular) + 0.01;
+            // A ring stands below the one in the tree, with its step beside it.
+            let wanted = self.chart(3).x(step) - if ring { 4.5 } else { 0.5 * width };
+            let left = wanted.min(x + w - width).max(x);
+            if taken.iter().any(|[from, to]| left < *to + 6.0 && *from < left + width + 6.0) {
+                continue;
+            }
+            taken.push([left, left + width]);
+            if ring {
+                scene.marks.extend(common([left + 4.5, y + 0.5 * h]));
+            }
+            let role = if ring { Role::Ink } else { Role::Muted };
+            let area = Rect::new(left + room, y, width - room, h);
+            scene.marks.push(text(area, Anchor::Start, size, Weight::Regular, role, label));
+        }
+    }
+}
+
+/// The mark of a common ancestor.
+pub fn common(at: Point) -> [Mark; 2] {
+    [(4.5, Role::Ink), (2.5, Role::Paper)].map(|(radius, role)| Mark::Discs { centres: vec![at], radius, role })
+}

@@ -1,0 +1,106 @@
+//! What is to be seen of the three filters: curves over the steps, the tree of their ancestry, and where their particles are.
+
+use super::{
+    filter::{Filter, SECOND, THRESHOLD, error_scale},
+    layout::{Layout, NARROWEST},
+    model::{Moment, ResamplingModel},
+    tree::{DEAD, common},
+};
+use crate::decimal::fixed;
+use crate::{
+    model::Model,
+    scene::{Chart, Handle, Legend, Mark, Point, Rect, Role, Sample, Scene, closed, diamond, robot},
+    view::{View, whole_step},
+};
+
+/// Name of the handle that chooses the step read.
+pub const CURSOR: &str = "cursor";
+
+/// Figure w17.2, as it is seen.
+#[derive(Default)]
+pub struct ResamplingView;
+
+impl View for ResamplingView {
+    type Model = ResamplingModel;
+    const NARROWEST: f64 = NARROWEST;
+
+    fn layout_height(width: f64) -> f64 {
+        Layout::new(width).height
+    }
+
+    fn draw(&self, model: &ResamplingModel, scene: &mut Scene) {
+        let layout = Layout::new(scene.width);
+        let error_scale = error_scale(model.largest_error());
+        for (policy, column) in layout.columns.iter().enumerate() {
+            let filter = Filter { model, policy, column, error_scale };
+            filter.header(scene);
+            filter.cursor(scene);
+            filter.ess(scene);
+            filter.lineage(scene);
+            filter.errors(scene);
+            filter.tree(scene);
+            filter.axis(scene);
+            filter.map(scene, layout.wide);
+        }
+        legend(scene, model, &layout.legend);
+        let chart = Chart { area: layout.columns[0].charts[0], last: model.step_count() };
+        scene.handles.push(Handle {
+            name: CURSOR,
+            title: "Step read".into(),
+            at: [chart.x(model.cursor()), chart.area.centre()[1]],
+            value: f64::from(model.cursor()),
+            text: told(model),
+            hover: Some(layout.charts()),
+        });
+    }
+
+    fn drag(&self, model: &mut ResamplingModel, handle: &str, to: Point, width: f64) {
+        if handle == CURSOR {
+            let layout = Layout::new(width);
+            let column = layout.columns.iter().rev().find(|c| c.header.x <= to[0]).unwrap_or(&layout.columns[0]);
+            let chart = &column.charts[0];
+            model.look(((to[0] - chart.x) / chart.w * f64::from(model.step_count())).round());
+        }
+    }
+
+    fn nudge(&self, model: &mut ResamplingModel, handle: &str, [right, _]: [f64; 2]) {
+        if handle == CURSOR {
+            model.look(f64::from(model.cursor()) + whole_step(right));
+        }
+    }
+}
+
+/// What the cursor reads, in words.
+fn told(model: &ResamplingModel) -> String {
+    let of = |policy| {
+        let Moment { report, .. } = model.read(policy);
+        format!("N_eff {}, lineage {}", fixed(report.ess, 1), report.descent.lineage(report.step))
+    };
+    format!("step {}: never {}; every step {}; selective {}", model.cursor(), of(0), of(1), of(2))
+}
+
+/// What marks mean.
+fn legend(scene: &mut Scene, model: &ResamplingModel, area: &Rect) {
+    let back = format!("{} back, or weighted mean", model.back());
+    let truth = |place: &Rect| {
+        let [x, y] = place.centre();
+        let lines = vec![closed(robot([x - 1.0, y], 0.0, 7.0))];
+        vec![Mark::Lines { lines, width: 1.5, dash: None, role: Role::Truth }]
+    };
+    let mut items = vec![
+        (Sample::line(Role::Ink, 1.5, None), "at the start, or best particle"),
+        (Sample::line(Role::Muted, 1.25, Some(SECOND)), back.as_str()),
+        (Sample::line(Role::Accent, 1.0, Some(THRESHOLD)), "threshold"),
+        (Sample::dot(Role::Copied, 1.75), "resampled"),
+        (Sample::line(Role::Path, 2.0, None), "lives on"),
+        (Sample::line(Role::Level(DEAD), 1.0, None), "died out"),
+        (Sample::new(|place| common(place.centre()).into()), "last common ancestor"),
+        (Sample::dot(Role::Path, 2.0), "particle"),
+        (Sample::new(truth), "truth"),
+    ];
+    if model.run().wings_log().is_some() {
+        let landmark = |at| Mark::Polygons { polygons: vec![diamond(at, 3.5)], role: Role::Landmark };
+        items.push((Sample::at(landmark), "landmark"));
+    }
+    Legend::default().draw(scene, area, items);
+}

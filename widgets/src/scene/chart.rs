@@ -1,0 +1,54 @@
+//! Curves over steps.
+
+use super::{Mark, Point, Rect, Role};
+
+/// A place for curves: steps from left to right, shares of its height from the bottom up.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Chart {
+    /// \[css px\]
+    pub area: Rect,
+    /// The step at its right edge.
+    pub last: u32,
+}
+
+impl Chart {
+    /// Where a step is \[css px\].
+    pub fn x(&self, step: u32) -> f64 {
+        self.area.x + self.area.w * f64::from(step) / f64::from(self.last.max(1))
+    }
+
+    /// Where a share of the height is \[css px\]; at the nearer edge for what is beyond.
+    pub fn y(&self, share: f64) -> f64 {
+        self.area.bottom() - self.area.h * share.max(0.0).min(1.0)
+    }
+
+    /// A curve through shares of the height by their steps.
+    pub fn curve(&self, shares: impl Iterator<Item = (u32, f64)>) -> Vec<Point> {
+        shares.map(|(step, share)| [self.x(step), self.y(share)]).collect()
+    }
+
+    /// A line across.
+    pub fn level(&self, share: f64) -> Vec<Point> {
+        [self.area.x, self.area.right()].map(|x| [x, self.y(share)]).to_vec()
+    }
+
+    /// Its lower and upper edge.
+    pub fn edges(&self) -> [Mark; 2] {
+        let Rect { x, y, w, h } = self.area;
+        [y, y + h].map(|y| Mark::Fill { area: Rect::new(x, y - 0.5, w, 1.0), role: Role::Frame })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn curves_stay_in_their_chart_from_its_first_step_to_its_last() {
+        let chart = Chart { area: Rect::new(10.0, 20.0, 100.0, 40.0), last: 4 };
+        let curve = chart.curve([(0, 0.0), (1, 0.5), (4, 7.0)].into_iter());
+        assert_eq!(curve, [[10.0, 60.0], [35.0, 40.0], [110.0, 20.0]]);
+        assert_eq!(chart.level(1.0), [[10.0, 20.0], [110.0, 20.0]]);
+        assert_eq!(Chart { last: 0, ..chart }.x(0), 10.0, "of a figure that has no steps yet");
+    }
+}

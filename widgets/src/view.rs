@@ -1,0 +1,152 @@
+//! What a figure looks like and how it is touched: the other half of it, which knows its [`Model`], as the model does not know of it.
+
+use crate::{
+    model::Model,
+    scene::{Point, Scene},
+};
+
+/// The picture of a model: its layout, what is drawn, what can be clicked and what can be dragged. One without handles leaves them out.
+///
+/// All lengths are css px of the scene, which is never narrower than [`View::NARROWEST`].
+pub trait View: Default + 'static {
+    /// What it shows.
+    type Model: Model + Default + 'static;
+
+    /// Narrowest width that is laid out; below, the figure is made smaller as a whole.
+    const NARROWEST: f64;
+
+    /// Height of the layout at a width. Does not depend on the state, so that nothing below a figure ever jumps.
+    fn layout_height(width: f64) -> f64;
+
+    /// Draws into a scene that has its size and its description, and nothing else yet.
+    fn draw(&self, model: &Self::Model, scene: &mut Scene);
+
+    /// Chooses a thing drawn ([`crate::scene::Region::target`]), or lets go of it if it was chosen.
+    fn pick(&self, _model: &mut Self::Model, _target: u32) {}
+
+    /// Moves a handle ([`crate::scene::Handle::name`]) to a point of a scene of this width, or as near to it as the ranges of its
+    /// parameters allow. Only parameters move: a page takes no notice of a drag after which the link is the same.
+    fn drag(&self, _model: &mut Self::Model, _handle: &str, _to: Point, _width: f64) {}
+
+    /// Moves a handle right and up by steps of its parameters: 1 for an arrow key, 10 for a coarse one, 0.1 for a fine one.
+    fn nudge(&self, _model: &mut Self::Model, _handle: &str, _steps: [f64; 2]) {}
+
+    /// How its picture is magnified and moved, if it can be.
+    fn navigation(&mut self) -> Option<&mut dyn Navigation<Self::Model>> {
+        None
+    }
+
+    /// Width of the scene of a figure of this width.
+    fn scene_width(width: f64) -> f64 {
+        width.max(Self::NARROWEST)
+    }
+
+    /// Height that a figure of this width wants: narrower than the layout goes, it is made smaller as a whole.
+    fn height(width: f64) -> f64 {
+        Self::layout_height(width) * (width / Self::scene_width(width))
+    }
+
+    /// What is to be seen at this size, or where that is less than the layout takes, at that.
+    fn scene(&self, model: &Self::Model, width: f64, height: f64) -> Scene {
+        let height = height.max(Self::layout_height(width));
+        let mut scene = Scene::new(Self::scene_width(width), height, model.describe());
+        self.draw(model, &mut scene);
+        scene
+    }
+}
+
+/// By how much a handle moves that has places for whole steps only: there is nothing between two, so that a fine step is a whole one too.
+pub fn whole_step(steps: f64) -> f64 {
+    if steps == 0.0 { 0.0 } else { steps.signum() * steps.abs().max(1.0) }
+}
+
+/// Looking nearer and elsewhere. What is looked at is no part of the recipe.
+pub trait Navigation<M> {
+    /// Magnifies the picture about a point of a scene of this width, or about its middle.
+    fn zoom(&mut self, model: &M, factor: f64, at: Option<Point>, width: f64);
+
+    /// Moves the picture right and down.
+    fn pan(&mut self, model: &M, by: Point, width: f64);
+
+    /// Shows the whole again.
+    fn fit(&mut self);
+}
+
+/// A model and its view, whichever they are: what [`crate::figure::Figure`] holds.
+pub(crate) trait Shown {
+    fn model(&self) -> &dyn Model;
+    fn model_mut(&mut self) -> &mut dyn Model;
+    fn scene_width(&self, width: f64) -> f64;
+    fn height(&self, width: f64) -> f64;
+    fn scene(&self, width: f64, height: f64) -> Scene;
+    fn pick(&mut self, target: u32);
+    fn drag(&mut self, handle: &str, to: Point, width: f64);
+    fn nudge(&mut self, handle: &str, steps: [f64; 2]);
+    fn zoom(&mut self, factor: f64, at: Option<Point>, width: f64);
+    fn pan(&mut self, by: Point, width: f64);
+    fn fit(&mut self);
+}
+
+/// A view with the model that it shows.
+pub(crate) struct Shows<V: View> {
+    pub model: V::Model,
+    pub view: V,
+}
+
+impl<V: View> Default for Shows<V> {
+    fn default() -> Self {
+        Self { model: V::Model::default(), view: V::default() }
+    }
+}
+
+impl<V: View> Shown for Shows<V> {
+    fn model(&self) -> &dyn Model {
+        &self.model
+    }
+
+    fn model_mut(&mut self) -> &mut dyn Model {
+        &mut self.model
+    }
+
+    fn scene_width(&self, width: f64) -> f64 {
+        V::scene_width(width)
+    }
+
+    fn height(&self, width: f64) -> f64 {
+        V::height(width)
+    }
+
+    fn scene(&self, width: f64, height: f64) -> Scene {
+        self.view.scene(&self.model, width, height)
+    }
+
+    fn pick(&mut self, target: u32) {
+        self.view.pick(&mut self.model, target);
+    }
+
+    fn drag(&mut self, handle: &str, to: Point, width: f64) {
+        self.view.drag(&mut self.model, handle, to, width);
+    }
+
+    fn nudge(&mut self, handle: &str, steps: [f64; 2]) {
+        self.view.nudge(&mut self.model, handle, steps);
+    }
+
+    fn zoom(&mut self, factor: f64, at: Option<Point>, width: f64) {
+        if let Some(navigation) = self.view.navigation() {
+            navigation.zoom(&self.model, factor, at, width);
+        }
+    }
+
+    fn pan(&mut self, by: Point, width: f64) {
+        if let Some(navigation) = self.view.navigation() {
+            navigation.pan(&self.model, by, width);
+        }
+    }
+
+    fn fit(&mut self) {
+        if let Some(navigation) = self.view.navigation() {
+            navigation.fit();
+        }
+    }
+}
