@@ -6,16 +6,15 @@ use crate::{
     export::{Entries, Export},
     model::{FigureError, Files, Model, Readout},
     paint::{Canvas, Theme},
-    param, query,
-    registry::{self, Entry},
+    param, query, registry,
     scene::{Handle, Point, Rect, Scene},
-    view::Shown,
+    view::{Shown, Shows, View},
 };
 use serde::Serialize;
 
 /// One figure on a page.
 pub struct Figure {
-    entry: &'static Entry,
+    tag: &'static str,
     shown: Box<dyn Shown>,
     canvas: Canvas,
     /// Of the scene painted last, and that scene's width \[css px\].
@@ -52,13 +51,16 @@ impl Figure {
             let tags: Vec<&str> = registry::FIGURES.iter().map(|f| f.tag).collect();
             FigureError::new("tag", param::quoted(tag), format!("one of {}", tags.join(", ")))
         })?;
-        Ok(Self {
-            entry,
-            shown: (entry.make)(),
-            canvas: Canvas::default(),
-            handles: (Vec::new(), 1.0),
-            decimal_comma: false,
-        })
+        Ok(Self::showing(entry.tag, (entry.make)()))
+    }
+
+    /// One that the registry does not have.
+    pub fn of<V: View>(tag: &'static str) -> Self {
+        Self::showing(tag, Box::new(Shows::<V>::default()))
+    }
+
+    fn showing(tag: &'static str, shown: Box<dyn Shown>) -> Self {
+        Self { tag, shown, canvas: Canvas::default(), handles: (Vec::new(), 1.0), decimal_comma: false }
     }
 
     /// What the figure is about.
@@ -232,7 +234,7 @@ impl Figure {
 
     /// Measured data of every step so far.
     pub fn export(&self) -> Export {
-        Export::new(self.entry.tag, self.model())
+        Export::new(self.tag, self.model())
     }
 }
 
@@ -246,7 +248,6 @@ mod tests {
     use super::*;
     use crate::model::{Declared, Series};
     use crate::recipe::{Param, Recipe};
-    use crate::view::{Shows, View};
     use std::{cell::RefCell, rc::Rc};
 
     /// A point in a scene that is never narrower than 300 px. What it is told is written down.
@@ -267,6 +268,7 @@ mod tests {
 
     impl Declared for OnePoint {
         type Recipe = Nothing;
+        const TITLE: &'static str = "A point";
         fn recipe(&self) -> &Nothing {
             &Nothing
         }
@@ -276,9 +278,6 @@ mod tests {
     }
 
     impl Model for OnePoint {
-        fn title(&self) -> &'static str {
-            "A point"
-        }
         fn readouts(&self) -> Vec<Readout> {
             vec![Readout::new("x", "x", f64::NAN, "NaN", "m", "")]
         }
@@ -315,9 +314,7 @@ mod tests {
     fn point() -> (Figure, Rc<RefCell<Vec<String>>>) {
         let shown = Shows::<OnePointView>::default();
         let told = shown.model.told.clone();
-        let mut figure = Figure::new(registry::FIGURES[0].tag).unwrap();
-        figure.shown = Box::new(shown);
-        (figure, told)
+        (Figure::showing("fastslam-point", Box::new(shown)), told)
     }
 
     #[test]

@@ -7,6 +7,7 @@ use crate::{
     model::{FigureError, Group},
     param, query,
     recipe::{self, Recipe},
+    registry,
 };
 use core::ops::Range;
 
@@ -26,14 +27,6 @@ pub struct Job {
     pub run: fn(&Setting, Range<u64>) -> Result<Rows, FigureError>,
 }
 
-/// Every experiment there is.
-pub const JOBS: &[Job] = &[
-    #[cfg(feature = "lap")]
-    crate::lap::LAPS,
-    #[cfg(feature = "resampling")]
-    crate::resampling::WINGS,
-];
-
 /// The recipe of a setting. What that says about the view makes no numbers, and may be of another setup.
 ///
 /// # Errors
@@ -51,8 +44,9 @@ pub fn recipe<R: Recipe>(setting: &Setting) -> Result<R, FigureError> {
 /// # Errors
 /// For an unknown name, or a setting that is refused.
 pub fn run(name: &str, setting: &str, seeds: Range<u64>) -> Result<Rows, FigureError> {
-    let job = JOBS.iter().find(|job| job.name == name).ok_or_else(|| {
-        let names: Vec<&str> = JOBS.iter().map(|job| job.name).collect();
+    let jobs = || registry::FIGURES.iter().filter_map(|figure| figure.count);
+    let job = jobs().find(|job| job.name == name).ok_or_else(|| {
+        let names: Vec<&str> = jobs().map(|job| job.name).collect();
         FigureError::new("job", param::quoted(name), format!("one of {}", names.join(", ")))
     })?;
     (job.run)(&query::pairs(setting), seeds)

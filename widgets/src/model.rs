@@ -135,6 +135,9 @@ pub trait Declared {
     /// Everything that a link says.
     type Recipe: Recipe;
 
+    /// Title for readers.
+    const TITLE: &'static str;
+
     /// What it is made by.
     fn recipe(&self) -> &Self::Recipe;
 
@@ -155,8 +158,11 @@ pub trait Declared {
     }
 }
 
-/// The parameters of any model, by name and as text: what attributes, controls and links need.
+/// The title and the parameters of any model, by name and as text: what attributes, controls and links need.
 pub trait Parameters {
+    /// Title for readers.
+    fn title(&self) -> &'static str;
+
     /// All parameters with their ranges as they are now (the last step and the number of slots depend on the setup).
     fn params(&self) -> Vec<ParamSpec>;
 
@@ -172,6 +178,10 @@ pub trait Parameters {
 }
 
 impl<M: Declared> Parameters for M {
+    fn title(&self) -> &'static str {
+        M::TITLE
+    }
+
     fn params(&self) -> Vec<ParamSpec> {
         recipe::specs(self.recipe())
     }
@@ -195,9 +205,6 @@ impl<M: Declared> Parameters for M {
 
 /// A figure, without its pixels. One without a timeline leaves out everything about steps.
 pub trait Model: Parameters {
-    /// Title for readers.
-    fn title(&self) -> &'static str;
-
     /// Asks for a step of the simulation; beyond the last means the last.
     fn seek(&mut self, _step: u32) {}
 

@@ -1,18 +1,33 @@
-//! All figures by tag. Tests and tools iterate over this list.
+//! All figures: a row each. Tests, tools, the page and its generated files iterate over this list.
 
 #[cfg(feature = "conditioning")]
-use crate::conditioning::{ConditioningModel, ConditioningView};
+use crate::conditioning::ConditioningView;
 #[cfg(feature = "lap")]
-use crate::lap::{LapModel, LapView};
+use crate::lap::{LAPS, LapView};
 #[cfg(feature = "log")]
-use crate::log::{LogModel, LogView};
+use crate::log::LogView;
 #[cfg(feature = "proposal")]
-use crate::proposal::{ProposalModel, ProposalView};
+use crate::proposal::ProposalView;
 #[cfg(feature = "resampling")]
-use crate::resampling::{ResamplingModel, ResamplingView};
-use crate::view::{Shown, Shows};
+use crate::resampling::{ResamplingView, WINGS};
 #[cfg(feature = "worked-example")]
-use crate::worked_example::{WorkedExampleModel, WorkedExampleView};
+use crate::worked_example::WorkedExampleView;
+use crate::{
+    job::Job,
+    model::Declared,
+    view::{Shown, Shows, View},
+};
+
+/// What a figure computes: figures that compute alike are compiled into one program.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Program {
+    /// Maps of cells.
+    Grids,
+    /// Maps of landmarks.
+    Landmarks,
+    /// Maps of recorded logs: in a worker, and only where a reader asks for it.
+    Logs,
+}
 
 /// A kind of figure.
 pub struct Entry {
@@ -20,40 +35,38 @@ pub struct Entry {
     pub tag: &'static str,
     /// Its title for readers.
     pub title: &'static str,
+    /// What it is compiled with.
+    pub program: Program,
+    /// An experiment over many seeds that goes with it, if there is one.
+    pub count: Option<&'static Job>,
+    /// Height \[css px\] that its picture wants at a width \[css px\].
+    pub height: fn(f64) -> f64,
     /// A new one, of which nothing was asked yet.
     pub(crate) make: fn() -> Box<dyn Shown>,
+}
+
+impl Entry {
+    /// The row of a figure: its title, its height and all else follow from what it is.
+    const fn of<V: View>(tag: &'static str, program: Program, count: Option<&'static Job>) -> Self {
+        let make = || Box::new(Shows::<V>::default()) as Box<dyn Shown>;
+        Self { tag, title: <V::Model as Declared>::TITLE, program, count, height: V::height, make }
+    }
 }
 
 /// Every kind there is in this build.
 pub const FIGURES: &[Entry] = &[
     #[cfg(feature = "lap")]
-    Entry { tag: "fastslam-lap", title: LapModel::TITLE, make: || Box::new(Shows::<LapView>::default()) },
+    Entry::of::<LapView>("fastslam-lap", Program::Grids, Some(&LAPS)),
     #[cfg(feature = "conditioning")]
-    Entry {
-        tag: "fastslam-conditioning",
-        title: ConditioningModel::TITLE,
-        make: || Box::new(Shows::<ConditioningView>::default()),
-    },
+    Entry::of::<ConditioningView>("fastslam-conditioning", Program::Landmarks, None),
     #[cfg(feature = "proposal")]
-    Entry {
-        tag: "fastslam-proposal",
-        title: ProposalModel::TITLE,
-        make: || Box::new(Shows::<ProposalView>::default()),
-    },
+    Entry::of::<ProposalView>("fastslam-proposal", Program::Landmarks, None),
     #[cfg(feature = "worked-example")]
-    Entry {
-        tag: "fastslam-worked-example",
-        title: WorkedExampleModel::TITLE,
-        make: || Box::new(Shows::<WorkedExampleView>::default()),
-    },
+    Entry::of::<WorkedExampleView>("fastslam-worked-example", Program::Landmarks, None),
     #[cfg(feature = "log")]
-    Entry { tag: "fastslam-log", title: LogModel::TITLE, make: || Box::new(Shows::<LogView>::default()) },
+    Entry::of::<LogView>("fastslam-log", Program::Logs, None),
     #[cfg(feature = "resampling")]
-    Entry {
-        tag: "fastslam-resampling",
-        title: ResamplingModel::TITLE,
-        make: || Box::new(Shows::<ResamplingView>::default()),
-    },
+    Entry::of::<ResamplingView>("fastslam-resampling", Program::Grids, Some(&WINGS)),
 ];
 
 /// The figure of a tag.

@@ -1,7 +1,13 @@
 //! The figures in the browser: the only code that knows of JavaScript. Every method is one line; what it does is in
 //! [`crate::figure`] and [`crate::model`].
 
-use crate::{figure, job, model::FigureError, paint::Theme, registry};
+use crate::{
+    figure::{self, PlacedHandle},
+    job,
+    model::{FigureError, Readout},
+    paint::Theme,
+    registry,
+};
 use core::cell::RefCell;
 use fastslam_lab::experiment::{ErrorSummary, policy_counts::Fraction};
 use js_sys::{Array, Error, JSON, Object};
@@ -68,167 +74,195 @@ pub fn spread(errors: &[f64]) -> Vec<f64> {
 
 /// One figure on a page; to be freed when it leaves the page.
 #[wasm_bindgen]
-pub struct Figure(figure::Figure);
+pub struct Figure {
+    figure: figure::Figure,
+    readouts: RefCell<Told<Readout>>,
+    handles: RefCell<Told<PlacedHandle>>,
+}
+
+/// What was told last, and the same as JavaScript has it: it is asked for at every frame, and most frames change nothing of it.
+struct Told<T> {
+    last: Vec<T>,
+    array: Array,
+}
+
+impl<T: PartialEq + Serialize> Told<T> {
+    fn tell(&mut self, now: Vec<T>) -> Array {
+        if self.last != now {
+            *self = Self { array: plain(&now), last: now };
+        }
+        self.array.clone()
+    }
+}
+
+impl Figure {
+    fn showing(figure: figure::Figure) -> Self {
+        fn nothing<T>() -> RefCell<Told<T>> {
+            RefCell::new(Told { last: Vec::new(), array: Array::new() })
+        }
+        Self { figure, readouts: nothing(), handles: nothing() }
+    }
+}
 
 #[wasm_bindgen]
 impl Figure {
     /// The figure of a tag, of which nothing was asked yet.
     #[wasm_bindgen(constructor)]
     pub fn new(tag: &str) -> Result<Figure, Error> {
-        figure::Figure::new(tag).map(Self).map_err(thrown)
+        figure::Figure::new(tag).map(Self::showing).map_err(thrown)
     }
 
     /// Title for readers.
     pub fn title(&self) -> String {
-        self.0.model().title().into()
+        self.figure.model().title().into()
     }
 
     /// All parameters: an array of `ParamSpec`.
     pub fn params(&self) -> Array {
-        plain(&self.0.model().params())
+        plain(&self.figure.model().params())
     }
 
     /// Current values by name.
     pub fn values(&self) -> Object {
-        plain(&self.0.values())
+        plain(&self.figure.values())
     }
 
     /// Gives a parameter a new value; throws a `FigureError` if it is refused.
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), Error> {
-        self.0.set(name, value).map_err(thrown)
+        self.figure.set(name, value).map_err(thrown)
     }
 
     /// Number of the last step.
     pub fn step_count(&self) -> u32 {
-        self.0.model().step_count()
+        self.figure.model().step_count()
     }
 
     /// The step shown.
     pub fn step(&self) -> u32 {
-        self.0.model().step()
+        self.figure.model().step()
     }
 
     /// Asks for a step; beyond the last means the last.
     pub fn seek(&mut self, step: u32) {
-        self.0.model_mut().seek(step);
+        self.figure.model_mut().seek(step);
     }
 
     /// Steps of simulation still to do before what was asked for is shown.
     pub fn pending(&self) -> u32 {
-        self.0.model().pending()
+        self.figure.model().pending()
     }
 
     /// Does one of them.
     pub fn work(&mut self) {
-        self.0.model_mut().work();
+        self.figure.model_mut().work();
     }
 
     /// Writes numbers with a decimal comma, in the picture and in words.
     pub fn set_decimal_comma(&mut self, on: bool) {
-        self.0.set_decimal_comma(on);
+        self.figure.set_decimal_comma(on);
     }
 
     /// The numbers of the state shown: an array of `Readout`.
     pub fn readouts(&self) -> Array {
-        plain(&self.0.readouts())
+        self.readouts.borrow_mut().tell(self.figure.readouts())
     }
 
     /// One or two sentences that tell what is shown now.
     pub fn describe(&self) -> String {
-        self.0.describe()
+        self.figure.describe()
     }
 
     /// The lines of its algorithm that led to what is shown: an array of `TraceLine`.
     pub fn trace(&self) -> Array {
-        plain(&self.0.model().trace())
+        plain(&self.figure.model().trace())
     }
 
     /// Height \[css px\] that the figure wants at this width \[css px\].
     pub fn height(&self, width_css: f64) -> f64 {
-        self.0.height(width_css)
+        self.figure.height(width_css)
     }
 
     /// Paints: size \[device px\], device px per css px, and "light", "dark", "contrast-light" or "contrast-dark".
     pub fn paint(&mut self, width_px: u32, height_px: u32, dpr: f64, theme: &str) {
-        self.0.paint(width_px, height_px, dpr, Theme::named(theme));
+        self.figure.paint(width_px, height_px, dpr, Theme::named(theme));
     }
 
     /// Address of the pixels in the module's memory: RGBA, row by row. Any call may move them, and the memory.
     pub fn pixels(&self) -> u32 {
-        self.0.canvas().pixels().as_ptr() as u32
+        self.figure.canvas().pixels().as_ptr() as u32
     }
 
     /// A click at a point of a figure of this width \[css px\]. True if it changed something.
     pub fn pick(&mut self, x_css: f64, y_css: f64, width_css: f64) -> bool {
-        self.0.pick(x_css, y_css, width_css)
+        self.figure.pick(x_css, y_css, width_css)
     }
 
     /// What can be moved in the picture painted last: an array of `PlacedHandle`, in a figure of this width \[css px\].
     pub fn handles(&self, width_css: f64) -> Array {
-        plain(&self.0.handles(width_css))
+        self.handles.borrow_mut().tell(self.figure.handles(width_css))
     }
 
     /// Moves a handle to a point of a figure of this width \[css px\].
     pub fn drag(&mut self, handle: &str, x_css: f64, y_css: f64, width_css: f64) {
-        self.0.drag(handle, x_css, y_css, width_css);
+        self.figure.drag(handle, x_css, y_css, width_css);
     }
 
     /// Moves a handle right and up, in steps of its parameters.
     pub fn nudge(&mut self, handle: &str, right: f64, up: f64) {
-        self.0.nudge(handle, right, up);
+        self.figure.nudge(handle, right, up);
     }
 
     /// Takes a reader's file; throws a `FigureError` if it cannot be read.
     pub fn open(&mut self, file: &[u8]) -> Result<(), Error> {
-        self.0.open(file).map_err(thrown)
+        self.figure.open(file).map_err(thrown)
     }
 
     /// Throws a `FigureError` if what was set cannot be computed.
     pub fn ready(&self) -> Result<(), Error> {
-        self.0.ready().map_err(thrown)
+        self.figure.ready().map_err(thrown)
     }
 
     /// A file of this name made of the state shown, if there is such a one.
     pub fn file(&self, name: &str) -> Option<Vec<u8>> {
-        self.0.file(name)
+        self.figure.file(name)
     }
 
     /// Magnifies the picture about a point of a figure of this width \[css px\], or about its middle where that is NaN.
     pub fn zoom(&mut self, factor: f64, x_css: f64, y_css: f64, width_css: f64) {
-        self.0.zoom(factor, x_css, y_css, width_css);
+        self.figure.zoom(factor, x_css, y_css, width_css);
     }
 
     /// Moves the picture right and down in a figure of this width \[css px\].
     pub fn pan(&mut self, right_css: f64, down_css: f64, width_css: f64) {
-        self.0.pan(right_css, down_css, width_css);
+        self.figure.pan(right_css, down_css, width_css);
     }
 
     /// Shows the whole again.
     pub fn fit(&mut self) {
-        self.0.fit();
+        self.figure.fit();
     }
 
     /// The link that makes this figure again.
     pub fn query(&self) -> String {
-        self.0.query()
+        self.figure.query()
     }
 
     /// Makes the figure what a link says; returns a line for everything that was refused.
     pub fn load(&mut self, query: &str) -> Vec<String> {
-        self.0.load(query).into_iter().map(|error| error.message).collect()
+        self.figure.load(query).into_iter().map(|error| error.message).collect()
     }
 
     /// Measured data of every step so far, as CSV. JavaScript writes the numbers: with the fewest digits that read back as the
     /// same bits.
     pub fn csv(&self) -> String {
-        let export = self.0.export();
+        let export = self.figure.export();
         let rows: Array = plain(&export.rows()); // an array in an array is joined by commas, and null to nothing
         format!("{}\n{}\n", export.header().join(","), rows.join("\n"))
     }
 
     /// The same as JSON.
     pub fn json(&self) -> String {
-        JSON::stringify(&plain(&self.0.export())).map_or_else(|_| String::new(), String::from)
+        JSON::stringify(&plain(&self.figure.export())).map_or_else(|_| String::new(), String::from)
     }
 }
 

@@ -1,7 +1,7 @@
 //! What a figure looks like and how it is touched: the other half of it, which knows its [`Model`], as the model does not know of it.
 
 use crate::{
-    model::Model,
+    model::{Declared, Model},
     scene::{Point, Scene},
 };
 
@@ -10,7 +10,7 @@ use crate::{
 /// All lengths are css px of the scene, which is never narrower than [`View::NARROWEST`].
 pub trait View: Default + 'static {
     /// What it shows.
-    type Model: Model + Default + 'static;
+    type Model: Declared + Model + Default + 'static;
 
     /// Narrowest width that is laid out; below, the figure is made smaller as a whole.
     const NARROWEST: f64;

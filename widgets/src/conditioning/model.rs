@@ -36,9 +36,6 @@ impl Default for ConditioningModel {
 }
 
 impl ConditioningModel {
-    /// Title for readers.
-    pub const TITLE: &'static str = "What the path does to the map";
-
     /// The drive.
     pub fn drive(&self) -> &Conditioning {
         &self.drive
@@ -141,6 +138,7 @@ fn couplings(map: &MapCovariance) -> Couplings {
 
 impl Declared for ConditioningModel {
     type Recipe = Recipe;
+    const TITLE: &'static str = "What the path does to the map";
 
     fn recipe(&self) -> &Recipe {
         &self.recipe
@@ -160,10 +158,6 @@ impl Declared for ConditioningModel {
 }
 
 impl Model for ConditioningModel {
-    fn title(&self) -> &'static str {
-        Self::TITLE
-    }
-
     fn seek(&mut self, step: u32) {
         self.change(|recipe| recipe.step = step as usize);
     }

@@ -35,9 +35,6 @@ impl Default for LapModel {
 }
 
 impl LapModel {
-    /// Title for readers.
-    pub const TITLE: &'static str = "The Apartment lap";
-
     /// The lap at the step shown.
     pub fn lap(&self) -> &Lap {
         &self.shown
@@ -140,6 +137,7 @@ impl LapModel {
 
 impl Declared for LapModel {
     type Recipe = Recipe;
+    const TITLE: &'static str = "The Apartment lap";
 
     fn recipe(&self) -> &Recipe {
         &self.recipe
@@ -160,10 +158,6 @@ impl Declared for LapModel {
 }
 
 impl Model for LapModel {
-    fn title(&self) -> &'static str {
-        Self::TITLE
-    }
-
     fn seek(&mut self, step: u32) {
         let asked = step.min(self.step_count());
         self.recipe.step = asked;

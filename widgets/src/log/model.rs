@@ -74,9 +74,6 @@ impl Default for LogModel {
 }
 
 impl LogModel {
-    /// Title for readers.
-    pub const TITLE: &'static str = "A building from a log: map one of your own";
-
     /// The log, once one is open.
     pub fn log(&self) -> Option<&LaserLog> {
         self.opened.as_ref().map(|opened| &*opened.log)
@@ -175,6 +172,7 @@ fn unreadable(LogError { line, message }: &LogError) -> FigureError {
 
 impl Declared for LogModel {
     type Recipe = Recipe;
+    const TITLE: &'static str = "A building from a log: map one of your own";
 
     fn recipe(&self) -> &Recipe {
         &self.recipe
@@ -265,10 +263,6 @@ impl Files for LogModel {
 }
 
 impl Model for LogModel {
-    fn title(&self) -> &'static str {
-        Self::TITLE
-    }
-
     /// Goes on to a step; to one that is past, by beginning again.
     fn seek(&mut self, step: u32) {
         let Some(opened) = self.opened.as_ref().filter(|_| self.ready().is_ok()) else { return };

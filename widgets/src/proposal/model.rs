@@ -31,9 +31,6 @@ fn propose(setup: &ProposalsSetup) -> Proposals {
 }
 
 impl ProposalModel {
-    /// Title for readers.
-    pub const TITLE: &'static str = "Two proposals for one step";
-
     /// Both clouds, and what they should be like.
     pub fn proposals(&self) -> &Proposals {
         &self.shown
@@ -84,6 +81,7 @@ impl ProposalModel {
 
 impl Declared for ProposalModel {
     type Recipe = Recipe;
+    const TITLE: &'static str = "Two proposals for one step";
 
     fn recipe(&self) -> &Recipe {
         &self.recipe
@@ -96,10 +94,6 @@ impl Declared for ProposalModel {
 }
 
 impl Model for ProposalModel {
-    fn title(&self) -> &'static str {
-        Self::TITLE
-    }
-
     fn pending(&self) -> u32 {
         u32::from(self.recipe != self.computed)
     }

@@ -55,9 +55,6 @@ impl Moment {
 }
 
 impl ResamplingModel {
-    /// Title for readers.
-    pub const TITLE: &'static str = "When to resample";
-
     /// The setup of the filters.
     pub fn setup(&self) -> &PoliciesSetup {
         self.run.setup()
@@ -135,6 +132,7 @@ impl ResamplingModel {
 
 impl Declared for ResamplingModel {
     type Recipe = Recipe;
+    const TITLE: &'static str = "When to resample";
 
     fn recipe(&self) -> &Recipe {
         &self.recipe
@@ -152,10 +150,6 @@ impl Declared for ResamplingModel {
 }
 
 impl Model for ResamplingModel {
-    fn title(&self) -> &'static str {
-        Self::TITLE
-    }
-
     /// Time moves: the cursor goes along.
     fn seek(&mut self, step: u32) {
         self.recipe.step = step.min(self.step_count());

@@ -12,7 +12,7 @@ use fastslam_lab::experiment::{
 };
 
 /// Which policy keeps the right wing, and which ends in it.
-pub const WINGS: Job = Job {
+pub static WINGS: Job = Job {
     name: "wings",
     columns: &[
         "seed",

@@ -23,9 +23,6 @@ impl Default for WorkedExampleModel {
 }
 
 impl WorkedExampleModel {
-    /// Title for readers.
-    pub const TITLE: &'static str = "One update by hand";
-
     /// Every number of it.
     pub fn example(&self) -> &WorkedExample {
         &self.example
@@ -50,6 +47,7 @@ impl WorkedExampleModel {
 
 impl Declared for WorkedExampleModel {
     type Recipe = Inputs;
+    const TITLE: &'static str = "One update by hand";
 
     fn recipe(&self) -> &Inputs {
         &self.inputs
@@ -62,10 +60,6 @@ impl Declared for WorkedExampleModel {
 }
 
 impl Model for WorkedExampleModel {
-    fn title(&self) -> &'static str {
-        Self::TITLE
-    }
-
     fn readouts(&self) -> Vec<Readout> {
         let WorkedExample { updates: [one, two], weights, ess, resamples, .. } = &self.example;
         let density = |name, title, update: &Update| {
