@@ -105,7 +105,7 @@ impl View for DartsView {
     type Model = Darts;
     const NARROWEST: f64 = 200.0;
 
-    fn layout_height(width: f64) -> f64 {
+    fn layout_height(&self, width: f64) -> f64 {
         0.6 * width.max(Self::NARROWEST)
     }
 

@@ -103,6 +103,19 @@ impl Figure {
         self.written(self.model().describe())
     }
 
+    /// Names of the parts of its picture that can be shown by themselves.
+    pub fn panels(&self) -> &'static [&'static str] {
+        self.shown.panels()
+    }
+
+    /// Shows some parts of the picture, by their names apart by spaces; `all` or nothing for the whole.
+    ///
+    /// # Errors
+    /// For a name that no part of it has; the error has those that there are.
+    pub fn show(&mut self, panels: &str) -> Result<(), FigureError> {
+        self.shown.show(panels)
+    }
+
     /// Height \[css px\] that the figure wants at this width \[css px\].
     pub fn height(&self, width: f64) -> f64 {
         self.shown.height(width)
@@ -295,7 +308,7 @@ mod tests {
     impl View for OnePointView {
         type Model = OnePoint;
         const NARROWEST: f64 = 300.0;
-        fn layout_height(width: f64) -> f64 {
+        fn layout_height(&self, width: f64) -> f64 {
             0.5 * width.max(Self::NARROWEST)
         }
         fn draw(&self, _: &OnePoint, scene: &mut Scene) {

@@ -20,6 +20,7 @@ pub mod lap;
 pub mod log;
 pub mod model;
 pub mod paint;
+pub mod panels;
 pub mod param;
 mod policy;
 #[cfg(feature = "proposal")]

@@ -39,7 +39,9 @@ pub struct Entry {
     pub program: Program,
     /// An experiment over many seeds that goes with it, if there is one.
     pub count: Option<&'static Job>,
-    /// Height \[css px\] that its picture wants at a width \[css px\].
+    /// Parts of its picture that can be shown by themselves.
+    pub panels: &'static [&'static str],
+    /// Height \[css px\] that its whole picture wants at a width \[css px\].
     pub height: fn(f64) -> f64,
     /// A new one, of which nothing was asked yet.
     pub(crate) make: fn() -> Box<dyn Shown>,
@@ -49,7 +51,8 @@ impl Entry {
     /// The row of a figure: its title, its height and all else follow from what it is.
     const fn of<V: View>(tag: &'static str, program: Program, count: Option<&'static Job>) -> Self {
         let make = || Box::new(Shows::<V>::default()) as Box<dyn Shown>;
-        Self { tag, title: <V::Model as Declared>::TITLE, program, count, height: V::height, make }
+        let height = |width| V::default().height(width);
+        Self { tag, title: <V::Model as Declared>::TITLE, program, count, panels: V::PANELS, height, make }
     }
 }
 

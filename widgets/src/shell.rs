@@ -177,6 +177,16 @@ impl Figure {
         plain(&self.figure.model().trace())
     }
 
+    /// Names of the parts of its picture that can be shown by themselves.
+    pub fn panels(&self) -> Vec<String> {
+        self.figure.panels().iter().map(|name| name.to_string()).collect()
+    }
+
+    /// Shows some of them, apart by spaces, or `all`; throws a `FigureError` for a name that none has.
+    pub fn show(&mut self, names: &str) -> Result<(), Error> {
+        self.figure.show(names).map_err(thrown)
+    }
+
     /// Height \[css px\] that the figure wants at this width \[css px\].
     pub fn height(&self, width_css: f64) -> f64 {
         self.figure.height(width_css)

@@ -1,7 +1,8 @@
 //! What a figure looks like and how it is touched: the other half of it, which knows its [`Model`], as the model does not know of it.
 
 use crate::{
-    model::{Declared, Model},
+    model::{Declared, FigureError, Model},
+    panels::Panels,
     scene::{Point, Scene},
 };
 
@@ -15,8 +16,14 @@ pub trait View: Default + 'static {
     /// Narrowest width that is laid out; below, the figure is made smaller as a whole.
     const NARROWEST: f64;
 
+    /// Names of the parts that can be shown by themselves; none for a picture that is one piece.
+    const PANELS: &'static [&'static str] = &[];
+
+    /// Shows these parts, and no others.
+    fn show(&mut self, _panels: Panels) {}
+
     /// Height of the layout at a width. Does not depend on the state, so that nothing below a figure ever jumps.
-    fn layout_height(width: f64) -> f64;
+    fn layout_height(&self, width: f64) -> f64;
 
     /// Draws into a scene that has its size and its description, and nothing else yet.
     fn draw(&self, model: &Self::Model, scene: &mut Scene);
@@ -42,13 +49,13 @@ pub trait View: Default + 'static {
     }
 
     /// Height that a figure of this width wants: narrower than the layout goes, it is made smaller as a whole.
-    fn height(width: f64) -> f64 {
-        Self::layout_height(width) * (width / Self::scene_width(width))
+    fn height(&self, width: f64) -> f64 {
+        self.layout_height(width) * (width / Self::scene_width(width))
     }
 
     /// What is to be seen at this size, or where that is less than the layout takes, at that.
     fn scene(&self, model: &Self::Model, width: f64, height: f64) -> Scene {
-        let height = height.max(Self::layout_height(width));
+        let height = height.max(self.layout_height(width));
         let mut scene = Scene::new(Self::scene_width(width), height, model.describe());
         self.draw(model, &mut scene);
         scene
@@ -76,6 +83,8 @@ pub trait Navigation<M> {
 pub(crate) trait Shown {
     fn model(&self) -> &dyn Model;
     fn model_mut(&mut self) -> &mut dyn Model;
+    fn panels(&self) -> &'static [&'static str];
+    fn show(&mut self, names: &str) -> Result<(), FigureError>;
     fn scene_width(&self, width: f64) -> f64;
     fn height(&self, width: f64) -> f64;
     fn scene(&self, width: f64, height: f64) -> Scene;
@@ -108,12 +117,21 @@ impl<V: View> Shown for Shows<V> {
         &mut self.model
     }
 
+    fn panels(&self) -> &'static [&'static str] {
+        V::PANELS
+    }
+
+    fn show(&mut self, names: &str) -> Result<(), FigureError> {
+        self.view.show(Panels::named(names, V::PANELS)?);
+        Ok(())
+    }
+
     fn scene_width(&self, width: f64) -> f64 {
         V::scene_width(width)
     }
 
     fn height(&self, width: f64) -> f64 {
-        V::height(width)
+        self.view.height(width)
     }
 
     fn scene(&self, width: f64, height: f64) -> Scene {

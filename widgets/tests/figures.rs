@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{scene, state};
+use common::{assert_drawn_inside, assert_texts_fit, scene, state};
 use fastslam_widgets::{
     figure::Figure,
     model::Kind,
@@ -96,5 +96,33 @@ fn no_drag_and_no_nudge_makes_it_panic_or_leaves_a_range() {
                 }
             }
         }
+    }
+}
+
+#[test]
+fn every_panel_can_be_shown_alone_and_whole() {
+    for entry in FIGURES {
+        let mut figure = Figure::new(entry.tag).unwrap();
+        figure.model_mut().seek(12);
+        figure.model_mut().settle();
+        for panel in entry.panels {
+            figure.show(panel).unwrap();
+            for width in [240.0, 340.0, 800.0, 1280.0] {
+                let scene = scene(&figure, width);
+                let which = format!("{} {panel} at {width}", entry.tag);
+                assert_texts_fit(&scene, &which);
+                assert_drawn_inside(&scene, &which);
+                assert!(!scene.marks.is_empty() && figure.height(width) <= scene.height, "{which}");
+                let picture = Rect::new(0.0, 0.0, scene.width, scene.height);
+                assert!(scene.regions.iter().all(|region| picture.encloses(&region.area)), "{which}");
+                assert!(scene.handles.iter().all(|handle| picture.contains(handle.at)), "{which}");
+            }
+        }
+        figure.show("all").unwrap();
+        assert_eq!(figure.height(800.0), (entry.height)(800.0));
+        let error = figure.show("weather").unwrap_err();
+        assert!(error.message.contains("show = \"weather\": must be all"), "{error}");
+        assert!(entry.panels.iter().all(|panel| error.message.contains(panel)), "{error}");
+        assert!(!figure.query().contains("show"), "what is shown is for the page to say");
     }
 }

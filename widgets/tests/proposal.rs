@@ -219,7 +219,7 @@ fn samples_outlines_and_densities_stay_in_their_panels() {
 fn the_height_depends_on_the_width_only() {
     for width in [100.0, 340.0, 640.0, 1280.0] {
         for query in STATES {
-            assert_eq!(proposal(query).height(width), ProposalView::height(width));
+            assert_eq!(proposal(query).height(width), ProposalView.height(width));
         }
     }
 }

@@ -1,7 +1,17 @@
 //! Where the parts of the figure stand: side by side where there is room, below each other on a phone.
 
 use super::map::ASPECT;
-use crate::scene::{LINE, Rect};
+use crate::{
+    panels::Panels,
+    scene::{LINE, Rect},
+};
+
+/// Names of the panels: one universe large, all of them small, and N_eff over the steps.
+pub const MAP: &str = "map";
+/// See [`MAP`].
+pub const MOSAIC: &str = "mosaic";
+/// See [`MAP`].
+pub const ESS: &str = "n-eff";
 
 /// From this width on \[css px\], the mosaic stands beside the large view.
 pub const WIDE: f64 = 640.0;
@@ -38,37 +48,61 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// For a figure of this width.
+    /// Of all panels, for a figure of this width.
     pub fn new(width: f64) -> Self {
+        Self::of(width, &Panels::default())
+    }
+
+    /// Of some panels: those that are not shown have no height.
+    pub fn of(width: f64, panels: &Panels) -> Self {
         let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
-        let (legend, notes) = (if width < 340.0 { 3.0 } else { 2.0 } * LINE, 2.0 * LINE);
-        let below_mosaic = PAD + notes + PAD + METER;
-        let column = |x: f64, y: f64, w: f64, ring: f64| {
-            let header = Rect::new(x, y, w, HEADER);
-            (header, Rect::new(x, header.bottom(), w, (w - 2.0 * ring) / ASPECT + 2.0 * ring))
-        };
-        let below = |area: &Rect, h: f64| Rect::new(area.x, area.bottom() + PAD, area.w, h);
-        let wide = width >= WIDE;
+        let [map, mosaic, meter] = [MAP, MOSAIC, ESS].map(|name| panels.has(name));
         // Side by side, the large view is so much larger that both columns end at the same height.
+        let beside = width >= WIDE && map && mosaic;
         let gap = 28.0;
-        let excess = (below_mosaic - PAD - legend) * ASPECT + 2.0 * RING * (ASPECT - 1.0);
-        let large_width = if wide { (0.5 * (width - gap + excess)).floor() } else { width };
-        let (large_header, large) = column(0.0, 0.0, large_width, 0.0);
-        let legend = below(&large, legend);
-        let (mosaic_header, mosaic) = if wide {
-            column(large.right() + gap, 0.0, width - large_width - gap, RING)
-        } else {
-            column(0.0, legend.bottom() + PAD, width, RING)
-        };
-        let notes = below(&mosaic, notes);
-        let meter = below(&notes, METER);
-        let height = legend.bottom().max(meter.bottom()).ceil();
-        Self { large_header, large, legend, mosaic_header, mosaic, notes, meter, height }
+        let (legend, notes) = (if width < 340.0 { 3.0 } else { 2.0 } * LINE, 2.0 * LINE);
+        let below_mosaic = notes + if meter { PAD + METER } else { 0.0 };
+        let excess = (below_mosaic - legend) * ASPECT + 2.0 * RING * (ASPECT - 1.0);
+        let large_width = if beside { (0.5 * (width - gap + excess)).floor() } else { width };
+
+        let mut column = Column { x: 0.0, y: 0.0, w: large_width };
+        let large_header = column.take(map, HEADER, 0.0);
+        let large = column.take(map, column.w / ASPECT, PAD);
+        let legend = column.take(map, legend, PAD);
+        if beside {
+            let x = large.right() + gap;
+            column = Column { x, y: 0.0, w: width - x };
+        }
+        let mosaic_header = column.take(mosaic, HEADER, 0.0);
+        let tiles = column.take(mosaic, (column.w - 2.0 * RING) / ASPECT + 2.0 * RING, PAD);
+        let notes = column.take(mosaic, notes, PAD);
+        let meter = column.take(meter, METER, PAD);
+        let mut layout = Self { large_header, large, legend, mosaic_header, mosaic: tiles, notes, meter, height: 0.0 };
+        let shown = layout.parts().into_iter().filter(|part| part.h > 0.0);
+        layout.height = shown.map(|part| part.bottom()).fold(0.0, f64::max).ceil();
+        layout
     }
 
     /// All parts.
     pub fn parts(&self) -> [Rect; 7] {
         [self.large_header, self.large, self.legend, self.mosaic_header, self.mosaic, self.notes, self.meter]
+    }
+}
+
+/// What is left of a column below what was placed in it.
+struct Column {
+    x: f64,
+    y: f64,
+    w: f64,
+}
+
+impl Column {
+    /// The next part, if it is shown, and a gap below it.
+    fn take(&mut self, shown: bool, h: f64, gap: f64) -> Rect {
+        let (h, gap) = if shown { (h, gap) } else { (0.0, 0.0) };
+        let part = Rect::new(self.x, self.y, self.w, h);
+        self.y = part.bottom() + gap;
+        part
     }
 }
 
@@ -90,6 +124,22 @@ mod tests {
         for width in [640.0, 800.0, 1280.0] {
             let layout = Layout::new(width);
             assert!(layout.large.w > layout.mosaic.w && layout.mosaic.w > 0.35 * width, "{width}");
+        }
+    }
+
+    #[test]
+    fn panels_shown_alone_have_all_of_the_width_and_the_others_no_place() {
+        for (names, hidden) in [("map", 4), ("mosaic", 4), ("n-eff", 6), ("map n-eff", 3), ("map mosaic", 1)] {
+            let panels = Panels::named(names, &[MAP, MOSAIC, ESS]).unwrap();
+            for width in (300..2000).step_by(7).map(f64::from) {
+                let layout = Layout::of(width, &panels);
+                let parts = layout.parts();
+                let shown: Vec<Rect> = parts.iter().copied().filter(|part| part.h > 0.0).collect();
+                assert_eq!(parts.len() - shown.len(), hidden, "{names} at {width}");
+                assert_apart(&shown, &Rect::new(0.0, 0.0, width, layout.height));
+                let last = shown.iter().map(Rect::bottom).fold(0.0, f64::max);
+                assert!(layout.height - last < 1.0, "{names} at {width}: nothing is left below");
+            }
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{
     grid::Tiles,
-    layout::{Layout, NARROWEST, RING},
+    layout::{ESS, Layout, MAP, MOSAIC, NARROWEST, RING},
     map::{self, ASPECT},
     model::LapModel,
     mosaic::{LABEL_FROM, mosaic, notes},
@@ -11,6 +11,7 @@ use crate::decimal::fixed;
 use crate::{
     font::{self, Weight},
     model::Model,
+    panels::Panels,
     scene::{
         Anchor, Chart, FREE, Legend, Mark, OCCUPIED, Plane, Rect, Role, Sample, Scene, Shading, UNKNOWN, cloud,
         heading, joined, n_eff, rimmed, rimmed_polygon, scale_bar, text,
@@ -25,24 +26,37 @@ const RAW: [f64; 2] = [7.0, 4.0];
 
 /// Figure w17.1, as it is seen.
 #[derive(Default)]
-pub struct LapView;
+pub struct LapView {
+    panels: Panels,
+}
 
 impl View for LapView {
     type Model = LapModel;
     const NARROWEST: f64 = NARROWEST;
+    const PANELS: &'static [&'static str] = &[MAP, MOSAIC, ESS];
 
-    fn layout_height(width: f64) -> f64 {
-        Layout::new(width).height
+    fn show(&mut self, panels: Panels) {
+        self.panels = panels;
+    }
+
+    fn layout_height(&self, width: f64) -> f64 {
+        Layout::of(width, &self.panels).height
     }
 
     fn draw(&self, model: &LapModel, scene: &mut Scene) {
-        let layout = Layout::new(scene.width);
-        large(scene, model, &layout);
-        legend(scene, model, &layout.legend);
-        let tiles = Tiles::fit(&layout.mosaic.inset(RING), model.lap().particles().len(), ASPECT);
-        mosaic(scene, model, &layout, &tiles);
-        notes(scene, model, &layout.notes, tiles.size[0] >= LABEL_FROM);
-        meter(scene, model, &layout.meter);
+        let layout = Layout::of(scene.width, &self.panels);
+        if self.panels.has(MAP) {
+            large(scene, model, &layout);
+            legend(scene, model, &layout.legend);
+        }
+        if self.panels.has(MOSAIC) {
+            let tiles = Tiles::fit(&layout.mosaic.inset(RING), model.lap().particles().len(), ASPECT);
+            mosaic(scene, model, &layout, &tiles);
+            notes(scene, model, &layout.notes, tiles.size[0] >= LABEL_FROM);
+        }
+        if self.panels.has(ESS) {
+            meter(scene, model, &layout.meter);
+        }
     }
 
     fn pick(&self, model: &mut LapModel, target: u32) {

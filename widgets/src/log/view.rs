@@ -43,7 +43,7 @@ impl View for LogView {
     type Model = LogModel;
     const NARROWEST: f64 = NARROWEST;
 
-    fn layout_height(width: f64) -> f64 {
+    fn layout_height(&self, width: f64) -> f64 {
         Layout::new(width).height
     }
 

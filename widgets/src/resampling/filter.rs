@@ -1,13 +1,14 @@
 //! One filter in its column: its name, and N_eff, lineage and errors over the steps.
 
 use super::{
-    layout::Column,
+    layout::{CHARTS, Column},
     model::{Moment, ResamplingModel, SELECTIVE},
 };
 use crate::decimal::{fixed, write};
 use crate::{
     font::{self, Weight},
     model::Model,
+    panels::Panels,
     scene::{Anchor, Chart, Mark, Point, Rect, Role, Scene, heading, n_eff, text},
 };
 
@@ -48,7 +49,22 @@ impl Filter<'_> {
         self.model.setup().particles
     }
 
-    pub fn header(&self, scene: &mut Scene) {
+    /// Its name, and the charts that are shown.
+    pub fn charts(&self, scene: &mut Scene, panels: &Panels) {
+        if CHARTS.iter().any(|name| panels.has(name)) {
+            self.header(scene);
+            self.cursor(scene);
+        }
+        let draw = [Self::ess, Self::lineage, Self::errors, Self::tree];
+        for (draw, _) in draw.iter().zip(CHARTS).filter(|(_, name)| panels.has(name)) {
+            draw(self, scene);
+        }
+        if CHARTS.iter().any(|name| panels.has(name)) {
+            self.axis(scene);
+        }
+    }
+
+    fn header(&self, scene: &mut Scene) {
         let Rect { x, y, w, h } = self.column.header;
         let step = format!("step {}", self.model.cursor());
         let role = if self.model.looks_back() { Role::Accent } else { Role::Muted };
@@ -67,10 +83,10 @@ impl Filter<'_> {
     }
 
     /// A line through all charts at the step read, and at what happens on the course.
-    pub fn cursor(&self, scene: &mut Scene) {
+    fn cursor(&self, scene: &mut Scene) {
         let through = |step: u32| {
             let x = self.chart(0).x(step);
-            self.column.charts.iter().map(move |chart| (x, chart.y, chart.bottom()))
+            self.column.charts.iter().filter(|chart| chart.h > 0.0).map(move |chart| (x, chart.y, chart.bottom()))
         };
         let events = self.events().into_iter().flat_map(|(step, _)| through(step));
         let dots = events.flat_map(|(x, y0, y1)| {
@@ -91,7 +107,7 @@ impl Filter<'_> {
     }
 
     /// Name of a chart at the left of its line, and at the right what is written beside its curves.
-    pub fn label(&self, scene: &mut Scene, chart: usize, values: &[(String, Weight, Role)]) -> Rect {
+    pub(super) fn label(&self, scene: &mut Scene, chart: usize, values: &[(String, Weight, Role)]) -> Rect {
         let Rect { x, y, w, h } = self.column.labels[chart];
         let mut right = x + w;
         for (value, weight, role) in values.iter().rev() {
@@ -109,7 +125,7 @@ impl Filter<'_> {
         Rect::new(x, y, right - x, h)
     }
 
-    pub fn name(&self, scene: &mut Scene, area: &Rect, name: &str) {
+    pub(super) fn name(&self, scene: &mut Scene, area: &Rect, name: &str) {
         scene.marks.push(text(*area, Anchor::Start, SIZE, Weight::Regular, Role::Muted, name));
     }
 
@@ -143,7 +159,7 @@ impl Filter<'_> {
     }
 
     /// N_eff, the threshold, and the steps that resampled.
-    pub fn ess(&self, scene: &mut Scene) {
+    fn ess(&self, scene: &mut Scene) {
         let (m, Moment { report, resampled, .. }) = (self.particles() as f64, self.model.read(self.policy));
         let times = format!("resampled {resampled}×");
         let values = [
@@ -162,7 +178,7 @@ impl Filter<'_> {
     }
 
     /// Distinct ancestors at the start, and some steps back.
-    pub fn lineage(&self, scene: &mut Scene) {
+    fn lineage(&self, scene: &mut Scene) {
         let (m, back) = (self.particles() as f64, self.model.back());
         let Moment { report, .. } = self.model.read(self.policy);
         let values = [
@@ -177,7 +193,7 @@ impl Filter<'_> {
     }
 
     /// Position errors of the best particle and of the weighted mean.
-    pub fn errors(&self, scene: &mut Scene) {
+    fn errors(&self, scene: &mut Scene) {
         let Moment { report, .. } = self.model.read(self.policy);
         // Three digits, for want of room.
         let metres = |x: f64| fixed(x, if x < 10.0 { 2 } else { 1 });

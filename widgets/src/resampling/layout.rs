@@ -1,6 +1,22 @@
 //! Where the parts of the figure stand: a column for each filter where there is room, the filters below each other on a phone.
 
-use crate::scene::{LINE, Rect};
+use crate::{
+    panels::Panels,
+    scene::{LINE, Rect},
+};
+
+/// Names of the panels: four charts, and where the particles are.
+pub const ESS: &str = "n-eff";
+/// See [`ESS`].
+pub const LINEAGE: &str = "ancestors";
+/// See [`ESS`].
+pub const ERROR: &str = "error";
+/// See [`ESS`].
+pub const TREE: &str = "tree";
+/// See [`ESS`].
+pub const PARTICLES: &str = "particles";
+/// The charts, by rank.
+pub const CHARTS: [&str; 4] = [ESS, LINEAGE, ERROR, TREE];
 
 /// From this width on \[css px\], the filters stand side by side.
 pub const WIDE: f64 = 720.0;
@@ -45,8 +61,13 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// For a figure of this width.
+    /// Of all panels, for a figure of this width.
     pub fn new(width: f64) -> Self {
+        Self::of(width, &Panels::default())
+    }
+
+    /// Of some panels: those that are not shown have no height.
+    pub fn of(width: f64, panels: &Panels) -> Self {
         let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
         let wide = width >= WIDE;
         let gap = if wide { 26.0 } else { 10.0 };
@@ -55,6 +76,8 @@ impl Layout {
         let (map_lines, map_height) = if wide { (1.0, 0.42 * third) } else { (2.0, 0.8 * third) };
         let (chart, tree) = if wide { (46.0, 0.42 * third.clamp(240.0, 400.0)) } else { (40.0, 108.0) };
 
+        let charts = CHARTS.iter().any(|name| panels.has(name));
+        let maps = panels.has(PARTICLES);
         let mut top = 0.0;
         let mut columns = [0, 1, 2].map(|k| {
             let (x, w) = if wide { (place(k), third) } else { (0.0, width) };
@@ -64,14 +87,17 @@ impl Layout {
                 y += h + pad;
                 area
             };
-            let header = take(HEADER, 0.0);
-            let parts = [chart, chart, chart, tree].map(|h| {
+            let header = if charts { take(HEADER, 0.0) } else { take(0.0, 0.0) };
+            let parts = [(ESS, chart, 5.0), (LINEAGE, chart, 5.0), (ERROR, chart, 5.0), (TREE, tree, 1.0)];
+            let parts = parts.map(|(name, h, pad)| {
+                let shown = panels.has(name);
+                let mut take = |h: f64, pad: f64| if shown { take(h, pad) } else { take(0.0, 0.0) };
                 let label = take(LINE, 2.0);
-                let Rect { x, y, w, h } = take(h, if h == tree { 1.0 } else { 5.0 });
+                let Rect { x, y, w, h } = take(h, pad);
                 (label, Rect::new(x + EDGE, y, w - 2.0 * EDGE, h))
             });
-            let axis = take(AXIS, PAD);
-            top = y + if wide { 0.0 } else { PAD };
+            let axis = if charts { take(AXIS, PAD) } else { take(0.0, 0.0) };
+            top = y + if wide || !charts { 0.0 } else { PAD };
             let nothing = Rect::new(0.0, 0.0, 0.0, 0.0);
             Column {
                 header,
@@ -83,8 +109,9 @@ impl Layout {
             }
         });
         for (k, column) in columns.iter_mut().enumerate() {
-            column.map_label = Rect::new(place(k), top, third, map_lines * LINE);
-            column.map = Rect::new(place(k), column.map_label.bottom(), third, map_height);
+            let [label, map] = [map_lines * LINE, map_height].map(|h| if maps { h } else { 0.0 });
+            column.map_label = Rect::new(place(k), top, third, label);
+            column.map = Rect::new(place(k), column.map_label.bottom(), third, map);
         }
         let lines = if wide {
             2.0
@@ -95,14 +122,21 @@ impl Layout {
         } else {
             5.0
         };
-        let legend = Rect::new(0.0, columns[0].map.bottom() + PAD, width, lines * LINE);
+        // What all marks mean is said below all of them.
+        let (pad, lines) = if panels.are_all() { (PAD, lines) } else { (0.0, 0.0) };
+        let legend = Rect::new(0.0, columns[0].map.bottom() + pad, width, lines * LINE);
         Self { wide, columns, legend, height: legend.bottom().ceil() }
+    }
+
+    /// The first chart that is shown.
+    pub fn first_chart(&self) -> Rect {
+        let charts = self.columns[0].charts;
+        charts.into_iter().find(|chart| chart.h > 0.0).unwrap_or(charts[0])
     }
 
     /// Where the cursor follows a pointer: over all charts.
     pub fn charts(&self) -> Rect {
-        let [first, .., last] = &self.columns;
-        let (start, end) = (&first.charts[0], &last.charts[3]);
+        let (start, end) = (self.first_chart(), self.columns[2].charts[3]);
         Rect::new(start.x, start.y, end.right() - start.x, end.bottom() - start.y)
     }
 
@@ -116,6 +150,7 @@ impl Layout {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::assert_apart;
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
@@ -136,6 +171,20 @@ mod tests {
             let Layout { columns, .. } = Layout::new(width);
             for Column { charts, .. } in columns {
                 assert!(charts.iter().all(|c| (c.x, c.w) == (charts[0].x, charts[0].w)), "{width}");
+            }
+        }
+    }
+
+    #[test]
+    fn panels_shown_alone_leave_no_place_for_the_others() {
+        for (names, shown) in [("tree", 12), ("n-eff error", 18), ("particles", 6), ("ancestors particles", 18)] {
+            let panels = Panels::named(names, &[ESS, LINEAGE, ERROR, TREE, PARTICLES]).unwrap();
+            for width in (300..2000).step_by(7).map(f64::from) {
+                let layout = Layout::of(width, &panels);
+                let parts: Vec<Rect> = layout.parts().into_iter().filter(|part| part.h > 0.0).collect();
+                assert_eq!(parts.len(), shown, "{names} at {width}");
+                assert_apart(&parts, &Rect::new(0.0, 0.0, width, layout.height));
+                assert!(layout.height < 0.8 * Layout::new(width).height, "{names} at {width}");
             }
         }
     }

@@ -2,13 +2,14 @@
 
 use super::{
     filter::{Filter, SECOND, THRESHOLD, error_scale},
-    layout::{Layout, NARROWEST},
+    layout::{CHARTS, ERROR, ESS, LINEAGE, Layout, NARROWEST, PARTICLES, TREE},
     model::{Moment, ResamplingModel},
     tree::{DEAD, common},
 };
 use crate::decimal::fixed;
 use crate::{
     model::Model,
+    panels::Panels,
     scene::{Chart, Handle, Legend, Mark, Point, Rect, Role, Sample, Scene, closed, diamond, robot},
     view::{View, whole_step},
 };
@@ -18,36 +19,44 @@ pub const CURSOR: &str = "cursor";
 
 /// Figure w17.2, as it is seen.
 #[derive(Default)]
-pub struct ResamplingView;
+pub struct ResamplingView {
+    panels: Panels,
+}
 
 impl View for ResamplingView {
     type Model = ResamplingModel;
     const NARROWEST: f64 = NARROWEST;
+    const PANELS: &'static [&'static str] = &[ESS, LINEAGE, ERROR, TREE, PARTICLES];
 
-    fn layout_height(width: f64) -> f64 {
-        Layout::new(width).height
+    fn show(&mut self, panels: Panels) {
+        self.panels = panels;
+    }
+
+    fn layout_height(&self, width: f64) -> f64 {
+        Layout::of(width, &self.panels).height
     }
 
     fn draw(&self, model: &ResamplingModel, scene: &mut Scene) {
-        let layout = Layout::new(scene.width);
+        let layout = Layout::of(scene.width, &self.panels);
         let error_scale = error_scale(model.largest_error());
         for (policy, column) in layout.columns.iter().enumerate() {
             let filter = Filter { model, policy, column, error_scale };
-            filter.header(scene);
-            filter.cursor(scene);
-            filter.ess(scene);
-            filter.lineage(scene);
-            filter.errors(scene);
-            filter.tree(scene);
-            filter.axis(scene);
-            filter.map(scene, layout.wide);
+            filter.charts(scene, &self.panels);
+            if self.panels.has(PARTICLES) {
+                filter.map(scene, layout.wide);
+            }
         }
-        legend(scene, model, &layout.legend);
-        let chart = Chart { area: layout.columns[0].charts[0], last: model.step_count() };
+        if self.panels.are_all() {
+            legend(scene, model, &layout.legend);
+        }
+        if !CHARTS.iter().any(|name| self.panels.has(name)) {
+            return;
+        }
+        let first = Chart { area: layout.first_chart(), last: model.step_count() };
         scene.handles.push(Handle {
             name: CURSOR,
             title: "Step read".into(),
-            at: [chart.x(model.cursor()), chart.area.centre()[1]],
+            at: [first.x(model.cursor()), layout.first_chart().centre()[1]],
             value: f64::from(model.cursor()),
             text: told(model),
             hover: Some(layout.charts()),
@@ -56,7 +65,7 @@ impl View for ResamplingView {
 
     fn drag(&self, model: &mut ResamplingModel, handle: &str, to: Point, width: f64) {
         if handle == CURSOR {
-            let layout = Layout::new(width);
+            let layout = Layout::of(width, &self.panels);
             let column = layout.columns.iter().rev().find(|c| c.header.x <= to[0]).unwrap_or(&layout.columns[0]);
             let chart = &column.charts[0];
             model.look(((to[0] - chart.x) / chart.w * f64::from(model.step_count())).round());

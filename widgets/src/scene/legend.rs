@@ -118,6 +118,6 @@ mod tests {
             assert_eq!(scene.marks.len(), 6, "a sample and a name each");
             (bottom - 5.0) / LINE
         };
-        assert_eq!([lines(300.0), lines(100.0), lines(1.0)], [1.0, 2.0, 3.0]);
+        assert_eq!([lines(300.0), lines(130.0), lines(1.0)], [1.0, 2.0, 3.0]);
     }
 }

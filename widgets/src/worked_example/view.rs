@@ -32,7 +32,7 @@ impl View for WorkedExampleView {
     type Model = WorkedExampleModel;
     const NARROWEST: f64 = NARROWEST;
 
-    fn layout_height(width: f64) -> f64 {
+    fn layout_height(&self, width: f64) -> f64 {
         Layout::new(width).height
     }
 
