@@ -33,6 +33,8 @@ pub mod resampling;
 pub mod scene;
 #[cfg(target_arch = "wasm32")]
 pub mod shell;
+#[cfg(all(target_arch = "wasm32", feature = "trouble"))]
+mod trouble;
 pub mod view;
 mod words;
 #[cfg(feature = "worked-example")]

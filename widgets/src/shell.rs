@@ -129,6 +129,8 @@ impl Figure {
 
     /// Gives a parameter a new value; throws a `FigureError` if it is refused.
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), Error> {
+        #[cfg(feature = "trouble")]
+        crate::trouble::die_if_asked(name, value);
         self.figure.set(name, value).map_err(thrown)
     }
 

@@ -1,0 +1,28 @@
+//! Ways to die on purpose. Only the test of `tests/e2e/trap.spec.ts` is built with the feature `trouble`, and no program that is shipped:
+//! what a page does after a trap can only be tested with a real one.
+
+use core::hint::black_box;
+
+/// Dies where the parameter `trouble` is set, in the way its value names: "panic", "stack" or "memory". All else goes by.
+pub fn die_if_asked(name: &str, value: &str) {
+    match (name, value) {
+        ("trouble", "panic") => panic!("trouble was asked for"),
+        ("trouble", "stack") => {
+            black_box(overflow(0));
+        }
+        ("trouble", "memory") => exhaust(),
+        _ => {}
+    }
+}
+
+/// Calls itself until the stack is full.
+fn overflow(depth: u64) -> u64 {
+    if depth == u64::MAX { 0 } else { 1 + black_box(overflow(black_box(depth + 1))) }
+}
+
+/// Asks for memory until there is no more. None of it is written to, so that the machine of the test does not feel it.
+fn exhaust() -> ! {
+    loop {
+        core::mem::forget(black_box(Vec::<u8>::with_capacity(1 << 26)));
+    }
+}
