@@ -3,11 +3,12 @@
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { pathToFileURL } from 'node:url'
+import { readGlue, shellModule, shellTypes } from './glue.mjs'
 import { isMain, main, readIfThere, root, step, StepError } from './lib.mjs'
 
 /**
- * @typedef {import('../widgets/elements/engine').ParamSpec} ParamSpec
- * @typedef {import('../widgets/elements/engine').Readout} Readout
+ * @typedef {import('../widgets/elements/program').ParamSpec} ParamSpec
+ * @typedef {import('../widgets/elements/program').Readout} Readout
  * @typedef {{ tag: string, name: string, className: string, title: string, describe: string, params: ParamSpec[], readouts: Readout[] }} FigureInfo
  */
 
@@ -233,8 +234,11 @@ export function write(path, text) {
   if (readIfThere(path) !== text) writeFileSync(path, text)
 }
 
-/** The names that the elements need before a program runs. */
+/** The names that the elements need before a program runs, and the glue that runs it. */
 export async function writeNames() {
+  const generated = join(root, 'widgets', 'elements', 'generated')
+  write(join(generated, 'shell.js'), shellModule(readGlue()))
+  write(join(generated, 'shell.d.ts'), shellTypes)
   const all = await figures()
   const rows = all.map(({ tag, title, params }) => `  '${tag}': { title: ${JSON.stringify(title)}, parameters: ${JSON.stringify(params.map(({ name }) => name).join(' '))}.split(' ') },`)
   write(

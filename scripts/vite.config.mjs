@@ -25,16 +25,6 @@ const figurePrograms = {
   },
 }
 
-/** The glue would name the program with all figures, which it is never left to fetch: files.ts knows which one is wanted. */
-const withoutAddress = {
-  name: 'glue-without-address',
-  transform: {
-    filter: { id: /[/\\]fastslam_widgets\.js$/ },
-    /** @param {string} code */
-    handler: code => code.replace("new URL('fastslam_widgets_bg.wasm', import.meta.url)", 'undefined'),
-  },
-}
-
 /** In the head of every page, before all that it loads; vite's own server needs what the policy forbids. @type {import('vite').Plugin} */
 const policyInHead = {
   name: 'policy-in-head',
@@ -45,7 +35,7 @@ const policyInHead = {
 export default defineConfig({
   root: www,
   base: './',
-  plugins: [chapter(root), figurePrograms, withoutAddress, policyInHead],
+  plugins: [chapter(root), figurePrograms, policyInHead],
   build: {
     outDir: join(root, 'dist'),
     emptyOutDir: true,
@@ -64,14 +54,14 @@ export default defineConfig({
       output: {
         entryFileNames: chunk => (chunk.name === 'fastslam' ? '[name].js' : 'assets/[name]-[hash].js'),
         // What all figures share is one file, and what only one has is a file of its own: a page for frames loads no other's.
-        codeSplitting: { groups: [{ name: 'shared', test: /widgets[/\\](pkg[/\\]|elements[/\\](?!(generated[/\\])?(log|count|resampling|lap-table|index)\.))/ }] },
+        codeSplitting: { groups: [{ name: 'shared', test: /widgets[/\\](pkg[/\\]|elements[/\\](?!(generated[/\\])?(log|drops|map-gestures|resampling|resampling-study|lap-table|index)\.))/ }] },
         // It lies beside fastslam.js, which only names them: figures find the site's other pages from there.
         chunkFileNames: chunk => (chunk.name === 'shared' ? 'fastslam-[hash].js' : 'assets/[name]-[hash].js'),
         assetFileNames,
       },
     },
   },
-  worker: { format: 'es', plugins: () => [withoutAddress], rollupOptions: { output: { entryFileNames: 'assets/[name]-[hash].js', assetFileNames } } },
+  worker: { format: 'es', rollupOptions: { output: { entryFileNames: 'assets/[name]-[hash].js', assetFileNames } } },
   // The elements, and what wasm-pack makes, are outside www/.
   server: { fs: { allow: [root] } },
 })

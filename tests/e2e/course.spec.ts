@@ -126,9 +126,9 @@ async function tap(page: Page): Promise<void> {
       tapped.frames++
       return ask(callback)
     }
-    const streaming = WebAssembly.instantiateStreaming
-    WebAssembly.instantiateStreaming = async (...args: Parameters<typeof streaming>) => {
-      const { instance, module } = await streaming(...args)
+    const instantiate = WebAssembly.instantiate as (module: WebAssembly.Module, imports: WebAssembly.Imports) => Promise<WebAssembly.Instance>
+    WebAssembly.instantiate = (async (...args: Parameters<typeof instantiate>) => {
+      const instance = await instantiate(...args)
       const exports: Record<string, unknown> = { ...instance.exports }
       tapped.memory = exports['memory'] as WebAssembly.Memory
       for (const [name, by] of [['figure_new', 1], ['__wbg_figure_free', -1]] as const) {
@@ -138,8 +138,8 @@ async function tap(page: Page): Promise<void> {
           return call(...given)
         }
       }
-      return { instance: { exports } as WebAssembly.Instance, module }
-    }
+      return Object.create(WebAssembly.Instance.prototype, { exports: { value: exports } }) as WebAssembly.Instance
+    }) as never
   })
 }
 const tapped = (page: Page) => page.evaluate(() => {

@@ -366,9 +366,9 @@ test('a program that dies says so, and the example is still possible', async ({ 
   // What a panic would do to it.
   await page.evaluate(() => {
     const post = Worker.prototype.postMessage
-    Worker.prototype.postMessage = function (this: Worker, message: { ask?: string }) {
-      if (message.ask !== 'run') return post.call(this, message)
-      this.dispatchEvent(new MessageEvent('message', { data: { told: 'failed', message: 'panicked at nothing' } }))
+    Worker.prototype.postMessage = function (this: Worker, message: { do?: string }) {
+      if (message.do !== 'run') return post.call(this, message)
+      this.dispatchEvent(new MessageEvent('message', { data: { told: 'failed', why: 'panicked at nothing', error: 'unreachable' } }))
       Worker.prototype.postMessage = post
     }
   })
@@ -467,8 +467,8 @@ async function tapWorker(page: Page): Promise<() => Promise<string[]>> {
     const asked: string[] = []
     Object.assign(self, { asked })
     const post = Worker.prototype.postMessage
-    Worker.prototype.postMessage = function (this: Worker, message: { ask?: string }) {
-      asked.push(message.ask ?? '')
+    Worker.prototype.postMessage = function (this: Worker, message: { do?: string }) {
+      asked.push(message.do ?? '')
       return post.call(this, message)
     }
   })

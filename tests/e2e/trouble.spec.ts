@@ -34,13 +34,10 @@ async function tapWasm(page: Page): Promise<void> {
           throw new WebAssembly.RuntimeError('unreachable')
         }
       })
-      return { exports } as WebAssembly.Instance
+      return Object.create(WebAssembly.Instance.prototype, { exports: { value: exports } }) as WebAssembly.Instance
     }
-    const streaming = WebAssembly.instantiateStreaming
-    WebAssembly.instantiateStreaming = async (...args: Parameters<typeof streaming>) => {
-      const { instance, module } = await streaming(...args)
-      return { instance: wrap(instance), module }
-    }
+    const instantiate = WebAssembly.instantiate as (module: WebAssembly.Module, imports: WebAssembly.Imports) => Promise<WebAssembly.Instance>
+    WebAssembly.instantiate = (async (...args: Parameters<typeof instantiate>) => wrap(await instantiate(...args))) as never
   })
 }
 

@@ -1,4 +1,4 @@
-import { FigureElement } from './base'
+import { FigureElement } from './figure-element'
 import { register } from './parameters'
 
 /** w17.4, the graphical model: what conditioning on the path does to the covariance. */

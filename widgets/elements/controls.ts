@@ -1,6 +1,6 @@
 // Every control is made from the shell's list of parameters, so a figure gets its controls by declaring parameters.
 import { h, icon, redraw, write } from './dom'
-import type { ParamSpec } from './engine'
+import type { ParamSpec } from './program'
 import { stride } from './handles'
 
 /** What the controls may ask of the figure. */
@@ -10,7 +10,7 @@ export interface Actions {
   stepBack(): void
   seek(step: number): void
   reset(): void
-  pace(stepsPerSecond: number): void
+  rate(stepsPerSecond: number): void
   /** The value as a reader typed it; the figure refuses it or shows it. */
   change(name: string, value: string): void
 }
@@ -23,8 +23,8 @@ interface Field {
   limit?(spec: ParamSpec): boolean
 }
 
-const PACES = [1.5, 3, 6, 12, 24] // [steps/s]; 6 is called 1×: a lap in a quarter of a minute
-const NORMAL_PACE = 6
+const RATES = [1.5, 3, 6, 12, 24] // [steps/s]; 6 is called 1×: a lap in a quarter of a minute
+const NORMAL_RATE = 6
 
 // These two have their place in the row of transport controls.
 const SEED = 'seed'
@@ -49,7 +49,7 @@ export class Controls {
   private readonly scrub: HTMLInputElement
   private readonly position: HTMLElement
   private readonly mark: Mark = { comma: false }
-  private readonly pace: HTMLSelectElement
+  private readonly rate: HTMLSelectElement
   private readonly playback: HTMLElement[] // all that a figure without steps has no use for
 
   constructor(specs: ParamSpec[], actions: Actions) {
@@ -60,21 +60,21 @@ export class Controls {
     this.scrub = h('input', { type: 'range', class: 'scrub', part: 'scrub', min: '0', step: '1', 'aria-label': 'Step shown' })
     this.scrub.addEventListener('input', () => actions.seek(this.scrub.valueAsNumber))
     this.position = h('span', { class: 'position' })
-    const pace = select(
+    const rate = select(
       'Speed',
-      PACES.map(p => [String(p), `${p / NORMAL_PACE}×`]),
-      v => actions.pace(Number(v)),
+      RATES.map(rate => [String(rate), `${rate / NORMAL_RATE}×`]),
+      v => actions.rate(Number(v)),
     )
-    this.pace = pace
-    pace.value = String(NORMAL_PACE)
+    this.rate = rate
+    rate.value = String(NORMAL_RATE)
     const timeline = h('span', { class: 'timeline' }, this.scrub, this.position)
-    this.playback = [this.back, this.play, this.forth, timeline, pace]
+    this.playback = [this.back, this.play, this.forth, timeline, rate]
     this.transport = h(
       'div',
       { class: 'transport', part: 'transport', role: 'group', 'aria-label': 'Playback' },
       h('span', { class: 'buttons' }, reset, this.back, this.play, this.forth),
       timeline,
-      h('span', { class: 'extras' }, pace),
+      h('span', { class: 'extras' }, rate),
     )
 
     const grid = h('div', { class: 'grid' })
@@ -126,7 +126,7 @@ export class Controls {
         box.role = comma ? 'spinbutton' : null
       }
     }
-    for (const option of this.pace.options) option.text = written(`${Number(option.value) / NORMAL_PACE}×`, this.mark)
+    for (const option of this.rate.options) option.text = written(`${Number(option.value) / NORMAL_RATE}×`, this.mark)
   }
 
   /** Parameters that are the author's alone: their controls show the value and do nothing. */

@@ -1,6 +1,11 @@
 // The same as files.ts for a script that carries its files along (scripts/single.mjs): notebooks, pages from file://, learning systems.
 import { example, program, worker } from 'virtual:fastslam-files'
 
+/** There is one program. */
+export function programName(): string {
+  return 'all'
+}
+
 /** Packed as gzip in base64: a third smaller than the program itself. */
 export async function fetchProgram(): Promise<Response> {
   const stream = new Blob([bytes(program)]).stream().pipeThrough(new DecompressionStream('gzip'))
@@ -15,9 +20,6 @@ function bytes(base64: string): Uint8Array<ArrayBuffer> {
 export async function fetchExample(): Promise<Response> {
   return new Response(bytes(example))
 }
-
-/** There is one program. */
-export const fetchLogProgram = fetchProgram
 
 export function workerScript(): { text: string } {
   return { text: worker }

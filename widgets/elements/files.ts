@@ -3,18 +3,20 @@ import worker from './worker?worker&url'
 
 const PICTURES = import.meta.glob<string>('../../tests/figures/golden/fastslam-*.png', { eager: true, query: '?url', import: 'default' })
 
-/**
- * The program of this page, and the one place where it is chosen: a page with one kind of figure may name that figure's own, which is
- * smaller, by `<link rel="fastslam-program" href="…">`; every other page gets that of all figures that run on the page itself.
- */
-export function fetchProgram(): Promise<Response> {
-  const named = document.querySelector<HTMLLinkElement>('link[rel=fastslam-program]')
-  return fetch(named?.href ?? new URL('../pkg/fastslam-page.wasm', import.meta.url))
+/** Figures of one program share it. */
+export function programName(tag: string): string {
+  return tag === 'fastslam-log' ? 'log' : 'page'
 }
 
-/** The program of the figure that maps logs, for its worker. */
-export function fetchLogProgram(): Promise<Response> {
-  return fetch(new URL('../pkg/fastslam-log.wasm', import.meta.url))
+/**
+ * A program, and the one place where its file is chosen: a page with one kind of figure may name that figure's own, which is smaller, by
+ * `<link rel="fastslam-program" href="…">`; every other page gets that of all figures that run on the page itself. The one for logs is
+ * apart, as many a reader never maps one.
+ */
+export function fetchProgram(name: string): Promise<Response> {
+  if (name === 'log') return fetch(new URL('../pkg/fastslam-log.wasm', import.meta.url))
+  const named = document.querySelector<HTMLLinkElement>('link[rel=fastslam-program]')
+  return fetch(named?.href ?? new URL('../pkg/fastslam-page.wasm', import.meta.url))
 }
 
 /** The log that comes with that figure. */

@@ -1,5 +1,6 @@
 // Registers every figure; one file a tag.
-export { FigureElement, type FigureDetail } from './base'
+export type { FigureDetail } from './events'
+export { FigureElement } from './figure-element'
 export { FastslamConditioning } from './conditioning'
 export { FastslamLap } from './lap'
 export { FastslamLog } from './log'

@@ -1,8 +1,9 @@
-// Experiments over many seeds, beside the page: in a Web Worker, so that nothing else has to wait for them.
-import { engine } from './engine'
+// Workers: what runs beside the page, so that nothing else has to wait for it. Experiments over many seeds run in one of their own.
 import { workerScript } from './files'
+import { programOf, type Shell } from './program'
+import type { WorkerRequest, WorkerResponse } from './worker'
 
-/** What is to be run: an experiment of the shell, its setting as a figure's link, and seeds from `from` to before `to`. */
+/** What is to be run: an experiment of a figure's program, its setting as a figure's link, and seeds from `from` to before `to`. */
 export interface Job {
   name: string
   query: string
@@ -10,27 +11,28 @@ export interface Job {
   to: number
 }
 
-/** What the worker says: rows as they come, one for each seed, then that it is done, or why it is not. */
-export type Told = { rows: number[][] } | { done: true } | { failed: string }
-
-/** Resolves when every seed has been run. A signal stops it at once; what came until then has been told. */
-export async function runInWorker(job: Job, onRows: (rows: number[][]) => void, signal: AbortSignal): Promise<void> {
-  const { program } = await engine()
+/**
+ * Resolves when every seed has been run. A signal stops it at once; what came until then has been told, with an instance of the same
+ * program on the page for what is to be computed from it.
+ */
+export async function runInWorker(tag: string, job: Job, onRows: (rows: number[][], shell: Shell) => void, signal: AbortSignal): Promise<void> {
+  const program = programOf(tag)
+  const [module, shell] = [await program.module(), await program.shell()]
   signal.throwIfAborted()
-  const worker = hire()
+  const worker = createWorker()
   try {
     await new Promise<void>((done, fail) => {
       signal.addEventListener('abort', () => fail(signal.reason as Error), { once: true })
-      worker.addEventListener('message', ({ data }: MessageEvent<Told>) => {
-        if ('rows' in data) onRows(data.rows)
-        else if ('done' in data) done()
-        else fail(new Error(data.failed))
+      worker.addEventListener('message', ({ data }: MessageEvent<WorkerResponse>) => {
+        if (data.told === 'rows') onRows(data.rows, shell)
+        else if (data.told === 'done') done()
+        else if (data.told === 'failed') fail(new Error(data.why))
       })
       worker.addEventListener('error', event => {
         event.preventDefault()
-        fail(refused(event.message))
+        fail(workerRefused(event.message))
       })
-      worker.postMessage({ ...job, program })
+      worker.postMessage({ do: 'job', module, job } satisfies WorkerRequest)
     })
   } finally {
     worker.terminate()
@@ -41,7 +43,7 @@ export async function runInWorker(job: Job, onRows: (rows: number[][]) => void, 
  * A worker's file must be of the page's own site. Where the figures come from another one, or the page has no site (a sandboxed frame),
  * a line that imports it is; and a file for offline use carries it along.
  */
-export function hire(): Worker {
+export function createWorker(): Worker {
   try {
     const file = workerScript()
     const own = 'address' in file && new URL(file.address, location.href).origin === self.origin
@@ -51,10 +53,10 @@ export function hire(): Worker {
     if (!own) setTimeout(() => URL.revokeObjectURL(url), 10_000) // when it has been read
     return worker
   } catch (error) {
-    throw refused(error instanceof Error ? error.message : '')
+    throw workerRefused(error instanceof Error ? error.message : '')
   }
 }
 
-export function refused(why: string | undefined): Error {
+export function workerRefused(why: string | undefined): Error {
   return new Error(`this page lets nothing run in the background${why ? ` (${why})` : ''}`)
 }

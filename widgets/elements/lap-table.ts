@@ -1,7 +1,7 @@
 // The lap table of the chapter: a plain table (scripts/chapter/lap-table.mjs) that readers may compute again, cell by cell.
 import { h, icon, write } from './dom'
-import { spread } from '../pkg/fastslam_widgets.js'
 import { runInWorker } from './jobs'
+import { programOf, type Shell } from './program'
 
 const PROPOSALS: Record<string, string> = { aware: 'measurement-aware proposal', motion: 'motion prior' }
 const MATCHERS: Record<string, string> = { cell: 'cell score', subcell: 'sub-cell score' }
@@ -15,6 +15,7 @@ const NUMBERS = ['median', 'low', 'high', 'p90', 'worst']
  */
 const PARTICLE_LAP: Record<string, number> = { aware: 3.2, motion: 1.2 }
 const LAP = 10 // [ms] of a lap besides its particles: the world's scans
+const LAP_TAG = 'fastslam-lap' // whose program runs the laps
 const FEW = 5 // seeds after which it is said whether they agree, long before the end
 
 interface Cell {
@@ -33,7 +34,7 @@ export class FastslamLapTable extends HTMLElement {
   #cells: Cell[] = []
   #panel: Panel | undefined
   #running: AbortController | undefined
-  #pace = 1 // time on this machine over the rough one
+  #slowness = 1 // time on this machine over the rough one
   #seeds = 0 // of every cell: all of them are run, or the digits could not be the same
 
   connectedCallback(): void {
@@ -81,7 +82,7 @@ export class FastslamLapTable extends HTMLElement {
 
   /** [ms] */
   #expected(cell: Cell): number {
-    return this.#pace * this.#rough(cell) * this.#seeds
+    return this.#slowness * this.#rough(cell) * this.#seeds
   }
 
   /** One lap [ms] on the rough machine. */
@@ -104,17 +105,18 @@ export class FastslamLapTable extends HTMLElement {
       if (running !== this.#running) return
       panel.print(printed, [Math.min(...axis), Math.max(...axis)])
       const query = `universes=${cell.particles}&proposal=${cell.proposal}&matcher=${cell.matcher}`
-      const add = (rows: number[][]) => {
+      const add = (rows: number[][], shell: Shell) => {
         if (running !== this.#running) return
         for (const [, error] of rows) found.push(error!)
-        panel.show(found, printed, performance.now() - started)
+        panel.show(found, printed, performance.now() - started, shell)
       }
-      await runInWorker({ name: 'laps', query, from: 1, to: this.#seeds + 1 }, add, running.signal)
+      await runInWorker(LAP_TAG, { name: 'laps', query, from: 1, to: this.#seeds + 1 }, add, running.signal)
+      const shell = await programOf(LAP_TAG).shell()
       if (running !== this.#running) return
       this.#running = undefined
-      this.#pace = (performance.now() - started) / (this.#rough(cell) * this.#seeds)
+      this.#slowness = (performance.now() - started) / (this.#rough(cell) * this.#seeds)
       this.#estimate()
-      this.#conclude(cell, found, printed, performance.now() - started)
+      this.#conclude(cell, shell.spread(new Float64Array(found)), found, printed, performance.now() - started)
     } catch (error) {
       if (running !== this.#running) return // it was stopped, or another cell was chosen
       this.#running = undefined
@@ -123,16 +125,15 @@ export class FastslamLapTable extends HTMLElement {
   }
 
   /** The digits in the cell against those computed here, and behind them every single error. */
-  #conclude(cell: Cell, found: number[], printed: number[], took: number): void {
-    const values = [...spread(new Float64Array(found))]
-    const here = values.map(metres)
+  #conclude(cell: Cell, numbers: Float64Array, found: number[], printed: number[], took: number): void {
+    const here = [...numbers].map(metres)
     const there = NUMBERS.map(name => cell.element.querySelector(`[data-of=${name}]`)?.textContent ?? '')
     const different = found.filter((error, k) => error !== printed[k]).length
     const [median, low, high, p90, worst] = here
-    const numbers = `median ${median} m (${low}–${high}), p90 ${p90} m, worst ${worst} m`
+    const words = `median ${median} m (${low}–${high}), p90 ${p90} m, worst ${worst} m`
     if (different === 0 && here.every((text, k) => text === there[k])) {
       this.#judge(cell, 'same', 'same digits')
-      this.#panel!.agree(`The same digits as printed: ${numbers}. All ${found.length} errors agree to the last bit. It took ${duration(took)}.`)
+      this.#panel!.agree(`The same digits as printed: ${words}. All ${found.length} errors agree to the last bit. It took ${duration(took)}.`)
     } else {
       this.#judge(cell, 'differs', 'differs')
       this.#panel!.differ(
@@ -210,13 +211,13 @@ class Panel {
   }
 
   /** What has been computed so far. */
-  show(found: number[], printed: number[], elapsed: number): void {
+  show(found: number[], printed: number[], elapsed: number, shell: Shell): void {
     for (; this.#shown < found.length; this.#shown++) {
       const [k, error] = [this.#shown, found[this.#shown]!]
       if (error === printed[k]) this.#marks[k]!.setAttribute('class', 'same')
       else this.#strip.append(svg('circle', { class: 'differs', cx: this.#x(error), cy: height(k), r: '3.5' }))
     }
-    const [median] = spread(new Float64Array(found)) as unknown as [number]
+    const [median] = shell.spread(new Float64Array(found)) as unknown as [number]
     const same = found.filter((error, k) => error === printed[k]).length
     this.#progress.value = found.length
     for (const end of ['x1', 'x2']) this.#median!.setAttribute(end, this.#x(median))

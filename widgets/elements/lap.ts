@@ -1,4 +1,4 @@
-import { FigureElement } from './base'
+import { FigureElement } from './figure-element'
 import { register } from './parameters'
 
 /** w17.1, the Apartment lap: every particle's own map, path and robot. */

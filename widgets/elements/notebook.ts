@@ -1,6 +1,7 @@
 // The figures in notebooks and in MyST: a module in anywidget's format, which is served by one file.
 // Every trait of the model that names a parameter or an option is the figure's; readouts and the step go back.
-import type { FigureDetail, FigureElement } from './base'
+import type { FigureDetail } from './events'
+import type { FigureElement } from './figure-element'
 import { FIGURES } from './generated/figures'
 import './index'
 import { OPTIONS } from './options'

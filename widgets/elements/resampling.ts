@@ -1,20 +1,20 @@
-import { FigureElement } from './base'
-import { Count } from './count'
+import { FigureElement } from './figure-element'
+import { ResamplingStudy } from './resampling-study'
 import { register } from './parameters'
 
 /** w17.2, when to resample: three filters on one log, their ancestry, and a count over many seeds. */
 export class FastslamResampling extends FigureElement {
-  readonly #count = new Count(name => this.getParameter(name))
+  readonly #study = new ResamplingStudy(name => this.getParameter(name))
 
   constructor() {
     super()
-    this.addPanel(this.#count.element)
-    this.addEventListener('fastslam-change', () => this.#count.check())
+    this.addPanel(this.#study.element)
+    this.addEventListener('fastslam-change', () => this.#study.check())
   }
 
   override disconnectedCallback(): void {
     super.disconnectedCallback()
-    this.#count.stop()
+    this.#study.stop()
   }
 }
 

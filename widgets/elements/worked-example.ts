@@ -1,4 +1,4 @@
-import { FigureElement } from './base'
+import { FigureElement } from './figure-element'
 import { register } from './parameters'
 
 /** One update by hand: every number of it, to be changed. */

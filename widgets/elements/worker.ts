@@ -1,18 +1,98 @@
-// What runs beside the page, in an instance of its own of the program that the page has compiled: a job seed by seed, or the mapping of a log.
-import init, { job } from '../pkg/fastslam_widgets.js'
-import type { Job, Told } from './jobs'
-import { answer, type Ask } from './log-work'
+// What runs beside the page, in an instance of its own of the program that the page has compiled: experiments, seed by seed, and the
+// sessions of figures that would keep the page waiting.
+import type { Answer, Command, Frame } from './host'
+import { createShell } from './generated/shell'
+import type { Job } from './jobs'
+import { LogSession } from './log-session'
+import { trapMessage, type Shell } from './program'
+import { Session } from './session'
+import { yieldToMain } from './yield'
 
-const tell = (told: Told) => postMessage(told)
+export type WorkerRequest = { do: 'job'; module: WebAssembly.Module; job: Job } | { do: 'figure'; module: WebAssembly.Module; tag: string } | Command
 
-addEventListener('message', async ({ data }: MessageEvent<(Job & { program: WebAssembly.Module }) | Ask>) => {
-  if ('ask' in data) return answer(data)
-  const { program, name, query, from, to } = data
-  try {
-    await init({ module_or_path: program })
-    for (let seed = from; seed < to; seed++) tell({ rows: job(name, query, seed, seed + 1) as number[][] })
-    tell({ done: true })
-  } catch (error) {
-    tell({ failed: error instanceof Error ? error.message : String(error) })
-  }
+/** A frame as it is sent: its pixels are a copy, which goes over to the page. */
+export type SentFrame = Omit<Frame, 'picture'> & { picture: { width: number; height: number; pixels: Uint8ClampedArray<ArrayBuffer> } | undefined }
+
+export type WorkerResponse = Answer | { told: 'frame'; frame: SentFrame } | { told: 'rows'; rows: number[][] } | { told: 'done' }
+
+const SLICE = 12 // [ms] of work between two looks at what the page asks
+const PICTURE = 100 // [ms] between two pictures of work under way …
+const SHARE = 4 // … and at least so many times as long as it took to paint one
+
+let shell: Shell | undefined
+let session: Session | undefined
+let dead = false
+let working = false
+let willShow: Promise<void> | undefined
+
+const tell = (answer: WorkerResponse, transfer: Transferable[] = []) => postMessage(answer, { transfer })
+
+/** One thing after the other: reading a file takes a while. */
+let before = Promise.resolve()
+
+addEventListener('message', ({ data }: MessageEvent<WorkerRequest>) => {
+  before = before.then(() => attempt(() => carryOut(data)))
 })
+
+/** Anything that is thrown has killed the program. */
+async function attempt(action: () => void | Promise<void>): Promise<void> {
+  if (dead) return
+  try {
+    await action()
+  } catch (error) {
+    dead = true
+    tell({ told: 'failed', why: trapMessage(error, shell), error: String(error) })
+  }
+}
+
+async function carryOut(request: WorkerRequest): Promise<void> {
+  if (request.do === 'job') return run(request)
+  if (request.do === 'figure') {
+    shell = await createShell(request.module)
+    session = new (request.tag === 'fastslam-log' ? LogSession : Session)(shell, request.tag, tell)
+    return
+  }
+  await session!.do(request)
+  void show()
+  void work()
+}
+
+async function run({ module, job: { name, query, from, to } }: Extract<WorkerRequest, { do: 'job' }>): Promise<void> {
+  shell = await createShell(module)
+  for (let seed = from; seed < to; seed++) tell({ told: 'rows', rows: shell.job(name, query, seed, seed + 1) as number[][] })
+  tell({ told: 'done' })
+}
+
+/** Works, a slice at a time, as long as there is something to do. */
+async function work(): Promise<void> {
+  if (working || !session) return
+  working = true
+  let next = 0
+  await attempt(async () => {
+    while (session!.pending) {
+      const from = performance.now()
+      while (session!.pending && performance.now() < from + SLICE) session!.work()
+      const now = performance.now()
+      if (!session!.pending || now >= next) {
+        await show()
+        const painted = performance.now()
+        next = painted + Math.max(PICTURE, SHARE * (painted - now))
+      }
+      await yieldToMain()
+    }
+  })
+  working = false
+}
+
+/** A frame soon: one for all that was asked by then. */
+function show(): Promise<void> {
+  return (willShow ??= yieldToMain().then(() => {
+    willShow = undefined
+    return attempt(() => {
+      const { picture, ...frame } = session!.frame()
+      // A copy: the memory is the program's, and the next call may move it.
+      const pixels = picture?.pixels().slice()
+      tell({ told: 'frame', frame: { ...frame, picture: picture && { ...picture, pixels: pixels! } } }, pixels ? [pixels.buffer] : [])
+    })
+  }))
+}

@@ -1,6 +1,6 @@
 // The page on embedding: an editor of a figure's attributes beside the figure, the code to paste, and tables of all there is, both made
 // from the manifest of the elements.
-import type { FigureElement } from '../../widgets/elements/base'
+import type { FigureElement } from '../../widgets/elements/figure-element'
 import { h } from '../../widgets/elements/dom'
 import { CODES, embedCode, type CodeName } from '../../widgets/elements/embed-code'
 import { FIGURES } from '../../widgets/elements/generated/figures'

@@ -1,6 +1,6 @@
 // A page of one figure, for frames: embed.html?figure=proposal&range-std=0.05&samples=16. It needs no storage and no origin of its own,
 // so it runs in a frame with sandbox="allow-scripts".
-import type { FigureElement } from '../../widgets/elements/base'
+import type { FigureElement } from '../../widgets/elements/figure-element'
 import '../../widgets/elements/conditioning'
 import '../../widgets/elements/lap'
 import '../../widgets/elements/proposal'

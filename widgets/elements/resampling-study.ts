@@ -1,7 +1,7 @@
 // The panel below the figure of resampling: in how many runs each policy still has the right wing when the evidence comes.
 import { h, write } from './dom'
-import { interval } from '../pkg/fastslam_widgets.js'
 import { runInWorker } from './jobs'
+import type { Shell } from './program'
 
 /** The settings that the count depends on; it has seeds of its own, and always the course of the two wings. */
 const SETTINGS = ['particles', 'threshold', 'odometry', 'range', 'scheme']
@@ -14,7 +14,7 @@ const POLICIES: [string, number][] = [
 ]
 const FIRST_SEED = 1
 
-export class Count {
+export class ResamplingStudy {
   readonly element: HTMLElement
   private readonly start = h('button', { type: 'button', part: 'button count' })
   private readonly halt = h('button', { type: 'button', part: 'button stop' }, 'Stop')
@@ -32,6 +32,7 @@ export class Count {
   private running: AbortController | undefined
   private alive = POLICIES.map(() => 0)
   private seeds = 0
+  private shell: Shell | undefined // computes the intervals
 
   constructor(private readonly setting: (name: string) => unknown) {
     for (const runs of ['50', '200', '1000']) this.runs.add(new Option(runs, runs))
@@ -77,7 +78,8 @@ export class Count {
     this.show()
     const to = FIRST_SEED + Number(this.runs.value)
     try {
-      await runInWorker({ name: 'wings', query: this.query, from: FIRST_SEED, to }, rows => running === this.running && this.add(rows), running.signal)
+      const job = { name: 'wings', query: this.query, from: FIRST_SEED, to }
+      await runInWorker('fastslam-resampling', job, (rows, shell) => running === this.running && this.add(rows, shell), running.signal)
       this.running = undefined
       this.show()
       this.say(`${this.seeds} seeds counted.`)
@@ -96,7 +98,8 @@ export class Count {
     this.show()
   }
 
-  private add(rows: number[][]): void {
+  private add(rows: number[][], shell: Shell): void {
+    this.shell = shell
     this.seeds += rows.length
     POLICIES.forEach(([, column], policy) => (this.alive[policy]! += rows.filter(row => row[column] === 1).length))
     this.show()
@@ -118,7 +121,7 @@ export class Count {
         return write(share, '–')
       }
       const alive = this.alive[policy]!
-      const [low, high] = [...interval(alive, this.seeds)] as [number, number]
+      const [low, high] = [...this.shell!.interval(alive, this.seeds)] as [number, number]
       fill.style.width = percent(alive / this.seeds)
       range.style.left = percent(low)
       range.style.width = percent(high - low)

@@ -1,0 +1,31 @@
+// The glue that wasm-bindgen writes is a module, and a module has one instance: a program that has trapped could not be replaced, and
+// a page could not have two programs. The same lines inside a function have as many as there are calls.
+import { readFileSync } from 'node:fs'
+import { join } from 'node:path'
+import { root, StepError } from './lib.mjs'
+
+/** `createShell(module)`, which makes an instance and returns what the glue exports. @param {string} glue */
+export function shellModule(glue) {
+  const names = [...glue.matchAll(/^export (?:class|function) (\w+)/gm)].map(([, name]) => name)
+  const inner = glue
+    .replace(/^export (?=class |function )/gm, '')
+    .replace(/^export \{ initSync, __wbg_init as default \};$/m, '')
+    .replace("new URL('fastslam_widgets_bg.wasm', import.meta.url)", 'undefined')
+  if (names.length === 0 || /^(export|import) /m.test(inner) || inner.includes('import.meta')) {
+    throw new StepError('widgets/pkg/fastslam_widgets.js is not what scripts/glue.mjs knows of wasm-bindgen: has its version changed?')
+  }
+  return `// Made by scripts/glue.mjs from widgets/pkg/fastslam_widgets.js.
+export async function createShell(module) {
+${inner}
+await __wbg_init({ module_or_path: module })
+return { memory: wasm.memory, ${names.join(', ')} }
+}
+`
+}
+
+export const shellTypes = `// Made by scripts/glue.mjs.
+export type Shell = Omit<typeof import('../../pkg/fastslam_widgets.js'), 'default' | 'initSync'> & { memory: WebAssembly.Memory }
+export function createShell(module: WebAssembly.Module): Promise<Shell>
+`
+
+export const readGlue = () => readFileSync(join(root, 'widgets', 'pkg', 'fastslam_widgets.js'), 'utf8')

@@ -1,0 +1,103 @@
+// The canvas of a figure: how much room there is for the picture, how large it becomes, and its pixels.
+import { h } from './dom'
+import { release, reserve } from './heights'
+import type { Layout, Picture, Size } from './host'
+import { themeName } from './theme'
+
+const FONT_SCALE = 1.5 // letters and lines of the presentation size, over the normal one
+const PICTURE_SHARE = 0.6 // of a frame's height, which the picture takes if the rest has to be scrolled
+const MAX_PIXELS = 6e6 // a canvas beyond this is painted coarser: no screen shows the difference, every phone feels it
+
+export class Canvas {
+  readonly element = h('canvas', { part: 'canvas', role: 'img', 'aria-labelledby': 'title', 'aria-describedby': 'sentence' })
+  #room = 0 // [css px] for the picture, sideways
+  #natural: number | undefined // [css px] high, if nothing had to fit
+  #size = { css: 0, width: 0, height: 0 }
+  #reserves = true // keeps the place free that the figure will take
+  readonly #sizes = new ResizeObserver(entries => this.#onResize(entries))
+
+  constructor(
+    private readonly figure: HTMLElement,
+    private readonly body: HTMLElement,
+    private readonly stage: HTMLElement,
+    private readonly resized: () => void,
+  ) {}
+
+  observe(): void {
+    this.#sizes.observe(this.stage)
+    try {
+      this.#sizes.observe(this.element, { box: 'device-pixel-content-box' })
+    } catch {
+      this.#sizes.observe(this.element) // Safari
+    }
+  }
+
+  disconnect(): void {
+    this.#sizes.disconnect()
+  }
+
+  /** The figure is there, or will not come: it takes what it takes. */
+  release(): void {
+    this.#reserves = false
+    release(this.body)
+  }
+
+  /** Whether the picture takes what height there is, rather than all of the width. */
+  get fits(): boolean {
+    return (this.figure.hasAttribute('fit') && this.figure.getAttribute('fit') !== 'off') || this.figure.matches(':fullscreen')
+  }
+
+  /** What the picture is to be painted for. */
+  get size(): Size {
+    const height = this.fits ? Math.max(this.body.offsetHeight - this.#around, PICTURE_SHARE * this.body.offsetHeight) : undefined
+    const fontScale = this.figure.getAttribute('size') === 'presentation' ? FONT_SCALE : 1
+    return { room: this.#room, height, fontScale, canvas: this.#size, theme: themeName(this.figure.getAttribute('theme')) }
+  }
+
+  /** Height [css px] that shows all of the figure at its present width, the picture as large as it would like to be. */
+  get naturalHeight(): number {
+    return Math.ceil(this.#around + (this.#natural ?? this.stage.offsetHeight))
+  }
+
+  /** Takes the size that the picture wants; the observer of sizes then asks for the paint. */
+  place({ width, height, natural }: Layout): void {
+    this.#natural = natural
+    this.stage.style.setProperty('--_width', width === undefined ? '100%' : `${width}px`)
+    const css = `${height}px`
+    if (this.element.style.height !== css) this.element.style.height = css
+  }
+
+  show({ width, height, pixels }: Picture): void {
+    const context = this.element.getContext('2d', { alpha: false })!
+    if (this.element.width !== width) this.element.width = width
+    if (this.element.height !== height) this.element.height = height
+    // The view is made now and dropped now: the next call into wasm may grow the memory and detach it.
+    const bytes = pixels()
+    context.putImageData(new ImageData(bytes, width, height), 0, 0)
+    // The figure's frame takes the painted background, so that the two cannot drift apart.
+    this.body.style.setProperty('--_paper', `rgb(${bytes[0]} ${bytes[1]} ${bytes[2]})`)
+    this.stage.classList.add('live')
+  }
+
+  /** All of the figure but its picture [css px]. */
+  get #around(): number {
+    return this.body.scrollHeight + this.body.offsetHeight - this.body.clientHeight - this.stage.offsetHeight
+  }
+
+  #onResize(entries: ResizeObserverEntry[]): void {
+    if (this.#reserves) reserve(this.body, this.figure)
+    this.#room = entries.findLast(({ target }) => target === this.stage)?.contentRect.width ?? this.#room
+    const entry = entries.findLast(({ target }) => target === this.element)
+    if (entry) this.#measure(entry)
+    this.resized()
+  }
+
+  #measure({ contentRect, devicePixelContentBoxSize }: ResizeObserverEntry): void {
+    let [width, height] = [Math.round(contentRect.width * devicePixelRatio), Math.round(contentRect.height * devicePixelRatio)]
+    // To the very pixel where the browser tells it; but emulated screens tell css pixels here.
+    const box = devicePixelContentBoxSize?.[0]
+    if (box && Math.abs(box.inlineSize - width) < 2) [width, height] = [box.inlineSize, box.blockSize]
+    const shrink = Math.min(1, Math.sqrt(MAX_PIXELS / (width * height)))
+    this.#size = { css: contentRect.width, width: Math.floor(width * shrink), height: Math.floor(height * shrink) }
+  }
+}

@@ -1,0 +1,47 @@
+// What figures tell the page. Events are always the last thing done: who listens may remove, reset, move or clone the figure.
+import type { Frame, Phase } from './host'
+import type { Readout, TraceLine } from './program'
+
+/** Who made a state what it is: the reader's own hand, playing, or the page (an attribute, a property, a link, a script). */
+export type Cause = 'reader' | 'playback' | 'page'
+
+export interface FigureDetail {
+  step: number
+  /** The last step there is; 0 where there is nothing to play. */
+  last: number
+  by: Cause
+  values: Record<string, string>
+  readouts: Readout[]
+  /** Of a figure that maps a file. */
+  phase?: Phase
+}
+
+export interface TraceDetail {
+  step: number
+  lines: TraceLine[]
+}
+
+export class Events {
+  cause: Cause = 'page' // of what is told next
+  #waiting: CustomEvent[] = []
+  #step = -1 // told last
+
+  constructor(private readonly figure: HTMLElement) {}
+
+  /** What a frame shows is told when the frame is over; each step once, unless `always`. */
+  tell({ step, last, values, readouts, run, changed, trace }: Frame, always: boolean): void {
+    const detail: FigureDetail = { step, last, by: this.cause, values, readouts, ...(run && { phase: run.phase }) }
+    if (changed) this.#add('fastslam-change', detail)
+    if (always || step !== this.#step) this.#add('fastslam-step', detail)
+    this.#step = step
+    if (trace) this.#add('fastslam-trace', { step, lines: trace })
+  }
+
+  send(): void {
+    for (const event of this.#waiting.splice(0)) this.figure.dispatchEvent(event)
+  }
+
+  #add(type: string, detail: FigureDetail | TraceDetail): void {
+    this.#waiting.push(new CustomEvent(type, { bubbles: true, composed: true, detail }))
+  }
+}

@@ -1,0 +1,142 @@
+// What a figure on a page and a figure beside its program say to each other: the same words whether the two share a thread or not. A
+// figure is asked by commands and tells by answers. The host is who carries them: LocalHost by calls, WorkerHost by messages.
+import type { Handle, ParamSpec, Readout, TraceLine } from './program'
+
+/** Where the picture goes, and how it is to look. */
+export interface Size {
+  /** Width for the picture [css px]. */
+  room: number
+  /** Height for the picture [css px], where it has to fit one; else it takes all of the width. */
+  height: number | undefined
+  /** Letters and lines over normal ones. */
+  fontScale: number
+  /** The canvas: its width on the page [css px], and its pixels. */
+  canvas: { css: number; width: number; height: number }
+  theme: string
+}
+
+/** How large the picture is on the page. */
+export interface Layout {
+  /** Px of the page for one of the scene. */
+  scale: number
+  /** [css px]; undefined for all there is. */
+  width: number | undefined
+  /** [css px] */
+  height: number
+  /** What the height would be if nothing had to fit [css px]. */
+  natural: number
+}
+
+/** The state that a figure begins with. */
+export interface Beginning {
+  /** As a link has it; undefined for the defaults. */
+  query: string | undefined
+  /** What is set after that, in this order; null is the default. */
+  settings: [string, string | null][]
+  /** What the page's author gave, if the query is a reader's link: locked parameters keep it. */
+  authored: Record<string, string> | undefined
+}
+
+export type Command =
+  | ({ do: 'begin'; changed: boolean } & Beginning)
+  | { do: 'set'; name: string; value: string | null }
+  | { do: 'lock'; text: string | null }
+  | { do: 'comma'; on: boolean }
+  | { do: 'seek'; step: number }
+  | { do: 'trace' }
+  | { do: 'pick'; x: number; y: number }
+  | { do: 'drag'; handle: string; x: number; y: number }
+  | { do: 'nudge'; handle: string; right: number; up: number }
+  | { do: 'size'; size: Size }
+  | { do: 'export'; kind: 'csv' | 'json'; name: string }
+  // Of figures that map a file:
+  | { do: 'open'; file: Blob; name: string; start: boolean }
+  | { do: 'run' | 'pause' | 'stop' | 'fit' }
+  | { do: 'zoom'; factor: number; x: number; y: number }
+  | { do: 'pan'; right: number; down: number }
+  | { do: 'save'; what: SavedFile }
+
+export type SavedFile = 'map.png' | 'map.ros' | 'path.tum' | 'report.json'
+
+/** How far the mapping of a file is. */
+export type Phase = 'empty' | 'ready' | 'running' | 'paused' | 'stopped' | 'done'
+
+export interface Run {
+  phase: Phase
+  /** Name of the file. */
+  log: string
+  /** [s] until the end, at the speed so far. */
+  left: number
+  /** What keeps it from being started: the parameter, and a line. */
+  unfit: [string, string] | undefined
+}
+
+export interface Picture {
+  width: number
+  height: number
+  /** To be asked for just before they are used: the next call into the program may move them. */
+  pixels: () => Uint8ClampedArray<ArrayBuffer>
+}
+
+/** Everything there is to show. */
+export interface Frame {
+  /** Commands that had been carried out. */
+  done: number
+  specs: ParamSpec[]
+  values: Record<string, string>
+  query: string
+  /** The step shown, the one asked for, and the last there is. */
+  step: number
+  target: number
+  last: number
+  /** Whether it is still on its way to what was asked for. */
+  busy: boolean
+  readouts: Readout[]
+  handles: Handle[]
+  sentence: string | undefined
+  /** Whether a parameter was changed since the frame before. */
+  changed: boolean
+  trace: TraceLine[] | undefined
+  layout: Layout | undefined
+  picture: Picture | undefined
+  run: Run | undefined
+}
+
+export type Answer =
+  /** An empty message: nothing is wrong any more. */
+  | { told: 'refused'; parameter: string; message: string; file?: string }
+  | { told: 'saved'; name: string; data: Blob }
+  | { told: 'reading'; megabytes: number }
+  /** It has trapped. `why` is for readers, `error` for the console. */
+  | { told: 'failed'; why: string; error: string }
+
+/** What a host tells its figure. */
+export interface Listener {
+  hear(answer: Answer): void
+  /** There may be a new frame. */
+  wake(): void
+}
+
+export interface FigureHost {
+  /** Whether it works and paints by itself, seen or not. */
+  readonly remote: boolean
+  /** As known here; undefined before anything is. */
+  readonly values: Record<string, string> | undefined
+  readonly query: string | undefined
+  readonly target: number
+  readonly last: number
+  readonly busy: boolean
+  /** Commands that have been sent, and that have been carried out. */
+  readonly sent: number
+  readonly done: number
+  send(command: Command): void
+  /** Goes on for so long [ms], if it is on its way to what was asked for. */
+  work(budget: number): void
+  /** What there is to show, if it is new. `now` in [ms]; without it at once, new or not, and what is told once is not told yet. */
+  frame(now?: number): Frame | undefined
+  /** To be shown again, new or not. */
+  refresh(): void
+  /** After a trap: as it was when it was shown last. */
+  restart(): void
+  free(): void
+}

@@ -1,0 +1,151 @@
+// A figure whose program runs on the page: commands are calls, and what they do can be read at once.
+import type { Command, FigureHost, Frame, Listener } from './host'
+import { trapMessage, type InstanceUser, type Program, type Shell } from './program'
+import { Session } from './session'
+
+const CATCH_UP_PAINT = 100 // [ms] between pictures while the simulation catches up
+
+export class LocalHost implements FigureHost, InstanceUser {
+  readonly remote = false
+  #session: Session | undefined // none between a trap and the instance after it
+  sent = 0
+  #queue: Command[] = [] // what was asked meanwhile
+  #dirty = true
+  #paintedAt = -Infinity // [ms]
+  /** The settings that no link holds, to be given to the next instance as well. */
+  #kept = new Map<Command['do'], Command>()
+  #trapped = false // it was this figure that killed the instance
+  #known = { values: {} as Record<string, string>, query: '', target: 0, last: 0 } // as it was asked to be, for the time without a session
+  #good: string | undefined // as it was when it was shown last
+
+  private constructor(
+    private readonly program: Program,
+    private shell: Shell,
+    private readonly tag: string,
+    private readonly listener: Listener,
+  ) {
+    this.#session = new Session(shell, tag, answer => listener.hear(answer))
+    program.users.add(this)
+  }
+
+  static async create(program: Program, tag: string, listener: Listener): Promise<LocalHost> {
+    return new LocalHost(program, await program.shell(), tag, listener)
+  }
+
+  get values(): Record<string, string> {
+    return this.#ask(session => session.values) ?? this.#known.values
+  }
+
+  get query(): string {
+    return this.#ask(session => session.query) ?? this.#known.query
+  }
+
+  get target(): number {
+    return this.#session?.target ?? this.#known.target
+  }
+
+  get last(): number {
+    return this.#ask(session => session.last) ?? this.#known.last
+  }
+
+  get busy(): boolean {
+    return this.#ask(session => session.pending) ?? false
+  }
+
+  get done(): number {
+    return this.sent - this.#queue.length
+  }
+
+  send(command: Command): void {
+    if (command.do === 'size' || command.do === 'lock' || command.do === 'comma') this.#kept.set(command.do, command)
+    this.sent += 1
+    if (this.#session) this.#carryOut(command)
+    else this.#queue.push(command)
+  }
+
+  work(budget: number): void {
+    this.#ask(session => {
+      const end = performance.now() + budget
+      while (session.pending && performance.now() < end) {
+        session.work()
+        this.#dirty = true
+      }
+    })
+  }
+
+  frame(now?: number): Frame | undefined {
+    return this.#ask(session => {
+      // On the way to a step far off, a look now and then is enough: painting costs more than simulating.
+      const hurry = session.pending && now !== undefined && now < this.#paintedAt + CATCH_UP_PAINT
+      if (now !== undefined && (!this.#dirty || hurry)) return undefined
+      const frame = session.frame(now === undefined)
+      this.#dirty = now === undefined
+      this.#paintedAt = performance.now()
+      if (!frame.busy) this.#good = frame.query
+      return frame
+    })
+  }
+
+  refresh(): void {
+    this.#dirty = true
+  }
+
+  free(): void {
+    this.program.users.delete(this)
+    this.#ask(session => session.free())
+    this.#session = undefined
+  }
+
+  // --- A trap ------------------------------------------------------------------------------------------------------------
+
+  /** The only way into the session. What comes out as an error is a trap: refusals are caught there. */
+  #ask<T>(action: (session: Session) => T): T | undefined {
+    if (!this.#session) return undefined
+    try {
+      return action(this.#session)
+    } catch (error) {
+      this.#trapped = true
+      const why = trapMessage(error, this.shell)
+      this.program.replace()
+      this.listener.hear({ told: 'failed', why, error: String(error) })
+      return undefined
+    }
+  }
+
+  #carryOut(command: Command): void {
+    this.#dirty = true
+    this.#ask(session => {
+      void session.do(command)
+      // A state that is asked for is remembered, in case that another figure kills the instance before it is shown.
+      if (!this.#kept.has(command.do)) this.#known = { values: session.values, query: session.query, target: session.target, last: session.last }
+    })
+  }
+
+  lose(): void {
+    this.#session?.abandon()
+    this.#session = undefined
+  }
+
+  revive(): void {
+    void this.#revive()
+  }
+
+  async #revive(): Promise<void> {
+    const again = this.#trapped ? (this.#good ?? this.#known.query) : this.#known.query
+    this.#trapped = false
+    try {
+      this.shell = await this.program.shell()
+      if (!this.program.users.has(this) || this.#session) return
+      this.#session = new Session(this.shell, this.tag, answer => this.listener.hear(answer))
+      for (const command of this.#kept.values()) this.#carryOut(command)
+      this.#carryOut({ do: 'begin', query: again, settings: [], authored: undefined, changed: false })
+      for (const command of this.#queue.splice(0)) this.#carryOut(command)
+      this.listener.wake()
+    } catch (error) {
+      this.listener.hear({ told: 'failed', why: (error as Error).message, error: String(error) })
+    }
+  }
+
+  /** It comes back with all the others that shared the instance. */
+  restart(): void {}
+}

@@ -1,0 +1,176 @@
+// The session of a figure that maps a log: it also reads the file, starts, pauses and stops, and saves what came out.
+import type { Beginning, Command, Phase, Run, SavedFile } from './host'
+import { isRefusal, type Readout } from './program'
+import { Session } from './session'
+
+const MOST_BYTES = 256e6 // of a log, unpacked
+const LAST = 0xffffffff // a step beyond every log's last
+
+export class LogSession extends Session {
+  #phase: Phase = 'empty'
+  #log = ''
+  #spent = 0 // [ms] of mapping
+
+  protected override perform(command: Command): void | Promise<void> {
+    const { figure } = this
+    switch (command.do) {
+      case 'open':
+        return this.#open(command.file, command.name, command.start)
+      case 'run':
+        return this.#start()
+      case 'pause':
+        if (this.#phase === 'running') this.#phase = 'paused'
+        return
+      case 'stop':
+        if (this.#phase === 'running' || this.#phase === 'paused') this.#phase = 'stopped'
+        return
+      case 'fit':
+        return figure.fit()
+      case 'zoom':
+        return figure.zoom(command.factor, ...this.point(command))
+      case 'pan':
+        return figure.pan(...this.point({ x: command.right, y: command.down }))
+      case 'save':
+        return this.#save(command.what)
+      default:
+        return super.perform(command)
+    }
+  }
+
+  protected override begin(beginning: Beginning, changed: boolean): void {
+    super.begin(beginning, changed)
+    this.#beginAnew()
+  }
+
+  protected override set(name: string, value: string | null): void {
+    super.set(name, value)
+    this.#beginAnew()
+  }
+
+  /** Other settings begin the mapping anew. */
+  #beginAnew(): void {
+    if (this.#phase !== 'empty' && this.figure.step() === 0) this.#phase = 'ready'
+  }
+
+  override get pending(): boolean {
+    return this.#phase === 'running'
+  }
+
+  override work(): void {
+    const from = performance.now()
+    if (super.pending) super.work()
+    this.#spent += performance.now() - from
+    if (!super.pending) this.#phase = 'done'
+  }
+
+  protected override run(): Run {
+    const [step, last] = [this.figure.step(), this.figure.step_count()]
+    const left = step > 0 ? ((this.#spent / step) * (last - step)) / 1000 : NaN
+    return { phase: this.#phase, log: this.#log, left, unfit: this.#phase === 'ready' ? this.#unfit() : undefined }
+  }
+
+  #start(): void {
+    if (this.#phase === 'empty' || this.#phase === 'running') return
+    if (this.#phase !== 'paused') {
+      if (this.#unfit()) return // it says why
+      this.figure.seek(0)
+      this.#spent = 0
+    }
+    this.figure.seek(LAST)
+    this.#phase = 'running'
+  }
+
+  #unfit(): [string, string] | undefined {
+    try {
+      this.figure.ready()
+      return undefined
+    } catch (error) {
+      if (isRefusal(error)) return [error.parameter, error.message]
+      throw error
+    }
+  }
+
+  async #open(file: Blob, name: string, start: boolean): Promise<void> {
+    if (this.#phase === 'running') this.#phase = 'paused' // the log before stays until this one is read
+    try {
+      const bytes = await unpacked(file, megabytes => this.tell({ told: 'reading', megabytes }))
+      this.figure.open(bytes)
+    } catch (error) {
+      return this.refuse(error, name)
+    }
+    this.#log = name
+    this.#phase = 'ready'
+    if (start) this.#start()
+  }
+
+  async #save(what: SavedFile): Promise<void> {
+    const saved = (name: string, data: BlobPart, type: string) => this.tell({ told: 'saved', name, data: new Blob([data], { type }) })
+    const file = (name: string) => this.figure.file(name) as Uint8Array<ArrayBuffer> | undefined
+    if (what === 'report.json') return saved(what, this.#report(), 'application/json')
+    if (what === 'map.png') {
+      const png = await picture(file('map.pgm'))
+      return png && saved(what, png, 'image/png')
+    }
+    for (const name of what === 'map.ros' ? ['map.pgm', 'map.yaml'] : [what]) {
+      const bytes = file(name)
+      if (bytes) saved(name, bytes, 'application/octet-stream')
+    }
+  }
+
+  /** What was set and what came out, and every step. */
+  #report(): string {
+    const readouts = (this.figure.readouts() as Readout[]).map(({ name, value, text, unit }) => [name, { value, text, unit }])
+    const { figure, query, columns, steps } = JSON.parse(this.figure.json()) as Record<string, unknown>
+    const results = Object.fromEntries(readouts) as Record<string, unknown>
+    const seconds = Math.round(this.#spent) / 1000
+    return JSON.stringify({ figure, log: this.#log, query, settings: this.values, seconds, results, columns, steps }, null, 1)
+  }
+}
+
+/** Compressed or not: told by the first two bytes, as servers may unpack what is called .gz. */
+async function unpacked(file: Blob, reading: (megabytes: number) => void): Promise<Uint8Array> {
+  const [first, second] = new Uint8Array(await file.slice(0, 2).arrayBuffer())
+  const packed = first === 0x1f && second === 0x8b
+  const stream = packed ? file.stream().pipeThrough(new DecompressionStream('gzip')) : file.stream()
+  const parts: Uint8Array<ArrayBuffer>[] = []
+  let length = 0
+  let toldAt = 0
+  try {
+    for (const reader = stream.getReader(); ; ) {
+      const { done, value } = await reader.read()
+      if (done) break
+      parts.push(value)
+      length += value.length
+      if (length > MOST_BYTES) {
+        void reader.cancel()
+        throw refusal(`it is too large: at most ${MOST_BYTES / 1e6} MB can be read${packed ? ', unpacked' : ''}`)
+      }
+      if (length > toldAt + 8e6) {
+        toldAt = length
+        reading(Math.round(length / 1e6))
+      }
+    }
+  } catch (error) {
+    if (isRefusal(error)) throw error
+    throw refusal(packed ? 'it begins like a gzip file, but cannot be unpacked' : 'the browser could not read it')
+  }
+  return new Uint8Array(await new Blob(parts).arrayBuffer())
+}
+
+function refusal(message: string): Error {
+  return Object.assign(new Error(message), { parameter: 'file' })
+}
+
+/** The same greys as the PGM file holds behind its three lines, a pixel for each cell. */
+async function picture(pgm: Uint8Array | undefined): Promise<Blob | undefined> {
+  if (!pgm) return undefined
+  const [, width, height] = /^P5\n(\d+) (\d+)\n255\n/.exec(new TextDecoder().decode(pgm.subarray(0, 40)))!.map(Number) as [number, number, number]
+  const grey = pgm.subarray(pgm.length - width * height)
+  const image = new ImageData(width, height)
+  new Uint32Array(image.data.buffer).set(Uint32Array.from(grey, shade => 0xff000000 | (shade * 0x010101)))
+  const canvas = new OffscreenCanvas(width, height)
+  canvas.getContext('2d')!.putImageData(image, 0, 0)
+  return canvas.convertToBlob().catch(() => {
+    throw refusal(`a map of ${width} × ${height} cells is too large for a picture`)
+  })
+}

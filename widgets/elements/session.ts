@@ -1,0 +1,258 @@
+// A figure beside its program, on the page or in a worker: carries out what it is asked, and says what there is to show.
+import type { Answer, Beginning, Command, Frame, Layout, Picture, Run, Size } from './host'
+import { locked } from './options'
+import { isRefusal, type Handle, type ParamSpec, type Readout, type Shell, type ShellFigure, type TraceLine } from './program'
+
+const LEGIBLE = 0.5 // a picture is not made smaller than that to fit
+
+export class Session {
+  protected readonly figure: ShellFigure
+  #done = 0
+  #fresh = true
+  #target = 0
+  #specs: ParamSpec[] | undefined // until something changes that they may depend on
+  #lock: string | null = null
+  #size: Size | undefined
+  #layout: Layout | undefined
+  #changed = false
+  #mustTrace = false
+
+  constructor(
+    protected readonly shell: Shell,
+    tag: string,
+    protected readonly tell: (answer: Answer) => void,
+  ) {
+    this.figure = new shell.Figure(tag)
+  }
+
+  /** Carries out a command. What is refused is told; what is thrown is a trap. */
+  do(command: Command): void | Promise<void> {
+    const done = () => void (this.#done += 1)
+    try {
+      const underWay = this.perform(command)
+      if (underWay) return underWay.catch(error => this.refuse(error)).then(done)
+    } catch (error) {
+      this.refuse(error)
+    }
+    done()
+  }
+
+  protected perform(command: Command): void | Promise<void> {
+    const { figure } = this
+    switch (command.do) {
+      case 'begin':
+        return this.begin(command, command.changed)
+      case 'set':
+        return this.set(command.name, command.value)
+      case 'lock':
+        this.#lock = command.text
+        return
+      case 'comma':
+        return figure.set_decimal_comma(command.on)
+      case 'seek':
+        this.#target = clamped(command.step, figure.step_count())
+        return figure.seek(this.#target)
+      case 'trace':
+        this.#mustTrace = true
+        return
+      case 'pick':
+        return this.#move(() => figure.pick(...this.point(command)))
+      case 'drag':
+        return this.#move(() => figure.drag(command.handle, ...this.point(command)))
+      case 'nudge':
+        return this.#move(() => figure.nudge(command.handle, command.right, command.up))
+      case 'size':
+        this.#size = command.size
+        return
+      case 'export': {
+        const type = { csv: 'text/csv', json: 'application/json' }[command.kind]
+        return this.tell({ told: 'saved', name: command.name, data: new Blob([figure[command.kind]()], { type }) })
+      }
+    }
+  }
+
+  // --- What it is ----------------------------------------------------------------------------------------------------------
+
+  get done(): number {
+    return this.#done
+  }
+
+  get values(): Record<string, string> {
+    return this.figure.values() as Record<string, string>
+  }
+
+  get query(): string {
+    return this.figure.query()
+  }
+
+  get target(): number {
+    return this.#target
+  }
+
+  get last(): number {
+    return this.figure.step_count()
+  }
+
+  get specs(): ParamSpec[] {
+    return (this.#specs ??= this.figure.params() as ParamSpec[])
+  }
+
+  get pending(): boolean {
+    return this.figure.pending() > 0
+  }
+
+  /** How the mapping of a file stands, where one is mapped. */
+  protected run(): Run | undefined {
+    return undefined
+  }
+
+  /** What there is to show. That something has changed, and a trace, are told in one frame only, unless it is a look ahead. */
+  frame(ahead = false): Frame {
+    const { figure } = this
+    const busy = this.pending && !this.run()
+    const layout = this.#place()
+    const picture = this.#paint()
+    const changed = this.#changed && !busy && !ahead
+    const trace = this.#mustTrace && !busy && !ahead ? (figure.trace() as TraceLine[]) : undefined
+    if (changed) this.#changed = false
+    if (trace) this.#mustTrace = false
+    return {
+      done: this.#done,
+      specs: this.specs,
+      values: this.values,
+      query: this.query,
+      step: figure.step(),
+      target: this.#target,
+      last: this.last,
+      busy,
+      readouts: figure.readouts() as Readout[],
+      handles: figure.handles(this.#size?.canvas.css ?? 0) as Handle[],
+      sentence: busy ? undefined : figure.describe(),
+      changed,
+      trace,
+      layout,
+      picture,
+      run: this.run(),
+    }
+  }
+
+  /** Does a step of the work that is pending. */
+  work(): void {
+    this.figure.work()
+  }
+
+  free(): void {
+    this.figure.free()
+  }
+
+  /** After a trap: nothing may be called any more, not by the collector of garbage either. */
+  abandon(): void {
+    ;(this.figure as unknown as { __destroy_into_raw(): number }).__destroy_into_raw()
+  }
+
+  // --- Parameters --------------------------------------------------------------------------------------------------------
+
+  protected begin({ query, settings, authored }: Beginning, changed: boolean): void {
+    const refused = this.#fresh && query === undefined ? '' : this.figure.load(query ?? '').join('\n')
+    this.#fresh = false
+    this.#specs = undefined
+    if (query !== undefined) this.tell({ told: 'refused', parameter: 'link', message: refused })
+    if (authored) {
+      const wanted = Object.fromEntries(this.specs.map(({ name, default: usual }) => [name, authored[name] ?? usual]))
+      this.#keepLocked(wanted)
+    }
+    for (const [name, value] of settings) {
+      try {
+        this.set(name, value)
+      } catch (error) {
+        this.refuse(error)
+      }
+    }
+    this.#changed = changed
+    this.#adoptTarget()
+  }
+
+  protected set(name: string, value: string | null): void {
+    const text = value ?? this.specs.find(spec => spec.name === name)?.default
+    if (text === undefined) return // a name that nobody knows was taken away again
+    this.figure.set(name, text)
+    this.#changes()
+  }
+
+  protected refuse(error: unknown, file?: string): void {
+    if (!isRefusal(error)) throw error
+    this.tell({ told: 'refused', parameter: error.parameter, message: error.message, ...(file !== undefined && { file }) })
+  }
+
+  #changes(): void {
+    this.#changed = true
+    this.#specs = undefined
+    this.#adoptTarget()
+  }
+
+  #adoptTarget(): void {
+    this.#target = Number(this.values['step'] ?? this.figure.step())
+  }
+
+  /** What a pointer does. A move that changes no parameter, because it ended where it began or at a limit, is none. */
+  #move(action: () => void): void {
+    const [before, values] = [this.query, this.values]
+    action()
+    this.#keepLocked(values)
+    if (this.query !== before) this.#changes()
+  }
+
+  /** Puts back what is locked, where a reader's link or hand has moved it. */
+  #keepLocked(before: Record<string, string>): void {
+    const names = this.specs.map(({ name }) => name)
+    for (const name of locked(this.#lock, names).locked) {
+      const moved = this.values[name]
+      if (moved === before[name]) continue
+      try {
+        this.figure.set(name, before[name]!)
+      } catch (error) {
+        if (!isRefusal(error)) throw error // the author's own value is refused, which has been said
+      }
+      if (moved !== this.values[name]) this.tell({ told: 'refused', parameter: 'locked', message: `${name} is fixed on this page` })
+    }
+  }
+
+  // --- Picture -----------------------------------------------------------------------------------------------------------
+
+  /** A point of the canvas, and its width, as the figure has them. */
+  protected point({ x, y }: { x: number; y: number }): [number, number, number] {
+    const scale = this.#layout?.scale ?? 1
+    return [x / scale, y / scale, (this.#size?.canvas.css ?? 1) / scale]
+  }
+
+  #place(): Layout | undefined {
+    if (!this.#size || !(this.#size.room > 0)) return this.#layout
+    const { room, height, fontScale } = this.#size
+    let [scene, scale] = [room / fontScale, fontScale]
+    const natural = Math.round(this.figure.height(scene) * scale)
+    if (height !== undefined) {
+      const fitting = (wide: number) => Math.min(fontScale, room / wide, height / this.figure.height(wide))
+      // Other widths have other layouts, so the one is looked for that can be shown largest. What would be too small to read is scrolled.
+      let best = LEGIBLE * scale
+      for (let wide = 0.5 * scene, most = 2 * scene; wide <= most; wide += 10) {
+        const found = fitting(wide)
+        if (found >= best) [scene, scale, best] = [wide, found, found]
+      }
+    }
+    const width = height === undefined ? undefined : Math.floor(Math.min(room, scene * scale))
+    return (this.#layout = { scale, width, height: Math.round(this.figure.height(scene) * scale), natural })
+  }
+
+  #paint(): Picture | undefined {
+    const { canvas, theme } = this.#size ?? {}
+    if (!canvas || canvas.width === 0 || canvas.height === 0) return undefined
+    const { width, height, css } = canvas
+    this.figure.paint(width, height, (width / css) * this.#layout!.scale, theme!)
+    const pixels = () => new Uint8ClampedArray(this.shell.memory.buffer as ArrayBuffer, this.figure.pixels(), width * height * 4)
+    return { width, height, pixels }
+  }
+}
+
+function clamped(step: number, last: number): number {
+  return Math.max(0, Math.min(last, Math.round(step) || 0))
+}

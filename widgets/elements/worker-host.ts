@@ -1,0 +1,122 @@
+// A figure whose program runs in a worker: commands are messages, and what they did comes with the next frame. The page answers at once
+// whatever the figure does.
+import type { Command, FigureHost, Frame, Listener } from './host'
+import { createWorker, workerRefused } from './jobs'
+import type { Program } from './program'
+import type { SentFrame, WorkerRequest, WorkerResponse } from './worker'
+
+export class WorkerHost implements FigureHost {
+  readonly remote = true
+  #worker: Worker | undefined
+  sent = 0
+  #before = 0 // commands of workers that have died
+  #shown: SentFrame | undefined // the last frame that came
+  #new = false
+  #target: number | undefined // asked for since then
+  #kept = new Map<Command['do'], Command>()
+  #good: string | undefined
+
+  private constructor(
+    private readonly module: WebAssembly.Module,
+    private readonly tag: string,
+    private readonly listener: Listener,
+  ) {
+    this.#begin()
+  }
+
+  static async create(program: Program, tag: string, listener: Listener): Promise<WorkerHost> {
+    return new WorkerHost(await program.module(), tag, listener)
+  }
+
+  get values(): Record<string, string> | undefined {
+    return this.#shown?.values
+  }
+
+  get query(): string | undefined {
+    return this.#shown?.query
+  }
+
+  get target(): number {
+    return this.#target ?? this.#shown?.target ?? 0
+  }
+
+  get last(): number {
+    return this.#shown?.last ?? 0
+  }
+
+  get busy(): boolean {
+    return this.#target !== undefined || (this.#shown?.busy ?? true)
+  }
+
+  get done(): number {
+    return this.#before + (this.#shown?.done ?? 0)
+  }
+
+  send(command: Command): void {
+    if (command.do === 'size' || command.do === 'lock' || command.do === 'comma') this.#kept.set(command.do, command)
+    if (command.do === 'seek') this.#target = Math.max(0, Math.min(this.last, Math.round(command.step) || 0))
+    this.sent += 1
+    this.#post(command)
+  }
+
+  work(): void {
+    // It does so by itself.
+  }
+
+  frame(now?: number): Frame | undefined {
+    if (!this.#shown || (now !== undefined && !this.#new)) return undefined
+    const { picture, ...frame } = this.#shown
+    if (now === undefined) return { ...frame, changed: false, trace: undefined, picture: undefined }
+    this.#shown = { ...frame, picture: undefined, changed: false, trace: undefined } // painted and told once
+    this.#new = false
+    return { ...frame, picture: picture && { ...picture, pixels: () => picture.pixels } }
+  }
+
+  refresh(): void {
+    this.#new = true
+  }
+
+  restart(): void {
+    this.#worker?.terminate()
+    this.#before = this.sent
+    this.#shown &&= { ...this.#shown, done: 0 }
+    this.#target = undefined
+    this.#begin()
+    for (const command of this.#kept.values()) this.send(command)
+    this.send({ do: 'begin', query: this.#good, settings: [], authored: undefined, changed: false })
+  }
+
+  free(): void {
+    this.#worker?.terminate()
+    this.#worker = undefined
+  }
+
+  #begin(): void {
+    const worker = createWorker()
+    this.#worker = worker
+    worker.addEventListener('message', ({ data }: MessageEvent<WorkerResponse>) => worker === this.#worker && this.#hear(data))
+    worker.addEventListener('error', event => {
+      event.preventDefault()
+      const { message } = workerRefused(event.message)
+      if (worker === this.#worker) this.listener.hear({ told: 'failed', why: message, error: message })
+    })
+    this.#post({ do: 'figure', module: this.module, tag: this.tag })
+  }
+
+  #post(request: WorkerRequest): void {
+    this.#worker?.postMessage(request)
+  }
+
+  #hear(response: WorkerResponse): void {
+    if (response.told === 'rows' || response.told === 'done') return
+    if (response.told !== 'frame') return this.listener.hear(response)
+    const { frame } = response
+    // What was not looked at in time is not lost with the frame that it came with.
+    const waiting = this.#new ? this.#shown : undefined
+    this.#shown = { ...frame, changed: frame.changed || (waiting?.changed ?? false), trace: frame.trace ?? waiting?.trace, picture: frame.picture ?? waiting?.picture }
+    this.#new = true
+    if (!frame.busy) this.#good = frame.query
+    if (this.done >= this.sent) this.#target = undefined
+    this.listener.wake()
+  }
+}
