@@ -55,6 +55,16 @@ export async function buildParts() {
   }
 }
 
+/** A program that dies on request, for one test of the browser and never for a page. */
+export const troubleWasm = cache('trouble', basename(wasm))
+
+/** Nobody waits for it: without the last optimisations it is there in a third of the time. */
+export async function buildTrouble() {
+  const wanted = ['--no-default-features', '--features', 'single-threaded,figures,trouble']
+  const args = ['build', 'widgets', '--target', 'web', '--profile', 'page', '--no-pack', '--no-typescript', '--out-dir', cache('trouble'), ...wanted]
+  await step('A program that dies on request', () => run('wasm-pack', args, { env: { CARGO_PROFILE_PAGE_LTO: 'off', CARGO_PROFILE_PAGE_CODEGEN_UNITS: '16' } }))
+}
+
 export async function buildPages() {
   await step('Pages', async () => {
     await run(npmBin('vite'), ['build', '--config', join(root, 'scripts', 'vite.config.mjs'), '--logLevel', 'warn'])
