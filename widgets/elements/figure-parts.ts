@@ -1,0 +1,226 @@
+// What a figure consists of on the page, and how a frame is shown in it: head, picture, sentence, readouts, controls, menu, keys. What
+// comes and goes, and what is asked of the program, is the element's (figure-element.ts).
+import { Canvas } from './canvas'
+import { Controls } from './controls'
+import { h, write } from './dom'
+import { CODES, type CodeName } from './embed-code'
+import css from './figure.css?inline'
+import { homeAddress, pictureAddress } from './files'
+import { Handles } from './handles'
+import type { Command, Frame } from './host'
+import { keepKeys } from './keys'
+import { Menu, type MenuItem } from './menu'
+import { Messages } from './messages'
+import { Playback } from './playback'
+import type { ParamSpec } from './program'
+import { showReadouts } from './readouts'
+import { copy, download } from './save'
+import { Sentence } from './sentence'
+import { themeName } from './theme'
+
+const sheet = new CSSStyleSheet()
+sheet.replaceSync(css)
+
+const WORDS = 'en' // language of all that figures say, whatever that of the page
+const WIDE = 620 // [px] from here on the settings are open at first
+const COPIED = 3000 // [ms] that a word of success stays
+
+export abstract class FigureParts extends HTMLElement {
+  #timeline = true // whether there are steps to play
+
+  protected specs: ParamSpec[] = []
+  protected controls: Controls | undefined
+  protected readonly playback = new Playback()
+  protected readonly messages = new Messages()
+  protected readonly heading = h('p', { class: 'title', part: 'title', id: 'title' })
+  protected readonly status = h('span', { class: 'status', role: 'status' })
+  protected readonly readouts = h('dl', { class: 'readouts', part: 'readouts' })
+  protected readonly sentence = new Sentence()
+  protected readonly stage = h('div', { class: 'stage', part: 'stage', role: 'group', tabindex: '0', 'aria-labelledby': 'title', 'aria-describedby': 'keys' })
+  protected readonly body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title', lang: WORDS })
+  protected readonly canvas = new Canvas(this, this.body, this.stage, () => this.refresh())
+  protected readonly menu = new Menu(this.menuItems(), this)
+  readonly #fallback = h('div', { class: 'fallback' }, h('slot'))
+  readonly #handles = new Handles({
+    drag: (handle, x, y) => this.#byPointer({ do: 'drag', handle, x, y }),
+    nudge: (handle, right, up) => this.#byPointer({ do: 'nudge', handle, right, up }),
+  })
+
+  constructor() {
+    super()
+    const root = this.attachShadow({ mode: 'open' })
+    root.adoptedStyleSheets = [sheet]
+    this.stage.append(this.canvas.element, this.#handles.layer, this.#fallback)
+    this.body.append(
+      h('div', { class: 'head' }, this.heading, this.status, this.menu.element),
+      this.stage,
+      h('p', { class: 'hidden', id: 'keys' }, this.keysHelp),
+      h('p', { class: 'hidden', id: 'handle-keys' }, 'Arrow keys move it, with Shift far, with Alt a little.'),
+      this.messages.element,
+      this.sentence.element,
+      this.readouts,
+    )
+    root.append(this.body)
+    keepKeys(this.body, event => this.onKey(event))
+    this.canvas.element.addEventListener('click', ({ offsetX: x, offsetY: y }) => this.#byPointer({ do: 'pick', x, y }))
+    for (const type of ['pointerdown', 'pointermove', 'pointerup'] as const) {
+      this.canvas.element.addEventListener(type, event => this.#handles.follow(event))
+    }
+  }
+
+  // --- What the element does -----------------------------------------------------------------------------------------------
+
+  abstract play(): void
+  abstract pause(): void
+  abstract get step(): () => void
+  abstract stepBack(): void
+  abstract seek(step: number): void
+  abstract reset(): void
+  abstract get currentStep(): number
+  abstract get playing(): boolean
+  abstract get link(): string
+  abstract embedCode(name: CodeName): string | undefined
+  protected abstract send(command: Command): void
+  /** Shows again what is shown. */
+  protected abstract refresh(): void
+  /** A reader gives a parameter a value. */
+  protected abstract change(name: string, value: string): void
+  /** What is done then is told as the reader's own doing. */
+  protected abstract byHand(act: () => void): void
+  /** The controls have been made. */
+  protected abstract introduced(): void
+
+  // --- A frame ---------------------------------------------------------------------------------------------------------------
+
+  /** Shows all there is of a state. */
+  protected present(frame: Frame): void {
+    if (!this.controls) this.#introduce(frame.specs)
+    this.specs = frame.specs
+    if (frame.layout) this.canvas.place(frame.layout)
+    if (frame.picture) this.canvas.show(frame.picture)
+    showReadouts(this.readouts, frame.readouts)
+    this.#handles.show(frame.handles)
+    this.showPlayback(frame)
+    this.controls!.showValues(frame.specs, frame.values)
+    if (frame.sentence !== undefined) this.sentence.say(frame.sentence, this.playing)
+  }
+
+  /** Once, when the figure first tells what it is: its controls. */
+  #introduce(specs: ParamSpec[]): void {
+    this.controls = new Controls(specs, {
+      playPause: () => this.#playPause(),
+      step: () => this.byHand(() => this.step()),
+      stepBack: () => this.byHand(() => this.stepBack()),
+      seek: step => this.byHand(() => this.seek(step)),
+      reset: () => this.byHand(() => this.reset()),
+      rate: rate => (this.playback.rate = rate),
+      change: (name, value) => this.change(name, value),
+    })
+    this.controls.settings.open = this.clientWidth >= WIDE && !this.canvas.fits
+    this.specs = specs
+    this.placeControls(this.controls)
+    this.introduced()
+  }
+
+  protected placeControls(controls: Controls): void {
+    this.stage.after(controls.transport, controls.view)
+    this.readouts.after(controls.settings)
+  }
+
+  protected showPlayback({ target, last, busy }: Frame): void {
+    this.controls!.showPosition(target, last, this.playing, busy)
+    const on = last > 0
+    if (on === this.#timeline) return
+    // Where there is nothing to play, the picture has no keys.
+    this.#timeline = on
+    this.stage.tabIndex = on ? 0 : -1
+    if (on) this.stage.setAttribute('aria-describedby', 'keys')
+    else this.stage.removeAttribute('aria-describedby')
+  }
+
+  /** Without a living program nothing can be done. */
+  protected enable(on: boolean): void {
+    this.controls?.enable(on)
+    this.#handles.layer.inert = !on
+  }
+
+  /** In place of a frame: the author's picture, or our own of a figure of which nothing was asked. Returns what is to be said of it. */
+  protected showFallback(): string {
+    const slot = this.#fallback.firstElementChild!
+    const own = this.querySelector('img, picture')
+    const src = pictureAddress(this.localName, themeName(this.getAttribute('theme')).endsWith('dark') ? 'dark' : 'light')
+    if (src && !own && !slot.hasChildNodes()) slot.append(h('img', { src, alt: `${this.heading.textContent}, at rest` }))
+    this.stage.classList.add('still')
+    return own || slot.hasChildNodes() ? ' The picture shows it at rest.' : ''
+  }
+
+  /** Something of a figure's own, below everything else. */
+  protected addPanel(panel: HTMLElement): void {
+    this.body.append(panel)
+  }
+
+  // --- Reader's input ----------------------------------------------------------------------------------------------------
+
+  #playPause(): void {
+    if (this.playing) this.pause()
+    else this.play()
+  }
+
+  #byPointer(command: Command): void {
+    this.playback.stay()
+    this.byHand(() => this.send(command))
+  }
+
+  protected get keysHelp(): string {
+    return 'Space plays and pauses. Left and right arrow keys step. Home and End go to the first and the last step.'
+  }
+
+  /** Whether the figure uses the key. */
+  protected onKey(event: KeyboardEvent): boolean {
+    if (event.ctrlKey || event.metaKey || event.altKey) return false
+    if (event.key === 'Escape') return this.menu.close()
+    const act = this.keyAction(event.key, event.target as HTMLElement)
+    if (!act) return false
+    event.preventDefault()
+    act()
+    return true
+  }
+
+  protected keyAction(key: string, target: HTMLElement): (() => void) | undefined {
+    if (!this.#timeline) return undefined
+    if (key === ' ' && !target.matches('button, summary, select, input:not([type=range])')) return () => this.#playPause()
+    const onStage: Record<string, () => void> = {
+      ArrowRight: () => this.step(),
+      ArrowLeft: () => this.stepBack(),
+      Home: () => this.seek(0),
+      End: () => this.seek(Infinity),
+    }
+    const act = target === this.stage ? onStage[key] : undefined
+    return act && (() => this.byHand(act))
+  }
+
+  protected menuItems(): MenuItem[] {
+    const codes = (Object.keys(CODES) as CodeName[]).filter(name => name === 'python' || name === 'element' || homeAddress())
+    const save = (kind: 'csv' | 'json') => () => this.send({ do: 'export', kind, name: this.fileName(kind) })
+    return [
+      { name: 'Copy link', act: () => void this.#copy('Link', this.link) },
+      ...codes.map(name => ({ name: `Copy code: ${CODES[name]}`, act: () => void this.#copy('Code', this.embedCode(name)!) })),
+      { name: 'Save picture (PNG)', act: () => this.canvas.element.toBlob(blob => blob && download(this.fileName('png'), blob)) },
+      { name: 'Save data (CSV)', act: save('csv') },
+      { name: 'Save data (JSON)', act: save('json') },
+    ]
+  }
+
+  async #copy(what: 'Link' | 'Code', text: string): Promise<void> {
+    if (await copy(text)) {
+      write(this.status, `${what} copied`)
+      setTimeout(() => write(this.status, ''), COPIED)
+    } else {
+      this.messages.set('copy', `The browser does not let this page write to the clipboard. The ${what.toLowerCase()}:\n${text}`)
+    }
+  }
+
+  protected fileName(extension: string): string {
+    return `${this.id || this.localName}${this.#timeline ? `-step-${this.currentStep}` : ''}.${extension}`
+  }
+}

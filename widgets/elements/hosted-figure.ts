@@ -1,0 +1,274 @@
+// A figure with its host: how it begins and ends, what it sends and hears, and the frames in which all that is shown.
+import { Events } from './events'
+import { FigureParts } from './figure-parts'
+import { FrameLoop } from './frame-loop'
+import { FIGURES } from './generated/figures'
+import { write } from './dom'
+import type { Answer, Command, FigureHost, Frame, Listener } from './host'
+import { LocalHost } from './local-host'
+import { locked, refusal, unlockable } from './options'
+import { programOf } from './program'
+import { download } from './save'
+import { Settings } from './settings'
+import { WorkerHost } from './worker-host'
+
+const WORK_BUDGET = 8 // [ms] of simulation a frame, which leaves half of a 60 Hz frame to painting and the page
+const SLOW = 3000 // [ms] of loading after which the picture is shown meanwhile
+
+export abstract class HostedFigure extends FigureParts implements Listener {
+  /** Whether its program runs in a worker, because it would keep the page waiting. */
+  static heavy = false
+
+  protected host?: FigureHost // lives while the element is connected and has been seen
+  #starting: Promise<void> | undefined
+  protected stopped = false // after an error that beginning again did not cure, until Reset
+  protected crashes = 0
+  #sentSize = ''
+
+  protected readonly events = new Events(this)
+  protected readonly settings = new Settings(this)
+  protected readonly frames = new FrameLoop(this, this.stage, {
+    approach: () => (this.approached(), this.reconsider()),
+    seen: () => this.playback.onSeen(),
+    unseen: () => this.host?.remote ?? false,
+    frame: now => this.#frame(now),
+  })
+
+  // --- Life ----------------------------------------------------------------------------------------------------------------
+
+  /** Whether the program is wanted as soon as the figure is about to be seen. */
+  protected get wanted(): boolean {
+    return true
+  }
+
+  /** Fetches the program and begins, unless that has been done. */
+  protected async start(): Promise<void> {
+    if (this.host || this.stopped) return
+    this.#starting ??= this.#start().finally(() => (this.#starting = undefined))
+    return this.#starting
+  }
+
+  async #start(): Promise<void> {
+    write(this.heading, FIGURES[this.localName]?.title ?? '')
+    if (!this.status.textContent) write(this.status, 'Loading …')
+    const slow = setTimeout(() => {
+      this.showFallback()
+      write(this.status, 'Still loading, the network is slow …')
+    }, SLOW)
+    try {
+      const Host = this.heavy ? WorkerHost : LocalHost
+      const host = await Host.create(programOf(this.localName), this.localName, this)
+      if (!this.isConnected) return host.free()
+      this.host = host
+      write(this.status, '')
+      this.stage.classList.remove('still')
+      this.messages.set('start', '')
+      this.begin(false)
+      this.begun()
+    } catch (error) {
+      this.refuseToLive((error as Error).message)
+    } finally {
+      clearTimeout(slow)
+    }
+  }
+
+  /** Gives the host all that was asked until now. */
+  protected begin(changed: boolean): void {
+    this.takeOption('decimal')
+    this.send({ do: 'lock', text: this.getAttribute('lock') })
+    if (!this.host) return
+    const beginning = this.settings.begin(this.host.sent + 1)
+    if (beginning.settings.some(([name]) => name === 'step')) this.playback.stop() // who names a step wants it looked at
+    this.send({ do: 'begin', changed, ...beginning })
+    this.enable(true)
+    this.#tellSize()
+    // All in one frame, so that nothing of it need move in the next.
+    const frame = this.controls ? undefined : this.host?.frame()
+    if (frame) this.present(frame)
+    this.refresh()
+  }
+
+  protected end(): void {
+    const host = this.host
+    this.host = undefined
+    this.#sentSize = ''
+    host?.free()
+  }
+
+  protected get heavy(): boolean {
+    return (this.constructor as typeof HostedFigure).heavy
+  }
+
+  protected reconsider(): void {
+    if (this.frames.near && this.wanted) void this.start()
+  }
+
+  protected refuseToLive(why: string): void {
+    write(this.status, '')
+    this.stopped = true
+    this.end()
+    this.canvas.release()
+    this.messages.set('start', `This figure is not live here: ${why}.${this.showFallback()}`, 'Try again', () => this.reset())
+  }
+
+  // --- Commands and answers --------------------------------------------------------------------------------------------------
+
+  /** To the host, if there is one. */
+  protected send(command: Command): void {
+    this.host?.send(command)
+    this.refresh()
+  }
+
+  hear(answer: Answer): void {
+    switch (answer.told) {
+      case 'refused':
+        this.messages.set(answer.parameter, answer.message)
+        if (this.host?.values) this.controls?.showValues(this.specs, this.host.values, answer.parameter)
+        break
+      case 'saved':
+        download(answer.name, answer.data)
+        break
+      case 'failed':
+        console.warn(`${this.localName}:`, answer.error, answer.why)
+        this.playback.playing = false
+        this.crashes += 1
+        this.failed(answer.why, this.crashes > 1 || !this.isConnected)
+    }
+  }
+
+  /** After a trap: the first time it is made again as it was, the second time it stops. */
+  protected failed(why: string, again: boolean): void {
+    if (again) return this.halt(`Something failed inside this figure again (${why}), so it has stopped.`)
+    this.messages.set('crash', `Something failed inside this figure (${why}). It was rebuilt as it was before.`)
+    this.restart()
+  }
+
+  /** Makes the host's program again, as it was when it was shown last. */
+  protected restart(): void {
+    this.host?.restart()
+    this.begun()
+  }
+
+  protected get alive(): boolean {
+    return this.host !== undefined
+  }
+
+  /** The figure has begun, or begun again after a trap. */
+  protected begun(): void {}
+
+  /** Until Reset. */
+  protected halt(message: string): void {
+    this.stopped = true
+    this.enable(false)
+    this.settings.keep(undefined)
+    this.end()
+    this.messages.set('crash', message, 'Reset', () => this.reset())
+  }
+
+  protected change(name: string, value: string): void {
+    this.playback.stay()
+    this.byHand(() => this.setTo(name, value))
+    void this.start()
+  }
+
+  /** What a parameter is to be; null for the default. */
+  protected setTo(name: string, text: string | null): void {
+    if (name === 'step') this.playback.stop()
+    if (!this.host) return this.settings.wait(name, text)
+    for (const cause of [name, 'link']) this.messages.set(cause, '')
+    const value = text ?? this.specs.find(spec => spec.name === name)?.default
+    if (value !== undefined) this.settings.ask(name, value, this.host.sent + 1)
+    this.send({ do: 'set', name, value: text })
+    if (this.host) this.settings.answered(this.host.done)
+  }
+
+  protected seekTo(step: number): void {
+    this.send({ do: 'seek', step })
+  }
+
+  protected byHand(act: () => void): void {
+    act()
+    this.events.cause = 'reader'
+  }
+
+  protected takeOption(name: string): void {
+    const text = this.getAttribute(name)
+    let wrong = refusal(name, text)
+    if (name === 'lock') {
+      const names = this.specs.map(spec => spec.name)
+      const wish = locked(text, names)
+      this.controls?.lock(wish.locked)
+      if (this.controls) wrong = unlockable(wish.unknown, names)
+      this.host?.send({ do: 'lock', text })
+    } else if (name === 'decimal') {
+      this.controls?.writeComma(text === 'comma')
+      this.host?.send({ do: 'comma', on: text === 'comma' })
+    }
+    this.messages.set(name, wrong)
+    this.refresh()
+  }
+
+  // --- Frames ------------------------------------------------------------------------------------------------------------
+
+  wake(): void {
+    if (this.host) this.frames.wake()
+  }
+
+  protected refresh(): void {
+    this.host?.refresh()
+    this.wake()
+  }
+
+  #frame(now: number): void {
+    if (!this.host) return
+    this.#tellSize()
+    const plays = this.playback.playing && this.frames.inView
+    if (plays && !this.host.busy) this.#advance(now)
+    this.host?.work(WORK_BUDGET)
+    this.show(this.host?.frame(now))
+    if (plays || this.host?.busy) this.wake()
+  }
+
+  #tellSize(): void {
+    const { size } = this.canvas
+    const text = JSON.stringify(size)
+    if (text === this.#sentSize) return
+    this.#sentSize = text
+    this.host?.send({ do: 'size', size })
+  }
+
+  #advance(now: number): void {
+    const { target, last } = this.host!
+    if (target >= last) {
+      this.playback.playing = false
+      this.host!.refresh()
+    } else if (this.playback.isDue(now)) {
+      this.events.cause = 'playback'
+      this.host!.send({ do: 'seek', step: target + 1 })
+    }
+  }
+
+  protected show(frame: Frame | undefined): void {
+    if (!frame) return
+    this.present(frame)
+    if (!frame.busy) {
+      this.settings.recipe = frame.query
+      if (this.stage.matches('.live')) this.canvas.release()
+      this.events.tell(frame, frame.run !== undefined)
+    }
+    this.events.send()
+  }
+
+  protected override present(frame: Frame): void {
+    super.present(frame)
+    if (this.host) this.settings.answered(this.host.done)
+  }
+
+  protected introduced(): void {
+    this.takeOption('lock')
+    this.takeOption('decimal')
+  }
+
+  /** It is about to be seen. */
+  protected approached(): void {}
+}
