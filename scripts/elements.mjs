@@ -7,8 +7,8 @@ import { readGlue, shellModule, shellTypes } from './glue.mjs'
 import { isMain, main, readIfThere, root, step, StepError } from './lib.mjs'
 
 /**
- * @typedef {import('../widgets/elements/program').ParamSpec} ParamSpec
- * @typedef {import('../widgets/elements/program').Readout} Readout
+ * @typedef {import('../widgets/elements/shell').ParamSpec} ParamSpec
+ * @typedef {import('../widgets/elements/shell').Readout} Readout
  * @typedef {{ tag: string, name: string, className: string, title: string, describe: string, params: ParamSpec[], readouts: Readout[] }} FigureInfo
  */
 
@@ -52,6 +52,7 @@ const methods = [
   { name: 'stepBack', type: '() => void', help: 'One step back.' },
   { name: 'seek', type: '(step: number) => void', help: 'To a step.' },
   { name: 'reset', type: '() => void', help: 'Back to what the page’s author gave.' },
+  { name: 'settled', type: '() => Promise<void>', help: 'Resolves when all that was asked of the figure is shown, and nothing moves any more.' },
 ]
 
 const properties = [
@@ -71,7 +72,8 @@ const log = {
     { name: 'play', type: '() => void', help: 'Maps from the start, or goes on after a pause.' },
     { name: 'pause', type: '() => void', help: 'Waits.' },
     { name: 'stop', type: '() => void', help: 'Ends where it is; what is mapped can still be looked at and saved.' },
-    { name: 'reset', type: '() => void', help: 'Back to the defaults; the log stays open.' },
+    { name: 'reset', type: '() => void', help: 'Back to the settings that the page’s author gave; the log stays open.' },
+    ...methods.filter(({ name }) => name === 'settled'),
   ],
   properties: properties.filter(({ name }) => name !== 'currentStep'),
 }

@@ -61,9 +61,7 @@ export class Figure {
 
   /** Until what was asked for is shown. */
   async settled(): Promise<void> {
-    await expect(this.element.locator('.position.busy')).toHaveCount(0, { timeout: 30_000 })
-    // The sentence follows within a few frames, so that a drag says one thing and not a hundred.
-    await this.page.waitForTimeout(250)
+    await this.element.evaluate(figure => (figure as HTMLElement & { settled(): Promise<void> }).settled())
   }
 
   async position(): Promise<number> {

@@ -1,6 +1,6 @@
 // Every control is made from the shell's list of parameters, so a figure gets its controls by declaring parameters.
 import { h, icon, redraw, write } from './dom'
-import type { ParamSpec } from './program'
+import type { ParamSpec } from './shell'
 import { stride } from './handles'
 
 /** What the controls may ask of the figure. */

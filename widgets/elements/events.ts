@@ -1,6 +1,6 @@
 // What figures tell the page. Events are always the last thing done: who listens may remove, reset, move or clone the figure.
 import type { Frame, Phase } from './host'
-import type { Readout, TraceLine } from './program'
+import type { Readout, TraceLine } from './shell'
 
 /** Who made a state what it is: the reader's own hand, playing, or the page (an attribute, a property, a link, a script). */
 export type Cause = 'reader' | 'playback' | 'page'

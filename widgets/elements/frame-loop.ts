@@ -42,6 +42,11 @@ export class FrameLoop {
     this.inView = false
   }
 
+  /** Whether a frame has been asked for. */
+  get waiting(): boolean {
+    return this.#request !== 0
+  }
+
   /** There is something to show, or to do before that. */
   wake(): void {
     if (this.#idle) return

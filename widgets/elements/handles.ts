@@ -1,7 +1,7 @@
 // Points of the picture that a reader moves. The picture draws them; here something to grasp lies over each: an element that takes
 // the focus, the pointer and the arrow keys.
 import { h } from './dom'
-import type { Handle } from './program'
+import type { Handle } from './shell'
 
 /** What the handles may ask of the figure. */
 export interface Moves {

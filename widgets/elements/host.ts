@@ -1,6 +1,6 @@
 // What a figure on a page and a figure beside its program say to each other: the same words whether the two share a thread or not. A
 // figure is asked by commands and tells by answers. The host is who carries them: LocalHost by calls, WorkerHost by messages.
-import type { Handle, ParamSpec, Readout, TraceLine } from './program'
+import type { Handle, ParamSpec, Readout, TraceLine } from './shell'
 
 /** Where the picture goes, and how it is to look. */
 export interface Size {

@@ -1,6 +1,7 @@
 // Workers: what runs beside the page, so that nothing else has to wait for it. Experiments over many seeds run in one of their own.
 import { workerScript } from './files'
-import { programOf, type Shell } from './program'
+import { programOf } from './program'
+import type { Shell } from './shell'
 import type { WorkerRequest, WorkerResponse } from './worker'
 
 /** What is to be run: an experiment of a figure's program, its setting as a figure's link, and seeds from `from` to before `to`. */

@@ -1,7 +1,8 @@
 // The lap table of the chapter: a plain table (scripts/chapter/lap-table.mjs) that readers may compute again, cell by cell.
 import { h, icon, write } from './dom'
 import { runInWorker } from './jobs'
-import { programOf, type Shell } from './program'
+import { programOf } from './program'
+import type { Shell } from './shell'
 
 const PROPOSALS: Record<string, string> = { aware: 'measurement-aware proposal', motion: 'motion prior' }
 const MATCHERS: Record<string, string> = { cell: 'cell score', subcell: 'sub-cell score' }

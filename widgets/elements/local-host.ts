@@ -1,6 +1,7 @@
 // A figure whose program runs on the page: commands are calls, and what they do can be read at once.
 import type { Command, FigureHost, Frame, Listener } from './host'
-import { trapMessage, type InstanceUser, type Program, type Shell } from './program'
+import type { InstanceUser, Program } from './program'
+import { trapMessage, type Shell } from './shell'
 import { Session } from './session'
 
 const CATCH_UP_PAINT = 100 // [ms] between pictures while the simulation catches up
@@ -49,7 +50,7 @@ export class LocalHost implements FigureHost, InstanceUser {
   }
 
   get busy(): boolean {
-    return this.#ask(session => session.pending) ?? false
+    return this.#ask(session => session.pending) ?? true // between two instances it is on its way back
   }
 
   get done(): number {

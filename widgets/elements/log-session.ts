@@ -1,6 +1,6 @@
 // The session of a figure that maps a log: it also reads the file, starts, pauses and stops, and saves what came out.
 import type { Beginning, Command, Phase, Run, SavedFile } from './host'
-import { isRefusal, type Readout } from './program'
+import { isRefusal, type Readout } from './shell'
 import { Session } from './session'
 
 const MOST_BYTES = 256e6 // of a log, unpacked

@@ -10,7 +10,7 @@ import type { Answer, Command, Frame, Phase, Run, SavedFile } from './host'
 import { takeGestures } from './map-gestures'
 import type { MenuItem } from './menu'
 import { register } from './parameters'
-import type { ParamSpec, Readout } from './program'
+import type { ParamSpec, Readout } from './shell'
 
 const ZOOM = 1.4 // magnified by one press of + or −
 const PAN = 60 // [px] moved by one arrow key

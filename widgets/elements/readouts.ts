@@ -1,6 +1,6 @@
 // The numbers of the state shown, as a list of names and values.
 import { h, write } from './dom'
-import type { Readout } from './program'
+import type { Readout } from './shell'
 
 export function showReadouts(list: HTMLElement, readouts: Readout[]): void {
   const names = readouts.map(({ name }) => name).join(' ') // another course may have others

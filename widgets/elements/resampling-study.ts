@@ -1,7 +1,7 @@
 // The panel below the figure of resampling: in how many runs each policy still has the right wing when the evidence comes.
 import { h, write } from './dom'
 import { runInWorker } from './jobs'
-import type { Shell } from './program'
+import type { Shell } from './shell'
 
 /** The settings that the count depends on; it has seeds of its own, and always the course of the two wings. */
 const SETTINGS = ['particles', 'threshold', 'odometry', 'range', 'scheme']

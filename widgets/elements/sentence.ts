@@ -9,13 +9,25 @@ export class Sentence {
   #saidAt = -Infinity // [ms]
   #timer = 0
 
+  /** Whether a sentence is still to be said. */
+  waiting = false
+
   say(text: string, playing: boolean): void {
     this.element.setAttribute('aria-live', playing ? 'off' : 'polite')
     clearTimeout(this.#timer)
+    this.waiting = false
     if (playing && performance.now() < this.#saidAt + APART) return
     this.#saidAt = performance.now()
     // The first at once, as it makes the figure higher.
     if (playing || !this.element.hasChildNodes()) write(this.element, text)
-    else this.#timer = window.setTimeout(() => write(this.element, text), PAUSE)
+    else this.#sayLater(text)
+  }
+
+  #sayLater(text: string): void {
+    this.waiting = true
+    this.#timer = window.setTimeout(() => {
+      this.waiting = false
+      write(this.element, text)
+    }, PAUSE)
   }
 }

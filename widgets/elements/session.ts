@@ -1,7 +1,7 @@
 // A figure beside its program, on the page or in a worker: carries out what it is asked, and says what there is to show.
 import type { Answer, Beginning, Command, Frame, Layout, Picture, Run, Size } from './host'
 import { locked } from './options'
-import { isRefusal, type Handle, type ParamSpec, type Readout, type Shell, type ShellFigure, type TraceLine } from './program'
+import { isRefusal, type Handle, type ParamSpec, type Readout, type Shell, type ShellFigure, type TraceLine } from './shell'
 
 const LEGIBLE = 0.5 // a picture is not made smaller than that to fit
 

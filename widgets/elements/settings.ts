@@ -4,7 +4,7 @@
 import type { Beginning, FigureHost } from './host'
 import { FIGURES } from './generated/figures'
 import { fromText, isParameter } from './parameters'
-import type { ParamSpec } from './program'
+import type { ParamSpec } from './shell'
 
 export class Settings {
   /** The last state shown, or one asked for, as a link has it: a figure is made from it after a move. Undefined until there was one. */

@@ -4,7 +4,7 @@ import type { Answer, Command, Frame } from './host'
 import { createShell } from './generated/shell'
 import type { Job } from './jobs'
 import { LogSession } from './log-session'
-import { trapMessage, type Shell } from './program'
+import { trapMessage, type Shell } from './shell'
 import { Session } from './session'
 import { yieldToMain } from './yield'
 

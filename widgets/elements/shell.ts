@@ -1,0 +1,70 @@
+// What the program's shell (widgets/src/shell.rs) gives and takes: the shapes of its data, and the two ways in which a call can fail.
+import type { Shell } from './generated/shell'
+
+export type { Shell }
+export type ShellFigure = InstanceType<Shell['Figure']>
+
+/** What the shell tells about one parameter: the only source of attributes, properties, controls and links. */
+export interface ParamSpec {
+  name: string
+  title: string
+  unit: string
+  kind: 'integer' | 'number' | 'choice' | 'flag' | 'toggle'
+  min: number
+  max: number
+  step: number
+  choices: { value: string; title: string }[]
+  default: string
+  group: 'setup' | 'view'
+  slider: boolean
+  help: string
+}
+
+export interface Readout {
+  name: string
+  title: string
+  value: number | null
+  text: string
+  unit: string
+  help: string
+}
+
+/** A line of the figure's algorithm that the step shown has run. */
+export interface TraceLine {
+  key: string
+  text: string
+}
+
+/** A point of the picture that a reader moves, where it lies on the canvas [css px]. */
+export interface Handle {
+  name: string
+  title: string
+  x: number
+  y: number
+  value: number
+  text: string
+  hover: { x: number; y: number; w: number; h: number } | null
+}
+
+/** Memory [bytes] beyond which a trap without a word is one of memory: every panic leaves a word. */
+const FULL = 1e9
+
+/** What went wrong inside the program, in its own words where it left any. */
+export function trapMessage(error: unknown, shell: Shell | undefined): string {
+  // Engines word a full stack differently, and not one calls it a trap.
+  if (error instanceof RangeError || /too much recursion|call stack/i.test(String(error))) return 'its stack was full'
+  let said: string | undefined
+  try {
+    if (error instanceof WebAssembly.RuntimeError) said = shell?.last_panic() // the instance is dead, but its memory can still be read
+  } catch {
+    // too broken to speak
+  }
+  if (said) return said
+  if (shell && shell.memory.buffer.byteLength > FULL && error instanceof WebAssembly.RuntimeError) return 'its memory was full'
+  return error instanceof Error ? error.message : String(error)
+}
+
+/** A refused value: the shell's error that names a parameter, as against a trap. */
+export function isRefusal(error: unknown): error is Error & { parameter: string } {
+  return error instanceof Error && typeof (error as { parameter?: unknown }).parameter === 'string'
+}
