@@ -261,3 +261,24 @@ test('text at 200 % and a narrow window lose nothing', async ({ page }) => {
   await lap.settled()
   expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(320)
 })
+
+test('a page that names a figure names its picture', async ({ page }) => {
+  await openCourse(page, '<fastslam-lap aria-label="My lap"></fastslam-lap>')
+  const lap = new Figure(page, 'fastslam-lap')
+  await lap.live()
+  await expect(lap.element.getByRole('img', { name: 'My lap', exact: true })).toBeVisible()
+  await lap.element.evaluate(element => element.setAttribute('aria-label', 'The lap of our course'))
+  await expect(lap.element.getByRole('img', { name: 'The lap of our course', exact: true })).toBeVisible()
+  await lap.element.evaluate(element => element.removeAttribute('aria-label'))
+  await expect(lap.element.getByRole('img', { name: /Apartment/ })).toBeVisible()
+})
+
+test('on paper a figure without a picture of the page’s is what it shows, without what can be done with it', async ({ page }) => {
+  await openCourse(page, '<fastslam-lap></fastslam-lap>')
+  const lap = new Figure(page, 'fastslam-lap')
+  await lap.live()
+  await page.emulateMedia({ media: 'print' })
+  await expect(lap.canvas).toBeVisible()
+  await expect(lap.sentence).toBeVisible()
+  for (const part of ['transport', 'settings', 'view', 'menu']) await expect(lap.element.locator(`[part="${part}"]`)).toBeHidden()
+})

@@ -31,6 +31,7 @@ export abstract class FigureElement extends HostedFigure {
     this.body.classList.toggle('pictured', this.querySelector('img, picture') !== null)
     this.frames.observe(signal)
     this.canvas.observe()
+    this.takeName()
     takeEarlyProperties(this)
     if (this.settings.recipe === undefined) this.followLink() // a node that was only moved goes on from where it was
   }
@@ -160,6 +161,7 @@ export abstract class FigureElement extends HostedFigure {
 
   #onAttribute(name: string): void {
     if (name in OPTIONS) return this.takeOption(name)
+    if (name === 'aria-label') return this.takeName()
     if (!isParameter(name)) return
     this.settings.giveAttribute(name)
     this.events.cause = 'page'

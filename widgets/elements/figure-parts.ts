@@ -138,6 +138,18 @@ export abstract class FigureParts extends HTMLElement {
     else this.stage.removeAttribute('aria-describedby')
   }
 
+  /** A page that names the element names its picture. */
+  protected takeName(): void {
+    const name = this.getAttribute('aria-label')
+    for (const element of [this.body, this.stage, this.canvas.element]) {
+      if (name) element.setAttribute('aria-label', name)
+      else element.removeAttribute('aria-label')
+      // A reference would stand over the name.
+      if (name) element.removeAttribute('aria-labelledby')
+      else element.setAttribute('aria-labelledby', 'title')
+    }
+  }
+
   /** Without a living program nothing can be done. */
   protected enable(on: boolean): void {
     this.controls?.enable(on)

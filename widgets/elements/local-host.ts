@@ -16,7 +16,8 @@ export class LocalHost implements FigureHost, InstanceUser {
   /** The settings that no link holds, to be given to the next instance as well. */
   #kept = new Map<Command['do'], Command>()
   #trapped = false // it was this figure that killed the instance
-  #known = { values: {} as Record<string, string>, query: '', target: 0, last: 0 } // as it was asked to be, for the time without a session
+  #known: { values: Record<string, string>; query: string; target: number; last: number } | undefined // as it was asked to be, for the time without a session
+  #beginning: Command | undefined // with what it began, for one that traps before anything is known
   #good: string | undefined // as it was when it was shown last
 
   private constructor(
@@ -33,20 +34,20 @@ export class LocalHost implements FigureHost, InstanceUser {
     return new LocalHost(program, await program.shell(), tag, listener)
   }
 
-  get values(): Record<string, string> {
-    return this.#ask(session => session.values) ?? this.#known.values
+  get values(): Record<string, string> | undefined {
+    return this.#ask(session => session.values) ?? this.#known?.values
   }
 
-  get query(): string {
-    return this.#ask(session => session.query) ?? this.#known.query
+  get query(): string | undefined {
+    return this.#ask(session => session.query) ?? this.#known?.query
   }
 
   get target(): number {
-    return this.#session?.target ?? this.#known.target
+    return this.#session?.target ?? this.#known?.target ?? 0
   }
 
   get last(): number {
-    return this.#ask(session => session.last) ?? this.#known.last
+    return this.#ask(session => session.last) ?? this.#known?.last ?? 0
   }
 
   get busy(): boolean {
@@ -59,6 +60,7 @@ export class LocalHost implements FigureHost, InstanceUser {
 
   send(command: Command): void {
     if (command.do === 'size' || command.do === 'lock' || command.do === 'comma') this.#kept.set(command.do, command)
+    if (command.do === 'begin') this.#beginning = command
     this.sent += 1
     if (this.#session) this.#carryOut(command)
     else this.#queue.push(command)
@@ -132,14 +134,15 @@ export class LocalHost implements FigureHost, InstanceUser {
   }
 
   async #revive(): Promise<void> {
-    const again = this.#trapped ? (this.#good ?? this.#known.query) : this.#known.query
+    const query = this.#trapped ? this.#good : this.#known?.query
+    const again: Command | undefined = query === undefined ? this.#beginning : { do: 'begin', query, settings: [], authored: undefined, changed: false }
     this.#trapped = false
     try {
       this.shell = await this.program.shell()
       if (!this.program.users.has(this) || this.#session) return
       this.#session = new Session(this.shell, this.tag, answer => this.listener.hear(answer))
       for (const command of this.#kept.values()) this.#carryOut(command)
-      this.#carryOut({ do: 'begin', query: again, settings: [], authored: undefined, changed: false })
+      if (again) this.#carryOut(again)
       for (const command of this.#queue.splice(0)) this.#carryOut(command)
       this.listener.wake()
     } catch (error) {
@@ -147,6 +150,7 @@ export class LocalHost implements FigureHost, InstanceUser {
     }
   }
 
-  /** It comes back with all the others that shared the instance. */
-  restart(): void {}
+  restart(): void {
+    this.revive()
+  }
 }

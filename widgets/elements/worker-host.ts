@@ -14,7 +14,8 @@ export class WorkerHost implements FigureHost {
   #new = false
   #target: number | undefined // asked for since then
   #kept = new Map<Command['do'], Command>()
-  #good: string | undefined
+  #good: string | undefined // as it was when it was shown last
+  #beginning: Command | undefined // with what it began, for one that traps before it has shown anything
 
   private constructor(
     private readonly module: WebAssembly.Module,
@@ -54,6 +55,7 @@ export class WorkerHost implements FigureHost {
 
   send(command: Command): void {
     if (command.do === 'size' || command.do === 'lock' || command.do === 'comma') this.#kept.set(command.do, command)
+    if (command.do === 'begin') this.#beginning = command
     if (command.do === 'seek') this.#target = Math.max(0, Math.min(this.last, Math.round(command.step) || 0))
     this.sent += 1
     this.#post(command)
@@ -83,7 +85,8 @@ export class WorkerHost implements FigureHost {
     this.#target = undefined
     this.#begin()
     for (const command of this.#kept.values()) this.send(command)
-    this.send({ do: 'begin', query: this.#good, settings: [], authored: undefined, changed: false })
+    if (this.#good !== undefined) this.send({ do: 'begin', query: this.#good, settings: [], authored: undefined, changed: false })
+    else if (this.#beginning) this.send(this.#beginning)
   }
 
   free(): void {
