@@ -30,8 +30,8 @@ const NORMAL_RATE = 6
 const SEED = 'seed'
 const STEP = 'step'
 
-/** How numbers are written in boxes; the shell writes all others. */
-interface Mark {
+/** How numbers are written in boxes; the program writes all others. */
+interface NumberStyle {
   comma: boolean
 }
 
@@ -48,7 +48,7 @@ export class Controls {
   private readonly forth: HTMLButtonElement
   private readonly scrub: HTMLInputElement
   private readonly position: HTMLElement
-  private readonly mark: Mark = { comma: false }
+  private readonly style: NumberStyle = { comma: false }
   private readonly rate: HTMLSelectElement
   private readonly playback: HTMLElement[] // all that a figure without steps has no use for
 
@@ -85,7 +85,7 @@ export class Controls {
     const choices: HTMLElement[] = [] // after the sliders, so that the grid has even rows
     for (const spec of specs) {
       if (spec.name === STEP) continue
-      const field = fieldFor(spec, this.mark, value => actions.change(spec.name, value))
+      const field = fieldFor(spec, this.style, value => actions.change(spec.name, value))
       this.fields.set(spec.name, field)
       for (const input of field.element.querySelectorAll<HTMLElement>('input, select')) input.title = spec.help // read out after the name
       if (spec.name === SEED) this.transport.lastElementChild!.append(field.element)
@@ -116,8 +116,8 @@ export class Controls {
 
   /** Numbers in boxes with a comma or a point, from the next {@link showValues} on. */
   writeComma(comma: boolean): void {
-    if (comma === this.mark.comma) return
-    this.mark.comma = comma
+    if (comma === this.style.comma) return
+    this.style.comma = comma
     this.shown.clear()
     // A box of numbers writes them as the browser's language has it, so those with decimals become boxes of text.
     for (const { element } of this.fields.values()) {
@@ -126,7 +126,7 @@ export class Controls {
         box.role = comma ? 'spinbutton' : null
       }
     }
-    for (const option of this.rate.options) option.text = written(`${Number(option.value) / NORMAL_RATE}×`, this.mark)
+    for (const option of this.rate.options) option.text = written(`${Number(option.value) / NORMAL_RATE}×`, this.style)
   }
 
   /** Parameters that are the author's alone: their controls show the value and do nothing. */
@@ -161,12 +161,12 @@ export class Controls {
   }
 }
 
-function fieldFor(spec: ParamSpec, mark: Mark, change: (value: string) => void): Field {
-  if (spec.name === SEED) return seedField(spec, mark, change)
+function fieldFor(spec: ParamSpec, style: NumberStyle, change: (value: string) => void): Field {
+  if (spec.name === SEED) return seedField(spec, style, change)
   if (spec.kind === 'flag') return flagField(spec, change)
   if (spec.kind === 'toggle') return toggleField(spec, change)
   if (spec.kind === 'choice' || spec.choices.length > 0) return choiceField(spec, change)
-  return spec.slider ? sliderField(spec, mark, change) : numberField(spec, mark, change)
+  return spec.slider ? sliderField(spec, style, change) : numberField(spec, style, change)
 }
 
 function toggleField(spec: ParamSpec, change: (value: string) => void): Field {
@@ -212,13 +212,13 @@ function choiceField(spec: ParamSpec, change: (value: string) => void): Field {
   }
 }
 
-function sliderField(spec: ParamSpec, mark: Mark, change: (value: string) => void): Field {
+function sliderField(spec: ParamSpec, style: NumberStyle, change: (value: string) => void): Field {
   const stops = geometricStops(spec)
-  const box = numberBox(spec, mark, change)
+  const box = numberBox(spec, style, change)
   box.id = `box-${++made}`
   const range = h('input', { type: 'range', name: spec.name, 'aria-label': `${spec.title}, slider` })
   Object.assign(range, stops ? { min: 0, max: stops.length - 1, step: 1 } : { min: spec.min, max: spec.max, step: spec.step })
-  const describe = (value: string) => range.setAttribute('aria-valuetext', `${written(value, mark)} ${spec.unit}`.trim())
+  const describe = (value: string) => range.setAttribute('aria-valuetext', `${written(value, style)} ${spec.unit}`.trim())
   range.addEventListener('input', () => change(stops ? String(stops[range.valueAsNumber]) : range.value))
   return {
     element: h(
@@ -229,7 +229,7 @@ function sliderField(spec: ParamSpec, mark: Mark, change: (value: string) => voi
       range,
     ),
     show(value) {
-      showNumber(box, value, mark)
+      showNumber(box, value, style)
       range.value = stops ? String(nearest(stops, Number(value))) : value
       describe(value)
     },
@@ -238,8 +238,8 @@ function sliderField(spec: ParamSpec, mark: Mark, change: (value: string) => voi
 }
 
 /** A number without a slider: for figures that have many. */
-function numberField(spec: ParamSpec, mark: Mark, change: (value: string) => void): Field {
-  const box = numberBox(spec, mark, change)
+function numberField(spec: ParamSpec, style: NumberStyle, change: (value: string) => void): Field {
+  const box = numberBox(spec, style, change)
   return {
     element: h(
       'label',
@@ -247,7 +247,7 @@ function numberField(spec: ParamSpec, mark: Mark, change: (value: string) => voi
       h('span', { class: 'name' }, spec.title),
       h('span', { class: 'value' }, box, h('span', { class: 'unit' }, spec.unit)),
     ),
-    show: value => showNumber(box, value, mark),
+    show: value => showNumber(box, value, style),
     limit: spec => limit(box, spec),
   }
 }
@@ -259,8 +259,8 @@ function limit(input: HTMLInputElement, { min, max }: ParamSpec): boolean {
   return true
 }
 
-function seedField(spec: ParamSpec, mark: Mark, change: (value: string) => void): Field {
-  const box = numberBox(spec, mark, change)
+function seedField(spec: ParamSpec, style: NumberStyle, change: (value: string) => void): Field {
+  const box = numberBox(spec, style, change)
   const roll = button('dice', 'Re-roll the seed', () => {
     // Short seeds are easier to read out in a classroom; they are as good as long ones.
     let seed: number
@@ -279,21 +279,21 @@ function seedField(spec: ParamSpec, mark: Mark, change: (value: string) => void)
   }
 }
 
-/** Numbers are points inside, whatever the box writes; who types a comma means one. */
+/** What is in a box, as the program reads numbers: with a point, also where a comma was typed. */
 function read(box: HTMLInputElement): string {
   return box.value.replace(',', '.')
 }
 
-function written(number: string, { comma }: Mark): string {
+function written(number: string, { comma }: NumberStyle): string {
   return comma ? number.replace('.', ',') : number
 }
 
-function showNumber(box: HTMLInputElement, value: string, mark: Mark): void {
-  box.value = written(value, mark)
+function showNumber(box: HTMLInputElement, value: string, style: NumberStyle): void {
+  box.value = written(value, style)
   box.ariaValueNow = box.type === 'text' ? value : null // a box of numbers tells it by itself
 }
 
-function numberBox(spec: ParamSpec, mark: Mark, change: (value: string) => void): HTMLInputElement {
+function numberBox(spec: ParamSpec, style: NumberStyle, change: (value: string) => void): HTMLInputElement {
   const box = h('input', {
     type: 'number',
     class: 'number-box',
@@ -312,7 +312,7 @@ function numberBox(spec: ParamSpec, mark: Mark, change: (value: string) => void)
     const steps = spec.kind === 'integer' ? Math.max(1, stride(event)) : stride(event)
     const value = Math.min(Number(box.max), Math.max(Number(box.min), Number(read(box)) + up * steps * spec.step))
     if (Number.isNaN(value)) return
-    showNumber(box, String(Number(value.toPrecision(12))), mark) // 0.3, not 0.30000000000000004
+    showNumber(box, String(Number(value.toPrecision(12))), style) // 0.3, not 0.30000000000000004
     change(read(box))
   })
   return box

@@ -1,7 +1,7 @@
 // The code that puts a figure, as it stands, into another page: for the menu, and for the page that documents embedding.
 
 /** A figure as its author would write it: tag, and attributes in their order. */
-export interface Recipe {
+export interface FigureMarkup {
   tag: string
   attributes: [string, string][]
 }
@@ -24,7 +24,7 @@ const FRAME_HEIGHTS: Record<string, number> = {
 export const frameHeight = (tag: string): number => FRAME_HEIGHTS[tag] ?? 800
 
 /** The code, for figures whose files are in the folder `home` (an address with a slash at its end). */
-export function embedCode(name: CodeName, { tag, attributes }: Recipe, home: string, title: string): string {
+export function embedCode(name: CodeName, { tag, attributes }: FigureMarkup, home: string, title: string): string {
   const short = tag.replace('fastslam-', '')
   if (name === 'element') {
     const text = attributes.map(([key, value]) => ` ${key}="${escape(value)}"`).join('')

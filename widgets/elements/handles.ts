@@ -83,7 +83,7 @@ export class Handles {
     })
     grip.addEventListener('pointermove', event => {
       const { clientX: x, clientY: y } = event
-      if (event.pointerId !== held?.pointer || (x === held.x && y === held.y)) return // browsers tell of moves that are none
+      if (event.pointerId !== held?.pointer || (x === held.x && y === held.y)) return // browsers also send moves by 0 px, after a scroll for example
       held = { ...held, x, y }
       const box = this.layer.getBoundingClientRect()
       this.moves.drag(name, x - box.x - held.dx, y - box.y - held.dy)
