@@ -96,3 +96,20 @@ test('a heavy figure that is moved, or taken out and put back, goes on as it was
   expect(await lap.readouts()).toEqual(before)
   expect(page.workers(), 'the worker before has ended').toHaveLength(1)
 })
+
+for (const heavy of [false, true]) {
+  test(`when a ${heavy ? 'heavy ' : ''}figure says that it has settled, what was asked of it is shown`, async ({ page }) => {
+    const lap = await openLap(page, heavy, 'universes="4"')
+    for (const step of [30, 3, 12]) {
+      const shown = await lap.element.evaluate(async (element, step) => {
+        const figure = element as FigureElement & { settled(): Promise<void> }
+        figure.seek(step)
+        await figure.settled()
+        const root = figure.shadowRoot!
+        return [root.querySelector('.timeline .position')!.textContent, root.querySelector('.position.busy') === null, root.querySelector('.sentence')!.textContent]
+      }, step)
+      expect(shown.slice(0, 2)).toEqual([expect.stringMatching(new RegExp(`^${step} /`)), true])
+      expect(shown[2]).toBe(await lap.sentence.textContent())
+    }
+  })
+}

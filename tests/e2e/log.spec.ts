@@ -62,7 +62,10 @@ class LogFigure {
 
   /** A fingerprint of the pixels. */
   async picture(): Promise<number> {
-    await this.page.waitForTimeout(150)
+    // Of one that is being mapped, the picture of now.
+    if (!(await this.element.evaluate((figure: HTMLElement & { playing: boolean }) => figure.playing))) {
+      await this.element.evaluate((figure: HTMLElement & { settled(): Promise<void> }) => figure.settled())
+    }
     return this.element.locator('canvas').evaluate((canvas: HTMLCanvasElement) => {
       const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d', { willReadFrequently: true })!
       copy.drawImage(canvas, 0, 0)
