@@ -14,7 +14,7 @@ fn open(link: &str) -> (Figure, Vec<String>) {
     let said = figure.load(query).into_iter().map(|error| error.message).collect();
     if tag == LOG {
         let asked = figure.values().0.iter().find(|(name, _)| *name == "step").map(|(_, step)| step.parse().unwrap());
-        figure.model_mut().open(TINY_LOG).expect("the tiny log is a log");
+        figure.open(TINY_LOG).expect("the tiny log is a log");
         figure.model_mut().seek(asked.unwrap_or(u32::MAX));
     }
     figure.model_mut().settle();
