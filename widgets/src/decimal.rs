@@ -43,7 +43,7 @@ pub fn write(x: f64) -> String {
     fixed(x, (0..DIGITS).find(reads_back).unwrap_or(DIGITS))
 }
 
-/// The number that [`write`] writes for it.
+/// The number that [`write()`] writes for it.
 pub fn as_written(x: f64) -> f64 {
     parse(&write(x)).unwrap_or(x)
 }

@@ -38,7 +38,7 @@ use crate::param::{Choice, Group, Kind, ParamSpec, Value, unknown};
 use std::fmt::Display;
 use strum::VariantArray;
 
-/// A place in a recipe: how its value is read, and how it is written. [`field!`] makes one of a path.
+/// A place in a recipe: how its value is read, and how it is written. [`crate::field!`] makes one of a path.
 pub struct Field<R, T> {
     /// Its value.
     pub get: fn(&R) -> T,

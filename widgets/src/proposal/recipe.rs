@@ -41,7 +41,7 @@ impl Default for Recipe {
 impl Recipe {
     /// Another guess is another try.
     pub fn guess_at(&mut self, guess: f64) {
-        let guess = guess.max(RATIOS[0]).min(RATIOS[1]);
+        let guess = guess.clamp(RATIOS[0], RATIOS[1]);
         (self.run, self.guess) = (self.run && self.guess == guess, guess);
     }
 }

@@ -19,7 +19,7 @@ impl Chart {
 
     /// Where a share of the height is \[css px\]; at the nearer edge for what is beyond.
     pub fn y(&self, share: f64) -> f64 {
-        self.area.bottom() - self.area.h * share.max(0.0).min(1.0)
+        self.area.bottom() - self.area.h * share.clamp(0.0, 1.0)
     }
 
     /// A curve through shares of the height by their steps.

@@ -5,7 +5,7 @@ use super::{Point, Rect};
 /// A point that is dragged, or moved by keyboard. The scene draws its mark; the page lays something to grasp over it.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Handle {
-    /// Argument of [`crate::model::Model::drag`] and [`crate::model::Model::nudge`], unique in the figure.
+    /// Argument of [`crate::view::View::drag`] and [`crate::view::View::nudge`], unique in the figure.
     pub name: &'static str,
     /// Name for readers.
     pub title: String,

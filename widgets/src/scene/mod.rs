@@ -184,7 +184,7 @@ pub enum Mark {
 pub struct Region {
     /// Where.
     pub area: Rect,
-    /// Argument of [`crate::model::Model::pick`].
+    /// Argument of [`crate::view::View::pick`].
     pub target: u32,
 }
 
