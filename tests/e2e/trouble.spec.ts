@@ -131,6 +131,20 @@ test('where the network fails, the picture stays, and a second try brings the fi
   complaints.splice(0, Infinity, ...complaints.filter(line => !/Failed to load resource/.test(line)))
 })
 
+test('a second try begins with the link that the first one had', async ({ page, complaints }) => {
+  await page.route('**/*.wasm', route => route.abort())
+  await page.goto('./#fastslam-lap?universes=4&step=5')
+  const lap = new Figure(page, 'fastslam-lap')
+  await expectPicture(lap, /could not be fetched/)
+  await page.unroute('**/*.wasm')
+  await lap.alert.getByRole('button', { name: 'Try again' }).click()
+  await lap.live()
+  expect(await lap.position()).toBe(5)
+  await lap.openSettings()
+  await expect(lap.box('universes')).toHaveValue('4')
+  complaints.splice(0, Infinity, ...complaints.filter(line => !/Failed to load resource/.test(line)))
+})
+
 test('where the file is missing, the answer of the server is said', async ({ page, complaints }) => {
   await page.route('**/*.wasm', route => route.fulfill({ status: 404, body: 'gone' }))
   await page.goto('./')

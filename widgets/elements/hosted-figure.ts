@@ -106,9 +106,17 @@ export abstract class HostedFigure extends FigureParts implements Listener {
   protected refuseToLive(why: string): void {
     write(this.status, '')
     this.stopped = true
+    this.settings.keep(undefined)
     this.end()
     this.canvas.release()
-    this.messages.set('start', `This figure is not live here: ${why}.${this.showFallback()}`, 'Try again', () => this.reset())
+    this.messages.set('start', `This figure is not live here: ${why}.${this.showFallback()}`, 'Try again', () => this.#tryAgain())
+  }
+
+  #tryAgain(): void {
+    this.stopped = false
+    this.stage.classList.remove('still')
+    this.messages.set('start', '')
+    void this.start()
   }
 
   /** Resolves when all that was asked of the figure is shown, and nothing moves any more. */

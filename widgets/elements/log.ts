@@ -103,6 +103,7 @@ export class FastslamLog extends FigureElement {
   /** Reads a log. Nothing is mapped yet, unless it is to start at once. */
   async open(file: Blob, name = file instanceof File ? file.name : 'log', start = false): Promise<void> {
     this.messages.set('file', '')
+    this.crashes = 0 // another log, another chance
     this.#source = { file, name, start }
     write(this.status, `Reading ${name} …`)
     await this.start()
