@@ -52,7 +52,7 @@ const methods = [
   { name: 'stepBack', type: '() => void', help: 'One step back.' },
   { name: 'seek', type: '(step: number) => void', help: 'To a step.' },
   { name: 'reset', type: '() => void', help: 'Back to what the page’s author gave.' },
-  { name: 'settled', type: '() => Promise<void>', help: 'Resolves when all that was asked of the figure is shown, and nothing moves any more.' },
+  { name: 'settled', type: '() => Promise<void>', help: 'Resolves when all that was asked of the figure is shown; playing goes on.' },
 ]
 
 const properties = [

@@ -62,10 +62,7 @@ class LogFigure {
 
   /** A fingerprint of the pixels. */
   async picture(): Promise<number> {
-    // Of one that is being mapped, the picture of now.
-    if (!(await this.element.evaluate((figure: HTMLElement & { playing: boolean }) => figure.playing))) {
-      await this.element.evaluate((figure: HTMLElement & { settled(): Promise<void> }) => figure.settled())
-    }
+    await this.element.evaluate((figure: HTMLElement & { settled(): Promise<void> }) => figure.settled())
     return this.element.locator('canvas').evaluate((canvas: HTMLCanvasElement) => {
       const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d', { willReadFrequently: true })!
       copy.drawImage(canvas, 0, 0)

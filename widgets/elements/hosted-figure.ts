@@ -119,17 +119,17 @@ export abstract class HostedFigure extends FigureParts implements Listener {
     void this.start()
   }
 
-  /** Resolves when all that was asked of the figure is shown, and nothing moves any more. */
+  /** Resolves when all that was asked of the figure is shown. Playing is not waited for: it goes on. */
   async settled(): Promise<void> {
     // What a frame shows may change sizes, which are told after it and ask for another one.
-    for (let quiet = 0; quiet < 2; quiet = this.#moves ? 0 : quiet + 1) await new Promise(requestAnimationFrame)
+    for (let quiet = 0; quiet < 2; quiet = this.#unsettled ? 0 : quiet + 1) await new Promise(requestAnimationFrame)
   }
 
-  get #moves(): boolean {
+  get #unsettled(): boolean {
     const { host } = this
     if (this.#starting) return true
     if (!host || !(host.remote || this.frames.near)) return false
-    return host.busy || host.done < host.sent || this.playing || this.frames.waiting || this.sentence.waiting
+    return host.busy || host.done < host.sent || (!this.playing && (this.frames.waiting || this.sentence.waiting))
   }
 
   // --- Commands and answers --------------------------------------------------------------------------------------------------

@@ -126,15 +126,15 @@ export class FastslamLapTable extends HTMLElement {
   }
 
   /** The digits in the cell against those computed here, and behind them every single error. */
-  #conclude(cell: Cell, numbers: Float64Array, found: number[], printed: number[], took: number): void {
-    const here = [...numbers].map(metres)
+  #conclude(cell: Cell, spread: Float64Array, found: number[], printed: number[], took: number): void {
+    const here = [...spread].map(metres)
     const there = NUMBERS.map(name => cell.element.querySelector(`[data-of=${name}]`)?.textContent ?? '')
     const different = found.filter((error, k) => error !== printed[k]).length
     const [median, low, high, p90, worst] = here
-    const words = `median ${median} m (${low}–${high}), p90 ${p90} m, worst ${worst} m`
+    const numbers = `median ${median} m (${low}–${high}), p90 ${p90} m, worst ${worst} m`
     if (different === 0 && here.every((text, k) => text === there[k])) {
       this.#judge(cell, 'same', 'same digits')
-      this.#panel!.agree(`The same digits as printed: ${words}. All ${found.length} errors agree to the last bit. It took ${duration(took)}.`)
+      this.#panel!.agree(`The same digits as printed: ${numbers}. All ${found.length} errors agree to the last bit. It took ${duration(took)}.`)
     } else {
       this.#judge(cell, 'differs', 'differs')
       this.#panel!.differ(
