@@ -100,8 +100,7 @@ test('where a host sends no policy, the page has its own, and lives under it', a
     const { 'content-security-policy': _, ...headers } = response.headers()
     await route.fulfill({ response, headers })
   })
-  await page.goto('./')
-  await new Figure(page, 'fastslam-lap').live()
+  await new Figure(page, 'fastslam-lap').open()
   const ran = await page.evaluate(() => {
     const script = document.createElement('script')
     script.textContent = 'document.title = "injected"'
