@@ -1,15 +1,21 @@
 // Real traps: a program that dies on request (the feature `trouble`, which no program that is shipped has) is served in place of the
 // page's. One figure among six dies of a panic, a full stack or a full memory: the others go on, and nothing is lost.
 import type { Page } from '@playwright/test'
-import { readFileSync } from 'node:fs'
+import { existsSync, readFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { troubleWasm } from '../../scripts/build.mjs'
+import { buildTrouble, troubleWasm } from '../../scripts/build.mjs'
 import { root } from '../../scripts/lib.mjs'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
 import { openCourse } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
+
+// npm test builds it anew; for a run of the browser's tests alone it is built if there is none.
+test.beforeAll(async () => {
+  test.setTimeout(600_000)
+  if (!existsSync(troubleWasm)) await buildTrouble()
+})
 
 const TINY = join(root, 'tests', 'figures', 'golden', 'tiny.clf')
 
