@@ -30,7 +30,7 @@ function clippyWasm() {
  * What they depend on besides is there from the lints: the network is not asked.
  */
 async function checkPackages() {
-  const crates = ['fastslam', 'fastslam-lab', 'fastslam-raster', 'fastslam-widgets']
+  const crates = ['fastslam', 'fastslam-lab', 'fastslam-widgets']
   for (const crate of crates) {
     const { output } = await run('cargo', ['package', '--list', '--allow-dirty', '--package', crate])
     const packed = output.trim().split(/\s+/)

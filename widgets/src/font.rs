@@ -3,7 +3,7 @@
 //! A figure writes with these and not with the browser's fonts, so that its text has the same pixels on every machine and
 //! is as crisp as its lines at any zoom. The subset's digits are tabular: a number that changes keeps its width.
 
-use fastslam_raster::path::Segment;
+use tiny_skia::PathBuilder;
 
 /// Weight of the strokes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -27,28 +27,37 @@ pub fn cap_height(size: f64, weight: Weight) -> f64 {
     f64::from(table.cap_height) * size / f64::from(table.units_per_em)
 }
 
-/// Calls `put` with every piece of the text's outline in em (1 = the font size, y up, the baseline at 0) and the distance in em from the text's start to its glyph's.
-pub fn outline(text: &str, weight: Weight, mut put: impl FnMut(f32, Segment)) {
+/// Adds the outlines of a line of text at this font size to a path: its baseline begins at `origin`; y down, as in the picture.
+pub fn outline(path: &mut PathBuilder, text: &str, weight: Weight, size: f32, origin: [f32; 2]) {
     let table = weight.table();
-    let em = 1.0 / table.units_per_em;
-    let mut pen = 0.0;
+    let unit = size / table.units_per_em;
+    let [mut pen, baseline] = origin;
     for glyph in text.chars().map(|c| table.glyph(c)) {
         let mut steps = table.steps[usize::from(glyph.steps)..].iter();
         let mut last = [0_i16; 2];
         let mut point = || {
             last = last.map(|from| from + step(&mut steps));
-            last.map(|c| f32::from(c) * em)
+            let [x, y] = last.map(f32::from);
+            [pen + x * unit, baseline - y * unit]
         };
         for verb in &table.verbs[usize::from(glyph.verbs)..] {
-            let segment = match verb {
-                b'M' => Segment::Move(point()),
-                b'L' => Segment::Line(point()),
-                b'C' => Segment::Cubic(point(), point(), point()),
+            match verb {
+                b'M' => {
+                    let [x, y] = point();
+                    path.move_to(x, y);
+                }
+                b'L' => {
+                    let [x, y] = point();
+                    path.line_to(x, y);
+                }
+                b'C' => {
+                    let [[x1, y1], [x2, y2], [x, y]] = [point(), point(), point()];
+                    path.cubic_to(x1, y1, x2, y2, x, y);
+                }
                 _ => break,
-            };
-            put(pen, segment);
+            }
         }
-        pen += f32::from(glyph.advance) * em;
+        pen += f32::from(glyph.advance) * unit;
     }
 }
 
@@ -140,13 +149,10 @@ mod tests {
 
     #[test]
     fn a_capital_stands_on_the_baseline_and_reaches_the_cap_height() {
-        let (mut low, mut high) = (f32::MAX, f32::MIN);
-        outline("H", Weight::Regular, |_, segment| {
-            if let Segment::Move([_, y]) | Segment::Line([_, y]) = segment {
-                (low, high) = (low.min(y), high.max(y));
-            }
-        });
-        assert_eq!(low, 0.0);
-        assert!((f64::from(high) - cap_height(1.0, Weight::Regular)).abs() < 1e-3);
+        let mut path = PathBuilder::new();
+        outline(&mut path, "H", Weight::Regular, 10.0, [3.0, 20.0]);
+        let bounds = path.finish().unwrap().bounds();
+        assert_eq!(bounds.bottom(), 20.0);
+        assert!((f64::from(20.0 - bounds.top()) - cap_height(10.0, Weight::Regular)).abs() < 1e-3);
     }
 }

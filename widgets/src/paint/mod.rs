@@ -1,198 +1,192 @@
 //! The painter: a scene, a theme and a number of device pixels in, opaque RGBA out, the same bytes on every machine.
 //!
-//! Maps, borders and plates are written straight into whole device pixels, which is crisp and fast; lines, discs and glyphs are
-//! paths, filled by `fastslam-raster`. All shapes of a mark go into one path, because a fill costs more to begin than to go on with;
-//! clouds of samples and bundles of thin lines are written straight into pixels too.
+//! tiny-skia fills and strokes. All shapes of a mark are one path, because a path costs more to begin than to go on with. Maps,
+//! borders and plates lie on whole device pixels, so that they are crisp.
 
+mod raster;
 mod theme;
 
+use raster::Smaller;
 pub use theme::{Rgb, Theme};
 
 use crate::{
     font,
-    scene::{Mark, Point, Rect, Role, Scene, Shading, Text, UNKNOWN},
+    scene::{Mark, Point, Rect, Role, Scene, Shading, Text},
 };
-pub use fastslam_raster::{Color, Pixels, path};
-use fastslam_raster::{blit, fill::Filler, path::Path, stroke::Stroke};
+use tiny_skia::{
+    FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Stroke, StrokeDash, Transform,
+};
 
-/// Largest width and height of a canvas \[device px\].
+/// Largest width and height of a canvas \[device px\]: tiny-skia would paint a larger one in tiles.
 pub const MAX_SIDE: u32 = 8191;
 
-/// From this many on, discs are no path: 4096 would take a frame of their own.
-const CLOUD: usize = 512;
+/// Lines wider than this \[device px\] have round joints and ends: of thinner ones nobody sees them, and they cost more than the line.
+const ROUND: f32 = 1.5;
 
-/// Strands wider than this \[device px\] are a path: their joints would be seen.
-const THIN: f32 = 2.5;
+/// Lines thinner than this \[device px\] are at most 1 px wide: tiny-skia draws those several times as fast, and nobody sees the difference.
+const HAIRLINE: f32 = 1.25;
+
+/// Discs of a lesser radius \[device px\] are squares of the same area, which look the same: clouds have thousands, with a quarter of
+/// the edges.
+const TINY: f32 = 1.5;
 
 /// Reusable pixels.
 pub struct Canvas {
-    pixels: Pixels,
-    filler: Filler,
-    /// Memory of the last path.
-    scratch: Path,
+    pixmap: Pixmap,
 }
 
 impl Default for Canvas {
     fn default() -> Self {
-        Self { pixels: Pixels::new([1, 1]), filler: Filler::default(), scratch: Path::default() }
+        Self { pixmap: blank([1, 1]) }
     }
+}
+
+fn blank([width, height]: [u32; 2]) -> Pixmap {
+    Pixmap::new(width, height).expect("sides from 1 to MAX_SIDE")
 }
 
 impl Canvas {
     /// RGBA, row by row; every pixel is opaque.
     pub fn pixels(&self) -> &[u8] {
-        self.pixels.bytes()
+        self.pixmap.data()
     }
 
     /// Width and height \[device px\].
     pub fn size(&self) -> [u32; 2] {
-        self.pixels.size()
+        [self.pixmap.width(), self.pixmap.height()]
     }
 
     /// Paints the scene over a canvas of this size \[device px\], 1 to [`MAX_SIDE`]; the scene's width fills the canvas's.
     pub fn paint(&mut self, scene: &Scene, width: u32, height: u32, theme: Theme) {
-        let mut filler = core::mem::take(&mut self.filler);
-        self.paint_with(scene, width, height, theme, &mut |pixels, path, color| filler.fill(pixels, path, color));
-        self.filler = filler;
-    }
-
-    /// The same with another fill of paths, which the tests hold ours against.
-    pub fn paint_with(&mut self, scene: &Scene, width: u32, height: u32, theme: Theme, fill: &mut Fill<'_>) {
-        let size = [width.clamp(1, MAX_SIDE), height.clamp(1, MAX_SIDE)];
+        let size = [width, height].map(|side| side.clamp(1, MAX_SIDE));
         if self.size() != size {
-            self.pixels = Pixels::new(size);
+            self.pixmap = blank(size);
         }
-        self.pixels.clear(opaque(theme.color(Role::Paper)));
+        self.pixmap.pixels_mut().fill(opaque(theme.color(Role::Paper)));
         let scale = f64::from(size[0]) / scene.width;
         let shades = [Shading::Map, Shading::Ghost, Shading::Correlation, Shading::Density]
             .map(|shading| theme.shades(shading).map(opaque));
-        let mut brush = Brush { canvas: self, fill, scale, theme, shades };
+        let mut brush = Brush { pixmap: &mut self.pixmap, scale, theme, shades };
         scene.marks.iter().for_each(|mark| brush.mark(mark));
     }
 }
 
-/// Fills a path with a colour where its winding number is not 0.
-pub type Fill<'a> = dyn FnMut(&mut Pixels, &Path, Color) + 'a;
-
-fn opaque([r, g, b]: Rgb) -> Color {
-    [r, g, b, 255]
+fn opaque([r, g, b]: Rgb) -> PremultipliedColorU8 {
+    PremultipliedColorU8::from_rgba(r, g, b, 255).expect("no channel exceeds the alpha of 255")
 }
 
-/// A canvas, how its paths are filled, device pixels per css px, and the colours.
-struct Brush<'a, 'f> {
-    canvas: &'a mut Canvas,
-    fill: &'a mut Fill<'f>,
+fn disc(path: &mut PathBuilder, x: f32, y: f32, radius: f32) {
+    let half = 0.5 * core::f32::consts::PI.sqrt() * radius;
+    match tiny_skia::Rect::from_ltrb(x - half, y - half, x + half, y + half) {
+        Some(square) if radius < TINY => path.push_rect(square),
+        _ => path.push_circle(x, y, radius),
+    }
+}
+
+/// Pixels, device pixels per css px, and the colours.
+struct Brush<'a> {
+    pixmap: &'a mut Pixmap,
     scale: f64,
     theme: Theme,
-    shades: [[Color; 256]; 4],
+    shades: [[PremultipliedColorU8; 256]; 4],
 }
 
-impl Brush<'_, '_> {
+impl Brush<'_> {
     fn mark(&mut self, mark: &Mark) {
         match mark {
             Mark::Raster { area, cells, shading } => {
-                let area = self.device(area);
-                let walls = matches!(shading, Shading::Map | Shading::Ghost).then_some(UNKNOWN);
-                let cells = blit::Cells { columns: cells.columns, shades: &cells.shades, walls };
-                blit::cells(&mut self.canvas.pixels, area, &cells, &self.shades[*shading as usize]);
+                let smaller = match shading {
+                    Shading::Map | Shading::Ghost => Smaller::WallThenFree,
+                    Shading::Correlation | Shading::Density => Smaller::Largest,
+                };
+                raster::draw(self.pixmap, self.device(area), cells, smaller, &self.shades[*shading as usize]);
             }
-            Mark::Fill { area, role } => {
-                let area = self.device(area);
-                self.fill_rect(area, *role);
-            }
+            Mark::Fill { area, role } => self.fill_rect(self.device(area), *role),
             Mark::Frame { area, width, role } => self.frame(area, *width, *role),
-            Mark::Lines { lines, width, dash, role } => {
-                let stroke = self.stroke(*width, *dash);
-                let mut points = Vec::new();
-                self.fill(*role, |brush, path| {
-                    for line in lines {
-                        points.clear();
-                        points.extend(line.iter().map(|&point| brush.at(point)));
-                        stroke.outline(path, &points);
-                    }
-                });
-            }
-            Mark::Strands { lines, width, role } => {
-                let (device, color) = ((width * self.scale) as f32, opaque(self.theme.color(*role)));
-                if device > THIN {
-                    let (lines, width, dash, role) = (lines.clone(), *width, None, *role);
-                    return self.mark(&Mark::Lines { lines, width, dash, role });
+            Mark::Lines { lines, width, dash, role } => self.lines(lines, *width, *dash, *role),
+            Mark::Strands { lines, width, role } => self.lines(lines, *width, None, *role),
+            Mark::Polygons { polygons, role } => self.fill(self.polylines(polygons), *role),
+            Mark::Discs { centres, radius, role } => {
+                let (radius, mut path) = ((radius * self.scale) as f32, PathBuilder::new());
+                for [x, y] in centres.iter().filter_map(|&centre| self.at(centre)) {
+                    disc(&mut path, x, y, radius);
                 }
-                for pair in lines.iter().flat_map(|line| line.windows(2)) {
-                    let [a, b] = [pair[0], pair[1]].map(|point| self.at(point));
-                    blit::strand(&mut self.canvas.pixels, a, b, device, color);
-                }
+                self.fill(path, *role);
             }
-            Mark::Polygons { polygons, role } => self.fill(*role, |brush, path| {
-                polygons.iter().for_each(|polygon| path.polygon(polygon.iter().map(|&point| brush.at(point))));
-            }),
-            Mark::Discs { centres, radius, role } if centres.len() >= CLOUD => {
-                let (radius, color) = ((radius * self.scale) as f32, opaque(self.theme.color(*role)));
-                for &centre in centres {
-                    let centre = self.at(centre);
-                    blit::disc(&mut self.canvas.pixels, centre, radius, color);
-                }
-            }
-            Mark::Discs { centres, radius, role } => self.fill(*role, |brush, path| {
-                let radius = (radius * brush.scale) as f32;
-                centres.iter().for_each(|&centre| path.circle(brush.at(centre), radius));
-            }),
             Mark::Text(text) => self.text(text),
+        }
+    }
+
+    /// One path through the points of each; what is nowhere is left out.
+    fn polylines(&self, lines: &[Vec<Point>]) -> PathBuilder {
+        let mut path = PathBuilder::new();
+        for line in lines {
+            let Some(points) = line.iter().map(|&point| self.at(point)).collect::<Option<Vec<_>>>() else { continue };
+            let Some((&[x, y], rest)) = points.split_first() else { continue };
+            path.move_to(x, y);
+            rest.iter().for_each(|&[x, y]| path.line_to(x, y));
+        }
+        path
+    }
+
+    fn lines(&mut self, lines: &[Vec<Point>], width: f64, dash: Option<[f64; 2]>, role: Role) {
+        let device = (width * self.scale) as f32;
+        let width = if device < HAIRLINE { device.min(1.0) } else { device };
+        let dash = dash.and_then(|dash| StrokeDash::new(dash.map(|length| (length * self.scale) as f32).to_vec(), 0.0));
+        let (line_cap, line_join) =
+            if dash.is_none() && width > ROUND { (LineCap::Round, LineJoin::Round) } else { Default::default() };
+        let stroke = Stroke { width, line_cap, line_join, dash, ..Stroke::default() };
+        if let Some(path) = self.polylines(lines).finish() {
+            self.pixmap.stroke_path(&path, &self.paint(role), &stroke, Transform::identity(), None);
         }
     }
 
     fn text(&mut self, text: &Text) {
         // On whole device pixels, so that the same word has the same pixels wherever it stands.
-        let [x, y] = self.at(text.origin()).map(|c| (c + 0.5).floor());
-        let size = (text.size * self.scale) as f32;
-        self.fill(text.role, |_, path| {
-            font::outline(&text.text, text.weight, |pen, segment| {
-                path.push(segment.map(|[u, v]| [x + (pen + u) * size, y - v * size]));
-            });
-        });
+        let Some(origin) = self.at(text.origin().map(|c| (c * self.scale + 0.5).floor() / self.scale)) else { return };
+        let mut path = PathBuilder::new();
+        font::outline(&mut path, &text.text, text.weight, (text.size * self.scale) as f32, origin);
+        self.fill(path, text.role);
     }
 
-    fn stroke(&self, width: f64, dash: Option<[f64; 2]>) -> Stroke {
-        let width = (width * self.scale) as f32;
-        // Round where it can be seen: the arcs of thin lines are most of their edges, and edges are what filling costs.
-        Stroke {
-            width,
-            round_ends: width > 1.5 && dash.is_none(),
-            round_joints: width > 4.0,
-            dash: dash.map(|dash| dash.map(|length| (length * self.scale) as f32)),
+    fn paint(&self, role: Role) -> Paint<'static> {
+        let [r, g, b] = self.theme.color(role);
+        let mut paint = Paint::default();
+        paint.set_color_rgba8(r, g, b, 255);
+        paint
+    }
+
+    fn fill(&mut self, path: PathBuilder, role: Role) {
+        if let Some(path) = path.finish() {
+            self.pixmap.fill_path(&path, &self.paint(role), FillRule::Winding, Transform::identity(), None);
         }
     }
 
-    /// Fills the path that is drawn.
-    fn fill(&mut self, role: Role, draw: impl FnOnce(&Self, &mut Path)) {
-        let mut path = core::mem::take(&mut self.canvas.scratch);
-        draw(self, &mut path);
-        (self.fill)(&mut self.canvas.pixels, &path, opaque(self.theme.color(role)));
-        path.clear();
-        self.canvas.scratch = path;
+    /// A point \[device px\], unless it is nowhere.
+    fn at(&self, point: Point) -> Option<[f32; 2]> {
+        let at = point.map(|c| (c * self.scale) as f32);
+        at.iter().all(|c| c.is_finite()).then_some(at)
     }
 
-    fn at(&self, point: Point) -> [f32; 2] {
-        point.map(|c| (c * self.scale) as f32)
+    /// Left, upper, right and lower edge, on whole device pixels.
+    fn device(&self, area: &Rect) -> [i32; 4] {
+        [area.x, area.y, area.right(), area.bottom()].map(|edge| (edge * self.scale + 0.5).floor() as i32)
     }
 
-    /// Edges on whole device pixels.
-    fn device(&self, area: &Rect) -> blit::Area {
-        let at = |x: f64| (x * self.scale + 0.5).floor() as i32;
-        blit::Area { x0: at(area.x), y0: at(area.y), x1: at(area.right()), y1: at(area.bottom()) }
-    }
-
-    fn fill_rect(&mut self, area: blit::Area, role: Role) {
-        blit::fill(&mut self.canvas.pixels, area, opaque(self.theme.color(role)));
+    fn fill_rect(&mut self, edges: [i32; 4], role: Role) {
+        let [left, top, right, bottom] = edges.map(|edge| edge as f32);
+        if let Some(rect) = tiny_skia::Rect::from_ltrb(left, top, right, bottom) {
+            let paint = Paint { anti_alias: false, ..self.paint(role) };
+            self.pixmap.fill_rect(rect, &paint, Transform::identity(), None);
+        }
     }
 
     fn frame(&mut self, area: &Rect, width: f64, role: Role) {
-        let blit::Area { x0, y0, x1, y1 } = self.device(area);
+        let [x0, y0, x1, y1] = self.device(area);
         let d = ((width * self.scale + 0.5).floor() as i32).max(1);
-        self.fill_rect(blit::Area { x0, y0, x1, y1: y0 + d }, role);
-        self.fill_rect(blit::Area { x0, y0: y1 - d, x1, y1 }, role);
-        self.fill_rect(blit::Area { x0, y0: y0 + d, x1: x0 + d, y1: y1 - d }, role);
-        self.fill_rect(blit::Area { x0: x1 - d, y0: y0 + d, x1, y1: y1 - d }, role);
+        let bars =
+            [[x0, y0, x1, y0 + d], [x0, y1 - d, x1, y1], [x0, y0 + d, x0 + d, y1 - d], [x1 - d, y0 + d, x1, y1 - d]];
+        bars.into_iter().for_each(|edges| self.fill_rect(edges, role));
     }
 }
 
@@ -208,58 +202,64 @@ mod tests {
         canvas.pixels().to_vec()
     }
 
-    fn discs(centres: Vec<Point>) -> Vec<u8> {
-        painted(Mark::Discs { centres, radius: 1.5, role: Role::Ink })
+    fn lines(line: &[Point], width: f64, dash: Option<[f64; 2]>) -> Vec<u8> {
+        painted(Mark::Lines { lines: vec![line.to_vec(), Vec::new()], width, dash, role: Role::Ink })
+    }
+
+    fn discs(centres: Vec<Point>, radius: f64) -> Vec<u8> {
+        painted(Mark::Discs { centres, radius, role: Role::Ink })
+    }
+
+    /// How many pixels of ink there are.
+    fn ink(pixels: &[u8]) -> f64 {
+        let [_, full, _] = Theme::Light.color(Role::Ink);
+        pixels.chunks_exact(4).map(|p| f64::from(255 - p[1])).sum::<f64>() / f64::from(255 - full)
     }
 
     #[test]
-    fn a_strand_has_the_ink_of_a_line_and_lies_where_it_does() {
+    fn a_line_of_any_width_has_the_ink_of_its_area() {
         for k in 0..24 {
             let (sin, cos) = fastslam::ops::sin_cos(f64::from(k) * 0.27);
-            // In two pieces, as of a curve, and one of them partly outside.
-            let line = [-25.0, 3.0, 14.0].map(|along| [20.3 + along * cos, 19.6 + along * sin]).to_vec();
-            for width in [1.0, 2.0] {
-                let [lines, other] = [vec![line.clone()], vec![line.clone()]];
-                let strand = painted(Mark::Strands { lines, width, role: Role::Ink });
-                let stroke = painted(Mark::Lines { lines: other, width, dash: None, role: Role::Ink });
-                let ink = |pixels: &[u8]| pixels.chunks_exact(4).map(|p| f64::from(255 - p[1])).sum::<f64>();
-                let ratio = ink(&strand) / ink(&stroke);
-                assert!((0.93..1.07).contains(&ratio), "{k}, {width}: {ratio}");
-                // A line that lay a pixel aside would differ by all of its ink.
-                let differ: f64 =
-                    strand.iter().zip(&stroke).step_by(4).map(|(a, b)| f64::from(a.abs_diff(*b))).sum::<f64>();
-                assert!(differ < 0.3 * ink(&stroke), "{k}, {width}: {differ} of {}", ink(&stroke));
+            let line = [-14.0, 3.0, 14.0].map(|along| [20.3 + along * cos, 19.6 + along * sin]);
+            for width in [0.5, 1.0, 1.2, 1.4, 3.0] {
+                let ratio = ink(&lines(&line, width, None)) / (28.0 * width);
+                // Hairlines are told by columns, or rows, of which a slanted line has fewer than its length; a wide line has round ends.
+                assert!((0.55..1.15).contains(&ratio), "{k}, {width}: {ratio}");
             }
         }
     }
 
     #[test]
-    fn strands_outside_or_nowhere_draw_nothing() {
-        let blank = painted(Mark::Discs { centres: Vec::new(), radius: 1.0, role: Role::Ink });
-        for line in [
-            [[-9.0, -9.0], [-1.5, 50.0]],
-            [[f64::NAN, 1.0], [5.0, 5.0]],
-            [[7.0, 7.0], [7.0, 7.0]],
-            [[-1e300, 60.0], [1e300, 60.0]],
-        ] {
-            let strand = Mark::Strands { lines: vec![line.to_vec(), Vec::new()], width: 1.0, role: Role::Ink };
-            assert_eq!(painted(strand), blank, "{line:?}");
+    fn a_disc_of_any_radius_has_the_ink_of_its_area() {
+        for radius in [0.6, 1.0, 1.4, 1.6, 2.0, 5.0] {
+            for centre in [[20.0, 20.0], [11.3, 17.9], [25.61, 9.27]] {
+                let ratio = ink(&discs(vec![centre], radius)) / (core::f64::consts::PI * radius * radius);
+                // tiny-skia looks at 4 × 4 places in a pixel: an edge may lie an eighth of a pixel aside.
+                let [least, most] = [-0.15, 0.15].map(|aside: f64| (1.0 + aside / radius) * (1.0 + aside / radius));
+                assert!((least..most).contains(&ratio), "{radius} at {centre:?}: {ratio}");
+            }
         }
     }
 
     #[test]
-    fn a_disc_of_a_cloud_looks_like_any_other() {
-        let mut state = 1_u32;
-        let mut next = || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            4.0 + 32.0 * f64::from(state >> 8) / f64::from(1 << 24)
-        };
-        for _ in 0..50 {
-            let centre = [next(), next()];
-            let mut cloud = vec![[-100.0, f64::NAN]; CLOUD];
-            cloud[7] = centre;
-            let far = discs(vec![centre]).iter().zip(discs(cloud)).map(|(a, b)| a.abs_diff(b)).max();
-            assert!(far <= Some(40), "{centre:?}: {far:?} of 255");
+    fn what_is_outside_or_nowhere_is_not_drawn_and_keeps_nothing_else_from_being_drawn() {
+        let blank = discs(Vec::new(), 1.0);
+        for line in [[[-9.0, -9.0], [-1.5, 50.0]], [[f64::NAN, 1.0], [5.0, 5.0]], [[-1e300, 60.0], [1e300, 60.0]]] {
+            for (width, dash) in [(1.0, None), (4.0, None), (1.0, Some([2.0, 3.0])), (4.0, Some([f64::NAN, 1.0]))] {
+                assert_eq!(lines(&line, width, dash), blank, "{line:?}");
+            }
+        }
+        for radius in [1.0, 5.0] {
+            let alone = discs(vec![[20.0, 20.0]], radius);
+            assert_eq!(discs(vec![[f64::NAN, 5.0], [20.0, 20.0], [f64::INFINITY, 5.0]], radius), alone);
+        }
+    }
+
+    #[test]
+    fn dashes_that_are_none_are_a_line() {
+        let line = [[5.0, 5.3], [40.0, 5.3]];
+        for dash in [[0.0, 0.0], [f64::NAN, 1.0], [-1.0, 3.0]] {
+            assert_eq!(ink(&lines(&line, 1.0, Some(dash))), ink(&lines(&line, 1.0, None)), "{dash:?}");
         }
     }
 }
