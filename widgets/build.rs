@@ -1,8 +1,7 @@
 //! Writes the glyph outlines of the two embedded fonts into one table each (`OUT_DIR/font.rs`), so that the figures carry
-//! no font parser. Coordinates are the font's own units, y up. A program for the page has the characters that its figures write,
-//! which are half of the fonts, of one figure a quarter.
+//! no font parser. Coordinates are the font's own units, y up.
 
-use std::{collections::BTreeSet, env, fmt::Write, fs, path::Path};
+use std::{env, fmt::Write, fs, path::Path};
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
 /// Units of the tables in an em: a quarter of Inter's, which is a 40th of a pixel in text of 28 px.
@@ -68,27 +67,6 @@ fn characters(face: &Face) -> Vec<(char, GlyphId)> {
     found
 }
 
-/// What figures write: a line for each figure and weight, kept by a test of `tests/figures`.
-const WRITTEN: &str = "fonts/written.txt";
-
-/// What any figure may write: numbers, the sign of a word cut short, and what is drawn in place of a character that is missing.
-const ALWAYS: &str = "0123456789.−…?";
-
-/// The characters that the figures of this build write in a weight; `None` for all, in native programs, which write more than figures.
-fn written(weight: &str) -> Option<BTreeSet<char>> {
-    let wasm = env::var("CARGO_CFG_TARGET_ARCH").is_ok_and(|target| target == "wasm32");
-    let lines = fs::read_to_string(WRITTEN).unwrap_or_else(|e| panic!("{WRITTEN}: {e}"));
-    let here =
-        |figure: &str| env::var_os(format!("CARGO_FEATURE_{}", figure.to_uppercase().replace('-', "_"))).is_some();
-    let of = |line: &str| {
-        let (name, characters) = line.split_once('\t').unwrap_or_else(|| panic!("{WRITTEN}: {line}"));
-        let (figure, of) = name.split_once(' ').unwrap_or_else(|| panic!("{WRITTEN}: {line}"));
-        (of == weight && here(figure)).then(|| characters.to_string())
-    };
-    let found: Vec<String> = lines.lines().filter_map(of).collect();
-    wasm.then(|| found.iter().flat_map(|characters| characters.chars()).chain(ALWAYS.chars()).collect())
-}
-
 trait GlyphOf {
     fn glyph_index_or_none(&self, code: u32) -> Option<GlyphId>;
 }
@@ -108,11 +86,7 @@ fn table(name: &str, weight: &str) -> String {
     let units = |x: f32| (x * scale).round() as i32;
     let mut all = Outlines { scale, last: [0, 0], verbs: String::new(), steps: Vec::new() };
     let mut glyphs = String::new();
-    let written = written(weight);
     for (character, glyph) in characters(&face) {
-        if written.as_ref().is_some_and(|written| !written.contains(&character)) {
-            continue;
-        }
         let advance = units(face.glyph_hor_advance(glyph).unwrap_or(0).into());
         let (verbs, steps) = (all.verbs.len(), all.steps.len());
         writeln!(
@@ -136,5 +110,4 @@ fn main() {
     let out = Path::new(&env::var_os("OUT_DIR").unwrap()).join("font.rs");
     fs::write(out, table("REGULAR", "Regular") + &table("SEMI_BOLD", "SemiBold")).unwrap();
     println!("cargo:rerun-if-changed=build.rs");
-    println!("cargo:rerun-if-changed={WRITTEN}");
 }
