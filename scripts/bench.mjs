@@ -3,7 +3,7 @@
 import { existsSync, readdirSync, readFileSync } from 'node:fs'
 import { basename, join } from 'node:path'
 import { launchChromium } from './browser.mjs'
-import { buildPages, buildParts, buildWasm, dist } from './build.mjs'
+import { buildPages, buildPrograms, buildWasm, dist } from './build.mjs'
 import { bold, cache, capture, green, isMain, main, red, root, run, say, step, StepError } from './lib.mjs'
 import { startServer } from './serve.mjs'
 import { setUp } from './setup.mjs'
@@ -245,7 +245,7 @@ if (isMain(import.meta)) {
   await main(async () => {
     await setUp({ browser: true })
     await buildWasm()
-    await buildParts()
+    await buildPrograms()
     await buildPages()
     await step('Landmark filters to WebAssembly', () =>
       run('wasm-pack', ['build', 'tests/speed', '--target', 'web', '--release', '--no-pack', '--out-dir', landmarks]),

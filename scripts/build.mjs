@@ -5,6 +5,7 @@ import { basename, join } from 'node:path'
 import { fileURLToPath } from 'node:url'
 import { writeNames } from './elements.mjs'
 import { writeFrames } from './frames.mjs'
+import { programNames } from './registry.mjs'
 import { setUp } from './setup.mjs'
 import { cache, isMain, main, npmBin, root, run, step, StepError } from './lib.mjs'
 
@@ -23,17 +24,10 @@ const features = [
   '--enable-reference-types',
 ]
 
-// Functions that LLVM left apart stay apart, and lie beside their like: what Brotli sends is 3 KB less.
-const optimiser = [...features, '-Oz', '--one-caller-inline-max-function-size=1', '--reorder-functions', '--strip-debug']
+const optimiser = [...features, '-O3', '--strip-debug']
 
-/** Tags of all figures. */
-export const figures = [...readFileSync(join(root, 'widgets', 'src', 'registry.rs'), 'utf8').matchAll(/tag: "([a-z-]+)"/g)].map(([, tag = '']) => tag)
-
-/** The program of all figures that run on the page itself. */
-export const pageProgram = 'fastslam-page'
-
-/** A program with some figures only: one, by its tag, or those of the page. @param {string} name */
-export const partWasm = name => join(root, 'widgets', 'pkg', `${name}.wasm`)
+/** Where a program is. @param {string} program */
+export const programFile = program => join(root, 'widgets', 'pkg', `fastslam-${program}.wasm`)
 
 /** The program with all figures: for whatever carries it along, and to be asked what there is. */
 export async function buildWasm() {
@@ -42,15 +36,15 @@ export async function buildWasm() {
   await step('Names of the figures', writeNames)
 }
 
-/** The page's program, and for embeds one for each figure; all use the same glue. */
-export async function buildParts() {
-  const folder = cache('figures')
-  for (const name of [pageProgram, ...figures]) {
-    const wanted = ['--no-default-features', '--features', `single-threaded,${name.replace('fastslam-', '')}`]
-    await step(`${name}.wasm`, async () => {
+/** What pages load: the program of the figures that run on the page itself, and that of the one that maps logs, in a worker. Both use the same glue. */
+export async function buildPrograms() {
+  const folder = cache('programs')
+  for (const program of programNames) {
+    const wanted = ['--no-default-features', '--features', `single-threaded,${program}`]
+    await step(basename(programFile(program)), async () => {
       await run('wasm-pack', ['build', 'widgets', '--target', 'web', '--profile', 'page', '--no-pack', '--no-typescript', '--out-dir', folder, ...wanted])
-      copyFileSync(join(folder, basename(wasm)), partWasm(name))
-      return optimise(partWasm(name))
+      copyFileSync(join(folder, basename(wasm)), programFile(program))
+      return optimise(programFile(program))
     })
   }
 }
@@ -60,7 +54,7 @@ export const troubleWasm = cache('trouble', basename(wasm))
 
 /** Nobody waits for it: without the last optimisations it is there in a third of the time. */
 export async function buildTrouble() {
-  const wanted = ['--no-default-features', '--features', 'single-threaded,figures,trouble']
+  const wanted = ['--no-default-features', '--features', 'single-threaded,page,log,trouble']
   const args = ['build', 'widgets', '--target', 'web', '--profile', 'page', '--no-pack', '--no-typescript', '--out-dir', cache('trouble'), ...wanted]
   await step('A program that dies on request', () => run('wasm-pack', args, { env: { CARGO_PROFILE_PAGE_LTO: 'off', CARGO_PROFILE_PAGE_CODEGEN_UNITS: '16' } }))
 }
@@ -79,7 +73,7 @@ export async function buildPages() {
 export async function build() {
   await setUp()
   await buildWasm()
-  await buildParts()
+  await buildPrograms()
   await buildPages()
 }
 

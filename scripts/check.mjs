@@ -1,7 +1,7 @@
 // npm run check: format, lints, types and spelling, and the links and the HTML of the built pages, without running a test.
 import { existsSync } from 'node:fs'
 import { join } from 'node:path'
-import { buildPages, buildParts, buildWasm, pageProgram } from './build.mjs'
+import { buildPages, buildPrograms, buildWasm, programFile } from './build.mjs'
 import { isMain, main, npmBin, root, run, step, StepError } from './lib.mjs'
 import { setUp } from './setup.mjs'
 
@@ -52,7 +52,7 @@ if (isMain(import.meta)) {
     await setUp()
     // The elements are typed against what wasm-pack writes.
     if (!existsSync(join(root, 'widgets', 'pkg', 'fastslam_widgets.d.ts'))) await buildWasm()
-    if (!existsSync(join(root, 'widgets', 'pkg', `${pageProgram}.wasm`))) await buildParts()
+    if (!existsSync(programFile('page'))) await buildPrograms()
     await buildPages()
     for (const [name, action] of checks) await step(name, action)
   })

@@ -5,6 +5,7 @@ import { join } from 'node:path'
 import { pathToFileURL } from 'node:url'
 import { readGlue, shellModule, shellTypes } from './glue.mjs'
 import { isMain, main, readIfThere, root, step, StepError } from './lib.mjs'
+import { programs } from './registry.mjs'
 
 /**
  * @typedef {import('../widgets/elements/shell').ParamSpec} ParamSpec
@@ -242,10 +243,10 @@ export async function writeNames() {
   write(join(generated, 'shell.js'), shellModule(readGlue()))
   write(join(generated, 'shell.d.ts'), shellTypes)
   const all = await figures()
-  const rows = all.map(({ tag, title, params }) => `  '${tag}': { title: ${JSON.stringify(title)}, parameters: ${JSON.stringify(params.map(({ name }) => name).join(' '))}.split(' ') },`)
+  const rows = all.map(({ tag, title, params }) => `  '${tag}': { title: ${JSON.stringify(title)}, program: '${programs.get(tag)}', parameters: ${JSON.stringify(params.map(({ name }) => name).join(' '))}.split(' ') },`)
   write(
     join(root, 'widgets', 'elements', 'generated', 'figures.ts'),
-    `// Made by scripts/elements.mjs from what the figures tell of themselves.\nexport const FIGURES: Record<string, { title: string; parameters: string[] } | undefined> = {\n${rows.join('\n')}\n}\n`,
+    `// Made by scripts/elements.mjs from what the figures tell of themselves.\nexport const FIGURES: Record<string, { title: string; program: string; parameters: string[] } | undefined> = {\n${rows.join('\n')}\n}\n`,
   )
   const mapper = all.find(isLog)
   if (!mapper) throw new StepError('There is no figure that maps logs.')

@@ -67,22 +67,12 @@ export async function embedCodes() {
   return /** @type {typeof import('../widgets/elements/embed-code')} */ (await import(`data:text/javascript,${encodeURIComponent(code)}`))
 }
 
-/** Names the program that has this figure alone. @param {FigureInfo} figure */
-function programLink({ tag }) {
-  const file = readdirSync(dist).find(name => new RegExp(`^${tag}-[\\w-]{8}\\.wasm$`).test(name))
-  if (!file) throw new StepError(`The build did not write a program of ${tag} alone.`)
-  return `<link rel="fastslam-program" href="./${file}" title="${tag}" />`
-}
-
 export async function writeFrames() {
   const [all, codes] = [await figures(), await embedCodes()]
   const page = readFileSync(join(dist, 'embed.html'), 'utf8')
-  // Which of them it needs, the common page knows when it reads its address.
-  write(join(dist, 'embed.html'), page.replace('</title>', `</title>\n    ${all.map(programLink).join('\n    ')}`))
   for (const figure of all) {
     const file = `embed-${figure.name}.html`
     const head = [
-      programLink(figure),
       `<link rel="canonical" href="${site()}${file}" />`,
       `<link rel="alternate" type="application/json+oembed" href="./oembed/${figure.name}.json" title="${escape(figure.title)}" />`,
       `<meta property="og:title" content="${escape(figure.title)}" />`,

@@ -2,10 +2,11 @@
 // and each figure as a SCORM 1.2 package for learning systems, which keeps a learner's state. All in packages/offline/.
 import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs'
 import { dirname, join, posix } from 'node:path'
-import { build, dist, kilobytes, partWasm } from './build.mjs'
+import { build, dist, kilobytes, programFile } from './build.mjs'
 import { figures } from './elements.mjs'
 import { escape } from './frames.mjs'
 import { isMain, main, root, say, step, StepError } from './lib.mjs'
+import { programs } from './registry.mjs'
 import { singleFile } from './single.mjs'
 
 export const offline = join(root, 'packages', 'offline')
@@ -45,7 +46,7 @@ function inlined(file, script) {
   }
   let html = readFileSync(join(dist, file), 'utf8')
   html = html
-    .replace(/<link[^>]*rel="(?:preload|modulepreload|canonical|alternate|fastslam-program)"[^>]*>\s*/g, '')
+    .replace(/<link[^>]*rel="(?:preload|modulepreload|canonical|alternate)"[^>]*>\s*/g, '')
     // All is inside, and nothing may come from outside, which the site's policy could not say.
     .replace(/(<meta http-equiv="Content-Security-Policy" content=")[^"]+/, `$1${policy}`)
     .replace(/<meta property="og:[^>]*>\s*/g, '')
@@ -101,7 +102,7 @@ export async function writeOffline() {
   }
   const scorm = readFileSync(join(root, 'widgets', 'scorm', 'scorm.js'), 'utf8')
   for (const figure of await figures()) {
-    const page = inlined(`embed-${figure.name}.html`, await singleFile(join(root, 'www', 'src', 'embed.ts'), partWasm(figure.tag)))
+    const page = inlined(`embed-${figure.name}.html`, await singleFile(join(root, 'www', 'src', 'embed.ts'), programFile(programs.get(figure.tag) ?? '')))
     const size = put(`${figure.tag}.html`, page)
     if (size > limit) throw new StepError(`${figure.tag}.html has ${kilobytes(size)}, over the limit of ${kilobytes(limit)}.`)
     const started = page.replace('</body>', () => '<script defer src="scorm.js"></script>\n  </body>')

@@ -5,7 +5,7 @@
 // `skipped: why` and returns. `counted` counts such a test as skipped and not as passed, and names the reasons.
 import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { buildPages, buildParts, buildTrouble, buildWasm } from './build.mjs'
+import { buildPages, buildPrograms, buildTrouble, buildWasm } from './build.mjs'
 import { checks } from './check.mjs'
 import { bold, cache, main, npmBin, readIfThere, red, root, run, step, StepError } from './lib.mjs'
 import { findChrome, findChromeDriver, setUp } from './setup.mjs'
@@ -144,7 +144,7 @@ await main(async () => {
   await attempt(...format)
   // Without these there is nothing to test: a failure here ends the run.
   await buildWasm()
-  await buildParts()
+  await buildPrograms()
   await buildTrouble()
   await buildPages()
   for (const check of otherChecks) await attempt(...check)

@@ -1,9 +1,8 @@
 // The pages of www/ and the elements of widgets/elements, to dist/. Relative addresses, so that dist/ works in any folder of
 // any site; hashed names, except for fastslam.js: the one line of a teacher's page names it.
-import { readdirSync, readFileSync } from 'node:fs'
+import { readdirSync } from 'node:fs'
 import { basename, join } from 'node:path'
 import { defineConfig } from 'vite'
-import { figures, partWasm } from './build.mjs'
 import { chapter } from './chapter/plugin.mjs'
 import { root } from './lib.mjs'
 import { policy } from './policy.mjs'
@@ -16,15 +15,6 @@ const pages = readdirSync(www, { recursive: true, encoding: 'utf8' }).filter(
 /** @param {{ names: string[] }} asset */
 const assetFileNames = asset => (asset.names.some(name => basename(name).endsWith('.wasm')) ? '[name]-[hash][extname]' : 'assets/[name]-[hash][extname]')
 
-/** The programs with one figure each, for embeds; one that a script names by `new URL('../pkg/….wasm', import.meta.url)` is the same file. */
-const figurePrograms = {
-  name: 'figure-programs',
-  /** @this {import('vite').Rolldown.PluginContext} */
-  generateBundle() {
-    for (const tag of figures) this.emitFile({ type: 'asset', name: `${tag}.wasm`, source: readFileSync(partWasm(tag)) })
-  },
-}
-
 /** In the head of every page, before all that it loads; vite's own server needs what the policy forbids. @type {import('vite').Plugin} */
 const policyInHead = {
   name: 'policy-in-head',
@@ -35,7 +25,7 @@ const policyInHead = {
 export default defineConfig({
   root: www,
   base: './',
-  plugins: [chapter(root), figurePrograms, policyInHead],
+  plugins: [chapter(root), policyInHead],
   build: {
     outDir: join(root, 'dist'),
     emptyOutDir: true,

@@ -2,7 +2,7 @@
 // UPDATE_GOLDENS=1 measures that anew, into widgets/elements/heights.json.
 import { readFileSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { figures } from '../../scripts/build.mjs'
+import { programs } from '../../scripts/build.mjs'
 import { root } from '../../scripts/lib.mjs'
 import { Figure, initSync } from '../../widgets/pkg/fastslam_widgets.js'
 import { holdPrograms } from './figure'
@@ -23,7 +23,7 @@ test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
 const updated: Record<string, number[]> = {}
 
-for (const tag of figures) {
+for (const tag of programs.keys()) {
   test(`${tag} keeps its place free before it lives`, async ({ page }) => {
     const widths = UPDATE ? SAMPLES : WIDTHS
     // One above the other, so that all are seen.
@@ -65,6 +65,6 @@ for (const tag of figures) {
 test.afterAll(() => {
   if (!UPDATE) return
   const { heights } = JSON.parse(readFileSync(FILE, 'utf8'))
-  const lines = figures.map(tag => `    "${tag}": [${(updated[tag] ?? heights[tag]).join(', ')}]`)
+  const lines = [...programs.keys()].map(tag => `    "${tag}": [${(updated[tag] ?? heights[tag]).join(', ')}]`)
   writeFileSync(FILE, `{\n  "first": ${first},\n  "apart": ${apart},\n  "heights": {\n${lines.join(',\n')}\n  }\n}\n`)
 })

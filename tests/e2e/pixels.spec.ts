@@ -1,8 +1,8 @@
-// The wasm that readers get, after all that was done to make it small, against every golden picture: with all figures, with those
-// of the page, and with one.
+// The wasm that readers get, after wasm-opt, against every golden picture: with all figures, with those of the page, and with the one
+// that maps logs.
 import { readFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { figures, pageProgram } from '../../scripts/build.mjs'
+import { programNames, programs } from '../../scripts/registry.mjs'
 import { root } from '../../scripts/lib.mjs'
 import { startServer } from '../../scripts/serve.mjs'
 import { expect, test } from './fixtures'
@@ -58,13 +58,12 @@ async function digests({ program, wanted, log }: { program: string; wanted: Pict
   })
 }
 
-const programs = [
+const paints = [
   { program: 'fastslam_widgets_bg', wanted: pictures },
-  { program: pageProgram, wanted: pictures.filter(picture => picture.tag !== 'fastslam-log') },
-  ...figures.map(tag => ({ program: tag, wanted: pictures.filter(picture => picture.tag === tag) })),
+  ...programNames.map(name => ({ program: `fastslam-${name}`, wanted: pictures.filter(({ tag }) => programs.get(tag) === name) })),
 ]
 
-for (const { program, wanted } of programs) {
+for (const { program, wanted } of paints) {
   test(`${program}.wasm paints its golden pictures to the last pixel`, async ({ browser }) => {
     test.slow()
     const server = await startServer({ folder: join(root, 'widgets', 'pkg') })

@@ -1,22 +1,17 @@
 // Where the files of the figures are: beside this script. A script that carries them along has files-inline.ts in place of this one.
+import { FIGURES } from './generated/figures'
 import worker from './worker?worker&url'
 
 const PICTURES = import.meta.glob<string>('../../tests/figures/golden/fastslam-*.png', { eager: true, query: '?url', import: 'default' })
 
 /** Figures of one program share it. */
 export function programName(tag: string): string {
-  return tag === 'fastslam-log' ? 'log' : 'page'
+  return FIGURES[tag]?.program ?? 'page'
 }
 
-/**
- * A program, and the one place where its file is chosen: a page with one kind of figure may name that figure's own, which is smaller, by
- * `<link rel="fastslam-program" href="…">`; every other page gets that of all figures that run on the page itself. The one for logs is
- * apart, as many a reader never maps one.
- */
+/** A program, and the one place where its file is chosen. That for logs is apart, as many a reader never maps one. */
 export function fetchProgram(name: string): Promise<Response> {
-  if (name === 'log') return fetch(new URL('../pkg/fastslam-log.wasm', import.meta.url))
-  const named = document.querySelector<HTMLLinkElement>('link[rel=fastslam-program]')
-  return fetch(named?.href ?? new URL('../pkg/fastslam-page.wasm', import.meta.url))
+  return fetch(name === 'log' ? new URL('../pkg/fastslam-log.wasm', import.meta.url) : new URL('../pkg/fastslam-page.wasm', import.meta.url))
 }
 
 /** The log that comes with that figure. */

@@ -7,14 +7,14 @@
 //! the command line use the same [`figure::Figure`] as the page.
 
 mod comma;
-#[cfg(feature = "conditioning")]
+#[cfg(feature = "page")]
 pub mod conditioning;
 pub mod decimal;
 pub mod export;
 pub mod figure;
 pub mod font;
 pub mod job;
-#[cfg(feature = "lap")]
+#[cfg(feature = "page")]
 pub mod lap;
 #[cfg(feature = "log")]
 pub mod log;
@@ -23,12 +23,12 @@ pub mod paint;
 pub mod panels;
 pub mod param;
 mod policy;
-#[cfg(feature = "proposal")]
+#[cfg(feature = "page")]
 pub mod proposal;
 mod query;
 pub mod recipe;
 pub mod registry;
-#[cfg(feature = "resampling")]
+#[cfg(feature = "page")]
 pub mod resampling;
 pub mod scene;
 #[cfg(target_arch = "wasm32")]
@@ -37,7 +37,7 @@ pub mod shell;
 mod trouble;
 pub mod view;
 mod words;
-#[cfg(feature = "worked-example")]
+#[cfg(feature = "page")]
 pub mod worked_example;
 
 pub use fastslam;

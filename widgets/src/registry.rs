@@ -1,32 +1,28 @@
 //! All figures: a row each. Tests, tools, the page and its generated files iterate over this list.
 
-#[cfg(feature = "conditioning")]
-use crate::conditioning::ConditioningView;
-#[cfg(feature = "lap")]
-use crate::lap::{LAPS, LapView};
 #[cfg(feature = "log")]
 use crate::log::LogView;
-#[cfg(feature = "proposal")]
-use crate::proposal::ProposalView;
-#[cfg(feature = "resampling")]
-use crate::resampling::{ResamplingView, WINGS};
-#[cfg(feature = "worked-example")]
-use crate::worked_example::WorkedExampleView;
 use crate::{
     job::Job,
     model::Declared,
     view::{Shown, Shows, View},
 };
+#[cfg(feature = "page")]
+use crate::{
+    conditioning::ConditioningView,
+    lap::{LAPS, LapView},
+    proposal::ProposalView,
+    resampling::{ResamplingView, WINGS},
+    worked_example::WorkedExampleView,
+};
 
-/// What a figure computes: figures that compute alike are compiled into one program.
+/// The program that has a figure, and the feature of this crate that makes it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Program {
-    /// Maps of cells.
-    Grids,
-    /// Maps of landmarks.
-    Landmarks,
-    /// Maps of recorded logs: in a worker, and only where a reader asks for it.
-    Logs,
+    /// `page`: of all figures that run on the page itself.
+    Page,
+    /// `log`: maps recorded logs, in a worker, and only where a reader asks for it.
+    Log,
 }
 
 /// A kind of figure.
@@ -58,18 +54,18 @@ impl Entry {
 
 /// Every kind there is in this build.
 pub const FIGURES: &[Entry] = &[
-    #[cfg(feature = "lap")]
-    Entry::of::<LapView>("fastslam-lap", Program::Grids, Some(&LAPS)),
-    #[cfg(feature = "conditioning")]
-    Entry::of::<ConditioningView>("fastslam-conditioning", Program::Landmarks, None),
-    #[cfg(feature = "proposal")]
-    Entry::of::<ProposalView>("fastslam-proposal", Program::Landmarks, None),
-    #[cfg(feature = "worked-example")]
-    Entry::of::<WorkedExampleView>("fastslam-worked-example", Program::Landmarks, None),
+    #[cfg(feature = "page")]
+    Entry::of::<LapView>("fastslam-lap", Program::Page, Some(&LAPS)),
+    #[cfg(feature = "page")]
+    Entry::of::<ConditioningView>("fastslam-conditioning", Program::Page, None),
+    #[cfg(feature = "page")]
+    Entry::of::<ProposalView>("fastslam-proposal", Program::Page, None),
+    #[cfg(feature = "page")]
+    Entry::of::<WorkedExampleView>("fastslam-worked-example", Program::Page, None),
     #[cfg(feature = "log")]
-    Entry::of::<LogView>("fastslam-log", Program::Logs, None),
-    #[cfg(feature = "resampling")]
-    Entry::of::<ResamplingView>("fastslam-resampling", Program::Grids, Some(&WINGS)),
+    Entry::of::<LogView>("fastslam-log", Program::Log, None),
+    #[cfg(feature = "page")]
+    Entry::of::<ResamplingView>("fastslam-resampling", Program::Page, Some(&WINGS)),
 ];
 
 /// The figure of a tag.

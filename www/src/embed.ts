@@ -82,8 +82,6 @@ const figure = figureAsked()
 if (figure) {
   await LATER[figure.localName]?.()
   customElements.upgrade(figure) // it may have been made before its class was there
-  // One figure only: its own program will do.
-  for (const link of document.querySelectorAll<HTMLLinkElement>('link[rel=fastslam-program]')) if (link.title !== figure.localName) link.remove()
   configure(figure)
   if (figure.isConnected) figure.followLink() // which stands over what the address gives, as it does where the figure comes later
   document.title = FIGURES[figure.localName]!.title
