@@ -2,11 +2,6 @@
 
 #[cfg(feature = "log")]
 use crate::log::LogView;
-use crate::{
-    job::Job,
-    model::Declared,
-    view::{Shown, Shows, View},
-};
 #[cfg(feature = "page")]
 use crate::{
     conditioning::ConditioningView,
@@ -14,6 +9,11 @@ use crate::{
     proposal::ProposalView,
     resampling::{ResamplingView, WINGS},
     worked_example::WorkedExampleView,
+};
+use crate::{
+    job::Job,
+    model::Declared,
+    view::{Shown, Shows, View},
 };
 
 /// The program that has a figure, and the feature of this crate that makes it.
