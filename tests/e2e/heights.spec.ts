@@ -2,7 +2,7 @@
 // UPDATE_GOLDENS=1 measures that anew, into widgets/elements/heights.json.
 import { readFileSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { programs } from '../../scripts/build.mjs'
+import { programs } from '../../scripts/registry.mjs'
 import { root } from '../../scripts/lib.mjs'
 import { Figure, initSync } from '../../widgets/pkg/fastslam_widgets.js'
 import { holdPrograms } from './figure'
