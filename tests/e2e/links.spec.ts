@@ -20,6 +20,15 @@ async function addFigure(page: Page, attributes: Record<string, string>): Promis
   return lap
 }
 
+test('a link of a later version says so, and what this page knows of it is shown', async ({ page }) => {
+  const lap = await new Figure(page, 'fastslam-lap').open('./#fastslam-lap?v=2&universes=8&step=3')
+  await expect(lap.alert).toContainText('version 2 of the figure')
+  await lap.settled()
+  expect(await lap.position()).toBe(3)
+  await lap.openSettings()
+  await expect(lap.box('universes')).toHaveValue('8')
+})
+
 test('a copied link opens the very same state', async ({ page, context }) => {
   const lap = await new Figure(page, 'fastslam-lap').open()
   await lap.openSettings()

@@ -138,6 +138,10 @@ pub trait Declared {
     /// Title for readers.
     const TITLE: &'static str;
 
+    /// What has changed for those who made links: a sentence for each version of the figure, from the second on. A change of a default, of
+    /// what a parameter means, or of the numbers is one.
+    const CHANGES: &'static [&'static str] = &[];
+
     /// What it is made by.
     fn recipe(&self) -> &Self::Recipe;
 
@@ -163,6 +167,9 @@ pub trait Parameters {
     /// Title for readers.
     fn title(&self) -> &'static str;
 
+    /// [`Declared::CHANGES`].
+    fn changes(&self) -> &'static [&'static str];
+
     /// All parameters with their ranges as they are now (the last step and the number of slots depend on the setup).
     fn params(&self) -> Vec<ParamSpec>;
 
@@ -180,6 +187,10 @@ pub trait Parameters {
 impl<M: Declared> Parameters for M {
     fn title(&self) -> &'static str {
         M::TITLE
+    }
+
+    fn changes(&self) -> &'static [&'static str] {
+        M::CHANGES
     }
 
     fn params(&self) -> Vec<ParamSpec> {

@@ -1,10 +1,21 @@
 //! Links: the parameters of a figure that differ from their defaults, written as the query of a URL.
+//!
+//! A link says of which version of the figure it is, `v=2`, and says nothing where that is 1. What is left out of a link is at its default,
+//! and what is in it is simulated: a figure that changes a default, the meaning of a parameter or its numbers has another version, and
+//! tells those who come by an older link what has changed.
 
-use crate::model::{FigureError, Model};
+use crate::{
+    model::{FigureError, Model},
+    param::quoted,
+};
 
-/// `name=value&…`, in the order of the parameters, percent-encoded; empty for a figure of which nothing was asked.
+/// Name of the version in a link.
+const VERSION: &str = "v";
+
+/// `v=version&name=value&…`, in the order of the parameters, percent-encoded; empty for a figure of version 1 of which nothing was asked.
 pub fn write(model: &dyn Model) -> String {
-    let mut pairs = Vec::new();
+    let version = model.changes().len() + 1;
+    let mut pairs: Vec<String> = (version > 1).then(|| format!("{VERSION}={version}")).into_iter().collect();
     for spec in model.params() {
         match model.value(spec.name) {
             Some(value) if value != spec.default => pairs.push(format!("{}={}", spec.name, encode(&value))),
@@ -14,19 +25,40 @@ pub fn write(model: &dyn Model) -> String {
     pairs.join("&")
 }
 
-/// Makes the figure what the link says, and everything it does not name the default. What is refused is returned, and the
-/// rest is applied.
+/// Makes the figure what the link says, and everything it does not name the default. What is refused is returned, and so is what has
+/// changed since the link was made; the rest is applied.
 pub fn read(model: &mut dyn Model, query: &str) -> Vec<FigureError> {
-    model.load(&pairs(query))
+    let mut said = since(query, model.changes());
+    said.extend(model.load(&pairs(query)));
+    said
 }
 
-/// Names and values as they are written, decoded.
+/// What a reader is told of a link of another version: `changes` has a sentence for each from the second on.
+fn since(query: &str, changes: &[&str]) -> Vec<FigureError> {
+    let newest = changes.len() + 1;
+    let given = decoded(query).find(|(name, _)| name == VERSION).map_or("1".into(), |(_, version)| version);
+    let about = |message: String| FigureError { parameter: VERSION.into(), message };
+    match given.trim().parse::<usize>() {
+        Ok(version) if (1..=newest).contains(&version) => {
+            let new = changes.iter().skip(version - 1);
+            new.map(|change| about(format!("This link is of an earlier version of the figure. Since then: {change}")))
+                .collect()
+        }
+        Ok(version) if version > newest => vec![about(format!(
+            "This link is of version {version} of the figure, and this page has version {newest}: what it shows may differ."
+        ))],
+        _ => vec![FigureError::new(VERSION, quoted(&given), format!("a whole number from 1 to {newest}"))],
+    }
+}
+
+/// Names and values of the parameters as they are written, decoded.
 pub fn pairs(query: &str) -> Vec<(String, String)> {
+    decoded(query).filter(|(name, _)| name != VERSION).collect()
+}
+
+fn decoded(query: &str) -> impl Iterator<Item = (String, String)> {
     let pairs = query.trim_start_matches(['?', '#']).split('&').filter(|p| !p.is_empty());
-    pairs
-        .map(|pair| pair.split_once('=').unwrap_or((pair, "")))
-        .map(|(name, value)| (decode(name), decode(value)))
-        .collect()
+    pairs.map(|pair| pair.split_once('=').unwrap_or((pair, ""))).map(|(name, value)| (decode(name), decode(value)))
 }
 
 fn encode(text: &str) -> String {
@@ -62,6 +94,26 @@ fn decode(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_link_of_an_earlier_version_tells_what_has_changed_since() {
+        let changes = &["Ranges are in metres.", "The seed is another."];
+        let told = |query| since(query, changes).into_iter().map(|error| error.message).collect::<Vec<_>>();
+        assert_eq!(told("v=3&seed=4"), [""; 0]);
+        assert_eq!(told("v=2").len(), 1);
+        assert!(told("v=2")[0].ends_with("The seed is another."));
+        // The links of the first version do not say so.
+        assert_eq!(told("seed=4").len(), 2);
+        assert!(told("v=4")[0].contains("version 4") && told("v=4")[0].contains("version 3"));
+        for bad in ["v=0", "v=-1", "v=", "v=x"] {
+            assert!(told(bad)[0].ends_with("must be a whole number from 1 to 3"), "{bad}");
+        }
+    }
+
+    #[test]
+    fn a_version_is_no_parameter() {
+        assert_eq!(pairs("v=2&seed=4"), [("seed".to_owned(), "4".to_owned())]);
+    }
 
     #[test]
     fn encoding_is_undone() {

@@ -1,17 +1,18 @@
-//! Links that readers and teachers have made: each opens in every later build with the same numbers. `golden/links.txt` has a
+//! Links that readers and teachers have made: each opens in every later build with the same numbers, or says what has changed since (see
+//! `Declared::CHANGES` of the figures). `golden/links.txt` has a
 //! link a line, and behind a tab the readouts at the step that it names, as they were when the line was written. Lines are added,
 //! never changed and never removed: other courses point here.
 
-use fastslam_widgets::figure::Figure;
+use fastslam_widgets::{figure::Figure, model::FigureError};
 use figures::{LOG, TINY_LOG};
 
 const LINKS: &str = include_str!("../golden/links.txt");
 
 /// The figure that a link makes, and what it says of the link.
-fn open(link: &str) -> (Figure, Vec<String>) {
+fn open(link: &str) -> (Figure, Vec<FigureError>) {
     let (tag, query) = link.split_once('?').expect("a link has a ?");
     let mut figure = Figure::new(tag).expect("a tag of the registry");
-    let said = figure.load(query).into_iter().map(|error| error.message).collect();
+    let said = figure.load(query);
     if tag == LOG {
         let asked = figure.values().0.iter().find(|(name, _)| *name == "step").map(|(_, step)| step.parse().unwrap());
         figure.open(TINY_LOG).expect("the tiny log is a log");
@@ -39,7 +40,8 @@ fn keep_their_numbers(tag: &str) {
         let (figure, said) = open(link);
         let now = numbers(&figure);
         let other: Vec<&str> = kept.split('\t').filter(|number| !now.iter().any(|n| n == number)).collect();
-        if !(said.is_empty() && other.is_empty()) {
+        let refused = said.iter().any(|error| error.parameter != "v");
+        if refused || (said.is_empty() && !other.is_empty()) {
             changed.push(format!("{link}: says {said:?}; no longer {other:?}"));
         }
         count += 1;
