@@ -108,3 +108,20 @@ test('a start step waits there, and Reset returns to what the author gave', asyn
   expect(await lap.position()).toBe(12)
   await page.context().close()
 })
+
+test('a page can show some parts of a picture, and is told which there are', async ({ page }) => {
+  const lap = await open(page, 'lap', 'show=n-eff&step=20')
+  await lap.element.evaluate(element => element.removeAttribute('fit'))
+  await lap.settled()
+  const height = async () => (await lap.canvas.boundingBox())!.height
+  const part = await height()
+  await lap.element.evaluate(element => element.setAttribute('show', 'all'))
+  await lap.settled()
+  expect(await height()).toBeGreaterThan(2 * part)
+  await lap.element.evaluate(element => element.setAttribute('show', 'tree'))
+  await expect(lap.alert).toContainText('must be all, or some of map, mosaic, n-eff')
+  await lap.element.evaluate(element => element.setAttribute('show', 'n-eff'))
+  await lap.settled()
+  await expect(lap.alert).toBeEmpty()
+  expect(await height()).toBe(part)
+})

@@ -41,6 +41,7 @@ export type Command =
   | ({ do: 'begin'; changed: boolean } & Beginning)
   | { do: 'set'; name: string; value: string | null }
   | { do: 'lock'; text: string | null }
+  | { do: 'show'; names: string }
   | { do: 'comma'; on: boolean }
   | { do: 'seek'; step: number }
   | { do: 'trace' }
@@ -55,6 +56,9 @@ export type Command =
   | { do: 'zoom'; factor: number; x: number; y: number }
   | { do: 'pan'; right: number; down: number }
   | { do: 'save'; what: SavedFile }
+
+/** Whether a command says how the figure is to be shown, which holds also after a trap, whatever is loaded. */
+export const isKept = ({ do: name }: Command): boolean => ['size', 'lock', 'show', 'comma'].includes(name)
 
 export type SavedFile = 'map.png' | 'map.ros' | 'path.tum' | 'report.json'
 

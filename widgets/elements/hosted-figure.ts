@@ -75,6 +75,7 @@ export abstract class HostedFigure extends FigureParts implements Listener {
   /** Gives the host all that was asked until now. */
   protected begin(changed: boolean): void {
     this.takeOption('decimal')
+    this.takeOption('show')
     this.send({ do: 'lock', text: this.getAttribute('lock') })
     if (!this.host) return
     const beginning = this.settings.begin(this.host.sent + 1)
@@ -221,6 +222,10 @@ export abstract class HostedFigure extends FigureParts implements Listener {
       this.controls?.lock(wish.locked)
       if (this.controls) wrong = unlockable(wish.unknown, names)
       this.host?.send({ do: 'lock', text })
+    } else if (name === 'show') {
+      this.messages.set(name, '') // before the figure refuses names that it does not know
+      this.host?.send({ do: 'show', names: text ?? '' })
+      return this.refresh()
     } else if (name === 'decimal') {
       this.controls?.writeComma(text === 'comma')
       this.host?.send({ do: 'comma', on: text === 'comma' })

@@ -1,5 +1,5 @@
 // A figure whose program runs on the page: commands are calls, and what they do can be read at once.
-import type { Command, FigureHost, Frame, Listener } from './host'
+import { isKept, type Command, type FigureHost, type Frame, type Listener } from './host'
 import type { InstanceUser, Program } from './program'
 import { trapMessage, type Shell } from './shell'
 import { Session } from './session'
@@ -59,7 +59,7 @@ export class LocalHost implements FigureHost, InstanceUser {
   }
 
   send(command: Command): void {
-    if (command.do === 'size' || command.do === 'lock' || command.do === 'comma') this.#kept.set(command.do, command)
+    if (isKept(command)) this.#kept.set(command.do, command)
     if (command.do === 'begin') this.#beginning = command
     this.sent += 1
     if (this.#session) this.#carryOut(command)

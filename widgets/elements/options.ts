@@ -1,9 +1,10 @@
 // What an author may fix about any figure, besides its parameters: attributes that every figure has.
 
-/** The words each of them takes. `lock` takes names of parameters. */
+/** The words each of them takes. `lock` takes names of parameters, `show` those of parts of the picture. */
 export const OPTIONS: Record<string, string[] | undefined> = {
   theme: ['light', 'dark', 'auto'],
   controls: ['all', 'playback', 'none'],
+  show: undefined,
   lock: undefined,
   decimal: ['point', 'comma'],
   size: ['normal', 'presentation'],

@@ -47,6 +47,8 @@ export class Session {
       case 'lock':
         this.#lock = command.text
         return
+      case 'show':
+        return figure.show(command.names)
       case 'comma':
         return figure.set_decimal_comma(command.on)
       case 'seek':

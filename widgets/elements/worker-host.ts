@@ -1,6 +1,6 @@
 // A figure whose program runs in a worker: commands are messages, and what they did comes with the next frame. The page answers at once
 // whatever the figure does.
-import type { Command, FigureHost, Frame, Listener } from './host'
+import { isKept, type Command, type FigureHost, type Frame, type Listener } from './host'
 import { createWorker, workerRefused } from './jobs'
 import type { Program } from './program'
 import type { SentFrame, WorkerRequest, WorkerResponse } from './worker'
@@ -54,7 +54,7 @@ export class WorkerHost implements FigureHost {
   }
 
   send(command: Command): void {
-    if (command.do === 'size' || command.do === 'lock' || command.do === 'comma') this.#kept.set(command.do, command)
+    if (isKept(command)) this.#kept.set(command.do, command)
     if (command.do === 'begin') this.#beginning = command
     if (command.do === 'seek') this.#target = Math.max(0, Math.min(this.last, Math.round(command.step) || 0))
     this.sent += 1
