@@ -173,9 +173,11 @@ test('twenty figures fetch one program, rest when out of sight, and leave nothin
   const resting = (await tapped(page)).frames
   await page.waitForTimeout(1500)
   expect((await tapped(page)).frames).toBe(resting)
-  await page.evaluate(() => {
+  await page.evaluate(async () => {
     scrollTo(0, 0)
-    document.querySelectorAll('#grid > *').forEach(figure => (figure as unknown as { pause(): void; reset(): void }).reset())
+    const figures = [...document.querySelectorAll('#grid > *')] as unknown as { reset(): void; settled(): Promise<void> }[]
+    figures.forEach(figure => figure.reset())
+    await Promise.all(figures.map(figure => figure.settled()))
   })
 
   const client = await page.context().newCDPSession(page)

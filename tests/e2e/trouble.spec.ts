@@ -210,6 +210,7 @@ test('a node that is moved or taken out and put back is freed and restored', asy
   await lap.element.evaluate(element => document.querySelector('footer')!.append(element))
   await lap.element.scrollIntoViewIfNeeded()
   await lap.live()
+  await lap.settled()
   expect((await tapped(page)).alive).toBe(1)
   expect(await lap.readouts()).toEqual(before[0])
 
@@ -225,6 +226,7 @@ test('a node that is moved or taken out and put back is freed and restored', asy
   })
   await lap.element.scrollIntoViewIfNeeded()
   await lap.live()
+  await lap.settled()
   expect((await tapped(page)).alive).toBe(1)
   expect(await lap.readouts()).toEqual(before[0])
   await expect(lap.element.locator('input[name=raw]')).toBeChecked()
