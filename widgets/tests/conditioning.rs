@@ -17,10 +17,10 @@ fn value(figure: &Figure, name: &str) -> f64 {
     figure.model().readouts().into_iter().find(|r| r.name == name).unwrap().value.unwrap()
 }
 
-/// Arcs in the graph: strands as strong as a |ρ|.
+/// Arcs in the graph: curves as strong as a |ρ|. The samples of the legend are straight.
 fn arcs(scene: &Scene) -> usize {
     let strong = |mark: &Mark| match mark {
-        Mark::Strands { lines, role: Role::Level(_), .. } => lines.len(),
+        Mark::Lines { lines, role: Role::Level(_), .. } => lines.iter().filter(|line| line.len() > 2).count(),
         _ => 0,
     };
     scene.marks.iter().map(strong).sum()

@@ -40,7 +40,7 @@ fn text(figure: &Figure, name: &str) -> String {
 fn strands(scene: &Scene, role: Role) -> Vec<(f64, usize)> {
     let map = Layout::new(scene.width).map;
     let of = |mark: &Mark| match mark {
-        Mark::Strands { lines, width, role: r } if *r == role => {
+        Mark::Lines { lines, width, role: r, .. } if *r == role => {
             let lines = lines.iter().filter(|line| map.contains(line[0])).count();
             (lines > 0).then_some((*width, lines))
         }

@@ -30,10 +30,10 @@ fn texts(scene: &Scene) -> Vec<&Text> {
     scene.marks.iter().filter_map(|m| if let Mark::Text(t) = m { Some(t) } else { None }).collect()
 }
 
-/// Strands of a role in an area.
+/// Lines of a role in an area.
 fn strands(scene: &Scene, role: Role, area: &Rect) -> Vec<Vec<Point>> {
     let of = |mark: &Mark| match mark {
-        Mark::Strands { lines, role: r, .. } if *r == role => lines.clone(),
+        Mark::Lines { lines, role: r, .. } if *r == role => lines.clone(),
         _ => Vec::new(),
     };
     let inside = |line: &Vec<Point>| line.iter().all(|[x, y]| area.encloses(&Rect::new(*x, *y, 0.0, 0.0)));
@@ -76,7 +76,7 @@ fn the_tree_has_every_edge_once_and_the_living_ones_are_those_still_needed() {
                     lines.iter().map(length).sum::<f64>()
                 };
                 let dead = scene.marks.iter().find_map(|mark| match mark {
-                    Mark::Strands { role: role @ Role::Level(_), .. } => Some(*role),
+                    Mark::Lines { role: role @ Role::Level(_), .. } => Some(*role),
                     _ => None,
                 });
                 let (living, dead) = (edges(Role::Path), edges(dead.unwrap()));

@@ -59,7 +59,7 @@ impl<'a> Graph<'a> {
         let seen = &model.covariances().seen;
         let sightings = (1..=now).flat_map(|t| model.drive().sightings(t).into_iter().map(move |j| (t, j)));
         let lines = sightings.flat_map(|(t, j)| dashes(self.pose(t), self.landmark(j))).collect();
-        scene.marks.push(Mark::Strands { lines, width: 1.0, role: Role::Muted });
+        scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role: Role::Muted });
         self.arcs(scene);
 
         let last = model.drive().path().len() - 1;
@@ -136,7 +136,7 @@ impl<'a> Graph<'a> {
         // The weakest first: what is strong is seen.
         for (level, lines) in levels.into_iter().enumerate().skip(1).filter(|(_, lines)| !lines.is_empty()) {
             let (width, role) = strength(level, self.full());
-            scene.marks.push(Mark::Strands { lines, width, role });
+            scene.marks.push(Mark::Lines { lines, width, dash: None, role });
         }
         if let Some((level, arc)) = accent {
             let width = strength(level, self.full()).0.max(1.0);

@@ -176,13 +176,13 @@ fn paths(scene: &mut Scene, model: &LogModel, plane: &Plane) {
         let lines: Vec<_> = dead.flat_map(|(_, line)| plane.path(line, 1.0)).collect();
         if !lines.is_empty() {
             let width = DIED * f64::from(FADE - age) / f64::from(FADE);
-            scene.marks.push(Mark::Strands { lines, width, role: Role::Extinct });
+            scene.marks.push(Mark::Lines { lines, width, dash: None, role: Role::Extinct });
         }
     }
     let others = tree.others.iter().flat_map(|line| plane.path(line, 1.0)).collect();
-    scene.marks.push(Mark::Strands { lines: others, width: LIVES, role: Role::Copied });
+    scene.marks.push(Mark::Lines { lines: others, width: LIVES, dash: None, role: Role::Copied });
     let best = plane.path(&tree.best, 1.0);
-    scene.marks.push(Mark::Strands { lines: best, width: 2.0, role: Role::Path });
+    scene.marks.push(Mark::Lines { lines: best, width: 2.0, dash: None, role: Role::Path });
     let robots = filter.particles().iter().filter_map(|particle| plane.robot(&particle.world_from_robot, 5.0));
     scene.marks.push(Mark::Polygons { polygons: robots.collect(), role: Role::Copied });
     let best = &filter.particles()[filter.best()].world_from_robot;
@@ -212,7 +212,7 @@ fn curve(scene: &mut Scene, model: &LogModel, chart: &Chart, share: impl Fn(&Mom
     scene.marks.extend(chart.edges());
     let points = chart.curve((1..).zip(model.history().iter().map(share)));
     let line = thinned(&mut points.iter().copied(), 0.5);
-    scene.marks.push(Mark::Strands { lines: vec![line], width: 1.25, role: Role::Ink });
+    scene.marks.push(Mark::Lines { lines: vec![line], width: 1.25, dash: None, role: Role::Ink });
     points
 }
 
@@ -231,7 +231,7 @@ fn ess(scene: &mut Scene, model: &LogModel, layout: &Layout) {
     let resampled = points.iter().zip(model.history()).filter(|(_, moment)| moment.resampled);
     let lines = thinned(&mut resampled.map(|(at, _)| [at[0], chart.area.bottom()]), 0.75);
     let lines = lines.into_iter().map(|[x, y]| vec![[x, y], [x, y - TICK]]).collect();
-    scene.marks.push(Mark::Strands { lines, width: 1.0, role: Role::Extinct });
+    scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role: Role::Extinct });
 }
 
 /// Distinct ancestors some scans ago.

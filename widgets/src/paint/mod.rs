@@ -104,7 +104,6 @@ impl Brush<'_> {
             Mark::Fill { area, role } => self.fill_rect(self.device(area), *role),
             Mark::Frame { area, width, role } => self.frame(area, *width, *role),
             Mark::Lines { lines, width, dash, role } => self.lines(lines, *width, *dash, *role),
-            Mark::Strands { lines, width, role } => self.lines(lines, *width, None, *role),
             Mark::Polygons { polygons, role } => self.fill(self.polylines(polygons), *role),
             Mark::Discs { centres, radius, role } => {
                 let (radius, mut path) = ((radius * self.scale) as f32, PathBuilder::new());

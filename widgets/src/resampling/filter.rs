@@ -93,10 +93,10 @@ impl Filter<'_> {
             let count = ((y1 - y0) / EVENT) as usize;
             (0..count).map(move |k| y0 + EVENT * k as f64).map(move |y| vec![[x, y], [x, y + 1.0]])
         });
-        scene.marks.push(Mark::Strands { lines: dots.collect(), width: 1.0, role: Role::Muted });
+        scene.marks.push(Mark::Lines { lines: dots.collect(), width: 1.0, dash: None, role: Role::Muted });
         let role = if self.model.looks_back() { Role::Accent } else { Role::Muted };
         let lines = through(self.model.cursor()).map(|(x, y0, y1)| vec![[x, y0], [x, y1]]).collect();
-        scene.marks.push(Mark::Strands { lines, width: 1.0, role });
+        scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role });
     }
 
     /// Steps of the course that have a name.
@@ -143,7 +143,7 @@ impl Filter<'_> {
         let dashes = (0..count).map(|k| x + (dash + gap) * k as f64);
         let lines = dashes.map(|x| vec![[x, y], [x + dash, y]]).collect();
         let role = if self.policy == SELECTIVE { Role::Accent } else { Role::Muted };
-        scene.marks.push(Mark::Strands { lines, width: 1.0, role });
+        scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role });
     }
 
     /// Two curves, the second dashed below the first, and dots where the cursor cuts them.

@@ -53,8 +53,18 @@ impl Filter<'_> {
         }
         open.into_iter().flatten().for_each(close);
         let apart = self.column.charts[3].h / self.particles() as f64;
-        scene.marks.push(Mark::Strands { lines: dead, width: (0.16 * apart).clamp(0.6, 1.0), role: Role::Level(DEAD) });
-        scene.marks.push(Mark::Strands { lines: living, width: (0.3 * apart).clamp(1.0, 2.0), role: Role::Path });
+        scene.marks.push(Mark::Lines {
+            lines: dead,
+            width: (0.16 * apart).clamp(0.6, 1.0),
+            dash: None,
+            role: Role::Level(DEAD),
+        });
+        scene.marks.push(Mark::Lines {
+            lines: living,
+            width: (0.3 * apart).clamp(1.0, 2.0),
+            dash: None,
+            role: Role::Path,
+        });
         self.coalescence(scene, &alive);
     }
 

@@ -150,15 +150,6 @@ pub enum Mark {
         /// Its meaning.
         role: Role,
     },
-    /// Open polylines of one kind by the hundred, all over the picture: painted quicker where they are thin.
-    Strands {
-        /// Each one's points.
-        lines: Vec<Vec<Point>>,
-        /// Thickness \[css px\].
-        width: f64,
-        /// Its meaning.
-        role: Role,
-    },
     /// Filled polygons of one kind.
     Polygons {
         /// Each one's corners.

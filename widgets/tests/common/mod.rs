@@ -49,7 +49,7 @@ pub fn assert_drawn_inside(scene: &Scene, which: &str) {
     let bounds = Rect::new(0.0, 0.0, scene.width, scene.height);
     for mark in &scene.marks {
         let points: Vec<_> = match mark {
-            Mark::Lines { lines, .. } | Mark::Strands { lines, .. } => lines.iter().flatten().copied().collect(),
+            Mark::Lines { lines, .. } => lines.iter().flatten().copied().collect(),
             Mark::Polygons { polygons, .. } => polygons.iter().flatten().copied().collect(),
             Mark::Discs { centres, .. } => centres.clone(),
             Mark::Raster { area, .. } | Mark::Fill { area, .. } | Mark::Frame { area, .. } => {
