@@ -33,7 +33,7 @@ impl Recipe for Throws {
         static TABLE: LazyLock<Vec<P>> = LazyLock::new(|| {
             vec![
                 P::integer("darts", "Darts", "", (1, 5000), field!(darts), "How many darts are thrown."),
-                P::integer("seed", "Seed", "", (0, u32::MAX), field!(seed), "Picks where they land."),
+                P::seed(field!(seed), "Picks where they land."),
             ]
         });
         &TABLE

@@ -1,6 +1,6 @@
 //! When to resample, as figures of maps let a reader choose it: a word, and a threshold that is kept while another word is chosen.
 
-use crate::recipe::Menu;
+use crate::recipe::{Field, Menu, Param, Recipe};
 use fastslam::resampling::ResamplePolicy;
 
 /// Threshold where another policy is chosen.
@@ -8,7 +8,7 @@ const THRESHOLD: f64 = 0.5;
 
 /// A policy without its threshold.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Kind {
+enum Kind {
     /// Where N_eff is below a share of M.
     Below,
     /// At every step.
@@ -19,7 +19,7 @@ pub enum Kind {
 
 impl Kind {
     /// The policy of a threshold.
-    pub fn with(self, threshold: f64) -> ResamplePolicy {
+    fn with(self, threshold: f64) -> ResamplePolicy {
         match self {
             Kind::Below => ResamplePolicy::EssBelow(threshold),
             Kind::Always => ResamplePolicy::Always,
@@ -34,7 +34,7 @@ impl Kind {
 }
 
 /// A policy's kind.
-pub fn kind(policy: ResamplePolicy) -> Kind {
+fn kind(policy: ResamplePolicy) -> Kind {
     match policy {
         ResamplePolicy::EssBelow(_) => Kind::Below,
         ResamplePolicy::Always => Kind::Always,
@@ -43,7 +43,7 @@ pub fn kind(policy: ResamplePolicy) -> Kind {
 }
 
 /// All of them.
-pub fn menu() -> Menu<Kind> {
+fn menu() -> Menu<Kind> {
     let titles = [(Kind::Below, "N_eff below threshold"), (Kind::Always, "at every step"), (Kind::Never, "never")];
     Menu::new(titles.map(|(kind, title)| (kind.word(), title, kind)))
 }
@@ -51,4 +51,45 @@ pub fn menu() -> Menu<Kind> {
 /// Its threshold, or the usual one.
 pub fn threshold(policy: ResamplePolicy) -> f64 {
     if let ResamplePolicy::EssBelow(fraction) = policy { fraction } else { THRESHOLD }
+}
+
+/// A recipe that holds a policy, and a threshold for the case that it is one that has one.
+pub trait Chosen: Recipe {
+    /// Both.
+    fn chosen(&self) -> (ResamplePolicy, f64);
+
+    /// Takes both.
+    fn choose(&mut self, policy: ResamplePolicy, threshold: f64);
+}
+
+/// The rows of the policy and of its threshold.
+pub fn rows<R: Chosen>() -> [Param<R>; 2] {
+    let policy = Param::choice(
+        "policy",
+        "Resample",
+        menu(),
+        Field {
+            get: |recipe: &R| kind(recipe.chosen().0),
+            set: |recipe, kind| {
+                let (_, threshold) = recipe.chosen();
+                recipe.choose(kind.with(threshold), threshold);
+            },
+        },
+        "When the universes are resampled.",
+    );
+    let threshold = Param::number(
+        "threshold",
+        "Threshold",
+        "of M",
+        (0.0, 1.0, 0.05),
+        Field {
+            get: |recipe: &R| recipe.chosen().1,
+            set: |recipe, threshold| {
+                let (policy, _) = recipe.chosen();
+                recipe.choose(kind(policy).with(threshold), threshold);
+            },
+        },
+        "Share of M below which N_eff calls for resampling, under the policy neff.",
+    );
+    [policy, threshold]
 }

@@ -184,6 +184,11 @@ impl<R: Recipe> Param<R> {
         Self { spec: ParamSpec { unit, min: min.into(), max: max.into(), ..param.spec }, ..param }
     }
 
+    /// The seed, of whatever it picks.
+    pub fn seed(field: Field<R, u64>, help: &'static str) -> Self {
+        Self::integer("seed", "Seed", "", (0, u32::MAX), field, help)
+    }
+
     /// A whole number from 0 on, up to a bound that depends on rows above; or none of them, which is the word, and −1.
     pub fn integer_or<I: Whole>(
         name: &'static str,

@@ -2,9 +2,10 @@
 
 use crate::{
     field, policy,
-    recipe::{self, Field, Menu, Param},
+    recipe::{self, Menu, Param},
     words,
 };
+use fastslam::resampling::ResamplePolicy;
 use fastslam_lab::experiment::lap::{LapSetup, STEPS};
 use std::sync::LazyLock;
 
@@ -40,8 +41,19 @@ impl recipe::Recipe for Recipe {
     }
 }
 
+impl policy::Chosen for Recipe {
+    fn chosen(&self) -> (ResamplePolicy, f64) {
+        (self.setup.policy, self.threshold)
+    }
+
+    fn choose(&mut self, policy: ResamplePolicy, threshold: f64) {
+        (self.setup.policy, self.threshold) = (policy, threshold);
+    }
+}
+
 fn table() -> Vec<Param<Recipe>> {
     type P = Param<Recipe>;
+    let [policy, threshold] = policy::rows();
     let usual = LapSetup::default();
     vec![
         P::integer(
@@ -52,11 +64,7 @@ fn table() -> Vec<Param<Recipe>> {
             field!(setup.particles),
             "How many particles the filter has: each is a path with a map of its own.",
         ),
-        P::integer(
-            "seed",
-            "Seed",
-            "",
-            (0, u32::MAX),
+        P::seed(
             field!(setup.seed),
             "Picks the noise of the world and of the filter; the same seed gives the same lap, bit for bit.",
         ),
@@ -90,30 +98,8 @@ fn table() -> Vec<Param<Recipe>> {
             field!(setup.matcher),
             "What the end of a beam is compared with: the mean of the hits in a cell, or the cell as a whole.",
         ),
-        P::choice(
-            "policy",
-            "Resample",
-            policy::menu(),
-            Field {
-                get: |recipe| policy::kind(recipe.setup.policy),
-                set: |recipe, kind| recipe.setup.policy = kind.with(recipe.threshold),
-            },
-            "When the universes are resampled.",
-        ),
-        P::number(
-            "threshold",
-            "Threshold",
-            "of M",
-            (0.0, 1.0, 0.05),
-            Field {
-                get: |recipe| recipe.threshold,
-                set: |recipe, threshold| {
-                    recipe.threshold = threshold;
-                    recipe.setup.policy = policy::kind(recipe.setup.policy).with(threshold);
-                },
-            },
-            "Share of M below which N_eff calls for resampling, under the policy neff.",
-        ),
+        policy,
+        threshold,
         P::choice(
             "scheme",
             "Scheme",

@@ -2,9 +2,9 @@
 
 use crate::{
     field, policy,
-    recipe::{self, Field, Param},
+    recipe::{self, Param},
 };
-use fastslam::mapper::LaserMapperSettings;
+use fastslam::{mapper::LaserMapperSettings, resampling::ResamplePolicy};
 use std::sync::LazyLock;
 
 /// Everything that a link can say of the mapping of a log: the log itself is a reader's file.
@@ -35,8 +35,19 @@ impl recipe::Recipe for Recipe {
     }
 }
 
+impl policy::Chosen for Recipe {
+    fn chosen(&self) -> (ResamplePolicy, f64) {
+        (self.setup.policy, self.threshold)
+    }
+
+    fn choose(&mut self, policy: ResamplePolicy, threshold: f64) {
+        (self.setup.policy, self.threshold) = (policy, threshold);
+    }
+}
+
 fn table() -> Vec<Param<Recipe>> {
     type P = Param<Recipe>;
+    let [policy, threshold] = policy::rows();
     vec![
         P::integer(
             "universes",
@@ -46,14 +57,7 @@ fn table() -> Vec<Param<Recipe>> {
             field!(setup.particles),
             "How many particles the filter has: each is a path with a map of its own.",
         ),
-        P::integer(
-            "seed",
-            "Seed",
-            "",
-            (0, u32::MAX),
-            field!(setup.seed),
-            "Picks the filter's draws; the same log and seed give the same map, bit for bit.",
-        ),
+        P::seed(field!(setup.seed), "Picks the filter's draws; the same log and seed give the same map, bit for bit."),
         P::number("cell", "Cell size", "m", (0.02, 0.2, 0.01), field!(setup.cell_size), "Side of a cell of the maps."),
         P::number(
             "max-range",
@@ -71,30 +75,8 @@ fn table() -> Vec<Param<Recipe>> {
             field!(setup.min_travel),
             "A scan is passed over until the robot has driven this far, or turned by as many radians.",
         ),
-        P::number(
-            "threshold",
-            "Threshold",
-            "of M",
-            (0.0, 1.0, 0.05),
-            Field {
-                get: |recipe| recipe.threshold,
-                set: |recipe, threshold| {
-                    recipe.threshold = threshold;
-                    recipe.setup.policy = policy::kind(recipe.setup.policy).with(threshold);
-                },
-            },
-            "Share of M below which N_eff calls for resampling, under the policy neff.",
-        ),
-        P::choice(
-            "policy",
-            "Resample",
-            policy::menu(),
-            Field {
-                get: |recipe| policy::kind(recipe.setup.policy),
-                set: |recipe, kind| recipe.setup.policy = kind.with(recipe.threshold),
-            },
-            "When the universes are resampled.",
-        ),
+        threshold,
+        policy,
         P::flag(
             "lenient",
             "Skip malformed lines",

@@ -93,11 +93,7 @@ fn table() -> Vec<Param<Recipe>> {
             field!(setup.samples),
             "How many samples each proposal draws.",
         ),
-        P::integer(
-            "seed",
-            "Seed",
-            "",
-            (0, u32::MAX),
+        P::seed(
             field!(setup.seed),
             "Picks the draws of both proposals; the same seed gives the same samples, bit for bit.",
         ),

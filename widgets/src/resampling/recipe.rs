@@ -88,11 +88,7 @@ fn table() -> Vec<Param<Recipe>> {
             field!(asked.particles),
             "How many particles each filter has.",
         ),
-        P::integer(
-            "seed",
-            "Seed",
-            "",
-            (0, u32::MAX),
+        P::seed(
             field!(asked.seed),
             "Picks the noise of the world and of the filters; all three filters have the same.",
         ),
