@@ -1,12 +1,23 @@
 //! Where the matcher of this robot begins.
 
-use fastslam::matching::{ScoreNear, ScoredPose};
+use fastslam::matching::{HillClimbSteps, ScoreNear, ScoredPose};
 use fastslam::ops;
-use fastslam::proposal::{Search, Starts, Target};
+use fastslam::proposal::{FitLimits, FromScanSettings, Search, Starts, Target};
 
 /// At the best of the prediction and the poses two standard deviations from it along the prior's axes.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct AlongAxes;
+
+/// The matcher of this robot.
+pub const SETTINGS: FromScanSettings<AlongAxes> = FromScanSettings {
+    motion_floor: [0.005, 0.005, 0.005],
+    search: AlongAxes,
+    climb: HillClimbSteps { linear: 0.02, angular: 0.02, halvings: 4 },
+    climb_stride: 1,
+    minimum_improvement: 0.1,
+    full_weight: 0.0,
+    limits: FitLimits { least: [0.002, 0.002], most: [0.1, 0.1] },
+};
 
 impl Search for AlongAxes {
     fn starts<N: ScoreNear>(&self, target: &Target<'_, N>) -> Starts {

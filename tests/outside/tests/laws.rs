@@ -5,16 +5,15 @@ use fastslam::laws::proposal::Step;
 use fastslam::laws::{QUARTER_TURNS, TURNS};
 use fastslam::map::ConditionalMap;
 use fastslam::map::landmarks::{Correspondence, Landmark, Landmarks};
-use fastslam::matching::HillClimbSteps;
 use fastslam::nalgebra::{Matrix2, Vector2};
 use fastslam::particle::Particle;
-use fastslam::proposal::{FitLimits, FromMeasurement, FromMotion, FromScan, FromScanSettings, Marginal};
+use fastslam::proposal::{FromMeasurement, FromMotion, FromScan, Marginal};
 use fastslam::random::{Purpose, Stream};
 use fastslam::sensor::{Feature, LandmarkSensor};
 use outside::beacons::Receiver;
 use outside::hall::listen;
 use outside::points::{Echoes, Nearest, Points, Square};
-use outside::search::AlongAxes;
+use outside::search::SETTINGS;
 use outside::wheels::{Rolled, Wheels};
 
 const WHEELS: Wheels = Wheels { axle: 0.4, slip: 0.06, jitter: 0.0 };
@@ -70,16 +69,6 @@ fn in_the_hall(world: &Pose2) -> Step<Points, Rolled> {
     let particle = Particle::start(world.compose(&before), map);
     Step { particle, control: Rolled { left: 0.24, right: 0.26 }, observation }
 }
-
-const SETTINGS: FromScanSettings<AlongAxes> = FromScanSettings {
-    motion_floor: [0.005, 0.005, 0.005],
-    search: AlongAxes,
-    climb: HillClimbSteps { linear: 0.02, angular: 0.02, halvings: 4 },
-    climb_stride: 1,
-    minimum_improvement: 0.1,
-    full_weight: 0.0,
-    limits: FitLimits { least: [0.002, 0.002], most: [0.1, 0.1] },
-};
 
 fastslam::proposal_laws!(from_motion, FromMotion { motion: WHEELS, likelihood: NEAREST }, in_the_hall, QUARTER_TURNS);
 fastslam::proposal_laws!(

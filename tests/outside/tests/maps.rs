@@ -3,29 +3,18 @@
 use fastslam::geometry::{Pose2, rms};
 use fastslam::map::ConditionalMap;
 use fastslam::map::landmarks::{Correspondence, Landmarks};
-use fastslam::matching::HillClimbSteps;
 use fastslam::motion::Motion;
-use fastslam::proposal::{FitLimits, FromMeasurement, FromMotion, FromScan, FromScanSettings, Marginal, Proposal};
+use fastslam::proposal::{FromMeasurement, FromMotion, FromScan, Marginal, Proposal};
 use fastslam::rbpf::Rbpf;
 use outside::beacons::Receiver;
 use outside::hall::{BEACONS, Drive, drive};
 use outside::points::{Nearest, Points};
-use outside::search::AlongAxes;
+use outside::search::SETTINGS;
 use outside::wheels::{Rolled, Wheels};
 
 const WHEELS: Wheels = Wheels { axle: 0.4, slip: 0.06, jitter: 0.002 };
 const RECEIVER: Receiver = Receiver { strength_std: 0.05, direction_std: 0.02, reach: 9.0 };
 const NEAREST: Nearest = Nearest { std: 0.15, most: 0.3 };
-
-const SETTINGS: FromScanSettings<AlongAxes> = FromScanSettings {
-    motion_floor: [0.005, 0.005, 0.005],
-    search: AlongAxes,
-    climb: HillClimbSteps { linear: 0.02, angular: 0.02, halvings: 4 },
-    climb_stride: 1,
-    minimum_improvement: 0.1,
-    full_weight: 0.0,
-    limits: FitLimits { least: [0.002, 0.002], most: [0.1, 0.1] },
-};
 
 /// The path by the wheels alone.
 fn odometry(drive: &Drive) -> Vec<Pose2> {
