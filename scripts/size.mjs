@@ -35,11 +35,10 @@ async function embedSizes(transferred) {
   const pages = readdirSync(dist).filter(file => /^embed-.*\.html$/.test(file))
   const sizes = []
   for (const page of pages) {
-    const answers = await transferred(page)
     // The figure that maps logs loads its program when it is asked for something, as whoever opens its page will do.
-    if (!answers.some(({ path }) => path.endsWith('.wasm'))) answers.push(...(await transferred(page, page => page.locator('.stage').click())))
-    const loaded = answers.filter(({ status }) => status === 200)
-    if (!loaded.some(({ path }) => path.endsWith('.wasm'))) throw new StepError(`${page} did not load its WebAssembly.`)
+    const { read, asked } = await transferred(page, (page, read) => (read.some(isProgram) ? undefined : page.locator('.stage').click()))
+    const loaded = [...read, ...asked].filter(({ status }) => status === 200)
+    if (!loaded.some(isProgram)) throw new StepError(`${page} did not load its WebAssembly.`)
     sizes.push({ page, sent: loaded.reduce((bytes, { sent }) => bytes + sent, 0) })
   }
   for (const { page, sent } of sizes) say(`${kilobytes(sent).padStart(12)}  ${page}`)
@@ -52,17 +51,20 @@ export const checkSize = () => serving(pageSize)
 
 /** @param {Transferred} transferred */
 async function pageSize(transferred) {
-  const page = report(await transferred(''))
   // The figure that maps logs is there, and works; its program comes when something is asked of it.
-  const asked = await transferred('', page => page.locator('fastslam-log .stage').click())
+  const { read, asked } = await transferred('', page => page.locator('fastslam-log .stage').click())
+  if (!asked.some(isProgram)) throw new StepError('The figure that maps logs did not load its WebAssembly.')
   const sent = asked.reduce((bytes, answer) => bytes + answer.sent, 0)
-  if (!asked.some(({ path }) => path.endsWith('.wasm'))) throw new StepError('The figure that maps logs did not load its WebAssembly.')
-  return `${page}; whoever maps a log loads ${kilobytes(sent)} more`
+  return `${report(read)}; whoever maps a log loads ${kilobytes(sent)} more`
 }
 
+const isProgram = (/** @type {Served} */ { path }) => path.endsWith('.wasm')
+
 /**
- * What the server answers for a page that is read to its end; or, where something is asked of it then, what it answers to that.
- * @typedef {(path: string, ask?: (page: import('@playwright/test').Page) => Promise<void>) => Promise<import('./serve.mjs').Served[]>} Transferred
+ * What the server answers for a page that is read to its end, and what it answers then to something that is asked of the page.
+ * @typedef {import('./serve.mjs').Served} Served
+ * @typedef {(page: import('@playwright/test').Page, read: Served[]) => Promise<void> | undefined} Ask
+ * @typedef {(path: string, ask: Ask) => Promise<{ read: Served[], asked: Served[] }>} Transferred
  */
 
 /**
@@ -71,46 +73,37 @@ async function pageSize(transferred) {
  * @template T @param {(transferred: Transferred) => Promise<T>} measure
  */
 async function serving(measure) {
-  /** @type {import('./serve.mjs').Served[]} */
+  /** @type {Served[]} */
   const answers = []
+  const take = () => answers.splice(0)
   const server = await startServer({ folder: dist, onServed: served => answers.push(served) })
   const programs = readdirSync(dist).filter(file => file.endsWith('.wasm'))
   try {
     await Promise.all(programs.map(async file => (await fetch(server.url + file, { headers: { 'Accept-Encoding': 'br' } })).arrayBuffer()))
     return await measure(async (path, ask) => {
-      answers.length = 0
-      await read(server.url + path, ask, () => (answers.length = 0))
-      return [...answers]
+      take()
+      const browser = await launchChromium()
+      try {
+        const page = await browser.newPage({ viewport: { width: 1280, height: 800 } })
+        const quiet = watchRequests(page)
+        await page.goto(server.url + path)
+        await quiet()
+        // Figures and pictures further down are loaded when they are seen: a reader who reads on loads those too.
+        const end = await page.evaluate(() => document.documentElement.scrollHeight)
+        for (let y = 0; y < end; y += 800) {
+          await page.evaluate(top => scrollTo({ top, behavior: 'instant' }), y)
+          await quiet()
+        }
+        const read = take()
+        await ask(page, read)
+        await quiet()
+        return { read, asked: take() }
+      } finally {
+        await browser.close()
+      }
     })
   } finally {
     await server.close()
-  }
-}
-
-/**
- * Opens a page and reads it to its end, then asks something of it.
- * @param {string} address @param {((page: import('@playwright/test').Page) => Promise<void>) | undefined} ask @param {() => unknown} beforeAsking
- */
-async function read(address, ask, beforeAsking) {
-  const browser = await launchChromium()
-  try {
-    const page = await browser.newPage({ viewport: { width: 1280, height: 800 } })
-    const quiet = watchRequests(page)
-    await page.goto(address)
-    await quiet()
-    // Figures and pictures further down are loaded when they are seen: a reader who reads on loads those too.
-    const end = await page.evaluate(() => document.documentElement.scrollHeight)
-    for (let y = 0; y < end; y += 800) {
-      await page.evaluate(top => scrollTo({ top, behavior: 'instant' }), y)
-      await quiet()
-    }
-    if (ask) {
-      beforeAsking()
-      await ask(page)
-      await quiet()
-    }
-  } finally {
-    await browser.close()
   }
 }
 
@@ -134,7 +127,7 @@ function watchRequests(page) {
 /** @param {import('./serve.mjs').Served[]} answers */
 function report(answers) {
   const loaded = answers.filter(({ status }) => status === 200).sort((a, b) => b.sent - a.sent)
-  if (!loaded.some(({ path }) => path.endsWith('.wasm'))) throw new StepError('The page did not load its WebAssembly: what was measured is not the page.')
+  if (!loaded.some(isProgram)) throw new StepError('The page did not load its WebAssembly: what was measured is not the page.')
   const sum = (/** @type {'raw' | 'sent'} */ key) => loaded.reduce((bytes, answer) => bytes + answer[key], 0)
   const rows = [...loaded.map(({ path, raw, sent }) => [path, raw, sent]), ['all', sum('raw'), sum('sent')]]
   say(`${'transferred'.padStart(12)}${'raw'.padStart(12)}`)
