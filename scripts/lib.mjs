@@ -15,7 +15,8 @@ export const cache = (...parts) => join(root, '.cache', ...parts)
 process.env.PATH = [process.env.PATH, join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'bin')].join(delimiter)
 
 const terminal = process.stdout.isTTY && !process.env.CI
-const live = !terminal || Boolean(process.env.VERBOSE)
+/** Whether all that the tools print is shown as it comes; without, their last line is, and of what failed the lines about it. */
+const live = Boolean(process.env.VERBOSE)
 
 /** @param {number} code */
 const ansi = code => (/** @type {string} */ text) => (terminal && !process.env.NO_COLOR ? `\x1b[${code}m${text}\x1b[0m` : text)
@@ -44,14 +45,37 @@ const elapsed = since => {
 
 /** Prints lines of a step that stay. @param {string} text */
 export function say(text) {
-  console.log(live ? text : `\r\x1b[2K${text}`)
+  clear()
+  console.log(text)
 }
 
-/** One line that is overwritten by the next, on a terminal. @param {string} line */
+/** Takes the line of progress away. */
+function clear() {
+  if (terminal && !live) process.stdout.write('\r\x1b[2K')
+}
+
+/** One line of progress: on a terminal it is overwritten by the next. @param {string} line */
 function status(line) {
   // eslint-disable-next-line no-control-regex -- colours of the tools, which would be cut in the middle
   const plain = line.replace(/\x1b\[[0-9;]*m/g, '')
-  process.stdout.write(`\r\x1b[2K${dim(plain.slice(0, (process.stdout.columns ?? 80) - 3))}`)
+  if (!terminal) return console.log(plain.slice(0, 160))
+  clear()
+  process.stdout.write(dim(plain.slice(0, (process.stdout.columns ?? 80) - 3)))
+}
+
+/** How often a step tells how far it is, in ms: a log of CI keeps every line. */
+const statusEvery = terminal ? 200 : 30_000
+
+/** What tools print where something failed: cargo and its tests, Node's tests, Playwright, and scripts. */
+const failure = /\bFAILED\b|panicked at|^error|^\w*Error\b|^\s*not ok\b|^\s+\d+\) .*›|✗|✘/
+
+/** The lines of a tool that failed which tell of it, each with those after it; else its last. @param {string} output */
+export function aboutFailures(output) {
+  const [after, most] = [20, 400]
+  const lines = output.trimEnd().split('\n')
+  const shown = new Set(lines.flatMap((line, at) => (failure.test(line) ? Array.from({ length: after }, (_, more) => at + more) : [])))
+  const about = shown.size > 0 ? lines.filter((_, at) => shown.has(at)) : lines.slice(-80)
+  return about.slice(0, most).join('\n')
 }
 
 /**
@@ -66,14 +90,14 @@ export async function step(title, action) {
   const log = createWriteStream(path)
   const started = performance.now()
   current = { title, started, log, path }
-  if (live) console.log(bold(`▸ ${title}`))
+  if (live || !terminal) console.log(bold(`▸ ${title}`))
   else status(`▸ ${title} …`)
   try {
     const note = await action()
-    if (!live) process.stdout.write('\r\x1b[2K')
+    clear()
     console.log(`${green('✓')} ${title} ${dim(`(${elapsed(started)})`)}${typeof note === 'string' ? `  ${note}` : ''}`)
   } catch (error) {
-    if (!live) process.stdout.write('\r\x1b[2K')
+    clear()
     console.log(`${red('✗')} ${bold(title)} ${dim(`(${elapsed(started)})`)}`)
     explain(error)
     throw error
@@ -128,7 +152,7 @@ export function run(command, args, { cwd = root, env = {}, hint } = {}) {
       : setInterval(() => {
           const last = output.trimEnd().split(/[\r\n]/).at(-1)
           if (current) status(`▸ ${current.title} (${elapsed(current.started)})  ${last}`)
-        }, 200)
+        }, statusEvery)
     child.on('error', error => {
       clearInterval(ticker)
       reject(new StepError(`${command} could not be started: ${error.message}`, hint))
@@ -136,12 +160,12 @@ export function run(command, args, { cwd = root, env = {}, hint } = {}) {
     child.on('close', (code, signal) => {
       clearInterval(ticker)
       if (code === 0) return resolve({ output })
-      if (!live) process.stdout.write(`\r\x1b[2K${output.split('\n').slice(-80).join('\n')}\n`)
-      const failure = new StepError(
+      if (!live) say(aboutFailures(output))
+      const error = new StepError(
         `${shown}: ${signal ? `ended by ${signal}` : `exit status ${code}`}`,
         hint ?? (current ? `All it printed: ${current.path}` : undefined),
       )
-      reject(Object.assign(failure, { output }))
+      reject(Object.assign(error, { output }))
     })
   })
 }

@@ -7,12 +7,12 @@ import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'nod
 import { join } from 'node:path'
 import { buildPages, buildPrograms, buildTrouble, buildWasm } from './build.mjs'
 import { checks } from './check.mjs'
-import { bold, cache, main, npmBin, readIfThere, red, root, run, step, StepError } from './lib.mjs'
+import { aboutFailures, bold, cache, main, npmBin, readIfThere, red, root, run, step, StepError } from './lib.mjs'
 import { findChrome, findChromeDriver, setUp } from './setup.mjs'
 import { checkEmbedSizes, checkSize } from './size.mjs'
 
 const total = { passed: 0, failed: 0, skipped: 0 }
-/** @type {string[]} */
+/** What failed, with the lines of the tools about it, which the end of the run repeats. @type {{ title: string, about: string }[]} */
 const failures = []
 
 /** A step whose failure does not keep the next ones from running. @param {string} title @param {() => unknown} action */
@@ -20,8 +20,9 @@ async function attempt(title, action) {
   const before = total.failed
   try {
     await step(title, action)
-  } catch {
-    failures.push(title)
+  } catch (error) {
+    const { message, output } = /** @type {Error & { output?: string }} */ (error)
+    failures.push({ title, about: output === undefined ? message : aboutFailures(output) })
     // A compile error or a lint has no count of its own: the total must not read as all well.
     if (total.failed === before) total.failed++
   }
@@ -64,7 +65,7 @@ async function nodeTest() {
     const inCargosWords = (/** @type {{ output?: string }} */ { output = '' }) => {
       const number = (/** @type {string} */ name) => Number(new RegExp(`^# ${name} (\\d+)$`, 'm').exec(output)?.[1] ?? 0)
       const ignored = number('skipped') + number('todo')
-      return { output: `test result: ${number('pass')} passed; ${number('fail')} failed; ${ignored} ignored` }
+      return { output: `${output}\ntest result: ${number('pass')} passed; ${number('fail')} failed; ${ignored} ignored` }
     }
     try {
       return inCargosWords(await run(process.execPath, args))
@@ -84,13 +85,13 @@ const cargoTest = (...args) =>
 /** Holds resampling against a Python package, which it installs at its first run. Without Python or PyPI it is skipped. */
 const oracle = () => counted(() => run('cargo', ['test', '-p', 'laws', '--test', 'oracle', '--', '--ignored', '--show-output']))
 
-/** Somebody else's package, outside the workspace; in this target folder, where most of what it needs is built. */
+/** Of packages outside the workspace: this target folder, where most of what they need is built. */
+const sharedTarget = { CARGO_TARGET_DIR: process.env.CARGO_TARGET_DIR ?? join(root, 'target') }
+
+/** Somebody else's package, outside the workspace. */
 const outside = () =>
   counted(() =>
-    run('cargo', ['test', '--no-fail-fast', '--', '--show-output'], {
-      cwd: join(root, 'tests', 'outside'),
-      env: { CARGO_TARGET_DIR: process.env.CARGO_TARGET_DIR ?? join(root, 'target') },
-    }),
+    run('cargo', ['test', '--no-fail-fast', '--', '--show-output'], { cwd: join(root, 'tests', 'outside'), env: sharedTarget }),
   )
 
 /** Those of the filter crate, which check their own results. */
@@ -102,11 +103,7 @@ async function examples() {
 }
 
 /** The fuzz target needs a nightly compiler to run, but none to compile. */
-const fuzz = () =>
-  run('cargo', ['check'], {
-    cwd: join(root, 'tests', 'fuzz'),
-    env: { CARGO_TARGET_DIR: process.env.CARGO_TARGET_DIR ?? join(root, 'target') },
-  })
+const fuzz = () => run('cargo', ['check'], { cwd: join(root, 'tests', 'fuzz'), env: sharedTarget })
 
 /** wasm-pack's tests in the Chromium that set-up found, which need not be the one ChromeDriver would choose. */
 function wasmTest() {
@@ -162,7 +159,8 @@ await main(async () => {
   await attempt('Size of an embedded figure', checkEmbedSizes)
 
   const minutes = ((performance.now() - started) / 60_000).toFixed(1)
-  if (failures.length > 0) console.log(red(bold(`\nFailed after ${minutes} min: ${failures.join('; ')}`)))
+  for (const { title, about } of failures) console.log(`\n${red(bold(title))}\n${about}`)
+  if (failures.length > 0) console.log(red(bold(`\nFailed after ${minutes} min: ${failures.map(({ title }) => title).join('; ')}`)))
   else console.log(bold(`\nAll well after ${minutes} min.`))
   console.log(`${total.passed} passed, ${total.failed} failed, ${total.skipped} skipped`)
   if (failures.length > 0) process.exitCode = 1
