@@ -2,6 +2,7 @@
 import { existsSync } from 'node:fs'
 import { join } from 'node:path'
 import { buildPages, buildPrograms, buildWasm, programFile } from './build.mjs'
+import { audit, checkCrates } from './dependencies.mjs'
 import { isMain, main, npmBin, root, run, step, StepError } from './lib.mjs'
 import { setUp } from './setup.mjs'
 
@@ -12,6 +13,7 @@ export const checks = [
   ['Lints for WebAssembly (clippy)', clippyWasm],
   ['Documentation (cargo doc)', () => run('cargo', ['doc', '--workspace', '--no-deps', '--all-features'], { env: { RUSTDOCFLAGS: '-D warnings' } })],
   ['Crates as they would be published (cargo package)', checkPackages],
+  ['Licences and sources of crates', async () => checkCrates()],
   ['Types (TypeScript)', checkTypes],
   ['Spelling (cspell)', () => run(npmBin('cspell'), ['--no-progress', '--config', join(root, 'cspell.json')], { hint: 'A word of the field goes into www/words.txt.' })],
   // Imported late: set-up may be what installs the packages that they stand on.
@@ -55,5 +57,6 @@ if (isMain(import.meta)) {
     if (!existsSync(programFile('page'))) await buildPrograms()
     await buildPages()
     for (const [name, action] of checks) await step(name, action)
+    await step('Known holes of npm packages (npm audit)', audit)
   })
 }

@@ -172,7 +172,7 @@ export function run(command, args, { cwd = root, env = {}, hint } = {}) {
 
 /** What a tool prints, trimmed; undefined if it is missing or fails. @param {string} command @param {string[]} args */
 export function capture(command, ...args) {
-  const { status, stdout } = spawnSync(command, args, { cwd: root, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] })
+  const { status, stdout } = spawnSync(command, args, { cwd: root, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'], maxBuffer: Infinity })
   return status === 0 ? stdout.trim() : undefined
 }
 
