@@ -1,12 +1,12 @@
 // The static server of npm start, the end-to-end tests and npm run size: types, compression and headers as a good host would
 // send them, the strict content security policy among them, so that what works here works on a course's server.
 import { createHash } from 'node:crypto'
-import { readFile, realpath, stat } from 'node:fs/promises'
+import { mkdir, readdir, readFile, realpath, rename, rm, stat, writeFile } from 'node:fs/promises'
 import { createServer } from 'node:http'
-import { extname, join, resolve, sep } from 'node:path'
+import { dirname, extname, join, resolve, sep } from 'node:path'
 import { promisify } from 'node:util'
 import { brotliCompress, constants, gzip } from 'node:zlib'
-import { isMain, main, StepError } from './lib.mjs'
+import { cache, isMain, main, StepError } from './lib.mjs'
 import { policy } from './policy.mjs'
 
 /** Other sites may frame the pages that are made for it, and no other. A course would name its learning system in place of the star. */
@@ -42,6 +42,37 @@ const encoders = {
   gzip: (/** @type {Buffer} */ body) => promisify(gzip)(body, { level: 9 }),
 }
 
+/** Brotli takes seconds for a program: what was made of a content is kept, for the servers to come as well. */
+const kept = cache('encoded')
+const KEPT_FOR = 7 * 24 * 3600_000 // [ms]
+
+/** @param {string} tag of the content @param {'br' | 'gzip'} encoding @param {Buffer} raw */
+async function encode(tag, encoding, raw) {
+  const path = join(kept, `${tag}.${encoding}`)
+  const before = await readFile(path).catch(() => undefined)
+  if (before) return before
+  const body = await encoders[encoding](raw)
+  // A disk that is full or may not be written only makes the next server slower.
+  await keep(path, body).catch(() => {})
+  return body
+}
+
+/** Under another name until it is whole: two servers may write the same. @param {string} path @param {Buffer} body */
+async function keep(path, body) {
+  const part = `${path}.${process.pid}.part`
+  await mkdir(dirname(path), { recursive: true })
+  await writeFile(part, body)
+  await rename(part, path)
+}
+
+async function forgetOld() {
+  for (const file of await readdir(kept).catch(() => [])) {
+    const path = join(kept, file)
+    const found = await stat(path).catch(() => undefined)
+    if (found && found.mtimeMs < Date.now() - KEPT_FOR) await rm(path, { force: true })
+  }
+}
+
 /**
  * @typedef {{ path: string, status: number, raw: number, sent: number }} Served one answer: bytes of the file, bytes sent
  * @typedef {{ url: string, close: () => Promise<void> }} Server
@@ -56,8 +87,9 @@ export async function startServer({ folder, port = 0, host = '127.0.0.1', onServ
   const base = await realpath(folder).catch(() => {
     throw new StepError(`There is no folder ${folder} to serve.`, 'npm run build writes it.')
   })
-  /** Files as sent, by path, time of change and encoding. @type {Map<string, Promise<Buffer>>} */
+  /** Files as sent, by content and encoding. @type {Map<string, Promise<Buffer>>} */
   const encoded = new Map()
+  await forgetOld()
 
   const server = createServer((request, response) => {
     answer(base, encoded, request, response)
@@ -144,7 +176,7 @@ async function answer(base, encoded, request, response) {
   let body = raw
   if (encoding) {
     let promise = encoded.get(etag)
-    if (!promise) encoded.set(etag, (promise = encoders[encoding](raw)))
+    if (!promise) encoded.set(etag, (promise = encode(tag, encoding, raw)))
     body = await promise
     response.setHeader('Content-Encoding', encoding)
   }
