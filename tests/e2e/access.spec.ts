@@ -142,40 +142,48 @@ test('the sentence is told to screen readers at rest, and not at every step whil
   const lap = await new Figure(page, 'fastslam-lap').open()
   await lap.step.click()
   await lap.settled()
-  await expect(lap.sentence).toHaveAttribute('aria-live', 'polite')
   const before = await lap.sentence.textContent()
+  const said = await listenTo(lap)
   await lap.step.click()
   await lap.settled()
   expect(await lap.sentence.textContent()).not.toBe(before)
+  expect(await said()).toEqual([await lap.sentence.textContent()])
   await lap.play.click()
-  await expect(lap.sentence).toHaveAttribute('aria-live', 'off')
+  await expect.poll(() => lap.position()).toBeGreaterThan(8)
+  expect(await said()).toHaveLength(1)
   await lap.pause.click()
-  await expect(lap.sentence).toHaveAttribute('aria-live', 'polite')
+  await lap.settled()
+  expect(await said()).toHaveLength(2)
+  expect((await said()).at(-1)).toBe(await lap.sentence.textContent())
 })
+
+/** Every text that comes into what a screen reader listens to, from now on. */
+async function listenTo(figure: Figure): Promise<() => Promise<string[]>> {
+  const said = await figure.element.evaluateHandle(element => {
+    const said: string[] = []
+    new MutationObserver(records => {
+      for (const { target } of records) {
+        const region = (target instanceof Element ? target : target.parentElement!).closest('[aria-live], [role=status], [role=alert], [role=log], output')
+        if (region?.textContent && region.getAttribute('aria-live') !== 'off') said.push(region.textContent)
+      }
+    }).observe(element.shadowRoot!, { subtree: true, childList: true, characterData: true })
+    return said
+  })
+  return () => said.evaluate(lines => lines)
+}
 
 test('a few quick steps are read out as one sentence, and nothing else is', async ({ page }) => {
   await openCourse(page, '<fastslam-lap universes="2"></fastslam-lap>')
   const lap = new Figure(page, 'fastslam-lap')
   await lap.live()
   await expect(lap.sentence).not.toBeEmpty()
-  // Every change of text in what a screen reader listens to.
-  const said = await lap.element.evaluateHandle(element => {
-    const said: string[] = []
-    new MutationObserver(records => {
-      for (const { target } of records) {
-        const region = (target instanceof Element ? target : target.parentElement!).closest('[aria-live], [role=status], [role=alert], [role=log], output')
-        if (region && region.getAttribute('aria-live') !== 'off') said.push(region.textContent)
-      }
-    }).observe(element.shadowRoot!, { subtree: true, childList: true, characterData: true })
-    return said
-  })
+  const spoken = await listenTo(lap)
   await lap.element.evaluate(async element => {
     for (let i = 0; i < 4; i++) {
       ;(element as HTMLElement & { step(): void }).step()
       await new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))
     }
   })
-  const spoken = () => said.evaluate(lines => lines)
   await expect.poll(async () => (await spoken()).length).toBeGreaterThan(0)
   await expect.poll(() => lap.position()).toBe(4)
   expect(await spoken()).toEqual([await lap.sentence.textContent()])

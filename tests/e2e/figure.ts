@@ -19,6 +19,7 @@ export class Figure {
   readonly pause: Locator
   readonly step: Locator
   readonly stepBack: Locator
+  readonly rewind: Locator
   readonly reset: Locator
   readonly reroll: Locator
   readonly scrub: Locator
@@ -32,18 +33,27 @@ export class Figure {
     selector: string,
   ) {
     this.element = page.locator(selector)
-    const button = (name: string | RegExp) => this.element.getByRole('button', { name, exact: true })
-    this.play = button('Play')
-    this.pause = button('Pause')
-    this.step = button('Step')
-    this.stepBack = button('Step back')
-    this.reset = button('Reset')
-    this.reroll = button('Re-roll the seed')
+    this.play = this.button('Play')
+    this.pause = this.button('Pause')
+    this.step = this.button('Step')
+    this.stepBack = this.button('Step back')
+    this.rewind = this.button('Rewind')
+    this.reset = this.button('Reset')
+    this.reroll = this.button('Re-roll the seed')
     this.scrub = this.element.getByRole('slider', { name: 'Step shown' })
     this.seed = this.element.getByRole('spinbutton', { name: 'Seed' })
     this.alert = this.element.getByRole('alert')
     this.sentence = this.element.locator('[part=sentence]')
     this.canvas = this.element.locator('canvas')
+  }
+
+  button(name: string): Locator {
+    return this.element.getByRole('button', { name, exact: true })
+  }
+
+  /** The whole state, as a link has it. */
+  state(): Promise<string> {
+    return this.element.evaluate(element => (element as HTMLElement & { state: string }).state)
   }
 
   /** Opens the page and waits until the figure is live. */
@@ -64,7 +74,12 @@ export class Figure {
     await this.element.evaluate(figure => (figure as HTMLElement & { settled(): Promise<void> }).settled())
   }
 
+  /** The step that is shown; where nothing plays, when it is the one asked for. */
   async position(): Promise<number> {
+    await this.element.evaluate(async element => {
+      const figure = element as HTMLElement & { playing: boolean; settled(): Promise<void> }
+      if (!figure.playing) await figure.settled()
+    })
     return Number((await this.element.locator('.timeline .position').textContent())!.split('/')[0])
   }
 

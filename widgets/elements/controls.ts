@@ -9,6 +9,9 @@ export interface Actions {
   step(): void
   stepBack(): void
   seek(step: number): void
+  /** To the first step; everything that was set stays. */
+  rewind(): void
+  /** To all that the page's author gave. */
   reset(): void
   rate(stepsPerSecond: number): void
   /** The value as a reader typed it; the figure refuses it or shows it. */
@@ -43,6 +46,7 @@ export class Controls {
   readonly view: HTMLElement
   private readonly fields = new Map<string, Field>()
   private readonly shown = new Map<string, string>()
+  private readonly rewind: HTMLButtonElement
   private readonly play: HTMLButtonElement
   private readonly back: HTMLButtonElement
   private readonly forth: HTMLButtonElement
@@ -53,6 +57,7 @@ export class Controls {
   private readonly playback: HTMLElement[] // all that a figure without steps has no use for
 
   constructor(specs: ParamSpec[], actions: Actions) {
+    this.rewind = button('rewind', 'Rewind', actions.rewind, 'rewind')
     this.play = button('play', 'Play', actions.playPause, 'play primary')
     this.back = button('back', 'Step back', actions.stepBack, 'step-back')
     this.forth = button('step', 'Step', actions.step, 'step')
@@ -67,14 +72,15 @@ export class Controls {
     )
     this.rate = rate
     rate.value = String(NORMAL_RATE)
+    const extras = h('span', { class: 'extras' }, rate)
     const timeline = h('span', { class: 'timeline' }, this.scrub, this.position)
-    this.playback = [this.back, this.play, this.forth, timeline, rate]
+    this.playback = [this.rewind, this.back, this.play, this.forth, timeline, rate]
     this.transport = h(
       'div',
       { class: 'transport', part: 'transport', role: 'group', 'aria-label': 'Playback' },
-      h('span', { class: 'buttons' }, reset, this.back, this.play, this.forth),
+      h('span', { class: 'buttons' }, this.rewind, this.back, this.play, this.forth),
       timeline,
-      h('span', { class: 'extras' }, rate),
+      extras,
     )
 
     const grid = h('div', { class: 'grid' })
@@ -88,13 +94,14 @@ export class Controls {
       const field = fieldFor(spec, this.style, value => actions.change(spec.name, value))
       this.fields.set(spec.name, field)
       for (const input of field.element.querySelectorAll<HTMLElement>('input, select')) input.title = spec.help // read out after the name
-      if (spec.name === SEED) this.transport.lastElementChild!.append(field.element)
+      if (spec.name === SEED) extras.append(field.element)
       else if (spec.kind === 'toggle') toggles.push(field.element)
       else if (spec.group === 'view') this.view.append(field.element)
       else if (spec.kind === 'choice') choices.push(field.element)
       else if (field.element.matches('.number')) boxes.append(field.element)
       else grid.append(field.element)
     }
+    extras.append(reset)
     this.view.prepend(...toggles)
     grid.append(...choices)
     this.settings.hidden = !grid.hasChildNodes() && !boxes.hasChildNodes()
@@ -138,22 +145,26 @@ export class Controls {
     this.scrub.disabled = names.has(STEP)
   }
 
-  showPosition(step: number, last: number, playing: boolean, busy: boolean): void {
+  /** The step shown; the handle of the scrubber is left to the hand that moves it until the step that it asked for is shown. */
+  showPosition(step: number, target: number, last: number, playing: boolean): void {
     const steps = last > 0
     for (const element of this.playback) element.hidden = !steps
     this.transport.setAttribute('aria-label', steps ? 'Playback' : 'Start over')
     this.scrub.max = String(last)
-    this.scrub.value = String(step)
+    if (step === target) this.scrub.value = String(step)
     this.scrub.setAttribute('aria-valuetext', `step ${step} of ${last}`)
     write(this.position, `${step} / ${last}`)
-    this.position.classList.toggle('busy', busy)
-    this.back.disabled = step <= 0
+    this.rewind.disabled = this.back.disabled = step <= 0
     this.forth.disabled = step >= last
     const name = playing ? 'Pause' : 'Play'
     if (this.play.title !== name) {
       redraw(this.play.firstElementChild!, playing ? 'pause' : 'play')
       label(this.play, name)
     }
+  }
+
+  showBusy(busy: boolean): void {
+    this.position.classList.toggle('busy', busy)
   }
 
   enable(on: boolean): void {

@@ -40,6 +40,8 @@ export abstract class FigureParts extends HTMLElement {
   protected readonly body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title', lang: WORDS })
   protected readonly canvas = new Canvas(this, this.body, this.stage, () => this.refresh())
   protected readonly menu = new Menu(this.menuItems(), this)
+  readonly #undo = h('button', { type: 'button', class: 'undo', part: 'button undo', hidden: '' })
+  #before = '' // the state that undoing brings back
   readonly #fallback = h('div', { class: 'fallback' }, h('slot'))
   readonly #handles = new Handles({
     drag: (handle, x, y) => this.#byPointer({ do: 'drag', handle, x, y }),
@@ -52,15 +54,17 @@ export abstract class FigureParts extends HTMLElement {
     root.adoptedStyleSheets = [sheet]
     this.stage.append(this.canvas.element, this.#handles.layer, this.#fallback)
     this.body.append(
-      h('div', { class: 'head' }, this.heading, this.status, this.menu.element),
+      h('div', { class: 'head' }, this.heading, this.status, this.#undo, this.menu.element),
       this.stage,
       h('p', { class: 'hidden', id: 'keys' }, this.keysHelp),
       h('p', { class: 'hidden', id: 'handle-keys' }, 'Arrow keys move it, with Shift far, with Alt a little.'),
       this.messages.element,
       this.sentence.element,
+      this.sentence.spoken,
       this.readouts,
     )
     root.append(this.body)
+    this.#undo.addEventListener('click', () => this.#takeBack())
     keepKeys(this.body, event => this.onKey(event))
     this.canvas.element.addEventListener('click', ({ offsetX: x, offsetY: y }) => this.#byPointer({ do: 'pick', x, y }))
     for (const type of ['pointerdown', 'pointermove', 'pointerup'] as const) {
@@ -79,14 +83,19 @@ export abstract class FigureParts extends HTMLElement {
   abstract get currentStep(): number
   abstract get playing(): boolean
   abstract get link(): string
+  abstract get state(): string
+  abstract set state(query: string)
   abstract embedCode(name: CodeName): string | undefined
   protected abstract send(command: Command): void
   /** Shows again what is shown. */
   protected abstract refresh(): void
   /** A reader gives a parameter a value. */
   protected abstract change(name: string, value: string): void
-  /** What is done then is told as the reader's own doing. */
-  protected abstract byHand(act: () => void): void
+  /** What is done then is told as the reader's own doing. What was thrown away before it is not offered back any more. */
+  protected byHand(act: () => void): void {
+    this.#undo.hidden = true
+    act()
+  }
   /** The controls have been made. */
   protected abstract introduced(): void
 
@@ -102,7 +111,7 @@ export abstract class FigureParts extends HTMLElement {
     this.#handles.show(frame.handles)
     this.showPlayback(frame)
     this.controls!.showValues(frame.specs, frame.values)
-    if (frame.sentence !== undefined) this.sentence.say(frame.sentence, this.playing)
+    this.sentence.show(frame.sentence, this.playing || frame.busy)
   }
 
   /** Once, when the figure first tells what it is: its controls. */
@@ -112,7 +121,8 @@ export abstract class FigureParts extends HTMLElement {
       step: () => this.byHand(() => this.step()),
       stepBack: () => this.byHand(() => this.stepBack()),
       seek: step => this.byHand(() => this.seek(step)),
-      reset: () => this.byHand(() => this.reset()),
+      rewind: () => this.#undoable('Undo rewind', () => this.seek(0)),
+      reset: () => this.#undoable('Undo reset', () => this.reset()),
       rate: rate => (this.playback.rate = rate),
       change: (name, value) => this.change(name, value),
     })
@@ -127,8 +137,8 @@ export abstract class FigureParts extends HTMLElement {
     this.readouts.after(controls.settings)
   }
 
-  protected showPlayback({ target, last, busy }: Frame): void {
-    this.controls!.showPosition(target, last, this.playing, busy)
+  protected showPlayback({ step, target, last }: Frame): void {
+    this.controls!.showPosition(step, target, last, this.playing)
     const on = last > 0
     if (on === this.#timeline) return
     // Where there is nothing to play, the picture has no keys.
@@ -136,6 +146,12 @@ export abstract class FigureParts extends HTMLElement {
     this.stage.tabIndex = on ? 0 : -1
     if (on) this.stage.setAttribute('aria-describedby', 'keys')
     else this.stage.removeAttribute('aria-describedby')
+  }
+
+  /** What is shown is not yet what was asked for. */
+  protected showBusy(busy: boolean): void {
+    this.stage.classList.toggle('busy', busy)
+    this.controls?.showBusy(busy)
   }
 
   /** A page that names the element names its picture. */
@@ -174,8 +190,23 @@ export abstract class FigureParts extends HTMLElement {
   // --- Reader's input ----------------------------------------------------------------------------------------------------
 
   #playPause(): void {
+    this.#undo.hidden = true
     if (this.playing) this.pause()
     else this.play()
+  }
+
+  /** Does what throws away what a reader has made, and offers it back until something else is done. */
+  #undoable(name: string, act: () => void): void {
+    const before = this.state
+    this.byHand(act)
+    this.#before = before
+    write(this.#undo, name)
+    this.#undo.hidden = false
+  }
+
+  #takeBack(): void {
+    this.byHand(() => (this.state = this.#before))
+    this.stage.focus({ preventScroll: true }) // the button goes
   }
 
   #byPointer(command: Command): void {

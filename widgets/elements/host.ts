@@ -89,7 +89,7 @@ export interface Frame {
   specs: ParamSpec[]
   values: Record<string, string>
   query: string
-  /** The step shown, the one asked for, and the last there is. */
+  /** The step that all of this is of, the one asked for, and the last there is. */
   step: number
   target: number
   last: number
@@ -97,7 +97,7 @@ export interface Frame {
   busy: boolean
   readouts: Readout[]
   handles: Handle[]
-  sentence: string | undefined
+  sentence: string
   /** Whether a parameter was changed since the frame before. */
   changed: boolean
   trace: TraceLine[] | undefined
@@ -136,7 +136,10 @@ export interface FigureHost {
   send(command: Command): void
   /** Goes on for so long [ms], if it is on its way to what was asked for. */
   work(budget: number): void
-  /** What there is to show, if it is new. `now` in [ms]; without it at once, new or not, and what is told once is not told yet. */
+  /**
+   * What there is to show, if it is new. On the way to what was asked for there is nothing: what was shown before stays until that is there.
+   * `now` in [ms]; without it at once, new or not, and what is told once is not told yet.
+   */
   frame(now?: number): Frame | undefined
   /** To be shown again, new or not. */
   refresh(): void

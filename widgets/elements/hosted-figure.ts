@@ -208,8 +208,8 @@ export abstract class HostedFigure extends FigureParts implements Listener {
     this.send({ do: 'seek', step })
   }
 
-  protected byHand(act: () => void): void {
-    act()
+  protected override byHand(act: () => void): void {
+    super.byHand(act)
     this.events.cause = 'reader'
   }
 
@@ -252,6 +252,7 @@ export abstract class HostedFigure extends FigureParts implements Listener {
     if (plays && !this.host.busy) this.#advance(now)
     this.host?.work(WORK_BUDGET)
     this.show(this.host?.frame(now))
+    this.showBusy(this.host?.busy ?? false)
     if (plays || this.host?.busy) this.wake()
   }
 

@@ -4,7 +4,7 @@ import type { InstanceUser, Program } from './program'
 import { trapMessage, type Shell } from './shell'
 import { Session } from './session'
 
-const CATCH_UP_PAINT = 100 // [ms] between pictures while the simulation catches up
+const CATCH_UP_PAINT = 100 // [ms] between the pictures on the way to the first step that is asked for
 
 export class LocalHost implements FigureHost, InstanceUser {
   readonly remote = false
@@ -78,9 +78,8 @@ export class LocalHost implements FigureHost, InstanceUser {
 
   frame(now?: number): Frame | undefined {
     return this.#ask(session => {
-      // On the way to a step far off, a look now and then is enough: painting costs more than simulating.
       const hurry = session.pending && now !== undefined && now < this.#paintedAt + CATCH_UP_PAINT
-      if (now !== undefined && (!this.#dirty || hurry)) return undefined
+      if (now !== undefined && (!this.#dirty || hurry || session.holds)) return undefined
       const frame = session.frame(now === undefined)
       this.#dirty = now === undefined
       this.#paintedAt = performance.now()

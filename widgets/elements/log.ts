@@ -209,7 +209,7 @@ export class FastslamLog extends FigureElement {
 
   protected override showPlayback({ step, last, run }: Frame): void {
     this.#showPhase(run, step, last)
-    this.controls!.showPosition(0, 0, false, false)
+    this.controls!.showPosition(0, 0, 0, false)
     this.controls!.transport.setAttribute('aria-label', 'Settings of the draw')
   }
 

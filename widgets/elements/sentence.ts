@@ -1,33 +1,32 @@
-// The sentence under the picture: always up to date for eyes; read out only when nothing moves.
+// The sentence under the picture: for eyes always that of the step shown; read out only when nothing moves.
 import { h, write } from './dom'
 
-const APART = 1000 // [ms] between two sentences while it plays: what an eye can read
 const PAUSE = 120 // [ms] of rest before it is said: one sentence for a whole drag
+const SAID = 1000 // [ms] after which it is taken away again, so that whoever reads on does not meet it twice
 
 export class Sentence {
-  readonly element = h('p', { class: 'sentence', part: 'sentence', id: 'sentence', 'aria-live': 'off' })
-  #saidAt = -Infinity // [ms]
+  readonly element = h('p', { class: 'sentence', part: 'sentence', id: 'sentence' })
+  /** What is read out. */
+  readonly spoken = h('p', { class: 'hidden spoken', 'aria-live': 'polite' })
+  #said: string | undefined // last; the first is there to be read, and nobody asked for it
   #timer = 0
 
   /** Whether a sentence is still to be said. */
   waiting = false
 
-  say(text: string, playing: boolean): void {
-    this.element.setAttribute('aria-live', playing ? 'off' : 'polite')
+  /** Shows the sentence of a frame. While it plays, or is on its way somewhere, nothing is said. */
+  show(text: string, moving: boolean): void {
+    write(this.element, text)
     clearTimeout(this.#timer)
-    this.waiting = false
-    if (playing && performance.now() < this.#saidAt + APART) return
-    this.#saidAt = performance.now()
-    // The first at once, as it makes the figure higher.
-    if (playing || !this.element.hasChildNodes()) write(this.element, text)
-    else this.#sayLater(text)
+    this.waiting = !moving && this.#said !== undefined && text !== this.#said
+    if (this.waiting) this.#timer = window.setTimeout(() => this.#say(text), PAUSE)
+    this.#said ??= text
   }
 
-  #sayLater(text: string): void {
-    this.waiting = true
-    this.#timer = window.setTimeout(() => {
-      this.waiting = false
-      write(this.element, text)
-    }, PAUSE)
+  #say(text: string): void {
+    this.waiting = false
+    this.#said = text
+    write(this.spoken, text)
+    this.#timer = window.setTimeout(() => write(this.spoken, ''), SAID)
   }
 }

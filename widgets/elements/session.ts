@@ -16,6 +16,7 @@ export class Session {
   #layout: Layout | undefined
   #changed = false
   #mustTrace = false
+  #arrived = false // at what was asked for, at least once
 
   constructor(
     protected readonly shell: Shell,
@@ -103,6 +104,11 @@ export class Session {
     return this.figure.pending() > 0
   }
 
+  /** Whether to leave shown what is: on the way to what was asked for is another moment than that. The first picture is watched as it comes. */
+  get holds(): boolean {
+    return this.#arrived && this.pending && !this.run()
+  }
+
   /** How the mapping of a file stands, where one is mapped. */
   protected run(): Run | undefined {
     return undefined
@@ -118,6 +124,7 @@ export class Session {
     const trace = this.#mustTrace && !busy && !ahead ? (figure.trace() as TraceLine[]) : undefined
     if (changed) this.#changed = false
     if (trace) this.#mustTrace = false
+    this.#arrived ||= !busy
     return {
       done: this.#done,
       specs: this.specs,
@@ -129,7 +136,7 @@ export class Session {
       busy,
       readouts: figure.readouts() as Readout[],
       handles: figure.handles(this.#size?.canvas.css ?? 0) as Handle[],
-      sentence: busy ? undefined : figure.describe(),
+      sentence: figure.describe(),
       changed,
       trace,
       layout,

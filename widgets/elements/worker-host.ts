@@ -46,7 +46,7 @@ export class WorkerHost implements FigureHost {
   }
 
   get busy(): boolean {
-    return this.#target !== undefined || (this.#shown?.busy ?? true)
+    return this.done < this.sent || (this.#shown?.busy ?? true)
   }
 
   get done(): number {

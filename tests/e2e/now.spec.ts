@@ -1,0 +1,158 @@
+// One now: picture, transport, sentence and readouts tell of the same step, and what a reader throws away can be had back.
+import type { Page } from '@playwright/test'
+import { Figure } from './figure'
+import { expect, test } from './fixtures'
+import { openCourse } from './host'
+
+type FigureElement = HTMLElement & { seek(step: number): void; play(): void; settled(): Promise<void> }
+
+/** What the parts of a figure say at one moment; the picture by the pixels of its own count of steps. */
+interface Moment {
+  transport: number
+  sentence: number
+  readout: number
+  picture: number
+}
+
+/** A lap of which the large map alone is shown: the count of steps is in the upper right corner. */
+async function openLap(page: Page, attributes: string): Promise<Figure> {
+  await openCourse(page, `<fastslam-lap show="map" ${attributes}></fastslam-lap>`)
+  const lap = new Figure(page, 'fastslam-lap')
+  await lap.live()
+  await lap.element.evaluate(element => {
+    const root = element.shadowRoot!
+    const canvas = root.querySelector('canvas')!
+    const number = (selector: string) => Number(/\d+/.exec(root.querySelector(selector)!.textContent)![0])
+    const look = (): Moment => {
+      const [x, height] = [Math.floor(0.7 * canvas.width), Math.floor((26 / canvas.clientHeight) * canvas.height)]
+      const corner = new OffscreenCanvas(canvas.width - x, height).getContext('2d', { willReadFrequently: true })!
+      corner.drawImage(canvas, -x, 0)
+      const { data } = corner.getImageData(0, 0, canvas.width - x, height)
+      const picture = data.reduce((hash, byte) => Math.imul(hash ^ byte, 16777619), 2166136261)
+      return { transport: number('.timeline .position'), sentence: number('.sentence'), readout: number('[data-name=step] dd'), picture }
+    }
+    Object.assign(window, { look })
+  })
+  return lap
+}
+
+/** The pixels of each step's count, at rest. */
+const countsOf = (lap: Figure, steps: number[]) =>
+  lap.element.evaluate(async (element, steps) => {
+    const figure = element as FigureElement
+    const look = (window as unknown as { look: () => Moment }).look
+    const counts: Record<number, number> = {}
+    for (const step of steps) {
+      figure.seek(step)
+      await figure.settled()
+      counts[step] = look().picture
+    }
+    return counts
+  }, steps)
+
+/** What is to be seen in every frame until `until` says so. */
+function watch(lap: Figure): Promise<void> {
+  return lap.element.evaluate(() => {
+    const page = window as unknown as { look: () => Moment; seen: Moment[]; watching: boolean }
+    page.seen = []
+    page.watching = true
+    const sample = () => {
+      page.seen.push(page.look())
+      if (page.watching) requestAnimationFrame(sample)
+    }
+    requestAnimationFrame(sample)
+  })
+}
+
+const watched = (lap: Figure) =>
+  lap.element.evaluate(() => {
+    const page = window as unknown as { seen: Moment[]; watching: boolean }
+    page.watching = false
+    return page.seen
+  })
+
+function expectOneNow(seen: Moment[], counts: Record<number, number>): void {
+  for (const { transport, sentence, readout, picture } of seen) {
+    expect([sentence, readout], `at ${transport}`).toEqual([transport, transport])
+    expect(picture, `the picture at ${transport}`).toBe(counts[transport])
+  }
+}
+
+test('while it plays, picture, transport, sentence and readouts tell of one step', async ({ page }) => {
+  const lap = await openLap(page, 'universes="2" step="0"')
+  const counts = await countsOf(lap, Array.from({ length: 40 }, (_, step) => step))
+  expect(new Set(Object.values(counts)).size, 'every step is written otherwise').toBe(40)
+  await lap.scrubTo(0)
+  await watch(lap)
+  await lap.play.click()
+  await expect.poll(() => lap.position()).toBeGreaterThan(12)
+  await lap.pause.click()
+  const seen = await watched(lap)
+  expect(new Set(seen.map(({ transport }) => transport)).size).toBeGreaterThan(10)
+  expectOneNow(seen, counts)
+})
+
+test('while a slider is dragged, the step stays, and the picture until the new one of the same step is there', async ({ page }) => {
+  const lap = await openLap(page, 'universes="16" step="90"')
+  const counts = await countsOf(lap, [90])
+  const before = await lap.picture()
+  await lap.openSettings()
+  const slider = lap.slider('universes')
+  await slider.scrollIntoViewIfNeeded()
+  const { x, y, width, height } = (await slider.boundingBox())!
+  await watch(lap)
+  await page.mouse.move(x + 0.5 * width, y + 0.5 * height)
+  await page.mouse.down()
+  for (let to = 0.5; to < 0.9; to += 0.02) await page.mouse.move(x + to * width, y + 0.5 * height)
+  await page.mouse.up()
+  await lap.settled()
+  const seen = await watched(lap)
+  expect(seen.length).toBeGreaterThan(5)
+  expectOneNow(seen, counts)
+  expect(await lap.picture()).not.toBe(before)
+})
+
+test('what is shown while it is on its way is dimmed', async ({ page }) => {
+  const lap = await openLap(page, 'universes="64" step="0"')
+  const dimmed = await lap.element.evaluate(async element => {
+    const figure = element as FigureElement
+    const stage = figure.shadowRoot!.querySelector('.stage')!
+    figure.seek(90)
+    await new Promise(requestAnimationFrame)
+    await new Promise(requestAnimationFrame)
+    const during = stage.matches('.busy')
+    await figure.settled()
+    return [during, stage.matches('.busy')]
+  })
+  expect(dimmed).toEqual([true, false])
+  expect(await lap.position()).toBe(90)
+})
+
+test('Rewind goes to the first step and leaves what was set, and is taken back by Undo', async ({ page }) => {
+  const lap = await new Figure(page, 'fastslam-lap').open('./#fastslam-lap?universes=4&step=9')
+  const [before, state] = [await lap.picture(), await lap.state()]
+  await lap.rewind.click()
+  expect(await lap.position()).toBe(0)
+  await expect(lap.rewind).toBeDisabled()
+  await expect(lap.box('universes')).toHaveValue('4')
+  await lap.button('Undo rewind').press('Enter')
+  expect(await lap.position()).toBe(9)
+  expect([await lap.picture(), await lap.state()]).toEqual([before, state])
+  await expect(lap.button('Undo rewind')).toBeHidden()
+  expect(await lap.element.evaluate(element => element.shadowRoot!.activeElement?.classList.contains('stage')), 'the keys go on').toBe(true)
+})
+
+test('Reset is taken back by Undo, until something else is done', async ({ page }) => {
+  const lap = await new Figure(page, 'fastslam-lap').open('./#fastslam-lap?universes=4&seed=5&step=9')
+  const state = await lap.state()
+  await lap.reset.click()
+  await lap.settled()
+  expect(await lap.state()).not.toBe(state)
+  await lap.button('Undo reset').click()
+  await lap.settled()
+  expect(await lap.state()).toBe(state)
+  await lap.reset.click()
+  await expect(lap.button('Undo reset')).toBeVisible()
+  await lap.step.click()
+  await expect(lap.button('Undo reset')).toBeHidden()
+})
