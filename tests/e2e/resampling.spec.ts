@@ -67,9 +67,10 @@ test.describe('at rest', () => {
     expect([await figure.readouts(), await figure.picture()]).toEqual(before)
   })
 
-  test('the pointer over the curves reads a step, without a click, and time takes the cursor along', async ({ page }) => {
+  test('the pointer over the curves reads a step until it leaves, a click keeps it, and time takes the cursor along', async ({ page }) => {
     const figure = await open(page, './#fastslam-resampling?step=60')
     const at = await overCurves(figure, 1 / 3)
+    await figure.element.locator('select[name=cursor]').selectOption('now')
     await page.mouse.move(5, 5)
     await page.mouse.move(at.x, at.y, { steps: 3 })
     await figure.settled()
@@ -77,6 +78,14 @@ test.describe('at rest', () => {
     await expect(figure.sentence).toContainText('Step 30 of 90')
     expect((await figure.readouts())['always_resampled']).toBe('30 of 30steps')
     await page.mouse.move(5, 5)
+    await figure.settled()
+    expect(await cursor(figure), 'what is pointed at is let go').toBe('now')
+    await expect(figure.sentence).toContainText('Step 60 of 90')
+    await page.mouse.click(at.x, at.y)
+    await page.mouse.move(at.x + 40, at.y)
+    await page.mouse.move(5, 5)
+    await figure.settled()
+    expect(await cursor(figure), 'what was clicked stays').toBe('30')
     await figure.step.click()
     await figure.settled()
     expect(await cursor(figure)).toBe('now')

@@ -46,6 +46,8 @@ export abstract class FigureParts extends HTMLElement {
   readonly #handles = new Handles({
     drag: (handle, x, y) => this.#byPointer({ do: 'drag', handle, x, y }),
     nudge: (handle, right, up) => this.#byPointer({ do: 'nudge', handle, right, up }),
+    follow: (handle, x, y) => this.#byHover({ do: 'follow', handle, x, y }),
+    leave: () => this.#byHover({ do: 'leave' }),
   })
 
   constructor() {
@@ -67,7 +69,7 @@ export abstract class FigureParts extends HTMLElement {
     this.#undo.addEventListener('click', () => this.#takeBack())
     keepKeys(this.body, event => this.onKey(event))
     this.canvas.element.addEventListener('click', ({ offsetX: x, offsetY: y }) => this.#byPointer({ do: 'pick', x, y }))
-    for (const type of ['pointerdown', 'pointermove', 'pointerup'] as const) {
+    for (const type of ['pointerdown', 'pointermove', 'pointerup', 'pointerleave'] as const) {
       this.canvas.element.addEventListener(type, event => this.#handles.follow(event))
     }
   }
@@ -212,6 +214,13 @@ export abstract class FigureParts extends HTMLElement {
   #byPointer(command: Command): void {
     this.playback.stay()
     this.byHand(() => this.send(command))
+  }
+
+  /** Nothing is done yet: what can be undone still can. */
+  #byHover(command: Command): void {
+    const { hidden } = this.#undo
+    this.#byPointer(command)
+    this.#undo.hidden = hidden
   }
 
   protected get keysHelp(): string {

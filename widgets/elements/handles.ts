@@ -9,6 +9,10 @@ export interface Moves {
   drag(name: string, x: number, y: number): void
   /** Right and up, in steps of the parameters. */
   nudge(name: string, right: number, up: number): void
+  /** To a point of the canvas that a pointer passes over [css px]. */
+  follow(name: string, x: number, y: number): void
+  /** The pointer has left: back to where it was. */
+  leave(): void
 }
 
 const ARROWS: Record<string, [number, number]> = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }
@@ -23,6 +27,7 @@ export class Handles {
   readonly layer = h('div', { class: 'handles' })
   private readonly grips = new Map<string, HTMLElement>() // by name, so that the focus survives a new picture
   private shown: Handle[] = []
+  private following = false // a mouse is over an area
   private touch = { x: 0, y: 0, sideways: false } // where a finger came down, and how it went on
 
   constructor(private readonly moves: Moves) {}
@@ -54,19 +59,22 @@ export class Handles {
   }
 
   /**
-   * For pointers over the canvas: the handle of the area below follows them, no button needed. A finger does so when it taps or
-   * moves sideways; up and down it scrolls the page.
+   * For pointers over the canvas: the handle of the area below follows a mouse, until it leaves the area; with a click it stays. A finger
+   * takes it along when it taps or moves sideways; up and down it scrolls the page.
    */
   follow({ type, pointerType, offsetX: x, offsetY: y }: PointerEvent): void {
-    if (type === 'pointerdown') {
-      this.touch = { x, y, sideways: false }
+    const below = this.shown.find(({ hover }) => hover && hover.x <= x && x < hover.x + hover.w && hover.y <= y && y < hover.y + hover.h)
+    if (pointerType !== 'touch') {
+      const over = type === 'pointerleave' ? undefined : below
+      if (!over && this.following) this.moves.leave()
+      else if (over && type === 'pointerup') this.moves.drag(over.name, x, y)
+      else if (over) this.moves.follow(over.name, x, y)
+      this.following = over !== undefined
       return
     }
-    this.touch.sideways ||= Math.abs(x - this.touch.x) > Math.abs(y - this.touch.y)
-    if (pointerType === 'touch' && type === 'pointermove' && !this.touch.sideways) return
-    for (const { name, hover } of this.shown) {
-      if (hover && hover.x <= x && x < hover.x + hover.w && hover.y <= y && y < hover.y + hover.h) this.moves.drag(name, x, y)
-    }
+    if (type === 'pointerdown') this.touch = { x, y, sideways: false }
+    else if (type === 'pointermove') this.touch.sideways ||= Math.abs(x - this.touch.x) > Math.abs(y - this.touch.y)
+    if (below && (type === 'pointerup' || (type === 'pointermove' && this.touch.sideways))) this.moves.drag(below.name, x, y)
   }
 
   private make(name: string): HTMLElement {

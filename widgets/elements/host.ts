@@ -47,6 +47,9 @@ export type Command =
   | { do: 'trace' }
   | { do: 'pick'; x: number; y: number }
   | { do: 'drag'; handle: string; x: number; y: number }
+  // A pointer over an area: the handle goes along, and when the pointer leaves, back to where it was.
+  | { do: 'follow'; handle: string; x: number; y: number }
+  | { do: 'leave' }
   | { do: 'nudge'; handle: string; right: number; up: number }
   | { do: 'size'; size: Size }
   | { do: 'export'; kind: 'csv' | 'json'; name: string }

@@ -16,6 +16,7 @@ export class Session {
   #layout: Layout | undefined
   #changed = false
   #mustTrace = false
+  #followed: { handle: string; value: string } | undefined // what a pointer passes over, and the value to go back to
   #arrived = false // at what was asked for, at least once
 
   constructor(
@@ -40,6 +41,7 @@ export class Session {
 
   protected perform(command: Command): void | Promise<void> {
     const { figure } = this
+    if (['begin', 'set', 'drag', 'nudge'].includes(command.do)) this.#followed = undefined // what was chosen stays
     switch (command.do) {
       case 'begin':
         return this.begin(command, command.changed)
@@ -62,6 +64,11 @@ export class Session {
         return this.#move(() => figure.pick(...this.point(command)))
       case 'drag':
         return this.#move(() => figure.drag(command.handle, ...this.point(command)))
+      case 'follow':
+        this.#followed ??= { handle: command.handle, value: this.values[command.handle]! }
+        return this.#move(() => figure.drag(command.handle, ...this.point(command)))
+      case 'leave':
+        return this.#goBack()
       case 'nudge':
         return this.#move(() => figure.nudge(command.handle, command.right, command.up))
       case 'size':
@@ -209,6 +216,13 @@ export class Session {
     action()
     this.#keepLocked(values)
     if (this.query !== before) this.#changes()
+  }
+
+  #goBack(): void {
+    const followed = this.#followed
+    if (!followed) return
+    this.#followed = undefined
+    this.set(followed.handle, followed.value)
   }
 
   /** Puts back what is locked, where a reader's link or hand has moved it. */
