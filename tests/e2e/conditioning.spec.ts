@@ -59,9 +59,10 @@ test.describe('at rest', () => {
     expect(await figure.readouts()).toEqual(given)
   })
 
-  test('the pointer over the matrix names the entry below, without a click', async ({ page }) => {
+  test('the pointer over the matrix names the entry below until it leaves, and a click keeps it', async ({ page }) => {
     const figure = await open(page)
     const at = await inMatrix(figure, 0, 0.5)
+    const before = await entry(figure)
     await page.mouse.move(5, 5)
     await page.mouse.move(at.x, at.y, { steps: 3 })
     await figure.settled()
@@ -71,7 +72,10 @@ test.describe('at rest', () => {
     const words = (await figure.handle('entry').getAttribute('aria-valuetext'))!
     expect(words).toMatch(/^m\d+\.[xy] and m1\.x: ρ = −?\d/)
     await expect(figure.sentence).toContainText(words)
-    // Away from the matrix it stays.
+    await page.mouse.move(5, 5)
+    await figure.settled()
+    expect(await entry(figure), 'what is pointed at is let go').toEqual(before)
+    await page.mouse.click(at.x, at.y)
     await page.mouse.move(5, 5)
     await figure.settled()
     expect(await entry(figure)).toEqual([row, 1])

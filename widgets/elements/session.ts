@@ -16,7 +16,7 @@ export class Session {
   #layout: Layout | undefined
   #changed = false
   #mustTrace = false
-  #followed: { handle: string; value: string } | undefined // what a pointer passes over, and the value to go back to
+  #followed = new Map<string, string>() // what a pointer has changed by passing over it: the values to go back to
   #arrived = false // at what was asked for, at least once
 
   constructor(
@@ -41,7 +41,7 @@ export class Session {
 
   protected perform(command: Command): void | Promise<void> {
     const { figure } = this
-    if (['begin', 'set', 'drag', 'nudge'].includes(command.do)) this.#followed = undefined // what was chosen stays
+    if (['begin', 'set', 'drag', 'nudge'].includes(command.do)) this.#followed.clear() // what was chosen stays
     switch (command.do) {
       case 'begin':
         return this.begin(command, command.changed)
@@ -65,10 +65,10 @@ export class Session {
       case 'drag':
         return this.#move(() => figure.drag(command.handle, ...this.point(command)))
       case 'follow':
-        this.#followed ??= { handle: command.handle, value: this.values[command.handle]! }
-        return this.#move(() => figure.drag(command.handle, ...this.point(command)))
+        return this.#follow(() => figure.drag(command.handle, ...this.point(command)))
       case 'leave':
-        return this.#goBack()
+        for (const [name, value] of this.#followed) this.set(name, value)
+        return this.#followed.clear()
       case 'nudge':
         return this.#move(() => figure.nudge(command.handle, command.right, command.up))
       case 'size':
@@ -218,11 +218,11 @@ export class Session {
     if (this.query !== before) this.#changes()
   }
 
-  #goBack(): void {
-    const followed = this.#followed
-    if (!followed) return
-    this.#followed = undefined
-    this.set(followed.handle, followed.value)
+  #follow(action: () => void): void {
+    const before = this.values
+    this.#move(action)
+    const now = this.values
+    for (const name in before) if (now[name] !== before[name] && !this.#followed.has(name)) this.#followed.set(name, before[name]!)
   }
 
   /** Puts back what is locked, where a reader's link or hand has moved it. */
