@@ -3,7 +3,7 @@ import AxeBuilder from '@axe-core/playwright'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
 
-const open = (page: import('@playwright/test').Page, address = './') => new Figure(page, 'fastslam-conditioning').open(address)
+const open = (page: import('@playwright/test').Page) => new Figure(page, 'fastslam-conditioning').alone()
 
 /** The row and the column of the entry that is named. */
 async function entry(figure: Figure): Promise<[number, number]> {
@@ -161,7 +161,7 @@ test.describe('at rest', () => {
     const link = await figure.element.evaluate((element: HTMLElement & { link: string }) => element.link)
     expect(link).toContain('#fastslam-conditioning?')
     await page.goto('about:blank')
-    const again = await open(page, link)
+    const again = await new Figure(page, 'fastslam-conditioning').open(link)
     expect([await again.readouts(), await entry(again), await again.picture()]).toEqual(before)
   })
 })

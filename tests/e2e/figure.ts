@@ -1,6 +1,7 @@
 // A figure as a reader meets it: found by role and name, never by internals that a reader cannot see.
 import type { Frame, Locator, Page } from '@playwright/test'
 import { expect } from './fixtures'
+import { openCourse } from './host'
 
 /** Keeps the programs back that the page fetches, as a slow network does, until they are let through. */
 export async function holdPrograms(page: Page): Promise<() => void> {
@@ -30,9 +31,9 @@ export class Figure {
 
   constructor(
     readonly page: Page | Frame,
-    selector: string,
+    private readonly tag: string,
   ) {
-    this.element = page.locator(selector)
+    this.element = page.locator(tag)
     this.play = this.button('Play')
     this.pause = this.button('Pause')
     this.step = this.button('Step')
@@ -56,7 +57,15 @@ export class Figure {
     return this.element.evaluate(element => (element as HTMLElement & { state: string }).state)
   }
 
-  /** Opens the page and waits until the figure is live. */
+  /** Opens a page that has this figure and nothing else, as wide as the chapter's text, with a link to its state if need be. */
+  async alone(link = ''): Promise<this> {
+    const page = this.page as Page
+    await openCourse(page, `<main style="max-width: 832px; margin: auto"><${this.tag}></${this.tag}></main>`, { link })
+    await this.live()
+    return this
+  }
+
+  /** Opens the chapter, or what is at an address, and waits until the figure is live. */
   async open(address = './'): Promise<this> {
     await this.page.goto(address)
     await this.element.scrollIntoViewIfNeeded()

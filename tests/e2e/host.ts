@@ -32,7 +32,8 @@ export function sanitised(html: string): string {
 
 /** A page of our own site with this in its body and nothing else; `#…` of a link may follow. */
 export async function openCourse(page: Page, body: string, { link = '', lang = 'en' } = {}): Promise<void> {
-  const html = `<!doctype html><html lang="${lang}"><head><title>Course</title><link rel="icon" href="data:," /><script type="module" src="fastslam.js"></script></head><body>${body}</body></html>`
-  await page.route('**/course', route => route.fulfill({ contentType: 'text/html', body: html }))
+  const html = `<!doctype html><html lang="${lang}"><head><title>Course</title><meta name="viewport" content="width=device-width" /><link rel="icon" href="data:," /><script type="module" src="fastslam.js"></script></head><body>${body}</body></html>`
+  // For whoever opens a link to it as well.
+  await page.context().route('**/course', route => route.fulfill({ contentType: 'text/html', body: html }))
   await page.goto(`./course${link}`)
 }

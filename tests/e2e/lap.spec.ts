@@ -7,7 +7,7 @@ test.describe('at rest', () => {
   test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
   test('it says what it shows before anyone touches it, and does not play by itself', async ({ page }) => {
-    const lap = await new Figure(page, 'fastslam-lap').open()
+    const lap = await new Figure(page, 'fastslam-lap').alone()
     await expect(lap.sentence).toContainText(/\d/)
     expect(Object.keys(await lap.readouts())).toEqual(expect.arrayContaining(['step']))
     const before = await lap.position()
@@ -17,7 +17,7 @@ test.describe('at rest', () => {
   })
 
   test('it plays and pauses', async ({ page }) => {
-    const lap = await new Figure(page, 'fastslam-lap').open()
+    const lap = await new Figure(page, 'fastslam-lap').alone()
     await lap.play.click()
     await expect.poll(() => lap.position()).toBeGreaterThan(2)
     await lap.pause.click()
@@ -29,7 +29,7 @@ test.describe('at rest', () => {
   })
 
   test('it stops at the last step, and plays from the first again', async ({ page }) => {
-    const lap = await new Figure(page, 'fastslam-lap').open()
+    const lap = await new Figure(page, 'fastslam-lap').alone()
     const last = await lap.last()
     await lap.scrubTo(last - 1)
     await lap.play.click()
@@ -41,7 +41,7 @@ test.describe('at rest', () => {
   })
 
   test('a step back shows the same numbers and the same pixels as before the step', async ({ page }) => {
-    const lap = await new Figure(page, 'fastslam-lap').open()
+    const lap = await new Figure(page, 'fastslam-lap').alone()
     await expect(lap.stepBack).toBeDisabled()
     await lap.scrubTo(7)
     const before = [await lap.readouts(), await lap.picture()]
@@ -59,7 +59,7 @@ test.describe('at rest', () => {
   })
 
   test('the timeline is scrubbed by a drag of the pointer', async ({ page }) => {
-    const lap = await new Figure(page, 'fastslam-lap').open()
+    const lap = await new Figure(page, 'fastslam-lap').alone()
     await lap.scrub.scrollIntoViewIfNeeded()
     const box = (await lap.scrub.boundingBox())!
     const y = box.y + box.height / 2
@@ -75,7 +75,7 @@ test.describe('at rest', () => {
 
   for (const name of ['odometry', 'range-std', 'universes']) {
     test(`dragging ${name} simulates anew up to the step shown, and back gives the same numbers`, async ({ page }) => {
-      const lap = await new Figure(page, 'fastslam-lap').open()
+      const lap = await new Figure(page, 'fastslam-lap').alone()
       await lap.openSettings()
       await lap.scrubTo(12)
       const before = await lap.readouts()
@@ -105,7 +105,7 @@ test.describe('at rest', () => {
   }
 
   test('every switch of the filter can be turned, and gives another lap or another picture', async ({ page }) => {
-    const lap = await new Figure(page, 'fastslam-lap').open()
+    const lap = await new Figure(page, 'fastslam-lap').alone()
     await lap.openSettings()
     await lap.scrubTo(25)
     const before = await lap.readouts()
@@ -133,7 +133,7 @@ test.describe('at rest', () => {
   })
 
   test('the seed is re-rolled, shown and typed', async ({ page }) => {
-    const lap = await new Figure(page, 'fastslam-lap').open()
+    const lap = await new Figure(page, 'fastslam-lap').alone()
     await lap.scrubTo(10)
     const [seed, before] = [await lap.seed.inputValue(), await lap.readouts()]
     await lap.reroll.click()
@@ -147,7 +147,7 @@ test.describe('at rest', () => {
   })
 
   test('a universe is chosen by a click and by its list, and the best one again', async ({ page }) => {
-    const lap = await new Figure(page, 'fastslam-lap').open()
+    const lap = await new Figure(page, 'fastslam-lap').alone()
     await lap.scrubTo(20)
     const list = lap.element.locator('select[name=universe]')
     await expect(list).toHaveValue('best')
@@ -170,7 +170,7 @@ test.describe('at rest', () => {
   })
 
   test('Reset goes back to what the page gave', async ({ page }) => {
-    const lap = await new Figure(page, 'fastslam-lap').open()
+    const lap = await new Figure(page, 'fastslam-lap').alone()
     const before = [await lap.readouts(), await lap.seed.inputValue(), await lap.picture()]
     await lap.scrubTo(9)
     await lap.reroll.click()
@@ -180,7 +180,7 @@ test.describe('at rest', () => {
   })
 
   test('data and picture are saved as files', async ({ page }) => {
-    const lap = await new Figure(page, 'fastslam-lap').open()
+    const lap = await new Figure(page, 'fastslam-lap').alone()
     await lap.scrubTo(5)
     const save = async (item: string) => {
       const [file] = await Promise.all([page.waitForEvent('download'), lap.menu(item)])
@@ -201,7 +201,7 @@ test.describe('at rest', () => {
   })
 
   test('events bubble out of the figure with step, values and readouts', async ({ page }) => {
-    const lap = await new Figure(page, 'fastslam-lap').open()
+    const lap = await new Figure(page, 'fastslam-lap').alone()
     await page.evaluate(() => {
       const told: unknown[] = ((window as unknown as { told: unknown[] }).told = [])
       for (const type of ['fastslam-step', 'fastslam-change']) {
@@ -238,7 +238,7 @@ test.describe('where motion is welcome', () => {
 
   test('it plays when first seen, stops out of sight, and does nothing there', async ({ page }) => {
     await page.setViewportSize({ width: 1000, height: 700 })
-    const lap = await new Figure(page, 'fastslam-lap').open()
+    const lap = await new Figure(page, 'fastslam-lap').alone()
     await lap.canvas.evaluate(canvas => canvas.scrollIntoView({ block: 'center', behavior: 'instant' }))
     await expect.poll(() => lap.position()).toBeGreaterThan(3)
     // Away: the page is lengthened so that the figure can leave the window entirely.
@@ -255,7 +255,7 @@ test.describe('where motion is welcome', () => {
   })
 
   test('the first touch of a control ends the autoplay for good', async ({ page }) => {
-    const lap = await new Figure(page, 'fastslam-lap').open()
+    const lap = await new Figure(page, 'fastslam-lap').alone()
     await lap.canvas.evaluate(canvas => canvas.scrollIntoView({ block: 'center', behavior: 'instant' }))
     await lap.pause.click()
     await page.evaluate(() => scrollTo({ top: 0, behavior: 'instant' }))

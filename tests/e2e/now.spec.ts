@@ -129,7 +129,7 @@ test('what is shown while it is on its way is dimmed', async ({ page }) => {
 })
 
 test('Rewind goes to the first step and leaves what was set, and is taken back by Undo', async ({ page }) => {
-  const lap = await new Figure(page, 'fastslam-lap').open('./#fastslam-lap?universes=4&step=9')
+  const lap = await new Figure(page, 'fastslam-lap').alone('#fastslam-lap?universes=4&step=9')
   const [before, state] = [await lap.picture(), await lap.state()]
   await lap.rewind.click()
   expect(await lap.position()).toBe(0)
@@ -143,7 +143,7 @@ test('Rewind goes to the first step and leaves what was set, and is taken back b
 })
 
 test('Reset is taken back by Undo, until something else is done', async ({ page }) => {
-  const lap = await new Figure(page, 'fastslam-lap').open('./#fastslam-lap?universes=4&seed=5&step=9')
+  const lap = await new Figure(page, 'fastslam-lap').alone('#fastslam-lap?universes=4&seed=5&step=9')
   const state = await lap.state()
   await lap.reset.click()
   await lap.settled()

@@ -7,8 +7,7 @@ import { Figure } from './figure'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
-const open = (page: Page, query?: string) =>
-  new Figure(page, 'fastslam-proposal').open(query === undefined ? './' : `./#fastslam-proposal?${query}`)
+const open = (page: Page, query?: string) => new Figure(page, 'fastslam-proposal').alone(query && `#fastslam-proposal?${query}`)
 
 /** The middle of a handle [px of the window]. */
 async function middle(figure: Figure, handle: string): Promise<{ x: number; y: number }> {

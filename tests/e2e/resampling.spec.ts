@@ -4,7 +4,7 @@ import type { Locator, Page } from '@playwright/test'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
 
-const open = (page: Page, address = './') => new Figure(page, 'fastslam-resampling').open(address)
+const open = (page: Page, query?: string) => new Figure(page, 'fastslam-resampling').alone(query && `#fastslam-resampling?${query}`)
 
 /** The step that is read. */
 async function cursor(figure: Figure): Promise<string> {
@@ -41,7 +41,7 @@ function panel(figure: Figure): { start: Locator; stop: Locator; progress: Locat
 const counted = (figure: Figure) => panel(figure).progress.evaluate((bar: HTMLProgressElement) => bar.value)
 
 test('it plays when it is seen, and stops at the end', async ({ page }) => {
-  const figure = await open(page, './#fastslam-resampling?particles=4&step=84')
+  const figure = await open(page, 'particles=4&step=84')
   await figure.play.click()
   await expect.poll(() => figure.position()).toBe(await figure.last())
   await expect(figure.play).toBeVisible()
@@ -68,7 +68,7 @@ test.describe('at rest', () => {
   })
 
   test('the pointer over the curves reads a step until it leaves, a click keeps it, and time takes the cursor along', async ({ page }) => {
-    const figure = await open(page, './#fastslam-resampling?step=60')
+    const figure = await open(page, 'step=60')
     const at = await overCurves(figure, 1 / 3)
     await figure.element.locator('select[name=cursor]').selectOption('now')
     await page.mouse.move(5, 5)
@@ -93,7 +93,7 @@ test.describe('at rest', () => {
   })
 
   test('the cursor takes the focus and moves by arrow keys', async ({ page }) => {
-    const figure = await open(page, './#fastslam-resampling?step=40')
+    const figure = await open(page, 'step=40')
     const [handle, picture] = [figure.handle('cursor'), await figure.picture()]
     await handle.focus()
     await page.keyboard.press('ArrowLeft')
@@ -111,7 +111,7 @@ test.describe('at rest', () => {
   })
 
   test('the loop of ambiguity is another course, and the way back gives the same lap', async ({ page }) => {
-    const figure = await open(page, './#fastslam-resampling?step=50')
+    const figure = await open(page, 'step=50')
     const before = [await figure.readouts(), await figure.last()]
     await figure.toggle('wings').click()
     await figure.settled()
@@ -127,7 +127,7 @@ test.describe('at rest', () => {
 
   for (const name of ['particles', 'threshold', 'odometry', 'range']) {
     test(`dragging ${name} changes the filters, and back gives the same numbers`, async ({ page }) => {
-      const figure = await open(page, './#fastslam-resampling?step=25')
+      const figure = await open(page, 'step=25')
       await figure.expectSliderAndBack(name)
     })
   }
@@ -148,7 +148,7 @@ test.describe('at rest', () => {
     const link = await figure.element.evaluate((element: HTMLElement & { link: string }) => element.link)
     expect(link).toContain('#fastslam-resampling?')
     await page.goto('about:blank')
-    const again = await open(page, link)
+    const again = await new Figure(page, 'fastslam-resampling').open(link)
     expect([await again.readouts(), await cursor(again), await again.picture()]).toEqual(before)
   })
 
@@ -227,7 +227,7 @@ test.describe('at rest', () => {
   for (const colorScheme of ['light', 'dark'] as const) {
     test(`axe finds nothing in it, counted and open, ${colorScheme}`, async ({ page }) => {
       await page.emulateMedia({ colorScheme })
-      const figure = await open(page, './#fastslam-resampling?wings=on&step=80&cursor=70')
+      const figure = await open(page, 'wings=on&step=80&cursor=70')
       await figure.openSettings()
       await panel(figure).runs.selectOption('50')
       await panel(figure).start.click()
@@ -243,7 +243,7 @@ test.describe('at rest', () => {
       const policy = response.headers()['content-security-policy']!.replace("worker-src 'self'", "worker-src 'none'")
       await route.fulfill({ response, headers: { ...response.headers(), 'content-security-policy': policy } })
     })
-    const figure = await open(page)
+    const figure = await new Figure(page, 'fastslam-resampling').open()
     await panel(figure).start.click()
     await expect(panel(figure).said).toContainText('lets nothing run in the background')
     await expect(panel(figure).start).toBeEnabled()
@@ -258,7 +258,7 @@ test.describe('on a phone', () => {
   test.use({ viewport: { width: 380, height: 800 }, hasTouch: true, isMobile: true, contextOptions: { reducedMotion: 'reduce' } })
 
   test('a tap on a curve reads its step, and nothing is wider than the screen', async ({ page }) => {
-    const figure = await open(page, './#fastslam-resampling?step=60')
+    const figure = await open(page, 'step=60')
     expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(380)
     const at = await overCurves(figure, 0.5)
     await page.touchscreen.tap(at.x, at.y)

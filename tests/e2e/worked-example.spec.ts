@@ -7,7 +7,7 @@ test.use({ contextOptions: { reducedMotion: 'reduce' } })
 const tag = 'fastslam-worked-example'
 
 test('as given it says what the chapter says', async ({ page }) => {
-  const figure = await new Figure(page, tag).open()
+  const figure = await new Figure(page, tag).alone()
   const readouts = await figure.readouts()
   expect(readouts['w1']).toContain('2.753451')
   expect(readouts['w2']).toContain('0.863169')
@@ -19,7 +19,7 @@ test('as given it says what the chapter says', async ({ page }) => {
 })
 
 test('a number is typed by keyboard, and Reset takes it back', async ({ page }) => {
-  const figure = await new Figure(page, tag).open()
+  const figure = await new Figure(page, tag).alone()
   await figure.openSettings()
   const [readouts, picture] = [await figure.readouts(), await figure.picture()]
   await figure.box('threshold').focus()
@@ -48,7 +48,7 @@ for (const [name, value, reason] of [
   ['r1', '1e300', /r1 = "1e300": must be a number from 0 to 200 m/],
 ] as const) {
   test(`${name} = "${value}" is refused with its reason, and nothing changes`, async ({ page }) => {
-    const figure = await new Figure(page, tag).open()
+    const figure = await new Figure(page, tag).alone()
     await figure.openSettings()
     const [readouts, before] = [await figure.readouts(), await figure.box(name).inputValue()]
     await figure.box(name).fill(value)
@@ -64,7 +64,7 @@ test.describe('by link', () => {
   test.use({ permissions: ['clipboard-read', 'clipboard-write'] })
 
   test('a copied link opens the very same numbers', async ({ page, context }) => {
-    const figure = await new Figure(page, tag).open()
+    const figure = await new Figure(page, tag).alone()
     await figure.openSettings()
     for (const [name, value] of [
       ['sigma-xy', '0.09'],
@@ -90,7 +90,7 @@ test.describe('on a phone', () => {
   test.use({ viewport: { width: 380, height: 740 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 })
 
   test('the particles stand below each other, and nothing is wider than the screen', async ({ page }) => {
-    const figure = await new Figure(page, tag).open()
+    const figure = await new Figure(page, tag).alone()
     await figure.openSettings()
     expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(380)
     const { width, height } = (await figure.canvas.boundingBox())!
