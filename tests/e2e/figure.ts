@@ -1,7 +1,7 @@
 // A figure as a reader meets it: found by role and name, never by internals that a reader cannot see.
 import type { Frame, Locator, Page } from '@playwright/test'
 import { expect } from './fixtures'
-import { openCourse } from './host'
+import { openAlone } from './host'
 
 /** Keeps the programs back that the page fetches, as a slow network does, until they are let through. */
 export async function holdPrograms(page: Page): Promise<() => void> {
@@ -57,10 +57,9 @@ export class Figure {
     return this.element.evaluate(element => (element as HTMLElement & { state: string }).state)
   }
 
-  /** Opens a page that has this figure and nothing else, as wide as the chapter's text, with a link to its state if need be. */
+  /** Opens a page that has this figure and nothing else, with a link to its state if need be. */
   async alone(link = ''): Promise<this> {
-    const page = this.page as Page
-    await openCourse(page, `<main style="max-width: 832px; margin: auto"><${this.tag}></${this.tag}></main>`, { link })
+    await openAlone(this.page as Page, this.tag, link)
     await this.live()
     return this
   }

@@ -37,3 +37,7 @@ export async function openCourse(page: Page, body: string, { link = '', lang = '
   await page.context().route('**/course', route => route.fulfill({ contentType: 'text/html', body: html }))
   await page.goto(`./course${link}`)
 }
+
+/** A page that has one figure and nothing else, as wide as the chapter's text; the chapter around it would take twice the time. */
+export const openAlone = (page: Page, tag: string, link = ''): Promise<void> =>
+  openCourse(page, `<main style="max-width: 832px; margin: auto"><${tag}></${tag}></main>`, { link })

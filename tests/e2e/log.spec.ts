@@ -7,7 +7,7 @@ import { join } from 'node:path'
 import { gzipSync } from 'node:zlib'
 import { root } from '../../scripts/lib.mjs'
 import { expect, test } from './fixtures'
-import { openCourse } from './host'
+import { openAlone, openCourse } from './host'
 
 const TINY = join(root, 'tests', 'figures', 'golden', 'tiny.clf')
 const INTEL = join(root, '..', 'shared', 'data', 'intel.clf')
@@ -28,8 +28,7 @@ class LogFigure {
   }
 
   async open(): Promise<this> {
-    await this.page.goto('./')
-    await this.element.scrollIntoViewIfNeeded()
+    await openAlone(this.page, 'fastslam-log')
     await this.stage.click() // its program comes when something is asked of it
     await expect(this.element.locator('.stage.live')).toBeVisible()
     return this
