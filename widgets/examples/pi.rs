@@ -2,98 +2,58 @@
 //!
 //! `cargo run -p fastslam-widgets --example pi` tells what it shows.
 
-use fastslam_widgets::{
-    decimal::fixed,
-    fastslam::random::{Purpose, Stream},
-    field,
-    figure::Figure,
-    model::{Column, Declared, FigureError, Model, Readout, Series},
-    recipe::{Param, Recipe},
-    scene::{Mark, Plane, Rect, Role, Scene, closed, cloud, ellipse},
-    view::View,
-};
-use std::sync::LazyLock;
+use fastslam_widgets::fastslam::random::{Purpose, Stream};
+use fastslam_widgets::prelude::*;
 
-/// Everything that a link can say.
+/// Everything that a link can say. There is no state besides: it is the model, too.
 #[derive(Clone, PartialEq)]
-struct Throws {
-    darts: usize,
+struct Darts {
+    darts: u32,
     seed: u64,
 }
 
-impl Default for Throws {
+impl Default for Darts {
     fn default() -> Self {
         Self { darts: 500, seed: 1 }
     }
 }
 
-impl Recipe for Throws {
-    fn table() -> &'static [Param<Self>] {
-        type P = Param<Throws>;
-        static TABLE: LazyLock<Vec<P>> = LazyLock::new(|| {
-            vec![
-                P::integer("darts", "Darts", "", (1, 5000), field!(darts), "How many darts are thrown."),
-                P::seed(field!(seed), "Picks where they land."),
-            ]
-        });
-        &TABLE
+impl Recipe for Darts {
+    fn table() -> Vec<Param<Self>> {
+        vec![
+            Param::integer("darts", "Darts", "", (1, 5000), field!(darts), "How many darts are thrown."),
+            Param::seed(field!(seed), "Picks where they land."),
+        ]
     }
 }
 
-/// State, readouts, sentence and data: no pixels.
-#[derive(Default)]
-struct Darts {
-    recipe: Throws,
+impl Stateless for Darts {
+    const TITLE: &'static str = "π by darts";
 }
 
 impl Darts {
     fn landed(&self) -> Vec<[f64; 2]> {
         let dart = |k| {
-            let mut stream = Stream::at(self.recipe.seed, Purpose::TRIAL, k as u32, 0);
+            let mut stream = Stream::at(self.seed, Purpose::TRIAL, k, 0);
             [0, 1].map(|_| 2.0 * stream.uniform() - 1.0)
         };
-        (0..self.recipe.darts).map(dart).collect()
+        (0..self.darts).map(dart).collect()
     }
 
     fn pi(&self) -> f64 {
         let inside = self.landed().iter().filter(|[x, y]| x * x + y * y < 1.0).count();
-        4.0 * inside as f64 / self.recipe.darts as f64
+        4.0 * inside as f64 / f64::from(self.darts)
     }
 }
 
-impl Declared for Darts {
-    type Recipe = Throws;
-    const TITLE: &'static str = "π by darts";
-
-    fn recipe(&self) -> &Throws {
-        &self.recipe
-    }
-
-    fn adopt(&mut self, recipe: Throws) -> Result<(), FigureError> {
-        self.recipe = recipe;
-        Ok(())
-    }
-}
-
+/// Readouts and a sentence: no pixels.
 impl Model for Darts {
     fn readouts(&self) -> Vec<Readout> {
-        vec![Readout::new(
-            "pi",
-            "π",
-            self.pi(),
-            fixed(self.pi(), 3),
-            "",
-            "Four times the share of darts in the circle.",
-        )]
-    }
-
-    fn series(&self) -> Series {
-        const COLUMNS: &[Column] = &[Column::new("x", "where a dart landed"), Column::new("y", "where it landed")];
-        Series { columns: COLUMNS, rows: self.landed().into_iter().map(Vec::from).collect() }
+        vec![Readout::new("pi", "π", self.pi(), fixed(self.pi(), 3), "", "Four times the share in the circle.")]
     }
 
     fn describe(&self) -> String {
-        format!("{} darts say that π is {}.", self.recipe.darts, fixed(self.pi(), 3))
+        format!("{} darts say that π is {}.", self.darts, fixed(self.pi(), 3))
     }
 }
 
@@ -103,18 +63,18 @@ struct DartsView;
 
 impl View for DartsView {
     type Model = Darts;
-    const NARROWEST: f64 = 200.0;
+    type Layout = Rect;
 
-    fn layout_height(&self, width: f64) -> f64 {
-        0.6 * width.max(Self::NARROWEST)
+    fn layout(width: f64, _: &Panels) -> Rect {
+        Rect::new(0.0, 0.0, width, 0.6 * width)
     }
 
-    fn draw(&self, model: &Darts, scene: &mut Scene) {
-        let area = Rect::new(0.0, 0.0, scene.width, scene.height);
-        let plane = Plane::around(area, [[-1.0; 2], [1.0; 2]], 8.0);
-        let circle = closed(ellipse(plane.point([0.0; 2]), [[1.0, 0.0], [0.0, 1.0]], plane.scale));
-        scene.marks.push(cloud(model.landed().into_iter().map(|dart| plane.point(dart)), &area, 1.5, Role::Prior));
-        scene.marks.push(Mark::Lines { lines: vec![circle], width: 2.0, dash: None, role: Role::Ink });
+    fn draw(&self, model: &Darts, area: &Rect, scene: &mut Scene) {
+        let plane = Plane::around(*area, [[-1.0; 2], [1.0; 2]], 8.0);
+        let landed = model.landed().into_iter().map(|dart| plane.point(dart));
+        scene.marks.push(cloud(landed, area, 1.5, Role::Prior));
+        let lines = plane.region([0.0; 2], [[1.0, 0.0], [0.0, 1.0]], 1.0);
+        scene.marks.push(Mark::Lines { lines, width: 2.0, dash: None, role: Role::Ink });
     }
 }
 

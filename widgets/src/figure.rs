@@ -75,8 +75,7 @@ impl Figure {
 
     /// Current values by name, in the order of the parameters.
     pub fn values(&self) -> Entries<String> {
-        let names = self.model().params().into_iter().map(|p| p.name);
-        Entries(names.filter_map(|name| Some((name, self.model().value(name)?))).collect())
+        Entries(self.model().values())
     }
 
     /// Gives a parameter a new value.
@@ -259,7 +258,8 @@ fn in_scene(point: Point, scale: f64) -> Point {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Declared, Series};
+    use crate::model::Declared;
+    use crate::panels::Panels;
     use crate::recipe::{Param, Recipe};
     use std::{cell::RefCell, rc::Rc};
 
@@ -274,8 +274,8 @@ mod tests {
     struct Nothing;
 
     impl Recipe for Nothing {
-        fn table() -> &'static [Param<Self>] {
-            &[]
+        fn table() -> Vec<Param<Self>> {
+            Vec::new()
         }
     }
 
@@ -294,9 +294,6 @@ mod tests {
         fn readouts(&self) -> Vec<Readout> {
             vec![Readout::new("x", "x", f64::NAN, "NaN", "m", "")]
         }
-        fn series(&self) -> Series {
-            Series { columns: &[], rows: Vec::new() }
-        }
         fn describe(&self) -> String {
             "A point.".into()
         }
@@ -307,17 +304,17 @@ mod tests {
 
     impl View for OnePointView {
         type Model = OnePoint;
-        const NARROWEST: f64 = 300.0;
-        fn layout_height(&self, width: f64) -> f64 {
-            0.5 * width.max(Self::NARROWEST)
+        type Layout = Rect;
+        fn layout(width: f64, _: &Panels) -> Rect {
+            Rect::new(0.0, 0.0, width, 0.5 * width)
         }
-        fn draw(&self, _: &OnePoint, scene: &mut Scene) {
+        fn draw(&self, _: &OnePoint, _: &Rect, scene: &mut Scene) {
             let hover = Some(Rect::new(30.0, 60.0, 90.0, 30.0));
             let (name, title, text) = ("point", "The point".into(), "3 m east".into());
             scene.handles.push(Handle { name, title, at: [150.0, 75.0], value: 3.0, text, hover });
         }
-        fn drag(&self, model: &mut OnePoint, handle: &str, to: Point, width: f64) {
-            model.told.borrow_mut().push(format!("{handle} to {to:?} of {width}"));
+        fn drag(&self, model: &mut OnePoint, layout: &Rect, handle: &str, to: Point) {
+            model.told.borrow_mut().push(format!("{handle} to {to:?} of {}", layout.w));
         }
         fn nudge(&self, model: &mut OnePoint, handle: &str, steps: [f64; 2]) {
             model.told.borrow_mut().push(format!("{handle} by {steps:?}"));

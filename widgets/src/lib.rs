@@ -23,6 +23,7 @@ pub mod paint;
 pub mod panels;
 pub mod param;
 mod policy;
+pub mod prelude;
 #[cfg(feature = "page")]
 pub mod proposal;
 mod query;

@@ -10,6 +10,7 @@ use crate::recipe::{self, Recipe};
 use core::fmt;
 use fastslam::error::SettingError;
 use serde::Serialize;
+use std::borrow::Cow;
 
 /// Why a value was refused: the parameter, and one line that names it, what was given and what is allowed.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -125,7 +126,7 @@ impl Column {
 #[derive(Clone, PartialEq, Debug)]
 pub struct Series {
     /// What the values of a row are.
-    pub columns: &'static [Column],
+    pub columns: Cow<'static, [Column]>,
     /// One row a step.
     pub rows: Vec<Vec<f64>>,
 }
@@ -162,6 +163,26 @@ pub trait Declared {
     }
 }
 
+/// A figure that has no state besides its parameters: it is its own recipe, and there is nothing to simulate.
+pub trait Stateless: Recipe {
+    /// Title for readers.
+    const TITLE: &'static str;
+}
+
+impl<M: Stateless> Declared for M {
+    type Recipe = M;
+    const TITLE: &'static str = <M as Stateless>::TITLE;
+
+    fn recipe(&self) -> &M {
+        self
+    }
+
+    fn adopt(&mut self, recipe: M) -> Result<(), FigureError> {
+        *self = recipe;
+        Ok(())
+    }
+}
+
 /// The title and the parameters of any model, by name and as text: what attributes, controls and links need.
 pub trait Parameters {
     /// Title for readers.
@@ -173,8 +194,13 @@ pub trait Parameters {
     /// All parameters with their ranges as they are now (the last step and the number of slots depend on the setup).
     fn params(&self) -> Vec<ParamSpec>;
 
-    /// Current value of a parameter, as text that [`Parameters::configure`] takes; `None` for a name it does not know.
-    fn value(&self, name: &str) -> Option<String>;
+    /// Current values of all parameters by name, as text that [`Parameters::configure`] takes.
+    fn values(&self) -> Vec<(&'static str, String)>;
+
+    /// Current value of a parameter; `None` for a name it does not know.
+    fn value(&self, name: &str) -> Option<String> {
+        self.values().into_iter().find(|(known, _)| *known == name).map(|(_, value)| value)
+    }
 
     /// Gives several parameters new values at once, rebuilding once. What is refused is returned and changes nothing; the
     /// rest is applied. Values of the setup come first, whatever their order.
@@ -197,8 +223,8 @@ impl<M: Declared> Parameters for M {
         recipe::specs(self.recipe())
     }
 
-    fn value(&self, name: &str) -> Option<String> {
-        recipe::value(self.recipe(), name)
+    fn values(&self) -> Vec<(&'static str, String)> {
+        recipe::values(self.recipe())
     }
 
     fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
@@ -240,8 +266,12 @@ pub trait Model: Parameters {
     /// The numbers of the state shown.
     fn readouts(&self) -> Vec<Readout>;
 
-    /// Measured data of every step simulated so far.
-    fn series(&self) -> Series;
+    /// Measured data of every step simulated so far; of a figure without a timeline, one row: its readouts.
+    fn series(&self) -> Series {
+        let readouts = self.readouts();
+        let columns = readouts.iter().map(|readout| Column::new(readout.name, readout.help)).collect();
+        Series { columns, rows: vec![readouts.iter().map(|readout| readout.value.unwrap_or(f64::NAN)).collect()] }
+    }
 
     /// One or two sentences that tell what is shown now.
     fn describe(&self) -> String;

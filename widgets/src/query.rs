@@ -16,10 +16,9 @@ const VERSION: &str = "v";
 pub fn write(model: &dyn Model) -> String {
     let version = model.changes().len() + 1;
     let mut pairs: Vec<String> = (version > 1).then(|| format!("{VERSION}={version}")).into_iter().collect();
-    for spec in model.params() {
-        match model.value(spec.name) {
-            Some(value) if value != spec.default => pairs.push(format!("{}={}", spec.name, encode(&value))),
-            _ => (),
+    for (spec, (name, value)) in model.params().into_iter().zip(model.values()) {
+        if value != spec.default {
+            pairs.push(format!("{name}={}", encode(&value)));
         }
     }
     pairs.join("&")

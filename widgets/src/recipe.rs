@@ -5,7 +5,6 @@
 //!
 //! ```
 //! use fastslam_widgets::{field, recipe::{Param, Recipe, with}};
-//! use std::sync::LazyLock;
 //!
 //! #[derive(Clone, PartialEq, Default)]
 //! struct Walk {
@@ -13,11 +12,8 @@
 //! }
 //!
 //! impl Recipe for Walk {
-//!     fn table() -> &'static [Param<Self>] {
-//!         type P = Param<Walk>;
-//!         static TABLE: LazyLock<Vec<P>> =
-//!             LazyLock::new(|| vec![P::integer("steps", "Steps", "", (0, 9), field!(steps), "How far it goes.")]);
-//!         &TABLE
+//!     fn table() -> Vec<Param<Self>> {
+//!         vec![Param::integer("steps", "Steps", "", (0, 9), field!(steps), "How far it goes.")]
 //!     }
 //! }
 //!
@@ -113,8 +109,8 @@ impl<T: 'static> Menu<T> {
     }
 }
 
-type Get<R> = Box<dyn Fn(&R) -> Value + Send + Sync>;
-type Set<R> = Box<dyn Fn(&mut R, Value) + Send + Sync>;
+type Get<R> = Box<dyn Fn(&R) -> Value>;
+type Set<R> = Box<dyn Fn(&mut R, Value)>;
 
 /// A row of a figure's table: a parameter, and where its recipe holds it.
 pub struct Param<R> {
@@ -128,7 +124,7 @@ pub struct Param<R> {
 /// Everything that a link can say of a figure, and nothing else.
 pub trait Recipe: Clone + PartialEq + Default + 'static {
     /// A row for each parameter. The range of one may depend on those above it.
-    fn table() -> &'static [Param<Self>];
+    fn table() -> Vec<Param<Self>>;
 
     /// Refuses values that are each in range but do not go together: they become what they were `before`.
     fn refuse(&mut self, _before: &Self) -> Vec<FigureError> {
@@ -208,7 +204,7 @@ impl<R: Recipe> Param<R> {
     }
 
     /// One of some words.
-    pub fn choice<T: PartialEq + Copy + Send + Sync + 'static>(
+    pub fn choice<T: PartialEq + Copy + 'static>(
         name: &'static str,
         title: &'static str,
         Menu { choices, meanings }: Menu<T>,
@@ -288,17 +284,16 @@ pub fn specs<R: Recipe>(recipe: &R) -> Vec<ParamSpec> {
     R::table().iter().map(|param| param.spec(recipe)).collect()
 }
 
-/// A parameter's value as text; `None` for a name that no parameter has.
-pub fn value<R: Recipe>(recipe: &R, name: &str) -> Option<String> {
-    let param = R::table().iter().find(|param| param.spec.name == name)?;
-    Some(param.spec.text((param.get)(recipe)))
+/// The values of all parameters by name, as text.
+pub fn values<R: Recipe>(recipe: &R) -> Vec<(&'static str, String)> {
+    R::table().iter().map(|param| (param.spec.name, param.spec.text((param.get)(recipe)))).collect()
 }
 
 /// The recipe with these values by name, and what was refused of them. Row by row, whatever the order of the values: a row finds the ones
 /// above it as they will be, and what no longer fits to them is brought into its range.
 pub fn with<R: Recipe>(before: &R, values: &[(String, String)]) -> (R, Vec<FigureError>) {
-    let (mut recipe, mut refused) = (before.clone(), Vec::new());
-    for param in R::table() {
+    let (table, mut recipe, mut refused) = (R::table(), before.clone(), Vec::new());
+    for param in &table {
         param.confine(&mut recipe);
         let spec = param.spec(&recipe);
         for (_, text) in values.iter().filter(|(name, _)| name == spec.name) {
@@ -309,7 +304,7 @@ pub fn with<R: Recipe>(before: &R, values: &[(String, String)]) -> (R, Vec<Figur
         }
     }
     refused.extend(recipe.refuse(before));
-    let known = |name: &str| R::table().iter().any(|param| param.spec.name == name);
+    let known = |name: &str| table.iter().any(|param| param.spec.name == name);
     let others = values.iter().filter(|(name, _)| !known(name));
     refused.extend(others.map(|(name, _)| unknown(name, &specs(&recipe))));
     (recipe, refused)

@@ -13,6 +13,7 @@ use crate::{
 use crate::{
     job::Job,
     model::Declared,
+    panels::Panels,
     view::{Shown, Shows, View},
 };
 
@@ -47,7 +48,7 @@ impl Entry {
     /// The row of a figure: its title, its height and all else follow from what it is.
     const fn of<V: View>(tag: &'static str, program: Program, count: Option<&'static Job>) -> Self {
         let make = || Box::new(Shows::<V>::default()) as Box<dyn Shown>;
-        let height = |width| V::default().height(width);
+        let height = |width| V::height(width, &Panels::default());
         Self { tag, title: <V::Model as Declared>::TITLE, program, count, panels: V::PANELS, height, make }
     }
 }

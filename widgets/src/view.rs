@@ -3,7 +3,7 @@
 use crate::{
     model::{Declared, FigureError, Model},
     panels::Panels,
-    scene::{Point, Scene},
+    scene::{Point, Rect, Scene},
 };
 
 /// The picture of a model: its layout, what is drawn, what can be clicked and what can be dragged. One without handles leaves them out.
@@ -13,33 +13,34 @@ pub trait View: Default + 'static {
     /// What it shows.
     type Model: Declared + Model + Default + 'static;
 
+    /// Where its parts stand; a [`Rect`], if it is one piece.
+    type Layout: Layout;
+
     /// Narrowest width that is laid out; below, the figure is made smaller as a whole.
-    const NARROWEST: f64;
+    const NARROWEST: f64 = 300.0;
 
     /// Names of the parts that can be shown by themselves; none for a picture that is one piece.
     const PANELS: &'static [&'static str] = &[];
 
-    /// Shows these parts, and no others.
-    fn show(&mut self, _panels: Panels) {}
-
-    /// Height of the layout at a width. Does not depend on the state, so that nothing below a figure ever jumps.
-    fn layout_height(&self, width: f64) -> f64;
+    /// Where the parts stand in a scene of this width; those that are not shown have no height. Does not depend on the state, so that
+    /// nothing below a figure ever jumps.
+    fn layout(width: f64, panels: &Panels) -> Self::Layout;
 
     /// Draws into a scene that has its size and its description, and nothing else yet.
-    fn draw(&self, model: &Self::Model, scene: &mut Scene);
+    fn draw(&self, model: &Self::Model, layout: &Self::Layout, scene: &mut Scene);
 
     /// Chooses a thing drawn ([`crate::scene::Region::target`]), or lets go of it if it was chosen.
     fn pick(&self, _model: &mut Self::Model, _target: u32) {}
 
-    /// Moves a handle ([`crate::scene::Handle::name`]) to a point of a scene of this width, or as near to it as the ranges of its
-    /// parameters allow. Only parameters move: a page takes no notice of a drag after which the link is the same.
-    fn drag(&self, _model: &mut Self::Model, _handle: &str, _to: Point, _width: f64) {}
+    /// Moves a handle ([`crate::scene::Handle::name`]) to a point of the layout, or as near to it as the ranges of its parameters
+    /// allow. Only parameters move: a page takes no notice of a drag after which the link is the same.
+    fn drag(&self, _model: &mut Self::Model, _layout: &Self::Layout, _handle: &str, _to: Point) {}
 
     /// Moves a handle right and up by steps of its parameters: 1 for an arrow key, 10 for a coarse one, 0.1 for a fine one.
     fn nudge(&self, _model: &mut Self::Model, _handle: &str, _steps: [f64; 2]) {}
 
     /// How its picture is magnified and moved, if it can be.
-    fn navigation(&mut self) -> Option<&mut dyn Navigation<Self::Model>> {
+    fn navigation(&mut self) -> Option<&mut dyn Navigation<Self>> {
         None
     }
 
@@ -48,17 +49,31 @@ pub trait View: Default + 'static {
         width.max(Self::NARROWEST)
     }
 
-    /// Height that a figure of this width wants: narrower than the layout goes, it is made smaller as a whole.
-    fn height(&self, width: f64) -> f64 {
-        self.layout_height(width) * (width / Self::scene_width(width))
+    /// Height that a figure of this width wants with these panels: narrower than the layout goes, it is made smaller as a whole.
+    fn height(width: f64, panels: &Panels) -> f64 {
+        let scene_width = Self::scene_width(width);
+        Self::layout(scene_width, panels).height() * (width / scene_width)
     }
 
-    /// What is to be seen at this size, or where that is less than the layout takes, at that.
-    fn scene(&self, model: &Self::Model, width: f64, height: f64) -> Scene {
-        let height = height.max(self.layout_height(width));
-        let mut scene = Scene::new(Self::scene_width(width), height, model.describe());
-        self.draw(model, &mut scene);
+    /// What is to be seen of these panels at this size, or where that is less than the layout takes, at that.
+    fn scene(&self, model: &Self::Model, panels: &Panels, width: f64, height: f64) -> Scene {
+        let width = Self::scene_width(width);
+        let layout = Self::layout(width, panels);
+        let mut scene = Scene::new(width, height.max(layout.height()), model.describe());
+        self.draw(model, &layout, &mut scene);
         scene
+    }
+}
+
+/// Where the parts of a picture stand.
+pub trait Layout {
+    /// How high they are together \[css px\].
+    fn height(&self) -> f64;
+}
+
+impl Layout for Rect {
+    fn height(&self) -> f64 {
+        self.bottom()
     }
 }
 
@@ -68,12 +83,12 @@ pub fn whole_step(steps: f64) -> f64 {
 }
 
 /// Looking nearer and elsewhere. What is looked at is no part of the recipe.
-pub trait Navigation<M> {
-    /// Magnifies the picture about a point of a scene of this width, or about its middle.
-    fn zoom(&mut self, model: &M, factor: f64, at: Option<Point>, width: f64);
+pub trait Navigation<V: View> {
+    /// Magnifies the picture about a point of the layout, or about its middle.
+    fn zoom(&mut self, model: &V::Model, layout: &V::Layout, factor: f64, at: Option<Point>);
 
     /// Moves the picture right and down.
-    fn pan(&mut self, model: &M, by: Point, width: f64);
+    fn pan(&mut self, model: &V::Model, layout: &V::Layout, by: Point);
 
     /// Shows the whole again.
     fn fit(&mut self);
@@ -96,15 +111,16 @@ pub(crate) trait Shown {
     fn fit(&mut self);
 }
 
-/// A view with the model that it shows.
+/// A view with the model that it shows, and the panels that are shown of it.
 pub(crate) struct Shows<V: View> {
     pub model: V::Model,
     pub view: V,
+    panels: Panels,
 }
 
 impl<V: View> Default for Shows<V> {
     fn default() -> Self {
-        Self { model: V::Model::default(), view: V::default() }
+        Self { model: V::Model::default(), view: V::default(), panels: Panels::default() }
     }
 }
 
@@ -122,7 +138,7 @@ impl<V: View> Shown for Shows<V> {
     }
 
     fn show(&mut self, names: &str) -> Result<(), FigureError> {
-        self.view.show(Panels::named(names, V::PANELS)?);
+        self.panels = Panels::named(names, V::PANELS)?;
         Ok(())
     }
 
@@ -131,11 +147,11 @@ impl<V: View> Shown for Shows<V> {
     }
 
     fn height(&self, width: f64) -> f64 {
-        self.view.height(width)
+        V::height(width, &self.panels)
     }
 
     fn scene(&self, width: f64, height: f64) -> Scene {
-        self.view.scene(&self.model, width, height)
+        self.view.scene(&self.model, &self.panels, width, height)
     }
 
     fn pick(&mut self, target: u32) {
@@ -143,7 +159,7 @@ impl<V: View> Shown for Shows<V> {
     }
 
     fn drag(&mut self, handle: &str, to: Point, width: f64) {
-        self.view.drag(&mut self.model, handle, to, width);
+        self.view.drag(&mut self.model, &V::layout(width, &self.panels), handle, to);
     }
 
     fn nudge(&mut self, handle: &str, steps: [f64; 2]) {
@@ -152,13 +168,13 @@ impl<V: View> Shown for Shows<V> {
 
     fn zoom(&mut self, factor: f64, at: Option<Point>, width: f64) {
         if let Some(navigation) = self.view.navigation() {
-            navigation.zoom(&self.model, factor, at, width);
+            navigation.zoom(&self.model, &V::layout(width, &self.panels), factor, at);
         }
     }
 
     fn pan(&mut self, by: Point, width: f64) {
         if let Some(navigation) = self.view.navigation() {
-            navigation.pan(&self.model, by, width);
+            navigation.pan(&self.model, &V::layout(width, &self.panels), by);
         }
     }
 

@@ -9,6 +9,7 @@ use fastslam_widgets::{
     job,
     lap::{LapModel, LapView, Layout},
     model::{Model, Parameters},
+    panels::Panels,
     scene::Mark,
     view::View,
 };
@@ -130,7 +131,7 @@ fn extinction_is_told_in_words_marks_and_data() {
     assert!(!extinct.is_empty() && extinct.len() < 16);
     let told = format!("{} of 16 died out", extinct.len());
     assert!(model.describe().contains(&told), "{}", model.describe());
-    let scene = LapView::default().scene(&model, 800.0, LapView::default().height(800.0));
+    let scene = LapView.scene(&model, &Panels::default(), 800.0, 0.0);
     let texts: Vec<&str> =
         scene.marks.iter().filter_map(|m| if let Mark::Text(t) = m { Some(t.text.as_str()) } else { None }).collect();
     assert!(texts.contains(&format!("Resampled: {told}").as_str()), "{texts:?}");

@@ -38,7 +38,7 @@ fn text(figure: &Figure, name: &str) -> String {
 
 /// Widths and numbers of the paths of a role on the map.
 fn strands(scene: &Scene, role: Role) -> Vec<(f64, usize)> {
-    let map = Layout::new(scene.width).map;
+    let map = Layout::new(scene.width).map.unwrap();
     let of = |mark: &Mark| match mark {
         Mark::Lines { lines, width, role: r, .. } if *r == role => {
             let lines = lines.iter().filter(|line| map.contains(line[0])).count();
@@ -242,7 +242,7 @@ fn all_universes_are_drawn_and_those_that_died_fade_and_go() {
 #[test]
 fn the_map_stays_in_its_frame_however_it_is_magnified() {
     for width in [340.0, 800.0] {
-        let layout = Layout::new(width);
+        let map = Layout::new(width).map.unwrap();
         let mut figure = mapped(QUICK, 20);
         figure.paint(width as u32, figure.height(width) as u32, 1.0, Default::default());
         let whole = cells(&scene(&figure, width));
@@ -253,15 +253,15 @@ fn the_map_stays_in_its_frame_however_it_is_magnified() {
         assert!(near.1 < whole.1 / 8, "{} of {} cells", near.1, whole.1);
         // Cells reach over the edge by one at the most, and paper lies over what does.
         let side = near.0.w / (near.0.w * near.0.h / near.1 as f64).sqrt().round();
-        assert!(layout.map.inset(-1.01 * near.0.w / side.max(1.0)).overlaps(&near.0));
+        assert!(map.inset(-1.01 * near.0.w / side.max(1.0)).overlaps(&near.0));
         let marks = scene(&figure, width).marks;
         let last = marks.iter().rposition(|m| matches!(m, Mark::Raster { area, .. } if *area == near.0)).unwrap();
         let paper = marks[last..].iter().filter_map(|m| match m {
-            Mark::Fill { area, role: Role::Paper } if !layout.map.overlaps(area) => Some(area.w * area.h),
+            Mark::Fill { area, role: Role::Paper } if !map.overlaps(area) => Some(area.w * area.h),
             _ => None,
         });
         let figure_area = width * figure.height(width);
-        assert!((paper.sum::<f64>() - (figure_area - layout.map.w * layout.map.h)).abs() < 2.0 * width);
+        assert!((paper.sum::<f64>() - (figure_area - map.w * map.h)).abs() < 2.0 * width);
         // Far away nothing is left, and nothing breaks.
         figure.pan(1e7, -1e9, width);
         figure.zoom(1e-9, 0.0, 0.0, width);

@@ -5,6 +5,7 @@ mod common;
 use common::{assert_texts_fit, figure, scene, state};
 use fastslam_widgets::{
     figure::Figure,
+    panels::Panels,
     proposal::{Layout, ProposalView},
     scene::{Mark, Rect},
     view::View,
@@ -219,7 +220,7 @@ fn samples_outlines_and_densities_stay_in_their_panels() {
 fn the_height_depends_on_the_width_only() {
     for width in [100.0, 340.0, 640.0, 1280.0] {
         for query in STATES {
-            assert_eq!(proposal(query).height(width), ProposalView.height(width));
+            assert_eq!(proposal(query).height(width), ProposalView::height(width, &Panels::default()));
         }
     }
 }

@@ -8,6 +8,7 @@ use fastslam_widgets::{
     figure::Figure,
     job,
     model::{Model, Parameters},
+    panels::Panels,
     resampling::{Layout, ResamplingModel, ResamplingView},
     scene::{Mark, Point, Rect, Role, Scene, Text},
     view::View,
@@ -97,7 +98,7 @@ fn the_common_ancestor_is_ringed_and_its_step_told_where_there_is_one() {
             query.split('&').filter_map(|p| p.split_once('=')).map(|(n, v)| (n.into(), v.into())).collect();
         assert_eq!(model.configure(&link), []);
         model.settle();
-        let scene = ResamplingView::default().scene(&model, 1000.0, ResamplingView::default().height(1000.0));
+        let scene = ResamplingView.scene(&model, &Panels::default(), 1000.0, 0.0);
         for (policy, column) in Layout::new(1000.0).columns.iter().enumerate() {
             let coalescence = model.now(policy).report.descent.coalescence();
             let told = texts(&scene).into_iter().find(|t| column.axis.encloses(&t.area) && t.role == Role::Ink);

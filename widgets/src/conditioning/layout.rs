@@ -1,7 +1,16 @@
 //! Where the parts of the figure stand: the graph beside the matrix where there is room, above it on a phone.
 
-use crate::scene::{LINE, Rect};
+use crate::{
+    panels::Panels,
+    scene::{LINE, Rect, Stack},
+    view,
+};
 use fastslam_lab::experiment::conditioning::SIZE;
+
+/// Names of the panels: the graph, and the covariance of the map.
+pub const GRAPH: &str = "graph";
+/// See [`GRAPH`].
+pub const MATRIX: &str = "matrix";
 
 /// What is shown around the place \[m\]: what is known of a landmark at its edge reaches beyond.
 pub const MARGIN: f64 = 0.5;
@@ -19,10 +28,14 @@ const GUTTER: [f64; 2] = [26.0, 16.0];
 /// Right of the matrix, for the frame of an entry at its edge.
 const RING: f64 = 4.0;
 const NOTES: f64 = 5.0 * LINE;
+/// Largest side of a matrix that is shown alone: all of a wide figure would be more than a screen is high.
+const ALONE: f64 = 380.0;
 
 /// The parts of the figure \[css px\].
 #[derive(Clone, PartialEq, Debug)]
 pub struct Layout {
+    /// Which panels are shown.
+    pub panels: Panels,
     /// What is known of the path.
     pub graph_header: Rect,
     /// Poses, landmarks and what connects them.
@@ -44,36 +57,75 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// For a figure of this width.
+    /// Of all panels, for a figure of this width.
     pub fn new(width: f64) -> Self {
+        Self::of(width, &Panels::default())
+    }
+
+    /// Of some panels: those that are not shown have no height.
+    pub fn of(width: f64, panels: &Panels) -> Self {
         let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
+        let [graph, matrix] = [GRAPH, MATRIX].map(|name| panels.has(name));
         let [across, up] = SIZE.map(|side| side + 2.0 * MARGIN);
         let aspect = across / up;
-        let wide = width >= WIDE;
+        let (wide, both) = (width >= WIDE, graph && matrix);
         let legend_height = if width < 340.0 { 3.0 } else { 2.0 } * LINE;
         let gap = 28.0;
         // Side by side, both columns end at the same height: g / aspect + below the graph = m + around the matrix.
         let excess = GUTTER[1] - GUTTER[0] - RING + NOTES - legend_height;
-        let graph_width = if wide { ((width - gap + excess) / (1.0 + 1.0 / aspect)).floor() } else { width };
-        let graph_header = Rect::new(0.0, 0.0, graph_width, HEADER);
-        let graph = Rect::new(0.0, HEADER, graph_width, graph_width / aspect);
-        let legend = Rect::new(0.0, graph.bottom() + PAD, graph_width, legend_height);
-        let (x, y) = if wide { (graph_width + gap, 0.0) } else { (0.0, legend.bottom() + PAD) };
-        let matrix_header = Rect::new(x, y, width - x, HEADER);
-        let side = matrix_header.w - GUTTER[0] - RING;
+        let graph_width = if wide && both { ((width - gap + excess) / (1.0 + 1.0 / aspect)).floor() } else { width };
+        let mut column = Stack::new(0.0, graph_width);
+        let graph_header = column.take(graph, HEADER, 0.0);
+        let graph_area = column.take(graph, graph_width / aspect, PAD);
+        let legend = column.take(graph, legend_height, PAD);
+        if wide && both {
+            let x = graph_width + gap;
+            column = Stack::new(x, width - x);
+        }
+        if !graph {
+            column.w = column.w.min(GUTTER[0] + ALONE + RING);
+        }
+        let side = column.w - GUTTER[0] - RING;
+        let matrix_header = column.take(matrix, HEADER, 0.0);
+        let names = column.take(matrix, GUTTER[1], 0.0);
+        let Rect { x, y, h, .. } = column.take(matrix, side, PAD);
         // A name may be wider than its block: there is room at both ends.
-        let columns = Rect::new(x + GUTTER[0] - 10.0, matrix_header.bottom(), side + 10.0 + RING, GUTTER[1]);
-        let rows = Rect::new(x, columns.bottom(), GUTTER[0], side);
-        let matrix = Rect::new(rows.right(), rows.y, side, side);
-        let notes = Rect::new(x, matrix.bottom() + PAD, matrix_header.w, NOTES);
-        let height = legend.bottom().max(notes.bottom()).ceil();
-        Self { graph_header, graph, legend, matrix_header, columns, rows, matrix, notes, height }
+        let columns = Rect::new(x + GUTTER[0] - 10.0, names.y, side + 10.0 + RING, names.h);
+        let rows = Rect::new(x, y, GUTTER[0], h);
+        let matrix_area = Rect::new(rows.right(), y, side, h);
+        if !graph && wide {
+            // Alone, it leaves room for its notes.
+            let x = matrix_header.right() + gap;
+            column = Stack { x, y, w: width - x };
+        }
+        let notes = column.take(matrix, NOTES, 0.0);
+        let mut layout = Self {
+            panels: panels.clone(),
+            graph_header,
+            graph: graph_area,
+            legend,
+            matrix_header,
+            columns,
+            rows,
+            matrix: matrix_area,
+            notes,
+            height: 0.0,
+        };
+        let shown = layout.parts().into_iter().filter(|part| part.h > 0.0);
+        layout.height = shown.map(|part| part.bottom()).fold(0.0, f64::max).ceil();
+        layout
     }
 
     /// All parts.
     pub fn parts(&self) -> [Rect; 8] {
         let Self { graph_header, graph, legend, matrix_header, columns, rows, matrix, notes, .. } = self;
         [*graph_header, *graph, *legend, *matrix_header, *columns, *rows, *matrix, *notes]
+    }
+}
+
+impl view::Layout for Layout {
+    fn height(&self) -> f64 {
+        self.height
     }
 }
 
@@ -96,6 +148,21 @@ mod tests {
             let layout = Layout::new(width);
             assert!((layout.legend.bottom() - layout.notes.bottom()).abs() < 2.0, "{width}");
             assert!(layout.graph.w > layout.matrix.w && layout.matrix.w > 0.3 * width, "{width}");
+        }
+    }
+    #[test]
+    fn panels_shown_alone_leave_no_place_for_the_other_and_fit_on_a_screen() {
+        for (names, shown) in [("graph", 3), ("matrix", 5), ("matrix graph", 8)] {
+            let panels = Panels::named(names, &[GRAPH, MATRIX]).unwrap();
+            for width in (300..2000).step_by(7).map(f64::from) {
+                let layout = Layout::of(width, &panels);
+                let parts: Vec<Rect> = layout.parts().into_iter().filter(|part| part.h > 0.0).collect();
+                assert_eq!(parts.len(), shown, "{names} at {width}");
+                assert_apart(&parts, &Rect::new(0.0, 0.0, width, layout.height));
+                let last = parts.iter().map(Rect::bottom).fold(0.0, f64::max);
+                assert!(layout.height - last < 1.0, "{names} at {width}: nothing is left below");
+                assert!(names != "matrix" || layout.height < 600.0, "{width}");
+            }
         }
     }
 }

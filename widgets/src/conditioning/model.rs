@@ -277,7 +277,7 @@ impl Model for ConditioningModel {
                 given.largest_std,
             ]
         };
-        Series { columns: COLUMNS, rows: (0..=self.recipe.step).map(row).collect() }
+        Series { columns: COLUMNS.into(), rows: (0..=self.recipe.step).map(row).collect() }
     }
 
     fn describe(&self) -> String {

@@ -6,7 +6,6 @@ use crate::{
 };
 use fastslam::error::Range;
 use fastslam_lab::experiment::conditioning::{ConditioningSetup, LANDMARKS, POSES};
-use std::sync::LazyLock;
 
 /// Everything that a link can say of the graphical model.
 #[derive(Clone, PartialEq)]
@@ -30,9 +29,8 @@ impl Default for Recipe {
 }
 
 impl recipe::Recipe for Recipe {
-    fn table() -> &'static [Param<Self>] {
-        static TABLE: LazyLock<Vec<Param<Recipe>>> = LazyLock::new(table);
-        &TABLE
+    fn table() -> Vec<Param<Self>> {
+        table()
     }
 }
 

@@ -2,12 +2,13 @@
 
 use super::{
     graph::{Graph, LEVELS, SIGHTING, full_width, strength},
-    layout::{Layout, NARROWEST},
+    layout::{GRAPH, Layout, MATRIX, NARROWEST},
     matrix::matrix,
     model::ConditioningModel,
 };
 use crate::{
     font::Weight,
+    panels::Panels,
     scene::{Anchor, LINE, Legend, Mark, Point, Rect, Role, Sample, Scene, closed, diamond, ellipse, heading, text},
     view::{View, whole_step},
 };
@@ -21,29 +22,27 @@ pub struct ConditioningView;
 
 impl View for ConditioningView {
     type Model = ConditioningModel;
+    type Layout = Layout;
     const NARROWEST: f64 = NARROWEST;
+    const PANELS: &'static [&'static str] = &[GRAPH, MATRIX];
 
-    fn layout_height(&self, width: f64) -> f64 {
-        Layout::new(width).height
+    fn layout(width: f64, panels: &Panels) -> Layout {
+        Layout::of(width, panels)
     }
 
-    fn draw(&self, model: &ConditioningModel, scene: &mut Scene) {
-        let layout = Layout::new(scene.width);
-        let (title, rest, role) = if model.conditioned() {
-            ("Given the path", "every landmark stands alone", Role::Accent)
-        } else {
-            ("Path unknown", "its errors are shared by the map", Role::Ink)
-        };
-        heading(scene, &layout.graph_header, (title, role), rest);
-        Graph::new(model, &layout.graph).draw(scene);
-        legend(scene, model, &layout);
-        matrix(scene, model, &layout);
-        notes(scene, model, &layout.notes);
+    fn draw(&self, model: &ConditioningModel, layout: &Layout, scene: &mut Scene) {
+        if layout.panels.has(GRAPH) {
+            graph(scene, model, layout);
+        }
+        if layout.panels.has(MATRIX) {
+            matrix(scene, model, layout);
+            notes(scene, model, &layout.notes);
+        }
     }
 
-    fn drag(&self, model: &mut ConditioningModel, handle: &str, to: Point, width: f64) {
+    fn drag(&self, model: &mut ConditioningModel, layout: &Layout, handle: &str, to: Point) {
         if handle == ENTRY {
-            let area = Layout::new(width).matrix;
+            let area = layout.matrix;
             let cell = area.w / (2 * model.drive().landmarks().len()) as f64;
             model.choose([(to[1] - area.y) / cell, (to[0] - area.x) / cell]);
         }
@@ -55,6 +54,18 @@ impl View for ConditioningView {
             model.choose([row - whole_step(up), column + whole_step(right)]);
         }
     }
+}
+
+/// The graph, below what is known of the path.
+fn graph(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
+    let (title, rest, role) = if model.conditioned() {
+        ("Given the path", "every landmark stands alone", Role::Accent)
+    } else {
+        ("Path unknown", "its errors are shared by the map", Role::Ink)
+    };
+    heading(scene, &layout.graph_header, (title, role), rest);
+    Graph::new(model, &layout.graph).draw(scene);
+    legend(scene, model, layout);
 }
 
 fn legend(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {

@@ -3,7 +3,8 @@
 use super::map::ASPECT;
 use crate::{
     panels::Panels,
-    scene::{LINE, Rect},
+    scene::{LINE, Rect, Stack},
+    view,
 };
 
 /// Names of the panels: one universe large, all of them small, and N_eff over the steps.
@@ -29,6 +30,8 @@ const METER: f64 = 46.0;
 /// The parts of the figure \[css px\].
 #[derive(Clone, PartialEq, Debug)]
 pub struct Layout {
+    /// Which panels are shown.
+    pub panels: Panels,
     /// Which universe is shown large, and the step.
     pub large_header: Rect,
     /// Its map.
@@ -65,19 +68,21 @@ impl Layout {
         let excess = (below_mosaic - legend) * ASPECT + 2.0 * RING * (ASPECT - 1.0);
         let large_width = if beside { (0.5 * (width - gap + excess)).floor() } else { width };
 
-        let mut column = Column { x: 0.0, y: 0.0, w: large_width };
+        let mut column = Stack::new(0.0, large_width);
         let large_header = column.take(map, HEADER, 0.0);
         let large = column.take(map, column.w / ASPECT, PAD);
         let legend = column.take(map, legend, PAD);
         if beside {
             let x = large.right() + gap;
-            column = Column { x, y: 0.0, w: width - x };
+            column = Stack::new(x, width - x);
         }
         let mosaic_header = column.take(mosaic, HEADER, 0.0);
         let tiles = column.take(mosaic, (column.w - 2.0 * RING) / ASPECT + 2.0 * RING, PAD);
         let notes = column.take(mosaic, notes, PAD);
         let meter = column.take(meter, METER, PAD);
-        let mut layout = Self { large_header, large, legend, mosaic_header, mosaic: tiles, notes, meter, height: 0.0 };
+        let panels = panels.clone();
+        let mut layout =
+            Self { panels, large_header, large, legend, mosaic_header, mosaic: tiles, notes, meter, height: 0.0 };
         let shown = layout.parts().into_iter().filter(|part| part.h > 0.0);
         layout.height = shown.map(|part| part.bottom()).fold(0.0, f64::max).ceil();
         layout
@@ -89,20 +94,9 @@ impl Layout {
     }
 }
 
-/// What is left of a column below what was placed in it.
-struct Column {
-    x: f64,
-    y: f64,
-    w: f64,
-}
-
-impl Column {
-    /// The next part, if it is shown, and a gap below it.
-    fn take(&mut self, shown: bool, h: f64, gap: f64) -> Rect {
-        let (h, gap) = if shown { (h, gap) } else { (0.0, 0.0) };
-        let part = Rect::new(self.x, self.y, self.w, h);
-        self.y = part.bottom() + gap;
-        part
+impl view::Layout for Layout {
+    fn height(&self) -> f64 {
+        self.height
     }
 }
 

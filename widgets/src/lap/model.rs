@@ -310,7 +310,7 @@ impl Model for LapModel {
                 r.map_bytes_dense as f64,
             ]
         };
-        Series { columns: COLUMNS, rows: self.reports.iter().map(row).collect() }
+        Series { columns: COLUMNS.into(), rows: self.reports.iter().map(row).collect() }
     }
 
     fn describe(&self) -> String {

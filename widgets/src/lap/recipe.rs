@@ -7,7 +7,6 @@ use crate::{
 };
 use fastslam::resampling::ResamplePolicy;
 use fastslam_lab::experiment::lap::{LapSetup, STEPS};
-use std::sync::LazyLock;
 
 /// Everything that a link can say of the lap.
 #[derive(Clone, PartialEq)]
@@ -35,9 +34,8 @@ impl Default for Recipe {
 }
 
 impl recipe::Recipe for Recipe {
-    fn table() -> &'static [Param<Self>] {
-        static TABLE: LazyLock<Vec<Param<Recipe>>> = LazyLock::new(table);
-        &TABLE
+    fn table() -> Vec<Param<Self>> {
+        table()
     }
 }
 

@@ -26,35 +26,29 @@ const RAW: [f64; 2] = [7.0, 4.0];
 
 /// Figure w17.1, as it is seen.
 #[derive(Default)]
-pub struct LapView {
-    panels: Panels,
-}
+pub struct LapView;
 
 impl View for LapView {
     type Model = LapModel;
+    type Layout = Layout;
     const NARROWEST: f64 = NARROWEST;
     const PANELS: &'static [&'static str] = &[MAP, MOSAIC, ESS];
 
-    fn show(&mut self, panels: Panels) {
-        self.panels = panels;
+    fn layout(width: f64, panels: &Panels) -> Layout {
+        Layout::of(width, panels)
     }
 
-    fn layout_height(&self, width: f64) -> f64 {
-        Layout::of(width, &self.panels).height
-    }
-
-    fn draw(&self, model: &LapModel, scene: &mut Scene) {
-        let layout = Layout::of(scene.width, &self.panels);
-        if self.panels.has(MAP) {
-            large(scene, model, &layout);
+    fn draw(&self, model: &LapModel, layout: &Layout, scene: &mut Scene) {
+        if layout.panels.has(MAP) {
+            large(scene, model, layout);
             legend(scene, model, &layout.legend);
         }
-        if self.panels.has(MOSAIC) {
+        if layout.panels.has(MOSAIC) {
             let tiles = Tiles::fit(&layout.mosaic.inset(RING), model.lap().particles().len(), ASPECT);
-            mosaic(scene, model, &layout, &tiles);
+            mosaic(scene, model, layout, &tiles);
             notes(scene, model, &layout.notes, tiles.size[0] >= LABEL_FROM);
         }
-        if self.panels.has(ESS) {
+        if layout.panels.has(ESS) {
             meter(scene, model, &layout.meter);
         }
     }

@@ -1,6 +1,15 @@
 //! Where the parts of the figure stand: gauges beside the map where there is room, below it on a phone.
 
-use crate::scene::{LINE, Rect};
+use crate::{
+    panels::Panels,
+    scene::{LINE, Rect},
+    view,
+};
+
+/// Names of the panels: the map with the paths, and N_eff and lineage over the scans.
+pub const MAP: &str = "map";
+/// See [`MAP`].
+pub const GAUGES: &str = "gauges";
 
 /// From this width on \[css px\], the gauges stand beside the map.
 pub const WIDE: f64 = 640.0;
@@ -25,10 +34,10 @@ pub struct Gauge {
 pub struct Layout {
     /// How far the log is mapped.
     pub header: Rect,
-    /// The map.
-    pub map: Rect,
-    /// N_eff and lineage.
-    pub gauges: [Gauge; 2],
+    /// The map, if it is shown.
+    pub map: Option<Rect>,
+    /// N_eff and lineage, if they are shown.
+    pub gauges: Option<[Gauge; 2]>,
     /// What marks mean.
     pub legend: Rect,
     /// Of the whole figure.
@@ -36,42 +45,54 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// For a figure of this width.
+    /// Of all panels, for a figure of this width.
     pub fn new(width: f64) -> Self {
+        Self::of(width, &Panels::default())
+    }
+
+    /// Of some panels: the others have no place.
+    pub fn of(width: f64, panels: &Panels) -> Self {
         let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
-        let header = Rect::new(0.0, 0.0, width, HEADER);
         let wide = width >= WIDE;
-        let side = if wide { (0.27 * width).clamp(190.0, 260.0) } else { 0.0 };
-        let map = if wide {
-            let w = width - side - 16.0;
-            Rect::new(0.0, HEADER, w, (0.78 * w).clamp(380.0, 760.0))
-        } else {
-            Rect::new(0.0, HEADER, width, 0.9 * width)
-        };
+        let header = Rect::new(0.0, 0.0, width, HEADER);
+        let beside = wide && panels.has(MAP) && panels.has(GAUGES);
+        let side = if beside { (0.27 * width).clamp(190.0, 260.0) } else { 0.0 };
+        let map = panels.has(MAP).then(|| {
+            let w = if beside { width - side - 16.0 } else { width };
+            Rect::new(0.0, HEADER, w, if wide { (0.78 * w).clamp(380.0, 760.0) } else { 0.9 * w })
+        });
         let chart = if wide { (0.12 * width).clamp(70.0, 130.0) } else { 56.0 };
         let gauge = |x: f64, y: f64, w: f64| Gauge {
             label: Rect::new(x, y, w, LINE),
             chart: Rect::new(x, y + LINE + 2.0, w, chart),
         };
-        let (gauges, legend) = if wide {
+        if let (true, Some(map)) = (beside, map) {
             let (x, step) = (map.right() + 16.0, LINE + 2.0 + chart + 2.0 * PAD);
             let gauges = [0.0, 1.0].map(|k| gauge(x, map.y + k * step, side));
             let y = gauges[1].chart.bottom() + 2.0 * PAD;
-            (gauges, Rect::new(x, y, side, map.bottom() - y))
-        } else {
+            let legend = Rect::new(x, y, side, map.bottom() - y);
+            return Self { header, map: Some(map), gauges: Some(gauges), legend, height: map.bottom().ceil() };
+        }
+        let mut y = map.map_or(header.bottom(), |map| map.bottom() + PAD);
+        let gauges = panels.has(GAUGES).then(|| {
             let w = 0.5 * (width - 2.0 * PAD);
-            let gauges = [0.0, 1.0].map(|k| gauge(k * (w + 2.0 * PAD), map.bottom() + PAD, w));
-            let lines = if width >= 560.0 {
-                2.0
-            } else if width >= 400.0 {
-                3.0
-            } else {
-                4.0
-            };
-            (gauges, Rect::new(0.0, gauges[0].chart.bottom() + PAD, width, lines * LINE))
+            [0.0, 1.0].map(|k| gauge(k * (w + 2.0 * PAD), y, w))
+        });
+        y = gauges.map_or(y, |[first, _]| first.chart.bottom() + PAD);
+        let lines = match width {
+            _ if map.is_none() => 1.0,
+            560.0.. => 2.0,
+            400.0.. => 3.0,
+            _ => 4.0,
         };
-        let height = if wide { map.bottom() } else { legend.bottom() }.ceil();
-        Self { header, map, gauges, legend, height }
+        let legend = Rect::new(0.0, y, width, lines * LINE);
+        Self { header, map, gauges, legend, height: legend.bottom().ceil() }
+    }
+}
+
+impl view::Layout for Layout {
+    fn height(&self) -> f64 {
+        self.height
     }
 }
 
@@ -82,11 +103,17 @@ mod tests {
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        for width in (300..2000).step_by(7).map(f64::from) {
-            let Layout { header, map, gauges, legend, height } = Layout::new(width);
-            let parts = [header, map, gauges[0].label, gauges[0].chart, gauges[1].label, gauges[1].chart, legend];
-            assert!(parts.iter().all(|part| part.w > 0.0 && part.h > 0.0), "{width}");
-            assert_apart(&parts, &Rect::new(0.0, 0.0, width, height));
+        for (names, count) in [("all", 7), ("map", 3), ("gauges", 6)] {
+            let panels = Panels::named(names, &[MAP, GAUGES]).unwrap();
+            for width in (300..2000).step_by(7).map(f64::from) {
+                let Layout { header, map, gauges, legend, height } = Layout::of(width, &panels);
+                let mut parts = vec![header, legend];
+                parts.extend(map);
+                parts.extend(gauges.iter().flatten().flat_map(|gauge| [gauge.label, gauge.chart]));
+                assert_eq!(parts.len(), count, "{names} at {width}");
+                assert!(parts.iter().all(|part| part.w > 0.0 && part.h > 0.0), "{names} at {width}");
+                assert_apart(&parts, &Rect::new(0.0, 0.0, width, height));
+            }
         }
     }
 }

@@ -5,7 +5,6 @@ use crate::{
     recipe::{self, Param},
 };
 use fastslam::{mapper::LaserMapperSettings, resampling::ResamplePolicy};
-use std::sync::LazyLock;
 
 /// Everything that a link can say of the mapping of a log: the log itself is a reader's file.
 #[derive(Clone, PartialEq)]
@@ -29,9 +28,8 @@ impl Default for Recipe {
 }
 
 impl recipe::Recipe for Recipe {
-    fn table() -> &'static [Param<Self>] {
-        static TABLE: LazyLock<Vec<Param<Recipe>>> = LazyLock::new(table);
-        &TABLE
+    fn table() -> Vec<Param<Self>> {
+        table()
     }
 }
 

@@ -197,7 +197,7 @@ pub fn series(model: &LogModel) -> Series {
             of(|m| m.shared.into()),
         ]
     };
-    Series { columns: COLUMNS, rows: path.iter().enumerate().map(row).collect() }
+    Series { columns: COLUMNS.into(), rows: path.iter().enumerate().map(row).collect() }
 }
 
 /// In whole MB, or tenths where there are few.

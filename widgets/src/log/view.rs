@@ -1,7 +1,7 @@
 //! What is to be seen of a log: the best universe's map with the paths of all, and N_eff and lineage over the scans.
 
 use super::{
-    layout::{Layout, NARROWEST},
+    layout::{GAUGES, Gauge, Layout, MAP, NARROWEST},
     map::{Frame, MapView},
     model::{BACK, LogModel, Moment},
     tree::{FADE, Tree},
@@ -10,6 +10,7 @@ use crate::decimal::fixed;
 use crate::{
     font::{self, Weight},
     model::Model,
+    panels::Panels,
     scene::{
         Anchor, Cells, Chart, FREE, Legend, Mark, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN,
         heading, joined, n_eff, rimmed_polygon, scale_bar, text, thinned,
@@ -41,47 +42,54 @@ pub struct LogView {
 
 impl View for LogView {
     type Model = LogModel;
+    type Layout = Layout;
     const NARROWEST: f64 = NARROWEST;
+    const PANELS: &'static [&'static str] = &[MAP, GAUGES];
 
-    fn layout_height(&self, width: f64) -> f64 {
-        Layout::new(width).height
+    fn layout(width: f64, panels: &Panels) -> Layout {
+        Layout::of(width, panels)
     }
 
-    fn draw(&self, model: &LogModel, scene: &mut Scene) {
-        let layout = Layout::new(scene.width);
-        map(scene, model, &layout, self.map_view(model, &layout).as_ref());
+    fn draw(&self, model: &LogModel, layout: &Layout, scene: &mut Scene) {
+        if let Some(area) = layout.map {
+            map(scene, model, area, self.map_view(model, area).as_ref());
+        }
         header(scene, model, &layout.header);
-        ess(scene, model, &layout);
-        lineage(scene, model, &layout);
-        legend(scene, &layout.legend);
+        if let Some([first, second]) = &layout.gauges {
+            ess(scene, model, first);
+            lineage(scene, model, second);
+        }
+        legend(scene, layout);
     }
 
-    fn navigation(&mut self) -> Option<&mut dyn Navigation<LogModel>> {
+    fn navigation(&mut self) -> Option<&mut dyn Navigation<Self>> {
         Some(self)
     }
 }
 
 impl LogView {
     /// The part of the world that is shown.
-    fn map_view(&self, model: &LogModel, layout: &Layout) -> Option<MapView> {
+    fn map_view(&self, model: &LogModel, area: Rect) -> Option<MapView> {
         let chosen = self.frame.filter(|(log, _)| *log == model.log_number());
         let frame = chosen.map(|(_, frame)| frame).or_else(|| whole(model))?;
-        Some(MapView::new(layout.map, &frame))
+        Some(MapView::new(area, &frame))
     }
 
-    fn look(&mut self, model: &LogModel, move_to: impl Fn(MapView) -> MapView, width: f64) {
-        let view = self.map_view(model, &Layout::new(width));
-        self.frame = view.map(|view| (model.log_number(), move_to(view).frame()));
+    fn look(&mut self, model: &LogModel, layout: &Layout, move_to: impl Fn(MapView) -> MapView) {
+        if let Some(area) = layout.map {
+            let view = self.map_view(model, area);
+            self.frame = view.map(|view| (model.log_number(), move_to(view).frame()));
+        }
     }
 }
 
-impl Navigation<LogModel> for LogView {
-    fn zoom(&mut self, model: &LogModel, factor: f64, at: Option<Point>, width: f64) {
-        self.look(model, |view| view.zoomed(factor, at.unwrap_or(view.0.area.centre())), width);
+impl Navigation<Self> for LogView {
+    fn zoom(&mut self, model: &LogModel, layout: &Layout, factor: f64, at: Option<Point>) {
+        self.look(model, layout, |view| view.zoomed(factor, at.unwrap_or(view.0.area.centre())));
     }
 
-    fn pan(&mut self, model: &LogModel, by: Point, width: f64) {
-        self.look(model, |view| view.panned(by), width);
+    fn pan(&mut self, model: &LogModel, layout: &Layout, by: Point) {
+        self.look(model, layout, |view| view.panned(by));
     }
 
     fn fit(&mut self) {
@@ -118,8 +126,7 @@ fn header(scene: &mut Scene, model: &LogModel, area: &Rect) {
     heading(scene, area, (&strong, Role::Ink), &rest);
 }
 
-fn map(scene: &mut Scene, model: &LogModel, layout: &Layout, view: Option<&MapView>) {
-    let area = layout.map;
+fn map(scene: &mut Scene, model: &LogModel, area: Rect, view: Option<&MapView>) {
     let unknown = Cells { columns: 1, shades: vec![UNKNOWN] };
     scene.marks.push(Mark::Raster { area, cells: unknown, shading: Shading::Map });
     if let Some(view) = view {
@@ -217,8 +224,8 @@ fn curve(scene: &mut Scene, model: &LogModel, chart: &Chart, share: impl Fn(&Mom
 }
 
 /// N_eff, the threshold, and the steps that resampled.
-fn ess(scene: &mut Scene, model: &LogModel, layout: &Layout) {
-    let (gauge, m) = (&layout.gauges[0], model.setup().particles);
+fn ess(scene: &mut Scene, model: &LogModel, gauge: &Gauge) {
+    let m = model.setup().particles;
     let now = model.history().last().map_or("–".into(), |moment| fixed(moment.ess, 1));
     let name = value(scene, &gauge.label, format!("{now} of {m}"));
     n_eff(scene, &name, SIZE, Weight::Regular, Role::Muted);
@@ -235,8 +242,8 @@ fn ess(scene: &mut Scene, model: &LogModel, layout: &Layout) {
 }
 
 /// Distinct ancestors some scans ago.
-fn lineage(scene: &mut Scene, model: &LogModel, layout: &Layout) {
-    let (gauge, m) = (&layout.gauges[1], model.setup().particles);
+fn lineage(scene: &mut Scene, model: &LogModel, gauge: &Gauge) {
+    let m = model.setup().particles;
     let now = model.history().last().map_or("–".into(), |moment| moment.lineage.to_string());
     let name = value(scene, &gauge.label, format!("{now} of {m}"));
     let names = [format!("Ancestors {BACK} scans ago"), format!("Lineage, {BACK} back")];
@@ -247,12 +254,12 @@ fn lineage(scene: &mut Scene, model: &LogModel, layout: &Layout) {
     curve(scene, model, &chart, |moment| f64::from(moment.lineage) / m as f64);
 }
 
-fn legend(scene: &mut Scene, area: &Rect) {
+fn legend(scene: &mut Scene, layout: &Layout) {
     let tick = |[x, y]: Point| {
         let lines = vec![vec![[x, y - 0.5 * TICK], [x, y + 0.5 * TICK]]];
         Mark::Lines { lines, width: 1.25, dash: None, role: Role::Extinct }
     };
-    let items = [
+    let of_map = [
         (Sample::cell(OCCUPIED), "wall"),
         (Sample::cell(FREE), "free"),
         (Sample::cell(UNKNOWN), "unknown"),
@@ -260,8 +267,9 @@ fn legend(scene: &mut Scene, area: &Rect) {
         (Sample::line(Role::Copied, LIVES, None), "the others"),
         (Sample::line(Role::Extinct, DIED, None), "just died out"),
         (Sample::line(Role::Odometry, 1.5, Some(RAW)), "raw odometry"),
-        (Sample::at(tick), "resampled"),
-        (Sample::line(Role::Accent, 1.0, Some(THRESHOLD)), "threshold"),
     ];
-    Legend::default().draw(scene, area, items);
+    let of_gauges = [(Sample::at(tick), "resampled"), (Sample::line(Role::Accent, 1.0, Some(THRESHOLD)), "threshold")];
+    let of_map = of_map.into_iter().filter(|_| layout.map.is_some());
+    let of_gauges = of_gauges.into_iter().filter(|_| layout.gauges.is_some());
+    Legend::default().draw(scene, &layout.legend, of_map.chain(of_gauges));
 }

@@ -212,7 +212,7 @@ impl Model for ProposalModel {
         };
         let Proposals { motion, aware, .. } = &self.shown;
         let row = |k| [k as f64].into_iter().chain(half(motion, k)).chain(half(aware, k)).collect();
-        Series { columns: COLUMNS, rows: (0..motion.poses.len()).map(row).collect() }
+        Series { columns: COLUMNS.into(), rows: (0..motion.poses.len()).map(row).collect() }
     }
 
     fn describe(&self) -> String {

@@ -5,7 +5,6 @@ use crate::{
     recipe::{self, Field, Menu, Param},
 };
 use fastslam_lab::{baseline::one_step::Area, experiment::proposals::ProposalsSetup};
-use std::sync::LazyLock;
 
 /// Part of the world that is looked at \[m\]: what both panels show, and where a landmark can be put.
 pub const WORLD: Area = Area { low: [-0.25, -0.9], high: [2.95, 0.9] };
@@ -47,9 +46,8 @@ impl Recipe {
 }
 
 impl recipe::Recipe for Recipe {
-    fn table() -> &'static [Param<Self>] {
-        static TABLE: LazyLock<Vec<Param<Recipe>>> = LazyLock::new(table);
-        &TABLE
+    fn table() -> Vec<Param<Self>> {
+        table()
     }
 }
 

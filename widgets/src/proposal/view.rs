@@ -2,7 +2,7 @@
 
 use super::{
     gauge,
-    layout::{Layout, NARROWEST, Panel},
+    layout::{AWARE, Layout, MOTION, NARROWEST, Panel, RATIO},
     model::ProposalModel,
     recipe::Recipe,
 };
@@ -10,6 +10,7 @@ use crate::decimal::{fixed, rounded, write};
 use crate::{
     font::{self, Weight},
     model::Declared,
+    panels::Panels,
     scene::{
         Anchor, Cells, Handle, LINE, Legend, Mark, NINE_TENTHS, Plane, Point, Rect, Role, Sample, Scene, Shading, bar,
         clip_polyline, closed, cloud, diamond, ellipse, heading, rimmed_polygon, text,
@@ -42,41 +43,54 @@ pub struct ProposalView;
 
 impl View for ProposalView {
     type Model = ProposalModel;
+    type Layout = Layout;
     const NARROWEST: f64 = NARROWEST;
+    const PANELS: &'static [&'static str] = &[MOTION, AWARE, RATIO];
 
-    fn layout_height(&self, width: f64) -> f64 {
-        Layout::new(width).height
+    fn layout(width: f64, panels: &Panels) -> Layout {
+        Layout::of(width, panels)
     }
 
-    fn draw(&self, model: &ProposalModel, scene: &mut Scene) {
-        let layout = Layout::new(scene.width);
+    fn draw(&self, model: &ProposalModel, layout: &Layout, scene: &mut Scene) {
         let found = model.proposals();
+        let shown = |name: &str| layout.shown.has(name);
         let proposals = [
-            ("FastSLAM 1.0", "motion prior, then weigh", &found.motion, Role::Prior),
-            ("FastSLAM 2.0", "measurement-aware", &found.aware, Role::Posterior),
+            (MOTION, "FastSLAM 1.0", "motion prior, then weigh", &found.motion, Role::Prior),
+            (AWARE, "FastSLAM 2.0", "measurement-aware", &found.aware, Role::Posterior),
         ];
-        for (panel, (name, what, cloud, role)) in layout.panels.iter().zip(proposals) {
-            heading(scene, &panel.header, (name, Role::Ink), what);
-            panel_view(scene, model, panel, cloud, role);
-            counters(scene, model, panel, cloud);
+        for (panel, (key, name, what, cloud, role)) in layout.panels.iter().zip(proposals) {
+            if shown(key) {
+                heading(scene, &panel.header, (name, Role::Ink), what);
+                panel_view(scene, model, panel, cloud, role);
+                counters(scene, model, panel, cloud);
+            }
         }
         let [x, y] = model.setup().landmark;
-        for (panel, name) in layout.panels.iter().zip([LANDMARK, LANDMARK_AGAIN]) {
-            scene.handles.push(Handle {
-                name,
-                title: if name == LANDMARK { "Landmark".into() } else { "Landmark, second panel".into() },
-                at: panel.plane().point([x, y]),
-                value: x,
-                text: format!("{} m ahead of the start, {} m to the left", write(x), write(y)),
-                hover: None,
-            });
+        for (panel, (key, name)) in layout.panels.iter().zip([(MOTION, LANDMARK), (AWARE, LANDMARK_AGAIN)]) {
+            if shown(key) {
+                scene.handles.push(Handle {
+                    name,
+                    title: if name == LANDMARK || !shown(MOTION) {
+                        "Landmark".into()
+                    } else {
+                        "Landmark, second panel".into()
+                    },
+                    at: panel.plane().point([x, y]),
+                    value: x,
+                    text: format!("{} m ahead of the start, {} m to the left", write(x), write(y)),
+                    hover: None,
+                });
+            }
         }
-        ratio(scene, model, &layout);
-        legend(scene, model, &layout.legend);
+        if shown(RATIO) {
+            ratio(scene, model, layout);
+        }
+        if layout.legend.h > 0.0 {
+            legend(scene, model, layout);
+        }
     }
 
-    fn drag(&self, model: &mut ProposalModel, handle: &str, to: Point, width: f64) {
-        let layout = Layout::new(width);
+    fn drag(&self, model: &mut ProposalModel, layout: &Layout, handle: &str, to: Point) {
         match handle {
             LANDMARK | LANDMARK_AGAIN => {
                 let place = layout.panels[usize::from(handle == LANDMARK_AGAIN)].plane().world(to);
@@ -319,7 +333,7 @@ fn pointer([x, y]: Point, r: f64) -> Mark {
     Mark::Polygons { polygons: vec![vec![[x, y], [x - r, y - 1.7 * r], [x + r, y - 1.7 * r]]], role: Role::Accent }
 }
 
-fn legend(scene: &mut Scene, model: &ProposalModel, area: &Rect) {
+fn legend(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
     let line = |role, dash| Sample::line(role, 1.75, dash);
     let density = |place: &Rect| {
         let cells = Cells { columns: 3, shades: vec![90, 255, 90] };
@@ -337,21 +351,25 @@ fn legend(scene: &mut Scene, model: &ProposalModel, area: &Rect) {
             Mark::Polygons { polygons, role }
         })
     };
-    let mut items = vec![
-        (Sample::new(density), "posterior"),
-        (line(Role::Ink, None), "its 90 %"),
-        (line(Role::Posterior, Some([5.0, 3.0])), "Gaussian of 2.0"),
+    let [aware, ratio] = [AWARE, RATIO].map(|name| layout.shown.has(name));
+    let mut items = vec![(Sample::new(density), "posterior"), (line(Role::Ink, None), "its 90 %")];
+    if aware {
+        items.push((line(Role::Posterior, Some([5.0, 3.0])), "Gaussian of 2.0"));
+    }
+    items.extend([
         (Sample::new(samples), "samples"),
         (Sample::new(landmark), "landmark"),
         (robot(Role::Muted), "robot before,"),
         (robot(Role::Ink), "after"),
-        (Sample::dot(Role::Ink, 4.5), "ratio"),
-    ];
-    if model.guess().is_some() {
+    ]);
+    if ratio {
+        items.push((Sample::dot(Role::Ink, 4.5), "ratio"));
+    }
+    if ratio && model.guess().is_some() {
         items.push((Sample::at(|[x, y]| pointer([x, y + 6.0], 6.0)), "guess"));
     }
-    if model.at_half().is_some() {
+    if ratio && model.at_half().is_some() {
         items.push((Sample::at(|at| filled_diamond(at, 5.5, Role::Ink)), "at half"));
     }
-    Legend { gap: 12.0, ..Legend::default() }.draw(scene, area, items);
+    Legend { gap: 12.0, ..Legend::default() }.draw(scene, &layout.legend, items);
 }

@@ -3,6 +3,7 @@
 use crate::{
     panels::Panels,
     scene::{LINE, Rect},
+    view,
 };
 
 /// Names of the panels: four charts, and where the particles are.
@@ -50,6 +51,8 @@ pub struct Column {
 /// The parts of the figure \[css px\].
 #[derive(Clone, PartialEq, Debug)]
 pub struct Layout {
+    /// Which panels are shown.
+    pub panels: Panels,
     /// Whether the filters stand side by side.
     pub wide: bool,
     /// One for each filter.
@@ -125,7 +128,7 @@ impl Layout {
         // What all marks mean is said below all of them.
         let (pad, lines) = if panels.are_all() { (PAD, lines) } else { (0.0, 0.0) };
         let legend = Rect::new(0.0, columns[0].map.bottom() + pad, width, lines * LINE);
-        Self { wide, columns, legend, height: legend.bottom().ceil() }
+        Self { panels: panels.clone(), wide, columns, legend, height: legend.bottom().ceil() }
     }
 
     /// The first chart that is shown.
@@ -144,6 +147,12 @@ impl Layout {
     pub fn parts(&self) -> Vec<Rect> {
         let of = |c: &Column| [&c.labels[..], &c.charts[..], &[c.header, c.axis, c.map_label, c.map]].concat();
         self.columns.iter().flat_map(of).chain([self.legend]).collect()
+    }
+}
+
+impl view::Layout for Layout {
+    fn height(&self) -> f64 {
+        self.height
     }
 }
 

@@ -13,7 +13,6 @@ use fastslam_lab::{
     },
     world::Field as Landmarks,
 };
-use std::sync::LazyLock;
 
 /// Everything that a link can say of the three filters.
 #[derive(Clone, PartialEq)]
@@ -61,9 +60,8 @@ impl Recipe {
 }
 
 impl recipe::Recipe for Recipe {
-    fn table() -> &'static [Param<Self>] {
-        static TABLE: LazyLock<Vec<Param<Recipe>>> = LazyLock::new(table);
-        &TABLE
+    fn table() -> Vec<Param<Self>> {
+        table()
     }
 }
 

@@ -92,7 +92,7 @@ pub fn series(model: &ResamplingModel) -> Series {
         };
         core::iter::once(step as f64).chain(all.iter().flat_map(of)).collect()
     };
-    Series { columns: COLUMNS, rows: model.moments().iter().enumerate().map(row).collect() }
+    Series { columns: COLUMNS.into(), rows: model.moments().iter().enumerate().map(row).collect() }
 }
 
 /// What one filter's numbers are called.

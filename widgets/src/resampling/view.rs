@@ -19,37 +19,32 @@ pub const CURSOR: &str = "cursor";
 
 /// Figure w17.2, as it is seen.
 #[derive(Default)]
-pub struct ResamplingView {
-    panels: Panels,
-}
+pub struct ResamplingView;
 
 impl View for ResamplingView {
     type Model = ResamplingModel;
+    type Layout = Layout;
     const NARROWEST: f64 = NARROWEST;
     const PANELS: &'static [&'static str] = &[ESS, LINEAGE, ERROR, TREE, PARTICLES];
 
-    fn show(&mut self, panels: Panels) {
-        self.panels = panels;
+    fn layout(width: f64, panels: &Panels) -> Layout {
+        Layout::of(width, panels)
     }
 
-    fn layout_height(&self, width: f64) -> f64 {
-        Layout::of(width, &self.panels).height
-    }
-
-    fn draw(&self, model: &ResamplingModel, scene: &mut Scene) {
-        let layout = Layout::of(scene.width, &self.panels);
+    fn draw(&self, model: &ResamplingModel, layout: &Layout, scene: &mut Scene) {
+        let panels = &layout.panels;
         let error_scale = error_scale(model.largest_error());
         for (policy, column) in layout.columns.iter().enumerate() {
             let filter = Filter { model, policy, column, error_scale };
-            filter.charts(scene, &self.panels);
-            if self.panels.has(PARTICLES) {
+            filter.charts(scene, panels);
+            if panels.has(PARTICLES) {
                 filter.map(scene, layout.wide);
             }
         }
-        if self.panels.are_all() {
+        if panels.are_all() {
             legend(scene, model, &layout.legend);
         }
-        if !CHARTS.iter().any(|name| self.panels.has(name)) {
+        if !CHARTS.iter().any(|name| panels.has(name)) {
             return;
         }
         let first = Chart { area: layout.first_chart(), last: model.step_count() };
@@ -63,9 +58,8 @@ impl View for ResamplingView {
         });
     }
 
-    fn drag(&self, model: &mut ResamplingModel, handle: &str, to: Point, width: f64) {
+    fn drag(&self, model: &mut ResamplingModel, layout: &Layout, handle: &str, to: Point) {
         if handle == CURSOR {
-            let layout = Layout::of(width, &self.panels);
             let column = layout.columns.iter().rev().find(|c| c.header.x <= to[0]).unwrap_or(&layout.columns[0]);
             let chart = &column.charts[0];
             model.look(((to[0] - chart.x) / chart.w * f64::from(model.step_count())).round());

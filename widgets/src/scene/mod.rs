@@ -13,6 +13,7 @@ mod plane;
 mod rect;
 mod scale_bar;
 mod shape;
+mod stack;
 mod text;
 
 pub use chart::Chart;
@@ -27,6 +28,7 @@ pub use rect::Rect;
 pub use rect::assert_apart;
 pub use scale_bar::{bar, scale_bar};
 pub use shape::{NINE_TENTHS, closed, ellipse, robot};
+pub use stack::Stack;
 pub use text::{Anchor, Text, heading, n_eff, text};
 
 /// A point \[css px\].

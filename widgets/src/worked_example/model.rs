@@ -166,7 +166,7 @@ impl Model for WorkedExampleModel {
             ]
             .concat()
         };
-        Series { columns: COLUMNS, rows: updates.iter().enumerate().map(row).collect() }
+        Series { columns: COLUMNS.into(), rows: updates.iter().enumerate().map(row).collect() }
     }
 
     fn describe(&self) -> String {

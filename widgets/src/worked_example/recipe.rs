@@ -8,7 +8,6 @@ use crate::{
     recipe::{self, Param},
 };
 use fastslam_lab::experiment::worked_example::Inputs;
-use std::sync::LazyLock;
 
 type Range = (f64, f64, f64);
 
@@ -18,9 +17,8 @@ const DISTANCE: Range = (0.0, 200.0, 0.1);
 const VARIANCE: Range = (0.000_001, 100.0, 0.01);
 
 impl recipe::Recipe for Inputs {
-    fn table() -> &'static [Param<Self>] {
-        static TABLE: LazyLock<Vec<Param<Inputs>>> = LazyLock::new(table);
-        &TABLE
+    fn table() -> Vec<Param<Self>> {
+        table()
     }
 
     /// A covariance is positive definite: its three numbers are judged together.

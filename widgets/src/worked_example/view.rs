@@ -1,13 +1,14 @@
 //! What is to be seen: robots and landmark in the plane, the chain of steps with every number, and the decision.
 
 use super::{
-    layout::{Layout, NARROWEST, Place},
+    layout::{CHAIN, Chain, Layout, NARROWEST, PLOT, Place, START},
     model::WorkedExampleModel,
     steps::{DIGITS, GIVEN, STEPS, Step},
 };
 use crate::decimal::write;
 use crate::{
     font::{self, Weight},
+    panels::Panels,
     scene::{
         Anchor, Formula, LINE, Legend, Mark, Plane, Point, Rect, Role, Sample, Scene, bar, closed, cross, ellipse,
         number, rimmed_polygon, robot, text,
@@ -30,46 +31,57 @@ pub struct WorkedExampleView;
 
 impl View for WorkedExampleView {
     type Model = WorkedExampleModel;
+    type Layout = Layout;
     const NARROWEST: f64 = NARROWEST;
+    const PANELS: &'static [&'static str] = &[PLOT, START, CHAIN];
 
-    fn layout_height(&self, width: f64) -> f64 {
-        Layout::new(width).height
+    fn layout(width: f64, panels: &Panels) -> Layout {
+        Layout::of(width, panels)
     }
 
-    fn draw(&self, model: &WorkedExampleModel, scene: &mut Scene) {
-        let (layout, example) = (Layout::new(scene.width), model.example());
-        plot(scene, example, &layout.plot);
-        legend(scene, &layout.legend);
+    fn draw(&self, model: &WorkedExampleModel, layout: &Layout, scene: &mut Scene) {
+        let example = model.example();
+        if let Some([drawing, names]) = &layout.plot {
+            plot(scene, example, drawing);
+            legend(scene, names);
+        }
         for (step, place) in GIVEN.iter().zip(&layout.given) {
             label(scene, step, &place.label);
             value(scene, &place.value, |line| (step.write)(line, example, 0));
         }
-        let mut rules = Vec::new();
-        for slot in [0, 1] {
-            let head = layout.heads[slot];
-            let colour = Rect::new(head.x, head.y + 0.5 * head.h - 5.0, 10.0, 10.0);
-            scene.marks.push(Mark::Fill { area: colour, role: Role::Particle(slot as u8) });
-            let name = Rect::new(head.x + 17.0, head.y, head.w - 17.0, head.h);
-            let title = format!("Particle {}", slot + 1);
-            scene.marks.push(text(name, Anchor::Start, SIZE, Weight::SemiBold, Role::Ink, title));
-            for (step, place) in STEPS.iter().zip(&layout.steps[slot]) {
-                if slot == 0 || !layout.wide {
-                    label(scene, step, &place.label);
-                    rules.push(rule(&layout, place));
-                }
-                value(scene, &place.value, |line| (step.write)(line, example, slot));
-            }
+        if let Some(steps) = &layout.chain {
+            chain(scene, model, steps, layout.wide);
         }
-        rules.push(rule(&layout, &layout.selection));
-        scene.marks.push(Mark::Lines { lines: rules, width: 1.0, dash: None, role: Role::Frame });
-        selection(scene, model, &layout);
     }
 }
 
+/// The steps of both particles, and what follows.
+fn chain(scene: &mut Scene, model: &WorkedExampleModel, chain: &Chain, wide: bool) {
+    let mut rules = Vec::new();
+    for slot in [0, 1] {
+        let head = chain.heads[slot];
+        let colour = Rect::new(head.x, head.y + 0.5 * head.h - 5.0, 10.0, 10.0);
+        scene.marks.push(Mark::Fill { area: colour, role: Role::Particle(slot as u8) });
+        let name = Rect::new(head.x + 17.0, head.y, head.w - 17.0, head.h);
+        let title = format!("Particle {}", slot + 1);
+        scene.marks.push(text(name, Anchor::Start, SIZE, Weight::SemiBold, Role::Ink, title));
+        for (step, place) in STEPS.iter().zip(&chain.steps[slot]) {
+            if slot == 0 || !wide {
+                label(scene, step, &place.label);
+                rules.push(rule(chain, place));
+            }
+            value(scene, &place.value, |line| (step.write)(line, model.example(), slot));
+        }
+    }
+    rules.push(rule(chain, &chain.selection));
+    scene.marks.push(Mark::Lines { lines: rules, width: 1.0, dash: None, role: Role::Frame });
+    selection(scene, model, &chain.selection);
+}
+
 /// The line above a step.
-fn rule(layout: &Layout, place: &Place) -> Vec<Point> {
+fn rule(chain: &Chain, place: &Place) -> Vec<Point> {
     let y = place.label.y.round() + 0.5;
-    vec![[0.0, y], [layout.selection.value.right(), y]]
+    vec![[0.0, y], [chain.selection.value.right(), y]]
 }
 
 /// Caption and formula of a step, below each other.
@@ -178,9 +190,9 @@ fn legend(scene: &mut Scene, area: &Rect) {
 }
 
 /// N_eff on its scale from nothing to M, against the threshold, and what follows.
-fn selection(scene: &mut Scene, model: &WorkedExampleModel, layout: &Layout) {
+fn selection(scene: &mut Scene, model: &WorkedExampleModel, place: &Place) {
     let WorkedExample { ess, limit, resamples, .. } = model.example();
-    let Place { label: place, value: area } = layout.selection;
+    let Place { label: place, value: area } = *place;
     let caption = Rect::new(place.x, place.y + 0.5 * place.h - LINE, place.w, LINE);
     let words = "Effective number of particles";
     scene.marks.push(text(caption, Anchor::Start, WORDS, Weight::Regular, Role::Muted, words));

@@ -1,0 +1,14 @@
+//! What a figure is written with: `use fastslam_widgets::prelude::*`.
+
+pub use crate::{
+    decimal::fixed,
+    field,
+    figure::Figure,
+    model::{Declared, FigureError, Model, Readout, Series, Stateless},
+    panels::Panels,
+    recipe::{Menu, Param, Recipe},
+    scene::{
+        Anchor, Chart, Handle, Legend, Mark, Plane, Point, Rect, Role, Sample, Scene, Stack, cloud, heading, text,
+    },
+    view::{Layout, View},
+};
