@@ -10,7 +10,7 @@ import { programs } from './registry.mjs'
 /**
  * @typedef {import('../widgets/elements/shell').ParamSpec} ParamSpec
  * @typedef {import('../widgets/elements/shell').Readout} Readout
- * @typedef {{ tag: string, name: string, className: string, title: string, describe: string, params: ParamSpec[], readouts: Readout[] }} FigureInfo
+ * @typedef {{ tag: string, name: string, className: string, title: string, describe: string, params: ParamSpec[], readouts: Readout[], panels: string[] }} FigureInfo
  */
 
 /** Every figure, asked in Node. @returns {Promise<FigureInfo[]>} */
@@ -27,6 +27,7 @@ export async function figures() {
       describe: figure.describe(),
       params: figure.params(),
       readouts: figure.readouts(),
+      panels: figure.panels(),
     }
   })
 }
@@ -40,7 +41,7 @@ export const camel = name => name.replace(/-(.)/g, (_, letter) => letter.toUpper
 export const options = [
   { name: 'theme', values: ['auto', 'light', 'dark'], help: 'Colours; auto follows the reader’s system.' },
   { name: 'controls', values: ['all', 'playback', 'none'], help: 'What readers see of the controls: all, those of playback, or none.' },
-  { name: 'show', values: undefined, help: 'Parts of the picture to show, apart by spaces; or all. show="n-eff" is one chart; a name that is none is answered with those that there are.' },
+  { name: 'show', values: undefined, help: 'Parts of the picture to show, apart by spaces; or all.' },
   { name: 'lock', values: undefined, help: 'Names of parameters, apart by spaces, that readers cannot change; or all. lock="seed" fixes the seed.' },
   { name: 'decimal', values: ['point', 'comma'], help: 'How numbers are written; the figure of logs has the point alone.' },
   { name: 'size', values: ['normal', 'presentation'], help: 'presentation makes letters and lines half as large again, for a projector.' },
@@ -67,7 +68,7 @@ const properties = [
 
 /** The figure that maps logs has no steps to go back and forth in, and files to open. */
 const log = {
-  options: options.filter(({ name }) => ['theme', 'controls', 'lock', 'size'].includes(name)),
+  options: options.filter(({ name }) => ['theme', 'controls', 'show', 'lock', 'size'].includes(name)),
   methods: [
     { name: 'open', type: '(file: Blob, name?: string, start?: boolean) => Promise<void>', help: 'Reads a log; maps it too if it is to start.' },
     { name: 'example', type: '() => Promise<void>', help: 'Maps the log that comes with the figure.' },
@@ -138,7 +139,7 @@ export function manifest(all) {
       ...figure.params.map(attribute(figure)),
       ...membersOf(figure).options.map(({ name, values, help }) => ({
         name,
-        description: help,
+        description: name === 'show' ? `${help} There are ${figure.panels.join(', ') || 'none: it is one piece'}.` : help,
         type: { text: values ? values.map(v => `'${v}'`).join(' | ') : 'string' },
         ...(values && { default: values[0] }),
       })),

@@ -8,7 +8,7 @@ pub use crate::{
     panels::Panels,
     recipe::{Menu, Param, Recipe},
     scene::{
-        Anchor, Chart, Handle, Legend, Mark, Plane, Point, Rect, Role, Sample, Scene, Stack, cloud, heading, text,
+        Anchor, Chart, Handle, Mark, Plane, Point, Rect, Role, Sample, Scene, Stack, cloud, heading, legend, text,
     },
     view::{Layout, View},
 };

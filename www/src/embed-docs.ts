@@ -93,14 +93,15 @@ function list(declarations: Declaration[]): void {
   const code = (text: string) => h('code', {}, text)
   const attributes = (all: Described[]) => all.map(({ name, type, default: value, description }) => [code(name), code(type?.text ?? ''), code(value ?? ''), description ?? ''])
   for (const { tagName, summary, attributes: all } of declarations) {
-    const rows = attributes(all.filter(({ name }) => !(name in OPTIONS)))
+    // Each has parts of its own to show.
+    const rows = attributes(all.filter(({ name }) => name === 'show' || !(name in OPTIONS)))
     reference.append(h('details', {}, h('summary', {}, code(`<${tagName}>`), ` ${summary}`), ...table('Attributes', ['Attribute', 'Values', 'Default', 'What it does'], rows)))
   }
   const { attributes: every, members, events, cssParts, cssProperties } = declarations[0]!
   const methods = members.filter(({ kind }) => kind === 'method')
   const properties = members.filter(({ name, kind }) => kind === 'field' && !FIGURES[declarations[0]!.tagName]!.parameters.some(parameter => parameter.replace(/-(.)/g, (_, letter: string) => letter.toUpperCase()) === name))
   reference.append(
-    ...table('Attributes of every figure', ['Attribute', 'Values', 'Default', 'What it does'], attributes(every.filter(({ name }) => name in OPTIONS))),
+    ...table('Attributes of every figure', ['Attribute', 'Values', 'Default', 'What it does'], attributes(every.filter(({ name }) => name !== 'show' && name in OPTIONS))),
     ...table('Methods, properties and events', ['Name', 'What it does'], [
       ...methods.map(({ name, description }) => [code(`${name}()`), description ?? '']),
       ...properties.map(({ name, description }) => [code(name), description ?? '']),

@@ -9,7 +9,7 @@ use super::{
 use crate::{
     font::Weight,
     panels::Panels,
-    scene::{Anchor, LINE, Legend, Mark, Point, Rect, Role, Sample, Scene, closed, diamond, ellipse, heading, text},
+    scene::{Anchor, LINE, Mark, Point, Rect, Role, Sample, Scene, closed, diamond, ellipse, heading, legend, text},
     view::{View, whole_step},
 };
 
@@ -65,10 +65,10 @@ fn graph(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
     };
     heading(scene, &layout.graph_header, (title, role), rest);
     Graph::new(model, &layout.graph).draw(scene);
-    legend(scene, model, layout);
+    names(scene, model, layout);
 }
 
-fn legend(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
+fn names(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
     let known = model.conditioned();
     let pose = move |place: &Rect| {
         let disc = |(radius, role)| Mark::Discs { centres: vec![place.centre()], radius, role };
@@ -97,7 +97,7 @@ fn legend(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
         (Sample::at(region), "90 % region"),
         (Sample::new(arcs).wide(48.0), "|ρ| = ¼, ½, 1"),
     ];
-    Legend { gap: 12.0, ..Legend::default() }.draw(scene, &layout.legend, items);
+    legend(scene, &layout.legend, items);
 }
 
 fn notes(scene: &mut Scene, model: &ConditioningModel, area: &Rect) {

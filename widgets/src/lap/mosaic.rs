@@ -5,12 +5,11 @@ use super::{
     layout::{Layout, RING},
     map::{self, ASPECT},
     model::LapModel,
-    view::SAMPLES,
 };
 use crate::{
     font::{self, Weight},
     model::Model,
-    scene::{Anchor, Mark, Point, Rect, Region, Role, Sample, Scene, Shading, cross, heading, text},
+    scene::{Anchor, Mark, Point, Rect, Region, Role, Sample, Scene, Shading, cross, heading, legend, text},
 };
 
 /// Shares of weight (1 = 1/M) at which a border is full: a universe that weighs thrice its share.
@@ -155,7 +154,7 @@ fn ghost(scene: &mut Scene, model: &LapModel, slot: u32, map: &Rect, width: f64)
 pub fn notes(scene: &mut Scene, model: &LapModel, area: &Rect, labels: bool) {
     let weight = |share| Sample::new(move |place| vec![border(*place, share, 4.0)]);
     if model.lap().particles().len() == 1 {
-        SAMPLES.draw(scene, area, [(weight(1.0), "weight: all of it")]);
+        legend(scene, area, [(weight(1.0), "weight: all of it")]);
         return;
     }
     let weights = [(weight(0.0), "weight 0"), (weight(1.0), "1/M"), (weight(FULL_SHARE), "3/M or more")];
@@ -170,6 +169,6 @@ pub fn notes(scene: &mut Scene, model: &LapModel, area: &Rect, labels: bool) {
         extinct_cross(&Rect::new(x - 5.0, y - 5.0, 10.0, 10.0)).into()
     };
     let resampling = [(Sample::dot(Role::Copied, 2.5), "resampled"), copied, (Sample::new(died), "died out")];
-    let y = SAMPLES.draw(scene, area, weights);
-    SAMPLES.draw(scene, &Rect { y, ..*area }, resampling);
+    let y = legend(scene, area, weights);
+    legend(scene, &Rect { y, ..*area }, resampling);
 }

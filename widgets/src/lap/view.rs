@@ -13,12 +13,12 @@ use crate::{
     model::Model,
     panels::Panels,
     scene::{
-        Anchor, Chart, FREE, Legend, Mark, OCCUPIED, Plane, Rect, Role, Sample, Scene, Shading, UNKNOWN, cloud,
-        heading, joined, n_eff, rimmed, rimmed_polygon, scale_bar, text,
+        Anchor, Chart, FREE, Mark, OCCUPIED, Rect, Role, Sample, Scene, Shading, UNKNOWN, cloud, heading, legend,
+        n_eff, rimmed, rimmed_robot, scale_bar, text,
     },
     view::View,
 };
-use fastslam::{geometry::Pose2, resampling::ResamplePolicy};
+use fastslam::resampling::ResamplePolicy;
 
 /// Dashes and gaps of the truth and of raw odometry \[css px\].
 const TRUTH: [f64; 2] = [2.0, 3.0];
@@ -41,7 +41,7 @@ impl View for LapView {
     fn draw(&self, model: &LapModel, layout: &Layout, scene: &mut Scene) {
         if layout.panels.has(MAP) {
             large(scene, model, layout);
-            legend(scene, model, &layout.legend);
+            names(scene, model, &layout.legend);
         }
         if layout.panels.has(MOSAIC) {
             let tiles = Tiles::fit(&layout.mosaic.inset(RING), model.lap().particles().len(), ASPECT);
@@ -85,30 +85,21 @@ fn large(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     if model.shows_raw() {
         let lines = plane.path(&world.odometry[..=now], 0.5);
         rimmed(scene, lines, 2.0, Some(RAW), Role::Odometry);
-        robot(scene, &plane, &world.odometry[now], 7.0, Role::Odometry);
+        rimmed_robot(scene, &plane, &world.odometry[now], 7.0, Role::Odometry);
     }
     rimmed(scene, plane.path(&lap.path(slot as usize), 0.5), 2.25, None, Role::Path);
     if model.shows_truth() {
         // Over the estimate, thin and dashed: where both agree, both are seen.
         let lines = plane.path(&world.truth[..=now], 0.5);
         scene.marks.push(Mark::Lines { lines, width: 1.5, dash: Some(TRUTH), role: Role::Truth });
-        robot(scene, &plane, &world.truth[now], 7.0, Role::Truth);
+        rimmed_robot(scene, &plane, &world.truth[now], 7.0, Role::Truth);
     }
-    robot(scene, &plane, &particle.world_from_robot, 9.0, Role::Path);
+    rimmed_robot(scene, &plane, &particle.world_from_robot, 9.0, Role::Path);
     scale_bar(scene, &plane, 1.0, f64::INFINITY);
     scene.marks.push(Mark::Frame { area: plane.area, width: 1.0, role: Role::Frame });
 }
 
-fn robot(scene: &mut Scene, plane: &Plane, pose: &Pose2, length: f64, role: Role) {
-    if let Some(corners) = plane.robot(pose, length) {
-        rimmed_polygon(scene, corners, joined, role);
-    }
-}
-
-/// Samples as far apart as names of one word allow.
-pub(super) const SAMPLES: Legend = Legend { size: 11.5, apart: 6.0, gap: 13.99 };
-
-fn legend(scene: &mut Scene, model: &LapModel, area: &Rect) {
+fn names(scene: &mut Scene, model: &LapModel, area: &Rect) {
     let hit = |place: &Rect| {
         let mean = Mark::Discs { centres: vec![place.centre()], radius: 1.5, role: Role::Hit };
         Sample::cell(OCCUPIED).marks(place).into_iter().chain([mean]).collect()
@@ -126,7 +117,7 @@ fn legend(scene: &mut Scene, model: &LapModel, area: &Rect) {
     if model.shows_raw() {
         items.push((Sample::line(Role::Odometry, 2.0, Some(RAW)), "raw odometry"));
     }
-    SAMPLES.draw(scene, area, items);
+    legend(scene, area, items);
 }
 
 /// N_eff over the steps, with the threshold that calls for resampling and the steps that did.

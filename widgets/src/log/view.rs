@@ -12,8 +12,8 @@ use crate::{
     model::Model,
     panels::Panels,
     scene::{
-        Anchor, Cells, Chart, FREE, Legend, Mark, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN,
-        heading, joined, n_eff, rimmed_polygon, scale_bar, text, thinned,
+        Anchor, Cells, Chart, FREE, Mark, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, heading,
+        legend, n_eff, rimmed_robot, scale_bar, text, thinned,
     },
     view::{Navigation, View},
 };
@@ -59,7 +59,7 @@ impl View for LogView {
             ess(scene, model, first);
             lineage(scene, model, second);
         }
-        legend(scene, layout);
+        names(scene, layout);
     }
 
     fn navigation(&mut self) -> Option<&mut dyn Navigation<Self>> {
@@ -193,9 +193,7 @@ fn paths(scene: &mut Scene, model: &LogModel, plane: &Plane) {
     let robots = filter.particles().iter().filter_map(|particle| plane.robot(&particle.world_from_robot, 5.0));
     scene.marks.push(Mark::Polygons { polygons: robots.collect(), role: Role::Copied });
     let best = &filter.particles()[filter.best()].world_from_robot;
-    if let Some(corners) = plane.robot(best, 9.0) {
-        rimmed_polygon(scene, corners, joined, Role::Path);
-    }
+    rimmed_robot(scene, plane, best, 9.0, Role::Path);
 }
 
 /// A round length, in the lower right corner.
@@ -254,7 +252,7 @@ fn lineage(scene: &mut Scene, model: &LogModel, gauge: &Gauge) {
     curve(scene, model, &chart, |moment| f64::from(moment.lineage) / m as f64);
 }
 
-fn legend(scene: &mut Scene, layout: &Layout) {
+fn names(scene: &mut Scene, layout: &Layout) {
     let tick = |[x, y]: Point| {
         let lines = vec![vec![[x, y - 0.5 * TICK], [x, y + 0.5 * TICK]]];
         Mark::Lines { lines, width: 1.25, dash: None, role: Role::Extinct }
@@ -271,5 +269,5 @@ fn legend(scene: &mut Scene, layout: &Layout) {
     let of_gauges = [(Sample::at(tick), "resampled"), (Sample::line(Role::Accent, 1.0, Some(THRESHOLD)), "threshold")];
     let of_map = of_map.into_iter().filter(|_| layout.map.is_some());
     let of_gauges = of_gauges.into_iter().filter(|_| layout.gauges.is_some());
-    Legend::default().draw(scene, &layout.legend, of_map.chain(of_gauges));
+    legend(scene, &layout.legend, of_map.chain(of_gauges));
 }

@@ -12,8 +12,8 @@ use crate::{
     model::Declared,
     panels::Panels,
     scene::{
-        Anchor, Cells, Handle, LINE, Legend, Mark, NINE_TENTHS, Plane, Point, Rect, Role, Sample, Scene, Shading, bar,
-        clip_polyline, closed, cloud, diamond, ellipse, heading, rimmed_polygon, text,
+        Anchor, Cells, Handle, LINE, Mark, NINE_TENTHS, Plane, Point, Rect, Role, Sample, Scene, Shading, bar,
+        clip_polyline, closed, cloud, diamond, ellipse, heading, legend, rimmed_robot, text,
     },
     view::View,
 };
@@ -31,6 +31,9 @@ pub const LANDMARK: &str = "landmark";
 pub const LANDMARK_AGAIN: &str = "landmark-again";
 /// The guess on the scale of ratios.
 pub const GUESS: &str = "guess";
+
+/// From a robot's centre to its nose \[css px\].
+const ROBOT: f64 = 9.0;
 
 /// Radius of a sample \[css px\]: the finer, the more there are, so that the density behind them is seen.
 fn dot(samples: usize) -> f64 {
@@ -86,7 +89,7 @@ impl View for ProposalView {
             ratio(scene, model, layout);
         }
         if layout.legend.h > 0.0 {
-            legend(scene, model, layout);
+            names(scene, model, layout);
         }
     }
 
@@ -157,8 +160,8 @@ fn panel_view(scene: &mut Scene, model: &ProposalModel, panel: &Panel, drawn: &C
             scene.marks.push(filled_diamond(*at, 6.0, Role::Landmark));
         }
     }
-    triangle(scene, &plane, &FROM, Role::Muted);
-    triangle(scene, &plane, &found.truth, Role::Ink);
+    rimmed_robot(scene, &plane, &FROM, ROBOT, Role::Muted);
+    rimmed_robot(scene, &plane, &found.truth, ROBOT, Role::Ink);
     if let [[ax, ay], [bx, by]] = landmarks[..] {
         // Where the robot is if the sighting is of A, or of B: the same sighting of another place is made from another place.
         let other = Pose2::new(found.truth.x + TWIN[0], found.truth.y + TWIN[1], found.truth.theta);
@@ -200,15 +203,6 @@ fn density(posterior: &Posterior, plane: &Plane) -> Option<Mark> {
     let ([x, bottom], [right, y]) = (corner(first[0], first[1]), corner(end[0], end[1]));
     let cells = Cells { columns: end[0] - first[0], shades };
     Some(Mark::Raster { area: Rect::new(x, y, right - x, bottom - y), cells, shading: Shading::Density })
-}
-
-/// A triangle that points where the robot looks.
-fn triangle(scene: &mut Scene, plane: &Plane, pose: &Pose2, role: Role) {
-    let length = 9.0 / plane.scale;
-    let corners = [[1.0, 0.0], [-0.6, 0.6], [-0.6, -0.6]].map(|c| plane.point(pose.transform(c.map(|x| x * length))));
-    if corners.iter().all(|corner| plane.area.contains(*corner)) {
-        rimmed_polygon(scene, corners.to_vec(), closed, role);
-    }
 }
 
 fn filled_diamond(at: Point, r: f64, role: Role) -> Mark {
@@ -333,7 +327,7 @@ fn pointer([x, y]: Point, r: f64) -> Mark {
     Mark::Polygons { polygons: vec![vec![[x, y], [x - r, y - 1.7 * r], [x + r, y - 1.7 * r]]], role: Role::Accent }
 }
 
-fn legend(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
+fn names(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
     let line = |role, dash| Sample::line(role, 1.75, dash);
     let density = |place: &Rect| {
         let cells = Cells { columns: 3, shades: vec![90, 255, 90] };
@@ -345,12 +339,6 @@ fn legend(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
         [(-4.0, Role::Prior), (4.0, Role::Posterior)].map(dot).into()
     };
     let landmark = |place: &Rect| vec![ring(place.centre(), 7.0), filled_diamond(place.centre(), 4.0, Role::Landmark)];
-    let robot = |role| {
-        Sample::at(move |[x, y]| {
-            let polygons = vec![vec![[x + 7.0, y], [x - 4.5, y + 4.5], [x - 4.5, y - 4.5]]];
-            Mark::Polygons { polygons, role }
-        })
-    };
     let [aware, ratio] = [AWARE, RATIO].map(|name| layout.shown.has(name));
     let mut items = vec![(Sample::new(density), "posterior"), (line(Role::Ink, None), "its 90 %")];
     if aware {
@@ -359,8 +347,8 @@ fn legend(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
     items.extend([
         (Sample::new(samples), "samples"),
         (Sample::new(landmark), "landmark"),
-        (robot(Role::Muted), "robot before,"),
-        (robot(Role::Ink), "after"),
+        (Sample::robot(Role::Muted), "robot before,"),
+        (Sample::robot(Role::Ink), "after"),
     ]);
     if ratio {
         items.push((Sample::dot(Role::Ink, 4.5), "ratio"));
@@ -371,5 +359,5 @@ fn legend(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
     if ratio && model.at_half().is_some() {
         items.push((Sample::at(|at| filled_diamond(at, 5.5, Role::Ink)), "at half"));
     }
-    Legend { gap: 12.0, ..Legend::default() }.draw(scene, &layout.legend, items);
+    legend(scene, &layout.legend, items);
 }

@@ -6,9 +6,9 @@ use super::{
 };
 use crate::{
     font::Weight,
-    scene::{Anchor, LINE, Mark, Plane, Point, Rect, Role, Scene, clip_polyline, closed, cloud, diamond, robot, text},
+    scene::{Anchor, LINE, Mark, Plane, Point, Rect, Role, Scene, clip_polyline, closed, cloud, diamond, text},
 };
-use fastslam::{geometry::Pose2, ops};
+use fastslam::ops;
 
 impl Filter<'_> {
     /// Where the particles are, and the robot.
@@ -54,12 +54,9 @@ impl Filter<'_> {
         let noses = noses.flat_map(|line| clip_polyline(&line, &area)).collect();
         scene.marks.push(Mark::Lines { lines: noses, width: 1.0, dash: None, role: Role::Path });
         scene.marks.push(cloud(poses.iter().map(|p| plane.position(p)), &area.inset(2.0), 2.0, Role::Path));
-        let inside = |pose: &Pose2, length: f64| {
-            Some(robot(plane.position(pose), pose.theta, length)).filter(|c| c.iter().all(|p| area.contains(*p)))
-        };
-        let outlines = inside(&truth[truth.len() - 1], 9.0).into_iter().map(closed).collect();
+        let outlines = plane.robot(&truth[truth.len() - 1], 9.0).into_iter().map(closed).collect();
         scene.marks.push(Mark::Lines { lines: outlines, width: 1.5, dash: None, role: Role::Truth });
-        let head = inside(&poses[*best], 6.0).into_iter().collect();
+        let head = plane.robot(&poses[*best], 6.0).into_iter().collect();
         scene.marks.push(Mark::Polygons { polygons: head, role: Role::Path });
         scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
     }

@@ -10,7 +10,7 @@ use crate::decimal::fixed;
 use crate::{
     model::Model,
     panels::Panels,
-    scene::{Chart, Handle, Legend, Mark, Point, Rect, Role, Sample, Scene, closed, diamond, robot},
+    scene::{Chart, Handle, Mark, Point, Rect, Role, Sample, Scene, closed, diamond, legend, robot},
     view::{View, whole_step},
 };
 
@@ -42,7 +42,7 @@ impl View for ResamplingView {
             }
         }
         if panels.are_all() {
-            legend(scene, model, &layout.legend);
+            names(scene, model, &layout.legend);
         }
         if !CHARTS.iter().any(|name| panels.has(name)) {
             return;
@@ -83,7 +83,7 @@ fn told(model: &ResamplingModel) -> String {
 }
 
 /// What marks mean.
-fn legend(scene: &mut Scene, model: &ResamplingModel, area: &Rect) {
+fn names(scene: &mut Scene, model: &ResamplingModel, area: &Rect) {
     let back = format!("{} back, or weighted mean", model.back());
     let truth = |place: &Rect| {
         let [x, y] = place.centre();
@@ -105,5 +105,5 @@ fn legend(scene: &mut Scene, model: &ResamplingModel, area: &Rect) {
         let landmark = |at| Mark::Polygons { polygons: vec![diamond(at, 3.5)], role: Role::Landmark };
         items.push((Sample::at(landmark), "landmark"));
     }
-    Legend::default().draw(scene, area, items);
+    legend(scene, area, items);
 }

@@ -1,6 +1,6 @@
 //! What marks mean: samples of them with their names, in as many lines as it takes.
 
-use super::{Anchor, Cells, Mark, Point, Rect, Role, Scene, Shading, text};
+use super::{Anchor, Cells, Mark, Point, Rect, Role, Scene, Shading, robot, text};
 use crate::font::{self, Weight};
 
 /// Height of a line of text \[css px\].
@@ -8,6 +8,11 @@ pub const LINE: f64 = 18.0;
 
 /// Height of a sample \[css px\].
 const SAMPLE: f64 = 12.0;
+
+/// Font size, between a sample and its name, and between a name and the next sample \[css px\].
+const SIZE: f64 = 11.5;
+const APART: f64 = 5.0;
+const GAP: f64 = 12.0;
 
 type Draw<'a> = Box<dyn Fn(&Rect) -> Vec<Mark> + 'a>;
 
@@ -57,52 +62,37 @@ impl<'a> Sample<'a> {
         })
     }
 
+    /// A robot that looks to the right.
+    pub fn robot(role: Role) -> Self {
+        Self::at(move |[x, y]| Mark::Polygons { polygons: vec![robot([x - 1.0, y], 0.0, 7.0)], role })
+    }
+
     /// A disc.
     pub fn dot(role: Role, radius: f64) -> Self {
         Self::at(move |centre| Mark::Discs { centres: vec![centre], radius, role })
     }
 }
 
-/// How a legend is set.
-#[derive(Clone, Copy, Debug)]
-pub struct Legend {
-    /// Font size \[css px\].
-    pub size: f64,
-    /// Between a sample and its name \[css px\].
-    pub apart: f64,
-    /// Between a name and the next sample \[css px\].
-    pub gap: f64,
-}
-
-impl Default for Legend {
-    fn default() -> Self {
-        Self { size: 11.5, apart: 5.0, gap: 14.0 }
-    }
-}
-
-impl Legend {
-    /// Draws samples with their names from the upper left of an area on; returns the lower edge of the last line \[css px\].
-    pub fn draw<'a>(
-        &self,
-        scene: &mut Scene,
-        area: &Rect,
-        items: impl IntoIterator<Item = (Sample<'a>, impl AsRef<str>)>,
-    ) -> f64 {
-        let [mut x, mut y] = [area.x, area.y];
-        for (Sample { width, draw }, name) in items {
-            let name = name.as_ref();
-            let words = font::measure(name, self.size, Weight::Regular) + 0.01;
-            if x > area.x && x + width + self.apart + words > area.right() {
-                (x, y) = (area.x, y + LINE);
-            }
-            let place = Rect::new(x, y + 0.5 * (LINE - SAMPLE), width, SAMPLE);
-            scene.marks.extend(draw(&place));
-            let place = Rect::new(place.right() + self.apart, y, words, LINE);
-            scene.marks.push(text(place, Anchor::Start, self.size, Weight::Regular, Role::Muted, name));
-            x = place.right() + self.gap;
+/// Draws samples with their names from the upper left of an area on; returns the lower edge of the last line \[css px\].
+pub fn legend<'a>(
+    scene: &mut Scene,
+    area: &Rect,
+    items: impl IntoIterator<Item = (Sample<'a>, impl AsRef<str>)>,
+) -> f64 {
+    let [mut x, mut y] = [area.x, area.y];
+    for (Sample { width, draw }, name) in items {
+        let name = name.as_ref();
+        let words = font::measure(name, SIZE, Weight::Regular) + 0.01;
+        if x > area.x && x + width + APART + words > area.right() {
+            (x, y) = (area.x, y + LINE);
         }
-        y + LINE
+        let place = Rect::new(x, y + 0.5 * (LINE - SAMPLE), width, SAMPLE);
+        scene.marks.extend(draw(&place));
+        let place = Rect::new(place.right() + APART, y, words, LINE);
+        scene.marks.push(text(place, Anchor::Start, SIZE, Weight::Regular, Role::Muted, name));
+        x = place.right() + GAP;
     }
+    y + LINE
 }
 
 #[cfg(test)]
@@ -114,7 +104,7 @@ mod tests {
         let items = || ["one", "two", "three"].map(|name| (Sample::dot(Role::Path, 2.0), name));
         let lines = |width: f64| {
             let mut scene = Scene::new(width, 90.0, String::new());
-            let bottom = Legend::default().draw(&mut scene, &Rect::new(10.0, 5.0, width, 80.0), items());
+            let bottom = legend(&mut scene, &Rect::new(10.0, 5.0, width, 80.0), items());
             assert_eq!(scene.marks.len(), 6, "a sample and a name each");
             (bottom - 5.0) / LINE
         };

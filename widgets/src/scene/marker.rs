@@ -1,6 +1,7 @@
 //! Marks of one point, and lines and clouds of many, that stand out from what is below them.
 
-use super::{Mark, Point, Rect, Role, Scene};
+use super::{Mark, Plane, Point, Rect, Role, Scene};
+use fastslam::geometry::Pose2;
 
 /// Width of the paper-coloured rim that lifts a line off what is below it \[css px\], on each side.
 pub const RIM: f64 = 1.25;
@@ -26,14 +27,17 @@ pub fn rimmed(scene: &mut Scene, lines: Vec<Vec<Point>>, width: f64, dash: Optio
     scene.marks.extend([rim, Mark::Lines { lines, width, dash, role }]);
 }
 
-/// A polygon with a rim along an outline of it: [`super::closed`], or [`joined`].
-pub fn rimmed_polygon(scene: &mut Scene, corners: Vec<Point>, outline: fn(Vec<Point>) -> Vec<Point>, role: Role) {
-    let rim = Mark::Lines { lines: vec![outline(corners.clone())], width: 2.0 * RIM, dash: None, role: Role::Paper };
+/// A polygon with a rim.
+pub fn rimmed_polygon(scene: &mut Scene, corners: Vec<Point>, role: Role) {
+    // On to the second corner, so that it is joined at the first as at every other.
+    let outline = corners.iter().chain(corners.iter().take(2)).copied().collect();
+    let rim = Mark::Lines { lines: vec![outline], width: 2.0 * RIM, dash: None, role: Role::Paper };
     scene.marks.extend([rim, Mark::Polygons { polygons: vec![corners], role }]);
 }
 
-/// The outline of a polygon that goes on to the second corner, so that it is joined at the first as at every other.
-pub fn joined(corners: Vec<Point>) -> Vec<Point> {
-    let again: Vec<Point> = corners.iter().take(2).copied().collect();
-    [corners, again].concat()
+/// A robot of this length \[css px\] with a rim; nothing where it is out of view.
+pub fn rimmed_robot(scene: &mut Scene, plane: &Plane, pose: &Pose2, length: f64, role: Role) {
+    if let Some(corners) = plane.robot(pose, length) {
+        rimmed_polygon(scene, corners, role);
+    }
 }

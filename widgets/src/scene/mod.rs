@@ -20,8 +20,8 @@ pub use chart::Chart;
 pub use clip::{clip_polyline, thinned};
 pub use formula::{Formula, number};
 pub use handle::Handle;
-pub use legend::{LINE, Legend, Sample};
-pub use marker::{RIM, cloud, cross, diamond, joined, rimmed, rimmed_polygon};
+pub use legend::{LINE, Sample, legend};
+pub use marker::{RIM, cloud, cross, diamond, rimmed, rimmed_polygon, rimmed_robot};
 pub use plane::Plane;
 pub use rect::Rect;
 #[cfg(test)]

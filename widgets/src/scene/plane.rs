@@ -1,6 +1,6 @@
 //! From the world \[m\] to the picture \[css px\], and back.
 
-use super::{Point, Rect, clip_polyline, closed, ellipse, robot, thinned};
+use super::{Point, RIM, Rect, clip_polyline, closed, ellipse, robot, thinned};
 use fastslam::geometry::Pose2;
 
 /// A part of the world as it is drawn: upright, at one scale, cut at the edges of an area.
@@ -60,10 +60,10 @@ impl Plane {
         clip_polyline(&thinned(&mut poses.iter().map(|pose| self.position(pose)), least), &self.area)
     }
 
-    /// A robot of this length from centre to nose \[css px\]; `None` out of the area.
+    /// A robot of this length from centre to nose \[css px\]; `None` where not all of it is in the area.
     pub fn robot(&self, pose: &Pose2, length: f64) -> Option<Vec<Point>> {
-        let at = self.position(pose);
-        self.area.inset(1.5 * length).contains(at).then(|| robot(at, pose.theta, length))
+        let (corners, view) = (robot(self.position(pose), pose.theta, length), self.area.inset(RIM));
+        corners.iter().all(|corner| view.contains(*corner)).then_some(corners)
     }
 
     /// The points at a Mahalanobis distance from a Gaussian of the world, by its mean \[m\] and covariance \[m²\], cut at the edges.

@@ -10,7 +10,7 @@ use crate::{
     font::{self, Weight},
     panels::Panels,
     scene::{
-        Anchor, Formula, LINE, Legend, Mark, Plane, Point, Rect, Role, Sample, Scene, bar, closed, cross, ellipse,
+        Anchor, Formula, LINE, Mark, Plane, Point, Rect, Role, Sample, Scene, bar, closed, cross, ellipse, legend,
         number, rimmed_polygon, robot, text,
     },
     view::View,
@@ -43,7 +43,7 @@ impl View for WorkedExampleView {
         let example = model.example();
         if let Some([drawing, names]) = &layout.plot {
             plot(scene, example, drawing);
-            legend(scene, names);
+            legend(scene, names, samples());
         }
         for (step, place) in GIVEN.iter().zip(&layout.given) {
             label(scene, step, &place.label);
@@ -144,7 +144,7 @@ fn plot(scene: &mut Scene, example: &WorkedExample, area: &Rect) {
     for (slot, length) in [(0, 13.0), (1, 8.0)] {
         let pose = &example.updates[slot].world_from_robot;
         let corners = robot(plane.position(pose), pose.theta, length);
-        rimmed_polygon(scene, corners, closed, Role::Particle(slot as u8));
+        rimmed_polygon(scene, corners, Role::Particle(slot as u8));
     }
     // The power of ten that takes up to half of the width.
     let mut length = 1e-3;
@@ -164,29 +164,29 @@ fn seen_at([x, y]: Point, role: Role) -> Mark {
 }
 
 /// What the drawing shows.
-fn legend(scene: &mut Scene, area: &Rect) {
+fn samples() -> [(Sample<'static>, &'static str); 3] {
     let landmark = |[x, y]: Point, width: f64, role: Role| {
         let lines = vec![closed(ellipse([x, y], [[64.0, 0.0], [0.0, 25.0]], 1.0))];
         [Mark::Lines { lines, width, dash: None, role }, Mark::Discs { centres: vec![[x, y]], radius: 2.0, role }]
     };
-    let before = Sample::new(|place| landmark([place.right() - 16.0, place.centre()[1]], 2.0, Role::Landmark).into());
+    let before =
+        Sample::new(move |place| landmark([place.right() - 9.0, place.centre()[1]], 2.0, Role::Landmark).into());
     let of = |slot: u8| {
         let role = Role::Particle(slot);
         let draw = move |place: &Rect| {
             let (x, y) = (place.x, place.centre()[1]);
             let lines = vec![vec![[x, y], [x + 20.0, y]]];
             let sight = Mark::Lines { lines, width: 1.25, dash: Some([5.0, 4.0]), role };
-            let after = landmark([place.right() - 16.0, y], 1.25, role);
+            let after = landmark([place.right() - 9.0, y], 1.25, role);
             [sight, seen_at([x + 22.0, y], role)].into_iter().chain(after).collect()
         };
-        Sample::new(draw).wide(60.0)
+        Sample::new(draw).wide(53.0)
     };
-    let items = [
-        (before.wide(26.0), "landmark before, 2 σ"),
+    [
+        (before.wide(19.0), "landmark before, 2 σ"),
         (of(0), "particle 1: sighting, landmark after"),
         (of(1), "particle 2: sighting, landmark after"),
-    ];
-    Legend { size: WORDS, apart: 0.0, gap: 13.99 }.draw(scene, area, items);
+    ]
 }
 
 /// N_eff on its scale from nothing to M, against the threshold, and what follows.
