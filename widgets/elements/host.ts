@@ -63,6 +63,33 @@ export type Command =
 /** Whether a command says how the figure is to be shown, which holds also after a trap, whatever is loaded. */
 export const isKept = ({ do: name }: Command): boolean => ['size', 'lock', 'show', 'comma'].includes(name)
 
+/** The step that is meant where another one is asked for than those there are. */
+export const clampedStep = (step: number, last: number): number => Math.max(0, Math.min(last, Math.round(step) || 0))
+
+/** What a host remembers of its figure, so that it can be made again after a trap. */
+export class HostMemory {
+  readonly #kept = new Map<Command['do'], Command>()
+  #beginning: Command | undefined // for a figure that traps before it has shown anything
+  #shown: string | undefined
+
+  /** A command is sent. */
+  note(command: Command): void {
+    if (isKept(command)) this.#kept.set(command.do, command)
+    if (command.do === 'begin') this.#beginning = command
+  }
+
+  /** A frame came: a state that is on its way to another one may be the one that traps. */
+  saw({ busy, query }: { busy: boolean; query: string }): void {
+    if (!busy) this.#shown = query
+  }
+
+  /** What makes the figure again: in this state, else as it was when it was shown last, else as it began. */
+  again(query = this.#shown): Command[] {
+    const begin: Command | undefined = query === undefined ? this.#beginning : { do: 'begin', query, settings: [], authored: undefined, changed: false }
+    return [...this.#kept.values(), ...(begin ? [begin] : [])]
+  }
+}
+
 export type SavedFile = 'map.png' | 'map.ros' | 'path.tum' | 'report.json'
 
 /** How far the mapping of a file is. */

@@ -1,5 +1,5 @@
 // A figure whose program runs on the page: commands are calls, and what they do can be read at once.
-import { isKept, type Command, type FigureHost, type Frame, type Listener } from './host'
+import { HostMemory, isKept, type Command, type FigureHost, type Frame, type Listener } from './host'
 import type { InstanceUser, Program } from './program'
 import { trapMessage, type Shell } from './shell'
 import { Session } from './session'
@@ -13,12 +13,9 @@ export class LocalHost implements FigureHost, InstanceUser {
   #queue: Command[] = [] // what was asked meanwhile
   #dirty = true
   #paintedAt = -Infinity // [ms]
-  /** The settings that no link holds, to be given to the next instance as well. */
-  #kept = new Map<Command['do'], Command>()
+  readonly #memory = new HostMemory()
   #trapped = false // it was this figure that killed the instance
   #known: { values: Record<string, string>; query: string; target: number; last: number } | undefined // as it was asked to be, for the time without a session
-  #beginning: Command | undefined // with what it began, for one that traps before anything is known
-  #good: string | undefined // as it was when it was shown last
 
   private constructor(
     private readonly program: Program,
@@ -59,8 +56,7 @@ export class LocalHost implements FigureHost, InstanceUser {
   }
 
   send(command: Command): void {
-    if (isKept(command)) this.#kept.set(command.do, command)
-    if (command.do === 'begin') this.#beginning = command
+    this.#memory.note(command)
     this.sent += 1
     if (this.#session) this.#carryOut(command)
     else this.#queue.push(command)
@@ -83,7 +79,7 @@ export class LocalHost implements FigureHost, InstanceUser {
       const frame = session.frame(now === undefined)
       this.#dirty = now === undefined
       this.#paintedAt = performance.now()
-      if (!frame.busy) this.#good = frame.query
+      this.#memory.saw(frame)
       return frame
     })
   }
@@ -119,7 +115,7 @@ export class LocalHost implements FigureHost, InstanceUser {
     this.#ask(session => {
       void session.do(command)
       // A state that is asked for is remembered, in case that another figure kills the instance before it is shown.
-      if (!this.#kept.has(command.do)) this.#known = { values: session.values, query: session.query, target: session.target, last: session.last }
+      if (!isKept(command)) this.#known = { values: session.values, query: session.query, target: session.target, last: session.last }
     })
   }
 
@@ -133,16 +129,13 @@ export class LocalHost implements FigureHost, InstanceUser {
   }
 
   async #revive(): Promise<void> {
-    const query = this.#trapped ? this.#good : this.#known?.query
-    const again: Command | undefined = query === undefined ? this.#beginning : { do: 'begin', query, settings: [], authored: undefined, changed: false }
+    const again = this.#memory.again(this.#trapped ? undefined : this.#known?.query)
     this.#trapped = false
     try {
       this.shell = await this.program.shell()
       if (!this.program.users.has(this) || this.#session) return
       this.#session = new Session(this.shell, this.tag, answer => this.listener.hear(answer))
-      for (const command of this.#kept.values()) this.#carryOut(command)
-      if (again) this.#carryOut(again)
-      for (const command of this.#queue.splice(0)) this.#carryOut(command)
+      for (const command of [...again, ...this.#queue.splice(0)]) this.#carryOut(command)
       this.listener.wake()
     } catch (error) {
       this.listener.hear({ told: 'failed', why: (error as Error).message, error: String(error) })

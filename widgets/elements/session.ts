@@ -1,5 +1,5 @@
 // A figure beside its program, on the page or in a worker: carries out what it is asked, and says what there is to show.
-import type { Answer, Beginning, Command, Frame, Layout, Picture, Run, Size } from './host'
+import { clampedStep, type Answer, type Beginning, type Command, type Frame, type Layout, type Picture, type Run, type Size } from './host'
 import { locked } from './options'
 import { isRefusal, type Handle, type ParamSpec, type Readout, type Shell, type ShellFigure, type TraceLine } from './shell'
 
@@ -55,7 +55,7 @@ export class Session {
       case 'comma':
         return figure.set_decimal_comma(command.on)
       case 'seek':
-        this.#target = clamped(command.step, figure.step_count())
+        this.#target = clampedStep(command.step, figure.step_count())
         return figure.seek(this.#target)
       case 'trace':
         this.#mustTrace = true
@@ -274,8 +274,4 @@ export class Session {
     const pixels = () => new Uint8ClampedArray(this.shell.memory.buffer as ArrayBuffer, this.figure.pixels(), width * height * 4)
     return { width, height, pixels }
   }
-}
-
-function clamped(step: number, last: number): number {
-  return Math.max(0, Math.min(last, Math.round(step) || 0))
 }

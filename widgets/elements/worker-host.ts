@@ -1,6 +1,6 @@
 // A figure whose program runs in a worker: commands are messages, and what they did comes with the next frame. The page answers at once
 // whatever the figure does.
-import { isKept, type Command, type FigureHost, type Frame, type Listener } from './host'
+import { clampedStep, HostMemory, type Command, type FigureHost, type Frame, type Listener } from './host'
 import { createWorker, workerRefused } from './jobs'
 import type { Program } from './program'
 import type { SentFrame, WorkerRequest, WorkerResponse } from './worker'
@@ -13,9 +13,7 @@ export class WorkerHost implements FigureHost {
   #shown: SentFrame | undefined // the last frame that came
   #new = false
   #target: number | undefined // asked for since then
-  #kept = new Map<Command['do'], Command>()
-  #good: string | undefined // as it was when it was shown last
-  #beginning: Command | undefined // with what it began, for one that traps before it has shown anything
+  readonly #memory = new HostMemory()
 
   private constructor(
     private readonly module: WebAssembly.Module,
@@ -54,9 +52,8 @@ export class WorkerHost implements FigureHost {
   }
 
   send(command: Command): void {
-    if (isKept(command)) this.#kept.set(command.do, command)
-    if (command.do === 'begin') this.#beginning = command
-    if (command.do === 'seek') this.#target = Math.max(0, Math.min(this.last, Math.round(command.step) || 0))
+    this.#memory.note(command)
+    if (command.do === 'seek') this.#target = clampedStep(command.step, this.last)
     this.sent += 1
     this.#post(command)
   }
@@ -84,9 +81,7 @@ export class WorkerHost implements FigureHost {
     this.#shown &&= { ...this.#shown, done: 0 }
     this.#target = undefined
     this.#begin()
-    for (const command of this.#kept.values()) this.send(command)
-    if (this.#good !== undefined) this.send({ do: 'begin', query: this.#good, settings: [], authored: undefined, changed: false })
-    else if (this.#beginning) this.send(this.#beginning)
+    for (const command of this.#memory.again()) this.send(command)
   }
 
   free(): void {
@@ -118,7 +113,7 @@ export class WorkerHost implements FigureHost {
     const waiting = this.#new ? this.#shown : undefined
     this.#shown = { ...frame, changed: frame.changed || (waiting?.changed ?? false), trace: frame.trace ?? waiting?.trace, picture: frame.picture ?? waiting?.picture }
     this.#new = true
-    if (!frame.busy) this.#good = frame.query
+    this.#memory.saw(frame)
     if (this.done >= this.sent) this.#target = undefined
     this.listener.wake()
   }
