@@ -40,7 +40,7 @@ export const camel = name => name.replace(/-(.)/g, (_, letter) => letter.toUpper
 /** Attributes of every figure that are no parameters. */
 export const options = [
   { name: 'theme', values: ['auto', 'light', 'dark'], help: 'Colours; auto follows the reader’s system.' },
-  { name: 'controls', values: ['all', 'playback', 'none'], help: 'What readers see of the controls: all, those of playback, or none.' },
+  { name: 'controls', values: undefined, help: 'Controls that readers see, apart by spaces: names of parameters, playback (the whole row of it), play (its button alone); or none, or all. controls="seed" leaves the seed; a name that is none is answered with those that there are.' },
   { name: 'show', values: undefined, help: 'Parts of the picture to show, apart by spaces; or all.' },
   { name: 'lock', values: undefined, help: 'Names of parameters, apart by spaces, that readers cannot change; or all. lock="seed" fixes the seed.' },
   { name: 'decimal', values: ['point', 'comma'], help: 'How numbers are written; the figure of logs has the point alone.' },

@@ -14,6 +14,12 @@ export async function holdPrograms(page: Page): Promise<() => void> {
   return open
 }
 
+/** The page has painted so many times: whatever was on its way has come, whatever the machine. */
+export const frames = (page: Page | Frame, count: number): Promise<void> =>
+  page.evaluate(async n => {
+    for (let i = 0; i < n; i++) await new Promise(requestAnimationFrame)
+  }, count)
+
 export class Figure {
   readonly element: Locator
   readonly play: Locator
@@ -82,6 +88,10 @@ export class Figure {
     await this.element.evaluate(figure => (figure as HTMLElement & { settled(): Promise<void> }).settled())
   }
 
+  async playing(): Promise<boolean> {
+    return this.element.evaluate(figure => (figure as HTMLElement & { playing: boolean }).playing)
+  }
+
   /** The step that is shown; where nothing plays, when it is the one asked for. */
   async position(): Promise<number> {
     await this.element.evaluate(async element => {
@@ -145,8 +155,8 @@ export class Figure {
   }
 
   async menu(item: string): Promise<void> {
-    await this.element.locator('summary[aria-label=Menu]').click()
-    await this.element.getByRole('button', { name: item }).click()
+    await this.element.locator('button[aria-label=Menu]').click()
+    await this.element.getByRole('menuitem', { name: item }).click()
   }
 
   box(name: string): Locator {
@@ -155,6 +165,11 @@ export class Figure {
 
   toggle(name: string): Locator {
     return this.element.locator(`button[name=${name}]`)
+  }
+
+  /** What of such a point takes the focus and is read out: its slider for the first direction. */
+  grasp(name: string): Locator {
+    return this.handle(name).locator('input').first()
   }
 
   /** What lies over a point of the picture that can be moved. */

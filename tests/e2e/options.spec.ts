@@ -1,6 +1,7 @@
 // What an author may fix about a figure: controls, locked parameters, seed, first step, decimal commas, size.
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
+import { openCourse } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -13,11 +14,46 @@ test('controls are all there, those of playback, or none; the figure itself stay
   await expect(lap.element.locator('[part=view]')).toBeHidden()
   await lap.element.evaluate(element => element.setAttribute('controls', 'none'))
   await expect(lap.play).toBeHidden()
-  await expect(lap.element.locator('summary[aria-label=Menu]')).toBeHidden()
+  await expect(lap.element.locator('button[aria-label=Menu]')).toBeHidden()
   await expect(lap.canvas).toBeVisible()
   await expect(lap.sentence).not.toBeEmpty()
-  await lap.element.evaluate(element => element.setAttribute('controls', 'some'))
-  await expect(lap.alert).toContainText('controls must be all, playback or none')
+})
+
+test('controls can be picked by their names, and a name that is none is answered with those there are', async ({ page }) => {
+  const lap = await open(page, 'lap', 'show=n-eff&controls=odometry&step=20')
+  const visible = () => lap.element.evaluate(element => [...element.shadowRoot!.querySelectorAll('button, input, select, summary')].filter(control => control.checkVisibility() && !control.closest('[part=notice]')).map(control => control.getAttribute('name') ?? control.getAttribute('aria-label')))
+  expect(await visible()).toEqual(['Menu', 'odometry', 'odometry'])
+  await lap.box('odometry').fill('2')
+  await lap.box('odometry').press('Enter')
+  await lap.settled()
+  expect(await lap.element.evaluate(element => (element as HTMLElement & { odometry: number }).odometry)).toBe(2)
+  const pick = async (names: string) => {
+    await lap.element.evaluate((element, text) => element.setAttribute('controls', text), names)
+    await lap.settled()
+    return visible()
+  }
+  expect(await pick('play universe  truth')).toEqual(['Menu', 'Play', 'universe', 'truth'])
+  expect(await pick('step seed')).toEqual(['Menu', 'Step shown', 'seed', 'Re-roll the seed'])
+  expect(await pick('playback')).toEqual(['Menu', 'Reset', 'Step back', 'Play', 'Step', 'Step shown', 'Speed', 'seed', 'Re-roll the seed'])
+  await expect(lap.alert).toBeEmpty()
+  const all = await pick('all')
+  expect(all.length).toBeGreaterThan(15)
+  expect(await pick('seed odometri')).toEqual(all)
+  await expect(lap.alert).toContainText('controls names “odometri”, but this figure has none, playback, play, universes, ')
+  expect(await pick('none')).toEqual([])
+  await expect(lap.alert).toBeEmpty()
+})
+
+test('one slider stands by itself, without a panel to be opened, and a picked figure is a small one', async ({ page }) => {
+  const body = ['', 'show="n-eff" controls="odometry"'].map(attributes => `<fastslam-lap ${attributes}></fastslam-lap>`).join('')
+  await openCourse(page, body)
+  const [whole, part] = [0, 1].map(i => new Figure(page, `fastslam-lap >> nth=${i}`)) as [Figure, Figure]
+  await whole.live()
+  await part.element.scrollIntoViewIfNeeded()
+  await part.live()
+  await expect(part.slider('odometry')).toBeVisible()
+  const height = (figure: Figure) => figure.element.evaluate(element => (element as HTMLElement).offsetHeight)
+  expect(await height(part)).toBeLessThan(0.6 * (await height(whole)))
 })
 
 test('a locked parameter yields to no control, no link and no hand, and others are free', async ({ page }) => {
@@ -47,7 +83,7 @@ test('a locked parameter yields to no control, no link and no hand, and others a
 test('a handle moves what is free and leaves what is locked', async ({ page }) => {
   const figure = await open(page, 'proposal', 'lock=landmark-x')
   const before = await figure.element.evaluate(element => [(element as never as { landmarkX: number }).landmarkX, (element as never as { landmarkY: number }).landmarkY])
-  const handle = figure.element.locator('[part=handle]').first()
+  const handle = figure.grasp('landmark')
   await handle.focus()
   for (const key of ['ArrowLeft', 'ArrowLeft', 'ArrowUp']) await page.keyboard.press(key)
   await figure.settled()
@@ -99,8 +135,10 @@ test('the presentation size is half as large again, in the picture and beside it
 
 test('a start step waits there, and Reset returns to what the author gave', async ({ browser, baseURL }) => {
   const page = await (await browser.newContext({ baseURL: baseURL!, reducedMotion: 'no-preference' })).newPage()
+  await page.clock.install()
   const lap = await open(page, 'lap', 'step=12&universes=4&lock=seed')
-  await page.waitForTimeout(1500)
+  await page.clock.runFor(1500)
+  expect(await lap.playing()).toBe(false)
   expect(await lap.position()).toBe(12)
   await lap.scrubTo(30)
   await lap.reset.click()

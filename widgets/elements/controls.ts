@@ -2,6 +2,7 @@
 import { h, icon, redraw, write } from './dom'
 import type { ParamSpec } from './shell'
 import { stride } from './handles'
+import { PLAY, PLAYBACK } from './options'
 
 /** What the controls may ask of the figure. */
 export interface Actions {
@@ -55,6 +56,8 @@ export class Controls {
   private readonly style: NumberStyle = { comma: false }
   private readonly rate: HTMLSelectElement
   private readonly playback: HTMLElement[] // all that a figure without steps has no use for
+  private readonly named: [HTMLElement, string[]][] // parts of the row of playback, and the names that `controls` has for each
+  private readonly rows: HTMLElement[] // what controls stand in, from within
 
   constructor(specs: ParamSpec[], actions: Actions) {
     this.rewind = button('rewind', 'Rewind', actions.rewind, 'rewind')
@@ -74,11 +77,13 @@ export class Controls {
     rate.value = String(NORMAL_RATE)
     const extras = h('span', { class: 'extras' }, rate)
     const timeline = h('span', { class: 'timeline' }, this.scrub, this.position)
+    const buttons = h('span', { class: 'buttons' }, this.rewind, this.back, this.play, this.forth)
     this.playback = [this.rewind, this.back, this.play, this.forth, timeline, rate]
+    this.named = [...[this.rewind, this.back, this.forth, rate, reset].map((part): [HTMLElement, string[]] => [part, [PLAYBACK]]), [this.play, [PLAYBACK, PLAY]], [timeline, [PLAYBACK, STEP]]]
     this.transport = h(
       'div',
       { class: 'transport', part: 'transport', role: 'group', 'aria-label': 'Playback' },
-      h('span', { class: 'buttons' }, this.rewind, this.back, this.play, this.forth),
+      buttons,
       timeline,
       extras,
     )
@@ -105,6 +110,7 @@ export class Controls {
     this.view.prepend(...toggles)
     grid.append(...choices)
     this.settings.hidden = !grid.hasChildNodes() && !boxes.hasChildNodes()
+    this.rows = [buttons, extras, this.transport, grid, boxes, this.settings, this.view]
   }
 
   /** `force` puts a control back that the reader has set to a refused value. */
@@ -143,6 +149,18 @@ export class Controls {
       for (const input of inputs) input.disabled = names.has(name)
     }
     this.scrub.disabled = names.has(STEP)
+  }
+
+  /** The controls that readers see: all, or those of these names. */
+  offer(names?: Set<string>): void {
+    const show = (element: HTMLElement, on: boolean) => element.classList.toggle('left-out', !on)
+    const has = (...any: string[]) => !names || any.some(name => names.has(name))
+    for (const [name, { element }] of this.fields) show(element, has(name) || (name === SEED && has(PLAYBACK)))
+    for (const [part, any] of this.named) show(part, has(...any))
+    for (const row of this.rows) show(row, [...row.children].some(child => !child.matches('.left-out, summary, .ask')))
+    // What an author picks is in sight.
+    this.settings.classList.toggle('bare', names !== undefined)
+    if (names) this.settings.open = true
   }
 
   /** The step shown; the handle of the scrubber is left to the hand that moves it until the step that it asked for is shown. */

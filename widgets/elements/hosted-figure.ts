@@ -6,7 +6,7 @@ import { FIGURES } from './generated/figures'
 import { write } from './dom'
 import type { Answer, Command, FigureHost, Frame, Listener } from './host'
 import { LocalHost } from './local-host'
-import { locked, refusal, unlockable } from './options'
+import { locked, offered, optionCommand, OPTIONS, refusal, unknownNames } from './options'
 import { programOf } from './program'
 import { download } from './save'
 import { Settings } from './settings'
@@ -74,9 +74,7 @@ export abstract class HostedFigure extends FigureParts implements Listener {
 
   /** Gives the host all that was asked until now. */
   protected begin(changed: boolean): void {
-    this.takeOption('decimal')
-    this.takeOption('show')
-    this.send({ do: 'lock', text: this.getAttribute('lock') })
+    for (const name of Object.keys(OPTIONS)) this.#sendOption(name)
     if (!this.host) return
     const beginning = this.settings.begin(this.host.sent + 1)
     if (beginning.settings.some(([name]) => name === 'step')) this.playback.stop() // who names a step wants it looked at
@@ -213,25 +211,39 @@ export abstract class HostedFigure extends FigureParts implements Listener {
     this.events.cause = 'reader'
   }
 
+  /** An option was set, or taken away. */
   protected takeOption(name: string): void {
+    this.#showOption(name)
+    this.#sendOption(name) // after that: what the program refuses of it is said then
+    this.refresh()
+  }
+
+  #sendOption(name: string): void {
+    const command = optionCommand(name, this.getAttribute(name))
+    if (command) this.host?.send(command)
+  }
+
+  /** What an option does on the page, and what is wrong with it. */
+  #showOption(name: string): void {
     const text = this.getAttribute(name)
+    const { controls } = this
     let wrong = refusal(name, text)
-    if (name === 'lock') {
+    if (controls) {
       const names = this.specs.map(spec => spec.name)
-      const wish = locked(text, names)
-      this.controls?.lock(wish.locked)
-      if (this.controls) wrong = unlockable(wish.unknown, names)
-      this.host?.send({ do: 'lock', text })
-    } else if (name === 'show') {
-      this.messages.set(name, '') // before the figure refuses names that it does not know
-      this.host?.send({ do: 'show', names: text ?? '' })
-      return this.refresh()
-    } else if (name === 'decimal') {
-      this.controls?.writeComma(text === 'comma')
-      this.host?.send({ do: 'comma', on: text === 'comma' })
+      if (name === 'lock') {
+        const wish = locked(text, names)
+        controls.lock(wish.locked)
+        wrong = unknownNames(name, wish.unknown, names)
+      } else if (name === 'controls') {
+        const wish = offered(text, names)
+        controls.offer(wish.offered)
+        this.body.classList.toggle('some-controls', wish.offered !== undefined)
+        wrong = unknownNames(name, wish.unknown, wish.known)
+      } else if (name === 'decimal') {
+        controls.writeComma(text === 'comma')
+      }
     }
     this.messages.set(name, wrong)
-    this.refresh()
   }
 
   // --- Frames ------------------------------------------------------------------------------------------------------------
@@ -292,8 +304,7 @@ export abstract class HostedFigure extends FigureParts implements Listener {
   }
 
   protected introduced(): void {
-    this.takeOption('lock')
-    this.takeOption('decimal')
+    for (const name of ['lock', 'controls', 'decimal']) this.#showOption(name)
   }
 
   /** It is about to be seen. */
