@@ -36,7 +36,7 @@ const CONTROLS: { of: string; name: string; find: (figure: Figure) => Locator; u
   { of: 'lap', name: 'a tick box', find: ({ element }) => element.locator('input[name=raw]'), used: ['Space'], free: ['b', 'ArrowRight', 'F2', 'Escape', 'Control+k'] },
   { of: 'lap', name: 'a button', find: figure => figure.reset, used: ['Space', 'Enter'], free: ['b', 'ArrowRight', 'Home', 'F2', 'Escape', 'Control+k'] },
   { of: 'lap', name: 'the settings', find: ({ element }) => element.locator('[part=settings] summary'), used: ['Space', 'Enter'], free: ['b', 'ArrowRight', 'F2', 'Escape', 'Control+k'] },
-  { of: 'proposal', name: 'a point that is moved', find: figure => figure.handle('landmark'), used: ['ArrowRight', 'ArrowUp', 'Shift+ArrowLeft', 'Alt+ArrowLeft'], free: ['b', 'Home', 'Space', 'F2', 'Escape', 'Control+k'] },
+  { of: 'proposal', name: 'a point that is moved', find: figure => figure.grasp('landmark'), used: ['ArrowRight', 'ArrowUp', 'Shift+ArrowLeft', 'Alt+ArrowLeft', 'Home', 'PageUp'], free: ['b', 'Space', 'F2', 'Escape', 'Control+k'] },
 ]
 
 for (const { of, name, find, used, free } of CONTROLS) {
@@ -53,10 +53,10 @@ for (const { of, name, find, used, free } of CONTROLS) {
 test('Escape closes a figure’s menu and is then the page’s again', async ({ page }) => {
   await openCourse(page, '<fastslam-lap></fastslam-lap><fastslam-log></fastslam-log>')
   for (const tag of ['fastslam-lap', 'fastslam-log']) {
-    const summary = page.locator(`${tag} summary[aria-label=Menu]`)
+    const summary = page.locator(`${tag} button[aria-label=Menu]`)
     await summary.click()
-    expect(await heard(page, page.locator(tag).getByRole('button', { name: /Copy link/ }), ['Escape'])).toEqual([])
-    await expect(page.locator(tag).getByRole('button', { name: /Copy link/ })).toBeHidden()
+    expect(await heard(page, page.locator(tag).getByRole('menuitem', { name: /Copy link/ }), ['Escape'])).toEqual([])
+    await expect(page.locator(tag).getByRole('menuitem', { name: /Copy link/ })).toBeHidden()
     expect(await heard(page, summary, ['Escape'])).toEqual(['Escape'])
   }
 })

@@ -33,9 +33,9 @@ for (const name of FIGURES) {
     await expect(figure.alert).toBeEmpty()
     expect(asked).toEqual([address])
     // There is no site to link frames to; the rest of the menu is there.
-    await figure.element.locator('summary[aria-label=Menu]').click()
-    await expect(figure.element.getByRole('button', { name: 'Copy code: Python' })).toBeVisible()
-    await expect(figure.element.getByRole('button', { name: 'Copy code: iframe' })).toHaveCount(0)
+    await figure.element.locator('button[aria-label=Menu]').click()
+    await expect(figure.element.getByRole('menuitem', { name: 'Copy code: Python' })).toBeVisible()
+    await expect(figure.element.getByRole('menuitem', { name: 'Copy code: iframe' })).toHaveCount(0)
   })
 }
 
@@ -202,8 +202,8 @@ test('in a learning system, a prediction completes what has no steps, once it wa
   await figure.reroll.click()
   await figure.toggle('predict').click()
   await expect(figure.toggle('predict')).toHaveAttribute('aria-pressed', 'true')
-  await figure.handle('guess').focus()
-  await figure.handle('guess').press('ArrowUp')
+  await figure.grasp('guess').focus()
+  await figure.grasp('guess').press('ArrowUp')
   await expect.poll(() => system.told('cmi.suspend_data')).toContain('guess=')
   expect(await system.told(STATUS), 'placed, and not yet run').toBe('incomplete')
   await figure.toggle('run').click()

@@ -12,6 +12,7 @@ import { keepKeys } from './keys'
 import { Menu, type MenuItem } from './menu'
 import { Messages } from './messages'
 import { Playback } from './playback'
+import { Help } from './popover'
 import type { ParamSpec } from './shell'
 import { showReadouts } from './readouts'
 import { copy, download } from './save'
@@ -42,6 +43,7 @@ export abstract class FigureParts extends HTMLElement {
   protected readonly menu = new Menu(this.menuItems(), this)
   readonly #undo = h('button', { type: 'button', class: 'undo', part: 'button undo', hidden: '' })
   #before = '' // the state that undoing brings back
+  readonly #help = new Help()
   readonly #fallback = h('div', { class: 'fallback' }, h('slot'))
   readonly #handles = new Handles({
     drag: (handle, x, y) => this.#byPointer({ do: 'drag', handle, x, y }),
@@ -64,6 +66,7 @@ export abstract class FigureParts extends HTMLElement {
       this.sentence.element,
       this.sentence.spoken,
       this.readouts,
+      this.#help.element,
     )
     root.append(this.body)
     this.#undo.addEventListener('click', () => this.#takeBack())
@@ -128,6 +131,7 @@ export abstract class FigureParts extends HTMLElement {
       rate: rate => (this.playback.rate = rate),
       change: (name, value) => this.change(name, value),
     })
+    this.controls.settings.append(this.#help.button)
     this.controls.settings.open = this.clientWidth >= WIDE && !this.canvas.fits
     this.specs = specs
     this.placeControls(this.controls)
@@ -230,7 +234,7 @@ export abstract class FigureParts extends HTMLElement {
   /** Whether the figure uses the key. */
   protected onKey(event: KeyboardEvent): boolean {
     if (event.ctrlKey || event.metaKey || event.altKey) return false
-    if (event.key === 'Escape') return this.menu.close()
+    if (event.key === 'Escape') return this.menu.close() || this.#help.close()
     const act = this.keyAction(event.key, event.target as HTMLElement)
     if (!act) return false
     event.preventDefault()
@@ -240,7 +244,7 @@ export abstract class FigureParts extends HTMLElement {
 
   protected keyAction(key: string, target: HTMLElement): (() => void) | undefined {
     if (!this.#timeline) return undefined
-    if (key === ' ' && !target.matches('button, summary, select, input:not([type=range])')) return () => this.#playPause()
+    if (key === ' ' && !target.matches('button, summary, select, input:not([type=range]), [popover]')) return () => this.#playPause()
     const onStage: Record<string, () => void> = {
       ArrowRight: () => this.step(),
       ArrowLeft: () => this.stepBack(),
@@ -260,6 +264,7 @@ export abstract class FigureParts extends HTMLElement {
       { name: 'Save picture (PNG)', act: () => this.canvas.element.toBlob(blob => blob && download(this.fileName('png'), blob)) },
       { name: 'Save data (CSV)', act: save('csv') },
       { name: 'Save data (JSON)', act: save('json') },
+      { name: 'Explain controls and numbers', act: () => this.#help.open() },
     ]
   }
 

@@ -2,6 +2,7 @@
 // not use are the page's. The page could not tell them apart: from outside, the target of every key is the figure.
 
 const MOVES = /^(Arrow(Left|Right|Up|Down)|Home|End)$/
+const SCROLLS = /^(Arrow(Up|Down)|Home|End|Page(Up|Down)| )$/
 const EDITS = /^(Arrow(Left|Right|Up|Down)|Home|End|Backspace|Delete|Insert|Enter)$/
 const COMMANDS = /^([acvxyz]|Arrow(Left|Right)|Home|End|Backspace|Delete|Insert)$/i
 
@@ -30,6 +31,7 @@ function servesControl(event: KeyboardEvent): boolean {
   if (control.matches('select')) return letter || MOVES.test(key) || ['Enter', 'PageUp', 'PageDown'].includes(key)
   if (event.altKey) return false
   if (control.matches('input[type=range]')) return MOVES.test(key) || ['PageUp', 'PageDown'].includes(key)
+  if (control.matches('[popover]')) return SCROLLS.test(key)
   if (control.matches('input[type=checkbox]')) return key === ' '
   return control.matches('button, summary') && [' ', 'Enter'].includes(key)
 }

@@ -1,5 +1,7 @@
-// The menu of a figure: what is done seldom.
+// The menu of a figure: what is done seldom. It is a popover, so that neither the figure nor what is around it cuts it off; where it
+// lies is figure.css's.
 import { h, icon } from './dom'
+import { closeBehindFocus, closePopover } from './popover'
 
 export interface MenuItem {
   name: string
@@ -7,30 +9,61 @@ export interface MenuItem {
 }
 
 export class Menu {
-  readonly element: HTMLDetailsElement
-  readonly #summary = h('summary', { 'aria-label': 'Menu', title: 'Menu', part: 'button menu' }, icon('more'))
+  readonly #button = h('button', { type: 'button', 'aria-label': 'Menu', title: 'Menu', 'aria-haspopup': 'menu', 'aria-expanded': 'false', popovertarget: 'menu', part: 'button menu' }, icon('more'))
+  readonly #list = h('div', { class: 'items', id: 'menu', popover: 'auto', role: 'menu', 'aria-label': 'Menu' })
+  readonly element = h('div', { class: 'menu' }, this.#button, this.#list)
 
   constructor(items: MenuItem[], figure: HTMLElement) {
     const toggle = () => void (document.fullscreenElement ? document.exitFullscreen() : figure.requestFullscreen())
     const all = document.fullscreenEnabled ? [...items, { name: 'Full screen', act: toggle }] : items
-    this.element = h('details', { class: 'menu', part: 'menu' }, this.#summary, h('div', { class: 'items' }, ...all.map(item => this.#button(item))))
-    this.element.addEventListener('focusout', event => {
-      if (!this.element.contains(event.relatedTarget as Node | null)) this.element.open = false
+    this.#list.append(...all.map(item => this.#item(item)))
+    this.#list.addEventListener('toggle', () => {
+      this.#button.ariaExpanded = String(this.#open)
+      if (this.#open && !this.#focused) this.#focus(0)
     })
+    this.#button.addEventListener('keydown', event => {
+      if (event.key !== 'ArrowDown' && event.key !== 'ArrowUp') return
+      event.preventDefault()
+      this.#list.showPopover()
+      this.#focus(event.key === 'ArrowDown' ? 0 : -1)
+    })
+    this.#list.addEventListener('keydown', event => this.#move(event))
+    closeBehindFocus(this.#list)
   }
 
   /** Closes it, where it is open, and leaves the focus at its button. */
   close(): boolean {
-    if (!this.element.open) return false
-    this.element.open = false
-    this.#summary.focus()
-    return true
+    return closePopover(this.#list, this.#button)
   }
 
-  #button({ name, act }: MenuItem): HTMLButtonElement {
-    const button = h('button', { type: 'button' }, name)
+  get #open(): boolean {
+    return this.#list.matches(':popover-open')
+  }
+
+  get #focused(): Element | null {
+    return this.#list.querySelector(':focus')
+  }
+
+  /** The item of this number; from the end where it is negative. */
+  #focus(number: number): void {
+    const items = [...this.#list.children] as HTMLElement[]
+    items.at(number)?.focus()
+  }
+
+  #move(event: KeyboardEvent): void {
+    const items = [...this.#list.children]
+    const at = items.indexOf(this.#focused!)
+    const to: Record<string, number> = { ArrowDown: (at + 1) % items.length, ArrowUp: at - 1, Home: 0, End: -1 }
+    const next = to[event.key]
+    if (next === undefined || event.altKey || event.ctrlKey || event.metaKey) return
+    event.preventDefault()
+    this.#focus(next)
+  }
+
+  #item({ name, act }: MenuItem): HTMLButtonElement {
+    const button = h('button', { type: 'button', role: 'menuitem', tabindex: '-1' }, name)
     button.addEventListener('click', () => {
-      this.element.open = false
+      this.close()
       act()
     })
     return button
