@@ -1,7 +1,7 @@
 // Keyboard, touch, screen reader, small and dark screens.
 import AxeBuilder from '@axe-core/playwright'
 import { expect, test } from './fixtures'
-import { Figure } from './figure'
+import { Figure, frames } from './figure'
 import { openCourse } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
@@ -23,7 +23,7 @@ for (const [what, options] of Object.entries({
     await lap.box('universes').fill('0')
     await lap.box('universes').press('Enter')
     await expect(lap.alert).not.toBeEmpty()
-    await lap.element.locator('summary[aria-label=Menu]').click()
+    await lap.element.locator('button[aria-label=Menu]').click()
     // The text around it has its own test, and takes axe a minute.
     const found = await new AxeBuilder({ page })
       .include('#fig-lap')
@@ -128,14 +128,102 @@ test('the whole figure is worked by keyboard alone', async ({ page }) => {
   await page.keyboard.press('ArrowRight')
   await expect(lap.box('universes')).toHaveValue('2')
 
-  // The menu opens, closes by Escape, and gives the focus back.
-  await lap.element.locator('summary[aria-label=Menu]').focus()
+  // The menu opens at its first item, is walked through by arrow keys, closes by Escape, and gives the focus back.
+  await lap.element.locator('button[aria-label=Menu]').focus()
   await page.keyboard.press('Enter')
-  await page.keyboard.press('Tab')
-  expect(await focused()).toBe('Copy link')
+  await expect(lap.element.getByRole('menu')).toBeVisible()
+  await expect.poll(focused).toBe('Copy link')
+  const items = await lap.element.getByRole('menuitem').allTextContents()
+  expect(items.length).toBeGreaterThan(5)
+  for (const [key, item] of [['ArrowDown', items[1]], ['ArrowUp', items[0]], ['ArrowUp', items.at(-1)], ['ArrowDown', items[0]], ['End', items.at(-1)], ['Home', items[0]]] as const) {
+    await page.keyboard.press(key)
+    expect(await focused(), key).toBe(item)
+  }
   await page.keyboard.press('Escape')
-  await expect(lap.element.getByRole('button', { name: 'Copy link' })).toBeHidden()
+  await expect(lap.element.getByRole('menu')).toBeHidden()
   expect(await focused()).toBe('Menu')
+  await page.keyboard.press('ArrowUp')
+  expect(await focused()).toBe(items.at(-1))
+  await page.keyboard.press('Tab')
+  await expect(lap.element.getByRole('menu')).toBeHidden()
+})
+
+test('a menu is whole in a window that is smaller than it, wherever its button is', async ({ page }) => {
+  for (const [width, height, dir] of [[900, 560, 'ltr'], [320, 200, 'ltr'], [320, 200, 'rtl'], [1200, 240, 'rtl']] as const) {
+    await page.setViewportSize({ width, height })
+    await openCourse(page, `<div dir="${dir}" style="padding-block: 150px 600px"><fastslam-lap controls="play" show="n-eff"></fastslam-lap></div>`)
+    const lap = new Figure(page, 'fastslam-lap')
+    await lap.live()
+    for (const block of ['start', 'end'] as const) {
+      const button = lap.element.locator('button[aria-label=Menu]')
+      await button.evaluate((element, at) => element.scrollIntoView({ block: at, behavior: 'instant' }), block)
+      await button.click()
+      const box = (await lap.element.getByRole('menu').boundingBox())!
+      const what = `${width} × ${height}, ${dir}, at the ${block}`
+      expect(box.x, what).toBeGreaterThanOrEqual(0)
+      expect(box.y, what).toBeGreaterThanOrEqual(0)
+      expect(box.x + box.width, what).toBeLessThanOrEqual(width)
+      expect(box.y + box.height, what).toBeLessThanOrEqual(height)
+      await page.keyboard.press('Escape')
+    }
+  }
+})
+
+test('a point that moves in two directions tells both of them and their limits, and takes either', async ({ page }) => {
+  await openCourse(page, '<fastslam-proposal></fastslam-proposal><fastslam-conditioning></fastslam-conditioning>')
+  const proposal = new Figure(page, 'fastslam-proposal')
+  await proposal.live()
+  const group = proposal.element.getByRole('group', { name: 'Landmark', exact: true })
+  for (const [name, least, most, now, orientation] of [['Landmark x', '-0.1', '2.8', '2.7', null], ['Landmark y', '-0.75', '0.75', '-0.1', 'vertical']] as const) {
+    const slider = group.getByRole('slider', { name })
+    expect(await slider.evaluate((input: HTMLInputElement) => [input.min, input.max, input.value, input.getAttribute('aria-orientation')])).toEqual([least, most, now, orientation])
+    await expect(slider).toHaveAttribute('aria-valuetext', '2.7 m ahead of the start, -0.1 m to the left')
+    await expect(slider).toHaveAccessibleDescription(/Arrow keys/)
+  }
+  // As a screen reader sets it: by the value, of one direction alone.
+  const place = () => proposal.element.evaluate((element: HTMLElement & { landmarkX?: number; landmarkY?: number }) => [element.landmarkX, element.landmarkY])
+  await group.getByRole('slider', { name: 'Landmark y' }).fill('0.302')
+  await proposal.settled()
+  expect(await place()).toEqual([2.7, 0.3])
+  await expect(group.getByRole('slider', { name: 'Landmark x' })).toHaveAttribute('aria-valuetext', '2.7 m ahead of the start, 0.3 m to the left')
+  const conditioning = new Figure(page, 'fastslam-conditioning')
+  await conditioning.element.scrollIntoViewIfNeeded()
+  await conditioning.live()
+  const entry = conditioning.element.getByRole('group', { name: 'Entry of the covariance' })
+  const ranges = await entry.getByRole('slider').evaluateAll(inputs => (inputs as HTMLInputElement[]).map(({ ariaLabel, min, max }) => [ariaLabel, min, max]))
+  const most = await conditioning.box('row').getAttribute('max')
+  expect(ranges).toEqual([['Column', '1', most], ['Row', '1', most]])
+})
+
+test('what controls and numbers mean is found by keyboard and by touch, and read out with each control', async ({ page }) => {
+  await openCourse(page, '<fastslam-lap></fastslam-lap>')
+  const lap = new Figure(page, 'fastslam-lap')
+  await lap.live()
+  await lap.openSettings()
+  const help = lap.element.getByRole('dialog', { name: 'What the controls and the numbers mean' })
+  const ask = lap.element.getByRole('button', { name: 'What do these mean?' })
+  await ask.focus()
+  await page.keyboard.press('Enter')
+  await expect(help).toBeVisible()
+  // Every control and every number has its line, and the keys that scroll it do not step the figure.
+  const titles = await lap.element.locator('[part=readout] dt').allTextContents()
+  for (const title of [...titles, 'Seed', 'Range noise']) await expect(help.getByText(title).first()).toBeVisible()
+  for (const key of ['ArrowDown', 'End', 'Space', 'ArrowRight']) await page.keyboard.press(key)
+  await lap.settled()
+  expect(await lap.position()).toBe(0)
+  await page.keyboard.press('Escape')
+  await expect(help).toBeHidden()
+  await expect(ask).toBeFocused()
+  await lap.menu('Explain controls and numbers')
+  await expect(help).toBeVisible()
+  await help.getByRole('button', { name: 'Close' }).click()
+  await expect(help).toBeHidden()
+  await ask.click()
+  await expect(help).toBeVisible()
+  await ask.click()
+  await expect(help).toBeHidden()
+  const described = async (name: string) => expect(lap.box(name), name).toHaveAccessibleDescription(await lap.box(name).evaluate(box => (box.closest('[part=control]') as HTMLElement).title))
+  for (const name of ['universes', 'odometry', 'range-std']) await described(name)
 })
 
 test('the sentence is told to screen readers at rest, and not at every step while it plays', async ({ page }) => {
@@ -192,7 +280,7 @@ test('a few quick steps are read out as one sentence, and nothing else is', asyn
 test('the words of a figure are in a language that they name, on a page in any other', async ({ page }) => {
   await openCourse(page, ['lap', 'conditioning', 'proposal', 'worked-example', 'resampling', 'log'].map(name => `<fastslam-${name}></fastslam-${name}>`).join(''), { lang: 'fr' })
   for (const name of ['lap', 'conditioning', 'proposal', 'worked-example', 'resampling', 'log']) {
-    const menu = page.locator(`fastslam-${name} summary[aria-label=Menu]`)
+    const menu = page.locator(`fastslam-${name} button[aria-label=Menu]`)
     // `closest` ends at the shadow root: what is found is the figure's own.
     expect(await menu.evaluate(element => element.closest('[lang]')?.getAttribute('lang')), name).toBe('en')
     const loose = await page.locator(`fastslam-${name}`).evaluate(element => [...element.shadowRoot!.children].filter(child => !child.matches('[lang]')).length)
@@ -251,11 +339,10 @@ test.describe('on a phone', () => {
     await touch('touchStart', { x, y })
     for (let i = 1; i <= 10; i++) {
       await touch('touchMove', { x, y: y - 20 * i })
-      await page.waitForTimeout(16)
+      await frames(page, 1)
     }
     await touch('touchEnd')
-    await page.waitForTimeout(500)
-    expect(await page.evaluate(() => scrollY)).toBeGreaterThan(before + 100)
+    await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(before + 100)
   })
 })
 

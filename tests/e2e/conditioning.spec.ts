@@ -69,7 +69,7 @@ test.describe('at rest', () => {
     expect((await entry(figure))[1]).toBe(1)
     const [row] = await entry(figure)
     expect(row).toBeGreaterThan(1)
-    const words = (await figure.handle('entry').getAttribute('aria-valuetext'))!
+    const words = (await figure.grasp('entry').getAttribute('aria-valuetext'))!
     expect(words).toMatch(/^m\d+\.[xy] and m1\.x: ρ = −?\d/)
     await expect(figure.sentence).toContainText(words)
     await page.mouse.move(5, 5)
@@ -83,7 +83,7 @@ test.describe('at rest', () => {
 
   test('the entry takes the focus and moves by arrow keys', async ({ page }) => {
     const figure = await open(page)
-    const handle = figure.handle('entry')
+    const handle = figure.grasp('entry')
     const [row, column] = await entry(figure)
     const [words, picture] = [await handle.getAttribute('aria-valuetext'), await figure.picture()]
     await handle.focus()
@@ -154,7 +154,7 @@ test.describe('at rest', () => {
     await figure.toggle('condition').click()
     await figure.box('landmarks').fill('11')
     await figure.box('landmarks').press('Enter')
-    await figure.handle('entry').focus()
+    await figure.grasp('entry').focus()
     await page.keyboard.press('ArrowLeft')
     await figure.scrubTo(5)
     const before = [await figure.readouts(), await entry(figure), await figure.picture()]

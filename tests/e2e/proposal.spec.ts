@@ -3,7 +3,7 @@ import AxeBuilder from '@axe-core/playwright'
 import { readFile } from 'node:fs/promises'
 import type { Page } from '@playwright/test'
 import { expect, test } from './fixtures'
-import { Figure } from './figure'
+import { Figure, frames } from './figure'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -57,11 +57,10 @@ test('a drag shows a picture at every frame', async ({ page }) => {
   await page.mouse.move(x, y)
   await page.mouse.down()
   // Frames, not milliseconds: how fast they come is the machine's, and `npm run bench` tells it.
-  const frames = () => page.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))))
   let before = await figure.picture()
   for (let i = 1; i <= 20; i++) {
     await page.mouse.move(x - 3 * i, y + 20 * Math.sin(i))
-    await frames()
+    await frames(page, 2)
     const now = await figure.picture()
     expect(now, `the picture after move ${i}`).not.toBe(before)
     before = now
@@ -72,7 +71,7 @@ test('a drag shows a picture at every frame', async ({ page }) => {
 test('the landmark is moved by keyboard, coarsely with Shift and finely with Alt', async ({ page }) => {
   const figure = await open(page)
   await figure.openSettings()
-  await figure.handle('landmark').focus()
+  await figure.grasp('landmark').focus()
   for (const [keys, x, y] of [
     ['ArrowLeft', '2.65', '-0.1'],
     ['ArrowUp', '2.65', '-0.05'],
@@ -84,8 +83,8 @@ test('the landmark is moved by keyboard, coarsely with Shift and finely with Alt
     await expect(figure.box('landmark-x')).toHaveValue(x)
     await expect(figure.box('landmark-y')).toHaveValue(y)
   }
-  await expect(figure.handle('landmark')).toBeFocused()
-  await expect(figure.handle('landmark')).toHaveAttribute('aria-valuetext', '2.155 m ahead of the start, -0.05 m to the left')
+  await expect(figure.grasp('landmark')).toBeFocused()
+  await expect(figure.grasp('landmark')).toHaveAttribute('aria-valuetext', '2.155 m ahead of the start, -0.05 m to the left')
 })
 
 test('a sharper sensor makes the ratio larger, a blunt one small', async ({ page }) => {
@@ -133,11 +132,11 @@ test('predict first: a guess is dragged, run, compared, and part of the link', a
   await page.mouse.up()
   await figure.settled()
   await expect(figure.sentence).toContainText('it has not been run')
-  await figure.handle('guess').focus()
-  const guess = Number(await figure.handle('guess').getAttribute('aria-valuenow'))
+  await figure.grasp('guess').focus()
+  const guess = Number(await figure.grasp('guess').inputValue())
   await page.keyboard.press('ArrowRight')
   await figure.settled()
-  expect(Number(await figure.handle('guess').getAttribute('aria-valuenow'))).toBeCloseTo(guess + 0.1, 5)
+  expect(Number(await figure.grasp('guess').inputValue())).toBeCloseTo(guess + 0.1, 5)
   expect((await figure.readouts())['ratio_half']).toContain('–')
   await figure.toggle('run').click()
   await figure.settled()
@@ -154,7 +153,7 @@ test('predict first: a guess is dragged, run, compared, and part of the link', a
   expect([await other.readouts(), await other.picture()]).toEqual(result)
 
   // Another guess is another try.
-  await other.handle('guess').focus()
+  await other.grasp('guess').focus()
   await page.keyboard.press('ArrowLeft')
   await other.settled()
   await expect(other.toggle('run')).toHaveAttribute('aria-pressed', 'false')
@@ -193,10 +192,10 @@ test.describe('on a phone', () => {
       await touch('touchStart', { x, y })
       for (let i = 1; i <= 10; i++) {
         await touch('touchMove', { x: x + (dx * i) / 10, y: y + (dy * i) / 10 })
-        await page.waitForTimeout(16)
+        await frames(page, 1)
       }
       await touch('touchEnd')
-      await page.waitForTimeout(400)
+      await frames(page, 10) // a swipe may roll on
     }
     const grip = (await figure.handle('landmark').boundingBox())!
     const before = await page.evaluate(() => scrollY)
@@ -207,7 +206,7 @@ test.describe('on a phone', () => {
     expect(Number(x)).toBeLessThan(2.2)
     const canvas = (await figure.canvas.boundingBox())!
     await swipe(canvas.x + 100, canvas.y + 330, 0, -200)
-    expect(await page.evaluate(() => scrollY)).toBeGreaterThan(before + 100)
+    await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(before + 100)
     await expect(figure.box('landmark-x')).toHaveValue(x)
   })
 })

@@ -94,7 +94,7 @@ test.describe('at rest', () => {
 
   test('the cursor takes the focus and moves by arrow keys', async ({ page }) => {
     const figure = await open(page, 'step=40')
-    const [handle, picture] = [figure.handle('cursor'), await figure.picture()]
+    const [handle, picture] = [figure.grasp('cursor'), await figure.picture()]
     await handle.focus()
     await page.keyboard.press('ArrowLeft')
     await page.keyboard.press('Shift+ArrowLeft')
@@ -141,7 +141,7 @@ test.describe('at rest', () => {
     await figure.box('back').fill('5')
     await figure.box('back').press('Enter')
     await figure.scrubTo(85)
-    await figure.handle('cursor').focus()
+    await figure.grasp('cursor').focus()
     await page.keyboard.press('Shift+ArrowLeft')
     await figure.settled()
     const before = [await figure.readouts(), await cursor(figure), await figure.picture()]
@@ -196,7 +196,7 @@ test.describe('at rest', () => {
     await expect(said).toContainText(/^Stopped after \d+ of 1000 seeds/)
     const stopped = await counted(figure)
     expect(stopped).toBeGreaterThan(2)
-    await page.waitForTimeout(400)
+    await expect.poll(() => page.workers().length).toBe(0)
     expect(await counted(figure)).toBe(stopped)
     await figure.box('threshold').fill('0.2')
     await figure.box('threshold').press('Enter')

@@ -50,6 +50,7 @@ export abstract class FigureParts extends HTMLElement {
     nudge: (handle, right, up) => this.#byPointer({ do: 'nudge', handle, right, up }),
     follow: (handle, x, y) => this.#byHover({ do: 'follow', handle, x, y }),
     leave: () => this.#byHover({ do: 'leave' }),
+    change: (name, value) => this.change(name, value),
   })
 
   constructor() {
@@ -113,7 +114,8 @@ export abstract class FigureParts extends HTMLElement {
     if (frame.layout) this.canvas.place(frame.layout)
     if (frame.picture) this.canvas.show(frame.picture)
     showReadouts(this.readouts, frame.readouts)
-    this.#handles.show(frame.handles)
+    this.#help.about(frame.specs, frame.readouts)
+    this.#handles.show(frame.handles, frame.specs, frame.values)
     this.showPlayback(frame)
     this.controls!.showValues(frame.specs, frame.values)
     this.sentence.show(frame.sentence, this.playing || frame.busy)

@@ -1,7 +1,7 @@
-// Points of the picture that a reader moves. The picture draws them; here something to grasp lies over each: an element that takes
-// the focus, the pointer and the arrow keys.
+// Points of the picture that a reader moves. The picture draws them; here something to grasp lies over each, which takes the pointer. In it
+// is a slider for each direction, unseen: it takes the focus and the keys, and tells assistive technology where the point is and can be.
 import { h } from './dom'
-import type { Handle } from './shell'
+import type { Handle, ParamSpec } from './shell'
 
 /** What the handles may ask of the figure. */
 export interface Moves {
@@ -13,6 +13,8 @@ export interface Moves {
   follow(name: string, x: number, y: number): void
   /** The pointer has left: back to where it was. */
   leave(): void
+  /** One of its parameters, as assistive technology sets it. */
+  change(parameter: string, value: string): void
 }
 
 const ARROWS: Record<string, [number, number]> = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }
@@ -32,19 +34,20 @@ export class Handles {
 
   constructor(private readonly moves: Moves) {}
 
-  show(handles: Handle[]): void {
+  show(handles: Handle[], specs: ParamSpec[], values: Record<string, string>): void {
     this.shown = handles
     const names = new Set(handles.map(({ name }) => name))
     for (const [name, grip] of this.grips) {
       if (names.has(name)) continue
       this.grips.delete(name)
-      if (grip.matches(':focus')) this.layer.parentElement?.focus()
+      if (grip.matches(':focus-within')) this.layer.parentElement?.focus()
       grip.remove()
     }
-    handles.forEach(({ name, title, x, y, value, text, hover }, i) => {
+    handles.forEach((handle, i) => {
+      const { name, x, y, hover } = handle
       let grip = this.grips.get(name)
       if (!grip) {
-        grip = this.make(name)
+        grip = this.make(handle)
         this.grips.set(name, grip)
         this.layer.insertBefore(grip, this.layer.children[i] ?? null)
       }
@@ -52,9 +55,7 @@ export class Handles {
       grip.style.top = `${y}px`
       // What follows the pointer over an area must not come between the two.
       grip.classList.toggle('follows', hover !== null)
-      grip.setAttribute('aria-label', title)
-      grip.setAttribute('aria-valuenow', String(value))
-      grip.setAttribute('aria-valuetext', text)
+      showAxes(grip, handle, specs, values)
     })
   }
 
@@ -77,13 +78,14 @@ export class Handles {
     if (below && (type === 'pointerup' || (type === 'pointermove' && this.touch.sideways))) this.moves.drag(below.name, x, y)
   }
 
-  private make(name: string): HTMLElement {
-    const grip = h('div', { class: 'handle', part: 'handle', role: 'slider', tabindex: '0', 'aria-describedby': 'handle-keys', 'data-name': name })
+  private make({ name, axes }: Handle): HTMLElement {
+    const grip = h('div', { class: 'handle', part: 'handle', 'data-name': name }, ...axes.map((parameter, i) => this.axis(parameter, i)))
     let held: { pointer: number; x: number; y: number; dx: number; dy: number } | undefined
+    grip.addEventListener('mousedown', event => event.preventDefault()) // or the picture would take the focus
     grip.addEventListener('pointerdown', event => {
       if (event.button !== 0 || held) return
       grip.setPointerCapture(event.pointerId)
-      grip.focus({ preventScroll: true })
+      grip.querySelector('input')?.focus({ preventScroll: true })
       // It is held where it was grasped, and does not jump to have its middle there.
       const { clientX: x, clientY: y } = event
       const box = grip.getBoundingClientRect()
@@ -105,4 +107,34 @@ export class Handles {
     })
     return grip
   }
+
+  /** The slider of one direction. Arrow keys move the point in both, so that the first is all that Tab has to stop at. */
+  private axis(parameter: string, number: number): HTMLInputElement {
+    const slider = h('input', { type: 'range', tabindex: number === 0 ? '0' : '-1', 'aria-describedby': 'handle-keys', 'data-parameter': parameter })
+    if (number > 0) slider.setAttribute('aria-orientation', 'vertical')
+    slider.addEventListener('input', () => {
+      const step = Number(slider.dataset['step'])
+      this.moves.change(parameter, String(Number((Math.round(slider.valueAsNumber / step) * step).toPrecision(12))))
+    })
+    return slider
+  }
+}
+
+/** Where a point is in each direction, and where it can be. */
+function showAxes(grip: HTMLElement, { title, axes, value, text }: Handle, specs: ParamSpec[], values: Record<string, string>): void {
+  const plane = axes.length > 1
+  if (plane) {
+    grip.role = 'group'
+    grip.ariaLabel = title
+  }
+  const sliders = grip.querySelectorAll('input')
+  axes.forEach((parameter, i) => {
+    const [slider, spec] = [sliders[i]!, specs.find(({ name }) => name === parameter)!]
+    // Any value, also between two steps: the point can be dragged there.
+    Object.assign(slider, { min: spec.min, max: spec.max, step: 'any' })
+    slider.dataset['step'] = String(spec.step)
+    slider.value = plane ? values[parameter]! : String(value)
+    slider.ariaLabel = plane ? spec.title : title
+    slider.setAttribute('aria-valuetext', text)
+  })
 }

@@ -41,6 +41,8 @@ export interface Handle {
   title: string
   x: number
   y: number
+  /** Parameters that it moves, sideways first. */
+  axes: string[]
   value: number
   text: string
   hover: { x: number; y: number; w: number; h: number } | null

@@ -33,6 +33,8 @@ pub struct PlacedHandle {
     pub x: f64,
     /// From the figure's upper edge \[css px\].
     pub y: f64,
+    /// [`Handle::axes`].
+    pub axes: &'static [&'static str],
     /// [`Handle::value`].
     pub value: f64,
     /// [`Handle::text`].
@@ -160,10 +162,10 @@ impl Figure {
         let (handles, scene_width) = &self.handles;
         let scale = width / scene_width;
         let placed = |handle: &Handle| {
-            let Handle { name, title, at, value, text, hover } = handle.clone();
+            let Handle { name, title, at, axes, value, text, hover } = handle.clone();
             let [x, y] = at.map(|c| c * scale);
             let hover = hover.map(|r| Rect::new(r.x * scale, r.y * scale, r.w * scale, r.h * scale));
-            PlacedHandle { name, title, x, y, value, text, hover }
+            PlacedHandle { name, title, x, y, axes, value, text, hover }
         };
         handles.iter().map(placed).collect()
     }
@@ -311,7 +313,7 @@ mod tests {
         fn draw(&self, _: &OnePoint, _: &Rect, scene: &mut Scene) {
             let hover = Some(Rect::new(30.0, 60.0, 90.0, 30.0));
             let (name, title, text) = ("point", "The point".into(), "3 m east".into());
-            scene.handles.push(Handle { name, title, at: [150.0, 75.0], value: 3.0, text, hover });
+            scene.handles.push(Handle { name, title, at: [150.0, 75.0], axes: &[], value: 3.0, text, hover });
         }
         fn drag(&self, model: &mut OnePoint, layout: &Rect, handle: &str, to: Point) {
             model.told.borrow_mut().push(format!("{handle} to {to:?} of {}", layout.w));

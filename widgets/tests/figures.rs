@@ -70,10 +70,14 @@ fn handles_have_names_of_their_own_and_lie_in_the_picture_with_words() {
         for width in [240.0, 340.0, 800.0] {
             let Scene { width, height, handles, .. } = scene(&figure, width);
             let picture = Rect::new(0.0, 0.0, width, height);
-            for (k, Handle { name, title, at, value, text, hover }) in handles.iter().enumerate() {
+            for (k, Handle { name, title, at, axes, value, text, hover }) in handles.iter().enumerate() {
                 assert!(handles[..k].iter().all(|other| other.name != *name), "{name}");
                 assert!(picture.contains(*at) && hover.is_none_or(|area| picture.encloses(&area)), "{name} at {at:?}");
                 assert!(!title.is_empty() && !text.is_empty() && value.is_finite(), "{name}");
+                // What a page tells of each direction is the parameter's.
+                let known = figure.model().params();
+                assert!(matches!(axes.len(), 1 | 2), "{name}");
+                assert!(axes.iter().all(|axis| known.iter().any(|spec| spec.name == *axis)), "{name} moves {axes:?}");
             }
         }
     }

@@ -93,6 +93,7 @@ fn cursor(scene: &mut Scene, model: &ConditioningModel, area: &Rect, cell: f64) 
         name: ENTRY,
         title: "Entry of the covariance".into(),
         at: at.centre(),
+        axes: &["column", "row"],
         value: model.correlation().unwrap_or(0.0),
         text: model.entry_text(),
         hover: Some(*area),

@@ -79,6 +79,7 @@ impl View for ProposalView {
                         "Landmark, second panel".into()
                     },
                     at: panel.plane().point([x, y]),
+                    axes: &["landmark-x", "landmark-y"],
                     value: x,
                     text: format!("{} m ahead of the start, {} m to the left", write(x), write(y)),
                     hover: None,
@@ -315,6 +316,7 @@ fn ratio(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
             name: GUESS,
             title: "Your guess at half the range noise".into(),
             at: [at(guess), y - 9.0],
+            axes: &[GUESS],
             value: guess,
             text: format!("{} times", write(guess)),
             hover: None,

@@ -52,6 +52,7 @@ impl View for ResamplingView {
             name: CURSOR,
             title: "Step read".into(),
             at: [first.x(model.cursor()), layout.first_chart().centre()[1]],
+            axes: &[CURSOR],
             value: f64::from(model.cursor()),
             text: told(model),
             hover: Some(layout.charts()),

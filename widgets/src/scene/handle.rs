@@ -11,7 +11,9 @@ pub struct Handle {
     pub title: String,
     /// Where \[css px\].
     pub at: Point,
-    /// Its value as one number, for assistive technology.
+    /// Names of the parameters that it moves, the one that moves it sideways first: what it can be is their ranges.
+    pub axes: &'static [&'static str],
+    /// Its value as one number, for assistive technology; of one that moves in two directions, what the place says.
     pub value: f64,
     /// Its value in words, read out.
     pub text: String,
