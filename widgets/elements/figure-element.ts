@@ -4,6 +4,8 @@
 // over what the author gave, by attribute or property, and that over the default. It is kept in settings.ts.
 import { embedCode, type CodeName } from './embed-code'
 import { homeAddress } from './files'
+import { FIGURES } from './generated/figures'
+import { write } from './dom'
 import { HostedFigure } from './hosted-figure'
 import { linkedQuery, linkTo } from './link'
 import { OPTIONS } from './options'
@@ -31,7 +33,9 @@ export abstract class FigureElement extends HostedFigure {
     this.body.classList.toggle('pictured', this.querySelector('img, picture') !== null)
     this.frames.observe(signal)
     this.canvas.observe()
+    write(this.heading, FIGURES[this.localName]?.title ?? '')
     this.takeName()
+    this.takePicture('light') // for paper
     takeEarlyProperties(this)
     if (this.settings.recipe === undefined) this.followLink() // a node that was only moved goes on from where it was
   }

@@ -180,14 +180,20 @@ export abstract class FigureParts extends HTMLElement {
     this.#handles.layer.inert = !on
   }
 
-  /** In place of a frame: the author's picture, or our own of a figure of which nothing was asked. Returns what is to be said of it. */
+  /** In place of a frame: the author's picture, or our own of the figure at rest. Returns what is to be said of it. */
   protected showFallback(): string {
-    const slot = this.#fallback.firstElementChild!
-    const own = this.querySelector('img, picture')
-    const src = pictureAddress(this.localName, themeName(this.getAttribute('theme')).endsWith('dark') ? 'dark' : 'light')
-    if (src && !own && !slot.hasChildNodes()) slot.append(h('img', { src, alt: `${this.heading.textContent}, at rest` }))
+    const shown = this.takePicture(themeName(this.getAttribute('theme')).endsWith('dark') ? 'dark' : 'light')
     this.stage.classList.add('still')
-    return own || slot.hasChildNodes() ? ' The picture shows it at rest.' : ''
+    return shown ? ' The picture shows it at rest.' : ''
+  }
+
+  /** Has a picture at hand that is not fetched before it is shown: also paper shows one, of a figure that has not been seen. */
+  protected takePicture(shade: 'light' | 'dark'): boolean {
+    if (this.querySelector('img, picture')) return true
+    const slot = this.#fallback.firstElementChild!
+    const src = pictureAddress(this.localName, shade)
+    if (src) slot.replaceChildren(h('img', { src, loading: 'lazy', alt: `${this.heading.textContent}, at rest` }))
+    return slot.hasChildNodes()
   }
 
   /** Something of a figure's own, below everything else. */

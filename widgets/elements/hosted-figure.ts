@@ -2,7 +2,6 @@
 import { Events } from './events'
 import { FigureParts } from './figure-parts'
 import { FrameLoop } from './frame-loop'
-import { FIGURES } from './generated/figures'
 import { write } from './dom'
 import type { Answer, Command, FigureHost, Frame, Listener } from './host'
 import { LocalHost } from './local-host'
@@ -49,7 +48,6 @@ export abstract class HostedFigure extends FigureParts implements Listener {
   }
 
   async #start(): Promise<void> {
-    write(this.heading, FIGURES[this.localName]?.title ?? '')
     if (!this.status.textContent) write(this.status, 'Loading …')
     const slow = setTimeout(() => {
       this.showFallback()
