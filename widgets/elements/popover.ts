@@ -22,7 +22,7 @@ export function closePopover(popover: HTMLElement, back: HTMLElement | undefined
 /** What the controls and the numbers of a figure mean: for readers without a mouse to point at each of them. */
 export class Help {
   readonly button = h('button', { type: 'button', class: 'ask', part: 'button', popovertarget: 'help' }, 'What do these mean?')
-  readonly element = h('div', { class: 'help', id: 'help', popover: 'auto', role: 'dialog', 'aria-labelledby': 'help-title', tabindex: '-1', autofocus: '' })
+  readonly element = h('div', { class: 'help', id: 'help', popover: 'auto', role: 'dialog', 'aria-labelledby': 'help-title', tabindex: '-1' })
   #from: HTMLElement | undefined // had the focus before
   #specs: ParamSpec[] = []
   #readouts: Readout[] = []
@@ -30,6 +30,8 @@ export class Help {
   constructor() {
     closeBehindFocus(this.element)
     this.element.addEventListener('beforetoggle', event => event.newState === 'open' && this.#write())
+    // Not by `autofocus`: that would take the focus of a whole page as well.
+    this.element.addEventListener('toggle', event => event.newState === 'open' && this.element.focus())
   }
 
   open(): void {

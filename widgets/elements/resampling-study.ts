@@ -123,7 +123,7 @@ export class ResamplingStudy {
       const alive = this.alive[policy]!
       const [low, high] = [...this.shell!.interval(alive, this.seeds)] as [number, number]
       fill.style.width = percent(alive / this.seeds)
-      range.style.left = percent(low)
+      range.style.insetInlineStart = percent(low)
       range.style.width = percent(high - low)
       const round = (x: number) => (100 * x).toFixed(0)
       write(share, `${round(alive / this.seeds)} % (${round(low)}–${round(high)})`)

@@ -3,7 +3,7 @@ import { clampedStep, type Answer, type Beginning, type Command, type Frame, typ
 import { locked } from './options'
 import { isRefusal, type Handle, type ParamSpec, type Readout, type Shell, type ShellFigure, type TraceLine } from './shell'
 
-const LEGIBLE = 0.5 // a picture is not made smaller than that to fit
+const LEGIBLE = 0.5 // a picture is not made smaller than that to fit, whatever the size of its letters
 
 export class Session {
   protected readonly figure: ShellFigure
@@ -256,8 +256,8 @@ export class Session {
     if (height !== undefined) {
       const fitting = (wide: number) => Math.min(fontScale, room / wide, height / this.figure.height(wide))
       // Other widths have other layouts, so the one is looked for that can be shown largest. What would be too small to read is scrolled.
-      let best = LEGIBLE * scale
-      for (let wide = 0.5 * scene, most = 2 * scene; wide <= most; wide += 10) {
+      let best = LEGIBLE
+      for (let wide = 0.5 * scene, most = room / LEGIBLE; wide <= most; wide += 10) {
         const found = fitting(wide)
         if (found >= best) [scene, scale, best] = [wide, found, found]
       }
