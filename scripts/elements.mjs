@@ -169,12 +169,10 @@ export function types(all) {
   const field = (/** @type {ParamSpec} */ spec) => `${doc(describe(spec))}\n  ${camel(spec.name)}: ${type(spec)}`
   const member = (/** @type {{ name: string, type: string, help: string, readonly?: boolean }} */ item) =>
     `${doc(item.help)}\n  ${item.readonly ? 'readonly ' : ''}${item.name}: ${item.type}`
-  const listeners = `  addEventListener<K extends keyof FigureEventMap>(type: K, listener: (this: this, event: FigureEventMap[K]) => unknown, options?: boolean | AddEventListenerOptions): void
-  addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void`
   const classes = all.map(
     figure =>
-      `/** ${figure.title}. */\nexport declare class ${figure.className} extends ${isLog(figure) ? 'HTMLElement' : 'FigureElement'} {\n${[
-        ...(isLog(figure) ? [...[...log.methods, ...log.properties].map(member), listeners] : []),
+      `/** ${figure.title}. */\nexport declare class ${figure.className} extends FigureElement {\n${[
+        ...(isLog(figure) ? log.methods.map(member) : []),
         ...figure.params.filter(({ name }) => name !== 'step').map(field),
       ].join('\n')}\n}`,
   )
@@ -201,6 +199,8 @@ export interface FigureDetail {
   by: 'reader' | 'playback' | 'page'
   values: Record<string, string>
   readouts: FigureReadout[]
+  /** Of a figure that maps a file. */
+  phase?: 'empty' | 'ready' | 'running' | 'paused' | 'stopped' | 'done'
 }
 
 export interface FigureEventMap extends HTMLElementEventMap {
@@ -209,7 +209,8 @@ ${events.map(({ name, type: text, help }) => `${doc(help)}\n  '${name}': ${text}
 
 export declare abstract class FigureElement extends HTMLElement {
 ${[...methods, ...properties].map(member).join('\n')}
-${listeners}
+  addEventListener<K extends keyof FigureEventMap>(type: K, listener: (this: this, event: FigureEventMap[K]) => unknown, options?: boolean | AddEventListenerOptions): void
+  addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void
 }
 
 /** Attributes of every figure. */

@@ -77,7 +77,7 @@ test('the example comes with it; where a page lets no worker run that comes in t
     await figure.getByRole('button', { name: 'Run the example' }).click()
     if (file === 'plain.html') await expect(figure.getByRole('progressbar')).toHaveAttribute('value', /^[1-9]\d/)
     else await expect(figure.getByRole('alert')).toContainText('This figure is not live here: this page lets nothing run in the background.')
-    await course.waitForTimeout(500)
+    await figure.evaluate(element => (element as HTMLElement & { settled(): Promise<void> }).settled())
     expect(warnings.length, 'it does not try for ever').toBeLessThan(10)
   }
   await context.close()
@@ -117,7 +117,7 @@ test('a fresh Vite project, in development', async ({ browser }) => {
 test('on a server it is empty instead of failing, and its types hold', () => {
   execFileSync(process.execPath, ['--input-type=module', '--eval', "await import('fastslam-widgets'); await import('fastslam-widgets/react'); await import('fastslam-widgets/standalone')"], { cwd: project, stdio: 'pipe' })
   const check = (text: string) => {
-    writeFileSync(join(project, 'use.ts'), `import type { FastslamLap } from 'fastslam-widgets'\n${text}`)
+    writeFileSync(join(project, 'use.ts'), `import type { FastslamLap, FigureElement } from 'fastslam-widgets'\n${text}`)
     return execFileSync(npmBin('tsc'), ['--ignoreConfig', '--noEmit', '--strict', '--target', 'es2022', '--module', 'esnext', '--moduleResolution', 'bundler', '--lib', 'es2022,dom', '--types', '', 'use.ts'], { cwd: project, stdio: 'pipe' })
   }
   check(`const lap: FastslamLap = document.createElement('fastslam-lap')
@@ -125,6 +125,9 @@ lap.universes = 8
 lap.rangeStd = 0.1
 lap.step()
 lap.addEventListener('fastslam-step', ({ detail }) => detail.readouts.map(({ value }) => value))
-document.querySelector('fastslam-proposal')!.samples += 1\n`)
+document.querySelector('fastslam-proposal')!.samples += 1
+const log = document.createElement('fastslam-log')
+void log.open(new Blob())
+for (const figure of [lap, log] satisfies FigureElement[]) figure.addEventListener('fastslam-step', ({ detail }) => detail.phase === 'done' && figure.link)\n`)
   expect(() => check("document.createElement('fastslam-lap').proposal = 'psychic'\n")).toThrow()
 })
