@@ -5,7 +5,7 @@ import AxeBuilder from '@axe-core/playwright'
 import type { Frame, Page } from '@playwright/test'
 import { root } from '../../scripts/lib.mjs'
 import { expect, test } from './fixtures'
-import { Figure } from './figure'
+import { Figure, frames } from './figure'
 import { FIGURES, forgiveHost, openHost, sanitised } from './host'
 
 /** What a page's script may ask of a figure. */
@@ -15,18 +15,24 @@ test.use({ contextOptions: { reducedMotion: 'reduce' }, permissions: ['clipboard
 
 const live = (frame: Page | Frame, tag: string) => expect(frame.locator(`${tag} .stage.live`)).toBeVisible({ timeout: 20_000 })
 
-for (const name of FIGURES) {
+/** Living, with all there is of it: that of logs has a picture when it has a log. */
+async function whole(frame: Page | Frame, name: string): Promise<void> {
+  if (name === 'log') await frame.locator('fastslam-log input[type=file]').setInputFiles(join(root, 'tests', 'figures', 'golden', 'tiny.clf'))
+  await live(frame, `fastslam-${name}`)
+}
+
+for (const name of [...FIGURES, 'log']) {
   test(`the pasted iframe of ${name} shows all of it, after a sanitiser that strips all but five attributes`, async ({ page, baseURL, complaints }) => {
     await page.goto(`./embed-${name}.html`)
-    await live(page, `fastslam-${name}`)
+    await whole(page, name)
     const code = await page.locator(`fastslam-${name}`).evaluate(figure => (figure as FigureElement).embedCode('iframe')!)
     expect(code).toContain(`${baseURL}embed.html?figure=${name}`)
     const left = sanitised(code.replace('allow-scripts allow-downloads', 'allow-scripts'))
     expect(left).not.toMatch(/title|style|onload/)
     await openHost(page, left)
     const frame = page.frames()[1]!
-    await live(frame, `fastslam-${name}`)
-    await page.waitForTimeout(500)
+    await whole(frame, name)
+    await new Figure(frame, `fastslam-${name}`).settled()
     const heights = await frame.locator(`fastslam-${name}`).evaluate(figure => [(figure as FigureElement).naturalHeight, innerHeight])
     // The height in the code is measured, not guessed: neither is the figure cut off nor the frame half empty.
     expect(heights[1]! - heights[0]!, `natural height ${heights[0]}`).toBeGreaterThanOrEqual(-4)
@@ -76,12 +82,13 @@ test('hosts that listen are told the height, in our words and in those of LTI', 
   expect((await told()).some(({ type }) => type === 'fastslam-height')).toBe(true)
   const height = () => page.locator('iframe').evaluate((frame: HTMLIFrameElement) => frame.offsetHeight)
   await expect.poll(height).toBeGreaterThan(600)
-  await page.waitForTimeout(600)
+  const figure = new Figure(page.frames()[1]!, 'fastslam-lap')
+  await figure.settled()
   const closed = await height()
   await page.frames()[1]!.locator('details[part=settings] summary').click()
   await expect.poll(height).toBeGreaterThan(closed + 50)
   const count = (await told()).length
-  await page.waitForTimeout(800)
+  await frames(page.frames()[1]!, 60)
   expect((await told()).length, 'the two do not chase each other').toBeLessThanOrEqual(count + 2)
   forgiveHost(complaints)
 })

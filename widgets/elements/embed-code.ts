@@ -19,7 +19,11 @@ const FRAME_HEIGHTS: Record<string, number> = {
   'fastslam-proposal': 870,
   'fastslam-resampling': 1230,
   'fastslam-worked-example': 1360,
+  'fastslam-log': 980, // with a log open
 }
+
+/** Lives in a worker, which a sandboxed frame, without an origin, cannot have under the policy of our pages. */
+const NEEDS_WORKER = 'fastslam-log'
 
 export const frameHeight = (tag: string): number => FRAME_HEIGHTS[tag] ?? 800
 
@@ -34,7 +38,7 @@ export function embedCode(name: CodeName, { tag, attributes }: FigureMarkup, hom
     const query = new URLSearchParams([['figure', short], ...attributes])
     return (
       `<iframe src="${escape(`${home}embed.html?${query}`)}" title="${escape(title)}" width="${FRAME_WIDTH}" height="${frameHeight(tag)}" ` +
-      `sandbox="allow-scripts allow-downloads" allowfullscreen></iframe>`
+      `${tag === NEEDS_WORKER ? '' : 'sandbox="allow-scripts allow-downloads" '}allowfullscreen></iframe>`
     )
   }
   if (name === 'myst') {
