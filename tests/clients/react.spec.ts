@@ -70,6 +70,16 @@ test('a figure works in a fresh React 19 project', async ({ page }) => {
     await page.getByRole('button', { name: 'show' }).click()
     await expect(lap.locator('.stage.live')).toBeVisible()
     await expect(lap.locator('input[type=number][name=universes]')).toHaveValue('5')
+    // What a component gives is the author's: a reader's link stands over it, and what the component gives later over the link.
+    await page.goto('about:blank')
+    await page.goto(`${server.url}#fastslam-lap?universes=6&step=9`)
+    await expect(lap.locator('.stage.live')).toBeVisible()
+    await expect(lap.locator('input[type=number][name=universes]')).toHaveValue('6')
+    await expect(lap.locator('input[type=number][name=range-std]')).toHaveValue('0.1')
+    await expect(lap.locator('input[name=truth]')).not.toBeChecked()
+    await expect(page.locator('main > output')).toHaveText('9')
+    await page.getByRole('button', { name: 'more' }).click()
+    await expect(lap.locator('input[type=number][name=universes]')).toHaveValue('5')
     expect(wrong).toEqual([])
   } finally {
     await server.close()

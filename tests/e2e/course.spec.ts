@@ -166,13 +166,18 @@ test('twenty figures fetch one program, rest when out of sight, and leave nothin
 
   // Out of sight, even where they were told to play, no frame is asked for.
   await page.evaluate(() => document.querySelectorAll('#grid > *').forEach(figure => (figure as unknown as { play(): void }).play()))
-  await page.waitForTimeout(300)
-  expect((await tapped(page)).frames).toBeGreaterThan(20)
+  await expect.poll(async () => (await tapped(page)).frames).toBeGreaterThan(20)
   await page.evaluate(() => scrollTo(0, 2500))
-  await page.waitForTimeout(500)
-  const resting = (await tapped(page)).frames
-  await page.waitForTimeout(1500)
-  expect((await tapped(page)).frames).toBe(resting)
+  // Its own watching asks for a frame each time.
+  const asked = async (frames: number) => {
+    const before = (await tapped(page)).frames
+    await page.evaluate(async n => {
+      for (let i = 0; i < n; i++) await new Promise(requestAnimationFrame)
+    }, frames)
+    return (await tapped(page)).frames - before
+  }
+  await expect.poll(() => asked(10)).toBe(10)
+  expect(await asked(90)).toBe(90)
   await page.evaluate(async () => {
     scrollTo(0, 0)
     const figures = [...document.querySelectorAll('#grid > *')] as unknown as { reset(): void; settled(): Promise<void> }[]

@@ -70,7 +70,7 @@ test('it stops at once, keeps what it has, and another cell can be run instead',
   await panel(page).getByRole('button', { name: 'Stop' }).click()
   await expect(panel(page).getByRole('status')).toHaveText(/^Stopped after \d+ of 200 seeds\.$/)
   const stopped = await run(page)
-  await page.waitForTimeout(1500)
+  await expect.poll(() => page.workers().length).toBe(0)
   expect(await run(page)).toBe(stopped)
   await expect(panel(page)).toContainText('Median so far')
   // While one runs, another one takes its place.

@@ -1,17 +1,18 @@
 // What a reader does with the Apartment lap.
 import { readFile } from 'node:fs/promises'
 import { expect, test } from './fixtures'
-import { Figure } from './figure'
+import { Figure, frames } from './figure'
 
 test.describe('at rest', () => {
   test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
   test('it says what it shows before anyone touches it, and does not play by itself', async ({ page }) => {
+    await page.clock.install()
     const lap = await new Figure(page, 'fastslam-lap').alone()
     await expect(lap.sentence).toContainText(/\d/)
     expect(Object.keys(await lap.readouts())).toEqual(expect.arrayContaining(['step']))
     const before = await lap.position()
-    await page.waitForTimeout(1000)
+    await page.clock.runFor(1000)
     expect(await lap.position()).toBe(before)
     await expect(lap.play).toBeVisible()
   })
@@ -23,7 +24,8 @@ test.describe('at rest', () => {
     await lap.pause.click()
     await lap.settled()
     const [at, readouts] = [await lap.position(), await lap.readouts()]
-    await page.waitForTimeout(700)
+    expect(await lap.playing()).toBe(false)
+    await frames(page, 30)
     expect(await lap.position()).toBe(at)
     expect(await lap.readouts()).toEqual(readouts)
   })
@@ -246,9 +248,10 @@ test.describe('where motion is welcome', () => {
       document.body.style.paddingTop = '3000px'
       scrollTo({ top: 0, behavior: 'instant' })
     })
-    await page.waitForTimeout(300)
+    await frames(page, 10)
     const away = await lap.position()
-    await page.waitForTimeout(1200)
+    await frames(page, 60)
+    expect(await lap.playing(), 'it waits').toBe(true)
     expect(await lap.position()).toBe(away)
     await lap.canvas.evaluate(canvas => canvas.scrollIntoView({ block: 'center', behavior: 'instant' }))
     await expect.poll(() => lap.position()).toBeGreaterThan(away)
@@ -262,7 +265,8 @@ test.describe('where motion is welcome', () => {
     await lap.canvas.evaluate(canvas => canvas.scrollIntoView({ block: 'center', behavior: 'instant' }))
     await lap.settled()
     const at = await lap.position()
-    await page.waitForTimeout(800)
+    expect(await lap.playing()).toBe(false)
+    await frames(page, 30)
     expect(await lap.position()).toBe(at)
   })
 })

@@ -127,7 +127,7 @@ test('its program is not fetched until something is asked of it, and what was as
   await log.element.scrollIntoViewIfNeeded()
   await expect(log.stage).toContainText('No log is open')
   await expect(log.element.locator('input[type=number][name=universes]')).toHaveValue('16')
-  await page.waitForTimeout(500)
+  await log.element.evaluate((element: HTMLElement & { settled?(): Promise<void> }) => element.settled!())
   expect(fetched).toEqual([])
   expect(page.workers()).toHaveLength(0)
   await log.set('universes', '7')
@@ -178,7 +178,7 @@ test('it pauses, goes on, and stops, and what is mapped by then can be saved', a
   await log.button('Pause').click()
   await expect(log.button('Resume')).toBeVisible()
   const paused = await at()
-  await page.waitForTimeout(400)
+  await log.element.evaluate((element: HTMLElement & { settled?(): Promise<void> }) => element.settled!())
   expect(await at()).toBe(paused)
   expect(paused).toBeLessThan(90)
   // The keys of the picture do the same.

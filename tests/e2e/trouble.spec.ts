@@ -235,8 +235,7 @@ test('a node that is moved or taken out and put back is freed and restored', asy
 test('nothing is fetched before a figure is seen', async ({ page }) => {
   const fetched = watchFiles(page)
   await page.setViewportSize({ width: 1000, height: 300 })
-  await page.goto('./')
-  await page.waitForTimeout(800)
+  await page.goto('./', { waitUntil: 'networkidle' })
   expect(fetched).toEqual([])
 })
 
