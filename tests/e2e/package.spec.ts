@@ -128,6 +128,7 @@ lap.addEventListener('fastslam-step', ({ detail }) => detail.readouts.map(({ val
 document.querySelector('fastslam-proposal')!.samples += 1
 const log = document.createElement('fastslam-log')
 void log.open(new Blob())
-for (const figure of [lap, log] satisfies FigureElement[]) figure.addEventListener('fastslam-step', ({ detail }) => detail.phase === 'done' && figure.link)\n`)
+const all: FigureElement[] = [lap, log]
+for (const figure of all) figure.addEventListener('fastslam-step', ({ detail }) => detail.phase === 'done' && figure.link)\n`)
   expect(() => check("document.createElement('fastslam-lap').proposal = 'psychic'\n")).toThrow()
 })
