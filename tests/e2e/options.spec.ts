@@ -34,7 +34,7 @@ test('controls can be picked by their names, and a name that is none is answered
   }
   expect(await pick('play universe  truth')).toEqual(['Menu', 'Play', 'universe', 'truth'])
   expect(await pick('step seed')).toEqual(['Menu', 'Step shown', 'seed', 'Re-roll the seed'])
-  expect(await pick('playback')).toEqual(['Menu', 'Reset', 'Step back', 'Play', 'Step', 'Step shown', 'Speed', 'seed', 'Re-roll the seed'])
+  expect(await pick('playback')).toEqual(['Menu', 'Rewind', 'Step back', 'Play', 'Step', 'Step shown', 'Speed', 'seed', 'Re-roll the seed', 'Reset'])
   await expect(lap.alert).toBeEmpty()
   const all = await pick('all')
   expect(all.length).toBeGreaterThan(15)
