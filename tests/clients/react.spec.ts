@@ -75,7 +75,7 @@ test('a figure works in a fresh React 19 project', async ({ page }) => {
     await page.goto(`${server.url}#fastslam-lap?universes=6&step=9`)
     await expect(lap.locator('.stage.live')).toBeVisible()
     await expect(lap.locator('input[type=number][name=universes]')).toHaveValue('6')
-    await expect(lap.locator('input[type=number][name=range-std]')).toHaveValue('0.1')
+    await expect(lap.locator('input[type=number][name=range-std]')).toHaveValue('0.02')
     await expect(lap.locator('input[name=truth]')).not.toBeChecked()
     await expect(page.locator('main > output')).toHaveText('9')
     await page.getByRole('button', { name: 'more' }).click()
