@@ -93,7 +93,7 @@ const events = [
 ]
 
 const parts =
-  'figure title stage canvas transport button primary play step-back step reset scrub seed view control notices notice sentence readouts readout settings menu toggle handle count stop'.split(' ')
+  'figure title stage canvas transport button primary play rewind step-back step reset undo scrub seed view control notices notice sentence readouts readout settings menu toggle handle count stop'.split(' ')
 
 const cssProperties = ['accent', 'ink', 'muted', 'line', 'paper', 'radius', 'font'].map(name => `--fastslam-${name}`)
 
