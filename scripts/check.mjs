@@ -38,7 +38,7 @@ async function checkPackages() {
     const packed = output.trim().split(/\s+/)
     const missing = ['README.md', 'LICENSE-APACHE', 'LICENSE-MIT'].filter(file => !packed.some(path => path.endsWith(file)))
     if (missing.length > 0) throw new StepError(`The package ${crate} is without ${missing.join(', ')}.`)
-    const other = packed.filter(file => !/^(src|tests|examples|fonts)\/|^[^/]+$/.test(file))
+    const other = packed.filter(file => !/^(src|tests|examples|fonts|words)\/|^[^/]+$/.test(file))
     if (other.length > 0) throw new StepError(`The package ${crate} holds what no crate needs: ${other.join(', ')}.`)
   }
   const { output } = await run('cargo', ['package', '--offline', '--allow-dirty', ...crates.flatMap(crate => ['--package', crate])])

@@ -3,18 +3,20 @@
     apt-get download fonts-inter && dpkg -x fonts-inter*.deb inter
     pip install fonttools && python subset.py inter/usr/share/fonts/opentype/inter .
 
-Keeps the characters our figures write, without hinting or layout tables. The digits are replaced by Inter's tabular ones
-(feature tnum), because numbers that change in place must not make their neighbours jump.
+Keeps the letters of the languages that figures may speak, and the signs of formulas, without hinting or layout tables. `build.rs` takes
+those that are written from here: a new language needs no new font, unless its script is another one. The digits are replaced by
+Inter's tabular ones (feature tnum), because numbers that change in place must not make their neighbours jump.
 """
 import sys
 
 from fontTools import subset
 from fontTools.ttLib import TTFont
 
-TEXT = "".join(map(chr, range(0x20, 0x7F))) + "←→×±σαη√²³°–—−·…≤≥≈’†"
+# Latin with its accents, Greek, Cyrillic.
+LETTERS = "".join(map(chr, [*range(0x20, 0x7F), *range(0xA1, 0x180), *range(0x386, 0x3CF), *range(0x400, 0x460), 0x490, 0x491]))
+SIGNS = "–—‘’‚“”„†…‹›€←→−·≤≥≈√∂∑∏∫∞≠"
 # Of formulas. Inter has no ∈ ᵀ ⟨ ⟩ ∝ ⊕.
-FORMULAS = "μνφθδκχπρτωΔΛΣΩ∂∑∏∫∞≠½¼⁻¹⁺⁰₀₁₂₃ₜₓᵢⱼ"
-CHARACTERS = TEXT + FORMULAS
+INDICES = "⁻⁺⁰₀₁₂₃ₜₓᵢⱼΔΩ"
 
 
 def tabular_digits(font):
@@ -37,9 +39,9 @@ def make(source, target):
     options = subset.Options(hinting=False, layout_features=[], name_IDs=[0, 1, 2, 13, 14], glyph_names=False, desubroutinize=True)
     options.drop_tables += ["GSUB", "GPOS", "GDEF"]
     subsetter = subset.Subsetter(options)
-    subsetter.populate(text=CHARACTERS)
+    subsetter.populate(text=LETTERS + SIGNS + INDICES)
     subsetter.subset(font)
-    missing = [c for c in CHARACTERS if ord(c) not in font.getBestCmap()]
+    missing = [c for c in SIGNS + INDICES if ord(c) not in font.getBestCmap()]
     assert not missing, missing
     font.save(target)
 

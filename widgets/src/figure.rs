@@ -4,11 +4,12 @@
 use crate::{
     comma,
     export::{Entries, Export},
-    model::{FigureError, Files, Model, Readout},
+    model::{FigureError, Files, Model, ParamSpec, Readout, TraceLine},
     paint::{Canvas, Theme},
     param, query, registry,
     scene::{Handle, Point, Rect, Scene},
     view::{Shown, Shows, View},
+    words::{Language, common},
 };
 use serde::Serialize;
 
@@ -20,6 +21,7 @@ pub struct Figure {
     /// Of the scene painted last, and that scene's width \[css px\].
     handles: (Vec<Handle>, f64),
     decimal_comma: bool,
+    language: Language,
 }
 
 /// A [`Handle`] where it lies on the page.
@@ -51,7 +53,7 @@ impl Figure {
     pub fn new(tag: &str) -> Result<Self, FigureError> {
         let entry = registry::find(tag).ok_or_else(|| {
             let tags: Vec<&str> = registry::FIGURES.iter().map(|f| f.tag).collect();
-            FigureError::new("tag", param::quoted(tag), format!("one of {}", tags.join(", ")))
+            FigureError::new("tag", param::quoted(tag), common::OneOf { words: &tags.join(", ") }.say())
         })?;
         Ok(Self::showing(entry.tag, (entry.make)()))
     }
@@ -62,7 +64,8 @@ impl Figure {
     }
 
     fn showing(tag: &'static str, shown: Box<dyn Shown>) -> Self {
-        Self { tag, shown, canvas: Canvas::default(), handles: (Vec::new(), 1.0), decimal_comma: false }
+        let (canvas, handles, language) = (Canvas::default(), (Vec::new(), 1.0), Language::default());
+        Self { tag, shown, canvas, handles, decimal_comma: false, language }
     }
 
     /// What the figure is about.
@@ -80,11 +83,23 @@ impl Figure {
         Entries(self.model().values())
     }
 
+    /// Speaks the language of a catalogue ([`Language::learnt`]), or if that is empty, English.
+    pub fn set_words(&mut self, catalogue: &str) {
+        self.language = Language::learnt(catalogue);
+    }
+
+    /// [`crate::model::Parameters::params`], in the figure's language.
+    pub fn params(&self) -> Vec<ParamSpec> {
+        let _speaking = self.language.spoken();
+        self.model().params()
+    }
+
     /// Gives a parameter a new value.
     ///
     /// # Errors
     /// For a name or a value that is refused; the figure is as it was.
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), FigureError> {
+        let _speaking = self.language.spoken();
         self.model_mut().configure(&[(name.into(), value.into())]).pop().map_or(Ok(()), Err)
     }
 
@@ -93,15 +108,23 @@ impl Figure {
         self.decimal_comma = on;
     }
 
-    /// [`Model::readouts`], in the figure's way of writing numbers.
+    /// [`Model::readouts`], in the figure's language and way of writing numbers.
     pub fn readouts(&self) -> Vec<Readout> {
+        let _speaking = self.language.spoken();
         let readouts = self.model().readouts().into_iter();
         readouts.map(|readout| Readout { text: self.written(readout.text), ..readout }).collect()
     }
 
-    /// [`Model::describe`], in the figure's way of writing numbers.
+    /// [`Model::describe`], in the figure's language and way of writing numbers.
     pub fn describe(&self) -> String {
+        let _speaking = self.language.spoken();
         self.written(self.model().describe())
+    }
+
+    /// [`Model::trace`], in the figure's language.
+    pub fn trace(&self) -> Vec<TraceLine> {
+        let _speaking = self.language.spoken();
+        self.model().trace()
     }
 
     /// Names of the parts of its picture that can be shown by themselves.
@@ -114,6 +137,7 @@ impl Figure {
     /// # Errors
     /// For a name that no part of it has; the error has those that there are.
     pub fn show(&mut self, panels: &str) -> Result<(), FigureError> {
+        let _speaking = self.language.spoken();
         self.shown.show(panels)
     }
 
@@ -122,8 +146,9 @@ impl Figure {
         self.shown.height(width)
     }
 
-    /// What is to be seen at this size \[css px\], in the figure's way of writing numbers.
+    /// What is to be seen at this size \[css px\], in the figure's language and way of writing numbers.
     pub fn scene(&self, width: f64, height: f64) -> Scene {
+        let _speaking = self.language.spoken();
         let mut scene = self.shown.scene(width, height);
         if self.decimal_comma {
             comma::in_scene(&mut scene);
@@ -151,6 +176,7 @@ impl Figure {
 
     /// A click at a point of a figure of this width \[css px\]. True if it changed something.
     pub fn pick(&mut self, x: f64, y: f64, width: f64) -> bool {
+        let _speaking = self.language.spoken();
         let scene = self.shown.scene(width, self.height(width));
         let target = scene.hit(in_scene([x, y], scene.width / width));
         target.into_iter().for_each(|target| self.shown.pick(target));
@@ -214,7 +240,8 @@ impl Figure {
     /// # Errors
     /// For a file that cannot be read, and for a figure that has no use for any; it is as it was.
     pub fn open(&mut self, file: &[u8]) -> Result<(), FigureError> {
-        let none = FigureError { parameter: "file".into(), message: "this figure has no use for a file".into() };
+        let _speaking = self.language.spoken();
+        let none = FigureError { parameter: "file".into(), message: common::no_file().into() };
         self.model_mut().files_mut().ok_or(none)?.open(file)
     }
 
@@ -223,6 +250,7 @@ impl Figure {
     /// # Errors
     /// The parameter that stands in the way, and its range.
     pub fn ready(&self) -> Result<(), FigureError> {
+        let _speaking = self.language.spoken();
         self.model().files().map_or(Ok(()), Files::ready)
     }
 
@@ -243,6 +271,7 @@ impl Figure {
 
     /// Makes the figure what a link says. Returns what was refused; the rest is applied.
     pub fn load(&mut self, query: &str) -> Vec<FigureError> {
+        let _speaking = self.language.spoken();
         query::read(self.model_mut(), query)
     }
 
@@ -258,130 +287,4 @@ fn in_scene(point: Point, scale: f64) -> Point {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::model::Declared;
-    use crate::panels::Panels;
-    use crate::recipe::{Param, Recipe};
-    use std::{cell::RefCell, rc::Rc};
-
-    /// A point in a scene that is never narrower than 300 px. What it is told is written down.
-    #[derive(Default)]
-    struct OnePoint {
-        told: Rc<RefCell<Vec<String>>>,
-    }
-
-    /// Nothing can be set about it.
-    #[derive(Clone, PartialEq, Default)]
-    struct Nothing;
-
-    impl Recipe for Nothing {
-        fn table() -> Vec<Param<Self>> {
-            Vec::new()
-        }
-    }
-
-    impl Declared for OnePoint {
-        type Recipe = Nothing;
-        const TITLE: &'static str = "A point";
-        fn recipe(&self) -> &Nothing {
-            &Nothing
-        }
-        fn adopt(&mut self, _: Nothing) -> Result<(), FigureError> {
-            Ok(())
-        }
-    }
-
-    impl Model for OnePoint {
-        fn readouts(&self) -> Vec<Readout> {
-            vec![Readout::new("x", "x", f64::NAN, "NaN", "m", "")]
-        }
-        fn describe(&self) -> String {
-            "A point.".into()
-        }
-    }
-
-    #[derive(Default)]
-    struct OnePointView;
-
-    impl View for OnePointView {
-        type Model = OnePoint;
-        type Layout = Rect;
-        fn layout(width: f64, _: &Panels) -> Rect {
-            Rect::new(0.0, 0.0, width, 0.5 * width)
-        }
-        fn draw(&self, _: &OnePoint, _: &Rect, scene: &mut Scene) {
-            let hover = Some(Rect::new(30.0, 60.0, 90.0, 30.0));
-            let (name, title, text) = ("point", "The point".into(), "3 m east".into());
-            scene.handles.push(Handle { name, title, at: [150.0, 75.0], axes: &[], value: 3.0, text, hover });
-        }
-        fn drag(&self, model: &mut OnePoint, layout: &Rect, handle: &str, to: Point) {
-            model.told.borrow_mut().push(format!("{handle} to {to:?} of {}", layout.w));
-        }
-        fn nudge(&self, model: &mut OnePoint, handle: &str, steps: [f64; 2]) {
-            model.told.borrow_mut().push(format!("{handle} by {steps:?}"));
-        }
-    }
-
-    fn point() -> (Figure, Rc<RefCell<Vec<String>>>) {
-        let shown = Shows::<OnePointView>::default();
-        let told = shown.model.told.clone();
-        (Figure::showing("fastslam-point", Box::new(shown)), told)
-    }
-
-    #[test]
-    fn handles_lie_where_the_picture_has_them_also_where_it_was_made_smaller() {
-        let (mut figure, _) = point();
-        assert_eq!(figure.handles(300.0), []);
-        figure.paint(600, 300, 2.0, Theme::Light);
-        let handle = &figure.handles(300.0)[0];
-        assert_eq!((handle.name, handle.x, handle.y), ("point", 150.0, 75.0));
-        assert_eq!(handle.hover, Some(Rect::new(30.0, 60.0, 90.0, 30.0)));
-        figure.paint(100, 50, 1.0, Theme::Light);
-        let handle = &figure.handles(100.0)[0];
-        assert_eq!((handle.x, handle.y, handle.hover), (50.0, 25.0, Some(Rect::new(10.0, 20.0, 30.0, 10.0))));
-    }
-
-    #[test]
-    fn a_handle_is_dragged_in_the_scene_s_own_px_and_never_to_what_is_no_number() {
-        let (mut figure, told) = point();
-        figure.drag("point", 60.0, 20.0, 600.0);
-        figure.drag("point", 60.0, 20.0, 100.0);
-        figure.nudge("point", -1.0, 10.0);
-        for bad in [f64::NAN, f64::INFINITY] {
-            figure.drag("point", bad, 1.0, 300.0);
-            figure.nudge("point", 0.0, bad);
-        }
-        figure.drag("point", 1.0, 1.0, 0.0);
-        assert_eq!(
-            *told.borrow(),
-            ["point to [60.0, 20.0] of 600", "point to [180.0, 60.0] of 300", "point by [-1.0, 10.0]"]
-        );
-    }
-
-    #[test]
-    fn a_figure_without_a_timeline_has_no_steps_and_nothing_pending() {
-        let (mut figure, _) = point();
-        figure.model_mut().seek(7);
-        figure.model_mut().settle();
-        assert_eq!((figure.model().step(), figure.model().step_count(), figure.model().pending()), (0, 0, 0));
-    }
-
-    #[test]
-    fn a_readout_that_is_no_number_is_a_dash() {
-        let readout = &point().0.readouts()[0];
-        assert_eq!((readout.value, readout.text.as_str()), (None, "–"));
-    }
-
-    #[test]
-    fn a_figure_without_files_takes_none_and_one_without_navigation_stays_where_it_is() {
-        let (mut figure, told) = point();
-        assert_eq!(figure.open(b"x").unwrap_err().parameter, "file");
-        assert_eq!((figure.ready(), figure.file("map.pgm")), (Ok(()), None));
-        let before = figure.scene(400.0, 200.0);
-        figure.zoom(2.0, 9.0, 9.0, 400.0);
-        figure.pan(9.0, 9.0, 400.0);
-        figure.fit();
-        assert_eq!((figure.scene(400.0, 200.0), told.borrow().len()), (before, 0));
-    }
-}
+mod tests;

@@ -134,6 +134,17 @@ mod tests {
     }
 
     #[test]
+    fn every_letter_of_every_language_is_embedded() {
+        let folder = [env!("CARGO_MANIFEST_DIR"), "words"].iter().collect::<std::path::PathBuf>();
+        for file in std::fs::read_dir(folder).unwrap() {
+            let words = std::fs::read_to_string(file.unwrap().path()).unwrap();
+            for letter in words.chars().filter(|c| c.is_alphabetic()) {
+                assert!(has(letter, Weight::Regular) && has(letter, Weight::SemiBold), "{letter}");
+            }
+        }
+    }
+
+    #[test]
     fn numbers_keep_their_width_when_a_digit_changes() {
         for weight in [Weight::Regular, Weight::SemiBold] {
             let widths: Vec<f64> = ('0'..='9').map(|c| measure(&c.to_string(), 1.0, weight)).collect();

@@ -8,6 +8,7 @@ use crate::{
     param, query,
     recipe::{self, Recipe},
     registry,
+    words::common::OneOf,
 };
 use core::ops::Range;
 
@@ -47,7 +48,7 @@ pub fn run(name: &str, setting: &str, seeds: Range<u64>) -> Result<Rows, FigureE
     let jobs = || registry::FIGURES.iter().filter_map(|figure| figure.count);
     let job = jobs().find(|job| job.name == name).ok_or_else(|| {
         let names: Vec<&str> = jobs().map(|job| job.name).collect();
-        FigureError::new("job", param::quoted(name), format!("one of {}", names.join(", ")))
+        FigureError::new("job", param::quoted(name), OneOf { words: &names.join(", ") }.say())
     })?;
     (job.run)(&query::pairs(setting), seeds)
 }

@@ -18,7 +18,9 @@ pub mod job;
 pub mod lap;
 #[cfg(feature = "log")]
 pub mod log;
+mod message;
 pub mod model;
+mod names;
 pub mod paint;
 pub mod panels;
 pub mod param;
@@ -37,7 +39,7 @@ pub mod shell;
 #[cfg(all(target_arch = "wasm32", feature = "trouble"))]
 mod trouble;
 pub mod view;
-mod words;
+pub mod words;
 #[cfg(feature = "page")]
 pub mod worked_example;
 

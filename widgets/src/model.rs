@@ -7,6 +7,7 @@
 use crate::decimal::fixed;
 pub use crate::param::{Choice, Group, Kind, ParamSpec};
 use crate::recipe::{self, Recipe};
+use crate::words::common::{self, MustBe, NEffOf};
 use core::fmt;
 use fastslam::error::SettingError;
 use serde::Serialize;
@@ -24,7 +25,8 @@ pub struct FigureError {
 impl FigureError {
     /// `parameter` was given as `value`, where `allowed` names the range or the choices.
     pub fn new(parameter: &str, value: impl fmt::Display, allowed: impl fmt::Display) -> Self {
-        Self { parameter: parameter.into(), message: format!("{parameter} = {value}: must be {allowed}") }
+        let message = MustBe { parameter: &parameter, value: &value, allowed: &allowed }.say();
+        Self { parameter: parameter.into(), message }
     }
 }
 
@@ -98,12 +100,12 @@ pub fn pose_text([x, y, theta]: [f64; 3]) -> String {
 
 /// N_eff of so many, as text.
 pub fn ess_text(ess: f64, particles: usize) -> String {
-    format!("{} of {particles}", fixed(ess, 1))
+    NEffOf { ess: &fixed(ess, 1), m: &particles }.say()
 }
 
-/// What a sentence says of a step of this log evidence \[nats\], if no universe explains what it saw; else nothing.
-pub fn unexplained(log_evidence: f64) -> &'static str {
-    if log_evidence == f64::NEG_INFINITY { "No universe explains this scan: the weights stay. " } else { "" }
+/// What is to be said of a step of this log evidence \[nats\], if no universe explains what it saw.
+pub fn unexplained(log_evidence: f64) -> Option<String> {
+    (log_evidence == f64::NEG_INFINITY).then(|| common::unexplained().into())
 }
 
 /// A column of the measured data.

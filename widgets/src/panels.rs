@@ -1,6 +1,10 @@
 //! Parts of a picture that can be shown by themselves: one small chart beside a sentence, rather than the whole figure.
 
-use crate::{model::FigureError, param::quoted};
+use crate::{
+    model::FigureError,
+    param::quoted,
+    words::common::{self, SomePanels},
+};
 
 /// Which panels of a view are shown: all of them, unless an author asks for some.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
@@ -18,8 +22,8 @@ impl Panels {
         let find = |name: &str| all.iter().copied().find(|panel| *panel == name);
         let found: Option<Vec<&'static str>> = names.split_whitespace().map(find).collect();
         let allowed = || match all {
-            [] => "all: this figure is one piece".to_string(),
-            _ => format!("all, or some of {}", all.join(", ")),
+            [] => common::one_piece().into(),
+            _ => SomePanels { panels: &all.join(", ") }.say(),
         };
         let shown = found.ok_or_else(|| FigureError::new("show", quoted(names), allowed()))?;
         Ok(Self(Some(shown)))

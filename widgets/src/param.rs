@@ -2,6 +2,7 @@
 
 use crate::decimal;
 use crate::model::FigureError;
+use crate::words::common::{self, ANumber, AWholeNumber, OneOf, UnknownParameter, WordsOrRange};
 use serde::Serialize;
 use std::fmt::Display;
 
@@ -123,12 +124,12 @@ impl ParamSpec {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
         let [min, max] = [self.min, self.max].map(decimal::write);
         let range = match self.kind {
-            Kind::Integer => format!("a whole number from {min} to {max}{unit}"),
-            Kind::Number => format!("a number from {min} to {max}{unit}"),
-            Kind::Choice => return format!("one of {}", words.join(", ")),
-            Kind::Flag | Kind::Toggle => return "on or off".into(),
+            Kind::Integer => AWholeNumber { min: &min, max: &max, unit: &unit }.say(),
+            Kind::Number => ANumber { min: &min, max: &max, unit: &unit }.say(),
+            Kind::Choice => return OneOf { words: &words.join(", ") }.say(),
+            Kind::Flag | Kind::Toggle => return common::on_or_off().into(),
         };
-        if words.is_empty() { range } else { format!("{} or {range}", words.join(", ")) }
+        if words.is_empty() { range } else { WordsOrRange { words: &words.join(", "), range: &range }.say() }
     }
 }
 
@@ -154,7 +155,7 @@ pub fn unknown(name: &str, specs: &[ParamSpec]) -> FigureError {
     let known: Vec<&str> = specs.iter().map(|s| s.name).collect();
     FigureError {
         parameter: name.into(),
-        message: format!("{} is not a parameter of this figure; it has {}", quoted(name), known.join(", ")),
+        message: UnknownParameter { name: &quoted(name), known: &known.join(", ") }.say(),
     }
 }
 

@@ -1,6 +1,7 @@
 //! When to resample, as figures of maps let a reader choose it: a word, and a threshold that is kept while another word is chosen.
 
 use crate::recipe::{Field, Menu, Param, Recipe};
+use crate::words::policy;
 use fastslam::resampling::ResamplePolicy;
 
 /// Threshold where another policy is chosen.
@@ -44,7 +45,7 @@ fn kind(policy: ResamplePolicy) -> Kind {
 
 /// All of them.
 fn menu() -> Menu<Kind> {
-    let titles = [(Kind::Below, "N_eff below threshold"), (Kind::Always, "at every step"), (Kind::Never, "never")];
+    let titles = [(Kind::Below, policy::below()), (Kind::Always, policy::always()), (Kind::Never, policy::never())];
     Menu::new(titles.map(|(kind, title)| (kind.word(), title, kind)))
 }
 
@@ -66,7 +67,7 @@ pub trait Chosen: Recipe {
 pub fn rows<R: Chosen>() -> [Param<R>; 2] {
     let policy = Param::choice(
         "policy",
-        "Resample",
+        policy::resample(),
         menu(),
         Field {
             get: |recipe: &R| kind(recipe.chosen().0),
@@ -75,12 +76,12 @@ pub fn rows<R: Chosen>() -> [Param<R>; 2] {
                 recipe.choose(kind.with(threshold), threshold);
             },
         },
-        "When the universes are resampled.",
+        policy::resample_help(),
     );
     let threshold = Param::number(
         "threshold",
-        "Threshold",
-        "of M",
+        policy::threshold(),
+        policy::of_m(),
         (0.0, 1.0, 0.05),
         Field {
             get: |recipe: &R| recipe.chosen().1,
@@ -89,7 +90,7 @@ pub fn rows<R: Chosen>() -> [Param<R>; 2] {
                 recipe.choose(kind(policy).with(threshold), threshold);
             },
         },
-        "Share of M below which N_eff calls for resampling, under the policy neff.",
+        policy::threshold_help(),
     );
     [policy, threshold]
 }

@@ -7,6 +7,7 @@
 use crate::{
     model::{FigureError, Model},
     param::quoted,
+    words::common::{AWholeNumber, EarlierLink, LaterLink},
 };
 
 /// Name of the version in a link.
@@ -40,13 +41,15 @@ fn since(query: &str, changes: &[&str]) -> Vec<FigureError> {
     match given.trim().parse::<usize>() {
         Ok(version) if (1..=newest).contains(&version) => {
             let new = changes.iter().skip(version - 1);
-            new.map(|change| about(format!("This link is of an earlier version of the figure. Since then: {change}")))
-                .collect()
+            new.map(|change| about(EarlierLink { change }.say())).collect()
         }
-        Ok(version) if version > newest => vec![about(format!(
-            "This link is of version {version} of the figure, and this page has version {newest}: what it shows may differ."
-        ))],
-        _ => vec![FigureError::new(VERSION, quoted(&given), format!("a whole number from 1 to {newest}"))],
+        Ok(version) if version > newest => {
+            vec![about(LaterLink { version: &version, newest: &newest }.say())]
+        }
+        _ => {
+            let allowed = AWholeNumber { min: &1, max: &newest, unit: &"" }.say();
+            vec![FigureError::new(VERSION, quoted(&given), allowed)]
+        }
     }
 }
 

@@ -31,6 +31,7 @@
 use crate::decimal;
 use crate::model::FigureError;
 use crate::param::{Choice, Group, Kind, ParamSpec, Value, unknown};
+use crate::words::common;
 use std::fmt::Display;
 use strum::VariantArray;
 
@@ -182,7 +183,7 @@ impl<R: Recipe> Param<R> {
 
     /// The seed, of whatever it picks.
     pub fn seed(field: Field<R, u64>, help: &'static str) -> Self {
-        Self::integer("seed", "Seed", "", (0, u32::MAX), field, help)
+        Self::integer("seed", common::seed(), "", (0, u32::MAX), field, help)
     }
 
     /// A whole number from 0 on, up to a bound that depends on rows above; or none of them, which is the word, and −1.

@@ -119,7 +119,7 @@ impl Figure {
 
     /// All parameters: an array of `ParamSpec`.
     pub fn params(&self) -> Array {
-        plain(&self.figure.model().params())
+        plain(&self.figure.params())
     }
 
     /// Current values by name.
@@ -159,6 +159,11 @@ impl Figure {
         self.figure.model_mut().work();
     }
 
+    /// Speaks the language of a catalogue: a line for each message, `section.key=text`. English where that is empty.
+    pub fn set_words(&mut self, catalogue: &str) {
+        self.figure.set_words(catalogue);
+    }
+
     /// Writes numbers with a decimal comma, in the picture and in words.
     pub fn set_decimal_comma(&mut self, on: bool) {
         self.figure.set_decimal_comma(on);
@@ -176,7 +181,7 @@ impl Figure {
 
     /// The lines of its algorithm that led to what is shown: an array of `TraceLine`.
     pub fn trace(&self) -> Array {
-        plain(&self.figure.model().trace())
+        plain(&self.figure.trace())
     }
 
     /// Names of the parts of its picture that can be shown by themselves.

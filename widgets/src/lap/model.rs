@@ -5,6 +5,7 @@ use crate::decimal::fixed;
 use crate::model::{
     Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text, unexplained,
 };
+use crate::words::{common, lap};
 use fastslam::{geometry::Pose2, proposal::ProposalTrace};
 use fastslam_lab::experiment::ProposalKind;
 use fastslam_lab::experiment::lap::{Lap, LapSetup, StepReport};
@@ -101,43 +102,41 @@ impl LapModel {
     /// A step in words.
     fn told(&self, report: &StepReport) -> String {
         let (m, slot) = (self.recipe.setup.particles, self.selected());
-        let universes = if m == 1 { "1 universe".into() } else { format!("{m} universes") };
-        let who = if slot == report.best {
-            format!("universe {slot}, the best")
+        let (step, last, best) = (&report.step, &self.step_count(), &report.best);
+        let shown = if slot == report.best {
+            lap::ShownBest { step, last, m: &m, slot: &slot }.say()
         } else {
-            format!("universe {slot}; the best is {}", report.best)
+            lap::ShownOther { step, last, m: &m, slot: &slot, best }.say()
         };
-        let mut text = format!("Step {} of {}, {universes}. Shown large is {who}. ", report.step, self.step_count());
         if report.step == 0 {
-            text.push_str("All start at the same known place with the same map.");
-            return text;
+            return [shown, lap::all_start().into()].join(" ");
         }
-        text.push_str(unexplained(report.log_evidence));
-        text.push_str(&format!(
-            "The best path is off by {} m (RMS), raw odometry by {} m. N_eff is {} of {m}: ",
-            fixed(report.rms_best, 2),
-            fixed(report.rms_odometry, 2),
-            fixed(report.ess, 1)
-        ));
-        match &report.ancestors {
-            None => text.push_str("no resampling at this step."),
+        let resampling = match &report.ancestors {
+            None => lap::no_resampling().into(),
             Some(ancestors) => {
-                let parent = ancestors[slot as usize];
-                let origin =
-                    if parent == slot { "kept its slot".into() } else { format!("is a copy of universe {parent}") };
-                text.push_str(&format!(
-                    "resampled, {} of {m} died out; universe {slot} {origin}.",
-                    died_out(ancestors)
-                ));
+                let (parent, dead) = (ancestors[slot as usize], &died_out(ancestors));
+                if parent == slot {
+                    lap::KeptSlot { dead, m: &m, slot: &slot }.say()
+                } else {
+                    lap::CopyOf { dead, m: &m, slot: &slot, parent: &parent }.say()
+                }
             }
-        }
-        text
+        };
+        let numbers = lap::Errors {
+            best: &fixed(report.rms_best, 2),
+            odometry: &fixed(report.rms_odometry, 2),
+            ess: &fixed(report.ess, 1),
+            m: &m,
+            resampling: &resampling,
+        };
+        let sentences = [Some(shown), unexplained(report.log_evidence), Some(numbers.say())];
+        sentences.into_iter().flatten().collect::<Vec<_>>().join(" ")
     }
 }
 
 impl Declared for LapModel {
     type Recipe = Recipe;
-    const TITLE: &'static str = "The Apartment lap";
+    const TITLE: &'static str = lap::TITLE;
 
     fn recipe(&self) -> &Recipe {
         &self.recipe
@@ -211,66 +210,27 @@ impl Model for LapModel {
         vec![
             Readout::new(
                 "step",
-                "Step",
+                common::step(),
                 f64::from(report.step),
-                format!("{} of {}", report.step, self.step_count()),
+                common::Of { n: &report.step, all: &self.step_count() }.say(),
                 "",
-                "The step shown, and the last one of the lap.",
+                lap::step_readout_help(),
             ),
-            metres(
-                "rms_best",
-                "RMS error, best universe",
-                report.rms_best,
-                "Root mean square distance of the best universe's path from the truth, step 0 to now.",
-            ),
-            metres(
-                "rms_best_aligned",
-                "… after rigid alignment",
-                report.rms_best_aligned,
-                "The same after the path was moved as a whole to fit best: a map is only ever right up to a rigid motion.",
-            ),
-            metres(
-                "rms_odometry",
-                "RMS error, raw odometry",
-                report.rms_odometry,
-                "Root mean square distance of the path that the wheels alone report from the truth.",
-            ),
-            Readout::new(
-                "ess",
-                "N_eff",
-                report.ess,
-                ess_text(report.ess, m),
-                "",
-                "Effective number of universes before resampling: M if all weigh the same, 1 if one has all the weight.",
-            ),
+            metres("rms_best", lap::rms_best(), report.rms_best, lap::rms_best_help()),
+            metres("rms_best_aligned", lap::aligned(), report.rms_best_aligned, lap::aligned_help()),
+            metres("rms_odometry", lap::rms_odometry(), report.rms_odometry, lap::rms_odometry_help()),
+            Readout::new("ess", "N_eff", report.ess, ess_text(report.ess, m), "", common::n_eff_help()),
             Readout::new(
                 "lineage",
-                "Lineage",
+                common::lineage(),
                 f64::from(report.lineage),
-                format!("{} of {m}", report.lineage),
+                common::Of { n: &report.lineage, all: &m }.say(),
                 "",
-                "How many of the universes of step 0 still have a descendant.",
+                lap::lineage_help(),
             ),
-            kilobytes(
-                "map_unique",
-                "Memory of the maps",
-                unique,
-                "What all maps hold together, shared tiles counted once; 1 KB is 1000 bytes.",
-            ),
-            kilobytes(
-                "map_dense",
-                "… as dense arrays",
-                dense,
-                "What the maps would hold if each were an array of its own.",
-            ),
-            Readout::new(
-                "map_share",
-                "Memory share",
-                share,
-                fixed(share, 0),
-                "%",
-                "Memory of the maps as a share of dense arrays: the rest is shared, or never seen.",
-            ),
+            kilobytes("map_unique", common::memory(), unique, lap::memory_help()),
+            kilobytes("map_dense", common::dense(), dense, lap::dense_help()),
+            Readout::new("map_share", lap::share(), share, fixed(share, 0), "%", lap::share_help()),
         ]
     }
 
@@ -331,19 +291,18 @@ impl Model for LapModel {
         let mut lines = Vec::new();
         if self.recipe.setup.proposal == ProposalKind::Improved {
             lines.extend([TraceLine::new("predict", pose(&predicted)), TraceLine::new("seed", "")]);
-            let doubt =
-                |word| TraceLine::new("doubt", format!("{word}; in {} of {m} universes trusted", report.matched));
+            let (matched, m) = (&report.matched, &m);
             match report.traces[slot] {
                 ProposalTrace::Matched { mode, log_integral } => lines.extend([
-                    TraceLine::new("match", format!("moved by {}", pose_text(mode.minus(&predicted).into()))),
-                    doubt("trusted"),
+                    TraceLine::new("match", lap::MovedBy { pose: &pose_text(mode.minus(&predicted).into()) }.say()),
+                    TraceLine::new("doubt", lap::Trusted { matched, m }.say()),
                     TraceLine::new("fit", format!("ln η̂ = {}", nats(log_integral))),
                     TraceLine::new("draw", pose(&to)),
                     TraceLine::new("pay", paid),
                 ]),
                 ProposalTrace::Motion => lines.extend([
                     TraceLine::new("match", ""),
-                    doubt("not trusted"),
+                    TraceLine::new("doubt", lap::NotTrusted { matched, m }.say()),
                     TraceLine::new("fallback", pose(&to)),
                     TraceLine::new("pay", paid),
                 ]),
@@ -353,12 +312,13 @@ impl Model for LapModel {
             lines.push(TraceLine::new("fallback", pose(&to)));
         }
         let largest = report.weights.iter().copied().fold(0.0, f64::max);
-        let resample =
-            if report.ancestors.is_some() { format!("yes: {} died out", self.extinct().len()) } else { "no".into() };
+        let dead = &self.extinct().len();
+        let resample = if report.ancestors.is_some() { lap::Yes { dead }.say() } else { common::no().into() };
+        let kilobytes = &fixed(report.map_bytes_unique as f64 / 1000.0, 0);
         lines.extend([
-            TraceLine::new("map", format!("all maps: {} KB", fixed(report.map_bytes_unique as f64 / 1000.0, 0))),
+            TraceLine::new("map", lap::AllMaps { kilobytes }.say()),
             TraceLine::new("extend", ""),
-            TraceLine::new("normalise", format!("largest {}", fixed(largest, 2))),
+            TraceLine::new("normalise", lap::Largest { weight: &fixed(largest, 2) }.say()),
             TraceLine::new("ess", ess_text(report.ess, m)),
             TraceLine::new("resample", resample),
         ]);

@@ -10,6 +10,7 @@ use crate::{
     font::{self, Weight},
     model::Model,
     scene::{Anchor, Mark, Point, Rect, Region, Role, Sample, Scene, Shading, cross, heading, legend, text},
+    words::{common, lap},
 };
 
 /// Shares of weight (1 = 1/M) at which a border is full: a universe that weighs thrice its share.
@@ -41,21 +42,15 @@ pub fn mosaic(scene: &mut Scene, model: &LapModel, layout: &Layout, tiles: &Tile
     let (lap, selected) = (model.lap(), model.selected());
     let m = lap.particles().len();
     let extinct = model.extinct();
-    let name = if m == 1 { "1 universe".into() } else { format!("{m} universes") };
-    match &model.report().ancestors {
-        Some(_) if extinct.is_empty() => {
-            heading(scene, &layout.mosaic_header, (&name, Role::Ink), "resampled: none died out")
-        }
-        Some(_) => {
-            let title = format!("Resampled: {} of {m} died out", extinct.len());
-            heading(scene, &layout.mosaic_header, (&title, Role::Extinct), "");
-        }
-        None if m == 1 => heading(scene, &layout.mosaic_header, (&name, Role::Ink), "the only hypothesis"),
-        None if model.step() == 0 => {
-            heading(scene, &layout.mosaic_header, (&name, Role::Ink), "all alike at the start")
-        }
-        None => heading(scene, &layout.mosaic_header, (&name, Role::Ink), "each with a map of its own"),
-    }
+    let name = common::UniverseCount { m: &m }.say();
+    let (title, role, rest) = match &model.report().ancestors {
+        Some(_) if extinct.is_empty() => (name, Role::Ink, lap::none_died_out()),
+        Some(_) => (lap::Resampled { dead: &extinct.len(), m: &m }.say(), Role::Extinct, ""),
+        None if m == 1 => (name, Role::Ink, lap::only_hypothesis()),
+        None if model.step() == 0 => (name, Role::Ink, lap::all_alike()),
+        None => (name, Role::Ink, lap::map_each()),
+    };
+    heading(scene, &layout.mosaic_header, (&title, role), rest);
 
     let width = tiles.size[0];
     let full = (0.05 * width).clamp(2.0, 5.0);
@@ -154,21 +149,22 @@ fn ghost(scene: &mut Scene, model: &LapModel, slot: u32, map: &Rect, width: f64)
 pub fn notes(scene: &mut Scene, model: &LapModel, area: &Rect, labels: bool) {
     let weight = |share| Sample::new(move |place| vec![border(*place, share, 4.0)]);
     if model.lap().particles().len() == 1 {
-        legend(scene, area, [(weight(1.0), "weight: all of it")]);
+        legend(scene, area, [(weight(1.0), lap::all_weight())]);
         return;
     }
-    let weights = [(weight(0.0), "weight 0"), (weight(1.0), "1/M"), (weight(FULL_SHARE), "3/M or more")];
+    let weights = [(weight(0.0), lap::no_weight()), (weight(1.0), "1/M"), (weight(FULL_SHARE), lap::much_weight())];
     let label = |place: &Rect| vec![text(*place, Anchor::Start, 10.5, Weight::SemiBold, Role::Copied, "← 7")];
     let copied = if labels {
-        (Sample::new(label).wide(font::measure("← 7", 10.5, Weight::SemiBold) + 4.0), "copied from")
+        (Sample::new(label).wide(font::measure("← 7", 10.5, Weight::SemiBold) + 4.0), lap::copied_from())
     } else {
-        (Sample::at(|[x, y]| fold([x - 5.0, y + 5.0], 10.0)), "copied")
+        (Sample::at(|[x, y]| fold([x - 5.0, y + 5.0], 10.0)), lap::copied())
     };
     let died = |place: &Rect| {
         let [x, y] = place.centre();
         extinct_cross(&Rect::new(x - 5.0, y - 5.0, 10.0, 10.0)).into()
     };
-    let resampling = [(Sample::dot(Role::Copied, 2.5), "resampled"), copied, (Sample::new(died), "died out")];
+    let resampling =
+        [(Sample::dot(Role::Copied, 2.5), common::resampled()), copied, (Sample::new(died), common::died_out())];
     let y = legend(scene, area, weights);
     legend(scene, &Rect { y, ..*area }, resampling);
 }

@@ -1,9 +1,9 @@
 //! What a reader can set about the lap.
 
 use crate::{
-    field, policy,
+    field, names, policy,
     recipe::{self, Menu, Param},
-    words,
+    words::{common, lap},
 };
 use fastslam::resampling::ResamplePolicy;
 use fastslam_lab::experiment::lap::{LapSetup, STEPS};
@@ -54,74 +54,58 @@ fn table() -> Vec<Param<Recipe>> {
     let [policy, threshold] = policy::rows();
     let usual = LapSetup::default();
     vec![
-        P::integer(
-            "universes",
-            "Universes M",
-            "",
-            (1, 256),
-            field!(setup.particles),
-            "How many particles the filter has: each is a path with a map of its own.",
-        ),
-        P::seed(
-            field!(setup.seed),
-            "Picks the noise of the world and of the filter; the same seed gives the same lap, bit for bit.",
-        ),
+        P::integer("universes", common::universes(), "", (1, 256), field!(setup.particles), common::universes_help()),
+        P::seed(field!(setup.seed), lap::seed_help()),
         P::number(
             "odometry",
-            "Odometry noise σ",
+            common::odometry_noise(),
             "× α",
             (0.0, 2.0, 0.05),
             field!(setup.odometry_scale),
-            "Factor on the standard deviations of the wheels' noise, in the world and in what the filter expects.",
+            lap::odometry_help(),
         ),
         P::number(
             "range-std",
-            "Range noise σ",
+            common::range_noise(),
             "m",
             (0.01, 0.3, 0.01),
             field!(setup.range_std),
-            "Standard deviation of each measured range.",
+            lap::range_help(),
         ),
         P::choice(
             "proposal",
-            "Proposal",
-            Menu::of(usual.proposal, words::proposal),
+            lap::proposal(),
+            Menu::of(usual.proposal, names::proposal),
             field!(setup.proposal),
-            "Where new poses are drawn from: near the scan's best match, or from the motion model alone.",
+            lap::proposal_help(),
         ),
         P::choice(
             "matcher",
-            "Matcher",
-            Menu::of(usual.matcher, words::matcher),
+            lap::matcher(),
+            Menu::of(usual.matcher, names::matcher),
             field!(setup.matcher),
-            "What the end of a beam is compared with: the mean of the hits in a cell, or the cell as a whole.",
+            lap::matcher_help(),
         ),
         policy,
         threshold,
         P::choice(
             "scheme",
-            "Scheme",
-            Menu::of(usual.scheme, words::scheme),
+            common::scheme(),
+            Menu::of(usual.scheme, names::scheme),
             field!(setup.scheme),
-            "How the survivors are drawn.",
+            lap::scheme_help(),
         ),
-        P::integer("step", "Step", "", (0, STEPS as u32), field!(step), "The step shown.").view(),
+        P::integer("step", common::step(), "", (0, STEPS as u32), field!(step), common::step_help()).view(),
         P::integer_or(
             "universe",
-            "Universe shown large",
-            ("best", "the best"),
+            lap::universe(),
+            ("best", lap::universe_best()),
             |recipe| recipe.setup.particles as f64 - 1.0,
             field!(universe),
-            "The slot shown large; best, or −1, is the one of the largest weight along its path.",
+            lap::universe_help(),
         )
         .view(),
-        P::flag(
-            "truth",
-            "Truth",
-            field!(truth),
-            "Draws the true path and the walls of the apartment, which the filter never sees.",
-        )
-        .view(),
-        P::flag("raw", "Raw odometry", field!(raw), "Draws where the wheels alone would have led.").view(),
+        P::flag("truth", lap::truth(), field!(truth), lap::truth_help()).view(),
+        P::flag("raw", common::raw_odometry(), field!(raw), common::raw_odometry_help()).view(),
     ]
 }

@@ -17,6 +17,7 @@ use crate::{
         n_eff, rimmed, rimmed_robot, scale_bar, text,
     },
     view::View,
+    words::{common, lap},
 };
 use fastslam::resampling::ResamplePolicy;
 
@@ -60,13 +61,18 @@ impl View for LapView {
 
 fn large(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     let (lap, slot) = (model.lap(), model.selected());
-    let step = format!("step {} of {}", model.step(), model.step_count());
+    let step = common::StepOf { step: &model.step(), last: &model.step_count() }.say();
     let step_width = font::measure(&step, 12.5, Weight::Regular) + 2.0;
     let Rect { x, y, w, h } = layout.large_header;
-    let weight = lap.weights()[slot as usize];
-    let best = if slot == model.report().best { "best · " } else { "" };
+    let weight = fixed(lap.weights()[slot as usize], 3);
+    let weight = if slot == model.report().best {
+        lap::BestWeight { weight: &weight }.say()
+    } else {
+        lap::Weight { weight: &weight }.say()
+    };
+    let name = lap::UniverseSlot { slot: &slot }.say();
     let title = Rect::new(x, y, w - step_width - 8.0, h);
-    heading(scene, &title, (&format!("Universe {slot}"), Role::Ink), &format!("{best}weight {}", fixed(weight, 3)));
+    heading(scene, &title, (&name, Role::Ink), &weight);
     let step_area = Rect::new(x + w - step_width, y, step_width, h);
     scene.marks.push(text(step_area, Anchor::End, 12.5, Weight::Regular, Role::Muted, step));
 
@@ -105,17 +111,17 @@ fn names(scene: &mut Scene, model: &LapModel, area: &Rect) {
         Sample::cell(OCCUPIED).marks(place).into_iter().chain([mean]).collect()
     };
     let mut items = vec![
-        (Sample::cell(OCCUPIED), "wall"),
-        (Sample::cell(FREE), "free"),
-        (Sample::cell(UNKNOWN), "unknown"),
-        (Sample::new(hit), "mean of hits"),
-        (Sample::line(Role::Path, 2.25, None), "its path"),
+        (Sample::cell(OCCUPIED), common::wall()),
+        (Sample::cell(FREE), common::free()),
+        (Sample::cell(UNKNOWN), common::unknown()),
+        (Sample::new(hit), lap::hits()),
+        (Sample::line(Role::Path, 2.25, None), lap::its_path()),
     ];
     if model.shows_truth() {
-        items.push((Sample::line(Role::Truth, 1.5, Some(TRUTH)), "truth"));
+        items.push((Sample::line(Role::Truth, 1.5, Some(TRUTH)), common::truth()));
     }
     if model.shows_raw() {
-        items.push((Sample::line(Role::Odometry, 2.0, Some(RAW)), "raw odometry"));
+        items.push((Sample::line(Role::Odometry, 2.0, Some(RAW)), common::raw_odometry_line()));
     }
     legend(scene, area, items);
 }
@@ -131,7 +137,14 @@ fn meter(scene: &mut Scene, model: &LapModel, area: &Rect) {
     let value = Rect::new(end, line(0.0).y, label_width - 6.0 - (end - area.x), 17.0);
     let ess = fixed(model.report().ess, 1);
     scene.marks.push(text(value, Anchor::End, 12.5, Weight::Regular, Role::Ink, ess));
-    scene.marks.push(text(line(1.0), Anchor::Start, 11.5, Weight::Regular, Role::Muted, format!("of {count}")));
+    scene.marks.push(text(
+        line(1.0),
+        Anchor::Start,
+        11.5,
+        Weight::Regular,
+        Role::Muted,
+        common::OfAll { all: &count }.say(),
+    ));
 
     let chart = Chart { area: chart, last: model.step_count() };
     let lines = vec![chart.level(0.0), chart.level(1.0)];

@@ -58,7 +58,7 @@ fn progress(model: &LogModel, replay: &Replay) -> String {
     let Some(moment) = model.history().last() else { return "All universes start alike, with the first scan.".into() };
     let mut text = format!(
         "{start}. {}N_eff is {} of {m}; all universes share one path up to scan {}. ",
-        unexplained(moment.log_evidence),
+        unexplained(moment.log_evidence).map_or_else(String::new, |sentence| sentence + " "),
         fixed(moment.ess, 1),
         moment.shared
     );

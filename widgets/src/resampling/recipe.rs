@@ -1,9 +1,8 @@
 //! What a reader can set about the three filters.
 
 use crate::{
-    field,
+    field, names,
     recipe::{self, Field, Menu, Param},
-    words,
 };
 use fastslam::resampling::Scheme;
 use fastslam_lab::{
@@ -67,7 +66,7 @@ impl recipe::Recipe for Recipe {
 
 fn table() -> Vec<Param<Recipe>> {
     type P = Param<Recipe>;
-    let schemes = Menu::of(PoliciesSetup::default().scheme, words::scheme);
+    let schemes = Menu::of(PoliciesSetup::default().scheme, names::scheme);
     vec![
         P::toggle(
             "wings",

@@ -1,0 +1,31 @@
+//! What the variants of the filter's enums are called on controls. Their words in links are their own.
+
+use crate::words::names;
+use fastslam::{matching::Matcher, resampling::Scheme};
+use fastslam_lab::experiment::ProposalKind;
+
+/// A proposal's name for readers.
+pub fn proposal(kind: ProposalKind) -> &'static str {
+    match kind {
+        ProposalKind::Improved => names::aware(),
+        ProposalKind::Motion => names::motion(),
+    }
+}
+
+/// A matcher's name for readers.
+pub fn matcher(matcher: Matcher) -> &'static str {
+    match matcher {
+        Matcher::SubCell => names::sub_cell(),
+        Matcher::Cell => names::cell(),
+    }
+}
+
+/// A scheme's name for readers.
+pub fn scheme(scheme: Scheme) -> &'static str {
+    match scheme {
+        Scheme::Systematic => names::systematic(),
+        Scheme::Stratified => names::stratified(),
+        Scheme::Multinomial => names::multinomial(),
+        Scheme::Residual => names::residual(),
+    }
+}
