@@ -3,6 +3,7 @@
 use super::recipe::plain;
 use crate::decimal::fixed;
 use crate::model::{Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text};
+use crate::words::{common, worked_example};
 use fastslam::geometry::Pose2;
 use fastslam_lab::experiment::worked_example::{Inputs, Update, WorkedExample};
 
@@ -35,9 +36,9 @@ impl WorkedExampleModel {
         let differ = |decimals: &i32| fixed(ess, *decimals) != fixed(limit, *decimals);
         let decimals = (2..=6).find(differ);
         let (sign, what) = match decimals {
-            _ if resamples => ("<", "resample"),
-            Some(_) => (">", "do not resample"),
-            None => ("≥", "do not resample"),
+            _ if resamples => ("<", worked_example::resample()),
+            Some(_) => (">", worked_example::do_not_resample()),
+            None => ("≥", worked_example::do_not_resample()),
         };
         let decimals = decimals.unwrap_or(2);
         let limit = fixed(limit, decimals);
@@ -47,7 +48,7 @@ impl WorkedExampleModel {
 
 impl Declared for WorkedExampleModel {
     type Recipe = Inputs;
-    const TITLE: &'static str = "One update by hand";
+    const TITLE: &'static str = worked_example::TITLE;
 
     fn recipe(&self) -> &Inputs {
         &self.inputs
@@ -63,40 +64,39 @@ impl Model for WorkedExampleModel {
     fn readouts(&self) -> Vec<Readout> {
         let WorkedExample { updates: [one, two], weights, ess, resamples, .. } = &self.example;
         let density = |name, title, update: &Update| {
-            let help = "Density of the sighting as this particle foretold it: N(ν; 0, S).";
-            Readout::new(name, title, update.weight, plain(update.weight, DIGITS), "/(m rad)", help)
+            let (x, help) = (update.weight, worked_example::density_help());
+            Readout::new(name, title, x, plain(x, DIGITS), "/(m rad)", help)
         };
         let log = |name, title, update: &Update| {
-            let (x, help) =
-                (update.innovation.log_likelihood, "Its natural logarithm, which is what the filter keeps.");
+            let (x, help) = (update.innovation.log_likelihood, worked_example::log_help());
             Readout::new(name, title, x, plain(x, DIGITS), "nats", help)
         };
         let share = |name, title, slot: usize| {
-            let (x, help) = (weights.as_slice()[slot], "Its weight as a share of both.");
+            let (x, help) = (weights.as_slice()[slot], worked_example::share_help());
             Readout::new(name, title, x, plain(x, DIGITS), "", help)
         };
         vec![
-            density("w1", "w, particle 1", one),
-            density("w2", "w, particle 2", two),
-            log("log_w1", "ln w, particle 1", one),
-            log("log_w2", "ln w, particle 2", two),
-            share("normalized1", "w̃, particle 1", 0),
-            share("normalized2", "w̃, particle 2", 1),
+            density("w1", worked_example::w1(), one),
+            density("w2", worked_example::w2(), two),
+            log("log_w1", worked_example::log_w1(), one),
+            log("log_w2", worked_example::log_w2(), two),
+            share("normalized1", worked_example::share1(), 0),
+            share("normalized2", worked_example::share2(), 1),
             Readout::new(
                 "ess",
                 "N_eff",
                 *ess,
-                format!("{} of 2", plain(*ess, DIGITS)),
+                common::Of { n: &plain(*ess, DIGITS), all: &2 }.say(),
                 "",
-                "1 / Σ w̃²: how many particles of equal weight these two are worth.",
+                worked_example::n_eff_help(),
             ),
             Readout::new(
                 "verdict",
-                "N_eff against threshold · M",
+                worked_example::verdict(),
                 f64::from(u8::from(*resamples)),
                 self.verdict(),
                 "",
-                "1 where the particles are to be resampled, else 0.",
+                worked_example::verdict_help(),
             ),
         ]
     }
@@ -171,23 +171,29 @@ impl Model for WorkedExampleModel {
 
     fn describe(&self) -> String {
         let WorkedExample { updates, weights, ess, .. } = &self.example;
-        let [one, two] = updates.each_ref().map(|update| {
-            let Update { z, innovation, .. } = update;
+        let [one, two] = [0, 1].map(|slot| {
+            let Update { z, innovation, weight, .. } = &updates[slot];
             let (expected, nu) = (innovation.prediction.z, innovation.residual);
             let [r, phi, r0, phi0, nu_r, nu_phi, distance, weight] =
-                [z.x, z.y, expected.x, expected.y, nu.x, nu.y, innovation.mahalanobis_squared, update.weight]
+                [z.x, z.y, expected.x, expected.y, nu.x, nu.y, innovation.mahalanobis_squared, *weight]
                     .map(|x| plain(x, 4));
-            format!(
-                "expects the landmark at {r0} m and {phi0} rad and sees it at {r} m and {phi} rad. The difference of {nu_r} m and \
-                 {nu_phi} rad has a squared Mahalanobis distance of {distance}, the weight is {weight}."
-            )
+            worked_example::Innovation {
+                slot: &(slot + 1),
+                r0: &r0,
+                phi0: &phi0,
+                r: &r,
+                phi: &phi,
+                nu_r: &nu_r,
+                nu_phi: &nu_phi,
+                distance: &distance,
+                weight: &weight,
+            }
+            .say()
         });
         let [share1, share2] = [0, 1].map(|slot| plain(weights.as_slice()[slot], 3));
-        let ess = plain(*ess, 4);
-        format!(
-            "Particle 1 {one} Particle 2 {two} As shares that is {share1} and {share2}; N_eff is {ess} of 2. {}.",
-            self.verdict()
-        )
+        let (ess, verdict) = (plain(*ess, 4), self.verdict());
+        let shares = worked_example::Shares { share1: &share1, share2: &share2, ess: &ess, verdict: &verdict }.say();
+        [one, two, shares].join(" ")
     }
 
     /// Of both particles.
@@ -210,7 +216,7 @@ impl Model for WorkedExampleModel {
             TraceLine::new("extend", ""),
             both("normalise", &|slot| plain(weights.as_slice()[slot], 3)),
             TraceLine::new("ess", ess_text(*ess, updates.len())),
-            TraceLine::new("resample", if *resamples { "yes" } else { "no" }),
+            TraceLine::new("resample", if *resamples { common::yes() } else { common::no() }),
         ]
     }
 }

@@ -6,6 +6,7 @@ use crate::{
     model::FigureError,
     param::quoted,
     recipe::{self, Param},
+    words::{policy, worked_example},
 };
 use fastslam_lab::experiment::worked_example::Inputs;
 
@@ -29,14 +30,13 @@ impl recipe::Recipe for Inputs {
         }
         let bound = plain((xx * yy).sqrt(), 4);
         let allowed = [
-            ("sigma-xx", format!("more than {}", plain(xy * xy / yy, 4))),
-            ("sigma-xy", format!("between -{bound} and {bound}")),
-            ("sigma-yy", format!("more than {}", plain(xy * xy / xx, 4))),
+            ("sigma-xx", worked_example::MoreThan { bound: &plain(xy * xy / yy, 4) }.say()),
+            ("sigma-xy", worked_example::Between { bound: &bound }.say()),
+            ("sigma-yy", worked_example::MoreThan { bound: &plain(xy * xy / xx, 4) }.say()),
         ];
         let mut refused = Vec::new();
         for (k, (name, allowed)) in allowed.into_iter().enumerate() {
             if self.covariance[k] != before.covariance[k] {
-                let allowed = format!("{allowed} m², so that Σ is positive definite");
                 refused.push(FigureError::new(name, quoted(&write(self.covariance[k])), allowed));
                 self.covariance[k] = before.covariance[k];
             }
@@ -57,24 +57,24 @@ pub fn plain(x: f64, digits: i32) -> String {
 fn table() -> Vec<Param<Inputs>> {
     type P = Param<Inputs>;
     let rows = vec![
-        P::number("x1", "Pose 1, x", "m", PLACE, field!(poses[0][0]), "Where particle 1 stands."),
-        P::number("y1", "Pose 1, y", "m", PLACE, field!(poses[0][1]), "Where particle 1 stands."),
-        P::number("theta1", "Pose 1, θ", "rad", ANGLE, field!(poses[0][2]), "Where particle 1 looks, counter-clockwise from the x axis."),
-        P::number("x2", "Pose 2, x", "m", PLACE, field!(poses[1][0]), "Where particle 2 stands."),
-        P::number("y2", "Pose 2, y", "m", PLACE, field!(poses[1][1]), "Where particle 2 stands."),
-        P::number("theta2", "Pose 2, θ", "rad", ANGLE, field!(poses[1][2]), "Where particle 2 looks, counter-clockwise from the x axis."),
-        P::number("r1", "Range 1", "m", DISTANCE, field!(sightings[0][0]), "How far away particle 1 sees the landmark."),
-        P::number("phi1", "Bearing 1", "rad", ANGLE, field!(sightings[0][1]), "In which direction particle 1 sees it, from straight ahead to the left."),
-        P::number("r2", "Range 2", "m", DISTANCE, field!(sightings[1][0]), "How far away particle 2 sees the landmark."),
-        P::number("phi2", "Bearing 2", "rad", ANGLE, field!(sightings[1][1]), "In which direction particle 2 sees it, from straight ahead to the left."),
-        P::number("mu-x", "μ, x", "m", PLACE, field!(mean[0]), "Where both believe the landmark to be."),
-        P::number("mu-y", "μ, y", "m", PLACE, field!(mean[1]), "Where both believe the landmark to be."),
-        P::number("sigma-xx", "Σ, xx", "m²", VARIANCE, field!(covariance[0]), "Variance of the landmark's x before the sighting."),
-        P::number("sigma-xy", "Σ, xy", "m²", PLACE, field!(covariance[1]), "Covariance of the landmark's x and y: both off-diagonal entries."),
-        P::number("sigma-yy", "Σ, yy", "m²", VARIANCE, field!(covariance[2]), "Variance of the landmark's y before the sighting."),
-        P::number("range-std", "Range σ", "m", (0.001, 10.0, 0.05), field!(noise_std[0]), "Standard deviation of a measured range: its square is in Q."),
-        P::number("bearing-std", "Bearing σ", "rad", (0.001, 3.0, 0.01), field!(noise_std[1]), "Standard deviation of a measured bearing: its square is in Q."),
-        P::number("threshold", "Threshold", "of M", (0.0, 1.0, 0.05), field!(threshold), "Share of M below which N_eff calls for resampling."),
+        P::number("x1", worked_example::pose_1_x(), "m", PLACE, field!(poses[0][0]), worked_example::stands_1()),
+        P::number("y1", worked_example::pose_1_y(), "m", PLACE, field!(poses[0][1]), worked_example::stands_1()),
+        P::number("theta1", worked_example::pose_1_theta(), "rad", ANGLE, field!(poses[0][2]), worked_example::looks_1()),
+        P::number("x2", worked_example::pose_2_x(), "m", PLACE, field!(poses[1][0]), worked_example::stands_2()),
+        P::number("y2", worked_example::pose_2_y(), "m", PLACE, field!(poses[1][1]), worked_example::stands_2()),
+        P::number("theta2", worked_example::pose_2_theta(), "rad", ANGLE, field!(poses[1][2]), worked_example::looks_2()),
+        P::number("r1", worked_example::range_1(), "m", DISTANCE, field!(sightings[0][0]), worked_example::far_1()),
+        P::number("phi1", worked_example::bearing_1(), "rad", ANGLE, field!(sightings[0][1]), worked_example::direction_1()),
+        P::number("r2", worked_example::range_2(), "m", DISTANCE, field!(sightings[1][0]), worked_example::far_2()),
+        P::number("phi2", worked_example::bearing_2(), "rad", ANGLE, field!(sightings[1][1]), worked_example::direction_2()),
+        P::number("mu-x", "μ, x", "m", PLACE, field!(mean[0]), worked_example::mean_help()),
+        P::number("mu-y", "μ, y", "m", PLACE, field!(mean[1]), worked_example::mean_help()),
+        P::number("sigma-xx", "Σ, xx", "m²", VARIANCE, field!(covariance[0]), worked_example::sigma_xx_help()),
+        P::number("sigma-xy", "Σ, xy", "m²", PLACE, field!(covariance[1]), worked_example::sigma_xy_help()),
+        P::number("sigma-yy", "Σ, yy", "m²", VARIANCE, field!(covariance[2]), worked_example::sigma_yy_help()),
+        P::number("range-std", worked_example::range_std(), "m", (0.001, 10.0, 0.05), field!(noise_std[0]), worked_example::range_std_help()),
+        P::number("bearing-std", worked_example::bearing_std(), "rad", (0.001, 3.0, 0.01), field!(noise_std[1]), worked_example::bearing_std_help()),
+        P::number("threshold", policy::threshold(), policy::of_m(), (0.0, 1.0, 0.05), field!(threshold), worked_example::threshold_help()),
     ];
     rows.into_iter().map(P::without_slider).collect()
 }

@@ -3,6 +3,7 @@
 //! Matrices are transposed on their way: they are kept column by column and written row by row.
 
 use crate::scene::{Formula, number};
+use crate::words::worked_example;
 use fastslam_lab::experiment::worked_example::WorkedExample;
 
 /// Significant digits of what is shown.
@@ -11,7 +12,7 @@ pub const DIGITS: i32 = 5;
 /// One line of the chain.
 pub struct Step {
     /// What it is, with its unit.
-    pub caption: &'static str,
+    pub caption: fn() -> &'static str,
     /// Its formula, as [`Formula::tex`] takes it.
     pub formula: &'static str,
     /// Whether it has two rows.
@@ -23,19 +24,19 @@ pub struct Step {
 /// What both particles begin with.
 pub const GIVEN: &[Step] = &[
     Step {
-        caption: "Landmark [m]",
+        caption: worked_example::landmark,
         formula: "μ",
         tall: true,
         write: |line, e, _| line.matrix(e.before.mean.as_slice(), 1, DIGITS),
     },
     Step {
-        caption: "Covariance [m²]",
+        caption: worked_example::covariance,
         formula: "Σ",
         tall: true,
         write: |line, e, _| line.matrix(e.before.covariance.transpose().as_slice(), 2, DIGITS),
     },
     Step {
-        caption: "Noise [m², rad²]",
+        caption: worked_example::noise,
         formula: "Q",
         tall: true,
         write: |line, e, _| line.matrix(e.noise.transpose().as_slice(), 2, DIGITS),
@@ -45,7 +46,7 @@ pub const GIVEN: &[Step] = &[
 /// What each computes.
 pub const STEPS: &[Step] = &[
     Step {
-        caption: "Pose [m, m, rad]",
+        caption: worked_example::pose,
         formula: "x = (x, y, θ)",
         tall: false,
         write: |line, e, slot| {
@@ -55,13 +56,13 @@ pub const STEPS: &[Step] = &[
         },
     },
     Step {
-        caption: "Expected sighting [m, rad]",
+        caption: worked_example::expected,
         formula: "z\u{302} = h(x, μ)",
         tall: true,
         write: |line, e, slot| line.matrix(e.updates[slot].innovation.prediction.z.as_slice(), 1, DIGITS),
     },
     Step {
-        caption: "Innovation [m, rad]",
+        caption: worked_example::innovation_step,
         formula: "ν = z − z\u{302}",
         tall: true,
         write: |line, e, slot| {
@@ -75,67 +76,67 @@ pub const STEPS: &[Step] = &[
         },
     },
     Step {
-        caption: "Derivative of h",
+        caption: worked_example::derivative,
         formula: "H_m = ∂h/∂m",
         tall: true,
         write: |line, e, slot| line.matrix(e.updates[slot].innovation.prediction.h_m.transpose().as_slice(), 2, DIGITS),
     },
     Step {
-        caption: "Covariance of ν",
+        caption: worked_example::innovation_covariance,
         formula: "S = H_m Σ H_m^T + Q",
         tall: true,
         write: |line, e, slot| line.matrix(e.updates[slot].innovation.covariance.transpose().as_slice(), 2, DIGITS),
     },
     Step {
-        caption: "Its determinant [m² rad²]",
+        caption: worked_example::determinant,
         formula: "det S",
         tall: false,
         write: |line, e, slot| line.tex(&number(e.updates[slot].innovation.determinant(), DIGITS)),
     },
     Step {
-        caption: "Its inverse",
+        caption: worked_example::inverse,
         formula: "S^{−1}",
         tall: true,
         write: |line, e, slot| line.matrix(e.updates[slot].innovation.inverse.transpose().as_slice(), 2, DIGITS),
     },
     Step {
-        caption: "Squared distance",
+        caption: worked_example::distance,
         formula: "d^2 = ν^T S^{−1} ν",
         tall: false,
         write: |line, e, slot| line.tex(&number(e.updates[slot].innovation.mahalanobis_squared, DIGITS)),
     },
     Step {
-        caption: "Log-weight [nats]",
+        caption: worked_example::log_weight,
         formula: "ln w = −½ (d^2 + ln |2πS|)",
         tall: false,
         write: |line, e, slot| line.tex(&number(e.updates[slot].innovation.log_likelihood, DIGITS)),
     },
     Step {
-        caption: "Weight [1/(m rad)]",
+        caption: worked_example::weight,
         formula: "w = |2πS|^{−1/2} exp(−½ d^2)",
         tall: false,
         write: |line, e, slot| line.tex(&positive(e.updates[slot].weight)),
     },
     Step {
-        caption: "Gain",
+        caption: worked_example::gain,
         formula: "K = Σ H_m^T S^{−1}",
         tall: true,
         write: |line, e, slot| line.matrix(e.updates[slot].gain.transpose().as_slice(), 2, DIGITS),
     },
     Step {
-        caption: "Landmark after [m]",
+        caption: worked_example::landmark_after,
         formula: "μ ← μ + K ν",
         tall: true,
         write: |line, e, slot| line.matrix(e.updates[slot].after.mean.as_slice(), 1, DIGITS),
     },
     Step {
-        caption: "Its covariance [m²]",
+        caption: worked_example::covariance_after,
         formula: "Σ ← (I − K H_m) Σ",
         tall: true,
         write: |line, e, slot| line.matrix(e.updates[slot].after.covariance.transpose().as_slice(), 2, DIGITS),
     },
     Step {
-        caption: "Share of the weight",
+        caption: worked_example::share,
         formula: "w\u{303} = w / Σ w",
         tall: false,
         write: |line, e, slot| line.tex(&positive(e.weights.as_slice()[slot])),

@@ -14,6 +14,7 @@ use crate::{
         number, rimmed_polygon, robot, text,
     },
     view::View,
+    words::worked_example,
 };
 use fastslam::map::landmarks::Landmark;
 use fastslam_lab::experiment::worked_example::{Update, WorkedExample};
@@ -63,7 +64,7 @@ fn chain(scene: &mut Scene, model: &WorkedExampleModel, chain: &Chain, wide: boo
         let colour = Rect::new(head.x, head.y + 0.5 * head.h - 5.0, 10.0, 10.0);
         scene.marks.push(Mark::Fill { area: colour, role: Role::Particle(slot as u8) });
         let name = Rect::new(head.x + 17.0, head.y, head.w - 17.0, head.h);
-        let title = format!("Particle {}", slot + 1);
+        let title = worked_example::Particle { slot: &(slot + 1) }.say();
         scene.marks.push(text(name, Anchor::Start, SIZE, Weight::SemiBold, Role::Ink, title));
         for (step, place) in STEPS.iter().zip(&chain.steps[slot]) {
             if slot == 0 || !wide {
@@ -88,7 +89,7 @@ fn rule(chain: &Chain, place: &Place) -> Vec<Point> {
 fn label(scene: &mut Scene, step: &Step, area: &Rect) {
     let caption = Rect::new(area.x, area.y + 0.5 * area.h - LINE, area.w, LINE);
     let formula = Rect::new(area.x, caption.bottom(), area.w - 8.0, LINE);
-    scene.marks.push(text(caption, Anchor::Start, WORDS, Weight::Regular, Role::Muted, step.caption));
+    scene.marks.push(text(caption, Anchor::Start, WORDS, Weight::Regular, Role::Muted, (step.caption)()));
     value(scene, &formula, |line| line.tex(step.formula));
 }
 
@@ -182,11 +183,7 @@ fn samples() -> [(Sample<'static>, &'static str); 3] {
         };
         Sample::new(draw).wide(53.0)
     };
-    [
-        (before.wide(19.0), "landmark before, 2 σ"),
-        (of(0), "particle 1: sighting, landmark after"),
-        (of(1), "particle 2: sighting, landmark after"),
-    ]
+    [(before.wide(19.0), worked_example::before()), (of(0), worked_example::of_1()), (of(1), worked_example::of_2())]
 }
 
 /// N_eff on its scale from nothing to M, against the threshold, and what follows.
@@ -194,7 +191,7 @@ fn selection(scene: &mut Scene, model: &WorkedExampleModel, place: &Place) {
     let WorkedExample { ess, limit, resamples, .. } = model.example();
     let Place { label: place, value: area } = *place;
     let caption = Rect::new(place.x, place.y + 0.5 * place.h - LINE, place.w, LINE);
-    let words = "Effective number of particles";
+    let words = worked_example::effective();
     scene.marks.push(text(caption, Anchor::Start, WORDS, Weight::Regular, Role::Muted, words));
     let formula = Rect::new(place.x, caption.bottom(), place.w, LINE);
     let number_of = format!("N_{{eff}} = 1 / Σ w\u{303}^2 = {}", number(*ess, DIGITS));
@@ -215,7 +212,7 @@ fn selection(scene: &mut Scene, model: &WorkedExampleModel, place: &Place) {
     let lines = vec![vec![[x, bar.y - 5.0], [x, bar.bottom() + 5.0]]];
     scene.marks.push(Mark::Lines { lines: lines.clone(), width: 5.0, dash: None, role: Role::Paper });
     scene.marks.push(Mark::Lines { lines, width: 2.0, dash: None, role: Role::Ink });
-    let name = format!("threshold · M = {}", number(*limit, DIGITS));
+    let name = worked_example::ThresholdM { limit: &number(*limit, DIGITS) }.say();
     let w = font::measure(&name, WORDS, Weight::Regular);
     // Not `clamp`: its panic writes both ends, which takes 20 KB.
     let left = (x - 0.5 * w).min(area.right() - w).max(area.x);
