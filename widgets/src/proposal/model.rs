@@ -3,6 +3,7 @@
 use super::{contour, recipe::Recipe};
 use crate::decimal::{fixed, write};
 use crate::model::{Column, Declared, FigureError, Model, Readout, Series};
+use crate::words::{common, proposal};
 use fastslam_lab::experiment::proposals::{Cloud, Proposals, ProposalsSetup};
 
 /// Figure w17.3.
@@ -81,7 +82,7 @@ impl ProposalModel {
 
 impl Declared for ProposalModel {
     type Recipe = Recipe;
-    const TITLE: &'static str = "Two proposals for one step";
+    const TITLE: &'static str = proposal::TITLE;
 
     fn recipe(&self) -> &Recipe {
         &self.recipe
@@ -124,69 +125,27 @@ impl Model for ProposalModel {
         };
         let ess = |name, title, cloud: &Cloud, help| {
             let x = cloud.ess();
-            Readout::new(name, title, x, format!("{} of {m}", fixed(x, 1)), "", help)
+            Readout::new(name, title, x, common::Of { n: &fixed(x, 1), all: &m }.say(), "", help)
         };
         let times = |name, title, x: f64, help| Readout::new(name, title, x, fixed(x, 2), "×", help);
         let first = |x: f64| if self.setup().twins { x } else { f64::NAN };
         vec![
             percent(
                 "inside_motion",
-                "Samples in 90 %, motion prior",
+                proposal::inside_motion(),
                 motion.share_inside(None),
-                "Share of FastSLAM 1.0's samples in the region of highest posterior density that holds 90 %.",
+                proposal::inside_motion_help(),
             ),
-            percent(
-                "inside_aware",
-                "Samples in 90 %, aware",
-                aware.share_inside(None),
-                "The same of FastSLAM 2.0's; 90 % would be perfect.",
-            ),
-            ess(
-                "ess_motion",
-                "N_eff, motion prior",
-                motion,
-                "What FastSLAM 1.0's weighted samples are worth, in equal ones.",
-            ),
-            ess(
-                "ess_aware",
-                "N_eff, aware",
-                aware,
-                "The same for FastSLAM 2.0: all weights are equal, whatever was drawn.",
-            ),
-            times("ratio", "Ratio of N_eff", self.shown.ratio(), "How many samples of 1.0 do the work of one of 2.0."),
-            times(
-                "ratio_half",
-                "Ratio at half σ",
-                self.at_half.unwrap_or(f64::NAN),
-                "The same at half the range noise, once it was run.",
-            ),
-            percent(
-                "a_posterior",
-                "Posterior of A",
-                first(exact.candidates[0]),
-                "Probability that the sighting is of landmark A, of two.",
-            ),
-            percent(
-                "a_motion",
-                "Motion prior at A",
-                first(motion.share_inside(Some(0))),
-                "Share of FastSLAM 1.0's samples in the part of the region where the sighting is of A.",
-            ),
-            percent(
-                "a_aware",
-                "Aware at A",
-                first(aware.share_inside(Some(0))),
-                "The same of FastSLAM 2.0's: nothing, where it took the other landmark.",
-            ),
-            Readout::new("range", "Range seen", z.x, fixed(z.x, 2), "m", "What the sensor reports, without any noise."),
-            Readout::new(
-                "bearing",
-                "Bearing seen",
-                z.y,
-                fixed(z.y, 2),
-                "rad",
-                "The same, from straight ahead to the left.",
-            ),
+            percent("inside_aware", proposal::inside_aware(), aware.share_inside(None), proposal::inside_aware_help()),
+            ess("ess_motion", proposal::ess_motion(), motion, proposal::ess_motion_help()),
+            ess("ess_aware", proposal::ess_aware(), aware, proposal::ess_aware_help()),
+            times("ratio", proposal::ratio(), self.shown.ratio(), proposal::ratio_help()),
+            times("ratio_half", proposal::ratio_half(), self.at_half.unwrap_or(f64::NAN), proposal::ratio_half_help()),
+            percent("a_posterior", proposal::a_posterior(), first(exact.candidates[0]), proposal::a_posterior_help()),
+            percent("a_motion", proposal::a_motion(), first(motion.share_inside(Some(0))), proposal::a_motion_help()),
+            percent("a_aware", proposal::a_aware(), first(aware.share_inside(Some(0))), proposal::a_aware_help()),
+            Readout::new("range", proposal::range_seen(), z.x, fixed(z.x, 2), "m", proposal::range_seen_help()),
+            Readout::new("bearing", proposal::bearing_seen(), z.y, fixed(z.y, 2), "rad", proposal::bearing_seen_help()),
         ]
     }
 
@@ -219,42 +178,31 @@ impl Model for ProposalModel {
         let Proposals { motion, aware, exact, .. } = &self.shown;
         let m = self.setup().samples;
         let percent = |share: f64| format!("{} %", fixed(100.0 * share, 0));
-        let samples = if m == 1 { "1 sample".into() } else { format!("{m} samples") };
-        let mut text = format!(
-            "{samples} of each proposal, range noise {} m. Of the motion prior's, {} are in the posterior's 90 % region and N_eff is \
-             {}; of the measurement-aware proposal's, {} are, and N_eff is {}: {} times as much.",
-            write(self.setup().range_std),
-            percent(motion.share_inside(None)),
-            fixed(motion.ess(), 0),
-            percent(aware.share_inside(None)),
-            fixed(aware.ess(), 0),
-            fixed(self.shown.ratio(), 1),
-        );
+        let told = proposal::Told {
+            m: &m,
+            noise: &write(self.setup().range_std),
+            motion: &percent(motion.share_inside(None)),
+            motion_ess: &fixed(motion.ess(), 0),
+            aware: &percent(aware.share_inside(None)),
+            aware_ess: &fixed(aware.ess(), 0),
+            ratio: &fixed(self.shown.ratio(), 1),
+        };
+        let mut sentences = vec![told.say()];
         if self.setup().twins {
             let shares = |cloud: &Cloud| [0, 1].map(|k| percent(cloud.share_inside(Some(k))));
             let ([a, b], [c, d]) = (shares(motion), shares(aware));
-            text.push_str(&format!(
-                " The sighting may be of A or of B, with {} and {} of the posterior. The motion prior has {a} and {b} of its \
-                 samples there, the measurement-aware proposal {c} and {d}.",
-                percent(exact.candidates[0]),
-                percent(exact.candidates[1]),
-            ));
-            if let Some(lost) = self.lost() {
-                text.push_str(&format!(" What speaks for {} is lost, and N_eff does not tell.", ["A", "B"][lost]));
-            }
+            let [p, q] = [0, 1].map(|k| percent(exact.candidates[k]));
+            sentences.push(proposal::EitherLandmark { p: &p, q: &q, a: &a, b: &b, c: &c, d: &d }.say());
+            sentences.extend(self.lost().map(|lost| proposal::IsLost { landmark: &["A", "B"][lost] }.say()));
         }
         match (self.guess(), self.at_half) {
-            (Some(guess), Some(ratio)) => text.push_str(&format!(
-                " At half the range noise, {} m, the ratio is {}; the guess was {}.",
-                self.half(),
-                fixed(ratio, 1),
-                write(guess)
-            )),
-            (Some(guess), None) => {
-                text.push_str(&format!(" The guess for half the range noise is {}; it has not been run.", write(guess)))
+            (Some(guess), Some(ratio)) => {
+                let (half, ratio, guess) = (&self.half(), &fixed(ratio, 1), &write(guess));
+                sentences.push(proposal::GuessWas { half, ratio, guess }.say());
             }
+            (Some(guess), None) => sentences.push(proposal::GuessIs { guess: &write(guess) }.say()),
             _ => (),
         }
-        text
+        sentences.join(" ")
     }
 }

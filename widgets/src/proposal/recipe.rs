@@ -3,6 +3,7 @@
 use crate::{
     field,
     recipe::{self, Field, Menu, Param},
+    words::{common, proposal},
 };
 use fastslam_lab::{baseline::one_step::Area, experiment::proposals::ProposalsSetup};
 
@@ -61,92 +62,82 @@ fn table() -> Vec<Param<Recipe>> {
     vec![
         P::number(
             "range-std",
-            "Range noise σ",
+            common::range_noise(),
             "m",
             (0.005, 0.5, 0.005),
             field!(setup.range_std),
-            "Standard deviation of the measured range: sharp on the left, blunt on the right.",
+            proposal::range_help(),
         ),
         P::number(
             "bearing-std",
-            "Bearing noise σ",
+            proposal::bearing_noise(),
             "rad",
             (0.01, 0.3, 0.01),
             field!(setup.bearing_std),
-            "Standard deviation of the measured bearing.",
+            proposal::bearing_help(),
         ),
         P::number(
             "odometry",
-            "Odometry noise σ",
+            common::odometry_noise(),
             "× α",
             (0.25, 2.0, 0.05),
             field!(setup.odometry_scale),
-            "Factor on the standard deviations of what the wheels report.",
+            proposal::odometry_help(),
         ),
-        P::integer(
-            "samples",
-            "Samples M",
-            "",
-            (1, MOST),
-            field!(setup.samples),
-            "How many samples each proposal draws.",
-        ),
-        P::seed(
-            field!(setup.seed),
-            "Picks the draws of both proposals; the same seed gives the same samples, bit for bit.",
-        ),
+        P::integer("samples", proposal::samples(), "", (1, MOST), field!(setup.samples), proposal::samples_help()),
+        P::seed(field!(setup.seed), proposal::seed_help()),
         P::choice(
             "landmarks",
-            "Landmarks",
-            Menu::new([("one", "one: the sighting is of it", false), ("pair", "a pair: of which is unknown", true)]),
+            proposal::landmarks(),
+            Menu::new([("one", proposal::one(), false), ("pair", proposal::pair(), true)]),
             field!(setup.twins),
-            "One landmark, or two alike: then the sighting may be of either, and every sample decides for itself.",
+            proposal::landmarks_help(),
         ),
         P::number(
             "landmark-x",
-            "Landmark x",
+            proposal::landmark_x(),
             "m",
             within(0),
             field!(setup.landmark[0]),
-            "Where the map has the landmark, ahead of the start.",
+            proposal::landmark_x_help(),
         )
         .without_slider(),
         P::number(
             "landmark-y",
-            "Landmark y",
+            proposal::landmark_y(),
             "m",
             within(1),
             field!(setup.landmark[1]),
-            "Where the map has the landmark, to the left of the start.",
+            proposal::landmark_y_help(),
         )
         .without_slider(),
         P::toggle(
             "predict",
-            "Predict first",
+            proposal::predict(),
             Field {
                 get: |recipe| recipe.predict,
                 set: |recipe, on| (recipe.predict, recipe.run) = (on, recipe.run && on),
             },
-            "Asks how many times better the aware proposal's N_eff will be at half the range noise.",
+            proposal::predict_help(),
         )
         .view(),
         P::number(
             "guess",
-            "Your guess",
-            "times",
+            proposal::guess(),
+            proposal::times(),
             (RATIOS[0], RATIOS[1], 0.1),
             Field { get: |recipe| recipe.guess, set: Recipe::guess_at },
-            "The ratio you expect at half the range noise; drag the marker on the scale, or type it.",
+            proposal::guess_help(),
         )
         .without_slider(),
         P::toggle(
             "run",
-            "Run at half σ",
+            proposal::run(),
             Field {
                 get: |recipe| recipe.run,
                 set: |recipe, on| (recipe.predict, recipe.run) = (recipe.predict || on, on),
             },
-            "Runs both proposals at half the range noise, and shows guess against result.",
+            proposal::run_help(),
         )
         .view(),
     ]

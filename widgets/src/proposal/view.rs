@@ -16,6 +16,7 @@ use crate::{
         clip_polyline, closed, cloud, diamond, ellipse, heading, legend, rimmed_robot, text,
     },
     view::View,
+    words::proposal,
 };
 use fastslam::geometry::Pose2;
 use fastslam_lab::{
@@ -58,8 +59,8 @@ impl View for ProposalView {
         let found = model.proposals();
         let shown = |name: &str| layout.shown.has(name);
         let proposals = [
-            (MOTION, "FastSLAM 1.0", "motion prior, then weigh", &found.motion, Role::Prior),
-            (AWARE, "FastSLAM 2.0", "measurement-aware", &found.aware, Role::Posterior),
+            (MOTION, "FastSLAM 1.0", proposal::motion_prior(), &found.motion, Role::Prior),
+            (AWARE, "FastSLAM 2.0", proposal::aware(), &found.aware, Role::Posterior),
         ];
         for (panel, (key, name, what, cloud, role)) in layout.panels.iter().zip(proposals) {
             if shown(key) {
@@ -74,14 +75,14 @@ impl View for ProposalView {
                 scene.handles.push(Handle {
                     name,
                     title: if name == LANDMARK || !shown(MOTION) {
-                        "Landmark".into()
+                        proposal::landmark_handle().into()
                     } else {
-                        "Landmark, second panel".into()
+                        proposal::landmark_again().into()
                     },
                     at: panel.plane().point([x, y]),
                     axes: &["landmark-x", "landmark-y"],
                     value: x,
-                    text: format!("{} m ahead of the start, {} m to the left", write(x), write(y)),
+                    text: proposal::Place { x: &write(x), y: &write(y) }.say(),
                     hover: None,
                 });
             }
@@ -167,9 +168,12 @@ fn panel_view(scene: &mut Scene, model: &ProposalModel, panel: &Panel, drawn: &C
         // Where the robot is if the sighting is of A, or of B: the same sighting of another place is made from another place.
         let other = Pose2::new(found.truth.x + TWIN[0], found.truth.y + TWIN[1], found.truth.theta);
         let below = |pose: &Pose2| plane.point([pose.x, pose.y - 0.42]);
-        for (label, [x, y]) in
-            [("A", [ax, ay - 19.0]), ("B", [bx, by - 19.0]), ("if A", below(&found.truth)), ("if B", below(&other))]
-        {
+        for (label, [x, y]) in [
+            ("A", [ax, ay - 19.0]),
+            ("B", [bx, by - 19.0]),
+            (proposal::if_a(), below(&found.truth)),
+            (proposal::if_b(), below(&other)),
+        ] {
             let half = 0.5 * font::measure(label, 12.0, Weight::SemiBold) + 2.0;
             let plate = Rect::new(x - half, y - 7.0, 2.0 * half, 14.0);
             if area.inset(2.0).encloses(&plate) {
@@ -220,8 +224,8 @@ fn counters(scene: &mut Scene, model: &ProposalModel, panel: &Panel, cloud: &Clo
     let ess = cloud.ess();
     let few = i32::from(ess < 99.95);
     let numbers = [
-        (format!("{} %", fixed(100.0 * cloud.share_inside(None), 1)), "samples in 90 %".to_string()),
-        (fixed(ess, few), format!("N_eff of {}", model.setup().samples)),
+        (format!("{} %", fixed(100.0 * cloud.share_inside(None), 1)), proposal::samples_inside().to_string()),
+        (fixed(ess, few), proposal::NEffOf { m: &model.setup().samples }.say()),
     ];
     for (area, (number, what)) in panel.counters.iter().zip(numbers) {
         let Rect { x, y, w, .. } = *area;
@@ -240,15 +244,15 @@ fn counters(scene: &mut Scene, model: &ProposalModel, panel: &Panel, cloud: &Clo
         let [a, b] = [0, 1].map(|k| fixed(100.0 * cloud.share_inside(Some(k)), 0));
         let [p, q] = [0, 1].map(|k| fixed(100.0 * model.proposals().exact.candidates[k], 0));
         [
-            format!("in 90 %: if A {a} %, if B {b} % (posterior {p} %, {q} %)"),
-            format!("if A {a} %, if B {b} % (posterior {p}, {q} %)"),
+            proposal::Inside { a: &a, b: &b, p: &p, q: &q }.say(),
+            proposal::InsideShort { a: &a, b: &b, p: &p, q: &q }.say(),
         ]
     } else if weights.iter().all(|w| w.to_bits() == weights[0].to_bits()) {
-        ["all weights are exactly equal".into(), "all weights are equal".into()]
+        [proposal::exactly_equal().into(), proposal::equal().into()]
     } else {
         let heaviest = weights[cloud.weights.heaviest()] * weights.len() as f64;
         let share = fixed(heaviest, 1);
-        [format!("largest weight: {share} times its share"), format!("largest weight: {share}/M")]
+        [proposal::Largest { share: &share }.say(), proposal::LargestShort { share: &share }.say()]
     };
     line(scene, &panel.note, 12.0, Weight::Regular, Role::Muted, note);
 }
@@ -265,30 +269,25 @@ fn ratio(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
     let times = fixed(now, 1);
     let wordings = match model.lost().map(|lost| ["A", "B"][lost]) {
         Some(lost) => [
-            format!("N_eff ratio {times}, but 2.0 has lost {lost}, and N_eff cannot tell"),
-            format!("N_eff ratio {times}, but 2.0 lost {lost}"),
+            proposal::RatioLost { times: &times, lost: &lost }.say(),
+            proposal::RatioLostShort { times: &times, lost: &lost }.say(),
         ],
-        None => {
-            [format!("N_eff ratio {times}: one sample of 2.0 is worth {times} of 1.0"), format!("N_eff ratio {times}")]
-        }
+        None => [proposal::RatioIs { times: &times }.say(), proposal::RatioShort { times: &times }.say()],
     };
     line(scene, &words, 14.0, Weight::SemiBold, Role::Ink, wordings);
 
     let half = model.half();
     let asked = match (model.guess(), model.at_half()) {
-        (None, _) => ["And at half the range noise? Predict first.".to_string(), "And at half? Predict first.".into()],
-        (Some(guess), None) => [
-            format!(
-                "And at half this range noise, {half} m? Your guess: {}. Drag the marker, then run it.",
-                write(guess)
-            ),
-            format!("At half, {half} m? Your guess: {}.", write(guess)),
-        ],
+        (None, _) => [proposal::and_half().to_string(), proposal::and_half_short().into()],
+        (Some(guess), None) => {
+            let guess = &write(guess);
+            [proposal::YourGuess { half: &half, guess }.say(), proposal::YourGuessShort { half: &half, guess }.say()]
+        }
         (Some(guess), Some(ratio)) => {
-            let ratio = fixed(ratio, 1);
+            let (ratio, guess) = (&fixed(ratio, 1), &write(guess));
             [
-                format!("At half the range noise, {half} m, it is {ratio} times. You guessed {}.", write(guess)),
-                format!("At {half} m: {ratio}. You guessed {}.", write(guess)),
+                proposal::YouGuessed { half: &half, ratio, guess }.say(),
+                proposal::YouGuessedShort { half: &half, ratio, guess }.say(),
             ]
         }
     };
@@ -314,11 +313,11 @@ fn ratio(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
         scene.marks.push(pointer([at(guess), y - 2.0], 8.0));
         scene.handles.push(Handle {
             name: GUESS,
-            title: "Your guess at half the range noise".into(),
+            title: proposal::guess_handle().into(),
             at: [at(guess), y - 9.0],
             axes: &[GUESS],
             value: guess,
-            text: format!("{} times", write(guess)),
+            text: proposal::TimesOf { n: &write(guess) }.say(),
             hover: None,
         });
     }
@@ -342,24 +341,25 @@ fn names(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
     };
     let landmark = |place: &Rect| vec![ring(place.centre(), 7.0), filled_diamond(place.centre(), 4.0, Role::Landmark)];
     let [aware, ratio] = [AWARE, RATIO].map(|name| layout.shown.has(name));
-    let mut items = vec![(Sample::new(density), "posterior"), (line(Role::Ink, None), "its 90 %")];
+    let mut items =
+        vec![(Sample::new(density), proposal::posterior()), (line(Role::Ink, None), proposal::its_region())];
     if aware {
-        items.push((line(Role::Posterior, Some([5.0, 3.0])), "Gaussian of 2.0"));
+        items.push((line(Role::Posterior, Some([5.0, 3.0])), proposal::gaussian()));
     }
     items.extend([
-        (Sample::new(samples), "samples"),
-        (Sample::new(landmark), "landmark"),
-        (Sample::robot(Role::Muted), "robot before,"),
-        (Sample::robot(Role::Ink), "after"),
+        (Sample::new(samples), proposal::samples_drawn()),
+        (Sample::new(landmark), proposal::landmark()),
+        (Sample::robot(Role::Muted), proposal::robot_before()),
+        (Sample::robot(Role::Ink), proposal::robot_after()),
     ]);
     if ratio {
-        items.push((Sample::dot(Role::Ink, 4.5), "ratio"));
+        items.push((Sample::dot(Role::Ink, 4.5), proposal::ratio_mark()));
     }
     if ratio && model.guess().is_some() {
-        items.push((Sample::at(|[x, y]| pointer([x, y + 6.0], 6.0)), "guess"));
+        items.push((Sample::at(|[x, y]| pointer([x, y + 6.0], 6.0)), proposal::guess_mark()));
     }
     if ratio && model.at_half().is_some() {
-        items.push((Sample::at(|at| filled_diamond(at, 5.5, Role::Ink)), "at half"));
+        items.push((Sample::at(|at| filled_diamond(at, 5.5, Role::Ink)), proposal::at_half()));
     }
     legend(scene, &layout.legend, items);
 }
