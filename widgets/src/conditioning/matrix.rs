@@ -4,6 +4,7 @@ use super::{layout::Layout, model::ConditioningModel, view::ENTRY};
 use crate::{
     font::{self, Weight},
     scene::{Anchor, Cells, Handle, Mark, Rect, Role, Scene, Shading, heading, text},
+    words::conditioning,
 };
 
 /// All of it, with the names of the landmarks and the entry that is named.
@@ -53,7 +54,7 @@ fn scale(scene: &mut Scene, header: &Rect) {
         let area = Rect::new(end, y, 10.0, h);
         scene.marks.push(text(area, Anchor::Middle, 11.5, Weight::Regular, Role::Muted, label));
     }
-    heading(scene, &Rect::new(x, y, w - 94.0, h), ("Covariance of the map", Role::Ink), "|ρ|");
+    heading(scene, &Rect::new(x, y, w - 94.0, h), (conditioning::covariance(), Role::Ink), "|ρ|");
 }
 
 /// Names of the landmarks along the matrix: as many as fit, and always those of the entry.
@@ -91,7 +92,7 @@ fn cursor(scene: &mut Scene, model: &ConditioningModel, area: &Rect, cell: f64) 
     scene.marks.push(Mark::Frame { area: at.inset(-3.0), width: 2.0, role: Role::Accent });
     scene.handles.push(Handle {
         name: ENTRY,
-        title: "Entry of the covariance".into(),
+        title: conditioning::entry_handle().into(),
         at: at.centre(),
         axes: &["column", "row"],
         value: model.correlation().unwrap_or(0.0),

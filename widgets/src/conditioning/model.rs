@@ -3,6 +3,7 @@
 use super::recipe::Recipe;
 use crate::decimal::fixed;
 use crate::model::{Column, Declared, FigureError, Model, Readout, Series};
+use crate::words::{common, conditioning};
 use fastslam_lab::{
     baseline::joint::MapCovariance,
     experiment::conditioning::{Conditioning, ConditioningSetup, Covariances},
@@ -81,8 +82,8 @@ impl ConditioningModel {
     pub fn entry_text(&self) -> String {
         let [a, b] = self.recipe.entry.map(coordinate);
         match self.correlation() {
-            Some(rho) => format!("{a} and {b}: ρ = {}", signed(rho)),
-            None => format!("{a} and {b}: not seen yet"),
+            Some(rho) => conditioning::Entry { a: &a, b: &b, rho: &signed(rho) }.say(),
+            None => conditioning::EntryUnseen { a: &a, b: &b }.say(),
         }
     }
 
@@ -138,7 +139,7 @@ fn couplings(map: &MapCovariance) -> Couplings {
 
 impl Declared for ConditioningModel {
     type Recipe = Recipe;
-    const TITLE: &'static str = "What the path does to the map";
+    const TITLE: &'static str = conditioning::TITLE;
 
     fn recipe(&self) -> &Recipe {
         &self.recipe
@@ -173,76 +174,48 @@ impl Model for ConditioningModel {
     fn readouts(&self) -> Vec<Readout> {
         let Couplings { largest, mean, largest_std } = couplings(self.map());
         let count = |name, title, n: usize, of: usize, help| {
-            Readout::new(name, title, n as f64, format!("{n} of {of}"), "", help)
+            Readout::new(name, title, n as f64, common::Of { n: &n, all: &of }.say(), "", help)
         };
-        let entries = |name, title, n: usize, help| Readout::new(name, title, n as f64, n.to_string(), "entries", help);
+        let entries = |name, title, n: usize, help| {
+            Readout::new(name, title, n as f64, n.to_string(), conditioning::entries(), help)
+        };
         let rho = self.correlation().unwrap_or(f64::NAN);
         vec![
-            count(
-                "step",
-                "Poses driven",
-                self.recipe.step,
-                self.setup().poses,
-                "How many poses the graph has, besides the known start.",
-            ),
+            count("step", conditioning::driven(), self.recipe.step, self.setup().poses, conditioning::driven_help()),
             count(
                 "seen",
-                "Landmarks seen",
+                conditioning::seen(),
                 self.covariances.seen.len(),
                 self.setup().landmarks,
-                "How many landmarks were in range of a pose driven; the others are in no covariance yet.",
+                conditioning::seen_help(),
             ),
-            Readout::new(
-                "rho",
-                "ρ of the entry",
-                rho,
-                signed(rho),
-                "",
-                "Correlation of the two coordinates that are named, from −1 to 1.",
-            ),
+            Readout::new("rho", conditioning::rho(), rho, signed(rho), "", conditioning::rho_help()),
             Readout::new(
                 "largest",
-                "Largest |ρ|",
+                conditioning::largest(),
                 largest,
                 signed(largest),
                 "",
-                "Of all pairs of landmarks: the largest correlation of any direction of one with any direction of the other.",
+                conditioning::largest_help(),
             ),
-            Readout::new(
-                "mean",
-                "Mean |ρ|",
-                mean,
-                signed(mean),
-                "",
-                "The same, on the average of all pairs: the mean width of an arc.",
-            ),
+            Readout::new("mean", conditioning::mean(), mean, signed(mean), "", conditioning::mean_help()),
             count(
                 "off_block",
-                "Off-block entries ≠ 0",
+                conditioning::off_block(),
                 self.map().off_block_nonzeros(),
                 self.off_block(),
-                "Entries of the covariance that couple two landmarks and are not exactly 0, counted.",
+                conditioning::off_block_help(),
             ),
             Readout::new(
                 "largest_std",
-                "Least known landmark",
+                conditioning::least_known(),
                 largest_std,
                 fixed(largest_std, 3),
                 "m",
-                "Standard deviation of the least known landmark along its least known direction.",
+                conditioning::least_known_help(),
             ),
-            entries(
-                "ekf",
-                "One sighting, EKF",
-                self.ekf_entries(),
-                "Entries of its covariance that an EKF over pose and map changes at one sighting: (2 N + 3)².",
-            ),
-            entries(
-                "fastslam",
-                "One sighting, FastSLAM",
-                4,
-                "Entries that each particle changes at one sighting: the 2 × 2 covariance of the landmark seen.",
-            ),
+            entries("ekf", conditioning::ekf(), self.ekf_entries(), conditioning::ekf_help()),
+            entries("fastslam", conditioning::fastslam(), 4, conditioning::fastslam_help()),
         ]
     }
 
@@ -282,30 +255,28 @@ impl Model for ConditioningModel {
 
     fn describe(&self) -> String {
         if self.recipe.step == 0 {
-            return "No pose driven yet: the robot stands at its known start, and has seen no landmark.".into();
+            return conditioning::at_start().into();
         }
-        let (seen, off_block) = (self.covariances.seen.len(), self.off_block());
-        let driven = format!("{} of {} poses driven, {seen} landmarks seen. ", self.recipe.step, self.setup().poses);
-        let coupled =
-            format!("{} of {off_block} entries outside the blocks are not 0. ", self.map().off_block_nonzeros());
-        let how = if self.recipe.conditioned {
-            "Given the path every landmark stands alone: "
+        let (n, poses, seen) = (&self.recipe.step, &self.setup().poses, &self.covariances.seen.len());
+        let (off, all, entry) = (&self.map().off_block_nonzeros(), &self.off_block(), &self.entry_and_why());
+        if self.recipe.conditioned {
+            conditioning::PathKnown { n, poses, seen, off, all, entry }.say()
         } else {
-            "With the path unknown, its errors are in every landmark: "
-        };
-        driven + how + &coupled + &self.entry_text() + self.why() + "."
+            conditioning::PathUnknown { n, poses, seen, off, all, entry }.say()
+        }
     }
 }
 
 impl ConditioningModel {
-    /// What the landmarks of the entry have to do with each other, after its number.
-    fn why(&self) -> &'static str {
+    /// The entry in words, and what its landmarks have to do with each other.
+    fn entry_and_why(&self) -> String {
         let [a, b] = self.recipe.entry.map(|k| k / 2);
         let coupled = a != b && self.correlation().is_some() && !self.recipe.conditioned;
+        let entry = self.entry_text();
         match self.seen_together(a, b) {
-            0 if coupled => ", though no pose saw both",
-            _ if coupled => ", both seen from one pose",
-            _ => "",
+            0 if coupled => conditioning::EntryApart { entry: &entry }.say(),
+            _ if coupled => conditioning::EntryTogether { entry: &entry }.say(),
+            _ => entry,
         }
     }
 }

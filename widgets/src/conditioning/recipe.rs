@@ -3,6 +3,7 @@
 use crate::{
     field,
     recipe::{self, Field, Param},
+    words::{common, conditioning},
 };
 use fastslam::error::Range;
 use fastslam_lab::experiment::conditioning::{ConditioningSetup, LANDMARKS, POSES};
@@ -45,64 +46,51 @@ fn table() -> Vec<Param<Recipe>> {
     vec![
         P::number(
             "odometry",
-            "Odometry noise σ",
+            common::odometry_noise(),
             "× α",
             (0.0, 3.0, 0.05),
             field!(setup.odometry_scale),
-            "Factor on the standard deviations of the wheels’ noise: what is not known of the path, and so couples the map.",
+            conditioning::odometry_help(),
         ),
         P::number(
             "range-std",
-            "Range noise σ_r",
+            conditioning::range_noise(),
             "m",
             (0.01, 0.5, 0.01),
             field!(setup.range_std),
-            "Standard deviation of each measured range.",
+            conditioning::range_help(),
         ),
         P::integer(
             "landmarks",
-            "Landmarks N",
+            conditioning::landmarks(),
             "",
             range(LANDMARKS),
             field!(setup.landmarks),
-            "How many landmarks the drive comes by.",
+            conditioning::landmarks_help(),
         ),
-        P::integer(
-            "poses",
-            "Poses T",
-            "",
-            range(POSES),
-            field!(setup.poses),
-            "In how many steps the same drive is made.",
-        ),
-        P::toggle(
-            "condition",
-            "Condition on the path",
-            field!(conditioned),
-            "Takes every pose for known, as each particle does: shows the covariance of the map given the path.",
-        )
-        .view(),
-        P::integer("step", "Step", "", (0, 0), field!(step), "How many of the poses have been driven.")
+        P::integer("poses", conditioning::poses(), "", range(POSES), field!(setup.poses), conditioning::poses_help()),
+        P::toggle("condition", conditioning::condition(), field!(conditioned), conditioning::condition_help()).view(),
+        P::integer("step", common::step(), "", (0, 0), field!(step), conditioning::step_help())
             .at_most(|recipe| recipe.setup.poses as f64)
             .view(),
         P::integer(
             "row",
-            "Row",
+            conditioning::row(),
             "",
             (1, 1),
             Field { get: |recipe| recipe.entry[0] + 1, set: |recipe, row| recipe.entry[0] = row - 1 },
-            "Row of the entry that is named: 1 is the x of the first landmark, 2 its y, 3 the x of the second.",
+            conditioning::row_help(),
         )
         .at_most(entries)
         .without_slider()
         .view(),
         P::integer(
             "column",
-            "Column",
+            conditioning::column(),
             "",
             (1, 1),
             Field { get: |recipe| recipe.entry[1] + 1, set: |recipe, column| recipe.entry[1] = column - 1 },
-            "Column of the entry that is named, counted as the rows are.",
+            conditioning::column_help(),
         )
         .at_most(entries)
         .without_slider()

@@ -11,6 +11,7 @@ use crate::{
     panels::Panels,
     scene::{Anchor, LINE, Mark, Point, Rect, Role, Sample, Scene, closed, diamond, ellipse, heading, legend, text},
     view::{View, whole_step},
+    words::conditioning,
 };
 
 /// Name of the handle that chooses an entry of the matrix.
@@ -59,9 +60,9 @@ impl View for ConditioningView {
 /// The graph, below what is known of the path.
 fn graph(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
     let (title, rest, role) = if model.conditioned() {
-        ("Given the path", "every landmark stands alone", Role::Accent)
+        (conditioning::given_path(), conditioning::stands_alone(), Role::Accent)
     } else {
-        ("Path unknown", "its errors are shared by the map", Role::Ink)
+        (conditioning::path_unknown_header(), conditioning::errors_shared(), Role::Ink)
     };
     heading(scene, &layout.graph_header, (title, role), rest);
     Graph::new(model, &layout.graph).draw(scene);
@@ -90,11 +91,11 @@ fn names(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
         [(x, 0.25), (x + 16.0, 0.5), (x + 32.0, 1.0)].map(arc).into()
     };
     let items = [
-        (Sample::new(pose), if known { "pose, known" } else { "pose, unknown" }),
-        (Sample::line(Role::Path, 2.0, None), "odometry"),
-        (Sample::at(landmark), "landmark"),
-        (Sample::line(Role::Muted, 1.0, Some(SIGHTING)), "sighting"),
-        (Sample::at(region), "90 % region"),
+        (Sample::new(pose), if known { conditioning::pose_known() } else { conditioning::pose_unknown() }),
+        (Sample::line(Role::Path, 2.0, None), conditioning::odometry()),
+        (Sample::at(landmark), conditioning::landmark()),
+        (Sample::line(Role::Muted, 1.0, Some(SIGHTING)), conditioning::sighting()),
+        (Sample::at(region), conditioning::region()),
         (Sample::new(arcs).wide(48.0), "|ρ| = ¼, ½, 1"),
     ];
     legend(scene, &layout.legend, items);
@@ -103,21 +104,21 @@ fn names(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
 fn notes(scene: &mut Scene, model: &ConditioningModel, area: &Rect) {
     let [a, b] = model.entry().map(|k| k / 2);
     let together = match (model.place(a).and(model.place(b)), model.seen_together(a, b)) {
-        _ if a == b => "A landmark with itself: in its own block".into(),
-        (None, _) => "Not both of them seen yet".into(),
-        (_, 0) => "No pose saw both".into(),
-        (_, 1) => "One pose saw both".into(),
-        (_, n) => format!("{n} poses saw both"),
+        _ if a == b => conditioning::with_itself().into(),
+        (None, _) => conditioning::not_both_seen().into(),
+        (_, 0) => conditioning::no_pose_saw().into(),
+        (_, 1) => conditioning::one_pose_saw().into(),
+        (_, n) => conditioning::PosesSaw { n: &n }.say(),
     };
-    let off_block =
-        format!("Off the blocks: {} of {} entries ≠ 0", model.map().off_block_nonzeros(), model.off_block());
+    let (off, all) = (&model.map().off_block_nonzeros(), &model.off_block());
+    let off_block = conditioning::OffBlocks { off, all }.say();
     let size = 2 * model.drive().landmarks().len() + 3;
-    let touched = format!("EKF {size}² = {}, FastSLAM 2² = 4 a particle", model.ekf_entries());
+    let touched = conditioning::Touched { size: &size, entries: &model.ekf_entries() }.say();
     let lines = [
         (model.entry_text(), Weight::SemiBold, Role::Accent),
         (together, Weight::Regular, Role::Muted),
         (off_block, Weight::SemiBold, Role::Ink),
-        ("Entries that one sighting changes:".into(), Weight::Regular, Role::Muted),
+        (conditioning::touches().into(), Weight::Regular, Role::Muted),
         (touched, Weight::SemiBold, Role::Ink),
     ];
     for (k, (line, weight, role)) in lines.into_iter().enumerate() {
