@@ -7,6 +7,7 @@ use super::{
 use crate::{
     font::Weight,
     scene::{Anchor, LINE, Mark, Plane, Point, Rect, Role, Scene, clip_polyline, closed, cloud, diamond, text},
+    words::resampling,
 };
 use fastslam::ops;
 
@@ -16,7 +17,8 @@ impl Filter<'_> {
         let (model, area, label) = (self.model, self.column.map, self.column.map_label);
         let Moment { report, poses, best, .. } = model.read(self.policy);
         let lines = [0.0, 1.0].map(|k| Rect::new(label.x, label.y + k * LINE, label.w, LINE));
-        let (name, says) = if wide { ("Particles", lines[0]) } else { (NAMES[self.policy], lines[1]) };
+        let (name, says) =
+            if wide { (resampling::particles_name(), lines[0]) } else { (NAMES[self.policy](), lines[1]) };
         let role = if wide { Role::Muted } else { Role::Ink };
         let weight = if wide { Weight::Regular } else { Weight::SemiBold };
         let anchor = if wide { Anchor::End } else { Anchor::Start };
@@ -24,16 +26,19 @@ impl Filter<'_> {
         let m = self.particles();
         match (report.right, model.run().lost_from()) {
             (Some(0), _) => {
-                scene.marks.push(text(says, anchor, SIZE, Weight::SemiBold, Role::Extinct, "right wing lost"))
+                scene.marks.push(text(says, anchor, SIZE, Weight::SemiBold, Role::Extinct, resampling::wing_lost()))
             }
             (Some(n), _) if wide => {
-                let says_it = format!("right wing: {n} of {m}");
+                let says_it = resampling::WingHas { n: &n, m: &m }.say();
                 scene.marks.push(text(says, anchor, SIZE, Weight::SemiBold, Role::Accent, says_it));
             }
             (Some(n), _) => {
-                scene.marks.push(text(says, anchor, SIZE, Weight::Regular, Role::Accent, format!("{n} of {m} right")));
+                let says_it = resampling::WingHasShort { n: &n, m: &m }.say();
+                scene.marks.push(text(says, anchor, SIZE, Weight::Regular, Role::Accent, says_it));
             }
-            (None, Some(_)) => scene.marks.push(text(says, anchor, SIZE, Weight::Regular, Role::Muted, "not lost yet")),
+            (None, Some(_)) => {
+                scene.marks.push(text(says, anchor, SIZE, Weight::Regular, Role::Muted, resampling::not_lost_yet()));
+            }
             (None, None) => (),
         }
 

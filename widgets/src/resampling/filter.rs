@@ -10,6 +10,7 @@ use crate::{
     model::Model,
     panels::Panels,
     scene::{Anchor, Chart, Mark, Point, Rect, Role, Scene, heading, n_eff, text},
+    words::{common, resampling},
 };
 
 /// Font size of what is written above the charts \[css px\].
@@ -28,7 +29,8 @@ pub fn error_scale(largest: f64) -> f64 {
         .unwrap_or(50.0)
 }
 
-pub const NAMES: [&str; 3] = ["Never", "Every step", "Selective"];
+/// Names of the filters.
+pub const NAMES: [fn() -> &'static str; 3] = [resampling::never, resampling::every_step, resampling::selective];
 
 /// One filter in its column.
 pub struct Filter<'a> {
@@ -66,18 +68,19 @@ impl Filter<'_> {
 
     fn header(&self, scene: &mut Scene) {
         let Rect { x, y, w, h } = self.column.header;
-        let step = format!("step {}", self.model.cursor());
+        let step = resampling::StepIs { step: &self.model.cursor() }.say();
         let role = if self.model.looks_back() { Role::Accent } else { Role::Muted };
         let step_width = font::measure(&step, 12.5, Weight::Regular) + 2.0;
         let rest = match self.policy {
-            0 => "weights only multiply".into(),
-            1 => "weights reset".into(),
-            _ => format!("below {} M", write(self.model.setup().threshold)),
+            0 => resampling::only_multiply().into(),
+            1 => resampling::weights_reset().into(),
+            _ => resampling::Below { threshold: &write(self.model.setup().threshold) }.say(),
         };
         let title = Rect::new(x, y, w - step_width - 8.0, h);
-        let room = title.w - font::measure(NAMES[self.policy], 13.5, Weight::SemiBold) - 8.0;
+        let name = NAMES[self.policy]();
+        let room = title.w - font::measure(name, 13.5, Weight::SemiBold) - 8.0;
         let rest = if font::measure(&rest, 12.5, Weight::Regular) < room { &rest } else { "" };
-        heading(scene, &title, (NAMES[self.policy], Role::Ink), rest);
+        heading(scene, &title, (name, Role::Ink), rest);
         let area = Rect::new(x + w - step_width, y, step_width, h);
         scene.marks.push(text(area, Anchor::End, 12.5, Weight::Regular, role, step));
     }
@@ -102,7 +105,7 @@ impl Filter<'_> {
     /// Steps of the course that have a name.
     pub fn events(&self) -> Vec<(u32, &'static str)> {
         let run = self.model.run();
-        let named = [(run.lost_from(), "lost"), (run.evidence_at(), "sign")];
+        let named = [(run.lost_from(), resampling::lost()), (run.evidence_at(), resampling::sign())];
         named.into_iter().filter_map(|(step, name)| Some((step?, name))).collect()
     }
 
@@ -161,10 +164,10 @@ impl Filter<'_> {
     /// N_eff, the threshold, and the steps that resampled.
     fn ess(&self, scene: &mut Scene) {
         let (m, Moment { report, resampled, .. }) = (self.particles() as f64, self.model.read(self.policy));
-        let times = format!("resampled {resampled}×");
+        let times = resampling::ResampledTimes { n: resampled }.say();
         let values = [
             (times, Weight::Regular, if *resampled > 0 { Role::Copied } else { Role::Muted }),
-            (format!("{} of {}", fixed(report.ess, 1), self.particles()), Weight::SemiBold, Role::Ink),
+            (common::Of { n: &fixed(report.ess, 1), all: &self.particles() }.say(), Weight::SemiBold, Role::Ink),
         ];
         let rest = self.label(scene, 0, &values);
         n_eff(scene, &rest, SIZE, Weight::Regular, Role::Muted);
@@ -182,11 +185,15 @@ impl Filter<'_> {
         let (m, back) = (self.particles() as f64, self.model.back());
         let Moment { report, .. } = self.model.read(self.policy);
         let values = [
-            (format!("{back} back: {}", report.descent.lineage(back)), Weight::Regular, Role::Muted),
-            (format!("at the start: {}", report.descent.lineage(report.step)), Weight::SemiBold, Role::Ink),
+            (
+                resampling::StepsBack { back: &back, n: &report.descent.lineage(back) }.say(),
+                Weight::Regular,
+                Role::Muted,
+            ),
+            (resampling::AtStartAre { n: &report.descent.lineage(report.step) }.say(), Weight::SemiBold, Role::Ink),
         ];
         let rest = self.label(scene, 1, &values);
-        self.name(scene, &rest, "Ancestors");
+        self.name(scene, &rest, resampling::ancestors());
         scene.marks.extend(self.chart(1).edges());
         let of = |back: u32| self.curve(1, |moment| f64::from(moment.report.descent.lineage(back)) / m);
         self.curves(scene, of(u32::MAX), Some(of(back)));
@@ -198,11 +205,11 @@ impl Filter<'_> {
         // Three digits, for want of room.
         let metres = |x: f64| fixed(x, if x < 10.0 { 2 } else { 1 });
         let values = [
-            (format!("mean {}", metres(report.error_mean)), Weight::Regular, Role::Muted),
-            (format!("best {} m", metres(report.error_best)), Weight::SemiBold, Role::Ink),
+            (resampling::MeanIs { error: &metres(report.error_mean) }.say(), Weight::Regular, Role::Muted),
+            (resampling::BestIs { error: &metres(report.error_best) }.say(), Weight::SemiBold, Role::Ink),
         ];
         let rest = self.label(scene, 2, &values);
-        self.name(scene, &rest, &format!("Error to {} m", write(self.error_scale)));
+        self.name(scene, &rest, &resampling::ErrorTo { metres: &write(self.error_scale) }.say());
         scene.marks.extend(self.chart(2).edges());
         let best = self.curve(2, |moment| moment.report.error_best / self.error_scale);
         let mean = self.curve(2, |moment| moment.report.error_mean / self.error_scale);

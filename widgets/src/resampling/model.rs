@@ -3,6 +3,8 @@
 use super::{recipe::Recipe, told};
 use crate::decimal::fixed;
 use crate::model::{Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text};
+use crate::names;
+use crate::words::resampling;
 use fastslam::geometry::Pose2;
 use fastslam_lab::experiment::policies::{Policies, PoliciesSetup, PolicyReport};
 
@@ -132,7 +134,7 @@ impl ResamplingModel {
 
 impl Declared for ResamplingModel {
     type Recipe = Recipe;
-    const TITLE: &'static str = "When to resample";
+    const TITLE: &'static str = resampling::TITLE;
 
     fn recipe(&self) -> &Recipe {
         &self.recipe
@@ -185,39 +187,40 @@ impl Model for ResamplingModel {
 
     fn describe(&self) -> String {
         let (step, m) = (self.cursor(), self.setup().particles);
-        let mut text = format!("Step {step} of {}, {m} particles in each filter. ", self.step_count());
+        let mut sentences = vec![resampling::AtStep { step: &step, last: &self.step_count(), m: &m }.say()];
         if step == 0 {
-            text.push_str("All start at the same known place, and nothing has been weighed or resampled yet.");
-            return text;
+            sentences.push(resampling::at_start().into());
+            return sentences.join(" ");
         }
         let [never, always, selective] = [0, 1, 2].map(|policy| self.read(policy));
         let lines = |m: &Moment| match m.report.descent.lineage(step) {
-            1 => "all descend from one particle of the start".to_string(),
-            n => format!("they descend from {n} particles of the start"),
+            1 => resampling::descend_from_one().to_string(),
+            n => resampling::DescendFrom { n: &n }.say(),
         };
-        text.push_str(&format!(
-            "Never resampled, N_eff is {}. Resampled at every step (by the {} scheme), it is {}, but {}. Selective, at {} of {step} steps, it is {}, and {}.",
-            fixed(never.report.ess, 1),
-            self.setup().scheme,
-            fixed(always.report.ess, 1),
-            lines(always),
-            selective.resampled,
-            fixed(selective.report.ess, 1),
-            lines(selective),
-        ));
-        for (moment, which) in
-            [(never, "never resamples"), (always, "resamples at every step"), (selective, "resamples selectively")]
-        {
+        let told = resampling::Told {
+            never: &fixed(never.report.ess, 1),
+            scheme: &names::scheme(self.setup().scheme),
+            always: &fixed(always.report.ess, 1),
+            always_lines: &lines(always),
+            resampled: &selective.resampled,
+            step: &step,
+            selective: &fixed(selective.report.ess, 1),
+            selective_lines: &lines(selective),
+        };
+        sentences.push(told.say());
+        for (moment, unexplained) in [
+            (never, resampling::never_unexplained()),
+            (always, resampling::always_unexplained()),
+            (selective, resampling::selective_unexplained()),
+        ] {
             if moment.report.log_evidence == f64::NEG_INFINITY {
-                text.push_str(&format!(
-                    " In the filter that {which} no particle explains what is seen: the weights stay."
-                ));
+                sentences.push(unexplained.into());
             }
         }
         if let [Some(a), Some(b), Some(c)] = [never, always, selective].map(|m| m.report.right) {
-            text.push_str(&format!(" In the right wing are {a}, {b} and {c} of {m}."));
+            sentences.push(resampling::RightWing { a: &a, b: &b, c: &c, m: &m }.say());
         }
-        text
+        sentences.join(" ")
     }
 
     /// Of the selective filter's best particle at the step that is read, among landmarks.
@@ -229,8 +232,12 @@ impl Model for ResamplingModel {
         let ess = ess_text(moment.report.ess, m);
         let mut lines = vec![TraceLine::new("predict", "")];
         if associations.again + associations.first > 0 {
-            let agreed = if answers == 1 { "all agree".into() } else { format!("{answers} different answers in all") };
-            let made_of_it = format!("{} known, {} new; {agreed}", associations.again, associations.first);
+            let (again, first) = (&associations.again, &associations.first);
+            let made_of_it = if answers == 1 {
+                resampling::KnownAllAgree { again, first }.say()
+            } else {
+                resampling::KnownAnswers { again, first, answers: &answers }.say()
+            };
             lines.extend([
                 TraceLine::new("gate", ""),
                 TraceLine::new("associate", made_of_it),
@@ -242,16 +249,16 @@ impl Model for ResamplingModel {
         }
         lines.push(TraceLine::new("draw", pose_text([pose.x, pose.y, pose.theta])));
         if associations.again + associations.first > 0 {
-            let done = format!("{} updated, {} founded", associations.again, associations.first);
+            let done = resampling::Updated { again: &associations.again, first: &associations.first }.say();
             lines.push(TraceLine::new("assimilate", done));
         }
-        lines.push(TraceLine::new("extend", format!("{} nodes", moment.report.tree_nodes())));
+        lines.push(TraceLine::new("extend", resampling::Nodes { n: &moment.report.tree_nodes() }.say()));
         lines.push(TraceLine::new(
             "resample",
             if moment.report.resampled() {
-                format!("N_eff {ess}: yes, {survivors} survive")
+                resampling::Resamples { ess: &ess, survivors: &survivors }.say()
             } else {
-                format!("N_eff {ess}: no")
+                resampling::ResamplesNot { ess: &ess }.say()
             },
         ));
         lines

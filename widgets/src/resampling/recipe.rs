@@ -3,6 +3,7 @@
 use crate::{
     field, names,
     recipe::{self, Field, Menu, Param},
+    words::{common, policy, resampling},
 };
 use fastslam::resampling::Scheme;
 use fastslam_lab::{
@@ -70,76 +71,66 @@ fn table() -> Vec<Param<Recipe>> {
     vec![
         P::toggle(
             "wings",
-            "Loop of ambiguity",
+            resampling::wings(),
             Field {
                 get: |recipe| recipe.asked.course == PolicyCourse::Wings,
                 set: |recipe, on| recipe.asked.course = if on { PolicyCourse::Wings } else { PolicyCourse::Lap },
             },
-            "Drives into one of two wings that look the same, instead of round the apartment: the evidence comes late.",
+            resampling::wings_help(),
         ),
         P::integer(
             "particles",
-            "Particles M",
+            resampling::particles(),
             "",
             (4, 64),
             field!(asked.particles),
-            "How many particles each filter has.",
+            resampling::particles_help(),
         ),
-        P::seed(
-            field!(asked.seed),
-            "Picks the noise of the world and of the filters; all three filters have the same.",
-        ),
+        P::seed(field!(asked.seed), resampling::seed_help()),
         P::number(
             "threshold",
-            "Threshold",
-            "of M",
+            policy::threshold(),
+            policy::of_m(),
             (0.0, 1.0, 0.05),
             field!(asked.threshold),
-            "Share of M below which N_eff calls for resampling in the selective filter.",
+            resampling::threshold_help(),
         ),
         P::number(
             "odometry",
-            "Odometry noise σ",
+            common::odometry_noise(),
             "× α",
             (0.0, 2.0, 0.05),
             field!(asked.odometry_scale),
-            "Factor on the standard deviations of the odometry’s noise, in the world and in what the filters expect.",
+            resampling::odometry_help(),
         ),
         P::number(
             "range",
-            "Range noise σ",
+            common::range_noise(),
             "× σ",
             (0.25, 4.0, 0.05),
             field!(asked.sensor_scale),
-            "Factor on the standard deviations of the sensor’s noise, in the world and in what the filters expect.",
+            resampling::range_help(),
         ),
         P::choice(
             "scheme",
-            "Scheme",
-            schemes.after(("usual", "usual for the course", None), Some),
+            common::scheme(),
+            schemes.after(("usual", resampling::usual(), None), Some),
             field!(scheme),
-            "How the survivors are drawn. Usual is systematic round the apartment, and multinomial in the loop of ambiguity, where systematic resampling would copy nearly every particle once.",
+            resampling::scheme_help(),
         ),
-        P::integer(
-            "back",
-            "Second gauge looks back",
-            "steps",
-            (1, 60),
-            field!(back),
-            "How many steps back the second lineage gauge counts distinct ancestors.",
-        )
-        .without_slider()
-        .view(),
-        P::integer("step", "Step", "", (0, 0), field!(step), "The step shown.")
+        P::integer("back", resampling::back(), resampling::steps(), (1, 60), field!(back), resampling::back_help())
+            .without_slider()
+            .view(),
+        P::integer("step", common::step(), "", (0, 0), field!(step), common::step_help())
             .at_most(|recipe| recipe.last_step().into())
             .view(),
         P::integer_or(
             "cursor",
-            "Step read",
-            ("now", "the newest"),
+            resampling::cursor(),
+            ("now", resampling::newest()),
             |recipe| recipe.last_step().into(),
             field!(cursor),
-            "The step whose values are written beside the curves; now, or −1, is the one shown.",
+            resampling::cursor_help(),
         )
         .view(),
     ]

@@ -3,6 +3,7 @@
 use super::model::{Moment, ResamplingModel};
 use crate::decimal::fixed;
 use crate::model::{Column, Readout, Series};
+use crate::words::{common, resampling};
 use fastslam_lab::experiment::policies::{POLICIES, PolicyCourse};
 
 /// The numbers of the step that is read.
@@ -11,62 +12,48 @@ pub fn readouts(model: &ResamplingModel) -> Vec<Readout> {
     let mut readouts = Vec::new();
     for (policy, names) in NAMES.iter().enumerate() {
         let Moment { report, resampled, .. } = model.read(policy);
-        let of_all = |x: f64, text: String| (x, format!("{text} of {m}"));
+        let of_all = |x: f64, text: String| (x, common::Of { n: &text, all: &m }.say());
         let (ess, ess_text) = of_all(report.ess, fixed(report.ess, 1));
         let lineage = report.descent.lineage(step);
         let (lineage, lineage_text) = of_all(lineage.into(), lineage.to_string());
         let (nodes, paths) = (report.tree_nodes(), report.path_nodes(m));
         let [ess_name, lineage_name, error_name, tree_name, right_name, resampled_name] = names.readouts;
         readouts.extend([
-            Readout::new(
-                ess_name.0,
-                ess_name.1,
-                ess,
-                ess_text,
-                "",
-                "Effective number of particles before resampling: M if all weigh the same, 1 if one has all the weight.",
-            ),
-            Readout::new(
-                lineage_name.0,
-                lineage_name.1,
-                lineage,
-                lineage_text,
-                "",
-                "How many of the particles of step 0 still have a descendant.",
-            ),
+            Readout::new(ess_name.0, ess_name.1(), ess, ess_text, "", resampling::ess_help()),
+            Readout::new(lineage_name.0, lineage_name.1(), lineage, lineage_text, "", resampling::lineage_help()),
             Readout::new(
                 error_name.0,
-                error_name.1,
+                error_name.1(),
                 report.error_best,
                 fixed(report.error_best, 2),
                 "m",
-                "Distance of the best particle from the truth.",
+                resampling::error_help(),
             ),
             Readout::new(
                 tree_name.0,
-                tree_name.1,
+                tree_name.1(),
                 f64::from(nodes),
-                format!("{nodes} of {paths}"),
-                "nodes",
-                "Poses that the particles still need, each counted once, of those that as many separate paths would hold.",
+                common::Of { n: &nodes, all: &paths }.say(),
+                resampling::nodes_unit(),
+                resampling::tree_help(),
             ),
         ]);
         readouts.push(match (model.setup().course, report.right) {
             (PolicyCourse::Lap, _) => Readout::new(
                 resampled_name.0,
-                resampled_name.1,
+                resampled_name.1(),
                 f64::from(*resampled),
-                format!("{resampled} of {step}"),
-                "steps",
-                "How many steps resampled.",
+                common::Of { n: resampled, all: &step }.say(),
+                resampling::steps(),
+                resampling::resampled_help(),
             ),
             (PolicyCourse::Wings, right) => Readout::new(
                 right_name.0,
-                right_name.1,
+                right_name.1(),
                 right.map_or(f64::NAN, f64::from),
-                format!("{} of {m}", right.unwrap_or(0)),
+                common::Of { n: &right.unwrap_or(0), all: &m }.say(),
                 "",
-                "Particles that hold the true explanation: they are near the robot and look its way.",
+                resampling::right_help(),
             ),
         });
     }
@@ -95,30 +82,48 @@ pub fn series(model: &ResamplingModel) -> Series {
     Series { columns: COLUMNS.into(), rows: model.moments().iter().enumerate().map(row).collect() }
 }
 
+/// Identifier and title of a number.
+type Name = (&'static str, fn() -> &'static str);
+
 /// What one filter's numbers are called.
 struct Names {
     /// Identifier and title of N_eff, lineage, error, tree, right wing and steps resampled.
-    readouts: [(&'static str, &'static str); 6],
-}
-
-macro_rules! names {
-    ($name:literal, $title:literal) => {
-        Names {
-            readouts: [
-                (concat!($name, "_ess"), concat!($title, ": N_eff")),
-                (concat!($name, "_lineage"), concat!($title, ": lineage")),
-                (concat!($name, "_error_best"), concat!($title, ": error of the best")),
-                (concat!($name, "_tree"), concat!($title, ": tree")),
-                (concat!($name, "_right"), concat!($title, ": right wing")),
-                (concat!($name, "_resampled"), concat!($title, ": resampled")),
-            ],
-        }
-    };
+    readouts: [Name; 6],
 }
 
 /// In the order of [`POLICIES`].
-const NAMES: [Names; POLICIES.len()] =
-    [names!("never", "Never"), names!("always", "Every step"), names!("selective", "Selective")];
+const NAMES: [Names; POLICIES.len()] = [
+    Names {
+        readouts: [
+            ("never_ess", resampling::never_ess),
+            ("never_lineage", resampling::never_lineage),
+            ("never_error_best", resampling::never_error_best),
+            ("never_tree", resampling::never_tree),
+            ("never_right", resampling::never_right),
+            ("never_resampled", resampling::never_resampled),
+        ],
+    },
+    Names {
+        readouts: [
+            ("always_ess", resampling::always_ess),
+            ("always_lineage", resampling::always_lineage),
+            ("always_error_best", resampling::always_error_best),
+            ("always_tree", resampling::always_tree),
+            ("always_right", resampling::always_right),
+            ("always_resampled", resampling::always_resampled),
+        ],
+    },
+    Names {
+        readouts: [
+            ("selective_ess", resampling::selective_ess),
+            ("selective_lineage", resampling::selective_lineage),
+            ("selective_error_best", resampling::selective_error_best),
+            ("selective_tree", resampling::selective_tree),
+            ("selective_right", resampling::selective_right),
+            ("selective_resampled", resampling::selective_resampled),
+        ],
+    },
+];
 
 macro_rules! columns {
     ($($name:literal)*) => {

@@ -5,6 +5,7 @@ use crate::{
     font::{self, Weight},
     model::Model,
     scene::{Anchor, Mark, Point, Rect, Role, Scene, text},
+    words::resampling,
 };
 
 /// Strength of a branch that died out, of 255.
@@ -31,9 +32,9 @@ impl Filter<'_> {
     /// Who descends from whom: every edge once.
     pub fn tree(&self, scene: &mut Scene) {
         let Moment { report, .. } = self.model.read(self.policy);
-        let size = format!("{} of {} nodes", report.tree_nodes(), report.path_nodes(self.particles()));
+        let size = resampling::NodesOf { n: &report.tree_nodes(), all: &report.path_nodes(self.particles()) }.say();
         let rest = self.label(scene, 3, &[(size, Weight::SemiBold, Role::Ink)]);
-        self.name(scene, &rest, "Ancestry tree");
+        self.name(scene, &rest, resampling::tree());
 
         let alive = self.model.alive(self.policy);
         let [mut dead, mut living] = [Vec::new(), Vec::new()];
@@ -90,8 +91,8 @@ impl Filter<'_> {
         let mut taken: Vec<[f64; 2]> = Vec::new();
         let last = self.model.step_count();
         let ancestor = self.model.now(self.policy).report.descent.coalescence();
-        let ancestor = ancestor.map(|step| (step, format!("step {step}"), true));
-        let [start, end] = [(0, "step 0".to_string(), false), (last, last.to_string(), false)];
+        let ancestor = ancestor.map(|step| (step, resampling::StepIs { step: &step }.say(), true));
+        let [start, end] = [(0, resampling::StepIs { step: &0 }.say(), false), (last, last.to_string(), false)];
         let events = self.events().into_iter().map(|(step, name)| (step, name.to_string(), false));
         for (step, label, ring) in ancestor.into_iter().chain([start]).chain(events).chain([end]) {
             let room = if ring { 12.0 } else { 0.0 };

@@ -12,6 +12,7 @@ use crate::{
     panels::Panels,
     scene::{Chart, Handle, Mark, Point, Rect, Role, Sample, Scene, closed, diamond, legend, robot},
     view::{View, whole_step},
+    words::{self, resampling},
 };
 
 /// Name of the handle that chooses the step read.
@@ -50,7 +51,7 @@ impl View for ResamplingView {
         let first = Chart { area: layout.first_chart(), last: model.step_count() };
         scene.handles.push(Handle {
             name: CURSOR,
-            title: "Step read".into(),
+            title: resampling::cursor().into(),
             at: [first.x(model.cursor()), layout.first_chart().centre()[1]],
             axes: &[CURSOR],
             value: f64::from(model.cursor()),
@@ -78,33 +79,33 @@ impl View for ResamplingView {
 fn told(model: &ResamplingModel) -> String {
     let of = |policy| {
         let Moment { report, .. } = model.read(policy);
-        format!("N_eff {}, lineage {}", fixed(report.ess, 1), report.descent.lineage(report.step))
+        resampling::NEffLineage { ess: &fixed(report.ess, 1), lineage: &report.descent.lineage(report.step) }.say()
     };
-    format!("step {}: never {}; every step {}; selective {}", model.cursor(), of(0), of(1), of(2))
+    resampling::AtCursor { step: &model.cursor(), never: &of(0), always: &of(1), selective: &of(2) }.say()
 }
 
 /// What marks mean.
 fn names(scene: &mut Scene, model: &ResamplingModel, area: &Rect) {
-    let back = format!("{} back, or weighted mean", model.back());
+    let back = resampling::BackOrMean { back: &model.back() }.say();
     let truth = |place: &Rect| {
         let [x, y] = place.centre();
         let lines = vec![closed(robot([x - 1.0, y], 0.0, 7.0))];
         vec![Mark::Lines { lines, width: 1.5, dash: None, role: Role::Truth }]
     };
     let mut items = vec![
-        (Sample::line(Role::Ink, 1.5, None), "at the start, or best particle"),
+        (Sample::line(Role::Ink, 1.5, None), resampling::start_or_best()),
         (Sample::line(Role::Muted, 1.25, Some(SECOND)), back.as_str()),
-        (Sample::line(Role::Accent, 1.0, Some(THRESHOLD)), "threshold"),
-        (Sample::dot(Role::Copied, 1.75), "resampled"),
-        (Sample::line(Role::Path, 2.0, None), "lives on"),
-        (Sample::line(Role::Level(DEAD), 1.0, None), "died out"),
-        (Sample::new(|place| common(place.centre()).into()), "last common ancestor"),
-        (Sample::dot(Role::Path, 2.0), "particle"),
-        (Sample::new(truth), "truth"),
+        (Sample::line(Role::Accent, 1.0, Some(THRESHOLD)), resampling::threshold()),
+        (Sample::dot(Role::Copied, 1.75), words::common::resampled()),
+        (Sample::line(Role::Path, 2.0, None), resampling::lives_on()),
+        (Sample::line(Role::Level(DEAD), 1.0, None), words::common::died_out()),
+        (Sample::new(|place| common(place.centre()).into()), resampling::common_ancestor()),
+        (Sample::dot(Role::Path, 2.0), resampling::particle()),
+        (Sample::new(truth), words::common::truth()),
     ];
     if model.run().wings_log().is_some() {
         let landmark = |at| Mark::Polygons { polygons: vec![diamond(at, 3.5)], role: Role::Landmark };
-        items.push((Sample::at(landmark), "landmark"));
+        items.push((Sample::at(landmark), resampling::landmark()));
     }
     legend(scene, area, items);
 }
