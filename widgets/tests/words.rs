@@ -2,6 +2,8 @@
 
 use fastslam_widgets::{
     figure::Figure,
+    model::{ParamSpec, Readout},
+    registry::FIGURES,
     scene::Mark,
 };
 use std::{collections::BTreeMap, fs, path::Path};
@@ -38,6 +40,20 @@ fn written(figure: &Figure) -> Vec<String> {
     scene.marks.into_iter().filter_map(text).collect()
 }
 
+/// All that it says, in order.
+fn said(figure: &Figure) -> Vec<String> {
+    let spec = |ParamSpec { title, unit, help, choices, .. }: ParamSpec| {
+        [title, unit, help].into_iter().chain(choices.into_iter().map(|c| c.title)).map(String::from).collect()
+    };
+    let readout = |Readout { title, unit, help, text, .. }: Readout| {
+        [title, unit, help].map(String::from).into_iter().chain([text]).collect()
+    };
+    let specs: Vec<Vec<String>> = figure.params().into_iter().map(spec).collect();
+    let readouts: Vec<Vec<String>> = figure.readouts().into_iter().map(readout).collect();
+    let handles = figure.scene(1000.0, 600.0).handles.into_iter().flat_map(|handle| [handle.title, handle.text]);
+    specs.concat().into_iter().chain(readouts.concat()).chain(handles).chain([figure.describe()]).collect()
+}
+
 #[test]
 fn the_lap_speaks_german_once_it_has_the_words() {
     let mut lap = figure(LAP, "de");
@@ -57,6 +73,59 @@ fn the_lap_speaks_german_once_it_has_the_words() {
         "universes = \"0\": erlaubt ist eine ganze Zahl von 1 bis 256"
     );
     assert!(lap.load("colour=red")[0].message.contains("ist kein Parameter dieser Abbildung"));
+}
+
+#[test]
+fn a_language_changes_nothing_but_words_and_can_be_changed_back() {
+    for entry in FIGURES {
+        let (english, mut other) = (figure(entry.tag, "en"), figure(entry.tag, "de"));
+        assert_eq!(other.query(), english.query());
+        let values = |figure: &Figure| figure.readouts().into_iter().map(|r| (r.name, r.value)).collect::<Vec<_>>();
+        assert_eq!(format!("{:?}", values(&other)), format!("{:?}", values(&english)), "{}", entry.tag);
+        assert_ne!(other.describe(), english.describe());
+        other.set_words("");
+        assert_eq!(said(&other), said(&english));
+        assert_eq!(written(&other), written(&english));
+    }
+}
+
+/// Words that are the same in both languages, and what stands for itself.
+const SAME: &[&str] = &[
+    "FastSLAM",
+    "N_eff",
+    "RMS",
+    "Scan",
+    "Scans",
+    "Pose",
+    "nats",
+    "Innovation",
+    "multinomial",
+    "landmarks",
+    "EKF",
+    "min",
+    "rad",
+    "det",
+    "exp",
+    "eff",
+    "πS",
+];
+
+#[test]
+fn every_word_of_every_figure_is_of_the_language() {
+    for entry in FIGURES {
+        let (english, german) = (figure(entry.tag, "en"), figure(entry.tag, "de"));
+        let pairs =
+            said(&english).into_iter().zip(said(&german)).chain(written(&english).into_iter().zip(written(&german)));
+        for (english, german) in pairs {
+            if english != german {
+                continue;
+            }
+            let words =
+                english.split(|c: char| !(c.is_alphabetic() || c == '_')).filter(|word| word.chars().count() > 2);
+            let left: Vec<&str> = words.filter(|word| !SAME.contains(word)).collect();
+            assert!(left.is_empty() || english.chars().all(|c| c.is_ascii_hexdigit()), "{}: {english}", entry.tag);
+        }
+    }
 }
 
 #[test]

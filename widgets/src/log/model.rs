@@ -10,6 +10,7 @@ use super::{
 };
 use crate::decimal::write;
 use crate::model::{Declared, FigureError, Files, Model, Readout, Series};
+use crate::words::log as words;
 use fastslam::{
     log::{LaserLog, LogError, parse, write_tum},
     map::{Footprint, grid::MapImage},
@@ -166,13 +167,13 @@ impl LogModel {
 
 /// What is wrong with a file, in a line.
 fn unreadable(LogError { line, message }: &LogError) -> FigureError {
-    let place = if *line > 0 { format!("line {line}: ") } else { String::new() };
-    FigureError { parameter: "file".into(), message: format!("{place}{message}") }
+    let message = if *line > 0 { words::AtLine { line, message }.say() } else { message.to_string() };
+    FigureError { parameter: "file".into(), message }
 }
 
 impl Declared for LogModel {
     type Recipe = Recipe;
-    const TITLE: &'static str = "A building from a log: map one of your own";
+    const TITLE: &'static str = words::TITLE;
 
     fn recipe(&self) -> &Recipe {
         &self.recipe
@@ -195,17 +196,14 @@ impl Declared for LogModel {
 impl Files for LogModel {
     fn open(&mut self, file: &[u8]) -> Result<(), FigureError> {
         if file.is_empty() {
-            return Err(unreadable(&LogError { line: 0, message: "the file is empty".into() }));
+            return Err(unreadable(&LogError { line: 0, message: words::empty().into() }));
         }
         // Without its malformed lines first, to count them. Where nothing is left, the first of them tells most.
-        let log = parse(file, true).map_err(|_| parse(file, false).err()).map_err(|error| {
-            unreadable(&error.unwrap_or(LogError { line: 0, message: "there is no scan in it".into() }))
-        })?;
+        let log = parse(file, true)
+            .map_err(|_| parse(file, false).err())
+            .map_err(|error| unreadable(&error.unwrap_or(LogError { line: 0, message: words::no_scan().into() })))?;
         if log.scans.len() < 2 {
-            return Err(unreadable(&LogError {
-                line: 0,
-                message: "there is one scan only, and nothing to map".into(),
-            }));
+            return Err(unreadable(&LogError { line: 0, message: words::one_scan().into() }));
         }
         self.opened = Some(Opened::new(log, self.setup()));
         self.logs += 1;
@@ -215,38 +213,31 @@ impl Files for LogModel {
 
     fn ready(&self) -> Result<(), FigureError> {
         let Some(opened) = &self.opened else {
-            return Err(FigureError { parameter: "file".into(), message: "there is no log to map yet".into() });
+            return Err(FigureError { parameter: "file".into(), message: words::no_log_yet().into() });
         };
         let notes = &opened.log.notes;
         if let (false, Some(first)) = (self.recipe.lenient, &notes.first_malformed) {
-            let more = if notes.malformed > 1 {
-                format!(" ({} malformed lines in all)", notes.malformed)
-            } else {
-                String::new()
-            };
-            return Err(FigureError { parameter: "lenient".into(), message: unreadable(first).message + &more });
+            let (first, n) = (unreadable(first).message, &notes.malformed);
+            let message = if *n > 1 { words::ManyMalformed { first: &first, n }.say() } else { first };
+            return Err(FigureError { parameter: "lenient".into(), message });
         }
         let setup = self.setup();
         let needed = opened.bytes(setup, setup.particles);
         if needed <= LIMIT {
             return Ok(());
         }
-        let why = format!(
-            "with cells of {} m they may take {} MB, and the limit is {} MB",
-            write(setup.cell_size),
-            megabytes(needed),
-            megabytes(LIMIT)
-        );
+        let (cell, needed, limit) = (&write(setup.cell_size), &megabytes(needed), &megabytes(LIMIT));
         let most = (1..setup.particles).rev().find(|universes| opened.bytes(setup, *universes) <= LIMIT);
         Err(match most {
             Some(most) => {
-                FigureError::new("universes", setup.particles, format!("a whole number from 1 to {most} here: {why}"))
+                let allowed = words::MostUniverses { most: &most, cell, needed, limit }.say();
+                FigureError::new("universes", setup.particles, allowed)
             }
             // Where not even one fits, it is the cells that are too small. Rounded up to what can be set.
             None => {
                 let least = setup.cell_size * (opened.bytes(setup, 1) / LIMIT).sqrt();
                 let least = write((100.0 * least).ceil() / 100.0);
-                FigureError::new("cell", write(setup.cell_size), format!("at least {least} m for this log: {why}"))
+                FigureError::new("cell", cell, words::LeastCell { least: &least, cell, needed, limit }.say())
             }
         })
     }

@@ -3,6 +3,7 @@
 use crate::{
     field, policy,
     recipe::{self, Param},
+    words::{common, log},
 };
 use fastslam::{mapper::LaserMapperSettings, resampling::ResamplePolicy};
 
@@ -47,41 +48,28 @@ fn table() -> Vec<Param<Recipe>> {
     type P = Param<Recipe>;
     let [policy, threshold] = policy::rows();
     vec![
-        P::integer(
-            "universes",
-            "Universes M",
-            "",
-            (1, 256),
-            field!(setup.particles),
-            "How many particles the filter has: each is a path with a map of its own.",
-        ),
-        P::seed(field!(setup.seed), "Picks the filter's draws; the same log and seed give the same map, bit for bit."),
-        P::number("cell", "Cell size", "m", (0.02, 0.2, 0.01), field!(setup.cell_size), "Side of a cell of the maps."),
+        P::integer("universes", common::universes(), "", (1, 256), field!(setup.particles), common::universes_help()),
+        P::seed(field!(setup.seed), log::seed_help()),
+        P::number("cell", log::cell(), "m", (0.02, 0.2, 0.01), field!(setup.cell_size), log::cell_help()),
         P::number(
             "max-range",
-            "Longest range",
+            log::max_range(),
             "m",
             (1.0, 100.0, 1.0),
             field!(setup.max_range),
-            "Beyond it a range only says that the way up to there is free.",
+            log::max_range_help(),
         ),
         P::number(
             "min-travel",
-            "Skip scans until moved",
+            log::min_travel(),
             "m",
             (0.0, 2.0, 0.05),
             field!(setup.min_travel),
-            "A scan is passed over until the robot has driven this far, or turned by as many radians.",
+            log::min_travel_help(),
         ),
         threshold,
         policy,
-        P::flag(
-            "lenient",
-            "Skip malformed lines",
-            field!(lenient),
-            "Maps a log of which some lines cannot be read, without those lines.",
-        )
-        .view(),
-        P::flag("raw", "Raw odometry", field!(raw), "Draws where the wheels alone would have led.").view(),
+        P::flag("lenient", log::lenient(), field!(lenient), log::lenient_help()).view(),
+        P::flag("raw", common::raw_odometry(), field!(raw), common::raw_odometry_help()).view(),
     ]
 }

@@ -6,6 +6,7 @@ use super::{
 };
 use crate::decimal::{fixed, write};
 use crate::model::{Column, Model, Readout, Series, unexplained};
+use crate::words::{common, log as words};
 use fastslam::mapper::{LaserMapper, Replay};
 use fastslam_lab::experiment::log::digest;
 
@@ -14,7 +15,7 @@ pub fn sentence(model: &LogModel) -> String {
     match (model.replay(), model.opened()) {
         (Some(replay), _) => progress(model, replay),
         (None, Some(opened)) => told(model, opened),
-        _ => "No log is open yet. Run the example, or choose or drop a log of your own: a CARMEN log, as text or compressed by gzip.".into(),
+        _ => words::none_open().into(),
     }
 }
 
@@ -22,53 +23,42 @@ pub fn sentence(model: &LogModel) -> String {
 fn told(model: &LogModel, opened: &Opened) -> String {
     let (log, setup) = (&opened.log, model.setup());
     let minutes = (log.scans[log.scans.len() - 1].time - log.scans[0].time) / 60.0;
-    let mut text = format!(
-        "{} scans of up to {} beams, over {} m by raw odometry and {} min. ",
-        log.scans.len(),
-        log.scans.iter().map(|scan| scan.ranges.len()).max().unwrap_or(0),
-        fixed(opened.way, 0),
-        fixed(minutes, 0)
-    );
+    let scans = words::Scans {
+        n: &log.scans.len(),
+        beams: &log.scans.iter().map(|scan| scan.ranges.len()).max().unwrap_or(0),
+        way: &fixed(opened.way, 0),
+        minutes: &fixed(minutes, 0),
+    };
     let notes = &log.notes;
     let unknown: u32 = notes.unknown.iter().map(|(_, count)| count).sum();
-    for (count, what) in [
-        (notes.malformed, "malformed lines"),
-        (unknown, "messages of other kinds"),
-        (notes.rear, "scans of a rear laser"),
-    ] {
-        if count > 0 {
-            text += &format!("Left out: {what}, {count}. ");
-        }
-    }
-    let estimate = model.estimate().unwrap_or(0.0);
-    text += &format!(
-        "{} universes with cells of {} m take at most {} MB of memory.",
-        setup.particles,
-        write(setup.cell_size),
-        megabytes(estimate)
-    );
-    text
+    let left_out =
+        [(notes.malformed, words::malformed()), (unknown, words::other_kinds()), (notes.rear, words::rear_scans())];
+    let left_out = left_out.into_iter().filter(|(n, _)| *n > 0);
+    let memory = words::TakeAtMost {
+        m: &setup.particles,
+        cell: &write(setup.cell_size),
+        megabytes: &megabytes(model.estimate().unwrap_or(0.0)),
+    };
+    let mut sentences = vec![scans.say()];
+    sentences.extend(left_out.map(|(n, what)| words::LeftOut { what: &what, n: &n }.say()));
+    sentences.push(memory.say());
+    sentences.join(" ")
 }
 
 /// How far it is mapped, in words.
 fn progress(model: &LogModel, replay: &Replay) -> String {
     let (step, last) = (model.history().len() as u32, replay.step_count());
     let m = model.setup().particles;
-    let start = if step == last { "All scans are mapped".into() } else { format!("Scan {step} of {last} is mapped") };
-    let Some(moment) = model.history().last() else { return "All universes start alike, with the first scan.".into() };
-    let mut text = format!(
-        "{start}. {}N_eff is {} of {m}; all universes share one path up to scan {}. ",
-        unexplained(moment.log_evidence).map_or_else(String::new, |sentence| sentence + " "),
-        fixed(moment.ess, 1),
-        moment.shared
-    );
-    text += &match model.history().iter().rposition(|moment| moment.died > 0) {
-        Some(last) => {
-            format!("At the last resampling, at scan {}, {} of {m} died out.", last + 1, model.history()[last].died)
-        }
-        None => "None has died out.".into(),
+    let Some(moment) = model.history().last() else { return words::start_alike().into() };
+    let mapped =
+        if step == last { words::all_mapped().into() } else { words::ScanMapped { step: &step, last: &last }.say() };
+    let shared = words::Shared { ess: &fixed(moment.ess, 1), m: &m, shared: &moment.shared }.say();
+    let died = match model.history().iter().rposition(|moment| moment.died > 0) {
+        Some(last) => words::DiedAt { scan: &(last + 1), dead: &model.history()[last].died, m: &m }.say(),
+        None => words::none_died().into(),
     };
-    text
+    let sentences = [Some(mapped), unexplained(moment.log_evidence), Some(shared), Some(died)];
+    sentences.into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 
 /// The numbers of the state shown.
@@ -77,7 +67,7 @@ pub fn readouts(model: &LogModel) -> Vec<Readout> {
     let moment = model.history().last();
     let of_m = |x: Option<f64>, decimals| {
         let x = x.unwrap_or(f64::NAN);
-        (x, format!("{} of {m}", fixed(x, decimals)))
+        (x, common::Of { n: &fixed(x, decimals), all: &m }.say())
     };
     let (ess, ess_text) = of_m(moment.map(|moment| moment.ess), 1);
     let (lineage, lineage_text) = of_m(moment.map(|moment| moment.lineage.into()), 0);
@@ -94,69 +84,33 @@ pub fn readouts(model: &LogModel) -> Vec<Readout> {
     vec![
         Readout::new(
             "scan",
-            "Scan",
+            words::scan(),
             scan,
-            format!("{step} of {}", model.step_count()),
+            common::Of { n: &step, all: &model.step_count() }.say(),
             "",
-            "Scans that are mapped, after the first, and all of them.",
+            words::scan_help(),
         ),
-        Readout::new(
-            "ess",
-            "N_eff",
-            ess,
-            ess_text,
-            "",
-            "Effective number of universes before resampling: M if all weigh the same, 1 if one has all the weight.",
-        ),
-        Readout::new(
-            "lineage",
-            "Lineage, 20 scans back",
-            lineage,
-            lineage_text,
-            "",
-            "Distinct ancestors of the universes 20 scans ago.",
-        ),
-        Readout::new(
-            "shared",
-            "One path up to scan",
-            shared,
-            fixed(shared, 0),
-            "",
-            "The latest scan at which all universes have one ancestor: up to there they share one path.",
-        ),
+        Readout::new("ess", "N_eff", ess, ess_text, "", common::n_eff_help()),
+        Readout::new("lineage", words::lineage(), lineage, lineage_text, "", words::lineage_help()),
+        Readout::new("shared", words::one_path(), shared, fixed(shared, 0), "", words::one_path_help()),
         Readout::new(
             "resampled",
-            "Resampled",
+            words::resampled(),
             if step > 0 { resampled as f64 } else { f64::NAN },
-            format!("{resampled} of {step}"),
+            common::Of { n: &resampled, all: &step }.say(),
             "",
-            "Scans after which the universes were resampled.",
+            words::resampled_help(),
         ),
-        memory(
-            "estimate",
-            "Memory at most",
-            model.estimate().unwrap_or(0.0),
-            "What maps and paths may take, reckoned from the area that the beams sweep along raw odometry, M and the policy.",
-        ),
-        memory(
-            "map_unique",
-            "Memory of the maps",
-            model.peak().unique as f64,
-            "What all maps held together at the most, shared tiles counted once; looked at every 20 scans.",
-        ),
-        memory(
-            "map_dense",
-            "… as dense arrays",
-            model.peak().dense as f64,
-            "What the maps would have held then if each were an array of its own.",
-        ),
+        memory("estimate", words::estimate(), model.estimate().unwrap_or(0.0), words::estimate_help()),
+        memory("map_unique", common::memory(), model.peak().unique as f64, words::memory_help()),
+        memory("map_dense", common::dense(), model.peak().dense as f64, words::dense_help()),
         Readout {
             name: "digest",
-            title: "Fingerprint",
+            title: words::fingerprint(),
             value: None,
             text: digest,
             unit: "",
-            help: "Of all weights, paths and maps at the end, bit for bit: the command line gives the same for the same log and settings.",
+            help: words::fingerprint_help(),
         },
     ]
 }

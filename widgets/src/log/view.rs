@@ -16,6 +16,7 @@ use crate::{
         legend, n_eff, rimmed_robot, scale_bar, text, thinned,
     },
     view::{Navigation, View},
+    words::{common, log as words},
 };
 use fastslam::{geometry::Pose2, mapper::LaserMapper, resampling::ResamplePolicy};
 
@@ -115,12 +116,11 @@ fn whole(model: &LogModel) -> Option<Frame> {
 fn header(scene: &mut Scene, model: &LogModel, area: &Rect) {
     let (step, last) = (model.step(), model.step_count());
     let (strong, rest) = match (model.log(), model.mapper()) {
-        (None, _) => ("No log yet".into(), String::new()),
-        (_, None) => (format!("{} scans", last + 1), "raw odometry".into()),
+        (None, _) => (words::no_log().into(), String::new()),
+        (_, None) => (words::ScanCount { n: &(last + 1) }.say(), common::raw_odometry_line().into()),
         _ => {
-            let m = model.setup().particles;
-            let universes = if m == 1 { "1 universe".into() } else { format!("{m} universes") };
-            (format!("Scan {step} of {last}"), universes)
+            let scan = words::ScanOf { step: &step, last: &last }.say();
+            (scan, common::UniverseCount { m: &model.setup().particles }.say())
         }
     };
     heading(scene, area, (&strong, Role::Ink), &rest);
@@ -140,12 +140,12 @@ fn map(scene: &mut Scene, model: &LogModel, area: Rect, view: Option<&MapView>) 
     } else {
         let [_, y] = area.centre();
         let lines = [
-            (13.5, Weight::SemiBold, Role::Ink, "No log is open"),
-            (12.5, Weight::Regular, Role::Muted, "Run the example, or choose or drop a log."),
+            (13.5, Weight::SemiBold, Role::Ink, words::no_log_open()),
+            (12.5, Weight::Regular, Role::Muted, words::run_example()),
         ];
-        for (k, (size, weight, role, words)) in lines.into_iter().enumerate() {
+        for (k, (size, weight, role, line)) in lines.into_iter().enumerate() {
             let area = Rect::new(area.x, y + 22.0 * (k as f64 - 1.0), area.w, 22.0);
-            scene.marks.push(text(area, Anchor::Middle, size, weight, role, words));
+            scene.marks.push(text(area, Anchor::Middle, size, weight, role, line));
         }
     }
     scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
@@ -225,7 +225,7 @@ fn curve(scene: &mut Scene, model: &LogModel, chart: &Chart, share: impl Fn(&Mom
 fn ess(scene: &mut Scene, model: &LogModel, gauge: &Gauge) {
     let m = model.setup().particles;
     let now = model.history().last().map_or("–".into(), |moment| fixed(moment.ess, 1));
-    let name = value(scene, &gauge.label, format!("{now} of {m}"));
+    let name = value(scene, &gauge.label, common::Of { n: &now, all: &m }.say());
     n_eff(scene, &name, SIZE, Weight::Regular, Role::Muted);
     let chart = &Chart { area: gauge.chart, last: model.step_count() };
     let points = curve(scene, model, chart, |moment| moment.ess / m as f64);
@@ -243,10 +243,10 @@ fn ess(scene: &mut Scene, model: &LogModel, gauge: &Gauge) {
 fn lineage(scene: &mut Scene, model: &LogModel, gauge: &Gauge) {
     let m = model.setup().particles;
     let now = model.history().last().map_or("–".into(), |moment| moment.lineage.to_string());
-    let name = value(scene, &gauge.label, format!("{now} of {m}"));
-    let names = [format!("Ancestors {BACK} scans ago"), format!("Lineage, {BACK} back")];
+    let name = value(scene, &gauge.label, common::Of { n: &now, all: &m }.say());
+    let names = [words::AncestorsAgo { back: &BACK }.say(), words::LineageBack { back: &BACK }.say()];
     let fits = |label: &String| font::measure(label, SIZE, Weight::Regular) < name.w;
-    let label = names.into_iter().find(fits).unwrap_or("Lineage".into());
+    let label = names.into_iter().find(fits).unwrap_or(common::lineage().into());
     scene.marks.push(text(name, Anchor::Start, SIZE, Weight::Regular, Role::Muted, label));
     let chart = Chart { area: gauge.chart, last: model.step_count() };
     curve(scene, model, &chart, |moment| f64::from(moment.lineage) / m as f64);
@@ -258,15 +258,18 @@ fn names(scene: &mut Scene, layout: &Layout) {
         Mark::Lines { lines, width: 1.25, dash: None, role: Role::Extinct }
     };
     let of_map = [
-        (Sample::cell(OCCUPIED), "wall"),
-        (Sample::cell(FREE), "free"),
-        (Sample::cell(UNKNOWN), "unknown"),
-        (Sample::line(Role::Path, 2.0, None), "best universe"),
-        (Sample::line(Role::Copied, LIVES, None), "the others"),
-        (Sample::line(Role::Extinct, DIED, None), "just died out"),
-        (Sample::line(Role::Odometry, 1.5, Some(RAW)), "raw odometry"),
+        (Sample::cell(OCCUPIED), common::wall()),
+        (Sample::cell(FREE), common::free()),
+        (Sample::cell(UNKNOWN), common::unknown()),
+        (Sample::line(Role::Path, 2.0, None), words::best()),
+        (Sample::line(Role::Copied, LIVES, None), words::others()),
+        (Sample::line(Role::Extinct, DIED, None), words::just_died()),
+        (Sample::line(Role::Odometry, 1.5, Some(RAW)), common::raw_odometry_line()),
     ];
-    let of_gauges = [(Sample::at(tick), "resampled"), (Sample::line(Role::Accent, 1.0, Some(THRESHOLD)), "threshold")];
+    let of_gauges = [
+        (Sample::at(tick), common::resampled()),
+        (Sample::line(Role::Accent, 1.0, Some(THRESHOLD)), words::threshold()),
+    ];
     let of_map = of_map.into_iter().filter(|_| layout.map.is_some());
     let of_gauges = of_gauges.into_iter().filter(|_| layout.gauges.is_some());
     legend(scene, &layout.legend, of_map.chain(of_gauges));
