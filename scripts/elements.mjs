@@ -1,6 +1,6 @@
 // What the compiled figures tell of themselves, and all that is made from it: the names that elements/ needs before a program runs,
 // the types, the manifest of the custom elements, and the classes of the Python package. A new parameter needs no other line.
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs'
+import { mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { pathToFileURL } from 'node:url'
 import { readGlue, shellModule, shellTypes } from './glue.mjs'
@@ -37,13 +37,17 @@ const pascal = name => name.replace(/(?:^|-)(.)/g, (_, letter) => letter.toUpper
 /** @param {string} name */
 export const camel = name => name.replace(/-(.)/g, (_, letter) => letter.toUpperCase())
 
+/** Languages that figures speak: a file each. */
+const languages = readdirSync(join(root, 'widgets', 'words')).map(file => file.replace(/\.json$/, '')).sort()
+
 /** Attributes of every figure that are no parameters. */
 export const options = [
+  { name: 'lang', values: undefined, help: `Language of all it says: ${languages.join(' or ')}. Where it is not given, that of the page around it; English for any other.` },
   { name: 'theme', values: ['auto', 'light', 'dark'], help: 'Colours; auto follows the reader’s system.' },
   { name: 'controls', values: undefined, help: 'Controls that readers see, apart by spaces: names of parameters, playback (the whole row of it), play (its button alone); or none, or all. controls="seed" leaves the seed; a name that is none is answered with those that there are.' },
   { name: 'show', values: undefined, help: 'Parts of the picture to show, apart by spaces; or all.' },
   { name: 'lock', values: undefined, help: 'Names of parameters, apart by spaces, that readers cannot change; or all. lock="seed" fixes the seed.' },
-  { name: 'decimal', values: ['point', 'comma'], help: 'How numbers are written; the figure of logs has the point alone.' },
+  { name: 'decimal', values: ['point', 'comma'], help: 'How numbers are written; where it is not given, as the language has it.' },
   { name: 'size', values: ['normal', 'presentation'], help: 'presentation makes letters and lines half as large again, for a projector.' },
   { name: 'fit', values: ['off', 'on'], help: 'on: the picture takes the height of its box rather than all of its width; not that of a log.' },
 ]
@@ -68,7 +72,7 @@ const properties = [
 
 /** The figure that maps logs has no steps to go back and forth in, and files to open. */
 const log = {
-  options: options.filter(({ name }) => ['theme', 'controls', 'show', 'lock', 'size'].includes(name)),
+  options: options.filter(({ name }) => ['lang', 'theme', 'controls', 'show', 'lock', 'size'].includes(name)),
   methods: [
     { name: 'open', type: '(file: Blob, name?: string, start?: boolean) => Promise<void>', help: 'Reads a log; maps it too if it is to start.' },
     { name: 'example', type: '() => Promise<void>', help: 'Maps the log that comes with the figure.' },

@@ -30,6 +30,9 @@ async function bundle(entry, format, plugins = []) {
   return scripts[0].code
 }
 
+/** Languages that it speaks besides English. */
+const languages = (process.env.FASTSLAM_LANGUAGES ?? '').split(/[\s,]+/).filter(Boolean)
+
 /**
  * The script, as text.
  * @param {string} entry its source @param {string} [wasm] the program that it carries
@@ -40,7 +43,8 @@ export async function singleFile(entry, wasm = join(root, 'widgets', 'pkg', 'fas
   // No module: pages opened from a file may not start workers that are modules.
   const worker = await bundle(join(elements, 'worker.ts'), 'iife')
   const example = readFileSync(join(root, 'www', 'public', 'example.clf.gz')).toString('base64')
-  const carried = `export const example = ${JSON.stringify(example)}; export const program = ${JSON.stringify(program)}; export const worker = ${JSON.stringify(worker)}`
+  const words = Object.fromEntries(languages.map(language => [language, JSON.parse(readFileSync(join(root, 'widgets', 'words', `${language}.json`), 'utf8'))]))
+  const carried = `export const example = ${JSON.stringify(example)}; export const program = ${JSON.stringify(program)}; export const worker = ${JSON.stringify(worker)}; export const words = ${JSON.stringify(words)}`
   return bundle(entry, 'es', [
     {
       name: 'fastslam-files',

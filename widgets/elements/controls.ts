@@ -3,6 +3,7 @@ import { h, icon, redraw, write } from './dom'
 import type { ParamSpec } from './shell'
 import { stride } from './handles'
 import { PLAY, PLAYBACK } from './options'
+import type { Words } from './words'
 
 /** What the controls may ask of the figure. */
 export interface Actions {
@@ -59,17 +60,21 @@ export class Controls {
   private readonly named: [HTMLElement, string[]][] // parts of the row of playback, and the names that `controls` has for each
   private readonly rows: HTMLElement[] // what controls stand in, from within
 
-  constructor(specs: ParamSpec[], actions: Actions) {
-    this.rewind = button('rewind', 'Rewind', actions.rewind, 'rewind')
-    this.play = button('play', 'Play', actions.playPause, 'play primary')
-    this.back = button('back', 'Step back', actions.stepBack, 'step-back')
-    this.forth = button('step', 'Step', actions.step, 'step')
-    const reset = button('reset', 'Reset', actions.reset, 'reset')
-    this.scrub = h('input', { type: 'range', class: 'scrub', part: 'scrub', min: '0', step: '1', 'aria-label': 'Step shown' })
+  constructor(
+    specs: ParamSpec[],
+    private readonly words: Words,
+    actions: Actions,
+  ) {
+    this.rewind = button('rewind', words.say('rewind'), actions.rewind, 'rewind')
+    this.play = button('play', words.say('play'), actions.playPause, 'play primary')
+    this.back = button('back', words.say('step_back'), actions.stepBack, 'step-back')
+    this.forth = button('step', words.say('step'), actions.step, 'step')
+    const reset = button('reset', words.say('reset'), actions.reset, 'reset')
+    this.scrub = h('input', { type: 'range', class: 'scrub', part: 'scrub', min: '0', step: '1', 'aria-label': words.say('step_shown') })
     this.scrub.addEventListener('input', () => actions.seek(this.scrub.valueAsNumber))
     this.position = h('span', { class: 'position' })
     const rate = select(
-      'Speed',
+      words.say('speed'),
       RATES.map(rate => [String(rate), `${rate / NORMAL_RATE}×`]),
       v => actions.rate(Number(v)),
     )
@@ -82,7 +87,7 @@ export class Controls {
     this.named = [...[this.rewind, this.back, this.forth, rate, reset].map((part): [HTMLElement, string[]] => [part, [PLAYBACK]]), [this.play, [PLAYBACK, PLAY]], [timeline, [PLAYBACK, STEP]]]
     this.transport = h(
       'div',
-      { class: 'transport', part: 'transport', role: 'group', 'aria-label': 'Playback' },
+      { class: 'transport', part: 'transport', role: 'group', 'aria-label': words.say('playback') },
       buttons,
       timeline,
       extras,
@@ -90,13 +95,13 @@ export class Controls {
 
     const grid = h('div', { class: 'grid' })
     const boxes = h('div', { class: 'boxes' })
-    this.settings = h('details', { class: 'settings', part: 'settings' }, h('summary', {}, 'Settings'), grid, boxes)
-    this.view = h('div', { class: 'view', part: 'view', role: 'group', 'aria-label': 'What is drawn' })
+    this.settings = h('details', { class: 'settings', part: 'settings' }, h('summary', {}, words.say('settings')), grid, boxes)
+    this.view = h('div', { class: 'view', part: 'view', role: 'group', 'aria-label': words.say('drawn') })
     const toggles: HTMLElement[] = []
     const choices: HTMLElement[] = [] // after the sliders, so that the grid has even rows
     for (const spec of specs) {
       if (spec.name === STEP) continue
-      const field = fieldFor(spec, this.style, value => actions.change(spec.name, value))
+      const field = fieldFor(spec, words, this.style, value => actions.change(spec.name, value))
       this.fields.set(spec.name, field)
       for (const input of field.element.querySelectorAll<HTMLElement>('input, select')) input.title = spec.help // read out after the name
       if (spec.name === SEED) extras.append(field.element)
@@ -111,6 +116,13 @@ export class Controls {
     grid.append(...choices)
     this.settings.hidden = !grid.hasChildNodes() && !boxes.hasChildNodes()
     this.rows = [buttons, extras, this.transport, grid, boxes, this.settings, this.view]
+  }
+
+  /** Takes the place of those in another language, and stands as they do. */
+  replace(before: Controls): void {
+    for (const part of ['transport', 'settings', 'view'] as const) before[part].replaceWith(this[part])
+    this.settings.open = before.settings.open
+    this.rate.value = before.rate.value
   }
 
   /** `force` puts a control back that the reader has set to a refused value. */
@@ -167,14 +179,14 @@ export class Controls {
   showPosition(step: number, target: number, last: number, playing: boolean): void {
     const steps = last > 0
     for (const element of this.playback) element.hidden = !steps
-    this.transport.setAttribute('aria-label', steps ? 'Playback' : 'Start over')
+    this.transport.setAttribute('aria-label', this.words.say(steps ? 'playback' : 'start_over'))
     this.scrub.max = String(last)
     if (step === target) this.scrub.value = String(step)
-    this.scrub.setAttribute('aria-valuetext', `step ${step} of ${last}`)
+    this.scrub.setAttribute('aria-valuetext', this.words.say('step_of', { step, last }))
     write(this.position, `${step} / ${last}`)
     this.rewind.disabled = this.back.disabled = step <= 0
     this.forth.disabled = step >= last
-    const name = playing ? 'Pause' : 'Play'
+    const name = this.words.say(playing ? 'pause' : 'play')
     if (this.play.title !== name) {
       redraw(this.play.firstElementChild!, playing ? 'pause' : 'play')
       label(this.play, name)
@@ -190,12 +202,12 @@ export class Controls {
   }
 }
 
-function fieldFor(spec: ParamSpec, style: NumberStyle, change: (value: string) => void): Field {
-  if (spec.name === SEED) return seedField(spec, style, change)
+function fieldFor(spec: ParamSpec, words: Words, style: NumberStyle, change: (value: string) => void): Field {
+  if (spec.name === SEED) return seedField(spec, words, style, change)
   if (spec.kind === 'flag') return flagField(spec, change)
   if (spec.kind === 'toggle') return toggleField(spec, change)
   if (spec.kind === 'choice' || spec.choices.length > 0) return choiceField(spec, change)
-  return spec.slider ? sliderField(spec, style, change) : numberField(spec, style, change)
+  return spec.slider ? sliderField(spec, words, style, change) : numberField(spec, style, change)
 }
 
 function toggleField(spec: ParamSpec, change: (value: string) => void): Field {
@@ -241,11 +253,11 @@ function choiceField(spec: ParamSpec, change: (value: string) => void): Field {
   }
 }
 
-function sliderField(spec: ParamSpec, style: NumberStyle, change: (value: string) => void): Field {
+function sliderField(spec: ParamSpec, words: Words, style: NumberStyle, change: (value: string) => void): Field {
   const stops = geometricStops(spec)
   const box = numberBox(spec, style, change)
   box.id = `box-${++made}`
-  const range = h('input', { type: 'range', name: spec.name, 'aria-label': `${spec.title}, slider` })
+  const range = h('input', { type: 'range', name: spec.name, 'aria-label': words.say('slider', { title: spec.title }) })
   Object.assign(range, stops ? { min: 0, max: stops.length - 1, step: 1 } : { min: spec.min, max: spec.max, step: spec.step })
   const describe = (value: string) => range.setAttribute('aria-valuetext', `${written(value, style)} ${spec.unit}`.trim())
   range.addEventListener('input', () => change(stops ? String(stops[range.valueAsNumber]) : range.value))
@@ -288,9 +300,9 @@ function limit(input: HTMLInputElement, { min, max }: ParamSpec): boolean {
   return true
 }
 
-function seedField(spec: ParamSpec, style: NumberStyle, change: (value: string) => void): Field {
+function seedField(spec: ParamSpec, words: Words, style: NumberStyle, change: (value: string) => void): Field {
   const box = numberBox(spec, style, change)
-  const roll = button('dice', 'Re-roll the seed', () => {
+  const roll = button('dice', words.say('reroll'), () => {
     // Short seeds are easier to read out in a classroom; they are as good as long ones.
     let seed: number
     do seed = Math.floor(Math.random() * 10_000)

@@ -4,8 +4,6 @@
 // over what the author gave, by attribute or property, and that over the default. It is kept in settings.ts.
 import { embedCode, type CodeName } from './embed-code'
 import { homeAddress } from './files'
-import { FIGURES } from './generated/figures'
-import { write } from './dom'
 import { HostedFigure } from './hosted-figure'
 import { linkedQuery, linkTo } from './link'
 import { OPTIONS } from './options'
@@ -18,6 +16,7 @@ export abstract class FigureElement extends HostedFigure {
 
   constructor() {
     super()
+    this.words.always(() => this.showTitle())
     watchUnknown(this, name => this.#onAttribute(name))
   }
 
@@ -33,7 +32,7 @@ export abstract class FigureElement extends HostedFigure {
     this.body.classList.toggle('pictured', this.querySelector('img, picture') !== null)
     this.frames.observe(signal)
     this.canvas.observe()
-    write(this.heading, FIGURES[this.localName]?.title ?? '')
+    void this.speak()
     this.takeName()
     this.takePicture('light') // for paper
     takeEarlyProperties(this)

@@ -18,32 +18,35 @@ import { showReadouts } from './readouts'
 import { copy, download } from './save'
 import { Sentence } from './sentence'
 import { themeName } from './theme'
+import { Words } from './words'
 
 const sheet = new CSSStyleSheet()
 sheet.replaceSync(css)
 
-const WORDS = 'en' // language of all that figures say, whatever that of the page
 const WIDE = 620 // [px] from here on the settings are open at first
 const COPIED = 3000 // [ms] that a word of success stays
 
 export abstract class FigureParts extends HTMLElement {
   #timeline = true // whether there are steps to play
 
+  #introduced = '' // the language of the controls
+
+  protected readonly words = new Words()
   protected specs: ParamSpec[] = []
   protected controls: Controls | undefined
   protected readonly playback = new Playback()
-  protected readonly messages = new Messages()
+  protected readonly messages = new Messages(this.words)
   protected readonly heading = h('p', { class: 'title', part: 'title', id: 'title' })
   protected readonly status = h('span', { class: 'status', role: 'status' })
   protected readonly readouts = h('dl', { class: 'readouts', part: 'readouts' })
   protected readonly sentence = new Sentence()
   protected readonly stage = h('div', { class: 'stage', part: 'stage', role: 'group', tabindex: '0', 'aria-labelledby': 'title', 'aria-describedby': 'keys' })
-  protected readonly body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title', lang: WORDS })
+  protected readonly body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title' })
   protected readonly canvas = new Canvas(this, this.body, this.stage, () => this.refresh())
-  protected readonly menu = new Menu(this.menuItems(), this)
+  protected readonly menu = new Menu(() => this.menuItems(), this, this.words)
   readonly #undo = h('button', { type: 'button', class: 'undo', part: 'button undo', hidden: '' })
   #before = '' // the state that undoing brings back
-  readonly #help = new Help()
+  readonly #help = new Help(this.words)
   readonly #fallback = h('div', { class: 'fallback' }, h('slot'))
   readonly #handles = new Handles({
     drag: (handle, x, y) => this.#byPointer({ do: 'drag', handle, x, y }),
@@ -58,11 +61,18 @@ export abstract class FigureParts extends HTMLElement {
     const root = this.attachShadow({ mode: 'open' })
     root.adoptedStyleSheets = [sheet]
     this.stage.append(this.canvas.element, this.#handles.layer, this.#fallback)
+    const keys = h('p', { class: 'hidden', id: 'keys' })
+    const handleKeys = h('p', { class: 'hidden', id: 'handle-keys' })
+    this.words.always(() => {
+      this.body.lang = this.words.language
+      write(keys, this.keysHelp)
+      write(handleKeys, this.words.say('handle_keys'))
+    })
     this.body.append(
       h('div', { class: 'head' }, this.heading, this.status, this.#undo, this.menu.element),
       this.stage,
-      h('p', { class: 'hidden', id: 'keys' }, this.keysHelp),
-      h('p', { class: 'hidden', id: 'handle-keys' }, 'Arrow keys move it, with Shift far, with Alt a little.'),
+      keys,
+      handleKeys,
       this.messages.element,
       this.sentence.element,
       this.sentence.spoken,
@@ -109,11 +119,11 @@ export abstract class FigureParts extends HTMLElement {
 
   /** Shows all there is of a state. */
   protected present(frame: Frame): void {
-    if (!this.controls) this.#introduce(frame.specs)
+    if (this.#introduced !== frame.language) this.#introduce(frame)
     this.specs = frame.specs
     if (frame.layout) this.canvas.place(frame.layout)
     if (frame.picture) this.canvas.show(frame.picture)
-    showReadouts(this.readouts, frame.readouts)
+    showReadouts(this.readouts, frame.readouts, frame.language)
     this.#help.about(frame.specs, frame.readouts)
     this.#handles.show(frame.handles, frame.specs, frame.values)
     this.showPlayback(frame)
@@ -121,22 +131,28 @@ export abstract class FigureParts extends HTMLElement {
     this.sentence.show(frame.sentence, this.playing || frame.busy)
   }
 
-  /** Once, when the figure first tells what it is: its controls. */
-  #introduce(specs: ParamSpec[]): void {
-    this.controls = new Controls(specs, {
+  /** When the figure first tells what it is, in a language: its controls. */
+  #introduce({ specs, language }: Frame): void {
+    const before = this.controls
+    this.#introduced = language
+    this.controls = new Controls(specs, this.words, {
       playPause: () => this.#playPause(),
       step: () => this.byHand(() => this.step()),
       stepBack: () => this.byHand(() => this.stepBack()),
       seek: step => this.byHand(() => this.seek(step)),
-      rewind: () => this.#undoable('Undo rewind', () => this.seek(0)),
-      reset: () => this.#undoable('Undo reset', () => this.reset()),
+      rewind: () => this.#undoable('undo_rewind', () => this.seek(0)),
+      reset: () => this.#undoable('undo_reset', () => this.reset()),
       rate: rate => (this.playback.rate = rate),
       change: (name, value) => this.change(name, value),
     })
     this.controls.settings.append(this.#help.button)
-    this.controls.settings.open = this.clientWidth >= WIDE && !this.canvas.fits
     this.specs = specs
-    this.placeControls(this.controls)
+    if (before) {
+      this.controls.replace(before)
+    } else {
+      this.controls.settings.open = this.clientWidth >= WIDE && !this.canvas.fits
+      this.placeControls(this.controls)
+    }
     this.introduced()
   }
 
@@ -184,7 +200,7 @@ export abstract class FigureParts extends HTMLElement {
   protected showFallback(): string {
     const shown = this.takePicture(themeName(this.getAttribute('theme')).endsWith('dark') ? 'dark' : 'light')
     this.stage.classList.add('still')
-    return shown ? ' The picture shows it at rest.' : ''
+    return shown ? ` ${this.words.say('picture_at_rest')}` : ''
   }
 
   /** Has a picture at hand that is not fetched before it is shown: also paper shows one, of a figure that has not been seen. */
@@ -192,7 +208,7 @@ export abstract class FigureParts extends HTMLElement {
     if (this.querySelector('img, picture')) return true
     const slot = this.#fallback.firstElementChild!
     const src = pictureAddress(this.localName, shade)
-    if (src) slot.replaceChildren(h('img', { src, loading: 'lazy', alt: `${this.heading.textContent}, at rest` }))
+    if (src) slot.replaceChildren(h('img', { src, loading: 'lazy', alt: this.words.say('at_rest', { title: this.heading.textContent }) }))
     return slot.hasChildNodes()
   }
 
@@ -210,11 +226,11 @@ export abstract class FigureParts extends HTMLElement {
   }
 
   /** Does what throws away what a reader has made, and offers it back until something else is done. */
-  #undoable(name: string, act: () => void): void {
+  #undoable(name: 'undo_rewind' | 'undo_reset', act: () => void): void {
     const before = this.state
     this.byHand(act)
     this.#before = before
-    write(this.#undo, name)
+    write(this.#undo, this.words.say(name))
     this.#undo.hidden = false
   }
 
@@ -236,7 +252,7 @@ export abstract class FigureParts extends HTMLElement {
   }
 
   protected get keysHelp(): string {
-    return 'Space plays and pauses. Left and right arrow keys step. Home and End go to the first and the last step.'
+    return this.words.say('keys')
   }
 
   /** Whether the figure uses the key. */
@@ -265,23 +281,28 @@ export abstract class FigureParts extends HTMLElement {
 
   protected menuItems(): MenuItem[] {
     const codes = (Object.keys(CODES) as CodeName[]).filter(name => name === 'python' || name === 'element' || homeAddress())
-    const save = (kind: 'csv' | 'json') => () => this.send({ do: 'export', kind, name: this.fileName(kind) })
+    const { words } = this
+    const codeName = (name: CodeName) => (name === 'element' ? words.say('html_element') : CODES[name])
+    const save = (kind: 'csv' | 'json') => ({
+      name: words.say('save_data', { kind: kind.toUpperCase() }),
+      act: () => this.send({ do: 'export', kind, name: this.fileName(kind) }),
+    })
     return [
-      { name: 'Copy link', act: () => void this.#copy('Link', this.link) },
-      ...codes.map(name => ({ name: `Copy code: ${CODES[name]}`, act: () => void this.#copy('Code', this.embedCode(name)!) })),
-      { name: 'Save picture (PNG)', act: () => this.canvas.element.toBlob(blob => blob && download(this.fileName('png'), blob)) },
-      { name: 'Save data (CSV)', act: save('csv') },
-      { name: 'Save data (JSON)', act: save('json') },
-      { name: 'Explain controls and numbers', act: () => this.#help.open() },
+      { name: words.say('copy_link'), act: () => void this.#copy('link', this.link) },
+      ...codes.map(name => ({ name: words.say('copy_code', { name: codeName(name) }), act: () => void this.#copy('code', this.embedCode(name)!) })),
+      { name: words.say('save_picture'), act: () => this.canvas.element.toBlob(blob => blob && download(this.fileName('png'), blob)) },
+      save('csv'),
+      save('json'),
+      { name: words.say('explain'), act: () => this.#help.open() },
     ]
   }
 
-  async #copy(what: 'Link' | 'Code', text: string): Promise<void> {
+  async #copy(what: 'link' | 'code', text: string): Promise<void> {
     if (await copy(text)) {
-      write(this.status, `${what} copied`)
+      write(this.status, this.words.say(`copied_${what}`))
       setTimeout(() => write(this.status, ''), COPIED)
     } else {
-      this.messages.set('copy', `The browser does not let this page write to the clipboard. The ${what.toLowerCase()}:\n${text}`)
+      this.messages.set('copy', `${this.words.say(`no_clipboard_${what}`)}\n${text}`)
     }
   }
 

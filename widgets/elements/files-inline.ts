@@ -1,5 +1,6 @@
 // The same as files.ts for a script that carries its files along (scripts/single.mjs): notebooks, pages from file://, learning systems.
-import { example, program, worker } from 'virtual:fastslam-files'
+import { example, program, worker, words } from 'virtual:fastslam-files'
+import type { Catalogue } from './words'
 
 /** There is one program. */
 export function programName(): string {
@@ -14,6 +15,11 @@ export async function fetchProgram(): Promise<Response> {
 
 function bytes(base64: string): Uint8Array<ArrayBuffer> {
   return Uint8Array.from(atob(base64), character => character.charCodeAt(0))
+}
+
+/** Those languages that were asked for when the script was made. */
+export async function fetchWords(language: string): Promise<Catalogue | undefined> {
+  return words[language]
 }
 
 /** Only the figure that maps logs asks for it: other figures' files come without. */

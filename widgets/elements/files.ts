@@ -1,7 +1,10 @@
 // Where the files of the figures are: beside this script. A script that carries them along has files-inline.ts in place of this one.
 import { FIGURES } from './generated/figures'
+import type { Catalogue } from './words'
 import worker from './worker?worker&url'
 
+/** Of every language but English, which is in the script: a file more here is a language more. */
+const WORDS = import.meta.glob<string>(['../words/*.json', '!../words/en.json'], { eager: true, query: '?url', import: 'default' })
 const PICTURES = import.meta.glob<string>('../../tests/figures/golden/fastslam-*.png', { eager: true, query: '?url', import: 'default' })
 
 /** Figures of one program share it. */
@@ -12,6 +15,15 @@ export function programName(tag: string): string {
 /** A program, and the one place where its file is chosen. That for logs is apart, as many a reader never maps one. */
 export function fetchProgram(name: string): Promise<Response> {
   return fetch(name === 'log' ? new URL('../pkg/fastslam-log.wasm', import.meta.url) : new URL('../pkg/fastslam-page.wasm', import.meta.url))
+}
+
+/** The words of a language; undefined for one that we do not have. */
+export async function fetchWords(language: string): Promise<Catalogue | undefined> {
+  const address = WORDS[`../words/${language}.json`]
+  if (!address) return undefined
+  const response = await fetch(address)
+  if (!response.ok) throw new Error(`the server answered ${response.status}`)
+  return (await response.json()) as Catalogue
 }
 
 /** The log that comes with that figure. */

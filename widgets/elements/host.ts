@@ -1,6 +1,7 @@
 // What a figure on a page and a figure beside its program say to each other: the same words whether the two share a thread or not. A
 // figure is asked by commands and tells by answers. The host is who carries them: LocalHost by calls, WorkerHost by messages.
 import type { Handle, ParamSpec, Readout, TraceLine } from './shell'
+import type { Message } from './words'
 
 /** Where the picture goes, and how it is to look. */
 export interface Size {
@@ -43,6 +44,8 @@ export type Command =
   | { do: 'lock'; text: string | null }
   | { do: 'show'; names: string }
   | { do: 'comma'; on: boolean }
+  /** What it says: of a language, as the program takes them. */
+  | { do: 'words'; language: string; messages: string }
   | { do: 'seek'; step: number }
   | { do: 'trace' }
   | { do: 'pick'; x: number; y: number }
@@ -61,7 +64,7 @@ export type Command =
   | { do: 'save'; what: SavedFile }
 
 /** Whether a command says how the figure is to be shown, which holds also after a trap, whatever is loaded. */
-export const isKept = ({ do: name }: Command): boolean => ['size', 'lock', 'show', 'comma'].includes(name)
+export const isKept = ({ do: name }: Command): boolean => ['size', 'words', 'lock', 'show', 'comma'].includes(name)
 
 /** The step that is meant where another one is asked for than those there are. */
 export const clampedStep = (step: number, last: number): number => Math.max(0, Math.min(last, Math.round(step) || 0))
@@ -116,6 +119,8 @@ export interface Picture {
 export interface Frame {
   /** Commands that had been carried out. */
   done: number
+  /** Of what it says. */
+  language: string
   specs: ParamSpec[]
   values: Record<string, string>
   query: string
@@ -138,11 +143,11 @@ export interface Frame {
 
 export type Answer =
   /** An empty message: nothing is wrong any more. */
-  | { told: 'refused'; parameter: string; message: string; file?: string }
+  | { told: 'refused'; parameter: string; message: Message; file?: string }
   | { told: 'saved'; name: string; data: Blob }
   | { told: 'reading'; megabytes: number }
   /** It has trapped. `why` is for readers, `error` for the console. */
-  | { told: 'failed'; why: string; error: string }
+  | { told: 'failed'; why: Message; error: string }
 
 /** What a host tells its figure. */
 export interface Listener {

@@ -3,13 +3,15 @@ import { Events } from './events'
 import { FigureParts } from './figure-parts'
 import { FrameLoop } from './frame-loop'
 import { write } from './dom'
+import { FIGURES } from './generated/figures'
 import type { Answer, Command, FigureHost, Frame, Listener } from './host'
 import { LocalHost } from './local-host'
-import { locked, offered, optionCommand, OPTIONS, refusal, unknownNames } from './options'
+import { hasComma, locked, offered, optionCommand, OPTIONS, refusal, unknownNames } from './options'
 import { programOf } from './program'
 import { download } from './save'
 import { Settings } from './settings'
 import { WorkerHost } from './worker-host'
+import { languageAround } from './words'
 
 const WORK_BUDGET = 8 // [ms] of simulation a frame, which leaves half of a 60 Hz frame to painting and the page
 const SLOW = 3000 // [ms] of loading after which the picture is shown meanwhile
@@ -48,14 +50,14 @@ export abstract class HostedFigure extends FigureParts implements Listener {
   }
 
   async #start(): Promise<void> {
-    if (!this.status.textContent) write(this.status, 'Loading …')
+    if (!this.status.textContent) write(this.status, this.words.say('loading'))
     const slow = setTimeout(() => {
       this.showFallback()
-      write(this.status, 'Still loading, the network is slow …')
+      write(this.status, this.words.say('still_loading'))
     }, SLOW)
     try {
       const Host = this.heavy ? WorkerHost : LocalHost
-      const host = await Host.create(programOf(this.localName), this.localName, this)
+      const [host] = await Promise.all([Host.create(programOf(this.localName), this.localName, this), this.words.speak(languageAround(this))])
       if (!this.isConnected) return host.free()
       this.host = host
       write(this.status, '')
@@ -64,7 +66,7 @@ export abstract class HostedFigure extends FigureParts implements Listener {
       this.begin(false)
       this.begun()
     } catch (error) {
-      this.refuseToLive((error as Error).message)
+      this.refuseToLive(this.words.why(error))
     } finally {
       clearTimeout(slow)
     }
@@ -106,7 +108,7 @@ export abstract class HostedFigure extends FigureParts implements Listener {
     this.settings.keep(undefined)
     this.end()
     this.canvas.release()
-    this.messages.set('start', `This figure is not live here: ${why}.${this.showFallback()}`, 'Try again', () => this.#tryAgain())
+    this.messages.set('start', this.words.say('not_live', { why }) + this.showFallback(), this.words.say('try_again'), () => this.#tryAgain())
   }
 
   #tryAgain(): void {
@@ -140,7 +142,7 @@ export abstract class HostedFigure extends FigureParts implements Listener {
   hear(answer: Answer): void {
     switch (answer.told) {
       case 'refused':
-        this.messages.set(answer.parameter, answer.message)
+        this.messages.set(answer.parameter, this.words.tell(answer.message))
         if (this.host?.values) this.controls?.showValues(this.specs, this.host.values, answer.parameter)
         break
       case 'saved':
@@ -150,14 +152,14 @@ export abstract class HostedFigure extends FigureParts implements Listener {
         console.warn(`${this.localName}:`, answer.error, answer.why)
         this.playback.playing = false
         this.crashes += 1
-        this.failed(answer.why, this.crashes > 1 || !this.isConnected)
+        this.failed(this.words.tell(answer.why), this.crashes > 1 || !this.isConnected)
     }
   }
 
   /** After a trap: the first time it is made again as it was, the second time it stops. */
   protected failed(why: string, again: boolean): void {
-    if (again) return this.halt(`Something failed inside this figure again (${why}), so it has stopped.`)
-    this.messages.set('crash', `Something failed inside this figure (${why}). It was rebuilt as it was before.`)
+    if (again) return this.halt(this.words.say('failed_again', { why }))
+    this.messages.set('crash', this.words.say('rebuilt', { why }))
     this.restart()
   }
 
@@ -180,7 +182,7 @@ export abstract class HostedFigure extends FigureParts implements Listener {
     this.enable(false)
     this.settings.keep(undefined)
     this.end()
-    this.messages.set('crash', message, 'Reset', () => this.reset())
+    this.messages.set('crash', message, this.words.say('reset'), () => this.reset())
   }
 
   protected change(name: string, value: string): void {
@@ -211,13 +213,26 @@ export abstract class HostedFigure extends FigureParts implements Listener {
 
   /** An option was set, or taken away. */
   protected takeOption(name: string): void {
+    if (name === 'lang') return void this.speak()
     this.#showOption(name)
     this.#sendOption(name) // after that: what the program refuses of it is said then
     this.refresh()
   }
 
+  /** Speaks the language of the page around it. */
+  protected async speak(): Promise<void> {
+    if (!(await this.words.speak(languageAround(this)))) return
+    for (const name of ['lang', 'decimal']) this.#sendOption(name)
+    this.refresh()
+    this.reconsider()
+  }
+
+  protected showTitle(): void {
+    write(this.heading, this.words.title(this.localName) ?? FIGURES[this.localName]?.title ?? '')
+  }
+
   #sendOption(name: string): void {
-    const command = optionCommand(name, this.getAttribute(name))
+    const command = optionCommand(name, this.getAttribute(name), this.words)
     if (command) this.host?.send(command)
   }
 
@@ -225,20 +240,20 @@ export abstract class HostedFigure extends FigureParts implements Listener {
   #showOption(name: string): void {
     const text = this.getAttribute(name)
     const { controls } = this
-    let wrong = refusal(name, text)
+    let wrong = refusal(name, text, this.words)
     if (controls) {
       const names = this.specs.map(spec => spec.name)
       if (name === 'lock') {
         const wish = locked(text, names)
         controls.lock(wish.locked)
-        wrong = unknownNames(name, wish.unknown, names)
+        wrong = unknownNames(name, wish.unknown, names, this.words)
       } else if (name === 'controls') {
         const wish = offered(text, names)
         controls.offer(wish.offered)
         this.body.classList.toggle('some-controls', wish.offered !== undefined)
-        wrong = unknownNames(name, wish.unknown, wish.known)
+        wrong = unknownNames(name, wish.unknown, wish.known, this.words)
       } else if (name === 'decimal') {
-        controls.writeComma(text === 'comma')
+        controls.writeComma(hasComma(text, this.words))
       }
     }
     this.messages.set(name, wrong)

@@ -2,6 +2,7 @@
 import { workerScript } from './files'
 import { programOf } from './program'
 import type { Shell } from './shell'
+import { ToldError } from './words'
 import type { WorkerRequest, WorkerResponse } from './worker'
 
 /** What is to be run: an experiment of a figure's program, its setting as a figure's link, and seeds from `from` to before `to`. */
@@ -27,7 +28,7 @@ export async function runInWorker(tag: string, job: Job, onRows: (rows: number[]
       worker.addEventListener('message', ({ data }: MessageEvent<WorkerResponse>) => {
         if (data.told === 'rows') onRows(data.rows, shell)
         else if (data.told === 'done') done()
-        else if (data.told === 'failed') fail(new Error(data.why))
+        else if (data.told === 'failed') fail(new ToldError(data.why))
       })
       worker.addEventListener('error', event => {
         event.preventDefault()
@@ -58,6 +59,6 @@ export function createWorker(): Worker {
   }
 }
 
-export function workerRefused(why: string | undefined): Error {
-  return new Error(`this page lets nothing run in the background${why ? ` (${why})` : ''}`)
+export function workerRefused(why: string | undefined): ToldError {
+  return new ToldError(why ? { key: 'no_background_because', values: { why } } : { key: 'no_background' })
 }

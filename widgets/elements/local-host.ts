@@ -3,6 +3,7 @@ import { HostMemory, isKept, type Command, type FigureHost, type Frame, type Lis
 import type { InstanceUser, Program } from './program'
 import { trapMessage, type Shell } from './shell'
 import { Session } from './session'
+import { ToldError } from './words'
 
 const CATCH_UP_PAINT = 100 // [ms] between the pictures on the way to the first step that is asked for
 
@@ -138,7 +139,8 @@ export class LocalHost implements FigureHost, InstanceUser {
       for (const command of [...again, ...this.#queue.splice(0)]) this.#carryOut(command)
       this.listener.wake()
     } catch (error) {
-      this.listener.hear({ told: 'failed', why: (error as Error).message, error: String(error) })
+      const why = error instanceof ToldError ? error.told : (error as Error).message
+      this.listener.hear({ told: 'failed', why, error: String(error) })
     }
   }
 

@@ -1,6 +1,7 @@
 // The session of a figure that maps a log: it also reads the file, starts, pauses and stops, and saves what came out.
 import type { Beginning, Command, Phase, Run, SavedFile } from './host'
 import { isRefusal, type Readout } from './shell'
+import type { Key } from './words'
 import { Session } from './session'
 
 const MOST_BYTES = 256e6 // of a log, unpacked
@@ -143,7 +144,7 @@ async function unpacked(file: Blob, reading: (megabytes: number) => void): Promi
       length += value.length
       if (length > MOST_BYTES) {
         void reader.cancel()
-        throw refusal(`it is too large: at most ${MOST_BYTES / 1e6} MB can be read${packed ? ', unpacked' : ''}`)
+        throw refusal(packed ? 'too_large_unpacked' : 'too_large', { megabytes: MOST_BYTES / 1e6 })
       }
       if (length > toldAt + 8e6) {
         toldAt = length
@@ -152,13 +153,13 @@ async function unpacked(file: Blob, reading: (megabytes: number) => void): Promi
     }
   } catch (error) {
     if (isRefusal(error)) throw error
-    throw refusal(packed ? 'it begins like a gzip file, but cannot be unpacked' : 'the browser could not read it')
+    throw refusal(packed ? 'bad_gzip' : 'unread')
   }
   return new Uint8Array(await new Blob(parts).arrayBuffer())
 }
 
-function refusal(message: string): Error {
-  return Object.assign(new Error(message), { parameter: 'file' })
+function refusal(key: Key, values?: Record<string, number>): Error {
+  return Object.assign(new Error(key), { parameter: 'file', told: { key, values } })
 }
 
 /** The same greys as the PGM file holds behind its three lines, a pixel for each cell. */
@@ -171,6 +172,6 @@ async function picture(pgm: Uint8Array | undefined): Promise<Blob | undefined> {
   const canvas = new OffscreenCanvas(width, height)
   canvas.getContext('2d')!.putImageData(image, 0, 0)
   return canvas.convertToBlob().catch(() => {
-    throw refusal(`a map of ${width} × ${height} cells is too large for a picture`)
+    throw refusal('map_too_large', { width, height })
   })
 }

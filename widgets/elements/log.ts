@@ -11,17 +11,18 @@ import { takeGestures } from './map-gestures'
 import type { MenuItem } from './menu'
 import { register } from './parameters'
 import type { ParamSpec, Readout } from './shell'
+import type { Key } from './words'
 
 const ZOOM = 1.4 // magnified by one press of + or −
 const PAN = 60 // [px] moved by one arrow key
 const MINUTE = 60
 
 /** What the buttons save. */
-const FILES: [SavedFile, string][] = [
-  ['map.png', 'Map (PNG)'],
-  ['map.ros', 'Map for ROS (PGM, YAML)'],
-  ['path.tum', 'Path (TUM)'],
-  ['report.json', 'Report (JSON)'],
+const FILES: [SavedFile, Key][] = [
+  ['map.png', 'save_map'],
+  ['map.ros', 'save_ros'],
+  ['path.tum', 'save_path'],
+  ['report.json', 'save_report'],
 ]
 
 const MIDDLE = { x: NaN, y: NaN }
@@ -56,28 +57,42 @@ export class FastslamLog extends FigureElement {
 
   readonly #zoom = h(
     'div',
-    { class: 'zoom', role: 'group', 'aria-label': 'Magnification' },
+    { class: 'zoom', role: 'group' },
     ...(['+', '−', '0'] as const).map(key => {
-      const name = { '+': 'Magnify', '−': 'Make smaller', '0': 'Show the whole' }[key]
-      return button(key === '0' ? '⤢' : key, () => this.send(MOVES[key]!), { 'aria-label': name, title: name })
+      const element = button(() => this.send(MOVES[key]!))
+      element.textContent = key === '0' ? '⤢' : key
+      this.words.always(() => (element.ariaLabel = element.title = this.words.say(({ '+': 'magnify', '−': 'make_smaller', '0': 'show_whole' } as const)[key])))
+      return element
     }),
   )
   readonly #file = h('input', { type: 'file', class: 'hidden', accept: '.clf,.log,.gz,.txt', id: 'file', tabindex: '-1', 'aria-hidden': 'true' })
-  readonly #go = button('Start', () => this.#playPause(), { class: 'primary', part: 'button play' })
-  readonly #halt = button('Stop', () => this.stop(), { part: 'button stop' })
-  readonly #progress = h('progress', { 'aria-label': 'Scans mapped', value: '0' })
+  readonly #go = button(() => this.#playPause(), { class: 'primary', part: 'button play' })
+  readonly #halt = this.#named('stop', () => this.stop(), { part: 'button stop' })
+  readonly #progress = h('progress', { value: '0' })
   readonly #position = h('span', { class: 'position' })
-  readonly #saves = FILES.map(([what, name]) => button(name, () => this.send({ do: 'save', what })))
+  readonly #saves = FILES.map(([what, name]) => this.#named(name, () => this.send({ do: 'save', what })))
 
   constructor() {
     super()
     this.playback.stay()
     this.stage.classList.add('map')
-    this.canvas.element.after(this.#zoom, h('p', { class: 'idle' }, h('b', {}, 'No log is open'), 'Run the example, or choose or drop a log.'))
+    const [idle, what, save] = [h('b'), h('span'), h('span', { class: 'name' })]
+    this.canvas.element.after(this.#zoom, h('p', { class: 'idle' }, idle, what))
     this.stage.before(this.#sources(), this.messages.element)
-    this.sentence.element.before(h('div', { class: 'work run', part: 'transport', role: 'group', 'aria-label': 'Mapping' }, this.#go, this.#halt, this.#progress, this.#position))
-    this.body.append(h('div', { class: 'work saves', part: 'saves', role: 'group', 'aria-label': 'Save' }, h('span', { class: 'name' }, 'Save'), ...this.#saves))
-    write(this.heading, AT_REST.title)
+    const run = h('div', { class: 'work run', part: 'transport', role: 'group' }, this.#go, this.#halt, this.#progress, this.#position)
+    const saves = h('div', { class: 'work saves', part: 'saves', role: 'group' }, save, ...this.#saves)
+    this.sentence.element.before(run)
+    this.body.append(saves)
+    this.words.always(() => {
+      const { words } = this
+      write(idle, words.say('no_log'))
+      write(what, words.say('no_log_what'))
+      write(save, words.say('save'))
+      saves.ariaLabel = words.say('save')
+      run.ariaLabel = words.say('mapping')
+      this.#zoom.ariaLabel = words.say('magnification')
+      this.#progress.ariaLabel = words.say('scans_mapped')
+    })
     this.#showPhase(undefined, 0, 0)
     // What comes after a press: nothing moves away from under it.
     for (const type of ['click', 'keyup', 'dragenter'] as const) this.body.addEventListener(type, () => void this.start())
@@ -105,7 +120,7 @@ export class FastslamLog extends FigureElement {
     this.messages.set('file', '')
     this.crashes = 0 // another log, another chance
     this.#source = { file, name, start }
-    write(this.status, `Reading ${name} …`)
+    write(this.status, this.words.say('reading', { name }))
     await this.start()
     this.#sendSource()
   }
@@ -113,12 +128,12 @@ export class FastslamLog extends FigureElement {
   /** Reads and maps the log that comes with the figure. */
   async example(): Promise<void> {
     this.events.cause = 'page'
-    write(this.status, 'Loading the example …')
+    write(this.status, this.words.say('loading_example'))
     const response = await fetchExample().catch(() => undefined)
-    if (response?.ok) return this.open(await response.blob(), 'the example', true)
+    if (response?.ok) return this.open(await response.blob(), this.words.say('the_example'), true)
     write(this.status, '')
-    const why = response ? `the server answered ${response.status}` : 'the network is down, or a rule blocks it'
-    this.messages.set('file', `The example could not be fetched (${why}).`, 'Try again', () => void this.example())
+    const text = response ? this.words.say('example_answered', { status: response.status }) : this.words.say('example_unreachable')
+    this.messages.set('file', text, this.words.say('try_again'), () => void this.example())
   }
 
   /** Maps from the start, or goes on after a pause. */
@@ -143,7 +158,8 @@ export class FastslamLog extends FigureElement {
   // --- Life ----------------------------------------------------------------------------------------------------------------
 
   protected override get wanted(): boolean {
-    return this.settings.any || this.#source !== undefined
+    // What is said before it is there is English.
+    return this.settings.any || this.#source !== undefined || this.words.language !== 'en'
   }
 
   /** All there is before anything was asked. */
@@ -152,7 +168,7 @@ export class FastslamLog extends FigureElement {
     if (this.controls) return
     const { params: specs, readouts, describe: sentence } = AT_REST
     const values = Object.fromEntries(specs.map(spec => [spec.name, spec.default]))
-    const rest = { done: 0, specs, values, query: '', step: 0, target: 0, last: 0, busy: false, readouts, handles: [], sentence, changed: false }
+    const rest = { done: 0, language: 'en', specs, values, query: '', step: 0, target: 0, last: 0, busy: false, readouts, handles: [], sentence, changed: false }
     const frame: Frame = { ...rest, trace: undefined, layout: undefined, picture: undefined, run: { phase: 'empty', log: '', left: NaN, unfit: undefined } }
     this.present(frame)
     if (this.wanted) return // where more is on its way, that will be told
@@ -174,11 +190,11 @@ export class FastslamLog extends FigureElement {
   }
 
   override hear(answer: Answer): void {
-    if (answer.told === 'reading') return write(this.status, `Reading, ${answer.megabytes} MB …`)
+    if (answer.told === 'reading') return write(this.status, this.words.say('reading_megabytes', { megabytes: answer.megabytes }))
     if (answer.told !== 'refused' || answer.file === undefined) return super.hear(answer)
     write(this.status, '')
     if (this.#source?.name === answer.file) this.#source = undefined
-    this.messages.set('file', `${answer.file} cannot be mapped: ${answer.message}.`, 'Run the example', () => void this.example())
+    this.messages.set('file', this.words.say('cannot_map', { file: answer.file, why: this.words.tell(answer.message) }), this.words.say('run_example'), () => void this.example())
   }
 
   /** What was mapped is lost with the worker; the log, the settings and the example are not. */
@@ -187,15 +203,15 @@ export class FastslamLog extends FigureElement {
     // What was refused before it said a word would be refused again.
     if (!this.#lived) return this.refuseToLive(why)
     if (again) this.#source = undefined
-    const kept = this.#source ? ' The log is open again.' : ''
-    this.messages.set('file', `Something failed while this log was mapped (${why}), so it has stopped.${kept}`, 'Run the example', () => void this.example())
+    const kept = this.#source ? ` ${this.words.say('log_open_again')}` : ''
+    this.messages.set('file', this.words.say('mapping_failed', { why }) + kept, this.words.say('run_example'), () => void this.example())
     this.restart()
   }
 
   // --- What is shown -------------------------------------------------------------------------------------------------------
 
   protected override placeControls(controls: Controls): void {
-    controls.transport.setAttribute('aria-label', 'Settings of the draw')
+    controls.transport.setAttribute('aria-label', this.words.say('settings_of_draw'))
     this.body.append(controls.view, controls.transport, controls.settings)
   }
 
@@ -210,7 +226,7 @@ export class FastslamLog extends FigureElement {
   protected override showPlayback({ step, last, run }: Frame): void {
     this.#showPhase(run, step, last)
     this.controls!.showPosition(0, 0, 0, false)
-    this.controls!.transport.setAttribute('aria-label', 'Settings of the draw')
+    this.controls!.transport.setAttribute('aria-label', this.words.say('settings_of_draw'))
   }
 
   /** Why it cannot be started; told once, not with every picture. */
@@ -219,21 +235,21 @@ export class FastslamLog extends FigureElement {
     if (message === this.#unfit) return
     this.#unfit = message
     if (parameter !== 'lenient') return this.messages.set('unfit', message)
-    this.messages.set('unfit', `${log}, ${message}.`, 'Skip malformed lines', () => this.setParameter('lenient', 'on'))
+    this.messages.set('unfit', `${log}, ${message}.`, this.words.say('skip_malformed'), () => this.setParameter('lenient', 'on'))
   }
 
   #showPhase(run: Run | undefined, step: number, last: number): void {
     const held = document.activeElement === this && this.shadowRoot!.activeElement
     const phase = (this.#phase = run?.phase ?? 'empty')
     const underWay = phase === 'running' || phase === 'paused'
-    write(this.#go, { running: 'Pause', paused: 'Resume', ready: 'Start', empty: 'Start', stopped: 'Start again', done: 'Start again' }[phase])
+    write(this.#go, this.words.say(({ running: 'pause', paused: 'resume', ready: 'start', empty: 'start', stopped: 'start_again', done: 'start_again' } as const)[phase]))
     this.#go.disabled = phase === 'empty' || run?.unfit !== undefined
     this.#halt.disabled = !underWay
     // The focus does not fall out of the figure with the button that had it.
     if (held === this.#halt && !underWay) this.#go.focus()
     this.#progress.max = Math.max(last, 1)
     this.#progress.value = step
-    const time = phase === 'running' && step > 0 ? ` · ${duration(run!.left)} left` : ''
+    const time = phase === 'running' && step > 0 ? ` · ${this.words.say('time_left', { time: duration(run!.left) })}` : ''
     write(this.#position, last > 0 ? `${step} / ${last}${time}` : '')
     for (const save of this.#saves) save.disabled = step === 0
     if (this.controls) this.controls.settings.inert = this.controls.transport.inert = underWay
@@ -246,13 +262,15 @@ export class FastslamLog extends FigureElement {
       this.#file.value = '' // the same file may be chosen again
       if (file) void this.open(file)
     })
+    const drop = h('span', { class: 'name' })
+    this.words.always(() => write(drop, this.words.say('or_drop')))
     return h(
       'div',
       { class: 'work source', part: 'source' },
-      button('Run the example', () => void this.example(), { part: 'button example' }),
-      button('Choose a log …', () => this.#file.click()),
+      this.#named('run_example', () => void this.example(), { part: 'button example' }),
+      this.#named('choose_log', () => this.#file.click()),
       this.#file,
-      h('span', { class: 'name' }, 'or drop one here: CARMEN (.clf, .log), also .gz. It is read and mapped by this page; nothing leaves your machine.'),
+      drop,
     )
   }
 
@@ -264,7 +282,7 @@ export class FastslamLog extends FigureElement {
   }
 
   protected override get keysHelp(): string {
-    return 'Arrow keys move the map, plus and minus magnify it, 0 shows the whole. Space pauses and goes on. Two fingers move and magnify it, one scrolls the page.'
+    return this.words.say('map_keys')
   }
 
   protected override keyAction(key: string, target: HTMLElement): (() => void) | undefined {
@@ -276,7 +294,14 @@ export class FastslamLog extends FigureElement {
 
   /** The log itself is in none of it: it is a file of the reader's. */
   protected override menuItems(): MenuItem[] {
-    return super.menuItems().filter(({ name }) => !name.startsWith('Save data'))
+    return super.menuItems().filter(({ name }) => !['CSV', 'JSON'].some(kind => name === this.words.say('save_data', { kind })))
+  }
+
+  /** A button of words. */
+  #named(name: Key, act: () => void, attributes: Record<string, string> = {}): HTMLButtonElement {
+    const element = button(act, attributes)
+    this.words.always(() => write(element, this.words.say(name)))
+    return element
   }
 
   protected override fileName(extension: string): string {
@@ -284,8 +309,8 @@ export class FastslamLog extends FigureElement {
   }
 }
 
-function button(text: string, act: () => void, attributes: Record<string, string> = {}): HTMLButtonElement {
-  const element = h('button', { type: 'button', part: 'button', ...attributes }, text)
+function button(act: () => void, attributes: Record<string, string> = {}): HTMLButtonElement {
+  const element = h('button', { type: 'button', part: 'button', ...attributes })
   element.addEventListener('click', act)
   return element
 }

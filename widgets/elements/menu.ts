@@ -2,6 +2,7 @@
 // lies is figure.css's.
 import { h, icon } from './dom'
 import { closeBehindFocus, closePopover } from './popover'
+import type { Words } from './words'
 
 export interface MenuItem {
   name: string
@@ -9,14 +10,17 @@ export interface MenuItem {
 }
 
 export class Menu {
-  readonly #button = h('button', { type: 'button', 'aria-label': 'Menu', title: 'Menu', 'aria-haspopup': 'menu', 'aria-expanded': 'false', popovertarget: 'menu', part: 'button menu' }, icon('more'))
-  readonly #list = h('div', { class: 'items', id: 'menu', popover: 'auto', role: 'menu', 'aria-label': 'Menu' })
+  readonly #button = h('button', { type: 'button', 'aria-haspopup': 'menu', 'aria-expanded': 'false', popovertarget: 'menu', part: 'button menu' }, icon('more'))
+  readonly #list = h('div', { class: 'items', id: 'menu', popover: 'auto', role: 'menu' })
   readonly element = h('div', { class: 'menu' }, this.#button, this.#list)
 
-  constructor(items: MenuItem[], figure: HTMLElement) {
+  constructor(items: () => MenuItem[], figure: HTMLElement, words: Words) {
     const toggle = () => void (document.fullscreenElement ? document.exitFullscreen() : figure.requestFullscreen())
-    const all = document.fullscreenEnabled ? [...items, { name: 'Full screen', act: toggle }] : items
-    this.#list.append(...all.map(item => this.#item(item)))
+    words.always(() => {
+      const all = document.fullscreenEnabled ? [...items(), { name: words.say('full_screen'), act: toggle }] : items()
+      this.#list.replaceChildren(...all.map(item => this.#item(item)))
+      this.#button.ariaLabel = this.#button.title = this.#list.ariaLabel = words.say('menu')
+    })
     this.#list.addEventListener('toggle', () => {
       this.#button.ariaExpanded = String(this.#open)
       if (this.#open && !this.#focused) this.#focus(0)

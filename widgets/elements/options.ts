@@ -1,9 +1,14 @@
 // What an author may fix about any figure, besides its parameters: attributes that every figure has.
 
 import type { Command } from './host'
+import type { Words } from './words'
 
-/** The words each of them takes. `lock` and `controls` take names of parameters, `show` those of parts of the picture. */
+/**
+ * The words each of them takes. `lock` and `controls` take names of parameters, `show` those of parts of the picture. `lang` comes
+ * first: what is wrong with the others is said in it.
+ */
 export const OPTIONS: Record<string, string[] | undefined> = {
+  lang: undefined,
   theme: ['light', 'dark', 'auto'],
   controls: undefined,
   show: undefined,
@@ -14,18 +19,24 @@ export const OPTIONS: Record<string, string[] | undefined> = {
 }
 
 /** What is wrong with an option's text; empty if nothing is. */
-export function refusal(name: string, text: string | null): string {
-  const words = OPTIONS[name]
-  if (text === null || !words || words.includes(text)) return ''
-  const [last, ...others] = words.filter(Boolean).reverse()
-  return `${name} must be ${others.reverse().join(', ')} or ${last}, not “${text.slice(0, 40)}”`
+export function refusal(name: string, text: string | null, words: Words): string {
+  const allowed = OPTIONS[name]
+  if (text === null || !allowed || allowed.includes(text)) return ''
+  const [last, ...others] = allowed.filter(Boolean).reverse()
+  return words.say('must_be', { name, others: others.reverse().join(', '), last: last!, text: text.slice(0, 40) })
 }
 
 /** Of all options, those that the program has to know: what it is told. */
-export function optionCommand(name: string, text: string | null): Command | undefined {
+export function optionCommand(name: string, text: string | null, words: Words): Command | undefined {
   if (name === 'lock') return { do: 'lock', text }
+  if (name === 'lang') return { do: 'words', language: words.language, messages: words.forProgram }
   if (name === 'show') return { do: 'show', names: text ?? '' }
-  return name === 'decimal' ? { do: 'comma', on: text === 'comma' } : undefined
+  return name === 'decimal' ? { do: 'comma', on: hasComma(text, words) } : undefined
+}
+
+/** Whether numbers have a decimal comma: as the author says, else as the language has it. */
+export function hasComma(decimal: string | null, { comma }: Words): boolean {
+  return OPTIONS['decimal']!.includes(decimal ?? '') ? decimal === 'comma' : comma
 }
 
 /** Names of the parameters that readers may not change. */
@@ -48,8 +59,8 @@ export function offered(text: string | null, names: string[]): { offered: Set<st
 }
 
 /** What is wrong with an option's names; empty if nothing is. */
-export function unknownNames(option: string, unknown: string[], known: string[]): string {
-  return unknown.length > 0 ? `${option} names “${unknown[0]!.slice(0, 40)}”, but this figure has ${known.join(', ')}, all` : ''
+export function unknownNames(option: string, unknown: string[], known: string[], words: Words): string {
+  return unknown.length > 0 ? words.say('unknown_names', { option, name: unknown[0]!.slice(0, 40), known: known.join(', ') }) : ''
 }
 
 function wordsOf(text: string | null): string[] {

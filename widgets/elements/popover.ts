@@ -1,6 +1,7 @@
 // What opens over a figure and closes by Escape, by a press beside it, or when the focus goes on: the platform's popovers.
-import { h } from './dom'
+import { h, write } from './dom'
 import type { ParamSpec, Readout } from './shell'
+import type { Words } from './words'
 
 /** The focus has gone elsewhere: nothing covers what a reader is at now. */
 export function closeBehindFocus(popover: HTMLElement): void {
@@ -21,13 +22,14 @@ export function closePopover(popover: HTMLElement, back: HTMLElement | undefined
 
 /** What the controls and the numbers of a figure mean: for readers without a mouse to point at each of them. */
 export class Help {
-  readonly button = h('button', { type: 'button', class: 'ask', part: 'button', popovertarget: 'help' }, 'What do these mean?')
+  readonly button = h('button', { type: 'button', class: 'ask', part: 'button', popovertarget: 'help' })
   readonly element = h('div', { class: 'help', id: 'help', popover: 'auto', role: 'dialog', 'aria-labelledby': 'help-title', tabindex: '-1' })
   #from: HTMLElement | undefined // had the focus before
   #specs: ParamSpec[] = []
   #readouts: Readout[] = []
 
-  constructor() {
+  constructor(private readonly words: Words) {
+    words.always(() => write(this.button, words.say('what_do_these_mean')))
     closeBehindFocus(this.element)
     this.element.addEventListener('beforetoggle', event => event.newState === 'open' && this.#write())
     // Not by `autofocus`: that would take the focus of a whole page as well.
@@ -50,10 +52,10 @@ export class Help {
 
   #write(): void {
     this.#from = ((this.element.getRootNode() as ShadowRoot).activeElement as HTMLElement | null) ?? undefined
-    const close = h('button', { type: 'button' }, 'Close')
+    const close = h('button', { type: 'button' }, this.words.say('close'))
     close.addEventListener('click', () => this.close())
-    const title = h('p', { class: 'title', id: 'help-title' }, 'What the controls and the numbers mean')
-    this.element.replaceChildren(h('div', { class: 'head' }, title, close), ...explained('Controls', this.#specs), ...explained('Numbers', this.#readouts))
+    const title = h('p', { class: 'title', id: 'help-title' }, this.words.say('what_they_mean'))
+    this.element.replaceChildren(h('div', { class: 'head' }, title, close), ...explained(this.words.say('controls'), this.#specs), ...explained(this.words.say('numbers'), this.#readouts))
   }
 }
 

@@ -3,6 +3,7 @@
 import { fetchProgram, programName } from './files'
 import { createShell } from './generated/shell'
 import type { Shell } from './shell'
+import { ToldError } from './words'
 
 /** Who uses an instance, and has to be told of its end. */
 export interface InstanceUser {
@@ -64,11 +65,11 @@ function once<T>(start: () => Promise<T>): () => Promise<T> {
 
 /** Fetches and compiles a program, or says in words why it cannot. */
 async function compiled(name: string): Promise<WebAssembly.Module> {
-  if (typeof WebAssembly === 'undefined') throw new Error('this browser runs no WebAssembly')
+  if (typeof WebAssembly === 'undefined') throw new ToldError({ key: 'no_webassembly' })
   const response = await fetchProgram(name).catch(() => {
-    throw new Error('its program could not be fetched, because the network is down or a rule blocks it')
+    throw new ToldError({ key: 'unreachable' })
   })
-  if (!response.ok) throw new Error(`its program could not be fetched (the server answered ${response.status})`)
+  if (!response.ok) throw new ToldError({ key: 'answered', values: { status: response.status } })
   try {
     // Compiled while it arrives, where the server says what it is.
     const known = response.headers.get('Content-Type')?.startsWith('application/wasm')
@@ -76,9 +77,9 @@ async function compiled(name: string): Promise<WebAssembly.Module> {
   } catch (error) {
     // Chromium and Firefox word a refusal by policy differently; both name one of these.
     if (/unsafe-eval|security policy|csp|disallowed/i.test(String(error))) {
-      throw new Error("the security policy of this page does not allow WebAssembly ('wasm-unsafe-eval')")
+      throw new ToldError({ key: 'policy' })
     }
-    if (/network|fetch|load failed/i.test(String(error))) throw new Error('the network broke off while its program was on its way')
-    throw new Error(`its program could not be started (${error instanceof Error ? error.message : String(error)})`)
+    if (/network|fetch|load failed/i.test(String(error))) throw new ToldError({ key: 'broke_off' })
+    throw new ToldError({ key: 'not_started', values: { why: error instanceof Error ? error.message : String(error) } })
   }
 }

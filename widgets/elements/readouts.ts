@@ -2,8 +2,8 @@
 import { h, write } from './dom'
 import type { Readout } from './shell'
 
-export function showReadouts(list: HTMLElement, readouts: Readout[]): void {
-  const names = readouts.map(({ name }) => name).join(' ') // another course may have others
+export function showReadouts(list: HTMLElement, readouts: Readout[], language: string): void {
+  const names = [language, ...readouts.map(({ name }) => name)].join(' ') // another course may have others
   if (list.dataset['names'] !== names) {
     list.dataset['names'] = names
     list.replaceChildren(

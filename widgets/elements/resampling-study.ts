@@ -2,31 +2,33 @@
 import { h, write } from './dom'
 import { runInWorker } from './jobs'
 import type { Shell } from './shell'
+import type { Key, Words } from './words'
 
 /** The settings that the count depends on; it has seeds of its own, and always the course of the two wings. */
 const SETTINGS = ['particles', 'threshold', 'odometry', 'range', 'scheme']
 
 /** Names of the policies, and the column of the job's rows that says whether the right wing was alive. */
-const POLICIES: [string, number][] = [
-  ['Never', 1],
-  ['Every step', 3],
-  ['Selective', 5],
+const POLICIES: [Key, number][] = [
+  ['never', 1],
+  ['every_step', 3],
+  ['selective', 5],
 ]
 const FIRST_SEED = 1
 
 export class ResamplingStudy {
   readonly element: HTMLElement
   private readonly start = h('button', { type: 'button', part: 'button count' })
-  private readonly halt = h('button', { type: 'button', part: 'button stop' }, 'Stop')
-  private readonly runs = h('select', { 'aria-label': 'Number of seeds', name: 'runs' })
-  private readonly progress = h('progress', { 'aria-label': 'Seeds counted', value: '0' })
+  private readonly halt = h('button', { type: 'button', part: 'button stop' })
+  private readonly runs = h('select', { name: 'runs' })
+  private readonly progress = h('progress', { value: '0' })
   private readonly said = h('p', { class: 'said', 'aria-live': 'polite' })
-  private readonly rows = POLICIES.map(([name]) => {
+  private readonly rows = POLICIES.map(() => {
     const fill = h('div', { class: 'fill' })
     const range = h('div', { class: 'range' })
     const share = h('td', { class: 'share' }, '–')
     const bar = h('td', { class: 'bar', 'aria-hidden': 'true' }, h('div', { class: 'track' }, fill, range))
-    return { fill, range, share, row: h('tr', {}, h('th', { scope: 'row' }, name), bar, share) }
+    const name = h('th', { scope: 'row' })
+    return { fill, range, share, name, row: h('tr', {}, name, bar, share) }
   })
   private query = '' // what is counted, or was
   private running: AbortController | undefined
@@ -34,27 +36,39 @@ export class ResamplingStudy {
   private seeds = 0
   private shell: Shell | undefined // computes the intervals
 
-  constructor(private readonly setting: (name: string) => unknown) {
+  constructor(
+    private readonly setting: (name: string) => unknown,
+    private readonly words: Words,
+  ) {
     for (const runs of ['50', '200', '1000']) this.runs.add(new Option(runs, runs))
     this.runs.value = '200'
     this.runs.addEventListener('change', () => this.label())
     this.start.addEventListener('click', () => void this.count())
-    this.halt.addEventListener('click', () => this.stop('Stopped'))
-    const heading = h('p', { class: 'name', id: 'count' }, 'Loop of ambiguity: runs that still have the right wing when the sign comes in sight')
-    const work = h('div', { class: 'work' }, this.start, this.halt, h('label', { class: 'choice' }, h('span', { class: 'name' }, 'Seeds'), this.runs), this.progress)
+    this.halt.addEventListener('click', () => this.stop('stopped'))
+    const heading = h('p', { class: 'name', id: 'count' })
+    const seeds = h('span', { class: 'name' })
+    const work = h('div', { class: 'work' }, this.start, this.halt, h('label', { class: 'choice' }, seeds, this.runs), this.progress)
     const table = h('table', { 'aria-labelledby': 'count' }, h('tbody', {}, ...this.rows.map(({ row }) => row)))
     this.element = h('div', { class: 'count', part: 'count', role: 'group', 'aria-labelledby': 'count' }, heading, work, table, this.said)
-    this.label()
+    words.always(() => {
+      write(heading, words.say('count_title'))
+      write(seeds, words.say('seeds'))
+      write(this.halt, words.say('stop'))
+      this.runs.ariaLabel = words.say('number_of_seeds')
+      this.progress.ariaLabel = words.say('seeds_counted')
+      this.rows.forEach(({ name }, policy) => write(name, words.say(POLICIES[policy]![0])))
+      this.label()
+    })
     this.show()
   }
 
   /** Ends a count that is under way. What was counted stays. */
-  stop(said = ''): void {
+  stop(said?: 'stopped'): void {
     if (!this.running) return
     this.running.abort()
     this.running = undefined
     this.show()
-    if (said) this.say(`${said} after ${this.seeds} of ${this.runs.value} seeds.`)
+    if (said) this.say(this.words.say(said, { seeds: this.seeds, all: this.runs.value }))
   }
 
   /** After a change in the figure: a count of other settings begins again, and a finished one is taken away. */
@@ -62,7 +76,7 @@ export class ResamplingStudy {
     if (!this.query || this.query === this.settings()) return
     if (this.running) return void this.count()
     this.clear()
-    write(this.said, 'The settings have changed: count again.')
+    write(this.said, this.words.say('count_again'))
   }
 
   private settings(): string {
@@ -82,12 +96,12 @@ export class ResamplingStudy {
       await runInWorker('fastslam-resampling', job, (rows, shell) => running === this.running && this.add(rows, shell), running.signal)
       this.running = undefined
       this.show()
-      this.say(`${this.seeds} seeds counted.`)
+      this.say(this.words.say('counted', { seeds: this.seeds }))
     } catch (error) {
       if (running !== this.running) return // it was stopped, or another one has begun
       this.running = undefined
       this.show()
-      write(this.said, `The count did not run: ${(error as Error).message}.`)
+      write(this.said, this.words.say('did_not_count', { why: this.words.why(error) }))
     }
   }
 
@@ -106,7 +120,7 @@ export class ResamplingStudy {
   }
 
   private label(): void {
-    write(this.start, `Count over ${this.runs.value} seeds`)
+    write(this.start, this.words.say('count', { seeds: this.runs.value }))
   }
 
   private show(): void {
@@ -132,8 +146,8 @@ export class ResamplingStudy {
 
   /** Said once, at the end, with every number: nobody wants to hear it grow. */
   private say(what: string): void {
-    const shares = this.rows.map(({ share }, policy) => `${POLICIES[policy]![0]} ${share.textContent}`)
-    write(this.said, this.seeds > 0 ? `${what} ${shares.join(', ')}; in brackets the 95 % intervals.` : what)
+    const shares = this.rows.map(({ share }, policy) => `${this.words.say(POLICIES[policy]![0])} ${share.textContent}`)
+    write(this.said, this.seeds > 0 ? `${what} ${this.words.say('shares', { shares: shares.join(', ') })}` : what)
   }
 }
 

@@ -4,7 +4,7 @@ import { register } from './parameters'
 
 /** w17.2, when to resample: three filters on one log, their ancestry, and a count over many seeds. */
 export class FastslamResampling extends FigureElement {
-  readonly #study = new ResamplingStudy(name => this.getParameter(name))
+  readonly #study = new ResamplingStudy(name => this.getParameter(name), this.words)
 
   constructor() {
     super()

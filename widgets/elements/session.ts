@@ -11,6 +11,7 @@ export class Session {
   #fresh = true
   #target = 0
   #specs: ParamSpec[] | undefined // until something changes that they may depend on
+  #language = 'en'
   #lock: string | null = null
   #size: Size | undefined
   #layout: Layout | undefined
@@ -52,6 +53,10 @@ export class Session {
         return
       case 'show':
         return figure.show(command.names)
+      case 'words':
+        this.#language = command.language
+        this.#specs = undefined
+        return figure.set_words(command.messages)
       case 'comma':
         return figure.set_decimal_comma(command.on)
       case 'seek':
@@ -134,6 +139,7 @@ export class Session {
     this.#arrived ||= !busy
     return {
       done: this.#done,
+      language: this.#language,
       specs: this.specs,
       values: this.values,
       query: this.query,
@@ -197,7 +203,7 @@ export class Session {
 
   protected refuse(error: unknown, file?: string): void {
     if (!isRefusal(error)) throw error
-    this.tell({ told: 'refused', parameter: error.parameter, message: error.message, ...(file !== undefined && { file }) })
+    this.tell({ told: 'refused', parameter: error.parameter, message: error.told ?? error.message, ...(file !== undefined && { file }) })
   }
 
   #changes(): void {
@@ -236,7 +242,7 @@ export class Session {
       } catch (error) {
         if (!isRefusal(error)) throw error // the author's own value is refused, which has been said
       }
-      if (moved !== this.values[name]) this.tell({ told: 'refused', parameter: 'locked', message: `${name} is fixed on this page` })
+      if (moved !== this.values[name]) this.tell({ told: 'refused', parameter: 'locked', message: { key: 'fixed', values: { name } } })
     }
   }
 

@@ -1,5 +1,6 @@
 // What the program's shell (widgets/src/shell.rs) gives and takes: the shapes of its data, and the two ways in which a call can fail.
 import type { Shell } from './generated/shell'
+import type { Message } from './words'
 
 export type { Shell }
 export type ShellFigure = InstanceType<Shell['Figure']>
@@ -52,9 +53,9 @@ export interface Handle {
 const FULL = 1e9
 
 /** What went wrong inside the program, in its own words where it left any. */
-export function trapMessage(error: unknown, shell: Shell | undefined): string {
+export function trapMessage(error: unknown, shell: Shell | undefined): Message {
   // Engines word a full stack differently, and not one calls it a trap.
-  if (error instanceof RangeError || /too much recursion|call stack/i.test(String(error))) return 'its stack was full'
+  if (error instanceof RangeError || /too much recursion|call stack/i.test(String(error))) return { key: 'stack_full' }
   let said: string | undefined
   try {
     if (error instanceof WebAssembly.RuntimeError) said = shell?.last_panic() // the instance is dead, but its memory can still be read
@@ -62,11 +63,11 @@ export function trapMessage(error: unknown, shell: Shell | undefined): string {
     // too broken to speak
   }
   if (said) return said
-  if (shell && shell.memory.buffer.byteLength > FULL && error instanceof WebAssembly.RuntimeError) return 'its memory was full'
+  if (shell && shell.memory.buffer.byteLength > FULL && error instanceof WebAssembly.RuntimeError) return { key: 'memory_full' }
   return error instanceof Error ? error.message : String(error)
 }
 
 /** A refused value: the shell's error that names a parameter, as against a trap. */
-export function isRefusal(error: unknown): error is Error & { parameter: string } {
+export function isRefusal(error: unknown): error is Error & { parameter: string; told?: Message } {
   return error instanceof Error && typeof (error as { parameter?: unknown }).parameter === 'string'
 }

@@ -2,4 +2,5 @@ declare module 'virtual:fastslam-files' {
   export const example: string
   export const program: string
   export const worker: string
+  export const words: Record<string, import('./words').Catalogue | undefined>
 }

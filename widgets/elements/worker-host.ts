@@ -95,8 +95,8 @@ export class WorkerHost implements FigureHost {
     worker.addEventListener('message', ({ data }: MessageEvent<WorkerResponse>) => worker === this.#worker && this.#hear(data))
     worker.addEventListener('error', event => {
       event.preventDefault()
-      const { message } = workerRefused(event.message)
-      if (worker === this.#worker) this.listener.hear({ told: 'failed', why: message, error: message })
+      const { told, message } = workerRefused(event.message)
+      if (worker === this.#worker) this.listener.hear({ told: 'failed', why: told, error: message })
     })
     this.#post({ do: 'figure', module: this.module, tag: this.tag })
   }
