@@ -8,8 +8,11 @@ import { launchChromium } from './browser.mjs'
 
 /** Bytes. `target` is what the design asks for, `limit` what fails: clarity comes before bytes, and below it nobody shaves. */
 const budgets = {
-  /** With six figures; 520 KB with twelve. The program of the one that maps logs comes when it is asked for something. */
-  page: { target: 420_000, limit: 420_000 },
+  /**
+   * With six figures; 520 KB with twelve. The program of the one that maps logs comes when it is asked for something. The catalogue of words
+   * by language took it from 420 to 430 KB: a call and a key for each word of the program, of which half can be had back.
+   */
+  page: { target: 420_000, limit: 432_000 },
   /** HTML and CSS: what is there before any script or program. The section on evidence took it to 68 KB, to be cut. */
   text: { target: 65_000, limit: 70_000 },
   /**

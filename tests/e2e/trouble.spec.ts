@@ -241,6 +241,11 @@ test('nothing is fetched before a figure is seen', async ({ page }) => {
 
 test('the wasm is fetched once for all figures, and every one is freed', async ({ page }) => {
   await tapWasm(page)
+  // After three seconds a figure takes the network for slow and shows a picture meanwhile: here it never is, however busy the machine.
+  await page.addInitScript(() => {
+    const { setTimeout } = window
+    window.setTimeout = ((act: TimerHandler, after?: number) => setTimeout(act, after === 3000 ? 1e9 : after)) as typeof window.setTimeout
+  })
   const fetched = watchFiles(page)
   await page.setViewportSize({ width: 1000, height: 300 })
   await page.goto('./')
