@@ -41,6 +41,21 @@ for (const name of [...FIGURES, 'log']) {
   })
 }
 
+test('on other pages the menu says which chapter a figure is from, and opens it', async ({ page, baseURL }) => {
+  const item = { name: /^From the chapter “FastSLAM/ }
+  await page.goto('./embed-lap.html')
+  await live(page.mainFrame(), 'fastslam-lap')
+  await page.getByRole('button', { name: 'Menu' }).click()
+  const [chapter] = await Promise.all([page.context().waitForEvent('page'), page.getByRole('menuitem', item).click()])
+  await expect(chapter).toHaveURL(baseURL!)
+  await expect(chapter.locator('h1')).toContainText('FastSLAM')
+  // The chapter itself has no need of it.
+  const lap = await new Figure(chapter, 'fastslam-lap').open()
+  await lap.element.getByRole('button', { name: 'Menu' }).click()
+  await expect(lap.element.getByRole('menuitem', { name: 'Copy link' })).toBeVisible()
+  await expect(lap.element.getByRole('menuitem', item)).toHaveCount(0)
+})
+
 test('a frame without scripts of its host, storage or an origin runs, and the keyboard gets in and out', async ({ page, baseURL, complaints }) => {
   await openHost(page, `<button>before</button><iframe sandbox="allow-scripts" width="800" height="790" src="${baseURL}embed.html?figure=lap&m=4&step=2"></iframe><button>after</button>`)
   const frame = page.frames()[1]!

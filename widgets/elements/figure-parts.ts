@@ -9,6 +9,7 @@ import { homeAddress, pictureAddress } from './files'
 import { Handles } from './handles'
 import type { Command, Frame } from './host'
 import { keepKeys } from './keys'
+import { inChapter } from './link'
 import { Menu, type MenuItem } from './menu'
 import { Messages } from './messages'
 import { Playback } from './playback'
@@ -294,6 +295,8 @@ export abstract class FigureParts extends HTMLElement {
       save('csv'),
       save('json'),
       { name: words.say('explain'), act: () => this.#help.open() },
+      // On other pages: whose it is, and where the rest of it is.
+      ...(homeAddress() && !inChapter(homeAddress()) ? [{ name: words.say('chapter'), act: () => void open(homeAddress(), '_blank', 'noopener') }] : []),
     ]
   }
 

@@ -26,3 +26,8 @@ function decode(text: string): string {
     return text // not ours, or damaged on its way: then it is nobody's key
   }
 }
+
+/** Whether the page is the chapter itself, whose folder the figures come from. */
+export function inChapter(home: string): boolean {
+  return [home, `${home}index.html`].includes(location.href.replace(/[?#].*/, ''))
+}
