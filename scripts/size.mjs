@@ -16,10 +16,11 @@ const budgets = {
   /** HTML and CSS: what is there before any script or program. The section on evidence took it to 68 KB, to be cut. */
   text: { target: 65_000, limit: 70_000 },
   /**
-   * One figure's page for frames with all that it loads, nothing cached. With tiny-skia unpatched the page's program alone has 273 KB. Apart,
-   * grids have 216 and landmarks 193: embeds would be within their target then, and the chapter, which loads both, 130 KB over its own.
+   * One figure's page for frames with all that it loads, nothing cached. With tiny-skia unpatched and the words of the catalogue the page's
+   * program alone has 282 KB. Apart, before the words, grids had 216 and landmarks 193: embeds would be within their target then, and the
+   * chapter, which loads both, 130 KB over its own.
    */
-  embed: { target: 260_000, limit: 305_000 },
+  embed: { target: 260_000, limit: 315_000 },
 }
 
 /** A size against its budget, in words. @param {string} what @param {number} bytes @param {{ target: number, limit: number }} budget */

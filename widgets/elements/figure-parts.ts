@@ -209,7 +209,7 @@ export abstract class FigureParts extends HTMLElement {
     if (this.querySelector('img, picture')) return true
     const slot = this.#fallback.firstElementChild!
     const src = pictureAddress(this.localName, shade)
-    if (src) slot.replaceChildren(h('img', { src, loading: 'lazy', alt: this.words.say('at_rest', { title: this.heading.textContent }) }))
+    if (src) slot.replaceChildren(h('img', { loading: 'lazy', src, alt: this.words.say('at_rest', { title: this.heading.textContent }) }))
     return slot.hasChildNodes()
   }
 
