@@ -13,7 +13,7 @@ export const checks = [
   ['Lints for WebAssembly (clippy)', clippyWasm],
   ['Documentation (cargo doc)', () => run('cargo', ['doc', '--workspace', '--no-deps', '--all-features'], { env: { RUSTDOCFLAGS: '-D warnings' } })],
   ['Crates as they would be published (cargo package)', checkPackages],
-  ['Licences and sources of crates', async () => checkCrates()],
+  ['Licences and sources of crates', checkCrates],
   ['Types (TypeScript)', checkTypes],
   ['Spelling (cspell)', () => run(npmBin('cspell'), ['--no-progress', '--config', join(root, 'cspell.json')], { hint: 'A word of the field goes into www/words.txt.' })],
   // Imported late: set-up may be what installs the packages that they stand on.

@@ -7,7 +7,7 @@ const allowed = ['MIT', 'Apache-2.0', 'Apache-2.0 WITH LLVM-exception', 'BSD-2-C
 const cratesIo = 'registry+https://github.com/rust-lang/crates.io-index'
 
 /** Every crate that the lock file names: from crates.io or of our own, and under one of the licences. */
-export function checkCrates() {
+export async function checkCrates() {
   const metadata = capture('cargo', 'metadata', '--locked', '--format-version', '1')
   if (metadata === undefined) throw new StepError('cargo metadata --locked fails.', 'Cargo.lock may not fit Cargo.toml: cargo update --workspace writes it anew.')
   /** @type {{ name: string, version: string, source: string | null, license: string | null, manifest_path: string }[]} */

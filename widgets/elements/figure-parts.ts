@@ -108,9 +108,9 @@ export abstract class FigureParts extends HTMLElement {
   protected abstract refresh(): void
   /** A reader gives a parameter a value. */
   protected abstract change(name: string, value: string): void
-  /** What is done then is told as the reader's own doing. What was thrown away before it is not offered back any more. */
-  protected byHand(act: () => void): void {
-    this.#undo.hidden = true
+  /** What is done then is told as the reader's own doing. Where it lasts, what was thrown away before it is not offered back any more. */
+  protected byHand(act: () => void, lasts = true): void {
+    if (lasts) this.#undo.hidden = true
     act()
   }
   /** The controls have been made. */
@@ -245,11 +245,9 @@ export abstract class FigureParts extends HTMLElement {
     this.byHand(() => this.send(command))
   }
 
-  /** Nothing is done yet: what can be undone still can. */
   #byHover(command: Command): void {
-    const { hidden } = this.#undo
-    this.#byPointer(command)
-    this.#undo.hidden = hidden
+    this.playback.stay()
+    this.byHand(() => this.send(command), false)
   }
 
   protected get keysHelp(): string {
@@ -281,7 +279,8 @@ export abstract class FigureParts extends HTMLElement {
   }
 
   protected menuItems(): MenuItem[] {
-    const codes = (Object.keys(CODES) as CodeName[]).filter(name => name === 'python' || name === 'element' || homeAddress())
+    const home = homeAddress()
+    const codes = (Object.keys(CODES) as CodeName[]).filter(name => name === 'python' || name === 'element' || home)
     const { words } = this
     const codeName = (name: CodeName) => (name === 'element' ? words.say('html_element') : CODES[name])
     const save = (kind: 'csv' | 'json') => ({
@@ -296,7 +295,7 @@ export abstract class FigureParts extends HTMLElement {
       save('json'),
       { name: words.say('explain'), act: () => this.#help.open() },
       // On other pages: whose it is, and where the rest of it is.
-      ...(homeAddress() && !inChapter(homeAddress()) ? [{ name: words.say('chapter'), act: () => void open(homeAddress(), '_blank', 'noopener') }] : []),
+      ...(home && !inChapter(home) ? [{ name: words.say('chapter'), act: () => void open(home, '_blank', 'noopener') }] : []),
     ]
   }
 

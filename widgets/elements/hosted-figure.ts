@@ -206,8 +206,8 @@ export abstract class HostedFigure extends FigureParts implements Listener {
     this.send({ do: 'seek', step })
   }
 
-  protected override byHand(act: () => void): void {
-    super.byHand(act)
+  protected override byHand(act: () => void, lasts?: boolean): void {
+    super.byHand(act, lasts)
     this.events.cause = 'reader'
   }
 

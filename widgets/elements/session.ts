@@ -217,8 +217,8 @@ export class Session {
   }
 
   /** What a pointer does. A move that changes no parameter, because it ended where it began or at a limit, is none. */
-  #move(action: () => void): void {
-    const [before, values] = [this.query, this.values]
+  #move(action: () => void, values = this.values): void {
+    const before = this.query
     action()
     this.#keepLocked(values)
     if (this.query !== before) this.#changes()
@@ -226,7 +226,7 @@ export class Session {
 
   #follow(action: () => void): void {
     const before = this.values
-    this.#move(action)
+    this.#move(action, before)
     const now = this.values
     for (const name in before) if (now[name] !== before[name] && !this.#followed.has(name)) this.#followed.set(name, before[name]!)
   }
