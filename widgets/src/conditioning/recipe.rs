@@ -31,69 +31,73 @@ impl Default for Recipe {
 
 impl recipe::Recipe for Recipe {
     fn table() -> Vec<Param<Self>> {
-        table()
+        type P = Param<Recipe>;
+        let range = |range: Range| (range.least as u32, range.most as u32);
+        vec![
+            P::number(
+                "odometry",
+                common::odometry_noise(),
+                "× α",
+                (0.0, 3.0, 0.05),
+                field!(setup.odometry_scale),
+                conditioning::odometry_help(),
+            ),
+            P::number(
+                "range-std",
+                conditioning::range_noise(),
+                "m",
+                (0.01, 0.5, 0.01),
+                field!(setup.range_std),
+                conditioning::range_help(),
+            ),
+            P::integer(
+                "landmarks",
+                conditioning::landmarks(),
+                "",
+                range(LANDMARKS),
+                field!(setup.landmarks),
+                conditioning::landmarks_help(),
+            ),
+            P::integer(
+                "poses",
+                conditioning::poses(),
+                "",
+                range(POSES),
+                field!(setup.poses),
+                conditioning::poses_help(),
+            ),
+            P::toggle("condition", conditioning::condition(), field!(conditioned), conditioning::condition_help())
+                .view(),
+            P::integer("step", common::step(), "", (0, 0), field!(step), conditioning::step_help())
+                .at_most(|recipe| recipe.setup.poses as f64)
+                .view(),
+            P::integer(
+                "row",
+                conditioning::row(),
+                "",
+                (1, 1),
+                Field { get: |recipe| recipe.entry[0] + 1, set: |recipe, row| recipe.entry[0] = row - 1 },
+                conditioning::row_help(),
+            )
+            .at_most(entries)
+            .without_slider()
+            .view(),
+            P::integer(
+                "column",
+                conditioning::column(),
+                "",
+                (1, 1),
+                Field { get: |recipe| recipe.entry[1] + 1, set: |recipe, column| recipe.entry[1] = column - 1 },
+                conditioning::column_help(),
+            )
+            .at_most(entries)
+            .without_slider()
+            .view(),
+        ]
     }
 }
 
 /// Rows and columns of the covariance.
 fn entries(recipe: &Recipe) -> f64 {
     2.0 * recipe.setup.landmarks as f64
-}
-
-fn table() -> Vec<Param<Recipe>> {
-    type P = Param<Recipe>;
-    let range = |range: Range| (range.least as u32, range.most as u32);
-    vec![
-        P::number(
-            "odometry",
-            common::odometry_noise(),
-            "× α",
-            (0.0, 3.0, 0.05),
-            field!(setup.odometry_scale),
-            conditioning::odometry_help(),
-        ),
-        P::number(
-            "range-std",
-            conditioning::range_noise(),
-            "m",
-            (0.01, 0.5, 0.01),
-            field!(setup.range_std),
-            conditioning::range_help(),
-        ),
-        P::integer(
-            "landmarks",
-            conditioning::landmarks(),
-            "",
-            range(LANDMARKS),
-            field!(setup.landmarks),
-            conditioning::landmarks_help(),
-        ),
-        P::integer("poses", conditioning::poses(), "", range(POSES), field!(setup.poses), conditioning::poses_help()),
-        P::toggle("condition", conditioning::condition(), field!(conditioned), conditioning::condition_help()).view(),
-        P::integer("step", common::step(), "", (0, 0), field!(step), conditioning::step_help())
-            .at_most(|recipe| recipe.setup.poses as f64)
-            .view(),
-        P::integer(
-            "row",
-            conditioning::row(),
-            "",
-            (1, 1),
-            Field { get: |recipe| recipe.entry[0] + 1, set: |recipe, row| recipe.entry[0] = row - 1 },
-            conditioning::row_help(),
-        )
-        .at_most(entries)
-        .without_slider()
-        .view(),
-        P::integer(
-            "column",
-            conditioning::column(),
-            "",
-            (1, 1),
-            Field { get: |recipe| recipe.entry[1] + 1, set: |recipe, column| recipe.entry[1] = column - 1 },
-            conditioning::column_help(),
-        )
-        .at_most(entries)
-        .without_slider()
-        .view(),
-    ]
 }

@@ -35,7 +35,71 @@ impl Default for Recipe {
 
 impl recipe::Recipe for Recipe {
     fn table() -> Vec<Param<Self>> {
-        table()
+        type P = Param<Recipe>;
+        let [policy, threshold] = policy::rows();
+        let usual = LapSetup::default();
+        vec![
+            P::integer(
+                "universes",
+                common::universes(),
+                "",
+                (1, 256),
+                field!(setup.particles),
+                common::universes_help(),
+            ),
+            P::seed(field!(setup.seed), lap::seed_help()),
+            P::number(
+                "odometry",
+                common::odometry_noise(),
+                "× α",
+                (0.0, 2.0, 0.05),
+                field!(setup.odometry_scale),
+                lap::odometry_help(),
+            ),
+            P::number(
+                "range-std",
+                common::range_noise(),
+                "m",
+                (0.01, 0.3, 0.01),
+                field!(setup.range_std),
+                lap::range_help(),
+            ),
+            P::choice(
+                "proposal",
+                lap::proposal(),
+                Menu::of(usual.proposal, names::proposal),
+                field!(setup.proposal),
+                lap::proposal_help(),
+            ),
+            P::choice(
+                "matcher",
+                lap::matcher(),
+                Menu::of(usual.matcher, names::matcher),
+                field!(setup.matcher),
+                lap::matcher_help(),
+            ),
+            policy,
+            threshold,
+            P::choice(
+                "scheme",
+                common::scheme(),
+                Menu::of(usual.scheme, names::scheme),
+                field!(setup.scheme),
+                lap::scheme_help(),
+            ),
+            P::integer("step", common::step(), "", (0, STEPS as u32), field!(step), common::step_help()).view(),
+            P::integer_or(
+                "universe",
+                lap::universe(),
+                ("best", lap::universe_best()),
+                |recipe| recipe.setup.particles as f64 - 1.0,
+                field!(universe),
+                lap::universe_help(),
+            )
+            .view(),
+            P::flag("truth", lap::truth(), field!(truth), lap::truth_help()).view(),
+            P::flag("raw", common::raw_odometry(), field!(raw), common::raw_odometry_help()).view(),
+        ]
     }
 }
 
@@ -47,65 +111,4 @@ impl policy::Chosen for Recipe {
     fn choose(&mut self, policy: ResamplePolicy, threshold: f64) {
         (self.setup.policy, self.threshold) = (policy, threshold);
     }
-}
-
-fn table() -> Vec<Param<Recipe>> {
-    type P = Param<Recipe>;
-    let [policy, threshold] = policy::rows();
-    let usual = LapSetup::default();
-    vec![
-        P::integer("universes", common::universes(), "", (1, 256), field!(setup.particles), common::universes_help()),
-        P::seed(field!(setup.seed), lap::seed_help()),
-        P::number(
-            "odometry",
-            common::odometry_noise(),
-            "× α",
-            (0.0, 2.0, 0.05),
-            field!(setup.odometry_scale),
-            lap::odometry_help(),
-        ),
-        P::number(
-            "range-std",
-            common::range_noise(),
-            "m",
-            (0.01, 0.3, 0.01),
-            field!(setup.range_std),
-            lap::range_help(),
-        ),
-        P::choice(
-            "proposal",
-            lap::proposal(),
-            Menu::of(usual.proposal, names::proposal),
-            field!(setup.proposal),
-            lap::proposal_help(),
-        ),
-        P::choice(
-            "matcher",
-            lap::matcher(),
-            Menu::of(usual.matcher, names::matcher),
-            field!(setup.matcher),
-            lap::matcher_help(),
-        ),
-        policy,
-        threshold,
-        P::choice(
-            "scheme",
-            common::scheme(),
-            Menu::of(usual.scheme, names::scheme),
-            field!(setup.scheme),
-            lap::scheme_help(),
-        ),
-        P::integer("step", common::step(), "", (0, STEPS as u32), field!(step), common::step_help()).view(),
-        P::integer_or(
-            "universe",
-            lap::universe(),
-            ("best", lap::universe_best()),
-            |recipe| recipe.setup.particles as f64 - 1.0,
-            field!(universe),
-            lap::universe_help(),
-        )
-        .view(),
-        P::flag("truth", lap::truth(), field!(truth), lap::truth_help()).view(),
-        P::flag("raw", common::raw_odometry(), field!(raw), common::raw_odometry_help()).view(),
-    ]
 }

@@ -30,7 +30,40 @@ impl Default for Recipe {
 
 impl recipe::Recipe for Recipe {
     fn table() -> Vec<Param<Self>> {
-        table()
+        type P = Param<Recipe>;
+        let [policy, threshold] = policy::rows();
+        vec![
+            P::integer(
+                "universes",
+                common::universes(),
+                "",
+                (1, 256),
+                field!(setup.particles),
+                common::universes_help(),
+            ),
+            P::seed(field!(setup.seed), log::seed_help()),
+            P::number("cell", log::cell(), "m", (0.02, 0.2, 0.01), field!(setup.cell_size), log::cell_help()),
+            P::number(
+                "max-range",
+                log::max_range(),
+                "m",
+                (1.0, 100.0, 1.0),
+                field!(setup.max_range),
+                log::max_range_help(),
+            ),
+            P::number(
+                "min-travel",
+                log::min_travel(),
+                "m",
+                (0.0, 2.0, 0.05),
+                field!(setup.min_travel),
+                log::min_travel_help(),
+            ),
+            threshold,
+            policy,
+            P::flag("lenient", log::lenient(), field!(lenient), log::lenient_help()).view(),
+            P::flag("raw", common::raw_odometry(), field!(raw), common::raw_odometry_help()).view(),
+        ]
     }
 }
 
@@ -42,34 +75,4 @@ impl policy::Chosen for Recipe {
     fn choose(&mut self, policy: ResamplePolicy, threshold: f64) {
         (self.setup.policy, self.threshold) = (policy, threshold);
     }
-}
-
-fn table() -> Vec<Param<Recipe>> {
-    type P = Param<Recipe>;
-    let [policy, threshold] = policy::rows();
-    vec![
-        P::integer("universes", common::universes(), "", (1, 256), field!(setup.particles), common::universes_help()),
-        P::seed(field!(setup.seed), log::seed_help()),
-        P::number("cell", log::cell(), "m", (0.02, 0.2, 0.01), field!(setup.cell_size), log::cell_help()),
-        P::number(
-            "max-range",
-            log::max_range(),
-            "m",
-            (1.0, 100.0, 1.0),
-            field!(setup.max_range),
-            log::max_range_help(),
-        ),
-        P::number(
-            "min-travel",
-            log::min_travel(),
-            "m",
-            (0.0, 2.0, 0.05),
-            field!(setup.min_travel),
-            log::min_travel_help(),
-        ),
-        threshold,
-        policy,
-        P::flag("lenient", log::lenient(), field!(lenient), log::lenient_help()).view(),
-        P::flag("raw", common::raw_odometry(), field!(raw), common::raw_odometry_help()).view(),
-    ]
 }

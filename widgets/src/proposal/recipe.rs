@@ -48,97 +48,93 @@ impl Recipe {
 
 impl recipe::Recipe for Recipe {
     fn table() -> Vec<Param<Self>> {
-        table()
+        type P = Param<Recipe>;
+        vec![
+            P::number(
+                "range-std",
+                common::range_noise(),
+                "m",
+                (0.005, 0.5, 0.005),
+                field!(setup.range_std),
+                proposal::range_help(),
+            ),
+            P::number(
+                "bearing-std",
+                proposal::bearing_noise(),
+                "rad",
+                (0.01, 0.3, 0.01),
+                field!(setup.bearing_std),
+                proposal::bearing_help(),
+            ),
+            P::number(
+                "odometry",
+                common::odometry_noise(),
+                "× α",
+                (0.25, 2.0, 0.05),
+                field!(setup.odometry_scale),
+                proposal::odometry_help(),
+            ),
+            P::integer("samples", proposal::samples(), "", (1, MOST), field!(setup.samples), proposal::samples_help()),
+            P::seed(field!(setup.seed), proposal::seed_help()),
+            P::choice(
+                "landmarks",
+                proposal::landmarks(),
+                Menu::new([("one", proposal::one(), false), ("pair", proposal::pair(), true)]),
+                field!(setup.twins),
+                proposal::landmarks_help(),
+            ),
+            P::number(
+                "landmark-x",
+                proposal::landmark_x(),
+                "m",
+                within(0),
+                field!(setup.landmark[0]),
+                proposal::landmark_x_help(),
+            )
+            .without_slider(),
+            P::number(
+                "landmark-y",
+                proposal::landmark_y(),
+                "m",
+                within(1),
+                field!(setup.landmark[1]),
+                proposal::landmark_y_help(),
+            )
+            .without_slider(),
+            P::toggle(
+                "predict",
+                proposal::predict(),
+                Field {
+                    get: |recipe| recipe.predict,
+                    set: |recipe, on| (recipe.predict, recipe.run) = (on, recipe.run && on),
+                },
+                proposal::predict_help(),
+            )
+            .view(),
+            P::number(
+                "guess",
+                proposal::guess(),
+                proposal::times(),
+                (RATIOS[0], RATIOS[1], 0.1),
+                Field { get: |recipe| recipe.guess, set: Recipe::guess_at },
+                proposal::guess_help(),
+            )
+            .without_slider(),
+            P::toggle(
+                "run",
+                proposal::run(),
+                Field {
+                    get: |recipe| recipe.run,
+                    set: |recipe, on| (recipe.predict, recipe.run) = (recipe.predict || on, on),
+                },
+                proposal::run_help(),
+            )
+            .view(),
+        ]
     }
 }
 
 /// What a landmark's coordinate along an axis can be \[m\].
 fn within(axis: usize) -> (f64, f64, f64) {
     (WORLD.low[axis] + MARGIN, WORLD.high[axis] - MARGIN, 0.05)
-}
-
-fn table() -> Vec<Param<Recipe>> {
-    type P = Param<Recipe>;
-    vec![
-        P::number(
-            "range-std",
-            common::range_noise(),
-            "m",
-            (0.005, 0.5, 0.005),
-            field!(setup.range_std),
-            proposal::range_help(),
-        ),
-        P::number(
-            "bearing-std",
-            proposal::bearing_noise(),
-            "rad",
-            (0.01, 0.3, 0.01),
-            field!(setup.bearing_std),
-            proposal::bearing_help(),
-        ),
-        P::number(
-            "odometry",
-            common::odometry_noise(),
-            "× α",
-            (0.25, 2.0, 0.05),
-            field!(setup.odometry_scale),
-            proposal::odometry_help(),
-        ),
-        P::integer("samples", proposal::samples(), "", (1, MOST), field!(setup.samples), proposal::samples_help()),
-        P::seed(field!(setup.seed), proposal::seed_help()),
-        P::choice(
-            "landmarks",
-            proposal::landmarks(),
-            Menu::new([("one", proposal::one(), false), ("pair", proposal::pair(), true)]),
-            field!(setup.twins),
-            proposal::landmarks_help(),
-        ),
-        P::number(
-            "landmark-x",
-            proposal::landmark_x(),
-            "m",
-            within(0),
-            field!(setup.landmark[0]),
-            proposal::landmark_x_help(),
-        )
-        .without_slider(),
-        P::number(
-            "landmark-y",
-            proposal::landmark_y(),
-            "m",
-            within(1),
-            field!(setup.landmark[1]),
-            proposal::landmark_y_help(),
-        )
-        .without_slider(),
-        P::toggle(
-            "predict",
-            proposal::predict(),
-            Field {
-                get: |recipe| recipe.predict,
-                set: |recipe, on| (recipe.predict, recipe.run) = (on, recipe.run && on),
-            },
-            proposal::predict_help(),
-        )
-        .view(),
-        P::number(
-            "guess",
-            proposal::guess(),
-            proposal::times(),
-            (RATIOS[0], RATIOS[1], 0.1),
-            Field { get: |recipe| recipe.guess, set: Recipe::guess_at },
-            proposal::guess_help(),
-        )
-        .without_slider(),
-        P::toggle(
-            "run",
-            proposal::run(),
-            Field {
-                get: |recipe| recipe.run,
-                set: |recipe, on| (recipe.predict, recipe.run) = (recipe.predict || on, on),
-            },
-            proposal::run_help(),
-        )
-        .view(),
-    ]
 }

@@ -61,77 +61,73 @@ impl Recipe {
 
 impl recipe::Recipe for Recipe {
     fn table() -> Vec<Param<Self>> {
-        table()
+        type P = Param<Recipe>;
+        let schemes = Menu::of(PoliciesSetup::default().scheme, names::scheme);
+        vec![
+            P::toggle(
+                "wings",
+                resampling::wings(),
+                Field {
+                    get: |recipe| recipe.asked.course == PolicyCourse::Wings,
+                    set: |recipe, on| recipe.asked.course = if on { PolicyCourse::Wings } else { PolicyCourse::Lap },
+                },
+                resampling::wings_help(),
+            ),
+            P::integer(
+                "particles",
+                resampling::particles(),
+                "",
+                (4, 64),
+                field!(asked.particles),
+                resampling::particles_help(),
+            ),
+            P::seed(field!(asked.seed), resampling::seed_help()),
+            P::number(
+                "threshold",
+                policy::threshold(),
+                policy::of_m(),
+                (0.0, 1.0, 0.05),
+                field!(asked.threshold),
+                resampling::threshold_help(),
+            ),
+            P::number(
+                "odometry",
+                common::odometry_noise(),
+                "× α",
+                (0.0, 2.0, 0.05),
+                field!(asked.odometry_scale),
+                resampling::odometry_help(),
+            ),
+            P::number(
+                "range",
+                common::range_noise(),
+                "× σ",
+                (0.25, 4.0, 0.05),
+                field!(asked.sensor_scale),
+                resampling::range_help(),
+            ),
+            P::choice(
+                "scheme",
+                common::scheme(),
+                schemes.after(("usual", resampling::usual(), None), Some),
+                field!(scheme),
+                resampling::scheme_help(),
+            ),
+            P::integer("back", resampling::back(), resampling::steps(), (1, 60), field!(back), resampling::back_help())
+                .without_slider()
+                .view(),
+            P::integer("step", common::step(), "", (0, 0), field!(step), common::step_help())
+                .at_most(|recipe| recipe.last_step().into())
+                .view(),
+            P::integer_or(
+                "cursor",
+                resampling::cursor(),
+                ("now", resampling::newest()),
+                |recipe| recipe.last_step().into(),
+                field!(cursor),
+                resampling::cursor_help(),
+            )
+            .view(),
+        ]
     }
-}
-
-fn table() -> Vec<Param<Recipe>> {
-    type P = Param<Recipe>;
-    let schemes = Menu::of(PoliciesSetup::default().scheme, names::scheme);
-    vec![
-        P::toggle(
-            "wings",
-            resampling::wings(),
-            Field {
-                get: |recipe| recipe.asked.course == PolicyCourse::Wings,
-                set: |recipe, on| recipe.asked.course = if on { PolicyCourse::Wings } else { PolicyCourse::Lap },
-            },
-            resampling::wings_help(),
-        ),
-        P::integer(
-            "particles",
-            resampling::particles(),
-            "",
-            (4, 64),
-            field!(asked.particles),
-            resampling::particles_help(),
-        ),
-        P::seed(field!(asked.seed), resampling::seed_help()),
-        P::number(
-            "threshold",
-            policy::threshold(),
-            policy::of_m(),
-            (0.0, 1.0, 0.05),
-            field!(asked.threshold),
-            resampling::threshold_help(),
-        ),
-        P::number(
-            "odometry",
-            common::odometry_noise(),
-            "× α",
-            (0.0, 2.0, 0.05),
-            field!(asked.odometry_scale),
-            resampling::odometry_help(),
-        ),
-        P::number(
-            "range",
-            common::range_noise(),
-            "× σ",
-            (0.25, 4.0, 0.05),
-            field!(asked.sensor_scale),
-            resampling::range_help(),
-        ),
-        P::choice(
-            "scheme",
-            common::scheme(),
-            schemes.after(("usual", resampling::usual(), None), Some),
-            field!(scheme),
-            resampling::scheme_help(),
-        ),
-        P::integer("back", resampling::back(), resampling::steps(), (1, 60), field!(back), resampling::back_help())
-            .without_slider()
-            .view(),
-        P::integer("step", common::step(), "", (0, 0), field!(step), common::step_help())
-            .at_most(|recipe| recipe.last_step().into())
-            .view(),
-        P::integer_or(
-            "cursor",
-            resampling::cursor(),
-            ("now", resampling::newest()),
-            |recipe| recipe.last_step().into(),
-            field!(cursor),
-            resampling::cursor_help(),
-        )
-        .view(),
-    ]
 }
