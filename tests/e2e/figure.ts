@@ -132,9 +132,21 @@ export class Figure {
     await this.settled()
   }
 
-  async openSettings(): Promise<void> {
-    const settings = this.element.locator('details[part=settings]')
-    if (!(await settings.evaluate((details: HTMLDetailsElement) => details.open))) await settings.locator('summary').click()
+  /** Unfolds the settings that are not in sight. */
+  openSettings(): Promise<void> {
+    return this.#unfold('settings')
+  }
+
+  /** Unfolds the numbers. */
+  openNumbers(): Promise<void> {
+    return this.#unfold('numbers')
+  }
+
+  async #unfold(part: string): Promise<void> {
+    const details = this.element.locator(`details[part=${part}]`)
+    // Not every figure has settings that are folded away.
+    const folded = await details.evaluate((details: HTMLDetailsElement) => !details.open && !details.hidden)
+    if (folded) await details.locator('summary').click()
   }
 
   /** That a slider changes the readouts, and the value before, typed, brings them back. */

@@ -12,6 +12,7 @@ export class Canvas {
   readonly element = h('canvas', { part: 'canvas', role: 'img', 'aria-labelledby': 'title', 'aria-describedby': 'sentence' })
   #room = 0 // [css px] for the picture, sideways
   #natural: number | undefined // [css px] high, if nothing had to fit
+  #highest = Infinity // [css px], so that picture and controls are on one screen
   #size = { css: 0, width: 0, height: 0 }
   #reserves = true // keeps the place free that the figure will take
   readonly #sizes = new ResizeObserver(entries => this.#onResize(entries))
@@ -49,14 +50,14 @@ export class Canvas {
 
   /** What the picture is to be painted for. */
   get size(): Size {
-    const height = this.fits ? Math.max(this.body.offsetHeight - this.#around, PICTURE_SHARE * this.body.offsetHeight) : undefined
+    const height = this.fits ? Math.max(this.body.offsetHeight - this.#around, PICTURE_SHARE * this.body.offsetHeight) : this.#highest
     const fontScale = this.figure.getAttribute('size') === 'presentation' ? FONT_SCALE : 1
     return { room: this.#room, height, fontScale, canvas: this.#size, theme: themeName(this.figure.getAttribute('theme')) }
   }
 
   /** Height [css px] that shows all of the figure at its present width, the picture as large as it would like to be. */
   get naturalHeight(): number {
-    return Math.ceil(this.#around + (this.#natural ?? this.stage.offsetHeight))
+    return Math.ceil(this.#around + Math.min(this.#natural ?? this.stage.offsetHeight, this.#highest))
   }
 
   /** Takes the size that the picture wants; the observer of sizes then asks for the paint. */
@@ -64,7 +65,9 @@ export class Canvas {
     this.#natural = natural
     this.stage.style.setProperty('--_width', width === undefined ? '100%' : `${width}px`)
     const css = `${height}px`
-    if (this.element.style.height !== css) this.element.style.height = css
+    if (this.element.style.height === css) return
+    this.element.style.height = css
+    this.stage.parentElement!.style.setProperty('--_high', css)
   }
 
   show({ width, height, pixels }: Picture): void {
@@ -86,6 +89,7 @@ export class Canvas {
 
   #onResize(entries: ResizeObserverEntry[]): void {
     if (this.#reserves) reserve(this.body, this.figure)
+    this.#highest = parseFloat(getComputedStyle(this.stage).getPropertyValue('--_highest')) || Infinity
     this.#room = entries.findLast(({ target }) => target === this.stage)?.contentRect.width ?? this.#room
     const entry = entries.findLast(({ target }) => target === this.element)
     if (entry) this.#measure(entry)

@@ -24,7 +24,6 @@ import { Words } from './words'
 const sheet = new CSSStyleSheet()
 sheet.replaceSync(css)
 
-const WIDE = 620 // [px] from here on the settings are open at first
 const COPIED = 3000 // [ms] that a word of success stays
 
 export abstract class FigureParts extends HTMLElement {
@@ -40,8 +39,13 @@ export abstract class FigureParts extends HTMLElement {
   protected readonly heading = h('p', { class: 'title', part: 'title', id: 'title' })
   protected readonly status = h('span', { class: 'status', role: 'status' })
   protected readonly readouts = h('dl', { class: 'readouts', part: 'readouts' })
+  readonly #numbersName = h('summary')
+  /** Numbers and settings that not every reader needs, folded away. */
+  protected readonly folds = h('div', { class: 'folds' }, h('details', { class: 'numbers', part: 'numbers' }, this.#numbersName, this.readouts))
   protected readonly sentence = new Sentence()
   protected readonly stage = h('div', { class: 'stage', part: 'stage', role: 'group', tabindex: '0', 'aria-labelledby': 'title', 'aria-describedby': 'keys' })
+  /** The picture with what plays it and what matters for it: on one screen. */
+  protected readonly panes = h('div', { class: 'panes' }, this.stage)
   protected readonly body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title' })
   protected readonly canvas = new Canvas(this, this.body, this.stage, () => this.refresh())
   protected readonly menu = new Menu(() => this.menuItems(), this, this.words)
@@ -68,16 +72,17 @@ export abstract class FigureParts extends HTMLElement {
       this.body.lang = this.words.language
       write(keys, this.keysHelp)
       write(handleKeys, this.words.say('handle_keys'))
+      write(this.#numbersName, this.words.say('numbers'))
     })
     this.body.append(
       h('div', { class: 'head' }, this.heading, this.status, this.#undo, this.menu.element),
-      this.stage,
+      this.panes,
       keys,
       handleKeys,
       this.messages.element,
       this.sentence.element,
       this.sentence.spoken,
-      this.readouts,
+      this.folds,
       this.#help.element,
     )
     root.append(this.body)
@@ -146,20 +151,15 @@ export abstract class FigureParts extends HTMLElement {
       rate: rate => (this.playback.rate = rate),
       change: (name, value) => this.change(name, value),
     })
-    this.controls.settings.append(this.#help.button)
     this.specs = specs
-    if (before) {
-      this.controls.replace(before)
-    } else {
-      this.controls.settings.open = this.clientWidth >= WIDE && !this.canvas.fits
-      this.placeControls(this.controls)
-    }
+    if (before) this.controls.replace(before)
+    else this.placeControls(this.controls)
     this.introduced()
   }
 
   protected placeControls(controls: Controls): void {
-    this.stage.after(controls.transport, controls.view)
-    this.readouts.after(controls.settings)
+    this.panes.append(controls.transport, controls.main)
+    this.folds.append(controls.settings, this.#help.button)
   }
 
   protected showPlayback({ step, target, last }: Frame): void {

@@ -7,8 +7,8 @@ import type { Message } from './words'
 export interface Size {
   /** Width for the picture [css px]. */
   room: number
-  /** Height for the picture [css px], where it has to fit one; else it takes all of the width. */
-  height: number | undefined
+  /** Most height for the picture [css px]; where it would be higher, it does not take all of the width. */
+  height: number
   /** Letters and lines over normal ones. */
   fontScale: number
   /** The canvas: its width on the page [css px], and its pixels. */

@@ -78,10 +78,10 @@ export class FastslamLog extends FigureElement {
     this.stage.classList.add('map')
     const [idle, what, save] = [h('b'), h('span'), h('span', { class: 'name' })]
     this.canvas.element.after(this.#zoom, h('p', { class: 'idle' }, idle, what))
-    this.stage.before(this.#sources(), this.messages.element)
+    this.panes.before(this.#sources(), this.messages.element)
     const run = h('div', { class: 'work run', part: 'transport', role: 'group' }, this.#go, this.#halt, this.#progress, this.#position)
     const saves = h('div', { class: 'work saves', part: 'saves', role: 'group' }, save, ...this.#saves)
-    this.sentence.element.before(run)
+    this.panes.append(run)
     this.body.append(saves)
     this.words.always(() => {
       const { words } = this
@@ -212,7 +212,7 @@ export class FastslamLog extends FigureElement {
 
   protected override placeControls(controls: Controls): void {
     controls.transport.setAttribute('aria-label', this.words.say('settings_of_draw'))
-    this.body.append(controls.view, controls.transport, controls.settings)
+    super.placeControls(controls)
   }
 
   protected override present(frame: Frame): void {

@@ -259,7 +259,7 @@ export class Session {
     const { room, height, fontScale } = this.#size
     let [scene, scale] = [room / fontScale, fontScale]
     const natural = Math.round(this.figure.height(scene) * scale)
-    if (height !== undefined) {
+    if (natural > height) {
       const fitting = (wide: number) => Math.min(fontScale, room / wide, height / this.figure.height(wide))
       // Other widths have other layouts, so the one is looked for that can be shown largest. What would be too small to read is scrolled.
       let best = LEGIBLE
@@ -268,7 +268,7 @@ export class Session {
         if (found >= best) [scene, scale, best] = [wide, found, found]
       }
     }
-    const width = height === undefined ? undefined : Math.floor(Math.min(room, scene * scale))
+    const width = natural > height ? Math.floor(Math.min(room, scene * scale)) : undefined
     return (this.#layout = { scale, width, height: Math.round(this.figure.height(scene) * scale), natural })
   }
 

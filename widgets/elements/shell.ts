@@ -18,6 +18,7 @@ export interface ParamSpec {
   default: string
   group: 'setup' | 'view'
   slider: boolean
+  folded: boolean
   help: string
 }
 

@@ -73,6 +73,8 @@ pub struct ParamSpec {
     pub group: Group,
     /// Whether a number is also set by a slider, or by its box alone.
     pub slider: bool,
+    /// Whether its control is folded away: few matter to every reader.
+    pub folded: bool,
     /// What it does, in a sentence.
     pub help: &'static str,
 }
@@ -169,8 +171,9 @@ mod tests {
             _ => Vec::new(),
         };
         let (name, title, unit, min, max, step) = ("speed", "Speed", "m/s", 0.5, 8.0, 0.5);
-        let (default, group, slider, help) = (String::new(), Group::Setup, true, "");
-        ParamSpec { name, title, unit, kind, min, max, step, choices, default, group, slider, help }
+        let (default, group, help) = (String::new(), Group::Setup, "");
+        let (slider, folded) = (true, false);
+        ParamSpec { name, title, unit, kind, min, max, step, choices, default, group, slider, folded, help }
     }
 
     #[test]

@@ -136,9 +136,9 @@ pub trait Recipe: Clone + PartialEq + Default + 'static {
 impl<R: Recipe> Param<R> {
     fn new(name: &'static str, title: &'static str, kind: Kind, get: Get<R>, set: Set<R>, help: &'static str) -> Self {
         let (min, max, step) = if kind == Kind::Choice { (0.0, 0.0, 0.0) } else { (0.0, 1.0, 1.0) };
-        let (group, slider) = (Group::Setup, true);
+        let (group, slider, folded) = (Group::Setup, true, false);
         let (choices, default, unit) = (Vec::new(), String::new(), "");
-        let spec = ParamSpec { name, title, unit, kind, min, max, step, choices, default, group, slider, help };
+        let spec = ParamSpec { name, title, unit, kind, min, max, step, choices, default, group, slider, folded, help };
         Self { spec, most: None, get, set }
     }
 
@@ -255,6 +255,11 @@ impl<R: Recipe> Param<R> {
     /// The same set by its box alone: where there are twenty numbers, a slider each is too much.
     pub fn without_slider(self) -> Self {
         Self { spec: ParamSpec { slider: false, ..self.spec }, ..self }
+    }
+
+    /// The same folded away, among *More settings*.
+    pub fn folded(self) -> Self {
+        Self { spec: ParamSpec { folded: true, ..self.spec }, ..self }
     }
 
     /// The same up to a bound that depends on rows above.

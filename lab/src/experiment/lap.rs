@@ -64,7 +64,7 @@ pub const GRID: GridModel = GridModel {
     distance_reach: 0,
 };
 
-/// κ: the share of each beam's log-likelihood that counts. One for both proposals, both matchers and every M.
+/// κ, where nothing else is set: the share of each beam's log-likelihood that counts. One for both proposals, both matchers and every M.
 ///
 /// Near one, since surfaces are kept five times as wide as the sensor's noise and are a tempering of their own. At 0.15 the
 /// matcher follows the odometry too long, and laps end metres off.
@@ -183,6 +183,10 @@ pub struct LapSetup {
     pub odometry_scale: f64,
     /// Standard deviation of a range \[m\], 0 to 1.
     pub range_std: f64,
+    /// κ: the share of each beam's log-likelihood that counts, 0.01 to 1.
+    pub temper: f64,
+    /// Whether a match that is hardly better than the average pose is doubted, and the pose drawn from the motion instead.
+    pub guard: bool,
 }
 
 impl Default for LapSetup {
@@ -197,6 +201,8 @@ impl Default for LapSetup {
             scheme: Scheme::Systematic,
             odometry_scale: 1.0,
             range_std: 0.02,
+            temper: TEMPER,
+            guard: true,
         }
     }
 }
@@ -215,10 +221,13 @@ impl LapSetup {
     /// What the filter draws poses from.
     pub fn proposals(&self) -> Proposals {
         let motion = self.motion();
-        let score = ScanModel::new(self.matcher, TEMPER, OUTLIER);
+        let score = ScanModel::new(self.matcher, self.temper, OUTLIER);
+        // The best of the search is never below its mean.
+        let minimum_improvement = if self.guard { FROM_SCAN.minimum_improvement } else { 0.0 };
+        let settings = FromScanSettings { minimum_improvement, ..FROM_SCAN };
         match self.proposal {
             ProposalKind::Motion => Either::Left(FromMotion { motion, likelihood: score }),
-            ProposalKind::Improved => Either::Right(FromScan { motion, score, settings: FROM_SCAN }),
+            ProposalKind::Improved => Either::Right(FromScan { motion, score, settings }),
         }
     }
 
@@ -226,6 +235,7 @@ impl LapSetup {
         PARTICLES.check("particles", self.particles as f64)?;
         Range::number(0.0, 10.0, "").check("odometry_scale", self.odometry_scale)?;
         Range::number(0.0, 1.0, "m").check("range_std", self.range_std)?;
+        Range::number(0.01, 1.0, "").check("temper", self.temper)?;
         self.policy.validate()
     }
 }

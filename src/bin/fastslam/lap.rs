@@ -53,13 +53,32 @@ pub struct Options {
     /// Standard deviation of a range [m], 0 to 1
     #[arg(long, value_name = "METRES", default_value_t = LapSetup::default().range_std, allow_negative_numbers = true)]
     range_std: f64,
+    /// κ, the share of each beam's log-likelihood that counts, 0.01 to 1
+    #[arg(long, value_name = "SHARE", default_value_t = LapSetup::default().temper, allow_negative_numbers = true)]
+    temper: f64,
+    /// Trust every match, however flat its hill
+    #[arg(long)]
+    no_guard: bool,
 }
 
 impl Options {
     /// The lap of a seed.
     pub fn setup(&self, course: Course, seed: u64) -> LapSetup {
-        let &Self { particles, proposal, matcher, policy, scheme, odometry, range_std } = self;
-        LapSetup { course, particles, seed, proposal, matcher, policy, scheme, odometry_scale: odometry, range_std }
+        let &Self { particles, proposal, matcher, policy, scheme, odometry, range_std, temper, no_guard } = self;
+        let (odometry_scale, guard) = (odometry, !no_guard);
+        LapSetup {
+            course,
+            particles,
+            seed,
+            proposal,
+            matcher,
+            policy,
+            scheme,
+            odometry_scale,
+            range_std,
+            temper,
+            guard,
+        }
     }
 }
 
@@ -145,6 +164,8 @@ fn paint(setup: &LapSetup, path: &Path) -> Result<()> {
         ("scheme", setup.scheme.to_string()),
         ("odometry", setup.odometry_scale.to_string()),
         ("range-std", setup.range_std.to_string()),
+        ("temper", setup.temper.to_string()),
+        ("guard", if setup.guard { "on" } else { "off" }.to_owned()),
         ("truth", "on".to_owned()),
         ("raw", "on".to_owned()),
     ] {

@@ -79,6 +79,7 @@ impl recipe::Recipe for Recipe {
                 Field { get: |recipe| recipe.entry[0] + 1, set: |recipe, row| recipe.entry[0] = row - 1 },
                 conditioning::row_help(),
             )
+            .folded()
             .at_most(entries)
             .without_slider()
             .view(),
@@ -90,6 +91,7 @@ impl recipe::Recipe for Recipe {
                 Field { get: |recipe| recipe.entry[1] + 1, set: |recipe, column| recipe.entry[1] = column - 1 },
                 conditioning::column_help(),
             )
+            .folded()
             .at_most(entries)
             .without_slider()
             .view(),

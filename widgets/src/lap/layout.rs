@@ -15,7 +15,7 @@ pub const MOSAIC: &str = "mosaic";
 pub const ESS: &str = "n-eff";
 
 /// From this width on \[css px\], the mosaic stands beside the large view.
-pub const WIDE: f64 = 640.0;
+pub const WIDE: f64 = 560.0;
 
 /// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
 pub const NARROWEST: f64 = 300.0;
@@ -25,7 +25,7 @@ pub const RING: f64 = 3.0;
 
 const HEADER: f64 = 26.0;
 const PAD: f64 = 8.0;
-const METER: f64 = 46.0;
+const METER: f64 = 64.0;
 
 /// The parts of the figure \[css px\].
 #[derive(Clone, PartialEq, Debug)]
@@ -63,7 +63,8 @@ impl Layout {
         // Side by side, the large view is so much larger that both columns end at the same height.
         let beside = width >= WIDE && map && mosaic;
         let gap = 28.0;
-        let (legend, notes) = (if width < 340.0 { 3.0 } else { 2.0 } * LINE, 2.0 * LINE);
+        let legend = if width < 860.0 { 3.0 } else { 2.0 } * LINE;
+        let notes = if beside && width < 680.0 { 3.0 } else { 2.0 } * LINE;
         let below_mosaic = notes + if meter { PAD + METER } else { 0.0 };
         let excess = (below_mosaic - legend) * ASPECT + 2.0 * RING * (ASPECT - 1.0);
         let large_width = if beside { (0.5 * (width - gap + excess)).floor() } else { width };

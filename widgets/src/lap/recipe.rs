@@ -77,7 +77,8 @@ impl recipe::Recipe for Recipe {
                 Menu::of(usual.matcher, names::matcher),
                 field!(setup.matcher),
                 lap::matcher_help(),
-            ),
+            )
+            .folded(),
             policy,
             threshold,
             P::choice(
@@ -86,7 +87,11 @@ impl recipe::Recipe for Recipe {
                 Menu::of(usual.scheme, names::scheme),
                 field!(setup.scheme),
                 lap::scheme_help(),
-            ),
+            )
+            .folded(),
+            P::number("temper", lap::temper(), "", (0.05, 1.0, 0.05), field!(setup.temper), lap::temper_help())
+                .folded(),
+            P::flag("guard", lap::guard(), field!(setup.guard), lap::guard_help()).folded(),
             P::integer("step", common::step(), "", (0, STEPS as u32), field!(step), common::step_help()).view(),
             P::integer_or(
                 "universe",
@@ -96,7 +101,8 @@ impl recipe::Recipe for Recipe {
                 field!(universe),
                 lap::universe_help(),
             )
-            .view(),
+            .view()
+            .folded(),
             P::flag("truth", lap::truth(), field!(truth), lap::truth_help()).view(),
             P::flag("raw", common::raw_odometry(), field!(raw), common::raw_odometry_help()).view(),
         ]

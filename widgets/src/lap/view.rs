@@ -1,11 +1,10 @@
 //! What is to be seen of the lap: one universe large, all universes small, and N_eff over the steps.
 
 use super::{
-    grid::Tiles,
-    layout::{ESS, Layout, MAP, MOSAIC, NARROWEST, RING},
-    map::{self, ASPECT},
+    layout::{ESS, Layout, MAP, MOSAIC, NARROWEST},
+    map,
     model::LapModel,
-    mosaic::{LABEL_FROM, mosaic, notes},
+    mosaic::{mosaic, notes},
 };
 use crate::decimal::fixed;
 use crate::{
@@ -13,17 +12,21 @@ use crate::{
     model::Model,
     panels::Panels,
     scene::{
-        Anchor, Chart, FREE, Mark, OCCUPIED, Rect, Role, Sample, Scene, Shading, UNKNOWN, cloud, heading, legend,
-        n_eff, rimmed, rimmed_robot, scale_bar, text,
+        Anchor, Chart, FREE, Mark, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, cloud, heading,
+        legend, n_eff, rimmed, rimmed_robot, scale_bar, text,
     },
     view::View,
     words::{common, lap},
 };
-use fastslam::resampling::ResamplePolicy;
+use fastslam::{genealogy::Path, geometry::Pose2, resampling::ResamplePolicy};
+use std::collections::BTreeSet;
 
 /// Dashes and gaps of the truth and of raw odometry \[css px\].
 const TRUTH: [f64; 2] = [2.0, 3.0];
 const RAW: [f64; 2] = [7.0, 4.0];
+
+/// The paths of universes that are not shown large.
+const OTHERS: Role = Role::Level(110);
 
 /// Figure w17.1, as it is seen.
 #[derive(Default)]
@@ -45,9 +48,8 @@ impl View for LapView {
             names(scene, model, &layout.legend);
         }
         if layout.panels.has(MOSAIC) {
-            let tiles = Tiles::fit(&layout.mosaic.inset(RING), model.lap().particles().len(), ASPECT);
-            mosaic(scene, model, layout, &tiles);
-            notes(scene, model, &layout.notes, tiles.size[0] >= LABEL_FROM);
+            mosaic(scene, model, layout);
+            notes(scene, model, &layout.notes);
         }
         if layout.panels.has(ESS) {
             meter(scene, model, &layout.meter);
@@ -64,11 +66,13 @@ fn large(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     let step = common::StepOf { step: &model.step(), last: &model.step_count() }.say();
     let step_width = font::measure(&step, 12.5, Weight::Regular) + 2.0;
     let Rect { x, y, w, h } = layout.large_header;
-    let weight = fixed(lap.weights()[slot as usize], 3);
-    let weight = if slot == model.report().best {
-        lap::BestWeight { weight: &weight }.say()
-    } else {
-        lap::Weight { weight: &weight }.say()
+    let (weights, best) = (lap.weights(), slot == model.report().best);
+    let weight = &fixed(weights[slot as usize], 3);
+    let weight = match weights.iter().all(|weight| *weight == weights[0]) {
+        true if best => lap::best_of_all().into(),
+        true => lap::equal_weight().into(),
+        false if best => lap::BestWeight { weight }.say(),
+        false => lap::Weight { weight }.say(),
     };
     let name = lap::UniverseSlot { slot: &slot }.say();
     let title = Rect::new(x, y, w - step_width - 8.0, h);
@@ -88,6 +92,7 @@ fn large(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     }
     let hits = map::hits(&particle.map).into_iter().map(|place| plane.point(place));
     scene.marks.push(cloud(hits, &plane.area.inset(2.0), (0.035 * plane.scale).max(1.0), Role::Hit));
+    others(scene, model, &plane);
     if model.shows_raw() {
         let lines = plane.path(&world.odometry[..=now], 0.5);
         rimmed(scene, lines, 2.0, Some(RAW), Role::Odometry);
@@ -105,6 +110,31 @@ fn large(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     scene.marks.push(Mark::Frame { area: plane.area, width: 1.0, role: Role::Frame });
 }
 
+/// The paths of all other universes, and for the one step at which they died out, those that did: what they have in common once.
+fn others(scene: &mut Scene, model: &LapModel, plane: &Plane) {
+    let mut drawn = BTreeSet::new();
+    let mut branches = |paths: &mut dyn Iterator<Item = &Path>| -> Vec<Vec<Point>> {
+        let branch = |path: &Path| {
+            let mut poses: Vec<Pose2> = Vec::new();
+            for node in path.back() {
+                poses.push(node.pose());
+                if !drawn.insert(node.id()) {
+                    break;
+                }
+            }
+            plane.path(&poses, 0.5)
+        };
+        paths.flat_map(branch).collect()
+    };
+    let living = branches(&mut model.lap().particles().iter().map(|particle| &particle.path));
+    let extinct = model.extinct();
+    let before = model.before().map_or(&[][..], |lap| lap.particles());
+    let dead =
+        branches(&mut extinct.iter().filter_map(|&slot| before.get(slot as usize)).map(|particle| &particle.path));
+    scene.marks.push(Mark::Lines { lines: dead, width: 1.25, dash: None, role: Role::Extinct });
+    scene.marks.push(Mark::Lines { lines: living, width: 1.0, dash: None, role: OTHERS });
+}
+
 fn names(scene: &mut Scene, model: &LapModel, area: &Rect) {
     let hit = |place: &Rect| {
         let mean = Mark::Discs { centres: vec![place.centre()], radius: 1.5, role: Role::Hit };
@@ -117,6 +147,12 @@ fn names(scene: &mut Scene, model: &LapModel, area: &Rect) {
         (Sample::new(hit), lap::hits()),
         (Sample::line(Role::Path, 2.25, None), lap::its_path()),
     ];
+    if model.lap().particles().len() > 1 {
+        items.push((Sample::line(OTHERS, 1.0, None), lap::other_paths()));
+    }
+    if !model.extinct().is_empty() {
+        items.push((Sample::line(Role::Extinct, 1.25, None), lap::dead_paths()));
+    }
     if model.shows_truth() {
         items.push((Sample::line(Role::Truth, 1.5, Some(TRUTH)), common::truth()));
     }

@@ -91,6 +91,7 @@ impl recipe::Recipe for Recipe {
                 field!(setup.landmark[0]),
                 proposal::landmark_x_help(),
             )
+            .folded()
             .without_slider(),
             P::number(
                 "landmark-y",
@@ -100,6 +101,7 @@ impl recipe::Recipe for Recipe {
                 field!(setup.landmark[1]),
                 proposal::landmark_y_help(),
             )
+            .folded()
             .without_slider(),
             P::toggle(
                 "predict",
