@@ -121,14 +121,43 @@ test.describe('at rest', () => {
     })
   }
 
-  test('perfect wheels leave next to nothing, but not nothing', async ({ page }) => {
+  test('hardly any noise couples as many entries as much noise, and none couples none', async ({ page }) => {
     const figure = await open(page)
-    await figure.openSettings()
     const { off_block } = await figure.readouts()
-    await figure.box('odometry').fill('0')
-    await figure.box('odometry').press('Enter')
-    await figure.settled()
-    expect(await figure.readouts()).toMatchObject({ off_block, largest: '0.00' })
+    const wheels = async (noise: string) => {
+      await figure.box('odometry').fill(noise)
+      await figure.box('odometry').press('Enter')
+      await figure.settled()
+    }
+    await wheels('0.05')
+    expect(await figure.readouts()).toMatchObject({ off_block })
+    await wheels('0')
+    expect(await figure.readouts()).toMatchObject({ off_block: off_block!.replace(/^\d+/, '0'), largest: '0' })
+    await expect(figure.sentence).toContainText('Wheels without error')
+  })
+
+  test('the buttons stand between graph and matrix, and one of path and last pose holds at a time', async ({ page }) => {
+    const figure = await open(page)
+    const { off_block } = await figure.readouts()
+    const canvas = (await figure.canvas.boundingBox())!
+    for (const name of ['condition', 'last-pose', 'pairs']) {
+      const { x, y, width, height } = (await figure.toggle(name).boundingBox())!
+      expect(x > canvas.x && x + width < canvas.x + canvas.width && y > canvas.y && y + height < canvas.y + canvas.height, name).toBe(true)
+    }
+    const press = async (name: string) => {
+      await figure.toggle(name).click()
+      await figure.settled()
+      return Promise.all(['condition', 'last-pose', 'pairs'].map(name => figure.toggle(name).getAttribute('aria-pressed')))
+    }
+    expect(await press('last-pose')).toEqual(['false', 'true', 'false'])
+    // The poses before it are open: as many entries as before.
+    expect(await figure.readouts()).toMatchObject({ off_block })
+    await expect(figure.sentence).toContainText('Given the last pose alone')
+    expect(await press('condition')).toEqual(['true', 'false', 'false'])
+    expect((await figure.readouts())['off_block']).toMatch(/^0 of /)
+    expect(await press('pairs')).toEqual(['true', 'false', 'true'])
+    expect((await figure.readouts())['off_block']).not.toMatch(/^0 of /)
+    await expect(figure.sentence).toContainText('read together')
   })
 
   test('the drive is made pose by pose, and played from its start', async ({ page }) => {

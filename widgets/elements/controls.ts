@@ -2,7 +2,7 @@
 import { h, redraw, write } from './dom'
 import { button, fieldFor, label, SEED, select, written, type Field, type NumberStyle } from './fields'
 import { PLAY, PLAYBACK } from './options'
-import type { ParamSpec } from './shell'
+import type { ParamSpec, Room } from './shell'
 import type { Words } from './words'
 
 /** What the controls may ask of the figure. */
@@ -149,6 +149,22 @@ export class Controls {
     // What an author picks is in sight.
     this.settings.classList.toggle('bare', names !== undefined)
     if (names) this.settings.open = true
+  }
+
+  /** Puts controls where the picture has room for them, in a layer that lies over it; the others are among their own. */
+  stand(rooms: Room[], layer: HTMLElement): void {
+    const order = [...this.fields.values()].map(({ element }) => element)
+    for (const [name, { element }] of this.fields) {
+      const area = rooms.find(({ parameter }) => parameter === name)?.area
+      if (area) {
+        if (element.parentElement !== layer) layer.append(element)
+        Object.assign(element.style, { left: `${area.x}px`, top: `${area.y}px`, width: `${area.w}px`, height: `${area.h}px` })
+      } else if (element.parentElement === layer) {
+        element.removeAttribute('style')
+        const next = order.slice(order.indexOf(element) + 1).find(other => other.parentElement === this.main)
+        this.main.insertBefore(element, next ?? null)
+      }
+    }
   }
 
   /** The step shown; the handle of the scrubber is left to the hand that moves it until the step that it asked for is shown. */

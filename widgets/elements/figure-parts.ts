@@ -61,11 +61,14 @@ export abstract class FigureParts extends HTMLElement {
     change: (name, value) => this.change(name, value),
   })
 
+  /** Controls that stand in the picture. */
+  readonly #rooms = h('div', { class: 'rooms' })
+
   constructor() {
     super()
     const root = this.attachShadow({ mode: 'open' })
     root.adoptedStyleSheets = [sheet]
-    this.stage.append(this.canvas.element, this.#handles.layer, this.#fallback)
+    this.stage.append(this.canvas.element, this.#handles.layer, this.#rooms, this.#fallback)
     const keys = h('p', { class: 'hidden', id: 'keys' })
     const handleKeys = h('p', { class: 'hidden', id: 'handle-keys' })
     this.words.always(() => {
@@ -133,6 +136,7 @@ export abstract class FigureParts extends HTMLElement {
     this.#help.about(frame.specs, frame.readouts)
     this.#handles.show(frame.handles, frame.specs, frame.values)
     this.showPlayback(frame)
+    this.controls!.stand(frame.rooms, this.#rooms)
     this.controls!.showValues(frame.specs, frame.values)
     this.sentence.show(frame.sentence, this.playing || frame.busy)
   }

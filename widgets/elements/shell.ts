@@ -50,6 +50,12 @@ export interface Handle {
   hover: { x: number; y: number; w: number; h: number } | null
 }
 
+/** Where the control of a parameter stands in the picture [css px]. */
+export interface Room {
+  parameter: string
+  area: { x: number; y: number; w: number; h: number }
+}
+
 /** Memory [bytes] beyond which a trap without a word is one of memory: every panic leaves a word. */
 const FULL = 1e9
 

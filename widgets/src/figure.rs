@@ -7,7 +7,7 @@ use crate::{
     model::{FigureError, Files, Model, ParamSpec, Readout, TraceLine},
     paint::{Canvas, Theme},
     param, query, registry,
-    scene::{Handle, Point, Rect, Scene},
+    scene::{Handle, Point, Rect, Room, Scene},
     view::{Shown, Shows, View},
     words::{Language, common},
 };
@@ -18,10 +18,18 @@ pub struct Figure {
     tag: &'static str,
     shown: Box<dyn Shown>,
     canvas: Canvas,
-    /// Of the scene painted last, and that scene's width \[css px\].
-    handles: (Vec<Handle>, f64),
+    painted: Painted,
     decimal_comma: bool,
     language: Language,
+}
+
+/// What the scene painted last had besides its pixels.
+#[derive(Default)]
+struct Painted {
+    handles: Vec<Handle>,
+    rooms: Vec<Room>,
+    /// \[css px\]
+    width: f64,
 }
 
 /// A [`Handle`] where it lies on the page.
@@ -64,8 +72,8 @@ impl Figure {
     }
 
     fn showing(tag: &'static str, shown: Box<dyn Shown>) -> Self {
-        let (canvas, handles, language) = (Canvas::default(), (Vec::new(), 1.0), Language::default());
-        Self { tag, shown, canvas, handles, decimal_comma: false, language }
+        let (canvas, painted, language) = (Canvas::default(), Painted::default(), Language::default());
+        Self { tag, shown, canvas, painted, decimal_comma: false, language }
     }
 
     /// What the figure is about.
@@ -166,7 +174,7 @@ impl Figure {
         let side = |px: u32| f64::from(px.max(1)) / dpr;
         let scene = self.scene(side(width_px), side(height_px));
         self.canvas.paint(&scene, width_px, height_px, theme);
-        self.handles = (scene.handles, scene.width);
+        self.painted = Painted { handles: scene.handles, rooms: scene.rooms, width: scene.width };
     }
 
     /// What was painted last.
@@ -185,15 +193,20 @@ impl Figure {
 
     /// What can be moved in the picture painted last, where it lies in a figure of this width \[css px\].
     pub fn handles(&self, width: f64) -> Vec<PlacedHandle> {
-        let (handles, scene_width) = &self.handles;
-        let scale = width / scene_width;
+        let scale = width / self.painted.width;
         let placed = |handle: &Handle| {
             let Handle { name, title, at, axes, value, text, hover } = handle.clone();
             let [x, y] = at.map(|c| c * scale);
-            let hover = hover.map(|r| Rect::new(r.x * scale, r.y * scale, r.w * scale, r.h * scale));
+            let hover = hover.map(|area| area.scaled(scale));
             PlacedHandle { name, title, x, y, axes, value, text, hover }
         };
-        handles.iter().map(placed).collect()
+        self.painted.handles.iter().map(placed).collect()
+    }
+
+    /// Where controls stand in the picture painted last, in a figure of this width \[css px\].
+    pub fn rooms(&self, width: f64) -> Vec<Room> {
+        let scale = width / self.painted.width;
+        self.painted.rooms.iter().map(|room| Room { area: room.area.scaled(scale), ..*room }).collect()
     }
 
     /// Moves a handle to a point of a figure of this width \[css px\].
@@ -261,7 +274,7 @@ impl Figure {
 
     /// Px of the scene painted last in a css px of a figure of this width.
     fn scene_px(&self, width: f64) -> f64 {
-        self.handles.1 / width
+        self.painted.width / width
     }
 
     /// The link that makes this figure again: `name=value&…`.

@@ -7,6 +7,7 @@ use crate::{
     model::{FigureError, Readout},
     paint::Theme,
     registry,
+    scene::Room,
 };
 use core::cell::RefCell;
 use fastslam_lab::experiment::{ErrorSummary, policy_counts::Fraction};
@@ -78,6 +79,7 @@ pub struct Figure {
     figure: figure::Figure,
     readouts: RefCell<Told<Readout>>,
     handles: RefCell<Told<PlacedHandle>>,
+    rooms: RefCell<Told<Room>>,
 }
 
 /// What was told last, and the same as JavaScript has it: it is asked for at every frame, and most frames change nothing of it.
@@ -100,7 +102,7 @@ impl Figure {
         fn nothing<T>() -> RefCell<Told<T>> {
             RefCell::new(Told { last: Vec::new(), array: Array::new() })
         }
-        Self { figure, readouts: nothing(), handles: nothing() }
+        Self { figure, readouts: nothing(), handles: nothing(), rooms: nothing() }
     }
 }
 
@@ -217,6 +219,11 @@ impl Figure {
     /// What can be moved in the picture painted last: an array of `PlacedHandle`, in a figure of this width \[css px\].
     pub fn handles(&self, width_css: f64) -> Array {
         self.handles.borrow_mut().tell(self.figure.handles(width_css))
+    }
+
+    /// Where controls stand in the picture painted last: an array of `Room`, in a figure of this width \[css px\].
+    pub fn rooms(&self, width_css: f64) -> Array {
+        self.rooms.borrow_mut().tell(self.figure.rooms(width_css))
     }
 
     /// Moves a handle to a point of a figure of this width \[css px\].

@@ -10,8 +10,24 @@
 //! References: Montemerlo, Thrun, Koller, Wegbreit, *FastSLAM* (AAAI 2002); Thrun, Burgard, Fox, *Probabilistic Robotics* (2005),
 //! §11.4 and §13.3.
 
-use fastslam::nalgebra::{Cholesky, DMatrix, DMatrixView, Dyn, Matrix2, Matrix2x3, Matrix3};
+use fastslam::nalgebra::{Cholesky, DMatrix, DMatrixView, Dyn, Matrix2, Matrix2x3, Matrix3, RowVector2, RowVector3};
 use fastslam::sensor::Prediction;
+
+/// What a reading of two landmarks depends on, linearised.
+#[derive(Clone, PartialEq, Debug)]
+pub struct PairPrediction {
+    /// ∂z/∂x (1 × 3).
+    pub h_x: RowVector3<f64>,
+    /// ∂z/∂m of each landmark (1 × 2).
+    pub h_m: [RowVector2<f64>; 2],
+}
+
+impl PairPrediction {
+    /// The angle between two landmarks \[rad\], as the difference of their bearings.
+    pub fn angle([one, two]: [&Prediction; 2]) -> Self {
+        Self { h_x: two.h_x.row(1) - one.h_x.row(1), h_m: [-one.h_m.row(1), two.h_m.row(1).into()] }
+    }
+}
 
 /// Λ over the poses x_1 … x_T (three numbers each; x_0 is known) and the landmarks m_1 … m_N (two each).
 #[derive(Clone, PartialEq, Debug)]
@@ -61,6 +77,26 @@ impl Joint {
         self.add(m, x, &cross.transpose());
     }
 
+    /// A reading from pose `from`, 1 to T, of two landmarks at once: z = h_x x + h_1 m_1 + h_2 m_2 + noise of standard deviation σ.
+    ///
+    /// # Panics
+    /// For a σ that is not positive, a pose or a landmark that is not there.
+    pub fn add_pair(&mut self, from: usize, landmarks: [usize; 2], seen: &PairPrediction, std: f64) {
+        assert!(std > 0.0, "σ has to be positive");
+        let (x, weight) = (self.pose(from), 1.0 / (std * std));
+        let [one, two] = landmarks.map(|landmark| self.landmark(landmark));
+        let [h_one, h_two] = seen.h_m;
+        self.add(x, x, &(seen.h_x.transpose() * weight * seen.h_x));
+        for (row, h_row) in [(one, h_one), (two, h_two)] {
+            let cross = seen.h_x.transpose() * weight * h_row;
+            self.add(x, row, &cross);
+            self.add(row, x, &cross.transpose());
+            for (column, h_column) in [(one, h_one), (two, h_two)] {
+                self.add(row, column, &(h_row.transpose() * weight * h_column));
+            }
+        }
+    }
+
     /// Λ (3 T + 2 N rows): all poses, then all landmarks.
     pub fn information(&self) -> &DMatrix<f64> {
         &self.information
@@ -81,13 +117,23 @@ impl Joint {
         inverse(self.information.view_range(map.., map..)).map(MapCovariance)
     }
 
-    /// Covariances of the poses x_1 … x_T (3 × 3, \[m, m, rad\]) with the map marginalised out; `None` where a landmark was never
+    /// Covariance of the landmarks given the last pose alone, the poses before it marginalised out; `None` where a landmark was never
     /// sighted.
-    pub fn path(&self) -> Option<Vec<Matrix3<f64>>> {
-        let path = 0..3 * self.poses;
-        let map = path.end..self.information.nrows();
-        let all = self.marginalize(path, map)?;
-        Some((0..self.poses).map(|t| all.fixed_view::<3, 3>(3 * t, 3 * t).into()).collect())
+    ///
+    /// # Panics
+    /// Without any pose.
+    pub fn given_last_pose(&self) -> Option<MapCovariance> {
+        let known = self.pose(self.poses);
+        let map = 3 * self.poses..self.information.nrows();
+        self.marginalize(map, 0..known).map(MapCovariance)
+    }
+
+    /// Covariances of the first `open` of the poses x_1 … x_T (3 × 3, \[m, m, rad\]), given the others, with the map marginalised out;
+    /// `None` where a landmark was never sighted.
+    pub fn path(&self, open: usize) -> Option<Vec<Matrix3<f64>>> {
+        let map = 3 * self.poses..self.information.nrows();
+        let all = self.marginalize(0..3 * open, map)?;
+        Some((0..open).map(|t| all.fixed_view::<3, 3>(3 * t, 3 * t).into()).collect())
     }
 
     /// Covariance of the rows `kept` of the state with the rows `out` marginalised out: the inverse of the Schur complement.
@@ -269,7 +315,7 @@ mod tests {
             let whole = brute_inverse(joint.information());
             let marginal = joint.marginal().unwrap();
             assert!((marginal.matrix() - whole.view_range(9.., 9..)).norm() < 1e-9, "{scale}");
-            for (t, covariance) in joint.path().unwrap().iter().enumerate() {
+            for (t, covariance) in joint.path(joint.poses).unwrap().iter().enumerate() {
                 assert!((covariance - whole.fixed_view::<3, 3>(3 * t, 3 * t)).norm() < 1e-9, "{scale}: pose {t}");
             }
         }
@@ -383,6 +429,6 @@ mod tests {
         let mut joint = Joint::new(1, 1);
         let (jacobian, noise) = motion(1, 1.0);
         joint.add_odometry(1, &jacobian, &noise);
-        assert_eq!((joint.marginal(), joint.conditional(), joint.path()), (None, None, None));
+        assert_eq!((joint.marginal(), joint.conditional(), joint.path(joint.poses)), (None, None, None));
     }
 }

@@ -3,7 +3,7 @@
 //!
 //! Everything is linearised at the truth and no noise is drawn: covariances do not depend on it, so there is no seed.
 
-use crate::baseline::joint::{Joint, MapCovariance};
+use crate::baseline::joint::{Joint, MapCovariance, PairPrediction};
 use crate::digest::Digest;
 use crate::world::drive;
 use fastslam::error::{Range, SettingError};
@@ -24,6 +24,10 @@ pub const FLOOR_STDS: [f64; 3] = [1e-5; 3];
 
 /// σ_φ \[rad\].
 pub const BEARING_STD: f64 = 0.05;
+
+/// Standard deviation of the angle between two landmarks \[rad\], where the sensor reads it: in one look, what spoils a bearing spoils
+/// both.
+pub const ANGLE_STD: f64 = 0.01;
 
 /// Longest range \[m\]. Shorter than the drive is long: most pairs of landmarks are never seen from one pose.
 pub const MAX_RANGE: f64 = 2.6;
@@ -53,11 +57,14 @@ pub struct ConditioningSetup {
     pub odometry_scale: f64,
     /// σ_r \[m\], 0.001 to 1.
     pub range_std: f64,
+    /// Whether each look also reads the angles between neighbours in view: readings of two landmarks, for which the map does not fall
+    /// apart given the path.
+    pub pairs: bool,
 }
 
 impl Default for ConditioningSetup {
     fn default() -> Self {
-        Self { landmarks: 7, poses: 8, odometry_scale: 1.0, range_std: 0.1 }
+        Self { landmarks: 7, poses: 8, odometry_scale: 1.0, range_std: 0.1, pairs: false }
     }
 }
 
@@ -87,8 +94,12 @@ pub struct Covariances {
     pub marginal: MapCovariance,
     /// Σ_m given the path.
     pub conditional: MapCovariance,
+    /// Σ_m given the last pose alone.
+    pub given_last: MapCovariance,
     /// Covariances of the poses x_1 … x_t (3 × 3, \[m, m, rad\]).
     pub path: Vec<Matrix3<f64>>,
+    /// The same of all but x_t, given that one.
+    pub path_given_last: Vec<Matrix3<f64>>,
 }
 
 impl Conditioning {
@@ -136,15 +147,39 @@ impl Conditioning {
             let (from, to) = (&self.path[t - 1], &self.path[t]);
             let u = Odometry::between(from, to);
             joint.add_odometry(t, &motion.jacobian(from, &u), &(motion.covariance(from, &u) + floor));
-            for (row, &j) in seen.iter().enumerate().filter(|(_, j)| visible.contains(j)) {
-                joint.add_observation(t, row, &sensor.predict(to, &Vector2::from(self.landmarks[j])), &sensor.noise());
+            let in_view: Vec<_> = seen
+                .iter()
+                .enumerate()
+                .filter(|(_, j)| visible.contains(j))
+                .map(|(row, &j)| (row, sensor.predict(to, &Vector2::from(self.landmarks[j]))))
+                .collect();
+            for (row, predicted) in &in_view {
+                joint.add_observation(t, *row, predicted, &sensor.noise());
+            }
+            for pair in in_view.windows(2).filter(|_| self.setup.pairs) {
+                let [(one, seen_one), (two, seen_two)] = pair else { continue };
+                joint.add_pair(t, [*one, *two], &PairPrediction::angle([seen_one, seen_two]), ANGLE_STD);
             }
         }
         let known = "every landmark in it was sighted, and every range is checked";
+        let conditional = joint.conditional().expect(known);
+        // Wheels without error leave nothing of the path open: it is known, whatever it is asked for.
+        if self.setup.odometry_scale == 0.0 || poses == 0 {
+            return Covariances {
+                seen,
+                marginal: conditional.clone(),
+                given_last: conditional.clone(),
+                conditional,
+                path: vec![Matrix3::zeros(); poses],
+                path_given_last: vec![Matrix3::zeros(); poses.saturating_sub(1)],
+            };
+        }
         Covariances {
             marginal: joint.marginal().expect(known),
-            conditional: joint.conditional().expect(known),
-            path: joint.path().expect(known),
+            given_last: joint.given_last_pose().expect(known),
+            conditional,
+            path: joint.path(poses).expect(known),
+            path_given_last: joint.path(poses - 1).expect(known),
             seen,
         }
     }
@@ -153,7 +188,7 @@ impl Conditioning {
     pub fn trace(&self) -> Digest {
         let mut digest = Digest::new();
         for poses in 0..=self.setup.poses {
-            let Covariances { seen, marginal, conditional, path } = self.after(poses);
+            let Covariances { seen, marginal, conditional, path, .. } = self.after(poses);
             seen.iter().for_each(|&j| digest.u32(j as u32));
             [marginal, conditional].iter().flat_map(|map| map.matrix()).for_each(|&x| digest.f64(x));
             path.iter().flatten().for_each(|&x| digest.f64(x));
@@ -167,7 +202,11 @@ pub fn golden_setups() -> Vec<(&'static str, ConditioningSetup)> {
     let default = ConditioningSetup::default();
     vec![
         ("conditioning", default.clone()),
-        ("conditioning-large", ConditioningSetup { landmarks: 24, poses: 12, odometry_scale: 2.0, range_std: 0.02 }),
+        (
+            "conditioning-large",
+            ConditioningSetup { landmarks: 24, poses: 12, odometry_scale: 2.0, range_std: 0.02, ..default },
+        ),
+        ("conditioning-pairs", ConditioningSetup { pairs: true, ..default }),
         ("conditioning-sure", ConditioningSetup { odometry_scale: 0.0, ..default }),
     ]
 }
@@ -225,7 +264,8 @@ mod tests {
         for (landmarks, poses) in [(3, 2), (3, 12), (24, 2), (24, 12)] {
             for (odometry_scale, range_std) in [(0.0, 0.001), (0.0, 1.0), (10.0, 0.001), (10.0, 1.0)] {
                 let drive =
-                    Conditioning::new(&ConditioningSetup { landmarks, poses, odometry_scale, range_std }).unwrap();
+                    Conditioning::new(&ConditioningSetup { landmarks, poses, odometry_scale, range_std, pairs: false })
+                        .unwrap();
                 let Covariances { marginal, conditional, .. } = drive.after(poses);
                 for map in [&marginal, &conditional] {
                     assert!((0..map.landmarks()).all(|j| map.block(j, j).cholesky().is_some()));
@@ -261,13 +301,46 @@ mod tests {
     }
 
     #[test]
-    fn without_noise_of_the_wheels_next_to_nothing_is_coupled() {
-        let setup = ConditioningSetup { odometry_scale: 0.0, landmarks: 24, poses: 12, range_std: 0.05 };
-        let map = Conditioning::new(&setup).unwrap().after(12).marginal;
-        assert!(map.off_block_nonzeros() > 0, "the floor leaves a rest");
+    fn without_noise_of_the_wheels_the_path_is_known_and_nothing_is_coupled() {
+        let setup = ConditioningSetup { odometry_scale: 0.0, landmarks: 24, poses: 12, range_std: 0.05, pairs: false };
+        let none = Conditioning::new(&setup).unwrap().after(12);
+        assert_eq!(none.marginal.off_block_nonzeros(), 0);
+        assert_eq!(none.marginal, none.conditional);
+        // And that is what less and less noise comes to.
+        let little = ConditioningSetup { odometry_scale: 1e-3, ..setup };
+        let map = Conditioning::new(&little).unwrap().after(12).marginal;
         let largest =
             (0..24).flat_map(|i| (0..i).map(move |j| (i, j))).map(|(i, j)| map.coupling(i, j)).fold(0.0, f64::max);
-        assert!(largest < 1e-4, "{largest}");
+        assert!(largest < 1e-3, "{largest}");
+    }
+
+    /// d-separation needs the whole path: one pose of it blocks only the ways through that pose.
+    #[test]
+    fn given_the_last_pose_alone_landmarks_stay_coupled_but_less_is_open() {
+        let Covariances { marginal, conditional, given_last, .. } = at(12, 8).after(8);
+        assert_eq!(given_last.off_block_nonzeros(), 4 * 12 * 11);
+        for j in 0..12 {
+            assert!((marginal.block(j, j) - given_last.block(j, j)).cholesky().is_some(), "{j}");
+            assert!((given_last.block(j, j) - conditional.block(j, j)).cholesky().is_some(), "{j}");
+        }
+        // After one pose, the last is the path.
+        let first = at(12, 8).after(1);
+        assert_eq!(first.given_last, first.conditional);
+    }
+
+    #[test]
+    fn a_sensor_that_reads_two_landmarks_couples_them_even_given_the_path() {
+        let setup = ConditioningSetup { pairs: true, ..ConditioningSetup::default() };
+        let drive = Conditioning::new(&setup).unwrap();
+        let (with, without) = (drive.after(8).conditional, at(7, 8).after(8).conditional);
+        assert_eq!(without.off_block_nonzeros(), 0);
+        let read_together =
+            |i: usize, j: usize| (1..=8).any(|t| drive.sightings(t).windows(2).any(|pair| pair == [i, j]));
+        let pairs: Vec<(usize, usize)> = (0..7).flat_map(|j| (0..j).map(move |i| (i, j))).collect();
+        assert!(pairs.iter().any(|&(i, j)| read_together(i, j)));
+        for (i, j) in pairs.into_iter().filter(|&(i, j)| read_together(i, j)) {
+            assert!(with.coupling(i, j) > 0.05, "m{i} and m{j}: {}", with.coupling(i, j));
+        }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The graph: poses, landmarks, sightings, and what couples them.
 
-use super::{layout::MARGIN, matrix, model::ConditioningModel};
+use super::{layout::MARGIN, matrix, model::ConditioningModel, recipe::Given};
 use crate::{
     font::{self, Weight},
     model::Model,
@@ -77,8 +77,13 @@ impl<'a> Graph<'a> {
             scene.marks.push(Mark::Fill { area: Rect::new(x - 0.5 * w, y - 0.5 * h, w, h), role: Role::Paper });
         }
 
-        if !model.conditioned() {
-            let regions = model.covariances().path.iter().enumerate();
+        let open = match model.given() {
+            Given::Nothing => &model.covariances().path[..],
+            Given::LastPose => &model.covariances().path_given_last,
+            Given::Path => &[],
+        };
+        if !open.is_empty() {
+            let regions = open.iter().enumerate();
             let lines = regions.flat_map(|(k, p)| {
                 let pose = &model.drive().path()[k + 1];
                 self.plane.region([pose.x, pose.y], [[p.m11, p.m12], [p.m12, p.m22]], NINE_TENTHS)
@@ -103,10 +108,9 @@ impl<'a> Graph<'a> {
         };
         discs(now + 1..=last, 2.0, Role::Muted);
         discs(0..=now, radius, Role::Path);
-        if !model.conditioned() {
-            // Not observed: an open node. The start is known.
-            discs(1..=now, radius - 2.0, Role::Paper);
-        }
+        // Not observed: an open node.
+        let open = (1..=now).filter(|&t| !model.knows(t)).count();
+        discs(1..=open, radius - 2.0, Role::Paper);
         let side = |j: usize| if model.place(j).is_some() { radius } else { 0.7 * radius };
         let diamonds = (0..model.drive().landmarks().len()).map(|j| (j, diamond(self.landmark(j), side(j))));
         let (seen, unseen): (Vec<_>, Vec<_>) = diamonds.partition(|(j, _)| model.place(*j).is_some());

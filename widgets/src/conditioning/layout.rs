@@ -16,7 +16,7 @@ pub const MATRIX: &str = "matrix";
 pub const MARGIN: f64 = 0.5;
 
 /// From this width on \[css px\], the matrix stands beside the graph.
-pub const WIDE: f64 = 720.0;
+pub const WIDE: f64 = 560.0;
 
 /// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
 pub const NARROWEST: f64 = 300.0;
@@ -28,6 +28,9 @@ const GUTTER: [f64; 2] = [26.0, 16.0];
 /// Right of the matrix, for the frame of an entry at its edge.
 const RING: f64 = 4.0;
 const NOTES: f64 = 5.0 * LINE;
+/// A button between graph and matrix, beside each other and one above the other.
+const BUTTON: [f64; 2] = [112.0, 56.0];
+const BUTTON_GAP: f64 = 8.0;
 /// Largest side of a matrix that is shown alone: all of a wide figure would be more than a screen is high.
 const ALONE: f64 = 380.0;
 
@@ -42,6 +45,8 @@ pub struct Layout {
     pub graph: Rect,
     /// What is drawn in it.
     pub legend: Rect,
+    /// What can be done to get from one to the other; nothing, where only one is shown.
+    pub buttons: [Rect; 3],
     /// What the matrix is.
     pub matrix_header: Rect,
     /// Names of its columns.
@@ -69,19 +74,28 @@ impl Layout {
         let [across, up] = SIZE.map(|side| side + 2.0 * MARGIN);
         let aspect = across / up;
         let (wide, both) = (width >= WIDE, graph && matrix);
-        let legend_height = if width < 340.0 { 3.0 } else { 2.0 } * LINE;
-        let gap = 28.0;
+        let legend_height = if width < 780.0 { 3.0 } else { 2.0 } * LINE;
+        let beside = wide && both;
+        let gap = if beside { BUTTON[0] + 2.0 * 16.0 } else { 28.0 };
         // Side by side, both columns end at the same height: g / aspect + below the graph = m + around the matrix.
         let excess = GUTTER[1] - GUTTER[0] - RING + NOTES - legend_height;
-        let graph_width = if wide && both { ((width - gap + excess) / (1.0 + 1.0 / aspect)).floor() } else { width };
+        let graph_width = if beside { ((width - gap + excess) / (1.0 + 1.0 / aspect)).floor() } else { width };
         let mut column = Stack::new(0.0, graph_width);
         let graph_header = column.take(graph, HEADER, 0.0);
         let graph_area = column.take(graph, graph_width / aspect, PAD);
         let legend = column.take(graph, legend_height, PAD);
-        if wide && both {
+        let buttons = if beside {
             let x = graph_width + gap;
             column = Stack::new(x, width - x);
-        }
+            let [w, h] = BUTTON;
+            let middle = graph_area.centre()[1];
+            let at = |k: f64| middle + k * (h + BUTTON_GAP) - 0.5 * h;
+            [-1.0, 0.0, 1.0].map(|k| Rect::new(graph_width + 16.0, at(k), w, h))
+        } else {
+            let row = column.take(both, BUTTON[1], PAD);
+            let w = (row.w - 2.0 * BUTTON_GAP) / 3.0;
+            [0.0, 1.0, 2.0].map(|k| Rect::new(row.x + k * (w + BUTTON_GAP), row.y, w, row.h))
+        };
         if !graph {
             column.w = column.w.min(GUTTER[0] + ALONE + RING);
         }
@@ -104,6 +118,7 @@ impl Layout {
             graph_header,
             graph: graph_area,
             legend,
+            buttons,
             matrix_header,
             columns,
             rows,
@@ -117,9 +132,10 @@ impl Layout {
     }
 
     /// All parts.
-    pub fn parts(&self) -> [Rect; 8] {
-        let Self { graph_header, graph, legend, matrix_header, columns, rows, matrix, notes, .. } = self;
-        [*graph_header, *graph, *legend, *matrix_header, *columns, *rows, *matrix, *notes]
+    pub fn parts(&self) -> [Rect; 11] {
+        let Self { graph_header, graph, legend, buttons, matrix_header, columns, rows, matrix, notes, .. } = self;
+        let [first, second, third] = *buttons;
+        [*graph_header, *graph, *legend, first, second, third, *matrix_header, *columns, *rows, *matrix, *notes]
     }
 }
 
@@ -144,15 +160,15 @@ mod tests {
 
     #[test]
     fn side_by_side_both_columns_end_at_the_same_height() {
-        for width in [720.0, 800.0, 1280.0] {
+        for width in [600.0, 692.0, 800.0, 1280.0] {
             let layout = Layout::new(width);
             assert!((layout.legend.bottom() - layout.notes.bottom()).abs() < 2.0, "{width}");
-            assert!(layout.graph.w > layout.matrix.w && layout.matrix.w > 0.3 * width, "{width}");
+            assert!(layout.graph.w > layout.matrix.w && layout.matrix.w > 0.25 * width, "{width}");
         }
     }
     #[test]
     fn panels_shown_alone_leave_no_place_for_the_other_and_fit_on_a_screen() {
-        for (names, shown) in [("graph", 3), ("matrix", 5), ("matrix graph", 8)] {
+        for (names, shown) in [("graph", 3), ("matrix", 5), ("matrix graph", 11)] {
             let panels = Panels::named(names, &[GRAPH, MATRIX]).unwrap();
             for width in (300..2000).step_by(7).map(f64::from) {
                 let layout = Layout::of(width, &panels);

@@ -1,6 +1,6 @@
 //! The graphical model as a deterministic state: a drive, how much of it was driven, and whether the path is known.
 
-use super::recipe::Recipe;
+use super::recipe::{Given, Recipe};
 use crate::decimal::fixed;
 use crate::model::{Column, Declared, FigureError, Model, Readout, Series};
 use crate::words::{common, conditioning};
@@ -47,14 +47,37 @@ impl ConditioningModel {
         &self.covariances
     }
 
-    /// Whether the path counts as known.
-    pub fn conditioned(&self) -> bool {
-        self.recipe.conditioned
+    /// What of the path counts as known: all of it, where the wheels make no error.
+    pub fn given(&self) -> Given {
+        if self.is_sure() { Given::Path } else { self.recipe.given }
+    }
+
+    /// Whether the wheels make no error.
+    pub fn is_sure(&self) -> bool {
+        self.setup().odometry_scale == 0.0
+    }
+
+    /// Whether a pose driven counts as known.
+    pub fn knows(&self, pose: usize) -> bool {
+        match self.given() {
+            Given::Path => true,
+            Given::LastPose => pose == 0 || pose == self.recipe.step,
+            Given::Nothing => pose == 0,
+        }
+    }
+
+    /// Whether each look also reads the angles between neighbours.
+    pub fn reads_pairs(&self) -> bool {
+        self.setup().pairs
     }
 
     /// The covariance of the landmarks seen that is shown.
     pub fn map(&self) -> &MapCovariance {
-        if self.recipe.conditioned { &self.covariances.conditional } else { &self.covariances.marginal }
+        match self.given() {
+            Given::Path => &self.covariances.conditional,
+            Given::LastPose => &self.covariances.given_last,
+            Given::Nothing => &self.covariances.marginal,
+        }
     }
 
     /// Row and column of the entry that is named, from 0 to 2 N − 1.
@@ -259,10 +282,12 @@ impl Model for ConditioningModel {
         }
         let (n, poses, seen) = (&self.recipe.step, &self.setup().poses, &self.covariances.seen.len());
         let (off, all, entry) = (&self.map().off_block_nonzeros(), &self.off_block(), &self.entry_and_why());
-        if self.recipe.conditioned {
-            conditioning::PathKnown { n, poses, seen, off, all, entry }.say()
-        } else {
-            conditioning::PathUnknown { n, poses, seen, off, all, entry }.say()
+        match self.given() {
+            Given::Nothing => conditioning::PathUnknown { n, poses, seen, off, all, entry }.say(),
+            Given::LastPose => conditioning::LastKnown { n, poses, seen, off, all, entry }.say(),
+            Given::Path if *off > 0 => conditioning::PairsCoupled { n, poses, seen, off, all, entry }.say(),
+            Given::Path if self.is_sure() => conditioning::PathSure { n, poses, seen, off, all, entry }.say(),
+            Given::Path => conditioning::PathKnown { n, poses, seen, off, all, entry }.say(),
         }
     }
 }
@@ -271,7 +296,7 @@ impl ConditioningModel {
     /// The entry in words, and what its landmarks have to do with each other.
     fn entry_and_why(&self) -> String {
         let [a, b] = self.recipe.entry.map(|k| k / 2);
-        let coupled = a != b && self.correlation().is_some() && !self.recipe.conditioned;
+        let coupled = a != b && self.correlation().is_some_and(|rho| rho != 0.0) && self.given() == Given::Nothing;
         let entry = self.entry_text();
         match self.seen_together(a, b) {
             0 if coupled => conditioning::EntryApart { entry: &entry }.say(),

@@ -8,13 +8,35 @@ use crate::{
 use fastslam::error::Range;
 use fastslam_lab::experiment::conditioning::{ConditioningSetup, LANDMARKS, POSES};
 
+/// What of the path counts as known.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Given {
+    /// Nothing but its start.
+    Nothing,
+    /// The last pose driven.
+    LastPose,
+    /// All of it.
+    Path,
+}
+
+impl Given {
+    /// After a button for `what` was pressed or let go: one of them holds at a time.
+    fn switched(self, what: Self, on: bool) -> Self {
+        match on {
+            true => what,
+            false if self == what => Self::Nothing,
+            false => self,
+        }
+    }
+}
+
 /// Everything that a link can say of the graphical model.
 #[derive(Clone, PartialEq)]
 pub struct Recipe {
     /// The drive.
     pub setup: ConditioningSetup,
-    /// Whether the path counts as known.
-    pub conditioned: bool,
+    /// What of the path counts as known.
+    pub given: Given,
     /// How many poses have been driven.
     pub step: usize,
     /// Row and column of the entry that is named, from 0 to 2 N − 1.
@@ -25,7 +47,7 @@ impl Default for Recipe {
     fn default() -> Self {
         let setup = ConditioningSetup::default();
         // The entry of two landmarks that no pose sees together.
-        Self { step: setup.poses, setup, conditioned: false, entry: [1, 7] }
+        Self { step: setup.poses, setup, given: Given::Nothing, entry: [1, 7] }
     }
 }
 
@@ -66,8 +88,27 @@ impl recipe::Recipe for Recipe {
                 field!(setup.poses),
                 conditioning::poses_help(),
             ),
-            P::toggle("condition", conditioning::condition(), field!(conditioned), conditioning::condition_help())
-                .view(),
+            P::toggle(
+                "condition",
+                conditioning::condition(),
+                Field {
+                    get: |recipe| recipe.given == Given::Path,
+                    set: |recipe, on| recipe.given = recipe.given.switched(Given::Path, on),
+                },
+                conditioning::condition_help(),
+            )
+            .view(),
+            P::toggle(
+                "last-pose",
+                conditioning::last_pose(),
+                Field {
+                    get: |recipe| recipe.given == Given::LastPose,
+                    set: |recipe, on| recipe.given = recipe.given.switched(Given::LastPose, on),
+                },
+                conditioning::last_pose_help(),
+            )
+            .view(),
+            P::toggle("pairs", conditioning::pairs(), field!(setup.pairs), conditioning::pairs_help()),
             P::integer("step", common::step(), "", (0, 0), field!(step), conditioning::step_help())
                 .at_most(|recipe| recipe.setup.poses as f64)
                 .view(),

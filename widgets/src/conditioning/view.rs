@@ -5,11 +5,14 @@ use super::{
     layout::{GRAPH, Layout, MATRIX, NARROWEST},
     matrix::matrix,
     model::ConditioningModel,
+    recipe::Given,
 };
 use crate::{
     font::Weight,
     panels::Panels,
-    scene::{Anchor, LINE, Mark, Point, Rect, Role, Sample, Scene, closed, diamond, ellipse, heading, legend, text},
+    scene::{
+        Anchor, LINE, Mark, Point, Rect, Role, Room, Sample, Scene, closed, diamond, ellipse, heading, legend, text,
+    },
     view::{View, whole_step},
     words::conditioning,
 };
@@ -35,6 +38,11 @@ impl View for ConditioningView {
         if layout.panels.has(GRAPH) {
             graph(scene, model, layout);
         }
+        for (parameter, area) in ["condition", "last-pose", "pairs"].into_iter().zip(layout.buttons) {
+            if layout.panels.are_all() {
+                scene.rooms.push(Room { parameter, area });
+            }
+        }
         if layout.panels.has(MATRIX) {
             matrix(scene, model, layout);
             notes(scene, model, &layout.notes);
@@ -59,10 +67,12 @@ impl View for ConditioningView {
 
 /// The graph, below what is known of the path.
 fn graph(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
-    let (title, rest, role) = if model.conditioned() {
-        (conditioning::given_path(), conditioning::stands_alone(), Role::Accent)
-    } else {
-        (conditioning::path_unknown_header(), conditioning::errors_shared(), Role::Ink)
+    let (title, rest, role) = match model.given() {
+        Given::Nothing => (conditioning::path_unknown_header(), conditioning::errors_shared(), Role::Ink),
+        Given::LastPose => (conditioning::given_last(), conditioning::others_open(), Role::Ink),
+        Given::Path if model.reads_pairs() => (conditioning::given_path(), conditioning::read_together(), Role::Ink),
+        Given::Path if model.is_sure() => (conditioning::path_sure_header(), conditioning::no_error(), Role::Accent),
+        Given::Path => (conditioning::given_path(), conditioning::stands_alone(), Role::Accent),
     };
     heading(scene, &layout.graph_header, (title, role), rest);
     Graph::new(model, &layout.graph).draw(scene);
@@ -70,7 +80,7 @@ fn graph(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
 }
 
 fn names(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
-    let known = model.conditioned();
+    let known = model.given() == Given::Path;
     let pose = move |place: &Rect| {
         let disc = |(radius, role)| Mark::Discs { centres: vec![place.centre()], radius, role };
         let node = [(5.5, Role::Path), (3.5, Role::Paper)];

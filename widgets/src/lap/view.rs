@@ -8,7 +8,7 @@ use super::{
 };
 use crate::decimal::fixed;
 use crate::{
-    font::{self, Weight},
+    font::Weight,
     model::Model,
     panels::Panels,
     scene::{
@@ -63,9 +63,6 @@ impl View for LapView {
 
 fn large(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     let (lap, slot) = (model.lap(), model.selected());
-    let step = common::StepOf { step: &model.step(), last: &model.step_count() }.say();
-    let step_width = font::measure(&step, 12.5, Weight::Regular) + 2.0;
-    let Rect { x, y, w, h } = layout.large_header;
     let (weights, best) = (lap.weights(), slot == model.report().best);
     let weight = &fixed(weights[slot as usize], 3);
     let weight = match weights.iter().all(|weight| *weight == weights[0]) {
@@ -75,10 +72,7 @@ fn large(scene: &mut Scene, model: &LapModel, layout: &Layout) {
         false => lap::Weight { weight }.say(),
     };
     let name = lap::UniverseSlot { slot: &slot }.say();
-    let title = Rect::new(x, y, w - step_width - 8.0, h);
-    heading(scene, &title, (&name, Role::Ink), &weight);
-    let step_area = Rect::new(x + w - step_width, y, step_width, h);
-    scene.marks.push(text(step_area, Anchor::End, 12.5, Weight::Regular, Role::Muted, step));
+    heading(scene, &layout.large_header, (&name, Role::Ink), &weight);
 
     let plane = map::plane(layout.large);
     let particle = &lap.particles()[slot as usize];

@@ -195,7 +195,7 @@ mod tests {
 
     fn painted(mark: Mark) -> Vec<u8> {
         let (marks, regions, handles) = (vec![mark], Vec::new(), Vec::new());
-        let scene = Scene { width: 40.0, height: 40.0, marks, regions, handles, description: String::new() };
+        let scene = Scene { marks, regions, handles, ..Scene::new(40.0, 40.0, String::new()) };
         let mut canvas = Canvas::default();
         canvas.paint(&scene, 40, 40, Theme::Light);
         canvas.pixels().to_vec()

@@ -31,6 +31,8 @@ pub use shape::{NINE_TENTHS, closed, ellipse, robot};
 pub use stack::Stack;
 pub use text::{Anchor, Text, heading, n_eff, text};
 
+use serde::Serialize;
+
 /// A point \[css px\].
 pub type Point = [f64; 2];
 
@@ -181,6 +183,15 @@ pub struct Region {
     pub target: u32,
 }
 
+/// Room that a picture leaves for the control of a parameter: beside what it changes, rather than among the others.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Room {
+    /// Name of the parameter.
+    pub parameter: &'static str,
+    /// Where.
+    pub area: Rect,
+}
+
 /// Everything a figure shows.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Scene {
@@ -194,6 +205,8 @@ pub struct Scene {
     pub regions: Vec<Region>,
     /// What a reader can move.
     pub handles: Vec<Handle>,
+    /// Where controls stand in the picture.
+    pub rooms: Vec<Room>,
     /// The same in words.
     pub description: String,
 }
@@ -201,7 +214,8 @@ pub struct Scene {
 impl Scene {
     /// Of this size \[css px\], with nothing in it yet; the same in words.
     pub fn new(width: f64, height: f64, description: String) -> Self {
-        Self { width, height, marks: Vec::new(), regions: Vec::new(), handles: Vec::new(), description }
+        let (marks, regions, handles, rooms) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { width, height, marks, regions, handles, rooms, description }
     }
 
     /// What a click at this point \[css px\] picks.

@@ -37,6 +37,11 @@ impl Rect {
         [self.x + 0.5 * self.w, self.y + 0.5 * self.h]
     }
 
+    /// With all lengths times a factor.
+    pub fn scaled(&self, by: f64) -> Self {
+        Self::new(self.x * by, self.y * by, self.w * by, self.h * by)
+    }
+
     /// Smaller by `d` on every side; never less than nothing.
     pub fn inset(&self, d: f64) -> Self {
         Self::new(self.x + d, self.y + d, (self.w - 2.0 * d).max(0.0), (self.h - 2.0 * d).max(0.0))
