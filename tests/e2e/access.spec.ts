@@ -36,6 +36,7 @@ for (const [what, options] of Object.entries({
 
 test('the whole figure is worked by keyboard alone', async ({ page }) => {
   const lap = await new Figure(page, 'fastslam-lap').open()
+  await lap.element.evaluate(element => element.shadowRoot!.querySelectorAll('details').forEach(details => (details.open = true)))
   const focused = () =>
     page.evaluate(() => {
       let element = document.activeElement

@@ -12,6 +12,7 @@ async function entry(figure: Figure): Promise<[number, number]> {
 
 /** A point of the page that lies in the matrix, by shares of its width and height: its corner and size come from two entries. */
 async function inMatrix(figure: Figure, across: number, down: number): Promise<{ x: number; y: number }> {
+  await figure.openSettings()
   const middle = async (row: number, column: number) => {
     await figure.box('row').fill(String(row))
     await figure.box('row').press('Enter')

@@ -151,6 +151,7 @@ test.describe('at rest', () => {
   test('a universe is chosen by a click and by its list, and the best one again', async ({ page }) => {
     const lap = await new Figure(page, 'fastslam-lap').alone()
     await lap.scrubTo(20)
+    await lap.openSettings()
     const list = lap.element.locator('select[name=universe]')
     await expect(list).toHaveValue('best')
     const best = await lap.picture()

@@ -191,7 +191,7 @@ for (const size of ['normal', 'presentation']) {
         return { wide: body.scrollWidth, room: body.clientWidth }
       })
       expect(wide, name).toBe(room)
-      const end = figure.element.locator('[part=settings]')
+      const end = figure.element.locator('[part=numbers]')
       await end.scrollIntoViewIfNeeded()
       await expect(end).toBeInViewport()
     }

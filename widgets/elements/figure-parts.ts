@@ -40,8 +40,9 @@ export abstract class FigureParts extends HTMLElement {
   protected readonly status = h('span', { class: 'status', role: 'status' })
   protected readonly readouts = h('dl', { class: 'readouts', part: 'readouts' })
   readonly #numbersName = h('summary')
+  readonly #numbers = h('details', { class: 'numbers', part: 'numbers' }, this.#numbersName, this.readouts)
   /** Numbers and settings that not every reader needs, folded away. */
-  protected readonly folds = h('div', { class: 'folds' }, h('details', { class: 'numbers', part: 'numbers' }, this.#numbersName, this.readouts))
+  protected readonly folds = h('div', { class: 'folds' }, this.#numbers)
   protected readonly sentence = new Sentence()
   protected readonly stage = h('div', { class: 'stage', part: 'stage', role: 'group', tabindex: '0', 'aria-labelledby': 'title', 'aria-describedby': 'keys' })
   /** The picture with what plays it and what matters for it: on one screen. */
@@ -193,6 +194,11 @@ export abstract class FigureParts extends HTMLElement {
       if (name) element.removeAttribute('aria-labelledby')
       else element.setAttribute('aria-labelledby', 'title')
     }
+  }
+
+  /** Whether readers may unfold the numbers. */
+  protected showNumbers(on: boolean): void {
+    this.#numbers.classList.toggle('left-out', !on)
   }
 
   /** Without a living program nothing can be done. */

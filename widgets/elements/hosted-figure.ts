@@ -6,7 +6,7 @@ import { write } from './dom'
 import { FIGURES } from './generated/figures'
 import type { Answer, Command, FigureHost, Frame, Listener } from './host'
 import { LocalHost } from './local-host'
-import { hasComma, locked, offered, optionCommand, OPTIONS, refusal, unknownNames } from './options'
+import { hasComma, locked, NUMBERS, offered, optionCommand, OPTIONS, refusal, unknownNames } from './options'
 import { programOf } from './program'
 import { download } from './save'
 import { Settings } from './settings'
@@ -251,6 +251,7 @@ export abstract class HostedFigure extends FigureParts implements Listener {
         const wish = offered(text, names)
         controls.offer(wish.offered)
         this.body.classList.toggle('some-controls', wish.offered !== undefined)
+        this.showNumbers(wish.offered?.has(NUMBERS) ?? true)
         wrong = unknownNames(name, wish.unknown, wish.known, this.words)
       } else if (name === 'decimal') {
         controls.writeComma(hasComma(text, this.words))
