@@ -61,10 +61,9 @@ function oembed(figure, codes) {
 
 /** The functions that write embed codes, which the elements have as well. */
 export async function embedCodes() {
-  const { transformWithOxc } = await import('vite')
-  const path = join(root, 'widgets', 'elements', 'embed-code.ts')
-  const { code } = await transformWithOxc(readFileSync(path, 'utf8'), path)
-  return /** @type {typeof import('../widgets/elements/embed-code')} */ (await import(`data:text/javascript,${encodeURIComponent(code)}`))
+  const { runnerImport } = await import('vite')
+  const { module } = await runnerImport(join(root, 'widgets', 'elements', 'embed-code.ts'), { configFile: false, logLevel: 'silent' })
+  return /** @type {typeof import('../widgets/elements/embed-code')} */ (module)
 }
 
 export async function writeFrames() {

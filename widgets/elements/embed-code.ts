@@ -1,5 +1,7 @@
 // The code that puts a figure, as it stands, into another page: for the menu, and for the page that documents embedding.
 
+import { usualHeight } from './heights'
+
 /** A figure as its author would write it: tag, and attributes in their order. */
 export interface FigureMarkup {
   tag: string
@@ -10,22 +12,16 @@ export interface FigureMarkup {
 export const CODES = { element: 'HTML element', iframe: 'iframe', myst: 'MyST', python: 'Python' } as const
 export type CodeName = keyof typeof CODES
 
-/** Width of a frame as it is pasted [px]; the height goes with the figure. */
-export const FRAME_WIDTH = 800
-/** Heights that show all of a figure in a frame of that width, settings closed [px]; tests/e2e/embed.spec.ts measures them. */
-const FRAME_HEIGHTS: Record<string, number> = {
-  'fastslam-lap': 770,
-  'fastslam-conditioning': 800,
-  'fastslam-proposal': 870,
-  'fastslam-resampling': 1230,
-  'fastslam-worked-example': 1360,
-  'fastslam-log': 980, // with a log open
-}
+/** Width of a frame as it is pasted [px]: the controls stand beside the picture, and all is on one screen. */
+export const FRAME_WIDTH = 900
+
+const EDGE = 4 // [px], for what a browser rounds otherwise
 
 /** Lives in a worker, which a sandboxed frame, without an origin, cannot have under the policy of our pages. */
 const NEEDS_WORKER = 'fastslam-log'
 
-export const frameHeight = (tag: string): number => FRAME_HEIGHTS[tag] ?? 800
+/** Height that shows all of a figure in a frame of that width, what is folded closed [px]. */
+export const frameHeight = (tag: string): number => usualHeight(tag, FRAME_WIDTH) + EDGE
 
 /** The code, for figures whose files are in the folder `home` (an address with a slash at its end). */
 export function embedCode(name: CodeName, { tag, attributes }: FigureMarkup, home: string, title: string): string {

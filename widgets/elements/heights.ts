@@ -4,7 +4,7 @@ import { apart, first, heights } from './heights.json'
 /** Keeps free what this figure took where tests/e2e/heights.spec.ts measured it at this width, unless its author has set options that make it another. */
 export function reserve(body: HTMLElement, figure: HTMLElement): void {
   if (figure.matches('[fit], [size], [controls], [show]')) return
-  body.style.minHeight = `${height((heights as Record<string, number[] | undefined>)[figure.localName] ?? [], figure.clientWidth)}px`
+  body.style.minHeight = `${usualHeight(figure.localName, figure.clientWidth)}px`
   body.classList.add('reserved')
 }
 
@@ -13,7 +13,9 @@ export function release(body: HTMLElement): void {
   body.classList.remove('reserved')
 }
 
-function height(samples: number[], width: number): number {
+/** What a figure takes at this width where its author has set no options [px]; 0 where that was not measured. */
+export function usualHeight(tag: string, width: number): number {
+  const samples = (heights as Record<string, number[] | undefined>)[tag] ?? []
   const at = Math.min((width - first) / apart, samples.length - 1)
   if (at < 0) return 0
   const [below, above] = [samples[Math.floor(at)]!, samples[Math.ceil(at)]!]

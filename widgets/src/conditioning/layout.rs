@@ -31,8 +31,9 @@ const NOTES: f64 = 5.0 * LINE;
 /// A button between graph and matrix, beside each other and one above the other.
 const BUTTON: [f64; 2] = [112.0, 56.0];
 const BUTTON_GAP: f64 = 8.0;
-/// Largest side of a matrix that is shown alone: all of a wide figure would be more than a screen is high.
+/// Largest side of a matrix that is shown alone, and of one below the graph: all of a wide figure would be more than a screen is high.
 const ALONE: f64 = 380.0;
+const BELOW: f64 = 250.0;
 
 /// The parts of the figure \[css px\].
 #[derive(Clone, PartialEq, Debug)]
@@ -99,7 +100,8 @@ impl Layout {
         if !graph {
             column.w = column.w.min(GUTTER[0] + ALONE + RING);
         }
-        let side = column.w - GUTTER[0] - RING;
+        let most = if both && !beside { BELOW } else { f64::INFINITY };
+        let side = (column.w - GUTTER[0] - RING).min(most);
         let matrix_header = column.take(matrix, HEADER, 0.0);
         let names = column.take(matrix, GUTTER[1], 0.0);
         let Rect { x, y, h, .. } = column.take(matrix, side, PAD);
