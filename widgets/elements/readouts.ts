@@ -1,4 +1,4 @@
-// The numbers of the state shown, as a list of names and values.
+// The numbers of the state shown, as a list of names and values: those that do not stand in the picture.
 import { h, write } from './dom'
 import type { Readout } from './shell'
 
@@ -13,7 +13,9 @@ export function showReadouts(list: HTMLElement, readouts: Readout[], language: s
     )
   }
   readouts.forEach((readout, i) => {
-    const [title, value] = list.children[i]!.children as unknown as [HTMLElement, HTMLElement]
+    const row = list.children[i] as HTMLElement
+    row.hidden = readout.drawn
+    const [title, value] = row.children as unknown as [HTMLElement, HTMLElement]
     write(title, readout.title)
     write(value.firstElementChild as HTMLElement, readout.text)
     write(value.lastElementChild as HTMLElement, readout.unit)

@@ -29,6 +29,7 @@ export interface Readout {
   text: string
   unit: string
   help: string
+  drawn: boolean // the picture says it
 }
 
 /** A line of the figure's algorithm that the step shown has run. */

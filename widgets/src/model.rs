@@ -59,6 +59,8 @@ pub struct Readout {
     pub unit: &'static str,
     /// What it means, in a sentence.
     pub help: &'static str,
+    /// Whether the picture says it: a page need not write it a second time.
+    pub drawn: bool,
 }
 
 impl Readout {
@@ -73,7 +75,12 @@ impl Readout {
     ) -> Self {
         let known = value.is_finite();
         let text = if known { text.into() } else { "–".into() };
-        Self { name, title, value: known.then_some(value), text, unit, help }
+        Self { name, title, value: known.then_some(value), text, unit, help, drawn: false }
+    }
+
+    /// The same where the picture says it.
+    pub fn drawn(self) -> Self {
+        Self { drawn: true, ..self }
     }
 }
 

@@ -111,6 +111,7 @@ pub fn readouts(model: &LogModel) -> Vec<Readout> {
             text: digest,
             unit: "",
             help: words::fingerprint_help(),
+            drawn: false,
         },
     ]
 }
