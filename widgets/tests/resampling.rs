@@ -5,11 +5,13 @@ mod common;
 use common::{assert_drawn_inside, assert_texts_fit, figure, scene, state};
 use fastslam_lab::experiment::policies::RIGHT_WITHIN;
 use fastslam_widgets::{
+    decimal::fixed,
     figure::Figure,
+    font::Weight,
     job,
     model::{Model, Parameters},
     panels::Panels,
-    resampling::{Layout, ResamplingModel, ResamplingView},
+    resampling::{Layout, Parts, ResamplingModel, ResamplingView},
     scene::{Mark, Point, Rect, Role, Scene, Text},
     view::View,
 };
@@ -20,6 +22,11 @@ fn resampling(query: &str) -> Figure {
 
 fn value(figure: &Figure, name: &str) -> f64 {
     figure.model().readouts().into_iter().find(|r| r.name == name).unwrap().value.unwrap()
+}
+
+/// Where the parts stand at this width, in the loop of ambiguity or not.
+fn parts(width: f64, wings: bool) -> Parts {
+    Layout::new(width).courses[usize::from(wings)].clone()
 }
 
 /// The step that is read.
@@ -43,6 +50,11 @@ fn strands(scene: &Scene, role: Role, area: &Rect) -> Vec<Vec<Point>> {
 
 const POLICIES: [&str; 3] = ["never", "always", "selective"];
 
+/// The colour of a policy.
+fn role(policy: &str) -> Role {
+    Role::Policy(POLICIES.iter().position(|name| *name == policy).unwrap() as u8)
+}
+
 #[test]
 fn a_step_back_shows_the_same_bits_as_the_way_forward() {
     for query in ["particles=5&seed=9", "wings=on&particles=12"] {
@@ -64,28 +76,27 @@ fn the_tree_has_every_edge_once_and_the_living_ones_are_those_still_needed() {
     for query in
         ["step=23", "particles=31&step=17&scheme=multinomial", "wings=on&step=90", "wings=on&particles=4&step=104"]
     {
-        let figure = resampling(query);
+        let mut figure = resampling(query);
         let m: f64 = figure.model().value("particles").unwrap().parse().unwrap();
-        for width in [380.0, 1000.0] {
-            let (scene, layout) = (scene(&figure, width), Layout::new(width));
-            for (column, policy) in layout.columns.iter().zip(POLICIES) {
-                let area = &column.charts[3];
-                let step = area.w / f64::from(figure.model().step_count());
-                let edges = |role| {
-                    let lines = strands(&scene, role, area);
-                    let length = |line: &Vec<Point>| (line[line.len() - 1][0] - line[0][0]) / step;
-                    lines.iter().map(length).sum::<f64>()
-                };
-                let dead = scene.marks.iter().find_map(|mark| match mark {
-                    Mark::Lines { role: role @ Role::Level(_), .. } => Some(*role),
-                    _ => None,
-                });
-                let (living, dead) = (edges(Role::Path), edges(dead.unwrap()));
-                let all = m * f64::from(figure.model().step());
-                assert!((living + dead - all).abs() < 1e-6, "{query} {policy}: {living} + {dead} of {all}");
-                let needed = value(&figure, &format!("{policy}_tree")) - value(&figure, &format!("{policy}_lineage"));
-                assert!((living - needed).abs() < 1e-6, "{query} {policy}: {living} of {needed}");
-            }
+        for (policy, width) in POLICIES.into_iter().zip([380.0, 1000.0, 728.0]) {
+            figure.set("policy", policy).unwrap();
+            let scene = scene(&figure, width);
+            let area = &parts(width, query.contains("wings")).charts[3];
+            let step = area.w / f64::from(figure.model().step_count());
+            let edges = |role| {
+                let lines = strands(&scene, role, area);
+                let length = |line: &Vec<Point>| (line[line.len() - 1][0] - line[0][0]) / step;
+                lines.iter().map(length).sum::<f64>()
+            };
+            let dead = scene.marks.iter().find_map(|mark| match mark {
+                Mark::Lines { role: role @ Role::Level(_), .. } => Some(*role),
+                _ => None,
+            });
+            let (living, dead) = (edges(role(policy)), edges(dead.unwrap()));
+            let all = m * f64::from(figure.model().step());
+            assert!((living + dead - all).abs() < 1e-6, "{query} {policy}: {living} + {dead} of {all}");
+            let needed = value(&figure, &format!("{policy}_tree")) - value(&figure, &format!("{policy}_lineage"));
+            assert!((living - needed).abs() < 1e-6, "{query} {policy}: {living} of {needed}");
         }
     }
 }
@@ -98,10 +109,12 @@ fn the_common_ancestor_is_ringed_and_its_step_told_where_there_is_one() {
             query.split('&').filter_map(|p| p.split_once('=')).map(|(n, v)| (n.into(), v.into())).collect();
         assert_eq!(model.configure(&link), []);
         model.settle();
-        let scene = ResamplingView.scene(&model, &Panels::default(), 1000.0, 0.0);
-        for (policy, column) in Layout::new(1000.0).columns.iter().enumerate() {
+        for (policy, name) in POLICIES.into_iter().enumerate() {
+            assert_eq!(model.configure(&[("policy".into(), name.into())]), []);
+            let scene = ResamplingView.scene(&model, &Panels::default(), 1000.0, 0.0);
+            let axis = parts(1000.0, query.contains("wings")).axis;
             let coalescence = model.now(policy).report.descent.coalescence();
-            let told = texts(&scene).into_iter().find(|t| column.axis.encloses(&t.area) && t.role == Role::Ink);
+            let told = texts(&scene).into_iter().find(|t| axis.encloses(&t.area) && t.role == Role::Ink);
             assert_eq!(told.map(|t| t.text.clone()), coalescence.map(|step| format!("step {step}")), "{query}");
         }
     }
@@ -119,15 +132,18 @@ fn at_threshold_nothing_the_third_filter_is_the_first() {
 }
 
 #[test]
-fn to_point_at_a_step_is_to_read_it_in_every_column() {
+fn to_point_at_a_step_is_to_read_it_in_every_chart() {
     let mut figure = resampling("particles=4&step=60");
     let last = figure.model().step_count();
-    for width in [240.0, 380.0, 719.0, 720.0, 1280.0] {
-        let scene_width = scene(&figure, width).width;
-        for column in Layout::new(scene_width).columns {
+    for width in [240.0, 380.0, 559.0, 560.0, 1280.0] {
+        let seen = scene(&figure, width);
+        let over = seen.handles[0].hover.unwrap();
+        let charts = parts(seen.width, false).charts;
+        for chart in charts {
+            assert!(over.encloses(&chart), "{width}");
             for step in [0, 1, 17, 59, 60, 75] {
-                let x = column.charts[0].x + column.charts[0].w * f64::from(step) / f64::from(last);
-                let at = [x, column.charts[1].centre()[1]].map(|c| c * width / scene_width);
+                let x = chart.x + chart.w * f64::from(step) / f64::from(last);
+                let at = [x, chart.centre()[1]].map(|c| c * width / seen.width);
                 figure.drag("cursor", at[0], at[1], width);
                 let (at, word) = (read(&figure), figure.model().value("cursor").unwrap());
                 assert_eq!(at, f64::from(step.min(60)), "{width}");
@@ -136,6 +152,102 @@ fn to_point_at_a_step_is_to_read_it_in_every_column() {
         }
         figure.drag("cursor", -1e9, 0.0, width);
         assert_eq!(read(&figure), 0.0);
+    }
+}
+
+#[test]
+fn the_threshold_is_dragged_up_and_down_by_its_line_and_moved_by_arrow_keys() {
+    let mut figure = resampling("particles=4&step=12");
+    let share = |figure: &Figure| figure.model().value("threshold").unwrap();
+    for (width, wings) in [(240.0, "off"), (380.0, "on"), (728.0, "off"), (1280.0, "on")] {
+        figure.set("wings", wings).unwrap();
+        figure.model_mut().settle();
+        let at = |figure: &Figure| {
+            let seen = scene(figure, width);
+            let handle = seen.handles.iter().find(|handle| handle.name == "threshold").unwrap();
+            (handle.at, handle.value, width / seen.width)
+        };
+        let chart = parts(scene(&figure, width).width, wings == "on").charts[0];
+        for (wanted, found) in [(0.3, "0.3"), (0.96, "0.95"), (1.0, "1"), (-3.0, "0"), (7.0, "1"), (0.5, "0.5")] {
+            let ([x, _], _, scale) = at(&figure);
+            let y = chart.bottom() - wanted * chart.h;
+            figure.drag("threshold", x * scale, y * scale, width);
+            assert_eq!(share(&figure), found, "{wanted} at {width}");
+            let ([_, y], value, _) = at(&figure);
+            assert!((chart.bottom() - y - value * chart.h).abs() < 1e-9, "the handle stays at its line");
+        }
+        let ([_, y], _, scale) = at(&figure);
+        figure.drag("threshold", 1e6, y * scale, width);
+        assert_eq!(share(&figure), "0.5", "sideways it does not move");
+    }
+    let mut by = |right, up| {
+        figure.nudge("threshold", right, up);
+        share(&figure)
+    };
+    assert_eq!([by(0.0, 1.0), by(0.0, -2.0), by(1.0, 0.0), by(0.0, 0.1)], ["0.55", "0.45", "0.5", "0.505"]);
+    assert_eq!([by(0.0, 100.0), by(0.0, -100.0)], ["1", "0"]);
+    // The filters are those of the threshold, and the tree is of the policy as before.
+    figure.model_mut().settle();
+    assert_eq!(state(&figure), state(&resampling(&figure.query())));
+}
+
+#[test]
+fn a_click_on_a_map_or_a_value_chooses_its_policy_and_nothing_but_the_view_changes() {
+    for query in ["step=20", "wings=on&step=80&cursor=75"] {
+        let mut figure = resampling(query);
+        for width in [352.0, 728.0, 1112.0] {
+            for policy in [0, 1, 2, 1] {
+                let [numbers, rows] = [figure.model().readouts().len(), figure.export().rows().len()];
+                let parts = parts(width, query.contains("wings"));
+                let [x, y] = parts.tabs[policy].centre();
+                assert!(figure.pick(x, y, width), "{query} at {width}");
+                assert_eq!(figure.model().value("policy").unwrap(), POLICIES[policy]);
+                assert_eq!([figure.model().readouts().len(), figure.export().rows().len()], [numbers, rows]);
+                let seen = scene(&figure, width);
+                let strong = |place: &Rect| {
+                    texts(&seen).into_iter().any(|t| place.encloses(&t.area) && t.weight == Weight::SemiBold)
+                };
+                assert!(strong(&parts.tabs[policy]), "its name is written strongly");
+                // Its map, and a value of another one.
+                if parts.maps.len() == 3 {
+                    let [x, y] = parts.maps[(policy + 1) % 3].centre();
+                    assert!(figure.pick(x, y, width));
+                    assert_eq!(figure.model().value("policy").unwrap(), POLICIES[(policy + 1) % 3]);
+                }
+                let Rect { x, y, .. } = scene(&figure, width).regions.last().unwrap().area;
+                assert!(figure.pick(x + 3.0, y + 3.0, width));
+            }
+            let [x, y] = parts(width, query.contains("wings")).charts[1].centre();
+            assert!(!figure.pick(x, y, width), "the charts are the cursor's");
+        }
+    }
+}
+
+#[test]
+fn what_the_cursor_reads_stands_beside_the_charts_once() {
+    for query in ["step=70", "step=70&cursor=31&policy=never", "wings=on&step=101&policy=always"] {
+        let figure = resampling(query);
+        for width in [352.0, 728.0, 1112.0] {
+            let scene = scene(&figure, width);
+            let parts = parts(width, query.contains("wings"));
+            for policy in POLICIES {
+                let read = |name: &str| value(&figure, &format!("{policy}_{name}"));
+                let metres = |x: f64| fixed(x, if x < 10.0 { 2 } else { 1 });
+                for (area, number) in [
+                    (parts.values[0], fixed(read("ess"), 1)),
+                    (parts.values[2], fixed(read("lineage"), 0)),
+                    (parts.values[3], metres(read("error_best"))),
+                ] {
+                    let beside = |t: &&Text| t.area.x >= area.x && t.area.y > area.y - 20.0 && t.area.y < area.bottom();
+                    let said: Vec<_> =
+                        texts(&scene).into_iter().filter(beside).filter(|t| t.role == role(policy)).collect();
+                    let written = said.iter().filter(|t| t.text.split(' ').next_back() == Some(&number)).count();
+                    assert!(written >= 1, "{query} at {width}: {policy} {number} of {said:?}");
+                }
+            }
+        }
+        let again = figure.readouts().into_iter().filter(|readout| !readout.drawn).map(|readout| readout.name);
+        assert_eq!(again.collect::<Vec<_>>(), ["never_tree", "always_tree", "selective_tree"]);
     }
 }
 
@@ -173,8 +285,7 @@ fn what_is_read_at_a_step_does_not_depend_on_how_far_time_went() {
 
 #[test]
 fn a_link_brings_back_the_whole_state() {
-    let query =
-        "wings=on&particles=7&seed=77&threshold=0.25&odometry=0.5&range=1.5&scheme=residual&back=4&step=80&cursor=66";
+    let query = "wings=on&particles=7&seed=77&threshold=0.25&odometry=0.5&range=1.5&scheme=residual&policy=never&back=4&step=80&cursor=66";
     let mut figure = resampling(query);
     assert_eq!(figure.query(), query);
     assert_eq!(state(&figure), state(&resampling(&format!("?{}", figure.query()))));
@@ -193,7 +304,7 @@ fn a_link_brings_back_the_whole_state() {
 #[test]
 fn a_bad_link_is_told_of_and_the_rest_of_it_applied() {
     let mut figure = Figure::new("fastslam-resampling").unwrap();
-    let refused = figure.load("particles=65&step=91&cursor=-2&scheme=magic&tempo=3&back=0&seed=4");
+    let refused = figure.load("particles=65&step=91&cursor=-2&scheme=magic&tempo=3&back=0&seed=4&policy=neff");
     let messages: Vec<String> = refused.into_iter().map(|e| e.message).collect();
     assert_eq!(figure.query(), "seed=4");
     for part in [
@@ -202,11 +313,12 @@ fn a_bad_link_is_told_of_and_the_rest_of_it_applied() {
         "cursor = \"-2\"",
         "scheme = \"magic\": must be one of usual, systematic, stratified, multinomial, residual",
         "back = \"0\": must be a whole number from 1 to 60 steps",
+        "policy = \"neff\": must be one of never, always, selective",
         "tempo",
     ] {
         assert!(messages.iter().any(|m| m.contains(part)), "{part}: {messages:?}");
     }
-    assert_eq!(messages.len(), 6);
+    assert_eq!(messages.len(), 7);
 }
 
 #[test]
@@ -229,14 +341,13 @@ fn the_right_wing_is_told_where_there_are_two_and_lost_in_words() {
         let figure = resampling(&format!("wings=on&seed={seed}&step=100"));
         for width in [380.0, 1000.0] {
             let scene = scene(&figure, width);
-            for (column, policy) in Layout::new(width).columns.iter().zip(POLICIES) {
+            for (tab, policy) in parts(width, true).tabs.iter().zip(POLICIES) {
                 let right = value(&figure, &format!("{policy}_right"));
-                let said =
-                    texts(&scene).into_iter().find(|t| column.map_label.encloses(&t.area) && t.text.contains("right"));
-                let said = &said.unwrap().text;
-                assert_eq!(said == "right wing lost", right == 0.0, "{said}");
-                assert!(right == 0.0 || said.contains(&format!("{right} of 16")), "{said}");
-                lost += u32::from(right == 0.0);
+                let said = texts(&scene).into_iter().find(|t| tab.encloses(&t.area) && t.text.contains("right"));
+                let Text { text: said, role, .. } = said.unwrap();
+                assert_eq!(*role == Role::Extinct, right == 0.0, "{said}");
+                assert!(said == "right wing lost" || said.contains(&format!("{right} of 16")), "{said}");
+                lost += u32::from(said == "right wing lost");
             }
         }
     }
@@ -296,10 +407,12 @@ fn texts_fit_their_boxes_and_the_figure_and_cover_no_other() {
         "wings=on&particles=64&step=104&odometry=2&range=4",
         "wings=on&step=96&cursor=63",
         "step=90&odometry=2&range=4&particles=4",
+        "step=40&threshold=0.123456&policy=never",
+        "wings=on&step=85&threshold=1&policy=always",
     ] {
         let figure = resampling(query);
         for width in
-            [240.0, 300.0, 320.0, 340.0, 369.0, 370.0, 380.0, 459.0, 460.0, 719.0, 720.0, 800.0, 1000.0, 1280.0]
+            [240.0, 320.0, 340.0, 352.0, 380.0, 460.0, 559.0, 560.0, 588.0, 728.0, 804.0, 930.0, 941.0, 1112.0, 1280.0]
         {
             let scene = scene(&figure, width);
             let inked = assert_texts_fit(&scene, &format!("{query} at {width}"));

@@ -153,12 +153,12 @@ impl Theme {
         let palette = self.palette();
         match role {
             Role::Paper => palette.paper,
-            Role::Ink => palette.ink,
+            Role::Ink | Role::Policy(0) => palette.ink,
             Role::Muted => palette.muted,
             Role::Frame => palette.frame,
-            Role::Path | Role::Posterior | Role::Particle(0) => palette.path,
+            Role::Odometry | Role::Policy(1) => palette.odometry,
+            Role::Path | Role::Posterior | Role::Particle(0) | Role::Policy(_) => palette.path,
             Role::Truth | Role::Landmark => palette.truth,
-            Role::Odometry => palette.odometry,
             Role::Copied => palette.copied,
             Role::Extinct => palette.extinct,
             Role::Hit => palette.hit,
@@ -222,7 +222,8 @@ mod tests {
     fn text_has_the_contrast_of_wcag_aa_and_in_contrast_themes_of_aaa() {
         for theme in THEMES {
             let least = if matches!(theme, Theme::Light | Theme::Dark) { 4.5 } else { 7.0 };
-            for role in [Role::Ink, Role::Muted, Role::Copied, Role::Extinct, Role::Path] {
+            let policies = [0, 1, 2].map(Role::Policy);
+            for role in [Role::Ink, Role::Muted, Role::Copied, Role::Extinct, Role::Path].into_iter().chain(policies) {
                 let ratio = contrast(theme.color(role), theme.color(Role::Paper));
                 assert!(ratio >= least, "{theme:?} {role:?}: {ratio}");
             }

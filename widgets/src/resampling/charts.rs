@@ -1,25 +1,30 @@
-//! One filter in its column: its name, and N_eff, lineage and errors over the steps.
+//! N_eff, lineage and errors of all three filters over one axis of time.
 
 use super::{
-    layout::{CHARTS, Column},
-    model::{Moment, ResamplingModel, SELECTIVE},
+    layout::{CHARTS, Parts, SCALE},
+    model::{Moment, ResamplingModel},
+    stroke,
 };
-use crate::decimal::{fixed, write};
+use crate::decimal::{fixed, rounded, write};
 use crate::{
     font::{self, Weight},
     model::Model,
     panels::Panels,
-    scene::{Anchor, Chart, Mark, Point, Rect, Role, Scene, heading, n_eff, text},
+    scene::{Anchor, Chart, LINE, Mark, Point, Rect, Role, Sample, Scene, legend, n_eff, text},
     words::{common, resampling},
 };
 
-/// Font size of what is written above the charts \[css px\].
+/// Font size of what is written at the charts \[css px\].
 pub const SIZE: f64 = 11.5;
 
-/// Dash and gap of the second curve of a chart and of the threshold, and from dot to dot where something happens \[css px\].
-pub const SECOND: [f64; 2] = [4.0, 3.0];
-pub const THRESHOLD: [f64; 2] = [2.0, 2.0];
+/// Dash and gap of the second curve of the policy that is chosen, and of the threshold, and from dot to dot where something happens
+/// \[css px\].
+const SECOND: [f64; 2] = [4.0, 3.0];
+const THRESHOLD: [f64; 2] = [3.0, 3.0];
 const EVENT: f64 = 4.0;
+
+/// Between a name and what is told of it in the same line \[css px\].
+const APART: f64 = 14.0;
 
 /// The end of the axis for errors up to this \[m\]: a round number.
 pub fn error_scale(largest: f64) -> f64 {
@@ -29,68 +34,57 @@ pub fn error_scale(largest: f64) -> f64 {
         .unwrap_or(50.0)
 }
 
-/// Names of the filters.
-pub const NAMES: [fn() -> &'static str; 3] = [resampling::never, resampling::every_step, resampling::selective];
-
-/// One filter in its column.
-pub struct Filter<'a> {
+/// The figure on its course.
+pub struct Picture<'a> {
     pub model: &'a ResamplingModel,
-    pub policy: usize,
-    pub column: &'a Column,
+    pub parts: &'a Parts,
+    /// Whether the maps of all policies are there.
+    pub wide: bool,
     /// End of the axis of errors \[m\].
     pub error_scale: f64,
 }
 
-impl Filter<'_> {
+impl Picture<'_> {
     /// A chart, by its rank.
     pub fn chart(&self, rank: usize) -> Chart {
-        Chart { area: self.column.charts[rank], last: self.model.step_count() }
+        Chart { area: self.parts.charts[rank], last: self.model.step_count() }
+    }
+
+    /// Where a step is on the one axis of time \[css px\].
+    pub fn x(&self, step: u32) -> f64 {
+        Chart { area: self.parts.first_chart(), last: self.model.step_count() }.x(step)
     }
 
     pub fn particles(&self) -> usize {
         self.model.setup().particles
     }
 
-    /// Its name, and the charts that are shown.
+    /// The policy whose tree and whose second curves are shown.
+    pub fn chosen(&self) -> usize {
+        self.model.chosen()
+    }
+
+    /// The policies, the one that is chosen last: it covers the others.
+    fn in_order(&self) -> [usize; 3] {
+        [1, 2, 3].map(|k| (self.chosen() + k) % 3)
+    }
+
+    /// The charts that are shown, and what goes through all of them.
     pub fn charts(&self, scene: &mut Scene, panels: &Panels) {
-        if CHARTS.iter().any(|name| panels.has(name)) {
-            self.header(scene);
-            self.cursor(scene);
-        }
+        self.cursor(scene);
         let draw = [Self::ess, Self::lineage, Self::errors, Self::tree];
         for (draw, _) in draw.iter().zip(CHARTS).filter(|(_, name)| panels.has(name)) {
             draw(self, scene);
         }
-        if CHARTS.iter().any(|name| panels.has(name)) {
-            self.axis(scene);
-        }
-    }
-
-    fn header(&self, scene: &mut Scene) {
-        let Rect { x, y, w, h } = self.column.header;
-        let step = resampling::StepIs { step: &self.model.cursor() }.say();
-        let role = if self.model.looks_back() { Role::Accent } else { Role::Muted };
-        let step_width = font::measure(&step, 12.5, Weight::Regular) + 2.0;
-        let rest = match self.policy {
-            0 => resampling::only_multiply().into(),
-            1 => resampling::weights_reset().into(),
-            _ => resampling::Below { threshold: &write(self.model.setup().threshold) }.say(),
-        };
-        let title = Rect::new(x, y, w - step_width - 8.0, h);
-        let name = NAMES[self.policy]();
-        let room = title.w - font::measure(name, 13.5, Weight::SemiBold) - 8.0;
-        let rest = if font::measure(&rest, 12.5, Weight::Regular) < room { &rest } else { "" };
-        heading(scene, &title, (name, Role::Ink), rest);
-        let area = Rect::new(x + w - step_width, y, step_width, h);
-        scene.marks.push(text(area, Anchor::End, 12.5, Weight::Regular, role, step));
+        self.axis(scene);
     }
 
     /// A line through all charts at the step read, and at what happens on the course.
     fn cursor(&self, scene: &mut Scene) {
-        let through = |step: u32| {
-            let x = self.chart(0).x(step);
-            self.column.charts.iter().filter(|chart| chart.h > 0.0).map(move |chart| (x, chart.y, chart.bottom()))
-        };
+        let last_tick = self.parts.ticks[2].bottom();
+        let ends = |chart: &Rect| (chart.y, if chart.y < last_tick { last_tick } else { chart.bottom() });
+        let charts: Vec<_> = self.parts.charts.iter().filter(|chart| chart.h > 0.0).map(ends).collect();
+        let through = |step: u32| charts.iter().map(move |&(y0, y1)| (self.x(step), y0, y1));
         let events = self.events().into_iter().flat_map(|(step, _)| through(step));
         let dots = events.flat_map(|(x, y0, y1)| {
             let count = ((y1 - y0) / EVENT) as usize;
@@ -109,110 +103,153 @@ impl Filter<'_> {
         named.into_iter().filter_map(|(step, name)| Some((step?, name))).collect()
     }
 
-    /// Name of a chart at the left of its line, and at the right what is written beside its curves.
-    pub(super) fn label(&self, scene: &mut Scene, chart: usize, values: &[(String, Weight, Role)]) -> Rect {
-        let Rect { x, y, w, h } = self.column.labels[chart];
-        let mut right = x + w;
-        for (value, weight, role) in values.iter().rev() {
-            let width = font::measure(value, SIZE, *weight) + 0.01;
-            scene.marks.push(text(
-                Rect::new(right - width, y, width, h),
-                Anchor::Start,
-                SIZE,
-                *weight,
-                *role,
-                value.clone(),
-            ));
-            right -= width + 8.0;
-        }
-        Rect::new(x, y, right - x, h)
+    /// The name of a chart above it, and after it samples of marks with what they mean, as far as there is room.
+    pub fn label(&self, scene: &mut Scene, rank: usize, name: &str, items: Vec<(Sample<'_>, String)>) {
+        let line = self.line(rank);
+        scene.marks.push(text(line, Anchor::Start, SIZE, Weight::Regular, Role::Muted, name));
+        self.items(scene, rank, font::measure(name, SIZE, Weight::Regular), items);
     }
 
-    pub(super) fn name(&self, scene: &mut Scene, area: &Rect, name: &str) {
-        scene.marks.push(text(*area, Anchor::Start, SIZE, Weight::Regular, Role::Muted, name));
+    /// The line above a chart, as high as one of a legend.
+    fn line(&self, rank: usize) -> Rect {
+        Rect { h: LINE, ..self.parts.labels[rank] }
+    }
+
+    /// Samples with their meanings in the line above a chart, so far from its start.
+    fn items(&self, scene: &mut Scene, rank: usize, used: f64, mut items: Vec<(Sample<'_>, String)>) {
+        let Rect { x, y, w, h } = self.line(rank);
+        let area = Rect::new(x + used + APART, y, w - used - APART, h);
+        let width = |items: &[(Sample<'_>, String)]| -> f64 {
+            items.iter().map(|(_, name)| 35.0 + font::measure(name, SIZE, Weight::Regular)).sum()
+        };
+        while width(&items) > area.w + 12.0 {
+            items.pop();
+        }
+        legend(scene, &area, items);
+    }
+
+    /// The ends of a chart's scale, and its edges.
+    fn scale(&self, scene: &mut Scene, rank: usize, most: String) {
+        let Rect { x, y, h, .. } = self.parts.charts[rank];
+        let taken = if rank == 0 { self.threshold_y() } else { f64::INFINITY };
+        // Inside of the edges: names stand above.
+        for (y, number) in [(y + 6.0, most), (y + h - 5.0, "0".into())] {
+            if (y - taken).abs() > 13.0 {
+                let area = Rect::new(x - SCALE, y - 7.0, SCALE - 10.0, 14.0);
+                scene.marks.push(text(area, Anchor::End, SIZE, Weight::Regular, Role::Muted, number));
+            }
+        }
+        scene.marks.extend(self.chart(rank).edges());
+    }
+
+    /// Where N_eff calls for resampling \[css px\].
+    pub fn threshold_y(&self) -> f64 {
+        self.chart(0).y(self.model.setup().threshold)
+    }
+
+    /// That line, with its handle and its number at the left.
+    fn threshold(&self, scene: &mut Scene) {
+        let (Rect { x, y: top, w, h }, y) = (self.parts.charts[0], self.threshold_y());
+        let lines = vec![vec![[x, y], [x + w, y]]];
+        scene.marks.push(Mark::Lines { lines, width: 1.5, dash: Some(THRESHOLD), role: Role::Accent });
+        let handle = vec![[x + 3.0, y], [x - 7.0, y - 6.0], [x - 7.0, y + 6.0]];
+        scene.marks.push(Mark::Polygons { polygons: vec![handle], role: Role::Accent });
+        let number = resampling::ShareOfM { share: &write(rounded(self.model.setup().threshold, 2)) }.say();
+        // Inside of the edges, as the ends of the scale are.
+        let middle = y.min(top + h - 5.0).max(top + 6.0);
+        let area = Rect::new(x - SCALE, middle - 7.0, SCALE - 9.0, 14.0);
+        scene.marks.push(text(area, Anchor::End, 11.0, Weight::SemiBold, Role::Accent, number));
     }
 
     /// A curve over the steps shown, by the share of the chart's height.
-    fn curve(&self, chart: usize, height: impl Fn(&Moment) -> f64) -> Vec<Point> {
-        self.chart(chart).curve(self.model.history(self.policy).map(|moment| (moment.report.step, height(moment))))
+    fn curve(&self, rank: usize, policy: usize, height: impl Fn(&Moment) -> f64) -> Vec<Point> {
+        self.chart(rank).curve(self.model.history(policy).map(|moment| (moment.report.step, height(moment))))
     }
 
-    /// Where N_eff calls for resampling.
-    fn threshold(&self, scene: &mut Scene) {
-        let Rect { x, w, h, .. } = self.column.charts[0];
-        let y = self.column.charts[0].bottom() - h * self.model.setup().threshold;
-        let [dash, gap] = THRESHOLD;
-        let count = ((w / (dash + gap)) as usize).min(1000); // whatever the width of the figure
-        let dashes = (0..count).map(|k| x + (dash + gap) * k as f64);
-        let lines = dashes.map(|x| vec![[x, y], [x + dash, y]]).collect();
-        let role = if self.policy == SELECTIVE { Role::Accent } else { Role::Muted };
-        scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role });
-    }
-
-    /// Two curves, the second dashed below the first, and dots where the cursor cuts them.
-    fn curves(&self, scene: &mut Scene, first: Vec<Point>, second: Option<Vec<Point>>) {
-        let at = self.model.cursor() as usize;
-        let mut dots = vec![first[at]];
+    /// A curve of each policy and a second one of the one that is chosen, with dots where the cursor cuts them, and beside them what it
+    /// reads.
+    fn curves(
+        &self,
+        scene: &mut Scene,
+        rank: usize,
+        first: impl Fn(&Moment) -> f64,
+        second: Option<&dyn Fn(&Moment) -> f64>,
+        value: impl Fn(&Moment) -> String,
+    ) {
         if let Some(second) = second {
-            dots.push(second[at]);
-            scene.marks.push(Mark::Lines { lines: vec![second], width: 1.25, dash: Some(SECOND), role: Role::Muted });
+            let lines = vec![self.curve(rank, self.chosen(), second)];
+            let role = stroke::role(self.chosen());
+            scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some(SECOND), role });
         }
-        scene.marks.push(Mark::Lines { lines: vec![first], width: 1.5, dash: None, role: Role::Ink });
-        scene.marks.push(Mark::Discs { centres: dots, radius: 3.0, role: Role::Ink });
+        for policy in self.in_order() {
+            let curve = self.curve(rank, policy, &first);
+            let dot = curve[self.model.cursor() as usize];
+            scene.marks.push(stroke::lines(policy, policy == self.chosen(), vec![curve]));
+            scene.marks.push(Mark::Discs { centres: vec![dot], radius: 3.0, role: stroke::role(policy) });
+        }
+        let place = self.parts.values[if rank == 0 { 0 } else { rank + 1 }];
+        let read = |policy| self.model.read(policy);
+        self.values(scene, &place, |policy| value(read(policy)), |policy| self.chart(rank).y(first(read(policy))));
     }
 
     /// N_eff, the threshold, and the steps that resampled.
     fn ess(&self, scene: &mut Scene) {
-        let (m, Moment { report, resampled, .. }) = (self.particles() as f64, self.model.read(self.policy));
-        let times = resampling::ResampledTimes { n: resampled }.say();
-        let values = [
-            (times, Weight::Regular, if *resampled > 0 { Role::Copied } else { Role::Muted }),
-            (common::Of { n: &fixed(report.ess, 1), all: &self.particles() }.say(), Weight::SemiBold, Role::Ink),
+        let m = self.particles() as f64;
+        let end = n_eff(scene, &self.line(0), SIZE, Weight::Regular, Role::Muted);
+        let tick = |place: &Rect| {
+            let [x, y] = place.centre();
+            let ticks = [-5.0, 0.0, 5.0].map(|dx| vec![[x + dx, y - 4.0], [x + dx, y + 4.0]]);
+            vec![Mark::Lines { lines: ticks.into(), width: 1.5, dash: None, role: stroke::role(self.chosen()) }]
+        };
+        let items = vec![
+            (Sample::line(Role::Accent, 1.5, Some(THRESHOLD)), resampling::threshold().to_string()),
+            (Sample::new(tick), common::resampled().to_string()),
         ];
-        let rest = self.label(scene, 0, &values);
-        n_eff(scene, &rest, SIZE, Weight::Regular, Role::Muted);
-        scene.marks.extend(self.chart(0).edges());
+        self.items(scene, 0, end - self.parts.labels[0].x, items);
         self.threshold(scene);
-        let curve = self.curve(0, |moment| moment.report.ess / m);
-        let history = self.model.history(self.policy).zip(&curve);
-        let centres = history.filter(|(moment, _)| moment.report.resampled()).map(|(_, at)| *at).collect();
-        self.curves(scene, curve.clone(), None);
-        scene.marks.push(Mark::Discs { centres, radius: 1.75, role: Role::Copied });
+        self.scale(scene, 0, self.particles().to_string());
+        self.curves(scene, 0, |moment| moment.report.ess / m, None, |moment| fixed(moment.report.ess, 1));
+        self.ticks(scene);
     }
 
-    /// Distinct ancestors at the start, and some steps back.
+    /// A row for each policy, with a tick wherever it resampled.
+    fn ticks(&self, scene: &mut Scene) {
+        for (policy, row) in self.parts.ticks.iter().enumerate() {
+            let rows = self.model.history(policy).filter(|moment| moment.report.resampled());
+            let x = |moment: &Moment| self.x(moment.report.step);
+            let lines = rows.map(x).map(|x| vec![[x, row.y + 2.0], [x, row.bottom() - 2.0]]).collect();
+            let width = if policy == self.chosen() { 2.0 } else { 1.25 };
+            scene.marks.push(Mark::Lines { lines, width, dash: None, role: stroke::role(policy) });
+            let Rect { x, w, .. } = self.parts.values[1];
+            let times = resampling::Times { n: &self.model.read(policy).resampled }.say();
+            self.value(scene, policy, &Rect::new(x, row.centre()[1] - 6.5, w, 13.0), &times);
+        }
+    }
+
+    /// Distinct ancestors at the start, and of the policy that is chosen some steps back.
     fn lineage(&self, scene: &mut Scene) {
         let (m, back) = (self.particles() as f64, self.model.back());
-        let Moment { report, .. } = self.model.read(self.policy);
-        let values = [
-            (
-                resampling::StepsBack { back: &back, n: &report.descent.lineage(back) }.say(),
-                Weight::Regular,
-                Role::Muted,
-            ),
-            (resampling::AtStartAre { n: &report.descent.lineage(report.step) }.say(), Weight::SemiBold, Role::Ink),
-        ];
-        let rest = self.label(scene, 1, &values);
-        self.name(scene, &rest, resampling::ancestors());
-        scene.marks.extend(self.chart(1).edges());
-        let of = |back: u32| self.curve(1, |moment| f64::from(moment.report.descent.lineage(back)) / m);
-        self.curves(scene, of(u32::MAX), Some(of(back)));
+        let of = |moment: &Moment, back: u32| moment.report.descent.lineage(back);
+        let n = of(self.model.read(self.chosen()), back);
+        let sample = Sample::line(stroke::role(self.chosen()), 1.0, Some(SECOND));
+        let items = vec![(sample, resampling::StepsBack { back: &back, n: &n }.say())];
+        self.label(scene, 1, resampling::ancestors(), items);
+        self.scale(scene, 1, self.particles().to_string());
+        let second = |moment: &Moment| f64::from(of(moment, back)) / m;
+        let value = |moment: &Moment| of(moment, u32::MAX).to_string();
+        self.curves(scene, 1, |moment| f64::from(of(moment, u32::MAX)) / m, Some(&second), value);
     }
 
-    /// Position errors of the best particle and of the weighted mean.
+    /// Position errors of the best particle, and of the policy that is chosen those of the weighted mean.
     fn errors(&self, scene: &mut Scene) {
-        let Moment { report, .. } = self.model.read(self.policy);
         // Three digits, for want of room.
         let metres = |x: f64| fixed(x, if x < 10.0 { 2 } else { 1 });
-        let values = [
-            (resampling::MeanIs { error: &metres(report.error_mean) }.say(), Weight::Regular, Role::Muted),
-            (resampling::BestIs { error: &metres(report.error_best) }.say(), Weight::SemiBold, Role::Ink),
-        ];
-        let rest = self.label(scene, 2, &values);
-        self.name(scene, &rest, &resampling::ErrorTo { metres: &write(self.error_scale) }.say());
-        scene.marks.extend(self.chart(2).edges());
-        let best = self.curve(2, |moment| moment.report.error_best / self.error_scale);
-        let mean = self.curve(2, |moment| moment.report.error_mean / self.error_scale);
-        self.curves(scene, best, Some(mean));
+        let mean = metres(self.model.read(self.chosen()).report.error_mean);
+        let sample = Sample::line(stroke::role(self.chosen()), 1.0, Some(SECOND));
+        self.label(scene, 2, resampling::error(), vec![(sample, resampling::MeanIs { error: &mean }.say())]);
+        self.scale(scene, 2, write(self.error_scale));
+        let second = |moment: &Moment| moment.report.error_mean / self.error_scale;
+        let first = |moment: &Moment| moment.report.error_best / self.error_scale;
+        self.curves(scene, 2, first, Some(&second), |moment| metres(moment.report.error_best));
     }
 }

@@ -1,47 +1,103 @@
-//! Where a filter's particles are, and the robot.
+//! Where the particles of each policy are, and the robot; a click there chooses the policy.
 
 use super::{
-    filter::{Filter, NAMES, SIZE},
+    charts::Picture,
     model::{Moment, ResamplingModel},
+    stroke,
 };
 use crate::{
-    font::Weight,
-    scene::{Anchor, LINE, Mark, Plane, Point, Rect, Role, Scene, clip_polyline, closed, cloud, diamond, text},
+    font::{self, Weight},
+    scene::{Anchor, Mark, Plane, Point, Rect, Region, Role, Scene, clip_polyline, closed, cloud, diamond, text},
     words::resampling,
 };
 use fastslam::ops;
 
-impl Filter<'_> {
-    /// Where the particles are, and the robot.
-    pub fn map(&self, scene: &mut Scene, wide: bool) {
-        let (model, area, label) = (self.model, self.column.map, self.column.map_label);
-        let Moment { report, poses, best, .. } = model.read(self.policy);
-        let lines = [0.0, 1.0].map(|k| Rect::new(label.x, label.y + k * LINE, label.w, LINE));
-        let (name, says) =
-            if wide { (resampling::particles_name(), lines[0]) } else { (NAMES[self.policy](), lines[1]) };
-        let role = if wide { Role::Muted } else { Role::Ink };
-        let weight = if wide { Weight::Regular } else { Weight::SemiBold };
-        let anchor = if wide { Anchor::End } else { Anchor::Start };
-        scene.marks.push(text(lines[0], Anchor::Start, SIZE, weight, role, name));
-        let m = self.particles();
-        match (report.right, model.run().lost_from()) {
-            (Some(0), _) => {
-                scene.marks.push(text(says, anchor, SIZE, Weight::SemiBold, Role::Extinct, resampling::wing_lost()))
-            }
-            (Some(n), _) if wide => {
-                let says_it = resampling::WingHas { n: &n, m: &m }.say();
-                scene.marks.push(text(says, anchor, SIZE, Weight::SemiBold, Role::Accent, says_it));
-            }
-            (Some(n), _) => {
-                let says_it = resampling::WingHasShort { n: &n, m: &m }.say();
-                scene.marks.push(text(says, anchor, SIZE, Weight::Regular, Role::Accent, says_it));
-            }
-            (None, Some(_)) => {
-                scene.marks.push(text(says, anchor, SIZE, Weight::Regular, Role::Muted, resampling::not_lost_yet()));
-            }
-            (None, None) => (),
-        }
+/// Font size of a policy's name, and of what is said of its particles \[css px\].
+const NAME: f64 = 13.0;
+const SIZE: f64 = 11.5;
 
+impl Picture<'_> {
+    /// Name and map of each policy; on a phone the names as tabs, and the map of the one that is chosen.
+    pub fn maps(&self, scene: &mut Scene) {
+        for (policy, &tab) in self.parts.tabs.iter().enumerate() {
+            if self.wide {
+                self.title(scene, policy, &tab);
+                self.map(scene, policy);
+                let map = self.parts.map(policy);
+                let area = Rect::new(tab.x, tab.y, tab.w, map.bottom() - tab.y);
+                scene.regions.push(Region { area, target: policy as u32 });
+            } else {
+                self.tab(scene, policy, &tab);
+                scene.regions.push(Region { area: tab, target: policy as u32 });
+            }
+        }
+        if !self.wide {
+            self.map(scene, self.chosen());
+        }
+    }
+
+    /// A policy's name above its map, a piece of its line, and whether it still holds the right explanation.
+    fn title(&self, scene: &mut Scene, policy: usize, line: &Rect) {
+        let name = self.policy_name(scene, policy, line, Anchor::Start);
+        let piece = Rect::new(line.x + name + 8.0, line.y, 24.0, line.h);
+        scene.marks.push(stroke::sample(policy, policy == self.chosen(), &piece));
+        let rest = Rect::new(piece.right() + 8.0, line.y, line.right() - piece.right() - 8.0, line.h);
+        if let Some((role, says)) = self.right_wing(policy) {
+            scene.marks.push(text(rest, Anchor::End, SIZE, Weight::SemiBold, role, says));
+        }
+    }
+
+    /// The same for a finger.
+    fn tab(&self, scene: &mut Scene, policy: usize, tab: &Rect) {
+        let chosen = policy == self.chosen();
+        let Rect { x, y, w, h } = *tab;
+        let said = self.right_wing(policy);
+        let name = if said.is_some() { Rect::new(x, y + 3.0, w, 16.0) } else { Rect::new(x, y + 7.0, w, 18.0) };
+        self.policy_name(scene, policy, &name, Anchor::Middle);
+        if let Some((role, says)) = said {
+            let line = Rect::new(x + 4.0, name.bottom(), w - 8.0, 14.0);
+            scene.marks.push(text(line, Anchor::Middle, SIZE, Weight::Regular, role, says));
+        }
+        let piece = Rect::new(x + 10.0, y + h - 8.0, w - 20.0, 4.0);
+        scene.marks.push(stroke::sample(policy, chosen, &piece));
+        self.frame(scene, policy, *tab);
+    }
+
+    /// Writes it, and says how wide it is.
+    fn policy_name(&self, scene: &mut Scene, policy: usize, line: &Rect, anchor: Anchor) -> f64 {
+        let weight = if policy == self.chosen() { Weight::SemiBold } else { Weight::Regular };
+        let name = stroke::NAMES[policy]();
+        scene.marks.push(text(*line, anchor, NAME, weight, stroke::role(policy), name));
+        font::measure(name, NAME, weight)
+    }
+
+    /// Around what belongs to a policy: stronger around the one that is chosen.
+    fn frame(&self, scene: &mut Scene, policy: usize, area: Rect) {
+        let chosen = policy == self.chosen();
+        let (width, role) = if chosen { (2.0, stroke::role(policy)) } else { (1.0, Role::Frame) };
+        scene.marks.push(Mark::Frame { area, width, role });
+    }
+
+    /// What is said of the particles that hold the right explanation; nothing on a course that has only one.
+    fn right_wing(&self, policy: usize) -> Option<(Role, String)> {
+        let (m, right) = (self.particles(), self.model.read(policy).report.right);
+        let Some(n) = right else {
+            let before = self.model.run().lost_from().is_some();
+            return before.then(|| (Role::Muted, resampling::not_lost_yet().into()));
+        };
+        let says = match (self.wide, n) {
+            (true, 0) => resampling::wing_lost().into(),
+            (true, _) => resampling::WingHas { n: &n, m: &m }.say(),
+            (false, _) => resampling::WingHasShort { n: &n, m: &m }.say(),
+        };
+        Some((if n == 0 { Role::Extinct } else { Role::Accent }, says))
+    }
+
+    /// Where the particles of a policy are, and the robot.
+    fn map(&self, scene: &mut Scene, policy: usize) {
+        let (model, area) = (self.model, self.parts.map(policy));
+        let Moment { report, poses, best, .. } = model.read(policy);
+        let particle = stroke::role(policy);
         let plane = whole(model, area);
         let role = Role::Muted;
         if let Some(world) = model.run().lap_world() {
@@ -57,13 +113,13 @@ impl Filter<'_> {
         scene.marks.push(Mark::Lines { lines: vec![path], width: 1.0, dash: Some([2.0, 3.0]), role: Role::Truth });
         let noses = poses.iter().map(|pose| nose(plane.position(pose), pose.theta, 6.0));
         let noses = noses.flat_map(|line| clip_polyline(&line, &area)).collect();
-        scene.marks.push(Mark::Lines { lines: noses, width: 1.0, dash: None, role: Role::Path });
-        scene.marks.push(cloud(poses.iter().map(|p| plane.position(p)), &area.inset(2.0), 2.0, Role::Path));
+        scene.marks.push(Mark::Lines { lines: noses, width: 1.0, dash: None, role: particle });
+        scene.marks.push(cloud(poses.iter().map(|p| plane.position(p)), &area.inset(2.0), 2.0, particle));
         let outlines = plane.robot(&truth[truth.len() - 1], 9.0).into_iter().map(closed).collect();
         scene.marks.push(Mark::Lines { lines: outlines, width: 1.5, dash: None, role: Role::Truth });
         let head = plane.robot(&poses[*best], 6.0).into_iter().collect();
-        scene.marks.push(Mark::Polygons { polygons: head, role: Role::Path });
-        scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
+        scene.marks.push(Mark::Polygons { polygons: head, role: particle });
+        self.frame(scene, policy, area);
     }
 }
 

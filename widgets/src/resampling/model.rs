@@ -6,7 +6,7 @@ use crate::model::{Declared, FigureError, Model, Readout, Series, TraceLine, ess
 use crate::names;
 use crate::words::resampling;
 use fastslam::geometry::Pose2;
-use fastslam_lab::experiment::policies::{Policies, PoliciesSetup, PolicyReport};
+use fastslam_lab::experiment::policies::{POLICIES, Policies, PoliciesSetup, PolicyReport};
 
 /// Figure w17.2.
 pub struct ResamplingModel {
@@ -113,6 +113,21 @@ impl ResamplingModel {
         self.cursor() < self.step()
     }
 
+    /// The policy whose tree is shown, by its index among [`POLICIES`].
+    pub fn chosen(&self) -> usize {
+        self.recipe.policy
+    }
+
+    /// Shows the tree of another policy.
+    pub fn choose(&mut self, policy: usize) {
+        self.recipe.policy = policy.min(POLICIES.len() - 1);
+    }
+
+    /// Where N_eff calls for resampling in the selective filter, or as near to it as it can \[share of M\].
+    pub fn put_threshold(&mut self, threshold: f64) {
+        self.change(|recipe| recipe.put_threshold(threshold));
+    }
+
     /// Steps back of the second lineage gauge.
     pub fn back(&self) -> u32 {
         self.recipe.back
@@ -186,40 +201,32 @@ impl Model for ResamplingModel {
     }
 
     fn describe(&self) -> String {
-        let (step, m) = (self.cursor(), self.setup().particles);
-        let mut sentences = vec![resampling::AtStep { step: &step, last: &self.step_count(), m: &m }.say()];
+        let (step, last, m) = (self.cursor(), self.step_count(), self.setup().particles);
         if step == 0 {
-            sentences.push(resampling::at_start().into());
-            return sentences.join(" ");
+            let at = resampling::AtStep { step: &step, last: &last, m: &m }.say();
+            return format!("{at} {}", resampling::at_start());
         }
-        let [never, always, selective] = [0, 1, 2].map(|policy| self.read(policy));
-        let lines = |m: &Moment| match m.report.descent.lineage(step) {
-            1 => resampling::descend_from_one().to_string(),
-            n => resampling::DescendFrom { n: &n }.say(),
+        let all = [0, 1, 2].map(|policy| self.read(policy));
+        let [never, always, selective] = all.map(|moment| fixed(moment.report.ess, 1));
+        let [a, b, c] = all.map(|moment| moment.report.descent.lineage(step));
+        let ancestors = resampling::AncestorsLeft { a: &a, b: &b, c: &c }.say();
+        let told = if let [Some(a), Some(b), Some(c)] = all.map(|moment| moment.report.right) {
+            let ess = resampling::NEffOfAll { never: &never, always: &always, selective: &selective }.say();
+            let ancestors = &ancestors;
+            resampling::ToldWings { step: &step, last: &last, a: &a, b: &b, c: &c, m: &m, ess: &ess, ancestors }.say()
+        } else {
+            let [never, always, selective, ancestors] = [&never, &always, &selective, &ancestors];
+            resampling::Told { step: &step, last: &last, m: &m, never, always, selective, ancestors }.say()
         };
-        let told = resampling::Told {
-            never: &fixed(never.report.ess, 1),
-            scheme: &names::scheme(self.setup().scheme),
-            always: &fixed(always.report.ess, 1),
-            always_lines: &lines(always),
-            resampled: &selective.resampled,
-            step: &step,
-            selective: &fixed(selective.report.ess, 1),
-            selective_lines: &lines(selective),
-        };
-        sentences.push(told.say());
-        for (moment, unexplained) in [
-            (never, resampling::never_unexplained()),
-            (always, resampling::always_unexplained()),
-            (selective, resampling::selective_unexplained()),
-        ] {
-            if moment.report.log_evidence == f64::NEG_INFINITY {
-                sentences.push(unexplained.into());
-            }
-        }
-        if let [Some(a), Some(b), Some(c)] = [never, always, selective].map(|m| m.report.right) {
-            sentences.push(resampling::RightWing { a: &a, b: &b, c: &c, m: &m }.say());
-        }
+        let [a, b, c] = all.map(|moment| moment.resampled);
+        let scheme = names::scheme(self.setup().scheme);
+        let times = resampling::ResampledTimes { a: &a, b: &b, c: &c, scheme: &scheme }.say();
+        let [a, b, c] = all.map(|moment| fixed(moment.report.error_best, 2));
+        let mut sentences = vec![told, times, resampling::OffBy { a: &a, b: &b, c: &c }.say()];
+        let unexplained =
+            [resampling::never_unexplained(), resampling::always_unexplained(), resampling::selective_unexplained()];
+        let lost = all.iter().zip(unexplained).filter(|(moment, _)| moment.report.log_evidence == f64::NEG_INFINITY);
+        sentences.extend(lost.map(|(_, says)| says.to_string()));
         sentences.join(" ")
     }
 

@@ -1,5 +1,6 @@
 //! What a reader can set about the three filters.
 
+use super::{model::SELECTIVE, stroke};
 use crate::{
     field, names,
     recipe::{self, Field, Menu, Param},
@@ -9,7 +10,7 @@ use fastslam::resampling::Scheme;
 use fastslam_lab::{
     experiment::{
         lap::STEPS,
-        policies::{PoliciesSetup, PolicyCourse},
+        policies::{POLICIES, PoliciesSetup, PolicyCourse},
     },
     world::Field as Landmarks,
 };
@@ -21,6 +22,8 @@ pub struct Recipe {
     asked: PoliciesSetup,
     /// How to resample; `None` is the usual scheme of the course.
     scheme: Option<Scheme>,
+    /// The policy whose tree is shown, by its index.
+    pub policy: usize,
     /// Steps back of the second lineage gauge.
     pub back: u32,
     /// The step asked for.
@@ -34,7 +37,7 @@ impl Default for Recipe {
     /// over many seeds to say.
     fn default() -> Self {
         let asked = PoliciesSetup { seed: 2, ..PoliciesSetup::default() };
-        Self { asked, scheme: None, back: 10, step: 0, cursor: None }
+        Self { asked, scheme: None, policy: SELECTIVE, back: 10, step: 0, cursor: None }
     }
 }
 
@@ -50,6 +53,11 @@ impl Recipe {
         self.on(self.asked.course)
     }
 
+    /// Where N_eff calls for resampling in the selective filter \[share of M\].
+    pub fn put_threshold(&mut self, threshold: f64) {
+        self.asked.threshold = threshold;
+    }
+
     /// The last step of the course.
     pub fn last_step(&self) -> u32 {
         match self.asked.course {
@@ -63,6 +71,7 @@ impl recipe::Recipe for Recipe {
     fn table() -> Vec<Param<Self>> {
         type P = Param<Recipe>;
         let schemes = Menu::of(PoliciesSetup::default().scheme, names::scheme);
+        let policies = Menu::new([0, 1, 2].map(|policy| (POLICIES[policy], stroke::NAMES[policy](), policy)));
         vec![
             P::toggle(
                 "wings",
@@ -113,6 +122,7 @@ impl recipe::Recipe for Recipe {
                 field!(scheme),
                 resampling::scheme_help(),
             ),
+            P::choice("policy", resampling::policy(), policies, field!(policy), resampling::policy_help()).view(),
             P::integer("back", resampling::back(), resampling::steps(), (1, 60), field!(back), resampling::back_help())
                 .without_slider()
                 .view(),

@@ -19,8 +19,9 @@ pub fn readouts(model: &ResamplingModel) -> Vec<Readout> {
         let (nodes, paths) = (report.tree_nodes(), report.path_nodes(m));
         let [ess_name, lineage_name, error_name, tree_name, right_name, resampled_name] = names.readouts;
         readouts.extend([
-            Readout::new(ess_name.0, ess_name.1(), ess, ess_text, "", resampling::ess_help()),
-            Readout::new(lineage_name.0, lineage_name.1(), lineage, lineage_text, "", resampling::lineage_help()),
+            Readout::new(ess_name.0, ess_name.1(), ess, ess_text, "", resampling::ess_help()).drawn(),
+            Readout::new(lineage_name.0, lineage_name.1(), lineage, lineage_text, "", resampling::lineage_help())
+                .drawn(),
             Readout::new(
                 error_name.0,
                 error_name.1(),
@@ -28,7 +29,8 @@ pub fn readouts(model: &ResamplingModel) -> Vec<Readout> {
                 fixed(report.error_best, 2),
                 "m",
                 resampling::error_help(),
-            ),
+            )
+            .drawn(),
             Readout::new(
                 tree_name.0,
                 tree_name.1(),
@@ -38,7 +40,7 @@ pub fn readouts(model: &ResamplingModel) -> Vec<Readout> {
                 resampling::tree_help(),
             ),
         ]);
-        readouts.push(match (model.setup().course, report.right) {
+        let of_the_course = match (model.setup().course, report.right) {
             (PolicyCourse::Lap, _) => Readout::new(
                 resampled_name.0,
                 resampled_name.1(),
@@ -55,7 +57,8 @@ pub fn readouts(model: &ResamplingModel) -> Vec<Readout> {
                 "",
                 resampling::right_help(),
             ),
-        });
+        };
+        readouts.push(of_the_course.drawn());
     }
     readouts
 }

@@ -1,11 +1,14 @@
-//! The tree of a filter's ancestry, and the steps below it.
+//! The tree of ancestry of the policy that is chosen, and the steps below all charts.
 
-use super::{filter::Filter, model::Moment};
+use super::{
+    charts::{Picture, SIZE},
+    stroke,
+};
 use crate::{
     font::{self, Weight},
     model::Model,
-    scene::{Anchor, Mark, Point, Rect, Role, Scene, text},
-    words::resampling,
+    scene::{Anchor, Mark, Point, Rect, Role, Sample, Scene, text},
+    words::{self, resampling},
 };
 
 /// Strength of a branch that died out, of 255.
@@ -28,20 +31,23 @@ impl Line {
     }
 }
 
-impl Filter<'_> {
+impl Picture<'_> {
     /// Who descends from whom: every edge once.
     pub fn tree(&self, scene: &mut Scene) {
-        let Moment { report, .. } = self.model.read(self.policy);
-        let size = resampling::NodesOf { n: &report.tree_nodes(), all: &report.path_nodes(self.particles()) }.say();
-        let rest = self.label(scene, 3, &[(size, Weight::SemiBold, Role::Ink)]);
-        self.name(scene, &rest, resampling::tree());
+        let policy = self.chosen();
+        let items = vec![
+            (Sample::line(stroke::role(policy), 2.0, None), resampling::lives_on().to_string()),
+            (Sample::line(Role::Level(DEAD), 1.0, None), words::common::died_out().to_string()),
+        ];
+        let name = resampling::TreeOf { policy: &stroke::NAMES[policy]() }.say();
+        self.label(scene, 3, &name, items);
 
-        let alive = self.model.alive(self.policy);
+        let alive = self.model.alive(policy);
         let [mut dead, mut living] = [Vec::new(), Vec::new()];
         let mut close = |line: Line| if line.lives { living.push(line.points) } else { dead.push(line.points) };
         // The lines that end at the step before, by slot: one child of each goes on with its line.
         let mut open: Vec<Option<Line>> = vec![None; self.particles()];
-        for ((before, step), alive) in self.model.history(self.policy).zip(1..).zip(&alive[1..]) {
+        for ((before, step), alive) in self.model.history(policy).zip(1..).zip(&alive[1..]) {
             let mut longer = vec![None; self.particles()];
             for (to, &lives) in alive.iter().enumerate() {
                 let from = before.copied_from(to);
@@ -53,7 +59,7 @@ impl Filter<'_> {
             core::mem::replace(&mut open, longer).into_iter().flatten().for_each(&mut close);
         }
         open.into_iter().flatten().for_each(close);
-        let apart = self.column.charts[3].h / self.particles() as f64;
+        let apart = self.parts.charts[3].h / self.particles() as f64;
         scene.marks.push(Mark::Lines {
             lines: dead,
             width: (0.16 * apart).clamp(0.6, 1.0),
@@ -64,14 +70,14 @@ impl Filter<'_> {
             lines: living,
             width: (0.3 * apart).clamp(1.0, 2.0),
             dash: None,
-            role: Role::Path,
+            role: stroke::role(policy),
         });
         self.coalescence(scene, &alive);
     }
 
     /// The latest common ancestor of all particles.
     fn coalescence(&self, scene: &mut Scene, alive: &[Vec<bool>]) {
-        let Some(step) = self.model.now(self.policy).report.descent.coalescence() else { return };
+        let Some(step) = self.model.now(self.chosen()).report.descent.coalescence() else { return };
         let Some(slot) = alive[step as usize].iter().position(|alive| *alive) else { return };
         let at = self.node(step, slot);
         scene.marks.push(Mark::Discs { centres: vec![at], radius: 6.0, role: Role::Paper });
@@ -80,25 +86,29 @@ impl Filter<'_> {
 
     /// Where a particle of a step is drawn.
     fn node(&self, step: u32, slot: usize) -> Point {
-        let area = &self.column.charts[3];
-        [self.chart(3).x(step), area.y + area.h * (slot as f64 + 0.5) / self.particles() as f64]
+        let area = &self.parts.charts[3];
+        [self.x(step), area.y + area.h * (slot as f64 + 0.5) / self.particles() as f64]
     }
 
-    /// Steps below the tree.
+    /// Steps below the charts: the one that is read, where it is not the newest, that of the common ancestor, and those with a name.
     pub fn axis(&self, scene: &mut Scene) {
-        let Rect { x, y, w, h } = self.column.axis;
-        let size = 10.5;
+        let Rect { x, y, w, h } = self.parts.axis;
         let mut taken: Vec<[f64; 2]> = Vec::new();
         let last = self.model.step_count();
-        let ancestor = self.model.now(self.policy).report.descent.coalescence();
-        let ancestor = ancestor.map(|step| (step, resampling::StepIs { step: &step }.say(), true));
-        let [start, end] = [(0, resampling::StepIs { step: &0 }.say(), false), (last, last.to_string(), false)];
-        let events = self.events().into_iter().map(|(step, name)| (step, name.to_string(), false));
-        for (step, label, ring) in ancestor.into_iter().chain([start]).chain(events).chain([end]) {
+        let named = |step: u32| resampling::StepIs { step: &step }.say();
+        let back = self.model.looks_back().then(|| self.model.cursor());
+        let back = back.map(|step| (step, named(step), Role::Accent));
+        let tree = self.parts.charts[3].h > 0.0;
+        let ancestor = self.model.now(self.chosen()).report.descent.coalescence().filter(|_| tree);
+        let ancestor = ancestor.map(|step| (step, named(step), Role::Ink));
+        let [start, end] = [(0, named(0)), (last, last.to_string())].map(|(step, name)| (step, name, Role::Muted));
+        let events = self.events().into_iter().map(|(step, name)| (step, name.to_string(), Role::Muted));
+        for (step, label, role) in back.into_iter().chain(ancestor).chain([start]).chain(events).chain([end]) {
+            let ring = role == Role::Ink;
             let room = if ring { 12.0 } else { 0.0 };
-            let width = room + font::measure(&label, size, Weight::Regular) + 0.01;
+            let width = room + font::measure(&label, SIZE, Weight::Regular) + 0.01;
             // A ring stands below the one in the tree, with its step beside it.
-            let wanted = self.chart(3).x(step) - if ring { 4.5 } else { 0.5 * width };
+            let wanted = self.x(step) - if ring { 4.5 } else { 0.5 * width };
             let left = wanted.min(x + w - width).max(x);
             if taken.iter().any(|[from, to]| left < *to + 6.0 && *from < left + width + 6.0) {
                 continue;
@@ -107,9 +117,8 @@ impl Filter<'_> {
             if ring {
                 scene.marks.extend(common([left + 4.5, y + 0.5 * h]));
             }
-            let role = if ring { Role::Ink } else { Role::Muted };
             let area = Rect::new(left + room, y, width - room, h);
-            scene.marks.push(text(area, Anchor::Start, size, Weight::Regular, role, label));
+            scene.marks.push(text(area, Anchor::Start, SIZE, Weight::Regular, role, label));
         }
     }
 }

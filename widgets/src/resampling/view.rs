@@ -1,22 +1,27 @@
-//! What is to be seen of the three filters: curves over the steps, the tree of their ancestry, and where their particles are.
+//! What is to be seen of the three filters: where their particles are, curves over the steps, and the tree of one ancestry.
 
 use super::{
-    filter::{Filter, SECOND, THRESHOLD, error_scale},
-    layout::{CHARTS, ERROR, ESS, LINEAGE, Layout, NARROWEST, PARTICLES, TREE},
+    charts::{Picture, error_scale},
+    layout::{CHARTS, ERROR, ESS, LINEAGE, Layout, NARROWEST, PARTICLES, Parts, TREE},
     model::{Moment, ResamplingModel},
-    tree::{DEAD, common},
+    stroke,
+    tree::common,
 };
-use crate::decimal::fixed;
+use crate::decimal::{fixed, rounded, write};
 use crate::{
     model::Model,
     panels::Panels,
-    scene::{Chart, Handle, Mark, Point, Rect, Role, Sample, Scene, closed, diamond, legend, robot},
+    scene::{Handle, Mark, Point, Rect, Role, Sample, Scene, closed, diamond, legend, robot},
     view::{View, whole_step},
     words::{self, resampling},
 };
 
-/// Name of the handle that chooses the step read.
+/// Name of the handle that chooses the step read, and of the one that moves the threshold.
 pub const CURSOR: &str = "cursor";
+pub const THRESHOLD: &str = "threshold";
+
+/// What the threshold is dragged by, and an arrow key moves it: every place between is a run of three filters.
+const STEP: f64 = 0.05;
 
 /// Figure w17.2, as it is seen.
 #[derive(Default)]
@@ -34,44 +39,81 @@ impl View for ResamplingView {
 
     fn draw(&self, model: &ResamplingModel, layout: &Layout, scene: &mut Scene) {
         let panels = &layout.panels;
-        let error_scale = error_scale(model.largest_error());
-        for (policy, column) in layout.columns.iter().enumerate() {
-            let filter = Filter { model, policy, column, error_scale };
-            filter.charts(scene, panels);
-            if panels.has(PARTICLES) {
-                filter.map(scene, layout.wide);
-            }
+        let parts = parts(model, layout);
+        let picture = Picture { model, parts, wide: layout.wide, error_scale: error_scale(model.largest_error()) };
+        if panels.has(PARTICLES) {
+            picture.maps(scene);
         }
         if panels.are_all() {
-            names(scene, model, &layout.legend);
+            names(scene, &picture, &layout.legend);
         }
-        if !CHARTS.iter().any(|name| panels.has(name)) {
-            return;
+        if CHARTS.iter().any(|name| panels.has(name)) {
+            picture.charts(scene, panels);
+            scene.handles.push(cursor(&picture));
         }
-        let first = Chart { area: layout.first_chart(), last: model.step_count() };
-        scene.handles.push(Handle {
-            name: CURSOR,
-            title: resampling::cursor().into(),
-            at: [first.x(model.cursor()), layout.first_chart().centre()[1]],
-            axes: &[CURSOR],
-            value: f64::from(model.cursor()),
-            text: told(model),
-            hover: Some(layout.charts()),
-        });
-    }
-
-    fn drag(&self, model: &mut ResamplingModel, layout: &Layout, handle: &str, to: Point) {
-        if handle == CURSOR {
-            let column = layout.columns.iter().rev().find(|c| c.header.x <= to[0]).unwrap_or(&layout.columns[0]);
-            let chart = &column.charts[0];
-            model.look(((to[0] - chart.x) / chart.w * f64::from(model.step_count())).round());
+        if panels.has(ESS) {
+            scene.handles.push(threshold(&picture));
         }
     }
 
-    fn nudge(&self, model: &mut ResamplingModel, handle: &str, [right, _]: [f64; 2]) {
-        if handle == CURSOR {
-            model.look(f64::from(model.cursor()) + whole_step(right));
+    fn pick(&self, model: &mut ResamplingModel, target: u32) {
+        model.choose(target as usize);
+    }
+
+    fn drag(&self, model: &mut ResamplingModel, layout: &Layout, handle: &str, [x, y]: Point) {
+        let parts = parts(model, layout);
+        match handle {
+            CURSOR => {
+                let chart = parts.first_chart();
+                model.look(((x - chart.x) / chart.w * f64::from(model.step_count())).round());
+            }
+            THRESHOLD => {
+                let chart = parts.charts[0];
+                model.put_threshold(rounded(((chart.bottom() - y) / chart.h / STEP).round() * STEP, 2));
+            }
+            _ => (),
         }
+    }
+
+    fn nudge(&self, model: &mut ResamplingModel, handle: &str, [right, up]: [f64; 2]) {
+        match handle {
+            CURSOR => model.look(f64::from(model.cursor()) + whole_step(right)),
+            THRESHOLD => model.put_threshold(rounded(model.setup().threshold + STEP * (right + up), 3)),
+            _ => (),
+        }
+    }
+}
+
+/// Where the parts stand on the course that is driven.
+fn parts<'a>(model: &ResamplingModel, layout: &'a Layout) -> &'a Parts {
+    &layout.courses[usize::from(model.run().wings_log().is_some())]
+}
+
+/// Reads a step.
+fn cursor(picture: &Picture) -> Handle {
+    let (model, chart) = (picture.model, picture.parts.first_chart());
+    Handle {
+        name: CURSOR,
+        title: resampling::cursor().into(),
+        at: [picture.x(model.cursor()), chart.centre()[1]],
+        axes: &[CURSOR],
+        value: f64::from(model.cursor()),
+        text: told(model),
+        hover: Some(picture.parts.over_time()),
+    }
+}
+
+/// Moves the threshold, at the left end of its line.
+fn threshold(picture: &Picture) -> Handle {
+    let threshold = picture.model.setup().threshold;
+    Handle {
+        name: THRESHOLD,
+        title: words::policy::threshold().into(),
+        at: [picture.parts.charts[0].x - 6.0, picture.threshold_y()],
+        axes: &[THRESHOLD],
+        value: threshold,
+        text: resampling::ShareOfM { share: &write(threshold) }.say(),
+        hover: None,
     }
 }
 
@@ -84,28 +126,24 @@ fn told(model: &ResamplingModel) -> String {
     resampling::AtCursor { step: &model.cursor(), never: &of(0), always: &of(1), selective: &of(2) }.say()
 }
 
-/// What marks mean.
-fn names(scene: &mut Scene, model: &ResamplingModel, area: &Rect) {
-    let back = resampling::BackOrMean { back: &model.back() }.say();
+/// What marks mean that have no name where they stand.
+fn names(scene: &mut Scene, picture: &Picture, area: &Rect) {
+    let role = stroke::role(picture.chosen());
     let truth = |place: &Rect| {
         let [x, y] = place.centre();
         let lines = vec![closed(robot([x - 1.0, y], 0.0, 7.0))];
         vec![Mark::Lines { lines, width: 1.5, dash: None, role: Role::Truth }]
     };
     let mut items = vec![
-        (Sample::line(Role::Ink, 1.5, None), resampling::start_or_best()),
-        (Sample::line(Role::Muted, 1.25, Some(SECOND)), back.as_str()),
-        (Sample::line(Role::Accent, 1.0, Some(THRESHOLD)), resampling::threshold()),
-        (Sample::dot(Role::Copied, 1.75), words::common::resampled()),
-        (Sample::line(Role::Path, 2.0, None), resampling::lives_on()),
-        (Sample::line(Role::Level(DEAD), 1.0, None), words::common::died_out()),
         (Sample::new(|place| common(place.centre()).into()), resampling::common_ancestor()),
-        (Sample::dot(Role::Path, 2.0), resampling::particle()),
         (Sample::new(truth), words::common::truth()),
     ];
-    if model.run().wings_log().is_some() {
+    if picture.model.run().wings_log().is_some() {
         let landmark = |at| Mark::Polygons { polygons: vec![diamond(at, 3.5)], role: Role::Landmark };
         items.push((Sample::at(landmark), resampling::landmark()));
+    }
+    if picture.wide {
+        items.push((Sample::dot(role, 2.0), resampling::particle()));
     }
     legend(scene, area, items);
 }

@@ -69,6 +69,8 @@ pub enum Role {
     Landmark,
     /// One of the particles that are compared, from 0 on.
     Particle(u8),
+    /// One of the policies that are compared, from 0 on.
+    Policy(u8),
     /// What the reader moves or has switched on.
     Accent,
     /// A line that tells a size, from 0 (faint) to 255 (as [`Role::Ink`]).
