@@ -84,18 +84,18 @@ pub const PICTURES: &[Picture] = &[
     picture(LOG, "log-tiny", "policy=always&cell=0.1&seed=4", 240, 1.0, "contrast-light"),
     picture(RESAMPLING, "fastslam-resampling-light", COALESCED, 800, 1.5, "light"),
     picture(RESAMPLING, "fastslam-resampling-dark", COALESCED, 800, 1.5, "dark"),
-    picture(RESAMPLING, "resampling-wings", "wings=on&step=101", 1280, 1.0, "light"),
+    picture(RESAMPLING, "resampling-wings", "wings=on&step=101", 1112, 1.0, "light"),
     picture(
         RESAMPLING,
         "resampling-64",
-        "wings=on&particles=64&scheme=multinomial&step=90&cursor=70",
+        "wings=on&particles=64&scheme=multinomial&policy=always&step=90&cursor=70",
         800,
         1.0,
         "dark",
     ),
-    picture(RESAMPLING, "resampling-start", "", 720, 1.0, "light"),
+    picture(RESAMPLING, "resampling-start", "", 728, 1.0, "light"),
     picture(RESAMPLING, "resampling-phone", "wings=on&step=80&cursor=70&back=3", 340, 2.0, "light"),
-    picture(RESAMPLING, "resampling-contrast", "particles=8&step=30", 380, 1.0, "contrast-dark"),
+    picture(RESAMPLING, "resampling-contrast", "particles=8&step=30&policy=never", 380, 1.0, "contrast-dark"),
     picture(RESAMPLING, "resampling-tiny", "particles=4&threshold=1&step=12", 240, 1.0, "contrast-light"),
 ];
 

@@ -30,7 +30,7 @@ pub const NARROWEST: f64 = 320.0;
 pub const SCALE: f64 = 48.0;
 
 /// The line above a chart, a row of ticks, and the line with steps \[css px\].
-const LABEL: f64 = 16.0;
+const LABEL: f64 = 17.0;
 const ROW: f64 = 12.0;
 const AXIS: f64 = 15.0;
 /// Height of a tab on a phone \[css px\], for a finger, and what is free above it: the first pixel of a picture is paper.
