@@ -1,4 +1,4 @@
-// The panel below the figure of resampling: in how many runs each policy still has the right wing when the evidence comes.
+// Folded away below the figure of resampling: in how many runs each policy still has the right wing when the evidence comes.
 import { h, write } from './dom'
 import { runInWorker } from './jobs'
 import type { Shell } from './shell'
@@ -45,12 +45,14 @@ export class ResamplingStudy {
     this.runs.addEventListener('change', () => this.label())
     this.start.addEventListener('click', () => void this.count())
     this.halt.addEventListener('click', () => this.stop('stopped'))
+    const summary = h('summary')
     const heading = h('p', { class: 'name', id: 'count' })
     const seeds = h('span', { class: 'name' })
     const work = h('div', { class: 'work' }, this.start, this.halt, h('label', { class: 'choice' }, seeds, this.runs), this.progress)
     const table = h('table', { 'aria-labelledby': 'count' }, h('tbody', {}, ...this.rows.map(({ row }) => row)))
-    this.element = h('div', { class: 'count', part: 'count', role: 'group', 'aria-labelledby': 'count' }, heading, work, table, this.said)
+    this.element = h('details', { class: 'count', part: 'count' }, summary, heading, work, table, this.said)
     words.always(() => {
+      write(summary, words.say('count_many'))
       write(heading, words.say('count_title'))
       write(seeds, words.say('seeds'))
       write(this.halt, words.say('stop'))

@@ -8,7 +8,7 @@ export class FastslamResampling extends FigureElement {
 
   constructor() {
     super()
-    this.addPanel(this.#study.element)
+    this.folds.append(this.#study.element)
     this.addEventListener('fastslam-change', () => this.#study.check())
   }
 

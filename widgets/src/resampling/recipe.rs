@@ -114,17 +114,20 @@ impl recipe::Recipe for Recipe {
                 (0.25, 4.0, 0.05),
                 field!(asked.sensor_scale),
                 resampling::range_help(),
-            ),
+            )
+            .folded(),
             P::choice(
                 "scheme",
                 common::scheme(),
                 schemes.after(("usual", resampling::usual(), None), Some),
                 field!(scheme),
                 resampling::scheme_help(),
-            ),
+            )
+            .folded(),
             P::choice("policy", resampling::policy(), policies, field!(policy), resampling::policy_help()).view(),
             P::integer("back", resampling::back(), resampling::steps(), (1, 60), field!(back), resampling::back_help())
                 .without_slider()
+                .folded()
                 .view(),
             P::integer("step", common::step(), "", (0, 0), field!(step), common::step_help())
                 .at_most(|recipe| recipe.last_step().into())
@@ -137,6 +140,7 @@ impl recipe::Recipe for Recipe {
                 field!(cursor),
                 resampling::cursor_help(),
             )
+            .folded()
             .view(),
         ]
     }
