@@ -42,6 +42,7 @@ test('all figures live under the strict policy, count in the background, and bre
     await figure.element.scrollIntoViewIfNeeded()
     await figure.live()
   }
+  await new Figure(page, 'fastslam-resampling').openCount()
   await page.getByRole('button', { name: /Count over/ }).click()
   await expect(page.getByRole('progressbar')).toHaveAttribute('value', /[1-9]/, { timeout: 30_000 })
   await page.getByRole('button', { name: 'Stop' }).click()

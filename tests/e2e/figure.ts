@@ -142,6 +142,11 @@ export class Figure {
     return this.#unfold('numbers')
   }
 
+  /** Unfolds the count over seeds. */
+  openCount(): Promise<void> {
+    return this.#unfold('count')
+  }
+
   async #unfold(part: string): Promise<void> {
     const details = this.element.locator(`details[part=${part}]`)
     // Not every figure has settings that are folded away.

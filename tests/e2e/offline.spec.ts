@@ -41,6 +41,7 @@ for (const name of FIGURES) {
 
 test('a count in the background runs from file:// too', async ({ page }) => {
   const figure = await new Figure(page, 'fastslam-resampling').open(pathToFileURL(join(offline, 'fastslam-resampling.html')).href)
+  await figure.openCount()
   await figure.element.getByRole('button', { name: /Count over/ }).click()
   await expect(figure.element.getByRole('progressbar')).toHaveAttribute('value', /[1-9]/, { timeout: 30_000 })
 })

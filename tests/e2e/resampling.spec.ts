@@ -11,8 +11,9 @@ async function cursor(figure: Figure): Promise<string> {
   return figure.element.locator('select[name=cursor]').inputValue()
 }
 
-/** A point of the page over the curves of the first column, by a share of the timeline: its ends come from the handle. */
+/** A point of the page over the curves, by a share of the timeline: its ends come from the handle. */
 async function overCurves(figure: Figure, share: number): Promise<{ x: number; y: number }> {
+  await figure.openSettings()
   const middle = async (step: string) => {
     await figure.element.locator('select[name=cursor]').selectOption(step)
     await figure.settled()
@@ -25,7 +26,7 @@ async function overCurves(figure: Figure, share: number): Promise<{ x: number; y
   return { x: x0 + ((x1 - x0) / 10) * share * (await figure.last()), y }
 }
 
-/** The panel below. */
+/** The count over seeds, folded away below the figure. */
 function panel(figure: Figure): { start: Locator; stop: Locator; progress: Locator; shares: Locator; said: Locator; runs: Locator } {
   const element = figure.element.locator('[part=count]')
   return {
@@ -132,6 +133,51 @@ test.describe('at rest', () => {
     })
   }
 
+  test('a click on a map shows the tree of its policy, and the list says which', async ({ page }) => {
+    const figure = await open(page, 'step=60')
+    const policy = figure.element.locator('select[name=policy]')
+    await expect(policy).toHaveValue('selective')
+    const [before, numbers] = [await figure.picture(), await figure.readouts()]
+    const box = (await figure.canvas.boundingBox())!
+    await page.mouse.click(box.x + 0.05 * box.width, box.y + 0.15 * box.height)
+    await figure.settled()
+    await expect(policy).toHaveValue('never')
+    expect(await figure.picture()).not.toBe(before)
+    expect(await figure.readouts()).toEqual(numbers)
+    await policy.selectOption('selective')
+    await figure.settled()
+    expect(await figure.picture()).toBe(before)
+  })
+
+  test('the threshold is dragged by its line, and its arrow keys go up and down', async ({ page }) => {
+    const figure = await open(page, 'step=30')
+    const handle = figure.handle('threshold')
+    await handle.evaluate(handle => handle.scrollIntoView({ block: 'center', behavior: 'instant' }))
+    const { x, y, width, height } = (await handle.boundingBox())!
+    await page.mouse.move(x + width / 2, y + height / 2)
+    await page.mouse.down()
+    await page.mouse.move(x + width / 2 + 40, y + height / 2 - 20, { steps: 3 })
+    await page.mouse.up()
+    await figure.settled()
+    const dragged = Number(await figure.box('threshold').inputValue())
+    expect(dragged).toBeGreaterThan(0.6)
+    expect(Math.round(20 * dragged) / 20, 'by steps of its slider').toBeCloseTo(dragged)
+    expect(await figure.position(), 'the step is the same').toBe(30)
+    await figure.grasp('threshold').focus()
+    await page.keyboard.press('ArrowDown')
+    await figure.settled()
+    expect(Number(await figure.box('threshold').inputValue())).toBeCloseTo(dragged - 0.05)
+    await expect(figure.grasp('threshold')).toHaveAttribute('aria-valuetext', / M$/)
+    await expect(figure.grasp('threshold')).toBeFocused()
+  })
+
+  test('what the picture says is not written a second time', async ({ page }) => {
+    const figure = await open(page, 'step=30')
+    await figure.openNumbers()
+    const rows = await figure.element.locator('[part=readout]:visible').evaluateAll(rows => rows.map(row => (row as HTMLElement).dataset['name']))
+    expect(rows).toEqual(['never_tree', 'always_tree', 'selective_tree'])
+  })
+
   test('its link brings back the whole state', async ({ page }) => {
     const figure = await open(page)
     await figure.openSettings()
@@ -154,6 +200,7 @@ test.describe('at rest', () => {
 
   test('the count runs beside the page, to the end, and says its result once', async ({ page }) => {
     const figure = await open(page)
+    await figure.openCount()
     const { start, stop, shares, said, runs } = panel(figure)
     await runs.selectOption('50')
     await expect(stop).toBeDisabled()
@@ -177,6 +224,7 @@ test.describe('at rest', () => {
 
   test('the count can be stopped, and begins again when a setting changes', async ({ page }) => {
     const figure = await open(page)
+    await figure.openCount()
     const { start, stop, said, runs } = panel(figure)
     let workers = 0
     page.on('worker', () => workers++)
@@ -206,6 +254,7 @@ test.describe('at rest', () => {
 
   test('the count ends when the figure leaves the page', async ({ page }) => {
     const figure = await open(page)
+    await figure.openCount()
     await panel(figure).runs.selectOption('1000')
     await panel(figure).start.click()
     await expect.poll(() => counted(figure)).toBeGreaterThan(0)
@@ -218,6 +267,7 @@ test.describe('at rest', () => {
     const fetched: string[] = []
     page.on('request', request => /wasm$/.test(request.url()) && fetched.push(request.url()))
     const figure = await open(page)
+    await figure.openCount()
     await panel(figure).start.click()
     await expect.poll(() => counted(figure)).toBeGreaterThan(0)
     await panel(figure).stop.click()
@@ -229,6 +279,8 @@ test.describe('at rest', () => {
       await page.emulateMedia({ colorScheme })
       const figure = await open(page, 'wings=on&step=80&cursor=70')
       await figure.openSettings()
+      await figure.openNumbers()
+      await figure.openCount()
       await panel(figure).runs.selectOption('50')
       await panel(figure).start.click()
       await expect(panel(figure).said).toContainText('50 seeds counted.', { timeout: 45_000 })
@@ -244,6 +296,7 @@ test.describe('at rest', () => {
       await route.fulfill({ response, headers: { ...response.headers(), 'content-security-policy': policy } })
     })
     const figure = await new Figure(page, 'fastslam-resampling').open()
+    await figure.openCount()
     await panel(figure).start.click()
     await expect(panel(figure).said).toContainText('lets nothing run in the background')
     await expect(panel(figure).start).toBeEnabled()
@@ -264,8 +317,23 @@ test.describe('on a phone', () => {
     await page.touchscreen.tap(at.x, at.y)
     await figure.settled()
     expect(Math.abs(Number(await cursor(figure)) - 45)).toBeLessThanOrEqual(1)
+    await figure.openCount()
     await panel(figure).start.tap()
     await expect.poll(() => counted(figure)).toBeGreaterThan(0)
     expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(380)
+  })
+  test('a tab shows the map and the tree of its policy', async ({ page }) => {
+    const figure = await open(page, 'step=60&wings=on')
+    const policy = figure.element.locator('select[name=policy]')
+    const pictures = new Set([await figure.picture()])
+    await figure.canvas.scrollIntoViewIfNeeded()
+    for (const [name, share] of [['never', 1 / 6], ['always', 1 / 2]] as const) {
+      const { x, y, width } = (await figure.canvas.boundingBox())!
+      await page.touchscreen.tap(x + share * width, y + 20)
+      await figure.settled()
+      await expect(policy).toHaveValue(name)
+      pictures.add(await figure.picture())
+    }
+    expect(pictures.size).toBe(3)
   })
 })

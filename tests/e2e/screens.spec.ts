@@ -119,6 +119,7 @@ test('on a page from right to left the controls change sides, and time and numbe
 test('the bars of a count and their intervals begin at the same side, whatever the direction of the page', async ({ page }) => {
   for (const dir of ['ltr', 'rtl']) {
     const figure = await openWhole(page, 'resampling', { dir })
+    await figure.openCount()
     await figure.element.getByRole('button', { name: /Count over/ }).click()
     await expect(figure.element.locator('.said')).toContainText('200 seeds counted', { timeout: 60_000 })
     const bars = await figure.element.locator('.track').evaluateAll(tracks =>

@@ -204,6 +204,10 @@ fn a_click_on_a_map_or_a_value_chooses_its_policy_and_nothing_but_the_view_chang
                 assert_eq!(figure.model().value("policy").unwrap(), POLICIES[policy]);
                 assert_eq!([figure.model().readouts().len(), figure.export().rows().len()], [numbers, rows]);
                 let seen = scene(&figure, width);
+                for (k, region) in seen.regions.iter().enumerate() {
+                    let apart = seen.regions[..k].iter().all(|other| !other.area.overlaps(&region.area));
+                    assert!(apart, "{query} at {width}: {region:?}");
+                }
                 let strong = |place: &Rect| {
                     texts(&seen).into_iter().any(|t| place.encloses(&t.area) && t.weight == Weight::SemiBold)
                 };

@@ -220,9 +220,8 @@ impl Picture<'_> {
             let lines = rows.map(x).map(|x| vec![[x, row.y + 2.0], [x, row.bottom() - 2.0]]).collect();
             let width = if policy == self.chosen() { 2.0 } else { 1.25 };
             scene.marks.push(Mark::Lines { lines, width, dash: None, role: stroke::role(policy) });
-            let Rect { x, w, .. } = self.parts.values[1];
             let times = resampling::Times { n: &self.model.read(policy).resampled }.say();
-            self.value(scene, policy, &Rect::new(x, row.centre()[1] - 6.5, w, 13.0), &times);
+            self.value(scene, policy, &Rect { y: row.y, h: row.h, ..self.parts.values[1] }, &times);
         }
     }
 

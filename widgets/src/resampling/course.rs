@@ -15,6 +15,9 @@ use fastslam::ops;
 /// Font size of a policy's name, and of what is said of its particles \[css px\].
 const NAME: f64 = 13.0;
 const SIZE: f64 = 11.5;
+/// Width of the piece of a policy's line after its name, and what is free around it \[css px\].
+const PIECE: f64 = 24.0;
+const APART: f64 = 8.0;
 
 impl Picture<'_> {
     /// Name and map of each policy; on a phone the names as tabs, and the map of the one that is chosen.
@@ -39,9 +42,9 @@ impl Picture<'_> {
     /// A policy's name above its map, a piece of its line, and whether it still holds the right explanation.
     fn title(&self, scene: &mut Scene, policy: usize, line: &Rect) {
         let name = self.policy_name(scene, policy, line, Anchor::Start);
-        let piece = Rect::new(line.x + name + 8.0, line.y, 24.0, line.h);
+        let piece = Rect::new(line.x + name + APART, line.y, PIECE, line.h);
         scene.marks.push(stroke::sample(policy, policy == self.chosen(), &piece));
-        let rest = Rect::new(piece.right() + 8.0, line.y, line.right() - piece.right() - 8.0, line.h);
+        let rest = Rect::new(piece.right() + APART, line.y, line.right() - piece.right() - APART, line.h);
         if let Some((role, says)) = self.right_wing(policy) {
             scene.marks.push(text(rest, Anchor::End, SIZE, Weight::SemiBold, role, says));
         }
@@ -85,12 +88,23 @@ impl Picture<'_> {
             let before = self.model.run().lost_from().is_some();
             return before.then(|| (Role::Muted, resampling::not_lost_yet().into()));
         };
-        let says = match (self.wide, n) {
+        let says = match (self.long_titles(), n) {
             (true, 0) => resampling::wing_lost().into(),
             (true, _) => resampling::WingHas { n: &n, m: &m }.say(),
             (false, _) => resampling::WingHasShort { n: &n, m: &m }.say(),
         };
         Some((if n == 0 { Role::Extinct } else { Role::Accent }, says))
+    }
+
+    /// Whether there is room for what is said of the particles in full, beside every name.
+    fn long_titles(&self) -> bool {
+        let m = self.particles();
+        let says = [resampling::wing_lost().into(), resampling::WingHas { n: &m, m: &m }.say()];
+        let widest = |words: &[String], size| {
+            words.iter().map(|words| font::measure(words, size, Weight::SemiBold)).fold(0.0, f64::max)
+        };
+        let names = stroke::NAMES.map(|name| name().to_string());
+        self.wide && widest(&names, NAME) + PIECE + 3.0 * APART + widest(&says, SIZE) <= self.parts.tabs[0].w
     }
 
     /// Where the particles of a policy are, and the robot.
