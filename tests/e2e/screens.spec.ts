@@ -16,6 +16,7 @@ async function openWhole(page: Page, name: string, { dir = 'ltr', attributes = '
   if (name === 'log') await expect(figure.sentence).not.toBeEmpty()
   else await figure.live()
   await figure.openSettings()
+  if (name === 'resampling') await figure.openCount()
   await figure.settled()
   return figure
 }
@@ -119,7 +120,6 @@ test('on a page from right to left the controls change sides, and time and numbe
 test('the bars of a count and their intervals begin at the same side, whatever the direction of the page', async ({ page }) => {
   for (const dir of ['ltr', 'rtl']) {
     const figure = await openWhole(page, 'resampling', { dir })
-    await figure.openCount()
     await figure.element.getByRole('button', { name: /Count over/ }).click()
     await expect(figure.element.locator('.said')).toContainText('200 seeds counted', { timeout: 60_000 })
     const bars = await figure.element.locator('.track').evaluateAll(tracks =>

@@ -428,6 +428,19 @@ fn texts_fit_their_boxes_and_the_figure_and_cover_no_other() {
 }
 
 #[test]
+fn every_line_has_its_name_at_the_widths_that_pages_have() {
+    for query in ["step=88&odometry=2&range=4", "wings=on&step=101&policy=always"] {
+        let figure = resampling(query);
+        for width in [320.0, 322.0, 352.0, 588.0, 616.0, 693.0, 728.0, 804.0, 1112.0] {
+            let scene = scene(&figure, width);
+            for name in ["threshold", "resampled", "10 back: ", "weighted mean ", "lives on", "died out"] {
+                assert!(texts(&scene).iter().any(|t| t.text.starts_with(name)), "{query} at {width}: {name}");
+            }
+        }
+    }
+}
+
+#[test]
 fn nothing_is_drawn_outside_of_the_figure() {
     for query in ["wings=on&particles=20&step=104&odometry=2&range=4", "step=90&odometry=2&range=4&particles=4"] {
         for width in [240.0, 380.0, 1000.0] {

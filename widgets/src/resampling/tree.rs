@@ -39,7 +39,9 @@ impl Picture<'_> {
             (Sample::line(stroke::role(policy), 2.0, None), resampling::lives_on().to_string()),
             (Sample::line(Role::Level(DEAD), 1.0, None), words::common::died_out().to_string()),
         ];
-        let name = resampling::TreeOf { policy: &stroke::NAMES[policy]() }.say();
+        // On a phone there is no room for whose it is, and the tabs say it.
+        let of_policy = || resampling::TreeOf { policy: &stroke::NAMES[policy]() }.say();
+        let name = if self.wide { of_policy() } else { resampling::tree().into() };
         self.label(scene, 3, &name, items);
 
         let alive = self.model.alive(policy);
