@@ -4,10 +4,11 @@ mod common;
 
 use common::{assert_texts_fit, figure, scene, state};
 use fastslam_widgets::{
+    decimal::fixed,
     figure::Figure,
     panels::Panels,
     proposal::{Layout, ProposalView},
-    scene::{Mark, Rect},
+    scene::{Mark, Rect, Role},
     view::View,
 };
 
@@ -17,8 +18,16 @@ fn proposal(query: &str) -> Figure {
     figure(TAG, query)
 }
 
-fn readout(figure: &Figure, name: &str) -> f64 {
-    figure.model().readouts().into_iter().find(|r| r.name == name).and_then(|r| r.value).unwrap_or(f64::NAN)
+/// The number between two parts of what is said of a figure.
+fn said(figure: &Figure, before: &str, after: &str) -> String {
+    let told = figure.model().describe();
+    let (_, rest) = told.split_once(before).unwrap_or_else(|| panic!("{before}: {told}"));
+    rest.split_once(after).unwrap_or_else(|| panic!("{after}: {told}")).0.to_string()
+}
+
+/// How many samples of 1.0 one of 2.0 is worth.
+fn ratio(figure: &Figure) -> String {
+    said(figure, "is worth ", " of 1.0")
 }
 
 /// Where a handle is in a figure of this width \[css px\].
@@ -38,18 +47,27 @@ const STATES: [&str; 6] = [
 ];
 
 #[test]
-fn dragging_is_setting_in_both_panels_and_at_any_width() {
+fn dragging_is_setting_in_any_panel_and_at_any_width() {
     for width in [200.0, 340.0, 800.0, 1200.0] {
-        for name in ["landmark", "landmark-again"] {
-            let mut figure = proposal("samples=50");
-            let [x, y] = handle(&proposal("samples=50&landmark-x=1.9&landmark-y=0.4"), name, width);
-            figure.drag(name, x, y, width);
-            figure.model_mut().settle();
-            assert_eq!(
-                state(&figure),
-                state(&proposal("samples=50&landmark-x=1.9&landmark-y=0.4")),
-                "{name} at {width}"
-            );
+        for (name, value) in [
+            ("landmark", "landmark-x=1.9&landmark-y=0.4"),
+            ("range-std", "range-std=0.005"),
+            ("range-std", "range-std=0.123"),
+            ("range-std", "range-std=0.5"),
+            ("bearing-std", "bearing-std=0.01"),
+            ("bearing-std", "bearing-std=0.3"),
+            ("odometry", "odometry=0.25"),
+            ("odometry", "odometry=1.73"),
+            ("odometry", "odometry=2"),
+        ] {
+            for show in ["all", "motion", "aware"] {
+                let [mut figure, mut aim] = ["", value].map(|query| proposal(&format!("samples=50&{query}")));
+                [&mut figure, &mut aim].map(|figure| figure.show(show).unwrap());
+                let [x, y] = handle(&aim, name, width);
+                figure.drag(name, x, y, width);
+                figure.model_mut().settle();
+                assert_eq!(state(&figure), state(&aim), "{value} at {width}, {show}");
+            }
         }
         let mut figure = proposal("predict=on");
         let [x, y] = handle(&proposal("predict=on&guess=6.5"), "guess", width);
@@ -70,6 +88,78 @@ fn a_landmark_dragged_out_of_its_panel_stays_at_the_edge() {
             (100.0 * max).round() / 100.0,
             "{name}"
         );
+    }
+}
+
+#[test]
+fn a_noise_is_dragged_by_every_small_step_and_beyond_its_range_stays_at_the_end() {
+    for (name, [min, max]) in [("range-std", [0.005, 0.5]), ("bearing-std", [0.01, 0.3]), ("odometry", [0.25, 2.0])] {
+        let mut figure = proposal("samples=1");
+        let value = |figure: &Figure| figure.model().value(name).unwrap().parse::<f64>().unwrap();
+        let (from, start) = (handle(&figure, name, 692.0), value(&figure));
+        // Away from the middle is to the right and up.
+        let mut last = start;
+        for k in 1..=20 {
+            let way = f64::from(k);
+            figure.drag(name, from[0] + way, from[1] - way, 692.0);
+            let now = value(&figure);
+            assert!(last < now && now < last + 0.1 * (max - min), "{name}: {last}, {now}");
+            last = now;
+        }
+        figure.drag(name, from[0] + 1e4, from[1] - 1e4, 692.0);
+        assert_eq!(value(&figure), max);
+        figure.drag(name, from[0] - 1e4, from[1] + 1e4, 692.0);
+        assert_eq!(value(&figure), min);
+    }
+}
+
+#[test]
+fn noises_are_moved_by_keys_to_the_right_or_up_for_more() {
+    let mut figure = proposal("samples=1");
+    for (name, steps, value) in [
+        ("range-std", [1.0, 0.0], "0.055"),
+        ("range-std", [0.0, 10.0], "0.105"),
+        ("range-std", [-0.1, 0.0], "0.1045"),
+        ("bearing-std", [0.0, 1.0], "0.06"),
+        ("bearing-std", [0.0, -10.0], "0.01"),
+        ("odometry", [1.0, 0.0], "1.05"),
+        ("odometry", [10.0, 0.0], "1.55"),
+        ("odometry", [-0.1, 0.0], "1.545"),
+    ] {
+        figure.nudge(name, steps[0], steps[1]);
+        assert_eq!(figure.model().value(name).unwrap(), value, "{name} by {steps:?}");
+    }
+}
+
+#[test]
+fn what_the_panels_show_of_the_world_is_the_same_whatever_was_drawn_and_seen() {
+    // The robot stays where it is in its panel, and so does the scale: only the wheels' noise moves them.
+    let seen = |query: &str| {
+        let scene = scene(&proposal(query), 692.0);
+        let bar = scene.marks.iter().find_map(|mark| match mark {
+            Mark::Lines { lines, role: Role::Ink, .. } if lines[0].len() == 4 => Some(lines.clone()),
+            _ => None,
+        });
+        bar.unwrap()
+    };
+    for query in ["seed=5", "samples=1", "range-std=0.5", "bearing-std=0.3", "landmarks=pair", "landmark-x=0.4"] {
+        assert_eq!(seen(query), seen(""), "{query}");
+    }
+    assert_ne!(seen("odometry=2"), seen(""));
+}
+
+#[test]
+fn handles_are_as_far_apart_as_fingers_need_where_the_figure_opens() {
+    for query in ["", "landmarks=pair", "predict=on"] {
+        for (width, apart) in [(692.0, 44.0), (600.0, 44.0), (352.0, 44.0), (300.0, 28.0)] {
+            let handles = scene(&proposal(query), width).handles;
+            for (k, a) in handles.iter().enumerate() {
+                for b in &handles[..k] {
+                    let [dx, dy] = [0, 1].map(|i| a.at[i] - b.at[i]);
+                    assert!((dx * dx + dy * dy).sqrt() >= apart, "{} and {} at {width}", a.name, b.name);
+                }
+            }
+        }
     }
 }
 
@@ -110,20 +200,20 @@ fn the_guess_is_asked_for_then_run_and_another_guess_starts_anew() {
     let mut figure = proposal("");
     assert!(scene(&figure, 800.0).handles.iter().all(|h| h.name != "guess"));
     figure.set("predict", "on").unwrap();
-    assert!(readout(&figure, "ratio_half").is_nan());
+    assert!(figure.model().describe().contains("it has not been run"));
     figure.drag("guess", 400.0, 0.0, 800.0);
     let guess = figure.model().value("guess").unwrap();
     figure.set("run", "on").unwrap();
     figure.model_mut().settle();
     // What is run is what a reader gets who halves the noise.
-    assert_eq!(readout(&figure, "ratio_half").to_bits(), readout(&proposal("range-std=0.025"), "ratio").to_bits());
+    assert_eq!(said(&figure, "the ratio is ", ";"), ratio(&proposal("range-std=0.025")));
     assert!(figure.model().describe().contains(&format!("the guess was {guess}")), "{}", figure.model().describe());
     figure.set("guess", &guess).unwrap();
     assert_eq!(figure.model().value("run").unwrap(), "on", "the same guess is no other try");
     figure.nudge("guess", 1.0, 0.0);
     figure.model_mut().settle();
     assert_eq!(figure.model().value("run").unwrap(), "off");
-    assert!(readout(&figure, "ratio_half").is_nan());
+    assert!(figure.model().describe().contains("it has not been run"));
     // Without a guess there is nothing to run, and who runs it is asked.
     figure.set("predict", "off").unwrap();
     figure.set("run", "on").unwrap();
@@ -163,7 +253,7 @@ fn what_is_lost_is_told_in_words() {
 }
 
 #[test]
-fn data_has_a_row_for_every_sample_and_the_readouts_follow_from_it() {
+fn data_has_a_row_for_every_sample_and_what_is_said_follows_from_it() {
     let figure = proposal("samples=300");
     let export = figure.export();
     let (header, rows) = (export.header(), export.rows());
@@ -173,12 +263,14 @@ fn data_has_a_row_for_every_sample_and_the_readouts_follow_from_it() {
         let k = header.iter().position(|h| *h == name).unwrap();
         rows.iter().map(|row| row[k].unwrap()).collect::<Vec<f64>>()
     };
-    for proposal in ["motion", "aware"] {
+    let [motion, aware] = ["motion", "aware"].map(|proposal| {
         let squares: f64 = column(&format!("{proposal}_weight")).iter().map(|w| w * w).sum();
-        assert!((1.0 / squares - readout(&figure, &format!("ess_{proposal}"))).abs() < 1e-9);
         let inside = column(&format!("{proposal}_inside")).iter().sum::<f64>() / 3.0;
-        assert!((inside - readout(&figure, &format!("inside_{proposal}"))).abs() < 1e-9);
-    }
+        (1.0 / squares, fixed(1.0 / squares, 0), fixed(inside, 0))
+    });
+    assert_eq!(ratio(&figure), fixed(aware.0 / motion.0, 1));
+    assert_eq!(said(&figure, "(N_eff ", ")"), format!("{} and {} of 300", aware.1, motion.1));
+    assert_eq!(said(&figure, "region are ", " of them"), format!("{} % and {} %", aware.2, motion.2));
 }
 
 #[test]
@@ -196,11 +288,14 @@ fn samples_outlines_and_densities_stay_in_their_panels() {
     for query in STATES {
         let figure = proposal(query);
         for width in [300.0, 800.0] {
-            let panels = Layout::new(width).panels.map(|panel| panel.view);
+            let layout = Layout::new(width);
+            let panels = layout.panels.map(|panel| panel.view);
             let below = panels.iter().map(Rect::bottom).fold(0.0, f64::max);
             let inside = |points: &[[f64; 2]]| {
-                let grown = panels.map(|p| p.inset(-0.01));
-                points.iter().all(|p| p[1] > below || grown.iter().any(|panel| panel.contains(*p)))
+                let grown = [panels[0], panels[1], layout.world[1]].map(|p| p.inset(-0.01));
+                // To the right of the world, or above it, are the ratio and the legend.
+                let free = |p: &[f64; 2]| p[1] > below && (p[0] > layout.world[1].right() || p[1] < layout.world[0].y);
+                points.iter().all(|p| free(p) || grown.iter().any(|panel| panel.contains(*p)))
             };
             for mark in scene(&figure, width).marks {
                 let fits = match &mark {

@@ -1,4 +1,4 @@
-//! Where the parts of the figure stand, and what part of the world the panels show.
+//! Where the parts of the figure stand.
 
 use super::recipe::WORLD;
 use crate::{
@@ -15,15 +15,21 @@ pub const AWARE: &str = "aware";
 /// See [`MOTION`].
 pub const RATIO: &str = "ratio";
 
-/// From this width on \[css px\], the panels stand side by side.
-pub const WIDE: f64 = 640.0;
+/// From this width on \[css px\], the ratio stands beside the world and not above it.
+pub const WIDE: f64 = 560.0;
 
 /// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
 pub const NARROWEST: f64 = 300.0;
 
-const HEADER: f64 = 26.0;
-const COUNTERS: f64 = 48.0;
-const PAD: f64 = 8.0;
+const HEADER: f64 = 24.0;
+const PAD: f64 = 6.0;
+const COUNTERS: f64 = 44.0;
+
+/// Height of a panel over its width.
+const ASPECT: f64 = 0.6;
+
+/// A panel beside the other is at least so high, and one alone at most \[css px\].
+const HEIGHTS: [f64; 2] = [132.0, 300.0];
 
 /// One proposal's part.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -45,6 +51,8 @@ pub struct Layout {
     pub shown: Panels,
     /// The motion prior's, and the measurement-aware proposal's.
     pub panels: [Panel; 2],
+    /// What can be done in the world, and the world: where the panels are in it, and the landmark.
+    pub world: [Rect; 2],
     /// The ratio in words, and below it what is asked or answered about it.
     pub ratio: [Rect; 2],
     /// Its scale.
@@ -65,37 +73,51 @@ impl Layout {
     pub fn of(width: f64, shown: &Panels) -> Self {
         let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
         let clouds = [MOTION, AWARE].map(|name| shown.has(name));
-        let beside = width >= WIDE && clouds == [true; 2];
-        let gap = 20.0;
+        let (beside, any, strip) = (clouds == [true; 2], clouds != [false; 2], shown.has(RATIO));
+        let gap = if width < WIDE { 12.0 } else { 20.0 };
         let w = if beside { (0.5 * (width - gap)).floor() } else { width };
-        let Area { low, high } = WORLD;
-        let h = w * (high[1] - low[1]) / (high[0] - low[0]);
-        let panel = |shown: bool, x: f64, y: f64| {
+        let h = if beside { (ASPECT * w).max(HEIGHTS[0]) } else { (ASPECT * w).min(HEIGHTS[1]) };
+        let panel = |shown: bool, x: f64| {
             let [header, h, pad, counters, note] =
                 [HEADER, h, PAD, COUNTERS, LINE].map(|h| if shown { h } else { 0.0 });
-            let header = Rect::new(x, y, w, header);
+            let header = Rect::new(x, 0.0, w, header);
             let view = Rect::new(x, header.bottom(), w, h);
-            let counter = |k: f64| Rect::new(x + k * 0.5 * w, view.bottom() + pad, 0.5 * w, counters);
-            let counters = [counter(0.0), counter(1.0)];
+            // The name of the second is the longer one.
+            let first = if w < 160.0 { 0.46 } else { 0.5 } * w;
+            let y = view.bottom() + pad;
+            let counters = [Rect::new(x, y, first, counters), Rect::new(x + first, y, w - first, counters)];
             Panel { header, view, counters, note: Rect::new(x, counters[0].bottom(), w, note) }
         };
-        // Below a part, if it is shown.
-        let below = |part: &Rect, gap: f64| if part.h > 0.0 { part.bottom() + gap } else { part.y };
-        let first = panel(clouds[0], 0.0, 0.0);
-        let [x, y] = if beside { [w + gap, 0.0] } else { [0.0, below(&first.note, 2.0 * PAD)] };
-        let second = panel(clouds[1], x, y);
-        let line = |y: f64, h: f64| Rect::new(0.0, y, width, h);
-        let [words, question, apart, axis] = [22.0, LINE, 4.0, 44.0].map(|h| if shown.has(RATIO) { h } else { 0.0 });
-        let words = line(below(&second.note, 2.0 * PAD), words);
-        let question = line(words.bottom(), question);
+        let panels = [panel(clouds[0], 0.0), panel(clouds[1], if beside { w + gap } else { 0.0 })];
+        let mut y = if any { panels[0].note.bottom().max(panels[1].note.bottom()) + PAD } else { 0.0 };
+
+        // The world at the left; the ratio beside it or, where that is too narrow, above it; the legend in what is left.
+        let left = if !any {
+            0.0
+        } else if width < WIDE {
+            (0.45 * width).floor()
+        } else {
+            (0.29 * width).clamp(200.0, 250.0)
+        };
+        let beside = |x: f64, y: f64, h: f64| Rect::new(x, y, width - x, h);
+        let right = if any { left + gap } else { 0.0 };
+        let x = if width < WIDE { 0.0 } else { right };
+        let [words, question, apart, axis] = [20.0, LINE, 2.0, 42.0].map(|h| if strip { h } else { 0.0 });
+        let ratio = [beside(x, y, words), beside(x, y + words, question)];
         // Room for half a handle at both ends.
-        let axis = Rect::new(16.0, question.bottom() + apart, width - 32.0, axis);
-        // Most of what it names is in the clouds.
-        let lines = [1100.0, WIDE, 400.0].iter().filter(|&&limit| width < limit).count();
-        let lines = if clouds == [false; 2] { 0.0 } else { (1 + lines) as f64 };
-        let legend = line(below(&axis, PAD), lines * LINE);
-        let height = if lines > 0.0 { legend.bottom() } else { axis.bottom() }.ceil();
-        Self { shown: shown.clone(), panels: [first, second], ratio: [words, question], axis, legend, height }
+        let axis = Rect::new(x + 16.0, ratio[1].bottom() + apart, width - x - 32.0, axis);
+        let below = if strip { axis.bottom() + if any { PAD } else { 0.0 } } else { y };
+        if width < WIDE {
+            y = below;
+        }
+        let [caption, world] = [16.0, left * (WORLD.high[1] - WORLD.low[1]) / (WORLD.high[0] - WORLD.low[0])]
+            .map(|h| if any { h } else { 0.0 });
+        let caption = Rect::new(0.0, y, left, caption);
+        let world = [caption, Rect::new(0.0, caption.bottom(), left, world)];
+        let lines = LINES.iter().find(|(from, _)| width >= *from).map_or(0.0, |(_, lines)| *lines);
+        let legend = beside(right, below, if any { lines * LINE } else { 0.0 });
+        let height = if any { legend.bottom().max(world[1].bottom()) } else { axis.bottom() }.ceil();
+        Self { shown: shown.clone(), panels, world, ratio, axis, legend, height }
     }
 
     /// All parts.
@@ -104,21 +126,22 @@ impl Layout {
             .panels
             .iter()
             .flat_map(|Panel { header, view, counters: [a, b], note }| [*header, *view, *a, *b, *note]);
-        panels.chain([self.ratio[0], self.ratio[1], self.axis, self.legend]).collect()
+        panels.chain(self.world).chain(self.ratio).chain([self.axis, self.legend]).collect()
+    }
+
+    /// The world, where the landmark is moved.
+    pub fn world_plane(&self) -> Plane {
+        let (Area { low, high }, area) = (WORLD, self.world[1]);
+        Plane::from_upper_left(area, [low[0], high[1]], area.w / (high[0] - low[0]))
     }
 }
+
+/// From which width on \[css px\] the legend has how many lines.
+const LINES: [(f64, f64); 4] = [(1000.0, 2.0), (WIDE, 3.0), (400.0, 6.0), (0.0, 7.0)];
 
 impl view::Layout for Layout {
     fn height(&self) -> f64 {
         self.height
-    }
-}
-
-impl Panel {
-    /// The world in it.
-    pub fn plane(&self) -> Plane {
-        let scale = self.view.w / (WORLD.high[0] - WORLD.low[0]);
-        Plane::from_upper_left(self.view, [WORLD.low[0], WORLD.high[1]], scale)
     }
 }
 
@@ -137,7 +160,7 @@ mod tests {
 
     #[test]
     fn panels_shown_alone_leave_no_place_for_the_others() {
-        for (names, shown) in [("motion", 6), ("aware", 6), ("ratio", 3), ("motion aware", 11), ("aware ratio", 9)] {
+        for (names, shown) in [("motion", 8), ("aware", 8), ("ratio", 3), ("motion aware", 13), ("aware ratio", 11)] {
             let panels = Panels::named(names, &[MOTION, AWARE, RATIO]).unwrap();
             for width in (300..2000).step_by(7).map(f64::from) {
                 let layout = Layout::of(width, &panels);
@@ -151,10 +174,19 @@ mod tests {
     }
 
     #[test]
-    fn both_panels_have_one_scale() {
-        for width in [300.0, 639.0, 640.0, 1200.0] {
+    fn the_picture_and_its_controls_are_on_one_screen() {
+        // The chapter on a laptop, its narrowest column of that kind, a phone, a tablet, the whole of a 16:9 screen.
+        for (width, most) in [(692.0, 452.0), (600.0, 452.0), (352.0, 450.0), (760.0, 490.0), (1112.0, 610.0)] {
+            let height = Layout::new(width).height;
+            assert!(height <= most, "{width}: {height}");
+        }
+    }
+
+    #[test]
+    fn both_panels_have_one_size() {
+        for width in [300.0, 559.0, 560.0, 1200.0] {
             let [first, second] = Layout::new(width).panels;
-            assert_eq!(first.plane().scale, second.plane().scale);
+            assert_eq!([first.view.w, first.view.h], [second.view.w, second.view.h]);
         }
     }
 }

@@ -2,10 +2,17 @@
 
 mod contour;
 mod gauge;
+mod knob;
 mod layout;
+mod marks;
 mod model;
+mod names;
+mod panel;
 mod recipe;
+mod strip;
 mod view;
+mod world;
+mod zoom;
 
 pub use layout::Layout;
 pub use model::ProposalModel;

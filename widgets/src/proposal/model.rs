@@ -3,7 +3,7 @@
 use super::{contour, recipe::Recipe};
 use crate::decimal::{fixed, write};
 use crate::model::{Column, Declared, FigureError, Model, Readout, Series};
-use crate::words::{common, proposal};
+use crate::words::proposal;
 use fastslam_lab::experiment::proposals::{Cloud, Proposals, ProposalsSetup};
 
 /// Figure w17.3.
@@ -116,36 +116,21 @@ impl Model for ProposalModel {
         self.computed = self.recipe.clone();
     }
 
+    /// What the picture does not say.
     fn readouts(&self) -> Vec<Readout> {
-        let Proposals { motion, aware, exact, z, .. } = &self.shown;
-        let m = self.setup().samples;
-        let percent = |name, title, share: f64, help| {
-            let x = 100.0 * share;
-            Readout::new(name, title, x, fixed(x, 1), "%", help)
-        };
-        let ess = |name, title, cloud: &Cloud, help| {
-            let x = cloud.ess();
-            Readout::new(name, title, x, common::Of { n: &fixed(x, 1), all: &m }.say(), "", help)
-        };
-        let times = |name, title, x: f64, help| Readout::new(name, title, x, fixed(x, 2), "×", help);
-        let first = |x: f64| if self.setup().twins { x } else { f64::NAN };
+        let z = self.shown.z;
+        let predicted = self.shown.predicted_ratio();
         vec![
-            percent(
-                "inside_motion",
-                proposal::inside_motion(),
-                motion.share_inside(None),
-                proposal::inside_motion_help(),
-            ),
-            percent("inside_aware", proposal::inside_aware(), aware.share_inside(None), proposal::inside_aware_help()),
-            ess("ess_motion", proposal::ess_motion(), motion, proposal::ess_motion_help()),
-            ess("ess_aware", proposal::ess_aware(), aware, proposal::ess_aware_help()),
-            times("ratio", proposal::ratio(), self.shown.ratio(), proposal::ratio_help()),
-            times("ratio_half", proposal::ratio_half(), self.at_half.unwrap_or(f64::NAN), proposal::ratio_half_help()),
-            percent("a_posterior", proposal::a_posterior(), first(exact.candidates[0]), proposal::a_posterior_help()),
-            percent("a_motion", proposal::a_motion(), first(motion.share_inside(Some(0))), proposal::a_motion_help()),
-            percent("a_aware", proposal::a_aware(), first(aware.share_inside(Some(0))), proposal::a_aware_help()),
             Readout::new("range", proposal::range_seen(), z.x, fixed(z.x, 2), "m", proposal::range_seen_help()),
             Readout::new("bearing", proposal::bearing_seen(), z.y, fixed(z.y, 2), "rad", proposal::bearing_seen_help()),
+            Readout::new(
+                "predicted",
+                proposal::predicted(),
+                predicted,
+                fixed(predicted, 2),
+                "×",
+                proposal::predicted_help(),
+            ),
         ]
     }
 
@@ -187,14 +172,8 @@ impl Model for ProposalModel {
             aware_ess: &fixed(aware.ess(), 0),
             ratio: &fixed(self.shown.ratio(), 1),
         };
-        let mut sentences = vec![told.say()];
-        if self.setup().twins {
-            let shares = |cloud: &Cloud| [0, 1].map(|k| percent(cloud.share_inside(Some(k))));
-            let ([a, b], [c, d]) = (shares(motion), shares(aware));
-            let [p, q] = [0, 1].map(|k| percent(exact.candidates[k]));
-            sentences.push(proposal::EitherLandmark { p: &p, q: &q, a: &a, b: &b, c: &c, d: &d }.say());
-            sentences.extend(self.lost().map(|lost| proposal::IsLost { landmark: &["A", "B"][lost] }.say()));
-        }
+        // What cannot be seen at a glance comes first: a sentence is read from its beginning, and may be cut off at its end.
+        let mut sentences = Vec::new();
         match (self.guess(), self.at_half) {
             (Some(guess), Some(ratio)) => {
                 let (half, ratio, guess) = (&self.half(), &fixed(ratio, 1), &write(guess));
@@ -202,6 +181,14 @@ impl Model for ProposalModel {
             }
             (Some(guess), None) => sentences.push(proposal::GuessIs { guess: &write(guess) }.say()),
             _ => (),
+        }
+        sentences.extend(self.lost().map(|lost| proposal::IsLost { landmark: &["A", "B"][lost] }.say()));
+        sentences.push(told.say());
+        if self.setup().twins {
+            let shares = |cloud: &Cloud| [0, 1].map(|k| percent(cloud.share_inside(Some(k))));
+            let ([a, b], [c, d]) = (shares(motion), shares(aware));
+            let [p, q] = [0, 1].map(|k| percent(exact.candidates[k]));
+            sentences.push(proposal::EitherLandmark { p: &p, q: &q, a: &a, b: &b, c: &c, d: &d }.say());
         }
         sentences.join(" ")
     }
