@@ -62,7 +62,9 @@ fn dragging_is_setting_in_any_panel_and_at_any_width() {
         ] {
             for show in ["all", "motion", "aware"] {
                 let [mut figure, mut aim] = ["", value].map(|query| proposal(&format!("samples=50&{query}")));
-                [&mut figure, &mut aim].map(|figure| figure.show(show).unwrap());
+                for figure in [&mut figure, &mut aim] {
+                    figure.show(show).unwrap();
+                }
                 let [x, y] = handle(&aim, name, width);
                 figure.drag(name, x, y, width);
                 figure.model_mut().settle();

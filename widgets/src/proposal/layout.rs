@@ -102,7 +102,7 @@ impl Layout {
         let beside = |x: f64, y: f64, h: f64| Rect::new(x, y, width - x, h);
         let right = if any { left + gap } else { 0.0 };
         let x = if width < WIDE { 0.0 } else { right };
-        let [words, question, apart, axis] = [20.0, LINE, 2.0, 42.0].map(|h| if strip { h } else { 0.0 });
+        let [words, question, apart, axis] = [20.0, LINE, 2.0, 44.0].map(|h| if strip { h } else { 0.0 });
         let ratio = [beside(x, y, words), beside(x, y + words, question)];
         // Room for half a handle at both ends.
         let axis = Rect::new(x + 16.0, ratio[1].bottom() + apart, width - x - 32.0, axis);
@@ -137,7 +137,7 @@ impl Layout {
 }
 
 /// From which width on \[css px\] the legend has how many lines.
-const LINES: [(f64, f64); 4] = [(1000.0, 2.0), (WIDE, 3.0), (400.0, 6.0), (0.0, 7.0)];
+const LINES: [(f64, f64); 5] = [(1000.0, 2.0), (WIDE, 3.0), (400.0, 6.0), (340.0, 7.0), (0.0, 8.0)];
 
 impl view::Layout for Layout {
     fn height(&self) -> f64 {

@@ -2,7 +2,7 @@
 
 use crate::{
     font::{self, Weight},
-    scene::{Anchor, Mark, Point, Rect, Role, Scene, closed, diamond, ellipse, text},
+    scene::{Anchor, Mark, Point, Rect, Role, Scene, clip_polyline, closed, diamond, ellipse, text},
 };
 
 /// A diamond, filled.
@@ -12,8 +12,17 @@ pub fn filled_diamond(at: Point, r: f64, role: Role) -> Mark {
 
 /// Around what can be moved.
 pub fn ring(centre: Point, radius: f64) -> Mark {
-    let circle = closed(ellipse(centre, [[1.0, 0.0], [0.0, 1.0]], radius));
-    Mark::Lines { lines: vec![circle], width: 2.0, dash: None, role: Role::Accent }
+    Mark::Lines { lines: vec![circle(centre, radius)], width: 2.0, dash: None, role: Role::Accent }
+}
+
+/// The part of it that is in an area.
+pub fn ring_within(area: &Rect, centre: Point, radius: f64) -> Mark {
+    let lines = clip_polyline(&circle(centre, radius), area);
+    Mark::Lines { lines, width: 2.0, dash: None, role: Role::Accent }
+}
+
+fn circle(centre: Point, radius: f64) -> Vec<Point> {
+    closed(ellipse(centre, [[1.0, 0.0], [0.0, 1.0]], radius))
 }
 
 /// A triangle that points down at its place.

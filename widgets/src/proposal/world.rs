@@ -2,7 +2,7 @@
 
 use super::{
     layout::Layout,
-    marks::{filled_diamond, ring},
+    marks::{filled_diamond, ring_within},
     model::ProposalModel,
     zoom,
 };
@@ -53,7 +53,7 @@ pub fn world(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
     }
     rimmed_robot(scene, &plane, &FROM, ROBOT, Role::Muted);
     rimmed_robot(scene, &plane, &found.truth, ROBOT, Role::Ink);
-    scene.marks.push(ring(landmarks[0], 8.0));
+    scene.marks.push(ring_within(&area, landmarks[0], 8.0));
     scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
 
     let [x, y] = setup.landmark;
