@@ -187,11 +187,10 @@ fn counters(scene: &mut Scene, model: &ProposalModel, panel: &Panel, cloud: &Clo
     ];
     for (area, (number, what)) in panel.counters.iter().zip(numbers) {
         let Rect { x, y, w, .. } = *area;
-        let [size, small] = match w {
-            _ if w < 80.0 => [17.0, 11.0],
-            _ if w < 100.0 => [20.0, 12.0],
-            _ => [24.0, 12.0],
-        };
+        // One size for all numbers, whatever they are.
+        let fits = |size: &f64| font::measure("100.0 %", *size, Weight::SemiBold) <= w - 4.0;
+        let size = [24.0, 20.0, 17.0].into_iter().find(fits).unwrap_or(15.0);
+        let small = if w < 80.0 { 11.0 } else { 12.0 };
         scene.marks.push(text(Rect::new(x, y, w, 26.0), Anchor::Start, size, Weight::SemiBold, Role::Ink, number));
         line(scene, &Rect::new(x, y + 26.0, w, LINE), small, Weight::Regular, Role::Muted, what);
     }
