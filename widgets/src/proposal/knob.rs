@@ -81,8 +81,8 @@ impl Noise {
     /// Where that name stands, if there is room: outside of what the knob is the end of.
     pub fn places(self) -> &'static [Place] {
         match self {
-            Self::Odometry => &[Place::Right(11.0), Place::Above(10.0)],
-            Self::Range => &[Place::Right(11.0)],
+            Self::Odometry => &[Place::Right(11.0), Place::Above(10.0), Place::Left(11.0)],
+            Self::Range => &[Place::Right(11.0), Place::Below(10.0)],
             Self::Bearing => &[Place::Right(11.0), Place::Left(11.0), Place::Above(10.0)],
         }
     }

@@ -44,7 +44,7 @@ pub fn line<const N: usize>(
     scene.marks.push(text(*area, Anchor::Start, size, weight, role, words));
 }
 
-/// Words beside a point on a plate: the first wording at the first place that is free and in the area. Where there is none, they are
+/// Words beside a point on a plate: at the first place that is free and in the area for one of the wordings. Where there is none, they are
 /// left out.
 pub fn label(scene: &mut Scene, taken: &mut Vec<Rect>, area: &Rect, at: Point, wordings: &[&str], places: &[Place]) {
     let [x, y] = at;
@@ -59,7 +59,7 @@ pub fn label(scene: &mut Scene, taken: &mut Vec<Rect>, area: &Rect, at: Point, w
     };
     let free =
         |(_, plate): &(&str, Rect)| area.inset(2.0).encloses(plate) && !taken.iter().any(|other| other.overlaps(plate));
-    let mut plates = wordings.iter().flat_map(|words| places.iter().map(move |place| (*words, plate(words, place))));
+    let mut plates = places.iter().flat_map(|place| wordings.iter().map(move |words| (*words, plate(words, place))));
     if let Some((words, plate)) = plates.find(free) {
         scene.marks.push(Mark::Fill { area: plate, role: Role::Paper });
         scene.marks.push(text(plate, Anchor::Middle, SIZE, Weight::SemiBold, Role::Ink, words));
