@@ -22,7 +22,6 @@ pub fn names(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
         let dot = |(dx, role)| Mark::Discs { centres: vec![[x + dx, y]], radius: 1.8, role };
         [(-4.0, Role::Prior), (4.0, Role::Posterior)].map(dot).into()
     };
-    let landmark = |place: &Rect| vec![ring(place.centre(), 7.0), filled_diamond(place.centre(), 4.0, Role::Landmark)];
     let noise = |place: &Rect| {
         let (y, end) = (place.centre()[1], place.right() - 5.0);
         vec![
@@ -53,7 +52,6 @@ pub fn names(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
     }
     items.extend([
         (Sample::new(samples), proposal::samples_drawn()),
-        (Sample::new(landmark), proposal::landmark()),
         (Sample::new(noise), proposal::noise()),
         (Sample::new(robots).wide(30.0), proposal::robots()),
         (Sample::new(panels), proposal::shown_above()),
