@@ -22,8 +22,12 @@ test('it says what it shows before anyone touches it, and has no timeline', asyn
   await expect(figure.play).toBeHidden()
   await expect(figure.scrub).toBeHidden()
   await expect(figure.sentence).toContainText(/N_eff 1000 and \d\d\d of 1000/)
-  // Of what the picture says, nothing is said again.
-  expect(Object.keys(await figure.readouts())).toEqual(['range', 'bearing', 'predicted'])
+  // Of what the picture says, nothing is written again, though events and data have it.
+  await figure.element.locator('.numbers > summary').click()
+  const written = figure.element.locator('[part=readout]:visible')
+  await expect(written).toHaveCount(3)
+  for (const [i, name] of ['range', 'bearing', 'predicted'].entries()) await expect(written.nth(i)).toHaveAttribute('data-name', name)
+  expect((await figure.readouts())['ess_aware']).toContain('1000.0 of 1000')
 })
 
 test('the landmark is dragged by the mouse, and numbers and picture follow', async ({ page }) => {

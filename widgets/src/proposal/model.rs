@@ -3,7 +3,7 @@
 use super::{contour, recipe::Recipe};
 use crate::decimal::{fixed, write};
 use crate::model::{Column, Declared, FigureError, Model, Readout, Series};
-use crate::words::proposal;
+use crate::words::{common, proposal};
 use fastslam_lab::experiment::proposals::{Cloud, Proposals, ProposalsSetup};
 
 /// Figure w17.3.
@@ -116,21 +116,38 @@ impl Model for ProposalModel {
         self.computed = self.recipe.clone();
     }
 
-    /// What the picture does not say.
     fn readouts(&self) -> Vec<Readout> {
-        let z = self.shown.z;
-        let predicted = self.shown.predicted_ratio();
+        let Proposals { motion, aware, exact, z, .. } = &self.shown;
+        let m = self.setup().samples;
+        let percent = |name, title, share: f64, help| {
+            let x = 100.0 * share;
+            Readout::new(name, title, x, fixed(x, 1), "%", help).drawn()
+        };
+        let ess = |name, title, cloud: &Cloud, help| {
+            let x = cloud.ess();
+            Readout::new(name, title, x, common::Of { n: &fixed(x, 1), all: &m }.say(), "", help).drawn()
+        };
+        let times = |name, title, x: f64, help| Readout::new(name, title, x, fixed(x, 2), "×", help);
+        let first = |x: f64| if self.setup().twins { x } else { f64::NAN };
         vec![
+            percent(
+                "inside_motion",
+                proposal::inside_motion(),
+                motion.share_inside(None),
+                proposal::inside_motion_help(),
+            ),
+            percent("inside_aware", proposal::inside_aware(), aware.share_inside(None), proposal::inside_aware_help()),
+            ess("ess_motion", proposal::ess_motion(), motion, proposal::ess_motion_help()),
+            ess("ess_aware", proposal::ess_aware(), aware, proposal::ess_aware_help()),
+            times("ratio", proposal::ratio(), self.shown.ratio(), proposal::ratio_help()).drawn(),
+            times("ratio_half", proposal::ratio_half(), self.at_half.unwrap_or(f64::NAN), proposal::ratio_half_help())
+                .drawn(),
+            percent("a_posterior", proposal::a_posterior(), first(exact.candidates[0]), proposal::a_posterior_help()),
+            percent("a_motion", proposal::a_motion(), first(motion.share_inside(Some(0))), proposal::a_motion_help()),
+            percent("a_aware", proposal::a_aware(), first(aware.share_inside(Some(0))), proposal::a_aware_help()),
             Readout::new("range", proposal::range_seen(), z.x, fixed(z.x, 2), "m", proposal::range_seen_help()),
             Readout::new("bearing", proposal::bearing_seen(), z.y, fixed(z.y, 2), "rad", proposal::bearing_seen_help()),
-            Readout::new(
-                "predicted",
-                proposal::predicted(),
-                predicted,
-                fixed(predicted, 2),
-                "×",
-                proposal::predicted_help(),
-            ),
+            times("predicted", proposal::predicted(), self.shown.predicted_ratio(), proposal::predicted_help()),
         ]
     }
 
