@@ -131,7 +131,8 @@ export abstract class FigureElement extends HostedFigure {
     const home = homeAddress()
     if (!home && (name === 'iframe' || name === 'myst')) return undefined
     const options = Object.keys(OPTIONS).filter(option => option !== 'fit' && this.hasAttribute(option))
-    const attributes: [string, string][] = [...new URLSearchParams(this.state), ...options.map((o): [string, string] => [o, this.getAttribute(o)!])]
+    const parameters = [...new URLSearchParams(this.state)].filter(([name]) => name !== 'v') // an attribute is of no version
+    const attributes: [string, string][] = [...parameters, ...options.map((o): [string, string] => [o, this.getAttribute(o)!])]
     return embedCode(name, { tag: this.localName, attributes }, home, this.heading.textContent)
   }
 

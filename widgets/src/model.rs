@@ -140,6 +140,20 @@ pub struct Series {
     pub rows: Vec<Vec<f64>>,
 }
 
+/// What makes a version of a figure another one than the version before, for links.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Change {
+    /// Older links show something else now: a sentence says what.
+    Told(&'static str),
+    /// A parameter has another default. An older link that does not name it means the value that was the default then, and shows the same.
+    Default {
+        /// The parameter.
+        name: &'static str,
+        /// The default before.
+        was: &'static str,
+    },
+}
+
 /// A model that has a recipe. It is all that a figure writes of its parameters besides their table: [`Parameters`] follows.
 pub trait Declared {
     /// Everything that a link says.
@@ -148,9 +162,9 @@ pub trait Declared {
     /// Title for readers.
     const TITLE: &'static str;
 
-    /// What has changed for those who made links: a sentence for each version of the figure, from the second on. A change of a default, of
-    /// what a parameter means, or of the numbers is one.
-    const CHANGES: &'static [&'static str] = &[];
+    /// What has changed for those who made links, for each version of the figure from the second on. A change of a default, of what a
+    /// parameter means, or of the numbers is one.
+    const CHANGES: &'static [Change] = &[];
 
     /// What it is made by.
     fn recipe(&self) -> &Self::Recipe;
@@ -198,7 +212,7 @@ pub trait Parameters {
     fn title(&self) -> &'static str;
 
     /// [`Declared::CHANGES`].
-    fn changes(&self) -> &'static [&'static str];
+    fn changes(&self) -> &'static [Change];
 
     /// All parameters with their ranges as they are now (the last step and the number of slots depend on the setup).
     fn params(&self) -> Vec<ParamSpec>;
@@ -224,7 +238,7 @@ impl<M: Declared> Parameters for M {
         M::TITLE
     }
 
-    fn changes(&self) -> &'static [&'static str] {
+    fn changes(&self) -> &'static [Change] {
         M::CHANGES
     }
 

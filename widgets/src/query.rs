@@ -1,11 +1,11 @@
 //! Links: the parameters of a figure that differ from their defaults, written as the query of a URL.
 //!
 //! A link says of which version of the figure it is, `v=2`, and says nothing where that is 1. What is left out of a link is at its default,
-//! and what is in it is simulated: a figure that changes a default, the meaning of a parameter or its numbers has another version, and
-//! tells those who come by an older link what has changed.
+//! and what is in it is simulated: a figure that changes a default, the meaning of a parameter or its numbers has another version. What an
+//! older link leaves out is at the default of its version; of what else has changed, those who come by it are told.
 
 use crate::{
-    model::{FigureError, Model},
+    model::{Change, FigureError, Model},
     param::quoted,
     words::common::{AWholeNumber, EarlierLink, LaterLink},
 };
@@ -26,29 +26,41 @@ pub fn write(model: &dyn Model) -> String {
 }
 
 /// Makes the figure what the link says, and everything it does not name the default. What is refused is returned, and so is what has
-/// changed since the link was made; the rest is applied.
+/// changed since the link was made; the rest is applied. One that is empty asks for nothing: it is of no version.
 pub fn read(model: &mut dyn Model, query: &str) -> Vec<FigureError> {
-    let mut said = since(query, model.changes());
-    said.extend(model.load(&pairs(query)));
+    if query.is_empty() {
+        return model.load(&[]);
+    }
+    let (mut said, mut values) = since(query, model.changes());
+    values.extend(pairs(query));
+    said.extend(model.load(&values));
     said
 }
 
-/// What a reader is told of a link of another version: `changes` has a sentence for each from the second on.
-fn since(query: &str, changes: &[&str]) -> Vec<FigureError> {
+/// What a reader is told of a link of another version, and what it means without saying so: `changes` has one for each version from the
+/// second on.
+fn since(query: &str, changes: &[Change]) -> (Vec<FigureError>, Vec<(String, String)>) {
     let newest = changes.len() + 1;
     let given = decoded(query).find(|(name, _)| name == VERSION).map_or("1".into(), |(_, version)| version);
     let about = |message: String| FigureError { parameter: VERSION.into(), message };
     match given.trim().parse::<usize>() {
         Ok(version) if (1..=newest).contains(&version) => {
-            let new = changes.iter().skip(version - 1);
-            new.map(|change| about(EarlierLink { change }.say())).collect()
+            let (mut said, mut meant) = (Vec::new(), Vec::new());
+            // The default that held in the version of the link is the one before the first change after it.
+            for change in changes.iter().skip(version - 1).rev() {
+                match *change {
+                    Change::Told(change) => said.insert(0, about(EarlierLink { change: &change }.say())),
+                    Change::Default { name, was } => meant.push((name.into(), was.into())),
+                }
+            }
+            (said, meant)
         }
         Ok(version) if version > newest => {
-            vec![about(LaterLink { version: &version, newest: &newest }.say())]
+            (vec![about(LaterLink { version: &version, newest: &newest }.say())], Vec::new())
         }
         _ => {
             let allowed = AWholeNumber { min: &1, max: &newest, unit: &"" }.say();
-            vec![FigureError::new(VERSION, quoted(&given), allowed)]
+            (vec![FigureError::new(VERSION, quoted(&given), allowed)], Vec::new())
         }
     }
 }
@@ -99,8 +111,8 @@ mod tests {
 
     #[test]
     fn a_link_of_an_earlier_version_tells_what_has_changed_since() {
-        let changes = &["Ranges are in metres.", "The seed is another."];
-        let told = |query| since(query, changes).into_iter().map(|error| error.message).collect::<Vec<_>>();
+        let changes = &[Change::Told("Ranges are in metres."), Change::Told("The seed is another.")];
+        let told = |query| since(query, changes).0.into_iter().map(|error| error.message).collect::<Vec<_>>();
         assert_eq!(told("v=3&seed=4"), [""; 0]);
         assert_eq!(told("v=2").len(), 1);
         assert!(told("v=2")[0].ends_with("The seed is another."));
@@ -110,6 +122,18 @@ mod tests {
         for bad in ["v=0", "v=-1", "v=", "v=x"] {
             assert!(told(bad)[0].ends_with("must be a whole number from 1 to 3"), "{bad}");
         }
+    }
+
+    #[test]
+    fn what_a_link_leaves_out_is_at_the_default_of_its_version() {
+        let was = |name, was| Change::Default { name, was };
+        let changes = &[was("raw", "off"), Change::Told("The seed is another."), was("cell", "0.1"), was("raw", "on")];
+        let meant = |query| since(query, changes).1;
+        let pair = |name: &str, value: &str| (name.to_owned(), value.to_owned());
+        // Of a name that is there twice the last one counts.
+        assert_eq!(meant("seed=4"), [pair("raw", "on"), pair("cell", "0.1"), pair("raw", "off")]);
+        assert_eq!(meant("v=3&raw=off"), [pair("raw", "on"), pair("cell", "0.1")]);
+        assert_eq!((meant("v=5"), since("v=2", changes).0.len()), (vec![], 1));
     }
 
     #[test]
