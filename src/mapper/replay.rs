@@ -67,6 +67,11 @@ impl Replay {
         (self.bounds.len() as u32).saturating_sub(2)
     }
 
+    /// Scans of the log up to the last one that was pushed.
+    pub fn scans(&self) -> usize {
+        self.bounds.get(self.mapper.steps() as usize + 1).copied().unwrap_or(self.log.scans.len())
+    }
+
     /// Pushes the n-th scan that the filter takes and all up to the next.
     fn push(&mut self, n: usize) -> Option<Report<()>> {
         let [start, end] = *self.bounds.get(n..n + 2)? else { return None };

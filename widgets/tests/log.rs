@@ -105,10 +105,58 @@ fn pauses_and_looks_on_the_way_change_no_bit() {
     assert_ne!(state(&straight).2, state(&halting).2, "it is looked at elsewhere");
     halting.fit();
     assert_eq!(state(&straight), state(&halting));
-    // And going back is beginning again.
-    halting.model_mut().seek(3);
-    halting.model_mut().settle();
-    assert_eq!(state(&halting), state(&mapped(QUICK, 3)));
+    // Going back on the way does not either.
+    let mut looking = mapped(QUICK, 50);
+    for step in [3, 49, 0] {
+        looking.model_mut().seek(step);
+        assert_eq!((looking.model().step(), looking.model().pending()), (step, 0));
+    }
+    looking.model_mut().seek(90);
+    looking.model_mut().settle();
+    assert_eq!(state(&straight), state(&looking));
+}
+
+#[test]
+fn all_that_is_told_goes_back_to_the_scan_that_is_shown_and_what_is_saved_does_not() {
+    let mut figure = mapped(QUICK, 90);
+    let (path, rows) = (figure.file("path.tum"), figure.export().rows());
+    for step in [40, 41, 7, 1, 89] {
+        figure.model_mut().seek(step);
+        let then = mapped(QUICK, step);
+        assert_eq!(figure.model().describe(), then.model().describe());
+        assert_eq!(figure.model().readouts(), then.model().readouts());
+        let heads = [&figure, &then].map(|figure| {
+            let head = scene(figure, 800.0).marks.into_iter().find_map(|mark| match mark {
+                Mark::Text(text) if text.text.starts_with("Scan ") => Some(text.text),
+                _ => None,
+            });
+            head.unwrap()
+        });
+        assert_eq!(heads, [format!("Scan {step} of 90"), format!("Scan {step} of 90")]);
+    }
+    assert_eq!((figure.file("path.tum"), figure.export().rows()), (path, rows));
+    // A setting begins anew.
+    figure.set("seed", "2").unwrap();
+    assert_eq!((figure.model().step(), figure.file("path.tum")), (0, None));
+}
+
+#[test]
+fn raw_odometry_is_drawn_up_to_the_scan_shown_unless_it_is_left_out_as_in_older_links() {
+    let drawn = |figure: &Figure| {
+        let lines = scene(figure, 800.0).marks.into_iter().filter_map(|mark| match mark {
+            Mark::Lines { lines, role: Role::Odometry, .. } => Some(lines.concat().len()),
+            _ => None,
+        });
+        // In the legend there is one too, of two points.
+        lines.sum::<usize>() - 2
+    };
+    let mut figure = mapped(&format!("v=2&{QUICK}"), 90);
+    let whole = drawn(&figure);
+    figure.model_mut().seek(30);
+    assert!(drawn(&figure) > 10 && drawn(&figure) < whole / 2, "{} of {whole}", drawn(&figure));
+    assert_eq!(drawn(&mapped(QUICK, 90)), 0);
+    assert_eq!(figure.query(), "v=2&universes=4&cell=0.2");
+    assert_eq!(mapped(QUICK, 9).query(), "v=2&universes=4&cell=0.2&raw=off");
 }
 
 #[test]

@@ -1,9 +1,17 @@
 //! The states of the figures whose pixels and numbers are kept: `tests/goldens.rs` compares them natively, `tests/browser` in
 //! WebAssembly.
 
-use core::hash::Hasher as _;
-use fastslam_lab::digest::Digest;
-use fastslam_widgets::{figure::Figure, model::Readout, paint::Theme};
+use core::{cmp::Reverse, hash::Hasher as _};
+use fastslam::log::write;
+use fastslam_lab::{digest::Digest, experiment::log::Example};
+use fastslam_widgets::{
+    figure::Figure,
+    log::Layout as LogLayout,
+    model::Readout,
+    paint::{Canvas, Theme},
+    scene::{Mark, Role},
+};
+use std::collections::BTreeMap;
 
 /// A figure in a state, at a size, in a theme.
 #[derive(Clone, Copy, Debug)]
@@ -77,8 +85,8 @@ pub const PICTURES: &[Picture] = &[
     picture(CONDITIONING, "conditioning-half", "landmarks=12&step=4&row=3&column=3", 340, 2.0, "light"),
     picture(CONDITIONING, "conditioning-phone", "", 380, 1.0, "contrast-dark"),
     picture(CONDITIONING, "conditioning-tiny", "landmarks=24&odometry=3&condition=on", 240, 1.0, "contrast-light"),
-    picture(LOG, "fastslam-log-light", TINY, 800, 1.5, "light"),
-    picture(LOG, "fastslam-log-dark", TINY, 800, 1.5, "dark"),
+    picture(LOG, "log-light", TINY, 800, 1.5, "light"),
+    picture(LOG, "log-dark", TINY, 800, 1.5, "dark"),
     picture(LOG, "log-phone", "universes=40&cell=0.1&min-travel=0.3&raw=on", 340, 2.0, "light"),
     picture(LOG, "log-contrast", "universes=1&cell=0.2", 380, 1.0, "contrast-dark"),
     picture(LOG, "log-tiny", "policy=always&cell=0.1&seed=4", 240, 1.0, "contrast-light"),
@@ -104,6 +112,59 @@ const POSES: &str = "x2=0.4&y2=-0.3&theta2=0.08&r2=4.1&phi2=0.05&sigma-xy=0.09&t
 
 /// Numbers of every size.
 const EXTREMES: &str = "x1=-99.123456&y1=-12.5&theta1=-3.1415926&x2=4.000001&y2=0.000001&sigma-xx=0.0000321&sigma-xy=-0.0000123456&bearing-std=0.00123";
+
+/// What the figure of logs shows at rest: the example that comes with it, mapped to its end. Four pictures of one run, which takes too long
+/// to be made again for each of them and in every browser.
+pub fn example() -> Figure {
+    let mut figure = Figure::new(LOG).expect("a tag of the registry");
+    figure.open(write(&Example::new(usize::MAX).log).as_bytes()).expect("the example is a log");
+    figure.model_mut().seek(u32::MAX);
+    figure.model_mut().settle();
+    figure
+}
+
+/// The poster of a mapped log: its map with the paths and nothing around it, without a word. Its size and its pixels, RGBA.
+pub fn poster(figure: &mut Figure, theme: Theme) -> ([u32; 2], Vec<u8>) {
+    const WIDTH: f64 = 560.0;
+    const DPR: f64 = 1.5;
+    const MARGIN: u32 = 20;
+    figure.show("map").expect("a panel");
+    let (mut scene, map) = (figure.scene(WIDTH, figure.height(WIDTH)), LogLayout::new(WIDTH).map.expect("a map"));
+    figure.show("all").expect("all panels");
+    scene.marks.retain(|mark| match mark {
+        Mark::Raster { .. } | Mark::Polygons { .. } => true,
+        Mark::Lines { role, .. } => *role != Role::Ink, // of the scale bar
+        _ => false,
+    });
+    let [width, height] = [scene.width, scene.height].map(|side| (DPR * side) as u32);
+    let mut canvas = Canvas::default();
+    canvas.paint(&scene, width, height, theme);
+    let at = |x: u32, y: u32| &canvas.pixels()[4 * (y * width + x) as usize..][..4];
+    // What there is to see of the building, and a margin. The map's first corner is of the world that nobody has seen.
+    let (x0, y0) = ((DPR * map.x) as u32 + 2, (DPR * map.y) as u32 + 2);
+    let (x1, y1) = (width - 2, (DPR * map.bottom()) as u32 - 2);
+    let seen = |x: u32, y: u32| at(x, y) != at(x0, y0);
+    let columns: Vec<u32> = (x0..x1).filter(|x| (y0..y1).any(|y| seen(*x, y))).collect();
+    let rows: Vec<u32> = (y0..y1).filter(|y| (x0..x1).any(|x| seen(x, *y))).collect();
+    let [left, top] = [columns[0].max(x0 + MARGIN) - MARGIN, rows[0].max(y0 + MARGIN) - MARGIN];
+    let [right, bottom] = [(columns[columns.len() - 1] + MARGIN).min(x1), (rows[rows.len() - 1] + MARGIN).min(y1)];
+    let pixels = (top..bottom).flat_map(|y| (left..right).map(move |x| (x, y))).flat_map(|(x, y)| at(x, y).to_vec());
+    ([right - left, bottom - top], in_256_colours(pixels.collect()))
+}
+
+/// The same in as many colours as a byte tells apart, which a third of the file is: the rarest ones become the nearest of the others.
+fn in_256_colours(pixels: Vec<u8>) -> Vec<u8> {
+    let mut counts = BTreeMap::<[u8; 4], u32>::new();
+    let colours = || pixels.chunks_exact(4).map(|p| [p[0], p[1], p[2], p[3]]);
+    colours().for_each(|colour| *counts.entry(colour).or_default() += 1);
+    let mut palette: Vec<([u8; 4], u32)> = counts.into_iter().collect();
+    palette.sort_by_key(|(_, count)| Reverse(*count));
+    palette.truncate(256);
+    let distance =
+        |a: &[u8; 4], b: &[u8; 4]| a.iter().zip(b).map(|(a, b)| u32::from(a.abs_diff(*b)).pow(2)).sum::<u32>();
+    let near = |colour| palette.iter().map(|(known, _)| known).min_by_key(|known| distance(known, &colour));
+    colours().filter_map(near).flatten().copied().collect()
+}
 
 /// Cells as small as those of a large building would be more than a phone's screen has pixels.
 const TINY: &str = "cell=0.1&raw=on";

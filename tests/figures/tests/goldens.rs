@@ -8,8 +8,8 @@ use fastslam_lab::{
     experiment::lap::{LapSetup, LapWorld},
 };
 use fastslam_widgets::decimal::fixed;
-use fastslam_widgets::job;
-use figures::{JOBS, LOG, PICTURES, SETUPS, figure, line, readouts, rows};
+use fastslam_widgets::{job, paint::Theme};
+use figures::{JOBS, LOG, PICTURES, SETUPS, example, figure, line, poster, readouts, rows};
 use std::{
     collections::BTreeSet,
     env, fs,
@@ -83,19 +83,40 @@ fn every_picture_is_the_golden_one_to_the_last_pixel() {
         let mut digest = Digest::new();
         digest.write(figure.canvas().pixels());
         digests += &picture.line(&digest);
-        let pixels = rgb(figure.canvas().pixels());
-        let file = format!("{}.png", picture.name);
-        if update() {
-            write_png(&golden(&file), size, &pixels);
-        }
-        if read_png(&golden(&file)) != Some((size, pixels.clone())) {
-            let actual = Path::new(env!("CARGO_TARGET_TMPDIR")).join(&file);
-            write_png(&actual, size, &pixels);
-            wrong.push(format!("{} is not {}", actual.display(), golden(&file).display()));
-        }
+        wrong.extend(differs(picture.name, size, figure.canvas().pixels()));
     }
-    assert!(wrong.is_empty(), "look at both, then UPDATE_GOLDENS=1 if the change is wanted:\n{}", wrong.join("\n"));
+    assert!(wrong.is_empty(), "{LOOK}\n{}", wrong.join("\n"));
     same_text("pixels.txt", &digests); // what the browser compares
+}
+
+const LOOK: &str = "look at both, then UPDATE_GOLDENS=1 if the change is wanted:";
+
+/// Compares a picture, or writes it: what is wrong with it.
+fn differs(name: &str, size: [u32; 2], pixels: &[u8]) -> Option<String> {
+    let (file, pixels) = (format!("{name}.png"), rgb(pixels));
+    if update() {
+        write_png(&golden(&file), size, &pixels);
+    }
+    let actual = Path::new(env!("CARGO_TARGET_TMPDIR")).join(&file);
+    if read_png(&golden(&file)).as_ref() == Some(&(size, pixels.clone())) {
+        return None;
+    }
+    write_png(&actual, size, &pixels);
+    Some(format!("{} is not {}", actual.display(), golden(&file).display()))
+}
+
+#[test]
+fn the_log_at_rest_and_its_poster_are_the_example_mapped_to_its_end() {
+    let (mut figure, mut wrong) = (example(), Vec::new());
+    assert!(figure.describe().starts_with("All scans are mapped."));
+    for (shade, theme) in [("light", Theme::Light), ("dark", Theme::Dark)] {
+        let size = [800.0, figure.height(800.0)].map(|side| (1.5 * side) as u32);
+        figure.paint(size[0], size[1], 1.5, theme);
+        wrong.extend(differs(&format!("fastslam-log-{shade}"), size, figure.canvas().pixels()));
+        let (size, pixels) = poster(&mut figure, theme);
+        wrong.extend(differs(&format!("fastslam-log-poster-{shade}"), size, &pixels));
+    }
+    assert!(wrong.is_empty(), "{LOOK}\n{}", wrong.join("\n"));
 }
 
 #[test]

@@ -12,10 +12,15 @@ pub const MAP: &str = "map";
 pub const GAUGES: &str = "gauges";
 
 /// From this width on \[css px\], the gauges stand beside the map.
-pub const WIDE: f64 = 640.0;
+pub const WIDE: f64 = 560.0;
 
 /// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
 pub const NARROWEST: f64 = 300.0;
+
+/// Height where the gauges stand beside the map \[css px\], and share of the width: with what plays it on the screen of a small laptop, and
+/// on the whole of a large one. The element keeps the same free before the program is there (figure.css, `.idle`).
+const HEIGHT: f64 = 430.0;
+const SHARE: f64 = 0.545;
 
 const HEADER: f64 = 26.0;
 const PAD: f64 = 8.0;
@@ -56,12 +61,13 @@ impl Layout {
         let wide = width >= WIDE;
         let header = Rect::new(0.0, 0.0, width, HEADER);
         let beside = wide && panels.has(MAP) && panels.has(GAUGES);
-        let side = if beside { (0.27 * width).clamp(190.0, 260.0) } else { 0.0 };
+        let side = if beside { (0.27 * width).clamp(176.0, 260.0) } else { 0.0 };
         let map = panels.has(MAP).then(|| {
             let w = if beside { width - side - 16.0 } else { width };
-            Rect::new(0.0, HEADER, w, if wide { (0.78 * w).clamp(380.0, 760.0) } else { 0.9 * w })
+            let h = if wide { (SHARE * width).max(HEIGHT) - HEADER } else { (0.72 * width).min(280.0) };
+            Rect::new(0.0, HEADER, w, h.round())
         });
-        let chart = if wide { (0.12 * width).clamp(70.0, 130.0) } else { 56.0 };
+        let chart = if wide { (0.14 * width).clamp(80.0, 130.0) } else { 44.0 };
         let gauge = |x: f64, y: f64, w: f64| Gauge {
             label: Rect::new(x, y, w, LINE),
             chart: Rect::new(x, y + LINE + 2.0, w, chart),
@@ -71,7 +77,7 @@ impl Layout {
             let gauges = [0.0, 1.0].map(|k| gauge(x, map.y + k * step, side));
             let y = gauges[1].chart.bottom() + 2.0 * PAD;
             let legend = Rect::new(x, y, side, map.bottom() - y);
-            return Self { header, map: Some(map), gauges: Some(gauges), legend, height: map.bottom().ceil() };
+            return Self { header, map: Some(map), gauges: Some(gauges), legend, height: map.bottom() };
         }
         let mut y = map.map_or(header.bottom(), |map| map.bottom() + PAD);
         let gauges = panels.has(GAUGES).then(|| {
@@ -115,5 +121,18 @@ mod tests {
                 assert_apart(&parts, &Rect::new(0.0, 0.0, width, height));
             }
         }
+    }
+
+    #[test]
+    fn picture_and_what_plays_it_are_on_one_screen() {
+        for (widths, most) in [(300..=560, 460.0), (561..=780, 430.0), (781..=807, 440.0)] {
+            for width in widths.map(f64::from) {
+                let height = Layout::new(width).height;
+                assert!(height <= most, "{height} at {width}");
+            }
+        }
+        // A phone of 380 px, and the whole of a 16:9 screen.
+        assert!(Layout::new(352.0).height <= 450.0);
+        assert!(Layout::new(1112.0).height <= 610.0 && Layout::new(1112.0).height > 580.0);
     }
 }

@@ -3,13 +3,14 @@
 //! A link holds the settings alone: the log is a reader's file, and no link can bring it.
 
 use super::{
+    kept::{Kept, Seen},
     opened::{LIMIT, Opened, swept},
     recipe::Recipe,
     told::{self, megabytes},
     tree::{Death, FADE},
 };
 use crate::decimal::write;
-use crate::model::{Declared, FigureError, Files, Model, Readout, Series};
+use crate::model::{Change, Declared, FigureError, Files, Model, Readout, Series};
 use crate::words::log as words;
 use fastslam::{
     log::{LaserLog, LogError, parse, write_tum},
@@ -24,7 +25,11 @@ pub const BACK: u32 = 20;
 /// Steps between two looks at the memory of all maps: a look takes as long as a step does.
 const LOOK: u32 = 20;
 
+/// The memory of no maps.
+const NOTHING: Footprint = Footprint { unique: 0, dense: 0 };
+
 /// A recorded log, mapped.
+#[derive(Default)]
 pub struct LogModel {
     recipe: Recipe,
     opened: Option<Opened>,
@@ -32,12 +37,14 @@ pub struct LogModel {
     asked: u32,
     /// From the first step on.
     replay: Option<Replay>,
-    /// Of every step, from 1 on.
+    /// Of every step that was made, from 1 on.
     history: Vec<Moment>,
     /// Of the last `FADE` steps.
     deaths: Vec<Death>,
-    /// The maps' memory at its largest.
-    peak: Footprint,
+    /// What can be gone back to.
+    kept: Kept,
+    /// The step that was gone back to; `None` for the newest.
+    shown: Option<u32>,
     /// How many logs were opened.
     logs: u32,
 }
@@ -57,21 +64,8 @@ pub struct Moment {
     pub lineage: u32,
     /// The latest step up to which all universes share one path.
     pub shared: u32,
-}
-
-impl Default for LogModel {
-    fn default() -> Self {
-        Self {
-            recipe: Recipe::default(),
-            opened: None,
-            asked: 0,
-            replay: None,
-            history: Vec::new(),
-            deaths: Vec::new(),
-            peak: Footprint { unique: 0, dense: 0 },
-            logs: 0,
-        }
-    }
+    /// The maps' memory at its largest, up to then.
+    pub peak: Footprint,
 }
 
 impl LogModel {
@@ -97,7 +91,12 @@ impl LogModel {
 
     /// The maps' memory at its largest.
     pub(super) fn peak(&self) -> Footprint {
-        self.peak
+        self.history().last().map_or(NOTHING, |moment| moment.peak)
+    }
+
+    /// The population after the step shown, once the mapping was asked for.
+    pub(super) fn seen(&self) -> Option<&Seen> {
+        self.shown.map_or_else(|| self.kept.newest(), |step| self.kept.at(step))
     }
 
     /// What was set.
@@ -105,19 +104,24 @@ impl LogModel {
         &self.recipe.setup
     }
 
-    /// The mapper, once it was asked for.
+    /// The mapper after the newest step, whichever is shown, once it was asked for.
     pub fn mapper(&self) -> Option<&LaserMapper> {
         self.replay.as_ref().map(Replay::mapper)
     }
 
-    /// Of every step, from 1 on.
+    /// Of every step up to the one shown, from 1 on.
     pub fn history(&self) -> &[Moment] {
+        &self.history[..self.step() as usize]
+    }
+
+    /// Of every step that was made, whichever is shown.
+    pub fn all_history(&self) -> &[Moment] {
         &self.history
     }
 
-    /// What died out in the last `FADE` steps, by step.
-    pub fn deaths(&self) -> &[Death] {
-        &self.deaths
+    /// The newest step.
+    fn mapped(&self) -> u32 {
+        self.history.len() as u32
     }
 
     /// Whether raw odometry is drawn: what there is to see before the first step.
@@ -136,7 +140,8 @@ impl LogModel {
         self.asked = 0;
         self.history.clear();
         self.deaths.clear();
-        self.peak = Footprint { unique: 0, dense: 0 };
+        self.kept = Kept::default();
+        self.shown = None;
     }
 
     /// What the step that was just made did.
@@ -144,6 +149,9 @@ impl LogModel {
         let Some(replay) = &self.replay else { return };
         let descent = replay.mapper().filter().descent();
         let (step, paths): (u32, Vec<_>) = (report.step, report.extinct().cloned().collect());
+        let before = self.history.last().map_or(NOTHING, |moment| moment.peak);
+        let looks = step.is_multiple_of(LOOK) || step == replay.step_count();
+        let now = if looks { replay.mapper().footprint() } else { NOTHING };
         self.history.push(Moment {
             log_evidence: report.log_evidence,
             ess: report.ess,
@@ -151,17 +159,13 @@ impl LogModel {
             died: paths.len() as u32,
             lineage: descent.lineage(BACK),
             shared: descent.coalescence().unwrap_or(0),
+            peak: if now.unique > before.unique { now } else { before },
         });
         self.deaths.retain(|death| step - death.step < FADE);
         if !paths.is_empty() {
             self.deaths.push(Death { step, paths });
         }
-        if step.is_multiple_of(LOOK) || step == replay.step_count() {
-            let now = replay.mapper().footprint();
-            if now.unique > self.peak.unique {
-                self.peak = now;
-            }
-        }
+        self.kept.push(Seen::now(replay, &self.deaths));
     }
 }
 
@@ -174,6 +178,7 @@ fn unreadable(LogError { line, message }: &LogError) -> FigureError {
 impl Declared for LogModel {
     type Recipe = Recipe;
     const TITLE: &'static str = words::TITLE;
+    const CHANGES: &'static [Change] = &[Change::Default { name: "raw", was: "off" }];
 
     fn recipe(&self) -> &Recipe {
         &self.recipe
@@ -254,15 +259,18 @@ impl Files for LogModel {
 }
 
 impl Model for LogModel {
-    /// Goes on to a step; to one that is past, by beginning again.
+    /// Goes on to a step; to one that is past, by showing what was kept of it, or of the next that something was kept of.
     fn seek(&mut self, step: u32) {
         let Some(opened) = self.opened.as_ref().filter(|_| self.ready().is_ok()) else { return };
-        let log = opened.log.clone();
-        if step < self.step() {
-            self.restart();
+        if step < self.mapped() {
+            self.shown = Some(self.kept.towards(step, self.step()));
+            self.asked = self.mapped();
+            return;
         }
+        self.shown = None;
         if self.replay.is_none() && step > 0 {
-            self.replay = Replay::new(*self.setup(), log).ok(); // the parameters' ranges are within the mapper's
+            self.replay = Replay::new(*self.setup(), opened.log.clone()).ok(); // the parameters' ranges are within the mapper's
+            self.replay.iter().for_each(|replay| self.kept.push(Seen::now(replay, &[])));
         }
         self.asked = step.min(self.step_count());
     }
@@ -284,11 +292,11 @@ impl Model for LogModel {
     }
 
     fn step(&self) -> u32 {
-        self.history.len() as u32
+        self.shown.unwrap_or(self.mapped())
     }
 
     fn pending(&self) -> u32 {
-        self.asked - self.step()
+        self.asked - self.mapped()
     }
 
     fn work(&mut self) {
@@ -325,5 +333,32 @@ mod tests {
         assert!(!model.describe().contains("explains"));
         model.history[0].log_evidence = f64::NEG_INFINITY;
         assert!(model.describe().contains("No universe explains this scan: the weights stay."));
+    }
+
+    #[test]
+    fn a_scan_that_was_gone_back_to_has_the_bits_that_it_had() {
+        let mapped = |step| {
+            let mut model = LogModel::default();
+            let recipe =
+                Recipe { setup: LaserMapperSettings { cell_size: 0.2, ..model.recipe.setup }, ..model.recipe.clone() };
+            model.adopt(recipe).unwrap();
+            model.open(include_bytes!("../../../tests/figures/golden/tiny.clf")).unwrap();
+            model.seek(step);
+            model.settle();
+            model
+        };
+        let drawn = |model: &LogModel| {
+            let seen = model.seen().unwrap();
+            let poses: Vec<_> = seen.paths.iter().map(|path| path.poses()).collect();
+            let deaths: Vec<_> = seen.deaths.iter().map(|death| (death.step, death.paths.len())).collect();
+            (seen.step, seen.scans, seen.best, poses, deaths, MapImage::of(&seen.map).pgm())
+        };
+        let mut whole = mapped(90);
+        for step in [89, 1, 46, 47, 30] {
+            whole.seek(step);
+            assert_eq!(drawn(&whole), drawn(&mapped(step)));
+        }
+        whole.seek(90);
+        assert_eq!(drawn(&whole), drawn(&mapped(90)));
     }
 }

@@ -24,7 +24,7 @@ impl Default for Recipe {
     fn default() -> Self {
         let setup = LaserMapperSettings::default();
         let threshold = policy::threshold(setup.policy);
-        Self { setup, threshold, lenient: false, raw: false }
+        Self { setup, threshold, lenient: false, raw: true }
     }
 }
 
@@ -50,7 +50,8 @@ impl recipe::Recipe for Recipe {
                 (1.0, 100.0, 1.0),
                 field!(setup.max_range),
                 log::max_range_help(),
-            ),
+            )
+            .folded(),
             P::number(
                 "min-travel",
                 log::min_travel(),
@@ -58,10 +59,11 @@ impl recipe::Recipe for Recipe {
                 (0.0, 2.0, 0.05),
                 field!(setup.min_travel),
                 log::min_travel_help(),
-            ),
-            threshold,
+            )
+            .folded(),
+            threshold.folded(),
             policy,
-            P::flag("lenient", log::lenient(), field!(lenient), log::lenient_help()).view(),
+            P::flag("lenient", log::lenient(), field!(lenient), log::lenient_help()).view().folded(),
             P::flag("raw", common::raw_odometry(), field!(raw), common::raw_odometry_help()).view(),
         ]
     }

@@ -13,8 +13,8 @@ use fastslam_lab::experiment::log::digest;
 /// What is shown now.
 pub fn sentence(model: &LogModel) -> String {
     match (model.replay(), model.opened()) {
-        (Some(replay), _) => progress(model, replay),
-        (None, Some(opened)) => told(model, opened),
+        (Some(replay), _) if model.step() > 0 || model.all_history().is_empty() => progress(model, replay),
+        (_, Some(opened)) => told(model, opened),
         _ => words::none_open().into(),
     }
 }
@@ -47,7 +47,7 @@ fn told(model: &LogModel, opened: &Opened) -> String {
 
 /// How far it is mapped, in words.
 fn progress(model: &LogModel, replay: &Replay) -> String {
-    let (step, last) = (model.history().len() as u32, replay.step_count());
+    let (step, last) = (model.step(), replay.step_count());
     let m = model.setup().particles;
     let Some(moment) = model.history().last() else { return words::start_alike().into() };
     let mapped =
@@ -116,7 +116,7 @@ pub fn readouts(model: &LogModel) -> Vec<Readout> {
     ]
 }
 
-/// A row for each scan that is mapped.
+/// A row for each scan that is mapped, whichever is shown.
 pub fn series(model: &LogModel) -> Series {
     const COLUMNS: &[Column] = &[
         Column::new("scan", "number of the scan, the first being 0"),
@@ -136,8 +136,9 @@ pub fn series(model: &LogModel) -> Series {
     ];
     let path = model.mapper().map(LaserMapper::path).unwrap_or_default();
     let row = |(k, (time, pose)): (usize, &(f64, fastslam::geometry::Pose2))| {
-        let of =
-            |value: fn(&Moment) -> f64| k.checked_sub(1).and_then(|k| model.history().get(k)).map_or(f64::NAN, value);
+        let of = |value: fn(&Moment) -> f64| {
+            k.checked_sub(1).and_then(|k| model.all_history().get(k)).map_or(f64::NAN, value)
+        };
         vec![
             k as f64,
             *time,

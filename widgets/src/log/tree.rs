@@ -1,7 +1,8 @@
 //! The paths of all universes, every piece once: the best from start to end, each of the others up to where it joins what was drawn,
 //! and what died out a short while ago.
 
-use fastslam::{genealogy::Path, geometry::Pose2, mapper::Filter};
+use super::kept::Seen;
+use fastslam::{genealogy::Path, geometry::Pose2};
 use std::collections::BTreeSet;
 
 /// The universes that one resampling let die out. The filter does not keep them: this does.
@@ -27,13 +28,11 @@ pub struct Tree {
 }
 
 impl Tree {
-    /// Of the present population, and of these deaths.
-    pub fn new(filter: &Filter, deaths: &[Death]) -> Self {
-        let best = &filter.particles()[filter.best()].path;
+    /// Of a population, and of what had died out before.
+    pub fn new(Seen { paths, best, deaths, .. }: &Seen) -> Self {
+        let best = &paths[*best];
         let mut drawn = Drawn { best: best.back().map(Path::id).collect(), now: best.step(), others: BTreeSet::new() };
-        let others =
-            filter.particles().iter().map(|particle| drawn.branch(&particle.path)).filter(|line| line.len() > 1);
-        let others = others.collect();
+        let others = paths.iter().map(|path| drawn.branch(path)).filter(|line| line.len() > 1).collect();
         let recent = deaths.iter().rev().filter(|death| best.step() - death.step < FADE);
         let dead = recent.flat_map(|death| death.paths.iter().map(move |path| (best.step() - death.step, path)));
         let dead = dead.map(|(age, path)| (age, drawn.branch(path))).filter(|(_, line)| line.len() > 1);

@@ -1,6 +1,7 @@
 //! What is to be seen of a log: the best universe's map with the paths of all, and N_eff and lineage over the scans.
 
 use super::{
+    kept::Seen,
     layout::{GAUGES, Gauge, Layout, MAP, NARROWEST},
     map::{Frame, MapView},
     model::{BACK, LogModel, Moment},
@@ -18,7 +19,7 @@ use crate::{
     view::{Navigation, View},
     words::{common, log as words},
 };
-use fastslam::{geometry::Pose2, mapper::LaserMapper, resampling::ResamplePolicy};
+use fastslam::{geometry::Pose2, resampling::ResamplePolicy};
 
 /// Font size of what is written beside the map \[css px\].
 const SIZE: f64 = 11.5;
@@ -98,7 +99,7 @@ impl Navigation<Self> for LogView {
     }
 }
 
-/// All that there is to see: of the map, or before there is one, of raw odometry.
+/// All that there is to see: of the newest map, whichever is shown, or before there is one, of raw odometry.
 fn whole(model: &LogModel) -> Option<Frame> {
     match (model.mapper(), model.log()) {
         (Some(mapper), _) => Some(Frame::of_map(mapper.map())),
@@ -130,7 +131,7 @@ fn map(scene: &mut Scene, model: &LogModel, area: Rect, view: Option<&MapView>) 
     let unknown = Cells { columns: 1, shades: vec![UNKNOWN] };
     scene.marks.push(Mark::Raster { area, cells: unknown, shading: Shading::Map });
     if let Some(view) = view {
-        if let Some((area, cells)) = model.mapper().and_then(|mapper| view.cells(mapper.map())) {
+        if let Some((area, cells)) = model.seen().and_then(|seen| view.cells(&seen.map)) {
             scene.marks.push(Mark::Raster { area, cells, shading: Shading::Map });
         }
         around(scene, &area);
@@ -165,19 +166,18 @@ fn around(scene: &mut Scene, area: &Rect) {
 
 fn odometry(scene: &mut Scene, model: &LogModel, plane: &Plane) {
     let Some(log) = model.log().filter(|_| model.shows_raw()) else { return };
-    // From the first scan on, as the map has it; up to the scan that is mapped.
+    // From the first scan on, as the map has it; up to the scan that is shown.
     let first = log.scans[0].odometry;
-    let mapped = model.mapper().and_then(|mapper| mapper.path().last().map(|(time, _)| *time));
-    let scans = log.scans.iter().take_while(|scan| mapped.is_none_or(|time| scan.time <= time));
+    let scans = &log.scans[..model.seen().map_or(log.scans.len(), |seen| seen.scans)];
     let placed = |pose: &Pose2| if model.mapper().is_some() { first.between(pose) } else { *pose };
-    let lines = plane.path(&scans.map(|scan| placed(&scan.odometry)).collect::<Vec<_>>(), 1.0);
+    let lines = plane.path(&scans.iter().map(|scan| placed(&scan.odometry)).collect::<Vec<_>>(), 1.0);
     scene.marks.push(Mark::Lines { lines, width: 1.5, dash: Some(RAW), role: Role::Odometry });
 }
 
 /// The paths of all universes, and of those that died out a short while ago.
 fn paths(scene: &mut Scene, model: &LogModel, plane: &Plane) {
-    let Some(filter) = model.mapper().map(LaserMapper::filter) else { return };
-    let tree = Tree::new(filter, model.deaths());
+    let Some(seen) = model.seen() else { return };
+    let tree = Tree::new(seen);
     for age in (0..FADE).rev() {
         let dead = tree.dead.iter().filter(|(a, _)| *a == age);
         let lines: Vec<_> = dead.flat_map(|(_, line)| plane.path(line, 1.0)).collect();
@@ -188,12 +188,12 @@ fn paths(scene: &mut Scene, model: &LogModel, plane: &Plane) {
     }
     let others = tree.others.iter().flat_map(|line| plane.path(line, 1.0)).collect();
     scene.marks.push(Mark::Lines { lines: others, width: LIVES, dash: None, role: Role::Copied });
-    let best = plane.path(&tree.best, 1.0);
-    scene.marks.push(Mark::Lines { lines: best, width: 2.0, dash: None, role: Role::Path });
-    let robots = filter.particles().iter().filter_map(|particle| plane.robot(&particle.world_from_robot, 5.0));
+    let lines = plane.path(&tree.best, 1.0);
+    scene.marks.push(Mark::Lines { lines, width: 2.0, dash: None, role: Role::Path });
+    let Seen { paths, best, .. } = seen;
+    let robots = paths.iter().filter_map(|path| plane.robot(&path.pose(), 5.0));
     scene.marks.push(Mark::Polygons { polygons: robots.collect(), role: Role::Copied });
-    let best = &filter.particles()[filter.best()].world_from_robot;
-    rimmed_robot(scene, plane, best, 9.0, Role::Path);
+    rimmed_robot(scene, plane, &paths[*best].pose(), 9.0, Role::Path);
 }
 
 /// A round length, in the lower right corner.
@@ -215,9 +215,20 @@ fn value(scene: &mut Scene, label: &Rect, words: String) -> Rect {
 /// A curve over the scans: a share of the chart's height for each step.
 fn curve(scene: &mut Scene, model: &LogModel, chart: &Chart, share: impl Fn(&Moment) -> f64) -> Vec<Point> {
     scene.marks.extend(chart.edges());
-    let points = chart.curve((1..).zip(model.history().iter().map(share)));
-    let line = thinned(&mut points.iter().copied(), 0.5);
-    scene.marks.push(Mark::Lines { lines: vec![line], width: 1.25, dash: None, role: Role::Ink });
+    let points = chart.curve((1..).zip(model.all_history().iter().map(share)));
+    let (shown, later) = points.split_at(model.history().len());
+    let line = |points: &[Point], role| {
+        let lines = vec![thinned(&mut points.iter().copied(), 0.5)];
+        Mark::Lines { lines, width: 1.25, dash: None, role }
+    };
+    // What came after the scan that is shown steps back.
+    if !later.is_empty() {
+        let x = chart.x(model.step());
+        let now = vec![vec![[x, chart.area.y], [x, chart.area.bottom()]]];
+        let now = Mark::Lines { lines: now, width: 1.5, dash: None, role: Role::Path };
+        scene.marks.extend([line(later, Role::Frame), now]);
+    }
+    scene.marks.push(line(shown, Role::Ink));
     points
 }
 
@@ -233,7 +244,7 @@ fn ess(scene: &mut Scene, model: &LogModel, gauge: &Gauge) {
         let lines = vec![chart.level(fraction)];
         scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some(THRESHOLD), role: Role::Accent });
     }
-    let resampled = points.iter().zip(model.history()).filter(|(_, moment)| moment.resampled);
+    let resampled = points.iter().zip(model.all_history()).filter(|(_, moment)| moment.resampled);
     let lines = thinned(&mut resampled.map(|(at, _)| [at[0], chart.area.bottom()]), 0.75);
     let lines = lines.into_iter().map(|[x, y]| vec![[x, y], [x, y - TICK]]).collect();
     scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role: Role::Extinct });
