@@ -70,19 +70,19 @@ const properties = [
   { name: 'naturalHeight', type: 'number', readonly: true, help: 'Height [css px] that shows all of the figure at its present width.' },
 ]
 
-/** The figure that maps logs has no steps to go back and forth in, and files to open. */
+/** The figure that maps logs has files to open, and goes back through what it has mapped. */
 const log = {
   options: options.filter(({ name }) => ['lang', 'theme', 'controls', 'show', 'lock', 'size'].includes(name)),
   methods: [
     { name: 'open', type: '(file: Blob, name?: string, start?: boolean) => Promise<void>', help: 'Reads a log; maps it too if it is to start.' },
     { name: 'example', type: '() => Promise<void>', help: 'Maps the log that comes with the figure.' },
-    { name: 'play', type: '() => void', help: 'Maps from the start, or goes on after a pause.' },
-    { name: 'pause', type: '() => void', help: 'Waits.' },
-    { name: 'stop', type: '() => void', help: 'Ends where it is; what is mapped can still be looked at and saved.' },
+    { name: 'play', type: '() => void', help: 'Maps the log, or goes on after a pause; plays again what is mapped to its end.' },
+    { name: 'pause', type: '() => void', help: 'Waits; what is mapped can be looked at and saved.' },
+    { name: 'stop', type: '() => void', help: 'The same as pause.' },
     { name: 'reset', type: '() => void', help: 'Back to the settings that the page’s author gave; the log stays open.' },
-    ...methods.filter(({ name }) => name === 'settled'),
+    ...methods.filter(({ name }) => ['step', 'stepBack', 'seek', 'settled'].includes(name)),
   ],
-  properties: properties.filter(({ name }) => name !== 'currentStep'),
+  properties,
 }
 
 /** @param {{ tag: string }} figure */

@@ -82,7 +82,7 @@ test('a log that is dropped beside the figure does not make the browser leave, a
       zone.addEventListener('drop', event => { event.preventDefault(); zone.textContent = event.dataTransfer.files[0].name })
     </script>`,
   )
-  await expect(page.locator('fastslam-log').getByText('No log is open', { exact: true })).toBeVisible()
+  await expect(page.locator('fastslam-log').getByRole('button', { name: 'Map this building' })).toBeVisible()
   const client = await page.context().newCDPSession(page)
   const drop = async (where: string) => {
     await page.locator(where).scrollIntoViewIfNeeded()

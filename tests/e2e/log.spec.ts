@@ -51,12 +51,24 @@ class LogFigure {
     return this.element.locator(`[part=readout][data-name=${name}] dd`)
   }
 
+  async unfold(part: 'settings' | 'saves'): Promise<void> {
+    const fold = this.element.locator(`details[part=${part}]`)
+    if (!(await fold.evaluate((details: HTMLDetailsElement) => details.open))) await fold.locator('summary').click()
+  }
+
   async set(name: string, value: string): Promise<void> {
-    const settings = this.element.locator('details[part=settings]')
-    if (!(await settings.evaluate((details: HTMLDetailsElement) => details.open))) await settings.locator('summary').click()
     const box = this.element.locator(`input[type=number][name=${name}]`)
+    if (!(await box.isVisible())) await this.unfold('settings')
     await box.fill(value)
     await box.press('Enter')
+  }
+
+  /** What the slider of scans does under a hand. */
+  async scrubTo(scan: number): Promise<void> {
+    await this.element.locator('[part=scrub]').evaluate((scrub: HTMLInputElement, scan) => {
+      scrub.valueAsNumber = scan
+      scrub.dispatchEvent(new InputEvent('input', { bubbles: true, composed: true }))
+    }, scan)
   }
 
   /** A fingerprint of the pixels. */
@@ -80,12 +92,12 @@ async function content(download: Download): Promise<Buffer> {
 test('the example is mapped with one click, and map, path and report are saved', async ({ page }) => {
   const log = await new LogFigure(page).open()
   await expect(log.sentence).toContainText('No log is open')
-  await expect(log.button('Start')).toBeDisabled()
-  await log.button('Run the example').click()
+  await log.button('Map this building').click()
   await log.done(120_000)
   await expect(log.status).toHaveText('the example')
   await expect(log.readout('digest')).toHaveText(/^[0-9a-f]{16}$/)
 
+  await log.unfold('saves')
   const save = async (name: string) => {
     const [download] = await Promise.all([page.waitForEvent('download'), log.button(name).click()])
     return download
@@ -119,20 +131,163 @@ test('the example is mapped with one click, and map, path and report are saved',
   expect(yaml!.toString()).toContain('image: "map.pgm"')
 })
 
+type FigureElement = HTMLElement & { seek(scan: number): void; settled(): Promise<void>; currentStep: number }
+
+test('before anything is mapped it shows the finished map of the example, which is the one picture that is fetched', async ({ page }) => {
+  const fetched: string[] = []
+  page.on('request', request => /\.(wasm|png|gz)$/.test(request.url()) && fetched.push(request.url().replace(/.*\/|-[\w-]{8}(?=\.png)/g, '')))
+  for (const colorScheme of ['light', 'dark'] as const) {
+    await page.goto('about:blank')
+    await page.emulateMedia({ colorScheme })
+    await page.unrouteAll()
+    await openCourse(page, '<p style="height: 20000px">far above</p><fastslam-log></fastslam-log>')
+    const log = new LogFigure(page)
+    const poster = log.element.locator('.poster img')
+    await page.evaluate(() => customElements.whenDefined('fastslam-log').then(() => undefined))
+    expect(fetched).toEqual([])
+    await log.element.scrollIntoViewIfNeeded()
+    await expect(poster).toHaveAttribute('alt', /finished map .* raw odometry/)
+    await expect.poll(() => poster.evaluate((image: HTMLImageElement) => image.naturalWidth)).toBeGreaterThan(300)
+    expect(fetched.splice(0)).toEqual([`fastslam-log-poster-${colorScheme}.png`])
+    // What nobody has seen goes on around it.
+    const [around, edge] = await poster.evaluate((image: HTMLImageElement) => {
+      const context = new OffscreenCanvas(1, 1).getContext('2d')!
+      context.drawImage(image, 0, 0)
+      return [getComputedStyle(image.closest('.idle')!).backgroundColor, `rgb(${[...context.getImageData(0, 0, 1, 1).data.slice(0, 3)].join(', ')})`]
+    })
+    expect(around).toBe(edge)
+  }
+})
+
+for (const width of [832, 720, 560, 343]) {
+  test(`poster and picture take the same place, ${width} px wide`, async ({ page }) => {
+    await openCourse(page, `<div style="width: ${width}px"><fastslam-log></fastslam-log></div>`)
+    const log = new LogFigure(page)
+    const before = (await log.element.locator('.idle').boundingBox())!
+    await log.choose('tiny.clf', readFileSync(TINY))
+    await expect(log.element.locator('.stage.live')).toBeVisible()
+    const after = (await log.element.locator('canvas').boundingBox())!
+    for (const side of ['x', 'y', 'width', 'height'] as const) expect(Math.abs(before[side] - after[side]), side).toBeLessThan(3)
+  })
+}
+
+for (const [what, viewport, most] of [
+  ['a small laptop', { width: 1366, height: 650 }, 612],
+  ['a frame of 1024 × 618', { width: 1024, height: 618 }, 612],
+  ['a phone', { width: 380, height: 760 }, Infinity],
+] as const) {
+  test(`picture and button are in sight together on ${what}, before, on the way and at the end`, async ({ page }) => {
+    await page.setViewportSize(viewport)
+    await openCourse(page, '<fastslam-log cell="0.2"></fastslam-log>')
+    const log = new LogFigure(page)
+    const inSight = async (picture: string, button: Locator) => {
+      await log.element.evaluate(element => element.scrollIntoView({ block: 'start', behavior: 'instant' }))
+      const height = (await log.element.boundingBox())!.height
+      expect(height).toBeLessThanOrEqual(most)
+      await expect(log.element.locator(picture)).toBeInViewport({ ratio: 0.95 })
+      await expect(button).toBeInViewport({ ratio: 1 })
+    }
+    await inSight('.idle', log.button('Map this building'))
+    await log.choose('tiny.clf', readFileSync(TINY))
+    await expect(log.status).toHaveText('tiny.clf')
+    await inSight('canvas', log.button('Map this building'))
+    await log.button('Map this building').click()
+    await log.done()
+    await inSight('canvas', log.button('Play'))
+  })
+}
+
+/** What the parts of a figure say at one moment; the picture by the pixels of its own count of scans. */
+interface Moment {
+  transport: number
+  sentence: number
+  readout: number
+  picture: number
+}
+
+test('what is mapped is played again and gone back to, and all parts tell of one scan at every moment', async ({ page }) => {
+  const log = await new LogFigure(page).open()
+  await log.choose('tiny.clf', readFileSync(TINY))
+  await log.set('cell', '0.2')
+  await log.button('Map this building').click()
+  await log.done()
+  const end = await log.picture()
+  await log.element.evaluate(element => {
+    const root = element.shadowRoot!
+    const canvas = root.querySelector('canvas')!
+    const page = window as unknown as { seen: Moment[]; watching: boolean }
+    const sample = () => {
+      const number = (selector: string) => Number(/\d+/.exec(root.querySelector(selector)!.textContent)![0])
+      const height = Math.floor((24 / canvas.clientHeight) * canvas.height)
+      const corner = new OffscreenCanvas(Math.floor(canvas.width / 3), height).getContext('2d', { willReadFrequently: true })!
+      corner.drawImage(canvas, 0, 0)
+      const { data } = corner.getImageData(0, 0, Math.floor(canvas.width / 3), height)
+      const picture = data.reduce((hash, byte) => Math.imul(hash ^ byte, 16777619), 2166136261)
+      page.seen.push({ transport: number('.timeline .position'), sentence: number('.sentence'), readout: number('[data-name=scan] dd'), picture })
+      if (page.watching) requestAnimationFrame(sample)
+    }
+    Object.assign(page, { seen: [], watching: true })
+    requestAnimationFrame(sample)
+  })
+  for (const scan of [60, 20, 45]) await log.scrubTo(scan)
+  await expect(log.element.locator('[part=transport] .position')).toHaveText('45 / 90')
+  await log.button('Play').click()
+  await expect.poll(() => log.element.evaluate(element => (element as FigureElement).currentStep)).toBeGreaterThan(55)
+  await log.button('Pause').click()
+  const seen = await page.evaluate(() => {
+    const page = window as unknown as { seen: Moment[]; watching: boolean }
+    page.watching = false
+    return page.seen
+  })
+  const pictures = new Map<number, number>()
+  for (const { transport, sentence, readout, picture } of seen) {
+    // At the end there is no number in the sentence but others.
+    if (transport < 90) expect([sentence, readout], `at ${transport}`).toEqual([transport, transport])
+    expect(pictures.get(transport) ?? picture, `the picture at ${transport}`).toBe(picture)
+    pictures.set(transport, picture)
+  }
+  expect(pictures.size).toBeGreaterThan(10)
+  expect(new Set(pictures.values()).size, 'every scan is written otherwise').toBe(pictures.size)
+  // Step by step, by keys, and back to the end: nothing was lost.
+  await log.scrubTo(30)
+  await log.stage.focus()
+  await page.keyboard.press('.')
+  await expect(log.element.locator('[part=transport] .position')).toHaveText('31 / 90')
+  await page.keyboard.press(',')
+  await page.keyboard.press(',')
+  await expect(log.sentence).toContainText('Scan 29 of 90')
+  await log.element.evaluate(element => (element as FigureElement).seek(90))
+  await log.done()
+  expect(await log.picture()).toBe(end)
+  // What is only drawn may change where one is.
+  await log.scrubTo(12)
+  await expect(log.sentence).toContainText('Scan 12 of 90')
+  const raw = await log.picture()
+  await log.element.getByRole('checkbox', { name: 'Raw odometry' }).uncheck()
+  await expect.poll(() => log.picture()).not.toBe(raw)
+  await expect(log.sentence).toContainText('Scan 12 of 90')
+  // A report is of the whole run.
+  await log.unfold('saves')
+  const [download] = await Promise.all([page.waitForEvent('download'), log.button('Report (JSON)').click()])
+  const report = JSON.parse((await content(download)).toString()) as { results: { scan: { value: number }; digest: { text: string } }; steps: unknown[] }
+  expect([report.results.scan.value, report.steps.length]).toEqual([90, 91])
+  expect(report.results.digest.text).toMatch(/^[0-9a-f]{16}$/)
+  await expect(log.sentence).toContainText('Scan 12 of 90')
+})
+
 test('its program is not fetched until something is asked of it, and what was asked first is not lost', async ({ page }) => {
   const fetched: string[] = []
-  page.on('request', request => /fastslam-log.*(wasm|png)$/.test(request.url()) && fetched.push(request.url()))
+  page.on('request', request => /fastslam-log(?!-poster).*(wasm|png)$/.test(request.url()) && fetched.push(request.url()))
   await page.goto('./')
   const log = new LogFigure(page)
   await log.element.scrollIntoViewIfNeeded()
-  await expect(log.stage).toContainText('No log is open')
+  await expect(log.button('Map this building')).toBeVisible()
   await expect(log.element.locator('input[type=number][name=universes]')).toHaveValue('16')
   await log.element.evaluate((element: HTMLElement & { settled?(): Promise<void> }) => element.settled!())
   expect(fetched).toEqual([])
   expect(page.workers()).toHaveLength(0)
   await log.set('universes', '7')
   await expect(log.element.locator('.stage.live')).toBeVisible()
-  await expect(log.stage.getByText('No log is open')).toBeHidden()
   await expect(log.element.locator('input[type=number][name=universes]')).toHaveValue('7')
   await expect.poll(() => log.element.evaluate((element: HTMLElement & { link: string }) => element.link)).toContain('universes=7')
   expect(fetched).toHaveLength(1)
@@ -142,12 +297,12 @@ test('a log that is chosen wakes it, and so does an attribute', async ({ page })
   await page.goto('./')
   const log = new LogFigure(page)
   await log.element.scrollIntoViewIfNeeded()
-  await expect(log.stage).toContainText('No log is open')
+  await expect(log.button('Map this building')).toBeVisible()
   await log.choose('tiny.clf', readFileSync(TINY))
   await expect(log.sentence).toContainText('91 scans')
   await page.reload()
   await log.element.scrollIntoViewIfNeeded()
-  await expect(log.stage).toContainText('No log is open')
+  await expect(log.button('Map this building')).toBeVisible()
   await log.element.evaluate(element => element.setAttribute('universes', '9'))
   await expect(log.element.locator('.stage.live')).toBeVisible()
   await expect(log.element.locator('input[type=number][name=universes]')).toHaveValue('9')
@@ -157,13 +312,13 @@ test('the same log and settings give the bits of the native build', async ({ pag
   const log = await new LogFigure(page).open()
   await log.choose('tiny.clf', readFileSync(TINY))
   await log.set('cell', '0.1')
-  await log.button('Start').click()
+  await log.button('Map this building').click()
   await log.done()
   const golden = readFileSync(join(root, 'tests', 'figures', 'golden', 'log-digest.txt'), 'utf8').trim()
   await expect(log.readout('digest')).toHaveText(golden)
 })
 
-test('it pauses, goes on, and stops, and what is mapped by then can be saved', async ({ page }) => {
+test('it pauses and goes on, and what is mapped by then can be looked at and saved', async ({ page }) => {
   const log = await new LogFigure(page).open()
   await log.choose('tiny.clf', readFileSync(TINY))
   await expect(log.sentence).toContainText('91 scans of up to 120 beams')
@@ -172,11 +327,11 @@ test('it pauses, goes on, and stops, and what is mapped by then can be saved', a
   await expect(log.sentence).toContainText('128 universes')
   const at = async () => Number((await log.readout('scan').textContent())!.split(' of ')[0])
 
-  await log.button('Start').click()
+  await log.button('Map this building').click()
   await expect.poll(at).toBeGreaterThan(3)
-  await expect(log.element.locator('.run .position')).toContainText('left')
+  await expect(log.element.locator('[part=transport] .position')).toContainText('left')
   await log.button('Pause').click()
-  await expect(log.button('Resume')).toBeVisible()
+  await expect(log.button('Play')).toBeVisible()
   const paused = await at()
   await log.element.evaluate((element: HTMLElement & { settled?(): Promise<void> }) => element.settled!())
   expect(await at()).toBe(paused)
@@ -185,17 +340,24 @@ test('it pauses, goes on, and stops, and what is mapped by then can be saved', a
   await log.stage.focus()
   await page.keyboard.press('Space')
   await expect.poll(at).toBeGreaterThan(paused)
-  await log.button('Stop').click()
-  await expect(log.button('Start again')).toBeFocused() // the button that was pressed cannot hold the focus any more
-  await expect(log.button('Stop')).toBeDisabled()
+  await log.button('Pause').click()
+  await expect(log.button('Play')).toBeVisible()
   const stopped = await at()
   expect(stopped).toBeLessThan(90)
+  // It can be looked at and saved, and goes on from where it was.
+  await log.scrubTo(1)
+  await expect.poll(at).toBe(1)
+  await log.unfold('saves')
   const [download] = await Promise.all([page.waitForEvent('download'), log.button('Path (TUM)').click()])
   expect((await content(download)).toString().trim().split('\n')).toHaveLength(stopped + 1)
+  await log.button('Play').click()
+  await expect.poll(at).toBeGreaterThan(stopped)
+  await log.button('Pause').click()
   // Other settings begin anew.
   await log.set('universes', '2')
-  await expect(log.button('Start')).toBeEnabled()
-  await log.button('Start').click()
+  await expect(log.button('Map this building')).toBeEnabled()
+  await log.button('Map this building').click()
+  await expect(log.button('Pause').or(log.button('Play'))).toBeFocused() // the button that was pressed cannot hold the focus any more
   await log.done()
 })
 
@@ -234,7 +396,7 @@ test('what cannot be read is told with line and reason, and the example is a cli
     await log.choose(name, bytes as string | Buffer)
     await expect(log.alert).toContainText(says)
     await expect(log.alert.getByRole('button', { name: 'Run the example' })).toBeVisible()
-    await expect(log.button('Start')).toBeDisabled()
+    await expect(log.stage, 'nothing is to be mapped').toHaveClass(/empty/)
   }
   await log.alert.getByRole('button', { name: 'Run the example' }).click()
   await expect(log.alert).toBeEmpty()
@@ -249,11 +411,11 @@ test('malformed lines are named, and skipped if the reader says so', async ({ pa
   await log.choose('damaged.clf', lines.join('\n'))
   await expect(log.alert).toContainText('line 5: ROBOTLASER1: expected ')
   await expect(log.alert).toContainText('2 malformed lines')
-  await expect(log.button('Start')).toBeDisabled()
+  await expect(log.button('Map this building')).toBeDisabled()
   await log.alert.getByRole('button', { name: 'Skip malformed lines' }).click()
   await expect(log.alert).toBeEmpty()
   await log.set('cell', '0.2')
-  await log.button('Start').click()
+  await log.button('Map this building').click()
   await log.done()
 })
 
@@ -267,7 +429,7 @@ test('what does not fit into memory is refused before it starts', async ({ page 
   await log.set('universes', '256')
   await log.element.locator('select[name=policy]').selectOption('never')
   await expect(log.alert).toContainText(/universes = 256: must be a whole number from 1 to \d+ here: .* the limit is 1000 MB/)
-  await expect(log.button('Start')).toBeDisabled()
+  await expect(log.button('Map this building')).toBeDisabled()
   const most = /from 1 to (\d+) here/.exec((await log.alert.textContent())!)![1]!
   await log.set('universes', most)
   await expect(log.alert).toBeEmpty()
@@ -280,7 +442,7 @@ test('the map is moved and magnified by keys, buttons, mouse and touchpad, and t
   const log = await new LogFigure(page).open()
   await log.choose('tiny.clf', readFileSync(TINY))
   await log.set('cell', '0.2')
-  await log.button('Start').click()
+  await log.button('Map this building').click()
   await log.done()
   const whole = await log.picture()
   const box = (await log.element.locator('canvas').boundingBox())!
@@ -318,10 +480,12 @@ test('the map is moved and magnified by keys, buttons, mouse and touchpad, and t
     await page.keyboard.press('0')
     await expect.poll(() => log.picture(), `${name}, and back`).toBe(whole)
   }
+  // The page has something to scroll to.
+  await page.evaluate(() => document.body.append(Object.assign(document.createElement('p'), { style: 'height: 2000px' })))
   const before = await page.evaluate(() => scrollY)
   await page.mouse.move(x, y)
-  await page.mouse.wheel(0, -200)
-  await expect.poll(() => page.evaluate(() => scrollY)).toBeLessThan(before)
+  await page.mouse.wheel(0, 200)
+  await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(before)
   expect(await log.picture()).toBe(whole)
 })
 
@@ -330,9 +494,8 @@ test('two fingers magnify the map, one scrolls the page', async ({ browser, base
   const page = await context.newPage()
   const log = await new LogFigure(page).open()
   await log.choose('tiny.clf', readFileSync(TINY))
-  await log.element.locator('details[part=settings] summary').click()
   await log.set('cell', '0.2')
-  await log.button('Start').tap()
+  await log.button('Map this building').tap()
   await log.done()
   await log.stage.scrollIntoViewIfNeeded()
   const whole = await log.picture()
@@ -371,7 +534,7 @@ test('a program that dies says so, and the example is still possible', async ({ 
       Worker.prototype.postMessage = post
     }
   })
-  await log.button('Start').click()
+  await log.button('Map this building').click()
   await expect(log.alert).toContainText('Something failed while this log was mapped (panicked at nothing), so it has stopped.')
   await log.alert.getByRole('button', { name: 'Run the example' }).click()
   await expect(log.status).toHaveText('the example')
@@ -386,7 +549,7 @@ test('a link holds the settings, and attributes set them', async ({ page }) => {
   await expect(log.alert).toContainText('cell')
   await expect(log.element.locator('input[type=number][name=universes]')).toHaveValue('7')
   const link = await log.element.evaluate((element: HTMLElement & { link: string }) => element.link)
-  expect(link.split('#')[1]).toBe('fastslam-log?universes=7&cell=0.2&policy=always')
+  expect(link.split('#')[1]).toBe('fastslam-log?v=2&universes=7&cell=0.2&policy=always&raw=off') // as links of its time had it
   await log.element.evaluate(element => element.setAttribute('universes', '9'))
   await expect(log.element.locator('input[type=number][name=universes]')).toHaveValue('9')
   await log.element.evaluate(element => element.setAttribute('universes', 'many'))
@@ -399,7 +562,7 @@ test('nothing leaves the machine, and the figure says so', async ({ page }) => {
   page.on('request', request => asked.push(request.url()))
   await log.choose('secret.clf', readFileSync(TINY))
   await log.set('cell', '0.2')
-  await log.button('Start').click()
+  await log.button('Map this building').click()
   await log.done()
   expect(asked.filter(url => !url.startsWith('blob:'))).toEqual([])
   await expect(log.element.locator('[part=source]')).toContainText('nothing leaves your machine')
@@ -409,7 +572,7 @@ test('the page answers while a log is mapped', async ({ page }) => {
   const log = await new LogFigure(page).open()
   await log.choose('tiny.clf', readFileSync(TINY))
   await log.set('universes', '256')
-  await log.button('Start').click()
+  await log.button('Map this building').click()
   await expect(log.button('Pause')).toBeVisible()
   // How soon is the machine's, and `npm run bench` tells it. That another thread does the work is ours.
   expect(page.workers()).toHaveLength(1)
@@ -435,7 +598,7 @@ for (const [what, options] of Object.entries({
     await expect(log.alert).not.toBeEmpty()
     await log.choose('tiny.clf', readFileSync(TINY))
     await log.set('cell', '0.2')
-    await log.button('Start').click()
+    await log.button('Map this building').click()
     await log.done()
     const found = await new AxeBuilder({ page })
       .include('fastslam-log')
@@ -453,7 +616,7 @@ test('the Intel log has the fingerprint that the command line tells', async ({ p
   await log.choose('intel.clf', readFileSync(INTEL))
   await expect(log.sentence).toContainText('910 scans', { timeout: 30_000 })
   await log.set('universes', '4')
-  await log.button('Start').click()
+  await log.button('Map this building').click()
   const command = ['run', '--quiet', '--release', '--bin', 'fastslam', '--', 'log', INTEL, '--particles', '4', '--json']
   const { digest } = JSON.parse(execFileSync('cargo', command, { cwd: root, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }))
   await log.done(300_000)
@@ -478,7 +641,7 @@ test('the first log that a script opens is read once, and a refusal names its fi
   const asked = await tapWorker(page)
   await openCourse(page, '<fastslam-log></fastslam-log>')
   const log = new LogFigure(page)
-  await expect(log.stage).toContainText('No log is open')
+  await expect(log.button('Map this building')).toBeVisible()
   await log.element.evaluate((element: HTMLElement & { open(file: Blob, name: string): Promise<void> }) => element.open(new Blob(['x,y\n1,2\n']), 'table.csv'))
   await expect(log.alert).toContainText('table.csv cannot be mapped: line 1: ')
   expect((await asked()).filter(ask => ask === 'open')).toHaveLength(1)
@@ -538,7 +701,7 @@ for (const type of ['fastslam-step', 'fastslam-change']) {
       await page.unrouteAll()
       await openCourse(page, '<fastslam-log></fastslam-log><aside></aside>')
       const log = new LogFigure(page)
-      await expect(log.stage).toContainText('No log is open')
+      await expect(log.button('Map this building')).toBeVisible()
       await log.choose('tiny.clf', readFileSync(TINY))
       await expect(log.sentence).toContainText('91 scans')
       await log.element.evaluate(

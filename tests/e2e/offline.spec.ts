@@ -54,7 +54,7 @@ test('the example is mapped from file:// too', async ({ page, context }) => {
   const address = pathToFileURL(path).href
   await page.goto(address)
   const figure = page.locator('fastslam-log')
-  await figure.getByRole('button', { name: 'Run the example' }).click()
+  await figure.getByRole('button', { name: 'Map this building' }).click()
   await expect(figure.getByRole('progressbar')).toHaveAttribute('value', /^[1-9]\d/)
   expect(asked).toEqual([address])
 })

@@ -178,7 +178,7 @@ test('a log that dies in its worker is opened again with its settings, and no ot
   await expect(log.element.getByRole('status')).toHaveText('tiny.clf')
   await expect(log.sentence).toContainText('91 scans')
   await expect(log.box('universes')).toHaveValue('5')
-  await log.element.getByRole('button', { name: 'Start', exact: true }).click()
+  await log.element.getByRole('button', { name: 'Map this building', exact: true }).click()
   await expect(log.sentence).toContainText('All scans are mapped')
   expect(await statesOf(figures)).toEqual(before)
   expect((await seen(page)).instances).toBe(1)

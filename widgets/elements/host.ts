@@ -58,7 +58,7 @@ export type Command =
   | { do: 'export'; kind: 'csv' | 'json'; name: string }
   // Of figures that map a file:
   | { do: 'open'; file: Blob; name: string; start: boolean }
-  | { do: 'run' | 'pause' | 'stop' | 'fit' }
+  | { do: 'run' | 'pause' | 'fit' }
   | { do: 'zoom'; factor: number; x: number; y: number }
   | { do: 'pan'; right: number; down: number }
   | { do: 'save'; what: SavedFile }
@@ -96,7 +96,7 @@ export class HostMemory {
 export type SavedFile = 'map.png' | 'map.ros' | 'path.tum' | 'report.json'
 
 /** How far the mapping of a file is. */
-export type Phase = 'empty' | 'ready' | 'running' | 'paused' | 'stopped' | 'done'
+export type Phase = 'empty' | 'ready' | 'running' | 'paused' | 'done'
 
 export interface Run {
   phase: Phase

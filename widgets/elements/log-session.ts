@@ -1,5 +1,5 @@
-// The session of a figure that maps a log: it also reads the file, starts, pauses and stops, and saves what came out.
-import type { Beginning, Command, Phase, Run, SavedFile } from './host'
+// The session of a figure that maps a log: it also reads the file, starts and pauses, goes back through what is mapped, and saves it.
+import { clampedStep, type Beginning, type Command, type Frame, type Phase, type Run, type SavedFile } from './host'
 import { isRefusal, type Readout } from './shell'
 import type { Key } from './words'
 import { Session } from './session'
@@ -11,6 +11,7 @@ export class LogSession extends Session {
   #phase: Phase = 'empty'
   #log = ''
   #spent = 0 // [ms] of mapping
+  #mapped = false // anything, when it was looked at last
 
   protected override perform(command: Command): void | Promise<void> {
     const { figure } = this
@@ -22,8 +23,8 @@ export class LogSession extends Session {
       case 'pause':
         if (this.#phase === 'running') this.#phase = 'paused'
         return
-      case 'stop':
-        if (this.#phase === 'running' || this.#phase === 'paused') this.#phase = 'stopped'
+      case 'seek':
+        if (this.#halted) figure.seek(clampedStep(command.step, this.last))
         return
       case 'fit':
         return figure.fit()
@@ -39,18 +40,39 @@ export class LogSession extends Session {
   }
 
   protected override begin(beginning: Beginning, changed: boolean): void {
-    super.begin(beginning, changed)
+    this.#atNewest(() => super.begin(beginning, changed))
     this.#beginAnew()
   }
 
   protected override set(name: string, value: string | null): void {
-    super.set(name, value)
+    this.#atNewest(() => super.set(name, value))
     this.#beginAnew()
   }
 
   /** Other settings begin the mapping anew. */
   #beginAnew(): void {
-    if (this.#phase !== 'empty' && this.figure.step() === 0) this.#phase = 'ready'
+    if (!this.#mapped && this.#phase !== 'empty') this.#phase = 'ready'
+  }
+
+  /** Whether there is something to go back through, and nothing is added to it now. */
+  get #halted(): boolean {
+    return this.#phase === 'paused' || this.#phase === 'done'
+  }
+
+  /** Does something where the mapping stands, whichever scan is shown; then that one is shown again. */
+  #atNewest<T>(act: () => T): T {
+    const shown = this.figure.step()
+    if (this.#halted) this.figure.seek(LAST)
+    try {
+      return act()
+    } finally {
+      this.#mapped = this.figure.step() > 0
+      if (this.#halted && this.#mapped) this.figure.seek(shown)
+    }
+  }
+
+  override frame(ahead?: boolean): Frame {
+    return { ...super.frame(ahead), target: this.figure.step() } // the next one of which something was kept
   }
 
   override get pending(): boolean {
@@ -71,10 +93,9 @@ export class LogSession extends Session {
   }
 
   #start(): void {
-    if (this.#phase === 'empty' || this.#phase === 'running') return
-    if (this.#phase !== 'paused') {
+    if (this.#phase !== 'ready' && this.#phase !== 'paused') return
+    if (this.#phase === 'ready') {
       if (this.#unfit()) return // it says why
-      this.figure.seek(0)
       this.#spent = 0
     }
     this.figure.seek(LAST)
@@ -107,7 +128,7 @@ export class LogSession extends Session {
   async #save(what: SavedFile): Promise<void> {
     const saved = (name: string, data: BlobPart, type: string) => this.tell({ told: 'saved', name, data: new Blob([data], { type }) })
     const file = (name: string) => this.figure.file(name) as Uint8Array<ArrayBuffer> | undefined
-    if (what === 'report.json') return saved(what, this.#report(), 'application/json')
+    if (what === 'report.json') return saved(what, this.#atNewest(() => this.#report()), 'application/json')
     if (what === 'map.png') {
       const png = await picture(file('map.pgm'))
       return png && saved(what, png, 'image/png')

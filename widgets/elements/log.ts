@@ -1,16 +1,17 @@
 // A recorded log, mapped. Its program runs in a worker, so that the page answers at once whatever the size of the log. That program is
 // large, and many a reader never maps a log: it is fetched when the first thing is asked of the figure.
-import type { Controls } from './controls'
 import { h, write } from './dom'
 import { keepPage, takeDrops } from './drops'
 import { FigureElement } from './figure-element'
 import { fetchExample } from './files'
 import { AT_REST } from './generated/log'
 import type { Answer, Command, Frame, Phase, Run, SavedFile } from './host'
+import { Poster } from './log-poster'
 import { takeGestures } from './map-gestures'
 import type { MenuItem } from './menu'
 import { register } from './parameters'
 import type { ParamSpec, Readout } from './shell'
+import { themeName } from './theme'
 import type { Key } from './words'
 
 const ZOOM = 1.4 // magnified by one press of + or −
@@ -49,7 +50,7 @@ export class FastslamLog extends FigureElement {
   static override heavy = true
 
   #phase: Phase = 'empty'
-  #source: { file: Blob; name: string; start: boolean } | undefined // read again by another worker, after a move of the element
+  #log: { file: Blob; name: string; start: boolean } | undefined // read again by another worker, after a move of the element
   #sent: unknown // the source that this worker was given
   #lived = false // there has been a frame
   #unfit = '' // what was said to stand in the way
@@ -66,34 +67,24 @@ export class FastslamLog extends FigureElement {
     }),
   )
   readonly #file = h('input', { type: 'file', class: 'hidden', accept: '.clf,.log,.gz,.txt', id: 'file', tabindex: '-1', 'aria-hidden': 'true' })
-  readonly #go = button(() => this.#playPause(), { class: 'primary', part: 'button play' })
-  readonly #halt = this.#named('stop', () => this.stop(), { part: 'button stop' })
-  readonly #progress = h('progress', { value: '0' })
-  readonly #position = h('span', { class: 'position' })
-  readonly #saves = FILES.map(([what, name]) => this.#named(name, () => this.send({ do: 'save', what })))
+  readonly #poster = new Poster(this.words, () => (this.#phase === 'empty' ? void this.example() : this.play()))
+  readonly #example = this.#named('run_example', () => void this.example(), { part: 'button example' })
+  readonly #source = this.#sources()
+  readonly #saves = h('details', { class: 'saves', part: 'saves', hidden: '' })
 
   constructor() {
     super()
     this.playback.stay()
     this.stage.classList.add('map')
-    const [idle, what, save] = [h('b'), h('span'), h('span', { class: 'name' })]
-    this.canvas.element.after(this.#zoom, h('p', { class: 'idle' }, idle, what))
-    this.panes.before(this.#sources(), this.messages.element)
-    const run = h('div', { class: 'work run', part: 'transport', role: 'group' }, this.#go, this.#halt, this.#progress, this.#position)
-    const saves = h('div', { class: 'work saves', part: 'saves', role: 'group' }, save, ...this.#saves)
-    this.panes.append(run)
-    this.body.append(saves)
+    this.canvas.element.after(this.#zoom, this.#poster.element)
+    this.panes.before(this.messages.element, this.#file)
+    const save = h('summary')
+    this.#saves.append(save, h('div', { class: 'work' }, ...FILES.map(([what, name]) => this.#named(name, () => this.send({ do: 'save', what })))))
+    this.folds.append(this.#saves)
     this.words.always(() => {
-      const { words } = this
-      write(idle, words.say('no_log'))
-      write(what, words.say('no_log_what'))
-      write(save, words.say('save'))
-      saves.ariaLabel = words.say('save')
-      run.ariaLabel = words.say('mapping')
-      this.#zoom.ariaLabel = words.say('magnification')
-      this.#progress.ariaLabel = words.say('scans_mapped')
+      write(save, this.words.say('save'))
+      this.#zoom.ariaLabel = this.words.say('magnification')
     })
-    this.#showPhase(undefined, 0, 0)
     // What comes after a press: nothing moves away from under it.
     for (const type of ['click', 'keyup', 'dragenter'] as const) this.body.addEventListener(type, () => void this.start())
     for (const type of ['click', 'keydown', 'input', 'change', 'drop'] as const) this.body.addEventListener(type, () => (this.events.cause = 'reader'))
@@ -118,11 +109,12 @@ export class FastslamLog extends FigureElement {
   /** Reads a log. Nothing is mapped yet, unless it is to start at once. */
   async open(file: Blob, name = file instanceof File ? file.name : 'log', start = false): Promise<void> {
     this.messages.set('file', '')
+    this.playback.stop()
     this.crashes = 0 // another log, another chance
-    this.#source = { file, name, start }
+    this.#log = { file, name, start }
     write(this.status, this.words.say('reading', { name }))
     await this.start()
-    this.#sendSource()
+    this.#sendLog()
   }
 
   /** Reads and maps the log that comes with the figure. */
@@ -136,35 +128,43 @@ export class FastslamLog extends FigureElement {
     this.messages.set('file', text, this.words.say('try_again'), () => void this.example())
   }
 
-  /** Maps from the start, or goes on after a pause. */
+  /** Maps the log, or goes on after a pause; what is mapped to its end is played again. */
   override play(): void {
+    if (this.#phase === 'done') return super.play()
     this.events.cause = 'page'
     this.send({ do: 'run' })
   }
 
   override pause(): void {
-    this.send({ do: 'pause' })
+    if (this.#phase === 'running') this.send({ do: 'pause' })
+    else super.pause()
   }
 
   /** Ends the mapping where it is. What is mapped can still be looked at and saved. */
   stop(): void {
-    this.send({ do: 'stop' })
+    this.pause()
+  }
+
+  /** Shows what was mapped up to a scan. */
+  override seek(step: number): void {
+    if (this.alive) super.seek(step)
   }
 
   override get playing(): boolean {
-    return this.#phase === 'running'
+    return this.#phase === 'running' || super.playing
   }
 
   // --- Life ----------------------------------------------------------------------------------------------------------------
 
   protected override get wanted(): boolean {
     // What is said before it is there is English.
-    return this.settings.any || this.#source !== undefined || this.words.language !== 'en'
+    return this.settings.any || this.#log !== undefined || this.words.language !== 'en'
   }
 
   /** All there is before anything was asked. */
   protected override approached(): void {
     this.canvas.release()
+    this.#paintPoster()
     if (this.controls) return
     const { params: specs, readouts, describe: sentence } = AT_REST
     const values = Object.fromEntries(specs.map(spec => [spec.name, spec.default]))
@@ -178,22 +178,22 @@ export class FastslamLog extends FigureElement {
 
   protected override begun(): void {
     this.#sent = undefined
-    this.#sendSource()
+    this.#sendLog()
   }
 
   /** Gives the worker what is to be read, once: whether it was there before or has just begun. */
-  #sendSource(): void {
-    if (!this.alive || !this.#source || this.#sent === this.#source) return
-    this.#sent = this.#source
-    this.send({ do: 'open', ...this.#source })
-    this.#source.start = false // after a move of the element it waits for its reader
+  #sendLog(): void {
+    if (!this.alive || !this.#log || this.#sent === this.#log) return
+    this.#sent = this.#log
+    this.send({ do: 'open', ...this.#log })
+    this.#log.start = false // after a move of the element it waits for its reader
   }
 
   override hear(answer: Answer): void {
     if (answer.told === 'reading') return write(this.status, this.words.say('reading_megabytes', { megabytes: answer.megabytes }))
     if (answer.told !== 'refused' || answer.file === undefined) return super.hear(answer)
     write(this.status, '')
-    if (this.#source?.name === answer.file) this.#source = undefined
+    if (this.#log?.name === answer.file) this.#log = undefined
     this.messages.set('file', this.words.say('cannot_map', { file: answer.file, why: this.words.tell(answer.message) }), this.words.say('run_example'), () => void this.example())
   }
 
@@ -202,17 +202,26 @@ export class FastslamLog extends FigureElement {
     write(this.status, '')
     // What was refused before it said a word would be refused again.
     if (!this.#lived) return this.refuseToLive(why)
-    if (again) this.#source = undefined
-    const kept = this.#source ? ` ${this.words.say('log_open_again')}` : ''
+    if (again) this.#log = undefined
+    const kept = this.#log ? ` ${this.words.say('log_open_again')}` : ''
     this.messages.set('file', this.words.say('mapping_failed', { why }) + kept, this.words.say('run_example'), () => void this.example())
     this.restart()
   }
 
   // --- What is shown -------------------------------------------------------------------------------------------------------
 
-  protected override placeControls(controls: Controls): void {
-    controls.transport.setAttribute('aria-label', this.words.say('settings_of_draw'))
-    super.placeControls(controls)
+  protected override introduced(): void {
+    super.introduced()
+    this.controls!.main.append(this.#source)
+  }
+
+  protected override refresh(): void {
+    super.refresh()
+    if (this.frames.near) this.#paintPoster()
+  }
+
+  #paintPoster(): void {
+    this.#poster.paint(themeName(this.getAttribute('theme')).endsWith('dark') ? 'dark' : 'light')
   }
 
   protected override present(frame: Frame): void {
@@ -223,10 +232,25 @@ export class FastslamLog extends FigureElement {
     write(this.status, frame.run!.phase === 'empty' ? '' : frame.run!.log)
   }
 
-  protected override showPlayback({ step, last, run }: Frame): void {
-    this.#showPhase(run, step, last)
-    this.controls!.showPosition(0, 0, 0, false)
-    this.controls!.transport.setAttribute('aria-label', this.words.say('settings_of_draw'))
+  protected override showPlayback({ step, target, last, run }: Frame): void {
+    const held = document.activeElement === this && this.shadowRoot!.activeElement
+    const phase = (this.#phase = run!.phase)
+    const begun = phase !== 'empty' && phase !== 'ready'
+    if (phase !== 'done') this.playback.playing = false
+    this.#poster.show(phase, run!.unfit !== undefined)
+    this.stage.classList.toggle('empty', phase === 'empty')
+    this.#zoom.inert = phase === 'empty'
+    this.#example.hidden = phase === 'empty'
+    this.#saves.hidden = !begun
+    const { main, settings, transport } = this.controls!
+    this.controls!.showPosition(step, target, begun ? last : 0, this.playing)
+    if (phase === 'running' && step > 0) transport.querySelector('.position')!.append(` · ${this.words.say('time_left', { time: duration(run!.left) })}`)
+    // Other settings would begin anew. What is only drawn may change.
+    for (const field of [...main.children, settings, transport.querySelector('.extras')!] as HTMLElement[]) {
+      if (!field.matches('.flag, .source')) field.inert = phase === 'running'
+    }
+    // The focus does not fall out of the figure with the button that had it.
+    if (held === this.#poster.go && begun) transport.querySelector<HTMLElement>('.play')!.focus()
   }
 
   /** Why it cannot be started; told once, not with every picture. */
@@ -236,24 +260,6 @@ export class FastslamLog extends FigureElement {
     this.#unfit = message
     if (parameter !== 'lenient') return this.messages.set('unfit', message)
     this.messages.set('unfit', `${log}, ${message}.`, this.words.say('skip_malformed'), () => this.setParameter('lenient', 'on'))
-  }
-
-  #showPhase(run: Run | undefined, step: number, last: number): void {
-    const held = document.activeElement === this && this.shadowRoot!.activeElement
-    const phase = (this.#phase = run?.phase ?? 'empty')
-    const underWay = phase === 'running' || phase === 'paused'
-    write(this.#go, this.words.say(({ running: 'pause', paused: 'resume', ready: 'start', empty: 'start', stopped: 'start_again', done: 'start_again' } as const)[phase]))
-    this.#go.disabled = phase === 'empty' || run?.unfit !== undefined
-    this.#halt.disabled = !underWay
-    // The focus does not fall out of the figure with the button that had it.
-    if (held === this.#halt && !underWay) this.#go.focus()
-    this.#progress.max = Math.max(last, 1)
-    this.#progress.value = step
-    const time = phase === 'running' && step > 0 ? ` · ${this.words.say('time_left', { time: duration(run!.left) })}` : ''
-    write(this.#position, last > 0 ? `${step} / ${last}${time}` : '')
-    for (const save of this.#saves) save.disabled = step === 0
-    if (this.controls) this.controls.settings.inert = this.controls.transport.inert = underWay
-    this.#zoom.inert = phase === 'empty'
   }
 
   #sources(): HTMLElement {
@@ -267,19 +273,13 @@ export class FastslamLog extends FigureElement {
     return h(
       'div',
       { class: 'work source', part: 'source' },
-      this.#named('run_example', () => void this.example(), { part: 'button example' }),
       this.#named('choose_log', () => this.#file.click()),
-      this.#file,
+      this.#example,
       drop,
     )
   }
 
   // --- Reader's input ----------------------------------------------------------------------------------------------------
-
-  #playPause(): void {
-    if (this.playing) this.pause()
-    else this.play()
-  }
 
   protected override get keysHelp(): string {
     return this.words.say('map_keys')
@@ -287,7 +287,8 @@ export class FastslamLog extends FigureElement {
 
   protected override keyAction(key: string, target: HTMLElement): (() => void) | undefined {
     if (target !== this.stage || this.#phase === 'empty') return undefined
-    if (key === ' ') return () => this.#playPause()
+    if (key === ' ') return () => (this.playing ? this.pause() : this.play())
+    if (key === ',' || key === '.') return () => this.byHand(() => (key === ',' ? this.stepBack() : this.step()))
     const command = MOVES[SAME_KEYS[key] ?? key]
     return command && (() => this.send(command))
   }
