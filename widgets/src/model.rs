@@ -141,10 +141,19 @@ pub struct Series {
 }
 
 /// What makes a version of a figure another one than the version before, for links.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Change {
     /// Older links show something else now: a sentence says what.
     Told(&'static str),
+    /// The same for those links only in which a parameter has this number.
+    ToldAt {
+        /// The parameter.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// The sentence.
+        change: &'static str,
+    },
     /// A parameter has another default. An older link that does not name it means the value that was the default then, and shows the same.
     Default {
         /// The parameter.

@@ -5,6 +5,7 @@
 //! older link leaves out is at the default of its version; of what else has changed, those who come by it are told.
 
 use crate::{
+    decimal,
     model::{Change, FigureError, Model},
     param::quoted,
     words::common::{AWholeNumber, EarlierLink, LaterLink},
@@ -50,6 +51,11 @@ fn since(query: &str, changes: &[Change]) -> (Vec<FigureError>, Vec<(String, Str
             for change in changes.iter().skip(version - 1).rev() {
                 match *change {
                     Change::Told(change) => said.insert(0, about(EarlierLink { change: &change }.say())),
+                    Change::ToldAt { name, value, change } => {
+                        if decoded(query).any(|(n, text)| n == name && decimal::parse(&text) == Some(value)) {
+                            said.insert(0, about(EarlierLink { change: &change }.say()));
+                        }
+                    }
                     Change::Default { name, was } => meant.push((name.into(), was.into())),
                 }
             }
@@ -134,6 +140,14 @@ mod tests {
         assert_eq!(meant("seed=4"), [pair("raw", "on"), pair("cell", "0.1"), pair("raw", "off")]);
         assert_eq!(meant("v=3&raw=off"), [pair("raw", "on"), pair("cell", "0.1")]);
         assert_eq!((meant("v=5"), since("v=2", changes).0.len()), (vec![], 1));
+    }
+
+    #[test]
+    fn what_has_changed_at_one_value_is_told_to_links_with_that_value() {
+        let changes = &[Change::ToldAt { name: "odometry", value: 0.0, change: "The path is known." }];
+        let told = |query| since(query, changes).0.len();
+        assert_eq!(["odometry=0", "odometry=0.0&seed=4"].map(told), [1, 1]);
+        assert_eq!(["odometry=0.05", "range-std=0", "v=2&odometry=0"].map(told), [0, 0, 0]);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::recipe::{Given, Recipe};
 use crate::decimal::fixed;
-use crate::model::{Column, Declared, FigureError, Model, Readout, Series};
+use crate::model::{Change, Column, Declared, FigureError, Model, Readout, Series};
 use crate::words::{common, conditioning};
 use fastslam_lab::{
     baseline::joint::MapCovariance,
@@ -163,6 +163,11 @@ fn couplings(map: &MapCovariance) -> Couplings {
 impl Declared for ConditioningModel {
     type Recipe = Recipe;
     const TITLE: &'static str = conditioning::TITLE;
+    const CHANGES: &'static [Change] = &[Change::ToldAt {
+        name: "odometry",
+        value: 0.0,
+        change: "Wheels without error leave the path known; a hidden floor of their noise used to couple all landmarks.",
+    }];
 
     fn recipe(&self) -> &Recipe {
         &self.recipe
