@@ -29,6 +29,11 @@ impl Panels {
         Ok(Self(Some(shown)))
     }
 
+    /// These, and no others.
+    pub fn of(names: &[&'static str]) -> Self {
+        Self(Some(names.into()))
+    }
+
     /// Whether a panel is shown.
     pub fn has(&self, name: &str) -> bool {
         self.0.as_ref().is_none_or(|shown| shown.contains(&name))

@@ -22,6 +22,12 @@ pub trait View: Default + 'static {
     /// Names of the parts that can be shown by themselves; none for a picture that is one piece.
     const PANELS: &'static [&'static str] = &[];
 
+    /// What is shown of the parts that were asked for: where a parameter folds some in or out, it is this. Nothing else of the state
+    /// changes a layout.
+    fn parts(_model: &Self::Model, asked: &Panels) -> Panels {
+        asked.clone()
+    }
+
     /// Where the parts stand in a scene of this width; those that are not shown have no height. Does not depend on the state, so that
     /// nothing below a figure ever jumps.
     fn layout(width: f64, panels: &Panels) -> Self::Layout;
@@ -124,6 +130,12 @@ impl<V: View> Default for Shows<V> {
     }
 }
 
+impl<V: View> Shows<V> {
+    fn parts(&self) -> Panels {
+        V::parts(&self.model, &self.panels)
+    }
+}
+
 impl<V: View> Shown for Shows<V> {
     fn model(&self) -> &dyn Model {
         &self.model
@@ -147,11 +159,11 @@ impl<V: View> Shown for Shows<V> {
     }
 
     fn height(&self, width: f64) -> f64 {
-        V::height(width, &self.panels)
+        V::height(width, &self.parts())
     }
 
     fn scene(&self, width: f64, height: f64) -> Scene {
-        self.view.scene(&self.model, &self.panels, width, height)
+        self.view.scene(&self.model, &self.parts(), width, height)
     }
 
     fn pick(&mut self, target: u32) {
@@ -159,7 +171,8 @@ impl<V: View> Shown for Shows<V> {
     }
 
     fn drag(&mut self, handle: &str, to: Point, width: f64) {
-        self.view.drag(&mut self.model, &V::layout(width, &self.panels), handle, to);
+        let layout = V::layout(width, &self.parts());
+        self.view.drag(&mut self.model, &layout, handle, to);
     }
 
     fn nudge(&mut self, handle: &str, steps: [f64; 2]) {
@@ -167,14 +180,16 @@ impl<V: View> Shown for Shows<V> {
     }
 
     fn zoom(&mut self, factor: f64, at: Option<Point>, width: f64) {
+        let layout = V::layout(width, &self.parts());
         if let Some(navigation) = self.view.navigation() {
-            navigation.zoom(&self.model, &V::layout(width, &self.panels), factor, at);
+            navigation.zoom(&self.model, &layout, factor, at);
         }
     }
 
     fn pan(&mut self, by: Point, width: f64) {
+        let layout = V::layout(width, &self.parts());
         if let Some(navigation) = self.view.navigation() {
-            navigation.pan(&self.model, &V::layout(width, &self.panels), by);
+            navigation.pan(&self.model, &layout, by);
         }
     }
 

@@ -76,7 +76,9 @@ pub const PICTURES: &[Picture] = &[
     picture(WORKED, "fastslam-worked-example-light", "", 800, 1.5, "light"),
     picture(WORKED, "fastslam-worked-example-dark", "", 800, 1.5, "dark"),
     picture(WORKED, "worked-phone", "", 340, 2.0, "light"),
-    picture(WORKED, "worked-poses", POSES, 980, 1.0, "light"),
+    picture(WORKED, "worked-poses", POSES, 728, 1.0, "light"),
+    picture(WORKED, "worked-poses-narrow", POSES, 588, 1.0, "dark"),
+    picture(WORKED, "worked-every-step", EVERY_STEP, 980, 1.0, "light"),
     picture(WORKED, "worked-extremes", EXTREMES, 720, 1.0, "contrast-dark"),
     picture(CONDITIONING, "fastslam-conditioning-light", "", 800, 1.5, "light"),
     picture(CONDITIONING, "fastslam-conditioning-dark", "", 800, 1.5, "dark"),
@@ -109,6 +111,8 @@ pub const PICTURES: &[Picture] = &[
 
 /// What a filter does: one sighting for both particles, from two poses; and the landmark's ellipse is turned.
 const POSES: &str = "x2=0.4&y2=-0.3&theta2=0.08&r2=4.1&phi2=0.05&sigma-xy=0.09&threshold=0.8";
+
+const EVERY_STEP: &str = "x2=0.4&y2=-0.3&theta2=0.08&r2=4.1&phi2=0.05&sigma-xy=0.09&threshold=0.8&all-steps=on";
 
 /// Numbers of every size.
 const EXTREMES: &str = "x1=-99.123456&y1=-12.5&theta1=-3.1415926&x2=4.000001&y2=0.000001&sigma-xx=0.0000321&sigma-xy=-0.0000123456&bearing-std=0.00123";

@@ -33,6 +33,11 @@ impl<'a> Sample<'a> {
         Self::new(move |place| vec![draw(place.centre())])
     }
 
+    /// Width of the place that it takes \[css px\].
+    pub fn width(&self) -> f64 {
+        self.width
+    }
+
     /// It, in a place.
     pub fn marks(&self, place: &Rect) -> Vec<Mark> {
         (self.draw)(place)

@@ -1,66 +1,116 @@
-//! Where the parts stand: a table with a column for each particle, or on a phone one particle below the other.
+//! Where the parts stand: the drawing, below it a table with a column for each particle, and at the end the decision. What a row says of
+//! itself stands beside its values: caption and formula in one line, below each other, or on a phone the symbol with its unit.
 
-use super::steps::{GIVEN, STEPS, Step};
+use super::steps::{FIVE_STEPS, GIVEN, STEPS, Step};
 use crate::{
     panels::Panels,
     scene::{LINE, Rect},
     view,
 };
 
-/// Names of the panels: the drawing, what both particles begin with, and the chain of steps with what follows from it.
+/// Names of the panels: the drawing, what both particles begin with, the five numbers that decide, and the whole chain of steps.
 pub const PLOT: &str = "plot";
 /// See [`PLOT`].
 pub const START: &str = "given";
 /// See [`PLOT`].
+pub const FIVE: &str = "five";
+/// See [`PLOT`].
 pub const CHAIN: &str = "steps";
-
-/// From this width on \[css px\], the particles stand side by side.
-pub const WIDE: f64 = 720.0;
 
 /// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
 pub const NARROWEST: f64 = 330.0;
 
 /// The corner of the figure is paper: the page takes its colour from there.
 const TOP: f64 = 2.0;
-const GAP: f64 = 16.0;
-const HEAD: f64 = 34.0;
-const TALL: f64 = 50.0;
-const SHORT: f64 = 42.0;
-const SELECTION: f64 = 80.0;
-const GIVEN_LABEL: f64 = 112.0;
-/// Height of the drawing where nothing stands beside it: a share of its width, and at most so much \[css px\].
-const SHARE: f64 = 0.46;
-const HIGHEST: f64 = 330.0;
+const GAP: f64 = 8.0;
+const HEAD: f64 = 24.0;
+const TALL: f64 = 42.0;
+/// Space at the right of a column.
+const APART: f64 = 12.0;
 
-/// Where a step is named, and where its value is written.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Place {
-    /// Caption and formula; in the second column of a table this is the label of the first.
-    pub label: Rect,
-    /// The value.
-    pub value: Rect,
+/// How the rows are labelled.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Labels {
+    /// Caption and formula in one line.
+    Line,
+    /// The caption above the formula.
+    Stacked,
+    /// The symbol, and its unit.
+    Short,
 }
 
-/// The chain of steps \[css px\].
+impl Labels {
+    fn of(width: f64) -> Self {
+        match width {
+            700.0.. => Self::Line,
+            520.0.. => Self::Stacked,
+            _ => Self::Short,
+        }
+    }
+
+    /// Width of the column of labels, in a figure of this width.
+    fn column(self, width: f64) -> f64 {
+        match self {
+            Self::Line => (0.2 * width + 182.0).floor(),
+            Self::Stacked => 200.0,
+            Self::Short => 70.0,
+        }
+    }
+
+    /// Height of a row of one line.
+    fn row(self) -> f64 {
+        if self == Self::Stacked { 2.0 * LINE } else { 26.0 }
+    }
+
+    /// Height of the decision.
+    fn selection(self) -> f64 {
+        if self == Self::Line { 38.0 } else { 52.0 }
+    }
+
+    /// Height of the drawing in a figure of this width: what the five rows leave of a screen.
+    fn drawing(self, width: f64) -> f64 {
+        match self {
+            Self::Short => (0.46 * width).clamp(150.0, 190.0),
+            Self::Stacked => 154.0,
+            Self::Line => (0.46 * width - 254.0).clamp(206.0, 340.0),
+        }
+        .floor()
+    }
+}
+
+/// Where a row is named, and where its values are written.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Place {
+    /// Caption and formula.
+    pub label: Rect,
+    /// The value of each particle.
+    pub values: [Rect; 2],
+}
+
+/// Steps of both particles, and what follows \[css px\].
 #[derive(Clone, PartialEq, Debug)]
 pub struct Chain {
-    /// Heading of each particle.
-    pub heads: [Rect; 2],
-    /// The steps of each.
-    pub steps: [Vec<Place>; 2],
-    /// N_eff and the verdict.
-    pub selection: Place,
+    /// Heading of each particle, and in front of them room for what the drawing has besides.
+    pub head: Place,
+    /// Whether all steps are shown, not only the five that decide.
+    pub all: bool,
+    /// Of each step.
+    pub places: Vec<Place>,
+    /// N_eff and the verdict: their name, the words, and the bar.
+    pub selection: [Rect; 3],
 }
 
 /// The parts of the figure \[css px\].
 #[derive(Clone, PartialEq, Debug)]
 pub struct Layout {
-    /// Whether the particles stand side by side.
-    pub wide: bool,
-    /// The drawing of robot and landmark, and what is drawn in it; if it is shown.
-    pub plot: Option<[Rect; 2]>,
+    /// How the rows are labelled.
+    pub labels: Labels,
+    /// The drawing, if it is shown.
+    pub plot: Option<Rect>,
+    /// What is drawn in it, where the heading of a chain has no room to say it.
+    pub names: Option<Rect>,
     /// What both begin with; nothing, if it is not shown.
-    pub given: Vec<Place>,
+    pub given: Vec<Rect>,
     /// The steps, if they are shown.
     pub chain: Option<Chain>,
     /// Of the whole figure.
@@ -68,70 +118,79 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Of all panels, for a figure of this width.
-    pub fn new(width: f64) -> Self {
-        Self::of(width, &Panels::default())
-    }
-
-    /// Of some panels: the others have no places.
+    /// Of some panels: the others have no places. Of all that there are, the drawing and the five rows are shown.
     pub fn of(width: f64, panels: &Panels) -> Self {
         let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
-        if width >= WIDE { Self::wide(width, panels) } else { Self::narrow(width, panels) }
-    }
-
-    fn wide(width: f64, panels: &Panels) -> Self {
-        let label = (0.34 * width).floor();
-        let column = 0.5 * (width - label);
-        // Beside the drawing, if there is one.
-        let x = if panels.has(PLOT) { label + column } else { 0.0 };
+        let labels = Labels::of(width);
+        let all = !panels.are_all() && panels.has(CHAIN);
+        let steps = all || panels.has(FIVE);
         let mut y = 0.0;
-        let given = rows(x, &mut y, [GIVEN_LABEL, column - GIVEN_LABEL], given(panels));
-        let plot = panels.has(PLOT).then(|| {
-            let [w, h] = if given.is_empty() { alone(width) } else { [x - 1.5 * GAP, y + 20.0] };
-            let plot = Rect::new(0.0, TOP, w, h);
-            [plot, Rect::new(0.0, plot.bottom() + 8.0, width, LINE)]
+        let mut take = |shown: bool, h: f64, gap: f64| {
+            shown.then(|| {
+                let part = Rect::new(0.0, y, width, h);
+                y = part.bottom() + gap;
+                part
+            })
+        };
+        let plot = take(panels.has(PLOT), TOP + labels.drawing(width), 4.0)
+            .map(|Rect { y, h, .. }| Rect::new(0.0, y + TOP, width, h - TOP));
+        let lines = if !steps && labels == Labels::Short { 3.0 } else { 1.0 };
+        let names = take(plot.is_some() && (!steps || labels != Labels::Line), lines * LINE, 0.0);
+        let given = take(!panels.are_all() && panels.has(START), TALL + GAP, 0.0);
+        let chain = steps.then(|| Chain::below(&mut y, width, labels, all));
+        let given = given.map_or(Vec::new(), |row| {
+            // A vector, and two matrices.
+            let ends = [0.0, 0.22, 0.58, 1.0].map(|share| (share * width).floor());
+            GIVEN.iter().zip(ends.windows(2)).map(|(_, x)| Rect::new(x[0], row.y, x[1] - x[0], TALL)).collect()
         });
-        y = plot.map_or(y, |[_, legend]| legend.bottom());
-        let chain = panels.has(CHAIN).then(|| {
-            y = below(y);
-            let heads = [0.0, 1.0].map(|k| Rect::new(label + k * column, y, column, HEAD));
-            y += HEAD;
-            let first = rows(0.0, &mut y, [label, column - GAP], STEPS);
-            let beside = |place: &Place| Place { value: Rect { x: place.value.x + column, ..place.value }, ..*place };
-            let second = first.iter().map(beside).collect();
-            let [label, value] = [[0.0, label], [label, width - label]].map(|[x, w]| Rect::new(x, y, w, SELECTION));
-            y = value.bottom();
-            Chain { heads, steps: [first, second], selection: Place { label, value } }
-        });
-        Self { wide: true, plot, given, chain, height: y.ceil() }
+        Self { labels, plot, names, given, chain, height: y.ceil() }
+    }
+}
+
+impl Chain {
+    /// The steps that have a place.
+    pub fn steps(&self) -> &'static [Step] {
+        steps(self.all)
     }
 
-    fn narrow(width: f64, panels: &Panels) -> Self {
-        let plot = panels.has(PLOT).then(|| {
-            let [w, h] = alone(width);
-            let plot = Rect::new(0.0, TOP, w, h);
-            [plot, Rect::new(0.0, plot.bottom() + 8.0, width, 3.0 * LINE)]
-        });
-        let columns = [(0.48 * width).floor(), width - (0.48 * width).floor()];
-        let mut y = plot.map_or(0.0, |[_, legend]| legend.bottom());
-        if panels.has(START) {
-            y = below(y);
-        }
-        let given = rows(0.0, &mut y, columns, given(panels));
-        let chain = panels.has(CHAIN).then(|| {
-            let mut particle = || {
-                let head = Rect::new(0.0, below(y), width, HEAD);
-                y = head.bottom();
-                (head, rows(0.0, &mut y, columns, STEPS))
-            };
-            let [(head1, first), (head2, second)] = [particle(), particle()];
-            let label = Rect::new(0.0, y + GAP, width, SHORT);
-            let selection = Place { label, value: Rect::new(0.0, label.bottom(), width, SELECTION) };
-            y = selection.value.bottom();
-            Chain { heads: [head1, head2], steps: [first, second], selection }
-        });
-        Self { wide: false, plot, given, chain, height: y.ceil() }
+    /// The bar that N_eff fills, from 0 to both particles.
+    pub fn bar(&self) -> Rect {
+        let [.., area] = self.selection;
+        Rect::new(area.x + 14.0, area.bottom() - 31.0, area.w - 32.0, 10.0)
     }
+
+    /// From this height on, which becomes that of its end.
+    fn below(y: &mut f64, width: f64, labels: Labels, all: bool) -> Self {
+        let label = labels.column(width);
+        let column = 0.5 * (width - label);
+        let mut row = |h: f64| {
+            let top = *y;
+            *y += h;
+            let value = |k: f64| Rect::new(label + k * column, top, column - APART, h);
+            Place { label: Rect::new(0.0, top, label - 0.5 * APART, h), values: [value(0.0), value(1.0)] }
+        };
+        let mut head = row(HEAD);
+        head.values.iter_mut().for_each(|value| value.w = column);
+        let places = steps(all).iter().map(|step| row(if step.tall { TALL } else { labels.row() })).collect();
+        let h = labels.selection();
+        let Place { label: name, values: [one, two] } = row(h);
+        let selection = match labels {
+            Labels::Line => [name, one, two],
+            // Words above the bar; on a phone the name stands in front of the words.
+            Labels::Stacked | Labels::Short => {
+                let words = 22.0;
+                let name = if labels == Labels::Short { Rect { h: words, ..name } } else { name };
+                let x = if labels == Labels::Short { 0.0 } else { one.x };
+                let bar = Rect::new(x, one.y + words, width - x, h - words);
+                [name, Rect::new(one.x, one.y, width - one.x, words), bar]
+            }
+        };
+        Self { head, all, places, selection }
+    }
+}
+
+fn steps(all: bool) -> &'static [Step] {
+    if all { STEPS } else { FIVE_STEPS }
 }
 
 impl view::Layout for Layout {
@@ -140,60 +199,47 @@ impl view::Layout for Layout {
     }
 }
 
-/// Size of a drawing with nothing beside it.
-fn alone(width: f64) -> [f64; 2] {
-    [width, (SHARE * width).floor().min(HIGHEST)]
-}
-
-/// Where a part begins, below those that end here.
-fn below(y: f64) -> f64 {
-    if y > 0.0 { y + GAP } else { y }
-}
-
-/// What both begin with, if it is shown.
-fn given(panels: &Panels) -> &'static [Step] {
-    if panels.has(START) { GIVEN } else { &[] }
-}
-
-/// A place for each step, from this corner on down, labels and values so wide.
-fn rows(x: f64, y: &mut f64, [label, value]: [f64; 2], steps: &[Step]) -> Vec<Place> {
-    let row = |step: &Step| {
-        let (h, top) = (if step.tall { TALL } else { SHORT }, *y);
-        *y += h;
-        Place { label: Rect::new(x, top, label, h), value: Rect::new(x + label, top, value, h) }
-    };
-    steps.iter().map(row).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scene::assert_apart;
 
     /// All parts that have a place.
-    fn parts(Layout { wide, plot, given, chain, .. }: &Layout) -> Vec<Rect> {
-        let mut parts: Vec<Rect> = plot.iter().flatten().copied().collect();
-        parts.extend(given.iter().flat_map(|place| [place.label, place.value]));
-        if let Some(Chain { heads, steps: [first, second], selection }) = chain {
-            parts.extend(heads);
-            parts.extend(first.iter().chain([selection]).flat_map(|place| [place.label, place.value]));
-            let labels = second.iter().map(|place| place.label).filter(|_| !wide);
-            parts.extend(second.iter().map(|place| place.value).chain(labels));
+    fn parts(Layout { plot, names, given, chain, .. }: &Layout) -> Vec<Rect> {
+        let mut parts: Vec<Rect> = plot.iter().chain(names).chain(given).copied().collect();
+        if let Some(Chain { head, places, selection, .. }) = chain {
+            parts.extend(selection);
+            for Place { label, values } in places.iter().chain([head]) {
+                parts.extend([label, &values[0], &values[1]]);
+            }
         }
         parts
     }
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        for names in ["all", "plot", "given", "steps", "plot given", "plot steps", "given steps"] {
-            let panels = Panels::named(names, &[PLOT, START, CHAIN]).unwrap();
+        for names in ["all", "plot", "given", "five", "steps", "plot given", "plot five", "plot steps", "given steps"] {
+            let panels = Panels::named(names, &[PLOT, START, FIVE, CHAIN]).unwrap();
             for width in (330..1600).step_by(7).map(f64::from) {
                 let layout = Layout::of(width, &panels);
                 let parts = parts(&layout);
                 assert_apart(&parts, &Rect::new(0.0, 0.0, width, layout.height));
                 let last = parts.iter().map(Rect::bottom).fold(0.0, f64::max);
-                assert!(layout.height - last < 1.0, "{names} at {width}: nothing is left below");
+                assert!(layout.height - last <= GAP, "{names} at {width}: nothing is left below");
             }
         }
+    }
+
+    #[test]
+    fn with_five_rows_it_is_as_high_as_a_screen_has_room_for() {
+        let height = |width: f64| Layout::of(width, &Panels::default()).height;
+        for (widths, most) in [(352..353, 450.0), (520..1001, 452.0)] {
+            for width in widths {
+                let height = height(f64::from(width));
+                assert!(height <= most, "{height} at {width}");
+            }
+        }
+        assert!((700..761).all(|width| height(f64::from(width)) >= 430.0));
+        assert!((1000..1400).all(|width| height(f64::from(width)) <= 0.56 * f64::from(width)));
     }
 }

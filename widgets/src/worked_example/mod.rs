@@ -1,10 +1,13 @@
 //! One update by hand: two particles, one landmark, one sighting each, and every number between input and decision.
 
+mod hands;
 mod layout;
 mod model;
+mod plot;
 mod recipe;
 mod steps;
 mod view;
+mod window;
 
 pub use layout::Layout;
 pub use model::WorkedExampleModel;

@@ -1,25 +1,25 @@
 //! The example as a deterministic state: its inputs.
 
-use super::recipe::plain;
+use super::recipe::{Recipe, plain};
 use crate::decimal::fixed;
 use crate::model::{Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text};
 use crate::words::{common, worked_example};
 use fastslam::geometry::Pose2;
-use fastslam_lab::experiment::worked_example::{Inputs, Update, WorkedExample};
+use fastslam_lab::experiment::worked_example::{Update, WorkedExample};
 
 /// Significant digits of readouts: what a phone has room for.
 const DIGITS: i32 = 7;
 
 /// The figure of the worked example.
 pub struct WorkedExampleModel {
-    inputs: Inputs,
+    recipe: Recipe,
     example: WorkedExample,
 }
 
 impl Default for WorkedExampleModel {
     fn default() -> Self {
-        let inputs = Inputs::default();
-        Self { inputs, example: WorkedExample::new(&inputs) }
+        let recipe = Recipe::default();
+        Self { recipe, example: WorkedExample::new(&recipe.inputs) }
     }
 }
 
@@ -47,15 +47,15 @@ impl WorkedExampleModel {
 }
 
 impl Declared for WorkedExampleModel {
-    type Recipe = Inputs;
+    type Recipe = Recipe;
     const TITLE: &'static str = worked_example::TITLE;
 
-    fn recipe(&self) -> &Inputs {
-        &self.inputs
+    fn recipe(&self) -> &Recipe {
+        &self.recipe
     }
 
-    fn adopt(&mut self, inputs: Inputs) -> Result<(), FigureError> {
-        *self = Self { inputs, example: WorkedExample::new(&inputs) };
+    fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
+        *self = Self { recipe, example: WorkedExample::new(&recipe.inputs) };
         Ok(())
     }
 }

@@ -1,30 +1,36 @@
-//! What is to be seen: robots and landmark in the plane, the chain of steps with every number, and the decision.
+//! What is to be seen: robots and landmark in the plane, the steps with their numbers, and the decision.
 
 use super::{
-    layout::{CHAIN, Chain, Layout, NARROWEST, PLOT, Place, START},
+    hands::{self, THRESHOLD},
+    layout::{CHAIN, Chain, FIVE, Labels, Layout, NARROWEST, PLOT, Place, START},
     model::WorkedExampleModel,
-    steps::{DIGITS, GIVEN, STEPS, Step},
+    plot::{after, before, plot},
+    steps::{GIVEN, Step, Writing},
 };
-use crate::decimal::write;
 use crate::{
     font::{self, Weight},
+    model::Declared,
     panels::Panels,
-    scene::{
-        Anchor, Formula, LINE, Mark, Plane, Point, Rect, Role, Sample, Scene, bar, closed, cross, ellipse, legend,
-        number, rimmed_polygon, robot, text,
-    },
+    scene::{Anchor, Formula, Handle, LINE, Mark, Point, Rect, Role, Sample, Scene, legend, number, text},
     view::View,
     words::worked_example,
 };
-use fastslam::map::landmarks::Landmark;
-use fastslam_lab::experiment::worked_example::{Update, WorkedExample};
+use fastslam_lab::experiment::worked_example::WorkedExample;
 
-/// Font sizes of formulas and values, and of words \[css px\].
-const SIZE: f64 = 14.5;
+/// Font sizes of formulas and values, the least of values before they lose digits, and of words \[css px\].
+const SIZE: f64 = 13.0;
+const SMALLEST: f64 = 11.0;
 const WORDS: f64 = 12.0;
 
-/// Standard deviations from the middle of an ellipse to its edge.
-const SIGMAS: f64 = 2.0;
+/// Significant digits of what is shown, and the fewest where there is little room.
+const DIGITS: i32 = 5;
+const FEWEST: i32 = 3;
+
+/// Width of the captions where formulas stand beside them \[css px\].
+const CAPTION: f64 = 162.0;
+
+/// Width of a column in which it can be said how a value comes about \[css px\].
+const SPACIOUS: f64 = 185.0;
 
 /// The worked example, as it is seen.
 #[derive(Default)]
@@ -34,7 +40,20 @@ impl View for WorkedExampleView {
     type Model = WorkedExampleModel;
     type Layout = Layout;
     const NARROWEST: f64 = NARROWEST;
-    const PANELS: &'static [&'static str] = &[PLOT, START, CHAIN];
+    const PANELS: &'static [&'static str] = &[PLOT, START, FIVE, CHAIN];
+
+    fn parts(model: &WorkedExampleModel, asked: &Panels) -> Panels {
+        match asked {
+            _ if !model.recipe().all_steps => asked.clone(),
+            _ if asked.are_all() => Panels::of(&[PLOT, START, CHAIN]),
+            _ if !asked.has(FIVE) => asked.clone(),
+            // In the place of the five.
+            _ => {
+                let shown = Self::PANELS.iter().copied().filter(|panel| asked.has(panel) || *panel == CHAIN);
+                Panels::of(&shown.collect::<Vec<_>>())
+            }
+        }
+    }
 
     fn layout(width: f64, panels: &Panels) -> Layout {
         Layout::of(width, panels)
@@ -42,167 +61,150 @@ impl View for WorkedExampleView {
 
     fn draw(&self, model: &WorkedExampleModel, layout: &Layout, scene: &mut Scene) {
         let example = model.example();
-        if let Some([drawing, names]) = &layout.plot {
-            plot(scene, example, drawing);
-            legend(scene, names, samples());
+        if let Some(area) = &layout.plot {
+            plot(scene, example, area);
         }
-        for (step, place) in GIVEN.iter().zip(&layout.given) {
-            label(scene, step, &place.label);
-            value(scene, &place.value, |line| (step.write)(line, example, 0));
+        if let Some(area) = &layout.names {
+            names(scene, area, layout.chain.is_none());
+        }
+        for (step, area) in GIVEN.iter().zip(&layout.given) {
+            given(scene, step, area, example);
         }
         if let Some(steps) = &layout.chain {
-            chain(scene, model, steps, layout.wide);
+            chain(scene, model, layout, steps);
         }
     }
+
+    fn drag(&self, model: &mut WorkedExampleModel, layout: &Layout, handle: &str, to: Point) {
+        hands::drag(model, layout, handle, to);
+    }
+
+    fn nudge(&self, model: &mut WorkedExampleModel, handle: &str, steps: [f64; 2]) {
+        hands::nudge(model, handle, steps);
+    }
+}
+
+/// What is drawn, and whose it is where there are no headings that say it.
+fn names(scene: &mut Scene, area: &Rect, particles: bool) {
+    let whose = |slot: usize| {
+        let name = worked_example::Particle { slot: &(slot + 1) }.say();
+        (after(Role::Particle(slot as u8)), format!("{name}: {}", worked_example::seen_after()))
+    };
+    let what = || (after(Role::Muted), worked_example::seen_after().to_string());
+    let others = if particles { vec![whose(0), whose(1)] } else { vec![what()] };
+    legend(scene, area, [(before(), worked_example::before().to_string())].into_iter().chain(others));
+}
+
+/// One of the matrices that both begin with, after its symbol.
+fn given(scene: &mut Scene, step: &Step, area: &Rect, example: &WorkedExample) {
+    let writing = Writing { size: SIZE, digits: DIGITS, brief: false };
+    let name = writing.line().tex(step.formula).tex(" = ");
+    let used = name.width();
+    name.draw(scene, [area.x, area.centre()[1]]);
+    let room = Rect::new(area.x + used, area.y, area.w - used - 8.0, area.h);
+    value(scene, &room, |writing| (step.write)(writing, example, 0));
 }
 
 /// The steps of both particles, and what follows.
-fn chain(scene: &mut Scene, model: &WorkedExampleModel, chain: &Chain, wide: bool) {
-    let mut rules = Vec::new();
-    for slot in [0, 1] {
-        let head = chain.heads[slot];
-        let colour = Rect::new(head.x, head.y + 0.5 * head.h - 5.0, 10.0, 10.0);
-        scene.marks.push(Mark::Fill { area: colour, role: Role::Particle(slot as u8) });
-        let name = Rect::new(head.x + 17.0, head.y, head.w - 17.0, head.h);
-        let title = worked_example::Particle { slot: &(slot + 1) }.say();
-        scene.marks.push(text(name, Anchor::Start, SIZE, Weight::SemiBold, Role::Ink, title));
-        for (step, place) in STEPS.iter().zip(&chain.steps[slot]) {
-            if slot == 0 || !wide {
-                label(scene, step, &place.label);
-                rules.push(rule(chain, place));
+fn chain(scene: &mut Scene, model: &WorkedExampleModel, layout: &Layout, chain: &Chain) {
+    let drawn = layout.plot.is_some();
+    if drawn && layout.names.is_none() {
+        names(scene, &middle_line(&chain.head.label), false);
+    }
+    for (slot, area) in chain.head.values.iter().enumerate() {
+        heading(scene, slot, area, drawn);
+    }
+    for (step, place) in chain.steps().iter().zip(&chain.places) {
+        label(scene, step, &place.label, layout.labels);
+        for (slot, area) in place.values.iter().enumerate() {
+            value(scene, area, |writing| (step.write)(writing, model.example(), slot));
+        }
+    }
+    let [name, ..] = chain.selection;
+    let tops = chain.places.iter().map(|Place { label, .. }| label.y).chain([name.y]);
+    let right = scene.width;
+    let lines = tops.map(|y| vec![[0.0, y.round() + 0.5], [right, y.round() + 0.5]]).collect();
+    scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role: Role::Frame });
+    selection(scene, model, chain, layout.labels);
+}
+
+/// A line of text in the middle of a row.
+fn middle_line(row: &Rect) -> Rect {
+    Rect { y: row.y + 0.5 * (row.h - LINE), h: LINE, ..*row }
+}
+
+/// Whose column it is, after what is drawn of it.
+fn heading(scene: &mut Scene, slot: usize, area: &Rect, drawn: bool) {
+    let (line, role) = (middle_line(area), Role::Particle(slot as u8));
+    let sample = if drawn { after(role) } else { Sample::dot(role, 5.0).wide(12.0) };
+    let place = Rect::new(line.x, line.y + 3.0, sample.width(), LINE - 6.0);
+    scene.marks.extend(sample.marks(&place));
+    let name = Rect::new(place.right() + 6.0, line.y, line.right() - place.right() - 6.0, LINE);
+    let title = worked_example::Particle { slot: &(slot + 1) }.say();
+    scene.marks.push(text(name, Anchor::Start, SIZE, Weight::SemiBold, Role::Ink, title));
+}
+
+/// What a row says of itself.
+fn label(scene: &mut Scene, step: &Step, area: &Rect, labels: Labels) {
+    let caption = (step.caption)();
+    let middle = area.centre()[1];
+    let formula = |scene: &mut Scene, tex: &str, at: Point| {
+        Formula::new(SIZE, Weight::Regular, Role::Ink).tex(tex).draw(scene, at);
+    };
+    let words = |scene: &mut Scene, area: Rect, words: &str| {
+        scene.marks.push(text(area, Anchor::Start, WORDS, Weight::Regular, Role::Muted, words));
+    };
+    match labels {
+        Labels::Line => {
+            words(scene, Rect::new(area.x, middle - 0.5 * LINE, CAPTION, LINE), caption);
+            formula(scene, step.formula, [area.x + CAPTION, middle]);
+        }
+        Labels::Stacked => {
+            words(scene, Rect::new(area.x, middle - LINE, area.w, LINE), caption);
+            formula(scene, step.formula, [area.x, middle + 0.5 * LINE]);
+        }
+        Labels::Short => {
+            let unit = step.unit().filter(|_| step.tall);
+            let up = if unit.is_some() { 0.5 * LINE } else { 0.0 };
+            formula(scene, step.symbol(), [area.x, middle - up]);
+            if let Some(unit) = unit {
+                words(scene, Rect::new(area.x, middle, area.w, LINE), unit);
             }
-            value(scene, &place.value, |line| (step.write)(line, model.example(), slot));
         }
     }
-    rules.push(rule(chain, &chain.selection));
-    scene.marks.push(Mark::Lines { lines: rules, width: 1.0, dash: None, role: Role::Frame });
-    selection(scene, model, &chain.selection);
 }
 
-/// The line above a step.
-fn rule(chain: &Chain, place: &Place) -> Vec<Point> {
-    let y = place.label.y.round() + 0.5;
-    vec![[0.0, y], [chain.selection.value.right(), y]]
-}
-
-/// Caption and formula of a step, below each other.
-fn label(scene: &mut Scene, step: &Step, area: &Rect) {
-    let caption = Rect::new(area.x, area.y + 0.5 * area.h - LINE, area.w, LINE);
-    let formula = Rect::new(area.x, caption.bottom(), area.w - 8.0, LINE);
-    scene.marks.push(text(caption, Anchor::Start, WORDS, Weight::Regular, Role::Muted, (step.caption)()));
-    value(scene, &formula, |line| line.tex(step.formula));
-}
-
-/// A line of mathematics at the left of an area, smaller if there is no room for it.
-fn value(scene: &mut Scene, area: &Rect, write: impl Fn(Formula) -> Formula) {
-    let line = |size| write(Formula::new(size, Weight::Regular, Role::Ink));
-    let full = line(SIZE);
-    let fitting = if full.width() > area.w { line(0.99 * SIZE * area.w / full.width()) } else { full };
-    fitting.draw(scene, [area.x, area.y + 0.5 * area.h]);
-}
-
-/// Everything that is drawn, at a place in the figure.
-fn whole(example: &WorkedExample, area: Rect) -> Plane {
-    let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
-    let mut put = |x: f64, y: f64, [dx, dy]: [f64; 2]| {
-        for ([low, high], (x, d)) in ends.iter_mut().zip([(x, dx), (y, dy)]) {
-            (*low, *high) = (low.min(x - d), high.max(x + d));
-        }
+/// A value at the left of an area: where there is little room, with fewer digits rather than too small to read.
+fn value(scene: &mut Scene, area: &Rect, write: impl Fn(&Writing) -> Formula) {
+    let brief = area.w < SPACIOUS;
+    let fitting = |digits: i32| {
+        let full = write(&Writing { size: SIZE, digits, brief }).width();
+        Writing { size: if full > area.w { 0.99 * SIZE * area.w / full } else { SIZE }, digits, brief }
     };
-    let reach = |landmark: &Landmark| {
-        let covariance = &landmark.covariance;
-        [covariance.m11, covariance.m22].map(|variance| SIGMAS * variance.max(0.0).sqrt())
-    };
-    put(example.before.mean.x, example.before.mean.y, reach(&example.before));
-    for Update { world_from_robot, seen_at, after, .. } in &example.updates {
-        put(world_from_robot.x, world_from_robot.y, [0.0; 2]);
-        put(seen_at.x, seen_at.y, [0.0; 2]);
-        put(after.mean.x, after.mean.y, reach(after));
-    }
-    let [x, y] = ends;
-    Plane::around(area, [[x[0], y[0]], [x[1], y[1]]], 18.0)
-}
-
-/// Robots, what they see, and the landmark before and after.
-fn plot(scene: &mut Scene, example: &WorkedExample, area: &Rect) {
-    let plane = whole(example, *area);
-    let marks = &mut scene.marks;
-    let ring = |landmark: &Landmark, width: f64, role: Role| {
-        let mean = [landmark.mean.x, landmark.mean.y];
-        [
-            Mark::Lines { lines: plane.region(mean, landmark.covariance.into(), SIGMAS), width, dash: None, role },
-            Mark::Discs { centres: vec![plane.point(mean)], radius: 2.5, role },
-        ]
-    };
-    marks.extend(ring(&example.before, 2.0, Role::Landmark));
-    for (slot, update) in example.updates.iter().enumerate() {
-        let role = Role::Particle(slot as u8);
-        let [from, to] = [plane.position(&update.world_from_robot), plane.point(update.seen_at.into())];
-        marks.push(Mark::Lines { lines: vec![vec![from, to]], width: 1.25, dash: Some([5.0, 4.0]), role });
-        marks.extend(ring(&update.after, 1.25, role));
-        marks.push(seen_at(to, role));
-    }
-    for (slot, length) in [(0, 13.0), (1, 8.0)] {
-        let pose = &example.updates[slot].world_from_robot;
-        let corners = robot(plane.position(pose), pose.theta, length);
-        rimmed_polygon(scene, corners, Role::Particle(slot as u8));
-    }
-    // The power of ten that takes up to half of the width.
-    let mut length = 1e-3;
-    while 10.0 * length * plane.scale <= 0.5 * area.w {
-        length *= 10.0;
-    }
-    let (x, y) = (area.x + 10.0, area.bottom() - 8.0);
-    scene.marks.push(bar([x, y], (length * plane.scale).min(area.w - 20.0)));
-    let name = Rect::new(x, y - 17.0, 70.0, 14.0);
-    scene.marks.push(text(name, Anchor::Start, 10.5, Weight::Regular, Role::Ink, format!("{} m", write(length))));
-    scene.marks.push(Mark::Frame { area: *area, width: 1.0, role: Role::Frame });
-}
-
-fn seen_at([x, y]: Point, role: Role) -> Mark {
-    let lines = cross(Rect::new(x - 4.0, y - 4.0, 8.0, 8.0));
-    Mark::Lines { lines, width: 2.0, dash: None, role }
-}
-
-/// What the drawing shows.
-fn samples() -> [(Sample<'static>, &'static str); 3] {
-    let landmark = |[x, y]: Point, width: f64, role: Role| {
-        let lines = vec![closed(ellipse([x, y], [[64.0, 0.0], [0.0, 25.0]], 1.0))];
-        [Mark::Lines { lines, width, dash: None, role }, Mark::Discs { centres: vec![[x, y]], radius: 2.0, role }]
-    };
-    let before =
-        Sample::new(move |place| landmark([place.right() - 9.0, place.centre()[1]], 2.0, Role::Landmark).into());
-    let of = |slot: u8| {
-        let role = Role::Particle(slot);
-        let draw = move |place: &Rect| {
-            let (x, y) = (place.x, place.centre()[1]);
-            let lines = vec![vec![[x, y], [x + 20.0, y]]];
-            let sight = Mark::Lines { lines, width: 1.25, dash: Some([5.0, 4.0]), role };
-            let after = landmark([place.right() - 9.0, y], 1.25, role);
-            [sight, seen_at([x + 22.0, y], role)].into_iter().chain(after).collect()
-        };
-        Sample::new(draw).wide(53.0)
-    };
-    [(before.wide(19.0), worked_example::before()), (of(0), worked_example::of_1()), (of(1), worked_example::of_2())]
+    let legible = (FEWEST..=DIGITS).rev().map(fitting).find(|writing| writing.size >= SMALLEST);
+    write(&legible.unwrap_or_else(|| fitting(FEWEST))).draw(scene, [area.x, area.centre()[1]]);
 }
 
 /// N_eff on its scale from nothing to M, against the threshold, and what follows.
-fn selection(scene: &mut Scene, model: &WorkedExampleModel, place: &Place) {
+fn selection(scene: &mut Scene, model: &WorkedExampleModel, chain: &Chain, labels: Labels) {
     let WorkedExample { ess, limit, resamples, .. } = model.example();
-    let Place { label: place, value: area } = *place;
-    let caption = Rect::new(place.x, place.y + 0.5 * place.h - LINE, place.w, LINE);
-    let words = worked_example::effective();
-    scene.marks.push(text(caption, Anchor::Start, WORDS, Weight::Regular, Role::Muted, words));
-    let formula = Rect::new(place.x, caption.bottom(), place.w, LINE);
-    let number_of = format!("N_{{eff}} = 1 / Σ w\u{303}^2 = {}", number(*ess, DIGITS));
-    value(scene, &formula, |line| line.tex(&number_of));
+    let [name, words, _] = chain.selection;
+    let (caption, formula) = (worked_example::effective, "N_{eff} = 1 / Σ w\u{303}^2");
+    match labels {
+        Labels::Short => {
+            Formula::new(SIZE, Weight::Regular, Role::Ink).tex("N_{eff}").draw(scene, [name.x, name.centre()[1]])
+        }
+        _ => label(scene, &Step { caption, formula, tall: false, write: |to, _, _| to.line() }, &name, labels),
+    }
     let role = if *resamples { Role::Copied } else { Role::Accent };
-    let line = Rect::new(area.x, area.y + 6.0, area.w, 26.0);
-    scene.marks.push(text(line, Anchor::Start, 17.0, Weight::SemiBold, role, model.verdict()));
+    let verdict = model.verdict();
+    let full = font::measure(&verdict, 14.5, Weight::SemiBold);
+    let size = if full > words.w { 0.99 * 14.5 * words.w / full } else { 14.5 };
+    scene.marks.push(text(words, Anchor::Start, size, Weight::SemiBold, role, verdict));
 
-    let bar = Rect::new(area.x + 14.0, line.bottom() + 8.0, area.w - 32.0, 10.0);
+    let bar = chain.bar();
     let at = |ess: f64| bar.x + bar.w * ess / model.example().updates.len() as f64;
-    for (name, x, anchor) in [("0", area.x, Anchor::Start), ("2", bar.right() + 4.0, Anchor::End)] {
+    for (name, x, anchor) in [("0", bar.x - 14.0, Anchor::Start), ("2", bar.right() + 4.0, Anchor::End)] {
         let end = Rect::new(x, bar.y - 3.0, 14.0, 16.0);
         scene.marks.push(text(end, anchor, WORDS, Weight::Regular, Role::Muted, name));
     }
@@ -212,10 +214,24 @@ fn selection(scene: &mut Scene, model: &WorkedExampleModel, place: &Place) {
     let lines = vec![vec![[x, bar.y - 5.0], [x, bar.bottom() + 5.0]]];
     scene.marks.push(Mark::Lines { lines: lines.clone(), width: 5.0, dash: None, role: Role::Paper });
     scene.marks.push(Mark::Lines { lines, width: 2.0, dash: None, role: Role::Ink });
+    // It can be moved.
+    let grip = [x, bar.centre()[1]];
+    scene.marks.push(Mark::Discs { centres: vec![grip], radius: 7.5, role: Role::Paper });
+    scene.marks.push(Mark::Discs { centres: vec![grip], radius: 6.0, role: Role::Ink });
     let name = worked_example::ThresholdM { limit: &number(*limit, DIGITS) }.say();
-    let w = font::measure(&name, WORDS, Weight::Regular);
+    let w = font::measure(&name, WORDS, Weight::Regular) + 0.01;
     // Not `clamp`: its panic writes both ends, which takes 20 KB.
-    let left = (x - 0.5 * w).min(area.right() - w).max(area.x);
-    let under = Rect::new(left, bar.bottom() + 6.0, w, LINE);
-    scene.marks.push(text(under, Anchor::Start, WORDS, Weight::Regular, Role::Ink, name));
+    let left = (x - 0.5 * w).min(bar.right() + 18.0 - w).max(bar.x - 14.0);
+    let under = Rect::new(left, bar.bottom() + 3.0, w, LINE);
+    scene.marks.push(text(under, Anchor::Start, WORDS, Weight::Regular, Role::Ink, name.clone()));
+    let value = model.recipe().inputs.threshold;
+    scene.handles.push(Handle {
+        name: THRESHOLD,
+        title: worked_example::threshold_handle().into(),
+        at: grip,
+        axes: &[THRESHOLD],
+        value,
+        text: name,
+        hover: None,
+    });
 }

@@ -1,0 +1,180 @@
+//! The drawing: robots, what they see, the landmark before and after, and what of them is grasped.
+
+use super::{
+    hands::{Grip, HEADINGS},
+    window::{SIGMAS, Thing, nearest, plane},
+};
+use crate::{
+    decimal::write,
+    font::Weight,
+    scene::{
+        Anchor, Handle, Mark, Plane, Point, Rect, Role, Sample, Scene, bar, clip_polyline, closed, cross, ellipse,
+        rimmed_polygon, robot, text,
+    },
+    words::worked_example,
+};
+use fastslam::{map::landmarks::Landmark, ops};
+use fastslam_lab::experiment::worked_example::WorkedExample;
+
+/// Radius of a knob, and of a plain grip \[css px\].
+const KNOB: f64 = 8.5;
+const GRIP: f64 = 5.0;
+
+/// Robots, what they see, and the landmark before and after.
+pub fn plot(scene: &mut Scene, example: &WorkedExample, area: &Rect) {
+    let plane = plane(example, *area);
+    let ring = |landmark: &Landmark, width: f64, role: Role| {
+        let mean = [landmark.mean.x, landmark.mean.y];
+        let lines = plane.region(mean, landmark.covariance.into(), SIGMAS);
+        let middle = Some(plane.point(mean)).filter(|at| area.inset(3.0).contains(*at));
+        let dot = middle.map(|at| Mark::Discs { centres: vec![at], radius: 2.5, role });
+        [Mark::Lines { lines, width, dash: None, role }].into_iter().chain(dot)
+    };
+    scene.marks.extend(ring(&example.before, 2.0, Role::Landmark));
+    for (slot, update) in example.updates.iter().enumerate() {
+        let role = Role::Particle(slot as u8);
+        let [from, to] = [Thing::Robot(slot), Thing::Sighting(slot)].map(|thing| plane.point(thing.place(example)));
+        let lines = clip_polyline(&[from, to], area);
+        scene.marks.push(Mark::Lines { lines, width: 1.25, dash: Some([5.0, 4.0]), role });
+        scene.marks.extend(ring(&update.after, 1.25, role));
+        let lever = vec![from, Grip::Heading(slot).at(example, &plane)];
+        scene.marks.push(Mark::Lines { lines: vec![lever], width: 1.5, dash: None, role });
+    }
+    for (slot, length) in [(0, 13.0), (1, 8.0)] {
+        let pose = &example.updates[slot].world_from_robot;
+        let corners = robot(plane.position(pose), pose.theta, length);
+        rimmed_polygon(scene, corners, Role::Particle(slot as u8));
+        let (role, at) = (Role::Particle(slot as u8), plane.point(Thing::Sighting(slot).place(example)));
+        scene.marks.push(seen_at(at, role));
+    }
+    scale(scene, &plane);
+    let places = Grip::NAMED.map(|(_, grip)| grip.at(example, &plane));
+    for (k, (_, grip)) in Grip::NAMED.into_iter().enumerate() {
+        let [x, y] = places[k];
+        // One that another covers has no name to be read.
+        let open = places[k + 1..].iter().all(|[u, v]| ops::hypot(u - x, v - y) > 2.0 * KNOB);
+        draw(scene, grip, example, &plane, open);
+    }
+    scene.marks.push(Mark::Frame { area: *area, width: 1.0, role: Role::Frame });
+    for (name, grip) in Grip::NAMED {
+        scene.handles.push(handle(name, grip, example, &plane));
+    }
+}
+
+/// What is grasped, as it is seen.
+fn draw(scene: &mut Scene, grip: Grip, example: &WorkedExample, plane: &Plane, named: bool) {
+    let at = grip.at(example, plane);
+    let disc = |radius: f64, role: Role| Mark::Discs { centres: vec![at], radius, role };
+    match grip {
+        Grip::Thing(Thing::Mean) => {
+            let circle = closed(ellipse(at, [[1.0, 0.0], [0.0, 1.0]], KNOB));
+            scene.marks.push(Mark::Lines { lines: vec![circle], width: 2.0, dash: None, role: Role::Landmark });
+        }
+        Grip::Thing(thing @ (Thing::Robot(slot) | Thing::Sighting(slot))) => {
+            let role = Role::Particle(slot as u8);
+            let stem = vec![plane.point(thing.place(example)), at];
+            scene.marks.push(Mark::Lines { lines: vec![stem], width: 1.0, dash: None, role });
+            scene.marks.extend([disc(KNOB + 1.5, Role::Paper), disc(KNOB, role)]);
+            if named {
+                let place = Rect::new(at[0] - KNOB, at[1] - KNOB, 2.0 * KNOB, 2.0 * KNOB);
+                let name = (slot + 1).to_string();
+                scene.marks.push(text(place, Anchor::Middle, 11.5, Weight::SemiBold, Role::Paper, name));
+            }
+        }
+        Grip::Heading(slot) => {
+            scene.marks.extend([disc(GRIP + 1.5, Role::Paper), disc(GRIP, Role::Particle(slot as u8))]);
+        }
+        Grip::Spread | Grip::Height => {
+            scene.marks.extend([disc(GRIP + 1.5, Role::Paper), disc(GRIP, Role::Landmark)]);
+        }
+    }
+}
+
+fn handle(name: &'static str, grip: Grip, example: &WorkedExample, plane: &Plane) -> Handle {
+    let covariance = &example.before.covariance;
+    let place = |[x, y]: [f64; 2]| worked_example::Place { x: &write(x), y: &write(y) }.say();
+    let (title, value, words) = match grip {
+        Grip::Thing(Thing::Robot(slot)) => {
+            let at = Thing::Robot(slot).place(example);
+            (worked_example::RobotHandle { slot: &(slot + 1) }.say(), at[0], place(at))
+        }
+        Grip::Thing(Thing::Sighting(slot)) => {
+            let z = &example.updates[slot].z;
+            let words = worked_example::Polar { r: &write(z.x), phi: &write(z.y) }.say();
+            (worked_example::SightingHandle { slot: &(slot + 1) }.say(), z.x, words)
+        }
+        Grip::Thing(Thing::Mean) => {
+            let at = Thing::Mean.place(example);
+            (worked_example::mean_handle().into(), at[0], place(at))
+        }
+        Grip::Heading(slot) => {
+            let theta = example.updates[slot].world_from_robot.theta;
+            let words = worked_example::Angle { theta: &write(theta) }.say();
+            (worked_example::HeadingHandle { slot: &(slot + 1) }.say(), theta, words)
+        }
+        Grip::Spread => {
+            let words = worked_example::Spread { xx: &write(covariance.m11), xy: &write(covariance.m12) }.say();
+            (worked_example::spread_handle().into(), covariance.m11, words)
+        }
+        Grip::Height => {
+            let words = worked_example::Variance { yy: &write(covariance.m22) }.say();
+            (worked_example::height_handle().into(), covariance.m22, words)
+        }
+    };
+    Handle { name, title, at: grip.at(example, plane), axes: grip.axes(), value, text: words, hover: None }
+}
+
+/// How long a metre is: the power of ten that takes up to half of the width.
+fn scale(scene: &mut Scene, plane: &Plane) {
+    let area = plane.area;
+    let mut length = 1e-3;
+    while 10.0 * length * plane.scale <= 0.5 * area.w {
+        length *= 10.0;
+    }
+    let px = (length * plane.scale).min(area.w - 20.0);
+    let (x, y) = (area.right() - 10.0 - px, area.bottom() - 7.0);
+    scene.marks.push(bar([x, y], px));
+    let room = px.max(36.0);
+    let name = Rect::new(area.right() - 10.0 - room, y - 17.0, room, 15.0);
+    scene.marks.push(text(name, Anchor::End, 11.0, Weight::Regular, Role::Ink, format!("{} m", write(length))));
+}
+
+fn seen_at([x, y]: Point, role: Role) -> Mark {
+    let lines = cross(Rect::new(x - 4.0, y - 4.0, 8.0, 8.0));
+    Mark::Lines { lines, width: 2.0, dash: None, role }
+}
+
+fn landmark([x, y]: Point, width: f64, role: Role) -> [Mark; 2] {
+    let lines = vec![closed(ellipse([x, y], [[64.0, 0.0], [0.0, 25.0]], 1.0))];
+    [Mark::Lines { lines, width, dash: None, role }, Mark::Discs { centres: vec![[x, y]], radius: 2.0, role }]
+}
+
+/// The landmark before the sightings, in a legend.
+pub fn before() -> Sample<'static> {
+    Sample::new(|place| landmark([place.right() - 9.0, place.centre()[1]], 2.0, Role::Landmark).into()).wide(19.0)
+}
+
+/// What a particle sees, and the landmark after that.
+pub fn after(role: Role) -> Sample<'static> {
+    let draw = move |place: &Rect| {
+        let (x, y) = (place.x, place.centre()[1]);
+        let lines = vec![vec![[x, y], [x + 20.0, y]]];
+        let sight = Mark::Lines { lines, width: 1.25, dash: Some([5.0, 4.0]), role };
+        let after = landmark([place.right() - 9.0, y], 1.25, role);
+        [sight, seen_at([x + 22.0, y], role)].into_iter().chain(after).collect()
+    };
+    Sample::new(draw).wide(50.0)
+}
+
+/// Where the lever ends by which a robot is turned: not so near to the robot, or to the other's, that a finger takes both, and not
+/// outside of the drawing.
+pub fn lever(example: &WorkedExample, slot: usize, plane: &Plane) -> Point {
+    let pose = &example.updates[slot].world_from_robot;
+    let from = plane.position(pose);
+    let (sin, cos) = ops::sin_cos(pose.theta);
+    let tip = nearest([from[0] + HEADINGS[slot] * cos, from[1] - HEADINGS[slot] * sin], &plane.area.inset(8.0));
+    // As far along its direction as the edge that it meets first allows.
+    let share = |k: usize, along: f64| if along == 0.0 { 1.0 } else { ((tip[k] - from[k]) / along).max(0.0) };
+    let length = HEADINGS[slot] * share(0, HEADINGS[slot] * cos).min(share(1, -HEADINGS[slot] * sin));
+    [from[0] + length * cos, from[1] - length * sin]
+}
