@@ -1,10 +1,23 @@
-// What a reader does with the worked example: types numbers, and sees what follows.
+// What a reader does with the worked example: drags what is seen, types into matrices, and sees in the same screen what follows.
 import { expect, test } from './fixtures'
-import { Figure } from './figure'
+import { Figure, frames } from './figure'
+import { openCourse } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
 const tag = 'fastslam-worked-example'
+
+/** Where a handle is on the page. */
+async function middle(figure: Figure, handle: string): Promise<{ x: number; y: number }> {
+  const box = (await figure.handle(handle).boundingBox())!
+  return { x: box.x + box.width / 2, y: box.y + box.height / 2 }
+}
+
+/** Opens what is folded where there is no room beside the picture. */
+async function openInputs(figure: Figure): Promise<void> {
+  const inputs = figure.element.locator('details[part=inputs]')
+  if (!(await inputs.evaluate((details: HTMLDetailsElement) => details.open))) await inputs.locator('summary').click()
+}
 
 test('as given it says what the chapter says', async ({ page }) => {
   const figure = await new Figure(page, tag).alone()
@@ -20,7 +33,6 @@ test('as given it says what the chapter says', async ({ page }) => {
 
 test('a number is typed by keyboard, and Reset takes it back', async ({ page }) => {
   const figure = await new Figure(page, tag).alone()
-  await figure.openSettings()
   const [readouts, picture] = [await figure.readouts(), await figure.picture()]
   await figure.box('threshold').focus()
   await page.keyboard.press('ControlOrMeta+a')
@@ -49,7 +61,6 @@ for (const [name, value, reason] of [
 ] as const) {
   test(`${name} = "${value}" is refused with its reason, and nothing changes`, async ({ page }) => {
     const figure = await new Figure(page, tag).alone()
-    await figure.openSettings()
     const [readouts, before] = [await figure.readouts(), await figure.box(name).inputValue()]
     await figure.box(name).fill(value)
     await figure.box(name).press('Enter')
@@ -65,7 +76,6 @@ test.describe('by link', () => {
 
   test('a copied link opens the very same numbers', async ({ page, context }) => {
     const figure = await new Figure(page, tag).alone()
-    await figure.openSettings()
     for (const [name, value] of [
       ['sigma-xy', '0.09'],
       ['x2', '-0.4'],
@@ -86,25 +96,167 @@ test.describe('by link', () => {
   })
 })
 
+for (const [handle, parameters] of [
+  ['robot-1', ['x1', 'y1']],
+  ['heading-2', ['theta2']],
+  ['sighting-1', ['r1', 'phi1']],
+  ['sighting-2', ['r2', 'phi2']],
+  ['mean', ['mu-x', 'mu-y']],
+  ['sigma', ['sigma-xx', 'sigma-xy']],
+  ['sigma-yy', ['sigma-yy']],
+  ['threshold', ['threshold']],
+] as const) {
+  test(`${handle} is dragged by the mouse: its numbers follow, and no others`, async ({ page }) => {
+    const figure = await new Figure(page, tag).alone()
+    const [picture, start] = [await figure.picture(), await middle(figure, handle)]
+    const right = handle === 'robot-1' ? 30 : -30 // it stands at the left
+    await page.mouse.move(start.x + 2, start.y - 1)
+    await page.mouse.down()
+    await page.mouse.move(start.x + 2 + right, start.y + 29, { steps: 8 })
+    await figure.settled()
+    await page.mouse.up()
+    expect(await figure.picture()).not.toBe(picture)
+    const moved = [...(await figure.state()).matchAll(/([\w-]+)=/g)].map(([, name]) => name)
+    expect(moved).toEqual(parameters)
+    // The hand is still on it.
+    const end = await middle(figure, handle)
+    if (!/heading|threshold|sigma-yy/.test(handle)) {
+      expect(Math.abs(end.x - start.x - right)).toBeLessThan(3)
+      expect(Math.abs(end.y - start.y - 30)).toBeLessThan(3)
+    }
+    await figure.reset.click()
+    await figure.settled()
+    expect(await figure.picture()).toBe(picture)
+  })
+}
+
+test('handles are moved by keyboard, coarsely with Shift and finely with Alt', async ({ page }) => {
+  const figure = await new Figure(page, tag).alone()
+  await figure.grasp('sighting-1').focus()
+  for (const [keys, r, phi] of [
+    ['ArrowRight', '4.2', '0.05'],
+    ['ArrowUp', '4.2', '0.1'],
+    ['Shift+ArrowLeft', '3.2', '0.1'],
+    ['Alt+ArrowDown', '3.2', '0.095'],
+  ] as const) {
+    await page.keyboard.press(keys)
+    await figure.settled()
+    await expect(figure.box('r1')).toHaveValue(r)
+    await expect(figure.box('phi1')).toHaveValue(phi)
+  }
+  await expect(figure.grasp('sighting-1')).toHaveAttribute('aria-valuetext', '3.2 m away, at 0.095 rad')
+})
+
+test('picture, rows and matrices are on one screen, and S is seen to change there', async ({ page }) => {
+  for (const [width, height] of [[1366, 650], [1024, 618]] as const) {
+    await page.setViewportSize({ width, height })
+    await openCourse(page, `<main style="max-width: 960px; margin: auto"><${tag}></${tag}></main>`)
+    const figure = new Figure(page, tag)
+    await figure.live()
+    const box = (await figure.element.boundingBox())!
+    expect(box.height, `at ${width}`).toBeLessThanOrEqual(612)
+    for (const name of ['mu-x', 'sigma-xy', 'range-std', 'theta2', 'phi1', 'threshold']) await expect(figure.box(name)).toBeInViewport({ ratio: 1 })
+    const picture = await figure.picture()
+    await figure.box('bearing-std').fill('0.025')
+    await figure.box('bearing-std').press('Enter')
+    await figure.settled()
+    expect(await figure.picture()).not.toBe(picture)
+    await expect(figure.canvas).toBeInViewport({ ratio: 1 })
+  }
+})
+
+test('a matrix has each entry once, with its name, and the one below the diagonal follows', async ({ page }) => {
+  const figure = await new Figure(page, tag).alone()
+  const names = await figure.element.locator('.matrix input').evaluateAll(boxes => boxes.map(box => [(box as HTMLInputElement).name, box.getAttribute('aria-label')]))
+  expect(names).toHaveLength(17)
+  expect(new Set(names.map(([name]) => name)).size).toBe(17)
+  expect(names.filter(([, label]) => !label)).toEqual([])
+  await expect(figure.element.getByRole('spinbutton', { name: 'Σ, xy' })).toHaveValue('0')
+  await figure.box('sigma-xy').fill('0.05')
+  await figure.box('sigma-xy').press('Enter')
+  await figure.settled()
+  await expect(figure.element.locator('[aria-label=Σ] .fixed')).toHaveText('0.05')
+})
+
+test('every step is shown at a wish, whole and as large as the five', async ({ page }) => {
+  const figure = await new Figure(page, tag).alone()
+  const before = (await figure.canvas.boundingBox())!
+  await figure.element.getByRole('checkbox', { name: 'Every step' }).check()
+  await figure.settled()
+  const after = (await figure.canvas.boundingBox())!
+  expect(after.width).toBe(before.width)
+  expect(after.height).toBeGreaterThan(before.height + 250)
+  expect(await figure.state()).toContain('all-steps=on')
+  await figure.element.getByRole('checkbox', { name: 'Every step' }).uncheck()
+  await figure.settled()
+  expect(await figure.canvas.boundingBox()).toEqual(before)
+})
+
+test('what an author leaves out leaves no brackets, and nothing at all if nothing is left', async ({ page }) => {
+  await openCourse(page, `<${tag} controls="sigma-xx sigma-yy"></${tag}>`)
+  const figure = new Figure(page, tag)
+  await figure.live()
+  await expect(figure.element.locator('.matrix').filter({ visible: true })).toHaveCount(1)
+  await expect(figure.box('sigma-xx')).toBeVisible()
+  await expect(figure.box('sigma-xy')).toBeHidden()
+  await figure.element.evaluate(element => element.setAttribute('controls', 'none'))
+  await figure.settled()
+  await expect(figure.element.locator('.main')).toBeHidden()
+})
+
+test('in another language the boxes stand in their matrices again', async ({ page }) => {
+  await openCourse(page, `<${tag}></${tag}>`, { lang: 'de' })
+  const figure = new Figure(page, tag)
+  await figure.live()
+  await expect(figure.element.getByRole('spinbutton', { name: 'Entfernung 1' })).toHaveValue('4,1')
+  await page.evaluate(() => (document.documentElement.lang = 'en'))
+  await figure.element.evaluate(element => element.setAttribute('lang', 'en'))
+  await expect(figure.element.getByRole('spinbutton', { name: 'Range 1' })).toHaveValue('4.1')
+  await expect(figure.element.locator('.matrix input')).toHaveCount(17)
+  await expect(figure.element.locator('[part=inputs]')).toHaveCount(1)
+  await expect(figure.reset).toHaveCount(1)
+})
+
 test.describe('on a phone', () => {
   test.use({ viewport: { width: 380, height: 740 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 })
 
-  test('the particles stand below each other, and nothing is wider than the screen', async ({ page }) => {
+  test('the particles stand beside each other in a picture that leaves room, and nothing is wider than the screen', async ({ page }) => {
     const figure = await new Figure(page, tag).alone()
-    await figure.openSettings()
+    await openInputs(figure)
     expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(380)
-    const { width, height } = (await figure.canvas.boundingBox())!
-    expect(height).toBeGreaterThan(4 * width)
+    const { height } = (await figure.canvas.boundingBox())!
+    expect(height).toBeLessThanOrEqual(450)
     const small = await figure.element.evaluate(element =>
-      [...element.shadowRoot!.querySelectorAll('button, input, summary')]
-        .filter(control => control.getClientRects().length > 0 && control.getBoundingClientRect().height < 40)
+      [...element.shadowRoot!.querySelectorAll('button, input:not(.handle input), summary')]
+        .filter(control => control.checkVisibility() && control.getBoundingClientRect().height < 40 && !control.matches('[type=checkbox]'))
         .map(control => control.outerHTML.slice(0, 80)),
     )
     expect(small).toEqual([])
     // No readout is cut off or laid over its neighbour.
+    await figure.openNumbers()
     const wide = await figure.element.evaluate(element =>
       [...element.shadowRoot!.querySelectorAll('dd')].filter(dd => dd.scrollWidth > dd.clientWidth).map(dd => dd.textContent),
     )
     expect(wide).toEqual([])
+  })
+
+  test('a finger drags a sighting, and the page stays', async ({ page }) => {
+    const figure = await new Figure(page, tag).alone()
+    const client = await page.context().newCDPSession(page)
+    const touch = (type: 'touchStart' | 'touchMove' | 'touchEnd', ...touchPoints: { x: number; y: number }[]) =>
+      client.send('Input.dispatchTouchEvent', { type, touchPoints })
+    const [{ x, y }, scrolled] = [await middle(figure, 'sighting-2'), await page.evaluate(() => scrollY)]
+    await touch('touchStart', { x, y })
+    for (let i = 1; i <= 10; i++) {
+      await touch('touchMove', { x: x - 3 * i, y: y + 4 * i })
+      await frames(page, 1)
+    }
+    await touch('touchEnd')
+    await figure.settled()
+    expect(await page.evaluate(() => scrollY)).toBe(scrolled)
+    expect(await figure.state()).toMatch(/^r2=[\d.]+&phi2=-?[\d.]+$/)
+    const end = await middle(figure, 'sighting-2')
+    expect(Math.abs(end.x - x + 30)).toBeLessThan(3)
+    expect(Math.abs(end.y - y - 40)).toBeLessThan(3)
   })
 })

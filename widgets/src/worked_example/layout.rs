@@ -25,6 +25,10 @@ const TOP: f64 = 2.0;
 const GAP: f64 = 8.0;
 const HEAD: f64 = 24.0;
 const TALL: f64 = 42.0;
+/// Room for the longest formula of a row.
+const FORMULA: f64 = 168.0;
+/// Room for the formula of N_eff.
+const N_EFF: f64 = 96.0;
 /// Space at the right of a column.
 const APART: f64 = 12.0;
 
@@ -42,16 +46,21 @@ pub enum Labels {
 impl Labels {
     fn of(width: f64) -> Self {
         match width {
-            700.0.. => Self::Line,
+            610.0.. => Self::Line,
             520.0.. => Self::Stacked,
             _ => Self::Short,
         }
     }
 
-    /// Width of the column of labels, in a figure of this width.
-    fn column(self, width: f64) -> f64 {
+    /// Width of the captions, where formulas stand beside them; those of all steps are longer.
+    pub fn captions(all: bool) -> f64 {
+        if all { 164.0 } else { 138.0 }
+    }
+
+    /// Width of the column of labels.
+    fn column(self, width: f64, all: bool) -> f64 {
         match self {
-            Self::Line => (0.2 * width + 182.0).floor(),
+            Self::Line => Self::captions(all) + FORMULA + (0.12 * (width - 800.0)).max(0.0).floor(),
             Self::Stacked => 200.0,
             Self::Short => 70.0,
         }
@@ -72,7 +81,8 @@ impl Labels {
         match self {
             Self::Short => (0.46 * width).clamp(150.0, 190.0),
             Self::Stacked => 154.0,
-            Self::Line => (0.46 * width - 254.0).clamp(206.0, 340.0),
+            // Only a whole screen is as wide as that.
+            Self::Line => (206.0 + 1.5 * (width - 1000.0)).clamp(206.0, 370.0),
         }
         .floor()
     }
@@ -161,7 +171,7 @@ impl Chain {
 
     /// From this height on, which becomes that of its end.
     fn below(y: &mut f64, width: f64, labels: Labels, all: bool) -> Self {
-        let label = labels.column(width);
+        let label = labels.column(width, all);
         let column = 0.5 * (width - label);
         let mut row = |h: f64| {
             let top = *y;
@@ -175,7 +185,11 @@ impl Chain {
         let h = labels.selection();
         let Place { label: name, values: [one, two] } = row(h);
         let selection = match labels {
-            Labels::Line => [name, one, two],
+            // From the first column on, or where that is too narrow, from the formula on.
+            Labels::Line => {
+                let x = if one.w < 200.0 { Labels::captions(all) + N_EFF } else { one.x };
+                [Rect { w: x - APART, ..name }, Rect { x, w: one.right() - x, ..one }, two]
+            }
             // Words above the bar; on a phone the name stands in front of the words.
             Labels::Stacked | Labels::Short => {
                 let words = 22.0;
@@ -239,7 +253,7 @@ mod tests {
                 assert!(height <= most, "{height} at {width}");
             }
         }
-        assert!((700..761).all(|width| height(f64::from(width)) >= 430.0));
+        assert!((610..761).all(|width| height(f64::from(width)) >= 430.0));
         assert!((1000..1400).all(|width| height(f64::from(width)) <= 0.56 * f64::from(width)));
     }
 }

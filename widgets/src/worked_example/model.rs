@@ -170,30 +170,25 @@ impl Model for WorkedExampleModel {
     }
 
     fn describe(&self) -> String {
-        let WorkedExample { updates, weights, ess, .. } = &self.example;
-        let [one, two] = [0, 1].map(|slot| {
-            let Update { z, innovation, weight, .. } = &updates[slot];
-            let (expected, nu) = (innovation.prediction.z, innovation.residual);
-            let [r, phi, r0, phi0, nu_r, nu_phi, distance, weight] =
-                [z.x, z.y, expected.x, expected.y, nu.x, nu.y, innovation.mahalanobis_squared, *weight]
-                    .map(|x| plain(x, 4));
-            worked_example::Innovation {
-                slot: &(slot + 1),
-                r0: &r0,
-                phi0: &phi0,
-                r: &r,
-                phi: &phi,
-                nu_r: &nu_r,
-                nu_phi: &nu_phi,
-                distance: &distance,
-                weight: &weight,
-            }
-            .say()
-        });
-        let [share1, share2] = [0, 1].map(|slot| plain(weights.as_slice()[slot], 3));
-        let (ess, verdict) = (plain(*ess, 4), self.verdict());
-        let shares = worked_example::Shares { share1: &share1, share2: &share2, ess: &ess, verdict: &verdict }.say();
-        [one, two, shares].join(" ")
+        let of = |slot: usize| {
+            let Update { innovation, weight, .. } = &self.example.updates[slot];
+            let nu = innovation.residual;
+            [*weight, innovation.mahalanobis_squared, nu.x, nu.y].map(|x| plain(x, 4))
+        };
+        let ([w1, d1, r1, phi1], [w2, d2, r2, phi2]) = (of(0), of(1));
+        let verdict = self.verdict();
+        worked_example::Shown {
+            verdict: &verdict,
+            w1: &w1,
+            w2: &w2,
+            d1: &d1,
+            d2: &d2,
+            r1: &r1,
+            phi1: &phi1,
+            r2: &r2,
+            phi2: &phi2,
+        }
+        .say()
     }
 
     /// Of both particles.

@@ -26,11 +26,8 @@ const WORDS: f64 = 12.0;
 const DIGITS: i32 = 5;
 const FEWEST: i32 = 3;
 
-/// Width of the captions where formulas stand beside them \[css px\].
-const CAPTION: f64 = 162.0;
-
 /// Width of a column in which it can be said how a value comes about \[css px\].
-const SPACIOUS: f64 = 185.0;
+const SPACIOUS: f64 = 176.0;
 
 /// The worked example, as it is seen.
 #[derive(Default)]
@@ -115,7 +112,7 @@ fn chain(scene: &mut Scene, model: &WorkedExampleModel, layout: &Layout, chain: 
         heading(scene, slot, area, drawn);
     }
     for (step, place) in chain.steps().iter().zip(&chain.places) {
-        label(scene, step, &place.label, layout.labels);
+        label(scene, step, &place.label, layout.labels, chain.all);
         for (slot, area) in place.values.iter().enumerate() {
             value(scene, area, |writing| (step.write)(writing, model.example(), slot));
         }
@@ -145,7 +142,7 @@ fn heading(scene: &mut Scene, slot: usize, area: &Rect, drawn: bool) {
 }
 
 /// What a row says of itself.
-fn label(scene: &mut Scene, step: &Step, area: &Rect, labels: Labels) {
+fn label(scene: &mut Scene, step: &Step, area: &Rect, labels: Labels, all: bool) {
     let caption = (step.caption)();
     let middle = area.centre()[1];
     let formula = |scene: &mut Scene, tex: &str, at: Point| {
@@ -156,8 +153,9 @@ fn label(scene: &mut Scene, step: &Step, area: &Rect, labels: Labels) {
     };
     match labels {
         Labels::Line => {
-            words(scene, Rect::new(area.x, middle - 0.5 * LINE, CAPTION, LINE), caption);
-            formula(scene, step.formula, [area.x + CAPTION, middle]);
+            let captions = Labels::captions(all);
+            words(scene, Rect::new(area.x, middle - 0.5 * LINE, captions, LINE), caption);
+            formula(scene, step.formula, [area.x + captions, middle]);
         }
         Labels::Stacked => {
             words(scene, Rect::new(area.x, middle - LINE, area.w, LINE), caption);
@@ -194,7 +192,9 @@ fn selection(scene: &mut Scene, model: &WorkedExampleModel, chain: &Chain, label
         Labels::Short => {
             Formula::new(SIZE, Weight::Regular, Role::Ink).tex("N_{eff}").draw(scene, [name.x, name.centre()[1]])
         }
-        _ => label(scene, &Step { caption, formula, tall: false, write: |to, _, _| to.line() }, &name, labels),
+        _ => {
+            label(scene, &Step { caption, formula, tall: false, write: |to, _, _| to.line() }, &name, labels, chain.all)
+        }
     }
     let role = if *resamples { Role::Copied } else { Role::Accent };
     let verdict = model.verdict();
@@ -211,7 +211,7 @@ fn selection(scene: &mut Scene, model: &WorkedExampleModel, chain: &Chain, label
     scene.marks.push(Mark::Fill { area: Rect { w: at(*ess) - bar.x, ..bar }, role });
     scene.marks.push(Mark::Frame { area: bar, width: 1.0, role: Role::Weight(0) });
     let x = at(*limit);
-    let lines = vec![vec![[x, bar.y - 5.0], [x, bar.bottom() + 5.0]]];
+    let lines = vec![vec![[x, bar.y - 2.0], [x, bar.bottom() + 5.0]]];
     scene.marks.push(Mark::Lines { lines: lines.clone(), width: 5.0, dash: None, role: Role::Paper });
     scene.marks.push(Mark::Lines { lines, width: 2.0, dash: None, role: Role::Ink });
     // It can be moved.

@@ -1,0 +1,77 @@
+// Numbers to be changed where they stand in mathematics: in the entries of vectors and matrices.
+import type { Controls } from './controls'
+import { h, write } from './dom'
+
+/** The name of a parameter; `=name` for an entry that is the same as another; or what is always written there. */
+type Entry = string
+
+/** A symbol, and vectors or matrices row by row: one, or one of each particle. */
+interface Equation {
+  symbol: string
+  matrices: Entry[][][]
+  /** Whether its parameters are standard deviations, and the matrix has their squares. */
+  squared?: boolean
+}
+
+const EQUATIONS: Equation[] = [
+  { symbol: 'μ', matrices: [[['mu-x'], ['mu-y']]] },
+  { symbol: 'Σ', matrices: [[['sigma-xx', 'sigma-xy'], ['=sigma-xy', 'sigma-yy']]] },
+  { symbol: 'Q', matrices: [[['range-std', '0'], ['0', 'bearing-std']]], squared: true },
+  { symbol: 'x', matrices: [1, 2].map(slot => [[`x${slot}`], [`y${slot}`], [`theta${slot}`]]) },
+  { symbol: 'z', matrices: [1, 2].map(slot => [[`r${slot}`], [`phi${slot}`]]) },
+]
+
+export class MatrixInputs {
+  readonly element: HTMLDetailsElement
+  readonly #mirrors: [HTMLElement, HTMLInputElement][] = []
+  #narrow: boolean | undefined
+
+  /** Takes the boxes out of the controls and stands in their place; Reset, which would have a row for itself, goes to the end. */
+  constructor({ main, transport }: Controls, name: string) {
+    const boxes = new Map([...main.querySelectorAll('input')].map(box => [box.name, box]))
+    const [mean, covariance, noise, ...ofParticles] = EQUATIONS.map(equation => this.#equation(equation, boxes)) as [HTMLElement, HTMLElement, HTMLElement]
+    const heads = h('div', { class: 'equation', 'aria-hidden': 'true' }, h('i'), ...[1, 2].map(slot => h('span', { class: 'of' }, String(slot))))
+    const rest = main.querySelectorAll(':scope > .number')
+    const equations = h('div', { class: 'equations' }, mean, covariance, noise, heads, ...ofParticles, ...rest)
+    this.element = h('details', { class: 'matrices', part: 'inputs' }, h('summary', {}, name), equations)
+    main.replaceChildren(this.element, h('div', { class: 'last' }, ...main.querySelectorAll(':scope > .flag'), transport))
+  }
+
+  /** Where there is no room beside the picture, it is folded. What a reader has opened stays so until the room changes. */
+  fold(narrow: boolean): void {
+    if (narrow === this.#narrow) return
+    this.#narrow = narrow
+    this.element.open = !narrow
+  }
+
+  /** Writes the entries that are the same as others. */
+  mirror(): void {
+    for (const [entry, box] of this.#mirrors) write(entry, box.value)
+  }
+
+  #equation({ symbol, matrices, squared }: Equation, boxes: Map<string, HTMLInputElement>): HTMLElement {
+    const units = (matrices.at(-1) ?? []).map(row => {
+      const name = row.find(entry => boxes.has(entry))
+      return h('span', { class: 'unit' }, (name && boxes.get(name)!.nextElementSibling?.textContent) ?? '')
+    })
+    const filled = matrices.map(rows => {
+      const matrix = h('span', { class: squared ? 'matrix squared' : 'matrix' }, ...rows.flat().map(entry => this.#entry(entry, boxes)))
+      matrix.style.setProperty('--_columns', String(rows[0]!.length))
+      return matrix
+    })
+    return h('div', { class: 'equation', role: 'group', 'aria-label': symbol }, h('i', { 'aria-hidden': 'true' }, symbol), ...filled, h('span', { class: 'units', 'aria-hidden': 'true' }, ...units))
+  }
+
+  #entry(entry: Entry, boxes: Map<string, HTMLInputElement>): HTMLElement {
+    const box = boxes.get(entry)
+    if (box) {
+      const field = box.closest<HTMLElement>('.number')!
+      box.setAttribute('aria-label', field.querySelector('.name')!.textContent)
+      return field
+    }
+    const same = entry.startsWith('=') ? boxes.get(entry.slice(1)) : undefined
+    const fixed = h('span', { class: 'fixed' }, same ? '' : entry)
+    if (same) this.#mirrors.push([fixed, same])
+    return fixed
+  }
+}
