@@ -113,7 +113,8 @@ test.describe('on a phone', () => {
     test(`${tag} keeps its picture in sight beside a thumb, whatever is set`, async ({ page }) => {
       await openCourse(page, `<p>Before.</p><${tag}></${tag}><p style="height: 900px">After.</p>`)
       const figure = await ready(page, tag)
-      for (const slider of await figure.element.locator('.main input').all()) {
+      for (const fold of await figure.element.locator('.main details:not([open]) > summary').all()) await fold.click()
+      for (const slider of await figure.element.locator('.main input').filter({ visible: true }).all()) {
         await slider.scrollIntoViewIfNeeded()
         await expect(slider).toBeInViewport()
         expect(await seen(figure), (await slider.getAttribute('name')) ?? '').toBeGreaterThanOrEqual(SEEN)
