@@ -41,6 +41,7 @@ export class MatrixInputs {
   fold(narrow: boolean): void {
     if (narrow === this.#narrow) return
     this.#narrow = narrow
+    this.element.classList.toggle('beside', !narrow)
     this.element.open = !narrow
   }
 

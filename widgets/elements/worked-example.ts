@@ -8,6 +8,7 @@ const sheet = new CSSStyleSheet()
 sheet.replaceSync(css)
 
 const BESIDE = 832 // [px] from here on the controls stand beside the picture (figure.css)
+const LARGER = 1.5 // letters of the presentation size, over normal ones: all that is beside the picture would be higher than it
 
 /** One update by hand: a picture to drag in, the numbers that decide, and each that they begin with in its matrix. */
 export class FastslamWorkedExample extends FigureElement {
@@ -48,7 +49,8 @@ export class FastslamWorkedExample extends FigureElement {
   }
 
   #fold(): void {
-    this.#inputs?.fold(this.clientWidth < BESIDE && !this.body.matches('.some-controls'))
+    const beside = this.getAttribute('size') === 'presentation' ? LARGER * BESIDE : BESIDE
+    this.#inputs?.fold(this.clientWidth < beside && !this.body.matches('.some-controls'))
   }
 }
 
