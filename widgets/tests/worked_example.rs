@@ -3,6 +3,7 @@
 mod common;
 
 use common::{figure, scene};
+use fastslam::ops;
 use fastslam_widgets::{
     figure::Figure,
     font,
@@ -235,12 +236,12 @@ fn what_is_dragged_follows_the_hand_and_the_picture_stays_where_it_is() {
         for name in HANDLES {
             let mut figure = example("");
             let others = |figure: &Figure| {
-                // What a robot sees moves and turns with it.
-                let moves =
-                    |other: &str| other[other.len() - 2..] == name[name.len() - 2..] || name.starts_with("sigma");
-                let still = HANDLES
-                    .into_iter()
-                    .filter(|other| !moves(other) && !(name == "mean" && other.starts_with("sigma")));
+                // What a robot sees moves and turns with it, and the ellipse goes with its middle.
+                let moves = |other: &str| {
+                    other[other.len() - 2..] == name[name.len() - 2..]
+                        || (other.starts_with("sigma") && (name.starts_with("sigma") || name == "mean"))
+                };
+                let still = HANDLES.into_iter().filter(|other| !moves(other));
                 still.map(|other| (other, at(figure, other, width))).collect::<Vec<_>>()
             };
             let (before, start) = (others(&figure), at(&figure, name, width));
@@ -374,7 +375,7 @@ fn handles_are_as_far_apart_as_a_finger_is_wide_as_the_example_opens() {
         let handles = scene(&example(""), width).handles;
         for (k, one) in handles.iter().enumerate() {
             for other in &handles[..k] {
-                let apart = (one.at[0] - other.at[0]).hypot(one.at[1] - other.at[1]);
+                let apart = ops::hypot(one.at[0] - other.at[0], one.at[1] - other.at[1]);
                 assert!(apart >= 40.0, "{} and {} at {width}: {apart}", one.name, other.name);
             }
         }
