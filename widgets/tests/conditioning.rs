@@ -9,8 +9,10 @@ use fastslam_widgets::{
     scene::{Mark, Role, Scene, Shading},
 };
 
+/// In the state that a link of today names.
 fn conditioning(query: &str) -> Figure {
-    figure("fastslam-conditioning", query)
+    let query = query.trim_start_matches("?").trim_start_matches("v=2&");
+    figure("fastslam-conditioning", &format!("v=2&{query}"))
 }
 
 fn value(figure: &Figure, name: &str) -> f64 {
@@ -38,7 +40,7 @@ fn shades(scene: &Scene) -> Vec<u8> {
 #[test]
 fn given_the_path_every_entry_outside_the_blocks_is_exactly_zero_and_every_arc_gone() {
     for n in [3, 7, 13, 24] {
-        for rest in ["", "odometry=0", "odometry=3&range-std=0.01", "poses=12&step=5", "poses=2&step=2&range-std=0.5"] {
+        for rest in ["", "odometry=0.05", "odometry=3&range-std=0.01", "poses=12&step=5", "poses=2&step=2&range-std=0.5"] {
             let mut figure = conditioning(&format!("landmarks={n}&{rest}"));
             let seen = value(&figure, "seen") as usize;
             let free = scene(&figure, 800.0);
@@ -161,12 +163,12 @@ fn an_entry_is_named_with_its_value_in_the_picture_and_for_the_screen_reader() {
 
 #[test]
 fn a_link_brings_back_the_whole_state() {
-    let query = "odometry=0.5&range-std=0.2&landmarks=9&poses=12&condition=on&step=11&row=18&column=17";
+    let query = "v=2&odometry=0.5&range-std=0.2&landmarks=9&poses=12&condition=on&step=11&row=18&column=17";
     let mut figure = conditioning(query);
     assert_eq!(figure.query(), query);
     assert_eq!(state(&figure), state(&conditioning(&format!("?{}", figure.query()))));
     assert_eq!(figure.load("landmarks=4"), []);
-    assert_eq!(figure.query(), "landmarks=4");
+    assert_eq!(figure.query(), "v=2&landmarks=4");
     // Whatever was set in whatever order, the link says it.
     for (name, value) in [("poses", "3"), ("row", "8"), ("landmarks", "3"), ("poses", "12"), ("step", "0")] {
         figure.set(name, value).unwrap();
@@ -179,7 +181,7 @@ fn a_bad_link_is_told_of_and_the_rest_of_it_applied() {
     let mut figure = Figure::new("fastslam-conditioning").unwrap();
     let refused = figure.load("landmarks=99&poses=4&step=9&row=0&column=15&condition=perhaps&tempo=3");
     let messages: Vec<String> = refused.into_iter().map(|e| e.message).collect();
-    assert_eq!(figure.query(), "poses=4&step=4");
+    assert_eq!(figure.query(), "v=2&poses=4&step=4");
     for part in [
         "landmarks = \"99\": must be a whole number from 3 to 24",
         "step = \"9\": must be a whole number from 0 to 4",
@@ -198,7 +200,7 @@ fn fewer_landmarks_or_poses_keep_the_step_and_the_entry_in_their_ranges() {
     let mut figure = conditioning("landmarks=24&poses=12&step=12&row=48&column=30");
     figure.set("landmarks", "5").unwrap();
     figure.set("poses", "3").unwrap();
-    assert_eq!(figure.query(), "landmarks=5&poses=3&step=3&row=10&column=10");
+    assert_eq!(figure.query(), "v=2&landmarks=5&poses=3&step=3&row=10&column=10");
     figure.model_mut().seek(u32::MAX);
     assert_eq!((figure.model().step(), figure.model().step_count()), (3, 3));
 }
@@ -276,5 +278,5 @@ fn data_has_a_row_for_every_pose_driven() {
     assert_eq!(rows.len(), 7);
     assert!(rows[1..].iter().all(|row| row.len() == header.len() && row.iter().all(Option::is_some)), "{rows:?}");
     assert!(rows.iter().all(|row| row[6] == Some(0.0)), "given the path nothing is coupled");
-    assert_eq!(serde_json::to_value(export).unwrap()["query"], "condition=on&step=6");
+    assert_eq!(serde_json::to_value(export).unwrap()["query"], "v=2&condition=on&step=6");
 }
