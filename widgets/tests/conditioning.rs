@@ -40,7 +40,9 @@ fn shades(scene: &Scene) -> Vec<u8> {
 #[test]
 fn given_the_path_every_entry_outside_the_blocks_is_exactly_zero_and_every_arc_gone() {
     for n in [3, 7, 13, 24] {
-        for rest in ["", "odometry=0.05", "odometry=3&range-std=0.01", "poses=12&step=5", "poses=2&step=2&range-std=0.5"] {
+        for rest in
+            ["", "odometry=0.05", "odometry=3&range-std=0.01", "poses=12&step=5", "poses=2&step=2&range-std=0.5"]
+        {
             let mut figure = conditioning(&format!("landmarks={n}&{rest}"));
             let seen = value(&figure, "seen") as usize;
             let free = scene(&figure, 800.0);

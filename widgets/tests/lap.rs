@@ -154,15 +154,16 @@ fn texts_fit_their_boxes_and_the_figure_and_cover_no_other() {
 }
 
 #[test]
-fn tiles_are_disjoint_and_inside_the_figure_for_every_number_of_universes() {
+fn tiles_are_disjoint_inside_the_figure_and_readable_for_every_number_of_universes() {
     for count in 1..=256 {
         let figure = lap(&format!("universes={count}&proposal=motion&matcher=cell"));
         for width in [240.0, 340.0, 800.0, 1600.0] {
             let scene = scene(&figure, width);
-            assert_eq!(scene.regions.len(), count);
+            assert_eq!(scene.regions.len(), count.min(16));
             let mosaic = Layout::new(width).mosaic;
             for (k, region) in scene.regions.iter().enumerate() {
                 assert!(mosaic.encloses(&region.area), "{count} at {width}");
+                assert!(region.area.w >= 60.0, "{count} at {width}");
                 assert!(
                     scene.regions[..k].iter().all(|other| !other.area.overlaps(&region.area)),
                     "{count} at {width}"

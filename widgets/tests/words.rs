@@ -64,10 +64,11 @@ fn the_lap_speaks_german_once_it_has_the_words() {
     );
     let universes = &lap.params()[0];
     assert_eq!((universes.name, universes.title), ("universes", "Universen M"));
-    let policy = &lap.params()[6];
+    let params = lap.params();
+    let policy = params.iter().find(|spec| spec.name == "policy").unwrap();
     assert_eq!((policy.choices[1].value.as_str(), policy.choices[1].title), ("always", "bei jedem Schritt"));
     assert_eq!(lap.readouts()[1].title, "RMS-Fehler, bestes Universum");
-    assert!(written(&lap).contains(&"Schritt 4 von 90".into()), "{:?}", written(&lap));
+    assert!(written(&lap).contains(&"Pfade der anderen".into()), "{:?}", written(&lap));
     assert_eq!(
         lap.set("universes", "0").unwrap_err().message,
         "universes = \"0\": erlaubt ist eine ganze Zahl von 1 bis 256"

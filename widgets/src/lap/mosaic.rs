@@ -51,14 +51,14 @@ pub fn mosaic(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     let extinct = model.extinct();
     let name = common::UniverseCount { m: &m }.say();
     let (title, role, rest) = match &model.report().ancestors {
-        Some(_) if extinct.is_empty() => (name, Role::Ink, lap::none_died_out()),
-        Some(_) => (lap::Resampled { dead: &extinct.len(), m: &m }.say(), Role::Extinct, ""),
-        None if m == 1 => (name, Role::Ink, lap::only_hypothesis()),
-        None if model.step() == 0 => (name, Role::Ink, lap::all_alike()),
-        None => (name, Role::Ink, lap::map_each()),
+        Some(_) if extinct.is_empty() => (name, Role::Ink, lap::none_died_out().into()),
+        Some(_) => (lap::Resampled { dead: &extinct.len(), m: &m }.say(), Role::Extinct, String::new()),
+        None if m == 1 => (name, Role::Ink, lap::only_hypothesis().into()),
+        None if model.step() == 0 => (name, Role::Ink, lap::all_alike().into()),
+        None if slots.len() < m => (name, Role::Ink, lap::Heaviest { n: &slots.len() }.say()),
+        None => (name, Role::Ink, lap::map_each().into()),
     };
-    let heaviest = lap::Heaviest { n: &slots.len() }.say();
-    heading(scene, &layout.mosaic_header, (&title, role), if slots.len() < m { &heaviest } else { rest });
+    heading(scene, &layout.mosaic_header, (&title, role), &rest);
 
     let tiles = Tiles::fit(&layout.mosaic.inset(RING), slots.len(), ASPECT);
     let width = tiles.size[0];
