@@ -476,15 +476,23 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
     fn update_ndt_cells(&mut self, trace: &RayTrace) {
         let size = self.ndt_size;
         let [ndt_std, stretch] = [self.model.ndt_std, self.model.ndt_stretch].map(|c| c as f32);
-        for &([x, y], i, j) in &trace.hits {
-            let [i, j] = [i, j].map(|k| k.div_euclid(Self::NDT));
-            let center = |k: i32| (f64::from(k) + 0.5) * size;
-            let offset = [(x - center(i)) as f32, (y - center(j)) as f32];
-            let tile =
-                self.tile_mut(i >> tile::SHIFT, j >> tile::SHIFT).expect("the directory was grown to cover the scan");
-            let first = tile.add_hit(tile::local(i, j), offset, ndt_std, stretch);
-            if first && self.model.distance_reach > 0 {
-                self.lower_distance(i, j);
+        let ndt_cell = |&(_, i, j): &([f64; 2], i32, i32)| [i, j].map(|k| k.div_euclid(Self::NDT));
+        let tile_of = |hit: &([f64; 2], i32, i32)| ndt_cell(hit).map(|k| k >> tile::SHIFT);
+        // Neighbouring beams mostly end in one tile: it is made this map's own once for all of them.
+        for hits in trace.hits.chunk_by(|a, b| tile_of(a) == tile_of(b)) {
+            let [ti, tj] = tile_of(&hits[0]);
+            let tile = self.tile_mut(ti, tj).expect("the directory was grown to cover the scan");
+            let mut first_hits = Vec::new();
+            for hit in hits {
+                let ([x, y], [i, j]) = (hit.0, ndt_cell(hit));
+                let center = |k: i32| (f64::from(k) + 0.5) * size;
+                let offset = [(x - center(i)) as f32, (y - center(j)) as f32];
+                if tile.add_hit(tile::local(i, j), offset, ndt_std, stretch) {
+                    first_hits.push([i, j]);
+                }
+            }
+            if self.model.distance_reach > 0 {
+                first_hits.into_iter().for_each(|[i, j]| self.lower_distance(i, j));
             }
         }
     }

@@ -3,7 +3,7 @@
 //! Marks are kept in blocks, a byte a cell, and only for blocks that a beam goes through: no more memory than the tiles of the map that
 //! the scan is going to write to. Every other block of the rectangle around the scan costs one number.
 
-use super::CellRect;
+use super::{CellRect, floor};
 use crate::geometry::Pose2;
 use crate::ops;
 use crate::sensor::Scan;
@@ -77,7 +77,7 @@ pub(super) fn trace(world_from_robot: &Pose2, scan: &Scan, cell_size: f64, tile:
         marks.pass(in_cells(origin), in_cells(*end));
     }
     for end in hits {
-        let [i, j] = in_cells(end).map(|c| c.floor() as i32);
+        let [i, j] = in_cells(end).map(floor);
         let Cursor { first, at, .. } = marks.enter([i, j], [1, 1]);
         marks.cells[first + at] = HIT;
         marks.hits.push((end, i, j));
@@ -129,8 +129,8 @@ impl RayTrace {
     /// Marks the cells from `a` up to, but not including, the one of `b` (both in cells): the traversal of Amanatides and
     /// Woo (1987).
     fn pass(&mut self, a: [f64; 2], b: [f64; 2]) {
-        let cell = a.map(|c| c.floor() as i32);
-        let last = b.map(|c| c.floor() as i32);
+        let cell = a.map(floor);
+        let last = b.map(floor);
         let direction = [b[0] - a[0], b[1] - a[1]];
         let step = direction.map(|d| if d > 0.0 { 1 } else { -1 });
         // Fraction of the beam per cell, and up to the next border, along each axis.
