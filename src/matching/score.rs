@@ -3,9 +3,10 @@
 use super::{Likelihood, Score, ScoreNear};
 use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
-use crate::map::grid::{Grid, LocalMap, MAX_DISTANCE, NdtField, UNIT};
+use crate::map::grid::{BLOCK, Grid, LocalMap, MAX_DISTANCE, NdtField, Nearest, UNIT};
 use crate::ops;
 use crate::sensor::Scan;
+use core::cell::RefCell;
 
 /// What an end point is compared with.
 #[derive(
@@ -87,54 +88,59 @@ impl ScanModel {
         world_from_robot: &Pose2,
         scan: &Scan,
     ) -> f64 {
-        self.log_score_above(f64::NEG_INFINITY, grid, world_from_robot, scan)
+        self.log_score_above(f64::NEG_INFINITY, &mut &*grid, world_from_robot, scan)
     }
 
     /// [`Self::log_score`] where it exceeds `floor`, else −∞.
     ///
     /// No beam adds anything positive, so the sum is given up as soon as it falls below the floor: a hill climb that only asks
-    /// whether a step improves is spared most of the beams.
+    /// whether a step improves is spared the rest of the beams.
     pub(crate) fn log_score_above(
         &self,
         floor: f64,
-        grid: &impl NdtField,
+        map: &mut impl NdtField,
         world_from_robot: &Pose2,
         scan: &Scan,
     ) -> f64 {
-        /// Beams between two looks at the floor.
-        const BEAMS: usize = 6;
         let (sin, cos) = ops::sin_cos(world_from_robot.theta);
+        let (origin, ahead, left) = ([world_from_robot.x, world_from_robot.y], [cos, sin], [-sin, cos]);
         let floor = floor / self.temper;
         let mut sum = 0.0;
-        for beams in scan.hits.chunks(BEAMS) {
-            for [x, y] in beams {
-                let wx = world_from_robot.x + cos * x - sin * y;
-                let wy = world_from_robot.y + sin * x + cos * y;
-                sum += match self.matcher {
-                    Matcher::Cell => self.log_cell(grid.units_at(wx, wy)),
-                    Matcher::SubCell => {
-                        let (d2, units) = grid.nearest_ndt(wx, wy);
-                        match self.kernel {
-                            Kernel::Gaussian => {
-                                let (ndt, cell) = (-0.5 * d2, self.log_cell(units));
-                                // Not `f64::max`: a call of a library on WebAssembly, which costs a fourteenth of a lap.
-                                if ndt > cell { ndt } else { cell }
-                            }
-                            Kernel::Robust { most } if d2 < f64::INFINITY => {
-                                // −c d² / (d² + 2 c), with one division in the precision in which distributions are kept.
-                                let (d2, most) = (d2 as f32, most as f32);
-                                f64::from(2.0 * most * most / (d2 + 2.0 * most) - most)
-                            }
-                            Kernel::Robust { .. } => self.log_cell(units),
-                        }
-                    }
-                };
+        let mut ends = [[0.0; 2]; BLOCK];
+        for beams in scan.hits.chunks(BLOCK) {
+            for ([x, y], end) in beams.iter().zip(&mut ends) {
+                *end = [0, 1].map(|k: usize| origin[k] + ahead[k] * x + left[k] * y);
             }
+            let log_scores = self.log_scores(map, &ends, beams.len());
+            log_scores.iter().take(beams.len()).for_each(|log_score| sum += log_score);
             if sum <= floor {
                 return f64::NEG_INFINITY;
             }
         }
         self.temper * sum
+    }
+
+    /// What each of the first `count` of these end points \[m\] adds to the sum.
+    #[inline]
+    fn log_scores(&self, map: &mut impl NdtField, ends: &[[f64; 2]; BLOCK], count: usize) -> [f64; BLOCK] {
+        if self.matcher == Matcher::Cell {
+            return ends.map(|end| self.log_cell(map.units_at(end)));
+        }
+        let Nearest { d2, units } = map.nearest_ndt(ends, count);
+        let cells = units.map(|units| self.log_cell(units));
+        match self.kernel {
+            Kernel::Gaussian => core::array::from_fn(|k| {
+                let (ndt, cell) = (-0.5 * f64::from(d2[k]), cells[k]);
+                // Not `f64::max`: a call of a library on WebAssembly, which costs a fourteenth of a lap.
+                if ndt > cell { ndt } else { cell }
+            }),
+            Kernel::Robust { most } => core::array::from_fn(|k| {
+                // −c d² / (d² + 2 c), with one division in the precision in which distributions are kept.
+                let most = most as f32;
+                let ndt = 2.0 * most * most / (d2[k] + 2.0 * most) - most;
+                if d2[k] < f32::INFINITY { f64::from(ndt) } else { cells[k] }
+            }),
+        }
     }
 
     /// ln p_cell of a cell's log-odds in units.
@@ -170,7 +176,7 @@ impl<const CELLS_PER_NDT: usize> Score<Grid<CELLS_PER_NDT>> for ScanModel {
         stride: usize,
     ) -> ScanNear<'a, CELLS_PER_NDT> {
         let reach = scan.hits.iter().map(|[x, y]| x * x + y * y).fold(0.0, f64::max).sqrt();
-        let map = LocalMap::new(grid, [place.x, place.y], reach + SLACK);
+        let map = LocalMap::new(grid, [place.x, place.y], reach + SLACK).into();
         ScanNear { model: self, map, scan, thinned: scan.thinned(stride), share: stride as f64 }
     }
 
@@ -186,7 +192,7 @@ const SLACK: f64 = 1.0;
 /// A scan against the part of a grid that it can reach from one place.
 pub struct ScanNear<'a, const CELLS_PER_NDT: usize> {
     model: &'a ScanModel,
-    map: LocalMap<'a, CELLS_PER_NDT>,
+    map: RefCell<LocalMap<'a, CELLS_PER_NDT>>,
     scan: &'a Scan,
     /// A part of the scan, of which each beam counts for `share`.
     thinned: Scan,
@@ -195,26 +201,28 @@ pub struct ScanNear<'a, const CELLS_PER_NDT: usize> {
 
 impl<const CELLS_PER_NDT: usize> ScoreNear for ScanNear<'_, CELLS_PER_NDT> {
     fn log_score(&self, world_from_robot: &Pose2) -> f64 {
-        self.model.log_score_above(f64::NEG_INFINITY, &self.map, world_from_robot, self.scan)
+        self.model.log_score_above(f64::NEG_INFINITY, &mut *self.map.borrow_mut(), world_from_robot, self.scan)
     }
 
     fn log_score_above(&self, world_from_robot: &Pose2, floor: f64) -> f64 {
-        self.share * self.model.log_score_above(floor / self.share, &self.map, world_from_robot, &self.thinned)
+        let map = &mut *self.map.borrow_mut();
+        self.share * self.model.log_score_above(floor / self.share, map, world_from_robot, &self.thinned)
     }
 
     /// By the distance of each end point from the nearest hit. The scan is turned once for all positions.
     fn coarse(&self, theta: f64, stride: usize) -> impl Fn([f64; 2]) -> f64 {
         let (sin, cos) = ops::sin_cos(theta);
-        let k = self.map.per_ndt();
+        let k = self.map.borrow().per_ndt();
         let turn = |[x, y]: &[f64; 2]| [k * (cos * x - sin * y), k * (sin * x + cos * y)];
         let turned: Vec<[f64; 2]> = self.scan.hits.iter().step_by(stride.max(1)).map(turn).collect();
         // Each of the few beams counts for those left out.
         let share = self.scan.hits.len() as f64 / turned.len().max(1) as f64;
         move |position: [f64; 2]| {
             let [u, v] = position.map(|c| c * k);
+            let map = self.map.borrow();
             let mut counts = [0_u32; MAX_DISTANCE + 1];
             for end in &turned {
-                counts[self.map.distance(end[0] + u, end[1] + v)] += 1;
+                counts[map.distance(end[0] + u, end[1] + v)] += 1;
             }
             let sum: f64 = counts.iter().zip(LOG_COARSE).map(|(count, log)| f64::from(*count) * log).sum();
             share * (self.model.temper * sum)

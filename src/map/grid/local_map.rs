@@ -1,47 +1,24 @@
-//! The part of a grid around a robot, copied into one array: a matcher looks at it thousands of times in one step.
+//! The part of a grid around a robot, for a matcher that looks at it thousands of times in one step.
 
-use super::tile::{MAX_DISTANCE, NdtCell, SHIFT, TILE, mahalanobis2};
-use super::{CellRect, Grid, NdtField, fast_floor};
+use super::quad::{Quad, least};
+use super::tile::{MAX_DISTANCE, SHIFT, TILE};
+use super::{BLOCK, CellRect, Grid, NdtField, Nearest, fast_floor};
 
-/// Farthest from the robot that is copied \[m\]; what lies beyond is looked up in the grid.
+/// Farthest from the robot that anything is kept for \[m\]; what lies beyond is looked up in the grid.
 const RADIUS: f64 = 12.0;
 
-/// The NDT cells around a place, each with what is known of it, without the two levels of pointers that a grid has.
+/// A grid around a place, without the two levels of pointers that it has. What end points are compared with is put together where one falls
+/// for the first time: poses that are tried in one step differ by little, so that each is asked for again some ten times.
 pub(crate) struct LocalMap<'a, const CELLS_PER_NDT: usize> {
     grid: &'a Grid<CELLS_PER_NDT>,
     /// In NDT cells.
     rect: CellRect,
-    cells: Vec<FlatCell>,
-    /// Distributions of these NDT cells; the first stands for all that were never hit.
-    ndt_cells: Vec<Flat>,
-}
-
-#[derive(Clone, Copy)]
-struct FlatCell {
-    /// Place of its distribution.
-    ndt_cell: u16,
-    /// Log-odds in units of the cell in its middle.
-    units: i8,
-    /// Distance from the nearest hit \[NDT cells\].
-    near: u8,
-}
-
-/// What a distance is computed from.
-#[derive(Clone, Copy)]
-struct Flat {
-    mean: [f32; 2],
-    information: [f32; 3],
-    /// Added to every distance: infinite where there is no distribution, so that all are computed alike.
-    base: f32,
-}
-
-impl Flat {
-    const NONE: Self = Self { mean: [0.0; 2], information: [0.0; 3], base: f32::INFINITY };
-
-    #[inline]
-    fn mahalanobis2(&self, x: f32, y: f32) -> f32 {
-        mahalanobis2(self.mean, self.information, x, y) + self.base
-    }
+    /// All that were asked for, in that order.
+    quads: Vec<Quad>,
+    /// By the NDT cell at its lower left: how many quads there were when one was added, or 0 for none yet.
+    places: Vec<u32>,
+    /// The distance field; empty where the grid keeps none.
+    distances: Vec<u8>,
 }
 
 impl<'a, const CELLS_PER_NDT: usize> LocalMap<'a, CELLS_PER_NDT> {
@@ -58,40 +35,54 @@ impl<'a, const CELLS_PER_NDT: usize> LocalMap<'a, CELLS_PER_NDT> {
             j1: clip(j.saturating_add(reach + TILE), known.j0, known.j1),
         };
         let rect = CellRect { i0: tiles.i0 * TILE, j0: tiles.j0 * TILE, i1: tiles.i1 * TILE, j1: tiles.j1 * TILE };
-        let unknown = FlatCell { ndt_cell: 0, units: 0, near: MAX_DISTANCE as u8 };
-        let mut cells = vec![unknown; rect.width() * rect.height()];
-        let mut ndt_cells = vec![Flat::NONE];
-        for (tj, ti) in (tiles.j0..tiles.j1).flat_map(|tj| (tiles.i0..tiles.i1).map(move |ti| (tj, ti))) {
-            let Some(tile) = grid.directory.tile(ti, tj) else { continue };
-            let first = ndt_cells.len();
-            let flat = |s: &NdtCell| Flat { mean: s.mean, information: s.information, base: 0.0 };
-            ndt_cells.extend(tile.ndt_cells().iter().map(flat));
-            for row in 0..TILE {
-                let start = (tj * TILE + row - rect.j0) as usize * rect.width() + (ti * TILE - rect.i0) as usize;
-                for (column, cell) in cells[start..start + TILE as usize].iter_mut().enumerate() {
-                    let local = (row << SHIFT) as usize + column;
-                    let ndt_cell = tile.place(local).map_or(0, |place| first + place);
-                    let units = tile.log_odds[local][CELLS_PER_NDT / 2][CELLS_PER_NDT / 2];
-                    // More distributions than fit are left out: a radius of RADIUS holds fewer in any building.
-                    let ndt_cell = u16::try_from(ndt_cell).unwrap_or(0);
-                    *cell = FlatCell { ndt_cell, units, near: tile.distance(local) as u8 };
+        let (places, mut distances) = (vec![0; rect.width() * rect.height()], Vec::new());
+        if grid.model.distance_reach > 0 {
+            distances = vec![MAX_DISTANCE as u8; places.len()];
+            for (tj, ti) in (tiles.j0..tiles.j1).flat_map(|tj| (tiles.i0..tiles.i1).map(move |ti| (tj, ti))) {
+                let Some(tile) = grid.directory.tile(ti, tj) else { continue };
+                for row in 0..TILE {
+                    let start = (tj * TILE + row - rect.j0) as usize * rect.width() + (ti * TILE - rect.i0) as usize;
+                    for (column, distance) in distances[start..start + TILE as usize].iter_mut().enumerate() {
+                        *distance = tile.distance((row << SHIFT) as usize + column) as u8;
+                    }
                 }
             }
         }
-        Self { grid, rect, cells, ndt_cells }
+        Self { grid, rect, quads: Vec::new(), places, distances }
+    }
+
+    /// The quad of the cell at its lower left, if that is near.
+    #[inline]
+    fn quad(&mut self, i: i32, j: i32) -> Option<&Quad> {
+        let place = self.place(i, j)?;
+        if self.places[place] == 0 {
+            self.add_quad(i, j, place);
+        }
+        Some(&self.quads[self.places[place] as usize - 1])
+    }
+
+    /// Apart, because the loop that asks for quads is better without it.
+    #[cold]
+    #[inline(never)]
+    fn add_quad(&mut self, i: i32, j: i32, place: usize) {
+        self.quads.push(self.grid.quad(i, j));
+        self.places[place] = self.quads.len() as u32;
+    }
+
+    /// Of an NDT cell in the rectangle.
+    #[inline]
+    fn place(&self, i: i32, j: i32) -> Option<usize> {
+        let (column, row) = (i.wrapping_sub(self.rect.i0), j.wrapping_sub(self.rect.j0));
+        let (column, row) = (column as u32 as usize, row as u32 as usize);
+        (column < self.rect.width() && row < self.rect.height()).then(|| row * self.rect.width() + column)
     }
 
     /// The distance field \[NDT cells\] at a point given in NDT cells: 0 where an end point fell, [`MAX_DISTANCE`] where none fell near.
     #[inline]
     pub fn distance(&self, u: f64, v: f64) -> usize {
         let (i, j) = (fast_floor(u), fast_floor(v));
-        let (column, row) = (i.wrapping_sub(self.rect.i0), j.wrapping_sub(self.rect.j0));
-        let (width, height) = (self.rect.width(), self.rect.height());
-        if (column as u32 as usize) < width && (row as u32 as usize) < height {
-            usize::from(self.cells[row as usize * width + column as usize].near)
-        } else {
-            self.grid.distance(i, j)
-        }
+        let distance = self.place(i, j).and_then(|place| self.distances.get(place));
+        distance.map_or_else(|| self.grid.distance(i, j), |distance| usize::from(*distance))
     }
 
     /// NDT cells a metre.
@@ -101,36 +92,25 @@ impl<'a, const CELLS_PER_NDT: usize> LocalMap<'a, CELLS_PER_NDT> {
 }
 
 impl<const CELLS_PER_NDT: usize> NdtField for LocalMap<'_, CELLS_PER_NDT> {
-    fn units_at(&self, x: f64, y: f64) -> i8 {
-        self.grid.units_at(x, y)
+    fn units_at(&mut self, point: [f64; 2]) -> i8 {
+        self.grid.units_at(point)
     }
 
-    #[inline]
-    fn nearest_ndt(&self, x: f64, y: f64) -> (f64, i8) {
-        let (u, v) = (x * self.grid.per_ndt - 0.5, y * self.grid.per_ndt - 0.5);
-        let (i, j) = (fast_floor(u), fast_floor(v));
-        let (column, row) =
-            (i.wrapping_sub(self.rect.i0) as u32 as usize, j.wrapping_sub(self.rect.j0) as u32 as usize);
-        let width = self.rect.width();
-        // Left of the first column is the largest number of 32 bits: one more must not be the first on a 32-bit machine.
-        if column.saturating_add(1) >= width || row.saturating_add(1) >= self.rect.height() {
-            return self.grid.nearest_ndt(x, y);
+    fn nearest_ndt(&mut self, points: &[[f64; 2]; BLOCK], count: usize) -> Nearest {
+        let (grid, size) = (self.grid, self.grid.ndt_size as f32);
+        let corners = points.map(|point| grid.corner(point));
+        let (mut d2, mut units) = ([[f32::INFINITY; 4]; BLOCK], [0; BLOCK]);
+        for (k, corner) in corners.iter().enumerate().take(count) {
+            let far;
+            let quad = match self.quad(corner.i, corner.j) {
+                Some(quad) => quad,
+                None => {
+                    far = grid.quad(corner.i, corner.j);
+                    &far
+                }
+            };
+            (d2[k], units[k]) = (quad.mahalanobis2(corner, size), quad.units_at(corner));
         }
-        let (du, dv) = (u - f64::from(i), v - f64::from(j));
-        let (own_i, own_j) = (usize::from(du >= 0.5), usize::from(dv >= 0.5));
-        let size = self.grid.ndt_size as f32;
-        let (x, y) = (du as f32 * size, dv as f32 * size);
-        let first = row * width + column;
-        let cells = [&self.cells[first..first + 2], &self.cells[first + width..first + width + 2]];
-        let d2 = |cell: &FlatCell, x: f32, y: f32| self.ndt_cells[usize::from(cell.ndt_cell)].mahalanobis2(x, y);
-        let nearest = [
-            d2(&cells[0][0], x, y),
-            d2(&cells[0][1], x - size, y),
-            d2(&cells[1][0], x, y - size),
-            d2(&cells[1][1], x - size, y - size),
-        ];
-        let least = |a: f32, b: f32| if b < a { b } else { a };
-        let nearest = least(least(nearest[0], nearest[1]), least(nearest[2], nearest[3]));
-        (f64::from(nearest), cells[own_j][own_i].units)
+        Nearest { d2: d2.map(least), units }
     }
 }

@@ -14,12 +14,14 @@
 
 mod image;
 mod local_map;
+mod quad;
 mod ray_trace;
 #[cfg(feature = "serde")]
 mod saved;
 mod tile;
 
 pub(crate) use local_map::LocalMap;
+use quad::{Corner, Quad, least};
 pub(crate) use tile::{MAX_DISTANCE, UNIT};
 use tile::{NdtCell, TILE};
 
@@ -297,72 +299,77 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
     }
 }
 
-/// What a scan is held against.
+/// What a scan is held against. Asking may be to its advantage: what was worked out for one point it may keep for the next.
 pub(crate) trait NdtField {
     /// Log-odds of the cell of a point \[m\], in [`UNIT`]s.
-    fn units_at(&self, x: f64, y: f64) -> i8;
+    fn units_at(&mut self, point: [f64; 2]) -> i8;
 
-    /// What is known at a point \[m\]: the smallest squared Mahalanobis distance to the distributions of the four NDT cells whose
-    /// centres are nearest, infinite where none of them was hit, and the log-odds of the middle of
-    /// its own NDT cell in [`UNIT`]s.
-    ///
-    /// The four contain everything within half an NDT cell of the point.
-    fn nearest_ndt(&self, x: f64, y: f64) -> (f64, i8);
+    /// What is known at the first `count` of these points \[m\]; of the others nothing of any meaning is said.
+    fn nearest_ndt(&mut self, points: &[[f64; 2]; BLOCK], count: usize) -> Nearest;
 }
 
-impl<const CELLS_PER_NDT: usize> NdtField for Grid<CELLS_PER_NDT> {
+/// Points that are asked about together, so that each stage of the work is done to all of them before the next one: such loops are what
+/// compilers make vector instructions of. A third of the beams of a lap's climb.
+pub(crate) const BLOCK: usize = 12;
+
+/// What is known at points, by their order.
+pub(crate) struct Nearest {
+    /// The smallest squared Mahalanobis distance to the distributions of the four NDT cells whose centres are nearest, infinite where
+    /// none of them was hit. The four contain everything within half an NDT cell of the point.
+    pub d2: [f32; BLOCK],
+    /// The log-odds of the middle of the point's own NDT cell in [`UNIT`]s.
+    pub units: [i8; BLOCK],
+}
+
+impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
+    /// Where a point lies \[m\].
     #[inline]
-    fn units_at(&self, x: f64, y: f64) -> i8 {
+    fn corner(&self, point: [f64; 2]) -> Corner {
+        let at = point.map(|c| c * self.per_ndt - 0.5);
+        let [i, j] = at.map(fast_floor);
+        // In NDT cells from the centre of (i, j), 0 to 1: from one half on, the point itself lies in the next.
+        let beyond = [at[0] - f64::from(i), at[1] - f64::from(j)];
+        let offset = beyond.map(|c| c as f32 * self.ndt_size as f32);
+        Corner { i, j, offset, own: beyond.map(|c| c >= 0.5) }
+    }
+
+    /// The four NDT cells of which (i, j) is the lower left.
+    fn quad(&self, i: i32, j: i32) -> Quad {
+        let inner = |k: i32| k & (TILE - 1) != TILE - 1;
+        let tile = |i: i32, j: i32| self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT);
+        if inner(i) && inner(j) {
+            // The four lie in one tile: look it up once.
+            let (tile, first) = (tile(i, j), tile::local(i, j));
+            Quad::of([first, first + TILE as usize, first + 1, first + TILE as usize + 1].map(|local| (tile, local)))
+        } else {
+            let (right, above) = (i.wrapping_add(1), j.wrapping_add(1));
+            Quad::of([(i, j), (i, above), (right, j), (right, above)].map(|(i, j)| (tile(i, j), tile::local(i, j))))
+        }
+    }
+}
+
+impl<const CELLS_PER_NDT: usize> NdtField for &Grid<CELLS_PER_NDT> {
+    fn units_at(&mut self, [x, y]: [f64; 2]) -> i8 {
         let (i, j) = self.cell_of(x, y);
         self.units(i, j)
     }
 
-    #[inline]
-    fn nearest_ndt(&self, x: f64, y: f64) -> (f64, i8) {
-        let (u, v) = (x * self.per_ndt - 0.5, y * self.per_ndt - 0.5);
-        let (i, j) = (fast_floor(u), fast_floor(v));
-        // In NDT cells from the centre of (i, j), 0 to 1: from one half on, the point itself lies in the next.
-        let (du, dv) = (u - f64::from(i), v - f64::from(j));
-        let (own_i, own_j) = (i32::from(du >= 0.5), i32::from(dv >= 0.5));
-        // In single precision, as distributions are kept.
+    fn nearest_ndt(&mut self, points: &[[f64; 2]; BLOCK], count: usize) -> Nearest {
         let size = self.ndt_size as f32;
-        let (x, y) = (du as f32 * size, dv as f32 * size);
-        let mut nearest = f32::INFINITY;
-        let mut consider = |ndt_cell: Option<&NdtCell>, x: f32, y: f32| {
-            if let Some(ndt_cell) = ndt_cell {
-                let d2 = ndt_cell.mahalanobis2(x, y);
-                nearest = if d2 < nearest { d2 } else { nearest };
-            }
-        };
-        let inner = |k: i32| k & (TILE - 1) != TILE - 1;
-        let cell =
-            |tile: &Tile<CELLS_PER_NDT>, local: usize| tile.log_odds[local][CELLS_PER_NDT / 2][CELLS_PER_NDT / 2];
-        let units = if inner(i) && inner(j) {
-            // The four lie in one tile: look it up once.
-            let Some(tile) = self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT) else { return (f64::INFINITY, 0) };
-            let first = tile::local(i, j);
-            consider(tile.ndt_cell(first), x, y);
-            consider(tile.ndt_cell(first + 1), x - size, y);
-            consider(tile.ndt_cell(first + TILE as usize), x, y - size);
-            consider(tile.ndt_cell(first + TILE as usize + 1), x - size, y - size);
-            cell(tile, first + (own_i + own_j * TILE) as usize)
-        } else {
-            let (right, above) = (i.wrapping_add(1), j.wrapping_add(1));
-            consider(self.ndt_cell(i, j), x, y);
-            consider(self.ndt_cell(right, j), x - size, y);
-            consider(self.ndt_cell(i, above), x, y - size);
-            consider(self.ndt_cell(right, above), x - size, y - size);
-            let (i, j) = (i.wrapping_add(own_i), j.wrapping_add(own_j));
-            self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT).map_or(0, |tile| cell(tile, tile::local(i, j)))
-        };
-        (f64::from(nearest), units)
+        let mut nearest = Nearest { d2: [f32::INFINITY; BLOCK], units: [0; BLOCK] };
+        for (k, point) in points.iter().enumerate().take(count) {
+            let corner = self.corner(*point);
+            let quad = self.quad(corner.i, corner.j);
+            (nearest.d2[k], nearest.units[k]) = (least(quad.mahalanobis2(&corner, size)), quad.units_at(&corner));
+        }
+        nearest
     }
 }
 
-/// Each shared thing once.
+/// Each shared thing once, in no order.
 fn distinct<T>(mut shared: Vec<&Arc<T>>) -> Vec<&Arc<T>> {
-    let mut seen = std::collections::BTreeSet::new();
-    shared.retain(|arc| seen.insert(Arc::as_ptr(arc).addr()));
+    shared.sort_unstable_by_key(|arc| Arc::as_ptr(arc).addr());
+    shared.dedup_by_key(|arc| Arc::as_ptr(arc).addr());
     shared
 }
 

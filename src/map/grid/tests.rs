@@ -186,6 +186,12 @@ fn a_distribution_has_the_moments_of_its_hits() {
     assert!((product - nalgebra::Matrix2::identity()).norm() < 1e-4, "{product}");
 }
 
+/// What a grid says of one point.
+fn nearest<const CELLS_PER_NDT: usize>(mut grid: &Grid<CELLS_PER_NDT>, point: [f64; 2]) -> (f32, i8) {
+    let Nearest { d2, units } = grid.nearest_ndt(&[point; BLOCK], 1);
+    (d2[0], units[0])
+}
+
 #[test]
 fn the_nearest_distribution_is_that_of_all_cells_around() {
     let mut grid = Grid::<1>::new(MODEL);
@@ -195,13 +201,37 @@ fn the_nearest_distribution_is_that_of_all_cells_around() {
         let (i, j) = ((x / 0.3 - 0.5).floor() as i32, (y / 0.3 - 0.5).floor() as i32);
         let relative = |c: f64, k: i32| (c - (f64::from(k) + 0.5) * 0.3) as f32;
         let four = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)];
-        let near =
-            four.iter().filter_map(|&(i, j)| Some(grid.ndt_cell(i, j)?.mahalanobis2(relative(x, i), relative(y, j))));
+        let near = four.iter().filter_map(|&(i, j)| {
+            let (NdtCell { mean, information: [xx, xy, yy], .. }, x, y) =
+                (grid.ndt_cell(i, j)?, relative(x, i), relative(y, j));
+            let (dx, dy) = (x - mean[0], y - mean[1]);
+            Some(xx * dx * dx + 2.0 * xy * dx * dy + yy * dy * dy)
+        });
         let expected = near.fold(f32::INFINITY, f32::min);
-        let (found, units) = grid.nearest_ndt(x, y);
-        let (found, own) = (found as f32, grid.cell_of(x, y));
+        let (found, units) = nearest(&grid, [x, y]);
+        let own = grid.cell_of(x, y);
         assert_eq!(units, grid.units(own.0, own.1), "({x}, {y})");
         assert!(found == expected || (found - expected).abs() < 1e-3 * expected, "({x}, {y}): {found} {expected}");
+    }
+}
+
+/// To the bit: in the part that it copies, at its border, beyond it, and where nothing is known.
+#[test]
+fn a_local_map_says_of_every_point_what_its_grid_says() {
+    let mut grid = Grid::<1>::new(MODEL);
+    grid.assimilate(&Pose2::new(2.0, 1.0, 0.3), &BeamSensor::panorama(90, 8.0, 0.0).scan(&[1.7; 90]), &());
+    grid.assimilate(&Pose2::new(14.0, 2.0, 0.3), &BeamSensor::panorama(90, 8.0, 0.0).scan(&[1.3; 90]), &());
+    let mut local = LocalMap::new(&grid, [2.0, 1.0], 3.0);
+    let points: Vec<[f64; 2]> = (0..12_000)
+        .map(|k| [f64::from(k % 200) * 0.1 - 2.013, f64::from(k / 200) * 0.1 - 2.71])
+        .chain([[1e6, -1e6], [-1e6, 2.0]])
+        .collect();
+    for points in points.chunks(BLOCK) {
+        let block = core::array::from_fn(|k| points.get(k).copied().unwrap_or_default());
+        let [here, there] = [local.nearest_ndt(&block, points.len()), (&grid).nearest_ndt(&block, points.len())];
+        for (k, point) in points.iter().enumerate() {
+            assert_eq!((here.d2[k].to_bits(), here.units[k]), (there.d2[k].to_bits(), there.units[k]), "{point:?}");
+        }
     }
 }
 
@@ -222,8 +252,8 @@ fn stretched_distributions_make_a_row_of_cells_one_wall() {
     let least_and_most = |ndt_stretch: f64, off: f64| {
         let mut grid = Grid::<4>::new(GridModel { cell_size: 0.05, ndt_std: 0.06, ndt_stretch, ..MODEL });
         grid.assimilate(&Pose2::default(), &scan, &());
-        let along = (0..150).map(|k| grid.nearest_ndt(-1.5 + 0.02 * f64::from(k), 2.05 + off).0);
-        along.fold((f64::INFINITY, 0.0_f64), |(low, high), d2| (low.min(d2), high.max(d2)))
+        let along = (0..150).map(|k| nearest(&grid, [-1.5 + 0.02 * f64::from(k), 2.05 + off]).0);
+        along.fold((f32::INFINITY, 0.0_f32), |(low, high), d2| (low.min(d2), high.max(d2)))
     };
     let (beads, wall) = (least_and_most(1.0, 0.0), least_and_most(4.0, 0.0));
     assert!(beads.1 > 2.0 && wall.1 < 0.3, "{beads:?} {wall:?}");

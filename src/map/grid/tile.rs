@@ -70,19 +70,6 @@ impl NdtCell {
         let det = xx * yy - xy * xy;
         self.information = [yy / det, -xy / det, xx / det];
     }
-
-    /// (p − mean)ᵀ Σ⁻¹ (p − mean) of a point relative to the centre of the NDT cell \[m\].
-    #[inline]
-    pub fn mahalanobis2(&self, x: f32, y: f32) -> f32 {
-        mahalanobis2(self.mean, self.information, x, y)
-    }
-}
-
-/// (p − mean)ᵀ Σ⁻¹ (p − mean) by Σ⁻¹ (xx, xy, yy).
-#[inline]
-pub(super) fn mahalanobis2(mean: [f32; 2], [xx, xy, yy]: [f32; 3], x: f32, y: f32) -> f32 {
-    let (dx, dy) = (x - mean[0], y - mean[1]);
-    xx * dx * dx + 2.0 * xy * dx * dy + yy * dy * dy
 }
 
 /// Log-odds of every occupancy cell, and the distributions of the NDT cells that were hit.
@@ -114,16 +101,10 @@ impl<const CELLS_PER_NDT: usize> Tile<CELLS_PER_NDT> {
     /// The same content in a dense array: for each NDT cell its occupancy cells and a distribution.
     pub const DENSE_BYTES: usize = NDT_CELLS * (CELLS_PER_NDT * CELLS_PER_NDT + size_of::<NdtCell>());
 
-    /// All distributions.
-    pub fn ndt_cells(&self) -> &[NdtCell] {
-        &self.ndt_cells
-    }
-
-    /// Which of the distributions is that of an NDT cell.
+    /// Log-odds in units of the cell in the middle of an NDT cell.
     #[inline]
-    pub fn place(&self, local: usize) -> Option<usize> {
-        let place = self.places[local];
-        (1..=NDT_CELLS as u8).contains(&place).then(|| usize::from(place) - 1)
+    pub fn middle(&self, local: usize) -> i8 {
+        self.log_odds[local][CELLS_PER_NDT / 2][CELLS_PER_NDT / 2]
     }
 
     #[inline]
