@@ -118,6 +118,12 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         Builder::new(map, proposal)
     }
 
+    /// The same filter, resampled by another policy from here on. Below a fraction beyond 1 of the particles N_eff always is, below
+    /// one beyond 0 it never is.
+    pub fn with_policy(self, policy: ResamplePolicy) -> Self {
+        Self { policy, ..self }
+    }
+
     /// The same filter, computed by another executor: the results are the same.
     pub fn with_executor(self, executor: Executor) -> Self {
         Self { executor, ..self }

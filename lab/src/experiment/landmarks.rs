@@ -308,6 +308,11 @@ impl LandmarkRun {
         Ok(Self { log, filter, step: 0, squared_errors: 0.0 })
     }
 
+    /// The same run, resampled by another policy from here on.
+    pub fn with_policy(self, policy: ResamplePolicy) -> Self {
+        Self { filter: self.filter.with_policy(policy), ..self }
+    }
+
     /// The same run, computed by another executor: the results are the same.
     pub fn with_executor(self, executor: Executor) -> Self {
         Self { filter: self.filter.with_executor(executor), ..self }

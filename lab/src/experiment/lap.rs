@@ -393,6 +393,11 @@ impl Lap {
         Ok(lap)
     }
 
+    /// The same lap, resampled by another policy from here on.
+    pub fn with_policy(self, policy: ResamplePolicy) -> Self {
+        Self { filter: self.filter.with_policy(policy), ..self }
+    }
+
     /// The same lap, computed by another executor: the results are the same.
     pub fn with_executor(self, executor: Executor) -> Self {
         Self { filter: self.filter.with_executor(executor), ..self }

@@ -30,6 +30,9 @@ use std::sync::Arc;
 
 /// The policies compared, by their index everywhere here.
 pub const POLICIES: [&str; 3] = ["never", "always", "selective"];
+const NEVER: usize = 0;
+const ALWAYS: usize = 1;
+const SELECTIVE: usize = 2;
 
 /// Where the filters are compared.
 #[derive(
@@ -223,6 +226,13 @@ struct Stepped {
 }
 
 impl Run {
+    fn with_policy(self, policy: ResamplePolicy) -> Self {
+        match self {
+            Self::Lap(run) => Self::Lap(Box::new(run.with_policy(policy))),
+            Self::Wings(run) => Self::Wings(Box::new(run.with_policy(policy))),
+        }
+    }
+
     fn with_executor(self, executor: Executor) -> Self {
         match self {
             Self::Lap(run) => Self::Lap(Box::new(run.with_executor(executor))),
@@ -253,7 +263,10 @@ impl Run {
 pub struct Policies {
     setup: PoliciesSetup,
     world: World,
-    runs: [Run; 3],
+    never: Run,
+    always: Run,
+    /// `None` until it resamples for the first time: up to there it is the one that never does, and is computed once.
+    selective: Option<Run>,
     reports: [PolicyReport; 3],
 }
 
@@ -265,41 +278,39 @@ impl Policies {
     pub fn new(setup: &PoliciesSetup) -> Result<Self, SettingError> {
         setup.validate()?;
         let &PoliciesSetup { particles, seed, scheme, odometry_scale, sensor_scale, proposal, matcher, .. } = setup;
-        let (world, runs) = match setup.course {
+        let (world, never) = match setup.course {
             PolicyCourse::Lap => {
                 let range_std = LapSetup::default().range_std * sensor_scale;
-                let lap = |policy| LapSetup {
+                let lap = LapSetup {
                     particles,
                     seed,
                     proposal,
                     matcher,
-                    policy,
+                    policy: ResamplePolicy::Never,
                     scheme,
                     odometry_scale,
                     range_std,
                     ..LapSetup::default()
                 };
-                let world = Arc::new(lap(ResamplePolicy::Never).world());
-                let run = |policy| Ok(Run::Lap(Box::new(Lap::in_world(&lap(policy), Arc::clone(&world))?)));
-                (World::Lap(Arc::clone(&world)), setup.policies().map(run))
+                let world = Arc::new(lap.world());
+                (World::Lap(Arc::clone(&world)), Run::Lap(Box::new(Lap::in_world(&lap, world)?)))
             }
             PolicyCourse::Wings => {
                 let tuning = Course::Wings.tuning().scaled(odometry_scale, sensor_scale);
                 let log = Arc::new(Course::Wings.simulate_with(&tuning, seed));
                 let (proposal, correspondence) = (ProposalKind::Improved, CorrespondenceKind::Unknown);
-                let of = |policy| LandmarkSetup { particles, seed, proposal, correspondence, policy, scheme };
-                let run = |policy| Ok(Run::Wings(Box::new(LandmarkRun::new(&of(policy), &tuning, Arc::clone(&log))?)));
-                (World::Wings(Arc::clone(&log)), setup.policies().map(run))
+                let policy = ResamplePolicy::Never;
+                let of = LandmarkSetup { particles, seed, proposal, correspondence, policy, scheme };
+                (World::Wings(Arc::clone(&log)), Run::Wings(Box::new(LandmarkRun::new(&of, &tuning, log)?)))
             }
         };
-        let [never, always, selective] = runs;
-        let runs = [never?, always?, selective?];
-        let start = |run: &Run| PolicyReport {
+        let always = never.clone().with_policy(setup.policies()[ALWAYS]);
+        let start = PolicyReport {
             step: 0,
             log_evidence: 0.0,
             ess: particles as f64,
             ancestors: None,
-            descent: of_filter!(run, filter => filter.descent()),
+            descent: of_filter!(&never, filter => filter.descent()),
             error_best: 0.0,
             error_mean: 0.0,
             rms_best: 0.0,
@@ -307,22 +318,45 @@ impl Policies {
             right: None,
             associations: None,
         };
-        let reports = [0, 1, 2].map(|policy| start(&runs[policy]));
-        Ok(Self { setup: setup.clone(), world, runs, reports })
+        let reports = [start.clone(), start.clone(), start];
+        Ok(Self { setup: setup.clone(), world, never, always, selective: None, reports })
     }
 
     /// The same, computed by another executor: the results are the same.
     pub fn with_executor(self, executor: Executor) -> Self {
-        Self { runs: self.runs.map(|run| run.with_executor(executor.clone())), ..self }
+        let by = |run: Run| run.with_executor(executor.clone());
+        Self { never: by(self.never), always: by(self.always), selective: self.selective.map(by), ..self }
     }
 
     /// One step of all three; `None` after the last.
     pub fn step(&mut self) -> Option<&[PolicyReport; 3]> {
-        for policy in 0..3 {
-            let stepped = self.runs[policy].step()?;
-            self.reports[policy] = self.judge(policy, stepped);
+        // What the selective filter would go on from, if it has to go its own way.
+        let before = self.selective.is_none().then(|| self.never.clone());
+        let stepped = self.never.step()?;
+        self.reports[NEVER] = self.judge(NEVER, stepped);
+        let stepped = self.always.step()?;
+        self.reports[ALWAYS] = self.judge(ALWAYS, stepped);
+        let selective = self.setup.policies()[SELECTIVE];
+        if selective.should_resample(self.reports[NEVER].ess, self.setup.particles) {
+            self.selective = self.selective.take().or_else(|| before.map(|run| run.with_policy(selective)));
         }
+        self.reports[SELECTIVE] = match &mut self.selective {
+            None => self.reports[NEVER].clone(),
+            Some(run) => {
+                let stepped = run.step()?;
+                self.judge(SELECTIVE, stepped)
+            }
+        };
         Some(&self.reports)
+    }
+
+    /// The filter of a policy.
+    fn run(&self, policy: usize) -> &Run {
+        match policy {
+            ALWAYS => &self.always,
+            SELECTIVE => self.selective.as_ref().unwrap_or(&self.never),
+            _ => &self.never,
+        }
     }
 
     /// Compares a filter's newest state with the truth.
@@ -342,7 +376,7 @@ impl Policies {
             log_evidence,
             ess,
             ancestors,
-            descent: of_filter!(&self.runs[policy], filter => filter.descent()),
+            descent: of_filter!(self.run(policy), filter => filter.descent()),
             error_best: poses[best].distance(here),
             error_mean,
             rms_best: rms(&self.paths(policy)[best].poses(), &truth[..=step as usize]),
@@ -415,22 +449,22 @@ impl Policies {
 
     /// Paths of one filter's particles, by slot.
     pub fn paths(&self, policy: usize) -> Vec<&Path> {
-        of_filter!(&self.runs[policy], filter => filter.particles().iter().map(|p| &p.path).collect())
+        of_filter!(self.run(policy), filter => filter.particles().iter().map(|p| &p.path).collect())
     }
 
     /// Poses of one filter's particles, by slot.
     pub fn poses(&self, policy: usize) -> Vec<Pose2> {
-        of_filter!(&self.runs[policy], filter => filter.particles().iter().map(|p| p.world_from_robot).collect())
+        of_filter!(self.run(policy), filter => filter.particles().iter().map(|p| p.world_from_robot).collect())
     }
 
     /// Normalised weights of one filter as they are now, by slot: uniform after a resampling.
     pub fn weights(&self, policy: usize) -> &[f64] {
-        of_filter!(&self.runs[policy], filter => filter.weights().as_slice())
+        of_filter!(self.run(policy), filter => filter.weights().as_slice())
     }
 
     /// Slot of one filter's best particle.
     pub fn best(&self, policy: usize) -> usize {
-        of_filter!(&self.runs[policy], filter => filter.best())
+        of_filter!(self.run(policy), filter => filter.best())
     }
 
     /// Runs to the end. Returns a fingerprint of every report, pose and weight on the way, bit for bit.
