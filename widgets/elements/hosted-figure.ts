@@ -12,8 +12,9 @@ import { download } from './save'
 import { Settings } from './settings'
 import { WorkerHost } from './worker-host'
 import { languageAround } from './words'
+import { yieldToMain } from './yield'
 
-const WORK_BUDGET = 8 // [ms] of simulation a frame, which leaves half of a 60 Hz frame to painting and the page
+const WORK_SLICE = 8 // [ms] of simulation, in a frame and between two looks at what else the page has to do
 const SLOW = 3000 // [ms] of loading after which the picture is shown meanwhile
 
 export abstract class HostedFigure extends FigureParts implements Listener {
@@ -25,6 +26,7 @@ export abstract class HostedFigure extends FigureParts implements Listener {
   protected stopped = false // after an error that beginning again did not cure, until Reset
   protected crashes = 0
   #sentSize = ''
+  #catchingUp = false
 
   protected readonly events = new Events(this)
   protected readonly settings = new Settings(this)
@@ -276,10 +278,22 @@ export abstract class HostedFigure extends FigureParts implements Listener {
     this.#tellSize()
     const plays = this.playback.playing && this.frames.inView
     if (plays && !this.host.busy) this.#advance(now)
-    this.host?.work(WORK_BUDGET)
+    this.host?.work(WORK_SLICE)
     this.show(this.host?.frame(now))
     this.showBusy(this.host?.busy ?? false)
     if (plays || this.host?.busy) this.wake()
+    void this.#catchUp()
+  }
+
+  /** Works also between frames, where that is on the page: on the way to what was asked for there is nothing to paint, and the reader waits. */
+  async #catchUp(): Promise<void> {
+    if (this.#catchingUp) return
+    this.#catchingUp = true
+    while (this.host?.busy && !this.host.remote && this.frames.waiting) {
+      await yieldToMain()
+      this.host?.work(WORK_SLICE)
+    }
+    this.#catchingUp = false
   }
 
   #tellSize(): void {
