@@ -187,7 +187,8 @@ impl Model for LapModel {
         if self.pending() == 0 {
             return;
         }
-        self.before = Some(self.shown.clone());
+        // Of the last pending step alone: nobody sees those before it, and what is kept has to be copied where it is written to.
+        self.before = (self.pending() == 1).then(|| self.shown.clone());
         self.shown.step();
         let (step, interval) = (self.step(), self.interval());
         if self.reports.len() == step as usize {
