@@ -1,0 +1,77 @@
+// How long a reader waits: from one event of a slider, at the last step, until the figure shows that step by the new value. Part of `npm run
+// bench`; by itself, of the pages as they were built last: node scripts/latency.mjs
+import { launchChromium } from './browser.mjs'
+import { dist } from './build.mjs'
+import { isMain, main, say } from './lib.mjs'
+import { startServer } from './serve.mjs'
+
+/** @typedef {{ what: string, tag: string, attributes: Record<string, string>, slider: string, values: [string, string], atMost: number }} Drag */
+
+/** Of each figure the slider that changes most of it; `values` are moved between, and `atMost` is in ms. @type {Drag[]} */
+const DRAGS = [
+  { what: 'lap, M = 16', tag: 'fastslam-lap', attributes: { universes: '16', step: '90' }, slider: 'odometry', values: ['1.05', '1'], atMost: 150 },
+  { what: 'lap, M = 64', tag: 'fastslam-lap', attributes: { universes: '64', step: '90' }, slider: 'odometry', values: ['1.05', '1'], atMost: 600 },
+  { what: 'resampling, M = 64', tag: 'fastslam-resampling', attributes: { particles: '64', step: '90' }, slider: 'odometry', values: ['1.05', '1'], atMost: 1500 },
+  { what: 'proposals', tag: 'fastslam-proposal', attributes: {}, slider: 'range-std', values: ['0.15', '0.1'], atMost: 32 },
+  { what: 'graphical model', tag: 'fastslam-conditioning', attributes: { step: '999' }, slider: 'odometry', values: ['1.05', '1'], atMost: 32 },
+  { what: 'worked example', tag: 'fastslam-worked-example', attributes: {}, slider: 'range-std', values: ['0.15', '0.1'], atMost: 32 },
+  { what: 'log, before it is mapped', tag: 'fastslam-log', attributes: {}, slider: 'universes', values: ['20', '16'], atMost: 32 },
+]
+const WIDTH = 1366
+const HEIGHT = 650
+const EVENTS = 6 // after two that warm up the compiler
+
+/** Runs in the page: the times of all events [ms]. @param {Drag & { events: number }} drag */
+async function timeDrag({ tag, attributes, slider, values, events }) {
+  const module = '/fastslam.js'
+  await import(module)
+  await customElements.whenDefined(tag)
+  const figure = /** @type {any} */ (document.createElement(tag))
+  for (const [name, value] of Object.entries(attributes)) figure.setAttribute(name, value)
+  document.body.replaceChildren(figure)
+  const shown = () => new Promise(done => figure.addEventListener('fastslam-change', done, { once: true }))
+  const wait = (/** @type {number} */ ms) => new Promise(done => setTimeout(done, ms))
+  /** @type {HTMLInputElement | null} */
+  let range = null
+  while (!(range = figure.shadowRoot.querySelector(`input[type=range][name=${slider}]`))) await wait(50)
+  do await figure.settled()
+  while (range.disabled)
+  const times = []
+  for (let event = -2; event < events; event++) {
+    const settled = shown()
+    range.value = /** @type {string} */ (values[event & 1])
+    const from = performance.now()
+    range.dispatchEvent(new Event('input', { bubbles: true, composed: true }))
+    await settled
+    if (event >= 0) times.push(performance.now() - from)
+    await figure.settled()
+  }
+  return times
+}
+
+/** The median and the worst of each [ms]. */
+export async function latencies() {
+  const server = await startServer({ folder: dist })
+  const browser = await launchChromium()
+  try {
+    const page = await browser.newPage({ viewport: { width: WIDTH, height: HEIGHT } })
+    await page.route('**/bench', route => route.fulfill({ contentType: 'text/html', body: '<!doctype html><title>bench</title>' }))
+    const found = []
+    for (const drag of DRAGS) {
+      await page.goto(`${server.url}bench`)
+      const times = (await page.evaluate(timeDrag, { ...drag, events: EVENTS })).sort((a, b) => a - b)
+      found.push({ what: drag.what, atMost: drag.atMost, median: times[times.length >> 1] ?? NaN, worst: times[times.length - 1] ?? NaN })
+    }
+    return found
+  } finally {
+    await browser.close()
+    await server.close()
+  }
+}
+
+if (isMain(import.meta)) {
+  await main(async () => {
+    for (const { what, atMost, median, worst } of await latencies())
+      say(`  ${median.toFixed(0).padStart(6)} ms, at the worst ${worst.toFixed(0)} ms, of ${atMost} ms: ${what}`)
+  })
+}
