@@ -1,11 +1,12 @@
 // How long a reader waits: from one event of a slider, at the last step, until the figure shows that step by the new value. Part of `npm run
 // bench`; by itself, of the pages as they were built last: node scripts/latency.mjs
+import { join } from 'node:path'
 import { launchChromium } from './browser.mjs'
 import { dist } from './build.mjs'
-import { isMain, main, say } from './lib.mjs'
+import { isMain, main, root, say } from './lib.mjs'
 import { startServer } from './serve.mjs'
 
-/** @typedef {{ what: string, tag: string, attributes: Record<string, string>, slider: string, values: [string, string], atMost: number }} Drag */
+/** @typedef {{ what: string, tag: string, attributes: Record<string, string>, slider: string, values: [string, string], atMost: number, file?: string }} Drag */
 
 /** Of each figure the slider that changes most of it; `values` are moved between, and `atMost` is in ms. @type {Drag[]} */
 const DRAGS = [
@@ -15,33 +16,37 @@ const DRAGS = [
   { what: 'proposals', tag: 'fastslam-proposal', attributes: {}, slider: 'range-std', values: ['0.15', '0.1'], atMost: 32 },
   { what: 'graphical model', tag: 'fastslam-conditioning', attributes: { step: '999' }, slider: 'odometry', values: ['1.05', '1'], atMost: 32 },
   { what: 'worked example', tag: 'fastslam-worked-example', attributes: {}, slider: 'range-std', values: ['0.15', '0.1'], atMost: 32 },
-  { what: 'log, before it is mapped', tag: 'fastslam-log', attributes: {}, slider: 'universes', values: ['20', '16'], atMost: 32 },
+  { what: 'log, before it is mapped', tag: 'fastslam-log', attributes: {}, slider: 'universes', values: ['20', '16'], atMost: 32, file: join(root, 'www', 'public', 'example.clf.gz') },
 ]
 const WIDTH = 1366
 const HEIGHT = 650
 const EVENTS = 6 // after two that warm up the compiler
 
-/** Runs in the page: the times of all events [ms]. @param {Drag & { events: number }} drag */
-async function timeDrag({ tag, attributes, slider, values, events }) {
+/** Runs in the page: the figure, alone. @param {Drag} drag */
+async function show({ tag, attributes }) {
   const module = '/fastslam.js'
   await import(module)
   await customElements.whenDefined(tag)
-  const figure = /** @type {any} */ (document.createElement(tag))
+  const figure = document.createElement(tag)
   for (const [name, value] of Object.entries(attributes)) figure.setAttribute(name, value)
   document.body.replaceChildren(figure)
-  const shown = () => new Promise(done => figure.addEventListener('fastslam-change', done, { once: true }))
-  const wait = (/** @type {number} */ ms) => new Promise(done => setTimeout(done, ms))
-  /** @type {HTMLInputElement | null} */
-  let range = null
-  while (!(range = figure.shadowRoot.querySelector(`input[type=range][name=${slider}]`))) await wait(50)
-  do await figure.settled()
-  while (range.disabled)
+}
+
+/** Runs in the page: the times of all events [ms]. @param {Drag & { events: number }} drag */
+async function timeDrag({ slider, values, events }) {
+  const figure = /** @type {any} */ (document.body.firstElementChild)
+  // A parameter without a slider has a box alone.
+  const find = (/** @type {string} */ type) => figure.shadowRoot.querySelector(`input${type}[name=${slider}]`)
+  while (!find('') || find('').disabled) await new Promise(done => setTimeout(done, 50))
+  const range = /** @type {HTMLInputElement} */ (find('[type=range]') ?? find(''))
+  const moves = range.type === 'range' ? 'input' : 'change'
+  await figure.settled()
   const times = []
   for (let event = -2; event < events; event++) {
-    const settled = shown()
+    const settled = new Promise(done => figure.addEventListener('fastslam-change', done, { once: true }))
     range.value = /** @type {string} */ (values[event & 1])
     const from = performance.now()
-    range.dispatchEvent(new Event('input', { bubbles: true, composed: true }))
+    range.dispatchEvent(new Event(moves, { bubbles: true, composed: true }))
     await settled
     if (event >= 0) times.push(performance.now() - from)
     await figure.settled()
@@ -59,6 +64,8 @@ export async function latencies() {
     const found = []
     for (const drag of DRAGS) {
       await page.goto(`${server.url}bench`)
+      await page.evaluate(show, drag)
+      if (drag.file) await page.locator('input[type=file]').setInputFiles(drag.file)
       const times = (await page.evaluate(timeDrag, { ...drag, events: EVENTS })).sort((a, b) => a - b)
       found.push({ what: drag.what, atMost: drag.atMost, median: times[times.length >> 1] ?? NaN, worst: times[times.length - 1] ?? NaN })
     }
