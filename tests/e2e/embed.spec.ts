@@ -159,7 +159,7 @@ test('each figure has a page with its picture, its oEmbed answer and a link to i
     const answer = await request.get(link![1]!)
     expect(answer.headers()['content-type']).toContain('application/json')
     const oembed = await answer.json()
-    expect(oembed).toMatchObject({ version: '1.0', type: 'rich', width: 800 })
+    expect(oembed).toMatchObject({ version: '1.0', type: 'rich', width: 900 })
     expect(oembed.html).toMatch(new RegExp(`^<iframe src="https?://[^"]+/embed\\.html\\?figure=${name}" .*height="${oembed.height}"`))
     expect(new URL(oembed.thumbnail_url).pathname.split('/').slice(-2)[0]).toBe('assets')
   }

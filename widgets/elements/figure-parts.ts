@@ -223,11 +223,6 @@ export abstract class FigureParts extends HTMLElement {
     return slot.hasChildNodes()
   }
 
-  /** Something of a figure's own, below everything else. */
-  protected addPanel(panel: HTMLElement): void {
-    this.body.append(panel)
-  }
-
   // --- Reader's input ----------------------------------------------------------------------------------------------------
 
   #playPause(): void {

@@ -63,11 +63,17 @@ export class LogSession extends Session {
   #atNewest<T>(act: () => T): T {
     const shown = this.figure.step()
     if (this.#halted) this.figure.seek(LAST)
-    try {
-      return act()
-    } finally {
+    const back = () => {
       this.#mapped = this.figure.step() > 0
       if (this.#halted && this.#mapped) this.figure.seek(shown)
+    }
+    try {
+      const result = act()
+      back()
+      return result
+    } catch (error) {
+      if (isRefusal(error)) back() // after a trap, nothing may be called any more
+      throw error
     }
   }
 

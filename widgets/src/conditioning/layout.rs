@@ -33,7 +33,7 @@ const BUTTON: [f64; 2] = [112.0, 56.0];
 const BUTTON_GAP: f64 = 8.0;
 /// Largest side of a matrix that is shown alone, and of one below the graph: all of a wide figure would be more than a screen is high.
 const ALONE: f64 = 380.0;
-const BELOW: f64 = 225.0;
+const BELOW: f64 = 205.0;
 
 /// The parts of the figure \[css px\].
 #[derive(Clone, PartialEq, Debug)]
