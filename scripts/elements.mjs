@@ -97,7 +97,7 @@ const events = [
 ]
 
 const parts =
-  'figure title stage canvas transport button primary play rewind step-back step reset undo scrub seed controls control notices notice sentence numbers readouts readout settings menu toggle handle count stop example map inputs source saves'.split(' ')
+  'figure title stage canvas transport button primary play rewind step-back step reset undo scrub seed controls control notices notice sentence numbers readouts readout settings menu toggle handle count stop inputs'.split(' ')
 
 const cssProperties = ['accent', 'ink', 'muted', 'line', 'paper', 'radius', 'font'].map(name => `--fastslam-${name}`)
 

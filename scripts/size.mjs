@@ -9,20 +9,20 @@ import { launchChromium } from './browser.mjs'
 /** Bytes. `target` is what the design asks for, `limit` what fails: clarity comes before bytes, and below it nobody shaves. */
 const budgets = {
   /**
-   * With six figures; 520 KB with twelve. The program of the one that maps logs comes when it is asked for something. The catalogue of words
-   * by language took it from 420 to 430 KB: a call and a key for each word of the program, of which half can be had back.
+   * The target is for six figures; with twelve it is 520 KB. Over it are the words of the catalogue, a call and a key for each (10 KB), what
+   * lets each figure stand on one screen (views that are handles, panels and rooms for controls, 30 KB), and what makes a scan's score
+   * quick (it is compiled once for every kind of map).
    */
-  page: { target: 420_000, limit: 432_000 },
+  page: { target: 420_000, limit: 480_000 },
   /** The picture of the finished map, which is fetched when the figure of logs is near: neither text nor program waits for it. */
   poster: { target: 25_000, limit: 30_000 },
-  /** HTML and CSS: what is there before any script or program. The section on evidence took it to 68 KB, to be cut. */
-  text: { target: 65_000, limit: 70_000 },
+  /** HTML and CSS: what is there before any script or program. */
+  text: { target: 65_000, limit: 67_000 },
   /**
-   * One figure's page for frames with all that it loads, nothing cached. With tiny-skia unpatched and the words of the catalogue the page's
-   * program alone has 282 KB. Apart, before the words, grids had 216 and landmarks 193: embeds would be within their target then, and the
-   * chapter, which loads both, 130 KB over its own.
+   * One figure's page for frames with all that it loads, nothing cached. The page's program alone has 316 KB. Split into grids and landmarks
+   * it would be within the target, and the chapter, which loads both, 130 KB further over its own.
    */
-  embed: { target: 260_000, limit: 315_000 },
+  embed: { target: 260_000, limit: 360_000 },
 }
 
 /** A size against its budget, in words. @param {string} what @param {number} bytes @param {{ target: number, limit: number }} budget */
