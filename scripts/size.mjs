@@ -17,7 +17,7 @@ const budgets = {
   /** The picture of the finished map, which is fetched when the figure of logs is near: neither text nor program waits for it. */
   poster: { target: 25_000, limit: 30_000 },
   /** HTML and CSS: what is there before any script or program. */
-  text: { target: 65_000, limit: 67_000 },
+  text: { target: 65_000, limit: 70_000 },
   /**
    * One figure's page for frames with all that it loads, nothing cached. The page's program alone has 316 KB. Split into grids and landmarks
    * it would be within the target, and the chapter, which loads both, 130 KB further over its own.
