@@ -2,7 +2,7 @@
 
 use crate::words::names;
 use fastslam::{matching::Matcher, resampling::Scheme};
-use fastslam_lab::experiment::ProposalKind;
+use fastslam_lab::experiment::{ProposalKind, lap::Course};
 
 /// A proposal's name for readers.
 pub fn proposal(kind: ProposalKind) -> &'static str {
@@ -17,6 +17,14 @@ pub fn matcher(matcher: Matcher) -> &'static str {
     match matcher {
         Matcher::SubCell => names::sub_cell(),
         Matcher::Cell => names::cell(),
+    }
+}
+
+/// A course's name for readers.
+pub fn course(course: Course) -> &'static str {
+    match course {
+        Course::Apartment => names::apartment(),
+        Course::Ring => names::ring(),
     }
 }
 

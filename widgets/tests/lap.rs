@@ -85,6 +85,20 @@ fn a_bad_link_is_told_of_and_the_rest_of_it_applied() {
 }
 
 #[test]
+fn the_course_says_how_many_steps_there_are() {
+    let mut figure = lap("universes=2&proposal=motion&matcher=cell&course=ring&step=110");
+    assert_eq!((figure.model().step(), figure.model().step_count()), (110, 110));
+    // The apartment's lap is shorter: the step asked for becomes its last one.
+    figure.set("course", "apartment").unwrap();
+    assert_eq!((figure.model().pending(), figure.model().step_count()), (90, 90));
+    let messages = figure.load("course=apartment&step=91");
+    assert!(messages[0].message.contains("from 0 to 90"), "{messages:?}");
+    assert!(figure.load("course=moon")[0].message.contains("must be one of apartment, ring"));
+    let step = |query| lap(query).params().iter().find(|spec| spec.name == "step").unwrap().max;
+    assert_eq!([step("course=apartment"), step("course=ring")], [90.0, 110.0]);
+}
+
+#[test]
 fn a_new_setup_keeps_the_step_and_is_simulated_up_to_it() {
     let mut figure = lap("universes=3&step=5");
     figure.set("seed", "8").unwrap();

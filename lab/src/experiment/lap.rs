@@ -29,6 +29,9 @@ pub const STEPS: usize = 90;
 /// How many particles a lap may have.
 pub const PARTICLES: Range = Range::whole(1, 4096);
 
+/// Steps of the ring, besides the start: round it, and on along the first side.
+pub const RING_STEPS: usize = 110;
+
 /// Noise of the wheels at scale 1: α₁ \[–\], α₂ \[rad²/m²\], α₃ \[–\], α₄ \[m²/rad²\].
 ///
 /// Chosen so that raw odometry drifts by metres: the median RMS of its position over a lap is 3.0 to 3.7 m.
@@ -118,6 +121,14 @@ fn unknown_course(given: &str) -> SettingError {
 }
 
 impl Course {
+    /// Steps, besides the start.
+    pub const fn steps(self) -> usize {
+        match self {
+            Self::Apartment => STEPS,
+            Self::Ring => RING_STEPS,
+        }
+    }
+
     /// The place and the way through it.
     pub fn route(self) -> Route {
         match self {
@@ -147,12 +158,12 @@ pub struct Route {
 
 impl Route {
     /// The ring with so many niches on each side of the block, 0 to 2, and a laser of this range \[m\]: round it against the clock, and
-    /// on along the first side. 110 steps of some 0.3 m.
+    /// on along the first side. [`RING_STEPS`] steps of some 0.3 m.
     pub fn ring(niches: usize, max_range: f64) -> Self {
         const CORNERS: [[f64; 2]; 6] = [[1.6, 0.9], [10.1, 0.9], [10.1, 7.1], [0.9, 7.1], [0.9, 0.9], [6.6, 0.9]];
         // A drive leaves a leg half-way to the corner: of legs as long as these, it would cut the block's corners.
         let way_points = corners_cut_short(&CORNERS, 1.2);
-        Self { plan: FloorPlan::ring(niches), way_points, steps: 110, max_range }
+        Self { plan: FloorPlan::ring(niches), way_points, steps: RING_STEPS, max_range }
     }
 
     /// The same place and way after a rigid motion of the plane.
@@ -567,7 +578,8 @@ mod tests {
     fn each_course_has_its_own_world() {
         let setup = |course| LapSetup { course, ..LapSetup::default() };
         let [apartment, ring] = COURSES.map(|course| Lap::new(&setup(course)).unwrap());
-        assert_eq!((apartment.step_count(), ring.step_count()), (STEPS as u32, 110));
+        assert_eq!((apartment.step_count(), ring.step_count()), (STEPS as u32, RING_STEPS as u32));
+        assert_eq!(COURSES.map(Course::steps), COURSES.map(|course| course.route().steps));
         let furthest = |lap: &Lap| {
             let ends = lap.world().scans.iter().flat_map(|scan| scan.hits.iter().chain(&scan.misses));
             ends.map(|[x, y]| ops::hypot(*x, *y)).fold(0.0, f64::max)

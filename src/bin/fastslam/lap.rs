@@ -1,7 +1,7 @@
 //! `fastslam lap`: one lap of the apartment, or of the ring.
 
-use crate::{Usage, picture, print, print_json};
-use anyhow::{Result, bail};
+use crate::{picture, print, print_json};
+use anyhow::Result;
 use fastslam::matching::Matcher;
 use fastslam::resampling::{ResamplePolicy, Scheme};
 use fastslam_lab::experiment::ProposalKind;
@@ -24,7 +24,7 @@ pub struct Arguments {
     /// Print one JSON object
     #[arg(long)]
     json: bool,
-    /// Paint the end of the lap, as the page would, into this file: of the apartment only
+    /// Paint the end of the lap, as the page would, into this file
     #[arg(long, value_name = "FILE")]
     png: Option<PathBuf>,
 }
@@ -100,9 +100,6 @@ struct Output {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<()> {
-    if arguments.png.is_some() && arguments.course != Course::Apartment {
-        bail!(Usage(format!("--png: the figure has no course {}", arguments.course)));
-    }
     let setup = arguments.options.setup(arguments.course, arguments.seed);
     let lap = Lap::new(&setup)?;
     if let Some(path) = &arguments.png {
@@ -156,6 +153,7 @@ fn paint(setup: &LapSetup, path: &Path) -> Result<()> {
     let (policy, threshold) =
         policy.split_once(':').map_or((&*policy, None), |(word, fraction)| (word, Some(fraction)));
     for (name, value) in [
+        ("course", setup.course.to_string()),
         ("universes", setup.particles.to_string()),
         ("seed", setup.seed.to_string()),
         ("proposal", setup.proposal.to_string()),

@@ -2,9 +2,18 @@
 
 use crate::scene::{Cells, Plane, Rect, shade};
 use fastslam::map::grid::{CellRect, Grid};
+use fastslam_lab::experiment::lap::Course;
 
-/// The cells shown: the apartment, [0, 40) × [0, 30), and two cells around it for maps that drifted.
-pub const CELLS: CellRect = CellRect { i0: -2, j0: -2, i1: 42, j1: 32 };
+/// The cells shown of a course: its building in the middle, and a margin for maps that drifted. As many of each course, so that where
+/// the parts of the figure stand does not depend on it.
+pub const fn cells(course: Course) -> CellRect {
+    match course {
+        // [0, 40) × [0, 30), and two cells around it.
+        Course::Apartment => CellRect { i0: -2, j0: -2, i1: 42, j1: 32 },
+        // [0, 36⅔) × [0, 26⅔).
+        Course::Ring => CellRect { i0: -4, j0: -4, i1: 40, j1: 30 },
+    }
+}
 
 /// Width over height of what is shown.
 pub const ASPECT: f64 = 44.0 / 34.0;
@@ -12,34 +21,31 @@ pub const ASPECT: f64 = 44.0 / 34.0;
 /// Side of a cell \[m\].
 const CELL: f64 = 0.3;
 
-/// The cells at a place in the figure.
-pub fn plane(area: Rect) -> Plane {
-    let scale = area.w / (f64::from(CELLS.i1 - CELLS.i0) * CELL);
-    Plane::from_upper_left(area, [f64::from(CELLS.i0) * CELL, f64::from(CELLS.j1) * CELL], scale)
+/// The cells of a course at a place in the figure.
+pub fn plane(area: Rect, course: Course) -> Plane {
+    let CellRect { i0, i1, j1, .. } = cells(course);
+    Plane::from_upper_left(area, [f64::from(i0) * CELL, f64::from(j1) * CELL], area.w / (f64::from(i1 - i0) * CELL))
 }
 
-/// The shades of the cells shown, from the upper row down.
-pub fn shades(map: &Grid) -> Cells {
-    let mut shades = Vec::with_capacity(CELLS.width() * CELLS.height());
-    for j in (CELLS.j0..CELLS.j1).rev() {
-        shades.extend((CELLS.i0..CELLS.i1).map(|i| shade(map.log_odds(i, j))));
-    }
-    Cells { columns: CELLS.width(), shades }
+/// The shades of the cells of a course, from the upper row down.
+pub fn shades(map: &Grid, course: Course) -> Cells {
+    let CellRect { i0, i1, j0, j1 } = cells(course);
+    let row = |j| (i0..i1).map(move |i| shade(map.log_odds(i, j)));
+    Cells { columns: cells(course).width(), shades: (j0..j1).rev().flat_map(row).collect() }
 }
 
-/// Means of the hits in the occupied cells shown \[m\].
-pub fn hits(map: &Grid) -> Vec<[f64; 2]> {
-    let mut means = Vec::new();
-    for j in CELLS.j0..CELLS.j1 {
-        means.extend((CELLS.i0..CELLS.i1).filter(|&i| map.log_odds(i, j) > 0.0).filter_map(|i| map.ndt_mean(i, j)));
-    }
-    means
+/// Means of the hits in the occupied cells of a course \[m\].
+pub fn hits(map: &Grid, course: Course) -> Vec<[f64; 2]> {
+    let CellRect { i0, i1, j0, j1 } = cells(course);
+    let row = |j| (i0..i1).filter(move |&i| map.log_odds(i, j) > 0.0).filter_map(move |i| map.ndt_mean(i, j));
+    (j0..j1).flat_map(row).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use fastslam_lab::experiment::lap::GRID;
+    use strum::VariantArray;
 
     #[test]
     fn the_cell_is_the_one_of_the_filter() {
@@ -48,10 +54,23 @@ mod tests {
 
     #[test]
     fn a_corner_of_the_apartment_is_two_cells_from_the_corner_of_the_view() {
-        let view = plane(Rect::new(100.0, 50.0, 440.0, 340.0));
+        let view = plane(Rect::new(100.0, 50.0, 440.0, 340.0), Course::Apartment);
         let [x, y] = view.point([0.0, 0.0]);
         assert!((x - 120.0).abs() < 1e-9 && (y - 370.0).abs() < 1e-9);
         let [x, y] = view.point([12.0, 9.0]);
         assert!((x - 520.0).abs() < 1e-9 && (y - 70.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_building_of_each_course_is_in_the_middle_of_as_large_a_view() {
+        let area = Rect::new(100.0, 50.0, 440.0, 340.0);
+        for &course in Course::VARIANTS {
+            let (view, [w, h]) = (plane(area, course), course.route().plan.size);
+            let [low, high] = [[0.0; 2], [w, h]].map(|corner| view.point(corner));
+            let margins = [low[0] - area.x, area.right() - high[0], high[1] - area.y, area.bottom() - low[1]];
+            // To a cell: the raster begins with a whole one.
+            assert!(margins.iter().all(|margin| *margin > 19.9 && (margin - margins[0]).abs() <= 10.0), "{margins:?}");
+            assert_eq!(cells(course).width() as f64 / cells(course).height() as f64, ASPECT);
+        }
     }
 }

@@ -66,7 +66,7 @@ pub fn mosaic(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     let map_area = |rank: usize| tiles.tile(rank).inset(full + 1.0);
     for (rank, &slot) in slots.iter().enumerate() {
         let tile = tiles.tile(rank);
-        let cells = map::shades(&lap.particles()[slot as usize].map);
+        let cells = map::shades(&lap.particles()[slot as usize].map, model.setup().course);
         scene.marks.push(Mark::Raster { area: map_area(rank), cells, shading: Shading::Map });
         scene.marks.push(border(tile, lap.weights()[slot as usize] * m as f64, full));
         scene.regions.push(Region { area: tile, target: slot });
@@ -93,7 +93,7 @@ fn paths(scene: &mut Scene, model: &LapModel, slots: &[u32], map_area: &dyn Fn(u
     let (mut lines, mut robots) = (Vec::new(), Vec::new());
     let length = (0.06 * width).clamp(2.5, 6.0);
     for (rank, &slot) in slots.iter().enumerate() {
-        let plane = map::plane(map_area(rank));
+        let plane = map::plane(map_area(rank), model.setup().course);
         lines.extend(plane.path(&model.lap().path(slot as usize), 1.0));
         robots.extend(plane.robot(&model.lap().particles()[slot as usize].world_from_robot, length));
     }

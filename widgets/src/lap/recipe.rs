@@ -6,7 +6,7 @@ use crate::{
     words::{common, lap},
 };
 use fastslam::resampling::ResamplePolicy;
-use fastslam_lab::experiment::lap::{LapSetup, STEPS};
+use fastslam_lab::experiment::lap::LapSetup;
 
 /// Everything that a link can say of the lap.
 #[derive(Clone, PartialEq)]
@@ -92,7 +92,17 @@ impl recipe::Recipe for Recipe {
             P::number("temper", lap::temper(), "", (0.05, 1.0, 0.05), field!(setup.temper), lap::temper_help())
                 .folded(),
             P::flag("guard", lap::guard(), field!(setup.guard), lap::guard_help()).folded(),
-            P::integer("step", common::step(), "", (0, STEPS as u32), field!(step), common::step_help()).view(),
+            P::choice(
+                "course",
+                lap::course(),
+                Menu::of(usual.course, names::course),
+                field!(setup.course),
+                lap::course_help(),
+            )
+            .folded(),
+            P::integer("step", common::step(), "", (0, 0), field!(step), common::step_help())
+                .at_most(|recipe| recipe.setup.course.steps() as f64)
+                .view(),
             P::integer_or(
                 "universe",
                 lap::universe(),

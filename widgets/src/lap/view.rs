@@ -74,9 +74,14 @@ fn large(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     let name = lap::UniverseSlot { slot: &slot }.say();
     heading(scene, &layout.large_header, (&name, Role::Ink), &weight);
 
-    let plane = map::plane(layout.large);
+    let course = model.setup().course;
+    let plane = map::plane(layout.large, course);
     let particle = &lap.particles()[slot as usize];
-    scene.marks.push(Mark::Raster { area: plane.area, cells: map::shades(&particle.map), shading: Shading::Map });
+    scene.marks.push(Mark::Raster {
+        area: plane.area,
+        cells: map::shades(&particle.map, course),
+        shading: Shading::Map,
+    });
     let world = lap.world();
     let now = model.step() as usize;
     if model.shows_truth() {
@@ -84,7 +89,7 @@ fn large(scene: &mut Scene, model: &LapModel, layout: &Layout) {
         let walls = walls.map(|s| vec![plane.point(s.a), plane.point(s.b)]).collect();
         rimmed(scene, walls, 1.25, None, Role::Truth);
     }
-    let hits = map::hits(&particle.map).into_iter().map(|place| plane.point(place));
+    let hits = map::hits(&particle.map, course).into_iter().map(|place| plane.point(place));
     scene.marks.push(cloud(hits, &plane.area.inset(2.0), (0.035 * plane.scale).max(1.0), Role::Hit));
     others(scene, model, &plane);
     if model.shows_raw() {
