@@ -19,35 +19,142 @@ use core::f64::consts::PI;
 /// should be (some logs hold a corrected pose in one of them), and the laser is taken to be in the centre.
 const LASER_REACH: f64 = 3.0;
 
-/// Reads a log. A malformed line ends it with an error, or, if `lenient`, is counted and passed over.
+/// Farthest from one scan to the next by odometry \[m\]: no robot drives a kilometre between two sweeps of its laser.
+const FARTHEST_JUMP: f64 = 1e3;
+
+/// Longest line \[bytes\]: ten thousand beams with their remissions take a tenth of it.
+const LONGEST_LINE: usize = 1 << 20;
+
+/// How much may come before the first scan \[bytes\]. What is no log, as a gigabyte of newlines, is not read to its end.
+const MOST_BEFORE_SCAN: u64 = 64 << 20;
+
+/// Reads a log that is in memory. A malformed line ends it with an error, or, if `lenient`, is counted and passed over.
 ///
 /// # Errors
-/// The first malformed line, and what was expected there; with line 0, that there is no scan at all.
+/// As those of [`LogReader`].
 pub fn parse(bytes: &[u8], lenient: bool) -> Result<LaserLog, LogError> {
-    let mut reader = Reader::default();
-    for (line, bytes) in (1..).zip(bytes.split(|byte| *byte == b'\n')) {
-        if let Err(message) = reader.line(bytes) {
-            let error = LogError { line, message };
-            if !lenient {
-                return Err(error);
+    let mut reader = LogReader::new(lenient);
+    reader.push(bytes)?;
+    reader.finish()
+}
+
+/// Reads a log piece by piece, as it comes from a file or a network: what stays in memory is the log as read (four bytes a range), and of
+/// the text the line that is begun.
+///
+/// ```
+/// use fastslam::log::LogReader;
+/// let mut reader = LogReader::new(false);
+/// for piece in ["FLASER 2 1.0 ", "2.0 0 0 0 0 0 0 1 host 1\nFLA", "SER 2 1.1 2.1 0 0 0 0.1 0 0 2 host 2"] {
+///     reader.push(piece.as_bytes())?;
+/// }
+/// assert_eq!(reader.finish()?.scans.len(), 2);
+/// # Ok::<(), fastslam::log::LogError>(())
+/// ```
+pub struct LogReader {
+    reader: Reader,
+    lenient: bool,
+    /// The line that is begun.
+    begun: Vec<u8>,
+    /// Whether the line that is begun was too long: the rest of it is passed over.
+    passing: bool,
+    lines: u32,
+    bytes: u64,
+}
+
+impl LogReader {
+    /// For a log of which nothing has been read. A malformed line ends it with an error, or, if `lenient`, is counted and passed over.
+    pub fn new(lenient: bool) -> Self {
+        Self { reader: Reader::default(), lenient, begun: Vec::new(), passing: false, lines: 0, bytes: 0 }
+    }
+
+    /// The next bytes, cut anywhere.
+    ///
+    /// # Errors
+    /// A malformed line, and what was expected there, unless the reader is lenient: one that is cut short, a scan without beams, with
+    /// another number of beams than those before it, or farther than a kilometre from the one before it. With line 0, that 64 MB went by
+    /// without a scan.
+    pub fn push(&mut self, bytes: &[u8]) -> Result<(), LogError> {
+        self.bytes += bytes.len() as u64;
+        let mut pieces = bytes.split(|byte| *byte == b'\n').peekable();
+        while let Some(piece) = pieces.next() {
+            let ends = pieces.peek().is_some();
+            if ends && !self.passing && self.begun.is_empty() && piece.len() <= LONGEST_LINE {
+                self.line(piece)?;
+                continue;
             }
-            reader.log.notes.malformed += 1;
-            reader.log.notes.first_malformed.get_or_insert(error);
+            if self.begun.len() + piece.len() <= LONGEST_LINE {
+                self.begun.extend_from_slice(piece);
+            } else if !self.passing {
+                self.begun = Vec::new();
+                self.passing = true;
+                self.malformed(self.lines + 1, "expected a message, found a line of more than 1 MB".into())?;
+            }
+            if ends {
+                self.end_line()?;
+            }
         }
+        if self.reader.log.scans.is_empty() && self.bytes > MOST_BEFORE_SCAN {
+            return Err(self.no_scan(" in its first 64 MB"));
+        }
+        Ok(())
     }
-    let mut log = reader.log;
-    if log.scans.is_empty() {
-        let found = match log.notes.unknown.first() {
-            Some((kind, _)) => format!("no FLASER or ROBOTLASER1 message in it (but {kind})"),
-            None => "no FLASER or ROBOTLASER1 message in it".into(),
+
+    /// The log, with what is in it by time.
+    ///
+    /// # Errors
+    /// As [`Self::push`], of the last line; with line 0, that there is no scan at all, or none that has met anything.
+    pub fn finish(mut self) -> Result<LaserLog, LogError> {
+        self.end_line()?;
+        if self.reader.log.scans.is_empty() {
+            return Err(self.no_scan(" in it"));
+        }
+        let mut log = self.reader.log;
+        let readings = || log.scans.iter().flat_map(|scan| &scan.ranges);
+        if !readings().any(|range| range.is_finite() && *range > 0.0) {
+            let message = format!("none of its {} readings is a range: a finite number above 0", readings().count());
+            return Err(LogError { line: 0, message });
+        }
+        // Messages come over a network: some are late. The sorts are stable, so that equal stamps keep the file's order.
+        log.notes.out_of_order = log.scans.windows(2).filter(|pair| pair[1].time < pair[0].time).count() as u32;
+        log.scans.sort_by(|a, b| a.time.total_cmp(&b.time));
+        log.odometry.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(log)
+    }
+
+    fn end_line(&mut self) -> Result<(), LogError> {
+        let (line, passed) = (core::mem::take(&mut self.begun), core::mem::take(&mut self.passing));
+        if passed {
+            self.lines += 1;
+            return Ok(());
+        }
+        let read = self.line(&line);
+        self.begun = line; // with the room that it has
+        self.begun.clear();
+        read
+    }
+
+    fn line(&mut self, bytes: &[u8]) -> Result<(), LogError> {
+        self.lines += 1;
+        self.reader.line(bytes).or_else(|message| self.malformed(self.lines, message))
+    }
+
+    fn malformed(&mut self, line: u32, message: String) -> Result<(), LogError> {
+        let error = LogError { line, message };
+        if !self.lenient {
+            return Err(error);
+        }
+        self.reader.log.notes.malformed += 1;
+        self.reader.log.notes.first_malformed.get_or_insert(error);
+        Ok(())
+    }
+
+    fn no_scan(&self, place: &str) -> LogError {
+        let but = match self.reader.log.notes.unknown.first() {
+            Some((kind, _)) => format!(" (but {kind})"),
+            None => String::new(),
         };
-        return Err(LogError { line: 0, message: found });
+        LogError { line: 0, message: format!("no FLASER or ROBOTLASER1 message{place}{but}") }
     }
-    // Messages come over a network: some are late. The sorts are stable, so that equal stamps keep the file's order.
-    log.notes.out_of_order = log.scans.windows(2).filter(|pair| pair[1].time < pair[0].time).count() as u32;
-    log.scans.sort_by(|a, b| a.time.total_cmp(&b.time));
-    log.odometry.sort_by(|a, b| a.0.total_cmp(&b.0));
-    Ok(log)
 }
 
 /// The scans of a log as FLASER messages, which [`parse`] reads back: ranges to a centimetre, poses to a millimetre, angles to a
@@ -76,6 +183,8 @@ struct Reader {
     offset: f64,
     /// `robot_front_laser_max` \[m\].
     max_range: Option<f64>,
+    /// Beams of the first scan of each kind of message: FLASER, ROBOTLASER1.
+    beams: [Option<usize>; 2],
 }
 
 impl Reader {
@@ -118,8 +227,7 @@ impl Reader {
         let odometry = words.pose("odom_x, odom_y, odom_theta")?;
         let time = words.time()?;
         let (first_angle, angle_step) = fan(ranges.len());
-        self.log.odometry.push((time, odometry));
-        self.log.scans.push(LaserScan {
+        let scan = LaserScan {
             time,
             odometry,
             robot_from_laser: Pose2::new(self.offset, 0.0, 0.0),
@@ -127,8 +235,8 @@ impl Reader {
             angle_step,
             max_range: self.max_range,
             ranges,
-        });
-        Ok(())
+        };
+        self.take(scan, words.kind)
     }
 
     fn robot_laser(&mut self, words: &mut Words<'_>) -> Result<(), String> {
@@ -156,8 +264,7 @@ impl Reader {
         let time = words.time()?;
         let robot_from_laser = odometry.between(&laser);
         let mounted = odometry.distance(&laser) < LASER_REACH;
-        self.log.odometry.push((time, odometry));
-        self.log.scans.push(LaserScan {
+        let scan = LaserScan {
             time,
             odometry,
             robot_from_laser: if mounted { robot_from_laser } else { Pose2::default() },
@@ -165,7 +272,31 @@ impl Reader {
             angle_step,
             max_range: Some(max_range).filter(|range| *range > 0.0),
             ranges,
-        });
+        };
+        self.take(scan, words.kind)
+    }
+
+    /// Takes a scan that goes with those before it.
+    fn take(&mut self, scan: LaserScan, kind: &str) -> Result<(), String> {
+        let count = scan.ranges.len();
+        if count == 0 {
+            return Err(format!("{kind}: expected ranges, found 0 of them"));
+        }
+        let beams = *self.beams[usize::from(kind == "ROBOTLASER1")].get_or_insert(count);
+        if count != beams {
+            return Err(format!("{kind}: expected {beams} ranges as in the scans before, found {count}"));
+        }
+        if let Some(last) = self.log.scans.last() {
+            let jump = last.odometry.distance(&scan.odometry);
+            if jump > FARTHEST_JUMP {
+                let kilometres = fixed(1e-3 * jump, 1);
+                return Err(format!(
+                    "{kind}: expected a pose within 1 km of the scan before, found one {kilometres} km away"
+                ));
+            }
+        }
+        self.log.odometry.push((scan.time, scan.odometry));
+        self.log.scans.push(scan);
         Ok(())
     }
 
@@ -178,6 +309,9 @@ impl Reader {
         Ok(())
     }
 }
+
+/// Beams that room is made for before they are read.
+const MOST_BEAMS: u32 = 4096;
 
 /// Kinds of unknown messages that are counted apart: a log has a few, a file of another sort has no end of them.
 const MOST_KINDS: usize = 64;
@@ -220,7 +354,7 @@ impl<'a> Words<'a> {
     /// A count, and as many ranges. What a laser writes for *nothing met* (nan, inf) is kept as infinite.
     fn ranges(&mut self) -> Result<Vec<f32>, String> {
         let count = self.count("ranges")?;
-        let mut ranges = Vec::new(); // not as long as the count says: it may say anything
+        let mut ranges = Vec::with_capacity(count.min(MOST_BEAMS) as usize); // it may say anything
         for k in 0..count {
             let name = || format!("{count} ranges, of them number {}", k + 1);
             let word = self.word(&name())?;

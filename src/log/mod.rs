@@ -8,7 +8,7 @@ mod extent;
 mod relations;
 mod tum;
 
-pub use carmen::{parse, write};
+pub use carmen::{LogReader, parse, write};
 pub use extent::swept_area;
 pub use relations::{NEAR, Relation, RelationErrors, parse_relations, relation_errors};
 pub use tum::write_tum;

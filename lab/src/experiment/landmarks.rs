@@ -23,6 +23,9 @@ use fastslam::resampling::{ResamplePolicy, Scheme};
 use fastslam::sensor::{Feature, LandmarkSensor, RangeBearing};
 use std::sync::Arc;
 
+/// How many particles a run may have.
+pub const PARTICLES: Range = Range::whole(1, 100_000);
+
 /// A drive as its robot reported it, with the truth beside it for those who judge.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct LandmarkLog {
@@ -290,7 +293,7 @@ impl LandmarkRun {
     /// # Errors
     /// Where a setting is out of its range.
     pub fn new(setup: &LandmarkSetup, tuning: &Tuning, log: Arc<LandmarkLog>) -> Result<Self, SettingError> {
-        Range::whole(1, 100_000).check("particles", setup.particles as f64)?;
+        PARTICLES.check("particles", setup.particles as f64)?;
         let motion = tuning.motion;
         let proposal = match setup.proposal {
             ProposalKind::Motion => Either::Left(FromMotion { motion, likelihood: Marginal }),

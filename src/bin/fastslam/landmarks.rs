@@ -1,12 +1,12 @@
 //! `fastslam landmarks`: FastSLAM 1.0 and 2.0 on simulated courses and recorded logs.
 
-use crate::{mrclam, picture, print, print_json, progress};
+use crate::{mrclam, picture, print, print_json, progress, whole};
 use anyhow::Result;
 use fastslam::resampling::ResamplePolicy;
 use fastslam_lab::experiment::ErrorSummary;
 use fastslam_lab::experiment::ProposalKind;
 use fastslam_lab::experiment::landmarks::{
-    CorrespondenceKind, Course, LandmarkLog, LandmarkReport, LandmarkRun, LandmarkSetup, Tuning,
+    self, CorrespondenceKind, Course, LandmarkLog, LandmarkReport, LandmarkRun, LandmarkSetup, Tuning,
 };
 use indicatif::ParallelProgressIterator;
 use rayon::prelude::*;
@@ -18,7 +18,7 @@ use std::sync::Arc;
 #[derive(clap::Args)]
 pub struct Arguments {
     /// Number of particles M, 1 to 100000
-    #[arg(long, value_name = "M", default_value_t = LandmarkSetup::default().particles)]
+    #[arg(long, value_name = "M", default_value_t = LandmarkSetup::default().particles, value_parser = whole(landmarks::PARTICLES), allow_negative_numbers = true)]
     particles: usize,
     /// Seed of the world's noise and of the filter's
     #[arg(long, default_value_t = LandmarkSetup::default().seed)]

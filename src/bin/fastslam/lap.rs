@@ -1,11 +1,11 @@
 //! `fastslam lap`: one lap of the apartment, or of the ring.
 
-use crate::{picture, print, print_json};
+use crate::{picture, print, print_json, whole};
 use anyhow::Result;
 use fastslam::matching::Matcher;
 use fastslam::resampling::{ResamplePolicy, Scheme};
 use fastslam_lab::experiment::ProposalKind;
-use fastslam_lab::experiment::lap::{Course, Lap, LapSetup, StepReport};
+use fastslam_lab::experiment::lap::{self, Course, Lap, LapSetup, StepReport};
 use fastslam_widgets::{figure::Figure, paint::Theme};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -33,7 +33,7 @@ pub struct Arguments {
 #[derive(clap::Args)]
 pub struct Options {
     /// Number of particles M, 1 to 4096
-    #[arg(long, value_name = "M", default_value_t = LapSetup::default().particles)]
+    #[arg(long, value_name = "M", default_value_t = LapSetup::default().particles, value_parser = whole(lap::PARTICLES), allow_negative_numbers = true)]
     pub particles: usize,
     /// Where new poses are drawn from: aware (of the scan) or motion
     #[arg(long, default_value_t = LapSetup::default().proposal)]

@@ -1,19 +1,20 @@
 //! `fastslam log`: a recorded log, mapped; `fastslam example-log`: one of our own.
 
-use crate::{Usage, in_file, picture, print, print_json, progress};
+use crate::{Usage, in_file, picture, print, print_json, progress, whole};
 use anyhow::{Context, Result, bail};
 use cpu_time::ProcessTime;
 use fastslam::error::SettingError;
 use fastslam::geometry::Pose2;
 use fastslam::log::{
-    LaserLog, LogError, Notes, RelationErrors, parse, parse_relations, relation_errors, write, write_tum,
+    LaserLog, LogError, LogReader, Notes, RelationErrors, parse_relations, relation_errors, write, write_tum,
 };
 use fastslam::map::grid::MapImage;
 use fastslam::mapper::{LaserMapper, LaserMapperSettings, Replay};
 use fastslam_lab::experiment::log::{Example, digest};
+use flate2::read::MultiGzDecoder;
 use serde::Serialize;
 use std::fmt::Write as _;
-use std::io::Read;
+use std::io::{BufRead as _, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
@@ -21,11 +22,11 @@ use std::time::Duration;
 /// Map a recorded log of a robot with a laser (CARMEN format)
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The log, as text or compressed by gzip
+    /// The log, as text or compressed by gzip. It is read piece by piece, and takes about as much memory as its text has bytes
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Number of particles M, 1 to 4096
-    #[arg(long, value_name = "M", default_value_t = LaserMapperSettings::default().particles)]
+    #[arg(long, value_name = "M", default_value_t = LaserMapperSettings::default().particles, value_parser = whole(LaserMapperSettings::PARTICLES), allow_negative_numbers = true)]
     particles: usize,
     /// Seed of the filter's draws
     #[arg(long, default_value_t = LaserMapperSettings::default().seed)]
@@ -197,18 +198,23 @@ fn what(path: &Path, error: LogError) -> Usage {
     if error.line == 0 { Usage::of_file(path, error.message) } else { Usage::of_file(path, error) }
 }
 
-/// Reads a log, which may be compressed, and says on standard error what of it is not used.
+/// Reads a log, which may be compressed, and says on standard error what of it is not used. The text itself is never whole in memory.
 fn read(path: &Path, lenient: bool) -> Result<LaserLog> {
-    /// Most bytes that are unpacked: a small file may hold any number of zeros.
-    const MOST: u64 = 4 << 30;
-    let mut bytes = bytes_of(path)?;
-    if bytes.starts_with(&[0x1f, 0x8b]) {
-        let mut unpacked = Vec::new();
-        let unpack = flate2::read::MultiGzDecoder::new(&bytes[..]).take(MOST).read_to_end(&mut unpacked);
-        unpack.map_err(|error| Usage::of_file(path, format_args!("cannot be unpacked: {error}")))?;
-        bytes = unpacked;
+    let mut file = std::io::BufReader::new(std::fs::File::open(path).with_context(in_file(path))?);
+    let compressed = file.fill_buf().with_context(in_file(path))?.starts_with(&[0x1f, 0x8b]);
+    let mut text: Box<dyn Read> = if compressed { Box::new(MultiGzDecoder::new(file)) } else { Box::new(file) };
+    let mut reader = LogReader::new(lenient);
+    let mut piece = vec![0; 1 << 16];
+    loop {
+        match text.read(&mut piece) {
+            Ok(0) => break,
+            Ok(count) => reader.push(&piece[..count]).map_err(|error| what(path, error))?,
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Err(error) if compressed => bail!(Usage::of_file(path, format_args!("cannot be unpacked: {error}"))),
+            Err(error) => return Err(error).with_context(in_file(path)),
+        }
     }
-    let log = parse(&bytes, lenient).map_err(|error| what(path, error))?;
+    let log = reader.finish().map_err(|error| what(path, error))?;
     for note in notes(&log.notes) {
         eprintln!("fastslam: {}: {note}", path.display());
     }

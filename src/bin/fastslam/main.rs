@@ -13,7 +13,7 @@ mod variants;
 
 use anyhow::{Context, Result};
 use clap::{CommandFactory, Parser};
-use fastslam::error::SettingError;
+use fastslam::error::{Range, SettingError};
 use fastslam_widgets::model::FigureError;
 use std::fmt::Display;
 use std::io::{ErrorKind, Write};
@@ -97,6 +97,14 @@ fn one_line(message: &clap::Error) -> String {
         text.lines().take_while(|line| !line.trim_start().starts_with("Usage:") && !line.starts_with("For more"));
     let words: Vec<&str> = said.flat_map(str::split_whitespace).collect();
     words.join(" ").trim_start_matches("error: ").to_owned()
+}
+
+/// A flag's whole number in a range, which the refusal of any other names.
+fn whole(range: Range) -> impl Fn(&str) -> Result<usize, String> + Clone + Send + Sync + 'static {
+    move |text| match text.parse::<f64>() {
+        Ok(number) if range.contains(number) => Ok(number as usize),
+        _ => Err(format!("must be {range}")),
+    }
 }
 
 /// A bar for so many of these, on a terminal; nothing elsewhere.

@@ -1,8 +1,9 @@
 //! `fastslam policies`: when to resample, over many seeds.
 
-use crate::{print, print_json, progress};
+use crate::{print, print_json, progress, whole};
 use anyhow::Result;
 use fastslam::resampling::Scheme;
+use fastslam_lab::experiment::lap;
 use fastslam_lab::experiment::policies::{PoliciesSetup, PolicyCourse};
 use fastslam_lab::experiment::policy_counts::{Fraction, PolicySummary, outcomes, summary};
 use indicatif::ParallelProgressIterator;
@@ -19,7 +20,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     seeds: u64,
     /// Number of particles M of each filter, 1 to 4096
-    #[arg(long, value_name = "M", default_value_t = PoliciesSetup::default().particles)]
+    #[arg(long, value_name = "M", default_value_t = PoliciesSetup::default().particles, value_parser = whole(lap::PARTICLES), allow_negative_numbers = true)]
     particles: usize,
     /// The selective filter resamples where N_eff < F M, F from 0 to 1
     #[arg(long, value_name = "F", default_value_t = PoliciesSetup::default().threshold, allow_negative_numbers = true)]

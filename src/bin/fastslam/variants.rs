@@ -1,9 +1,10 @@
 //! `fastslam variants`: the mapper of logs in worlds of our own that ask more of it than its example, over some seeds.
 
-use crate::{Usage, print, print_json, progress};
+use crate::{Usage, print, print_json, progress, whole};
 use anyhow::{Result, bail};
 use cpu_time::ThreadTime;
 use fastslam::log::RelationErrors;
+use fastslam::mapper::LaserMapperSettings;
 use fastslam_lab::experiment::ErrorSummary;
 use fastslam_lab::experiment::log::digest;
 use fastslam_lab::experiment::variants::{Variant, VariantRun, variants};
@@ -16,7 +17,7 @@ use std::time::Duration;
 #[derive(clap::Args)]
 pub struct Arguments {
     /// Number of particles M, 1 to 4096
-    #[arg(long, value_name = "M", default_value_t = 8)]
+    #[arg(long, value_name = "M", default_value_t = 8, value_parser = whole(LaserMapperSettings::PARTICLES), allow_negative_numbers = true)]
     particles: usize,
     /// Seeds 1 to N, of the world's noises and of the filter's draws
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]

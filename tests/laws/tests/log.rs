@@ -1,7 +1,7 @@
 //! Logs: what the parser reads and refuses, the benchmark's metric, and that no input makes either panic.
 
 use fastslam::geometry::Pose2;
-use fastslam::log::{LogError, NEAR, Relation, parse, parse_relations, relation_errors, write};
+use fastslam::log::{LogError, LogReader, NEAR, Relation, parse, parse_relations, relation_errors, write};
 use fastslam::mapper::{LaserMapperSettings, Replay};
 use fastslam::ops;
 use fastslam::random::{Purpose, Stream};
@@ -93,6 +93,7 @@ fn a_malformed_line_is_named_and_what_was_expected() {
         ("FLASER 1 1 0 0 0 nan 0 0 1", "found “nan”"),
         ("ODOM 0 0 0 0 0 0", "ODOM: expected a time [s]"),
         ("ROBOTLASER1 0 -90 180 1 81 0 0 1 1", "expected angles in radians, found -90 and 1"),
+        ("FLASER 0 0 0 0 0 0 0 1 h 1", "FLASER: expected ranges, found 0 of them"),
         ("PARAM robot_front_laser_max far", "expected metres, found “far”"),
         ("<html>", "expected the name of a message, found “<html>”"),
         ("caf\u{e9} 1 2", "expected the name of a message"),
@@ -107,6 +108,70 @@ fn a_malformed_line_is_named_and_what_was_expected() {
     assert_eq!(parse(b"\xff\xfe\x00", false).unwrap_err().line, 1);
     assert_eq!(message("").to_string(), "line 0: no FLASER or ROBOTLASER1 message in it");
     assert!(message("SYNC 1\n").message.contains("(but SYNC)"));
+}
+
+#[test]
+fn a_scan_that_does_not_go_with_those_before_it_is_named() {
+    let scan = |beams: usize, x: f64| format!("FLASER {beams}{} 0 0 0 {x} 0 0 1 h 1\n", " 1".repeat(beams));
+    for (second, said) in [
+        (scan(3, 0.1), "FLASER: expected 4 ranges as in the scans before, found 3"),
+        (scan(4, 5e3), "FLASER: expected a pose within 1 km of the scan before, found one 5.0 km away"),
+    ] {
+        let text = [scan(4, 0.0), second, scan(4, 0.2)].concat();
+        let error = message(&text);
+        assert_eq!((error.line, error.message.as_str()), (2, said));
+        let log = parse(text.as_bytes(), true).unwrap();
+        assert_eq!((log.scans.len(), log.notes.malformed), (2, 1), "passed over, and the next one goes with the first");
+    }
+}
+
+#[test]
+fn a_log_that_has_met_nothing_is_no_log_to_map() {
+    for reading in ["nan", "inf", "0", "-1"] {
+        let text = format!("FLASER 4{} 0 0 0 0 0 0 1 h 1\n", format!(" {reading}").repeat(4)).repeat(3);
+        for lenient in [false, true] {
+            let error = parse(text.as_bytes(), lenient).unwrap_err();
+            let said = "none of its 12 readings is a range: a finite number above 0";
+            assert_eq!((error.line, error.message.as_str()), (0, said), "{reading}");
+        }
+    }
+}
+
+#[test]
+fn a_log_is_read_in_pieces_as_it_is_read_whole() {
+    let example = write(&Example::new(3).log);
+    let text =
+        [SMALL, "\nODOM 1 2\n", &example.replace("FLASER 180", "FLASER 5 1 1 1 1 1 0 0 0 0 0 0 9 h 9\nFLASER 180")]
+            .concat();
+    let whole = parse(text.as_bytes(), true).unwrap();
+    assert!(whole.notes.malformed > 0 && whole.scans.len() > 3);
+    for size in [1, 7, 64, 4096] {
+        let mut reader = LogReader::new(true);
+        text.as_bytes().chunks(size).for_each(|piece| reader.push(piece).unwrap());
+        assert_eq!(reader.finish().unwrap(), whole, "in pieces of {size} bytes");
+        let mut strict = LogReader::new(false);
+        let refused = text.as_bytes().chunks(size).find_map(|piece| strict.push(piece).err());
+        assert_eq!(refused, whole.notes.first_malformed, "in pieces of {size} bytes");
+    }
+}
+
+/// A gigabyte of newlines in a small archive, or one line without an end: neither is kept, nor read to its end.
+#[test]
+fn what_is_no_log_is_given_up_early_and_a_line_without_an_end_is_not_kept() {
+    let mut reader = LogReader::new(true);
+    let newlines = vec![b'\n'; 1 << 20];
+    let read = (1..1000).find(|_| reader.push(&newlines).is_err());
+    assert_eq!(read, Some(65), "megabytes");
+    let error = reader.push(b"").unwrap_err();
+    assert_eq!(error.to_string(), "line 0: no FLASER or ROBOTLASER1 message in its first 64 MB");
+
+    let endless = [b"FLASER 4 ".to_vec(), vec![b'1'; 3 << 20], b"\n".to_vec(), SMALL.into()].concat();
+    assert_eq!(
+        parse(&endless, false).unwrap_err().to_string(),
+        "line 1: expected a message, found a line of more than 1 MB"
+    );
+    let log = parse(&endless, true).unwrap();
+    assert_eq!((log.scans.len(), log.notes.malformed), (2, 1));
 }
 
 #[test]

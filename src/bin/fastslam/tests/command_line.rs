@@ -91,6 +91,10 @@ fn bad_arguments_are_refused_in_one_line_with_status_2() {
         ("laps", "laps"),
         ("lap --particles 0", "from 1 to 4096"),
         ("lap --particles 1e9", "--particles"),
+        ("lap --particles -1", "'--particles <M>': must be a whole number from 1 to 4096"),
+        ("lap --particles 1.5", "must be a whole number from 1 to 4096"),
+        ("landmarks --particles -1", "must be a whole number from 1 to 100000"),
+        ("log x.clf --particles -1", "must be a whole number from 1 to 4096"),
         ("lap --policy neff:2", "F from 0 to 1"),
         ("lap --proposal best", "aware or motion"),
         ("lap --matcher bilinear", "cell or subcell"),
@@ -386,6 +390,9 @@ fn a_log_that_cannot_be_read_is_refused_by_line_and_one_with_flaws_is_read_if_as
     for (text, said) in [
         ("".to_owned(), "no FLASER"),
         ("\0\u{1}\u{2}".to_owned(), "line 1: expected the name of a message"),
+        (good.replace("FLASER 180", "FLASER 0"), "expected ranges, found 0 of them"),
+        (good.clone() + "FLASER 1 1 0 0 0 0 0 0 9 h 9\n", "expected 180 ranges as in the scans before, found 1"),
+        ("FLASER 2 nan 0 0 0 0 0 0 0 1 h 1\n".repeat(9), "none of its 18 readings is a range"),
         (good.clone() + "ODOM 1 2\n", "line 5: ODOM: expected x, y, theta, found the end of the line"),
     ] {
         std::fs::write(&log, text).unwrap();
