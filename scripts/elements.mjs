@@ -10,7 +10,8 @@ import { programs } from './registry.mjs'
 /**
  * @typedef {import('../widgets/elements/shell').ParamSpec} ParamSpec
  * @typedef {import('../widgets/elements/shell').Readout} Readout
- * @typedef {{ tag: string, name: string, className: string, title: string, describe: string, params: ParamSpec[], readouts: Readout[], panels: string[] }} FigureInfo
+ * @typedef {import('../widgets/elements/shell').Chip} Chip
+ * @typedef {{ tag: string, name: string, className: string, title: string, describe: string, params: ParamSpec[], readouts: Readout[], chips: Chip[], panels: string[] }} FigureInfo
  */
 
 /** Every figure, asked in Node. @returns {Promise<FigureInfo[]>} */
@@ -27,6 +28,7 @@ export async function figures() {
       describe: figure.describe(),
       params: figure.params(),
       readouts: figure.readouts(),
+      chips: figure.chips(),
       panels: figure.panels(),
     }
   })
@@ -44,7 +46,8 @@ const languages = readdirSync(join(root, 'widgets', 'words')).map(file => file.r
 export const options = [
   { name: 'lang', values: undefined, help: `Language of all it says: ${languages.join(' or ')}. Where it is not given, that of the page around it; English for any other.` },
   { name: 'theme', values: ['auto', 'light', 'dark'], help: 'Colours; auto follows the reader’s system.' },
-  { name: 'controls', values: undefined, help: 'Controls that readers see, apart by spaces: names of parameters, playback (the whole row of it), play (its button alone); or none, or all. controls="seed" leaves the seed; a name that is none is answered with those that there are.' },
+  { name: 'controls', values: undefined, help: 'Controls that readers see, apart by spaces: names of parameters, playback (the whole row of it), play (its button alone), numbers, chips; or none, or all. controls="seed" leaves the seed; a name that is none is answered with those that there are.' },
+  { name: 'chips', values: ['on', 'off'], help: 'off leaves the chips of its challenges out.' },
   { name: 'show', values: undefined, help: 'Parts of the picture to show, apart by spaces; or all.' },
   { name: 'lock', values: undefined, help: 'Names of parameters, apart by spaces, that readers cannot change; or all. lock="seed" fixes the seed.' },
   { name: 'decimal', values: ['point', 'comma'], help: 'How numbers are written; where it is not given, as the language has it.' },
@@ -59,6 +62,7 @@ const methods = [
   { name: 'stepBack', type: '() => void', help: 'One step back.' },
   { name: 'seek', type: '(step: number) => void', help: 'To a step.' },
   { name: 'reset', type: '() => void', help: 'Back to what the page’s author gave.' },
+  { name: 'challenge', type: '(name: string) => Promise<boolean>', help: 'Takes up one of its challenges, as a press on its chip does; resolves to whether there is such a one here.' },
   { name: 'settled', type: '() => Promise<void>', help: 'Resolves when all that was asked of the figure is shown; playing goes on.' },
 ]
 
@@ -72,7 +76,7 @@ const properties = [
 
 /** The figure that maps logs has files to open, and goes back through what it has mapped. */
 const log = {
-  options: options.filter(({ name }) => ['lang', 'theme', 'controls', 'show', 'lock', 'size'].includes(name)),
+  options: options.filter(({ name }) => ['lang', 'theme', 'controls', 'chips', 'show', 'lock', 'size'].includes(name)),
   methods: [
     { name: 'open', type: '(file: Blob, name?: string, start?: boolean) => Promise<void>', help: 'Reads a log; maps it too if it is to start.' },
     { name: 'example', type: '() => Promise<void>', help: 'Maps the log that comes with the figure.' },
@@ -80,7 +84,7 @@ const log = {
     { name: 'pause', type: '() => void', help: 'Waits; what is mapped can be looked at and saved.' },
     { name: 'stop', type: '() => void', help: 'The same as pause.' },
     { name: 'reset', type: '() => void', help: 'Back to the settings that the page’s author gave; the log stays open.' },
-    ...methods.filter(({ name }) => ['step', 'stepBack', 'seek', 'settled'].includes(name)),
+    ...methods.filter(({ name }) => ['step', 'stepBack', 'seek', 'challenge', 'settled'].includes(name)),
   ],
   properties,
 }
@@ -94,10 +98,11 @@ const membersOf = figure => (isLog(figure) ? log : { options, methods, propertie
 const events = [
   { name: 'fastslam-step', type: 'CustomEvent<FigureDetail>', help: 'Another step is shown; also once when the figure comes to life.' },
   { name: 'fastslam-change', type: 'CustomEvent<FigureDetail>', help: 'A parameter has changed, whoever did it.' },
+  { name: 'fastslam-challenge', type: 'CustomEvent<ChallengeDetail>', help: 'A reader has taken up a challenge or, where it is done, reached it.' },
 ]
 
 const parts =
-  'figure title stage canvas transport button primary play rewind step-back step reset undo scrub seed controls control notices notice sentence numbers readouts readout settings menu toggle handle count stop inputs'.split(' ')
+  'figure title stage canvas chips chip transport button primary play rewind step-back step reset undo scrub seed controls control notices notice sentence numbers readouts readout settings menu toggle handle count stop inputs'.split(' ')
 
 const cssProperties = ['accent', 'ink', 'muted', 'line', 'paper', 'radius', 'font'].map(name => `--fastslam-${name}`)
 
@@ -207,6 +212,13 @@ export interface FigureDetail {
   phase?: 'empty' | 'ready' | 'running' | 'paused' | 'stopped' | 'done'
 }
 
+export interface ChallengeDetail {
+  /** Of the challenge, the same in every language. */
+  name: string
+  /** Whether it was reached, or taken up. */
+  done: boolean
+}
+
 export interface FigureEventMap extends HTMLElementEventMap {
 ${events.map(({ name, type: text, help }) => `${doc(help)}\n  '${name}': ${text}`).join('\n')}
 }
@@ -257,10 +269,10 @@ export async function writeNames() {
   )
   const mapper = all.find(isLog)
   if (!mapper) throw new StepError('There is no figure that maps logs.')
-  const { title, params, readouts, describe } = mapper
+  const { title, params, readouts, chips, describe } = mapper
   write(
     join(root, 'widgets', 'elements', 'generated', 'log.ts'),
-    `// Made by scripts/elements.mjs from what the figure that maps logs tells of itself.\nimport type { AtRest } from '../log'\n\nexport const AT_REST: AtRest = ${JSON.stringify({ title, params, readouts, describe })}\n`,
+    `// Made by scripts/elements.mjs from what the figure that maps logs tells of itself.\nimport type { AtRest } from '../log'\n\nexport const AT_REST: AtRest = ${JSON.stringify({ title, params, readouts, chips, describe })}\n`,
   )
   return `${all.length} figures`
 }

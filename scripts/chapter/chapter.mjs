@@ -120,7 +120,7 @@ function titleOf({ file, tree }, problems) {
 function renderPage({ chapter, texts, front, kicker, script, ...shared }) {
   const labels = new Labels(chapter)
   /** @type {Context} */
-  const context = { ...shared, file: '', labels, listings: new Map(), lines: new Set(), heads: [], depth: 1, notes: 0, last: '' }
+  const context = { ...shared, file: '', labels, listings: new Map(), lines: new Set(), figure: undefined, heads: [], depth: 1, notes: 0, last: '' }
   context.citations.beginPage()
   context.glossary.beginPage()
   for (const text of texts) labels.collect(text, context.problems)

@@ -25,6 +25,7 @@ import { parse } from './parse.mjs'
  * @property {Set<string>} lines ids of the lines in listings that something links to
  * @property {string} repository its address, for source that no listing shows
  * @property {((numbers: Record<string, unknown>) => string) | undefined} lapTable
+ * @property {{ tag: string, challenges: string[], told: string[] } | undefined} figure whose caption is in hand, with the challenges it has, and those told
  * @property {Head[]} heads
  * @property {number} depth of the last heading
  * @property {number} notes side notes so far

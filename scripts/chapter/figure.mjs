@@ -4,6 +4,7 @@ import { join } from 'node:path'
 import { h } from 'hastscript'
 import { attribute, content, idOf } from './context.mjs'
 import { captioned } from './blocks.mjs'
+import { challengesOf, judgeChips } from './challenges.mjs'
 
 const golden = 'tests/figures/golden'
 const own = new Set(['id', 'class', 'tag', 'alt'])
@@ -25,6 +26,10 @@ export function figure(context, state, node) {
   const size = existsSync(join(root, light ?? '')) ? sizeOf(readFileSync(join(root, light ?? ''))) : {}
   const passed = Object.entries(node.attributes ?? {}).filter(([name]) => !own.has(name))
   const id = idOf(node)
+  context.figure = { tag, challenges: challengesOf(root, tag), told: [] }
+  const caption = captioned(context, node, content(state, node.children))
+  judgeChips(context, node)
+  context.figure = undefined
   return h('figure.wide', { id }, [
     h(tag || 'div', Object.fromEntries(passed), [
       h('picture', [
@@ -33,6 +38,6 @@ export function figure(context, state, node) {
         h('img', { src: `../${light}`, ...size, loading: 'lazy', alt }),
       ]),
     ]),
-    h('figcaption', captioned(context, node, content(state, node.children)), h('p.address', 'Live: ', h('a', { href: `#${id}` }, `#${id}`))),
+    h('figcaption', caption, h('p.address', 'Live: ', h('a', { href: `#${id}` }, `#${id}`))),
   ])
 }

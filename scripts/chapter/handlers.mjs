@@ -2,6 +2,7 @@
 import { h } from 'hastscript'
 import { algorithm } from './algorithm.mjs'
 import { derivation, equation, exercise, hint, lapTable, margin, predict, solution, table, theorem } from './blocks.mjs'
+import { chip } from './challenges.mjs'
 import { heading } from './contents.mjs'
 import { inline } from './context.mjs'
 import { figure } from './figure.mjs'
@@ -21,7 +22,7 @@ const containers = { algorithm, derivation, equation, exercise, figure, hint, 'l
 /** @type {Record<string, Handler>} */
 const leaves = { 'lap-table': lapTable, listing, references }
 /** @type {Record<string, Handler>} */
-const texts = { num, term }
+const texts = { chip, num, term }
 
 /** @param {string} colons @param {Record<string, Handler>} known @returns {Handler} */
 const directive = (colons, known) => (context, state, node) => {

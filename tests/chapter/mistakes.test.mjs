@@ -10,6 +10,7 @@ const works = (/** @type {string[]} */ ...ids) => ({
   'www/references.json': `[\n${ids.map(id => `{"id": "${id}", "title": "On ${id}", "author": [{"family": "Rao"}], "issued": {"date-parts": [[1945]]}}`).join(',\n')}\n]`,
 })
 const rust = { 'src/a.rs': 'fn body() {\n    let x = 1;\n}\n\nstruct A;\n\nimpl A {\n    fn twin() {}\n}\n\nfn twin() {}\n' }
+const challenges = { 'widgets/src/lap/challenges.rs': 'vec![Challenge::new("one", a(), ""), Challenge::new(\n    "two",\n    b(), "")]' }
 const file = 'www/chapter/01-text.md'
 
 /** @type {[name: string, good: string, bad: string, expected: RegExp, others?: Record<string, string>][]} */
@@ -21,6 +22,9 @@ const mistakes = [
   ['a figure without an anchor', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap" alt="a"}\nA.\n:::', '## A {#a}\n\n:::figure{tag="fastslam-lap" alt="a"}\nA.\n:::', /:3: :::figure has no anchor/],
   ['a figure without words for its picture', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap" alt="a"}\nA.\n:::', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap"}\nA.\n:::', /:3: .*alt/],
   ['a figure that has no picture', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap" alt="a"}\nA.\n:::', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-none" alt="a"}\nA.\n:::', /:3: .*fastslam-none-light\.png/],
+  ['a challenge that the figure does not have', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap" alt="a"}\n:chip[A]{#one} :chip[B]{#two}\n:::', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap" alt="a"}\n:chip[A]{#one} :chip[B]{#three}\n:::', /:4: fastslam-lap has no challenge three, only one, two/, challenges],
+  ['a caption that leaves a challenge out', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap" alt="a"}\nA.\n:::', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap" alt="a"}\n:chip[B]{#two}\n:::', /:3: the caption has the challenges two, and fastslam-lap has one, two/, challenges],
+  ['a challenge that belongs to no figure', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap" alt="a"}\n:chip[A]{#one} :chip[B]{#two}\n:::', '## A {#a}\n\n:chip[A]{#one}', /:3: :chip has its place in the caption/, challenges],
   ['a missing number', '## A {#a}\n\n:num[a.b]', '## A {#a}\n\n:num[a.b] and :num[a.c]', /:3: .*no number a\.c/, numbers('a.b')],
   ['an option that a number does not have', '## A {#a}\n\n:num[a.b]{digits=1}', '## A {#a}\n\n:num[a.b]{digit=1}', /:3: .*no option digit/, numbers('a.b')],
   ['a directive that nobody knows', '## A {#a}\n\n:::margin\nx\n:::', '## A {#a}\n\n:::marginal\nx\n:::', /:3: there is no directive :::marginal/],

@@ -21,6 +21,12 @@ export interface TraceDetail {
   lines: TraceLine[]
 }
 
+/** A challenge: taken up, or reached. */
+export interface ChallengeDetail {
+  name: string
+  done: boolean
+}
+
 export class Events {
   cause: Cause = 'page' // of what is told next
   #waiting: CustomEvent[] = []
@@ -37,11 +43,16 @@ export class Events {
     if (trace) this.#add('fastslam-trace', { step, lines: trace })
   }
 
+  /** A challenge was taken up or, if it is done, reached. */
+  challenge(name: string, done: boolean): void {
+    this.#add('fastslam-challenge', { name, done } satisfies ChallengeDetail)
+  }
+
   send(): void {
     for (const event of this.#waiting.splice(0)) this.figure.dispatchEvent(event)
   }
 
-  #add(type: string, detail: FigureDetail | TraceDetail): void {
+  #add(type: string, detail: FigureDetail | TraceDetail | ChallengeDetail): void {
     this.#waiting.push(new CustomEvent(type, { bubbles: true, composed: true, detail }))
   }
 }

@@ -7,12 +7,14 @@ import { homeAddress } from './files'
 import { HostedFigure } from './hosted-figure'
 import { linkedQuery, linkTo } from './link'
 import { OPTIONS } from './options'
+import { unwatchReached, watchReached } from './reached'
 import { isParameter, takeEarlyProperties, toText, watchUnknown } from './parameters'
 import { onThemeChange } from './theme'
 
 export abstract class FigureElement extends HostedFigure {
   #targetBefore = 0 // the step asked for, while there is no host
   #disconnected = new AbortController()
+  readonly #onReached = (): void => this.chips.refresh()
 
   constructor() {
     super()
@@ -30,6 +32,7 @@ export abstract class FigureElement extends HostedFigure {
     onThemeChange(() => this.refresh(), signal)
     addEventListener('hashchange', () => this.followLink(), { signal })
     this.body.classList.toggle('pictured', this.querySelector('img, picture') !== null)
+    watchReached(this.#onReached)
     this.frames.observe(signal)
     this.canvas.observe()
     void this.speak()
@@ -41,6 +44,7 @@ export abstract class FigureElement extends HostedFigure {
 
   disconnectedCallback(): void {
     this.#disconnected.abort()
+    unwatchReached(this.#onReached)
     this.frames.disconnect()
     this.canvas.disconnect()
     if (!this.host) return
@@ -95,8 +99,20 @@ export abstract class FigureElement extends HostedFigure {
     this.stage.classList.remove('still')
     this.messages.clear()
     this.settings.load(undefined)
+    this.chips.takenUp()
     if (this.host) this.begin(true)
     else void this.start()
+  }
+
+  /** Takes up one of its challenges, as a press on its chip does. Resolves to whether there is such a one on this page. */
+  async challenge(name: string): Promise<boolean> {
+    if (!this.chips.any) {
+      await this.start()
+      await this.settled()
+    }
+    const chip = this.chips.find(name)
+    if (chip) this.takeUp(chip)
+    return chip !== undefined
   }
 
   get playing(): boolean {
@@ -179,6 +195,7 @@ export abstract class FigureElement extends HostedFigure {
     this.playback.stop() // the sender meant this very state
     this.events.cause = 'page'
     this.settings.load(query, linked)
+    this.chips.takenUp()
     if (this.host) this.begin(true)
     else if (this.heavy && this.isConnected) void this.start() // where figures above it grow, it may not be seen for a while
     else this.reconsider()

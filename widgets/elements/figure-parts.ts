@@ -1,10 +1,12 @@
 // What a figure consists of on the page, and how a frame is shown in it: head, picture, sentence, readouts, controls, menu, keys. What
 // comes and goes, and what is asked of the program, is the element's (figure-element.ts).
 import { Canvas } from './canvas'
+import { Chips } from './chips'
 import { Controls } from './controls'
 import { h, write } from './dom'
 import { CODES, type CodeName } from './embed-code'
 import css from './figure.css?inline'
+import chipsCss from './chips.css?inline'
 import { homeAddress, pictureAddress } from './files'
 import { Handles } from './handles'
 import type { Command, Frame } from './host'
@@ -14,15 +16,16 @@ import { Menu, type MenuItem } from './menu'
 import { Messages } from './messages'
 import { Playback } from './playback'
 import { Help } from './popover'
-import type { ParamSpec } from './shell'
+import { forgetReached } from './reached'
 import { showReadouts } from './readouts'
 import { copy, download } from './save'
 import { Sentence } from './sentence'
+import type { Chip, ParamSpec } from './shell'
 import { themeName } from './theme'
 import { Words } from './words'
 
 const sheet = new CSSStyleSheet()
-sheet.replaceSync(css)
+sheet.replaceSync(css + chipsCss)
 
 const COPIED = 3000 // [ms] that a word of success stays
 
@@ -38,6 +41,7 @@ export abstract class FigureParts extends HTMLElement {
   protected readonly messages = new Messages(this.words)
   protected readonly heading = h('p', { class: 'title', part: 'title', id: 'title' })
   protected readonly status = h('span', { class: 'status', role: 'status' })
+  protected readonly chips = new Chips(this.localName, this.words, chip => this.takeUp(chip))
   protected readonly readouts = h('dl', { class: 'readouts', part: 'readouts' })
   readonly #numbersName = h('summary')
   readonly #numbers = h('details', { class: 'numbers', part: 'numbers' }, this.#numbersName, this.readouts)
@@ -79,7 +83,7 @@ export abstract class FigureParts extends HTMLElement {
       write(this.#numbersName, this.words.say('numbers'))
     })
     this.body.append(
-      h('div', { class: 'head' }, this.heading, this.status, this.#undo, this.menu.element),
+      h('div', { class: 'head' }, this.heading, this.chips.element, this.chips.said, this.status, this.#undo, this.menu.element),
       this.panes,
       keys,
       handleKeys,
@@ -134,6 +138,7 @@ export abstract class FigureParts extends HTMLElement {
     if (frame.layout) this.canvas.place(frame.layout)
     if (frame.picture) this.canvas.show(frame.picture)
     showReadouts(this.readouts, frame.readouts, frame.language)
+    this.chips.show(frame.chips, frame.specs, frame.values)
     this.#help.about(frame.specs, frame.readouts)
     this.#handles.show(frame.handles, frame.specs, frame.values)
     this.showPlayback(frame)
@@ -232,12 +237,17 @@ export abstract class FigureParts extends HTMLElement {
   }
 
   /** Does what throws away what a reader has made, and offers it back until something else is done. */
-  #undoable(name: 'undo_rewind' | 'undo_reset', act: () => void): void {
+  #undoable(name: 'undo_rewind' | 'undo_reset' | 'undo_challenge', act: () => void): void {
     const before = this.state
     this.byHand(act)
     this.#before = before
     write(this.#undo, this.words.say(name))
     this.#undo.hidden = false
+  }
+
+  /** A reader takes up a challenge. */
+  protected takeUp({ query }: Chip): void {
+    this.#undoable('undo_challenge', () => (this.state = query))
   }
 
   #takeBack(): void {
@@ -299,6 +309,7 @@ export abstract class FigureParts extends HTMLElement {
       save('csv'),
       save('json'),
       { name: words.say('explain'), act: () => this.#help.open() },
+      { name: words.say('forget_reached'), act: forgetReached },
       // On other pages: whose it is, and where the rest of it is.
       ...(home && !inChapter(home) ? [{ name: words.say('chapter'), act: () => void open(home, '_blank', 'noopener') }] : []),
     ]

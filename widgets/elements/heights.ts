@@ -3,7 +3,7 @@ import { apart, first, heights } from './heights.json'
 
 /** Keeps free what this figure took where tests/e2e/heights.spec.ts measured it at this width, unless its author has set options that make it another. */
 export function reserve(body: HTMLElement, figure: HTMLElement): void {
-  if (figure.matches('[fit], [size], [controls], [show]')) return
+  if (figure.matches('[fit], [size], [controls], [chips], [show]')) return
   body.style.minHeight = `${usualHeight(figure.localName, figure.clientWidth)}px`
   body.classList.add('reserved')
 }

@@ -6,10 +6,12 @@ import { write } from './dom'
 import { FIGURES } from './generated/figures'
 import type { Answer, Command, FigureHost, Frame, Listener } from './host'
 import { LocalHost } from './local-host'
-import { hasComma, locked, NUMBERS, offered, optionCommand, OPTIONS, refusal, unknownNames } from './options'
+import { CHIPS, hasComma, locked, NUMBERS, offered, optionCommand, OPTIONS, refusal, unknownNames } from './options'
 import { programOf } from './program'
+import { reach } from './reached'
 import { download } from './save'
 import { Settings } from './settings'
+import type { Chip } from './shell'
 import { WorkerHost } from './worker-host'
 import { languageAround } from './words'
 import { yieldToMain } from './yield'
@@ -248,12 +250,14 @@ export abstract class HostedFigure extends FigureParts implements Listener {
       if (name === 'lock') {
         const wish = locked(text, names)
         controls.lock(wish.locked)
+        this.chips.lock(wish.locked)
         wrong = unknownNames(name, wish.unknown, names, this.words)
       } else if (name === 'controls') {
         const wish = offered(text, names)
         controls.offer(wish.offered)
         this.body.classList.toggle('some-controls', wish.offered !== undefined)
         this.showNumbers(wish.offered?.has(NUMBERS) ?? true)
+        this.chips.element.classList.toggle('left-out', !(wish.offered?.has(CHIPS) ?? true))
         wrong = unknownNames(name, wish.unknown, wish.known, this.words)
       } else if (name === 'decimal') {
         controls.writeComma(hasComma(text, this.words))
@@ -322,8 +326,25 @@ export abstract class HostedFigure extends FigureParts implements Listener {
       this.settings.recipe = frame.query
       if (this.stage.matches('.live')) this.canvas.release()
       this.events.tell(frame, frame.run !== undefined)
+      this.#tick()
     }
     this.events.send()
+  }
+
+  /** Remembers what the reader has just reached. A page that opens in such a state has not reached anything. */
+  #tick(): void {
+    if (this.events.cause === 'page') return
+    const chip = this.chips.justReached
+    if (!chip) return
+    reach(this.localName, chip.name)
+    this.events.challenge(chip.name, true)
+  }
+
+  protected override takeUp(chip: Chip): void {
+    super.takeUp(chip)
+    this.chips.takenUp(chip.name)
+    this.events.challenge(chip.name, false)
+    this.refresh()
   }
 
   protected override present(frame: Frame): void {

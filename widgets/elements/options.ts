@@ -11,6 +11,7 @@ export const OPTIONS: Record<string, string[] | undefined> = {
   lang: undefined,
   theme: ['light', 'dark', 'auto'],
   controls: undefined,
+  chips: ['on', 'off'],
   show: undefined,
   lock: undefined,
   decimal: ['point', 'comma'],
@@ -46,12 +47,12 @@ export function locked(text: string | null, names: string[]): { locked: Set<stri
   return { locked: new Set(words.filter(word => names.includes(word))), unknown: words.filter(word => !names.includes(word)) }
 }
 
-/** What `controls` names besides parameters: all of playback, its button Play alone, and the folded numbers. */
-export const [PLAYBACK, PLAY, NUMBERS] = ['playback', 'play', 'numbers']
+/** What `controls` names besides parameters: all of playback, its button Play alone, the folded numbers, and the chips of the challenges. */
+export const [PLAYBACK, PLAY, NUMBERS, CHIPS] = ['playback', 'play', 'numbers', 'chips']
 
 /** Names of the controls that readers see; undefined for all of them, which they also are where a name is unknown. */
 export function offered(text: string | null, names: string[]): { offered: Set<string> | undefined; unknown: string[]; known: string[] } {
-  const known = ['none', PLAYBACK, PLAY, NUMBERS, ...names]
+  const known = ['none', PLAYBACK, PLAY, NUMBERS, CHIPS, ...names]
   const words = wordsOf(text)
   const unknown = words.filter(word => word !== 'all' && !known.includes(word))
   const all = words.length === 0 || words.includes('all') || unknown.length > 0

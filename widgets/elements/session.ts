@@ -1,7 +1,7 @@
 // A figure beside its program, on the page or in a worker: carries out what it is asked, and says what there is to show.
 import { clampedStep, type Answer, type Beginning, type Command, type Frame, type Layout, type Picture, type Run, type Size } from './host'
 import { locked } from './options'
-import { isRefusal, type Handle, type ParamSpec, type Readout, type Room, type Shell, type ShellFigure, type TraceLine } from './shell'
+import { isRefusal, type Chip, type Handle, type ParamSpec, type Readout, type Room, type Shell, type ShellFigure, type TraceLine } from './shell'
 
 const LEGIBLE = 0.5 // a picture is not made smaller than that to fit, whatever the size of its letters
 
@@ -150,6 +150,7 @@ export class Session {
       readouts: figure.readouts() as Readout[],
       handles: figure.handles(this.#size?.canvas.css ?? 0) as Handle[],
       rooms: figure.rooms(this.#size?.canvas.css ?? 0) as Room[],
+      chips: figure.chips() as Chip[],
       sentence: figure.describe(),
       changed,
       trace,

@@ -32,6 +32,23 @@ export interface Readout {
   drawn: boolean // the picture says it
 }
 
+/** A state that is worth trying (widgets/src/challenge.rs). */
+export interface Chip {
+  name: string
+  title: string
+  /** The link to it. */
+  query: string
+  /** What there is to reach; empty where there is nothing. */
+  goal: string
+  /** Whether the figure is in it, at whatever step and seed. */
+  now: boolean
+  /** The same but for the parameters that it leaves to the reader. */
+  still: boolean
+  done: boolean
+  /** What counts for the goal, as it is now. */
+  said: string
+}
+
 /** A line of the figure's algorithm that the step shown has run. */
 export interface TraceLine {
   key: string

@@ -2,6 +2,7 @@
 //! here.
 
 use crate::{
+    challenge::Chip,
     comma,
     export::{Entries, Export},
     model::{FigureError, Files, Model, ParamSpec, Readout, TraceLine},
@@ -121,6 +122,13 @@ impl Figure {
         let _speaking = self.language.spoken();
         let readouts = self.model().readouts().into_iter();
         readouts.map(|readout| Readout { text: self.written(readout.text), ..readout }).collect()
+    }
+
+    /// [`crate::model::Parameters::chips`], in the figure's language and way of writing numbers.
+    pub fn chips(&self) -> Vec<Chip> {
+        let _speaking = self.language.spoken();
+        let chips = self.model().chips().into_iter();
+        chips.map(|chip| Chip { goal: self.written(chip.goal), said: self.written(chip.said), ..chip }).collect()
     }
 
     /// [`Model::describe`], in the figure's language and way of writing numbers.

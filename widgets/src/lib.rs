@@ -6,6 +6,7 @@
 //! a [`scene`] of it (marks with meanings, without colours), the one painter of [`paint`] and, in the browser, a `shell` whose methods are one line each. Native tests and
 //! the command line use the same [`figure::Figure`] as the page.
 
+pub mod challenge;
 mod comma;
 #[cfg(feature = "page")]
 pub mod conditioning;

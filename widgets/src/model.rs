@@ -4,6 +4,7 @@
 //! link, a saved figure and a replay are the same thing. Long computations are cut into steps: [`Model::seek`] says what is
 //! asked for, [`Model::pending`] how far that is away, and [`Model::work`] goes one step nearer.
 
+use crate::challenge::{self, Challenge, Chip};
 use crate::decimal::fixed;
 pub use crate::param::{Choice, Group, Kind, ParamSpec};
 use crate::recipe::{self, Recipe};
@@ -175,6 +176,14 @@ pub trait Declared {
     /// parameter means, or of the numbers is one.
     const CHANGES: &'static [Change] = &[];
 
+    /// States that are worth trying, in the order in which they are offered.
+    fn challenges() -> Vec<Challenge<Self>>
+    where
+        Self: Sized,
+    {
+        Vec::new()
+    }
+
     /// What it is made by.
     fn recipe(&self) -> &Self::Recipe;
 
@@ -223,6 +232,9 @@ pub trait Parameters {
     /// [`Declared::CHANGES`].
     fn changes(&self) -> &'static [Change];
 
+    /// [`Declared::challenges`], and how it stands with them now.
+    fn chips(&self) -> Vec<Chip>;
+
     /// All parameters with their ranges as they are now (the last step and the number of slots depend on the setup).
     fn params(&self) -> Vec<ParamSpec>;
 
@@ -249,6 +261,10 @@ impl<M: Declared> Parameters for M {
 
     fn changes(&self) -> &'static [Change] {
         M::CHANGES
+    }
+
+    fn chips(&self) -> Vec<Chip> {
+        challenge::chips(self)
     }
 
     fn params(&self) -> Vec<ParamSpec> {

@@ -14,10 +14,19 @@ use crate::{
 /// Name of the version in a link.
 const VERSION: &str = "v";
 
+/// What a link of the present version says before its values; nothing in version 1.
+fn version(changes: &[Change]) -> Option<String> {
+    (!changes.is_empty()).then(|| format!("{VERSION}={}", changes.len() + 1))
+}
+
+/// Names and values of the present version, as a link that says so.
+pub fn versioned(pairs: &str, changes: &[Change]) -> String {
+    version(changes).into_iter().chain((!pairs.is_empty()).then(|| pairs.into())).collect::<Vec<_>>().join("&")
+}
+
 /// `v=version&name=value&…`, in the order of the parameters, percent-encoded; empty for a figure of version 1 of which nothing was asked.
 pub fn write(model: &dyn Model) -> String {
-    let version = model.changes().len() + 1;
-    let mut pairs: Vec<String> = (version > 1).then(|| format!("{VERSION}={version}")).into_iter().collect();
+    let mut pairs: Vec<String> = version(model.changes()).into_iter().collect();
     for (spec, (name, value)) in model.params().into_iter().zip(model.values()) {
         if value != spec.default {
             pairs.push(format!("{name}={}", encode(&value)));

@@ -2,6 +2,7 @@
 //! [`crate::figure`] and [`crate::model`].
 
 use crate::{
+    challenge::Chip,
     figure::{self, PlacedHandle},
     job,
     model::{FigureError, Readout},
@@ -78,6 +79,7 @@ pub fn spread(errors: &[f64]) -> Vec<f64> {
 pub struct Figure {
     figure: figure::Figure,
     readouts: RefCell<Told<Readout>>,
+    chips: RefCell<Told<Chip>>,
     handles: RefCell<Told<PlacedHandle>>,
     rooms: RefCell<Told<Room>>,
 }
@@ -102,7 +104,7 @@ impl Figure {
         fn nothing<T>() -> RefCell<Told<T>> {
             RefCell::new(Told { last: Vec::new(), array: Array::new() })
         }
-        Self { figure, readouts: nothing(), handles: nothing(), rooms: nothing() }
+        Self { figure, readouts: nothing(), chips: nothing(), handles: nothing(), rooms: nothing() }
     }
 }
 
@@ -174,6 +176,11 @@ impl Figure {
     /// The numbers of the state shown: an array of `Readout`.
     pub fn readouts(&self) -> Array {
         self.readouts.borrow_mut().tell(self.figure.readouts())
+    }
+
+    /// States that are worth trying, and how it stands with them: an array of `Chip`.
+    pub fn chips(&self) -> Array {
+        self.chips.borrow_mut().tell(self.figure.chips())
     }
 
     /// One or two sentences that tell what is shown now.

@@ -1,5 +1,6 @@
 //! Figure w17.4, the graphical model: what couples landmarks, and what is left of it once the path is known.
 
+mod challenges;
 mod graph;
 mod layout;
 mod matrix;

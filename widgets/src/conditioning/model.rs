@@ -1,6 +1,10 @@
 //! The graphical model as a deterministic state: a drive, how much of it was driven, and whether the path is known.
 
-use super::recipe::{Given, Recipe};
+use super::{
+    challenges,
+    recipe::{Given, Recipe},
+};
+use crate::challenge::Challenge;
 use crate::decimal::fixed;
 use crate::model::{Change, Column, Declared, FigureError, Model, Readout, Series};
 use crate::words::{common, conditioning};
@@ -168,6 +172,10 @@ impl Declared for ConditioningModel {
         value: 0.0,
         change: "Wheels without error leave the path known; a hidden floor of their noise used to couple all landmarks.",
     }];
+
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
 
     fn recipe(&self) -> &Recipe {
         &self.recipe

@@ -1,5 +1,6 @@
 //! Figure w17.1, the Apartment lap: a mosaic of universes, each with its own map, path and robot, and one of them large.
 
+mod challenges;
 mod grid;
 mod layout;
 mod many;

@@ -1,6 +1,7 @@
 //! The lap as a deterministic state: what was set, which step is shown, and keyframes to go back by.
 
-use super::recipe::Recipe;
+use super::{challenges, recipe::Recipe};
+use crate::challenge::Challenge;
 use crate::decimal::fixed;
 use crate::model::{
     Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text, unexplained,
@@ -137,6 +138,10 @@ impl LapModel {
 impl Declared for LapModel {
     type Recipe = Recipe;
     const TITLE: &'static str = lap::TITLE;
+
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
 
     fn recipe(&self) -> &Recipe {
         &self.recipe

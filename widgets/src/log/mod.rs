@@ -1,5 +1,6 @@
 //! A recorded log of a robot with a laser: the building that the best universe has mapped, and the paths of all of them.
 
+mod challenges;
 mod kept;
 mod layout;
 mod map;

@@ -3,12 +3,14 @@
 //! A link holds the settings alone: the log is a reader's file, and no link can bring it.
 
 use super::{
+    challenges,
     kept::{Kept, Seen},
     opened::{LIMIT, Opened, swept},
     recipe::Recipe,
     told::{self, megabytes},
     tree::{Death, FADE},
 };
+use crate::challenge::Challenge;
 use crate::decimal::write;
 use crate::model::{Change, Declared, FigureError, Files, Model, Readout, Series};
 use crate::words::log as words;
@@ -179,6 +181,10 @@ impl Declared for LogModel {
     type Recipe = Recipe;
     const TITLE: &'static str = words::TITLE;
     const CHANGES: &'static [Change] = &[Change::Default { name: "raw", was: "off" }];
+
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
 
     fn recipe(&self) -> &Recipe {
         &self.recipe

@@ -1,5 +1,6 @@
 //! Figure w17.3, proposals compared: what FastSLAM 1.0 and 2.0 draw for one step, on what they ought to have drawn from.
 
+mod challenges;
 mod contour;
 mod gauge;
 mod knob;

@@ -1,6 +1,7 @@
 //! The step as a deterministic state: what was set, what both proposals drew, and the reader's guess.
 
-use super::{contour, recipe::Recipe};
+use super::{challenges, contour, recipe::Recipe};
+use crate::challenge::Challenge;
 use crate::decimal::{fixed, write};
 use crate::model::{Column, Declared, FigureError, Model, Readout, Series};
 use crate::words::{common, proposal};
@@ -83,6 +84,10 @@ impl ProposalModel {
 impl Declared for ProposalModel {
     type Recipe = Recipe;
     const TITLE: &'static str = proposal::TITLE;
+
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
 
     fn recipe(&self) -> &Recipe {
         &self.recipe

@@ -1,5 +1,6 @@
 //! Figure w17.2, when to resample: three filters on one log and one noise, and what becomes of their ancestry.
 
+mod challenges;
 mod charts;
 mod course;
 mod layout;

@@ -1,6 +1,7 @@
 //! Three filters as a deterministic state: what was set, how far they ran, and which step of that is shown.
 
-use super::{recipe::Recipe, told};
+use super::{challenges, recipe::Recipe, told};
+use crate::challenge::Challenge;
 use crate::decimal::fixed;
 use crate::model::{Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text};
 use crate::names;
@@ -150,6 +151,10 @@ impl ResamplingModel {
 impl Declared for ResamplingModel {
     type Recipe = Recipe;
     const TITLE: &'static str = resampling::TITLE;
+
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
 
     fn recipe(&self) -> &Recipe {
         &self.recipe

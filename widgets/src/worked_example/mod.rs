@@ -1,5 +1,6 @@
 //! One update by hand: two particles, one landmark, one sighting each, and every number between input and decision.
 
+mod challenges;
 mod hands;
 mod layout;
 mod model;

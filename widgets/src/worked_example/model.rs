@@ -1,6 +1,10 @@
 //! The example as a deterministic state: its inputs.
 
-use super::recipe::{Recipe, plain};
+use super::{
+    challenges,
+    recipe::{Recipe, plain},
+};
+use crate::challenge::Challenge;
 use crate::decimal::fixed;
 use crate::model::{Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text};
 use crate::words::{common, worked_example};
@@ -49,6 +53,10 @@ impl WorkedExampleModel {
 impl Declared for WorkedExampleModel {
     type Recipe = Recipe;
     const TITLE: &'static str = worked_example::TITLE;
+
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
 
     fn recipe(&self) -> &Recipe {
         &self.recipe

@@ -1,0 +1,28 @@
+// `:chip[words]{#name}`: a challenge of the figure in whose caption it stands, in words. Script makes a button of it (www/src/challenges.ts).
+import { existsSync, readFileSync } from 'node:fs'
+import { join } from 'node:path'
+import { h } from 'hastscript'
+import { attribute, inline } from './context.mjs'
+
+/** Names of a figure's challenges, in their order. @param {string} root @param {string} tag */
+export function challengesOf(root, tag) {
+  const file = join(root, 'widgets', 'src', tag.replace('fastslam-', '').replaceAll('-', '_'), 'challenges.rs')
+  if (!existsSync(file)) return []
+  return [...readFileSync(file, 'utf8').matchAll(/Challenge::new\(\s*"([a-z-]+)"/g)].map(([, name = '']) => name)
+}
+
+/** @type {import('./context.mjs').Handler} */
+export function chip(context, state, node) {
+  const name = attribute(node, 'id') ?? ''
+  const { figure } = context
+  if (!figure) context.problems.add(context.file, node, ':chip has its place in the caption of a figure')
+  else if (!figure.challenges.includes(name)) context.problems.add(context.file, node, `${figure.tag} has no challenge ${name}, only ${figure.challenges.join(', ')}`)
+  figure?.told.push(name)
+  return h('span.chip', { dataChallenge: name }, inline(state, node))
+}
+
+/** A caption has all of the figure's challenges in their order, as its list has their numbers; or none. @param {import('./context.mjs').Context} context @param {any} node */
+export function judgeChips({ figure, file, problems }, node) {
+  if (!figure || figure.told.length === 0 || figure.told.join() === figure.challenges.join()) return
+  problems.add(file, node, `the caption has the challenges ${figure.told.join(', ')}, and ${figure.tag} has ${figure.challenges.join(', ')}`)
+}

@@ -1,0 +1,146 @@
+// The challenges of a figure: numbered chips, each of which sets its state. Where there is room, the words of the one that is pointed at,
+// or of the one that is on, stand beside them; on a phone they stand in them. What was reached is ticked (reached.ts).
+import { h, write } from './dom'
+import { isReached } from './reached'
+import type { Chip, ParamSpec } from './shell'
+import type { Words } from './words'
+
+export class Chips {
+  readonly element = h('div', { class: 'chips', part: 'chips', role: 'group', hidden: '' })
+  /** Of the chip that is pointed at, or on. What screen readers need of them is in the chips. */
+  readonly said = h('span', { class: 'chip-words', 'aria-hidden': 'true' })
+  #chips: Chip[] = []
+  #locked = new Set<string>()
+  #specs: ParamSpec[] = []
+  #values: Record<string, string> = {}
+  #pointed = -1
+  #taken = '' // taken up last: it is on as long as it is still the challenge
+
+  constructor(
+    private readonly tag: string,
+    private readonly words: Words,
+    private readonly take: (chip: Chip) => void,
+  ) {
+    words.always(() => (this.element.ariaLabel = words.say('challenges')))
+    this.element.addEventListener('keydown', event => this.#move(event))
+    this.element.addEventListener('click', ({ target }) => this.#press(this.#numberOf(target)))
+    for (const type of ['pointerover', 'focusin'] as const) this.element.addEventListener(type, ({ target }) => this.#point(this.#numberOf(target)))
+    for (const type of ['pointerleave', 'focusout'] as const) this.element.addEventListener(type, () => this.#point(-1))
+  }
+
+  /** Shows them as they are in a frame. */
+  show(chips: Chip[], specs: ParamSpec[], values: Record<string, string>): void {
+    if (this.element.childElementCount !== chips.length) this.#make(chips.length)
+    ;[this.#chips, this.#specs, this.#values] = [chips, specs, values]
+    this.refresh()
+  }
+
+  /** Parameters that readers cannot change. */
+  lock(names: Set<string>): void {
+    this.#locked = names
+    this.refresh()
+  }
+
+  /** What was reached may be another. */
+  refresh(): void {
+    const [buttons, now] = [this.#buttons, this.#now]
+    for (const [i, chip] of this.#chips.entries()) {
+      const button = buttons[i]!
+      const reached = isReached(this.tag, chip.name)
+      const why = this.#why(chip)
+      button.name = chip.name
+      button.ariaPressed = String(i === now)
+      button.ariaLabel = reached ? this.words.say('reached', { title: chip.title }) : chip.title
+      button.ariaDisabled = String(why !== '')
+      button.title = why || [chip.goal, i === now ? chip.said : ''].filter(Boolean).join(': ')
+      button.classList.toggle('reached', reached)
+      write(button.lastElementChild as HTMLElement, chip.said && i === now ? `${chip.title} · ${chip.said}` : chip.title)
+    }
+    // One of them is where Tab comes to: the one that is on, or the first.
+    const focused = buttons.findIndex(button => button.matches(':focus'))
+    const stop = focused >= 0 ? focused : Math.max(0, now)
+    buttons.forEach((button, i) => (button.tabIndex = i === stop ? 0 : -1))
+    this.#say()
+  }
+
+  /** Whether it is known which there are. */
+  get any(): boolean {
+    return this.#chips.length > 0
+  }
+
+  /** The one of this name, if it can be had on this page. */
+  find(name: string): Chip | undefined {
+    return this.#chips.find(chip => chip.name === name && this.#why(chip) === '')
+  }
+
+  /** A reader has taken one up; or with nothing, another state is there. */
+  takenUp(name = ''): void {
+    this.#taken = name
+  }
+
+  /** The one that is on, where its goal is reached and was not before. */
+  get justReached(): Chip | undefined {
+    const chip = this.#chips[this.#now]
+    return chip?.done && !isReached(this.tag, chip.name) ? chip : undefined
+  }
+
+  get #buttons(): HTMLButtonElement[] {
+    return [...this.element.children] as HTMLButtonElement[]
+  }
+
+  get #now(): number {
+    const taken = this.#chips.findIndex(({ name, still }) => still && name === this.#taken)
+    return taken >= 0 ? taken : this.#chips.findIndex(({ now }) => now)
+  }
+
+  #make(count: number): void {
+    const chip = (_: unknown, i: number) =>
+      h('button', { type: 'button', class: 'chip', part: 'button chip' }, h('span', { class: 'number' }, String(i + 1)), h('span', { class: 'words' }))
+    this.element.replaceChildren(...Array.from({ length: count }, chip))
+    this.element.hidden = count === 0
+  }
+
+  #numberOf(target: EventTarget | null): number {
+    return this.#buttons.findIndex(button => target instanceof Node && button.contains(target))
+  }
+
+  /** Why it cannot be had on this page; empty if it can. */
+  #why({ query }: Chip): string {
+    if (this.#locked.size === 0) return ''
+    const wanted = new URLSearchParams(query)
+    const fixed = this.#specs.find(({ name, default: usual }) => this.#locked.has(name) && (wanted.get(name) ?? usual) !== this.#values[name])
+    return fixed ? this.words.say('fixed', { name: fixed.name }) : ''
+  }
+
+  #press(number: number): void {
+    const chip = this.#chips[number]
+    if (chip && this.#why(chip) === '') this.take(chip)
+  }
+
+  #point(number: number): void {
+    this.#pointed = number
+    this.#say()
+  }
+
+  #say(): void {
+    const now = this.#chips[this.#now]
+    const chip = this.#chips[this.#pointed] ?? now
+    const text = chip ? [chip.title, this.#why(chip) || chip.goal, chip === now ? chip.said : ''].filter(Boolean).join(' · ') : ''
+    write(this.said, text)
+    this.said.title = text
+  }
+
+  #move(event: KeyboardEvent): void {
+    const buttons = this.#buttons
+    const at = this.#numberOf(event.target)
+    // As they are seen: the other way round where the page is written from right to left.
+    const on = getComputedStyle(this.element).direction === 'rtl' ? -1 : 1
+    const to: Record<string, number> = { ArrowRight: at + on, ArrowLeft: at - on, Home: 0, End: buttons.length - 1 }
+    const next = to[event.key]
+    if (next === undefined || event.altKey || event.ctrlKey || event.metaKey) return
+    event.preventDefault()
+    const button = buttons[(next + buttons.length) % buttons.length]!
+    button.focus()
+    this.refresh()
+  }
+}

@@ -1,0 +1,117 @@
+//! Challenges: states of a figure that are worth trying, in words, and what there may be to reach from them.
+//!
+//! A figure lists them beside its parameters ([`Declared::challenges`]). What a page shows of each is a [`Chip`].
+
+use crate::{
+    model::{Declared, Group},
+    query, recipe,
+};
+use serde::Serialize;
+
+/// The moment shown and the luck of the draw: neither makes a state another challenge.
+const ANY: [&str; 2] = ["step", "seed"];
+
+/// A state to try.
+pub struct Challenge<M> {
+    /// Identifier, unique in the figure.
+    pub name: &'static str,
+    /// What it is, in a few words for readers.
+    pub title: &'static str,
+    /// The state, as a link of the present version has it, without its version.
+    pub query: &'static str,
+    /// What there is to reach.
+    pub check: Option<Check<M>>,
+}
+
+/// Something to reach from the state of a challenge.
+pub struct Check<M> {
+    /// What, in a few words for readers.
+    pub goal: &'static str,
+    /// Names of the parameters that are left to the reader, apart by spaces. With other values than those of the challenge it is the same
+    /// challenge still.
+    pub free: &'static str,
+    /// Whether the state shown, with what led to it, is what was asked for.
+    pub judge: fn(&M) -> Verdict,
+}
+
+/// What a check finds: the numbers that count, in words.
+pub enum Verdict {
+    /// It is reached.
+    Done(String),
+    /// Not yet.
+    NotYet(String),
+}
+
+impl<M> Challenge<M> {
+    /// One that is to be looked at.
+    pub const fn new(name: &'static str, title: &'static str, query: &'static str) -> Self {
+        Self { name, title, query, check: None }
+    }
+
+    /// The same with something to reach.
+    pub fn with(self, goal: &'static str, free: &'static str, judge: fn(&M) -> Verdict) -> Self {
+        Self { check: Some(Check { goal, free, judge }), ..self }
+    }
+
+    fn is_free(&self, name: &str) -> bool {
+        self.check.as_ref().is_some_and(|check| check.free.split(' ').any(|free| free == name))
+    }
+}
+
+/// A challenge as a page shows it.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Chip {
+    /// [`Challenge::name`].
+    pub name: &'static str,
+    /// [`Challenge::title`].
+    pub title: &'static str,
+    /// The link to its state.
+    pub query: String,
+    /// [`Check::goal`]; empty where there is nothing to reach.
+    pub goal: String,
+    /// Whether the figure is in its state now, at whatever step and seed.
+    pub now: bool,
+    /// The same but for the parameters that it leaves to the reader.
+    pub still: bool,
+    /// Whether its goal is reached, where it is still the challenge.
+    pub done: bool,
+    /// What its check finds; empty where it is not the challenge, or there is nothing to reach.
+    pub said: String,
+}
+
+/// The challenges of a model, and how it stands with them.
+pub fn chips<M: Declared>(model: &M) -> Vec<Chip> {
+    let challenges = M::challenges();
+    let (specs, values) = (recipe::specs(model.recipe()), recipe::values(model.recipe()));
+    let asked: Vec<_> = challenges.iter().map(|challenge| query::pairs(challenge.query)).collect();
+    let names = |name: &str| asked.iter().flatten().any(|(asked, _)| asked == name);
+    // Of what is only shown, that counts which a challenge is about.
+    let counts = |name: &str, group| !ANY.contains(&name) && (group == Group::Setup || names(name));
+    let differs = |k: usize, forgives: bool| {
+        specs.iter().zip(&values).any(|(spec, (name, value))| {
+            let wanted = asked[k].iter().find(|(asked, _)| asked == name).map_or(&spec.default, |(_, wanted)| wanted);
+            counts(name, spec.group) && value != wanted && !(forgives && challenges[k].is_free(name))
+        })
+    };
+    let chip = |(k, challenge): (usize, &Challenge<M>)| {
+        let check = challenge.check.as_ref();
+        let (now, still) = (!differs(k, false), !differs(k, true));
+        let verdict = check.filter(|_| still).map(|check| (check.judge)(model));
+        let (done, said) = match verdict {
+            Some(Verdict::Done(said)) => (true, said),
+            Some(Verdict::NotYet(said)) => (false, said),
+            None => (false, String::new()),
+        };
+        Chip {
+            name: challenge.name,
+            title: challenge.title,
+            query: query::versioned(challenge.query, M::CHANGES),
+            goal: check.map_or(String::new(), |check| check.goal.into()),
+            now,
+            still,
+            done,
+            said,
+        }
+    };
+    challenges.iter().enumerate().map(chip).collect()
+}

@@ -1,0 +1,34 @@
+//! States of the lap that are worth trying.
+
+use super::model::LapModel;
+use crate::{
+    challenge::{Challenge, Verdict},
+    decimal::fixed,
+    model::Model,
+    words::lap as words,
+};
+
+/// Most universes, and the error of the best at the end \[m\], of a lap that is well done with little.
+const FEW: usize = 4;
+const NEAR: f64 = 0.5;
+
+pub(super) fn challenges() -> Vec<Challenge<LapModel>> {
+    vec![
+        Challenge::new("no-measurements", words::chip_no_measurements(), "proposal=motion&policy=never&step=80"),
+        Challenge::new("measurements", words::chip_measurements(), "proposal=motion&step=80"),
+        Challenge::new("four", words::chip_four(), "universes=4&proposal=motion&step=90").with(
+            words::goal_four(),
+            "universes proposal matcher policy threshold scheme temper guard",
+            near_with_few,
+        ),
+        Challenge::new("blurred", words::chip_blurred(), "odometry=2&range-std=0.3&step=90"),
+    ]
+}
+
+/// Whether the best of a few universes ends near the truth.
+fn near_with_few(model: &LapModel) -> Verdict {
+    let (m, error) = (model.setup().particles, model.report().rms_best);
+    let (step, last) = (model.step(), model.step_count());
+    let said = words::ChipError { error: &fixed(error, 2), m: &m, step: &step, last: &last }.say();
+    if m <= FEW && step == last && error < NEAR { Verdict::Done(said) } else { Verdict::NotYet(said) }
+}

@@ -1,0 +1,121 @@
+//! Laws of the challenges of every figure, and of what their checks take for reached.
+
+mod common;
+
+use common::{figure, scene};
+use fastslam_widgets::{challenge::Chip, figure::Figure, registry::FIGURES};
+use std::collections::BTreeSet;
+
+/// The longest title that has room beside the chips \[characters\].
+const LONGEST: usize = 40;
+
+fn chips(figure: &Figure) -> Vec<Chip> {
+    figure.chips()
+}
+
+/// The chip of this name, in the state that a link names.
+fn chip(tag: &str, name: &str, query: &str) -> Chip {
+    chips(&figure(tag, query)).into_iter().find(|chip| chip.name == name).unwrap()
+}
+
+#[test]
+fn every_figure_has_challenges_with_short_titles_and_names_of_their_own() {
+    for entry in FIGURES {
+        let chips = chips(&Figure::new(entry.tag).unwrap());
+        assert!(chips.len() >= 3, "{}", entry.tag);
+        let different = |of: fn(&Chip) -> &str| chips.iter().map(of).collect::<BTreeSet<_>>().len();
+        assert_eq!([different(|chip| chip.name), different(|chip| chip.title)], [chips.len(); 2], "{}", entry.tag);
+        for Chip { name, title, .. } in chips {
+            assert!((1..=LONGEST).contains(&title.chars().count()), "{title}");
+            assert!(name.chars().all(|c| c.is_ascii_lowercase() || c == '-'), "{name}");
+        }
+    }
+}
+
+#[test]
+fn the_link_of_a_challenge_is_accepted_is_the_state_and_is_the_only_challenge_that_is_on() {
+    for entry in FIGURES {
+        for Chip { name, query, .. } in chips(&Figure::new(entry.tag).unwrap()) {
+            let figure = figure(entry.tag, &query);
+            assert_eq!(figure.query(), query, "{name}: written as links are");
+            let on: Vec<_> = chips(&figure).into_iter().filter(|chip| chip.now).map(|chip| chip.name).collect();
+            assert_eq!(on, [name]);
+        }
+        assert!(chips(&Figure::new(entry.tag).unwrap()).iter().all(|chip| !chip.now), "{} opens in none", entry.tag);
+    }
+}
+
+#[test]
+fn a_challenge_changes_what_is_to_be_seen_or_read() {
+    for entry in FIGURES {
+        let told = |figure: &Figure| (figure.describe(), scene(figure, 800.0), figure.values().0);
+        let opening = told(&Figure::new(entry.tag).unwrap());
+        for Chip { name, query, .. } in chips(&Figure::new(entry.tag).unwrap()) {
+            let (describe, scene, values) = told(&figure(entry.tag, &query));
+            // Without a log, the figure of logs has nothing but its settings to show.
+            let shown = describe != opening.0 || scene != opening.1;
+            assert!(shown || (entry.tag == "fastslam-log" && values != opening.2), "{} {name}", entry.tag);
+        }
+    }
+}
+
+#[test]
+fn no_challenge_is_reached_by_choosing_it_and_a_check_says_how_it_stands_only_while_it_is_on() {
+    for entry in FIGURES {
+        for Chip { name, query, goal, .. } in chips(&Figure::new(entry.tag).unwrap()) {
+            for other in chips(&figure(entry.tag, &query)) {
+                assert!(!other.done, "{} {}", entry.tag, other.name);
+                assert!(other.now <= other.still, "{}", other.name);
+                assert_eq!(!other.said.is_empty(), other.still && !other.goal.is_empty(), "{}", other.name);
+            }
+            if !goal.is_empty() {
+                assert!(!chip(entry.tag, name, &query).said.is_empty(), "{name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn another_seed_and_another_step_are_the_same_challenge() {
+    let on = |query: &str| chip("fastslam-lap", "measurements", query).now;
+    assert!(on("proposal=motion&step=80") && on("proposal=motion&step=3&seed=9"));
+    assert!(!on("proposal=motion&step=3&odometry=1.5") && !on("step=80"));
+}
+
+#[test]
+fn four_universes_that_look_at_the_measurement_first_end_near_the_truth() {
+    let done = |query: &str| chip("fastslam-lap", "four", query).done;
+    assert!(done("universes=4&step=90"));
+    assert!(!done("universes=4&step=60") && !done("universes=5&step=90"));
+}
+
+#[test]
+fn the_entry_of_two_landmarks_that_no_pose_saw_together_is_found_and_wheels_without_error_untie_all() {
+    let done = |name, query: &str| chip("fastslam-conditioning", name, query).done;
+    assert!(done("apart", "v=2&row=9&column=13"));
+    assert!(!done("apart", "v=2&row=9&column=12") && !done("apart", "v=2&row=9&column=9"));
+    assert!(done("wheels", "v=2&odometry=0") && !done("wheels", "v=2&odometry=0.05&step=1"));
+}
+
+#[test]
+fn a_sharp_bearing_makes_one_sample_worth_ten_and_a_near_landmark_bends_what_the_weights_do_not_see() {
+    let done = |name, query: &str| chip("fastslam-proposal", name, query).done;
+    assert!(done("sharp", "range-std=0.005&bearing-std=0.01"));
+    assert!(done("bend", "range-std=0.02&odometry=2&landmark-x=1.1&landmark-y=0"));
+}
+
+#[test]
+fn particle_1_weighs_ten_times_as_much_where_the_other_is_surprised_and_a_higher_threshold_resamples() {
+    let done = |name, query: &str| chip("fastslam-worked-example", name, query).done;
+    assert!(done("ten", "r2=4.1&phi2=0.3"));
+    assert!(done("resample", "threshold=0.8"));
+}
+
+#[test]
+fn a_filter_that_resamples_at_every_step_loses_the_right_wing_in_good_health() {
+    let seeds =
+        (1..=8).map(|seed| chip("fastslam-resampling", "lose", &format!("wings=on&threshold=1&step=104&seed={seed}")));
+    let said: Vec<_> = seeds.filter(|chip| chip.done).map(|chip| chip.said).collect();
+    assert!(said.len() >= 3, "{said:?}");
+    assert!(said[0].starts_with("lost at step") && said[0].contains("N_eff 1"), "{said:?}");
+}
