@@ -5,6 +5,8 @@ import { isReached } from './reached'
 import type { Chip, ParamSpec } from './shell'
 import type { Words } from './words'
 
+const MARGIN = 24 // [px] of the chip before it, so that it is seen that there is one
+
 export class Chips {
   readonly element = h('div', { class: 'chips', part: 'chips', role: 'group', hidden: '' })
   /** Of the chip that is pointed at, or on. What screen readers need of them is in the chips. */
@@ -14,6 +16,7 @@ export class Chips {
   #specs: ParamSpec[] = []
   #values: Record<string, string> = {}
   #pointed = -1
+  #seen = -1 // the one that was last brought in sight, where the row scrolls
   #taken = '' // taken up last: it is on as long as it is still the challenge
 
   constructor(
@@ -55,6 +58,10 @@ export class Chips {
       button.title = why || [chip.goal, i === now ? chip.said : ''].filter(Boolean).join(': ')
       button.classList.toggle('reached', reached)
       write(button.lastElementChild as HTMLElement, chip.said && i === now ? `${chip.title} · ${chip.said}` : chip.title)
+    }
+    if (now !== this.#seen) {
+      this.#seen = now
+      if (now >= 0) this.element.scrollLeft = buttons[now]!.offsetLeft - MARGIN
     }
     // One of them is where Tab comes to: the one that is on, or the first.
     const focused = buttons.findIndex(button => button.matches(':focus'))
