@@ -57,7 +57,7 @@ export class Chips {
       button.ariaDisabled = String(why !== '')
       button.title = why || [chip.goal, i === now ? chip.said : ''].filter(Boolean).join(': ')
       button.classList.toggle('reached', reached)
-      write(button.lastElementChild as HTMLElement, chip.said && i === now ? `${chip.title} · ${chip.said}` : chip.title)
+      write(button.lastElementChild as HTMLElement, i === now ? told(chip) : chip.title)
     }
     if (now !== this.#seen) {
       this.#seen = now
@@ -132,7 +132,7 @@ export class Chips {
   #say(): void {
     const now = this.#chips[this.#now]
     const chip = this.#chips[this.#pointed] ?? now
-    const text = chip ? [chip.title, this.#why(chip) || chip.goal, chip === now ? chip.said : ''].filter(Boolean).join(' · ') : ''
+    const text = chip ? told(chip, this.#why(chip) || chip.goal, chip === now ? chip.said : '') : ''
     write(this.said, text)
     this.said.title = text
   }
@@ -150,4 +150,9 @@ export class Chips {
     button.focus()
     this.refresh()
   }
+}
+
+/** A challenge, what there is to reach, and how it stands. */
+function told({ title, goal, said }: Chip, aim = goal, now = said): string {
+  return [title, aim, now].filter(Boolean).join(' · ')
 }
