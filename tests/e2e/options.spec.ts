@@ -39,7 +39,7 @@ test('controls can be picked by their names, and a name that is none is answered
   const all = await pick('all')
   expect(all.length).toBeGreaterThan(15)
   expect(await pick('seed odometri')).toEqual(all)
-  await expect(lap.alert).toContainText('controls names “odometri”, but this figure has none, playback, play, numbers, universes, ')
+  await expect(lap.alert).toContainText('controls names “odometri”, but this figure has none, playback, play, numbers, chips, universes, ')
   expect(await pick('none')).toEqual([])
   await expect(lap.alert).toBeEmpty()
 })
