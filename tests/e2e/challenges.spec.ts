@@ -201,7 +201,7 @@ test.describe('in the chapter', () => {
       await figure.element.scrollIntoViewIfNeeded()
       await expect(group(figure)).toBeVisible()
       await expect(list).toHaveCount(await chips(figure).count())
-      const names = await chips(figure).evaluateAll(all => all.map(chip => (chip as HTMLButtonElement).name))
+      const names = await chips(figure).evaluateAll(all => all.map(chip => (chip as HTMLElement).dataset['challenge']))
       expect(await list.evaluateAll(all => all.map(button => button.dataset['challenge']))).toEqual(names)
       await list.last().click()
       await expect.poll(() => on(figure)).toEqual([names.length - 1])

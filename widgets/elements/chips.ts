@@ -51,7 +51,7 @@ export class Chips {
       const button = buttons[i]!
       const reached = isReached(this.tag, chip.name)
       const why = this.#why(chip)
-      button.name = chip.name
+      button.dataset['challenge'] = chip.name
       button.ariaPressed = String(i === now)
       button.ariaLabel = reached ? this.words.say('reached', { title: chip.title }) : chip.title
       button.ariaDisabled = String(why !== '')
