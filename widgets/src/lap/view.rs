@@ -12,8 +12,8 @@ use crate::{
     model::Model,
     panels::Panels,
     scene::{
-        Anchor, Chart, FREE, Mark, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, cloud, heading,
-        legend, n_eff, rimmed, rimmed_robot, scale_bar, text,
+        Anchor, Chart, FREE, GHOST, Mark, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, cloud,
+        ghost, heading, legend, n_eff, rimmed, rimmed_robot, scale_bar, text,
     },
     view::View,
     words::{common, lap},
@@ -40,6 +40,10 @@ impl View for LapView {
 
     fn layout(width: f64, panels: &Panels) -> Layout {
         Layout::of(width, panels)
+    }
+
+    fn gist(_model: &LapModel, layout: &Layout, width: f64) -> Rect {
+        if layout.panels.has(MAP) { layout.large } else { Rect::new(0.0, 0.0, width, layout.height) }
     }
 
     fn draw(&self, model: &LapModel, layout: &Layout, scene: &mut Scene) {
@@ -158,6 +162,9 @@ fn names(scene: &mut Scene, model: &LapModel, area: &Rect) {
     if model.shows_raw() {
         items.push((Sample::line(Role::Odometry, 2.0, Some(RAW)), common::raw_odometry_line()));
     }
+    if !model.pinned_ess().is_empty() {
+        items.push((Sample::line(GHOST, 1.75, None), common::pinned_ess()));
+    }
     legend(scene, area, items);
 }
 
@@ -188,6 +195,7 @@ fn meter(scene: &mut Scene, model: &LapModel, area: &Rect) {
         let lines = vec![chart.level(fraction)];
         scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some([3.0, 3.0]), role: Role::Weight(0) });
     }
+    scene.marks.push(ghost(&chart, model.pinned_ess().iter().copied()));
     let history = model.history();
     let curve = chart.curve(history.iter().map(|r| (r.step, r.ess / m)));
     let resampled = history.iter().zip(&curve).filter(|(r, _)| r.ancestors.is_some()).map(|(_, at)| *at).collect();

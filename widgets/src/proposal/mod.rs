@@ -2,6 +2,7 @@
 
 mod contour;
 mod gauge;
+mod ghost;
 mod knob;
 mod layout;
 mod marks;

@@ -6,8 +6,8 @@ use super::{
     model::ProposalModel,
 };
 use crate::{
-    scene::{Cells, Mark, Rect, Role, Sample, Scene, Shading, legend, robot},
-    words::proposal,
+    scene::{Cells, GHOST, Mark, Rect, Role, Sample, Scene, Shading, legend, robot},
+    words::{common, proposal},
 };
 
 /// Names what is drawn.
@@ -61,6 +61,9 @@ pub fn names(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
     }
     if ratio && model.at_half().is_some() {
         items.push((Sample::at(|at| filled_diamond(at, 5.5, Role::Ink)), proposal::at_half()));
+    }
+    if !model.pinned().is_empty() {
+        items.push((line(GHOST, None), common::pinned_run()));
     }
     legend(scene, &layout.legend, items);
 }
