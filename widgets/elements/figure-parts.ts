@@ -151,8 +151,8 @@ export abstract class FigureParts extends HTMLElement {
       step: () => this.byHand(() => this.step()),
       stepBack: () => this.byHand(() => this.stepBack()),
       seek: step => this.byHand(() => this.seek(step)),
-      rewind: () => this.#undoable('undo_rewind', () => this.seek(0)),
-      reset: () => this.#undoable('undo_reset', () => this.reset()),
+      rewind: () => this.undoable('undo_rewind', () => this.seek(0)),
+      reset: () => this.undoable('undo_reset', () => this.reset()),
       rate: rate => (this.playback.rate = rate),
       change: (name, value) => this.change(name, value),
     })
@@ -232,7 +232,7 @@ export abstract class FigureParts extends HTMLElement {
   }
 
   /** Does what throws away what a reader has made, and offers it back until something else is done. */
-  #undoable(name: 'undo_rewind' | 'undo_reset', act: () => void): void {
+  protected undoable(name: 'undo_rewind' | 'undo_reset' | 'undo_back' | 'undo_seed', act: () => void): void {
     const before = this.state
     this.byHand(act)
     this.#before = before

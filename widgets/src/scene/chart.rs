@@ -3,7 +3,7 @@
 use super::{Mark, Point, Rect, Role};
 
 /// Whatever is drawn of a run that is pinned.
-pub const GHOST: Role = Role::Level(70);
+pub const GHOST: Role = Role::Level(48);
 
 /// A curve of a run that is pinned, by step, behind those of the run that is shown: of the steps that both have.
 pub fn ghost(chart: &Chart, shares: impl Iterator<Item = f64>) -> Mark {
