@@ -59,7 +59,6 @@ export abstract class ComparedFigure extends FigureElement {
     this.shadowRoot!.adoptedStyleSheets.push(sheet)
     this.#button.append(...this.#pinWords)
     this.menu.element.before(this.#button)
-    this.stage.append(this.#card.overlay)
     this.folds.append(this.#seeds.element)
     this.#button.addEventListener('click', () => this.byHand(() => this.pin()))
     this.words.always(() => {
@@ -112,7 +111,7 @@ export abstract class ComparedFigure extends FigureElement {
 
   protected override introduced(): void {
     super.introduced()
-    this.controls!.transport.after(this.#card.element)
+    this.#place()
   }
 
   override hear(answer: Answer): void {
@@ -156,8 +155,16 @@ export abstract class ComparedFigure extends FigureElement {
 
   /** With the card the picture is a little smaller, so that all of it is on one screen. */
   #fit(): void {
+    this.#place()
     this.body.classList.toggle('pinned', this.#pinned !== undefined)
     this.canvas.measure()
+  }
+
+  #place(): void {
+    const { element, overlay } = this.#card
+    if (!this.#pinned) return [element, overlay].forEach(part => part.remove())
+    this.controls?.transport.after(element)
+    this.stage.append(overlay)
   }
 
   #haunt(curves: Float64Array<ArrayBuffer>): void {

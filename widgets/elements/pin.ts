@@ -28,7 +28,7 @@ export interface PinActions {
 const THUMB = 76 // [css px] high, at most
 
 export class PinCard {
-  readonly element = h('div', { class: 'pin-card', part: 'pinned', role: 'group', hidden: '' })
+  readonly element = h('div', { class: 'pin-card', part: 'pinned', role: 'group' })
   /** The pinned picture in the place of the one of now. */
   readonly overlay = h('div', { class: 'peek', hidden: '' })
   readonly #picture = h('canvas', { role: 'img' })
@@ -70,7 +70,6 @@ export class PinCard {
   /** Shows a run as the pinned one, or none. */
   hold(pinned: Pinned | undefined): void {
     this.#pinned = pinned
-    this.element.hidden = !pinned
     this.peek(false)
     this.#write()
   }

@@ -190,7 +190,7 @@ fn meter(scene: &mut Scene, model: &LapModel, area: &Rect) {
         legend(
             scene,
             &Rect { h: LINE, ..line(2.0) },
-            [(Sample::line(GHOST, 1.75, None).wide(12.0), common::pinned_ess())],
+            [(Sample::line(GHOST, 1.75, None).wide(12.0), common::pinned_mark())],
         );
     }
 
