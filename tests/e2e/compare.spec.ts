@@ -50,14 +50,15 @@ for (const [tag, link, change, says] of RUNS) {
     await give(figure, change)
     await expect(differs(figure)).toHaveText(says)
     await expect(card(figure)).toHaveAccessibleName(new RegExp(`^The pinned run. ${says.source.slice(1)}`))
-    // The ghosts are not the curves: the same state without them is another picture.
+    // The ghosts are not the curves: where they are, as of the run itself, the same state is another picture.
     const haunted = await figure.picture()
+    await figure.button('Pin this run').click()
+    await figure.settled()
+    expect(await figure.picture()).not.toBe(haunted)
     await figure.button('Unpin').click()
     await figure.settled()
     await expect(card(figure)).toBeHidden()
     await expect(figure.button('Pin this run')).toBeFocused()
-    await page.setViewportSize(page.viewportSize()!)
-    expect(await figure.picture()).not.toBe(haunted)
 
     // And back.
     await figure.element.evaluate((element, link) => ((element as HTMLElement & { state: string }).state = link), link)
@@ -187,6 +188,27 @@ test('a pinned run stays through a reset, other seeds, other steps and a move in
   await lap.live()
   await expect(card(lap)).toBeVisible()
   expect(await lap.picture()).toBe(pinned)
+})
+
+test('a pinned picture follows the page into the dark, and into another language', async ({ page }) => {
+  await openCourse(page, '<fastslam-lap universes="4" step="9"></fastslam-lap>')
+  const lap = new Figure(page, 'fastslam-lap')
+  await lap.live()
+  await lap.button('Pin this run').click()
+  await give(lap, ['universes', '2'])
+  await give(lap, ['theme', 'dark'])
+  const paper = () =>
+    lap.element.evaluate(element => {
+      const canvas = element.shadowRoot!.querySelector<HTMLCanvasElement>('.peek canvas')!
+      const copy = new OffscreenCanvas(1, 1).getContext('2d')!
+      copy.drawImage(canvas, 0, 0)
+      return [...copy.getImageData(0, 0, 1, 1).data].slice(0, 3)
+    })
+  await expect.poll(paper).toEqual([18, 22, 28])
+  await give(lap, ['lang', 'de'])
+  await expect(differs(lap)).toHaveText(/^Angeheftet bei Schritt 9: \D+ 4 \(jetzt 2\)$/)
+  await expect(lap.button('Dorthin zurück')).toBeVisible()
+  await expect(overlay(lap).locator('canvas')).toHaveAttribute('aria-label', /^Angeheftet bei Schritt 9\. Schritt 9 /)
 })
 
 test.describe('on a phone', () => {

@@ -80,12 +80,13 @@ export function atSeed(state: string, seed: number): string {
   return query.toString()
 }
 
-/** A part of a frame's picture, as a canvas of its own; it has to be asked for before the program is asked anything else. */
-export function pictureOf({ picture, layout, gist }: Frame, room: number): HTMLCanvasElement {
+/** A frame's picture, or the part of it that tells most, as a canvas of its own; it has to be asked for before the program is asked anything else. */
+export function pictureOf({ picture, layout, gist }: Frame, room: number, whole = false): HTMLCanvasElement {
   const canvas = h('canvas')
   if (!picture) return canvas
   const scale = picture.width / (layout?.width ?? room)
-  const [x, y, width, height] = [gist.x, gist.y, gist.w, gist.h].map(length => Math.round(length * scale)) as [number, number, number, number]
+  const part = [gist.x, gist.y, gist.w, gist.h].map(length => Math.round(length * scale))
+  const [x, y, width, height] = (whole ? [0, 0, picture.width, picture.height] : part) as [number, number, number, number]
   Object.assign(canvas, { width, height })
   canvas.getContext('2d', { alpha: false })!.putImageData(new ImageData(picture.pixels(), picture.width, picture.height), -x, -y)
   return canvas

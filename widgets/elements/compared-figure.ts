@@ -1,10 +1,10 @@
 // A figure whose runs can be compared: one of them pinned beside the others, and the same setting at further seeds.
-import { Aside, atSeed, type SeedRun } from './aside'
+import { Aside, atSeed, pictureOf, type SeedRun } from './aside'
 import css from './compare.css?inline'
 import { h, write } from './dom'
 import { FigureElement } from './figure-element'
 import { FiveSeeds } from './five-seeds'
-import type { Answer, Command, Frame } from './host'
+import type { Answer, Frame } from './host'
 import { hasComma, locked } from './options'
 import { PinCard, type Pinned } from './pin'
 
@@ -39,6 +39,8 @@ export abstract class ComparedFigure extends FigureElement {
   protected abstract readonly compared: Compared
   #pinned: Pinned | undefined
   #curves = new Float64Array()
+  #look = '' // the theme and the language of its picture
+  #repainting: AbortController | undefined
   #pinning = false // with the next frame that shows what was asked for
   readonly #button = h('button', { type: 'button', class: 'pin', part: 'button pin' })
   readonly #pinWords = [h('span', { class: 'long' }), h('span', { class: 'short', 'aria-hidden': 'true' })] as const
@@ -80,6 +82,7 @@ export abstract class ComparedFigure extends FigureElement {
   unpin(): void {
     this.#pinning = false
     this.#pinned = undefined
+    this.#repainting?.abort()
     this.#haunt(new Float64Array())
     this.#card.hold(undefined)
     this.#fit()
@@ -102,6 +105,7 @@ export abstract class ComparedFigure extends FigureElement {
   override disconnectedCallback(): void {
     super.disconnectedCallback()
     this.#seeds.stop()
+    this.#repainting?.abort()
   }
 
   protected override begun(): void {
@@ -129,11 +133,7 @@ export abstract class ComparedFigure extends FigureElement {
     if (frame.busy) return
     if (this.#pinning) this.#keep(frame)
     if (this.#pinned) this.#card.compare(frame, this.compared.readouts(frame.values), hasComma(this.getAttribute('decimal'), this.words))
-    // As large as it is now, and in these colours.
-    if (this.#pinned?.state === frame.query && frame.picture && frame.layout) {
-      Object.assign(this.#pinned, { gist: frame.gist, css: this.canvas.size.canvas.css })
-      this.#card.take(this.canvas.element)
-    }
+    if (this.#pinned && frame.picture && frame.layout) this.#take(this.#pinned, frame)
     this.#seeds.about(frame, locked(this.getAttribute('lock'), frame.specs.map(({ name }) => name)).locked.has('seed'))
   }
 
@@ -172,6 +172,47 @@ export abstract class ComparedFigure extends FigureElement {
     this.send({ do: 'haunt', curves })
   }
 
+  /** Its picture, as large as it is now, in these colours and words: the one on the page where that is of the same state. */
+  #take(pinned: Pinned, frame: Frame): void {
+    const { canvas, theme } = this.canvas.size
+    const look = `${theme} ${frame.language}`
+    const known = this.#look === look
+    this.#look = look
+    if (pinned.state !== frame.query) return known ? undefined : void this.#repaint(pinned)
+    Object.assign(pinned, { gist: frame.gist, css: canvas.css, readouts: frame.readouts, sentence: frame.sentence })
+    this.#card.take(this.canvas.element)
+  }
+
+  /** Another theme or language: the pinned run is made again, beside. */
+  async #repaint(pinned: Pinned): Promise<void> {
+    this.#repainting?.abort()
+    const { signal } = (this.#repainting = new AbortController())
+    let aside: Aside | undefined
+    try {
+      aside = await this.#beside(this.getAttribute('show') ?? '')
+      const { room } = this.canvas.size
+      const frame = await aside.reach(pinned.state, this.canvas.size, signal)
+      if (this.#pinned !== pinned) return
+      Object.assign(pinned, { gist: frame.gist, css: frame.layout!.width ?? room, readouts: frame.readouts, sentence: frame.sentence })
+      this.#card.take(pictureOf(frame, room, true))
+      this.refresh()
+    } catch (error) {
+      if (!signal.aborted) console.warn(`${this.localName}: the pinned picture stays as it was.`, error)
+    } finally {
+      aside?.free()
+    }
+  }
+
+  /** Another figure of this kind, which speaks as this one does. */
+  #beside(panels: string): Promise<Aside> {
+    const { words } = this
+    return Aside.of(this.localName, [
+      { do: 'words', language: words.language, messages: words.forProgram },
+      { do: 'comma', on: hasComma(this.getAttribute('decimal'), words) },
+      { do: 'show', names: panels },
+    ])
+  }
+
   #goBack(): void {
     const { state } = this.#pinned!
     this.undoable('undo_back', () => (this.state = state))
@@ -183,13 +224,7 @@ export abstract class ComparedFigure extends FigureElement {
     const state = query.toString()
     const first = Number(wish.state === undefined ? this.getParameter('seed') : (query.get('seed') ?? this.getParameter('seed')))
     const seeds = wish.seeds ?? [0, 1, 2, 3, 4].map(k => (first + k) % SEEDS)
-    const { words } = this
-    const kept: Command[] = [
-      { do: 'words', language: words.language, messages: words.forProgram },
-      { do: 'comma', on: hasComma(this.getAttribute('decimal'), words) },
-      { do: 'show', names: this.compared.panels },
-    ]
-    const aside = await Aside.of(this.localName, kept)
+    const aside = await this.#beside(this.compared.panels)
     try {
       const { theme } = this.canvas.size
       for (const seed of seeds) {
