@@ -66,6 +66,26 @@ const methods = [
   { name: 'settled', type: '() => Promise<void>', help: 'Resolves when all that was asked of the figure is shown; playing goes on.' },
 ]
 
+/** Of the figures whose runs can be compared. */
+const comparing = {
+  methods: [
+    { name: 'pin', type: '() => void', help: 'Pins the run shown: its curves stay behind those of the next runs, its picture and its numbers beside them.' },
+    { name: 'unpin', type: '() => void', help: 'Takes the pinned run away.' },
+    {
+      name: 'runSeeds',
+      type: '(wish?: { seeds?: number[]; step?: number; state?: string; signal?: AbortSignal }) => Promise<SeedRun[]>',
+      help: 'Runs the setting at several seeds, the one shown and the next four where none are named, to the step shown where none is; the figure stays as it is.',
+    },
+  ],
+  properties: [{ name: 'pinned', type: 'string | undefined', readonly: true, help: 'The state of the pinned run, as a link has it.' }],
+  events: [{ name: 'fastslam-seeds', type: 'CustomEvent<SeedsDetail>', help: 'The strip of five seeds has been run.' }],
+}
+
+const COMPARED = ['lap', 'proposal', 'resampling'].map(name => `fastslam-${name}`)
+
+/** What only some figures have. @param {{ tag: string }} figure */
+const extrasOf = ({ tag }) => (COMPARED.includes(tag) ? comparing : { methods: [], properties: [], events: [] })
+
 const properties = [
   { name: 'playing', type: 'boolean', readonly: true, help: 'Whether it plays.' },
   { name: 'currentStep', type: 'number', readonly: false, help: 'The step asked for.' },
@@ -93,7 +113,11 @@ const log = {
 const isLog = ({ tag }) => tag === 'fastslam-log'
 
 /** What a figure has besides its parameters. @param {{ tag: string }} figure */
-const membersOf = figure => (isLog(figure) ? log : { options, methods, properties })
+const membersOf = figure => {
+  if (isLog(figure)) return log
+  const extras = extrasOf(figure)
+  return { options, methods: [...methods, ...extras.methods], properties: [...properties, ...extras.properties] }
+}
 
 const events = [
   { name: 'fastslam-step', type: 'CustomEvent<FigureDetail>', help: 'Another step is shown; also once when the figure comes to life.' },
@@ -102,7 +126,7 @@ const events = [
 ]
 
 const parts =
-  'figure title stage canvas chips chip transport button primary play rewind step-back step reset undo scrub seed controls control notices notice sentence numbers readouts readout settings menu toggle handle count stop inputs'.split(' ')
+  'figure title stage canvas chips chip transport button primary play rewind step-back step reset undo scrub seed controls control notices notice sentence numbers readouts readout settings menu toggle handle count stop inputs pin pinned go-back unpin seeds seeds-start seeds-strip seed-run'.split(' ')
 
 const cssProperties = ['accent', 'ink', 'muted', 'line', 'paper', 'radius', 'font'].map(name => `--fastslam-${name}`)
 
@@ -160,7 +184,7 @@ export function manifest(all) {
       ...membersOf(figure).properties.map(({ name, type: text, readonly, help }) => ({ kind: 'field', name, type: { text }, readonly, description: help })),
       ...membersOf(figure).methods.map(({ name, help }) => ({ kind: 'method', name, description: help })),
     ],
-    events: events.map(({ name, type: text, help }) => ({ name, type: { text }, description: help })),
+    events: [...events, ...extrasOf(figure).events].map(({ name, type: text, help }) => ({ name, type: { text }, description: help })),
     cssParts: parts.map(name => ({ name })),
     cssProperties: cssProperties.map(name => ({ name })),
     slots: [{ name: '', description: 'A picture of the figure, for where it cannot run.' }],
@@ -182,6 +206,7 @@ export function types(all) {
     figure =>
       `/** ${figure.title}. */\nexport declare class ${figure.className} extends FigureElement {\n${[
         ...(isLog(figure) ? log.methods.map(member) : []),
+        ...[...extrasOf(figure).methods, ...extrasOf(figure).properties].map(member),
         ...figure.params.filter(({ name }) => name !== 'step').map(field),
       ].join('\n')}\n}`,
   )
@@ -219,8 +244,25 @@ export interface ChallengeDetail {
   done: boolean
 }
 
+/** What came out at one seed. */
+export interface SeedRun {
+  seed: number
+  step: number
+  /** The state that shows it, as a link has it. */
+  state: string
+  readouts: FigureReadout[]
+}
+
+export interface SeedsDetail {
+  /** The readout that matters, by its name. */
+  readout: string
+  /** Its median over the seeds; null where some have none. */
+  median: number | null
+  runs: SeedRun[]
+}
+
 export interface FigureEventMap extends HTMLElementEventMap {
-${events.map(({ name, type: text, help }) => `${doc(help)}\n  '${name}': ${text}`).join('\n')}
+${[...events, ...comparing.events].map(({ name, type: text, help }) => `${doc(help)}\n  '${name}': ${text}`).join('\n')}
 }
 
 export declare abstract class FigureElement extends HTMLElement {

@@ -51,7 +51,7 @@ export class Figure {
     this.seed = this.element.getByRole('spinbutton', { name: 'Seed' })
     this.alert = this.element.getByRole('alert')
     this.sentence = this.element.locator('[part=sentence]')
-    this.canvas = this.element.locator('canvas')
+    this.canvas = this.element.locator('[part=canvas]')
   }
 
   button(name: string): Locator {

@@ -106,6 +106,50 @@ for (const tag of programs.keys()) {
   })
 }
 
+/** Figures whose runs can be compared. */
+const COMPARED = ['lap', 'resampling', 'proposal'].map(name => `fastslam-${name}`)
+
+async function pin(figure: Figure): Promise<void> {
+  await figure.button('Pin this run').click()
+  await figure.settled()
+  await expect(figure.element.locator('[part=pinned]')).toBeVisible()
+}
+
+for (const tag of COMPARED) {
+  test(`${tag} with a pinned run is whole on a small laptop, and its picture hardly smaller`, async ({ page }) => {
+    await page.setViewportSize(LAPTOP)
+    for (const width of [832, 927, 1000, 1100]) {
+      await openCourse(page, `<div style="width: ${width}px"><${tag} seed="7"></${tag}></div>`)
+      const figure = await ready(page, tag)
+      const area = async () => {
+        const { width, height } = (await figure.canvas.first().boundingBox())!
+        return width * height
+      }
+      const before = await area()
+      await pin(figure)
+      await figure.element.evaluate(element => element.setAttribute('seed', '8'))
+      await figure.settled()
+      expect((await figure.element.boundingBox())!.height, `${width} px wide`).toBeLessThanOrEqual(HIGHEST)
+      expect((await area()) / before, `${width} px wide`).toBeGreaterThan(0.8)
+      for (const [name, share] of await byTab(page, figure)) expect(share, name).toBeGreaterThan(0.99)
+      const { scroll, client } = await figure.element.evaluate(element => {
+        const told = element.shadowRoot!.querySelector('.told')!
+        return { scroll: [told.scrollWidth, told.scrollHeight], client: [told.clientWidth, told.clientHeight] }
+      })
+      expect(scroll, `the card cuts nothing off, ${width} px wide`).toEqual(client)
+    }
+  })
+
+  test(`${tag} with a pinned run is whole in a frame of 1024 × 618`, async ({ page }) => {
+    await page.setViewportSize({ width: 1024, height: 618 })
+    await page.goto(`./embed.html?figure=${tag.replace('fastslam-', '')}`)
+    const figure = await ready(page, tag)
+    await pin(figure)
+    const high = await figure.element.evaluate(element => Math.max(element.shadowRoot!.querySelector('.figure')!.scrollHeight, document.documentElement.scrollHeight))
+    expect(high).toBeLessThanOrEqual(618)
+  })
+}
+
 test.describe('on a phone', () => {
   test.use({ viewport: { width: 380, height: 760 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 })
 
@@ -120,6 +164,19 @@ test.describe('on a phone', () => {
         expect(await seen(figure), (await slider.getAttribute('name')) ?? '').toBeGreaterThanOrEqual(SEEN)
       }
       // And what has the focus is not below the picture.
+      for (const [name, share] of await byTab(page, figure)) expect(share, name).toBeGreaterThanOrEqual(SEEN)
+    })
+
+    if (!COMPARED.includes(tag)) continue
+    test(`${tag} keeps its picture in sight beside a thumb with a pinned run too`, async ({ page }) => {
+      await openCourse(page, `<p>Before.</p><${tag}></${tag}><p style="height: 900px">After.</p>`)
+      const figure = await ready(page, tag)
+      await pin(figure)
+      for (const slider of await figure.element.locator('.main input').filter({ visible: true }).all()) {
+        await slider.scrollIntoViewIfNeeded()
+        await expect(slider).toBeInViewport()
+        expect(await seen(figure), (await slider.getAttribute('name')) ?? '').toBeGreaterThanOrEqual(SEEN)
+      }
       for (const [name, share] of await byTab(page, figure)) expect(share, name).toBeGreaterThanOrEqual(SEEN)
     })
   }

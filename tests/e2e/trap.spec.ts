@@ -139,6 +139,32 @@ for (const [kind, message] of Object.entries(KINDS)) {
   })
 }
 
+test('a run that was pinned stays beside a figure and behind its curves when its program dies', async ({ page, complaints }) => {
+  const figures = await openSix(page)
+  const pinnable = figures.filter((_, k) => ['lap', 'proposal', 'resampling'].includes(Object.keys(STATES)[k]!))
+  const look = async () => {
+    const pictures: number[] = []
+    for (const figure of pinnable) {
+      await figure.element.scrollIntoViewIfNeeded()
+      await figure.settled()
+      await expect(figure.element.locator('[part=pinned]')).toBeVisible()
+      pictures.push(await figure.picture())
+    }
+    return pictures
+  }
+  for (const figure of pinnable) {
+    await figure.element.scrollIntoViewIfNeeded()
+    await figure.button('Pin this run').click()
+    await figure.element.evaluate(element => element.setAttribute('seed', '77'))
+  }
+  const before = await look()
+  await die(pinnable[0]!, 'panic')
+  await expect(pinnable[0]!.alert).toContainText('rebuilt as it was before')
+  await expect.poll(async () => (await seen(page)).instances).toBe(2)
+  expect(await look()).toEqual(before)
+  forgiveTrap(complaints)
+})
+
 test('a figure that dies again stops and offers to begin anew; the others go on as they were', async ({ page, complaints }) => {
   const figures = await openSix(page)
   const [lap, ...others] = figures as [Figure, ...Figure[]]

@@ -156,8 +156,8 @@ export abstract class FigureParts extends HTMLElement {
       step: () => this.byHand(() => this.step()),
       stepBack: () => this.byHand(() => this.stepBack()),
       seek: step => this.byHand(() => this.seek(step)),
-      rewind: () => this.#undoable('undo_rewind', () => this.seek(0)),
-      reset: () => this.#undoable('undo_reset', () => this.reset()),
+      rewind: () => this.undoable('undo_rewind', () => this.seek(0)),
+      reset: () => this.undoable('undo_reset', () => this.reset()),
       rate: rate => (this.playback.rate = rate),
       change: (name, value) => this.change(name, value),
     })
@@ -237,7 +237,7 @@ export abstract class FigureParts extends HTMLElement {
   }
 
   /** Does what throws away what a reader has made, and offers it back until something else is done. */
-  #undoable(name: 'undo_rewind' | 'undo_reset' | 'undo_challenge', act: () => void): void {
+  protected undoable(name: 'undo_rewind' | 'undo_reset' | 'undo_challenge' | 'undo_back' | 'undo_seed', act: () => void): void {
     const before = this.state
     this.byHand(act)
     this.#before = before
@@ -247,7 +247,7 @@ export abstract class FigureParts extends HTMLElement {
 
   /** A reader takes up a challenge. */
   protected takeUp({ query }: Chip): void {
-    this.#undoable('undo_challenge', () => (this.state = query))
+    this.undoable('undo_challenge', () => (this.state = query))
   }
 
   #takeBack(): void {

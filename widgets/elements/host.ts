@@ -55,6 +55,9 @@ export type Command =
   | { do: 'leave' }
   | { do: 'nudge'; handle: string; right: number; up: number }
   | { do: 'size'; size: Size }
+  /** To tell the curves of its run, and to draw such curves behind its own. */
+  | { do: 'pin' }
+  | { do: 'haunt'; curves: Float64Array<ArrayBuffer> }
   | { do: 'export'; kind: 'csv' | 'json'; name: string }
   // Of figures that map a file:
   | { do: 'open'; file: Blob; name: string; start: boolean }
@@ -64,7 +67,7 @@ export type Command =
   | { do: 'save'; what: SavedFile }
 
 /** Whether a command says how the figure is to be shown, which holds also after a trap, whatever is loaded. */
-export const isKept = ({ do: name }: Command): boolean => ['size', 'words', 'lock', 'show', 'comma'].includes(name)
+export const isKept = ({ do: name }: Command): boolean => ['size', 'words', 'lock', 'show', 'comma', 'haunt'].includes(name)
 
 /** The step that is meant where another one is asked for than those there are. */
 export const clampedStep = (step: number, last: number): number => Math.max(0, Math.min(last, Math.round(step) || 0))
@@ -139,6 +142,8 @@ export interface Frame {
   changed: boolean
   trace: TraceLine[] | undefined
   layout: Layout | undefined
+  /** The part of the picture that tells most where there is no room for the whole [css px]. */
+  gist: Room['area']
   picture: Picture | undefined
   run: Run | undefined
 }
@@ -148,6 +153,7 @@ export type Answer =
   | { told: 'refused'; parameter: string; message: Message; file?: string }
   | { told: 'saved'; name: string; data: Blob }
   | { told: 'reading'; megabytes: number }
+  | { told: 'pinned'; curves: Float64Array<ArrayBuffer> }
   /** It has trapped. `why` is for readers, `error` for the console. */
   | { told: 'failed'; why: Message; error: string }
 

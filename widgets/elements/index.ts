@@ -1,5 +1,7 @@
 // Registers every figure; one file a tag.
 export type { FigureDetail } from './events'
+export type { SeedRun } from './aside'
+export type { SeedsDetail } from './five-seeds'
 export { FigureElement } from './figure-element'
 export { FastslamConditioning } from './conditioning'
 export { FastslamLap } from './lap'

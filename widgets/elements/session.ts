@@ -79,6 +79,10 @@ export class Session {
       case 'size':
         this.#size = command.size
         return
+      case 'pin':
+        return this.tell({ told: 'pinned', curves: figure.curves() as Float64Array<ArrayBuffer> })
+      case 'haunt':
+        return figure.haunt(command.curves)
       case 'export': {
         const type = { csv: 'text/csv', json: 'application/json' }[command.kind]
         return this.tell({ told: 'saved', name: command.name, data: new Blob([figure[command.kind]()], { type }) })
@@ -155,6 +159,7 @@ export class Session {
       changed,
       trace,
       layout,
+      gist: this.#gist(),
       picture,
       run: this.run(),
     }
@@ -272,6 +277,12 @@ export class Session {
     }
     const width = natural > height ? Math.floor(Math.min(room, scene * scale)) : undefined
     return (this.#layout = { scale, width, height: Math.round(this.figure.height(scene) * scale), natural })
+  }
+
+  #gist(): Room['area'] {
+    const { scale = 1 } = this.#layout ?? {}
+    const [x, y, w, h] = [...this.figure.gist((this.#size?.canvas.css ?? 0) / scale)].map(length => length * scale) as [number, number, number, number]
+    return { x, y, w, h }
   }
 
   #paint(): Picture | undefined {

@@ -5,6 +5,7 @@ use crate::{
     challenge::Chip,
     comma,
     export::{Entries, Export},
+    ghost,
     model::{FigureError, Files, Model, ParamSpec, Readout, TraceLine},
     paint::{Canvas, Theme},
     param, query, registry,
@@ -183,6 +184,21 @@ impl Figure {
         let scene = self.scene(side(width_px), side(height_px));
         self.canvas.paint(&scene, width_px, height_px, theme);
         self.painted = Painted { handles: scene.handles, rooms: scene.rooms, width: scene.width };
+    }
+
+    /// [`Model::curves`] as one row of numbers.
+    pub fn curves(&self) -> Vec<f64> {
+        ghost::flat(&self.model().curves())
+    }
+
+    /// [`Model::haunt`] with curves as they came out of [`Figure::curves`].
+    pub fn haunt(&mut self, curves: &[f64]) {
+        self.model_mut().haunt(ghost::curves(curves));
+    }
+
+    /// The part of the picture that tells most where there is no room for the whole, in a figure of this width \[css px\].
+    pub fn gist(&self, width: f64) -> Rect {
+        self.shown.gist(width)
     }
 
     /// What was painted last.

@@ -14,6 +14,7 @@ pub mod decimal;
 pub mod export;
 pub mod figure;
 pub mod font;
+pub mod ghost;
 pub mod job;
 #[cfg(feature = "page")]
 pub mod lap;

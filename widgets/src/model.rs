@@ -6,6 +6,7 @@
 
 use crate::challenge::{self, Challenge, Chip};
 use crate::decimal::fixed;
+use crate::ghost::Curves;
 pub use crate::param::{Choice, Group, Kind, ParamSpec};
 use crate::recipe::{self, Recipe};
 use crate::words::common::{self, MustBe, NEffOf};
@@ -328,6 +329,14 @@ pub trait Model: Parameters {
     fn trace(&self) -> Vec<TraceLine> {
         Vec::new()
     }
+
+    /// Curves of all that was simulated, for another run to be compared with; none of a figure that nothing is pinned of.
+    fn curves(&self) -> Curves {
+        Curves::new()
+    }
+
+    /// Draws these curves of another run behind its own, whatever is set, until there are none.
+    fn haunt(&mut self, _pinned: Curves) {}
 
     /// What it does with files, if it takes or makes any.
     fn files(&self) -> Option<&dyn Files> {

@@ -8,7 +8,7 @@ use crate::{
     model::{FigureError, Readout},
     paint::Theme,
     registry,
-    scene::Room,
+    scene::{Rect, Room},
 };
 use core::cell::RefCell;
 use fastslam_lab::experiment::{ErrorSummary, policy_counts::Fraction};
@@ -216,6 +216,22 @@ impl Figure {
     /// Address of the pixels in the module's memory: RGBA, row by row. Any call may move them, and the memory.
     pub fn pixels(&self) -> u32 {
         self.figure.canvas().pixels().as_ptr() as u32
+    }
+
+    /// Curves of the run, for [`Figure::haunt`]: numbers in a row.
+    pub fn curves(&self) -> Vec<f64> {
+        self.figure.curves()
+    }
+
+    /// Draws such curves behind its own; none takes them away.
+    pub fn haunt(&mut self, curves: &[f64]) {
+        self.figure.haunt(curves);
+    }
+
+    /// The part of the picture that tells most, in a figure of this width \[css px\]: x, y, width and height.
+    pub fn gist(&self, width_css: f64) -> Vec<f64> {
+        let Rect { x, y, w, h } = self.figure.gist(width_css);
+        vec![x, y, w, h]
     }
 
     /// A click at a point of a figure of this width \[css px\]. True if it changed something.

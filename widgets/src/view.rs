@@ -32,6 +32,11 @@ pub trait View: Default + 'static {
     /// nothing below a figure ever jumps.
     fn layout(width: f64, panels: &Panels) -> Self::Layout;
 
+    /// The part of it that tells most where there is no room for the whole: without names and legends.
+    fn gist(_model: &Self::Model, layout: &Self::Layout, width: f64) -> Rect {
+        Rect::new(0.0, 0.0, width, layout.height())
+    }
+
     /// Draws into a scene that has its size and its description, and nothing else yet.
     fn draw(&self, model: &Self::Model, layout: &Self::Layout, scene: &mut Scene);
 
@@ -108,6 +113,7 @@ pub(crate) trait Shown {
     fn show(&mut self, names: &str) -> Result<(), FigureError>;
     fn scene_width(&self, width: f64) -> f64;
     fn height(&self, width: f64) -> f64;
+    fn gist(&self, width: f64) -> Rect;
     fn scene(&self, width: f64, height: f64) -> Scene;
     fn pick(&mut self, target: u32);
     fn drag(&mut self, handle: &str, to: Point, width: f64);
@@ -160,6 +166,12 @@ impl<V: View> Shown for Shows<V> {
 
     fn height(&self, width: f64) -> f64 {
         V::height(width, &self.parts())
+    }
+
+    fn gist(&self, width: f64) -> Rect {
+        let scene_width = V::scene_width(width);
+        let layout = V::layout(scene_width, &self.parts());
+        V::gist(&self.model, &layout, scene_width).scaled(width / scene_width)
     }
 
     fn scene(&self, width: f64, height: f64) -> Scene {

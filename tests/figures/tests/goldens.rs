@@ -119,6 +119,30 @@ fn the_log_at_rest_and_its_poster_are_the_example_mapped_to_its_end() {
     assert!(wrong.is_empty(), "{LOOK}\n{}", wrong.join("\n"));
 }
 
+/// A run in front of one that was pinned: name, figure, the pinned state, the state shown, and a width \[css px\].
+const PINNED: [(&str, &str, &str, &str, f64); 4] = [
+    ("lap-pinned", "fastslam-lap", "step=80", "universes=4&odometry=1.5&step=60", 800.0),
+    ("resampling-pinned", "fastslam-resampling", "step=80", "threshold=0.9&particles=40&step=60", 728.0),
+    ("resampling-pinned-phone", "fastslam-resampling", "wings=on&step=90", "wings=on&threshold=0.1&step=70", 340.0),
+    ("proposal-pinned", "fastslam-proposal", "range-std=0.3&samples=300", "landmark-y=0.6", 800.0),
+];
+
+#[test]
+fn the_curves_of_a_pinned_run_are_behind_those_of_the_one_shown() {
+    let mut wrong = Vec::new();
+    for (name, tag, pinned, query, width) in PINNED {
+        let curves = figure(tag, pinned).curves();
+        for (shade, theme) in [("light", Theme::Light), ("dark", Theme::Dark)] {
+            let mut shown = figure(tag, query);
+            shown.haunt(&curves);
+            let size = [width, shown.height(width)].map(|side| side as u32);
+            shown.paint(size[0], size[1], 1.0, theme);
+            wrong.extend(differs(&format!("{name}-{shade}"), size, shown.canvas().pixels()));
+        }
+    }
+    assert!(wrong.is_empty(), "{LOOK}\n{}", wrong.join("\n"));
+}
+
 #[test]
 fn every_readout_of_every_step_is_the_golden_one() {
     let kept = SETUPS.iter().map(|(tag, query)| line(&format!("{tag}?{query}"), &readouts(tag, query)));

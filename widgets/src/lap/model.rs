@@ -3,6 +3,7 @@
 use super::{challenges, recipe::Recipe};
 use crate::challenge::Challenge;
 use crate::decimal::fixed;
+use crate::ghost::{self, Curves};
 use crate::model::{
     Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text, unexplained,
 };
@@ -26,13 +27,16 @@ pub struct LapModel {
     keyframes: Vec<Lap>,
     /// Of every step simulated so far, from 0 on.
     reports: Vec<StepReport>,
+    /// Of the run that is pinned.
+    pinned: Curves,
 }
 
 impl Default for LapModel {
     fn default() -> Self {
         let recipe = Recipe::default();
         let lap = Lap::new(&recipe.setup).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
-        Self { recipe, keyframes: vec![lap.clone()], reports: vec![lap.report().clone()], before: None, shown: lap }
+        let (keyframes, reports) = (vec![lap.clone()], vec![lap.report().clone()]);
+        Self { recipe, keyframes, reports, before: None, shown: lap, pinned: Curves::new() }
     }
 }
 
@@ -50,6 +54,11 @@ impl LapModel {
     /// Reports of steps 0 to the one shown.
     pub fn history(&self) -> &[StepReport] {
         &self.reports[..=self.report().step as usize]
+    }
+
+    /// N_eff of the run that is pinned, by step \[share of its universes\].
+    pub fn pinned_ess(&self) -> &[f64] {
+        ghost::curve(&self.pinned, 0)
     }
 
     /// The lap one step earlier, if the universes that died out since are known.
@@ -277,6 +286,15 @@ impl Model for LapModel {
             ]
         };
         Series { columns: COLUMNS.into(), rows: self.reports.iter().map(row).collect() }
+    }
+
+    fn curves(&self) -> Curves {
+        let m = self.recipe.setup.particles as f64;
+        vec![self.reports.iter().map(|report| report.ess / m).collect()]
+    }
+
+    fn haunt(&mut self, pinned: Curves) {
+        self.pinned = pinned;
     }
 
     fn describe(&self) -> String {

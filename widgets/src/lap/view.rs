@@ -12,8 +12,8 @@ use crate::{
     model::Model,
     panels::Panels,
     scene::{
-        Anchor, Chart, FREE, Mark, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, cloud, heading,
-        legend, n_eff, rimmed, rimmed_robot, scale_bar, text,
+        Anchor, Chart, FREE, GHOST, LINE, Mark, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN,
+        cloud, ghost, heading, legend, n_eff, rimmed, rimmed_robot, scale_bar, text,
     },
     view::View,
     words::{common, lap},
@@ -40,6 +40,10 @@ impl View for LapView {
 
     fn layout(width: f64, panels: &Panels) -> Layout {
         Layout::of(width, panels)
+    }
+
+    fn gist(_model: &LapModel, layout: &Layout, width: f64) -> Rect {
+        if layout.panels.has(MAP) { layout.large } else { Rect::new(0.0, 0.0, width, layout.height) }
     }
 
     fn draw(&self, model: &LapModel, layout: &Layout, scene: &mut Scene) {
@@ -167,7 +171,9 @@ fn meter(scene: &mut Scene, model: &LapModel, area: &Rect) {
     let m = count as f64;
     let label_width = 66.0;
     let chart = Rect::new(area.x + label_width, area.y + 4.0, area.w - label_width - 3.0, area.h - 8.0);
-    let line = |k: f64| Rect::new(area.x, chart.y + 0.5 * chart.h - 17.0 + 17.0 * k, label_width - 6.0, 17.0);
+    let pinned = model.pinned_ess();
+    let rows = if pinned.is_empty() { 2.0 } else { 3.0 };
+    let line = |k: f64| Rect::new(area.x, chart.y + 0.5 * chart.h + 17.0 * (k - 0.5 * rows), label_width - 6.0, 17.0);
     let end = n_eff(scene, &line(0.0), 12.5, Weight::SemiBold, Role::Ink);
     let value = Rect::new(end, line(0.0).y, label_width - 6.0 - (end - area.x), 17.0);
     let ess = fixed(model.report().ess, 1);
@@ -180,6 +186,13 @@ fn meter(scene: &mut Scene, model: &LapModel, area: &Rect) {
         Role::Muted,
         common::OfAll { all: &count }.say(),
     ));
+    if !pinned.is_empty() {
+        legend(
+            scene,
+            &Rect { h: LINE, ..line(2.0) },
+            [(Sample::line(GHOST, 1.75, None).wide(12.0), common::pinned_mark())],
+        );
+    }
 
     let chart = Chart { area: chart, last: model.step_count() };
     let lines = vec![chart.level(0.0), chart.level(1.0)];
@@ -188,6 +201,7 @@ fn meter(scene: &mut Scene, model: &LapModel, area: &Rect) {
         let lines = vec![chart.level(fraction)];
         scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some([3.0, 3.0]), role: Role::Weight(0) });
     }
+    scene.marks.push(ghost(&chart, pinned.iter().copied()));
     let history = model.history();
     let curve = chart.curve(history.iter().map(|r| (r.step, r.ess / m)));
     let resampled = history.iter().zip(&curve).filter(|(r, _)| r.ancestors.is_some()).map(|(_, at)| *at).collect();

@@ -3,6 +3,7 @@
 mod challenges;
 mod contour;
 mod gauge;
+mod ghost;
 mod knob;
 mod layout;
 mod marks;

@@ -1,8 +1,9 @@
 //! The step as a deterministic state: what was set, what both proposals drew, and the reader's guess.
 
-use super::{challenges, contour, recipe::Recipe};
+use super::{challenges, contour, ghost, recipe::Recipe};
 use crate::challenge::Challenge;
 use crate::decimal::{fixed, write};
+use crate::ghost::Curves;
 use crate::model::{Column, Declared, FigureError, Model, Readout, Series};
 use crate::words::{common, proposal};
 use fastslam_lab::experiment::proposals::{Cloud, Proposals, ProposalsSetup};
@@ -17,6 +18,8 @@ pub struct ProposalModel {
     outline: Vec<Vec<[f64; 2]>>,
     /// The ratio at half the range noise, once it was run.
     at_half: Option<f64>,
+    /// Of the step that is pinned (`ghost`).
+    pinned: Curves,
 }
 
 impl Default for ProposalModel {
@@ -24,7 +27,7 @@ impl Default for ProposalModel {
         let recipe = Recipe::default();
         let shown = propose(&recipe.setup);
         let outline = contour::outline(&shown.exact);
-        Self { computed: recipe.clone(), recipe, shown, outline, at_half: None }
+        Self { computed: recipe.clone(), recipe, shown, outline, at_half: None, pinned: Curves::new() }
     }
 }
 
@@ -46,6 +49,11 @@ impl ProposalModel {
     /// What was set.
     pub fn setup(&self) -> &ProposalsSetup {
         &self.computed.setup
+    }
+
+    /// Curves of the step that is pinned.
+    pub(super) fn pinned(&self) -> &Curves {
+        &self.pinned
     }
 
     /// The reader's guess, if one is asked for.
@@ -179,6 +187,15 @@ impl Model for ProposalModel {
         let Proposals { motion, aware, .. } = &self.shown;
         let row = |k| [k as f64].into_iter().chain(half(motion, k)).chain(half(aware, k)).collect();
         Series { columns: COLUMNS.into(), rows: (0..motion.poses.len()).map(row).collect() }
+    }
+
+    fn curves(&self) -> Curves {
+        let told = self.readouts().into_iter().find(|readout| readout.name == "ratio");
+        ghost::curves(&self.shown, told.and_then(|ratio| ratio.value), &self.outline)
+    }
+
+    fn haunt(&mut self, pinned: Curves) {
+        self.pinned = pinned;
     }
 
     fn describe(&self) -> String {

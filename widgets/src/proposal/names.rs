@@ -6,8 +6,8 @@ use super::{
     model::ProposalModel,
 };
 use crate::{
-    scene::{Cells, Mark, Rect, Role, Sample, Scene, Shading, legend, robot},
-    words::proposal,
+    scene::{Cells, GHOST, Mark, Rect, Role, Sample, Scene, Shading, legend, robot},
+    words::{common, proposal},
 };
 
 /// Names what is drawn.
@@ -54,13 +54,19 @@ pub fn names(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
         (Sample::new(samples), proposal::samples_drawn()),
         (Sample::new(noise), proposal::noise()),
         (Sample::new(robots).wide(30.0), proposal::robots()),
-        (Sample::new(panels), proposal::shown_above()),
     ]);
+    // On a phone there is room for one of them, and the reader has just pinned a run.
+    if model.pinned().is_empty() || layout.legend.w > 250.0 {
+        items.push((Sample::new(panels), proposal::shown_above()));
+    }
     if ratio && model.guess().is_some() {
         items.push((Sample::at(|[x, y]| pointer([x, y + 6.0], 6.0)), proposal::guess_mark()));
     }
     if ratio && model.at_half().is_some() {
         items.push((Sample::at(|at| filled_diamond(at, 5.5, Role::Ink)), proposal::at_half()));
+    }
+    if !model.pinned().is_empty() {
+        items.push((line(GHOST, None), common::pinned_mark()));
     }
     legend(scene, &layout.legend, items);
 }

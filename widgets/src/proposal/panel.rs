@@ -1,6 +1,7 @@
 //! One proposal's samples on the posterior, as near as the motion prior lets them be, and what they are worth.
 
 use super::{
+    ghost,
     knob::{self, Noise, Track},
     layout::Panel,
     marks::{Place, filled_diamond, label, line, ring},
@@ -73,6 +74,7 @@ fn samples(scene: &mut Scene, model: &ProposalModel, panel: &Panel, drawn: &Draw
     }
 
     let radius = dot(drawn.cloud.poses.len());
+    ghost::panel(scene, model, usize::from(role == Role::Posterior), &plane, area, radius);
     let samples = drawn.cloud.poses.iter().map(|pose| plane.position(pose));
     scene.marks.push(cloud(samples, &area.inset(radius), radius, role));
 

@@ -1,7 +1,7 @@
 //! What both proposals are worth: the ratio in words and on a scale, and the reader's guess.
 
 use super::{
-    gauge,
+    gauge, ghost,
     layout::Layout,
     marks::{filled_diamond, line, pointer},
     model::ProposalModel,
@@ -59,6 +59,7 @@ pub fn ratio(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
         scene.marks.push(Mark::Lines { lines: vec![between], width: 2.0, dash: Some([3.0, 3.0]), role: Role::Accent });
         scene.marks.push(filled_diamond([at(ratio), y - 9.0], 7.0, Role::Ink));
     }
+    ghost::ratio(scene, model, &axis, y);
     scene.marks.push(Mark::Discs { centres: vec![[at(now), y]], radius: 5.0, role: Role::Ink });
     if let Some(guess) = model.guess() {
         scene.marks.push(pointer([at(guess), y - 2.0], 8.0));

@@ -15,7 +15,7 @@ use crate::{
     decimal::rounded,
     model::Declared,
     panels::Panels,
-    scene::{Point, Role, Scene},
+    scene::{Point, Rect, Role, Scene},
     view::View,
     words::proposal,
 };
@@ -38,6 +38,13 @@ impl View for ProposalView {
 
     fn layout(width: f64, panels: &Panels) -> Layout {
         Layout::of(width, panels)
+    }
+
+    fn gist(_model: &ProposalModel, layout: &Layout, width: f64) -> Rect {
+        let views = || layout.panels.iter().map(|panel| panel.view).filter(|view| view.h > 0.0);
+        let Some(first) = views().next() else { return Rect::new(0.0, 0.0, width, layout.height) };
+        let [right, bottom] = [Rect::right, Rect::bottom].map(|end| views().map(|view| end(&view)).fold(0.0, f64::max));
+        Rect::new(first.x, first.y, right - first.x, bottom - first.y)
     }
 
     fn draw(&self, model: &ProposalModel, layout: &Layout, scene: &mut Scene) {

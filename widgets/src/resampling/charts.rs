@@ -10,7 +10,7 @@ use crate::{
     font::{self, Weight},
     model::Model,
     panels::Panels,
-    scene::{Anchor, Chart, LINE, Mark, Point, Rect, Role, Sample, Scene, legend, n_eff, text},
+    scene::{Anchor, Chart, LINE, Mark, Point, Rect, Role, Sample, Scene, ghost, legend, n_eff, text},
     words::{common, resampling},
 };
 
@@ -176,6 +176,8 @@ impl Picture<'_> {
         second: Option<&dyn Fn(&Moment) -> f64>,
         value: impl Fn(&Moment) -> String,
     ) {
+        let scale = if rank == 2 { self.error_scale } else { 1.0 };
+        scene.marks.push(ghost(&self.chart(rank), self.model.pinned(rank).iter().map(|value| value / scale)));
         if let Some(second) = second {
             let lines = vec![self.curve(rank, self.chosen(), second)];
             let role = stroke::role(self.chosen());

@@ -3,6 +3,7 @@
 use super::{challenges, recipe::Recipe, told};
 use crate::challenge::Challenge;
 use crate::decimal::fixed;
+use crate::ghost::{self, Curves};
 use crate::model::{Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text};
 use crate::names;
 use crate::words::resampling;
@@ -17,6 +18,8 @@ pub struct ResamplingModel {
     /// Of every step simulated so far, from 0 on, one for each policy: any of them can be shown, and whoever died out since,
     /// whom the filters forget.
     moments: Vec<[Moment; 3]>,
+    /// Of the run that is pinned: N_eff, ancestors at the start \[shares of its particles\] and errors of the best \[m\] of each policy in turn.
+    pinned: Curves,
 }
 
 /// One filter at one step.
@@ -37,7 +40,7 @@ impl Default for ResamplingModel {
         let recipe = Recipe::default();
         let run = Policies::new(&recipe.setup()).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
         let moments = vec![moments(&run, None)];
-        Self { recipe, run, moments }
+        Self { recipe, run, moments, pinned: Curves::new() }
     }
 }
 
@@ -134,11 +137,16 @@ impl ResamplingModel {
         self.recipe.back
     }
 
-    /// Largest position error of any filter up to the step shown \[m\].
+    /// A curve of the run that is pinned, of the policy that is shown: N_eff, ancestors or errors.
+    pub fn pinned(&self, rank: usize) -> &[f64] {
+        ghost::curve(&self.pinned, PINNED * self.chosen() + rank)
+    }
+
+    /// Largest position error of any filter up to the step shown, or of the curve that is drawn of the run that is pinned \[m\].
     pub fn largest_error(&self) -> f64 {
         let errors =
             (0..3).flat_map(|policy| self.history(policy)).flat_map(|m| [m.report.error_best, m.report.error_mean]);
-        errors.fold(0.0, f64::max)
+        errors.chain(self.pinned(PINNED - 1).iter().copied()).fold(0.0, f64::max)
     }
 
     /// Reads a step, as near to it as there is one. The newest is followed.
@@ -203,6 +211,22 @@ impl Model for ResamplingModel {
 
     fn series(&self) -> Series {
         told::series(self)
+    }
+
+    fn curves(&self) -> Curves {
+        let m = self.setup().particles as f64;
+        let curve = |policy: usize, of: &dyn Fn(&PolicyReport) -> f64| {
+            self.moments.iter().map(|all| of(&all[policy].report)).collect()
+        };
+        let lineage = |report: &PolicyReport| f64::from(report.descent.lineage(u32::MAX)) / m;
+        let all = |policy| {
+            [curve(policy, &|r| r.ess / m), curve(policy, &lineage), curve(policy, &|report| report.error_best)]
+        };
+        [0, 1, 2].into_iter().flat_map(all).collect()
+    }
+
+    fn haunt(&mut self, pinned: Curves) {
+        self.pinned = pinned;
     }
 
     fn describe(&self) -> String {
@@ -276,6 +300,9 @@ impl Model for ResamplingModel {
         lines
     }
 }
+
+/// Curves that are pinned of each policy.
+const PINNED: usize = 3;
 
 /// Index of the selective filter among [`POLICIES`].
 pub const SELECTIVE: usize = 2;

@@ -11,7 +11,7 @@ use crate::decimal::{fixed, rounded, write};
 use crate::{
     model::Model,
     panels::Panels,
-    scene::{Handle, Mark, Point, Rect, Role, Sample, Scene, closed, diamond, legend, robot},
+    scene::{GHOST, Handle, Mark, Point, Rect, Role, Sample, Scene, closed, diamond, legend, robot},
     view::{View, whole_step},
     words::{self, resampling},
 };
@@ -35,6 +35,16 @@ impl View for ResamplingView {
 
     fn layout(width: f64, panels: &Panels) -> Layout {
         Layout::of(width, panels)
+    }
+
+    fn gist(model: &ResamplingModel, layout: &Layout, width: f64) -> Rect {
+        let parts = parts(model, layout);
+        let charts = parts.charts.iter().chain(&parts.ticks).filter(|chart| chart.h > 0.0);
+        let bottom = charts.map(Rect::bottom).fold(0.0, f64::max);
+        let first = parts.first_chart();
+        // A phone's maps and tabs, where no chart is shown.
+        let none = Rect::new(0.0, 0.0, width, layout.height);
+        if bottom > first.y { Rect::new(first.x, first.y, first.w, bottom - first.y) } else { none }
     }
 
     fn draw(&self, model: &ResamplingModel, layout: &Layout, scene: &mut Scene) {
@@ -144,6 +154,9 @@ fn names(scene: &mut Scene, picture: &Picture, area: &Rect) {
     }
     if picture.wide {
         items.push((Sample::dot(role, 2.0), resampling::particle()));
+    }
+    if !picture.model.pinned(0).is_empty() {
+        items.push((Sample::line(GHOST, 1.75, None), words::common::pinned_run()));
     }
     legend(scene, area, items);
 }

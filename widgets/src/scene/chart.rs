@@ -2,6 +2,15 @@
 
 use super::{Mark, Point, Rect, Role};
 
+/// Whatever is drawn of a run that is pinned.
+pub const GHOST: Role = Role::Level(48);
+
+/// A curve of a run that is pinned, by step, behind those of the run that is shown: of the steps that both have.
+pub fn ghost(chart: &Chart, shares: impl Iterator<Item = f64>) -> Mark {
+    let lines = vec![chart.curve((0..=chart.last).zip(shares))];
+    Mark::Lines { lines, width: 1.75, dash: None, role: GHOST }
+}
+
 /// A place for curves: steps from left to right, shares of its height from the bottom up.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Chart {

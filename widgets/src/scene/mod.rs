@@ -16,7 +16,7 @@ mod shape;
 mod stack;
 mod text;
 
-pub use chart::Chart;
+pub use chart::{Chart, GHOST, ghost};
 pub use clip::{clip_polyline, thinned};
 pub use formula::{Formula, number};
 pub use handle::Handle;

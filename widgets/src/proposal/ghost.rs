@@ -1,0 +1,51 @@
+//! What a pinned step drew, faint behind what this one draws: both clouds, the posterior's region, and the ratio.
+
+use super::{gauge, model::ProposalModel};
+use crate::{
+    ghost::{Curves, curve},
+    scene::{GHOST, Mark, NINE_TENTHS, Plane, Point, Rect, Role, Scene, clip_polyline, cloud},
+};
+use fastslam_lab::experiment::proposals::{Cloud, Proposals};
+
+/// Ranks of the curves: both clouds as x and y in turn \[m\], the Gaussian of 2.0 as its mean \[m\] and covariance \[m²\], the ratio,
+/// and from then on the lines of the region's outline.
+const GAUSSIAN: usize = 2;
+const RATIO: usize = 3;
+const OUTLINE: usize = 4;
+
+/// Faintest: there are as many of them as of those of now.
+const SAMPLES: Role = Role::Level(25);
+
+/// The curves of a step. A ratio that readers are not told yet is none.
+pub fn curves(found: &Proposals, ratio: Option<f64>, outline: &[Vec<[f64; 2]>]) -> Curves {
+    let places = |cloud: &Cloud| cloud.poses.iter().flat_map(|pose| [pose.x, pose.y]).collect();
+    let (mean, covariance) = (found.gaussian.mean, found.gaussian.covariance);
+    let at = |row, column| covariance[(row, column)];
+    let gaussian = vec![mean.x, mean.y, at(0, 0), at(0, 1), at(1, 0), at(1, 1)];
+    let mut curves = vec![places(&found.motion), places(&found.aware), gaussian, ratio.into_iter().collect()];
+    curves.extend(outline.iter().map(|line| line.as_flattened().to_vec()));
+    curves
+}
+
+fn points<'a>(numbers: &'a [f64], plane: &'a Plane) -> impl Iterator<Item = Point> + 'a {
+    numbers.chunks_exact(2).map(|place| plane.point([place[0], place[1]]))
+}
+
+/// The samples of a panel, by its rank, and what they should be like.
+pub fn panel(scene: &mut Scene, model: &ProposalModel, rank: usize, plane: &Plane, area: &Rect, radius: f64) {
+    let pinned = model.pinned();
+    scene.marks.push(cloud(points(curve(pinned, rank), plane), &area.inset(radius), radius, SAMPLES));
+    let outline = pinned.iter().skip(OUTLINE);
+    let lines = outline.flat_map(|line| clip_polyline(&points(line, plane).collect::<Vec<_>>(), area)).collect();
+    scene.marks.push(Mark::Lines { lines, width: 1.75, dash: None, role: GHOST });
+    if let (1, [x, y, xx, xy, yx, yy]) = (rank, curve(pinned, GAUSSIAN)) {
+        let lines = plane.region([*x, *y], [[*xx, *xy], [*yx, *yy]], NINE_TENTHS);
+        scene.marks.push(Mark::Lines { lines, width: 1.75, dash: Some([5.0, 3.0]), role: GHOST });
+    }
+}
+
+/// The ratio on its scale, at this height \[css px\].
+pub fn ratio(scene: &mut Scene, model: &ProposalModel, axis: &Rect, y: f64) {
+    let centres = curve(model.pinned(), RATIO).iter().map(|ratio| [gauge::position(axis, *ratio), y]).collect();
+    scene.marks.push(Mark::Discs { centres, radius: 5.0, role: GHOST });
+}
