@@ -37,12 +37,6 @@ export class Canvas {
     this.#sizes.disconnect()
   }
 
-  /** Something else stands around the picture now: there may be less height for it. */
-  measure(): void {
-    this.#highest = parseFloat(getComputedStyle(this.stage).getPropertyValue('--_highest')) || Infinity
-    this.resized()
-  }
-
   /** The figure is there, or will not come: it takes what it takes. */
   release(): void {
     this.#reserves = false

@@ -153,11 +153,9 @@ export abstract class ComparedFigure extends FigureElement {
     setTimeout(() => this.status.textContent === this.words.say('pinned') && write(this.status, ''), SAID)
   }
 
-  /** With the card the picture is a little smaller, so that all of it is on one screen. */
   #fit(): void {
     this.#place()
     this.body.classList.toggle('pinned', this.#pinned !== undefined)
-    this.canvas.measure()
   }
 
   #place(): void {

@@ -36,7 +36,7 @@ export class PinCard {
   readonly #thumb = h('canvas', { 'aria-hidden': 'true' })
   readonly #peek = h('button', { type: 'button', class: 'thumb', part: 'button', 'aria-pressed': 'false' })
   readonly #differs = h('p', { class: 'differs' })
-  readonly #table = h('table')
+  readonly #table = h('table', { role: 'table' })
   readonly #back = h('button', { type: 'button', part: 'button go-back' })
   readonly #unpin = h('button', { type: 'button', part: 'button unpin' })
   #pinned: Pinned | undefined
@@ -125,8 +125,8 @@ export class PinCard {
     if (this.#table.dataset['texts'] === texts) return
     this.#table.dataset['texts'] = texts
     const arrow = () => h('span', { class: 'arrow', 'aria-hidden': 'true' }, '→')
-    const row = ([title, then, now]: readonly [string, string, string]) => h('tr', {}, h('th', { scope: 'row' }, title), h('td', {}, then), h('td', {}, arrow(), now))
-    this.#table.replaceChildren(h('tr', { class: 'hidden' }, ...names.map(name => h('th', { scope: 'col' }, name))), ...rows.map(row))
+    const row = ([title, then, now]: readonly [string, string, string]) => h('tr', { role: 'row' }, h('th', { role: 'rowheader' }, title), h('td', { role: 'cell' }, then), h('td', { role: 'cell' }, arrow(), now))
+    this.#table.replaceChildren(h('tr', { class: 'hidden', role: 'row' }, ...names.map(name => h('th', { role: 'columnheader' }, name))), ...rows.map(row))
   }
 }
 
