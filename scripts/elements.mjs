@@ -94,6 +94,7 @@ const membersOf = figure => (isLog(figure) ? log : { options, methods, propertie
 const events = [
   { name: 'fastslam-step', type: 'CustomEvent<FigureDetail>', help: 'Another step is shown; also once when the figure comes to life.' },
   { name: 'fastslam-change', type: 'CustomEvent<FigureDetail>', help: 'A parameter has changed, whoever did it.' },
+  { name: 'fastslam-guess', type: 'CustomEvent<GuessDetail>', help: 'A prediction was judged: guess and result stand side by side; or the reader has waived it.' },
 ]
 
 const parts =
@@ -205,6 +206,16 @@ export interface FigureDetail {
   readouts: FigureReadout[]
   /** Of a figure that maps a file. */
   phase?: 'empty' | 'ready' | 'running' | 'paused' | 'stopped' | 'done'
+}
+
+export interface GuessDetail {
+  /** What was predicted. */
+  name: string
+  guess: number | null
+  /** `null` where what was to be predicted never came. */
+  result: number | null
+  /** Whether the reader has seen the result without a guess. */
+  waived: boolean
 }
 
 export interface FigureEventMap extends HTMLElementEventMap {

@@ -484,3 +484,72 @@ fn data_has_a_row_for_every_step_so_far() {
     let resampled: f64 = rows.iter().filter_map(|row| row[resampled]).sum();
     assert_eq!(resampled, 6.0);
 }
+
+#[test]
+fn before_a_prediction_is_judged_nothing_of_the_run_is_shown_or_told() {
+    for query in ["", "wings=on&seed=5", "particles=4&policy=always&odometry=2"] {
+        // As if nobody had ever run it, even where it ran before.
+        let mut asked = resampling(&format!("step=60&{query}"));
+        asked.set("predict", "on").unwrap();
+        asked.model_mut().settle();
+        let start = resampling(query);
+        assert_eq!((asked.model().step(), asked.model().step_count(), asked.model().pending()), (0, 0, 0), "{query}");
+        assert_eq!(asked.model().series(), start.model().series(), "{query}");
+        assert_eq!(asked.model().trace(), start.model().trace(), "{query}");
+        assert_eq!(asked.model().readouts()[..15], start.model().readouts()[..], "{query}");
+        assert!(asked.model().describe().ends_with(&start.model().describe()), "{query}");
+        let never_ran = resampling(&format!("{query}&predict=on"));
+        assert_eq!(state(&asked), state(&never_ran), "{query}");
+        // Nor does anything that a reader can do besides.
+        for (name, value) in [("step", "50"), ("cursor", "20")] {
+            assert!(asked.set(name, value).is_err(), "{query} {name}");
+        }
+        asked.model_mut().seek(50);
+        asked.drag("cursor", 400.0, 200.0, 800.0);
+        asked.set("guess", "30").unwrap();
+        asked.model_mut().settle();
+        assert_eq!(asked.model().series(), start.model().series(), "{query}");
+        assert_eq!(asked.model().prediction().unwrap().result, None, "{query}");
+    }
+}
+
+#[test]
+fn a_guess_is_placed_on_the_axis_of_time_and_stands_beside_the_step_at_which_one_ancestor_is_left() {
+    let mut figure = resampling("policy=always&predict=on");
+    let [x, y] = scene(&figure, 800.0).handles.iter().find(|handle| handle.name == "guess").unwrap().at;
+    figure.drag("guess", x - 100.0, y, 800.0);
+    let guess: f64 = figure.model().value("guess").unwrap().parse().unwrap();
+    figure.nudge("guess", 0.1, 0.0);
+    assert_eq!(figure.model().value("guess").unwrap(), (guess + 1.0).to_string());
+    figure.set("run", "on").unwrap();
+    figure.model_mut().settle();
+    assert_eq!(figure.model().step(), figure.model().step_count(), "the whole run is shown");
+    let result = figure.model().prediction().unwrap().result.unwrap();
+    let column = figure.export().header().iter().position(|name| *name == "always_lineage").unwrap();
+    let lineage: Vec<f64> = figure.model().series().rows.iter().map(|row| row[column]).collect();
+    assert_eq!(lineage.iter().position(|n| *n == 1.0), Some(result as usize));
+    assert_eq!(value(&figure, "one_left"), result);
+    assert!(figure.model().describe().starts_with(&format!("One ancestor is left from step {result} on")));
+    // Looking back takes nothing away; another run, or another policy, asks anew.
+    figure.set("step", "5").unwrap();
+    figure.model_mut().settle();
+    assert_eq!(figure.model().prediction().unwrap().result, Some(result));
+    let link = figure.query();
+    assert_eq!(resampling(&link).model().prediction(), figure.model().prediction());
+    for (name, value) in [("policy", "never"), ("seed", "9"), ("wings", "on"), ("threshold", "0.2")] {
+        let mut figure = resampling(&link);
+        figure.set(name, value).unwrap();
+        figure.model_mut().settle();
+        let value = |name| figure.model().value(name).unwrap();
+        assert_eq!(["predict", "guess", "run"].map(value), ["on", "none", "off"], "{name}");
+    }
+}
+
+#[test]
+fn one_ancestor_that_never_comes_is_told_too() {
+    let figure = resampling("policy=never&predict=on&guess=40&run=on");
+    assert_eq!(figure.model().prediction().unwrap().result, None);
+    assert!(
+        figure.model().describe().starts_with("Until the end more than one ancestor is left; the guess was step 40.")
+    );
+}

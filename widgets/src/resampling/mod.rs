@@ -2,6 +2,7 @@
 
 mod charts;
 mod course;
+mod guess;
 mod layout;
 mod model;
 mod recipe;
