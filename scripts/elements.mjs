@@ -212,7 +212,7 @@ export interface GuessDetail {
   /** What was predicted. */
   name: string
   guess: number | null
-  /** `null` where what was to be predicted never came. */
+  /** Null where what was to be predicted never came. */
   result: number | null
   /** Whether the reader has seen the result without a guess. */
   waived: boolean
