@@ -55,7 +55,7 @@ export function predict(context, state, node) {
   if (!question) context.problems.add(context.file, node, ':::predict has no question')
   return h(
     'div.predict',
-    { id: idOf(node) },
+    { id: attribute(node, 'id') },
     h('label', h('b', 'Predict first'), ' ', sentence(context, state, question), ' ', h('input', { type: 'text', placeholder: 'Your guess unfolds what follows', autocomplete: 'off' })),
     trial(context, node),
     h('div.fold', content(state, node.children)),

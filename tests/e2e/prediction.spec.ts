@@ -110,8 +110,9 @@ test('of a run nothing is shown before a guess, which keys place on the axis of 
 test.describe('on a phone', () => {
   test.use({ viewport: { width: 380, height: 760 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 })
 
-  test('a finger places a guess', async ({ page }) => {
-    for (const figure of [await proposal(page, 'predict=on'), await resampling(page, 'predict=on')]) {
+  for (const [name, open] of [['proposal', proposal], ['resampling', resampling]] as const) {
+    test(`a finger places a guess in ${name}`, async ({ page }) => {
+      const figure = await open(page, 'predict=on')
       const { x, y } = await middle(figure.handle('guess'))
       const client = await page.context().newCDPSession(page)
       const touch = (type: 'touchStart' | 'touchMove' | 'touchEnd', ...touchPoints: { x: number; y: number }[]) =>
@@ -124,8 +125,8 @@ test.describe('on a phone', () => {
       await figure.toggle('run').tap()
       await figure.settled()
       await expect(figure.sentence).toContainText('the guess was')
-    }
-  })
+    })
+  }
 })
 
 test('a guess of an exercise is compared with the figure beside it, kept on this device, and forgotten', async ({ page }) => {

@@ -122,10 +122,10 @@ function numberField(spec: ParamSpec, style: NumberStyle, change: (value: string
 
 /** A number, or a word instead, which is an empty box. */
 function wordField(spec: ParamSpec, style: NumberStyle, change: (value: string) => void): Field {
-  const { value: word, title } = spec.choices[0]!
+  const word = spec.choices[0]!.value
   const field = numberField(spec, style, value => change(value || word))
   const box = field.element.querySelector('input')!
-  box.placeholder = title
+  box.placeholder = '?'
   return { ...field, show: value => (value === word ? void (box.value = '') : field.show(value)) }
 }
 

@@ -56,6 +56,11 @@ impl Picture<'_> {
         }
         self.say(scene, wordings);
         if let State::Asked | State::Placed(_) = state {
+            let x = self.x(if let State::Placed(guess) = state { guess } else { self.middle() } as u32);
+            let marker = vec![[x, y + 10.0], [x - 6.0, y], [x + 6.0, y]];
+            scene.marks.push(Mark::Polygons { polygons: vec![marker], role: Role::Accent });
+        }
+        if let State::Asked | State::Placed(_) = state {
             scene.handles.push(self.guess(state));
         }
     }
@@ -85,7 +90,7 @@ impl Picture<'_> {
         Handle {
             name: GUESS,
             title: resampling::guess_handle().into(),
-            at: [self.x(guess as u32), chart.y + 0.2 * chart.h],
+            at: [self.x(guess as u32), chart.y + 5.0],
             axes: &[GUESS],
             value: guess,
             text,
