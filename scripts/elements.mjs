@@ -119,7 +119,7 @@ function attributeType(spec) {
 export function describe({ kind, min, max, unit, help, choices }) {
   if (kind === 'flag' || kind === 'toggle' || kind === 'choice') return help
   const words = choices.map(({ value }) => value).join(', ')
-  return `${help} ${words && `${words} or `}${kind === 'integer' ? 'A whole number from' : 'From'} ${round(min)} to ${round(max)}${unit && ` ${unit}`}.`.replace('or A', 'or a')
+  return `${help} ${words && `${words} or `}${kind === 'integer' ? 'A whole number from' : 'From'} ${round(min)} to ${round(max)}${unit && ` ${unit}`}.`.replace(/ or (A|From) /, found => found.toLowerCase())
 }
 
 /** @param {number} x */
