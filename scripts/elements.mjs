@@ -123,6 +123,7 @@ const events = [
   { name: 'fastslam-step', type: 'CustomEvent<FigureDetail>', help: 'Another step is shown; also once when the figure comes to life.' },
   { name: 'fastslam-change', type: 'CustomEvent<FigureDetail>', help: 'A parameter has changed, whoever did it.' },
   { name: 'fastslam-challenge', type: 'CustomEvent<ChallengeDetail>', help: 'A reader has taken up a challenge or, where it is done, reached it.' },
+  { name: 'fastslam-guess', type: 'CustomEvent<GuessDetail>', help: 'A prediction was judged: guess and result stand side by side; or the reader has waived it.' },
 ]
 
 const parts =
@@ -147,7 +148,7 @@ function attributeType(spec) {
 export function describe({ kind, min, max, unit, help, choices }) {
   if (kind === 'flag' || kind === 'toggle' || kind === 'choice') return help
   const words = choices.map(({ value }) => value).join(', ')
-  return `${help} ${words && `${words} or `}${kind === 'integer' ? 'A whole number from' : 'From'} ${round(min)} to ${round(max)}${unit && ` ${unit}`}.`.replace('or A', 'or a')
+  return `${help} ${words && `${words} or `}${kind === 'integer' ? 'A whole number from' : 'From'} ${round(min)} to ${round(max)}${unit && ` ${unit}`}.`.replace(/ or (A|From) /, found => found.toLowerCase())
 }
 
 /** @param {number} x */
@@ -259,6 +260,16 @@ export interface SeedsDetail {
   /** Its median over the seeds; null where some have none. */
   median: number | null
   runs: SeedRun[]
+}
+
+export interface GuessDetail {
+  /** What was predicted. */
+  name: string
+  guess: number | null
+  /** Null where what was to be predicted never came. */
+  result: number | null
+  /** Whether the reader has seen the result without a guess. */
+  waived: boolean
 }
 
 export interface FigureEventMap extends HTMLElementEventMap {

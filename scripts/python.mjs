@@ -34,7 +34,7 @@ function trait({ name, kind, min, max, choices, default: value, help }) {
   const text = JSON.stringify(help)
   if (kind === 'flag' || kind === 'toggle') return `traitlets.Bool(${value === 'on' ? 'True' : 'False'}, help=${text})`
   if (kind === 'choice') return `traitlets.Enum([${words}], ${JSON.stringify(value)}, help=${text})`
-  if (words) return `traitlets.Union([traitlets.Int(), traitlets.Enum([${words}])], default_value=${JSON.stringify(value)}, help=${text})`
+  if (words) return `traitlets.Union([traitlets.${kind === 'integer' ? 'Int' : 'Float'}(), traitlets.Enum([${words}])], default_value=${JSON.stringify(value)}, help=${text})`
   // How many steps and rows there are depends on the setup: the figure knows.
   if (name === 'step' || name === 'row' || name === 'column' || name === 'universe') return `traitlets.Int(${value}, min=${Math.min(min, 0)}, help=${text})`
   return `traitlets.${kind === 'integer' ? 'Int' : 'Float'}(${value}, ${bounds}, help=${text})`

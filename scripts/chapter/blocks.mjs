@@ -55,9 +55,20 @@ export function predict(context, state, node) {
   if (!question) context.problems.add(context.file, node, ':::predict has no question')
   return h(
     'div.predict',
+    { id: attribute(node, 'id') },
     h('label', h('b', 'Predict first'), ' ', sentence(context, state, question), ' ', h('input', { type: 'text', placeholder: 'Your guess unfolds what follows', autocomplete: 'off' })),
+    trial(context, node),
     h('div.fold', content(state, node.children)),
   )
+}
+
+/** A small live copy of the figure that a question is about: it compares, and without script it is not there. @param {import('./context.mjs').Context} context @param {any} node */
+function trial({ problems, file }, node) {
+  const { question: _, id, tag, ...passed } = node.attributes
+  if (!tag) return []
+  if (!/^fastslam-[a-z-]+$/.test(tag)) problems.add(file, node, `:::predict has no tag of ours, but “${tag}”`)
+  if (!id) problems.add(file, node, ':::predict with a figure has an id, by which links and guesses know it')
+  return [h('div.trial', h(tag, { id: `${id}-figure`, predict: 'on', ...passed }))]
 }
 
 /** @param {string} name @param {string} title @returns {Handler} */

@@ -27,19 +27,34 @@ export interface ChallengeDetail {
   done: boolean
 }
 
+/** A prediction was judged, or waived. */
+export interface GuessDetail {
+  /** What was predicted. */
+  name: string
+  guess: number | null
+  /** `null` where what was to be predicted never came. */
+  result: number | null
+  waived: boolean
+}
+
 export class Events {
   cause: Cause = 'page' // of what is told next
   #waiting: CustomEvent[] = []
   #step = -1 // told last
+  #guess = '' // told last
 
   constructor(private readonly figure: HTMLElement) {}
 
   /** What a frame shows is told when the frame is over; each step once, unless `always`. */
-  tell({ step, last, values, readouts, run, changed, trace }: Frame, always: boolean): void {
+  tell({ step, last, values, readouts, run, changed, trace, prediction }: Frame, always: boolean): void {
     const detail: FigureDetail = { step, last, by: this.cause, values, readouts, ...(run && { phase: run.phase }) }
     if (changed) this.#add('fastslam-change', detail)
     if (always || step !== this.#step) this.#add('fastslam-step', detail)
     this.#step = step
+    const { shown, ...guess } = prediction ?? { shown: false }
+    const told = shown ? JSON.stringify(guess) : ''
+    if (told && told !== this.#guess) this.#add('fastslam-guess', guess as GuessDetail)
+    this.#guess = told
     if (trace) this.#add('fastslam-trace', { step, lines: trace })
   }
 
@@ -52,7 +67,7 @@ export class Events {
     for (const event of this.#waiting.splice(0)) this.figure.dispatchEvent(event)
   }
 
-  #add(type: string, detail: FigureDetail | TraceDetail | ChallengeDetail): void {
+  #add(type: string, detail: FigureDetail | TraceDetail | ChallengeDetail | GuessDetail): void {
     this.#waiting.push(new CustomEvent(type, { bubbles: true, composed: true, detail }))
   }
 }

@@ -1,5 +1,5 @@
 // The control of a parameter: a slider with its box, a box, a list, a tick, a button; and what all of them are made of.
-import { h, icon } from './dom'
+import { h, icon, write } from './dom'
 import { stride } from './handles'
 import type { ParamSpec } from './shell'
 import type { Words } from './words'
@@ -27,6 +27,7 @@ export function fieldFor(spec: ParamSpec, words: Words, style: NumberStyle, chan
   if (spec.name === SEED) return seedField(spec, words, style, change)
   if (spec.kind === 'flag') return flagField(spec, change)
   if (spec.kind === 'toggle') return toggleField(spec, change)
+  if (spec.kind === 'number' && spec.choices.length > 0) return wordField(spec, style, change)
   if (spec.kind === 'choice' || spec.choices.length > 0) return choiceField(spec, change)
   return spec.slider ? sliderField(spec, words, style, change) : numberField(spec, style, change)
 }
@@ -39,7 +40,12 @@ function toggleField(spec: ParamSpec, change: (value: string) => void): Field {
   )
   const pressed = () => element.ariaPressed === 'true'
   element.addEventListener('click', () => change(pressed() ? 'off' : 'on'))
-  return { element, show: value => element.setAttribute('aria-pressed', String(value === 'on')) }
+  return {
+    element,
+    show: value => element.setAttribute('aria-pressed', String(value === 'on')),
+    // What it does, and so its name, can depend on the state.
+    limit: ({ title }) => (write(element, title), false),
+  }
 }
 
 function flagField(spec: ParamSpec, change: (value: string) => void): Field {
@@ -112,6 +118,15 @@ function numberField(spec: ParamSpec, style: NumberStyle, change: (value: string
     show: value => showNumber(box, value, style),
     limit: spec => limit(box, spec),
   }
+}
+
+/** A number, or a word instead, which is an empty box. */
+function wordField(spec: ParamSpec, style: NumberStyle, change: (value: string) => void): Field {
+  const word = spec.choices[0]!.value
+  const field = numberField(spec, style, value => change(value || word))
+  const box = field.element.querySelector('input')!
+  box.placeholder = '?'
+  return { ...field, show: value => (value === word ? void (box.value = '') : field.show(value)) }
 }
 
 /** True if the range is another one. */

@@ -1,6 +1,6 @@
 // What a figure on a page and a figure beside its program say to each other: the same words whether the two share a thread or not. A
 // figure is asked by commands and tells by answers. The host is who carries them: LocalHost by calls, WorkerHost by messages.
-import type { Chip, Handle, ParamSpec, Readout, Room, TraceLine } from './shell'
+import type { Chip, Handle, Outcome, ParamSpec, Readout, Room, TraceLine } from './shell'
 import type { Message } from './words'
 
 /** Where the picture goes, and how it is to look. */
@@ -141,6 +141,8 @@ export interface Frame {
   /** Whether a parameter was changed since the frame before. */
   changed: boolean
   trace: TraceLine[] | undefined
+  /** Where one is asked for. */
+  prediction: Outcome | null
   layout: Layout | undefined
   /** The part of the picture that tells most where there is no room for the whole [css px]. */
   gist: Room['area']

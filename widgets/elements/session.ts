@@ -1,7 +1,7 @@
 // A figure beside its program, on the page or in a worker: carries out what it is asked, and says what there is to show.
 import { clampedStep, type Answer, type Beginning, type Command, type Frame, type Layout, type Picture, type Run, type Size } from './host'
 import { locked } from './options'
-import { isRefusal, type Chip, type Handle, type ParamSpec, type Readout, type Room, type Shell, type ShellFigure, type TraceLine } from './shell'
+import { isRefusal, type Chip, type Handle, type Outcome, type ParamSpec, type Readout, type Room, type Shell, type ShellFigure, type TraceLine } from './shell'
 
 const LEGIBLE = 0.5 // a picture is not made smaller than that to fit, whatever the size of its letters
 
@@ -158,6 +158,7 @@ export class Session {
       sentence: figure.describe(),
       changed,
       trace,
+      prediction: figure.prediction() as Outcome | null,
       layout,
       gist: this.#gist(),
       picture,
@@ -190,7 +191,9 @@ export class Session {
       const wanted = Object.fromEntries(this.specs.map(({ name, default: usual }) => [name, authored[name] ?? usual]))
       this.#keepLocked(wanted)
     }
-    for (const [name, value] of settings) {
+    // In the order of the parameters, whatever that of an author's attributes: a guess is about the settings before it.
+    const rank = (name: string) => this.specs.findIndex(spec => spec.name === name)
+    for (const [name, value] of [...settings].sort(([a], [b]) => rank(a) - rank(b))) {
       try {
         this.set(name, value)
       } catch (error) {

@@ -49,6 +49,18 @@ export interface Chip {
   said: string
 }
 
+/** What comes of a reader's prediction. */
+export interface Outcome {
+  /** What is predicted. */
+  name: string
+  guess: number | null
+  /** `null` before it is shown, and where what was to be predicted never comes. */
+  result: number | null
+  /** Whether the reader has seen the result without a guess. */
+  waived: boolean
+  shown: boolean
+}
+
 /** A line of the figure's algorithm that the step shown has run. */
 export interface TraceLine {
   key: string

@@ -25,8 +25,24 @@
   const isDone = ({ type, detail: { by, step, last, values, phase } }) => {
     if (by !== 'reader') return false
     if (phase) return phase === 'done' // of a log: every scan is mapped
-    if (values.predict !== undefined) return values.run === 'on'
+    if (last === 0 && values.predict !== undefined) return values.run === 'on'
     return last > 0 ? type === 'fastslam-step' && step === last : type === 'fastslam-change'
+  }
+
+  const NEAR = 0.1 // a guess within a tenth of the result counts as correct
+  const decimal = x => String(Number(x.toPrecision(6)))
+
+  /** A prediction that was judged, as an interaction: what was asked, what the learner said, what it is. */
+  const record = (api, { name, guess, result, waived }) => {
+    const n = `cmi.interactions.${Number(api.LMSGetValue('cmi.interactions._count')) || 0}`
+    const set = (what, value) => api.LMSSetValue(`${n}.${what}`, value)
+    set('id', name)
+    set('type', 'numeric')
+    set('time', new Date().toTimeString().slice(0, 8))
+    if (result !== null) set('correct_responses.0.pattern', decimal(result))
+    if (!waived) set('student_response', decimal(guess))
+    set('result', waived || result === null ? 'neutral' : Math.abs(guess / result - 1) <= NEAR ? 'correct' : 'wrong')
+    api.LMSCommit('')
   }
 
   const api = find(window) ?? (window.opener && find(window.opener))
@@ -42,6 +58,13 @@
       api.LMSSetValue(key, figure.state)
       api.LMSCommit('')
     }
+    // What was kept from an earlier visit was recorded then.
+    let known = new URLSearchParams(kept)
+    figure.addEventListener('fastslam-guess', ({ detail }) => {
+      const again = known.get('run') === 'on' && (known.get('guess') === null ? detail.waived : Number(known.get('guess')) === detail.guess)
+      known = new URLSearchParams()
+      if (!again) record(api, detail)
+    })
     for (const type of ['fastslam-change', 'fastslam-step']) {
       figure.addEventListener(type, event => {
         clearTimeout(timer)

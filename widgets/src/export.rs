@@ -1,6 +1,10 @@
 //! A figure's measured data, for files.
 
-use crate::{model::Model, query};
+use crate::{
+    model::{Column, Model},
+    prediction::Outcome,
+    query,
+};
 use serde::{Serialize, Serializer};
 
 /// The figure, the link that makes it again, what the columns are, and every step.
@@ -21,10 +25,22 @@ impl<V: Serialize> Serialize for Entries<V> {
     }
 }
 
+/// Of a figure that asks for a prediction, the same in every row.
+const PREDICTION: [Column; 3] = [
+    Column::new("guess", "what the reader predicted"),
+    Column::new("waived", "1 where the reader saw the result without predicting it"),
+    Column::new("result", "what was to be predicted, once it was shown"),
+];
+
 impl Export {
     /// Everything simulated so far.
     pub fn new(figure: &'static str, model: &dyn Model) -> Self {
-        let series = model.series();
+        let mut series = model.series();
+        if let Some(Outcome { guess, result, waived, .. }) = model.prediction() {
+            series.columns.to_mut().extend(PREDICTION);
+            let of = [guess, Some(f64::from(u8::from(waived))), result].map(|x| x.unwrap_or(f64::NAN));
+            series.rows.iter_mut().for_each(|row| row.extend(of));
+        }
         let step = |row: &Vec<f64>| {
             Entries(series.columns.iter().map(|c| c.name).zip(row.iter().map(|&x| number(x))).collect())
         };

@@ -27,6 +27,7 @@ pub mod paint;
 pub mod panels;
 pub mod param;
 mod policy;
+pub mod prediction;
 pub mod prelude;
 #[cfg(feature = "page")]
 pub mod proposal;

@@ -8,6 +8,7 @@ use crate::challenge::{self, Challenge, Chip};
 use crate::decimal::fixed;
 use crate::ghost::Curves;
 pub use crate::param::{Choice, Group, Kind, ParamSpec};
+use crate::prediction::Outcome;
 use crate::recipe::{self, Recipe};
 use crate::words::common::{self, MustBe, NEffOf};
 use core::fmt;
@@ -163,6 +164,13 @@ pub enum Change {
         /// The default before.
         was: &'static str,
     },
+    /// Changes for those links only that switch a parameter on.
+    Switched {
+        /// The parameter.
+        name: &'static str,
+        /// What has changed for them.
+        changes: &'static [Change],
+    },
 }
 
 /// A model that has a recipe. It is all that a figure writes of its parameters besides their table: [`Parameters`] follows.
@@ -201,6 +209,7 @@ pub trait Declared {
     {
         let mut recipe = self.recipe().clone();
         change(&mut recipe);
+        recipe.follow(self.recipe());
         let _ = self.adopt(recipe::confined(recipe));
     }
 }
@@ -320,6 +329,11 @@ pub trait Model: Parameters {
         let readouts = self.readouts();
         let columns = readouts.iter().map(|readout| Column::new(readout.name, readout.help)).collect();
         Series { columns, rows: vec![readouts.iter().map(|readout| readout.value.unwrap_or(f64::NAN)).collect()] }
+    }
+
+    /// What comes of the reader's prediction, if one is asked for.
+    fn prediction(&self) -> Option<Outcome> {
+        None
     }
 
     /// One or two sentences that tell what is shown now.

@@ -136,7 +136,7 @@ impl ParamSpec {
 }
 
 /// `on` and `off`, and what HTML and JavaScript write for them; an attribute without a value is on.
-fn flag(text: &str) -> Option<bool> {
+pub(crate) fn flag(text: &str) -> Option<bool> {
     match text {
         "on" | "true" | "1" | "" => Some(true),
         "off" | "false" | "0" => Some(false),

@@ -7,7 +7,7 @@
 use crate::{
     decimal,
     model::{Change, FigureError, Model},
-    param::quoted,
+    param::{flag, quoted},
     words::common::{AWholeNumber, EarlierLink, LaterLink},
 };
 
@@ -57,7 +57,7 @@ fn since(query: &str, changes: &[Change]) -> (Vec<FigureError>, Vec<(String, Str
         Ok(version) if (1..=newest).contains(&version) => {
             let (mut said, mut meant) = (Vec::new(), Vec::new());
             // The default that held in the version of the link is the one before the first change after it.
-            for change in changes.iter().skip(version - 1).rev() {
+            for change in changes.iter().skip(version - 1).rev().flat_map(|change| applying(query, change)) {
                 match *change {
                     Change::Told(change) => said.insert(0, about(EarlierLink { change: &change }.say())),
                     Change::ToldAt { name, value, change } => {
@@ -66,6 +66,8 @@ fn since(query: &str, changes: &[Change]) -> (Vec<FigureError>, Vec<(String, Str
                         }
                     }
                     Change::Default { name, was } => meant.push((name.into(), was.into())),
+                    // They are not nested.
+                    Change::Switched { .. } => (),
                 }
             }
             (said, meant)
@@ -78,6 +80,20 @@ fn since(query: &str, changes: &[Change]) -> (Vec<FigureError>, Vec<(String, Str
             (vec![FigureError::new(VERSION, quoted(&given), allowed)], Vec::new())
         }
     }
+}
+
+/// What of a change holds for the link.
+fn applying<'a>(query: &str, change: &'a Change) -> &'a [Change] {
+    match change {
+        Change::Switched { name, changes } if switched_on(query, name) => changes,
+        Change::Switched { .. } => &[],
+        change => core::slice::from_ref(change),
+    }
+}
+
+/// Whether the link switches a parameter on.
+fn switched_on(query: &str, name: &str) -> bool {
+    decoded(query).any(|(n, text)| n == name && flag(text.trim()) == Some(true))
 }
 
 /// Names and values of the parameters as they are written, decoded.
@@ -157,6 +173,15 @@ mod tests {
         let told = |query| since(query, changes).0.len();
         assert_eq!(["odometry=0", "odometry=0.0&seed=4"].map(told), [1, 1]);
         assert_eq!(["odometry=0.05", "range-std=0", "v=2&odometry=0"].map(told), [0, 0, 0]);
+    }
+
+    #[test]
+    fn what_has_changed_where_a_parameter_is_on_holds_for_links_that_switch_it_on() {
+        const ON: &[Change] = &[Change::Default { name: "guess", was: "2" }, Change::Told("The samples move.")];
+        let changes = &[Change::Switched { name: "run", changes: ON }];
+        let of = |query| since(query, changes);
+        assert_eq!(of("run=on&seed=1").1, [("guess".to_owned(), "2".to_owned())]);
+        assert_eq!(["run=on", "run=true", "run=off", "seed=1", "v=2&run=on"].map(|q| of(q).0.len()), [1, 1, 0, 0, 0]);
     }
 
     #[test]

@@ -112,12 +112,16 @@ impl<T: 'static> Menu<T> {
 
 type Get<R> = Box<dyn Fn(&R) -> Value>;
 type Set<R> = Box<dyn Fn(&mut R, Value)>;
+/// A name for readers in a state, or `None` for the usual one.
+type Title<R> = fn(&R) -> Option<&'static str>;
 
 /// A row of a figure's table: a parameter, and where its recipe holds it.
 pub struct Param<R> {
     spec: ParamSpec,
     /// Its largest number, where that depends on rows above.
     most: Option<fn(&R) -> f64>,
+    /// Its name for readers, where that depends on the state.
+    title: Option<Title<R>>,
     get: Get<R>,
     set: Set<R>,
 }
@@ -126,6 +130,9 @@ pub struct Param<R> {
 pub trait Recipe: Clone + PartialEq + Default + 'static {
     /// A row for each parameter. The range of one may depend on those above it.
     fn table() -> Vec<Param<Self>>;
+
+    /// Changes what has to change along with what was changed: an answer goes with its question.
+    fn follow(&mut self, _before: &Self) {}
 
     /// Refuses values that are each in range but do not go together: they become what they were `before`.
     fn refuse(&mut self, _before: &Self) -> Vec<FigureError> {
@@ -139,7 +146,7 @@ impl<R: Recipe> Param<R> {
         let (group, slider, folded) = (Group::Setup, true, false);
         let (choices, default, unit) = (Vec::new(), String::new(), "");
         let spec = ParamSpec { name, title, unit, kind, min, max, step, choices, default, group, slider, folded, help };
-        Self { spec, most: None, get, set }
+        Self { spec, most: None, title: None, get, set }
     }
 
     /// A number of the setup, from the first of the range to the second; a slider goes by the third.
@@ -202,6 +209,25 @@ impl<R: Recipe> Param<R> {
         let param = Self::new(name, title, Kind::Integer, get, set, help);
         let choices = vec![Choice::new(word, word_title)];
         Self { spec: ParamSpec { min: -1.0, choices, ..param.spec }, ..param }.at_most(most)
+    }
+
+    /// A number in a range, or none, which is the word.
+    pub fn number_or(
+        name: &'static str,
+        title: &'static str,
+        unit: &'static str,
+        (min, max, step): (f64, f64, f64),
+        (word, word_title): (&'static str, &'static str),
+        Field { get, set }: Field<R, Option<f64>>,
+        help: &'static str,
+    ) -> Self {
+        let set: Set<R> = Box::new(move |recipe, value| {
+            set(recipe, if let Value::Number(x) = value { Some(x) } else { None });
+        });
+        let get: Get<R> = Box::new(move |recipe| get(recipe).map_or(Value::Word(0), Value::Number));
+        let param = Self::new(name, title, Kind::Number, get, set, help);
+        let choices = vec![Choice::new(word, word_title)];
+        Self { spec: ParamSpec { unit, min, max, step, choices, ..param.spec }, ..param }
     }
 
     /// One of some words.
@@ -267,11 +293,17 @@ impl<R: Recipe> Param<R> {
         Self { most: Some(most), ..self }
     }
 
-    /// Its range in this recipe, and its value in the default one.
+    /// The same under another name where the state asks for that.
+    pub fn titled(self, title: Title<R>) -> Self {
+        Self { title: Some(title), ..self }
+    }
+
+    /// Its range and its name in this recipe, and its value in the default one.
     fn spec(&self, recipe: &R) -> ParamSpec {
         let default = self.spec.text((self.get)(&R::default()));
         let max = self.most.map_or(self.spec.max, |most| most(recipe));
-        ParamSpec { max, default, ..self.spec.clone() }
+        let title = self.title.and_then(|title| title(recipe)).unwrap_or(self.spec.title);
+        ParamSpec { title, max, default, ..self.spec.clone() }
     }
 
     /// Brings a value that is out of its range to the nearest in it, or where there is a word besides, to that.
@@ -309,6 +341,7 @@ pub fn with<R: Recipe>(before: &R, values: &[(String, String)]) -> (R, Vec<Figur
             }
         }
     }
+    recipe.follow(before);
     refused.extend(recipe.refuse(before));
     let known = |name: &str| table.iter().any(|param| param.spec.name == name);
     let others = values.iter().filter(|(name, _)| !known(name));

@@ -188,6 +188,11 @@ impl Figure {
         self.figure.describe()
     }
 
+    /// What comes of the reader's prediction: an `Outcome`, or null where none is asked for.
+    pub fn prediction(&self) -> JsValue {
+        plain(&self.figure.model().prediction())
+    }
+
     /// The lines of its algorithm that led to what is shown: an array of `TraceLine`.
     pub fn trace(&self) -> Array {
         plain(&self.figure.trace())

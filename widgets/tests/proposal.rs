@@ -14,8 +14,9 @@ use fastslam_widgets::{
 
 const TAG: &str = "fastslam-proposal";
 
+/// In the state that a link of today names.
 fn proposal(query: &str) -> Figure {
-    figure(TAG, query)
+    figure(TAG, &format!("v=3&{}", query.trim_start_matches("v=3").trim_start_matches('&')))
 }
 
 /// The number between two parts of what is said of a figure.
@@ -74,7 +75,7 @@ fn dragging_is_setting_in_any_panel_and_at_any_width() {
         let mut figure = proposal("predict=on");
         let [x, y] = handle(&proposal("predict=on&guess=6.5"), "guess", width);
         figure.drag("guess", x, y, width);
-        assert_eq!(figure.query(), "predict=on&guess=6.5", "at {width}");
+        assert_eq!(figure.query(), "v=3&predict=on&guess=6.5", "at {width}");
     }
 }
 
@@ -167,7 +168,7 @@ fn handles_are_as_far_apart_as_fingers_need_where_the_figure_opens() {
 
 #[test]
 fn arrow_keys_move_by_a_step_coarsely_by_ten_and_finely_by_a_tenth() {
-    let mut figure = proposal("landmark-x=1&landmark-y=0.1&predict=on&guess=4");
+    let mut figure = proposal("landmark-x=1&landmark-y=0.1");
     for (right, up, x, y) in [
         (1.0, 0.0, "1.05", "0.1"),
         (0.0, -1.0, "1.05", "0.05"),
@@ -178,6 +179,7 @@ fn arrow_keys_move_by_a_step_coarsely_by_ten_and_finely_by_a_tenth() {
         let value = |name| figure.model().value(name).unwrap();
         assert_eq!((value("landmark-x").as_str(), value("landmark-y").as_str()), (x, y));
     }
+    let mut figure = proposal("predict=on&guess=4");
     for (right, up, guess) in [(1.0, 0.0, "4.1"), (0.0, 10.0, "5.1"), (-0.1, 0.0, "5.09"), (-1000.0, 0.0, "1")] {
         figure.nudge("guess", right, up);
         assert_eq!(figure.model().value("guess").unwrap(), guess);
@@ -191,10 +193,10 @@ fn a_link_brings_back_the_whole_state() {
         assert_eq!(state(&figure), state(&proposal(&figure.query())), "{query}");
     }
     // In whatever order: the run is of the guess that the link names.
-    assert_eq!(proposal("run=on&guess=7&predict=on").query(), "predict=on&guess=7&run=on");
+    assert_eq!(proposal("run=on&guess=7&predict=on").query(), "v=3&predict=on&guess=7&run=on");
     let mut figure = proposal(STATES[3]);
     assert_eq!(figure.load("seed=5"), []);
-    assert_eq!(figure.query(), "seed=5");
+    assert_eq!(figure.query(), "v=3&seed=5");
 }
 
 #[test]
@@ -202,26 +204,37 @@ fn the_guess_is_asked_for_then_run_and_another_guess_starts_anew() {
     let mut figure = proposal("");
     assert!(scene(&figure, 800.0).handles.iter().all(|h| h.name != "guess"));
     figure.set("predict", "on").unwrap();
-    assert!(figure.model().describe().contains("it has not been run"));
+    figure.model_mut().settle();
+    assert!(figure.model().describe().contains("There is no guess yet"));
     figure.drag("guess", 400.0, 0.0, 800.0);
+    figure.model_mut().settle();
+    assert!(figure.model().describe().contains("it has not been run"));
     let guess = figure.model().value("guess").unwrap();
     figure.set("run", "on").unwrap();
     figure.model_mut().settle();
-    // What is run is what a reader gets who halves the noise.
-    assert_eq!(said(&figure, "the ratio is ", ";"), ratio(&proposal("range-std=0.025")));
-    assert!(figure.model().describe().contains(&format!("the guess was {guess}")), "{}", figure.model().describe());
+    // What is run is what a reader gets who halves the noise: the same numbers, and the same samples.
+    let half = proposal("range-std=0.025");
+    assert_eq!(said(&figure, "the ratio is ", ";"), ratio(&half));
+    assert_eq!(figure.model().series(), half.model().series());
+    assert!(figure.model().describe().contains(&format!("the guess was {guess}: ")), "{}", figure.model().describe());
     figure.set("guess", &guess).unwrap();
     assert_eq!(figure.model().value("run").unwrap(), "on", "the same guess is no other try");
     figure.nudge("guess", 1.0, 0.0);
     figure.model_mut().settle();
     assert_eq!(figure.model().value("run").unwrap(), "off");
     assert!(figure.model().describe().contains("it has not been run"));
-    // Without a guess there is nothing to run, and who runs it is asked.
+    // Who was not asked is asked, instead of being shown.
     figure.set("predict", "off").unwrap();
     figure.set("run", "on").unwrap();
-    assert_eq!(figure.model().value("predict").unwrap(), "on");
+    let value = |figure: &Figure, name| figure.model().value(name).unwrap();
+    assert_eq!(["predict", "guess", "run"].map(|name| value(&figure, name)), ["on", "none", "off"]);
+    // Who does not want to guess says so, and that is told apart.
+    figure.set("run", "on").unwrap();
+    figure.model_mut().settle();
+    let outcome = figure.model().prediction().unwrap();
+    assert!(outcome.waived && outcome.guess.is_none() && outcome.result.is_some(), "{outcome:?}");
     figure.set("predict", "off").unwrap();
-    assert_eq!(figure.model().value("run").unwrap(), "off");
+    assert_eq!(value(&figure, "run"), "off");
 }
 
 #[test]

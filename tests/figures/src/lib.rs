@@ -104,6 +104,8 @@ pub const PICTURES: &[Picture] = &[
         "dark",
     ),
     picture(RESAMPLING, "resampling-start", "", 728, 1.0, "light"),
+    picture(RESAMPLING, "resampling-guess", "predict=on", 340, 2.0, "light"),
+    picture(RESAMPLING, "resampling-judged", "predict=on&guess=40&run=on&policy=always", 800, 1.0, "dark"),
     picture(RESAMPLING, "resampling-phone", "wings=on&step=80&cursor=70&back=3", 340, 2.0, "light"),
     picture(RESAMPLING, "resampling-contrast", "particles=8&step=30&policy=never", 380, 1.0, "contrast-dark"),
     picture(RESAMPLING, "resampling-tiny", "particles=4&threshold=1&step=12", 240, 1.0, "contrast-light"),

@@ -26,8 +26,17 @@ fn circle(centre: Point, radius: f64) -> Vec<Point> {
 }
 
 /// A triangle that points down at its place.
-pub fn pointer([x, y]: Point, r: f64) -> Mark {
-    Mark::Polygons { polygons: vec![vec![[x, y], [x - r, y - 1.7 * r], [x + r, y - 1.7 * r]]], role: Role::Accent }
+pub fn pointer(at: Point, r: f64) -> Mark {
+    Mark::Polygons { polygons: vec![triangle(at, r)], role: Role::Accent }
+}
+
+/// The outline of one, for what is still to be placed.
+pub fn empty_pointer(at: Point, r: f64) -> Mark {
+    Mark::Lines { lines: vec![closed(triangle(at, r))], width: 2.0, dash: None, role: Role::Accent }
+}
+
+fn triangle([x, y]: Point, r: f64) -> Vec<Point> {
+    vec![[x, y], [x - r, y - 1.7 * r], [x + r, y - 1.7 * r]]
 }
 
 /// The first of some wordings that fits, else the last.

@@ -4,9 +4,13 @@ use super::{challenges, contour, ghost, recipe::Recipe};
 use crate::challenge::Challenge;
 use crate::decimal::{fixed, write};
 use crate::ghost::Curves;
-use crate::model::{Column, Declared, FigureError, Model, Readout, Series};
+use crate::model::{Change, Column, Declared, FigureError, Model, Readout, Series};
+use crate::prediction::{Outcome, State, off_by};
 use crate::words::{common, proposal};
 use fastslam_lab::experiment::proposals::{Cloud, Proposals, ProposalsSetup};
+
+/// In the first version a guess was there before the reader placed one.
+const GUESSED: Change = Change::Default { name: "guess", was: "2" };
 
 /// Figure w17.3.
 pub struct ProposalModel {
@@ -16,8 +20,10 @@ pub struct ProposalModel {
     shown: Proposals,
     /// Outline of the region of highest density \[m\].
     outline: Vec<Vec<[f64; 2]>>,
-    /// The ratio at half the range noise, once it was run.
-    at_half: Option<f64>,
+    /// What it was made of.
+    setup: ProposalsSetup,
+    /// The ratio at what was set.
+    ratio: f64,
     /// Of the step that is pinned (`ghost`).
     pinned: Curves,
 }
@@ -27,7 +33,8 @@ impl Default for ProposalModel {
         let recipe = Recipe::default();
         let shown = propose(&recipe.setup);
         let outline = contour::outline(&shown.exact);
-        Self { computed: recipe.clone(), recipe, shown, outline, at_half: None, pinned: Curves::new() }
+        let (setup, ratio) = (recipe.setup.clone(), shown.ratio());
+        Self { computed: recipe.clone(), recipe, shown, outline, setup, ratio, pinned: Curves::new() }
     }
 }
 
@@ -46,9 +53,9 @@ impl ProposalModel {
         &self.outline
     }
 
-    /// What was set.
+    /// What is shown: what was set, or once a prediction is judged, that at half the range noise.
     pub fn setup(&self) -> &ProposalsSetup {
-        &self.computed.setup
+        &self.setup
     }
 
     /// Curves of the step that is pinned.
@@ -56,14 +63,19 @@ impl ProposalModel {
         &self.pinned
     }
 
-    /// The reader's guess, if one is asked for.
-    pub fn guess(&self) -> Option<f64> {
-        self.recipe.predict.then_some(self.recipe.guess)
+    /// How far the reader's prediction is.
+    pub fn state(&self) -> State {
+        self.computed.prediction.state()
     }
 
-    /// The ratio at half the range noise, once it was run.
+    /// The ratio at what was set.
+    pub fn ratio(&self) -> f64 {
+        self.ratio
+    }
+
+    /// The ratio at half the range noise, once that may be seen.
     pub fn at_half(&self) -> Option<f64> {
-        self.at_half
+        self.computed.prediction.is_shown().then(|| self.shown.ratio())
     }
 
     /// The landmark, of two, that the posterior has not ruled out and none of the measurement-aware samples speaks for.
@@ -85,13 +97,24 @@ impl ProposalModel {
 
     /// Half the range noise \[m\].
     pub fn half(&self) -> String {
-        write(0.5 * self.setup().range_std)
+        write(self.computed.half().range_std)
     }
 }
 
 impl Declared for ProposalModel {
     type Recipe = Recipe;
     const TITLE: &'static str = proposal::TITLE;
+    const CHANGES: &'static [Change] = &[
+        Change::Switched { name: "predict", changes: &[GUESSED] },
+        Change::Switched {
+            name: "run",
+            changes: &[
+                Change::Default { name: "predict", was: "on" },
+                GUESSED,
+                Change::Told("Once a prediction is run, samples and numbers are those at half the range noise."),
+            ],
+        },
+    ];
 
     fn challenges() -> Vec<Challenge<Self>> {
         challenges::challenges()
@@ -113,20 +136,20 @@ impl Model for ProposalModel {
     }
 
     fn work(&mut self) {
-        let same = self.recipe.setup == self.computed.setup;
-        if !same {
-            self.shown = propose(&self.recipe.setup);
+        let (recipe, wanted) = (self.recipe.clone(), self.recipe.shown());
+        let before = (recipe.setup == self.computed.setup).then_some(self.ratio);
+        if wanted != self.setup {
+            self.shown = propose(&wanted);
             self.outline = contour::outline(&self.shown.exact);
+            self.setup = wanted;
         }
-        let half = || {
-            let setup = &self.recipe.setup;
-            propose(&ProposalsSetup { range_std: 0.5 * setup.range_std, ..setup.clone() }).ratio()
-        };
-        self.at_half = match self.at_half {
-            Some(ratio) if same && self.recipe.run => Some(ratio),
-            _ => self.recipe.run.then(half),
-        };
-        self.computed = self.recipe.clone();
+        let now = || if self.setup == recipe.setup { self.shown.ratio() } else { propose(&recipe.setup).ratio() };
+        self.ratio = before.unwrap_or_else(now);
+        self.computed = recipe;
+    }
+
+    fn prediction(&self) -> Option<Outcome> {
+        self.computed.prediction.outcome("ratio_half", self.at_half())
     }
 
     fn readouts(&self) -> Vec<Readout> {
@@ -152,9 +175,14 @@ impl Model for ProposalModel {
             percent("inside_aware", proposal::inside_aware(), aware.share_inside(None), proposal::inside_aware_help()),
             ess("ess_motion", proposal::ess_motion(), motion, proposal::ess_motion_help()),
             ess("ess_aware", proposal::ess_aware(), aware, proposal::ess_aware_help()),
-            times("ratio", proposal::ratio(), self.shown.ratio(), proposal::ratio_help()).drawn(),
-            times("ratio_half", proposal::ratio_half(), self.at_half.unwrap_or(f64::NAN), proposal::ratio_half_help())
-                .drawn(),
+            times("ratio", proposal::ratio(), self.ratio, proposal::ratio_help()).drawn(),
+            times(
+                "ratio_half",
+                proposal::ratio_half(),
+                self.at_half().unwrap_or(f64::NAN),
+                proposal::ratio_half_help(),
+            )
+            .drawn(),
             percent("a_posterior", proposal::a_posterior(), first(exact.candidates[0]), proposal::a_posterior_help()),
             percent("a_motion", proposal::a_motion(), first(motion.share_inside(Some(0))), proposal::a_motion_help()),
             percent("a_aware", proposal::a_aware(), first(aware.share_inside(Some(0))), proposal::a_aware_help()),
@@ -213,12 +241,17 @@ impl Model for ProposalModel {
         };
         // What cannot be seen at a glance comes first: a sentence is read from its beginning, and may be cut off at its end.
         let mut sentences = Vec::new();
-        match (self.guess(), self.at_half) {
-            (Some(guess), Some(ratio)) => {
-                let (half, ratio, guess) = (&self.half(), &fixed(ratio, 1), &write(guess));
-                sentences.push(proposal::GuessWas { half, ratio, guess }.say());
+        let half = &self.half();
+        match (self.state(), self.at_half()) {
+            (State::Guessed(guess), Some(ratio)) => {
+                let (off, ratio, guess) = (&off_by(guess, ratio), &fixed(ratio, 1), &write(guess));
+                sentences.push(proposal::GuessWas { half, ratio, guess, off }.say());
             }
-            (Some(guess), None) => sentences.push(proposal::GuessIs { guess: &write(guess) }.say()),
+            (State::Waived, Some(ratio)) => {
+                sentences.push(proposal::GuessWaived { half, ratio: &fixed(ratio, 1) }.say());
+            }
+            (State::Placed(guess), _) => sentences.push(proposal::GuessIs { guess: &write(guess) }.say()),
+            (State::Asked, _) => sentences.push(proposal::NoGuess { half }.say()),
             _ => (),
         }
         sentences.extend(self.lost().map(|lost| proposal::IsLost { landmark: &["A", "B"][lost] }.say()));

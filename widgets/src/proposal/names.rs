@@ -6,6 +6,7 @@ use super::{
     model::ProposalModel,
 };
 use crate::{
+    prediction::State,
     scene::{Cells, GHOST, Mark, Rect, Role, Sample, Scene, Shading, legend, robot},
     words::{common, proposal},
 };
@@ -59,7 +60,7 @@ pub fn names(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
     if model.pinned().is_empty() || layout.legend.w > 250.0 {
         items.push((Sample::new(panels), proposal::shown_above()));
     }
-    if ratio && model.guess().is_some() {
+    if ratio && matches!(model.state(), State::Placed(_) | State::Guessed(_)) {
         items.push((Sample::at(|[x, y]| pointer([x, y + 6.0], 6.0)), proposal::guess_mark()));
     }
     if ratio && model.at_half().is_some() {

@@ -2,7 +2,8 @@
 
 use crate::{
     field,
-    recipe::{self, Field, Menu, Param},
+    prediction::{self, Asks, Prediction, Predicts},
+    recipe::{self, Menu, Param},
     words::{common, proposal},
 };
 use fastslam_lab::{baseline::one_step::Area, experiment::proposals::ProposalsSetup};
@@ -20,36 +21,45 @@ pub const MOST: u32 = 4096;
 const MARGIN: f64 = 0.15;
 
 /// Everything that a link can say of the step.
-#[derive(Clone, PartialEq)]
+#[derive(Clone, PartialEq, Default)]
 pub struct Recipe {
     /// What decides the numbers.
     pub setup: ProposalsSetup,
-    /// Whether the reader is asked to predict.
-    pub predict: bool,
-    /// The ratio the reader expects at half the range noise.
-    pub guess: f64,
-    /// Whether it was run.
-    pub run: bool,
-}
-
-impl Default for Recipe {
-    fn default() -> Self {
-        Self { setup: ProposalsSetup::default(), predict: false, guess: 2.0, run: false }
-    }
+    /// The ratio that the reader expects at half the range noise.
+    pub prediction: Prediction,
 }
 
 impl Recipe {
-    /// Another guess is another try.
+    /// What the figure shows: the step as it was set, or once the prediction is judged, at half the range noise.
+    pub fn shown(&self) -> ProposalsSetup {
+        if self.prediction.is_shown() { self.half() } else { self.setup.clone() }
+    }
+
+    /// The step at half the range noise.
+    pub fn half(&self) -> ProposalsSetup {
+        ProposalsSetup { range_std: 0.5 * self.setup.range_std, ..self.setup.clone() }
+    }
+
+    /// Places a guess, or the nearest that there can be.
     pub fn guess_at(&mut self, guess: f64) {
-        let guess = guess.clamp(RATIOS[0], RATIOS[1]);
-        (self.run, self.guess) = (self.run && self.guess == guess, guess);
+        self.prediction.place(Some(guess.clamp(RATIOS[0], RATIOS[1])));
+    }
+}
+
+impl Predicts for Recipe {
+    fn prediction(&self) -> &Prediction {
+        &self.prediction
+    }
+
+    fn prediction_mut(&mut self) -> &mut Prediction {
+        &mut self.prediction
     }
 }
 
 impl recipe::Recipe for Recipe {
     fn table() -> Vec<Param<Self>> {
         type P = Param<Recipe>;
-        vec![
+        let mut table = vec![
             P::number(
                 "range-std",
                 common::range_noise(),
@@ -103,36 +113,22 @@ impl recipe::Recipe for Recipe {
             )
             .folded()
             .without_slider(),
-            P::toggle(
-                "predict",
-                proposal::predict(),
-                Field {
-                    get: |recipe| recipe.predict,
-                    set: |recipe, on| (recipe.predict, recipe.run) = (on, recipe.run && on),
-                },
-                proposal::predict_help(),
-            )
-            .view(),
-            P::number(
-                "guess",
-                proposal::guess(),
-                proposal::times(),
-                (RATIOS[0], RATIOS[1], 0.1),
-                Field { get: |recipe| recipe.guess, set: Recipe::guess_at },
-                proposal::guess_help(),
-            )
-            .without_slider(),
-            P::toggle(
-                "run",
-                proposal::run(),
-                Field {
-                    get: |recipe| recipe.run,
-                    set: |recipe, on| (recipe.predict, recipe.run) = (recipe.predict || on, on),
-                },
-                proposal::run_help(),
-            )
-            .view(),
-        ]
+        ];
+        table.extend(prediction::rows(Asks {
+            predict_help: proposal::predict_help(),
+            guess_help: proposal::guess_help(),
+            unit: proposal::times(),
+            range: (RATIOS[0], RATIOS[1], 0.1),
+            run: [proposal::run(), proposal::run_help()],
+        }));
+        table
+    }
+
+    /// Another step is another question.
+    fn follow(&mut self, before: &Self) {
+        if self.setup != before.setup && self.prediction == before.prediction {
+            self.prediction.ask_anew();
+        }
     }
 }
 

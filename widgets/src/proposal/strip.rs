@@ -3,20 +3,22 @@
 use super::{
     gauge, ghost,
     layout::Layout,
-    marks::{filled_diamond, line, pointer},
+    marks::{empty_pointer, filled_diamond, line, pointer},
     model::ProposalModel,
+    recipe::RATIOS,
     view::GUESS,
 };
 use crate::{
     decimal::{fixed, write},
     font::Weight,
+    prediction::{State, off_by},
     scene::{Anchor, Handle, Mark, Rect, Role, Scene, text},
-    words::proposal,
+    words::{prediction, proposal},
 };
 
 /// The ratio in words and on a scale, with the reader's guess.
 pub fn ratio(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
-    let (now, [words, question], axis) = (model.proposals().ratio(), layout.ratio, layout.axis);
+    let (now, [words, question], axis) = (model.ratio(), layout.ratio, layout.axis);
     let times = fixed(now, 1);
     let wordings = match model.lost().map(|lost| ["A", "B"][lost]) {
         Some(lost) => [
@@ -28,19 +30,24 @@ pub fn ratio(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
     line(scene, &words, 14.0, Weight::SemiBold, Role::Ink, wordings);
 
     let half = model.half();
-    let asked = match (model.guess(), model.at_half()) {
-        (None, _) => [proposal::and_half().to_string(), proposal::and_half_short().into()],
-        (Some(guess), None) => {
+    let asked = match (model.state(), model.at_half()) {
+        (State::Asked, _) => [proposal::YourTurn { half: &half }.say(), proposal::YourTurnShort { half: &half }.say()],
+        (State::Placed(guess), _) => {
             let guess = &write(guess);
             [proposal::YourGuess { half: &half, guess }.say(), proposal::YourGuessShort { half: &half, guess }.say()]
         }
-        (Some(guess), Some(ratio)) => {
-            let (ratio, guess) = (&fixed(ratio, 1), &write(guess));
+        (State::Guessed(guess), Some(ratio)) => {
+            let (off, ratio, guess) = (&off_by(guess, ratio), &fixed(ratio, 1), &write(guess));
             [
-                proposal::YouGuessed { half: &half, ratio, guess }.say(),
+                proposal::YouGuessed { half: &half, ratio, guess, off }.say(),
                 proposal::YouGuessedShort { half: &half, ratio, guess }.say(),
             ]
         }
+        (State::Waived, Some(ratio)) => {
+            let ratio = &fixed(ratio, 1);
+            [proposal::HalfIs { half: &half, ratio }.say(), proposal::HalfIsShort { half: &half, ratio }.say()]
+        }
+        _ => [proposal::and_half().to_string(), proposal::and_half_short().into()],
     };
     line(scene, &question, 13.0, Weight::Regular, Role::Ink, asked);
 
@@ -54,23 +61,35 @@ pub fn ratio(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
         let name = Rect::new(at(tick) - 15.0, y + 6.0, 30.0, 13.0);
         scene.marks.push(text(name, Anchor::Middle, 11.0, Weight::Regular, Role::Muted, format!("{}×", write(tick))));
     }
-    if let (Some(guess), Some(ratio)) = (model.guess(), model.at_half()) {
-        let between = vec![[at(guess), y - 9.0], [at(ratio), y - 9.0]];
+    let guess = match model.state() {
+        State::Placed(guess) | State::Guessed(guess) => Some(guess),
+        _ => None,
+    };
+    if let Some(ratio) = model.at_half() {
+        let from = guess.unwrap_or(now);
+        let between = vec![[at(from), y - 9.0], [at(ratio), y - 9.0]];
         scene.marks.push(Mark::Lines { lines: vec![between], width: 2.0, dash: Some([3.0, 3.0]), role: Role::Accent });
         scene.marks.push(filled_diamond([at(ratio), y - 9.0], 7.0, Role::Ink));
     }
     ghost::ratio(scene, model, &axis, y);
     scene.marks.push(Mark::Discs { centres: vec![[at(now), y]], radius: 5.0, role: Role::Ink });
-    if let Some(guess) = model.guess() {
-        scene.marks.push(pointer([at(guess), y - 2.0], 8.0));
-        scene.handles.push(Handle {
-            name: GUESS,
-            title: proposal::guess_handle().into(),
-            at: [at(guess), y - 9.0],
-            axes: &[GUESS],
-            value: guess,
-            text: proposal::TimesOf { n: &write(guess) }.say(),
-            hover: None,
-        });
+    if matches!(model.state(), State::Off | State::Waived) {
+        return;
     }
+    // Before there is a guess, the marker stands empty at the end of the scale.
+    let place = guess.unwrap_or(RATIOS[0]);
+    scene.marks.push(if guess.is_some() {
+        pointer([at(place), y - 2.0], 8.0)
+    } else {
+        empty_pointer([at(place), y - 2.0], 8.0)
+    });
+    scene.handles.push(Handle {
+        name: GUESS,
+        title: proposal::guess_handle().into(),
+        at: [at(place), y - 9.0],
+        axes: &[GUESS],
+        value: place,
+        text: guess.map_or(prediction::none().into(), |guess| proposal::TimesOf { n: &write(guess) }.say()),
+        hover: None,
+    });
 }

@@ -7,7 +7,7 @@ use super::{
     model::ProposalModel,
     names::names,
     panel::{Drawn, panel},
-    recipe::Recipe,
+    recipe::RATIOS,
     strip::ratio,
     world::{LANDMARK, world},
 };
@@ -92,8 +92,8 @@ impl View for ProposalView {
     }
 
     fn nudge(&self, model: &mut ProposalModel, handle: &str, [right, up]: [f64; 2]) {
-        let Recipe { setup, guess, .. } = model.recipe();
-        let ([x, y], guess) = (setup.landmark, *guess);
+        let setup = &model.recipe().shown();
+        let ([x, y], guess) = (setup.landmark, model.recipe().prediction.guess.unwrap_or(RATIOS[0]));
         match (handle, noise(handle)) {
             (_, Some(noise)) => {
                 let (step, digits) = noise.step();

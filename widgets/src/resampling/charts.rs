@@ -8,7 +8,6 @@ use super::{
 use crate::decimal::{fixed, rounded, write};
 use crate::{
     font::{self, Weight},
-    model::Model,
     panels::Panels,
     scene::{Anchor, Chart, LINE, Mark, Point, Rect, Role, Sample, Scene, ghost, legend, n_eff, text},
     words::{common, resampling},
@@ -47,12 +46,12 @@ pub struct Picture<'a> {
 impl Picture<'_> {
     /// A chart, by its rank.
     pub fn chart(&self, rank: usize) -> Chart {
-        Chart { area: self.parts.charts[rank], last: self.model.step_count() }
+        Chart { area: self.parts.charts[rank], last: self.model.course_steps() }
     }
 
     /// Where a step is on the one axis of time \[css px\].
     pub fn x(&self, step: u32) -> f64 {
-        Chart { area: self.parts.first_chart(), last: self.model.step_count() }.x(step)
+        Chart { area: self.parts.first_chart(), last: self.model.course_steps() }.x(step)
     }
 
     pub fn particles(&self) -> usize {
@@ -239,6 +238,7 @@ impl Picture<'_> {
         let second = |moment: &Moment| f64::from(of(moment, back)) / m;
         let value = |moment: &Moment| of(moment, u32::MAX).to_string();
         self.curves(scene, 1, |moment| f64::from(of(moment, u32::MAX)) / m, Some(&second), value);
+        self.predicted(scene);
     }
 
     /// Position errors of the best particle, and of the policy that is chosen those of the weighted mean.

@@ -3,6 +3,7 @@
 mod challenges;
 mod charts;
 mod course;
+mod guess;
 mod layout;
 mod model;
 mod recipe;

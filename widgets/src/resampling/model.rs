@@ -1,11 +1,12 @@
 //! Three filters as a deterministic state: what was set, how far they ran, and which step of that is shown.
 
-use super::{challenges, recipe::Recipe, told};
+use super::{challenges, recipe::Recipe, stroke, told};
 use crate::challenge::Challenge;
-use crate::decimal::fixed;
+use crate::decimal::{fixed, write};
 use crate::ghost::{self, Curves};
 use crate::model::{Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text};
 use crate::names;
+use crate::prediction::{Outcome, State, off_by};
 use crate::words::resampling;
 use fastslam::geometry::Pose2;
 use fastslam_lab::experiment::policies::{POLICIES, Policies, PoliciesSetup, PolicyReport};
@@ -71,9 +72,9 @@ impl ResamplingModel {
         &self.run
     }
 
-    /// All three at every step simulated so far.
+    /// All three at every step simulated so far that may be seen.
     pub(super) fn moments(&self) -> &[[Moment; 3]] {
-        &self.moments
+        &self.moments[..self.moments.len().min(self.step_count() as usize + 1)]
     }
 
     /// One filter at steps 0 to the one shown.
@@ -124,12 +125,61 @@ impl ResamplingModel {
 
     /// Shows the tree of another policy.
     pub fn choose(&mut self, policy: usize) {
-        self.recipe.policy = policy.min(POLICIES.len() - 1);
+        self.change(|recipe| recipe.policy = policy.min(POLICIES.len() - 1));
     }
 
     /// Where N_eff calls for resampling in the selective filter, or as near to it as it can \[share of M\].
     pub fn put_threshold(&mut self, threshold: f64) {
         self.change(|recipe| recipe.put_threshold(threshold));
+    }
+
+    /// The last step of the course, whether it may be seen or not.
+    pub fn course_steps(&self) -> u32 {
+        self.run.step_count()
+    }
+
+    /// How far the reader's prediction is.
+    pub fn state(&self) -> State {
+        self.recipe.prediction.state()
+    }
+
+    /// The first step at which all particles of the policy that is chosen descend from one, if it has come and may be seen.
+    pub fn one_left(&self) -> Option<u32> {
+        let one = |moment: &Moment| moment.report.descent.lineage(u32::MAX) == 1;
+        let seen = self.recipe.prediction.is_shown() && self.setup().particles > 1;
+        seen.then(|| self.moments.iter().find(|all| one(&all[self.chosen()])))?.map(|all| all[0].report.step)
+    }
+
+    /// Places a guess at a step, or at the nearest that there can be.
+    pub fn guess_at(&mut self, step: f64) {
+        let last = f64::from(self.course_steps());
+        self.change(|recipe| recipe.prediction.place(Some(step.round().min(last).max(1.0))));
+    }
+
+    /// What is said of the prediction, if one is asked for.
+    fn predicted(&self) -> Option<String> {
+        let policy = &stroke::NAMES[self.chosen()]();
+        let (result, over) = (self.one_left(), self.pending() == 0);
+        let says = match (self.state(), result) {
+            (State::Off, _) => return None,
+            (State::Asked, _) => resampling::Asks { policy }.say(),
+            (State::Placed(guess), _) => resampling::Placed { policy, guess: &write(guess) }.say(),
+            (State::Guessed(guess), Some(result)) => {
+                let off = &off_by(guess, result.into());
+                resampling::Came { result: &result, guess: &write(guess), off }.say()
+            }
+            (State::Waived, Some(result)) => resampling::CameWaived { result: &result }.say(),
+            (State::Guessed(guess), None) if over => resampling::NeverCame { guess: &write(guess) }.say(),
+            (State::Waived, None) if over => resampling::never_came_waived().into(),
+            _ => return None,
+        };
+        Some(says)
+    }
+
+    /// Steps of the simulation that are needed: to the one that is shown, or where a prediction is judged, until it can be.
+    fn needed(&self) -> u32 {
+        let judged = self.recipe.prediction.is_shown() && self.one_left().is_none();
+        if judged { self.course_steps() } else { self.recipe.step }
     }
 
     /// Steps back of the second lineage gauge.
@@ -187,7 +237,7 @@ impl Model for ResamplingModel {
     }
 
     fn step_count(&self) -> u32 {
-        self.run.step_count()
+        self.recipe.horizon()
     }
 
     fn step(&self) -> u32 {
@@ -195,7 +245,7 @@ impl Model for ResamplingModel {
     }
 
     fn pending(&self) -> u32 {
-        self.recipe.step - self.step()
+        self.needed().saturating_sub(self.run.step_number())
     }
 
     fn work(&mut self) {
@@ -207,6 +257,10 @@ impl Model for ResamplingModel {
 
     fn readouts(&self) -> Vec<Readout> {
         told::readouts(self)
+    }
+
+    fn prediction(&self) -> Option<Outcome> {
+        self.recipe.prediction.outcome("one_left", self.one_left().map(f64::from))
     }
 
     fn series(&self) -> Series {
@@ -230,10 +284,11 @@ impl Model for ResamplingModel {
     }
 
     fn describe(&self) -> String {
-        let (step, last, m) = (self.cursor(), self.step_count(), self.setup().particles);
+        let (step, last, m) = (self.cursor(), self.course_steps(), self.setup().particles);
         if step == 0 {
             let at = resampling::AtStep { step: &step, last: &last, m: &m }.say();
-            return format!("{at} {}", resampling::at_start());
+            let said = self.predicted().into_iter().chain([at, resampling::at_start().into()]);
+            return said.collect::<Vec<_>>().join(" ");
         }
         let all = [0, 1, 2].map(|policy| self.read(policy));
         let [never, always, selective] = all.map(|moment| fixed(moment.report.ess, 1));
@@ -251,7 +306,8 @@ impl Model for ResamplingModel {
         let scheme = names::scheme(self.setup().scheme);
         let times = resampling::ResampledTimes { a: &a, b: &b, c: &c, scheme: &scheme }.say();
         let [a, b, c] = all.map(|moment| fixed(moment.report.error_best, 2));
-        let mut sentences = vec![told, times, resampling::OffBy { a: &a, b: &b, c: &c }.say()];
+        let mut sentences: Vec<_> = self.predicted().into_iter().collect();
+        sentences.extend([told, times, resampling::OffBy { a: &a, b: &b, c: &c }.say()]);
         let unexplained =
             [resampling::never_unexplained(), resampling::always_unexplained(), resampling::selective_unexplained()];
         let lost = all.iter().zip(unexplained).filter(|(moment, _)| moment.report.log_evidence == f64::NEG_INFINITY);

@@ -3,6 +3,7 @@
 use super::{model::SELECTIVE, stroke};
 use crate::{
     field, names,
+    prediction::{self, Asks, Prediction, Predicts},
     recipe::{self, Field, Menu, Param},
     words::{common, policy, resampling},
 };
@@ -26,6 +27,8 @@ pub struct Recipe {
     pub policy: usize,
     /// Steps back of the second lineage gauge.
     pub back: u32,
+    /// The step at which the reader expects one ancestor to be left with that policy.
+    pub prediction: Prediction,
     /// The step asked for.
     pub step: u32,
     /// The step whose values are written; `None` is the one shown.
@@ -37,7 +40,15 @@ impl Default for Recipe {
     /// over many seeds to say.
     fn default() -> Self {
         let asked = PoliciesSetup { seed: 2, ..PoliciesSetup::default() };
-        Self { asked, scheme: None, policy: SELECTIVE, back: 10, step: 0, cursor: None }
+        Self {
+            asked,
+            scheme: None,
+            policy: SELECTIVE,
+            prediction: Prediction::default(),
+            back: 10,
+            step: 0,
+            cursor: None,
+        }
     }
 }
 
@@ -58,6 +69,11 @@ impl Recipe {
         self.asked.threshold = threshold;
     }
 
+    /// The last step that may be seen: while a prediction is asked for, nothing of the run is.
+    pub fn horizon(&self) -> u32 {
+        if self.prediction.hides() { 0 } else { self.last_step() }
+    }
+
     /// The last step of the course.
     pub fn last_step(&self) -> u32 {
         match self.asked.course {
@@ -72,6 +88,13 @@ impl recipe::Recipe for Recipe {
         type P = Param<Recipe>;
         let schemes = Menu::of(PoliciesSetup::default().scheme, names::scheme);
         let policies = Menu::new([0, 1, 2].map(|policy| (POLICIES[policy], stroke::NAMES[policy](), policy)));
+        let [predict, guess, run] = prediction::rows(Asks {
+            predict_help: resampling::predict_help(),
+            guess_help: resampling::guess_help(),
+            unit: "",
+            range: (1.0, 1.0, 1.0),
+            run: [resampling::run(), resampling::run_help()],
+        });
         vec![
             P::toggle(
                 "wings",
@@ -125,23 +148,47 @@ impl recipe::Recipe for Recipe {
             )
             .folded(),
             P::choice("policy", resampling::policy(), policies, field!(policy), resampling::policy_help()).view(),
+            predict,
+            guess.at_most(|recipe| recipe.last_step().into()),
+            run,
             P::integer("back", resampling::back(), resampling::steps(), (1, 60), field!(back), resampling::back_help())
                 .without_slider()
                 .folded()
                 .view(),
             P::integer("step", common::step(), "", (0, 0), field!(step), common::step_help())
-                .at_most(|recipe| recipe.last_step().into())
+                .at_most(|recipe| recipe.horizon().into())
                 .view(),
             P::integer_or(
                 "cursor",
                 resampling::cursor(),
                 ("now", resampling::newest()),
-                |recipe| recipe.last_step().into(),
+                |recipe| recipe.horizon().into(),
                 field!(cursor),
                 resampling::cursor_help(),
             )
             .folded()
             .view(),
         ]
+    }
+    /// Another run, or another policy, is another question. Who has answered it sees the whole run.
+    fn follow(&mut self, before: &Self) {
+        let asked = |recipe: &Self| (recipe.setup(), recipe.policy);
+        if asked(self) != asked(before) && self.prediction == before.prediction {
+            self.prediction.ask_anew();
+        }
+        if self.prediction.is_shown() && !before.prediction.is_shown() && self.step == before.step {
+            self.step = self.last_step();
+        }
+        self.step = self.step.min(self.horizon());
+    }
+}
+
+impl Predicts for Recipe {
+    fn prediction(&self) -> &Prediction {
+        &self.prediction
+    }
+
+    fn prediction_mut(&mut self) -> &mut Prediction {
+        &mut self.prediction
     }
 }

@@ -2,7 +2,7 @@
 
 use super::model::{Moment, ResamplingModel};
 use crate::decimal::fixed;
-use crate::model::{Column, Readout, Series};
+use crate::model::{Column, Model, Readout, Series};
 use crate::words::{common, resampling};
 use fastslam_lab::experiment::policies::{POLICIES, PolicyCourse};
 
@@ -59,6 +59,12 @@ pub fn readouts(model: &ResamplingModel) -> Vec<Readout> {
             ),
         };
         readouts.push(of_the_course.drawn());
+    }
+    if model.prediction().is_some() {
+        let result = model.one_left();
+        let (value, text) = (result.map_or(f64::NAN, f64::from), result.map_or(String::new(), |step| step.to_string()));
+        let one_left = Readout::new("one_left", resampling::one_left(), value, text, "", resampling::one_left_help());
+        readouts.push(one_left.drawn());
     }
     readouts
 }

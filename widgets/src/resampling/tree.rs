@@ -6,7 +6,6 @@ use super::{
 };
 use crate::{
     font::{self, Weight},
-    model::Model,
     scene::{Anchor, Mark, Point, Rect, Role, Sample, Scene, text},
     words::{self, resampling},
 };
@@ -96,7 +95,7 @@ impl Picture<'_> {
     pub fn axis(&self, scene: &mut Scene) {
         let Rect { x, y, w, h } = self.parts.axis;
         let mut taken: Vec<[f64; 2]> = Vec::new();
-        let last = self.model.step_count();
+        let last = self.model.course_steps();
         let named = |step: u32| resampling::StepIs { step: &step }.say();
         let back = self.model.looks_back().then(|| self.model.cursor());
         let back = back.map(|step| (step, named(step), Role::Accent));

@@ -2,6 +2,7 @@
 
 use super::{
     charts::{Picture, error_scale},
+    guess::GUESS,
     layout::{CHARTS, ERROR, ESS, LINEAGE, Layout, NARROWEST, PARTICLES, Parts, TREE},
     model::{Moment, ResamplingModel},
     stroke,
@@ -11,6 +12,7 @@ use crate::decimal::{fixed, rounded, write};
 use crate::{
     model::Model,
     panels::Panels,
+    prediction::State,
     scene::{GHOST, Handle, Mark, Point, Rect, Role, Sample, Scene, closed, diamond, legend, robot},
     view::{View, whole_step},
     words::{self, resampling},
@@ -59,7 +61,10 @@ impl View for ResamplingView {
         }
         if CHARTS.iter().any(|name| panels.has(name)) {
             picture.charts(scene, panels);
-            scene.handles.push(cursor(&picture));
+            // Before anything of the run may be seen there is one step, and nothing to choose.
+            if model.step_count() > 0 {
+                scene.handles.push(cursor(&picture));
+            }
         }
         if panels.has(ESS) {
             scene.handles.push(threshold(&picture));
@@ -75,7 +80,11 @@ impl View for ResamplingView {
         match handle {
             CURSOR => {
                 let chart = parts.first_chart();
-                model.look(((x - chart.x) / chart.w * f64::from(model.step_count())).round());
+                model.look(((x - chart.x) / chart.w * f64::from(model.course_steps())).round());
+            }
+            GUESS => {
+                let chart = parts.first_chart();
+                model.guess_at((x - chart.x) / chart.w * f64::from(model.course_steps()));
             }
             THRESHOLD => {
                 let chart = parts.charts[0];
@@ -88,6 +97,13 @@ impl View for ResamplingView {
     fn nudge(&self, model: &mut ResamplingModel, handle: &str, [right, up]: [f64; 2]) {
         match handle {
             CURSOR => model.look(f64::from(model.cursor()) + whole_step(right)),
+            GUESS => {
+                let from = match model.state() {
+                    State::Placed(guess) | State::Guessed(guess) => guess,
+                    _ => f64::from(model.course_steps() / 2),
+                };
+                model.guess_at(from + whole_step(right + up));
+            }
             THRESHOLD => model.put_threshold(rounded(model.setup().threshold + STEP * (right + up), 3)),
             _ => (),
         }

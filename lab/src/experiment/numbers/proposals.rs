@@ -94,7 +94,9 @@ fn proposal() -> Recipe {
             ("sharp.ratio", 2, 3),
             ("ratio_blunt", 3, 3),
         ];
-        keys.into_iter().flat_map(of).collect::<Vec<_>>().into()
+        let all = "Samples of every proposal, over all blocks (seeds, from 1 on), in the comparison of one step";
+        let samples = group.number("samples", f64::from(SAMPLES) * found.len() as f64, "", all);
+        keys.into_iter().flat_map(of).chain([samples]).collect::<Vec<_>>().into()
     })
 }
 
