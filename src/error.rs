@@ -33,6 +33,14 @@ pub enum SettingError {
         /// The words that are allowed.
         choices: &'static [&'static str],
     },
+    /// Something that is more than a number or a word, and does not fit to what else was set.
+    #[error("{field}: must be {allowed}")]
+    Unfit {
+        /// Name of the setting.
+        field: &'static str,
+        /// What is allowed.
+        allowed: &'static str,
+    },
     /// Something that is needed and was not given.
     #[error("{field}: needs {needed}")]
     Missing {
@@ -58,7 +66,10 @@ impl SettingError {
     /// ```
     pub fn called(mut self, name: &'static str) -> Self {
         match &mut self {
-            Self::OutOfRange { field, .. } | Self::UnknownWord { field, .. } | Self::Missing { field, .. } => {
+            Self::OutOfRange { field, .. }
+            | Self::UnknownWord { field, .. }
+            | Self::Unfit { field, .. }
+            | Self::Missing { field, .. } => {
                 *field = name;
             }
         }
@@ -68,7 +79,10 @@ impl SettingError {
     /// Name of the setting that is refused.
     pub fn field(&self) -> &'static str {
         match self {
-            Self::OutOfRange { field, .. } | Self::UnknownWord { field, .. } | Self::Missing { field, .. } => field,
+            Self::OutOfRange { field, .. }
+            | Self::UnknownWord { field, .. }
+            | Self::Unfit { field, .. }
+            | Self::Missing { field, .. } => field,
         }
     }
 }

@@ -6,7 +6,7 @@
 
 use crate::digest::Digest;
 use crate::experiment::ProposalKind;
-use crate::world::{FloorPlan, corners_cut_short, drive};
+use crate::world::{Edits, FloorPlan, Motion, Steering, corners_cut_short, drive};
 use crate::{WORLD_ODOMETRY, WORLD_SENSOR};
 use fastslam::error::{Range, SettingError};
 use fastslam::execute::Executor;
@@ -198,6 +198,8 @@ pub struct LapSetup {
     pub temper: f64,
     /// Whether a match that is hardly better than the average pose is doubted, and the pose drawn from the motion instead.
     pub guard: bool,
+    /// What a reader has changed about the course.
+    pub edits: Edits,
 }
 
 impl Default for LapSetup {
@@ -214,6 +216,7 @@ impl Default for LapSetup {
             range_std: 0.02,
             temper: TEMPER,
             guard: true,
+            edits: Edits::default(),
         }
     }
 }
@@ -226,7 +229,7 @@ impl LapSetup {
 
     /// The world of this seed and these noises.
     pub fn world(&self) -> LapWorld {
-        LapWorld::on(&self.course.route(), self.seed, &self.motion(), self.range_std)
+        LapWorld::edited(&self.course.route(), &self.edits, self.seed, &self.motion(), self.range_std)
     }
 
     /// What the filter draws poses from.
@@ -242,11 +245,24 @@ impl LapSetup {
         }
     }
 
-    pub(super) fn validate(&self) -> Result<(), SettingError> {
+    /// Whether another setup differs in nothing but what is driven.
+    pub fn but_for_steering(&self, other: &Self) -> bool {
+        let mut same = other.clone();
+        same.edits.steering = self.edits.steering.clone();
+        same == *self
+    }
+
+    /// # Errors
+    /// Where a setting is out of its range.
+    pub fn validate(&self) -> Result<(), SettingError> {
         PARTICLES.check("particles", self.particles as f64)?;
         Range::number(0.0, 10.0, "").check("odometry_scale", self.odometry_scale)?;
         Range::number(0.0, 1.0, "m").check("range_std", self.range_std)?;
         Range::number(0.01, 1.0, "").check("temper", self.temper)?;
+        let route = self.course.route();
+        self.edits
+            .fit(&route.plan, route.steps)
+            .map_err(|(field, error)| SettingError::Unfit { field, allowed: error.allowed() })?;
         self.policy.validate()
     }
 }
@@ -268,6 +284,18 @@ pub struct LapWorld {
     pub scans: Vec<Scan>,
     /// Scans taken at the start, with the poses they were taken from.
     pub start_scans: Vec<(Pose2, Scan)>,
+    /// Steps at which a wall kept the robot where it was, in ascending order: its wheels stood.
+    pub stopped: Vec<u32>,
+    /// Steps at which the robot was lifted and set down elsewhere, in ascending order: its wheels did not notice.
+    pub lifted: Vec<u32>,
+    noise: Noise,
+}
+
+/// What errs in a world, and by which seed.
+#[derive(Clone, Copy, Debug)]
+struct Noise {
+    seed: u64,
+    motion: OdometryModel,
 }
 
 impl LapWorld {
@@ -278,28 +306,99 @@ impl LapWorld {
 
     /// The same on another route.
     pub fn on(route: &Route, seed: u64, motion: &OdometryModel, range_std: f64) -> Self {
-        let plan = route.plan.clone();
+        Self::edited(route, &Edits::default(), seed, motion, range_std)
+    }
+
+    /// The same with walls and a drive of a reader's own, which fit to the route.
+    pub fn edited(route: &Route, edits: &Edits, seed: u64, motion: &OdometryModel, range_std: f64) -> Self {
+        let plan = edits.walls.apply(&route.plan);
         let sensor = BeamSensor::panorama(BEAMS, route.max_range, range_std);
-        let truth = drive(&route.way_points, route.steps);
-        let mut odometry = vec![truth[0]];
-        let mut controls = Vec::with_capacity(STEPS);
-        for (k, pair) in truth.windows(2).enumerate() {
-            let mut stream = Stream::at(seed, WORLD_ODOMETRY, k as u32 + 1, 0);
-            let control = motion.perturb(&Odometry::between(&pair[0], &pair[1]), &mut stream);
-            odometry.push(control.apply(&odometry[k]));
-            controls.push(control);
-        }
-        let look = |pose: &Pose2, step: usize, look: u32| {
-            let mut stream = Stream::at(seed, WORLD_SENSOR, step as u32, look);
-            sensor.scan(&plan.ranges(pose, &sensor, &mut stream))
+        let way = drive(&route.way_points, route.steps);
+        let mut world = Self {
+            plan,
+            sensor,
+            truth: vec![way[0]],
+            odometry: vec![way[0]],
+            controls: Vec::with_capacity(STEPS),
+            scans: Vec::with_capacity(STEPS),
+            start_scans: Vec::new(),
+            stopped: Vec::new(),
+            lifted: Vec::new(),
+            noise: Noise { seed, motion: *motion },
         };
-        let scans = (1..=route.steps).map(|step| look(&truth[step], step, 0)).collect();
         let turned = |k: u32| {
             let spacing = core::f64::consts::TAU / BEAMS as f64;
-            truth[0].compose(&Pose2::new(0.0, 0.0, spacing * f64::from(k) / f64::from(START_SCANS)))
+            way[0].compose(&Pose2::new(0.0, 0.0, spacing * f64::from(k) / f64::from(START_SCANS)))
         };
-        let start_scans = (0..START_SCANS).map(turned).zip(0..).map(|(pose, k)| (pose, look(&pose, 0, k))).collect();
-        Self { plan, sensor, truth, odometry, controls, scans, start_scans }
+        world.start_scans = (0..START_SCANS).map(|k| (turned(k), world.look(&turned(k), 0, k))).collect();
+        world.drive_on(&way, &edits.steering);
+        world
+    }
+
+    /// The same place and noise with another drive on the same route: the steps that it has in common with the one `before` are
+    /// those of this world, and only the others are computed.
+    pub fn driven(&self, route: &Route, before: &Steering, steering: &Steering) -> Self {
+        let mut world = self.clone();
+        let kept = before.in_common(steering, route.steps).min(world.controls.len());
+        world.truth.truncate(kept + 1);
+        world.odometry.truncate(kept + 1);
+        world.controls.truncate(kept);
+        world.scans.truncate(kept);
+        world.stopped.retain(|step| *step as usize <= kept);
+        world.lifted.retain(|step| *step as usize <= kept);
+        world.drive_on(&drive(&route.way_points, route.steps), steering);
+        world
+    }
+
+    /// Drives the steps that are not driven yet: the course's `way` as far as that is asked for, and then motion by motion.
+    fn drive_on(&mut self, way: &[Pose2], steering: &Steering) {
+        let course = steering.of_course(way.len() - 1);
+        while self.controls.len() < course {
+            let step = self.controls.len();
+            // Kept by a wall, the robot does not find the way again.
+            let to = (self.truth[step] == way[step]).then(|| way[step + 1]);
+            self.advance(to, Odometry::between);
+        }
+        while let Some(motion) = steering.motions().get(self.controls.len() - course) {
+            let here = self.truth[self.controls.len()];
+            let to = motion.from(&here);
+            match motion {
+                Motion::Lift(_) => {
+                    self.lifted.push(self.controls.len() as u32 + 1);
+                    self.step(to, Odometry::between(&here, &here));
+                }
+                // By the way round, it would be half a turn, and another.
+                Motion::Back => self.advance(Some(to), |from, to| Odometry::recorded(from, to, f64::EPSILON)),
+                Motion::Turn(_) | Motion::Go(_) => self.advance(Some(to), Odometry::between),
+            }
+        }
+    }
+
+    /// A step to a pose, if nothing is in the way.
+    fn advance(&mut self, to: Option<Pose2>, wheels: impl Fn(&Pose2, &Pose2) -> Odometry) {
+        let here = self.truth[self.controls.len()];
+        let open = to.filter(|to| self.plan.is_open([here.x, here.y], [to.x, to.y]));
+        if open.is_none() {
+            self.stopped.push(self.controls.len() as u32 + 1);
+        }
+        let to = open.unwrap_or(here);
+        self.step(to, wheels(&here, &to));
+    }
+
+    /// A step of the truth, of which the wheels feel `felt`.
+    fn step(&mut self, to: Pose2, felt: Odometry) {
+        let step = self.controls.len() + 1;
+        let mut stream = Stream::at(self.noise.seed, WORLD_ODOMETRY, step as u32, 0);
+        let control = self.noise.motion.perturb(&felt, &mut stream);
+        self.odometry.push(control.apply(&self.odometry[step - 1]));
+        self.controls.push(control);
+        self.truth.push(to);
+        self.scans.push(self.look(&to, step, 0));
+    }
+
+    fn look(&self, pose: &Pose2, step: usize, look: u32) -> Scan {
+        let mut stream = Stream::at(self.noise.seed, WORLD_SENSOR, step as u32, look);
+        self.sensor.scan(&self.plan.ranges(pose, &self.sensor, &mut stream))
     }
 }
 
@@ -414,6 +513,11 @@ impl Lap {
         Self { filter: self.filter.with_executor(executor), ..self }
     }
 
+    /// The same lap, where the drive goes on differently after the step that it is at: up to there the world is the same.
+    pub fn with_world(self, world: Arc<LapWorld>) -> Self {
+        Self { world, ..self }
+    }
+
     /// The last step.
     pub fn step_count(&self) -> u32 {
         self.world.controls.len() as u32
@@ -483,6 +587,12 @@ impl Lap {
     /// Poses of one particle, step 0 to now.
     pub fn path(&self, slot: usize) -> Vec<Pose2> {
         self.particles()[slot].path.poses()
+    }
+
+    /// How far the robot truly is from the nearest particle \[m\].
+    pub fn nearest_universe(&self) -> f64 {
+        let truth = &self.world.truth[self.report.step as usize];
+        self.particles().iter().map(|p| p.world_from_robot.distance(truth)).fold(f64::INFINITY, f64::min)
     }
 
     /// Slot of the best particle: of the largest weight along its path.
@@ -571,6 +681,16 @@ mod tests {
                     around.map(|angle| plan.raycast([pair[0].x, pair[0].y], angle)).fold(f64::INFINITY, f64::min);
                 assert!(room > 0.2, "step {k} at {:?}: {room} m to a wall", pair[0]);
             }
+        }
+    }
+
+    #[test]
+    fn a_course_is_driven_to_its_end_without_being_stopped() {
+        for course in COURSES {
+            let world = LapSetup { course, ..LapSetup::default() }.world();
+            let route = course.route();
+            assert_eq!(world.truth, drive(&route.way_points, route.steps));
+            assert_eq!((world.stopped, world.lifted), (vec![], vec![]));
         }
     }
 
