@@ -135,18 +135,19 @@ const cssProperties = ['accent', 'ink', 'muted', 'line', 'paper', 'radius', 'fon
 function type({ kind, choices }) {
   const words = choices.map(({ value }) => `'${value}'`)
   if (kind === 'flag' || kind === 'toggle') return 'boolean'
+  if (kind === 'text') return 'string'
   return kind === 'choice' ? words.join(' | ') : ['number', ...words].join(' | ')
 }
 
 /** The same as an attribute: text is as good. @param {ParamSpec} spec */
 function attributeType(spec) {
-  const text = { flag: " | 'on' | 'off'", toggle: " | 'on' | 'off'", choice: '', number: ' | `${number}`', integer: ' | `${number}`' }
+  const text = { flag: " | 'on' | 'off'", toggle: " | 'on' | 'off'", choice: '', text: '', number: ' | `${number}`', integer: ' | `${number}`' }
   return type(spec) + text[spec.kind]
 }
 
 /** What it does, and the values it takes. @param {ParamSpec} spec */
 export function describe({ kind, min, max, unit, help, choices }) {
-  if (kind === 'flag' || kind === 'toggle' || kind === 'choice') return help
+  if (kind === 'flag' || kind === 'toggle' || kind === 'choice' || kind === 'text') return help
   const words = choices.map(({ value }) => value).join(', ')
   return `${help} ${words && `${words} or `}${kind === 'integer' ? 'A whole number from' : 'From'} ${round(min)} to ${round(max)}${unit && ` ${unit}`}.`.replace(/ or (A|From) /, found => found.toLowerCase())
 }

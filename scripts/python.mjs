@@ -33,6 +33,7 @@ function trait({ name, kind, min, max, choices, default: value, help }) {
   const bounds = `min=${round(min)}, max=${round(max)}`
   const text = JSON.stringify(help)
   if (kind === 'flag' || kind === 'toggle') return `traitlets.Bool(${value === 'on' ? 'True' : 'False'}, help=${text})`
+  if (kind === 'text') return `traitlets.Unicode(${JSON.stringify(value)}, help=${text})`
   if (kind === 'choice') return `traitlets.Enum([${words}], ${JSON.stringify(value)}, help=${text})`
   if (words) return `traitlets.Union([traitlets.${kind === 'integer' ? 'Int' : 'Float'}(), traitlets.Enum([${words}])], default_value=${JSON.stringify(value)}, help=${text})`
   // How many steps and rows there are depends on the setup: the figure knows.

@@ -82,7 +82,7 @@ export class Controls {
     const grid = h('div', { class: 'grid' })
     this.settings = h('details', { class: 'settings', part: 'settings' }, h('summary', {}, words.say('settings')), grid)
     for (const spec of specs) {
-      if (spec.name === STEP) continue
+      if (spec.name === STEP || spec.kind === 'text') continue
       const field = fieldFor(spec, words, this.style, value => actions.change(spec.name, value))
       this.fields.set(spec.name, field)
       for (const input of field.element.querySelectorAll<HTMLElement>('input, select')) input.title = spec.help // read out after the name

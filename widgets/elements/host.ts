@@ -54,6 +54,11 @@ export type Command =
   | { do: 'follow'; handle: string; x: number; y: number }
   | { do: 'leave' }
   | { do: 'nudge'; handle: string; right: number; up: number }
+  // What a figure's own controls put into the reader's hand, and what is done with it: by a key, right and up, or along a line [css px of
+  // the canvas: x, y, x, y …].
+  | { do: 'take'; tool: string }
+  | { do: 'press'; key: string; right: number; up: number }
+  | { do: 'stroke'; line: number[] }
   | { do: 'size'; size: Size }
   /** To tell the curves of its run, and to draw such curves behind its own. */
   | { do: 'pin' }
@@ -67,7 +72,7 @@ export type Command =
   | { do: 'save'; what: SavedFile }
 
 /** Whether a command says how the figure is to be shown, which holds also after a trap, whatever is loaded. */
-export const isKept = ({ do: name }: Command): boolean => ['size', 'words', 'lock', 'show', 'comma', 'haunt'].includes(name)
+export const isKept = ({ do: name }: Command): boolean => ['size', 'words', 'lock', 'show', 'comma', 'haunt', 'take'].includes(name)
 
 /** The step that is meant where another one is asked for than those there are. */
 export const clampedStep = (step: number, last: number): number => Math.max(0, Math.min(last, Math.round(step) || 0))

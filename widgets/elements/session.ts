@@ -76,6 +76,14 @@ export class Session {
         return this.#followed.clear()
       case 'nudge':
         return this.#move(() => figure.nudge(command.handle, command.right, command.up))
+      case 'take':
+        return figure.take(command.tool)
+      case 'press':
+        return this.#use(() => figure.press(command.key, command.right, command.up))
+      case 'stroke': {
+        const [scale, , width] = this.point({ x: 1, y: 0 })
+        return this.#use(() => figure.stroke(Float64Array.from(command.line, c => c * scale), width))
+      }
       case 'size':
         this.#size = command.size
         return
@@ -232,6 +240,20 @@ export class Session {
     action()
     this.#keepLocked(values)
     if (this.query !== before) this.#changes()
+  }
+
+  /** The same with a tool, which may do a part of what it was to do before it refuses the rest. */
+  #use(action: () => void): void {
+    let refused: unknown
+    this.#move(() => {
+      try {
+        action()
+      } catch (error) {
+        if (!isRefusal(error)) throw error
+        refused = error
+      }
+    })
+    if (refused) throw refused
   }
 
   #follow(action: () => void): void {

@@ -10,7 +10,7 @@ export interface ParamSpec {
   name: string
   title: string
   unit: string
-  kind: 'integer' | 'number' | 'choice' | 'flag' | 'toggle'
+  kind: 'integer' | 'number' | 'choice' | 'flag' | 'toggle' | 'text'
   min: number
   max: number
   step: number

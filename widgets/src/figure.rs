@@ -249,6 +249,32 @@ impl Figure {
         }
     }
 
+    /// Puts a tool into the reader's hand; an empty name puts it away.
+    pub fn take(&mut self, tool: &str) {
+        self.shown.take(tool);
+    }
+
+    /// Uses the tool by a key.
+    ///
+    /// # Errors
+    /// Where there is no more room for what it does.
+    pub fn press(&mut self, key: &str, right: f64, up: f64) -> Result<(), FigureError> {
+        let _speaking = self.language.spoken();
+        if right.is_finite() && up.is_finite() { self.shown.press(key, [right, up]) } else { Ok(()) }
+    }
+
+    /// Uses the tool along a line in a figure of this width \[css px\]: x and y of each of its points.
+    ///
+    /// # Errors
+    /// Where there is no more room for what it does.
+    pub fn stroke(&mut self, line: &[f64], width: f64) -> Result<(), FigureError> {
+        let _speaking = self.language.spoken();
+        let scene_width = self.shown.scene_width(width);
+        let points = line.chunks_exact(2).map(|point| in_scene([point[0], point[1]], scene_width / width));
+        let points: Vec<Point> = points.filter(|point| point.iter().all(|c| c.is_finite())).collect();
+        if points.is_empty() { Ok(()) } else { self.shown.stroke(&points, scene_width) }
+    }
+
     /// Magnifies the picture about a point of a figure of this width \[css px\]; about its middle, where that is no point.
     pub fn zoom(&mut self, factor: f64, x: f64, y: f64, width: f64) {
         let scale = self.scene_px(width);

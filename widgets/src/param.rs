@@ -20,6 +20,8 @@ pub enum Kind {
     Flag,
     /// The same, shown as a button: what a figure is about.
     Toggle,
+    /// A text of the figure's own, in a few letters that a link can hold; empty for none. It has no control of its own.
+    Text,
 }
 
 /// What a parameter belongs to.
@@ -80,7 +82,7 @@ pub struct ParamSpec {
 }
 
 /// A checked value.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub enum Value {
     /// Within the range of its parameter, and whole if that must be.
     Number(f64),
@@ -88,6 +90,8 @@ pub enum Value {
     Word(usize),
     /// On or off.
     Flag(bool),
+    /// As it was given: what it means, or whether anything, its row of the table knows.
+    Text(String),
 }
 
 impl ParamSpec {
@@ -97,6 +101,7 @@ impl ParamSpec {
             Value::Number(x) => decimal::write(x),
             Value::Word(rank) => self.choices[rank].value.clone(),
             Value::Flag(on) => if on { "on" } else { "off" }.into(),
+            Value::Text(text) => text,
         }
     }
 
@@ -111,6 +116,7 @@ impl ParamSpec {
             Kind::Number => decimal::parse(text).and_then(|x| self.within(x)),
             Kind::Choice => None,
             Kind::Flag | Kind::Toggle => flag(text).map(Value::Flag),
+            Kind::Text => Some(Value::Text(text.into())),
         };
         value.ok_or_else(|| FigureError::new(self.name, quoted(text), self.allowed()))
     }
@@ -130,6 +136,7 @@ impl ParamSpec {
             Kind::Number => ANumber { min: &min, max: &max, unit: &unit }.say(),
             Kind::Choice => return OneOf { words: &words.join(", ") }.say(),
             Kind::Flag | Kind::Toggle => return common::on_or_off().into(),
+            Kind::Text => return common::as_written().into(),
         };
         if words.is_empty() { range } else { WordsOrRange { words: &words.join(", "), range: &range }.say() }
     }

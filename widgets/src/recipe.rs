@@ -30,9 +30,10 @@
 
 use crate::decimal;
 use crate::model::FigureError;
-use crate::param::{Choice, Group, Kind, ParamSpec, Value, unknown};
+use crate::param::{Choice, Group, Kind, ParamSpec, Value, quoted, unknown};
 use crate::words::common;
 use std::fmt::Display;
+use std::str::FromStr;
 use strum::VariantArray;
 
 /// A place in a recipe: how its value is read, and how it is written. [`crate::field!`] makes one of a path.
@@ -114,6 +115,8 @@ type Get<R> = Box<dyn Fn(&R) -> Value>;
 type Set<R> = Box<dyn Fn(&mut R, Value)>;
 /// A name for readers in a state, or `None` for the usual one.
 type Title<R> = fn(&R) -> Option<&'static str>;
+/// What is allowed, of a text that means nothing.
+type Read = Box<dyn Fn(&str) -> Result<(), String>>;
 
 /// A row of a figure's table: a parameter, and where its recipe holds it.
 pub struct Param<R> {
@@ -124,6 +127,8 @@ pub struct Param<R> {
     title: Option<Title<R>>,
     get: Get<R>,
     set: Set<R>,
+    /// Of a text, whether it means anything.
+    read: Option<Read>,
 }
 
 /// Everything that a link can say of a figure, and nothing else.
@@ -142,11 +147,12 @@ pub trait Recipe: Clone + PartialEq + Default + 'static {
 
 impl<R: Recipe> Param<R> {
     fn new(name: &'static str, title: &'static str, kind: Kind, get: Get<R>, set: Set<R>, help: &'static str) -> Self {
-        let (min, max, step) = if kind == Kind::Choice { (0.0, 0.0, 0.0) } else { (0.0, 1.0, 1.0) };
+        let (min, max, step) =
+            if matches!(kind, Kind::Choice | Kind::Text) { (0.0, 0.0, 0.0) } else { (0.0, 1.0, 1.0) };
         let (group, slider, folded) = (Group::Setup, true, false);
         let (choices, default, unit) = (Vec::new(), String::new(), "");
         let spec = ParamSpec { name, title, unit, kind, min, max, step, choices, default, group, slider, folded, help };
-        Self { spec, most: None, title: None, get, set }
+        Self { spec, most: None, title: None, get, set, read: None }
     }
 
     /// A number of the setup, from the first of the range to the second; a slider goes by the third.
@@ -273,6 +279,26 @@ impl<R: Recipe> Param<R> {
         Self { spec: ParamSpec { kind: Kind::Toggle, ..param.spec }, ..param }
     }
 
+    /// A text, as its type writes and reads it; `allowed` says what it may be where it cannot be read, in words that follow *must be*.
+    pub fn text<T: Display + FromStr + 'static>(
+        name: &'static str,
+        title: &'static str,
+        Field { get, set }: Field<R, T>,
+        allowed: fn(T::Err) -> String,
+        help: &'static str,
+    ) -> Self {
+        let set: Set<R> = Box::new(move |recipe, value| {
+            if let Value::Text(text) = value
+                && let Ok(read) = text.parse()
+            {
+                set(recipe, read);
+            }
+        });
+        let get: Get<R> = Box::new(move |recipe| Value::Text(get(recipe).to_string()));
+        let read: Read = Box::new(move |text| text.parse::<T>().map(drop).map_err(allowed));
+        Self { read: Some(read), ..Self::new(name, title, Kind::Text, get, set, help) }
+    }
+
     /// The same as a parameter of what is shown.
     pub fn view(self) -> Self {
         Self { spec: ParamSpec { group: Group::View, ..self.spec }, ..self }
@@ -306,6 +332,15 @@ impl<R: Recipe> Param<R> {
         ParamSpec { title, max, default, ..self.spec.clone() }
     }
 
+    /// The value that `text` means, or what is wrong with it.
+    fn check(&self, spec: &ParamSpec, text: &str) -> Result<Value, FigureError> {
+        let value = spec.check(text)?;
+        if let (Some(read), Value::Text(text)) = (&self.read, &value) {
+            read(text).map_err(|allowed| FigureError::new(spec.name, quoted(text), allowed))?;
+        }
+        Ok(value)
+    }
+
     /// Brings a value that is out of its range to the nearest in it, or where there is a word besides, to that.
     fn confine(&self, recipe: &mut R) {
         let (spec, value) = (self.spec(recipe), (self.get)(recipe));
@@ -335,7 +370,7 @@ pub fn with<R: Recipe>(before: &R, values: &[(String, String)]) -> (R, Vec<Figur
         param.confine(&mut recipe);
         let spec = param.spec(&recipe);
         for (_, text) in values.iter().filter(|(name, _)| name == spec.name) {
-            match spec.check(text) {
+            match param.check(&spec, text) {
                 Ok(value) => (param.set)(&mut recipe, value),
                 Err(error) => refused.push(error),
             }

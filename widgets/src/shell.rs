@@ -264,6 +264,21 @@ impl Figure {
         self.figure.nudge(handle, right, up);
     }
 
+    /// Puts a tool into the reader's hand; an empty name puts it away.
+    pub fn take(&mut self, tool: &str) {
+        self.figure.take(tool);
+    }
+
+    /// Uses the tool by a key; throws a `FigureError` where there is no more room for what it does.
+    pub fn press(&mut self, key: &str, right: f64, up: f64) -> Result<(), Error> {
+        self.figure.press(key, right, up).map_err(thrown)
+    }
+
+    /// Uses the tool along a line in a figure of this width \[css px\], x and y of each point; throws as `press` does.
+    pub fn stroke(&mut self, line: &[f64], width_css: f64) -> Result<(), Error> {
+        self.figure.stroke(line, width_css).map_err(thrown)
+    }
+
     /// Takes a reader's file; throws a `FigureError` if it cannot be read.
     pub fn open(&mut self, file: &[u8]) -> Result<(), Error> {
         self.figure.open(file).map_err(thrown)

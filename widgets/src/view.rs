@@ -50,6 +50,26 @@ pub trait View: Default + 'static {
     /// Moves a handle right and up by steps of its parameters: 1 for an arrow key, 10 for a coarse one, 0.1 for a fine one.
     fn nudge(&self, _model: &mut Self::Model, _handle: &str, _steps: [f64; 2]) {}
 
+    /// Puts a tool into the reader's hand, one of those that the figure's own controls on the page have; an empty name puts it away.
+    /// What is in the hand is no part of the recipe.
+    fn take(&self, _model: &mut Self::Model, _tool: &str) {}
+
+    /// Uses the tool by a key, or a button that stands for it: right and up.
+    ///
+    /// # Errors
+    /// Where there is no more room for what it does; nothing has changed.
+    fn press(&self, _model: &mut Self::Model, _key: &str, _steps: [f64; 2]) -> Result<(), FigureError> {
+        Ok(())
+    }
+
+    /// Uses the tool along a line that was drawn in the layout, or at its only point.
+    ///
+    /// # Errors
+    /// Where there is no more room for what it does; what there was room for is done.
+    fn stroke(&self, _model: &mut Self::Model, _layout: &Self::Layout, _line: &[Point]) -> Result<(), FigureError> {
+        Ok(())
+    }
+
     /// How its picture is magnified and moved, if it can be.
     fn navigation(&mut self) -> Option<&mut dyn Navigation<Self>> {
         None
@@ -118,6 +138,9 @@ pub(crate) trait Shown {
     fn pick(&mut self, target: u32);
     fn drag(&mut self, handle: &str, to: Point, width: f64);
     fn nudge(&mut self, handle: &str, steps: [f64; 2]);
+    fn take(&mut self, tool: &str);
+    fn press(&mut self, key: &str, steps: [f64; 2]) -> Result<(), FigureError>;
+    fn stroke(&mut self, line: &[Point], width: f64) -> Result<(), FigureError>;
     fn zoom(&mut self, factor: f64, at: Option<Point>, width: f64);
     fn pan(&mut self, by: Point, width: f64);
     fn fit(&mut self);
@@ -189,6 +212,19 @@ impl<V: View> Shown for Shows<V> {
 
     fn nudge(&mut self, handle: &str, steps: [f64; 2]) {
         self.view.nudge(&mut self.model, handle, steps);
+    }
+
+    fn take(&mut self, tool: &str) {
+        self.view.take(&mut self.model, tool);
+    }
+
+    fn press(&mut self, key: &str, steps: [f64; 2]) -> Result<(), FigureError> {
+        self.view.press(&mut self.model, key, steps)
+    }
+
+    fn stroke(&mut self, line: &[Point], width: f64) -> Result<(), FigureError> {
+        let layout = V::layout(width, &self.parts());
+        self.view.stroke(&mut self.model, &layout, line)
     }
 
     fn zoom(&mut self, factor: f64, at: Option<Point>, width: f64) {

@@ -1,6 +1,7 @@
 //! Figure w17.1, the Apartment lap: a mosaic of universes, each with its own map, path and robot, and one of them large.
 
 mod challenges;
+mod drive;
 mod grid;
 mod layout;
 mod many;

@@ -1,6 +1,6 @@
 //! The lap as a deterministic state: what was set, which step is shown, and keyframes to go back by.
 
-use super::{challenges, recipe::Recipe};
+use super::{challenges, drive::Hand, recipe::Recipe};
 use crate::challenge::Challenge;
 use crate::decimal::fixed;
 use crate::ghost::{self, Curves};
@@ -11,6 +11,7 @@ use crate::words::{common, lap};
 use fastslam::{geometry::Pose2, proposal::ProposalTrace};
 use fastslam_lab::experiment::ProposalKind;
 use fastslam_lab::experiment::lap::{Lap, LapSetup, StepReport};
+use std::sync::Arc;
 
 /// Most universes that keyframes keep, all steps together. Each holds the tiles that were written since the one before: about
 /// 30 KB, and all of them 64 MB.
@@ -18,12 +19,14 @@ const KEPT: u32 = 2048;
 
 /// Figure w17.1.
 pub struct LapModel {
-    recipe: Recipe,
+    pub(super) recipe: Recipe,
+    /// What a reader at the wheel holds.
+    pub(super) hand: Option<Hand>,
     /// The step shown.
     shown: Lap,
     /// The step before it, unless that was not simulated on the way: the maps of universes that died out since.
     before: Option<Lap>,
-    /// Every [`interval`]-th step, from 0 on.
+    /// Every [`Self::interval`]-th step, from 0 on.
     keyframes: Vec<Lap>,
     /// Of every step simulated so far, from 0 on.
     reports: Vec<StepReport>,
@@ -36,7 +39,7 @@ impl Default for LapModel {
         let recipe = Recipe::default();
         let lap = Lap::new(&recipe.setup).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
         let (keyframes, reports) = (vec![lap.clone()], vec![lap.report().clone()]);
-        Self { recipe, keyframes, reports, before: None, shown: lap, pinned: Curves::new() }
+        Self { recipe, hand: None, keyframes, reports, before: None, shown: lap, pinned: Curves::new() }
     }
 }
 
@@ -83,7 +86,7 @@ impl LapModel {
 
     /// Whether the truth is drawn.
     pub fn shows_truth(&self) -> bool {
-        self.recipe.truth
+        self.recipe.truth || self.hand.is_some()
     }
 
     /// Whether raw odometry is drawn.
@@ -107,6 +110,21 @@ impl LapModel {
     /// Steps between keyframes: every step of a few universes is kept, and some of hundreds.
     fn interval(&self) -> u32 {
         (self.step_count() * self.recipe.setup.particles as u32).div_ceil(KEPT).max(1)
+    }
+
+    /// Goes on in a world in which another drive is driven: what both have in common stays.
+    fn steer(&mut self, setup: &LapSetup) {
+        let (before, route) = (&self.recipe.setup.edits.steering, setup.course.route());
+        let kept = before.in_common(&setup.edits.steering, route.steps) as u32;
+        let world = Arc::new(self.shown.world().driven(&route, before, &setup.edits.steering));
+        self.keyframes.retain(|lap| lap.report().step <= kept);
+        self.reports.truncate(kept as usize + 1);
+        let last = &self.keyframes[self.keyframes.len() - 1];
+        if self.step() > kept {
+            (self.shown, self.before) = (last.clone(), None);
+        }
+        let all = self.keyframes.iter_mut().chain(&mut self.before).chain([&mut self.shown]);
+        all.for_each(|lap| *lap = lap.clone().with_world(world.clone()));
     }
 
     /// A step in words.
@@ -157,7 +175,12 @@ impl Declared for LapModel {
     }
 
     fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
-        if recipe.setup != self.recipe.setup {
+        if recipe.setup.but_for_steering(&self.recipe.setup) {
+            if recipe.setup != self.recipe.setup {
+                recipe.setup.validate()?;
+                self.steer(&recipe.setup);
+            }
+        } else {
             let lap = Lap::new(&recipe.setup)?;
             self.keyframes = vec![lap.clone()];
             self.reports = vec![lap.report().clone()];
@@ -176,11 +199,11 @@ impl Model for LapModel {
         self.recipe.step = asked;
         // From the newest keyframe before the asked-for step, not at it: the step itself has to be simulated for its
         // `before` to be known.
-        let index = (asked.saturating_sub(1) / self.interval()).min(self.keyframes.len() as u32 - 1);
-        let start = index * self.interval();
+        let index = self.keyframes.partition_point(|lap| lap.report().step < asked).saturating_sub(1);
+        let start = self.keyframes[index].report().step;
         let shown = self.step();
         if asked < shown || start > shown {
-            self.shown = self.keyframes[index as usize].clone();
+            self.shown = self.keyframes[index].clone();
             self.before = None;
         }
     }
@@ -208,7 +231,7 @@ impl Model for LapModel {
         if self.reports.len() == step as usize {
             self.reports.push(self.report().clone());
         }
-        if self.keyframes.len() as u32 * interval == step {
+        if self.keyframes.last().is_none_or(|lap| lap.report().step + interval <= step) {
             self.keyframes.push(self.shown.clone());
         }
     }
@@ -298,7 +321,10 @@ impl Model for LapModel {
     }
 
     fn describe(&self) -> String {
-        self.told(self.report())
+        match &self.hand {
+            Some(hand) => self.told_at_the_wheel(hand),
+            None => self.news().into_iter().chain([self.told(self.report())]).collect::<Vec<_>>().join(" "),
+        }
     }
 
     /// Of the universe shown large, and of all where the line is about all.

@@ -1,12 +1,20 @@
 //! What a reader can set about the lap.
 
+use super::drive::allowed;
 use crate::{
-    field, names, policy,
-    recipe::{self, Menu, Param},
+    field,
+    model::FigureError,
+    names,
+    param::quoted,
+    policy,
+    recipe::{self, Field, Menu, Param},
     words::{common, lap},
 };
 use fastslam::resampling::ResamplePolicy;
-use fastslam_lab::experiment::lap::LapSetup;
+use fastslam_lab::{
+    experiment::lap::LapSetup,
+    world::{Edits, Steering, WallEdits},
+};
 
 /// Everything that a link can say of the lap.
 #[derive(Clone, PartialEq)]
@@ -32,6 +40,14 @@ impl Default for Recipe {
         Self { setup, threshold, step: 0, universe: None, truth: false, raw: false }
     }
 }
+
+const WALLS: Field<Recipe, WallEdits> =
+    Field { get: |recipe| recipe.setup.edits.walls.clone(), set: |recipe, walls| recipe.setup.edits.walls = walls };
+
+const DRIVE: Field<Recipe, Steering> = Field {
+    get: |recipe| recipe.setup.edits.steering.clone(),
+    set: |recipe, steering| recipe.setup.edits.steering = steering,
+};
 
 impl recipe::Recipe for Recipe {
     fn table() -> Vec<Param<Self>> {
@@ -100,8 +116,10 @@ impl recipe::Recipe for Recipe {
                 lap::course_help(),
             )
             .folded(),
+            P::text("plan", lap::plan(), WALLS, allowed, lap::plan_help()),
+            P::text("drive", lap::drive(), DRIVE, allowed, lap::drive_help()),
             P::integer("step", common::step(), "", (0, 0), field!(step), common::step_help())
-                .at_most(|recipe| recipe.setup.course.steps() as f64)
+                .at_most(|recipe| recipe.setup.edits.steering.steps(recipe.setup.course.steps()) as f64)
                 .view(),
             P::integer_or(
                 "universe",
@@ -116,6 +134,28 @@ impl recipe::Recipe for Recipe {
             P::flag("truth", lap::truth(), field!(truth), lap::truth_help()).view(),
             P::flag("raw", common::raw_odometry(), field!(raw), common::raw_odometry_help()).view(),
         ]
+    }
+
+    /// Walls and a drive are of one place: they go with it, and what does not fit into it is refused.
+    fn refuse(&mut self, before: &Self) -> Vec<FigureError> {
+        if self.setup.course != before.setup.course && self.setup.edits == before.setup.edits {
+            self.setup.edits = Edits::default();
+        }
+        let mut refused = Vec::new();
+        if self.setup.edits == Edits::default() {
+            return refused;
+        }
+        let route = self.setup.course.route();
+        while let Err((field, error)) = self.setup.edits.fit(&route.plan, route.steps) {
+            let edits = &mut self.setup.edits;
+            let text = if field == "plan" {
+                core::mem::take(&mut edits.walls).to_string()
+            } else {
+                core::mem::take(&mut edits.steering).to_string()
+            };
+            refused.push(FigureError::new(field, quoted(&text), allowed(error)));
+        }
+        refused
     }
 }
 

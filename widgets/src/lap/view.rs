@@ -1,6 +1,7 @@
 //! What is to be seen of the lap: one universe large, all universes small, and N_eff over the steps.
 
 use super::{
+    drive,
     layout::{ESS, Layout, MAP, MOSAIC, NARROWEST},
     map,
     model::LapModel,
@@ -9,7 +10,7 @@ use super::{
 use crate::decimal::fixed;
 use crate::{
     font::Weight,
-    model::Model,
+    model::{FigureError, Model},
     panels::Panels,
     scene::{
         Anchor, Chart, FREE, GHOST, LINE, Mark, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN,
@@ -63,6 +64,20 @@ impl View for LapView {
     fn pick(&self, model: &mut LapModel, target: u32) {
         model.pick(target);
     }
+
+    fn take(&self, model: &mut LapModel, tool: &str) {
+        model.take(tool);
+    }
+
+    fn press(&self, model: &mut LapModel, key: &str, steps: [f64; 2]) -> Result<(), FigureError> {
+        model.press(key, steps)
+    }
+
+    fn stroke(&self, model: &mut LapModel, layout: &Layout, line: &[Point]) -> Result<(), FigureError> {
+        let plane = map::plane(layout.large, model.setup().course);
+        let line: Vec<[f64; 2]> = line.iter().map(|point| plane.world(*point)).collect();
+        model.stroke(&line)
+    }
 }
 
 fn large(scene: &mut Scene, model: &LapModel, layout: &Layout) {
@@ -109,6 +124,7 @@ fn large(scene: &mut Scene, model: &LapModel, layout: &Layout) {
         rimmed_robot(scene, &plane, &world.truth[now], 7.0, Role::Truth);
     }
     rimmed_robot(scene, &plane, &particle.world_from_robot, 9.0, Role::Path);
+    drive::draw(scene, model, &plane);
     scale_bar(scene, &plane, 1.0, f64::INFINITY);
     scene.marks.push(Mark::Frame { area: plane.area, width: 1.0, role: Role::Frame });
 }
