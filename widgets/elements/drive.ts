@@ -52,6 +52,7 @@ export class Drive {
   /** Over the map: takes the pointer. */
   readonly #map = h('div', { class: 'wheel-map', hidden: '' })
   readonly #line = document.createElementNS(SVG, 'polyline')
+  #canvas: HTMLCanvasElement | undefined
   #tool: Tool = 'wheel'
   #sentenceBefore: Node | null = null
 
@@ -96,6 +97,11 @@ export class Drive {
     return !this.element.hidden
   }
 
+  /** Its program has begun again: what is in the reader's hand still is. */
+  again(): void {
+    if (this.on) this.asked.take(this.#tool)
+  }
+
   /** What an author lets readers do: steer, put up and take away walls; and whether anything of it is offered. */
   permit(steer: boolean, build: boolean, offered: boolean): void {
     this.opener.classList.toggle('left-out', !offered || !(steer || build))
@@ -116,7 +122,6 @@ export class Drive {
     this.#clear.disabled = !plan
     this.#canvas = canvas
   }
-  #canvas: HTMLCanvasElement | undefined
 
   /** What an arrow key or Enter does while the picture has the focus. */
   keyAction(key: string): (() => void) | undefined {

@@ -33,8 +33,18 @@ export class FastslamLap extends ComparedFigure {
   }
 
   protected override takeOption(name: string): void {
-    super.takeOption(name)
     this.#permit()
+    super.takeOption(name)
+  }
+
+  protected override begun(): void {
+    super.begun()
+    this.#drive.again()
+  }
+
+  protected override enable(on: boolean): void {
+    super.enable(on)
+    this.#drive.element.inert = !on
   }
 
   protected override present(frame: Frame): void {

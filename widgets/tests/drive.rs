@@ -78,11 +78,11 @@ fn a_line_is_driven_along_until_a_wall() {
     let mut figure = lap("&step=10");
     figure.take("wheel");
     // Along the corridor, into its southern wall.
-    stroke(&mut figure, &[[5.5, 4.6], [5.5, 3.0]]);
+    stroke(&mut figure, &[[4.5, 4.6], [4.5, 3.0]]);
     let driven = value(&figure, "drive");
     assert_eq!(figure.model().step(), 10, "it stays, so that it is seen to drive");
     let last = figure.model().step_count();
-    assert!((15..40).contains(&last), "{driven}");
+    assert!((13..40).contains(&last), "{driven}");
     figure.model_mut().seek(last);
     figure.model_mut().settle();
     figure.take("");

@@ -112,6 +112,11 @@ impl LapModel {
         (self.step_count() * self.recipe.setup.particles as u32).div_ceil(KEPT).max(1)
     }
 
+    /// The newest keyframe before a step, not at it: the step itself has to be simulated for its `before` to be known.
+    fn keyframe_before(&self, step: u32) -> usize {
+        self.keyframes.partition_point(|lap| lap.report().step < step).saturating_sub(1)
+    }
+
     /// Goes on in a world in which another drive is driven: what both have in common stays.
     fn steer(&mut self, setup: &LapSetup) {
         let (before, route) = (&self.recipe.setup.edits.steering, setup.course.route());
@@ -119,9 +124,8 @@ impl LapModel {
         let world = Arc::new(self.shown.world().driven(&route, before, &setup.edits.steering));
         self.keyframes.retain(|lap| lap.report().step <= kept);
         self.reports.truncate(kept as usize + 1);
-        let last = &self.keyframes[self.keyframes.len() - 1];
         if self.step() > kept {
-            (self.shown, self.before) = (last.clone(), None);
+            (self.shown, self.before) = (self.keyframes[self.keyframe_before(kept)].clone(), None);
         }
         let all = self.keyframes.iter_mut().chain(&mut self.before).chain([&mut self.shown]);
         all.for_each(|lap| *lap = lap.clone().with_world(world.clone()));
@@ -197,9 +201,7 @@ impl Model for LapModel {
     fn seek(&mut self, step: u32) {
         let asked = step.min(self.step_count());
         self.recipe.step = asked;
-        // From the newest keyframe before the asked-for step, not at it: the step itself has to be simulated for its
-        // `before` to be known.
-        let index = self.keyframes.partition_point(|lap| lap.report().step < asked).saturating_sub(1);
+        let index = self.keyframe_before(asked);
         let start = self.keyframes[index].report().step;
         let shown = self.step();
         if asked < shown || start > shown {
