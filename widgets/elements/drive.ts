@@ -9,6 +9,8 @@ import type { Key, Words } from './words'
 /** What it may ask of the figure. */
 interface Asked {
   take(tool: string): void
+  /** The map alone is shown, or what is shown otherwise. */
+  showMap(alone: boolean): void
   /** A key, right and up. */
   press(key: string, right: number, up: number): void
   /** A line on the canvas [css px]: x, y, x, y … */
@@ -31,6 +33,7 @@ const PAD: [name: 'forward' | 'left' | 'back' | 'right', picture: IconName, righ
 ]
 const ARROWS: Record<string, [number, number]> = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }
 
+const BELOW = 560 // [css px] where the map stands above the universes (widgets/src/lap/layout.rs), it would be out of sight of the pad
 const NEAR = 3 // [css px] between points of a line that is drawn
 const SVG = 'http://www.w3.org/2000/svg'
 
@@ -55,6 +58,7 @@ export class Drive {
   #canvas: HTMLCanvasElement | undefined
   #tool: Tool = 'wheel'
   #sentenceBefore: Node | null = null
+  #alone = false // the map is shown alone
 
   constructor(
     private readonly words: Words,
@@ -78,7 +82,7 @@ export class Drive {
     this.#undo.addEventListener('click', () => asked.undo())
     this.#clear.addEventListener('click', () => asked.press('clear', 0, 0))
     this.#done.addEventListener('click', () => this.#close())
-    this.element.append(this.#toolRow, this.#pad, this.#hint, h('div', { class: 'acts' }, this.#undo, this.#clear, this.#done))
+    this.element.append(this.#toolRow, this.#pad, this.#hint, h('div', { class: 'acts' }, this.#undo, this.#done, this.#clear))
     words.always(() => {
       write(this.opener, words.say('drive'))
       this.element.ariaLabel = words.say('drive')
@@ -99,7 +103,9 @@ export class Drive {
 
   /** Its program has begun again: what is in the reader's hand still is. */
   again(): void {
-    if (this.on) this.asked.take(this.#tool)
+    if (!this.on) return
+    this.asked.take(this.#tool)
+    if (this.#alone) this.asked.showMap(true)
   }
 
   /** What an author lets readers do: steer, put up and take away walls; and whether anything of it is offered. */
@@ -143,8 +149,11 @@ export class Drive {
     this.element.hidden = false
     this.element.append(this.sentence)
     this.body.classList.add('driving')
+    this.#alone = this.body.clientWidth < BELOW
+    if (this.#alone) this.asked.showMap(true)
     this.#take([...this.#tools].find(([, { disabled }]) => !disabled)?.[0] ?? 'wheel')
     this.asked.opened()
+    this.element.scrollIntoView({ block: 'nearest' })
   }
 
   #close(): void {
@@ -153,8 +162,10 @@ export class Drive {
     this.body.classList.remove('driving')
     ;(this.#sentenceBefore as ChildNode | null)?.after(this.sentence)
     this.asked.take('')
+    if (this.#alone) this.asked.showMap(false)
+    this.#alone = false
     this.asked.opened()
-    this.opener.focus({ preventScroll: true })
+    this.opener.focus()
   }
 
   #take(tool: Tool): void {

@@ -13,6 +13,7 @@ export class FastslamLap extends ComparedFigure {
   readonly #before: Record<string, string>[] = [] // as the plan was, the newest last
   readonly #drive = new Drive(this.words, this.body, this.sentence.element, {
     take: tool => this.send({ do: 'take', tool }),
+    showMap: alone => this.send({ do: 'show', names: alone ? 'map' : (this.getAttribute('show') ?? '') }),
     press: (key, right, up) => this.#edit(() => this.send({ do: 'press', key, right, up })),
     stroke: line => this.#edit(() => this.send({ do: 'stroke', line })),
     drive: () => this.play(),

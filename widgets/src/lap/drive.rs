@@ -44,6 +44,8 @@ pub struct Hand {
     tool: Tool,
     /// Moved by keys, on the grid of walls \[m\].
     cursor: [f64; 2],
+    /// Whether it is by keys that the tool is used: then it has to be said where the cursor is.
+    keyed: bool,
     /// One end of a wall, whose other end is still to be set.
     begun: Option<[f64; 2]>,
 }
@@ -63,7 +65,7 @@ impl LapModel {
     pub fn take(&mut self, name: &str) {
         let robot = self.robot();
         let cursor = self.hand.as_ref().map_or([robot.x, robot.y].map(on_grid), |hand| hand.cursor);
-        self.hand = name.parse().ok().map(|tool| Hand { tool, cursor, begun: None });
+        self.hand = name.parse().ok().map(|tool| Hand { tool, cursor, keyed: false, begun: None });
     }
 
     /// A key, or a button in its place.
@@ -74,6 +76,7 @@ impl LapModel {
                 Ok(())
             });
         }
+        let size = self.lap().world().plan.size;
         let Some(hand) = &mut self.hand else { return Ok(()) };
         let (tool, cursor) = (hand.tool, hand.cursor);
         match (key, tool) {
@@ -81,10 +84,9 @@ impl LapModel {
             ("move", Tool::Wheel) if up < 0.0 => self.drive(&[Motion::Back]),
             ("move", Tool::Wheel) => self.drive(&[Motion::Turn(Turn::by(-right as i32))]),
             ("move", _) => {
-                let size = self.lap().world().plan.size;
                 let to = [cursor[0] + GRID * right, cursor[1] + GRID * up];
                 let to = core::array::from_fn(|k| on_grid(to[k].clamp(0.0, size[k])));
-                self.hand = Some(Hand { cursor: to, ..self.hand.take().unwrap_or(Hand { tool, cursor, begun: None }) });
+                (hand.cursor, hand.keyed) = (to, true);
                 Ok(())
             }
             ("set", _) => self.touch(tool, cursor),
@@ -99,7 +101,7 @@ impl LapModel {
     pub fn stroke(&mut self, line: &[[f64; 2]]) -> Result<(), FigureError> {
         let (Some(hand), [from, .., to] | [from @ to]) = (&mut self.hand, line) else { return Ok(()) };
         let (tool, drawn) = (hand.tool, apart(*from, *to) > POINT);
-        hand.cursor = to.map(on_grid);
+        (hand.cursor, hand.keyed) = (to.map(on_grid), false);
         match tool {
             Tool::Wheel => self.follow(line),
             Tool::Wall if drawn => {
@@ -224,11 +226,15 @@ impl LapModel {
         let held = match (hand.tool, hand.begun) {
             (Tool::Wheel, _) => None,
             (_, Some(from)) => Some(lap::WallBegun { from: &place(from), to: &place(hand.cursor) }.say()),
+            _ if !hand.keyed => None,
             _ => Some(lap::CursorAt { place: &place(hand.cursor) }.say()),
         };
         let near = &fixed(self.lap().nearest_universe(), 2);
         let step = lap::AtTheWheel { step: &self.step(), last: &self.step_count(), near }.say();
-        held.into_iter().chain(self.news()).chain([step]).collect::<Vec<_>>().join(" ")
+        let lifted = self.lap().world().lifted.first().is_some_and(|lifted| *lifted <= self.step());
+        // How far the universes are is said with a lifting.
+        let step = (!lifted).then_some(step);
+        held.into_iter().chain(self.news()).chain(step).collect::<Vec<_>>().join(" ")
     }
 }
 

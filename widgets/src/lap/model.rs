@@ -204,7 +204,9 @@ impl Model for LapModel {
         let index = self.keyframe_before(asked);
         let start = self.keyframes[index].report().step;
         let shown = self.step();
-        if asked < shown || start > shown {
+        // It may stand there on its way elsewhere, from where it came by a keyframe.
+        let unknown = asked == shown && asked > 0 && self.before.is_none();
+        if asked < shown || start > shown || unknown {
             self.shown = self.keyframes[index].clone();
             self.before = None;
         }
