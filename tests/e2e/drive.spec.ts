@@ -106,6 +106,12 @@ test('by mouse: the pad, a path, a wall, an erased wall and a kidnapping, each u
   for (const name of ['Forward', 'Turn left', 'Turn right', 'Back up']) await figure.button(name).click()
   await figure.settled()
   expect((await wheel.plan()).drive).toBe('1.10.Mnlz')
+  // The pad drives, whatever is in the hand.
+  await figure.button('Wall').click()
+  await figure.button('Forward').click()
+  expect((await wheel.plan()).drive).toBe('1.10.MnlzM')
+  await wheel.undo.click()
+  await figure.button('Wheel').click()
   await wheel.draw(page, [3.8, 4.6], [6.0, 4.5], [7.0, 4.8])
   await expect.poll(() => figure.position()).toBe(await figure.last())
   expect(await figure.last()).toBeGreaterThan(18)

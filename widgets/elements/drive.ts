@@ -74,7 +74,7 @@ export class Drive {
     this.#toolRow.append(...this.#tools.values())
     const pad = PAD.map(([name, picture, right, up]) => {
       const button = h('button', { type: 'button', class: name, part: 'button', 'data-pad': name }, icon(picture))
-      button.addEventListener('click', () => asked.press('move', right, up))
+      button.addEventListener('click', () => asked.press('drive', right, up))
       return button
     })
     this.#pad.append(...pad)

@@ -68,7 +68,8 @@ impl LapModel {
         self.hand = name.parse().ok().map(|tool| Hand { tool, cursor, keyed: false, begun: None });
     }
 
-    /// A key, or a button in its place.
+    /// A key, or a button in its place: `move` uses the tool, or moves the cursor of one that needs a place, `set` uses it there,
+    /// `drive` drives whatever is in the hand, and `clear` takes back all that was built and driven.
     pub fn press(&mut self, key: &str, [right, up]: [f64; 2]) -> Result<(), FigureError> {
         if key == "clear" {
             return self.edit("plan", |edits, _| {
@@ -80,9 +81,9 @@ impl LapModel {
         let Some(hand) = &mut self.hand else { return Ok(()) };
         let (tool, cursor) = (hand.tool, hand.cursor);
         match (key, tool) {
-            ("move", Tool::Wheel) if up > 0.0 => self.drive(&[Motion::straight()]),
-            ("move", Tool::Wheel) if up < 0.0 => self.drive(&[Motion::Back]),
-            ("move", Tool::Wheel) => self.drive(&[Motion::Turn(Turn::by(-right as i32))]),
+            ("drive", _) | ("move", Tool::Wheel) if up > 0.0 => self.drive(&[Motion::straight()]),
+            ("drive", _) | ("move", Tool::Wheel) if up < 0.0 => self.drive(&[Motion::Back]),
+            ("drive", _) | ("move", Tool::Wheel) => self.drive(&[Motion::Turn(Turn::by(-right as i32))]),
             ("move", _) => {
                 let to = [cursor[0] + GRID * right, cursor[1] + GRID * up];
                 let to = core::array::from_fn(|k| on_grid(to[k].clamp(0.0, size[k])));
