@@ -32,7 +32,7 @@ fn values(spec: &ParamSpec) -> Vec<String> {
         Kind::Number => values.extend(ends.map(|x| x.to_string())),
         Kind::Integer => values.extend(ends.map(|x| x.floor().to_string())),
         Kind::Flag | Kind::Toggle => values.extend(["on", "off"].map(String::from)),
-        // A text has no ends; those of the goldens are in `SETUPS`.
+        // A text has no ends.
         Kind::Choice | Kind::Text => {}
     }
     values
