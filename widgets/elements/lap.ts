@@ -52,7 +52,8 @@ export class FastslamLap extends ComparedFigure {
     super.present(frame)
     this.#permit()
     const { plan, drive } = frame.values
-    this.#drive.show(frame.rooms, this.stage.querySelector('.rooms')!, this.canvas.element, this.#before.length > 0, plan !== '' || drive !== '')
+    // Before it is painted, nobody knows where the map is, and the button keeps its place.
+    if (frame.picture) this.#drive.show(frame.rooms, this.stage.querySelector('.rooms')!, this.canvas.element, this.#before.length > 0, plan !== '' || drive !== '')
   }
 
   protected override onKey(event: KeyboardEvent): boolean {

@@ -6,6 +6,7 @@ use fastslam::matching::Matcher;
 use fastslam::resampling::{ResamplePolicy, Scheme};
 use fastslam_lab::experiment::ProposalKind;
 use fastslam_lab::experiment::lap::{self, Course, Lap, LapSetup, StepReport};
+use fastslam_lab::world::Edits;
 use fastslam_widgets::{figure::Figure, paint::Theme};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -78,6 +79,7 @@ impl Options {
             range_std,
             temper,
             guard,
+            edits: Edits::default(),
         }
     }
 }
