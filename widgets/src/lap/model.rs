@@ -202,11 +202,9 @@ impl Model for LapModel {
         let asked = step.min(self.step_count());
         self.recipe.step = asked;
         let index = self.keyframe_before(asked);
-        let start = self.keyframes[index].report().step;
-        let shown = self.step();
-        // It may stand there on its way elsewhere, from where it came by a keyframe.
-        let unknown = asked == shown && asked > 0 && self.before.is_none();
-        if asked < shown || start > shown || unknown {
+        let (start, shown) = (self.keyframes[index].report().step, self.step());
+        // It may stand there by a keyframe, on its way elsewhere.
+        if asked < shown || start > shown || (asked == shown && asked > 0 && self.before.is_none()) {
             self.shown = self.keyframes[index].clone();
             self.before = None;
         }
