@@ -1,4 +1,5 @@
-//! Figure w17.1, the Apartment lap: a mosaic of universes, each with its own map, path and robot, and one of them large.
+//! Figure w17.1, the lap: a mosaic of universes, each with its own map, path and robot, and all of them laid over each other, or one of
+//! them, large.
 
 mod grid;
 mod layout;
@@ -6,6 +7,7 @@ mod many;
 mod map;
 mod model;
 mod mosaic;
+mod overlay;
 mod recipe;
 mod view;
 

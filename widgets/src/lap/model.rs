@@ -3,35 +3,43 @@
 use super::recipe::Recipe;
 use crate::decimal::fixed;
 use crate::model::{
-    Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text, unexplained,
+    Change, Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text, unexplained,
 };
 use crate::words::{common, lap};
-use fastslam::{geometry::Pose2, proposal::ProposalTrace};
+use fastslam::{genealogy::Path, geometry::Pose2, proposal::ProposalTrace};
 use fastslam_lab::experiment::ProposalKind;
 use fastslam_lab::experiment::lap::{Lap, LapSetup, StepReport};
+use fastslam_lab::experiment::ring::{AFTER, deviation_of, died};
 
 /// Most universes that keyframes keep, all steps together. Each holds the tiles that were written since the one before: about
 /// 30 KB, and all of them 64 MB.
 const KEPT: u32 = 2048;
+
+/// How fast the closing of the loop is played, of the usual speed.
+const SLOW: f64 = 0.25;
 
 /// Figure w17.1.
 pub struct LapModel {
     recipe: Recipe,
     /// The step shown.
     shown: Lap,
-    /// The step before it, unless that was not simulated on the way: the maps of universes that died out since.
-    before: Option<Lap>,
     /// Every [`interval`]-th step, from 0 on.
     keyframes: Vec<Lap>,
     /// Of every step simulated so far, from 0 on.
     reports: Vec<StepReport>,
+    /// The paths that each of these steps ended, up to the step before it.
+    dead: Vec<Vec<Path>>,
+    /// The step at which the loop of the course closes.
+    closing: Option<u32>,
 }
 
 impl Default for LapModel {
     fn default() -> Self {
         let recipe = Recipe::default();
         let lap = Lap::new(&recipe.setup).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
-        Self { recipe, keyframes: vec![lap.clone()], reports: vec![lap.report().clone()], before: None, shown: lap }
+        let closing = recipe.setup.course.closing();
+        let (keyframes, reports) = (vec![lap.clone()], vec![lap.report().clone()]);
+        Self { recipe, keyframes, reports, dead: vec![Vec::new()], closing, shown: lap }
     }
 }
 
@@ -51,9 +59,35 @@ impl LapModel {
         &self.reports[..=self.report().step as usize]
     }
 
-    /// The lap one step earlier, if the universes that died out since are known.
-    pub fn before(&self) -> Option<&Lap> {
-        self.before.as_ref()
+    /// The paths of universes that died out: at the step shown, at the one before it, and so on back to the start.
+    pub fn dead(&self) -> impl Iterator<Item = &[Path]> {
+        self.dead[..=self.step() as usize].iter().rev().map(Vec::as_slice)
+    }
+
+    /// True if the large view shows all universes at once.
+    pub fn overlaid(&self) -> bool {
+        self.recipe.overlay && self.recipe.universe.is_none()
+    }
+
+    /// How far the universes are apart: the standard deviation of the robot's position over them \[m\].
+    pub fn spread(&self) -> f64 {
+        deviation_of(&self.shown)
+    }
+
+    /// Whether the loop closes about now: from one step before until [`AFTER`] steps after.
+    pub fn closes(&self) -> bool {
+        self.closing.is_some_and(|closing| (closing.saturating_sub(1)..=closing + AFTER).contains(&self.step()))
+    }
+
+    /// How many of the universes that lived one step before the loop closed have no descendant any more: as it is now while it
+    /// closes, and as it was when it had.
+    pub fn died_in_closing(&self) -> usize {
+        let count = self.recipe.setup.particles;
+        let since = self.closing.map_or(self.reports.len(), |closing| closing as usize).min(self.reports.len());
+        let until = (self.step() as usize).min(since + AFTER as usize);
+        let steps = self.reports[..=until.min(self.reports.len() - 1)].iter().skip(since);
+        let resamplings: Vec<Vec<u32>> = steps.filter_map(|report| report.ancestors.clone()).collect();
+        (died(count, &resamplings) * count as f64).round() as usize
     }
 
     /// What was set.
@@ -103,7 +137,9 @@ impl LapModel {
     fn told(&self, report: &StepReport) -> String {
         let (m, slot) = (self.recipe.setup.particles, self.selected());
         let (step, last, best) = (&report.step, &self.step_count(), &report.best);
-        let shown = if slot == report.best {
+        let shown = if self.overlaid() {
+            lap::ShownOverlaid { step, last, m: &m }.say()
+        } else if slot == report.best {
             lap::ShownBest { step, last, m: &m, slot: &slot }.say()
         } else {
             lap::ShownOther { step, last, m: &m, slot: &slot, best }.say()
@@ -113,6 +149,7 @@ impl LapModel {
         }
         let resampling = match &report.ancestors {
             None => lap::no_resampling().into(),
+            Some(ancestors) if self.overlaid() => lap::Died { dead: &died_out(ancestors), m: &m }.say(),
             Some(ancestors) => {
                 let (parent, dead) = (ancestors[slot as usize], &died_out(ancestors));
                 if parent == slot {
@@ -129,7 +166,12 @@ impl LapModel {
             m: &m,
             resampling: &resampling,
         };
-        let sentences = [Some(shown), unexplained(report.log_evidence), Some(numbers.say())];
+        let apart = self.overlaid().then(|| lap::Apart { spread: &fixed(self.spread(), 2) }.say());
+        let closing = self.closing.filter(|closing| report.step >= *closing).map(|_| {
+            let dead = &self.died_in_closing();
+            if self.closes() { lap::Closing { dead, m: &m }.say() } else { lap::Closed { dead, m: &m }.say() }
+        });
+        let sentences = [Some(shown), apart, closing, unexplained(report.log_evidence), Some(numbers.say())];
         sentences.into_iter().flatten().collect::<Vec<_>>().join(" ")
     }
 }
@@ -137,6 +179,12 @@ impl LapModel {
 impl Declared for LapModel {
     type Recipe = Recipe;
     const TITLE: &'static str = lap::TITLE;
+    /// The figure opened in the apartment, with one universe shown large.
+    const CHANGES: &'static [Change] = &[
+        Change::Default { name: "course", was: "apartment" },
+        Change::Default { name: "temper", was: "0.85" },
+        Change::Default { name: "overlay", was: "off" },
+    ];
 
     fn recipe(&self) -> &Recipe {
         &self.recipe
@@ -147,7 +195,10 @@ impl Declared for LapModel {
             let lap = Lap::new(&recipe.setup)?;
             self.keyframes = vec![lap.clone()];
             self.reports = vec![lap.report().clone()];
-            self.before = None;
+            self.dead = vec![Vec::new()];
+            if recipe.setup.course != self.recipe.setup.course {
+                self.closing = recipe.setup.course.closing();
+            }
             self.shown = lap;
         }
         self.recipe = recipe;
@@ -160,14 +211,11 @@ impl Model for LapModel {
     fn seek(&mut self, step: u32) {
         let asked = step.min(self.step_count());
         self.recipe.step = asked;
-        // From the newest keyframe before the asked-for step, not at it: the step itself has to be simulated for its
-        // `before` to be known.
-        let index = (asked.saturating_sub(1) / self.interval()).min(self.keyframes.len() as u32 - 1);
+        let index = (asked / self.interval()).min(self.keyframes.len() as u32 - 1);
         let start = index * self.interval();
         let shown = self.step();
         if asked < shown || start > shown {
             self.shown = self.keyframes[index as usize].clone();
-            self.before = None;
         }
     }
 
@@ -187,12 +235,12 @@ impl Model for LapModel {
         if self.pending() == 0 {
             return;
         }
-        // Of the last pending step alone: nobody sees those before it, and what is kept has to be copied where it is written to.
-        self.before = (self.pending() == 1).then(|| self.shown.clone());
+        let paths: Vec<Path> = self.shown.particles().iter().map(|particle| particle.path.clone()).collect();
         self.shown.step();
         let (step, interval) = (self.step(), self.interval());
         if self.reports.len() == step as usize {
             self.reports.push(self.report().clone());
+            self.dead.push(self.extinct().into_iter().map(|slot| paths[slot as usize].clone()).collect());
         }
         if self.keyframes.len() as u32 * interval == step {
             self.keyframes.push(self.shown.clone());
@@ -276,6 +324,11 @@ impl Model for LapModel {
 
     fn describe(&self) -> String {
         self.told(self.report())
+    }
+
+    /// In slow motion while the loop closes.
+    fn pace(&self) -> f64 {
+        if self.closes() { SLOW } else { 1.0 }
     }
 
     /// Of the universe shown large, and of all where the line is about all.
