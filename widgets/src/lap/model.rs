@@ -83,9 +83,8 @@ impl LapModel {
     /// closes, and as it was when it had.
     pub fn died_in_closing(&self) -> usize {
         let count = self.recipe.setup.particles;
-        let since = self.closing.map_or(self.reports.len(), |closing| closing as usize).min(self.reports.len());
-        let until = (self.step() as usize).min(since + AFTER as usize);
-        let steps = self.reports[..=until.min(self.reports.len() - 1)].iter().skip(since);
+        let since = self.closing.map_or(usize::MAX, |closing| closing as usize);
+        let steps = self.history().iter().take(since.saturating_add(AFTER as usize + 1)).skip(since);
         let resamplings: Vec<Vec<u32>> = steps.filter_map(|report| report.ancestors.clone()).collect();
         (died(count, &resamplings) * count as f64).round() as usize
     }

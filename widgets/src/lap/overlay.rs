@@ -20,6 +20,9 @@ use std::collections::BTreeSet;
 /// How strongly universes are drawn that died out at the step shown, one step before it, and two.
 const FADING: [u8; 3] = [255, 150, 80];
 
+/// From this width on \[css px\] the heading has room for how far the universes are apart while the loop closes.
+const ROOMY: f64 = 380.0;
+
 /// Lengths of robots from centre to nose \[css px\]: of the living, and of those that died out.
 const LIVING: f64 = 8.0;
 const DEAD: f64 = 6.5;
@@ -30,8 +33,13 @@ pub fn overlay(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     let m = lap.particles().len();
     let spread = fixed(model.spread(), 2);
     let (title, rest) = if model.closes() {
-        let dead = model.died_in_closing();
-        (lap::closes().into(), lap::DiedSoFar { dead: &dead, m: &m, spread: &spread }.say())
+        let dead = &model.died_in_closing();
+        let rest = if layout.large_header.w < ROOMY {
+            lap::DiedOf { dead, m: &m }.say()
+        } else {
+            lap::DiedSoFar { dead, m: &m, spread: &spread }.say()
+        };
+        (lap::closes().into(), rest)
     } else {
         (lap::Overlaid { m: &m }.say(), lap::Spread { spread: &spread }.say())
     };
