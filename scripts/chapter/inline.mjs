@@ -31,9 +31,12 @@ export function term(context, state, node) {
   return h('a.term', { href: `#gloss-${key}` }, inline(state, node))
 }
 
-/** `[](#id)`, `[own text](#id)`, and links to elsewhere. @type {Handler} */
+/** A link to a state of a figure on this page. Whether the page has that figure, the check of the whole site says. */
+const FIGURE_STATE = /^#fastslam-[a-z-]+\?/
+
+/** `[](#id)`, `[own text](#id)`, and links to states of figures and to elsewhere. @type {Handler} */
 export function link(context, state, node) {
-  const target = /^#(.+)$/.exec(node.url)?.[1]
+  const target = FIGURE_STATE.test(node.url) ? undefined : /^#(.+)$/.exec(node.url)?.[1]
   const label = target === undefined ? undefined : context.labels.get(target)
   if (target !== undefined && !label) context.problems.add(context.file, node, `there is nothing with the anchor #${target}`)
   const text = inline(state, node)

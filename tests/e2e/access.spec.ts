@@ -366,7 +366,7 @@ test('a page that names a figure names its picture', async ({ page }) => {
   await lap.element.evaluate(element => element.setAttribute('aria-label', 'The lap of our course'))
   await expect(lap.element.getByRole('img', { name: 'The lap of our course', exact: true })).toBeVisible()
   await lap.element.evaluate(element => element.removeAttribute('aria-label'))
-  await expect(lap.element.getByRole('img', { name: /Apartment/ })).toBeVisible()
+  await expect(lap.element.getByRole('img', { name: /One lap/ })).toBeVisible()
 })
 
 test('on paper a figure without a picture of the page’s is what it shows, without what can be done with it', async ({ page }) => {

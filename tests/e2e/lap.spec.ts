@@ -1,4 +1,4 @@
-// What a reader does with the Apartment lap.
+// What a reader does with the lap.
 import { readFile } from 'node:fs/promises'
 import { expect, test } from './fixtures'
 import { Figure, frames } from './figure'
@@ -132,6 +132,26 @@ test.describe('at rest', () => {
       expect(await lap.picture(), name).not.toBe(picture)
       expect(await lap.readouts(), name).toEqual(before)
     }
+  })
+
+  test('all universes are laid over each other until a tile is picked, and again when it is let go', async ({ page }) => {
+    const lap = await new Figure(page, 'fastslam-lap').alone()
+    await lap.scrubTo(84)
+    const all = await lap.picture()
+    await expect(lap.sentence).toContainText('16 universes, overlaid')
+    const box = (await lap.canvas.boundingBox())!
+    // The last column of the mosaic.
+    const tile = { x: box.x + box.width - 20, y: box.y + 60 }
+    await page.mouse.click(tile.x, tile.y)
+    await lap.settled()
+    await expect(lap.sentence).toContainText(/Shown large is universe \d/)
+    expect(await lap.picture()).not.toBe(all)
+    await page.mouse.click(tile.x, tile.y)
+    await lap.settled()
+    expect(await lap.picture()).toBe(all)
+    await lap.element.locator('input[name=overlay]').click()
+    await lap.settled()
+    await expect(lap.sentence).toContainText(/Shown large is universe \d+, the best/)
   })
 
   test('the seed is re-rolled, shown and typed', async ({ page }) => {

@@ -32,14 +32,14 @@ const words = (lap: Figure) =>
 
 test('a lap in German is German from its title to its picture, and English again when the page says so', async ({ page }) => {
   const lap = await openLap(page, '')
-  await expect(title(lap)).toHaveText('The Apartment lap')
+  await expect(title(lap)).toHaveText('One lap, many maps')
   const english = { words: await words(lap), picture: await lap.picture(), readouts: await lap.readouts() }
 
   await say(lap, 'de')
-  await expect(title(lap)).toHaveText('Die Runde durch die Wohnung')
+  await expect(title(lap)).toHaveText('Eine Runde, viele Karten')
   for (const name of ['Abspielen', 'Schritt', 'Schritt zurück', 'Startwert neu würfeln']) await expect(button(lap, name)).toBeVisible()
   await expect(lap.element.locator('button[aria-label=Menü]')).toBeVisible()
-  await expect(lap.sentence).toHaveText(/^Schritt 9 von 90, 16 Universen\. Groß gezeigt ist Universum \d+.*um \d,\d\d m daneben/)
+  await expect(lap.sentence).toHaveText(/^Schritt 9 von 110, 16 Universen, überlagert\..*um \d,\d\d m daneben/)
   const readouts = await lap.readouts()
   expect(readouts['rms_best']).toBe(english.readouts['rms_best']!.replace('.', ','))
   expect(await lap.picture()).not.toBe(english.picture)
@@ -53,9 +53,9 @@ test('a lap in German is German from its title to its picture, and English again
 
 test('the language is that of the nearest lang, also beyond a shadow root, and one that we do not have is English', async ({ page }) => {
   const lap = await openLap(page, '', 'de-AT')
-  await expect(title(lap)).toHaveText('Die Runde durch die Wohnung')
+  await expect(title(lap)).toHaveText('Eine Runde, viele Karten')
   await say(lap, 'fr')
-  await expect(title(lap)).toHaveText('The Apartment lap')
+  await expect(title(lap)).toHaveText('One lap, many maps')
   await page.evaluate(() => {
     const host = document.body.appendChild(document.createElement('section'))
     host.lang = 'de'
@@ -64,7 +64,7 @@ test('the language is that of the nearest lang, also beyond a shadow root, and o
     lap.removeAttribute('lang')
     host.attachShadow({ mode: 'open' }).append(lap)
   })
-  await expect(title(new Figure(page, 'fastslam-lap'))).toHaveText('Die Runde durch die Wohnung')
+  await expect(title(new Figure(page, 'fastslam-lap'))).toHaveText('Eine Runde, viele Karten')
 })
 
 test('links and attributes are the same in every language, and what is refused is said in the figure’s', async ({ page }) => {
@@ -102,7 +102,7 @@ for (const name of ['conditioning', 'proposal', 'worked-example', 'resampling', 
 test('where the words of a language cannot be fetched, the figure is English and lives', async ({ page, complaints }) => {
   await page.route('**/de-*.json', route => route.abort())
   const lap = await openLap(page, 'lang="de"')
-  await expect(title(lap)).toHaveText('The Apartment lap')
-  await expect(lap.sentence).toHaveText(/^Step 9 of 90/)
+  await expect(title(lap)).toHaveText('One lap, many maps')
+  await expect(lap.sentence).toHaveText(/^Step 9 of 110/)
   complaints.splice(0, Infinity, ...complaints.filter(line => !/de-[\w-]+\.json|No words of language de|ERR_FAILED/.test(line)))
 })

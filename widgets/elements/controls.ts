@@ -2,6 +2,7 @@
 import { h, redraw, write } from './dom'
 import { button, fieldFor, label, SEED, select, written, type Field, type NumberStyle } from './fields'
 import { PLAY, PLAYBACK } from './options'
+import { NORMAL_RATE } from './playback'
 import type { ParamSpec, Room } from './shell'
 import type { Words } from './words'
 
@@ -20,8 +21,7 @@ export interface Actions {
   change(name: string, value: string): void
 }
 
-const RATES = [1.5, 3, 6, 12, 24] // [steps/s]; 6 is called 1×: a lap in a quarter of a minute
-const NORMAL_RATE = 6
+const RATES = [1.5, 3, NORMAL_RATE, 12, 24] // [steps/s]; 6 is called 1×: a lap in a quarter of a minute
 
 const STEP = 'step' // has its place in the row of playback, as the seed has
 

@@ -136,6 +136,8 @@ export interface Frame {
   step: number
   target: number
   last: number
+  /** How fast this step is played, of the usual speed. */
+  pace: number
   /** Whether it is still on its way to what was asked for. */
   busy: boolean
   readouts: Readout[]

@@ -349,6 +349,7 @@ export abstract class HostedFigure extends FigureParts implements Listener {
 
   protected override present(frame: Frame): void {
     super.present(frame)
+    this.playback.pace = frame.pace
     if (this.host) this.settings.answered(this.host.done)
   }
 

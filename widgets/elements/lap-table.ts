@@ -105,7 +105,7 @@ export class FastslamLapTable extends HTMLElement {
       const axis = Object.values(kept as Record<string, number[]>).flat()
       if (running !== this.#running) return
       panel.print(printed, [Math.min(...axis), Math.max(...axis)])
-      const query = `universes=${cell.particles}&proposal=${cell.proposal}&matcher=${cell.matcher}`
+      const query = `course=apartment&temper=0.85&universes=${cell.particles}&proposal=${cell.proposal}&matcher=${cell.matcher}`
       const add = (rows: number[][], shell: Shell) => {
         if (running !== this.#running) return
         for (const [, error] of rows) found.push(error!)

@@ -9,10 +9,13 @@ export function linkKey(element: Element): string {
   return index > 0 ? `${tag}.${index + 1}` : tag
 }
 
+/** What a link without a word means: the figure as it opened when links said nothing of their version. */
+const FIRST_VERSION = 'v=1'
+
 /** The query that the page's address holds for this element, or undefined where it speaks of another one. */
 export function linkedQuery(element: Element): string | undefined {
   const [key, ...query] = location.hash.slice(1).split('?')
-  return query.length > 0 && decode(key!) === linkKey(element) ? query.join('?') : undefined
+  return query.length > 0 && decode(key!) === linkKey(element) ? query.join('?') || FIRST_VERSION : undefined
 }
 
 export function linkTo(element: Element, query: string): string {

@@ -158,6 +158,7 @@ export class Session {
       step: figure.step(),
       target: this.#target,
       last: this.last,
+      pace: figure.pace(),
       busy,
       readouts: figure.readouts() as Readout[],
       handles: figure.handles(this.#size?.canvas.css ?? 0) as Handle[],

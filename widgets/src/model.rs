@@ -339,6 +339,11 @@ pub trait Model: Parameters {
     /// One or two sentences that tell what is shown now.
     fn describe(&self) -> String;
 
+    /// How fast the step shown is played, of the usual speed: below 1 where there is much to see in it.
+    fn pace(&self) -> f64 {
+        1.0
+    }
+
     /// The lines of its algorithm that led to what is shown, in the order in which they ran. None before the first step.
     fn trace(&self) -> Vec<TraceLine> {
         Vec::new()

@@ -193,6 +193,11 @@ impl Figure {
         plain(&self.figure.model().prediction())
     }
 
+    /// How fast the step shown is played, of the usual speed.
+    pub fn pace(&self) -> f64 {
+        self.figure.model().pace()
+    }
+
     /// The lines of its algorithm that led to what is shown: an array of `TraceLine`.
     pub fn trace(&self) -> Array {
         plain(&self.figure.trace())

@@ -10,7 +10,7 @@ use fastslam_widgets::{
     lap::{LapModel, LapView, Layout},
     model::{Model, Parameters},
     panels::Panels,
-    scene::Mark,
+    scene::{Mark, Role},
     view::View,
 };
 
@@ -31,7 +31,7 @@ fn the_core_takes_the_ends_of_every_range() {
 
 #[test]
 fn a_step_back_shows_the_same_bits_as_the_way_forward() {
-    for query in ["universes=5&seed=9", "universes=200&proposal=motion&matcher=cell"] {
+    for query in ["universes=5&seed=9", "universes=200&proposal=motion&matcher=cell", "v=4&policy=always"] {
         let mut figure = lap(query);
         let mut forward = Vec::new();
         for step in 0..=7 {
@@ -49,27 +49,28 @@ fn a_step_back_shows_the_same_bits_as_the_way_forward() {
 
 #[test]
 fn a_link_brings_back_the_whole_state() {
-    let mut figure = lap("universes=9&seed=77&policy=always&scheme=residual&threshold=0.25&step=6&universe=4&truth=on");
+    let mut figure =
+        lap("v=4&universes=9&seed=77&policy=always&scheme=residual&threshold=0.25&step=6&universe=4&truth=on");
     assert_eq!(
         figure.query(),
-        "universes=9&seed=77&policy=always&threshold=0.25&scheme=residual&step=6&universe=4&truth=on"
+        "v=4&universes=9&seed=77&policy=always&threshold=0.25&scheme=residual&step=6&universe=4&truth=on"
     );
     let other = lap(&format!("?{}", figure.query()));
     assert_eq!(state(&figure), state(&other));
     // A link is the whole state: what it does not name is the default again.
-    assert_eq!(figure.load("seed=5"), []);
-    assert_eq!(figure.query(), "seed=5");
+    assert_eq!(figure.load("v=4&seed=5"), []);
+    assert_eq!(figure.query(), "v=4&seed=5");
 }
 
 #[test]
 fn a_bad_link_is_told_of_and_the_rest_of_it_applied() {
     let mut figure = Figure::new("fastslam-lap").unwrap();
     let messages: Vec<String> = figure
-        .load("universes=999&seed=5&tempo=3&universe=12&proposal=magic&&=&%zz=%")
+        .load("v=4&universes=999&seed=5&tempo=3&universe=12&proposal=magic&&=&%zz=%")
         .into_iter()
         .map(|e| e.message)
         .collect();
-    assert_eq!(figure.query(), "seed=5&universe=12");
+    assert_eq!(figure.query(), "v=4&seed=5&universe=12");
     for part in [
         "tempo",
         "universes = \"999\": must be a whole number from 1 to 256",
@@ -78,10 +79,10 @@ fn a_bad_link_is_told_of_and_the_rest_of_it_applied() {
         assert!(messages.iter().any(|m| m.contains(part)), "{part}: {messages:?}");
     }
     // A universe that another setting of the same link does away with.
-    let messages = figure.load("universe=12&universes=8");
+    let messages = figure.load("v=4&universe=12&universes=8");
     assert_eq!(messages.len(), 1);
     assert!(messages[0].message.contains("from -1 to 7"), "{messages:?}");
-    assert_eq!(figure.query(), "universes=8");
+    assert_eq!(figure.query(), "v=4&universes=8");
 }
 
 #[test]
@@ -93,7 +94,7 @@ fn the_course_says_how_many_steps_there_are() {
     assert_eq!((figure.model().pending(), figure.model().step_count()), (90, 90));
     let messages = figure.load("course=apartment&step=91");
     assert!(messages[0].message.contains("from 0 to 90"), "{messages:?}");
-    assert!(figure.load("course=moon")[0].message.contains("must be one of apartment, ring"));
+    assert!(figure.load("course=moon")[0].message.contains("must be one of ring, apartment"));
     let step = |query| lap(query).params().iter().find(|spec| spec.name == "step").unwrap().max;
     assert_eq!([step("course=apartment"), step("course=ring")], [90.0, 110.0]);
 }
@@ -158,8 +159,12 @@ fn extinction_is_told_in_words_marks_and_data() {
 
 #[test]
 fn texts_fit_their_boxes_and_the_figure_and_cover_no_other() {
-    for query in ["universes=1&step=1", "step=2&truth=on&raw=on", "universes=100&seed=4294967295&step=2&policy=always"]
-    {
+    for query in [
+        "universes=1&step=1",
+        "step=2&truth=on&raw=on",
+        "v=4&step=85&truth=on&raw=on",
+        "universes=100&seed=4294967295&step=2&policy=always",
+    ] {
         let figure = lap(query);
         for width in [240.0, 300.0, 340.0, 380.0, 500.0, 639.0, 640.0, 700.0, 800.0, 1280.0] {
             assert_texts_fit(&scene(&figure, width), &format!("{query} at {width}"));
@@ -189,7 +194,7 @@ fn tiles_are_disjoint_inside_the_figure_and_readable_for_every_number_of_univers
 
 #[test]
 fn the_height_depends_on_the_width_only() {
-    let (a, b) = (lap("universes=1"), lap("universes=256&proposal=motion&step=1&truth=on&raw=on"));
+    let (a, b) = (lap("universes=1"), lap("v=4&universes=256&proposal=motion&step=1&truth=on&raw=on"));
     for width in [100.0, 340.0, 640.0, 1280.0] {
         assert_eq!(a.height(width), b.height(width));
         assert!(a.height(width) > 0.4 * width);
@@ -211,13 +216,13 @@ fn no_size_makes_it_panic() {
 
 #[test]
 fn data_has_a_row_for_every_step_so_far() {
-    let figure = lap("universes=4&step=6");
+    let figure = lap("v=4&universes=4&step=6");
     let export = figure.export();
     let (header, rows) = (export.header(), export.rows());
     assert_eq!(rows.len(), 7);
     assert!(rows.iter().all(|row| row.len() == header.len() && row.iter().all(Option::is_some)), "{rows:?}");
     let data = serde_json::to_value(export).unwrap();
-    assert_eq!(data["query"], "universes=4&step=6");
+    assert_eq!(data["query"], "v=4&universes=4&step=6");
     assert_eq!(data["steps"][6]["step"], 6.0);
     assert_eq!(data["columns"].as_object().unwrap().len(), header.len());
 }
@@ -226,10 +231,76 @@ fn data_has_a_row_for_every_step_so_far() {
 #[test]
 fn a_cell_of_the_lap_table_is_the_job_of_its_link() {
     for cell in LapCell::all().filter(|cell| cell.particles == 4) {
-        let link = format!("universes=4&proposal={}&matcher={}", cell.proposal, cell.matcher);
+        let link =
+            format!("course=apartment&temper=0.85&universes=4&proposal={}&matcher={}", cell.proposal, cell.matcher);
         let errors = [1, 2].map(|seed| vec![seed as f64, rms_best(&cell.setup(seed)).unwrap()]);
         assert_eq!(job::run("laps", &link, 1..3).unwrap(), errors, "{link}");
     }
     let refused = |link| job::run("laps", link, 1..2).unwrap_err().parameter;
     assert_eq!([refused("universes=257"), refused("universe=0&wings=on")], ["universes", "wings"]);
+}
+
+#[test]
+fn links_of_before_the_ring_open_in_the_apartment_with_one_universe_large() {
+    assert_eq!(lap("seed=5").query(), "v=4&seed=5&temper=0.85&course=apartment&overlay=off");
+    assert_eq!(lap("v=4&seed=5").query(), "v=4&seed=5");
+    assert_eq!(lap("").model().value("course").unwrap(), "ring", "nothing was asked");
+}
+
+#[test]
+fn all_universes_are_shown_at_once_until_one_is_picked_and_again_when_it_is_let_go() {
+    let mut model = LapModel::default();
+    assert!(model.overlaid());
+    model.pick(7);
+    assert!(!model.overlaid() && model.selected() == 7);
+    model.pick(7);
+    assert!(model.overlaid());
+    model.configure(&[("overlay".into(), "off".into())]);
+    assert!(!model.overlaid() && model.follows_best());
+}
+
+/// What the reader must see when the loop closes: how far the universes are apart, slow motion, who died, and that it goes on.
+#[test]
+fn the_closing_of_the_loop_is_slow_and_counts_who_dies() {
+    let mut model = LapModel::default();
+    let mut seen = Vec::new();
+    for step in 0..=model.step_count() {
+        model.seek(step);
+        model.settle();
+        assert_eq!(model.pace() < 1.0, (83..=90).contains(&step), "step {step}");
+        seen.push((model.spread(), model.died_in_closing(), model.describe()));
+    }
+    assert!(seen[83].0 > 0.5 && seen[90].0 < 0.2, "{} m and {} m", seen[83].0, seen[90].0);
+    assert!(seen[..84].iter().all(|(_, dead, told)| *dead == 0 && !told.contains("loop")));
+    assert!(seen.windows(2).all(|pair| pair[0].1 <= pair[1].1), "who is dead stays dead");
+    let dead = seen[90].1;
+    assert!(dead >= 8 && seen[110].1 == dead, "{dead} of 16");
+    assert!(seen[90].2.contains(&format!("The loop closes: {dead} of 16 have died out since.")), "{}", seen[90].2);
+    assert!(seen[91].2.contains(&format!("When the loop closed, {dead} of 16 died out.")), "{}", seen[91].2);
+    // In the apartment nothing closes.
+    let apartment = lap("universes=2&step=70");
+    assert_eq!(apartment.model().pace(), 1.0);
+}
+
+/// The overlay shows all robots, and those of the universes that died out fade in three steps.
+#[test]
+fn the_dead_fade_and_the_living_are_all_shown() {
+    let mut model = LapModel::default();
+    let robots = |model: &LapModel, wanted: Role| {
+        let scene = LapView.scene(model, &Panels::named("map", LapView::PANELS).unwrap(), 600.0, 0.0);
+        let of_role = |mark: &Mark| matches!(mark, Mark::Polygons { role, .. } if *role == wanted);
+        scene.marks.iter().filter(|mark| of_role(mark)).count()
+    };
+    let faded = [255, 150, 80].map(Role::Fading);
+    model.seek(85);
+    model.settle();
+    let dead = model.extinct().len();
+    assert!(dead > 0);
+    // One more is in the legend.
+    assert_eq!(robots(&model, Role::Path), 16 + 1);
+    for (age, role) in faded.into_iter().enumerate() {
+        model.seek(85 + age as u32);
+        model.settle();
+        assert_eq!(robots(&model, role), dead, "{age} steps later");
+    }
 }

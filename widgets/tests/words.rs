@@ -24,6 +24,9 @@ fn figure(tag: &str, language: &str) -> Figure {
     if language != "en" {
         figure.set_words(&lines(language));
     }
+    if tag == LAP {
+        assert_eq!(figure.load("course=apartment"), []);
+    }
     if tag == "fastslam-log" {
         figure.open(include_bytes!("../../tests/figures/golden/tiny.clf")).unwrap();
         figure.set("cell", "0.2").unwrap();

@@ -180,7 +180,8 @@ fn maps(lap: &Lap) -> Vec<&Grid> {
     lap.particles().iter().map(|particle| &particle.map).collect()
 }
 
-fn deviation_of(lap: &Lap) -> f64 {
+/// Standard deviation of the robot's position over the weighted particles of a lap \[m\].
+pub fn deviation_of(lap: &Lap) -> f64 {
     let poses: Vec<Pose2> = lap.particles().iter().map(|particle| particle.world_from_robot).collect();
     deviation(&poses, lap.weights())
 }

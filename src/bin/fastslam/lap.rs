@@ -166,6 +166,7 @@ fn paint(setup: &LapSetup, path: &Path) -> Result<()> {
         ("range-std", setup.range_std.to_string()),
         ("temper", setup.temper.to_string()),
         ("guard", if setup.guard { "on" } else { "off" }.to_owned()),
+        ("overlay", "off".to_owned()),
         ("truth", "on".to_owned()),
         ("raw", "on".to_owned()),
     ] {

@@ -61,9 +61,9 @@ fn errors_are_thrown_with_the_name_of_their_parameter() {
 
 #[wasm_bindgen_test]
 fn data_parses() {
-    let figure = figure("universes=2&step=3");
+    let figure = figure("v=4&universes=2&step=3");
     let data = JSON::parse(&figure.json()).expect("JSON");
-    assert_eq!(text(&data, "query"), "universes=2&step=3");
+    assert_eq!(text(&data, "query"), "v=4&universes=2&step=3");
     assert_eq!(get(&get(&data, "steps"), "length").as_f64(), Some(4.0));
     assert!(figure.csv().starts_with("step,"));
 }

@@ -52,12 +52,12 @@ const fn picture(
     Picture { name, tag, query, width, dpr, theme }
 }
 
-/// The first two are what readers without JavaScript see: the default lap on its way back, just resampled. At 1.5 px per css px
+/// The first two are what readers without JavaScript see: the ring as its loop closes, just resampled. At 1.5 px per css px
 /// they are sharp enough for most screens, and 80 KB each.
 pub const PICTURES: &[Picture] = &[
-    picture(LAP, "fastslam-lap-light", RESAMPLED, 800, 1.5, "light"),
-    picture(LAP, "fastslam-lap-dark", RESAMPLED, 800, 1.5, "dark"),
-    picture(LAP, "start", "", 800, 1.0, "light"),
+    picture(LAP, "fastslam-lap-light", CLOSING, 800, 1.5, "light"),
+    picture(LAP, "fastslam-lap-dark", CLOSING, 800, 1.5, "dark"),
+    picture(LAP, "start", "course=apartment", 800, 1.0, "light"),
     picture(LAP, "overlays", "step=60&universe=9&truth=on&raw=on", 800, 1.0, "dark"),
     picture(LAP, "end-narrow", "step=90&truth=on&raw=on", 340, 2.0, "light"),
     picture(LAP, "phone", RESAMPLED, 380, 1.0, "contrast-dark"),
@@ -175,12 +175,16 @@ fn in_256_colours(pixels: Vec<u8>) -> Vec<u8> {
 /// Cells as small as those of a large building would be more than a phone's screen has pixels.
 const TINY: &str = "cell=0.1&raw=on";
 
-/// A step of the default lap at which it resampled.
+/// The lap as the figure opens, at a step at which half of the universes have just died.
+const CLOSING: &str = "v=4&step=85";
+
+/// A step of the apartment's lap at which it resampled.
 const RESAMPLED: &str = "step=62";
 
 /// Figures and setups whose readouts are kept for every step.
 pub const SETUPS: &[(&str, &str)] = &[
-    (LAP, ""),
+    (LAP, "course=apartment"),
+    (LAP, "v=4"),
     (LAP, "universes=1"),
     (LAP, "universes=7&seed=5&proposal=motion&matcher=cell"),
     (LAP, "universes=24&policy=always&scheme=residual&odometry=1.5"),
@@ -211,8 +215,12 @@ const COALESCED: &str = "step=70";
 pub const JOBS: &[(&str, &str, [u32; 2])] = &[
     ("wings", "", [1, 5]),
     ("wings", "particles=9&threshold=0.7&odometry=1.5&range=0.5&scheme=stratified", [40, 43]),
-    ("laps", "", [1, 3]),
-    ("laps", "universes=4&proposal=motion&matcher=cell&policy=always&range-std=0.1&step=7", [1, 4]),
+    ("laps", "course=apartment&temper=0.85", [1, 3]),
+    (
+        "laps",
+        "course=apartment&temper=0.85&universes=4&proposal=motion&matcher=cell&policy=always&range-std=0.1&step=7",
+        [1, 4],
+    ),
 ];
 
 /// The rows of a job, as a fingerprint.

@@ -14,14 +14,24 @@ const NEAR: f64 = 0.5;
 
 pub(super) fn challenges() -> Vec<Challenge<LapModel>> {
     vec![
-        Challenge::new("no-measurements", words::chip_no_measurements(), "proposal=motion&policy=never&step=80"),
-        Challenge::new("measurements", words::chip_measurements(), "proposal=motion&step=80"),
-        Challenge::new("four", words::chip_four(), "universes=4&proposal=motion&step=90").with(
-            words::goal_four(),
-            "universes proposal matcher policy threshold scheme temper guard",
-            near_with_few,
+        Challenge::new("closing", words::chip_closing(), "step=83&truth=on"),
+        Challenge::new(
+            "no-measurements",
+            words::chip_no_measurements(),
+            "proposal=motion&policy=never&temper=0.85&course=apartment&step=80",
         ),
-        Challenge::new("blurred", words::chip_blurred(), "odometry=2&range-std=0.3&step=90"),
+        Challenge::new(
+            "measurements",
+            words::chip_measurements(),
+            "proposal=motion&temper=0.85&course=apartment&step=80",
+        ),
+        Challenge::new("four", words::chip_four(), "universes=4&proposal=motion&temper=0.85&course=apartment&step=90")
+            .with(words::goal_four(), "universes proposal matcher policy threshold scheme temper guard", near_with_few),
+        Challenge::new(
+            "blurred",
+            words::chip_blurred(),
+            "odometry=2&range-std=0.3&temper=0.85&course=apartment&step=90",
+        ),
     ]
 }
 

@@ -1,8 +1,8 @@
 //! From the world to the figure: metres to css px, cells to shades.
 
-use crate::scene::{Cells, Plane, Rect, shade};
+use crate::scene::{Cells, Plane, Rect, SHARES, UNKNOWN, shade};
 use fastslam::map::grid::{CellRect, Grid};
-use fastslam_lab::experiment::lap::Course;
+use fastslam_lab::experiment::lap::{Course, Lap};
 
 /// The cells shown of a course: its building in the middle, and a margin for maps that drifted. As many of each course, so that where
 /// the parts of the figure stand does not depend on it.
@@ -32,6 +32,40 @@ pub fn shades(map: &Grid, course: Course) -> Cells {
     let CellRect { i0, i1, j0, j1 } = cells(course);
     let row = |j| (i0..i1).map(move |i| shade(map.log_odds(i, j)));
     Cells { columns: cells(course).width(), shades: (j0..j1).rev().flat_map(row).collect() }
+}
+
+/// Shares of the weight below this are none: one more shade than nothing would be seen of them.
+const NOTICED: f64 = 0.01;
+
+/// The shade of a cell that so much of the weight, 0 to 1, holds to be a wall.
+pub fn share(p: f64) -> u8 {
+    SHARES + (p.min(1.0) * f64::from(255 - SHARES)).round() as u8
+}
+
+/// The cells of a course by what all universes make of them: how much of the weight holds each to be a wall, and where none does, the
+/// mean of how free they hold it to be.
+pub fn shares(lap: &Lap, course: Course) -> Cells {
+    let CellRect { i0, i1, j0, j1 } = cells(course);
+    let mut sums = vec![[0.0; 2]; cells(course).width() * cells(course).height()];
+    for (particle, weight) in lap.particles().iter().zip(lap.weights()) {
+        let places = (j0..j1).rev().flat_map(|j| (i0..i1).map(move |i| (i, j)));
+        for ([wall, open], (i, j)) in sums.iter_mut().zip(places) {
+            let log_odds = particle.map.log_odds(i, j);
+            if log_odds > 0.0 {
+                *wall += weight;
+            } else {
+                *open += weight * f64::from(shade(log_odds));
+            }
+        }
+    }
+    let shade = |[wall, open]: [f64; 2]| {
+        if wall > NOTICED {
+            return share(wall);
+        }
+        // From the shades up to unknown to those below the shares.
+        (open / (1.0 - wall) * f64::from(SHARES - 1) / f64::from(UNKNOWN)).round().min(f64::from(SHARES - 1)) as u8
+    };
+    Cells { columns: cells(course).width(), shades: sums.into_iter().map(shade).collect() }
 }
 
 /// Means of the hits in the occupied cells of a course \[m\].

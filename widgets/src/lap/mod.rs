@@ -1,4 +1,5 @@
-//! Figure w17.1, the Apartment lap: a mosaic of universes, each with its own map, path and robot, and one of them large.
+//! Figure w17.1, the lap: a mosaic of universes, each with its own map, path and robot, and all of them laid over each other, or one of
+//! them, large.
 
 mod challenges;
 mod drive;
@@ -8,7 +9,9 @@ mod many;
 mod map;
 mod model;
 mod mosaic;
+mod overlay;
 mod recipe;
+mod told;
 mod view;
 
 pub use layout::Layout;

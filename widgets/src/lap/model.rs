@@ -4,18 +4,20 @@ use super::{challenges, drive::Hand, recipe::Recipe};
 use crate::challenge::Challenge;
 use crate::decimal::fixed;
 use crate::ghost::{self, Curves};
-use crate::model::{
-    Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text, unexplained,
-};
+use crate::model::{Change, Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text};
 use crate::words::{common, lap};
-use fastslam::{geometry::Pose2, proposal::ProposalTrace};
-use fastslam_lab::experiment::ProposalKind;
+use fastslam::genealogy::Path;
 use fastslam_lab::experiment::lap::{Lap, LapSetup, StepReport};
+use fastslam_lab::experiment::ring::{AFTER, deviation_of, died};
+use fastslam_lab::world::Edits;
 use std::sync::Arc;
 
 /// Most universes that keyframes keep, all steps together. Each holds the tiles that were written since the one before: about
 /// 30 KB, and all of them 64 MB.
 const KEPT: u32 = 2048;
+
+/// How fast the closing of the loop is played, of the usual speed.
+const SLOW: f64 = 0.25;
 
 /// Figure w17.1.
 pub struct LapModel {
@@ -24,12 +26,14 @@ pub struct LapModel {
     pub(super) hand: Option<Hand>,
     /// The step shown.
     shown: Lap,
-    /// The step before it, unless that was not simulated on the way: the maps of universes that died out since.
-    before: Option<Lap>,
     /// Every [`Self::interval`]-th step, from 0 on.
     keyframes: Vec<Lap>,
     /// Of every step simulated so far, from 0 on.
     reports: Vec<StepReport>,
+    /// The paths that each of these steps ended, up to the step before it.
+    dead: Vec<Vec<Path>>,
+    /// The step at which the loop of the course closes.
+    closing: Option<u32>,
     /// Of the run that is pinned.
     pinned: Curves,
 }
@@ -38,8 +42,10 @@ impl Default for LapModel {
     fn default() -> Self {
         let recipe = Recipe::default();
         let lap = Lap::new(&recipe.setup).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
+        let closing = recipe.setup.course.closing();
         let (keyframes, reports) = (vec![lap.clone()], vec![lap.report().clone()]);
-        Self { recipe, hand: None, keyframes, reports, before: None, shown: lap, pinned: Curves::new() }
+        let (dead, pinned) = (vec![Vec::new()], Curves::new());
+        Self { recipe, hand: None, keyframes, reports, dead, closing, shown: lap, pinned }
     }
 }
 
@@ -64,9 +70,34 @@ impl LapModel {
         ghost::curve(&self.pinned, 0)
     }
 
-    /// The lap one step earlier, if the universes that died out since are known.
-    pub fn before(&self) -> Option<&Lap> {
-        self.before.as_ref()
+    /// The paths of universes that died out: at the step shown, at the one before it, and so on back to the start.
+    pub fn dead(&self) -> impl Iterator<Item = &[Path]> {
+        self.dead[..=self.step() as usize].iter().rev().map(Vec::as_slice)
+    }
+
+    /// True if the large view shows all universes at once.
+    pub fn overlaid(&self) -> bool {
+        self.recipe.overlay && self.recipe.universe.is_none()
+    }
+
+    /// How far the universes are apart: the standard deviation of the robot's position over them \[m\].
+    pub fn spread(&self) -> f64 {
+        deviation_of(&self.shown)
+    }
+
+    /// Whether the loop closes about now: from one step before until [`AFTER`] steps after.
+    pub fn closes(&self) -> bool {
+        self.closing().is_some_and(|closing| (closing.saturating_sub(1)..=closing + AFTER).contains(&self.step()))
+    }
+
+    /// How many of the universes that lived one step before the loop closed have no descendant any more: as it is now while it
+    /// closes, and as it was when it had.
+    pub fn died_in_closing(&self) -> usize {
+        let count = self.recipe.setup.particles;
+        let since = self.closing().map_or(usize::MAX, |closing| closing as usize);
+        let steps = self.history().iter().take(since.saturating_add(AFTER as usize + 1)).skip(since);
+        let resamplings: Vec<Vec<u32>> = steps.filter_map(|report| report.ancestors.clone()).collect();
+        (died(count, &resamplings) * count as f64).round() as usize
     }
 
     /// What was set.
@@ -112,9 +143,14 @@ impl LapModel {
         (self.step_count() * self.recipe.setup.particles as u32).div_ceil(KEPT).max(1)
     }
 
-    /// The newest keyframe before a step, not at it: the step itself has to be simulated for its `before` to be known.
-    fn keyframe_before(&self, step: u32) -> usize {
-        self.keyframes.partition_point(|lap| lap.report().step < step).saturating_sub(1)
+    /// The newest keyframe at a step, or before it.
+    fn keyframe_at(&self, step: u32) -> usize {
+        self.keyframes.partition_point(|lap| lap.report().step <= step).saturating_sub(1)
+    }
+
+    /// The step at which the loop closes, where the course is driven as it is.
+    pub(super) fn closing(&self) -> Option<u32> {
+        self.closing.filter(|_| self.recipe.setup.edits == Edits::default())
     }
 
     /// Goes on in a world in which another drive is driven: what both have in common stays.
@@ -124,51 +160,24 @@ impl LapModel {
         let world = Arc::new(self.shown.world().driven(&route, before, &setup.edits.steering));
         self.keyframes.retain(|lap| lap.report().step <= kept);
         self.reports.truncate(kept as usize + 1);
+        self.dead.truncate(kept as usize + 1);
         if self.step() > kept {
-            (self.shown, self.before) = (self.keyframes[self.keyframe_before(kept)].clone(), None);
+            self.shown = self.keyframes[self.keyframe_at(kept)].clone();
         }
-        let all = self.keyframes.iter_mut().chain(&mut self.before).chain([&mut self.shown]);
+        let all = self.keyframes.iter_mut().chain([&mut self.shown]);
         all.for_each(|lap| *lap = lap.clone().with_world(world.clone()));
-    }
-
-    /// A step in words.
-    fn told(&self, report: &StepReport) -> String {
-        let (m, slot) = (self.recipe.setup.particles, self.selected());
-        let (step, last, best) = (&report.step, &self.step_count(), &report.best);
-        let shown = if slot == report.best {
-            lap::ShownBest { step, last, m: &m, slot: &slot }.say()
-        } else {
-            lap::ShownOther { step, last, m: &m, slot: &slot, best }.say()
-        };
-        if report.step == 0 {
-            return [shown, lap::all_start().into()].join(" ");
-        }
-        let resampling = match &report.ancestors {
-            None => lap::no_resampling().into(),
-            Some(ancestors) => {
-                let (parent, dead) = (ancestors[slot as usize], &died_out(ancestors));
-                if parent == slot {
-                    lap::KeptSlot { dead, m: &m, slot: &slot }.say()
-                } else {
-                    lap::CopyOf { dead, m: &m, slot: &slot, parent: &parent }.say()
-                }
-            }
-        };
-        let numbers = lap::Errors {
-            best: &fixed(report.rms_best, 2),
-            odometry: &fixed(report.rms_odometry, 2),
-            ess: &fixed(report.ess, 1),
-            m: &m,
-            resampling: &resampling,
-        };
-        let sentences = [Some(shown), unexplained(report.log_evidence), Some(numbers.say())];
-        sentences.into_iter().flatten().collect::<Vec<_>>().join(" ")
     }
 }
 
 impl Declared for LapModel {
     type Recipe = Recipe;
     const TITLE: &'static str = lap::TITLE;
+    /// The figure opened in the apartment, with one universe shown large.
+    const CHANGES: &'static [Change] = &[
+        Change::Default { name: "course", was: "apartment" },
+        Change::Default { name: "temper", was: "0.85" },
+        Change::Default { name: "overlay", was: "off" },
+    ];
 
     fn challenges() -> Vec<Challenge<Self>> {
         challenges::challenges()
@@ -188,7 +197,10 @@ impl Declared for LapModel {
             let lap = Lap::new(&recipe.setup)?;
             self.keyframes = vec![lap.clone()];
             self.reports = vec![lap.report().clone()];
-            self.before = None;
+            self.dead = vec![Vec::new()];
+            if recipe.setup.course != self.recipe.setup.course {
+                self.closing = recipe.setup.course.closing();
+            }
             self.shown = lap;
         }
         self.recipe = recipe;
@@ -201,12 +213,10 @@ impl Model for LapModel {
     fn seek(&mut self, step: u32) {
         let asked = step.min(self.step_count());
         self.recipe.step = asked;
-        let index = self.keyframe_before(asked);
+        let index = self.keyframe_at(asked);
         let (start, shown) = (self.keyframes[index].report().step, self.step());
-        // It may stand there by a keyframe, on its way elsewhere.
-        if asked < shown || start > shown || (asked == shown && asked > 0 && self.before.is_none()) {
+        if asked < shown || start > shown {
             self.shown = self.keyframes[index].clone();
-            self.before = None;
         }
     }
 
@@ -226,12 +236,12 @@ impl Model for LapModel {
         if self.pending() == 0 {
             return;
         }
-        // Of the last pending step alone: nobody sees those before it, and what is kept has to be copied where it is written to.
-        self.before = (self.pending() == 1).then(|| self.shown.clone());
+        let paths: Vec<Path> = self.shown.particles().iter().map(|particle| particle.path.clone()).collect();
         self.shown.step();
         let (step, interval) = (self.step(), self.interval());
         if self.reports.len() == step as usize {
             self.reports.push(self.report().clone());
+            self.dead.push(self.extinct().into_iter().map(|slot| paths[slot as usize].clone()).collect());
         }
         if self.keyframes.last().is_none_or(|lap| lap.report().step + interval <= step) {
             self.keyframes.push(self.shown.clone());
@@ -329,52 +339,13 @@ impl Model for LapModel {
         }
     }
 
-    /// Of the universe shown large, and of all where the line is about all.
+    /// In slow motion while the loop closes.
+    fn pace(&self) -> f64 {
+        if self.closes() { SLOW } else { 1.0 }
+    }
+
     fn trace(&self) -> Vec<TraceLine> {
-        let (report, slot) = (self.report(), self.selected() as usize);
-        let [.., from, to] = self.shown.path(slot)[..] else { return Vec::new() };
-        // Where the universe was before it was copied.
-        let slot = report.ancestors.as_ref().map_or(slot, |ancestors| ancestors[slot] as usize);
-        let m = self.recipe.setup.particles;
-        let pose = |pose: &Pose2| pose_text([pose.x, pose.y, pose.theta]);
-        let nats = |x: f64| format!("{} nats", fixed(x, 1));
-        let predicted = self.shown.world().controls[report.step as usize - 1].apply(&from);
-        let paid = nats(report.log_increments[slot]);
-        let mut lines = Vec::new();
-        if self.recipe.setup.proposal == ProposalKind::Improved {
-            lines.extend([TraceLine::new("predict", pose(&predicted)), TraceLine::new("seed", "")]);
-            let (matched, m) = (&report.matched, &m);
-            match report.traces[slot] {
-                ProposalTrace::Matched { mode, log_integral } => lines.extend([
-                    TraceLine::new("match", lap::MovedBy { pose: &pose_text(mode.minus(&predicted).into()) }.say()),
-                    TraceLine::new("doubt", lap::Trusted { matched, m }.say()),
-                    TraceLine::new("fit", format!("ln η̂ = {}", nats(log_integral))),
-                    TraceLine::new("draw", pose(&to)),
-                    TraceLine::new("pay", paid),
-                ]),
-                ProposalTrace::Motion => lines.extend([
-                    TraceLine::new("match", ""),
-                    TraceLine::new("doubt", lap::NotTrusted { matched, m }.say()),
-                    TraceLine::new("fallback", pose(&to)),
-                    TraceLine::new("pay", paid),
-                ]),
-            }
-        } else {
-            // What it pays, by its whole map, is no line of this box.
-            lines.push(TraceLine::new("fallback", pose(&to)));
-        }
-        let largest = report.weights.iter().copied().fold(0.0, f64::max);
-        let dead = &self.extinct().len();
-        let resample = if report.ancestors.is_some() { lap::Yes { dead }.say() } else { common::no().into() };
-        let kilobytes = &fixed(report.map_bytes_unique as f64 / 1000.0, 0);
-        lines.extend([
-            TraceLine::new("map", lap::AllMaps { kilobytes }.say()),
-            TraceLine::new("extend", ""),
-            TraceLine::new("normalise", lap::Largest { weight: &fixed(largest, 2) }.say()),
-            TraceLine::new("ess", ess_text(report.ess, m)),
-            TraceLine::new("resample", resample),
-        ]);
-        lines
+        self.lines()
     }
 }
 

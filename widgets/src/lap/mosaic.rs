@@ -70,7 +70,7 @@ pub fn mosaic(scene: &mut Scene, model: &LapModel, layout: &Layout) {
         scene.marks.push(Mark::Raster { area: map_area(rank), cells, shading: Shading::Map });
         scene.marks.push(border(tile, lap.weights()[slot as usize] * m as f64, full));
         scene.regions.push(Region { area: tile, target: slot });
-        if slot == selected {
+        if slot == selected && !model.overlaid() {
             let ring = tile.inset(-(0.5 * tiles.gap[1]).clamp(1.0, RING));
             scene.marks.push(Mark::Frame { area: ring, width: 1.5, role: Role::Ink });
         }
@@ -109,7 +109,7 @@ fn origin(scene: &mut Scene, model: &LapModel, slot: u32, map: &Rect, width: f64
         let (w, h) = (font::measure(label, size, weight) + 5.0, size + 2.0);
         Rect::new(map.x, if bottom { map.bottom() - h } else { map.y }, w.min(map.w), h)
     };
-    let chosen = slot == model.selected();
+    let chosen = slot == model.selected() && !model.overlaid();
     let number = slot.to_string();
     let area = plate(&number, Weight::Regular, false);
     let (ground, role) = if chosen { (Role::Ink, Role::Paper) } else { (Role::Paper, Role::Muted) };

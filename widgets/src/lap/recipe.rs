@@ -27,6 +27,8 @@ pub struct Recipe {
     pub step: u32,
     /// The universe chosen for the large view; `None` is the best.
     pub universe: Option<u32>,
+    /// Whether the large view shows all universes at once, unless one is chosen.
+    pub overlay: bool,
     /// Whether the truth is drawn.
     pub truth: bool,
     /// Whether raw odometry is drawn.
@@ -35,9 +37,9 @@ pub struct Recipe {
 
 impl Default for Recipe {
     fn default() -> Self {
-        let setup = LapSetup::default();
+        let setup = LapSetup::opening();
         let threshold = policy::threshold(setup.policy);
-        Self { setup, threshold, step: 0, universe: None, truth: false, raw: false }
+        Self { setup, threshold, step: 0, universe: None, overlay: true, truth: false, raw: false }
     }
 }
 
@@ -53,7 +55,7 @@ impl recipe::Recipe for Recipe {
     fn table() -> Vec<Param<Self>> {
         type P = Param<Recipe>;
         let [policy, threshold] = policy::rows();
-        let usual = LapSetup::default();
+        let usual = LapSetup::opening();
         vec![
             P::integer(
                 "universes",
@@ -131,6 +133,7 @@ impl recipe::Recipe for Recipe {
             )
             .view()
             .folded(),
+            P::flag("overlay", lap::overlay(), field!(overlay), lap::overlay_help()).view(),
             P::flag("truth", lap::truth(), field!(truth), lap::truth_help()).view(),
             P::flag("raw", common::raw_odometry(), field!(raw), common::raw_odometry_help()).view(),
         ]

@@ -6,6 +6,7 @@ use super::{
     map,
     model::LapModel,
     mosaic::{mosaic, notes},
+    overlay,
 };
 use crate::decimal::fixed;
 use crate::{
@@ -23,8 +24,9 @@ use fastslam::{genealogy::Path, geometry::Pose2, resampling::ResamplePolicy};
 use std::collections::BTreeSet;
 
 /// Dashes and gaps of the truth and of raw odometry \[css px\].
-const TRUTH: [f64; 2] = [2.0, 3.0];
-const RAW: [f64; 2] = [7.0, 4.0];
+pub const TRUTH: [f64; 2] = [2.0, 3.0];
+/// See [`TRUTH`].
+pub const RAW: [f64; 2] = [7.0, 4.0];
 
 /// The paths of universes that are not shown large.
 const OTHERS: Role = Role::Level(110);
@@ -49,8 +51,13 @@ impl View for LapView {
 
     fn draw(&self, model: &LapModel, layout: &Layout, scene: &mut Scene) {
         if layout.panels.has(MAP) {
-            large(scene, model, layout);
-            names(scene, model, &layout.legend);
+            if model.overlaid() {
+                overlay::overlay(scene, model, layout);
+                overlay::names(scene, model, &layout.legend);
+            } else {
+                large(scene, model, layout);
+                names(scene, model, &layout.legend);
+            }
         }
         if layout.panels.has(MOSAIC) {
             mosaic(scene, model, layout);
@@ -101,55 +108,73 @@ fn large(scene: &mut Scene, model: &LapModel, layout: &Layout) {
         cells: map::shades(&particle.map, course),
         shading: Shading::Map,
     });
-    let world = lap.world();
-    let now = model.step() as usize;
-    if model.shows_truth() {
-        let walls = world.plan.walls.iter().chain(&world.plan.furniture);
-        let walls = walls.map(|s| vec![plane.point(s.a), plane.point(s.b)]).collect();
-        rimmed(scene, walls, 1.25, None, Role::Truth);
-    }
+    true_walls(scene, model, &plane);
     let hits = map::hits(&particle.map, course).into_iter().map(|place| plane.point(place));
     scene.marks.push(cloud(hits, &plane.area.inset(2.0), (0.035 * plane.scale).max(1.0), Role::Hit));
     others(scene, model, &plane);
-    if model.shows_raw() {
-        let lines = plane.path(&world.odometry[..=now], 0.5);
-        rimmed(scene, lines, 2.0, Some(RAW), Role::Odometry);
-        rimmed_robot(scene, &plane, &world.odometry[now], 7.0, Role::Odometry);
-    }
+    odometry(scene, model, &plane);
     rimmed(scene, plane.path(&lap.path(slot as usize), 0.5), 2.25, None, Role::Path);
-    if model.shows_truth() {
-        // Over the estimate, thin and dashed: where both agree, both are seen.
-        let lines = plane.path(&world.truth[..=now], 0.5);
-        scene.marks.push(Mark::Lines { lines, width: 1.5, dash: Some(TRUTH), role: Role::Truth });
-        rimmed_robot(scene, &plane, &world.truth[now], 7.0, Role::Truth);
-    }
+    true_path(scene, model, &plane);
     rimmed_robot(scene, &plane, &particle.world_from_robot, 9.0, Role::Path);
     drive::draw(scene, model, &plane);
     scale_bar(scene, &plane, 1.0, f64::INFINITY);
     scene.marks.push(Mark::Frame { area: plane.area, width: 1.0, role: Role::Frame });
 }
 
+/// The walls as they are, where the truth is shown.
+pub fn true_walls(scene: &mut Scene, model: &LapModel, plane: &Plane) {
+    if model.shows_truth() {
+        let plan = &model.lap().world().plan;
+        let walls = plan.walls.iter().chain(&plan.furniture);
+        let walls = walls.map(|s| vec![plane.point(s.a), plane.point(s.b)]).collect();
+        rimmed(scene, walls, 1.25, None, Role::Truth);
+    }
+}
+
+/// The path as the wheels alone report it, where that is shown.
+pub fn odometry(scene: &mut Scene, model: &LapModel, plane: &Plane) {
+    let (world, now) = (model.lap().world(), model.step() as usize);
+    if model.shows_raw() {
+        let lines = plane.path(&world.odometry[..=now], 0.5);
+        rimmed(scene, lines, 2.0, Some(RAW), Role::Odometry);
+        rimmed_robot(scene, plane, &world.odometry[now], 7.0, Role::Odometry);
+    }
+}
+
+/// The path as it was, where the truth is shown: over the estimate, thin and dashed, so that where both agree both are seen.
+pub fn true_path(scene: &mut Scene, model: &LapModel, plane: &Plane) {
+    let (world, now) = (model.lap().world(), model.step() as usize);
+    if model.shows_truth() {
+        let lines = plane.path(&world.truth[..=now], 0.5);
+        scene.marks.push(Mark::Lines { lines, width: 1.5, dash: Some(TRUTH), role: Role::Truth });
+        rimmed_robot(scene, plane, &world.truth[now], 7.0, Role::Truth);
+    }
+}
+
+/// A step of a path: that of another run is the same, where its numbers are.
+pub type Place = (u32, [u64; 3]);
+
+/// Paths from their ends back to what is drawn already.
+pub fn branches(drawn: &mut BTreeSet<Place>, plane: &Plane, paths: &mut dyn Iterator<Item = &Path>) -> Vec<Vec<Point>> {
+    let branch = |path: &Path| {
+        let mut poses: Vec<Pose2> = Vec::new();
+        for node in path.back() {
+            let pose = node.pose();
+            poses.push(pose);
+            if !drawn.insert((node.step(), [pose.x, pose.y, pose.theta].map(f64::to_bits))) {
+                break;
+            }
+        }
+        plane.path(&poses, 0.5)
+    };
+    paths.flat_map(branch).collect()
+}
+
 /// The paths of all other universes, and for the one step at which they died out, those that did: what they have in common once.
 fn others(scene: &mut Scene, model: &LapModel, plane: &Plane) {
     let mut drawn = BTreeSet::new();
-    let mut branches = |paths: &mut dyn Iterator<Item = &Path>| -> Vec<Vec<Point>> {
-        let branch = |path: &Path| {
-            let mut poses: Vec<Pose2> = Vec::new();
-            for node in path.back() {
-                poses.push(node.pose());
-                if !drawn.insert(node.id()) {
-                    break;
-                }
-            }
-            plane.path(&poses, 0.5)
-        };
-        paths.flat_map(branch).collect()
-    };
-    let living = branches(&mut model.lap().particles().iter().map(|particle| &particle.path));
-    let extinct = model.extinct();
-    let before = model.before().map_or(&[][..], |lap| lap.particles());
-    let dead =
-        branches(&mut extinct.iter().filter_map(|&slot| before.get(slot as usize)).map(|particle| &particle.path));
+    let living = branches(&mut drawn, plane, &mut model.lap().particles().iter().map(|particle| &particle.path));
+    let dead = branches(&mut drawn, plane, &mut model.dead().take(1).flatten());
     scene.marks.push(Mark::Lines { lines: dead, width: 1.25, dash: None, role: Role::Extinct });
     scene.marks.push(Mark::Lines { lines: living, width: 1.0, dash: None, role: OTHERS });
 }

@@ -64,7 +64,7 @@ impl Canvas {
         }
         self.pixmap.pixels_mut().fill(opaque(theme.color(Role::Paper)));
         let scale = f64::from(size[0]) / scene.width;
-        let shades = [Shading::Map, Shading::Ghost, Shading::Correlation, Shading::Density]
+        let shades = [Shading::Map, Shading::Ghost, Shading::Correlation, Shading::Share, Shading::Density]
             .map(|shading| theme.shades(shading).map(opaque));
         let mut brush = Brush { pixmap: &mut self.pixmap, scale, theme, shades };
         scene.marks.iter().for_each(|mark| brush.mark(mark));
@@ -88,7 +88,7 @@ struct Brush<'a> {
     pixmap: &'a mut Pixmap,
     scale: f64,
     theme: Theme,
-    shades: [[PremultipliedColorU8; 256]; 4],
+    shades: [[PremultipliedColorU8; 256]; 5],
 }
 
 impl Brush<'_> {
@@ -97,7 +97,7 @@ impl Brush<'_> {
             Mark::Raster { area, cells, shading } => {
                 let smaller = match shading {
                     Shading::Map | Shading::Ghost => Smaller::WallThenFree,
-                    Shading::Correlation | Shading::Density => Smaller::Largest,
+                    Shading::Share | Shading::Correlation | Shading::Density => Smaller::Largest,
                 };
                 raster::draw(self.pixmap, self.device(area), cells, smaller, &self.shades[*shading as usize]);
             }

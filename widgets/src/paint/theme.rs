@@ -4,7 +4,7 @@
 //! meaning hangs on hue alone: lines differ in dash and width, weights in width, extinction in its cross. The contrasts that
 //! WCAG 2.2 asks for (4.5 for text, 3 for marks) are tested below for every theme.
 
-use crate::scene::{FREE, OCCUPIED, Role, Shading, UNKNOWN};
+use crate::scene::{FREE, OCCUPIED, Role, SHARES, Shading, UNKNOWN};
 
 /// Red, green and blue, 0 to 255.
 pub type Rgb = [u8; 3];
@@ -38,6 +38,8 @@ struct Palette {
     weight: [Rgb; 2],
     /// Cells surely free, never seen, surely occupied.
     cells: [Rgb; 3],
+    /// A cell that is a wall in half of the maps.
+    disagree: Rgb,
     prior: Rgb,
     /// Full correlation, and the peak of a density; without any, both are paper.
     correlation: Rgb,
@@ -57,6 +59,7 @@ const LIGHT: Palette = Palette {
     hit: rgb(0xffffff),
     weight: [rgb(0x8a95a1), rgb(0x007c45)],
     cells: [rgb(0xffffff), rgb(0xd5dbe2), rgb(0x2a3644)],
+    disagree: rgb(0xe39b00),
     prior: rgb(0xc85500),
     correlation: rgb(0x0b2f6b),
     density: rgb(0xdde5ee),
@@ -75,6 +78,7 @@ const DARK: Palette = Palette {
     hit: rgb(0x12161c),
     weight: [rgb(0x66717e), rgb(0x3ddc97)],
     cells: [rgb(0x12161c), rgb(0x343d49), rgb(0xd3dbe4)],
+    disagree: rgb(0xc98a10),
     prior: rgb(0xff9f45),
     correlation: rgb(0xa9d6ff),
     density: rgb(0x2b3542),
@@ -93,6 +97,7 @@ const CONTRAST_LIGHT: Palette = Palette {
     hit: rgb(0xffffff),
     weight: [rgb(0x6b7580), rgb(0x00562f)],
     cells: [rgb(0xffffff), rgb(0xb9c0c8), rgb(0x000000)],
+    disagree: rgb(0xc27c00),
     prior: rgb(0x8a3c00),
     correlation: rgb(0x00122e),
     density: rgb(0xd3dbe4),
@@ -111,6 +116,7 @@ const CONTRAST_DARK: Palette = Palette {
     hit: rgb(0x000000),
     weight: [rgb(0x8a959f), rgb(0x5cffb0)],
     cells: [rgb(0x000000), rgb(0x46505b), rgb(0xffffff)],
+    disagree: rgb(0xd99600),
     prior: rgb(0xffb35c),
     correlation: rgb(0xeaf5ff),
     density: rgb(0x2f3945),
@@ -161,6 +167,7 @@ impl Theme {
             Role::Truth | Role::Landmark => palette.truth,
             Role::Copied => palette.copied,
             Role::Extinct => palette.extinct,
+            Role::Fading(level) => mix(palette.paper, palette.extinct, i32::from(level), 255),
             Role::Hit => palette.hit,
             Role::Weight(level) => mix(palette.weight[0], palette.weight[1], i32::from(level), 255),
             Role::Prior | Role::Particle(_) => palette.prior,
@@ -178,6 +185,7 @@ impl Theme {
             match shading {
                 Shading::Map => palette.cell(shade),
                 Shading::Ghost => mix(palette.cell(shade), palette.paper, 45, 100),
+                Shading::Share => palette.share(shade),
                 Shading::Correlation => mix(palette.paper, palette.correlation, shade, 255),
                 Shading::Density => mix(palette.paper, palette.density, shade, 255),
             }
@@ -195,6 +203,20 @@ impl Palette {
         } else {
             mix(unknown, occupied, shade - middle, i32::from(OCCUPIED) - middle)
         }
+    }
+}
+
+impl Palette {
+    /// A cell of many maps.
+    fn share(&self, shade: i32) -> Rgb {
+        let ([free, unknown, wall], least) = (self.cells, i32::from(SHARES));
+        if shade < least {
+            return mix(free, unknown, shade, least - 1);
+        }
+        let p = f64::from(shade - least) / f64::from(255 - least);
+        // Square roots: that one map differs must be seen.
+        let doubt = |share: f64| ((2.0 * share).sqrt() * 1000.0) as i32;
+        if p < 0.5 { mix(free, self.disagree, doubt(p), 1000) } else { mix(wall, self.disagree, doubt(1.0 - p), 1000) }
     }
 }
 
@@ -256,6 +278,29 @@ mod tests {
             assert!(contrast(occupied, unknown) >= 4.5, "{theme:?}");
             assert!(contrast(theme.color(Role::Hit), occupied) >= 4.5, "{theme:?}");
             assert!(contrast(free, unknown) >= 1.3, "{theme:?}");
+        }
+    }
+
+    #[test]
+    fn disagreement_is_no_wall_nothing_free_and_nothing_unknown() {
+        for theme in THEMES {
+            let shades = theme.shades(Shading::Share);
+            let [free, unknown, wall, half] = [0, SHARES - 1, 255, 160].map(|shade| shades[usize::from(shade)]);
+            let map = theme.shades(Shading::Map);
+            assert_eq!(
+                [free, unknown, wall],
+                [FREE, UNKNOWN, OCCUPIED].map(|shade| map[usize::from(shade)]),
+                "{theme:?}"
+            );
+            for other in [free, unknown, wall] {
+                let ratio = contrast(half, other);
+                assert!(ratio >= 1.6, "{theme:?} {other:?}: {ratio}");
+            }
+            // One universe of sixteen that has a wall where the others have none, and the other way round.
+            for (one, all) in [(SHARES + 12, free), (255 - 12, wall)] {
+                let ratio = contrast(shades[usize::from(one)], all);
+                assert!(ratio >= 1.15, "{theme:?} {one}: {ratio}");
+            }
         }
     }
 

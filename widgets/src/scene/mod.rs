@@ -57,6 +57,8 @@ pub enum Role {
     Copied,
     /// Died out at this resampling.
     Extinct,
+    /// Died out a while ago: from 0 (not seen any more) to 255 (as [`Role::Extinct`]).
+    Fading(u8),
     /// The mean of the hits in a cell, drawn on an occupied cell.
     Hit,
     /// A border that tells a weight, from 0 (no weight) to 255 (full).
@@ -86,6 +88,9 @@ pub enum Shading {
     Ghost,
     /// Absolute correlations, from 0 (none) to 255 (|ρ| = 1).
     Correlation,
+    /// What many maps make of a cell: below [`SHARES`] from free to unknown, and from there on the share of them that have a wall in it,
+    /// none to all. Where they differ most, at a half, it has the colour of disagreement.
+    Share,
     /// A probability density, from 0 (nothing) to 255 (its peak), pale enough to draw on.
     Density,
 }
@@ -105,6 +110,9 @@ pub const FREE: u8 = 0;
 pub const UNKNOWN: u8 = 128;
 /// The shade of a cell that is surely occupied.
 pub const OCCUPIED: u8 = 255;
+
+/// The first shade of [`Shading::Share`] that tells a share.
+pub const SHARES: u8 = 65;
 
 /// Log-odds \[nats\] at which a cell is drawn as surely free, and as surely occupied.
 const SURE: [f64; 2] = [-1.5, 2.7];

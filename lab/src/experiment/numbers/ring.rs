@@ -3,6 +3,7 @@
 use super::{Group, Number, Recipe, Runs, SEEDS, VALID};
 use crate::experiment::ErrorSummary;
 use crate::experiment::ProposalKind;
+use crate::experiment::lap::LapSetup;
 use crate::experiment::ring::{AFTER, RingRun, RingSetup, closing};
 
 /// All recipes of the ring: the course, and both proposals on it.
@@ -12,7 +13,39 @@ pub fn recipes() -> Vec<Recipe> {
         let group = Group(name.clone());
         Recipe::new(name, SEEDS, move |runs| runs_of(&group, proposal, runs).into())
     });
-    [course()].into_iter().chain(proposals).collect()
+    [course(), opening()].into_iter().chain(proposals).collect()
+}
+
+/// Of the very run that the lap's figure opens with.
+fn opening() -> Recipe {
+    Recipe::fixed("ring.opening", |group| {
+        let lap = LapSetup::opening();
+        let LapSetup { temper, seed, particles, .. } = lap;
+        let run = RingRun::of(&RingSetup { lap, ..RingSetup::default() }).expect(VALID);
+        let of = |what: &str| {
+            format!(
+                "{what}, in the run that the lap's figure opens with: fastslam ring --temper {temper} --particles {particles}, seed {seed}"
+            )
+        };
+        vec![
+            group.number("temper", temper, "", of("the share of each beam's evidence that counts")),
+            group.number(
+                "before",
+                run.deviation_before,
+                "m",
+                of("the standard deviation of position one step before the closing"),
+            ),
+            group.number(
+                "after",
+                run.deviation_after,
+                "m",
+                of("the standard deviation of position some steps after the closing"),
+            ),
+            group.number("deaths", (run.died * particles as f64).round(), "", of("universes that the closing ends")),
+            group.number("best", run.end_best, "m", of("the best universe's error at the last step")),
+            group.number("odometry", run.end_odometry, "m", of("raw odometry's error at the last step")),
+        ]
+    })
 }
 
 fn course() -> Recipe {

@@ -1,0 +1,124 @@
+//! All universes in one picture: where their walls agree and where they differ, every path and robot, and those that died out lately.
+
+use super::{
+    layout::Layout,
+    map,
+    model::LapModel,
+    view::{RAW, TRUTH, branches, odometry, true_path, true_walls},
+};
+use crate::{
+    decimal::fixed,
+    scene::{
+        Cells, FREE, Mark, Plane, Rect, Role, Sample, Scene, Shading, UNKNOWN, heading, legend, rimmed_polygon,
+        rimmed_robot, scale_bar,
+    },
+    words::{common, lap},
+};
+use fastslam::genealogy::Path;
+use std::collections::BTreeSet;
+
+/// How strongly universes are drawn that died out at the step shown, one step before it, and two.
+const FADING: [u8; 3] = [255, 150, 80];
+
+/// From this width on \[css px\] the heading has room for how far the universes are apart while the loop closes.
+const ROOMY: f64 = 380.0;
+
+/// Lengths of robots from centre to nose \[css px\]: of the living, and of those that died out.
+const LIVING: f64 = 8.0;
+const DEAD: f64 = 6.5;
+
+/// All of them, and above how far they are apart.
+pub fn overlay(scene: &mut Scene, model: &LapModel, layout: &Layout) {
+    let (lap, course) = (model.lap(), model.setup().course);
+    let m = lap.particles().len();
+    let spread = fixed(model.spread(), 2);
+    let (title, rest) = if model.closes() {
+        let dead = &model.died_in_closing();
+        let rest = if layout.large_header.w < ROOMY {
+            lap::DiedOf { dead, m: &m }.say()
+        } else {
+            lap::DiedSoFar { dead, m: &m, spread: &spread }.say()
+        };
+        (lap::closes().into(), rest)
+    } else {
+        (lap::Overlaid { m: &m }.say(), lap::Spread { spread: &spread }.say())
+    };
+    heading(scene, &layout.large_header, (&title, if model.closes() { Role::Extinct } else { Role::Ink }), &rest);
+
+    let plane = map::plane(layout.large, course);
+    scene.marks.push(Mark::Raster { area: plane.area, cells: map::shares(lap, course), shading: Shading::Share });
+    true_walls(scene, model, &plane);
+    paths(scene, model, &plane);
+    odometry(scene, model, &plane);
+    true_path(scene, model, &plane);
+    for particle in lap.particles() {
+        rimmed_robot(scene, &plane, &particle.world_from_robot, LIVING, Role::Path);
+    }
+    scale_bar(scene, &plane, 1.0, f64::INFINITY);
+    scene.marks.push(Mark::Frame { area: plane.area, width: 1.0, role: Role::Frame });
+}
+
+/// Those that died out lately, the fainter the longer ago, and over them the living: what paths have in common once.
+fn paths(scene: &mut Scene, model: &LapModel, plane: &Plane) {
+    let mut drawn = BTreeSet::new();
+    let living = branches(&mut drawn, plane, &mut model.lap().particles().iter().map(|particle| &particle.path));
+    let ages: Vec<_> = FADING.iter().zip(model.dead()).collect();
+    let mut robots = Vec::new();
+    for (&level, dead) in ages.into_iter().rev() {
+        let lines = branches(&mut drawn, plane, &mut dead.iter());
+        scene.marks.push(Mark::Lines { lines, width: 1.5, dash: None, role: Role::Fading(level) });
+        robots.extend(dead.iter().filter_map(|path: &Path| Some((plane.robot(&path.pose(), DEAD)?, level))));
+    }
+    scene.marks.push(Mark::Lines { lines: living, width: 1.25, dash: None, role: Role::Path });
+    for (corners, level) in robots {
+        rimmed_polygon(scene, corners, Role::Fading(level));
+    }
+}
+
+/// What its colours and lines mean.
+pub fn names(scene: &mut Scene, model: &LapModel, area: &Rect) {
+    let share = |p: f64| {
+        Sample::new(move |place| {
+            let cells = Cells { columns: 1, shades: vec![map::share(p)] };
+            let frame = Mark::Frame { area: *place, width: 1.0, role: Role::Weight(0) };
+            vec![Mark::Raster { area: *place, cells, shading: Shading::Share }, frame]
+        })
+    };
+    let several = model.lap().particles().len() > 1;
+    let mut items = Vec::new();
+    items.push((share(1.0), if several { lap::wall_in_all() } else { common::wall() }));
+    if several {
+        let run = |place: &Rect| {
+            let shades = [0.1, 0.3, 0.5, 0.7, 0.9].map(map::share).to_vec();
+            let cells = Cells { columns: shades.len(), shades };
+            let frame = Mark::Frame { area: *place, width: 1.0, role: Role::Weight(0) };
+            vec![Mark::Raster { area: *place, cells, shading: Shading::Share }, frame]
+        };
+        items.push((Sample::new(run).wide(34.0), lap::disagree()));
+    }
+    items.push((Sample::cell(FREE), common::free()));
+    items.push((Sample::cell(UNKNOWN), common::unknown()));
+    items.push((Sample::robot(Role::Path), if several { lap::all_paths() } else { lap::its_path() }));
+    if model.dead().any(|dead| !dead.is_empty()) {
+        items.push((Sample::robot(Role::Extinct), lap::died_lately()));
+    }
+    if model.shows_truth() {
+        items.push((Sample::line(Role::Truth, 1.5, Some(TRUTH)), common::truth()));
+    }
+    if model.shows_raw() {
+        items.push((Sample::line(Role::Odometry, 2.0, Some(RAW)), common::raw_odometry_line()));
+    }
+    legend(scene, area, items);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::SHARES;
+
+    #[test]
+    fn a_share_of_universes_with_a_wall_is_a_shade_above_all_without() {
+        assert_eq!([map::share(0.0), map::share(1.0)], [SHARES, 255]);
+        assert!(map::share(0.5) > map::share(0.1));
+    }
+}
