@@ -1,6 +1,7 @@
 //! All universes in one picture: where their walls agree and where they differ, every path and robot, and those that died out lately.
 
 use super::{
+    drive,
     layout::Layout,
     map,
     model::LapModel,
@@ -54,6 +55,7 @@ pub fn overlay(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     for particle in lap.particles() {
         rimmed_robot(scene, &plane, &particle.world_from_robot, LIVING, Role::Path);
     }
+    drive::draw(scene, model, &plane);
     scale_bar(scene, &plane, 1.0, f64::INFINITY);
     scene.marks.push(Mark::Frame { area: plane.area, width: 1.0, role: Role::Frame });
 }
