@@ -1,5 +1,6 @@
 // npm run check: format, lints, types and spelling, and the links and the HTML of the built pages, without running a test.
-import { existsSync } from 'node:fs'
+import { existsSync, readdirSync, rmSync } from 'node:fs'
+import { homedir } from 'node:os'
 import { join } from 'node:path'
 import { buildPages, buildPrograms, buildWasm, programFile } from './build.mjs'
 import { audit, checkCrates } from './dependencies.mjs'
@@ -41,7 +42,17 @@ async function checkPackages() {
     const other = packed.filter(file => !/^(src|tests|examples|fonts|words)\/|^[^/]+$/.test(file))
     if (other.length > 0) throw new StepError(`The package ${crate} holds what no crate needs: ${other.join(', ')}.`)
   }
-  const { output } = await run('cargo', ['package', '--offline', '--allow-dirty', ...crates.flatMap(crate => ['--package', crate])])
+  // What a registry has, Cargo takes for unchangeable: it would build the crates as they were packed the last time.
+  const target = join(root, 'target', 'published')
+  const sources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry', 'src')
+  // A registry in a folder, as the one for the purpose, has no host in its name.
+  const folders = existsSync(sources) ? readdirSync(sources).filter(name => name.startsWith('-')).map(name => join(sources, name)) : []
+  for (const folder of [...folders, join(target, 'debug', '.fingerprint')]) {
+    const ours = existsSync(folder) ? readdirSync(folder).filter(name => name.startsWith('fastslam')) : []
+    for (const name of ours) rmSync(join(folder, name), { recursive: true })
+  }
+  const packages = crates.flatMap(crate => ['--package', crate])
+  const { output } = await run('cargo', ['package', '--offline', '--allow-dirty', '--target-dir', target, ...packages])
   if (/^warning/m.test(output)) throw new StepError('Packing the crates gives warnings: see above.')
 }
 
