@@ -263,6 +263,13 @@ test('the manifest names every attribute, part and property that there is', asyn
       ;(element as FigureElement).state = ''
     }))
     expect(declared.attributes.map(({ name: attribute }: { name: string }) => attribute)).toEqual(expect.arrayContaining(values))
+    if (name === 'proposal') {
+      // Some parts are there only once a run is pinned, or has been repeated.
+      await figure.getByRole('button', { name: 'Pin this run' }).click()
+      await figure.getByText('Five seeds', { exact: true }).click()
+      await figure.getByRole('button', { name: 'Run five seeds' }).click()
+      await expect(figure.locator('.strip button')).toHaveCount(5)
+    }
     for (const part of await figure.evaluate(element => [...element.shadowRoot!.querySelectorAll('[part]')].flatMap(inner => [...inner.part]))) parts.add(part)
     for (const { name: property } of declared.cssProperties) expect(css).toContain(`var(${property},`)
     const named = declared.cssParts.map((part: { name: string }) => part.name)

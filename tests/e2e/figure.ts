@@ -39,7 +39,7 @@ export class Figure {
     readonly page: Page | Frame,
     private readonly tag: string,
   ) {
-    this.element = page.locator(`${tag}:not(.trial > *)`) // the exercises have copies of their own
+    this.element = page.locator(tag).and(page.locator(':not(.trial > *)')) // the exercises have copies of their own
     this.play = this.button('Play')
     this.pause = this.button('Pause')
     this.step = this.button('Step')

@@ -221,9 +221,9 @@ fn malformed_lines_are_named_and_skipped_only_if_the_reader_says_so() {
 
 #[test]
 fn what_does_not_fit_is_refused_before_it_starts_with_parameter_and_range() {
-    // So many scans, 900 m apart.
+    // So many scans, 800 m apart.
     let far = |scans: u32| -> String {
-        let line = |k| format!("FLASER 2 80 80 {0} {1} 0 {0} {1} 0 {k} host {k}\n", 900 * k, 70 * (k % 9));
+        let line = |k| format!("FLASER 2 80 80 {0} {1} 0 {0} {1} 0 {k} host {k}\n", 800 * k, 70 * (k % 9));
         (0..scans).map(line).collect()
     };
     let mut figure = opened("universes=256&cell=0.02&policy=never&max-range=80");

@@ -242,7 +242,7 @@ fn meter(scene: &mut Scene, model: &LapModel, area: &Rect) {
         let lines = vec![chart.level(fraction)];
         scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some([3.0, 3.0]), role: Role::Weight(0) });
     }
-    scene.marks.push(ghost(&chart, pinned.iter().copied()));
+    scene.marks.extend(ghost(&chart, pinned.iter().copied()));
     let history = model.history();
     let curve = chart.curve(history.iter().map(|r| (r.step, r.ess / m)));
     let resampled = history.iter().zip(&curve).filter(|(r, _)| r.ancestors.is_some()).map(|(_, at)| *at).collect();

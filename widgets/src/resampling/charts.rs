@@ -176,7 +176,7 @@ impl Picture<'_> {
         value: impl Fn(&Moment) -> String,
     ) {
         let scale = if rank == 2 { self.error_scale } else { 1.0 };
-        scene.marks.push(ghost(&self.chart(rank), self.model.pinned(rank).iter().map(|value| value / scale)));
+        scene.marks.extend(ghost(&self.chart(rank), self.model.pinned(rank).iter().map(|value| value / scale)));
         if let Some(second) = second {
             let lines = vec![self.curve(rank, self.chosen(), second)];
             let role = stroke::role(self.chosen());

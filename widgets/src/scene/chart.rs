@@ -5,10 +5,11 @@ use super::{Mark, Point, Rect, Role};
 /// Whatever is drawn of a run that is pinned.
 pub const GHOST: Role = Role::Level(48);
 
-/// A curve of a run that is pinned, by step, behind those of the run that is shown: of the steps that both have.
-pub fn ghost(chart: &Chart, shares: impl Iterator<Item = f64>) -> Mark {
-    let lines = vec![chart.curve((0..=chart.last).zip(shares))];
-    Mark::Lines { lines, width: 1.75, dash: None, role: GHOST }
+/// A curve of a run that is pinned, by step, behind those of the run that is shown: of the steps that both have. `None` where nothing is
+/// pinned.
+pub fn ghost(chart: &Chart, shares: impl Iterator<Item = f64>) -> Option<Mark> {
+    let curve = chart.curve((0..=chart.last).zip(shares));
+    (!curve.is_empty()).then(|| Mark::Lines { lines: vec![curve], width: 1.75, dash: None, role: GHOST })
 }
 
 /// A place for curves: steps from left to right, shares of its height from the bottom up.
