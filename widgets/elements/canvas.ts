@@ -67,6 +67,7 @@ export class Canvas {
     const css = `${height}px`
     if (this.element.style.height === css) return
     this.element.style.height = css
+    this.stage.style.setProperty('--_height', css)
     this.stage.parentElement!.style.setProperty('--_high', css)
   }
 
