@@ -216,7 +216,7 @@ test('where the clipboard is refused, the link is shown', async ({ page }) => {
   const lap = await new Figure(page, 'fastslam-lap').open()
   await lap.scrubTo(3)
   await lap.menu('Copy link')
-  await expect(lap.alert).toContainText('#fastslam-lap?step=3')
+  await expect(lap.alert).toContainText('#fastslam-lap?v=4&step=3')
 })
 
 /** Every way in which an author's value comes to a figure. */

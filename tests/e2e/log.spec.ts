@@ -421,8 +421,8 @@ test('malformed lines are named, and skipped if the reader says so', async ({ pa
 
 test('what does not fit into memory is refused before it starts', async ({ page }) => {
   const log = await new LogFigure(page).open()
-  // Twenty scans, 900 m apart.
-  const far = Array.from({ length: 20 }, (_, k) => `FLASER 2 80 80 ${900 * k} ${70 * (k % 9)} 0 ${900 * k} ${70 * (k % 9)} 0 ${k} host ${k}\n`)
+  // Twenty scans, 800 m apart: a kilometre would be refused as a jump.
+  const far = Array.from({ length: 20 }, (_, k) => `FLASER 2 80 80 ${800 * k} ${70 * (k % 9)} 0 ${800 * k} ${70 * (k % 9)} 0 ${k} host ${k}\n`)
   await log.choose('far.clf', far.join(''))
   await log.set('max-range', '80')
   await log.set('cell', '0.02')

@@ -121,7 +121,7 @@ test('the bars of a count and their intervals begin at the same side, whatever t
   for (const dir of ['ltr', 'rtl']) {
     const figure = await openWhole(page, 'resampling', { dir })
     await figure.element.getByRole('button', { name: /Count over/ }).click()
-    await expect(figure.element.locator('.said')).toContainText('200 seeds counted', { timeout: 60_000 })
+    await expect(figure.element.locator('.count .said')).toContainText('200 seeds counted', { timeout: 60_000 })
     const bars = await figure.element.locator('.track').evaluateAll(tracks =>
       tracks.map(track => {
         const [fill, range] = [...track.children].map(child => child.getBoundingClientRect()) as [DOMRect, DOMRect]

@@ -42,6 +42,7 @@ export abstract class ComparedFigure extends FigureElement {
   #look = '' // the theme and the language of its picture
   #repainting: AbortController | undefined
   #pinning = false // with the next frame that shows what was asked for
+  #shown: Frame | undefined // the last that showed it
   readonly #button = h('button', { type: 'button', class: 'pin', part: 'button pin' })
   readonly #pinWords = [h('span', { class: 'long' }), h('span', { class: 'short', 'aria-hidden': 'true' })] as const
   readonly #card = new PinCard(this.words, {
@@ -75,7 +76,9 @@ export abstract class ComparedFigure extends FigureElement {
 
   /** Keeps the run shown: its curves behind those of the runs after it, its picture and its numbers beside them. */
   pin(): void {
-    this.#pinning = true
+    // What is set right after this call is not of the run that was to be kept.
+    if (this.#shown?.query === this.state) this.#keep(this.#shown)
+    else this.#pinning = true
     this.refresh()
   }
 
@@ -131,6 +134,7 @@ export abstract class ComparedFigure extends FigureElement {
   protected override present(frame: Frame): void {
     super.present(frame)
     if (frame.busy) return
+    this.#shown = frame
     if (this.#pinning) this.#keep(frame)
     if (this.#pinned) this.#card.compare(frame, this.compared.readouts(frame.values), hasComma(this.getAttribute('decimal'), this.words))
     if (this.#pinned && frame.picture && frame.layout) this.#take(this.#pinned, frame)
