@@ -23,7 +23,8 @@ fn six_doors() -> Recipe {
         let found: Vec<[DoorsOutcome; 4]> = runs.over(|seed| {
             let run = |setup: DoorsSetup| doors::outcomes(&setup, seed..seed + 1).expect(VALID)[0];
             let [few, some, many] = PARTICLES.map(|particles| run(DoorsSetup { particles, ..DoorsSetup::default() }));
-            let always = DoorsSetup { particles: PARTICLES[2], policy: ResamplePolicy::Always };
+            let always =
+                DoorsSetup { particles: PARTICLES[2], policy: ResamplePolicy::Always, ..DoorsSetup::default() };
             [few, some, many, run(always)]
         });
         let of = format!("over seeds 1 to {} of the doors (src/experiment/doors.rs)", runs.seeds);
