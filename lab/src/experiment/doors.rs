@@ -128,6 +128,11 @@ impl DoorsSetup {
         ((place - truth) / self.spacing()).round() as i32
     }
 
+    /// How many steps the drive takes.
+    pub fn step_count(&self) -> u32 {
+        Log::new(self).controls.len() as u32
+    }
+
     /// How often the likeliest door is the right one: that the ride ended less than half a spacing from where it was to end,
     /// 2 Φ(s / 2σ) − 1 for a spacing s. Whatever is drawn again because it is out of the corridor is not counted in.
     pub fn pencil(&self) -> f64 {
@@ -138,7 +143,7 @@ impl DoorsSetup {
 /// What a filter takes the landmark in view for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Belief {
-    /// Nothing is in view.
+    /// Nothing has been in view.
     Nothing,
     /// The landmark of this rank: a door, or behind the doors the sign.
     Landmark(u32),
@@ -159,7 +164,7 @@ pub struct DoorsReport {
     pub places: Vec<f64>,
     /// Its weight.
     pub weights: Vec<f64>,
-    /// What each takes the first landmark in view for.
+    /// What each takes the first landmark in view for, or took the last one that was, since the ride.
     pub beliefs: Vec<Belief>,
     /// N_eff before resampling.
     pub ess: f64,
@@ -171,7 +176,7 @@ pub struct DoorsReport {
     pub ekf_place: f64,
     /// Its standard deviation \[m\].
     pub ekf_std: f64,
-    /// What EKF-SLAM takes the first landmark in view for.
+    /// What EKF-SLAM takes it for.
     pub ekf_belief: Belief,
 }
 
@@ -208,6 +213,9 @@ pub struct Doors {
     filter: Rbpf<Map, Proposal>,
     ekf: EkfSlam<Corridor, Offset>,
     step: usize,
+    /// What each particle and EKF-SLAM took the last landmark in view for.
+    beliefs: Vec<Belief>,
+    ekf_belief: Belief,
 }
 
 impl Doors {
@@ -230,7 +238,8 @@ impl Doors {
             .executor(Executor::Serial)
             .build()?;
         let ekf = EkfSlam::new(Corridor, sensor, correspondence, Pose2::default());
-        Ok(Self { setup: setup.clone(), log: Log::new(setup), filter, ekf, step: 0 })
+        let (beliefs, ekf_belief) = (vec![Belief::Nothing; setup.particles], Belief::Nothing);
+        Ok(Self { setup: setup.clone(), log: Log::new(setup), filter, ekf, step: 0, beliefs, ekf_belief })
     }
 
     /// What was set.
@@ -260,7 +269,7 @@ impl Doors {
 
     /// Both filters before the first step.
     pub fn start(&self) -> DoorsReport {
-        self.report(self.filter.weights().ess(), None, vec![Belief::Nothing; self.setup.particles], Belief::Nothing)
+        self.report(self.filter.weights().ess(), false)
     }
 
     /// Both filters make a step; `None` where the log has ended.
@@ -268,20 +277,26 @@ impl Doors {
         let (control, features) = (self.log.controls.get(self.step)?, &self.log.sightings[self.step]);
         let report = self.filter.step(control, features);
         let ekf = self.ekf.step(control, features);
+        if self.step == self.log.ride {
+            // Whoever is carried with closed eyes has nothing in view any more.
+            self.beliefs.fill(Belief::Nothing);
+            self.ekf_belief = Belief::Nothing;
+        }
         self.step += 1;
-        // What a slot saw is told of the slot before resampling: the particle in it now was copied from its ancestor.
-        let from = |slot: usize| report.ancestors.as_ref().map_or(slot, |ancestors| ancestors[slot] as usize);
+        // What a slot saw is told of the slots before resampling: the particle in it now was copied from one of them.
         let believed = self.filter.particles().iter().enumerate().map(|(slot, particle)| {
-            let association = report.associations[from(slot)].first();
-            self.belief(association, |index| particle.map.get(index).map(|landmark| landmark.mean.x))
+            let from = report.ancestors.as_ref().map_or(slot, |ancestors| ancestors[slot] as usize);
+            let place = |index| particle.map.get(index).map(|landmark| landmark.mean.x);
+            self.belief(report.associations[from].first(), place).unwrap_or(self.beliefs[from])
         });
-        let beliefs = believed.collect();
-        let ekf_belief =
-            self.belief(ekf.associations.first(), |index| self.ekf.landmark(index).map(|landmark| landmark.mean.x));
-        Some(self.report(report.ess, report.ancestors.as_deref(), beliefs, ekf_belief))
+        let believed = believed.collect();
+        let place = |index| self.ekf.landmark(index).map(|landmark| landmark.mean.x);
+        self.ekf_belief = self.belief(ekf.associations.first(), place).unwrap_or(self.ekf_belief);
+        self.beliefs = believed;
+        Some(self.report(report.ess, report.resampled()))
     }
 
-    fn report(&self, ess: f64, ancestors: Option<&[u32]>, beliefs: Vec<Belief>, ekf_belief: Belief) -> DoorsReport {
+    fn report(&self, ess: f64, resampled: bool) -> DoorsReport {
         let features = self.step.checked_sub(1).map(|index| &self.log.sightings[index]);
         DoorsReport {
             step: self.step_number(),
@@ -289,31 +304,29 @@ impl Doors {
             seen: features.into_iter().flatten().filter_map(|feature| feature.signature).collect(),
             places: self.filter.particles().iter().map(|p| p.world_from_robot.x).collect(),
             weights: self.filter.weights().as_slice().to_vec(),
-            beliefs,
+            beliefs: self.beliefs.clone(),
             ess,
-            resampled: ancestors.is_some(),
+            resampled,
             best: self.filter.best(),
             ekf_place: self.ekf.pose().x,
             ekf_std: self.ekf.pose_covariance().m11.max(0.0).sqrt(),
-            ekf_belief,
+            ekf_belief: self.ekf_belief,
         }
     }
 
-    /// What an association means: the landmark that is where the filter has mapped it, if it is one of the corridor.
-    fn belief(&self, association: Option<&Association>, place: impl Fn(u32) -> Option<f64>) -> Belief {
-        let index = match association {
-            None | Some(Association::Ignored) => return Belief::Nothing,
-            Some(Association::Matched(index) | Association::New(index)) => *index,
+    /// What an association means: the landmark that is where the filter has mapped it, if it is one of the corridor; `None` where
+    /// nothing was in view.
+    fn belief(&self, association: Option<&Association>, place: impl Fn(u32) -> Option<f64>) -> Option<Belief> {
+        let (index, new) = match association? {
+            Association::Ignored => return None,
+            Association::Matched(index) => (*index, false),
+            // While it maps, whatever is new is the landmark that is there.
+            Association::New(index) => (*index, self.step > self.log.ride),
         };
-        let Some(place) = place(index) else { return Belief::New };
-        // While it maps, whatever is new is the landmark that is there.
-        let mapping = self.step <= self.log.ride;
-        if !mapping && matches!(association, Some(Association::New(_))) {
-            return Belief::New;
-        }
-        let landmarks = self.setup.doors.iter().copied().chain([SIGN]);
-        let near = (0..).zip(landmarks).find(|(_, landmark)| (landmark - place).abs() < SAME);
-        near.map_or(Belief::New, |(rank, _)| Belief::Landmark(rank))
+        let mapped = place(index).filter(|_| !new);
+        let landmarks = || (0..).zip(self.setup.doors.iter().copied().chain([SIGN]));
+        let near = mapped.and_then(|mapped| landmarks().find(|(_, landmark)| (landmark - mapped).abs() < SAME));
+        Some(near.map_or(Belief::New, |(rank, _)| Belief::Landmark(rank)))
     }
 }
 
