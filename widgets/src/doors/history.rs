@@ -176,7 +176,7 @@ impl History<'_> {
                 continue;
             }
             let y = self.y(f64::from(off));
-            let w = ((area.w - numbers) * share.min(1.0)).max(1.5);
+            let w = ((area.w - numbers - 4.0) * share.min(1.0)).max(1.5);
             let role = if off == 0 { Role::Truth } else { Role::Path };
             scene.marks.push(Mark::Fill { area: Rect::new(area.x, y - 0.5 * row + 1.5, w, row - 3.0), role });
             let number = Rect::new(area.x + w + 4.0, y - 8.0, numbers, 16.0);

@@ -62,6 +62,11 @@ impl DoorsModel {
         self.step() >= self.ride()
     }
 
+    /// The same at the step asked for, however far that is simulated.
+    pub fn will_be_carried(&self) -> bool {
+        self.recipe.step >= self.ride()
+    }
+
     /// The step of the ride.
     pub fn ride(&self) -> u32 {
         self.run.events()[0]

@@ -197,7 +197,8 @@ impl Strip<'_> {
         let sign = [self.x(SIGN), y + 9.0];
         rimmed_polygon(scene, diamond(sign, 8.0), Role::Landmark);
         if self.layout.wide {
-            let area = Rect::new(self.x(SIGN + 1.4), y + 13.0, 80.0, 16.0);
+            let left = self.x(SIGN + 1.4);
+            let area = Rect::new(left, y + 13.0, x + w - left, 16.0);
             scene.marks.push(text(area, Anchor::Start, 11.5, Weight::Regular, Role::Muted, words::sign()));
         }
     }
@@ -261,8 +262,8 @@ mod tests {
             let column = nearest_with_room(&filled, 20, 30).unwrap();
             filled[column] += 1;
         }
-        assert!(filled[20] >= filled[16] && filled[16] > 0 && filled[24] > 0, "{filled:?}");
-        assert!(filled[20] < 30 && filled[0] == 0);
+        assert!(filled[20] > filled[18] && filled[18] > 0 && filled[22] > 0, "{filled:?}");
+        assert!(filled[20] < 30 && filled[10] == 0);
         assert_eq!(nearest_with_room(&[2, 2], 0, 2), None);
     }
 }

@@ -49,7 +49,7 @@ impl View for DoorsView {
                     hover: None,
                 });
             }
-            if model.is_carried() {
+            if model.will_be_carried() {
                 scene.handles.push(Handle {
                     name: END,
                     title: words::end().into(),
