@@ -197,7 +197,7 @@ impl Strip<'_> {
         let sign = [self.x(SIGN), y + 9.0];
         rimmed_polygon(scene, diamond(sign, 8.0), Role::Landmark);
         if self.layout.wide {
-            let left = self.x(SIGN + 1.4);
+            let left = self.x(SIGN + 1.8);
             let area = Rect::new(left, y + 13.0, x + w - left, 16.0);
             scene.marks.push(text(area, Anchor::Start, 11.5, Weight::Regular, Role::Muted, words::sign()));
         }
