@@ -19,6 +19,10 @@ use crate::{
 /// Name of the handle, and of its parameter, that says where the ride ends.
 const END: &str = "end";
 
+/// What the doors are called.
+const TITLES: [fn() -> &'static str; NAMES.len()] =
+    [words::door_1, words::door_2, words::door_3, words::door_4, words::door_5, words::door_6, words::door_7];
+
 /// The figure of the doors, as it is seen.
 #[derive(Default)]
 pub struct DoorsView;
@@ -41,7 +45,7 @@ impl View for DoorsView {
             for (rank, place) in model.setup().doors.iter().enumerate() {
                 scene.handles.push(Handle {
                     name: NAMES[rank],
-                    title: words::DoorNumber { n: &(rank + 1) }.say(),
+                    title: TITLES[rank]().into(),
                     at: strip.door(rank),
                     axes: axis(rank),
                     value: *place,
