@@ -74,19 +74,21 @@ impl History<'_> {
                 shading: Shading::Correlation,
             }]
         });
+        let wide = self.layout.wide;
         let mut items = vec![
-            (dark.wide(36.0), words::share()),
+            (dark.wide(if wide { 36.0 } else { 20.0 }), words::share()),
             (Sample::line(EKF, 3.0, None), "EKF-SLAM"),
-            (Sample::line(Role::Truth, 1.5, None), common::truth()),
         ];
-        if !self.model.pinned().is_empty() {
-            items.push((Sample::line(GHOST, 3.0, None), common::pinned_run()));
+        // A phone has one line for all of them.
+        if wide {
+            items.push((Sample::line(Role::Truth, 1.5, None), common::truth()));
         }
-        let place = if self.layout.wide {
-            Rect { x: area.x + used, w: area.w - used, ..area }
-        } else {
-            Rect { y: area.y + 18.0, ..area }
-        };
+        if !self.model.pinned().is_empty() {
+            let name = if wide { common::pinned_run() } else { common::pinned_mark() };
+            items.push((Sample::line(GHOST, 3.0, None), name));
+        }
+        let place =
+            if wide { Rect { x: area.x + used, w: area.w - used, ..area } } else { Rect { y: area.y + 18.0, ..area } };
         legend(scene, &place, items);
     }
 

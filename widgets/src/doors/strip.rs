@@ -3,7 +3,7 @@
 use super::{layout::Layout, model::DoorsModel, told};
 use crate::{
     decimal::write,
-    font::Weight,
+    font::{self, Weight},
     model::Model,
     scene::{Anchor, Mark, Point, Rect, Role, Scene, diamond, heading, rimmed_polygon, robot, text},
     words::doors as words,
@@ -21,6 +21,9 @@ const DOOR: f64 = 1.0;
 /// Diameter of a particle at the most, and at the least \[css px\].
 const LARGEST: f64 = 5.5;
 const SMALLEST: f64 = 1.6;
+
+/// Font size of what the filters are told \[css px\].
+const TOLD: f64 = 11.0;
 
 /// Corners of a bell.
 const CORNERS: u32 = 48;
@@ -215,9 +218,11 @@ impl Strip<'_> {
         // While the Gaussian is as wide as that, it says so itself.
         if self.model.now().ekf_std < 1.0 {
             let told = words::ToldRide { place: &write(RIDE_END), std: &write(std) }.say();
-            let left = self.layout.strip.x + 2.0;
-            let area = Rect::new(left, self.layout.ekf.y + 1.0, (ends[0] - 6.0 - left).max(0.0), 14.0);
-            scene.marks.push(text(area, Anchor::End, 11.0, Weight::Regular, Role::Muted, told));
+            let (left, right) = (self.layout.strip.x + 2.0, ends[0] - 6.0);
+            if font::measure(&told, TOLD, Weight::Regular) < right - left {
+                let area = Rect::new(left, self.layout.ekf.y + 1.0, right - left, 14.0);
+                scene.marks.push(text(area, Anchor::End, TOLD, Weight::Regular, Role::Muted, told));
+            }
         }
         let [x, y] = self.end();
         rimmed_polygon(scene, vec![[x, y - 6.0], [x + 6.0, y + 5.0], [x - 6.0, y + 5.0]], Role::Accent);
