@@ -44,7 +44,7 @@ export default defineConfig({
       output: {
         entryFileNames: chunk => (chunk.name === 'fastslam' ? '[name].js' : 'assets/[name]-[hash].js'),
         // What all figures share is one file, and what only one has is a file of its own: a page for frames loads no other's.
-        codeSplitting: { groups: [{ name: 'shared', test: /widgets[/\\](pkg[/\\]|words[/\\]|elements[/\\](?!(generated[/\\])?(log|drops|map-gestures|resampling|resampling-study|lap-table|index)\.))/ }] },
+        codeSplitting: { groups: [{ name: 'shared', test: /widgets[/\\](pkg[/\\]|words[/\\]|elements[/\\](?!(generated[/\\])?(log|drops|map-gestures|resampling|doors|count-study|lap-table|index)\.))/ }] },
         // It lies beside fastslam.js, which only names them: figures find the site's other pages from there.
         chunkFileNames: chunk => (chunk.name === 'shared' ? 'fastslam-[hash].js' : 'assets/[name]-[hash].js'),
         assetFileNames,

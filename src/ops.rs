@@ -38,6 +38,11 @@ pub fn ln(x: f64) -> f64 {
     libm::log(x)
 }
 
+/// 2/√π ∫₀ˣ exp(−t²) dt: a normal deviate stays within ±x √2 standard deviations with this probability.
+pub fn erf(x: f64) -> f64 {
+    libm::erf(x)
+}
+
 /// √(x² + y²) without overflow.
 pub fn hypot(x: f64, y: f64) -> f64 {
     libm::hypot(x, y)

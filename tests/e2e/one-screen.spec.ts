@@ -107,7 +107,7 @@ for (const tag of programs.keys()) {
 }
 
 /** Figures whose runs can be compared. */
-const COMPARED = ['lap', 'resampling', 'proposal'].map(name => `fastslam-${name}`)
+const COMPARED = ['lap', 'resampling', 'proposal', 'doors'].map(name => `fastslam-${name}`)
 
 async function pin(figure: Figure): Promise<void> {
   await figure.button('Pin this run').click()

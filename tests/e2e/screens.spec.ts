@@ -16,7 +16,7 @@ async function openWhole(page: Page, name: string, { dir = 'ltr', attributes = '
   if (name === 'log') await expect(figure.sentence).not.toBeEmpty()
   else await figure.live()
   await figure.openSettings()
-  if (name === 'resampling') await figure.openCount()
+  if (name === 'resampling' || name === 'doors') await figure.openCount()
   await figure.settled()
   return figure
 }

@@ -231,8 +231,9 @@ export class Session {
     this.#adoptTarget()
   }
 
+  /** Of a figure whose drives end at different steps, a step beyond the end is the end. */
   #adoptTarget(): void {
-    this.#target = Number(this.values['step'] ?? this.figure.step())
+    this.#target = clampedStep(Number(this.values['step'] ?? this.figure.step()), this.figure.step_count())
   }
 
   /** What a pointer does. A move that changes no parameter, because it ended where it began or at a limit, is none. */

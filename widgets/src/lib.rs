@@ -11,6 +11,8 @@ mod comma;
 #[cfg(feature = "page")]
 pub mod conditioning;
 pub mod decimal;
+#[cfg(feature = "page")]
+pub mod doors;
 pub mod export;
 pub mod figure;
 pub mod font;

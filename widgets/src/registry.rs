@@ -5,6 +5,7 @@ use crate::log::LogView;
 #[cfg(feature = "page")]
 use crate::{
     conditioning::ConditioningView,
+    doors::{DOORS, DoorsView},
     lap::{LAPS, LapView},
     proposal::ProposalView,
     resampling::{ResamplingView, WINGS},
@@ -67,6 +68,8 @@ pub const FIGURES: &[Entry] = &[
     Entry::of::<LogView>("fastslam-log", Program::Log, None),
     #[cfg(feature = "page")]
     Entry::of::<ResamplingView>("fastslam-resampling", Program::Page, Some(&WINGS)),
+    #[cfg(feature = "page")]
+    Entry::of::<DoorsView>("fastslam-doors", Program::Page, Some(&DOORS)),
 ];
 
 /// The figure of a tag.

@@ -119,3 +119,10 @@ fn a_filter_that_resamples_at_every_step_loses_the_right_wing_in_good_health() {
     assert!(said.len() >= 3, "{said:?}");
     assert!(said[0].starts_with("lost at step") && said[0].contains("N_eff 1"), "{said:?}");
 }
+
+#[test]
+fn a_short_ride_keeps_the_kalman_filter_right_and_one_that_ends_elsewhere_fools_it_but_not_the_particles() {
+    let done = |name, query: &str| chip("fastslam-doors", name, query).done;
+    assert!(done("short", "ride=1") && !done("short", "ride=1&step=50") && !done("short", "ride=7"));
+    assert!(done("fool", "end=11.5") && !done("fool", "end=8"));
+}

@@ -9,10 +9,11 @@ use fastslam_widgets::{
 };
 
 /// A state that is pinned, and one that is shown then, with every mark that a legend has.
-const RUNS: [(&str, &str, &str); 4] = [
+const RUNS: [(&str, &str, &str); 5] = [
     ("fastslam-lap", "step=30", "universes=4&step=22&truth=on&raw=on"),
     ("fastslam-resampling", "step=30", "particles=40&threshold=0.9&step=12"),
     ("fastslam-resampling", "wings=on&step=30", "step=12"),
+    ("fastslam-doors", "seed=2", "step=58&particles=50"),
     ("fastslam-proposal", "range-std=0.3", "v=3&landmarks=pair&samples=64&predict=on&run=on"),
 ];
 
@@ -93,6 +94,7 @@ fn the_gist_of_a_picture_lies_in_it_whatever_is_shown() {
         ("fastslam-resampling", "all n-eff tree particles"),
         ("fastslam-proposal", "all motion aware ratio"),
         ("fastslam-conditioning", "all"),
+        ("fastslam-doors", "all corridor history"),
     ] {
         let mut figure = figure(tag, "");
         for panel in panels.split(' ') {

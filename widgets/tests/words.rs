@@ -106,6 +106,8 @@ const SAME: &[&str] = &[
     "multinomial",
     "landmarks",
     "EKF",
+    "SLAM",
+    "FastSLAM",
     "min",
     "rad",
     "det",

@@ -11,6 +11,7 @@ import { OPTIONS } from '../../widgets/elements/options'
 /** Figures with much code of their own, which is loaded where one of them is asked for. */
 const LATER: Record<string, () => Promise<unknown>> = {
   'fastslam-log': () => import('../../widgets/elements/log'),
+  'fastslam-doors': () => import('../../widgets/elements/doors'),
   'fastslam-resampling': () => import('../../widgets/elements/resampling'),
 }
 

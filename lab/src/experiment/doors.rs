@@ -7,23 +7,28 @@
 //! Everything but the association is linear and Gaussian: the sensor reports offsets, the heading is known, and the true place after
 //! the ride is drawn from the very Gaussian that both filters are told. With the right associations EKF-SLAM would be the Kalman
 //! filter, and exact. Where it goes wrong it has decided wrongly.
+//!
+//! [`Doors`] is one such run, a step at a time; [`outcomes`] are what many of them come to.
 
+mod corridor;
+
+use super::ProposalKind;
 use crate::baseline::EkfSlam;
-use crate::{WORLD_ODOMETRY, WORLD_SENSOR};
+use corridor::{Corridor, Log, Offset};
 use fastslam::error::{Range, SettingError};
 use fastslam::execute::Executor;
 use fastslam::geometry::Pose2;
-use fastslam::map::landmarks::{Correspondence, Gate, Landmarks};
-use fastslam::motion::Motion;
-use fastslam::nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector2};
-use fastslam::proposal::{FromMotion, Marginal};
-use fastslam::random::Stream;
+use fastslam::map::landmarks::{Association, Correspondence, Gate, Landmarks};
+use fastslam::ops;
+use fastslam::proposal::{Either, FromMeasurement, FromMotion, Marginal};
 use fastslam::rbpf::Rbpf;
 use fastslam::resampling::ResamplePolicy;
-use fastslam::sensor::{Feature, LandmarkSensor, Prediction};
 
-/// Number of doors.
+/// Number of doors, unless others are given.
 pub const DOORS: u32 = 6;
+
+/// The most doors that a corridor can have.
+pub const MOST_DOORS: usize = 7;
 
 /// From one door to the next \[m\]; the first is so far from the start.
 pub const SPACING: f64 = 3.0;
@@ -35,50 +40,311 @@ pub const SIGN: f64 = SPACING * (DOORS as f64 + 2.0 / 3.0);
 pub const RIDE_STD: f64 = 4.0;
 
 /// Where the ride is to end \[m\]: the middle of the corridor.
-const RIDE_END: f64 = 9.0;
+pub const RIDE_END: f64 = 9.0;
 
 /// Where it may truly end \[m\]: in the corridor, with at least one door before the sign. Other draws are drawn again; one in twenty.
-const RIDE_RANGE: core::ops::Range<f64> = 1.0..17.0;
+pub const RIDE_RANGE: core::ops::Range<f64> = 1.0..17.0;
 
-/// One step of the robot \[m\], with the standard deviation of its odometry \[m\].
-const STEP: Shift = Shift { by: 0.5, std: 0.005 };
-
-/// How far from the sign the drive ends \[m\].
-const BEYOND: f64 = 0.5;
-
-/// All landmarks are on one wall \[m\].
-const WALL: f64 = 1.0;
+/// How far along the corridor the sensor sees \[m\].
+pub const REACH: f64 = Offset::REACH;
 
 /// A filter that ends so near the truth \[m\] is right: the next explanation is a whole spacing away.
-const RIGHT_WITHIN: f64 = 1.0;
+pub const RIGHT_WITHIN: f64 = 1.0;
 
 /// An explanation with less than this share of the weight is given up.
-const HELD: f64 = 0.01;
+pub const HELD: f64 = 0.01;
+
+/// Explanations are told apart up to so many doors from the truth, on either side.
+pub const FARTHEST: i32 = DOORS as i32;
+
+/// Within so much of a landmark \[m\], what a filter takes a sighting for is that landmark.
+const SAME: f64 = 0.5;
 
 /// What a reader can set.
 #[derive(Clone, PartialEq, Debug)]
 pub struct DoorsSetup {
+    /// Seed of the world and of the filter.
+    pub seed: u64,
     /// Number of particles M, 1 to 100 000.
     pub particles: usize,
     /// When to resample.
     pub policy: ResamplePolicy,
+    /// FastSLAM 1.0 (the motion prior) or 2.0 (the measurement-aware proposal).
+    pub proposal: ProposalKind,
+    /// Standard deviation of where the ride ends \[m\], as both filters are told, 0 to 20.
+    pub ride_std: f64,
+    /// Where the ride truly ends \[m\], in [`RIDE_RANGE`]; `None` draws it from what the filters are told.
+    pub end: Option<f64>,
+    /// Standard deviation of the sensor \[m\], 0.01 to 1.
+    pub sensor_std: f64,
+    /// The gate and the price of a new landmark, of both filters.
+    pub gate: Gate,
+    /// Where the doors are \[m\], one to [`MOST_DOORS`] of them, from 0 to 30.
+    pub doors: Vec<f64>,
 }
 
 impl Default for DoorsSetup {
     fn default() -> Self {
-        Self { particles: 100, policy: ResamplePolicy::EssBelow(0.5) }
+        Self {
+            seed: 1,
+            particles: 100,
+            policy: ResamplePolicy::EssBelow(0.5),
+            proposal: ProposalKind::Motion,
+            ride_std: RIDE_STD,
+            end: None,
+            sensor_std: 0.1,
+            gate: Gate::default(),
+            doors: (0..DOORS).map(|door| SPACING * f64::from(door + 1)).collect(),
+        }
     }
 }
 
 impl DoorsSetup {
     fn validate(&self) -> Result<(), SettingError> {
         Range::whole(1, 100_000).check("particles", self.particles as f64)?;
+        Range::number(0.0, 20.0, "m").check("ride_std", self.ride_std)?;
+        if let Some(end) = self.end {
+            Range::number(RIDE_RANGE.start, RIDE_RANGE.end, "m").check("end", end)?;
+        }
+        Range::number(0.01, 1.0, "m").check("sensor_std", self.sensor_std)?;
+        Range::whole(1, MOST_DOORS as u32).check("doors", self.doors.len() as f64)?;
+        for door in &self.doors {
+            Range::number(0.0, 30.0, "m").check("doors", *door)?;
+        }
+        self.gate.validate()?;
         self.policy.validate()
     }
+
+    /// Distance of two neighbouring doors in the mean \[m\]: what *off by a door* is.
+    pub fn spacing(&self) -> f64 {
+        let [first, last] =
+            [f64::min, f64::max].map(|pick| self.doors.iter().copied().reduce(pick).unwrap_or_default());
+        let spacing = (last - first) / (self.doors.len() as f64 - 1.0);
+        if spacing > 0.0 && spacing.is_finite() { spacing } else { SPACING }
+    }
+
+    /// How many doors a place is from the truth \[m\]: forwards, or with a minus backwards.
+    pub fn off(&self, place: f64, truth: f64) -> i32 {
+        ((place - truth) / self.spacing()).round() as i32
+    }
+
+    /// How many steps the drive takes.
+    pub fn step_count(&self) -> u32 {
+        Log::new(self).controls.len() as u32
+    }
+
+    /// How often the likeliest door is the right one: that the ride ended less than half a spacing from where it was to end,
+    /// 2 Φ(s / 2σ) − 1 for a spacing s. Whatever is drawn again because it is out of the corridor is not counted in.
+    pub fn pencil(&self) -> f64 {
+        ops::erf(0.5 * self.spacing() / (self.ride_std * core::f64::consts::SQRT_2))
+    }
+}
+
+/// What a filter takes the landmark in view for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Belief {
+    /// Nothing has been in view.
+    Nothing,
+    /// The landmark of this rank: a door, or behind the doors the sign.
+    Landmark(u32),
+    /// One that it had not mapped before the ride.
+    New,
+}
+
+/// Both filters after one step.
+#[derive(Clone, PartialEq, Debug)]
+pub struct DoorsReport {
+    /// The step, from 0 (the start) on.
+    pub step: u32,
+    /// Where the robot is \[m\].
+    pub truth: f64,
+    /// Ranks of the landmarks that are in view: doors, or behind the doors the sign.
+    pub seen: Vec<u32>,
+    /// Where each particle is \[m\], after resampling.
+    pub places: Vec<f64>,
+    /// Its weight.
+    pub weights: Vec<f64>,
+    /// What each takes the first landmark in view for, or took the last one that was, since the ride.
+    pub beliefs: Vec<Belief>,
+    /// N_eff before resampling.
+    pub ess: f64,
+    /// Whether the step resampled.
+    pub resampled: bool,
+    /// Slot of the best particle.
+    pub best: usize,
+    /// Mean \[m\] of the Gaussian of EKF-SLAM.
+    pub ekf_place: f64,
+    /// Its standard deviation \[m\].
+    pub ekf_std: f64,
+    /// What EKF-SLAM takes it for.
+    pub ekf_belief: Belief,
+}
+
+impl DoorsReport {
+    /// The share of the weight off by −[`FARTHEST`] to [`FARTHEST`] doors.
+    pub fn shares(&self, setup: &DoorsSetup) -> [f64; 2 * FARTHEST as usize + 1] {
+        shares(setup, &self.places, &self.weights, self.truth)
+    }
+
+    /// How many explanations hold at least [`HELD`] of the weight.
+    pub fn explanations(&self, setup: &DoorsSetup) -> u32 {
+        self.shares(setup).iter().filter(|share| **share >= HELD).count() as u32
+    }
+
+    /// Whether the best particle is where the robot is.
+    pub fn fastslam_right(&self) -> bool {
+        (self.places[self.best] - self.truth).abs() < RIGHT_WITHIN
+    }
+
+    /// Whether EKF-SLAM is.
+    pub fn ekf_right(&self) -> bool {
+        (self.ekf_place - self.truth).abs() < RIGHT_WITHIN
+    }
+}
+
+type Map = Landmarks<Offset>;
+type Proposal = Either<FromMotion<Corridor, Marginal>, FromMeasurement<Corridor>>;
+
+/// The particles and EKF-SLAM on one log, a step at a time.
+#[derive(Clone, Debug)]
+pub struct Doors {
+    setup: DoorsSetup,
+    log: Log,
+    filter: Rbpf<Map, Proposal>,
+    ekf: EkfSlam<Corridor, Offset>,
+    step: usize,
+    /// What each particle and EKF-SLAM took the last landmark in view for.
+    beliefs: Vec<Belief>,
+    ekf_belief: Belief,
+}
+
+impl Doors {
+    /// Before the first step.
+    ///
+    /// # Errors
+    /// Where a setting is out of its range.
+    pub fn new(setup: &DoorsSetup) -> Result<Self, SettingError> {
+        setup.validate()?;
+        let sensor = Offset { std: setup.sensor_std };
+        let correspondence = Correspondence::Unknown(setup.gate);
+        let proposal = match setup.proposal {
+            ProposalKind::Motion => Either::Left(FromMotion { motion: Corridor, likelihood: Marginal }),
+            ProposalKind::Improved => Either::Right(FromMeasurement { motion: Corridor }),
+        };
+        let filter = Rbpf::builder(Map::new(sensor, correspondence), proposal)
+            .particles(setup.particles)
+            .seed(setup.seed)
+            .policy(setup.policy)
+            .executor(Executor::Serial)
+            .build()?;
+        let ekf = EkfSlam::new(Corridor, sensor, correspondence, Pose2::default());
+        let (beliefs, ekf_belief) = (vec![Belief::Nothing; setup.particles], Belief::Nothing);
+        Ok(Self { setup: setup.clone(), log: Log::new(setup), filter, ekf, step: 0, beliefs, ekf_belief })
+    }
+
+    /// What was set.
+    pub fn setup(&self) -> &DoorsSetup {
+        &self.setup
+    }
+
+    /// Number of the last step.
+    pub fn step_count(&self) -> u32 {
+        self.log.controls.len() as u32
+    }
+
+    /// The step that is done.
+    pub fn step_number(&self) -> u32 {
+        self.step as u32
+    }
+
+    /// The step of the ride, of the first door after it, and of the sign, the second time.
+    pub fn events(&self) -> [u32; 3] {
+        [self.log.ride, self.log.first_door, self.log.sign].map(|index| index as u32 + 1)
+    }
+
+    /// Where the robot truly is at every step \[m\].
+    pub fn truth(&self) -> &[f64] {
+        &self.log.truth
+    }
+
+    /// Both filters before the first step.
+    pub fn start(&self) -> DoorsReport {
+        self.report(self.filter.weights().ess(), false)
+    }
+
+    /// Both filters make a step; `None` where the log has ended.
+    pub fn step(&mut self) -> Option<DoorsReport> {
+        let (control, features) = (self.log.controls.get(self.step)?, &self.log.sightings[self.step]);
+        let report = self.filter.step(control, features);
+        let ekf = self.ekf.step(control, features);
+        if self.step == self.log.ride {
+            // Whoever is carried with closed eyes has nothing in view any more.
+            self.beliefs.fill(Belief::Nothing);
+            self.ekf_belief = Belief::Nothing;
+        }
+        self.step += 1;
+        // What a slot saw is told of the slots before resampling: the particle in it now was copied from one of them.
+        let believed = self.filter.particles().iter().enumerate().map(|(slot, particle)| {
+            let from = report.ancestors.as_ref().map_or(slot, |ancestors| ancestors[slot] as usize);
+            let place = |index| particle.map.get(index).map(|landmark| landmark.mean.x);
+            self.belief(report.associations[from].first(), place).unwrap_or(self.beliefs[from])
+        });
+        let believed = believed.collect();
+        let place = |index| self.ekf.landmark(index).map(|landmark| landmark.mean.x);
+        self.ekf_belief = self.belief(ekf.associations.first(), place).unwrap_or(self.ekf_belief);
+        self.beliefs = believed;
+        Some(self.report(report.ess, report.resampled()))
+    }
+
+    fn report(&self, ess: f64, resampled: bool) -> DoorsReport {
+        let features = self.step.checked_sub(1).map(|index| &self.log.sightings[index]);
+        DoorsReport {
+            step: self.step_number(),
+            truth: self.log.truth[self.step],
+            seen: features.into_iter().flatten().filter_map(|feature| feature.signature).collect(),
+            places: self.filter.particles().iter().map(|p| p.world_from_robot.x).collect(),
+            weights: self.filter.weights().as_slice().to_vec(),
+            beliefs: self.beliefs.clone(),
+            ess,
+            resampled,
+            best: self.filter.best(),
+            ekf_place: self.ekf.pose().x,
+            ekf_std: self.ekf.pose_covariance().m11.max(0.0).sqrt(),
+            ekf_belief: self.ekf_belief,
+        }
+    }
+
+    /// What an association means: the landmark that is where the filter has mapped it, if it is one of the corridor; `None` where
+    /// nothing was in view.
+    fn belief(&self, association: Option<&Association>, place: impl Fn(u32) -> Option<f64>) -> Option<Belief> {
+        let (index, new) = match association? {
+            Association::Ignored => return None,
+            Association::Matched(index) => (*index, false),
+            // While it maps, whatever is new is the landmark that is there.
+            Association::New(index) => (*index, self.step > self.log.ride),
+        };
+        let mapped = place(index).filter(|_| !new);
+        let landmarks = || (0..).zip(self.setup.doors.iter().copied().chain([SIGN]));
+        let near = mapped.and_then(|mapped| landmarks().find(|(_, landmark)| (landmark - mapped).abs() < SAME));
+        Some(near.map_or(Belief::New, |(rank, _)| Belief::Landmark(rank)))
+    }
+}
+
+/// The share of the weight that is off by −[`FARTHEST`] to [`FARTHEST`] doors.
+fn shares(setup: &DoorsSetup, places: &[f64], weights: &[f64], truth: f64) -> [f64; 2 * FARTHEST as usize + 1] {
+    let mut shares = [0.0; 2 * FARTHEST as usize + 1];
+    for (x, weight) in places.iter().zip(weights) {
+        let off = setup.off(*x, truth);
+        if (-FARTHEST..=FARTHEST).contains(&off) {
+            shares[(off + FARTHEST) as usize] += weight;
+        }
+    }
+    shares
 }
 
 /// What one seed came to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DoorsOutcome {
     /// How many doors the particles take the first door after the ride for, those with 1 % of the weight or more.
     pub first: u32,
@@ -90,265 +356,35 @@ pub struct DoorsOutcome {
     pub ekf_right: bool,
 }
 
-/// Both filters on the drive of each of these seeds.
+/// Both filters on the drive of each of these seeds; the seed of the setting is not used.
 ///
 /// # Errors
 /// Where a setting is out of its range.
 pub fn outcomes(setup: &DoorsSetup, seeds: core::ops::Range<u64>) -> Result<Vec<DoorsOutcome>, SettingError> {
-    setup.validate()?;
-    seeds.map(|seed| outcome(setup, seed)).collect()
+    seeds.map(|seed| outcome(&DoorsSetup { seed, ..setup.clone() })).collect()
 }
 
-fn outcome(setup: &DoorsSetup, seed: u64) -> Result<DoorsOutcome, SettingError> {
-    let log = Log::new(seed);
-    let (particles, ekf) = (run_particles(setup, seed, &log)?, run_ekf(&log));
-    let right = |pose: &Pose2| (pose.x - log.truth[log.truth.len() - 1]).abs() < RIGHT_WITHIN;
-    let [first, last] = particles.held;
-    Ok(DoorsOutcome { first, last, fastslam_right: right(&particles.best), ekf_right: right(ekf.pose()) })
-}
-
-struct ParticleRun {
-    /// Explanations held after the first door that follows the ride, and at the step before the sign.
-    held: [u32; 2],
-    best: Pose2,
-}
-
-fn run_particles(setup: &DoorsSetup, seed: u64, log: &Log) -> Result<ParticleRun, SettingError> {
-    let map = Landmarks::<_>::new(Offset, correspondence());
-    let proposal = FromMotion { motion: Corridor, likelihood: Marginal };
-    let mut filter = Rbpf::builder(map, proposal)
-        .particles(setup.particles)
-        .seed(seed)
-        .policy(setup.policy)
-        .executor(Executor::Serial)
-        .build()?;
+fn outcome(setup: &DoorsSetup) -> Result<DoorsOutcome, SettingError> {
+    let mut doors = Doors::new(setup)?;
+    let [_, first_door, sign] = doors.events();
     let mut held = [0; 2];
-    for (k, (control, features)) in log.controls.iter().zip(&log.sightings).enumerate() {
-        filter.step(control, features);
-        let now = [log.first_door, log.sign - 1].map(|step| step == k);
-        if now.contains(&true) {
-            let places: Vec<f64> = filter.particles().iter().map(|p| p.world_from_robot.x).collect();
-            let count = explanations(&places, filter.weights().as_slice(), log.truth[k + 1]);
-            held = [0, 1].map(|which| if now[which] { count } else { held[which] });
+    let mut last = doors.start();
+    while let Some(report) = doors.step() {
+        for (count, step) in held.iter_mut().zip([first_door, sign - 1]) {
+            if report.step == step {
+                *count = report.explanations(setup);
+            }
         }
+        last = report;
     }
-    Ok(ParticleRun { held, best: filter.particles()[filter.best()].world_from_robot })
-}
-
-fn run_ekf(log: &Log) -> EkfSlam<Corridor, Offset> {
-    let mut ekf = EkfSlam::new(Corridor, Offset, correspondence(), Pose2::default());
-    for (control, features) in log.controls.iter().zip(&log.sightings) {
-        ekf.step(control, features);
-    }
-    ekf
-}
-
-fn correspondence() -> Correspondence {
-    Correspondence::Unknown(Gate::default())
-}
-
-/// Of so many doors forwards or backwards from the truth, how many hold their share of the weight.
-fn explanations(places: &[f64], weights: &[f64], truth: f64) -> u32 {
-    let most = DOORS as i32;
-    let mut shares = [0.0; 2 * DOORS as usize + 1];
-    for (x, weight) in places.iter().zip(weights) {
-        let off = ((x - truth) / SPACING).round() as i32;
-        if (-most..=most).contains(&off) {
-            shares[(off + most) as usize] += weight;
-        }
-    }
-    shares.iter().filter(|share| **share >= HELD).count() as u32
-}
-
-/// A drive, and the places on the corridor that it truly led to.
-struct Log {
-    /// x of steps 0 to T \[m\].
-    truth: Vec<f64>,
-    /// The k-th leads from step k to k + 1.
-    controls: Vec<Shift>,
-    /// What was seen at steps 1 to T.
-    sightings: Vec<Vec<Feature>>,
-    /// Index of the sightings in which the first door after the ride is.
-    first_door: usize,
-    /// Index of the sightings in which the sign is, the second time.
-    sign: usize,
-}
-
-impl Log {
-    fn new(seed: u64) -> Self {
-        let mut log = Self { truth: vec![0.0], controls: vec![], sightings: vec![], first_door: 0, sign: 0 };
-        log.drive_to_the_sign(seed);
-        let ride = Shift { by: RIDE_END - log.here(), std: RIDE_STD };
-        let ends = (0..).map(|attempt| {
-            let mut stream = Stream::at(seed, WORLD_ODOMETRY, 0, attempt);
-            RIDE_END + RIDE_STD * stream.normal()
-        });
-        let end = { ends }.find(|x| RIDE_RANGE.contains(x)).expect("most draws are in range");
-        log.push(ride, end, vec![]);
-        let ridden = log.controls.len();
-        log.drive_to_the_sign(seed);
-        let seen = |z: fn(&Feature) -> bool| (ridden..).zip(&log.sightings[ridden..]).find(|(_, s)| s.iter().any(z));
-        log.first_door = seen(|_| true).map_or(0, |(k, _)| k);
-        log.sign = seen(|feature| feature.signature == Some(DOORS)).map_or(0, |(k, _)| k);
-        log
-    }
-
-    fn here(&self) -> f64 {
-        self.truth[self.truth.len() - 1]
-    }
-
-    fn push(&mut self, control: Shift, to: f64, features: Vec<Feature>) {
-        self.truth.push(to);
-        self.controls.push(control);
-        self.sightings.push(features);
-    }
-
-    fn drive_to_the_sign(&mut self, seed: u64) {
-        while self.here() < SIGN + BEYOND {
-            let step = self.truth.len() as u32;
-            let to = self.here() + STEP.by + STEP.std * Stream::at(seed, WORLD_ODOMETRY, step, 0).normal();
-            let at = Pose2::new(to, 0.0, 0.0);
-            let landmarks = (0..DOORS).map(|door| SPACING * f64::from(door + 1)).chain([SIGN]);
-            let landmarks = (0..).zip(landmarks.map(|x| Vector2::new(x, WALL)));
-            let see = |(name, landmark)| {
-                let noise = Vector2::from(Stream::at(seed, WORLD_SENSOR, step, name).normals::<2>());
-                // The name is for this module's own counts: association by likelihood never reads it.
-                Feature { z: Offset.predict(&at, &landmark).z + noise * Offset::STD, signature: Some(name) }
-            };
-            let features = landmarks.filter(|(_, m)| Offset.sees(&at, m, 0.0)).map(see).collect();
-            self.push(STEP, to, features);
-        }
-    }
-}
-
-/// A drive along the corridor.
-#[derive(Clone, Copy, PartialEq, Debug)]
-struct Shift {
-    /// \[m\]
-    by: f64,
-    /// Its standard deviation \[m\].
-    std: f64,
-}
-
-/// A robot on rails: x is all that moves, and all that is uncertain.
-#[derive(Clone, Copy, Debug)]
-struct Corridor;
-
-impl Motion for Corridor {
-    type Control = Shift;
-
-    fn apply(&self, from: &Pose2, u: &Shift) -> Pose2 {
-        Pose2::new(from.x + u.by, from.y, from.theta)
-    }
-
-    fn sample(&self, from: &Pose2, u: &Shift, stream: &mut Stream) -> Pose2 {
-        Pose2::new(from.x + u.by + u.std * stream.normal(), from.y, from.theta)
-    }
-
-    fn covariance(&self, _: &Pose2, u: &Shift) -> Matrix3<f64> {
-        Matrix3::new(u.std * u.std, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    }
-}
-
-/// z = m − (x, y) + noise: linear, so that nothing but the association can go wrong.
-#[derive(Clone, Copy, Debug)]
-struct Offset;
-
-impl Offset {
-    /// \[m\], along each axis.
-    const STD: f64 = 0.1;
-
-    /// How far along the corridor it sees \[m\]: never two landmarks at once.
-    const REACH: f64 = 0.75;
-}
-
-impl LandmarkSensor for Offset {
-    fn predict(&self, at: &Pose2, landmark: &Vector2<f64>) -> Prediction {
-        Prediction {
-            z: landmark - Vector2::new(at.x, at.y),
-            h_x: Matrix2x3::new(-1.0, 0.0, 0.0, 0.0, -1.0, 0.0),
-            h_m: Matrix2::identity(),
-        }
-    }
-
-    fn residual(&self, z: &Vector2<f64>, predicted: &Vector2<f64>) -> Vector2<f64> {
-        z - predicted
-    }
-
-    fn locate(&self, at: &Pose2, z: &Vector2<f64>) -> Vector2<f64> {
-        z + Vector2::new(at.x, at.y)
-    }
-
-    fn noise(&self) -> Matrix2<f64> {
-        Matrix2::identity() * (Self::STD * Self::STD)
-    }
-
-    fn sees(&self, at: &Pose2, landmark: &Vector2<f64>, margin: f64) -> bool {
-        (landmark.x - at.x).abs() + margin < Self::REACH
-    }
+    let [first, before_the_sign] = held;
+    Ok(DoorsOutcome {
+        first,
+        last: before_the_sign,
+        fastslam_right: last.fastslam_right(),
+        ekf_right: last.ekf_right(),
+    })
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::experiment::policy_counts::Fraction;
-
-    #[test]
-    fn who_is_off_by_a_door_foretells_every_sighting_before_the_sign() {
-        for seed in 1..50 {
-            let log = Log::new(seed);
-            assert!(log.first_door < log.sign);
-            for k in log.first_door..log.sign {
-                for feature in &log.sightings[k] {
-                    let place = log.truth[k + 1] + feature.z.x;
-                    let door = (place / SPACING).round();
-                    assert!((place - SPACING * door).abs() < 5.0 * Offset::STD && (1.0..=6.0).contains(&door));
-                }
-            }
-            for feature in &log.sightings[log.sign] {
-                let nearest = ((log.truth[log.sign + 1] + feature.z.x) / SPACING + 0.5).fract() - 0.5;
-                assert!((nearest * SPACING).abs() > 5.0 * Offset::STD, "the sign is where no door would be");
-            }
-        }
-    }
-
-    /// It decides at the first door, and all that follows only makes it surer: right or wrong, it ends a whole number of doors from the
-    /// truth, certain to centimetres.
-    #[test]
-    fn the_kalman_filter_is_certain_whether_it_is_right_or_wrong() {
-        let mut wrong = 0;
-        for seed in 1..30 {
-            let log = Log::new(seed);
-            let ekf = run_ekf(&log);
-            let off = (ekf.pose().x - log.here()) / SPACING;
-            assert!((off - off.round()).abs() * SPACING < 0.5, "seed {seed}: {off} doors off");
-            assert!(ekf.pose_covariance().m11.sqrt() < 0.1, "seed {seed}");
-            wrong += u32::from(off.round() != 0.0);
-        }
-        assert!(wrong > 0);
-    }
-
-    #[test]
-    fn particles_hold_several_doors_at_once_and_are_right_where_the_kalman_filter_is_not() {
-        let setup = DoorsSetup { particles: 400, ..DoorsSetup::default() };
-        let outcomes = outcomes(&setup, 1..41).unwrap();
-        assert!(outcomes.iter().filter(|o| o.first >= 4).count() > 30, "{outcomes:?}");
-        let fastslam = Fraction::of(outcomes.iter().map(|o| o.fastslam_right)).wilson();
-        let ekf = Fraction::of(outcomes.iter().map(|o| o.ekf_right)).wilson();
-        assert!(fastslam[0] > ekf[1], "{fastslam:?} against {ekf:?}");
-    }
-
-    #[test]
-    fn an_explanation_counts_by_its_weight() {
-        let places = [9.0, 9.1, 12.0, 15.2, 100.0, -100.0];
-        assert_eq!(explanations(&places, &[0.5, 0.3, 0.15, 0.005, 0.025, 0.02], 9.0), 2);
-    }
-
-    #[test]
-    fn settings_out_of_range_are_named() {
-        let none = DoorsSetup { particles: 0, ..DoorsSetup::default() };
-        assert_eq!(outcomes(&none, 1..2).unwrap_err().field(), "particles");
-        let policy = DoorsSetup { policy: ResamplePolicy::EssBelow(1.5), ..DoorsSetup::default() };
-        assert_eq!(outcomes(&policy, 1..2).unwrap_err().field(), "policy");
-    }
-}
+mod tests;

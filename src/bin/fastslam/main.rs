@@ -1,5 +1,6 @@
 //! The command line: the figures' filters, run natively.
 
+mod doors;
 mod landmarks;
 mod lap;
 mod log;
@@ -8,6 +9,7 @@ mod numbers;
 mod picture;
 mod policies;
 mod ring;
+mod shard;
 mod table;
 mod variants;
 
@@ -33,6 +35,7 @@ struct Arguments {
 
 #[derive(clap::Subcommand)]
 enum Command {
+    Doors(doors::Arguments),
     Lap(lap::Arguments),
     Log(log::Arguments),
     ExampleLog(log::ExampleArguments),
@@ -72,6 +75,7 @@ fn run(arguments: Arguments) -> Result<()> {
     let threads = arguments.threads.map_or(0, usize::from); // 0: as many as there are processors
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     pool.install(|| match arguments.command {
+        Command::Doors(arguments) => doors::run(&arguments),
         Command::Lap(arguments) => lap::run(&arguments),
         Command::Log(arguments) => log::run(&arguments),
         Command::ExampleLog(arguments) => log::example(&arguments),

@@ -1,7 +1,8 @@
 //! `fastslam table`: errors over many seeds, whole or in shards.
 
-use crate::{in_file, print, print_json, progress};
-use anyhow::{Context, Result, ensure};
+use crate::shard::{self, Shard};
+use crate::{print, print_json, progress};
+use anyhow::Result;
 use fastslam::matching::Matcher;
 use fastslam_lab::experiment::ProposalKind;
 use fastslam_lab::experiment::lap::{Course, LapSetup};
@@ -54,25 +55,6 @@ impl FromStr for Matchers {
     }
 }
 
-/// The `index`-th of `count` shares, counted from 1.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-struct Shard {
-    index: usize,
-    count: usize,
-}
-
-impl FromStr for Shard {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let parts = text.split_once('/').and_then(|(index, count)| Some((index.parse().ok()?, count.parse().ok()?)));
-        match parts {
-            Some((index, count)) if (1..=count).contains(&index) => Ok(Self { index, count }),
-            _ => Err("must be I/N with I from 1 to N".to_owned()),
-        }
-    }
-}
-
 /// What a share prints, and `--merge` reads.
 #[derive(Serialize, Deserialize)]
 struct Share {
@@ -80,6 +62,18 @@ struct Share {
     seeds: u64,
     course: Course,
     laps: Vec<LapResult>,
+}
+
+impl shard::Share for Share {
+    const COMMAND: &'static str = "table";
+
+    fn shard(&self) -> Shard {
+        self.shard
+    }
+
+    fn same_sweep(&self, other: &Self) -> bool {
+        (self.seeds, self.course) == (other.seeds, other.course)
+    }
 }
 
 /// Runs the command.
@@ -93,7 +87,6 @@ pub fn run(arguments: &Arguments) -> Result<()> {
 }
 
 fn sweep(arguments: &Arguments) -> Result<Vec<LapResult>> {
-    let Shard { index, count } = arguments.shard.unwrap_or(Shard { index: 1, count: 1 });
     let mut setups = Vec::new();
     for seed in 1..=arguments.seeds {
         for &matcher in &arguments.matcher.0 {
@@ -110,35 +103,14 @@ fn sweep(arguments: &Arguments) -> Result<Vec<LapResult>> {
             }
         }
     }
-    let setups: Vec<LapSetup> = setups.into_iter().skip(index - 1).step_by(count).collect();
+    let setups = arguments.shard.unwrap_or(Shard::WHOLE).of(setups);
     let bar = progress(setups.len(), "laps");
     let laps: Result<Vec<_>, _> = setups.par_iter().progress_with(bar).map(LapResult::of).collect();
     Ok(laps?)
 }
 
 fn merge(files: &[PathBuf]) -> Result<Vec<LapResult>> {
-    let mut shares: Vec<Share> = Vec::new();
-    for path in files {
-        let text = std::fs::read_to_string(path).with_context(in_file(path))?;
-        let file = path.display();
-        let share: Share = serde_json::from_str(&text)
-            .with_context(|| format!("{file}: not the output of table --shard I/N --json"))?;
-        let Shard { index, count } = share.shard;
-        if let Some(first) = shares.first() {
-            let same = (first.seeds, first.course, first.shard.count) == (share.seeds, share.course, count);
-            ensure!(same, "{file}: a share of another sweep than the first file");
-        }
-        let twice = shares.iter().any(|other| other.shard == share.shard);
-        ensure!(!twice, "{file}: share {index}/{count} is there twice");
-        shares.push(share);
-    }
-    let count = shares[0].shard.count;
-    let missing: Vec<String> = (1..=count)
-        .filter(|index| shares.iter().all(|share| share.shard.index != *index))
-        .map(|index| format!("{index}/{count}"))
-        .collect();
-    ensure!(missing.is_empty(), "--merge: shares missing: {}", missing.join(", "));
-    Ok(shares.into_iter().flat_map(|share| share.laps).collect())
+    Ok(shard::merge::<Share>(files)?.into_iter().flat_map(|share| share.laps).collect())
 }
 
 fn text(rows: &[Row]) -> String {

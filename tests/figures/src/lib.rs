@@ -35,6 +35,7 @@ const CONDITIONING: &str = "fastslam-conditioning";
 const PROPOSAL: &str = "fastslam-proposal";
 const WORKED: &str = "fastslam-worked-example";
 const RESAMPLING: &str = "fastslam-resampling";
+const DOORS: &str = "fastslam-doors";
 /// Its pictures and readouts are those of [`TINY_LOG`], mapped to its end.
 pub const LOG: &str = "fastslam-log";
 
@@ -109,6 +110,13 @@ pub const PICTURES: &[Picture] = &[
     picture(RESAMPLING, "resampling-phone", "wings=on&step=80&cursor=70&back=3", 340, 2.0, "light"),
     picture(RESAMPLING, "resampling-contrast", "particles=8&step=30&policy=never", 380, 1.0, "contrast-dark"),
     picture(RESAMPLING, "resampling-tiny", "particles=4&threshold=1&step=12", 240, 1.0, "contrast-light"),
+    picture(DOORS, "fastslam-doors-light", "", 800, 1.5, "light"),
+    picture(DOORS, "fastslam-doors-dark", "", 800, 1.5, "dark"),
+    picture(DOORS, "doors-before-the-sign", "step=58", 1112, 1.0, "light"),
+    picture(DOORS, "doors-ride", "step=43&ride=8&proposal=aware", 728, 1.0, "dark"),
+    picture(DOORS, "doors-phone", "step=46&seed=2&door-7=1.5", 340, 2.0, "light"),
+    picture(DOORS, "doors-contrast", "particles=1000&door-5=16&step=52", 380, 1.0, "contrast-dark"),
+    picture(DOORS, "doors-tiny", "particles=1&step=9", 240, 1.0, "contrast-light"),
 ];
 
 /// What a filter does: one sighting for both particles, from two poses; and the landmark's ellipse is turned.
@@ -206,6 +214,8 @@ pub const SETUPS: &[(&str, &str)] = &[
     (RESAMPLING, "particles=5&seed=9&threshold=0.8&scheme=residual&odometry=2&range=3&back=4"),
     (RESAMPLING, "wings=on"),
     (RESAMPLING, "wings=on&particles=40&scheme=multinomial&odometry=0.5&range=0.25"),
+    (DOORS, ""),
+    (DOORS, "particles=60&seed=5&proposal=aware&ride=6&range=0.2&price=5&gate=95&door-5=16&door-7=1.5&end=4"),
 ];
 
 /// Ancestors are fewer than particles, and the last common one is not long ago.
@@ -215,6 +225,8 @@ const COALESCED: &str = "step=70";
 pub const JOBS: &[(&str, &str, [u32; 2])] = &[
     ("wings", "", [1, 5]),
     ("wings", "particles=9&threshold=0.7&odometry=1.5&range=0.5&scheme=stratified", [40, 43]),
+    ("doors", "", [1, 5]),
+    ("doors", "ride=6&proposal=aware&range=0.2&price=5&gate=95&policy=always&door-5=16", [40, 42]),
     ("laps", "course=apartment&temper=0.85", [1, 3]),
     (
         "laps",

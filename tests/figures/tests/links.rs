@@ -77,6 +77,11 @@ fn links_to_the_resampling_keep_their_numbers() {
 }
 
 #[test]
+fn links_to_the_doors_keep_their_numbers() {
+    keep_their_numbers("fastslam-doors");
+}
+
+#[test]
 fn links_to_the_log_keep_their_numbers() {
     keep_their_numbers(LOG);
 }

@@ -166,6 +166,10 @@ impl Theme {
             Role::Path | Role::Posterior | Role::Particle(0) | Role::Policy(_) => palette.path,
             Role::Truth | Role::Landmark => palette.truth,
             Role::Copied => palette.copied,
+            // Five hues in turn: whoever is off by a door is never taken for one who is not.
+            Role::Door(rank) => {
+                [palette.path, palette.weight[1], palette.copied, palette.extinct, palette.ink][usize::from(rank % 5)]
+            }
             Role::Extinct => palette.extinct,
             Role::Fading(level) => mix(palette.paper, palette.extinct, i32::from(level), 255),
             Role::Hit => palette.hit,
@@ -244,7 +248,7 @@ mod tests {
     fn text_has_the_contrast_of_wcag_aa_and_in_contrast_themes_of_aaa() {
         for theme in THEMES {
             let least = if matches!(theme, Theme::Light | Theme::Dark) { 4.5 } else { 7.0 };
-            let policies = [0, 1, 2].map(Role::Policy);
+            let policies = [0, 1, 2].map(Role::Policy).into_iter().chain((0..7).map(Role::Door));
             for role in [Role::Ink, Role::Muted, Role::Copied, Role::Extinct, Role::Path].into_iter().chain(policies) {
                 let ratio = contrast(theme.color(role), theme.color(Role::Paper));
                 assert!(ratio >= least, "{theme:?} {role:?}: {ratio}");

@@ -73,6 +73,8 @@ pub enum Role {
     Particle(u8),
     /// One of the policies that are compared, from 0 on.
     Policy(u8),
+    /// One of the doors that look alike, from 0 on: neighbours differ.
+    Door(u8),
     /// What the reader moves or has switched on.
     Accent,
     /// A line that tells a size, from 0 (faint) to 255 (as [`Role::Ink`]).

@@ -20,20 +20,23 @@ pub fn recipes() -> Vec<Recipe> {
 fn six_doors() -> Recipe {
     const PARTICLES: [usize; 3] = [25, 100, 400];
     Recipe::new("doors", SEEDS, |runs| {
-        let found: Vec<[DoorsOutcome; 4]> = runs.over(|seed| {
+        let found: Vec<[DoorsOutcome; 7]> = runs.over(|seed| {
             let run = |setup: DoorsSetup| doors::outcomes(&setup, seed..seed + 1).expect(VALID)[0];
-            let [few, some, many] = PARTICLES.map(|particles| run(DoorsSetup { particles, ..DoorsSetup::default() }));
-            let always = DoorsSetup { particles: PARTICLES[2], policy: ResamplePolicy::Always };
-            [few, some, many, run(always)]
+            let of =
+                |proposal| PARTICLES.map(|particles| run(DoorsSetup { particles, proposal, ..DoorsSetup::default() }));
+            let ([few, some, many], [few2, some2, many2]) = (of(ProposalKind::Motion), of(ProposalKind::Improved));
+            let always =
+                DoorsSetup { particles: PARTICLES[2], policy: ResamplePolicy::Always, ..DoorsSetup::default() };
+            [few, some, many, few2, some2, many2, run(always)]
         });
         let of = format!("over seeds 1 to {} of the doors (src/experiment/doors.rs)", runs.seeds);
-        let right = |filter: &str, is_right: &dyn Fn(&[DoorsOutcome; 4]) -> bool| {
+        let right = |filter: &str, is_right: &dyn Fn(&[DoorsOutcome; 7]) -> bool| {
             let what = format!("the runs that end within a metre of the truth, {of}");
             Group(format!("doors.{filter}")).share("right", &Fraction::of(found.iter().map(is_right)), &what)
         };
         let group = Group("doors".into());
         let hypotheses = |key: &str, when: &str, count: fn(&DoorsOutcome) -> u32| {
-            let counts: Vec<f64> = found.iter().map(|[_, _, many, _]| f64::from(count(many))).collect();
+            let counts: Vec<f64> = found.iter().map(|[_, _, many, ..]| f64::from(count(many))).collect();
             let made =
                 format!("Median number of explanations with 1 % of the weight {when}, M = {}, {of}", PARTICLES[2]);
             group.number(key, ErrorSummary::of(&counts).median, "", made)
@@ -46,6 +49,7 @@ fn six_doors() -> Recipe {
         numbers.extend(right("ekf", &|[outcome, ..]| outcome.ekf_right));
         for (k, particles) in PARTICLES.into_iter().enumerate() {
             numbers.extend(right(&format!("fastslam.m{particles}"), &|outcomes| outcomes[k].fastslam_right));
+            numbers.extend(right(&format!("fastslam2.m{particles}"), &|outcomes| outcomes[k + 3].fastslam_right));
         }
         numbers.extend(right(&format!("always.m{}", PARTICLES[2]), &|[.., always]| always.fastslam_right));
         numbers.into()

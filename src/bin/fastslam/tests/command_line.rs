@@ -85,9 +85,27 @@ fn shards_merge_to_the_rows_of_one_run() {
 }
 
 #[test]
+fn shares_of_the_doors_merge_to_the_rows_of_one_run_and_to_nothing_with_those_of_another() {
+    let folder = tempdir().unwrap();
+    let share = |name: &str, arguments: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, &fastslam(&format!("doors {arguments} --json")).success().get_output().stdout).unwrap();
+        path.display().to_string()
+    };
+    let [one, two] = [1, 2].map(|index| share(&index.to_string(), &format!("--seeds 6 --shard {index}/2")));
+    let whole = json("doors --seeds 6 --json");
+    assert_eq!(json(&format!("doors --json --merge {one} {two}")), whole);
+    assert_eq!(whole.as_array().unwrap().len(), 7, "EKF-SLAM, and two proposals with three M");
+    let other = share("other", "--seeds 6 --ride-std 2 --shard 2/2");
+    let refused = fastslam(&format!("doors --merge {one} {other}")).code(1);
+    let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(message.contains("a share of another sweep than the first file"), "{message}");
+}
+
+#[test]
 fn bad_arguments_are_refused_in_one_line_with_status_2() {
     for (arguments, said) in [
-        ("", "lap, log, example-log, landmarks, numbers, policies, ring, table or variants"),
+        ("", "doors, lap, log, example-log, landmarks, numbers, policies, ring, table or variants"),
         ("laps", "laps"),
         ("lap --particles 0", "from 1 to 4096"),
         ("lap --particles 1e9", "--particles"),
@@ -118,6 +136,10 @@ fn bad_arguments_are_refused_in_one_line_with_status_2() {
         ("policies --particles 0", "from 1 to 4096"),
         ("policies --threshold -0.5", "from 0 to 1"),
         ("policies --scheme lottery", "systematic, stratified, multinomial or residual"),
+        ("doors --seeds 0", "--seeds"),
+        ("doors --ride-std -1", "from 0 to 20"),
+        ("doors --policy neff:2", "F from 0 to 1"),
+        ("doors --shard 1/3", "--json"),
         ("ring --niches 3", "from 0 to 2"),
         ("ring --max-range 0", "from 0.5 to 20"),
         ("ring --particles 0", "from 1 to 4096"),

@@ -1,45 +1,45 @@
-// Folded away below the figure of resampling: in how many runs each policy still has the right wing when the evidence comes.
+// Folded away below a figure: in how many runs over many seeds something holds, for each of what is compared.
 import { h, write } from './dom'
 import { runInWorker } from './jobs'
 import type { Shell } from './shell'
 import type { Key, Words } from './words'
 
-/** The settings that the count depends on; it has seeds of its own, and always the course of the two wings. */
-const SETTINGS = ['particles', 'threshold', 'odometry', 'range', 'scheme']
+/** What is counted. */
+export interface Counted {
+  tag: string
+  /** Name of the job of the figure's program, which counts. */
+  job: string
+  title: Key
+  /** Names of the parameters that the count depends on; it has seeds of its own. */
+  settings: string[]
+  /** What is compared, with the column of the job's rows that is 1 where it holds, and one that says how often it should. */
+  rows: { name: Key; column: number; expected?: number }[]
+}
 
-/** Names of the policies, and the column of the job's rows that says whether the right wing was alive. */
-const POLICIES: [Key, number][] = [
-  ['never', 1],
-  ['every_step', 3],
-  ['selective', 5],
-]
 const FIRST_SEED = 1
 
-export class ResamplingStudy {
+export class CountStudy {
   readonly element: HTMLElement
   private readonly start = h('button', { type: 'button', part: 'button count' })
   private readonly halt = h('button', { type: 'button', part: 'button stop' })
   private readonly runs = h('select', { name: 'runs' })
   private readonly progress = h('progress', { value: '0' })
   private readonly said = h('p', { class: 'said', 'aria-live': 'polite' })
-  private readonly rows = POLICIES.map(() => {
-    const fill = h('div', { class: 'fill' })
-    const range = h('div', { class: 'range' })
-    const share = h('td', { class: 'share' }, '–')
-    const bar = h('td', { class: 'bar', 'aria-hidden': 'true' }, h('div', { class: 'track' }, fill, range))
-    const name = h('th', { scope: 'row' })
-    return { fill, range, share, name, row: h('tr', {}, name, bar, share) }
-  })
+  private readonly rows: Row[]
   private query = '' // what is counted, or was
   private running: AbortController | undefined
-  private alive = POLICIES.map(() => 0)
+  private held: number[]
+  private expected: number[] = [] // of each row, where there is such a column
   private seeds = 0
   private shell: Shell | undefined // computes the intervals
 
   constructor(
+    private readonly counted: Counted,
     private readonly setting: (name: string) => unknown,
     private readonly words: Words,
   ) {
+    this.rows = counted.rows.map(newRow)
+    this.held = counted.rows.map(() => 0)
     for (const runs of ['50', '200', '1000']) this.runs.add(new Option(runs, runs))
     this.runs.value = '200'
     this.runs.addEventListener('change', () => this.label())
@@ -53,12 +53,12 @@ export class ResamplingStudy {
     this.element = h('details', { class: 'count', part: 'count' }, summary, heading, work, table, this.said)
     words.always(() => {
       write(summary, words.say('count_many'))
-      write(heading, words.say('count_title'))
+      write(heading, words.say(counted.title))
       write(seeds, words.say('seeds'))
       write(this.halt, words.say('stop'))
       this.runs.ariaLabel = words.say('number_of_seeds')
       this.progress.ariaLabel = words.say('seeds_counted')
-      this.rows.forEach(({ name }, policy) => write(name, words.say(POLICIES[policy]![0])))
+      this.rows.forEach(({ name }, k) => write(name, words.say(counted.rows[k]!.name)))
       this.label()
     })
     this.show()
@@ -82,7 +82,7 @@ export class ResamplingStudy {
   }
 
   private settings(): string {
-    return SETTINGS.map(name => `${name}=${String(this.setting(name))}`).join('&')
+    return this.counted.settings.map(name => `${name}=${String(this.setting(name))}`).join('&')
   }
 
   private async count(): Promise<void> {
@@ -94,8 +94,8 @@ export class ResamplingStudy {
     this.show()
     const to = FIRST_SEED + Number(this.runs.value)
     try {
-      const job = { name: 'wings', query: this.query, from: FIRST_SEED, to }
-      await runInWorker('fastslam-resampling', job, (rows, shell) => running === this.running && this.add(rows, shell), running.signal)
+      const job = { name: this.counted.job, query: this.query, from: FIRST_SEED, to }
+      await runInWorker(this.counted.tag, job, (rows, shell) => running === this.running && this.add(rows, shell), running.signal)
       this.running = undefined
       this.show()
       this.say(this.words.say('counted', { seeds: this.seeds }))
@@ -109,7 +109,7 @@ export class ResamplingStudy {
 
   private clear(): void {
     this.query = ''
-    this.alive.fill(0)
+    this.held.fill(0)
     this.seeds = 0
     this.show()
   }
@@ -117,7 +117,10 @@ export class ResamplingStudy {
   private add(rows: number[][], shell: Shell): void {
     this.shell = shell
     this.seeds += rows.length
-    POLICIES.forEach(([, column], policy) => (this.alive[policy]! += rows.filter(row => row[column] === 1).length))
+    this.counted.rows.forEach(({ column, expected }, k) => {
+      this.held[k]! += rows.filter(row => row[column] === 1).length
+      if (expected !== undefined && rows[0]) this.expected[k] = rows[0][expected]!
+    })
     this.show()
   }
 
@@ -131,26 +134,49 @@ export class ResamplingStudy {
     this.halt.disabled = !on
     this.progress.max = Number(this.runs.value)
     this.progress.value = this.seeds
-    this.rows.forEach(({ fill, range, share }, policy) => {
+    this.rows.forEach(({ fill, range, share, mark }, k) => {
+      mark.hidden = this.seeds === 0 || this.expected[k] === undefined
       if (this.seeds === 0) {
         fill.style.width = range.style.width = '0'
         return write(share, '–')
       }
-      const alive = this.alive[policy]!
-      const [low, high] = [...this.shell!.interval(alive, this.seeds)] as [number, number]
-      fill.style.width = percent(alive / this.seeds)
+      const held = this.held[k]!
+      const [low, high] = [...this.shell!.interval(held, this.seeds)] as [number, number]
+      fill.style.width = percent(held / this.seeds)
       range.style.insetInlineStart = percent(low)
       range.style.width = percent(high - low)
       const round = (x: number) => (100 * x).toFixed(0)
-      write(share, `${round(alive / this.seeds)} % (${round(low)}–${round(high)})`)
+      const counted = `${round(held / this.seeds)} % (${round(low)}–${round(high)})`
+      const expected = this.expected[k]
+      if (expected !== undefined) mark.style.insetInlineStart = percent(expected)
+      write(share, expected === undefined ? counted : this.words.say('counted_expected', { counted, expected: round(expected) }))
     })
   }
 
   /** Said once, at the end, with every number: nobody wants to hear it grow. */
   private say(what: string): void {
-    const shares = this.rows.map(({ share }, policy) => `${this.words.say(POLICIES[policy]![0])} ${share.textContent}`)
+    const shares = this.rows.map(({ share }, k) => `${this.words.say(this.counted.rows[k]!.name)} ${share.textContent}`)
     write(this.said, this.seeds > 0 ? `${what} ${this.words.say('shares', { shares: shares.join(', ') })}` : what)
   }
+}
+
+interface Row {
+  fill: HTMLElement
+  range: HTMLElement
+  mark: HTMLElement
+  share: HTMLElement
+  name: HTMLElement
+  row: HTMLElement
+}
+
+function newRow(): Row {
+  const fill = h('div', { class: 'fill' })
+  const range = h('div', { class: 'range' })
+  const mark = h('div', { class: 'expected' })
+  const share = h('td', { class: 'share' }, '–')
+  const bar = h('td', { class: 'bar', 'aria-hidden': 'true' }, h('div', { class: 'track' }, fill, range, mark))
+  const name = h('th', { scope: 'row' })
+  return { fill, range, mark, share, name, row: h('tr', {}, name, bar, share) }
 }
 
 function percent(share: number): string {

@@ -1,0 +1,115 @@
+// What a reader does with the six identical doors: what the caption and exercise 6 ask for, in the page alone.
+import AxeBuilder from '@axe-core/playwright'
+import type { Page } from '@playwright/test'
+import { expect, test } from './fixtures'
+import { Figure } from './figure'
+
+const TAG = 'fastslam-doors'
+const open = (page: Page, query?: string) => new Figure(page, TAG).alone(query && `#${TAG}?${query}`)
+
+const value = async (figure: Figure, name: string) => (await figure.readouts())[name]
+
+/** Drags a handle of the picture sideways. */
+async function drag(page: Page, figure: Figure, name: string, by: number): Promise<void> {
+  const box = (await figure.handle(name).boundingBox())!
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2)
+  await page.mouse.down()
+  await page.mouse.move(box.x + box.width / 2 + by, box.y + box.height / 2, { steps: 4 })
+  await page.mouse.up()
+  await figure.settled()
+}
+
+test.describe('at rest', () => {
+  test.use({ contextOptions: { reducedMotion: 'reduce' } })
+
+  test('it opens at the end, with the particles right, and EKF-SLAM sure and wrong', async ({ page }) => {
+    const figure = await open(page)
+    expect(await figure.position()).toBe(await figure.last())
+    await expect(figure.scrub).toHaveValue(String(await figure.last()))
+    await expect(figure.sentence).toContainText('which is right. EKF-SLAM')
+    await expect(figure.sentence).toContainText('Its σ is 5 cm, and it is off by −1 doors, which is wrong')
+  })
+
+  test('stepping back shows several explanations alive, while EKF-SLAM has had one since the first door', async ({ page }) => {
+    const figure = await open(page)
+    await figure.openNumbers()
+    await figure.scrubTo(58)
+    await expect(figure.sentence).toContainText('4 explanations hold')
+    expect(await value(figure, 'ekf_off')).toContain('−1')
+    await figure.stepBack.click()
+    await figure.scrubTo(46)
+    await expect(figure.sentence).toContainText('7 explanations hold')
+    expect(await value(figure, 'ekf_off')).toContain('−1')
+    await figure.scrubTo(42)
+    await expect(figure.sentence).toContainText('both filters agree')
+  })
+
+  test('who is at the end stays there at another seed, and a link says so', async ({ page }) => {
+    const figure = await open(page)
+    for (const seed of ['8', '21']) {
+      await figure.seed.fill(seed)
+      await figure.seed.press('Enter')
+      await figure.settled()
+      expect(await figure.position(), seed).toBe(await figure.last())
+      await expect(figure.scrub).toHaveValue(String(await figure.last()))
+      expect(await figure.state()).toBe(`seed=${seed}`)
+    }
+  })
+
+  test('the end of the ride and a door follow the pointer and the arrow keys', async ({ page }) => {
+    const figure = await open(page)
+    await figure.openSettings()
+    await drag(page, figure, 'end', 40)
+    const end = Number(await figure.box('end').inputValue())
+    expect(end).toBeGreaterThan(10.5)
+    await figure.grasp('end').press('ArrowLeft')
+    await figure.settled()
+    expect(Number(await figure.box('end').inputValue())).toBe(end - 0.25)
+    await drag(page, figure, 'door-5', 30)
+    await expect(figure.box('door-5')).not.toHaveValue('15')
+    expect(await figure.state()).toMatch(/^end=[\d.]+&door-5=[\d.]+$/)
+  })
+
+  test('a seventh door is typed, and refused where none can be', async ({ page }) => {
+    const figure = await open(page)
+    await figure.openSettings()
+    await figure.box('door-7').fill('1.5')
+    await figure.box('door-7').press('Enter')
+    await figure.settled()
+    await expect(figure.handle('door-7')).toBeVisible()
+    await figure.element.evaluate(element => element.setAttribute('door-7', '40'))
+    await expect(figure.alert).toContainText('door-7 = "40": must be')
+  })
+
+  test('EKF-SLAM is fooled by dragging the end of the ride, and ends right after a short one', async ({ page }) => {
+    const figure = await open(page)
+    await figure.element.getByRole('button', { name: /Fool EKF-SLAM/ }).click()
+    await figure.settled()
+    await expect(figure.sentence).toContainText('it is off by 0 doors, which is right')
+    await drag(page, figure, 'end', 60)
+    await expect(figure.sentence).toContainText('which is right. EKF-SLAM')
+    await expect(figure.element.getByRole('button', { name: 'Fool EKF-SLAM (reached)' })).toBeVisible()
+    await figure.element.evaluate(element => ((element as HTMLElement & { state: string }).state = 'ride=1'))
+    await figure.settled()
+    await expect(figure.sentence).toContainText('it is off by 0 doors, which is right')
+  })
+
+  test('nothing axe finds', async ({ page }) => {
+    const figure = await open(page)
+    await figure.openSettings()
+    await figure.openCount()
+    const { violations } = await new AxeBuilder({ page }).include(TAG).analyze()
+    expect(violations.map(({ id, nodes }) => [id, nodes[0]?.html])).toEqual([])
+  })
+
+  test('the count of exercise 6 is that of its solution, against the pencil', async ({ page }) => {
+    test.setTimeout(120_000)
+    const figure = await open(page)
+    await figure.openCount()
+    const panel = figure.element.locator('[part=count]')
+    await panel.getByRole('button', { name: 'Count over 200 seeds' }).click()
+    const said = panel.locator('.said')
+    await expect(said).toContainText('200 seeds counted.', { timeout: 90_000 })
+    await expect(said).toContainText('EKF-SLAM 28 % (22–35), by the pencil 29 %, M = 25 50 % (43–56), M = 100 81 % (75–86), M = 400 96 % (92–98)')
+  })
+})
