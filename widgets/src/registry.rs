@@ -8,6 +8,7 @@ use crate::{
     lap::{LAPS, LapView},
     proposal::ProposalView,
     resampling::{ResamplingView, WINGS},
+    universes::UniversesView,
     worked_example::WorkedExampleView,
 };
 use crate::{
@@ -67,6 +68,8 @@ pub const FIGURES: &[Entry] = &[
     Entry::of::<LogView>("fastslam-log", Program::Log, None),
     #[cfg(feature = "page")]
     Entry::of::<ResamplingView>("fastslam-resampling", Program::Page, Some(&WINGS)),
+    #[cfg(feature = "page")]
+    Entry::of::<UniversesView>("fastslam-universes", Program::Page, None),
 ];
 
 /// The figure of a tag.

@@ -57,9 +57,9 @@ pub fn sufficient(fractions: &[Fraction]) -> Option<usize> {
 }
 
 /// The rank of the first fraction from which on more particles buy nothing that the seeds can tell: its 95 % interval and those of all
-/// after it reach up to the largest share of all.
+/// after it reach up to that of the largest share.
 pub fn saturated(fractions: &[Fraction]) -> Option<usize> {
-    let best = fractions.iter().map(Fraction::share).fold(0.0, f64::max);
+    let best = fractions.iter().map(|fraction| fraction.wilson()[0]).fold(0.0, f64::max);
     let short = fractions.iter().rposition(|fraction| fraction.wilson()[1] < best);
     let first = short.map_or(0, |rank| rank + 1);
     (first < fractions.len()).then_some(first)
@@ -104,8 +104,8 @@ mod tests {
     }
 
     #[test]
-    fn more_buys_nothing_from_where_every_interval_reaches_the_best() {
-        assert_eq!(saturated(&of([20, 100, 190, 150, 194, 196])), Some(4), "one that falls back begins it anew");
+    fn more_buys_nothing_from_where_every_interval_reaches_that_of_the_best() {
+        assert_eq!(saturated(&of([20, 100, 190, 150, 190, 196])), Some(4), "one that falls back begins it anew");
         assert_eq!(saturated(&of([200; 4])), Some(0));
         assert_eq!(saturated(&[]), None);
     }
