@@ -9,8 +9,8 @@ use super::{
 use crate::{
     decimal::{fixed, write},
     font::{self, Weight},
-    proposal::marks::{Place, label, line},
-    scene::{Mark, Point, Rect, Role, Sample, Scene, legend},
+    proposal::marks::{Place, label},
+    scene::{Anchor, Mark, Point, Rect, Role, Sample, Scene, legend, n_eff, text},
     words::universes as words,
 };
 use fastslam::ops;
@@ -24,8 +24,7 @@ pub fn x(area: &Rect, noise: f64) -> f64 {
 /// Draws it.
 pub fn depletion(scene: &mut Scene, model: &UniversesModel, part: &Part, taken: &mut Vec<Rect>) {
     let (area, chart) = (part.area, chart(part));
-    let title = [words::depletion().into(), words::depletion_short().into()];
-    line(scene, &part.header, SIZE, Weight::SemiBold, Role::Ink, title);
+    title(scene, &part.header);
     let items = [
         (Sample::line(Role::Prior, 2.0, None), words::closed_form()),
         (Sample::dot(Role::Prior, 3.5).wide(8.0), words::measured()),
@@ -60,5 +59,18 @@ pub fn depletion(scene: &mut Scene, model: &UniversesModel, part: &Part, taken: 
     label(scene, taken, &area, at, &wordings.each_ref().map(String::as_str), &[Place::Left(5.0), Place::Right(5.0)]);
     let floor = format!("{} %", fixed(model.floor(), 0));
     let at = [area.x, chart.y(0.01 * model.floor())];
-    label(scene, taken, &area, at, &[&floor], &[Place::Right(8.0)].map(|_| Place::Right(3.0)));
+    label(scene, taken, &area, at, &[&floor], &[Place::Right(3.0)]);
+}
+
+/// What it shows: a sentence that ends in N_eff / M.
+fn title(scene: &mut Scene, header: &Rect) {
+    let width = |words: &str| font::measure(words, SIZE, Weight::SemiBold) + 5.0;
+    let fits = |words: &&str| width(words) + 60.0 < header.w;
+    let words = Some(words::depletion()).filter(fits).unwrap_or(words::depletion_short());
+    let place = Rect { w: width(words), ..*header };
+    scene.marks.push(text(place, Anchor::Start, SIZE, Weight::SemiBold, Role::Ink, words));
+    let after = Rect::new(place.right(), header.y, header.right() - place.right(), header.h);
+    let end = n_eff(scene, &after, SIZE, Weight::SemiBold, Role::Ink);
+    let rest = Rect::new(end, header.y, header.right() - end, header.h);
+    scene.marks.push(text(rest, Anchor::Start, SIZE, Weight::SemiBold, Role::Ink, " / M"));
 }

@@ -70,11 +70,15 @@ impl Layout {
         let left = if share && rule { (0.68 * width).floor() } else { width };
         let x = if share && rule { left + GAP[0] } else { 0.0 };
         let [high, low] = [(0.27 * width).clamp(160.0, 300.0), (0.14 * width).clamp(88.0, 150.0)];
-        let lines = if width < 460.0 { 2.0 } else { 1.0 };
-        let share = Part::of(share, Rect::new(0.0, 0.0, left, high), lines, SCALE, POINTER);
+        let lines = if width < 520.0 { 2.0 } else { 1.0 };
+        let mut share = Part::of(share, Rect::new(0.0, 0.0, left, high), lines, SCALE, POINTER);
         // With the names of its levels where there are none beside it.
         let scale = if x > 0.0 { 4.0 } else { SCALE };
-        let rule = Part::of(rule, Rect::new(x, 0.0, width - x, high), lines, scale, POINTER);
+        let mut rule = Part::of(rule, Rect::new(x, 0.0, width - x, high), lines, scale, POINTER);
+        if share.is_shown() {
+            // What its marks are, those of the rule are too.
+            (share.legend.w, rule.legend.h) = (width, 0.0);
+        }
         let above = share.axis.bottom().max(rule.axis.bottom());
         let y = if depletion && above > 0.0 { above + GAP[1] } else { above };
         let depletion = Part::of(depletion, Rect::new(0.0, y, width, low), 1.0, SCALE, APART);

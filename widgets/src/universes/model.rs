@@ -84,9 +84,10 @@ impl UniversesModel {
         sufficient(&self.fractions(proposal)).map(|rank| TRIED[rank])
     }
 
-    /// The rank from which on more universes buy nothing.
+    /// The rank from which on more universes buy nothing, of a proposal that comes to enough.
     pub fn saturated(&self, proposal: ProposalKind) -> Option<usize> {
-        saturated(&self.fractions(proposal)).filter(|rank| rank + 1 < TRIED.len())
+        let fractions = self.fractions(proposal);
+        sufficient(&fractions).and_then(|_| saturated(&fractions)).filter(|rank| rank + 1 < TRIED.len())
     }
 
     /// The share of laps that end well at what is read, and how probably that passes the rule.

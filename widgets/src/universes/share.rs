@@ -9,10 +9,10 @@ use super::{
 };
 use crate::{
     decimal::write,
-    font::Weight,
+    font::{self, Weight},
     model::Declared,
     proposal::marks::{Place, label, line, pointer},
-    scene::{Anchor, Chart, Handle, LINE, Mark, Point, Rect, Role, Sample, Scene, legend, text},
+    scene::{Anchor, Chart, Handle, Mark, Point, Rect, Role, Sample, Scene, legend, text},
     words::universes as words,
 };
 use fastslam::ops;
@@ -80,9 +80,10 @@ pub fn axis(scene: &mut Scene, part: &Part, names: impl Iterator<Item = (f64, St
     for (x, name) in names {
         let tick = vec![[x, part.area.bottom()], [x, part.area.bottom() + 4.0]];
         scene.marks.push(Mark::Lines { lines: vec![tick], width: 1.0, dash: None, role: Role::Muted });
-        // Around its place, as far as the part goes.
-        let half = (x - part.ticks.x).min(part.ticks.right() - x).min(20.0);
-        let place = Rect::new(x - half, part.ticks.y + 4.0, 2.0 * half, part.ticks.h - 4.0);
+        // Around its place, and inside of the part.
+        let w = font::measure(&name, 11.0, Weight::Regular) + 1.0;
+        let left = (x - 0.5 * w).min(part.ticks.right() - w).max(part.ticks.x);
+        let place = Rect::new(left, part.ticks.y + 4.0, w, part.ticks.h - 4.0);
         scene.marks.push(text(place, Anchor::Middle, 11.0, Weight::Regular, Role::Muted, name));
     }
     let place = Rect { x: part.area.x, w: part.axis.right() - part.area.x, ..part.axis };
@@ -107,9 +108,7 @@ pub fn share(scene: &mut Scene, model: &UniversesModel, part: &Part, taken: &mut
     let items = shown().map(|proposal| (dotted(role(proposal)), name(proposal)));
     let band = (Sample::new(|place| vec![hatched(*place, Role::Muted)]), words::interval());
     let enough = (Sample::line(Role::Accent, 1.5, Some(LEVEL)), words::four_fifths());
-    // Where the legend has two lines, its names are the first.
-    let more = if part.legend.w < 400.0 && part.legend.h <= LINE { Vec::new() } else { vec![enough, band] };
-    legend(scene, &part.legend, items.chain(more));
+    legend(scene, &part.legend, items.chain([enough, band]));
 
     frame(scene, part, &[(0.0, Role::Muted), (0.5, Role::Muted), (1.0, Role::Muted)]);
     let ticks = TICKS.map(|universes| (x(&area, universes as f64), universes.to_string()));
@@ -132,8 +131,10 @@ pub fn share(scene: &mut Scene, model: &UniversesModel, part: &Part, taken: &mut
     for proposal in shown() {
         needs(scene, model, &chart, proposal, taken);
     }
-    let of = if recipe.shows(ProposalKind::Motion) { ProposalKind::Motion } else { ProposalKind::Improved };
-    nothing_more(scene, model, &chart, of, taken);
+    // Of the one that has more to gain, if both have enough.
+    if let Some(of) = shown().find(|proposal| model.saturated(*proposal).is_some()) {
+        nothing_more(scene, model, &chart, of, taken);
+    }
 }
 
 fn points<'a>(
@@ -205,11 +206,13 @@ fn nothing_more(
     let ends = [from, to].map(|x| vec![[x, y - 4.0], [x, y + 4.0]]);
     let bracket = ends.into_iter().chain([vec![[from, y], [to, y]]]).collect();
     scene.marks.push(Mark::Lines { lines: bracket, width: 1.5, dash: None, role: role(proposal) });
-    let wordings = [words::MoreBuysNothing { from: &TRIED[rank] }.say(), words::more_buys_nothing_short().into()];
+    let long = words::MoreBuysNothing { from: &TRIED[rank] }.say();
+    let room = 0.5 * chart.area.w;
+    let fits = |words: &&str| font::measure(words, SIZE, Weight::SemiBold) < room;
+    let words = Some(long.as_str()).filter(fits).unwrap_or(words::more_buys_nothing_short());
     // Ends with the bracket.
-    let half = 0.5 * crate::font::measure(&wordings[0], SIZE, Weight::SemiBold) + 6.0;
-    let at = [to - half.min(0.5 * (to - chart.area.x)), y + 5.0];
-    label(scene, taken, &chart.area, at, &wordings.each_ref().map(String::as_str), &[Place::Below(2.0)]);
+    let half = 0.5 * font::measure(words, SIZE, Weight::SemiBold) + 6.0;
+    label(scene, taken, &chart.area, [to - half, y + 5.0], &[words], &[Place::Below(2.0)]);
 }
 
 /// The rule's operating curve, with the level asked for and, from the number that is read, the way there.
