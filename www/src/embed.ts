@@ -12,6 +12,7 @@ import { OPTIONS } from '../../widgets/elements/options'
 const LATER: Record<string, () => Promise<unknown>> = {
   'fastslam-log': () => import('../../widgets/elements/log'),
   'fastslam-resampling': () => import('../../widgets/elements/resampling'),
+  'fastslam-universes': () => import('../../widgets/elements/universes'),
 }
 
 /** Short names of parameters, as formulas have them: the first that a figure has. */
