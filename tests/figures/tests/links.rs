@@ -80,3 +80,8 @@ fn links_to_the_resampling_keep_their_numbers() {
 fn links_to_the_log_keep_their_numbers() {
     keep_their_numbers(LOG);
 }
+
+#[test]
+fn links_to_the_universes_keep_their_numbers() {
+    keep_their_numbers("fastslam-universes");
+}
