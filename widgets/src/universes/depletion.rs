@@ -72,5 +72,5 @@ fn title(scene: &mut Scene, header: &Rect) {
     let after = Rect::new(place.right(), header.y, header.right() - place.right(), header.h);
     let end = n_eff(scene, &after, SIZE, Weight::SemiBold, Role::Ink);
     let rest = Rect::new(end, header.y, header.right() - end, header.h);
-    scene.marks.push(text(rest, Anchor::Start, SIZE, Weight::SemiBold, Role::Ink, " / M"));
+    scene.marks.push(text(rest, Anchor::Start, SIZE, Weight::SemiBold, Role::Ink, "/ M"));
 }
