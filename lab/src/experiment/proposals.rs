@@ -160,7 +160,7 @@ impl Drive {
         Ok(Self { truth, z, sensor, motion, landmarks, particle, features })
     }
 
-    fn from_motion(&self) -> FromMotion<OdometryModel, Marginal> {
+    fn prior(&self) -> FromMotion<OdometryModel, Marginal> {
         FromMotion { motion: self.motion, likelihood: Marginal }
     }
 
@@ -205,7 +205,7 @@ pub struct Depletion {
 pub fn depletion(setup: &ProposalsSetup, measure: bool) -> Result<Depletion, SettingError> {
     let drive = Drive::new(setup)?;
     let measured = measure.then(|| {
-        let log_increments: Vec<f64> = drive.drawn(setup, &drive.from_motion()).map(|one| one.log_increment).collect();
+        let log_increments: Vec<f64> = drive.drawn(setup, &drive.prior()).map(|one| one.log_increment).collect();
         Weights::uniform(log_increments.len()).reweighted(&log_increments).0.ess() / f64::from(setup.samples)
     });
     let of_map = drive.at_mean().given_pose[(0, 0)] - setup.range_std * setup.range_std;
@@ -250,7 +250,7 @@ impl Proposals {
             truth: *truth,
             z: *z,
             gaussian: aware.fold(&particle.map, &FROM, &CONTROL, features),
-            motion: Cloud::new(drive.drawn(setup, &drive.from_motion()), &exact),
+            motion: Cloud::new(drive.drawn(setup, &drive.prior()), &exact),
             aware: Cloud::new(drive.drawn(setup, &aware), &exact),
             predicted_ess: drive.predicted_ess(),
             landmarks: drive.landmarks,

@@ -39,9 +39,9 @@ impl Rule {
     /// ```
     pub fn passes(&self, p: f64) -> f64 {
         // A sum of products, seed by seed: after each, how probable each number of successes is. Nothing in it can overflow.
-        let mut counts = vec![1.0];
+        let mut counts = vec![0.0; self.seeds as usize + 1];
+        counts[0] = 1.0;
         for _ in 0..self.seeds {
-            counts.push(0.0);
             for k in (0..counts.len()).rev() {
                 let before = if k > 0 { counts[k - 1] } else { 0.0 };
                 counts[k] = counts[k] * (1.0 - p) + before * p;
@@ -77,10 +77,9 @@ mod tests {
     #[test]
     fn the_operating_curve_is_that_of_counting_all_outcomes() {
         for seeds in [1, 3, 5, 10] {
-            for p in [0.0, 0.1, 0.5, 0.8, 1.0_f64] {
-                let probability = |outcome: u32| {
-                    let won = outcome.count_ones() as i32;
-                    p.powi(won) * (1.0 - p).powi(seeds as i32 - won)
+            for p in [0.0, 0.1, 0.5, 0.8, 1.0] {
+                let probability = |outcome: u32| -> f64 {
+                    (0..seeds).map(|seed| if outcome >> seed & 1 == 1 { p } else { 1.0 - p }).product()
                 };
                 let rule = Rule { seeds };
                 let passing = (0..1_u32 << seeds).filter(|outcome| outcome.count_ones() >= rule.successes());

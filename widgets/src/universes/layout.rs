@@ -69,7 +69,7 @@ impl Layout {
         let [share, rule, depletion] = [SHARE, RULE, DEPLETION].map(|name| shown.has(name));
         let left = if share && rule { (0.68 * width).floor() } else { width };
         let x = if share && rule { left + GAP[0] } else { 0.0 };
-        let [high, low] = [(0.27 * width).clamp(160.0, 300.0), (0.14 * width).clamp(88.0, 150.0)];
+        let [high, low] = [(0.27 * width).clamp(160.0, 300.0), (0.14 * width).clamp(88.0, 150.0)].map(f64::floor);
         let lines = if width < 520.0 { 2.0 } else { 1.0 };
         let mut share = Part::of(share, Rect::new(0.0, 0.0, left, high), lines, SCALE, POINTER);
         // With the names of its levels where there are none beside it.
