@@ -28,6 +28,7 @@ const STATES: Record<string, string> = {
   proposal: 'samples=32',
   'worked-example': 'step=2',
   resampling: 'particles=20&step=7',
+  universes: 'threshold=0.1&universes=16',
 }
 const TAGS = Object.keys(STATES).map(name => `fastslam-${name}`)
 

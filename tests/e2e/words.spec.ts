@@ -87,7 +87,7 @@ test('the comma follows the language, and the attribute decimal stands over it',
   expect((await lap.readouts())['rms_best']).toContain('.')
 })
 
-for (const name of ['conditioning', 'proposal', 'worked-example', 'resampling', 'log', 'doors']) {
+for (const name of ['conditioning', 'proposal', 'worked-example', 'resampling', 'universes', 'log', 'doors']) {
   test(`${name} in German has German controls, numbers and sentence`, async ({ page }) => {
     await openCourse(page, `<main><fastslam-${name} lang="de"></fastslam-${name}></main>`)
     const figure = new Figure(page, `fastslam-${name}`)

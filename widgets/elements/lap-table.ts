@@ -102,7 +102,8 @@ export class FastslamLapTable extends HTMLElement {
     try {
       const { default: kept } = await import('../../www/data/lap-table.json')
       const printed = (kept as Record<string, number[]>)[`lap.${cell.name}`] ?? []
-      const axis = Object.values(kept as Record<string, number[]>).flat()
+      const ofTable = Object.entries(kept as Record<string, number[]>).filter(([name]) => !name.startsWith('lap.tried.'))
+      const axis = ofTable.flatMap(([, errors]) => errors)
       if (running !== this.#running) return
       panel.print(printed, [Math.min(...axis), Math.max(...axis)])
       const query = `course=apartment&temper=0.85&universes=${cell.particles}&proposal=${cell.proposal}&matcher=${cell.matcher}`

@@ -43,6 +43,8 @@ pub mod scene;
 pub mod shell;
 #[cfg(all(target_arch = "wasm32", feature = "trouble"))]
 mod trouble;
+#[cfg(feature = "page")]
+pub mod universes;
 pub mod view;
 pub mod words;
 #[cfg(feature = "page")]

@@ -9,6 +9,7 @@ use crate::{
     lap::{LAPS, LapView},
     proposal::ProposalView,
     resampling::{ResamplingView, WINGS},
+    universes::UniversesView,
     worked_example::WorkedExampleView,
 };
 use crate::{
@@ -70,6 +71,7 @@ pub const FIGURES: &[Entry] = &[
     Entry::of::<ResamplingView>("fastslam-resampling", Program::Page, Some(&WINGS)),
     #[cfg(feature = "page")]
     Entry::of::<DoorsView>("fastslam-doors", Program::Page, Some(&DOORS)),
+    Entry::of::<UniversesView>("fastslam-universes", Program::Page, None),
 ];
 
 /// The figure of a tag.

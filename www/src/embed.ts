@@ -13,6 +13,7 @@ const LATER: Record<string, () => Promise<unknown>> = {
   'fastslam-log': () => import('../../widgets/elements/log'),
   'fastslam-doors': () => import('../../widgets/elements/doors'),
   'fastslam-resampling': () => import('../../widgets/elements/resampling'),
+  'fastslam-universes': () => import('../../widgets/elements/universes'),
 }
 
 /** Short names of parameters, as formulas have them: the first that a figure has. */

@@ -13,6 +13,7 @@ pub mod proposals;
 pub mod ring;
 mod summary;
 pub mod table;
+pub mod universes;
 pub mod variants;
 pub mod worked_example;
 

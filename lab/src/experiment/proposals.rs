@@ -11,7 +11,7 @@ use crate::baseline::one_step::{OneStep, Posterior, predicted_ess};
 use crate::digest::Digest;
 use fastslam::error::{Range, SettingError};
 use fastslam::geometry::Pose2;
-use fastslam::map::landmarks::{Association, Correspondence, Gate, Landmark, Landmarks};
+use fastslam::map::landmarks::{Association, Correspondence, Gate, Innovation, Landmark, Landmarks};
 use fastslam::motion::{Motion, Odometry, OdometryModel};
 use fastslam::nalgebra::{Matrix2, Vector2};
 use fastslam::particle::Particle;
@@ -117,6 +117,101 @@ impl Cloud {
     }
 }
 
+/// What is known before anything is drawn.
+struct Drive {
+    truth: Pose2,
+    z: Vector2<f64>,
+    sensor: RangeBearing,
+    motion: OdometryModel,
+    landmarks: Vec<Landmark>,
+    particle: Particle<Landmarks<RangeBearing>>,
+    features: Vec<Feature>,
+}
+
+impl Drive {
+    fn new(setup: &ProposalsSetup) -> Result<Self, SettingError> {
+        setup.validate()?;
+        let ProposalsSetup { range_std, bearing_std, landmark: [x, y], .. } = *setup;
+        let sensor = RangeBearing { range_std, bearing_std, max_range: 1000.0, field_of_view: core::f64::consts::TAU };
+        let motion = OdometryModel { alphas: ALPHAS }.scaled(setup.odometry_scale);
+        let [xx, xy, yy] = LANDMARK_COVARIANCE;
+        let covariance = Matrix2::new(xx, xy, xy, yy);
+        let landmark = |mean| Landmark { mean, covariance, existence_count: 1 };
+        let mut landmarks = vec![landmark(Vector2::new(x, y))];
+        if setup.twins {
+            landmarks.push(landmark(Vector2::new(x + TWIN[0], y + TWIN[1])));
+        }
+        let truth = if setup.twins { DRIVEN } else { CONTROL }.apply(&FROM);
+        let z = sensor.predict(&truth, &landmarks[0].mean).z;
+
+        // Of one landmark the sensor knows the name. Of two it does not, only that it is one of them.
+        let correspondence = if setup.twins {
+            Correspondence::Unknown(Gate {
+                mahalanobis_squared: f64::INFINITY,
+                log_new: f64::NEG_INFINITY,
+                removal: false,
+            })
+        } else {
+            Correspondence::Known
+        };
+        let map = Landmarks::<_>::new(sensor, correspondence).with(landmarks.iter().copied());
+        let particle = Particle::start(FROM, map);
+        let features = vec![Feature { z, signature: (!setup.twins).then_some(0) }];
+        Ok(Self { truth, z, sensor, motion, landmarks, particle, features })
+    }
+
+    fn prior(&self) -> FromMotion<OdometryModel, Marginal> {
+        FromMotion { motion: self.motion, likelihood: Marginal }
+    }
+
+    /// The sighting against the first landmark at the motion's mean.
+    fn at_mean(&self) -> Innovation {
+        self.landmarks[0].innovation(&self.sensor, &CONTROL.apply(&FROM), &self.z)
+    }
+
+    fn predicted_ess(&self) -> f64 {
+        predicted_ess(&self.at_mean(), &self.motion.covariance(&FROM, &CONTROL))
+    }
+
+    /// What a proposal draws, one for each slot.
+    fn drawn<'a>(
+        &'a self,
+        setup: &'a ProposalsSetup,
+        proposal: &'a dyn Proposal<Landmarks<RangeBearing>, Control = Odometry>,
+    ) -> impl Iterator<Item = Proposed<Vec<Association>>> + 'a {
+        (0..setup.samples).map(move |slot| {
+            let mut stream = Stream::at(setup.seed, Purpose::PROPOSAL, 1, slot);
+            proposal.propose(&self.particle, &CONTROL, &self.features, &mut stream)
+        })
+    }
+}
+
+/// What FastSLAM 1.0 is left with after the one step.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Depletion {
+    /// N_eff / M by the closed form ([`Proposals::predicted_ess`]).
+    pub predicted: f64,
+    /// N_eff / M of the samples, where some were to be drawn.
+    pub measured: Option<f64>,
+    /// How well the map knows the range at which the landmark is seen, as a standard deviation \[m\]: what a sharper sensor cannot get
+    /// below.
+    pub map_std: f64,
+}
+
+/// The depletion of a setup by the closed form and, if asked for, of its samples: those of [`Proposals::motion`], without the posterior.
+///
+/// # Errors
+/// Where a setting is out of its range.
+pub fn depletion(setup: &ProposalsSetup, measure: bool) -> Result<Depletion, SettingError> {
+    let drive = Drive::new(setup)?;
+    let measured = measure.then(|| {
+        let log_increments: Vec<f64> = drive.drawn(setup, &drive.prior()).map(|one| one.log_increment).collect();
+        Weights::uniform(log_increments.len()).reweighted(&log_increments).0.ess() / f64::from(setup.samples)
+    });
+    let of_map = drive.at_mean().given_pose[(0, 0)] - setup.range_std * setup.range_std;
+    Ok(Depletion { predicted: drive.predicted_ess(), measured, map_std: of_map.max(0.0).sqrt() })
+}
+
 /// Both proposals, and the truth.
 #[derive(Clone, Debug)]
 pub struct Proposals {
@@ -145,54 +240,21 @@ impl Proposals {
     /// # Errors
     /// Where a setting is out of its range.
     pub fn new(setup: &ProposalsSetup) -> Result<Self, SettingError> {
-        setup.validate()?;
-        let ProposalsSetup { range_std, bearing_std, landmark: [x, y], .. } = *setup;
-        let sensor = RangeBearing { range_std, bearing_std, max_range: 1000.0, field_of_view: core::f64::consts::TAU };
-        let motion = OdometryModel { alphas: ALPHAS }.scaled(setup.odometry_scale);
-        let [xx, xy, yy] = LANDMARK_COVARIANCE;
-        let covariance = Matrix2::new(xx, xy, xy, yy);
-        let landmark = |mean| Landmark { mean, covariance, existence_count: 1 };
-        let mut landmarks = vec![landmark(Vector2::new(x, y))];
-        if setup.twins {
-            landmarks.push(landmark(Vector2::new(x + TWIN[0], y + TWIN[1])));
-        }
-        let truth = if setup.twins { DRIVEN } else { CONTROL }.apply(&FROM);
-        let z = sensor.predict(&truth, &landmarks[0].mean).z;
-        let step = OneStep { from: FROM, control: CONTROL, motion, sensor, candidates: landmarks.clone(), z };
+        let drive = Drive::new(setup)?;
+        let Drive { truth, z, sensor, motion, landmarks, particle, features } = &drive;
+        let candidates = landmarks.clone();
+        let step = OneStep { from: FROM, control: CONTROL, motion: *motion, sensor: *sensor, candidates, z: *z };
         let exact = step.posterior(SIDE);
-
-        // Of one landmark the sensor knows the name. Of two it does not, only that it is one of them.
-        let correspondence = if setup.twins {
-            Correspondence::Unknown(Gate {
-                mahalanobis_squared: f64::INFINITY,
-                log_new: f64::NEG_INFINITY,
-                removal: false,
-            })
-        } else {
-            Correspondence::Known
-        };
-        let map = Landmarks::<_>::new(sensor, correspondence).with(landmarks.iter().copied());
-        let particle = Particle::start(FROM, map);
-        let features = vec![Feature { z, signature: (!setup.twins).then_some(0) }];
-        let aware = FromMeasurement { motion };
-        let at_mean = landmarks[0].innovation(&sensor, &CONTROL.apply(&FROM), &z);
-        let predicted_ess = predicted_ess(&at_mean, &motion.covariance(&FROM, &CONTROL));
-        let draw = |proposal: &dyn Proposal<_, Control = Odometry>| {
-            let proposed = (0..setup.samples).map(|slot| {
-                let mut stream = Stream::at(setup.seed, Purpose::PROPOSAL, 1, slot);
-                proposal.propose(&particle, &CONTROL, &features, &mut stream)
-            });
-            Cloud::new(proposed, &exact)
-        };
+        let aware = FromMeasurement { motion: *motion };
         Ok(Self {
-            truth,
-            z,
-            gaussian: aware.fold(&particle.map, &FROM, &CONTROL, &features),
-            motion: draw(&FromMotion { motion, likelihood: Marginal }),
-            aware: draw(&aware),
-            landmarks,
+            truth: *truth,
+            z: *z,
+            gaussian: aware.fold(&particle.map, &FROM, &CONTROL, features),
+            motion: Cloud::new(drive.drawn(setup, &drive.prior()), &exact),
+            aware: Cloud::new(drive.drawn(setup, &aware), &exact),
+            predicted_ess: drive.predicted_ess(),
+            landmarks: drive.landmarks,
             exact,
-            predicted_ess,
         })
     }
 
@@ -311,6 +373,18 @@ mod tests {
                 "{factor}: {ratio} ± {error}, {predicted}"
             );
         }
+    }
+
+    #[test]
+    fn the_depletion_is_that_of_the_clouds_and_ends_at_what_the_map_knows() {
+        for (name, setup) in golden_setups() {
+            let (found, quick) = (Proposals::new(&setup).unwrap(), depletion(&setup, true).unwrap());
+            let share = found.motion.ess() / f64::from(setup.samples);
+            assert_eq!((quick.predicted, quick.measured), (found.predicted_ess, Some(share)), "{name}");
+        }
+        // Along (0.99, −0.14), as exercise 4 says: √0.012 m, however sharp the sensor is.
+        let std = |range_std| depletion(&ProposalsSetup { range_std, ..LARGE }, false).unwrap().map_std;
+        assert!((std(0.05) - 0.11).abs() < 0.005 && (std(0.005) - std(0.5)).abs() < 1e-9);
     }
 
     #[test]

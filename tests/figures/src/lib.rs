@@ -36,6 +36,7 @@ const PROPOSAL: &str = "fastslam-proposal";
 const WORKED: &str = "fastslam-worked-example";
 const RESAMPLING: &str = "fastslam-resampling";
 const DOORS: &str = "fastslam-doors";
+const UNIVERSES: &str = "fastslam-universes";
 /// Its pictures and readouts are those of [`TINY_LOG`], mapped to its end.
 pub const LOG: &str = "fastslam-log";
 
@@ -117,6 +118,13 @@ pub const PICTURES: &[Picture] = &[
     picture(DOORS, "doors-phone", "step=46&seed=2&door-7=1.5", 340, 2.0, "light"),
     picture(DOORS, "doors-contrast", "particles=1000&door-5=16&step=52", 380, 1.0, "contrast-dark"),
     picture(DOORS, "doors-tiny", "particles=1&step=9", 240, 1.0, "contrast-light"),
+    picture(UNIVERSES, "fastslam-universes-light", "", 800, 1.5, "light"),
+    picture(UNIVERSES, "fastslam-universes-dark", "", 800, 1.5, "dark"),
+    picture(UNIVERSES, "universes-strict", "threshold=0.05&seeds=50&universes=3", 692, 1.0, "light"),
+    picture(UNIVERSES, "universes-asked", "predict=on&guess=20", 692, 1.0, "dark"),
+    picture(UNIVERSES, "universes-judged", GUESSES, 340, 2.0, "light"),
+    picture(UNIVERSES, "universes-phone", "proposals=motion&universes=24&odometry=2", 380, 1.0, "contrast-dark"),
+    picture(UNIVERSES, "universes-tiny", "threshold=0.03&seeds=1", 240, 1.0, "contrast-light"),
 ];
 
 /// What a filter does: one sighting for both particles, from two poses; and the landmark's ellipse is turned.
@@ -216,7 +224,13 @@ pub const SETUPS: &[(&str, &str)] = &[
     (RESAMPLING, "wings=on&particles=40&scheme=multinomial&odometry=0.5&range=0.25"),
     (DOORS, ""),
     (DOORS, "particles=60&seed=5&proposal=aware&ride=6&range=0.2&price=5&gate=95&door-5=16&door-7=1.5&end=4"),
+    (UNIVERSES, ""),
+    (UNIVERSES, "threshold=0.1&seeds=50&universes=27&bearing-std=0.01&odometry=2"),
+    (UNIVERSES, GUESSES),
 ];
+
+/// Both proposals guessed, and the depletion.
+const GUESSES: &str = "predict=on&guess=8&guess-aware=8&guess-floor=40&run=on";
 
 /// Ancestors are fewer than particles, and the last common one is not long ago.
 const COALESCED: &str = "step=70";

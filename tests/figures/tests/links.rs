@@ -85,3 +85,8 @@ fn links_to_the_doors_keep_their_numbers() {
 fn links_to_the_log_keep_their_numbers() {
     keep_their_numbers(LOG);
 }
+
+#[test]
+fn links_to_the_universes_keep_their_numbers() {
+    keep_their_numbers("fastslam-universes");
+}

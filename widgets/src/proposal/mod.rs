@@ -6,7 +6,7 @@ mod gauge;
 mod ghost;
 mod knob;
 mod layout;
-mod marks;
+pub(crate) mod marks;
 mod model;
 mod names;
 mod panel;

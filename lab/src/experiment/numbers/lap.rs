@@ -5,6 +5,7 @@ use crate::experiment::ErrorSummary;
 use crate::experiment::ProposalKind;
 use crate::experiment::lap::{BEAMS, GRID, LAG, Lap, LapSetup, LapWorld, MAX_RANGE, STEPS};
 use crate::experiment::table::{LapResult, PARTICLES, rms_best};
+use crate::experiment::universes::{TRIED, WELL};
 use fastslam::execute::Executor;
 use fastslam::geometry::rms;
 use fastslam::matching::Matcher;
@@ -38,7 +39,11 @@ pub fn recipes() -> Vec<Recipe> {
     ];
     let others = [setting(), odometry(), memory(), blunt(1), blunt(16), four_seeds()];
     let sufficient = [ProposalKind::Improved, ProposalKind::Motion].map(sufficient);
-    table.chain(beside).chain(medians).chain(others).chain(sufficient).collect()
+    let besides = [ProposalKind::Improved, ProposalKind::Motion].into_iter().flat_map(|proposal| {
+        let cells = TRIED.map(|particles| LapCell { proposal, matcher: Matcher::SubCell, particles });
+        cells.into_iter().filter(|cell| !PARTICLES.contains(&cell.particles)).map(tried)
+    });
+    table.chain(beside).chain(medians).chain(others).chain(sufficient).chain(besides).collect()
 }
 
 /// A cell of the lap table: errors over many laps.
@@ -237,10 +242,14 @@ fn blunt(particles: usize) -> Recipe {
     })
 }
 
+/// The errors that the figure of universes has besides those of the table: of every M that is tried.
+fn tried(cell: LapCell) -> Recipe {
+    let name = format!("lap.tried.{}.{}.m{}", cell.proposal, cell.matcher, cell.particles);
+    Recipe::new(name, SEEDS, move |runs| Made { numbers: Vec::new(), errors: cell.errors(runs) })
+}
+
 /// The smallest M with which most laps end well.
 fn sufficient(proposal: ProposalKind) -> Recipe {
-    const TRIED: [usize; 11] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 40];
-    const WELL: f64 = 0.5; // [m]
     let matcher = Matcher::SubCell;
     let key = format!("lap.sufficient.{proposal}.{matcher}");
     Recipe::new(key.clone(), SEEDS, move |runs| {

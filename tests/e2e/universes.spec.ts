@@ -1,0 +1,67 @@
+// What a reader does with the figure of exercises 4 and 5: guesses first, another rule, other thresholds, and the laps themselves.
+import { expect, test } from './fixtures'
+import { Figure } from './figure'
+
+test.use({ contextOptions: { reducedMotion: 'reduce' } })
+
+const open = (page: ConstructorParameters<typeof Figure>[0], query = '') => new Figure(page, 'fastslam-universes').alone(query && `#fastslam-universes?${query}`)
+
+test('it opens with both answers of exercise 5, and another rule is another chance', async ({ page }) => {
+  const figure = await open(page)
+  await expect(figure.sentence).toContainText('the motion prior needs 12 universes, the measurement-aware proposal 1')
+  const before = await figure.readouts()
+  expect(before['share_motion']).toContain('64 (57–70)')
+  expect(Number.parseFloat(before['passes_motion']!)).toBeGreaterThan(30)
+  await figure.box('seeds').fill('50')
+  await figure.box('seeds').press('Enter')
+  await figure.settled()
+  expect(Number.parseFloat((await figure.readouts())['passes_motion']!)).toBeLessThan(5)
+})
+
+test('nothing is shown before the guesses are placed, and then they stand beside the results', async ({ page }) => {
+  const figure = await open(page)
+  const shown = await figure.picture()
+  await figure.toggle('predict').click()
+  await figure.settled()
+  expect(await figure.picture()).not.toBe(shown)
+  await expect(figure.sentence).toContainText('All curves are hidden')
+  expect((await figure.readouts())['sufficient_motion']).toBe('–')
+  await figure.grasp('guess').focus()
+  await page.keyboard.press('ArrowRight')
+  await page.keyboard.press('ArrowRight')
+  await figure.grasp('guess-aware').focus()
+  await page.keyboard.press('ArrowLeft')
+  await figure.settled()
+  await expect(figure.box('guess')).toHaveValue('8')
+  await expect(figure.box('guess-aware')).toHaveValue('5')
+  await figure.toggle('run').click()
+  await figure.settled()
+  await expect(figure.sentence).toContainText('The motion prior proposal needs 12; you guessed 8: 33 % too low.')
+  await expect(figure.sentence).toContainText('The measurement-aware proposal needs 1; you guessed 5: 400 % too high.')
+  // Another threshold is another question.
+  await figure.box('threshold').fill('0.3')
+  await figure.box('threshold').press('Enter')
+  await figure.settled()
+  await expect(figure.box('guess')).toHaveValue('')
+  await expect(figure.box('guess-aware')).toHaveValue('')
+})
+
+test('the laps of a point are run again to the same digits', async ({ page }) => {
+  test.setTimeout(120_000)
+  const figure = await open(page)
+  const again = figure.element.locator('[part=count]')
+  await again.locator('summary').click()
+  await again.getByLabel('Universes of the laps').selectOption('3')
+  await again.getByRole('button', { name: 'Run 200 laps' }).click()
+  await expect(again.locator('.said')).toHaveText('12 of 200 laps end within 0.5 m. All errors are those of the chart, to the last digit.', { timeout: 100_000 })
+})
+
+test('exercise 5 asks for the guess in a small copy, and compares it', async ({ page }) => {
+  await page.goto('./')
+  const question = page.locator('#guess-universes')
+  await question.scrollIntoViewIfNeeded()
+  await expect(question.locator('.trial canvas')).toBeVisible()
+  await question.getByRole('textbox').fill('6')
+  await question.getByRole('textbox').press('Enter')
+  await expect(question.getByRole('status').first()).toHaveText('You guessed 6, the figure says 12: 50 % too low.')
+})

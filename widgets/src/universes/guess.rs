@@ -1,0 +1,130 @@
+//! The reader's guesses: how many universes each proposal needs, and what is left of the motion prior with the sharpest sensor.
+
+use super::{
+    layout::{Layout, Part},
+    model::{PROPOSALS, UniversesModel, name},
+    recipe::MOST,
+    share::{self, role},
+    view::{GUESS, GUESS_AWARE, GUESS_FLOOR},
+};
+use crate::{
+    decimal::write,
+    model::Declared,
+    proposal::marks::{Place, label},
+    scene::{Handle, Mark, Point, Rect, Role, Scene},
+    words::{prediction, universes as words},
+};
+use fastslam_lab::experiment::ProposalKind;
+
+/// Where the markers stand before there is a guess: in the middle of both axes.
+pub const MIDDLE: [f64; 2] = [6.0, 50.0];
+
+/// Levels of the two markers: they may be of one number.
+const LEVELS: [f64; 2] = [0.62, 0.36];
+
+/// Lines at the guesses, what can be dragged, and what is asked or said of it.
+pub fn guesses(scene: &mut Scene, model: &UniversesModel, layout: &Layout, taken: &mut Vec<Rect>) {
+    let prediction = &model.recipe().prediction;
+    if !prediction.predict {
+        return;
+    }
+    if layout.share.is_shown() {
+        let guesses = [prediction.guess, model.recipe().guess_aware];
+        for (k, proposal) in PROPOSALS.into_iter().enumerate() {
+            universes(scene, model, &layout.share, taken, (proposal, guesses[k], LEVELS[k]));
+        }
+    }
+    if layout.depletion.is_shown() {
+        floor(scene, model, &layout.depletion, taken);
+    }
+}
+
+fn universes(
+    scene: &mut Scene,
+    model: &UniversesModel,
+    part: &Part,
+    taken: &mut Vec<Rect>,
+    (proposal, guess, level): (ProposalKind, Option<f64>, f64),
+) {
+    if model.recipe().prediction.is_shown() && guess.is_none() {
+        return;
+    }
+    let (area, chart) = (part.area, share::chart(part));
+    let (x, y) = (share::x(&area, guess.unwrap_or(MIDDLE[0])), chart.y(level));
+    let dash = Some(if guess.is_some() { [5.0, 3.0] } else { [2.0, 4.0] });
+    let line = vec![vec![[x, area.y], [x, area.bottom()]]];
+    scene.marks.push(Mark::Lines { lines: line, width: 2.0, dash, role: role(proposal) });
+    let of = name(proposal);
+    let said = match guess {
+        Some(guess) => {
+            [words::GuessIs { of: &of, guess: &write(guess) }.say(), words::GuessShort { guess: &write(guess) }.say()]
+        }
+        None => [words::DragHere { of: &of }.say(), of.into()],
+    };
+    marker(scene, taken, &area, [x, y], &said);
+    if model.recipe().prediction.is_shown() {
+        return;
+    }
+    let (name, title, axes): (_, _, &'static [&'static str]) = match proposal {
+        ProposalKind::Motion => (GUESS, words::guess_handle(), &[GUESS]),
+        ProposalKind::Improved => (GUESS_AWARE, words::guess_aware(), &[GUESS_AWARE]),
+    };
+    let text = guess.map_or(prediction::none().into(), |guess| words::CountOf { m: &write(guess) }.say());
+    let value = guess.unwrap_or(MIDDLE[0]);
+    scene.handles.push(Handle { name, title: title.into(), at: [x, y], axes, value, text, hover: None });
+}
+
+fn floor(scene: &mut Scene, model: &UniversesModel, part: &Part, taken: &mut Vec<Rect>) {
+    let guess = model.recipe().guess_floor;
+    let judged = model.recipe().prediction.is_shown();
+    if judged && guess.is_none() {
+        return;
+    }
+    let area = part.area;
+    let percent = guess.unwrap_or(MIDDLE[1]);
+    let [x, y] = [area.x + 12.0, share::chart(part).y(0.01 * percent)];
+    let line = vec![vec![[area.x, y], [area.x + 0.3 * area.w, y]]];
+    let dash = Some(if guess.is_some() { [5.0, 3.0] } else { [2.0, 4.0] });
+    scene.marks.push(Mark::Lines { lines: line, width: 2.0, dash, role: Role::Accent });
+    let said = match guess {
+        Some(guess) => {
+            [words::FloorIs { guess: &write(guess) }.say(), words::FloorShort { guess: &write(guess) }.say()]
+        }
+        None => [words::drag_floor().into(), words::drag_floor_short().into()],
+    };
+    marker(scene, taken, &area, [x, y], &said);
+    if !judged {
+        let text = guess.map_or(prediction::none().into(), |guess| format!("{} %", write(guess)));
+        let (name, title, axes) = (GUESS_FLOOR, words::guess_floor().into(), &[GUESS_FLOOR][..]);
+        scene.handles.push(Handle { name, title, at: [x, y], axes, value: percent, text, hover: None });
+    }
+}
+
+/// A disc that is dragged, and words beside it.
+fn marker(scene: &mut Scene, taken: &mut Vec<Rect>, area: &Rect, at: Point, said: &[String; 2]) {
+    scene.marks.push(Mark::Discs { centres: vec![at], radius: 6.0, role: Role::Accent });
+    let wordings = said.each_ref().map(String::as_str);
+    label(
+        scene,
+        taken,
+        area,
+        at,
+        &wordings,
+        &[Place::Right(11.0), Place::Left(11.0), Place::Above(9.0), Place::Below(9.0)],
+    );
+}
+
+/// What is asked before, and what both proposals need after.
+pub fn asked(model: &UniversesModel) -> [String; 2] {
+    if model.hides() {
+        return [words::question().into(), words::question_short().into()];
+    }
+    let [motion, aware] = PROPOSALS.map(|proposal| model.needs(proposal));
+    let short = words::NeedsBoth { motion: &motion, aware: &aware }.say();
+    [model.judged().unwrap_or_default(), short]
+}
+
+/// The nearest that can be guessed.
+pub fn within(universes: f64) -> f64 {
+    universes.round().clamp(1.0, MOST.into())
+}

@@ -1,0 +1,146 @@
+//! Where the parts of the figure stand.
+
+use crate::{
+    panels::Panels,
+    scene::{LINE, Rect},
+    view,
+};
+
+/// Names of the panels: the share of laps that end well over M, what the rule makes of it, and the depletion over the range noise.
+pub const SHARE: &str = "share";
+/// See [`SHARE`].
+pub const RULE: &str = "rule";
+/// See [`SHARE`].
+pub const DEPLETION: &str = "depletion";
+
+/// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
+pub const NARROWEST: f64 = 300.0;
+
+/// Left of a chart's area: the names of its levels \[css px\].
+pub const SCALE: f64 = 40.0;
+
+/// A line of text, and between a chart's head and its area: room for a pointer, or none \[css px\].
+const HEADER: f64 = 20.0;
+const POINTER: f64 = 14.0;
+const APART: f64 = 4.0;
+
+/// Below a chart: names of its places, and what they are \[css px\].
+const TICKS: f64 = 16.0;
+const AXIS: f64 = 16.0;
+
+/// Between the charts beside and below each other \[css px\].
+const GAP: [f64; 2] = [16.0, 8.0];
+
+/// Right of an area: half of a name, or of a handle \[css px\].
+const RIGHT: f64 = 14.0;
+
+/// A chart with what stands around it.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Part {
+    /// What it shows.
+    pub header: Rect,
+    /// What its marks are.
+    pub legend: Rect,
+    /// Its curves.
+    pub area: Rect,
+    /// Names of places on its lower axis.
+    pub ticks: Rect,
+    /// What these places are.
+    pub axis: Rect,
+}
+
+/// The parts of the figure \[css px\].
+#[derive(Clone, PartialEq, Debug)]
+pub struct Layout {
+    /// Shares over M.
+    pub share: Part,
+    /// The rule's operating curve, on the same levels.
+    pub rule: Part,
+    /// N_eff / M over the range noise.
+    pub depletion: Part,
+    /// Of the whole figure.
+    pub height: f64,
+}
+
+impl Layout {
+    /// Of some panels, for a figure of this width: those that are not shown have no height.
+    pub fn of(width: f64, shown: &Panels) -> Self {
+        let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
+        let [share, rule, depletion] = [SHARE, RULE, DEPLETION].map(|name| shown.has(name));
+        let left = if share && rule { (0.68 * width).floor() } else { width };
+        let x = if share && rule { left + GAP[0] } else { 0.0 };
+        let [high, low] = [(0.27 * width).clamp(160.0, 300.0), (0.14 * width).clamp(88.0, 150.0)].map(f64::floor);
+        let lines = if width < 520.0 { 2.0 } else { 1.0 };
+        let mut share = Part::of(share, Rect::new(0.0, 0.0, left, high), lines, SCALE, POINTER);
+        // With the names of its levels where there are none beside it.
+        let scale = if x > 0.0 { 4.0 } else { SCALE };
+        let mut rule = Part::of(rule, Rect::new(x, 0.0, width - x, high), lines, scale, POINTER);
+        if share.is_shown() {
+            // What its marks are, those of the rule are too.
+            (share.legend.w, rule.legend.h) = (width, 0.0);
+        }
+        let above = share.axis.bottom().max(rule.axis.bottom());
+        let y = if depletion && above > 0.0 { above + GAP[1] } else { above };
+        let depletion = Part::of(depletion, Rect::new(0.0, y, width, low), 1.0, SCALE, APART);
+        let height = above.max(depletion.axis.bottom()).ceil();
+        Self { share, rule, depletion, height }
+    }
+
+    /// All parts.
+    pub fn parts(&self) -> Vec<Rect> {
+        let of = |part: &Part| [part.header, part.legend, part.area, part.ticks, part.axis];
+        [&self.share, &self.rule, &self.depletion].into_iter().flat_map(of).collect()
+    }
+}
+
+impl Part {
+    /// From a place's upper edge on, with an area as high as it.
+    fn of(shown: bool, Rect { x, y, w, h }: Rect, lines: f64, scale: f64, above: f64) -> Self {
+        let [header, legend, above, h, ticks, axis] =
+            [HEADER, lines * LINE, above, h, TICKS, AXIS].map(|h| if shown { h } else { 0.0 });
+        let header = Rect::new(x, y, w, header);
+        let legend = Rect::new(x, header.bottom(), w, legend);
+        let area = Rect::new(x + scale, legend.bottom() + above, w - scale - RIGHT, h);
+        let ticks = Rect::new(x, area.bottom(), w, ticks);
+        Self { header, legend, area, ticks, axis: Rect::new(x, ticks.bottom(), w, axis) }
+    }
+
+    /// Whether it is to be seen.
+    pub fn is_shown(&self) -> bool {
+        self.area.h > 0.0
+    }
+}
+
+impl view::Layout for Layout {
+    fn height(&self) -> f64 {
+        self.height
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::assert_apart;
+
+    #[test]
+    fn parts_lie_inside_the_figure_and_never_overlap() {
+        for names in ["", SHARE, RULE, DEPLETION, "share rule", "rule depletion", "share depletion"] {
+            let panels = Panels::named(names, &[SHARE, RULE, DEPLETION]).unwrap();
+            for width in (300..2000).step_by(7).map(f64::from) {
+                let layout = Layout::of(width, &panels);
+                assert_apart(&layout.parts(), &Rect::new(0.0, 0.0, width, layout.height));
+            }
+        }
+    }
+
+    #[test]
+    fn the_picture_and_its_controls_are_on_one_screen() {
+        // The chapter on a laptop, its narrowest column of that kind, a phone, a tablet, the whole of a 16:9 screen.
+        for (width, most) in
+            [(692.0, 452.0), (600.0, 452.0), (352.0, 450.0), (322.0, 450.0), (760.0, 490.0), (1112.0, 620.0)]
+        {
+            let height = Layout::of(width, &Panels::default()).height;
+            assert!(height <= most, "{width}: {height}");
+        }
+    }
+}
