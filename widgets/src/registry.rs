@@ -5,6 +5,7 @@ use crate::log::LogView;
 #[cfg(feature = "page")]
 use crate::{
     conditioning::ConditioningView,
+    joint::JointView,
     lap::{LAPS, LapView},
     proposal::ProposalView,
     resampling::{ResamplingView, WINGS},
@@ -67,6 +68,8 @@ pub const FIGURES: &[Entry] = &[
     Entry::of::<LogView>("fastslam-log", Program::Log, None),
     #[cfg(feature = "page")]
     Entry::of::<ResamplingView>("fastslam-resampling", Program::Page, Some(&WINGS)),
+    #[cfg(feature = "page")]
+    Entry::of::<JointView>("fastslam-joint", Program::Page, None),
 ];
 
 /// The figure of a tag.
