@@ -279,8 +279,8 @@ test('a few quick steps are read out as one sentence, and nothing else is', asyn
 })
 
 test('the words of a figure are in a language that they name, on a page in any other', async ({ page }) => {
-  await openCourse(page, ['lap', 'conditioning', 'proposal', 'worked-example', 'resampling', 'log'].map(name => `<fastslam-${name}></fastslam-${name}>`).join(''), { lang: 'fr' })
-  for (const name of ['lap', 'conditioning', 'proposal', 'worked-example', 'resampling', 'log']) {
+  await openCourse(page, ['lap', 'conditioning', 'proposal', 'worked-example', 'resampling', 'joint', 'log'].map(name => `<fastslam-${name}></fastslam-${name}>`).join(''), { lang: 'fr' })
+  for (const name of ['lap', 'conditioning', 'proposal', 'worked-example', 'resampling', 'joint', 'log']) {
     const menu = page.locator(`fastslam-${name} button[aria-label=Menu]`)
     // `closest` ends at the shadow root: what is found is the figure's own.
     expect(await menu.evaluate(element => element.closest('[lang]')?.getAttribute('lang')), name).toBe('en')

@@ -35,6 +35,7 @@ const CONDITIONING: &str = "fastslam-conditioning";
 const PROPOSAL: &str = "fastslam-proposal";
 const WORKED: &str = "fastslam-worked-example";
 const RESAMPLING: &str = "fastslam-resampling";
+const JOINT: &str = "fastslam-joint";
 /// Its pictures and readouts are those of [`TINY_LOG`], mapped to its end.
 pub const LOG: &str = "fastslam-log";
 
@@ -109,6 +110,11 @@ pub const PICTURES: &[Picture] = &[
     picture(RESAMPLING, "resampling-phone", "wings=on&step=80&cursor=70&back=3", 340, 2.0, "light"),
     picture(RESAMPLING, "resampling-contrast", "particles=8&step=30&policy=never", 380, 1.0, "contrast-dark"),
     picture(RESAMPLING, "resampling-tiny", "particles=4&threshold=1&step=12", 240, 1.0, "contrast-light"),
+    picture(JOINT, "fastslam-joint-light", "", 800, 1.5, "light"),
+    picture(JOINT, "fastslam-joint-dark", "", 800, 1.5, "dark"),
+    picture(JOINT, "joint-exercise", "odometry=0&landmarks=5", 692, 1.0, "light"),
+    picture(JOINT, "joint-phone", "landmarks=3&particles=200&sensor=2", 340, 2.0, "light"),
+    picture(JOINT, "joint-tiny", "particles=1&odometry=3", 240, 1.0, "contrast-dark"),
 ];
 
 /// What a filter does: one sighting for both particles, from two poses; and the landmark's ellipse is turned.
@@ -206,6 +212,9 @@ pub const SETUPS: &[(&str, &str)] = &[
     (RESAMPLING, "particles=5&seed=9&threshold=0.8&scheme=residual&odometry=2&range=3&back=4"),
     (RESAMPLING, "wings=on"),
     (RESAMPLING, "wings=on&particles=40&scheme=multinomial&odometry=0.5&range=0.25"),
+    (JOINT, ""),
+    (JOINT, "landmarks=4&particles=2500&sensor=0.5&odometry=2&seed=7"),
+    (JOINT, "landmarks=1&particles=1&sensor=5&odometry=0"),
 ];
 
 /// Ancestors are fewer than particles, and the last common one is not long ago.
