@@ -119,3 +119,19 @@ fn a_filter_that_resamples_at_every_step_loses_the_right_wing_in_good_health() {
     assert!(said.len() >= 3, "{said:?}");
     assert!(said[0].starts_with("lost at step") && said[0].contains("N_eff 1"), "{said:?}");
 }
+
+/// What exercise 2 and the caption say: at the seventh landmark a thousand particles are worth less than one, twenty thousand at the
+/// tenth; and 3.3 times the noise saves a hundred.
+#[test]
+fn twenty_times_the_particles_buy_three_landmarks_and_a_blunt_sensor_all() {
+    let done = |name, query: &str| chip("fastslam-joint", name, query).done;
+    let first =
+        |name, query: &str| (1..=24).filter(|n| done(name, &format!("{query}&landmarks={n}"))).collect::<Vec<u32>>();
+    assert_eq!(first("exercise", "odometry=0"), [7]);
+    assert_eq!(
+        (done("many", "particles=20000&landmarks=9"), done("many", "particles=20000&landmarks=10")),
+        (false, true)
+    );
+    let saved = ["sensor=2.5", "sensor=3", "sensor=3.3", "sensor=3.5", "sensor=4"].map(|query| done("blunt", query));
+    assert_eq!(saved, [false, false, true, true, true]);
+}

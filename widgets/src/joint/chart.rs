@@ -93,14 +93,16 @@ fn names(scene: &mut Scene, model: &JointModel, layout: &Layout, roles: [Role; 2
     let mut items: Vec<_> =
         samples.map(|(name, role)| (Sample::dot(role, POINT).wide(8.0), name.to_string())).collect();
     let rho = fixed(model.filters().log().rho(), 2);
-    items.push((Sample::line(roles[0], 1.75, None), joint::Line { rho: &rho }.say()));
+    let narrow = area.h > LINE;
+    let line = if narrow { joint::LineShort { rho: &rho }.say() } else { joint::Line { rho: &rho }.say() };
+    items.push((Sample::line(roles[0], 1.75, None), line));
     if !model.pinned().is_empty() {
         items.push((Sample::line(GHOST, 1.75, None), common::pinned_mark().into()));
     }
     let taken = end + words + 16.0;
     let below = Rect::new(area.x, area.y + LINE, area.w, LINE);
     let beside = Rect::new(taken, area.y, area.right() - taken, LINE);
-    legend(scene, if area.h > LINE { &below } else { &beside }, items);
+    legend(scene, if narrow { &below } else { &beside }, items);
 }
 
 fn ticks(scene: &mut Scene, layout: &Layout, m: u32) {
@@ -113,8 +115,7 @@ fn ticks(scene: &mut Scene, layout: &Layout, m: u32) {
         let y = chart.y(if value == m { 1.0 } else { share(f64::from(value), m) });
         let line = Mark::Fill { area: Rect::new(chart.area.x, y - 0.5, chart.area.w, 1.0), role: Role::Frame };
         scene.marks.push(line);
-        let up = if y - 7.0 < scale.y { scale.y } else { (y - 7.0).min(scale.bottom() - 14.0) };
-        let area = Rect::new(scale.x, up, scale.w - 6.0, 14.0);
+        let area = Rect::new(scale.x, y - 7.0, scale.w - 6.0, 14.0);
         scene.marks.push(text(area, Anchor::End, 11.0, Weight::Regular, Role::Muted, write(value.into())));
     }
     for n in [0, 6, 12, 18, 24] {

@@ -82,9 +82,10 @@ impl Layout {
         let mut stack = Stack::new(0.0, width);
         stack.y = if maps { panels[0].particles.bottom() + PAD } else { 0.0 };
         let removed = [stack.take(maps, 20.0, 0.0), stack.take(maps, 8.0, if ess { PAD } else { 0.0 })];
-        let lines = if width < 560.0 { 2.0 } else { 1.0 };
-        let legend = stack.take(ess, lines * LINE, 4.0);
-        let row = stack.take(ess, CHART, 0.0);
+        // On a phone the legend takes two more lines, and the chart is lower by as much.
+        let more = if width < 560.0 { 2.0 * LINE } else { 0.0 };
+        let legend = stack.take(ess, LINE + more, 8.0);
+        let row = stack.take(ess, CHART - 0.5 * more, 0.0);
         let axis = stack.take(ess, 30.0, 0.0);
         let [scale, chart] = [Rect { w: SCALE, ..row }, Rect::new(row.x + SCALE, row.y, row.w - SCALE - 12.0, row.h)];
         Self { shown: shown.clone(), panels, removed, legend, chart, scale, axis, height: stack.y.ceil() }
