@@ -11,6 +11,7 @@ const RUNS: [string, string, [string, string], RegExp][] = [
   ['fastslam-lap', 'universes=8&step=12', ['universes', '4'], /^Pinned at step 12: Universes M 8 \(now 4\)$/],
   ['fastslam-resampling', 'particles=12&step=12', ['threshold', '0.9'], /^Pinned at step 12: Threshold 0.5 of M \(now 0.9 of M\)$/],
   ['fastslam-proposal', 'samples=200', ['range-std', '0.3'], /^Pinned: Range noise σ 0.05 m \(now 0.3 m\)$/],
+  ['fastslam-joint', 'particles=100', ['sensor', '2'], /^Pinned: Sensor noise σ 1 × \(now 2 ×\)$/],
 ]
 
 const card = (figure: Figure): Locator => figure.element.locator('[part=pinned]')
