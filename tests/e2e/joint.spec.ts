@@ -24,7 +24,7 @@ test('as it opens, the sampled map has run out of particles and the computed one
 test('exercise 2 (c): a thousand particles last to the seventh landmark, by the slider and by the handle', async ({ page }) => {
   const figure = await open(page, 'odometry=0&landmarks=5')
   expect(await number(figure, 'rho')).toBeCloseTo(2.79, 2)
-  await figure.handle('landmarks').focus()
+  await figure.grasp('landmarks').focus()
   await page.keyboard.press('ArrowRight')
   await page.keyboard.press('ArrowRight')
   await figure.settled()

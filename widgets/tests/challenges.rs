@@ -125,13 +125,12 @@ fn a_filter_that_resamples_at_every_step_loses_the_right_wing_in_good_health() {
 #[test]
 fn twenty_times_the_particles_buy_three_landmarks_and_a_blunt_sensor_all() {
     let done = |name, query: &str| chip("fastslam-joint", name, query).done;
-    let first =
-        |name, query: &str| (1..=24).filter(|n| done(name, &format!("{query}&landmarks={n}"))).collect::<Vec<u32>>();
-    assert_eq!(first("exercise", "odometry=0"), [7]);
+    let exercise = [6, 7, 8].map(|n| done("exercise", &format!("odometry=0&landmarks={n}")));
+    assert_eq!(exercise, [false, true, false]);
     assert_eq!(
         (done("many", "particles=20000&landmarks=9"), done("many", "particles=20000&landmarks=10")),
         (false, true)
     );
-    let saved = ["sensor=2.5", "sensor=3", "sensor=3.3", "sensor=3.5", "sensor=4"].map(|query| done("blunt", query));
-    assert_eq!(saved, [false, false, true, true, true]);
+    let saved = ["sensor=3", "sensor=3.3"].map(|query| done("blunt", query));
+    assert_eq!(saved, [false, true]);
 }

@@ -12,12 +12,12 @@ const KEPT: f64 = 100.0;
 
 pub(super) fn challenges() -> Vec<Challenge<JointModel>> {
     vec![
-        Challenge::new("exercise", words::chip_exercise(), "odometry=0&landmarks=5").with(
+        Challenge::new("exercise", words::chip_exercise(), "landmarks=5&odometry=0").with(
             words::goal_exercise(),
             "landmarks",
             first_below_one,
         ),
-        Challenge::new("many", words::chip_many(), "particles=20000&landmarks=5").with(
+        Challenge::new("many", words::chip_many(), "landmarks=5&particles=20000").with(
             words::goal_many(),
             "landmarks",
             first_below_one,

@@ -106,6 +106,11 @@ pub fn metres(length: f64) -> String {
     fixed(length, if length < 0.01 { 4 } else { 2 })
 }
 
+/// A length \[m\] with its unit, in millimetres where it is short.
+pub fn length(length: f64) -> String {
+    if length < 0.01 { format!("{} mm", fixed(1e3 * length, 1)) } else { format!("{} m", fixed(length, 2)) }
+}
+
 /// A number of particles: one decimal where there are few.
 pub fn count(particles: f64) -> String {
     match particles {
@@ -233,7 +238,7 @@ impl Model for JointModel {
             joint::Told { n: &n, m: &m, sampled: &count(sampled.ess), computed: &count(computed.ess), a: &a, b: &b };
         let mut sentences = vec![told.say()];
         if let Some(removed) = self.removed() {
-            let [c, d] = [SAMPLED, COMPUTED].map(|filter| metres(self.spread(filter)));
+            let [c, d] = [SAMPLED, COMPUTED].map(|filter| length(self.spread(filter)));
             let [repeats, _] = self.repeats();
             sentences.push(joint::Spread { repeats: &repeats, c: &c, d: &d, removed: &removed }.say());
         }

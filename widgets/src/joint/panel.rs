@@ -2,7 +2,7 @@
 
 use super::{
     layout::{PITCH, Panel, ROWS},
-    model::{JointModel, count, metres},
+    model::{JointModel, count, length},
 };
 use crate::{
     font::{self, Weight},
@@ -58,10 +58,10 @@ fn estimates(scene: &mut Scene, model: &JointModel, panel: &Panel, drawn: &Drawn
 fn counters(scene: &mut Scene, model: &JointModel, panel: &Panel, drawn: &Drawn) {
     let m = model.particles();
     let ess = model.population(drawn.filter).map(|found| count(found.ess));
-    let spread = Some(model.spread(drawn.filter)).filter(|x| x.is_finite()).map(|x| format!("{} m", metres(x)));
+    let spread = Some(model.spread(drawn.filter)).filter(|x| x.is_finite()).map(length);
     let [done, _] = model.repeats();
     let told = [
-        (ess, [joint::EssOf { m: &m }.say(), joint::EssOf { m: &m }.say()]),
+        (ess, [joint::EssOf { m: &m }.say(), joint::ess_short().into()]),
         (spread, [joint::SpreadOver { n: &done }.say(), joint::spread_short().into()]),
     ];
     for (area, (number, names)) in panel.counters.iter().zip(told) {
@@ -70,7 +70,7 @@ fn counters(scene: &mut Scene, model: &JointModel, panel: &Panel, drawn: &Drawn)
         let line = Rect { h: 26.0, ..*area };
         scene.marks.push(text(line, Anchor::Start, size, Weight::SemiBold, Role::Ink, number));
         let line = Rect::new(area.x, area.y + 26.0, area.w, 16.0);
-        let fits = |name: &&String| font::measure(name, 11.5, Weight::Regular) <= area.w;
+        let fits = |name: &&String| font::measure(name, 11.5, Weight::Regular) <= area.w - 6.0;
         let name = names.iter().find(fits).unwrap_or(&names[1]).clone();
         scene.marks.push(text(line, Anchor::Start, 11.5, Weight::Regular, Role::Muted, name));
     }
