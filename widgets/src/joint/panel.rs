@@ -95,7 +95,12 @@ fn particles(scene: &mut Scene, model: &JointModel, panel: &Panel, drawn: &Drawn
     scene.marks.push(dots(alive..all, Role::Frame));
     scene.marks.push(dots(0..alive, drawn.role));
     let said = match model.population(drawn.filter) {
-        Some(found) => joint::Left { left: &common::Of { n: &found.left, all: &m }.say() }.say(),
+        Some(found) => {
+            let left = common::Of { n: &found.left, all: &m }.say();
+            let said = joint::Left { left: &left }.say();
+            let fits = font::measure(&said, 12.0, Weight::Regular) <= panel.left.w;
+            if fits { said } else { joint::LeftShort { left: &left }.say() }
+        }
         None => common::OfAll { all: &m }.say(),
     };
     scene.marks.push(text(panel.left, Anchor::Start, 12.0, Weight::Regular, Role::Ink, said));
