@@ -2,7 +2,7 @@
 import AxeBuilder from '@axe-core/playwright'
 import { expect, test } from './fixtures'
 import { Figure, frames } from './figure'
-import { openCourse } from './host'
+import { FIGURES, openCourse } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -279,8 +279,9 @@ test('a few quick steps are read out as one sentence, and nothing else is', asyn
 })
 
 test('the words of a figure are in a language that they name, on a page in any other', async ({ page }) => {
-  await openCourse(page, ['lap', 'conditioning', 'proposal', 'worked-example', 'resampling', 'universes', 'log'].map(name => `<fastslam-${name}></fastslam-${name}>`).join(''), { lang: 'fr' })
-  for (const name of ['lap', 'conditioning', 'proposal', 'worked-example', 'resampling', 'universes', 'log']) {
+  const names = [...FIGURES, 'log']
+  await openCourse(page, names.map(name => `<fastslam-${name}></fastslam-${name}>`).join(''), { lang: 'fr' })
+  for (const name of names) {
     const menu = page.locator(`fastslam-${name} button[aria-label=Menu]`)
     // `closest` ends at the shadow root: what is found is the figure's own.
     expect(await menu.evaluate(element => element.closest('[lang]')?.getAttribute('lang')), name).toBe('en')

@@ -2,7 +2,7 @@
 import type { Page } from '@playwright/test'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
-import { openCourse } from './host'
+import { FIGURES, openCourse } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -87,7 +87,7 @@ test('the comma follows the language, and the attribute decimal stands over it',
   expect((await lap.readouts())['rms_best']).toContain('.')
 })
 
-for (const name of ['conditioning', 'proposal', 'worked-example', 'resampling', 'universes', 'log', 'doors']) {
+for (const name of [...FIGURES.slice(1), 'log']) {
   test(`${name} in German has German controls, numbers and sentence`, async ({ page }) => {
     await openCourse(page, `<main><fastslam-${name} lang="de"></fastslam-${name}></main>`)
     const figure = new Figure(page, `fastslam-${name}`)

@@ -130,7 +130,7 @@ export class Session {
 
   /** Whether to leave shown what is: on the way to what was asked for is another moment than that. The first picture is watched as it comes. */
   get holds(): boolean {
-    return this.#arrived && this.pending && !this.run()
+    return this.#arrived && this.pending && !this.run() && !this.figure.refines()
   }
 
   /** How the mapping of a file stands, where one is mapped. */

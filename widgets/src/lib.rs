@@ -19,6 +19,8 @@ pub mod font;
 pub mod ghost;
 pub mod job;
 #[cfg(feature = "page")]
+pub mod joint;
+#[cfg(feature = "page")]
 pub mod lap;
 #[cfg(feature = "log")]
 pub mod log;

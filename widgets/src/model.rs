@@ -321,6 +321,12 @@ pub trait Model: Parameters {
     /// Does one of the pending steps.
     fn work(&mut self) {}
 
+    /// Whether what is pending only adds to what is shown, which is of what was asked for already: a page need not hold the picture until
+    /// it is done.
+    fn refines(&self) -> bool {
+        false
+    }
+
     /// The numbers of the state shown.
     fn readouts(&self) -> Vec<Readout>;
 

@@ -6,6 +6,7 @@ use crate::log::LogView;
 use crate::{
     conditioning::ConditioningView,
     doors::{DOORS, DoorsView},
+    joint::JointView,
     lap::{LAPS, LapView},
     proposal::ProposalView,
     resampling::{ResamplingView, WINGS},
@@ -70,8 +71,11 @@ pub const FIGURES: &[Entry] = &[
     #[cfg(feature = "page")]
     Entry::of::<ResamplingView>("fastslam-resampling", Program::Page, Some(&WINGS)),
     #[cfg(feature = "page")]
-    Entry::of::<DoorsView>("fastslam-doors", Program::Page, Some(&DOORS)),
+    Entry::of::<JointView>("fastslam-joint", Program::Page, None),
+    #[cfg(feature = "page")]
     Entry::of::<UniversesView>("fastslam-universes", Program::Page, None),
+    #[cfg(feature = "page")]
+    Entry::of::<DoorsView>("fastslam-doors", Program::Page, Some(&DOORS)),
 ];
 
 /// The figure of a tag.

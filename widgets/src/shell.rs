@@ -158,6 +158,11 @@ impl Figure {
         self.figure.model().pending()
     }
 
+    /// Whether they only add to what is shown.
+    pub fn refines(&self) -> bool {
+        self.figure.model().refines()
+    }
+
     /// Does one of them.
     pub fn work(&mut self) {
         self.figure.model_mut().work();

@@ -126,3 +126,18 @@ fn a_short_ride_keeps_the_kalman_filter_right_and_one_that_ends_elsewhere_fools_
     assert!(done("short", "ride=1") && !done("short", "ride=1&step=50") && !done("short", "ride=7"));
     assert!(done("fool", "end=11.5") && !done("fool", "end=8"));
 }
+
+/// What exercise 2 and the caption say: at the seventh landmark a thousand particles are worth less than one, twenty thousand at the
+/// tenth; and 3.3 times the noise saves a hundred.
+#[test]
+fn twenty_times_the_particles_buy_three_landmarks_and_a_blunt_sensor_all() {
+    let done = |name, query: &str| chip("fastslam-joint", name, query).done;
+    let exercise = [6, 7, 8].map(|n| done("exercise", &format!("odometry=0&landmarks={n}")));
+    assert_eq!(exercise, [false, true, false]);
+    assert_eq!(
+        (done("many", "particles=20000&landmarks=9"), done("many", "particles=20000&landmarks=10")),
+        (false, true)
+    );
+    let saved = ["sensor=3", "sensor=3.3"].map(|query| done("blunt", query));
+    assert_eq!(saved, [false, true]);
+}

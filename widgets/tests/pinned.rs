@@ -15,6 +15,7 @@ const RUNS: [(&str, &str, &str); 5] = [
     ("fastslam-resampling", "wings=on&step=30", "step=12"),
     ("fastslam-doors", "seed=2", "step=58&particles=50"),
     ("fastslam-proposal", "range-std=0.3", "v=3&landmarks=pair&samples=64&predict=on&run=on"),
+    ("fastslam-joint", "sensor=2&particles=100", "particles=200&landmarks=6"),
 ];
 
 /// How many marks are of the pinned run.

@@ -2,6 +2,7 @@
 // so it runs in a frame with sandbox="allow-scripts".
 import type { FigureElement } from '../../widgets/elements/figure-element'
 import '../../widgets/elements/conditioning'
+import '../../widgets/elements/joint'
 import '../../widgets/elements/lap'
 import '../../widgets/elements/proposal'
 import '../../widgets/elements/worked-example'

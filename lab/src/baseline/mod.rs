@@ -3,5 +3,6 @@
 mod ekf;
 pub mod joint;
 pub mod one_step;
+pub mod sampled_map;
 
 pub use ekf::{EkfSlam, EkfStep};

@@ -3,6 +3,7 @@
 pub mod conditioning;
 pub mod doors;
 pub mod hill;
+pub mod joint_map;
 pub mod landmarks;
 pub mod lap;
 pub mod log;

@@ -37,6 +37,7 @@ const WORKED: &str = "fastslam-worked-example";
 const RESAMPLING: &str = "fastslam-resampling";
 const DOORS: &str = "fastslam-doors";
 const UNIVERSES: &str = "fastslam-universes";
+const JOINT: &str = "fastslam-joint";
 /// Its pictures and readouts are those of [`TINY_LOG`], mapped to its end.
 pub const LOG: &str = "fastslam-log";
 
@@ -125,6 +126,11 @@ pub const PICTURES: &[Picture] = &[
     picture(UNIVERSES, "universes-judged", GUESSES, 340, 2.0, "light"),
     picture(UNIVERSES, "universes-phone", "proposals=motion&universes=24&odometry=2", 380, 1.0, "contrast-dark"),
     picture(UNIVERSES, "universes-tiny", "threshold=0.03&seeds=1", 240, 1.0, "contrast-light"),
+    picture(JOINT, "fastslam-joint-light", "", 800, 1.5, "light"),
+    picture(JOINT, "fastslam-joint-dark", "", 800, 1.5, "dark"),
+    picture(JOINT, "joint-exercise", "odometry=0&landmarks=5", 692, 1.0, "light"),
+    picture(JOINT, "joint-phone", "landmarks=3&particles=200&sensor=2", 340, 2.0, "light"),
+    picture(JOINT, "joint-tiny", "particles=1&odometry=3", 240, 1.0, "contrast-dark"),
 ];
 
 /// What a filter does: one sighting for both particles, from two poses; and the landmark's ellipse is turned.
@@ -227,6 +233,9 @@ pub const SETUPS: &[(&str, &str)] = &[
     (UNIVERSES, ""),
     (UNIVERSES, "threshold=0.1&seeds=50&universes=27&bearing-std=0.01&odometry=2"),
     (UNIVERSES, GUESSES),
+    (JOINT, ""),
+    (JOINT, "landmarks=4&particles=2500&sensor=0.5&odometry=2&seed=7"),
+    (JOINT, "landmarks=1&particles=1&sensor=5&odometry=0"),
 ];
 
 /// Both proposals guessed, and the depletion.

@@ -126,6 +126,7 @@ const PINNED: [(&str, &str, &str, &str, f64); 5] = [
     ("resampling-pinned-phone", "fastslam-resampling", "wings=on&step=90", "wings=on&threshold=0.1&step=70", 340.0),
     ("doors-pinned", "fastslam-doors", "seed=2", "step=58", 728.0),
     ("proposal-pinned", "fastslam-proposal", "range-std=0.3&samples=300", "landmark-y=0.6", 800.0),
+    ("joint-pinned", "fastslam-joint", "sensor=2", "particles=400&landmarks=6", 692.0),
 ];
 
 #[test]

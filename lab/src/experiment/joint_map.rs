@@ -1,0 +1,515 @@
+//! What if the map were sampled too? One filter draws every landmark along with the path, the other computes it: the same log, the same
+//! motion, the same number of particles.
+//!
+//! A robot drives a metre and then looks at the [`MOST`] landmarks around it, one a step. Of each it is known beforehand what the chapter's
+//! worked example knows of its landmark, and each is seen just where it was expected: the kindest log that there can be. Nobody resamples.
+//!
+//! How N_eff falls has a closed form. Where all is linear, a weight is exp(−½ eᵀ B⁻¹ e) of what was drawn, e ~ N(0, P), against what was
+//! not, B. So E\[wᵏ\] ∝ |I + k B⁻¹ P|^(−1/2), and N_eff / M = E\[w\]² / E\[w²\]. What the sampled map draws is path and landmarks:
+//! B = Q, P = H_m Σ H_mᵀ + H_x R H_xᵀ. What the computed one draws is the path alone: B = Q + H_m Σ H_mᵀ, P = H_x R H_xᵀ. With a path that
+//! is known, R = 0, the first is M ρ^(−N) with ρ = Π (1 + s) / √(1 + 2s) over the two coordinates of a sighting: exercise 2 of the
+//! chapter; and with one landmark and a computed map it is [`predicted_ess`](crate::baseline::one_step::predicted_ess).
+
+use crate::baseline::sampled_map::{SampledMap, WithMap};
+use core::f64::consts::TAU;
+use fastslam::error::{Range, SettingError};
+use fastslam::execute::Executor;
+use fastslam::geometry::Pose2;
+use fastslam::map::landmarks::{Correspondence, Landmark, Landmarks};
+use fastslam::motion::{Motion, Odometry, OdometryModel};
+use fastslam::nalgebra::{Matrix2, Matrix3, Vector2};
+use fastslam::ops;
+use fastslam::proposal::{FromMotion, Marginal};
+use fastslam::random::{Purpose, Stream};
+use fastslam::rbpf::Rbpf;
+use fastslam::resampling::{ResamplePolicy, Scheme};
+use fastslam::sensor::{Feature, LandmarkSensor, RangeBearing};
+use fastslam::weights::Weights;
+
+/// How many landmarks there are: as many as the chapter's opening counts.
+pub const MOST: u32 = 24;
+
+/// How far each is from the robot \[m\].
+pub const DISTANCE: f64 = 4.0;
+
+/// What is known of each before: variance along the line of sight and across it \[m²\].
+pub const KNOWN: [f64; 2] = [0.21, 0.12];
+
+/// The sensor, at scale 1.
+const SENSOR: RangeBearing =
+    RangeBearing { range_std: 0.2, bearing_std: 0.05, max_range: f64::INFINITY, field_of_view: TAU };
+
+/// The wheels, at scale 1: over a metre 5 cm along, 3 cm across, and 0.04 rad.
+const WHEELS: OdometryModel = OdometryModel { alphas: [0.0, 0.0009, 0.0025, 0.0] };
+
+/// The drive before the first look, and what follows: the robot stands.
+const DRIVE: Odometry = Odometry { rot1: 0.0, trans: 1.0, rot2: 0.0 };
+const STAND: Odometry = Odometry { rot1: 0.0, trans: 0.0, rot2: 0.0 };
+
+/// Most repeats, least, and how many particles all of them have together where that allows more than the least.
+const REPEATS: [u32; 2] = [40, 6];
+const TOGETHER: u32 = 60_000;
+
+/// Both filters: the sampled map, and the computed one.
+pub const SAMPLED: usize = 0;
+/// See [`SAMPLED`].
+pub const COMPUTED: usize = 1;
+
+/// What a reader can set.
+#[derive(Clone, PartialEq, Debug)]
+pub struct JointMapSetup {
+    /// Number of particles M of each filter, 1 to 20 000.
+    pub particles: u32,
+    /// Factor on the standard deviations of the sensor, 0.2 m and 0.05 rad at 1; 0.1 to 10.
+    pub sensor_scale: f64,
+    /// Factor on the standard deviations of the wheels, 0 to 3: at 0 the path is known.
+    pub odometry_scale: f64,
+    /// Picks the draws of both filters.
+    pub seed: u64,
+}
+
+impl Default for JointMapSetup {
+    fn default() -> Self {
+        Self { particles: 1000, sensor_scale: 1.0, odometry_scale: 1.0, seed: 1 }
+    }
+}
+
+impl JointMapSetup {
+    fn validate(&self) -> Result<(), SettingError> {
+        Range::whole(1, 20_000).check("particles", f64::from(self.particles))?;
+        Range::number(0.1, 10.0, "").check("sensor_scale", self.sensor_scale)?;
+        Range::number(0.0, 3.0, "").check("odometry_scale", self.odometry_scale).map(drop)
+    }
+
+    /// How often both filters run on the log: fewer times with many particles.
+    pub fn repeats(&self) -> u32 {
+        (TOGETHER / self.particles).clamp(REPEATS[1], REPEATS[0])
+    }
+
+    fn sensor(&self) -> RangeBearing {
+        SENSOR.scaled(self.sensor_scale)
+    }
+
+    fn motion(&self) -> OdometryModel {
+        WHEELS.scaled(self.odometry_scale)
+    }
+}
+
+/// What a filter has come to after it has seen some landmarks.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Population {
+    /// N_eff.
+    pub ess: f64,
+    /// How many particles a resampling would leave descendants of.
+    pub left: u32,
+    /// Where it believes the first landmark to be: the weighted mean \[m\].
+    pub first: [f64; 2],
+}
+
+/// One run of both filters on the log: of each, what it came to after 1, 2, … landmarks.
+pub type Repeat = [Vec<Population>; 2];
+
+/// What is on the log, and what can be said of it beforehand.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Log {
+    /// Where the robot stands and looks.
+    pub robot: Pose2,
+    /// What is known of each landmark before.
+    pub known: Vec<Landmark>,
+    /// One sighting a step.
+    pub features: Vec<Feature>,
+    setup: JointMapSetup,
+}
+
+impl Log {
+    fn new(setup: &JointMapSetup) -> Self {
+        let (robot, sensor) = (DRIVE.apply(&Pose2::default()), setup.sensor());
+        let landmark = |k: u32| {
+            // One here, one there, so that a few are not all on one side.
+            let turn = rotation(TAU * f64::from(k * 7 % MOST) / f64::from(MOST));
+            let mean = Vector2::new(robot.x, robot.y) + turn * Vector2::new(DISTANCE, 0.0);
+            let along = Matrix2::new(KNOWN[0], 0.0, 0.0, KNOWN[1]);
+            Landmark { mean, covariance: turn * along * turn.transpose(), existence_count: 1 }
+        };
+        let known: Vec<Landmark> = (0..MOST).map(landmark).collect();
+        let see = |(index, landmark): (u32, &Landmark)| Feature {
+            z: sensor.predict(&robot, &landmark.mean).z,
+            signature: Some(index),
+        };
+        let features = (0..).zip(&known).map(see).collect();
+        Self { robot, known, features, setup: setup.clone() }
+    }
+
+    /// ln E\[(w / w_max)ᵏ\] after so many landmarks: −½ ln |I + k B⁻¹ P|, by the rule for determinants with a term of rank three.
+    fn log_moment(&self, filter: usize, landmarks: u32, k: f64) -> f64 {
+        let motion = self.setup.motion().covariance(&Pose2::default(), &DRIVE);
+        let (mut log_determinant, mut information) = (0.0, Matrix3::zeros());
+        for landmark in &self.known[..landmarks as usize] {
+            let prediction = self.setup.sensor().predict(&self.robot, &landmark.mean);
+            let noise = self.setup.sensor().noise();
+            let of_map = prediction.h_m * landmark.covariance * prediction.h_m.transpose();
+            let (drawn, kept) = if filter == SAMPLED { (of_map, noise) } else { (Matrix2::zeros(), noise + of_map) };
+            let both = kept + drawn * k;
+            log_determinant += ops::ln(both.determinant() / kept.determinant());
+            let inverse = both.try_inverse().unwrap_or_else(Matrix2::zeros);
+            information += prediction.h_x.transpose() * inverse * prediction.h_x * k;
+        }
+        -0.5 * (log_determinant + ops::ln((Matrix3::identity() + motion * information).determinant()))
+    }
+
+    /// N_eff / M of a filter after so many landmarks, where all is linear and the particles are many.
+    pub fn predicted_share(&self, filter: usize, landmarks: u32) -> f64 {
+        let [one, two] = [1.0, 2.0].map(|k| self.log_moment(filter, landmarks, k));
+        ops::exp(2.0 * one - two)
+    }
+
+    /// Standard deviation of ln N_eff of so many particles about the log of [`Self::predicted_share`], as long as it is well below 1. By
+    /// the delta method: it is that of 2 w / E\[w\] − w² / E\[w²\], over √M.
+    pub fn predicted_std(&self, filter: usize, landmarks: u32, particles: f64) -> f64 {
+        let [a, b, c, d] = [1.0, 2.0, 3.0, 4.0].map(|k| self.log_moment(filter, landmarks, k));
+        let ratio = |log: f64| ops::exp(log) - 1.0;
+        ((4.0 * ratio(b - 2.0 * a) - 4.0 * ratio(c - a - b) + ratio(d - 2.0 * b)) / particles).sqrt()
+    }
+
+    /// ρ of a landmark that is drawn, with a path that is known: by what a sighting of one divides N_eff.
+    pub fn rho(&self) -> f64 {
+        let known = JointMapSetup { odometry_scale: 0.0, ..self.setup.clone() };
+        1.0 / Self { setup: known, ..self.clone() }.predicted_share(SAMPLED, 1)
+    }
+}
+
+fn rotation(angle: f64) -> Matrix2<f64> {
+    let (sin, cos) = ops::sin_cos(angle);
+    Matrix2::new(cos, -sin, sin, cos)
+}
+
+/// The sampled map's filter.
+type Sampling = Rbpf<SampledMap, WithMap<OdometryModel, RangeBearing>>;
+/// The computed map's filter.
+type Computing = Rbpf<Landmarks<RangeBearing>, FromMotion<OdometryModel, Marginal>>;
+
+/// Particles of a block. Nobody resamples, so that a population is its blocks, side by side: one after the other takes less memory, and a
+/// step of one no time to speak of.
+const BLOCK: u32 = 1000;
+
+/// A block on its way along the log.
+#[derive(Clone, Debug)]
+struct Block {
+    sampled: Sampling,
+    computed: Computing,
+    seen: u32,
+}
+
+impl Block {
+    fn new(setup: &JointMapSetup, log: &Log, repeat: u32, block: u32) -> Result<Self, SettingError> {
+        let (motion, sensor) = (setup.motion(), setup.sensor());
+        let seed = setup.seed + (u64::from(repeat) << 32) + (u64::from(block) << 40);
+        let count = (setup.particles - block * BLOCK).min(BLOCK) as usize;
+        let map = Landmarks::new(sensor, Correspondence::Known).with(log.known.iter().copied());
+        let sampled = Rbpf::builder(SampledMap::new(&log.known), WithMap { motion, sensor });
+        let computed = Rbpf::builder(map, FromMotion { motion, likelihood: Marginal });
+        let (never, serial) = (ResamplePolicy::Never, Executor::Serial);
+        Ok(Self {
+            sampled: sampled.particles(count).seed(seed).policy(never).executor(serial.clone()).build()?,
+            computed: computed.particles(count).seed(seed).policy(never).executor(serial).build()?,
+            seen: 0,
+        })
+    }
+
+    /// The next landmark, for both filters.
+    fn advance(&mut self, log: &Log, found: &mut [Weighed; 2]) {
+        let control = if self.seen == 0 { DRIVE } else { STAND };
+        let features = vec![log.features[self.seen as usize]];
+        let increments = [
+            self.sampled.step(&control, &features).log_increments,
+            self.computed.step(&control, &features).log_increments,
+        ];
+        let seen = self.seen as usize;
+        for (found, increments) in found.iter_mut().zip(increments) {
+            found.weigh(seen, &increments);
+        }
+        if seen == 0 {
+            let known = log.known[0].mean;
+            let drawn = self.sampled.particles().iter().map(|p| p.map.get(0).unwrap_or(known));
+            found[SAMPLED].first.extend(drawn);
+            let kept = self.computed.particles().iter().map(|p| p.map.get(0).map_or(known, |landmark| landmark.mean));
+            found[COMPUTED].first.extend(kept);
+        }
+        self.seen += 1;
+    }
+}
+
+/// What the particles of a population have come to, as far as its blocks have been run.
+#[derive(Clone, Debug, Default)]
+struct Weighed {
+    /// Log weights of all particles \[nats\], after 1, 2, … landmarks.
+    log_weights: Vec<Vec<f64>>,
+    /// Where each has the first landmark \[m\]. It is seen once.
+    first: Vec<Vector2<f64>>,
+}
+
+impl Weighed {
+    fn weigh(&mut self, seen: usize, increments: &[f64]) {
+        self.log_weights.resize(MOST as usize, Vec::new());
+        let before = seen.checked_sub(1).map(|before| &self.log_weights[before]);
+        // The last so many are of this block.
+        let old = before.map(|all| all[all.len() - increments.len()..].to_vec());
+        let old = old.unwrap_or_else(|| vec![0.0; increments.len()]);
+        self.log_weights[seen].extend(old.iter().zip(increments).map(|(old, increment)| old + increment));
+    }
+
+    /// The whole population after so many landmarks, from 0 for one on.
+    fn population(&self, seen: usize, seed: u64) -> Population {
+        let log_weights = &self.log_weights[seen];
+        let (weights, _) = Weights::uniform(log_weights.len()).reweighted(log_weights);
+        let mean: Vector2<f64> = self.first.iter().zip(weights.as_slice()).map(|(place, w)| place * *w).sum();
+        // What a resampling here would keep; systematic ancestors are in the order of slots.
+        let mut stream = Stream::at(seed, Purpose::RESAMPLING, seen as u32 + 1, 0);
+        let mut ancestors = Scheme::Systematic.ancestors(&weights, log_weights.len(), &mut stream);
+        ancestors.dedup();
+        Population { ess: weights.ess(), left: ancestors.len() as u32, first: mean.into() }
+    }
+}
+
+/// Both filters on one log, over and over, with other draws each time.
+#[derive(Clone, Debug)]
+pub struct JointMap {
+    setup: JointMapSetup,
+    log: Log,
+    repeats: Vec<Repeat>,
+    /// Of the repeat under way: blocks that are finished, the one that is not, and what came of them.
+    finished: u32,
+    block: Block,
+    weighed: [Weighed; 2],
+    populations: Repeat,
+}
+
+impl JointMap {
+    /// Before its first step.
+    ///
+    /// # Errors
+    /// Where a setting is out of its range.
+    pub fn new(setup: &JointMapSetup) -> Result<Self, SettingError> {
+        setup.validate()?;
+        let log = Log::new(setup);
+        let block = Block::new(setup, &log, 0, 0)?;
+        let (weighed, populations) = Default::default();
+        Ok(Self { setup: setup.clone(), log, repeats: Vec::new(), finished: 0, block, weighed, populations })
+    }
+
+    /// What was set.
+    pub fn setup(&self) -> &JointMapSetup {
+        &self.setup
+    }
+
+    /// What both filters read.
+    pub fn log(&self) -> &Log {
+        &self.log
+    }
+
+    /// All runs that are finished.
+    pub fn repeats(&self) -> &[Repeat] {
+        &self.repeats
+    }
+
+    fn blocks(&self) -> u32 {
+        self.setup.particles.div_ceil(BLOCK)
+    }
+
+    /// Calls of [`Self::advance`] that are still to be made.
+    pub fn pending(&self) -> u32 {
+        let each = (self.blocks() + 1) * MOST;
+        let done = self.finished * MOST + self.block.seen + self.populations[SAMPLED].len() as u32;
+        (self.setup.repeats() - self.repeats.len() as u32) * each - if self.is_done() { 0 } else { done }
+    }
+
+    fn is_done(&self) -> bool {
+        self.repeats.len() as u32 == self.setup.repeats()
+    }
+
+    /// The next bit of work, while there is one: a landmark for a block of particles, or where all blocks have seen all, what they have
+    /// come to after a landmark.
+    ///
+    /// # Errors
+    /// None after [`Self::new`].
+    pub fn advance(&mut self) -> Result<(), SettingError> {
+        let repeat = self.repeats.len() as u32;
+        if self.is_done() {
+            return Ok(());
+        }
+        if self.finished < self.blocks() {
+            self.block.advance(&self.log, &mut self.weighed);
+            if self.block.seen == MOST {
+                self.finished += 1;
+                let next = if self.finished < self.blocks() { (repeat, self.finished) } else { (repeat + 1, 0) };
+                self.block = Block::new(&self.setup, &self.log, next.0, next.1)?;
+            }
+            return Ok(());
+        }
+        let seen = self.populations[SAMPLED].len();
+        let seed = self.setup.seed + (u64::from(repeat) << 32);
+        for (populations, weighed) in self.populations.iter_mut().zip(&self.weighed) {
+            populations.push(weighed.population(seen, seed));
+        }
+        if seen + 1 == MOST as usize {
+            self.repeats.push(core::mem::take(&mut self.populations));
+            (self.finished, self.weighed) = Default::default();
+        }
+        Ok(())
+    }
+
+    /// The first run's population of a filter after so many landmarks, from 1 on.
+    pub fn population(&self, filter: usize, landmarks: u32) -> Option<&Population> {
+        self.repeats.first()?[filter].get(landmarks.checked_sub(1)? as usize)
+    }
+
+    /// Where a filter believes the first landmark to be after so many, in each repeat \[m\].
+    pub fn estimates(&self, filter: usize, landmarks: u32) -> Vec<[f64; 2]> {
+        let after = |repeat: &Repeat| repeat[filter].get(landmarks.checked_sub(1)? as usize).map(|found| found.first);
+        self.repeats.iter().filter_map(after).collect()
+    }
+
+    /// Variance of such an estimate over the repeats, of both coordinates together \[m²\]; not a number of fewer than two.
+    pub fn variance(&self, filter: usize, landmarks: u32) -> f64 {
+        let estimates = self.estimates(filter, landmarks);
+        let n = estimates.len() as f64;
+        let along = |axis: usize| {
+            let mean = estimates.iter().map(|place| place[axis]).sum::<f64>() / n;
+            estimates.iter().map(|place| (place[axis] - mean) * (place[axis] - mean)).sum::<f64>()
+        };
+        if n < 2.0 { f64::NAN } else { (along(0) + along(1)) / (n - 1.0) }
+    }
+
+    /// The share of the variance that computing the map has removed: E\[Var\[δ | a\]\] / Var\[δ\], by the law of total variance.
+    pub fn removed(&self, landmarks: u32) -> f64 {
+        1.0 - self.variance(COMPUTED, landmarks) / self.variance(SAMPLED, landmarks)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::baseline::one_step::predicted_ess;
+
+    const LARGE: JointMapSetup = JointMapSetup { particles: 20_000, sensor_scale: 1.0, odometry_scale: 0.0, seed: 1 };
+
+    /// What the bend of the sensor may change of N_eff, a landmark: a point that is drawn a standard deviation across the line of sight
+    /// (0.35 m at 4 m) is 1.5 cm farther than a straight line has it, 0.08 of the range's σ, of which the weight feels the square.
+    const BEND: f64 = 0.01;
+
+    fn finished(setup: &JointMapSetup) -> JointMap {
+        let mut joint = JointMap::new(setup).unwrap();
+        (0..joint.pending()).for_each(|_| joint.advance().unwrap());
+        assert!(joint.pending() == 0 && joint.repeats().len() as u32 == setup.repeats());
+        joint
+    }
+
+    /// ln of N_eff / M over all repeats: their Σ w̃² are averaged, in which what one repeat misses of the heaviest weights another has.
+    fn log_share(joint: &JointMap, filter: usize, landmarks: u32) -> f64 {
+        let of = |repeat: &Repeat| 1.0 / repeat[filter][landmarks as usize - 1].ess;
+        let inverse = joint.repeats().iter().map(of).sum::<f64>() / joint.repeats().len() as f64;
+        -ops::ln(inverse * f64::from(joint.setup().particles))
+    }
+
+    /// Four standard deviations, of the delta method, and the sensor's bend. At five landmarks that is half and more for the
+    /// sampled map: who wants to measure how little is left needs more than is there.
+    #[test]
+    fn n_eff_falls_as_the_closed_form_says() {
+        for odometry_scale in [0.0, 1.0, 2.0] {
+            let setup = JointMapSetup { odometry_scale, ..LARGE };
+            let joint = finished(&setup);
+            let total = f64::from(setup.particles * setup.repeats());
+            for (filter, landmarks) in
+                [SAMPLED, COMPUTED].into_iter().flat_map(|filter| (1..=5).map(move |n| (filter, n)))
+            {
+                let predicted = ops::ln(joint.log().predicted_share(filter, landmarks));
+                let bound = 4.0 * joint.log().predicted_std(filter, landmarks, total) + BEND * f64::from(landmarks);
+                let found = log_share(&joint, filter, landmarks);
+                println!("{odometry_scale}, {filter}, {landmarks}: {found:.4}, {predicted:.4} ± {bound:.4}");
+                assert!((found - predicted).abs() < bound, "{odometry_scale}, {filter}, {landmarks}: {found}");
+            }
+        }
+    }
+
+    /// ρ = (1 + s) / √(1 + 2s) for each coordinate, with s = 0.21 / 0.04 and 0.0075 / 0.0025 as in exercise 2.
+    #[test]
+    fn with_a_known_path_a_drawn_landmark_costs_the_rho_of_the_exercise() {
+        let rho = 6.25 / 11.5_f64.sqrt() * 4.0 / 7.0_f64.sqrt();
+        let log = Log::new(&LARGE);
+        assert!((log.rho() / rho - 1.0).abs() < 1e-12, "{}", log.rho());
+        for landmarks in 1..=MOST {
+            let share = log.predicted_share(SAMPLED, landmarks);
+            assert!((ops::ln(share) + f64::from(landmarks) * ops::ln(rho)).abs() < 1e-9, "{landmarks}: {share}");
+            assert!((log.predicted_share(COMPUTED, landmarks) - 1.0).abs() < 1e-12, "nothing is drawn that matters");
+        }
+        let Log { known, robot, features, setup } = Log::new(&JointMapSetup { odometry_scale: 2.0, ..LARGE });
+        let innovation = known[0].innovation(&setup.sensor(), &robot, &features[0].z);
+        let of_exercise_4 = predicted_ess(&innovation, &setup.motion().covariance(&Pose2::default(), &DRIVE));
+        let log = Log { known, robot, features, setup };
+        assert!((log.predicted_share(COMPUTED, 1) / of_exercise_4 - 1.0).abs() < 1e-12, "{of_exercise_4}");
+    }
+
+    /// E\[w(a, b) | a\] = w(a): with a known path all draws of the map share one a. Four standard errors of the mean of the weights,
+    /// √((ρⁿ − 1) / M), and the bend.
+    #[test]
+    fn the_mean_weight_of_drawn_maps_is_the_weight_of_the_computed_one() {
+        let mut joint = JointMap::new(&LARGE).unwrap();
+        while joint.finished < joint.blocks() {
+            joint.advance().unwrap();
+        }
+        for seen in 0..4 {
+            let n = (seen + 1) as f64;
+            let means = [SAMPLED, COMPUTED].map(|filter| {
+                let logs = &joint.weighed[filter].log_weights[seen];
+                logs.iter().map(|log| ops::exp(*log)).sum::<f64>() / logs.len() as f64
+            });
+            let error = ((ops::exp(n * ops::ln(joint.log().rho())) - 1.0) / 20_000.0).sqrt();
+            let off = means[SAMPLED] / means[COMPUTED] - 1.0;
+            assert!(off.abs() < 4.0 * error + BEND * n, "{n}: {off}, {error}");
+        }
+    }
+
+    #[test]
+    fn both_filters_drive_the_same_paths() {
+        let setup = JointMapSetup { particles: 50, ..JointMapSetup::default() };
+        let mut block = Block::new(&setup, &Log::new(&setup), 3, 0).unwrap();
+        let (log, mut weighed) = (Log::new(&setup), Default::default());
+        (0..MOST).for_each(|_| block.advance(&log, &mut weighed));
+        for (drawn, computed) in block.sampled.particles().iter().zip(block.computed.particles()) {
+            assert_eq!(drawn.path.poses(), computed.path.poses());
+        }
+    }
+
+    /// What a caption claims of the state that the figure opens in, on twenty seeds.
+    #[test]
+    fn the_sampled_map_runs_out_of_particles_and_the_computed_one_does_not() {
+        for seed in 1..=20 {
+            let joint = finished(&JointMapSetup { seed, ..JointMapSetup::default() });
+            let ess = |filter| joint.population(filter, MOST).unwrap().ess;
+            assert!(ess(SAMPLED) < 10.0 && ess(COMPUTED) > 400.0, "{seed}: {} {}", ess(SAMPLED), ess(COMPUTED));
+            for landmarks in 1..=MOST {
+                let removed = joint.removed(landmarks);
+                let least = if landmarks < 5 { 0.5 } else { 0.99 };
+                assert!(least < removed && removed <= 1.0, "{seed}, {landmarks}: {removed}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_population_of_several_blocks_is_their_union() {
+        let joint = finished(&JointMapSetup { particles: 2500, ..JointMapSetup::default() });
+        let [sampled, computed] = &joint.repeats()[0];
+        assert!(sampled.iter().all(|found| (1.0..2500.0).contains(&found.ess) && found.left <= 2500));
+        let share = computed[0].ess / 2500.0;
+        assert!((share - joint.log().predicted_share(COMPUTED, 1)).abs() < 0.01, "{share}");
+    }
+
+    #[test]
+    fn a_setting_out_of_range_is_refused_by_name() {
+        let refused = |setup| JointMap::new(&setup).unwrap_err().field();
+        assert_eq!(refused(JointMapSetup { particles: 0, ..LARGE }), "particles");
+        assert_eq!(refused(JointMapSetup { particles: 20_001, ..LARGE }), "particles");
+        assert_eq!(refused(JointMapSetup { sensor_scale: f64::NAN, ..LARGE }), "sensor_scale");
+        assert_eq!(refused(JointMapSetup { odometry_scale: -0.1, ..LARGE }), "odometry_scale");
+    }
+}

@@ -1,0 +1,79 @@
+// What a reader does with the sampled map beside the computed one: the caption and exercise 2, in the page alone.
+import AxeBuilder from '@axe-core/playwright'
+import type { Page } from '@playwright/test'
+import { expect, test } from './fixtures'
+import { Figure } from './figure'
+
+test.use({ contextOptions: { reducedMotion: 'reduce' } })
+
+const open = (page: Page, query?: string) => new Figure(page, 'fastslam-joint').alone(query && `#fastslam-joint?${query}`)
+
+const number = async (figure: Figure, name: string) => Number.parseFloat((await figure.readouts())[name]!)
+
+test('as it opens, the sampled map has run out of particles and the computed one has not', async ({ page }) => {
+  const figure = await open(page)
+  await expect(figure.play).toBeHidden()
+  await expect(figure.sentence).toContainText('After 24 landmarks, 1000 particles with sampled maps are worth 1.2')
+  expect(await number(figure, 'ess_computed')).toBeGreaterThan(500)
+  expect(await number(figure, 'removed')).toBeGreaterThan(99.9)
+  expect(await number(figure, 'repeats')).toBe(40)
+  const found = await new AxeBuilder({ page }).include('fastslam-joint').analyze()
+  expect(found.violations.map(({ id }) => id)).toEqual([])
+})
+
+test('exercise 2 (c): a thousand particles last to the seventh landmark, by the slider and by the handle', async ({ page }) => {
+  const figure = await open(page, 'odometry=0&landmarks=5')
+  expect(await number(figure, 'rho')).toBeCloseTo(2.79, 2)
+  await figure.grasp('landmarks').focus()
+  await page.keyboard.press('ArrowRight')
+  await page.keyboard.press('ArrowRight')
+  await figure.settled()
+  await expect(figure.box('landmarks')).toHaveValue('7')
+  expect(await number(figure, 'predicted_sampled')).toBeLessThan(1)
+  expect(await number(figure, 'ess_computed')).toBe(1000)
+  // Back by the box: the numbers are those of before, and nothing was run again.
+  await figure.box('landmarks').fill('6')
+  await figure.box('landmarks').press('Enter')
+  await figure.settled()
+  expect(await number(figure, 'predicted_sampled')).toBeGreaterThan(1)
+})
+
+test('twenty thousand particles do not keep the page waiting, and are shown before all repeats are run', async ({ page }) => {
+  const figure = await open(page, 'particles=100')
+  await figure.element.evaluate(element => {
+    const page = window as Window & { slices?: number; repeats?: Set<string> }
+    page.repeats = new Set()
+    page.slices = 0
+    const tick = () => {
+      page.slices! += 1
+      page.repeats!.add(element.shadowRoot!.querySelector('.sentence')!.textContent!)
+      requestAnimationFrame(tick)
+    }
+    requestAnimationFrame(tick)
+  })
+  await figure.box('particles').fill('20000')
+  await figure.box('particles').press('Enter')
+  await figure.settled()
+  expect(await number(figure, 'repeats')).toBe(6)
+  const [frames, told] = await page.evaluate(() => {
+    const { slices, repeats } = window as Window & { slices?: number; repeats?: Set<string> }
+    return [slices!, [...repeats!].filter(text => text.includes('20000 particles')).length]
+  })
+  expect(frames, 'the page went on').toBeGreaterThan(20)
+  expect(told, 'of the repeats so far').toBeGreaterThan(2)
+})
+
+test('a run is pinned, and a link reopens the same numbers', async ({ page }) => {
+  const figure = await open(page, 'particles=200&sensor=2&landmarks=6')
+  const before = await figure.readouts()
+  await figure.element.evaluate((element: HTMLElement & { pin(): void }) => element.pin())
+  await expect(figure.element.locator('[part=pinned]')).toBeVisible()
+  const link = await figure.state()
+  await figure.box('sensor').fill('1')
+  await figure.box('sensor').press('Enter')
+  await figure.settled()
+  expect(await figure.readouts()).not.toEqual(before)
+  await page.goto('about:blank')
+  const again = await open(page, link)
+  expect(await again.readouts()).toEqual(before)
+})

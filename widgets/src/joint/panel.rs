@@ -1,0 +1,107 @@
+//! One filter's part: its estimates of a landmark in all repeats, what they are worth, and the particles that are left.
+
+use super::{
+    layout::{PITCH, Panel, ROWS},
+    model::{JointModel, count, length},
+};
+use crate::{
+    font::{self, Weight},
+    scene::{Anchor, Mark, NINE_TENTHS, Plane, Point, Rect, Role, Scene, cloud, cross, heading, scale_bar, text},
+    words::{common, joint},
+};
+
+/// Radius of an estimate, and of a particle \[css px\].
+const ESTIMATE: f64 = 2.6;
+const PARTICLE: f64 = 1.25;
+
+/// A filter, as it is named and drawn.
+pub struct Drawn {
+    /// Its rank.
+    pub filter: usize,
+    /// Its name, and what it does in fewer and fewer words.
+    pub name: &'static str,
+    /// See [`Self::name`].
+    pub what: [&'static str; 2],
+    /// Colour of all that is of it.
+    pub role: Role,
+}
+
+/// Draws all of one filter's part.
+pub fn panel(scene: &mut Scene, model: &JointModel, panel: &Panel, drawn: &Drawn) {
+    let used = font::measure(drawn.name, 13.5, Weight::SemiBold) + 12.0;
+    let fits = |what: &&&str| used + font::measure(what, 12.5, Weight::Regular) <= panel.header.w;
+    heading(scene, &panel.header, (drawn.name, Role::Ink), drawn.what.iter().find(fits).unwrap_or(&""));
+    estimates(scene, model, panel, drawn);
+    counters(scene, model, panel, drawn);
+    particles(scene, model, panel, drawn);
+}
+
+/// Where the filter has the first landmark, once for each repeat, in what was known of it before.
+fn estimates(scene: &mut Scene, model: &JointModel, panel: &Panel, drawn: &Drawn) {
+    let (area, known) = (panel.view, &model.filters().log().known[0]);
+    let (mean, covariance) = ([known.mean.x, known.mean.y], known.covariance.into());
+    let reach = [0, 1].map(|axis| NINE_TENTHS * known.covariance[(axis, axis)].sqrt());
+    let corner = |sign: f64| [0, 1].map(|axis| mean[axis] + sign * reach[axis]);
+    let plane = Plane::around(area, [corner(-1.0), corner(1.0)], 8.0);
+    let before = plane.region(mean, covariance, NINE_TENTHS);
+    scene.marks.push(Mark::Lines { lines: before, width: 1.5, dash: Some([4.0, 3.0]), role: Role::Landmark });
+    let [x, y] = plane.point(mean);
+    let lines = cross(Rect::new(x - 5.0, y - 5.0, 10.0, 10.0));
+    scene.marks.push(Mark::Lines { lines, width: 1.5, dash: None, role: Role::Truth });
+    let places = model.filters().estimates(drawn.filter, model.landmarks());
+    let points = places.into_iter().map(|place| plane.point(place));
+    scene.marks.push(cloud(points, &area.inset(ESTIMATE), ESTIMATE, drawn.role));
+    scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
+    scale_bar(scene, &plane, 0.5, 60.0);
+}
+
+fn counters(scene: &mut Scene, model: &JointModel, panel: &Panel, drawn: &Drawn) {
+    let m = model.particles();
+    let ess = model.population(drawn.filter).map(|found| count(found.ess));
+    let spread = Some(model.spread(drawn.filter)).filter(|x| x.is_finite()).map(length);
+    let [done, _] = model.repeats();
+    let told = [
+        (ess, [joint::EssOf { m: &m }.say(), joint::ess_short().into()]),
+        (spread, [joint::SpreadOver { n: &done }.say(), joint::spread_short().into()]),
+    ];
+    for (area, (number, names)) in panel.counters.iter().zip(told) {
+        let number = number.unwrap_or_else(|| "…".into());
+        let size = if panel.counters[0].w < 100.0 { 17.0 } else { 23.0 };
+        let line = Rect { h: 26.0, ..*area };
+        scene.marks.push(text(line, Anchor::Start, size, Weight::SemiBold, Role::Ink, number));
+        let line = Rect::new(area.x, area.y + 26.0, area.w, 16.0);
+        let fits = |name: &&String| font::measure(name, 11.5, Weight::Regular) <= area.w - 6.0;
+        let name = names.iter().find(fits).unwrap_or(&names[1]).clone();
+        scene.marks.push(text(line, Anchor::Start, 11.5, Weight::Regular, Role::Muted, name));
+    }
+}
+
+/// The particles, from the left on those that a resampling would continue.
+fn particles(scene: &mut Scene, model: &JointModel, panel: &Panel, drawn: &Drawn) {
+    let (area, m) = (panel.particles, model.particles() as usize);
+    let columns = ((area.w / PITCH) as usize).min(m.div_ceil(ROWS));
+    let all = (columns * ROWS).min(m);
+    let left = model.population(drawn.filter).map_or(m, |found| found.left as usize);
+    // One at least, as there is one at least.
+    let alive = (all * left).div_ceil(m);
+    let place = |k: usize| -> Point {
+        [area.x + PITCH * ((k / ROWS) as f64 + 0.5), area.y + PITCH * ((k % ROWS) as f64 + 0.5)]
+    };
+    let dots = |range: core::ops::Range<usize>, role| Mark::Discs {
+        centres: range.map(place).collect(),
+        radius: PARTICLE,
+        role,
+    };
+    scene.marks.push(dots(alive..all, Role::Frame));
+    scene.marks.push(dots(0..alive, drawn.role));
+    let said = match model.population(drawn.filter) {
+        Some(found) => {
+            let left = common::Of { n: &found.left, all: &m }.say();
+            let said = joint::Left { left: &left }.say();
+            let fits = font::measure(&said, 12.0, Weight::Regular) <= panel.left.w;
+            if fits { said } else { joint::LeftShort { left: &left }.say() }
+        }
+        None => common::OfAll { all: &m }.say(),
+    };
+    scene.marks.push(text(panel.left, Anchor::Start, 12.0, Weight::Regular, Role::Ink, said));
+}

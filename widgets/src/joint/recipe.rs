@@ -1,0 +1,60 @@
+//! What a reader can set about the two filters.
+
+use crate::{
+    field,
+    recipe::{self, Param},
+    words::{common, joint},
+};
+use fastslam_lab::experiment::joint_map::{JointMapSetup, MOST};
+
+/// Most particles.
+pub const PARTICLES: u32 = 20_000;
+
+/// Everything that a link can say.
+#[derive(Clone, PartialEq)]
+pub struct Recipe {
+    /// What decides the numbers.
+    pub setup: JointMapSetup,
+    /// After how many landmarks is looked.
+    pub landmarks: u32,
+}
+
+impl Default for Recipe {
+    fn default() -> Self {
+        Self { setup: JointMapSetup::default(), landmarks: MOST }
+    }
+}
+
+impl recipe::Recipe for Recipe {
+    fn table() -> Vec<Param<Self>> {
+        type P = Param<Recipe>;
+        vec![
+            P::integer("landmarks", joint::landmarks(), "", (1, MOST), field!(landmarks), joint::landmarks_help()),
+            P::integer(
+                "particles",
+                joint::particles(),
+                "",
+                (1, PARTICLES),
+                field!(setup.particles),
+                joint::particles_help(),
+            ),
+            P::number(
+                "sensor",
+                joint::sensor(),
+                "×",
+                (0.25, 5.0, 0.05),
+                field!(setup.sensor_scale),
+                joint::sensor_help(),
+            ),
+            P::number(
+                "odometry",
+                common::odometry_noise(),
+                "×",
+                (0.0, 3.0, 0.05),
+                field!(setup.odometry_scale),
+                joint::odometry_help(),
+            ),
+            P::seed(field!(setup.seed), joint::seed_help()),
+        ]
+    }
+}

@@ -1,0 +1,98 @@
+//! What is to be seen of the two filters: their estimates, their particles, and how N_eff falls.
+
+use super::{
+    chart::{LANDMARKS, chart, place},
+    layout::{ESS, Layout, MAPS, NARROWEST},
+    model::JointModel,
+    panel::{Drawn, panel},
+};
+use crate::{
+    font::{self, Weight},
+    panels::Panels,
+    scene::{Anchor, Mark, Point, Rect, Role, Scene, text},
+    view::{View, whole_step},
+    words::joint,
+};
+use fastslam_lab::experiment::joint_map::{COMPUTED, MOST, SAMPLED};
+
+/// The sampled map against the computed one, as it is seen.
+#[derive(Default)]
+pub struct JointView;
+
+/// Colours of the sampled map, and of the computed one.
+const ROLES: [Role; 2] = [Role::Prior, Role::Posterior];
+
+impl View for JointView {
+    type Model = JointModel;
+    type Layout = Layout;
+    const NARROWEST: f64 = NARROWEST;
+    const PANELS: &'static [&'static str] = &[MAPS, ESS];
+
+    fn layout(width: f64, panels: &Panels) -> Layout {
+        Layout::of(width, panels)
+    }
+
+    fn gist(_model: &JointModel, layout: &Layout, width: f64) -> Rect {
+        if !layout.shown.has(ESS) {
+            return Rect::new(0.0, 0.0, width, layout.height);
+        }
+        Rect::new(0.0, layout.chart.y - 8.0, width, layout.axis.bottom() - layout.chart.y + 8.0)
+    }
+
+    fn draw(&self, model: &JointModel, layout: &Layout, scene: &mut Scene) {
+        if layout.shown.has(MAPS) {
+            let filters = [
+                Drawn {
+                    filter: SAMPLED,
+                    name: joint::sampled(),
+                    what: [joint::sampled_what(), joint::sampled_what_short()],
+                    role: ROLES[0],
+                },
+                Drawn {
+                    filter: COMPUTED,
+                    name: joint::computed(),
+                    what: [joint::computed_what(), joint::computed_what_short()],
+                    role: ROLES[1],
+                },
+            ];
+            for (place, drawn) in layout.panels.iter().zip(filters) {
+                panel(scene, model, place, &drawn);
+            }
+            removed(scene, model, layout);
+        }
+        if layout.shown.has(ESS) {
+            chart(scene, model, layout, ROLES);
+        }
+    }
+
+    fn drag(&self, model: &mut JointModel, layout: &Layout, handle: &str, to: Point) {
+        if handle == LANDMARKS {
+            let Rect { x, w, .. } = place(layout).area;
+            model.look_after(f64::from(MOST) * (to[0] - x) / w);
+        }
+    }
+
+    fn nudge(&self, model: &mut JointModel, handle: &str, [right, up]: [f64; 2]) {
+        if handle == LANDMARKS {
+            model.look_after(f64::from(model.landmarks()) + whole_step(right + up));
+        }
+    }
+}
+
+/// The variance over the repeats: all of the sampled map's, and at its end what is left of it.
+fn removed(scene: &mut Scene, model: &JointModel, layout: &Layout) {
+    let [words, bar] = layout.removed;
+    let wordings = match model.removed() {
+        Some(share) => [joint::RemovedIs { share: &share }.say(), joint::RemovedShort { share: &share }.say()],
+        None => [joint::removed_soon().to_string(), joint::removed_soon().into()],
+    };
+    let fits = |wording: &&String| font::measure(wording, 13.0, Weight::SemiBold) <= words.w;
+    let wording = wordings.iter().find(fits).unwrap_or(&wordings[1]).clone();
+    scene.marks.push(text(words, Anchor::Start, 13.0, Weight::SemiBold, Role::Ink, wording));
+    let share = model.filters().removed(model.landmarks());
+    if share.is_finite() {
+        let left = (bar.w * (1.0 - share).clamp(0.0, 1.0)).max(2.0);
+        scene.marks.push(Mark::Fill { area: bar, role: ROLES[0] });
+        scene.marks.push(Mark::Fill { area: Rect { w: left, ..bar }, role: ROLES[1] });
+    }
+}

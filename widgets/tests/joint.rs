@@ -1,0 +1,70 @@
+//! Laws of the figure of the sampled map, by its public face.
+
+mod common;
+
+use common::{figure, scene, state};
+use fastslam_widgets::figure::Figure;
+
+const TAG: &str = "fastslam-joint";
+
+fn readout(figure: &Figure, name: &str) -> f64 {
+    let readouts = figure.model().readouts();
+    readouts.iter().find(|readout| readout.name == name).and_then(|readout| readout.value).unwrap()
+}
+
+/// The claim of the caption, at the state that the figure opens in.
+#[test]
+fn as_it_opens_the_sampled_map_has_run_out_of_particles_and_the_computed_one_has_not() {
+    let figure = figure(TAG, "");
+    assert!(readout(&figure, "ess_sampled") < 2.0 && readout(&figure, "left_sampled") < 20.0);
+    assert!(readout(&figure, "ess_computed") > 500.0 && readout(&figure, "left_computed") > 500.0);
+    assert!(readout(&figure, "removed") > 99.9);
+    // Exercise 2 of the chapter, to its two decimals.
+    assert_eq!((100.0 * readout(&figure, "rho")).round(), 279.0);
+}
+
+#[test]
+fn another_number_of_landmarks_is_looked_at_without_running_anything_again() {
+    let mut shown = figure(TAG, "particles=50");
+    for landmarks in ["1", "7", "24"] {
+        shown.set("landmarks", landmarks).unwrap();
+        assert_eq!(shown.model().pending(), 0, "{landmarks}");
+        assert_eq!(state(&shown), state(&figure(TAG, &format!("particles=50&landmarks={landmarks}"))));
+    }
+}
+
+/// The picture before stays until there is another: never half a run of what was asked for.
+#[test]
+fn a_run_is_shown_from_its_first_repeat_on_and_gets_finer() {
+    let mut shown = figure(TAG, "particles=50");
+    assert!(!figure(TAG, "particles=50").model().refines() || shown.model().pending() == 0);
+    shown.set("particles", "60").unwrap();
+    let before = readout(&shown, "ess_computed");
+    while !shown.model().refines() {
+        assert_eq!(readout(&shown, "ess_computed"), before);
+        shown.model_mut().work();
+    }
+    assert_eq!(readout(&shown, "repeats"), 1.0);
+    assert!(shown.model().pending() > 0);
+    shown.model_mut().settle();
+    assert_eq!(state(&shown), state(&figure(TAG, "particles=60")));
+    // What was taken back before it had come to anything leaves all as it was.
+    shown.set("particles", "70").unwrap();
+    shown.set("particles", "60").unwrap();
+    assert_eq!(shown.model().pending(), 0);
+}
+
+#[test]
+fn the_handle_stands_at_the_number_of_landmarks_and_is_dragged_and_nudged_to_whole_ones() {
+    let mut shown = figure(TAG, "particles=50&landmarks=6");
+    let at = |figure: &Figure| scene(figure, 800.0).handles[0].at;
+    let [x, y] = at(&shown);
+    shown.drag("landmarks", x + 250.0, y, 800.0);
+    let moved = readout(&shown, "ess_sampled");
+    assert!(shown.query().as_str().contains("landmarks=14"), "{:?}", shown.query());
+    assert!((at(&shown)[0] - x - 250.0).abs() < 20.0);
+    shown.nudge("landmarks", -0.1, 0.0);
+    assert!(shown.query().as_str().contains("landmarks=13") && moved.is_finite());
+    shown.drag("landmarks", -1e9, y, 800.0);
+    assert!(shown.query().as_str().contains("landmarks=1&"), "{:?}", shown.query());
+}
