@@ -40,7 +40,9 @@ fn parameters_values_and_readouts_are_plain_objects() {
     assert_eq!(get(&params.get(0), "max").as_f64(), Some(256.0));
     let values: JsValue = figure.values().into();
     // Only a text, as a plan that nobody has drawn, may be empty.
-    assert!(params.iter().all(|param| text(&param, "kind") == "text" || !text(&values, &text(&param, "name")).is_empty()));
+    assert!(
+        params.iter().all(|param| text(&param, "kind") == "text" || !text(&values, &text(&param, "name")).is_empty())
+    );
     assert_eq!(Object::keys(values.unchecked_ref::<Object>()).length(), params.length());
     let readout = figure.readouts().get(1);
     assert!(get(&readout, "value").as_f64().is_some());
