@@ -13,17 +13,18 @@ mod settings;
 #[cfg(test)]
 mod tests;
 pub mod tuning;
+mod wheels;
 
 pub use replay::Replay;
 pub use settings::LaserMapperSettings;
 pub use tuning::Map;
+pub use wheels::{WheelNoise, Wheels};
 
 use crate::error::SettingError;
 use crate::execute::Executor;
 use crate::geometry::Pose2;
 use crate::log::LaserScan;
 use crate::map::{ConditionalMap, Footprint};
-use crate::motion::Odometry;
 use crate::particle::Particle;
 use crate::rbpf::{Rbpf, Report};
 
@@ -50,6 +51,8 @@ pub struct LaserMapper {
     settings: LaserMapperSettings,
     executor: Executor,
     filter: Filter,
+    /// What is known of the wheels.
+    wheels: Wheels,
     /// Raw odometry of the last scan that the filter took; `None` before the first.
     last: Option<Pose2>,
     /// Steps of the filter: scans it took after the first.
@@ -74,6 +77,7 @@ impl LaserMapper {
             settings,
             executor: Executor::default(),
             filter: filter(&settings, settings.beams.unwrap_or(tuning::BEAMS), map)?,
+            wheels: Wheels::default(),
             last: None,
             steps: 0,
             resampled: 0,
@@ -106,8 +110,9 @@ impl LaserMapper {
             self.stamps.push(Stamp { time: scan.time, step: self.steps, step_from_robot: moved });
             return None;
         }
-        let control = Odometry::recorded(&last, &scan.odometry, tuning::STILL);
+        let control = self.wheels.displacement(&moved);
         let report = self.filter.step(&control, &self.settings.end_points(scan));
+        self.wheels.learn(&moved, &report);
         self.steps = report.step;
         self.resampled += u32::from(report.resampled());
         if self.single_lineage_since.is_none() && self.filter.lineage() == 1 {
@@ -142,6 +147,11 @@ impl LaserMapper {
     /// The filter, for those who watch it: its particles, their weights, and what they descend from.
     pub fn filter(&self) -> &Filter {
         &self.filter
+    }
+
+    /// What has been learnt of the wheels.
+    pub fn wheels(&self) -> &Wheels {
+        &self.wheels
     }
 
     /// Steps of the filter so far: the scans that it took, without the first.

@@ -1,8 +1,9 @@
 //! What the mapper does not let anybody set: one tuning for every building, robot and laser, with the reason for each number.
 
+use super::wheels::WheelNoise;
 use crate::map::grid::{Grid, GridModel};
 use crate::matching::{HillClimbSteps, Kernel, Matcher, ScanModel};
-use crate::motion::OdometryModel;
+use crate::motion::Displaced;
 use crate::proposal::{CorrelativeSearch, FitLimits, FromScan, FromScanSettings};
 
 /// Cells along a side of an NDT cell: NDT cells of 0.2 m with the default cells. Much smaller ones hold too few hits to tell which
@@ -13,11 +14,26 @@ pub const CELLS_PER_NDT: usize = 4;
 pub type Map = Grid<CELLS_PER_NDT>;
 
 /// Where a particle's next pose is drawn from.
-pub type Proposal = FromScan<OdometryModel, ScanModel, CorrelativeSearch>;
+pub type Proposal = FromScan<Displaced, ScanModel, CorrelativeSearch>;
 
-/// α of the odometry: 0.2 rad a radian of turns, 0.1 rad and 0.1 m a metre. Wide on purpose: real wheels slip, and are off by
-/// a bias that no noise describes (some 4° a metre in one log). Too wide a prior only costs time.
-pub const ALPHAS: [f64; 4] = [0.04, 0.01, 0.01, 0.01];
+/// What wheels are taken for before any scan was matched. Wide on purpose: real wheels slip, and are off by a bias that no noise
+/// describes. What is too wide is narrowed on the way (`wheels.rs`).
+pub const WHEELS: WheelNoise = WheelNoise { heading: [0.2, 0.14], position: [0.1, 0.1] };
+
+/// Standard deviation of the wheels' drift \[rad/m\], before anything is known: some 3° a metre, as one log has.
+pub const DRIFT_STD: f64 = 0.05;
+
+/// What is taken of the wheels counts as so many stretches.
+pub const TRUST: f64 = 10.0;
+
+/// Stretches after which what was learnt of the wheels is forgotten to 1/e: carpets change, and tyres warm up.
+pub const MEMORY: f64 = 100.0;
+
+/// Length of a stretch \[m\]: over less, a matched heading says little of the wheels.
+pub const STRETCH: f64 = 0.5;
+
+/// An error of more standard deviations is no noise of the wheels, and is learnt from as if it were of so many.
+pub const OUTLYING: f64 = 3.0;
 
 /// κ: the share of each beam's log-likelihood that counts. A real log is mapped as well with 0.5; with 0.3 the odometry's bias
 /// pulls at every pose, and its errors grow by half.
@@ -90,7 +106,7 @@ pub fn score() -> ScanModel {
 
 /// The whole proposal, for a laser of so many beams.
 pub fn proposal(beams: u32) -> Proposal {
-    FromScan { motion: OdometryModel { alphas: ALPHAS }, score: score(), settings: from_scan(beams) }
+    FromScan { motion: Displaced, score: score(), settings: from_scan(beams) }
 }
 
 #[cfg(test)]

@@ -1,8 +1,10 @@
 //! Motion models: where a robot may be, given where it was and what its wheels reported.
 
+mod displacement;
 mod odometry;
 mod velocity;
 
+pub use displacement::{Displaced, Displacement};
 pub use odometry::{Odometry, OdometryModel};
 pub use velocity::{Velocity, VelocityModel};
 

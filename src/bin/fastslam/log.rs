@@ -88,6 +88,10 @@ struct Output {
     scans_unexplained: u32,
     /// First scan at which all particles descend from one; null if they never do.
     lineage_one_scan: Option<u32>,
+    /// By how much more than odometry tells the robot turns to the left \[deg/m\], as it was learnt by the end.
+    wheel_drift_deg_per_m: f64,
+    /// What the heading's standard deviation is after a metre \[deg/m\], likewise.
+    wheel_heading_std_deg_per_m: f64,
     /// Of the weights and of every particle's path and map.
     digest: String,
 }
@@ -157,6 +161,8 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         resampled_fraction: mapper.resampled_fraction(),
         scans_unexplained,
         lineage_one_scan: mapper.single_lineage_since(),
+        wheel_drift_deg_per_m: mapper.wheels().drift().to_degrees(),
+        wheel_heading_std_deg_per_m: mapper.wheels().heading_std().to_degrees(),
         digest: format!("{:016x}", digest(mapper).value()),
     };
     if arguments.json { print_json(&output) } else { print(&summary(&settings, &log, &output)) }
@@ -256,6 +262,11 @@ fn summary(settings: &LaserMapperSettings, log: &LaserLog, output: &Output) -> S
         output.dense_map_bytes as f64 / 1e6,
         settings.memory_estimate(log) as f64 / 1e6,
         100.0 * output.resampled_fraction,
+    );
+    _ = writeln!(
+        text,
+        "wheels, as learnt: heading drifts by {:.1}° a metre, ± {:.1}°",
+        output.wheel_drift_deg_per_m, output.wheel_heading_std_deg_per_m
     );
     if output.scans_unexplained > 0 {
         _ = writeln!(text, "scans that no particle explains   {:8}", output.scans_unexplained);

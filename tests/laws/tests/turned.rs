@@ -69,7 +69,7 @@ fn turned_about(center: [f64; 2], angle: f64, seed: u32) -> Pose2 {
 }
 
 /// Wheels for the corridor: 0.8 m on, 8 cm are unknown along it.
-const WHEELS: OdometryModel = OdometryModel { alphas: tuning::ALPHAS };
+const WHEELS: OdometryModel = OdometryModel { alphas: [0.04, 0.01, 0.01, 0.01] };
 
 /// A corridor with no end in sight, mapped on twelve steps of 0.3 m from known poses, and a scan `trans` \[m\] further: the `seed`-th
 /// of places where raster and noise differ, the world turned.
@@ -113,8 +113,8 @@ fn corridor_of_the_lap(seed: u32, angle: f64) -> Option<Judged> {
 
 /// With the map and settings for logs, in which 4 to 5 cm are unknown along a step.
 fn corridor_of_a_log(seed: u32, angle: f64) -> Option<Judged> {
-    corridor::<_, { tuning::CELLS_PER_NDT }>(tuning::proposal(tuning::BEAMS), tuning::grid(0.05), 0.4, seed, angle)
-        .judged(seed)
+    let from_scan = FromScan { motion: WHEELS, score: tuning::score(), settings: tuning::FROM_SCAN };
+    corridor::<_, { tuning::CELLS_PER_NDT }>(from_scan, tuning::grid(0.05), 0.4, seed, angle).judged(seed)
 }
 
 /// The first step of the lap, turned about its start.

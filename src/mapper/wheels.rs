@@ -1,0 +1,227 @@
+//! What the wheels are like, learnt along the way from what was matched.
+//!
+//! No fixed noise suits all robots: wheels of one recorded log turn by 3.4° a metre more than they tell, those of another scatter by 3° a
+//! metre round the truth. A prior wide enough for both lets a scan of which little is in range turn the map; one half as wide loses
+//! the first. So a robot begins with the wide one, and its drift and its noise are estimated as it goes.
+//!
+//! References: Roy and Thrun, *Online self-calibration for mobile robots*, ICRA 1999 (drift by exponential forgetting); Eliazar and Parr, *Learning
+//! probabilistic motion models for mobile robots*, ICML 2004 (motion as a Gaussian in pose space, its noise learnt with the map).
+
+use super::tuning::{DRIFT_STD, MEMORY, OUTLYING, STRETCH, TRUST, WHEELS};
+use crate::geometry::Pose2;
+use crate::motion::Displacement;
+use crate::ops;
+use crate::proposal::ProposalTrace;
+use crate::rbpf::Report;
+use nalgebra::Matrix3;
+
+/// Standard deviations of what wheels report, as they grow with the motion.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct WheelNoise {
+    /// Of the heading \[rad\], a radian turned and a metre driven.
+    pub heading: [f64; 2],
+    /// Of the position along each axis \[m\], a metre driven and a radian turned.
+    pub position: [f64; 2],
+}
+
+impl WheelNoise {
+    /// Variances of heading and position \[rad², m²\] after a motion.
+    fn variances(&self, motion: &Pose2) -> [f64; 2] {
+        let sum = |a: f64, b: f64| a * a + b * b;
+        let (way, turn) = (ops::hypot(motion.x, motion.y), motion.theta);
+        let ([by_turn, by_way], [along, spin]) = (self.heading, self.position);
+        [sum(by_turn * turn, by_way * way), sum(along * way, spin * turn)]
+    }
+}
+
+/// Drift and noise of a robot's wheels, as far as is known.
+///
+/// Over a stretch of d metres the heading that was matched and that of odometry differ by
+///
+/// e = b d + ε, ε ~ N(0, s² v),
+///
+/// where v is the variance that [`WHEELS`] have over the stretch. The drift b has a conjugate normal prior, N(0, [`DRIFT_STD`]²); s² is the
+/// mean of (e − b d)² / v, in which the 1 that is assumed counts as [`TRUST`] stretches. Both forget, with a memory of
+/// [`MEMORY`] stretches. What differs by more than [`OUTLYING`] standard deviations counts as if it
+/// differed by so many: one scan in a wrong place must not make the next wrong place likely.
+#[derive(Clone, Debug)]
+pub struct Wheels {
+    /// Of the drift \[m²/rad²\].
+    information: f64,
+    /// Drift times information \[m/rad\].
+    weighted: f64,
+    noise: Scale,
+    /// What is not learnt from yet.
+    stretch: Stretch,
+}
+
+/// A stretch of the way, on which errors add up until they say more than the matcher's own do.
+#[derive(Clone, Copy, Debug, Default)]
+struct Stretch {
+    /// Metres driven.
+    way: f64,
+    /// v, by [`WHEELS`] \[rad²\].
+    variance: f64,
+    /// e, matched less odometry \[rad\].
+    turned: f64,
+}
+
+/// s²: how large squared errors are, of what was assumed.
+#[derive(Clone, Copy, Debug)]
+struct Scale {
+    squares: f64,
+    count: f64,
+}
+
+impl Scale {
+    const ASSUMED: Self = Self { squares: TRUST, count: TRUST };
+
+    fn value(&self) -> f64 {
+        self.squares / self.count
+    }
+
+    fn learn(&mut self, square: f64) {
+        *self = Self { squares: FORGET * self.squares + square, count: FORGET * self.count + 1.0 };
+    }
+}
+
+/// What is left of older stretches after one more.
+const FORGET: f64 = 1.0 - 1.0 / MEMORY;
+
+/// Standard deviation of a matched heading over a stretch \[rad\]: what no wheel is to blame for.
+const MATCHED_STD: f64 = 0.01;
+
+impl Default for Wheels {
+    fn default() -> Self {
+        Self {
+            information: 1.0 / (DRIFT_STD * DRIFT_STD),
+            weighted: 0.0,
+            noise: Scale::ASSUMED,
+            stretch: Stretch::default(),
+        }
+    }
+}
+
+impl Wheels {
+    /// b \[rad/m\]: by how much more than odometry tells the robot turns to the left, a metre.
+    pub fn drift(&self) -> f64 {
+        self.weighted / self.information
+    }
+
+    /// Standard deviation of the heading after a metre straight on \[rad/m\].
+    pub fn heading_std(&self) -> f64 {
+        (self.noise.value() * WHEELS.heading[1] * WHEELS.heading[1] + 1.0 / self.information).sqrt()
+    }
+
+    /// Where the robot is, seen from where it was, when odometry tells this motion. Half of an error of the heading is there from the
+    /// start of the motion, so that it moves the position too.
+    pub(super) fn displacement(&self, odometry: &Pose2) -> Displacement {
+        let way = ops::hypot(odometry.x, odometry.y);
+        let drift = self.drift() * way;
+        let mean = Pose2::new(0.0, 0.0, 0.5 * drift).compose(odometry).compose(&Pose2::new(0.0, 0.0, 0.5 * drift));
+        let [heading, position] = WHEELS.variances(odometry);
+        let turn = self.noise.value() * heading + way * way / self.information;
+        let aside = [-0.5 * mean.y, 0.5 * mean.x, 1.0];
+        let covariance = Matrix3::from_fn(|i, j| turn * aside[i] * aside[j])
+            + Matrix3::from_diagonal(&[position, position, 0.0].into());
+        Displacement { mean, covariance }
+    }
+
+    /// Learns from a step of the filter, to which odometry told this motion: from the mean over the particles that were matched.
+    pub(super) fn learn(&mut self, odometry: &Pose2, report: &Report<()>) {
+        let slots = report.paths.iter().zip(&report.weights).zip(&report.traces);
+        let (mut total, mut turned) = (0.0, 0.0);
+        for ((path, weight), trace) in slots {
+            let (ProposalTrace::Matched { .. }, Some(before)) = (trace, path.before()) else { continue };
+            total += weight;
+            turned += weight * ops::wrap_angle(before.pose().between(&path.pose()).theta - odometry.theta);
+        }
+        if total > 0.0 {
+            self.add(odometry, turned / total);
+        }
+    }
+
+    /// Adds what was found in a step to the stretch, and learns from it where it is long enough.
+    fn add(&mut self, odometry: &Pose2, turned: f64) {
+        let ([heading, _], stretch) = (WHEELS.variances(odometry), &mut self.stretch);
+        stretch.way += ops::hypot(odometry.x, odometry.y);
+        stretch.variance += heading;
+        stretch.turned += turned;
+        if stretch.way >= STRETCH {
+            let stretch = core::mem::take(stretch);
+            self.conclude(&stretch);
+        }
+    }
+
+    fn conclude(&mut self, stretch: &Stretch) {
+        let (matched, expected) = (MATCHED_STD * MATCHED_STD, self.drift() * stretch.way);
+        let variance = self.noise.value() * stretch.variance + matched;
+        let most = OUTLYING * variance.sqrt();
+        let error = (stretch.turned - expected).clamp(-most, most);
+        self.information = FORGET * self.information + stretch.way * stretch.way / variance;
+        self.weighted = FORGET * self.weighted + stretch.way * (expected + error) / variance;
+        self.noise.learn(error * error / (stretch.variance + matched));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::{Purpose, Stream};
+
+    /// After so many steps of this motion, of which wheels tell all but a drift \[rad/m\] and noise of this share of [`WHEELS`].
+    fn after(steps: u32, motion: Pose2, drift: f64, share: f64) -> Wheels {
+        let mut wheels = Wheels::default();
+        for step in 0..steps {
+            let [turn, _, _]: [f64; 3] = Stream::at(1, Purpose::TRIAL, step, 0).normals();
+            let [heading, _] = WHEELS.variances(&motion);
+            wheels.add(&motion, drift * ops::hypot(motion.x, motion.y) + turn * share * heading.sqrt());
+        }
+        wheels
+    }
+
+    #[test]
+    fn wheels_of_which_nothing_is_known_are_wide_and_straight() {
+        let Displacement { mean, covariance } = Wheels::default().displacement(&Pose2::new(1.0, 0.0, 0.0));
+        assert_eq!(mean, Pose2::new(1.0, 0.0, 0.0));
+        let [x, _, theta] = [covariance.m11, covariance.m22, covariance.m33].map(f64::sqrt);
+        assert!((x - WHEELS.position[0]).abs() < 1e-12 && (theta - WHEELS.heading[1].hypot(DRIFT_STD)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn drift_and_noise_are_learnt_whatever_the_length_of_a_step() {
+        for (steps, way) in [(200, 1.0), (2_000, 0.1), (20_000, 0.01)] {
+            let wheels = after(steps, Pose2::new(way, 0.0, 0.0), 0.06, 0.3);
+            assert!((wheels.drift() - 0.06).abs() < 0.012, "{way} m: {}", wheels.drift());
+            // The matcher's own error, which short steps have a larger share of, is not the wheels'.
+            assert!((0.02..0.15).contains(&wheels.noise.value()), "{way} m: {}", wheels.noise.value());
+        }
+    }
+
+    #[test]
+    fn what_was_learnt_is_in_the_displacement() {
+        let (wheels, ahead) = (after(300, Pose2::new(0.7, 0.0, 0.1), 0.06, 0.3), Pose2::new(1.0, 0.0, 0.0));
+        let Displacement { mean, covariance } = wheels.displacement(&ahead);
+        assert!((mean.theta - 0.06).abs() < 0.012 && (mean.y - 0.03).abs() < 0.006, "{mean:?}");
+        let std = covariance.m33.sqrt();
+        assert!((0.25..0.4).contains(&(std / WHEELS.heading[1])), "{std}");
+        assert!((std - wheels.heading_std()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_step_aside_turns_a_robot_no_more_than_one_ahead() {
+        let wheels = Wheels::default();
+        let [ahead, aside] = [Pose2::new(1.0, 0.0, 0.0), Pose2::new(0.0, 1.0, 0.0)].map(|to| wheels.displacement(&to));
+        assert_eq!(ahead.covariance.m33, aside.covariance.m33);
+        assert!((ahead.covariance.m22 - aside.covariance.m11).abs() < 1e-15);
+    }
+
+    #[test]
+    fn one_scan_in_a_wrong_place_is_not_learnt_as_if_it_were_the_wheels() {
+        let (mut wheels, ahead) = (after(100, Pose2::new(1.0, 0.0, 0.0), 0.0, 0.3), Pose2::new(1.0, 0.0, 0.0));
+        let before = wheels.clone();
+        wheels.add(&ahead, 0.8);
+        assert!((wheels.drift() - before.drift()).abs() < 0.01, "{}", wheels.drift());
+        assert!(wheels.heading_std() < 1.1 * before.heading_std(), "{}", wheels.heading_std());
+    }
+}
