@@ -9,7 +9,7 @@ use fastslam_widgets::{
 };
 
 /// A state that is pinned, and one that is shown then, with every mark that a legend has.
-const RUNS: [(&str, &str, &str); 5] = [
+const RUNS: [(&str, &str, &str); 6] = [
     ("fastslam-lap", "step=30", "universes=4&step=22&truth=on&raw=on"),
     ("fastslam-resampling", "step=30", "particles=40&threshold=0.9&step=12"),
     ("fastslam-resampling", "wings=on&step=30", "step=12"),
