@@ -127,7 +127,7 @@ const events = [
 ]
 
 const parts =
-  'figure title stage canvas chips chip transport button primary play rewind step-back step reset undo scrub seed controls control notices notice sentence numbers readouts readout settings menu toggle handle count stop inputs pin pinned go-back unpin seeds seeds-start seeds-strip seed-run'.split(' ')
+  'figure title stage canvas chips chip transport button primary play rewind step-back step reset undo scrub seed controls control notices notice sentence numbers readouts readout settings menu toggle handle count again stop inputs pin pinned go-back unpin seeds seeds-start seeds-strip seed-run'.split(' ')
 
 const cssProperties = ['accent', 'ink', 'muted', 'line', 'paper', 'radius', 'font'].map(name => `--fastslam-${name}`)
 
