@@ -35,14 +35,14 @@ const languages = (process.env.FASTSLAM_LANGUAGES ?? '').split(/[\s,]+/).filter(
 
 /**
  * The script, as text.
- * @param {string} entry its source @param {string} [wasm] the program that it carries
+ * @param {string} entry its source @param {string} [wasm] the program that it carries @param {boolean} [maps] whether it maps the example
  * @returns {Promise<string>}
  */
-export async function singleFile(entry, wasm = join(root, 'widgets', 'pkg', 'fastslam_widgets_bg.wasm')) {
+export async function singleFile(entry, wasm = join(root, 'widgets', 'pkg', 'fastslam_widgets_bg.wasm'), maps = true) {
   const program = gzipSync(readFileSync(wasm), { level: 9 }).toString('base64')
   // No module: pages opened from a file may not start workers that are modules.
   const worker = await bundle(join(elements, 'worker.ts'), 'iife')
-  const example = readFileSync(join(root, 'www', 'public', 'example.clf.gz')).toString('base64')
+  const example = maps ? readFileSync(join(root, 'www', 'public', 'example.clf.gz')).toString('base64') : ''
   const words = Object.fromEntries(languages.map(language => [language, JSON.parse(readFileSync(join(root, 'widgets', 'words', `${language}.json`), 'utf8'))]))
   const carried = `export const example = ${JSON.stringify(example)}; export const program = ${JSON.stringify(program)}; export const worker = ${JSON.stringify(worker)}; export const words = ${JSON.stringify(words)}`
   return bundle(entry, 'es', [
