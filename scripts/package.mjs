@@ -39,9 +39,16 @@ export async function npmFiles() {
   const all = await figures()
   const files = readdirSync(dist).filter(file => /^fastslam(-[\w-]{8})?\.js$|^fastslam-(page|log)-.*\.wasm$/.test(file))
   for (const file of [...files, 'custom-elements.json', 'example.clf.gz']) cpSync(join(dist, file), join(to, file))
-  // What they name, and nothing of the chapter's.
-  const script = files.filter(file => file.endsWith('.js')).map(file => readFileSync(join(dist, file), 'utf8')).join('')
-  for (const file of readdirSync(join(dist, 'assets'))) if (script.includes(`assets/${file}`)) cpSync(join(dist, 'assets', file), join(to, 'assets', file))
+  // What they name, and what that names, and nothing of the chapter's.
+  const assets = new Set(readdirSync(join(dist, 'assets')))
+  const take = (/** @type {string} */ script, /** @type {string} */ folder) => {
+    for (const file of [...assets].filter(file => script.includes(`${folder}${file}`))) {
+      assets.delete(file)
+      cpSync(join(dist, 'assets', file), join(to, 'assets', file))
+      if (file.endsWith('.js')) take(readFileSync(join(dist, 'assets', file), 'utf8'), './')
+    }
+  }
+  for (const file of files.filter(file => file.endsWith('.js'))) take(readFileSync(join(dist, file), 'utf8'), 'assets/')
   cpSync(join(dist, 'fastslam-anywidget.js'), join(to, 'standalone.js'))
   writeFileSync(join(to, 'fastslam.d.ts'), types(all))
   writeFileSync(join(to, 'react.d.ts'), reactTypes(all))
