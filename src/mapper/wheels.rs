@@ -185,7 +185,9 @@ mod tests {
         let Displacement { mean, covariance } = Wheels::default().displacement(&Pose2::new(1.0, 0.0, 0.0));
         assert_eq!(mean, Pose2::new(1.0, 0.0, 0.0));
         let [x, _, theta] = [covariance.m11, covariance.m22, covariance.m33].map(f64::sqrt);
-        assert!((x - WHEELS.position[0]).abs() < 1e-12 && (theta - WHEELS.heading[1].hypot(DRIFT_STD)).abs() < 1e-12);
+        assert!(
+            (x - WHEELS.position[0]).abs() < 1e-12 && (theta - ops::hypot(WHEELS.heading[1], DRIFT_STD)).abs() < 1e-12
+        );
     }
 
     #[test]
