@@ -1,7 +1,6 @@
 //! A motion that is known as a Gaussian over where the robot got to, seen from where it was.
 
 use super::Motion;
-use crate::error::SettingError;
 use crate::geometry::{Pose2, sample_semidefinite};
 use crate::ops;
 use crate::random::Stream;
@@ -35,9 +34,5 @@ impl Motion for Displaced {
         let (sin, cos) = ops::sin_cos(from.theta);
         let turn = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
         turn * d.covariance * turn.transpose()
-    }
-
-    fn validate(&self) -> Result<(), SettingError> {
-        Ok(())
     }
 }
