@@ -4,7 +4,7 @@ import { createHash } from 'node:crypto'
 import { existsSync, readFileSync, writeFileSync } from 'node:fs'
 import { homedir } from 'node:os'
 import { join } from 'node:path'
-import { capture, isMain, main, readIfThere, root, run, step, StepError, which } from './lib.mjs'
+import { capture, isMain, main, readIfThere, root, run, say, step, StepError, which } from './lib.mjs'
 
 const wasmPackVersion = '0.15.1'
 const wasmTarget = 'wasm32-unknown-unknown'
@@ -53,8 +53,17 @@ function wasmBindgenVersion() {
 /** @param {string} crate @param {string} program @param {string} version */
 async function cargoInstall(crate, program, version) {
   if (capture(program, '--version')?.split(' ')[1] === version) return `${version}, there already`
-  // Away from the workspace, whose settings are for our own crates.
-  await run('cargo', ['install', '--locked', '--force', crate, '--version', `=${version}`], { cwd: homedir() })
+  const install = (/** @type {string[]} */ ...how) =>
+    // Away from the workspace, whose settings are for our own crates.
+    run('cargo', ['install', ...how, '--force', crate, '--version', `=${version}`], { cwd: homedir() })
+  try {
+    await install('--locked')
+  } catch {
+    // The tool's own lock may name a package that its registry has withdrawn since, or that a mirror has not got: then
+    // any that fits its requirements. A tool that cannot be built at all fails the second time with the true reason.
+    say(`${crate} cannot be built from its own lock file; building it from the newest packages that fit it.`)
+    await install()
+  }
   if (capture(program, '--version')?.split(' ')[1] !== version) {
     throw new StepError(`Another ${program} stands before the one just installed: ${which(program)}`, `Remove it, or put ~/.cargo/bin before it on PATH.`)
   }
