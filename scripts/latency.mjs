@@ -16,6 +16,9 @@ const DRAGS = [
   { what: 'proposals', tag: 'fastslam-proposal', attributes: {}, slider: 'range-std', values: ['0.15', '0.1'], atMost: 32 },
   { what: 'graphical model', tag: 'fastslam-conditioning', attributes: { step: '999' }, slider: 'odometry', values: ['1.05', '1'], atMost: 32 },
   { what: 'worked example', tag: 'fastslam-worked-example', attributes: {}, slider: 'range-std', values: ['0.15', '0.1'], atMost: 32 },
+  { what: 'doors', tag: 'fastslam-doors', attributes: {}, slider: 'ride', values: ['4.5', '4'], atMost: 32 },
+  { what: 'sampled map, N', tag: 'fastslam-joint', attributes: {}, slider: 'landmarks', values: ['9', '10'], atMost: 32 },
+  { what: 'sampled map, sensor', tag: 'fastslam-joint', attributes: {}, slider: 'sensor', values: ['1.05', '1'], atMost: 32 },
   { what: 'universes', tag: 'fastslam-universes', attributes: {}, slider: 'threshold', values: ['0.3', '0.4'], atMost: 32 },
   { what: 'log, before it is mapped', tag: 'fastslam-log', attributes: {}, slider: 'universes', values: ['20', '16'], atMost: 32, file: join(root, 'www', 'public', 'example.clf.gz') },
 ]

@@ -38,6 +38,35 @@ test('exercise 2 (c): a thousand particles last to the seventh landmark, by the 
   expect(await number(figure, 'predicted_sampled')).toBeGreaterThan(1)
 })
 
+test('exercise 2 (c): a guess is dragged, nothing tells the answer before, and the line stands beside it then', async ({ page }) => {
+  const figure = await open(page, 'odometry=0&predict=on')
+  const hidden = ['ess_sampled', 'predicted_sampled', 'rho', 'removed']
+  const asked = await figure.readouts()
+  for (const name of hidden) expect(asked[name], name).toMatch(/^–/)
+  await expect(figure.sentence).toContainText('With how many landmarks are 1000 particles, whose maps are sampled, worth less than a single one?')
+  await expect(figure.toggle('run')).toHaveText('Show me')
+  const handle = figure.handle('guess')
+  await handle.scrollIntoViewIfNeeded()
+  const box = (await handle.boundingBox())!
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2]
+  await page.mouse.move(x, y)
+  await page.mouse.down()
+  await page.mouse.move(x - 60, y, { steps: 5 })
+  await page.mouse.up()
+  await figure.settled()
+  const guess = Number(await figure.box('guess').inputValue())
+  expect(guess).toBeLessThan(12)
+  await figure.grasp('guess').focus()
+  await page.keyboard.press('ArrowLeft')
+  await figure.settled()
+  await expect(figure.box('guess')).toHaveValue(String(guess - 1))
+  await expect(figure.toggle('run')).toHaveText('Show the sampled map')
+  await figure.toggle('run').click()
+  await figure.settled()
+  await expect(figure.sentence).toContainText(`worth less than one from 7 landmarks on; the guess was ${guess - 1}`)
+  expect(await number(figure, 'rho')).toBeCloseTo(2.79, 2)
+})
+
 test('twenty thousand particles do not keep the page waiting, and are shown before all repeats are run', async ({ page }) => {
   const figure = await open(page, 'particles=100')
   await figure.element.evaluate(element => {

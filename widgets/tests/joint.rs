@@ -33,6 +33,48 @@ fn another_number_of_landmarks_is_looked_at_without_running_anything_again() {
     }
 }
 
+/// Until a reader has guessed or waived it, nothing is told that the answer could be read from; what is told then is of the line.
+#[test]
+fn what_the_sampled_map_comes_to_is_hidden_until_it_is_guessed() {
+    let mut shown = figure(TAG, "odometry=0&particles=200");
+    let seen = ["ess_sampled", "predicted_sampled", "rho", "left_sampled", "spread_sampled", "removed"];
+    let known = |figure: &Figure| {
+        let readouts = figure.model().readouts();
+        seen.map(|name| readouts.iter().find(|readout| readout.name == name).unwrap().value.is_some())
+    };
+    let discs = |figure: &Figure| scene(figure, 800.0).marks.len();
+    assert_eq!(known(&shown), [true; 6]);
+    let (all, told) = (discs(&shown), shown.model().describe());
+    shown.set("predict", "on").unwrap();
+    assert_eq!(known(&shown), [false; 6]);
+    assert!(discs(&shown) < all && shown.model().series().rows.is_empty());
+    let asked = shown.model().describe();
+    assert!(asked.contains("200 particles") && !told.contains(&asked), "{asked}");
+    // 200 particles last for ln 200 / ln 2.79 = 5.2 landmarks.
+    shown.drag("guess", scene(&shown, 800.0).handles[0].at[0] - 1e9, 0.0, 800.0);
+    assert!(shown.query().as_str().contains("guess=1"), "{:?}", shown.query());
+    (0..4).for_each(|_| shown.nudge("guess", 1.0, 0.0));
+    assert_eq!(known(&shown), [false; 6]);
+    shown.set("run", "on").unwrap();
+    assert_eq!(known(&shown), [true; 6]);
+    let outcome = shown.model().prediction().unwrap();
+    assert!(outcome.shown && outcome.result == Some(6.0) && outcome.guess == Some(5.0), "{outcome:?}");
+    assert!(
+        shown
+            .model()
+            .describe()
+            .starts_with("200 particles with sampled maps are worth less than one from 6 landmarks on")
+    );
+    // Another number of particles is another question.
+    shown.set("particles", "100").unwrap();
+    shown.model_mut().settle();
+    assert!(known(&shown) == [false; 6] && shown.model().prediction().unwrap().guess.is_none());
+    // And one that 24 landmarks do not answer.
+    let mut blunt = figure(TAG, "sensor=5&particles=20000&predict=on&run=on");
+    assert_eq!(blunt.model().prediction().unwrap().result, None);
+    assert!(blunt.model_mut().describe().contains("after all 24 landmarks"), "{}", blunt.model().describe());
+}
+
 /// The picture before stays until there is another: never half a run of what was asked for.
 #[test]
 fn a_run_is_shown_from_its_first_repeat_on_and_gets_finer() {

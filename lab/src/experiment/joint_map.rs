@@ -11,6 +11,7 @@
 //! chapter; and with one landmark and a computed map it is [`predicted_ess`](crate::baseline::one_step::predicted_ess).
 
 use crate::baseline::sampled_map::{SampledMap, WithMap};
+use crate::digest::Digest;
 use core::f64::consts::TAU;
 use fastslam::error::{Range, SettingError};
 use fastslam::execute::Executor;
@@ -384,6 +385,37 @@ impl JointMap {
     pub fn removed(&self, landmarks: u32) -> f64 {
         1.0 - self.variance(COMPUTED, landmarks) / self.variance(SAMPLED, landmarks)
     }
+
+    /// A fingerprint of all that every repeat comes to, with what was predicted.
+    ///
+    /// # Errors
+    /// None after [`Self::new`].
+    pub fn trace(mut self) -> Result<Digest, SettingError> {
+        while self.pending() > 0 {
+            self.advance()?;
+        }
+        let mut digest = Digest::new();
+        for (filter, landmarks) in
+            [SAMPLED, COMPUTED].into_iter().flat_map(|filter| (1..=MOST).map(move |n| (filter, n)))
+        {
+            digest.f64(self.log.predicted_share(filter, landmarks));
+            for repeat in &self.repeats {
+                let Population { ess, left, first } = repeat[filter][landmarks as usize - 1];
+                digest.u32(left);
+                [ess, first[0], first[1]].into_iter().for_each(|x| digest.f64(x));
+            }
+        }
+        Ok(digest)
+    }
+}
+
+/// Named experiments whose fingerprints are kept with the tests, and must be the same natively and in WebAssembly.
+pub fn golden_setups() -> Vec<(&'static str, JointMapSetup)> {
+    let setup = JointMapSetup::default;
+    vec![
+        ("joint", JointMapSetup { particles: 300, ..setup() }),
+        ("joint-blocks", JointMapSetup { particles: 1500, sensor_scale: 0.5, odometry_scale: 2.0, seed: 9 }),
+    ]
 }
 
 #[cfg(test)]

@@ -59,6 +59,10 @@ pub fn golden_traces(executor: &Executor) -> Vec<(&'static str, Digest)> {
     let joints = joints.map(|(name, setup)| (name, conditioning::Conditioning::new(&setup).expect(VALID).trace()));
     let clouds = proposals::golden_setups().into_iter();
     let clouds = clouds.map(|(name, setup)| (name, proposals::Proposals::new(&setup).expect(VALID).trace()));
+    let maps = joint_map::golden_setups().into_iter();
+    let maps = maps.map(|(name, setup)| {
+        (name, joint_map::JointMap::new(&setup).and_then(joint_map::JointMap::trace).expect(VALID))
+    });
     let policies = policies::golden_setups().into_iter().map(|(name, setup)| {
         (name, policies::Policies::new(&setup).expect(VALID).with_executor(executor.clone()).trace())
     });
@@ -67,5 +71,5 @@ pub fn golden_traces(executor: &Executor) -> Vec<(&'static str, Digest)> {
         run.by_ref().for_each(drop);
         (name, log::digest(run.mapper()))
     });
-    laps.chain(drives).chain(joints).chain(clouds).chain(policies).chain(logs).collect()
+    laps.chain(drives).chain(joints).chain(clouds).chain(maps).chain(policies).chain(logs).collect()
 }

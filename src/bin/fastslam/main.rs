@@ -1,6 +1,7 @@
 //! The command line: the figures' filters, run natively.
 
 mod doors;
+mod joint;
 mod landmarks;
 mod lap;
 mod log;
@@ -36,6 +37,7 @@ struct Arguments {
 #[derive(clap::Subcommand)]
 enum Command {
     Doors(doors::Arguments),
+    Joint(joint::Arguments),
     Lap(lap::Arguments),
     Log(log::Arguments),
     ExampleLog(log::ExampleArguments),
@@ -76,6 +78,7 @@ fn run(arguments: Arguments) -> Result<()> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     pool.install(|| match arguments.command {
         Command::Doors(arguments) => doors::run(&arguments),
+        Command::Joint(arguments) => joint::run(&arguments),
         Command::Lap(arguments) => lap::run(&arguments),
         Command::Log(arguments) => log::run(&arguments),
         Command::ExampleLog(arguments) => log::example(&arguments),

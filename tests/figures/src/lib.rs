@@ -129,6 +129,8 @@ pub const PICTURES: &[Picture] = &[
     picture(JOINT, "fastslam-joint-light", "", 800, 1.5, "light"),
     picture(JOINT, "fastslam-joint-dark", "", 800, 1.5, "dark"),
     picture(JOINT, "joint-exercise", "odometry=0&landmarks=5", 692, 1.0, "light"),
+    picture(JOINT, "joint-asked", "odometry=0&predict=on", 692, 1.0, "dark"),
+    picture(JOINT, "joint-judged", "odometry=0&predict=on&guess=10&run=on", 340, 2.0, "light"),
     picture(JOINT, "joint-phone", "landmarks=3&particles=200&sensor=2", 340, 2.0, "light"),
     picture(JOINT, "joint-tiny", "particles=1&odometry=3", 240, 1.0, "contrast-dark"),
 ];

@@ -90,3 +90,8 @@ fn links_to_the_log_keep_their_numbers() {
 fn links_to_the_universes_keep_their_numbers() {
     keep_their_numbers("fastslam-universes");
 }
+
+#[test]
+fn links_to_the_sampled_map_keep_their_numbers() {
+    keep_their_numbers("fastslam-joint");
+}

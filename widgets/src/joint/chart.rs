@@ -1,6 +1,6 @@
 //! N_eff of both filters over the landmarks, on a logarithmic axis: measured as points, and as a line what it is to be.
 
-use super::{layout::Layout, model::JointModel};
+use super::{guess::guess, layout::Layout, model::JointModel};
 use crate::{
     decimal::{fixed, write},
     font::{self, Weight},
@@ -34,11 +34,12 @@ pub fn chart(scene: &mut Scene, model: &JointModel, layout: &Layout, roles: [Rol
     ticks(scene, layout, m);
     scene.marks.extend(chart.edges());
     let at = |ess: f64| share(ess, m);
-    for filter in [SAMPLED, COMPUTED] {
+    for filter in [SAMPLED, COMPUTED].into_iter().filter(|filter| !model.hides(*filter)) {
         let pinned = curve(model.pinned(), filter).iter().map(|ess| at(ess.max(1.0)));
         scene.marks.extend(ghost(&chart, pinned));
     }
-    for (filter, role) in [SAMPLED, COMPUTED].into_iter().zip(roles) {
+    let shown = || [SAMPLED, COMPUTED].into_iter().zip(roles).filter(|(filter, _)| !model.hides(*filter));
+    for (filter, role) in shown() {
         let line = line(&chart, &(0..=MOST).map(|n| at(model.predicted(filter, n))).collect::<Vec<_>>());
         scene.marks.push(Mark::Lines { lines: vec![line], width: 1.75, dash: None, role });
     }
@@ -47,7 +48,7 @@ pub fn chart(scene: &mut Scene, model: &JointModel, layout: &Layout, roles: [Rol
     let x = chart.x(n);
     let now = vec![vec![[x, chart.area.y], [x, chart.area.bottom() + 5.0]]];
     scene.marks.push(Mark::Lines { lines: now, width: 1.5, dash: None, role: Role::Accent });
-    for (filter, role) in [SAMPLED, COMPUTED].into_iter().zip(roles) {
+    for (filter, role) in shown() {
         let found = model.ess(filter);
         let centres: Vec<Point> = (0..).zip(&found).map(|(n, ess)| [chart.x(n), chart.y(at(*ess))]).collect();
         let here = centres.get(n as usize).copied();
@@ -65,6 +66,7 @@ pub fn chart(scene: &mut Scene, model: &JointModel, layout: &Layout, roles: [Rol
         text: common::Of { n: &n, all: &MOST }.say(),
         hover: None,
     });
+    guess(scene, model, &chart);
 }
 
 /// A line through shares of the height, as far as it is above the lower edge.
@@ -92,7 +94,7 @@ fn names(scene: &mut Scene, model: &JointModel, layout: &Layout, roles: [Role; 2
     let samples = [joint::sampled_dot(), joint::computed_dot()].into_iter().zip(roles);
     let mut items: Vec<_> =
         samples.map(|(name, role)| (Sample::dot(role, POINT).wide(8.0), name.to_string())).collect();
-    let rho = fixed(model.filters().log().rho(), 2);
+    let rho = if model.hides(SAMPLED) { "?".into() } else { fixed(model.filters().log().rho(), 2) };
     let narrow = area.h > LINE;
     let line = if narrow { joint::LineShort { rho: &rho }.say() } else { joint::Line { rho: &rho }.say() };
     items.push((Sample::line(roles[0], 1.75, None), line));

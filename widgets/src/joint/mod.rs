@@ -2,6 +2,7 @@
 
 mod challenges;
 mod chart;
+mod guess;
 mod layout;
 mod model;
 mod panel;

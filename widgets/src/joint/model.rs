@@ -2,9 +2,10 @@
 
 use super::{challenges, recipe::Recipe};
 use crate::challenge::Challenge;
-use crate::decimal::fixed;
+use crate::decimal::{fixed, write};
 use crate::ghost::Curves;
 use crate::model::{Column, Declared, FigureError, Model, Readout, Series};
+use crate::prediction::{Outcome, State, off_by};
 use crate::words::{common, joint};
 use fastslam_lab::experiment::joint_map::{COMPUTED, JointMap, JointMapSetup, MOST, Population, SAMPLED};
 
@@ -63,6 +64,11 @@ impl JointModel {
         start.into_iter().chain(found.into_iter().flat_map(|run| run[filter].iter().map(|found| found.ess))).collect()
     }
 
+    /// Where a filter has the first landmark, in each repeat \[m\].
+    pub fn estimates(&self, filter: usize) -> Vec<[f64; 2]> {
+        self.shown.estimates(filter, self.landmarks())
+    }
+
     /// What N_eff of a filter is to be after so many landmarks.
     pub fn predicted(&self, filter: usize, landmarks: u32) -> f64 {
         f64::from(self.particles()) * self.shown.log().predicted_share(filter, landmarks)
@@ -71,6 +77,44 @@ impl JointModel {
     /// Standard deviation of the estimate of the first landmark over the repeats \[m\].
     pub fn spread(&self, filter: usize) -> f64 {
         self.shown.variance(filter, self.landmarks()).sqrt()
+    }
+
+    /// How far the reader's prediction is.
+    pub fn state(&self) -> State {
+        self.recipe.prediction.state()
+    }
+
+    /// Whether nothing of a filter is to be seen yet: what the sampled map comes to is what is asked for.
+    pub fn hides(&self, filter: usize) -> bool {
+        filter == SAMPLED && self.recipe.prediction.hides()
+    }
+
+    /// The first number of landmarks after which the sampled map's particles are worth less than one, by the closed form; `None` where
+    /// that takes more than there are.
+    pub fn below_one(&self) -> Option<u32> {
+        (1..=MOST).find(|landmarks| self.predicted(SAMPLED, *landmarks) < 1.0)
+    }
+
+    /// Places a guess at a number of landmarks, or at the nearest that there is.
+    pub fn guess_at(&mut self, landmarks: f64) {
+        let landmarks = landmarks.round().clamp(1.0, f64::from(MOST));
+        self.change(|recipe| recipe.prediction.place(Some(landmarks)));
+    }
+
+    /// What is said of the prediction, if one is asked for.
+    fn judged(&self) -> Option<String> {
+        let m = &self.particles();
+        Some(match (self.state(), self.below_one()) {
+            (State::Off, _) => return None,
+            (State::Asked, _) => joint::Asks { m }.say(),
+            (State::Placed(guess), _) => joint::Placed { m, guess: &write(guess) }.say(),
+            (State::Guessed(guess), Some(result)) => {
+                joint::Came { m, result: &result, guess: &write(guess), off: &off_by(guess, result.into()) }.say()
+            }
+            (State::Waived, Some(result)) => joint::CameAlone { m, result: &result }.say(),
+            (State::Guessed(guess), None) => joint::NeverCame { m, all: &MOST, guess: &write(guess) }.say(),
+            (State::Waived, None) => joint::NeverCameAlone { m, all: &MOST }.say(),
+        })
     }
 
     /// N_eff of the pinned run's filters.
@@ -85,6 +129,9 @@ impl JointModel {
 
     /// The share of the variance that computing removed, in words; nothing where there is none yet.
     pub fn removed(&self) -> Option<String> {
+        if self.hides(SAMPLED) {
+            return None;
+        }
         let removed = self.shown.removed(self.landmarks());
         removed.is_finite().then(|| percent(removed))
     }
@@ -167,17 +214,19 @@ impl Model for JointModel {
             let x = x.unwrap_or(f64::NAN);
             Readout::new(name, title, x, of_all(x), "", help)
         };
-        let found = [SAMPLED, COMPUTED].map(|filter| self.population(filter));
+        let hidden = self.hides(SAMPLED);
+        let found = [SAMPLED, COMPUTED].map(|filter| self.population(filter).filter(|_| !self.hides(filter)));
         let ess = found.map(|found| found.map(|found| found.ess));
         let left = found.map(|found| found.map(|found| f64::from(found.left)));
-        let predicted = [SAMPLED, COMPUTED].map(|filter| Some(self.predicted(filter, self.landmarks())));
+        let predicted =
+            [SAMPLED, COMPUTED].map(|filter| (!self.hides(filter)).then(|| self.predicted(filter, self.landmarks())));
         let spread = |name, title, filter, help| {
-            let x = self.spread(filter);
+            let x = if self.hides(filter) { f64::NAN } else { self.spread(filter) };
             Readout::new(name, title, x, metres(x), "m", help).drawn()
         };
-        let removed = 100.0 * self.shown.removed(self.landmarks());
+        let removed = if hidden { f64::NAN } else { 100.0 * self.shown.removed(self.landmarks()) };
         let text = self.removed().map(|text| text.trim_end_matches(" %").to_string()).unwrap_or_default();
-        let (rho, [done, _]) = (self.shown.log().rho(), self.repeats());
+        let (rho, [done, _]) = (if hidden { f64::NAN } else { self.shown.log().rho() }, self.repeats());
         vec![
             particles("ess_sampled", joint::ess_sampled(), ess[0], joint::ess_sampled_help()).drawn(),
             particles("ess_computed", joint::ess_computed(), ess[1], joint::ess_computed_help()).drawn(),
@@ -217,7 +266,8 @@ impl Model for JointModel {
             let [c, d] = [SAMPLED, COMPUTED].map(|filter| self.shown.variance(filter, landmarks).sqrt());
             vec![landmarks.into(), drawn.0, a, computed.0, b, drawn.1, computed.1, c, d]
         };
-        Series { columns: COLUMNS.into(), rows: (1..=MOST).map(row).collect() }
+        let count = if self.hides(SAMPLED) { 0 } else { MOST };
+        Series { columns: COLUMNS.into(), rows: (1..=count).map(row).collect() }
     }
 
     fn curves(&self) -> Curves {
@@ -228,7 +278,15 @@ impl Model for JointModel {
         self.pinned = pinned;
     }
 
+    fn prediction(&self) -> Option<Outcome> {
+        self.recipe.prediction.outcome("below_one", self.below_one().map(f64::from))
+    }
+
     fn describe(&self) -> String {
+        let judged = self.judged();
+        if self.hides(SAMPLED) {
+            return judged.unwrap_or_default();
+        }
         let (n, m) = (self.landmarks(), self.particles());
         let [Some(sampled), Some(computed)] = [SAMPLED, COMPUTED].map(|filter| self.population(filter)) else {
             return joint::Beginning { m: &m }.say();
@@ -236,7 +294,7 @@ impl Model for JointModel {
         let [a, b] = [SAMPLED, COMPUTED].map(|filter| count(self.predicted(filter, n)));
         let told =
             joint::Told { n: &n, m: &m, sampled: &count(sampled.ess), computed: &count(computed.ess), a: &a, b: &b };
-        let mut sentences = vec![told.say()];
+        let mut sentences: Vec<String> = judged.into_iter().chain([told.say()]).collect();
         if let Some(removed) = self.removed() {
             let [c, d] = [SAMPLED, COMPUTED].map(|filter| length(self.spread(filter)));
             let [repeats, _] = self.repeats();

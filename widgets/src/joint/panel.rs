@@ -48,7 +48,7 @@ fn estimates(scene: &mut Scene, model: &JointModel, panel: &Panel, drawn: &Drawn
     let [x, y] = plane.point(mean);
     let lines = cross(Rect::new(x - 5.0, y - 5.0, 10.0, 10.0));
     scene.marks.push(Mark::Lines { lines, width: 1.5, dash: None, role: Role::Truth });
-    let places = model.filters().estimates(drawn.filter, model.landmarks());
+    let places = if model.hides(drawn.filter) { Vec::new() } else { model.estimates(drawn.filter) };
     let points = places.into_iter().map(|place| plane.point(place));
     scene.marks.push(cloud(points, &area.inset(ESTIMATE), ESTIMATE, drawn.role));
     scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
@@ -57,15 +57,16 @@ fn estimates(scene: &mut Scene, model: &JointModel, panel: &Panel, drawn: &Drawn
 
 fn counters(scene: &mut Scene, model: &JointModel, panel: &Panel, drawn: &Drawn) {
     let m = model.particles();
-    let ess = model.population(drawn.filter).map(|found| count(found.ess));
-    let spread = Some(model.spread(drawn.filter)).filter(|x| x.is_finite()).map(length);
+    let shown = !model.hides(drawn.filter);
+    let ess = model.population(drawn.filter).filter(|_| shown).map(|found| count(found.ess));
+    let spread = Some(model.spread(drawn.filter)).filter(|x| shown && x.is_finite()).map(length);
     let [done, _] = model.repeats();
     let told = [
         (ess, [joint::EssOf { m: &m }.say(), joint::ess_short().into()]),
         (spread, [joint::SpreadOver { n: &done }.say(), joint::spread_short().into()]),
     ];
     for (area, (number, names)) in panel.counters.iter().zip(told) {
-        let number = number.unwrap_or_else(|| "…".into());
+        let number = number.unwrap_or_else(|| if shown { "…" } else { "?" }.into());
         let size = if panel.counters[0].w < 100.0 { 17.0 } else { 23.0 };
         let line = Rect { h: 26.0, ..*area };
         scene.marks.push(text(line, Anchor::Start, size, Weight::SemiBold, Role::Ink, number));
@@ -81,7 +82,8 @@ fn particles(scene: &mut Scene, model: &JointModel, panel: &Panel, drawn: &Drawn
     let (area, m) = (panel.particles, model.particles() as usize);
     let columns = ((area.w / PITCH) as usize).min(m.div_ceil(ROWS));
     let all = (columns * ROWS).min(m);
-    let left = model.population(drawn.filter).map_or(m, |found| found.left as usize);
+    let found = model.population(drawn.filter).filter(|_| !model.hides(drawn.filter));
+    let left = found.map_or(m, |found| found.left as usize);
     // One at least, as there is one at least.
     let alive = (all * left).div_ceil(m);
     let place = |k: usize| -> Point {
@@ -94,14 +96,15 @@ fn particles(scene: &mut Scene, model: &JointModel, panel: &Panel, drawn: &Drawn
     };
     scene.marks.push(dots(alive..all, Role::Frame));
     scene.marks.push(dots(0..alive, drawn.role));
-    let said = match model.population(drawn.filter) {
+    let said = match found {
         Some(found) => {
             let left = common::Of { n: &found.left, all: &m }.say();
             let said = joint::Left { left: &left }.say();
             let fits = font::measure(&said, 12.0, Weight::Regular) <= panel.left.w;
             if fits { said } else { joint::LeftShort { left: &left }.say() }
         }
-        None => common::OfAll { all: &m }.say(),
+        None if !model.hides(drawn.filter) => common::OfAll { all: &m }.say(),
+        None => joint::Left { left: &common::Of { n: &"?", all: &m }.say() }.say(),
     };
     scene.marks.push(text(panel.left, Anchor::Start, 12.0, Weight::Regular, Role::Ink, said));
 }

@@ -2,6 +2,7 @@
 
 use crate::{
     field,
+    prediction::{self, Asks, Prediction, Predicts},
     recipe::{self, Param},
     words::{common, joint},
 };
@@ -17,17 +18,36 @@ pub struct Recipe {
     pub setup: JointMapSetup,
     /// After how many landmarks is looked.
     pub landmarks: u32,
+    /// The first landmark at which the reader expects the sampled map's particles to be worth less than one.
+    pub prediction: Prediction,
 }
 
 impl Default for Recipe {
     fn default() -> Self {
-        Self { setup: JointMapSetup::default(), landmarks: MOST }
+        Self { setup: JointMapSetup::default(), landmarks: MOST, prediction: Prediction::default() }
+    }
+}
+
+impl Predicts for Recipe {
+    fn prediction(&self) -> &Prediction {
+        &self.prediction
+    }
+
+    fn prediction_mut(&mut self) -> &mut Prediction {
+        &mut self.prediction
     }
 }
 
 impl recipe::Recipe for Recipe {
     fn table() -> Vec<Param<Self>> {
         type P = Param<Recipe>;
+        let [predict, guess, run] = prediction::rows(Asks {
+            predict_help: joint::predict_help(),
+            guess_help: joint::guess_help(),
+            unit: "",
+            range: (1.0, MOST.into(), 1.0),
+            run: [joint::run(), joint::run_help()],
+        });
         vec![
             P::integer("landmarks", joint::landmarks(), "", (1, MOST), field!(landmarks), joint::landmarks_help()),
             P::integer(
@@ -55,6 +75,16 @@ impl recipe::Recipe for Recipe {
                 joint::odometry_help(),
             ),
             P::seed(field!(setup.seed), joint::seed_help()),
+            predict,
+            guess,
+            run,
         ]
+    }
+
+    /// Other filters are another question.
+    fn follow(&mut self, before: &Self) {
+        if self.setup != before.setup && self.prediction == before.prediction {
+            self.prediction.ask_anew();
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{
     chart::{LANDMARKS, chart, place},
+    guess::{GUESS, MIDDLE},
     layout::{ESS, Layout, MAPS, NARROWEST},
     model::JointModel,
     panel::{Drawn, panel},
@@ -9,6 +10,7 @@ use super::{
 use crate::{
     font::{self, Weight},
     panels::Panels,
+    prediction::State,
     scene::{Anchor, Mark, Point, Rect, Role, Scene, text},
     view::{View, whole_step},
     words::joint,
@@ -66,15 +68,22 @@ impl View for JointView {
     }
 
     fn drag(&self, model: &mut JointModel, layout: &Layout, handle: &str, to: Point) {
-        if handle == LANDMARKS {
-            let Rect { x, w, .. } = place(layout).area;
-            model.look_after(f64::from(MOST) * (to[0] - x) / w);
+        let Rect { x, w, .. } = place(layout).area;
+        let landmarks = f64::from(MOST) * (to[0] - x) / w;
+        match handle {
+            LANDMARKS => model.look_after(landmarks),
+            GUESS => model.guess_at(landmarks),
+            _ => (),
         }
     }
 
     fn nudge(&self, model: &mut JointModel, handle: &str, [right, up]: [f64; 2]) {
-        if handle == LANDMARKS {
-            model.look_after(f64::from(model.landmarks()) + whole_step(right + up));
+        let by = whole_step(right + up);
+        match (handle, model.state()) {
+            (LANDMARKS, _) => model.look_after(f64::from(model.landmarks()) + by),
+            (GUESS, State::Placed(guess)) => model.guess_at(guess + by),
+            (GUESS, _) => model.guess_at(MIDDLE + by),
+            _ => (),
         }
     }
 }
@@ -84,13 +93,14 @@ fn removed(scene: &mut Scene, model: &JointModel, layout: &Layout) {
     let [words, bar] = layout.removed;
     let wordings = match model.removed() {
         Some(share) => [joint::RemovedIs { share: &share }.say(), joint::RemovedShort { share: &share }.say()],
+        None if model.hides(SAMPLED) => [joint::removed_hidden().to_string(), joint::removed_hidden().into()],
         None => [joint::removed_soon().to_string(), joint::removed_soon().into()],
     };
     let fits = |wording: &&String| font::measure(wording, 13.0, Weight::SemiBold) <= words.w;
     let wording = wordings.iter().find(fits).unwrap_or(&wordings[1]).clone();
     scene.marks.push(text(words, Anchor::Start, 13.0, Weight::SemiBold, Role::Ink, wording));
     let share = model.filters().removed(model.landmarks());
-    if share.is_finite() {
+    if share.is_finite() && !model.hides(SAMPLED) {
         let left = (bar.w * (1.0 - share).clamp(0.0, 1.0)).max(2.0);
         scene.marks.push(Mark::Fill { area: bar, role: ROLES[0] });
         scene.marks.push(Mark::Fill { area: Rect { w: left, ..bar }, role: ROLES[1] });

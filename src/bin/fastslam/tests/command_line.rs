@@ -104,9 +104,24 @@ fn shares_of_the_doors_merge_to_the_rows_of_one_run_and_to_nothing_with_those_of
 }
 
 #[test]
+fn drawn_landmarks_take_the_particles_one_by_one_and_computed_ones_do_not() {
+    let rows = json("joint --particles 2000 --odometry 0 --seed 3 --json");
+    let rows = rows.as_array().unwrap();
+    assert_eq!(rows.len(), 24);
+    let number = |n: usize, filter: &str, name: &str| rows[n - 1][filter][name].as_f64().unwrap();
+    // Exercise 2: each landmark divides N_eff by the same ρ, and a computed map loses nothing where the path is known.
+    let rho = number(1, "sampled", "predicted") / number(2, "sampled", "predicted");
+    assert!((number(23, "sampled", "predicted") / number(24, "sampled", "predicted") - rho).abs() < 1e-9, "{rho}");
+    assert!((number(1, "sampled", "ess") / (2000.0 / rho) - 1.0).abs() < 0.1);
+    assert!((number(24, "computed", "ess") - 2000.0).abs() < 1e-6);
+    assert!(rows[23]["removed"].as_f64().unwrap() > 0.99);
+    fastslam("joint --particles 50").success().stdout(contains("rho 2.7864, 40 repeats"));
+}
+
+#[test]
 fn bad_arguments_are_refused_in_one_line_with_status_2() {
     for (arguments, said) in [
-        ("", "doors, lap, log, example-log, landmarks, numbers, policies, ring, table or variants"),
+        ("", "doors, joint, lap, log, example-log, landmarks, numbers, policies, ring, table or variants"),
         ("laps", "laps"),
         ("lap --particles 0", "from 1 to 4096"),
         ("lap --particles 1e9", "--particles"),
@@ -137,6 +152,9 @@ fn bad_arguments_are_refused_in_one_line_with_status_2() {
         ("policies --particles 0", "from 1 to 4096"),
         ("policies --threshold -0.5", "from 0 to 1"),
         ("policies --scheme lottery", "systematic, stratified, multinomial or residual"),
+        ("joint --particles 0", "from 1 to 20000"),
+        ("joint --sensor 0", "from 0.1 to 10"),
+        ("joint --odometry -1", "from 0 to 3"),
         ("doors --seeds 0", "--seeds"),
         ("doors --ride-std -1", "from 0 to 20"),
         ("doors --policy neff:2", "F from 0 to 1"),
