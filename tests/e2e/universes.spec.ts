@@ -32,18 +32,39 @@ test('nothing is shown before the guesses are placed, and then they stand beside
   await figure.grasp('guess-aware').focus()
   await page.keyboard.press('ArrowLeft')
   await figure.settled()
-  await expect(figure.box('guess')).toHaveValue('8')
-  await expect(figure.box('guess-aware')).toHaveValue('5')
+  await expect(figure.box('guess')).toHaveValue('10')
+  await expect(figure.box('guess-aware')).toHaveValue('3')
   await figure.toggle('run').click()
   await figure.settled()
-  await expect(figure.sentence).toContainText('The motion prior proposal needs 12; you guessed 8: 33 % too low.')
-  await expect(figure.sentence).toContainText('The measurement-aware proposal needs 1; you guessed 5: 400 % too high.')
+  await expect(figure.sentence).toContainText('The motion prior proposal needs 12; you guessed 10: 17 % too low.')
+  await expect(figure.sentence).toContainText('The measurement-aware proposal needs 1; you guessed 3: 200 % too high.')
   // Another threshold is another question.
   await figure.box('threshold').fill('0.3')
   await figure.box('threshold').press('Enter')
   await figure.settled()
   await expect(figure.box('guess')).toHaveValue('')
   await expect(figure.box('guess-aware')).toHaveValue('')
+})
+
+test('what the sharpest sensor leaves is guessed in the chart, and stands beside the result', async ({ page }) => {
+  const figure = await open(page, 'predict=on')
+  const before = await figure.readouts()
+  expect(before['floor']).toMatch(/^–/)
+  const handle = figure.handle('guess-floor')
+  await handle.scrollIntoViewIfNeeded()
+  const box = (await handle.boundingBox())!
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2]
+  await page.mouse.move(x, y)
+  await page.mouse.down()
+  await page.mouse.move(x, y + 20, { steps: 4 })
+  await page.mouse.up()
+  await figure.settled()
+  const guess = Number(await figure.box('guess-floor').inputValue())
+  expect(guess).toBeLessThan(50)
+  await figure.toggle('run').click()
+  await figure.settled()
+  const floor = Number.parseFloat((await figure.readouts())['floor']!)
+  await expect(figure.sentence).toContainText(new RegExp(`You guessed ${guess} %: (right|\\d+ % too (${guess < floor ? 'low' : 'high'}))`))
 })
 
 test('the laps of a point are run again to the same digits', async ({ page }) => {

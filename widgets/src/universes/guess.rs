@@ -16,8 +16,9 @@ use crate::{
 };
 use fastslam_lab::experiment::ProposalKind;
 
-/// Where the markers stand before there is a guess: in the middle of both axes.
-pub const MIDDLE: [f64; 2] = [6.0, 50.0];
+/// Where the markers stand before there is a guess, apart from each other and away from the ends: the motion prior's, the aware
+/// proposal's, and that of N_eff \[%\].
+pub const MIDDLE: [f64; 3] = [8.0, 4.0, 50.0];
 
 /// Levels of the two markers: they may be of one number.
 const LEVELS: [f64; 2] = [0.62, 0.36];
@@ -29,49 +30,65 @@ pub fn guesses(scene: &mut Scene, model: &UniversesModel, layout: &Layout, taken
         return;
     }
     if layout.share.is_shown() {
+        let judged = prediction.is_shown();
         let guesses = [prediction.guess, model.recipe().guess_aware];
-        for (k, proposal) in PROPOSALS.into_iter().enumerate() {
-            universes(scene, model, &layout.share, taken, (proposal, guesses[k], LEVELS[k]));
-        }
+        let asked = (0..2).filter(|k| !judged || guesses[*k].is_some()).map(|k| Guess {
+            proposal: PROPOSALS[k],
+            guess: guesses[k],
+            at: [
+                share::x(&layout.share.area, guesses[k].unwrap_or(MIDDLE[k])),
+                share::chart(&layout.share).y(LEVELS[k]),
+            ],
+            value: guesses[k].unwrap_or(MIDDLE[k]),
+        });
+        let asked: Vec<Guess> = asked.collect();
+        // All lines first: the words of one may stand on the line of the other.
+        asked.iter().for_each(|guess| guess.line(scene, &layout.share.area));
+        asked.iter().for_each(|guess| guess.mark(scene, &layout.share.area, taken, judged));
     }
     if layout.depletion.is_shown() {
         floor(scene, model, &layout.depletion, taken);
     }
 }
 
-fn universes(
-    scene: &mut Scene,
-    model: &UniversesModel,
-    part: &Part,
-    taken: &mut Vec<Rect>,
-    (proposal, guess, level): (ProposalKind, Option<f64>, f64),
-) {
-    if model.recipe().prediction.is_shown() && guess.is_none() {
-        return;
+/// How many universes a proposal is expected to need.
+struct Guess {
+    proposal: ProposalKind,
+    guess: Option<f64>,
+    /// Its place, and what is placed there first.
+    at: Point,
+    value: f64,
+}
+
+impl Guess {
+    fn line(&self, scene: &mut Scene, area: &Rect) {
+        let [x, _] = self.at;
+        let dash = Some(if self.guess.is_some() { [5.0, 3.0] } else { [2.0, 4.0] });
+        let line = vec![vec![[x, area.y], [x, area.bottom()]]];
+        scene.marks.push(Mark::Lines { lines: line, width: 2.0, dash, role: role(self.proposal) });
     }
-    let (area, chart) = (part.area, share::chart(part));
-    let (x, y) = (share::x(&area, guess.unwrap_or(MIDDLE[0])), chart.y(level));
-    let dash = Some(if guess.is_some() { [5.0, 3.0] } else { [2.0, 4.0] });
-    let line = vec![vec![[x, area.y], [x, area.bottom()]]];
-    scene.marks.push(Mark::Lines { lines: line, width: 2.0, dash, role: role(proposal) });
-    let of = name(proposal);
-    let said = match guess {
-        Some(guess) => {
-            [words::GuessIs { of: &of, guess: &write(guess) }.say(), words::GuessShort { guess: &write(guess) }.say()]
+
+    fn mark(&self, scene: &mut Scene, area: &Rect, taken: &mut Vec<Rect>, judged: bool) {
+        let of = name(self.proposal);
+        let said = match self.guess {
+            Some(guess) => [
+                words::GuessIs { of: &of, guess: &write(guess) }.say(),
+                words::GuessShort { guess: &write(guess) }.say(),
+            ],
+            None => [words::DragHere { of: &of }.say(), of.into()],
+        };
+        marker(scene, taken, area, self.at, &said);
+        if judged {
+            return;
         }
-        None => [words::DragHere { of: &of }.say(), of.into()],
-    };
-    marker(scene, taken, &area, [x, y], &said);
-    if model.recipe().prediction.is_shown() {
-        return;
+        let (name, title, axes): (_, _, &'static [&'static str]) = match self.proposal {
+            ProposalKind::Motion => (GUESS, words::guess_handle(), &[GUESS]),
+            ProposalKind::Improved => (GUESS_AWARE, words::guess_aware(), &[GUESS_AWARE]),
+        };
+        let text = self.guess.map_or(prediction::none().into(), |guess| words::CountOf { m: &write(guess) }.say());
+        let (title, at, value) = (title.into(), self.at, self.value);
+        scene.handles.push(Handle { name, title, at, axes, value, text, hover: None });
     }
-    let (name, title, axes): (_, _, &'static [&'static str]) = match proposal {
-        ProposalKind::Motion => (GUESS, words::guess_handle(), &[GUESS]),
-        ProposalKind::Improved => (GUESS_AWARE, words::guess_aware(), &[GUESS_AWARE]),
-    };
-    let text = guess.map_or(prediction::none().into(), |guess| words::CountOf { m: &write(guess) }.say());
-    let value = guess.unwrap_or(MIDDLE[0]);
-    scene.handles.push(Handle { name, title: title.into(), at: [x, y], axes, value, text, hover: None });
 }
 
 fn floor(scene: &mut Scene, model: &UniversesModel, part: &Part, taken: &mut Vec<Rect>) {
@@ -81,7 +98,7 @@ fn floor(scene: &mut Scene, model: &UniversesModel, part: &Part, taken: &mut Vec
         return;
     }
     let area = part.area;
-    let percent = guess.unwrap_or(MIDDLE[1]);
+    let percent = guess.unwrap_or(MIDDLE[2]);
     let [x, y] = [area.x + 12.0, share::chart(part).y(0.01 * percent)];
     let line = vec![vec![[area.x, y], [area.x + 0.3 * area.w, y]]];
     let dash = Some(if guess.is_some() { [5.0, 3.0] } else { [2.0, 4.0] });

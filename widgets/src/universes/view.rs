@@ -92,8 +92,8 @@ impl View for UniversesView {
                 recipe.universes = TRIED[rank as usize] as u32;
             }
             GUESS => recipe.prediction.place(Some(within(from(recipe.prediction.guess, MIDDLE[0])))),
-            GUESS_AWARE => recipe.guess_aware = Some(within(from(recipe.guess_aware, MIDDLE[0]))),
-            GUESS_FLOOR => recipe.guess_floor = Some(from(recipe.guess_floor, MIDDLE[1]).clamp(0.0, 100.0)),
+            GUESS_AWARE => recipe.guess_aware = Some(within(from(recipe.guess_aware, MIDDLE[1]))),
+            GUESS_FLOOR => recipe.guess_floor = Some(from(recipe.guess_floor, MIDDLE[2]).clamp(0.0, 100.0)),
             _ => (),
         });
     }
