@@ -15,7 +15,7 @@
 //! Columns are kept with a sum of 1, and the logs of what they were divided by apart, so that nothing underflows (Rabiner 1989, section V.A).
 //!
 //! **M**, the map that makes the readings most probable, each counted wherever it may have been taken, in proportion:
-//! m_c⁽ⁱ⁺¹⁾ = (α − 1 + Σ_t γ_t(c) z_t) / (α + β − 2 + Σ_t γ_t(c)), where α and β are those of the Beta: the peak of the expected log
+//! m_c⁽ⁱ⁺¹⁾ = (a − 1 + Σ_t γ_t(c) z_t) / (a + b − 2 + Σ_t γ_t(c)), where Beta(a, b) is what is known: the peak of the expected log
 //! posterior. In a cell where nobody was it is the peak of the Beta.
 //!
 //! ln p(z₁..T | m) + ln p(m) never falls from one iteration to the next (Dempster, Laird, Rubin 1977, theorem 1). Where it ends depends on

@@ -12,6 +12,7 @@
 use crate::baseline::em_mapping::{
     Beta, ByWheels, Corridor, DoorCounts, DoorMap, Expectation, Kernel, Ride, Shift, log_prior,
 };
+use crate::digest::Digest;
 use crate::{WORLD_ODOMETRY, WORLD_SENSOR};
 use fastslam::error::{Range, SettingError};
 use fastslam::execute::Executor;
@@ -342,6 +343,62 @@ impl Cloud {
     pub fn shares(&self, step: usize) -> Option<&[f64]> {
         self.shares.get(step).map(Vec::as_slice)
     }
+}
+
+/// What a log came to, by both methods.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Outcome {
+    /// Where EM mapping ends from [`Guess::default`], and from [`FOLDING`].
+    pub ends: [End; 2],
+    /// Where it ends at best from one of the [`OTHERS`], and how many of them end within half a nat of the best of all.
+    pub best: (f64, u32),
+    /// The share of the particles' weight that has the first two doors come again.
+    pub again: f64,
+}
+
+/// A guess that takes the second door and the third for one, and is else the default.
+pub const FOLDING: Guess = Guess { marks: [2.6, 5.2, 5.2], trust: 1.0 };
+
+/// Both methods on the log of a setting.
+///
+/// # Errors
+/// Where a setting is out of its range.
+pub fn outcome(setup: &LogSetup) -> Result<Outcome, SettingError> {
+    let log = Log::new(setup)?;
+    let last = |guess: &Guess| -> Result<End, SettingError> {
+        let mut iterates = climb(&log, guess.first_map()?, ITERATIONS)?;
+        end(&log, iterates.swap_remove(iterates.len() - 1))
+    };
+    let ends = [last(&Guess::default())?, last(&FOLDING)?];
+    let (mut others, mut cloud) = (Others::default(), Cloud::new(&log)?);
+    while others.pending() > 0 {
+        others.advance(&log)?;
+    }
+    while cloud.pending(&log) > 0 {
+        cloud.advance(&log);
+    }
+    let all = || others.ends().iter().map(|end| end.log_posterior);
+    let best = all().chain(ends.map(|end| end.log_posterior)).fold(f64::MIN, f64::max);
+    let near = all().filter(|found| best - found < 0.5).count() as u32;
+    let again = again(cloud.shares(log.carried).unwrap_or_default());
+    Ok(Outcome { ends, best: (best, near), again })
+}
+
+/// Fingerprint of a whole run: every number that the figure is drawn from.
+pub(super) fn golden() -> Result<Digest, SettingError> {
+    let (mut digest, log) = (Digest::new(), Log::new(&LogSetup::default())?);
+    for Iterate { map, log_likelihood, log_posterior } in climb(&log, Guess::default().first_map()?, 20)? {
+        map.iter().chain([&log_likelihood, &log_posterior]).for_each(|x| digest.f64(*x));
+        let passes = Expectation::of(map, &log.ride)?;
+        digest.f64(passes.path_entropy(&log.ride).unwrap_or(f64::NAN));
+        passes.product(log.carried).iter().flatten().for_each(|x| digest.f64(*x));
+    }
+    let mut cloud = Cloud::new(&log)?;
+    while cloud.pending(&log) > 0 {
+        cloud.advance(&log);
+    }
+    cloud.shares.iter().flatten().for_each(|x| digest.f64(*x));
+    Ok(digest)
 }
 
 #[cfg(test)]

@@ -68,5 +68,6 @@ pub fn golden_traces(executor: &Executor) -> Vec<(&'static str, Digest)> {
         run.by_ref().for_each(drop);
         (name, log::digest(run.mapper()))
     });
-    laps.chain(drives).chain(joints).chain(clouds).chain(policies).chain(logs).collect()
+    let em = core::iter::once(("em", em::golden().expect(VALID)));
+    laps.chain(drives).chain(joints).chain(clouds).chain(policies).chain(logs).chain(em).collect()
 }

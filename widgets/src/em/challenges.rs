@@ -12,7 +12,7 @@ pub(super) fn challenges() -> Vec<Challenge<EmModel>> {
     vec![
         Challenge::new("first", words::chip_first(), "step=0"),
         Challenge::new("fold", words::chip_fold(), "mark-3=5.2").with(words::goal_fold(), MARKS, unfolds),
-        Challenge::new("off", words::chip_off(), "mark-1=1&mark-2=9&mark-3=9.5").with(words::goal_off(), MARKS, folds),
+        Challenge::new("yourself", words::chip_yourself(), "iterations=30").with(words::goal_yourself(), MARKS, folds),
         Challenge::new("blank", words::chip_blank(), "trust=0"),
         Challenge::new("wheels", words::chip_wheels(), "odometry=0.1"),
     ]

@@ -17,7 +17,8 @@ fn range(model: &EmModel) -> [f64; 2] {
     let own = model.iterates().iter().skip(1).map(|iterate| iterate.log_posterior);
     let ends = model.others().ends().iter().map(|end| end.log_posterior);
     let pinned = model.pinned().iter().skip(1).copied();
-    let [low, high] = own.chain(ends).chain(pinned).fold([f64::MAX, f64::MIN], |[low, high], x| [low.min(x), high.max(x)]);
+    let [low, high] =
+        own.chain(ends).chain(pinned).fold([f64::MAX, f64::MIN], |[low, high], x| [low.min(x), high.max(x)]);
     let margin = 0.06 * (high - low).max(1.0);
     [low - margin, high + margin]
 }
@@ -29,7 +30,7 @@ pub fn chart(scene: &mut Scene, model: &EmModel, layout: &Layout) {
     let share = |x: f64| (x - low) / (high - low);
     names(scene, model, layout);
     scene.marks.extend(chart.edges());
-    ticks(scene, layout, [low, high]);
+    ticks(scene, layout, [low, high], model.iterations());
     scene.marks.extend(ghost(&chart, model.pinned().iter().map(|x| share(*x))));
     let values: Vec<f64> = model.iterates().iter().map(|iterate| share(iterate.log_posterior)).collect();
     // What the reader has not come to yet is drawn, but as what it is.
@@ -72,7 +73,7 @@ fn names(scene: &mut Scene, model: &EmModel, layout: &Layout) {
     }
 }
 
-fn ticks(scene: &mut Scene, layout: &Layout, [low, high]: [f64; 2]) {
+fn ticks(scene: &mut Scene, layout: &Layout, [low, high]: [f64; 2], iterations: u32) {
     let chart = layout.chart.area;
     let steps = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0];
     let room = (chart.h / 26.0).floor().max(1.0);
@@ -90,6 +91,8 @@ fn ticks(scene: &mut Scene, layout: &Layout, [low, high]: [f64; 2]) {
     }
     let name = |area, anchor, what: &str| text(area, anchor, SIZE, Weight::Regular, Role::Muted, what);
     scene.marks.push(name(Rect { w: 20.0, ..layout.axis }, Anchor::Start, "0"));
+    let last = Rect { x: chart.right() - 26.0, w: 30.0, ..layout.axis };
+    scene.marks.push(name(last, Anchor::End, &iterations.to_string()));
     let rest = Rect { x: layout.axis.x + 24.0, w: layout.axis.w - 24.0 - 30.0, ..layout.axis };
     scene.marks.push(name(rest, Anchor::Middle, words::iterations()));
 }

@@ -53,7 +53,10 @@ fn peaks(scene: &mut Scene, model: &EmModel, layout: &Layout) {
         }
     }
     if let Some(again) = model.again() {
-        let answers = [(1.0 - again, words::new_doors(), 0.5 * (LENGTH + AGAIN_BELOW)), (again, words::again_doors(), 0.5 * AGAIN_BELOW)];
+        let answers = [
+            (1.0 - again, words::new_doors(), 0.5 * (LENGTH + AGAIN_BELOW)),
+            (again, words::again_doors(), 0.5 * AGAIN_BELOW),
+        ];
         for (share, what, at) in answers {
             let left = area.x + 0.46 * area.w;
             let middle = y(&area, at);

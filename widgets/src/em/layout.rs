@@ -103,7 +103,8 @@ impl Layout {
             let each = ((width - left - map - 3.0 * GAP) / 3.2).floor();
             let product = left + 2.0 * (each + GAP);
             let wider = width - map - GAP - product;
-            strips = [(left, each), (left + each + GAP, each), (product, wider)].map(|(x, w)| Part::new(&header, &row, x, w));
+            strips = [(left, each), (left + each + GAP, each), (product, wider)]
+                .map(|(x, w)| Part::new(&header, &row, x, w));
         } else {
             let (above, two) = (stack.take(passes, HEADER, 0.0), stack.take(passes, STRIPS[1], 0.0));
             header = stack.take(passes, HEADER, 0.0);
@@ -112,7 +113,11 @@ impl Layout {
             let [forward, backward] = [SCALE, SCALE + each + GAP].map(|x| Part::new(&above, &two, x, each));
             strips = [forward, backward, Part::new(&header, &row, left, width - left - map - GAP)];
         }
-        let times = Rect { x: strips[2].area.x, w: strips[2].area.w, ..stack.take(passes, TIMES, if below { PAD } else { 0.0 }) };
+        let times = Rect {
+            x: strips[2].area.x,
+            w: strips[2].area.w,
+            ..stack.take(passes, TIMES, if below { PAD } else { 0.0 })
+        };
         let map = Part::new(&header, &row, width - map, map);
         let guess = Part::new(&header, &row, 0.0, left);
         let guess = Part { area: Rect { x: SCALE, w: GUESS, ..guess.area }, ..guess };

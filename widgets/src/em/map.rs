@@ -12,7 +12,7 @@ use fastslam_lab::experiment::em::{CORRIDOR, DOORS, LENGTH};
 pub fn map(scene: &mut Scene, model: &EmModel, layout: &Layout) {
     let area = layout.map.area;
     let n = &model.doors().len();
-    let wordings = [words::MapOf { n, all: &DOORS }.say(), words::MapShort { n, all: &DOORS }.say()];
+    let wordings = [words::MapOf { n, all: &DOORS }.say(), words::MapShort { n }.say()];
     let fits = |wording: &&String| font::measure(wording, 12.5, Weight::SemiBold) <= layout.map.header.w;
     let wording = wordings.iter().find(fits).unwrap_or(&wordings[1]).clone();
     scene.marks.push(text(layout.map.header, Anchor::Start, 12.5, Weight::SemiBold, Role::Ink, wording));

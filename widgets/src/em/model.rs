@@ -276,6 +276,7 @@ impl Model for EmModel {
     }
 
     fn haunt(&mut self, pinned: Curves) {
-        self.pinned = pinned;
+        // No curve of a corridor of this length is anywhere near.
+        self.pinned = pinned.into_iter().map(|curve| curve.into_iter().map(|x| x.clamp(-1e4, 1e4)).collect()).collect();
     }
 }

@@ -51,7 +51,7 @@ pub fn truth(scene: &mut Scene, model: &EmModel, area: &Rect) {
         [x(area, step, steps) + 0.5 * area.w / (steps + 1) as f64, y(area, CORRIDOR.place(model.log().truth[step]))]
     };
     let lines = vec![(0..carried).map(point).collect(), (carried..=steps).map(point).collect()];
-    scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some([2.0, 3.0]), role: Role::Truth });
+    scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some([1.5, 5.0]), role: Role::Truth });
 }
 
 /// A line where the robot is carried.
@@ -128,7 +128,9 @@ fn times(scene: &mut Scene, model: &EmModel, layout: &Layout) {
     let (area, times) = (&layout.strips[2].area, &layout.times);
     let middle = x(area, model.log().carried, model.log().steps());
     let w = font::measure(words::carried(), SIZE, Weight::Regular) + 0.01;
-    let line = |x: f64, anchor, what: String| text(Rect::new(x, times.y, w, times.h), anchor, SIZE, Weight::Regular, Role::Muted, what);
+    let line = |x: f64, anchor, what: String| {
+        text(Rect::new(x, times.y, w, times.h), anchor, SIZE, Weight::Regular, Role::Muted, what)
+    };
     scene.marks.push(line(middle - 0.5 * w, Anchor::Middle, words::carried().into()));
     scene.marks.push(line(times.x, Anchor::Start, "0".into()));
     scene.marks.push(line(times.right() - w, Anchor::End, model.log().steps().to_string()));
@@ -137,8 +139,8 @@ fn times(scene: &mut Scene, model: &EmModel, layout: &Layout) {
 /// The marks of the first guess, each in a lane of its own so that none hides another.
 pub fn guess(scene: &mut Scene, model: &EmModel, layout: &Layout) {
     let area = layout.guess.area;
-    let title = Rect { x: 0.0, w: layout.guess.header.w - 4.0, ..layout.guess.header };
-    scene.marks.push(text(title, Anchor::End, 12.5, Weight::SemiBold, Role::Accent, words::guess()));
+    let title = Rect { x: 0.0, w: layout.guess.header.w - 8.0, ..layout.guess.header };
+    scene.marks.push(text(title, Anchor::Start, 12.5, Weight::SemiBold, Role::Accent, words::guess()));
     scale(scene, &layout.scale);
     let lane = area.w / 3.0;
     let titles = [words::mark_1(), words::mark_2(), words::mark_3()];

@@ -102,6 +102,7 @@ pub fn describe(model: &EmModel) -> String {
             format!("{done} {answer}")
         }
     };
-    let particles = model.again().map(|again| words::ToldParticles { new: &percent(1.0 - again), again: &percent(again) }.say());
+    let particles =
+        model.again().map(|again| words::ToldParticles { new: &percent(1.0 - again), again: &percent(again) }.say());
     [em].into_iter().chain(particles).collect::<Vec<_>>().join(" ")
 }

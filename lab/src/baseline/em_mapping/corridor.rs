@@ -37,12 +37,12 @@ impl Corridor {
     }
 }
 
-/// Beta(α, β): a density over how often the sensor says *door* in a cell. As if it had said so α − 1 times, and β − 1 times not.
+/// Beta(a, b): a density over how often the sensor says *door* in a cell. As if it had said so a − 1 times, and b − 1 times not.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Beta {
-    /// α, more than 1 and at most 1000.
+    /// a, more than 1 and at most 1000.
     pub yes: f64,
-    /// β, more than 1 and at most 1000.
+    /// b, more than 1 and at most 1000.
     pub no: f64,
 }
 
@@ -54,22 +54,22 @@ impl Beta {
         range.check("known.no", self.no).map(drop)
     }
 
-    /// What comes of it when the sensor has said *door* so often, and so often not: Beta(α + yes, β + no).
+    /// What comes of it when the sensor has said *door* so often, and so often not: Beta(a + yes, b + no).
     pub fn after(self, yes: f64, no: f64) -> Self {
         Self { yes: self.yes + yes, no: self.no + no }
     }
 
-    /// How probably the next reading says *door*: α / (α + β).
+    /// How probably the next reading says *door*: a / (a + b).
     pub fn mean(self) -> f64 {
         self.yes / (self.yes + self.no)
     }
 
-    /// Where the density is highest: (α − 1) / (α + β − 2).
+    /// Where the density is highest: (a − 1) / (a + b − 2).
     pub fn mode(self) -> f64 {
         (self.yes - 1.0) / (self.yes + self.no - 2.0)
     }
 
-    /// Log of the density at `p` but for a constant \[nats\]: (α − 1) ln p + (β − 1) ln (1 − p).
+    /// Log of the density at `p` but for a constant \[nats\]: (a − 1) ln p + (b − 1) ln (1 − p).
     pub fn log_density(self, p: f64) -> f64 {
         (self.yes - 1.0) * ops::ln(p) + (self.no - 1.0) * ops::ln(1.0 - p)
     }

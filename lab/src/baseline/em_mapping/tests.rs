@@ -28,10 +28,12 @@ fn paths(ride: &Ride, map: &[f64]) -> Vec<(Vec<usize>, f64)> {
         let see: Vec<f64> = ride.likelihood(step, map).collect();
         let longer = paths.iter().flat_map(|(path, p)| {
             let here = path[path.len() - 1];
-            (0..map.len()).map(|to| {
-                let path = path.iter().copied().chain([to]).collect();
-                (path, p * ride.kernel(step).probability(here, to) * see[to])
-            }).collect::<Vec<_>>()
+            (0..map.len())
+                .map(|to| {
+                    let path = path.iter().copied().chain([to]).collect();
+                    (path, p * ride.kernel(step).probability(here, to) * see[to])
+                })
+                .collect::<Vec<_>>()
         });
         paths = longer.filter(|(_, p)| *p > 0.0).collect();
     }
@@ -173,7 +175,8 @@ fn the_particles_evidence_is_that_of_all_paths_with_the_map_averaged_over() {
         .executor(Executor::Serial)
         .build()
         .unwrap();
-    let log_evidence: f64 = (1..=ride.steps()).map(|t| filter.step(ride.kernel(t), &ride.says_door(t)).log_evidence).sum();
+    let log_evidence: f64 =
+        (1..=ride.steps()).map(|t| filter.step(ride.kernel(t), &ride.says_door(t)).log_evidence).sum();
     assert!((log_evidence - ops::ln(evidence)).abs() < 0.055, "{log_evidence} and not {}", ops::ln(evidence));
 }
 
