@@ -10,7 +10,7 @@ use crate::{
 pub(super) fn challenges() -> Vec<Challenge<EmModel>> {
     const MARKS: &str = "mark-1 mark-2 mark-3";
     vec![
-        Challenge::new("first", words::chip_first(), "step=0"),
+        Challenge::new("first", words::chip_first(), "iterations=10&step=0"),
         Challenge::new("fold", words::chip_fold(), "mark-3=5.2").with(words::goal_fold(), MARKS, unfolds),
         Challenge::new("yourself", words::chip_yourself(), "iterations=30").with(words::goal_yourself(), MARKS, folds),
         Challenge::new("blank", words::chip_blank(), "trust=0"),

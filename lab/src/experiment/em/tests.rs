@@ -121,5 +121,8 @@ fn a_setting_out_of_range_is_refused_by_name() {
 fn on_the_log_of_the_figure_two_decimetres_decide() {
     let log = Log::new(&LogSetup::default()).unwrap();
     let folds = |third| ended(&log, &Guess { marks: [2.6, 5.2, third], trust: 1.0 }).0.again > 0.5;
-    assert_eq!([5.2, 6.4, 7.6, 7.7, 8.0, 8.3, 8.4, 9.5].map(folds), [true, true, true, false, false, false, true, true]);
+    assert_eq!(
+        [5.2, 6.4, 7.6, 7.7, 8.0, 8.3, 8.4, 9.5].map(folds),
+        [true, true, true, false, false, false, true, true]
+    );
 }
