@@ -12,9 +12,9 @@ use fastslam_lab::experiment::em::{CORRIDOR, DOORS, LENGTH};
 pub fn map(scene: &mut Scene, model: &EmModel, layout: &Layout) {
     let area = layout.map.area;
     let n = &model.doors().len();
-    let wordings = [words::MapOf { n, all: &DOORS }.say(), words::MapShort { n }.say()];
+    let wordings = [words::MapOf { n, all: &DOORS }.say(), words::MapShort { n }.say(), words::MapCount { n }.say()];
     let fits = |wording: &&String| font::measure(wording, 12.5, Weight::SemiBold) <= layout.map.header.w;
-    let wording = wordings.iter().find(fits).unwrap_or(&wordings[1]).clone();
+    let wording = wordings.iter().find(fits).unwrap_or(&wordings[2]).clone();
     scene.marks.push(text(layout.map.header, Anchor::Start, 12.5, Weight::SemiBold, Role::Ink, wording));
     let height = area.h * CORRIDOR.cell_size / LENGTH;
     for (cell, door) in model.shown().map.iter().enumerate() {
