@@ -64,7 +64,7 @@ pub fn carried(scene: &mut Scene, model: &EmModel, area: &Rect) {
 /// Names of places left of an area.
 pub fn scale(scene: &mut Scene, area: &Rect) {
     for metres in [0, 2, 4, 6, 8, 10] {
-        let middle = y(area, f64::from(metres)).clamp(area.y + 6.0, area.bottom() - 6.0);
+        let middle = y(area, f64::from(metres)).clamp(area.y + 7.0, area.bottom() - 7.0);
         if metres % 4 != 0 && area.h < 100.0 {
             continue;
         }
