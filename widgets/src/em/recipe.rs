@@ -106,6 +106,6 @@ mod tests {
             recipe.put(1, place);
             recipe.marks[1]
         };
-        assert_eq!([put(3.14), put(-4.0), put(1e9), put(0.29)], [3.1, 0.0, 10.0, 0.3]);
+        assert_eq!([put(3.12), put(-4.0), put(1e9), put(0.29)], [3.1, 0.0, 10.0, 0.3]);
     }
 }

@@ -157,7 +157,7 @@ fn the_particles_evidence_is_that_of_all_paths_with_the_map_averaged_over() {
     let evidence: f64 = all
         .iter()
         .map(|(path, p)| {
-            let mut known = vec![KNOWN; 4];
+            let mut known = [KNOWN; 4];
             let mut readings = 1.0;
             for step in 1..=ride.steps() {
                 let (says, beta) = (ride.says_door(step), &mut known[path[step]]);
