@@ -13,6 +13,7 @@ const RUNS: [string, string, [string, string], RegExp][] = [
   ['fastslam-doors', 'particles=100&step=50', ['ride', '2'], /^Pinned at step 50: Ride σ 4 m \(now 2 m\)$/],
   ['fastslam-proposal', 'samples=200', ['range-std', '0.3'], /^Pinned: Range noise σ 0.05 m \(now 0.3 m\)$/],
   ['fastslam-joint', 'particles=100', ['sensor', '2'], /^Pinned: Sensor noise σ 1 × \(now 2 ×\)$/],
+  ['fastslam-em', 'particles=100&step=200', ['sensor', '15'], /^Pinned at step 200: Sensor errors 5 % \(now 15 %\)$/],
 ]
 
 const card = (figure: Figure): Locator => figure.element.locator('[part=pinned]')

@@ -13,6 +13,8 @@ pub mod conditioning;
 pub mod decimal;
 #[cfg(feature = "page")]
 pub mod doors;
+#[cfg(feature = "page")]
+pub mod em;
 pub mod export;
 pub mod figure;
 pub mod font;

@@ -141,3 +141,11 @@ fn twenty_times_the_particles_buy_three_landmarks_and_a_blunt_sensor_all() {
     let saved = ["sensor=3", "sensor=3.3"].map(|query| done("blunt", query));
     assert_eq!(saved, [false, true]);
 }
+
+/// What the caption of EM mapping says: a guess of two doors folds the corridor, a mark that is dragged unfolds it, and the other way round.
+#[test]
+fn a_mark_folds_the_corridor_of_em_mapping_and_unfolds_it() {
+    let done = |name, query: &str| chip("fastslam-em", name, query).done;
+    assert!(!done("fold", "mark-3=5.2") && done("fold", "mark-3=8"));
+    assert!(!done("yourself", "iterations=30") && done("yourself", "iterations=30&mark-3=5.2"));
+}

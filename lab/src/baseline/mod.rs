@@ -1,6 +1,7 @@
 //! What a particle filter approximates, computed without particles: the oracle of tests and of figures.
 
 mod ekf;
+pub mod em_mapping;
 pub mod joint;
 pub mod one_step;
 pub mod sampled_map;

@@ -2,6 +2,7 @@
 
 pub mod conditioning;
 pub mod doors;
+pub mod em;
 pub mod hill;
 pub mod joint_map;
 pub mod landmarks;
@@ -71,5 +72,6 @@ pub fn golden_traces(executor: &Executor) -> Vec<(&'static str, Digest)> {
         run.by_ref().for_each(drop);
         (name, log::digest(run.mapper()))
     });
-    laps.chain(drives).chain(joints).chain(clouds).chain(maps).chain(policies).chain(logs).collect()
+    let em = core::iter::once(("em", em::golden().expect(VALID)));
+    laps.chain(drives).chain(joints).chain(clouds).chain(maps).chain(policies).chain(logs).chain(em).collect()
 }

@@ -38,6 +38,7 @@ const RESAMPLING: &str = "fastslam-resampling";
 const DOORS: &str = "fastslam-doors";
 const UNIVERSES: &str = "fastslam-universes";
 const JOINT: &str = "fastslam-joint";
+const EM: &str = "fastslam-em";
 /// Its pictures and readouts are those of [`TINY_LOG`], mapped to its end.
 pub const LOG: &str = "fastslam-log";
 
@@ -133,6 +134,12 @@ pub const PICTURES: &[Picture] = &[
     picture(JOINT, "joint-judged", "odometry=0&predict=on&guess=10&run=on", 340, 2.0, "light"),
     picture(JOINT, "joint-phone", "landmarks=3&particles=200&sensor=2", 340, 2.0, "light"),
     picture(JOINT, "joint-tiny", "particles=1&odometry=3", 240, 1.0, "contrast-dark"),
+    picture(EM, "fastslam-em-light", "", 800, 1.5, "light"),
+    picture(EM, "fastslam-em-dark", "", 800, 1.5, "dark"),
+    picture(EM, "em-fold", "mark-3=5.2", 692, 1.0, "light"),
+    picture(EM, "em-backward", "step=6", 1112, 1.0, "dark"),
+    picture(EM, "em-phone", "step=13&seed=2&sensor=20", 340, 2.0, "light"),
+    picture(EM, "em-tiny", "step=0&particles=1&trust=50", 240, 1.0, "contrast-dark"),
 ];
 
 /// What a filter does: one sighting for both particles, from two poses; and the landmark's ellipse is turned.
@@ -238,6 +245,9 @@ pub const SETUPS: &[(&str, &str)] = &[
     (JOINT, ""),
     (JOINT, "landmarks=4&particles=2500&sensor=0.5&odometry=2&seed=7"),
     (JOINT, "landmarks=1&particles=1&sensor=5&odometry=0"),
+    (EM, ""),
+    (EM, "mark-3=5.2&iterations=40&step=57"),
+    (EM, "odometry=0.2&sensor=30&seed=5&particles=300&trust=40&mark-1=0&mark-2=10&mark-3=4.4"),
 ];
 
 /// Both proposals guessed, and the depletion.

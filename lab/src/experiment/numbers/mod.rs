@@ -4,6 +4,7 @@
 //! the file that the chapter's prose takes its numbers from by key; `tests/portability` and `tests/browser` run them again and
 //! compare bits; the page runs one cell of the lap table in front of the reader ([`LapCell`]).
 
+mod em;
 mod joint;
 mod landmarks;
 mod lap;
@@ -179,10 +180,16 @@ impl Group {
 
 /// Every recipe of the chapter.
 pub fn recipes() -> Vec<Recipe> {
-    [lap::recipes(), ring::recipes(), policies::recipes(), proposals::recipes(), joint::recipes(), landmarks::recipes()]
-        .into_iter()
-        .flatten()
-        .collect()
+    let all = [
+        lap::recipes(),
+        ring::recipes(),
+        policies::recipes(),
+        proposals::recipes(),
+        joint::recipes(),
+        landmarks::recipes(),
+        em::recipes(),
+    ];
+    all.into_iter().flatten().collect()
 }
 
 #[cfg(test)]

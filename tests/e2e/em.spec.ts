@@ -1,0 +1,92 @@
+// What a reader does with EM mapping beside the particles: every claim of the caption, in the page alone, by mouse and by keyboard.
+import AxeBuilder from '@axe-core/playwright'
+import type { Page } from '@playwright/test'
+import { expect, test } from './fixtures'
+import { Figure } from './figure'
+
+test.use({ contextOptions: { reducedMotion: 'reduce' } })
+
+const open = (page: Page, query?: string) => new Figure(page, 'fastslam-em').alone(query && `#fastslam-em?${query}`)
+
+const number = async (figure: Figure, name: string) => Number.parseFloat((await figure.readouts())[name]!)
+
+const chip = async (figure: Figure, name: RegExp) => {
+  await figure.element.getByRole('button', { name }).first().click()
+  await figure.settled()
+}
+
+test('as it opens, the map has every door and the particles hold both answers', async ({ page }) => {
+  const figure = await open(page)
+  await expect(figure.sentence).toContainText('After iteration 20 nothing changes any more: the map has 3 doors')
+  await expect(figure.sentence).toContainText('The particles keep both answers')
+  expect(await number(figure, 'put_down')).toBeCloseTo(3.9, 1)
+  expect(await number(figure, 'again_em')).toBe(0)
+  expect(await number(figure, 'again')).toBeGreaterThan(5)
+  expect(await number(figure, 'log_posterior')).toBeGreaterThanOrEqual(await number(figure, 'best'))
+  const found = await new AxeBuilder({ page }).include('fastslam-em').analyze()
+  expect(found.violations.map(({ id }) => id)).toEqual([])
+})
+
+test('both passes fill from their ends, step by step, and nothing falls', async ({ page }) => {
+  const figure = await open(page)
+  await chip(figure, /From the first guess/)
+  await expect(figure.sentence).toContainText('The first guess: a map with 3 doors')
+  let before = await number(figure, 'log_posterior')
+  for (const [steps, what] of [[1, 'forward'], [4, 'backward'], [4, 'forward times backward'], [1, 'After iteration 1']] as const) {
+    for (let i = 0; i < steps; i++) await figure.step.click()
+    await figure.settled()
+    await expect(figure.sentence).toContainText(what)
+    const now = await number(figure, 'log_posterior')
+    expect(now).toBeGreaterThanOrEqual(before)
+    before = now
+  }
+  expect(await number(figure, 'iteration')).toBe(1)
+})
+
+test('a folding guess ends lower, and one mark unfolds it, by keyboard and by mouse', async ({ page }) => {
+  const figure = await open(page)
+  const right = await number(figure, 'log_posterior')
+  await chip(figure, /A guess that folds the corridor/)
+  await expect(figure.sentence).toContainText('the map has 2 doors')
+  await expect(figure.sentence).toContainText('passed the same two doors again')
+  expect(await number(figure, 'again_em')).toBe(100)
+  expect(await number(figure, 'log_posterior')).toBeLessThan(right - 5)
+  await figure.openSettings()
+  await figure.grasp('mark-3').focus()
+  for (let i = 0; i < 3; i++) await page.keyboard.press('Shift+ArrowUp')
+  await figure.settled()
+  await expect(figure.box('mark-3')).toHaveValue('8.2')
+  expect(await number(figure, 'log_posterior')).toBe(right)
+  await expect(figure.element.getByRole('button', { name: 'A guess that folds the corridor (reached)' })).toBeVisible()
+  // And back by the mouse, onto the second mark.
+  const [third, second] = [await figure.handle('mark-3').boundingBox(), await figure.handle('mark-2').boundingBox()]
+  const middle = (box: typeof third) => [box!.x + box!.width / 2, box!.y + box!.height / 2] as const
+  await page.mouse.move(...middle(third))
+  await page.mouse.down()
+  await page.mouse.move(middle(third)[0], middle(second)[1], { steps: 4 })
+  await page.mouse.up()
+  await figure.settled()
+  expect(await number(figure, 'doors')).toBe(2)
+})
+
+test('with wheels twice as bad, EM mapping is sure of what the particles are not', async ({ page }) => {
+  const figure = await open(page)
+  await chip(figure, /Wheels twice as bad/)
+  expect(await number(figure, 'again_em')).toBe(100)
+  const again = await number(figure, 'again')
+  expect(again).toBeGreaterThan(5)
+  expect(again).toBeLessThan(95)
+  await chip(figure, /Begin with a blank map/)
+  expect(await number(figure, 'doors')).toBe(3)
+})
+
+test('a link reopens the same numbers, and a mark out of the corridor is refused by name', async ({ page }) => {
+  const figure = await open(page, 'mark-3=5.2&step=57&particles=200')
+  const before = await figure.readouts()
+  const link = await figure.state()
+  await page.goto('about:blank')
+  const again = await open(page, link)
+  expect(await again.readouts()).toEqual(before)
+  await again.element.evaluate(element => element.setAttribute('mark-1', '11'))
+  await expect(again.alert).toContainText('mark-1 = "11": must be')
+})

@@ -1,0 +1,199 @@
+//! Where the parts of the figure stand: guess, passes, product and map on one axis, the corridor; below, what never falls, and the particles.
+
+use crate::{
+    panels::Panels,
+    scene::{Rect, Stack},
+    view,
+};
+
+/// Names of the panels: one iteration of EM mapping, what its maps are worth, and the particles on the same log.
+pub const PASSES: &str = "passes";
+/// See [`PASSES`].
+pub const LIKELIHOOD: &str = "likelihood";
+/// See [`PASSES`].
+pub const PARTICLES: &str = "particles";
+
+/// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
+pub const NARROWEST: f64 = 300.0;
+
+/// From this width on \[css px\], all of an iteration stands in a row.
+pub const WIDE: f64 = 560.0;
+
+const HEADER: f64 = 22.0;
+/// Names of metres, and the marks of the guess.
+const SCALE: f64 = 22.0;
+const GUESS: f64 = 42.0;
+const GAP: f64 = 10.0;
+const PAD: f64 = 8.0;
+/// Names of times below a strip, and of iterations below the chart.
+const TIMES: f64 = 15.0;
+/// Height of the strips in a row; on a phone, of the two passes, and of their product.
+const STRIPS: [f64; 3] = [196.0, 62.0, 112.0];
+/// Height of chart and particles beside each other; on a phone, of either.
+const BELOW: [f64; 3] = [128.0, 52.0, 74.0];
+/// Left of the chart, for its numbers, and right of it, for where other guesses end.
+const NUMBERS: f64 = 40.0;
+pub const ENDS: f64 = 24.0;
+
+/// A part with its name above.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Part {
+    /// What it is.
+    pub header: Rect,
+    /// What is drawn.
+    pub area: Rect,
+}
+
+impl Part {
+    fn new(header: &Rect, row: &Rect, x: f64, w: f64) -> Self {
+        let [header, area] = [header, row].map(|of| Rect { x, w, ..*of });
+        Self { header, area }
+    }
+}
+
+/// The parts of the figure \[css px\].
+#[derive(Clone, PartialEq, Debug)]
+pub struct Layout {
+    /// Which panels are shown.
+    pub shown: Panels,
+    /// Whether there is room for long names.
+    pub wide: bool,
+    /// The forward pass, the backward one, and their product.
+    pub strips: [Part; 3],
+    /// Names of places, left of the marks.
+    pub scale: Rect,
+    /// The marks of the first guess, left of what is made of them.
+    pub guess: Part,
+    /// The map, right of the product.
+    pub map: Part,
+    /// Names of times, below the product.
+    pub times: Rect,
+    /// What never falls, over the iterations.
+    pub chart: Part,
+    /// Its numbers.
+    pub numbers: Rect,
+    /// Names of iterations below it.
+    pub axis: Rect,
+    /// Where the particles were, by their paths.
+    pub cloud: Part,
+    /// Names of places left of them.
+    pub cloud_scale: Rect,
+    /// Where they were right after the robot was carried.
+    pub peaks: Part,
+    /// Of the whole figure.
+    pub height: f64,
+}
+
+impl Layout {
+    /// Of some panels, for a figure of this width: those that are not shown have no height.
+    pub fn of(width: f64, shown: &Panels) -> Self {
+        let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
+        let wide = width >= WIDE;
+        let [passes, likelihood, particles] = [PASSES, LIKELIHOOD, PARTICLES].map(|name| shown.has(name));
+        let below = likelihood || particles;
+        let mut stack = Stack::new(0.0, width);
+        let map = if wide { (0.13 * width).clamp(84.0, 130.0) } else { 76.0 }.floor();
+        let left = SCALE + GUESS;
+        let strips;
+        let header;
+        let row;
+        if wide {
+            header = stack.take(passes, HEADER, 0.0);
+            row = stack.take(passes, STRIPS[0], 0.0);
+            let each = ((width - left - map - 3.0 * GAP) / 3.2).floor();
+            let product = left + 2.0 * (each + GAP);
+            let wider = width - map - GAP - product;
+            strips = [(left, each), (left + each + GAP, each), (product, wider)]
+                .map(|(x, w)| Part::new(&header, &row, x, w));
+        } else {
+            let (above, two) = (stack.take(passes, HEADER, 0.0), stack.take(passes, STRIPS[1], 0.0));
+            header = stack.take(passes, HEADER, 0.0);
+            row = stack.take(passes, STRIPS[2], 0.0);
+            let each = (0.5 * (width - SCALE - GAP)).floor();
+            let [forward, backward] = [SCALE, SCALE + each + GAP].map(|x| Part::new(&above, &two, x, each));
+            strips = [forward, backward, Part::new(&header, &row, left, width - left - map - GAP)];
+        }
+        let times = Rect {
+            x: strips[2].area.x,
+            w: strips[2].area.w,
+            ..stack.take(passes, TIMES, if below { PAD } else { 0.0 })
+        };
+        let map = Part::new(&header, &row, width - map, map);
+        let guess = Part::new(&header, &row, 0.0, left);
+        let guess = Part { area: Rect { x: SCALE, w: GUESS, ..guess.area }, ..guess };
+        let scale = Rect { w: SCALE, ..row };
+
+        let half = if wide && likelihood && particles { (0.5 * (width - 2.0 * GAP)).floor() } else { width };
+        let top = stack.y;
+        let chart_header = stack.take(likelihood, HEADER, 0.0);
+        let chart_row = stack.take(likelihood, BELOW[usize::from(!wide)], 0.0);
+        let axis = stack.take(likelihood, TIMES, if wide { 0.0 } else { PAD });
+        let bottom = stack.y;
+        let chart = Part::new(&chart_header, &chart_row, 0.0, half);
+        let numbers = Rect { w: NUMBERS, ..chart_row };
+        let chart = Part { area: Rect { x: NUMBERS, w: half - NUMBERS - ENDS, ..chart.area }, ..chart };
+        let axis = Rect { x: chart.area.x, w: chart.area.w, ..axis };
+
+        let beside = wide && likelihood && particles;
+        if beside {
+            stack.y = top;
+        }
+        let x = if beside { half + 2.0 * GAP } else { 0.0 };
+        let cloud_header = stack.take(particles, HEADER, 0.0);
+        let cloud_row = stack.take(particles, BELOW[if wide { 0 } else { 2 }], 0.0);
+        let cloud_scale = Rect { x, w: SCALE, ..cloud_row };
+        // Below the map, the peaks are as wide as that.
+        let w = map.area.w.max(0.3 * (width - x)).floor();
+        let cloud_x = x + SCALE;
+        let cloud = Part::new(&cloud_header, &cloud_row, cloud_x, width - w - GAP - cloud_x);
+        let cloud = Part { header: Rect { x, w: cloud.area.right() - x, ..cloud.header }, ..cloud };
+        let peaks = Part::new(&cloud_header, &cloud_row, width - w, w);
+        let height = bottom.max(stack.y).ceil();
+        let shown = shown.clone();
+        Self { shown, wide, strips, scale, guess, map, times, chart, numbers, axis, cloud, cloud_scale, peaks, height }
+    }
+
+    /// All parts.
+    pub fn parts(&self) -> Vec<Rect> {
+        let Self { strips: [forward, backward, product], guess, map, chart, cloud, peaks, .. } = self;
+        let parts = [forward, backward, product, map, chart, cloud, peaks, guess];
+        let parts = parts.into_iter().flat_map(|part| [part.header, part.area]);
+        parts.chain([self.scale, self.times, self.numbers, self.axis, self.cloud_scale]).collect()
+    }
+}
+
+impl view::Layout for Layout {
+    fn height(&self) -> f64 {
+        self.height
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::assert_apart;
+
+    const PANELS: [&str; 3] = [PASSES, LIKELIHOOD, PARTICLES];
+
+    #[test]
+    fn parts_lie_inside_the_figure_and_never_overlap() {
+        for names in ["", PASSES, LIKELIHOOD, PARTICLES, "likelihood particles", "passes particles"] {
+            let panels = Panels::named(names, &PANELS).unwrap();
+            for width in (300..2000).step_by(7).map(f64::from) {
+                let layout = Layout::of(width, &panels);
+                let parts: Vec<Rect> = layout.parts().into_iter().filter(|part| part.h > 0.0).collect();
+                assert_apart(&parts, &Rect::new(0.0, 0.0, width, layout.height));
+                let last = parts.iter().map(Rect::bottom).fold(0.0, f64::max);
+                assert!(layout.height - last <= 8.0, "{names} at {width}: nothing is left below");
+            }
+        }
+    }
+
+    #[test]
+    fn the_picture_and_its_controls_are_on_one_screen() {
+        for (width, most) in [(692.0, 452.0), (600.0, 452.0), (352.0, 452.0), (322.0, 452.0), (1112.0, 610.0)] {
+            let height = Layout::of(width, &Panels::default()).height;
+            assert!(height <= most, "{width}: {height}");
+        }
+    }
+}

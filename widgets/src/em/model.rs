@@ -1,0 +1,282 @@
+//! EM mapping as a deterministic state: the log, all maps up to the last iteration, and which part of which iteration is shown.
+
+use super::{
+    challenges,
+    recipe::{END, FILLS, Recipe, TICKS},
+    told,
+};
+use crate::{
+    challenge::Challenge,
+    ghost::{self, Curves},
+    model::{Declared, FigureError, Model, Readout, Series},
+    words::em,
+};
+use fastslam_lab::baseline::em_mapping::Expectation;
+use fastslam_lab::experiment::em::{self as lab, CORRIDOR, Cloud, Iterate, Log, Others};
+
+/// An iteration that gains less than this \[nats\] has converged.
+pub const STILL: f64 = 0.01;
+
+/// What is shown of an iteration.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Now {
+    /// The iteration, from 0 on: its map is the one that is taken for true.
+    pub iteration: u32,
+    /// Steps of it that are done, of [`TICKS`].
+    pub ticks: u32,
+}
+
+impl Now {
+    fn at(step: u32) -> Self {
+        match step.checked_sub(1) {
+            None => Self { iteration: 0, ticks: 0 },
+            Some(before) => Self { iteration: before / TICKS, ticks: before % TICKS + 1 },
+        }
+    }
+
+    /// Columns of the forward pass that are done, and of the backward one, of so many.
+    pub fn columns(self, all: usize) -> [usize; 2] {
+        let done = [self.ticks, self.ticks.saturating_sub(FILLS)];
+        done.map(|ticks| (all * ticks.min(FILLS) as usize).div_ceil(FILLS as usize))
+    }
+
+    /// Whether the two are multiplied.
+    pub fn has_product(self) -> bool {
+        self.ticks > 2 * FILLS
+    }
+
+    /// Whether its map is made of that.
+    pub fn has_map(self) -> bool {
+        self.ticks == TICKS
+    }
+}
+
+/// EM mapping, and the particles.
+pub struct EmModel {
+    recipe: Recipe,
+    log: Log,
+    iterates: Vec<Iterate>,
+    /// Both passes of the iteration that is shown.
+    passes: Expectation,
+    /// Entropy of the path by them \[nats\].
+    entropy: f64,
+    cloud: Cloud,
+    others: Others,
+    /// Of the run that is pinned: what never falls, by iterations.
+    pinned: Curves,
+}
+
+impl Default for EmModel {
+    fn default() -> Self {
+        let recipe = Recipe::default();
+        Self::new(recipe).unwrap_or_else(|error| unreachable!("the default is in range: {error}"))
+    }
+}
+
+fn climb(recipe: &Recipe, log: &Log) -> Result<Vec<Iterate>, FigureError> {
+    Ok(lab::climb(log, recipe.guess().first_map()?, recipe.iterations)?)
+}
+
+impl EmModel {
+    fn new(recipe: Recipe) -> Result<Self, FigureError> {
+        let log = Log::new(&recipe.log())?;
+        let iterates = climb(&recipe, &log)?;
+        let passes = Expectation::new(iterates[0].map.clone(), &log.ride)?;
+        let (cloud, entropy) = (Cloud::new(&log)?, 0.0);
+        let (others, pinned) = Default::default();
+        let mut model = Self { recipe, log, iterates, passes, entropy, cloud, others, pinned };
+        model.localise()?;
+        Ok(model)
+    }
+
+    /// Runs both passes of the iteration that is shown.
+    fn localise(&mut self) -> Result<(), FigureError> {
+        let map = self.iterates[self.now().iteration as usize].map.clone();
+        self.passes = Expectation::of(map, &self.log.ride)?;
+        self.entropy = self.passes.path_entropy(&self.log.ride).unwrap_or(f64::NAN);
+        Ok(())
+    }
+
+    /// What is shown of which iteration.
+    pub fn now(&self) -> Now {
+        Now::at(self.step())
+    }
+
+    /// What all read.
+    pub fn log(&self) -> &Log {
+        &self.log
+    }
+
+    /// The map shown, and what it is worth: the one that is taken for true, until there is the next.
+    pub fn shown(&self) -> &Iterate {
+        &self.iterates[self.rank() as usize]
+    }
+
+    /// How many iterations the map shown is from the first guess.
+    pub fn rank(&self) -> u32 {
+        self.now().iteration + u32::from(self.now().has_map())
+    }
+
+    /// Number of iterations that are made.
+    pub fn iterations(&self) -> u32 {
+        self.recipe.iterations
+    }
+
+    /// All maps, from the first guess on.
+    pub fn iterates(&self) -> &[Iterate] {
+        &self.iterates
+    }
+
+    /// Both passes of the iteration shown, whole.
+    pub fn passes(&self) -> &Expectation {
+        &self.passes
+    }
+
+    /// Entropy of the path \[nats\], once the two passes are multiplied.
+    pub fn entropy(&self) -> Option<f64> {
+        self.now().has_product().then_some(self.entropy)
+    }
+
+    /// Where EM mapping believes the robot to have been put down \[m\], in the mean, and the share of that which has the first two doors
+    /// come again; once the two passes are multiplied.
+    pub fn put_down(&self) -> Option<(f64, f64)> {
+        let shares = self.passes.product(self.log.carried).filter(|_| self.now().has_product())?;
+        let mean = shares.iter().enumerate().map(|(cell, share)| share * CORRIDOR.place(cell)).sum();
+        Some((mean, lab::again(&shares)))
+    }
+
+    /// Where doors are guessed to be \[m\].
+    pub fn marks(&self) -> [f64; lab::DOORS] {
+        self.recipe.guess().marks
+    }
+
+    /// The middles of the doors of the map shown \[m\].
+    pub fn doors(&self) -> Vec<f64> {
+        lab::doors(&self.shown().map)
+    }
+
+    /// Whether the iteration that led to the map shown gained next to nothing.
+    pub fn is_still(&self) -> bool {
+        let rank = self.rank() as usize;
+        rank > 0 && self.iterates[rank].log_posterior - self.iterates[rank - 1].log_posterior < STILL
+    }
+
+    /// Whether the last map is shown.
+    pub fn at_end(&self) -> bool {
+        self.step() == self.step_count()
+    }
+
+    /// The filter with particles.
+    pub fn cloud(&self) -> &Cloud {
+        &self.cloud
+    }
+
+    /// The share of the particles' weight that has the first two doors come again; once they have made all steps.
+    pub fn again(&self) -> Option<f64> {
+        self.cloud.shares(self.log.carried).map(lab::again)
+    }
+
+    /// Where other guesses end.
+    pub fn others(&self) -> &Others {
+        &self.others
+    }
+
+    /// What never falls, of the run that is pinned.
+    pub fn pinned(&self) -> &[f64] {
+        ghost::curve(&self.pinned, 0)
+    }
+
+    /// Moves a mark \[m\].
+    pub fn put(&mut self, rank: usize, place: f64) {
+        if place.is_finite() {
+            self.change(|recipe| recipe.put(rank, place));
+        }
+    }
+}
+
+impl Declared for EmModel {
+    type Recipe = Recipe;
+    const TITLE: &'static str = em::TITLE;
+
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
+
+    fn recipe(&self) -> &Recipe {
+        &self.recipe
+    }
+
+    fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
+        if recipe.log() != *self.log.setup() {
+            let pinned = core::mem::take(&mut self.pinned);
+            *self = Self { pinned, ..Self::new(recipe)? };
+            return Ok(());
+        }
+        let other = recipe.guess() != self.recipe.guess() || recipe.iterations != self.recipe.iterations;
+        if other {
+            self.iterates = climb(&recipe, &self.log)?;
+        }
+        self.recipe = recipe;
+        self.localise()
+    }
+}
+
+impl Model for EmModel {
+    /// Who asks for the last step stays at the end when that moves.
+    fn seek(&mut self, step: u32) {
+        let step = if step >= self.step_count() { END } else { step };
+        self.change(|recipe| recipe.step = step);
+    }
+
+    fn step_count(&self) -> u32 {
+        self.recipe.iterations * TICKS
+    }
+
+    fn step(&self) -> u32 {
+        self.recipe.step.min(self.step_count())
+    }
+
+    fn pending(&self) -> u32 {
+        self.cloud.pending(&self.log) + self.others.pending()
+    }
+
+    fn work(&mut self) {
+        if self.cloud.pending(&self.log) > 0 {
+            self.cloud.advance(&self.log);
+        } else {
+            let done = self.others.advance(&self.log);
+            done.unwrap_or_else(|error| unreachable!("there is a log: {error}"));
+        }
+    }
+
+    /// EM mapping is done at once; particles and other guesses come after it.
+    fn refines(&self) -> bool {
+        self.pending() > 0
+    }
+
+    /// After the first iterations little is to be seen of how the passes fill.
+    fn pace(&self) -> f64 {
+        if self.now().iteration < 2 { 1.0 } else { 3.0 }
+    }
+
+    fn readouts(&self) -> Vec<Readout> {
+        told::readouts(self)
+    }
+
+    fn series(&self) -> Series {
+        told::series(self)
+    }
+
+    fn describe(&self) -> String {
+        told::describe(self)
+    }
+
+    fn curves(&self) -> Curves {
+        vec![self.iterates.iter().map(|iterate| iterate.log_posterior).collect()]
+    }
+
+    fn haunt(&mut self, pinned: Curves) {
+        // No curve of a corridor of this length is anywhere near.
+        self.pinned = pinned.into_iter().map(|curve| curve.into_iter().map(|x| x.clamp(-1e4, 1e4)).collect()).collect();
+    }
+}

@@ -1,0 +1,108 @@
+//! What is told of both methods in numbers and in words.
+
+use super::{model::EmModel, recipe::FILLS};
+use crate::{
+    decimal::fixed,
+    model::{Column, Readout, Series},
+    words::em as words,
+};
+use fastslam_lab::experiment::em::DOORS;
+
+/// A share in percent.
+pub fn percent(share: f64) -> String {
+    fixed(100.0 * share, 0)
+}
+
+pub fn readouts(model: &EmModel) -> Vec<Readout> {
+    let (shown, doors) = (model.shown(), model.doors().len());
+    let entropy = model.entropy().unwrap_or(f64::NAN);
+    let (place, again) = model.put_down().unwrap_or((f64::NAN, f64::NAN));
+    let particles = 100.0 * model.again().unwrap_or(f64::NAN);
+    let ends = model.others().ends();
+    let best = ends.iter().map(|end| end.log_posterior).fold(f64::NAN, f64::max);
+    let (rank, nats) = (model.rank(), |x: f64| fixed(x, 1));
+    vec![
+        Readout::new("iteration", words::iteration(), rank.into(), rank.to_string(), "", words::iteration_help()),
+        Readout::new(
+            "log_posterior",
+            words::log_posterior(),
+            shown.log_posterior,
+            nats(shown.log_posterior),
+            "nats",
+            words::log_posterior_help(),
+        )
+        .drawn(),
+        Readout::new(
+            "log_likelihood",
+            words::log_likelihood(),
+            shown.log_likelihood,
+            nats(shown.log_likelihood),
+            "nats",
+            words::log_likelihood_help(),
+        ),
+        Readout::new("entropy", words::entropy(), entropy, nats(entropy), "nats", words::entropy_help()),
+        Readout::new(
+            "doors",
+            words::doors(),
+            doors as f64,
+            words::OfDoors { n: &doors, all: &DOORS }.say(),
+            "",
+            words::doors_help(),
+        )
+        .drawn(),
+        Readout::new("put_down", words::put_down(), place, fixed(place, 1), "m", words::put_down_help()),
+        Readout::new("again_em", words::again_em(), 100.0 * again, percent(again), "%", words::again_em_help()),
+        Readout::new("again", words::again(), particles, fixed(particles, 0), "%", words::again_help()).drawn(),
+        Readout::new(
+            "again_others",
+            words::again_others(),
+            ends.iter().filter(|end| end.again > 0.5).count() as f64,
+            words::OfGuesses { n: &ends.iter().filter(|end| end.again > 0.5).count(), all: &ends.len() }.say(),
+            "",
+            words::again_others_help(),
+        ),
+        Readout::new("best", words::best(), best, nats(best), "nats", words::best_help()).drawn(),
+    ]
+}
+
+pub fn series(model: &EmModel) -> Series {
+    const COLUMNS: &[Column] = &[
+        Column::new("iteration", "iterations made"),
+        Column::new("log_posterior", "ln p(z | m) + ln p(m), but for a constant [nats]"),
+        Column::new("log_likelihood", "ln p(z | m) [nats]"),
+        Column::new("doors", "doors of the map"),
+    ];
+    let row = |(rank, iterate): (usize, &fastslam_lab::experiment::em::Iterate)| {
+        let doors = fastslam_lab::experiment::em::doors(&iterate.map).len();
+        vec![rank as f64, iterate.log_posterior, iterate.log_likelihood, doors as f64]
+    };
+    Series { columns: COLUMNS.into(), rows: model.iterates().iter().enumerate().map(row).collect() }
+}
+
+pub fn describe(model: &EmModel) -> String {
+    let (now, shown) = (model.now(), model.shown());
+    let (n, all) = (&(now.iteration + 1), &model.iterations());
+    let doors = &model.doors().len();
+    let value = &fixed(shown.log_posterior, 1);
+    let em = match now.ticks {
+        0 => words::Begins { doors }.say(),
+        ticks if ticks <= FILLS => words::ToldForward { n, all }.say(),
+        _ if !now.has_product() => words::ToldBackward { n, all }.say(),
+        _ => {
+            let (place, again) = model.put_down().unwrap_or_default();
+            let place = &fixed(place, 1);
+            let answer = if again > 0.5 { words::SaysAgain { place }.say() } else { words::SaysNew { place }.say() };
+            let done = if !now.has_map() {
+                words::ToldProduct { n, all }.say()
+            } else if model.is_still() {
+                words::Still { n, doors, value }.say()
+            } else {
+                words::Moving { n, doors, value }.say()
+            };
+            format!("{done} {answer}")
+        }
+    };
+    let particles =
+        model.again().map(|again| words::ToldParticles { new: &percent(1.0 - again), again: &percent(again) }.say());
+    [em].into_iter().chain(particles).collect::<Vec<_>>().join(" ")
+}
