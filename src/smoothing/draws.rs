@@ -31,8 +31,12 @@ pub fn distinct<P: AsRef<[Pose2]>>(paths: &[P]) -> Vec<u32> {
 /// Mean and covariance (3 × 3, \[m, m, rad\]) of the paths' poses at each step, all of one weight, as in
 /// [`Estimate`](crate::rbpf::Estimate).
 pub fn moments<P: AsRef<[Pose2]>>(paths: &[P]) -> Vec<(Pose2, Matrix3<f64>)> {
-    let weight = 1.0 / paths.len() as f64;
-    at_each_step(paths).map(|poses| rbpf::moments(|| poses.clone().map(|pose| (pose, weight)))).collect()
+    weighted_moments(paths, &vec![1.0 / paths.len() as f64; paths.len()])
+}
+
+/// The same of paths with weights that sum to one, as those of a filter's particles are.
+pub fn weighted_moments<P: AsRef<[Pose2]>>(paths: &[P], weights: &[f64]) -> Vec<(Pose2, Matrix3<f64>)> {
+    at_each_step(paths).map(|poses| rbpf::moments(|| poses.clone().zip(weights.iter().copied()))).collect()
 }
 
 /// The poses of all paths, step by step.

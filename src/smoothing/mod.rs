@@ -36,7 +36,7 @@
 mod draws;
 mod sweep;
 
-pub use draws::{distinct, moments, traced};
+pub use draws::{distinct, moments, traced, weighted_moments};
 pub use sweep::{Draw, Sweep};
 
 use crate::error::{Range, SettingError};

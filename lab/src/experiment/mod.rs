@@ -12,6 +12,7 @@ pub mod policies;
 pub mod policy_counts;
 pub mod proposals;
 pub mod ring;
+pub mod smoothing;
 mod summary;
 pub mod table;
 pub mod universes;
