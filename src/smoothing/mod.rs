@@ -169,6 +169,11 @@ impl<M: ConditionalMap, P: Retrace<M> + Clone> Smoother<M, P> {
         Ok(Self { settings, map, proposal, start, controls, observations })
     }
 
+    /// The same smoother, computed by another executor: the results are the same.
+    pub fn with_executor(self, executor: Executor) -> Self {
+        Self { settings: Settings { executor, ..self.settings }, ..self }
+    }
+
     /// What was set.
     pub fn settings(&self) -> &Settings {
         &self.settings

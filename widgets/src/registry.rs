@@ -10,6 +10,7 @@ use crate::{
     lap::{LAPS, LapView},
     proposal::ProposalView,
     resampling::{ResamplingView, WINGS},
+    smoothing::SmoothingView,
     universes::UniversesView,
     worked_example::WorkedExampleView,
 };
@@ -76,6 +77,8 @@ pub const FIGURES: &[Entry] = &[
     Entry::of::<UniversesView>("fastslam-universes", Program::Page, None),
     #[cfg(feature = "page")]
     Entry::of::<DoorsView>("fastslam-doors", Program::Page, Some(&DOORS)),
+    #[cfg(feature = "page")]
+    Entry::of::<SmoothingView>("fastslam-smoothing", Program::Page, None),
 ];
 
 /// The figure of a tag.

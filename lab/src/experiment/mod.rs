@@ -63,10 +63,13 @@ pub fn golden_traces(executor: &Executor) -> Vec<(&'static str, Digest)> {
     let policies = policies::golden_setups().into_iter().map(|(name, setup)| {
         (name, policies::Policies::new(&setup).expect(VALID).with_executor(executor.clone()).trace())
     });
+    let smoothed = smoothing::golden_setups().into_iter().map(|(name, setup, sweeps)| {
+        (name, smoothing::Smoothing::new(&setup).expect(VALID).with_executor(executor.clone()).trace(sweeps))
+    });
     let logs = log::golden_runs().into_iter().map(|(name, run)| {
         let mut run = run.with_executor(executor.clone());
         run.by_ref().for_each(drop);
         (name, log::digest(run.mapper()))
     });
-    laps.chain(drives).chain(joints).chain(clouds).chain(policies).chain(logs).collect()
+    laps.chain(drives).chain(joints).chain(clouds).chain(policies).chain(smoothed).chain(logs).collect()
 }

@@ -37,6 +37,7 @@ const WORKED: &str = "fastslam-worked-example";
 const RESAMPLING: &str = "fastslam-resampling";
 const DOORS: &str = "fastslam-doors";
 const UNIVERSES: &str = "fastslam-universes";
+const SMOOTHING: &str = "fastslam-smoothing";
 const JOINT: &str = "fastslam-joint";
 /// Its pictures and readouts are those of [`TINY_LOG`], mapped to its end.
 pub const LOG: &str = "fastslam-log";
@@ -131,6 +132,11 @@ pub const PICTURES: &[Picture] = &[
     picture(JOINT, "joint-exercise", "odometry=0&landmarks=5", 692, 1.0, "light"),
     picture(JOINT, "joint-phone", "landmarks=3&particles=200&sensor=2", 340, 2.0, "light"),
     picture(JOINT, "joint-tiny", "particles=1&odometry=3", 240, 1.0, "contrast-dark"),
+    picture(SMOOTHING, "fastslam-smoothing-light", "", 800, 1.5, "light"),
+    picture(SMOOTHING, "fastslam-smoothing-dark", "", 800, 1.5, "dark"),
+    picture(SMOOTHING, "smoothing-filter", "step=0&particles=30", 1112, 1.0, "light"),
+    picture(SMOOTHING, "smoothing-phone", "step=5&particles=4", 340, 2.0, "light"),
+    picture(SMOOTHING, "smoothing-tiny", "particles=2&odometry=3&sensor=2&at=62", 240, 1.0, "contrast-dark"),
 ];
 
 /// What a filter does: one sighting for both particles, from two poses; and the landmark's ellipse is turned.
@@ -236,6 +242,9 @@ pub const SETUPS: &[(&str, &str)] = &[
     (JOINT, ""),
     (JOINT, "landmarks=4&particles=2500&sensor=0.5&odometry=2&seed=7"),
     (JOINT, "landmarks=1&particles=1&sensor=5&odometry=0"),
+    (SMOOTHING, "particles=8&step=6"),
+    (SMOOTHING, "particles=2&odometry=3&sensor=0.25&seed=5&step=3&at=62"),
+    (SMOOTHING, "particles=30&odometry=0.25&sensor=2&reconnect=off&step=4&at=1"),
 ];
 
 /// Both proposals guessed, and the depletion.

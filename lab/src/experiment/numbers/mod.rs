@@ -9,6 +9,7 @@ mod lap;
 mod policies;
 mod proposals;
 mod ring;
+mod smoothing;
 
 pub use lap::LapCell;
 
@@ -178,10 +179,17 @@ impl Group {
 
 /// Every recipe of the chapter.
 pub fn recipes() -> Vec<Recipe> {
-    [lap::recipes(), ring::recipes(), policies::recipes(), proposals::recipes(), landmarks::recipes()]
-        .into_iter()
-        .flatten()
-        .collect()
+    [
+        lap::recipes(),
+        ring::recipes(),
+        policies::recipes(),
+        proposals::recipes(),
+        smoothing::recipes(),
+        landmarks::recipes(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 #[cfg(test)]

@@ -1,0 +1,54 @@
+//! States of the record and the sweeps that are worth trying.
+
+use super::model::SmoothingModel;
+use crate::{
+    challenge::{Challenge, Verdict},
+    words::smoothing as words,
+};
+use fastslam_lab::experiment::smoothing::MOST;
+
+/// So many of five sweeps are to have a pose of their own.
+const FIVE: u32 = 5;
+
+/// At most so many different poses are those of a smoother that sticks.
+const STUCK: u32 = 6;
+
+pub(super) fn challenges() -> Vec<Challenge<SmoothingModel>> {
+    vec![
+        Challenge::new("one", words::chip_one(), "step=0&at=30").with(words::goal_one(), "at", at_coalescence),
+        Challenge::new("five", words::chip_five(), "particles=4&step=5").with(
+            words::goal_five(),
+            "particles",
+            all_differ,
+        ),
+        Challenge::new("stick", words::chip_stick(), "particles=10").with(words::goal_stick(), "particles", sticks),
+        Challenge::new("keep", words::chip_keep(), "reconnect=off"),
+    ]
+}
+
+/// Whether the last step is looked at that all particles share.
+fn at_coalescence(model: &SmoothingModel) -> Verdict {
+    let at = model.at();
+    let distinct = |step: u32| model.before().and_then(|before| before.distinct.get(step as usize).copied());
+    let said = words::ChipDistinct { n: &distinct(at).unwrap_or(0), at: &at }.say();
+    if model.coalescence() == Some(at) { Verdict::Done(said) } else { Verdict::NotYet(said) }
+}
+
+/// What the sweeps shown have at the step looked at.
+fn drawn(model: &SmoothingModel) -> (u32, String) {
+    let at = model.at();
+    let n = model.after().map_or(0, |after| after.distinct[at as usize]);
+    (n, words::ChipDistinct { n: &n, at: &at }.say())
+}
+
+/// Whether each of the five sweeps has a pose of its own.
+fn all_differ(model: &SmoothingModel) -> Verdict {
+    let (n, said) = drawn(model);
+    if model.sweeps() == FIVE && n == FIVE { Verdict::Done(said) } else { Verdict::NotYet(said) }
+}
+
+/// Whether all the sweeps have but few.
+fn sticks(model: &SmoothingModel) -> Verdict {
+    let (n, said) = drawn(model);
+    if model.sweeps() == MOST && n <= STUCK { Verdict::Done(said) } else { Verdict::NotYet(said) }
+}
