@@ -90,7 +90,12 @@ fn goals_are_reached_and_missed() {
 
 #[test]
 fn nothing_is_cut_or_covered_at_any_size_and_at_the_ends_of_every_range() {
-    for query in ["", "particles=2&odometry=3&sensor=2&at=62", "particles=40&odometry=0.25&sensor=0.25&step=1&at=1", "step=0&at=61"] {
+    for query in [
+        "",
+        "particles=2&odometry=3&sensor=2&at=62",
+        "particles=40&odometry=0.25&sensor=0.25&step=1&at=1",
+        "step=0&at=61",
+    ] {
         let shown = figure(TAG, query);
         for width in [300.0, 340.0, 380.0, 559.0, 560.0, 640.0, 800.0, 1112.0, 1300.0] {
             let (scene, which) = (scene(&shown, width), format!("{query} at {width}"));

@@ -194,6 +194,12 @@ impl Smoothing {
         &self.draws
     }
 
+    /// Updates of a map in one sweep, for each in a run of the filter.
+    pub fn cost(&self) -> f64 {
+        let t = self.log.controls.len() as f64;
+        if self.setup.reconnect { 0.5 * (t + 1.0) } else { 1.0 }
+    }
+
     /// How many slices there are to do, about, until so many sweeps are done.
     pub fn pending(&self, sweeps: u32) -> u32 {
         let filter = self.log.controls.len() - self.step + usize::from(self.record.is_none());
@@ -205,9 +211,8 @@ impl Smoothing {
 
     /// Slices in a sweep, about.
     fn slices(&self) -> usize {
-        let (m, t) = (u64::from(self.setup.particles), self.log.controls.len() as u64);
-        let all = if self.setup.reconnect { m * t + m * t * (t - 1) / 2 } else { m * t };
-        (all / SLICE) as usize + 1
+        let filter = f64::from(self.setup.particles) * self.log.controls.len() as f64;
+        (self.cost() * filter) as usize / SLICE as usize + 1
     }
 
     /// One slice: a step of the filter, or some of a sweep.
@@ -444,6 +449,7 @@ mod tests {
         assert_eq!(smoothing.log().controls.len() as u64, t);
         assert_eq!(smoothing.record().unwrap().updates, m * t);
         assert_eq!(smoothing.draws()[0].updates, m * t + m * t * (t - 1) / 2);
+        assert_eq!(smoothing.cost() * (m * t) as f64, smoothing.draws()[0].updates as f64);
     }
 
     #[test]

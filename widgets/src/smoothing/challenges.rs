@@ -3,6 +3,7 @@
 use super::model::SmoothingModel;
 use crate::{
     challenge::{Challenge, Verdict},
+    decimal::fixed,
     words::smoothing as words,
 };
 use fastslam_lab::experiment::smoothing::MOST;
@@ -10,12 +11,12 @@ use fastslam_lab::experiment::smoothing::MOST;
 /// So many of five sweeps are to have a pose of their own.
 const FIVE: u32 = 5;
 
-/// At most so many different poses are those of a smoother that sticks.
-const STUCK: u32 = 6;
+/// At most so many different poses, on average over the steps, are those of a smoother that sticks: a third of the sweeps.
+const STUCK: f64 = 8.0;
 
 pub(super) fn challenges() -> Vec<Challenge<SmoothingModel>> {
     vec![
-        Challenge::new("one", words::chip_one(), "step=0&at=30").with(words::goal_one(), "at", at_coalescence),
+        Challenge::new("one", words::chip_one(), "at=30&step=0").with(words::goal_one(), "at", at_coalescence),
         Challenge::new("five", words::chip_five(), "particles=4&step=5").with(
             words::goal_five(),
             "particles",
@@ -47,8 +48,12 @@ fn all_differ(model: &SmoothingModel) -> Verdict {
     if model.sweeps() == FIVE && n == FIVE { Verdict::Done(said) } else { Verdict::NotYet(said) }
 }
 
-/// Whether all the sweeps have but few.
+/// Whether all the sweeps have but few, on average over the steps.
 fn sticks(model: &SmoothingModel) -> Verdict {
-    let (n, said) = drawn(model);
-    if model.sweeps() == MOST && n <= STUCK { Verdict::Done(said) } else { Verdict::NotYet(said) }
+    let mean = model.after().map_or(0.0, |after| {
+        let steps = after.distinct.len() - 1; // the start is known
+        f64::from(after.distinct[1..].iter().sum::<u32>()) / steps as f64
+    });
+    let said = words::ChipMean { n: &fixed(mean, 1) }.say();
+    if model.sweeps() == MOST && mean <= STUCK { Verdict::Done(said) } else { Verdict::NotYet(said) }
 }

@@ -33,8 +33,6 @@ pub fn charts(scene: &mut Scene, model: &SmoothingModel, layout: &Layout) {
     let tops = [f64::from(model.particles().max(MOST)), round_up(highest)];
     let values: [[Option<Vec<f64>>; 2]; 2] =
         [accounts.each_ref().map(|a| a.as_ref().map(counts)), accounts.each_ref().map(|a| a.as_ref().map(errors))];
-    let names =
-        [[words::chart_distinct(), words::chart_distinct_short()], [words::chart_error(), words::chart_error_short()]];
     for (rank, curves) in values.iter().enumerate() {
         let (chart, top) = (place(layout, rank), tops[rank]);
         title(scene, model, &layout.names[rank], rank);

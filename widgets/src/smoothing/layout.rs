@@ -72,7 +72,7 @@ impl Layout {
         let chart = stack.take(curves, if wide { (0.11 * width).clamp(84.0, 124.0) } else { 78.0 }.floor(), 0.0);
         let axis = stack.take(curves, AXIS, 0.0);
         let pair = |row: Rect| [Rect { w, ..row }, Rect { x: w + gap, w, ..row }];
-        let charts = pair(chart).map(|part| Rect { x: part.x + SCALE, w: part.w - SCALE - 10.0, ..part });
+        let charts = pair(chart).map(|part| Rect { x: part.x + SCALE, w: part.w - SCALE - 14.0, ..part });
         let scales = pair(chart).map(|part| Rect { w: SCALE, ..part });
         Self {
             shown: shown.clone(),

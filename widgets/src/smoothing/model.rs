@@ -92,12 +92,6 @@ impl SmoothingModel {
         self.shown.record().map(|record| record.coalescence)
     }
 
-    /// Updates of a map in one of the sweeps, for each of the filter's.
-    pub fn cost(&self) -> Option<f64> {
-        let (record, draw) = (self.shown.record()?, self.shown.draws().first()?);
-        Some(draw.updates as f64 / record.updates as f64)
-    }
-
     /// See [`Model::curves`].
     pub(super) fn pinned(&self) -> &Curves {
         &self.pinned

@@ -29,7 +29,7 @@ pub fn readouts(model: &SmoothingModel) -> Vec<Readout> {
         |name, title, x: Option<f64>, help| Readout::new(name, title, number(x), fixed(number(x), 2), "m", help);
     let at = |account: &Option<Account>, step: u32| account.as_ref().map(|account| account.distinct[step as usize]);
     let step = model.at();
-    let cost = model.cost();
+    let cost = model.run().cost();
     vec![
         whole("coalescence", words::coalescence(), model.coalescence(), words::coalescence_help()).drawn(),
         whole("distinct_before", words::distinct_before(), at(&before, step), words::distinct_before_help()).drawn(),
@@ -52,7 +52,7 @@ pub fn readouts(model: &SmoothingModel) -> Vec<Readout> {
         .drawn(),
         metres("spread", words::spread(), after.as_ref().map(|account| spread(account, step)), words::spread_help()),
         whole("sweeps", words::sweeps_done(), Some(model.sweeps()), words::sweeps_done_help()).drawn(),
-        Readout::new("cost", words::cost(), number(cost), fixed(number(cost), 1), "×", words::cost_help()),
+        Readout::new("cost", words::cost(), cost, fixed(cost, 1), "×", words::cost_help()),
     ]
 }
 

@@ -24,8 +24,7 @@ fn run(seed: u64) -> [f64; 5] {
     // Of a record without a common ancestor, the first step.
     let shared = &distinct[1..=record.coalescence.max(1) as usize];
     let mean = f64::from(shared.iter().sum::<u32>()) / shared.len() as f64;
-    let cost = smoothing.draws()[0].updates as f64 / record.updates as f64;
-    [record.coalescence.into(), mean, early(&record.moments), early(&smoothing.moments(sweeps)), cost]
+    [record.coalescence.into(), mean, early(&record.moments), early(&smoothing.moments(sweeps)), smoothing.cost()]
 }
 
 fn measured(found: &[[f64; 5]]) -> Vec<Number> {
