@@ -5,7 +5,7 @@
 //! [`mapper`] is ready-made for odometry and a laser. Whoever has another sensor, map or motion builds a filter of their own:
 //! [`rbpf`] is the algorithm, and takes any [`proposal`] and any [`map`]. Modules are the mathematics, in the order in which they
 //! depend on each other: [`ops`] → [`random`] → [`geometry`] → [`motion`], [`sensor`] → [`map`] → [`matching`] → [`proposal`] → [`rbpf`] →
-//! [`mapper`]. [`log`] reads recorded drives and writes paths. Why the bits are the
+//! [`mapper`], [`smoothing`]. [`log`] reads recorded drives and writes paths. Why the bits are the
 //! same everywhere is said in [`ops`], [`random`] and [`execute`].
 //!
 //! # Glossary
@@ -58,4 +58,5 @@ pub mod resampling;
 #[cfg(feature = "serde")]
 pub mod save;
 pub mod sensor;
+pub mod smoothing;
 pub mod weights;

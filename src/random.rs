@@ -12,8 +12,8 @@ use rand_pcg::Pcg64;
 
 /// What a stream is drawn for: streams of different purposes are independent.
 ///
-/// A filter takes [`PROPOSAL`](Self::PROPOSAL) and [`RESAMPLING`](Self::RESAMPLING). Whoever simulates its world takes others of their
-/// own, by [`Purpose::new`].
+/// A filter takes [`PROPOSAL`](Self::PROPOSAL) and [`RESAMPLING`](Self::RESAMPLING), a smoother [`SMOOTHING`](Self::SMOOTHING) as well. Whoever
+/// simulates its world takes others of their own, by [`Purpose::new`].
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Purpose(u64);
@@ -25,8 +25,10 @@ impl Purpose {
     pub const RESAMPLING: Self = Self(4);
     /// Draws of tests and of experiments about the filters.
     pub const TRIAL: Self = Self(5);
+    /// What a smoother draws for the path that it is given.
+    pub const SMOOTHING: Self = Self(6);
 
-    /// A purpose of one's own; 3, 4 and 5 are those above.
+    /// A purpose of one's own; 3 to 6 are those above.
     pub const fn new(number: u64) -> Self {
         Self(number)
     }

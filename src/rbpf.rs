@@ -1,12 +1,14 @@
 //! The Rao–Blackwellized particle filter.
 
 mod builder;
+mod conditioned;
 mod estimate;
 #[cfg(feature = "serde")]
 mod saved;
 
 pub use builder::{Builder, Start};
 pub use estimate::Estimate;
+pub(crate) use estimate::moments;
 #[cfg(feature = "serde")]
 pub use saved::Saved;
 
@@ -138,8 +140,19 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
 
     /// The first half of a step: every particle draws its new pose, pays for it, and maps what it sees from there.
     pub fn weigh(&mut self, control: &P::Control, observation: &M::Observation) -> Report<M::Association> {
+        self.weigh_by(observation, |proposal, _, particle, stream| {
+            proposal.propose(particle, control, observation, stream)
+        })
+    }
+
+    /// The same, where the new pose of a slot comes from this function.
+    fn weigh_by(
+        &mut self,
+        observation: &M::Observation,
+        propose: impl Fn(&P, usize, &Particle<M>, &mut Stream) -> Proposed<M::Association> + Sync + Send,
+    ) -> Report<M::Association> {
         (self.step, self.resamplings) = (self.step + 1, 0);
-        let proposed = self.propose_and_map(control, observation);
+        let proposed = self.propose_and_map(observation, propose);
         self.extend_paths();
         let log_increments: Vec<f64> = proposed.iter().map(|p| p.log_increment).collect();
         let log_evidence = self.reweigh(&log_increments);
@@ -148,11 +161,15 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
 
     /// Draws a pose for each particle, and maps what is seen from it: each slot by itself, so that it does not matter who computes
     /// which.
-    fn propose_and_map(&mut self, control: &P::Control, observation: &M::Observation) -> Vec<Proposed<M::Association>> {
+    fn propose_and_map(
+        &mut self,
+        observation: &M::Observation,
+        propose: impl Fn(&P, usize, &Particle<M>, &mut Stream) -> Proposed<M::Association> + Sync + Send,
+    ) -> Vec<Proposed<M::Association>> {
         let (proposal, seed, step) = (&self.proposal, self.seed, self.step);
         self.executor.map(&mut self.particles, |slot, particle| {
             let mut stream = Stream::at(seed, Purpose::PROPOSAL, step, slot as u32);
-            let proposed = proposal.propose(particle, control, observation, &mut stream);
+            let proposed = propose(proposal, slot, particle, &mut stream);
             particle.world_from_robot = proposed.world_from_robot;
             particle.map.assimilate(&proposed.world_from_robot, observation, &proposed.association);
             proposed
@@ -208,10 +225,15 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         let mut stream = Stream::at(self.seed, Purpose::RESAMPLING, self.step, self.resamplings);
         self.resamplings += 1;
         let ancestors = self.scheme.ancestors(&self.weights, count, &mut stream);
-        self.particles = ancestors.iter().map(|slot| self.particles[*slot as usize].clone()).collect();
-        self.weights = Weights::uniform(count);
-        self.path_weights = self.path_weights.copied(&ancestors);
+        self.copy(&ancestors);
         ancestors
+    }
+
+    /// Particles become copies of those in these slots, all of one weight.
+    pub(crate) fn copy(&mut self, ancestors: &[u32]) {
+        self.particles = ancestors.iter().map(|slot| self.particles[*slot as usize].clone()).collect();
+        self.weights = Weights::uniform(ancestors.len());
+        self.path_weights = self.path_weights.copied(ancestors);
     }
 
     /// The population, by slot.

@@ -7,7 +7,7 @@ use super::proposal::Step;
 use crate::execute::Executor;
 use crate::geometry::{Pose2, sample_semidefinite};
 use crate::map::landmarks::{Correspondence, Landmark, Landmarks};
-use crate::motion::Motion;
+use crate::motion::{GaussianMotion, Motion};
 use crate::ops;
 use crate::particle::Particle;
 use crate::proposal::Proposal;
@@ -69,6 +69,8 @@ impl Motion for Drift {
         Matrix3::identity()
     }
 }
+
+impl GaussianMotion for Drift {}
 
 /// z = m − (x, y) + noise \[m, m\], in the world’s frame.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -153,9 +155,14 @@ pub struct Exact {
 impl Exact {
     /// The Kalman filter of pose and landmarks after a [`drive`] past so many landmarks.
     pub fn after(landmarks: u32) -> Self {
+        Self::of(&drive(landmarks))
+    }
+
+    /// The same after these steps.
+    fn of(drive: &[(Vector3<f64>, Vec<Feature>)]) -> Self {
         let mut exact = Self { mean: DVector::zeros(3), covariance: DMatrix::zeros(3, 3), log_evidence: 0.0 };
-        for (u, features) in drive(landmarks) {
-            exact.moved(&u);
+        for (u, features) in drive {
+            exact.moved(u);
             for (index, feature) in features.iter().enumerate() {
                 if 3 + 2 * index < exact.mean.len() { exact.seen(index, &feature.z) } else { exact.found(&feature.z) }
             }
@@ -208,6 +215,36 @@ impl Exact {
         let (p, s) = (p.fixed_view::<3, 3>(0, 0).into_owned(), p.fixed_view::<2, 2>(3, 3).into_owned());
         moments(&pose, &p, &first(3), &s, self.log_evidence)
     }
+}
+
+/// What the Rauch–Tung–Striebel smoother knows after a [`drive`] past so many landmarks, 1 or more: mean and covariance of the pose of every
+/// step from 1 on together with the landmarks, as [`Exact`] has them, given everything that was ever seen.
+///
+/// With F = 1: G = P_t P⁻_{t+1}⁻¹, x̂_t = x_t + G (x̂_{t+1} − x⁻_{t+1}), P̂_t = P_t + G (P̂_{t+1} − P⁻_{t+1}) Gᵀ.
+///
+/// ```
+/// use fastslam::laws::linear::{Exact, STEPS, smoothed};
+/// let steps = smoothed(1);
+/// let (last, exact) = (&steps[STEPS as usize - 1], Exact::after(1));
+/// assert_eq!((&last.0, &last.1), (&exact.mean, &exact.covariance), "nothing is seen after the last step");
+/// ```
+pub fn smoothed(landmarks: u32) -> Vec<(DVector<f64>, DMatrix<f64>)> {
+    let drive = drive(landmarks);
+    let filtered: Vec<Exact> = (1..=drive.len()).map(|steps| Exact::of(&drive[..steps])).collect();
+    let last = &filtered[filtered.len() - 1];
+    let mut smoothed = vec![(last.mean.clone(), last.covariance.clone())];
+    for (now, (u, _)) in filtered.iter().zip(&drive[1..]).rev() {
+        let mut predicted = now.clone();
+        predicted.moved(u);
+        let inverse = predicted.covariance.clone().try_inverse().expect("R and Q are positive definite");
+        let gain = &now.covariance * inverse;
+        let (mean, covariance) = &smoothed[smoothed.len() - 1];
+        let mean = &now.mean + &gain * (mean - predicted.mean);
+        let covariance = &now.covariance + &gain * (covariance - predicted.covariance) * gain.transpose();
+        smoothed.push((mean, covariance));
+    }
+    smoothed.reverse();
+    smoothed
 }
 
 fn moments(pose: &Vector3<f64>, p: &Matrix3<f64>, m: &Vector2<f64>, s: &Matrix2<f64>, log_evidence: f64) -> [f64; 15] {

@@ -1,10 +1,12 @@
 //! Motion models: where a robot may be, given where it was and what its wheels reported.
 
 mod displacement;
+mod floored;
 mod odometry;
 mod velocity;
 
 pub use displacement::{Displaced, Displacement};
+pub use floored::Floored;
 pub use odometry::{Odometry, OdometryModel};
 pub use velocity::{Velocity, VelocityModel};
 
@@ -58,6 +60,10 @@ pub trait Motion: Sync {
         Ok(())
     }
 }
+
+/// A motion whose draws are of the density of its Gaussian: [`Motion::sample`] draws from [`Motion::gaussian`] without a floor. Any motion is one
+/// inside of [`Floored`].
+pub trait GaussianMotion: Motion {}
 
 /// sin(x)/x and its derivative.
 fn sinc(x: f64) -> (f64, f64) {

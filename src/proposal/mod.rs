@@ -7,12 +7,14 @@ mod fit;
 mod from_measurement;
 mod from_motion;
 mod from_scan;
+mod retrace;
 mod search;
 
 pub use fit::{Fit, FitLimits};
 pub use from_measurement::{FromMeasurement, Measured};
 pub use from_motion::{FromMotion, Marginal};
 pub use from_scan::{FromScan, FromScanSettings};
+pub use retrace::Retrace;
 pub use search::{CorrelativeSearch, HeadingSeeds, Search, Starts, Target};
 
 use crate::error::SettingError;

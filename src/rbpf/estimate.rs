@@ -31,7 +31,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
 }
 
 /// Weighted mean and covariance of poses, by weights that sum to one.
-fn moments<I: Iterator<Item = (Pose2, f64)>>(poses: impl Fn() -> I) -> (Pose2, Matrix3<f64>) {
+pub(crate) fn moments<I: Iterator<Item = (Pose2, f64)>>(poses: impl Fn() -> I) -> (Pose2, Matrix3<f64>) {
     let (mut x, mut y, mut sine, mut cosine) = (0.0, 0.0, 0.0, 0.0);
     for (pose, weight) in poses() {
         let (sin, cos) = ops::sin_cos(pose.theta);

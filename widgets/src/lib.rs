@@ -45,6 +45,8 @@ pub mod resampling;
 pub mod scene;
 #[cfg(target_arch = "wasm32")]
 pub mod shell;
+#[cfg(feature = "page")]
+pub mod smoothing;
 #[cfg(all(target_arch = "wasm32", feature = "trouble"))]
 mod trouble;
 #[cfg(feature = "page")]

@@ -11,6 +11,7 @@ use crate::{
     lap::{LAPS, LapView},
     proposal::ProposalView,
     resampling::{ResamplingView, WINGS},
+    smoothing::SmoothingView,
     universes::UniversesView,
     worked_example::WorkedExampleView,
 };
@@ -79,6 +80,7 @@ pub const FIGURES: &[Entry] = &[
     Entry::of::<DoorsView>("fastslam-doors", Program::Page, Some(&DOORS)),
     #[cfg(feature = "page")]
     Entry::of::<EmView>("fastslam-em", Program::Page, None),
+    Entry::of::<SmoothingView>("fastslam-smoothing", Program::Page, None),
 ];
 
 /// The figure of a tag.

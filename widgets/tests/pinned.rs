@@ -9,7 +9,7 @@ use fastslam_widgets::{
 };
 
 /// A state that is pinned, and one that is shown then, with every mark that a legend has.
-const RUNS: [(&str, &str, &str); 7] = [
+const RUNS: [(&str, &str, &str); 8] = [
     ("fastslam-lap", "step=30", "universes=4&step=22&truth=on&raw=on"),
     ("fastslam-resampling", "step=30", "particles=40&threshold=0.9&step=12"),
     ("fastslam-resampling", "wings=on&step=30", "step=12"),
@@ -17,6 +17,7 @@ const RUNS: [(&str, &str, &str); 7] = [
     ("fastslam-proposal", "range-std=0.3", "v=3&landmarks=pair&samples=64&predict=on&run=on"),
     ("fastslam-joint", "sensor=2&particles=100", "particles=200&landmarks=6"),
     ("fastslam-em", "mark-3=5.2&particles=100", "particles=200&step=83"),
+    ("fastslam-smoothing", "particles=4&step=3", "particles=6&step=2&at=20"),
 ];
 
 /// How many marks are of the pinned run.

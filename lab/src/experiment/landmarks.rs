@@ -145,15 +145,27 @@ impl Course {
             Self::Tags => Field::eight_tags(),
             Self::Wings => Field::two_wings(),
         };
-        let [speed_bias, turn_rate_bias] = self.bias();
-        let sensor = tuning.sensor.scaled(self.sharper());
+        field.simulate(tuning, &tuning.sensor.scaled(self.sharper()), self.bias(), seed)
+    }
+}
+
+impl Field {
+    /// The drive with the noise of a seed: what wheels report by the motion of this tuning and beyond it by a bias \[m/s, rad/s\], and what
+    /// this sensor measures of all that is in view of the tuning's.
+    pub fn simulate(
+        self,
+        tuning: &Tuning,
+        sensor: &RangeBearing,
+        [speed_bias, turn_rate_bias]: [f64; 2],
+        seed: u64,
+    ) -> LandmarkLog {
         let mut log = LandmarkLog {
             truth: vec![Pose2::default()],
             odometry: vec![Pose2::default()],
-            landmarks: field.landmarks,
+            landmarks: self.landmarks,
             ..LandmarkLog::default()
         };
-        for (step, driven) in (1..).zip(&field.controls) {
+        for (step, driven) in (1..).zip(&self.controls) {
             let truth = driven.apply(&log.truth[log.truth.len() - 1]);
             let mut reported = tuning.motion.perturb(driven, &mut Stream::at(seed, WORLD_ODOMETRY, step, 0));
             reported.speed += speed_bias;

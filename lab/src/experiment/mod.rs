@@ -13,6 +13,7 @@ pub mod policies;
 pub mod policy_counts;
 pub mod proposals;
 pub mod ring;
+pub mod smoothing;
 mod summary;
 pub mod table;
 pub mod universes;
@@ -67,11 +68,22 @@ pub fn golden_traces(executor: &Executor) -> Vec<(&'static str, Digest)> {
     let policies = policies::golden_setups().into_iter().map(|(name, setup)| {
         (name, policies::Policies::new(&setup).expect(VALID).with_executor(executor.clone()).trace())
     });
+    let smoothed = smoothing::golden_setups().into_iter().map(|(name, setup, sweeps)| {
+        (name, smoothing::Smoothing::new(&setup).expect(VALID).with_executor(executor.clone()).trace(sweeps))
+    });
     let logs = log::golden_runs().into_iter().map(|(name, run)| {
         let mut run = run.with_executor(executor.clone());
         run.by_ref().for_each(drop);
         (name, log::digest(run.mapper()))
     });
     let em = core::iter::once(("em", em::golden().expect(VALID)));
-    laps.chain(drives).chain(joints).chain(clouds).chain(maps).chain(policies).chain(logs).chain(em).collect()
+    laps.chain(drives)
+        .chain(joints)
+        .chain(clouds)
+        .chain(maps)
+        .chain(policies)
+        .chain(smoothed)
+        .chain(logs)
+        .chain(em)
+        .collect()
 }

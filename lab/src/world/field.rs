@@ -35,7 +35,6 @@ impl Field {
     pub fn figure_of_eight() -> Self {
         const RADIUS: f64 = 5.0;
         const STEP: f64 = 0.5;
-        const CLEARANCE: f64 = 0.5;
         const REST: usize = 20;
         let circle = (TAU * RADIUS / STEP).round();
         let arc = |turn: f64| Velocity { speed: 1.0, turn_rate: turn * TAU / (circle * STEP), duration: STEP };
@@ -43,9 +42,24 @@ impl Field {
         let rest = Velocity { speed: 0.0, turn_rate: 0.0, duration: STEP };
         let driven = loops.iter().flat_map(|turn| core::iter::repeat_n(arc(*turn), circle as usize));
         let controls = core::iter::repeat_n(rest, REST).chain(driven).collect();
+        Self { landmarks: Self::shaken(RADIUS), controls }
+    }
+
+    /// The same landmarks, and one figure of eight among them in strides of a metre: left around, then right around, and home.
+    pub fn one_eight() -> Self {
+        const RADIUS: f64 = 5.0;
+        let circle = (TAU * RADIUS).round();
+        let arc = |turn: f64| Velocity { speed: 1.0, turn_rate: turn * TAU / circle, duration: 1.0 };
+        let controls = [1.0, -1.0].iter().flat_map(|turn| core::iter::repeat_n(arc(*turn), circle as usize));
+        Self { landmarks: Self::shaken(RADIUS), controls: controls.collect() }
+    }
+
+    /// Twenty-four landmarks around the two circles of this radius \[m\] that are driven, and not in the robot's way.
+    fn shaken(radius: f64) -> Vec<Vector2<f64>> {
+        const CLEARANCE: f64 = 0.5;
         // A lattice of 4 × 6, shaken: landmarks neither in rows, nor on top of each other, nor in the robot's way.
         let clear =
-            |m: &Vector2<f64>| [-RADIUS, RADIUS].iter().all(|y| (ops::hypot(m.x, m.y - y) - RADIUS).abs() > CLEARANCE);
+            |m: &Vector2<f64>| [-radius, radius].iter().all(|y| (ops::hypot(m.x, m.y - y) - radius).abs() > CLEARANCE);
         let shaken = |k: u32| {
             let (x, y) = (3.2 * (f64::from(k / 6) - 1.5), 4.2 * (f64::from(k % 6) - 2.5));
             let shake = |attempt| {
@@ -55,8 +69,7 @@ impl Field {
             };
             (0..).map(shake).find(clear).expect("most of the field is clear")
         };
-        let landmarks = (0..24).map(shaken);
-        Self { landmarks: landmarks.collect(), controls }
+        (0..24).map(shaken).collect()
     }
 
     /// Two wings that look the same, at opposite sides of an empty hall, and a robot that loses its way in the hall.

@@ -37,6 +37,7 @@ const WORKED: &str = "fastslam-worked-example";
 const RESAMPLING: &str = "fastslam-resampling";
 const DOORS: &str = "fastslam-doors";
 const UNIVERSES: &str = "fastslam-universes";
+const SMOOTHING: &str = "fastslam-smoothing";
 const JOINT: &str = "fastslam-joint";
 const EM: &str = "fastslam-em";
 /// Its pictures and readouts are those of [`TINY_LOG`], mapped to its end.
@@ -140,6 +141,11 @@ pub const PICTURES: &[Picture] = &[
     picture(EM, "em-backward", "step=6", 1112, 1.0, "dark"),
     picture(EM, "em-phone", "step=13&seed=2&sensor=20", 340, 2.0, "light"),
     picture(EM, "em-tiny", "step=0&particles=1&trust=50", 240, 1.0, "contrast-dark"),
+    picture(SMOOTHING, "fastslam-smoothing-light", "", 800, 1.5, "light"),
+    picture(SMOOTHING, "fastslam-smoothing-dark", "", 800, 1.5, "dark"),
+    picture(SMOOTHING, "smoothing-filter", "step=0&particles=30", 1112, 1.0, "light"),
+    picture(SMOOTHING, "smoothing-phone", "step=5&particles=4", 340, 2.0, "light"),
+    picture(SMOOTHING, "smoothing-tiny", "particles=2&odometry=3&sensor=2&at=62", 240, 1.0, "contrast-dark"),
 ];
 
 /// What a filter does: one sighting for both particles, from two poses; and the landmark's ellipse is turned.
@@ -248,6 +254,9 @@ pub const SETUPS: &[(&str, &str)] = &[
     (EM, ""),
     (EM, "mark-3=5.2&iterations=40&step=57"),
     (EM, "odometry=0.2&sensor=30&seed=5&particles=300&trust=40&mark-1=0&mark-2=10&mark-3=4.4"),
+    (SMOOTHING, "particles=8&step=6"),
+    (SMOOTHING, "particles=2&odometry=3&sensor=0.25&seed=5&step=3&at=62"),
+    (SMOOTHING, "particles=30&odometry=0.25&sensor=2&reconnect=off&step=4&at=1"),
 ];
 
 /// Both proposals guessed, and the depletion.

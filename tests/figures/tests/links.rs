@@ -57,6 +57,11 @@ fn links_to_the_lap_keep_their_numbers() {
 }
 
 #[test]
+fn links_to_the_smoother_keep_their_numbers() {
+    keep_their_numbers("fastslam-smoothing");
+}
+
+#[test]
 fn links_to_the_conditioning_keep_their_numbers() {
     keep_their_numbers("fastslam-conditioning");
 }

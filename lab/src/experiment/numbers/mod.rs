@@ -11,6 +11,7 @@ mod lap;
 mod policies;
 mod proposals;
 mod ring;
+mod smoothing;
 
 pub use lap::LapCell;
 
@@ -186,6 +187,7 @@ pub fn recipes() -> Vec<Recipe> {
         policies::recipes(),
         proposals::recipes(),
         joint::recipes(),
+        smoothing::recipes(),
         landmarks::recipes(),
         em::recipes(),
     ];

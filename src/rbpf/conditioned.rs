@@ -1,0 +1,27 @@
+//! Steps in which one particle is led along a given path: what a smoother is made of.
+
+use super::{Rbpf, Report};
+use crate::geometry::Pose2;
+use crate::map::ConditionalMap;
+use crate::proposal::Retrace;
+
+impl<M: ConditionalMap, P: Retrace<M>> Rbpf<M, P> {
+    /// [`Rbpf::weigh`], but for two things. The last slot does not draw its pose: it takes this one. And every slot pays for the very pose
+    /// that it has, so that the weights are those of paths, whoever drew them.
+    pub(crate) fn weigh_along(
+        &mut self,
+        control: &P::Control,
+        observation: &M::Observation,
+        given: &Pose2,
+    ) -> Report<M::Association> {
+        let last = self.particles().len() - 1;
+        self.weigh_by(observation, |proposal, slot, particle, stream| {
+            let pose = if slot == last {
+                *given
+            } else {
+                proposal.propose(particle, control, observation, stream).world_from_robot
+            };
+            proposal.retrace(particle, control, observation, &pose)
+        })
+    }
+}

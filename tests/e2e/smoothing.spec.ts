@@ -1,0 +1,73 @@
+// What a reader does with the record of a filter and the sweeps of a smoother: every claim of the caption, in the page alone.
+import AxeBuilder from '@axe-core/playwright'
+import type { Page } from '@playwright/test'
+import { expect, test } from './fixtures'
+import { Figure } from './figure'
+
+test.use({ contextOptions: { reducedMotion: 'reduce' } })
+
+const TAG = 'fastslam-smoothing'
+const open = (page: Page, query?: string) => new Figure(page, TAG).alone(query && `#${TAG}?${query}`)
+
+const number = async (figure: Figure, name: string) => Number.parseFloat((await figure.readouts())[name]!)
+
+test('as it opens, the record has one pose where the sweeps have many, and errs more', async ({ page }) => {
+  const figure = await open(page)
+  expect(await figure.position()).toBe(await figure.last())
+  await expect(figure.sentence).toContainText('All 16 particles descend from one until step')
+  await expect(figure.sentence).toContainText('After 24 sweeps the drawn paths have')
+  expect(await number(figure, 'distinct_before')).toBe(1)
+  expect(await number(figure, 'distinct_after')).toBeGreaterThan(8)
+  expect(await number(figure, 'early_after')).toBeLessThan(await number(figure, 'early_before'))
+  expect(await number(figure, 'cost')).toBeCloseTo(31.5, 5)
+  const found = await new AxeBuilder({ page }).include(TAG).analyze()
+  expect(found.violations.map(({ id }) => id)).toEqual([])
+})
+
+test('sweeps are stepped, and at none there is the filter alone', async ({ page }) => {
+  const figure = await open(page, 'particles=6&step=3')
+  const [before, after] = [await number(figure, 'distinct_before'), await number(figure, 'distinct_after')]
+  expect(after).toBeGreaterThanOrEqual(before)
+  await figure.scrubTo(0)
+  await expect(figure.sentence).toContainText('No sweep has been done yet.')
+  await figure.step.click()
+  await figure.settled()
+  await expect(figure.sentence).toContainText('After 1 sweep the drawn paths have 1 different pose')
+  await figure.scrubTo(3)
+  expect(await number(figure, 'distinct_after')).toBe(after)
+})
+
+test('the common ancestor is found by dragging and by arrow keys', async ({ page }) => {
+  const figure = await open(page, 'at=30&step=0')
+  const step = await number(figure, 'coalescence')
+  const box = (await figure.handle('at').boundingBox())!
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2]
+  await page.mouse.move(x, y)
+  await page.mouse.down()
+  await page.mouse.move(x + 30, y, { steps: 4 })
+  await page.mouse.up()
+  await figure.settled()
+  expect(Number(await figure.box('at').inputValue())).toBeGreaterThan(30)
+  await figure.box('at').fill(String(step - 2))
+  await figure.box('at').press('Enter')
+  await figure.settled()
+  expect(await number(figure, 'distinct_before')).toBe(1)
+  await figure.grasp('at').focus()
+  for (let key = 0; key < 3; key += 1) await page.keyboard.press('ArrowRight')
+  await figure.settled()
+  await expect(figure.box('at')).toHaveValue(String(step + 1))
+  expect(await number(figure, 'distinct_before')).toBeGreaterThan(1)
+  await page.keyboard.press('ArrowLeft')
+  await figure.settled()
+  await expect(figure.element.locator('[part~=chip]').first()).toContainText('✓')
+})
+
+test('without new ancestors the sweeps keep the past, and a link reopens the same numbers', async ({ page }) => {
+  const figure = await open(page, 'particles=8&step=6')
+  const [renewed, link] = [await figure.readouts(), await figure.state()]
+  await figure.toggle('reconnect').click()
+  await figure.settled()
+  expect(await number(figure, 'distinct_after')).toBeLessThan(Number.parseFloat(renewed['distinct_after']!))
+  await page.goto('about:blank')
+  expect(await (await open(page, link)).readouts()).toEqual(renewed)
+})

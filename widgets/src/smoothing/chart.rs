@@ -1,0 +1,133 @@
+//! Different poses, and the error of their mean, at every step of the drive.
+
+use super::{
+    ground::{DRAWN, RECORD},
+    layout::Layout,
+    model::{Account, SmoothingModel},
+};
+use crate::{
+    decimal::{fixed, write},
+    font::{self, Weight},
+    ghost::curve,
+    scene::{Anchor, Chart, Handle, LINE, Mark, Rect, Role, Scene, ghost, text},
+    words::smoothing as words,
+};
+use fastslam_lab::experiment::smoothing::{MOST, STEPS};
+
+/// What a reader moves along the axis.
+pub const AT: &str = "at";
+
+const SIZE: f64 = 11.0;
+
+/// One of the charts in a layout.
+pub fn place(layout: &Layout, rank: usize) -> Chart {
+    Chart { area: layout.charts[rank], last: STEPS }
+}
+
+/// Draws both.
+pub fn charts(scene: &mut Scene, model: &SmoothingModel, layout: &Layout) {
+    let accounts = [model.before(), model.after()];
+    let counts = |account: &Account| account.distinct.iter().map(|n| f64::from(*n)).collect();
+    let errors = |account: &Account| account.errors.clone();
+    let highest = accounts.iter().flatten().flat_map(|account| &account.errors).fold(0.1, |top: f64, x| top.max(*x));
+    let tops = [f64::from(model.particles().max(MOST)), round_up(highest)];
+    let values: [[Option<Vec<f64>>; 2]; 2] =
+        [accounts.each_ref().map(|a| a.as_ref().map(counts)), accounts.each_ref().map(|a| a.as_ref().map(errors))];
+    for (rank, curves) in values.iter().enumerate() {
+        let (chart, top) = (place(layout, rank), tops[rank]);
+        title(scene, model, &layout.names[rank], rank);
+        ticks(scene, layout, rank, top);
+        scene.marks.extend(chart.edges());
+        for pinned in [rank, rank + 2] {
+            scene.marks.extend(ghost(&chart, curve(model.pinned(), pinned).iter().map(|x| x / top)));
+        }
+        shared(scene, model, &chart);
+        for (values, role) in curves.iter().zip([RECORD, DRAWN]) {
+            if let Some(values) = values {
+                let line = chart.curve((0..).zip(values.iter().map(|x| x / top)));
+                scene.marks.push(Mark::Lines { lines: vec![line], width: 2.0, dash: None, role });
+                let at = model.at();
+                let dot = [chart.x(at), chart.y(values[at as usize] / top)];
+                scene.marks.push(Mark::Discs { centres: vec![dot], radius: 3.5, role });
+            }
+        }
+        cursor(scene, model, &chart, rank == 0);
+    }
+}
+
+/// The last step that all particles share.
+fn shared(scene: &mut Scene, model: &SmoothingModel, chart: &Chart) {
+    if let Some(step) = model.coalescence().filter(|step| *step > 0) {
+        let x = chart.x(step);
+        let line = vec![[x, chart.area.y], [x, chart.area.bottom()]];
+        scene.marks.push(Mark::Lines { lines: vec![line], width: 1.0, dash: Some([2.0, 3.0]), role: Role::Muted });
+    }
+}
+
+/// What a chart shows, and in the first one until where the record is of one pose.
+fn title(scene: &mut Scene, model: &SmoothingModel, area: &Rect, rank: usize) {
+    let names = match rank {
+        0 => [words::chart_distinct(), words::chart_distinct_short()],
+        _ => [words::chart_error(), words::chart_error_short()],
+    };
+    let one = model.coalescence().filter(|step| rank == 0 && *step > 0);
+    let one = one.map(|step| [words::OneUntil { step: &step }.say(), words::OneUntilShort { step: &step }.say()]);
+    let width = |name: &str| font::measure(name, 12.5, Weight::SemiBold);
+    // The longest of both that have room together.
+    let beside = |name: &'static str| {
+        let room = area.w - width(name) - 12.0;
+        let fits = |more: &&String| font::measure(more, SIZE, Weight::Regular) <= room;
+        one.iter().flatten().find(fits).map(|more| (name, more.clone()))
+    };
+    let found = names.into_iter().find_map(beside);
+    let alone = names.into_iter().find(|name| width(name) <= area.w).unwrap_or("");
+    let name = found.as_ref().map_or(alone, |(name, _)| name);
+    let line = Rect { h: LINE, ..*area };
+    scene.marks.push(text(line, Anchor::Start, 12.5, Weight::SemiBold, Role::Ink, name));
+    if let Some((_, more)) = found {
+        scene.marks.push(text(line, Anchor::End, SIZE, Weight::Regular, Role::Muted, more));
+    }
+}
+
+/// The step that is looked at.
+fn cursor(scene: &mut Scene, model: &SmoothingModel, chart: &Chart, grip: bool) {
+    let (x, area) = (chart.x(model.at()), chart.area);
+    let line = vec![[x, area.y], [x, area.bottom() + if grip { 5.0 } else { 0.0 }]];
+    scene.marks.push(Mark::Lines { lines: vec![line], width: 1.5, dash: None, role: Role::Accent });
+    if grip {
+        let at = [x, area.bottom() + 5.0];
+        scene.marks.push(Mark::Discs { centres: vec![at], radius: 5.0, role: Role::Accent });
+        scene.handles.push(Handle {
+            name: AT,
+            title: words::at().into(),
+            at,
+            axes: &[AT],
+            value: model.at().into(),
+            text: words::AtStep { at: &model.at() }.say(),
+            hover: None,
+        });
+    }
+}
+
+fn ticks(scene: &mut Scene, layout: &Layout, rank: usize, top: f64) {
+    let (chart, scale, axis) = (place(layout, rank), layout.scales[rank], layout.axes[rank]);
+    let half = if rank == 0 { (0.5 * top).floor() } else { 0.5 * top };
+    for value in [0.0, half, top] {
+        let y = chart.y(value / top);
+        let line = Mark::Fill { area: Rect::new(chart.area.x, y - 0.5, chart.area.w, 1.0), role: Role::Frame };
+        scene.marks.push(line);
+        let area = Rect::new(scale.x, y - 7.0, scale.w - 5.0, 14.0);
+        let said = if rank == 0 { write(value) } else { fixed(value, if top < 0.4 { 2 } else { 1 }) };
+        scene.marks.push(text(area, Anchor::End, SIZE, Weight::Regular, Role::Muted, said));
+    }
+    for step in [0, 20, 40, STEPS] {
+        let area = Rect::new(chart.x(step) - 12.0, axis.y + 12.0, 24.0, 14.0);
+        scene.marks.push(text(area, Anchor::Middle, SIZE, Weight::Regular, Role::Muted, step.to_string()));
+    }
+}
+
+/// The next number of one or two digits that halves well.
+fn round_up(x: f64) -> f64 {
+    const NICE: [f64; 10] = [0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0, 1.2, 1.6, 2.0];
+    NICE.into_iter().find(|nice| *nice >= x).unwrap_or_else(|| (0.5 * x).ceil() * 2.0)
+}

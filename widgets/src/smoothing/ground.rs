@@ -1,0 +1,162 @@
+//! The drive as it is seen: the ancestry that the filter has left, or the paths that sweeps have drawn.
+
+use super::{
+    layout::Layout,
+    model::{Account, SmoothingModel},
+};
+use crate::{
+    font::{self, Weight},
+    scene::{
+        Mark, NINE_TENTHS, Plane, Point, RIM, Rect, Role, Sample, Scene, clip_polyline, cloud, heading, legend, rimmed,
+        scale_bar,
+    },
+    words::{common, smoothing as words},
+};
+use fastslam::{geometry::Pose2, nalgebra::Matrix3};
+
+/// Colours of what the filter has left, of what sweeps have drawn, and of what has died out.
+pub const RECORD: Role = Role::Prior;
+/// See [`RECORD`].
+pub const DRAWN: Role = Role::Posterior;
+const DEAD: Role = Role::Level(70);
+
+/// What is seen of the world \[m\].
+const REACH: [f64; 2] = [6.6, 11.4];
+
+/// Every so many steps of the first half of the drive a region is drawn.
+const EVERY: usize = 5;
+
+/// Radius of a pose at the step that is looked at \[css px\].
+const POSE: f64 = 2.2;
+
+/// A place for the drive. The world has no north: where there is more room across, it lies on its side.
+struct Ground {
+    plane: Plane,
+    wide: bool,
+}
+
+impl Ground {
+    fn of(area: Rect, wide: bool) -> Self {
+        let [x, y] = if wide { [REACH[1], REACH[0]] } else { REACH };
+        Self { plane: Plane::around(area, [[-x, -y], [x, y]], 2.0), wide }
+    }
+
+    fn turned(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        if self.wide { [-y, x] } else { [x, y] }
+    }
+
+    fn point(&self, place: [f64; 2]) -> Point {
+        self.plane.point(self.turned(place))
+    }
+
+    /// Lines of the world, cut at the edges.
+    fn lines<'a>(&self, lines: impl IntoIterator<Item = &'a Vec<[f64; 2]>>) -> Vec<Vec<Point>> {
+        let cut = |line: &Vec<[f64; 2]>| {
+            let points: Vec<Point> = line.iter().map(|place| self.point(*place)).collect();
+            clip_polyline(&points, &self.plane.area)
+        };
+        lines.into_iter().flat_map(cut).collect()
+    }
+
+    fn path(&self, poses: &[Pose2]) -> Vec<Vec<Point>> {
+        self.lines(&[poses.iter().map(|pose| [pose.x, pose.y]).collect()])
+    }
+
+    /// The region that holds nine tenths of a Gaussian.
+    fn region(&self, (mean, covariance): &(Pose2, Matrix3<f64>)) -> Vec<Vec<Point>> {
+        let (xx, xy, yy) = (covariance.m11, covariance.m12, covariance.m22);
+        let covariance = if self.wide { [[yy, -xy], [-xy, xx]] } else { [[xx, xy], [xy, yy]] };
+        self.plane.region(self.turned([mean.x, mean.y]), covariance, NINE_TENTHS)
+    }
+}
+
+/// Draws both, with their names.
+pub fn maps(scene: &mut Scene, model: &SmoothingModel, layout: &Layout) {
+    let m = model.particles();
+    let sweeps = model.sweeps();
+    let names = [words::Record { m: &m }.say(), words::RecordShort { m: &m }.say()];
+    name(scene, &layout.headers[0], words::before(), &names);
+    let names = match sweeps {
+        0 => [words::nothing_drawn().into(), words::nothing_drawn_short().into()],
+        _ => [words::Drawn { n: &sweeps }.say(), words::DrawnShort { n: &sweeps }.say()],
+    };
+    name(scene, &layout.headers[1], words::after(), &names);
+    for (rank, area) in layout.maps.into_iter().enumerate() {
+        let ground = Ground::of(area, layout.wide);
+        let landmarks = model.run().log().landmarks.iter().map(|m| ground.point([m.x, m.y]));
+        scene.marks.push(cloud(landmarks, &area.inset(3.0), 2.5, Role::Landmark));
+        if rank == 0 {
+            record(scene, model, &ground)
+        } else {
+            draws(scene, model, &ground)
+        }
+        let truth = ground.path(&model.run().log().truth);
+        scene.marks.push(Mark::Lines { lines: truth, width: 1.5, dash: Some([4.0, 3.0]), role: Role::Truth });
+        let account = if rank == 0 { model.before() } else { model.after() };
+        if let Some(account) = account {
+            regions(scene, model, &ground, &account, rank);
+        }
+        scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
+        scale_bar(scene, &ground.plane, 5.0, 80.0);
+    }
+}
+
+fn name(scene: &mut Scene, area: &Rect, strong: &str, names: &[String; 2]) {
+    let used = font::measure(strong, 13.5, Weight::SemiBold) + 14.0;
+    let fits = |name: &&String| used + font::measure(name, 12.5, Weight::Regular) <= area.w;
+    heading(scene, area, (strong, Role::Ink), names.iter().find(fits).map_or("", String::as_str));
+}
+
+/// The ancestry: what has died out, and what is left.
+fn record(scene: &mut Scene, model: &SmoothingModel, ground: &Ground) {
+    let Some(record) = model.run().record() else { return };
+    let dead = ground.lines(&record.dead);
+    scene.marks.push(Mark::Lines { lines: dead, width: 1.0, dash: None, role: DEAD });
+    let branches = ground.lines(&record.branches);
+    scene.marks.push(Mark::Lines { lines: branches, width: 1.25, dash: None, role: RECORD });
+    rimmed(scene, ground.lines([&record.trunk]), 2.25, None, RECORD);
+}
+
+/// The paths that were drawn.
+fn draws(scene: &mut Scene, model: &SmoothingModel, ground: &Ground) {
+    let draws = model.run().draws().iter().take(model.sweeps() as usize);
+    let lines = draws.flat_map(|draw| ground.path(&draw.path)).collect();
+    scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role: DRAWN });
+}
+
+/// How much is known of early poses, and the poses at the step that is looked at.
+fn regions(scene: &mut Scene, model: &SmoothingModel, ground: &Ground, account: &Account, rank: usize) {
+    let early = model.run().early();
+    let of_early = account.moments.iter().enumerate().filter(|(step, _)| early.contains(step) && step % EVERY == 0);
+    let lines = of_early.flat_map(|(_, moments)| ground.region(moments)).collect();
+    scene.marks.push(Mark::Lines { lines, width: 1.25, dash: None, role: Role::Ink });
+    let at = model.at() as usize;
+    let poses: Vec<Point> = if rank == 0 {
+        model.run().ancestors(at).map(|pose| ground.point([pose.x, pose.y])).collect()
+    } else {
+        let draws = model.run().draws().iter().take(model.sweeps() as usize);
+        draws.map(|draw| ground.point([draw.path[at].x, draw.path[at].y])).collect()
+    };
+    let area = ground.plane.area.inset(POSE + RIM);
+    scene.marks.push(cloud(poses.iter().copied(), &area, POSE + RIM, Role::Paper));
+    scene.marks.push(cloud(poses.into_iter(), &area, POSE, Role::Accent));
+    let truth = &model.run().log().truth[at];
+    let [x, y] = ground.point([truth.x, truth.y]);
+    let lines = crate::scene::cross(Rect::new(x - 4.0, y - 4.0, 8.0, 8.0));
+    scene.marks.push(Mark::Lines { lines, width: 1.5, dash: None, role: Role::Truth });
+}
+
+/// What lines and dots are.
+pub fn key(scene: &mut Scene, model: &SmoothingModel, layout: &Layout, pinned: bool) {
+    let mut items = vec![
+        (Sample::line(RECORD, 2.25, None), words::key_record().to_string()),
+        (Sample::line(DEAD, 1.0, None), words::key_dead().into()),
+        (Sample::line(DRAWN, 2.0, None), words::key_drawn().into()),
+        (Sample::line(Role::Truth, 1.5, Some([4.0, 3.0])), common::truth().into()),
+        (Sample::dot(Role::Accent, POSE).wide(8.0), words::KeyAt { at: &model.at() }.say()),
+    ];
+    if pinned {
+        items.push((Sample::line(crate::scene::GHOST, 1.75, None), common::pinned_mark().into()));
+    }
+    legend(scene, &layout.legend, items);
+}

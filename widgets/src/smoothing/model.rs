@@ -1,0 +1,177 @@
+//! The filter's record and the sweeps as a deterministic state: what was set, how many sweeps are done, and how many of them are shown.
+
+use super::{challenges, recipe::Recipe, told};
+use crate::{
+    challenge::Challenge,
+    ghost::Curves,
+    model::{Declared, FigureError, Model, Readout, Series},
+    words::smoothing as words,
+};
+use fastslam::{geometry::Pose2, nalgebra::Matrix3};
+use fastslam_lab::experiment::smoothing::{MOST, STEPS, Smoothing, SmoothingSetup};
+
+/// What the record says of every step, or the draws do.
+pub struct Account {
+    /// How many different poses there are.
+    pub distinct: Vec<u32>,
+    /// Their mean and covariance.
+    pub moments: Vec<(Pose2, Matrix3<f64>)>,
+    /// Distance of the mean from the truth \[m\].
+    pub errors: Vec<f64>,
+    /// Root mean square of that over the first half of the drive \[m\].
+    pub early: f64,
+}
+
+/// The figure of the smoother.
+pub struct SmoothingModel {
+    recipe: Recipe,
+    /// What is shown: its filter is done, or nothing was shown before.
+    shown: Smoothing,
+    /// What was asked for since.
+    next: Option<Smoothing>,
+    /// Of the run that is pinned: different poses and errors of record and draws, step by step.
+    pinned: Curves,
+}
+
+impl Default for SmoothingModel {
+    fn default() -> Self {
+        let recipe = Recipe::default();
+        Self { shown: begin(&recipe.setup), recipe, next: None, pinned: Curves::new() }
+    }
+}
+
+fn begin(setup: &SmoothingSetup) -> Smoothing {
+    Smoothing::new(setup).unwrap_or_else(|error| unreachable!("the parameters' ranges are within the core's: {error}"))
+}
+
+impl SmoothingModel {
+    /// Filter and sweeps, as far as they are.
+    pub fn run(&self) -> &Smoothing {
+        &self.shown
+    }
+
+    /// Number of particles of what is shown.
+    pub fn particles(&self) -> u32 {
+        self.shown.setup().particles
+    }
+
+    /// How many sweeps are shown.
+    pub fn sweeps(&self) -> u32 {
+        self.recipe.step.min(self.shown.draws().len() as u32)
+    }
+
+    /// The step of the drive that is looked at.
+    pub fn at(&self) -> u32 {
+        self.recipe.at
+    }
+
+    /// Looks at this step of the drive, or at the nearest.
+    pub fn look_at(&mut self, step: f64) {
+        self.change(|recipe| recipe.at = step.round().clamp(1.0, f64::from(STEPS)) as u32);
+    }
+
+    /// What the filter's record says; nothing before it has come to the end.
+    pub fn before(&self) -> Option<Account> {
+        let record = self.shown.record()?;
+        let errors = self.shown.errors(&record.moments);
+        let early = self.shown.early_rms(&errors);
+        Some(Account { distinct: record.distinct.clone(), moments: record.moments.clone(), errors, early })
+    }
+
+    /// What the draws of the sweeps that are shown say; nothing before the first.
+    pub fn after(&self) -> Option<Account> {
+        let sweeps = self.sweeps() as usize;
+        let (distinct, moments) = (self.shown.distinct(sweeps), self.shown.moments(sweeps));
+        let errors = self.shown.errors(&moments);
+        let early = self.shown.early_rms(&errors);
+        (sweeps > 0).then_some(Account { distinct, moments, errors, early })
+    }
+
+    /// The last step at which all particles have one ancestor.
+    pub fn coalescence(&self) -> Option<u32> {
+        self.shown.record().map(|record| record.coalescence)
+    }
+
+    /// See [`Model::curves`].
+    pub(super) fn pinned(&self) -> &Curves {
+        &self.pinned
+    }
+}
+
+impl Declared for SmoothingModel {
+    type Recipe = Recipe;
+    const TITLE: &'static str = words::TITLE;
+
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
+
+    fn recipe(&self) -> &Recipe {
+        &self.recipe
+    }
+
+    fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
+        let asked = self.next.as_ref().unwrap_or(&self.shown).setup();
+        if recipe.setup != *asked {
+            self.next = (recipe.setup != *self.shown.setup()).then(|| begin(&recipe.setup));
+        }
+        self.recipe = recipe;
+        Ok(())
+    }
+}
+
+impl Model for SmoothingModel {
+    fn seek(&mut self, step: u32) {
+        self.recipe.step = step.min(MOST);
+    }
+
+    fn step_count(&self) -> u32 {
+        MOST
+    }
+
+    fn step(&self) -> u32 {
+        self.sweeps()
+    }
+
+    fn pending(&self) -> u32 {
+        self.next.as_ref().unwrap_or(&self.shown).pending(self.recipe.step)
+    }
+
+    fn work(&mut self) {
+        self.next.as_mut().unwrap_or(&mut self.shown).advance();
+        let asked = self.recipe.step.min(1) as usize;
+        let begun = |next: &mut Smoothing| next.record().is_some() && next.draws().len() >= asked;
+        if let Some(next) = self.next.take_if(begun) {
+            self.shown = next;
+        }
+    }
+
+    /// From the first sweep on: what comes then are more of them.
+    fn refines(&self) -> bool {
+        self.next.is_none() && !self.shown.draws().is_empty()
+    }
+
+    fn readouts(&self) -> Vec<Readout> {
+        told::readouts(self)
+    }
+
+    fn series(&self) -> Series {
+        told::series(self)
+    }
+
+    fn describe(&self) -> String {
+        told::describe(self)
+    }
+
+    fn curves(&self) -> Curves {
+        let of = |account: Option<Account>| {
+            let distinct = account.iter().flat_map(|account| account.distinct.iter().map(|n| f64::from(*n))).collect();
+            [distinct, account.map(|account| account.errors).unwrap_or_default()]
+        };
+        of(self.before()).into_iter().chain(of(self.after())).collect()
+    }
+
+    fn haunt(&mut self, pinned: Curves) {
+        self.pinned = pinned;
+    }
+}

@@ -1,0 +1,65 @@
+//! What a reader can set about the filter and the sweeps.
+
+use crate::{
+    field,
+    recipe::{self, Param},
+    words::{common, smoothing as words},
+};
+use fastslam_lab::experiment::smoothing::{MOST, STEPS, SmoothingSetup};
+
+/// Most particles.
+pub const PARTICLES: u32 = 40;
+
+/// Everything that a link can say.
+#[derive(Clone, PartialEq)]
+pub struct Recipe {
+    /// What decides the numbers.
+    pub setup: SmoothingSetup,
+    /// The step of the drive that is looked at.
+    pub at: u32,
+    /// After how many sweeps is looked.
+    pub step: u32,
+}
+
+impl Default for Recipe {
+    fn default() -> Self {
+        Self { setup: SmoothingSetup::default(), at: 12, step: MOST }
+    }
+}
+
+impl recipe::Recipe for Recipe {
+    fn table() -> Vec<Param<Self>> {
+        type P = Param<Recipe>;
+        vec![
+            P::integer(
+                "particles",
+                words::particles(),
+                "",
+                (2, PARTICLES),
+                field!(setup.particles),
+                words::particles_help(),
+            ),
+            P::number(
+                "odometry",
+                common::odometry_noise(),
+                "×",
+                (0.25, 3.0, 0.05),
+                field!(setup.odometry_scale),
+                words::odometry_help(),
+            ),
+            P::number(
+                "sensor",
+                words::sensor(),
+                "×",
+                (0.25, 2.0, 0.05),
+                field!(setup.sensor_scale),
+                words::sensor_help(),
+            )
+            .folded(),
+            P::flag("reconnect", words::reconnect(), field!(setup.reconnect), words::reconnect_help()),
+            P::seed(field!(setup.seed), words::seed_help()),
+            P::integer("at", words::at(), "", (1, STEPS), field!(at), words::at_help()).view(),
+            P::integer("step", words::sweeps(), "", (0, MOST), field!(step), words::sweeps_help()).view(),
+        ]
+    }
+}
