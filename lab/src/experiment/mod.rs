@@ -2,6 +2,7 @@
 
 pub mod conditioning;
 pub mod doors;
+pub mod graph;
 pub mod hill;
 pub mod joint_map;
 pub mod landmarks;
