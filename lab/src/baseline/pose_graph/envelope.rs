@@ -113,7 +113,8 @@ mod tests {
     /// AᵀA of a random matrix with the shape of a graph's: a band, and long rows.
     fn random(seed: u64, size: usize) -> (Envelope, DMatrix<f64>) {
         let mut stream = Stream::at(seed, Purpose::TRIAL, 0, 0);
-        let first: Vec<usize> = (0..size).map(|row| if row % 7 == 6 { row / 3 } else { row.saturating_sub(4) }).collect();
+        let first: Vec<usize> =
+            (0..size).map(|row| if row % 7 == 6 { row / 3 } else { row.saturating_sub(4) }).collect();
         let mut dense = DMatrix::<f64>::zeros(size, size);
         for (row, from) in first.iter().enumerate() {
             for column in *from..row {

@@ -44,7 +44,15 @@ pub fn manhattan(seed: u64, steps: usize) -> Result<(PoseGraph, Vec<Pose2>), Gra
         }
         visited.insert(at, step);
         let turn = Stream::at(seed, Purpose::TRIAL, step as u32, 1).uniform();
-        heading = (heading + if turn < 0.125 { 1 } else if turn < 0.25 { 3 } else { 0 }) % 4;
+        heading = (heading
+            + if turn < 0.125 {
+                1
+            } else if turn < 0.25 {
+                3
+            } else {
+                0
+            })
+            % 4;
         let inside = |(dx, dy): (i32, i32)| (0..=SIDE).contains(&(at.0 + dx)) && (0..=SIDE).contains(&(at.1 + dy));
         while !inside(AHEAD[heading as usize]) {
             heading = (heading + 1) % 4;

@@ -168,7 +168,15 @@ impl Optimizer {
             normal.pull(edge.i, &(pull_i * error));
             normal.pull(edge.j, &(pull_j * error));
             if let Repair::Switchable { prior } = self.repair_of(k) {
-                normal.eliminate_switch(k, [edge.i, edge.j], [by_i, by_j], edge.information * error, error, self.switches[k], prior);
+                normal.eliminate_switch(
+                    k,
+                    [edge.i, edge.j],
+                    [by_i, by_j],
+                    edge.information * error,
+                    error,
+                    self.switches[k],
+                    prior,
+                );
             }
         }
         normal

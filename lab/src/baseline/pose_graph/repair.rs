@@ -81,7 +81,11 @@ impl Repair {
             Self::Cauchy { width } => 1.0 / (1.0 + chi_squared / (width * width)),
             Self::Switchable { .. } => switch * switch,
             Self::MaxMixture { null_scale, .. } => {
-                if self.null_cost(chi_squared) < 0.5 * chi_squared { null_scale } else { 1.0 }
+                if self.null_cost(chi_squared) < 0.5 * chi_squared {
+                    null_scale
+                } else {
+                    1.0
+                }
             }
         }
     }
