@@ -6,6 +6,7 @@ use crate::log::LogView;
 use crate::{
     conditioning::ConditioningView,
     doors::{DOORS, DoorsView},
+    graph::GraphView,
     joint::JointView,
     lap::{LAPS, LapView},
     proposal::ProposalView,
@@ -76,6 +77,8 @@ pub const FIGURES: &[Entry] = &[
     Entry::of::<UniversesView>("fastslam-universes", Program::Page, None),
     #[cfg(feature = "page")]
     Entry::of::<DoorsView>("fastslam-doors", Program::Page, Some(&DOORS)),
+    #[cfg(feature = "page")]
+    Entry::of::<GraphView>("fastslam-graph", Program::Page, None),
 ];
 
 /// The figure of a tag.

@@ -480,14 +480,8 @@ impl GraphLap {
     pub fn new(setup: &GraphSetup) -> Result<Self, SettingError> {
         setup.validate()?;
         let world = Arc::new(setup.lap.world());
-        Ok(Self {
-            setup: setup.clone(),
-            build: GraphBuild::in_world(&setup.lap, Arc::clone(&world)),
-            optimizer: None,
-            frames: Vec::new(),
-            solved: false,
-            universes: Lap::in_world(&setup.lap, world)?,
-        })
+        let build = GraphBuild::in_world(&setup.lap, Arc::clone(&world));
+        Self::of(setup, build, Lap::in_world(&setup.lap, world)?)
     }
 
     /// Another question about the same log: nothing but the optimisation begins anew.
@@ -499,8 +493,14 @@ impl GraphLap {
             return Self::new(setup);
         }
         setup.validate()?;
-        let (build, universes) = (self.build.clone(), self.universes.clone());
-        Ok(Self { setup: setup.clone(), build, optimizer: None, frames: Vec::new(), solved: false, universes })
+        Self::of(setup, self.build.clone(), self.universes.clone())
+    }
+
+    fn of(setup: &GraphSetup, build: GraphBuild, universes: Lap) -> Result<Self, SettingError> {
+        let poses = build.world.odometry.clone();
+        let error = PathError::of(&poses, &build.world.truth);
+        let frames = vec![Frame { poses, cost: f64::NAN, error, wrong_weight: None }];
+        Ok(Self { setup: setup.clone(), build, optimizer: None, frames, solved: false, universes })
     }
 
     /// What was asked.
@@ -523,7 +523,7 @@ impl GraphLap {
         &self.universes
     }
 
-    /// Every iteration so far, the start first.
+    /// Every iteration so far, the start first. Until the log is tied together, the wheels' path alone, of no cost yet (not a number).
     pub fn frames(&self) -> &[Frame] {
         &self.frames
     }
@@ -553,7 +553,10 @@ impl GraphLap {
             return Ok(());
         }
         match &mut self.optimizer {
-            None => self.optimizer = Some(Optimizer::new(self.graph()?, self.setup.repair)),
+            None => {
+                self.frames.clear();
+                self.optimizer = Some(Optimizer::new(self.graph()?, self.setup.repair));
+            }
             Some(optimizer) => {
                 let Iteration { cost_before, cost_after, converged, .. } = optimizer.step()?;
                 // The last one, which gains nothing to speak of, is none to look at.
