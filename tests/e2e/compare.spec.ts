@@ -12,6 +12,7 @@ const RUNS: [string, string, [string, string], RegExp][] = [
   ['fastslam-resampling', 'particles=12&step=12', ['threshold', '0.9'], /^Pinned at step 12: Threshold 0.5 of M \(now 0.9 of M\)$/],
   ['fastslam-doors', 'particles=100&step=50', ['ride', '2'], /^Pinned at step 50: Ride σ 4 m \(now 2 m\)$/],
   ['fastslam-proposal', 'samples=200', ['range-std', '0.3'], /^Pinned: Range noise σ 0.05 m \(now 0.3 m\)$/],
+  ['fastslam-graph', 'step=3', ['odometry', '0.3'], /^Pinned at step 3: Odometry noise σ 0.5 × \(now 0.3 ×\)$/],
   ['fastslam-joint', 'particles=100', ['sensor', '2'], /^Pinned: Sensor noise σ 1 × \(now 2 ×\)$/],
 ]
 

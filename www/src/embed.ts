@@ -13,6 +13,7 @@ import { OPTIONS } from '../../widgets/elements/options'
 const LATER: Record<string, () => Promise<unknown>> = {
   'fastslam-log': () => import('../../widgets/elements/log'),
   'fastslam-doors': () => import('../../widgets/elements/doors'),
+  'fastslam-graph': () => import('../../widgets/elements/graph'),
   'fastslam-resampling': () => import('../../widgets/elements/resampling'),
   'fastslam-universes': () => import('../../widgets/elements/universes'),
 }

@@ -443,6 +443,17 @@ impl Default for GraphSetup {
     }
 }
 
+impl GraphSetup {
+    /// What its figure opens with: wheels that drift by some metres, so that the ring they draw is bent and can still be seen to be one.
+    pub fn opening() -> Self {
+        let lap = LapSetup { seed: 5, odometry_scale: 0.5, ..Self::default().lap };
+        Self { lap, ..Self::default() }
+    }
+}
+
+/// The poses that the figure's false edge says are one: in the ring's corridor below the block, and in the one above it.
+pub const FALSE_EDGE: [usize; 2] = [14, 52];
+
 /// Standard deviations of a false edge \[m, m, rad\]: as sure of itself as a match is.
 pub const WRONG_STDS: [f64; 3] = [0.05, 0.05, 0.02];
 

@@ -8,7 +8,7 @@ use crate::{
 use fastslam_lab::{
     baseline::pose_graph::Repair,
     experiment::{
-        graph::{GraphSetup, ITERATIONS, Start},
+        graph::{FALSE_EDGE, GraphSetup, ITERATIONS, Start},
         lap::{Course, STEPS},
     },
 };
@@ -35,9 +35,8 @@ impl Default for Recipe {
     /// Before the first iteration, with wheels that leave a ring to be seen. The false edge would tie the corridor below the block to the
     /// one above it.
     fn default() -> Self {
-        let mut asked = GraphSetup::default();
-        (asked.lap.seed, asked.lap.odometry_scale) = (5, 0.5);
-        Self { asked, wrong: false, ends: [14, 52], truth: true, step: 0 }
+        let ends = FALSE_EDGE.map(|pose| pose as u32);
+        Self { asked: GraphSetup::opening(), wrong: false, ends, truth: true, step: 0 }
     }
 }
 

@@ -202,7 +202,6 @@ pub struct Residual {
     pub by_j: Matrix3<f64>,
 }
 
-// ANCHOR: residual
 impl Edge {
     /// e_ij = z_ij⁻¹ · (x_i⁻¹ · x_j), and how it changes when pose i or pose j is moved in its own frame.
     pub fn residual(&self, world_from_i: &Pose2, world_from_j: &Pose2) -> Residual {
@@ -226,7 +225,6 @@ impl Edge {
         e.dot(&(self.information * e))
     }
 }
-// ANCHOR_END: residual
 
 /// The matrix of a turn by so much \[rad\].
 fn turn(angle: f64) -> Matrix2<f64> {

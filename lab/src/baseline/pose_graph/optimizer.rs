@@ -153,7 +153,6 @@ impl Optimizer {
         Ok(most)
     }
 
-    // ANCHOR: normal
     /// H = Σ Jᵀ Ω J and g = Σ Jᵀ Ω e over all edges, each with the share of its information that pulls.
     fn linearize(&self) -> Normal {
         let size = self.first.len();
@@ -181,7 +180,6 @@ impl Optimizer {
         }
         normal
     }
-    // ANCHOR_END: normal
 
     /// Poses and switches after the step (H + λ diag H) δ = −g; `None` where that cannot be solved.
     fn damped(&self, normal: &Normal, damping: f64) -> Option<(Vec<Pose2>, Vec<f64>)> {

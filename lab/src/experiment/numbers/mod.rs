@@ -4,6 +4,7 @@
 //! the file that the chapter's prose takes its numbers from by key; `tests/portability` and `tests/browser` run them again and
 //! compare bits; the page runs one cell of the lap table in front of the reader ([`LapCell`]).
 
+mod graph;
 mod landmarks;
 mod lap;
 mod policies;
@@ -178,7 +179,7 @@ impl Group {
 
 /// Every recipe of the chapter.
 pub fn recipes() -> Vec<Recipe> {
-    [lap::recipes(), ring::recipes(), policies::recipes(), proposals::recipes(), landmarks::recipes()]
+    [lap::recipes(), ring::recipes(), graph::recipes(), policies::recipes(), proposals::recipes(), landmarks::recipes()]
         .into_iter()
         .flatten()
         .collect()
