@@ -43,7 +43,7 @@ impl Judged {
 
 /// What can be asked of a graph.
 #[derive(clap::Args)]
-pub struct Options {
+pub struct GraphOptions {
     /// What makes a path and a map of the log
     #[arg(long, value_enum, default_value_t = Method::Particles)]
     pub method: Method,
@@ -58,7 +58,7 @@ pub struct Options {
     from_g2o: Option<PathBuf>,
 }
 
-impl Options {
+impl GraphOptions {
     /// # Errors
     /// Where something is asked of a graph and there is none.
     pub fn only_of_graphs(&self) -> Result<()> {
@@ -93,7 +93,7 @@ struct Output {
 }
 
 /// Runs the command.
-pub fn run(setup: &LapSetup, options: &Options, as_json: bool) -> Result<()> {
+pub fn run(setup: &LapSetup, options: &GraphOptions, as_json: bool) -> Result<()> {
     let (graph, build) = match &options.from_g2o {
         Some(path) => (read(path)?, None),
         None => {

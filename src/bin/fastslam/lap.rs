@@ -23,7 +23,7 @@ pub struct Arguments {
     #[command(flatten)]
     options: Options,
     #[command(flatten)]
-    graph: graph::Options,
+    graph: graph::GraphOptions,
     /// Print one JSON object
     #[arg(long)]
     json: bool,

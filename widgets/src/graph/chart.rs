@@ -5,7 +5,7 @@ use crate::{
     decimal::write,
     font::Weight,
     model::Model as _,
-    scene::{Anchor, Chart, GHOST, Mark, Rect, Role, Sample, Scene, ghost, heading, legend, text},
+    scene::{Anchor, Chart, GHOST, Mark, Rect, Role, Sample, Scene, ghost, heading_if_fits, legend, text},
     words::{common, graph as words},
 };
 use fastslam::ops;
@@ -22,7 +22,7 @@ fn share(error: f64) -> f64 {
 }
 
 pub fn draw(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
-    heading(scene, &layout.error_header, (words::error(), Role::Ink), words::error_unit());
+    heading_if_fits(scene, &layout.error_header, (words::error(), Role::Ink), words::error_unit());
     let chart = Chart { area: layout.error, last: model.step_count() };
     for level in LEVELS {
         let y = chart.y(share(level));

@@ -4,7 +4,7 @@ use super::{layout::Layout, model::GraphModel, told};
 use crate::{
     font::Weight,
     lap::map,
-    scene::{Anchor, LINE, Mark, Rect, Role, Scene, Shading, heading, rimmed_robot, text},
+    scene::{Anchor, LINE, Mark, Rect, Role, Scene, Shading, heading_if_fits, rimmed_robot, text},
     words::{common, graph as words},
 };
 
@@ -17,7 +17,7 @@ pub fn draw(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
         Some(_) => words::same_log().to_string(),
         None => words::UniversesStep { step: &lap.report().step, last: &lap.step_count() }.say(),
     };
-    heading(scene, &layout.universes_header, (&title, Role::Ink), &rest);
+    heading_if_fits(scene, &layout.universes_header, (&title, Role::Ink), &rest);
     let area = centred(&layout.universes);
     let plane = map::plane(area, course);
     scene.marks.push(Mark::Raster { area, cells: map::shares(lap, course), shading: Shading::Share });

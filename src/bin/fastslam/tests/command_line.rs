@@ -42,7 +42,10 @@ fn a_lap_is_a_graph_too_and_a_bad_line_of_one_is_named() {
     let file = path.display();
     let lap = json(&format!("lap --method graph --course ring --seed 3 --g2o {file} --json"));
     let number = |value: &Value, key: &str| value[key].as_f64().unwrap();
-    assert_eq!([number(&lap, "poses"), number(&lap, "odometry_edges"), number(&lap, "match_edges")], [111.0, 110.0, 110.0]);
+    assert_eq!(
+        [number(&lap, "poses"), number(&lap, "odometry_edges"), number(&lap, "match_edges")],
+        [111.0, 110.0, 110.0]
+    );
     assert!(lap["after"]["rms"].as_f64() < lap["before"]["rms"].as_f64() && number(&lap, "loop_edges") > 10.0);
     let read = json(&format!("lap --method graph --from-g2o {file} --json"));
     assert_eq!((&read["path"], &read["cost_after"], &read["before"]), (&lap["path"], &lap["cost_after"], &Value::Null));
