@@ -32,12 +32,13 @@ pub fn draw(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
     }
     scene.marks.extend(chart.edges());
     scene.marks.extend(ghost(&chart, model.pinned().iter().map(|error| share(*error))));
+    let best = if layout.wide { words::best_line() } else { words::best_line_short() };
     let mut items = vec![(Sample::line(Role::Ink, 1.75, None), words::graph_line().to_string())];
     if let Some(report) = model.universes() {
         let lines = vec![chart.level(share(report.rms_best))];
         scene.marks.push(Mark::Lines { lines, width: 1.5, dash: Some([4.0, 3.0]), role: Role::Path });
     }
-    items.push((Sample::line(Role::Path, 1.5, Some([4.0, 3.0])), words::best_line().into()));
+    items.push((Sample::line(Role::Path, 1.5, Some([4.0, 3.0])), best.into()));
     if !model.pinned().is_empty() {
         items.push((Sample::line(GHOST, 1.75, None), common::pinned_mark().into()));
     }
