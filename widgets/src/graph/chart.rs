@@ -16,6 +16,9 @@ const ENDS: [f64; 2] = [0.02, 20.0];
 /// Errors that have a name \[m\].
 const LEVELS: [f64; 3] = [0.1, 1.0, 10.0];
 
+/// From this width on \[css px\] the legend has one line for long names, in any language.
+const ROOMY: f64 = 300.0;
+
 /// Share of the height of an error \[m\].
 fn share(error: f64) -> f64 {
     ops::ln(error.max(1e-9) / ENDS[0]) / ops::ln(ENDS[1] / ENDS[0])
@@ -32,7 +35,7 @@ pub fn draw(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
     }
     scene.marks.extend(chart.edges());
     scene.marks.extend(ghost(&chart, model.pinned().iter().map(|error| share(*error))));
-    let best = if layout.wide { words::best_line() } else { words::best_line_short() };
+    let best = if layout.error_legend.w >= ROOMY { words::best_line() } else { words::best_line_short() };
     let mut items = vec![(Sample::line(Role::Ink, 1.75, None), words::graph_line().to_string())];
     if let Some(report) = model.universes() {
         let lines = vec![chart.level(share(report.rms_best))];
