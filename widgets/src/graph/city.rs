@@ -132,7 +132,9 @@ fn wrong(scene: &mut Scene, model: &GraphModel, plane: &Plane) {
     let ends = ends(model, plane);
     let poses =
         model.recipe().ends().map(|pose| plane.position(&model.poses()[(pose as usize).min(model.poses().len() - 1)]));
-    rimmed(scene, clip_polyline(&poses, &plane.area), 3.0, None, WRONG);
+    // As broad as it still pulls.
+    let width = 1.0 + 2.0 * model.frame().wrong_weight.unwrap_or(1.0);
+    rimmed(scene, clip_polyline(&poses, &plane.area), width, None, WRONG);
     rimmed(scene, clip_polyline(&ends, &plane.area), 1.75, Some([5.0, 4.0]), WRONG);
     for (k, at) in ends.into_iter().enumerate() {
         scene.marks.push(Mark::Discs { centres: vec![at], radius: 7.25, role: Role::Paper });
