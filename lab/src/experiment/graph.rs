@@ -195,9 +195,9 @@ impl GraphBuild {
 
     fn map_in(&self, model: GridModel, steps: core::ops::Range<usize>, poses: &[Pose2]) -> Grid {
         let mut map = Grid::new(model);
-        for step in steps.start..steps.end.min(poses.len()) {
+        for (step, pose) in poses.iter().enumerate().take(steps.end).skip(steps.start) {
             match step.checked_sub(1) {
-                Some(k) => map.assimilate(&poses[step], &self.world.scans[k], &()),
+                Some(k) => map.assimilate(pose, &self.world.scans[k], &()),
                 None => {
                     for (pose, scan) in &self.world.start_scans {
                         map.assimilate(pose, scan, &());
