@@ -81,7 +81,7 @@ const comparing = {
   events: [{ name: 'fastslam-seeds', type: 'CustomEvent<SeedsDetail>', help: 'The strip of five seeds has been run.' }],
 }
 
-const COMPARED = ['lap', 'proposal', 'resampling', 'doors', 'joint', 'smoothing', 'em'].map(name => `fastslam-${name}`)
+const COMPARED = ['lap', 'proposal', 'resampling', 'doors', 'joint', 'graph', 'smoothing', 'em'].map(name => `fastslam-${name}`)
 
 /** What only some figures have. @param {{ tag: string }} figure */
 const extrasOf = ({ tag }) => (COMPARED.includes(tag) ? comparing : { methods: [], properties: [], events: [] })

@@ -94,6 +94,12 @@ const outside = () =>
     run('cargo', ['test', '--no-fail-fast', '--', '--show-output'], { cwd: join(root, 'tests', 'outside'), env: sharedTarget }),
   )
 
+/** The pose graph against `factrs`, a package of somebody else's that switches on features which would change results. */
+const factrs = () =>
+  counted(() =>
+    run('cargo', ['test', '--no-fail-fast', '--', '--show-output'], { cwd: join(root, 'tests', 'factrs'), env: sharedTarget }),
+  )
+
 /** Those of the filter crate, which check their own results. */
 async function examples() {
   const log = [join(root, 'tests', 'figures', 'golden', 'tiny.clf'), cache('example')]
@@ -148,6 +154,7 @@ await main(async () => {
   await attempt('Tests of the chapter’s making', nodeTest)
   await attempt('Tests, native, with all checks on', () => cargoTest('--workspace'))
   await attempt('Tests of a package outside the workspace', outside)
+  await attempt('Pose graphs against factrs', factrs)
   await attempt('Examples run', examples)
   await attempt('The fuzz target compiles', fuzz)
   await attempt('Resampling against the Python package particles', oracle)

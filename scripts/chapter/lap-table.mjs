@@ -16,24 +16,26 @@ export function renderLapTable(numbers) {
   const columns = Object.keys(proposals).flatMap(proposal => Object.keys(matchers).map(matcher => `${proposal}.${matcher}`))
   const groups = Object.values(proposals).map(title => `<th scope="colgroup" colspan="${Object.keys(matchers).length}">${title}</th>`)
   const titles = columns.map(column => `<th scope="col">${Object.entries(matchers).find(([matcher]) => column.endsWith(`.${matcher}`))?.[1]}</th>`)
-  const body = rows.map(row => `<tr><th scope="row"><i>M</i> = ${row}</th>${columns.map(column => cell(numbers, `${column}.m${row}`)).join('')}</tr>`)
+  // A pose graph has no particles: one number for all rows, beside the score that its matches are made with.
+  const graph = (/** @type {number} */ k) => (k === 0 ? cell(numbers, 'graph', ` rowspan="${rows.length}" class="graph"`) : '')
+  const body = rows.map((row, k) => `<tr><th scope="row"><i>M</i> = ${row}</th>${columns.map(column => cell(numbers, `${column}.m${row}`, ` data-cell="${column}.m${row}"`)).join('')}${graph(k)}</tr>`)
   return [
     `<fastslam-lap-table seeds="${numbers['lap.runs']?.value}"><table>`,
-    `<thead><tr><td rowspan="2">error [m]</td>${groups.join('')}</tr><tr>${titles.join('')}</tr></thead>`,
+    `<thead><tr><td rowspan="2">error [m]</td>${groups.join('')}<th scope="colgroup">Pose graph</th></tr><tr>${titles.join('')}<th scope="col">sub-cell score</th></tr></thead>`,
     `<tbody>${body.join('')}</tbody>`,
     '</table></fastslam-lap-table>',
   ].join('\n')
 }
 
-/** Median, its 95 % interval, 90th percentile and worst. @param {Numbers} numbers @param {string} name */
-function cell(numbers, name) {
+/** Median, its 95 % interval, 90th percentile and worst. @param {Numbers} numbers @param {string} name @param {string} attributes */
+function cell(numbers, name, attributes) {
   const value = (/** @type {string} */ key) => {
     const number = numbers[`lap.${name}.${key}`]
     if (!number) throw new Error(`www/data/numbers.json has no number lap.${name}.${key}: npm run numbers makes it`)
     return metres(number.value)
   }
   return [
-    `<td data-cell="${name}">`,
+    `<td${attributes}>`,
     `<b data-of="median">${value('median')}</b>`,
     ` <span class="interval" title="95 % confidence interval of the median"><span data-of="low">${value('median_low')}</span>–<span data-of="high">${value('median_high')}</span></span>`,
     ` <span class="tail">p90 <span data-of="p90">${value('p90')}</span></span>`,

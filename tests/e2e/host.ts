@@ -3,7 +3,7 @@ import { createServer } from 'node:http'
 import type { AddressInfo } from 'node:net'
 import type { Page } from '@playwright/test'
 
-export const FIGURES = ['lap', 'conditioning', 'proposal', 'worked-example', 'resampling', 'joint', 'smoothing', 'em', 'universes', 'doors']
+export const FIGURES = ['lap', 'conditioning', 'proposal', 'worked-example', 'resampling', 'joint', 'graph', 'smoothing', 'em', 'universes', 'doors']
 
 /** A course's own site, on another origin: it serves one page with this in its body, and nothing else. */
 export async function openHost(page: Page, body: string, head = ''): Promise<void> {

@@ -19,6 +19,8 @@ pub mod export;
 pub mod figure;
 pub mod font;
 pub mod ghost;
+#[cfg(feature = "page")]
+pub mod graph;
 pub mod job;
 #[cfg(feature = "page")]
 pub mod joint;

@@ -7,6 +7,7 @@ use crate::{
     conditioning::ConditioningView,
     doors::{DOORS, DoorsView},
     em::EmView,
+    graph::GraphView,
     joint::JointView,
     lap::{LAPS, LapView},
     proposal::ProposalView,
@@ -80,7 +81,10 @@ pub const FIGURES: &[Entry] = &[
     Entry::of::<DoorsView>("fastslam-doors", Program::Page, Some(&DOORS)),
     #[cfg(feature = "page")]
     Entry::of::<EmView>("fastslam-em", Program::Page, None),
+    #[cfg(feature = "page")]
     Entry::of::<SmoothingView>("fastslam-smoothing", Program::Page, None),
+    #[cfg(feature = "page")]
+    Entry::of::<GraphView>("fastslam-graph", Program::Page, None),
 ];
 
 /// The figure of a tag.

@@ -9,12 +9,13 @@ use fastslam_widgets::{
 };
 
 /// A state that is pinned, and one that is shown then, with every mark that a legend has.
-const RUNS: [(&str, &str, &str); 8] = [
+const RUNS: [(&str, &str, &str); 9] = [
     ("fastslam-lap", "step=30", "universes=4&step=22&truth=on&raw=on"),
     ("fastslam-resampling", "step=30", "particles=40&threshold=0.9&step=12"),
     ("fastslam-resampling", "wings=on&step=30", "step=12"),
     ("fastslam-doors", "seed=2", "step=58&particles=50"),
     ("fastslam-proposal", "range-std=0.3", "v=3&landmarks=pair&samples=64&predict=on&run=on"),
+    ("fastslam-graph", "wrong=on", "repair=robust&wrong=on&step=2"),
     ("fastslam-joint", "sensor=2&particles=100", "particles=200&landmarks=6"),
     ("fastslam-em", "mark-3=5.2&particles=100", "particles=200&step=83"),
     ("fastslam-smoothing", "particles=4&step=3", "particles=6&step=2&at=20"),

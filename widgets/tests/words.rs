@@ -98,6 +98,7 @@ const SAME: &[&str] = &[
     "FastSLAM",
     "N_eff",
     "RMS",
+    "Iteration",
     "Scan",
     "Scans",
     "Pose",

@@ -15,6 +15,7 @@ const LATER: Record<string, () => Promise<unknown>> = {
   'fastslam-log': () => import('../../widgets/elements/log'),
   'fastslam-doors': () => import('../../widgets/elements/doors'),
   'fastslam-em': () => import('../../widgets/elements/em'),
+  'fastslam-graph': () => import('../../widgets/elements/graph'),
   'fastslam-resampling': () => import('../../widgets/elements/resampling'),
   'fastslam-universes': () => import('../../widgets/elements/universes'),
 }

@@ -4,6 +4,7 @@ mod ekf;
 pub mod em_mapping;
 pub mod joint;
 pub mod one_step;
+pub mod pose_graph;
 pub mod sampled_map;
 
 pub use ekf::{EkfSlam, EkfStep};

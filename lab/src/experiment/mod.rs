@@ -3,6 +3,7 @@
 pub mod conditioning;
 pub mod doors;
 pub mod em;
+pub mod graph;
 pub mod hill;
 pub mod joint_map;
 pub mod landmarks;

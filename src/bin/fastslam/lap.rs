@@ -1,7 +1,7 @@
 //! `fastslam lap`: one lap of the apartment, or of the ring.
 
-use crate::{picture, print, print_json, whole};
-use anyhow::Result;
+use crate::{Usage, graph, picture, print, print_json, whole};
+use anyhow::{Result, bail};
 use fastslam::matching::Matcher;
 use fastslam::resampling::{ResamplePolicy, Scheme};
 use fastslam_lab::experiment::ProposalKind;
@@ -22,6 +22,8 @@ pub struct Arguments {
     seed: u64,
     #[command(flatten)]
     options: Options,
+    #[command(flatten)]
+    graph: graph::GraphOptions,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
@@ -103,6 +105,13 @@ struct Output {
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<()> {
     let setup = arguments.options.setup(arguments.course, arguments.seed);
+    if arguments.graph.method == graph::Method::Graph {
+        if arguments.png.is_some() {
+            bail!(Usage("--png paints the particle filter: not with --method graph".into()));
+        }
+        return graph::run(&setup, &arguments.graph, arguments.json);
+    }
+    arguments.graph.only_of_graphs()?;
     let lap = Lap::new(&setup)?;
     if let Some(path) = &arguments.png {
         paint(&setup, path)?;

@@ -1,6 +1,7 @@
 //! The command line: the figures' filters, run natively.
 
 mod doors;
+mod graph;
 mod joint;
 mod landmarks;
 mod lap;

@@ -40,6 +40,7 @@ const UNIVERSES: &str = "fastslam-universes";
 const SMOOTHING: &str = "fastslam-smoothing";
 const JOINT: &str = "fastslam-joint";
 const EM: &str = "fastslam-em";
+const GRAPH: &str = "fastslam-graph";
 /// Its pictures and readouts are those of [`TINY_LOG`], mapped to its end.
 pub const LOG: &str = "fastslam-log";
 
@@ -134,6 +135,12 @@ pub const PICTURES: &[Picture] = &[
     picture(JOINT, "joint-asked", "odometry=0&predict=on", 692, 1.0, "dark"),
     picture(JOINT, "joint-judged", "odometry=0&predict=on&guess=10&run=on", 340, 2.0, "light"),
     picture(JOINT, "joint-phone", "landmarks=3&particles=200&sensor=2", 340, 2.0, "light"),
+    picture(GRAPH, "fastslam-graph-light", "", 800, 1.5, "light"),
+    picture(GRAPH, "fastslam-graph-dark", "", 800, 1.5, "dark"),
+    picture(GRAPH, "graph-folded", "wrong=on&step=60", 692, 1.0, "light"),
+    picture(GRAPH, "graph-mended", "repair=switchable&wrong=on&step=60", 1112, 1.0, "dark"),
+    picture(GRAPH, "graph-phone", "repair=robust&wrong=on&from=30&to=80&step=1", 340, 2.0, "light"),
+    picture(GRAPH, "graph-tiny", "course=apartment&odometry=2&start=matches&universes=3", 240, 1.0, "contrast-dark"),
     picture(JOINT, "joint-tiny", "particles=1&odometry=3", 240, 1.0, "contrast-dark"),
     picture(EM, "fastslam-em-light", "", 800, 1.5, "light"),
     picture(EM, "fastslam-em-dark", "", 800, 1.5, "dark"),
@@ -248,6 +255,9 @@ pub const SETUPS: &[(&str, &str)] = &[
     (UNIVERSES, ""),
     (UNIVERSES, "threshold=0.1&seeds=50&universes=27&bearing-std=0.01&odometry=2"),
     (UNIVERSES, GUESSES),
+    (GRAPH, ""),
+    (GRAPH, "repair=mixture&wrong=on&odometry=1&seed=9&start=matches&from=7&to=61&step=60"),
+    (GRAPH, "repair=switchable&odometry=0&course=apartment&loops=off&universes=2&range-std=0.1&step=3"),
     (JOINT, ""),
     (JOINT, "landmarks=4&particles=2500&sensor=0.5&odometry=2&seed=7"),
     (JOINT, "landmarks=1&particles=1&sensor=5&odometry=0"),

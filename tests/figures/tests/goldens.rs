@@ -120,12 +120,13 @@ fn the_log_at_rest_and_its_poster_are_the_example_mapped_to_its_end() {
 }
 
 /// A run in front of one that was pinned: name, figure, the pinned state, the state shown, and a width \[css px\].
-const PINNED: [(&str, &str, &str, &str, f64); 8] = [
+const PINNED: [(&str, &str, &str, &str, f64); 9] = [
     ("lap-pinned", "fastslam-lap", "step=80", "universes=4&odometry=1.5&step=60", 800.0),
     ("resampling-pinned", "fastslam-resampling", "step=80", "threshold=0.9&particles=40&step=60", 728.0),
     ("resampling-pinned-phone", "fastslam-resampling", "wings=on&step=90", "wings=on&threshold=0.1&step=70", 340.0),
     ("doors-pinned", "fastslam-doors", "seed=2", "step=58", 728.0),
     ("proposal-pinned", "fastslam-proposal", "range-std=0.3&samples=300", "landmark-y=0.6", 800.0),
+    ("graph-pinned", "fastslam-graph", "wrong=on", "repair=robust&wrong=on&step=2", 692.0),
     ("joint-pinned", "fastslam-joint", "sensor=2", "particles=400&landmarks=6", 692.0),
     ("em-pinned", "fastslam-em", "mark-3=5.2", "step=93", 800.0),
     ("smoothing-pinned", "fastslam-smoothing", "particles=4", "particles=12&at=20", 692.0),

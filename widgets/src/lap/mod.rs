@@ -6,7 +6,7 @@ mod drive;
 mod grid;
 mod layout;
 mod many;
-mod map;
+pub(crate) mod map;
 mod model;
 mod mosaic;
 mod overlay;
@@ -16,5 +16,6 @@ mod view;
 
 pub use layout::Layout;
 pub use many::LAPS;
+pub(crate) use map::ASPECT;
 pub use model::LapModel;
 pub use view::LapView;

@@ -80,6 +80,13 @@ pub fn heading(scene: &mut Scene, area: &Rect, strong: (&str, Role), rest: &str)
     scene.marks.push(text(rest_area, Anchor::Start, 12.5, Weight::Regular, Role::Muted, rest));
 }
 
+/// A heading whose second part is left out where there is no room for it.
+pub fn heading_if_fits(scene: &mut Scene, area: &Rect, strong: (&str, Role), rest: &str) {
+    let used = font::measure(strong.0, 13.5, Weight::SemiBold) + font::measure("  ", 13.5, Weight::Regular);
+    let fits = used + font::measure(rest, 12.5, Weight::Regular) <= area.w;
+    heading(scene, area, strong, if fits { rest } else { "" });
+}
+
 /// N with the index "eff", smaller and lower; returns where it ends \[css px\].
 pub fn n_eff(scene: &mut Scene, area: &Rect, size: f64, weight: Weight, role: Role) -> f64 {
     let n = Text::new(*area, Anchor::Start, size, weight, role, "N");

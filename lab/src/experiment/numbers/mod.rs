@@ -5,6 +5,7 @@
 //! compare bits; the page runs one cell of the lap table in front of the reader ([`LapCell`]).
 
 mod em;
+mod graph;
 mod joint;
 mod landmarks;
 mod lap;
@@ -184,6 +185,7 @@ pub fn recipes() -> Vec<Recipe> {
     let all = [
         lap::recipes(),
         ring::recipes(),
+        graph::recipes(),
         policies::recipes(),
         proposals::recipes(),
         joint::recipes(),

@@ -34,6 +34,35 @@ fn the_number_of_threads_does_not_change_a_lap() {
     assert_eq!(digest(1), digest(3));
 }
 
+/// The graph of a lap goes into a file in the format of g2o and comes back, and its optimum is the same.
+#[test]
+fn a_lap_is_a_graph_too_and_a_bad_line_of_one_is_named() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("ring.g2o");
+    let file = path.display();
+    let lap = json(&format!("lap --method graph --course ring --seed 3 --g2o {file} --json"));
+    let number = |value: &Value, key: &str| value[key].as_f64().unwrap();
+    assert_eq!(
+        [number(&lap, "poses"), number(&lap, "odometry_edges"), number(&lap, "match_edges")],
+        [111.0, 110.0, 110.0]
+    );
+    assert!(lap["after"]["rms"].as_f64() < lap["before"]["rms"].as_f64() && number(&lap, "loop_edges") > 10.0);
+    let read = json(&format!("lap --method graph --from-g2o {file} --json"));
+    assert_eq!((&read["path"], &read["cost_after"], &read["before"]), (&lap["path"], &lap["cost_after"], &Value::Null));
+    let mended = json(&format!("lap --method graph --repair switchable --from-g2o {file} --json"));
+    assert!(number(&mended, "cost_after") <= number(&read, "cost_after") + 1e-6);
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, text.replacen("EDGE_SE2 1 2", "EDGE_SE2 1 two", 1)).unwrap();
+    let refused = fastslam(&format!("lap --method graph --from-g2o {file}")).code(2).stdout("");
+    let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(message.contains("ring.g2o: line ") && message.contains("two: must be an id"), "{message}");
+    std::fs::write(&path, "# nothing\n").unwrap();
+    let refused = fastslam(&format!("lap --method graph --from-g2o {file}")).code(2);
+    assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains("no VERTEX_SE2 in it"));
+    let shown = fastslam("lap --method graph --seed 3").success();
+    assert!(String::from_utf8_lossy(&shown.get_output().stdout).contains("a graph of 91 poses: 90 odometry edges"));
+}
+
 #[test]
 fn a_lap_is_painted_into_a_file() {
     let folder = tempdir().unwrap();
@@ -140,6 +169,10 @@ fn bad_arguments_are_refused_in_one_line_with_status_2() {
         ("lap --particles 300 --png x.png", "universes"),
         ("lap --course moon", "apartment or ring"),
         ("lap --bogus", "--bogus"),
+        ("lap --method magic", "particles, graph"),
+        ("lap --method graph --repair magic", "squares, robust, switchable, mixture"),
+        ("lap --repair robust", "need --method graph"),
+        ("lap --method graph --png x.png", "not with --method graph"),
         ("landmarks --proposal 3.0", "1.0 or 2.0"),
         ("landmarks --association guessed", "known or unknown"),
         ("landmarks --particles 0", "from 1 to 100000"),

@@ -1,0 +1,77 @@
+// What a reader does with the pose graph: the caption's claims, in the page alone, by mouse and by keyboard.
+import AxeBuilder from '@axe-core/playwright'
+import type { Page } from '@playwright/test'
+import { expect, test } from './fixtures'
+import { Figure } from './figure'
+
+test.use({ contextOptions: { reducedMotion: 'reduce' } })
+
+const TAG = 'fastslam-graph'
+const open = (page: Page, query?: string) => new Figure(page, TAG).alone(query && `#${TAG}?${query}`)
+
+const number = async (figure: Figure, name: string) => Number.parseFloat((await figure.readouts())[name]!)
+
+/** Drags a handle of the picture. */
+async function drag(page: Page, figure: Figure, name: string, [right, down]: [number, number]): Promise<void> {
+  const box = (await figure.handle(name).boundingBox())!
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2]
+  await page.mouse.move(x, y)
+  await page.mouse.down()
+  await page.mouse.move(x + right, y + down, { steps: 6 })
+  await page.mouse.up()
+  await figure.settled()
+}
+
+test('it opens before the first iteration with a ring that does not close, beside universes that need no bending', async ({ page }) => {
+  const figure = await open(page)
+  expect(await figure.position()).toBe(0)
+  await expect(figure.sentence).toContainText('Before the first of')
+  expect(await number(figure, 'rms')).toBeGreaterThan(1.5)
+  expect(await number(figure, 'rms_universe')).toBeLessThan(0.2)
+  expect(await number(figure, 'loop_edges')).toBeGreaterThan(10)
+  const found = await new AxeBuilder({ page }).include(TAG).analyze()
+  expect(found.violations.map(({ id }) => id)).toEqual([])
+})
+
+test('by its iterations the path snaps into the building, and back again by the keyboard', async ({ page }) => {
+  const figure = await open(page)
+  await figure.scrubTo(await figure.last())
+  expect(await number(figure, 'rms')).toBeLessThan(0.1)
+  await expect(figure.sentence).toContainText('the path is off by 0.07 m')
+  expect(await figure.state()).toBe('step=60')
+  await figure.scrub.focus()
+  await page.keyboard.press('Home')
+  await figure.settled()
+  expect(await number(figure, 'rms')).toBeGreaterThan(1.5)
+})
+
+test('a false edge folds the map, is dragged and moved by arrow keys, and each repair mends it', async ({ page }) => {
+  const figure = await open(page, 'step=60')
+  await figure.toggle('wrong').click()
+  await figure.settled()
+  const folded = await number(figure, 'rms')
+  expect(folded).toBeGreaterThan(2.5)
+  expect(await number(figure, 'wrong_weight')).toBe(100)
+  await drag(page, figure, 'to', [-60, 0])
+  expect(await figure.state()).toMatch(/to=\d+/)
+  const moved = await figure.state()
+  await figure.grasp('to').press('ArrowRight')
+  await figure.settled()
+  expect(await figure.state()).not.toBe(moved)
+  await figure.grasp('to').press('ArrowLeft')
+  await figure.settled()
+  expect(await figure.state()).toBe(moved)
+  for (const repair of ['robust', 'switchable', 'mixture']) {
+    await figure.element.evaluate((element, repair) => element.setAttribute('repair', repair), repair)
+    await figure.settled()
+    expect(await number(figure, 'rms'), repair).toBeLessThan(0.25)
+    expect((await figure.readouts())['wrong_weight'], repair).toContain('< 0.1')
+  }
+})
+
+test('a link reopens the same numbers', async ({ page }) => {
+  const query = 'repair=switchable&wrong=on&odometry=1&seed=3&start=matches&step=60'
+  const before = await (await open(page, query)).readouts()
+  await page.goto('about:blank')
+  expect(await (await open(page, query)).readouts()).toEqual(before)
+})

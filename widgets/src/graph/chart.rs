@@ -1,0 +1,60 @@
+//! The error over the iterations, on a logarithmic axis, and how far the best universe is off.
+
+use super::{layout::Layout, model::GraphModel};
+use crate::{
+    decimal::write,
+    font::Weight,
+    model::Model as _,
+    scene::{Anchor, Chart, GHOST, Mark, Rect, Role, Sample, Scene, ghost, heading_if_fits, legend, text},
+    words::{common, graph as words},
+};
+use fastslam::ops;
+
+/// Errors at the lower and at the upper edge \[m\].
+const ENDS: [f64; 2] = [0.02, 20.0];
+
+/// Errors that have a name \[m\].
+const LEVELS: [f64; 3] = [0.1, 1.0, 10.0];
+
+/// From this width on \[css px\] the legend has one line for long names, in any language.
+const ROOMY: f64 = 300.0;
+
+/// Share of the height of an error \[m\].
+fn share(error: f64) -> f64 {
+    ops::ln(error.max(1e-9) / ENDS[0]) / ops::ln(ENDS[1] / ENDS[0])
+}
+
+pub fn draw(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
+    heading_if_fits(scene, &layout.error_header, (words::error(), Role::Ink), words::error_unit());
+    let chart = Chart { area: layout.error, last: model.step_count() };
+    for level in LEVELS {
+        let y = chart.y(share(level));
+        scene.marks.push(Mark::Fill { area: Rect::new(chart.area.x, y - 0.5, chart.area.w, 1.0), role: Role::Frame });
+        let name = Rect::new(layout.scale.x, y - 7.0, layout.scale.w - 6.0, 14.0);
+        scene.marks.push(text(name, Anchor::End, 11.0, Weight::Regular, Role::Muted, write(level)));
+    }
+    scene.marks.extend(chart.edges());
+    scene.marks.extend(ghost(&chart, model.pinned().iter().map(|error| share(*error))));
+    let best = if layout.error_legend.w >= ROOMY { words::best_line() } else { words::best_line_short() };
+    let mut items = vec![(Sample::line(Role::Ink, 1.75, None), words::graph_line().to_string())];
+    if let Some(report) = model.universes() {
+        let lines = vec![chart.level(share(report.rms_best))];
+        scene.marks.push(Mark::Lines { lines, width: 1.5, dash: Some([4.0, 3.0]), role: Role::Path });
+    }
+    items.push((Sample::line(Role::Path, 1.5, Some([4.0, 3.0])), best.into()));
+    if !model.pinned().is_empty() {
+        items.push((Sample::line(GHOST, 1.75, None), common::pinned_mark().into()));
+    }
+    let curve = chart.curve((0..).zip(model.frames().iter().map(|frame| share(frame.error.rms))));
+    let now = curve[model.step() as usize];
+    scene.marks.push(Mark::Lines { lines: vec![curve], width: 1.75, dash: None, role: Role::Ink });
+    scene.marks.push(Mark::Discs { centres: vec![now], radius: 4.0, role: Role::Ink });
+    legend(scene, &layout.error_legend, items);
+    let ends = [(Anchor::Start, 0), (Anchor::End, model.step_count())];
+    for (anchor, step) in ends.into_iter().take(if model.step_count() > 0 { 2 } else { 1 }) {
+        let area = Rect::new(chart.area.x, layout.axis.y + 2.0, chart.area.w, 14.0);
+        scene.marks.push(text(area, anchor, 11.0, Weight::Regular, Role::Muted, step.to_string()));
+    }
+    let area = Rect::new(chart.area.x + 20.0, layout.axis.y + 2.0, chart.area.w - 40.0, 14.0);
+    scene.marks.push(text(area, Anchor::Middle, 11.0, Weight::Regular, Role::Muted, words::iterations()));
+}

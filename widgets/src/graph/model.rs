@@ -1,0 +1,214 @@
+//! The graph as a deterministic state: the log tied together, every iteration, and which of them is shown.
+
+use super::{
+    challenges,
+    recipe::{END, Recipe},
+    told,
+};
+use crate::{
+    challenge::Challenge,
+    ghost::{self, Curves},
+    model::{Declared, FigureError, Model, Readout, Series},
+    words::graph,
+};
+use fastslam::{geometry::Pose2, map::grid::Grid};
+use fastslam_lab::{
+    baseline::pose_graph::{Edge, EdgeKind},
+    experiment::{
+        graph::{Frame, GraphLap, GraphSetup},
+        lap::{LapWorld, StepReport},
+    },
+};
+
+/// How fast iterations are played, of the usual speed: there are few, and each moves everything.
+const SLOW: f64 = 0.2;
+
+/// The figure of the pose graph.
+pub struct GraphModel {
+    recipe: Recipe,
+    /// What is shown: it is solved, or nothing was shown before.
+    shown: GraphLap,
+    /// What was asked for since.
+    next: Option<GraphLap>,
+    /// The scans at the poses of the iteration shown, and which that is.
+    map: (u32, Grid),
+    /// Of the run that is pinned: the error of each iteration \[m\].
+    pinned: Curves,
+}
+
+impl Default for GraphModel {
+    fn default() -> Self {
+        let recipe = Recipe::default();
+        let shown = begin(&recipe.setup());
+        let map = (0, shown.build().drawn(&shown.frames()[0].poses));
+        Self { recipe, shown, next: None, map, pinned: Curves::new() }
+    }
+}
+
+fn begin(setup: &GraphSetup) -> GraphLap {
+    GraphLap::new(setup).unwrap_or_else(|error| unreachable!("the parameters' ranges are within the core's: {error}"))
+}
+
+fn advance(lap: &mut GraphLap) {
+    lap.advance().unwrap_or_else(|error| unreachable!("odometry ties all poses of a lap: {error}"));
+}
+
+impl GraphModel {
+    /// What decides the numbers of what is shown.
+    pub fn setup(&self) -> &GraphSetup {
+        self.shown.setup()
+    }
+
+    /// The graph, and the particle filter as far as it is.
+    pub fn graph(&self) -> &GraphLap {
+        &self.shown
+    }
+
+    /// The truth and the log.
+    pub fn world(&self) -> &LapWorld {
+        self.shown.world()
+    }
+
+    /// Every iteration, the start first.
+    pub fn frames(&self) -> &[Frame] {
+        self.shown.frames()
+    }
+
+    /// The iteration shown.
+    pub fn frame(&self) -> &Frame {
+        &self.frames()[self.step() as usize]
+    }
+
+    /// The poses of the iteration shown.
+    pub fn poses(&self) -> &[Pose2] {
+        &self.frame().poses
+    }
+
+    /// The scans at these poses.
+    pub fn map(&self) -> &Grid {
+        &self.map.1
+    }
+
+    /// The edges of the log, of the kind.
+    pub fn edges(&self, kind: EdgeKind) -> impl Iterator<Item = &Edge> {
+        let there = kind != EdgeKind::Loop || self.setup().loops;
+        self.shown.build().edges().iter().filter(move |edge| there && edge.kind == kind)
+    }
+
+    /// The particle filter at the end of the log; `None` while it is under way.
+    pub fn universes(&self) -> Option<&StepReport> {
+        let lap = self.shown.universes();
+        (lap.report().step == lap.step_count()).then(|| lap.report())
+    }
+
+    /// Whether the last iteration is shown.
+    pub fn at_end(&self) -> bool {
+        self.shown.is_solved() && self.step() == self.step_count()
+    }
+
+    /// Whether the building is drawn as it is.
+    pub fn shows_truth(&self) -> bool {
+        self.recipe.truth
+    }
+
+    /// Errors of the run that is pinned \[m\], by iteration.
+    pub fn pinned(&self) -> &[f64] {
+        ghost::curve(&self.pinned, 0)
+    }
+
+    /// Maps the scans anew if other poses are shown.
+    fn place(&mut self, anew: bool) {
+        let step = self.step();
+        if anew || self.map.0 != step {
+            self.map = (step, self.shown.build().drawn(self.poses()));
+        }
+    }
+}
+
+impl Declared for GraphModel {
+    type Recipe = Recipe;
+    const TITLE: &'static str = graph::TITLE;
+
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
+
+    fn recipe(&self) -> &Recipe {
+        &self.recipe
+    }
+
+    fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
+        let setup = recipe.setup();
+        if setup != *self.next.as_ref().unwrap_or(&self.shown).setup() {
+            // Of the same log, whichever is further: a graph that is not tied together yet need not be begun again.
+            let nearest = self.next.as_ref().filter(|next| next.setup().lap == setup.lap).unwrap_or(&self.shown);
+            self.next = if setup == *self.shown.setup() { None } else { Some(nearest.asked(&setup)?) };
+        }
+        self.recipe = recipe;
+        self.place(false);
+        Ok(())
+    }
+}
+
+impl Model for GraphModel {
+    /// Who asks for the last iteration stays at the end when that moves.
+    fn seek(&mut self, step: u32) {
+        self.recipe.step = if step >= self.step_count() { END } else { step };
+        self.place(false);
+    }
+
+    fn step_count(&self) -> u32 {
+        self.frames().len() as u32 - 1
+    }
+
+    fn step(&self) -> u32 {
+        self.recipe.step.min(self.step_count())
+    }
+
+    fn pending(&self) -> u32 {
+        self.next.as_ref().unwrap_or(&self.shown).pending()
+    }
+
+    fn work(&mut self) {
+        if self.pending() == 0 {
+            return;
+        }
+        let solved = self.shown.is_solved();
+        advance(self.next.as_mut().unwrap_or(&mut self.shown));
+        if let Some(next) = self.next.take_if(|next| next.is_solved()) {
+            self.shown = next;
+            self.place(true);
+        } else if !solved && self.shown.is_solved() {
+            self.place(true);
+        }
+    }
+
+    /// From the solved graph on: what comes then is the particle filter beside it.
+    fn refines(&self) -> bool {
+        self.next.is_none() && self.shown.is_solved()
+    }
+
+    fn pace(&self) -> f64 {
+        SLOW
+    }
+
+    fn readouts(&self) -> Vec<Readout> {
+        told::readouts(self)
+    }
+
+    fn series(&self) -> Series {
+        told::series(self)
+    }
+
+    fn describe(&self) -> String {
+        told::describe(self)
+    }
+
+    fn curves(&self) -> Curves {
+        vec![self.frames().iter().map(|frame| frame.error.rms).collect()]
+    }
+
+    fn haunt(&mut self, pinned: Curves) {
+        self.pinned = pinned;
+    }
+}

@@ -1,0 +1,64 @@
+//! What is to be seen of the graph, and what of it can be moved.
+
+use super::{
+    chart,
+    city::{self, ENDS},
+    layout::{ERROR, GRAPH, Layout, NARROWEST, UNIVERSES},
+    model::GraphModel,
+    universes,
+};
+use crate::{
+    model::Declared,
+    panels::Panels,
+    scene::{Point, Rect, Scene},
+    view::{View, whole_step},
+};
+
+/// The figure of the pose graph, as it is seen.
+#[derive(Default)]
+pub struct GraphView;
+
+impl View for GraphView {
+    type Model = GraphModel;
+    type Layout = Layout;
+    const NARROWEST: f64 = NARROWEST;
+    const PANELS: &'static [&'static str] = &[GRAPH, UNIVERSES, ERROR];
+
+    fn layout(width: f64, panels: &Panels) -> Layout {
+        Layout::of(width, panels)
+    }
+
+    fn gist(_model: &GraphModel, layout: &Layout, width: f64) -> Rect {
+        if layout.city.h > 0.0 { layout.city } else { Rect::new(0.0, 0.0, width, layout.height) }
+    }
+
+    fn draw(&self, model: &GraphModel, layout: &Layout, scene: &mut Scene) {
+        if layout.city.h > 0.0 {
+            city::draw(scene, model, layout);
+        }
+        if layout.universes.h > 0.0 {
+            universes::draw(scene, model, layout);
+        }
+        if layout.error.h > 0.0 {
+            chart::draw(scene, model, layout);
+        }
+    }
+
+    fn drag(&self, model: &mut GraphModel, layout: &Layout, handle: &str, to: Point) {
+        let pose = city::nearest(model, &city::plane(model, layout), to);
+        if let (Some(end), Some(pose)) = (ENDS.iter().position(|name| *name == handle), pose) {
+            model.change(|recipe| recipe.put_end(end, pose));
+        }
+    }
+
+    fn nudge(&self, model: &mut GraphModel, handle: &str, [right, up]: [f64; 2]) {
+        let by = whole_step(right + up);
+        if let Some(end) = ENDS.iter().position(|name| *name == handle).filter(|_| by.is_finite()) {
+            let (ends, last) = (model.recipe().ends(), model.world().truth.len() as f64 - 1.0);
+            let to = |by: f64| (f64::from(ends[end]) + by).clamp(0.0, last) as u32;
+            // Over the other end, and not onto it.
+            let pose = if to(by) == ends[1 - end] { to(by + by.signum()) } else { to(by) };
+            model.change(|recipe| recipe.put_end(end, pose));
+        }
+    }
+}

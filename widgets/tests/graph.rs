@@ -1,0 +1,129 @@
+//! Laws of the figure of the pose graph, by its public face.
+
+mod common;
+
+use common::{assert_drawn_inside, assert_texts_fit, figure, scene, state};
+use fastslam_widgets::{
+    figure::Figure,
+    scene::{Mark, Role},
+};
+
+const TAG: &str = "fastslam-graph";
+
+fn readout(figure: &Figure, name: &str) -> f64 {
+    let readouts = figure.model().readouts();
+    readouts.iter().find(|readout| readout.name == name).and_then(|readout| readout.value).unwrap()
+}
+
+/// The claim of the caption, at the state that the figure opens in: the ring is bent, and its loop edges are stretched across a gap.
+#[test]
+fn as_it_opens_the_ring_is_metres_off_and_does_not_close() {
+    let figure = figure(TAG, "");
+    assert_eq!(figure.model().step(), 0);
+    assert!(readout(&figure, "rms") > 1.5 && readout(&figure, "rms_universe") < 0.2);
+    let scene = scene(&figure, 800.0);
+    let lengths = scene.marks.iter().filter_map(|mark| match mark {
+        Mark::Lines { lines, role: Role::Copied, .. } if lines.len() > 10 => Some(lines),
+        _ => None,
+    });
+    let longest = lengths.flatten().map(|line| {
+        let ([a, b], [c, d]) = (line[0], line[line.len() - 1]);
+        fastslam_widgets::fastslam::ops::hypot(c - a, d - b)
+    });
+    assert!(longest.fold(0.0, f64::max) > 60.0, "an edge that is seen to be stretched");
+}
+
+#[test]
+fn its_iterations_close_the_loop_and_end_below_the_best_universe() {
+    let mut figure = figure(TAG, "");
+    let (last, mut cost) = (figure.model().step_count(), f64::INFINITY);
+    for step in 0..=last {
+        figure.model_mut().seek(step);
+        assert!(readout(&figure, "cost") <= cost, "the cost never rises");
+        cost = readout(&figure, "cost");
+    }
+    assert!(readout(&figure, "rms") < 0.1 && readout(&figure, "rms") < readout(&figure, "rms_universe"));
+    assert!(readout(&figure, "rms") < 0.8 * readout(&figure, "rms_matched"), "the loops had a part in it");
+    // Who is at the end stays there, and the link says so.
+    assert!(figure.query().contains("step=60"), "{}", figure.query());
+}
+
+#[test]
+fn a_false_edge_folds_the_map_and_every_repair_mends_it() {
+    let folded = figure(TAG, "wrong=on&step=60");
+    assert!(readout(&folded, "rms") > 2.5 && readout(&folded, "wrong_weight") == 100.0);
+    for repair in ["robust", "switchable", "mixture"] {
+        let mended = figure(TAG, &format!("repair={repair}&wrong=on&step=60"));
+        assert!(readout(&mended, "rms") < 0.2 && readout(&mended, "wrong_weight") < 0.1, "{repair}");
+    }
+}
+
+/// A drag or another judge begins nothing but the optimisation anew: the log is tied together already.
+#[test]
+fn the_false_edge_is_dragged_along_the_true_path_and_costs_iterations_only() {
+    let mut shown = figure(TAG, "wrong=on&step=60");
+    let at = |figure: &Figure, name: &str| scene(figure, 800.0).handles.iter().find(|h| h.name == name).unwrap().at;
+    let [x, y] = at(&shown, "to");
+    shown.drag("to", x - 90.0, y, 800.0);
+    assert!(shown.model().pending() <= 62, "{}", shown.model().pending());
+    shown.model_mut().settle();
+    let moved = at(&shown, "to");
+    assert!((moved[0] - x + 90.0).abs() < 12.0 && (moved[1] - y).abs() < 12.0, "{moved:?}");
+    assert_eq!(at(&shown, "from"), at(&figure(TAG, "wrong=on&step=60"), "from"));
+    let before = shown.query();
+    shown.nudge("to", 1.0, 0.0);
+    shown.model_mut().settle();
+    assert_ne!(shown.query(), before);
+    shown.nudge("to", -1.0, 0.0);
+    shown.model_mut().settle();
+    assert_eq!(shown.query(), before);
+    for nonsense in [f64::NAN, f64::INFINITY] {
+        shown.drag("to", nonsense, 0.0, 800.0);
+        shown.nudge("to", nonsense, 0.0);
+        assert_eq!(shown.query(), before);
+    }
+    // Onto its own other end it cannot be put.
+    let [x, y] = at(&shown, "from");
+    shown.drag("to", x, y, 800.0);
+    assert_eq!(shown.query(), before);
+}
+
+#[test]
+fn what_is_shown_stays_until_the_next_graph_is_solved_and_is_the_same_by_whichever_way() {
+    let mut shown = figure(TAG, "universes=2");
+    let before = readout(&shown, "rms");
+    shown.set("seed", "9").unwrap();
+    while !shown.model().refines() {
+        assert_eq!(readout(&shown, "rms"), before);
+        shown.model_mut().work();
+    }
+    assert_ne!(readout(&shown, "rms"), before);
+    assert!(shown.model().pending() > 0, "the universes are still driving");
+    shown.set("wrong", "on").unwrap();
+    shown.model_mut().settle();
+    assert_eq!(state(&shown), state(&figure(TAG, "universes=2&seed=9&wrong=on")));
+}
+
+#[test]
+fn texts_fit_at_every_width_in_states_of_every_kind() {
+    for query in [
+        "universes=1",
+        "wrong=on&step=60&universes=64",
+        "repair=mixture&wrong=on&odometry=2&step=2&seed=8",
+        "course=apartment&odometry=0&universes=2&step=60",
+        "start=matches&loops=off&universes=2&truth=off",
+    ] {
+        let mut figure = figure(TAG, query);
+        for pinned in [false, true] {
+            if pinned {
+                let curves = figure.curves();
+                figure.haunt(&curves);
+            }
+            for width in (300..1400).step_by(37).map(f64::from) {
+                let scene = scene(&figure, width);
+                assert_texts_fit(&scene, &format!("{query} at {width}"));
+                assert_drawn_inside(&scene, &format!("{query} at {width}"));
+            }
+        }
+    }
+}
