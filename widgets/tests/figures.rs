@@ -52,6 +52,26 @@ fn every_default_and_every_choice_is_accepted() {
     }
 }
 
+/// A page asks before the first bit of work is done, and between any two.
+#[test]
+fn every_figure_can_be_asked_and_drawn_while_it_is_still_at_work() {
+    for entry in FIGURES {
+        let mut figure = Figure::new(entry.tag).unwrap();
+        figure.model_mut().seek(u32::MAX);
+        for _ in 0..20 {
+            let model = figure.model();
+            assert!(!model.readouts().is_empty() && !model.describe().is_empty(), "{}", entry.tag);
+            let columns = model.series().columns.len();
+            assert!(model.series().rows.iter().all(|row| row.len() == columns), "{}", entry.tag);
+            scene(&figure, 700.0);
+            if figure.model().pending() == 0 {
+                break;
+            }
+            figure.model_mut().work();
+        }
+    }
+}
+
 #[test]
 fn the_first_pixel_is_paper_because_the_page_takes_its_colour() {
     for entry in FIGURES {

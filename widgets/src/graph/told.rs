@@ -40,9 +40,10 @@ pub fn percent(weight: f64) -> String {
     if percent > 0.0 && percent < 0.1 { format!("< {}", fixed(0.1, 1)) } else { fixed(percent, 1) }
 }
 
-/// RMS error of wheels and recent matches alone \[m\].
+/// RMS error of wheels and recent matches alone \[m\], as far as the log is tied together.
 pub fn matched(model: &GraphModel) -> f64 {
-    PathError::of(model.graph().build().chain(), &model.world().truth).rms
+    let chain = model.graph().build().chain();
+    PathError::of(chain, &model.world().truth[..chain.len()]).rms
 }
 
 pub fn readouts(model: &GraphModel) -> Vec<Readout> {
