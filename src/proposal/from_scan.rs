@@ -9,6 +9,7 @@ use crate::geometry::{Gaussian3, Pose2};
 use crate::map::ConditionalMap;
 use crate::matching::{HillClimbSteps, Score, ScoreNear, ScoredPose, hill_climb};
 use crate::motion::Motion;
+use crate::ops;
 use crate::particle::Particle;
 use crate::random::Stream;
 
@@ -21,6 +22,9 @@ pub struct FromScanSettings<S> {
     pub search: S,
     /// Step sizes of the hill climb.
     pub climb: HillClimbSteps,
+    /// Most hills that are told apart, 1 to 16. With one, all particles take the highest top that they find, be another as good; with
+    /// more, a hill is drawn by its integral, and the population keeps what it cannot yet decide.
+    pub hills: u32,
     /// The climb looks at every n-th beam.
     pub climb_stride: usize,
     /// How much better than the mean likelihood over the search the best must be for the matcher to be trusted \[nats\].
@@ -40,11 +44,12 @@ impl<S> FromScanSettings<S> {
     pub fn validate(&self) -> Result<(), SettingError> {
         /// Of a length or an angle that must not vanish.
         const POSITIVE: Range = Range::number(1e-9, 1e3, "m, rad");
-        let Self { motion_floor, climb, climb_stride, full_weight, limits, .. } = self;
+        let Self { motion_floor, climb, hills, climb_stride, full_weight, limits, .. } = self;
         motion_floor.iter().try_for_each(|std| POSITIVE.check("motion_floor", *std).map(drop))?;
         POSITIVE.check("climb.linear", climb.linear)?;
         POSITIVE.check("climb.angular", climb.angular)?;
         Range::whole(0, 20).check("climb.halvings", f64::from(climb.halvings))?;
+        Range::whole(1, 16).check("hills", f64::from(*hills))?;
         Range::whole(1, 1_000_000).check("climb_stride", *climb_stride as f64)?;
         Range::number(0.0, 1e3, "m, rad").check("full_weight", *full_weight)?;
         for (least, most) in limits.least.into_iter().zip(limits.most) {
@@ -57,6 +62,10 @@ impl<S> FromScanSettings<S> {
 
 /// The improved proposal: find the mode of ln p(z | x, m) + ln p(x | x′, u), fit a Gaussian there, draw from it; and
 /// pay what the scan says of the path.
+///
+/// Where there are several modes that are far apart and nearly as high, as where few beams return or along a corridor, the posterior is a
+/// mixture Σᵢ η̂ᵢ N(μᵢ, Σᵢ) of one Gaussian a hill, with η̂ᵢ the hill's integral, and a draw is one of that: first the hill, then the
+/// pose.
 ///
 /// # What a scan says of the path
 ///
@@ -98,13 +107,13 @@ where
     ) -> Proposed<()> {
         let from = &particle.world_from_robot;
         let prior = self.motion.gaussian(from, control, self.settings.motion_floor);
-        let found = prior.as_ref().and_then(|prior| {
+        let hills = prior.as_ref().map_or_else(Vec::new, |prior| {
             let target = self.target(prior, &particle.map, observation);
-            let (top, log_mean) = self.search(&target)?;
-            let top = self.guard(top, log_mean, prior)?;
-            Some((top, self.fit(&top, &target)?))
+            let (tops, log_mean) = self.search(&target);
+            let trusted = tops.into_iter().filter_map(|top| self.guard(top, log_mean, prior));
+            trusted.filter_map(|top| Some((top, self.fit(&top, &target)?))).collect()
         });
-        let (world_from_robot, trace) = match found {
+        let (world_from_robot, trace) = match choose(hills, stream) {
             Some((top, fit)) => draw(&top, &fit, stream),
             None => (self.motion.sample(from, control, stream), ProposalTrace::Motion),
         };
@@ -134,13 +143,28 @@ impl<D: Motion, L, S: Search> FromScan<D, L, S> {
         Target::new(prior, near, self.settings.minimum_improvement)
     }
 
-    /// The highest top of the climbs from all starts, and ln of the mean likelihood over what the search looked at \[nats\].
-    fn search<N: ScoreNear>(&self, target: &Target<'_, N>) -> Option<(ScoredPose, f64)> {
+    /// The highest tops of the climbs from all starts, each of a hill of its own and the highest first, and ln of the mean likelihood over
+    /// what the search looked at \[nats\].
+    fn search<N: ScoreNear>(&self, target: &Target<'_, N>) -> (Vec<ScoredPose>, f64) {
         let starts = self.settings.search.starts(target);
         let climb = |start| hill_climb(start, self.settings.climb, |pose, floor| target.log_posterior(pose, floor));
-        let tops = starts.poses.into_iter().map(climb);
-        let top = tops.reduce(|best, end| if end.value > best.value { end } else { best })?;
-        Some((top, starts.log_mean))
+        let mut tops: Vec<ScoredPose> = starts.poses.into_iter().map(climb).collect();
+        tops.sort_by(|a, b| b.value.total_cmp(&a.value));
+        let mut hills: Vec<ScoredPose> = Vec::new();
+        for top in tops {
+            let room = hills.len() < self.settings.hills as usize;
+            if room && hills.iter().all(|other| top.value > other.value - NEGLIGIBLE && self.are_apart(other, &top)) {
+                hills.push(top);
+            }
+        }
+        (hills, starts.log_mean)
+    }
+
+    /// Whether two tops are of two hills: more than two first steps of a climb from each other.
+    fn are_apart(&self, a: &ScoredPose, b: &ScoredPose) -> bool {
+        let HillClimbSteps { linear, angular, .. } = self.settings.climb;
+        let d = a.pose.minus(&b.pose);
+        d.x.abs().max(d.y.abs()) > 2.0 * linear || d.z.abs() > 2.0 * angular
     }
 
     /// The top, if it is clearly better than the average of the search: on a flat score surface the optimum is noise, no better than what
@@ -170,6 +194,24 @@ impl<D: Motion, L, S: Search> FromScan<D, L, S> {
         let share = if travel < full { travel / full } else { 1.0 };
         share * self.score.log_weight(map, world_from_robot, observation)
     }
+}
+
+/// A top that is lower by so much than another \[nats\] is of no account: one particle in some four hundred would take it.
+const NEGLIGIBLE: f64 = 6.0;
+
+/// One of these hills, drawn by their integrals; `None` of none.
+fn choose(mut hills: Vec<(ScoredPose, Fit)>, stream: &mut Stream) -> Option<(ScoredPose, Fit)> {
+    if hills.len() < 2 {
+        return hills.pop();
+    }
+    let log_integrals: Vec<f64> = hills.iter().map(|(_, fit)| fit.log_integral).collect();
+    let log_sum = ops::log_sum_exp(&log_integrals);
+    let mut left = stream.uniform();
+    let chosen = log_integrals.iter().position(|log| {
+        left -= ops::exp(log - log_sum);
+        left < 0.0
+    });
+    Some(hills.swap_remove(chosen.unwrap_or(0)))
 }
 
 /// One draw from the fit.

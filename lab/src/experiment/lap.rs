@@ -85,6 +85,7 @@ pub const FROM_SCAN: FromScanSettings<HeadingSeeds> = FromScanSettings {
     search: HeadingSeeds { seeds: 8, climbs: 2 },
     // From a third of a cell down to two centimetres; the fit's first step takes over from there.
     climb: HillClimbSteps { linear: 0.08, angular: 0.04, halvings: 2 },
+    hills: 1,
     climb_stride: 2,
     // e^½: an optimum less than two thirds better than the average pose is no optimum.
     minimum_improvement: 0.5,

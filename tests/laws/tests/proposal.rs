@@ -4,8 +4,8 @@ use fastslam::geometry::{Gaussian3, Pose2};
 use fastslam::map::ConditionalMap;
 use fastslam::map::grid::{Grid, GridModel};
 use fastslam::mapper::tuning;
-use fastslam::matching::{Matcher, ScanModel};
-use fastslam::motion::{Motion, Odometry, OdometryModel};
+use fastslam::matching::{Likelihood, Matcher, ScanModel, Score, ScoreNear};
+use fastslam::motion::{Displaced, Displacement, Motion, Odometry, OdometryModel};
 use fastslam::ops;
 use fastslam::particle::Particle;
 use fastslam::proposal::{
@@ -39,10 +39,10 @@ fn one_step_by<S>(matcher: Matcher, search: S) -> OneStep<S> {
     let particle = Particle::start(world.truth[0], map);
     // Tempered harder, or the posterior is too narrow for a dense grid and for the motion model's samples to meet it.
     let scan = ScanModel::new(matcher, TEMPER * 0.4, OUTLIER);
-    let FromScanSettings { motion_floor, climb, climb_stride, minimum_improvement, full_weight, limits, .. } =
+    let FromScanSettings { motion_floor, climb, hills, climb_stride, minimum_improvement, full_weight, limits, .. } =
         FROM_SCAN;
     let settings =
-        FromScanSettings { motion_floor, search, climb, climb_stride, minimum_improvement, full_weight, limits };
+        FromScanSettings { motion_floor, search, climb, hills, climb_stride, minimum_improvement, full_weight, limits };
     OneStep { particle, world, from_scan: FromScan { motion, score: scan, settings } }
 }
 
@@ -201,6 +201,72 @@ fn a_short_step_weighs_in_proportion_in_both_branches_of_the_guard() {
             }
         }
     }
+}
+
+/// A map of nothing, in which two places explain what is seen: one of them three times as well as the other.
+#[derive(Clone)]
+struct TwoPlaces;
+
+/// Where they are along x \[m\], and how well they explain it.
+const PLACES: [(f64, f64); 2] = [(-0.3, 0.75), (0.3, 0.25)];
+
+/// Of either place, along each axis \[m, m, rad\].
+const WIDTH: [f64; 3] = [0.05, 0.05, 0.03];
+
+impl ConditionalMap for TwoPlaces {
+    type Observation = ();
+    type Association = ();
+    fn assimilate(&mut self, _: &Pose2, (): &(), (): &()) {}
+}
+
+impl Likelihood<TwoPlaces> for TwoPlaces {
+    fn log_likelihood(&self, _: &TwoPlaces, world_from_robot: &Pose2, (): &()) -> (f64, ()) {
+        (self.log_score(world_from_robot), ())
+    }
+}
+
+impl Score<TwoPlaces> for TwoPlaces {
+    type Near<'a> = Self;
+
+    fn near<'a>(&'a self, _: &'a TwoPlaces, _: &Pose2, (): &'a (), _: usize) -> Self {
+        Self
+    }
+}
+
+impl ScoreNear for TwoPlaces {
+    fn log_score(&self, pose: &Pose2) -> f64 {
+        let at = |(x, share): (f64, f64)| {
+            let [a, b, c] = [(pose.x - x) / WIDTH[0], pose.y / WIDTH[1], pose.theta / WIDTH[2]];
+            ops::ln(share) - 0.5 * (a * a + b * b + c * c)
+        };
+        ops::log_sum_exp(&PLACES.map(at))
+    }
+}
+
+/// Where two hills are told apart, a particle is on either as often as the hill is large: four standard deviations of the binomial. Where
+/// the highest is all, all are there, and what the other explained is lost.
+#[test]
+fn hills_are_drawn_by_their_integrals() {
+    const DRAWS: u32 = 2000;
+    let share = |hills: u32| {
+        let settings = FromScanSettings { hills, ..tuning::FROM_SCAN };
+        let proposal = FromScan { motion: Displaced, score: TwoPlaces, settings };
+        let covariance = Matrix3::from_diagonal(&Vector3::new(0.09, 0.09, 0.01));
+        let control = Displacement { mean: Pose2::default(), covariance };
+        let particle = Particle::start(Pose2::default(), TwoPlaces);
+        let at_the_better = (0..DRAWS).filter(|slot| {
+            let mut stream = Stream::at(11, Purpose::TRIAL, 0, *slot);
+            let proposed = proposal.propose(&particle, &control, &(), &mut stream);
+            assert!(matches!(proposed.trace, ProposalTrace::Matched { .. }));
+            let x = proposed.world_from_robot.x;
+            assert!((x.abs() - 0.3).abs() < 0.25, "{x} is at neither place");
+            x < 0.0
+        });
+        at_the_better.count() as f64 / f64::from(DRAWS)
+    };
+    assert_eq!(share(1), 1.0);
+    let (found, error) = (share(3), (0.75 * 0.25 / f64::from(DRAWS)).sqrt());
+    assert!((found - 0.75).abs() < 4.0 * error, "{found}");
 }
 
 /// On an unknown map every pose scores alike: the optimum is noise, and the motion model must be drawn from.

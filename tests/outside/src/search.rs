@@ -13,6 +13,7 @@ pub const SETTINGS: FromScanSettings<AlongAxes> = FromScanSettings {
     motion_floor: [0.005, 0.005, 0.005],
     search: AlongAxes,
     climb: HillClimbSteps { linear: 0.02, angular: 0.02, halvings: 4 },
+    hills: 1,
     climb_stride: 1,
     minimum_improvement: 0.1,
     full_weight: 0.0,
