@@ -12,16 +12,16 @@ const budgets = {
    * The target is for twelve figures. What is over it: one program holds all figures of the page, each with its laboratory, and tiny-skia
    * unpatched (a sixth of it). Other levels of optimisation made it no smaller (2, s; -Os and -Oz of wasm-opt: 1 to 10 KB either way).
    */
-  page: { target: 520_000, limit: 630_000 },
+  page: { target: 520_000, limit: 720_000 },
   /** The picture of the finished map, which is fetched when the figure of logs is near: neither text nor program waits for it. */
   poster: { target: 25_000, limit: 30_000 },
-  /** HTML and CSS: what is there before any script or program. Over the target are captions, exercises and fallbacks of the last three figures. */
-  text: { target: 65_000, limit: 75_000 },
+  /** HTML and CSS: what is there before any script or program. Over the target are captions, derivations and fallbacks of the last six figures. */
+  text: { target: 65_000, limit: 85_000 },
   /**
    * One figure's page for frames with all that it loads, nothing cached: the program of the page has all of its figures. Split into grids and
    * landmarks it would be nearer to the target, and the chapter, which loads both, 130 KB further over its own.
    */
-  embed: { target: 260_000, limit: 500_000 },
+  embed: { target: 260_000, limit: 600_000 },
 }
 
 /** A size against its budget, in words. @param {string} what @param {number} bytes @param {{ target: number, limit: number }} budget */

@@ -4,6 +4,7 @@ import { readFileSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { programs } from '../../scripts/registry.mjs'
 import { root } from '../../scripts/lib.mjs'
+import type { FigureElement } from '../../widgets/elements'
 import { Figure, initSync } from '../../widgets/pkg/fastslam_widgets.js'
 import { holdPrograms } from './figure'
 import { expect, test } from './fixtures'
@@ -25,6 +26,7 @@ const updated: Record<string, number[]> = {}
 
 for (const tag of programs.keys()) {
   test(`${tag} keeps its place free before it lives`, async ({ page }) => {
+    if (UPDATE) test.setTimeout(240_000) // five times as many figures
     const widths = UPDATE ? SAMPLES : WIDTHS
     // One above the other, so that all are seen.
     const html = widths.map(width => `<div style="position: absolute; inset: 0 auto auto 0; width: ${width}px"><${tag}></${tag}></div>`)
@@ -45,6 +47,8 @@ for (const tag of programs.keys()) {
     // The figure of logs has its program only when something is asked of it, and is whole without.
     await expect(all.locator(tag === 'fastslam-log' ? '.idle' : '.stage.live')).toHaveCount(widths.length)
     await expect(all.locator('.sentence:not(:empty)')).toHaveCount(widths.length)
+    // What is said at first, of a run under way, may be shorter than what is said in the end.
+    await all.evaluateAll(elements => Promise.all(elements.map(element => (element as FigureElement).settled())))
     const after = await heights()
     // And the picture is as high as what is painted there: nothing of it is cut off.
     const canvases = await all.locator('canvas').evaluateAll(elements => elements.map(element => element.getBoundingClientRect()).map(({ width, height }) => [width, height]))

@@ -17,7 +17,11 @@ test.use({ contextOptions: { reducedMotion: 'reduce' } })
 // One worker, as what comes first is written once.
 test.describe.configure({ mode: 'default' })
 
-test.beforeAll(() => writeOffline())
+test.beforeAll(async () => {
+  // Every figure's file and package are made, which takes a minute where the machine has other things to do.
+  test.setTimeout(240_000)
+  await writeOffline()
+})
 
 for (const name of FIGURES) {
   test(`the file of ${name} lives from file:// and asks for nothing`, async ({ page, context }) => {
