@@ -56,7 +56,7 @@ fn names(scene: &mut Scene, model: &EmModel, layout: &Layout) {
     let line = text(Rect { h: LINE, ..header }, Anchor::Start, 13.0, Weight::SemiBold, Role::Ink, strong);
     scene.marks.push(line);
     let left = header.x + font::measure(strong, 13.0, Weight::SemiBold) + 12.0;
-    let others = words::Others { n: &model.others().ends().len() }.say();
+    let others = words::OtherGuesses { n: &model.others().ends().len() }.say();
     let mut items = vec![(Sample::dot(Role::Prior, 2.25).wide(7.0), others)];
     if !model.pinned().is_empty() {
         items.push((Sample::line(GHOST, 1.75, None).wide(14.0), common::pinned_mark().into()));
