@@ -103,6 +103,7 @@ const SAME: &[&str] = &[
     "Scans",
     "Pose",
     "nats",
+    "Filter",
     "Innovation",
     "multinomial",
     "landmarks",
