@@ -359,6 +359,17 @@ impl JointMap {
         Ok(())
     }
 
+    /// All work that is left.
+    ///
+    /// # Errors
+    /// None after [`Self::new`].
+    pub fn finish(&mut self) -> Result<(), SettingError> {
+        while self.pending() > 0 {
+            self.advance()?;
+        }
+        Ok(())
+    }
+
     /// The first run's population of a filter after so many landmarks, from 1 on.
     pub fn population(&self, filter: usize, landmarks: u32) -> Option<&Population> {
         self.repeats.first()?[filter].get(landmarks.checked_sub(1)? as usize)
@@ -391,9 +402,7 @@ impl JointMap {
     /// # Errors
     /// None after [`Self::new`].
     pub fn trace(mut self) -> Result<Digest, SettingError> {
-        while self.pending() > 0 {
-            self.advance()?;
-        }
+        self.finish()?;
         let mut digest = Digest::new();
         for (filter, landmarks) in
             [SAMPLED, COMPUTED].into_iter().flat_map(|filter| (1..=MOST).map(move |n| (filter, n)))
@@ -431,7 +440,7 @@ mod tests {
 
     fn finished(setup: &JointMapSetup) -> JointMap {
         let mut joint = JointMap::new(setup).unwrap();
-        (0..joint.pending()).for_each(|_| joint.advance().unwrap());
+        joint.finish().unwrap();
         assert!(joint.pending() == 0 && joint.repeats().len() as u32 == setup.repeats());
         joint
     }

@@ -49,9 +49,7 @@ struct Found {
 pub fn run(arguments: &Arguments) -> Result<()> {
     let &Arguments { particles, sensor, odometry, seed, json } = arguments;
     let mut joint = JointMap::new(&JointMapSetup { particles, sensor_scale: sensor, odometry_scale: odometry, seed })?;
-    while joint.pending() > 0 {
-        joint.advance()?;
-    }
+    joint.finish()?;
     let found = |filter, landmarks| Found {
         ess: joint.population(filter, landmarks).map_or(f64::NAN, |found| found.ess),
         predicted: f64::from(particles) * joint.log().predicted_share(filter, landmarks),

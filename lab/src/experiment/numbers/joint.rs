@@ -44,9 +44,7 @@ fn exercise(group: &Group) -> Vec<Number> {
 /// Both filters' N_eff after all landmarks, and the share of the variance that computing the map removes.
 fn run(seed: u64) -> [f64; 3] {
     let mut joint = JointMap::new(&JointMapSetup { seed, ..JointMapSetup::default() }).expect(VALID);
-    while joint.pending() > 0 {
-        joint.advance().expect(VALID);
-    }
+    joint.finish().expect(VALID);
     let ess = |filter| joint.population(filter, MOST).map_or(f64::NAN, |found| found.ess);
     [ess(SAMPLED), ess(COMPUTED), joint.removed(MOST)]
 }
