@@ -154,6 +154,9 @@ fn a_mark_folds_the_corridor_of_em_mapping_and_unfolds_it() {
 fn the_loop_is_closed_by_playing_and_folded_worse_by_dragging_and_some_seed_leaves_it_open() {
     let done = |name, query: &str| chip("fastslam-graph", name, query).done;
     assert!(done("close", "odometry=1&start=matches&step=60") && !done("close", "odometry=1&start=matches&step=1"));
-    assert!(done("fold", "wrong=on&from=32&to=86&step=60") && !done("fold", "wrong=on&from=32&to=34&step=60"));
+    assert!(
+        done("fold", "wrong=on&wrong-from=32&wrong-to=86&step=60")
+            && !done("fold", "wrong=on&wrong-from=32&wrong-to=34&step=60")
+    );
     assert!(done("early", "repair=mixture&seed=9&step=60") && !done("early", "repair=mixture&step=60"));
 }

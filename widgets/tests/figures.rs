@@ -52,6 +52,18 @@ fn every_default_and_every_choice_is_accepted() {
     }
 }
 
+/// The Python wheel makes a keyword argument of every parameter: `samples=64`.
+#[test]
+fn no_parameter_has_a_name_that_python_keeps_for_itself() {
+    const KEYWORDS: &str = "and as assert async await break class continue def del elif else except finally for from \
+                            global if import in is lambda nonlocal not or pass raise return try while with yield";
+    for entry in FIGURES {
+        for spec in Figure::new(entry.tag).unwrap().model().params() {
+            assert!(!KEYWORDS.split(' ').any(|word| word == spec.name), "{} of {}", spec.name, entry.tag);
+        }
+    }
+}
+
 /// A page asks before the first bit of work is done, and between any two.
 #[test]
 fn every_figure_can_be_asked_and_drawn_while_it_is_still_at_work() {

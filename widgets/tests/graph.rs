@@ -63,28 +63,28 @@ fn a_false_edge_folds_the_map_and_every_repair_mends_it() {
 fn the_false_edge_is_dragged_along_the_true_path_and_costs_iterations_only() {
     let mut shown = figure(TAG, "wrong=on&step=60");
     let at = |figure: &Figure, name: &str| scene(figure, 800.0).handles.iter().find(|h| h.name == name).unwrap().at;
-    let [x, y] = at(&shown, "to");
-    shown.drag("to", x - 90.0, y, 800.0);
+    let [x, y] = at(&shown, "wrong-to");
+    shown.drag("wrong-to", x - 90.0, y, 800.0);
     assert!(shown.model().pending() <= 62, "{}", shown.model().pending());
     shown.model_mut().settle();
-    let moved = at(&shown, "to");
+    let moved = at(&shown, "wrong-to");
     assert!((moved[0] - x + 90.0).abs() < 12.0 && (moved[1] - y).abs() < 12.0, "{moved:?}");
-    assert_eq!(at(&shown, "from"), at(&figure(TAG, "wrong=on&step=60"), "from"));
+    assert_eq!(at(&shown, "wrong-from"), at(&figure(TAG, "wrong=on&step=60"), "wrong-from"));
     let before = shown.query();
-    shown.nudge("to", 1.0, 0.0);
+    shown.nudge("wrong-to", 1.0, 0.0);
     shown.model_mut().settle();
     assert_ne!(shown.query(), before);
-    shown.nudge("to", -1.0, 0.0);
+    shown.nudge("wrong-to", -1.0, 0.0);
     shown.model_mut().settle();
     assert_eq!(shown.query(), before);
     for nonsense in [f64::NAN, f64::INFINITY] {
-        shown.drag("to", nonsense, 0.0, 800.0);
-        shown.nudge("to", nonsense, 0.0);
+        shown.drag("wrong-to", nonsense, 0.0, 800.0);
+        shown.nudge("wrong-to", nonsense, 0.0);
         assert_eq!(shown.query(), before);
     }
     // Onto its own other end it cannot be put.
-    let [x, y] = at(&shown, "from");
-    shown.drag("to", x, y, 800.0);
+    let [x, y] = at(&shown, "wrong-from");
+    shown.drag("wrong-to", x, y, 800.0);
     assert_eq!(shown.query(), before);
 }
 

@@ -20,7 +20,11 @@ pub(super) fn challenges() -> Vec<Challenge<GraphModel>> {
             "odometry",
             closed,
         ),
-        Challenge::new("fold", words::chip_fold(), "wrong=on&step=60").with(words::goal_fold(), "from to", folded),
+        Challenge::new("fold", words::chip_fold(), "wrong=on&step=60").with(
+            words::goal_fold(),
+            "wrong-from wrong-to",
+            folded,
+        ),
         Challenge::new("repair", words::chip_repair(), "repair=switchable&wrong=on&step=60"),
         Challenge::new("early", words::chip_early(), "repair=mixture&step=60").with(
             words::goal_early(),

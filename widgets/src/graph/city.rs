@@ -23,8 +23,8 @@ pub const LOOP: Role = Role::Copied;
 /// See [`ODOMETRY`].
 pub const WRONG: Role = Role::Extinct;
 
-/// Names of the handles: the ends of the false edge.
-pub const ENDS: [&str; 2] = ["from", "to"];
+/// Names of the handles and of their parameters: the ends of the false edge.
+pub const ENDS: [&str; 2] = ["wrong-from", "wrong-to"];
 
 /// The building in its place.
 pub fn plane(model: &GraphModel, layout: &Layout) -> Plane {

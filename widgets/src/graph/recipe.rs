@@ -134,8 +134,8 @@ impl recipe::Recipe for Recipe {
                 graph::range_help(),
             )
             .folded(),
-            end("from", graph::from(), FROM),
-            end("to", graph::to(), TO),
+            end("wrong-from", graph::from(), FROM),
+            end("wrong-to", graph::to(), TO),
             P::flag("truth", graph::truth(), field!(truth), graph::truth_help()).view().folded(),
             P::integer("step", graph::iteration_name(), "", (0, END), field!(step), graph::iteration_help()).view(),
         ]
