@@ -104,13 +104,15 @@ pub struct Rbpf<M, P> {
     policy: ResamplePolicy,
     scheme: Scheme,
     seed: u64,
+    /// τ of [`Builder::selection_temper`].
+    selection_temper: f64,
     executor: Executor,
     step: u32,
     /// Resamplings in this step.
     resamplings: u32,
     particles: Vec<Particle<M>>,
     weights: Weights,
-    /// The same, but for resamplings: copies keep the weight of their original.
+    /// The product of all that a path has paid, in full and as if no step had resampled: copies keep the weight of their original.
     path_weights: Weights,
 }
 
@@ -183,10 +185,12 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         }
     }
 
-    /// Multiplies the weights by what the particles have paid, and divides them by their sum. Returns the sum's log \[nats\].
+    /// Multiplies the weights by what the particles have paid, to the power of the temper, and divides them by their sum. Returns the log
+    /// of what the sum is without the temper \[nats\].
     fn reweigh(&mut self, log_increments: &[f64]) -> f64 {
-        let (weights, log_evidence) = self.weights.reweighted(log_increments);
-        self.weights = weights;
+        let (_, log_evidence) = self.weights.reweighted(log_increments);
+        let tempered: Vec<f64> = log_increments.iter().map(|increment| self.selection_temper * increment).collect();
+        (self.weights, _) = self.weights.reweighted(&tempered);
         (self.path_weights, _) = self.path_weights.reweighted(log_increments);
         log_evidence
     }
@@ -246,7 +250,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         &self.weights
     }
 
-    /// Weights accumulated along the paths, as if no step had resampled, normalised.
+    /// Weights accumulated along the paths in full, as if no step had resampled, normalised.
     pub fn path_weights(&self) -> &Weights {
         &self.path_weights
     }

@@ -206,5 +206,6 @@ fn filter(settings: &LaserMapperSettings, beams: u32, map: Map) -> Result<Filter
         .particles(settings.particles)
         .seed(settings.seed)
         .policy(settings.policy)
+        .selection_temper(tuning::SELECTION_TEMPER)
         .build()
 }

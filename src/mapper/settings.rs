@@ -104,17 +104,16 @@ impl LaserMapperSettings {
         scan.end_points(self.no_return.unwrap_or(f64::INFINITY), self.max_range)
     }
 
-    /// About how many bytes the maps will take when this log is mapped: the tiles that end points fall into by raw odometry once,
-    /// and for each particle those of two scans. Where odometry drifts it counts walls more than once; it is no bound.
+    /// About how many bytes the maps will take when this log is mapped: for each particle all tiles that beams pass through by raw
+    /// odometry, as particles that are selected seldom have long been apart. What they share makes it less; where odometry drifts it
+    /// counts walls more than once. It is no bound.
     pub fn memory_estimate(&self, log: &LaserLog) -> u64 {
         /// NDT cells in a tile, about.
         const NDT_CELLS: usize = 12;
         let settings = self.for_log(log);
         let tile = f64::from(Map::TILE_CELLS) * settings.cell_size;
         let mut all = BTreeSet::new();
-        let mut most = 0;
         for scan in &log.scans {
-            let mut tiles = BTreeSet::new();
             for end in settings.end_points(scan).hits {
                 // The tiles on the way are free space that is kept as well.
                 let length = ops::hypot(end[0], end[1]);
@@ -122,13 +121,10 @@ impl LaserMapperSettings {
                 for part in 0..=parts as u32 {
                     let share = f64::from(part) / parts;
                     let [x, y] = scan.odometry.transform([end[0] * share, end[1] * share]);
-                    tiles.insert(((x / tile).floor() as i64, (y / tile).floor() as i64));
+                    all.insert(((x / tile).floor() as i64, (y / tile).floor() as i64));
                 }
             }
-            most = tiles.len().max(most);
-            all.extend(tiles);
         }
-        // A particle that lives on beside others differs from them by a few scans, which overlap.
-        ((all.len() + 2 * settings.particles * most) * Map::tile_bytes(NDT_CELLS)) as u64
+        (settings.particles * all.len() * Map::tile_bytes(NDT_CELLS)) as u64
     }
 }

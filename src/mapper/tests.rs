@@ -107,6 +107,29 @@ fn the_map_is_the_room_and_the_path_is_as_long_as_the_robot_drove() {
     assert_eq!(log_odds(4.5, 0.0), 0.0, "nobody looked behind the wall");
 }
 
+/// After 10 cm the prior is narrower than the cells by which a lattice looks: a mapper that took that for a scan which tells nothing
+/// believed its wheels, and one particle alone was 14 cm off after 2 m.
+#[test]
+fn after_a_short_motion_every_scan_is_matched() {
+    for seed in 1..=5 {
+        let mut mapper = LaserMapper::new(LaserMapperSettings { particles: 4, seed, ..settings() }).unwrap();
+        for report in scans(21, 181).iter().filter_map(|scan| mapper.push(scan)) {
+            assert_eq!(report.matched(), 4, "seed {seed}, step {}", report.step);
+        }
+        assert!((mapper.pose().x - 2.0).abs() < 0.025, "seed {seed}: {:?}", mapper.pose());
+    }
+}
+
+/// Nothing is in range: what a closer look finds is nothing, too.
+#[test]
+fn a_scan_that_met_nothing_is_not_matched() {
+    let mut scans = scans(11, 181);
+    scans.iter_mut().for_each(|scan| scan.ranges.fill(f32::INFINITY));
+    let mut mapper = LaserMapper::new(settings()).unwrap();
+    let matched: usize = scans.iter().filter_map(|scan| mapper.push(scan)).map(|report| report.matched()).sum();
+    assert_eq!((matched, mapper.steps()), (0, 10));
+}
+
 #[test]
 fn the_pose_is_the_end_of_the_path() {
     let mut mapper = LaserMapper::new(LaserMapperSettings { min_travel: 0.3, ..settings() }).unwrap();

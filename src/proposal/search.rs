@@ -118,18 +118,26 @@ pub struct CorrelativeSearch {
 }
 
 impl Search for CorrelativeSearch {
-    /// The best poses of the lattice, apart from each other; none where all of it looks alike.
+    /// The best poses of the lattice, apart from each other; none where all of it looks alike. After a motion so short that the lattice has one
+    /// position only, those of the closer look of [`HeadingSeeds`]: what is flat to the coarse score may be a hill to the finer one.
     fn starts<N: ScoreNear>(&self, target: &Target<'_, N>) -> Starts {
         let lattice = self.lattice(target);
         let log_scores: Vec<f64> = lattice.iter().map(|point| point.log_score).collect();
         let best = log_scores.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let log_mean = ops::log_sum_exp(&log_scores) - ops::ln(log_scores.len() as f64);
         let improves = best - log_mean >= target.minimum_improvement;
+        let predicted = target.prior.mean();
+        if !improves && lattice.iter().all(|LatticePoint { pose, .. }| [pose.x, pose.y] == [predicted.x, predicted.y]) {
+            return CLOSER.starts(target);
+        }
         let poses = if improves { self.best_apart(&lattice) } else { Vec::new() };
         let start = |pose: Pose2| ScoredPose { pose, value: target.log_posterior(&pose, f64::NEG_INFINITY) };
         Starts { poses: poses.into_iter().map(start).collect(), log_mean: f64::NEG_INFINITY }
     }
 }
+
+/// The search where a lattice has one position, and sees no difference.
+const CLOSER: HeadingSeeds = HeadingSeeds { seeds: 8, climbs: 1 };
 
 /// A pose of the lattice.
 struct LatticePoint {

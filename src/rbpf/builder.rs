@@ -13,6 +13,8 @@ use crate::weights::Weights;
 
 /// Slots are counted in 32 bits on every platform.
 pub(super) const PARTICLES: Range = Range::whole(1, u32::MAX);
+/// Of [`Builder::selection_temper`].
+pub(super) const SELECTION_TEMPER: Range = Range::number(1e-6, 1.0, "");
 
 /// Where the particles stand at step 0.
 #[derive(Clone, Debug)]
@@ -66,6 +68,7 @@ pub struct Builder<M, P> {
     start: Start,
     policy: ResamplePolicy,
     scheme: Scheme,
+    selection_temper: f64,
     executor: Executor,
 }
 
@@ -79,6 +82,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Builder<M, P> {
             start: Start::Pose(Pose2::default()),
             policy: ResamplePolicy::EssBelow(0.5),
             scheme: Scheme::Systematic,
+            selection_temper: 1.0,
             executor: Executor::default(),
         }
     }
@@ -108,6 +112,16 @@ impl<M: ConditionalMap, P: Proposal<M>> Builder<M, P> {
         Self { scheme, ..self }
     }
 
+    /// τ, the share of what a step says of the particles that they are selected by, 10⁻⁶ to 1; by default 1.
+    ///
+    /// The weights, N_eff and every resampling go by Σ τ Δ of a particle's log increments Δ, [`Rbpf::best`] and [`Rbpf::path_weights`]
+    /// by Σ Δ. With 1 the filter's target is the posterior. With less it is a flatter one, on purpose: where many readings repeat one
+    /// error, as beams and scans against one map do, the product of their likelihoods is too sure, and a population that is selected
+    /// by it has lost its variety before a loop closes. gmapping selects by 1 / (3 M), and takes its best particle by the whole sum.
+    pub fn selection_temper(self, selection_temper: f64) -> Self {
+        Self { selection_temper, ..self }
+    }
+
     /// Who computes; by default [`Executor::default`]. No number depends on it.
     pub fn executor(self, executor: Executor) -> Self {
         Self { executor, ..self }
@@ -116,11 +130,12 @@ impl<M: ConditionalMap, P: Proposal<M>> Builder<M, P> {
     /// The filter at step 0: every particle with a copy of the map, all of one weight.
     ///
     /// # Errors
-    /// [`SettingError::OutOfRange`] where there are no particles, where the policy's fraction is out of its range, where the start
-    /// is not finite, or where the map or the proposal refuses one of its settings.
+    /// [`SettingError::OutOfRange`] where there are no particles, where the policy's fraction or the temper is out of its range, where
+    /// the start is not finite, or where the map or the proposal refuses one of its settings.
     pub fn build(self) -> Result<Rbpf<M, P>, SettingError> {
-        let Self { map, proposal, particles: count, seed, start, policy, scheme, executor } = self;
+        let Self { map, proposal, particles: count, seed, start, policy, scheme, selection_temper, executor } = self;
         PARTICLES.check("particles", count as f64)?;
+        SELECTION_TEMPER.check("selection_temper", selection_temper)?;
         map.validate()?;
         proposal.validate()?;
         policy.validate()?;
@@ -130,6 +145,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Builder<M, P> {
             policy,
             scheme,
             seed,
+            selection_temper,
             executor,
             step: 0,
             resamplings: 0,
@@ -169,6 +185,10 @@ mod tests {
         for (fraction, shown) in [(1.5, "1.5"), (-0.1, "-0.1"), (f64::NAN, "NaN")] {
             let policy = ResamplePolicy::EssBelow(fraction);
             assert_eq!(refused(builder().policy(policy)), format!("policy = {shown}: must be a number from 0 to 1"));
+        }
+        for (temper, shown) in [(0.0, "0"), (1.5, "1.5"), (f64::NAN, "NaN")] {
+            let said = refused(builder().selection_temper(temper));
+            assert_eq!(said, format!("selection_temper = {shown}: must be a number from 0.000001 to 1"));
         }
         let lost = Pose2 { x: f64::INFINITY, y: 0.0, theta: 0.0 };
         assert_eq!(refused(builder().start(lost)), "start.x = inf: must be a finite number [m]");

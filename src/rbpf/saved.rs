@@ -1,7 +1,7 @@
 //! A filter's state.
 
 use super::Rbpf;
-use super::builder::PARTICLES;
+use super::builder::{PARTICLES, SELECTION_TEMPER};
 use crate::error::Range;
 use crate::execute::Executor;
 use crate::genealogy::{Path, SavedPaths};
@@ -20,6 +20,7 @@ pub struct Saved<T> {
     version: u32,
     policy: ResamplePolicy,
     scheme: Scheme,
+    selection_temper: f64,
     seed: u64,
     resamplings: u32,
     weights: SavedWeights,
@@ -30,7 +31,7 @@ pub struct Saved<T> {
 }
 
 /// Of the form of [`Saved`] and of all that is in it.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 impl<M: ConditionalMap + SaveShared, P: Proposal<M>> Rbpf<M, P> {
     /// The filter's state. What its particles share is in it once.
@@ -60,6 +61,7 @@ impl<M: ConditionalMap + SaveShared, P: Proposal<M>> Rbpf<M, P> {
             version: VERSION,
             policy: self.policy,
             scheme: self.scheme,
+            selection_temper: self.selection_temper,
             seed: self.seed,
             resamplings: self.resamplings,
             weights: self.weights.save(),
@@ -75,12 +77,14 @@ impl<M: ConditionalMap + SaveShared, P: Proposal<M>> Rbpf<M, P> {
     /// # Errors
     /// Where the state is not that of a filter, with the part of it that is wrong; where the proposal refuses one of its settings.
     pub fn restore(saved: Saved<M::Saved>, proposal: P) -> Result<Self, RestoreError> {
-        let Saved { version, policy, scheme, seed, resamplings, weights, path_weights, paths, maps } = saved;
+        let Saved { version, policy, scheme, selection_temper, seed, resamplings, weights, path_weights, paths, maps } =
+            saved;
         if version != VERSION {
             return Err(RestoreError::Version { found: version, known: VERSION });
         }
         proposal.validate()?;
         policy.validate()?;
+        SELECTION_TEMPER.check("selection_temper", selection_temper)?;
         Range::whole(0, u32::MAX / 2).check("resamplings", f64::from(resamplings))?;
         let paths = Path::restore_all(paths)?;
         PARTICLES.check("particles", paths.len() as f64)?;
@@ -97,6 +101,7 @@ impl<M: ConditionalMap + SaveShared, P: Proposal<M>> Rbpf<M, P> {
             policy,
             scheme,
             seed,
+            selection_temper,
             executor: Executor::default(),
             step,
             resamplings,

@@ -261,9 +261,9 @@ mod tests {
         assert!(raw.translation_mean > 0.5, "odometry alone must fail: {raw:?}");
         assert!(errors.translation_mean < 0.06 && errors.rotation_mean_deg < 0.5, "{errors:?}");
         let (footprint, estimate) = (mapper.footprint(), settings.memory_estimate(&log));
-        assert!(
-            footprint.unique < footprint.dense / 3 && footprint.unique < estimate && estimate < 10 * footprint.unique
-        );
+        // Particles that are selected seldom share little with each other, but each shares what is old with the map of some scans ago.
+        assert!(footprint.unique < footprint.dense / 2, "{footprint:?}");
+        assert!(footprint.unique < estimate && estimate < 2 * footprint.unique, "{estimate} for {footprint:?}");
     }
 
     #[test]

@@ -88,6 +88,31 @@ fn the_evidence_is_the_mean_of_what_the_particles_paid_by_their_weights() {
     }
 }
 
+/// Selection by a tenth of the evidence: the weights are the tenth power of those of the paths, normalised, and what dies last is the best.
+#[test]
+fn a_temper_flattens_what_selects_and_neither_the_best_nor_the_evidence() {
+    let build = |temper| {
+        let builder = Rbpf::builder(Nothing, Price).particles(COUNT).seed(3).policy(ResamplePolicy::Never);
+        builder.selection_temper(temper).build().unwrap()
+    };
+    let (mut whole, mut tempered) = (build(1.0), build(0.1));
+    let (first, same) = (whole.step(&SOME, &()), tempered.step(&SOME, &()));
+    assert_eq!((first.log_evidence, first.log_increments), (same.log_evidence, same.log_increments));
+    for _ in 0..30 {
+        whole.step(&SOME, &());
+        tempered.step(&SOME, &());
+        assert_eq!(tempered.path_weights(), whole.path_weights());
+        assert_eq!(tempered.best(), whole.best());
+        let roots: Vec<f64> = whole.path_weights().as_slice().iter().map(|w| ops::exp(0.1 * ops::ln(*w))).collect();
+        let sum: f64 = roots.iter().sum();
+        for (root, weight) in roots.iter().zip(tempered.weights().as_slice()) {
+            assert!((root / sum - weight).abs() < 1e-12, "{root} / {sum}, {weight}");
+        }
+    }
+    // Spreads of 0.1 √31 and of a tenth of that: exp(−0.31) and exp(−0.003) of all particles count.
+    assert!(whole.weights().ess() < 0.9 * COUNT as f64 && tempered.weights().ess() > 0.99 * COUNT as f64);
+}
+
 #[test]
 fn a_step_that_explains_nothing_says_so_and_leaves_weights_and_best_as_they_were() {
     for nothing in [|_| f64::NEG_INFINITY, |_| f64::NAN] as [fn(f64) -> f64; 2] {
