@@ -67,6 +67,21 @@ fn a_lap_is_a_graph_too_and_a_bad_line_of_one_is_named() {
 }
 
 #[test]
+fn the_table_has_the_graphs_of_the_same_laps() {
+    let rows = json("table --method graph --seeds 3 --json");
+    let mut errors: Vec<f64> = (1..=3)
+        .map(|seed| json(&format!("lap --method graph --seed {seed} --json"))["after"]["rms"].as_f64().unwrap())
+        .collect();
+    errors.sort_by(f64::total_cmp);
+    assert_eq!((rows[0]["seeds"].as_u64(), rows[0]["matcher"].as_str()), (Some(3), Some("subcell")));
+    assert_eq!([&rows[0]["rms_median"], &rows[0]["rms_worst"]].map(|x| x.as_f64().unwrap()), [errors[1], errors[2]]);
+    assert!(rows[0]["rms_before_median"].as_f64() < rows[0]["odometry_rms_median"].as_f64());
+    let shown =
+        fastslam("table --method graph --seeds 2 --matcher both --course ring").success().get_output().stdout.clone();
+    assert_eq!(String::from_utf8(shown).unwrap().lines().count(), 4);
+}
+
+#[test]
 fn a_lap_is_painted_into_a_file() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("lap.png");
@@ -240,6 +255,8 @@ fn bad_arguments_are_refused_in_one_line_with_status_2() {
         ("table --seeds 0", "--seeds"),
         ("table --shard 4/3 --json", "I from 1 to N"),
         ("table --shard 1/3", "--json"),
+        ("table --method magic", "particles, graph"),
+        ("table --method graph --shard 1/3 --json", "not with --method graph"),
         ("variants --seeds 0", "--seeds"),
         ("variants --particles 0", "from 1 to 4096"),
         ("variants --only moon", "people"),
