@@ -19,6 +19,11 @@ const DRAGS = [
   { what: 'doors', tag: 'fastslam-doors', attributes: {}, slider: 'ride', values: ['4.5', '4'], atMost: 32 },
   { what: 'sampled map, N', tag: 'fastslam-joint', attributes: {}, slider: 'landmarks', values: ['9', '10'], atMost: 32 },
   { what: 'sampled map, sensor', tag: 'fastslam-joint', attributes: {}, slider: 'sensor', values: ['1.05', '1'], atMost: 32 },
+  { what: 'pose graph, another false edge', tag: 'fastslam-graph', attributes: { wrong: 'on', step: '60' }, slider: 'wrong-to', values: ['53', '52'], atMost: 150 },
+  { what: 'pose graph, wheels', tag: 'fastslam-graph', attributes: { step: '60' }, slider: 'odometry', values: ['0.55', '0.5'], atMost: 1500 },
+  { what: 'EM mapping', tag: 'fastslam-em', attributes: {}, slider: 'odometry', values: ['0.06', '0.05'], atMost: 150 },
+  { what: 'smoothing, step looked at', tag: 'fastslam-smoothing', attributes: {}, slider: 'at', values: ['13', '12'], atMost: 32 },
+  { what: 'smoothing, M = 16', tag: 'fastslam-smoothing', attributes: {}, slider: 'odometry', values: ['1.05', '1'], atMost: 600 },
   { what: 'universes', tag: 'fastslam-universes', attributes: {}, slider: 'threshold', values: ['0.3', '0.4'], atMost: 32 },
   { what: 'log, before it is mapped', tag: 'fastslam-log', attributes: {}, slider: 'universes', values: ['20', '16'], atMost: 32, file: join(root, 'www', 'public', 'example.clf.gz') },
 ]

@@ -29,6 +29,11 @@
 //! by that linearised map. Where maps disagree on *which* landmark was seen, each goes by its own answer. A path that no particle comes
 //! near, such as the other side of a wrong loop closure, is not found in any reasonable number of sweeps.
 //!
+//! **Grids.** A [`Grid`](crate::map::grid::Grid) can be swept over with a proposal that has densities, such as
+//! [`FromMotion`](crate::proposal::FromMotion); [`FromScan`](crate::proposal::FromScan), whose weights are no densities of paths, does not
+//! implement [`Retrace`]. The crate `fastslam-lab` has tried (`experiment::looking_back`): the price is the full ½ M T², and the path that comes
+//! out is for the most part the one that was given, so that [`mapper`](crate::mapper) hands out the path of its best particle.
+//!
 //! References: Lindsten, Jordan, Schön, *Particle Gibbs with ancestor sampling* (JMLR 2014), algorithms 2 and 3; Kok, Solin, Schön,
 //! *Rao-Blackwellized particle smoothing for simultaneous localization and mapping* (2024); Andrieu, Doucet, Holenstein, *Particle
 //! Markov chain Monte Carlo methods* (JRSS B 2010).

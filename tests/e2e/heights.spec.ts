@@ -45,8 +45,10 @@ for (const tag of programs.keys()) {
     const before = await heights()
     open()
     // The figure of logs has its program only when something is asked of it, and is whole without.
-    await expect(all.locator(tag === 'fastslam-log' ? '.idle' : '.stage.live')).toHaveCount(widths.length)
-    await expect(all.locator('.sentence:not(:empty)')).toHaveCount(widths.length)
+    // Forty-nine figures that compute need a while on a busy machine.
+    const patient = UPDATE ? { timeout: 200_000 } : {}
+    await expect(all.locator(tag === 'fastslam-log' ? '.idle' : '.stage.live')).toHaveCount(widths.length, patient)
+    await expect(all.locator('.sentence:not(:empty)')).toHaveCount(widths.length, patient)
     // What is said at first, of a run under way, may be shorter than what is said in the end.
     await all.evaluateAll(elements => Promise.all(elements.map(element => (element as FigureElement).settled())))
     const after = await heights()

@@ -4,6 +4,10 @@
 //! guess has waived it. Until then a figure shows, tells and writes nothing that the result could be read from; and whatever changes what
 //! is asked for takes guess and result away.
 
+mod level;
+
+pub use level::{GUESS, Level, level};
+
 use crate::{
     decimal::fixed,
     recipe::{Field, Param, Recipe},

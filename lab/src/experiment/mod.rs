@@ -9,6 +9,7 @@ pub mod joint_map;
 pub mod landmarks;
 pub mod lap;
 pub mod log;
+pub mod looking_back;
 pub mod numbers;
 pub mod policies;
 pub mod policy_counts;
@@ -77,6 +78,8 @@ pub fn golden_traces(executor: &Executor) -> Vec<(&'static str, Digest)> {
         run.by_ref().for_each(drop);
         (name, log::digest(run.mapper()))
     });
+    let graphs = graph::golden_setups().into_iter();
+    let graphs = graphs.map(|(name, setup, repair)| (name, graph::trace(&setup, repair).expect(VALID)));
     let em = core::iter::once(("em", em::golden().expect(VALID)));
     laps.chain(drives)
         .chain(joints)
@@ -86,5 +89,6 @@ pub fn golden_traces(executor: &Executor) -> Vec<(&'static str, Digest)> {
         .chain(smoothed)
         .chain(logs)
         .chain(em)
+        .chain(graphs)
         .collect()
 }

@@ -12,6 +12,7 @@ mod picture;
 mod policies;
 mod ring;
 mod shard;
+mod smoothing;
 mod table;
 mod variants;
 
@@ -46,6 +47,7 @@ enum Command {
     Numbers(numbers::Arguments),
     Policies(policies::Arguments),
     Ring(ring::Arguments),
+    Smoothing(smoothing::Arguments),
     Table(table::Arguments),
     Variants(variants::Arguments),
 }
@@ -87,6 +89,7 @@ fn run(arguments: Arguments) -> Result<()> {
         Command::Numbers(arguments) => numbers::run(&arguments),
         Command::Policies(arguments) => policies::run(&arguments),
         Command::Ring(arguments) => ring::run(&arguments),
+        Command::Smoothing(arguments) => smoothing::run(&arguments),
         Command::Table(arguments) => table::run(&arguments),
         Command::Variants(arguments) => variants::run(&arguments),
     })

@@ -152,6 +152,12 @@ pub const PICTURES: &[Picture] = &[
     picture(SMOOTHING, "fastslam-smoothing-dark", "", 800, 1.5, "dark"),
     picture(SMOOTHING, "smoothing-filter", "step=0&particles=30", 1112, 1.0, "light"),
     picture(SMOOTHING, "smoothing-phone", "step=5&particles=4", 340, 2.0, "light"),
+    picture(GRAPH, "graph-asked", "wrong=on&predict=on", 692, 1.0, "dark"),
+    picture(GRAPH, "graph-judged", "wrong=on&predict=on&guess=0.5&run=on", 340, 2.0, "light"),
+    picture(EM, "em-asked", "mark-3=5.2&predict=on", 692, 1.0, "light"),
+    picture(EM, "em-judged", "mark-3=5.2&predict=on&guess=4&run=on", 340, 2.0, "light"),
+    picture(SMOOTHING, "smoothing-asked", "predict=on&guess=7", 692, 1.0, "light"),
+    picture(SMOOTHING, "smoothing-judged", "predict=on&guess=7&run=on", 340, 2.0, "dark"),
     picture(SMOOTHING, "smoothing-tiny", "particles=2&odometry=3&sensor=2&at=62", 240, 1.0, "contrast-dark"),
 ];
 

@@ -100,3 +100,13 @@ fn links_to_the_universes_keep_their_numbers() {
 fn links_to_the_sampled_map_keep_their_numbers() {
     keep_their_numbers("fastslam-joint");
 }
+
+#[test]
+fn links_to_the_pose_graph_keep_their_numbers() {
+    keep_their_numbers("fastslam-graph");
+}
+
+#[test]
+fn links_to_em_mapping_keep_their_numbers() {
+    keep_their_numbers("fastslam-em");
+}

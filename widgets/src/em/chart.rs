@@ -19,6 +19,8 @@ fn range(model: &EmModel) -> [f64; 2] {
     let pinned = model.pinned().iter().skip(1).copied();
     let [low, high] =
         own.chain(ends).chain(pinned).fold([f64::MAX, f64::MIN], |[low, high], x| [low.min(x), high.max(x)]);
+    // There is only the first guess.
+    let [low, high] = if low > high { [model.shown().log_posterior; 2] } else { [low, high] };
     let margin = 0.06 * (high - low).max(1.0);
     [low - margin, high + margin]
 }

@@ -2,13 +2,14 @@
 
 use super::{
     challenges,
-    recipe::{END, FILLS, Recipe, TICKS},
+    recipe::{END, FILLS, MARK, Recipe, TICKS},
     told,
 };
 use crate::{
     challenge::Challenge,
     ghost::{self, Curves},
     model::{Declared, FigureError, Model, Readout, Series},
+    prediction::{Outcome, State},
     words::em,
 };
 use fastslam_lab::baseline::em_mapping::Expectation;
@@ -60,6 +61,9 @@ pub struct EmModel {
     passes: Expectation,
     /// Entropy of the path by them \[nats\].
     entropy: f64,
+    /// Where the last iteration has the robot put down \[m\], and the share that has the first two doors come again; while the reader is
+    /// asked for that.
+    end: Option<(f64, f64)>,
     cloud: Cloud,
     others: Others,
     /// Of the run that is pinned: what never falls, by iterations.
@@ -77,14 +81,21 @@ fn climb(recipe: &Recipe, log: &Log) -> Result<Vec<Iterate>, FigureError> {
     Ok(lab::climb(log, recipe.guess().first_map()?, recipe.iterations)?)
 }
 
+/// Where both passes have the robot put down at a step \[m\], in the mean, and the share of that which has the first two doors come again.
+fn answer(passes: &Expectation, carried: usize) -> Option<(f64, f64)> {
+    let shares = passes.product(carried)?;
+    let mean = shares.iter().enumerate().map(|(cell, share)| share * CORRIDOR.place(cell)).sum();
+    Some((mean, lab::again(&shares)))
+}
+
 impl EmModel {
     fn new(recipe: Recipe) -> Result<Self, FigureError> {
         let log = Log::new(&recipe.log())?;
         let iterates = climb(&recipe, &log)?;
         let passes = Expectation::new(iterates[0].map.clone(), &log.ride)?;
         let (cloud, entropy) = (Cloud::new(&log)?, 0.0);
-        let (others, pinned) = Default::default();
-        let mut model = Self { recipe, log, iterates, passes, entropy, cloud, others, pinned };
+        let (others, pinned, end) = Default::default();
+        let mut model = Self { recipe, log, iterates, passes, entropy, end, cloud, others, pinned };
         model.localise()?;
         Ok(model)
     }
@@ -94,7 +105,36 @@ impl EmModel {
         let map = self.iterates[self.now().iteration as usize].map.clone();
         self.passes = Expectation::of(map, &self.log.ride)?;
         self.entropy = self.passes.path_entropy(&self.log.ride).unwrap_or(f64::NAN);
+        self.end = None;
+        if self.recipe.prediction.predict {
+            let map = self.iterates[self.recipe.iterations as usize - 1].map.clone();
+            self.end = answer(&Expectation::of(map, &self.log.ride)?, self.log.carried);
+        }
         Ok(())
+    }
+
+    /// How far the reader's prediction is.
+    pub fn state(&self) -> State {
+        self.recipe.prediction.state()
+    }
+
+    /// Whether nothing of the iterations is to be seen yet.
+    pub fn hides(&self) -> bool {
+        self.recipe.prediction.hides()
+    }
+
+    /// Where the last iteration has the robot put down, as in [`Self::put_down`], where the reader was asked for it.
+    pub fn end(&self) -> Option<(f64, f64)> {
+        self.end
+    }
+
+    /// Places a guess \[m\], or the nearest that there can be.
+    pub fn guess_at(&mut self, place: f64) {
+        if place.is_finite() {
+            // Tenths, as they are written.
+            let place = (place / MARK.2).round().clamp(MARK.0 / MARK.2, MARK.1 / MARK.2) / 10.0;
+            self.change(|recipe| recipe.prediction.place(Some(place)));
+        }
     }
 
     /// What is shown of which iteration.
@@ -122,9 +162,9 @@ impl EmModel {
         self.recipe.iterations
     }
 
-    /// All maps, from the first guess on.
+    /// All maps, from the first guess on; that alone while the reader is asked what comes of it.
     pub fn iterates(&self) -> &[Iterate] {
-        &self.iterates
+        if self.hides() { &self.iterates[..1] } else { &self.iterates }
     }
 
     /// Both passes of the iteration shown, whole.
@@ -140,9 +180,7 @@ impl EmModel {
     /// Where EM mapping believes the robot to have been put down \[m\], in the mean, and the share of that which has the first two doors
     /// come again; once the two passes are multiplied.
     pub fn put_down(&self) -> Option<(f64, f64)> {
-        let shares = self.passes.product(self.log.carried).filter(|_| self.now().has_product())?;
-        let mean = shares.iter().enumerate().map(|(cell, share)| share * CORRIDOR.place(cell)).sum();
-        Some((mean, lab::again(&shares)))
+        answer(&self.passes, self.log.carried).filter(|_| self.now().has_product())
     }
 
     /// Where doors are guessed to be \[m\].
@@ -183,7 +221,7 @@ impl EmModel {
 
     /// What never falls, of the run that is pinned.
     pub fn pinned(&self) -> &[f64] {
-        ghost::curve(&self.pinned, 0)
+        if self.hides() { &[] } else { ghost::curve(&self.pinned, 0) }
     }
 
     /// Moves a mark \[m\].
@@ -224,12 +262,14 @@ impl Declared for EmModel {
 impl Model for EmModel {
     /// Who asks for the last step stays at the end when that moves.
     fn seek(&mut self, step: u32) {
-        let step = if step >= self.step_count() { END } else { step };
-        self.change(|recipe| recipe.step = step);
+        if !self.hides() {
+            let step = if step >= self.step_count() { END } else { step };
+            self.change(|recipe| recipe.step = step);
+        }
     }
 
     fn step_count(&self) -> u32 {
-        self.recipe.iterations * TICKS
+        if self.hides() { 0 } else { self.recipe.iterations * TICKS }
     }
 
     fn step(&self) -> u32 {
@@ -259,6 +299,10 @@ impl Model for EmModel {
         if self.now().iteration < 2 { 1.0 } else { 3.0 }
     }
 
+    fn prediction(&self) -> Option<Outcome> {
+        self.recipe.prediction.outcome("put_down_end", self.end.map(|(place, _)| place))
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         told::readouts(self)
     }
@@ -272,7 +316,7 @@ impl Model for EmModel {
     }
 
     fn curves(&self) -> Curves {
-        vec![self.iterates.iter().map(|iterate| iterate.log_posterior).collect()]
+        vec![self.iterates().iter().map(|iterate| iterate.log_posterior).collect()]
     }
 
     fn haunt(&mut self, pinned: Curves) {

@@ -2,6 +2,7 @@
 
 use crate::{
     field,
+    prediction::{self, Asks, Prediction, Predicts},
     recipe::{self, Param},
     words::{common, em},
 };
@@ -36,6 +37,8 @@ pub struct Recipe {
     trust: f64,
     /// How many iterations are made.
     pub iterations: u32,
+    /// Where the reader expects EM mapping to have the robot put down \[m\].
+    pub prediction: Prediction,
     /// The step asked for.
     pub step: u32,
 }
@@ -43,7 +46,17 @@ pub struct Recipe {
 impl Default for Recipe {
     fn default() -> Self {
         let (LogSetup { odometry_std, seed, particles, .. }, Guess { marks, .. }) = Default::default();
-        Self { odometry: odometry_std, sensor: 5.0, seed, particles, marks, trust: 100.0, iterations: 20, step: END }
+        Self {
+            odometry: odometry_std,
+            sensor: 5.0,
+            seed,
+            particles,
+            marks,
+            trust: 100.0,
+            iterations: 20,
+            prediction: Prediction::default(),
+            step: END,
+        }
     }
 }
 
@@ -68,9 +81,26 @@ impl Recipe {
     }
 }
 
+impl Predicts for Recipe {
+    fn prediction(&self) -> &Prediction {
+        &self.prediction
+    }
+
+    fn prediction_mut(&mut self) -> &mut Prediction {
+        &mut self.prediction
+    }
+}
+
 impl recipe::Recipe for Recipe {
     fn table() -> Vec<Param<Self>> {
         type P = Param<Recipe>;
+        let [predict, guess, run] = prediction::rows(Asks {
+            predict_help: em::predict_help(),
+            guess_help: em::guess_help(),
+            unit: "m",
+            range: MARK,
+            run: [em::run(), em::run_help()],
+        });
         let mark = |rank: usize, title, field| {
             P::number(MARKS[rank], title, "m", MARK, field, em::mark_help()).folded().without_slider()
         };
@@ -84,8 +114,22 @@ impl recipe::Recipe for Recipe {
             mark(0, em::mark_1(), field!(marks[0])),
             mark(1, em::mark_2(), field!(marks[1])),
             mark(2, em::mark_3(), field!(marks[2])),
+            predict,
+            guess,
+            run,
             P::integer("step", common::step(), "", (0, END), field!(step), common::step_help()).view(),
         ]
+    }
+
+    /// Another log, another first guess or more iterations are another question. Who has answered it sees the end.
+    fn follow(&mut self, before: &Self) {
+        let asked = |recipe: &Self| (recipe.log(), recipe.guess(), recipe.iterations);
+        if asked(self) != asked(before) && self.prediction == before.prediction {
+            self.prediction.ask_anew();
+        }
+        if self.prediction.is_shown() && !before.prediction.is_shown() && self.step == before.step {
+            self.step = END;
+        }
     }
 }
 

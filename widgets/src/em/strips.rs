@@ -4,6 +4,7 @@ use super::{layout::Layout, model::EmModel, recipe::MARKS};
 use crate::{
     decimal::write,
     font::{self, Weight},
+    prediction::{Level, State, level},
     scene::{Anchor, Cells, Handle, Mark, Point, Rect, Role, Scene, Shading, heading, text},
     words::em as words,
 };
@@ -121,6 +122,24 @@ pub fn strips(scene: &mut Scene, model: &EmModel, layout: &Layout) {
         }
     }
     times(scene, model, layout);
+    answer(scene, model, &layout.strips[2].area);
+}
+
+/// Where the reader's guess stands before there is one \[m\].
+pub const MIDDLE: f64 = 5.0;
+
+/// The reader's guess of where the product will have the robot put down, and what came.
+fn answer(scene: &mut Scene, model: &EmModel, area: &Rect) {
+    let state = model.state();
+    let (value, said) = match state {
+        State::Placed(guess) => (guess, [words::GuessIs { guess: &write(guess) }.say(), write(guess)]),
+        State::Guessed(guess) => (guess, [words::GuessedIs { guess: &write(guess) }.say(), write(guess)]),
+        _ => (MIDDLE, [words::drag_here(), words::drag_short()].map(String::from)),
+    };
+    let (log, said) = (model.log(), said.each_ref().map(String::as_str));
+    let at = [x(area, log.carried, log.steps()), y(area, value)];
+    let (title, text) = (words::guess_handle(), words::GuessIs { guess: &write(value) }.say());
+    level(scene, area, &mut Vec::new(), Level { state, at, title, value, text, said });
 }
 
 /// When the robot was carried, and when the ride began and ended.

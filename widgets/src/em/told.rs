@@ -2,11 +2,12 @@
 
 use super::{model::EmModel, recipe::FILLS};
 use crate::{
-    decimal::fixed,
+    decimal::{fixed, write},
     model::{Column, Readout, Series},
+    prediction::State,
     words::em as words,
 };
-use fastslam_lab::experiment::em::DOORS;
+use fastslam_lab::experiment::em::{AGAIN_BELOW, DOORS};
 
 /// A share in percent.
 pub fn percent(share: f64) -> String {
@@ -79,6 +80,23 @@ pub fn series(model: &EmModel) -> Series {
     Series { columns: COLUMNS.into(), rows: model.iterates().iter().enumerate().map(row).collect() }
 }
 
+/// What is said of the prediction, if one is asked for.
+fn judged(model: &EmModel) -> Option<String> {
+    Some(match (model.state(), model.end()) {
+        (State::Off, _) | (State::Guessed(_) | State::Waived, None) => return None,
+        (State::Asked, _) => words::asks().into(),
+        (State::Placed(guess), _) => words::Placed { guess: &write(guess) }.say(),
+        (State::Guessed(guess), Some((place, again))) => {
+            let (guess_text, place) = (&write(guess), &fixed(place, 1));
+            match (guess < AGAIN_BELOW) == (again > 0.5) {
+                true => words::CameAsGuessed { place, guess: guess_text }.say(),
+                false => words::CameOtherwise { place, guess: guess_text }.say(),
+            }
+        }
+        (State::Waived, Some((place, _))) => words::CameAlone { place: &fixed(place, 1) }.say(),
+    })
+}
+
 pub fn describe(model: &EmModel) -> String {
     let (now, shown) = (model.now(), model.shown());
     let (n, all) = (&(now.iteration + 1), &model.iterations());
@@ -104,5 +122,5 @@ pub fn describe(model: &EmModel) -> String {
     };
     let particles =
         model.again().map(|again| words::ToldParticles { new: &percent(1.0 - again), again: &percent(again) }.say());
-    [em].into_iter().chain(particles).collect::<Vec<_>>().join(" ")
+    judged(model).into_iter().chain([em]).chain(particles).collect::<Vec<_>>().join(" ")
 }

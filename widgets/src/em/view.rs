@@ -11,6 +11,7 @@ use super::{
 };
 use crate::{
     panels::Panels,
+    prediction::{GUESS, State},
     scene::{Point, Rect, Scene},
     view::{View, whole_step},
 };
@@ -54,14 +55,19 @@ impl View for EmView {
     }
 
     fn drag(&self, model: &mut EmModel, layout: &Layout, handle: &str, [_, y]: Point) {
-        if let Some(rank) = rank(handle) {
+        if handle == GUESS {
+            model.guess_at(strips::place(&layout.strips[2].area, y));
+        } else if let Some(rank) = rank(handle) {
             model.put(rank, strips::place(&layout.guess.area, y));
         }
     }
 
     fn nudge(&self, model: &mut EmModel, handle: &str, [right, up]: [f64; 2]) {
-        if let Some(rank) = rank(handle) {
-            model.put(rank, model.marks()[rank] + MARK.2 * whole_step(right + up));
+        let by = MARK.2 * whole_step(right + up);
+        if handle == GUESS {
+            model.guess_at(by + if let State::Placed(guess) = model.state() { guess } else { strips::MIDDLE });
+        } else if let Some(rank) = rank(handle) {
+            model.put(rank, model.marks()[rank] + by);
         }
     }
 }

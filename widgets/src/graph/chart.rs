@@ -1,17 +1,21 @@
 //! The error over the iterations, on a logarithmic axis, and how far the best universe is off.
 
-use super::{layout::Layout, model::GraphModel};
+use super::{layout::Layout, model::GraphModel, recipe::GUESSES};
 use crate::{
     decimal::write,
     font::Weight,
     model::Model as _,
+    prediction::{Level, State, level, off_by},
     scene::{Anchor, Chart, GHOST, Mark, Rect, Role, Sample, Scene, ghost, heading_if_fits, legend, text},
     words::{common, graph as words},
 };
 use fastslam::ops;
 
 /// Errors at the lower and at the upper edge \[m\].
-const ENDS: [f64; 2] = [0.02, 20.0];
+const ENDS: [f64; 2] = GUESSES;
+
+/// Where the guess stands before there is one \[m\].
+pub const MIDDLE: f64 = 0.6;
 
 /// Errors that have a name \[m\].
 const LEVELS: [f64; 3] = [0.1, 1.0, 10.0];
@@ -22,6 +26,11 @@ const ROOMY: f64 = 300.0;
 /// Share of the height of an error \[m\].
 fn share(error: f64) -> f64 {
     ops::ln(error.max(1e-9) / ENDS[0]) / ops::ln(ENDS[1] / ENDS[0])
+}
+
+/// The error at a height \[m\].
+pub fn error(layout: &Layout, y: f64) -> f64 {
+    ENDS[0] * ops::exp(ops::ln(ENDS[1] / ENDS[0]) * (layout.error.bottom() - y) / layout.error.h)
 }
 
 pub fn draw(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
@@ -57,4 +66,24 @@ pub fn draw(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
     }
     let area = Rect::new(chart.area.x + 20.0, layout.axis.y + 2.0, chart.area.w - 40.0, 14.0);
     scene.marks.push(text(area, Anchor::Middle, 11.0, Weight::Regular, Role::Muted, words::iterations()));
+    guess(scene, model, &chart);
+}
+
+/// The reader's guess across the chart, and what came.
+fn guess(scene: &mut Scene, model: &GraphModel, chart: &Chart) {
+    let state = model.state();
+    let (value, said) = match state {
+        State::Placed(guess) => (guess, [words::GuessIs { guess: &write(guess) }.say(), write(guess)]),
+        State::Guessed(guess) => {
+            let guess_text = &write(guess);
+            let is = words::GuessedIs { guess: guess_text }.say();
+            let off = model.end().map(|result| off_by(guess, result));
+            (guess, [off.map_or(is.clone(), |off| words::GuessedShort { guess: guess_text, off: &off }.say()), is])
+        }
+        _ => (MIDDLE, [words::drag_here(), words::drag_short()].map(String::from)),
+    };
+    let at = [chart.area.centre()[0], chart.y(share(value))];
+    let (title, text) = (words::guess_handle(), words::GuessIs { guess: &write(value) }.say());
+    let said = said.each_ref().map(String::as_str);
+    level(scene, &chart.area, &mut Vec::new(), Level { state, at, title, value, text, said });
 }

@@ -70,8 +70,11 @@ pub fn draw(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
 fn header(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
     let (step, last) = (&model.step(), &model.step_count());
     let rms = &told::metres(model.frame().error.rms);
-    let strong =
-        if model.graph().is_solved() { words::Iteration { step, last }.say() } else { words::tying_short().into() };
+    let strong = match model.graph().is_solved() {
+        true if model.hides() => words::before_first().into(),
+        true => words::Iteration { step, last }.say(),
+        false => words::tying_short().into(),
+    };
     let cost = told::cost(model.frame().cost);
     let rest = match (model.graph().is_solved(), layout.wide) {
         (true, true) => words::OffAndCost { rms, cost: &cost }.say(),

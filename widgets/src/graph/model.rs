@@ -2,13 +2,14 @@
 
 use super::{
     challenges,
-    recipe::{END, Recipe},
+    recipe::{END, GUESSES, Recipe},
     told,
 };
 use crate::{
     challenge::Challenge,
     ghost::{self, Curves},
     model::{Declared, FigureError, Model, Readout, Series},
+    prediction::{Outcome, State},
     words::graph,
 };
 use fastslam::{geometry::Pose2, map::grid::Grid};
@@ -69,9 +70,33 @@ impl GraphModel {
         self.shown.world()
     }
 
-    /// Every iteration, the start first.
+    /// Every iteration, the start first; that alone while the reader is asked what comes of it.
     pub fn frames(&self) -> &[Frame] {
-        self.shown.frames()
+        let all = self.shown.frames();
+        if self.hides() { &all[..1] } else { all }
+    }
+
+    /// How far the reader's prediction is.
+    pub fn state(&self) -> State {
+        self.recipe.prediction.state()
+    }
+
+    /// Whether nothing of the iterations is to be seen yet.
+    pub fn hides(&self) -> bool {
+        self.recipe.prediction.hides()
+    }
+
+    /// RMS error of position at the last iteration \[m\]; nothing before that.
+    pub fn end(&self) -> Option<f64> {
+        self.shown.frames().last().filter(|_| self.shown.is_solved()).map(|frame| frame.error.rms)
+    }
+
+    /// Places a guess \[m\], or the nearest that there can be.
+    pub fn guess_at(&mut self, error: f64) {
+        if error.is_finite() {
+            let error = (100.0 * error).round().clamp(100.0 * GUESSES[0], 100.0 * GUESSES[1]) / 100.0;
+            self.change(|recipe| recipe.prediction.place(Some(error)));
+        }
     }
 
     /// The iteration shown.
@@ -103,7 +128,7 @@ impl GraphModel {
 
     /// Whether the last iteration is shown.
     pub fn at_end(&self) -> bool {
-        self.shown.is_solved() && self.step() == self.step_count()
+        !self.hides() && self.shown.is_solved() && self.step() == self.step_count()
     }
 
     /// Whether the building is drawn as it is.
@@ -113,7 +138,7 @@ impl GraphModel {
 
     /// Errors of the run that is pinned \[m\], by iteration.
     pub fn pinned(&self) -> &[f64] {
-        ghost::curve(&self.pinned, 0)
+        if self.hides() { &[] } else { ghost::curve(&self.pinned, 0) }
     }
 
     /// Maps the scans anew if other poses are shown.
@@ -153,8 +178,10 @@ impl Declared for GraphModel {
 impl Model for GraphModel {
     /// Who asks for the last iteration stays at the end when that moves.
     fn seek(&mut self, step: u32) {
-        self.recipe.step = if step >= self.step_count() { END } else { step };
-        self.place(false);
+        if !self.hides() {
+            self.recipe.step = if step >= self.step_count() { END } else { step };
+            self.place(false);
+        }
     }
 
     fn step_count(&self) -> u32 {
@@ -190,6 +217,10 @@ impl Model for GraphModel {
 
     fn pace(&self) -> f64 {
         SLOW
+    }
+
+    fn prediction(&self) -> Option<Outcome> {
+        self.recipe.prediction.outcome("rms_end", self.end())
     }
 
     fn readouts(&self) -> Vec<Readout> {

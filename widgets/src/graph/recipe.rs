@@ -2,6 +2,7 @@
 
 use crate::{
     field, names,
+    prediction::{self, Asks, Prediction, Predicts},
     recipe::{self, Field, Menu, Param},
     words::{common, graph},
 };
@@ -16,6 +17,9 @@ use fastslam_lab::{
 /// Beyond the last iteration of most graphs, and the most there are: a figure that is there shows the end, wherever that is.
 pub const END: u32 = ITERATIONS;
 
+/// What a reader can guess \[m\]: what the chart of the errors shows.
+pub const GUESSES: [f64; 2] = [0.02, 20.0];
+
 /// Everything that a link can say.
 #[derive(Clone, PartialEq)]
 pub struct Recipe {
@@ -25,6 +29,8 @@ pub struct Recipe {
     wrong: bool,
     /// The poses that it says are one.
     ends: [u32; 2],
+    /// How far off the reader expects the path to be at the last iteration \[m\].
+    pub prediction: Prediction,
     /// Whether the building is drawn as it is.
     pub truth: bool,
     /// The iteration asked for.
@@ -36,7 +42,14 @@ impl Default for Recipe {
     /// one above it.
     fn default() -> Self {
         let ends = FALSE_EDGE.map(|pose| pose as u32);
-        Self { asked: GraphSetup::opening(), wrong: false, ends, truth: true, step: 0 }
+        Self {
+            asked: GraphSetup::opening(),
+            wrong: false,
+            ends,
+            prediction: Prediction::default(),
+            truth: true,
+            step: 0,
+        }
     }
 }
 
@@ -75,9 +88,26 @@ impl Recipe {
     }
 }
 
+impl Predicts for Recipe {
+    fn prediction(&self) -> &Prediction {
+        &self.prediction
+    }
+
+    fn prediction_mut(&mut self) -> &mut Prediction {
+        &mut self.prediction
+    }
+}
+
 impl recipe::Recipe for Recipe {
     fn table() -> Vec<Param<Self>> {
         type P = Param<Recipe>;
+        let [predict, guess, run] = prediction::rows(Asks {
+            predict_help: graph::predict_help(),
+            guess_help: graph::guess_help(),
+            unit: "m",
+            range: (GUESSES[0], GUESSES[1], 0.01),
+            run: [graph::run(), graph::run_help()],
+        });
         let repairs = Menu::new([
             ("squares", graph::least_squares(), Repair::LeastSquares),
             ("robust", graph::robust(), Repair::CAUCHY),
@@ -136,9 +166,22 @@ impl recipe::Recipe for Recipe {
             .folded(),
             end("wrong-from", graph::from(), FROM),
             end("wrong-to", graph::to(), TO),
+            predict,
+            guess,
+            run,
             P::flag("truth", graph::truth(), field!(truth), graph::truth_help()).view().folded(),
             P::integer("step", graph::iteration_name(), "", (0, END), field!(step), graph::iteration_help()).view(),
         ]
+    }
+
+    /// Another graph is another question. Who has answered it sees the last iteration.
+    fn follow(&mut self, before: &Self) {
+        if self.setup() != before.setup() && self.prediction == before.prediction {
+            self.prediction.ask_anew();
+        }
+        if self.prediction.is_shown() && !before.prediction.is_shown() && self.step == before.step {
+            self.step = END;
+        }
     }
 }
 

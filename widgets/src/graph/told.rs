@@ -2,8 +2,9 @@
 
 use super::model::GraphModel;
 use crate::{
-    decimal::fixed,
+    decimal::{fixed, write},
     model::{Column, Model, Readout, Series},
+    prediction::{State, off_by},
     words::graph as words,
 };
 use fastslam_lab::baseline::pose_graph::{EdgeKind, Repair};
@@ -100,6 +101,19 @@ pub fn series(model: &GraphModel) -> Series {
     Series { columns: COLUMNS.into(), rows: model.frames().iter().enumerate().map(row).collect() }
 }
 
+/// What is said of the prediction, if one is asked for.
+fn judged(model: &GraphModel) -> Option<String> {
+    Some(match (model.state(), model.end()) {
+        (State::Off, _) | (State::Guessed(_) | State::Waived, None) => return None,
+        (State::Asked, _) => words::asks().into(),
+        (State::Placed(guess), _) => words::Placed { guess: &write(guess) }.say(),
+        (State::Guessed(guess), Some(end)) => {
+            words::Came { rms: &metres(end), guess: &write(guess), off: &off_by(guess, end) }.say()
+        }
+        (State::Waived, Some(end)) => words::CameAlone { rms: &metres(end) }.say(),
+    })
+}
+
 pub fn describe(model: &GraphModel) -> String {
     let frame = model.frame();
     if !model.graph().is_solved() {
@@ -109,10 +123,11 @@ pub fn describe(model: &GraphModel) -> String {
     let (rms, cost) = (&metres(frame.error.rms), &cost(frame.cost));
     let loops = &model.edges(EdgeKind::Loop).count();
     let told = match model.step() {
+        0 if model.hides() => words::AskedStart { rms, loops }.say(),
         0 => words::ToldStart { last, rms, cost, loops }.say(),
         _ => words::Told { step, last, rms, cost, start: &metres(model.frames()[0].error.rms), loops }.say(),
     };
-    let mut sentences = vec![told];
+    let mut sentences: Vec<String> = judged(model).into_iter().chain([told]).collect();
     if let (Some([i, j]), Some(weight)) = (model.setup().wrong, frame.wrong_weight) {
         let repair = &repair(model.setup().repair);
         sentences.push(words::ToldWrong { i: &i, j: &j, repair, weight: &percent(weight) }.say());

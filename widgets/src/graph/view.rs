@@ -10,6 +10,7 @@ use super::{
 use crate::{
     model::Declared,
     panels::Panels,
+    prediction::{GUESS, State},
     scene::{Point, Rect, Scene},
     view::{View, whole_step},
 };
@@ -45,6 +46,9 @@ impl View for GraphView {
     }
 
     fn drag(&self, model: &mut GraphModel, layout: &Layout, handle: &str, to: Point) {
+        if handle == GUESS {
+            return model.guess_at(chart::error(layout, to[1]));
+        }
         let pose = city::nearest(model, &city::plane(model, layout), to);
         if let (Some(end), Some(pose)) = (ENDS.iter().position(|name| *name == handle), pose) {
             model.change(|recipe| recipe.put_end(end, pose));
@@ -53,6 +57,11 @@ impl View for GraphView {
 
     fn nudge(&self, model: &mut GraphModel, handle: &str, [right, up]: [f64; 2]) {
         let by = whole_step(right + up);
+        if handle == GUESS {
+            // A tenth of it, as the axis is: at least a centimetre.
+            let guess = if let State::Placed(guess) = model.state() { guess } else { chart::MIDDLE };
+            return model.guess_at(guess + by * (0.1 * guess).max(0.01));
+        }
         if let Some(end) = ENDS.iter().position(|name| *name == handle).filter(|_| by.is_finite()) {
             let (ends, last) = (model.recipe().ends(), model.world().truth.len() as f64 - 1.0);
             let to = |by: f64| (f64::from(ends[end]) + by).clamp(0.0, last) as u32;

@@ -9,6 +9,7 @@ use crate::{
     decimal::{fixed, write},
     font::{self, Weight},
     ghost::curve,
+    prediction::{Level, State, level, off_by},
     scene::{Anchor, Chart, Handle, LINE, Mark, Rect, Role, Scene, ghost, text},
     words::smoothing as words,
 };
@@ -18,6 +19,15 @@ use fastslam_lab::experiment::smoothing::{MOST, STEPS};
 pub const AT: &str = "at";
 
 const SIZE: f64 = 11.0;
+
+/// Where the guess stands before there is one, and the step at which it is grasped.
+pub const MIDDLE: f64 = 12.0;
+const GRIP: u32 = 20;
+
+/// Number of poses at the upper edge of the first chart.
+pub fn most(model: &SmoothingModel) -> f64 {
+    f64::from(model.particles().max(MOST))
+}
 
 /// One of the charts in a layout.
 pub fn place(layout: &Layout, rank: usize) -> Chart {
@@ -30,7 +40,7 @@ pub fn charts(scene: &mut Scene, model: &SmoothingModel, layout: &Layout) {
     let counts = |account: &Account| account.distinct.iter().map(|n| f64::from(*n)).collect();
     let errors = |account: &Account| account.errors.clone();
     let highest = accounts.iter().flatten().flat_map(|account| &account.errors).fold(0.1, |top: f64, x| top.max(*x));
-    let tops = [f64::from(model.particles().max(MOST)), round_up(highest)];
+    let tops = [most(model), round_up(highest)];
     let values: [[Option<Vec<f64>>; 2]; 2] =
         [accounts.each_ref().map(|a| a.as_ref().map(counts)), accounts.each_ref().map(|a| a.as_ref().map(errors))];
     for (rank, curves) in values.iter().enumerate() {
@@ -38,7 +48,7 @@ pub fn charts(scene: &mut Scene, model: &SmoothingModel, layout: &Layout) {
         title(scene, model, &layout.names[rank], rank);
         ticks(scene, layout, rank, top);
         scene.marks.extend(chart.edges());
-        for pinned in [rank, rank + 2] {
+        for pinned in [rank, rank + 2].into_iter().take(if model.hides() { 1 } else { 2 }) {
             scene.marks.extend(ghost(&chart, curve(model.pinned(), pinned).iter().map(|x| x / top)));
         }
         shared(scene, model, &chart);
@@ -53,6 +63,28 @@ pub fn charts(scene: &mut Scene, model: &SmoothingModel, layout: &Layout) {
         }
         cursor(scene, model, &chart, rank == 0);
     }
+    guess(scene, model, &place(layout, 0));
+}
+
+/// The reader's guess across the first chart, and what came.
+fn guess(scene: &mut Scene, model: &SmoothingModel, chart: &Chart) {
+    let state = model.state();
+    let (value, said) = match state {
+        State::Placed(guess) => (guess, [words::GuessIs { guess: &write(guess) }.say(), write(guess)]),
+        State::Guessed(guess) => {
+            let guess_text = &write(guess);
+            let is = words::GuessedIs { guess: guess_text }.say();
+            let off = model.first_of_all().map(|result| off_by(guess, result.into()));
+            (guess, [off.map_or(is.clone(), |off| words::GuessedShort { guess: guess_text, off: &off }.say()), is])
+        }
+        _ => (MIDDLE, [words::drag_here(), words::drag_short()].map(String::from)),
+    };
+    // Of the cursor, which goes through.
+    let mut taken = vec![Rect::new(chart.x(model.at()) - 3.0, chart.area.y, 6.0, chart.area.h)];
+    let at = [chart.x(GRIP), chart.y(value / most(model))];
+    let (title, text) = (words::guess_handle(), words::GuessIs { guess: &write(value) }.say());
+    let said = said.each_ref().map(String::as_str);
+    level(scene, &chart.area, &mut taken, Level { state, at, title, value, text, said });
 }
 
 /// The last step that all particles share.

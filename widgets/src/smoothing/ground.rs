@@ -77,6 +77,7 @@ pub fn maps(scene: &mut Scene, model: &SmoothingModel, layout: &Layout) {
     let names = [words::Record { m: &m }.say(), words::RecordShort { m: &m }.say()];
     name(scene, &layout.headers[0], words::before(), &names);
     let names = match sweeps {
+        _ if model.hides() => [words::hidden().into(), words::hidden_short().into()],
         0 => [words::nothing_drawn().into(), words::nothing_drawn_short().into()],
         _ => [words::Drawn { n: &sweeps }.say(), words::DrawnShort { n: &sweeps }.say()],
     };

@@ -5,6 +5,7 @@ use crate::{
     challenge::Challenge,
     ghost::Curves,
     model::{Declared, FigureError, Model, Readout, Series},
+    prediction::{Outcome, State},
     words::smoothing as words,
 };
 use fastslam::{geometry::Pose2, nalgebra::Matrix3};
@@ -55,9 +56,38 @@ impl SmoothingModel {
         self.shown.setup().particles
     }
 
-    /// How many sweeps are shown.
+    /// How many sweeps are shown: none while the reader is asked what comes of them.
     pub fn sweeps(&self) -> u32 {
-        self.recipe.step.min(self.shown.draws().len() as u32)
+        if self.hides() { 0 } else { self.recipe.step.min(self.shown.draws().len() as u32) }
+    }
+
+    /// How many sweeps are needed: those that are looked at, or where a prediction is judged, all.
+    fn wanted(&self) -> u32 {
+        if self.recipe.prediction.predict { MOST } else { self.recipe.step }
+    }
+
+    /// How far the reader's prediction is.
+    pub fn state(&self) -> State {
+        self.recipe.prediction.state()
+    }
+
+    /// Whether nothing of the sweeps is to be seen yet.
+    pub fn hides(&self) -> bool {
+        self.recipe.prediction.hides()
+    }
+
+    /// How many different poses all sweeps have at step 1; nothing before the last of them.
+    pub fn first_of_all(&self) -> Option<u32> {
+        let sweeps = MOST as usize;
+        (self.shown.draws().len() >= sweeps).then(|| self.shown.distinct(sweeps)[1])
+    }
+
+    /// Places a guess at a number of poses, or at the nearest that there can be.
+    pub fn guess_at(&mut self, poses: f64) {
+        if poses.is_finite() {
+            let poses = poses.round().clamp(1.0, f64::from(MOST));
+            self.change(|recipe| recipe.prediction.place(Some(poses)));
+        }
     }
 
     /// The step of the drive that is looked at.
@@ -122,11 +152,13 @@ impl Declared for SmoothingModel {
 
 impl Model for SmoothingModel {
     fn seek(&mut self, step: u32) {
-        self.recipe.step = step.min(MOST);
+        if !self.hides() {
+            self.recipe.step = step.min(MOST);
+        }
     }
 
     fn step_count(&self) -> u32 {
-        MOST
+        if self.hides() { 0 } else { MOST }
     }
 
     fn step(&self) -> u32 {
@@ -134,12 +166,12 @@ impl Model for SmoothingModel {
     }
 
     fn pending(&self) -> u32 {
-        self.next.as_ref().unwrap_or(&self.shown).pending(self.recipe.step)
+        self.next.as_ref().unwrap_or(&self.shown).pending(self.wanted())
     }
 
     fn work(&mut self) {
         self.next.as_mut().unwrap_or(&mut self.shown).advance();
-        let asked = self.recipe.step.min(1) as usize;
+        let asked = self.wanted().min(1) as usize;
         let begun = |next: &mut Smoothing| next.record().is_some() && next.draws().len() >= asked;
         if let Some(next) = self.next.take_if(begun) {
             self.shown = next;
@@ -149,6 +181,10 @@ impl Model for SmoothingModel {
     /// From the first sweep on: what comes then are more of them.
     fn refines(&self) -> bool {
         self.next.is_none() && !self.shown.draws().is_empty()
+    }
+
+    fn prediction(&self) -> Option<Outcome> {
+        self.recipe.prediction.outcome("first_after", self.first_of_all().map(f64::from))
     }
 
     fn readouts(&self) -> Vec<Readout> {

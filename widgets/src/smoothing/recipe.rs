@@ -2,6 +2,7 @@
 
 use crate::{
     field,
+    prediction::{self, Asks, Prediction, Predicts},
     recipe::{self, Param},
     words::{common, smoothing as words},
 };
@@ -17,19 +18,38 @@ pub struct Recipe {
     pub setup: SmoothingSetup,
     /// The step of the drive that is looked at.
     pub at: u32,
+    /// How many different poses the reader expects at step 1, after all sweeps.
+    pub prediction: Prediction,
     /// After how many sweeps is looked.
     pub step: u32,
 }
 
 impl Default for Recipe {
     fn default() -> Self {
-        Self { setup: SmoothingSetup::default(), at: 12, step: MOST }
+        Self { setup: SmoothingSetup::default(), at: 12, prediction: Prediction::default(), step: MOST }
+    }
+}
+
+impl Predicts for Recipe {
+    fn prediction(&self) -> &Prediction {
+        &self.prediction
+    }
+
+    fn prediction_mut(&mut self) -> &mut Prediction {
+        &mut self.prediction
     }
 }
 
 impl recipe::Recipe for Recipe {
     fn table() -> Vec<Param<Self>> {
         type P = Param<Recipe>;
+        let [predict, guess, run] = prediction::rows(Asks {
+            predict_help: words::predict_help(),
+            guess_help: words::guess_help(),
+            unit: "",
+            range: (1.0, MOST.into(), 1.0),
+            run: [words::run(), words::run_help()],
+        });
         vec![
             P::integer(
                 "particles",
@@ -58,8 +78,21 @@ impl recipe::Recipe for Recipe {
             .folded(),
             P::flag("reconnect", words::reconnect(), field!(setup.reconnect), words::reconnect_help()),
             P::seed(field!(setup.seed), words::seed_help()),
+            predict,
+            guess,
+            run,
             P::integer("at", words::at(), "", (1, STEPS), field!(at), words::at_help()).view(),
             P::integer("step", words::sweeps(), "", (0, MOST), field!(step), words::sweeps_help()).view(),
         ]
+    }
+
+    /// Another drive or other sweeps are another question. Who has answered it sees all of them.
+    fn follow(&mut self, before: &Self) {
+        if self.setup != before.setup && self.prediction == before.prediction {
+            self.prediction.ask_anew();
+        }
+        if self.prediction.is_shown() && !before.prediction.is_shown() && self.step == before.step {
+            self.step = MOST;
+        }
     }
 }

@@ -2,11 +2,12 @@
 
 use super::model::{Account, SmoothingModel};
 use crate::{
-    decimal::fixed,
+    decimal::{fixed, write},
     model::{Column, Readout, Series},
+    prediction::{State, off_by},
     words::smoothing as words,
 };
-use fastslam_lab::experiment::smoothing::STEPS;
+use fastslam_lab::experiment::smoothing::{MOST, STEPS};
 
 /// A length \[m\] with its unit, in centimetres.
 pub fn length(length: f64) -> String {
@@ -80,6 +81,20 @@ pub fn series(model: &SmoothingModel) -> Series {
     Series { columns: COLUMNS.into(), rows: (0..=STEPS).map(row).collect() }
 }
 
+/// What is said of the prediction, if one is asked for.
+fn judged(model: &SmoothingModel) -> Option<String> {
+    let sweeps = &MOST;
+    Some(match (model.state(), model.first_of_all()) {
+        (State::Off, _) | (State::Guessed(_) | State::Waived, None) => return None,
+        (State::Asked, _) => words::Asks { sweeps }.say(),
+        (State::Placed(guess), _) => words::Placed { sweeps, guess: &write(guess) }.say(),
+        (State::Guessed(guess), Some(n)) => {
+            words::Came { sweeps, n: &n, guess: &write(guess), off: &off_by(guess, n.into()) }.say()
+        }
+        (State::Waived, Some(n)) => words::CameAlone { sweeps, n: &n }.say(),
+    })
+}
+
 pub fn describe(model: &SmoothingModel) -> String {
     let m = model.particles();
     let (Some(before), Some(coalescence)) = (model.before(), model.coalescence()) else {
@@ -90,6 +105,10 @@ pub fn describe(model: &SmoothingModel) -> String {
         0 => words::NoneShared { m: &m, early: &early }.say(),
         step => words::Shared { m: &m, step: &step, early: &early }.say(),
     }];
+    sentences.extend(judged(model));
+    if model.hides() {
+        return sentences.join(" ");
+    }
     let at = model.at();
     let one = before.distinct[at as usize];
     sentences.push(match model.after() {

@@ -1,13 +1,14 @@
 //! What is to be seen of record and draws, and what of it can be moved.
 
 use super::{
-    chart::{AT, charts, place},
+    chart::{AT, MIDDLE, charts, most, place},
     ground::{key, maps},
     layout::{CURVES, Layout, MAPS, NARROWEST},
     model::SmoothingModel,
 };
 use crate::{
     panels::Panels,
+    prediction::{GUESS, State},
     scene::{Point, Rect, Scene},
     view::{View, whole_step},
 };
@@ -45,15 +46,21 @@ impl View for SmoothingView {
     }
 
     fn drag(&self, model: &mut SmoothingModel, layout: &Layout, handle: &str, to: Point) {
-        if handle == AT {
-            let Rect { x, w, .. } = place(layout, 0).area;
-            model.look_at(f64::from(STEPS) * (to[0] - x) / w);
+        let area = place(layout, 0).area;
+        match handle {
+            AT => model.look_at(f64::from(STEPS) * (to[0] - area.x) / area.w),
+            GUESS => model.guess_at(most(model) * (area.bottom() - to[1]) / area.h),
+            _ => (),
         }
     }
 
     fn nudge(&self, model: &mut SmoothingModel, handle: &str, [right, up]: [f64; 2]) {
-        if handle == AT {
-            model.look_at(f64::from(model.at()) + whole_step(right + up));
+        let by = whole_step(right + up);
+        match (handle, model.state()) {
+            (AT, _) => model.look_at(f64::from(model.at()) + by),
+            (GUESS, State::Placed(guess)) => model.guess_at(guess + by),
+            (GUESS, _) => model.guess_at(MIDDLE + by),
+            _ => (),
         }
     }
 }

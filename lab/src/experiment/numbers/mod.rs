@@ -9,6 +9,7 @@ mod graph;
 mod joint;
 mod landmarks;
 mod lap;
+mod looking_back;
 mod policies;
 mod proposals;
 mod ring;
@@ -190,6 +191,7 @@ pub fn recipes() -> Vec<Recipe> {
         proposals::recipes(),
         joint::recipes(),
         smoothing::recipes(),
+        looking_back::recipes(),
         landmarks::recipes(),
         em::recipes(),
     ];
