@@ -211,6 +211,10 @@ impl Reader {
                     self.log.scans.push(scan);
                 }
                 Told::Remark(remark) => self.log.notes.remarks.push(remark),
+                Told::Malformed(count, message) => {
+                    self.log.notes.malformed += count;
+                    self.log.notes.first_malformed.get_or_insert(LogError { line: 0, message });
+                }
             },
             _ if kind.parse::<f64>().is_ok_and(f64::is_finite) => self.tum(text)?,
             "RLASER" | "ROBOTLASER2" => self.log.notes.rear += 1,

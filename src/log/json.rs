@@ -23,6 +23,8 @@ pub(super) struct Line {
     #[serde(skip_serializing_if = "Option::is_none")]
     remark: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    malformed: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     time: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     angle_min: Option<f64>,
@@ -42,12 +44,16 @@ pub(super) struct Line {
 pub(super) enum Told {
     Scan(LaserScan),
     Remark(String),
+    /// So many messages could not be read where the lines come from, and why the first of them could not.
+    Malformed(u32, String),
 }
 
 pub(super) fn read(line: &str) -> Result<Told, String> {
     let line: Line = serde_json::from_str(line).map_err(|error| format!("expected a scan in JSON: {error}"))?;
-    if let Some(remark) = line.remark {
-        return Ok(Told::Remark(remark));
+    match (line.malformed, line.remark) {
+        (Some(count), remark) => return Ok(Told::Malformed(count, remark.unwrap_or_default())),
+        (None, Some(remark)) => return Ok(Told::Remark(remark)),
+        (None, None) => {}
     }
     let missing = |name: &str| format!("a scan in JSON: expected \"{name}\", found none");
     let number = |name: &str, value: Option<f64>| value.ok_or_else(|| missing(name));
@@ -97,7 +103,10 @@ pub fn write_json_lines(log: &LaserLog) -> String {
             ..Line::default()
         });
     }
-    let Notes { remarks, .. } = &log.notes;
+    let Notes { remarks, malformed, first_malformed, .. } = &log.notes;
+    if let Some(first) = first_malformed {
+        write(&Line { malformed: Some(*malformed), remark: Some(first.message.clone()), ..Line::default() });
+    }
     for remark in remarks {
         write(&Line { remark: Some(remark.clone()), ..Line::default() });
     }

@@ -41,7 +41,7 @@ pub(super) fn place(log: &mut LaserLog) -> Result<(), LogError> {
     } else {
         let longest = NOTHING_MET * log.longest_reading();
         scan_to_scan::give_odometry(&mut log.scans, longest);
-        log.notes.remarks.push("there is no odometry: each scan is matched with the one before".into());
+        log.notes.remarks.push("there is no odometry: each scan is matched with those before".into());
     }
     log.odometry = odometry;
     for pair in log.scans.windows(2) {

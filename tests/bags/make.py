@@ -5,8 +5,8 @@
 
 The bags come from two independent writers, `rosbags` and `mcap-ros2-support`. So that a path can be the same to the last bit, all say the
 same numbers: ranges and angles are those of single precision, with all the decimals that
-tell them apart, and each heading of the log has a quaternion
-whose heading is, to a twentieth of its last bit, that of the log. Among quaternions of nearly unit length there is one.
+tell them apart, and each heading of the log is one that has a quaternion,
+of nearly unit length, whose heading is the same to a twentieth of its last bit: however a library rounds, it comes out.
 """
 
 import random
@@ -33,16 +33,23 @@ SCAN = HEADER + "".join(f"float32 {name}\n" for name in "angle_min angle_max ang
 
 
 def quaternion(theta):
-    """z and w with 2 atan2(z, w) = theta."""
+    """z and w with 2 atan2(z, w) = theta; None where there are none."""
     half = mpf(theta) / 2
     draws = random.Random(repr(theta))
-    ulp = mpf(float(np.spacing(abs(theta)))) if theta else mpf(1)
-    for _ in range(10_000):
+    near = lambda exact, number: not number or abs(exact - mpf(number)) <= mpf(float(np.spacing(abs(number)))) / 20
+    for _ in range(1000):
         length = 1 + mpf(draws.uniform(-1e-7, 1e-7))
         z, w = float(sin(half) * length), float(cos(half) * length)
-        if abs(2 * atan2(mpf(z), mpf(w)) - mpf(theta)) <= ulp / 20:
+        # The quotient as well, from which libraries compute the angle.
+        if near(mpf(z) / mpf(w), z / w) and near(2 * atan2(mpf(z), mpf(w)), theta):
             return z, w
-    raise SystemExit(f"no quaternion for {theta}")
+    return None
+
+
+def heading(theta):
+    """The next heading, in steps of a millionth, that has a quaternion."""
+    steps = (round(theta + 1e-6 * k, 6) for k in range(1000))
+    return next(theta for theta in steps if quaternion(theta))
 
 
 def scans():
@@ -56,7 +63,7 @@ def scans():
         rest = words[9 + count + 1 :]
         x, y, theta = (float(word) for word in rest[3:6])
         seconds, decimals = re.fullmatch(r"(\d+)\.?(\d*)", rest[11]).groups()
-        yield int(seconds) * 10**9 + int((decimals + "0" * 9)[:9]), ranges, (x, y, theta)
+        yield int(seconds) * 10**9 + int((decimals + "0" * 9)[:9]), ranges, (x, y, heading(theta))
 
 
 def carmen(log):

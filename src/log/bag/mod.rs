@@ -22,6 +22,9 @@ use std::collections::BTreeMap;
 /// What the frame is called that odometry is told in.
 const ODOM: &str = "odom";
 
+/// What is behind the topic of odometry that is told by transforms.
+const OF_TF: &str = " (from odom)";
+
 /// What the robot's own frame is called where odometry does not say.
 const ROBOT: [&str; 2] = ["base_link", "base_footprint"];
 
@@ -91,6 +94,17 @@ impl BagReader {
         })
     }
 
+    /// What [`BagOptions`] must choose, once all is read: `scan` or `odometry`, and the topics that have it.
+    pub fn choice(&self) -> Option<(&'static str, Vec<String>)> {
+        let Gathered { scans, odometry, .. } = &self.gathered;
+        let odometry: Vec<String> = odometry.keys().filter(|topic| !of_tf(topic)).cloned().collect();
+        match (scans.len(), odometry.len()) {
+            (2.., _) => Some(("scan", scans.keys().cloned().collect())),
+            (_, 2..) => Some(("odometry", odometry)),
+            _ => None,
+        }
+    }
+
     /// The log: scans by time, each with its odometry.
     ///
     /// # Errors
@@ -106,6 +120,11 @@ impl BagReader {
         }
         self.gathered.log()
     }
+}
+
+/// Whether odometry of this name is not a topic's own but out of the transforms.
+fn of_tf(topic: &str) -> bool {
+    topic.ends_with(OF_TF)
 }
 
 /// An error about the file as a whole.
@@ -173,7 +192,7 @@ impl Gathered {
                     self.frames.take(&transform, topic.ends_with("tf_static"));
                     if frame(&transform.header.frame_id) == ODOM && !other(&self.options.odometry_topic) {
                         let pose = flat(&transform.parent_from_child).ok_or("has a transform that is no number")?;
-                        let track = self.odometry.entry(format!("{topic} (from odom)")).or_default();
+                        let track = self.odometry.entry(format!("{topic}{OF_TF}")).or_default();
                         track.robot = transform.child_frame_id;
                         track.poses.push((stamp(transform.header.stamp), pose));
                     }
@@ -225,7 +244,6 @@ impl Gathered {
         if let Some(wanted) = &self.options.odometry_topic {
             self.is_of(wanted, &["nav_msgs/Odometry", "tf2_msgs/TFMessage", "tf/tfMessage"])?;
         }
-        let of_tf = |topic: &String| topic.ends_with(')');
         let told: Vec<&String> = self.odometry.keys().filter(|topic| !of_tf(topic)).collect();
         let topic = match told[..] {
             [] => self.odometry.keys().next().cloned(),
