@@ -61,7 +61,9 @@ pub(super) fn read(line: &str) -> Result<Told, String> {
     let angle_step = number("angle_increment", line.angle_increment)?;
     if first_angle.abs() > 2.0 * PI || angle_step.abs() > PI || angle_step == 0.0 {
         let [first, step] = [first_angle, angle_step].map(|x| Shown(x).to_string());
-        return Err(format!("a scan in JSON: expected angle_min and angle_increment in radians, found {first} and {step}"));
+        return Err(format!(
+            "a scan in JSON: expected angle_min and angle_increment in radians, found {first} and {step}"
+        ));
     }
     let ranges = line.ranges.ok_or_else(|| missing("ranges"))?;
     if ranges.is_empty() {

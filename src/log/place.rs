@@ -52,7 +52,8 @@ pub(super) fn place(log: &mut LaserLog) -> Result<(), LogError> {
         }
     }
     let known = |time: f64| log.odometry.binary_search_by(|(t, _)| t.total_cmp(&time)).is_ok();
-    let own: Vec<_> = log.scans.iter().map(|scan| (scan.time, scan.odometry)).filter(|(time, _)| !known(*time)).collect();
+    let own: Vec<_> =
+        log.scans.iter().map(|scan| (scan.time, scan.odometry)).filter(|(time, _)| !known(*time)).collect();
     log.odometry.extend(own);
     log.odometry.sort_by(|a, b| a.0.total_cmp(&b.0));
     Ok(())

@@ -164,6 +164,20 @@ def ros1(path, log, compression):
             )
 
 
+def two_lasers(path, log):
+    """Two topics of scans, and no odometry."""
+    with path.open("wb") as file:
+        writer = McapWriter(file, compression=CompressionType.ZSTD)
+        of_scan = writer.register_msgdef("sensor_msgs/msg/LaserScan", SCAN)
+        for time, ranges, _ in log:
+            message = {"header": {"stamp": {"sec": time // 10**9, "nanosec": time % 10**9}, "frame_id": "laser"}, "angle_max": 0.0, "time_increment": 0.0}
+            message |= {"scan_time": 0.1, "range_min": 0.0, "range_max": MAX, "intensities": [], "angle_min": 0.0}
+            for topic, step in {"/front/scan": 1, "/rear/scan": 2}.items():
+                sweep = {"angle_increment": step * STEP, "ranges": [float(r) for r in ranges[::step]]}
+                writer.write_message(topic, of_scan, message | sweep, time, time)
+        writer.finish()
+
+
 log = list(scans())[:MOST]
 (here / "lap.clf").write_text("".join(carmen(log)))
 mcap(here / "odometry-zstd.mcap", log, CompressionType.ZSTD, tf=False)
@@ -171,3 +185,4 @@ mcap(here / "tf-lz4.mcap", log, CompressionType.LZ4, tf=True)
 ros1(here / "plain.bag", log, None)
 ros1(here / "lz4.bag", log, Ros1Writer.CompressionFormat.LZ4)
 ros1(here / "bz2.bag", log, Ros1Writer.CompressionFormat.BZ2)
+two_lasers(here / "two-lasers.mcap", log[:3])

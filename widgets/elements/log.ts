@@ -3,7 +3,7 @@
 import { h, write } from './dom'
 import { keepPage, takeDrops } from './drops'
 import { FigureElement } from './figure-element'
-import { fetchExample, programName } from './files'
+import { fetchExample } from './files'
 import { AT_REST } from './generated/log'
 import type { Answer, Command, Frame, Phase, Run, SavedFile, Topics } from './host'
 import { Poster } from './log-poster'
@@ -348,7 +348,7 @@ async function isBag(file: Blob): Promise<boolean> {
 }
 
 /** The program that reads bags. */
-const bagReader = () => programNamed(programName('bags')).module()
+const bagReader = () => programNamed('bags').module()
 
 /** In words as short as the number is rough. */
 function duration(seconds: number): string {

@@ -51,7 +51,7 @@ export function programOf(tag: string): Program {
   return programNamed(programName(tag))
 }
 
-/** The program of this name. Where all figures have one, it reads bags too. */
+/** The program of this name. */
 export function programNamed(name: string): Program {
   const known = programs.get(name) ?? new Program(name)
   programs.set(name, known)

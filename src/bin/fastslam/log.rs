@@ -6,8 +6,8 @@ use cpu_time::ProcessTime;
 use fastslam::error::SettingError;
 use fastslam::geometry::Pose2;
 use fastslam::log::{
-    BagOptions, BagReader, LaserLog, LogError, LogReader, Notes, RelationErrors, is_bag, parse_relations, relation_errors,
-    write, write_path, write_tum,
+    BagOptions, BagReader, LaserLog, LogError, LogReader, Notes, RelationErrors, is_bag, parse_relations,
+    relation_errors, write, write_path, write_tum,
 };
 use fastslam::map::grid::MapImage;
 use fastslam::mapper::{LaserMapper, LaserMapperSettings, Replay};

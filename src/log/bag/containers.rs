@@ -105,7 +105,10 @@ impl Known {
             }
             Record::Message { header, data } => {
                 let id = header.channel_id;
-                let channel = self.channels.get(&id).ok_or_else(|| format!("a message is of channel {id}, of which nothing was told"))?;
+                let channel = self
+                    .channels
+                    .get(&id)
+                    .ok_or_else(|| format!("a message is of channel {id}, of which nothing was told"))?;
                 let (seconds, nanoseconds) = (header.log_time / 1_000_000_000, header.log_time % 1_000_000_000);
                 sink.message(channel, seconds as f64 + 1e-9 * nanoseconds as f64, &data)?;
             }
@@ -173,7 +176,10 @@ impl Ros1 {
         match header.get("op")? {
             [MESSAGE] => {
                 let id = header.number("conn")?;
-                let channel = self.channels.get(&id).ok_or_else(|| format!("a message is of connection {id}, of which nothing was told"))?;
+                let channel = self
+                    .channels
+                    .get(&id)
+                    .ok_or_else(|| format!("a message is of connection {id}, of which nothing was told"))?;
                 let time = header.get("time")?;
                 let [seconds, nanoseconds] = [number(time)?, number(time.get(4..).unwrap_or_default())?];
                 sink.message(channel, f64::from(seconds) + 1e-9 * f64::from(nanoseconds), data)

@@ -18,7 +18,10 @@ impl Time {
     pub fn seconds(self) -> f64 {
         let Self { sec, nanosec } = self;
         let decimal = format!("{sec}.{nanosec:09}").parse();
-        decimal.ok().filter(|_| sec >= 0 && nanosec < 1_000_000_000).unwrap_or(f64::from(sec) + 1e-9 * f64::from(nanosec))
+        decimal
+            .ok()
+            .filter(|_| sec >= 0 && nanosec < 1_000_000_000)
+            .unwrap_or(f64::from(sec) + 1e-9 * f64::from(nanosec))
     }
 
     /// The stamp nearest to a time \[s\].
@@ -133,7 +136,12 @@ fn cdr<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
     let read = match order[..2] {
         [0, 0] => cdr_encoding::from_bytes::<T, BigEndian>(body),
         [0, 1] => cdr_encoding::from_bytes::<T, LittleEndian>(body),
-        _ => return Err(format!("is in an encapsulation {:02x}{:02x} of CDR; plain CDR can be read", order[0], order[1])),
+        _ => {
+            return Err(format!(
+                "is in an encapsulation {:02x}{:02x} of CDR; plain CDR can be read",
+                order[0], order[1]
+            ));
+        }
     };
     read.map(|(message, _)| message).map_err(|_| CUT.into())
 }
@@ -152,7 +160,9 @@ mod tests {
 
     #[test]
     fn a_stamp_is_the_double_of_its_decimals() {
-        for (sec, nanosec, text) in [(1, 370_000_000, "1.37"), (1_700_000_000, 123_456_789, "1700000000.123456789"), (0, 1, "1e-9")] {
+        for (sec, nanosec, text) in
+            [(1, 370_000_000, "1.37"), (1_700_000_000, 123_456_789, "1700000000.123456789"), (0, 1, "1e-9")]
+        {
             assert_eq!(Time { sec, nanosec }.seconds(), text.parse::<f64>().unwrap());
         }
         assert_eq!(Time { sec: -1, nanosec: 500_000_000 }.seconds(), -0.5);

@@ -80,12 +80,16 @@ impl BagReader {
                 return Ok(());
             }
             let start = core::mem::take(&mut self.start);
-            self.container = Some(match () {
-                () if start.starts_with(mcap::MAGIC) => Box::new(Mcap::default()),
-                () if start.starts_with(ROS1_MAGIC) => Box::new(Ros1::default()),
-                () if start.starts_with(b"#ROSBAG") => return Err(whole("it is a ROS 1 bag of another format than 2.0: `rosbag migrate` or `rosbags-convert` makes one".into())),
-                () => return Err(whole("it is neither an MCAP file nor a ROS 1 bag".into())),
-            });
+            self.container =
+                Some(match () {
+                    () if start.starts_with(mcap::MAGIC) => Box::new(Mcap::default()),
+                    () if start.starts_with(ROS1_MAGIC) => Box::new(Ros1::default()),
+                    () if start.starts_with(b"#ROSBAG") => return Err(whole(
+                        "it is a ROS 1 bag of another format than 2.0: `rosbag migrate` or `rosbags-convert` makes one"
+                            .into(),
+                    )),
+                    () => return Err(whole("it is neither an MCAP file nor a ROS 1 bag".into())),
+                });
             return self.push(&start);
         };
         container.push(bytes, &mut self.gathered).or_else(|message| {
@@ -234,7 +238,9 @@ impl Gathered {
         let mut topics = self.scans.keys();
         match (topics.next(), topics.len()) {
             (Some(topic), 0) => Ok(topic.clone()),
-            (Some(_), _) => Err(self.several("scan-topic", "scans", self.scans.iter().map(|(topic, scans)| (topic, scans.len())))),
+            (Some(_), _) => {
+                Err(self.several("scan-topic", "scans", self.scans.iter().map(|(topic, scans)| (topic, scans.len()))))
+            }
             (None, _) => Err(whole(format!("no sensor_msgs/LaserScan in it; there is {}", self.listed()))),
         }
     }
@@ -285,7 +291,12 @@ impl Gathered {
     }
 
     /// Where the laser sits. What no transform tells is told as such.
-    fn mounting(&self, scans: &[(String, LaserScan)], track: Option<&Track>, log: &mut LaserLog) -> Result<Mounting, LogError> {
+    fn mounting(
+        &self,
+        scans: &[(String, LaserScan)],
+        track: Option<&Track>,
+        log: &mut LaserLog,
+    ) -> Result<Mounting, LogError> {
         let Some((laser, _)) = scans.first() else { return Ok(Mounting::default()) };
         let told = track.map(|track| track.robot.as_str()).filter(|robot| !robot.is_empty());
         let robots = told.into_iter().chain(ROBOT);
@@ -310,7 +321,11 @@ fn scan(message: &messages::LaserScan, time: f64) -> Result<LaserScan, String> {
         return Err("has no ranges".into());
     }
     let angles = [*angle_min, *angle_increment];
-    if !angles.iter().all(|angle| angle.is_finite()) || angle_min.abs() > 2.0 * PI || angle_increment.abs() > PI || *angle_increment == 0.0 {
+    if !angles.iter().all(|angle| angle.is_finite())
+        || angle_min.abs() > 2.0 * PI
+        || angle_increment.abs() > PI
+        || *angle_increment == 0.0
+    {
         let [first, step] = angles.map(|angle| crate::error::Shown(f64::from(angle)).to_string());
         return Err(format!("expected angle_min and angle_increment in radians, found {first} and {step}"));
     }

@@ -52,7 +52,10 @@ pub fn write_path(path: &[(f64, Pose2)]) -> Result<Vec<u8>, String> {
     let header = |time: f64| Header { stamp: Time::of(time), frame_id: FRAME.into() };
     let pose = |(time, Pose2 { x, y, theta }): &(f64, Pose2)| {
         let (sin, cos) = ops::sin_cos(0.5 * theta);
-        PoseStamped { header: header(*time), pose: Rigid { position: [*x, *y, 0.0], orientation: [0.0, 0.0, sin, cos] } }
+        PoseStamped {
+            header: header(*time),
+            pose: Rigid { position: [*x, *y, 0.0], orientation: [0.0, 0.0, sin, cos] },
+        }
     };
     let last = path.last().map_or(0.0, |(time, _)| *time);
     let bytes = to_cdr(&Path { header: header(last), poses: path.iter().map(pose).collect() })?;
@@ -63,7 +66,10 @@ pub fn write_path(path: &[(f64, Pose2)]) -> Result<Vec<u8>, String> {
         let mut writer = options.create(Cursor::new(Vec::new()))?;
         let schema = writer.add_schema("nav_msgs/msg/Path", "ros2msg", SCHEMA.as_bytes())?;
         let channel_id = writer.add_channel(schema, "/path", "cdr", &BTreeMap::new())?;
-        writer.write_to_known_channel(&MessageHeader { channel_id, sequence: 0, log_time, publish_time: log_time }, &bytes)?;
+        writer.write_to_known_channel(
+            &MessageHeader { channel_id, sequence: 0, log_time, publish_time: log_time },
+            &bytes,
+        )?;
         writer.finish()?;
         Ok(writer.into_inner().into_inner())
     };

@@ -23,7 +23,11 @@ const BAGS: [(&str, &[u8]); 5] = [
 fn read_with(bytes: &[u8], options: BagOptions) -> Result<LaserLog, String> {
     let mut reader = BagReader::new(options);
     // In pieces that no record has the length of.
-    bytes.chunks(997).try_for_each(|piece| reader.push(piece)).and_then(|()| reader.finish()).map_err(|error| error.message)
+    bytes
+        .chunks(997)
+        .try_for_each(|piece| reader.push(piece))
+        .and_then(|()| reader.finish())
+        .map_err(|error| error.message)
 }
 
 fn read(bytes: &[u8]) -> Result<LaserLog, String> {
@@ -82,7 +86,14 @@ impl Made {
 
     fn scan(self, topic: &str, sec: i32, change: impl Fn(&mut ScanMessage)) -> Self {
         let header = Header { stamp: Time { sec, nanosec: 0 }, frame_id: "laser".into() };
-        let mut scan = ScanMessage { header, angle_min: -0.5, angle_increment: 0.25, range_min: 0.1, range_max: 30.0, ..ScanMessage::default() };
+        let mut scan = ScanMessage {
+            header,
+            angle_min: -0.5,
+            angle_increment: 0.25,
+            range_min: 0.1,
+            range_max: 30.0,
+            ..ScanMessage::default()
+        };
         scan.ranges = vec![1.0, 2.0, 3.0, 4.0, 5.0];
         change(&mut scan);
         self.raw(topic, "sensor_msgs/msg/LaserScan", "cdr", &to_cdr(&scan).unwrap())
@@ -139,7 +150,8 @@ fn a_laser_is_mounted_by_the_chain_of_transforms_and_upside_down_sweeps_the_othe
 fn a_laser_that_is_not_level_is_refused() {
     let quarter = (0.5_f64).sqrt();
     let tilted = Rigid { position: [0.0; 3], orientation: [0.0, quarter, 0.0, quarter] };
-    let error = Made::new().fixed("base_link", "laser", tilted).odometry("/odom", 1, 0.0).scan("/scan", 1, |_| ()).read();
+    let error =
+        Made::new().fixed("base_link", "laser", tilted).odometry("/odom", 1, 0.0).scan("/scan", 1, |_| ()).read();
     assert!(error.unwrap_err().contains("the laser laser is tilted against base_link by more than 20°"));
 }
 
@@ -167,10 +179,17 @@ fn odometry_is_interpolated_at_the_stamp_and_held_beyond_its_ends() {
     let made = [1, 2, 3, 4, 5].into_iter().fold(made, |made, sec| made.scan("/scan", sec, |_| ()));
     let log = made.read().unwrap();
     assert_eq!(log.scans.iter().map(|scan| scan.odometry.x).collect::<Vec<_>>(), [1.0, 1.0, 2.0, 3.0, 3.0]);
-    assert!(log.notes.remarks.iter().any(|remark| remark.contains("last word of odometry: 2")), "{:?}", log.notes.remarks);
+    assert!(
+        log.notes.remarks.iter().any(|remark| remark.contains("last word of odometry: 2")),
+        "{:?}",
+        log.notes.remarks
+    );
     assert!(log.notes.remarks.iter().any(|remark| remark.contains("no transform tells where the laser (laser)")));
     let error = Made::new().odometry("/odom", 2, 1.0).scan("/scan", 9, |_| ()).read().unwrap_err();
-    assert!(error.contains("its scans (9.000 to 9.000 s) and its odometry (2.000 to 2.000 s) have no time in common"), "{error}");
+    assert!(
+        error.contains("its scans (9.000 to 9.000 s) and its odometry (2.000 to 2.000 s) have no time in common"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -204,7 +223,10 @@ fn what_is_missing_is_named_with_its_topic() {
     let said = error(Made::new().scan("/a", 1, |scan| scan.ranges.clear()));
     assert_eq!(said, "/a: message 1 (sensor_msgs/LaserScan) has no ranges");
     let said = error(Made::new().scan("/a", 1, |scan| scan.angle_increment = 0.0));
-    assert!(said.contains("/a: message 1 (sensor_msgs/LaserScan) expected angle_min and angle_increment in radians"), "{said}");
+    assert!(
+        said.contains("/a: message 1 (sensor_msgs/LaserScan) expected angle_min and angle_increment in radians"),
+        "{said}"
+    );
     let said = error(Made::new().scan("/a", 1, |scan| scan.ranges = vec![f32::NAN; 3]));
     assert!(said.contains("none of its 3 readings is a range"), "{said}");
     let said = error(Made::new().raw("/a", "sensor_msgs/msg/LaserScan", "cdr", &[0, 1, 0, 0, 1, 2, 3]));
@@ -214,7 +236,10 @@ fn what_is_missing_is_named_with_its_topic() {
     let wanted = |topic: &str| BagOptions { scan_topic: Some(topic.into()), ..BagOptions::default() };
     let bag = Made::new().scan("/a", 1, |_| ()).scan("/b", 1, |_| ()).odometry("/o", 1, 0.0).bytes();
     assert_eq!(read_with(&bag, wanted("/b")).unwrap().scans.len(), 1);
-    assert_eq!(read_with(&bag, wanted("/o")).unwrap_err(), "the topic /o is of type nav_msgs/Odometry, not sensor_msgs/LaserScan");
+    assert_eq!(
+        read_with(&bag, wanted("/o")).unwrap_err(),
+        "the topic /o is of type nav_msgs/Odometry, not sensor_msgs/LaserScan"
+    );
     assert!(read_with(&bag, wanted("/c")).unwrap_err().starts_with("there is no topic /c in it; there is /a (1 × "));
 }
 
@@ -227,7 +252,11 @@ fn a_stamp_of_zero_is_the_time_of_recording() {
 fn a_bag_that_breaks_off_is_refused_or_read_up_to_there() {
     for (name, bytes) in BAGS {
         let half = &bytes[..bytes.len() / 2];
-        assert_eq!(read(half).unwrap_err(), "it ends in the middle of a record: was its recording broken off?", "{name}");
+        assert_eq!(
+            read(half).unwrap_err(),
+            "it ends in the middle of a record: was its recording broken off?",
+            "{name}"
+        );
         let lenient = || BagOptions { lenient: true, ..BagOptions::default() };
         // What is before the break is there, unless the first chunk already is beyond it.
         if let Ok(log) = read_with(half, lenient()) {
