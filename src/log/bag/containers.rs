@@ -213,16 +213,19 @@ const MESSAGE: u8 = 0x02;
 const CHUNK: u8 = 0x05;
 const CONNECTION: u8 = 0x07;
 
+/// Two pieces of a slice, and three.
+type Halves<'a> = (&'a [u8], &'a [u8]);
+type Thirds<'a> = (&'a [u8], &'a [u8], &'a [u8]);
+
 /// A record's header and data, and what follows; `None` where it is not there to its end.
-#[expect(clippy::type_complexity, reason = "three pieces of one slice")]
-fn record(bytes: &[u8]) -> Result<Option<(&[u8], &[u8], &[u8])>, String> {
+fn record(bytes: &[u8]) -> Result<Option<Thirds<'_>>, String> {
     let Some((header, rest)) = sized(bytes)? else { return Ok(None) };
     let Some((data, rest)) = sized(rest)? else { return Ok(None) };
     Ok(Some((header, data, rest)))
 }
 
 /// A length of four bytes, so many bytes, and what follows.
-fn sized(bytes: &[u8]) -> Result<Option<(&[u8], &[u8])>, String> {
+fn sized(bytes: &[u8]) -> Result<Option<Halves<'_>>, String> {
     let Some((length, rest)) = bytes.split_at_checked(4) else { return Ok(None) };
     let length = number(length)? as usize;
     if length > LARGEST {

@@ -65,13 +65,12 @@ const IDENTITY: Matrix = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0,
 fn matrix(Rigid { position: [x, y, z], orientation }: &Rigid) -> Option<Matrix> {
     let length = orientation.iter().map(|part| part * part).sum::<f64>().sqrt();
     let [a, b, c, w] = orientation.map(|part| part / length);
-    [a, b, c, w, *x, *y, *z].iter().all(|part| part.is_finite()).then(|| {
-        [
-            [1.0 - 2.0 * (b * b + c * c), 2.0 * (a * b - c * w), 2.0 * (a * c + b * w), *x],
-            [2.0 * (a * b + c * w), 1.0 - 2.0 * (a * a + c * c), 2.0 * (b * c - a * w), *y],
-            [2.0 * (a * c - b * w), 2.0 * (b * c + a * w), 1.0 - 2.0 * (a * a + b * b), *z],
-        ]
-    })
+    let rows = [
+        [1.0 - 2.0 * (b * b + c * c), 2.0 * (a * b - c * w), 2.0 * (a * c + b * w), *x],
+        [2.0 * (a * b + c * w), 1.0 - 2.0 * (a * a + c * c), 2.0 * (b * c - a * w), *y],
+        [2.0 * (a * c - b * w), 2.0 * (b * c + a * w), 1.0 - 2.0 * (a * a + b * b), *z],
+    ];
+    rows.as_flattened().iter().all(|part| part.is_finite()).then_some(rows)
 }
 
 fn after(a: &Matrix, b: &Matrix) -> Matrix {
