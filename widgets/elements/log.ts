@@ -343,7 +343,7 @@ function button(act: () => void, attributes: Record<string, string> = {}): HTMLB
 
 /** A bag of ROS, by its first bytes, or packed by its name. */
 async function isBag(file: Blob): Promise<boolean> {
-  const start = new TextDecoder('latin1').decode(await file.slice(0, 8).arrayBuffer())
+  const start = String.fromCharCode(...new Uint8Array(await file.slice(0, 8).arrayBuffer()))
   return start.startsWith('\x89MCAP0') || start.startsWith('#ROSBAG') || (start.startsWith('\x1f\x8b') && file instanceof File && /\.(mcap|bag)\.gz$/i.test(file.name))
 }
 

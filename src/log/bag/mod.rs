@@ -235,6 +235,10 @@ impl Gathered {
         if let Some(wanted) = &self.options.scan_topic {
             self.is_of(wanted, &["sensor_msgs/LaserScan"])?;
         }
+        // What could not be read tells more than what is not there.
+        if let (true, Some(first)) = (self.scans.is_empty(), &self.log.notes.first_malformed) {
+            return Err(first.clone());
+        }
         let mut topics = self.scans.keys();
         match (topics.next(), topics.len()) {
             (Some(topic), 0) => Ok(topic.clone()),

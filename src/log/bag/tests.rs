@@ -283,5 +283,7 @@ fn a_compression_that_is_not_known_is_named() {
     let at = bag.windows(3).position(|three| three == b"lz4").unwrap();
     let mut other = bag.to_vec();
     other[at..at + 3].copy_from_slice(b"xz9");
+    let lenient = read_with(&other, BagOptions { lenient: true, ..BagOptions::default() });
+    assert_eq!(lenient.unwrap_err(), read(&other).unwrap_err());
     assert_eq!(read(&other).unwrap_err(), "its chunks are compressed by “xz9”; zstd, lz4 and bz2 can be read");
 }
