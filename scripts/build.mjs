@@ -36,7 +36,7 @@ export async function buildWasm() {
   await step('Names of the figures', writeNames)
 }
 
-/** What pages load: the program of the figures that run on the page itself, and that of the one that maps logs, in a worker. Both use the same glue. */
+/** What pages load: the program of the figures that run on the page itself, that of the one that maps logs, in a worker, and that which reads bags for it. All use the same glue. */
 export async function buildPrograms() {
   const folder = cache('programs')
   for (const program of programNames) {
@@ -54,7 +54,7 @@ export const troubleWasm = cache('trouble', basename(wasm))
 
 /** Nobody waits for it: without the last optimisations it is there in a third of the time. */
 export async function buildTrouble() {
-  const wanted = ['--no-default-features', '--features', 'single-threaded,page,log,trouble']
+  const wanted = ['--no-default-features', '--features', 'single-threaded,page,log,bags,trouble']
   const args = ['build', 'widgets', '--target', 'web', '--profile', 'page', '--no-pack', '--no-typescript', '--out-dir', cache('trouble'), ...wanted]
   await step('A program that dies on request', () => run('wasm-pack', args, { env: { CARGO_PROFILE_PAGE_LTO: 'off', CARGO_PROFILE_PAGE_CODEGEN_UNITS: '16' } }))
 }

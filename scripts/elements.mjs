@@ -98,7 +98,7 @@ const properties = [
 const log = {
   options: options.filter(({ name }) => ['lang', 'theme', 'controls', 'chips', 'show', 'lock', 'size'].includes(name)),
   methods: [
-    { name: 'open', type: '(file: Blob, name?: string, start?: boolean) => Promise<void>', help: 'Reads a log; maps it too if it is to start.' },
+    { name: 'open', type: '(file: Blob, name?: string, start?: boolean, topics?: { scan?: string; odometry?: string }) => Promise<void>', help: 'Reads a log, of a bag the topics named; maps it too if it is to start.' },
     { name: 'example', type: '() => Promise<void>', help: 'Maps the log that comes with the figure.' },
     { name: 'play', type: '() => void', help: 'Maps the log, or goes on after a pause; plays again what is mapped to its end.' },
     { name: 'pause', type: '() => void', help: 'Waits; what is mapped can be looked at and saved.' },

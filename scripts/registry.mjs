@@ -9,5 +9,5 @@ if (rows.length === 0) throw new StepError('widgets/src/registry.rs has no row t
 /** The program of each figure, by tag. */
 export const programs = new Map(rows.map(([, tag = '', program = '']) => /** @type {[string, string]} */ ([tag, program.toLowerCase()])))
 
-/** Names of all programs, each a feature of the crate. */
-export const programNames = [...new Set(programs.values())]
+/** Names of all programs, each a feature of the crate: those of the figures, and the one that reads bags for the figure of logs. */
+export const programNames = [...new Set(programs.values()), 'bags']

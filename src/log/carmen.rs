@@ -10,17 +10,18 @@
 //!
 //! Reference: the file format of CARMEN's logger, as its log files describe it in their own comments.
 
-use super::{FARTHEST, LaserLog, LaserScan, LogError, fixed};
+#[cfg(feature = "json")]
+use super::json::Told;
+use super::place::place;
+use super::{FARTHEST, FARTHEST_JUMP, LaserLog, LaserScan, LogError, fixed};
 use crate::error::Shown;
 use crate::geometry::Pose2;
+use crate::ops;
 use core::f64::consts::PI;
 
 /// A laser farther than this from the robot's centre \[m\] does not sit on it: then the two poses of a message are not what they
 /// should be (some logs hold a corrected pose in one of them), and the laser is taken to be in the centre.
 const LASER_REACH: f64 = 3.0;
-
-/// Farthest from one scan to the next by odometry \[m\]: no robot drives a kilometre between two sweeps of its laser.
-const FARTHEST_JUMP: f64 = 1e3;
 
 /// Longest line \[bytes\]: ten thousand beams with their remissions take a tenth of it.
 const LONGEST_LINE: usize = 1 << 20;
@@ -109,15 +110,9 @@ impl LogReader {
             return Err(self.no_scan(" in it"));
         }
         let mut log = self.reader.log;
-        let readings = || log.scans.iter().flat_map(|scan| &scan.ranges);
-        if !readings().any(|range| range.is_finite() && *range > 0.0) {
-            let message = format!("none of its {} readings is a range: a finite number above 0", readings().count());
-            return Err(LogError { line: 0, message });
-        }
-        // Messages come over a network: some are late. The sorts are stable, so that equal stamps keep the file's order.
-        log.notes.out_of_order = log.scans.windows(2).filter(|pair| pair[1].time < pair[0].time).count() as u32;
-        log.scans.sort_by(|a, b| a.time.total_cmp(&b.time));
-        log.odometry.sort_by(|a, b| a.0.total_cmp(&b.0));
+        log.seen_something()?;
+        log.in_order();
+        place(&mut log)?;
         Ok(log)
     }
 
@@ -207,6 +202,21 @@ impl Reader {
                 self.log.odometry.push((time, pose));
             }
             "PARAM" => self.parameter(&mut words)?,
+            #[cfg(feature = "json")]
+            _ if kind.starts_with('{') => match super::json::read(text)? {
+                Told::Scan(scan) => {
+                    if !scan.odometry.x.is_nan() {
+                        self.log.odometry.push((scan.time, scan.odometry));
+                    }
+                    self.log.scans.push(scan);
+                }
+                Told::Remark(remark) => self.log.notes.remarks.push(remark),
+                Told::Malformed(count, message) => {
+                    self.log.notes.malformed += count;
+                    self.log.notes.first_malformed.get_or_insert(LogError { line: 0, message });
+                }
+            },
+            _ if kind.parse::<f64>().is_ok_and(f64::is_finite) => self.tum(text)?,
             "RLASER" | "ROBOTLASER2" => self.log.notes.rear += 1,
             _ if kind.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_-./".contains(&byte)) => {
                 let unknown = &mut self.log.notes.unknown;
@@ -218,6 +228,24 @@ impl Reader {
             }
             _ => return Err(format!("expected the name of a message, found {}", shown(kind))),
         }
+        Ok(())
+    }
+
+    /// Odometry as TUM's benchmarks write it: time x y z qx qy qz qw.
+    fn tum(&mut self, text: &str) -> Result<(), String> {
+        let mut words = Words { words: text.split_ascii_whitespace(), kind: "a pose" };
+        let time = words.time()?;
+        let [x, y, _, _, _, sin, cos] = {
+            let mut numbers = [0.0; 7];
+            for (number, name) in numbers.iter_mut().zip(["x", "y", "z", "qx", "qy", "qz", "qw"]) {
+                *number = words.number(name)?;
+            }
+            numbers
+        };
+        if x.abs().max(y.abs()) > FARTHEST || (sin == 0.0 && cos == 0.0) {
+            return Err("a pose: expected one within 10000 km that turns about the vertical".into());
+        }
+        self.log.odometry.push((time, Pose2::new(x, y, 2.0 * ops::atan2(sin, cos))));
         Ok(())
     }
 

@@ -3,13 +3,23 @@
 //!
 //! No I/O: bytes in, structures out. Whoever has the bytes, from a file, a network or a browser, reads them by the same code.
 
+#[cfg(feature = "bags")]
+mod bag;
 mod carmen;
 mod extent;
+#[cfg(feature = "json")]
+mod json;
+mod place;
 mod relations;
+mod scan_to_scan;
 mod tum;
 
+#[cfg(feature = "bags")]
+pub use bag::{BagOptions, BagReader, is_bag, write_path};
 pub use carmen::{LogReader, parse, write};
 pub use extent::swept_area;
+#[cfg(feature = "json")]
+pub use json::write_json_lines;
 pub use relations::{NEAR, Relation, RelationErrors, parse_relations, relation_errors};
 pub use tum::write_tum;
 
@@ -20,6 +30,9 @@ use core::fmt;
 
 /// Farthest a coordinate may be from the log's origin \[m\]: beyond it a number is no place.
 const FARTHEST: f64 = 1e7;
+
+/// Farthest from one scan to the next by odometry \[m\]: no robot drives a kilometre between two sweeps of its laser.
+const FARTHEST_JUMP: f64 = 1e3;
 
 /// One sweep of a laser.
 #[derive(Clone, PartialEq, Debug)]
@@ -86,6 +99,24 @@ impl LaserLog {
         let Some(last) = within.checked_sub(1) else { return 0.0 };
         f64::from(*ranges.select_nth_unstable_by(last, f32::total_cmp).1)
     }
+
+    /// Puts what is in it in order: messages come over a network, and some are late. The sorts are stable, so that equal stamps keep the
+    /// file's order.
+    fn in_order(&mut self) {
+        self.notes.out_of_order = self.scans.windows(2).filter(|pair| pair[1].time < pair[0].time).count() as u32;
+        self.scans.sort_by(|a, b| a.time.total_cmp(&b.time));
+        self.odometry.sort_by(|a, b| a.0.total_cmp(&b.0));
+    }
+
+    /// Whether any of its readings has met anything.
+    fn seen_something(&self) -> Result<(), LogError> {
+        let readings = || self.scans.iter().flat_map(|scan| &scan.ranges);
+        if readings().any(|range| range.is_finite() && *range > 0.0) {
+            return Ok(());
+        }
+        let message = format!("none of its {} readings is a range: a finite number above 0", readings().count());
+        Err(LogError { line: 0, message })
+    }
 }
 
 /// What was met in a log besides what is used.
@@ -101,6 +132,8 @@ pub struct Notes {
     pub first_malformed: Option<LogError>,
     /// Scans whose stamp is before that of the scan above them: they were put in order.
     pub out_of_order: u32,
+    /// What else was made of the log, in words: where the laser is taken to sit, that there is no odometry.
+    pub remarks: Vec<String>,
 }
 
 /// A line that cannot be read.

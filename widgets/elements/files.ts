@@ -12,8 +12,9 @@ export function programName(tag: string): string {
   return FIGURES[tag]?.program ?? 'page'
 }
 
-/** A program, and the one place where its file is chosen. That for logs is apart, as many a reader never maps one. */
+/** A program, and the one place where its file is chosen. Those for logs and for bags are apart, as many a reader never maps one. */
 export function fetchProgram(name: string): Promise<Response> {
+  if (name === 'bags') return fetch(new URL('../pkg/fastslam-bags.wasm', import.meta.url))
   return fetch(name === 'log' ? new URL('../pkg/fastslam-log.wasm', import.meta.url) : new URL('../pkg/fastslam-page.wasm', import.meta.url))
 }
 

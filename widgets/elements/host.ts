@@ -38,6 +38,9 @@ export interface Beginning {
   authored: Record<string, string> | undefined
 }
 
+/** Topics of a bag that a reader has chosen. */
+export type Topics = { scan?: string; odometry?: string }
+
 export type Command =
   | ({ do: 'begin'; changed: boolean } & Beginning)
   | { do: 'set'; name: string; value: string | null }
@@ -65,7 +68,7 @@ export type Command =
   | { do: 'haunt'; curves: Float64Array<ArrayBuffer> }
   | { do: 'export'; kind: 'csv' | 'json'; name: string }
   // Of figures that map a file:
-  | { do: 'open'; file: Blob; name: string; start: boolean }
+  | { do: 'open'; file: Blob; name: string; start: boolean; topics: Topics; decoder: WebAssembly.Module | undefined }
   | { do: 'run' | 'pause' | 'fit' }
   | { do: 'zoom'; factor: number; x: number; y: number }
   | { do: 'pan'; right: number; down: number }
@@ -162,6 +165,7 @@ export type Answer =
   | { told: 'refused'; parameter: string; message: Message; file?: string }
   | { told: 'saved'; name: string; data: Blob }
   | { told: 'reading'; megabytes: number }
+  | { told: 'choose'; what: 'scan' | 'odometry'; topics: string[] }
   | { told: 'pinned'; curves: Float64Array<ArrayBuffer> }
   /** It has trapped. `why` is for readers, `error` for the console. */
   | { told: 'failed'; why: Message; error: string }

@@ -1,5 +1,6 @@
 // The session of a figure that maps a log: it also reads the file, starts and pauses, goes back through what is mapped, and saves it.
-import { clampedStep, type Beginning, type Command, type Frame, type Phase, type Run, type SavedFile } from './host'
+import { createShell } from './generated/shell'
+import { clampedStep, type Beginning, type Command, type Frame, type Phase, type Run, type SavedFile, type Topics } from './host'
 import { isRefusal, type Readout } from './shell'
 import type { Key } from './words'
 import { Session } from './session'
@@ -17,7 +18,7 @@ export class LogSession extends Session {
     const { figure } = this
     switch (command.do) {
       case 'open':
-        return this.#open(command.file, command.name, command.start)
+        return this.#open(command)
       case 'run':
         return this.#start()
       case 'pause':
@@ -118,10 +119,12 @@ export class LogSession extends Session {
     }
   }
 
-  async #open(file: Blob, name: string, start: boolean): Promise<void> {
+  async #open({ file, name, start, topics, decoder }: Extract<Command, { do: 'open' }>): Promise<void> {
     if (this.#phase === 'running') this.#phase = 'paused' // the log before stays until this one is read
+    const reading = (megabytes: number) => this.tell({ told: 'reading', megabytes })
     try {
-      const bytes = await unpacked(file, megabytes => this.tell({ told: 'reading', megabytes }))
+      const bytes = decoder ? await this.#decoded(file, decoder, topics, reading) : await unpacked(file, reading)
+      if (!bytes) return
       this.figure.open(bytes)
     } catch (error) {
       return this.refuse(error, name)
@@ -129,6 +132,21 @@ export class LogSession extends Session {
     this.#log = name
     this.#phase = 'ready'
     if (start) this.#start()
+  }
+
+  /** A bag as lines of JSON, by a program of its own, which goes when it is done; nothing where the reader has to choose a topic first. */
+  async #decoded(file: Blob, decoder: WebAssembly.Module, topics: Topics, reading: (megabytes: number) => void): Promise<Uint8Array | undefined> {
+    const { Bag } = await createShell(decoder)
+    const bag = new Bag(topics.scan, topics.odometry)
+    for await (const piece of pieces(file, Infinity, reading)) bag.push(piece)
+    const [what, ...choice] = bag.choice()
+    if (what) {
+      this.tell({ told: 'choose', what: what as 'scan' | 'odometry', topics: choice })
+      return undefined
+    }
+    const bytes = bag.finish()
+    if (bytes.length > MOST_BYTES) throw refusal('too_large_unpacked', { megabytes: MOST_BYTES / 1e6 })
+    return bytes
   }
 
   async #save(what: SavedFile): Promise<void> {
@@ -155,34 +173,36 @@ export class LogSession extends Session {
   }
 }
 
-/** Compressed or not: told by the first two bytes, as servers may unpack what is called .gz. */
 async function unpacked(file: Blob, reading: (megabytes: number) => void): Promise<Uint8Array> {
+  const parts: Uint8Array<ArrayBuffer>[] = []
+  for await (const piece of pieces(file, MOST_BYTES, reading)) parts.push(piece)
+  return new Uint8Array(await new Blob(parts).arrayBuffer())
+}
+
+/** What is in a file, piece by piece. Compressed or not is told by the first two bytes, as servers may unpack what is called .gz. */
+async function* pieces(file: Blob, most: number, reading: (megabytes: number) => void): AsyncGenerator<Uint8Array<ArrayBuffer>> {
   const [first, second] = new Uint8Array(await file.slice(0, 2).arrayBuffer())
   const packed = first === 0x1f && second === 0x8b
-  const stream = packed ? file.stream().pipeThrough(new DecompressionStream('gzip')) : file.stream()
-  const parts: Uint8Array<ArrayBuffer>[] = []
+  const reader = (packed ? file.stream().pipeThrough(new DecompressionStream('gzip')) : file.stream()).getReader()
   let length = 0
   let toldAt = 0
   try {
-    for (const reader = stream.getReader(); ; ) {
-      const { done, value } = await reader.read()
-      if (done) break
-      parts.push(value)
+    for (;;) {
+      const { done, value } = await reader.read().catch(() => {
+        throw refusal(packed ? 'bad_gzip' : 'unread')
+      })
+      if (done) return
       length += value.length
-      if (length > MOST_BYTES) {
-        void reader.cancel()
-        throw refusal(packed ? 'too_large_unpacked' : 'too_large', { megabytes: MOST_BYTES / 1e6 })
-      }
+      if (length > most) throw refusal(packed ? 'too_large_unpacked' : 'too_large', { megabytes: most / 1e6 })
       if (length > toldAt + 8e6) {
         toldAt = length
         reading(Math.round(length / 1e6))
       }
+      yield value
     }
-  } catch (error) {
-    if (isRefusal(error)) throw error
-    throw refusal(packed ? 'bad_gzip' : 'unread')
+  } finally {
+    void reader.cancel().catch(() => undefined) // who has read enough, for whatever reason, lets the rest go
   }
-  return new Uint8Array(await new Blob(parts).arrayBuffer())
 }
 
 function refusal(key: Key, values?: Record<string, number>): Error {

@@ -5,14 +5,15 @@ import { keepPage, takeDrops } from './drops'
 import { FigureElement } from './figure-element'
 import { fetchExample } from './files'
 import { AT_REST } from './generated/log'
-import type { Answer, Command, Frame, Phase, Run, SavedFile } from './host'
+import type { Answer, Command, Frame, Phase, Run, SavedFile, Topics } from './host'
 import { Poster } from './log-poster'
 import { takeGestures } from './map-gestures'
 import type { MenuItem } from './menu'
 import { register } from './parameters'
+import { programNamed } from './program'
 import type { Chip, ParamSpec, Readout } from './shell'
 import { themeName } from './theme'
-import type { Key } from './words'
+import { ToldError, type Key } from './words'
 
 const ZOOM = 1.4 // magnified by one press of + or −
 const PAN = 60 // [px] moved by one arrow key
@@ -51,7 +52,7 @@ export class FastslamLog extends FigureElement {
   static override heavy = true
 
   #phase: Phase = 'empty'
-  #log: { file: Blob; name: string; start: boolean } | undefined // read again by another worker, after a move of the element
+  #log: { file: Blob; name: string; start: boolean; topics: Topics; decoder: WebAssembly.Module | undefined } | undefined // read again by another worker, after a move of the element
   #sent: unknown // the source that this worker was given
   #lived = false // there has been a frame
   #unfit = '' // what was said to stand in the way
@@ -67,7 +68,7 @@ export class FastslamLog extends FigureElement {
       return element
     }),
   )
-  readonly #file = h('input', { type: 'file', class: 'hidden', accept: '.clf,.log,.gz,.txt', id: 'file', tabindex: '-1', 'aria-hidden': 'true' })
+  readonly #file = h('input', { type: 'file', class: 'hidden', accept: '.clf,.log,.gz,.txt,.mcap,.bag,.jsonl', id: 'file', tabindex: '-1', 'aria-hidden': 'true' })
   readonly #poster = new Poster(this.words, () => (this.#phase === 'empty' ? void this.example() : this.play()))
   readonly #example = this.#named('run_example', () => void this.example(), { part: 'button example' })
   readonly #source = this.#sources()
@@ -108,12 +109,22 @@ export class FastslamLog extends FigureElement {
   // --- What a page's script may use ------------------------------------------------------------------------------------
 
   /** Reads a log. Nothing is mapped yet, unless it is to start at once. */
-  async open(file: Blob, name = file instanceof File ? file.name : 'log', start = false): Promise<void> {
+  async open(file: Blob, name = file instanceof File ? file.name : 'log', start = false, topics: Topics = {}): Promise<void> {
     this.messages.set('file', '')
     this.playback.stop()
     this.crashes = 0 // another log, another chance
-    this.#log = { file, name, start }
+    const log = (this.#log = { file, name, start, topics, decoder: undefined as WebAssembly.Module | undefined })
     write(this.status, this.words.say('reading', { name }))
+    this.messages.set('topic', '')
+    try {
+      if (await isBag(file)) log.decoder = await bagReader()
+    } catch (error) {
+      if (this.#log !== log) return
+      this.#log = undefined
+      write(this.status, '')
+      return this.messages.set('file', this.words.say('cannot_map', { file: name, why: this.words.tell(error instanceof ToldError ? error.told : String(error)) }), this.words.say('try_again'), () => void this.open(file, name, start, topics))
+    }
+    if (this.#log !== log) return // another one was opened meanwhile
     await this.start()
     this.#sendLog()
   }
@@ -192,10 +203,23 @@ export class FastslamLog extends FigureElement {
 
   override hear(answer: Answer): void {
     if (answer.told === 'reading') return write(this.status, this.words.say('reading_megabytes', { megabytes: answer.megabytes }))
+    if (answer.told === 'choose') return this.#choose(answer.what, answer.topics)
     if (answer.told !== 'refused' || answer.file === undefined) return super.hear(answer)
     write(this.status, '')
     if (this.#log?.name === answer.file) this.#log = undefined
     this.messages.set('file', this.words.say('cannot_map', { file: answer.file, why: this.words.tell(answer.message) }), this.words.say('run_example'), () => void this.example())
+  }
+
+  /** Several topics of a bag have what is needed: a button for each. */
+  #choose(what: 'scan' | 'odometry', topics: string[]): void {
+    write(this.status, '')
+    if (!this.#log) return
+    const { file, name, start, topics: chosen } = this.#log
+    this.messages.offer(
+      'topic',
+      this.words.say(what === 'scan' ? 'choose_scan_topic' : 'choose_odometry_topic', { file: name }),
+      topics.map(topic => [topic, () => void this.open(file, name, start, { ...chosen, [what]: topic })]),
+    )
   }
 
   /** What was mapped is lost with the worker; the log, the settings and the example are not. */
@@ -316,6 +340,15 @@ function button(act: () => void, attributes: Record<string, string> = {}): HTMLB
   element.addEventListener('click', act)
   return element
 }
+
+/** A bag of ROS, by its first bytes, or packed by its name. */
+async function isBag(file: Blob): Promise<boolean> {
+  const start = String.fromCharCode(...new Uint8Array(await file.slice(0, 8).arrayBuffer()))
+  return start.startsWith('\x89MCAP0') || start.startsWith('#ROSBAG') || (start.startsWith('\x1f\x8b') && file instanceof File && /\.(mcap|bag)\.gz$/i.test(file.name))
+}
+
+/** The program that reads bags. */
+const bagReader = () => programNamed('bags').module()
 
 /** In words as short as the number is rough. */
 function duration(seconds: number): string {

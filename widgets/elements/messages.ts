@@ -18,6 +18,21 @@ export class Messages {
     else this.element.append(line)
   }
 
+  /** A line with a button for each of several things that can be done; a press on any takes it away. */
+  offer(cause: string, text: string, actions: [name: string, action: () => void][]): void {
+    this.set(cause, text)
+    const line = [...this.element.children].find(child => (child as HTMLElement).dataset['key'] === cause)!
+    const buttons = actions.map(([name, action]) => {
+      const button = h('button', { type: 'button' }, name)
+      button.addEventListener('click', () => {
+        line.remove()
+        action()
+      })
+      return button
+    })
+    line.lastElementChild!.replaceWith(...buttons)
+  }
+
   clear(): void {
     this.element.replaceChildren()
   }

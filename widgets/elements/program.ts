@@ -48,7 +48,11 @@ const programs = new Map<string, Program>()
 
 /** The program of a figure. */
 export function programOf(tag: string): Program {
-  const name = programName(tag)
+  return programNamed(programName(tag))
+}
+
+/** The program of this name. */
+export function programNamed(name: string): Program {
   const known = programs.get(name) ?? new Program(name)
   programs.set(name, known)
   return known

@@ -5,6 +5,8 @@
 //! A figure is a [`recipe`] (a typed table of parameters), a [`model`] (deterministic, without clock or pixels), a [`view`] that makes
 //! a [`scene`] of it (marks with meanings, without colours), the one painter of [`paint`] and, in the browser, a `shell` whose methods are one line each. Native tests and
 //! the command line use the same [`figure::Figure`] as the page.
+// The program that reads bags has no figure.
+#![cfg_attr(not(any(feature = "page", feature = "log")), allow(dead_code, unused_imports))]
 
 pub mod challenge;
 mod comma;

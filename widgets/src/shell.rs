@@ -74,6 +74,42 @@ pub fn spread(errors: &[f64]) -> Vec<f64> {
     vec![median, low, high, p90, worst]
 }
 
+/// A reader of ROS bags: what it makes of one is a log that the figure of logs opens.
+#[cfg(feature = "bags")]
+#[wasm_bindgen]
+pub struct Bag(fastslam::log::BagReader);
+
+#[cfg(feature = "bags")]
+#[wasm_bindgen]
+impl Bag {
+    /// For a bag of which nothing has been read, with the topics that were chosen.
+    #[wasm_bindgen(constructor)]
+    pub fn new(scan_topic: Option<String>, odometry_topic: Option<String>) -> Bag {
+        Bag(fastslam::log::BagReader::new(fastslam::log::BagOptions { scan_topic, odometry_topic, lenient: true }))
+    }
+
+    /// The next bytes; throws a `FigureError` if they cannot be read.
+    pub fn push(&mut self, bytes: &[u8]) -> Result<(), Error> {
+        self.0.push(bytes).map_err(|error| thrown(bad_bag(error)))
+    }
+
+    /// What is to be chosen, once all is read: `scan` or `odometry`, and the topics that have it; nothing where all is clear.
+    pub fn choice(&self) -> Vec<String> {
+        self.0.choice().map_or(Vec::new(), |(what, topics)| [vec![what.to_owned()], topics].concat())
+    }
+
+    /// The log, as JSON lines; throws a `FigureError` that says what is missing.
+    pub fn finish(self) -> Result<Vec<u8>, Error> {
+        let log = self.0.finish().map_err(|error| thrown(bad_bag(error)))?;
+        Ok(fastslam::log::write_json_lines(&log).into_bytes())
+    }
+}
+
+#[cfg(feature = "bags")]
+fn bad_bag(error: fastslam::log::LogError) -> FigureError {
+    FigureError { parameter: "file".into(), message: error.message }
+}
+
 /// One figure on a page; to be freed when it leaves the page.
 #[wasm_bindgen]
 pub struct Figure {

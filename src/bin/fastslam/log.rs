@@ -6,7 +6,8 @@ use cpu_time::ProcessTime;
 use fastslam::error::SettingError;
 use fastslam::geometry::Pose2;
 use fastslam::log::{
-    LaserLog, LogError, LogReader, Notes, RelationErrors, parse_relations, relation_errors, write, write_tum,
+    BagOptions, BagReader, LaserLog, LogError, LogReader, Notes, RelationErrors, is_bag, parse_relations,
+    relation_errors, write, write_path, write_tum,
 };
 use fastslam::map::grid::MapImage;
 use fastslam::mapper::{LaserMapper, LaserMapperSettings, Replay};
@@ -19,10 +20,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Map a recorded log of a robot with a laser (CARMEN format)
+/// Map a recorded log of a robot with a laser: a ROS 2 bag (MCAP), a ROS 1 bag, CARMEN's format, or scans as JSON lines
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The log, as text or compressed by gzip. It is read piece by piece, and takes about as much memory as its text has bytes
+    /// The log; what it is its content tells, not its name. Any of them may be compressed by gzip. It is read piece by piece: of a bag the
+    /// scans and the odometry stay in memory, of a log in plain text about as much as it has bytes
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Number of particles M, 1 to 4096
@@ -40,9 +42,15 @@ pub struct Arguments {
     /// Pass scans over until the robot has driven this far [m], or turned by as many radians, 0 to 5
     #[arg(long, value_name = "METRES", default_value_t = LaserMapperSettings::default().min_travel, allow_negative_numbers = true)]
     min_travel: f64,
-    /// Pass malformed lines over, and count them
+    /// Pass malformed lines and messages over, and count them; read a bag that breaks off up to there
     #[arg(long)]
     lenient: bool,
+    /// Topic of a bag's scans (sensor_msgs/LaserScan): needed where several have some
+    #[arg(long, value_name = "TOPIC")]
+    scan_topic: Option<String>,
+    /// Topic of a bag's odometry (nav_msgs/Odometry, or tf with a frame odom): needed where several have some
+    #[arg(long, value_name = "TOPIC")]
+    odometry_topic: Option<String>,
     /// True relations between poses (t1 t2 x y z roll pitch yaw) to hold the path against. A time takes the pose within 0.1 s as
     /// it stands, else the nearest one moved by raw odometry: the rule of the published figures
     #[arg(long, value_name = "FILE")]
@@ -50,6 +58,9 @@ pub struct Arguments {
     /// Write the best path into this file, in TUM format: time x y z qx qy qz qw
     #[arg(long, value_name = "FILE")]
     trajectory: Option<PathBuf>,
+    /// Write the best path into this file as nav_msgs/Path, an MCAP file for Foxglove and ROS 2
+    #[arg(long, value_name = "FILE")]
+    path_mcap: Option<PathBuf>,
     /// Write the best map as NAME.png, and as the pair NAME.pgm and NAME.yaml that ROS reads
     #[arg(long, value_name = "NAME")]
     map: Option<PathBuf>,
@@ -98,7 +109,10 @@ struct Output {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<()> {
-    let log = read(&arguments.file, arguments.lenient)?;
+    let Arguments { scan_topic, odometry_topic, lenient, .. } = arguments;
+    let options =
+        BagOptions { scan_topic: scan_topic.clone(), odometry_topic: odometry_topic.clone(), lenient: *lenient };
+    let log = read(&arguments.file, options)?;
     let relations = match &arguments.relations {
         Some(path) => Some(parse_relations(&bytes_of(path)?).map_err(|error| what(path, error))?),
         None => None,
@@ -204,32 +218,44 @@ fn what(path: &Path, error: LogError) -> Usage {
     if error.line == 0 { Usage::of_file(path, error.message) } else { Usage::of_file(path, error) }
 }
 
-/// Reads a log, which may be compressed, and says on standard error what of it is not used. The text itself is never whole in memory.
-fn read(path: &Path, lenient: bool) -> Result<LaserLog> {
+/// Reads a log of any kind, which may be compressed, and says on standard error what of it is not used. The file itself is never whole in
+/// memory.
+fn read(path: &Path, options: BagOptions) -> Result<LaserLog> {
     let mut file = std::io::BufReader::new(std::fs::File::open(path).with_context(in_file(path))?);
     let compressed = file.fill_buf().with_context(in_file(path))?.starts_with(&[0x1f, 0x8b]);
-    let mut text: Box<dyn Read> = if compressed { Box::new(MultiGzDecoder::new(file)) } else { Box::new(file) };
-    let mut reader = LogReader::new(lenient);
+    let bytes: Box<dyn Read> = if compressed { Box::new(MultiGzDecoder::new(file)) } else { Box::new(file) };
+    let failed = |error: std::io::Error| match compressed {
+        true => Usage::of_file(path, format_args!("cannot be unpacked: {error}")).into(),
+        false => anyhow::Error::new(error).context(path.display().to_string()),
+    };
+    let mut bytes = std::io::BufReader::new(bytes);
+    let of_bag = is_bag(bytes.fill_buf().map_err(failed)?);
+    let (lenient, bag_topics) = (options.lenient, options.scan_topic.is_some() || options.odometry_topic.is_some());
+    let (mut bag, mut text) = (BagReader::new(options), LogReader::new(lenient));
+    if bag_topics && !of_bag {
+        bail!(Usage::of_file(path, "--scan-topic and --odometry-topic are for bags, which it is not"));
+    }
     let mut piece = vec![0; 1 << 16];
     loop {
-        match text.read(&mut piece) {
+        match bytes.read(&mut piece) {
             Ok(0) => break,
-            Ok(count) => reader.push(&piece[..count]).map_err(|error| what(path, error))?,
-            Err(error) if error.kind() == ErrorKind::Interrupted => {}
-            Err(error) if compressed => bail!(Usage::of_file(path, format_args!("cannot be unpacked: {error}"))),
-            Err(error) => return Err(error).with_context(in_file(path)),
+            Ok(count) if of_bag => bag.push(&piece[..count]),
+            Ok(count) => text.push(&piece[..count]),
+            Err(error) if error.kind() == ErrorKind::Interrupted => Ok(()),
+            Err(error) => return Err(failed(error)),
         }
+        .map_err(|error| what(path, error))?;
     }
-    let log = reader.finish().map_err(|error| what(path, error))?;
-    for note in notes(&log.notes) {
+    let log = if of_bag { bag.finish() } else { text.finish() }.map_err(|error| what(path, error))?;
+    for note in notes(&log.notes, of_bag) {
         eprintln!("fastslam: {}: {note}", path.display());
     }
     Ok(log)
 }
 
-fn notes(notes: &Notes) -> Vec<String> {
-    let Notes { rear, unknown, malformed, first_malformed, out_of_order } = notes;
-    let mut said = Vec::new();
+fn notes(notes: &Notes, of_bag: bool) -> Vec<String> {
+    let Notes { rear, unknown, malformed, first_malformed, out_of_order, remarks } = notes;
+    let mut said = remarks.clone();
     if *rear > 0 {
         said.push(format!("{rear} messages of a rear laser are passed over"));
     }
@@ -238,7 +264,10 @@ fn notes(notes: &Notes) -> Vec<String> {
         said.push(format!("messages that are not known here are passed over: {}", kinds.join(", ")));
     }
     if let Some(first) = first_malformed {
-        said.push(format!("malformed lines passed over: {malformed}, the first of them {first}"));
+        said.push(match of_bag {
+            true => format!("malformed messages passed over: {malformed}, the first of them: {}", first.message),
+            false => format!("malformed lines passed over: {malformed}, the first of them {first}"),
+        });
     }
     if *out_of_order > 0 {
         said.push(format!("scans whose stamps go back: {out_of_order}; they were put in order"));
@@ -293,6 +322,7 @@ fn summary(settings: &LaserMapperSettings, log: &LaserLog, output: &Output) -> S
 /// The files that results go to.
 struct Outputs {
     trajectory: Option<PathBuf>,
+    path_mcap: Option<PathBuf>,
     /// png, pgm and yaml.
     map: Option<[PathBuf; 3]>,
 }
@@ -308,8 +338,11 @@ impl Outputs {
                 PathBuf::from(file)
             })
         };
-        let outputs = Self { trajectory: arguments.trajectory.clone(), map: arguments.map.as_ref().map(named) };
-        for path in outputs.trajectory.iter().chain(outputs.map.iter().flatten()) {
+        let Arguments { trajectory, path_mcap, map, .. } = arguments;
+        let outputs =
+            Self { trajectory: trajectory.clone(), path_mcap: path_mcap.clone(), map: map.as_ref().map(named) };
+        let files = outputs.trajectory.iter().chain(&outputs.path_mcap).chain(outputs.map.iter().flatten());
+        for path in files {
             std::fs::File::create(path).with_context(in_file(path))?;
         }
         Ok(outputs)
@@ -319,6 +352,9 @@ impl Outputs {
         let save = |path: &Path, bytes: &[u8]| std::fs::write(path, bytes).with_context(in_file(path));
         if let Some(file) = &self.trajectory {
             save(file, write_tum(path).as_bytes())?;
+        }
+        if let Some(file) = &self.path_mcap {
+            save(file, &write_path(path).map_err(anyhow::Error::msg)?)?;
         }
         if let Some([png, pgm, yaml]) = &self.map {
             let map = MapImage::of(mapper.map());

@@ -41,6 +41,8 @@ fn told(model: &LogModel, opened: &Opened) -> String {
     };
     let mut sentences = vec![scans.say()];
     sentences.extend(left_out.map(|(n, what)| words::LeftOut { what: &what, n: &n }.say()));
+    // Of a bag; in the words of whoever read it.
+    sentences.extend(notes.remarks.iter().map(|remark| words::Remark { remark }.say()));
     sentences.push(memory.say());
     sentences.join(" ")
 }

@@ -627,3 +627,81 @@ fn where_few_beams_return_the_wheels_that_were_learnt_keep_the_map_from_turning(
     let [drift, std] = ["wheel_drift_deg_per_m", "wheel_heading_std_deg_per_m"].map(|key| run[key].as_f64().unwrap());
     assert!(drift.abs() < 1.0 && (2.0..4.0).contains(&std), "{drift} ± {std}°/m");
 }
+
+/// A file of tests/bags.
+fn bag(name: &str) -> String {
+    format!("{}/../../../tests/bags/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn a_bag_is_mapped_as_the_log_that_says_the_same_and_its_path_is_written_for_ros() {
+    let folder = tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name).display().to_string();
+    let (tum, mcap) = (file("path.tum"), file("path.mcap"));
+    let digest = |log: &str| {
+        json(&format!("log {log} --particles 3 --trajectory {tum} --path-mcap {mcap} --json"))["digest"].clone()
+    };
+    let expected = digest(&bag("lap.clf"));
+    let (path, message) = (std::fs::read(&tum).unwrap(), std::fs::read(&mcap).unwrap());
+    for name in ["odometry-zstd.mcap", "tf-lz4.mcap", "plain.bag", "lz4.bag", "bz2.bag"] {
+        assert_eq!(digest(&bag(name)), expected, "{name}");
+        assert_eq!((&std::fs::read(&tum).unwrap(), &std::fs::read(&mcap).unwrap()), (&path, &message), "{name}");
+    }
+    assert!(message.starts_with(b"\x89MCAP0\r\n") && message.ends_with(b"\x89MCAP0\r\n"));
+    // What the path's own reader finds in it: no scans, but a path.
+    let refused = fastslam(&format!("log {mcap}")).code(2).stdout("");
+    let said = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(
+        said.ends_with("path.mcap: no sensor_msgs/LaserScan in it; there is /path (1 × nav_msgs/Path)\n"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_bag_that_cannot_be_read_is_refused_by_file_and_topic() {
+    let folder = tempdir().unwrap();
+    let refused = |arguments: &str| {
+        let refused = fastslam(arguments).code(2).stdout("");
+        String::from_utf8_lossy(&refused.get_output().stderr).into_owned()
+    };
+    let said = refused(&format!("log {} --scan-topic /odom", bag("lz4.bag")));
+    assert!(
+        said.ends_with("lz4.bag: the topic /odom is of type nav_msgs/Odometry, not sensor_msgs/LaserScan\n"),
+        "{said}"
+    );
+    let said = refused(&format!("log {} --scan-topic /scan", bag("lap.clf")));
+    assert!(said.contains("are for bags"), "{said}");
+    let half = folder.path().join("half.mcap");
+    let bytes = std::fs::read(bag("odometry-zstd.mcap")).unwrap();
+    std::fs::write(&half, &bytes[..bytes.len() / 2]).unwrap();
+    let half = half.display();
+    assert!(refused(&format!("log {half}")).contains("half.mcap: it ends in the middle of a record"));
+    let read = fastslam(&format!("log {half} --lenient --particles 2 --json")).success();
+    let said = String::from_utf8_lossy(&read.get_output().stderr).into_owned();
+    assert!(
+        said.contains("malformed messages passed over: 1, the first of them: it ends in the middle of a record"),
+        "{said}"
+    );
+}
+
+#[test]
+fn scans_as_json_lines_take_their_odometry_from_tum_lines_or_from_each_other() {
+    let folder = tempdir().unwrap();
+    let name = folder.path().join("log.jsonl");
+    let scan = |time: f64| {
+        format!(
+            "{{\"time\": {time}, \"angle_min\": -1.5, \"angle_increment\": 0.5, \"ranges\": [1, 2, null, 2, 2, 1]}}\n"
+        )
+    };
+    let scans: String = [1.0, 2.0, 3.0].map(scan).concat();
+    let run = || fastslam(&format!("log {} --particles 2 --json", name.display()));
+    std::fs::write(&name, format!("1 0 0 0 0 0 0 1\n3 1 0 0 0 0 0 1\n{scans}")).unwrap();
+    assert_eq!(String::from_utf8_lossy(&run().success().get_output().stderr), "");
+    std::fs::write(&name, &scans).unwrap();
+    let said = run().success();
+    assert!(String::from_utf8_lossy(&said.get_output().stderr).contains("there is no odometry"));
+    std::fs::write(&name, format!("{scans}{{\"time\": 4}}\n")).unwrap();
+    let said = run().code(2);
+    let said = String::from_utf8_lossy(&said.get_output().stderr).into_owned();
+    assert!(said.contains("log.jsonl: line 4: a scan in JSON: expected \"angle_min\", found none"), "{said}");
+}

@@ -1,0 +1,358 @@
+//! ROS 2 bags (MCAP) and ROS 1 bags: `sensor_msgs/LaserScan` with `nav_msgs/Odometry`, or with `tf` from `odom` to the robot.
+//!
+//! Where the laser sits is told by the transforms: those that are fixed, and of others the first of each. Nothing is kept of a file but the
+//! scans, the odometry, and the chunk that is begun.
+
+mod containers;
+mod frames;
+mod messages;
+mod path;
+#[cfg(test)]
+mod tests;
+
+pub use path::write_path;
+
+use self::containers::{Channel, Container, Mcap, ROS1_MAGIC, Ros1, Sink};
+use self::frames::{Frames, Mounting, flat, frame};
+use super::place::{NOWHERE, place};
+use super::{LaserLog, LaserScan, LogError};
+use core::f32::consts::PI;
+use std::collections::BTreeMap;
+
+/// What the frame is called that odometry is told in.
+const ODOM: &str = "odom";
+
+/// What is behind the topic of odometry that is told by transforms.
+const OF_TF: &str = " (from odom)";
+
+/// What the robot's own frame is called where odometry does not say.
+const ROBOT: [&str; 2] = ["base_link", "base_footprint"];
+
+/// Whether a file that begins so is a bag. Thirteen bytes are enough.
+pub fn is_bag(start: &[u8]) -> bool {
+    start.starts_with(mcap::MAGIC) || start.starts_with(ROS1_MAGIC)
+}
+
+/// Which topics of a bag are read, and how.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct BagOptions {
+    /// That of the scans; needed where several have some.
+    pub scan_topic: Option<String>,
+    /// That of the odometry, or of `tf`; needed where several have some.
+    pub odometry_topic: Option<String>,
+    /// Malformed messages are passed over, and a bag that breaks off is read up to there; both are counted.
+    pub lenient: bool,
+}
+
+/// Reads a bag piece by piece, as it comes from a file or a network.
+///
+/// The stamp of a scan, and of odometry, is that of its header, or where that is zero the time of recording. A range below `range_min`,
+/// above `range_max` or not a number has met nothing. A laser that hangs upside down, by the transforms, sweeps the other way.
+///
+/// Units are those of ROS: metres, radians, seconds. Reference: <https://mcap.dev/spec>, <http://wiki.ros.org/Bags/Format/2.0>, REP 103
+/// and REP 105.
+#[derive(Default)]
+pub struct BagReader {
+    start: Vec<u8>,
+    container: Option<Box<dyn Container>>,
+    gathered: Gathered,
+    /// What ended the reading of a bag before its end.
+    broken: bool,
+}
+
+impl BagReader {
+    /// For a bag of which nothing has been read.
+    pub fn new(options: BagOptions) -> Self {
+        Self { gathered: Gathered { options, ..Gathered::default() }, ..Self::default() }
+    }
+
+    /// The next bytes, cut anywhere.
+    ///
+    /// # Errors
+    /// What cannot be read, and on which topic, unless the reader is lenient; what is no bag at all.
+    pub fn push(&mut self, bytes: &[u8]) -> Result<(), LogError> {
+        if self.broken {
+            return Ok(());
+        }
+        let Some(container) = &mut self.container else {
+            self.start.extend_from_slice(bytes);
+            if self.start.len() < ROS1_MAGIC.len() {
+                return Ok(());
+            }
+            let start = core::mem::take(&mut self.start);
+            self.container =
+                Some(match () {
+                    () if start.starts_with(mcap::MAGIC) => Box::new(Mcap::default()),
+                    () if start.starts_with(ROS1_MAGIC) => Box::new(Ros1::default()),
+                    () if start.starts_with(b"#ROSBAG") => return Err(whole(
+                        "it is a ROS 1 bag of another format than 2.0: `rosbag migrate` or `rosbags-convert` makes one"
+                            .into(),
+                    )),
+                    () => return Err(whole("it is neither an MCAP file nor a ROS 1 bag".into())),
+                });
+            return self.push(&start);
+        };
+        container.push(bytes, &mut self.gathered).or_else(|message| {
+            self.broken = true;
+            self.gathered.malformed(message)
+        })
+    }
+
+    /// What [`BagOptions`] must choose, once all is read: `scan` or `odometry`, and the topics that have it.
+    pub fn choice(&self) -> Option<(&'static str, Vec<String>)> {
+        let Gathered { scans, odometry, .. } = &self.gathered;
+        let odometry: Vec<String> = odometry.keys().filter(|topic| !of_tf(topic)).cloned().collect();
+        match (scans.len(), odometry.len()) {
+            (2.., _) => Some(("scan", scans.keys().cloned().collect())),
+            (_, 2..) => Some(("odometry", odometry)),
+            _ => None,
+        }
+    }
+
+    /// The log: scans by time, each with its odometry.
+    ///
+    /// # Errors
+    /// That the bag breaks off, unless the reader is lenient; that it has no scans, or several topics of them and none was chosen, and
+    /// which topics there are; that scans and odometry have no time in common; a laser that is not level.
+    pub fn finish(mut self) -> Result<LaserLog, LogError> {
+        match &mut self.container {
+            None => return Err(whole("it is neither an MCAP file nor a ROS 1 bag".into())),
+            Some(_) if self.broken => {}
+            Some(container) => {
+                container.finish(&mut self.gathered).or_else(|message| self.gathered.malformed(message))?;
+            }
+        }
+        self.gathered.log()
+    }
+}
+
+/// Whether odometry of this name is not a topic's own but out of the transforms.
+fn of_tf(topic: &str) -> bool {
+    topic.ends_with(OF_TF)
+}
+
+/// An error about the file as a whole.
+fn whole(message: String) -> LogError {
+    LogError { line: 0, message }
+}
+
+/// What is kept of a bag.
+#[derive(Default)]
+struct Gathered {
+    options: BagOptions,
+    /// All topics, with type and number of messages.
+    topics: BTreeMap<String, (String, u32)>,
+    scans: BTreeMap<String, Vec<(String, LaserScan)>>,
+    odometry: BTreeMap<String, Track>,
+    frames: Frames,
+    log: LaserLog,
+}
+
+/// The odometry of a topic, and whose it is.
+#[derive(Default)]
+struct Track {
+    robot: String,
+    poses: Vec<(f64, crate::geometry::Pose2)>,
+}
+
+impl Sink for Gathered {
+    fn channel(&mut self, channel: &Channel) {
+        self.topics.entry(channel.topic.clone()).or_insert_with(|| (channel.kind.clone(), 0));
+    }
+
+    fn message(&mut self, channel: &Channel, recorded: f64, bytes: &[u8]) -> Result<(), String> {
+        let Channel { topic, kind, .. } = channel;
+        let number = self.topics.get_mut(topic).map_or(0, |(_, count)| {
+            *count += 1;
+            *count
+        });
+        self.take(channel, recorded, bytes)
+            .or_else(|what| self.malformed(format!("{topic}: message {number} ({kind}) {what}")))
+            .map_err(|error| error.message)
+    }
+}
+
+impl Gathered {
+    fn take(&mut self, channel: &Channel, recorded: f64, bytes: &[u8]) -> Result<(), String> {
+        let Channel { topic, kind, encoding } = channel;
+        let stamp = |time: messages::Time| if time.sec == 0 && time.nanosec == 0 { recorded } else { time.seconds() };
+        let other = |wanted: &Option<String>| wanted.as_ref().is_some_and(|wanted| wanted != topic);
+        match kind.as_str() {
+            "sensor_msgs/LaserScan" if !other(&self.options.scan_topic) => {
+                let message: messages::LaserScan = encoding.one(bytes)?;
+                let time = stamp(message.header.stamp);
+                let scan = scan(&message, time)?;
+                self.scans.entry(topic.clone()).or_default().push((message.header.frame_id, scan));
+            }
+            "nav_msgs/Odometry" if !other(&self.options.odometry_topic) => {
+                let message: messages::Transform = encoding.one(bytes)?;
+                let pose = flat(&message.parent_from_child).ok_or("has a pose that is no number")?;
+                let track = self.odometry.entry(topic.clone()).or_default();
+                track.robot = message.child_frame_id;
+                track.poses.push((stamp(message.header.stamp), pose));
+            }
+            "tf2_msgs/TFMessage" | "tf/tfMessage" => {
+                for transform in encoding.list::<messages::Transform>(bytes)? {
+                    self.frames.take(&transform, topic.ends_with("tf_static"));
+                    if frame(&transform.header.frame_id) == ODOM && !other(&self.options.odometry_topic) {
+                        let pose = flat(&transform.parent_from_child).ok_or("has a transform that is no number")?;
+                        let track = self.odometry.entry(format!("{topic}{OF_TF}")).or_default();
+                        track.robot = transform.child_frame_id;
+                        track.poses.push((stamp(transform.header.stamp), pose));
+                    }
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn malformed(&mut self, message: String) -> Result<(), LogError> {
+        let error = whole(message);
+        if !self.options.lenient {
+            return Err(error);
+        }
+        self.log.notes.malformed += 1;
+        self.log.notes.first_malformed.get_or_insert(error);
+        Ok(())
+    }
+
+    fn log(mut self) -> Result<LaserLog, LogError> {
+        let scan_topic = self.chosen_scans()?;
+        let scans = self.scans.remove(&scan_topic).unwrap_or_default();
+        let track = self.chosen_odometry()?;
+        let mut log = core::mem::take(&mut self.log);
+        let mounting = self.mounting(&scans, track.as_ref(), &mut log)?;
+        log.scans = scans.into_iter().map(|(_, scan)| mounted(scan, &mounting)).collect();
+        log.odometry = track.unwrap_or_default().poses;
+        log.in_order();
+        place(&mut log)?;
+        log.seen_something()?;
+        Ok(log)
+    }
+
+    fn chosen_scans(&self) -> Result<String, LogError> {
+        if let Some(wanted) = &self.options.scan_topic {
+            self.is_of(wanted, &["sensor_msgs/LaserScan"])?;
+        }
+        // What could not be read tells more than what is not there.
+        if let (true, Some(first)) = (self.scans.is_empty(), &self.log.notes.first_malformed) {
+            return Err(first.clone());
+        }
+        let mut topics = self.scans.keys();
+        match (topics.next(), topics.len()) {
+            (Some(topic), 0) => Ok(topic.clone()),
+            (Some(_), _) => {
+                Err(self.several("scan-topic", "scans", self.scans.iter().map(|(topic, scans)| (topic, scans.len()))))
+            }
+            (None, _) => Err(whole(format!("no sensor_msgs/LaserScan in it; there is {}", self.listed()))),
+        }
+    }
+
+    /// The chosen one, that of the one topic of odometry, or that of tf.
+    fn chosen_odometry(&mut self) -> Result<Option<Track>, LogError> {
+        if let Some(wanted) = &self.options.odometry_topic {
+            self.is_of(wanted, &["nav_msgs/Odometry", "tf2_msgs/TFMessage", "tf/tfMessage"])?;
+        }
+        let told: Vec<&String> = self.odometry.keys().filter(|topic| !of_tf(topic)).collect();
+        let topic = match told[..] {
+            [] => self.odometry.keys().next().cloned(),
+            [topic] => Some(topic.clone()),
+            _ => {
+                let counts = told.iter().map(|topic| (*topic, self.odometry[*topic].poses.len()));
+                return Err(self.several("odometry-topic", "odometry", counts));
+            }
+        };
+        Ok(topic.and_then(|topic| self.odometry.remove(&topic)))
+    }
+
+    /// Whether a topic that was asked for is there, and is of one of these types.
+    fn is_of(&self, wanted: &str, kinds: &[&str]) -> Result<(), LogError> {
+        match self.topics.get(wanted) {
+            None => Err(whole(format!("there is no topic {wanted} in it; there is {}", self.listed()))),
+            Some((kind, _)) if !kinds.contains(&kind.as_str()) => {
+                Err(whole(format!("the topic {wanted} is of type {kind}, not {}", kinds.join(" or "))))
+            }
+            Some((_, 0)) => Err(whole(format!("the topic {wanted} has no message"))),
+            Some(_) => Ok(()),
+        }
+    }
+
+    fn several<'a>(&self, flag: &str, what: &str, topics: impl Iterator<Item = (&'a String, usize)>) -> LogError {
+        let listed: Vec<String> = topics.map(|(topic, count)| format!("{topic} ({count})")).collect();
+        whole(format!("several topics have {what}, and {flag} must name one: {}", listed.join(", ")))
+    }
+
+    /// All topics, as far as a line holds them.
+    fn listed(&self) -> String {
+        const MOST: usize = 20;
+        let mut listed: Vec<String> =
+            self.topics.iter().take(MOST).map(|(topic, (kind, count))| format!("{topic} ({count} × {kind})")).collect();
+        if self.topics.len() > MOST {
+            listed.push(format!("and {} more", self.topics.len() - MOST));
+        }
+        if listed.is_empty() { "no topic at all".into() } else { listed.join(", ") }
+    }
+
+    /// Where the laser sits. What no transform tells is told as such.
+    fn mounting(
+        &self,
+        scans: &[(String, LaserScan)],
+        track: Option<&Track>,
+        log: &mut LaserLog,
+    ) -> Result<Mounting, LogError> {
+        let Some((laser, _)) = scans.first() else { return Ok(Mounting::default()) };
+        let told = track.map(|track| track.robot.as_str()).filter(|robot| !robot.is_empty());
+        let robots = told.into_iter().chain(ROBOT);
+        let found = robots.clone().find_map(|robot| self.frames.mounting(robot, laser));
+        found.unwrap_or_else(|| {
+            let robot = robots.clone().next().unwrap_or_default();
+            log.notes.remarks.push(format!(
+                "no transform tells where the laser ({}) sits on the robot ({}): it is taken to be in its centre and to look ahead",
+                frame(laser),
+                frame(robot)
+            ));
+            Ok(Mounting::default())
+        })
+        .map_err(whole)
+    }
+}
+
+/// A sweep, in the laser's own frame.
+fn scan(message: &messages::LaserScan, time: f64) -> Result<LaserScan, String> {
+    let messages::LaserScan { angle_min, angle_increment, range_min, range_max, ranges, .. } = message;
+    if ranges.is_empty() {
+        return Err("has no ranges".into());
+    }
+    let angles = [*angle_min, *angle_increment];
+    if !angles.iter().all(|angle| angle.is_finite())
+        || angle_min.abs() > 2.0 * PI
+        || angle_increment.abs() > PI
+        || *angle_increment == 0.0
+    {
+        let [first, step] = angles.map(|angle| crate::error::Shown(f64::from(angle)).to_string());
+        return Err(format!("expected angle_min and angle_increment in radians, found {first} and {step}"));
+    }
+    let longest = if *range_max > 0.0 { *range_max } else { f32::INFINITY };
+    let reading = |range: &f32| if *range >= *range_min && *range <= longest { *range } else { f32::INFINITY };
+    Ok(LaserScan {
+        time,
+        odometry: NOWHERE,
+        robot_from_laser: crate::geometry::Pose2::default(),
+        first_angle: f64::from(*angle_min),
+        angle_step: f64::from(*angle_increment),
+        max_range: Some(f64::from(longest)).filter(|range| range.is_finite()),
+        ranges: ranges.iter().map(reading).collect(),
+    })
+}
+
+/// A sweep as the robot sees it: seen from above, a laser upside down sweeps the other way.
+fn mounted(scan: LaserScan, mounting: &Mounting) -> LaserScan {
+    let way = if mounting.upside_down { -1.0 } else { 1.0 };
+    LaserScan {
+        robot_from_laser: mounting.robot_from_laser,
+        first_angle: way * scan.first_angle,
+        angle_step: way * scan.angle_step,
+        ..scan
+    }
+}

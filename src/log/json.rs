@@ -1,0 +1,116 @@
+//! Scans as JSON lines, for robots whose logs nothing else reads: one object a line.
+//!
+//! ```text
+//! {"time": 1.5, "angle_min": -1.57, "angle_increment": 0.0175, "range_max": 30, "ranges": [2.1, null, 2.3], "laser": [0.1, 0, 0], "odometry": [0.5, 0, 0.02]}
+//! ```
+//!
+//! Seconds, metres, radians, in the frames and with the names of `sensor_msgs/LaserScan`. `ranges` has a number for each beam, `null` where it met
+//! nothing. `range_max`, `laser` (x, y, heading of the laser on the robot; at its centre where it is missing) and `odometry` (x, y, heading of the
+//! robot) may be missing. Where scans have no odometry of their own it comes from lines of a TUM file, which may stand anywhere between
+//! them or in front of them. What else an object holds is passed over.
+
+use super::place::NOWHERE;
+use super::{LaserLog, LaserScan, Notes};
+use crate::error::Shown;
+use crate::geometry::Pose2;
+use core::f64::consts::PI;
+use serde::{Deserialize, Serialize};
+
+/// What a line may hold.
+#[derive(Default, Serialize, Deserialize)]
+#[serde(default)]
+pub(super) struct Line {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    remark: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    malformed: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    time: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    angle_min: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    angle_increment: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    range_max: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    laser: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    odometry: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ranges: Option<Vec<Option<f32>>>,
+}
+
+/// What a line tells.
+pub(super) enum Told {
+    Scan(LaserScan),
+    Remark(String),
+    /// So many messages could not be read where the lines come from, and why the first of them could not.
+    Malformed(u32, String),
+}
+
+pub(super) fn read(line: &str) -> Result<Told, String> {
+    let line: Line = serde_json::from_str(line).map_err(|error| format!("expected a scan in JSON: {error}"))?;
+    match (line.malformed, line.remark) {
+        (Some(count), remark) => return Ok(Told::Malformed(count, remark.unwrap_or_default())),
+        (None, Some(remark)) => return Ok(Told::Remark(remark)),
+        (None, None) => {}
+    }
+    let missing = |name: &str| format!("a scan in JSON: expected \"{name}\", found none");
+    let number = |name: &str, value: Option<f64>| value.ok_or_else(|| missing(name));
+    let (time, first_angle) = (number("time", line.time)?, number("angle_min", line.angle_min)?);
+    let angle_step = number("angle_increment", line.angle_increment)?;
+    if first_angle.abs() > 2.0 * PI || angle_step.abs() > PI || angle_step == 0.0 {
+        let [first, step] = [first_angle, angle_step].map(|x| Shown(x).to_string());
+        return Err(format!(
+            "a scan in JSON: expected angle_min and angle_increment in radians, found {first} and {step}"
+        ));
+    }
+    let ranges = line.ranges.ok_or_else(|| missing("ranges"))?;
+    if ranges.is_empty() {
+        return Err("a scan in JSON: expected ranges, found 0 of them".into());
+    }
+    let pose = |[x, y, theta]: [f64; 3]| Pose2::new(x, y, theta);
+    let scan = LaserScan {
+        time,
+        odometry: line.odometry.map_or(Pose2::default(), pose),
+        robot_from_laser: line.laser.map_or(Pose2::default(), pose),
+        first_angle,
+        angle_step,
+        max_range: line.range_max.filter(|range| *range > 0.0),
+        ranges: ranges.into_iter().map(|range| range.unwrap_or(f32::INFINITY)).collect(),
+    };
+    if !scan.is_placed() {
+        return Err("a scan in JSON: expected places within 10000 km".into());
+    }
+    Ok(Told::Scan(if line.odometry.is_some() { scan } else { LaserScan { odometry: NOWHERE, ..scan } }))
+}
+
+/// The scans of a log as JSON lines, each with its odometry, and what was noted of it: [`parse`](super::parse) reads back the same bits.
+pub fn write_json_lines(log: &LaserLog) -> String {
+    let mut text = String::new();
+    let mut write = |line: &Line| {
+        text.push_str(&serde_json::to_string(line).unwrap_or_default()); // of numbers and words: nothing that can fail
+        text.push('\n');
+    };
+    for scan in &log.scans {
+        let pose = |pose: &Pose2| Some([pose.x, pose.y, pose.theta]);
+        write(&Line {
+            time: Some(scan.time),
+            angle_min: Some(scan.first_angle),
+            angle_increment: Some(scan.angle_step),
+            range_max: scan.max_range,
+            laser: pose(&scan.robot_from_laser),
+            odometry: pose(&scan.odometry),
+            ranges: Some(scan.ranges.iter().map(|range| Some(*range).filter(|range| range.is_finite())).collect()),
+            ..Line::default()
+        });
+    }
+    let Notes { remarks, malformed, first_malformed, .. } = &log.notes;
+    if let Some(first) = first_malformed {
+        write(&Line { malformed: Some(*malformed), remark: Some(first.message.clone()), ..Line::default() });
+    }
+    for remark in remarks {
+        write(&Line { remark: Some(remark.clone()), ..Line::default() });
+    }
+    text
+}
