@@ -139,7 +139,7 @@ const ODOMETRY: OdometryModel = OdometryModel { alphas: [0.1, 0.02, 0.08, 0.02] 
 const TURN: Odometry = Odometry { rot1: 0.2, trans: 1.0, rot2: 0.1 };
 
 fn landmark(x: f64, y: f64, variance: f64) -> Landmark {
-    Landmark { mean: Vector2::new(x, y), covariance: Matrix2::identity() * variance, existence_count: 1 }
+    Landmark { mean: Vector2::new(x, y), covariance: Matrix2::identity() * variance, existence_count: 1, apart: 0 }
 }
 
 fn seen(sensor: &RangeBearing, from: &Pose2, landmark: &Vector2<f64>, signature: u32, offset: [f64; 2]) -> Feature {
@@ -514,7 +514,7 @@ proptest! {
     ) {
         let policy = if always { ResamplePolicy::Always } else { ResamplePolicy::EssBelow(0.5) };
         // A tight gate and a cheap new landmark found many.
-        let gate = gate.map(|(mahalanobis_squared, log_new, removal)| Gate { mahalanobis_squared, log_new, removal });
+        let gate = gate.map(|(mahalanobis_squared, log_new, removal)| Gate { mahalanobis_squared, log_new, removal, ..Gate::default() });
         let plain = run_bits::<Vec<Option<Landmark>>>(run, steps, count, policy, gate);
         prop_assert!(plain == run_bits::<Blocks>(run, steps, count, policy, gate));
         prop_assert!(plain == run_bits::<Balanced>(run, steps, count, policy, gate));
@@ -532,6 +532,7 @@ proptest! {
             mean: Vector2::new(x, y),
             covariance: Matrix2::new(variance, rho * variance, rho * variance, variance),
             existence_count: 1,
+            apart: 0,
         });
         let [a, b, c, d, e, f] = factor;
         let l = Matrix3::new(a, 0.0, 0.0, b, c, 0.0, d, e, f);
@@ -740,7 +741,7 @@ fn two_features_of_one_step_never_share_a_landmark() {
 #[test]
 fn well_separated_landmarks_are_told_apart_without_signatures() {
     let motion = ODOMETRY.scaled(0.1);
-    let gate = Gate { mahalanobis_squared: -2.0 * ops::ln(1e-6), log_new: -30.0, removal: false };
+    let gate = Gate { mahalanobis_squared: -2.0 * ops::ln(1e-6), log_new: -30.0, ..Gate::default() };
     let turned = |features: &[Feature], by: usize| {
         let mut features = features.to_vec();
         features.rotate_left(by);
