@@ -119,7 +119,9 @@ impl Motion for Car {
         self.mount.iter().try_for_each(|at| Range::number(-1e3, 1e3, "m").check("motion.mount", *at).map(drop))?;
         Range::at_least(0.0, "m/s").check("motion.speed_std", self.speed_std)?;
         Range::at_least(0.0, "").check("motion.speed_share", self.speed_share)?;
-        Range::number(0.0, core::f64::consts::FRAC_PI_2, "rad").check("motion.steering_std", self.steering_std).map(drop)
+        Range::number(0.0, core::f64::consts::FRAC_PI_2, "rad")
+            .check("motion.steering_std", self.steering_std)
+            .map(drop)
     }
 }
 
@@ -165,7 +167,10 @@ mod tests {
     #[test]
     fn what_no_car_has_is_refused_by_name() {
         let refused = |car: Car| car.validate().unwrap_err().to_string();
-        assert_eq!(refused(Car { wheel_base: 0.0, ..CAR }), "motion.wheel_base = 0: must be a number from 0.001 to 1000 [m]");
+        assert_eq!(
+            refused(Car { wheel_base: 0.0, ..CAR }),
+            "motion.wheel_base = 0: must be a number from 0.001 to 1000 [m]"
+        );
         assert!(refused(Car { mount: [0.0, f64::NAN], ..CAR }).starts_with("motion.mount = NaN"));
         assert!(refused(Car { steering_std: -0.1, ..CAR }).starts_with("motion.steering_std = -0.1"));
     }

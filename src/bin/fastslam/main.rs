@@ -11,6 +11,7 @@ mod numbers;
 mod picture;
 mod policies;
 mod ring;
+mod settings;
 mod shard;
 mod table;
 mod variants;

@@ -4,30 +4,16 @@
 use crate::{Usage, in_file};
 use anyhow::{Context, Result, bail};
 use fastslam::geometry::Pose2;
-use fastslam::map::landmarks::Gate;
-use fastslam::motion::{Velocity, VelocityModel};
+use fastslam::motion::Velocity;
 use fastslam::ops;
-use fastslam::sensor::{Feature, RangeBearing};
-use fastslam_lab::experiment::landmarks::{LandmarkLog, Tuning};
+use fastslam::sensor::Feature;
+use fastslam_lab::experiment::landmarks::LandmarkLog;
 use nalgebra::Vector2;
 use std::path::{Path, PathBuf};
 
-/// Where [`tuning`] comes from, in words that are printed with every error. The data set states no noises; what is read off a log's own
+/// Where [`camera::tuning`](fastslam_lab::experiment::camera::tuning) comes from, in words that are printed with every error. The data set states no noises; what is read off a log's own
 /// truth is no forecast of how well that log can be done.
 pub const NOISES: &str = "calibrated on robot 1 of data set 6, against its motion capture: no forecast for that log";
-
-/// What a filter is told, one setting for both proposals and both kinds of correspondence.
-///
-/// Calibrated on robot 1 of data set 6: against its motion capture the wheels err by 0.015 m/s and 0.04 rad/s over a second. The camera
-/// errs by 0.12 m and 0.02 rad, but its successive pictures repeat their errors, which a filter takes for independent: it is told two
-/// and a half times as much.
-pub fn tuning() -> Tuning {
-    Tuning {
-        motion: VelocityModel { speed_std: 0.015, turn_rate_std: 0.03, alphas: [0.01, 0.0, 0.0, 0.02] },
-        sensor: RangeBearing { range_std: 0.3, bearing_std: 0.05, max_range: 9.0, field_of_view: 1.1 },
-        gate: Gate::default(),
-    }
-}
 
 /// Readings this close in time are one look of the camera \[s\].
 const ONE_LOOK: f64 = 0.02;

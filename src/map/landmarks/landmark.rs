@@ -78,7 +78,12 @@ impl Landmark {
     pub fn first<Z: LandmarkSensor>(sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) -> Self {
         let mean = sensor.locate(world_from_robot, z);
         let inverse = inverse(&sensor.predict(world_from_robot, &mean).h_m);
-        Self { mean, covariance: symmetric(inverse * sensor.noise() * inverse.transpose()), existence_count: 1, apart: 0 }
+        Self {
+            mean,
+            covariance: symmetric(inverse * sensor.noise() * inverse.transpose()),
+            existence_count: 1,
+            apart: 0,
+        }
     }
 
     /// ν = z − h(x, μ), S = H_m Σ H_mᵀ + Q: exp(`log_likelihood`) is the marginal ∫ p(z | x, m) p(m | path) dm of a sighting.

@@ -803,6 +803,66 @@ fn what_should_be_seen_and_is_not_is_struck_off_and_nothing_else() {
     }
 }
 
+/// Twice worth it is struck off after twice as many misses, and never has more in hand than it may.
+#[test]
+fn a_sighting_pays_for_as_many_misses_as_it_is_worth() {
+    let gate = Gate { removal: true, sighting_worth: 3, most_count: 7, ..Gate::default() };
+    let mut map = unknown(SENSOR, gate, &[]);
+    let see = |x, y| seen(&SENSOR, &Pose2::default(), &Vector2::new(x, y), 0, [0.0, 0.0]);
+    let mut look = |features: Vec<Feature>| {
+        let (_, sighted) = Marginal.log_likelihood(&map, &Pose2::default(), &features);
+        map.assimilate(&Pose2::default(), &features, &sighted);
+        map.iter().map(|(index, landmark)| (index, landmark.existence_count)).collect::<Vec<_>>()
+    };
+    assert_eq!(look(vec![see(3.0, -1.0), see(2.0, 2.0)]), [(0, 3), (1, 3)]);
+    assert_eq!(look(vec![see(3.0, -1.0)]), [(0, 6), (1, 2)]);
+    assert_eq!(look(vec![see(3.0, -1.0)]), [(0, 7), (1, 1)]);
+    assert_eq!(look(vec![see(3.0, -1.0)]), [(0, 7), (1, 0)]);
+    assert_eq!(look(vec![]), [(0, 6)]);
+}
+
+/// One is sighted while the other, within the gate of it, is not: they are one. To 1e-12: both are products of the same two Gaussians.
+#[test]
+fn landmarks_that_coincide_become_their_product_where_that_is_asked_for() {
+    let known = [landmark(4.0, 0.0, 0.01), landmark(4.1, 0.1, 0.02), landmark(4.0, 2.0, 0.01)];
+    for merge_squared in [0.0, 9.2] {
+        let mut map = unknown(SENSOR, Gate { merge_squared, ..Gate::default() }, &known);
+        let features = vec![seen(&SENSOR, &Pose2::default(), &known[0].mean, 0, [0.0, 0.0])];
+        let mut updated = known[0];
+        updated.update(&SENSOR, &Pose2::default(), &features[0].z);
+        map.assimilate(&Pose2::default(), &features, &vec![Association::Matched(0)]);
+        if merge_squared == 0.0 {
+            assert_eq!(map.iter().map(|(_, landmark)| *landmark).collect::<Vec<_>>(), [updated, known[1], known[2]]);
+            continue;
+        }
+        let [one, other] = [updated.covariance, known[1].covariance].map(|s| s.try_inverse().unwrap());
+        let covariance = (one + other).try_inverse().unwrap();
+        let mean = covariance * (one * updated.mean + other * known[1].mean);
+        let left: Vec<(u32, &Landmark)> = map.iter().collect();
+        assert_eq!(left.iter().map(|(index, _)| *index).collect::<Vec<_>>(), [0, 2]);
+        let merged = left[0].1;
+        assert!((merged.mean - mean).norm() < 1e-12 && (merged.covariance - covariance).norm() < 1e-12);
+        assert_eq!(merged.existence_count, updated.existence_count + known[1].existence_count);
+        // The index of what is gone is not given again.
+        assert_eq!(decide(&map, [7.0, 1.0], &[]).association, Association::New(3));
+    }
+}
+
+/// One look gives no landmark two features. Those that were seen beside each other are two, and stay two when only one is seen.
+#[test]
+fn landmarks_seen_in_one_look_are_never_merged() {
+    let known = [landmark(4.0, 0.0, 0.01), landmark(4.1, 0.1, 0.02)];
+    let mut map = unknown(SENSOR, Gate { merge_squared: 9.2, ..Gate::default() }, &known);
+    let see = |k: usize| seen(&SENSOR, &Pose2::default(), &known[k].mean, 0, [0.0, 0.0]);
+    let both = vec![Association::Matched(0), Association::Matched(1)];
+    map.assimilate(&Pose2::default(), &vec![see(0), see(1)], &both);
+    for _ in 0..3 {
+        map.assimilate(&Pose2::default(), &vec![see(0)], &vec![Association::Matched(0)]);
+    }
+    assert_eq!(map.iter().count(), 2);
+    assert!(map.iter().all(|(_, landmark)| landmark.apart != 0));
+}
+
 /// The index of a landmark that was struck off is never given again: a path that names it means the old one.
 #[test]
 fn a_joint_filter_strikes_off_what_it_should_see_and_does_not() {

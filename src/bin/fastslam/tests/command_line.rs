@@ -356,6 +356,58 @@ fn a_recorded_log_is_read_and_a_bad_line_of_it_named() {
     fastslam("landmarks --mrclam no/such/log").code(1);
 }
 
+/// What is said in one line about arguments that are refused.
+fn refusal(arguments: &str) -> String {
+    let refused = fastslam(arguments).code(2);
+    let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert_eq!(message.trim_end().lines().count(), 1, "{message}");
+    message
+}
+
+#[test]
+fn settings_of_noise_are_options_and_lines_of_a_file() {
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("noise.toml");
+    let run = |options: &str| json(&format!("landmarks --particles 3 --course tags --json {options}"));
+    let text = "# of the wheels\nalphas = [0.1, 0, 0.01, 0.1]\nspeed-std = 0.2\nrange-std = 0.5\nbearing-std = 0.05\n";
+    std::fs::write(&file, text).unwrap();
+    let options = "--alphas 0.1,0,0.01,0.1 --speed-std 0.2 --range-std 0.5 --bearing-std 0.05";
+    let (by_options, by_file) = (run(options), run(&format!("--settings {}", file.display())));
+    assert_eq!(by_options, by_file);
+    assert_eq!(by_options["noises"], "those of the course, and as set");
+    assert_ne!(by_options["rms_best"], run("")["rms_best"]);
+    // An option stands over the file.
+    let over = run(&format!("--settings {} --range-std 0.1", file.display()));
+    assert_eq!(over, run(&format!("{options} --range-std 0.1").replace("--range-std 0.5 ", "")));
+
+    for (options, said) in [
+        ("--range-std -1", "'--range-std <M>': must be a number from 0 to 1000 [m]"),
+        ("--bearing-std NaN", "'--bearing-std <RAD>': must be a number from 0 to 10 [rad]"),
+        ("--alphas 1,2,3", "'--alphas <A1,A2,A3,A4>': must be four numbers from 0 to 100, apart by commas"),
+        ("--alphas -1,2,3,4", "must be four numbers from 0 to 100"),
+        ("--alphas 1,2,3,x", "must be four numbers from 0 to 100"),
+        ("--sighting-worth 1.5", "'--sighting-worth <N>': must be a whole number from 0 to 1000"),
+        ("--sighting-worth 9 --most-count 3", "most-count = 3: must be at least sighting-worth = 9"),
+        ("--steering-std 0.1", "steering-std: cannot be set of a course"),
+    ] {
+        let message = refusal(&format!("landmarks {options}"));
+        assert!(message.contains(said), "{options}: {message}");
+    }
+    for (text, said) in [
+        ("range-std = -1\n", "noise.toml: range-std = -1: must be a number from 0 to 1000 [m]"),
+        ("alphas = [0, 0, 0, 1e9]\n", "noise.toml: alphas = 1000000000: must be a number from 0 to 100"),
+        ("\nrange = 1\n", "noise.toml: line 2: unknown field `range`"),
+        ("range-std = \"wide\"\n", "noise.toml: line 1: invalid type"),
+        ("range-std 1\n", "noise.toml: line 1: "),
+        ("alphas = [1, 2]\n", "noise.toml: line 1: "),
+    ] {
+        std::fs::write(&file, text).unwrap();
+        let message = refusal(&format!("landmarks --settings {}", file.display()));
+        assert!(message.contains(said), "{text}: {message}");
+    }
+    fastslam("landmarks --settings no/such/file.toml").code(1);
+}
+
 #[test]
 fn the_example_that_the_page_ships_is_the_one_that_is_written() {
     let folder = tempdir().unwrap();
