@@ -1,16 +1,16 @@
 //! `fastslam landmarks`: FastSLAM 1.0 and 2.0 on simulated courses and recorded logs.
 
 use crate::settings::SettingsOptions;
-use crate::{mrclam, picture, print, print_json, progress, whole};
+use crate::{landmark_graph, mrclam, picture, print, print_json, progress, victoria, whole};
 use anyhow::Result;
 use fastslam::motion::Motion;
 use fastslam::resampling::ResamplePolicy;
 use fastslam_lab::experiment::ErrorSummary;
 use fastslam_lab::experiment::ProposalKind;
-use fastslam_lab::experiment::camera;
 use fastslam_lab::experiment::landmarks::{
     self, CorrespondenceKind, Course, LandmarkLog, LandmarkReport, LandmarkRun, LandmarkSetup, Tuning,
 };
+use fastslam_lab::experiment::{camera, car};
 use indicatif::ParallelProgressIterator;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -42,6 +42,12 @@ pub struct Arguments {
     /// PREFIX-barcodes.dat, PREFIX-landmarks.dat
     #[arg(long, value_name = "PREFIX", conflicts_with = "course")]
     mrclam: Option<PathBuf>,
+    /// Read the log of a car instead, as that of Victoria Park is passed on: a folder with DRS.txt, GPS.txt, and LASER.txt or SIGHTINGS.txt
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["course", "mrclam"])]
+    victoria: Option<PathBuf>,
+    /// Read a landmark graph in the format of g2o instead
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["course", "mrclam", "victoria"])]
+    g2o: Option<PathBuf>,
     /// Run seeds 1 to N, and report median, 90th percentile and worst
     #[arg(long, value_name = "N", conflicts_with_all = ["seed", "png"], value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     seeds: Option<u64>,
@@ -126,6 +132,19 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         let log = Arc::new(mrclam::read(prefix)?);
         let tuning = noises.adjust(camera::tuning())?;
         return Task { log: |_| Arc::clone(&log), tuning, recorded: true, noises: told(mrclam::NOISES) }.run(arguments);
+    }
+    if let Some(folder) = &arguments.victoria {
+        let tuning = noises.adjust(car::tuning())?;
+        let named = arguments.association == CorrespondenceKind::Known;
+        let log = Arc::new(victoria::read(folder, &tuning.motion, named)?);
+        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, noises: told(victoria::NOISES) }
+            .run(arguments);
+    }
+    if let Some(path) = &arguments.g2o {
+        let (log, tuning) = landmark_graph::read(path)?;
+        let (log, tuning) = (Arc::new(log), noises.adjust(tuning)?);
+        let noises = told(landmark_graph::NOISES);
+        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, noises }.run(arguments);
     }
     let course = arguments.course;
     let tuning = noises.adjust(course.tuning())?;

@@ -3,6 +3,7 @@
 mod doors;
 mod graph;
 mod joint;
+mod landmark_graph;
 mod landmarks;
 mod lap;
 mod log;
@@ -15,6 +16,7 @@ mod settings;
 mod shard;
 mod table;
 mod variants;
+mod victoria;
 
 use anyhow::{Context, Result};
 use clap::{CommandFactory, Parser};

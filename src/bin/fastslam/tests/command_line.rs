@@ -408,6 +408,106 @@ fn settings_of_noise_are_options_and_lines_of_a_file() {
     fastslam("landmarks --settings no/such/file.toml").code(1);
 }
 
+/// The simulated car as the files in which the log of Victoria Park is passed on: what its wheel and steering read, and where it truly was.
+fn car_log(folder: &TempDir, steps: usize) -> String {
+    use fastslam_lab::experiment::car::{self, WHEEL_ASIDE};
+    let (log, base) = (car::simulate(1), car::tuning().motion.wheel_base);
+    let (mut time, mut files) = (0.0, [String::new(), String::from("0,0,0\n"), String::new()]);
+    for k in 0..steps {
+        let control = log.controls[k];
+        let tan = base * control.turn_rate / control.speed;
+        let wheel = control.speed * (1.0 - tan * WHEEL_ASIDE / base);
+        files[0] += &format!("{time},{wheel},{}\n", fastslam::ops::atan2(tan, 1.0));
+        time += control.duration;
+        files[1] += &format!("{time},{},{}\n", log.truth[k + 1].x, log.truth[k + 1].y);
+        for seen in &log.sightings[k] {
+            files[2] += &format!("{time} {} {} {}\n", seen.z.x, seen.z.y, seen.signature.unwrap());
+        }
+    }
+    files[0] += &format!("{time},0,0\n");
+    for (name, text) in ["DRS", "GPS", "SIGHTINGS"].into_iter().zip(files) {
+        std::fs::write(folder.path().join(format!("{name}.txt")), text).unwrap();
+    }
+    folder.path().display().to_string()
+}
+
+#[test]
+fn the_log_of_a_car_is_read_and_a_bad_line_of_it_named() {
+    let folder = tempdir().unwrap();
+    let log = car_log(&folder, 200);
+    let run = json(&format!("landmarks --particles 20 --json --victoria {log}"));
+    assert_eq!(run["steps"].as_array().unwrap().len(), 200);
+    let [online, ekf, odometry] = ["rms_online", "rms_ekf", "rms_odometry"].map(|key| run[key].as_f64().unwrap());
+    // GPS gives the heading of the start to some degrees.
+    assert!(online < 1.5 * ekf + 1.0 && ekf < 10.0, "{online} {ekf} {odometry}");
+    let wide = json(&format!("landmarks --particles 2 --json --steering-std 0.2 --victoria {log}"));
+    assert!(wide["noises"].as_str().unwrap().ends_with("and as set"));
+    assert!(
+        refusal(&format!("landmarks --alphas 0,0,0,0 --victoria {log}")).contains("alphas: cannot be set of a car")
+    );
+
+    for (file, text, said) in [
+        ("SIGHTINGS", "1 2 0.1 1.5\n", "must be above 0, and a whole number from 0 to 99999"),
+        ("SIGHTINGS", "1 -2 0.1 1\n", "range -2, tree 1"),
+        ("SIGHTINGS", "999 2 0.1 1\n", "nothing is seen in the time of both"),
+        ("DRS", "0,1,9\n", "DRS.txt: time 0: steering angle 9: must be from -1.5 to 1.5 [rad]"),
+        ("DRS", "0,1\n", "DRS.txt: line 1: expected 3 numbers"),
+        ("GPS", "0,0,0\n1,1,0\n", "GPS.txt: never 3 m from its start"),
+    ] {
+        let path = folder.path().join(format!("{file}.txt"));
+        let kept = std::fs::read_to_string(&path).unwrap();
+        std::fs::write(&path, text).unwrap();
+        let message = refusal(&format!("landmarks --victoria {log}"));
+        assert!(message.contains(said), "{text}: {message}");
+        std::fs::write(&path, kept).unwrap();
+    }
+    // Of a laser's scans: two trunks, and nobody says which.
+    std::fs::remove_file(folder.path().join("SIGHTINGS.txt")).unwrap();
+    assert!(refusal(&format!("landmarks --victoria {log}")).contains("--association unknown"));
+    let scan: Vec<&str> = (0..361).map(|k| if (100..104).contains(&k) || k == 240 { "9.5" } else { "81.9" }).collect();
+    std::fs::write(folder.path().join("LASER.txt"), format!("0.5,{}\n", scan.join(","))).unwrap();
+    let run = json(&format!("landmarks --particles 2 --association unknown --json --victoria {log}"));
+    assert_eq!((&run["steps"][0]["seen"], &run["landmarks"]), (&2.into(), &2.into()));
+    std::fs::write(folder.path().join("LASER.txt"), "0.5,1,2\n").unwrap();
+    assert!(
+        refusal(&format!("landmarks --association unknown --victoria {log}")).contains("line 1: expected 362 numbers")
+    );
+}
+
+#[test]
+fn a_landmark_graph_is_read_and_a_bad_line_of_it_named() {
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("graph.g2o");
+    let run = |text: &str| {
+        std::fs::write(&file, text).unwrap();
+        format!("landmarks --particles 5 --g2o {}", file.display())
+    };
+    // Ids of landmarks lie between those of poses.
+    let graph = "# a graph\nVERTEX_SE2 0 0 0 0\nVERTEX_XY 1 2 1\nVERTEX_SE2 2 1 0 0\nVERTEX_SE2 5 2 0 0\nFIX 0\n\
+        EDGE_SE2 0 2 1.1 0 0 100 0 0 100 0 400\nEDGE_SE2 2 5 1 0 0 100 0 0 100 0 400\nEDGE_SE2 0 5 2 0 0 1 0 0 1 0 1\n\
+        EDGE_SE2_XY 2 1 1 1 100 0 100\nEDGE_SE2_XY 5 1 0 1 100 0 100\n";
+    let output = json(&format!("{} --json", run(graph)));
+    assert_eq!((output["steps"].as_array().unwrap().len(), &output["landmarks"]), (2, &1.into()));
+    assert!((output["rms_odometry"].as_f64().unwrap() - (0.02_f64 / 3.0).sqrt()).abs() < 1e-9);
+    assert!(refusal(&format!("{} --speed-std 1", run(graph))).contains("speed-std: cannot be set of a graph"));
+    for (old, new, said) in [
+        ("VERTEX_XY 1 2 1", "VERTEX_XYZ 1 2 1", "line 3: VERTEX_XYZ: must be VERTEX_SE2"),
+        ("VERTEX_XY 1 2 1", "VERTEX_XY 0 2 1", "line 3: vertex 0 is there already"),
+        ("VERTEX_XY 1 2 1", "VERTEX_XY 1 2", "line 3: VERTEX_XY needs 1 ids and 2 numbers, not 2 words"),
+        ("VERTEX_XY 1 2 1", "VERTEX_XY 1 2 inf", "line 3: VERTEX_XY needs 2 finite numbers"),
+        ("VERTEX_XY 1 2 1", "VERTEX_XY -1 2 1", "line 3: an id must be a whole number from 0"),
+        ("EDGE_SE2 2 5", "EDGE_SE2 5 2", "no EDGE_SE2 leads from vertex 2 to 5"),
+        ("EDGE_SE2_XY 2 1", "EDGE_SE2_XY 2 9", "line 10: no VERTEX_XY has the id 9"),
+        ("EDGE_SE2_XY 2 1", "EDGE_SE2_XY 1 1", "line 10: no VERTEX_SE2 has the id 1"),
+        ("2 1 1 1 100 0 100", "2 1 1 1 0 0 100", "line 10: the information matrix must be positive definite"),
+        ("2 1 1 1 100 0 100", "2 1 0 0 100 0 100", "line 10: a landmark at the robot's own place"),
+    ] {
+        let message = refusal(&run(&graph.replacen(old, new, 1)));
+        assert!(message.contains(said), "{new}: {message}");
+    }
+    assert!(refusal(&run("# nothing\n")).contains("needs two poses"));
+}
+
 #[test]
 fn the_example_that_the_page_ships_is_the_one_that_is_written() {
     let folder = tempdir().unwrap();
