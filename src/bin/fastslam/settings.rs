@@ -19,7 +19,7 @@ macro_rules! settings {
         pub struct Noises {
             /// Shares of the motion's variance: σ²_v = speed_std² + α₁ v² + α₂ ω², σ²_ω = turn_rate_std² + α₃ v² + α₄ ω²; four numbers from 0
             /// to 100
-            #[arg(long, value_name = "A1,A2,A3,A4", allow_negative_numbers = true)]
+            #[arg(long, value_name = "A1,A2,A3,A4", allow_hyphen_values = true)]
             alphas: Option<Alphas>,
             $(
                 $(#[$doc])*
