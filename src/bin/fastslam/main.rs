@@ -45,7 +45,7 @@ enum Command {
     Lap(lap::Arguments),
     Log(log::Arguments),
     ExampleLog(log::ExampleArguments),
-    Landmarks(landmarks::Arguments),
+    Landmarks(Box<landmarks::Arguments>),
     Numbers(numbers::Arguments),
     Policies(policies::Arguments),
     Ring(ring::Arguments),
