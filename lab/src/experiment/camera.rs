@@ -190,14 +190,14 @@ mod tests {
         ErrorSummary::of(&shares).median
     }
 
-    /// Why FastSLAM 2.0 is no better than 1.0 here: what a picture says of the pose, told as blunt as its repeated errors make it, is next to
-    /// nothing beside what the wheels say of the half second since the last one. Both draw from the same distribution. On the figure of
-    /// eight, where 2.0 is better, a look leaves a fraction of the wheels' doubt.
+    /// Why FastSLAM 2.0 gains little over 1.0 here: a picture, told as blunt as its repeated errors make it, takes a fifth off the deviation of
+    /// heading that the wheels leave since the last one, so both draw from nearly the same distribution. On the figure of eight, where 2.0 is
+    /// better, a look takes seven eighths off.
     #[test]
-    fn a_picture_leaves_nothing_to_gain_for_a_better_proposal_where_a_sharp_sensor_does() {
+    fn a_picture_leaves_most_of_the_wheels_doubt_where_a_sharp_sensor_leaves_little() {
         let eight = Course::Eight;
         let [camera, sharp] = [left(&tuning(), simulate(1)), left(&eight.tuning(), eight.simulate(1))];
-        assert!(camera > 0.95, "{camera}");
-        assert!(sharp < 0.85, "{sharp}");
+        assert!(camera > 0.7, "{camera}");
+        assert!(sharp < 0.2, "{sharp}");
     }
 }
