@@ -129,7 +129,7 @@ pub fn drive(landmarks: u32) -> Vec<(Vector3<f64>, Vec<Feature>)> {
 pub fn one_step(world: &Pose2) -> Step<Landmarks<Offset>, Vector3<f64>> {
     let covariance = Matrix2::new(0.02, 0.005, 0.005, 0.03);
     let known = [(2.0, 1.0), (3.0, 0.0)].map(|(x, y)| Vector2::new(world.x + x, world.y + y));
-    let known = known.map(|mean| Landmark { mean, covariance, existence_count: 1 });
+    let known = known.map(|mean| Landmark { mean, covariance, existence_count: 1, apart: 0 });
     let (control, observation) = drive(2).remove(0);
     let start = Pose2::new(world.x, world.y, 0.0);
     Step { particle: Particle::start(start, empty().with(known)), control, observation }

@@ -54,7 +54,7 @@ pub struct Step<M: ConditionalMap, U> {
 /// fn step(world: &Pose2) -> Step<Landmarks<RangeBearing>, Odometry> {
 ///     let sensor = RangeBearing { range_std: 0.02, bearing_std: 0.01, max_range: 9.0, field_of_view: 6.3 };
 ///     let [x, y] = world.transform([3.0, 1.0]);
-///     let landmark = Landmark { mean: Vector2::new(x, y), covariance: Matrix2::identity() * 1e-4, existence_count: 1 };
+///     let landmark = Landmark { mean: Vector2::new(x, y), covariance: Matrix2::identity() * 1e-4, existence_count: 1, apart: 0 };
 ///     Step {
 ///         particle: Particle::start(*world, Landmarks::new(sensor, Correspondence::Known).with([landmark])),
 ///         control: Odometry { rot1: 0.0, trans: 1.0, rot2: 0.0 },
@@ -267,7 +267,7 @@ pub fn turning_the_world_turns_what_is_drawn<M: ConditionalMap, P: Proposal<M>>(
 /// let sensor = RangeBearing { range_std: 0.1, bearing_std: 0.02, max_range: 9.0, field_of_view: 6.3 };
 /// let step = |world: &Pose2| {
 ///     let [x, y] = world.transform([3.0, 1.0]);
-///     let landmark = Landmark { mean: Vector2::new(x, y), covariance: Matrix2::identity(), existence_count: 1 };
+///     let landmark = Landmark { mean: Vector2::new(x, y), covariance: Matrix2::identity(), existence_count: 1, apart: 0 };
 ///     Step {
 ///         particle: Particle::start(*world, <Landmarks<_>>::new(sensor, Correspondence::Known).with([landmark])),
 ///         control: Odometry { rot1: 0.0, trans: 1.0, rot2: 0.0 },

@@ -1,10 +1,14 @@
 //! Motion models: where a robot may be, given where it was and what its wheels reported.
 
+mod car;
+mod diffusion;
 mod displacement;
 mod floored;
 mod odometry;
 mod velocity;
 
+pub use car::Car;
+pub use diffusion::VelocityDiffusion;
 pub use displacement::{Displaced, Displacement};
 pub use floored::Floored;
 pub use odometry::{Odometry, OdometryModel};

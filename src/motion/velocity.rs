@@ -60,6 +60,15 @@ impl VelocityModel {
         [speed.sqrt(), turn_rate.sqrt()]
     }
 
+    /// ∂(x ⊕ u)/∂v and ∂(x ⊕ u)/∂ω.
+    pub(super) fn derivatives(from: &Pose2, u: &Velocity) -> [[f64; 3]; 2] {
+        let (t, half) = (u.duration, 0.5 * u.turn_rate * u.duration);
+        let ((s, ds), (sin, cos)) = (sinc(half), ops::sin_cos(from.theta + half));
+        // The chord's length and direction both change with the turn.
+        let (longer, turned) = (u.speed * t * ds * 0.5 * t, u.speed * t * s * 0.5 * t);
+        [[t * s * cos, t * s * sin, 0.0], [longer * cos - turned * sin, longer * sin + turned * cos, t]]
+    }
+
     /// The control with its noise added. Takes four `u64`s.
     pub fn perturb(&self, u: &Velocity, stream: &mut Stream) -> Velocity {
         let ([speed_std, turn_rate_std], [a, b]) = (self.stds(u), stream.normals());
@@ -80,12 +89,8 @@ impl Motion for VelocityModel {
 
     /// V M Vᵀ with V = ∂(x ⊕ u)/∂(v, ω).
     fn covariance(&self, from: &Pose2, u: &Velocity) -> Matrix3<f64> {
-        let (t, half) = (u.duration, 0.5 * u.turn_rate * u.duration);
-        let ((s, ds), (sin, cos)) = (sinc(half), ops::sin_cos(from.theta + half));
-        // The chord's length and direction both change with the turn.
-        let (longer, turned) = (u.speed * t * ds * 0.5 * t, u.speed * t * s * 0.5 * t);
-        let v =
-            Matrix3x2::new(t * s * cos, longer * cos - turned * sin, t * s * sin, longer * sin + turned * cos, 0.0, t);
+        let [[vx, vy, vt], [wx, wy, wt]] = Self::derivatives(from, u);
+        let v = Matrix3x2::new(vx, wx, vy, wy, vt, wt);
         let m = Matrix2::from_diagonal(&Vector2::from(self.stds(u).map(|std| std * std)));
         v * m * v.transpose()
     }

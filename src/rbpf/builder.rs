@@ -237,6 +237,14 @@ mod tests {
         assert_eq!(refused(sensor, wild, Correspondence::Known), Some("motion.alphas"));
         let shut = Correspondence::Unknown(Gate { mahalanobis_squared: -1.0, ..Gate::default() });
         assert_eq!(refused(sensor, motion, shut), Some("gate.mahalanobis_squared"));
+        let gate = Gate::default();
+        for (gate, field) in [
+            (Gate { sighting_worth: 0, ..gate }, "gate.sighting_worth"),
+            (Gate { sighting_worth: 9, most_count: 8, ..gate }, "gate.most_count"),
+            (Gate { merge_squared: f64::NAN, ..gate }, "gate.merge_squared"),
+        ] {
+            assert_eq!(refused(sensor, motion, Correspondence::Unknown(gate)), Some(field));
+        }
 
         let grid = GridModel {
             cell_size: 0.1,

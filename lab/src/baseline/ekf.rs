@@ -115,6 +115,7 @@ impl<D: Motion, Z: LandmarkSensor> EkfSlam<D, Z> {
             mean: *mean,
             covariance: self.covariance.fixed_view::<2, 2>(at, at).into_owned(),
             existence_count: *existence_count,
+            apart: 0,
         }
     }
 
@@ -160,13 +161,21 @@ impl<D: Motion, Z: LandmarkSensor> EkfSlam<D, Z> {
         for (k, known) in self.landmarks.iter_mut().enumerate() {
             known.mean += delta.fixed_rows::<2>(3 + 2 * k);
         }
-        let existence_count = &mut self.landmarks[row].existence_count;
-        *existence_count = existence_count.saturating_add(1);
+        let existence_count = self.landmarks[row].existence_count.saturating_add(1);
+        self.landmarks[row].existence_count = self.counted(existence_count);
+    }
+
+    /// An existence count with the worth of the sighting that has just raised it by one, or to one.
+    fn counted(&self, count: i32) -> i32 {
+        match self.correspondence {
+            Correspondence::Known => count,
+            Correspondence::Unknown(gate) => gate.counted(count),
+        }
     }
 
     /// m = h⁻¹(x, z): its covariance with everything is J times the pose's, J = −H_m⁻¹ H_x.
     fn append(&mut self, index: u32, z: &Vector2<f64>) {
-        let Landmark { mean, covariance: seen, existence_count } = Landmark::first(&self.sensor, &self.pose, z);
+        let Landmark { mean, covariance: seen, existence_count, .. } = Landmark::first(&self.sensor, &self.pose, z);
         let Prediction { h_x, h_m, .. } = self.sensor.predict(&self.pose, &mean);
         let Some(inverse) = h_m.try_inverse().filter(|_| seen.iter().all(|entry| entry.is_finite())) else { return };
         let j = -inverse * h_x;
@@ -179,6 +188,7 @@ impl<D: Motion, Z: LandmarkSensor> EkfSlam<D, Z> {
         grown.fixed_view_mut::<2, 2>(n, n).copy_from(&own);
         self.covariance = grown;
         self.symmetrise();
+        let existence_count = self.counted(existence_count);
         self.landmarks.push(Known { index, mean, existence_count });
         self.len = self.len.max(index.saturating_add(1));
     }

@@ -263,6 +263,7 @@ mod tests {
             mean: Vector2::new(*x, *y),
             covariance: Matrix2::identity() * 0.01,
             existence_count: 1,
+            apart: 0,
         };
         OneStep {
             from: Pose2::new(0.3, -0.2, 0.4),
@@ -329,7 +330,8 @@ mod tests {
     #[test]
     fn of_one_number_the_predicted_ess_is_the_textbook_s() {
         let sensor = RangeBearing { range_std: 0.2, bearing_std: 0.1, max_range: 10.0, field_of_view: TAU };
-        let exactly_known = Landmark { mean: Vector2::new(2.0, 0.0), covariance: Matrix2::zeros(), existence_count: 1 };
+        let exactly_known =
+            Landmark { mean: Vector2::new(2.0, 0.0), covariance: Matrix2::zeros(), existence_count: 1, apart: 0 };
         for s in [0.0, 0.5, 3.0, 100.0_f64] {
             // Of a landmark straight ahead, x moves the range only, and θ the bearing.
             let innovation = exactly_known.innovation(&sensor, &Pose2::default(), &Vector2::new(2.0, 0.0));

@@ -93,7 +93,7 @@ impl<D: Motion, Z: LandmarkSensor> Proposal<SampledMap> for WithMap<D, Z> {
         for Feature { z, signature } in features {
             let Some(index) = *signature else { continue };
             let Some(mean) = particle.map.at_sight(index, stream) else { continue };
-            let point = Landmark { mean, covariance: Matrix2::zeros(), existence_count: 1 };
+            let point = Landmark { mean, covariance: Matrix2::zeros(), existence_count: 1, apart: 0 };
             log_increment += point.innovation(&self.sensor, &world_from_robot, z).log_likelihood;
             association.push((index, mean));
         }
@@ -115,7 +115,7 @@ mod tests {
     #[test]
     fn points_are_drawn_from_what_is_known_and_stay_where_they_are() {
         let covariance = Matrix2::new(0.21, 0.05, 0.05, 0.12);
-        let known = [Landmark { mean: Vector2::new(4.0, 1.0), covariance, existence_count: 1 }];
+        let known = [Landmark { mean: Vector2::new(4.0, 1.0), covariance, existence_count: 1, apart: 0 }];
         let n = 20_000;
         let mut draws = Vec::new();
         for slot in 0..n {

@@ -130,7 +130,7 @@ impl Log {
             let turn = rotation(TAU * f64::from(k * 7 % MOST) / f64::from(MOST));
             let mean = Vector2::new(robot.x, robot.y) + turn * Vector2::new(DISTANCE, 0.0);
             let along = Matrix2::new(KNOWN[0], 0.0, 0.0, KNOWN[1]);
-            Landmark { mean, covariance: turn * along * turn.transpose(), existence_count: 1 }
+            Landmark { mean, covariance: turn * along * turn.transpose(), existence_count: 1, apart: 0 }
         };
         let known: Vec<Landmark> = (0..MOST).map(landmark).collect();
         let see = |(index, landmark): (u32, &Landmark)| Feature {

@@ -12,7 +12,7 @@ use fastslam::execute::Executor;
 use fastslam::geometry::{Pose2, align, rms};
 use fastslam::map::Footprint;
 use fastslam::map::landmarks::{Association, Correspondence, Gate, Landmarks};
-use fastslam::motion::{Velocity, VelocityModel};
+use fastslam::motion::{Motion, Velocity, VelocityModel};
 use fastslam::nalgebra::Vector2;
 use fastslam::ops;
 use fastslam::particle::Particle;
@@ -27,25 +27,32 @@ use std::sync::Arc;
 pub const PARTICLES: Range = Range::whole(1, 100_000);
 
 /// A drive as its robot reported it, with the truth beside it for those who judge.
-#[derive(Clone, PartialEq, Debug, Default)]
-pub struct LandmarkLog {
+#[derive(Clone, PartialEq, Debug)]
+pub struct LandmarkLog<U = Velocity> {
     /// True poses of steps 0 to T.
     pub truth: Vec<Pose2>,
     /// Poses by the reported controls alone, from the same start.
     pub odometry: Vec<Pose2>,
     /// Reported controls; the k-th leads from step k to k + 1.
-    pub controls: Vec<Velocity>,
+    pub controls: Vec<U>,
     /// What was seen at steps 1 to T.
     pub sightings: Vec<Vec<Feature>>,
     /// Where the landmarks truly are \[m\], by signature.
     pub landmarks: Vec<Vector2<f64>>,
 }
 
+impl<U> Default for LandmarkLog<U> {
+    fn default() -> Self {
+        let (truth, odometry, landmarks) = (Vec::new(), Vec::new(), Vec::new());
+        Self { truth, odometry, controls: Vec::new(), sightings: Vec::new(), landmarks }
+    }
+}
+
 /// What a filter is told of the noise, and of how landmarks are to be told apart.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Tuning {
-    /// Noise of the reported velocities.
-    pub motion: VelocityModel,
+pub struct Tuning<D = VelocityModel> {
+    /// How the robot drives, and the noise of what it reports of that.
+    pub motion: D,
     /// The sensor.
     pub sensor: RangeBearing,
     /// Settings of the association, where signatures are not to be used.
@@ -202,7 +209,7 @@ fn unknown_association(given: &str) -> SettingError {
 }
 
 impl CorrespondenceKind {
-    fn of(self, tuning: &Tuning) -> Correspondence {
+    fn of<D>(self, tuning: &Tuning<D>) -> Correspondence {
         match self {
             Self::Known => Correspondence::Known,
             Self::Unknown => Correspondence::Unknown(tuning.gate),
@@ -244,7 +251,7 @@ impl Default for LandmarkSetup {
 pub type LandmarkMap = Landmarks<RangeBearing>;
 
 /// FastSLAM 1.0 or 2.0.
-pub type Filter = Rbpf<LandmarkMap, Either<FromMotion<VelocityModel, Marginal>, FromMeasurement<VelocityModel>>>;
+pub type Filter<D = VelocityModel> = Rbpf<LandmarkMap, Either<FromMotion<D, Marginal>, FromMeasurement<D>>>;
 
 /// What one step did, and how far from the truth it led.
 #[derive(Clone, Debug, PartialEq)]
@@ -291,22 +298,26 @@ pub struct AssociationSummary {
 
 /// A run under way.
 #[derive(Clone, Debug)]
-pub struct LandmarkRun {
-    log: Arc<LandmarkLog>,
-    filter: Filter,
+pub struct LandmarkRun<D: Motion = VelocityModel> {
+    log: Arc<LandmarkLog<D::Control>>,
+    filter: Filter<D>,
     step: u32,
     /// Sum over the steps so far of the squared error of the weighted mean \[m²\].
     squared_errors: f64,
 }
 
-impl LandmarkRun {
+impl<D: Motion + Clone> LandmarkRun<D> {
     /// At the log's start, which is known.
     ///
     /// # Errors
     /// Where a setting is out of its range.
-    pub fn new(setup: &LandmarkSetup, tuning: &Tuning, log: Arc<LandmarkLog>) -> Result<Self, SettingError> {
+    pub fn new(
+        setup: &LandmarkSetup,
+        tuning: &Tuning<D>,
+        log: Arc<LandmarkLog<D::Control>>,
+    ) -> Result<Self, SettingError> {
         PARTICLES.check("particles", setup.particles as f64)?;
-        let motion = tuning.motion;
+        let motion = tuning.motion.clone();
         let proposal = match setup.proposal {
             ProposalKind::Motion => Either::Left(FromMotion { motion, likelihood: Marginal }),
             ProposalKind::Improved => Either::Right(FromMeasurement { motion }),
@@ -379,7 +390,7 @@ impl LandmarkRun {
     }
 
     /// The drive.
-    pub fn log(&self) -> &LandmarkLog {
+    pub fn log(&self) -> &LandmarkLog<D::Control> {
         &self.log
     }
 
@@ -389,7 +400,7 @@ impl LandmarkRun {
     }
 
     /// The filter, for those who watch it.
-    pub fn filter(&self) -> &Filter {
+    pub fn filter(&self) -> &Filter<D> {
         &self.filter
     }
 
@@ -431,9 +442,9 @@ impl LandmarkRun {
 
     /// What [`Self::rms_online`] is at the end for an EKF-SLAM that is told the same of the same drive \[m\]. Its one Gaussian must commit
     /// to one association.
-    pub fn rms_ekf(&self, setup: &LandmarkSetup, tuning: &Tuning) -> f64 {
+    pub fn rms_ekf(&self, setup: &LandmarkSetup, tuning: &Tuning<D>) -> f64 {
         let start = self.log.truth.first().copied().unwrap_or_default();
-        let mut ekf = EkfSlam::new(tuning.motion, tuning.sensor, setup.correspondence.of(tuning), start);
+        let mut ekf = EkfSlam::new(tuning.motion.clone(), tuning.sensor, setup.correspondence.of(tuning), start);
         let mut path = Vec::with_capacity(self.log.controls.len());
         for (control, features) in self.log.controls.iter().zip(&self.log.sightings) {
             ekf.step(control, features);

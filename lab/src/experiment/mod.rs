@@ -1,5 +1,7 @@
 //! What the chapter's figures and numbers come from: a world, a filter, and a comparison with the truth.
 
+pub mod camera;
+pub mod car;
 pub mod conditioning;
 pub mod doors;
 pub mod em;

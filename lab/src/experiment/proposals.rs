@@ -136,7 +136,7 @@ impl Drive {
         let motion = OdometryModel { alphas: ALPHAS }.scaled(setup.odometry_scale);
         let [xx, xy, yy] = LANDMARK_COVARIANCE;
         let covariance = Matrix2::new(xx, xy, xy, yy);
-        let landmark = |mean| Landmark { mean, covariance, existence_count: 1 };
+        let landmark = |mean| Landmark { mean, covariance, existence_count: 1, apart: 0 };
         let mut landmarks = vec![landmark(Vector2::new(x, y))];
         if setup.twins {
             landmarks.push(landmark(Vector2::new(x + TWIN[0], y + TWIN[1])));
@@ -149,7 +149,7 @@ impl Drive {
             Correspondence::Unknown(Gate {
                 mahalanobis_squared: f64::INFINITY,
                 log_new: f64::NEG_INFINITY,
-                removal: false,
+                ..Gate::default()
             })
         } else {
             Correspondence::Known

@@ -86,8 +86,12 @@ impl WorkedExample {
         let [range_std, bearing_std] = noise_std;
         let sensor =
             RangeBearing { range_std, bearing_std, max_range: f64::INFINITY, field_of_view: core::f64::consts::TAU };
-        let before =
-            Landmark { mean: Vector2::from(mean), covariance: Matrix2::new(xx, xy, xy, yy), existence_count: 1 };
+        let before = Landmark {
+            mean: Vector2::from(mean),
+            covariance: Matrix2::new(xx, xy, xy, yy),
+            existence_count: 1,
+            apart: 0,
+        };
         let updates = [0, 1].map(|slot| {
             let ([x, y, theta], z) = (poses[slot], Vector2::from(sightings[slot]));
             let world_from_robot = Pose2::new(x, y, theta);

@@ -1,13 +1,16 @@
 //! `fastslam landmarks`: FastSLAM 1.0 and 2.0 on simulated courses and recorded logs.
 
-use crate::{mrclam, picture, print, print_json, progress, whole};
+use crate::settings::SettingsOptions;
+use crate::{landmark_graph, mrclam, picture, print, print_json, progress, victoria, whole};
 use anyhow::Result;
+use fastslam::motion::Motion;
 use fastslam::resampling::ResamplePolicy;
 use fastslam_lab::experiment::ErrorSummary;
 use fastslam_lab::experiment::ProposalKind;
 use fastslam_lab::experiment::landmarks::{
     self, CorrespondenceKind, Course, LandmarkLog, LandmarkReport, LandmarkRun, LandmarkSetup, Tuning,
 };
+use fastslam_lab::experiment::{camera, car};
 use indicatif::ParallelProgressIterator;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -39,12 +42,20 @@ pub struct Arguments {
     /// PREFIX-barcodes.dat, PREFIX-landmarks.dat
     #[arg(long, value_name = "PREFIX", conflicts_with = "course")]
     mrclam: Option<PathBuf>,
+    /// Read the log of a car instead, as that of Victoria Park is passed on: a folder with DRS.txt, GPS.txt, and LASER.txt or SIGHTINGS.txt
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["course", "mrclam"])]
+    victoria: Option<PathBuf>,
+    /// Read a landmark graph in the format of g2o instead
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["course", "mrclam", "victoria"])]
+    g2o: Option<PathBuf>,
     /// Run seeds 1 to N, and report median, 90th percentile and worst
     #[arg(long, value_name = "N", conflicts_with_all = ["seed", "png"], value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     seeds: Option<u64>,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    settings: SettingsOptions,
     /// Draw the end of the run into this file
     #[arg(long, value_name = "FILE")]
     png: Option<PathBuf>,
@@ -63,7 +74,7 @@ fn version(text: &str) -> Result<ProposalKind, &'static str> {
 #[derive(Serialize)]
 struct Output {
     /// Where the noises that the filters are told come from.
-    noises: &'static str,
+    noises: String,
     /// Of the best particle's path at the end \[m\].
     rms_best: f64,
     /// \[m\]
@@ -88,7 +99,7 @@ struct Output {
 struct Summary {
     seeds: usize,
     /// Where the noises that the filters are told come from.
-    noises: &'static str,
+    noises: String,
     /// RMS over the steps of the errors of the weighted mean, each when it was made.
     online: ErrorSummary,
     /// The same of EKF-SLAM on the same drives.
@@ -99,80 +110,86 @@ struct Summary {
     best_aligned: ErrorSummary,
     /// RMS of raw odometry.
     odometry: ErrorSummary,
+    /// How many landmarks the best particle's map has at the end.
+    landmarks: ErrorSummary,
 }
 
-/// Where runs get their drive from: a simulation makes one for each seed, a log is the same for all.
-enum Source {
-    Simulated(Course),
-    Recorded(Arc<LandmarkLog>),
-}
-
-impl Source {
-    fn log(&self, seed: u64) -> Arc<LandmarkLog> {
-        match self {
-            Self::Simulated(course) => Arc::new(course.simulate(seed)),
-            Self::Recorded(log) => Arc::clone(log),
-        }
-    }
-
-    fn tuning(&self) -> Tuning {
-        match self {
-            Self::Simulated(course) => course.tuning(),
-            Self::Recorded(_) => mrclam::tuning(),
-        }
-    }
-
+/// What a command runs: a log for each seed, and what the filters are told.
+struct Task<D: Motion, F> {
+    log: F,
+    tuning: Tuning<D>,
+    /// Whether every seed has the same log.
+    recorded: bool,
     /// Where the tuning comes from.
-    fn noises(&self) -> &'static str {
-        match self {
-            Self::Simulated(_) => "those of the course",
-            Self::Recorded(_) => mrclam::NOISES,
-        }
-    }
+    noises: String,
 }
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<()> {
-    let source = match &arguments.mrclam {
-        Some(prefix) => Source::Recorded(Arc::new(mrclam::read(prefix)?)),
-        None => Source::Simulated(arguments.course),
-    };
-    let setup = |seed| LandmarkSetup {
-        particles: arguments.particles,
-        seed,
-        proposal: arguments.proposal,
-        correspondence: arguments.association,
-        policy: arguments.policy,
-        ..LandmarkSetup::default()
-    };
-    let run = |seed| LandmarkRun::new(&setup(seed), &source.tuning(), source.log(seed));
-    match arguments.seeds {
-        None => {
+    let noises = arguments.settings.read()?;
+    let told = |from: &str| if noises.is_empty() { from.into() } else { format!("{from}, and as set") };
+    if let Some(prefix) = &arguments.mrclam {
+        let log = Arc::new(mrclam::read(prefix)?);
+        let tuning = noises.adjust(camera::tuning())?;
+        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, noises: told(mrclam::NOISES) }.run(arguments);
+    }
+    if let Some(folder) = &arguments.victoria {
+        let tuning = noises.adjust(car::tuning())?;
+        let named = arguments.association == CorrespondenceKind::Known;
+        let log = Arc::new(victoria::read(folder, &tuning.motion, named)?);
+        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, noises: told(victoria::NOISES) }
+            .run(arguments);
+    }
+    if let Some(path) = &arguments.g2o {
+        let (log, tuning) = landmark_graph::read(path)?;
+        let (log, tuning) = (Arc::new(log), noises.adjust(tuning)?);
+        let noises = told(landmark_graph::NOISES);
+        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, noises }.run(arguments);
+    }
+    let course = arguments.course;
+    let tuning = noises.adjust(course.tuning())?;
+    let log = |seed| Arc::new(course.simulate(seed));
+    Task { log, tuning, recorded: false, noises: told("those of the course") }.run(arguments)
+}
+
+impl<D, F> Task<D, F>
+where
+    D: Motion + Clone + Send,
+    D::Control: Send,
+    F: Fn(u64) -> Arc<LandmarkLog<D::Control>> + Sync,
+{
+    fn run(&self, arguments: &Arguments) -> Result<()> {
+        let setup = |seed| LandmarkSetup {
+            particles: arguments.particles,
+            seed,
+            proposal: arguments.proposal,
+            correspondence: arguments.association,
+            policy: arguments.policy,
+            ..LandmarkSetup::default()
+        };
+        let run = |seed| LandmarkRun::new(&setup(seed), &self.tuning, (self.log)(seed));
+        let Some(seeds) = arguments.seeds else {
             let run = run(arguments.seed)?;
-            let rms_ekf = run.rms_ekf(&setup(arguments.seed), &source.tuning());
-            one(arguments, run, rms_ekf, source.noises())
-        }
-        Some(seeds) => {
-            let first = run(1)?; // refused before anything is run, if it is
-            // EKF-SLAM draws nothing: on a recorded log it is the same for every seed.
-            let recorded = match source {
-                Source::Recorded(_) => Some(first.rms_ekf(&setup(1), &source.tuning())),
-                Source::Simulated(_) => None,
-            };
-            let seeds: Vec<u64> = (1..=seeds).collect();
-            let errors: Result<Vec<Errors>> = seeds
-                .par_iter()
-                .progress_with(progress(seeds.len(), "runs"))
-                .map(|seed| {
-                    let mut run = run(*seed)?;
-                    while run.step().is_some() {}
-                    let rms_ekf = recorded.unwrap_or_else(|| run.rms_ekf(&setup(*seed), &source.tuning()));
-                    let path = [run.rms_best(), run.rms_best_aligned(), run.rms_odometry()];
-                    Ok(Errors { online: run.rms_online(), ekf: rms_ekf, path })
-                })
-                .collect();
-            many(arguments, &errors?, source.noises())
-        }
+            let rms_ekf = run.rms_ekf(&setup(arguments.seed), &self.tuning);
+            return one(arguments, run, rms_ekf, &self.noises);
+        };
+        let first = run(1)?; // refused before anything is run, if it is
+        // EKF-SLAM draws nothing: on a recorded log it is the same for every seed.
+        let recorded = self.recorded.then(|| first.rms_ekf(&setup(1), &self.tuning));
+        let seeds: Vec<u64> = (1..=seeds).collect();
+        let errors: Result<Vec<Errors>> = seeds
+            .par_iter()
+            .progress_with(progress(seeds.len(), "runs"))
+            .map(|seed| {
+                let mut run = run(*seed)?;
+                while run.step().is_some() {}
+                let rms_ekf = recorded.unwrap_or_else(|| run.rms_ekf(&setup(*seed), &self.tuning));
+                let path = [run.rms_best(), run.rms_best_aligned(), run.rms_odometry()];
+                let landmarks = run.particles()[run.best()].map.iter().count() as f64;
+                Ok(Errors { online: run.rms_online(), ekf: rms_ekf, path, landmarks })
+            })
+            .collect();
+        many(arguments, &errors?, &self.noises)
     }
 }
 
@@ -182,9 +199,11 @@ struct Errors {
     ekf: f64,
     /// Of the best particle's path at the end, of the same aligned, and of raw odometry.
     path: [f64; 3],
+    /// Landmarks in the best particle's map at the end.
+    landmarks: f64,
 }
 
-fn one(arguments: &Arguments, mut run: LandmarkRun, rms_ekf: f64, noises: &'static str) -> Result<()> {
+fn one<D: Motion + Clone>(arguments: &Arguments, mut run: LandmarkRun<D>, rms_ekf: f64, noises: &str) -> Result<()> {
     let mut steps = Vec::new();
     while let Some(report) = run.step() {
         steps.push(report);
@@ -195,7 +214,7 @@ fn one(arguments: &Arguments, mut run: LandmarkRun, rms_ekf: f64, noises: &'stat
     let footprint = run.footprint();
     let resampled = steps.iter().filter(|step| step.ancestors.is_some()).count();
     let output = Output {
-        noises,
+        noises: noises.into(),
         rms_best: run.rms_best(),
         rms_best_aligned: run.rms_best_aligned(),
         rms_odometry: run.rms_odometry(),
@@ -234,16 +253,17 @@ fn one(arguments: &Arguments, mut run: LandmarkRun, rms_ekf: f64, noises: &'stat
     ))
 }
 
-fn many(arguments: &Arguments, errors: &[Errors], noises: &'static str) -> Result<()> {
+fn many(arguments: &Arguments, errors: &[Errors], noises: &str) -> Result<()> {
     let spread = |of: &dyn Fn(&Errors) -> f64| ErrorSummary::of(&errors.iter().map(of).collect::<Vec<f64>>());
     let summary = Summary {
         seeds: errors.len(),
-        noises,
+        noises: noises.into(),
         online: spread(&|errors| errors.online),
         ekf: spread(&|errors| errors.ekf),
         best: spread(&|errors| errors.path[0]),
         best_aligned: spread(&|errors| errors.path[1]),
         odometry: spread(&|errors| errors.path[2]),
+        landmarks: spread(&|errors| errors.landmarks),
     };
     if arguments.json {
         return print_json(&summary);
@@ -259,6 +279,10 @@ fn many(arguments: &Arguments, errors: &[Errors], noises: &'static str) -> Resul
             row("the best path at the end", &summary.best),
             row("the same after rigid alignment", &summary.best_aligned),
             row("raw odometry", &summary.odometry),
+            format!(
+                "{:34}{:8.0} median, {:.0} p90, {:.0} worst\n",
+                "landmarks in the best map", summary.landmarks.median, summary.landmarks.p90, summary.landmarks.worst,
+            ),
         ]
         .concat(),
     )

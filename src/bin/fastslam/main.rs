@@ -3,6 +3,7 @@
 mod doors;
 mod graph;
 mod joint;
+mod landmark_graph;
 mod landmarks;
 mod lap;
 mod log;
@@ -11,10 +12,12 @@ mod numbers;
 mod picture;
 mod policies;
 mod ring;
+mod settings;
 mod shard;
 mod smoothing;
 mod table;
 mod variants;
+mod victoria;
 
 use anyhow::{Context, Result};
 use clap::{CommandFactory, Parser};
@@ -43,7 +46,7 @@ enum Command {
     Lap(lap::Arguments),
     Log(log::Arguments),
     ExampleLog(log::ExampleArguments),
-    Landmarks(landmarks::Arguments),
+    Landmarks(Box<landmarks::Arguments>),
     Numbers(numbers::Arguments),
     Policies(policies::Arguments),
     Ring(ring::Arguments),

@@ -4,30 +4,16 @@
 use crate::{Usage, in_file};
 use anyhow::{Context, Result, bail};
 use fastslam::geometry::Pose2;
-use fastslam::map::landmarks::Gate;
-use fastslam::motion::{Velocity, VelocityModel};
+use fastslam::motion::Velocity;
 use fastslam::ops;
-use fastslam::sensor::{Feature, RangeBearing};
-use fastslam_lab::experiment::landmarks::{LandmarkLog, Tuning};
+use fastslam::sensor::Feature;
+use fastslam_lab::experiment::landmarks::LandmarkLog;
 use nalgebra::Vector2;
 use std::path::{Path, PathBuf};
 
-/// Where [`tuning`] comes from, in words that are printed with every error. The data set states no noises; what is read off a log's own
+/// Where [`camera::tuning`](fastslam_lab::experiment::camera::tuning) comes from, in words that are printed with every error. The data set states no noises; what is read off a log's own
 /// truth is no forecast of how well that log can be done.
 pub const NOISES: &str = "calibrated on robot 1 of data set 6, against its motion capture: no forecast for that log";
-
-/// What a filter is told, one setting for both proposals and both kinds of correspondence.
-///
-/// Calibrated on robot 1 of data set 6: against its motion capture the wheels err by 0.015 m/s and 0.04 rad/s over a second. The camera
-/// errs by 0.12 m and 0.02 rad, but its successive pictures repeat their errors, which a filter takes for independent: it is told two
-/// and a half times as much.
-pub fn tuning() -> Tuning {
-    Tuning {
-        motion: VelocityModel { speed_std: 0.015, turn_rate_std: 0.03, alphas: [0.01, 0.0, 0.0, 0.02] },
-        sensor: RangeBearing { range_std: 0.3, bearing_std: 0.05, max_range: 9.0, field_of_view: 1.1 },
-        gate: Gate::default(),
-    }
-}
 
 /// Readings this close in time are one look of the camera \[s\].
 const ONE_LOOK: f64 = 0.02;
@@ -59,30 +45,52 @@ pub fn read(prefix: &Path) -> Result<LandmarkLog> {
         let [subject, _] = barcodes.iter().find(|row| row[1] == barcode)?;
         landmarks.iter().position(|row| row[0] == *subject).map(|index| index as u32)
     };
-    let mut log = LandmarkLog {
+    let log = LandmarkLog {
         landmarks: landmarks.iter().map(|row| Vector2::new(row[1], row[2])).collect(),
         ..LandmarkLog::default()
     };
-    let start = odometry[0][0].max(truth[0][0]);
-    let end = odometry[odometry.len() - 1][0].min(truth[truth.len() - 1][0]);
-    let mut now = start;
-    log.truth.push(pose_at(&truth, start));
-    log.odometry.push(log.truth[0]);
-    let mut step = |log: &mut LandmarkLog, until: f64, features: Vec<Feature>| {
-        let control = driven(&odometry, now, until);
-        now = until;
-        log.odometry.push(control.apply(&log.odometry[log.odometry.len() - 1]));
-        log.truth.push(pose_at(&truth, until));
-        log.controls.push(control);
-        log.sightings.push(features);
-        until
-    };
+    let mut looks = Vec::new();
     let mut rest = &measurements[..];
-    let mut last = start;
     while let Some([time, ..]) = rest.first().copied() {
         let count = rest.iter().take_while(|row| row[0] < time + ONE_LOOK).count();
         let (look, after) = rest.split_at(count);
         rest = after;
+        let feature =
+            |row: &[f64; 4]| Feature { z: Vector2::new(row[2], ops::wrap_angle(row[3])), signature: signature(row[1]) };
+        looks.push((time, look.iter().map(feature).collect()));
+    }
+    let log = drive(log, &odometry, &truth, looks, |pose, control| control.apply(pose));
+    if log.controls.is_empty() {
+        bail!(Usage::of_file(prefix, "no measurement falls into the time of both odometry and ground truth"));
+    }
+    Ok(log)
+}
+
+/// Appends a drive to a log: a step to every look, and where nothing is seen for long, some between. Rows of `odometry` are time \[s\],
+/// v \[m/s\] and ω \[rad/s\], those of `truth` time, x, y \[m\] and θ \[rad\]; `apply` moves a pose by a control.
+pub fn drive(
+    mut log: LandmarkLog,
+    odometry: &[[f64; 3]],
+    truth: &[[f64; 4]],
+    looks: Vec<(f64, Vec<Feature>)>,
+    apply: impl Fn(&Pose2, &Velocity) -> Pose2,
+) -> LandmarkLog {
+    let start = odometry[0][0].max(truth[0][0]);
+    let end = odometry[odometry.len() - 1][0].min(truth[truth.len() - 1][0]);
+    let mut now = start;
+    log.truth.push(pose_at(truth, start));
+    log.odometry.push(log.truth[0]);
+    let mut step = |log: &mut LandmarkLog, until: f64, features: Vec<Feature>| {
+        let control = driven(odometry, now, until);
+        now = until;
+        log.odometry.push(apply(&log.odometry[log.odometry.len() - 1], &control));
+        log.truth.push(pose_at(truth, until));
+        log.controls.push(control);
+        log.sightings.push(features);
+        until
+    };
+    let mut last = start;
+    for (time, features) in looks {
         if time <= last || time > end {
             continue; // before the drive began, or where there is no truth to hold it against
         }
@@ -91,14 +99,9 @@ pub fn read(prefix: &Path) -> Result<LandmarkLog> {
         for part in 1..parts as u32 {
             step(&mut log, begin + (time - begin) * f64::from(part) / parts, Vec::new());
         }
-        let feature =
-            |row: &[f64; 4]| Feature { z: Vector2::new(row[2], ops::wrap_angle(row[3])), signature: signature(row[1]) };
-        last = step(&mut log, time, look.iter().map(feature).collect());
+        last = step(&mut log, time, features);
     }
-    if log.controls.is_empty() {
-        bail!(Usage::of_file(prefix, "no measurement falls into the time of both odometry and ground truth"));
-    }
-    Ok(log)
+    log
 }
 
 /// Mean velocities between two times, of readings that each hold until the next.
@@ -128,7 +131,7 @@ fn pose_at(truth: &[[f64; 4]], time: f64) -> Pose2 {
 }
 
 /// A table whose first column is a time that never goes back.
-fn timed<const N: usize>(path: &Path, columns: [&str; N]) -> Result<Vec<[f64; N]>> {
+pub fn timed<const N: usize>(path: &Path, columns: [&str; N]) -> Result<Vec<[f64; N]>> {
     let rows = table(path, columns)?;
     match rows.windows(2).position(|pair| pair[1][0] < pair[0][0]) {
         Some(k) => bail!(Usage::of_file(path, format_args!("times go back: {} after {}", rows[k + 1][0], rows[k][0]))),
@@ -138,7 +141,7 @@ fn timed<const N: usize>(path: &Path, columns: [&str; N]) -> Result<Vec<[f64; N]
 
 /// The rows of a file of numbers in columns; lines that begin with # are comments.
 //
-// Not by the crate csv: columns are apart by blanks and tabs in any number, where it takes one character, and the line that it gives of
+// Not by the crate csv: columns are apart by commas, blanks and tabs in any number, where it takes one character, and the line that it gives of
 // a record is that of the comments before it.
 fn table<const N: usize>(path: &Path, columns: [&str; N]) -> Result<Vec<[f64; N]>> {
     let text = std::fs::read_to_string(path).with_context(in_file(path))?;
@@ -147,18 +150,26 @@ fn table<const N: usize>(path: &Path, columns: [&str; N]) -> Result<Vec<[f64; N]
         if line.trim_start().starts_with('#') || line.trim().is_empty() {
             continue;
         }
-        let values: Option<Vec<f64>> =
-            line.split_whitespace().map(|word| word.parse().ok().filter(|x: &f64| x.is_finite())).collect();
+        let values: Option<Vec<f64>> = line
+            .split([',', ' ', '\t', '\r'])
+            .filter(|word| !word.is_empty())
+            .map(|word| word.parse().ok().filter(|x: &f64| x.is_finite()))
+            .collect();
         match values.and_then(|values| <[f64; N]>::try_from(values).ok()) {
             Some(row) => rows.push(row),
             None => {
-                let expected = format_args!("line {number}: expected {N} numbers: {}", columns.join(", "));
+                let expected = format_args!("line {number}: expected {N} numbers: {}", columns_of(&columns));
                 bail!(Usage::of_file(path, expected));
             }
         }
     }
     if rows.is_empty() {
-        bail!(Usage::of_file(path, format_args!("no line with {N} numbers: {}", columns.join(", "))));
+        bail!(Usage::of_file(path, format_args!("no line with {N} numbers: {}", columns_of(&columns))));
     }
     Ok(rows)
+}
+
+/// Names of columns in a line, however many there are.
+fn columns_of(columns: &[&str]) -> String {
+    if columns.len() > 8 { format!("{}, …", columns[..3].join(", ")) } else { columns.join(", ") }
 }

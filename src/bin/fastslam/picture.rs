@@ -5,6 +5,7 @@ use anyhow::{Context, Result};
 use fastslam::geometry::Pose2;
 use fastslam::map::grid::MapImage;
 use fastslam::map::landmarks::Landmark;
+use fastslam::motion::Motion;
 use fastslam_lab::experiment::landmarks::LandmarkRun;
 use fastslam_widgets::font::Weight;
 use fastslam_widgets::paint::{Canvas, Theme};
@@ -26,7 +27,7 @@ const CHI_95: f64 = 2.447_746_830_680_816;
 const MARGIN: f64 = 80.0;
 
 /// What a run ends with: truth, raw odometry, the best particle's path and its landmarks with their 95 % ellipses.
-pub fn of_landmarks(run: &LandmarkRun) -> Canvas {
+pub fn of_landmarks<D: Motion + Clone>(run: &LandmarkRun<D>) -> Canvas {
     let (log, best) = (run.log(), run.best());
     let path = run.path(best);
     let place = |p: &Pose2| [p.x, p.y];

@@ -33,23 +33,55 @@ pub struct Gate {
     pub log_new: f64,
     /// Whether landmarks that should have been seen and were not lose existence count, and are struck off without any.
     pub removal: bool,
+    /// With `removal`: how many misses one sighting pays for, 1 or more. A sensor that sees a landmark in its view with the
+    /// probability p strikes off what is there where this is below (1 − p) / p, and should be told clearly more.
+    pub sighting_worth: u32,
+    /// With `removal`: the most existence count that a landmark may have, so that what has gone away (a parked robot) is struck off after
+    /// as many misses, however long it stood. At least `sighting_worth`.
+    pub most_count: u32,
+    /// Largest Δᵀ (Σ_a + Σ_b)⁻¹ Δ of two landmarks of one map that are taken for one, Δ the difference of their means: a quantile
+    /// of χ² with two degrees of freedom. 0: none are. See [`Landmarks`](super::Landmarks#landmarks-that-coincide).
+    pub merge_squared: f64,
 }
 
 impl Default for Gate {
-    /// χ²₂,₀.₉₉ = −2 ln 0.01; p₀ = 10⁻³ per metre and radian; no removal.
+    /// χ²₂,₀.₉₉ = −2 ln 0.01; p₀ = 10⁻³ per metre and radian; no removal, where a sighting would pay for one miss and counts be
+    /// without a bound; no merging.
     fn default() -> Self {
-        Self { mahalanobis_squared: -2.0 * ops::ln(0.01), log_new: ops::ln(1e-3), removal: false }
+        Self {
+            mahalanobis_squared: -2.0 * ops::ln(0.01),
+            log_new: ops::ln(1e-3),
+            removal: false,
+            sighting_worth: 1,
+            most_count: i32::MAX as u32,
+            merge_squared: 0.0,
+        }
     }
 }
+
+/// Most misses that a sighting can pay for.
+const WORTH: u32 = 1000;
 
 impl Gate {
     /// Whether all settings are in range.
     ///
     /// # Errors
-    /// Where the gate is not a number of 0 or more, or ln p₀ is not finite.
+    /// Where a gate is not a number of 0 or more, ln p₀ is not finite, a sighting is worth nothing, or the most that may be counted is
+    /// less than what one is worth.
     pub fn validate(&self) -> Result<(), SettingError> {
         Range::at_least(0.0, "").check("gate.mahalanobis_squared", self.mahalanobis_squared)?;
-        Range::finite("nats").check("gate.log_new", self.log_new).map(drop)
+        Range::finite("nats").check("gate.log_new", self.log_new)?;
+        Range::whole(1, WORTH).check("gate.sighting_worth", f64::from(self.sighting_worth))?;
+        Range::whole(self.sighting_worth, i32::MAX as u32).check("gate.most_count", f64::from(self.most_count))?;
+        Range::at_least(0.0, "").check("gate.merge_squared", self.merge_squared).map(drop)
+    }
+
+    /// What a landmark's existence count is after a sighting that has just raised it by one, or to one.
+    pub fn counted(&self, count: i32) -> i32 {
+        if !self.removal {
+            return count;
+        }
+        count.saturating_add(self.sighting_worth as i32 - 1).min(self.most_count as i32)
     }
 }
 

@@ -17,8 +17,12 @@ pub struct Landmark {
     pub mean: Vector2<f64>,
     /// Σ \[m²\].
     pub covariance: Matrix2<f64>,
-    /// Sightings less the times it should have been seen and was not; struck off below 0.
+    /// Sightings less the times it should have been seen and was not; struck off below 0. Each sighting counts as
+    /// [`sighting_worth`](super::Gate::sighting_worth).
     pub existence_count: i32,
+    /// Which landmarks near this one are surely others, because one look saw both: bit k stands for all indices that are k modulo
+    /// 32. Kept where landmarks are merged; else 0.
+    pub apart: u32,
 }
 
 /// What a sighting says against what was expected.
@@ -74,7 +78,12 @@ impl Landmark {
     pub fn first<Z: LandmarkSensor>(sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) -> Self {
         let mean = sensor.locate(world_from_robot, z);
         let inverse = inverse(&sensor.predict(world_from_robot, &mean).h_m);
-        Self { mean, covariance: symmetric(inverse * sensor.noise() * inverse.transpose()), existence_count: 1 }
+        Self {
+            mean,
+            covariance: symmetric(inverse * sensor.noise() * inverse.transpose()),
+            existence_count: 1,
+            apart: 0,
+        }
     }
 
     /// ν = z − h(x, μ), S = H_m Σ H_mᵀ + Q: exp(`log_likelihood`) is the marginal ∫ p(z | x, m) p(m | path) dm of a sighting.
@@ -112,6 +121,35 @@ impl Landmark {
         self.covariance =
             symmetric(keep * self.covariance * keep.transpose() + gain * sensor.noise() * gain.transpose());
         self.existence_count = self.existence_count.saturating_add(1);
+    }
+
+    /// Δᵀ (Σ_a + Σ_b)⁻¹ Δ with Δ = μ_a − μ_b: how far apart two landmarks are in deviations, squared. Without a number (0/0) where
+    /// both are known without any noise and stand in one place.
+    pub fn distance_squared(&self, other: &Self) -> f64 {
+        let delta = self.mean - other.mean;
+        delta.dot(&(inverse(&(self.covariance + other.covariance)) * delta))
+    }
+
+    /// Two estimates of one landmark, of different sightings: the product of both Gaussians, Σ⁻¹ = Σ_a⁻¹ + Σ_b⁻¹ and
+    /// Σ⁻¹ μ = Σ_a⁻¹ μ_a + Σ_b⁻¹ μ_b. Given the path sightings are independent, so nothing is counted twice. Counts add up.
+    ///
+    /// Written as a Kalman update of the one by the other, in Joseph's form: it inverts Σ_a + Σ_b alone.
+    pub fn merged(&self, other: &Self) -> Self {
+        let gain = self.covariance * inverse(&(self.covariance + other.covariance));
+        let keep = Matrix2::identity() - gain;
+        Self {
+            mean: self.mean + gain * (other.mean - self.mean),
+            covariance: symmetric(
+                keep * self.covariance * keep.transpose() + gain * other.covariance * gain.transpose(),
+            ),
+            existence_count: self.existence_count.saturating_add(other.existence_count),
+            apart: self.apart | other.apart,
+        }
+    }
+
+    /// Whether one look saw this landmark and the one of this index, or one that shares its bit.
+    pub(super) fn is_apart_from(&self, index: u32) -> bool {
+        self.apart >> (index % u32::BITS) & 1 == 1
     }
 
     /// K = Σ H_mᵀ S⁻¹ (2 × 2): how far the mean follows a residual.
@@ -159,6 +197,7 @@ mod tests {
             mean: Vector2::new(4.0, 0.0),
             covariance: Matrix2::new(0.21, 0.0, 0.0, 0.12),
             existence_count: 1,
+            apart: 0,
         };
         for (z, weight) in [([4.1, 0.05], 2.753_451_476_665), ([4.3, 0.15], 0.863_168_987_665)] {
             let innovation = landmark.innovation(&SENSOR, &Pose2::default(), &Vector2::from(z));
@@ -187,7 +226,7 @@ mod tests {
     #[test]
     fn the_largest_deviation_is_that_of_the_longer_axis() {
         let covariance = Matrix2::new(2.5, 1.5, 1.5, 2.5);
-        let landmark = Landmark { mean: Vector2::zeros(), covariance, existence_count: 1 };
+        let landmark = Landmark { mean: Vector2::zeros(), covariance, existence_count: 1, apart: 0 };
         assert!((landmark.largest_std() - 2.0).abs() < 1e-15);
     }
 

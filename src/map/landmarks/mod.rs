@@ -25,6 +25,16 @@ use crate::geometry::Pose2;
 use crate::sensor::{Feature, LandmarkSensor};
 
 /// The landmarks of one particle, seen by a sensor Z and kept in a store S.
+///
+/// # Landmarks that coincide
+/// Without signatures a landmark that is met again from a pose that has drifted is founded a second time. Where
+/// [`Gate::merge_squared`] is above 0, a landmark that was just sighted is merged with any other that
+/// - coincides with it by that gate,
+/// - was not sighted in the same step, and
+/// - was never sighted in one step with it while both were within the gate of each other: one look gives no landmark two features, so
+///   they are two.
+///
+/// What remains is the product of both estimates ([`Landmark::merged`]) under the lower index. Each particle does so in its own map.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Landmarks<Z, S = Blocks> {
     sensor: Z,
@@ -82,21 +92,34 @@ impl<Z: LandmarkSensor, S: Store> ConditionalMap for Landmarks<Z, S> {
     /// A first sighting makes a landmark, every further one is a Kalman update of that landmark alone. Where landmarks may be
     /// struck off, those that should have been seen and were not lose existence count.
     fn assimilate(&mut self, world_from_robot: &Pose2, features: &Vec<Feature>, associations: &Vec<Association>) {
-        if let Correspondence::Unknown(Gate { removal: true, .. }) = self.correspondence {
+        let gate = match self.correspondence {
+            Correspondence::Unknown(gate) => gate,
+            Correspondence::Known => Gate::default(),
+        };
+        if gate.removal {
             self.apply_negative_information(world_from_robot, associations);
         }
         for (feature, association) in features.iter().zip(associations) {
             match *association {
                 Association::Matched(index) => {
                     if let Some(landmark) = self.store.entry(index) {
+                        let before = landmark.existence_count;
                         landmark.update(&self.sensor, world_from_robot, &feature.z);
+                        if landmark.existence_count > before {
+                            landmark.existence_count = gate.counted(landmark.existence_count);
+                        }
                     }
                 }
                 Association::New(index) => {
-                    *self.store.entry(index) = Some(Landmark::first(&self.sensor, world_from_robot, &feature.z));
+                    let first = Landmark::first(&self.sensor, world_from_robot, &feature.z);
+                    *self.store.entry(index) =
+                        Some(Landmark { existence_count: gate.counted(first.existence_count), ..first });
                 }
                 Association::Ignored => (),
             }
+        }
+        if gate.merge_squared > 0.0 {
+            self.merge_coinciding(&gate, associations);
         }
     }
 
@@ -124,6 +147,53 @@ impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
                     _ => *entry = None,
                 }
             }
+        }
+    }
+    /// Merges what was sighted with what coincides with it: see [the type](Self#landmarks-that-coincide).
+    fn merge_coinciding(&mut self, gate: &Gate, associations: &[Association]) {
+        let sighted: Vec<u32> = associations
+            .iter()
+            .filter_map(|association| match association {
+                Association::Matched(index) | Association::New(index) => Some(*index),
+                Association::Ignored => None,
+            })
+            .collect();
+        for (k, &a) in sighted.iter().enumerate() {
+            for &b in &sighted[..k] {
+                if let (Some(one), Some(other)) = (self.store.get(a), self.store.get(b))
+                    && one.distance_squared(other) < gate.merge_squared
+                    && !(one.is_apart_from(b) && other.is_apart_from(a))
+                {
+                    self.set_apart(a, b);
+                    self.set_apart(b, a);
+                }
+            }
+        }
+        for mut index in sighted {
+            for other in 0..self.store.len() {
+                let (Some(one), Some(two)) = (self.store.get(index), self.store.get(other)) else { continue };
+                let another = other != index
+                    && !associations.contains(&Association::Matched(other))
+                    && !associations.contains(&Association::New(other));
+                if another
+                    && one.distance_squared(two) < gate.merge_squared
+                    && !one.is_apart_from(other)
+                    && !two.is_apart_from(index)
+                {
+                    let mut merged = one.merged(two);
+                    merged.existence_count = merged.existence_count.min(gate.most_count as i32);
+                    let (kept, gone) = (index.min(other), index.max(other));
+                    *self.store.entry(kept) = Some(merged);
+                    *self.store.entry(gone) = None;
+                    index = kept;
+                }
+            }
+        }
+    }
+
+    fn set_apart(&mut self, of: u32, from: u32) {
+        if let Some(landmark) = self.store.entry(of) {
+            landmark.apart |= 1 << (from % u32::BITS);
         }
     }
 }

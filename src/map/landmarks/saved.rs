@@ -16,17 +16,19 @@ pub(super) struct SavedLandmark {
     /// By columns.
     covariance: [[f64; 2]; 2],
     existence_count: i32,
+    #[serde(default)]
+    apart: u32,
 }
 
 impl From<Landmark> for SavedLandmark {
-    fn from(Landmark { mean, covariance, existence_count }: Landmark) -> Self {
-        Self { mean: mean.into(), covariance: covariance.into(), existence_count }
+    fn from(Landmark { mean, covariance, existence_count, apart }: Landmark) -> Self {
+        Self { mean: mean.into(), covariance: covariance.into(), existence_count, apart }
     }
 }
 
 impl From<SavedLandmark> for Landmark {
-    fn from(SavedLandmark { mean, covariance, existence_count }: SavedLandmark) -> Self {
-        Self { mean: Vector2::from(mean), covariance: Matrix2::from(covariance), existence_count }
+    fn from(SavedLandmark { mean, covariance, existence_count, apart }: SavedLandmark) -> Self {
+        Self { mean: Vector2::from(mean), covariance: Matrix2::from(covariance), existence_count, apart }
     }
 }
 

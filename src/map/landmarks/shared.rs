@@ -150,7 +150,12 @@ mod tests {
     use nalgebra::{Matrix2, Vector2};
 
     fn landmark(x: u32) -> Landmark {
-        Landmark { mean: Vector2::new(f64::from(x), 1.0), covariance: Matrix2::identity(), existence_count: 1 }
+        Landmark {
+            mean: Vector2::new(f64::from(x), 1.0),
+            covariance: Matrix2::identity(),
+            existence_count: 1,
+            apart: 0,
+        }
     }
 
     fn holds_what_a_vector_holds<S: Store>() {

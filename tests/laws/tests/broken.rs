@@ -357,7 +357,8 @@ fn linear_step() -> Step<Landmarks<Offset>, Vector3<f64>> {
 /// A step past a landmark, in a world that has been moved.
 fn moved_step(world: &Pose2) -> Step<Landmarks<RangeBearing>, Odometry> {
     let [x, y] = world.transform([3.0, 1.0]);
-    let landmark = Landmark { mean: Vector2::new(x, y), covariance: Matrix2::identity() * 0.01, existence_count: 1 };
+    let landmark =
+        Landmark { mean: Vector2::new(x, y), covariance: Matrix2::identity() * 0.01, existence_count: 1, apart: 0 };
     Step {
         particle: Particle::start(*world, Landmarks::new(SENSOR, Correspondence::Known).with([landmark])),
         control: Odometry { rot1: 0.0, trans: 1.0, rot2: 0.0 },

@@ -139,7 +139,7 @@ const ODOMETRY: OdometryModel = OdometryModel { alphas: [0.1, 0.02, 0.08, 0.02] 
 const TURN: Odometry = Odometry { rot1: 0.2, trans: 1.0, rot2: 0.1 };
 
 fn landmark(x: f64, y: f64, variance: f64) -> Landmark {
-    Landmark { mean: Vector2::new(x, y), covariance: Matrix2::identity() * variance, existence_count: 1 }
+    Landmark { mean: Vector2::new(x, y), covariance: Matrix2::identity() * variance, existence_count: 1, apart: 0 }
 }
 
 fn seen(sensor: &RangeBearing, from: &Pose2, landmark: &Vector2<f64>, signature: u32, offset: [f64; 2]) -> Feature {
@@ -514,7 +514,7 @@ proptest! {
     ) {
         let policy = if always { ResamplePolicy::Always } else { ResamplePolicy::EssBelow(0.5) };
         // A tight gate and a cheap new landmark found many.
-        let gate = gate.map(|(mahalanobis_squared, log_new, removal)| Gate { mahalanobis_squared, log_new, removal });
+        let gate = gate.map(|(mahalanobis_squared, log_new, removal)| Gate { mahalanobis_squared, log_new, removal, ..Gate::default() });
         let plain = run_bits::<Vec<Option<Landmark>>>(run, steps, count, policy, gate);
         prop_assert!(plain == run_bits::<Blocks>(run, steps, count, policy, gate));
         prop_assert!(plain == run_bits::<Balanced>(run, steps, count, policy, gate));
@@ -532,6 +532,7 @@ proptest! {
             mean: Vector2::new(x, y),
             covariance: Matrix2::new(variance, rho * variance, rho * variance, variance),
             existence_count: 1,
+            apart: 0,
         });
         let [a, b, c, d, e, f] = factor;
         let l = Matrix3::new(a, 0.0, 0.0, b, c, 0.0, d, e, f);
@@ -740,7 +741,7 @@ fn two_features_of_one_step_never_share_a_landmark() {
 #[test]
 fn well_separated_landmarks_are_told_apart_without_signatures() {
     let motion = ODOMETRY.scaled(0.1);
-    let gate = Gate { mahalanobis_squared: -2.0 * ops::ln(1e-6), log_new: -30.0, removal: false };
+    let gate = Gate { mahalanobis_squared: -2.0 * ops::ln(1e-6), log_new: -30.0, ..Gate::default() };
     let turned = |features: &[Feature], by: usize| {
         let mut features = features.to_vec();
         features.rotate_left(by);
@@ -800,6 +801,66 @@ fn what_should_be_seen_and_is_not_is_struck_off_and_nothing_else() {
             assert_eq!(map.get(0).unwrap().existence_count, 7);
         }
     }
+}
+
+/// Twice worth it is struck off after twice as many misses, and never has more in hand than it may.
+#[test]
+fn a_sighting_pays_for_as_many_misses_as_it_is_worth() {
+    let gate = Gate { removal: true, sighting_worth: 3, most_count: 7, ..Gate::default() };
+    let mut map = unknown(SENSOR, gate, &[]);
+    let see = |x, y| seen(&SENSOR, &Pose2::default(), &Vector2::new(x, y), 0, [0.0, 0.0]);
+    let mut look = |features: Vec<Feature>| {
+        let (_, sighted) = Marginal.log_likelihood(&map, &Pose2::default(), &features);
+        map.assimilate(&Pose2::default(), &features, &sighted);
+        map.iter().map(|(index, landmark)| (index, landmark.existence_count)).collect::<Vec<_>>()
+    };
+    assert_eq!(look(vec![see(3.0, -1.0), see(2.0, 2.0)]), [(0, 3), (1, 3)]);
+    assert_eq!(look(vec![see(3.0, -1.0)]), [(0, 6), (1, 2)]);
+    assert_eq!(look(vec![see(3.0, -1.0)]), [(0, 7), (1, 1)]);
+    assert_eq!(look(vec![see(3.0, -1.0)]), [(0, 7), (1, 0)]);
+    assert_eq!(look(vec![]), [(0, 6)]);
+}
+
+/// One is sighted while the other, within the gate of it, is not: they are one. To 1e-12: both are products of the same two Gaussians.
+#[test]
+fn landmarks_that_coincide_become_their_product_where_that_is_asked_for() {
+    let known = [landmark(4.0, 0.0, 0.01), landmark(4.1, 0.1, 0.02), landmark(4.0, 2.0, 0.01)];
+    for merge_squared in [0.0, 9.2] {
+        let mut map = unknown(SENSOR, Gate { merge_squared, ..Gate::default() }, &known);
+        let features = vec![seen(&SENSOR, &Pose2::default(), &known[0].mean, 0, [0.0, 0.0])];
+        let mut updated = known[0];
+        updated.update(&SENSOR, &Pose2::default(), &features[0].z);
+        map.assimilate(&Pose2::default(), &features, &vec![Association::Matched(0)]);
+        if merge_squared == 0.0 {
+            assert_eq!(map.iter().map(|(_, landmark)| *landmark).collect::<Vec<_>>(), [updated, known[1], known[2]]);
+            continue;
+        }
+        let [one, other] = [updated.covariance, known[1].covariance].map(|s| s.try_inverse().unwrap());
+        let covariance = (one + other).try_inverse().unwrap();
+        let mean = covariance * (one * updated.mean + other * known[1].mean);
+        let left: Vec<(u32, &Landmark)> = map.iter().collect();
+        assert_eq!(left.iter().map(|(index, _)| *index).collect::<Vec<_>>(), [0, 2]);
+        let merged = left[0].1;
+        assert!((merged.mean - mean).norm() < 1e-12 && (merged.covariance - covariance).norm() < 1e-12);
+        assert_eq!(merged.existence_count, updated.existence_count + known[1].existence_count);
+        // The index of what is gone is not given again.
+        assert_eq!(decide(&map, [7.0, 1.0], &[]).association, Association::New(3));
+    }
+}
+
+/// One look gives no landmark two features. Those that were seen beside each other are two, and stay two when only one is seen.
+#[test]
+fn landmarks_seen_in_one_look_are_never_merged() {
+    let known = [landmark(4.0, 0.0, 0.01), landmark(4.1, 0.1, 0.02)];
+    let mut map = unknown(SENSOR, Gate { merge_squared: 9.2, ..Gate::default() }, &known);
+    let see = |k: usize| seen(&SENSOR, &Pose2::default(), &known[k].mean, 0, [0.0, 0.0]);
+    let both = vec![Association::Matched(0), Association::Matched(1)];
+    map.assimilate(&Pose2::default(), &vec![see(0), see(1)], &both);
+    for _ in 0..3 {
+        map.assimilate(&Pose2::default(), &vec![see(0)], &vec![Association::Matched(0)]);
+    }
+    assert_eq!(map.iter().count(), 2);
+    assert!(map.iter().all(|(_, landmark)| landmark.apart != 0));
 }
 
 /// The index of a landmark that was struck off is never given again: a path that names it means the old one.

@@ -45,10 +45,11 @@ impl<S: Store + SaveShared> Told for Landmarks<RangeBearing, S> {
     where
         Self: 'a,
     {
-        for (index, Landmark { mean, covariance, existence_count }) in maps.flat_map(Self::iter) {
+        for (index, Landmark { mean, covariance, existence_count, apart }) in maps.flat_map(Self::iter) {
             digest.u32(index);
             mean.iter().chain(covariance).for_each(|x| digest.f64(*x));
             digest.u32(existence_count.cast_unsigned());
+            digest.u32(*apart);
         }
     }
 

@@ -95,6 +95,7 @@ fn among_beacons(world: &Pose2) -> Step<Landmarks<Receiver>, Rolled> {
         mean: Vector2::from(world.transform(beacon)),
         covariance: Matrix2::identity() * 1e-4,
         existence_count: 1,
+        apart: 0,
     };
     let map = Landmarks::new(RECEIVER, Correspondence::Known).with(known.map(landmark));
     Step { particle: Particle::start(*world, map), control, observation }

@@ -23,7 +23,12 @@ const STEP: Odometry = Odometry { rot1: 0.05, trans: 0.2, rot2: 0.05 };
 /// Landmarks a metre apart in rows of six, the first of them ahead.
 pub fn field(count: u32) -> impl Iterator<Item = Landmark> {
     let at = |k| Vector2::new(1.5 + f64::from(k / 6), f64::from(k % 6) - 2.5);
-    (0..count).map(move |k| Landmark { mean: at(k), covariance: Matrix2::identity() * 0.01, existence_count: 1 })
+    (0..count).map(move |k| Landmark {
+        mean: at(k),
+        covariance: Matrix2::identity() * 0.01,
+        existence_count: 1,
+        apart: 0,
+    })
 }
 
 /// Sightings of the six nearest, all at their places to a few centimetres.

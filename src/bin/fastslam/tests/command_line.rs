@@ -413,6 +413,158 @@ fn a_recorded_log_is_read_and_a_bad_line_of_it_named() {
     fastslam("landmarks --mrclam no/such/log").code(1);
 }
 
+/// What is said in one line about arguments that are refused.
+fn refusal(arguments: &str) -> String {
+    let refused = fastslam(arguments).code(2);
+    let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert_eq!(message.trim_end().lines().count(), 1, "{message}");
+    message
+}
+
+#[test]
+fn settings_of_noise_are_options_and_lines_of_a_file() {
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("noise.toml");
+    let run = |options: &str| json(&format!("landmarks --particles 3 --course tags --json {options}"));
+    let text = "# of the wheels\nalphas = [0.1, 0, 0.01, 0.1]\nspeed-std = 0.2\nrange-std = 0.5\nbearing-std = 0.05\n";
+    std::fs::write(&file, text).unwrap();
+    let options = "--alphas 0.1,0,0.01,0.1 --speed-std 0.2 --range-std 0.5 --bearing-std 0.05";
+    let (by_options, by_file) = (run(options), run(&format!("--settings {}", file.display())));
+    assert_eq!(by_options, by_file);
+    assert_eq!(by_options["noises"], "those of the course, and as set");
+    assert_ne!(by_options["rms_best"], run("")["rms_best"]);
+    // An option stands over the file.
+    let over = run(&format!("--settings {} --range-std 0.1", file.display()));
+    assert_eq!(over, run(&format!("{options} --range-std 0.1").replace("--range-std 0.5 ", "")));
+
+    for (options, said) in [
+        ("--range-std -1", "'--range-std <M>': must be a number from 0 to 1000 [m]"),
+        ("--bearing-std NaN", "'--bearing-std <RAD>': must be a number from 0 to 10 [rad]"),
+        ("--alphas 1,2,3", "'--alphas <A1,A2,A3,A4>': must be four numbers from 0 to 100, apart by commas"),
+        ("--alphas -1,2,3,4", "must be four numbers from 0 to 100"),
+        ("--alphas 1,2,3,x", "must be four numbers from 0 to 100"),
+        ("--sighting-worth 1.5", "'--sighting-worth <N>': must be a whole number from 0 to 1000"),
+        ("--sighting-worth 9 --most-count 3", "most-count = 3: must be at least sighting-worth = 9"),
+        ("--steering-std 0.1", "steering-std: cannot be set of a course"),
+    ] {
+        let message = refusal(&format!("landmarks {options}"));
+        assert!(message.contains(said), "{options}: {message}");
+    }
+    for (text, said) in [
+        ("range-std = -1\n", "noise.toml: range-std = -1: must be a number from 0 to 1000 [m]"),
+        ("alphas = [0, 0, 0, 1e9]\n", "noise.toml: alphas = 1000000000: must be a number from 0 to 100"),
+        ("\nrange = 1\n", "noise.toml: line 2: unknown field `range`"),
+        ("range-std = \"wide\"\n", "noise.toml: line 1: invalid type"),
+        ("range-std 1\n", "noise.toml: line 1: "),
+        ("alphas = [1, 2]\n", "noise.toml: line 1: "),
+    ] {
+        std::fs::write(&file, text).unwrap();
+        let message = refusal(&format!("landmarks --settings {}", file.display()));
+        assert!(message.contains(said), "{text}: {message}");
+    }
+    fastslam("landmarks --settings no/such/file.toml").code(1);
+}
+
+/// The simulated car as the files in which the log of Victoria Park is passed on: what its wheel and steering read, and where it truly was.
+fn car_log(folder: &TempDir, steps: usize) -> String {
+    use fastslam_lab::experiment::car::{self, WHEEL_ASIDE};
+    let (log, base) = (car::simulate(1), car::tuning().motion.wheel_base);
+    let (mut time, mut files) = (0.0, [String::new(), String::from("0,0,0\n"), String::new()]);
+    for k in 0..steps {
+        let control = log.controls[k];
+        let tan = base * control.turn_rate / control.speed;
+        let wheel = control.speed * (1.0 - tan * WHEEL_ASIDE / base);
+        files[0] += &format!("{time},{wheel},{}\n", fastslam::ops::atan2(tan, 1.0));
+        time += control.duration;
+        files[1] += &format!("{time},{},{}\n", log.truth[k + 1].x, log.truth[k + 1].y);
+        for seen in &log.sightings[k] {
+            files[2] += &format!("{time} {} {} {}\n", seen.z.x, seen.z.y, seen.signature.unwrap());
+        }
+    }
+    files[0] += &format!("{time},0,0\n");
+    for (name, text) in ["DRS", "GPS", "SIGHTINGS"].into_iter().zip(files) {
+        std::fs::write(folder.path().join(format!("{name}.txt")), text).unwrap();
+    }
+    folder.path().display().to_string()
+}
+
+#[test]
+fn the_log_of_a_car_is_read_and_a_bad_line_of_it_named() {
+    let folder = tempdir().unwrap();
+    let log = car_log(&folder, 200);
+    let run = json(&format!("landmarks --particles 20 --json --victoria {log}"));
+    assert_eq!(run["steps"].as_array().unwrap().len(), 200);
+    let [online, ekf, odometry] = ["rms_online", "rms_ekf", "rms_odometry"].map(|key| run[key].as_f64().unwrap());
+    // GPS gives the heading of the start to some degrees.
+    assert!(online < 1.5 * ekf + 1.0 && ekf < 10.0, "{online} {ekf} {odometry}");
+    let wide = json(&format!("landmarks --particles 2 --json --steering-std 0.2 --victoria {log}"));
+    assert!(wide["noises"].as_str().unwrap().ends_with("and as set"));
+    assert!(
+        refusal(&format!("landmarks --alphas 0,0,0,0 --victoria {log}")).contains("alphas: cannot be set of a car")
+    );
+
+    for (file, text, said) in [
+        ("SIGHTINGS", "1 2 0.1 1.5\n", "must be above 0, and a whole number from 0 to 99999"),
+        ("SIGHTINGS", "1 -2 0.1 1\n", "range -2, tree 1"),
+        ("SIGHTINGS", "999 2 0.1 1\n", "nothing is seen in the time of both"),
+        ("DRS", "0,1,9\n", "DRS.txt: time 0: steering angle 9: must be from -1.5 to 1.5 [rad]"),
+        ("DRS", "0,1\n", "DRS.txt: line 1: expected 3 numbers"),
+        ("GPS", "0,0,0\n1,1,0\n", "GPS.txt: never 3 m from its start"),
+    ] {
+        let path = folder.path().join(format!("{file}.txt"));
+        let kept = std::fs::read_to_string(&path).unwrap();
+        std::fs::write(&path, text).unwrap();
+        let message = refusal(&format!("landmarks --victoria {log}"));
+        assert!(message.contains(said), "{text}: {message}");
+        std::fs::write(&path, kept).unwrap();
+    }
+    // Of a laser's scans: two trunks, and nobody says which.
+    std::fs::remove_file(folder.path().join("SIGHTINGS.txt")).unwrap();
+    assert!(refusal(&format!("landmarks --victoria {log}")).contains("--association unknown"));
+    let scan: Vec<&str> = (0..361).map(|k| if (100..104).contains(&k) || k == 240 { "9.5" } else { "81.9" }).collect();
+    std::fs::write(folder.path().join("LASER.txt"), format!("0.5,{}\n", scan.join(","))).unwrap();
+    let run = json(&format!("landmarks --particles 2 --association unknown --json --victoria {log}"));
+    assert_eq!((&run["steps"][0]["seen"], &run["landmarks"]), (&2.into(), &2.into()));
+    std::fs::write(folder.path().join("LASER.txt"), "0.5,1,2\n").unwrap();
+    assert!(
+        refusal(&format!("landmarks --association unknown --victoria {log}")).contains("line 1: expected 362 numbers")
+    );
+}
+
+#[test]
+fn a_landmark_graph_is_read_and_a_bad_line_of_it_named() {
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("graph.g2o");
+    let run = |text: &str| {
+        std::fs::write(&file, text).unwrap();
+        format!("landmarks --particles 5 --g2o {}", file.display())
+    };
+    // Ids of landmarks lie between those of poses.
+    let graph = "# a graph\nVERTEX_SE2 0 0 0 0\nVERTEX_XY 1 2 1\nVERTEX_SE2 2 1 0 0\nVERTEX_SE2 5 2 0 0\nFIX 0\n\
+        EDGE_SE2 0 2 1.1 0 0 100 0 0 100 0 400\nEDGE_SE2 2 5 1 0 0 100 0 0 100 0 400\nEDGE_SE2 0 5 2 0 0 1 0 0 1 0 1\n\
+        EDGE_SE2_XY 2 1 1 1 100 0 100\nEDGE_SE2_XY 5 1 0 1 100 0 100\n";
+    let output = json(&format!("{} --json", run(graph)));
+    assert_eq!((output["steps"].as_array().unwrap().len(), &output["landmarks"]), (2, &1.into()));
+    assert!((output["rms_odometry"].as_f64().unwrap() - (0.02_f64 / 3.0).sqrt()).abs() < 1e-9);
+    assert!(refusal(&format!("{} --speed-std 1", run(graph))).contains("speed-std: cannot be set of a graph"));
+    for (old, new, said) in [
+        ("VERTEX_XY 1 2 1", "VERTEX_XYZ 1 2 1", "line 3: VERTEX_XYZ: must be VERTEX_SE2"),
+        ("VERTEX_XY 1 2 1", "VERTEX_XY 0 2 1", "line 3: vertex 0 is there already"),
+        ("VERTEX_XY 1 2 1", "VERTEX_XY 1 2", "line 3: VERTEX_XY needs 1 ids and 2 numbers, not 2 words"),
+        ("VERTEX_XY 1 2 1", "VERTEX_XY 1 2 inf", "line 3: VERTEX_XY needs 2 finite numbers"),
+        ("VERTEX_XY 1 2 1", "VERTEX_XY -1 2 1", "line 3: an id must be a whole number from 0"),
+        ("EDGE_SE2 2 5", "EDGE_SE2 5 2", "no EDGE_SE2 leads from vertex 2 to 5"),
+        ("EDGE_SE2_XY 2 1", "EDGE_SE2_XY 2 9", "line 10: no VERTEX_XY has the id 9"),
+        ("EDGE_SE2_XY 2 1", "EDGE_SE2_XY 1 1", "line 10: no VERTEX_SE2 has the id 1"),
+        ("2 1 1 1 100 0 100", "2 1 1 1 0 0 100", "line 10: the information matrix must be positive definite"),
+        ("2 1 1 1 100 0 100", "2 1 0 0 100 0 100", "line 10: a landmark at the robot's own place"),
+    ] {
+        let message = refusal(&run(&graph.replacen(old, new, 1)));
+        assert!(message.contains(said), "{new}: {message}");
+    }
+    assert!(refusal(&run("# nothing\n")).contains("needs two poses"));
+}
+
 #[test]
 fn the_example_that_the_page_ships_is_the_one_that_is_written() {
     let folder = tempdir().unwrap();
@@ -564,7 +716,7 @@ fn a_log_that_cannot_be_read_is_refused_by_line_and_one_with_flaws_is_read_if_as
     }
 }
 
-/// The Intel Research Lab, by the rule of the published figures. With these settings seeds 1 to 3 gave 0.068, 0.070 and 0.066 m, and
+/// The Intel Research Lab, by the rule of the published figures. With these settings seeds 1 to 3 gave 0.066, 0.065 and 0.068 m, and
 /// 2.4° each; gmapping, run on the same log, 0.068 to 0.070 m. The bounds leave as much above the worst as lies between seeds.
 #[test]
 fn three_runs_of_the_intel_log_err_by_75_millimetres_and_2_5_degrees_at_most() {
@@ -577,11 +729,11 @@ fn three_runs_of_the_intel_log_err_by_75_millimetres_and_2_5_degrees_at_most() {
     }
 }
 
-/// Why there is no `log --smooth`: on the Intel log all but the last scans have one ancestor, so that the mean over the ancestry at the end is
-/// the best particle's path, and what is told at once is worse. With 16 particles, seeds 1 to 5 gave 67 to 74 mm as it went, and 65 to 66 mm
-/// for record and best path, which differed by 0.1 mm at most.
+/// Why there is no `log --smooth`: on the Intel log what is told at once is worse than the best particle's path, and the mean over the ancestry at the
+/// end hardly better. With 16 particles, seeds 1 to 3 gave 70, 70 and 86 mm as it went, 64.6, 64.4 and 66.1 mm for the record, and 65.3, 65.0 and
+/// 67.4 mm for the best path; the means of ancestors of 10, 50 and 200 steps ago lie between.
 #[test]
-fn the_record_of_the_intel_log_is_the_best_particle_s_path() {
+fn the_record_of_the_intel_log_is_hardly_better_than_the_best_particle_s_path() {
     let Some(file) = recorded("intel", [".clf", ".relations"]) else { return };
     let bytes = |extension: &str| std::fs::read(format!("{file}{extension}")).unwrap();
     let log = std::sync::Arc::new(fastslam::log::parse(&bytes(".clf"), false).unwrap());
@@ -621,7 +773,7 @@ fn where_few_beams_return_the_wheels_that_were_learnt_keep_the_map_from_turning(
     let [path, reference] = [path, reference].map(|path| path.into_iter().map(|(_, pose)| pose).collect::<Vec<_>>());
     let motion = align(&path, &reference);
     let error = rms(&path.iter().map(|pose| motion.compose(pose)).collect::<Vec<_>>(), &reference);
-    // Seeds 1 to 3 gave 3.9, 3.2 and 3.0 m.
+    // Seeds 1 to 3 gave 1.4, 0.8 and 4.4 m.
     assert!(error < 5.0, "{error} m");
     // Odometry was made with 3° a metre and without a drift.
     let [drift, std] = ["wheel_drift_deg_per_m", "wheel_heading_std_deg_per_m"].map(|key| run[key].as_f64().unwrap());
