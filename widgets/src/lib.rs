@@ -30,6 +30,7 @@ pub mod joint;
 pub mod lap;
 #[cfg(feature = "log")]
 pub mod log;
+pub mod marks;
 mod message;
 pub mod model;
 mod names;

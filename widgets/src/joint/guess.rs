@@ -3,8 +3,8 @@
 use super::model::JointModel;
 use crate::{
     decimal::write,
+    marks::{Place, label},
     prediction::{State, off_by},
-    proposal::marks::{Place, label},
     scene::{Chart, Handle, Mark, Role, Scene},
     words::{joint, prediction},
 };

@@ -2,7 +2,7 @@
 
 use super::State;
 use crate::{
-    proposal::marks::{Place, label},
+    marks::{Place, label},
     scene::{Handle, Mark, Point, Rect, Role, Scene},
     words::prediction,
 };

@@ -4,11 +4,9 @@
 //! along the line of sight, the bearing across it. A knob of the sensor stands a little beyond the end of its axis, so that it can be
 //! grasped however sharp the sensor is; and what is too large for the panel is drawn together towards its edge.
 
-use super::{
-    marks::Place,
-    zoom::{self, HALF},
-};
+use super::zoom::{self, HALF};
 use crate::{
+    marks::Place,
     scene::{NINE_TENTHS, Plane, Point, Rect, clip_polyline},
     words::proposal,
 };

@@ -6,7 +6,6 @@ mod gauge;
 mod ghost;
 mod knob;
 mod layout;
-pub(crate) mod marks;
 mod model;
 mod names;
 mod panel;

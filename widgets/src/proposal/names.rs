@@ -2,10 +2,10 @@
 
 use super::{
     layout::{AWARE, Layout, RATIO},
-    marks::{filled_diamond, pointer, ring},
     model::ProposalModel,
 };
 use crate::{
+    marks::{filled_diamond, pointer, ring},
     prediction::State,
     scene::{Cells, GHOST, Mark, Rect, Role, Sample, Scene, Shading, legend, robot},
     words::{common, proposal},

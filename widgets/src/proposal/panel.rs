@@ -4,13 +4,13 @@ use super::{
     ghost,
     knob::{self, Noise, Track},
     layout::Panel,
-    marks::{Place, filled_diamond, label, line, ring},
     model::ProposalModel,
     zoom,
 };
 use crate::{
     decimal::{fixed, write},
     font::{self, Weight},
+    marks::{Place, filled_diamond, label, line, ring},
     scene::{
         Anchor, Cells, Handle, LINE, Mark, NINE_TENTHS, Plane, Point, Rect, Role, Scene, Shading, bar, clip_polyline,
         cloud, heading, rimmed_robot, text,

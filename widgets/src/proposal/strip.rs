@@ -1,16 +1,10 @@
 //! What both proposals are worth: the ratio in words and on a scale, and the reader's guess.
 
-use super::{
-    gauge, ghost,
-    layout::Layout,
-    marks::{empty_pointer, filled_diamond, line, pointer},
-    model::ProposalModel,
-    recipe::RATIOS,
-    view::GUESS,
-};
+use super::{gauge, ghost, layout::Layout, model::ProposalModel, recipe::RATIOS, view::GUESS};
 use crate::{
     decimal::{fixed, write},
     font::Weight,
+    marks::{empty_pointer, filled_diamond, line, pointer},
     prediction::{State, off_by},
     scene::{Anchor, Handle, Mark, Rect, Role, Scene, text},
     words::{prediction, proposal},

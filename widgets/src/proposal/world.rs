@@ -1,14 +1,10 @@
 //! The whole step, small: where the panels are in the world, and the landmark, which is moved here.
 
-use super::{
-    layout::Layout,
-    marks::{filled_diamond, ring_within},
-    model::ProposalModel,
-    zoom,
-};
+use super::{layout::Layout, model::ProposalModel, zoom};
 use crate::{
     decimal::write,
     font::Weight,
+    marks::{filled_diamond, ring_within},
     scene::{Anchor, Handle, Mark, NINE_TENTHS, Point, Rect, Role, Scene, clip_polyline, rimmed_robot, text},
     words::proposal,
 };

@@ -9,7 +9,7 @@ use super::{
 use crate::{
     decimal::{fixed, write},
     font::{self, Weight},
-    proposal::marks::{Place, label},
+    marks::{Place, label},
     scene::{Anchor, Mark, Point, Rect, Role, Sample, Scene, legend, n_eff, text},
     words::universes as words,
 };

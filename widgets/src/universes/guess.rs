@@ -9,8 +9,8 @@ use super::{
 };
 use crate::{
     decimal::write,
+    marks::{Place, label},
     model::Declared,
-    proposal::marks::{Place, label},
     scene::{Handle, Mark, Point, Rect, Role, Scene},
     words::{prediction, universes as words},
 };

@@ -10,8 +10,8 @@ use super::{
 use crate::{
     decimal::write,
     font::{self, Weight},
+    marks::{Place, label, line, pointer},
     model::Declared,
-    proposal::marks::{Place, label, line, pointer},
     scene::{Anchor, Chart, Handle, Mark, Point, Rect, Role, Sample, Scene, legend, text},
     words::universes as words,
 };

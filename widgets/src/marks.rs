@@ -1,4 +1,4 @@
-//! Marks and lines of text that several parts of the figure have.
+//! Marks and lines of text that several figures have.
 
 use crate::{
     font::{self, Weight},
