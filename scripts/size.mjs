@@ -12,7 +12,7 @@ const budgets = {
    * The target is for twelve figures. What is over it: one program holds all figures of the page, each with its laboratory, and tiny-skia
    * unpatched (a sixth of it). Other levels of optimisation made it no smaller (2, s; -Os and -Oz of wasm-opt: 1 to 10 KB either way).
    */
-  page: { target: 520_000, limit: 720_000 },
+  page: { target: 520_000, limit: 735_000 },
   /** The picture of the finished map, which is fetched when the figure of logs is near: neither text nor program waits for it. */
   poster: { target: 25_000, limit: 30_000 },
   /** HTML and CSS: what is there before any script or program. Over the target are captions, derivations and fallbacks of the last six figures. */

@@ -5,6 +5,7 @@ use crate::geometry::Pose2;
 use crate::mapper::tuning::NOTHING_MET;
 
 /// The odometry of a scan that has none of its own yet.
+#[cfg(any(feature = "bags", feature = "json"))]
 pub(super) const NOWHERE: Pose2 = Pose2 { x: f64::NAN, y: f64::NAN, theta: f64::NAN };
 
 /// Gives each scan without a pose the one that odometry has at its stamp: the very pose where there is one with that stamp, else what
