@@ -1,6 +1,7 @@
 //! Where the robot was at each scan by raw odometry, for logs that tell of scans and of odometry apart.
 
 use super::{FARTHEST_JUMP, LaserLog, LaserScan, LogError, fixed, odometry_at, scan_to_scan};
+#[cfg(any(feature = "bags", feature = "json"))]
 use crate::geometry::Pose2;
 use crate::mapper::tuning::NOTHING_MET;
 
