@@ -277,9 +277,10 @@ fn all_universes_are_drawn_and_those_that_died_fade_and_go() {
     assert_eq!(strands(&seen, Role::Copied)[0].1, 23, "each has left the others at the start");
     assert_eq!(strands(&seen, Role::Extinct), []);
 
-    let figure = mapped("universes=24&cell=0.2&policy=always", 40);
+    // Selection by a small power of what scans say lets few of them die: of 256, one a scan.
+    let figure = mapped("universes=256&cell=0.2&policy=always", 89);
     let dead = strands(&scene(&figure, 800.0), Role::Extinct);
-    assert!(dead.len() > 5 && dead.windows(2).all(|pair| pair[0].0 < pair[1].0), "older ones are thinner: {dead:?}");
+    assert!(dead.len() > 2 && dead.windows(2).all(|pair| pair[0].0 < pair[1].0), "older ones are thinner: {dead:?}");
     let export = figure.export();
     let died_out = export.header().iter().position(|name| *name == "died_out").unwrap();
     let died = export.rows().iter().filter_map(|row| row[died_out]).sum::<f64>();

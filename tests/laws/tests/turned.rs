@@ -8,7 +8,7 @@ use fastslam::matching::{Matcher, ScanModel};
 use fastslam::motion::{Motion as _, Odometry, OdometryModel};
 use fastslam::ops;
 use fastslam::particle::Particle;
-use fastslam::proposal::{Fit, FromScan, Proposal, ProposalTrace, Search};
+use fastslam::proposal::{Fit, FromScan, FromScanSettings, Proposal, ProposalTrace, Search};
 use fastslam::random::{Purpose, Stream};
 use fastslam::sensor::{BeamSensor, Scan};
 use fastslam_lab::experiment::ErrorSummary as Errors;
@@ -113,7 +113,9 @@ fn corridor_of_the_lap(seed: u32, angle: f64) -> Option<Judged> {
 
 /// With the map and settings for logs, in which 4 to 5 cm are unknown along a step.
 fn corridor_of_a_log(seed: u32, angle: f64) -> Option<Judged> {
-    let from_scan = FromScan { motion: WHEELS, score: tuning::score(), settings: tuning::FROM_SCAN };
+    // With one hill the first numbers of the stream are those of the draw from its fit.
+    let settings = FromScanSettings { hills: 1, ..tuning::FROM_SCAN };
+    let from_scan = FromScan { motion: WHEELS, score: tuning::score(), settings };
     corridor::<_, { tuning::CELLS_PER_NDT }>(from_scan, tuning::grid(0.05), 0.4, seed, angle).judged(seed)
 }
 
