@@ -37,7 +37,7 @@ export async function npmFiles() {
   rmSync(to, { recursive: true, force: true })
   mkdirSync(join(to, 'assets'), { recursive: true })
   const all = await figures()
-  const files = readdirSync(dist).filter(file => /^fastslam(-[\w-]{8})?\.js$|^fastslam-(page|log)-.*\.wasm$/.test(file))
+  const files = readdirSync(dist).filter(file => /^fastslam(-[\w-]{8})?\.js$|^fastslam-(page|log|bags)-.*\.wasm$/.test(file))
   for (const file of [...files, 'custom-elements.json', 'example.clf.gz']) cpSync(join(dist, file), join(to, file))
   // What they name, and what that names, and nothing of the chapter's.
   const assets = new Set(readdirSync(join(dist, 'assets')))

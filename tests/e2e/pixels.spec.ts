@@ -2,7 +2,7 @@
 // that maps logs.
 import { readFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { programNames, programs } from '../../scripts/registry.mjs'
+import { programs } from '../../scripts/registry.mjs'
 import { root } from '../../scripts/lib.mjs'
 import { startServer } from '../../scripts/serve.mjs'
 import { expect, test } from './fixtures'
@@ -60,7 +60,7 @@ async function digests({ program, wanted, log }: { program: string; wanted: Pict
 
 const paints = [
   { program: 'fastslam_widgets_bg', wanted: pictures },
-  ...programNames.map(name => ({ program: `fastslam-${name}`, wanted: pictures.filter(({ tag }) => programs.get(tag) === name) })),
+  ...[...new Set(programs.values())].map(name => ({ program: `fastslam-${name}`, wanted: pictures.filter(({ tag }) => programs.get(tag) === name) })),
 ]
 
 for (const { program, wanted } of paints) {
