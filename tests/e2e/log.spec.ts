@@ -203,6 +203,26 @@ test('what is mapped is played again and gone back to, and all parts tell of one
   await expect(log.sentence).toContainText('Scan 12 of 90')
 })
 
+test('buttons over the map stand on the map, also where the picture leaves room in its frame', async ({ page }) => {
+  for (const [width, height] of [[1024, 618], [1280, 800], [380, 760]] as const) {
+    await page.setViewportSize({ width, height })
+    await page.goto('/embed-log.html') // which fills its frame
+    const log = new LogFigure(page)
+    await log.choose('tiny.clf', readFileSync(TINY))
+    await expect(log.button('Map this building')).toBeVisible()
+    await expect(log.sentence).toContainText('91 scans')
+    const canvas = (await log.element.locator('canvas').boundingBox())!
+    const buttons = [log.button('Map this building'), ...(await log.element.locator('.zoom button').all())]
+    expect(buttons).toHaveLength(4)
+    for (const button of buttons) {
+      const { y, height: high } = (await button.boundingBox())!
+      // Below the picture's own title, and above what a phone has below the map.
+      expect(y, `at ${width} × ${height}`).toBeGreaterThan(canvas.y + 24)
+      expect(y + high, `at ${width} × ${height}`).toBeLessThan(canvas.y + 0.62 * canvas.height)
+    }
+  }
+})
+
 test('its program is not fetched until something is asked of it, and what was asked first is not lost', async ({ page }) => {
   const fetched: string[] = []
   page.on('request', request => /fastslam-log(?!-poster).*(wasm|png)$/.test(request.url()) && fetched.push(request.url()))
