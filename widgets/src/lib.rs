@@ -33,6 +33,7 @@ pub mod log;
 pub mod marks;
 mod message;
 pub mod model;
+#[cfg(feature = "page")]
 mod names;
 pub mod paint;
 pub mod panels;
