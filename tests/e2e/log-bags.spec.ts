@@ -33,7 +33,7 @@ test('bags are mapped as the CARMEN log that says the same, by a program that is
   expect(asked).toEqual([expect.stringMatching(/^GET fastslam-bags.*\.wasm$/)])
 })
 
-test('the path is saved as MCAP, byte by byte as the command saves it, by a program that is fetched then', async ({ page }) => {
+test('the path is saved as MCAP, byte by byte as the command saves it, by a program that is fetched then', async ({ page, complaints }) => {
   const log = await new LogFigure(page).open()
   const asked: string[] = []
   await page.route(/fastslam-bags.*\.wasm$/, async route => {
@@ -47,6 +47,7 @@ test('the path is saved as MCAP, byte by byte as the command saves it, by a prog
   const save = log.button('Path for ROS 2 (MCAP)')
   await save.click()
   await expect(log.alert).toContainText('path.mcap cannot be saved: ')
+  expect(complaints.splice(0)).toEqual([expect.stringContaining('ERR_FAILED')])
   const [download] = await Promise.all([page.waitForEvent('download'), log.alert.getByRole('button', { name: 'Try again' }).click()])
   expect(download.suggestedFilename()).toBe('path.mcap')
   expect(readFileSync(await download.path()).equals(file('lap-path.mcap'))).toBe(true)

@@ -16,7 +16,7 @@ const NUMBERS = ['median', 'low', 'high', 'p90', 'worst']
  */
 const PARTICLE_LAP: Record<string, number> = { aware: 3.2, motion: 1.2 }
 const LAP = 10 // [ms] of a lap besides its particles: the world's scans
-const GRAPH = 45 // [ms] of a lap as a pose graph, roughly, on the same machine
+const GRAPH = 25 // [ms] of a lap as a pose graph, roughly, on the same machine
 const FEW = 5 // seeds after which it is said whether they agree, long before the end
 
 interface Cell {
