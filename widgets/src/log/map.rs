@@ -159,7 +159,7 @@ mod tests {
     fn marked_cells_lie_where_those_of_a_map_would_and_blocks_of_them_where_they_are_too_small() {
         // Ten px a metre: a cell of 0.2 m is 2 px wide, one of 0.02 m is 0.2, so that three make one.
         for (size, block) in [(0.2, 0.2), (0.02, 0.06)] {
-            let cell = [3.0, -2.0].map(|metres| (metres / size) as i32);
+            let cell = [7.0, 4.0].map(|metres| (metres / size) as i32); // beside the middle
             let (area, cells) = view().marked(&[cell, [9_000_000; 2], cell], size);
             let at = cells.shades.iter().position(|shade| *shade > 0).unwrap();
             assert_eq!(cells.shades.iter().filter(|shade| **shade > 0).count(), 1, "one is out of view");
