@@ -17,7 +17,7 @@ export function renderLapTable(numbers) {
   const groups = Object.values(proposals).map(title => `<th scope="colgroup" colspan="${Object.keys(matchers).length}">${title}</th>`)
   const titles = columns.map(column => `<th scope="col">${Object.entries(matchers).find(([matcher]) => column.endsWith(`.${matcher}`))?.[1]}</th>`)
   // A pose graph has no particles: one number for all rows, beside the score that its matches are made with.
-  const graph = (/** @type {number} */ k) => (k === 0 ? cell(numbers, 'graph', ` rowspan="${rows.length}" class="graph"`) : '')
+  const graph = (/** @type {number} */ k) => (k === 0 ? cell(numbers, 'graph', ` data-cell="graph" rowspan="${rows.length}" class="graph"`) : '')
   const body = rows.map((row, k) => `<tr><th scope="row"><i>M</i> = ${row}</th>${columns.map(column => cell(numbers, `${column}.m${row}`, ` data-cell="${column}.m${row}"`)).join('')}${graph(k)}</tr>`)
   return [
     `<fastslam-lap-table seeds="${numbers['lap.runs']?.value}"><table>`,

@@ -12,6 +12,7 @@ const numbers = data('numbers.json')
 /** The one that takes least. */
 const CHEAP = 'motion.cell.m4'
 const SLOW = 'aware.subcell.m8'
+const GRAPH = 'graph'
 
 /** The chapter's page, in whose place of the text there is the table alone. */
 async function open(page: Page, change = (html: string) => html): Promise<void> {
@@ -34,8 +35,8 @@ test.describe('without JavaScript', () => {
 
   test('it is a table of every measured number, to the millimetre', async ({ page }) => {
     await open(page)
-    await expect(page.locator('fastslam-lap-table td[data-cell]')).toHaveCount(20)
-    for (const name of [CHEAP, SLOW]) {
+    await expect(page.locator('fastslam-lap-table td[data-cell]')).toHaveCount(21)
+    for (const name of [CHEAP, SLOW, GRAPH]) {
       const value = (key: string) => numbers[`lap.${name}.${key}`].value.toFixed(3)
       await expect(cell(page, name)).toHaveText(`${value('median')} ${value('median_low')}–${value('median_high')} p90 ${value('p90')} worst ${value('worst')}`)
     }
@@ -61,6 +62,19 @@ test('a cell computed here has the digits printed, seed by seed, and says so onc
   await expect(panel(page).locator('circle.same')).toHaveCount(200)
   await expect(panel(page).getByRole('alert')).toBeEmpty()
   await expect(panel(page).getByRole('button', { name: 'Stop' })).toBeDisabled()
+})
+
+test('the cell of the pose graph is computed here as well', async ({ page }) => {
+  await open(page)
+  await expect(button(page, GRAPH)).toHaveAccessibleName(/^Run it here: pose graph, sub-cell score\. About \d+ seconds\.$/)
+  await button(page, GRAPH).click()
+  await expect(panel(page)).toContainText('pose graph, sub-cell score')
+  await expect(panel(page).getByRole('status')).toContainText('The first 5 laps end with the errors printed, to the last bit.', { timeout: 30_000 })
+  // All of them are the same loop as for every cell, and take a while.
+  await panel(page).getByRole('button', { name: 'Stop' }).click()
+  await expect(panel(page)).toContainText('of 200 seeds, each error as printed. Median so far')
+  expect(await panel(page).locator('circle.same').count()).toBeGreaterThanOrEqual(5)
+  await expect(panel(page).locator('circle.differs')).toHaveCount(0)
 })
 
 test('it stops at once, keeps what it has, and another cell can be run instead', async ({ page }) => {

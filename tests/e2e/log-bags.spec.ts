@@ -33,6 +33,34 @@ test('bags are mapped as the CARMEN log that says the same, by a program that is
   expect(asked).toEqual([expect.stringMatching(/^GET fastslam-bags.*\.wasm$/)])
 })
 
+test('the path is saved as MCAP, byte by byte as the command saves it, by a program that is fetched then', async ({ page, complaints }) => {
+  const log = await new LogFigure(page).open()
+  const asked: string[] = []
+  await page.route(/fastslam-bags.*\.wasm$/, async route => {
+    asked.push(route.request().url())
+    if (asked.length === 1) await route.abort()
+    else await route.continue()
+  })
+  await log.set('universes', '3') // as the command's test has it, which keeps the file
+  await fingerprint(log, 'lap.clf', file('lap.clf'))
+  await log.unfold('saves')
+  const save = log.button('Path for ROS 2 (MCAP)')
+  await save.click()
+  await expect(log.alert).toContainText('path.mcap cannot be saved: ')
+  expect(complaints.splice(0)).toEqual([expect.stringContaining('ERR_FAILED')])
+  const [download] = await Promise.all([page.waitForEvent('download'), log.alert.getByRole('button', { name: 'Try again' }).click()])
+  expect(download.suggestedFilename()).toBe('path.mcap')
+  expect(readFileSync(await download.path()).equals(file('lap-path.mcap'))).toBe(true)
+  await expect(log.alert).toBeEmpty()
+  // Once is enough, also for a path that is shorter.
+  await log.set('min-travel', '1')
+  await log.button('Map this building').click()
+  await log.done()
+  const [other] = await Promise.all([page.waitForEvent('download'), save.click()])
+  expect(readFileSync(await other.path()).equals(file('lap-path.mcap'))).toBe(false)
+  expect(asked).toHaveLength(2)
+})
+
 test('a bag is dropped on the figure', async ({ page }) => {
   const log = await new LogFigure(page).open()
   const bytes = [...file('lz4.bag')]

@@ -223,6 +223,48 @@ test('buttons over the map stand on the map, also where the picture leaves room 
   }
 })
 
+test('what odometry alone would have drawn is compared with the map, scan by scan', async ({ page }) => {
+  const log = await new LogFigure(page).open()
+  await log.choose('tiny.clf', readFileSync(TINY))
+  await log.set('cell', '0.1')
+  const compare = log.element.getByRole('checkbox', { name: 'Odometry’s map' })
+  const chip = log.element.getByRole('button', { name: /Compare with odometry/ })
+  await log.button('Map this building').click()
+  await log.done()
+  const alone = await log.picture()
+  await expect(log.sentence).not.toContainText('Raw odometry alone')
+  const apart = async () => Number(await log.readout('apart').textContent().then(text => parseFloat(text!)))
+  const end = await apart()
+  expect(end).toBeGreaterThan(1) // the wheels led it astray
+
+  // By keyboard, while the map stays.
+  await compare.focus()
+  await page.keyboard.press('Space')
+  await expect(compare).toBeChecked()
+  await expect(log.sentence).toContainText(`All scans are mapped. Raw odometry alone has the robot ${end.toFixed(2)} m from where it is in this map.`)
+  const compared = await log.picture()
+  expect(compared).not.toBe(alone)
+  await expect(log.readout('digest')).toHaveText(/^[0-9a-f]{16}$/)
+
+  // It goes with the slider: at the first scan both agree, and picture, sentence and readout go back to the same end.
+  await log.scrubTo(1)
+  await expect(log.sentence).toContainText('Scan 1 of 90')
+  expect(await apart()).toBeLessThan(0.25)
+  const first = await log.picture()
+  await log.element.evaluate(element => (element as FigureElement).seek(90))
+  await log.done()
+  expect(await log.picture()).toBe(compared)
+  expect(first).not.toBe(compared)
+  expect(await apart()).toBe(end)
+
+  // The chip is a link to it, and the link has it.
+  await compare.uncheck()
+  await expect.poll(() => log.picture()).toBe(alone)
+  await chip.click()
+  await expect(compare).toBeChecked()
+  expect(await log.element.evaluate((element: HTMLElement & { link: string }) => element.link.split('#')[1])).toBe('fastslam-log?v=2&odometry=on')
+})
+
 test('its program is not fetched until something is asked of it, and what was asked first is not lost', async ({ page }) => {
   const fetched: string[] = []
   page.on('request', request => /fastslam-log(?!-poster).*(wasm|png)$/.test(request.url()) && fetched.push(request.url()))

@@ -1,6 +1,6 @@
 // Folded away below a figure: in how many runs over many seeds something holds, for each of what is compared.
 import { h, write } from './dom'
-import { runInWorker } from './jobs'
+import { Jobs } from './jobs'
 import type { Shell } from './shell'
 import type { Key, Words } from './words'
 
@@ -27,7 +27,7 @@ export class CountStudy {
   private readonly said = h('p', { class: 'said', 'aria-live': 'polite' })
   private readonly rows: Row[]
   private query = '' // what is counted, or was
-  private running: AbortController | undefined
+  private readonly jobs = new Jobs()
   private held: number[]
   private expected: number[] = [] // of each row, where there is such a column
   private seeds = 0
@@ -66,9 +66,7 @@ export class CountStudy {
 
   /** Ends a count that is under way. What was counted stays. */
   stop(said?: 'stopped'): void {
-    if (!this.running) return
-    this.running.abort()
-    this.running = undefined
+    if (!this.jobs.stop()) return
     this.show()
     if (said) this.say(this.words.say(said, { seeds: this.seeds, all: this.runs.value }))
   }
@@ -76,7 +74,7 @@ export class CountStudy {
   /** After a change in the figure: a count of other settings begins again, and a finished one is taken away. */
   check(): void {
     if (!this.query || this.query === this.settings()) return
-    if (this.running) return void this.count()
+    if (this.jobs.running) return void this.count()
     this.clear()
     write(this.said, this.words.say('count_again'))
   }
@@ -86,22 +84,18 @@ export class CountStudy {
   }
 
   private async count(): Promise<void> {
-    this.running?.abort()
-    const running = (this.running = new AbortController())
     this.clear()
     this.query = this.settings()
     write(this.said, '')
-    this.show()
     const to = FIRST_SEED + Number(this.runs.value)
     try {
       const job = { name: this.counted.job, query: this.query, from: FIRST_SEED, to }
-      await runInWorker(this.counted.tag, job, (rows, shell) => running === this.running && this.add(rows, shell), running.signal)
-      this.running = undefined
+      const ran = this.jobs.run(this.counted.tag, job, (rows, shell) => this.add(rows, shell))
+      this.show()
+      if (!(await ran)) return
       this.show()
       this.say(this.words.say('counted', { seeds: this.seeds }))
     } catch (error) {
-      if (running !== this.running) return // it was stopped, or another one has begun
-      this.running = undefined
       this.show()
       write(this.said, this.words.say('did_not_count', { why: this.words.why(error) }))
     }
@@ -129,7 +123,7 @@ export class CountStudy {
   }
 
   private show(): void {
-    const on = this.running !== undefined
+    const on = this.jobs.running
     this.start.disabled = this.runs.disabled = on
     this.halt.disabled = !on
     this.progress.max = Number(this.runs.value)

@@ -72,7 +72,7 @@ export type Command =
   | { do: 'run' | 'pause' | 'fit' }
   | { do: 'zoom'; factor: number; x: number; y: number }
   | { do: 'pan'; right: number; down: number }
-  | { do: 'save'; what: SavedFile }
+  | { do: 'save'; what: SavedFile; writer: WebAssembly.Module | undefined }
 
 /** Whether a command says how the figure is to be shown, which holds also after a trap, whatever is loaded. */
 export const isKept = ({ do: name }: Command): boolean => ['size', 'words', 'lock', 'show', 'comma', 'haunt', 'take'].includes(name)
@@ -104,7 +104,7 @@ export class HostMemory {
   }
 }
 
-export type SavedFile = 'map.png' | 'map.ros' | 'path.tum' | 'report.json'
+export type SavedFile = 'map.png' | 'map.ros' | 'path.tum' | 'path.mcap' | 'report.json'
 
 /** How far the mapping of a file is. */
 export type Phase = 'empty' | 'ready' | 'running' | 'paused' | 'done'

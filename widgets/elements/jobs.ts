@@ -17,7 +17,7 @@ export interface Job {
  * Resolves when every seed has been run. A signal stops it at once; what came until then has been told, with an instance of the same
  * program on the page for what is to be computed from it.
  */
-export async function runInWorker(tag: string, job: Job, onRows: (rows: number[][], shell: Shell) => void, signal: AbortSignal): Promise<void> {
+async function runInWorker(tag: string, job: Job, onRows: (rows: number[][], shell: Shell) => void, signal: AbortSignal): Promise<void> {
   const program = programOf(tag)
   const [module, shell] = [await program.module(), await program.shell()]
   signal.throwIfAborted()
@@ -38,6 +38,37 @@ export async function runInWorker(tag: string, job: Job, onRows: (rows: number[]
     })
   } finally {
     worker.terminate()
+  }
+}
+
+/** Jobs of which one runs at a time: another one, or a stop, ends the one before. */
+export class Jobs {
+  #now: AbortController | undefined
+
+  get running(): boolean {
+    return this.#now !== undefined
+  }
+
+  /** Ends the one that runs, if one does. */
+  stop(): boolean {
+    const { running } = this
+    this.#now?.abort()
+    this.#now = undefined
+    return running
+  }
+
+  /** Whether it was run to its end: nothing more is to be said of one that was stopped, or followed by another. */
+  async run(tag: string, job: Job, onRows: (rows: number[][], shell: Shell) => void): Promise<boolean> {
+    this.stop()
+    const now = (this.#now = new AbortController())
+    try {
+      await runInWorker(tag, job, (rows, shell) => now === this.#now && onRows(rows, shell), now.signal)
+    } catch (error) {
+      if (now === this.#now) throw error
+    } finally {
+      if (now === this.#now) this.#now = undefined
+    }
+    return !now.signal.aborted
   }
 }
 

@@ -1,6 +1,6 @@
 // The lap table of the chapter: a plain table (scripts/chapter/lap-table.mjs) that readers may compute again, cell by cell.
 import { h, icon, write } from './dom'
-import { runInWorker } from './jobs'
+import { Jobs } from './jobs'
 import { programOf } from './program'
 import type { Shell } from './shell'
 
@@ -16,25 +16,48 @@ const NUMBERS = ['median', 'low', 'high', 'p90', 'worst']
  */
 const PARTICLE_LAP: Record<string, number> = { aware: 3.2, motion: 1.2 }
 const LAP = 10 // [ms] of a lap besides its particles: the world's scans
-const LAP_TAG = 'fastslam-lap' // whose program runs the laps
+const GRAPH = 25 // [ms] of a lap as a pose graph, roughly, on the same machine
 const FEW = 5 // seeds after which it is said whether they agree, long before the end
 
 interface Cell {
-  /** As in the table: `aware.cell.m16`. */
+  /** As in the table: `aware.cell.m16`, or `graph`. */
   name: string
   title: string
-  proposal: string
-  matcher: string
-  particles: number
+  run: Run
   element: HTMLTableCellElement
   button: HTMLButtonElement
   verdict: HTMLElement
 }
 
+/** What makes the errors of a cell. */
+interface Run {
+  /** The figure of whose program the job is. */
+  tag: string
+  job: string
+  query: string
+  /** One lap [ms] on the rough machine. */
+  rough: number
+}
+
+/** The laps that a cell is made of, and what it is called. */
+function cellNamed(name: string): { title: string; run: Run } {
+  if (name === 'graph') {
+    return { title: 'pose graph, sub-cell score', run: { tag: 'fastslam-graph', job: 'graphs', query: 'course=apartment&odometry=1', rough: GRAPH } }
+  }
+  const [proposal, matcher, m] = name.split('.') as [string, string, string]
+  const particles = Number(m.slice(1))
+  const query = `course=apartment&temper=0.85&universes=${particles}&proposal=${proposal}&matcher=${matcher}`
+  return {
+    title: `${PROPOSALS[proposal]}, ${MATCHERS[matcher]}, M = ${particles}`,
+    run: { tag: 'fastslam-lap', job: 'laps', query, rough: LAP + PARTICLE_LAP[proposal]! * particles },
+  }
+}
+
 export class FastslamLapTable extends HTMLElement {
   #cells: Cell[] = []
   #panel: Panel | undefined
-  #running: AbortController | undefined
+  readonly #jobs = new Jobs()
+  #asked: Cell | undefined // that is run
   #slowness = 1 // time on this machine over the rough one
   #seeds = 0 // of every cell: all of them are run, or the digits could not be the same
 
@@ -54,19 +77,17 @@ export class FastslamLapTable extends HTMLElement {
 
   /** Ends what is being computed. What there is stays to be read. */
   stop(said = ''): void {
-    if (!this.#running) return
-    this.#running.abort()
-    this.#running = undefined
+    if (!this.#asked) return
+    this.#asked = undefined
+    this.#jobs.stop()
     this.#panel!.end(said)
   }
 
   #upgrade(element: HTMLTableCellElement): Cell {
     const name = element.dataset.cell!
-    const [proposal, matcher, m] = name.split('.') as [string, string, string]
-    const title = `${PROPOSALS[proposal]}, ${MATCHERS[matcher]}, M = ${m.slice(1)}`
     const button = h('button', { type: 'button', class: 'run' }, icon('play'), h('span', {}, 'run'))
     const verdict = h('span', { class: 'verdict' })
-    const cell = { name, title, proposal, matcher, particles: Number(m.slice(1)), element, button, verdict }
+    const cell = { name, ...cellNamed(name), element, button, verdict }
     button.addEventListener('click', () => void this.#run(cell))
     element.append(h('span', { class: 'again' }, button, verdict))
     return cell
@@ -83,17 +104,13 @@ export class FastslamLapTable extends HTMLElement {
 
   /** [ms] */
   #expected(cell: Cell): number {
-    return this.#slowness * this.#rough(cell) * this.#seeds
-  }
-
-  /** One lap [ms] on the rough machine. */
-  #rough(cell: Cell): number {
-    return LAP + PARTICLE_LAP[cell.proposal]! * cell.particles
+    return this.#slowness * cell.run.rough * this.#seeds
   }
 
   async #run(cell: Cell): Promise<void> {
     this.stop()
-    const [panel, running] = [this.#panel!, (this.#running = new AbortController())]
+    this.#asked = cell
+    const panel = this.#panel!
     for (const { element } of this.#cells) element.classList.toggle('chosen', element === cell.element)
     this.#judge(cell, '', '')
     panel.begin(cell.title, this.#expected(cell))
@@ -104,24 +121,23 @@ export class FastslamLapTable extends HTMLElement {
       const printed = (kept as Record<string, number[]>)[`lap.${cell.name}`] ?? []
       const ofTable = Object.entries(kept as Record<string, number[]>).filter(([name]) => !name.startsWith('lap.tried.'))
       const axis = ofTable.flatMap(([, errors]) => errors)
-      if (running !== this.#running) return
+      if (this.#asked !== cell) return // it was stopped, or another one was chosen
       panel.print(printed, [Math.min(...axis), Math.max(...axis)])
-      const query = `course=apartment&temper=0.85&universes=${cell.particles}&proposal=${cell.proposal}&matcher=${cell.matcher}`
+      const { tag, job: name, query, rough } = cell.run
       const add = (rows: number[][], shell: Shell) => {
-        if (running !== this.#running) return
         for (const [, error] of rows) found.push(error!)
         panel.show(found, printed, performance.now() - started, shell)
       }
-      await runInWorker(LAP_TAG, { name: 'laps', query, from: 1, to: this.#seeds + 1 }, add, running.signal)
-      const shell = await programOf(LAP_TAG).shell()
-      if (running !== this.#running) return
-      this.#running = undefined
-      this.#slowness = (performance.now() - started) / (this.#rough(cell) * this.#seeds)
+      if (!(await this.#jobs.run(tag, { name, query, from: 1, to: this.#seeds + 1 }, add))) return
+      const shell = await programOf(tag).shell()
+      if (this.#asked !== cell) return
+      this.#asked = undefined
+      this.#slowness = (performance.now() - started) / (rough * this.#seeds)
       this.#estimate()
       this.#conclude(cell, shell.spread(new Float64Array(found)), found, printed, performance.now() - started)
     } catch (error) {
-      if (running !== this.#running) return // it was stopped, or another cell was chosen
-      this.#running = undefined
+      if (this.#asked !== cell) return
+      this.#asked = undefined
       panel.fail(`The laps did not run: ${(error as Error).message}.`)
     }
   }

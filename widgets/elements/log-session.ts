@@ -1,6 +1,6 @@
 // The session of a figure that maps a log: it also reads the file, starts and pauses, goes back through what is mapped, and saves it.
 import { createShell } from './generated/shell'
-import { clampedStep, type Beginning, type Command, type Frame, type Phase, type Run, type SavedFile, type Topics } from './host'
+import { clampedStep, type Beginning, type Command, type Frame, type Phase, type Run, type Topics } from './host'
 import { isRefusal, type Readout } from './shell'
 import type { Key } from './words'
 import { Session } from './session'
@@ -34,7 +34,7 @@ export class LogSession extends Session {
       case 'pan':
         return figure.pan(...this.point({ x: command.right, y: command.down }))
       case 'save':
-        return this.#save(command.what)
+        return this.#save(command)
       default:
         return super.perform(command)
     }
@@ -149,10 +149,16 @@ export class LogSession extends Session {
     return bytes
   }
 
-  async #save(what: SavedFile): Promise<void> {
+  async #save({ what, writer }: Extract<Command, { do: 'save' }>): Promise<void> {
     const saved = (name: string, data: BlobPart, type: string) => this.tell({ told: 'saved', name, data: new Blob([data], { type }) })
     const file = (name: string) => this.figure.file(name) as Uint8Array<ArrayBuffer> | undefined
     if (what === 'report.json') return saved(what, this.#atNewest(() => this.#report()), 'application/json')
+    if (what === 'path.mcap') {
+      const path = file('path.f64')
+      if (!path || !writer) return
+      const { path_mcap: mcap } = await createShell(writer)
+      return saved(what, mcap(new Float64Array(path.slice().buffer)) as Uint8Array<ArrayBuffer>, 'application/octet-stream')
+    }
     if (what === 'map.png') {
       const png = await picture(file('map.pgm'))
       return png && saved(what, png, 'image/png')

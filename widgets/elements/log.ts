@@ -24,6 +24,7 @@ const FILES: [SavedFile, Key][] = [
   ['map.png', 'save_map'],
   ['map.ros', 'save_ros'],
   ['path.tum', 'save_path'],
+  ['path.mcap', 'save_path_mcap'],
   ['report.json', 'save_report'],
 ]
 
@@ -81,7 +82,7 @@ export class FastslamLog extends FigureElement {
     this.canvas.element.after(this.#zoom, this.#poster.element)
     this.panes.before(this.messages.element, this.#file)
     const save = h('summary')
-    this.#saves.append(save, h('div', { class: 'work' }, ...FILES.map(([what, name]) => this.#named(name, () => this.send({ do: 'save', what })))))
+    this.#saves.append(save, h('div', { class: 'work' }, ...FILES.map(([what, name]) => this.#named(name, () => void this.#save(what)))))
     this.folds.append(this.#saves)
     this.words.always(() => {
       write(save, this.words.say('save'))
@@ -117,7 +118,7 @@ export class FastslamLog extends FigureElement {
     write(this.status, this.words.say('reading', { name }))
     this.messages.set('topic', '')
     try {
-      if (await isBag(file)) log.decoder = await bagReader()
+      if (await isBag(file)) log.decoder = await bagProgram()
     } catch (error) {
       if (this.#log !== log) return
       this.#log = undefined
@@ -231,6 +232,16 @@ export class FastslamLog extends FigureElement {
     const kept = this.#log ? ` ${this.words.say('log_open_again')}` : ''
     this.messages.set('file', this.words.say('mapping_failed', { why }) + kept, this.words.say('run_example'), () => void this.example())
     this.restart()
+  }
+
+  /** Saves what is mapped up to now; what only the program of bags can write is written by that. */
+  async #save(what: SavedFile): Promise<void> {
+    this.messages.set('file', '')
+    try {
+      this.send({ do: 'save', what, writer: what === 'path.mcap' ? await bagProgram() : undefined })
+    } catch (error) {
+      this.messages.set('file', this.words.say('cannot_save', { file: what, why: this.words.why(error) }), this.words.say('try_again'), () => void this.#save(what))
+    }
   }
 
   // --- What is shown -------------------------------------------------------------------------------------------------------
@@ -347,8 +358,8 @@ async function isBag(file: Blob): Promise<boolean> {
   return start.startsWith('\x89MCAP0') || start.startsWith('#ROSBAG') || (start.startsWith('\x1f\x8b') && file instanceof File && /\.(mcap|bag)\.gz$/i.test(file.name))
 }
 
-/** The program that reads bags. */
-const bagReader = () => programNamed('bags').module()
+/** The program that reads bags, and writes one. */
+const bagProgram = () => programNamed('bags').module()
 
 /** In words as short as the number is rough. */
 function duration(seconds: number): string {

@@ -1,6 +1,6 @@
 // Folded away below the figure of universes: the laps behind one of its points, run on this machine and compared digit by digit.
 import { h, write } from './dom'
-import { runInWorker } from './jobs'
+import { Jobs } from './jobs'
 import type { Key, Words } from './words'
 
 /** What was run, as the figure has it (TRIED in lab/src/experiment/universes.rs). */
@@ -20,7 +20,7 @@ export class UniversesAgain {
   private readonly universes = h('select', { name: 'again-universes' })
   private readonly progress = h('progress', { value: '0', max: String(SEEDS) })
   private readonly said = h('p', { class: 'said', 'aria-live': 'polite' })
-  private running: AbortController | undefined
+  private readonly jobs = new Jobs()
 
   constructor(
     private readonly setting: (name: string) => unknown,
@@ -49,19 +49,15 @@ export class UniversesAgain {
 
   /** Ends what is being run. */
   stop(): void {
-    this.running?.abort()
-    this.running = undefined
+    this.jobs.stop()
     this.show()
   }
 
   private async run(): Promise<void> {
-    this.stop()
-    const running = (this.running = new AbortController())
     const [proposal, universes, threshold] = [this.proposal.value, this.universes.value, Number(this.setting('threshold'))]
     const found: number[] = []
     this.progress.value = 0
     write(this.said, '')
-    this.show()
     try {
       const { default: kept } = await import('../../www/data/lap-table.json')
       const cell = `${proposal}.subcell.m${universes}`
@@ -69,27 +65,24 @@ export class UniversesAgain {
       const printed = shipped[`lap.${cell}`] ?? shipped[`lap.tried.${cell}`] ?? []
       const query = `course=apartment&temper=0.85&universes=${universes}&proposal=${proposal}&matcher=subcell`
       const add = (rows: number[][]) => {
-        if (running !== this.running) return
         for (const [, error] of rows) found.push(error!)
         this.progress.value = found.length
       }
-      await runInWorker(LAP_TAG, { name: 'laps', query, from: 1, to: SEEDS + 1 }, add, running.signal)
-      if (running !== this.running) return
-      this.running = undefined
+      const ran = this.jobs.run(LAP_TAG, { name: 'laps', query, from: 1, to: SEEDS + 1 }, add)
+      this.show()
+      if (!(await ran)) return
       this.show()
       const good = found.filter(error => error < threshold).length
       const same = found.length === printed.length && found.every((error, k) => error === printed[k])
       write(this.said, this.words.say(same ? 'laps_same' : 'laps_differ', { seeds: SEEDS, good, threshold }))
     } catch (error) {
-      if (running !== this.running) return // it was stopped, or another one has begun
-      this.running = undefined
       this.show()
       write(this.said, this.words.say('did_not_count', { why: this.words.why(error) }))
     }
   }
 
   private show(): void {
-    const on = this.running !== undefined
+    const on = this.jobs.running
     this.start.disabled = this.proposal.disabled = this.universes.disabled = on
     this.halt.disabled = !on
   }

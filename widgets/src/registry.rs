@@ -7,7 +7,7 @@ use crate::{
     conditioning::ConditioningView,
     doors::{DOORS, DoorsView},
     em::EmView,
-    graph::GraphView,
+    graph::{GRAPHS, GraphView},
     joint::JointView,
     lap::{LAPS, LapView},
     proposal::ProposalView,
@@ -84,7 +84,7 @@ pub const FIGURES: &[Entry] = &[
     #[cfg(feature = "page")]
     Entry::of::<SmoothingView>("fastslam-smoothing", Program::Page, None),
     #[cfg(feature = "page")]
-    Entry::of::<GraphView>("fastslam-graph", Program::Page, None),
+    Entry::of::<GraphView>("fastslam-graph", Program::Page, Some(&GRAPHS)),
 ];
 
 /// The figure of a tag.

@@ -105,6 +105,18 @@ impl Bag {
     }
 }
 
+/// Poses, each as its time \[s\], x \[m\], y \[m\] and heading \[rad\], as a `nav_msgs/Path` in an MCAP file: what `fastslam log --path-mcap`
+/// writes. Throws a `FigureError` if it cannot be written.
+#[cfg(feature = "bags")]
+#[wasm_bindgen]
+pub fn path_mcap(poses: &[f64]) -> Result<Vec<u8>, Error> {
+    let (poses, _) = poses.as_chunks();
+    let path: Vec<_> =
+        poses.iter().map(|&[time, x, y, theta]| (time, fastslam::geometry::Pose2 { x, y, theta })).collect();
+    let refused = |message| thrown(FigureError { parameter: "file".into(), message });
+    fastslam::log::write_path(&path).map_err(refused)
+}
+
 #[cfg(feature = "bags")]
 fn bad_bag(error: fastslam::log::LogError) -> FigureError {
     FigureError { parameter: "file".into(), message: error.message }

@@ -3,7 +3,10 @@
 mod common;
 
 use common::{assert_texts_fit, figure, scene, state};
-use fastslam_lab::experiment::{numbers::LapCell, table::rms_best};
+use fastslam_lab::{
+    baseline::pose_graph::Repair,
+    experiment::{graph::GraphRun, lap::LapSetup, numbers::LapCell, table::rms_best},
+};
 use fastslam_widgets::{
     figure::Figure,
     job,
@@ -238,6 +241,20 @@ fn a_cell_of_the_lap_table_is_the_job_of_its_link() {
     }
     let refused = |link| job::run("laps", link, 1..2).unwrap_err().parameter;
     assert_eq!([refused("universes=257"), refused("universe=0&wings=on")], ["universes", "wings"]);
+}
+
+#[test]
+fn the_cell_of_the_pose_graph_is_the_job_of_its_link() {
+    let errors = [1, 2].map(|seed| {
+        let run = GraphRun::of(&LapSetup { seed, ..LapSetup::default() }, Repair::LeastSquares).unwrap();
+        vec![seed as f64, run.rms_after]
+    });
+    assert_eq!(job::run("graphs", "course=apartment&odometry=1", 1..3).unwrap(), errors);
+    // What the figure asks besides makes no difference, and what it cannot mean is refused.
+    let link = "course=apartment&odometry=1&seed=9&wrong=on&loops=off&start=matches";
+    assert_eq!(job::run("graphs", link, 2..3).unwrap(), errors[1..]);
+    assert_ne!(job::run("graphs", "course=ring&odometry=1", 1..3).unwrap(), errors);
+    assert_eq!(job::run("graphs", "odometry=3", 1..2).unwrap_err().parameter, "odometry");
 }
 
 #[test]

@@ -97,6 +97,8 @@ pub const PICTURES: &[Picture] = &[
     picture(LOG, "log-dark", TINY, 800, 1.5, "dark"),
     picture(LOG, "log-phone", "universes=40&cell=0.1&min-travel=0.3&raw=on", 340, 2.0, "light"),
     picture(LOG, "log-contrast", "universes=1&cell=0.2", 380, 1.0, "contrast-dark"),
+    picture(LOG, "log-odometry-light", "odometry=on&raw=on", 800, 1.0, "light"),
+    picture(LOG, "log-odometry-dark", "odometry=on&raw=on", 340, 2.0, "dark"),
     picture(LOG, "log-tiny", "policy=always&cell=0.1&seed=4", 240, 1.0, "contrast-light"),
     picture(RESAMPLING, "fastslam-resampling-light", COALESCED, 800, 1.5, "light"),
     picture(RESAMPLING, "fastslam-resampling-dark", COALESCED, 800, 1.5, "dark"),
@@ -288,6 +290,7 @@ pub const JOBS: &[(&str, &str, [u32; 2])] = &[
     ("doors", "", [1, 5]),
     ("doors", "ride=6&proposal=aware&range=0.2&price=5&gate=95&policy=always&door-5=16", [40, 42]),
     ("laps", "course=apartment&temper=0.85", [1, 3]),
+    ("graphs", "course=apartment&odometry=1", [1, 4]),
     (
         "laps",
         "course=apartment&temper=0.85&universes=4&proposal=motion&matcher=cell&policy=always&range-std=0.1&step=7",

@@ -4,6 +4,7 @@ mod challenges;
 mod chart;
 mod city;
 mod layout;
+mod many;
 mod model;
 mod recipe;
 mod told;
@@ -11,5 +12,6 @@ mod universes;
 mod view;
 
 pub use layout::Layout;
+pub use many::GRAPHS;
 pub use model::GraphModel;
 pub use view::GraphView;

@@ -1,6 +1,6 @@
 //! From the world to the picture: which part of the building is shown, and where.
 
-use crate::scene::{Cells, Plane, Point, Rect, shade};
+use crate::scene::{Cells, OCCUPIED, Plane, Point, Rect, shade};
 use fastslam::{map::grid::CellRect, mapper::Map};
 
 /// Least and most of the world in a view \[m\].
@@ -26,6 +26,14 @@ impl Frame {
         let high = most.map(|c| (c / STEP).ceil() * STEP);
         let size = [0, 1].map(|k| (high[k] - low[k]).clamp(STEP, MOST));
         Self { centre: [0, 1].map(|k| 0.5 * (low[k] + high[k])), size }
+    }
+
+    /// Both of two.
+    pub fn both(self, other: Self) -> Self {
+        let ends = [self, other]
+            .map(|Self { centre, size }| [-0.5, 0.5].map(|side| [0, 1].map(|k| centre[k] + side * size[k])));
+        let [[low, high], [least, most]] = ends;
+        Self::around([0, 1].map(|k| low[k].min(least[k])), [0, 1].map(|k| high[k].max(most[k])))
     }
 
     /// All cells that a map has.
@@ -87,6 +95,28 @@ impl MapView {
         let side = |k: i32| f64::from(k) * size * scale;
         Some((Rect::new(x, y, side(i1 - i0), side(j1 - j0)), Cells { columns: (i1 - i0) as usize, shades }))
     }
+
+    /// Marked cells of this size \[m\] that are seen, and where they lie, as of a map. Where they are smaller than half a css px, as many of
+    /// them as make that are drawn as one: however large a log is, its picture is not.
+    pub fn marked(&self, marked: &[[i32; 2]], size: f64) -> (Rect, Cells) {
+        let Plane { area, scale, .. } = self.0;
+        let together = (0.5 / (size * scale)).ceil().clamp(1.0, 1e6);
+        let block = together * size;
+        let ([x0, y1], [x1, y0]) = (self.0.world([area.x, area.y]), self.0.world([area.right(), area.bottom()]));
+        let of = |metres: f64| (metres / block).floor() as i32;
+        let [i0, j0, i1, j1] = [of(x0), of(y0), of(x1) + 1, of(y1) + 1];
+        let (columns, rows) = ((i1 - i0) as usize, (j1 - j0) as usize);
+        let mut shades = vec![0; columns * rows];
+        for cell in marked {
+            let [i, j] = cell.map(|k| k.div_euclid(together as i32));
+            if (i0..i1).contains(&i) && (j0..j1).contains(&j) {
+                shades[(j1 - 1 - j) as usize * columns + (i - i0) as usize] = OCCUPIED;
+            }
+        }
+        let [x, y] = self.0.point([f64::from(i0) * block, f64::from(j1) * block]);
+        let side = |blocks: usize| blocks as f64 * block * scale;
+        (Rect::new(x, y, side(columns), side(rows)), Cells { columns, shades })
+    }
 }
 
 #[cfg(test)]
@@ -123,6 +153,32 @@ mod tests {
         assert_eq!(near.0.scale, 300.0 / LEAST);
         let far = (0..99).fold(view(), |view, _| view.zoomed(0.1, [11.0, 21.0]).panned([1e9, 1e9]));
         assert!(far.0.place.iter().all(|c| c.abs() <= MOST) && far.0.scale == 300.0 / MOST);
+    }
+
+    #[test]
+    fn marked_cells_lie_where_those_of_a_map_would_and_blocks_of_them_where_they_are_too_small() {
+        // Ten px a metre: a cell of 0.2 m is 2 px wide, one of 0.02 m is 0.2, so that three make one.
+        for (size, block) in [(0.2, 0.2), (0.02, 0.06)] {
+            let cell = [7.0, 4.0].map(|metres| (metres / size) as i32); // beside the middle
+            let (area, cells) = view().marked(&[cell, [9_000_000; 2], cell], size);
+            let at = cells.shades.iter().position(|shade| *shade > 0).unwrap();
+            assert_eq!(cells.shades.iter().filter(|shade| **shade > 0).count(), 1, "one is out of view");
+            let rows = cells.shades.len() / cells.columns;
+            let [w, h] = [area.w / cells.columns as f64, area.h / rows as f64];
+            assert!((w - 10.0 * block).abs() < 1e-9 && (h - w).abs() < 1e-9);
+            let [x, y] = [area.x + w * (at % cells.columns) as f64, area.y + h * (at / cells.columns) as f64];
+            let [left, below] = view().0.point([f64::from(cell[0]) * size, f64::from(cell[1]) * size]);
+            assert!((-1e-9..w).contains(&(left - x)) && (-1e-9..h).contains(&(y + h - below)), "{size}");
+            assert!(area.encloses(&view().0.area) && area.w < 404.0 + 4.0 * w);
+        }
+        let far = (0..99).fold(view(), |view, _| view.zoomed(0.1, [11.0, 21.0]));
+        assert!(far.marked(&[[1, 2]], 0.02).1.shades.len() < 4 * 410 * 310);
+    }
+
+    #[test]
+    fn two_frames_are_both_seen_in_one() {
+        let both = Frame::around([0.0; 2], [4.0, 2.0]).both(Frame::around([-6.0, 0.0], [-2.0, 8.0]));
+        assert_eq!(both, Frame::around([-6.0, 0.0], [4.0, 8.0]));
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 mod challenges;
 mod kept;
+mod laid;
 mod layout;
 mod map;
 mod model;

@@ -5,6 +5,7 @@
 use super::{
     challenges,
     kept::{Kept, Seen},
+    laid::Laid,
     opened::{LIMIT, Opened, swept},
     recipe::Recipe,
     told::{self, megabytes},
@@ -45,6 +46,8 @@ pub struct LogModel {
     deaths: Vec<Death>,
     /// What can be gone back to.
     kept: Kept,
+    /// What raw odometry alone makes of the scans that were taken.
+    laid: Laid,
     /// The step that was gone back to; `None` for the newest.
     shown: Option<u32>,
     /// How many logs were opened.
@@ -131,6 +134,17 @@ impl LogModel {
         self.recipe.raw || self.replay.is_none()
     }
 
+    /// What raw odometry alone makes of the scans, where it is to be seen.
+    pub(super) fn compared(&self) -> Option<&Laid> {
+        Some(&self.laid).filter(|_| self.recipe.odometry)
+    }
+
+    /// From where the best universe has the robot after the step shown to where raw odometry has it \[m\].
+    pub(super) fn apart(&self) -> Option<f64> {
+        let seen = self.seen()?;
+        Some(seen.paths[seen.best].pose().distance(&self.laid.odometry(seen.step)?))
+    }
+
     /// Memory that the maps may take at the most \[bytes\].
     pub fn estimate(&self) -> Option<f64> {
         Some(self.opened.as_ref()?.bytes(self.setup(), self.setup().particles))
@@ -143,12 +157,14 @@ impl LogModel {
         self.history.clear();
         self.deaths.clear();
         self.kept = Kept::default();
+        self.laid = Laid::default();
         self.shown = None;
     }
 
     /// What the step that was just made did.
     fn note(&mut self, report: &Report<()>) {
-        let Some(replay) = &self.replay else { return };
+        let (Some(replay), Some(opened)) = (&self.replay, &self.opened) else { return };
+        self.laid.follow(replay, &opened.log);
         let descent = replay.mapper().filter().descent();
         let (step, paths): (u32, Vec<_>) = (report.step, report.extinct().cloned().collect());
         let before = self.history.last().map_or(NOTHING, |moment| moment.peak);
@@ -256,6 +272,13 @@ impl Files for LogModel {
     fn file(&self, name: &str) -> Option<Vec<u8>> {
         let mapper = self.mapper()?;
         Some(match name {
+            // Time [s], x [m], y [m] and heading [rad] of each pose, in the bits of the path: what another program writes a file of.
+            "path.f64" => mapper
+                .path()
+                .iter()
+                .flat_map(|(time, pose)| [*time, pose.x, pose.y, pose.theta])
+                .flat_map(f64::to_le_bytes)
+                .collect(),
             "path.tum" => write_tum(&mapper.path()).into_bytes(),
             "map.pgm" => MapImage::of(mapper.map()).pgm(),
             "map.yaml" => MapImage::of(mapper.map()).yaml("map.pgm").into_bytes(),
@@ -276,7 +299,10 @@ impl Model for LogModel {
         self.shown = None;
         if self.replay.is_none() && step > 0 {
             self.replay = Replay::new(*self.setup(), opened.log.clone()).ok(); // the parameters' ranges are within the mapper's
-            self.replay.iter().for_each(|replay| self.kept.push(Seen::now(replay, &[])));
+            if let Some(replay) = &self.replay {
+                self.kept.push(Seen::now(replay, &[]));
+                self.laid.follow(replay, &opened.log);
+            }
         }
         self.asked = step.min(self.step_count());
     }
@@ -339,6 +365,73 @@ mod tests {
         assert!(!model.describe().contains("explains"));
         model.history[0].log_evidence = f64::NEG_INFINITY;
         assert!(model.describe().contains("No universe explains this scan: the weights stay."));
+    }
+
+    #[test]
+    fn odometry_lays_out_the_scans_that_the_filter_took_and_going_back_takes_away_the_later_ones() {
+        let mapped = |min_travel, step| {
+            let mut model = LogModel::default();
+            let setup = LaserMapperSettings { cell_size: 0.2, min_travel, particles: 4, ..model.recipe.setup };
+            model.adopt(Recipe { setup, odometry: true, ..model.recipe.clone() }).unwrap();
+            model.open(include_bytes!("../../../tests/figures/golden/tiny.clf")).unwrap();
+            model.seek(step);
+            model.settle();
+            model
+        };
+        for min_travel in [0.0, 0.6] {
+            let mut whole = mapped(min_travel, 90);
+            let last = whole.step_count();
+            assert!(last == 90 || min_travel > 0.0 && last < 60);
+            for step in [last, last - 1, 7, 1] {
+                whole.seek(step);
+                let (laid, then) = (whole.compared().unwrap(), mapped(min_travel, step));
+                assert_eq!(laid.cells(step), then.laid.cells(step));
+                assert_eq!(whole.apart(), then.apart());
+                // Beam by beam: the range along its direction, from where the wheels say that the robot was.
+                let log = whole.log().unwrap();
+                let mut cells = std::collections::BTreeSet::new();
+                let (mut taken, mut at) = (0, log.scans[0].odometry);
+                for scan in &log.scans {
+                    let moved = at.between(&scan.odometry);
+                    let far = moved.distance(&Default::default()).max(moved.theta.abs()) >= min_travel.max(1e-9);
+                    if taken > 0 && !far || taken > step {
+                        continue;
+                    }
+                    (taken, at) = (taken + 1, scan.odometry);
+                    let pose = log.scans[0].odometry.between(&scan.odometry);
+                    for (k, range) in scan.ranges.iter().map(|range| f64::from(*range)).enumerate() {
+                        let angle = scan.first_angle + k as f64 * scan.angle_step;
+                        if range < whole.mapper().unwrap().settings().no_return.unwrap() {
+                            let (sin, cos) = fastslam::ops::sin_cos(angle);
+                            let ahead = scan.robot_from_laser.transform([range * cos, range * sin]);
+                            cells.insert(pose.transform(ahead).map(|metres| (metres / 0.2).floor() as i32));
+                        }
+                    }
+                }
+                assert!(
+                    laid.cells(step).len() == cells.len() && laid.cells(step).iter().all(|cell| cells.contains(cell))
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_way_back_falls_on_the_walls_that_were_mapped_and_beside_those_that_odometry_lays_out() {
+        let mut model = LogModel::default();
+        let setup = LaserMapperSettings { cell_size: 0.1, ..model.recipe.setup };
+        model.adopt(Recipe { setup, odometry: true, ..model.recipe.clone() }).unwrap();
+        model.open(include_bytes!("../../../tests/figures/golden/tiny.clf")).unwrap();
+        model.seek(90);
+        model.settle();
+        let map = &model.seen().unwrap().map;
+        let bounds = map.bounds();
+        let walls = (bounds.i0..bounds.i1).flat_map(|i| (bounds.j0..bounds.j1).map(move |j| (i, j)));
+        let walls = walls.filter(|&(i, j)| map.log_odds(i, j) > 0.0).count();
+        let laid = model.compared().unwrap().cells(90).len();
+        assert!(laid as f64 > 1.5 * walls as f64, "{laid} cells by odometry, {walls} in the map");
+        assert!(model.apart().unwrap() > 0.5 && model.describe().contains("Raw odometry alone has the robot "));
+        model.adopt(Recipe { odometry: false, ..model.recipe.clone() }).unwrap();
+        assert!(model.compared().is_none() && !model.describe().contains("Raw odometry"));
     }
 
     #[test]

@@ -18,13 +18,15 @@ pub struct Recipe {
     pub lenient: bool,
     /// Draws raw odometry.
     pub raw: bool,
+    /// Lays the same scans out along raw odometry, over the map.
+    pub odometry: bool,
 }
 
 impl Default for Recipe {
     fn default() -> Self {
         let setup = LaserMapperSettings::default();
         let threshold = policy::threshold(setup.policy);
-        Self { setup, threshold, lenient: false, raw: true }
+        Self { setup, threshold, lenient: false, raw: true, odometry: false }
     }
 }
 
@@ -65,6 +67,7 @@ impl recipe::Recipe for Recipe {
             policy,
             P::flag("lenient", log::lenient(), field!(lenient), log::lenient_help()).view().folded(),
             P::flag("raw", common::raw_odometry(), field!(raw), common::raw_odometry_help()).view(),
+            P::flag("odometry", log::odometry(), field!(odometry), log::odometry_help()).view(),
         ]
     }
 }

@@ -59,7 +59,9 @@ fn progress(model: &LogModel, replay: &Replay) -> String {
         Some(last) => words::DiedAt { scan: &(last + 1), dead: &model.history()[last].died, m: &m }.say(),
         None => words::none_died().into(),
     };
-    let sentences = [Some(mapped), unexplained(moment.log_evidence), Some(shared), Some(died)];
+    let apart = model.apart().filter(|_| model.compared().is_some());
+    let apart = apart.map(|metres| words::OdometryApart { metres: &fixed(metres, 2) }.say());
+    let sentences = [Some(mapped), apart, unexplained(moment.log_evidence), Some(shared), Some(died)];
     sentences.into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 
@@ -74,6 +76,7 @@ pub fn readouts(model: &LogModel) -> Vec<Readout> {
     let (ess, ess_text) = of_m(moment.map(|moment| moment.ess), 1);
     let (lineage, lineage_text) = of_m(moment.map(|moment| moment.lineage.into()), 0);
     let resampled = model.history().iter().filter(|moment| moment.resampled).count();
+    let apart = model.apart().unwrap_or(f64::NAN);
     let scan = if model.opened().is_some() { f64::from(step) } else { f64::NAN };
     let shared = moment.map_or(f64::NAN, |moment| moment.shared.into());
     let memory = |name, title, bytes: f64, help| {
@@ -93,6 +96,7 @@ pub fn readouts(model: &LogModel) -> Vec<Readout> {
             words::scan_help(),
         ),
         Readout::new("ess", "N_eff", ess, ess_text, "", common::n_eff_help()),
+        Readout::new("apart", words::apart(), apart, fixed(apart, 2), "m", words::apart_help()),
         Readout::new("lineage", words::lineage(), lineage, lineage_text, "", words::lineage_help()),
         Readout::new("shared", words::one_path(), shared, fixed(shared, 0), "", words::one_path_help()),
         Readout::new(

@@ -2,6 +2,7 @@
 
 use super::{
     kept::Seen,
+    laid::Laid,
     layout::{GAUGES, Gauge, Layout, MAP, NARROWEST},
     map::{Frame, MapView},
     model::{BACK, LogModel, Moment},
@@ -61,7 +62,7 @@ impl View for LogView {
             ess(scene, model, first);
             lineage(scene, model, second);
         }
-        names(scene, layout);
+        names(scene, layout, model.compared().is_some());
     }
 
     fn navigation(&mut self) -> Option<&mut dyn Navigation<Self>> {
@@ -102,7 +103,13 @@ impl Navigation<Self> for LogView {
 /// All that there is to see: of the newest map, whichever is shown, or before there is one, of raw odometry.
 fn whole(model: &LogModel) -> Option<Frame> {
     match (model.mapper(), model.log()) {
-        (Some(mapper), _) => Some(Frame::of_map(mapper.map())),
+        (Some(mapper), _) => {
+            let frame = Frame::of_map(mapper.map());
+            let size = mapper.settings().cell_size;
+            let laid = model.compared().and_then(Laid::corners);
+            let laid = laid.map(|corners| corners.map(|corner| corner.map(|k| f64::from(k) * size)));
+            Some(laid.map_or(frame, |[low, high]| frame.both(Frame::around(low, high.map(|c| c + size)))))
+        }
         (None, Some(log)) => {
             let corner = |pick: fn(f64, f64) -> f64, start: f64| {
                 let fold = |corner: [f64; 2], x, y| [pick(corner[0], x), pick(corner[1], y)];
@@ -134,9 +141,11 @@ fn map(scene: &mut Scene, model: &LogModel, area: Rect, view: Option<&MapView>) 
         if let Some((area, cells)) = model.seen().and_then(|seen| view.cells(&seen.map)) {
             scene.marks.push(Mark::Raster { area, cells, shading: Shading::Map });
         }
+        laid(scene, model, view);
         around(scene, &area);
         odometry(scene, model, &view.0);
         paths(scene, model, &view.0);
+        astray(scene, model, &view.0);
         round_scale_bar(scene, &view.0);
     } else {
         let [_, y] = area.centre();
@@ -172,6 +181,22 @@ fn odometry(scene: &mut Scene, model: &LogModel, plane: &Plane) {
     let placed = |pose: &Pose2| if model.mapper().is_some() { first.between(pose) } else { *pose };
     let lines = plane.path(&scans.iter().map(|scan| placed(&scan.odometry)).collect::<Vec<_>>(), 1.0);
     scene.marks.push(Mark::Lines { lines, width: 1.5, dash: Some(RAW), role: Role::Odometry });
+}
+
+/// What raw odometry alone would have drawn, over what is mapped.
+fn laid(scene: &mut Scene, model: &LogModel, view: &MapView) {
+    let (Some(laid), Some(seen)) = (model.compared(), model.seen()) else { return };
+    let (area, cells) = view.marked(laid.cells(seen.step), seen.map.cell_size());
+    scene.marks.push(Mark::Raster { area, cells, shading: Shading::Odometry });
+}
+
+/// Where raw odometry has the robot, and from where the best universe has it.
+fn astray(scene: &mut Scene, model: &LogModel, plane: &Plane) {
+    let (Some(laid), Some(seen)) = (model.compared(), model.seen()) else { return };
+    let Some(odometry) = laid.odometry(seen.step) else { return };
+    let lines = plane.path(&[seen.paths[seen.best].pose(), odometry], 0.0);
+    scene.marks.push(Mark::Lines { lines, width: 1.25, dash: Some(THRESHOLD), role: Role::Ink });
+    rimmed_robot(scene, plane, &odometry, 9.0, Role::Odometry);
 }
 
 /// The paths of all universes, and of those that died out a short while ago.
@@ -263,7 +288,7 @@ fn lineage(scene: &mut Scene, model: &LogModel, gauge: &Gauge) {
     curve(scene, model, &chart, |moment| f64::from(moment.lineage) / m as f64);
 }
 
-fn names(scene: &mut Scene, layout: &Layout) {
+fn names(scene: &mut Scene, layout: &Layout, compared: bool) {
     let tick = |[x, y]: Point| {
         let lines = vec![vec![[x, y - 0.5 * TICK], [x, y + 0.5 * TICK]]];
         Mark::Lines { lines, width: 1.25, dash: None, role: Role::Extinct }
@@ -281,7 +306,12 @@ fn names(scene: &mut Scene, layout: &Layout) {
         (Sample::at(tick), common::resampled()),
         (Sample::line(Role::Accent, 1.0, Some(THRESHOLD)), words::threshold()),
     ];
-    let of_map = of_map.into_iter().filter(|_| layout.map.is_some());
+    let by_odometry = Sample::new(|place| {
+        let area = Rect::new(place.x, place.y + 0.5 * place.h - 2.0, place.w, 4.0);
+        vec![Mark::Raster { area, cells: Cells { columns: 1, shades: vec![OCCUPIED] }, shading: Shading::Odometry }]
+    });
+    let by_odometry = Some((by_odometry, words::by_odometry())).filter(|_| compared);
+    let of_map = of_map.into_iter().chain(by_odometry).filter(|_| layout.map.is_some());
     let of_gauges = of_gauges.into_iter().filter(|_| layout.gauges.is_some());
     legend(scene, &layout.legend, of_map.chain(of_gauges));
 }

@@ -30,6 +30,9 @@ const HAIRLINE: f32 = 1.25;
 /// the edges.
 const TINY: f32 = 1.5;
 
+/// Opacity of [`Shading::Odometry`], 0 to 255: the building behind it must still be read.
+const GLAZE: u8 = 180;
+
 /// Reusable pixels.
 pub struct Canvas {
     pixmap: Pixmap,
@@ -64,8 +67,11 @@ impl Canvas {
         }
         self.pixmap.pixels_mut().fill(opaque(theme.color(Role::Paper)));
         let scale = f64::from(size[0]) / scene.width;
-        let shades = [Shading::Map, Shading::Ghost, Shading::Correlation, Shading::Share, Shading::Density]
-            .map(|shading| theme.shades(shading).map(opaque));
+        let all =
+            [Shading::Map, Shading::Ghost, Shading::Correlation, Shading::Share, Shading::Density, Shading::Odometry];
+        let mut shades = all.map(|shading| theme.shades(shading).map(opaque));
+        shades[Shading::Odometry as usize] =
+            core::array::from_fn(|shade| glaze(theme.color(Role::Odometry), if shade == 0 { 0 } else { GLAZE }));
         let mut brush = Brush { pixmap: &mut self.pixmap, scale, theme, shades };
         scene.marks.iter().for_each(|mark| brush.mark(mark));
     }
@@ -73,6 +79,12 @@ impl Canvas {
 
 fn opaque([r, g, b]: Rgb) -> PremultipliedColorU8 {
     PremultipliedColorU8::from_rgba(r, g, b, 255).expect("no channel exceeds the alpha of 255")
+}
+
+/// A colour of this opacity, 0 to 255.
+fn glaze(color: Rgb, alpha: u8) -> PremultipliedColorU8 {
+    let [r, g, b] = color.map(|c| ((u16::from(c) * u16::from(alpha) + 127) / 255) as u8);
+    PremultipliedColorU8::from_rgba(r, g, b, alpha).expect("no channel exceeds the alpha")
 }
 
 fn disc(path: &mut PathBuilder, x: f32, y: f32, radius: f32) {
@@ -88,7 +100,7 @@ struct Brush<'a> {
     pixmap: &'a mut Pixmap,
     scale: f64,
     theme: Theme,
-    shades: [[PremultipliedColorU8; 256]; 5],
+    shades: [[PremultipliedColorU8; 256]; 6],
 }
 
 impl Brush<'_> {
@@ -97,7 +109,7 @@ impl Brush<'_> {
             Mark::Raster { area, cells, shading } => {
                 let smaller = match shading {
                     Shading::Map | Shading::Ghost => Smaller::WallThenFree,
-                    Shading::Share | Shading::Correlation | Shading::Density => Smaller::Largest,
+                    Shading::Share | Shading::Correlation | Shading::Density | Shading::Odometry => Smaller::Largest,
                 };
                 raster::draw(self.pixmap, self.device(area), cells, smaller, &self.shades[*shading as usize]);
             }

@@ -14,7 +14,7 @@ pub enum Smaller {
 }
 
 /// Draws cells between a left, upper, right and lower edge \[device px\], which may lie outside of the picture, each in the colour of
-/// its shade.
+/// its shade. What is behind a transparent one shines through.
 pub fn draw(
     pixmap: &mut Pixmap,
     edges: [i32; 4],
@@ -34,6 +34,7 @@ pub fn draw(
     let down = &spans(top, bottom, rows)[(y0 as i32 - top) as usize..];
     let width = pixmap.width() as usize;
     let lines = pixmap.pixels_mut().chunks_exact_mut(width).take(y1).skip(y0);
+    let covers = colors.iter().all(|color| color.is_opaque());
     // Pixels of the same cells are the same line.
     let (mut drawn, mut last) = (Vec::new(), None);
     for (line, &span) in lines.zip(down) {
@@ -43,8 +44,22 @@ pub fn draw(
                 across[..x1 - x0].iter().map(|&column| colors[usize::from(shade(cells, column, span, smaller))]),
             );
         }
-        line[x0..x1].copy_from_slice(&drawn);
+        if covers {
+            line[x0..x1].copy_from_slice(&drawn);
+        } else {
+            let seen = line[x0..x1].iter_mut().zip(&drawn).filter(|(_, color)| color.alpha() > 0);
+            seen.for_each(|(pixel, color)| *pixel = over(*color, *pixel));
+        }
     }
+}
+
+/// A colour over another, opaque one.
+fn over(color: PremultipliedColorU8, behind: PremultipliedColorU8) -> PremultipliedColorU8 {
+    let clear = u16::from(255 - color.alpha());
+    let mix = |c: u8, b: u8| c + ((u16::from(b) * clear + 127) / 255) as u8;
+    let [r, g, b] =
+        [mix(color.red(), behind.red()), mix(color.green(), behind.green()), mix(color.blue(), behind.blue())];
+    PremultipliedColorU8::from_rgba(r, g, b, 255).unwrap_or(behind)
 }
 
 /// The cells [first, end) that each device pixel from `start` to `end` shows, of `count` in a row.
@@ -99,6 +114,18 @@ mod tests {
         let drawn = |smaller| drawn([3, 1], [0, 0, 3, 1], 9, shades, smaller);
         assert_eq!(drawn(Smaller::WallThenFree), [OCCUPIED, FREE, FREE]);
         assert_eq!(drawn(Smaller::Largest), [OCCUPIED, FREE, UNKNOWN], "the largest of each three");
+    }
+
+    #[test]
+    fn what_is_behind_a_transparent_cell_shines_through() {
+        let red = PremultipliedColorU8::from_rgba(200, 0, 0, 255).unwrap();
+        let mut colors = [red; 256];
+        colors[0] = PremultipliedColorU8::TRANSPARENT;
+        colors[9] = PremultipliedColorU8::from_rgba(100, 0, 0, 128).unwrap();
+        let mut pixmap = Pixmap::new(4, 1).unwrap();
+        pixmap.pixels_mut().fill(PremultipliedColorU8::from_rgba(80, 7, 7, 255).unwrap());
+        draw(&mut pixmap, [0, 0, 4, 1], &Cells { columns: 4, shades: vec![0, 9, 0, 255] }, Smaller::Largest, &colors);
+        assert_eq!(pixmap.pixels().iter().map(|pixel| pixel.red()).collect::<Vec<_>>(), [80, 140, 80, 200]);
     }
 
     #[test]

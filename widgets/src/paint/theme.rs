@@ -192,6 +192,7 @@ impl Theme {
                 Shading::Share => palette.share(shade),
                 Shading::Correlation => mix(palette.paper, palette.correlation, shade, 255),
                 Shading::Density => mix(palette.paper, palette.density, shade, 255),
+                Shading::Odometry => palette.odometry,
             }
         })
     }

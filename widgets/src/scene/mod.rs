@@ -95,6 +95,8 @@ pub enum Shading {
     Share,
     /// A probability density, from 0 (nothing) to 255 (its peak), pale enough to draw on.
     Density,
+    /// What raw odometry would have drawn, over what is there: where the shade is 0 that is left as it is.
+    Odometry,
 }
 
 /// A rectangle of cells, row by row from the top.

@@ -800,6 +800,11 @@ fn a_bag_is_mapped_as_the_log_that_says_the_same_and_its_path_is_written_for_ros
         assert_eq!((&std::fs::read(&tum).unwrap(), &std::fs::read(&mcap).unwrap()), (&path, &message), "{name}");
     }
     assert!(message.starts_with(b"\x89MCAP0\r\n") && message.ends_with(b"\x89MCAP0\r\n"));
+    // The figure of logs saves the same bytes (tests/e2e/log-bags.spec.ts).
+    if std::env::var_os("UPDATE_GOLDENS").is_some() {
+        std::fs::write(bag("lap-path.mcap"), &message).unwrap();
+    }
+    assert!(message == std::fs::read(bag("lap-path.mcap")).unwrap(), "UPDATE_GOLDENS=1 writes it if that is wanted");
     // What the path's own reader finds in it: no scans, but a path.
     let refused = fastslam(&format!("log {mcap}")).code(2).stdout("");
     let said = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
