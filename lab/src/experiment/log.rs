@@ -2,7 +2,7 @@
 //! [mapper](fastslam::mapper) to map.
 
 use crate::digest::Digest;
-use crate::world::{FloorPlan, corners_cut_short, drive};
+use crate::world::{FloorPlan, LongRing, corners_cut_short, crowd, drive, until_people};
 use crate::{WORLD_ODOMETRY, WORLD_SENSOR};
 use core::f64::consts::PI;
 use fastslam::geometry::Pose2;
@@ -42,7 +42,20 @@ pub struct Recipe {
     /// Share of the steps, 0 to 1, in which a wheel slips: the drive is reported 0.1 m too long, and a turn of up to 0.1 rad to
     /// either side that was none.
     pub slip: f64,
+    /// So many times the noise by which odometry of recorded logs is spoilt on purpose, beside that of the wheels: for a step of d metres,
+    /// 5 % of d along each of the robot's axes, and of its heading 3° a metre and 5 % of the turn. No drive, turn and turn again:
+    /// a step aside is none.
+    pub scatter: f64,
+    /// How far to its left the robot steps after every fifth scan, and back to its way with the next \[m\]: 0 for one that cannot.
+    pub aside: f64,
+    /// People who go along with the robot and stand around it.
+    pub crowd: u32,
+    /// People who walk round a ring, and which.
+    pub walkers: Option<(LongRing, u32)>,
 }
+
+/// From one scan to the next \[s\].
+const INTERVAL: f64 = 0.7;
 
 impl Recipe {
     /// A robot with a laser of 180 beams in [`FloorPlan::building`], twice round its corridors.
@@ -60,6 +73,10 @@ impl Recipe {
             wheels: OdometryModel { alphas: [0.01, 0.0004, 0.002, 0.001] },
             bias: 0.0,
             slip: 0.0,
+            scatter: 0.0,
+            aside: 0.0,
+            crowd: 0,
+            walkers: None,
         }
     }
 
@@ -75,7 +92,11 @@ impl Recipe {
         let turns = (self.askew.abs() / TURN).ceil() as u32;
         let left = |k: u32| self.askew * f64::from(turns - k) / f64::from(turns);
         let on_the_spot = (0..turns).map(|k| Pose2::new(way[0].x, way[0].y, way[0].theta + left(k)));
-        on_the_spot.chain(way.iter().copied()).collect()
+        let aside = |(k, pose): (usize, &Pose2)| {
+            let steps = self.aside != 0.0 && k % 5 == 4;
+            [Some(*pose), steps.then(|| pose.compose(&Pose2::new(0.0, self.aside, 0.0)))]
+        };
+        on_the_spot.chain(way.iter().enumerate().flat_map(aside).flatten()).collect()
     }
 
     /// What the wheels report of a drive, the step-th.
@@ -87,7 +108,18 @@ impl Recipe {
             reported.trans += 0.1;
             reported.rot2 += 0.2 * (stream.uniform() - 0.5);
         }
-        reported
+        if self.scatter > 0.0 { self.scattered(&reported, step) } else { reported }
+    }
+
+    /// The same with [`Self::scatter`].
+    fn scattered(&self, reported: &Odometry, step: u32) -> Odometry {
+        let start = Pose2::default();
+        let moved = reported.apply(&start);
+        let way = moved.distance(&start);
+        let [x, y, turn]: [f64; 3] = Stream::at(self.seed, WORLD_ODOMETRY, step, 2).normals();
+        let heading_std = fastslam::ops::hypot(3_f64.to_radians() * way, 0.05 * moved.theta);
+        let noise = [0.05 * way * x, 0.05 * way * y, heading_std * turn].map(|part| self.scatter * part);
+        Odometry::between(&start, &moved.plus(&noise.into()))
     }
 
     /// Ranges \[m\] at a pose, of the step-th scan; the longest where nothing is met.
@@ -100,7 +132,17 @@ impl Recipe {
                 *range *= 0.2 + 0.8 * stream.uniform();
             }
         }
+        let people = self.people(pose, INTERVAL * f64::from(step));
+        for (range, angle) in ranges.iter_mut().zip(&sensor.angles) {
+            *range = range.min(until_people(&people, pose, *angle));
+        }
         ranges
+    }
+
+    /// Where people are \[m\], when the robot is here.
+    fn people(&self, pose: &Pose2, time: f64) -> Vec<[f64; 2]> {
+        let round = self.walkers.iter().flat_map(|(ring, count)| ring.people(*count, time));
+        crowd(self.seed, self.crowd, time).into_iter().map(|person| pose.transform(person)).chain(round).collect()
     }
 }
 
@@ -126,8 +168,6 @@ impl Example {
     /// # Panics
     /// For fewer than two beams or way points, or a spacing longer than the route.
     pub fn of(recipe: &Recipe, scans: usize) -> Self {
-        /// \[s\]
-        const INTERVAL: f64 = 0.7;
         /// Scans between two that see a place at different times.
         const APART: usize = 60;
         let mut truth = recipe.truth();
