@@ -2,7 +2,7 @@
 //! [mapper](fastslam::mapper) to map.
 
 use crate::digest::Digest;
-use crate::world::{FloorPlan, LongRing, corners_cut_short, crowd, drive, until_people};
+use crate::world::{FloorPlan, LongRing, corners_cut_short, crowd, drive, escort, until_people};
 use crate::{WORLD_ODOMETRY, WORLD_SENSOR};
 use core::f64::consts::PI;
 use fastslam::geometry::Pose2;
@@ -48,8 +48,10 @@ pub struct Recipe {
     pub scatter: f64,
     /// How far to its left the robot steps after every fifth scan, and back to its way with the next \[m\]: 0 for one that cannot.
     pub aside: f64,
-    /// People who go along with the robot and stand around it.
+    /// People who stand close beside its way, each for some scans.
     pub crowd: u32,
+    /// People who go along with the robot.
+    pub escort: u32,
     /// People who walk round a ring, and which.
     pub walkers: Option<(LongRing, u32)>,
 }
@@ -76,6 +78,7 @@ impl Recipe {
             scatter: 0.0,
             aside: 0.0,
             crowd: 0,
+            escort: 0,
             walkers: None,
         }
     }
@@ -122,8 +125,9 @@ impl Recipe {
         Odometry::between(&start, &moved.plus(&noise.into()))
     }
 
-    /// Ranges \[m\] at a pose, of the step-th scan; the longest where nothing is met.
-    fn ranges(&self, pose: &Pose2, sensor: &BeamSensor, step: u32) -> Vec<f64> {
+    /// Ranges \[m\] at the step-th pose of this way; the longest where nothing is met.
+    fn ranges(&self, way: &[Pose2], sensor: &BeamSensor, step: u32) -> Vec<f64> {
+        let pose = &way[step as usize];
         let mut ranges = self.plan.ranges(pose, sensor, &mut Stream::at(self.seed, WORLD_SENSOR, step, 0));
         let mut stream = Stream::at(self.seed, WORLD_SENSOR, step, 1);
         for range in &mut ranges {
@@ -132,17 +136,19 @@ impl Recipe {
                 *range *= 0.2 + 0.8 * stream.uniform();
             }
         }
-        let people = self.people(pose, INTERVAL * f64::from(step));
+        let people = self.people(way, step);
         for (range, angle) in ranges.iter_mut().zip(&sensor.angles) {
             *range = range.min(until_people(&people, pose, *angle));
         }
         ranges
     }
 
-    /// Where people are \[m\], when the robot is here.
-    fn people(&self, pose: &Pose2, time: f64) -> Vec<[f64; 2]> {
+    /// Where people are \[m\] at the step-th pose of this way.
+    fn people(&self, way: &[Pose2], step: u32) -> Vec<[f64; 2]> {
+        let time = INTERVAL * f64::from(step);
         let round = self.walkers.iter().flat_map(|(ring, count)| ring.people(*count, time));
-        crowd(self.seed, self.crowd, time).into_iter().map(|person| pose.transform(person)).chain(round).collect()
+        let along = escort(self.seed, self.escort, time).into_iter().map(|person| way[step as usize].transform(person));
+        crowd(self.seed, self.crowd, way, step).into_iter().chain(along).chain(round).collect()
     }
 }
 
@@ -188,7 +194,7 @@ impl Example {
             let odometry =
                 Pose2 { x: rounded(odometry.x, 1e3), y: rounded(odometry.y, 1e3), theta: rounded(odometry.theta, 1e4) };
             let time = rounded(1_000_000_000.0 + INTERVAL * f64::from(step), 1e2);
-            let ranges = recipe.ranges(pose, &sensor, step);
+            let ranges = recipe.ranges(&truth, &sensor, step);
             let ranges = ranges.iter().map(|range| rounded(*range, 1e2) as f32).collect();
             log.odometry.push((time, odometry));
             log.scans.push(LaserScan {

@@ -114,7 +114,7 @@ impl LongRing {
 
 /// Where `count` people are \[m\] who go along with a robot, in its frame: 0.7 to 1.8 m from it, each changing its place a little with
 /// the time \[s\].
-pub fn crowd(seed: u64, count: u32, time: f64) -> Vec<[f64; 2]> {
+pub fn escort(seed: u64, count: u32, time: f64) -> Vec<[f64; 2]> {
     let person = |who: u32| {
         let mut stream = Stream::at(seed, PEOPLE, 1, who);
         let [distance, phase, rate, swing] = core::array::from_fn(|_| stream.uniform());
@@ -123,6 +123,23 @@ pub fn crowd(seed: u64, count: u32, time: f64) -> Vec<[f64; 2]> {
         let (sin, cos) = ops::sin_cos(angle);
         let far = 0.9 + 0.7 * distance + 0.2 * wave;
         [far * cos, far * sin]
+    };
+    (0..count).map(person).collect()
+}
+
+/// Where `count` people are \[m\] who stand in the way of a robot, at the step-th pose of its way: each stays in one place for as many poses,
+/// half a metre to 1.3 m beside the way, and then turns up in another. When the first comes, another is about to go.
+pub fn crowd(seed: u64, count: u32, way: &[Pose2], step: u32) -> Vec<[f64; 2]> {
+    /// Poses for which somebody stays.
+    const STAY: u32 = 8;
+    let person = |who: u32| {
+        let time = step + who * STAY / count.max(1);
+        let mut stream = Stream::at(seed, PEOPLE, 2 + time / STAY, who);
+        // Where the robot is half-way through the stay.
+        let middle = (step + STAY / 2).saturating_sub(time % STAY) as usize;
+        let side = if stream.uniform() < 0.5 { 1.0 } else { -1.0 };
+        let [ahead, aside] = core::array::from_fn(|_| stream.uniform());
+        way[middle.min(way.len() - 1)].transform([2.4 * ahead - 0.6, side * (0.5 + 0.8 * aside)])
     };
     (0..count).map(person).collect()
 }
@@ -230,13 +247,29 @@ mod tests {
     }
 
     #[test]
-    fn a_crowd_goes_along_and_leaves_the_robot_its_place() {
+    fn an_escort_goes_along_and_leaves_the_robot_its_place() {
         for time in 0..200 {
-            for [x, y] in crowd(4, 9, f64::from(time)) {
+            for [x, y] in escort(4, 9, f64::from(time)) {
                 let far = ops::hypot(x, y);
                 assert!((0.7..=1.8).contains(&far), "{far} m");
             }
         }
-        assert_ne!(crowd(4, 9, 0.0), crowd(4, 9, 1.0));
+        assert_ne!(escort(4, 9, 0.0), escort(4, 9, 1.0));
+    }
+
+    #[test]
+    fn a_crowd_stands_beside_the_way_and_is_never_the_same_for_long() {
+        let way: Vec<Pose2> = (0..100).map(|k| Pose2::new(0.4 * f64::from(k), 0.0, 0.0)).collect();
+        let mut stays = vec![0; 12];
+        for step in 1..100 {
+            let [before, now] = [step - 1, step].map(|step| crowd(4, 12, &way, step));
+            for (who, ([x, y], was)) in now.iter().zip(&before).enumerate() {
+                let here = &way[step as usize];
+                assert!((0.5..=1.3).contains(&y.abs()) && (x - here.x).abs() < 4.1, "{x} {y} at {here:?}");
+                stays[who] = if [*x, *y] == *was { stays[who] + 1 } else { 0 };
+                assert!(stays[who] < 8);
+            }
+            assert!(now.iter().zip(&before).any(|(now, before)| now == before));
+        }
     }
 }

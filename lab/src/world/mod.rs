@@ -15,4 +15,4 @@ pub use edits::{
 };
 pub use field::{Field, WINGS_LOST, WINGS_SIGN};
 pub use floor_plan::{FloorPlan, Segment};
-pub use long_ring::{LongRing, crowd, until_people};
+pub use long_ring::{LongRing, crowd, escort, until_people};
