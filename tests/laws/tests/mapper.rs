@@ -76,6 +76,9 @@ fn share(log: &LaserLog, holds: impl Fn(f32) -> bool) -> f64 {
     readings().filter(|range| holds(**range)).count() as f64 / readings().count() as f64
 }
 
+/// Of an error that is left to be what it is.
+const NO_BAR: f64 = 0.0;
+
 /// Runs of M = 8 by seeds 1 to 3, each of which is held to the bars; what share of its readings is `near` must be in `told`, or it is no such log.
 ///
 /// A path must be `better` times nearer to the truth than raw odometry: a mapper that loses by looking has lost. And none of its steps turns by 5°
@@ -97,16 +100,19 @@ fn a_crowd_round_the_robot_does_not_turn_the_map() {
     holds("crowd", 5.0, 2.0, [0.62, 0.72], |yard| Recipe { crowd: 20, ..yard });
 }
 
-/// Of 360 beams some 200 meet something: the laser sees 12 m of a yard of forty.
+/// Of 360 beams some 200 meet something, where the laser sees 12 m of a yard of forty. Where it sees 7 m, 75 do: too little to be nearer to
+/// the truth than odometry, and no reason to turn.
 #[test]
 fn a_laser_that_meets_little_does_not_turn_the_map() {
     holds("sparse", 2.0, 11.6, [0.5, 0.6], |yard| Recipe { beams: 360, max_range: 12.0, ..yard });
+    holds("sparser", NO_BAR, 6.7, [0.15, 0.25], |yard| Recipe { beams: 360, max_range: 7.0, ..yard });
 }
 
-/// By two turns and a drive, a step straight to the left is a turn by 90° and one back, with the noise of both.
+/// By two turns and a drive, a step straight to the left is a turn by 90° and one back, with the noise of both. The prior is so wide then that
+/// scans of which one beam in five met something turned these maps by 9° to 14°, with all else as it is.
 #[test]
 fn a_robot_that_steps_aside_does_not_turn_its_map() {
-    holds("aside", 10.0, 2.0, [0.0, 0.1], |yard| Recipe { aside: 0.4, ..yard });
+    holds("aside", NO_BAR, 6.7, [0.15, 0.25], |yard| Recipe { aside: 0.4, max_range: 7.0, ..yard });
 }
 
 /// Nothing in a ring of 60 m says which of two paths is right until it closes, so until then both must live: more than one of the particles that
