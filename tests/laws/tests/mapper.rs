@@ -44,8 +44,6 @@ struct Mapped {
     odometry: f64,
     /// The most that a step turns by more than odometry tells \[deg\].
     turn: f64,
-    /// The most that a step turns by more than the robot did \[deg\].
-    wrong: f64,
 }
 
 fn mapped(recipe: &Recipe, particles: usize) -> (Mapped, LaserLog) {
@@ -56,15 +54,10 @@ fn mapped(recipe: &Recipe, particles: usize) -> (Mapped, LaserLog) {
     replay.by_ref().for_each(drop);
     let path: Vec<Pose2> = replay.mapper().path().into_iter().map(|(_, pose)| pose).collect();
     let raw: Vec<Pose2> = log.scans.iter().map(|scan| scan.odometry).collect();
-    let wrong = |k: usize| {
-        let [is, should] = [&path, &truth].map(|poses| poses[k - 1].between(&poses[k]));
-        is.minus(&should).z.abs()
-    };
     let found = Mapped {
         error: PathError::of(&path, &truth).aligned,
         odometry: PathError::of(&raw, &truth).aligned,
         turn: greatest_turn(&path, &log).to_degrees(),
-        wrong: (1..path.len()).map(wrong).fold(0.0, f64::max).to_degrees(),
     };
     drop(replay);
     (found, Arc::unwrap_or_clone(log))
