@@ -260,7 +260,7 @@ mod tests {
     #[test]
     fn a_crowd_stands_beside_the_way_and_is_never_the_same_for_long() {
         let way: Vec<Pose2> = (0..100).map(|k| Pose2::new(0.4 * f64::from(k), 0.0, 0.0)).collect();
-        let mut stays = vec![0; 12];
+        let mut stays = [0; 12];
         for step in 1..100 {
             let [before, now] = [step - 1, step].map(|step| crowd(4, 12, &way, step));
             for (who, ([x, y], was)) in now.iter().zip(&before).enumerate() {
