@@ -276,7 +276,7 @@ if (isMain(import.meta)) {
     await step('Landmark filters to WebAssembly', () =>
       run('wasm-pack', ['build', 'tests/speed', '--target', 'web', '--release', '--no-pack', '--out-dir', landmarks]),
     )
-    await step('Benchmarks, native (criterion)', () => run('cargo', ['bench', '--package', 'speed', '--bench', 'lap', '--bench', 'landmarks']))
+    await step('Benchmarks, native (criterion)', () => run('cargo', ['bench', '--package', 'speed', '--bench', 'lap', '--bench', 'landmarks', '--bench', 'log']))
     await step('The tree of all paths, over 10⁵ steps', treeOfPaths)
     await step('The page in Chromium', async () => {
       const { paint, alive, shift, longest } = await timePage()

@@ -2,7 +2,7 @@
 //! [mapper](fastslam::mapper) to map.
 
 use crate::digest::Digest;
-use crate::world::{FloorPlan, corners_cut_short, drive};
+use crate::world::{FloorPlan, LongRing, corners_cut_short, crowd, drive, escort, until_people};
 use crate::{WORLD_ODOMETRY, WORLD_SENSOR};
 use core::f64::consts::PI;
 use fastslam::geometry::Pose2;
@@ -42,7 +42,22 @@ pub struct Recipe {
     /// Share of the steps, 0 to 1, in which a wheel slips: the drive is reported 0.1 m too long, and a turn of up to 0.1 rad to
     /// either side that was none.
     pub slip: f64,
+    /// So many times the noise by which odometry of recorded logs is spoilt on purpose, beside that of the wheels: for a step of d metres,
+    /// 5 % of d along each of the robot's axes, and of its heading 3° a metre and 5 % of the turn. No drive, turn and turn again:
+    /// a step aside is none.
+    pub scatter: f64,
+    /// How far to its left the robot steps after every fifth scan, and back to its way with the next \[m\]: 0 for one that cannot.
+    pub aside: f64,
+    /// People who stand close beside its way, each for some scans.
+    pub crowd: u32,
+    /// People who go along with the robot.
+    pub escort: u32,
+    /// People who walk round a ring, and which.
+    pub walkers: Option<(LongRing, u32)>,
 }
+
+/// From one scan to the next \[s\].
+const INTERVAL: f64 = 0.7;
 
 impl Recipe {
     /// A robot with a laser of 180 beams in [`FloorPlan::building`], twice round its corridors.
@@ -60,6 +75,11 @@ impl Recipe {
             wheels: OdometryModel { alphas: [0.01, 0.0004, 0.002, 0.001] },
             bias: 0.0,
             slip: 0.0,
+            scatter: 0.0,
+            aside: 0.0,
+            crowd: 0,
+            escort: 0,
+            walkers: None,
         }
     }
 
@@ -75,7 +95,11 @@ impl Recipe {
         let turns = (self.askew.abs() / TURN).ceil() as u32;
         let left = |k: u32| self.askew * f64::from(turns - k) / f64::from(turns);
         let on_the_spot = (0..turns).map(|k| Pose2::new(way[0].x, way[0].y, way[0].theta + left(k)));
-        on_the_spot.chain(way.iter().copied()).collect()
+        let aside = |(k, pose): (usize, &Pose2)| {
+            let steps = self.aside != 0.0 && k % 5 == 4;
+            [Some(*pose), steps.then(|| pose.compose(&Pose2::new(0.0, self.aside, 0.0)))]
+        };
+        on_the_spot.chain(way.iter().enumerate().flat_map(aside).flatten()).collect()
     }
 
     /// What the wheels report of a drive, the step-th.
@@ -87,11 +111,23 @@ impl Recipe {
             reported.trans += 0.1;
             reported.rot2 += 0.2 * (stream.uniform() - 0.5);
         }
-        reported
+        if self.scatter > 0.0 { self.scattered(&reported, step) } else { reported }
     }
 
-    /// Ranges \[m\] at a pose, of the step-th scan; the longest where nothing is met.
-    fn ranges(&self, pose: &Pose2, sensor: &BeamSensor, step: u32) -> Vec<f64> {
+    /// The same with [`Self::scatter`].
+    fn scattered(&self, reported: &Odometry, step: u32) -> Odometry {
+        let start = Pose2::default();
+        let moved = reported.apply(&start);
+        let way = moved.distance(&start);
+        let [x, y, turn]: [f64; 3] = Stream::at(self.seed, WORLD_ODOMETRY, step, 2).normals();
+        let heading_std = fastslam::ops::hypot(3_f64.to_radians() * way, 0.05 * moved.theta);
+        let noise = [0.05 * way * x, 0.05 * way * y, heading_std * turn].map(|part| self.scatter * part);
+        Odometry::between(&start, &moved.plus(&noise.into()))
+    }
+
+    /// Ranges \[m\] at the step-th pose of this way; the longest where nothing is met.
+    fn ranges(&self, way: &[Pose2], sensor: &BeamSensor, step: u32) -> Vec<f64> {
+        let pose = &way[step as usize];
         let mut ranges = self.plan.ranges(pose, sensor, &mut Stream::at(self.seed, WORLD_SENSOR, step, 0));
         let mut stream = Stream::at(self.seed, WORLD_SENSOR, step, 1);
         for range in &mut ranges {
@@ -100,7 +136,19 @@ impl Recipe {
                 *range *= 0.2 + 0.8 * stream.uniform();
             }
         }
+        let people = self.people(way, step);
+        for (range, angle) in ranges.iter_mut().zip(&sensor.angles) {
+            *range = range.min(until_people(&people, pose, *angle));
+        }
         ranges
+    }
+
+    /// Where people are \[m\] at the step-th pose of this way.
+    fn people(&self, way: &[Pose2], step: u32) -> Vec<[f64; 2]> {
+        let time = INTERVAL * f64::from(step);
+        let round = self.walkers.iter().flat_map(|(ring, count)| ring.people(*count, time));
+        let along = escort(self.seed, self.escort, time).into_iter().map(|person| way[step as usize].transform(person));
+        crowd(self.seed, self.crowd, way, step).into_iter().chain(along).chain(round).collect()
     }
 }
 
@@ -126,8 +174,6 @@ impl Example {
     /// # Panics
     /// For fewer than two beams or way points, or a spacing longer than the route.
     pub fn of(recipe: &Recipe, scans: usize) -> Self {
-        /// \[s\]
-        const INTERVAL: f64 = 0.7;
         /// Scans between two that see a place at different times.
         const APART: usize = 60;
         let mut truth = recipe.truth();
@@ -148,7 +194,7 @@ impl Example {
             let odometry =
                 Pose2 { x: rounded(odometry.x, 1e3), y: rounded(odometry.y, 1e3), theta: rounded(odometry.theta, 1e4) };
             let time = rounded(1_000_000_000.0 + INTERVAL * f64::from(step), 1e2);
-            let ranges = recipe.ranges(pose, &sensor, step);
+            let ranges = recipe.ranges(&truth, &sensor, step);
             let ranges = ranges.iter().map(|range| rounded(*range, 1e2) as f32).collect();
             log.odometry.push((time, odometry));
             log.scans.push(LaserScan {

@@ -11,6 +11,7 @@ pub mod joint_map;
 pub mod landmarks;
 pub mod lap;
 pub mod log;
+pub mod long_rings;
 pub mod looking_back;
 pub mod numbers;
 pub mod policies;

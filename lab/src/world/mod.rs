@@ -5,6 +5,7 @@ mod drive;
 mod edits;
 mod field;
 mod floor_plan;
+mod long_ring;
 
 pub use collision::ROBOT_RADIUS;
 pub use drive::{corners_cut_short, drive};
@@ -14,3 +15,4 @@ pub use edits::{
 };
 pub use field::{Field, WINGS_LOST, WINGS_SIGN};
 pub use floor_plan::{FloorPlan, Segment};
+pub use long_ring::{LongRing, crowd, escort, until_people};

@@ -12,6 +12,7 @@ mod numbers;
 mod picture;
 mod policies;
 mod ring;
+mod rings;
 mod settings;
 mod shard;
 mod smoothing;
@@ -50,6 +51,7 @@ enum Command {
     Numbers(numbers::Arguments),
     Policies(policies::Arguments),
     Ring(ring::Arguments),
+    Rings(rings::Arguments),
     Smoothing(smoothing::Arguments),
     Table(table::Arguments),
     Variants(variants::Arguments),
@@ -92,6 +94,7 @@ fn run(arguments: Arguments) -> Result<()> {
         Command::Numbers(arguments) => numbers::run(&arguments),
         Command::Policies(arguments) => policies::run(&arguments),
         Command::Ring(arguments) => ring::run(&arguments),
+        Command::Rings(arguments) => rings::run(&arguments),
         Command::Smoothing(arguments) => smoothing::run(&arguments),
         Command::Table(arguments) => table::run(&arguments),
         Command::Variants(arguments) => variants::run(&arguments),

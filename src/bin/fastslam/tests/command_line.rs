@@ -202,7 +202,10 @@ fn a_smoother_s_table_is_that_of_its_figure() {
 #[test]
 fn bad_arguments_are_refused_in_one_line_with_status_2() {
     for (arguments, said) in [
-        ("", "doors, joint, lap, log, example-log, landmarks, numbers, policies, ring, smoothing, table or variants"),
+        (
+            "",
+            "doors, joint, lap, log, example-log, landmarks, numbers, policies, ring, rings, smoothing, table or variants",
+        ),
         ("laps", "laps"),
         ("lap --particles 0", "from 1 to 4096"),
         ("lap --particles 1e9", "--particles"),
@@ -248,6 +251,11 @@ fn bad_arguments_are_refused_in_one_line_with_status_2() {
         ("ring --max-range 0", "from 0.5 to 20"),
         ("ring --particles 0", "from 1 to 4096"),
         ("ring --shared-streams", "--price-noise"),
+        ("rings --length 39", "'--length <METRES>': must be a whole number from 40 to 480"),
+        ("rings --length -1", "must be a whole number from 40 to 480"),
+        ("rings --length round", "must be a whole number from 40 to 480"),
+        ("rings --particles 0", "from 1 to 4096"),
+        ("rings --seeds 0", "--seeds"),
         ("smoothing --particles 1", "from 2 to 64"),
         ("smoothing --odometry 4", "from 0.25 to 3"),
         ("smoothing --sensor -1", "from 0.25 to 2"),
@@ -330,6 +338,28 @@ fn the_ring_prints_what_the_closing_leaves() {
     assert_eq!(noise["runs"][1].as_array().unwrap().len(), 2, "steps 50 and 100");
     assert!(noise["medians"]["noise"].as_f64().unwrap() > 0.0);
     fastslam("ring --price-noise --every 110 --draws 2 --seeds 1 --particles 2 --shared-streams").success();
+}
+
+#[test]
+fn rings_are_judged_over_seeds_whatever_the_number_of_threads() {
+    let rings = json("rings --length 40 --seeds 2 --particles 2 --json --threads 2");
+    assert_eq!(rings, json("rings --length 40 --seeds 2 --particles 2 --json --threads 1"));
+    let ring = &rings["rings"].as_array().unwrap()[0];
+    assert_eq!((ring["length"].as_u64(), rings["particles"].as_u64()), (Some(40), Some(2)));
+    let runs = ring["runs"].as_array().unwrap();
+    assert_eq!(runs.iter().map(|run| run["seed"].as_u64().unwrap()).collect::<Vec<_>>(), [1, 2]);
+    for (path, measure) in
+        ["mapped", "odometry"].into_iter().flat_map(|path| ["rms", "first_lap", "revisits_off"].map(|key| (path, key)))
+    {
+        let of_runs: Vec<f64> = runs.iter().map(|run| run[path][measure].as_f64().unwrap()).collect();
+        let [median, worst] = ["median", "worst"].map(|key| ring[path][measure][key].as_f64().unwrap());
+        // Of two, the median is the mean.
+        assert!((of_runs[0] + of_runs[1] - 2.0 * median).abs() < 1e-12, "{path} {measure}");
+        assert_eq!(worst, of_runs[0].max(of_runs[1]), "{path} {measure}");
+    }
+    let shown = fastslam("rings --length 40 --seeds 1 --particles 1").success().get_output().stdout.clone();
+    let shown = String::from_utf8(shown).unwrap();
+    assert_eq!((shown.lines().count(), shown.matches("40 m").count()), (5, 2), "{shown}");
 }
 
 #[test]
