@@ -173,7 +173,10 @@ test('in a learning system, what merely played completes nothing, and the last s
   expect(await system.told(STATUS)).toBe('incomplete')
 
   const second = await system.visit()
-  await second.element.evaluate((element: HTMLElement & { state: string }) => (element.state = 'universes=2'))
+  const ring = await second.last()
+  await second.element.evaluate((element: HTMLElement & { state: string }) => (element.state = 'course=apartment&universes=2'))
+  // Another course has another last step: it has begun.
+  await expect.poll(() => second.last()).not.toBe(ring)
   const last = await second.last()
   await second.element.evaluate((element: HTMLElement & { seek(step: number): void }, step) => element.seek(step), last - 2)
   await second.play.click()
