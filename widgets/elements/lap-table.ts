@@ -57,7 +57,7 @@ export class FastslamLapTable extends HTMLElement {
   #cells: Cell[] = []
   #panel: Panel | undefined
   readonly #jobs = new Jobs()
-  #asked: Cell | undefined // that is run
+  #asked: object | undefined // a mark of the run that is under way
   #slowness = 1 // time on this machine over the rough one
   #seeds = 0 // of every cell: all of them are run, or the digits could not be the same
 
@@ -109,7 +109,7 @@ export class FastslamLapTable extends HTMLElement {
 
   async #run(cell: Cell): Promise<void> {
     this.stop()
-    this.#asked = cell
+    const asked = (this.#asked = {})
     const panel = this.#panel!
     for (const { element } of this.#cells) element.classList.toggle('chosen', element === cell.element)
     this.#judge(cell, '', '')
@@ -121,7 +121,7 @@ export class FastslamLapTable extends HTMLElement {
       const printed = (kept as Record<string, number[]>)[`lap.${cell.name}`] ?? []
       const ofTable = Object.entries(kept as Record<string, number[]>).filter(([name]) => !name.startsWith('lap.tried.'))
       const axis = ofTable.flatMap(([, errors]) => errors)
-      if (this.#asked !== cell) return // it was stopped, or another one was chosen
+      if (this.#asked !== asked) return // it was stopped, or another one was chosen
       panel.print(printed, [Math.min(...axis), Math.max(...axis)])
       const { tag, job: name, query, rough } = cell.run
       const add = (rows: number[][], shell: Shell) => {
@@ -130,13 +130,13 @@ export class FastslamLapTable extends HTMLElement {
       }
       if (!(await this.#jobs.run(tag, { name, query, from: 1, to: this.#seeds + 1 }, add))) return
       const shell = await programOf(tag).shell()
-      if (this.#asked !== cell) return
+      if (this.#asked !== asked) return
       this.#asked = undefined
       this.#slowness = (performance.now() - started) / (rough * this.#seeds)
       this.#estimate()
       this.#conclude(cell, shell.spread(new Float64Array(found)), found, printed, performance.now() - started)
     } catch (error) {
-      if (this.#asked !== cell) return
+      if (this.#asked !== asked) return
       this.#asked = undefined
       panel.fail(`The laps did not run: ${(error as Error).message}.`)
     }

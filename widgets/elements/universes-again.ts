@@ -59,24 +59,24 @@ export class UniversesAgain {
     this.progress.value = 0
     write(this.said, '')
     try {
-      const { default: kept } = await import('../../www/data/lap-table.json')
-      const cell = `${proposal}.subcell.m${universes}`
-      const shipped = kept as Record<string, number[] | undefined>
-      const printed = shipped[`lap.${cell}`] ?? shipped[`lap.tried.${cell}`] ?? []
       const query = `course=apartment&temper=0.85&universes=${universes}&proposal=${proposal}&matcher=subcell`
       const add = (rows: number[][]) => {
         for (const [, error] of rows) found.push(error!)
         this.progress.value = found.length
       }
-      const ran = this.jobs.run(LAP_TAG, { name: 'laps', query, from: 1, to: SEEDS + 1 }, add)
+      const ran = Promise.all([this.jobs.run(LAP_TAG, { name: 'laps', query, from: 1, to: SEEDS + 1 }, add), import('../../www/data/lap-table.json')])
       this.show()
-      if (!(await ran)) return
+      const [whole, { default: kept }] = await ran
+      if (!whole) return
       this.show()
+      const cell = `${proposal}.subcell.m${universes}`
+      const shipped = kept as Record<string, number[] | undefined>
+      const printed = shipped[`lap.${cell}`] ?? shipped[`lap.tried.${cell}`] ?? []
       const good = found.filter(error => error < threshold).length
       const same = found.length === printed.length && found.every((error, k) => error === printed[k])
       write(this.said, this.words.say(same ? 'laps_same' : 'laps_differ', { seeds: SEEDS, good, threshold }))
     } catch (error) {
-      this.show()
+      this.stop()
       write(this.said, this.words.say('did_not_count', { why: this.words.why(error) }))
     }
   }

@@ -65,20 +65,26 @@ impl Canvas {
         if self.size() != size {
             self.pixmap = blank(size);
         }
-        self.pixmap.pixels_mut().fill(opaque(theme.color(Role::Paper)));
+        self.pixmap.pixels_mut().fill(glaze(theme.color(Role::Paper), 255));
         let scale = f64::from(size[0]) / scene.width;
         let all =
             [Shading::Map, Shading::Ghost, Shading::Correlation, Shading::Share, Shading::Density, Shading::Odometry];
-        let mut shades = all.map(|shading| theme.shades(shading).map(opaque));
-        shades[Shading::Odometry as usize] =
-            core::array::from_fn(|shade| glaze(theme.color(Role::Odometry), if shade == 0 { 0 } else { GLAZE }));
+        let shades = all.map(|shading| {
+            let colors = theme.shades(shading);
+            core::array::from_fn(|shade| glaze(colors[shade], opacity(shading, shade)))
+        });
         let mut brush = Brush { pixmap: &mut self.pixmap, scale, theme, shades };
         scene.marks.iter().for_each(|mark| brush.mark(mark));
     }
 }
 
-fn opaque([r, g, b]: Rgb) -> PremultipliedColorU8 {
-    PremultipliedColorU8::from_rgba(r, g, b, 255).expect("no channel exceeds the alpha of 255")
+/// Of a shade, 0 to 255.
+fn opacity(shading: Shading, shade: usize) -> u8 {
+    match shading {
+        Shading::Odometry if shade == 0 => 0,
+        Shading::Odometry => GLAZE,
+        Shading::Map | Shading::Ghost | Shading::Correlation | Shading::Share | Shading::Density => 255,
+    }
 }
 
 /// A colour of this opacity, 0 to 255.
