@@ -42,6 +42,17 @@ pub const TEMPER: f64 = 0.85;
 /// ε: probability of a reading that has nothing to do with the map.
 pub const OUTLIER: f64 = 0.05;
 
+/// What a beam that ends in a cell adds to its log-odds, and one that passes \[nats\].
+const LOG_ODDS: [f64; 2] = [0.9, -0.4];
+
+/// Where log-odds end \[nats\]: those of OctoMap (Hornung et al. 2013). With ±4, somebody who comes to stand in free space counts as seen
+/// through for five scans; errors in a crowd were larger by a third.
+const LOG_ODDS_BOUNDS: [f64; 2] = [-2.0, 3.5];
+
+/// p₀: probability that a beam ends in a cell of which nothing is known. By [`LOG_ODDS`], a cell in which this share of the beams end stays
+/// where log-odds begin: 0.31. With one half, free space is so much worse than unknown space that scans are drawn off the map.
+const UNKNOWN: f64 = LOG_ODDS[1] / (LOG_ODDS[1] - LOG_ODDS[0]);
+
 /// What a distance from a wall costs. With c = 1 the pull is greatest at √⅔ σ, and at 2 σ half of that is left.
 pub const KERNEL: Kernel = Kernel::Robust { most: 1.0 };
 
@@ -98,18 +109,20 @@ pub fn from_scan(beams: u32) -> FromScanSettings<CorrelativeSearch> {
 pub const fn grid(cell_size: f64) -> GridModel {
     GridModel {
         cell_size,
-        log_odds_hit: 0.9,
-        log_odds_pass: -0.4,
+        log_odds_hit: LOG_ODDS[0],
+        log_odds_pass: LOG_ODDS[1],
+        log_odds_bounds: LOG_ODDS_BOUNDS,
         ndt_std: 0.06,
         ndt_stretch: NDT_STRETCH,
         lag: LAG,
         distance_reach: 2,
+        ndt_forgets: true,
     }
 }
 
 /// How well a scan fits a map.
 pub fn score() -> ScanModel {
-    ScanModel::new(Matcher::SubCell, TEMPER, OUTLIER).with_kernel(KERNEL)
+    ScanModel::new(Matcher::SubCell, TEMPER, OUTLIER).with_unknown(UNKNOWN).with_kernel(KERNEL)
 }
 
 /// The whole proposal, for a laser of so many beams.

@@ -44,7 +44,7 @@ pub enum Kernel {
 ///
 /// score = κ Σ_b max(ℓ_b, ln p_cell(b)), summed over the beams that met something: a maximum in place of the sum of a
 /// mixture (Olson and Agarwal 2013), which costs no logarithm. p_cell = ε + (1 − ε) p(occupied) judges the cell an end point
-/// falls in; ℓ_b, of the squared Mahalanobis distance d² to the nearest distribution, is the term of [`Matcher::SubCell`], absent for
+/// falls in, where p(occupied) is p₀ ([`Self::with_unknown`]) in one of which nothing is known, and follows its log-odds from there; ℓ_b, of the squared Mahalanobis distance d² to the nearest distribution, is the term of [`Matcher::SubCell`], absent for
 /// [`Matcher::Cell`]. With a robust kernel ℓ_b alone counts wherever there is a distribution near.
 ///
 /// It is not a density over scans: the normaliser −½ ln |Σ′| of each distribution is left out, as Biber and Straßer (2003) leave it
@@ -59,6 +59,7 @@ pub struct ScanModel {
     kernel: Kernel,
     temper: f64,
     outlier: f64,
+    unknown: f64,
     /// ln p_cell for each stored value of log-odds, from −128 units up.
     log_cell: [f64; 256],
 }
@@ -66,14 +67,15 @@ pub struct ScanModel {
 impl ScanModel {
     /// A scan model with temper κ in (0, 1\] and probability ε in (0, 1) of a reading that has nothing to do with the map.
     pub fn new(matcher: Matcher, temper: f64, outlier: f64) -> Self {
-        let log_cell = core::array::from_fn(|k| {
-            let log_odds = (k as f64 - f64::from(UNKNOWN)) * UNIT;
-            // Against the cell as it is: for sub-cell matching a wall is judged by its distribution, so a cell scores no better
-            // than one that nothing is known of.
-            let log_odds = if matcher == Matcher::SubCell { log_odds.min(0.0) } else { log_odds };
-            ops::ln(outlier + (1.0 - outlier) / (1.0 + ops::exp(-log_odds)))
-        });
-        Self { matcher, kernel: Kernel::Gaussian, temper, outlier, log_cell }
+        let unknown = 0.5;
+        let log_cell = log_cells(matcher, outlier, unknown);
+        Self { matcher, kernel: Kernel::Gaussian, temper, outlier, unknown, log_cell }
+    }
+
+    /// The same model with another probability p₀ in (0, 1) that a beam ends in a cell of which nothing is known; as given it is one half.
+    /// The larger it is, the more a scan is drawn to where the map is empty.
+    pub fn with_unknown(self, unknown: f64) -> Self {
+        Self { unknown, log_cell: log_cells(self.matcher, self.outlier, unknown), ..self }
     }
 
     /// The same model with another kernel.
@@ -150,6 +152,18 @@ impl ScanModel {
     }
 }
 
+/// ln p_cell for each stored value of log-odds, from −128 units up.
+fn log_cells(matcher: Matcher, outlier: f64, unknown: f64) -> [f64; 256] {
+    let prior = ops::ln(unknown / (1.0 - unknown));
+    core::array::from_fn(|k| {
+        let log_odds = (k as f64 - f64::from(UNKNOWN)) * UNIT;
+        // Against the cell as it is: for sub-cell matching a wall is judged by its distribution, so a cell scores no better
+        // than one that nothing is known of.
+        let log_odds = if matcher == Matcher::SubCell { log_odds.min(0.0) } else { log_odds };
+        ops::ln(outlier + (1.0 - outlier) / (1.0 + ops::exp(-(prior + log_odds))))
+    })
+}
+
 impl<const CELLS_PER_NDT: usize> Likelihood<Grid<CELLS_PER_NDT>> for ScanModel {
     fn log_likelihood(&self, grid: &Grid<CELLS_PER_NDT>, world_from_robot: &Pose2, scan: &Scan) -> (f64, ()) {
         (self.log_score(grid, world_from_robot, scan), ())
@@ -158,6 +172,7 @@ impl<const CELLS_PER_NDT: usize> Likelihood<Grid<CELLS_PER_NDT>> for ScanModel {
     fn validate(&self) -> Result<(), SettingError> {
         Range::number(1e-6, 1.0, "").check("score.temper", self.temper)?;
         Range::number(0.0, 1.0, "").check("score.outlier", self.outlier)?;
+        Range::number(1e-6, 1.0 - 1e-6, "").check("score.unknown", self.unknown)?;
         match self.kernel {
             Kernel::Gaussian => Ok(()),
             Kernel::Robust { most } => Range::number(1e-6, 1e6, "nats").check("score.kernel", most).map(drop),
@@ -235,3 +250,37 @@ const LOG_COARSE: [f64; MAX_DISTANCE + 1] = [0.0, -0.5, -1.0, -1.5];
 
 /// Where log-odds 0 stand in the table.
 const UNKNOWN: i32 = 128;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::map::grid::GridModel;
+
+    /// Of an end point where nothing is known: κ ln(ε + (1 − ε) p₀).
+    #[test]
+    fn nothing_known_is_judged_by_its_own_probability() {
+        let grid = Grid::<4>::new(GridModel {
+            cell_size: 0.05,
+            log_odds_hit: 0.9,
+            log_odds_pass: -0.4,
+            log_odds_bounds: [-4.0, 4.0],
+            ndt_std: 0.06,
+            ndt_stretch: 1.0,
+            lag: 0,
+            distance_reach: 0,
+            ndt_forgets: false,
+        });
+        let scan = Scan { hits: vec![[1.0, 0.5]], misses: Vec::new() };
+        let score = |model: ScanModel| model.log_score(&grid, &Pose2::default(), &scan);
+        for matcher in [Matcher::Cell, Matcher::SubCell] {
+            let model = ScanModel::new(matcher, 0.8, 0.1);
+            for (model, unknown) in [(model.clone(), 0.5), (model.with_unknown(0.2), 0.2_f64)] {
+                let expected = 0.8 * ops::ln(0.1 + 0.9 * unknown);
+                assert!((score(model) - expected).abs() < 1e-12, "{matcher}, {unknown}");
+            }
+        }
+        let refused = ScanModel::new(Matcher::Cell, 0.8, 0.1).with_unknown(1.0);
+        let error = Likelihood::<Grid<4>>::validate(&refused).unwrap_err();
+        assert_eq!(error.field(), "score.unknown");
+    }
+}

@@ -250,10 +250,12 @@ mod tests {
             cell_size: 0.1,
             log_odds_hit: 0.9,
             log_odds_pass: -0.4,
+            log_odds_bounds: [-4.0, 4.0],
             ndt_std: 0.1,
             ndt_stretch: 1.0,
             lag: 0,
             distance_reach: 0,
+            ndt_forgets: false,
         };
         let refused = |model, temper| {
             let likelihood = ScanModel::new(Matcher::Cell, temper, 0.1);
@@ -267,6 +269,8 @@ mod tests {
             (GridModel { cell_size: f64::NAN, ..grid }, "grid.cell_size"),
             (GridModel { log_odds_hit: -0.1, ..grid }, "grid.log_odds_hit"),
             (GridModel { log_odds_pass: 0.1, ..grid }, "grid.log_odds_pass"),
+            (GridModel { log_odds_bounds: [0.1, 4.0], ..grid }, "grid.log_odds_bounds"),
+            (GridModel { log_odds_bounds: [-4.0, f64::NAN], ..grid }, "grid.log_odds_bounds"),
             (GridModel { ndt_std: 0.0, ..grid }, "grid.ndt_std"),
             (GridModel { ndt_stretch: 0.5, ..grid }, "grid.ndt_stretch"),
             (GridModel { lag: u32::MAX, ..grid }, "grid.lag"),

@@ -62,10 +62,12 @@ pub const GRID: GridModel = GridModel {
     cell_size: 0.3,
     log_odds_hit: 0.9,
     log_odds_pass: -0.1,
+    log_odds_bounds: [-4.0, 4.0],
     ndt_std: 0.1,
     ndt_stretch: 1.0,
     lag: LAG,
     distance_reach: 0,
+    ndt_forgets: false,
 };
 
 /// κ, where nothing else is set: the share of each beam's log-likelihood that counts. One for both proposals, both matchers and every M.

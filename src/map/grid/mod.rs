@@ -73,6 +73,9 @@ pub struct GridModel {
     pub log_odds_hit: f64,
     /// Added to the log-odds of a cell that beams only passed through \[nats\], negative.
     pub log_odds_pass: f64,
+    /// Where log-odds end \[nats\], free and occupied, to ±4: nearer to 0, a map changes its mind sooner (Hornung et al. 2013, OctoMap, clamp
+    /// at −2 and 3.5).
+    pub log_odds_bounds: [f64; 2],
     /// Standard deviation \[m\] of the two pseudo-hits that every NDT cell begins with: how far one hit alone is trusted.
     pub ndt_std: f64,
     /// How many times longer than its end points say a distribution is along the wall: 1 or more. A wall goes on from NDT cell to NDT cell,
@@ -82,6 +85,10 @@ pub struct GridModel {
     pub lag: u32,
     /// How far from a hit the distance field is kept \[NDT cells\], 0 to 2: what a coarse search looks at. With 0 there is none.
     pub distance_reach: u32,
+    /// Whether a distribution counts only until it is seen through: until beams have passed so often that the log-odds of all cells of its NDT
+    /// cell are below 0 (after NDT-OM: Saarinen et al. 2013). Without, a place in which somebody stood once attracts scans for ever, and so
+    /// does a wall that was drawn a little askew from afar.
+    pub ndt_forgets: bool,
 }
 
 impl GridModel {
@@ -94,10 +101,13 @@ impl GridModel {
         const MOST: f64 = 4.0;
         /// Lengths for which single precision is no worry.
         const LENGTH: Range = Range::number(1e-6, 1e6, "m");
-        let Self { cell_size, log_odds_hit, log_odds_pass, ndt_std, ndt_stretch, lag, distance_reach } = *self;
+        let Self { cell_size, log_odds_hit, log_odds_pass, log_odds_bounds: [free, occupied], ndt_std, .. } = *self;
+        let Self { ndt_stretch, lag, distance_reach, ndt_forgets: _, .. } = *self;
         LENGTH.check("grid.cell_size", cell_size)?;
         Range::number(0.0, MOST, "nats").check("grid.log_odds_hit", log_odds_hit)?;
         Range::number(-MOST, 0.0, "nats").check("grid.log_odds_pass", log_odds_pass)?;
+        Range::number(-MOST, 0.0, "nats").check("grid.log_odds_bounds", free)?;
+        Range::number(0.0, MOST, "nats").check("grid.log_odds_bounds", occupied)?;
         LENGTH.check("grid.ndt_std", ndt_std)?;
         Range::number(1.0, 1e3, "").check("grid.ndt_stretch", ndt_stretch)?;
         Range::whole(0, 1_000_000).check("grid.lag", f64::from(lag))?;
@@ -337,13 +347,16 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
     fn quad(&self, i: i32, j: i32) -> Quad {
         let inner = |k: i32| k & (TILE - 1) != TILE - 1;
         let tile = |i: i32, j: i32| self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT);
+        let forgets = self.model.ndt_forgets;
         if inner(i) && inner(j) {
             // The four lie in one tile: look it up once.
             let (tile, first) = (tile(i, j), tile::local(i, j));
-            Quad::of([first, first + TILE as usize, first + 1, first + TILE as usize + 1].map(|local| (tile, local)))
+            let locals = [first, first + TILE as usize, first + 1, first + TILE as usize + 1];
+            Quad::of(locals.map(|local| (tile, local)), forgets)
         } else {
             let (right, above) = (i.wrapping_add(1), j.wrapping_add(1));
-            Quad::of([(i, j), (i, above), (right, j), (right, above)].map(|(i, j)| (tile(i, j), tile::local(i, j))))
+            let cells = [(i, j), (i, above), (right, j), (right, above)];
+            Quad::of(cells.map(|(i, j)| (tile(i, j), tile::local(i, j))), forgets)
         }
     }
 }
@@ -448,6 +461,7 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
     fn update_cells(&mut self, trace: &RayTrace) {
         let (hit, pass) = (tile::units(self.model.log_odds_hit), tile::units(self.model.log_odds_pass));
         let add = [0, pass, hit]; // by mark
+        let [free, occupied] = self.model.log_odds_bounds.map(tile::units);
         let side = Self::TILE_CELLS as usize;
         for (ti, tj, block) in trace.tiles() {
             // Rows of the cells of one NDT cell, with their marks.
@@ -462,7 +476,7 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
             let changes = rows.clone().any(|(local, row, marks)| {
                 let changes = |(column, mark): (usize, &u8)| match *mark {
                     ray_trace::HIT => true,
-                    ray_trace::PASSED => before.is_none_or(|tile| tile.log_odds[local][row][column] > i8::MIN + 1),
+                    ray_trace::PASSED => before.is_none_or(|tile| tile.log_odds[local][row][column] > free),
                     _ => false,
                 };
                 marks.iter().enumerate().any(changes)
@@ -473,7 +487,7 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
             let tile = self.tile_mut(ti, tj).expect("the directory was grown to cover the scan");
             for (local, row, marks) in rows {
                 for (cell, mark) in tile.log_odds[local][row].iter_mut().zip(marks) {
-                    *cell = cell.saturating_add(add[usize::from(*mark)]).max(i8::MIN + 1);
+                    *cell = cell.saturating_add(add[usize::from(*mark)]).clamp(free, occupied);
                 }
             }
         }

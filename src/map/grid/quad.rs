@@ -21,7 +21,7 @@ pub(super) struct Quad {
     mean: [[f32; 4]; 2],
     /// Σ′⁻¹ xx, twice xy, and yy \[m⁻²\].
     information: [[f32; 4]; 3],
-    /// Log-odds of the cell in the middle of each, in units.
+    /// Log-odds of the cell in the middle of each, in units; all 0 around a distribution that was forgotten.
     units: [i8; 4],
 }
 
@@ -29,17 +29,24 @@ impl Quad {
     /// Four of which nothing is known. A distribution infinitely far away stands for none, so that all are computed alike.
     const UNKNOWN: Self = Self { mean: [[f32::MAX; 4]; 2], information: [[1.0; 4], [0.0; 4], [1.0; 4]], units: [0; 4] };
 
-    /// Of these places in these tiles; `None` is a tile nobody has written to.
+    /// Of these places in these tiles; `None` is a tile nobody has written to. With `forgets`, a distribution that was seen
+    /// through is none, and around it nothing is known: that beams ended there and that beams passed contradict each other.
     #[inline]
-    pub fn of<const CELLS_PER_NDT: usize>(cells: [(Option<&Tile<CELLS_PER_NDT>>, usize); 4]) -> Self {
-        let mut quad = Self::UNKNOWN;
+    pub fn of<const CELLS_PER_NDT: usize>(cells: [(Option<&Tile<CELLS_PER_NDT>>, usize); 4], forgets: bool) -> Self {
+        let (mut quad, mut forgotten) = (Self::UNKNOWN, false);
         for (k, (tile, local)) in cells.into_iter().enumerate() {
             let Some(tile) = tile else { continue };
             quad.units[k] = tile.middle(local);
-            if let Some(&NdtCell { mean: [x, y], information: [xx, xy, yy], .. }) = tile.ndt_cell(local) {
+            let Some(&NdtCell { mean: [x, y], information: [xx, xy, yy], .. }) = tile.ndt_cell(local) else { continue };
+            if forgets && tile.is_seen_through(local) {
+                forgotten = true;
+            } else {
                 (quad.mean[0][k], quad.mean[1][k]) = (x, y);
                 (quad.information[0][k], quad.information[1][k], quad.information[2][k]) = (xx, 2.0 * xy, yy);
             }
+        }
+        if forgotten {
+            quad.units = Self::UNKNOWN.units;
         }
         quad
     }

@@ -5,10 +5,12 @@ const MODEL: GridModel = GridModel {
     cell_size: 0.3,
     log_odds_hit: 0.9,
     log_odds_pass: -0.4,
+    log_odds_bounds: [-4.0, 4.0],
     ndt_std: 0.1,
     ndt_stretch: 1.0,
     lag: 0,
     distance_reach: 0,
+    ndt_forgets: false,
 };
 
 fn one_beam(range: f64) -> Scan {
@@ -259,4 +261,37 @@ fn stretched_distributions_make_a_row_of_cells_one_wall() {
     assert!(beads.1 > 2.0 && wall.1 < 0.3, "{beads:?} {wall:?}");
     let (beads, wall) = (least_and_most(1.0, 0.05), least_and_most(4.0, 0.05));
     assert!((beads.0 - wall.0).abs() < 0.2 && wall.1 - wall.0 < 1.0, "across, nothing changes: {beads:?} {wall:?}");
+}
+
+/// Somebody stood a metre in front of a wall, and went. What is left of him pulls at no scan, and pushes none away; the wall stays, along which
+/// beams pass all the time.
+#[test]
+fn what_was_seen_through_is_forgotten() {
+    let model = GridModel { cell_size: 0.05, ndt_std: 0.06, ndt_stretch: 3.0, ..MODEL };
+    let seen = |ndt_forgets: bool, passes: usize| {
+        let mut grid = Grid::<4>::new(GridModel { ndt_forgets, ..model });
+        // The wall y = 2.05 from the left end to the right, and a back at y = 1.05 that hides a part of it.
+        let wall =
+            |hidden: bool| (0..150).map(|k| -1.5 + 0.02 * f64::from(k)).filter(move |x| !(hidden && x.abs() < 0.3));
+        let back = (0..16).map(|k| [-0.15 + 0.02 * f64::from(k), 1.05]);
+        let first = Scan { hits: wall(true).map(|x| [x, 2.05]).chain(back).collect(), misses: Vec::new() };
+        let then = Scan { hits: wall(false).map(|x| [x, 2.05]).collect(), misses: Vec::new() };
+        grid.assimilate(&Pose2::default(), &first, &());
+        (0..passes).for_each(|_| grid.assimilate(&Pose2::default(), &then, &()));
+        let (back, beside) = (nearest(&grid, [0.0, 1.05]), nearest(&grid, [0.15, 0.9]));
+        (back, beside, nearest(&grid, [0.5, 2.05]).0)
+    };
+    let (back, _, wall) = seen(true, 0);
+    assert!(back.0 < 1.0 && wall < 1.0, "{back:?} {wall}");
+    for passes in [3, 30] {
+        let (back, beside, wall) = seen(true, passes);
+        assert_eq!(
+            (back, beside),
+            ((f32::INFINITY, 0), (f32::INFINITY, 0)),
+            "as if nothing were known, after {passes}"
+        );
+        assert!(wall < 1.0, "{wall}");
+        let (back, ..) = seen(false, passes);
+        assert!(back.0 < 1.0, "{back:?}");
+    }
 }

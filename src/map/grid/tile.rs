@@ -14,9 +14,9 @@ pub(super) const SHIFT: i32 = 3;
 /// lets a map change its mind (Hornung et al. 2013, OctoMap, clamps alike).
 pub(crate) const UNIT: f64 = 1.0 / 32.0;
 
-/// Log-odds \[nats\] in units, to the nearest.
+/// Log-odds \[nats\] in units, to the nearest, as far as they reach to both sides alike.
 pub(super) fn units(log_odds: f64) -> i8 {
-    (log_odds / UNIT).round() as i8
+    (log_odds / UNIT).round().clamp(-127.0, 127.0) as i8
 }
 
 /// Index of an NDT cell in its tile.
@@ -105,6 +105,11 @@ impl<const CELLS_PER_NDT: usize> Tile<CELLS_PER_NDT> {
     #[inline]
     pub fn middle(&self, local: usize) -> i8 {
         self.log_odds[local][CELLS_PER_NDT / 2][CELLS_PER_NDT / 2]
+    }
+
+    /// Whether beams have passed all of an NDT cell: each occupancy cell of it is less likely occupied than before anything was seen.
+    pub fn is_seen_through(&self, local: usize) -> bool {
+        self.log_odds[local].as_flattened().iter().all(|units| *units < 0)
     }
 
     #[inline]

@@ -72,25 +72,34 @@ fn share(log: &LaserLog, holds: impl Fn(f32) -> bool) -> f64 {
 /// Of an error that is left to be what it is.
 const NO_BAR: f64 = 0.0;
 
-/// Runs of M = 8 by seeds 1 to 3, each of which is held to the bars; what share of its readings is `near` must be in `told`, or it is no such log.
-///
-/// A path must be `better` times nearer to the truth than raw odometry: a mapper that loses by looking has lost. And none of its steps turns by 5°
-/// more than odometry tells, which is off by 2.8° at the most on these ways: what a scan happens to fit may not turn the map.
+/// A run of M = 8, and how many times nearer to the truth than raw odometry it is. What share of its readings is `near` must be in `told`, or it is
+/// no such log; and none of its steps turns by 5° more than odometry tells, which is off by 2.8° at the most on these ways: what a scan
+/// happens to fit may not turn the map.
+fn times_nearer(name: &str, seed: u64, near: f32, told: [f64; 2], recipe: impl Fn(Recipe) -> Recipe) -> f64 {
+    let (found, log) = mapped(&recipe(yard(seed)), 8);
+    let share = share(&log, |range| range < near);
+    println!("{name}, seed {seed}: {found:.3?}, {share:.3} of the beams below {near} m");
+    assert!((told[0]..told[1]).contains(&share), "{name}, seed {seed}: {share}");
+    assert!(found.turn < 5.0, "{name}, seed {seed}: {found:?}");
+    found.odometry / found.error
+}
+
+/// Seeds 1 to 3. A path must be `better` times nearer to the truth than raw odometry: a mapper that loses by looking has lost.
 fn holds(name: &str, better: f64, near: f32, told: [f64; 2], recipe: impl Fn(Recipe) -> Recipe) {
     for seed in 1..=3 {
-        let (found, log) = mapped(&recipe(yard(seed)), 8);
-        let share = share(&log, |range| range < near);
-        println!("{name}, seed {seed}: {found:.3?}, {share:.3} of the beams below {near} m");
-        assert!((told[0]..told[1]).contains(&share), "{name}, seed {seed}: {share}");
-        assert!(found.turn < 5.0, "{name}, seed {seed}: {found:?}");
-        assert!(better * found.error < found.odometry, "{name}, seed {seed}: {found:?}");
+        let times = times_nearer(name, seed, near, told, &recipe);
+        assert!(times > better, "{name}, seed {seed}: {times} times");
     }
 }
 
-/// Two thirds of the beams end on people within 2 m, who stand for a while and go.
+/// Two thirds of the beams end on people within 2 m, who stand for a while and go. Of sixteen seeds half are fifteen times nearer than
+/// raw odometry, and each four times.
 #[test]
 fn a_crowd_round_the_robot_does_not_turn_the_map() {
-    holds("crowd", 5.0, 2.0, [0.62, 0.72], |yard| Recipe { crowd: 20, ..yard });
+    let crowd = |yard| Recipe { crowd: 20, ..yard };
+    let mut times: Vec<f64> = (1..=16).map(|seed| times_nearer("crowd", seed, 2.0, [0.62, 0.72], crowd)).collect();
+    times.sort_by(f64::total_cmp);
+    assert!(times[0] > 4.0 && times[7] > 15.0, "{times:.1?}");
 }
 
 /// Of 360 beams some 200 meet something, where the laser sees 12 m of a yard of forty. Where it sees 7 m, 75 do: too little to be nearer to
