@@ -250,37 +250,3 @@ const LOG_COARSE: [f64; MAX_DISTANCE + 1] = [0.0, -0.5, -1.0, -1.5];
 
 /// Where log-odds 0 stand in the table.
 const UNKNOWN: i32 = 128;
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::map::grid::GridModel;
-
-    /// Of an end point where nothing is known: κ ln(ε + (1 − ε) p₀).
-    #[test]
-    fn nothing_known_is_judged_by_its_own_probability() {
-        let grid = Grid::<4>::new(GridModel {
-            cell_size: 0.05,
-            log_odds_hit: 0.9,
-            log_odds_pass: -0.4,
-            log_odds_bounds: [-4.0, 4.0],
-            ndt_std: 0.06,
-            ndt_stretch: 1.0,
-            lag: 0,
-            distance_reach: 0,
-            ndt_forgets: false,
-        });
-        let scan = Scan { hits: vec![[1.0, 0.5]], misses: Vec::new() };
-        let score = |model: ScanModel| model.log_score(&grid, &Pose2::default(), &scan);
-        for matcher in [Matcher::Cell, Matcher::SubCell] {
-            let model = ScanModel::new(matcher, 0.8, 0.1);
-            for (model, unknown) in [(model.clone(), 0.5), (model.with_unknown(0.2), 0.2_f64)] {
-                let expected = 0.8 * ops::ln(0.1 + 0.9 * unknown);
-                assert!((score(model) - expected).abs() < 1e-12, "{matcher}, {unknown}");
-            }
-        }
-        let refused = ScanModel::new(Matcher::Cell, 0.8, 0.1).with_unknown(1.0);
-        let error = Likelihood::<Grid<4>>::validate(&refused).unwrap_err();
-        assert_eq!(error.field(), "score.unknown");
-    }
-}

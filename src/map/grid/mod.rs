@@ -101,8 +101,17 @@ impl GridModel {
         const MOST: f64 = 4.0;
         /// Lengths for which single precision is no worry.
         const LENGTH: Range = Range::number(1e-6, 1e6, "m");
-        let Self { cell_size, log_odds_hit, log_odds_pass, log_odds_bounds: [free, occupied], ndt_std, .. } = *self;
-        let Self { ndt_stretch, lag, distance_reach, ndt_forgets: _, .. } = *self;
+        let Self {
+            cell_size,
+            log_odds_hit,
+            log_odds_pass,
+            log_odds_bounds: [free, occupied],
+            ndt_std,
+            ndt_stretch,
+            lag,
+            distance_reach,
+            ndt_forgets: _,
+        } = *self;
         LENGTH.check("grid.cell_size", cell_size)?;
         Range::number(0.0, MOST, "nats").check("grid.log_odds_hit", log_odds_hit)?;
         Range::number(-MOST, 0.0, "nats").check("grid.log_odds_pass", log_odds_pass)?;
@@ -487,7 +496,7 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
             let tile = self.tile_mut(ti, tj).expect("the directory was grown to cover the scan");
             for (local, row, marks) in rows {
                 for (cell, mark) in tile.log_odds[local][row].iter_mut().zip(marks) {
-                    *cell = cell.saturating_add(add[usize::from(*mark)]).clamp(free, occupied);
+                    *cell = cell.saturating_add(add[usize::from(*mark)]).max(free).min(occupied);
                 }
             }
         }

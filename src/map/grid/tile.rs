@@ -11,7 +11,7 @@ pub(super) const TILE: i32 = 1 << SHIFT;
 pub(super) const SHIFT: i32 = 3;
 
 /// One unit of stored log-odds \[nats\]: a byte then reaches ±3.97 nats, probabilities 0.019 to 0.981. Clamping there is what
-/// lets a map change its mind (Hornung et al. 2013, OctoMap, clamps alike).
+/// lets a map change its mind; [`GridModel::log_odds_bounds`](super::GridModel::log_odds_bounds) may clamp nearer to 0.
 pub(crate) const UNIT: f64 = 1.0 / 32.0;
 
 /// Log-odds \[nats\] in units, to the nearest, as far as they reach to both sides alike.

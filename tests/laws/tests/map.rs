@@ -3,7 +3,8 @@
 use fastslam::geometry::Pose2;
 use fastslam::laws::map::a_family_of_clones_is_independent;
 use fastslam::map::{ConditionalMap, grid::Grid};
-use fastslam::matching::{Matcher, ScanModel};
+use fastslam::matching::{Likelihood, Matcher, ScanModel};
+use fastslam::ops;
 use fastslam::sensor::{BeamSensor, Scan};
 use fastslam_lab::digest::Digest;
 use fastslam_lab::experiment::lap::GRID;
@@ -40,6 +41,23 @@ fn scans() -> Vec<(Pose2, Scan)> {
 }
 
 fastslam::map_laws!(grid, || Grid::new(GRID), ScanModel::new(Matcher::SubCell, 1.0, 0.1), scans(), content);
+
+/// Of an end point where nothing is known: κ ln(ε + (1 − ε) p₀).
+#[test]
+fn nothing_known_is_judged_by_its_own_probability() {
+    let grid = <Grid>::new(GRID);
+    let scan = Scan { hits: vec![[1.0, 0.5]], misses: Vec::new() };
+    let score = |model: ScanModel| model.log_score(&grid, &Pose2::default(), &scan);
+    for matcher in [Matcher::Cell, Matcher::SubCell] {
+        let model = ScanModel::new(matcher, 0.8, 0.1);
+        for (model, unknown) in [(model.clone(), 0.5), (model.with_unknown(0.2), 0.2)] {
+            let expected = 0.8 * ops::ln(0.1 + 0.9 * unknown);
+            assert!((score(model) - expected).abs() < 1e-12, "{matcher}, {unknown}");
+        }
+    }
+    let refused = ScanModel::new(Matcher::Cell, 0.8, 0.1).with_unknown(1.0);
+    assert_eq!(Likelihood::<Grid>::validate(&refused).unwrap_err().field(), "score.unknown");
+}
 
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, cases: 64, ..ProptestConfig::default() })]
