@@ -11,10 +11,11 @@
 //! Reference: the file format of CARMEN's logger, as its log files describe it in their own comments.
 
 #[cfg(feature = "json")]
+use super::Remark;
+#[cfg(feature = "json")]
 use super::json::Told;
 use super::place::place;
-use super::{FARTHEST, FARTHEST_JUMP, LaserLog, LaserScan, LogError, fixed};
-use crate::error::Shown;
+use super::{FARTHEST, FARTHEST_JUMP, Field, LaserLog, LaserScan, LogError, LogProblem, fixed};
 use crate::geometry::Pose2;
 use crate::ops;
 use core::f64::consts::PI;
@@ -27,7 +28,8 @@ const LASER_REACH: f64 = 3.0;
 const LONGEST_LINE: usize = 1 << 20;
 
 /// How much may come before the first scan \[bytes\]. What is no log, as a gigabyte of newlines, is not read to its end.
-const MOST_BEFORE_SCAN: u64 = 64 << 20;
+const MOST_BEFORE_SCAN: u64 = MEGABYTES_BEFORE_SCAN << 20;
+const MEGABYTES_BEFORE_SCAN: u64 = 64;
 
 /// Reads a log that is in memory. A malformed line ends it with an error, or, if `lenient`, is counted and passed over.
 ///
@@ -88,14 +90,15 @@ impl LogReader {
             } else if !self.passing {
                 self.begun = Vec::new();
                 self.passing = true;
-                self.malformed(self.lines + 1, "expected a message, found a line of more than 1 MB".into())?;
+                self.malformed(self.lines + 1, LogProblem::LongLine)?;
             }
             if ends {
                 self.end_line()?;
             }
         }
         if self.reader.log.scans.is_empty() && self.bytes > MOST_BEFORE_SCAN {
-            return Err(self.no_scan(" in its first 64 MB"));
+            let but = self.other_kind();
+            return Err(LogError::whole(LogProblem::NoScanSoon { megabytes: MEGABYTES_BEFORE_SCAN, but }));
         }
         Ok(())
     }
@@ -107,7 +110,7 @@ impl LogReader {
     pub fn finish(mut self) -> Result<LaserLog, LogError> {
         self.end_line()?;
         if self.reader.log.scans.is_empty() {
-            return Err(self.no_scan(" in it"));
+            return Err(LogError::whole(LogProblem::NoScan { but: self.other_kind() }));
         }
         let mut log = self.reader.log;
         log.seen_something()?;
@@ -130,11 +133,11 @@ impl LogReader {
 
     fn line(&mut self, bytes: &[u8]) -> Result<(), LogError> {
         self.lines += 1;
-        self.reader.line(bytes).or_else(|message| self.malformed(self.lines, message))
+        self.reader.line(bytes).or_else(|problem| self.malformed(self.lines, problem))
     }
 
-    fn malformed(&mut self, line: u32, message: String) -> Result<(), LogError> {
-        let error = LogError { line, message };
+    fn malformed(&mut self, line: u32, problem: LogProblem) -> Result<(), LogError> {
+        let error = LogError { line, problem };
         if !self.lenient {
             return Err(error);
         }
@@ -143,12 +146,9 @@ impl LogReader {
         Ok(())
     }
 
-    fn no_scan(&self, place: &str) -> LogError {
-        let but = match self.reader.log.notes.unknown.first() {
-            Some((kind, _)) => format!(" (but {kind})"),
-            None => String::new(),
-        };
-        LogError { line: 0, message: format!("no FLASER or ROBOTLASER1 message{place}{but}") }
+    /// What the log has instead of scans.
+    fn other_kind(&self) -> Option<String> {
+        self.reader.log.notes.unknown.first().map(|(kind, _)| kind.clone())
     }
 }
 
@@ -183,17 +183,17 @@ struct Reader {
 }
 
 impl Reader {
-    fn line(&mut self, bytes: &[u8]) -> Result<(), String> {
-        let text =
-            core::str::from_utf8(bytes).map_err(|_| "expected a message in plain text, found binary".to_owned())?;
-        let mut words = Words { words: text.split_ascii_whitespace(), kind: "" };
-        let Some(kind) = words.words.next() else { return Ok(()) };
-        words.kind = kind;
+    fn line(&mut self, bytes: &[u8]) -> Result<(), LogProblem> {
+        let text = core::str::from_utf8(bytes).map_err(|_| LogProblem::Binary)?;
+        let mut words = text.split_ascii_whitespace();
+        let Some(kind) = words.next() else { return Ok(()) };
+        let of = |kind| Words { words, kind };
         match kind {
             _ if kind.starts_with('#') => {}
-            "FLASER" => self.front_laser(&mut words)?,
-            "ROBOTLASER1" => self.robot_laser(&mut words)?,
+            "FLASER" => self.front_laser(of(FRONT))?,
+            "ROBOTLASER1" => self.robot_laser(of(ROBOT))?,
             "ODOM" => {
+                let mut words = of("ODOM");
                 let pose = words.pose("x, y, theta")?;
                 for name in ["tv", "rv", "accel"] {
                     words.number(name)?;
@@ -201,7 +201,7 @@ impl Reader {
                 let time = words.time()?;
                 self.log.odometry.push((time, pose));
             }
-            "PARAM" => self.parameter(&mut words)?,
+            "PARAM" => self.parameter(of("PARAM"))?,
             #[cfg(feature = "json")]
             _ if kind.starts_with('{') => match super::json::read(text)? {
                 Told::Scan(scan) => {
@@ -210,10 +210,10 @@ impl Reader {
                     }
                     self.log.scans.push(scan);
                 }
-                Told::Remark(remark) => self.log.notes.remarks.push(remark),
+                Told::Remark(remark) => self.log.notes.remarks.push(Remark::Told(remark)),
                 Told::Malformed(count, message) => {
                     self.log.notes.malformed += count;
-                    self.log.notes.first_malformed.get_or_insert(LogError { line: 0, message });
+                    self.log.notes.first_malformed.get_or_insert(LogError::whole(LogProblem::Told(message)));
                 }
             },
             _ if kind.parse::<f64>().is_ok_and(f64::is_finite) => self.tum(text)?,
@@ -223,17 +223,17 @@ impl Reader {
                 match unknown.iter().position(|(name, _)| name == kind) {
                     Some(k) => unknown[k].1 += 1,
                     None if unknown.len() < MOST_KINDS => unknown.push((kind.into(), 1)),
-                    None => return Err(format!("expected one of the known messages, found {}", shown(kind))),
+                    None => return Err(LogProblem::UnknownMessage(shown(kind))),
                 }
             }
-            _ => return Err(format!("expected the name of a message, found {}", shown(kind))),
+            _ => return Err(LogProblem::NoMessage(shown(kind))),
         }
         Ok(())
     }
 
     /// Odometry as TUM's benchmarks write it: time x y z qx qy qz qw.
-    fn tum(&mut self, text: &str) -> Result<(), String> {
-        let mut words = Words { words: text.split_ascii_whitespace(), kind: "a pose" };
+    fn tum(&mut self, text: &str) -> Result<(), LogProblem> {
+        let mut words = Words { words: text.split_ascii_whitespace(), kind: "" };
         let time = words.time()?;
         let [x, y, _, _, _, sin, cos] = {
             let mut numbers = [0.0; 7];
@@ -243,13 +243,13 @@ impl Reader {
             numbers
         };
         if x.abs().max(y.abs()) > FARTHEST || (sin == 0.0 && cos == 0.0) {
-            return Err("a pose: expected one within 10000 km that turns about the vertical".into());
+            return Err(LogProblem::NoPose);
         }
         self.log.odometry.push((time, Pose2::new(x, y, 2.0 * ops::atan2(sin, cos))));
         Ok(())
     }
 
-    fn front_laser(&mut self, words: &mut Words<'_>) -> Result<(), String> {
+    fn front_laser(&mut self, mut words: Words<'_>) -> Result<(), LogProblem> {
         let ranges = words.ranges()?;
         words.pose("x, y, theta")?;
         let odometry = words.pose("odom_x, odom_y, odom_theta")?;
@@ -267,22 +267,21 @@ impl Reader {
         self.take(scan, words.kind)
     }
 
-    fn robot_laser(&mut self, words: &mut Words<'_>) -> Result<(), String> {
+    fn robot_laser(&mut self, mut words: Words<'_>) -> Result<(), LogProblem> {
         words.number("laser_type")?;
         let first_angle = words.number("start_angle [rad]")?;
         words.number("field_of_view [rad]")?;
         let angle_step = words.number("angular_resolution [rad]")?;
         let max_range = words.number("maximum_range [m]")?;
         if first_angle.abs() > 2.0 * PI || angle_step.abs() > PI || angle_step == 0.0 {
-            let found = [first_angle, angle_step].map(|x| Shown(x).to_string()).join(" and ");
-            return Err(format!("{}: expected angles in radians, found {found}", words.kind));
+            return Err(LogProblem::Angles { message: words.kind, first: first_angle, step: angle_step });
         }
         words.number("accuracy")?;
         words.number("remission_mode")?;
         let ranges = words.ranges()?;
-        let remissions = words.count("remissions")?;
+        let remissions = words.count(Field::RemissionCount)?;
         for _ in 0..remissions {
-            words.word("remissions")?;
+            words.word(Field::Remission)?;
         }
         let laser = words.pose("laser_x, laser_y, laser_theta")?;
         let odometry = words.pose("robot_x, robot_y, robot_theta")?;
@@ -305,22 +304,19 @@ impl Reader {
     }
 
     /// Takes a scan that goes with those before it.
-    fn take(&mut self, scan: LaserScan, kind: &str) -> Result<(), String> {
+    fn take(&mut self, scan: LaserScan, message: &'static str) -> Result<(), LogProblem> {
         let count = scan.ranges.len();
         if count == 0 {
-            return Err(format!("{kind}: expected ranges, found 0 of them"));
+            return Err(LogProblem::NoRanges { message });
         }
-        let beams = *self.beams[usize::from(kind == "ROBOTLASER1")].get_or_insert(count);
+        let beams = *self.beams[usize::from(message == ROBOT)].get_or_insert(count);
         if count != beams {
-            return Err(format!("{kind}: expected {beams} ranges as in the scans before, found {count}"));
+            return Err(LogProblem::OtherRanges { message, before: beams, found: count });
         }
         if let Some(last) = self.log.scans.last() {
             let jump = last.odometry.distance(&scan.odometry);
             if jump > FARTHEST_JUMP {
-                let kilometres = fixed(1e-3 * jump, 1);
-                return Err(format!(
-                    "{kind}: expected a pose within 1 km of the scan before, found one {kilometres} km away"
-                ));
+                return Err(LogProblem::Jump { message, kilometres: 1e-3 * jump });
             }
         }
         self.log.odometry.push((scan.time, scan.odometry));
@@ -328,10 +324,10 @@ impl Reader {
         Ok(())
     }
 
-    fn parameter(&mut self, words: &mut Words<'_>) -> Result<(), String> {
-        match words.word("a name")? {
-            "robot_frontlaser_offset" => self.offset = words.number("metres")?.clamp(-LASER_REACH, LASER_REACH),
-            "robot_front_laser_max" => self.max_range = Some(words.number("metres")?).filter(|range| *range > 0.0),
+    fn parameter(&mut self, mut words: Words<'_>) -> Result<(), LogProblem> {
+        match words.word(Field::Name)? {
+            "robot_frontlaser_offset" => self.offset = words.value(Field::Metres)?.clamp(-LASER_REACH, LASER_REACH),
+            "robot_front_laser_max" => self.max_range = Some(words.value(Field::Metres)?).filter(|range| *range > 0.0),
             _ => {} // a value may be anything, or nothing
         }
         Ok(())
@@ -357,57 +353,67 @@ fn fan(count: usize) -> (f64, f64) {
 /// The words of one message.
 struct Words<'a> {
     words: core::str::SplitAsciiWhitespace<'a>,
-    kind: &'a str,
+    /// Its name; empty for a pose in a line of a TUM file.
+    kind: &'static str,
 }
 
+const FRONT: &str = "FLASER";
+const ROBOT: &str = "ROBOTLASER1";
+
 impl<'a> Words<'a> {
-    fn word(&mut self, name: &str) -> Result<&'a str, String> {
-        self.words.next().ok_or_else(|| format!("{}: expected {name}, found the end of the line", self.kind))
+    fn wrong(&self, field: Field, found: Option<&str>) -> LogProblem {
+        let message = Some(self.kind).filter(|kind| !kind.is_empty());
+        LogProblem::Field { message, field, found: found.map(shown) }
+    }
+
+    fn word(&mut self, field: Field) -> Result<&'a str, LogProblem> {
+        self.words.next().ok_or_else(|| self.wrong(field, None))
+    }
+
+    /// A finite number, by the name of its field.
+    fn number(&mut self, name: &'static str) -> Result<f64, LogProblem> {
+        self.value(Field::Named(name))
     }
 
     /// A finite number.
-    fn number(&mut self, name: &str) -> Result<f64, String> {
-        let word = self.word(name)?;
-        word.parse::<f64>()
-            .ok()
-            .filter(|x| x.is_finite())
-            .ok_or_else(|| format!("{}: expected {name}, found {}", self.kind, shown(word)))
+    fn value(&mut self, field: Field) -> Result<f64, LogProblem> {
+        let word = self.word(field)?;
+        word.parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(|| self.wrong(field, Some(word)))
     }
 
-    fn count(&mut self, name: &str) -> Result<u32, String> {
-        let word = self.word(&format!("the number of {name}"))?;
-        word.parse().map_err(|_| format!("{}: expected the number of {name}, found {}", self.kind, shown(word)))
+    fn count(&mut self, field: Field) -> Result<u32, LogProblem> {
+        let word = self.word(field)?;
+        word.parse().map_err(|_| self.wrong(field, Some(word)))
     }
 
     /// A count, and as many ranges. What a laser writes for *nothing met* (nan, inf) is kept as infinite.
-    fn ranges(&mut self) -> Result<Vec<f32>, String> {
-        let count = self.count("ranges")?;
+    fn ranges(&mut self) -> Result<Vec<f32>, LogProblem> {
+        let count = self.count(Field::RangeCount)?;
         let mut ranges = Vec::with_capacity(count.min(MOST_BEAMS) as usize); // it may say anything
         for k in 0..count {
-            let name = || format!("{count} ranges, of them number {}", k + 1);
-            let word = self.word(&name())?;
+            let field = Field::Range { number: k + 1, of: count };
+            let word = self.word(field)?;
             let range = match word.parse::<f64>().ok().filter(|range| !range.is_nan()) {
                 Some(range) => range as f32,
                 None if is_no_number(word) => f32::INFINITY,
-                None => return Err(format!("{}: expected {}, found {}", self.kind, name(), shown(word))),
+                None => return Err(self.wrong(field, Some(word))),
             };
             ranges.push(range);
         }
         Ok(ranges)
     }
 
-    fn pose(&mut self, names: &str) -> Result<Pose2, String> {
-        let [x, y, theta] = [self.number(names)?, self.number(names)?, self.number(names)?];
+    fn pose(&mut self, names: &'static str) -> Result<Pose2, LogProblem> {
+        let found @ [x, y, theta] = [self.number(names)?, self.number(names)?, self.number(names)?];
         if x.abs().max(y.abs()) > FARTHEST || theta.abs() > FARTHEST {
-            let found = [x, y, theta].map(|x| Shown(x).to_string()).join(" ");
-            return Err(format!("{}: expected {names} within 10000 km and as many turns, found {found}", self.kind));
+            return Err(LogProblem::Far { message: self.kind, names, found });
         }
         Ok(Pose2::new(x, y, theta))
     }
 
     /// The first stamp at the end of the line.
-    fn time(&mut self) -> Result<f64, String> {
-        self.number("a time [s]")
+    fn time(&mut self) -> Result<f64, LogProblem> {
+        self.value(Field::Time)
     }
 }
 

@@ -10,8 +10,7 @@
 //! them or in front of them. What else an object holds is passed over.
 
 use super::place::NOWHERE;
-use super::{LaserLog, LaserScan, Notes};
-use crate::error::Shown;
+use super::{LaserLog, LaserScan, LogProblem, Notes};
 use crate::geometry::Pose2;
 use core::f64::consts::PI;
 use serde::{Deserialize, Serialize};
@@ -48,26 +47,22 @@ pub(super) enum Told {
     Malformed(u32, String),
 }
 
-pub(super) fn read(line: &str) -> Result<Told, String> {
-    let line: Line = serde_json::from_str(line).map_err(|error| format!("expected a scan in JSON: {error}"))?;
+pub(super) fn read(line: &str) -> Result<Told, LogProblem> {
+    let line: Line = serde_json::from_str(line).map_err(|error| LogProblem::Json(error.to_string()))?;
     match (line.malformed, line.remark) {
         (Some(count), remark) => return Ok(Told::Malformed(count, remark.unwrap_or_default())),
         (None, Some(remark)) => return Ok(Told::Remark(remark)),
         (None, None) => {}
     }
-    let missing = |name: &str| format!("a scan in JSON: expected \"{name}\", found none");
-    let number = |name: &str, value: Option<f64>| value.ok_or_else(|| missing(name));
+    let number = |name, value: Option<f64>| value.ok_or(LogProblem::JsonLacks(name));
     let (time, first_angle) = (number("time", line.time)?, number("angle_min", line.angle_min)?);
     let angle_step = number("angle_increment", line.angle_increment)?;
     if first_angle.abs() > 2.0 * PI || angle_step.abs() > PI || angle_step == 0.0 {
-        let [first, step] = [first_angle, angle_step].map(|x| Shown(x).to_string());
-        return Err(format!(
-            "a scan in JSON: expected angle_min and angle_increment in radians, found {first} and {step}"
-        ));
+        return Err(LogProblem::JsonAngles { first: first_angle, step: angle_step });
     }
-    let ranges = line.ranges.ok_or_else(|| missing("ranges"))?;
+    let ranges = line.ranges.ok_or(LogProblem::JsonLacks("ranges"))?;
     if ranges.is_empty() {
-        return Err("a scan in JSON: expected ranges, found 0 of them".into());
+        return Err(LogProblem::JsonNoRanges);
     }
     let pose = |[x, y, theta]: [f64; 3]| Pose2::new(x, y, theta);
     let scan = LaserScan {
@@ -80,7 +75,7 @@ pub(super) fn read(line: &str) -> Result<Told, String> {
         ranges: ranges.into_iter().map(|range| range.unwrap_or(f32::INFINITY)).collect(),
     };
     if !scan.is_placed() {
-        return Err("a scan in JSON: expected places within 10000 km".into());
+        return Err(LogProblem::JsonFar);
     }
     Ok(Told::Scan(if line.odometry.is_some() { scan } else { LaserScan { odometry: NOWHERE, ..scan } }))
 }
@@ -107,10 +102,10 @@ pub fn write_json_lines(log: &LaserLog) -> String {
     }
     let Notes { remarks, malformed, first_malformed, .. } = &log.notes;
     if let Some(first) = first_malformed {
-        write(&Line { malformed: Some(*malformed), remark: Some(first.message.clone()), ..Line::default() });
+        write(&Line { malformed: Some(*malformed), remark: Some(first.problem.to_string()), ..Line::default() });
     }
     for remark in remarks {
-        write(&Line { remark: Some(remark.clone()), ..Line::default() });
+        write(&Line { remark: Some(remark.to_string()), ..Line::default() });
     }
     text
 }

@@ -10,6 +10,7 @@ mod extent;
 #[cfg(feature = "json")]
 mod json;
 mod place;
+mod problem;
 mod relations;
 mod scan_to_scan;
 mod tum;
@@ -20,13 +21,13 @@ pub use carmen::{LogReader, parse, write};
 pub use extent::swept_area;
 #[cfg(feature = "json")]
 pub use json::write_json_lines;
+pub use problem::{Field, LogError, LogProblem, MessageProblem, Remark, Topics};
 pub use relations::{NEAR, Relation, RelationErrors, parse_relations, relation_errors};
 pub use tum::write_tum;
 
 use crate::geometry::Pose2;
 use crate::ops;
 use crate::sensor::Scan;
-use core::fmt;
 
 /// Farthest a coordinate may be from the log's origin \[m\]: beyond it a number is no place.
 const FARTHEST: f64 = 1e7;
@@ -114,13 +115,12 @@ impl LaserLog {
         if readings().any(|range| range.is_finite() && *range > 0.0) {
             return Ok(());
         }
-        let message = format!("none of its {} readings is a range: a finite number above 0", readings().count());
-        Err(LogError { line: 0, message })
+        Err(LogError::whole(LogProblem::NoReading { readings: readings().count() }))
     }
 }
 
 /// What was met in a log besides what is used.
-#[derive(Clone, PartialEq, Eq, Debug, Default)]
+#[derive(Clone, PartialEq, Debug, Default)]
 pub struct Notes {
     /// Messages of rear lasers, which are passed over.
     pub rear: u32,
@@ -132,26 +132,9 @@ pub struct Notes {
     pub first_malformed: Option<LogError>,
     /// Scans whose stamp is before that of the scan above them: they were put in order.
     pub out_of_order: u32,
-    /// What else was made of the log, in words: where the laser is taken to sit, that there is no odometry.
-    pub remarks: Vec<String>,
+    /// What else was made of the log.
+    pub remarks: Vec<Remark>,
 }
-
-/// A line that cannot be read.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct LogError {
-    /// Its number, from 1 on.
-    pub line: u32,
-    /// What should be there, and what is.
-    pub message: String,
-}
-
-impl fmt::Display for LogError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "line {}: {}", self.line, self.message)
-    }
-}
-
-impl core::error::Error for LogError {}
 
 /// Raw odometry at a time \[s\], interpolated between its neighbours and held beyond its ends; `None` without any. Poses
 /// with one stamp are in the order of the file, and at that stamp the first of them counts.

@@ -1,6 +1,6 @@
 //! Where the robot was at each scan by raw odometry, for logs that tell of scans and of odometry apart.
 
-use super::{FARTHEST_JUMP, LaserLog, LaserScan, LogError, fixed, odometry_at, scan_to_scan};
+use super::{FARTHEST_JUMP, LaserLog, LaserScan, LogError, LogProblem, Remark, odometry_at, scan_to_scan};
 #[cfg(any(feature = "bags", feature = "json"))]
 use crate::geometry::Pose2;
 use crate::mapper::tuning::NOTHING_MET;
@@ -13,7 +13,6 @@ pub(super) const NOWHERE: Pose2 = Pose2 { x: f64::NAN, y: f64::NAN, theta: f64::
 /// lies between its neighbours, straight in x and y and along the shorter turn. Before the first pose and after the last one that pose
 /// holds. Where there is no odometry at all, scans are matched to each other. Scans and odometry are in order.
 pub(super) fn place(log: &mut LaserLog) -> Result<(), LogError> {
-    let wrong = |message| Err(LogError { line: 0, message });
     let nowhere = |scan: &LaserScan| scan.odometry.x.is_nan();
     if !log.scans.iter().any(nowhere) {
         return Ok(());
@@ -23,10 +22,7 @@ pub(super) fn place(log: &mut LaserLog) -> Result<(), LogError> {
         let times = |scans: &[LaserScan]| [scans[0].time, scans[scans.len() - 1].time];
         let [first, last] = times(&log.scans);
         if last < begin || end < first {
-            let [first, last, begin, end] = [first, last, begin, end].map(|time| fixed(time, 3));
-            return wrong(format!(
-                "its scans ({first} to {last} s) and its odometry ({begin} to {end} s) have no time in common"
-            ));
+            return Err(LogError::whole(LogProblem::NoCommonTime { scans: [first, last], odometry: [begin, end] }));
         }
         let mut beyond = 0;
         for scan in log.scans.iter_mut().filter(|scan| nowhere(scan)) {
@@ -36,21 +32,18 @@ pub(super) fn place(log: &mut LaserLog) -> Result<(), LogError> {
             scan.odometry = exact.or_else(|| odometry_at(&odometry, scan.time)).unwrap_or_default();
         }
         if beyond > 0 {
-            log.notes.remarks.push(format!(
-                "scans before the first or after the last word of odometry: {beyond}; they have the pose nearest in time"
-            ));
+            log.notes.remarks.push(Remark::Beyond(beyond));
         }
     } else {
         let longest = NOTHING_MET * log.longest_reading();
         scan_to_scan::give_odometry(&mut log.scans, longest);
-        log.notes.remarks.push("there is no odometry: each scan is matched with those before".into());
+        log.notes.remarks.push(Remark::NoOdometry);
     }
     log.odometry = odometry;
     for pair in log.scans.windows(2) {
         let jump = pair[0].odometry.distance(&pair[1].odometry);
         if jump > FARTHEST_JUMP {
-            let [time, kilometres] = [fixed(pair[1].time, 3), fixed(1e-3 * jump, 1)];
-            return wrong(format!("its odometry jumps {kilometres} km from one scan to the next, at {time} s"));
+            return Err(LogError::whole(LogProblem::OdometryJumps { kilometres: 1e-3 * jump, time: pair[1].time }));
         }
     }
     let known = |time: f64| log.odometry.binary_search_by(|(t, _)| t.total_cmp(&time)).is_ok();

@@ -6,7 +6,7 @@
 //!
 //! Reference: Kümmerle et al., *On measuring the accuracy of SLAM algorithms*, Autonomous Robots 2009.
 
-use super::{LogError, odometry_at};
+use super::{LogError, LogProblem, odometry_at};
 use crate::geometry::Pose2;
 
 /// Where a robot was at one time, seen from where it was at another.
@@ -48,12 +48,12 @@ pub fn parse_relations(bytes: &[u8]) -> Result<Vec<Relation>, LogError> {
         let numbers: Option<Vec<f64>> =
             text.split_ascii_whitespace().map(|word| word.parse().ok().filter(|x: &f64| x.is_finite())).collect();
         let Some([t1, t2, x, y, _, _, _, yaw]) = numbers.and_then(|numbers| <[f64; 8]>::try_from(numbers).ok()) else {
-            return Err(LogError { line, message: "expected 8 numbers: t1 t2 x y z roll pitch yaw".into() });
+            return Err(LogError { line, problem: LogProblem::Relation });
         };
         relations.push(Relation { times: [t1, t2], first_from_second: Pose2::new(x, y, yaw) });
     }
     if relations.is_empty() {
-        return Err(LogError { line: 0, message: "no line of 8 numbers: t1 t2 x y z roll pitch yaw".into() });
+        return Err(LogError::whole(LogProblem::NoRelation));
     }
     Ok(relations)
 }

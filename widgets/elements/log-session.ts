@@ -137,7 +137,7 @@ export class LogSession extends Session {
   /** A bag as lines of JSON, by a program of its own, which goes when it is done; nothing where the reader has to choose a topic first. */
   async #decoded(file: Blob, decoder: WebAssembly.Module, topics: Topics, reading: (megabytes: number) => void): Promise<Uint8Array | undefined> {
     const { Bag } = await createShell(decoder)
-    const bag = new Bag(topics.scan, topics.odometry)
+    const bag = new Bag(topics.scan, topics.odometry, this.messages)
     for await (const piece of pieces(file, Infinity, reading)) bag.push(piece)
     const [what, ...choice] = bag.choice()
     if (what) {

@@ -12,6 +12,7 @@ export class Session {
   #target = 0
   #specs: ParamSpec[] | undefined // until something changes that they may depend on
   #language = 'en'
+  protected messages = '' // of that language, for the program
   #lock: string | null = null
   #size: Size | undefined
   #layout: Layout | undefined
@@ -56,6 +57,7 @@ export class Session {
       case 'words':
         this.#language = command.language
         this.#specs = undefined
+        this.messages = command.messages
         return figure.set_words(command.messages)
       case 'comma':
         return figure.set_decimal_comma(command.on)

@@ -57,6 +57,8 @@ pub mod smoothing;
 mod trouble;
 #[cfg(feature = "page")]
 pub mod universes;
+#[cfg(any(feature = "log", feature = "bags"))]
+pub mod unread;
 pub mod view;
 pub mod words;
 #[cfg(feature = "page")]

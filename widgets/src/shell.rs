@@ -77,31 +77,38 @@ pub fn spread(errors: &[f64]) -> Vec<f64> {
 /// A reader of ROS bags: what it makes of one is a log that the figure of logs opens.
 #[cfg(feature = "bags")]
 #[wasm_bindgen]
-pub struct Bag(fastslam::log::BagReader);
+pub struct Bag {
+    reader: fastslam::log::BagReader,
+    language: crate::words::Language,
+}
 
 #[cfg(feature = "bags")]
 #[wasm_bindgen]
 impl Bag {
-    /// For a bag of which nothing has been read, with the topics that were chosen.
+    /// For a bag of which nothing has been read, with the topics that were chosen, and the catalogue of the language in which it is told
+    /// what is wrong with it, as `Figure.set_words` takes it.
     #[wasm_bindgen(constructor)]
-    pub fn new(scan_topic: Option<String>, odometry_topic: Option<String>) -> Bag {
-        Bag(fastslam::log::BagReader::new(fastslam::log::BagOptions { scan_topic, odometry_topic, lenient: true }))
+    pub fn new(scan_topic: Option<String>, odometry_topic: Option<String>, catalogue: &str) -> Bag {
+        let options = fastslam::log::BagOptions { scan_topic, odometry_topic, lenient: true };
+        Bag { reader: fastslam::log::BagReader::new(options), language: crate::words::Language::learnt(catalogue) }
     }
 
     /// The next bytes; throws a `FigureError` if they cannot be read.
     pub fn push(&mut self, bytes: &[u8]) -> Result<(), Error> {
-        self.0.push(bytes).map_err(|error| thrown(bad_bag(error)))
+        let _spoken = self.language.spoken();
+        self.reader.push(bytes).map_err(|error| thrown(bad_bag(&error)))
     }
 
     /// What is to be chosen, once all is read: `scan` or `odometry`, and the topics that have it; nothing where all is clear.
     pub fn choice(&self) -> Vec<String> {
-        self.0.choice().map_or(Vec::new(), |(what, topics)| [vec![what.to_owned()], topics].concat())
+        self.reader.choice().map_or(Vec::new(), |(what, topics)| [vec![what.to_owned()], topics].concat())
     }
 
     /// The log, as JSON lines; throws a `FigureError` that says what is missing.
     pub fn finish(self) -> Result<Vec<u8>, Error> {
-        let log = self.0.finish().map_err(|error| thrown(bad_bag(error)))?;
-        Ok(fastslam::log::write_json_lines(&log).into_bytes())
+        let _spoken = self.language.spoken();
+        let log = self.reader.finish().map_err(|error| thrown(bad_bag(&error)))?;
+        Ok(fastslam::log::write_json_lines(&crate::unread::in_words(log)).into_bytes())
     }
 }
 
@@ -118,8 +125,8 @@ pub fn path_mcap(poses: &[f64]) -> Result<Vec<u8>, Error> {
 }
 
 #[cfg(feature = "bags")]
-fn bad_bag(error: fastslam::log::LogError) -> FigureError {
-    FigureError { parameter: "file".into(), message: error.message }
+fn bad_bag(error: &fastslam::log::LogError) -> FigureError {
+    FigureError { parameter: "file".into(), message: crate::unread::problem(&error.problem) }
 }
 
 /// One figure on a page; to be freed when it leaves the page.

@@ -1,10 +1,15 @@
 //! Figures in other languages: every word is of the language, and nothing else changes.
 
 use fastslam_widgets::{
+    fastslam::log::{
+        BagOptions, BagReader, Field, LogProblem, MessageProblem, Remark, Topics, parse, write_json_lines,
+    },
     figure::Figure,
     model::{ParamSpec, Readout},
     registry::FIGURES,
     scene::Mark,
+    unread,
+    words::Language,
 };
 use std::{collections::BTreeMap, fs, path::Path};
 
@@ -165,4 +170,152 @@ fn figures_side_by_side_speak_different_languages() {
         assert!(english.describe().starts_with("Step 4 of 90"));
         assert!(german.describe().starts_with("Schritt 4 von 90"));
     }
+}
+
+/// Of a log that cannot be read, all that a reader may meet.
+fn problems() -> Vec<LogProblem> {
+    use LogProblem as P;
+    let field = |field| P::Field { message: Some("FLASER"), field, found: Some("“wall”".into()) };
+    let message =
+        |problem| P::Message { topic: "/scan".into(), number: 3, kind: "sensor_msgs/LaserScan".into(), problem };
+    let topics =
+        |listed: &[&str], more| P::NoScanTopic(Topics { listed: listed.iter().map(|t| t.to_string()).collect(), more });
+    let fields = [
+        Field::Named("tv"),
+        Field::Time,
+        Field::Metres,
+        Field::Name,
+        Field::RangeCount,
+        Field::RemissionCount,
+        Field::Remission,
+        Field::Range { number: 2, of: 180 },
+    ];
+    let messages = [
+        MessageProblem::Short,
+        MessageProblem::Pose,
+        MessageProblem::Transform,
+        MessageProblem::NoRanges,
+        MessageProblem::Angles { first: -90.0, step: 0.5 },
+        MessageProblem::Encoding("protobuf".into()),
+        MessageProblem::Encapsulation([0, 7]),
+    ];
+    let others = [
+        P::LongLine,
+        P::Binary,
+        P::UnknownMessage("“x”".into()),
+        P::NoMessage("“<html>”".into()),
+        P::Field { message: None, field: Field::Named("qx"), found: None },
+        P::NoRanges { message: "FLASER" },
+        P::OtherRanges { message: "FLASER", before: 180, found: 3 },
+        P::Angles { message: "ROBOTLASER1", first: -90.0, step: 1.0 },
+        P::Jump { message: "FLASER", kilometres: 5.04 },
+        P::Far { message: "ODOM", names: "x, y, theta", found: [1e300, -0.5, 2.0] },
+        P::NoPose,
+        P::Json("EOF while parsing a value at line 1 column 0".into()),
+        P::JsonLacks("time"),
+        P::JsonAngles { first: -90.0, step: 1.0 },
+        P::JsonNoRanges,
+        P::JsonFar,
+        P::NoScan { but: None },
+        P::NoScan { but: Some("SYNC".into()) },
+        P::NoScanSoon { megabytes: 64, but: None },
+        P::NoReading { readings: 12 },
+        P::NoCommonTime { scans: [9.0, 9.5], odometry: [2.0, 3.25] },
+        P::OdometryJumps { kilometres: 2.35, time: 7.125 },
+        P::NoBag,
+        P::OldBag,
+        topics(&[], 0),
+        topics(&["/odom (1 × nav_msgs/Odometry)", "/tf (2 × tf2_msgs/TFMessage)"], 0),
+        topics(&["/odom (1 × nav_msgs/Odometry)"], 3),
+        P::Tilted { laser: "laser".into(), robot: "base_link".into() },
+        P::Truncated,
+        P::Compression("xz".into()),
+        P::Damaged("a chunk ends in the middle of a record".into()),
+    ];
+    fields.map(field).into_iter().chain(messages.map(message)).chain(others).collect()
+}
+
+fn remarks() -> [Remark; 3] {
+    [Remark::NoOdometry, Remark::Beyond(2), Remark::NoTransform { laser: "laser".into(), robot: "base_link".into() }]
+}
+
+/// Names, numbers and what is cited.
+fn stands_for_itself(word: &str) -> bool {
+    const NAMES: &[&str] = &["base", "link", "wall", "html", "angle_increment"];
+    !word.chars().all(char::is_lowercase) || NAMES.contains(&word)
+}
+
+#[test]
+fn what_is_wrong_with_a_log_is_said_in_english_as_the_library_says_it_and_in_german_in_german() {
+    let german = Language::learnt(&lines("de"));
+    let mut said: Vec<[String; 3]> = Vec::new();
+    for problem in problems() {
+        let english = unread::problem(&problem);
+        let _spoken = german.spoken();
+        said.push([problem.to_string(), english, unread::problem(&problem)]);
+    }
+    for remark in remarks() {
+        let english = unread::remark(&remark);
+        let _spoken = german.spoken();
+        said.push([remark.to_string(), english, unread::remark(&remark)]);
+    }
+    const ENGLISH: &[&str] = &["the", "of", "is", "it", "has", "no", "expected", "found", "than", "its", "and", "more"];
+    for [told, english, german] in said {
+        assert_eq!(told, english);
+        // What is wrong inside a bag, and in JSON, is told by those who know the format.
+        let german = german.split(['(', ':']).next().unwrap();
+        let words = german.split(|c: char| !c.is_alphanumeric()).filter(|word| !stands_for_itself(word));
+        assert!(words.clone().all(|word| !ENGLISH.contains(&word)), "{german}");
+        assert!(german != english, "{german}");
+    }
+}
+
+#[test]
+fn a_log_that_cannot_be_opened_is_refused_in_the_language_of_its_figure() {
+    let mut figure = figure("fastslam-log", "de");
+    let scan = |ranges: &str| format!("FLASER {ranges} 0 0 0 0 0 0 1 h 1\n");
+    for (file, says) in [
+        (String::new(), "die Datei ist leer"),
+        ("name,x,y\n1,2,3\n".into(), "Zeile 1: erwartet ist der Name einer Nachricht, gefunden “name,x,y”"),
+        ("ODOM 0 0 0 0 0 0 1 h 1\n".into(), "es ist keine Nachricht FLASER oder ROBOTLASER1 darin"),
+        ("SYNC 1\n".into(), "es ist keine Nachricht FLASER oder ROBOTLASER1 darin (aber SYNC)"),
+        ("ODOM nan 0 0 0 0 0 1 h 1\n".into(), "Zeile 1: ODOM: erwartet x, y, theta, gefunden “nan”"),
+        (
+            "FLASER 3 1 2".into(),
+            "Zeile 1: FLASER: erwartet 3 Entfernungen, davon die Nummer 3, gefunden das Ende der Zeile",
+        ),
+        (scan("0"), "Zeile 1: FLASER: erwartet Entfernungen, gefunden keine"),
+        (scan("2 nan nan").repeat(2), "keiner der 4 Messwerte ist eine Entfernung: eine endliche Zahl über 0"),
+        (scan("1 2"), "es ist nur ein Scan darin, und nichts zu kartieren"),
+        ("{\"time\": 1}\n".into(), "Zeile 1: ein Scan als JSON: erwartet „angle_min“, gefunden nichts"),
+    ] {
+        assert_eq!(figure.open(file.as_bytes()).unwrap_err().message, says);
+    }
+    figure.open([scan("2 1 1"), scan("3 1 1 1"), scan("2 1 1")].concat().as_bytes()).unwrap();
+    let unfit = figure.ready().unwrap_err().message;
+    assert_eq!(unfit, "Zeile 2: FLASER: erwartet 2 Entfernungen wie in den Scans davor, gefunden 3");
+    figure.set_words("");
+    let unfit = figure.ready().unwrap_err().message;
+    assert_eq!(unfit, "line 2: FLASER: expected 2 ranges as in the scans before, found 3", "and when the page says so");
+}
+
+#[test]
+fn what_is_noted_of_a_bag_goes_through_lines_of_json_in_the_language_of_the_page() {
+    let bag = include_bytes!("../../tests/bags/odometry-zstd.mcap");
+    let read = |bytes: &[u8]| {
+        let mut reader = BagReader::new(BagOptions { lenient: true, ..BagOptions::default() });
+        reader.push(bytes).and_then(|()| reader.finish())
+    };
+    let mut log = read(&bag[..bag.len() / 2]).unwrap();
+    log.notes.remarks = remarks().into();
+    let _spoken = Language::learnt(&lines("de")).spoken();
+    let again = parse(write_json_lines(&unread::in_words(log)).as_bytes(), false).unwrap();
+    let first = unread::problem(&again.notes.first_malformed.unwrap().problem);
+    assert_eq!(first, "sie endet mitten in einem Datensatz: Wurde die Aufnahme abgebrochen?");
+    let noted: Vec<String> = again.notes.remarks.iter().map(unread::remark).collect();
+    assert_eq!(noted, remarks().map(|remark| unread::remark(&remark)));
+    assert!(noted[0].starts_with("es gibt keine Odometrie"));
+    let nothing = read(b"#ROSBAG V2.0\n").unwrap_err();
+    let said = unread::problem(&nothing.problem);
+    assert_eq!(said, "es ist kein sensor_msgs/LaserScan darin; es gibt überhaupt kein Topic");
 }

@@ -215,7 +215,7 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>> {
 
 fn what(path: &Path, error: LogError) -> Usage {
     // Line 0 is the file as a whole.
-    if error.line == 0 { Usage::of_file(path, error.message) } else { Usage::of_file(path, error) }
+    if error.line == 0 { Usage::of_file(path, error.problem) } else { Usage::of_file(path, error) }
 }
 
 /// Reads a log of any kind, which may be compressed, and says on standard error what of it is not used. The file itself is never whole in
@@ -255,7 +255,7 @@ fn read(path: &Path, options: BagOptions) -> Result<LaserLog> {
 
 fn notes(notes: &Notes, of_bag: bool) -> Vec<String> {
     let Notes { rear, unknown, malformed, first_malformed, out_of_order, remarks } = notes;
-    let mut said = remarks.clone();
+    let mut said: Vec<String> = remarks.iter().map(ToString::to_string).collect();
     if *rear > 0 {
         said.push(format!("{rear} messages of a rear laser are passed over"));
     }
@@ -265,7 +265,7 @@ fn notes(notes: &Notes, of_bag: bool) -> Vec<String> {
     }
     if let Some(first) = first_malformed {
         said.push(match of_bag {
-            true => format!("malformed messages passed over: {malformed}, the first of them: {}", first.message),
+            true => format!("malformed messages passed over: {malformed}, the first of them: {}", first.problem),
             false => format!("malformed lines passed over: {malformed}, the first of them {first}"),
         });
     }

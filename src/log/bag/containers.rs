@@ -1,6 +1,7 @@
 //! The two kinds of files: records in chunks, which may be compressed, and channels of a topic and a type each.
 
 use super::messages::Encoding;
+use crate::log::LogProblem;
 use lz4_flex::frame::FrameDecoder;
 use mcap::records::Record;
 use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
@@ -25,18 +26,21 @@ pub trait Sink {
     /// There is such a channel.
     fn channel(&mut self, channel: &Channel);
     /// A message, and when it was recorded \[s\].
-    fn message(&mut self, channel: &Channel, recorded: f64, bytes: &[u8]) -> Result<(), String>;
+    fn message(&mut self, channel: &Channel, recorded: f64, bytes: &[u8]) -> Result<(), LogProblem>;
 }
 
 /// A file that is read piece by piece.
 pub trait Container {
     /// The next bytes, cut anywhere.
-    fn push(&mut self, bytes: &[u8], sink: &mut dyn Sink) -> Result<(), String>;
+    fn push(&mut self, bytes: &[u8], sink: &mut dyn Sink) -> Result<(), LogProblem>;
     /// The file's end.
-    fn finish(&mut self, sink: &mut dyn Sink) -> Result<(), String>;
+    fn finish(&mut self, sink: &mut dyn Sink) -> Result<(), LogProblem>;
 }
 
-const TRUNCATED: &str = "it ends in the middle of a record: was its recording broken off?";
+/// What only those who know the format can make something of.
+fn damaged(what: impl Into<String>) -> LogProblem {
+    LogProblem::Damaged(what.into())
+}
 
 /// A ROS 2 bag.
 pub struct Mcap {
@@ -60,7 +64,7 @@ impl Default for Mcap {
 }
 
 impl Container for Mcap {
-    fn push(&mut self, mut bytes: &[u8], sink: &mut dyn Sink) -> Result<(), String> {
+    fn push(&mut self, mut bytes: &[u8], sink: &mut dyn Sink) -> Result<(), LogProblem> {
         while !self.ended {
             match self.reader.next_event() {
                 None => self.ended = true,
@@ -80,14 +84,14 @@ impl Container for Mcap {
         Ok(())
     }
 
-    fn finish(&mut self, sink: &mut dyn Sink) -> Result<(), String> {
+    fn finish(&mut self, sink: &mut dyn Sink) -> Result<(), LogProblem> {
         self.push(&[], sink)?;
-        if self.ended { Ok(()) } else { Err(TRUNCATED.into()) }
+        if self.ended { Ok(()) } else { Err(LogProblem::Truncated) }
     }
 }
 
 impl Known {
-    fn record(&mut self, record: Record<'_>, sink: &mut dyn Sink) -> Result<(), String> {
+    fn record(&mut self, record: Record<'_>, sink: &mut dyn Sink) -> Result<(), LogProblem> {
         match record {
             Record::Schema { header, .. } => {
                 self.schemas.insert(header.id, header.name.replace("/msg/", "/"));
@@ -108,14 +112,14 @@ impl Known {
                 let channel = self
                     .channels
                     .get(&id)
-                    .ok_or_else(|| format!("a message is of channel {id}, of which nothing was told"))?;
+                    .ok_or_else(|| damaged(format!("a message is of channel {id}, of which nothing was told")))?;
                 let (seconds, nanoseconds) = (header.log_time / 1_000_000_000, header.log_time % 1_000_000_000);
                 sink.message(channel, seconds as f64 + 1e-9 * nanoseconds as f64, &data)?;
             }
             Record::Chunk { header, data } => {
                 let unpacked = unpacked(&header.compression, &data, header.uncompressed_size)?;
                 if header.uncompressed_crc != 0 && crc32fast::hash(&unpacked) != header.uncompressed_crc {
-                    return Err("a chunk does not have the checksum that is written beside it".into());
+                    return Err(damaged("a chunk does not have the checksum that is written beside it"));
                 }
                 for record in mcap::read::LinearReader::sans_magic(&unpacked) {
                     self.record(record.map_err(told)?, sink)?;
@@ -127,10 +131,10 @@ impl Known {
     }
 }
 
-fn told(error: mcap::McapError) -> String {
+fn told(error: mcap::McapError) -> LogProblem {
     match error {
-        mcap::McapError::UnexpectedEof | mcap::McapError::UnexpectedEoc => TRUNCATED.into(),
-        error => format!("it is no MCAP file as it should be: {error}"),
+        mcap::McapError::UnexpectedEof | mcap::McapError::UnexpectedEoc => LogProblem::Truncated,
+        error => damaged(format!("it is no MCAP file as it should be: {error}")),
     }
 }
 
@@ -147,7 +151,7 @@ pub struct Ros1 {
 pub const ROS1_MAGIC: &[u8] = b"#ROSBAG V2.0\n";
 
 impl Container for Ros1 {
-    fn push(&mut self, bytes: &[u8], sink: &mut dyn Sink) -> Result<(), String> {
+    fn push(&mut self, bytes: &[u8], sink: &mut dyn Sink) -> Result<(), LogProblem> {
         self.begun.extend_from_slice(bytes);
         let begun = core::mem::take(&mut self.begun);
         let mut rest = begun.as_slice();
@@ -166,20 +170,20 @@ impl Container for Ros1 {
         Ok(())
     }
 
-    fn finish(&mut self, _: &mut dyn Sink) -> Result<(), String> {
-        if self.started && self.begun.is_empty() { Ok(()) } else { Err(TRUNCATED.into()) }
+    fn finish(&mut self, _: &mut dyn Sink) -> Result<(), LogProblem> {
+        if self.started && self.begun.is_empty() { Ok(()) } else { Err(LogProblem::Truncated) }
     }
 }
 
 impl Ros1 {
-    fn record(&mut self, header: &Fields<'_>, data: &[u8], sink: &mut dyn Sink) -> Result<(), String> {
+    fn record(&mut self, header: &Fields<'_>, data: &[u8], sink: &mut dyn Sink) -> Result<(), LogProblem> {
         match header.get("op")? {
             [MESSAGE] => {
                 let id = header.number("conn")?;
                 let channel = self
                     .channels
                     .get(&id)
-                    .ok_or_else(|| format!("a message is of connection {id}, of which nothing was told"))?;
+                    .ok_or_else(|| damaged(format!("a message is of connection {id}, of which nothing was told")))?;
                 let time = header.get("time")?;
                 let [seconds, nanoseconds] = [number(time)?, number(time.get(4..).unwrap_or_default())?];
                 sink.message(channel, f64::from(seconds) + 1e-9 * f64::from(nanoseconds), data)
@@ -202,7 +206,7 @@ impl Ros1 {
                     self.record(&Fields::of(header)?, data, sink)?;
                     rest = after;
                 }
-                if rest.is_empty() { Ok(()) } else { Err("a chunk ends in the middle of a record".into()) }
+                if rest.is_empty() { Ok(()) } else { Err(damaged("a chunk ends in the middle of a record")) }
             }
             _ => Ok(()), // indices
         }
@@ -218,24 +222,24 @@ type Halves<'a> = (&'a [u8], &'a [u8]);
 type Thirds<'a> = (&'a [u8], &'a [u8], &'a [u8]);
 
 /// A record's header and data, and what follows; `None` where it is not there to its end.
-fn record(bytes: &[u8]) -> Result<Option<Thirds<'_>>, String> {
+fn record(bytes: &[u8]) -> Result<Option<Thirds<'_>>, LogProblem> {
     let Some((header, rest)) = sized(bytes)? else { return Ok(None) };
     let Some((data, rest)) = sized(rest)? else { return Ok(None) };
     Ok(Some((header, data, rest)))
 }
 
 /// A length of four bytes, so many bytes, and what follows.
-fn sized(bytes: &[u8]) -> Result<Option<Halves<'_>>, String> {
+fn sized(bytes: &[u8]) -> Result<Option<Halves<'_>>, LogProblem> {
     let Some((length, rest)) = bytes.split_at_checked(4) else { return Ok(None) };
     let length = number(length)? as usize;
     if length > LARGEST {
-        return Err(format!("a record of it has {length} bytes; at most {LARGEST} can be read"));
+        return Err(damaged(format!("a record of it has {length} bytes; at most {LARGEST} can be read")));
     }
     Ok(rest.split_at_checked(length))
 }
 
-fn number(bytes: &[u8]) -> Result<u32, String> {
-    let four = bytes.first_chunk().ok_or("a field of a record is too short")?;
+fn number(bytes: &[u8]) -> Result<u32, LogProblem> {
+    let four = bytes.first_chunk().ok_or_else(|| damaged("a field of a record is too short"))?;
     Ok(u32::from_le_bytes(*four))
 }
 
@@ -243,38 +247,41 @@ fn number(bytes: &[u8]) -> Result<u32, String> {
 struct Fields<'a>(BTreeMap<&'a [u8], &'a [u8]>);
 
 impl<'a> Fields<'a> {
-    fn of(mut bytes: &'a [u8]) -> Result<Self, String> {
+    fn of(mut bytes: &'a [u8]) -> Result<Self, LogProblem> {
         let mut fields = BTreeMap::new();
         while !bytes.is_empty() {
-            let (field, rest) = sized(bytes)?.ok_or("a record's header is longer than the record")?;
-            let equals = field.iter().position(|byte| *byte == b'=').ok_or("a field of a record has no name")?;
+            let (field, rest) = sized(bytes)?.ok_or_else(|| damaged("a record's header is longer than the record"))?;
+            let equals = field
+                .iter()
+                .position(|byte| *byte == b'=')
+                .ok_or_else(|| damaged("a field of a record has no name"))?;
             fields.insert(&field[..equals], &field[equals + 1..]);
             bytes = rest;
         }
         Ok(Self(fields))
     }
 
-    fn get(&self, name: &str) -> Result<&'a [u8], String> {
-        self.0.get(name.as_bytes()).copied().ok_or_else(|| format!("a record has no field “{name}”"))
+    fn get(&self, name: &str) -> Result<&'a [u8], LogProblem> {
+        self.0.get(name.as_bytes()).copied().ok_or_else(|| damaged(format!("a record has no field “{name}”")))
     }
 
-    fn number(&self, name: &str) -> Result<u32, String> {
+    fn number(&self, name: &str) -> Result<u32, LogProblem> {
         number(self.get(name)?)
     }
 }
 
 /// A chunk as it was before it was compressed.
-fn unpacked(compression: &str, data: &[u8], size: u64) -> Result<Vec<u8>, String> {
+fn unpacked(compression: &str, data: &[u8], size: u64) -> Result<Vec<u8>, LogProblem> {
     if size > LARGEST as u64 {
-        return Err(format!("a chunk of it has {size} bytes; at most {LARGEST} can be read"));
+        return Err(damaged(format!("a chunk of it has {size} bytes; at most {LARGEST} can be read")));
     }
-    let bad = |error: &dyn core::fmt::Display| format!("a chunk cannot be unpacked ({compression}): {error}");
+    let bad = |error: &dyn core::fmt::Display| damaged(format!("a chunk cannot be unpacked ({compression}): {error}"));
     let mut reader: Box<dyn Read + '_> = match compression {
         "" => Box::new(data),
         "zstd" => Box::new(StreamingDecoder::new(data).map_err(|error| bad(&error))?),
         "lz4" => Box::new(FrameDecoder::new(data)),
         "bz2" => Box::new(bzip2_rs::DecoderReader::new(data)),
-        other => return Err(format!("its chunks are compressed by “{other}”; zstd, lz4 and bz2 can be read")),
+        other => return Err(LogProblem::Compression(other.into())),
     };
     let mut unpacked = Vec::new();
     reader.by_ref().take(size + 1).read_to_end(&mut unpacked).map_err(|error| bad(&error))?;

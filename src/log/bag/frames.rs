@@ -2,6 +2,7 @@
 
 use super::messages::{Rigid, Transform};
 use crate::geometry::Pose2;
+use crate::log::LogProblem;
 use crate::ops;
 use std::collections::BTreeMap;
 
@@ -39,15 +40,16 @@ impl Frames {
     }
 
     /// Where a laser sits on the robot; `None` where no chain of transforms tells.
-    pub fn mounting(&self, robot: &str, laser: &str) -> Option<Result<Mounting, String>> {
+    pub fn mounting(&self, robot: &str, laser: &str) -> Option<Result<Mounting, LogProblem>> {
         let [robot, laser] = [frame(robot), frame(laser)];
         let mut at = laser;
         let mut robot_from_laser = IDENTITY;
         for _ in 0..=self.0.len() {
             if at == robot {
-                return Some(mounted(&robot_from_laser).ok_or_else(|| {
-                    format!("the laser {laser} is tilted against {robot} by more than 20°: its sweeps are no plan of a building")
-                }));
+                return Some(
+                    mounted(&robot_from_laser)
+                        .ok_or_else(|| LogProblem::Tilted { laser: laser.into(), robot: robot.into() }),
+                );
             }
             let (parent, parent_from_child) = self.0.get(at)?;
             robot_from_laser = after(&matrix(parent_from_child)?, &robot_from_laser);

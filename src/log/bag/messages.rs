@@ -3,6 +3,7 @@
 //! ROS 2 encodes by CDR: four bytes that tell the order of bytes, then each number at a multiple of its size. ROS 1 packs the same fields
 //! without gaps, low bytes first, and begins each header with a number more. What follows the fields named here stays unread.
 
+use crate::log::MessageProblem;
 use byteorder::{BigEndian, LittleEndian};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
@@ -105,7 +106,7 @@ pub enum Encoding {
 
 impl Encoding {
     /// A message that begins with a header.
-    pub fn one<T: DeserializeOwned>(&self, bytes: &[u8]) -> Result<T, String> {
+    pub fn one<T: DeserializeOwned>(&self, bytes: &[u8]) -> Result<T, MessageProblem> {
         match self {
             Self::Cdr => cdr(bytes),
             _ => self.ros1::<Numbered<T>>(bytes).map(|numbered| numbered.message),
@@ -113,37 +114,30 @@ impl Encoding {
     }
 
     /// A message that is a list of such.
-    pub fn list<T: DeserializeOwned>(&self, bytes: &[u8]) -> Result<Vec<T>, String> {
+    pub fn list<T: DeserializeOwned>(&self, bytes: &[u8]) -> Result<Vec<T>, MessageProblem> {
         match self {
             Self::Cdr => cdr(bytes),
             _ => Ok(self.ros1::<Vec<Numbered<T>>>(bytes)?.into_iter().map(|numbered| numbered.message).collect()),
         }
     }
 
-    fn ros1<T: DeserializeOwned>(&self, bytes: &[u8]) -> Result<T, String> {
+    fn ros1<T: DeserializeOwned>(&self, bytes: &[u8]) -> Result<T, MessageProblem> {
         if let Self::Other(name) = self {
-            return Err(format!("is encoded as “{name}”; cdr and ros1 can be read"));
+            return Err(MessageProblem::Encoding(name.clone()));
         }
         let mut decoder = roslibrust_serde_rosmsg::Deserializer::new(bytes, bytes.len() as u32);
-        T::deserialize(&mut decoder).map_err(|_| CUT.into())
+        T::deserialize(&mut decoder).map_err(|_| MessageProblem::Short)
     }
 }
 
-const CUT: &str = "is shorter than its type asks for";
-
-fn cdr<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
-    let (order, body) = bytes.split_at_checked(4).ok_or(CUT)?;
+fn cdr<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, MessageProblem> {
+    let (order, body) = bytes.split_at_checked(4).ok_or(MessageProblem::Short)?;
     let read = match order[..2] {
         [0, 0] => cdr_encoding::from_bytes::<T, BigEndian>(body),
         [0, 1] => cdr_encoding::from_bytes::<T, LittleEndian>(body),
-        _ => {
-            return Err(format!(
-                "is in an encapsulation {:02x}{:02x} of CDR; plain CDR can be read",
-                order[0], order[1]
-            ));
-        }
+        _ => return Err(MessageProblem::Encapsulation([order[0], order[1]])),
     };
-    read.map(|(message, _)| message).map_err(|_| CUT.into())
+    read.map(|(message, _)| message).map_err(|_| MessageProblem::Short)
 }
 
 /// A message as ROS 2 encodes it.

@@ -15,7 +15,7 @@ pub use path::write_path;
 use self::containers::{Channel, Container, Mcap, ROS1_MAGIC, Ros1, Sink};
 use self::frames::{Frames, Mounting, flat, frame};
 use super::place::{NOWHERE, place};
-use super::{LaserLog, LaserScan, LogError};
+use super::{LaserLog, LaserScan, LogError, LogProblem, MessageProblem, Remark, Topics};
 use core::f32::consts::PI;
 use std::collections::BTreeMap;
 
@@ -80,21 +80,17 @@ impl BagReader {
                 return Ok(());
             }
             let start = core::mem::take(&mut self.start);
-            self.container =
-                Some(match () {
-                    () if start.starts_with(mcap::MAGIC) => Box::new(Mcap::default()),
-                    () if start.starts_with(ROS1_MAGIC) => Box::new(Ros1::default()),
-                    () if start.starts_with(b"#ROSBAG") => return Err(whole(
-                        "it is a ROS 1 bag of another format than 2.0: `rosbag migrate` or `rosbags-convert` makes one"
-                            .into(),
-                    )),
-                    () => return Err(whole("it is neither an MCAP file nor a ROS 1 bag".into())),
-                });
+            self.container = Some(match () {
+                () if start.starts_with(mcap::MAGIC) => Box::new(Mcap::default()),
+                () if start.starts_with(ROS1_MAGIC) => Box::new(Ros1::default()),
+                () if start.starts_with(b"#ROSBAG") => return Err(LogError::whole(LogProblem::OldBag)),
+                () => return Err(LogError::whole(LogProblem::NoBag)),
+            });
             return self.push(&start);
         };
-        container.push(bytes, &mut self.gathered).or_else(|message| {
+        container.push(bytes, &mut self.gathered).or_else(|problem| {
             self.broken = true;
-            self.gathered.malformed(message)
+            self.gathered.malformed(problem)
         })
     }
 
@@ -116,10 +112,10 @@ impl BagReader {
     /// which topics there are; that scans and odometry have no time in common; a laser that is not level.
     pub fn finish(mut self) -> Result<LaserLog, LogError> {
         match &mut self.container {
-            None => return Err(whole("it is neither an MCAP file nor a ROS 1 bag".into())),
+            None => return Err(LogError::whole(LogProblem::NoBag)),
             Some(_) if self.broken => {}
             Some(container) => {
-                container.finish(&mut self.gathered).or_else(|message| self.gathered.malformed(message))?;
+                container.finish(&mut self.gathered).or_else(|problem| self.gathered.malformed(problem))?;
             }
         }
         self.gathered.log()
@@ -131,9 +127,9 @@ fn of_tf(topic: &str) -> bool {
     topic.ends_with(OF_TF)
 }
 
-/// An error about the file as a whole.
-fn whole(message: String) -> LogError {
-    LogError { line: 0, message }
+/// What is said of a topic that was asked for, or of one that must be: to whoever names topics, as a command does.
+fn of_topic(words: String) -> LogError {
+    LogError::whole(LogProblem::Topic(words))
 }
 
 /// What is kept of a bag.
@@ -160,20 +156,22 @@ impl Sink for Gathered {
         self.topics.entry(channel.topic.clone()).or_insert_with(|| (channel.kind.clone(), 0));
     }
 
-    fn message(&mut self, channel: &Channel, recorded: f64, bytes: &[u8]) -> Result<(), String> {
+    fn message(&mut self, channel: &Channel, recorded: f64, bytes: &[u8]) -> Result<(), LogProblem> {
         let Channel { topic, kind, .. } = channel;
         let number = self.topics.get_mut(topic).map_or(0, |(_, count)| {
             *count += 1;
             *count
         });
         self.take(channel, recorded, bytes)
-            .or_else(|what| self.malformed(format!("{topic}: message {number} ({kind}) {what}")))
-            .map_err(|error| error.message)
+            .or_else(|problem| {
+                self.malformed(LogProblem::Message { topic: topic.clone(), number, kind: kind.clone(), problem })
+            })
+            .map_err(|error| error.problem)
     }
 }
 
 impl Gathered {
-    fn take(&mut self, channel: &Channel, recorded: f64, bytes: &[u8]) -> Result<(), String> {
+    fn take(&mut self, channel: &Channel, recorded: f64, bytes: &[u8]) -> Result<(), MessageProblem> {
         let Channel { topic, kind, encoding } = channel;
         let stamp = |time: messages::Time| if time.sec == 0 && time.nanosec == 0 { recorded } else { time.seconds() };
         let other = |wanted: &Option<String>| wanted.as_ref().is_some_and(|wanted| wanted != topic);
@@ -186,7 +184,7 @@ impl Gathered {
             }
             "nav_msgs/Odometry" if !other(&self.options.odometry_topic) => {
                 let message: messages::Transform = encoding.one(bytes)?;
-                let pose = flat(&message.parent_from_child).ok_or("has a pose that is no number")?;
+                let pose = flat(&message.parent_from_child).ok_or(MessageProblem::Pose)?;
                 let track = self.odometry.entry(topic.clone()).or_default();
                 track.robot = message.child_frame_id;
                 track.poses.push((stamp(message.header.stamp), pose));
@@ -195,7 +193,7 @@ impl Gathered {
                 for transform in encoding.list::<messages::Transform>(bytes)? {
                     self.frames.take(&transform, topic.ends_with("tf_static"));
                     if frame(&transform.header.frame_id) == ODOM && !other(&self.options.odometry_topic) {
-                        let pose = flat(&transform.parent_from_child).ok_or("has a transform that is no number")?;
+                        let pose = flat(&transform.parent_from_child).ok_or(MessageProblem::Transform)?;
                         let track = self.odometry.entry(format!("{topic}{OF_TF}")).or_default();
                         track.robot = transform.child_frame_id;
                         track.poses.push((stamp(transform.header.stamp), pose));
@@ -207,8 +205,8 @@ impl Gathered {
         Ok(())
     }
 
-    fn malformed(&mut self, message: String) -> Result<(), LogError> {
-        let error = whole(message);
+    fn malformed(&mut self, problem: LogProblem) -> Result<(), LogError> {
+        let error = LogError::whole(problem);
         if !self.options.lenient {
             return Err(error);
         }
@@ -245,7 +243,7 @@ impl Gathered {
             (Some(_), _) => {
                 Err(self.several("scan-topic", "scans", self.scans.iter().map(|(topic, scans)| (topic, scans.len()))))
             }
-            (None, _) => Err(whole(format!("no sensor_msgs/LaserScan in it; there is {}", self.listed()))),
+            (None, _) => Err(LogError::whole(LogProblem::NoScanTopic(self.listed()))),
         }
     }
 
@@ -269,29 +267,25 @@ impl Gathered {
     /// Whether a topic that was asked for is there, and is of one of these types.
     fn is_of(&self, wanted: &str, kinds: &[&str]) -> Result<(), LogError> {
         match self.topics.get(wanted) {
-            None => Err(whole(format!("there is no topic {wanted} in it; there is {}", self.listed()))),
+            None => Err(of_topic(format!("there is no topic {wanted} in it; there is {}", self.listed()))),
             Some((kind, _)) if !kinds.contains(&kind.as_str()) => {
-                Err(whole(format!("the topic {wanted} is of type {kind}, not {}", kinds.join(" or "))))
+                Err(of_topic(format!("the topic {wanted} is of type {kind}, not {}", kinds.join(" or "))))
             }
-            Some((_, 0)) => Err(whole(format!("the topic {wanted} has no message"))),
+            Some((_, 0)) => Err(of_topic(format!("the topic {wanted} has no message"))),
             Some(_) => Ok(()),
         }
     }
 
     fn several<'a>(&self, flag: &str, what: &str, topics: impl Iterator<Item = (&'a String, usize)>) -> LogError {
         let listed: Vec<String> = topics.map(|(topic, count)| format!("{topic} ({count})")).collect();
-        whole(format!("several topics have {what}, and {flag} must name one: {}", listed.join(", ")))
+        of_topic(format!("several topics have {what}, and {flag} must name one: {}", listed.join(", ")))
     }
 
     /// All topics, as far as a line holds them.
-    fn listed(&self) -> String {
+    fn listed(&self) -> Topics {
         const MOST: usize = 20;
-        let mut listed: Vec<String> =
-            self.topics.iter().take(MOST).map(|(topic, (kind, count))| format!("{topic} ({count} × {kind})")).collect();
-        if self.topics.len() > MOST {
-            listed.push(format!("and {} more", self.topics.len() - MOST));
-        }
-        if listed.is_empty() { "no topic at all".into() } else { listed.join(", ") }
+        let listed = self.topics.iter().take(MOST).map(|(topic, (kind, count))| format!("{topic} ({count} × {kind})"));
+        Topics { listed: listed.collect(), more: self.topics.len().saturating_sub(MOST) }
     }
 
     /// Where the laser sits. What no transform tells is told as such.
@@ -305,24 +299,21 @@ impl Gathered {
         let told = track.map(|track| track.robot.as_str()).filter(|robot| !robot.is_empty());
         let robots = told.into_iter().chain(ROBOT);
         let found = robots.clone().find_map(|robot| self.frames.mounting(robot, laser));
-        found.unwrap_or_else(|| {
-            let robot = robots.clone().next().unwrap_or_default();
-            log.notes.remarks.push(format!(
-                "no transform tells where the laser ({}) sits on the robot ({}): it is taken to be in its centre and to look ahead",
-                frame(laser),
-                frame(robot)
-            ));
-            Ok(Mounting::default())
-        })
-        .map_err(whole)
+        found
+            .unwrap_or_else(|| {
+                let robot = robots.clone().next().unwrap_or_default();
+                log.notes.remarks.push(Remark::NoTransform { laser: frame(laser).into(), robot: frame(robot).into() });
+                Ok(Mounting::default())
+            })
+            .map_err(LogError::whole)
     }
 }
 
 /// A sweep, in the laser's own frame.
-fn scan(message: &messages::LaserScan, time: f64) -> Result<LaserScan, String> {
+fn scan(message: &messages::LaserScan, time: f64) -> Result<LaserScan, MessageProblem> {
     let messages::LaserScan { angle_min, angle_increment, range_min, range_max, ranges, .. } = message;
     if ranges.is_empty() {
-        return Err("has no ranges".into());
+        return Err(MessageProblem::NoRanges);
     }
     let angles = [*angle_min, *angle_increment];
     if !angles.iter().all(|angle| angle.is_finite())
@@ -330,8 +321,8 @@ fn scan(message: &messages::LaserScan, time: f64) -> Result<LaserScan, String> {
         || angle_increment.abs() > PI
         || *angle_increment == 0.0
     {
-        let [first, step] = angles.map(|angle| crate::error::Shown(f64::from(angle)).to_string());
-        return Err(format!("expected angle_min and angle_increment in radians, found {first} and {step}"));
+        let [first, step] = angles.map(f64::from);
+        return Err(MessageProblem::Angles { first, step });
     }
     let longest = if *range_max > 0.0 { *range_max } else { f32::INFINITY };
     let reading = |range: &f32| if *range >= *range_min && *range <= longest { *range } else { f32::INFINITY };

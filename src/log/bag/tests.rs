@@ -27,7 +27,7 @@ fn read_with(bytes: &[u8], options: BagOptions) -> Result<LaserLog, String> {
         .chunks(997)
         .try_for_each(|piece| reader.push(piece))
         .and_then(|()| reader.finish())
-        .map_err(|error| error.message)
+        .map_err(|error| error.problem.to_string())
 }
 
 fn read(bytes: &[u8]) -> Result<LaserLog, String> {
@@ -52,7 +52,7 @@ fn the_path_of_each_bag_is_that_of_the_carmen_log_to_the_last_bit() {
         for (found, expected) in found.scans.iter().zip(&log.scans) {
             assert_eq!(found, expected, "{name}");
         }
-        assert_eq!(found.notes.remarks, Vec::<String>::new(), "{name}");
+        assert_eq!(found.notes.remarks, [], "{name}");
         assert_eq!(path(found), expected, "{name}");
     }
 }
@@ -143,7 +143,7 @@ fn a_laser_is_mounted_by_the_chain_of_transforms_and_upside_down_sweeps_the_othe
     let first = scan.end_points(100.0, 100.0).hits[0];
     let expected = [-0.1 + crate::ops::cos(PI / 2.0 + 0.5), 0.3 + crate::ops::sin(PI / 2.0 + 0.5)];
     assert!((first[0] - expected[0]).abs() < 1e-12 && (first[1] - expected[1]).abs() < 1e-12, "{first:?}");
-    assert_eq!(log.notes.remarks, Vec::<String>::new());
+    assert_eq!(log.notes.remarks, []);
 }
 
 #[test]
@@ -180,11 +180,16 @@ fn odometry_is_interpolated_at_the_stamp_and_held_beyond_its_ends() {
     let log = made.read().unwrap();
     assert_eq!(log.scans.iter().map(|scan| scan.odometry.x).collect::<Vec<_>>(), [1.0, 1.0, 2.0, 3.0, 3.0]);
     assert!(
-        log.notes.remarks.iter().any(|remark| remark.contains("last word of odometry: 2")),
+        log.notes.remarks.iter().any(|remark| remark.to_string().contains("last word of odometry: 2")),
         "{:?}",
         log.notes.remarks
     );
-    assert!(log.notes.remarks.iter().any(|remark| remark.contains("no transform tells where the laser (laser)")));
+    assert!(
+        log.notes
+            .remarks
+            .iter()
+            .any(|remark| remark.to_string().contains("no transform tells where the laser (laser)"))
+    );
     let error = Made::new().odometry("/odom", 2, 1.0).scan("/scan", 9, |_| ()).read().unwrap_err();
     assert!(
         error.contains("its scans (9.000 to 9.000 s) and its odometry (2.000 to 2.000 s) have no time in common"),
@@ -201,7 +206,10 @@ fn without_odometry_scans_are_matched_to_each_other_and_it_is_said() {
     log.odometry.clear();
     log.scans.iter_mut().for_each(|scan| scan.odometry = NOWHERE);
     place(&mut log).unwrap();
-    assert_eq!(log.notes.remarks, ["there is no odometry: each scan is matched with those before"]);
+    assert_eq!(
+        log.notes.remarks.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        ["there is no odometry: each scan is matched with those before"]
+    );
     // Eight metres along a corridor, which the wheels turn away from.
     let matched = log.scans[29].odometry;
     assert!(wheels.distance(&mapped) > 2.0, "{wheels:?}, {mapped:?}");

@@ -107,7 +107,7 @@ fn a_malformed_line_is_named_and_what_was_expected() {
     }
     assert_eq!(parse(b"\xff\xfe\x00", false).unwrap_err().line, 1);
     assert_eq!(message("").to_string(), "line 0: no FLASER or ROBOTLASER1 message in it");
-    assert!(message("SYNC 1\n").message.contains("(but SYNC)"));
+    assert!(message("SYNC 1\n").to_string().contains("(but SYNC)"));
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn a_scan_that_does_not_go_with_those_before_it_is_named() {
     ] {
         let text = [scan(4, 0.0), second, scan(4, 0.2)].concat();
         let error = message(&text);
-        assert_eq!((error.line, error.message.as_str()), (2, said));
+        assert_eq!((error.line, error.problem.to_string().as_str()), (2, said));
         let log = parse(text.as_bytes(), true).unwrap();
         assert_eq!((log.scans.len(), log.notes.malformed), (2, 1), "passed over, and the next one goes with the first");
     }
@@ -132,7 +132,7 @@ fn a_log_that_has_met_nothing_is_no_log_to_map() {
         for lenient in [false, true] {
             let error = parse(text.as_bytes(), lenient).unwrap_err();
             let said = "none of its 12 readings is a range: a finite number above 0";
-            assert_eq!((error.line, error.message.as_str()), (0, said), "{reading}");
+            assert_eq!((error.line, error.problem.to_string().as_str()), (0, said), "{reading}");
         }
     }
 }

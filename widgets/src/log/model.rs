@@ -14,6 +14,7 @@ use super::{
 use crate::challenge::Challenge;
 use crate::decimal::write;
 use crate::model::{Change, Declared, FigureError, Files, Model, Readout, Series};
+use crate::unread;
 use crate::words::log as words;
 use fastslam::{
     log::{LaserLog, LogError, parse, write_tum},
@@ -188,9 +189,13 @@ impl LogModel {
 }
 
 /// What is wrong with a file, in a line.
-fn unreadable(LogError { line, message }: &LogError) -> FigureError {
-    let message = if *line > 0 { words::AtLine { line, message }.say() } else { message.to_string() };
-    FigureError { parameter: "file".into(), message }
+fn unreadable(LogError { line, problem }: &LogError) -> FigureError {
+    let problem = unread::problem(problem);
+    refused(if *line > 0 { words::AtLine { line, message: &problem }.say() } else { problem })
+}
+
+fn refused(message: impl Into<String>) -> FigureError {
+    FigureError { parameter: "file".into(), message: message.into() }
 }
 
 impl Declared for LogModel {
@@ -223,14 +228,14 @@ impl Declared for LogModel {
 impl Files for LogModel {
     fn open(&mut self, file: &[u8]) -> Result<(), FigureError> {
         if file.is_empty() {
-            return Err(unreadable(&LogError { line: 0, message: words::empty().into() }));
+            return Err(refused(words::empty()));
         }
         // Without its malformed lines first, to count them. Where nothing is left, the first of them tells most.
         let log = parse(file, true)
             .map_err(|_| parse(file, false).err())
-            .map_err(|error| unreadable(&error.unwrap_or(LogError { line: 0, message: words::no_scan().into() })))?;
+            .map_err(|error| error.map_or_else(|| refused(words::no_scan()), |error| unreadable(&error)))?;
         if log.scans.len() < 2 {
-            return Err(unreadable(&LogError { line: 0, message: words::one_scan().into() }));
+            return Err(refused(words::one_scan()));
         }
         self.opened = Some(Opened::new(log, self.setup()));
         self.logs += 1;
@@ -240,7 +245,7 @@ impl Files for LogModel {
 
     fn ready(&self) -> Result<(), FigureError> {
         let Some(opened) = &self.opened else {
-            return Err(FigureError { parameter: "file".into(), message: words::no_log_yet().into() });
+            return Err(refused(words::no_log_yet()));
         };
         let notes = &opened.log.notes;
         if let (false, Some(first)) = (self.recipe.lenient, &notes.first_malformed) {

@@ -6,6 +6,7 @@ use super::{
 };
 use crate::decimal::{fixed, write};
 use crate::model::{Column, Model, Readout, Series, unexplained};
+use crate::unread;
 use crate::words::{common, log as words};
 use fastslam::mapper::{LaserMapper, Replay};
 use fastslam_lab::experiment::log::digest;
@@ -42,7 +43,7 @@ fn told(model: &LogModel, opened: &Opened) -> String {
     let mut sentences = vec![scans.say()];
     sentences.extend(left_out.map(|(n, what)| words::LeftOut { what: &what, n: &n }.say()));
     // Of a bag; in the words of whoever read it.
-    sentences.extend(notes.remarks.iter().map(|remark| words::Remark { remark }.say()));
+    sentences.extend(notes.remarks.iter().map(|remark| words::Remark { remark: &unread::remark(remark) }.say()));
     sentences.push(memory.say());
     sentences.join(" ")
 }

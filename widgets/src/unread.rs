@@ -1,0 +1,139 @@
+//! Why a log cannot be read, and what was made of it, in the language spoken. The reader of logs tells it as data, which it displays in
+//! English; a problem that has no words here is said so.
+
+use crate::words::unread as words;
+use fastslam::log::{Field, LogError, LogProblem, MessageProblem, Remark, Topics};
+
+/// A problem of a log.
+pub fn problem(problem: &LogProblem) -> String {
+    match problem {
+        LogProblem::LongLine => words::long_line().into(),
+        LogProblem::Binary => words::binary().into(),
+        LogProblem::UnknownMessage(found) => words::UnknownMessage { found }.say(),
+        LogProblem::NoMessage(found) => words::NoMessage { found }.say(),
+        LogProblem::Field { message, field: what, found } => words::Field {
+            message: &message.unwrap_or_else(|| words::a_pose()),
+            field: &field(*what),
+            found: &found.as_deref().unwrap_or_else(|| words::end_of_line()),
+        }
+        .say(),
+        LogProblem::NoRanges { message } => words::NoRanges { message }.say(),
+        LogProblem::OtherRanges { message, before, found } => words::OtherRanges { message, before, found }.say(),
+        LogProblem::Angles { message, first, step } => {
+            words::Angles { message, first: &number(*first), step: &number(*step) }.say()
+        }
+        LogProblem::Jump { message, kilometres } => words::Jump { message, kilometres: &tenths(*kilometres) }.say(),
+        LogProblem::Far { message, names, found } => {
+            let found = found.map(number).join(" ");
+            words::Far { message, names, found: &found }.say()
+        }
+        LogProblem::NoPose => words::no_pose().into(),
+        LogProblem::Json(why) => words::Json { why }.say(),
+        LogProblem::JsonLacks(name) => words::JsonLacks { name }.say(),
+        LogProblem::JsonAngles { first, step } => {
+            words::JsonAngles { first: &number(*first), step: &number(*step) }.say()
+        }
+        LogProblem::JsonNoRanges => words::json_no_ranges().into(),
+        LogProblem::JsonFar => words::json_far().into(),
+        LogProblem::NoScan { but: other } => words::NoScan { but: &but(other.as_ref()) }.say(),
+        LogProblem::NoScanSoon { megabytes, but: other } => {
+            words::NoScanSoon { megabytes, but: &but(other.as_ref()) }.say()
+        }
+        LogProblem::NoReading { readings } => words::NoReading { readings }.say(),
+        LogProblem::NoCommonTime { scans, odometry } => {
+            let ([first, last], [begin, end]) = (scans.map(milliseconds), odometry.map(milliseconds));
+            words::NoCommonTime { first: &first, last: &last, begin: &begin, end: &end }.say()
+        }
+        LogProblem::OdometryJumps { kilometres, time } => {
+            words::OdometryJumps { kilometres: &tenths(*kilometres), time: &milliseconds(*time) }.say()
+        }
+        LogProblem::NoBag => words::no_bag().into(),
+        LogProblem::OldBag => words::old_bag().into(),
+        LogProblem::NoScanTopic(found) => words::NoScanTopic { topics: &topics(found) }.say(),
+        LogProblem::Tilted { laser, robot } => words::Tilted { laser, robot }.say(),
+        LogProblem::Message { topic, number, kind, problem } => {
+            words::Message { topic, number, kind, problem: &of_message(problem) }.say()
+        }
+        LogProblem::Truncated => words::truncated().into(),
+        LogProblem::Compression(name) => words::Compression { name }.say(),
+        LogProblem::Damaged(what) => words::Damaged { what }.say(),
+        other => other.to_string(),
+    }
+}
+
+/// What was made of a log that does not tell all.
+pub fn remark(remark: &Remark) -> String {
+    match remark {
+        Remark::NoOdometry => words::no_odometry().into(),
+        Remark::Beyond(scans) => words::Beyond { scans }.say(),
+        Remark::NoTransform { laser, robot } => words::NoTransform { laser, robot }.say(),
+        other => other.to_string(),
+    }
+}
+
+/// The log with all that was noted of it in words, which can be written and read by a program that knows neither.
+#[cfg(feature = "bags")]
+pub fn in_words(mut log: fastslam::log::LaserLog) -> fastslam::log::LaserLog {
+    let notes = &mut log.notes;
+    notes.remarks = notes.remarks.iter().map(|noted| Remark::Told(remark(noted))).collect();
+    if let Some(LogError { problem: first, .. }) = &mut notes.first_malformed {
+        *first = LogProblem::Told(problem(first));
+    }
+    log
+}
+
+fn field(field: Field) -> String {
+    match field {
+        Field::Named(name) => name.into(),
+        Field::Time => words::time().into(),
+        Field::Metres => words::metres().into(),
+        Field::Name => words::a_name().into(),
+        Field::RangeCount => words::range_count().into(),
+        Field::RemissionCount => words::remission_count().into(),
+        Field::Remission => words::remissions().into(),
+        Field::Range { number, of } => words::RangeNumber { number: &number, of: &of }.say(),
+        other => other.to_string(),
+    }
+}
+
+fn of_message(problem: &MessageProblem) -> String {
+    match problem {
+        MessageProblem::Short => words::short().into(),
+        MessageProblem::Pose => words::message_pose().into(),
+        MessageProblem::Transform => words::message_transform().into(),
+        MessageProblem::NoRanges => words::message_no_ranges().into(),
+        MessageProblem::Angles { first, step } => {
+            words::MessageAngles { first: &number(*first), step: &number(*step) }.say()
+        }
+        MessageProblem::Encoding(name) => words::Encoding { name }.say(),
+        MessageProblem::Encapsulation([first, second]) => {
+            words::Encapsulation { bytes: &format_args!("{first:02x}{second:02x}") }.say()
+        }
+        other => other.to_string(),
+    }
+}
+
+fn topics(Topics { listed, more }: &Topics) -> String {
+    match (listed.join(", "), more) {
+        (none, _) if none.is_empty() => words::no_topic().into(),
+        (all, 0) => all,
+        (some, more) => words::MoreTopics { topics: &some, more }.say(),
+    }
+}
+
+fn but(kind: Option<&String>) -> String {
+    kind.map(|kind| words::But { kind }.say()).unwrap_or_default()
+}
+
+/// Whatever a file says, on one short line.
+fn number(x: f64) -> String {
+    if x.abs() < 1e15 || !x.is_finite() { x.to_string() } else { format!("{x:e}") }
+}
+
+fn tenths(x: f64) -> String {
+    crate::decimal::fixed(x, 1)
+}
+
+fn milliseconds(seconds: f64) -> String {
+    crate::decimal::fixed(seconds, 3)
+}
