@@ -241,7 +241,7 @@ test('what odometry alone would have drawn is compared with the map, scan by sca
   await compare.focus()
   await page.keyboard.press('Space')
   await expect(compare).toBeChecked()
-  await expect(log.sentence).toContainText(`All scans are mapped. Raw odometry alone has the robot ${end.toFixed(2)} m from where it is in this map.`)
+  await expect(log.sentence).toContainText(`All scans are mapped. Raw odometry alone has the robot ${end.toFixed(2)} m off.`)
   const compared = await log.picture()
   expect(compared).not.toBe(alone)
   await expect(log.readout('digest')).toHaveText(/^[0-9a-f]{16}$/)
@@ -392,6 +392,55 @@ test('what cannot be read is told with line and reason, and the example is a cli
   await expect(log.alert).toBeEmpty()
   await expect(log.status).toHaveText('the example')
 })
+
+test('on a German page, what cannot be read is told in German, by the program of logs and by that of bags', async ({ page }) => {
+  await openCourse(page, '<fastslam-log></fastslam-log>', { lang: 'de' })
+  const log = new LogFigure(page)
+  await expect(log.sentence).toContainText('Noch ist kein Log geöffnet.')
+  const bag = readFileSync(join(root, 'tests', 'bags', 'odometry-zstd.mcap'))
+  for (const [name, bytes, says] of [
+    ['table.csv', 'x,y\n1,2\n', 'table.csv kann nicht kartiert werden: Zeile 1: erwartet ist der Name einer Nachricht'],
+    ['odometry.clf', 'ODOM 0 0 0 0 0 0 1 host 1\n', 'es ist keine Nachricht FLASER oder ROBOTLASER1 darin'],
+    ['broken.gz', Buffer.from([0x1f, 0x8b, 1, 2, 3, 4, 5, 6]), 'broken.gz kann nicht kartiert werden: '],
+    ['nothing.bag', '#ROSBAG V2.0\n', 'nothing.bag kann nicht kartiert werden: es ist kein sensor_msgs/LaserScan darin; es gibt überhaupt kein Topic'],
+    ['half.mcap', bag.subarray(0, bag.length / 2), 'half.mcap, sie endet mitten in einem Datensatz: Wurde die Aufnahme abgebrochen?'],
+  ] as const) {
+    await log.choose(name, bytes as string | Buffer)
+    await expect(log.alert).toContainText(says)
+  }
+  await log.choose('two.mcap', readFileSync(join(root, 'tests', 'bags', 'two-lasers.mcap')))
+  await log.alert.getByRole('button', { name: '/rear/scan' }).click()
+  await expect(log.sentence).toContainText('Zum Bag: es gibt keine Odometrie: Jeder Scan wird mit denen davor abgeglichen.')
+})
+
+/** Whether its sentence stands there to its last word, and with it the button that plays. */
+const readable = (log: LogFigure) =>
+  log.element.evaluate(figure => {
+    const inside = (name: string) => figure.shadowRoot!.querySelector<HTMLElement>(name)!
+    const [sentence, body] = [inside('.sentence'), figure.getBoundingClientRect()]
+    const words = document.createRange()
+    words.selectNodeContents(sentence)
+    const [text, box] = [words.getBoundingClientRect(), sentence.getBoundingClientRect()]
+    const whole = getComputedStyle(sentence).whiteSpace === 'normal' && sentence.scrollWidth <= sentence.clientWidth && sentence.scrollHeight <= sentence.clientHeight + 1
+    return { whole: whole && text.left >= box.left && text.right <= box.right && text.bottom <= body.bottom, height: Math.round(body.height) }
+  })
+
+for (const [width, height, lang] of [[1366, 650, 'en'], [1366, 650, 'de'], [1024, 618, 'en'], [380, 760, 'en'], [380, 760, 'de']] as const) {
+  test(`its sentence is whole before a log is open and when it is mapped, ${width} px wide, ${lang}`, async ({ page }) => {
+    await page.setViewportSize({ width, height })
+    await openCourse(page, '<main style="max-width: 1168px; margin: auto"><fastslam-log universes="2" cell="0.2"></fastslam-log></main>', { lang })
+    const log = new LogFigure(page)
+    await expect(log.sentence).toContainText('MCAP')
+    const before = await readable(log)
+    expect(before.whole).toBe(true)
+    await log.choose('tiny.clf', readFileSync(TINY))
+    await log.button(lang === 'de' ? 'Dieses Gebäude kartieren' : 'Map this building').click()
+    await expect(log.sentence).toContainText(lang === 'de' ? 'Alle Scans sind kartiert' : 'All scans are mapped')
+    const mapped = await readable(log)
+    expect(mapped.whole).toBe(true)
+    if (width >= 832) expect(Math.max(before.height, mapped.height), 'on one screen').toBeLessThanOrEqual(612)
+  })
+}
 
 test('malformed lines are named, and skipped if the reader says so', async ({ page }) => {
   const lines = readFileSync(TINY, 'utf8').split('\n')
