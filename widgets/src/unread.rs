@@ -2,7 +2,7 @@
 //! English; a problem that has no words here is said so.
 
 use crate::words::unread as words;
-use fastslam::log::{Field, LogError, LogProblem, MessageProblem, Remark, Topics};
+use fastslam::log::{Field, LogProblem, MessageProblem, Remark, Topics};
 
 /// A problem of a log.
 pub fn problem(problem: &LogProblem) -> String {
@@ -76,8 +76,8 @@ pub fn remark(remark: &Remark) -> String {
 pub fn in_words(mut log: fastslam::log::LaserLog) -> fastslam::log::LaserLog {
     let notes = &mut log.notes;
     notes.remarks = notes.remarks.iter().map(|noted| Remark::Told(remark(noted))).collect();
-    if let Some(LogError { problem: first, .. }) = &mut notes.first_malformed {
-        *first = LogProblem::Told(problem(first));
+    if let Some(first) = &mut notes.first_malformed {
+        first.problem = LogProblem::Told(problem(&first.problem));
     }
     log
 }
