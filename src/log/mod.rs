@@ -65,18 +65,36 @@ impl LaserScan {
     /// Where the beams ended, in the robot's frame. A reading of `longest` \[m\] or more met nothing, and says nothing: what it passed
     /// may be glass. One of `max_range` \[m\] or more is cut there, and says that the way is free.
     pub fn end_points(&self, longest: f64, max_range: f64) -> Scan {
-        let longest = self.max_range.map_or(longest, |declared| declared.min(longest));
         let mut ends = Scan::default();
-        for (k, range) in self.ranges.iter().map(|range| f64::from(*range)).enumerate() {
-            if range > 0.0 && range < longest {
-                let (sin, cos) = ops::sin_cos(self.first_angle + k as f64 * self.angle_step);
-                let length = range.min(max_range);
-                let end = self.robot_from_laser.transform([length * cos, length * sin]);
-                if range < max_range { ends.hits.push(end) } else { ends.misses.push(end) }
-            }
+        for Beam { end, met, .. } in self.beams(longest, max_range).flatten() {
+            if met { ends.hits.push(end) } else { ends.misses.push(end) }
         }
         ends
     }
+
+    /// The same beam by beam, with `None` for those that say nothing.
+    pub(crate) fn beams(&self, longest: f64, max_range: f64) -> impl Iterator<Item = Option<Beam>> {
+        let longest = self.max_range.map_or(longest, |declared| declared.min(longest));
+        self.ranges.iter().map(|range| f64::from(*range)).enumerate().map(move |(k, range)| {
+            (range > 0.0 && range < longest).then(|| {
+                let (sin, cos) = ops::sin_cos(self.first_angle + k as f64 * self.angle_step);
+                let length = range.min(max_range);
+                let end = self.robot_from_laser.transform([length * cos, length * sin]);
+                Beam { length, end, met: range < max_range }
+            })
+        })
+    }
+}
+
+/// A beam that says something.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Beam {
+    /// How far the way is free \[m\].
+    pub length: f64,
+    /// Where that is, in the robot's frame \[m\].
+    pub end: [f64; 2],
+    /// Whether something is there.
+    pub met: bool,
 }
 
 /// A log, read.

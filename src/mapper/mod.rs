@@ -4,10 +4,12 @@
 //!
 //! [`LaserMapper`] is a Rao-Blackwellized particle filter ([`Rbpf`]) over paths. Each particle draws its next pose by looking first
 //! ([`FromScan`](crate::proposal::FromScan), after Grisetti, Stachniss and Burgard 2007), and keeps a copy-on-write occupancy grid with
-//! a normal distribution for each piece of wall ([`Grid`](crate::map::grid::Grid)). It runs online and needs to know nothing of the
+//! a normal distribution for each piece of wall ([`Grid`](crate::map::grid::Grid)). What moves by itself, as people who walk by or
+//! along, is told from walls before a scan is matched, and left out. It runs online and needs to know nothing of the
 //! scans that will come; whoever has a whole log lets [`Replay`] push it, or fills the laser's settings in by
 //! [`LaserMapperSettings::for_log`]. What is not a setting has one value for every building and robot: [`tuning`] says why.
 
+mod moving;
 mod replay;
 mod settings;
 #[cfg(test)]
@@ -15,6 +17,7 @@ mod tests;
 pub mod tuning;
 mod wheels;
 
+use moving::LastViews;
 pub use replay::Replay;
 pub use settings::LaserMapperSettings;
 pub use tuning::Map;
@@ -27,6 +30,7 @@ use crate::log::LaserScan;
 use crate::map::{ConditionalMap, Footprint};
 use crate::particle::Particle;
 use crate::rbpf::{Rbpf, Report};
+use crate::sensor::Scan;
 
 /// The filter of a [`LaserMapper`].
 pub type Filter = Rbpf<Map, tuning::Proposal>;
@@ -53,6 +57,8 @@ pub struct LaserMapper {
     filter: Filter,
     /// What is known of the wheels.
     wheels: Wheels,
+    /// What was seen on the last metres of the way.
+    views: LastViews,
     /// Raw odometry of the last scan that the filter took; `None` before the first.
     last: Option<Pose2>,
     /// Steps of the filter: scans it took after the first.
@@ -78,6 +84,7 @@ impl LaserMapper {
             executor: Executor::default(),
             filter: filter(&settings, settings.beams.unwrap_or(tuning::BEAMS), map)?,
             wheels: Wheels::default(),
+            views: LastViews::default(),
             last: None,
             steps: 0,
             resampled: 0,
@@ -111,7 +118,8 @@ impl LaserMapper {
             return None;
         }
         let control = self.wheels.displacement(&moved);
-        let report = self.filter.step(&control, &self.settings.end_points(scan));
+        let standing = self.standing(scan);
+        let report = self.filter.step(&control, &standing);
         self.wheels.learn(&moved, &report);
         self.steps = report.step;
         self.resampled += u32::from(report.resampled());
@@ -125,12 +133,18 @@ impl LaserMapper {
     /// Maps the first scan, once for all particles.
     fn begin(&mut self, scan: &LaserScan) {
         let mut map = Map::new(tuning::grid(self.settings.cell_size));
-        map.assimilate(&Pose2::default(), &self.settings.end_points(scan), &());
+        let standing = self.standing(scan);
+        map.assimilate(&Pose2::default(), &standing, &());
         map.settle();
         let beams = self.settings.beams.unwrap_or(scan.ranges.len() as u32);
         let filter = filter(&self.settings, beams, map).expect("`new` has built one of these settings");
         self.filter = filter.with_executor(self.executor.clone());
         self.take(scan);
+    }
+
+    /// What the filter sees of a scan: what moves by itself is no landmark, and the way up to it is free.
+    fn standing(&mut self, scan: &LaserScan) -> Scan {
+        self.views.standing(scan, self.settings.beams(scan), |moved| self.wheels.displacement(moved))
     }
 
     /// Writes down a scan that the filter took.

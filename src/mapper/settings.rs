@@ -3,10 +3,9 @@
 use super::tuning::{Map, NOTHING_MET, STILL};
 use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
-use crate::log::{LaserLog, LaserScan};
+use crate::log::{Beam, LaserLog, LaserScan};
 use crate::ops;
 use crate::resampling::ResamplePolicy;
-use crate::sensor::Scan;
 use std::collections::BTreeSet;
 
 /// Settings of a [`LaserMapper`](super::LaserMapper). The defaults suit a building and a laser of 180°.
@@ -99,9 +98,9 @@ impl LaserMapperSettings {
         moved.distance(&Pose2::default()).max(moved.theta.abs()) >= self.min_travel.max(STILL)
     }
 
-    /// What the filter sees of a scan.
-    pub(super) fn end_points(&self, scan: &LaserScan) -> Scan {
-        scan.end_points(self.no_return.unwrap_or(f64::INFINITY), self.max_range)
+    /// What a scan says, beam by beam.
+    pub(super) fn beams<'a>(&self, scan: &'a LaserScan) -> impl Iterator<Item = Option<Beam>> + use<'a> {
+        scan.beams(self.no_return.unwrap_or(f64::INFINITY), self.max_range)
     }
 
     /// About how many bytes the maps will take when this log is mapped: for each particle all tiles that beams pass through by raw
@@ -114,7 +113,7 @@ impl LaserMapperSettings {
         let tile = f64::from(Map::TILE_CELLS) * settings.cell_size;
         let mut all = BTreeSet::new();
         for scan in &log.scans {
-            for end in settings.end_points(scan).hits {
+            for Beam { end, .. } in settings.beams(scan).flatten().filter(|beam| beam.met) {
                 // The tiles on the way are free space that is kept as well.
                 let length = ops::hypot(end[0], end[1]);
                 let parts = (length / tile).ceil().max(1.0);

@@ -1,0 +1,304 @@
+//! What moves by itself: people who walk by, and those who go along with the robot.
+//!
+//! A scan is matched to those before it. So whoever keeps his place beside a robot tells it that it stands still, and the nearer he is, the
+//! more beams say so. A wall never does what he does: where a wall is now, no beam went through a moment ago. So each end point is
+//! held against what was seen from the last metres of the way, before any matching, with the pose that odometry gives and all the
+//! doubt about it. It belongs to something that moves where
+//!
+//! - it lies in space that was seen to be free, wherever in the ball of that doubt it is; or
+//! - it lies right behind something through whose place, anywhere in its ball, beams go now: who walks ahead hides what is before him.
+//!
+//! Such an end point is matched to nothing and drawn nowhere; its beam says that the way up to it is free. The radius of the ball is
+//! [`SEEN_THROUGH_STDS`] standard deviations, as many as the pose is searched for: a wall is taken for something that moves only where
+//! odometry is wrong by more than is searched, or where it is thinner than the gap between two beams.
+//!
+//! Reference: Lindström and Eklundh, *Detecting and tracking moving objects from a mobile platform using a laser range scanner*, IROS 2001
+//! (violations of free space).
+
+use super::tuning::{RANGE_ERROR, SEEN_THROUGH_STDS, VIEW_REACH, VIEW_SPACING, WALKED_ON};
+use crate::geometry::Pose2;
+use crate::log::{Beam, LaserScan};
+use crate::motion::Displacement;
+use crate::ops;
+use crate::sensor::Scan;
+use core::f64::consts::TAU;
+use nalgebra::{Matrix2x3, Matrix3};
+use std::collections::VecDeque;
+
+/// What was seen on the last metres of the way.
+#[derive(Clone, Debug, Default)]
+pub(super) struct LastViews {
+    /// The oldest first, with the way driven since the first scan \[m\].
+    views: VecDeque<(f64, View)>,
+}
+
+/// What one scan saw.
+#[derive(Clone, Debug)]
+struct View {
+    odometry: Pose2,
+    robot_from_laser: Pose2,
+    /// Direction of the first beam in the laser's frame, and from one beam to the next \[rad\].
+    angles: [f64; 2],
+    /// By direction; `None` of what says nothing.
+    beams: Vec<Option<Beam>>,
+}
+
+impl LastViews {
+    /// The end points of this scan that may belong to something that stands still as its hits, the others as its misses. `doubt` tells where a
+    /// robot may be when odometry tells a motion.
+    pub(super) fn standing(
+        &mut self,
+        scan: &LaserScan,
+        beams: impl Iterator<Item = Option<Beam>>,
+        doubt: impl Fn(&Pose2) -> Displacement,
+    ) -> Scan {
+        let LaserScan { odometry, robot_from_laser, first_angle, angle_step, .. } = *scan;
+        let view = View { odometry, robot_from_laser, angles: [first_angle, angle_step], beams: beams.collect() };
+        let mut moving = vec![false; view.beams.len()];
+        for (_, before) in &self.views {
+            let since = Since::new(&doubt(&before.odometry.between(&odometry)));
+            view.mark_moving(before, &since, &mut moving);
+        }
+        let mut standing = Scan::default();
+        for (beam, moving) in view.beams.iter().zip(moving) {
+            let Some(Beam { end, met, .. }) = *beam else { continue };
+            if met && !moving { standing.hits.push(end) } else { standing.misses.push(end) }
+        }
+        self.remember(view);
+        standing
+    }
+
+    /// Keeps this view, and of those before it the ones that were taken from places apart and not long ago.
+    fn remember(&mut self, view: View) {
+        let way = self.views.back().map_or(0.0, |(way, last)| way + last.odometry.distance(&view.odometry));
+        if let [.., (before, _), (last, _)] = self.views.make_contiguous()
+            && *last - *before < VIEW_SPACING
+        {
+            self.views.pop_back();
+        }
+        self.views.push_back((way, view));
+        while self.views.front().is_some_and(|(first, _)| way - first > VIEW_REACH) {
+            self.views.pop_front();
+        }
+    }
+}
+
+/// How the robot moved since a view.
+struct Since {
+    /// Where it is now, seen from where it was, and the other way round.
+    moved: Pose2,
+    back: Pose2,
+    /// Of `moved`.
+    covariance: Matrix3<f64>,
+}
+
+impl Since {
+    fn new(displacement: &Displacement) -> Self {
+        let Displacement { mean: moved, covariance } = *displacement;
+        Self { moved, back: moved.between(&Pose2::default()), covariance }
+    }
+
+    /// Radius \[m\] of the ball in which a point lies that is seen from the robot now, or was seen before: [`SEEN_THROUGH_STDS`] times the largest
+    /// standard deviation of x ⊕ p by the motion x, where p is the point in the robot's frame now.
+    fn radius(&self, p: [f64; 2]) -> f64 {
+        let (sin, cos) = ops::sin_cos(self.moved.theta);
+        let jacobian = Matrix2x3::new(1.0, 0.0, -sin * p[0] - cos * p[1], 0.0, 1.0, cos * p[0] - sin * p[1]);
+        let covariance = jacobian * self.covariance * jacobian.transpose();
+        let (mean, half) = (0.5 * (covariance.m11 + covariance.m22), 0.5 * (covariance.m11 - covariance.m22));
+        SEEN_THROUGH_STDS * (mean + length([half, covariance.m12])).sqrt() + RANGE_ERROR
+    }
+}
+
+impl View {
+    /// Marks the beams that ended on something that has moved since a view from `before`.
+    fn mark_moving(&self, before: &Self, since: &Since, moving: &mut [bool]) {
+        let way = length([since.moved.x, since.moved.y]);
+        let is_gone = |end| {
+            let now = since.back.transform(end);
+            self.sees_through(now, since.radius(now))
+        };
+        let gone: Vec<bool> = before.ends().map(|end| end.is_some_and(is_gone)).collect();
+        for (end, moving) in self.ends().zip(moving) {
+            let Some(end) = end.filter(|_| !*moving) else { continue };
+            let then = since.moved.transform(end);
+            *moving =
+                before.sees_through(then, since.radius(end)) || before.hidden_behind(&gone, then, way + WALKED_ON);
+        }
+    }
+
+    /// Where beams met something, in the robot's frame \[m\], by beam.
+    fn ends(&self) -> impl Iterator<Item = Option<[f64; 2]>> {
+        self.beams.iter().map(|beam| beam.filter(|beam| beam.met).map(|beam| beam.end))
+    }
+
+    /// Whether every beam towards a ball \[m\] went on beyond it. What no beam looked at was not seen to be free, nor was the place of the
+    /// laser itself.
+    fn sees_through(&self, center: [f64; 2], radius: f64) -> bool {
+        let (distance, at) = self.beam_towards(center);
+        let tangent2 = distance * distance - radius * radius;
+        if !(tangent2 > 0.0) {
+            return false;
+        }
+        let half = ops::atan2(radius, tangent2.sqrt()) / self.angles[1].abs();
+        let [first, last] = [(at - half).floor(), (at + half).ceil()].map(|k| k as i64);
+        (first..=last).all(|k| self.beam(k).is_some_and(|beam| beam.length > distance + radius))
+    }
+
+    /// Whether a point lies behind what a beam met that is `gone` now, and no further from it than `walk` \[m\].
+    fn hidden_behind(&self, gone: &[bool], point: [f64; 2], walk: f64) -> bool {
+        let (_, at) = self.beam_towards(point);
+        let k = self.index(at.round() as i64);
+        let end = self.beams.get(k).copied().flatten().map(|beam| beam.end);
+        gone.get(k) == Some(&true) && end.is_some_and(|end| length([end[0] - point[0], end[1] - point[1]]) < walk)
+    }
+
+    /// How far from the laser a point of the robot's frame is \[m\], and in which direction, in beams from the first.
+    fn beam_towards(&self, point: [f64; 2]) -> (f64, f64) {
+        let from_laser = self.robot_from_laser.between(&Pose2::new(point[0], point[1], 0.0));
+        let [first, step] = self.angles;
+        let bearing = ops::atan2(from_laser.y, from_laser.x);
+        (length([from_laser.x, from_laser.y]), ops::wrap_angle(bearing - first) / step)
+    }
+
+    /// The k-th beam, counted all around.
+    fn beam(&self, k: i64) -> Option<Beam> {
+        self.beams.get(self.index(k)).copied().flatten()
+    }
+
+    /// Index of the k-th beam, counted all around: below 0, that of a laser that looks all around begins again at its last one.
+    fn index(&self, k: i64) -> usize {
+        let around = (TAU / self.angles[1].abs()).round() as i64;
+        k.checked_rem_euclid(around).unwrap_or(k) as usize
+    }
+}
+
+/// Of a vector \[m\].
+fn length([x, y]: [f64; 2]) -> f64 {
+    (x * x + y * y).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f64::consts::PI;
+
+    /// A laser: where it sits, its first beam and from one to the next \[rad\], and how many.
+    type Laser = (Pose2, [f64; 2], usize);
+
+    const AHEAD: Laser = (Pose2 { x: 0.0, y: 0.0, theta: 0.0 }, [-0.5 * PI, PI / 180.0], 181);
+
+    /// One that looks ahead, one that looks all around and begins behind, one that looks all around and begins ahead, clockwise, beside
+    /// the robot's middle and turned.
+    fn lasers() -> [Laser; 3] {
+        [AHEAD, (Pose2::default(), [-PI, PI / 180.0], 360), (Pose2::new(0.2, -0.1, 2.0), [0.0, -PI / 180.0], 360)]
+    }
+
+    /// What a laser of a robot at `pose` sees of a room of 12 m × 8 m round the origin, and of people in it, 0.4 m wide.
+    fn seen(
+        pose: Pose2,
+        (robot_from_laser, [first_angle, angle_step], count): Laser,
+        people: &[[f64; 2]],
+    ) -> LaserScan {
+        let laser = pose.compose(&robot_from_laser);
+        let range = |k: usize| {
+            let (sin, cos) = ops::sin_cos(laser.theta + first_angle + k as f64 * angle_step);
+            let wall = ((6.0 - laser.x * cos.signum()) / cos.abs()).min((4.0 - laser.y * sin.signum()) / sin.abs());
+            let person = |[x, y]: &[f64; 2]| {
+                let (dx, dy) = (x - laser.x, y - laser.y);
+                let (along, aside) = (cos * dx + sin * dy, cos * dy - sin * dx);
+                if along > 0.0 && aside.abs() < 0.2 { along - (0.04 - aside * aside).sqrt() } else { f64::INFINITY }
+            };
+            people.iter().map(person).fold(wall, f64::min) as f32
+        };
+        let ranges = (0..count).map(range).collect();
+        LaserScan { time: 0.0, odometry: pose, robot_from_laser, first_angle, angle_step, max_range: None, ranges }
+    }
+
+    /// Doubt of 2 cm and 2°, and a bit more for each metre.
+    fn doubt(moved: &Pose2) -> Displacement {
+        let way = length([moved.x, moved.y]);
+        let [position, heading] = [0.02 + 0.02 * way, 0.035 + 0.02 * way].map(|std: f64| std * std);
+        Displacement { mean: *moved, covariance: Matrix3::from_diagonal(&[position, position, heading].into()) }
+    }
+
+    /// How many end points of each of these scans stand still, and how many move.
+    fn sorted(scans: &[LaserScan]) -> Vec<[usize; 2]> {
+        let mut views = LastViews::default();
+        let sort = |scan: &LaserScan| {
+            let Scan { hits, misses } = views.standing(scan, scan.beams(f64::INFINITY, 30.0), doubt);
+            [hits.len(), misses.len()]
+        };
+        scans.iter().map(sort).collect()
+    }
+
+    /// Ahead along the room's length, turning a little.
+    fn way() -> impl Iterator<Item = Pose2> {
+        (0..20).map(|k| Pose2::new(-4.0 + 0.4 * f64::from(k), 0.3, 0.02 * f64::from(k)))
+    }
+
+    #[test]
+    fn what_stands_is_not_taken_to_move_though_odometry_be_off_by_nearly_as_much_as_is_searched() {
+        for laser in lasers() {
+            let (_, _, count) = laser;
+            for error in [[0.0; 3], [2.5, 0.0, 0.0], [-2.5, 0.0, 0.0], [0.0, 2.5, 0.0], [0.0, 0.0, -2.5]] {
+                let places = [[1.0, 2.0], [-1.0, -2.0], [4.5, 0.0], [-3.0, 1.2]];
+                let mut scans: Vec<LaserScan> = way().map(|pose| seen(pose, laser, &places)).collect();
+                // The error is there all at once, in one step of the way.
+                let [x, y, theta] = error;
+                for scan in &mut scans[9..] {
+                    let off = Pose2::new(0.028 * x, 0.028 * y, 0.043 * theta);
+                    scan.odometry =
+                        way().nth(9).unwrap().compose(&off).compose(&way().nth(9).unwrap().between(&scan.odometry));
+                }
+                let sorted = sorted(&scans);
+                assert!(sorted.iter().all(|sorted| *sorted == [count, 0]), "{laser:?}, {error:?}: {sorted:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn who_comes_into_free_space_moves() {
+        for laser in lasers() {
+            // He crosses the way before the robot, which stands.
+            let scans = [2.0, 1.0, 0.0].map(|y| seen(Pose2::default(), laser, &[[2.0, y]]));
+            let sorted = sorted(&scans);
+            assert_eq!(sorted[0][1], 0, "{laser:?}");
+            assert!(sorted[1..].iter().all(|[_, moving]| (5..15).contains(moving)), "{laser:?}: {sorted:?}");
+        }
+    }
+
+    #[test]
+    fn who_goes_along_with_the_robot_moves_also_where_he_hides_what_is_before_him() {
+        for laser in lasers() {
+            for place in [[1.2, 0.0], [0.0, 1.0], [0.3, -0.9]] {
+                let scans: Vec<LaserScan> = way().map(|pose| seen(pose, laser, &[pose.transform(place)])).collect();
+                let sorted = sorted(&scans);
+                let found = sorted.iter().filter(|[_, moving]| *moving > 0).count();
+                assert!(found > 14, "{laser:?}, {place:?}: {sorted:?}");
+                // A metre from the laser he takes 23 beams; some more are taken for him, of the wall that he hid.
+                assert!(sorted.iter().all(|[_, moving]| *moving < 46), "{laser:?}, {place:?}: {sorted:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_has_not_moved_for_some_metres_stands() {
+        // He comes between the first scan and the second, and stays.
+        let mut scans: Vec<LaserScan> = way().map(|pose| seen(pose, AHEAD, &[[5.0, 0.0]])).collect();
+        scans[0] = seen(way().next().unwrap(), AHEAD, &[]);
+        let sorted = sorted(&scans);
+        assert!(sorted[1][1] > 0, "{sorted:?}");
+        assert!(sorted[7..].iter().all(|[_, moving]| *moving == 0), "{sorted:?}");
+    }
+
+    #[test]
+    fn scans_of_which_little_can_be_said_pass() {
+        let mut scans = vec![seen(Pose2::default(), AHEAD, &[]); 6];
+        scans[1].ranges.clear();
+        scans[2].ranges.truncate(1);
+        scans[3].angle_step = 0.0;
+        scans[4].ranges.fill(f32::NAN);
+        let sorted = sorted(&scans);
+        assert_eq!(sorted, [[181, 0], [0, 0], [1, 0], [181, 0], [0, 0], [181, 0]]);
+    }
+}
