@@ -144,7 +144,7 @@ impl LaserMapper {
 
     /// What the filter sees of a scan: what moves by itself is no landmark, and the way up to it is free.
     fn standing(&mut self, scan: &LaserScan) -> Scan {
-        self.views.standing(scan, self.settings.beams(scan), |moved| self.wheels.displacement(moved))
+        self.views.standing(scan, self.settings.read(scan), |moved| self.wheels.displacement(moved))
     }
 
     /// Writes down a scan that the filter took.

@@ -136,7 +136,7 @@ impl View {
     fn sees_through(&self, center: [f64; 2], radius: f64) -> bool {
         let (distance, at) = self.beam_towards(center);
         let tangent2 = distance * distance - radius * radius;
-        if !(tangent2 > 0.0) {
+        if tangent2 <= 0.0 {
             return false;
         }
         let half = ops::atan2(radius, tangent2.sqrt()) / self.angles[1].abs();
