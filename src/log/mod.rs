@@ -89,7 +89,7 @@ impl LaserScan {
 /// A beam that says something.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Beam {
-    /// How far the way is free \[m\].
+    /// How far the way is free, from the laser \[m\].
     pub length: f64,
     /// Where that is, in the robot's frame \[m\].
     pub end: [f64; 2],

@@ -142,9 +142,10 @@ impl LaserMapper {
         self.take(scan);
     }
 
-    /// What the filter sees of a scan: what moves by itself is no landmark, and the way up to it is free.
+    /// What the filter sees of a scan: what moves by itself is no landmark.
     fn standing(&mut self, scan: &LaserScan) -> Scan {
-        self.views.standing(scan, self.settings.read(scan), |moved| self.wheels.displacement(moved))
+        let displacement = |moved: &Pose2, driven| self.wheels.displacement_over(moved, driven);
+        self.views.standing(scan, self.settings.beams_of(scan), displacement)
     }
 
     /// Writes down a scan that the filter took.

@@ -1,16 +1,15 @@
 //! What moves by itself: people who walk by, and those who go along with the robot.
 //!
-//! A scan is matched to those before it. So whoever keeps his place beside a robot tells it that it stands still, and the nearer he is, the
-//! more beams say so. A wall never does what he does: where a wall is now, no beam went through a moment ago. So each end point is
-//! held against what was seen from the last metres of the way, before any matching, with the pose that odometry gives and all the
-//! doubt about it. It belongs to something that moves where
+//! A scan is matched to those before it, so a person who walks beside the robot makes it look as if the robot stood still. Each end
+//! point is therefore compared with the scans of the last metres before any matching, with the motion that odometry tells and the
+//! uncertainty of it. It is taken to move where it violates free space:
 //!
-//! - it lies in space that was seen to be free, wherever in the ball of that doubt it is; or
-//! - it lies right behind something through whose place, anywhere in its ball, beams go now: who walks ahead hides what is before him.
+//! - it lies in space that was seen to be free, wherever in the circle of that uncertainty it is; or
+//! - it lies close to something in the same direction through whose circle beams go now: who walks ahead hides what is before him.
 //!
-//! Such an end point is matched to nothing and drawn nowhere; its beam says that the way up to it is free. The radius of the ball is
-//! [`SEEN_THROUGH_STDS`] standard deviations, as many as the pose is searched for: a wall is taken for something that moves only where
-//! odometry is wrong by more than is searched, or where it is thinner than the gap between two beams.
+//! Such an end point is neither matched nor drawn; its beam says that the way up to it is free. The radius of the circle is
+//! [`SEEN_THROUGH_STDS`] standard deviations, as many as the pose is searched for. Some walls are left out by mistake: those thinner than the gap
+//! between two beams, and those that somebody stood right before, until the robot is [`VIEW_REACH`] metres on.
 //!
 //! Reference: Lindström and Eklundh, *Detecting and tracking moving objects from a mobile platform using a laser range scanner*, IROS 2001
 //! (violations of free space).
@@ -28,35 +27,41 @@ use std::collections::VecDeque;
 /// What was seen on the last metres of the way.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LastViews {
-    /// The oldest first, with the way driven since the first scan \[m\].
-    views: VecDeque<(f64, View)>,
+    /// The oldest first.
+    views: VecDeque<View>,
 }
 
 /// What one scan saw.
 #[derive(Clone, Debug)]
 struct View {
     odometry: Pose2,
+    /// How far the robot has driven since \[m\], and by how much it has turned, to whichever side \[rad\].
+    driven: [f64; 2],
     robot_from_laser: Pose2,
     /// Direction of the first beam in the laser's frame, and from one beam to the next \[rad\].
     angles: [f64; 2],
+    /// Beams in a full turn.
+    around: i64,
     /// By direction; `None` of what says nothing.
     beams: Vec<Option<Beam>>,
 }
 
 impl LastViews {
-    /// The end points of this scan that may belong to something that stands still as its hits, the others as its misses. `doubt` tells where a
-    /// robot may be when odometry tells a motion.
+    /// The end points of this scan that may belong to something that stands still as its hits, the others as its misses. `displacement` tells
+    /// where the robot is by a motion of odometry's, on which it drove so far and turned by so much ([`View::driven`]).
     pub(super) fn standing(
         &mut self,
         scan: &LaserScan,
         beams: impl Iterator<Item = Option<Beam>>,
-        doubt: impl Fn(&Pose2) -> Displacement,
+        displacement: impl Fn(&Pose2, [f64; 2]) -> Displacement,
     ) -> Scan {
-        let LaserScan { odometry, robot_from_laser, first_angle, angle_step, .. } = *scan;
-        let view = View { odometry, robot_from_laser, angles: [first_angle, angle_step], beams: beams.collect() };
+        let view = View::new(scan, beams.collect());
+        let last = self.views.back().map_or(view.odometry, |last| last.odometry);
+        let step = driven(&last.between(&view.odometry));
         let mut moving = vec![false; view.beams.len()];
-        for (_, before) in &self.views {
-            let since = Since::new(&doubt(&before.odometry.between(&odometry)));
+        for before in &mut self.views {
+            before.driven = [0, 1].map(|k: usize| before.driven[k] + step[k]);
+            let since = Since::new(&displacement(&before.odometry.between(&view.odometry), before.driven));
             view.mark_moving(before, &since, &mut moving);
         }
         let mut standing = Scan::default();
@@ -70,14 +75,13 @@ impl LastViews {
 
     /// Keeps this view, and of those before it the ones that were taken from places apart and not long ago.
     fn remember(&mut self, view: View) {
-        let way = self.views.back().map_or(0.0, |(way, last)| way + last.odometry.distance(&view.odometry));
-        if let [.., (before, _), (last, _)] = self.views.make_contiguous()
-            && *last - *before < VIEW_SPACING
+        if let [.., before, last] = self.views.make_contiguous()
+            && before.driven[0] - last.driven[0] < VIEW_SPACING
         {
             self.views.pop_back();
         }
-        self.views.push_back((way, view));
-        while self.views.front().is_some_and(|(first, _)| way - first > VIEW_REACH) {
+        self.views.push_back(view);
+        while self.views.front().is_some_and(|first| first.driven[0] > VIEW_REACH) {
             self.views.pop_front();
         }
     }
@@ -98,8 +102,8 @@ impl Since {
         Self { moved, back: moved.between(&Pose2::default()), covariance }
     }
 
-    /// Radius \[m\] of the ball in which a point lies that is seen from the robot now, or was seen before: [`SEEN_THROUGH_STDS`] times the largest
-    /// standard deviation of x ⊕ p by the motion x, where p is the point in the robot's frame now.
+    /// Radius \[m\] of the circle in which a point p of the robot's frame now lies for the view of then, and the other way round: [`RANGE_ERROR`]
+    /// and [`SEEN_THROUGH_STDS`] times the largest standard deviation of x ⊕ p by the motion x.
     fn radius(&self, p: [f64; 2]) -> f64 {
         let (sin, cos) = ops::sin_cos(self.moved.theta);
         let jacobian = Matrix2x3::new(1.0, 0.0, -sin * p[0] - cos * p[1], 0.0, 1.0, cos * p[0] - sin * p[1]);
@@ -110,9 +114,20 @@ impl Since {
 }
 
 impl View {
+    fn new(scan: &LaserScan, beams: Vec<Option<Beam>>) -> Self {
+        Self {
+            odometry: scan.odometry,
+            driven: [0.0; 2],
+            robot_from_laser: scan.robot_from_laser,
+            angles: [scan.first_angle, scan.angle_step],
+            around: (TAU / scan.angle_step.abs()).round() as i64,
+            beams,
+        }
+    }
+
     /// Marks the beams that ended on something that has moved since a view from `before`.
     fn mark_moving(&self, before: &Self, since: &Since, moving: &mut [bool]) {
-        let way = length([since.moved.x, since.moved.y]);
+        let walk = before.driven[0] + WALKED_ON;
         let is_gone = |end| {
             let now = since.back.transform(end);
             self.sees_through(now, since.radius(now))
@@ -121,8 +136,7 @@ impl View {
         for (end, moving) in self.ends().zip(moving) {
             let Some(end) = end.filter(|_| !*moving) else { continue };
             let then = since.moved.transform(end);
-            *moving =
-                before.sees_through(then, since.radius(end)) || before.hidden_behind(&gone, then, way + WALKED_ON);
+            *moving = before.sees_through(then, since.radius(end)) || before.is_near_gone(&gone, then, walk);
         }
     }
 
@@ -131,7 +145,7 @@ impl View {
         self.beams.iter().map(|beam| beam.filter(|beam| beam.met).map(|beam| beam.end))
     }
 
-    /// Whether every beam towards a ball \[m\] went on beyond it. What no beam looked at was not seen to be free, nor was the place of the
+    /// Whether every beam towards a circle \[m\] went on beyond it. What no beam looked at was not seen to be free, nor was the place of the
     /// laser itself.
     fn sees_through(&self, center: [f64; 2], radius: f64) -> bool {
         let (distance, at) = self.beam_towards(center);
@@ -144,8 +158,8 @@ impl View {
         (first..=last).all(|k| self.beam(k).is_some_and(|beam| beam.length > distance + radius))
     }
 
-    /// Whether a point lies behind what a beam met that is `gone` now, and no further from it than `walk` \[m\].
-    fn hidden_behind(&self, gone: &[bool], point: [f64; 2], walk: f64) -> bool {
+    /// Whether the beam towards a point met something that is `gone` now, no further from the point than `walk` \[m\].
+    fn is_near_gone(&self, gone: &[bool], point: [f64; 2], walk: f64) -> bool {
         let (_, at) = self.beam_towards(point);
         let k = self.index(at.round() as i64);
         let end = self.beams.get(k).copied().flatten().map(|beam| beam.end);
@@ -167,9 +181,13 @@ impl View {
 
     /// Index of the k-th beam, counted all around: below 0, that of a laser that looks all around begins again at its last one.
     fn index(&self, k: i64) -> usize {
-        let around = (TAU / self.angles[1].abs()).round() as i64;
-        k.checked_rem_euclid(around).unwrap_or(k) as usize
+        k.checked_rem_euclid(self.around).unwrap_or(k) as usize
     }
+}
+
+/// How far a motion drives \[m\], and by how much it turns \[rad\].
+pub(super) fn driven(moved: &Pose2) -> [f64; 2] {
+    [ops::hypot(moved.x, moved.y), moved.theta.abs()]
 }
 
 /// Of a vector \[m\].
@@ -187,10 +205,15 @@ mod tests {
 
     const AHEAD: Laser = (Pose2 { x: 0.0, y: 0.0, theta: 0.0 }, [-0.5 * PI, PI / 180.0], 181);
 
-    /// One that looks ahead, one that looks all around and begins behind, one that looks all around and begins ahead, clockwise, beside
-    /// the robot's middle and turned.
-    fn lasers() -> [Laser; 3] {
-        [AHEAD, (Pose2::default(), [-PI, PI / 180.0], 360), (Pose2::new(0.2, -0.1, 2.0), [0.0, -PI / 180.0], 360)]
+    /// One that looks ahead, one that looks all around and begins behind, one that looks all around, clockwise, beside the robot's middle and
+    /// turned, and one that looks three quarters around.
+    fn lasers() -> [Laser; 4] {
+        [
+            AHEAD,
+            (Pose2::default(), [-PI, PI / 180.0], 360),
+            (Pose2::new(0.2, -0.1, 2.0), [0.0, -PI / 180.0], 360),
+            (Pose2::default(), [-0.75 * PI, PI / 180.0], 271),
+        ]
     }
 
     /// What a laser of a robot at `pose` sees of a room of 12 m × 8 m round the origin, and of people in it, 0.4 m wide.
@@ -214,18 +237,17 @@ mod tests {
         LaserScan { time: 0.0, odometry: pose, robot_from_laser, first_angle, angle_step, max_range: None, ranges }
     }
 
-    /// Doubt of 2 cm and 2°, and a bit more for each metre.
-    fn doubt(moved: &Pose2) -> Displacement {
-        let way = length([moved.x, moved.y]);
-        let [position, heading] = [0.02 + 0.02 * way, 0.035 + 0.02 * way].map(|std: f64| std * std);
+    /// A motion with an uncertainty of 2 cm and 2°, and some more for each metre and each radian.
+    fn told(moved: &Pose2, [way, turned]: [f64; 2]) -> Displacement {
+        let [position, heading] = [0.02 + 0.02 * way, 0.035 + 0.02 * way + 0.05 * turned].map(|std: f64| std * std);
         Displacement { mean: *moved, covariance: Matrix3::from_diagonal(&[position, position, heading].into()) }
     }
 
-    /// How many end points of each of these scans stand still, and how many move.
+    /// How many end points of each of these scans stand still, and how many do not.
     fn sorted(scans: &[LaserScan]) -> Vec<[usize; 2]> {
         let mut views = LastViews::default();
         let sort = |scan: &LaserScan| {
-            let Scan { hits, misses } = views.standing(scan, scan.beams(f64::INFINITY, 30.0), doubt);
+            let Scan { hits, misses } = views.standing(scan, scan.beams(f64::INFINITY, 30.0), told);
             [hits.len(), misses.len()]
         };
         scans.iter().map(sort).collect()
@@ -252,6 +274,29 @@ mod tests {
                 }
                 let sorted = sorted(&scans);
                 assert!(sorted.iter().all(|sorted| *sorted == [count, 0]), "{laser:?}, {error:?}: {sorted:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_stands_is_not_taken_to_move_though_turns_on_the_spot_add_up_to_none() {
+        let turn = |k: u32| 10_f64.to_radians() * f64::from(k);
+        let round: Vec<f64> = (0..=36).map(turn).collect();
+        let there_and_back: Vec<f64> = (0..=9).chain((0..9).rev()).map(turn).collect();
+        for laser in lasers() {
+            let (_, _, count) = laser;
+            // A full turn of which odometry tells 3 % too much, and a turn there and back of which it tells 5 % too much on the way there.
+            for (headings, told) in [(&round, [1.03, 1.03]), (&there_and_back, [1.05, 1.0])] {
+                let mut heading = 0.0;
+                let scan = |(k, theta): (usize, &f64)| {
+                    let turned = theta - if k > 0 { headings[k - 1] } else { 0.0 };
+                    heading += turned * told[usize::from(turned < 0.0)];
+                    let scan = seen(Pose2::new(1.0, 0.5, *theta), laser, &[]);
+                    LaserScan { odometry: Pose2::new(1.0, 0.5, ops::wrap_angle(heading)), ..scan }
+                };
+                let scans: Vec<LaserScan> = headings.iter().enumerate().map(scan).collect();
+                let sorted = sorted(&scans);
+                assert!(sorted.iter().all(|sorted| *sorted == [count, 0]), "{laser:?}, {told:?}: {sorted:?}");
             }
         }
     }
@@ -284,11 +329,12 @@ mod tests {
     #[test]
     fn what_has_not_moved_for_some_metres_stands() {
         // He comes between the first scan and the second, and stays.
-        let mut scans: Vec<LaserScan> = way().map(|pose| seen(pose, AHEAD, &[[5.0, 0.0]])).collect();
+        let mut scans: Vec<LaserScan> = way().map(|pose| seen(pose, AHEAD, &[[1.0, 1.5]])).collect();
         scans[0] = seen(way().next().unwrap(), AHEAD, &[]);
         let sorted = sorted(&scans);
         assert!(sorted[1][1] > 0, "{sorted:?}");
-        assert!(sorted[7..].iter().all(|[_, moving]| *moving == 0), "{sorted:?}");
+        let later = (VIEW_REACH / 0.4).ceil() as usize + 1;
+        assert!(sorted[later..].iter().all(|[_, moving]| *moving == 0), "{sorted:?}");
     }
 
     #[test]

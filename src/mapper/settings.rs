@@ -99,7 +99,7 @@ impl LaserMapperSettings {
     }
 
     /// What a scan says, beam by beam.
-    pub(super) fn read<'a>(&self, scan: &'a LaserScan) -> impl Iterator<Item = Option<Beam>> + use<'a> {
+    pub(super) fn beams_of<'a>(&self, scan: &'a LaserScan) -> impl Iterator<Item = Option<Beam>> + use<'a> {
         scan.beams(self.no_return.unwrap_or(f64::INFINITY), self.max_range)
     }
 
@@ -113,7 +113,7 @@ impl LaserMapperSettings {
         let tile = f64::from(Map::TILE_CELLS) * settings.cell_size;
         let mut all = BTreeSet::new();
         for scan in &log.scans {
-            for Beam { end, .. } in settings.read(scan).flatten().filter(|beam| beam.met) {
+            for Beam { end, .. } in settings.beams_of(scan).flatten().filter(|beam| beam.met) {
                 // The tiles on the way are free space that is kept as well.
                 let length = ops::hypot(end[0], end[1]);
                 let parts = (length / tile).ceil().max(1.0);

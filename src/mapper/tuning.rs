@@ -71,20 +71,20 @@ pub const LAG: u32 = 20;
 /// is 0.011 with its 30 particles.
 pub const SELECTION_TEMPER: f64 = 0.01;
 
-/// Of odometry: so many standard deviations around its place an end point may lie, and what was seen to be free there all around
-/// was free for certain. As many as the search for the pose reaches.
+/// Radius of the circle in which an end point may lie, in standard deviations of odometry: it is taken to move where all of the circle was
+/// seen to be free. As many as the search for the pose reaches.
 pub const SEEN_THROUGH_STDS: f64 = 3.0;
 
-/// What is added to that \[m\]: three standard deviations of a range, of a laser that is off by 3 cm.
+/// Added to that radius \[m\]: three standard deviations of a range that is off by 3 cm.
 pub const RANGE_ERROR: f64 = 0.1;
 
-/// From one place to the next of which the mapper remembers what it saw there \[m\]; besides, it does so of the last scan.
+/// Least distance on the way between two scans that are remembered to find what moves \[m\]; the last one always is.
 pub const VIEW_SPACING: f64 = 0.5;
 
-/// How far back on the way it does \[m\]. Over a longer one the doubt about odometry is wider than most space that is free.
+/// Scans from further back on the way \[m\] are forgotten: odometry is then less certain than most free space is wide.
 pub const VIEW_REACH: f64 = 3.0;
 
-/// Somebody who has left his place may have walked so much further than the robot \[m\] and be the same person still.
+/// How much further than the robot a person may have walked since a view \[m\].
 pub const WALKED_ON: f64 = 0.5;
 
 /// A robot that has moved by less than this \[m, or rad\] stands still: another look from there tells nothing new.

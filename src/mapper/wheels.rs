@@ -7,6 +7,7 @@
 //! References: Roy and Thrun, *Online self-calibration for mobile robots*, ICRA 1999 (drift by exponential forgetting); Eliazar and Parr, *Learning
 //! probabilistic motion models for mobile robots*, ICML 2004 (motion as a Gaussian in pose space, its noise learnt with the map).
 
+use super::moving::driven;
 use super::tuning::{DRIFT_STD, MEMORY, OUTLYING, STRETCH, TRUST, WHEELS};
 use crate::geometry::Pose2;
 use crate::motion::Displacement;
@@ -25,10 +26,9 @@ pub struct WheelNoise {
 }
 
 impl WheelNoise {
-    /// Variances of heading and position \[rad², m²\] after a motion.
-    fn variances(&self, motion: &Pose2) -> [f64; 2] {
+    /// Variances of heading and position \[rad², m²\] after so much of driving and turning \[m, rad\].
+    fn variances(&self, [way, turn]: [f64; 2]) -> [f64; 2] {
         let sum = |a: f64, b: f64| a * a + b * b;
-        let (way, turn) = (ops::hypot(motion.x, motion.y), motion.theta);
         let ([by_turn, by_way], [along, spin]) = (self.heading, self.position);
         [sum(by_turn * turn, by_way * way), sum(along * way, spin * turn)]
     }
@@ -116,10 +116,15 @@ impl Wheels {
     /// Where the robot is, seen from where it was, when odometry tells this motion. Half of an error of the heading is there from the
     /// start of the motion, so that it moves the position too.
     pub(super) fn displacement(&self, odometry: &Pose2) -> Displacement {
-        let way = ops::hypot(odometry.x, odometry.y);
+        self.displacement_over(odometry, driven(odometry))
+    }
+
+    /// The same where odometry tells this motion of many steps, in which the robot drove so far and turned by so much \[m, rad\]. Nothing cancels on the way there
+    /// and back: standard deviations grow with what was driven, as if all errors went one way.
+    pub(super) fn displacement_over(&self, odometry: &Pose2, [way, turned]: [f64; 2]) -> Displacement {
         let drift = self.drift() * way;
         let mean = Pose2::new(0.0, 0.0, 0.5 * drift).compose(odometry).compose(&Pose2::new(0.0, 0.0, 0.5 * drift));
-        let [heading, position] = WHEELS.variances(odometry);
+        let [heading, position] = WHEELS.variances([way, turned]);
         let turn = self.noise.value() * heading + way * way / self.information;
         let aside = [-0.5 * mean.y, 0.5 * mean.x, 1.0];
         let covariance = Matrix3::from_fn(|i, j| turn * aside[i] * aside[j])
@@ -143,7 +148,7 @@ impl Wheels {
 
     /// Adds what was found in a step to the stretch, and learns from it where it is long enough.
     fn add(&mut self, odometry: &Pose2, turned: f64) {
-        let ([heading, _], stretch) = (WHEELS.variances(odometry), &mut self.stretch);
+        let ([heading, _], stretch) = (WHEELS.variances(driven(odometry)), &mut self.stretch);
         stretch.way += ops::hypot(odometry.x, odometry.y);
         stretch.variance += heading;
         stretch.turned += turned;
@@ -174,7 +179,7 @@ mod tests {
         let mut wheels = Wheels::default();
         for step in 0..steps {
             let [turn, _, _]: [f64; 3] = Stream::at(1, Purpose::TRIAL, step, 0).normals();
-            let [heading, _] = WHEELS.variances(&motion);
+            let [heading, _] = WHEELS.variances(driven(&motion));
             wheels.add(&motion, drift * ops::hypot(motion.x, motion.y) + turn * share * heading.sqrt());
         }
         wheels

@@ -103,10 +103,11 @@ fn a_crowd_round_the_robot_does_not_turn_the_map() {
 }
 
 /// People who keep their places round the robot say that it stands still: two of them with a tenth of the beams, four with a quarter, where
-/// walls are far and say little. Half of the paths are so many times nearer than raw odometry, and none is much worse than it.
+/// walls are far and say little. Half of the paths are so many times nearer than raw odometry; with two people none is further off than it, with
+/// four none twice as far.
 #[test]
 fn people_who_go_along_do_not_hold_the_robot_back() {
-    for (escort, told, half, each) in [(2, [0.05, 0.2], 10.0, 1.5), (4, [0.15, 0.3], 2.0, 0.5)] {
+    for (escort, told, half, each) in [(2, [0.05, 0.2], 10.0, 1.0), (4, [0.15, 0.3], 2.0, 0.5)] {
         let along = |yard| Recipe { escort, ..yard };
         let mut times: Vec<f64> = (1..=8).map(|seed| times_nearer("escort", seed, 2.0, told, along)).collect();
         times.sort_by(f64::total_cmp);
