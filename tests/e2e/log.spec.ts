@@ -400,9 +400,9 @@ test('on a German page, what cannot be read is told in German, by the program of
   const bag = readFileSync(join(root, 'tests', 'bags', 'odometry-zstd.mcap'))
   for (const [name, bytes, says] of [
     ['table.csv', 'x,y\n1,2\n', 'table.csv kann nicht kartiert werden: Zeile 1: erwartet ist der Name einer Nachricht'],
-    ['odometry.clf', 'ODOM 0 0 0 0 0 0 1 host 1\n', 'es ist keine Nachricht FLASER oder ROBOTLASER1 darin'],
+    ['odometry.clf', 'ODOM 0 0 0 0 0 0 1 host 1\n', 'sie enthält keine Nachricht FLASER oder ROBOTLASER1'],
     ['broken.gz', Buffer.from([0x1f, 0x8b, 1, 2, 3, 4, 5, 6]), 'broken.gz kann nicht kartiert werden: '],
-    ['nothing.bag', '#ROSBAG V2.0\n', 'nothing.bag kann nicht kartiert werden: es ist kein sensor_msgs/LaserScan darin; es gibt überhaupt kein Topic'],
+    ['nothing.bag', '#ROSBAG V2.0\n', 'nothing.bag kann nicht kartiert werden: sie enthält kein Topic mit sensor_msgs/LaserScan; vorhanden: kein einziges'],
     ['half.mcap', bag.subarray(0, bag.length / 2), 'half.mcap, sie endet mitten in einem Datensatz: Wurde die Aufnahme abgebrochen?'],
   ] as const) {
     await log.choose(name, bytes as string | Buffer)

@@ -280,13 +280,10 @@ fn a_log_that_cannot_be_opened_is_refused_in_the_language_of_its_figure() {
     for (file, says) in [
         (String::new(), "die Datei ist leer"),
         ("name,x,y\n1,2,3\n".into(), "Zeile 1: erwartet ist der Name einer Nachricht, gefunden “name,x,y”"),
-        ("ODOM 0 0 0 0 0 0 1 h 1\n".into(), "es ist keine Nachricht FLASER oder ROBOTLASER1 darin"),
-        ("SYNC 1\n".into(), "es ist keine Nachricht FLASER oder ROBOTLASER1 darin (aber SYNC)"),
+        ("ODOM 0 0 0 0 0 0 1 h 1\n".into(), "sie enthält keine Nachricht FLASER oder ROBOTLASER1"),
+        ("SYNC 1\n".into(), "sie enthält keine Nachricht FLASER oder ROBOTLASER1 (aber SYNC)"),
         ("ODOM nan 0 0 0 0 0 1 h 1\n".into(), "Zeile 1: ODOM: erwartet x, y, theta, gefunden “nan”"),
-        (
-            "FLASER 3 1 2".into(),
-            "Zeile 1: FLASER: erwartet 3 Entfernungen, davon die Nummer 3, gefunden das Ende der Zeile",
-        ),
+        ("FLASER 3 1 2".into(), "Zeile 1: FLASER: erwartet Entfernung 3 von 3, gefunden das Ende der Zeile"),
         (scan("0"), "Zeile 1: FLASER: erwartet Entfernungen, gefunden keine"),
         (scan("2 nan nan").repeat(2), "keiner der 4 Messwerte ist eine Entfernung: eine endliche Zahl über 0"),
         (scan("1 2"), "es ist nur ein Scan darin, und nichts zu kartieren"),
@@ -320,5 +317,5 @@ fn what_is_noted_of_a_bag_goes_through_lines_of_json_in_the_language_of_the_page
     assert!(noted[0].starts_with("es gibt keine Odometrie"));
     let nothing = read(b"#ROSBAG V2.0\n").unwrap_err();
     let said = unread::problem(&nothing.problem);
-    assert_eq!(said, "es ist kein sensor_msgs/LaserScan darin; es gibt überhaupt kein Topic");
+    assert_eq!(said, "sie enthält kein Topic mit sensor_msgs/LaserScan; vorhanden: kein einziges");
 }
