@@ -91,7 +91,7 @@ pub enum LogProblem {
     },
     /// A pose is beyond all places.
     #[error(
-        "{message}: expected {names} within 10000 km and as many turns, found {} {} {}",
+        "{message}: expected {names} within 10000 km and 10 million radians, found {} {} {}",
         Shown(found[0]), Shown(found[1]), Shown(found[2])
     )]
     Far {

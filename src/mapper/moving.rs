@@ -338,6 +338,17 @@ mod tests {
     }
 
     #[test]
+    fn a_wall_that_somebody_stood_right_before_stands_again_some_metres_on() {
+        // He stands before the wall at the left, and is gone from the second scan on: beams now end on what he hid.
+        let mut scans: Vec<LaserScan> = way().map(|pose| seen(pose, AHEAD, &[])).collect();
+        scans[0] = seen(way().next().unwrap(), AHEAD, &[[-2.0, 3.3]]);
+        let sorted = sorted(&scans);
+        assert!(sorted.iter().any(|[_, moving]| *moving > 0), "{sorted:?}");
+        let later = (VIEW_REACH / 0.4).ceil() as usize + 1;
+        assert!(sorted[later..].iter().all(|[_, moving]| *moving == 0), "{sorted:?}");
+    }
+
+    #[test]
     fn scans_of_which_little_can_be_said_pass() {
         let mut scans = vec![seen(Pose2::default(), AHEAD, &[]); 6];
         scans[1].ranges.clear();

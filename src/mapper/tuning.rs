@@ -4,7 +4,7 @@ use super::wheels::WheelNoise;
 use crate::map::grid::{Grid, GridModel};
 use crate::matching::{HillClimbSteps, Kernel, Matcher, ScanModel};
 use crate::motion::Displaced;
-use crate::proposal::{CorrelativeSearch, FitLimits, FromScan, FromScanSettings};
+use crate::proposal::{CorrelativeSearch, FitLimits, FromScan, FromScanSettings, SEARCH_STDS};
 
 /// Cells along a side of an NDT cell: NDT cells of 0.2 m with the default cells. Much smaller ones hold too few hits to tell which
 /// way a wall runs, much larger ones more than one wall.
@@ -73,7 +73,7 @@ pub const SELECTION_TEMPER: f64 = 0.01;
 
 /// Radius of the circle in which an end point may lie, in standard deviations of odometry: it is taken to move where all of the circle was
 /// seen to be free. As many as the search for the pose reaches.
-pub const SEEN_THROUGH_STDS: f64 = 3.0;
+pub const SEEN_THROUGH_STDS: f64 = SEARCH_STDS;
 
 /// Added to that radius \[m\]: three standard deviations of a range that is off by 3 cm.
 pub const RANGE_ERROR: f64 = 0.1;

@@ -15,6 +15,7 @@ pub use from_measurement::{FromMeasurement, Measured};
 pub use from_motion::{FromMotion, Marginal};
 pub use from_scan::{FromScan, FromScanSettings};
 pub use retrace::Retrace;
+pub(crate) use search::SEARCH_STDS;
 pub use search::{CorrelativeSearch, HeadingSeeds, Search, Starts, Target};
 
 use crate::error::SettingError;

@@ -63,7 +63,7 @@ impl<'a, N: ScoreNear> Target<'a, N> {
 
 /// A search reaches this many standard deviations of the prior to each side. Heading is what a climb is lost
 /// by: a few degrees more, and far end points fall on the wrong wall.
-const SEARCH_STDS: f64 = 3.0;
+pub(crate) const SEARCH_STDS: f64 = 3.0;
 
 /// Most steps of a lattice to each side, of position and of heading: an absurd motion must not take for ever.
 const MOST_STEPS: [f64; 2] = [8.0, 24.0];
