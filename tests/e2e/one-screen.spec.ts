@@ -50,6 +50,8 @@ for (const tag of programs.keys()) {
     const height = async () => (await (await ready(page, tag)).element.boundingBox())!.height
     await page.goto('./')
     expect(await height(), 'in the chapter').toBeLessThanOrEqual(HIGHEST)
+    const sentence = page.locator(`${tag} .sentence`).first()
+    expect(await sentence.evaluate(({ scrollHeight, clientHeight }) => scrollHeight - clientHeight), 'the sentence is cut').toBeLessThanOrEqual(1)
     for (const width of [832, 1000, 1100]) {
       await openCourse(page, `<div style="width: ${width}px"><${tag}></${tag}></div>`)
       expect(await height(), `${width} px wide`).toBeLessThanOrEqual(HIGHEST)

@@ -50,7 +50,7 @@ export class Canvas {
 
   /** What the picture is to be painted for. */
   get size(): Size {
-    const height = this.fits ? Math.max(this.body.offsetHeight - this.#around, PICTURE_SHARE * this.body.offsetHeight) : this.#highest
+    const height = this.fits ? Math.floor(Math.max(this.body.offsetHeight - this.#around, PICTURE_SHARE * this.body.offsetHeight)) : this.#highest
     const fontScale = this.figure.getAttribute('size') === 'presentation' ? FONT_SCALE : 1
     return { room: this.#room, height, fontScale, canvas: this.#size, theme: themeName(this.figure.getAttribute('theme')) }
   }
@@ -85,7 +85,9 @@ export class Canvas {
 
   /** All of the figure but its picture [css px]. */
   get #around(): number {
-    return this.body.scrollHeight + this.body.offsetHeight - this.body.clientHeight - this.stage.offsetHeight
+    // The stage to a fraction of a pixel: were it rounded, a picture beside half a pixel would grow and shrink for ever.
+    const stage = parseFloat(getComputedStyle(this.stage).height) || 0
+    return this.body.scrollHeight + this.body.offsetHeight - this.body.clientHeight - stage
   }
 
   #onResize(entries: ResizeObserverEntry[]): void {
