@@ -7,13 +7,16 @@ mod fit;
 mod from_measurement;
 mod from_motion;
 mod from_scan;
+mod from_window;
 mod retrace;
 mod search;
+mod window;
 
 pub use fit::{Fit, FitLimits};
 pub use from_measurement::{FromMeasurement, Measured};
 pub use from_motion::{FromMotion, Marginal};
 pub use from_scan::{FromScan, FromScanSettings};
+pub use from_window::{Followed, FromWindow, Windowed};
 pub use retrace::Retrace;
 pub(crate) use search::SEARCH_STDS;
 pub use search::{CorrelativeSearch, HeadingSeeds, Search, Starts, Target};

@@ -163,16 +163,26 @@ impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
     /// Decides what one feature is, for a pose of this mean and covariance P (3 × 3; zeros for a pose that is sure), after
     /// `taken` was decided for the features before it.
     pub fn associate(&self, pose: &Pose2, p: &Matrix3<f64>, feature: &Feature, taken: &[Association]) -> Decision {
-        let of_position = p.fixed_view::<2, 2>(0, 0).into_owned();
-        self.correspondence.decide(feature, taken, self.store.len(), |index, gate| {
-            let landmark = self.get(index)?;
-            let spread = landmark.covariance + of_position;
-            let least = || self.sensor.least_mahalanobis_squared(pose, &landmark.mean, &spread, &feature.z);
-            let beyond = gate.is_some_and(|gate| least() >= gate);
-            (!beyond).then(|| {
-                let of_pose = |prediction: &Prediction| prediction.h_x * p * prediction.h_x.transpose();
-                landmark.innovation_with(&self.sensor, pose, &feature.z, of_pose)
-            })
+        self.correspondence
+            .decide(feature, taken, self.store.len(), |index, gate| self.innovation(pose, p, feature, index, gate))
+    }
+
+    /// What a feature says of the landmark of an index, for such a pose; `None` where there is none, or where it surely lies beyond the gate.
+    pub(crate) fn innovation(
+        &self,
+        pose: &Pose2,
+        p: &Matrix3<f64>,
+        feature: &Feature,
+        index: u32,
+        gate: Option<f64>,
+    ) -> Option<Innovation> {
+        let landmark = self.get(index)?;
+        let spread = landmark.covariance + p.fixed_view::<2, 2>(0, 0);
+        let least = || self.sensor.least_mahalanobis_squared(pose, &landmark.mean, &spread, &feature.z);
+        let beyond = gate.is_some_and(|gate| least() >= gate);
+        (!beyond).then(|| {
+            let of_pose = |prediction: &Prediction| prediction.h_x * p * prediction.h_x.transpose();
+            landmark.innovation_with(&self.sensor, pose, &feature.z, of_pose)
         })
     }
 }

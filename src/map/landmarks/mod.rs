@@ -71,6 +71,11 @@ impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
         self.store.get(index)
     }
 
+    /// One past the largest index in use.
+    pub(crate) fn len(&self) -> u32 {
+        self.store.len()
+    }
+
     /// All landmarks with their indices, in ascending order.
     pub fn iter(&self) -> impl Iterator<Item = (u32, &Landmark)> {
         (0..self.store.len()).filter_map(|index| Some((index, self.store.get(index)?)))
