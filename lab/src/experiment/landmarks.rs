@@ -209,7 +209,7 @@ fn unknown_association(given: &str) -> SettingError {
 }
 
 impl CorrespondenceKind {
-    fn of<D>(self, tuning: &Tuning<D>) -> Correspondence {
+    pub(super) fn of<D>(self, tuning: &Tuning<D>) -> Correspondence {
         match self {
             Self::Known => Correspondence::Known,
             Self::Unknown => Correspondence::Unknown(tuning.gate),
