@@ -2,18 +2,15 @@
 //!
 //! References: Guivant, Nebot (IEEE T-RA 2001), whose vehicle this is; Montemerlo, *FastSLAM* (thesis, CMU 2003), chapter 4.
 
-use super::landmarks::{LandmarkLog, LandmarkSetup, PARTICLES, Tuning};
+use super::landmarks::{LandmarkLog, Tuning};
 use crate::{WORLD_ODOMETRY, WORLD_SENSOR};
 use core::f64::consts::PI;
-use fastslam::error::SettingError;
 use fastslam::geometry::Pose2;
-use fastslam::map::landmarks::{Gate, Landmarks};
+use fastslam::map::landmarks::Gate;
 use fastslam::motion::{Car, Motion};
 use fastslam::nalgebra::Vector2;
 use fastslam::ops;
-use fastslam::proposal::{FromWindow, Windowed};
 use fastslam::random::{Purpose, Stream};
-use fastslam::rbpf::Rbpf;
 use fastslam::sensor::{Feature, LandmarkSensor, RangeBearing};
 
 /// How far beside the rear axle's middle the wheel runs that is read \[m\].
@@ -35,40 +32,8 @@ pub fn tuning() -> Tuning<Car> {
     }
 }
 
-/// How many poses are drawn together, and how many steps are seen beyond them: one second of each, in which the car drives 3 m.
+/// How many poses are drawn together and how many steps are seen beyond them, where they are drawn late: one second of each, in which the car drives 3 m.
 pub const WINDOW: [u32; 2] = [4, 4];
-
-/// [`rms_online`](super::landmarks::LandmarkRun::rms_online) of a filter at the end of a drive \[m\] that draws its poses late ([`FromWindow`]), so many together
-/// and so many steps after them. Of the setup, `proposal` is not asked.
-///
-/// # Errors
-/// Where a setting is out of its range.
-pub fn rms_late<D: Motion<Control: Clone + Send> + Clone>(
-    setup: &LandmarkSetup,
-    tuning: &Tuning<D>,
-    log: &LandmarkLog<D::Control>,
-    [drawn, ahead]: [u32; 2],
-) -> Result<f64, SettingError> {
-    PARTICLES.check("particles", setup.particles as f64)?;
-    let map = <Windowed<_, _>>::new(<Landmarks<_>>::new(tuning.sensor, setup.correspondence.of(tuning)));
-    let mut filter = Rbpf::builder(map, FromWindow { motion: tuning.motion.clone(), drawn, ahead })
-        .particles(setup.particles)
-        .seed(setup.seed)
-        .start(log.truth.first().copied().unwrap_or_default())
-        .policy(setup.policy)
-        .scheme(setup.scheme)
-        .build()?;
-    let mut squared_errors = 0.0;
-    for ((control, features), truth) in log.controls.iter().zip(&log.sightings).zip(log.truth.iter().skip(1)) {
-        filter.step(control, features);
-        let weighted = filter.particles().iter().zip(filter.weights().as_slice());
-        let (x, y) = weighted.fold((0.0, 0.0), |(x, y), (particle, w)| {
-            (x + w * particle.world_from_robot.x, y + w * particle.world_from_robot.y)
-        });
-        squared_errors += (x - truth.x) * (x - truth.x) + (y - truth.y) * (y - truth.y);
-    }
-    Ok((squared_errors / log.controls.len().max(1) as f64).sqrt())
-}
 
 /// Two rounds of two loops between 60 trees, with the noise of a seed.
 pub fn simulate(seed: u64) -> LandmarkLog {
@@ -118,10 +83,10 @@ mod tests {
     fn a_hundred_particles_are_within_a_fifth_of_the_joint_filter_where_they_draw_late() {
         let errors: Vec<[f64; 4]> = (1..=10)
             .map(|seed| {
-                let (setup, log) = (LandmarkSetup { seed, ..LandmarkSetup::default() }, simulate(seed));
-                let late = rms_late(&setup, &tuning(), &log, WINDOW).unwrap();
-                let mut run = LandmarkRun::new(&setup, &tuning(), log.into()).unwrap();
+                let setup = LandmarkSetup { seed, ..LandmarkSetup::default() };
+                let mut run = LandmarkRun::new(&setup, &tuning(), simulate(seed).into()).unwrap();
                 while run.step().is_some() {}
+                let late = run.rms_late(&setup, &tuning(), WINDOW).unwrap();
                 [run.rms_online(), late, run.rms_ekf(&setup, &tuning()), run.rms_odometry()]
             })
             .collect();

@@ -10,13 +10,13 @@ use core::hash::Hasher as _;
 use fastslam::error::{Range, SettingError};
 use fastslam::execute::Executor;
 use fastslam::geometry::{Pose2, align, rms};
-use fastslam::map::Footprint;
 use fastslam::map::landmarks::{Association, Correspondence, Gate, Landmarks};
+use fastslam::map::{ConditionalMap, Footprint};
 use fastslam::motion::{Motion, Velocity, VelocityModel};
 use fastslam::nalgebra::Vector2;
 use fastslam::ops;
 use fastslam::particle::Particle;
-use fastslam::proposal::{Either, FromMeasurement, FromMotion, Marginal};
+use fastslam::proposal::{Either, FromMeasurement, FromMotion, FromWindow, Marginal, Proposal, Windowed};
 use fastslam::random::Stream;
 use fastslam::rbpf::Rbpf;
 use fastslam::resampling::{ResamplePolicy, Scheme};
@@ -209,7 +209,7 @@ fn unknown_association(given: &str) -> SettingError {
 }
 
 impl CorrespondenceKind {
-    pub(super) fn of<D>(self, tuning: &Tuning<D>) -> Correspondence {
+    fn of<D>(self, tuning: &Tuning<D>) -> Correspondence {
         match self {
             Self::Known => Correspondence::Known,
             Self::Unknown => Correspondence::Unknown(tuning.gate),
@@ -245,6 +245,32 @@ impl Default for LandmarkSetup {
             scheme: Scheme::Systematic,
         }
     }
+}
+
+impl LandmarkSetup {
+    /// Before the log's first step, at its start, which is known.
+    fn filter<M, P, C>(&self, map: M, proposal: P, log: &LandmarkLog<C>) -> Result<Rbpf<M, P>, SettingError>
+    where
+        M: ConditionalMap,
+        P: Proposal<M>,
+    {
+        PARTICLES.check("particles", self.particles as f64)?;
+        Rbpf::builder(map, proposal)
+            .particles(self.particles)
+            .seed(self.seed)
+            .start(log.truth.first().copied().unwrap_or_default())
+            .policy(self.policy)
+            .scheme(self.scheme)
+            .build()
+    }
+}
+
+/// Distance of the weighted mean of all particles from the truth \[m\].
+fn error_of_mean<M: ConditionalMap, P: Proposal<M>>(filter: &Rbpf<M, P>, truth: &Pose2) -> f64 {
+    let weighted = filter.particles().iter().zip(filter.weights().as_slice());
+    let (x, y) =
+        weighted.fold((0.0, 0.0), |(x, y), (p, w)| (x + w * p.world_from_robot.x, y + w * p.world_from_robot.y));
+    ops::hypot(x - truth.x, y - truth.y)
 }
 
 /// A particle's map.
@@ -316,21 +342,13 @@ impl<D: Motion + Clone> LandmarkRun<D> {
         tuning: &Tuning<D>,
         log: Arc<LandmarkLog<D::Control>>,
     ) -> Result<Self, SettingError> {
-        PARTICLES.check("particles", setup.particles as f64)?;
         let motion = tuning.motion.clone();
         let proposal = match setup.proposal {
             ProposalKind::Motion => Either::Left(FromMotion { motion, likelihood: Marginal }),
             ProposalKind::Improved => Either::Right(FromMeasurement { motion }),
         };
         let map = Landmarks::new(tuning.sensor, setup.correspondence.of(tuning));
-        let start = log.truth.first().copied().unwrap_or_default();
-        let filter = Rbpf::builder(map, proposal)
-            .particles(setup.particles)
-            .seed(setup.seed)
-            .start(start)
-            .policy(setup.policy)
-            .scheme(setup.scheme)
-            .build()?;
+        let filter = setup.filter(map, proposal, &log)?;
         Ok(Self { log, filter, step: 0, squared_errors: 0.0 })
     }
 
@@ -363,11 +381,7 @@ impl<D: Motion + Clone> LandmarkRun<D> {
                 answers.push(association);
             }
         }
-        let (x, y) = particles
-            .iter()
-            .zip(self.filter.weights().as_slice())
-            .fold((0.0, 0.0), |(x, y), (p, w)| (x + w * p.world_from_robot.x, y + w * p.world_from_robot.y));
-        let error_mean = ops::hypot(x - truth.x, y - truth.y);
+        let error_mean = error_of_mean(&self.filter, truth);
         self.squared_errors += error_mean * error_mean;
         Some(LandmarkReport {
             step: self.step,
@@ -451,6 +465,34 @@ impl<D: Motion + Clone> LandmarkRun<D> {
             path.push(*ekf.pose());
         }
         rms(&path, self.log.truth.get(1..).unwrap_or_default())
+    }
+
+    /// What [`Self::rms_online`] is at the end for a filter that draws its poses late ([`FromWindow`]) on the same drive \[m\]: so many together,
+    /// when so many steps after them are seen. Of the setup, `proposal` is not asked.
+    ///
+    /// # Errors
+    /// Where a setting is out of its range.
+    pub fn rms_late(
+        &self,
+        setup: &LandmarkSetup,
+        tuning: &Tuning<D>,
+        [drawn, ahead]: [u32; 2],
+    ) -> Result<f64, SettingError>
+    where
+        D::Control: Clone + Send,
+    {
+        let map = <Windowed<_, _>>::new(<LandmarkMap>::new(tuning.sensor, setup.correspondence.of(tuning)));
+        let proposal = FromWindow { motion: tuning.motion.clone(), drawn, ahead };
+        let mut filter = setup.filter(map, proposal, &self.log)?;
+        let mut squared_errors = 0.0;
+        for ((control, features), truth) in
+            self.log.controls.iter().zip(&self.log.sightings).zip(self.log.truth.iter().skip(1))
+        {
+            filter.step(control, features);
+            let error = error_of_mean(&filter, truth);
+            squared_errors += error * error;
+        }
+        Ok((squared_errors / self.log.controls.len().max(1) as f64).sqrt())
     }
 
     /// Runs to the end. Returns a fingerprint of every pose and weight on the way, and of all maps at the end, bit for bit.

@@ -48,6 +48,10 @@ pub struct Arguments {
     /// Read a landmark graph in the format of g2o instead
     #[arg(long, value_name = "FILE", conflicts_with_all = ["course", "mrclam", "victoria"])]
     g2o: Option<PathBuf>,
+    /// Also run FastSLAM 2.0 that draws its poses late: so many together, when so many steps after them are seen. With known correspondence particles
+    /// so outlive a loop even if a single step's sightings say little
+    #[arg(long, value_name = "DRAWN,AHEAD", num_args = 0..=1, value_parser = late)]
+    late: Option<Option<[u32; 2]>>,
     /// Run seeds 1 to N, and report median, 90th percentile and worst
     #[arg(long, value_name = "N", conflicts_with_all = ["seed", "png"], value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     seeds: Option<u64>,
@@ -59,6 +63,15 @@ pub struct Arguments {
     /// Draw the end of the run into this file
     #[arg(long, value_name = "FILE")]
     png: Option<PathBuf>,
+}
+
+/// How many poses are drawn together, and how many steps are seen before.
+fn late(text: &str) -> Result<[u32; 2], &'static str> {
+    let numbers = text.split_once(',').map(|(drawn, ahead)| (drawn.trim().parse(), ahead.trim().parse()));
+    match numbers {
+        Some((Ok(drawn @ 1..=1000), Ok(ahead @ 0..=1000))) => Ok([drawn, ahead]),
+        _ => Err("must be two whole numbers, the first from 1 to 1000, the second from 0 to 1000, as 4,4"),
+    }
 }
 
 /// The proposal of a version of FastSLAM.
@@ -85,6 +98,9 @@ struct Output {
     rms_online: f64,
     /// The same of EKF-SLAM on the same drive \[m\].
     rms_ekf: f64,
+    /// The same of FastSLAM 2.0 that draws late \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rms_late: Option<f64>,
     /// In the best particle's map.
     landmarks: u32,
     /// Share of the steps that resampled.
@@ -104,6 +120,9 @@ struct Summary {
     online: ErrorSummary,
     /// The same of EKF-SLAM on the same drives.
     ekf: ErrorSummary,
+    /// The same of FastSLAM 2.0 that draws late.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    late: Option<ErrorSummary>,
     /// RMS of the best particle's path at the end.
     best: ErrorSummary,
     /// The same after the best rigid alignment.
@@ -155,7 +174,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
 impl<D, F> Task<D, F>
 where
     D: Motion + Clone + Send,
-    D::Control: Send,
+    D::Control: Clone + Send,
     F: Fn(u64) -> Arc<LandmarkLog<D::Control>> + Sync,
 {
     fn run(&self, arguments: &Arguments) -> Result<()> {
@@ -168,10 +187,14 @@ where
             ..LandmarkSetup::default()
         };
         let run = |seed| LandmarkRun::new(&setup(seed), &self.tuning, (self.log)(seed));
+        let late = arguments.late.map(|window| window.unwrap_or(car::WINDOW));
+        let rms_late =
+            |run: &LandmarkRun<D>, setup: &_| late.map(|window| run.rms_late(setup, &self.tuning, window)).transpose();
         let Some(seeds) = arguments.seeds else {
             let run = run(arguments.seed)?;
-            let rms_ekf = run.rms_ekf(&setup(arguments.seed), &self.tuning);
-            return one(arguments, run, rms_ekf, &self.noises);
+            let setup = setup(arguments.seed);
+            let others = Others { ekf: run.rms_ekf(&setup, &self.tuning), late: rms_late(&run, &setup)? };
+            return one(arguments, run, others, &self.noises);
         };
         let first = run(1)?; // refused before anything is run, if it is
         // EKF-SLAM draws nothing: on a recorded log it is the same for every seed.
@@ -183,27 +206,36 @@ where
             .map(|seed| {
                 let mut run = run(*seed)?;
                 while run.step().is_some() {}
-                let rms_ekf = recorded.unwrap_or_else(|| run.rms_ekf(&setup(*seed), &self.tuning));
+                let others = Others {
+                    ekf: recorded.unwrap_or_else(|| run.rms_ekf(&setup(*seed), &self.tuning)),
+                    late: rms_late(&run, &setup(*seed))?,
+                };
                 let path = [run.rms_best(), run.rms_best_aligned(), run.rms_odometry()];
                 let landmarks = run.particles()[run.best()].map.iter().count() as f64;
-                Ok(Errors { online: run.rms_online(), ekf: rms_ekf, path, landmarks })
+                Ok(Errors { online: run.rms_online(), others, path, landmarks })
             })
             .collect();
         many(arguments, &errors?, &self.noises)
     }
 }
 
+/// What the errors of the mean as it went are held against \[m\].
+struct Others {
+    ekf: f64,
+    late: Option<f64>,
+}
+
 /// What is kept of one of many runs \[m\].
 struct Errors {
     online: f64,
-    ekf: f64,
+    others: Others,
     /// Of the best particle's path at the end, of the same aligned, and of raw odometry.
     path: [f64; 3],
     /// Landmarks in the best particle's map at the end.
     landmarks: f64,
 }
 
-fn one<D: Motion + Clone>(arguments: &Arguments, mut run: LandmarkRun<D>, rms_ekf: f64, noises: &str) -> Result<()> {
+fn one<D: Motion + Clone>(arguments: &Arguments, mut run: LandmarkRun<D>, others: Others, noises: &str) -> Result<()> {
     let mut steps = Vec::new();
     while let Some(report) = run.step() {
         steps.push(report);
@@ -219,7 +251,8 @@ fn one<D: Motion + Clone>(arguments: &Arguments, mut run: LandmarkRun<D>, rms_ek
         rms_best_aligned: run.rms_best_aligned(),
         rms_odometry: run.rms_odometry(),
         rms_online: run.rms_online(),
-        rms_ekf,
+        rms_ekf: others.ekf,
+        rms_late: others.late,
         landmarks: run.particles()[run.best()].map.iter().count() as u32,
         resampled_fraction: resampled as f64 / steps.len().max(1) as f64,
         map_bytes_unique: footprint.unique,
@@ -229,9 +262,12 @@ fn one<D: Motion + Clone>(arguments: &Arguments, mut run: LandmarkRun<D>, rms_ek
     if arguments.json {
         return print_json(&output);
     }
+    let late =
+        output.rms_late.map(|late| format!("the same, where poses are drawn late{late:6.3} m\n")).unwrap_or_default();
     print(&format!(
         "{} steps, {} particles; noises {noises}\n\
          RMS error as it went, of the mean {:8.3} m, of EKF-SLAM {:.3} m\n\
+         {late}\
          the best path at the end          {:8.3} m\n\
          the same after rigid alignment    {:8.3} m\n\
          raw odometry                      {:8.3} m\n\
@@ -259,7 +295,8 @@ fn many(arguments: &Arguments, errors: &[Errors], noises: &str) -> Result<()> {
         seeds: errors.len(),
         noises: noises.into(),
         online: spread(&|errors| errors.online),
-        ekf: spread(&|errors| errors.ekf),
+        ekf: spread(&|errors| errors.others.ekf),
+        late: arguments.late.map(|_| spread(&|errors| errors.others.late.unwrap_or(f64::NAN))),
         best: spread(&|errors| errors.path[0]),
         best_aligned: spread(&|errors| errors.path[1]),
         odometry: spread(&|errors| errors.path[2]),
@@ -275,6 +312,7 @@ fn many(arguments: &Arguments, errors: &[Errors], noises: &str) -> Result<()> {
         &[
             format!("{} seeds, {} particles; noises {noises}\n", summary.seeds, arguments.particles),
             row("RMS error as it went, of the mean", &summary.online),
+            summary.late.as_ref().map(|late| row("of the mean, poses drawn late", late)).unwrap_or_default(),
             row("of EKF-SLAM as it went", &summary.ekf),
             row("the best path at the end", &summary.best),
             row("the same after rigid alignment", &summary.best_aligned),

@@ -233,6 +233,8 @@ fn bad_arguments_are_refused_in_one_line_with_status_2() {
         ("landmarks --particles 0 --seeds 2", "from 1 to 100000"),
         ("landmarks --course moon", "eight, tags or wings"),
         ("landmarks --seeds 0", "--seeds"),
+        ("landmarks --late 0,4", "the first from 1 to 1000"),
+        ("landmarks --late 4", "two whole numbers"),
         ("log", "FILE"),
         ("log x.clf --particles many", "--particles"),
         ("policies --course moon", "lap or wings"),
@@ -295,6 +297,13 @@ fn landmarks_print_what_they_are_asked_for() {
         assert!(0.0 < median && median <= p90 && p90 <= worst, "{judged}");
     }
     fastslam("landmarks --particles 3").success();
+    let late = json("landmarks --particles 5 --course tags --late 2,2 --seeds 2 --json");
+    assert!(
+        late["late"]["median"].as_f64().unwrap() > 0.0 && late["late"]["median"] != late["online"]["median"],
+        "{late}"
+    );
+    let late = json("landmarks --particles 5 --course tags --late --json");
+    assert!(late["rms_late"].as_f64().unwrap() > 0.0 && one["rms_late"].is_null(), "{late}");
 
     let folder = tempdir().unwrap();
     let path = folder.path().join("landmarks.png");
