@@ -240,6 +240,21 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         self.path_weights = self.path_weights.copied(ancestors);
     }
 
+    /// Puts what is made of a particle in its place, slot by slot, and returns what else was found. Weights stay: whoever moves particles so that
+    /// none is more likely for it than it was (Gilks and Berzuini 2001, *resample-move*) owes them nothing.
+    pub(crate) fn revise<R: Send>(
+        &mut self,
+        revise: impl Fn(usize, &Particle<M>) -> (Option<Particle<M>>, R) + Sync + Send,
+    ) -> Vec<R> {
+        self.executor.map(&mut self.particles, |slot, particle| {
+            let (revised, found) = revise(slot, particle);
+            if let Some(revised) = revised {
+                *particle = revised;
+            }
+            found
+        })
+    }
+
     /// The population, by slot.
     pub fn particles(&self) -> &[Particle<M>] {
         &self.particles

@@ -9,6 +9,7 @@
 //! scans that will come; whoever has a whole log lets [`Replay`] push it, or fills the laser's settings in by
 //! [`LaserMapperSettings::for_log`]. What is not a setting has one value for every building and robot: [`tuning`] says why.
 
+mod closing;
 mod moving;
 mod replay;
 mod settings;
@@ -17,7 +18,8 @@ mod tests;
 pub mod tuning;
 mod wheels;
 
-use moving::LastViews;
+use closing::Closings;
+use moving::{LastViews, driven};
 pub use replay::Replay;
 pub use settings::LaserMapperSettings;
 pub use tuning::Map;
@@ -59,6 +61,8 @@ pub struct LaserMapper {
     wheels: Wheels,
     /// What was seen on the last metres of the way.
     views: LastViews,
+    /// Loops that are closed.
+    closings: Closings,
     /// Raw odometry of the last scan that the filter took; `None` before the first.
     last: Option<Pose2>,
     /// Steps of the filter: scans it took after the first.
@@ -85,6 +89,7 @@ impl LaserMapper {
             filter: filter(&settings, settings.beams.unwrap_or(tuning::BEAMS), map)?,
             wheels: Wheels::default(),
             views: LastViews::default(),
+            closings: Closings::default(),
             last: None,
             steps: 0,
             resampled: 0,
@@ -127,6 +132,11 @@ impl LaserMapper {
             self.single_lineage_since = Some(report.step);
         }
         self.take(scan);
+        if let Some(ancestors) = &report.ancestors {
+            self.closings.resampled(ancestors);
+        }
+        self.closings.take(&standing, driven(&moved)[0]);
+        self.closings.check(&mut self.filter);
         Some(report)
     }
 
@@ -136,6 +146,7 @@ impl LaserMapper {
         let standing = self.standing(scan);
         map.assimilate(&Pose2::default(), &standing, &());
         map.settle();
+        self.closings.take(&standing, 0.0);
         let beams = self.settings.beams.unwrap_or(scan.ranges.len() as u32);
         let filter = filter(&self.settings, beams, map).expect("`new` has built one of these settings");
         self.filter = filter.with_executor(self.executor.clone());
@@ -205,9 +216,16 @@ impl LaserMapper {
         self.single_lineage_since
     }
 
-    /// Bytes of all particles' maps.
+    /// How many times a particle's path was bent to close a loop that no particle had closed by itself.
+    pub fn closings(&self) -> u32 {
+        self.closings.bent()
+    }
+
+    /// Bytes of all particles' maps, with what is kept of them from before to find loops.
     pub fn footprint(&self) -> Footprint {
-        Map::footprint(self.filter.particles().iter().map(|particle| &particle.map))
+        let now = Map::footprint(self.filter.particles().iter().map(|particle| &particle.map));
+        let maps = self.filter.particles().iter().map(|particle| &particle.map).chain(self.closings.maps());
+        Footprint { unique: Map::footprint(maps).unique, ..now }
     }
 
     fn best(&self) -> &Particle<Map> {

@@ -94,6 +94,78 @@ pub const STILL: f64 = 0.02;
 /// little different (81.83, 80 and 81.91 m in one log).
 pub const NOTHING_MET: f64 = 0.97;
 
+/// When a loop counts as missed, and where it is looked for (`closing.rs`).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Closing {
+    /// Metres between two looks.
+    pub every: f64,
+    /// Length of the way \[m\] of which the scans make the picture that is looked for.
+    pub window: f64,
+    /// About how many of its end points are looked at.
+    pub picture: usize,
+    /// The map that it is held against ended before what is in the picture was in sight: as many metres earlier as the laser reaches, up to these.
+    pub farthest: f64,
+    /// Metres between two maps that are kept for it.
+    pub spacing: f64,
+    /// How near the robot must be to a place where that map was drawn \[m\].
+    pub reach: f64,
+    /// A loop is at least so long \[m\], and so many times as long as what lies between its ends: on a straight way nothing is come back to.
+    pub loop_way: f64,
+    /// See [`Self::loop_way`].
+    pub loop_times: f64,
+    /// A loop was missed if so large a share of those end points lies in free space of which the map knows anything.
+    pub disputed: f64,
+    /// Share of all end points that must lie on walls where the picture is found: a third, as the robot may just have come back.
+    pub fits: f64,
+    /// Share from which on a loop counts as closed for good, if hardly anything is disputed.
+    pub sure: f64,
+    /// How much better than here the picture must fit \[nats an end point\]: a seventh of what lies between a wall and unknown space.
+    pub gain: f64,
+    /// What share of that the next best place may have.
+    pub ambiguity: f64,
+    /// How many of the particles are searched for, the heaviest first: from those that fit, selection makes the others.
+    pub searched: usize,
+    /// Metres between two loops that are remembered as closed.
+    pub apart: f64,
+    /// Standard deviations \[m, rad\] of position and heading that matching leaves after a metre; both grow with the root of the way.
+    pub drift: [f64; 2],
+    /// Standard deviations of a place that was found again \[m, m, rad\].
+    pub relation: [f64; 3],
+    /// The lattice, of twice the width of an NDT cell: the distance field reaches as far.
+    pub search: CorrelativeSearch,
+    /// From half the lattice's step down to half a centimetre.
+    pub climb: HillClimbSteps,
+}
+
+/// See [`Closing`].
+pub(super) const CLOSING: Closing = Closing {
+    every: 5.0,
+    window: 10.0,
+    picture: 400,
+    farthest: 50.0,
+    spacing: 10.0,
+    reach: 10.0,
+    loop_way: 30.0,
+    loop_times: 4.0,
+    disputed: 0.25,
+    fits: 0.35,
+    sure: 0.5,
+    gain: 0.15,
+    ambiguity: 0.8,
+    searched: 4,
+    apart: 20.0,
+    drift: [0.03, 0.0026],
+    relation: [0.03, 0.03, 0.005],
+    search: CorrelativeSearch { linear: 0.4, angular: 0.02, stride: 3, climbs: 6 },
+    climb: HillClimbSteps { linear: 0.2, angular: 0.02, halvings: 5 },
+};
+
+/// What an end point adds to a score where it lies on a wall, at the least \[nats\]: three quarters of what lies far from one lose.
+pub(super) const ON_A_WALL: f64 = -0.75;
+
+/// What it adds where it lies in space that was seen to be free, at the most \[nats\]: by one beam that passed. In unknown space it is −1.07.
+pub(super) const IN_FREE_SPACE: f64 = -1.3;
+
 /// Beams for which [`FROM_SCAN`] is made.
 pub const BEAMS: u32 = 180;
 

@@ -104,22 +104,43 @@ impl ScanModel {
         world_from_robot: &Pose2,
         scan: &Scan,
     ) -> f64 {
-        let (sin, cos) = ops::sin_cos(world_from_robot.theta);
-        let (origin, ahead, left) = ([world_from_robot.x, world_from_robot.y], [cos, sin], [-sin, cos]);
         let floor = floor / self.temper;
         let mut sum = 0.0;
-        let mut ends = [[0.0; 2]; BLOCK];
-        for beams in scan.hits.chunks(BLOCK) {
-            for ([x, y], end) in beams.iter().zip(&mut ends) {
-                *end = [0, 1].map(|k: usize| origin[k] + ahead[k] * x + left[k] * y);
-            }
-            let log_scores = self.log_scores(map, &ends, beams.len());
-            log_scores.iter().take(beams.len()).for_each(|log_score| sum += log_score);
+        for block in self.blocks(map, world_from_robot, scan) {
+            block.for_each(|log_score| sum += log_score);
             if sum <= floor {
                 return f64::NEG_INFINITY;
             }
         }
         self.temper * sum
+    }
+
+    /// What each beam that met something adds to the sum of [`Self::log_score`], before it is tempered \[nats\].
+    pub(crate) fn log_beams<const CELLS_PER_NDT: usize>(
+        &self,
+        grid: &Grid<CELLS_PER_NDT>,
+        world_from_robot: &Pose2,
+        scan: &Scan,
+    ) -> Vec<f64> {
+        self.blocks(&mut &*grid, world_from_robot, scan).flatten().collect()
+    }
+
+    /// The same for a block of beams after the other.
+    fn blocks<'a>(
+        &'a self,
+        map: &'a mut impl NdtField,
+        world_from_robot: &Pose2,
+        scan: &'a Scan,
+    ) -> impl Iterator<Item = impl Iterator<Item = f64>> {
+        let (sin, cos) = ops::sin_cos(world_from_robot.theta);
+        let (origin, ahead, left) = ([world_from_robot.x, world_from_robot.y], [cos, sin], [-sin, cos]);
+        let mut ends = [[0.0; 2]; BLOCK];
+        scan.hits.chunks(BLOCK).map(move |beams| {
+            for ([x, y], end) in beams.iter().zip(&mut ends) {
+                *end = [0, 1].map(|k: usize| origin[k] + ahead[k] * x + left[k] * y);
+            }
+            self.log_scores(map, &ends, beams.len()).into_iter().take(beams.len())
+        })
     }
 
     /// What each of the first `count` of these end points \[m\] adds to the sum.

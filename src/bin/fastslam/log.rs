@@ -107,6 +107,9 @@ struct Output {
     digest: String,
 }
 
+/// Steps between two looks at the memory of all maps, which takes longer than a step.
+const FOOTPRINT_EVERY: u32 = 10;
+
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<()> {
     let Arguments { scan_topic, odometry_topic, lenient, .. } = arguments;
@@ -149,9 +152,11 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         let start = ProcessTime::now();
         let Some(report) = replay.next() else { break };
         cpu += start.elapsed();
-        let now = replay.mapper().footprint();
-        if now.unique > peak.unique {
-            peak = now;
+        if report.step.is_multiple_of(FOOTPRINT_EVERY) || replay.len() == 0 {
+            let now = replay.mapper().footprint();
+            if now.unique > peak.unique {
+                peak = now;
+            }
         }
         resampled += u32::from(report.resampled());
         scans_unexplained += u32::from(!report.explained());

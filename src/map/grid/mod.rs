@@ -174,6 +174,11 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
         }
     }
 
+    /// An unknown world, with the settings of this one.
+    pub(crate) fn blank(&self) -> Self {
+        Self::new(self.model)
+    }
+
     /// Bytes of a tile of which so many NDT cells were hit.
     pub fn tile_bytes(ndt_cells: usize) -> usize {
         tile::bytes::<CELLS_PER_NDT>(ndt_cells)

@@ -1,0 +1,400 @@
+//! Loops that no particle closes by itself.
+//!
+//! On a long loop a path drifts, however well each scan fits upon those before it, and M particles reach no further than what they have drawn.
+//! Where the robot comes back, the nearest of them may be off by more than a matcher finds, and all map the building a second time
+//! beside the first. So every few metres the scans of the last metres are held, as one rigid picture, against the map as it was before what
+//! they show came in sight. Where end points lie in what that map knows to be free, the picture is searched for as far as the path
+//! may have drifted. If it fits somewhere else much better, and nowhere else nearly as well, the path is bent until it ends there, each motion by
+//! its share, with the loops closed so far as they are ([`Chain::bent`]); and it is mapped again.
+//!
+//! Weights are not changed: a motion's share is within what matching leaves open, so that the scans on the way fit as they did. A particle
+//! that is bent to a wrong place contradicts what it sees next, and dies of it.
+//!
+//! References: Gutmann and Konolige, *Incremental mapping of large cyclic environments*, CIRA 1999 (the last scans as one picture, found again by
+//! correlation); Lu and Milios 1997 (bending the path); Gilks and Berzuini, *Following a moving target: Monte Carlo inference for dynamic
+//! Bayesian models*, JRSS B 2001 (moving particles between steps).
+
+use super::Filter;
+use super::moving::driven;
+use super::tuning::{CLOSING, IN_FREE_SPACE, LAG, Map, ON_A_WALL, score};
+use crate::geometry::{Chain, Gaussian3, Pose2, Relation};
+use crate::map::ConditionalMap;
+use crate::matching::{Score, ScoredPose, hill_climb};
+use crate::ops;
+use crate::particle::Particle;
+use crate::proposal::{CorrelativeSearch, Search, Target};
+use crate::sensor::Scan;
+use nalgebra::Matrix3;
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+/// What it takes to find loops again: all scans, and maps of before.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Closings {
+    /// By step of the filter, from the first scan on.
+    views: Vec<View>,
+    /// The oldest first.
+    before: VecDeque<Before>,
+    /// By slot, the loops that its path has closed.
+    relations: Vec<Vec<Relation>>,
+    /// Step of the last check.
+    checked: usize,
+    /// Particles that were bent.
+    bent: u32,
+}
+
+/// A scan that the filter took.
+#[derive(Clone, Debug)]
+struct View {
+    /// Metres driven up to here, by odometry.
+    way: f64,
+    /// Distance within which nine of ten beams end that met something \[m\].
+    reach: f64,
+    scan: Arc<KeptScan>,
+}
+
+/// A scan, in single precision: it is kept as long as the mapper is.
+#[derive(Debug)]
+struct KeptScan {
+    hits: Box<[[f32; 2]]>,
+    misses: Box<[[f32; 2]]>,
+}
+
+impl KeptScan {
+    fn new(scan: &Scan) -> Self {
+        let keep = |ends: &[[f64; 2]]| ends.iter().map(|end| end.map(|c| c as f32)).collect();
+        Self { hits: keep(&scan.hits), misses: keep(&scan.misses) }
+    }
+
+    fn scan(&self) -> Scan {
+        let ends = |kept: &[[f32; 2]]| kept.iter().map(|end| end.map(f64::from)).collect();
+        Scan { hits: ends(&self.hits), misses: ends(&self.misses) }
+    }
+}
+
+/// The particles' maps after a step.
+#[derive(Clone, Debug)]
+struct Before {
+    step: usize,
+    maps: Vec<Map>,
+}
+
+/// What a check found of a particle.
+enum Found {
+    /// No loop.
+    Nothing,
+    /// One that is closed as it is.
+    Closed(Relation),
+    /// One that was closed now, with the maps of [`Closings::before`] as they would have been.
+    Bent(Relation, Vec<Map>),
+}
+
+impl Closings {
+    /// A scan that the filter took after so many metres.
+    pub(super) fn take(&mut self, scan: &Scan, driven: f64) {
+        let way = self.views.last().map_or(0.0, |last| last.way) + driven;
+        let mut distances: Vec<f64> = scan.hits.iter().map(|[x, y]| ops::hypot(*x, *y)).collect();
+        distances.sort_unstable_by(f64::total_cmp);
+        let reach = distances.get(distances.len() * 9 / 10).copied().unwrap_or(0.0);
+        self.views.push(View { way, reach, scan: KeptScan::new(scan).into() });
+    }
+
+    /// Particles have become copies of those in these slots.
+    pub(super) fn resampled(&mut self, ancestors: &[u32]) {
+        fn copied<T: Clone>(of: &[T], ancestors: &[u32]) -> Vec<T> {
+            ancestors.iter().map(|slot| of[*slot as usize].clone()).collect()
+        }
+        self.before.iter_mut().for_each(|before| before.maps = copied(&before.maps, ancestors));
+        if !self.relations.is_empty() {
+            self.relations = copied(&self.relations, ancestors);
+        }
+    }
+
+    /// How many times a particle's path was bent.
+    pub(super) fn bent(&self) -> u32 {
+        self.bent
+    }
+
+    /// The maps that are kept besides those of the particles.
+    pub(super) fn maps(&self) -> impl Iterator<Item = &Map> {
+        self.before.iter().flat_map(|before| &before.maps)
+    }
+
+    /// Looks for loops every few metres, and closes those that the heaviest particles have missed.
+    pub(super) fn check(&mut self, filter: &mut Filter) {
+        let now = self.views.len() - 1;
+        if self.way(self.checked, now) < CLOSING.every {
+            return;
+        }
+        self.checked = now;
+        let particles = filter.particles().len();
+        self.relations.resize(particles, Vec::new());
+        let reach = self.last_steps(now).map(|step| self.views[step].reach).fold(0.0, f64::max);
+        let least = CLOSING.window + reach.min(CLOSING.farthest);
+        let is_old = |before: &Before| self.way(before.step, now) >= least && now - before.step >= LAG as usize;
+        // The newest of the old ones, and all that are newer.
+        let old = self.before.iter().filter(|before| is_old(before)).count();
+        self.before.drain(..old.saturating_sub(1));
+        if old > 0 {
+            let heavy = heaviest(filter.weights().as_slice(), CLOSING.searched);
+            let found = filter.revise(|slot, particle| self.look(slot, particle, heavy[slot]));
+            for (slot, found) in found.into_iter().enumerate() {
+                match found {
+                    Found::Nothing => {}
+                    Found::Closed(relation) => self.relations[slot].push(relation),
+                    Found::Bent(relation, maps) => {
+                        self.relations[slot].push(relation);
+                        self.before.iter_mut().zip(maps).for_each(|(before, map)| before.maps[slot] = map);
+                        self.bent += 1;
+                    }
+                }
+            }
+        }
+        if self.before.back().is_none_or(|last| self.way(last.step, now) >= CLOSING.spacing) {
+            let maps = filter.particles().iter().map(|particle| particle.map.clone()).collect();
+            self.before.push_back(Before { step: now, maps });
+        }
+    }
+
+    /// Steps of the last metres, the newest first.
+    fn last_steps(&self, now: usize) -> impl Iterator<Item = usize> {
+        (0..=now).rev().take_while(move |step| self.way(*step, now) < CLOSING.window)
+    }
+
+    /// Metres driven between two steps.
+    fn way(&self, from: usize, to: usize) -> f64 {
+        self.views[to].way - self.views[from].way
+    }
+
+    /// Whether this particle is back somewhere; bent, if it has missed that and is `searched` for.
+    fn look(&self, slot: usize, particle: &Particle<Map>, searched: bool) -> (Option<Particle<Map>>, Found) {
+        let poses = particle.path.poses();
+        let now = Now {
+            closings: self,
+            picture: self.picture(&poses),
+            old: &self.before[0],
+            map: &self.before[0].maps[slot],
+            relations: &self.relations[slot],
+            poses: &poses,
+        };
+        let nothing = (None, Found::Nothing);
+        if now.picture.hits.len() < CLOSING.picture / 4 || now.nearest(&now.here()).is_none() {
+            return nothing;
+        }
+        let agreement = now.agreement(&now.here());
+        if agreement.disputed() < CLOSING.disputed {
+            return now.closed(&agreement).map_or(nothing, |relation| (None, Found::Closed(relation)));
+        }
+        let Some((relation, bent)) = searched.then(|| now.bent(&agreement)).flatten() else { return nothing };
+        let (particle, maps) = self.mapped(particle, &poses, &bent);
+        (Some(particle), Found::Bent(relation, maps))
+    }
+
+    /// The end points of the last metres in the robot's frame, evenly picked.
+    fn picture(&self, poses: &[Pose2]) -> Scan {
+        let now = poses.len() - 1;
+        let count: usize = self.last_steps(now).map(|step| self.views[step].scan.hits.len()).sum();
+        let ends = self.last_steps(now).flat_map(|step| {
+            let seen = poses[now].between(&poses[step]);
+            self.views[step].scan.hits.iter().map(move |end| (seen, end))
+        });
+        let picked = ends.step_by(count.div_ceil(CLOSING.picture).max(1));
+        Scan { hits: picked.map(|(seen, end)| seen.transform(end.map(f64::from))).collect(), misses: Vec::new() }
+    }
+
+    /// A particle of the path `bent` instead of `poses`, and its maps at the steps of [`Self::before`].
+    fn mapped(&self, particle: &Particle<Map>, poses: &[Pose2], bent: &[Pose2]) -> (Particle<Map>, Vec<Map>) {
+        let same = bent.iter().zip(poses).take_while(|(bent, pose)| bent == pose).count();
+        let mut path = particle.path.back().nth(poses.len() - same).expect("the first pose stays").clone();
+        bent[same..].iter().for_each(|pose| path.push(*pose));
+        let mut map = particle.map.blank();
+        let mut maps = Vec::new();
+        for (step, (pose, view)) in bent.iter().zip(&self.views).enumerate() {
+            map.assimilate(pose, &view.scan.scan(), &());
+            if step == 0 {
+                map.settle();
+            }
+            if self.before.iter().any(|before| before.step == step) {
+                maps.push(map.clone());
+            }
+        }
+        (Particle { world_from_robot: path.pose(), map, path }, maps)
+    }
+}
+
+/// Where a particle is, and what it may have come back to.
+struct Now<'a> {
+    closings: &'a Closings,
+    /// Its path.
+    poses: &'a [Pose2],
+    /// What the robot saw on the last metres, in its frame.
+    picture: Scan,
+    old: &'a Before,
+    /// The particle's map of then.
+    map: &'a Map,
+    /// The loops that its path has closed.
+    relations: &'a [Relation],
+}
+
+impl Now<'_> {
+    fn step(&self) -> usize {
+        self.poses.len() - 1
+    }
+
+    fn here(&self) -> Pose2 {
+        self.poses[self.step()]
+    }
+
+    /// Of the poses from which the old map was drawn the nearest to this one, if it is near.
+    fn nearest(&self, to: &Pose2) -> Option<usize> {
+        let distances = (0..=self.old.step).map(|step| (self.poses[step].distance(to), step));
+        let (distance, step) = distances.reduce(|a, b| if b.0 < a.0 { b } else { a })?;
+        (distance < CLOSING.reach).then_some(step)
+    }
+
+    /// That the robot is back there at this pose, if the way since is a loop.
+    fn relation(&self, to: &Pose2) -> Option<Relation> {
+        let from = self.nearest(to)?;
+        let way = self.closings.way(from, self.step());
+        let is_loop = way > CLOSING.loop_way && way > CLOSING.loop_times * self.poses[from].distance(to);
+        is_loop.then(|| Relation { from, to: self.step(), between: self.poses[from].between(to) })
+    }
+
+    fn agreement(&self, pose: &Pose2) -> Agreement {
+        Agreement::of(&score().log_beams(self.map, pose, &self.picture))
+    }
+
+    /// The loop that is closed as the path is, if that is beyond doubt and some metres after the last one.
+    fn closed(&self, agreement: &Agreement) -> Option<Relation> {
+        let is_sure = agreement.fits >= CLOSING.sure && agreement.disputed() < 0.5 * CLOSING.disputed;
+        let is_new = self.relations.last().is_none_or(|last| self.closings.way(last.to, self.step()) >= CLOSING.apart);
+        self.relation(&self.here()).filter(|_| is_sure && is_new)
+    }
+
+    /// The loop that was missed, and the path that closes it, where the picture is found elsewhere.
+    fn bent(&self, agreement: &Agreement) -> Option<(Relation, Vec<Pose2>)> {
+        let chain = chain(self.poses);
+        let relation = self.relation(&self.search(&chain, agreement)?)?;
+        let relations: Vec<Relation> = self.relations.iter().copied().chain([relation]).collect();
+        Some((relation, chain.bent(&relations)?))
+    }
+
+    /// Where the robot may be as far as matching and the loops so far know.
+    fn prior(&self, chain: &Chain) -> Option<Gaussian3> {
+        let from = self.nearest(&self.here())?;
+        let covariance = chain.covariance(self.relations, from, self.step())?;
+        let (sin, cos) = ops::sin_cos(self.poses[from].theta);
+        let turn = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
+        Gaussian3::new(self.here(), turn * covariance * turn.transpose())
+    }
+
+    /// Where the picture fits the old map much better than here, if nothing else does nearly as well.
+    fn search(&self, chain: &Chain, agreement: &Agreement) -> Option<Pose2> {
+        let (prior, score, here) = (self.prior(chain)?, score(), self.here());
+        // A climb asks which of two poses is better, for which every second end point will do.
+        let target = Target::new(&prior, score.near(self.map, &here, &self.picture, 2), 0.0);
+        let climbed = |start| hill_climb(start, CLOSING.climb, |pose, floor| target.log_posterior(pose, floor));
+        let mut tops: Vec<ScoredPose> = CLOSING.search.starts(&target).poses.into_iter().map(climbed).collect();
+        tops.sort_by(|a, b| b.value.total_cmp(&a.value));
+        let top = tops.first()?;
+        let stay = target.log_posterior(&here, f64::NEG_INFINITY);
+        let gain = |top: &ScoredPose| (top.value - stay) / self.picture.hits.len() as f64;
+        let second = tops.iter().find(|other| are_apart(&other.pose, &top.pose)).map_or(0.0, gain);
+        let there = self.agreement(&top.pose);
+        let is_there = there.fits >= CLOSING.fits && there.disputed() < 0.5 * agreement.disputed();
+        let is_clear = gain(top) >= CLOSING.gain && second <= CLOSING.ambiguity * gain(top);
+        (is_there && is_clear && are_apart(&top.pose, &here)).then_some(top.pose)
+    }
+}
+
+/// How well a picture agrees with a map.
+struct Agreement {
+    /// Share of the end points that lie on a wall.
+    fits: f64,
+    /// Share of those that lie where it was seen to be free.
+    contradicts: f64,
+}
+
+impl Agreement {
+    /// Of what each end point adds to a score \[nats\].
+    fn of(beams: &[f64]) -> Self {
+        let share = |is: fn(f64) -> bool| beams.iter().filter(|log| is(**log)).count() as f64 / beams.len() as f64;
+        Self { fits: share(|log| log > ON_A_WALL), contradicts: share(|log| log < IN_FREE_SPACE) }
+    }
+
+    /// Share of the end points that contradict, of those of which the map knows anything.
+    fn disputed(&self) -> f64 {
+        let known = self.fits + self.contradicts;
+        if known > 0.0 { self.contradicts / known } else { 0.0 }
+    }
+}
+
+/// Whether two poses are of two hills, more than a step of the search from each other.
+fn are_apart(a: &Pose2, b: &Pose2) -> bool {
+    let (d, CorrelativeSearch { linear, angular, .. }) = (a.minus(b), CLOSING.search);
+    d.x.abs().max(d.y.abs()) > linear || d.z.abs() > 2.0 * angular
+}
+
+/// A path with the uncertainty that matching leaves: it grows with the root of the way, and a turn of a radian counts as a metre.
+fn chain(poses: &[Pose2]) -> Chain<'_> {
+    /// What is left where the robot did not move \[m, rad\].
+    const LEAST: [f64; 2] = [1e-4, 1e-5];
+    let stds = |motion: &Pose2| {
+        let [way, turn] = driven(motion);
+        let [position, heading] = CLOSING.drift;
+        let position = position * way.sqrt() + LEAST[0];
+        [position, position, heading * (way + turn).sqrt() + LEAST[1]]
+    };
+    Chain::new(poses, stds, CLOSING.relation)
+}
+
+/// Marks the heaviest slots, of equals the lower.
+fn heaviest(weights: &[f64], count: usize) -> Vec<bool> {
+    let mut slots: Vec<usize> = (0..weights.len()).collect();
+    slots.sort_by(|a, b| weights[*b].total_cmp(&weights[*a]));
+    let mut heavy = vec![false; weights.len()];
+    slots.iter().take(count).for_each(|slot| heavy[*slot] = true);
+    heavy
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_map_that_knows_nothing_of_a_picture_disputes_none_of_it() {
+        let [wall, unknown, free] = [-0.1, -1.07, -2.0];
+        let strange = Agreement::of(&[unknown; 4]);
+        assert_eq!([strange.fits, strange.contradicts, strange.disputed()], [0.0; 3]);
+        let missed = Agreement::of(&[wall, unknown, unknown, free, free, free, wall, free]);
+        assert_eq!([missed.fits, missed.contradicts, missed.disputed()], [0.25, 0.5, 2.0 / 3.0]);
+    }
+
+    /// By what a beam adds where the mapper's score knows one of three things.
+    #[test]
+    fn what_is_unknown_lies_neither_on_a_wall_nor_in_free_space() {
+        // Along the middle of a row of NDT cells, by which space is judged.
+        let (mut map, pose) = (Map::new(super::super::tuning::grid(0.05)), Pose2::new(0.02, 0.12, 0.0));
+        let ahead = Scan { hits: vec![[3.0, 0.0]], misses: Vec::new() };
+        map.assimilate(&pose, &ahead, &());
+        let points = Scan { hits: vec![[3.0, 0.02], [5.0, 0.0], [1.0, 0.0]], misses: Vec::new() };
+        let beams = score().log_beams(&map, &pose, &points);
+        let kinds = beams.iter().map(|log| [*log > ON_A_WALL, *log < IN_FREE_SPACE]).collect::<Vec<_>>();
+        assert_eq!(kinds, [[true, false], [false, false], [false, true]], "{beams:?}");
+    }
+
+    #[test]
+    fn the_heaviest_are_marked_and_of_equals_the_lower() {
+        assert_eq!(heaviest(&[0.1, 0.4, 0.1, 0.4], 3), [true, true, false, true]);
+        assert_eq!(heaviest(&[1.0], 4), [true]);
+    }
+
+    #[test]
+    fn a_scan_is_kept_to_less_than_a_millionth_of_its_range() {
+        let scan = Scan { hits: vec![[12.345_678_9, -0.1]], misses: vec![[29.999_999_9, 3.3]] };
+        let kept = KeptScan::new(&scan).scan();
+        for (kept, given) in kept.hits.iter().chain(&kept.misses).zip(scan.hits.iter().chain(&scan.misses)) {
+            assert!((0..2).all(|k| (kept[k] - given[k]).abs() <= 1e-7 * given[k].abs()), "{kept:?} {given:?}");
+        }
+    }
+}
