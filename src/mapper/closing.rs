@@ -185,7 +185,7 @@ impl Closings {
         if agreement.disputed() < CLOSING.disputed {
             return now.closed(&agreement).map_or(nothing, |relation| (None, Found::Closed(relation)));
         }
-        let Some((relation, bent)) = searched.then(|| now.bent(&agreement)).flatten() else { return nothing };
+        let Some((relation, bent)) = searched.then(|| now.bent()).flatten() else { return nothing };
         let (particle, maps) = self.mapped(particle, &poses, &bent);
         (Some(particle), Found::Bent(relation, maps))
     }
@@ -266,15 +266,15 @@ impl Now<'_> {
 
     /// The loop that is closed as the path is, if that is beyond doubt and some metres after the last one.
     fn closed(&self, agreement: &Agreement) -> Option<Relation> {
-        let is_sure = agreement.fits >= CLOSING.sure && agreement.disputed() < 0.5 * CLOSING.disputed;
+        let is_sure = agreement.fits >= CLOSING.sure && agreement.is_undisputed();
         let is_new = self.relations.last().is_none_or(|last| self.closings.way(last.to, self.step()) >= CLOSING.apart);
         self.relation(&self.here()).filter(|_| is_sure && is_new)
     }
 
     /// The loop that was missed, and the path that closes it, where the picture is found elsewhere.
-    fn bent(&self, agreement: &Agreement) -> Option<(Relation, Vec<Pose2>)> {
+    fn bent(&self) -> Option<(Relation, Vec<Pose2>)> {
         let chain = chain(self.poses);
-        let relation = self.relation(&self.search(&chain, agreement)?)?;
+        let relation = self.relation(&self.search(&chain)?)?;
         let relations: Vec<Relation> = self.relations.iter().copied().chain([relation]).collect();
         Some((relation, chain.bent(&relations)?))
     }
@@ -289,7 +289,7 @@ impl Now<'_> {
     }
 
     /// Where the picture fits the old map much better than here, if nothing else does nearly as well.
-    fn search(&self, chain: &Chain, agreement: &Agreement) -> Option<Pose2> {
+    fn search(&self, chain: &Chain) -> Option<Pose2> {
         let (prior, score, here) = (self.prior(chain)?, score(), self.here());
         // A climb asks which of two poses is better, for which every second end point will do.
         let target = Target::new(&prior, score.near(self.map, &here, &self.picture, 2), 0.0);
@@ -301,7 +301,7 @@ impl Now<'_> {
         let gain = |top: &ScoredPose| (top.value - stay) / self.picture.hits.len() as f64;
         let second = tops.iter().find(|other| are_apart(&other.pose, &top.pose)).map_or(0.0, gain);
         let there = self.agreement(&top.pose);
-        let is_there = there.fits >= CLOSING.fits && there.disputed() < 0.5 * agreement.disputed();
+        let is_there = there.fits >= CLOSING.fits && there.is_undisputed();
         let is_clear = gain(top) >= CLOSING.gain && second <= CLOSING.ambiguity * gain(top);
         (is_there && is_clear && are_apart(&top.pose, &here)).then_some(top.pose)
     }
@@ -320,6 +320,11 @@ impl Agreement {
     fn of(beams: &[f64]) -> Self {
         let share = |is: fn(f64) -> bool| beams.iter().filter(|log| is(**log)).count() as f64 / beams.len() as f64;
         Self { fits: share(|log| log > ON_A_WALL), contradicts: share(|log| log < IN_FREE_SPACE) }
+    }
+
+    /// Whether hardly anything is disputed.
+    fn is_undisputed(&self) -> bool {
+        self.disputed() < 0.5 * CLOSING.disputed
     }
 
     /// Share of the end points that contradict, of those of which the map knows anything.

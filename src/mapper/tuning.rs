@@ -113,11 +113,12 @@ pub(super) struct Closing {
     pub loop_way: f64,
     /// See [`Self::loop_way`].
     pub loop_times: f64,
-    /// A loop was missed if so large a share of those end points lies in free space of which the map knows anything.
+    /// A loop was missed if so large a share of the end points of which the map knows anything lies in free space. Less than half of it is
+    /// hardly anything: people and doors.
     pub disputed: f64,
     /// Share of all end points that must lie on walls where the picture is found: a third, as the robot may just have come back.
     pub fits: f64,
-    /// Share from which on a loop counts as closed for good, if hardly anything is disputed.
+    /// Share from which on a loop counts as closed for good.
     pub sure: f64,
     /// How much better than here the picture must fit \[nats an end point\]: a seventh of what lies between a wall and unknown space.
     pub gain: f64,
