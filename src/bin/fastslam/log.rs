@@ -97,6 +97,8 @@ struct Output {
     resampled_fraction: f64,
     /// Scans that no particle explains.
     scans_unexplained: u32,
+    /// How many times a particle's path was bent, to close a loop that no particle had closed by itself.
+    paths_bent: u32,
     /// First scan at which all particles descend from one; null if they never do.
     lineage_one_scan: Option<u32>,
     /// By how much more than odometry tells the robot turns to the left \[deg/m\], as it was learnt by the end.
@@ -179,6 +181,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         errors: relations.and_then(|relations| relation_errors(&path, &log.odometry, &relations)),
         resampled_fraction: mapper.resampled_fraction(),
         scans_unexplained,
+        paths_bent: mapper.closings(),
         lineage_one_scan: mapper.single_lineage_since(),
         wheel_drift_deg_per_m: mapper.wheels().drift().to_degrees(),
         wheel_heading_std_deg_per_m: mapper.wheels().heading_std().to_degrees(),
@@ -304,6 +307,9 @@ fn summary(settings: &LaserMapperSettings, log: &LaserLog, output: &Output) -> S
     );
     if output.scans_unexplained > 0 {
         _ = writeln!(text, "scans that no particle explains   {:8}", output.scans_unexplained);
+    }
+    if output.paths_bent > 0 {
+        _ = writeln!(text, "paths bent to close a loop        {:8}", output.paths_bent);
     }
     match output.lineage_one_scan {
         Some(scan) => _ = writeln!(text, "all descend from one particle from scan {scan} on"),
