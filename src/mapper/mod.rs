@@ -221,11 +221,14 @@ impl LaserMapper {
         self.closings.bent()
     }
 
-    /// Bytes of all particles' maps, with what is kept of them from before to find loops.
+    /// Bytes of all particles' maps.
     pub fn footprint(&self) -> Footprint {
-        let now = Map::footprint(self.filter.particles().iter().map(|particle| &particle.map));
-        let maps = self.filter.particles().iter().map(|particle| &particle.map).chain(self.closings.maps());
-        Footprint { unique: Map::footprint(maps).unique, ..now }
+        Map::footprint(self.filter.particles().iter().map(|particle| &particle.map))
+    }
+
+    /// The same with the maps of before that are kept to find loops by.
+    pub fn footprint_with_kept(&self) -> Footprint {
+        Map::footprint(self.filter.particles().iter().map(|particle| &particle.map).chain(self.closings.maps()))
     }
 
     fn best(&self) -> &Particle<Map> {

@@ -105,7 +105,7 @@ impl LaserMapperSettings {
 
     /// About how many bytes the maps will take when this log is mapped: for each particle all tiles that beams pass through by raw
     /// odometry, as particles that are selected seldom have long been apart. What they share makes it less; where odometry drifts it
-    /// counts walls more than once. It is no bound.
+    /// counts walls more than once. What is kept of maps from before to find loops by comes on top. It is no bound.
     pub fn memory_estimate(&self, log: &LaserLog) -> u64 {
         /// NDT cells in a tile, about.
         const NDT_CELLS: usize = 12;

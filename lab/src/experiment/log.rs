@@ -1,6 +1,7 @@
 //! Logs of our own, free to ship: a robot with a laser in a building of which the truth is known, for the
 //! [mapper](fastslam::mapper) to map.
 
+use super::long_rings::LongRingSetup;
 use crate::digest::Digest;
 use crate::world::{FloorPlan, LongRing, corners_cut_short, crowd, drive, escort, until_people};
 use crate::{WORLD_ODOMETRY, WORLD_SENSOR};
@@ -285,6 +286,7 @@ pub fn golden_runs() -> Vec<(&'static str, Replay)> {
             "log-sparse",
             run(LaserMapperSettings { particles: 3, min_travel: 0.8, cell_size: 0.1, max_range: 6.0, ..settings }),
         ),
+        ("log-bent", LongRingSetup { particles: 2, ..LongRingSetup::default() }.start().expect("a ring").into_replay()),
     ]
 }
 
@@ -310,6 +312,14 @@ mod tests {
         // Particles that are selected seldom share little with each other, but each shares what is old with the map of some scans ago.
         assert!(footprint.unique < footprint.dense / 2, "{footprint:?}");
         assert!(footprint.unique < estimate && estimate < 2 * footprint.unique, "{estimate} for {footprint:?}");
+    }
+
+    /// Of the path that is bent to close its loop.
+    #[test]
+    fn the_golden_run_that_is_called_bent_is() {
+        let (name, mut replay) = golden_runs().pop().unwrap();
+        replay.by_ref().for_each(drop);
+        assert_eq!((name, replay.mapper().closings()), ("log-bent", 1));
     }
 
     #[test]

@@ -146,6 +146,11 @@ impl LongRingRun {
         self.replay.next().is_some()
     }
 
+    /// The run as that of any log.
+    pub fn into_replay(self) -> Replay {
+        self.replay
+    }
+
     /// The mapper, as far as it has come.
     pub fn mapper(&self) -> &LaserMapper {
         self.replay.mapper()

@@ -92,6 +92,8 @@ struct Output {
     peak_map_bytes: u64,
     /// At the same time, if every map were kept whole and apart.
     dense_map_bytes: u64,
+    /// What the maps of before that are kept to find loops by take besides, at their peak.
+    kept_map_bytes: u64,
     #[serde(flatten)]
     errors: Option<RelationErrors>,
     resampled_fraction: f64,
@@ -109,8 +111,8 @@ struct Output {
     digest: String,
 }
 
-/// Steps between two looks at the memory of all maps, which takes longer than a step.
-const FOOTPRINT_EVERY: u32 = 10;
+/// Steps between two looks at the memory of the maps of before, each of which takes as long as a step.
+const LOOK_EVERY: u32 = 10;
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<()> {
@@ -149,16 +151,17 @@ pub fn run(arguments: &Arguments) -> Result<()> {
             .expect("the template is right"),
     );
     let (mut cpu, mut peak) = (Duration::ZERO, replay.mapper().footprint());
-    let (mut resampled, mut scans_unexplained) = (0, 0);
+    let (mut kept, mut resampled, mut scans_unexplained) = (0, 0, 0);
     loop {
         let start = ProcessTime::now();
         let Some(report) = replay.next() else { break };
         cpu += start.elapsed();
-        if report.step.is_multiple_of(FOOTPRINT_EVERY) || replay.len() == 0 {
-            let now = replay.mapper().footprint();
-            if now.unique > peak.unique {
-                peak = now;
-            }
+        let now = replay.mapper().footprint();
+        if now.unique > peak.unique {
+            peak = now;
+        }
+        if report.step.is_multiple_of(LOOK_EVERY) {
+            kept = kept.max(replay.mapper().footprint_with_kept().unique - now.unique);
         }
         resampled += u32::from(report.resampled());
         scans_unexplained += u32::from(!report.explained());
@@ -178,6 +181,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         ms_per_scan_particle: 1e3 * cpu.as_secs_f64() / f64::from(steps.max(1)) / settings.particles as f64,
         peak_map_bytes: peak.unique,
         dense_map_bytes: peak.dense,
+        kept_map_bytes: kept,
         errors: relations.and_then(|relations| relation_errors(&path, &log.odometry, &relations)),
         resampled_fraction: mapper.resampled_fraction(),
         scans_unexplained,
@@ -288,6 +292,7 @@ fn summary(settings: &LaserMapperSettings, log: &LaserLog, output: &Output) -> S
         "{} scans, of which {} taken: {} particles, seed {}, cells of {} m\n\
          CPU time per scan and particle    {:8.3} ms\n\
          maps at their peak                {:8.1} MB, {:.1} MB as dense copies, {:.1} MB estimated\n\
+         maps of before, to find loops by  {:8.1} MB more\n\
          steps that resampled              {:8.0} %\n",
         output.scans,
         output.scans_used,
@@ -298,6 +303,7 @@ fn summary(settings: &LaserMapperSettings, log: &LaserLog, output: &Output) -> S
         output.peak_map_bytes as f64 / 1e6,
         output.dense_map_bytes as f64 / 1e6,
         settings.memory_estimate(log) as f64 / 1e6,
+        output.kept_map_bytes as f64 / 1e6,
         100.0 * output.resampled_fraction,
     );
     _ = writeln!(
