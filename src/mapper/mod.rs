@@ -5,7 +5,8 @@
 //! [`LaserMapper`] is a Rao-Blackwellized particle filter ([`Rbpf`]) over paths. Each particle draws its next pose by looking first
 //! ([`FromScan`](crate::proposal::FromScan), after Grisetti, Stachniss and Burgard 2007), and keeps a copy-on-write occupancy grid with
 //! a normal distribution for each piece of wall ([`Grid`](crate::map::grid::Grid)). What moves by itself, as people who walk by or
-//! along, is told from walls before a scan is matched, and left out. It runs online and needs to know nothing of the
+//! along, is told from walls before a scan is matched, and left out. A loop that no particle has closed by itself is closed by bending its path
+//! (`closing.rs`). It runs online and needs to know nothing of the
 //! scans that will come; whoever has a whole log lets [`Replay`] push it, or fills the laser's settings in by
 //! [`LaserMapperSettings::for_log`]. What is not a setting has one value for every building and robot: [`tuning`] says why.
 
