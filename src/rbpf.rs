@@ -240,8 +240,8 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         self.path_weights = self.path_weights.copied(ancestors);
     }
 
-    /// Puts what is made of a particle in its place, slot by slot, and returns what else was found. Weights stay: whoever moves particles so that
-    /// none is more likely for it than it was (Gilks and Berzuini 2001, *resample-move*) owes them nothing.
+    /// Puts what is made of a particle in its place, slot by slot, and returns what else was found. Weights stay as they are: that is exact where the
+    /// move leaves the posterior unchanged (Gilks and Berzuini 2001, *resample-move*), and for any other an approximation that the caller answers for.
     pub(crate) fn revise<R: Send>(
         &mut self,
         revise: impl Fn(usize, &Particle<M>) -> (Option<Particle<M>>, R) + Sync + Send,

@@ -44,14 +44,15 @@ impl<'a> Chain<'a> {
     ///
     /// `None` where rounding leaves no positive definite matrix.
     pub fn covariance(&self, relations: &[Relation], from: usize, to: usize) -> Option<Matrix3<f64>> {
+        let errors = Errors::of(self.poses, &self.variances);
         let new = [Row::of(self.poses, from, to)];
-        let prior = self.shared(&new[0], &new[0]);
+        let prior = errors.shared(&new[0], &new[0]);
         if relations.is_empty() {
             return Some(prior);
         }
         let known: Vec<Row> = relations.iter().map(|known| Row::of(self.poses, known.from, known.to)).collect();
-        let cross = self.gram(&known, &new);
-        let explained = cross.transpose() * self.factor(&known)?.solve(&cross);
+        let cross = errors.gram(&known, &new);
+        let explained = cross.transpose() * self.factor(&errors, &known)?.solve(&cross);
         Some(prior - Matrix3::from_fn(|i, j| explained[(i, j)]))
     }
 
@@ -59,32 +60,36 @@ impl<'a> Chain<'a> {
     /// Poses before all relations stay.
     ///
     /// By Gauss and Newton: with J the derivatives of what relations tell, r their misfit and Q and R block diagonal,
-    /// ξ ← Q Jᵀ (J Q Jᵀ + R)⁻¹ (r + J ξ).
+    /// ξ ← Q Jᵀ (J Q Jᵀ + R)⁻¹ (r + J ξ). Takes O(n + m³) for n motions and m relations.
     ///
     /// `None` where rounding leaves no positive definite matrix, or no finite pose.
     pub fn bent(&self, relations: &[Relation]) -> Option<Vec<Pose2>> {
         let motions: Vec<Pose2> = self.poses.windows(2).map(|pair| pair[0].between(&pair[1])).collect();
-        let mut errors = vec![Vector3::zeros(); motions.len()];
+        let mut xi = vec![Vector3::zeros(); motions.len()];
         let mut poses = self.poses.to_vec();
         let first = relations.iter().map(|known| known.from).min().unwrap_or(motions.len());
         for _ in 0..STEPS {
+            let errors = Errors::of(&poses, &self.variances);
             let rows: Vec<Row> = relations.iter().map(|known| Row::of(&poses, known.from, known.to)).collect();
+            let moved = errors.moved(&xi);
             let misfits = rows.iter().zip(relations).flat_map(|(row, known)| {
                 let misfit = known.between.minus(&poses[known.from].between(&poses[known.to]));
-                let told = row.motions().map(|(k, jacobian)| jacobian * errors[k]).sum::<Vector3<f64>>();
-                <[f64; 3]>::from(misfit + told)
+                <[f64; 3]>::from(misfit + row.lever * (moved[row.to] - moved[row.from]))
             });
             let misfits = DVector::from_iterator(3 * rows.len(), misfits);
-            let forces = self.factor(&rows)?.solve(&misfits);
-            errors.fill(Vector3::zeros());
+            let forces = self.factor(&errors, &rows)?.solve(&misfits);
+            // Each relation pulls at the motions between its poses.
+            let mut pulls = vec![Vector3::<f64>::zeros(); poses.len()];
             for (j, row) in rows.iter().enumerate() {
-                let force: Vector3<f64> = forces.fixed_rows::<3>(3 * j).into();
-                for (k, jacobian) in row.motions() {
-                    errors[k] += self.variances[k].component_mul(&(jacobian.transpose() * force));
-                }
+                let pull = row.lever.transpose() * forces.fixed_rows::<3>(3 * j);
+                pulls[row.from] += pull;
+                pulls[row.to] -= pull;
             }
-            for (k, (motion, error)) in motions.iter().zip(&errors).enumerate().skip(first) {
-                poses[k + 1] = poses[k].compose(motion).compose(&Pose2::new(error.x, error.y, error.z));
+            let mut pull = Vector3::zeros();
+            for (k, motion) in motions.iter().enumerate().skip(first) {
+                pull += pulls[k];
+                xi[k] = self.variances[k].component_mul(&(errors.adjoints[k].transpose() * pull));
+                poses[k + 1] = poses[k].compose(motion).compose(&Pose2::new(xi[k].x, xi[k].y, xi[k].z));
             }
         }
         let finite = |pose: &Pose2| pose.x.is_finite() && pose.y.is_finite() && pose.theta.is_finite();
@@ -92,12 +97,36 @@ impl<'a> Chain<'a> {
     }
 
     /// J Q Jᵀ + R, factored.
-    fn factor(&self, rows: &[Row]) -> Option<Cholesky<f64, Dyn>> {
-        let mut matrix = self.gram(rows, rows);
+    fn factor(&self, errors: &Errors, rows: &[Row]) -> Option<Cholesky<f64, Dyn>> {
+        let mut matrix = errors.gram(rows, rows);
         for k in 0..matrix.nrows() {
             matrix[(k, k)] += self.relation_variances[k % 3];
         }
         Cholesky::new(matrix)
+    }
+}
+
+/// The errors of all motions, as rigid motions of the world: there, errors of motions one after the other add up.
+struct Errors {
+    /// Of each motion, what carries an error in the frame of the pose that it leads to into the world's ([`adjoint`]).
+    adjoints: Vec<Matrix3<f64>>,
+    /// Covariance of the sum over the first k motions.
+    covariances: Vec<Matrix3<f64>>,
+}
+
+impl Errors {
+    fn of(poses: &[Pose2], variances: &[Vector3<f64>]) -> Self {
+        let adjoints: Vec<Matrix3<f64>> = poses.iter().skip(1).map(adjoint).collect();
+        let covariance = |(adjoint, variance): (&Matrix3<f64>, &Vector3<f64>)| {
+            adjoint * Matrix3::from_diagonal(variance) * adjoint.transpose()
+        };
+        let covariances = running_sums(adjoints.iter().zip(variances).map(covariance), Matrix3::zeros());
+        Self { adjoints, covariances }
+    }
+
+    /// The sum over the first k of these errors, each in the frame of its pose.
+    fn moved(&self, xi: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+        running_sums(self.adjoints.iter().zip(xi).map(|(adjoint, xi)| adjoint * xi), Vector3::zeros())
     }
 
     /// The matrix of [`Self::shared`] for each of these with each of those.
@@ -111,44 +140,48 @@ impl<'a> Chain<'a> {
         matrix
     }
 
-    /// Covariance of what two relations tell: Σ_k J_k Q_k J′_kᵀ over the motions that both depend on.
+    /// Covariance of what two relations tell, by the motions that both depend on.
     fn shared(&self, this: &Row, that: &Row) -> Matrix3<f64> {
-        let (first, last) = (this.from.max(that.from), this.to().min(that.to()));
-        let products = (first..last).map(|k| {
-            let weighted = Matrix3::from_diagonal(&self.variances[k]) * that.jacobians[k - that.from].transpose();
-            this.jacobians[k - this.from] * weighted
-        });
-        products.sum()
+        let (first, last) = (this.from.max(that.from), this.to.min(that.to));
+        if first >= last {
+            return Matrix3::zeros();
+        }
+        this.lever * (self.covariances[last] - self.covariances[first]) * that.lever.transpose()
     }
 }
 
-/// Derivatives of one relation, by the errors of the motions between its poses; it does not depend on others.
+/// What one relation tells of the errors of the motions between its poses; it does not depend on others.
 struct Row {
     /// Index of the earlier pose, and of the first motion.
     from: usize,
-    jacobians: Vec<Matrix3<f64>>,
+    /// Index of the later pose, one past the last motion.
+    to: usize,
+    /// What makes of a motion of the world how the later pose moves, as seen from the earlier.
+    lever: Matrix3<f64>,
 }
 
 impl Row {
     fn of(poses: &[Pose2], from: usize, to: usize) -> Self {
-        let last = poses[from].between(&poses[to]);
-        let jacobian = |pose: &Pose2| {
-            let here = poses[from].between(pose);
-            let (sin, cos) = ops::sin_cos(here.theta);
-            Matrix3::new(cos, -sin, here.y - last.y, sin, cos, last.x - here.x, 0.0, 0.0, 1.0)
-        };
-        Self { from, jacobians: poses[from + 1..=to].iter().map(jacobian).collect() }
+        let later = poses[from].between(&poses[to]);
+        let lever = Matrix3::new(1.0, 0.0, -later.y, 0.0, 1.0, later.x, 0.0, 0.0, 1.0);
+        Self { from, to, lever: lever * adjoint(&poses[from].between(&Pose2::default())) }
     }
+}
 
-    /// One past the last motion.
-    fn to(&self) -> usize {
-        self.from + self.jacobians.len()
-    }
+/// Ad(x): a small rigid motion in the frame of x, as (ahead, aside, turn), in the frame that x is given in, as the motion of its origin.
+fn adjoint(pose: &Pose2) -> Matrix3<f64> {
+    let (sin, cos) = ops::sin_cos(pose.theta);
+    Matrix3::new(cos, -sin, pose.y, sin, cos, -pose.x, 0.0, 0.0, 1.0)
+}
 
-    /// Numbers of the motions with their derivatives.
-    fn motions(&self) -> impl Iterator<Item = (usize, &Matrix3<f64>)> {
-        (self.from..).zip(&self.jacobians)
-    }
+/// Sums of the first k of these, from k = 0 on.
+fn running_sums<T: Copy + core::ops::AddAssign>(terms: impl Iterator<Item = T>, zero: T) -> Vec<T> {
+    let mut sum = zero;
+    let sums = terms.map(|term| {
+        sum += term;
+        sum
+    });
+    core::iter::once(zero).chain(sums).collect()
 }
 
 #[cfg(test)]

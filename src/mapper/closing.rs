@@ -4,11 +4,12 @@
 //! Where the robot comes back, the nearest of them may be off by more than a matcher finds, and all map the building a second time
 //! beside the first. So every few metres the scans of the last metres are held, as one rigid picture, against the map as it was before what
 //! they show came in sight. Where end points lie in what that map knows to be free, the picture is searched for as far as the path
-//! may have drifted. If it fits somewhere else much better, and nowhere else nearly as well, the path is bent until it ends there, each motion by
+//! may have drifted, up to eight steps of the lattice to each side (3.2 m). If it fits somewhere else much better, and nowhere else nearly as well, the path is bent until it ends there, each motion by
 //! its share, with the loops closed so far as they are ([`Chain::bent`]); and it is mapped again.
 //!
-//! Weights are not changed: a motion's share is within what matching leaves open, so that the scans on the way fit as they did. A particle
-//! that is bent to a wrong place contradicts what it sees next, and dies of it.
+//! This is a heuristic. Weights are not changed, as if the move left the posterior as it is: a motion's share is within what matching leaves open,
+//! so that the scans on the way fit about as they did. A particle that is bent to a wrong place contradicts what it sees next, and its weight
+//! falls. Mapping again takes as long as the mapping so far, once for each path that is bent.
 //!
 //! References: Gutmann and Konolige, *Incremental mapping of large cyclic environments*, CIRA 1999 (the last scans as one picture, found again by
 //! correlation); Lu and Milios 1997 (bending the path); Gilks and Berzuini, *Following a moving target: Monte Carlo inference for dynamic
@@ -28,7 +29,7 @@ use nalgebra::Matrix3;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// What it takes to find loops again: all scans, and maps of before.
+/// What finds the loops that were missed, and closes them: all scans, and maps of before.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Closings {
     /// By step of the filter, from the first scan on.
@@ -151,7 +152,7 @@ impl Closings {
             }
         }
         if self.before.back().is_none_or(|last| self.way(last.step, now) >= CLOSING.spacing) {
-            let maps = filter.particles().iter().map(|particle| particle.map.clone()).collect();
+            let maps = filter.particles().iter().map(|particle| particle.map.present()).collect();
             self.before.push_back(Before { step: now, maps });
         }
     }
@@ -215,7 +216,7 @@ impl Closings {
                 map.settle();
             }
             if self.before.iter().any(|before| before.step == step) {
-                maps.push(map.clone());
+                maps.push(map.present());
             }
         }
         (Particle { world_from_robot: path.pose(), map, path }, maps)
@@ -334,13 +335,15 @@ impl Agreement {
     }
 }
 
-/// Whether two poses are of two hills, more than a step of the search from each other.
+/// Whether two poses are of two hills: more than a step of the lattice from each other, or more than two of its turns. What is nearer the
+/// particle's own search finds.
 fn are_apart(a: &Pose2, b: &Pose2) -> bool {
     let (d, CorrelativeSearch { linear, angular, .. }) = (a.minus(b), CLOSING.search);
     d.x.abs().max(d.y.abs()) > linear || d.z.abs() > 2.0 * angular
 }
 
-/// A path with the uncertainty that matching leaves: it grows with the root of the way, and a turn of a radian counts as a metre.
+/// A path with the uncertainty that matching leaves: it grows with the root of the way, and a turn of a radian counts as a metre. What a path
+/// was bent by before is not taken off.
 fn chain(poses: &[Pose2]) -> Chain<'_> {
     /// What is left where the robot did not move \[m, rad\].
     const LEAST: [f64; 2] = [1e-4, 1e-5];

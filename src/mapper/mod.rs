@@ -62,7 +62,7 @@ pub struct LaserMapper {
     wheels: Wheels,
     /// What was seen on the last metres of the way.
     views: LastViews,
-    /// Loops that are closed.
+    /// What closes the loops that were missed.
     closings: Closings,
     /// Raw odometry of the last scan that the filter took; `None` before the first.
     last: Option<Pose2>,
@@ -110,6 +110,8 @@ impl LaserMapper {
     /// What the filter's step did; `None` where there was none: of the first scan, with which the map begins, and of one before
     /// which the robot moved by less than [`LaserMapperSettings::min_travel`]. A pose that is not finite, or further than 10 000 km
     /// from odometry's origin, is no place: such a scan is left out of the path too.
+    ///
+    /// A step in which a path is bent to close a loop takes longer: all scans so far are mapped again for it.
     pub fn push(&mut self, scan: &LaserScan) -> Option<Report<()>> {
         if !scan.is_placed() {
             return None;
@@ -199,7 +201,7 @@ impl LaserMapper {
 
     /// The best particle's path: a pose for each scan so far with its time \[s\], in the frame of the first. A scan that was passed
     /// over has the pose of the last one before it that was taken, moved by raw odometry. The whole path may change with every
-    /// scan, as another particle becomes the best.
+    /// scan, as another particle becomes the best or its path is bent to close a loop.
     pub fn path(&self) -> Vec<(f64, Pose2)> {
         let poses = self.best().path.poses();
         let placed = |stamp: &Stamp| (stamp.time, poses[stamp.step as usize].compose(&stamp.step_from_robot));
@@ -212,7 +214,7 @@ impl LaserMapper {
     }
 
     /// The first step after which all particles descended from one, if they do: there is one path only up to some scan then, and
-    /// a mistake in it cannot be undone.
+    /// no selection undoes a mistake in it.
     pub fn single_lineage_since(&self) -> Option<u32> {
         self.single_lineage_since
     }

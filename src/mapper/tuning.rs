@@ -116,11 +116,11 @@ pub(super) struct Closing {
     /// A loop was missed if so large a share of the end points of which the map knows anything lies in free space. Less than half of it is
     /// hardly anything: people and doors.
     pub disputed: f64,
-    /// Share of all end points that must lie on walls where the picture is found: a third, as the robot may just have come back.
+    /// Share of all end points that must lie on walls where the picture is found: about a third, as the robot may just have come back.
     pub fits: f64,
     /// Share from which on a loop counts as closed for good.
     pub sure: f64,
-    /// How much better than here the picture must fit \[nats an end point\]: a seventh of what lies between a wall and unknown space.
+    /// How much better than here the picture must fit \[nats an end point, tempered\]: a sixth of what lies between a wall and unknown space.
     pub gain: f64,
     /// What share of that the next best place may have.
     pub ambiguity: f64,
@@ -132,7 +132,7 @@ pub(super) struct Closing {
     pub drift: [f64; 2],
     /// Standard deviations of a place that was found again \[m, m, rad\].
     pub relation: [f64; 3],
-    /// The lattice, of twice the width of an NDT cell: the distance field reaches as far.
+    /// The lattice, of twice the width of an NDT cell of the default 0.2 m: the distance field reaches as far.
     pub search: CorrelativeSearch,
     /// From half the lattice's step down to half a centimetre.
     pub climb: HillClimbSteps,
@@ -161,10 +161,11 @@ pub(super) const CLOSING: Closing = Closing {
     climb: HillClimbSteps { linear: 0.2, angular: 0.02, halvings: 5 },
 };
 
-/// What an end point adds to a score where it lies on a wall, at the least \[nats\]: three quarters of what lies far from one lose.
+/// What an end point adds to a score where it lies on a wall, at the least \[nats, before tempering\]: three
+/// quarters of what an end point far from any wall loses.
 pub(super) const ON_A_WALL: f64 = -0.75;
 
-/// What it adds where it lies in space that was seen to be free, at the most \[nats\]: by one beam that passed. In unknown space it is −1.07.
+/// What it adds where it lies in space that was seen to be free, at the most \[nats, before tempering\]: by one beam that passed. In unknown space it is −1.07.
 pub(super) const IN_FREE_SPACE: f64 = -1.3;
 
 /// Beams for which [`FROM_SCAN`] is made.

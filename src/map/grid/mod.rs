@@ -193,6 +193,11 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
         Self { directory: Arc::clone(directory), past: Vec::new(), ..*self }
     }
 
+    /// The map as it is, without what is kept for [`Self::past`].
+    pub(crate) fn present(&self) -> Self {
+        Self { directory: Arc::clone(&self.directory), past: Vec::new(), ..*self }
+    }
+
     /// From now on, [`Self::past`] is never older than what is mapped by now: for scans that were taken at known poses.
     pub fn settle(&mut self) {
         self.past = vec![(self.scans, Arc::clone(&self.directory))];
