@@ -12,9 +12,9 @@ import { singleFile } from './single.mjs'
 export const offline = join(root, 'packages', 'offline')
 /**
  * What one figure's file may weigh [bytes]: the program of the page's figures, packed, has nearly 1 MB of it, and the file of logs has two programs,
- * one that maps and one that reads bags and writes paths for ROS. The design's 1 MB is missed.
+ * one that maps and one that reads bags and writes paths for ROS; closing loops took 25 KB of it. The design's 1 MB is missed.
  */
-export const limit = 1_480_000
+export const limit = 1_510_000
 
 /** Of a file that carries all it needs. */
 const policy = "default-src 'none'; script-src 'self' 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; img-src data: blob:; font-src data:; worker-src blob:; base-uri 'none'"
