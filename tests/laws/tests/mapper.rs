@@ -148,9 +148,8 @@ fn particles_stay_apart_until_a_long_loop_closes() {
     }
 }
 
-/// One particle has nobody beside it who might have drifted less: round a ring of 120 m it comes back up to a metre off, and without
-/// closings seven of these twelve paths never close. Bent where they contradict their old map, all do; nobody is bent who closed by himself
-/// (seeds 1, 3, 8 and 12 within half a metre everywhere).
+/// One particle has nobody beside it who might have drifted less: without closings eight of these twelve paths have revisits off by more than half
+/// a metre, three of them all. Bent where they contradict their old map, all close; nobody is bent who closed by himself (seeds 1, 3, 8 and 12).
 #[test]
 fn a_loop_that_no_particle_closes_is_closed_by_bending_its_path() {
     let mut bent = 0;
