@@ -4,8 +4,9 @@
 //! Where the robot comes back, the nearest of them may be off by more than a matcher finds, and all map the building a second time
 //! beside the first. So every few metres the scans of the last metres are held, as one rigid picture, against the map as it was before what
 //! they show came in sight. Where end points lie in what that map knows to be free, the picture is searched for as far as the path
-//! may have drifted, up to eight steps of the lattice to each side (3.2 m). If it fits somewhere else much better, and nowhere else nearly as well, the path is bent until it ends there, each motion by
-//! its share, with the loops closed so far as they are ([`Chain::bent`]); and it is mapped again.
+//! may have drifted, up to eight steps of the lattice to each side (3.2 m). If it fits somewhere else much better, and nowhere else nearly
+//! as well, the path is bent until it ends there, each motion by its share, with the loops closed so far as they are ([`Chain::bent`]); and
+//! it is mapped again.
 //!
 //! This is a heuristic. Weights are not changed, as if the move left the posterior as it is: a motion's share is within what matching leaves open,
 //! so that the scans on the way fit about as they did. A particle that is bent to a wrong place contradicts what it sees next, and its weight

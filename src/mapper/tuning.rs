@@ -165,7 +165,8 @@ pub(super) const CLOSING: Closing = Closing {
 /// quarters of what an end point far from any wall loses.
 pub(super) const ON_A_WALL: f64 = -0.75;
 
-/// What it adds where it lies in space that was seen to be free, at the most \[nats, before tempering\]: by one beam that passed. In unknown space it is −1.07.
+/// What it adds where it lies in space that was seen to be free, at the most \[nats, before tempering\]: by one beam
+/// that passed. In unknown space it is −1.07.
 pub(super) const IN_FREE_SPACE: f64 = -1.3;
 
 /// Beams for which [`FROM_SCAN`] is made.
