@@ -82,8 +82,11 @@ const oracleTest = 'the_same_weights_and_uniforms_give_the_ancestors_of_the_pack
 const cargoTest = (...args) =>
   counted(() => run('cargo', ['test', '--no-fail-fast', ...args, '--', '--show-output', '--skip', oracleTest]))
 
-/** Holds resampling against a Python package, which it installs at its first run. Without Python or PyPI it is skipped. */
-const oracle = () => counted(() => run('cargo', ['test', '-p', 'laws', '--test', 'oracle', '--', '--ignored', '--show-output']))
+/**
+ * Holds resampling against a Python package, which it installs at its first run. Without Python or PyPI it is skipped. Of the whole
+ * workspace, as the native tests are: of `laws` alone, the filter crate would be built once more, with its features only.
+ */
+const oracle = () => counted(() => run('cargo', ['test', '--workspace', '--test', 'oracle', '--', '--ignored', '--show-output']))
 
 /** Of packages outside the workspace: this target folder, where most of what they need is built. */
 const sharedTarget = { CARGO_TARGET_DIR: process.env.CARGO_TARGET_DIR ?? join(root, 'target') }
@@ -158,7 +161,6 @@ await main(async () => {
   await attempt('Examples run', examples)
   await attempt('The fuzz target compiles', fuzz)
   await attempt('Resampling against the Python package particles', oracle)
-  await attempt('Same bits, as tests are built', () => cargoTest('-p', 'portability'))
   await attempt('Same bits, as releases are built', () => cargoTest('--release', '-p', 'portability'))
   await attempt('Tests in WebAssembly, in Chromium', wasmTest)
   await attempt('Tests of the page, in Chromium', playwright)

@@ -1,7 +1,7 @@
 //! The chapter's numbers made again, to the bit: what the native tests and those in the browser share.
 
 use fastslam::execute::Executor;
-use fastslam_lab::experiment::numbers::{Errors, FIRST_SEEDS, LapCell, Number, Recipe, SEEDS, owner, recipes};
+use fastslam_lab::experiment::numbers::{Errors, FIRST_SEEDS, LapCell, Made, Number, Recipe, SEEDS, owner, recipes};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
@@ -31,21 +31,40 @@ pub fn read<T: DeserializeOwned>(text: &str) -> BTreeMap<String, T> {
     serde_json::from_str(text).expect("`npm run numbers` writes the files in www/data")
 }
 
-/// What in these files does not hold, in a line each. Of what takes minutes the first seeds are run, and the lap table is worked
-/// out anew from the errors kept of every seed; all else is made in full.
-pub fn differences(entries: &Entries, executor: &Executor) -> Vec<String> {
-    let (laps, first_seeds) = (read::<Vec<f64>>(LAPS), read::<String>(FIRST));
+/// A recipe as this build makes it.
+pub struct Remade {
+    /// By its first seeds alone.
+    first: Made,
+    /// By all its seeds, where these do not take minutes.
+    whole: Option<Made>,
+}
+
+/// Runs every recipe anew, in their order: of what takes minutes the first seeds.
+pub fn remake(executor: &Executor) -> Vec<Remade> {
+    let laps = read::<Vec<f64>>(LAPS);
     let first = |errors: &Vec<f64>| errors.iter().copied().take(FIRST_SEEDS as usize).collect();
     let first_laps: Errors = laps.iter().map(|(name, errors)| (name.clone(), first(errors))).collect();
+    let remade = recipes().into_iter().map(|recipe| {
+        let make = |seeds, before| recipe.make(seeds, executor, before, &|| ());
+        let first = make(recipe.seeds.min(FIRST_SEEDS), &first_laps);
+        let whole = (recipe.seeds < SEEDS).then(|| make(recipe.seeds, &laps));
+        Remade { first, whole }
+    });
+    remade.collect()
+}
+
+/// What in these files does not hold, in a line each. Of what takes minutes the first seeds are compared, and the lap table is worked
+/// out anew from the errors kept of every seed; all else is compared in full.
+pub fn differences(entries: &Entries, remade: &[Remade]) -> Vec<String> {
+    let (laps, first_seeds) = (read::<Vec<f64>>(LAPS), read::<String>(FIRST));
     let recipes = recipes();
     let mut found: Vec<String> = entries
         .keys()
         .filter(|key| owner(&recipes, key).is_none())
         .map(|key| format!("{key}: nothing makes it"))
         .collect();
-    for recipe in &recipes {
-        let Recipe { name, seeds, .. } = recipe;
-        let first = recipe.make(*seeds.min(&FIRST_SEEDS), executor, &first_laps, &|| ());
+    for (recipe, Remade { first, whole }) in recipes.iter().zip(remade) {
+        let name = &recipe.name;
         if first_seeds.get(name) != Some(&format!("{:016x}", first.digest().value())) {
             found.push(format!("{name}: its first seeds come to other numbers, or to others than before"));
         }
@@ -55,8 +74,8 @@ pub fn differences(entries: &Entries, executor: &Executor) -> Vec<String> {
             found.push(format!("{name}: lap-table.json has other errors"));
         } else if let Some(cell) = LapCell::all().find(|cell| cell.name() == *name) {
             compare(entries, &recipes, recipe, &cell.numbers(kept), &mut found);
-        } else if *seeds < SEEDS {
-            compare(entries, &recipes, recipe, &recipe.make(*seeds, executor, &laps, &|| ()).numbers, &mut found);
+        } else if let Some(whole) = whole {
+            compare(entries, &recipes, recipe, &whole.numbers, &mut found);
         }
     }
     found
@@ -87,8 +106,8 @@ fn compare(entries: &Entries, recipes: &[Recipe], of: &Recipe, numbers: &[Number
 
 /// # Panics
 /// Where the files do not hold, with what to do about it.
-pub fn assert_fresh(executor: &Executor) {
-    let found = differences(&read(NUMBERS), executor);
+pub fn assert_fresh(remade: &[Remade]) {
+    let found = differences(&read(NUMBERS), remade);
     assert!(
         found.is_empty(),
         "www/data is stale; if this change is wanted, `npm run numbers` writes it:\n{}",

@@ -1,5 +1,5 @@
 //! How far from the truth the laps of exercise 5 end, as `lap-table.json` of the chapter has them: in whole millimetres rounded down, the best
-//! lap first. Written by `UPDATE_GOLDENS=1 cargo test -p figures --test universes`, which otherwise compares.
+//! lap first. Written by `UPDATE_GOLDENS=1 cargo test -p figures universes`, which otherwise compares.
 
 use fastslam_lab::experiment::universes::TRIED;
 

@@ -1,8 +1,6 @@
 //! Laws of the figure of the doors: what its caption says can be seen where it opens, and over many seeds.
 
-mod common;
-
-use common::figure;
+use crate::common::figure;
 use fastslam_widgets::figure::Figure;
 
 const TAG: &str = "fastslam-doors";

@@ -1,8 +1,6 @@
 //! Laws of the proposals' figure, by its public face: what a page can do to it.
 
-mod common;
-
-use common::{assert_texts_fit, figure, scene, state};
+use crate::common::{assert_texts_fit, figure, scene, state};
 use fastslam_widgets::{
     decimal::fixed,
     figure::Figure,

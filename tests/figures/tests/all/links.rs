@@ -6,7 +6,7 @@
 use fastslam_widgets::{figure::Figure, model::FigureError};
 use figures::{LOG, TINY_LOG};
 
-const LINKS: &str = include_str!("../golden/links.txt");
+const LINKS: &str = include_str!("../../golden/links.txt");
 
 /// The figure that a link makes, and what it says of the link.
 fn open(link: &str) -> (Figure, Vec<FigureError>) {

@@ -1,8 +1,6 @@
 //! Laws of the figure that maps a log, by its public face: what a page can do to it.
 
-mod common;
-
-use common::{assert_texts_fit, figure, scene, state};
+use crate::common::{assert_texts_fit, figure, scene, state};
 use fastslam_widgets::{
     fastslam::ops,
     figure::Figure,
@@ -10,7 +8,7 @@ use fastslam_widgets::{
     scene::{Mark, Rect, Role, Scene, Shading},
 };
 
-const TINY: &[u8] = include_bytes!("../../tests/figures/golden/tiny.clf");
+const TINY: &[u8] = include_bytes!("../../../tests/figures/golden/tiny.clf");
 
 /// Coarse and few, as most laws do not ask how good the map is.
 const QUICK: &str = "universes=4&cell=0.2";

@@ -5,7 +5,7 @@ use fastslam_lab::experiment::universes::TRIED;
 use fastslam_widgets::universes::{AWARE, LAPS, MOTION};
 use std::{collections::BTreeMap, fs};
 
-const KEPT: &str = include_str!("../../../www/data/lap-table.json");
+const KEPT: &str = include_str!("../../../../www/data/lap-table.json");
 const SHIPPED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../widgets/src/universes/shipped.rs");
 
 /// Whole millimetres rounded down, the best lap first.

@@ -1,5 +1,4 @@
 //! What the laws of all figures share: a figure by its public face, as a page has it.
-#![allow(dead_code, reason = "each test takes what it needs")]
 
 use fastslam_widgets::{
     figure::Figure,

@@ -1,8 +1,6 @@
 //! Laws of the worked example, by its public face.
 
-mod common;
-
-use common::{figure, scene};
+use crate::common::{figure, scene};
 use fastslam::ops;
 use fastslam_widgets::{
     figure::Figure,

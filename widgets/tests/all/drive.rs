@@ -1,9 +1,7 @@
 //! A reader at the wheel of the lap, by the figure's public face: what is driven, built and lifted is in the link, and nothing from a
 //! link can harm.
 
-mod common;
-
-use common::{figure, state};
+use crate::common::{figure, state};
 use fastslam_widgets::{figure::Figure, scene::Mark};
 
 const WIDTH: f64 = 800.0;

@@ -1,8 +1,6 @@
 //! Laws of the figure of the graphical model, by its public face: what a page can do to it.
 
-mod common;
-
-use common::{assert_drawn_inside, assert_texts_fit, figure, scene, state};
+use crate::common::{assert_drawn_inside, assert_texts_fit, figure, scene, state};
 use fastslam_widgets::{
     conditioning::Layout,
     figure::Figure,

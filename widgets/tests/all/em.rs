@@ -1,8 +1,6 @@
 //! Laws of the figure of EM mapping, by its public face.
 
-mod common;
-
-use common::{figure, scene, state};
+use crate::common::{figure, scene, state};
 use fastslam_widgets::figure::Figure;
 
 const TAG: &str = "fastslam-em";

@@ -1,11 +1,9 @@
 //! Laws of what figures tell of their algorithms: the lines that ran are lines of the chapter's boxes, and no others are told.
 
-mod common;
-
-use common::figure;
+use crate::common::figure;
 use fastslam_widgets::{figure::Figure, model::TraceLine};
 
-const CHAPTER: &str = include_str!("../../www/chapter/04-algorithms.md");
+const CHAPTER: &str = include_str!("../../../www/chapter/04-algorithms.md");
 
 fn trace(figure: &Figure) -> Vec<TraceLine> {
     figure.model().trace()
@@ -83,7 +81,10 @@ fn a_universe_is_followed_back_to_where_it_was_copied_from() {
     // Copies of one universe have one past, so that the same was run for them.
     let figure = figure("fastslam-lap", "step=1&policy=always&scheme=multinomial");
     let lines = |slot: usize| {
-        trace(&common::figure("fastslam-lap", &format!("step=1&policy=always&scheme=multinomial&universe={slot}")))
+        trace(&crate::common::figure(
+            "fastslam-lap",
+            &format!("step=1&policy=always&scheme=multinomial&universe={slot}"),
+        ))
     };
     let poses: Vec<String> = (0..16).map(|slot| text(&lines(slot), "draw").to_string()).collect();
     let distinct = |of: &[String]| {

@@ -33,7 +33,7 @@ fn figure(tag: &str, language: &str) -> Figure {
         assert_eq!(figure.load("course=apartment"), []);
     }
     if tag == "fastslam-log" {
-        figure.open(include_bytes!("../../tests/figures/golden/tiny.clf")).unwrap();
+        figure.open(include_bytes!("../../../tests/figures/golden/tiny.clf")).unwrap();
         figure.set("cell", "0.2").unwrap();
     }
     figure.model_mut().seek(4);
@@ -301,7 +301,7 @@ fn a_log_that_cannot_be_opened_is_refused_in_the_language_of_its_figure() {
 
 #[test]
 fn what_is_noted_of_a_bag_goes_through_lines_of_json_in_the_language_of_the_page() {
-    let bag = include_bytes!("../../tests/bags/odometry-zstd.mcap");
+    let bag = include_bytes!("../../../tests/bags/odometry-zstd.mcap");
     let read = |bytes: &[u8]| {
         let mut reader = BagReader::new(BagOptions { lenient: true, ..BagOptions::default() });
         reader.push(bytes).and_then(|()| reader.finish())

@@ -1,9 +1,7 @@
 //! Predictions of the figures of graph, EM mapping and smoothing: nothing leaks before a guess, what comes is what would have come without
 //! one, and another question takes the answer away.
 
-mod common;
-
-use common::{assert_drawn_inside, assert_texts_fit, figure, scene, state};
+use crate::common::{assert_drawn_inside, assert_texts_fit, figure, scene, state};
 use fastslam_widgets::figure::Figure;
 
 struct Asked {

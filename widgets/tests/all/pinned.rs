@@ -1,8 +1,6 @@
 //! Laws of a run that is pinned: its curves stay behind whatever is shown, and change nothing but the picture.
 
-mod common;
-
-use common::{assert_drawn_inside, assert_texts_fit, figure, scene, state};
+use crate::common::{assert_drawn_inside, assert_texts_fit, figure, scene, state};
 use fastslam_widgets::{
     figure::Figure,
     scene::{GHOST, Mark, Rect},

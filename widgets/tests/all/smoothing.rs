@@ -1,8 +1,6 @@
 //! Laws of the figure of the smoother, by its public face.
 
-mod common;
-
-use common::{assert_drawn_inside, assert_texts_fit, figure, scene, state};
+use crate::common::{assert_drawn_inside, assert_texts_fit, figure, scene, state};
 use fastslam_widgets::figure::Figure;
 
 const TAG: &str = "fastslam-smoothing";

@@ -1,8 +1,6 @@
 //! Laws of the challenges of every figure, and of what their checks take for reached.
 
-mod common;
-
-use common::{figure, scene};
+use crate::common::{figure, scene};
 use fastslam_widgets::{challenge::Chip, figure::Figure, registry::FIGURES};
 use std::collections::BTreeSet;
 

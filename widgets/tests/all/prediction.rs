@@ -1,8 +1,6 @@
 //! Laws of predictions, by the figures' public face: nothing leaks before a guess, and nothing outlives its question.
 
-mod common;
-
-use common::{figure, scene, state};
+use crate::common::{figure, scene, state};
 use fastslam_widgets::{decimal::fixed, figure::Figure, paint::Theme};
 
 /// In the state that a link of today names.

@@ -1,8 +1,6 @@
 //! Laws of every figure in the registry, by its public face.
 
-mod common;
-
-use common::{assert_drawn_inside, assert_texts_fit, scene, state};
+use crate::common::{assert_drawn_inside, assert_texts_fit, scene, state};
 use fastslam_widgets::{
     figure::Figure,
     model::Kind,

@@ -1,0 +1,17 @@
+//! The laws but for those that need a program of their own, in one program: it is linked once, and its tests keep both cores busy to the end.
+
+mod broken;
+mod filter;
+mod fit;
+mod landmarks;
+mod log;
+mod map;
+mod mapper;
+mod proposal;
+mod resampling;
+mod ring;
+mod saved;
+mod smoothing;
+mod steering;
+mod turned;
+mod window;

@@ -1,0 +1,22 @@
+//! The laws of all figures, in one program: it is linked once, and its tests keep both cores busy to the end.
+
+mod challenges;
+mod common;
+mod conditioning;
+mod doors;
+mod drive;
+mod em;
+mod figures;
+mod graph;
+mod joint;
+mod lap;
+mod log;
+mod pinned;
+mod prediction;
+mod predictions_of_the_family;
+mod proposal;
+mod resampling;
+mod smoothing;
+mod trace;
+mod words;
+mod worked_example;
