@@ -17,7 +17,10 @@ export async function setUp({ browser = false } = {}) {
   await step('wasm-bindgen', () => cargoInstall('wasm-bindgen-cli', 'wasm-bindgen', wasmBindgenVersion()))
   await step('wasm-pack', () => cargoInstall('wasm-pack', 'wasm-pack', wasmPackVersion))
   await step('npm packages', installPackages)
-  if (browser) await step('Chromium and ChromeDriver', installBrowser)
+  if (browser) {
+    await step('Chromium and ChromeDriver', installBrowser)
+    await step('Chromium’s headless shell', installHeadlessShell)
+  }
 }
 
 function checkNode() {
@@ -102,6 +105,15 @@ export function findChrome() {
     .find(Boolean)
 }
 
+/**
+ * Chromium without a window: the same engine, without the browser's own pages around the tested one, which keep the processor as busy
+ * as that does.
+ */
+const findHeadlessShell = () => ['chromium-headless-shell', 'chrome-headless-shell'].map(which).find(Boolean)
+
+/** What drives the pages of tests: the headless shell where there is one, unless a browser is named. @returns {string | undefined} */
+export const findHeadless = () => (process.env.CHROME ? undefined : findHeadlessShell()) ?? findChrome()
+
 export function findChromeDriver() {
   return which(process.env.CHROMEDRIVER) ?? which('chromedriver') ?? which(process.env.CHROMEWEBDRIVER && join(process.env.CHROMEWEBDRIVER, 'chromedriver'))
 }
@@ -110,12 +122,21 @@ async function installBrowser() {
   if (!findChrome() || !findChromeDriver()) await aptInstall('chromium', 'chromium-driver')
   const [chrome, driver] = [findChrome(), findChromeDriver()]
   if (!chrome || !driver) throw new StepError(`There is still no ${chrome ? 'ChromeDriver' : 'Chromium'} on PATH.`, browserHint)
-  const version = (/** @type {string} */ program) => /\d+(\.\d+)+/.exec(capture(program, '--version') ?? '')?.[0] ?? 'of unknown version'
   const [ofChrome, ofDriver] = [version(chrome), version(driver)]
   if (ofChrome.split('.')[0] !== ofDriver.split('.')[0]) {
     throw new StepError(`${chrome} is ${ofChrome} but ${driver} is ${ofDriver}: the two must be of the same major version.`, browserHint)
   }
   return `${chrome} ${ofChrome}`
+}
+
+const version = (/** @type {string} */ program) => /\d+(\.\d+)+/.exec(capture(program, '--version') ?? '')?.[0] ?? 'of unknown version'
+
+/** Only time depends on it: where it cannot be had, Chromium itself does its work. */
+async function installHeadlessShell() {
+  if (process.env.CHROME) return 'not needed: CHROME names the browser'
+  if (!findHeadlessShell()) await aptInstall('chromium-headless-shell').catch(() => {})
+  const shell = findHeadlessShell()
+  return shell ? `${shell} ${version(shell)}` : 'cannot be had here: Chromium itself drives the pages, which takes longer'
 }
 
 const browserHint =

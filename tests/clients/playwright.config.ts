@@ -2,7 +2,7 @@
 import { defineConfig } from '@playwright/test'
 import { chromiumFlags } from '../../scripts/browser.mjs'
 import { cache } from '../../scripts/lib.mjs'
-import { findChrome } from '../../scripts/setup.mjs'
+import { findHeadless } from '../../scripts/setup.mjs'
 
 export default defineConfig({
   testDir: '.',
@@ -17,7 +17,7 @@ export default defineConfig({
     browserName: 'chromium',
     viewport: { width: 1280, height: 1000 },
     contextOptions: { reducedMotion: 'reduce' },
-    launchOptions: { executablePath: findChrome(), args: chromiumFlags },
+    launchOptions: { executablePath: findHeadless(), args: chromiumFlags },
     screenshot: 'only-on-failure',
   },
 })

@@ -2,7 +2,7 @@
 import { defineConfig } from '@playwright/test'
 import { cache } from '../../scripts/lib.mjs'
 import { chromiumFlags } from '../../scripts/browser.mjs'
-import { findChrome } from '../../scripts/setup.mjs'
+import { findHeadless } from '../../scripts/setup.mjs'
 
 export default defineConfig({
   testDir: '.',
@@ -23,7 +23,7 @@ export default defineConfig({
     browserName: 'chromium',
     viewport: { width: 1280, height: 800 },
     launchOptions: {
-      executablePath: findChrome(),
+      executablePath: findHeadless(),
       args: chromiumFlags,
     },
     screenshot: 'only-on-failure',
