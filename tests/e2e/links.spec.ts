@@ -6,7 +6,7 @@ import { openCourse } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' }, permissions: ['clipboard-read', 'clipboard-write'] })
 
-/** Adds a figure at the top of the chapter, with these attributes, before its first script runs on it. */
+/** Adds a figure at the top of the page, with these attributes, before its first script runs on it. */
 async function addFigure(page: Page, attributes: Record<string, string>): Promise<Figure> {
   await page.evaluate(given => {
     const host = document.createElement('div')
@@ -21,7 +21,7 @@ async function addFigure(page: Page, attributes: Record<string, string>): Promis
 }
 
 test('a link of a later version says so, and what this page knows of it is shown', async ({ page }) => {
-  const lap = await new Figure(page, 'fastslam-lap').open('./#fastslam-lap?v=5&universes=8&step=3')
+  const lap = await new Figure(page, 'fastslam-lap').alone('#fastslam-lap?v=5&universes=8&step=3')
   await expect(lap.alert).toContainText('version 5 of the figure')
   await lap.settled()
   expect(await lap.position()).toBe(3)
@@ -60,7 +60,7 @@ test('a copied link opens the very same state', async ({ page, context }) => {
 })
 
 test('a link is followed when the address changes, and does not start the figure playing', async ({ page }) => {
-  const lap = await new Figure(page, 'fastslam-lap').open()
+  const lap = await new Figure(page, 'fastslam-lap').alone()
   await page.evaluate(() => (location.hash = 'fastslam-lap?universes=4&step=9'))
   await expect.poll(() => lap.position()).toBe(9)
   await lap.settled()
@@ -78,7 +78,7 @@ for (const [what, query, parameter, range] of [
   ['broken escapes', 'seed=%E0%A4%A', 'seed', /0 to 4294967295/],
 ] as const) {
   test(`a bad link with ${what} is refused with the parameter and its range, and the rest is applied`, async ({ page }) => {
-    const lap = await new Figure(page, 'fastslam-lap').open(`./#fastslam-lap?${query}&step=6`)
+    const lap = await new Figure(page, 'fastslam-lap').alone(`#fastslam-lap?${query}&step=6`)
     await expect(lap.alert).toContainText(parameter)
     await expect(lap.alert).toContainText(range)
     expect(await lap.position()).toBe(6)
@@ -90,7 +90,8 @@ for (const [what, query, parameter, range] of [
 }
 
 test('a link for one figure leaves the others alone', async ({ page }) => {
-  const first = await new Figure(page, 'fastslam-lap:not(#added)').open()
+  await new Figure(page, 'fastslam-lap').alone()
+  const first = new Figure(page, 'fastslam-lap:not(#added)')
   const added = await addFigure(page, {})
   const before = await first.readouts()
   await page.evaluate(() => (location.hash = 'added?seed=77&step=4'))
@@ -101,7 +102,7 @@ test('a link for one figure leaves the others alone', async ({ page }) => {
 })
 
 test('attributes set the parameters, at any time, and taking one away gives the default', async ({ page }) => {
-  await new Figure(page, 'fastslam-lap').open()
+  await new Figure(page, 'fastslam-lap').alone()
   const lap = await addFigure(page, { universes: '8', seed: '42', proposal: 'motion', 'range-std': '0.1', raw: '', step: '5' })
   await expect(lap.alert).toBeEmpty()
   expect(await lap.position()).toBe(5)
@@ -120,7 +121,7 @@ test('attributes set the parameters, at any time, and taking one away gives the 
 })
 
 test('properties set the parameters, before and after the figure is live', async ({ page }) => {
-  await new Figure(page, 'fastslam-lap').open()
+  await new Figure(page, 'fastslam-lap').alone()
   await page.evaluate(() => {
     const early = document.createElement('fastslam-lap')
     Object.assign(early, { id: 'added', universes: 6, rangeStd: 0.12, step: 7 })
@@ -167,7 +168,8 @@ for (const [name, value, range] of [
   test(`the bad attribute ${name}="${value}" is refused with its range; the default is kept and no other figure suffers`, async ({
     page,
   }) => {
-    const first = await new Figure(page, 'fastslam-lap:not(#added)').open()
+    await new Figure(page, 'fastslam-lap').alone()
+    const first = new Figure(page, 'fastslam-lap:not(#added)')
     const lap = await addFigure(page, { [name]: value })
     await expect(lap.alert).toContainText(name)
     await expect(lap.alert).toContainText(range)
@@ -181,7 +183,7 @@ for (const [name, value, range] of [
 }
 
 test('attributes of the platform and of frameworks are no mistakes', async ({ page }) => {
-  await new Figure(page, 'fastslam-lap').open()
+  await new Figure(page, 'fastslam-lap').alone()
   const lap = await addFigure(page, {
     class: 'a',
     'data-x': '1',
@@ -196,7 +198,7 @@ test('attributes of the platform and of frameworks are no mistakes', async ({ pa
 })
 
 test('a bad value typed into a box is refused, and the box goes back', async ({ page }) => {
-  const lap = await new Figure(page, 'fastslam-lap').open()
+  const lap = await new Figure(page, 'fastslam-lap').alone()
   await lap.openSettings()
   const before = await lap.readouts()
   await lap.box('universes').fill('300')
@@ -213,7 +215,7 @@ test('where the clipboard is refused, the link is shown', async ({ page }) => {
   await page.addInitScript(() => {
     navigator.clipboard.writeText = () => Promise.reject(new Error('refused'))
   })
-  const lap = await new Figure(page, 'fastslam-lap').open()
+  const lap = await new Figure(page, 'fastslam-lap').alone()
   await lap.scrubTo(3)
   await lap.menu('Copy link')
   await expect(lap.alert).toContainText('#fastslam-lap?v=4&step=3')

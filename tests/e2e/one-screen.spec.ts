@@ -13,8 +13,8 @@ const HIGHEST = 630 // [px]
 const SEEN = 0.6 // of the picture, whatever control is used
 
 /** The figure, or before it is asked for anything what stands in its place. */
-async function ready(page: Page, tag: string): Promise<Figure> {
-  const figure = new Figure(page, tag)
+async function ready(page: Page, tag: string, selector = tag): Promise<Figure> {
+  const figure = new Figure(page, selector)
   await figure.element.scrollIntoViewIfNeeded()
   await expect(figure.element.locator(tag === 'fastslam-log' ? '.idle' : '.stage.live')).toBeVisible()
   if (tag !== 'fastslam-log') await figure.settled()
@@ -47,14 +47,15 @@ async function byTab(page: Page, figure: Figure): Promise<[string, number][]> {
 for (const tag of programs.keys()) {
   test(`${tag} is whole on a small laptop, in the chapter and in a column of 832 px`, async ({ page }) => {
     await page.setViewportSize(LAPTOP)
-    const height = async () => (await (await ready(page, tag)).element.boundingBox())!.height
     await page.goto('./')
-    expect(await height(), 'in the chapter').toBeLessThanOrEqual(HIGHEST)
+    expect((await (await ready(page, tag)).element.boundingBox())!.height, 'in the chapter').toBeLessThanOrEqual(HIGHEST)
     const sentence = page.locator(`${tag} .sentence`).first()
     expect(await sentence.evaluate(({ scrollHeight, clientHeight }) => scrollHeight - clientHeight), 'the sentence is cut').toBeLessThanOrEqual(1)
-    for (const width of [832, 1000, 1100]) {
-      await openCourse(page, `<div style="width: ${width}px"><${tag}></${tag}></div>`)
-      expect(await height(), `${width} px wide`).toBeLessThanOrEqual(HIGHEST)
+    const widths = [832, 1000, 1100]
+    await openCourse(page, widths.map(width => `<div style="width: ${width}px"><${tag} id="in${width}"></${tag}></div>`).join(''))
+    for (const width of widths) {
+      const { height } = (await (await ready(page, tag, `#in${width}`)).element.boundingBox())!
+      expect(height, `${width} px wide`).toBeLessThanOrEqual(HIGHEST)
     }
   })
 

@@ -153,7 +153,7 @@ test('where the file is missing, the answer of the server is said', async ({ pag
 
 test('after a panic the figure says so and is as it was before', async ({ page, complaints }) => {
   await tapWasm(page)
-  const lap = await new Figure(page, 'fastslam-lap').open()
+  const lap = await new Figure(page, 'fastslam-lap').alone()
   await lap.scrubTo(11)
   const before = [await lap.readouts(), await lap.picture()]
   await panicNext(page, 1)
@@ -170,7 +170,8 @@ test('after a panic the figure says so and is as it was before', async ({ page, 
 
 test('after a second panic it stops, others go on, and Reset brings it back', async ({ page, complaints }) => {
   await tapWasm(page)
-  const lap = await new Figure(page, 'fastslam-lap:not(#other)').open()
+  await new Figure(page, 'fastslam-lap').alone()
+  const lap = new Figure(page, 'fastslam-lap:not(#other)')
   await panicNext(page, 1000)
   await lap.step.click()
   await expect(lap.alert).toContainText(/rebuilt/)

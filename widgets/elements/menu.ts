@@ -48,10 +48,12 @@ export class Menu {
     return this.#list.querySelector(':focus')
   }
 
-  /** The item of this number; from the end where it is negative. */
+  /** The item of this number; from the end where it is negative. Tab comes to that one alone. */
   #focus(number: number): void {
     const items = [...this.#list.children] as HTMLElement[]
-    items.at(number)?.focus()
+    const item = items.at(number)
+    for (const each of items) each.tabIndex = each === item ? 0 : -1
+    item?.focus()
   }
 
   #move(event: KeyboardEvent): void {
