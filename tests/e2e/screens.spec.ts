@@ -152,10 +152,8 @@ for (const colorScheme of ['light', 'dark'] as const) {
           canvas.drawImage(image, 0, 0)
           const root = element.shadowRoot!
           const controls = [...root.querySelectorAll<HTMLElement>(selector)].filter(control => control.checkVisibility({ visibilityProperty: true, opacityProperty: true }) && !control.matches('.hidden, .handle input'))
-          const light = (i: number, data: Uint8ClampedArray) => {
-            const [r, g, b] = [...data.subarray(i, i + 3)].map(c => ((c / 255 + 0.055) / 1.055) ** 2.4) as [number, number, number]
-            return 0.2126 * r + 0.7152 * g + 0.0722 * b
-          }
+          const linear = Array.from({ length: 256 }, (_, c) => ((c / 255 + 0.055) / 1.055) ** 2.4)
+          const light = (i: number, data: Uint8ClampedArray) => 0.2126 * linear[data[i]!]! + 0.7152 * linear[data[i + 1]!]! + 0.0722 * linear[data[i + 2]!]!
           return controls
             .filter(control => {
               const { x, y, width, height } = control.getBoundingClientRect()
