@@ -41,7 +41,7 @@ for (const [what, options] of Object.entries({ light: {}, dark: { colorScheme: '
     await lap.element.scrollIntoViewIfNeeded()
     await lap.live()
     for (const summary of await page.locator('#reference summary').all()) await summary.click()
-    expect(await brokenRules(page)).toEqual([])
+    expect(await brokenRules(page, { frames: true })).toEqual([])
     const { width, wide } = await page.evaluate(() => ({ width: innerWidth, wide: document.documentElement.scrollWidth }))
     expect(wide).toBe(width)
     await context.close()
