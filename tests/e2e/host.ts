@@ -5,6 +5,15 @@ import type { Page } from '@playwright/test'
 
 export const FIGURES = ['lap', 'conditioning', 'proposal', 'worked-example', 'resampling', 'joint', 'graph', 'smoothing', 'em', 'universes', 'doors']
 
+/** Of a test that is breadth: `npm test` leaves it to `npm run test:all`, which runs it in a unit. */
+export const breadth = { tag: '@breadth' }
+
+/** Figures that stand for all of them in `npm test`: grids with a drive of its own, landmarks with handles, and the one beside a worker. */
+const REPRESENTATIVES = ['lap', 'proposal', 'log']
+
+/** For a test that every figure has: one of those that stand for the others, or breadth. */
+export const breadthOf = (figure: string): { tag?: string } => (REPRESENTATIVES.includes(figure.replace('fastslam-', '')) ? {} : breadth)
+
 /** A course's own site, on another origin: it serves one page with this in its body, and nothing else. */
 export async function openHost(page: Page, body: string, head = ''): Promise<void> {
   const html = `<!doctype html><html lang="en"><head><title>Course</title><link rel="icon" href="data:," />${head}</head><body>${body}</body></html>`
