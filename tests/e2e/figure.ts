@@ -63,6 +63,12 @@ export class Figure {
     return this.element.evaluate(element => (element as HTMLElement & { state: string }).state)
   }
 
+  /** Goes to a state, as a link has it, in the page that is open: what a link does to a page is for other tests. */
+  async goTo(state: string): Promise<void> {
+    await this.element.evaluate((element, state) => ((element as HTMLElement & { state: string }).state = state), state)
+    await this.settled()
+  }
+
   /** Opens a page that has this figure and nothing else, with a link to its state if need be. */
   async alone(link = ''): Promise<this> {
     await openAlone(this.page as Page, this.tag, link)
