@@ -44,6 +44,20 @@ fn the_link_of_a_challenge_is_accepted_is_the_state_and_is_the_only_challenge_th
 }
 
 #[test]
+fn a_challenge_is_the_same_whichever_was_taken_up_before_also_where_that_one_is_still_at_work() {
+    for entry in FIGURES {
+        let mut figure = Figure::new(entry.tag).unwrap();
+        let all = chips(&figure);
+        for Chip { name, query, .. } in all.iter().chain(all.iter().rev()) {
+            assert_eq!(figure.load(query), [], "{name}");
+            assert_eq!(figure.query(), *query, "{name}");
+            let on: Vec<_> = chips(&figure).into_iter().filter(|chip| chip.now).map(|chip| chip.name).collect();
+            assert_eq!(on, [*name]);
+        }
+    }
+}
+
+#[test]
 fn a_challenge_changes_what_is_to_be_seen_or_read() {
     for entry in FIGURES {
         let told = |figure: &Figure| (figure.describe(), scene(figure, 800.0), figure.values().0);

@@ -146,6 +146,7 @@ fn the_truth_is_seen_at_the_wheel_alone() {
 fn a_link_that_nobody_wrote_is_refused_and_the_figure_lives() {
     for (query, name, says) in [
         ("drive=2.5.M", "drive", "version 1"),
+        ("drive=9.0.M", "drive", "version 1"),
         ("drive=hello", "drive", "version 1"),
         ("drive=1.5.%F0%9F%92%A5", "drive", "as the figure writes it"),
         ("drive=1.5.M999", "drive", "400 steps"),
@@ -156,6 +157,7 @@ fn a_link_that_nobody_wrote_is_refused_and_the_figure_lives() {
         ("plan=1.zz.", "plan", "inside the outer walls"),
         ("plan=1..zzzz0000", "plan", "inside the outer walls"),
         ("plan=%00", "plan", "version 1"),
+        ("plan=%3Cscript%3E", "plan", "version 1"),
         (&format!("plan=1..{}", "0".repeat(90_000)), "plan", "as the figure writes it"),
         (&format!("drive=1.0.{}", "M".repeat(90_000)), "drive", "as the figure writes it"),
     ] {

@@ -113,3 +113,31 @@ fn the_gist_of_a_picture_lies_in_it_whatever_is_shown() {
         }
     }
 }
+
+/// Five seeds are run through one figure, one after the other.
+#[test]
+fn what_comes_out_at_a_seed_is_the_same_whichever_seeds_were_run_before_it() {
+    for (tag, setting) in [
+        ("fastslam-lap", "universes=8&step=12"),
+        ("fastslam-resampling", "particles=12&step=12"),
+        ("fastslam-doors", "particles=50&step=50"),
+        ("fastslam-proposal", "range-std=0.3"),
+        ("fastslam-graph", "step=2"),
+        ("fastslam-joint", "particles=100"),
+        ("fastslam-em", "particles=100&step=83"),
+        ("fastslam-smoothing", "particles=4&step=3"),
+    ] {
+        let mut aside = Figure::new(tag).unwrap();
+        let mut different = 0;
+        for seed in [4, 5, 6] {
+            let query = format!("{setting}&seed={seed}");
+            let before = state(&aside).1;
+            assert_eq!(aside.load(&query), [], "{tag}?{query}");
+            aside.model_mut().settle();
+            let (ran, alone) = (state(&aside), state(&figure(tag, &query)));
+            assert_eq!((&ran.0, &ran.1), (&alone.0, &alone.1), "{tag}?{query}");
+            different += usize::from(ran.1 != before);
+        }
+        assert_eq!(different, 3, "{tag}: every seed is another run");
+    }
+}
