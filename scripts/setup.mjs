@@ -145,7 +145,7 @@ const browserHint =
   'Elsewhere: install both, or name them in the variables CHROME and CHROMEDRIVER.'
 
 /** @param {string[]} packages */
-async function aptInstall(...packages) {
+export async function aptInstall(...packages) {
   if (!which('apt-get')) throw new StepError('There is no Chromium or no ChromeDriver here.', browserHint)
   const isRoot = process.getuid?.() === 0
   if (!isRoot && capture('sudo', '-n', 'true') === undefined) {
