@@ -21,6 +21,8 @@ export default defineConfig({
     // Set by server.ts, which runs before the workers read this file.
     baseURL: process.env.FASTSLAM_URL,
     browserName: 'chromium',
+    // A worker keeps its page, which is reset between two tests: what it has compiled of the programs need not be compiled for each.
+    reuseContext: true,
     viewport: { width: 1280, height: 800 },
     launchOptions: {
       executablePath: findHeadless(),
