@@ -3,7 +3,7 @@
 import { existsSync, readdirSync, readFileSync } from 'node:fs'
 import { basename, join } from 'node:path'
 import { launchChromium } from './browser.mjs'
-import { buildPages, buildPrograms, buildWasm, dist } from './build.mjs'
+import { build, dist } from './build.mjs'
 import { latencies } from './latency.mjs'
 import { bold, cache, capture, green, isMain, main, red, root, run, say, step, StepError } from './lib.mjs'
 import { startServer } from './serve.mjs'
@@ -53,7 +53,7 @@ async function browserTimes(folder, work, ...options) {
 async function timeLaps({ laps, width, height }) {
   const module = '/fastslam_widgets.js'
   const { default: init, Figure } = await import(module)
-  const { memory } = await init()
+  const { memory } = await init({ module_or_path: '/fastslam-page.wasm' })
   const figure = new Figure('fastslam-lap')
   const canvas = Object.assign(document.createElement('canvas'), { width, height })
   const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d', { alpha: false }))
@@ -99,7 +99,7 @@ async function timeLaps({ laps, width, height }) {
 async function timeHeaviest({ width, height, frames }) {
   const module = '/fastslam_widgets.js'
   const { default: init, Figure } = await import(module)
-  await init()
+  await init({ module_or_path: '/fastslam-page.wasm' })
   const figure = new Figure('fastslam-resampling')
   figure.load('particles=64&step=90')
   while (figure.pending() > 0) figure.work()
@@ -115,7 +115,7 @@ async function timeHeaviest({ width, height, frames }) {
 async function timeLandmarks({ known }) {
   const module = '/speed.js'
   const { default: init, Thousand } = await import(module)
-  await init()
+  await init({ module_or_path: '/fastslam-page.wasm' })
   const start = new Thousand(known)
   const repeats = 100
   let total = 0
@@ -270,9 +270,7 @@ function verdict(what, is, atMost, show = milliseconds) {
 if (isMain(import.meta)) {
   await main(async () => {
     await setUp({ browser: true })
-    await buildWasm()
-    await buildPrograms()
-    await buildPages()
+    await build()
     await step('Landmark filters to WebAssembly', () =>
       run('wasm-pack', ['build', 'tests/speed', '--target', 'web', '--release', '--no-pack', '--out-dir', landmarks]),
     )

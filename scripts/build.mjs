@@ -1,16 +1,18 @@
 // Builds the chapter: the widgets to WebAssembly (widgets/pkg), then the pages around them (dist).
 import { createHash } from 'node:crypto'
 import { copyFileSync, existsSync, mkdirSync, readFileSync, renameSync, rmSync, statSync } from 'node:fs'
-import { basename, join } from 'node:path'
+import { basename, dirname, join } from 'node:path'
 import { fileURLToPath } from 'node:url'
-import { writeNames } from './elements.mjs'
+import { tellFigures, writeNames } from './elements.mjs'
 import { writeFrames } from './frames.mjs'
-import { programNames } from './registry.mjs'
+import { checkGlue, gluePaths } from './glue.mjs'
+import { programFile, programNames } from './registry.mjs'
 import { setUp } from './setup.mjs'
 import { cache, isMain, main, npmBin, root, run, step, StepError } from './lib.mjs'
 
-export const dist = join(root, 'dist')
-const wasm = join(root, 'widgets', 'pkg', 'fastslam_widgets_bg.wasm')
+/** Where the site is built; deliberate faults are built elsewhere. */
+export const dist = process.env.FASTSLAM_DIST ?? join(root, 'dist')
+const wasm = 'fastslam_widgets_bg.wasm'
 
 /** The features Rust's target has by default, and SIMD of fixed width. Nothing that may change a bit: no fast-math, no relaxed SIMD. */
 const features = [
@@ -26,38 +28,39 @@ const features = [
 
 const optimiser = [...features, '-O3', '--strip-debug']
 
-/** Where a program is. @param {string} program */
-export const programFile = program => join(root, 'widgets', 'pkg', `fastslam-${program}.wasm`)
-
-/** The program with all figures: for whatever carries it along, and to be asked what there is. */
-export async function buildWasm() {
-  await step('Widgets to WebAssembly', () => run('wasm-pack', ['build', 'widgets', '--target', 'web', '--profile', 'page', '--no-pack']))
-  await step('Optimise WebAssembly', () => optimise(wasm))
-  await step('Names of the figures', writeNames)
-}
-
-/** What pages load: the program of the figures that run on the page itself, that of the one that maps logs, in a worker, and that which reads bags for it. All use the same glue. */
+/**
+ * What pages load: the program of the figures that run on the page itself, that of the one that maps logs, in a worker, and that which
+ * reads bags for it. One after the other, so that what they share is compiled once. All use the same glue.
+ */
 export async function buildPrograms() {
-  const folder = cache('programs')
+  const made = (/** @type {string} */ program) => cache('programs', program)
   for (const program of programNames) {
-    const wanted = ['--no-default-features', '--features', `single-threaded,${program}`]
     await step(basename(programFile(program)), async () => {
-      await run('wasm-pack', ['build', 'widgets', '--target', 'web', '--profile', 'page', '--no-pack', '--no-typescript', '--out-dir', folder, ...wanted])
-      copyFileSync(join(folder, basename(wasm)), programFile(program))
+      await wasmPack(made(program), program)
+      mkdirSync(dirname(programFile(program)), { recursive: true })
+      copyFileSync(join(made(program), wasm), programFile(program))
       return optimise(programFile(program))
     })
   }
+  await step('Glue of the programs', () => {
+    for (const path of gluePaths) copyFileSync(join(made(gluedAs), basename(path)), path)
+    for (const program of programNames) checkGlue(programFile(program))
+  })
 }
+
+/** The one program that exports all that any of them does. */
+const gluedAs = 'bags'
+
+/** @param {string} folder @param {string} features @param {Record<string, string>} [env] */
+const wasmPack = (folder, features, env) =>
+  run('wasm-pack', ['build', 'widgets', '--target', 'web', '--profile', 'page', '--no-pack', '--out-dir', folder, '--no-default-features', '--features', `single-threaded,${features}`], { env })
 
 /** A program that dies on request, for one test of the browser and never for a page. */
-export const troubleWasm = cache('trouble', basename(wasm))
+export const troubleWasm = cache('trouble', wasm)
 
 /** Nobody waits for it: without the last optimisations it is there in a third of the time. */
-export async function buildTrouble() {
-  const wanted = ['--no-default-features', '--features', 'single-threaded,page,log,bags,trouble']
-  const args = ['build', 'widgets', '--target', 'web', '--profile', 'page', '--no-pack', '--no-typescript', '--out-dir', cache('trouble'), ...wanted]
-  await step('A program that dies on request', () => run('wasm-pack', args, { env: { CARGO_PROFILE_PAGE_LTO: 'off', CARGO_PROFILE_PAGE_CODEGEN_UNITS: '16' } }))
-}
+export const buildTrouble = () =>
+  step('A program that dies on request', () => wasmPack(dirname(troubleWasm), 'page,log,bags,trouble', { CARGO_PROFILE_PAGE_LTO: 'off', CARGO_PROFILE_PAGE_CODEGEN_UNITS: '16' }))
 
 export async function buildPages() {
   await step('Pages', async () => {
@@ -72,8 +75,9 @@ export async function buildPages() {
 
 export async function build() {
   await setUp()
-  await buildWasm()
-  await buildPrograms()
+  // The compiler of the one has a core to spare while the other links.
+  await Promise.all([buildPrograms(), step('What the figures tell of themselves', tellFigures)])
+  await step('Names of the figures', writeNames)
   await buildPages()
 }
 
@@ -98,4 +102,5 @@ async function optimise(file) {
 /** @param {number} bytes */
 export const kilobytes = bytes => `${(bytes / 1000).toFixed(1)} KB`
 
-if (isMain(import.meta)) await main(build)
+// `-- --pages`: the pages alone, from programs that are there.
+if (isMain(import.meta)) await main(process.argv.includes('--pages') ? buildPages : build)

@@ -2,11 +2,10 @@
 import { existsSync, readdirSync, rmSync } from 'node:fs'
 import { homedir } from 'node:os'
 import { join } from 'node:path'
-import { buildPages, buildPrograms, buildWasm, programFile } from './build.mjs'
+import { build } from './build.mjs'
 import { audit, checkCrates } from './dependencies.mjs'
 import { isMain, main, npmBin, root, run, step, StepError } from './lib.mjs'
 import { programNames } from './registry.mjs'
-import { setUp } from './setup.mjs'
 
 /** The checks, as [name, action]: the tests run them as well. @type {[string, () => Promise<unknown>][]} */
 export const checks = [
@@ -64,11 +63,8 @@ async function checkTypes() {
 
 if (isMain(import.meta)) {
   await main(async () => {
-    await setUp()
-    // The elements are typed against what wasm-pack writes.
-    if (!existsSync(join(root, 'widgets', 'pkg', 'fastslam_widgets.d.ts'))) await buildWasm()
-    if (!existsSync(programFile('page'))) await buildPrograms()
-    await buildPages()
+    // The elements are typed against what wasm-pack writes, and the links are those of the pages.
+    await build()
     for (const [name, action] of checks) await step(name, action)
     await step('Known holes of npm packages (npm audit)', audit)
   })

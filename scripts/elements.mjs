@@ -2,9 +2,8 @@
 // the types, the manifest of the custom elements, and the classes of the Python package. A new parameter needs no other line.
 import { mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { pathToFileURL } from 'node:url'
 import { readGlue, shellModule, shellTypes } from './glue.mjs'
-import { isMain, main, readIfThere, root, step, StepError } from './lib.mjs'
+import { cache, isMain, main, readIfThere, root, run, step, StepError } from './lib.mjs'
 import { programs } from './registry.mjs'
 
 /**
@@ -14,25 +13,17 @@ import { programs } from './registry.mjs'
  * @typedef {{ tag: string, name: string, className: string, title: string, describe: string, params: ParamSpec[], readouts: Readout[], chips: Chip[], panels: string[] }} FigureInfo
  */
 
-/** Every figure, asked in Node. @returns {Promise<FigureInfo[]>} */
-export async function figures() {
-  const shell = await import(pathToFileURL(join(root, 'widgets', 'pkg', 'fastslam_widgets.js')).href)
-  shell.initSync({ module: readFileSync(join(root, 'widgets', 'pkg', 'fastslam_widgets_bg.wasm')) })
-  return shell.tags().map((/** @type {string} */ tag) => {
-    const figure = new shell.Figure(tag)
-    return {
-      tag,
-      name: tag.replace('fastslam-', ''),
-      className: pascal(tag),
-      title: figure.title(),
-      describe: figure.describe(),
-      params: figure.params(),
-      readouts: figure.readouts(),
-      chips: figure.chips(),
-      panels: figure.panels(),
-    }
-  })
+const told = cache('figures.json')
+
+/** Asks the figures, natively. */
+export async function tellFigures() {
+  const { output } = await run('cargo', ['run', '--quiet', '-p', 'fastslam-widgets', '--example', 'figures'])
+  write(told, output)
 }
+
+/** Every figure, as it was told last. @returns {FigureInfo[]} */
+export const figures = () =>
+  JSON.parse(readFileSync(told, 'utf8')).map((/** @type {FigureInfo} */ figure) => ({ ...figure, name: figure.tag.replace('fastslam-', ''), className: pascal(figure.tag) }))
 
 /** @param {string} name */
 const pascal = name => name.replace(/(?:^|-)(.)/g, (_, letter) => letter.toUpperCase())
@@ -315,7 +306,7 @@ export async function writeNames() {
   const generated = join(root, 'widgets', 'elements', 'generated')
   write(join(generated, 'shell.js'), shellModule(readGlue()))
   write(join(generated, 'shell.d.ts'), shellTypes)
-  const all = await figures()
+  const all = figures()
   const rows = all.map(({ tag, title, params }) => `  '${tag}': { title: ${JSON.stringify(title)}, program: '${programs.get(tag)}', parameters: ${JSON.stringify(params.map(({ name }) => name).join(' '))}.split(' ') },`)
   write(
     join(root, 'widgets', 'elements', 'generated', 'figures.ts'),
@@ -331,4 +322,9 @@ export async function writeNames() {
   return `${all.length} figures`
 }
 
-if (isMain(import.meta)) await main(() => step('Names of the figures', writeNames))
+if (isMain(import.meta)) {
+  await main(async () => {
+    await step('What the figures tell of themselves', tellFigures)
+    await step('Names of the figures', writeNames)
+  })
+}

@@ -67,7 +67,7 @@ export async function embedCodes() {
 }
 
 export async function writeFrames() {
-  const [all, codes] = [await figures(), await embedCodes()]
+  const [all, codes] = [figures(), await embedCodes()]
   const page = readFileSync(join(dist, 'embed.html'), 'utf8')
   for (const figure of all) {
     const file = `embed-${figure.name}.html`
@@ -86,6 +86,7 @@ export async function writeFrames() {
   }
   write(join(dist, 'custom-elements.json'), `${JSON.stringify(manifest(all), undefined, 2)}\n`)
   write(join(dist, 'fastslam.d.ts'), types(all))
+  // The code for MyST names it, and MyST copies that one file when a book is built: it must stand alone.
   write(join(dist, 'fastslam-anywidget.js'), await singleFile(notebook))
   return `of ${all.length} figures`
 }

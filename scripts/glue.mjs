@@ -1,8 +1,11 @@
 // The glue that wasm-bindgen writes is a module, and a module has one instance: a program that has trapped could not be replaced, and
 // a page could not have two programs. The same lines inside a function have as many as there are calls.
 import { readFileSync } from 'node:fs'
-import { join } from 'node:path'
+import { basename, join } from 'node:path'
 import { root, StepError } from './lib.mjs'
+
+/** The glue and its types, as wasm-bindgen names them. */
+export const gluePaths = ['fastslam_widgets.js', 'fastslam_widgets.d.ts', 'fastslam_widgets_bg.wasm.d.ts'].map(name => join(root, 'widgets', 'pkg', name))
 
 /** `createShell(module)`, which makes an instance and returns what the glue exports. @param {string} glue */
 export function shellModule(glue) {
@@ -29,3 +32,10 @@ export function createShell(module: WebAssembly.Module): Promise<Shell>
 `
 
 export const readGlue = () => readFileSync(join(root, 'widgets', 'pkg', 'fastslam_widgets.js'), 'utf8')
+
+/** Holds a program to the glue, which was written for another one. @param {string} program its file */
+export function checkGlue(program) {
+  const glue = readGlue()
+  const missing = WebAssembly.Module.imports(new WebAssembly.Module(readFileSync(program))).filter(({ name }) => !glue.includes(name))
+  if (missing.length > 0) throw new StepError(`The glue has not got what ${basename(program)} imports: ${missing.map(({ name }) => name).join(', ')}.`)
+}

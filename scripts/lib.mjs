@@ -1,5 +1,6 @@
 // What every script needs: named steps with their time, running tools with visible progress, finding tools.
 // Only Node's own modules: these lines run before any package is installed.
+import { AsyncLocalStorage } from 'node:async_hooks'
 import { spawn, spawnSync } from 'node:child_process'
 import { accessSync, constants, createWriteStream, mkdirSync, readFileSync, statSync } from 'node:fs'
 import { homedir } from 'node:os'
@@ -34,8 +35,25 @@ export class StepError extends Error {
   }
 }
 
-/** The step under way; one at a time. @type {{ title: string, started: number, log: import('node:fs').WriteStream, path: string } | undefined} */
-let current
+/**
+ * The step that what runs now belongs to: several may be under way.
+ * @typedef {{ title: string, started: number, log: import('node:fs').WriteStream, path: string }} Step
+ * @type {AsyncLocalStorage<Step>}
+ */
+const underWay = new AsyncLocalStorage()
+
+/** Steps that have ended, in their order, for the table at the end. `processor` is undefined where others ran beside it. @type {{ title: string, seconds: number, processor: number | undefined }[]} */
+export const ended = []
+
+/** Steps begun and ended so far: whether a step was alone can be told from them. */
+const counts = { begun: 0, running: 0 }
+
+/** Seconds of processor that this process and the programs it has waited for have taken; undefined where the system does not tell. */
+export function processorSeconds() {
+  // After the name in parentheses, which may hold anything: utime, stime, cutime and cstime are the 12th to 15th field [1/100 s].
+  const fields = readIfThere('/proc/self/stat')?.split(') ').at(-1)?.split(' ').slice(11, 15)
+  return fields?.reduce((sum, ticks) => sum + Number(ticks) / 100, 0)
+}
 
 /** @param {number} since */
 const elapsed = since => {
@@ -80,7 +98,7 @@ export function aboutFailures(output) {
 
 /**
  * Runs one named step: prints its name, its progress, and how long it took. What `action` returns as a string is shown beside
- * the name. A failure is printed here and thrown on.
+ * the name. A failure is printed here and thrown on. Steps may run side by side.
  * @param {string} title
  * @param {() => unknown} action
  */
@@ -89,11 +107,11 @@ export async function step(title, action) {
   mkdirSync(dirname(path), { recursive: true })
   const log = createWriteStream(path)
   const started = performance.now()
-  current = { title, started, log, path }
+  const before = { processor: processorSeconds(), begun: ++counts.begun, alone: ++counts.running === 1 }
   if (live || !terminal) console.log(bold(`▸ ${title}`))
   else status(`▸ ${title} …`)
   try {
-    const note = await action()
+    const note = await underWay.run({ title, started, log, path }, async () => action())
     clear()
     console.log(`${green('✓')} ${title} ${dim(`(${elapsed(started)})`)}${typeof note === 'string' ? `  ${note}` : ''}`)
   } catch (error) {
@@ -103,7 +121,10 @@ export async function step(title, action) {
     throw error
   } finally {
     log.end()
-    current = undefined
+    counts.running--
+    const [now, alone] = [processorSeconds(), before.alone && counts.begun === before.begun]
+    const processor = alone && now !== undefined && before.processor !== undefined ? now - before.processor : undefined
+    ended.push({ title, seconds: (performance.now() - started) / 1000, processor })
   }
 }
 
@@ -129,13 +150,14 @@ function explain(error) {
  * Runs a tool to its end, its output going to the terminal (or, on one, its last line) and to the step's log.
  * @param {string} command
  * @param {string[]} args
- * @param {{ cwd?: string, env?: Record<string, string>, hint?: string }} [options]
+ * @param {{ cwd?: string, env?: Record<string, string>, hint?: string, quiet?: boolean }} [options] `quiet`: a failure is not printed
  * @returns {Promise<{ output: string }>} all it printed
  */
-export function run(command, args, { cwd = root, env = {}, hint } = {}) {
+export function run(command, args, { cwd = root, env = {}, hint, quiet = false } = {}) {
   return new Promise((resolve, reject) => {
     const shown = [command, ...args].map(word => (isAbsolute(word) ? word.replace(root + '/', '') : word)).join(' ')
     if (live) console.log(dim(`  $ ${shown}`))
+    const current = underWay.getStore()
     current?.log.write(`$ ${shown}\n`)
     let output = ''
     const child = spawn(command, args, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'] })
@@ -160,7 +182,7 @@ export function run(command, args, { cwd = root, env = {}, hint } = {}) {
     child.on('close', (code, signal) => {
       clearInterval(ticker)
       if (code === 0) return resolve({ output })
-      if (!live) say(aboutFailures(output))
+      if (!live && !quiet) say(aboutFailures(output))
       const error = new StepError(
         `${shown}: ${signal ? `ended by ${signal}` : `exit status ${code}`}`,
         hint ?? (current ? `All it printed: ${current.path}` : undefined),

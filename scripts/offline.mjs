@@ -2,7 +2,7 @@
 // and each figure as a SCORM 1.2 package for learning systems, which keeps a learner's state. All in packages/offline/.
 import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs'
 import { dirname, join, posix } from 'node:path'
-import { build, dist, kilobytes, programFile } from './build.mjs'
+import { build, dist, kilobytes } from './build.mjs'
 import { figures } from './elements.mjs'
 import { escape } from './frames.mjs'
 import { isMain, main, root, say, step, StepError } from './lib.mjs'
@@ -104,9 +104,9 @@ export async function writeOffline() {
     return statSync(path).size
   }
   const scorm = readFileSync(join(root, 'widgets', 'scorm', 'scorm.js'), 'utf8')
-  for (const figure of await figures()) {
+  for (const figure of figures()) {
     const program = programs.get(figure.tag) ?? ''
-    const script = await singleFile(join(root, 'www', 'src', 'embed.ts'), programFile(program), program === 'log')
+    const script = await singleFile(join(root, 'www', 'src', 'embed.ts'), program === 'log' ? ['log', 'bags'] : [program])
     const page = inlined(`embed-${figure.name}.html`, script)
     const size = put(`${figure.tag}.html`, page)
     if (size > limit) throw new StepError(`${figure.tag}.html has ${kilobytes(size)}, over the limit of ${kilobytes(limit)}.`)

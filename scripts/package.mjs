@@ -36,7 +36,7 @@ export async function npmFiles() {
   const to = join(npm, 'dist')
   rmSync(to, { recursive: true, force: true })
   mkdirSync(join(to, 'assets'), { recursive: true })
-  const all = await figures()
+  const all = figures()
   const files = readdirSync(dist).filter(file => /^fastslam(-[\w-]{8})?\.js$|^fastslam-(page|log|bags)-.*\.wasm$/.test(file))
   for (const file of [...files, 'custom-elements.json', 'example.clf.gz']) cpSync(join(dist, file), join(to, file))
   // What they name, and what that names, and nothing of the chapter's.

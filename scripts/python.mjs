@@ -43,7 +43,7 @@ function trait({ name, kind, min, max, choices, default: value, help }) {
 
 /** Writes what is generated of the package: its classes, and the module that runs in the page. */
 export async function pythonFiles() {
-  const all = await figures()
+  const all = figures()
   const snake = (/** @type {string} */ name) => name.replaceAll('-', '_')
   const classes = all.map(
     ({ className, name, title, params }) =>

@@ -11,3 +11,6 @@ export const programs = new Map(rows.map(([, tag = '', program = '']) => /** @ty
 
 /** Names of all programs, each a feature of the crate: those of the figures, and the one that reads bags for the figure of logs. */
 export const programNames = [...new Set(programs.values()), 'bags']
+
+/** Where a program is. @param {string} program */
+export const programFile = program => join(root, 'widgets', 'pkg', `fastslam-${program}.wasm`)

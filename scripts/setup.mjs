@@ -1,10 +1,10 @@
 // Sets up what building and testing need, from rustup's Rust and Node alone. Every step looks first and installs only what is
 // missing, into the places where a bare shell finds it too (~/.cargo/bin, node_modules, the system's packages).
 import { createHash } from 'node:crypto'
-import { existsSync, readFileSync, writeFileSync } from 'node:fs'
+import { existsSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { homedir } from 'node:os'
 import { join } from 'node:path'
-import { capture, isMain, main, readIfThere, root, run, say, step, StepError, which } from './lib.mjs'
+import { cache, capture, isMain, main, readIfThere, root, run, say, step, StepError, which } from './lib.mjs'
 
 const wasmPackVersion = '0.15.1'
 const wasmTarget = 'wasm32-unknown-unknown'
@@ -14,9 +14,7 @@ export async function setUp({ browser = false } = {}) {
   await step('Node.js', checkNode)
   await step('Rust', checkRust)
   await step('Rust target for WebAssembly', addWasmTarget)
-  await step('wasm-bindgen', () => cargoInstall('wasm-bindgen-cli', 'wasm-bindgen', wasmBindgenVersion()))
-  await step('wasm-pack', () => cargoInstall('wasm-pack', 'wasm-pack', wasmPackVersion))
-  await step('npm packages', installPackages)
+  await Promise.all([step('npm packages', installPackages), installTools()])
   if (browser) {
     await step('Chromium and ChromeDriver', installBrowser)
     await step('Chromium’s headless shell', installHeadlessShell)
@@ -53,12 +51,31 @@ function wasmBindgenVersion() {
   return version
 }
 
-/** @param {string} crate @param {string} program @param {string} version */
-async function cargoInstall(crate, program, version) {
+async function installTools() {
+  try {
+    // Without TLS: it speaks to the driver of a browser on this machine, and to nobody else.
+    await step('wasm-bindgen', () => cargoInstall('wasm-bindgen-cli', 'wasm-bindgen', wasmBindgenVersion(), '--no-default-features'))
+    await step('wasm-pack', () => cargoInstall('wasm-pack', 'wasm-pack', wasmPackVersion))
+  } finally {
+    rmSync(toolsTarget, { recursive: true, force: true })
+  }
+}
+
+/** What tools have in common is compiled once. */
+const toolsTarget = cache('tools')
+
+/**
+ * They run for seconds: what the compiler would take to make them faster is not worth it.
+ * @param {string} crate @param {string} program @param {string} version @param {string[]} options
+ */
+export async function cargoInstall(crate, program, version, ...options) {
   if (capture(program, '--version')?.split(' ')[1] === version) return `${version}, there already`
   const install = (/** @type {string[]} */ ...how) =>
     // Away from the workspace, whose settings are for our own crates.
-    run('cargo', ['install', ...how, '--force', crate, '--version', `=${version}`], { cwd: homedir() })
+    run('cargo', ['install', ...how, ...options, '--force', crate, '--version', `=${version}`], {
+      cwd: homedir(),
+      env: { CARGO_TARGET_DIR: toolsTarget, CARGO_PROFILE_RELEASE_OPT_LEVEL: '0' },
+    })
   try {
     await install('--locked')
   } catch {

@@ -3,12 +3,10 @@ import { readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { gzipSync } from 'node:zlib'
 import { root, StepError } from './lib.mjs'
+import { programFile, programNames } from './registry.mjs'
 
 const elements = join(root, 'widgets', 'elements')
 export const notebook = join(elements, 'notebook.ts')
-
-/** The program with all figures, which reads bags as well. */
-const whole = join(root, 'widgets', 'pkg', 'fastslam_widgets_bg.wasm')
 
 /** One script of a source and all it imports. @param {string} entry @param {'es' | 'iife'} format @param {import('vite').Plugin[]} plugins */
 async function bundle(entry, format, plugins = []) {
@@ -38,19 +36,17 @@ const languages = (process.env.FASTSLAM_LANGUAGES ?? '').split(/[\s,]+/).filter(
 
 /**
  * The script, as text.
- * @param {string} entry its source @param {string} [wasm] the program that it carries @param {boolean} [maps] whether it maps the example
+ * @param {string} entry its source @param {string[]} [names] the programs that it carries: that of logs with the example
  * @returns {Promise<string>}
  */
-export async function singleFile(entry, wasm = whole, maps = true) {
-  const packed = (/** @type {string} */ file) => gzipSync(readFileSync(file), { level: 9 }).toString('base64')
-  const program = packed(wasm)
-  // Beside the program of logs alone there is that which reads bags for it.
-  const bags = maps && wasm !== whole ? packed(join(root, 'widgets', 'pkg', 'fastslam-bags.wasm')) : ''
+export async function singleFile(entry, names = programNames) {
+  const packed = (/** @type {string} */ name) => gzipSync(readFileSync(programFile(name)), { level: 9 }).toString('base64')
+  const programs = Object.fromEntries(names.map(name => [name, packed(name)]))
   // No module: pages opened from a file may not start workers that are modules.
   const worker = await bundle(join(elements, 'worker.ts'), 'iife')
-  const example = maps ? readFileSync(join(root, 'www', 'public', 'example.clf.gz')).toString('base64') : ''
+  const example = names.includes('log') ? readFileSync(join(root, 'www', 'public', 'example.clf.gz')).toString('base64') : ''
   const words = Object.fromEntries(languages.map(language => [language, JSON.parse(readFileSync(join(root, 'widgets', 'words', `${language}.json`), 'utf8'))]))
-  const carried = `export const example = ${JSON.stringify(example)}; export const program = ${JSON.stringify(program)}; export const bags = ${JSON.stringify(bags)}; export const worker = ${JSON.stringify(worker)}; export const words = ${JSON.stringify(words)}`
+  const carried = `export const example = ${JSON.stringify(example)}; export const programs = ${JSON.stringify(programs)}; export const worker = ${JSON.stringify(worker)}; export const words = ${JSON.stringify(words)}`
   return bundle(entry, 'es', [
     {
       name: 'fastslam-files',

@@ -84,36 +84,39 @@ async function serving(measure) {
   const take = () => answers.splice(0)
   const server = await startServer({ folder: dist, onServed: served => answers.push(served) })
   const programs = readdirSync(dist).filter(file => file.endsWith('.wasm'))
+  const browser = await launchChromium()
   try {
     await Promise.all(programs.map(async file => (await fetch(server.url + file, { headers: { 'Accept-Encoding': 'br' } })).arrayBuffer()))
     return await measure(async (path, ask) => {
       take()
-      const browser = await launchChromium()
+      // Of a context of its own, whose cache is empty.
+      const page = await browser.newPage({ viewport: { width: 1280, height: 800 } })
       try {
-        const page = await browser.newPage({ viewport: { width: 1280, height: 800 } })
-        const quiet = watchRequests(page)
+        const { answered, quiet } = watchRequests(page)
         await page.goto(server.url + path)
         await quiet()
         // Figures and pictures further down are loaded when they are seen: a reader who reads on loads those too.
         const end = await page.evaluate(() => document.documentElement.scrollHeight)
         for (let y = 0; y < end; y += 800) {
           await page.evaluate(top => scrollTo({ top, behavior: 'instant' }), y)
-          await quiet()
+          await answered()
         }
+        await quiet()
         const read = take()
         await ask(page, read)
         await quiet()
         return { read, asked: take() }
       } finally {
-        await browser.close()
+        await page.close()
       }
     })
   } finally {
+    await browser.close()
     await server.close()
   }
 }
 
-/** Waits until no request has been open for a while. @param {import('@playwright/test').Page} page */
+/** Waits: until what has come into sight by now has been asked for and answered, or until no request has been open for a while. @param {import('@playwright/test').Page} page */
 function watchRequests(page) {
   const open = new Set()
   let last = performance.now()
@@ -124,10 +127,15 @@ function watchRequests(page) {
       last = performance.now()
     })
   }
-  return async () => {
+  const answered = async () => {
+    await page.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done)))))
+    while (open.size > 0) await page.waitForTimeout(20)
+  }
+  const quiet = async () => {
     const asked = performance.now()
     while (open.size > 0 || performance.now() - Math.max(last, asked) < 500) await page.waitForTimeout(50)
   }
+  return { answered, quiet }
 }
 
 /** @param {import('./serve.mjs').Served[]} answers */

@@ -1,17 +1,16 @@
-// npm test: sets up, builds, checks, and runs every test there is. A step that fails is named; those after it still run, so that
-// one run shows all that is wrong. The last line is the total of all the runners: `N passed, M failed, K skipped`.
-//
-// A test in Rust that lacks what it needs (a log that may not be shipped, Python) cannot tell cargo so: it prints a line
-// `skipped: why` and returns. `counted` counts such a test as skipped and not as passed, and names the reasons.
+// npm test: sets up, builds, checks, and runs every kind of test; npm run test:all adds breadth. A step that fails is named; those after
+// it still run, so that one run shows all that is wrong. At the end stand what each step and the dearest tests took, and the total of
+// all the runners: `N passed, M failed, K skipped`.
 import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { buildPages, buildPrograms, buildTrouble, buildWasm } from './build.mjs'
+import { buildPages, buildPrograms, buildTrouble } from './build.mjs'
 import { checks } from './check.mjs'
-import { aboutFailures, bold, cache, main, npmBin, readIfThere, red, root, run, step, StepError } from './lib.mjs'
+import { tellFigures, writeNames } from './elements.mjs'
+import { aboutFailures, bold, cache, main, npmBin, red, root, run, step, StepError } from './lib.mjs'
 import { findChrome, findChromeDriver, setUp } from './setup.mjs'
 import { checkEmbedSizes, checkSize } from './size.mjs'
+import { add, closingLine, counted, inWords, printTable, timeCargo, timePlaywright, total } from './tally.mjs'
 
-const total = { passed: 0, failed: 0, skipped: 0 }
 /** What failed, with the lines of the tools about it, which the end of the run repeats. @type {{ title: string, about: string }[]} */
 const failures = []
 
@@ -28,80 +27,43 @@ async function attempt(title, action) {
   }
 }
 
-/** A step that runs tests of cargo's kind, and adds up what they count. @param {() => Promise<{ output: string }>} tests */
-async function counted(tests) {
-  try {
-    return count((await tests()).output)
-  } catch (error) {
-    count(/** @type {{ output?: string }} */ (error).output ?? '')
-    throw error
-  }
-}
-
-/** @param {string} output */
-function count(output) {
-  let [passed, skipped] = [0, 0]
-  for (const [, good, bad, ignored] of output.matchAll(/^test result: .*?(\d+) passed; (\d+) failed(?:; (\d+) ignored)?/gm)) {
-    passed += Number(good)
-    skipped += Number(ignored ?? 0)
-    total.failed += Number(bad)
-  }
-  // What a test printed: at the start of a line, or behind its name.
-  const reasons = [...output.matchAll(/^(?:test .*\.\.\. )?skipped: (.*)$/gm)].map(([, why]) => why)
-  passed -= reasons.length
-  skipped += reasons.length
-  total.passed += passed
-  total.skipped += skipped
-  if (passed + skipped === 0) throw new StepError('Not one test passed: have the tests been lost?')
-  return [`${passed} passed`, ...(skipped > 0 ? [`${skipped} skipped`] : []), ...reasons].join(', ')
+/** Runs tests and adds up what they count. @param {Parameters<typeof run>} command */
+async function tests(...command) {
+  const { output, error } = await run(...command).then(({ output }) => ({ output, error: undefined }), error => ({ output: String(error.output ?? ''), error }))
+  const counts = counted(output)
+  if (counts) add(counts)
+  timeCargo(output)
+  if (error) throw error
+  if (!counts || counts.passed + counts.skipped === 0) throw new StepError('Not one test passed: have the tests been lost?')
+  return inWords(counts)
 }
 
 /** Tests of scripts, by Node's own runner. */
-async function nodeTest() {
+function nodeTest() {
   const files = readdirSync(join(root, 'tests', 'chapter')).filter(file => file.endsWith('.test.mjs'))
-  return counted(async () => {
-    const args = ['--test', '--test-reporter=tap', ...files.map(file => join(root, 'tests', 'chapter', file))]
-    // Told in cargo's words, so that all runners are added up alike.
-    const inCargosWords = (/** @type {{ output?: string }} */ { output = '' }) => {
-      const number = (/** @type {string} */ name) => Number(new RegExp(`^# ${name} (\\d+)$`, 'm').exec(output)?.[1] ?? 0)
-      const ignored = number('skipped') + number('todo')
-      return { output: `${output}\ntest result: ${number('pass')} passed; ${number('fail')} failed; ${ignored} ignored` }
-    }
-    try {
-      return inCargosWords(await run(process.execPath, args))
-    } catch (error) {
-      throw Object.assign(/** @type {Error} */ (error), inCargosWords(/** @type {{ output?: string }} */ (error)))
-    }
-  })
+  return tests(process.execPath, ['--test', '--test-reporter=tap', ...files.map(file => join(root, 'tests', 'chapter', file))])
 }
 
 /** Test of the step `oracle`, and of no other. */
 const oracleTest = 'the_same_weights_and_uniforms_give_the_ancestors_of_the_package_particles'
 
 /** Shows what passed tests print as well, for the reasons of those that skip. @param {string[]} args */
-const cargoTest = (...args) =>
-  counted(() => run('cargo', ['test', '--no-fail-fast', ...args, '--', '--show-output', '--skip', oracleTest]))
+const cargoTest = (...args) => tests('cargo', ['test', '--no-fail-fast', ...args, '--', '--show-output', '--skip', oracleTest])
 
 /**
  * Holds resampling against a Python package, which it installs at its first run. Without Python or PyPI it is skipped. Of the whole
  * workspace, as the native tests are: of `laws` alone, the filter crate would be built once more, with its features only.
  */
-const oracle = () => counted(() => run('cargo', ['test', '--workspace', '--test', 'oracle', '--', '--ignored', '--show-output']))
+const oracle = () => tests('cargo', ['test', '--workspace', '--test', 'oracle', '--', '--ignored', '--show-output'])
 
 /** Of packages outside the workspace: this target folder, where most of what they need is built. */
 const sharedTarget = { CARGO_TARGET_DIR: process.env.CARGO_TARGET_DIR ?? join(root, 'target') }
 
 /** Somebody else's package, outside the workspace. */
-const outside = () =>
-  counted(() =>
-    run('cargo', ['test', '--no-fail-fast', '--', '--show-output'], { cwd: join(root, 'tests', 'outside'), env: sharedTarget }),
-  )
+const outside = () => tests('cargo', ['test', '--no-fail-fast', '--', '--show-output'], { cwd: join(root, 'tests', 'outside'), env: sharedTarget })
 
 /** The pose graph against `factrs`, a package of somebody else's that switches on features which would change results. */
-const factrs = () =>
-  counted(() =>
-    run('cargo', ['test', '--no-fail-fast', '--', '--show-output'], { cwd: join(root, 'tests', 'factrs'), env: sharedTarget }),
-  )
+const factrs = () => tests('cargo', ['test', '--no-fail-fast', '--', '--show-output'], { cwd: join(root, 'tests', 'factrs'), env: sharedTarget })
 
 /** Those of the filter crate, which check their own results. */
 async function examples() {
@@ -122,25 +84,20 @@ function wasmTest() {
   mkdirSync(cache(), { recursive: true })
   writeFileSync(capabilities, JSON.stringify(settings))
   const driver = findChromeDriver() ?? 'chromedriver'
-  return counted(() =>
-    run('wasm-pack', ['test', '--headless', '--chrome', '--chromedriver', driver, '--release', 'tests/browser'], {
-      env: { WASM_BINDGEN_TEST_WEBDRIVER_JSON: capabilities, WASM_BINDGEN_TEST_TIMEOUT: '600', WASM_BINDGEN_TEST_DRIVER_TIMEOUT: '60' },
-    }),
-  )
+  return tests('wasm-pack', ['test', '--headless', '--chrome', '--chromedriver', driver, '--release', 'tests/browser'], {
+    env: { WASM_BINDGEN_TEST_WEBDRIVER_JSON: capabilities, WASM_BINDGEN_TEST_TIMEOUT: '600', WASM_BINDGEN_TEST_DRIVER_TIMEOUT: '60' },
+  })
 }
+
+/** What the tests of the page take on two quiet cores [s]: by that, breadth knows how slow this machine is now. */
+const usualPage = 240
 
 async function playwright() {
   rmSync(cache('e2e.json'), { force: true })
-  let stats
-  try {
-    await run(npmBin('playwright'), ['test', '--config', join(root, 'tests', 'e2e')])
-  } finally {
-    stats = JSON.parse(readIfThere(cache('e2e.json')) ?? '{}').stats
-    total.passed += stats?.expected ?? 0
-    total.failed += (stats?.unexpected ?? 0) + (stats?.flaky ?? 0)
-    total.skipped += stats?.skipped ?? 0
-  }
-  return `${stats.expected} passed${stats.skipped > 0 ? `, ${stats.skipped} skipped` : ''}`
+  const started = performance.now()
+  const note = await tests(npmBin('playwright'), ['test', '--config', join(root, 'tests', 'e2e'), '--grep-invert', '@breadth'])
+  writeFileSync(cache('pace'), String((performance.now() - started) / 1000 / usualPage))
+  return note
 }
 
 await main(async () => {
@@ -149,8 +106,9 @@ await main(async () => {
   const [format, ...otherChecks] = checks
   await attempt(...format)
   // Without these there is nothing to test: a failure here ends the run.
-  await buildWasm()
   await buildPrograms()
+  await step('What the figures tell of themselves', tellFigures)
+  await step('Names of the figures', writeNames)
   await buildTrouble()
   await buildPages()
   for (const check of otherChecks) await attempt(...check)
@@ -167,10 +125,12 @@ await main(async () => {
   await attempt('Size of the page', checkSize)
   await attempt('Size of an embedded figure', checkEmbedSizes)
 
+  timePlaywright()
+  printTable()
   const minutes = ((performance.now() - started) / 60_000).toFixed(1)
   for (const { title, about } of failures) console.log(`\n${red(bold(title))}\n${about}`)
   if (failures.length > 0) console.log(red(bold(`\nFailed after ${minutes} min: ${failures.map(({ title }) => title).join('; ')}`)))
   else console.log(bold(`\nAll well after ${minutes} min.`))
-  console.log(`${total.passed} passed, ${total.failed} failed, ${total.skipped} skipped`)
+  console.log(closingLine())
   if (failures.length > 0) process.exitCode = 1
 })

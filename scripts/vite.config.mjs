@@ -4,6 +4,7 @@ import { readdirSync } from 'node:fs'
 import { basename, join } from 'node:path'
 import { defineConfig } from 'vite'
 import { chapter } from './chapter/plugin.mjs'
+import { dist } from './build.mjs'
 import { root } from './lib.mjs'
 import { policy } from './policy.mjs'
 
@@ -27,7 +28,7 @@ export default defineConfig({
   base: './',
   plugins: [chapter(root), policyInHead],
   build: {
-    outDir: join(root, 'dist'),
+    outDir: dist,
     emptyOutDir: true,
     target: 'es2022',
     // Under the content security policy neither a data: font nor an inline style is allowed.

@@ -1,15 +1,10 @@
 // The same as files.ts for a script that carries its files along (scripts/single.mjs): notebooks, pages from file://, learning systems.
-import { bags, example, program, worker, words } from 'virtual:fastslam-files'
+import { example, programs, worker, words } from 'virtual:fastslam-files'
 import type { Catalogue } from './words'
-
-/** There is one program; beside one that cannot read bags, another that does. */
-export function programName(): string {
-  return 'all'
-}
 
 /** Packed as gzip in base64: a third smaller than the program itself. */
 export async function fetchProgram(name: string): Promise<Response> {
-  const stream = new Blob([bytes((name === 'bags' && bags) || program)]).stream().pipeThrough(new DecompressionStream('gzip'))
+  const stream = new Blob([bytes(programs[name] ?? '')]).stream().pipeThrough(new DecompressionStream('gzip'))
   return new Response(stream, { headers: { 'Content-Type': 'application/wasm' } })
 }
 

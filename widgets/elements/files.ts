@@ -1,16 +1,10 @@
 // Where the files of the figures are: beside this script. A script that carries them along has files-inline.ts in place of this one.
-import { FIGURES } from './generated/figures'
 import type { Catalogue } from './words'
 import worker from './worker?worker&url'
 
 /** Of every language but English, which is in the script: a file more here is a language more. */
 const WORDS = import.meta.glob<string>(['../words/*.json', '!../words/en.json'], { eager: true, query: '?url', import: 'default' })
 const PICTURES = import.meta.glob<string>('../../tests/figures/golden/fastslam-*.png', { eager: true, query: '?url', import: 'default' })
-
-/** Figures of one program share it. */
-export function programName(tag: string): string {
-  return FIGURES[tag]?.program ?? 'page'
-}
 
 /** A program, and the one place where its file is chosen. Those for logs and for bags are apart, as many a reader never maps one. */
 export function fetchProgram(name: string): Promise<Response> {

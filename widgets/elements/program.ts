@@ -1,6 +1,7 @@
 // Programs: fetched when the first figure that needs one is seen, compiled once, with one instance that its figures share. After a trap
 // the instance is dead: it is dropped, and another one is made of what was compiled.
-import { fetchProgram, programName } from './files'
+import { fetchProgram } from './files'
+import { FIGURES } from './generated/figures'
 import { createShell } from './generated/shell'
 import type { Shell } from './shell'
 import { ToldError } from './words'
@@ -46,9 +47,9 @@ export class Program {
 
 const programs = new Map<string, Program>()
 
-/** The program of a figure. */
+/** The program of a figure: figures of one program share it. */
 export function programOf(tag: string): Program {
-  return programNamed(programName(tag))
+  return programNamed(FIGURES[tag]?.program ?? 'page')
 }
 
 /** The program of this name. */

@@ -1,8 +1,7 @@
 declare module 'virtual:fastslam-files' {
   export const example: string
-  export const program: string
-  /** That which reads bags, where `program` does not. */
-  export const bags: string
+  /** By name, packed as gzip in base64. */
+  export const programs: Record<string, string | undefined>
   export const worker: string
   export const words: Record<string, import('./words').Catalogue | undefined>
 }
