@@ -1,5 +1,5 @@
 // npm run bench: the native benchmarks (criterion), what the tree of paths holds, then the same laps timed in WebAssembly in headless Chromium, side by side
-// with the targets they are held to.
+// with the targets they are held to. `-- --quick` shows that all of it runs, and measures little.
 import { existsSync, readdirSync, readFileSync } from 'node:fs'
 import { basename, join } from 'node:path'
 import { launchChromium } from './browser.mjs'
@@ -11,7 +11,8 @@ import { setUp } from './setup.mjs'
 
 /** The criterion benchmark of one whole lap of 16 universes on one thread, which is what WebAssembly runs. */
 const nativeLap = 'lap/serial/16'
-const laps = 5
+const quick = process.argv.includes('--quick')
+const laps = quick ? 1 : 5
 /** What wasm-pack makes of tests/speed. */
 const landmarks = cache('speed')
 const width = 1280
@@ -274,7 +275,7 @@ if (isMain(import.meta)) {
     await step('Landmark filters to WebAssembly', () =>
       run('wasm-pack', ['build', 'tests/speed', '--target', 'web', '--release', '--no-pack', '--out-dir', landmarks]),
     )
-    await step('Benchmarks, native (criterion)', () => run('cargo', ['bench', '--package', 'speed', '--bench', 'lap', '--bench', 'landmarks', '--bench', 'log']))
+    await step('Benchmarks, native (criterion)', () => run('cargo', ['bench', '--package', 'speed', '--bench', 'lap', '--bench', 'landmarks', '--bench', 'log', ...(quick ? ['--', '--quick'] : [])]))
     await step('The tree of all paths, over 10⁵ steps', treeOfPaths)
     await step('The page in Chromium', async () => {
       const { paint, alive, shift, longest } = await timePage()
@@ -294,7 +295,7 @@ if (isMain(import.meta)) {
     })
     await step('Logs in their figure and natively', async () => {
       const intel = join(root, '..', 'shared', 'data', 'intel.clf')
-      const recorded = existsSync(intel)
+      const recorded = existsSync(intel) && !quick
       const log = recorded ? intel : join(root, 'www', 'public', 'example.clf.gz')
       const { seconds, native, alone, wasm, median, worst } = await timeLog(log)
       say(bold(`\n  ${basename(log)}, 16 universes, one scan and particle`))
@@ -309,7 +310,7 @@ if (isMain(import.meta)) {
         verdict('the page answers meanwhile, median', median, 50),
         verdict('the page answers meanwhile, worst', worst, 50),
       ]
-      return `${recorded ? '' : 'intel.clf is not in ../shared/data: the example instead; '}${met.filter(Boolean).length} of ${met.length} targets met`
+      return `${recorded ? '' : 'without intel.clf of ../shared/data: the example instead; '}${met.filter(Boolean).length} of ${met.length} targets met`
     })
     await step('Benchmarks, WebAssembly in Chromium', async () => {
       const folder = JSON.parse(capture('cargo', 'metadata', '--no-deps', '--format-version', '1') ?? '{}').target_directory
