@@ -4,7 +4,7 @@ import { tmpdir } from 'node:os'
 import { join } from 'node:path'
 import { expect, test } from '@playwright/test'
 import { cache } from '../../scripts/lib.mjs'
-import { freePort, serve } from './server'
+import { freePort, serve } from './server.mjs'
 
 const cells = [
   'from fastslam_widgets import FastslamLap, FastslamProposal\nlap = FastslamLap(universes=8, seed=5, step=3, decimal="comma")\nlap',
