@@ -13,7 +13,7 @@ export const checks = [
   ['Lints (clippy)', () => run('cargo', ['clippy', '--workspace', '--all-targets', '--', '-D', 'warnings'])],
   ['Lints for WebAssembly (clippy)', clippyWasm],
   ['Documentation (cargo doc)', () => run('cargo', ['doc', '--workspace', '--no-deps', '--all-features'], { env: { RUSTDOCFLAGS: '-D warnings' } })],
-  ['Crates as they would be published (cargo package)', checkPackages],
+  ['What the packages of the crates hold (cargo package --list)', listPackages],
   ['Licences and sources of crates', checkCrates],
   ['Types (TypeScript)', checkTypes],
   ['Spelling (cspell)', () => run(npmBin('cspell'), ['--no-progress', '--config', join(root, 'cspell.json')], { hint: 'A word of the field goes into www/words.txt.' })],
@@ -29,12 +29,9 @@ async function clippyWasm() {
   for (const program of programNames) await clippy('-p', 'fastslam-widgets', '--lib', '--no-default-features', '--features', `single-threaded,${program}`)
 }
 
-/**
- * Packs the crates, and builds each from its package alone, with the others out of a registry that cargo makes for the purpose.
- * What they depend on besides is there from the lints: the network is not asked.
- */
-async function checkPackages() {
-  const crates = ['fastslam', 'fastslam-lab', 'fastslam-widgets']
+const crates = ['fastslam', 'fastslam-lab', 'fastslam-widgets']
+
+async function listPackages() {
   for (const crate of crates) {
     const { output } = await run('cargo', ['package', '--list', '--allow-dirty', '--package', crate])
     const packed = output.trim().split(/\s+/)
@@ -43,6 +40,13 @@ async function checkPackages() {
     const other = packed.filter(file => !/^(src|tests|examples|fonts|words)\/|^[^/]+$/.test(file))
     if (other.length > 0) throw new StepError(`The package ${crate} holds what no crate needs: ${other.join(', ')}.`)
   }
+}
+
+/**
+ * Packs the crates, and builds each from its package alone, with the others out of a registry that cargo makes for the purpose.
+ * What they depend on besides is there from the lints: the network is not asked.
+ */
+async function buildPackages() {
   // What a registry has, Cargo takes for unchangeable: it would build the crates as they were packed the last time.
   const target = join(root, 'target', 'published')
   const sources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry', 'src')
@@ -53,7 +57,9 @@ async function checkPackages() {
     for (const name of ours) rmSync(join(folder, name), { recursive: true })
   }
   const packages = crates.flatMap(crate => ['--package', crate])
-  const { output } = await run('cargo', ['package', '--offline', '--allow-dirty', '--target-dir', target, ...packages])
+  // Nothing of it is run.
+  const env = { CARGO_PROFILE_DEV_OPT_LEVEL: '0', CARGO_PROFILE_DEV_DEBUG: '0' }
+  const { output } = await run('cargo', ['package', '--offline', '--allow-dirty', '--target-dir', target, ...packages], { env })
   if (/^warning/m.test(output)) throw new StepError('Packing the crates gives warnings: see above.')
 }
 
@@ -66,6 +72,7 @@ if (isMain(import.meta)) {
     // The elements are typed against what wasm-pack writes, and the links are those of the pages.
     await build()
     for (const [name, action] of checks) await step(name, action)
+    await step('Crates built from their packages (cargo package)', buildPackages)
     await step('Known holes of npm packages (npm audit)', audit)
   })
 }
