@@ -64,12 +64,15 @@ async function installTools() {
 /** What tools have in common is compiled once. */
 const toolsTarget = cache('tools')
 
+/** The version that a program tells behind its name. @param {string} program */
+const versionOf = program => capture(program, '--version')?.split(/\s/)[1]
+
 /**
- * They run for seconds: what the compiler would take to make them faster is not worth it.
+ * A tool from crates.io, of one version. It runs for seconds: what the compiler would take to make it faster is not worth it.
  * @param {string} crate @param {string} program @param {string} version @param {string[]} options
  */
 export async function cargoInstall(crate, program, version, ...options) {
-  if (capture(program, '--version')?.split(' ')[1] === version) return `${version}, there already`
+  if (versionOf(program) === version) return `${version}, there already`
   const install = (/** @type {string[]} */ ...how) =>
     // Away from the workspace, whose settings are for our own crates.
     run('cargo', ['install', ...how, ...options, '--force', crate, '--version', `=${version}`], {
@@ -84,7 +87,7 @@ export async function cargoInstall(crate, program, version, ...options) {
     say(`${crate} cannot be built from its own lock file; building it from the newest packages that fit it.`)
     await install()
   }
-  if (capture(program, '--version')?.split(' ')[1] !== version) {
+  if (versionOf(program) !== version) {
     throw new StepError(`Another ${program} stands before the one just installed: ${which(program)}`, `Remove it, or put ~/.cargo/bin before it on PATH.`)
   }
   return version
@@ -161,13 +164,12 @@ const browserHint =
   'On Debian: apt-get install chromium chromium-driver\n' +
   'Elsewhere: install both, or name them in the variables CHROME and CHROMEDRIVER.'
 
-/** @param {string[]} packages */
+/** Debian's packages, where that is allowed. @param {string[]} packages */
 export async function aptInstall(...packages) {
-  if (!which('apt-get')) throw new StepError('There is no Chromium or no ChromeDriver here.', browserHint)
+  const missing = `What is in Debian’s ${packages.join(', ')} is missing here`
+  if (!which('apt-get')) throw new StepError(`${missing}, and there is no apt-get.`, browserHint)
   const isRoot = process.getuid?.() === 0
-  if (!isRoot && capture('sudo', '-n', 'true') === undefined) {
-    throw new StepError('There is no Chromium or no ChromeDriver here, and installing them needs root.', browserHint)
-  }
+  if (!isRoot && capture('sudo', '-n', 'true') === undefined) throw new StepError(`${missing}, and installing it needs root.`, browserHint)
   const apt = (/** @type {string[]} */ ...args) => {
     const words = ['env', 'DEBIAN_FRONTEND=noninteractive', 'apt-get', '-q', ...args]
     return isRoot ? run(words[0], words.slice(1), { hint: browserHint }) : run('sudo', ['-n', ...words], { hint: browserHint })

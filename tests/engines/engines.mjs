@@ -1,9 +1,8 @@
 // The browsers that are compared: how each is installed where it is missing, and driven.
 import { readFileSync } from 'node:fs'
-import { homedir } from 'node:os'
 import { join } from 'node:path'
-import { capture, root, run, StepError, which } from '../../scripts/lib.mjs'
-import { aptInstall, findChrome, findChromeDriver } from '../../scripts/setup.mjs'
+import { root, which } from '../../scripts/lib.mjs'
+import { aptInstall, cargoInstall, findChrome, findChromeDriver } from '../../scripts/setup.mjs'
 
 /**
  * @typedef {object} Engine
@@ -36,12 +35,7 @@ export const ENGINES = {
     takes: 'Debian’s package firefox-esr, by apt-get as root, and geckodriver, by cargo install',
     async install() {
       if (!which('firefox-esr')) await aptInstall('firefox-esr')
-      const version = () => capture('geckodriver', '--version')?.split(/\s/)[1]
-      if (version() === geckodriverVersion) return
-      // It only hands calls on: compiled without optimization it is there in half the time, and as quick.
-      const env = { CARGO_PROFILE_RELEASE_OPT_LEVEL: '0' }
-      await run('cargo', ['install', '--locked', '--force', 'geckodriver', '--version', `=${geckodriverVersion}`], { cwd: homedir(), env })
-      if (version() !== geckodriverVersion) throw new StepError(`Another geckodriver stands before the one just installed: ${which('geckodriver')}.`)
+      await cargoInstall('geckodriver', 'geckodriver', geckodriverVersion)
     },
     driver: () => ({
       command: port => ['geckodriver', '--port', String(port)],
