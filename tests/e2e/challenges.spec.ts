@@ -1,9 +1,9 @@
 // The challenges of every figure: numbered chips that set its state, by mouse, keyboard and touch; what was reached is remembered on this
-// device and nowhere else.
+// device and nowhere else. What the states are, and when a goal is reached, is held without a browser: widgets/tests/all/challenges.rs.
 import { programs } from '../../scripts/registry.mjs'
 import { Figure } from './figure'
 import { expect, test } from './fixtures'
-import { openAlone, openCourse } from './host'
+import { breadth, breadthOf, openAlone, openCourse } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -22,7 +22,7 @@ async function alone(figure: Figure, tag: string, link = ''): Promise<Figure> {
 const on = (figure: Figure) => chips(figure).evaluateAll(all => all.flatMap((chip, i) => (chip.ariaPressed === 'true' ? [i] : [])))
 
 for (const tag of programs.keys()) {
-  test(`every chip of ${tag} sets its state and is marked, by mouse and by keyboard, and can be undone`, async ({ page }) => {
+  test(`every chip of ${tag} sets its state and is marked, by mouse and by keyboard, and can be undone`, breadthOf(tag), async ({ page }) => {
     const figure = await alone(new Figure(page, tag), tag)
     const before = await figure.state()
     const count = await chips(figure).count()
@@ -57,20 +57,19 @@ for (const tag of programs.keys()) {
     expect(await chips(figure).evaluateAll(all => all.filter(chip => (chip as HTMLElement).tabIndex === 0).length)).toBe(1)
   })
 
-  test(`the chips of ${tag} take no height where it is wide, and leave its title whole`, async ({ page }) => {
+  test(`the chips of ${tag} take no height where it is wide, and leave its title whole`, breadthOf(tag), async ({ page }) => {
     await page.setViewportSize({ width: 1366, height: 650 })
-    await openCourse(page, ['on', 'off'].map(value => `<div style="width: 832px"><${tag} id="${value}" chips="${value}"></${tag}></div>`).join(''))
-    for (const value of ['on', 'off']) {
-      await page.locator(`#${value}`).scrollIntoViewIfNeeded()
-      await expect(page.locator(`#${value} .sentence:not(:empty)`)).toHaveCount(1)
-    }
-    await expect(page.locator('#on .chip').first()).toBeVisible()
-    await expect(page.locator('#off .chip').first()).toBeHidden()
-    const heights = await page.locator('.head').evaluateAll(heads => heads.map(head => head.getBoundingClientRect().height))
-    expect(heights[0]).toBe(heights[1])
-    const titles = await page.locator('.head .title').evaluateAll(all => all.map(title => title.getBoundingClientRect().height))
-    expect(titles[0]).toBe(titles[1])
-    for (const { width, height } of await page.locator('#on .chip').evaluateAll(all => all.map(chip => chip.getBoundingClientRect()))) {
+    await openCourse(page, `<div style="width: 832px"><${tag} chips="off"></${tag}></div>`)
+    const figure = page.locator(tag)
+    const heights = () => figure.locator('.head, .head .title').evaluateAll(all => all.map(part => part.getBoundingClientRect().height))
+    await expect(figure.locator('.sentence:not(:empty)')).toHaveCount(1)
+    await expect(figure.locator('.chip').first()).toBeHidden()
+    const without = await heights()
+    expect(without).toHaveLength(2)
+    await figure.evaluate(figure => figure.setAttribute('chips', 'on'))
+    await expect(figure.locator('.chip').first()).toBeVisible()
+    expect(await heights()).toEqual(without)
+    for (const { width, height } of await figure.locator('.chip').evaluateAll(all => all.map(chip => chip.getBoundingClientRect()))) {
       expect(Math.min(width, height)).toBeGreaterThanOrEqual(24)
     }
   })
@@ -174,7 +173,7 @@ test.describe('on a phone', () => {
   test.use({ viewport: { width: 380, height: 760 }, hasTouch: true, isMobile: true })
 
   for (const tag of programs.keys()) {
-    test(`the chips of ${tag} have their words, are large enough for a finger, and are taken by it`, async ({ page }) => {
+    test(`the chips of ${tag} have their words, are large enough for a finger, and are taken by it`, breadthOf(tag), async ({ page }) => {
       await openCourse(page, `<${tag}></${tag}><p style="height: 900px">After.</p>`)
       const figure = new Figure(page, tag)
       await expect(group(figure)).toBeVisible()
@@ -193,19 +192,22 @@ test.describe('on a phone', () => {
 })
 
 test.describe('in the chapter', () => {
-  for (const tag of programs.keys()) {
-    test(`the list under ${tag} has its challenges in words, and they do the same`, async ({ page }) => {
+  const few = [...programs.keys()].filter(tag => !breadthOf(tag).tag)
+  for (const [which, tags, options] of [['a few figures', few, {}], ['every figure', [...programs.keys()], breadth]] as const) {
+    test(`the list under ${which} has its challenges in words, and they do the same`, options, async ({ page }) => {
       await page.goto('./')
-      const figure = new Figure(page, tag)
-      const list = page.locator('figure', { has: page.locator(`> ${tag}`) }).locator('figcaption button.chip')
-      await figure.element.scrollIntoViewIfNeeded()
-      await expect(group(figure)).toBeVisible()
-      await expect(list).toHaveCount(await chips(figure).count())
-      const names = await chips(figure).evaluateAll(all => all.map(chip => (chip as HTMLElement).dataset['challenge']))
-      expect(await list.evaluateAll(all => all.map(button => button.dataset['challenge']))).toEqual(names)
-      await list.last().click()
-      await expect.poll(() => on(figure)).toEqual([names.length - 1])
-      await expect(figure.element).toBeInViewport()
+      for (const tag of tags) {
+        const figure = new Figure(page, tag)
+        const list = page.locator('figure', { has: page.locator(`> ${tag}`) }).locator('figcaption button.chip')
+        await figure.element.scrollIntoViewIfNeeded()
+        await expect(group(figure)).toBeVisible()
+        await expect(list).toHaveCount(await chips(figure).count())
+        const names = await chips(figure).evaluateAll(all => all.map(chip => (chip as HTMLElement).dataset['challenge']))
+        expect(await list.evaluateAll(all => all.map(button => button.dataset['challenge']))).toEqual(names)
+        await list.last().click()
+        await expect.poll(() => on(figure), tag).toEqual([names.length - 1])
+        await expect(figure.element).toBeInViewport()
+      }
     })
   }
 

@@ -1,8 +1,9 @@
-// A run is pinned beside the next ones, and its setting is run at five seeds: by mouse, by keyboard and by touch.
+// A run is pinned beside the next ones, and its setting is run at five seeds: by mouse, by keyboard and by touch. That the curves of every
+// figure stay, and that a seed is the same whichever was run before, is held without a browser: widgets/tests/all/pinned.rs.
 import type { Locator, Page } from '@playwright/test'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
-import { openCourse } from './host'
+import { breadthOf, openCourse } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -41,7 +42,7 @@ async function give(figure: Figure, [name, value]: [string, string]): Promise<vo
 }
 
 for (const [tag, link, change, says] of RUNS) {
-  test(`${tag} keeps a pinned run behind and beside the next one, and goes back to it`, async ({ page }) => {
+  test(`${tag} keeps a pinned run behind and beside the next one, and goes back to it`, breadthOf(tag), async ({ page }) => {
     const figure = await open(page, tag, link)
     const before = await figure.state()
     await figure.button('Pin this run').click()
@@ -80,7 +81,7 @@ for (const [tag, link, change, says] of RUNS) {
     expect(await figure.picture()).toBe(haunted)
   })
 
-  test(`${tag} shows the pinned picture in the place of its own, by mouse and by keyboard`, async ({ page }) => {
+  test(`${tag} shows the pinned picture in the place of its own, by mouse and by keyboard`, breadthOf(tag), async ({ page }) => {
     const figure = await open(page, tag, link)
     await figure.button('Pin this run').focus()
     await page.keyboard.press('Enter')
@@ -108,7 +109,7 @@ for (const [tag, link, change, says] of RUNS) {
     await expect(overlay(figure)).toBeHidden()
   })
 
-  test(`${tag} runs five seeds, with exactly the readouts that it has at each of them`, async ({ page }) => {
+  test(`${tag} runs five seeds, with exactly the readouts that it has at each of them`, breadthOf(tag), async ({ page }) => {
     const figure = await open(page, tag, link)
     const first = Number(await figure.seed.inputValue())
     const told = figure.element.evaluate(element => new Promise<unknown>(done => element.addEventListener('fastslam-seeds', event => done((event as CustomEvent).detail), { once: true })))
@@ -219,7 +220,7 @@ test.describe('on a phone', () => {
   test.use({ viewport: { width: 380, height: 760 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 })
 
   for (const [tag, link, change, says] of RUNS) {
-    test(`${tag} pins, peeks and goes back by touch`, async ({ page }) => {
+    test(`${tag} pins, peeks and goes back by touch`, breadthOf(tag), async ({ page }) => {
       const figure = await open(page, tag, link)
       const before = await figure.state()
       await figure.button('Pin this run').tap()

@@ -31,7 +31,7 @@ test.describe('at rest', () => {
   })
 
   test('it stops at the last step, and plays from the first again', async ({ page }) => {
-    const lap = await new Figure(page, 'fastslam-lap').alone()
+    const lap = await new Figure(page, 'fastslam-lap').alone('#fastslam-lap?universes=4')
     const last = await lap.last()
     await lap.scrubTo(last - 1)
     await lap.play.click()
@@ -75,12 +75,12 @@ test.describe('at rest', () => {
     expect(await lap.position()).toBeLessThan(last * 0.6)
   })
 
-  for (const name of ['odometry', 'range-std', 'universes']) {
-    test(`dragging ${name} simulates anew up to the step shown, and back gives the same numbers`, async ({ page }) => {
-      const lap = await new Figure(page, 'fastslam-lap').alone()
-      await lap.openSettings()
-      await lap.scrubTo(12)
-      const before = await lap.readouts()
+  test('dragging a slider simulates anew up to the step shown, and back gives the same numbers', async ({ page }) => {
+    const lap = await new Figure(page, 'fastslam-lap').alone()
+    await lap.openSettings()
+    await lap.scrubTo(12)
+    const before = await lap.readouts()
+    for (const name of ['odometry', 'range-std', 'universes']) {
       const value = await lap.box(name).inputValue()
       const slider = lap.slider(name)
       await slider.scrollIntoViewIfNeeded()
@@ -98,13 +98,13 @@ test.describe('at rest', () => {
       await lap.settled()
       expect(await lap.box(name).inputValue()).not.toBe(value)
       expect(await lap.position()).toBe(12)
-      expect(await lap.readouts()).not.toEqual(before)
+      expect(await lap.readouts(), name).not.toEqual(before)
       await lap.box(name).fill(value)
       await lap.box(name).press('Enter')
       await lap.settled()
-      expect(await lap.readouts()).toEqual(before)
-    })
-  }
+      expect(await lap.readouts(), name).toEqual(before)
+    }
+  })
 
   test('every switch of the filter can be turned, and gives another lap or another picture', async ({ page }) => {
     const lap = await new Figure(page, 'fastslam-lap').alone()

@@ -62,9 +62,14 @@ export class LogFigure {
     }, scan)
   }
 
+  /** Until what was asked for is shown. */
+  async settled(): Promise<void> {
+    await this.element.evaluate((figure: HTMLElement & { settled(): Promise<void> }) => figure.settled())
+  }
+
   /** A fingerprint of the pixels. */
   async picture(): Promise<number> {
-    await this.element.evaluate((figure: HTMLElement & { settled(): Promise<void> }) => figure.settled())
+    await this.settled()
     return this.element.locator('canvas').evaluate((canvas: HTMLCanvasElement) => {
       const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d', { willReadFrequently: true })!
       copy.drawImage(canvas, 0, 0)

@@ -2,7 +2,7 @@
 import type { Locator, Page } from '@playwright/test'
 import { brokenRules } from './axe'
 import { expect, test } from './fixtures'
-import { Figure } from './figure'
+import { Figure, keepOnly } from './figure'
 
 const open = (page: Page, query?: string) => new Figure(page, 'fastslam-resampling').alone(query && `#fastslam-resampling?${query}`)
 
@@ -126,12 +126,10 @@ test.describe('at rest', () => {
     expect([await figure.readouts(), await figure.last()]).toEqual(before)
   })
 
-  for (const name of ['particles', 'threshold', 'odometry', 'range']) {
-    test(`dragging ${name} changes the filters, and back gives the same numbers`, async ({ page }) => {
-      const figure = await open(page, 'step=25')
-      await figure.expectSliderAndBack(name)
-    })
-  }
+  test('dragging a slider changes the filters, and back gives the same numbers', async ({ page }) => {
+    const figure = await open(page, 'step=25')
+    for (const name of ['particles', 'threshold', 'odometry', 'range']) await figure.expectSliderAndBack(name)
+  })
 
   test('a click on a map shows the tree of its policy, and the list says which', async ({ page }) => {
     const figure = await open(page, 'step=60')
@@ -199,7 +197,7 @@ test.describe('at rest', () => {
   })
 
   test('the count runs beside the page, to the end, and says its result once', async ({ page }) => {
-    const figure = await open(page)
+    const figure = await open(page, 'particles=4')
     await figure.openCount()
     const { start, stop, shares, said, runs } = panel(figure)
     await runs.selectOption('50')
@@ -252,43 +250,37 @@ test.describe('at rest', () => {
     expect(await counted(figure)).toBe(0)
   })
 
-  test('the count ends when the figure leaves the page', async ({ page }) => {
+  test('the program is not fetched again for the count, which ends when the figure leaves the page', async ({ page }) => {
+    const fetched: string[] = []
+    page.on('request', request => /wasm$/.test(request.url()) && fetched.push(request.url()))
     const figure = await open(page)
     await figure.openCount()
     await panel(figure).runs.selectOption('1000')
     await panel(figure).start.click()
     await expect.poll(() => counted(figure)).toBeGreaterThan(0)
     expect(page.workers()).toHaveLength(1)
+    expect(fetched).toHaveLength(1)
     await figure.element.evaluate(element => element.remove())
     await expect.poll(() => page.workers().length).toBe(0)
   })
 
-  test('the program is not fetched again for the count', async ({ page }) => {
-    const fetched: string[] = []
-    page.on('request', request => /wasm$/.test(request.url()) && fetched.push(request.url()))
-    const figure = await open(page)
+  test('axe finds nothing in it, counted and open, light and dark', async ({ page }) => {
+    const figure = await open(page, 'wings=on&particles=4&step=80&cursor=70')
+    await figure.openSettings()
+    await figure.openNumbers()
     await figure.openCount()
+    await panel(figure).runs.selectOption('50')
     await panel(figure).start.click()
-    await expect.poll(() => counted(figure)).toBeGreaterThan(0)
-    await panel(figure).stop.click()
-    expect(fetched).toHaveLength(1)
+    await expect(panel(figure).said).toContainText('50 seeds counted.', { timeout: 45_000 })
+    for (const colorScheme of ['light', 'dark'] as const) {
+      await page.emulateMedia({ colorScheme })
+      await figure.settled()
+      expect(await brokenRules(page, { of: 'fastslam-resampling' }), colorScheme).toEqual([])
+    }
   })
 
-  for (const colorScheme of ['light', 'dark'] as const) {
-    test(`axe finds nothing in it, counted and open, ${colorScheme}`, async ({ page }) => {
-      await page.emulateMedia({ colorScheme })
-      const figure = await open(page, 'wings=on&step=80&cursor=70')
-      await figure.openSettings()
-      await figure.openNumbers()
-      await figure.openCount()
-      await panel(figure).runs.selectOption('50')
-      await panel(figure).start.click()
-      await expect(panel(figure).said).toContainText('50 seeds counted.', { timeout: 45_000 })
-      expect(await brokenRules(page, { of: 'fastslam-resampling' })).toEqual([])
-    })
-  }
-
   test('where workers are forbidden it says so, and the figure goes on', async ({ page, complaints }) => {
+    await keepOnly(page, 'fastslam-resampling')
     await page.route('./', async route => {
       const response = await route.fetch()
       const policy = response.headers()['content-security-policy']!.replace("worker-src 'self'", "worker-src 'none'")
