@@ -1,34 +1,60 @@
 // The chapter as a text: to read, to print, to follow by keyboard, on every screen, with and without script.
 import type { Page } from '@playwright/test'
-import { brokenRules } from './axe'
+import { brokenRules, leaveOneOfEachKind } from './axe'
 import { expect, test } from './fixtures'
 import { Figure, holdPrograms } from './figure'
-import { FIGURES } from './host'
+import { breadth, FIGURES } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
 /** Opens what is folded, so that all of the text is there. */
 const unfold = (page: Page) => page.evaluate(() => document.querySelectorAll('details').forEach(details => (details.open = true)))
 
+// The figures have their own tests.
+const but = FIGURES.map(name => `fastslam-${name}`)
+
+test('axe finds nothing in the text, unfolded, nor in the colours of each kind of text, light and dark', async ({ page }) => {
+  for (const address of ['./', './model.html']) {
+    await page.goto(address)
+    await unfold(page)
+    expect(await brokenRules(page, { but, contrast: false }), address).toEqual([])
+    // Contrast takes five times as long as all other rules together, most of it in formulas, which have the colour of what they lie in.
+    await page.evaluate(names => document.querySelectorAll(names).forEach(figure => figure.remove()), but.join())
+    expect(await leaveOneOfEachKind(page)).toBeGreaterThan(address === './' ? 200 : 20)
+    for (const colorScheme of ['light', 'dark'] as const) {
+      await page.emulateMedia({ colorScheme })
+      expect(await brokenRules(page, { contrast: 'only' }), `${address}, ${colorScheme}`).toEqual([])
+    }
+  }
+})
+
 for (const colorScheme of ['light', 'dark'] as const) {
-  test(`axe finds nothing in the ${colorScheme} text, unfolded`, async ({ page }) => {
+  test(`axe finds nothing in the ${colorScheme} text, unfolded, with every text and formula of it`, breadth, async ({ page }) => {
     test.slow()
     await page.emulateMedia({ colorScheme })
     for (const address of ['./', './model.html']) {
       await page.goto(address)
       await unfold(page)
-      // The figures have their own tests.
-      expect(await brokenRules(page, { but: FIGURES.map(name => `fastslam-${name}`) })).toEqual([])
+      expect(await brokenRules(page, { but })).toEqual([])
     }
   })
 }
 
-for (const width of [320, 380, 820, 1080, 1440, 2560, 3840]) {
-  test(`nothing is wider than a window of ${width} px, and lines are no longer than 75 letters`, async ({ page }) => {
+test('nothing is wider than the window, with text at 200 % either, and lines are no longer than 75 letters', async ({ page }) => {
+  const wide = () => page.evaluate(() => document.documentElement.scrollWidth)
+  await page.setViewportSize({ width: 640, height: 800 })
+  const lap = await new Figure(page, 'fastslam-lap').open()
+  await page.evaluate(() => (document.documentElement.style.fontSize = '200%'))
+  for (const width of [640, 320]) {
+    await page.setViewportSize({ width, height: 640 })
+    await lap.settled()
+    expect(await wide(), 'text at 200 %').toBe(width)
+  }
+  await page.evaluate(() => (document.documentElement.style.fontSize = ''))
+  await unfold(page)
+  for (const width of [320, 380, 820, 1080, 1440, 2560, 3840]) {
     await page.setViewportSize({ width, height: 900 })
-    await page.goto('./')
-    await unfold(page)
-    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(width)
+    expect(await wide()).toBe(width)
     const letters = await page.evaluate(() => {
       const lines = [...document.querySelectorAll('main > section > p')].flatMap(p => {
         const height = Number.parseFloat(getComputedStyle(p).lineHeight)
@@ -37,10 +63,10 @@ for (const width of [320, 380, 820, 1080, 1440, 2560, 3840]) {
       })
       return lines.reduce((sum, line) => sum + line, 0) / lines.length
     })
-    expect(letters).toBeLessThan(75)
-    if (width > 700) expect(letters).toBeGreaterThan(65)
-  })
-}
+    expect(letters, `at ${width} px`).toBeLessThan(75)
+    if (width > 700) expect(letters, `at ${width} px`).toBeGreaterThan(65)
+  }
+})
 
 /** What moved without the reader's doing, from the start on; asked when it is over. */
 async function watchShifts(page: Page): Promise<() => Promise<string[]>> {
@@ -60,7 +86,7 @@ test('nothing moves while one reads from top to end', async ({ page }) => {
   const shifts = await watchShifts(page)
   await page.goto('./')
   const end = await page.evaluate(() => document.documentElement.scrollHeight)
-  for (let y = 0; y < end; y += 400) {
+  for (let y = 0; y < end; y += 600) {
     await page.evaluate(top => scrollTo({ top, behavior: 'instant' }), y)
     // Faster than anybody reads.
     await page.evaluate(() => Promise.all([...document.querySelectorAll('figure *')].map(element => (element as Partial<{ settled(): Promise<void> }>).settled?.())))
@@ -116,23 +142,19 @@ test.describe('without JavaScript', () => {
   })
 })
 
-test('a link into a folded derivation unfolds it', async ({ page }) => {
+test('a reader by keyboard gets past the head, is told where in the contents it is, and has cards on focus and on pointing, which Escape closes', async ({ page }) => {
   await page.goto('./')
-  const fold = page.locator('.derivation > .fold').first()
-  await expect(fold).toBeHidden()
-  await page.goto(`./#${await fold.getAttribute('id')}`)
-  await expect(fold).toBeVisible()
-})
+  await page.keyboard.press('Tab')
+  const skip = page.getByRole('link', { name: 'Skip to the chapter' })
+  await expect(skip).toBeFocused()
+  await page.keyboard.press('Enter')
+  await expect(page.locator((await skip.getAttribute('href'))!)).toBeFocused()
 
-test('the contents say where the reader is', async ({ page }) => {
   await page.goto('./#mathematics')
   await expect(page.locator('.contents [aria-current]')).toHaveText('The mathematics')
   await page.goto('./#references')
   await expect(page.locator('.contents [aria-current]')).toHaveText('References')
-})
 
-test('a term, a work and an equation show their card on focus and on pointing, and Escape closes it', async ({ page }) => {
-  await page.goto('./')
   const card = page.locator('#card')
   for (const kind of ['a.term', 'a.cite', 'a.eqref']) {
     const link = page.locator(`main > section > p ${kind}, main > section > section > p ${kind}`).first()
@@ -160,6 +182,7 @@ test.describe('by touch', () => {
 
   test('the first tap on a term shows its card, the second follows the link', async ({ page }) => {
     await page.goto('./')
+    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(380)
     const term = page.locator('main a.term').first()
     await term.scrollIntoViewIfNeeded()
     const before = page.url()
@@ -171,8 +194,24 @@ test.describe('by touch', () => {
   })
 })
 
-test('what follows a question is folded until a guess is written', async ({ page }) => {
+test('on paper a figure is its picture and everything is unfolded; on a screen a derivation is once a link leads into it, and what follows a question once a guess is written', async ({ page }) => {
   await page.goto('./')
+  const lap = page.locator('fastslam-lap')
+  await lap.scrollIntoViewIfNeeded()
+  await expect(lap.locator('.stage.live')).toBeVisible()
+  const fold = page.locator('.derivation > .fold').first()
+  await expect(fold).toBeHidden()
+  await page.emulateMedia({ media: 'print' })
+  await expect(lap.locator('img')).toBeVisible()
+  await expect(lap.locator('canvas')).toBeHidden()
+  await expect(lap.locator('.transport')).toBeHidden()
+  await expect(fold).toBeVisible()
+  await expect(page.locator('#fig-lap .address')).toBeVisible()
+
+  await page.emulateMedia({ media: 'screen' })
+  await expect(fold).toBeHidden()
+  await page.goto(`./#${await fold.getAttribute('id')}`)
+  await expect(fold).toBeVisible()
   await unfold(page)
   const question = page.locator('.predict').first()
   await expect(question.locator('.fold')).toBeHidden()
@@ -183,7 +222,7 @@ test('what follows a question is folded until a guess is written', async ({ page
 /** What a figure tells when it has run a step: the first named lines of the box, with a value each. */
 async function tellTrace(page: Page): Promise<string[]> {
   return page.locator('.algorithm[data-figure]').first().evaluate(box => {
-    const keys = [...box.querySelectorAll<HTMLElement>('[data-line]')].map(line => line.dataset['line']!)
+    const keys = [...box.querySelectorAll<HTMLElement>('[data-line]')].slice(0, 3).map(line => line.dataset['line']!)
     const figure = [...document.getElementById((box as HTMLElement).dataset['figure']!)!.children].find(child => child.localName.includes('-'))!
     const lines = keys.map((key, i) => ({ key, text: `value ${i}` }))
     figure.dispatchEvent(new CustomEvent('fastslam-trace', { bubbles: true, composed: true, detail: { lines } }))
@@ -209,36 +248,19 @@ test('an algorithm lights up line by line with the values that its figure tells'
   expect(await page.evaluate(() => (window as unknown as { seen: string[] }).seen)).toEqual(keys.map((key, i) => `${key}: value ${i}`))
 })
 
-test('under reduced motion all lines that ran are lit at once', async ({ page }) => {
+test('the button of an algorithm steps its figure, also one that nobody has seen yet, and the lines it ran light up, under reduced motion all at once', async ({ page }) => {
   await page.goto('./')
   const keys = await tellTrace(page)
   await expect(page.locator('.algorithm[data-figure]').first().locator('.lit')).toHaveCount(keys.length)
-})
-
-for (const [id, step, lines] of [
-  ['fig-lap', 1, { ess: / of 16$/, draw: /^\(.*\)$/ }],
-  ['fig-resampling', 1, { associate: / known, \d+ new; (all agree|\d+ different answers in all)$/, resample: /^N_eff .* of 16: / }],
-  ['fig-worked-example', 0, { weigh: /^2\.753 \/ 0\.8632$/, resample: /^no$/ }],
-] as const) {
-  test(`the button of an algorithm steps its figure, also one that nobody has seen yet, and the lines it ran light up: ${id}`, async ({ page }) => {
-    await page.goto('./')
+  for (const [id, step, lines] of [
+    ['fig-lap', 1, { ess: / of 16$/, draw: /^\(.*\)$/ }],
+    ['fig-resampling', 1, { associate: / known, \d+ new; (all agree|\d+ different answers in all)$/, resample: /^N_eff .* of 16: / }],
+    ['fig-worked-example', 0, { weigh: /^2\.753 \/ 0\.8632$/, resample: /^no$/ }],
+  ] as const) {
     const box = page.locator(`.algorithm[data-figure=${id}]`)
     await box.getByRole('button', { name: 'Run one step' }).click()
     for (const [line, value] of Object.entries(lines)) await expect(box.locator(`[data-line=${line}] .value`).first()).toHaveText(value, { timeout: 20_000 })
     const figure = page.locator(`#${id} > *`).first()
     expect(await figure.evaluate(element => (element as unknown as { currentStep: number }).currentStep)).toBe(step)
-  })
-}
-
-test('on paper a figure is its picture, and everything is unfolded', async ({ page }) => {
-  await page.goto('./')
-  const lap = page.locator('fastslam-lap')
-  await lap.scrollIntoViewIfNeeded()
-  await expect(lap.locator('.stage.live')).toBeVisible()
-  await page.emulateMedia({ media: 'print' })
-  await expect(lap.locator('img')).toBeVisible()
-  await expect(lap.locator('canvas')).toBeHidden()
-  await expect(lap.locator('.transport')).toBeHidden()
-  await expect(page.locator('.derivation > .fold').first()).toBeVisible()
-  await expect(page.locator('#fig-lap .address')).toBeVisible()
+  }
 })

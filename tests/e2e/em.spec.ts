@@ -3,6 +3,7 @@ import type { Page } from '@playwright/test'
 import { brokenRules } from './axe'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
+import { breadth } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -15,7 +16,7 @@ const chip = async (figure: Figure, name: RegExp) => {
   await figure.settled()
 }
 
-test('as it opens, the map has every door and the particles hold both answers', async ({ page }) => {
+test('as it opens, the map has every door and the particles hold both answers; both passes fill from their ends, step by step, and nothing falls', async ({ page }) => {
   const figure = await open(page)
   await expect(figure.sentence).toContainText('After iteration 20 nothing changes any more: the map has 3 doors')
   await expect(figure.sentence).toContainText('The particles keep both answers')
@@ -24,10 +25,7 @@ test('as it opens, the map has every door and the particles hold both answers', 
   expect(await number(figure, 'again')).toBeGreaterThan(5)
   expect(await number(figure, 'log_posterior')).toBeGreaterThanOrEqual(await number(figure, 'best'))
   expect(await brokenRules(page, { of: 'fastslam-em' })).toEqual([])
-})
 
-test('both passes fill from their ends, step by step, and nothing falls', async ({ page }) => {
-  const figure = await open(page)
   await chip(figure, /From the first guess/)
   await expect(figure.sentence).toContainText('The first guess: a map with 3 doors')
   let before = await number(figure, 'log_posterior')
@@ -42,7 +40,7 @@ test('both passes fill from their ends, step by step, and nothing falls', async 
   expect(await number(figure, 'iteration')).toBe(1)
 })
 
-test('a folding guess ends lower, and one mark unfolds it, by keyboard and by mouse', async ({ page }) => {
+test('a folding guess ends lower, and one mark unfolds it, by keyboard and by mouse; with wheels twice as bad, EM mapping is sure of what the particles are not', async ({ page }) => {
   const figure = await open(page)
   const right = await number(figure, 'log_posterior')
   await chip(figure, /A guess that folds the corridor/)
@@ -66,10 +64,7 @@ test('a folding guess ends lower, and one mark unfolds it, by keyboard and by mo
   await page.mouse.up()
   await figure.settled()
   expect(await number(figure, 'doors')).toBe(2)
-})
 
-test('with wheels twice as bad, EM mapping is sure of what the particles are not', async ({ page }) => {
-  const figure = await open(page)
   await chip(figure, /Wheels twice as bad/)
   expect(await number(figure, 'again_em')).toBe(100)
   const again = await number(figure, 'again')
@@ -77,17 +72,17 @@ test('with wheels twice as bad, EM mapping is sure of what the particles are not
   expect(again).toBeLessThan(95)
   await chip(figure, /Begin with a blank map/)
   expect(await number(figure, 'doors')).toBe(3)
+  await figure.element.evaluate(element => element.setAttribute('mark-1', '11'))
+  await expect(figure.alert).toContainText('mark-1 = "11": must be')
 })
 
-test('a link reopens the same numbers, and a mark out of the corridor is refused by name', async ({ page }) => {
+test('a link reopens the same numbers', breadth, async ({ page }) => {
   const figure = await open(page, 'mark-3=5.2&step=57&particles=200')
   const before = await figure.readouts()
   const link = await figure.state()
   await page.goto('about:blank')
   const again = await open(page, link)
   expect(await again.readouts()).toEqual(before)
-  await again.element.evaluate(element => element.setAttribute('mark-1', '11'))
-  await expect(again.alert).toContainText('mark-1 = "11": must be')
 })
 
 test('exercise 9: where EM mapping has the robot put down is guessed in its strip, and then told', async ({ page }) => {

@@ -3,6 +3,7 @@ import type { Page } from '@playwright/test'
 import { brokenRules } from './axe'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
+import { breadth } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -22,7 +23,7 @@ async function drag(page: Page, figure: Figure, name: string, [right, down]: [nu
   await figure.settled()
 }
 
-test('it opens before the first iteration with a ring that does not close, beside universes that need no bending', async ({ page }) => {
+test('it opens before the first iteration with a ring that does not close; by its iterations the path snaps into the building, and a false edge folds it, is dragged and moved by arrow keys, until a repair mends it', async ({ page }) => {
   const figure = await open(page)
   expect(await figure.position()).toBe(0)
   await expect(figure.sentence).toContainText('Before the first of')
@@ -30,10 +31,7 @@ test('it opens before the first iteration with a ring that does not close, besid
   expect(await number(figure, 'rms_universe')).toBeLessThan(0.2)
   expect(await number(figure, 'loop_edges')).toBeGreaterThan(10)
   expect(await brokenRules(page, { of: TAG })).toEqual([])
-})
 
-test('by its iterations the path snaps into the building, and back again by the keyboard', async ({ page }) => {
-  const figure = await open(page)
   await figure.scrubTo(await figure.last())
   expect(await number(figure, 'rms')).toBeLessThan(0.1)
   await expect(figure.sentence).toContainText('the path is off by 0.07 m')
@@ -42,10 +40,8 @@ test('by its iterations the path snaps into the building, and back again by the 
   await page.keyboard.press('Home')
   await figure.settled()
   expect(await number(figure, 'rms')).toBeGreaterThan(1.5)
-})
 
-test('a false edge folds the map, is dragged and moved by arrow keys, and each repair mends it', async ({ page }) => {
-  const figure = await open(page, 'step=60')
+  await figure.scrubTo(await figure.last())
   await figure.toggle('wrong').click()
   await figure.settled()
   const folded = await number(figure, 'rms')
@@ -68,14 +64,14 @@ test('a false edge folds the map, is dragged and moved by arrow keys, and each r
   }
 })
 
-test('a link reopens the same numbers', async ({ page }) => {
+test('a link reopens the same numbers', breadth, async ({ page }) => {
   const query = 'repair=switchable&wrong=on&odometry=1&seed=3&start=matches&step=60'
   const before = await (await open(page, query)).readouts()
   await page.goto('about:blank')
   expect(await (await open(page, query)).readouts()).toEqual(before)
 })
 
-test('exercise 8: a guess is dragged and moved by keys, nothing tells the answer before, and each repair lets the false edge go', async ({ page }) => {
+test('exercise 8: a guess is dragged and moved by keys, nothing tells the answer before, and a repair that lets the false edge go is another question', async ({ page }) => {
   const figure = await open(page, 'wrong=on&predict=on')
   await expect(figure.play).toBeHidden()
   await expect(figure.sentence).toContainText('How far off will the path be at the last iteration?')
@@ -95,15 +91,13 @@ test('exercise 8: a guess is dragged and moved by keys, nothing tells the answer
   await expect(figure.sentence).toContainText(`The path ends 3.15 m off; the guess was ${guess} m`)
   expect(await number(figure, 'rms')).toBeCloseTo(3.15, 2)
   // Another judge is another question, which may be waived.
-  for (const [repair, least, most] of [['robust', 0, 0.08], ['switchable', 0, 0.08], ['mixture', 0.1, 0.25]] as const) {
-    await figure.element.evaluate((element, repair) => element.setAttribute('repair', repair), repair)
-    await figure.settled()
-    await expect(figure.box('guess')).toHaveValue('')
-    await figure.toggle('run').click()
-    await figure.settled()
-    expect(await number(figure, 'rms'), repair).toBeGreaterThan(least)
-    expect(await number(figure, 'rms'), repair).toBeLessThan(most)
-    expect((await figure.readouts())['wrong_weight'], repair).toContain('< 0.1')
-    await expect(figure.sentence).toContainText('it was not guessed')
-  }
+  await figure.element.evaluate(element => element.setAttribute('repair', 'mixture'))
+  await figure.settled()
+  await expect(figure.box('guess')).toHaveValue('')
+  await figure.toggle('run').click()
+  await figure.settled()
+  expect(await number(figure, 'rms')).toBeGreaterThan(0.1)
+  expect(await number(figure, 'rms')).toBeLessThan(0.25)
+  expect((await figure.readouts())['wrong_weight']).toContain('< 0.1')
+  await expect(figure.sentence).toContainText('it was not guessed')
 })

@@ -3,6 +3,7 @@ import { readFile } from 'node:fs/promises'
 import type { Locator, Page } from '@playwright/test'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
+import { breadthOf } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -50,9 +51,12 @@ test('without a guess nothing is run, unless the reader says so', async ({ page 
   expect(guess!.result).toBeGreaterThan(1)
 })
 
-test('a guess is dragged by the mouse; then the samples move, and guess and result stand side by side', async ({ page }) => {
-  const figure = await proposal(page, 'predict=on')
+test('a guess is dragged by the mouse and moved by keys; then the samples move, guess and result stand side by side, and a link brings both to another reader', async ({ page, context }) => {
+  const figure = await proposal(page, '')
   const told = await guesses(figure)
+  await expect(figure.handle('guess')).toHaveCount(0)
+  await figure.toggle('predict').click()
+  await figure.settled()
   const asked = await figure.picture()
   const { x, y } = await middle(figure.handle('guess'))
   await page.mouse.move(x, y)
@@ -60,11 +64,19 @@ test('a guess is dragged by the mouse; then the samples move, and guess and resu
   await page.mouse.move(x + 150, y, { steps: 6 })
   await page.mouse.up()
   await figure.settled()
+  await expect(figure.sentence).toContainText('it has not been run')
+  await figure.grasp('guess').focus()
+  const dragged = Number(await figure.grasp('guess').inputValue())
+  await page.keyboard.press('ArrowRight')
+  await figure.settled()
+  expect(Number(await figure.grasp('guess').inputValue())).toBeCloseTo(dragged + 0.1, 5)
   await expect(figure.toggle('run')).toHaveText('Run at half σ')
   expect(await told()).toEqual([])
   const inside = (await figure.readouts())['inside_motion']
   await figure.toggle('run').click()
   await figure.settled()
+  await expect(figure.toggle('run')).toHaveAttribute('aria-pressed', 'true')
+  await expect(figure.sentence).toContainText('At half the range noise')
   expect(await figure.picture()).not.toBe(asked)
   expect((await figure.readouts())['inside_motion'], 'other samples').not.toBe(inside)
   await expect(figure.sentence).toContainText(/the guess was [\d.]+: \d+ % too (low|high)/)
@@ -73,9 +85,22 @@ test('a guess is dragged by the mouse; then the samples move, and guess and resu
 
   // Data has both.
   const [file] = await Promise.all([page.waitForEvent('download'), figure.menu('Save data (CSV)')])
-  const [header, row] = (await readFile(await file.path())).toString().trim().split('\n').map(line => line.split(','))
+  const lines = (await readFile(await file.path())).toString().trim().split('\n')
+  expect(lines, 'a row for every sample').toHaveLength(1 + 1000)
+  const [header, row] = lines.map(line => line.split(','))
+  expect(header).toContain('motion_weight')
   expect(header!.slice(-3)).toEqual(['guess', 'waived', 'result'])
   expect(row!.slice(-3).map(Number)).toEqual([guess!.guess, 0, guess!.result])
+
+  // The link brings guess and result to another reader, for whom another guess is another try.
+  const link = await figure.element.evaluate(element => (element as HTMLElement & { link: string }).link)
+  expect(link).toContain('predict=on')
+  const other = await new Figure(await context.newPage(), 'fastslam-proposal').open(link)
+  expect([await other.sentence.textContent(), await other.picture()]).toEqual([await figure.sentence.textContent(), await figure.picture()])
+  await other.grasp('guess').press('ArrowLeft')
+  await other.settled()
+  await expect(other.toggle('run')).toHaveAttribute('aria-pressed', 'false')
+  await expect(other.sentence).toContainText('it has not been run')
 
   // Other settings are another question.
   await figure.reroll.click()
@@ -111,7 +136,7 @@ test.describe('on a phone', () => {
   test.use({ viewport: { width: 380, height: 760 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 })
 
   for (const [name, open] of [['proposal', proposal], ['resampling', resampling]] as const) {
-    test(`a finger places a guess in ${name}`, async ({ page }) => {
+    test(`a finger places a guess in ${name}`, breadthOf(name), async ({ page }) => {
       const figure = await open(page, 'predict=on')
       const { x, y } = await middle(figure.handle('guess'))
       const client = await page.context().newCDPSession(page)
@@ -134,14 +159,20 @@ test.describe('on a phone', () => {
   }
 })
 
+/** The chapter without the figures of its text, taken out before its modules run: asked about are the small ones of the exercises. */
+async function openExercises(page: Page): Promise<void> {
+  await page.addInitScript(() => {
+    const leave = () => document.querySelectorAll('main figure > *').forEach(element => element.localName.startsWith('fastslam-') && element.remove())
+    document.addEventListener('readystatechange', leave, { once: true })
+  })
+  await page.goto('./')
+}
+
 test('a guess of an exercise is compared with the figure beside it, kept on this device, and forgotten', async ({ page }) => {
   const question = page.locator('#guess-ratio')
-  const open = async () => {
-    await page.goto('./')
-    await question.scrollIntoViewIfNeeded()
-    await expect(question.locator('.trial canvas')).toBeVisible()
-  }
-  await open()
+  await openExercises(page)
+  await question.scrollIntoViewIfNeeded()
+  await expect(question.locator('.trial canvas')).toBeVisible()
   await expect(question.locator('.told')).toBeHidden()
   await question.getByRole('textbox').fill('3')
   await question.getByRole('textbox').press('Enter')
@@ -151,19 +182,22 @@ test('a guess of an exercise is compared with the figure beside it, kept on this
   const shown = await question.locator('fastslam-proposal').evaluate(element => (element as HTMLElement & { state: string }).state)
   expect(shown).toContain('guess=3&run=on')
 
-  await open()
+  // The figure that comes to life beside it has not been asked yet, and takes nothing away.
+  await page.reload()
+  await question.scrollIntoViewIfNeeded()
+  await expect(question.locator('.trial canvas')).toBeVisible()
   await expect(question.getByRole('textbox')).toHaveValue('3')
   await expect(told).toHaveText(said)
   await expect(question.locator('.fold')).toBeVisible()
   await question.getByRole('button', { name: 'Forget my guess' }).click()
   await expect(question.getByRole('textbox')).toHaveValue('')
   await expect(question.locator('.fold')).toBeHidden()
-  await open()
+  await page.reload()
   await expect(question.getByRole('textbox')).toHaveValue('')
 })
 
 test('a guess that is placed in the figure of an exercise is in its box too, and goes when settings change', async ({ page }) => {
-  await page.goto('./')
+  await openExercises(page)
   const question = page.locator('#guess-ancestor')
   await question.scrollIntoViewIfNeeded()
   const figure = question.locator('fastslam-resampling')
@@ -176,10 +210,14 @@ test('a guess that is placed in the figure of an exercise is in its box too, and
   await figure.locator('input[name=particles][type=number]').fill('8')
   await figure.locator('input[name=particles][type=number]').press('Enter')
   await expect(question.locator('.told')).not.toContainText('the figure says')
-})
 
-test('the text says over how many samples its numbers are means, where the figure draws its own', async ({ page }) => {
-  await page.goto('./')
-  const paragraph = page.locator('p', { hasText: 'At the settings it opens with' })
-  await expect(paragraph).toContainText(/the mean over 200.000 samples/)
+  // Asked for in the text alone, and answered by a small copy of the figure.
+  const universes = page.locator('#guess-universes')
+  await universes.scrollIntoViewIfNeeded()
+  await expect(universes.locator('.trial canvas')).toBeVisible()
+  await universes.getByRole('textbox').fill('6')
+  await universes.getByRole('textbox').press('Enter')
+  await expect(universes.getByRole('status').first()).toHaveText('You guessed 6, the figure says 12: 50 % too low.')
+  // Over how many samples its numbers are means, where the figure draws its own.
+  await expect(page.locator('p', { hasText: 'At the settings it opens with' })).toContainText(/the mean over 200.000 samples/)
 })

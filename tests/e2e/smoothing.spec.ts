@@ -3,6 +3,7 @@ import type { Page } from '@playwright/test'
 import { brokenRules } from './axe'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
+import { breadth } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -11,7 +12,7 @@ const open = (page: Page, query?: string) => new Figure(page, TAG).alone(query &
 
 const number = async (figure: Figure, name: string) => Number.parseFloat((await figure.readouts())[name]!)
 
-test('as it opens, the record has one pose where the sweeps have many, and errs more', async ({ page }) => {
+test('as it opens, the record has one pose where the sweeps have many, and errs more; their common ancestor is found by dragging and by arrow keys', async ({ page }) => {
   const figure = await open(page)
   expect(await figure.position()).toBe(await figure.last())
   await expect(figure.sentence).toContainText('All 16 particles descend from one until step')
@@ -21,23 +22,7 @@ test('as it opens, the record has one pose where the sweeps have many, and errs 
   expect(await number(figure, 'early_after')).toBeLessThan(await number(figure, 'early_before'))
   expect(await number(figure, 'cost')).toBeCloseTo(31.5, 5)
   expect(await brokenRules(page, { of: TAG })).toEqual([])
-})
 
-test('sweeps are stepped, and at none there is the filter alone', async ({ page }) => {
-  const figure = await open(page, 'particles=6&step=3')
-  const [before, after] = [await number(figure, 'distinct_before'), await number(figure, 'distinct_after')]
-  expect(after).toBeGreaterThanOrEqual(before)
-  await figure.scrubTo(0)
-  await expect(figure.sentence).toContainText('No sweep has been done yet.')
-  await figure.step.click()
-  await figure.settled()
-  await expect(figure.sentence).toContainText('After 1 sweep the drawn paths have 1 different pose')
-  await figure.scrubTo(3)
-  expect(await number(figure, 'distinct_after')).toBe(after)
-})
-
-test('the common ancestor is found by dragging and by arrow keys', async ({ page }) => {
-  const figure = await open(page)
   const chip = figure.element.locator('[part~=chip]').first()
   await chip.click()
   await figure.settled()
@@ -64,14 +49,30 @@ test('the common ancestor is found by dragging and by arrow keys', async ({ page
   await expect(chip).toHaveAccessibleName('Find the common ancestor (reached)')
 })
 
-test('without new ancestors the sweeps keep the past, and a link reopens the same numbers', async ({ page }) => {
-  const figure = await open(page, 'particles=8&step=6')
-  const [renewed, link] = [await figure.readouts(), await figure.state()]
+test('sweeps are stepped, at none there is the filter alone, and without new ancestors they keep the past', async ({ page }) => {
+  const figure = await open(page, 'particles=6&step=3')
+  const [before, after] = [await number(figure, 'distinct_before'), await number(figure, 'distinct_after')]
+  expect(after).toBeGreaterThanOrEqual(before)
+  await figure.scrubTo(0)
+  await expect(figure.sentence).toContainText('No sweep has been done yet.')
+  await figure.step.click()
+  await figure.settled()
+  await expect(figure.sentence).toContainText('After 1 sweep the drawn paths have 1 different pose')
+  await figure.scrubTo(3)
+  expect(await number(figure, 'distinct_after')).toBe(after)
+
+  await figure.goTo('particles=8&step=6')
+  const renewed = await figure.readouts()
   await figure.element.getByRole('checkbox', { name: 'New ancestors' }).uncheck()
   await figure.settled()
   expect(await number(figure, 'distinct_after')).toBeLessThan(Number.parseFloat(renewed['distinct_after']!))
+})
+
+test('a link reopens the same numbers', breadth, async ({ page }) => {
+  const figure = await open(page, 'particles=8&step=6')
+  const [before, link] = [await figure.readouts(), await figure.state()]
   await page.goto('about:blank')
-  expect(await (await open(page, link)).readouts()).toEqual(renewed)
+  expect(await (await open(page, link)).readouts()).toEqual(before)
 })
 
 test('exercise 10: how many pasts sweeps find is guessed in the chart, and without new ancestors it is one', async ({ page }) => {
