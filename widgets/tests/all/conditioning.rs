@@ -93,6 +93,17 @@ fn landmarks_are_coupled_the_more_the_worse_the_odometry_is() {
 }
 
 #[test]
+fn hardly_any_noise_of_the_wheels_couples_as_many_entries_as_much_and_none_couples_none() {
+    let usual = value(&conditioning(""), "off_block");
+    assert!(usual > 0.0);
+    assert_eq!(value(&conditioning("odometry=0.05"), "off_block"), usual);
+    let exact = conditioning("odometry=0");
+    let largest = exact.model().readouts().into_iter().find(|r| r.name == "largest").unwrap().text;
+    assert_eq!((value(&exact, "off_block"), largest.as_str()), (0.0, "0"));
+    assert!(exact.model().describe().contains("Wheels without error"), "{}", exact.model().describe());
+}
+
+#[test]
 fn the_first_entry_is_of_two_landmarks_that_no_pose_saw_both() {
     let figure = conditioning("");
     assert!(figure.model().describe().ends_with("m1.y and m4.y: ρ = −0.39, though no pose saw both."));

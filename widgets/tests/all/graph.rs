@@ -56,6 +56,22 @@ fn a_false_edge_folds_the_map_and_every_repair_mends_it() {
     }
 }
 
+/// Exercise 8, waived: what each repair leaves of the error, and of the weight of the false edge.
+#[test]
+fn each_repair_is_a_question_of_its_own_and_its_answer_is_that_of_the_exercise() {
+    let mut shown = figure(TAG, "wrong=on&predict=on");
+    for (repair, least, most) in [("robust", 0.0, 0.08), ("switchable", 0.0, 0.08), ("mixture", 0.1, 0.25)] {
+        for (name, value) in [("repair", repair), ("run", "on")] {
+            shown.set(name, value).unwrap();
+            shown.model_mut().settle();
+        }
+        let rms = readout(&shown, "rms");
+        assert!(least < rms && rms < most, "{repair}: {rms}");
+        assert!(readout(&shown, "wrong_weight") < 0.1, "{repair}");
+        assert!(shown.model().describe().contains("it was not guessed"), "{repair}: {}", shown.model().describe());
+    }
+}
+
 /// A drag or another judge begins nothing but the optimisation anew: the log is tied together already.
 #[test]
 fn the_false_edge_is_dragged_along_the_true_path_and_costs_iterations_only() {

@@ -198,6 +198,17 @@ fn a_link_brings_back_the_whole_state() {
 }
 
 #[test]
+fn a_sharper_sensor_makes_one_sample_of_2_0_worth_more_and_a_blunt_one_hardly_more_than_one() {
+    let worth = |query: &str| ratio(&proposal(query)).parse::<f64>().unwrap();
+    assert!(worth("range-std=0.005") > worth(""));
+    assert!(worth("range-std=0.5") < 2.0);
+    let usual = proposal("").model().describe();
+    for query in ["bearing-std=0.3", "odometry=2", "samples=4096"] {
+        assert_ne!(proposal(query).model().describe(), usual, "{query}");
+    }
+}
+
+#[test]
 fn the_guess_is_asked_for_then_run_and_another_guess_starts_anew() {
     let mut figure = proposal("");
     assert!(scene(&figure, 800.0).handles.iter().all(|h| h.name != "guess"));
@@ -260,6 +271,9 @@ fn what_is_lost_is_told_in_words() {
     };
     let (told, drawn) = model("landmarks=pair");
     assert!(told.contains("What speaks for A is lost") && drawn.contains("2.0 has lost A"), "{told}\n{drawn}");
+    let pair = proposal("landmarks=pair");
+    assert!(said(&pair, "The motion prior has ", " %").parse::<f64>().unwrap() > 5.0, "{told}");
+    assert_eq!(said(&pair, "samples there, the measurement-aware proposal ", " %"), "0", "{told}");
     let (told, drawn) = model("");
     assert!(!told.contains("lost") && !drawn.contains("lost"));
     assert!(drawn.contains("all weights are exactly equal"));
