@@ -6,7 +6,7 @@ import { openCourse } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
-const APARTMENT = 'course=apartment&universes=4'
+const APARTMENT = 'course=apartment&universes=2'
 
 /** The wheel of the figure, taken. */
 class Wheel {

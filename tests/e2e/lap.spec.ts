@@ -76,7 +76,7 @@ test.describe('at rest', () => {
   })
 
   test('dragging a slider simulates anew up to the step shown, and back gives the same numbers', async ({ page }) => {
-    const lap = await new Figure(page, 'fastslam-lap').alone()
+    const lap = await new Figure(page, 'fastslam-lap').alone('#fastslam-lap?universes=4')
     await lap.openSettings()
     await lap.scrubTo(12)
     const before = await lap.readouts()
@@ -107,7 +107,7 @@ test.describe('at rest', () => {
   })
 
   test('every switch of the filter can be turned, and gives another lap or another picture', async ({ page }) => {
-    const lap = await new Figure(page, 'fastslam-lap').alone()
+    const lap = await new Figure(page, 'fastslam-lap').alone('#fastslam-lap?universes=4')
     await lap.openSettings()
     await lap.scrubTo(25)
     const before = await lap.readouts()

@@ -18,9 +18,10 @@ export class LogFigure {
     this.stage = this.element.locator('.stage')
   }
 
-  async open(): Promise<this> {
-    await openAlone(this.page, 'fastslam-log')
-    await this.stage.click() // its program comes when something is asked of it
+  /** Alone on a page, with a link to its settings if need be. */
+  async open(link = ''): Promise<this> {
+    await openAlone(this.page, 'fastslam-log', link && `#fastslam-log?${link}`)
+    if (!link) await this.stage.click() // its program comes when something is asked of it
     await expect(this.element.locator('.stage.live')).toBeVisible()
     return this
   }

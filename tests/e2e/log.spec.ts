@@ -13,51 +13,56 @@ import { LogFigure } from './log-figure'
 const TINY = join(root, 'tests', 'figures', 'golden', 'tiny.clf')
 const INTEL = join(root, '..', 'shared', 'data', 'intel.clf')
 
+/** Coarse and few, where it does not matter how good the map is. */
+const QUICK = 'v=2&universes=2&cell=0.2'
+
 async function content(download: Download): Promise<Buffer> {
   return readFileSync(await download.path())
 }
 
-test('the example is mapped with one click, and map, path and report are saved', async ({ page }) => {
-  const log = await new LogFigure(page).open()
-  await expect(log.sentence).toContainText('No log is open')
-  await log.button('Map this building').click()
-  await log.done(120_000)
-  await expect(log.status).toHaveText('the example')
-  await expect(log.readout('digest')).toHaveText(/^[0-9a-f]{16}$/)
+for (const [universes, options] of [['2', {}], ['16', breadth]] as const) {
+  test(`the example is mapped with one click, by ${universes} universes, and map, path and report are saved`, options, async ({ page }) => {
+    const log = await new LogFigure(page).open(universes === '16' ? '' : QUICK)
+    await expect(log.sentence).toContainText('No log is open')
+    await log.button('Map this building').click()
+    await log.done(120_000)
+    await expect(log.status).toHaveText('the example')
+    await expect(log.readout('digest')).toHaveText(/^[0-9a-f]{16}$/)
 
-  await log.unfold('saves')
-  const save = async (name: string) => {
-    const [download] = await Promise.all([page.waitForEvent('download'), log.button(name).click()])
-    return download
-  }
-  const png = await save('Map (PNG)')
-  expect(png.suggestedFilename()).toBe('map.png')
-  expect((await content(png)).subarray(1, 4).toString()).toBe('PNG')
+    await log.unfold('saves')
+    const save = async (name: string) => {
+      const [download] = await Promise.all([page.waitForEvent('download'), log.button(name).click()])
+      return download
+    }
+    const png = await save('Map (PNG)')
+    expect(png.suggestedFilename()).toBe('map.png')
+    expect((await content(png)).subarray(1, 4).toString()).toBe('PNG')
 
-  const path = (await content(await save('Path (TUM)'))).toString().trim().split('\n')
-  const last = Number((await log.readout('scan').textContent())!.split(' of ')[1])
-  expect(path.length).toBe(last + 1)
-  for (const line of path) expect(line.split(' ').map(Number).filter(Number.isFinite)).toHaveLength(8)
+    const path = (await content(await save('Path (TUM)'))).toString().trim().split('\n')
+    const last = Number((await log.readout('scan').textContent())!.split(' of ')[1])
+    expect(path.length).toBe(last + 1)
+    for (const line of path) expect(line.split(' ').map(Number).filter(Number.isFinite)).toHaveLength(8)
 
-  const report = JSON.parse((await content(await save('Report (JSON)'))).toString()) as {
-    log: string
-    results: { digest: { text: string } }
-    settings: Record<string, string>
-    steps: unknown[]
-  }
-  expect(report.log).toBe('the example')
-  expect(report.results.digest.text).toBe(await log.readout('digest').textContent())
-  expect(report.settings['universes']).toBe('16')
-  expect(report.steps).toHaveLength(last + 1)
+    const report = JSON.parse((await content(await save('Report (JSON)'))).toString()) as {
+      log: string
+      results: { digest: { text: string } }
+      settings: Record<string, string>
+      steps: unknown[]
+    }
+    expect(report.log).toBe('the example')
+    expect(report.results.digest.text).toBe(await log.readout('digest').textContent())
+    expect(report.settings['universes']).toBe(universes)
+    expect(report.steps).toHaveLength(last + 1)
 
-  const both: Download[] = []
-  page.on('download', download => both.push(download))
-  await log.button('Map for ROS (PGM, YAML)').click()
-  await expect.poll(() => both.map(download => download.suggestedFilename()).sort()).toEqual(['map.pgm', 'map.yaml'])
-  const [pgm, yaml] = await Promise.all(both.sort((a, b) => a.suggestedFilename().localeCompare(b.suggestedFilename())).map(content))
-  expect(pgm!.subarray(0, 3).toString()).toBe('P5\n')
-  expect(yaml!.toString()).toContain('image: "map.pgm"')
-})
+    const both: Download[] = []
+    page.on('download', download => both.push(download))
+    await log.button('Map for ROS (PGM, YAML)').click()
+    await expect.poll(() => both.map(download => download.suggestedFilename()).sort()).toEqual(['map.pgm', 'map.yaml'])
+    const [pgm, yaml] = await Promise.all(both.sort((a, b) => a.suggestedFilename().localeCompare(b.suggestedFilename())).map(content))
+    expect(pgm!.subarray(0, 3).toString()).toBe('P5\n')
+    expect(yaml!.toString()).toContain('image: "map.pgm"')
+  })
+}
 
 type FigureElement = HTMLElement & { seek(scan: number): void; settled(): Promise<void>; currentStep: number }
 
@@ -138,9 +143,8 @@ interface Moment {
 }
 
 test('what is mapped is played again and gone back to, and all parts tell of one scan at every moment', async ({ page }) => {
-  const log = await new LogFigure(page).open()
+  const log = await new LogFigure(page).open(QUICK)
   await log.choose('tiny.clf', readFileSync(TINY))
-  await log.set('cell', '0.2')
   await log.button('Map this building').click()
   await log.done()
   const end = await log.picture()
@@ -448,14 +452,13 @@ test('malformed lines are named, and skipped if the reader says so', async ({ pa
   const lines = readFileSync(TINY, 'utf8').split('\n')
   lines[4] = lines[4]!.slice(0, 60)
   lines[9] = 'ROBOTLASER1 what'
-  const log = await new LogFigure(page).open()
+  const log = await new LogFigure(page).open(QUICK)
   await log.choose('damaged.clf', lines.join('\n'))
   await expect(log.alert).toContainText('line 5: ROBOTLASER1: expected ')
   await expect(log.alert).toContainText('2 malformed lines')
   await expect(log.button('Map this building')).toBeDisabled()
   await log.alert.getByRole('button', { name: 'Skip malformed lines' }).click()
   await expect(log.alert).toBeEmpty()
-  await log.set('cell', '0.2')
   await log.button('Map this building').click()
   await log.done()
 })
@@ -480,9 +483,8 @@ test('what does not fit into memory is refused before it starts', async ({ page 
 })
 
 test('the map is moved and magnified by keys, buttons, mouse and touchpad, and the wheel scrolls the page', async ({ page }) => {
-  const log = await new LogFigure(page).open()
+  const log = await new LogFigure(page).open(QUICK)
   await log.choose('tiny.clf', readFileSync(TINY))
-  await log.set('cell', '0.2')
   await log.button('Map this building').click()
   await log.done()
   const whole = await log.picture()
@@ -533,9 +535,8 @@ test('the map is moved and magnified by keys, buttons, mouse and touchpad, and t
 test('two fingers magnify the map, one scrolls the page', async ({ browser, baseURL }) => {
   const context = await browser.newContext({ baseURL: baseURL!, hasTouch: true, isMobile: true, viewport: { width: 380, height: 800 } })
   const page = await context.newPage()
-  const log = await new LogFigure(page).open()
+  const log = await new LogFigure(page).open(QUICK)
   await log.choose('tiny.clf', readFileSync(TINY))
-  await log.set('cell', '0.2')
   await log.button('Map this building').tap()
   await log.done()
   await log.stage.scrollIntoViewIfNeeded()
@@ -598,11 +599,10 @@ test('a link holds the settings, and attributes set them', async ({ page }) => {
 })
 
 test('nothing leaves the machine, and the figure says so', async ({ page }) => {
-  const log = await new LogFigure(page).open()
+  const log = await new LogFigure(page).open(QUICK)
   const asked: string[] = []
   page.on('request', request => asked.push(request.url()))
   await log.choose('secret.clf', readFileSync(TINY))
-  await log.set('cell', '0.2')
   await log.button('Map this building').click()
   await log.done()
   expect(asked.filter(url => !url.startsWith('blob:'))).toEqual([])
@@ -628,11 +628,10 @@ test('the page answers while a log is mapped', async ({ page }) => {
 
 test('axe finds nothing: light, on a dark phone, in forced colours', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'reduce' })
-  const log = await new LogFigure(page).open()
+  const log = await new LogFigure(page).open(QUICK)
   await log.choose('none.clf', 'nonsense')
   await expect(log.alert).not.toBeEmpty()
   await log.choose('tiny.clf', readFileSync(TINY))
-  await log.set('cell', '0.2')
   await log.button('Map this building').click()
   await log.done()
   for (const [what, media, width] of [
@@ -700,21 +699,31 @@ test('the first log that a script opens is read once, and a refusal names its fi
   expect((await asked()).filter(ask => ask === 'open')).toHaveLength(4)
 })
 
-test('settings obey one order, parsed or scripted: locked, link, attribute, default; what is set is what is read', async ({ page }) => {
-  const universes = (log: LogFigure) => log.element.evaluate(element => (element as HTMLElement & { universes: number }).universes)
-  const scripted = (set: string) => `<script type="module">
-    import './fastslam.js'
-    const log = document.createElement('fastslam-log')
-    ${set}
-    log.setAttribute('lock', 'LOCK')
-    document.body.append(log)
-  </script>`
-  for (const body of ['<fastslam-log universes="8" lock="LOCK"></fastslam-log>', scripted("log.setAttribute('universes', '8')"), scripted('log.universes = 8')]) {
-    for (const [link, lock, expected] of [
-      ['#fastslam-log?universes=4&cell=0.1', '', 4],
-      ['#fastslam-log?universes=4&cell=0.1', 'universes', 8],
-      ['', '', 8],
-    ] as const) {
+/** The figure as the page has it, or a script of the page. */
+const scripted = (set: string) => `<script type="module">
+  import './fastslam.js'
+  const log = document.createElement('fastslam-log')
+  ${set}
+  log.setAttribute('lock', 'LOCK')
+  document.body.append(log)
+</script>`
+const MADE = {
+  parsed: '<fastslam-log universes="8" lock="LOCK"></fastslam-log>',
+  attribute: scripted("log.setAttribute('universes', '8')"),
+  property: scripted('log.universes = 8'),
+}
+const LINKS = [
+  ['#fastslam-log?universes=4&cell=0.1', '', 4],
+  ['#fastslam-log?universes=4&cell=0.1', 'universes', 8],
+  ['', '', 8],
+] as const
+for (const [which, cases, options] of [
+  ['parsed or scripted', [[MADE.parsed, LINKS[0]], [MADE.attribute, LINKS[1]], [MADE.property, LINKS[0]], [MADE.property, LINKS[2]]], {}],
+  ['in all ways', Object.values(MADE).flatMap(body => LINKS.map(link => [body, link] as const)), breadth],
+] as const) {
+  test(`settings obey one order, ${which}: locked, link, attribute, default; what is set is what is read`, options, async ({ page }) => {
+    const universes = (log: LogFigure) => log.element.evaluate(element => (element as HTMLElement & { universes: number }).universes)
+    for (const [body, [link, lock, expected]] of cases) {
       await page.unrouteAll()
       await page.goto('about:blank')
       await openCourse(page, body.replace('LOCK', lock), { link })
@@ -732,8 +741,8 @@ test('settings obey one order, parsed or scripted: locked, link, attribute, defa
       expect(read).toEqual([5, 7])
       await expect(log.element.locator('input[type=number][name=universes]')).toHaveValue('7')
     }
-  }
-})
+  })
+}
 
 for (const type of ['fastslam-step', 'fastslam-change']) {
   test(`in ${type} of a log, to remove, move, reset or clone the figure is harmless`, async ({ page }) => {

@@ -94,9 +94,9 @@ test('while it plays, picture, transport, sentence and readouts tell of one step
 })
 
 test('while a slider is dragged, the step stays, and the picture until the new one of the same step is there', async ({ page }) => {
-  const lap = await openLap(page, 'universes="16" step="90"')
+  const lap = await openLap(page, 'universes="16" step="45"')
   const before = await lap.picture()
-  const atEnd = Object.values(await picturesOf(lap, [90]))
+  const atEnd = Object.values(await picturesOf(lap, [45]))
   const slider = lap.slider('universes')
   await slider.scrollIntoViewIfNeeded()
   const { x, y, width, height } = (await slider.boundingBox())!
@@ -113,9 +113,9 @@ test('while a slider is dragged, the step stays, and the picture until the new o
   for (const universes of new Set(seen.map(({ universes }) => universes))) {
     await lap.element.evaluate((figure, value) => Object.assign(figure, { universes: value }), universes)
     await lap.settled()
-    atEnd.push(...Object.values(await picturesOf(lap, [90])))
+    atEnd.push(...Object.values(await picturesOf(lap, [45])))
   }
-  expectOneNow(seen, step => (step === 90 ? atEnd : []))
+  expectOneNow(seen, step => (step === 45 ? atEnd : []))
 })
 
 test('what is shown while it is on its way is dimmed', async ({ page }) => {

@@ -2,7 +2,8 @@
 import type { Locator, Page } from '@playwright/test'
 import { brokenRules } from './axe'
 import { expect, test } from './fixtures'
-import { Figure, keepOnly } from './figure'
+import { Figure, openChapterOf } from './figure'
+import { breadth } from './host'
 
 const open = (page: Page, query?: string) => new Figure(page, 'fastslam-resampling').alone(query && `#fastslam-resampling?${query}`)
 
@@ -126,10 +127,12 @@ test.describe('at rest', () => {
     expect([await figure.readouts(), await figure.last()]).toEqual(before)
   })
 
-  test('dragging a slider changes the filters, and back gives the same numbers', async ({ page }) => {
-    const figure = await open(page, 'step=25')
-    for (const name of ['particles', 'threshold', 'odometry', 'range']) await figure.expectSliderAndBack(name)
-  })
+  for (const [names, options] of [[['particles', 'threshold'], {}], [['odometry', 'range'], breadth]] as const) {
+    test(`dragging ${names.join(' or ')} changes the filters, and back gives the same numbers`, options, async ({ page }) => {
+      const figure = await open(page, 'step=25')
+      for (const name of names) await figure.expectSliderAndBack(name)
+    })
+  }
 
   test('a click on a map shows the tree of its policy, and the list says which', async ({ page }) => {
     const figure = await open(page, 'step=60')
@@ -280,13 +283,12 @@ test.describe('at rest', () => {
   })
 
   test('where workers are forbidden it says so, and the figure goes on', async ({ page, complaints }) => {
-    await keepOnly(page, 'fastslam-resampling')
-    await page.route('./', async route => {
-      const response = await route.fetch()
-      const policy = response.headers()['content-security-policy']!.replace("worker-src 'self'", "worker-src 'none'")
-      await route.fulfill({ response, headers: { ...response.headers(), 'content-security-policy': policy } })
-    })
-    const figure = await new Figure(page, 'fastslam-resampling').open()
+    await openChapterOf(page, ['fastslam-resampling'], sent => ({
+      ...sent,
+      'content-security-policy': sent['content-security-policy']!.replace("worker-src 'self'", "worker-src 'none'"),
+    }))
+    const figure = new Figure(page, 'fastslam-resampling')
+    await figure.live()
     await figure.openCount()
     await panel(figure).start.click()
     await expect(panel(figure).said).toContainText('lets nothing run in the background')

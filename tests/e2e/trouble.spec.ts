@@ -1,16 +1,15 @@
 // No script, no WebAssembly, no network, panics, and nodes that come and go.
 import type { Page } from '@playwright/test'
 import { expect, test } from './fixtures'
-import { Figure, keepOnly } from './figure'
+import { Figure, openChapterOf } from './figure'
+import { openAlone, openCourse } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
 /**
- * Puts a layer between the glue and the wasm: counts figures made and freed, and lets a test fail a call as a panic does. The lap is
- * left alone on the page, so that no other figure is counted or fails.
+ * Puts a layer between the glue and the wasm: counts figures made and freed, and lets a test fail a call as a panic does.
  */
 async function tapWasm(page: Page): Promise<void> {
-  await keepOnly(page, 'fastslam-lap')
   await page.addInitScript(() => {
     const tap = ((window as unknown as { tap: object }).tap = { alive: 0, made: 0, panics: 0 })
     const wrap = (instance: WebAssembly.Instance): WebAssembly.Instance => {
@@ -78,25 +77,19 @@ async function expectPicture(lap: Figure, reason: RegExp): Promise<void> {
 }
 
 test('where a policy forbids WebAssembly, the picture stays and the reason is said', async ({ page, complaints }) => {
-  await keepOnly(page, 'fastslam-lap')
-  await page.route('./', async route => {
-    const response = await route.fetch()
-    const policy = response.headers()['content-security-policy']!.replace("'wasm-unsafe-eval'", '')
-    await route.fulfill({ response, headers: { ...response.headers(), 'content-security-policy': policy } })
-  })
-  await page.goto('./')
+  await openChapterOf(page, ['fastslam-lap'], sent => ({
+    ...sent,
+    'content-security-policy': sent['content-security-policy']!.replace("'wasm-unsafe-eval'", ''),
+  }))
   await expectPicture(new Figure(page, 'fastslam-lap'), /security policy of this page/)
   complaints.splice(0, Infinity, ...complaints.filter(line => !/wasm|WebAssembly/i.test(line)))
 })
 
 test('where a host sends no policy, the page has its own, and lives under it', async ({ page, complaints }) => {
-  await keepOnly(page, 'fastslam-lap')
-  await page.route('./', async route => {
-    const response = await route.fetch()
-    const { 'content-security-policy': _, ...headers } = response.headers()
-    await route.fulfill({ response, headers })
-  })
-  await new Figure(page, 'fastslam-lap').open()
+  await openChapterOf(page, ['fastslam-lap'], ({ 'content-security-policy': _, ...others }) => others)
+  const lap = new Figure(page, 'fastslam-lap')
+  await lap.element.scrollIntoViewIfNeeded()
+  await lap.live()
   const ran = await page.evaluate(() => {
     const script = document.createElement('script')
     script.textContent = 'document.title = "injected"'
@@ -109,44 +102,32 @@ test('where a host sends no policy, the page has its own, and lives under it', a
 })
 
 test('where there is no WebAssembly at all, the picture stays and the reason is said', async ({ page }) => {
-  await keepOnly(page, 'fastslam-lap')
   await page.addInitScript(() => Reflect.deleteProperty(window, 'WebAssembly'))
-  await page.goto('./')
+  await openChapterOf(page, ['fastslam-lap'])
   await expectPicture(new Figure(page, 'fastslam-lap'), /runs no WebAssembly/)
 })
 
-test('where the network fails, the picture stays, and a second try brings the figure to life', async ({ page, complaints }) => {
-  await keepOnly(page, 'fastslam-lap')
+test('where the network fails, the picture stays, and a second try brings the figure to life, with the link that the first one had', async ({ page, complaints }) => {
   await page.route('**/*.wasm', route => route.abort())
-  await page.goto('./')
-  const lap = new Figure(page, 'fastslam-lap')
-  await expectPicture(lap, /could not be fetched/)
+  await openCourse(page, '<fastslam-lap id="a"></fastslam-lap><fastslam-lap id="b"></fastslam-lap>', { link: '#b?universes=4&step=5' })
+  const [a, b] = [new Figure(page, '#a'), new Figure(page, '#b')]
+  for (const lap of [a, b]) await expectPicture(lap, /could not be fetched/)
   await page.unroute('**/*.wasm')
-  await lap.alert.getByRole('button', { name: 'Try again' }).click()
-  await lap.live()
-  await expect(lap.alert).toBeEmpty()
-  complaints.splice(0, Infinity, ...complaints.filter(line => !/Failed to load resource/.test(line)))
-})
-
-test('a second try begins with the link that the first one had', async ({ page, complaints }) => {
-  await keepOnly(page, 'fastslam-lap')
-  await page.route('**/*.wasm', route => route.abort())
-  await page.goto('./#fastslam-lap?universes=4&step=5')
-  const lap = new Figure(page, 'fastslam-lap')
-  await expectPicture(lap, /could not be fetched/)
-  await page.unroute('**/*.wasm')
-  await lap.alert.getByRole('button', { name: 'Try again' }).click()
-  await lap.live()
-  expect(await lap.position()).toBe(5)
-  await lap.openSettings()
-  await expect(lap.box('universes')).toHaveValue('4')
+  for (const [lap, step, universes] of [[a, 0, '16'], [b, 5, '4']] as const) {
+    await lap.element.scrollIntoViewIfNeeded()
+    await lap.alert.getByRole('button', { name: 'Try again' }).click()
+    await lap.live()
+    await expect(lap.alert).toBeEmpty()
+    expect(await lap.position()).toBe(step)
+    await lap.openSettings()
+    await expect(lap.box('universes')).toHaveValue(universes)
+  }
   complaints.splice(0, Infinity, ...complaints.filter(line => !/Failed to load resource/.test(line)))
 })
 
 test('where the file is missing, the answer of the server is said', async ({ page, complaints }) => {
-  await keepOnly(page, 'fastslam-lap')
   await page.route('**/*.wasm', route => route.fulfill({ status: 404, body: 'gone' }))
-  await page.goto('./')
+  await openAlone(page, 'fastslam-lap')
   await expectPicture(new Figure(page, 'fastslam-lap'), /answered 404/)
   complaints.splice(0, Infinity, ...complaints.filter(line => !/404/.test(line)))
 })
@@ -201,7 +182,9 @@ test('after a second panic it stops, others go on, and Reset brings it back', as
 
 test('a node that is moved or taken out and put back is freed and restored', async ({ page }) => {
   await tapWasm(page)
-  const lap = await new Figure(page, 'fastslam-lap').open('./#fastslam-lap?seed=5&step=2')
+  await openCourse(page, '<main><figure><fastslam-lap></fastslam-lap></figure></main><footer></footer>', { link: '#fastslam-lap?seed=5&step=2' })
+  const lap = new Figure(page, 'fastslam-lap')
+  await lap.live()
   await lap.openSettings()
   await lap.box('universes').fill('8')
   await lap.box('universes').press('Enter')
@@ -249,11 +232,11 @@ test('the wasm is fetched once for all figures, and every one is freed', async (
   })
   const fetched = watchFiles(page)
   await page.setViewportSize({ width: 1000, height: 300 })
-  await page.goto('./')
+  await openChapterOf(page, ['fastslam-lap'])
   const lap = new Figure(page, 'fastslam-lap')
   await lap.element.scrollIntoViewIfNeeded()
   await lap.live()
-  for (let i = 0; i < 20; i++) {
+  for (let i = 0; i < 5; i++) {
     await page.evaluate(async () => {
       const one = document.createElement('fastslam-lap')
       document.querySelector('main')!.prepend(one)
@@ -262,7 +245,7 @@ test('the wasm is fetched once for all figures, and every one is freed', async (
       one.remove()
     })
   }
-  expect((await tapped(page)).made).toBe(21)
+  expect((await tapped(page)).made).toBe(6)
   expect((await tapped(page)).alive).toBe(1)
   // One fetch, and not the picture, which is for those without WebAssembly.
   expect(fetched).toEqual([expect.stringMatching(/wasm$/)])
