@@ -4,7 +4,7 @@ import type { AddressInfo } from 'node:net'
 import type { Page } from '@playwright/test'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
-import { FIGURES, forgiveHost, openHost } from './host'
+import { breadth, FIGURES, forgiveHost, openHost, quick } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -35,8 +35,7 @@ async function expectPicture(figure: Figure, reason: RegExp): Promise<void> {
 }
 
 test('all figures live under the strict policy, count in the background, and break no rule of it', async ({ page }) => {
-  await openPage(page, FIGURES.map(name => `<fastslam-${name}></fastslam-${name}>`).join(''))
-  for (const name of FIGURES) await new Figure(page, `fastslam-${name}`).element.scrollIntoViewIfNeeded()
+  await openPage(page, FIGURES.map(quick).join(''))
   for (const name of FIGURES) {
     const figure = new Figure(page, `fastslam-${name}`)
     await figure.element.scrollIntoViewIfNeeded()
@@ -148,8 +147,8 @@ const tapped = (page: Page) => page.evaluate(() => {
   return { alive, frames, memory: memory?.buffer.byteLength ?? 0 }
 })
 
-test('twenty figures fetch one program, rest when out of sight, and leave nothing behind after 200 times out and in', async ({ page, complaints, baseURL }) => {
-  test.setTimeout(240_000)
+/** Twenty figures on a page, all of them in view: what the page fetches of programs from now on. */
+async function openTwenty(page: Page, baseURL: string): Promise<string[]> {
   const fetched: string[] = []
   page.on('request', request => request.url().endsWith('.wasm') && fetched.push(request.url()))
   await tap(page)
@@ -163,6 +162,39 @@ test('twenty figures fetch one program, rest when out of sight, and leave nothin
     document.querySelector<HTMLElement>('#below')!.style.height = '3000px'
   })
   await expect.poll(async () => (await tapped(page)).alive, { timeout: 60_000 }).toBe(20)
+  return fetched
+}
+
+/** That nothing is left of twenty figures that are taken out and put back: so often until all that stays is there, and then so often again. */
+async function expectNothingLeft(page: Page, first: number, times: number): Promise<void> {
+  const client = await page.context().newCDPSession(page)
+  const heap = async () => {
+    await client.send('HeapProfiler.collectGarbage')
+    const { usedSize } = await client.send('Runtime.getHeapUsage')
+    return usedSize
+  }
+  const cycle = (times: number) =>
+    page.evaluate(async n => {
+      const grid = document.querySelector('#grid')!
+      const figures = [...grid.children]
+      const { tapped } = self as unknown as { tapped: Tap }
+      for (let i = 0; i < n; i++) {
+        for (const figure of figures) figure.remove()
+        if (tapped.alive !== 0) throw new Error(`${tapped.alive} figures are left after all were removed`)
+        grid.append(...figures)
+        while (tapped.alive < figures.length) await new Promise(requestAnimationFrame)
+      }
+    }, times)
+  await cycle(first)
+  const before = [(await tapped(page)).memory, await heap()] as const
+  await cycle(times)
+  const after = [(await tapped(page)).memory, await heap()] as const
+  expect(after[0], 'memory of the program [bytes]').toBe(before[0])
+  expect(after[1], `heap of the page [bytes], before ${before[1]}`).toBeLessThan(1.15 * before[1])
+}
+
+test('twenty figures fetch one program, rest when out of sight, and leave nothing behind after 20 times out and in', async ({ page, complaints, baseURL }) => {
+  const fetched = await openTwenty(page, baseURL!)
   expect(fetched).toHaveLength(1)
 
   // Out of sight, even where they were told to play, no frame is asked for.
@@ -186,30 +218,15 @@ test('twenty figures fetch one program, rest when out of sight, and leave nothin
     await Promise.all(figures.map(figure => figure.settled()))
   })
 
-  const client = await page.context().newCDPSession(page)
-  const heap = async () => {
-    await client.send('HeapProfiler.collectGarbage')
-    const { usedSize } = await client.send('Runtime.getHeapUsage')
-    return usedSize
-  }
-  const cycle = (times: number) =>
-    page.evaluate(async n => {
-      const grid = document.querySelector('#grid')!
-      const figures = [...grid.children]
-      const { tapped } = self as unknown as { tapped: Tap }
-      for (let i = 0; i < n; i++) {
-        for (const figure of figures) figure.remove()
-        if (tapped.alive !== 0) throw new Error(`${tapped.alive} figures are left after all were removed`)
-        grid.append(...figures)
-        while (tapped.alive < figures.length) await new Promise(requestAnimationFrame)
-      }
-    }, times)
-  await cycle(10)
-  const before = [(await tapped(page)).memory, await heap()] as const
-  await cycle(190)
-  const after = [(await tapped(page)).memory, await heap()] as const
-  expect(after[0], 'memory of the program [bytes]').toBe(before[0])
-  expect(after[1], `heap of the page [bytes], before ${before[1]}`).toBeLessThan(1.15 * before[1])
+  await expectNothingLeft(page, 5, 15)
+  expect(fetched).toHaveLength(1)
+  forgiveHost(complaints)
+})
+
+test('twenty figures leave nothing behind after 200 times out and in', breadth, async ({ page, complaints, baseURL }) => {
+  test.setTimeout(240_000)
+  const fetched = await openTwenty(page, baseURL!)
+  await expectNothingLeft(page, 10, 190)
   expect(fetched).toHaveLength(1)
   forgiveHost(complaints)
 })

@@ -10,7 +10,7 @@ import { strFromU8, unzipSync } from 'fflate'
 import { limit, offline, writeOffline } from '../../scripts/offline.mjs'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
-import { FIGURES } from './host'
+import { breadth, breadthOf, FIGURES } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -24,7 +24,7 @@ test.beforeAll(async () => {
 })
 
 for (const name of FIGURES) {
-  test(`the file of ${name} lives from file:// and asks for nothing`, async ({ page, context }) => {
+  test(`the file of ${name} lives from file:// and asks for nothing`, breadthOf(name), async ({ page, context }) => {
     const path = join(offline, `fastslam-${name}.html`)
     expect(statSync(path).size).toBeLessThanOrEqual(limit)
     const asked: string[] = []
@@ -63,7 +63,8 @@ test('the example is mapped from file:// too', async ({ page, context }) => {
   expect(asked).toEqual([address])
 })
 
-test('the whole chapter lives from one file', async ({ page, context }) => {
+// It carries the program with all figures, which `npm run package` builds.
+test('the whole chapter lives from one file', breadth, async ({ page, context }) => {
   const asked: string[] = []
   context.on('request', request => !/^(data|blob):/.test(request.url()) && asked.push(request.url()))
   const address = pathToFileURL(join(offline, 'chapter.html')).href

@@ -1,11 +1,13 @@
-// The wasm that readers get, after wasm-opt, against every golden picture: with all figures, with those of the page, and with the one
-// that maps logs.
+// The wasm that readers get, after wasm-opt, against every golden picture: the program of the page's figures, that which maps logs, and
+// that with all figures, which notebooks carry along (`npm run package` builds it).
 import { readFileSync } from 'node:fs'
 import { join } from 'node:path'
+import type { Browser } from '@playwright/test'
 import { programs } from '../../scripts/registry.mjs'
 import { root } from '../../scripts/lib.mjs'
 import { startServer } from '../../scripts/serve.mjs'
 import { expect, test } from './fixtures'
+import { breadth } from './host'
 
 interface Picture {
   name: string
@@ -34,7 +36,9 @@ async function digests({ program, wanted, log }: { program: string; wanted: Pict
   const module = `/fastslam_widgets.js?${program}`
   const { default: init, Figure } = (await import(module)) as typeof import('../../widgets/pkg/fastslam_widgets')
   const { memory } = await init({ module_or_path: `/${program}.wasm` })
-  return wanted.map(({ tag, query, width, dpr, theme }) => {
+  // Pictures of one state are of one figure, which was brought there once.
+  const figures = new Map<string, InstanceType<typeof Figure>>()
+  const open = (tag: string, query: string) => {
     const figure = new Figure(tag)
     figure.load(query)
     if (tag === 'fastslam-log') {
@@ -42,6 +46,11 @@ async function digests({ program, wanted, log }: { program: string; wanted: Pict
       figure.seek(figure.step_count())
     }
     while (figure.pending() > 0) figure.work()
+    figures.set(`${tag}?${query}`, figure)
+    return figure
+  }
+  return wanted.map(({ tag, query, width, dpr, theme }) => {
+    const figure = figures.get(`${tag}?${query}`) ?? open(tag, query)
     const [w, h] = [width, figure.height(width)].map(side => Math.round(side * dpr))
     figure.paint(w!, h!, dpr, theme)
     // FNV-1a of 64 bits, in halves: × 0x100000001b3 is × 0x1b3, and a shift by 40.
@@ -52,29 +61,46 @@ async function digests({ program, wanted, log }: { program: string; wanted: Pict
       high = (Math.imul(high, 0x1b3) + Math.floor(product / 2 ** 32) + (low << 8)) >>> 0
       low = product >>> 0
     }
-    figure.free()
     const hex = (x: number) => x.toString(16).padStart(8, '0')
     return `${4 * w! * h!} ${hex(high)}${hex(low)}`
   })
 }
 
-const paints = [
-  { program: 'fastslam_widgets_bg', wanted: pictures },
-  ...[...new Set(programs.values())].map(name => ({ program: `fastslam-${name}`, wanted: pictures.filter(({ tag }) => programs.get(tag) === name) })),
-]
-
-for (const { program, wanted } of paints) {
-  test(`${program}.wasm paints its golden pictures to the last pixel`, async ({ browser }) => {
-    test.slow()
-    const server = await startServer({ folder: join(root, 'widgets', 'pkg') })
-    // A context of its own: the fixture's may not leave the site.
-    const page = await (await browser.newContext()).newPage()
-    await page.route('**/blank', route => route.fulfill({ contentType: 'text/html', body: '<!doctype html><title>pixels</title>' }))
-    await page.goto(`${server.url}blank`)
-    const painted = await page.evaluate(digests, { program, wanted, log: readFileSync(join(golden, 'tiny.clf'), 'utf8') })
-    expect(wanted.map(({ name }, i) => `${name} ${painted[i]}`)).toEqual(wanted.map(({ name, digest }) => `${name} ${digest}`))
-    expect(wanted.length).toBeGreaterThan(0)
-    await page.context().close()
-    await server.close()
-  })
+/** That these pictures come out of a program as they are in the golden file. */
+async function expectGolden(browser: Browser, program: string, wanted: Picture[]): Promise<void> {
+  const server = await startServer({ folder: join(root, 'widgets', 'pkg') })
+  // A context of its own: the fixture's may not leave the site.
+  const page = await (await browser.newContext()).newPage()
+  await page.route('**/blank', route => route.fulfill({ contentType: 'text/html', body: '<!doctype html><title>pixels</title>' }))
+  await page.goto(`${server.url}blank`)
+  const painted = await page.evaluate(digests, { program, wanted, log: readFileSync(join(golden, 'tiny.clf'), 'utf8') })
+  expect(wanted.map(({ name }, i) => `${name} ${painted[i]}`)).toEqual(wanted.map(({ name, digest }) => `${name} ${digest}`))
+  expect(wanted.length).toBeGreaterThan(0)
+  await page.context().close()
+  await server.close()
 }
+
+const of = (program: string) => pictures.filter(({ tag }) => programs.get(tag) === program)
+
+// Three quarters of the time went into a quarter of the pictures, each of which has to be computed for itself; every figure has others.
+const LONG = /^(joint-exercise|em-(fold|backward|phone)|graph-(folded|mended)|(joint|em|smoothing|graph)-(asked|judged)|resampling-judged)$|^fastslam-(joint|smoothing)-/
+
+test('fastslam-page.wasm paints golden pictures of every figure to the last pixel', async ({ browser }) => {
+  const wanted = of('page').filter(({ name }) => !LONG.test(name))
+  for (const [tag, program] of programs) if (program === 'page') expect(wanted.filter(picture => picture.tag === tag).length, tag).toBeGreaterThan(1)
+  await expectGolden(browser, 'fastslam-page', wanted)
+})
+
+test('fastslam-log.wasm paints its golden pictures to the last pixel', async ({ browser }) => {
+  await expectGolden(browser, 'fastslam-log', of('log'))
+})
+
+test('fastslam-page.wasm paints all its golden pictures to the last pixel', breadth, async ({ browser }) => {
+  test.slow()
+  await expectGolden(browser, 'fastslam-page', of('page'))
+})
+
+test('fastslam_widgets_bg.wasm paints all golden pictures to the last pixel', breadth, async ({ browser }) => {
+  test.slow()
+  await expectGolden(browser, 'fastslam_widgets_bg', pictures)
+})

@@ -1,25 +1,29 @@
 // Every screen, direction and sheet: 400 % zoom, right to left, forced colours, small frames with a projector's letters, paper.
 import type { Locator, Page } from '@playwright/test'
 import { expect, test } from './fixtures'
-import { Figure } from './figure'
-import { FIGURES, openCourse } from './host'
+import { Figure, frames } from './figure'
+import { breadth, breadthOf, FIGURES, openCourse } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
 const ALL = [...FIGURES, 'log']
 
-/** A page of one figure with all there is of it open; that of logs has no picture before it has a log. */
-async function openWhole(page: Page, name: string, { dir = 'ltr', attributes = '' } = {}): Promise<Figure> {
-  await page.unrouteAll()
-  await openCourse(page, `<div dir="${dir}"><fastslam-${name} ${attributes}></fastslam-${name}></div>`)
-  const figure = new Figure(page, `fastslam-${name}`)
-  if (name === 'log') await expect(figure.sentence).not.toBeEmpty()
-  else await figure.live()
-  await figure.openSettings()
-  if (name === 'resampling' || name === 'doors') await figure.openCount()
-  await figure.settled()
-  return figure
+/** A page of these figures with all there is of them open; that of logs has no picture before it has a log. */
+async function openAllOf(page: Page, names: string[], dir = 'ltr'): Promise<Figure[]> {
+  await openCourse(page, `<div id="box" dir="${dir}">${names.map(name => `<fastslam-${name}></fastslam-${name}>`).join('')}</div>`)
+  const figures = names.map(name => new Figure(page, `fastslam-${name}`))
+  for (const [i, figure] of figures.entries()) {
+    await figure.element.scrollIntoViewIfNeeded()
+    if (names[i] === 'log') await expect(figure.sentence).not.toBeEmpty()
+    else await figure.live()
+    await figure.openSettings()
+    if (names[i] === 'resampling' || names[i] === 'doors') await figure.openCount()
+    await figure.settled()
+  }
+  return figures
 }
+
+const openWhole = async (page: Page, name: string, dir = 'ltr') => (await openAllOf(page, [name], dir))[0]!
 
 /** What sticks out of the figure, or is cut off by what it stands in. */
 const lost = (figure: Locator) =>
@@ -36,21 +40,26 @@ const lost = (figure: Locator) =>
     return { out: out.map(name), cut: cut.map(name) }
   })
 
-for (const name of ALL) {
-  test(`at 400 % nothing of ${name} scrolls sideways and nothing is cut off`, async ({ page }) => {
-    await page.setViewportSize({ width: 320, height: 256 })
-    for (const dir of ['ltr', 'rtl']) {
-      const figure = await openWhole(page, name, { dir })
-      expect(await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]), dir).toEqual([320, 320])
-      expect(await lost(figure.element), dir).toEqual({ out: [], cut: [] })
+test('at 400 % nothing of any figure scrolls sideways and nothing is cut off, whatever the direction of the page', async ({ page }) => {
+  await page.setViewportSize({ width: 320, height: 256 })
+  const figures = await openAllOf(page, ALL)
+  for (const dir of ['ltr', 'rtl']) {
+    await page.locator('#box').evaluate((box, dir) => box.setAttribute('dir', dir), dir)
+    await frames(page, 2)
+    for (const [i, figure] of figures.entries()) {
+      expect(await lost(figure.element), `${ALL[i]}, ${dir}`).toEqual({ out: [], cut: [] })
     }
-  })
-}
+    expect(await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]), dir).toEqual([320, 320])
+  }
+})
 
 test('on a page from right to left the controls change sides, and time and numbers do not', async ({ page }) => {
+  await page.setViewportSize({ width: 1000, height: 800 })
+  const lap = await openWhole(page, 'lap', 'rtl')
   for (const width of [1000, 380]) {
     await page.setViewportSize({ width, height: 800 })
-    const lap = await openWhole(page, 'lap', { dir: 'rtl' })
+    await lap.reset.click()
+    await lap.settled()
     const x = async (locator: Locator) => (await locator.boundingBox())!.x
     const name = lap.element.locator('.slider:has([name=odometry]) .name')
     expect(await x(name)).toBeGreaterThan(await x(lap.box('odometry')))
@@ -118,10 +127,11 @@ test('on a page from right to left the controls change sides, and time and numbe
 })
 
 test('the bars of a count and their intervals begin at the same side, whatever the direction of the page', async ({ page }) => {
+  const figure = await openWhole(page, 'resampling')
+  await figure.element.getByRole('button', { name: /Count over/ }).click()
+  await expect(figure.element.locator('.count .said')).toContainText('200 seeds counted', { timeout: 60_000 })
   for (const dir of ['ltr', 'rtl']) {
-    const figure = await openWhole(page, 'resampling', { dir })
-    await figure.element.getByRole('button', { name: /Count over/ }).click()
-    await expect(figure.element.locator('.count .said')).toContainText('200 seeds counted', { timeout: 60_000 })
+    await page.locator('#box').evaluate((box, dir) => box.setAttribute('dir', dir), dir)
     const bars = await figure.element.locator('.track').evaluateAll(tracks =>
       tracks.map(track => {
         const [fill, range] = [...track.children].map(child => child.getBoundingClientRect()) as [DOMRect, DOMRect]
@@ -139,11 +149,14 @@ test('the bars of a count and their intervals begin at the same side, whatever t
   }
 })
 
-for (const colorScheme of ['light', 'dark'] as const) {
-  test(`in forced colours every control can be seen, ${colorScheme}`, async ({ browser, baseURL }) => {
-    const page = await (await browser.newContext({ baseURL: baseURL!, forcedColors: 'active', colorScheme, reducedMotion: 'reduce', viewport: { width: 1000, height: 2600 } })).newPage()
-    for (const name of ALL) {
-      const figure = await openWhole(page, name)
+for (const name of ALL) {
+  test(`in forced colours every control of ${name} can be seen, light and dark`, breadthOf(name), async ({ page }) => {
+    await page.setViewportSize({ width: 1000, height: 2600 })
+    await page.emulateMedia({ forcedColors: 'active', colorScheme: 'light', reducedMotion: 'reduce' })
+    const figure = await openWhole(page, name)
+    for (const colorScheme of ['light', 'dark'] as const) {
+      await page.emulateMedia({ forcedColors: 'active', colorScheme, reducedMotion: 'reduce' })
+      await figure.settled()
       const expectSeen = async (what: string, controls: string) => {
         const shot = (await page.screenshot()).toString('base64')
         const unseen = await figure.element.evaluate(async (element, [png, selector]) => {
@@ -164,31 +177,35 @@ for (const colorScheme of ['light', 'dark'] as const) {
             })
             .map(control => control.outerHTML.slice(0, 100))
         }, [shot, controls] as const)
-        expect(unseen, `${name}: ${what}`).toEqual([])
+        expect(unseen, `${colorScheme}: ${what}`).toEqual([])
       }
       await expectSeen('at rest', 'button, summary, select, input, progress, .handle')
       await figure.element.locator('button[aria-label=Menu]').click()
       await expectSeen('its menu', '.items button')
+      await page.keyboard.press('Escape')
     }
-    await page.context().close()
   })
 }
 
-for (const size of ['normal', 'presentation']) {
-  test(`a frame of 900 × 560 cuts nothing off, letters ${size}`, async ({ page }) => {
+for (const name of FIGURES) {
+  // The worked example, all of numbers in matrices, is the widest and the highest.
+  test(`a frame of 900 × 560 cuts nothing of ${name} off, with letters of the normal size and a projector’s`, name === 'worked-example' ? {} : breadth, async ({ page }) => {
     await page.setViewportSize({ width: 900, height: 560 })
-    for (const name of FIGURES) {
-      const figure = await new Figure(page, `fastslam-${name}`).open(`./embed.html?figure=${name}&size=${size}`)
+    const figure = await new Figure(page, `fastslam-${name}`).open(`./embed.html?figure=${name}`)
+    for (const size of ['normal', 'presentation']) {
+      await figure.element.evaluate((element, size) => element.setAttribute('size', size), size)
+      await figure.settled()
+      await figure.element.evaluate(element => element.shadowRoot!.querySelector('.figure')!.scrollTo(0, 0))
       const [canvas, stage] = [(await figure.canvas.boundingBox())!, (await figure.element.locator('.stage').boundingBox())!]
       // All of the picture is in the window; the rest is, or is scrolled to.
       const { y, height } = (await figure.canvas.boundingBox())!
-      expect(y + height, `${name}, picture`).toBeLessThanOrEqual(560)
-      expect(canvas.width, `${name}, sideways`).toBeLessThanOrEqual(stage.width)
+      expect(y + height, `${size}, picture`).toBeLessThanOrEqual(560)
+      expect(canvas.width, `${size}, sideways`).toBeLessThanOrEqual(stage.width)
       const { wide, room } = await figure.element.evaluate(element => {
         const body = element.shadowRoot!.querySelector<HTMLElement>('.figure')!
         return { wide: body.scrollWidth, room: body.clientWidth }
       })
-      expect(wide, name).toBe(room)
+      expect(wide, size).toBe(room)
       const end = figure.element.locator('[part=numbers]')
       await end.scrollIntoViewIfNeeded()
       await expect(end).toBeInViewport()
