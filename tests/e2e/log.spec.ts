@@ -618,7 +618,7 @@ test('the page answers while a log is mapped', async ({ page }) => {
   // How soon is the machine's, and `npm run bench` tells it. That another thread does the work is ours.
   expect(page.workers()).toHaveLength(1)
   await log.stage.focus()
-  for (let i = 0; i < 5; i++) {
+  for (let i = 0; i < 3; i++) {
     const before = await log.picture()
     await page.keyboard.press('ArrowLeft')
     await expect.poll(() => log.picture()).not.toBe(before)

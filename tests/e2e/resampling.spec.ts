@@ -5,6 +5,9 @@ import { expect, test } from './fixtures'
 import { Figure, openChapterOf } from './figure'
 import { breadth } from './host'
 
+/** Few particles, where it does not matter how many. */
+const FEW = 'particles=6'
+
 const open = (page: Page, query?: string) => new Figure(page, 'fastslam-resampling').alone(query && `#fastslam-resampling?${query}`)
 
 /** The step that is read. */
@@ -70,7 +73,7 @@ test.describe('at rest', () => {
   })
 
   test('the pointer over the curves reads a step until it leaves, a click keeps it, and time takes the cursor along', async ({ page }) => {
-    const figure = await open(page, 'step=60')
+    const figure = await open(page, `${FEW}&step=60`)
     const at = await overCurves(figure, 1 / 3)
     await figure.element.locator('select[name=cursor]').selectOption('now')
     await page.mouse.move(5, 5)
@@ -95,7 +98,7 @@ test.describe('at rest', () => {
   })
 
   test('the cursor takes the focus and moves by arrow keys', async ({ page }) => {
-    const figure = await open(page, 'step=40')
+    const figure = await open(page, `${FEW}&step=40`)
     const [handle, picture] = [figure.grasp('cursor'), await figure.picture()]
     await handle.focus()
     await page.keyboard.press('ArrowLeft')
@@ -135,7 +138,7 @@ test.describe('at rest', () => {
   }
 
   test('a click on a map shows the tree of its policy, and the list says which', async ({ page }) => {
-    const figure = await open(page, 'step=60')
+    const figure = await open(page, `${FEW}&step=60`)
     const policy = figure.element.locator('select[name=policy]')
     await expect(policy).toHaveValue('selective')
     const [before, numbers] = [await figure.picture(), await figure.readouts()]
@@ -151,7 +154,7 @@ test.describe('at rest', () => {
   })
 
   test('the threshold is dragged by its line, and its arrow keys go up and down', async ({ page }) => {
-    const figure = await open(page, 'step=30')
+    const figure = await open(page, `${FEW}&step=30`)
     const handle = figure.handle('threshold')
     await handle.evaluate(handle => handle.scrollIntoView({ block: 'center', behavior: 'instant' }))
     const { x, y, width, height } = (await handle.boundingBox())!
@@ -173,7 +176,7 @@ test.describe('at rest', () => {
   })
 
   test('what the picture says is not written a second time', async ({ page }) => {
-    const figure = await open(page, 'step=30')
+    const figure = await open(page, `${FEW}&step=30`)
     await figure.openNumbers()
     const rows = await figure.element.locator('[part=readout]:visible').evaluateAll(rows => rows.map(row => (row as HTMLElement).dataset['name']))
     expect(rows).toEqual(['never_tree', 'always_tree', 'selective_tree'])
@@ -304,7 +307,7 @@ test.describe('on a phone', () => {
   test.use({ viewport: { width: 380, height: 800 }, hasTouch: true, isMobile: true, contextOptions: { reducedMotion: 'reduce' } })
 
   test('a tap on a curve reads its step, and nothing is wider than the screen', async ({ page }) => {
-    const figure = await open(page, 'step=60')
+    const figure = await open(page, `${FEW}&step=60`)
     expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(380)
     const at = await overCurves(figure, 0.5)
     await page.touchscreen.tap(at.x, at.y)
@@ -316,7 +319,7 @@ test.describe('on a phone', () => {
     expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(380)
   })
   test('a tab shows the map and the tree of its policy', async ({ page }) => {
-    const figure = await open(page, 'step=60&wings=on')
+    const figure = await open(page, `${FEW}&step=60&wings=on`)
     const policy = figure.element.locator('select[name=policy]')
     const pictures = new Set([await figure.picture()])
     await figure.canvas.scrollIntoViewIfNeeded()
