@@ -63,7 +63,6 @@ test('the example is mapped from file:// too', async ({ page, context }) => {
   expect(asked).toEqual([address])
 })
 
-// It carries the program with all figures, which `npm run package` builds.
 test('the whole chapter lives from one file', breadth, async ({ page, context }) => {
   const asked: string[] = []
   context.on('request', request => !/^(data|blob):/.test(request.url()) && asked.push(request.url()))
@@ -205,31 +204,23 @@ test('in a learning system, what merely played completes nothing, and the last s
   await page.context().close()
 })
 
-test('in a learning system, a prediction completes what has no steps, once it was placed and run', async ({ page, complaints }) => {
+test('in a learning system, a prediction completes what has no steps, once it was placed and run; it is an interaction, which is not told again', async ({ page, complaints }) => {
   const system = new LearningSystem(page, 'proposal')
   const figure = await system.visit()
   await figure.reroll.click()
+  await figure.reset.click()
   await figure.toggle('predict').click()
   await expect(figure.toggle('predict')).toHaveAttribute('aria-pressed', 'true')
   await figure.grasp('guess').focus()
   await figure.grasp('guess').press('ArrowUp')
   await expect.poll(() => system.told('cmi.suspend_data')).toContain('guess=')
   expect(await system.told(STATUS), 'placed, and not yet run').toBe('incomplete')
-  await figure.toggle('run').click()
-  await expect.poll(() => system.told(STATUS)).toBe('completed')
-  system.close()
-  forgiveSystem(complaints)
-})
-
-test('in a learning system, a prediction that is judged is an interaction, and one that was kept is not told again', async ({ page, complaints }) => {
-  const system = new LearningSystem(page, 'proposal')
-  const figure = await system.visit()
-  await figure.toggle('predict').click()
   await figure.box('guess').fill('6')
   await figure.box('guess').press('Enter')
   await figure.settled()
   expect(await system.told('cmi.interactions.0.id')).toBeUndefined()
   await figure.toggle('run').click()
+  await expect.poll(() => system.told(STATUS)).toBe('completed')
   const said = async (n: number) => Object.fromEntries(await Promise.all(['id', 'type', 'student_response', 'correct_responses.0.pattern', 'result', 'time'].map(async what => [what, await system.told(`cmi.interactions.${n}.${what}`)])))
   await expect.poll(() => system.told('cmi.interactions.0.result')).toBe('correct') // within a tenth
   expect(await said(0)).toMatchObject({ id: 'ratio_half', type: 'numeric', student_response: '6', 'correct_responses.0.pattern': expect.stringMatching(/^6\.\d+$/), time: expect.stringMatching(/^\d\d:\d\d:\d\d$/) })

@@ -53,7 +53,6 @@ test('the scripts for other pages name nothing that is missing, and the types be
   expectTypes(folder, './fastslam')
 })
 
-// It carries the program with all figures, too, which `npm run package` builds.
 test.describe('packed and installed', breadth, () => {
   // One worker, as what comes first is written once.
   test.describe.configure({ mode: 'default' })

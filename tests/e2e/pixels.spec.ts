@@ -1,5 +1,4 @@
-// The wasm that readers get, after wasm-opt, against every golden picture: the program of the page's figures, that which maps logs, and
-// that with all figures, which notebooks carry along (`npm run package` builds it).
+// The wasm that readers get, after wasm-opt, against the golden pictures: the program of the page's figures, and that which maps logs.
 import { readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import type { Browser } from '@playwright/test'
@@ -98,9 +97,4 @@ test('fastslam-log.wasm paints its golden pictures to the last pixel', async ({ 
 test('fastslam-page.wasm paints all its golden pictures to the last pixel', breadth, async ({ browser }) => {
   test.slow()
   await expectGolden(browser, 'fastslam-page', of('page'))
-})
-
-test('fastslam_widgets_bg.wasm paints all golden pictures to the last pixel', breadth, async ({ browser }) => {
-  test.slow()
-  await expectGolden(browser, 'fastslam_widgets_bg', pictures)
 })
