@@ -25,7 +25,7 @@ const budgets = {
 }
 
 /** A size against its budget, in words. @param {string} what @param {number} bytes @param {{ target: number, limit: number }} budget */
-function judge(what, bytes, { target, limit }) {
+export function judge(what, bytes, { target, limit }) {
   const missed = bytes > target ? `, ${kilobytes(bytes - target)} more than the target` : ''
   const result = `${what} ${kilobytes(bytes)} of ${kilobytes(target)}${missed}`
   if (bytes > limit) throw new StepError(`Too heavy: ${result}, and more than the limit of ${kilobytes(limit)}.`)

@@ -17,3 +17,22 @@ pub fn write_tum(path: &[(f64, Pose2)]) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::log::parse;
+
+    #[test]
+    fn poses_are_read_back_as_they_were_written() {
+        let pose = |k: u32| Pose2::new(0.5 * f64::from(k), -1.25, 0.55 * f64::from(k));
+        let path: Vec<(f64, Pose2)> = (0..12).map(|k| (f64::from(k), pose(k))).collect();
+        let scan = "FLASER 2 1.0 2.0 0 0 0 0 0 0 99 robot 99\n"; // without which it is not a log
+        let log = parse((write_tum(&path) + scan).as_bytes(), false).unwrap();
+        assert_eq!(log.odometry.len(), path.len() + 1);
+        for ((time, pose), (read, found)) in path.iter().zip(&log.odometry) {
+            assert_eq!(time, read);
+            assert!(found.minus(pose).norm() < 1e-6, "{pose:?} {found:?}");
+        }
+    }
+}

@@ -10,7 +10,7 @@ use fastslam::particle::Particle;
 use fastslam::proposal::{FromMeasurement, FromMotion, Proposal, ProposalTrace, Proposed};
 use fastslam::random::{Purpose, Stream};
 use fastslam::rbpf::Rbpf;
-use fastslam::resampling::ResamplePolicy;
+use fastslam::resampling::{ResamplePolicy, Scheme};
 use fastslam::save::{RestoreError, SaveShared};
 use fastslam::sensor::{BeamSensor, Feature, LandmarkSensor, RangeBearing, Scan};
 use fastslam_lab::digest::Digest;
@@ -183,8 +183,11 @@ fn a_map_of_landmarks_goes_on_from_its_saved_state_whatever_it_is_kept_in() {
 /// Stopped where a reader may stop: weighed, and resampled, but not moved on.
 #[test]
 fn a_state_between_the_halves_of_a_step_goes_on_as_well() {
-    let mut filter = landmarks::<Balanced>(Correspondence::Known);
     let proposal = FromMeasurement { motion: MOTION };
+    let map = <Landmarks<RangeBearing, Balanced>>::new(SENSOR, Correspondence::Known);
+    // A scheme that copies other particles at every draw, also where all weigh the same.
+    let builder = Rbpf::builder(map, proposal.clone()).particles(12).seed(5).scheme(Scheme::Multinomial);
+    let mut filter = builder.build().unwrap();
     for (control, features) in &circle(10) {
         filter.weigh(control, features);
         for _ in 0..2 {
