@@ -2,11 +2,10 @@
 // the elements, and the script of one file for notebooks.
 import { readdirSync, readFileSync } from 'node:fs'
 import { join } from 'node:path'
+import { dist } from './build.mjs'
 import { figures, manifest, types, write } from './elements.mjs'
 import { root, StepError } from './lib.mjs'
 import { notebook, singleFile } from './single.mjs'
-
-const dist = join(root, 'dist')
 
 /** Where the site will be: oEmbed needs whole addresses. @returns {string} */
 export const site = () => (process.env.FASTSLAM_SITE ?? 'http://localhost:8017/').replace(/\/*$/, '/')
