@@ -32,6 +32,16 @@ fn a_beam_frees_what_it_passes_and_fills_where_it_ends() {
 }
 
 #[test]
+fn a_cell_that_a_beam_ends_in_is_hit_though_another_beam_passes_through_it() {
+    for hits in [[[1.5, 0.0], [3.0, 0.0]], [[3.0, 0.0], [1.5, 0.0]]] {
+        let mut grid = Grid::<1>::new(MODEL);
+        let scan = Scan { hits: hits.to_vec(), misses: Vec::new() };
+        grid.assimilate(&Pose2::new(0.15, 0.15, 0.0), &scan, &());
+        assert_eq!([4, 5, 6, 10].map(|i| grid.log_odds(i, 0)), [-0.40625, 0.90625, -0.40625, 0.90625], "{hits:?}");
+    }
+}
+
+#[test]
 fn beams_reach_the_right_cells_in_every_direction() {
     for k in 0..720 {
         let angle = core::f64::consts::TAU * f64::from(k) / 720.0;

@@ -224,6 +224,17 @@ mod tests {
     }
 
     #[test]
+    fn ranges_along_one_ray_are_averaged() {
+        let pose = Pose2::new(1.0, -2.0, 0.5);
+        let seen = |range| Vector2::new(range, 0.3);
+        let mut landmark = Landmark::first(&SENSOR, &pose, &seen(3.1));
+        for range in [2.8, 3.0, 3.3, 2.8] {
+            landmark.update(&SENSOR, &pose, &seen(range));
+        }
+        assert!((landmark.mean - SENSOR.locate(&pose, &seen(3.0))).norm() < 1e-12, "{landmark:?}");
+    }
+
+    #[test]
     fn the_largest_deviation_is_that_of_the_longer_axis() {
         let covariance = Matrix2::new(2.5, 1.5, 1.5, 2.5);
         let landmark = Landmark { mean: Vector2::zeros(), covariance, existence_count: 1, apart: 0 };
