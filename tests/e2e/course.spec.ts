@@ -1,7 +1,10 @@
 // A teacher's page with one line of ours: policies, networks that are slow or break off, and many figures at once.
+import { readFileSync } from 'node:fs'
 import { createServer } from 'node:http'
 import type { AddressInfo } from 'node:net'
+import { join } from 'node:path'
 import type { Page } from '@playwright/test'
+import { root } from '../../scripts/lib.mjs'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
 import { breadth, FIGURES, forgiveHost, openHost, quick } from './host'
@@ -34,17 +37,53 @@ async function expectPicture(figure: Figure, reason: RegExp): Promise<void> {
   await expect(figure.element.locator('[part=title]')).toHaveText('One lap, many maps')
 }
 
-test('all figures live under the strict policy, count in the background, and break no rule of it', async ({ page }) => {
+interface Described {
+  name: string
+  kind?: string
+}
+interface Declaration extends Record<'attributes' | 'members' | 'cssParts' | 'cssProperties', Described[]> {
+  tagName: string
+}
+const namesOf = (all: Described[]) => all.map(({ name }) => name)
+
+test('all figures live under the strict policy, count in the background and break no rule of it; the manifest names every attribute, part and property that they have', async ({ page, request }) => {
+  const { modules } = (await (await request.get('./custom-elements.json')).json()) as { modules: { declarations: Declaration[] }[] }
+  const css = readFileSync(join(root, 'widgets', 'elements', 'figure.css'), 'utf8')
+  const parts = new Set<string>()
   await openPage(page, FIGURES.map(quick).join(''))
   for (const name of FIGURES) {
     const figure = new Figure(page, `fastslam-${name}`)
-    await figure.element.scrollIntoViewIfNeeded()
+    const { element } = figure
+    await element.scrollIntoViewIfNeeded()
     await figure.live()
+    const declared = modules[0]!.declarations.find(({ tagName }) => tagName === `fastslam-${name}`)!
+    expect(await element.evaluate((element, names) => names.filter(field => !(field in element)), namesOf(declared.members)), name).toEqual([])
+    // Every parameter of a link is an attribute of the manifest.
+    const values = await element.evaluate(element => new Promise<string[]>(done => {
+      element.addEventListener('fastslam-change', event => done(Object.keys((event as CustomEvent).detail.values)), { once: true })
+      const particles = element.getAttribute('particles')
+      ;(element as HTMLElement & { state: string }).state = particles ? `particles=${particles}` : ''
+    }))
+    expect(values.length, name).toBeGreaterThan(2)
+    expect(namesOf(declared.attributes)).toEqual(expect.arrayContaining(values))
+    if (name === 'proposal') {
+      // Some parts are there only once a run is pinned, or has been repeated.
+      await element.getByRole('button', { name: 'Pin this run' }).click()
+      await element.getByText('Five seeds', { exact: true }).click()
+      await element.getByRole('button', { name: 'Run five seeds' }).click()
+      await expect(element.locator('.strip button')).toHaveCount(5)
+    }
+    for (const part of await element.evaluate(element => [...element.shadowRoot!.querySelectorAll('[part]')].flatMap(inner => [...inner.part]))) parts.add(part)
+    for (const property of namesOf(declared.cssProperties)) expect(css).toContain(`var(${property},`)
+    for (const part of parts) expect(namesOf(declared.cssParts), name).toContain(part)
   }
+  // A notice is there only when there is something to say.
+  expect(namesOf(modules[0]!.declarations[0]!.cssParts).filter(part => !parts.has(part))).toEqual(['notice'])
+
   await new Figure(page, 'fastslam-resampling').openCount()
   await page.getByRole('button', { name: /Count over/ }).click()
-  await expect(page.getByRole('progressbar')).toHaveAttribute('value', /[1-9]/, { timeout: 30_000 })
-  await page.getByRole('button', { name: 'Stop' }).click()
+  await expect(page.locator('fastslam-resampling').getByRole('progressbar')).toHaveAttribute('value', /[1-9]/, { timeout: 30_000 })
+  await page.locator('fastslam-resampling').getByRole('button', { name: 'Stop' }).click()
 })
 
 test('under a policy without WebAssembly, a figure without a picture of its own shows ours, and why', async ({ page, complaints }) => {

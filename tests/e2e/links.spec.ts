@@ -20,13 +20,18 @@ async function addFigure(page: Page, attributes: Record<string, string>): Promis
   return lap
 }
 
-test('a link of a later version says so, and what this page knows of it is shown', async ({ page }) => {
+test('a link of a later version says so, and what this page knows of it is shown; another is followed when the address changes, and plays nothing', async ({ page }) => {
   const lap = await new Figure(page, 'fastslam-lap').alone('#fastslam-lap?v=5&universes=8&step=3')
   await expect(lap.alert).toContainText('version 5 of the figure')
   await lap.settled()
   expect(await lap.position()).toBe(3)
   await lap.openSettings()
   await expect(lap.box('universes')).toHaveValue('8')
+  await page.evaluate(() => (location.hash = 'fastslam-lap?universes=4&step=9'))
+  await expect.poll(() => lap.position()).toBe(9)
+  await lap.settled()
+  await expect(lap.box('universes')).toHaveValue('4')
+  await expect(lap.play).toBeVisible()
 })
 
 test('a copied link opens the very same state', async ({ page, context }) => {
@@ -57,16 +62,6 @@ test('a copied link opens the very same state', async ({ page, context }) => {
   await expect(other.box('odometry')).toHaveValue('1.35')
   await expect(other.element.locator('select[name=universe]')).toHaveValue('3')
   expect(await other.picture()).toBe(await lap.picture())
-})
-
-test('a link is followed when the address changes, and does not start the figure playing', async ({ page }) => {
-  const lap = await new Figure(page, 'fastslam-lap').alone()
-  await page.evaluate(() => (location.hash = 'fastslam-lap?universes=4&step=9'))
-  await expect.poll(() => lap.position()).toBe(9)
-  await lap.settled()
-  await lap.openSettings()
-  await expect(lap.box('universes')).toHaveValue('4')
-  await expect(lap.play).toBeVisible()
 })
 
 test('bad links are refused with the parameter and its range, and the rest of each is applied', async ({ page }) => {
@@ -108,9 +103,11 @@ test('a link for one figure leaves the others alone', async ({ page }) => {
   expect(await first.readouts()).toEqual(before)
 })
 
-test('attributes set the parameters, at any time, and taking one away gives the default', async ({ page }) => {
+test('attributes set the parameters, at any time, and taking one away gives the default; those of the platform and of frameworks are no mistakes', async ({ page }) => {
   await new Figure(page, 'fastslam-lap').alone()
-  const lap = await addFigure(page, { universes: '8', seed: '42', proposal: 'motion', 'range-std': '0.1', raw: '', step: '5' })
+  const parameters = { universes: '8', seed: '42', proposal: 'motion', 'range-std': '0.1', raw: '', step: '5' }
+  const others = { class: 'a', 'data-x': '1', 'aria-label': 'x', title: 't', lang: 'en', tabindex: '0', '_ngcontent-abc': '', 'v-if': 'a' }
+  const lap = await addFigure(page, { ...others, ...parameters })
   await expect(lap.alert).toBeEmpty()
   expect(await lap.position()).toBe(5)
   await lap.openSettings()
@@ -188,21 +185,6 @@ test('bad attributes are refused with their range; the default is kept and no ot
       await lap.element.evaluate(element => element.parentElement!.remove())
     })
   }
-})
-
-test('attributes of the platform and of frameworks are no mistakes', async ({ page }) => {
-  await new Figure(page, 'fastslam-lap').alone()
-  const lap = await addFigure(page, {
-    class: 'a',
-    'data-x': '1',
-    'aria-label': 'x',
-    title: 't',
-    lang: 'en',
-    tabindex: '0',
-    '_ngcontent-abc': '',
-    'v-if': 'a',
-  })
-  await expect(lap.alert).toBeEmpty()
 })
 
 test('a bad value typed into a box is refused, and the box goes back', async ({ page }) => {

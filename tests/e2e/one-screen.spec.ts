@@ -1,8 +1,11 @@
 // One screen: picture, playback and the controls that matter are in sight together, on a small laptop, on PhET's screen, on a tablet, on a
 // phone beside a thumb, and on a projector.
+import { readFileSync } from 'node:fs'
+import { join } from 'node:path'
 import type { Locator, Page } from '@playwright/test'
+import { root } from '../../scripts/lib.mjs'
 import { programs } from '../../scripts/registry.mjs'
-import { Figure } from './figure'
+import { Figure, frames, holdPrograms } from './figure'
 import { expect, test } from './fixtures'
 import { breadth, breadthOf, openCourse } from './host'
 
@@ -34,12 +37,15 @@ async function byTab(page: Page, figure: Figure): Promise<[string, number][]> {
   await figure.element.evaluate(element => element.shadowRoot!.querySelector<HTMLElement>('.stage')!.focus({ preventScroll: true }))
   const shares: [string, number][] = []
   for (let i = 0; i < 60; i++) {
-    const name = await figure.element.evaluate(element => {
+    const found = await figure.element.evaluate(element => {
       const focused = element.shadowRoot!.activeElement
-      return focused?.closest('.panes') ? (focused.getAttribute('aria-label') ?? focused.getAttribute('name') ?? focused.className) : undefined
+      if (!focused?.closest('.panes')) return undefined
+      const { top, bottom, height } = element.shadowRoot!.querySelector('.stage')!.getBoundingClientRect()
+      const share = Math.max(0, Math.min(bottom, innerHeight) - Math.max(top, 0)) / height
+      return [focused.getAttribute('aria-label') ?? focused.getAttribute('name') ?? focused.className, share] as [string, number]
     })
-    if (name === undefined) break
-    shares.push([name, await seen(figure)])
+    if (!found) break
+    shares.push(found)
     await page.keyboard.press('Tab')
   }
   return shares
@@ -57,8 +63,11 @@ function cutOff(figure: Locator): Promise<number> {
 /** The figure itself, on which there may be exercises that have copies. */
 const own = (page: Page, tag: string) => new Figure(page, tag).element
 
+const settleAll = (page: Page) =>
+  page.locator('.column > *').evaluateAll(figures => Promise.all(figures.map(figure => (figure as HTMLElement & { settled(): Promise<void> }).settled())))
+
 // In the chapter itself each figure takes three times as long. What it has to tell here is how wide they are in it.
-test('every figure is whole on a small laptop, in columns and as wide as in the chapter, and on a tablet picture and controls are', async ({ page }) => {
+test('every figure is whole on a small laptop, in columns and as wide as in the chapter, on a tablet picture and controls are, and what it takes was kept free before it lived', async ({ page }) => {
   const tags = [...programs.keys()]
   const widthsInChapter = async () => {
     const widths = await Promise.all(tags.map(tag => own(page, tag).evaluate(element => element.getBoundingClientRect().width)))
@@ -71,19 +80,32 @@ test('every figure is whole on a small laptop, in columns and as wide as in the 
   await page.setViewportSize(TABLET)
   const onTablet = await widthsInChapter()
 
+  // One above the other, so that all are seen; at first as narrow as on a phone, where all that a figure has adds to its height.
   await page.setViewportSize(LAPTOP)
-  // One above the other, so that all are seen.
-  await openCourse(page, tags.map(tag => `<div class="column" style="position: absolute; inset: 0 auto auto 0; width: 832px"><${tag}></${tag}></div>`).join(''))
+  const open = await holdPrograms(page)
+  await openCourse(page, tags.map(tag => `<div class="column" style="position: absolute; inset: 0 auto auto 0; width: 320px"><${tag}></${tag}></div>`).join(''))
+  const heights = () => Promise.all(tags.map(tag => page.locator(tag).evaluate(element => Math.round(element.getBoundingClientRect().height))))
+  await expect(page.locator('.column .reserved')).toHaveCount(tags.length - 1) // the figure of logs is whole without its program
+  await frames(page, 2)
+  const kept = await heights()
+  open()
   for (const tag of tags) await expect(page.locator(tag).locator(tag === 'fastslam-log' ? '.idle' : '.stage.live')).toBeVisible()
+  await expect(page.locator('.column .sentence:not(:empty)')).toHaveCount(tags.length)
+  await settleAll(page)
+  for (const [i, taken] of (await heights()).entries()) expect(Math.abs(kept[i]! - taken), `${tags[i]}: ${kept[i]} px kept, ${taken} px taken`).toBeLessThan(3)
+
   const widen = async (widths: number[]) => {
     await page.locator('.column').evaluateAll((columns, widths) => columns.forEach((column, i) => ((column as HTMLElement).style.width = `${widths[i]}px`)), widths)
-    await page.locator('.column > *').evaluateAll(figures => Promise.all(figures.map(figure => (figure as HTMLElement & { settled(): Promise<void> }).settled())))
+    await settleAll(page)
   }
+  const measured = JSON.parse(readFileSync(join(root, 'widgets', 'elements', 'heights.json'), 'utf8')) as { first: number; apart: number; heights: Record<string, number[]> }
   for (const widths of [onLaptop, ...[832, 1000, 1100].map(width => tags.map(() => width))]) {
     await widen(widths)
     for (const [i, tag] of tags.entries()) {
-      expect((await page.locator(tag).boundingBox())!.height, `${tag}, ${widths[i]} px wide`).toBeLessThanOrEqual(HIGHEST)
+      const { height } = (await page.locator(tag).boundingBox())!
+      expect(height, `${tag}, ${widths[i]} px wide`).toBeLessThanOrEqual(HIGHEST)
       if (widths === onLaptop) expect(await cutOff(page.locator(tag)), `the sentence of ${tag} is cut`).toBeLessThanOrEqual(1)
+      if (widths[i] === 832) expect(Math.abs(measured.heights[tag]![(832 - measured.first) / measured.apart]! - height), `${tag} takes what is kept free in a column`).toBeLessThan(3)
     }
   }
   await page.setViewportSize(TABLET)
@@ -192,31 +214,27 @@ for (const tag of COMPARED) {
 test.describe('on a phone', () => {
   test.use({ viewport: { width: 380, height: 760 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 })
 
+  /** That the picture stays in sight whichever slider a thumb is on, and whatever has the focus. */
+  async function expectInSight(page: Page, figure: Figure): Promise<void> {
+    for (const slider of await figure.element.locator('.main input').filter({ visible: true }).all()) {
+      await slider.scrollIntoViewIfNeeded()
+      await expect(slider).toBeInViewport()
+      expect(await seen(figure), (await slider.getAttribute('name')) ?? '').toBeGreaterThanOrEqual(SEEN)
+    }
+    // And what has the focus is not below the picture.
+    for (const [name, share] of await byTab(page, figure)) expect(share, name).toBeGreaterThanOrEqual(SEEN)
+  }
+
   for (const tag of programs.keys()) {
-    test(`${tag} keeps its picture in sight beside a thumb, whatever is set`, breadthOf(tag), async ({ page }) => {
+    test(`${tag} keeps its picture in sight beside a thumb, whatever is set${COMPARED.includes(tag) ? ', with a pinned run too' : ''}`, breadthOf(tag), async ({ page }) => {
       await openCourse(page, `<p>Before.</p><${tag}></${tag}><p style="height: 900px">After.</p>`)
       const figure = await ready(page, tag)
       for (const fold of await figure.element.locator('.main details:not([open]) > summary').all()) await fold.click()
-      for (const slider of await figure.element.locator('.main input').filter({ visible: true }).all()) {
-        await slider.scrollIntoViewIfNeeded()
-        await expect(slider).toBeInViewport()
-        expect(await seen(figure), (await slider.getAttribute('name')) ?? '').toBeGreaterThanOrEqual(SEEN)
-      }
-      // And what has the focus is not below the picture.
-      for (const [name, share] of await byTab(page, figure)) expect(share, name).toBeGreaterThanOrEqual(SEEN)
-    })
-
-    if (!COMPARED.includes(tag)) continue
-    test(`${tag} keeps its picture in sight beside a thumb with a pinned run too`, ofCompared(tag), async ({ page }) => {
-      await openCourse(page, `<p>Before.</p><${tag}></${tag}><p style="height: 900px">After.</p>`)
-      const figure = await ready(page, tag)
+      await expectInSight(page, figure)
+      if (!COMPARED.includes(tag)) return
+      for (const fold of await figure.element.locator('.main details[open] > summary').all()) await fold.click()
       await pin(figure)
-      for (const slider of await figure.element.locator('.main input').filter({ visible: true }).all()) {
-        await slider.scrollIntoViewIfNeeded()
-        await expect(slider).toBeInViewport()
-        expect(await seen(figure), (await slider.getAttribute('name')) ?? '').toBeGreaterThanOrEqual(SEEN)
-      }
-      for (const [name, share] of await byTab(page, figure)) expect(share, name).toBeGreaterThanOrEqual(SEEN)
+      await expectInSight(page, figure)
     })
   }
 })
