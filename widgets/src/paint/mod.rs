@@ -210,6 +210,7 @@ impl Brush<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::{Cells, OCCUPIED};
 
     fn painted(mark: Mark) -> Vec<u8> {
         let (marks, regions, handles) = (vec![mark], Vec::new(), Vec::new());
@@ -231,6 +232,18 @@ mod tests {
     fn ink(pixels: &[u8]) -> f64 {
         let [_, full, _] = Theme::Light.color(Role::Ink);
         pixels.chunks_exact(4).map(|p| f64::from(255 - p[1])).sum::<f64>() / f64::from(255 - full)
+    }
+
+    #[test]
+    fn areas_and_maps_are_painted_on_the_pixels_that_they_cover_and_on_no_others() {
+        let (area, blank) = (Rect::new(10.0, 12.0, 8.0, 5.0), discs(Vec::new(), 1.0));
+        let cells = Cells { columns: 2, shades: vec![OCCUPIED; 2] };
+        for mark in [Mark::Fill { area, role: Role::Ink }, Mark::Raster { area, cells, shading: Shading::Map }] {
+            for (k, (pixel, paper)) in painted(mark).chunks_exact(4).zip(blank.chunks_exact(4)).enumerate() {
+                let [x, y] = [k % 40, k / 40];
+                assert_eq!(pixel != paper, (10..18).contains(&x) && (12..17).contains(&y), "{x}, {y}");
+            }
+        }
     }
 
     #[test]
