@@ -49,6 +49,7 @@ for (const of of ['lap', 'proposal']) {
       const held = used.map(key => /^(Shift|Alt)(?=\+)/.exec(key)?.[0]).filter(key => key !== undefined)
       expect(await heard(page, find(figure), used), `what ${name} uses`).toEqual(held)
       expect(await heard(page, find(figure), free), `what ${name} does not use`).toEqual(free.map(key => key.replace('Control+', '').replace('Space', ' ')))
+      expect(await figure.playing(), `whether it plays after the keys in ${name}`).toBe(false)
     }
   })
 }

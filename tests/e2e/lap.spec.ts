@@ -264,18 +264,20 @@ test.describe('where motion is welcome', () => {
     const lap = await new Figure(page, 'fastslam-lap').alone()
     await lap.canvas.evaluate(canvas => canvas.scrollIntoView({ block: 'center', behavior: 'instant' }))
     await expect.poll(() => lap.position()).toBeGreaterThan(3)
-    // Away: the page is lengthened so that the figure can leave the window entirely.
-    await page.evaluate(() => {
-      document.body.style.paddingTop = '3000px'
-      scrollTo({ top: 0, behavior: 'instant' })
-    })
-    await frames(page, 10)
-    const away = await lap.position()
-    await frames(page, 60)
-    expect(await lap.playing(), 'it waits').toBe(true)
-    expect(await lap.position()).toBe(away)
-    await lap.canvas.evaluate(canvas => canvas.scrollIntoView({ block: 'center', behavior: 'instant' }))
-    await expect.poll(() => lap.position()).toBeGreaterThan(away)
+    // Away, just below the window and far: the page is lengthened so that the figure can leave it entirely.
+    for (const distance of ['750px', '3000px']) {
+      await page.evaluate(distance => {
+        document.body.style.paddingTop = distance
+        scrollTo({ top: 0, behavior: 'instant' })
+      }, distance)
+      await frames(page, 10)
+      const away = await lap.position()
+      await frames(page, 60)
+      expect(await lap.playing(), 'it waits').toBe(true)
+      expect(await lap.position(), distance).toBe(away)
+      await lap.canvas.evaluate(canvas => canvas.scrollIntoView({ block: 'center', behavior: 'instant' }))
+      await expect.poll(() => lap.position()).toBeGreaterThan(away)
+    }
   })
 
   test('the first touch of a control ends the autoplay for good', async ({ page }) => {
