@@ -726,12 +726,16 @@ mod tests {
     #[test]
     fn edges_err_by_about_what_their_information_says() {
         for course in [Course::Ring, Course::Apartment] {
+            let build = |seed| {
+                let mut build = GraphBuild::new(&LapSetup { course, seed, ..LapSetup::default() }).unwrap();
+                while build.step().unwrap() {}
+                build
+            };
+            let builds: Vec<GraphBuild> = (1..=8).map(build).collect();
             for kind in [EdgeKind::Odometry, EdgeKind::Match, EdgeKind::Loop] {
                 let mut all = Vec::new();
-                for seed in 1..=8 {
-                    let mut build = GraphBuild::new(&LapSetup { course, seed, ..LapSetup::default() }).unwrap();
-                    while build.step().unwrap() {}
-                    let truth = build.world().truth.clone();
+                for build in &builds {
+                    let truth = &build.world().truth;
                     let edges = build.edges.iter().filter(|edge| edge.kind == kind);
                     all.extend(edges.map(|edge| edge.chi_squared(&truth[edge.i], &truth[edge.j])));
                 }

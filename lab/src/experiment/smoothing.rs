@@ -377,12 +377,12 @@ mod tests {
         smoothing
     }
 
-    /// What a caption claims of the state that the figure opens in, on twenty seeds: where the record has one pose, the draws have on average
+    /// What a caption claims of the state that the figure opens in: where the record has one pose, the draws have on average
     /// at least a third as many as there are draws; and their mean is nearer to the truth, on most seeds and by a tenth or more on average.
-    #[test]
-    fn sweeps_lift_the_curve_of_degeneracy_and_their_mean_is_nearer_to_the_truth() {
+    fn sweeps_lift_the_curve_for(seeds: core::ops::RangeInclusive<u64>) {
+        let count = seeds.clone().count() as u32;
         let (mut nearer, mut shared_late, mut ratio) = (0, 0, 0.0);
-        for seed in 1..=20 {
+        for seed in seeds {
             let smoothing = finished(&SmoothingSetup { seed, ..SmoothingSetup::default() }, MOST);
             let record = smoothing.record().unwrap();
             let shared = 1..=record.coalescence as usize;
@@ -395,11 +395,22 @@ mod tests {
             shared_late += u32::from(record.coalescence >= 20);
             assert!(shared.is_empty() || mean > f64::from(MOST) / 3.0, "{seed}: {mean}");
             nearer += u32::from(after < before);
-            ratio += ops::ln(after / before) / 20.0;
+            ratio += ops::ln(after / before) / f64::from(count);
         }
-        println!("nearer on {nearer} of 20, by {ratio}");
-        assert!(shared_late >= 15, "{shared_late}");
-        assert!(nearer >= 15 && ratio < ops::ln(0.9), "nearer on {nearer} seeds, ln ratio {ratio}");
+        println!("nearer on {nearer} of {count}, by {ratio}");
+        assert!(4 * shared_late >= 3 * count, "{shared_late}");
+        assert!(4 * nearer >= 3 * count && ratio < ops::ln(0.9), "nearer on {nearer} seeds, ln ratio {ratio}");
+    }
+
+    #[test]
+    fn sweeps_lift_the_curve_of_degeneracy_and_their_mean_is_nearer_to_the_truth() {
+        sweeps_lift_the_curve_for(1..=4);
+    }
+
+    #[test]
+    #[ignore = "breadth: twenty seeds"]
+    fn sweeps_lift_the_curve_of_degeneracy_over_twenty_seeds() {
+        sweeps_lift_the_curve_for(1..=20);
     }
 
     /// Without new ancestors the early poses are renewed only where a whole new path is drawn; with two particles hardly anything is.

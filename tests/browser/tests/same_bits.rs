@@ -8,6 +8,7 @@ use fastslam_lab::{digest::Digest, experiment::golden_traces};
 use fastslam_widgets::shell::{Figure, job};
 use figures::{JOBS, LOG, PICTURES, SETUPS, TINY_LOG, line, put_readout, rows};
 use js_sys::{Array, Reflect, Uint8Array, WebAssembly};
+use portability::{Extent, assert_fresh, remake};
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
 
@@ -117,5 +118,11 @@ fn every_job_gives_the_rows_of_the_native_build() {
 
 #[wasm_bindgen_test]
 fn the_chapter_s_numbers_are_those_of_the_native_build() {
-    portability::assert_fresh(&portability::remake(&Executor::Serial));
+    assert_fresh(&remake(&Executor::Serial, Extent::Groups));
+}
+
+#[wasm_bindgen_test]
+#[ignore = "breadth: all seeds"]
+fn the_chapter_s_numbers_by_all_their_seeds_are_those_of_the_native_build() {
+    assert_fresh(&remake(&Executor::Serial, Extent::AllSeeds));
 }

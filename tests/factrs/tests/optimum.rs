@@ -1,4 +1,4 @@
-//! The optimum of a graph is the one that `factrs` finds, for the same errors by derivatives and a solver of its own.
+//! Asks `factrs` for the optima that `tests/laws` compares: `optima.txt` has what it answers.
 
 use core::fmt;
 use factrs::{
@@ -14,10 +14,9 @@ use factrs::{
     traits::{Optimizer as _, Variable},
     variables::SE2,
 };
-use fastslam::geometry::{Pose2, rms};
-use fastslam_lab::baseline::pose_graph::{EdgeKind, Optimizer, PoseGraph, Repair, g2o, manhattan};
-use fastslam_lab::experiment::graph::{GraphBuild, wrong_edge};
-use fastslam_lab::experiment::lap::{Course, LapSetup};
+use fastslam::geometry::Pose2;
+use fastslam_lab::baseline::pose_graph::{EdgeKind, PoseGraph, Repair};
+use laws::graphs::{apart, cities, laps, read, robust, write};
 use nalgebra::{Const, Matrix3};
 
 assign_symbols!(X: SE2);
@@ -83,58 +82,25 @@ fn by_factrs(graph: &PoseGraph, cauchy: Option<f64>) -> Vec<Pose2> {
         .collect()
 }
 
-fn by_us(graph: &PoseGraph, repair: Repair) -> Optimizer {
-    let mut optimizer = Optimizer::new(graph.clone(), repair);
-    let iterations = optimizer.run(400).expect("it can be solved");
-    assert!(iterations < 400);
-    optimizer
-}
-
-/// \[m, rad\]. Theirs stops where a step lowers the cost by 1e-9 of it: Newton's last step is then far shorter than this.
-const CLOSE: f64 = 1e-6;
-
-fn agree(graph: &PoseGraph, what: &str) {
-    let (ours, theirs) = (by_us(graph, Repair::LeastSquares), by_factrs(graph, None));
-    let apart = ours.poses().iter().zip(&theirs).map(|(a, b)| a.minus(b).norm()).fold(0.0, f64::max);
-    println!("{what}: {} poses, {} edges, cost {:.6}, apart by {apart:.1e}", theirs.len(), graph.edges().len(), ours.cost());
-    assert!(apart < CLOSE, "{what}: {apart}");
-    assert!(ours.cost() <= ours.cost_at(&theirs) * (1.0 + 1e-9), "{what}: theirs is better");
-    assert!(rms(graph.poses(), &theirs) > 1e4 * CLOSE, "{what}: there was nothing to find");
-}
-
-fn of_lap(course: Course, seed: u64) -> GraphBuild {
-    let mut build = GraphBuild::new(&LapSetup { course, seed, ..LapSetup::default() }).expect("a valid setup");
-    while build.step().expect("it can be solved") {}
-    build
-}
-
+/// To what is compared of them: two machines' sines may differ in the last bit.
 #[test]
-fn the_optimum_of_the_laps_own_graphs_is_that_of_factrs() {
-    for (course, seed) in [Course::Ring, Course::Apartment].into_iter().flat_map(|course| [1, 2, 3].map(|seed| (course, seed))) {
-        agree(&of_lap(course, seed).graph().expect("a graph"), &format!("{course} {seed}"));
+fn the_optima_kept_are_those_that_factrs_finds() {
+    let cases = laps().into_iter().chain(cities()).chain([robust()]);
+    let solved: Vec<_> = cases
+        .map(|case| {
+            let width = if let Repair::Cauchy { width } = case.repair { Some(width) } else { None };
+            let poses = by_factrs(&case.graph, width);
+            (case, poses)
+        })
+        .collect();
+    if std::env::var_os("UPDATE_FIXTURE").is_some() {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/optima.txt");
+        return std::fs::write(file, write(&solved)).expect("the folder can be written to");
     }
-}
-
-/// Written as g2o writes it, and read back.
-#[test]
-fn the_optimum_of_a_city_in_g2o_is_that_of_factrs() {
-    for seed in [1, 2, 5] {
-        let (graph, _) = manhattan(seed, 150).expect("a graph");
-        agree(&g2o::read(&g2o::write(&graph)).expect("what was written"), &format!("city {seed}"));
+    assert_eq!(read().len(), solved.len(), "UPDATE_FIXTURE=1 writes them all");
+    for (case, poses) in solved {
+        let off = apart(&case.by_factrs().poses, &poses);
+        println!("{}: apart by {off:.1e}", case.name);
+        assert!(off < case.close, "{}: {off}; UPDATE_FIXTURE=1 writes it", case.name);
     }
-}
-
-#[test]
-fn the_optimum_with_a_robust_kernel_and_a_false_edge_is_that_of_factrs() {
-    let Repair::Cauchy { width } = Repair::CAUCHY else { unreachable!("it is Cauchy's") };
-    let build = of_lap(Course::Ring, 3);
-    let mut edges = build.edges().to_vec();
-    edges.push(wrong_edge([14, 52]));
-    let graph = PoseGraph::new(build.chain().to_vec(), edges).expect("a graph");
-    let (ours, theirs) = (by_us(&graph, Repair::CAUCHY), by_factrs(&graph, Some(width)));
-    let apart = ours.poses().iter().zip(&theirs).map(|(a, b)| a.minus(b).norm()).fold(0.0, f64::max);
-    println!("Cauchy: apart by {apart:.1e}, cost {} and {}", ours.cost(), ours.cost_at(&theirs));
-    // A flat valley: the cost tells more than the place.
-    assert!(apart < 1e-3, "{apart}");
-    assert!((ours.cost() - ours.cost_at(&theirs)).abs() < 1e-6 * ours.cost());
 }

@@ -1,17 +1,6 @@
-//! Any bytes as a log: the parser refuses or reads them, and the filter maps what was read, without a panic.
+//! Any bytes as a log.
 #![no_main]
 
-use fastslam::log::{parse, parse_relations};
-use fastslam::mapper::{LaserMapperSettings, Replay};
-use libfuzzer_sys::fuzz_target;
-use std::sync::Arc;
+mod any_bytes;
 
-fuzz_target!(|bytes: &[u8]| {
-    let _ = parse(bytes, false);
-    let _ = parse_relations(bytes);
-    let Ok(log) = parse(bytes, true) else { return };
-    let settings = LaserMapperSettings { particles: 1, max_range: 2.0, cell_size: 0.2, ..LaserMapperSettings::default() };
-    let replay = Replay::new(settings, Arc::new(log)).expect("the settings are in their ranges");
-    // Long logs only take time.
-    replay.take(20).for_each(drop);
-});
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| any_bytes::any_bytes(bytes));

@@ -1,4 +1,6 @@
-//! Laws across layers: see `tests/`. Here is what they share with the benchmarks.
+//! Laws across layers: see `tests/`. Here is what they share with the benchmarks and with `tests/factrs`.
+
+pub mod graphs;
 
 use fastslam::execute::Executor;
 use fastslam::geometry::Pose2;

@@ -4,7 +4,7 @@ use fastslam::execute::Executor;
 use fastslam_lab::experiment::numbers::{Errors, FIRST_SEEDS, LapCell, Made, Number, Recipe, SEEDS, owner, recipes};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What the chapter's prose takes its numbers from.
 pub const NUMBERS: &str = include_str!("../../../www/data/numbers.json");
@@ -32,29 +32,47 @@ pub fn read<T: DeserializeOwned>(text: &str) -> BTreeMap<String, T> {
 }
 
 /// A recipe as this build makes it.
+#[derive(Default)]
 pub struct Remade {
     /// By its first seeds alone.
-    first: Made,
-    /// By all its seeds, where these do not take minutes.
+    first: Option<Made>,
+    /// By all its seeds.
     whole: Option<Made>,
 }
 
-/// Runs every recipe anew, in their order: of what takes minutes the first seeds.
-pub fn remake(executor: &Executor) -> Vec<Remade> {
+/// Which recipes are run anew, and by how many seeds.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Extent {
+    /// The first recipe of each group of names (all before the dot), by its first seeds.
+    Groups,
+    /// All recipes, by their first seeds, whose fingerprints are kept.
+    FirstSeeds,
+    /// All recipes, by all seeds but where these take minutes.
+    AllSeeds,
+}
+
+/// Runs every recipe anew, in their order.
+pub fn remake(executor: &Executor, extent: Extent) -> Vec<Remade> {
     let laps = read::<Vec<f64>>(LAPS);
     let first = |errors: &Vec<f64>| errors.iter().copied().take(FIRST_SEEDS as usize).collect();
     let first_laps: Errors = laps.iter().map(|(name, errors)| (name.clone(), first(errors))).collect();
+    let mut groups = BTreeSet::new();
     let remade = recipes().into_iter().map(|recipe| {
+        let is_first = groups.insert(recipe.name.split('.').next().map(str::to_owned));
+        if extent == Extent::Groups && !is_first {
+            return Remade::default();
+        }
         let make = |seeds, before| recipe.make(seeds, executor, before, &|| ());
-        let first = make(recipe.seeds.min(FIRST_SEEDS), &first_laps);
-        let whole = (recipe.seeds < SEEDS).then(|| make(recipe.seeds, &laps));
+        let first = Some(make(recipe.seeds.min(FIRST_SEEDS), &first_laps));
+        let few = if extent == Extent::AllSeeds { SEEDS - 1 } else { FIRST_SEEDS };
+        let whole = (recipe.seeds <= few).then(|| make(recipe.seeds, &laps));
         Remade { first, whole }
     });
     remade.collect()
 }
 
-/// What in these files does not hold, in a line each. Of what takes minutes the first seeds are compared, and the lap table is worked
-/// out anew from the errors kept of every seed; all else is compared in full.
+/// What in these files does not hold, in a line each. Where not all seeds were run, the first ones are compared by their fingerprint, and the lap
+/// table is worked out anew from the errors kept of every seed; all else is compared in full.
 pub fn differences(entries: &Entries, remade: &[Remade]) -> Vec<String> {
     let (laps, first_seeds) = (read::<Vec<f64>>(LAPS), read::<String>(FIRST));
     let recipes = recipes();
@@ -64,6 +82,7 @@ pub fn differences(entries: &Entries, remade: &[Remade]) -> Vec<String> {
         .map(|key| format!("{key}: nothing makes it"))
         .collect();
     for (recipe, Remade { first, whole }) in recipes.iter().zip(remade) {
+        let Some(first) = first else { continue };
         let name = &recipe.name;
         if first_seeds.get(name) != Some(&format!("{:016x}", first.digest().value())) {
             found.push(format!("{name}: its first seeds come to other numbers, or to others than before"));

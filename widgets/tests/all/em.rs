@@ -41,7 +41,8 @@ fn bad_wheels_fold_the_same_guess_and_a_blank_map_is_enough_on_this_log() {
 /// Ten steps an iteration: four of the forward pass, four of the backward one, their product, the map.
 #[test]
 fn passes_fill_from_their_ends_and_only_then_there_is_a_product_and_a_map() {
-    let told = |step: u32| figure(TAG, &format!("step={step}"));
+    // Of the particles nothing is asked here: a few are quicker.
+    let told = |step: u32| figure(TAG, &format!("particles=50&step={step}"));
     assert!(told(0).describe().starts_with("The first guess"));
     for (step, what) in [(1, "forward"), (4, "forward"), (5, "backward"), (8, "backward"), (14, "forward")] {
         let figure = told(step);
@@ -59,7 +60,13 @@ fn passes_fill_from_their_ends_and_only_then_there_is_a_product_and_a_map() {
 
 #[test]
 fn what_never_falls_never_falls_in_what_is_saved() {
-    for query in ["", "mark-3=5.2", "trust=0&iterations=60", "sensor=45&odometry=0.3", "sensor=0&odometry=0.01"] {
+    for query in [
+        "particles=50",
+        "particles=50&mark-3=5.2",
+        "particles=50&trust=0&iterations=60",
+        "particles=50&sensor=45&odometry=0.3",
+        "particles=50&sensor=0&odometry=0.01",
+    ] {
         let rows = figure(TAG, query).model().series().rows;
         assert!(rows.windows(2).all(|two| two[1][1] >= two[0][1] - 1e-9), "{query}");
     }

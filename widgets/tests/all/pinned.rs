@@ -40,7 +40,7 @@ fn curves_of_a_pinned_run_are_drawn_whatever_is_set_until_it_is_unpinned() {
         let count = ghosts(&figure);
         assert!(count >= 2, "{tag}: a curve and its name, {count}");
         assert_eq!((figure.query(), state(&figure).1), (before.0.clone(), before.1.clone()), "{tag}");
-        figure.load("seed=9");
+        figure.set("seed", "9").unwrap();
         figure.model_mut().settle();
         assert!(ghosts(&figure) >= 2, "{tag}");
         figure.load(shown);

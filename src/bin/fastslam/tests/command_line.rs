@@ -755,9 +755,25 @@ fn a_log_that_cannot_be_read_is_refused_by_line_and_one_with_flaws_is_read_if_as
     }
 }
 
+/// The first minutes of the Intel Research Lab. Seeds 1 to 3 gave 33 to 34 mm and 1.46° to 1.47°; the bounds leave twice as much above the worst as
+/// lies between seeds.
+#[test]
+fn the_first_scans_of_the_intel_log_err_by_36_millimetres_and_1_5_degrees_at_most() {
+    let Some(file) = recorded("intel", [".clf", ".relations"]) else { return };
+    let folder = tempdir().unwrap();
+    let first = folder.path().join("first.clf").display().to_string();
+    let log = std::fs::read_to_string(format!("{file}.clf")).unwrap();
+    std::fs::write(&first, log.lines().take(2500).map(|line| format!("{line}\n")).collect::<String>()).unwrap();
+    let run = json(&format!("log {first} --particles 8 --seed 1 --relations {file}.relations --json"));
+    assert_eq!((&run["scans"], &run["relations"]), (&Value::from(134), &Value::from(379)));
+    let [translation, rotation] = ["translation_mean", "rotation_mean_deg"].map(|key| run[key].as_f64().unwrap());
+    assert!(translation <= 0.036 && rotation <= 1.5, "{translation} m, {rotation}°");
+}
+
 /// The Intel Research Lab, by the rule of the published figures. With these settings seeds 1 to 3 gave 0.066, 0.065 and 0.068 m, and
 /// 2.4° each; gmapping, run on the same log, 0.068 to 0.070 m. The bounds leave as much above the worst as lies between seeds.
 #[test]
+#[ignore = "breadth: a whole recorded log"]
 fn three_runs_of_the_intel_log_err_by_75_millimetres_and_2_5_degrees_at_most() {
     let Some(file) = recorded("intel", [".clf", ".relations"]) else { return };
     for seed in 1..=3 {
@@ -772,6 +788,7 @@ fn three_runs_of_the_intel_log_err_by_75_millimetres_and_2_5_degrees_at_most() {
 /// end hardly better. With 16 particles, seeds 1 to 3 gave 70, 70 and 86 mm as it went, 64.6, 64.4 and 66.1 mm for the record, and 65.3, 65.0 and
 /// 67.4 mm for the best path; the means of ancestors of 10, 50 and 200 steps ago lie between.
 #[test]
+#[ignore = "breadth: a whole recorded log"]
 fn the_record_of_the_intel_log_is_hardly_better_than_the_best_particle_s_path() {
     let Some(file) = recorded("intel", [".clf", ".relations"]) else { return };
     let bytes = |extension: &str| std::fs::read(format!("{file}{extension}")).unwrap();
@@ -795,8 +812,10 @@ fn the_record_of_the_intel_log_is_hardly_better_than_the_best_particle_s_path() 
 }
 
 /// A campus, outdoors, where often half of the beams or more meet nothing. With a prior of one width for all wheels, scans turned the map
-/// by up to 47°, and runs ended 23 to 57 m off; gmapping's end 2.5 m off.
+/// by up to 47°, and runs ended 23 to 57 m off; gmapping's end 2.5 m off. In `npm test`, `a_laser_that_meets_little_does_not_turn_the_map` of
+/// tests/laws is a shorter drive of the kind.
 #[test]
+#[ignore = "breadth: a whole recorded log"]
 fn where_few_beams_return_the_wheels_that_were_learnt_keep_the_map_from_turning() {
     let Some(prefix) = recorded("buildings/freiburg-campus", [".clf.gz", ".reference"]) else { return };
     let poses = |text: &str, heading: fn(&[f64]) -> f64| -> Vec<(f64, Pose2)> {

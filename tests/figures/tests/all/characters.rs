@@ -1,16 +1,23 @@
-//! The characters that figures write: the font must have each, or a question mark is drawn in its place.
+//! The characters that figures write: the font must have each, or a question mark is drawn in its place. Those of the golden pictures are
+//! looked up in every run of the tests, where the pictures are painted; those of all other states are breadth.
 
 use fastslam_widgets::{
     figure::Figure,
     font::{Weight, has},
     model::{Kind, ParamSpec},
     registry::FIGURES,
-    scene::Mark,
+    scene::{Mark, Scene},
 };
 use figures::{PICTURES, SETUPS, TINY_LOG};
 use std::collections::BTreeSet;
 
 const LOG: &str = "fastslam-log";
+
+/// What a picture writes and the font does not have.
+pub fn missing(scene: &Scene) -> String {
+    let texts = scene.marks.iter().filter_map(|mark| if let Mark::Text(text) = mark { Some(text) } else { None });
+    texts.flat_map(|text| text.text.chars().filter(|character| !has(*character, text.weight))).collect()
+}
 
 /// Links to a figure's states: those of the goldens, and every parameter by itself at each of its ends and choices.
 fn links(tag: &str) -> Vec<String> {
@@ -66,6 +73,7 @@ fn written(tag: &str) -> [BTreeSet<char>; 2] {
 }
 
 #[test]
+#[ignore = "breadth: every parameter of every figure at its ends and choices, at eight widths"]
 fn the_font_has_every_character_that_a_figure_writes() {
     let assert_has_all = |tag| {
         for (weight, characters) in [Weight::Regular, Weight::SemiBold].into_iter().zip(written(tag)) {

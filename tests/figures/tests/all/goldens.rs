@@ -1,6 +1,7 @@
 //! Exact pictures and numbers. A change that is wanted is written with `UPDATE_GOLDENS=1 cargo test -p figures`, looked at, and
 //! committed.
 
+use crate::characters;
 use core::hash::Hasher as _;
 use fastslam::{random::Stream, sensor::BeamSensor};
 use fastslam_lab::{
@@ -9,7 +10,7 @@ use fastslam_lab::{
 };
 use fastslam_widgets::decimal::fixed;
 use fastslam_widgets::{job, paint::Theme};
-use figures::{JOBS, LOG, PICTURES, SETUPS, example, figure, line, poster, readouts, rows};
+use figures::{JOBS, LOG, PICTURES, Picture, SETUPS, example, figure, line, poster, readouts, rows};
 use std::{
     collections::BTreeSet,
     env, fs,
@@ -76,17 +77,28 @@ fn same_text(file: &str, text: &str) {
 
 #[test]
 fn every_picture_is_the_golden_one_to_the_last_pixel() {
-    let mut wrong = Vec::new();
-    let mut digests = String::new();
-    for picture in PICTURES {
-        let (figure, size) = picture.paint();
-        let mut digest = Digest::new();
-        digest.write(figure.canvas().pixels());
-        digests += &picture.line(&digest);
-        wrong.extend(differs(picture.name, size, figure.canvas().pixels()));
-    }
+    // A thread for each share of them: by one it takes longer than all other tests of this program.
+    let shares = PICTURES.chunks(PICTURES.len().div_ceil(8));
+    let painted: Vec<_> = std::thread::scope(|scope| {
+        let threads: Vec<_> =
+            shares.map(|share| scope.spawn(|| share.iter().map(painted).collect::<Vec<_>>())).collect();
+        threads.into_iter().flat_map(|thread| thread.join().unwrap()).collect()
+    });
+    let (lines, wrong): (Vec<String>, Vec<Option<String>>) = painted.into_iter().unzip();
+    let wrong: Vec<String> = wrong.into_iter().flatten().collect();
     assert!(wrong.is_empty(), "{LOOK}\n{}", wrong.join("\n"));
-    same_text("pixels.txt", &digests); // what the browser compares
+    same_text("pixels.txt", &lines.concat()); // what the browser compares
+}
+
+/// A picture's line in the golden file, and what is wrong with its pixels.
+fn painted(picture: &Picture) -> (String, Option<String>) {
+    let (figure, size) = picture.paint();
+    let width = f64::from(picture.width);
+    let missing = characters::missing(&figure.scene(width, figure.height(width)));
+    assert_eq!(missing, "", "{}: the font lacks them", picture.name);
+    let mut digest = Digest::new();
+    digest.write(figure.canvas().pixels());
+    (picture.line(&digest), differs(picture.name, size, figure.canvas().pixels()))
 }
 
 const LOOK: &str = "look at both, then UPDATE_GOLDENS=1 if the change is wanted:";

@@ -9,6 +9,9 @@ use fastslam_lab::experiment::log::Example;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+#[path = "../../../fuzz/fuzz_targets/any_bytes.rs"]
+mod any_bytes;
+
 /// One message of each kind, with two lasers of different fans.
 const SMALL: &str = "# a comment\n\
     PARAM robot_frontlaser_offset 0.25 nohost\n\
@@ -230,6 +233,7 @@ fn mutilated_logs_are_refused_or_mapped_but_never_panic() {
                 break;
             }
         }
+        any_bytes::any_bytes(&bytes);
         let strict = parse(&bytes, false);
         let Ok(log) = parse(&bytes, true) else { continue };
         read += 1;

@@ -3,6 +3,7 @@
 mod broken;
 mod filter;
 mod fit;
+mod graphs;
 mod landmarks;
 mod log;
 mod map;

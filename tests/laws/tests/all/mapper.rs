@@ -92,27 +92,50 @@ fn holds(name: &str, better: f64, near: f32, told: [f64; 2], recipe: impl Fn(Rec
     }
 }
 
-/// Two thirds of the beams end on people within 2 m, who stand for a while and go. Of sixteen seeds half are fifteen times nearer than
-/// raw odometry, and each four times.
+/// Of these seeds at least half are fifteen times nearer than raw odometry, and each four times.
+fn a_crowd_turns_no_map_of(seeds: impl IntoIterator<Item = u64>) {
+    let crowd = |yard| Recipe { crowd: 20, ..yard };
+    let times = seeds.into_iter().map(|seed| times_nearer("crowd", seed, 2.0, [0.62, 0.72], crowd));
+    let mut times: Vec<f64> = times.collect();
+    times.sort_by(f64::total_cmp);
+    assert!(times[0] > 4.0 && times[(times.len() - 1) / 2] > 15.0, "{times:.1?}");
+}
+
+/// Two thirds of the beams end on people within 2 m, who stand for a while and go. Three of sixteen seeds: the worst of all, and two of the
+/// better half.
 #[test]
 fn a_crowd_round_the_robot_does_not_turn_the_map() {
-    let crowd = |yard| Recipe { crowd: 20, ..yard };
-    let mut times: Vec<f64> = (1..=16).map(|seed| times_nearer("crowd", seed, 2.0, [0.62, 0.72], crowd)).collect();
-    times.sort_by(f64::total_cmp);
-    assert!(times[0] > 4.0 && times[7] > 15.0, "{times:.1?}");
+    a_crowd_turns_no_map_of([1, 2, 4]);
+}
+
+#[test]
+#[ignore = "breadth: sixteen seeds"]
+fn a_crowd_round_the_robot_turns_the_map_of_none_of_sixteen_seeds() {
+    a_crowd_turns_no_map_of(1..=16);
+}
+
+/// More than half of the paths are so many times nearer than raw odometry; with two people none is further off than it, with four none twice as far.
+fn people_hold_no_robot_back_of(seeds: impl IntoIterator<Item = u64> + Clone) {
+    for (escort, told, half, each) in [(2, [0.05, 0.2], 10.0, 1.0), (4, [0.15, 0.3], 2.0, 0.5)] {
+        let along = |yard| Recipe { escort, ..yard };
+        let times = seeds.clone().into_iter().map(|seed| times_nearer("escort", seed, 2.0, told, along));
+        let mut times: Vec<f64> = times.collect();
+        times.sort_by(f64::total_cmp);
+        assert!(times[0] > each && times[times.len() / 2] > half, "{escort}: {times:.1?}");
+    }
 }
 
 /// People who keep their places round the robot say that it stands still: two of them with a tenth of the beams, four with a quarter, where
-/// walls are far and say little. Half of the paths are so many times nearer than raw odometry; with two people none is further off than it, with
-/// four none twice as far.
+/// walls are far and say little. Three of eight seeds: the worst of all, and two of the better half.
 #[test]
 fn people_who_go_along_do_not_hold_the_robot_back() {
-    for (escort, told, half, each) in [(2, [0.05, 0.2], 10.0, 1.0), (4, [0.15, 0.3], 2.0, 0.5)] {
-        let along = |yard| Recipe { escort, ..yard };
-        let mut times: Vec<f64> = (1..=8).map(|seed| times_nearer("escort", seed, 2.0, told, along)).collect();
-        times.sort_by(f64::total_cmp);
-        assert!(times[0] > each && times[4] > half, "{escort}: {times:.1?}");
-    }
+    people_hold_no_robot_back_of([2, 3, 8]);
+}
+
+#[test]
+#[ignore = "breadth: eight seeds"]
+fn people_who_go_along_hold_the_robot_back_on_none_of_eight_seeds() {
+    people_hold_no_robot_back_of(1..=8);
 }
 
 /// Of 360 beams some 200 meet something, where the laser sees 12 m of a yard of forty. Where it sees 7 m, 75 do: too little to be nearer to
@@ -148,12 +171,10 @@ fn particles_stay_apart_until_a_long_loop_closes() {
     }
 }
 
-/// One particle has nobody beside it who might have drifted less: without closings eight of these twelve paths have revisits off by more than half
-/// a metre, three of them all. Bent where they contradict their old map, all close; nobody is bent who closed by himself (seeds 1, 3, 8 and 12).
-#[test]
-fn a_loop_that_no_particle_closes_is_closed_by_bending_its_path() {
-    let mut bent = 0;
-    for seed in 1..=12 {
+/// Every path closes; at least half are bent, and none is that closes by itself (seeds 1, 3, 8 and 12).
+fn bending_closes_the_loops_of(seeds: impl ExactSizeIterator<Item = u64>) {
+    let (count, mut bent) = (seeds.len(), 0);
+    for seed in seeds {
         let mut run = LongRingSetup { length: 120, particles: 1, seed }.start().unwrap();
         while run.step() {}
         let (errors, closings) = (run.errors(), run.mapper().closings());
@@ -161,7 +182,20 @@ fn a_loop_that_no_particle_closes_is_closed_by_bending_its_path() {
         // A twelfth of the revisits are those of the first metres after the corner.
         assert!(errors.revisits_off < 0.1 && errors.rms < 0.25, "seed {seed}: {errors:?}");
         assert!(closings == 0 || ![1, 3, 8, 12].contains(&seed), "seed {seed}: bent {closings} times");
-        bent += u32::from(closings > 0);
+        bent += usize::from(closings > 0);
     }
-    assert!(bent >= 6, "{bent}");
+    assert!(2 * bent >= count, "{bent} of {count}");
+}
+
+/// A single particle has no other beside it that might have drifted less: without closings eight of twelve paths have revisits off by more than
+/// half a metre, three of them all. They are bent where they contradict their old map. Of the two here the first closes by itself.
+#[test]
+fn a_loop_that_no_particle_closes_is_closed_by_bending_its_path() {
+    bending_closes_the_loops_of([1, 2].into_iter());
+}
+
+#[test]
+#[ignore = "breadth: twelve seeds"]
+fn loops_that_no_particle_closes_are_closed_by_bending_on_twelve_seeds() {
+    bending_closes_the_loops_of((1..13).collect::<Vec<_>>().into_iter());
 }

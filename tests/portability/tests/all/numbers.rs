@@ -1,18 +1,24 @@
 //! Whether the numbers in www/data are those that this build makes. The same is what `tests/browser` asks of WebAssembly.
 
 use fastslam::execute::Executor;
-use portability::{Entries, NUMBERS, Remade, assert_fresh, differences, read, remake};
+use portability::{Entries, Extent, NUMBERS, Remade, assert_fresh, differences, read, remake};
 use std::sync::LazyLock;
 
 /// Run once for both tests.
-static REMADE: LazyLock<Vec<Remade>> = LazyLock::new(|| remake(&Executor::Rayon));
+static REMADE: LazyLock<Vec<Remade>> = LazyLock::new(|| remake(&Executor::Rayon, Extent::FirstSeeds));
 
 #[test]
 fn the_chapter_s_numbers_are_made_again_to_the_bit() {
     assert_fresh(&REMADE);
 }
 
-/// What makes the other test able to fail.
+#[test]
+#[ignore = "breadth: all seeds"]
+fn the_chapter_s_numbers_are_made_again_to_the_bit_by_all_their_seeds() {
+    assert_fresh(&remake(&Executor::Rayon, Extent::AllSeeds));
+}
+
+/// What makes the other tests able to fail.
 #[test]
 fn a_number_that_is_off_by_one_bit_left_over_or_told_otherwise_is_named() {
     let spoil = |change: &dyn Fn(&mut Entries)| {
