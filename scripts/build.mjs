@@ -36,7 +36,7 @@ export async function buildPrograms() {
   const made = (/** @type {string} */ program) => cache('programs', program)
   for (const program of programNames) {
     await step(basename(programFile(program)), async () => {
-      await wasmPack(made(program), program)
+      await wasmPack(made(program), program, 'page')
       mkdirSync(dirname(programFile(program)), { recursive: true })
       copyFileSync(join(made(program), wasm), programFile(program))
       return optimise(programFile(program))
@@ -51,16 +51,15 @@ export async function buildPrograms() {
 /** The one program that exports all that any of them does. */
 const gluedAs = 'bags'
 
-/** @param {string} folder @param {string} features @param {Record<string, string>} [env] */
-const wasmPack = (folder, features, env) =>
-  run('wasm-pack', ['build', 'widgets', '--target', 'web', '--profile', 'page', '--no-pack', '--out-dir', folder, '--no-default-features', '--features', `single-threaded,${features}`], { env })
+/** @param {string} folder @param {string} features @param {string} profile of Cargo.toml */
+const wasmPack = (folder, features, profile) =>
+  run('wasm-pack', ['build', 'widgets', '--target', 'web', '--profile', profile, '--no-pack', '--out-dir', folder, '--no-default-features', '--features', `single-threaded,${features}`])
 
 /** A program that dies on request, for one test of the browser and never for a page. */
 export const troubleWasm = cache('trouble', wasm)
 
-/** Nobody waits for it: without the last optimisations it is there in a third of the time. */
-export const buildTrouble = () =>
-  step('A program that dies on request', () => wasmPack(dirname(troubleWasm), 'page,log,bags,trouble', { CARGO_PROFILE_PAGE_LTO: 'off', CARGO_PROFILE_PAGE_CODEGEN_UNITS: '16' }))
+/** Built as the tests in WebAssembly are, so that both stand on the same compiled crates. */
+export const buildTrouble = () => step('A program that dies on request', () => wasmPack(dirname(troubleWasm), 'page,log,bags,trouble', 'browser'))
 
 export async function buildPages() {
   await step('Pages', async () => {
@@ -76,7 +75,7 @@ export async function buildPages() {
 export async function build() {
   await setUp()
   // The compiler of the one has a core to spare while the other links.
-  await Promise.all([buildPrograms(), step('What the figures tell of themselves', tellFigures)])
+  await Promise.all([buildPrograms(), step('What the figures tell of themselves', () => tellFigures())])
   await step('Names of the figures', writeNames)
   await buildPages()
 }

@@ -6,10 +6,13 @@ import { join } from 'node:path'
 import { buildPages, buildPrograms, buildTrouble } from './build.mjs'
 import { checks } from './check.mjs'
 import { tellFigures, writeNames } from './elements.mjs'
-import { aboutFailures, bold, cache, main, npmBin, red, root, run, step, StepError } from './lib.mjs'
+import { aboutFailures, bold, cache, capture, main, npmBin, red, root, run, step, StepError } from './lib.mjs'
 import { findChrome, findChromeDriver, setUp } from './setup.mjs'
 import { checkEmbedSizes, checkSize } from './size.mjs'
 import { add, closingLine, counted, inWords, printTable, timeCargo, timePlaywright, total } from './tally.mjs'
+
+/** Where cargo builds. */
+const target = process.env.CARGO_TARGET_DIR ?? join(root, 'target')
 
 /** What failed, with the lines of the tools about it, which the end of the run repeats. @type {{ title: string, about: string }[]} */
 const failures = []
@@ -44,11 +47,14 @@ function nodeTest() {
   return tests(process.execPath, ['--test', '--test-reporter=tap', ...files.map(file => join(root, 'tests', 'chapter', file))])
 }
 
-/** Test of the step `oracle`, and of no other. */
-const oracleTest = 'the_same_weights_and_uniforms_give_the_ancestors_of_the_package_particles'
+/** libtest tells how long a test took where it is told that it may. */
+const timed = { env: { [`CARGO_TARGET_${(capture('rustc', '--print', 'host-tuple') ?? '').toUpperCase().replaceAll('-', '_')}_RUNNER`]: 'env RUSTC_BOOTSTRAP=1' } }
 
 /** Shows what passed tests print as well, for the reasons of those that skip. @param {string[]} args */
-const cargoTest = (...args) => tests('cargo', ['test', '--no-fail-fast', ...args, '--', '--show-output', '--skip', oracleTest])
+const cargoTest = (...args) => tests('cargo', ['test', '--no-fail-fast', ...args, '--', '--show-output', '-Zunstable-options', '--report-time'], timed)
+
+/** Examples in the documentation. */
+const docTest = () => tests('cargo', ['test', '--no-fail-fast', '--workspace', '--doc'])
 
 /**
  * Holds resampling against a Python package, which it installs at its first run. Without Python or PyPI it is skipped. Of the whole
@@ -56,25 +62,8 @@ const cargoTest = (...args) => tests('cargo', ['test', '--no-fail-fast', ...args
  */
 const oracle = () => tests('cargo', ['test', '--workspace', '--test', 'oracle', '--', '--ignored', '--show-output'])
 
-/** Of packages outside the workspace: this target folder, where most of what they need is built. */
-const sharedTarget = { CARGO_TARGET_DIR: process.env.CARGO_TARGET_DIR ?? join(root, 'target') }
-
-/** Somebody else's package, outside the workspace. */
-const outside = () => tests('cargo', ['test', '--no-fail-fast', '--', '--show-output'], { cwd: join(root, 'tests', 'outside'), env: sharedTarget })
-
-/** The pose graph against `factrs`, a package of somebody else's that switches on features which would change results. */
-const factrs = () => tests('cargo', ['test', '--no-fail-fast', '--', '--show-output'], { cwd: join(root, 'tests', 'factrs'), env: sharedTarget })
-
-/** Those of the filter crate, which check their own results. */
-async function examples() {
-  const log = [join(root, 'tests', 'figures', 'golden', 'tiny.clf'), cache('example')]
-  for (const [name, ...args] of [['landmarks'], ['laser_log', ...log], ['own_sensor'], ['own_map']]) {
-    await run('cargo', ['run', '--quiet', '--profile', 'test', '--example', name, '--', ...args])
-  }
-}
-
-/** The fuzz target needs a nightly compiler to run, but none to compile. */
-const fuzz = () => run('cargo', ['check'], { cwd: join(root, 'tests', 'fuzz'), env: sharedTarget })
+/** All that runs natively, compiled: the tests, the examples and the command line stand on the same crates. */
+const compile = () => run('cargo', ['test', '--workspace', '--no-run'])
 
 /** wasm-pack's tests in the Chromium that set-up found, which need not be the one ChromeDriver would choose. */
 function wasmTest() {
@@ -84,7 +73,7 @@ function wasmTest() {
   mkdirSync(cache(), { recursive: true })
   writeFileSync(capabilities, JSON.stringify(settings))
   const driver = findChromeDriver() ?? 'chromedriver'
-  return tests('wasm-pack', ['test', '--headless', '--chrome', '--chromedriver', driver, '--release', 'tests/browser'], {
+  return tests('wasm-pack', ['test', '--headless', '--chrome', '--chromedriver', driver, 'tests/browser', '--profile', 'browser'], {
     env: { WASM_BINDGEN_TEST_WEBDRIVER_JSON: capabilities, WASM_BINDGEN_TEST_TIMEOUT: '600', WASM_BINDGEN_TEST_DRIVER_TIMEOUT: '60' },
   })
 }
@@ -105,19 +94,16 @@ await main(async () => {
   await setUp({ browser: true })
   const [format, ...otherChecks] = checks
   await attempt(...format)
-  // Without these there is nothing to test: a failure here ends the run.
-  await buildPrograms()
-  await step('What the figures tell of themselves', tellFigures)
+  // Without these there is nothing to test: a failure here ends the run. While one links, the other has a core to spare.
+  await Promise.all([buildPrograms(), step('Native tests, compiled', compile)])
+  await step('What the figures tell of themselves', () => tellFigures(join(target, 'debug', 'examples', 'figures')))
   await step('Names of the figures', writeNames)
-  await buildTrouble()
   await buildPages()
+  await buildTrouble()
   for (const check of otherChecks) await attempt(...check)
-  await attempt('Tests of the chapter’s making', nodeTest)
-  await attempt('Tests, native, with all checks on', () => cargoTest('--workspace'))
-  await attempt('Tests of a package outside the workspace', outside)
-  await attempt('Pose graphs against factrs', factrs)
-  await attempt('Examples run', examples)
-  await attempt('The fuzz target compiles', fuzz)
+  await attempt('Tests of scripts and of what they make', nodeTest)
+  await attempt('Tests, native, with all checks on', () => cargoTest('--workspace', '--tests'))
+  await attempt('Examples in the documentation', docTest)
   await attempt('Resampling against the Python package particles', oracle)
   await attempt('Same bits, as releases are built', () => cargoTest('--release', '-p', 'portability'))
   await attempt('Tests in WebAssembly, in Chromium', wasmTest)

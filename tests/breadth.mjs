@@ -7,10 +7,39 @@
  */
 
 const page = (/** @type {string} */ specs) => `playwright test --config tests/e2e --grep @breadth ${specs}`
+/** Of what is run from a release: compiled without the optimisations across crates, which take minutes. */
+const quick = 'CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 CARGO_PROFILE_BENCH_LTO=off CARGO_PROFILE_BENCH_CODEGEN_UNITS=16'
 
 /** @type {Unit[]} */
 export const units = [
-  { name: 'page-one-screen', seconds: 100, command: page('one-screen') },
+  // All sizes, themes, languages and figures on the page.
+  { name: 'page-chapter', seconds: 60, command: page('/chapter.spec.ts') },
+  { name: 'page-figures', seconds: 40, command: page('/conditioning.spec.ts /doors.spec.ts /em.spec.ts /graph.spec.ts /joint.spec.ts /prediction.spec.ts /smoothing.spec.ts /universes.spec.ts') },
+  { name: 'page-challenges', seconds: 60, command: page('/challenges.spec.ts') },
+  { name: 'page-compare', seconds: 40, command: page('/compare.spec.ts /resampling.spec.ts') },
+  { name: 'page-logs', seconds: 130, command: page('/log.spec.ts') },
+  { name: 'page-one-screen', seconds: 60, command: page('/one-screen.spec.ts') },
+  { name: 'page-screens', seconds: 70, command: page('/screens.spec.ts /heights.spec.ts') },
+  { name: 'page-embed', seconds: 70, command: page('/embed.spec.ts /embed-docs.spec.ts /course.spec.ts') },
+  { name: 'page-packages', seconds: 60, command: page('/offline.spec.ts /package.spec.ts /pixels.spec.ts') },
+
+  // Other engines, and the packages in the programs that courses use.
+  { name: 'engine-firefox', seconds: 120, command: 'node tests/engines/run.mjs firefox' },
+  { name: 'engine-webkit', seconds: 90, command: 'node tests/engines/run.mjs webkit' },
+  { name: 'clients', seconds: 150, command: 'npm run test:clients' },
+
+  // What README promises, each in its cheapest form.
+  { name: 'readme-check', seconds: 150, command: 'npm run check' },
+  { name: 'readme-bench', seconds: 240, command: `${quick} npm run bench -- --quick` },
+  { name: 'readme-size', seconds: 40, command: 'npm run size' },
+  { name: 'readme-numbers', seconds: 120, command: `${quick} npm run numbers -- --only worked && git diff --exit-code www/data` },
+  { name: 'readme-pdf', seconds: 30, command: 'npm run pdf' },
+  { name: 'readme-package', seconds: 60, command: 'npm run package' },
+  { name: 'readme-offline', seconds: 60, command: 'npm run offline' },
+  { name: 'readme-build', seconds: 30, command: 'npm run build && npm start -- --no-serve' },
+  { name: 'readme-wasm-pack', seconds: 120, command: `${quick} wasm-pack build widgets --target web --out-dir ../.cache/wasm-pack && test -s .cache/wasm-pack/fastslam_widgets_bg.wasm` },
+  { name: 'readme-breadth', seconds: 5, command: 'npm run test:all -- --list' },
+  { name: 'readme-command-line', seconds: 60, command: 'cargo build --workspace --profile test --bin fastslam && node --test --test-reporter=tap tests/readme/command-line.test.mjs' },
 ]
 
 /** A share is meant to take no longer [s]. */
