@@ -1,6 +1,6 @@
 // Builds the chapter: the widgets to WebAssembly (widgets/pkg), then the pages around them (dist).
 import { createHash } from 'node:crypto'
-import { copyFileSync, existsSync, mkdirSync, readFileSync, renameSync, rmSync, statSync } from 'node:fs'
+import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, renameSync, rmSync, statSync, writeFileSync } from 'node:fs'
 import { basename, dirname, join } from 'node:path'
 import { fileURLToPath } from 'node:url'
 import { tellFigures, writeNames } from './elements.mjs'
@@ -8,7 +8,7 @@ import { writeFrames } from './frames.mjs'
 import { checkGlue, gluePaths } from './glue.mjs'
 import { programFile, programNames } from './registry.mjs'
 import { setUp } from './setup.mjs'
-import { cache, isMain, main, npmBin, root, run, step, StepError } from './lib.mjs'
+import { cache, capture, isMain, main, npmBin, readIfThere, root, run, step, StepError } from './lib.mjs'
 
 /** Where the site is built; deliberate faults are built elsewhere. */
 export const dist = process.env.FASTSLAM_DIST ?? join(root, 'dist')
@@ -51,9 +51,33 @@ export async function buildPrograms() {
 /** The one program that exports all that any of them does. */
 const gluedAs = 'bags'
 
-/** @param {string} folder @param {string} features @param {string} profile of Cargo.toml */
-const wasmPack = (folder, features, profile) =>
-  run('wasm-pack', ['build', 'widgets', '--target', 'web', '--profile', profile, '--no-pack', '--out-dir', folder, '--no-default-features', '--features', `single-threaded,${features}`])
+/** What programs are made from. */
+const sources = ['Cargo.toml', 'Cargo.lock', 'src', 'lab', 'widgets/Cargo.toml', 'widgets/build.rs', 'widgets/README.md', 'widgets/src', 'widgets/words', 'widgets/fonts']
+
+/** A fingerprint of all that programs are made from, and with. */
+function madeFrom() {
+  const hash = createHash('sha256').update([capture('rustc', '-Vv'), capture('wasm-bindgen', '-V'), process.env.RUSTFLAGS].join('\n'))
+  for (const source of sources) {
+    const path = join(root, source)
+    const files = statSync(path).isDirectory() ? readdirSync(path, { recursive: true, encoding: 'utf8' }).sort().map(file => join(path, file)) : [path]
+    for (const file of files) if (statSync(file).isFile()) hash.update(file.slice(root.length)).update(readFileSync(file))
+  }
+  return hash.digest('hex')
+}
+
+/**
+ * Compiles a program, unless it is there as these sources give it: Cargo keeps one library of the widgets for each profile, whatever its
+ * features, and would compile all of them anew each time.
+ * @param {string} folder @param {string} features @param {string} profile of Cargo.toml
+ */
+async function wasmPack(folder, features, profile) {
+  const args = ['build', 'widgets', '--target', 'web', '--profile', profile, '--no-pack', '--out-dir', folder, '--no-default-features', '--features', `single-threaded,${features}`]
+  const [stamp, wanted] = [join(folder, 'made-from'), `${args.join(' ')} ${madeFrom()}`]
+  if (readIfThere(stamp) === wanted && existsSync(join(folder, wasm))) return
+  rmSync(stamp, { force: true })
+  await run('wasm-pack', args)
+  writeFileSync(stamp, wanted)
+}
 
 /** A program that dies on request, for one test of the browser and never for a page. */
 export const troubleWasm = cache('trouble', wasm)

@@ -1,15 +1,16 @@
 // npm test: sets up, builds, checks, and runs every kind of test; npm run test:all adds breadth. A step that fails is named; those after
 // it still run, so that one run shows all that is wrong. At the end stand what each step and the dearest tests took, and the total of
 // all the runners: `N passed, M failed, K skipped`.
-import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
+import { readdirSync, rmSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { buildPages, buildPrograms, buildTrouble } from './build.mjs'
 import { checks } from './check.mjs'
 import { tellFigures, writeNames } from './elements.mjs'
 import { aboutFailures, bold, cache, capture, main, npmBin, red, root, run, step, StepError } from './lib.mjs'
-import { findChrome, findChromeDriver, setUp } from './setup.mjs'
+import { setUp } from './setup.mjs'
 import { checkEmbedSizes, checkSize } from './size.mjs'
 import { add, closingLine, counted, inWords, printTable, timeCargo, timePlaywright, total } from './tally.mjs'
+import { wasmTests } from './wasm-tests.mjs'
 
 /** Where cargo builds. */
 const target = process.env.CARGO_TARGET_DIR ?? join(root, 'target')
@@ -65,19 +66,6 @@ const oracle = () => tests('cargo', ['test', '--workspace', '--test', 'oracle', 
 /** All that runs natively, compiled: the tests, the examples and the command line stand on the same crates. */
 const compile = () => run('cargo', ['test', '--workspace', '--no-run'])
 
-/** wasm-pack's tests in the Chromium that set-up found, which need not be the one ChromeDriver would choose. */
-function wasmTest() {
-  const settings = JSON.parse(readFileSync(join(root, 'tests', 'browser', 'webdriver.json'), 'utf8'))
-  settings['goog:chromeOptions'].binary = findChrome()
-  const capabilities = cache('webdriver.json')
-  mkdirSync(cache(), { recursive: true })
-  writeFileSync(capabilities, JSON.stringify(settings))
-  const driver = findChromeDriver() ?? 'chromedriver'
-  return tests('wasm-pack', ['test', '--headless', '--chrome', '--chromedriver', driver, 'tests/browser', '--profile', 'browser'], {
-    env: { WASM_BINDGEN_TEST_WEBDRIVER_JSON: capabilities, WASM_BINDGEN_TEST_TIMEOUT: '600', WASM_BINDGEN_TEST_DRIVER_TIMEOUT: '60' },
-  })
-}
-
 /** What the tests of the page take on two quiet cores [s]: by that, breadth knows how slow this machine is now. */
 const usualPage = 240
 
@@ -106,7 +94,7 @@ await main(async () => {
   await attempt('Examples in the documentation', docTest)
   await attempt('Resampling against the Python package particles', oracle)
   await attempt('Same bits, as releases are built', () => cargoTest('--release', '-p', 'portability'))
-  await attempt('Tests in WebAssembly, in Chromium', wasmTest)
+  await attempt('Tests in WebAssembly, in Chromium', () => tests(...wasmTests()))
   await attempt('Tests of the page, in Chromium', playwright)
   await attempt('Size of the page', checkSize)
   await attempt('Size of an embedded figure', checkEmbedSizes)

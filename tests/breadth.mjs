@@ -7,6 +7,10 @@
  */
 
 const page = (/** @type {string} */ specs) => `playwright test --config tests/e2e --grep @breadth ${specs}`
+/** Tests in Rust that npm test ignores. @param {string} which programs @param {string} [names] of tests */
+const ignored = (which, names = '') => `cargo test --workspace --no-fail-fast ${which} -- --ignored --show-output ${names}`
+/** For packages outside the workspace: where most of what they need is built. */
+const shared = 'CARGO_TARGET_DIR="${CARGO_TARGET_DIR:-../../target}"'
 /** Of what is run from a release: compiled without the optimisations across crates, which take minutes. */
 const quick = 'CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 CARGO_PROFILE_BENCH_LTO=off CARGO_PROFILE_BENCH_CODEGEN_UNITS=16'
 
@@ -22,6 +26,18 @@ export const units = [
   { name: 'page-screens', seconds: 70, command: page('/screens.spec.ts /heights.spec.ts') },
   { name: 'page-embed', seconds: 70, command: page('/embed.spec.ts /embed-docs.spec.ts /course.spec.ts') },
   { name: 'page-packages', seconds: 60, command: page('/offline.spec.ts /package.spec.ts /pixels.spec.ts') },
+
+  // Statistics over many seeds, whole recorded logs, all kept links, and the chapter's numbers by all their seeds.
+  { name: 'laws-mapper', seconds: 200, command: ignored('--test all', 'mapper:: ring:: turned::') },
+  { name: 'laws-others', seconds: 200, command: ignored('--test all', '--skip mapper:: --skip ring:: --skip turned::') },
+  { name: 'laws-lab', seconds: 200, command: ignored('--lib') },
+  { name: 'logs', seconds: 200, command: ignored('--test command_line') },
+  { name: 'wasm-numbers', seconds: 150, command: 'node scripts/wasm-tests.mjs --ignored' },
+
+  // Somebody else's code beside ours.
+  { name: 'factrs', seconds: 60, command: `cd tests/factrs && ${shared} cargo test -- --show-output` },
+  { name: 'outside', seconds: 60, command: 'cargo test -p outside' },
+  { name: 'fuzz', seconds: 20, command: `cd tests/fuzz && ${shared} cargo check` },
 
   // Other engines, and the packages in the programs that courses use.
   { name: 'engine-firefox', seconds: 120, command: 'node tests/engines/run.mjs firefox' },
