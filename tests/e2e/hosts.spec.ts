@@ -99,7 +99,8 @@ test('a heavy figure that is moved, or taken out and put back, goes on as it was
 
 for (const heavy of [false, true]) {
   test(`when a ${heavy ? 'heavy ' : ''}figure says that it has settled, what was asked of it is shown`, async ({ page }) => {
-    const lap = await openLap(page, heavy, 'universes="4"')
+    // So many that each step asked for takes a while.
+    const lap = await openLap(page, heavy, 'universes="32"')
     for (const step of [30, 3, 12]) {
       const shown = await lap.element.evaluate(async (element, step) => {
         const figure = element as FigureElement & { settled(): Promise<void> }
