@@ -144,7 +144,7 @@ pub fn write(optima: &[(Case, Vec<Pose2>)]) -> String {
 /// All optima of the fixture.
 ///
 /// # Panics
-/// Where [`write`] has not written it.
+/// Where [`write()`] has not written it.
 pub fn read() -> Vec<Optimum> {
     const WRITTEN: &str = "`write` has written it";
     let mut lines = include_str!("../../factrs/optima.txt").lines().filter(|line| !line.starts_with('#'));
