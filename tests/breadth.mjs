@@ -34,6 +34,15 @@ export const units = [
   { name: 'logs', seconds: 200, command: ignored('--test command_line') },
   { name: 'wasm-numbers', seconds: 150, command: 'node scripts/wasm-tests.mjs --ignored' },
 
+  // Deliberate faults, by the first figure of their names: filters, landmarks and fits, logs and laboratory, figures, boundary and
+  // elements, instances and hosts, styles, scripts.
+  { name: 'faults-filters', seconds: 300, command: 'npm run test:faults -- 0' },
+  { name: 'faults-fits-and-logs', seconds: 300, command: 'npm run test:faults -- 1 2' },
+  { name: 'faults-figures', seconds: 300, command: 'npm run test:faults -- 3' },
+  { name: 'faults-elements', seconds: 240, command: 'npm run test:faults -- 4 5' },
+  { name: 'faults-hosts', seconds: 150, command: 'npm run test:faults -- 6' },
+  { name: 'faults-styles-and-scripts', seconds: 200, command: 'npm run test:faults -- 7 8' },
+
   // Somebody else's code beside ours.
   { name: 'factrs', seconds: 60, command: `cd tests/factrs && ${shared} cargo test -- --show-output` },
   { name: 'outside', seconds: 60, command: 'cargo test -p outside' },
