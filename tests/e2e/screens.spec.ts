@@ -202,6 +202,8 @@ for (const name of FIGURES) {
       const { y, height } = (await figure.canvas.boundingBox())!
       expect(y + height, `${size}, picture`).toBeLessThanOrEqual(560)
       expect(canvas.width, `${size}, sideways`).toBeLessThanOrEqual(stage.width)
+      const [shown, own] = await figure.canvas.evaluate((canvas: HTMLCanvasElement) => [canvas.clientWidth / canvas.clientHeight, canvas.width / canvas.height])
+      expect(getShare(shown!, own!), `${size}, the picture keeps its shape`).toBeLessThan(0.01)
       const { wide, room } = await figure.element.evaluate(element => {
         const body = element.shadowRoot!.querySelector<HTMLElement>('.figure')!
         return { wide: body.scrollWidth, room: body.clientWidth }
