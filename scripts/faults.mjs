@@ -28,8 +28,9 @@ const apart = {
   CARGO_TARGET_DIR: join(root, 'target', 'faults'),
   // Each fault compiles anew what it is in, which takes far longer than the few tests that are run.
   CARGO_PROFILE_TEST_OPT_LEVEL: '0',
+  CARGO_PROFILE_TEST_CODEGEN_UNITS: '256',
   CARGO_PROFILE_TEST_INCREMENTAL: 'true',
-  CARGO_PROFILE_TEST_DEBUG: 'none',
+  CARGO_PROFILE_TEST_DEBUG: 'false',
   CARGO_TERM_COLOR: 'never',
 }
 
