@@ -42,18 +42,21 @@ fn bad_wheels_fold_the_same_guess_and_a_blank_map_is_enough_on_this_log() {
 #[test]
 fn passes_fill_from_their_ends_and_only_then_there_is_a_product_and_a_map() {
     // Of the particles nothing is asked here: a few are quicker.
-    let told = |step: u32| figure(TAG, &format!("particles=50&step={step}"));
-    assert!(told(0).describe().starts_with("The first guess"));
+    let mut figure = figure(TAG, "particles=50");
+    let mut told = |step: u32| {
+        figure.set("step", &step.to_string()).unwrap();
+        (figure.describe(), readout(&figure, "entropy"), number(&figure, "iteration"))
+    };
+    assert!(told(0).0.starts_with("The first guess"));
     for (step, what) in [(1, "forward"), (4, "forward"), (5, "backward"), (8, "backward"), (14, "forward")] {
-        let figure = told(step);
-        assert!(figure.describe().contains(what), "{step}: {}", figure.describe());
-        assert_eq!(readout(&figure, "entropy"), None, "{step}");
-        assert_eq!(number(&figure, "iteration"), f64::from(step / 10));
+        let (describe, entropy, iteration) = told(step);
+        assert!(describe.contains(what), "{step}: {describe}");
+        assert_eq!((entropy, iteration), (None, f64::from(step / 10)), "{step}");
     }
-    assert!(number(&told(9), "entropy") > number(&told(199), "entropy"), "what is known of the path grows");
-    assert_eq!([9, 10].map(|step| number(&told(step), "iteration")), [0.0, 1.0]);
+    assert!(told(9).1.unwrap() > told(199).1.unwrap(), "what is known of the path grows");
+    assert_eq!([9, 10].map(|step| told(step).2), [0.0, 1.0]);
     // Who asks for the end stays there.
-    let mut shown = figure(TAG, "");
+    let mut shown = crate::common::figure(TAG, "");
     shown.set("iterations", "5").unwrap();
     assert_eq!((shown.model().step(), number(&shown, "iteration")), (50, 5.0));
 }
