@@ -334,12 +334,16 @@ impl Picture {
         line(&format!("{name} {tag}?{query} {width} {dpr} {theme}"), pixels)
     }
 
-    /// Paints it: the figure, and its width and height \[device px\].
-    pub fn paint(&self) -> (Figure, [u32; 2]) {
-        let mut figure = figure(self.tag, self.query);
+    /// Whether both show a figure in one state, which is simulated once.
+    pub fn is_of_the_state_of(&self, other: &Self) -> bool {
+        (self.tag, self.query) == (other.tag, other.query)
+    }
+
+    /// Paints it, its figure being in its state: width and height \[device px\].
+    pub fn paint(&self, figure: &mut Figure) -> [u32; 2] {
         let size = self.size(figure.height(f64::from(self.width)));
         figure.paint(size[0], size[1], self.dpr, Theme::named(self.theme));
-        (figure, size)
+        size
     }
 }
 

@@ -167,15 +167,18 @@ fn a_short_ride_keeps_the_kalman_filter_right_and_one_that_ends_elsewhere_fools_
 #[test]
 fn twenty_times_the_particles_buy_three_landmarks_and_a_blunt_sensor_all() {
     let done = |name, query: &str| chip("fastslam-joint", name, query).done;
-    let exercise = [6, 7, 8].map(|n| done("exercise", &format!("odometry=0&landmarks={n}")));
-    assert_eq!(exercise, [false, true, false]);
     // The same run, of which more is shown.
-    let mut many = figure("fastslam-joint", "particles=20000&landmarks=9");
-    let done_with = |many: &Figure| chips(many).into_iter().find(|chip| chip.name == "many").unwrap().done;
-    let nine = done_with(&many);
-    many.set("landmarks", "10").unwrap();
-    many.model_mut().settle();
-    assert_eq!((nine, done_with(&many)), (false, true));
+    let with_landmarks = |name: &str, query: &str, numbers: &[u32]| -> Vec<bool> {
+        let mut figure = figure("fastslam-joint", query);
+        let mut done = |n: &u32| {
+            figure.set("landmarks", &n.to_string()).unwrap();
+            figure.model_mut().settle();
+            chips(&figure).into_iter().find(|chip| chip.name == name).unwrap().done
+        };
+        numbers.iter().map(&mut done).collect()
+    };
+    assert_eq!(with_landmarks("exercise", "odometry=0", &[6, 7, 8]), [false, true, false]);
+    assert_eq!(with_landmarks("many", "particles=20000", &[9, 10]), [false, true]);
     let saved = ["sensor=3", "sensor=3.3"].map(|query| done("blunt", query));
     assert_eq!(saved, [false, true]);
 }

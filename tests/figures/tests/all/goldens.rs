@@ -78,10 +78,11 @@ fn same_text(file: &str, text: &str) {
 #[test]
 fn every_picture_is_the_golden_one_to_the_last_pixel() {
     // A thread for each share of them: by one it takes longer than all other tests of this program.
-    let shares = PICTURES.chunks(PICTURES.len().div_ceil(8));
+    let states: Vec<&[Picture]> = PICTURES.chunk_by(Picture::is_of_the_state_of).collect();
+    let shares = states.chunks(states.len().div_ceil(8));
     let painted: Vec<_> = std::thread::scope(|scope| {
-        let threads: Vec<_> =
-            shares.map(|share| scope.spawn(|| share.iter().map(painted).collect::<Vec<_>>())).collect();
+        let paint = |share: &[&[Picture]]| share.iter().flat_map(|state| painted(state)).collect::<Vec<_>>();
+        let threads: Vec<_> = shares.map(|share| scope.spawn(move || paint(share))).collect();
         threads.into_iter().flat_map(|thread| thread.join().unwrap()).collect()
     });
     let (lines, wrong): (Vec<String>, Vec<Option<String>>) = painted.into_iter().unzip();
@@ -90,15 +91,18 @@ fn every_picture_is_the_golden_one_to_the_last_pixel() {
     same_text("pixels.txt", &lines.concat()); // what the browser compares
 }
 
-/// A picture's line in the golden file, and what is wrong with its pixels.
-fn painted(picture: &Picture) -> (String, Option<String>) {
-    let (figure, size) = picture.paint();
-    let width = f64::from(picture.width);
-    let missing = characters::missing(&figure.scene(width, figure.height(width)));
-    assert_eq!(missing, "", "{}: the font lacks them", picture.name);
-    let mut digest = Digest::new();
-    digest.write(figure.canvas().pixels());
-    (picture.line(&digest), differs(picture.name, size, figure.canvas().pixels()))
+/// Of the pictures of one state, each one's line in the golden file, and what is wrong with its pixels.
+fn painted(state: &[Picture]) -> Vec<(String, Option<String>)> {
+    let mut figure = figure(state[0].tag, state[0].query);
+    let painted = state.iter().map(|picture| {
+        let (size, width) = (picture.paint(&mut figure), f64::from(picture.width));
+        let missing = characters::missing(&figure.scene(width, figure.height(width)));
+        assert_eq!(missing, "", "{}: the font lacks them", picture.name);
+        let mut digest = Digest::new();
+        digest.write(figure.canvas().pixels());
+        (picture.line(&digest), differs(picture.name, size, figure.canvas().pixels()))
+    });
+    painted.collect()
 }
 
 const LOOK: &str = "look at both, then UPDATE_GOLDENS=1 if the change is wanted:";
@@ -149,9 +153,9 @@ fn the_curves_of_a_pinned_run_are_behind_those_of_the_one_shown() {
     let mut wrong = Vec::new();
     for (name, tag, pinned, query, width) in PINNED {
         let curves = figure(tag, pinned).curves();
+        let mut shown = figure(tag, query);
+        shown.haunt(&curves);
         for (shade, theme) in [("light", Theme::Light), ("dark", Theme::Dark)] {
-            let mut shown = figure(tag, query);
-            shown.haunt(&curves);
             let size = [width, shown.height(width)].map(|side| side as u32);
             shown.paint(size[0], size[1], 1.0, theme);
             wrong.extend(differs(&format!("{name}-{shade}"), size, shown.canvas().pixels()));
