@@ -3,7 +3,7 @@
 //! `cargo run --release --example laser_log -- robot.clf folder`
 
 use fastslam::log::{parse, write_tum};
-use fastslam::map::grid::MapImage;
+use fastslam::map::grid::{MapImage, MapImageSettings};
 use fastslam::mapper::{LaserMapper, LaserMapperSettings};
 use std::error::Error;
 use std::fs;
@@ -31,11 +31,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
 
-    let (folder, map) = (Path::new(folder), MapImage::of(mapper.map()));
+    let (folder, path) = (Path::new(folder), mapper.path());
+    let map = MapImage::of(mapper.map(), &path, &MapImageSettings::default())?;
     fs::create_dir_all(folder)?;
     fs::write(folder.join("map.pgm"), map.pgm())?;
     fs::write(folder.join("map.yaml"), map.yaml("map.pgm"))?;
-    fs::write(folder.join("path.tum"), write_tum(&mapper.path()))?;
+    fs::write(folder.join("path.tum"), write_tum(&path))?;
     println!("{} of {} scans mapped, into {}", mapper.steps() + 1, log.scans.len(), folder.display());
     Ok(())
 }

@@ -9,7 +9,7 @@ use fastslam::log::{
     BagOptions, BagReader, LaserLog, LogError, LogReader, Notes, RelationErrors, is_bag, parse_relations,
     relation_errors, write, write_path, write_tum,
 };
-use fastslam::map::grid::MapImage;
+use fastslam::map::grid::{MapImage, MapImageSettings};
 use fastslam::mapper::{LaserMapper, LaserMapperSettings, Replay};
 use fastslam_lab::experiment::log::{Example, digest};
 use flate2::read::MultiGzDecoder;
@@ -64,6 +64,16 @@ pub struct Arguments {
     /// Write the best map as NAME.png, and as the pair NAME.pgm and NAME.yaml that ROS reads
     #[arg(long, value_name = "NAME")]
     map: Option<PathBuf>,
+    /// Cells of the written map whose probability of being occupied is above this are occupied, 0.5 to 1: one hit alone gives 0.71
+    #[arg(long, value_name = "P", default_value_t = MapImageSettings::default().occupied_threshold, allow_negative_numbers = true)]
+    occupied_threshold: f64,
+    /// Cells of the written map whose probability of being occupied is below this are free, 0 to 0.5: one pass alone gives 0.40. Cells
+    /// between the two thresholds are unknown
+    #[arg(long, value_name = "P", default_value_t = MapImageSettings::default().free_threshold, allow_negative_numbers = true)]
+    free_threshold: f64,
+    /// Radius of the robot [m], 0 to 5: a circle of this size is free in the written map wherever the robot has been; 0: no circle
+    #[arg(long, value_name = "METRES", default_value_t = MapImageSettings::default().footprint_radius, allow_negative_numbers = true)]
+    footprint_radius: f64,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
@@ -143,6 +153,12 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     };
     let log = Arc::new(log);
     let mut replay = Replay::new(settings, Arc::clone(&log)).map_err(by_flag)?;
+    let rules = MapImageSettings {
+        occupied_threshold: arguments.occupied_threshold,
+        free_threshold: arguments.free_threshold,
+        footprint_radius: arguments.footprint_radius,
+    };
+    rules.validate().map_err(by_flag)?;
     // Before minutes of work: whether the results can be written.
     let outputs = Outputs::open(arguments)?;
 
@@ -173,7 +189,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
 
     let mapper = replay.mapper();
     let path = mapper.path();
-    outputs.write(mapper, &path)?;
+    outputs.write(mapper, &path, &rules)?;
     let steps = mapper.steps();
     let output = Output {
         scans: log.scans.len() as u32,
@@ -200,6 +216,9 @@ fn by_flag(error: SettingError) -> SettingError {
         "cell_size" => error.called("cell"),
         "max_range" => error.called("max-range"),
         "min_travel" => error.called("min-travel"),
+        "occupied_threshold" => error.called("occupied-threshold"),
+        "free_threshold" => error.called("free-threshold"),
+        "footprint_radius" => error.called("footprint-radius"),
         _ => error,
     }
 }
@@ -365,7 +384,7 @@ impl Outputs {
         Ok(outputs)
     }
 
-    fn write(&self, mapper: &LaserMapper, path: &[(f64, Pose2)]) -> Result<()> {
+    fn write(&self, mapper: &LaserMapper, path: &[(f64, Pose2)], rules: &MapImageSettings) -> Result<()> {
         let save = |path: &Path, bytes: &[u8]| std::fs::write(path, bytes).with_context(in_file(path));
         if let Some(file) = &self.trajectory {
             save(file, write_tum(path).as_bytes())?;
@@ -374,7 +393,7 @@ impl Outputs {
             save(file, &write_path(path).map_err(anyhow::Error::msg)?)?;
         }
         if let Some([png, pgm, yaml]) = &self.map {
-            let map = MapImage::of(mapper.map());
+            let map = MapImage::of(mapper.map(), path, rules)?;
             picture::save_map(&map, path, png)?;
             save(pgm, &map.pgm())?;
             save(yaml, map.yaml(&pgm.file_name().unwrap_or_default().to_string_lossy()).as_bytes())?;

@@ -25,7 +25,7 @@ use quad::{Corner, Quad, least};
 pub(crate) use tile::{MAX_DISTANCE, UNIT};
 use tile::{NdtCell, TILE};
 
-pub use image::MapImage;
+pub use image::{MapImage, MapImageSettings};
 #[cfg(feature = "serde")]
 pub use saved::SavedGrids;
 

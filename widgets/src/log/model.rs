@@ -18,7 +18,10 @@ use crate::unread;
 use crate::words::log as words;
 use fastslam::{
     log::{LaserLog, LogError, parse, write_tum},
-    map::{Footprint, grid::MapImage},
+    map::{
+        Footprint,
+        grid::{MapImage, MapImageSettings},
+    },
     mapper::{LaserMapper, LaserMapperSettings, Replay},
     rbpf::Report,
 };
@@ -285,11 +288,16 @@ impl Files for LogModel {
                 .flat_map(f64::to_le_bytes)
                 .collect(),
             "path.tum" => write_tum(&mapper.path()).into_bytes(),
-            "map.pgm" => MapImage::of(mapper.map()).pgm(),
-            "map.yaml" => MapImage::of(mapper.map()).yaml("map.pgm").into_bytes(),
+            "map.pgm" => map_image(mapper).pgm(),
+            "map.yaml" => map_image(mapper).yaml("map.pgm").into_bytes(),
             _ => return None,
         })
     }
+}
+
+/// The best particle's map as ROS reads it, with the ground that the robot has covered.
+fn map_image(mapper: &LaserMapper) -> MapImage {
+    MapImage::of(mapper.map(), &mapper.path(), &MapImageSettings::default()).expect("the defaults are in range")
 }
 
 impl Model for LogModel {
@@ -455,7 +463,8 @@ mod tests {
             let seen = model.seen().unwrap();
             let poses: Vec<_> = seen.paths.iter().map(|path| path.poses()).collect();
             let deaths: Vec<_> = seen.deaths.iter().map(|death| (death.step, death.paths.len())).collect();
-            (seen.step, seen.scans, seen.best, poses, deaths, MapImage::of(&seen.map).pgm())
+            let map = MapImage::of(&seen.map, &[], &MapImageSettings::default()).unwrap();
+            (seen.step, seen.scans, seen.best, poses, deaths, map)
         };
         let mut whole = mapped(90);
         for step in [89, 1, 46, 47, 30] {

@@ -8,6 +8,9 @@ use fastslam_widgets::figure::Figure;
 use serde_json::Value;
 use tempfile::{TempDir, tempdir};
 
+#[path = "command_line/exports.rs"]
+mod exports;
+
 fn fastslam(arguments: &str) -> assert_cmd::assert::Assert {
     Command::new(env!("CARGO_BIN_EXE_fastslam")).args(arguments.split_whitespace()).assert()
 }
@@ -740,6 +743,9 @@ fn a_log_that_cannot_be_read_is_refused_by_line_and_one_with_flaws_is_read_if_as
         ("--cell 7".to_owned(), 2, "cell = 7: must be a number from 0.02 to 0.2"),
         ("--max-range NaN".to_owned(), 2, "max-range = NaN"),
         ("--min-travel -1".to_owned(), 2, "min-travel = -1"),
+        ("--occupied-threshold 0.4".to_owned(), 2, "occupied-threshold = 0.4: must be a number from 0.5 to 1"),
+        ("--free-threshold 0.7".to_owned(), 2, "free-threshold = 0.7: must be a number from 0 to 0.5"),
+        ("--footprint-radius -0.1".to_owned(), 2, "footprint-radius = -0.1: must be a number from 0 to 5 [m]"),
         ("--particles 0".to_owned(), 2, "from 1 to 4096"),
         (format!("--relations {relations}"), 2, "line 1: expected 8 numbers"),
         (
