@@ -1,6 +1,7 @@
 //! Landmark graphs in the format of g2o, as a drive: `VERTEX_SE2`, `VERTEX_XY`, `EDGE_SE2` between successive poses, `EDGE_SE2_XY`.
 //!
-//! A filter goes along the poses in the order of their ids. Edges between other poses say what it finds out by itself, and are passed over. The
+//! A filter goes along the poses in the order of their ids; where landmarks are seen from the first of them, it begins with a step in which
+//! the robot stands. Edges between other poses say what it finds out by itself, and are passed over. The
 //! vertices are what errors are told against: the optimum, or what the file has for a start.
 
 use crate::{Usage, in_file};
@@ -103,6 +104,13 @@ pub fn read(path: &Path) -> Result<(LandmarkLog<Displacement>, Tuning<Displaced>
     let ids: Vec<u64> = poses.keys().copied().collect();
     log.truth = poses.into_values().collect();
     log.odometry.push(log.truth[0]);
+    if let Some(features) = looks.remove(&ids[0]) {
+        // What is seen from the first pose is seen before the robot moves: by a step in which it stands.
+        log.truth.insert(0, log.truth[0]);
+        log.odometry.push(log.truth[0]);
+        log.controls.push(Displacement { mean: Pose2::default(), covariance: Matrix3::zeros() });
+        log.sightings.push(features);
+    }
     for pair in ids.windows(2) {
         let Some(step) = driven.get(&(pair[0], pair[1])) else {
             bail!(Usage::of_file(path, format_args!("no EDGE_SE2 leads from vertex {} to {}", pair[0], pair[1])));

@@ -91,7 +91,9 @@ pub fn drive(
     };
     let mut last = start;
     for (time, features) in looks {
-        if time <= last || time > end {
+        // A look at the very start belongs to the drive: its step takes no time.
+        let is_first = log.controls.is_empty() && time == start;
+        if !is_first && (time <= last || time > end) {
             continue; // before the drive began, or where there is no truth to hold it against
         }
         let parts = ((time - last) / LONGEST_STEP).ceil().max(1.0);
@@ -107,6 +109,9 @@ pub fn drive(
 /// Mean velocities between two times, of readings that each hold until the next.
 fn driven(odometry: &[[f64; 3]], from: f64, until: f64) -> Velocity {
     let duration = until - from;
+    if duration <= 0.0 {
+        return Velocity { speed: 0.0, turn_rate: 0.0, duration: 0.0 };
+    }
     let first = odometry.partition_point(|row| row[0] <= from).max(1) - 1;
     let (mut distance, mut turn) = (0.0, 0.0);
     for k in first..odometry.len() {

@@ -433,6 +433,12 @@ fn a_recorded_log_is_read_and_a_bad_line_of_it_named() {
         assert!(run["noises"].as_str().unwrap().starts_with("calibrated on robot 1 of data set 6"));
     }
 
+    // What is seen at the very start is seen from the pose that is known: by a step that takes no time.
+    let early = small_log("robot1-measurement", "10.0 63 1.414 0.785\n");
+    let run = json(&format!("landmarks --particles 2 --json --mrclam {}", early.path().join("small").display()));
+    assert_eq!((run["steps"].as_array().unwrap().len(), &run["steps"][0]["seen"]), (1, &1.into()));
+    assert_eq!((&run["landmarks"], &run["rms_online"]), (&1.into(), &0.0.into()));
+
     for (name, file, text, said) in [
         (
             "word",
@@ -589,6 +595,11 @@ fn a_landmark_graph_is_read_and_a_bad_line_of_it_named() {
     assert_eq!((output["steps"].as_array().unwrap().len(), &output["landmarks"]), (2, &1.into()));
     assert!((output["rms_odometry"].as_f64().unwrap() - (0.02_f64 / 3.0).sqrt()).abs() < 1e-9);
     assert!(refusal(&format!("{} --speed-std 1", run(graph))).contains("speed-std: cannot be set of a graph"));
+    // A landmark that is seen from the first pose alone: there is a step more, in which the robot stands.
+    let early = format!("{graph}VERTEX_XY 3 -1 1\nEDGE_SE2_XY 0 3 -1 1 100 0 100\nEDGE_SE2_XY 0 1 2 1 100 0 100\n");
+    let output = json(&format!("{} --json", run(&early)));
+    assert_eq!((output["steps"].as_array().unwrap().len(), &output["landmarks"]), (3, &2.into()));
+    assert_eq!((&output["steps"][0]["seen"], &output["steps"][0]["error_mean"]), (&2.into(), &0.0.into()));
     for (old, new, said) in [
         ("VERTEX_XY 1 2 1", "VERTEX_XYZ 1 2 1", "line 3: VERTEX_XYZ: must be VERTEX_SE2"),
         ("VERTEX_XY 1 2 1", "VERTEX_XY 0 2 1", "line 3: vertex 0 is there already"),
