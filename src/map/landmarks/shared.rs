@@ -97,6 +97,28 @@ impl<const W: usize> Store for Shared<W> {
         }
     }
 
+    /// Looks at nodes that hold something alone, however far apart the indices are.
+    fn iter(&self) -> impl Iterator<Item = (u32, &Landmark)> {
+        let mut open = vec![(&self.root, self.height, 0)];
+        let leaves = core::iter::from_fn(move || {
+            loop {
+                let (node, height, first) = open.pop()?;
+                match node {
+                    Node::Leaf(places) => return Some((first, places)),
+                    Node::Inner(children) => {
+                        let below = children.iter().enumerate().rev().filter_map(|(digit, child)| {
+                            Some((child.as_ref()?, height - 1, first + ((digit as u32) << (height * Self::BITS))))
+                        });
+                        open.extend(below);
+                    }
+                }
+            }
+        });
+        leaves.flat_map(|(first, places)| {
+            places.iter().enumerate().filter_map(move |(digit, place)| Some((first + digit as u32, place.as_ref()?)))
+        })
+    }
+
     fn entry(&mut self, index: u32) -> &mut Option<Landmark> {
         self.len = self.len.max(index.saturating_add(1));
         while !self.reaches(index) {
@@ -176,6 +198,7 @@ mod tests {
         for (store, vector) in copies {
             assert_eq!(store.len(), Store::len(&vector));
             assert!((0..store.len() + 2).all(|index| store.get(index) == Store::get(&vector, index)));
+            assert!(Store::iter(&store).eq(Store::iter(&vector)));
         }
     }
 
@@ -184,6 +207,18 @@ mod tests {
         holds_what_a_vector_holds::<Balanced>();
         holds_what_a_vector_holds::<Blocks>();
         holds_what_a_vector_holds::<Shared<4>>();
+    }
+
+    /// A tag whose number is a hash: one path from root to leaf, and nothing that grows with the number.
+    #[test]
+    fn an_index_of_thousands_of_millions_takes_no_more_than_one_of_hundreds() {
+        let mut store = Blocks::default();
+        for (x, index) in (1..).zip([3_000_000_000, 5, u32::MAX - 1]) {
+            *store.entry(index) = Some(landmark(x));
+        }
+        let found: Vec<(u32, f64)> = store.iter().map(|(index, landmark)| (index, landmark.mean.x)).collect();
+        assert_eq!(found, [(5, 2.0), (3_000_000_000, 1.0), (u32::MAX - 1, 3.0)]);
+        assert!(Blocks::footprint([&store].into_iter()).unique < 40 * 8 * 2 * POINTER);
     }
 
     #[test]

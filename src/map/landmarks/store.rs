@@ -16,6 +16,11 @@ pub trait Store: Clone + Default + Send + Sync {
     /// The landmark of an index.
     fn get(&self, index: u32) -> Option<&Landmark>;
 
+    /// All landmarks with their indices, in ascending order.
+    fn iter(&self) -> impl Iterator<Item = (u32, &Landmark)> {
+        (0..self.len()).filter_map(|index| Some((index, self.get(index)?)))
+    }
+
     /// The place of an index, to be written: grown up to there, and nobody else's.
     fn entry(&mut self, index: u32) -> &mut Option<Landmark>;
 
@@ -28,7 +33,7 @@ pub trait Store: Clone + Default + Send + Sync {
 /// Bytes of one place.
 pub(super) const PLACE: u64 = size_of::<Option<Landmark>>() as u64;
 
-/// The plain form: a copy copies every landmark.
+/// The plain form: a copy copies every landmark, and there is a place for each index up to the largest, with a landmark or without.
 impl Store for Vec<Option<Landmark>> {
     fn len(&self) -> u32 {
         self.len() as u32
