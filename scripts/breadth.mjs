@@ -33,6 +33,7 @@ async function runUnit({ name, command }) {
       // A command without tests has done what it says it does.
       const counts = counted(output) ?? { passed: 1, failed: 0, skipped: 0, reasons: [] }
       add(counts)
+      if (counts.passed + counts.skipped === 0) throw Object.assign(new StepError(`no test was run by it: ${command}`), { output })
       if (counts.failed > 0) throw Object.assign(new StepError(`${counts.failed} failed, and yet the command ended well: ${command}`), { output })
       return inWords(counts)
     })

@@ -1,4 +1,4 @@
-// The tests in WebAssembly, in headless Chromium, by wasm-pack: a step of npm test. `node scripts/wasm-tests.mjs --ignored` runs those that are breadth.
+// The tests in WebAssembly, in headless Chromium, by wasm-pack: a step of npm test. `node scripts/wasm-tests.mjs --include-ignored NAME` runs one that is breadth.
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { cache, isMain, main, root, run, step } from './lib.mjs'

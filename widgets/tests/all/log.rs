@@ -360,7 +360,7 @@ fn files_hold_the_best_path_and_map() {
         assert_eq!(pose[3..6], [0.0; 3]);
     }
     let yaml = String::from_utf8(file("map.yaml")).unwrap();
-    assert!(yaml.starts_with("image: \"map.pgm\"\nresolution: 0.2\norigin: [-"), "{yaml}");
+    assert!(yaml.starts_with("image: \"map.pgm\"\nmode: trinary\nresolution: 0.2\norigin: [-"), "{yaml}");
     let pgm = file("map.pgm");
     let header = String::from_utf8_lossy(&pgm[..15]).into_owned();
     let size: Vec<usize> = header.lines().nth(1).unwrap().split(' ').map(|n| n.parse().unwrap()).collect();
