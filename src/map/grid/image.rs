@@ -177,19 +177,14 @@ fn seen<const CELLS_PER_NDT: usize>(map: &Grid<CELLS_PER_NDT>) -> CellRect {
         i1: i + 1,
         j1: j + 1,
     });
-    seen.reduce(united).unwrap_or(CellRect { i0: 0, j0: 0, i1: 1, j1: 1 })
-}
-
-/// The least rectangle that holds both.
-fn united(a: CellRect, b: CellRect) -> CellRect {
-    CellRect { i0: a.i0.min(b.i0), j0: a.j0.min(b.j0), i1: a.i1.max(b.i1), j1: a.j1.max(b.j1) }
+    seen.reduce(CellRect::united).unwrap_or(CellRect { i0: 0, j0: 0, i1: 1, j1: 1 })
 }
 
 /// The rectangle grown around a circle, both in cells.
 fn around(cells: CellRect, [x, y]: [f64; 2], radius: f64) -> CellRect {
     let [i0, j0] = [x, y].map(|c| floor(c - radius));
     let [i1, j1] = [x, y].map(|c| floor(c + radius) + 1);
-    united(cells, CellRect { i0, j0, i1, j1 })
+    cells.united(CellRect { i0, j0, i1, j1 })
 }
 
 /// Places of the robot on its path \[cells\], half a cell apart. Poses outside of `seen` are left out: a path without a map says nothing of

@@ -61,6 +61,16 @@ impl CellRect {
     pub fn height(&self) -> usize {
         (self.j1 - self.j0).max(0) as usize
     }
+
+    /// The least rectangle that holds both.
+    fn united(self, other: Self) -> Self {
+        Self {
+            i0: self.i0.min(other.i0),
+            j0: self.j0.min(other.j0),
+            i1: self.i1.max(other.i1),
+            j1: self.j1.max(other.j1),
+        }
+    }
 }
 
 /// How a grid learns from a scan.
@@ -423,16 +433,7 @@ impl<const CELLS_PER_NDT: usize> Directory<CELLS_PER_NDT> {
     /// The directory grown so as to cover `needed` (in tiles) as well.
     fn grown(&self, needed: CellRect) -> Self {
         let old = self.rect;
-        let rect = if self.tiles.is_empty() {
-            needed
-        } else {
-            CellRect {
-                i0: old.i0.min(needed.i0),
-                j0: old.j0.min(needed.j0),
-                i1: old.i1.max(needed.i1),
-                j1: old.j1.max(needed.j1),
-            }
-        };
+        let rect = if self.tiles.is_empty() { needed } else { old.united(needed) };
         let mut grown = Self { rect, tiles: vec![None; rect.width() * rect.height()] };
         for tj in old.j0..old.j1 {
             for ti in old.i0..old.i1 {
