@@ -64,9 +64,16 @@ fn pixels(figure: &Figure, [width, height]: [u32; 2]) -> Vec<u8> {
     pixels
 }
 
+/// This build has `parallel` and `single-threaded` both on, so all that follows is computed as on a page whose dependencies asked for threads.
+#[wasm_bindgen_test]
+fn single_threaded_wins_where_threads_are_compiled_in() {
+    let _compiled_in = Executor::Rayon;
+    assert!(matches!(Executor::default(), Executor::Serial), "{:?}", Executor::default());
+}
+
 #[wasm_bindgen_test]
 fn whole_runs_leave_the_traces_of_the_native_build() {
-    let traces = golden_traces(&Executor::Serial).into_iter().map(|(name, digest)| line(name, &digest));
+    let traces = golden_traces(&Executor::default()).into_iter().map(|(name, digest)| line(name, &digest));
     same_lines(&traces.collect::<Vec<_>>(), TRACES);
 }
 
@@ -121,11 +128,11 @@ fn every_job_gives_the_rows_of_the_native_build() {
 
 #[wasm_bindgen_test]
 fn the_chapter_s_numbers_are_those_of_the_native_build() {
-    assert_fresh(&remake(&Executor::Serial, Extent::Groups));
+    assert_fresh(&remake(&Executor::default(), Extent::Groups));
 }
 
 #[wasm_bindgen_test]
 #[ignore = "breadth: all seeds"]
 fn the_chapter_s_numbers_by_all_their_seeds_are_those_of_the_native_build() {
-    assert_fresh(&remake(&Executor::Serial, Extent::AllSeeds));
+    assert_fresh(&remake(&Executor::default(), Extent::AllSeeds));
 }
