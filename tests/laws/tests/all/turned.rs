@@ -153,8 +153,7 @@ struct Mean {
     error: [f64; 2],
     /// Root of the mean variance along and across the unturned world's x \[m\], and of the heading \[rad\]: of the fit.
     fitted: [f64; 3],
-    /// The same of the dense sum, to be shown beside it.
-    #[expect(dead_code)]
+    /// The same of the dense sum.
     dense: [f64; 3],
 }
 
@@ -225,9 +224,16 @@ fn a_corridor_is_fitted_alike_at_seven_angles() {
     a_corridor_is_fitted_alike(&ANGLES);
 }
 
-/// 0.1 nats of the dense integral: the mean over all angles, and each within two of its standard errors of some 0.05 more.
+/// 0.1 nats of the dense integral: the mean over all angles, and each within two of its standard errors of some 0.05 more. The fit sees the bump at
+/// the mode and not those beside it: it is 0.77 to 0.94 times as wide as the dense sum, and may not be narrower than 0.72 times.
 fn the_laps_start_is_fitted_well(angles: &[f64]) {
     let means = holds_at_every_angle("start", angles, start_of_the_lap, [1.3, 1.3, 1.3]);
+    for (angle, one) in angles.iter().zip(&means) {
+        for (fitted, dense) in one.fitted.iter().zip(one.dense) {
+            let ratio = fitted / dense;
+            assert!((0.72..1.05).contains(&ratio), "{angle}°: {ratio:.3} times as wide: {means:.4?}");
+        }
+    }
     let middle = means.iter().map(|one| one.error[0]).sum::<f64>() / means.len() as f64;
     assert!(middle.abs() < 0.1, "{middle:+.3} nats: {means:.3?}");
     for (angle, one) in angles.iter().zip(&means) {
@@ -247,8 +253,9 @@ fn the_laps_start_is_fitted_well_at_seven_angles() {
     the_laps_start_is_fitted_well(&ANGLES);
 }
 
-/// Seeds 1 to `seeds` at M = 8, each with its own place in the raster: the 95 % intervals of the medians meet.
-fn a_lap_ends_as_well(seeds: u64) {
+/// Seeds 1 to `seeds` at M = 8, each with its own place in the raster: medians of the error at three angles, the greatest less than `most` times the
+/// least. What is found, then, is a direction in which laps are `most` times worse; noise makes the law stricter, not weaker.
+fn a_lap_ends_as_well(seeds: u64, most: f64) {
     let errors = FEW_ANGLES.map(|angle| {
         let errors: Vec<f64> = (1..=seeds)
             .map(|seed| {
@@ -260,18 +267,17 @@ fn a_lap_ends_as_well(seeds: u64) {
             .collect();
         Errors::of(&errors)
     });
-    let low = errors.iter().map(|one| one.median_interval[0]).fold(0.0, f64::max);
-    let high = errors.iter().map(|one| one.median_interval[1]).fold(f64::INFINITY, f64::min);
-    assert!(low <= high, "{errors:.4?}");
+    let times = ratio(errors.iter().map(|one| one.median));
+    assert!(times < most, "{times:.2}: {errors:.4?}");
 }
 
 #[test]
 fn a_lap_ends_as_well_whichever_way_the_apartment_is_turned() {
-    a_lap_ends_as_well(12);
+    a_lap_ends_as_well(12, 1.5);
 }
 
 #[test]
 #[ignore = "breadth: fifty seeds"]
 fn fifty_laps_end_as_well_whichever_way_the_apartment_is_turned() {
-    a_lap_ends_as_well(50);
+    a_lap_ends_as_well(50, 1.25);
 }
