@@ -30,11 +30,16 @@ pub struct Report<A> {
     pub log_increments: Vec<f64>,
     /// Normalised weights before resampling.
     pub weights: Vec<f64>,
-    /// ln p̂(z_t | z₁..ₜ₋₁) \[nats\], the log of the weighted mean of the increments' exponentials: an estimate whose exponential has
-    /// no bias, nor has the product over the steps. −∞ where the step explained nothing, +∞ where an increment is.
+    /// ln p̂(z_t | z₁..ₜ₋₁) \[nats\], the log of the weighted mean of the increments' exponentials. The product of the p̂ of all steps has no
+    /// bias, whatever the policy, the scheme and the temper of selection, where each increment is that of a model: exp(increment) has
+    /// the mean p(z | x′, u, m). That of a tempered score, or of a scan that weighs by the way driven, is none: there this is a mean increment and no
+    /// evidence. −∞ where the step explained nothing, +∞ where an increment is.
     pub log_evidence: f64,
-    /// N_eff before resampling.
+    /// N_eff of the weights before resampling.
     pub ess: f64,
+    /// N_eff of the scores w^τ that select ([`Builder::selection_temper`]) before resampling: what the policy goes by. With τ = 1, N_eff of
+    /// the weights.
+    pub selection_ess: f64,
     /// The path of each slot before resampling: nobody else holds those that the step let die.
     pub paths: Vec<Path>,
     /// Slot each particle was copied from, where the step resampled.
@@ -112,6 +117,8 @@ pub struct Rbpf<M, P> {
     resamplings: u32,
     particles: Vec<Particle<M>>,
     weights: Weights,
+    /// ln of the sum that the weights had after the last selection, before they were normalised \[nats\]: part of the next step's evidence.
+    log_selected: f64,
     /// The product of all that a path has paid, in full and as if no step had resampled: copies keep the weight of their original.
     path_weights: Weights,
 }
@@ -136,7 +143,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
     /// One step of the filter: propose, map, weigh, and select if the policy calls for it.
     pub fn step(&mut self, control: &P::Control, observation: &M::Observation) -> Report<M::Association> {
         let mut report = self.weigh(control, observation);
-        report.ancestors = self.select(report.ess);
+        report.ancestors = self.select(report.selection_ess);
         report
     }
 
@@ -185,14 +192,18 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         }
     }
 
-    /// Multiplies the weights by what the particles have paid, to the power of the temper, and divides them by their sum. Returns the log
-    /// of what the sum is without the temper \[nats\].
+    /// Multiplies the weights by what the particles have paid, and divides them by their sum. Returns the log of that sum, and of what the last
+    /// selection left it at \[nats\].
     fn reweigh(&mut self, log_increments: &[f64]) -> f64 {
-        let (_, log_evidence) = self.weights.reweighted(log_increments);
-        let tempered: Vec<f64> = log_increments.iter().map(|increment| self.selection_temper * increment).collect();
-        (self.weights, _) = self.weights.reweighted(&tempered);
+        let log_sum;
+        (self.weights, log_sum) = self.weights.reweighted(log_increments);
         (self.path_weights, _) = self.path_weights.reweighted(log_increments);
-        log_evidence
+        core::mem::take(&mut self.log_selected) + log_sum
+    }
+
+    /// The scores that select, w^τ.
+    fn scores(&self) -> Weights {
+        self.weights.tempered(self.selection_temper)
     }
 
     /// What there is to tell of the step so far.
@@ -208,6 +219,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
             log_evidence,
             weights: self.weights.as_slice().to_vec(),
             ess: self.weights.ess(),
+            selection_ess: self.scores().ess(),
             paths: self.particles.iter().map(|p| p.path.clone()).collect(),
             ancestors: None,
             traces: proposed.iter().map(|p| p.trace).collect(),
@@ -215,21 +227,26 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         }
     }
 
-    /// Resamples where the policy calls for it, at this N_eff.
+    /// Resamples where the policy calls for it, at this N_eff of the scores.
     fn select(&mut self, ess: f64) -> Option<Vec<u32>> {
         self.policy.should_resample(ess, self.particles.len()).then(|| self.resample())
     }
 
-    /// The second half of a step: particles are drawn by their weights, and what is not drawn is extinct. Returns the slot that each
-    /// particle was copied from.
+    /// The second half of a step: particles are drawn by their scores w^τ, and what is not drawn is extinct. A survivor keeps the weight
+    /// w / w^τ, so that what is estimated has the same mean before and after (Liu 2001, *Monte Carlo strategies in scientific computing*, §3.4.4:
+    /// resampling by priority scores). With τ = 1 all survivors weigh the same. Returns the slot that each particle was copied from.
     ///
     /// The n-th resampling of a step, from 0 on, draws from the stream (seed, [`Purpose::RESAMPLING`], step, n).
     pub fn resample(&mut self) -> Vec<u32> {
         let count = self.particles.len();
         let mut stream = Stream::at(self.seed, Purpose::RESAMPLING, self.step, self.resamplings);
         self.resamplings += 1;
-        let ancestors = self.scheme.ancestors(&self.weights, count, &mut stream);
+        let scores = self.scores();
+        let ancestors = self.scheme.ancestors(&scores, count, &mut stream);
+        let (weights, log_sum) = self.weights.selected(&scores, &ancestors);
         self.copy(&ancestors);
+        self.weights = weights;
+        self.log_selected += log_sum;
         ancestors
     }
 
@@ -260,12 +277,12 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         &self.particles
     }
 
-    /// Weights as they are now: uniform after a resampling.
+    /// Weights as they are now: after a resampling, uniform with τ = 1.
     pub fn weights(&self) -> &Weights {
         &self.weights
     }
 
-    /// Weights accumulated along the paths in full, as if no step had resampled, normalised.
+    /// Weights accumulated along the paths in full, as if no step had resampled, normalised: an account that tells which path is best, and nothing else.
     pub fn path_weights(&self) -> &Weights {
         &self.path_weights
     }

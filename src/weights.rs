@@ -50,6 +50,26 @@ impl Weights {
         Self::uniform(slots.len()).reweighted(&log_weights).0
     }
 
+    /// w^τ, normalised: flatter than the weights for a `temper` τ below 1, and to the bit the weights themselves for 1.
+    pub fn tempered(&self, temper: f64) -> Self {
+        if temper == 1.0 {
+            return self.clone();
+        }
+        let log_powers: Vec<f64> = self.log_weights.iter().map(|log_weight| temper * log_weight).collect();
+        Self::uniform(log_powers.len()).reweighted(&log_powers).0
+    }
+
+    /// Weights of copies of the slots `ancestors`, which were drawn by their scores: w / score, normalised, with the log of the mean that was
+    /// divided by \[nats\]. In the mean over the draws of an unbiased scheme that mean is 1. Where scores are the weights, copies weigh the same, and
+    /// the log is 0, to the bit.
+    pub fn selected(&self, scores: &Self, ancestors: &[u32]) -> (Self, f64) {
+        let log_ratio = |slot: &u32| self.log_weights[*slot as usize] - scores.log_weights[*slot as usize];
+        if ancestors.iter().all(|slot| log_ratio(slot) == 0.0) {
+            return (Self::uniform(ancestors.len()), 0.0);
+        }
+        Self::uniform(ancestors.len()).reweighted(&ancestors.iter().map(log_ratio).collect::<Vec<_>>())
+    }
+
     /// w̃, which sum to one.
     pub fn as_slice(&self) -> &[f64] {
         &self.weights
@@ -150,6 +170,23 @@ mod tests {
         assert!(log_evidence.abs() < 1e-15 && (later.as_slice()[2] - 0.75).abs() < 1e-15, "{later:?}");
         let nobody = [f64::NEG_INFINITY, INFINITY, f64::NAN, INFINITY];
         assert_eq!(after.reweighted(&nobody), (after.clone(), f64::NEG_INFINITY));
+    }
+
+    #[test]
+    fn copies_keep_what_they_were_not_drawn_by() {
+        let (weights, _) = Weights::uniform(3).reweighted(&[0.5_f64, 0.2, 0.3].map(ops::ln));
+        let (copies, log_mean) = weights.selected(&weights.tempered(1.0), &[0, 2, 2]);
+        assert_eq!((copies, log_mean), (Weights::uniform(3), 0.0));
+        // By their square roots: each copy keeps its square root, and of 0.5, 0.3 and 0.3 there are three.
+        let roots = [0.5_f64, 0.2, 0.3].map(f64::sqrt);
+        let sum: f64 = roots.iter().sum();
+        let (copies, log_mean) = weights.selected(&weights.tempered(0.5), &[0, 2, 2]);
+        let kept = [roots[0], roots[2], roots[2]];
+        let total: f64 = kept.iter().sum();
+        assert!((ops::exp(log_mean) - sum * total / 3.0).abs() < 1e-14, "{log_mean}");
+        for (weight, kept) in copies.as_slice().iter().zip(kept) {
+            assert!((weight - kept / total).abs() < 1e-15, "{copies:?}");
+        }
     }
 
     #[test]

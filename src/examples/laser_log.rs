@@ -4,7 +4,7 @@
 
 use fastslam::log::{parse, write_tum};
 use fastslam::map::grid::{MapImage, MapImageSettings};
-use fastslam::mapper::{LaserMapper, LaserMapperSettings};
+use fastslam::mapper::{LaserMapper, LaserMapperSettings, Pushed};
 use std::error::Error;
 use std::fs;
 use std::path::Path;
@@ -20,14 +20,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let settings = LaserMapperSettings { particles: 30, seed: 1, ..LaserMapperSettings::default() };
     let mut mapper = LaserMapper::new(settings.for_log(&log))?;
     for scan in &log.scans {
-        // No report of the first scan, and of those for which the robot stood still.
-        let Some(report) = mapper.push(scan) else { continue };
-        if report.step % 100 == 0 {
-            let (step, ess) = (report.step, report.ess);
-            println!(
-                "step {step}: effective sample size {ess:.1}, {} paths left at the start",
+        match mapper.push(scan) {
+            Pushed::Step(report) if report.step % 100 == 0 => println!(
+                "step {}: effective sample size {:.1}, {} paths left at the start",
+                report.step,
+                report.selection_ess,
                 mapper.filter().lineage()
-            );
+            ),
+            Pushed::Refused(reason) => println!("left out: {reason}"),
+            Pushed::First | Pushed::Still | Pushed::Step(_) => {}
         }
     }
 

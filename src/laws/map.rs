@@ -6,6 +6,7 @@
 use crate::geometry::Pose2;
 use crate::map::ConditionalMap;
 use crate::matching::Likelihood;
+use crate::sensor::Scan;
 use core::fmt::Debug;
 
 /// A `#[test]` of every law in [`laws::map`](crate::laws::map): `map_laws!(name, empty, likelihood, observations, content)` makes a module
@@ -160,4 +161,39 @@ pub fn a_family_of_clones_is_independent<M: ConditionalMap, C: PartialEq + Debug
         let alone = mapped(&empty, likelihood, trunk.iter().chain(branch.iter().copied()));
         assert_eq!(content(map), content(&alone), "clone {k} does not hold what it would without its siblings");
     }
+}
+
+/// Where a range finder is mounted is nothing to the map: with the robot moved so that the range finder stands in the same place, `alike`
+/// is told two maps that hold the same, but for rounding.
+///
+/// `scans` are of a range finder in the robot's centre, each with the pose it was taken at, so that no end point lies on the border of a
+/// cell.
+///
+/// ```
+/// use fastslam::{geometry::Pose2, laws, map::grid::{Grid, GridModel}, sensor::BeamSensor};
+/// # use fastslam::mapper::tuning;
+/// let empty = || <Grid<4>>::new(tuning::grid(0.05));
+/// let scan = BeamSensor::panorama(90, 8.0, 0.0).scan(&[2.0; 90]);
+/// let occupied = |map: &Grid<4>| (0..60).filter(|i| map.log_odds(*i, 0) > 0.0).count();
+/// let alike = |a: &Grid<4>, b: &Grid<4>| assert_eq!(occupied(a), occupied(b));
+///
+/// let (scans, mountings) = ([(Pose2::new(0.013, 0.007, 0.1), scan)], [Pose2::new(0.6, -0.4, 1.0)]);
+/// laws::map::a_mounting_changes_nothing(empty, &scans, &mountings, alike);
+/// ```
+pub fn a_mounting_changes_nothing<M: ConditionalMap<Observation = Scan, Association = ()>>(
+    empty: impl Fn() -> M,
+    scans: &[(Pose2, Scan)],
+    mountings: &[Pose2],
+    alike: impl Fn(&M, &M),
+) {
+    let mapped = |robot_from_sensor: &Pose2| {
+        let sensor_from_robot = robot_from_sensor.between(&Pose2::default());
+        let mut map = empty();
+        for (world_from_sensor, scan) in scans {
+            map.assimilate(&world_from_sensor.compose(&sensor_from_robot), &scan.mounted(robot_from_sensor), &());
+        }
+        map
+    };
+    let centred = mapped(&Pose2::default());
+    mountings.iter().for_each(|mounting| alike(&mapped(mounting), &centred));
 }

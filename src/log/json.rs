@@ -74,7 +74,7 @@ pub(super) fn read(line: &str) -> Result<Told, LogProblem> {
         max_range: line.range_max.filter(|range| *range > 0.0),
         ranges: ranges.into_iter().map(|range| range.unwrap_or(f32::INFINITY)).collect(),
     };
-    if !scan.is_placed() {
+    if scan.validate().is_err() {
         return Err(LogProblem::JsonFar);
     }
     Ok(Told::Scan(if line.odometry.is_some() { scan } else { LaserScan { odometry: NOWHERE, ..scan } }))

@@ -25,6 +25,7 @@ pub use problem::{Field, LogError, LogProblem, MessageProblem, Remark, Topics};
 pub use relations::{NEAR, Relation, RelationErrors, parse_relations, relation_errors};
 pub use tum::write_tum;
 
+use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
 use crate::ops;
 use crate::sensor::Scan;
@@ -33,7 +34,7 @@ use crate::sensor::Scan;
 const FARTHEST: f64 = 1e7;
 
 /// Farthest from one scan to the next by odometry \[m\]: no robot drives a kilometre between two sweeps of its laser.
-const FARTHEST_JUMP: f64 = 1e3;
+pub(crate) const FARTHEST_JUMP: f64 = 1e3;
 
 /// One sweep of a laser.
 #[derive(Clone, PartialEq, Debug)]
@@ -56,16 +57,34 @@ pub struct LaserScan {
 
 impl LaserScan {
     /// Whether all that says when, where and which way the laser looked is a number, and each coordinate that of a place.
-    pub(crate) fn is_placed(&self) -> bool {
+    ///
+    /// # Errors
+    /// [`SettingError::OutOfRange`] of the first that is not, by the name of its field. Readings are not asked: of a beam whose range is no
+    /// number nothing is known, and the others are of use.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        const PLACE: Range = Range::number(-FARTHEST, FARTHEST, "m");
+        const ANGLE: Range = Range::finite("rad");
         let Self { time, odometry, robot_from_laser, first_angle, angle_step, .. } = self;
-        [odometry.x, odometry.y, robot_from_laser.x, robot_from_laser.y].iter().all(|x| x.abs() <= FARTHEST)
-            && [*time, odometry.theta, robot_from_laser.theta, *first_angle, *angle_step].iter().all(|x| x.is_finite())
+        Range::finite("s").check("time", *time)?;
+        PLACE.check("odometry.x", odometry.x)?;
+        PLACE.check("odometry.y", odometry.y)?;
+        ANGLE.check("odometry.theta", odometry.theta)?;
+        PLACE.check("robot_from_laser.x", robot_from_laser.x)?;
+        PLACE.check("robot_from_laser.y", robot_from_laser.y)?;
+        ANGLE.check("robot_from_laser.theta", robot_from_laser.theta)?;
+        ANGLE.check("first_angle", *first_angle)?;
+        ANGLE.check("angle_step", *angle_step).map(drop)
     }
 
-    /// Where the beams ended, in the robot's frame. A reading of `longest` \[m\] or more met nothing, and says nothing: what it passed
+    /// Where the laser sits, in the robot's frame \[m\].
+    pub(crate) fn origin(&self) -> [f64; 2] {
+        [self.robot_from_laser.x, self.robot_from_laser.y]
+    }
+
+    /// Where the beams began and ended, in the robot's frame. A reading of `longest` \[m\] or more met nothing, and says nothing: what it passed
     /// may be glass. One of `max_range` \[m\] or more is cut there, and says that the way is free.
     pub fn end_points(&self, longest: f64, max_range: f64) -> Scan {
-        let mut ends = Scan::default();
+        let mut ends = Scan { origin: self.origin(), ..Scan::default() };
         for Beam { end, met, .. } in self.beams(longest, max_range).flatten() {
             if met { ends.hits.push(end) } else { ends.misses.push(end) }
         }

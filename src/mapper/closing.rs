@@ -18,7 +18,7 @@
 
 use super::Filter;
 use super::moving::driven;
-use super::tuning::{CLOSING, IN_FREE_SPACE, LAG, Map, ON_A_WALL, score};
+use super::tuning::{CLOSING, IN_FREE_SPACE, Map, ON_A_WALL, score};
 use crate::geometry::{Chain, Gaussian3, Pose2, Relation};
 use crate::map::ConditionalMap;
 use crate::matching::{Score, ScoredPose, hill_climb};
@@ -43,6 +43,8 @@ pub(super) struct Closings {
     checked: usize,
     /// Particles that were bent.
     bent: u32,
+    /// Whether the maps were marked since the last view.
+    marked: bool,
 }
 
 /// A scan that the filter took.
@@ -53,24 +55,28 @@ struct View {
     /// Distance within which nine of ten beams end that met something \[m\].
     reach: f64,
     scan: Arc<KeptScan>,
+    /// Whether the maps before it were marked.
+    marked: bool,
 }
 
 /// A scan, in single precision: it is kept as long as the mapper is.
 #[derive(Debug)]
 struct KeptScan {
+    origin: [f32; 2],
     hits: Box<[[f32; 2]]>,
     misses: Box<[[f32; 2]]>,
 }
 
 impl KeptScan {
     fn new(scan: &Scan) -> Self {
-        let keep = |ends: &[[f64; 2]]| ends.iter().map(|end| end.map(|c| c as f32)).collect();
-        Self { hits: keep(&scan.hits), misses: keep(&scan.misses) }
+        let single = |point: &[f64; 2]| point.map(|c| c as f32);
+        let keep = |ends: &[[f64; 2]]| ends.iter().map(single).collect();
+        Self { origin: single(&scan.origin), hits: keep(&scan.hits), misses: keep(&scan.misses) }
     }
 
     fn scan(&self) -> Scan {
         let ends = |kept: &[[f32; 2]]| kept.iter().map(|end| end.map(f64::from)).collect();
-        Scan { hits: ends(&self.hits), misses: ends(&self.misses) }
+        Scan { origin: self.origin.map(f64::from), hits: ends(&self.hits), misses: ends(&self.misses) }
     }
 }
 
@@ -95,10 +101,17 @@ impl Closings {
     /// A scan that the filter took after so many metres.
     pub(super) fn take(&mut self, scan: &Scan, driven: f64) {
         let way = self.views.last().map_or(0.0, |last| last.way) + driven;
-        let mut distances: Vec<f64> = scan.hits.iter().map(|[x, y]| ops::hypot(*x, *y)).collect();
+        let [x0, y0] = scan.origin;
+        let mut distances: Vec<f64> = scan.hits.iter().map(|[x, y]| ops::hypot(x - x0, y - y0)).collect();
         distances.sort_unstable_by(f64::total_cmp);
         let reach = distances.get(distances.len() * 9 / 10).copied().unwrap_or(0.0);
-        self.views.push(View { way, reach, scan: KeptScan::new(scan).into() });
+        let marked = core::mem::take(&mut self.marked);
+        self.views.push(View { way, reach, scan: KeptScan::new(scan).into(), marked });
+    }
+
+    /// The particles' maps are marked now: [`Map::mark`].
+    pub(super) fn mark(&mut self) {
+        self.marked = true;
     }
 
     /// Particles have become copies of those in these slots.
@@ -133,7 +146,7 @@ impl Closings {
         self.relations.resize(particles, Vec::new());
         let reach = self.last_steps(now).map(|step| self.views[step].reach).fold(0.0, f64::max);
         let least = CLOSING.window + reach.min(CLOSING.farthest);
-        let is_old = |before: &Before| self.way(before.step, now) >= least && now - before.step >= LAG as usize;
+        let is_old = |before: &Before| self.way(before.step, now) >= least;
         // The newest of the old ones, and all that are newer.
         let old = self.before.iter().filter(|before| is_old(before)).count();
         self.before.drain(..old.saturating_sub(1));
@@ -192,7 +205,7 @@ impl Closings {
         (Some(particle), Found::Bent(relation, maps))
     }
 
-    /// The end points of the last metres in the robot's frame, evenly picked.
+    /// The end points of the last metres in the robot's frame, evenly picked. They were seen from many places: no one origin is theirs.
     fn picture(&self, poses: &[Pose2]) -> Scan {
         let now = poses.len() - 1;
         let count: usize = self.last_steps(now).map(|step| self.views[step].scan.hits.len()).sum();
@@ -201,7 +214,7 @@ impl Closings {
             self.views[step].scan.hits.iter().map(move |end| (seen, end))
         });
         let picked = ends.step_by(count.div_ceil(CLOSING.picture).max(1));
-        Scan { hits: picked.map(|(seen, end)| seen.transform(end.map(f64::from))).collect(), misses: Vec::new() }
+        Scan { hits: picked.map(|(seen, end)| seen.transform(end.map(f64::from))).collect(), ..Scan::default() }
     }
 
     /// A particle of the path `bent` instead of `poses`, and its maps at the steps of [`Self::before`].
@@ -212,6 +225,9 @@ impl Closings {
         let mut map = particle.map.blank();
         let mut maps = Vec::new();
         for (step, (pose, view)) in bent.iter().zip(&self.views).enumerate() {
+            if view.marked {
+                map.mark();
+            }
             map.assimilate(pose, &view.scan.scan(), &());
             if step == 0 {
                 map.settle();
@@ -384,9 +400,9 @@ mod tests {
     fn what_is_unknown_lies_neither_on_a_wall_nor_in_free_space() {
         // Along the middle of a row of NDT cells, by which space is judged.
         let (mut map, pose) = (Map::new(super::super::tuning::grid(0.05)), Pose2::new(0.02, 0.12, 0.0));
-        let ahead = Scan { hits: vec![[3.0, 0.0]], misses: Vec::new() };
+        let ahead = Scan { hits: vec![[3.0, 0.0]], ..Scan::default() };
         map.assimilate(&pose, &ahead, &());
-        let points = Scan { hits: vec![[3.0, 0.02], [5.0, 0.0], [1.0, 0.0]], misses: Vec::new() };
+        let points = Scan { hits: vec![[3.0, 0.02], [5.0, 0.0], [1.0, 0.0]], ..Scan::default() };
         let beams = score().log_beams(&map, &pose, &points);
         let kinds = beams.iter().map(|log| [*log > ON_A_WALL, *log < IN_FREE_SPACE]).collect::<Vec<_>>();
         assert_eq!(kinds, [[true, false], [false, false], [false, true]], "{beams:?}");
@@ -400,9 +416,10 @@ mod tests {
 
     #[test]
     fn a_scan_is_kept_to_less_than_a_millionth_of_its_range() {
-        let scan = Scan { hits: vec![[12.345_678_9, -0.1]], misses: vec![[29.999_999_9, 3.3]] };
+        let scan = Scan { origin: [0.6, -0.4], hits: vec![[12.345_678_9, -0.1]], misses: vec![[29.999_999_9, 3.3]] };
         let kept = KeptScan::new(&scan).scan();
-        for (kept, given) in kept.hits.iter().chain(&kept.misses).zip(scan.hits.iter().chain(&scan.misses)) {
+        let points = |scan: &Scan| [&[scan.origin][..], &scan.hits, &scan.misses].concat();
+        for (kept, given) in points(&kept).iter().zip(&points(&scan)) {
             assert!((0..2).all(|k| (kept[k] - given[k]).abs() <= 1e-7 * given[k].abs()), "{kept:?} {given:?}");
         }
     }

@@ -26,17 +26,40 @@ pub use settings::LaserMapperSettings;
 pub use tuning::Map;
 pub use wheels::{WheelNoise, Wheels};
 
-use crate::error::SettingError;
+use crate::error::{Range, SettingError};
 use crate::execute::Executor;
 use crate::geometry::Pose2;
-use crate::log::LaserScan;
+use crate::log::{FARTHEST_JUMP, LaserScan};
 use crate::map::{ConditionalMap, Footprint};
 use crate::particle::Particle;
+use crate::proposal::FromScanSettings;
 use crate::rbpf::{Rbpf, Report};
 use crate::sensor::Scan;
 
 /// The filter of a [`LaserMapper`].
 pub type Filter = Rbpf<Map, tuning::Proposal>;
+
+/// What became of a scan that was [pushed](LaserMapper::push).
+#[derive(Clone, Debug)]
+#[must_use = "a refused scan is told nowhere else"]
+pub enum Pushed {
+    /// The first scan: the map begins with what it saw.
+    First,
+    /// The robot has moved by less than [`LaserMapperSettings::min_travel`] since the last scan that was taken: this one has a place on the
+    /// path, and is not mapped.
+    Still,
+    /// The filter has taken a step.
+    Step(Report<()>),
+    /// What the scan says of its time or its place cannot be: it is left out of map and path, with the reason.
+    Refused(SettingError),
+}
+
+impl Pushed {
+    /// What the filter's step did, if there was one.
+    pub fn report(self) -> Option<Report<()>> {
+        if let Self::Step(report) = self { Some(report) } else { None }
+    }
+}
 
 /// A scan that was pushed.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -60,6 +83,8 @@ pub struct LaserMapper {
     filter: Filter,
     /// What is known of the wheels.
     wheels: Wheels,
+    /// Metres driven by odometry since the particles' maps were marked for the last time.
+    since_mark: f64,
     /// What was seen on the last metres of the way.
     views: LastViews,
     /// What closes the loops that were missed.
@@ -89,6 +114,7 @@ impl LaserMapper {
             executor: Executor::default(),
             filter: filter(&settings, settings.beams.unwrap_or(tuning::BEAMS), map)?,
             wheels: Wheels::default(),
+            since_mark: 0.0,
             views: LastViews::default(),
             closings: Closings::default(),
             last: None,
@@ -107,26 +133,26 @@ impl LaserMapper {
     /// The next scan, with the pose that raw odometry gives for it. Odometry may be in any frame, as long as it is one: only
     /// motions count.
     ///
-    /// What the filter's step did; `None` where there was none: of the first scan, with which the map begins, and of one before
-    /// which the robot moved by less than [`LaserMapperSettings::min_travel`]. A pose that is not finite, or further than 10 000 km
-    /// from odometry's origin, is no place: such a scan is left out of the path too.
+    /// A scan whose time or pose is not finite, whose pose lies further than 10 000 km from odometry's origin, or more than 1 km from
+    /// that of the last scan that was taken, is refused.
     ///
     /// A step in which a path is bent to close a loop takes longer: all scans so far are mapped again for it.
-    pub fn push(&mut self, scan: &LaserScan) -> Option<Report<()>> {
-        if !scan.is_placed() {
-            return None;
-        }
-        let Some(last) = self.last else {
-            self.begin(scan);
-            return None;
+    pub fn push(&mut self, scan: &LaserScan) -> Pushed {
+        let moved = match moved(self.last.as_ref(), scan) {
+            Ok(Some(moved)) => moved,
+            Ok(None) => {
+                self.begin(scan);
+                return Pushed::First;
+            }
+            Err(reason) => return Pushed::Refused(reason),
         };
-        let moved = last.between(&scan.odometry);
         if !self.settings.takes(&moved) {
             self.stamps.push(Stamp { time: scan.time, step: self.steps, step_from_robot: moved });
-            return None;
+            return Pushed::Still;
         }
         let control = self.wheels.displacement(&moved);
         let standing = self.standing(scan);
+        self.mark(driven(&moved)[0]);
         let report = self.filter.step(&control, &standing);
         self.wheels.learn(&moved, &report);
         self.steps = report.step;
@@ -140,7 +166,21 @@ impl LaserMapper {
         }
         self.closings.take(&standing, driven(&moved)[0]);
         self.closings.check(&mut self.filter);
-        Some(report)
+        Pushed::Step(report)
+    }
+
+    /// Marks all maps as they are, every half of the [lag](tuning::LAG): by odometry, as particles are compared by maps of one age.
+    fn mark(&mut self, driven: f64) {
+        self.since_mark += driven;
+        if self.since_mark >= 0.5 * tuning::LAG {
+            self.since_mark = 0.0;
+            self.closings.mark();
+            self.filter.revise(|_, particle| {
+                let mut particle = particle.clone();
+                particle.map.mark();
+                (Some(particle), ())
+            });
+        }
     }
 
     /// Maps the first scan, once for all particles.
@@ -239,9 +279,23 @@ impl LaserMapper {
     }
 }
 
+/// How the robot moved since the last scan that was taken, by raw odometry; `None` for the first scan.
+///
+/// # Errors
+/// Where what the scan says of its time or its place is not finite, or no place: see [`LaserMapper::push`].
+fn moved(last: Option<&Pose2>, scan: &LaserScan) -> Result<Option<Pose2>, SettingError> {
+    scan.validate()?;
+    let Some(last) = last else { return Ok(None) };
+    Range::number(0.0, FARTHEST_JUMP, "m").check("odometry since the last scan", last.distance(&scan.odometry))?;
+    Ok(Some(last.between(&scan.odometry)))
+}
+
 /// The filter at the origin, with this map in each particle.
 fn filter(settings: &LaserMapperSettings, beams: u32, map: Map) -> Result<Filter, SettingError> {
-    Rbpf::builder(map, tuning::proposal(beams))
+    let proposal = tuning::proposal(beams);
+    let proposal =
+        tuning::Proposal { settings: FromScanSettings { weight: settings.weight, ..proposal.settings }, ..proposal };
+    Rbpf::builder(map, proposal)
         .particles(settings.particles)
         .seed(settings.seed)
         .policy(settings.policy)

@@ -64,7 +64,7 @@ impl LastViews {
             let since = Since::new(&displacement(&before.odometry.between(&view.odometry), before.driven));
             view.mark_moving(before, &since, &mut moving);
         }
-        let mut standing = Scan::default();
+        let mut standing = Scan { origin: scan.origin(), ..Scan::default() };
         for (beam, moving) in view.beams.iter().zip(moving) {
             let Some(Beam { end, met, .. }) = *beam else { continue };
             if met && !moving { standing.hits.push(end) } else { standing.misses.push(end) }
@@ -247,7 +247,7 @@ mod tests {
     fn sorted(scans: &[LaserScan]) -> Vec<[usize; 2]> {
         let mut views = LastViews::default();
         let sort = |scan: &LaserScan| {
-            let Scan { hits, misses } = views.standing(scan, scan.beams(f64::INFINITY, 30.0), told);
+            let Scan { hits, misses, .. } = views.standing(scan, scan.beams(f64::INFINITY, 30.0), told);
             [hits.len(), misses.len()]
         };
         scans.iter().map(sort).collect()

@@ -1,8 +1,9 @@
 //! A log, pushed into a mapper.
 
-use super::{LaserMapper, LaserMapperSettings};
+use super::{LaserMapper, LaserMapperSettings, moved};
 use crate::error::SettingError;
 use crate::execute::Executor;
+use crate::geometry::Pose2;
 use crate::log::LaserLog;
 use crate::rbpf::Report;
 use std::sync::Arc;
@@ -75,7 +76,7 @@ impl Replay {
     /// Pushes the n-th scan that the filter takes and all up to the next.
     fn push(&mut self, n: usize) -> Option<Report<()>> {
         let [start, end] = *self.bounds.get(n..n + 2)? else { return None };
-        let mut reports = self.log.scans[start..end].iter().filter_map(|scan| self.mapper.push(scan));
+        let mut reports = self.log.scans[start..end].iter().filter_map(|scan| self.mapper.push(scan).report());
         let report = reports.next();
         reports.for_each(drop);
         report
@@ -103,9 +104,10 @@ impl core::iter::FusedIterator for Replay {}
 /// Numbers of the scans that a mapper takes, the first included.
 fn taken(settings: &LaserMapperSettings, log: &LaserLog) -> Vec<usize> {
     let mut taken: Vec<usize> = Vec::new();
-    for (k, scan) in log.scans.iter().enumerate().filter(|(_, scan)| scan.is_placed()) {
+    for (k, scan) in log.scans.iter().enumerate() {
         let last = taken.last().map(|last| log.scans[*last].odometry);
-        if last.is_none_or(|last| settings.takes(&last.between(&scan.odometry))) {
+        let takes = |moved: Option<Pose2>| moved.is_none_or(|moved| settings.takes(&moved));
+        if moved(last.as_ref(), scan).is_ok_and(takes) {
             taken.push(k);
         }
     }

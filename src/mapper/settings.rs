@@ -1,10 +1,10 @@
 //! What can be set about a mapper, and what a log tells of its laser.
 
-use super::tuning::{Map, NOTHING_MET, STILL};
+use super::tuning::{FROM_SCAN, Map, NOTHING_MET, STILL};
 use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
 use crate::log::{Beam, LaserLog, LaserScan};
-use crate::ops;
+use crate::proposal::IncrementalWeight;
 use crate::resampling::ResamplePolicy;
 use std::collections::BTreeSet;
 
@@ -32,6 +32,8 @@ pub struct LaserMapperSettings {
     pub min_travel: f64,
     /// When the particles are resampled.
     pub policy: ResamplePolicy,
+    /// What a particle pays for a scan.
+    pub weight: IncrementalWeight,
     /// A reading of this length \[m\] or more, 0 or above, met nothing and says nothing: what it passed may be glass. `None` leaves
     /// it to what each scan declares, [`LaserScan::max_range`](crate::log::LaserScan::max_range); where it declares nothing,
     /// every finite reading met something.
@@ -49,6 +51,7 @@ impl Default for LaserMapperSettings {
             max_range: 30.0,
             min_travel: 0.0,
             policy: ResamplePolicy::EssBelow(0.5),
+            weight: FROM_SCAN.weight,
             no_return: None,
             beams: None,
         }
@@ -113,13 +116,14 @@ impl LaserMapperSettings {
         let tile = f64::from(Map::TILE_CELLS) * settings.cell_size;
         let mut all = BTreeSet::new();
         for scan in &log.scans {
-            for Beam { end, .. } in settings.beams_of(scan).flatten().filter(|beam| beam.met) {
+            let origin = scan.origin();
+            for Beam { end, length, .. } in settings.beams_of(scan).flatten().filter(|beam| beam.met) {
                 // The tiles on the way are free space that is kept as well.
-                let length = ops::hypot(end[0], end[1]);
                 let parts = (length / tile).ceil().max(1.0);
                 for part in 0..=parts as u32 {
                     let share = f64::from(part) / parts;
-                    let [x, y] = scan.odometry.transform([end[0] * share, end[1] * share]);
+                    let [x, y] =
+                        scan.odometry.transform([0, 1].map(|k: usize| origin[k] + share * (end[k] - origin[k])));
                     all.insert(((x / tile).floor() as i64, (y / tile).floor() as i64));
                 }
             }

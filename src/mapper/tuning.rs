@@ -4,7 +4,7 @@ use super::wheels::WheelNoise;
 use crate::map::grid::{Grid, GridModel};
 use crate::matching::{HillClimbSteps, Kernel, Matcher, ScanModel};
 use crate::motion::Displaced;
-use crate::proposal::{CorrelativeSearch, FitLimits, FromScan, FromScanSettings, SEARCH_STDS};
+use crate::proposal::{CorrelativeSearch, FitLimits, FromScan, FromScanSettings, IncrementalWeight, SEARCH_STDS};
 
 /// Cells along a side of an NDT cell: NDT cells of 0.2 m with the default cells. Much smaller ones hold too few hits to tell which
 /// way a wall runs, much larger ones more than one wall.
@@ -17,17 +17,20 @@ pub type Map = Grid<CELLS_PER_NDT>;
 pub type Proposal = FromScan<Displaced, ScanModel, CorrelativeSearch>;
 
 /// What wheels are taken for before any scan was matched. Wide on purpose: real wheels slip, and are off by a bias that no noise
-/// describes. What is too wide is narrowed on the way (`wheels.rs`).
-pub const WHEELS: WheelNoise = WheelNoise { heading: [0.2, 0.14], position: [0.1, 0.1] };
+/// describes. What is too wide is narrowed on the way (`wheels.rs`). After half a metre a heading is uncertain by 4° and a position by 5 cm.
+pub const WHEELS: WheelNoise = WheelNoise { heading: [0.14, 0.1], position: [0.07, 0.07] };
+
+/// What stays uncertain of a motion, however good the wheels are known to be: their own noise is not all that scans of one place differ by.
+pub const FLOOR: WheelNoise = WheelNoise { heading: [0.014, 0.014], position: [0.028, 0.028] };
 
 /// Standard deviation of the wheels' drift \[rad/m\], before anything is known: some 3° a metre, as one log has.
 pub const DRIFT_STD: f64 = 0.05;
 
-/// What is taken of the wheels counts as so many stretches.
-pub const TRUST: f64 = 10.0;
+/// What is assumed of the wheels counts as much as so many metres of the way \[m\].
+pub const TRUST: f64 = 5.0;
 
-/// Stretches after which what was learnt of the wheels is forgotten to 1/e: carpets change, and tyres warm up.
-pub const MEMORY: f64 = 100.0;
+/// Way after which what was learnt of the wheels is forgotten to 1/e \[m\]: carpets change, and tyres warm up.
+pub const MEMORY: f64 = 50.0;
 
 /// Length of a stretch \[m\]: over less, a matched heading says little of the wheels.
 pub const STRETCH: f64 = 0.5;
@@ -61,9 +64,9 @@ pub const KERNEL: Kernel = Kernel::Robust { most: 1.0 };
 /// place half a metre off better than their own.
 pub const NDT_STRETCH: f64 = 3.0;
 
-/// L: a scan is weighed against the map of so many scans ago, or of up to half as many more. By then the robot is some 6 m further,
-/// out of sight of most of what it saw for the first time.
-pub const LAG: u32 = 20;
+/// L: a scan is weighed against the map as it was so many metres of the way ago, or up to half as many more \[m\]. By then the robot is out of
+/// sight of most of what it saw for the first time.
+pub const LAG: f64 = 10.0;
 
 /// τ: particles are selected by so much of what a scan says ([`Builder::selection_temper`](crate::rbpf::Builder::selection_temper)), as all
 /// scans are held against one map with the same errors. Selected by all of it, half of all steps of a long corridor resampled, all
@@ -174,7 +177,8 @@ pub const BEAMS: u32 = 180;
 
 /// The proposal, for a laser of [`BEAMS`] beams.
 pub const FROM_SCAN: FromScanSettings<CorrelativeSearch> = FromScanSettings {
-    motion_floor: [0.02, 0.02, 0.01],
+    // Enough to make a covariance definite: the floor that counts is that of the way.
+    motion_floor: [1e-3, 1e-3, 5e-4],
     // Half an NDT cell, and as much at 3 m. Three starts: of two, one is often the neighbour of the other's hill.
     search: CorrelativeSearch { linear: 0.1, angular: 0.035, stride: 4, climbs: 3 },
     // From half the lattice's step down to half a centimetre.
@@ -185,6 +189,7 @@ pub const FROM_SCAN: FromScanSettings<CorrelativeSearch> = FromScanSettings {
     full_weight: 0.5,
     // From what cannot be seen to what wheels are off by after a metre or two: along a corridor a scan knows no better.
     limits: FitLimits { least: [0.005, 0.003], most: [0.15, 0.05] },
+    weight: IncrementalWeight::OldMapAtDraw,
 };
 
 /// [`FROM_SCAN`] for a laser of so many beams: of a denser one the search takes fewer, since neighbours tell it the same.
@@ -205,7 +210,7 @@ pub const fn grid(cell_size: f64) -> GridModel {
         log_odds_bounds: LOG_ODDS_BOUNDS,
         ndt_std: 0.06,
         ndt_stretch: NDT_STRETCH,
-        lag: LAG,
+        lag: 0,
         distance_reach: 2,
         ndt_forgets: true,
     }

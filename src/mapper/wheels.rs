@@ -8,7 +8,7 @@
 //! probabilistic motion models for mobile robots*, ICML 2004 (motion as a Gaussian in pose space, its noise learnt with the map).
 
 use super::moving::driven;
-use super::tuning::{DRIFT_STD, MEMORY, OUTLYING, STRETCH, TRUST, WHEELS};
+use super::tuning::{DRIFT_STD, FLOOR, MEMORY, OUTLYING, STRETCH, TRUST, WHEELS};
 use crate::geometry::Pose2;
 use crate::motion::Displacement;
 use crate::ops;
@@ -16,21 +16,21 @@ use crate::proposal::ProposalTrace;
 use crate::rbpf::Report;
 use nalgebra::Matrix3;
 
-/// Standard deviations of what wheels report, as they grow with the motion.
+/// Noise of what wheels report. Variances grow with the way, so that they are the same however a drive is cut into steps: after d metres and
+/// turns of φ radians in all, σ²_heading = a₁² φ + a₂² d and, along each axis, σ²_position = b₁² d + b₂² φ.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct WheelNoise {
-    /// Of the heading \[rad\], a radian turned and a metre driven.
+    /// Standard deviations a₁ of the heading after turning by a radian \[rad/√rad\], and a₂ after driving a metre \[rad/√m\].
     pub heading: [f64; 2],
-    /// Of the position along each axis \[m\], a metre driven and a radian turned.
+    /// Standard deviations b₁ of the position after driving a metre \[m/√m\], and b₂ after turning by a radian \[m/√rad\].
     pub position: [f64; 2],
 }
 
 impl WheelNoise {
     /// Variances of heading and position \[rad², m²\] after so much of driving and turning \[m, rad\].
     fn variances(&self, [way, turn]: [f64; 2]) -> [f64; 2] {
-        let sum = |a: f64, b: f64| a * a + b * b;
         let ([by_turn, by_way], [along, spin]) = (self.heading, self.position);
-        [sum(by_turn * turn, by_way * way), sum(along * way, spin * turn)]
+        [by_turn * by_turn * turn + by_way * by_way * way, along * along * way + spin * spin * turn]
     }
 }
 
@@ -41,8 +41,8 @@ impl WheelNoise {
 /// e = b d + ε, ε ~ N(0, s² v),
 ///
 /// where v is the variance that [`WHEELS`] have over the stretch. The drift b has a conjugate normal prior, N(0, [`DRIFT_STD`]²); s² is the
-/// mean of (e − b d)² / v, in which the 1 that is assumed counts as [`TRUST`] stretches. Both forget, with a memory of
-/// [`MEMORY`] stretches. What differs by more than [`OUTLYING`] standard deviations counts as if it
+/// mean of (e − b d)² / v over the way, in which the 1 that is assumed counts as [`TRUST`] metres. Both forget, with a memory of
+/// [`MEMORY`] metres. What differs by more than [`OUTLYING`] standard deviations counts as if it
 /// differed by so many: one scan in a wrong place must not make the next wrong place likely.
 #[derive(Clone, Debug)]
 pub struct Wheels {
@@ -80,13 +80,17 @@ impl Scale {
         self.squares / self.count
     }
 
-    fn learn(&mut self, square: f64) {
-        *self = Self { squares: FORGET * self.squares + square, count: FORGET * self.count + 1.0 };
+    /// Learns from a stretch of so many metres.
+    fn learn(&mut self, square: f64, way: f64) {
+        let kept = kept(way);
+        *self = Self { squares: kept * self.squares + way * square, count: kept * self.count + way };
     }
 }
 
-/// What is left of older stretches after one more.
-const FORGET: f64 = 1.0 - 1.0 / MEMORY;
+/// What is left of older stretches after so many more metres.
+fn kept(way: f64) -> f64 {
+    ops::exp(-way / MEMORY)
+}
 
 /// Standard deviation of a matched heading over a stretch \[rad\]: what no wheel is to blame for.
 const MATCHED_STD: f64 = 0.01;
@@ -108,7 +112,7 @@ impl Wheels {
         self.weighted / self.information
     }
 
-    /// Standard deviation of the heading after a metre straight on \[rad/m\].
+    /// Standard deviation of the heading after a metre straight on \[rad\], the [floor](super::tuning::FLOOR) apart.
     pub fn heading_std(&self) -> f64 {
         (self.noise.value() * WHEELS.heading[1] * WHEELS.heading[1] + 1.0 / self.information).sqrt()
     }
@@ -116,33 +120,39 @@ impl Wheels {
     /// Where the robot is, seen from where it was, when odometry tells this motion. Half of an error of the heading is there from the
     /// start of the motion, so that it moves the position too.
     pub(super) fn displacement(&self, odometry: &Pose2) -> Displacement {
-        self.displacement_over(odometry, driven(odometry))
+        let driven = driven(odometry);
+        self.displaced(odometry, driven, driven)
     }
 
-    /// The same where odometry tells this motion of many steps, in which the robot drove so far and turned by so much \[m, rad\]. Nothing cancels on the way there
-    /// and back: standard deviations grow with what was driven, as if all errors went one way.
-    pub(super) fn displacement_over(&self, odometry: &Pose2, [way, turned]: [f64; 2]) -> Displacement {
+    /// The displacement where odometry tells this motion of many steps, in which the robot drove so far and turned by so much \[m, rad\]. It is a bound
+    /// on what wheels may be off by, there and back: beyond a [`STRETCH`], and half a radian, standard deviations grow as if all errors went one way.
+    pub(super) fn displacement_over(&self, odometry: &Pose2, driven: [f64; 2]) -> Displacement {
+        self.displaced(odometry, driven, driven.map(|way| way * (way / STRETCH).max(1.0)))
+    }
+
+    /// The displacement after driving so far, with the noise of driving and turning by as much as `noisy` \[m, rad\].
+    fn displaced(&self, odometry: &Pose2, [way, _]: [f64; 2], noisy: [f64; 2]) -> Displacement {
         let drift = self.drift() * way;
         let mean = Pose2::new(0.0, 0.0, 0.5 * drift).compose(odometry).compose(&Pose2::new(0.0, 0.0, 0.5 * drift));
-        let [heading, position] = WHEELS.variances([way, turned]);
-        let turn = self.noise.value() * heading + way * way / self.information;
+        let ([heading, position], floor) = (WHEELS.variances(noisy), FLOOR.variances(noisy));
+        let turn = self.noise.value() * heading + way * way / self.information + floor[0];
         let aside = [-0.5 * mean.y, 0.5 * mean.x, 1.0];
         let covariance = Matrix3::from_fn(|i, j| turn * aside[i] * aside[j])
-            + Matrix3::from_diagonal(&[position, position, 0.0].into());
+            + Matrix3::from_diagonal(&[position + floor[1], position + floor[1], 0.0].into());
         Displacement { mean, covariance }
     }
 
-    /// Learns from a step of the filter, to which odometry told this motion: from the mean over the particles that were matched.
+    /// Learns from a step of the filter, to which odometry told this motion: from the mean over the particles that were matched. Whatever a path
+    /// weighs, its last motion says as much of the wheels as that of any other.
     pub(super) fn learn(&mut self, odometry: &Pose2, report: &Report<()>) {
-        let slots = report.paths.iter().zip(&report.weights).zip(&report.traces);
-        let (mut total, mut turned) = (0.0, 0.0);
-        for ((path, weight), trace) in slots {
+        let (mut count, mut turned) = (0.0, 0.0);
+        for (path, trace) in report.paths.iter().zip(&report.traces) {
             let (ProposalTrace::Matched { .. }, Some(before)) = (trace, path.before()) else { continue };
-            total += weight;
-            turned += weight * ops::wrap_angle(before.pose().between(&path.pose()).theta - odometry.theta);
+            count += 1.0;
+            turned += ops::wrap_angle(before.pose().between(&path.pose()).theta - odometry.theta);
         }
-        if total > 0.0 {
-            self.add(odometry, turned / total);
+        if count > 0.0 {
+            self.add(odometry, turned / count);
         }
     }
 
@@ -163,9 +173,10 @@ impl Wheels {
         let variance = self.noise.value() * stretch.variance + matched;
         let most = OUTLYING * variance.sqrt();
         let error = (stretch.turned - expected).clamp(-most, most);
-        self.information = FORGET * self.information + stretch.way * stretch.way / variance;
-        self.weighted = FORGET * self.weighted + stretch.way * (expected + error) / variance;
-        self.noise.learn(error * error / (stretch.variance + matched));
+        let kept = kept(stretch.way);
+        self.information = kept * self.information + stretch.way * stretch.way / variance;
+        self.weighted = kept * self.weighted + stretch.way * (expected + error) / variance;
+        self.noise.learn(error * error / (stretch.variance + matched), stretch.way);
     }
 }
 
@@ -174,13 +185,13 @@ mod tests {
     use super::*;
     use crate::random::{Purpose, Stream};
 
-    /// After so many steps of this motion, of which wheels tell all but a drift \[rad/m\] and noise of this share of [`WHEELS`].
-    fn after(steps: u32, motion: Pose2, drift: f64, share: f64) -> Wheels {
+    /// After so many steps of this motion, of which wheels tell all but a drift \[rad/m\] and noise with this standard deviation \[rad/√m\].
+    fn after(steps: u32, motion: Pose2, drift: f64, std: f64) -> Wheels {
         let mut wheels = Wheels::default();
         for step in 0..steps {
-            let [turn, _, _]: [f64; 3] = Stream::at(1, Purpose::TRIAL, step, 0).normals();
-            let [heading, _] = WHEELS.variances(driven(&motion));
-            wheels.add(&motion, drift * ops::hypot(motion.x, motion.y) + turn * share * heading.sqrt());
+            let [turn] = Stream::at(1, Purpose::TRIAL, step, 0).normals();
+            let way = ops::hypot(motion.x, motion.y);
+            wheels.add(&motion, drift * way + std * way.sqrt() * turn);
         }
         wheels
     }
@@ -190,29 +201,26 @@ mod tests {
         let Displacement { mean, covariance } = Wheels::default().displacement(&Pose2::new(1.0, 0.0, 0.0));
         assert_eq!(mean, Pose2::new(1.0, 0.0, 0.0));
         let [x, _, theta] = [covariance.m11, covariance.m22, covariance.m33].map(f64::sqrt);
-        assert!(
-            (x - WHEELS.position[0]).abs() < 1e-12 && (theta - ops::hypot(WHEELS.heading[1], DRIFT_STD)).abs() < 1e-12
-        );
+        let known = ops::hypot(WHEELS.heading[1], DRIFT_STD);
+        assert!((x - ops::hypot(WHEELS.position[0], FLOOR.position[0])).abs() < 1e-12);
+        assert!((theta - ops::hypot(known, FLOOR.heading[1])).abs() < 1e-12);
     }
 
     #[test]
     fn drift_and_noise_are_learnt_whatever_the_length_of_a_step() {
-        for (steps, way) in [(200, 1.0), (2_000, 0.1), (20_000, 0.01)] {
-            let wheels = after(steps, Pose2::new(way, 0.0, 0.0), 0.06, 0.3);
+        for (steps, way) in [(200, 1.0), (667, 0.3), (2_000, 0.1), (10_000, 0.02)] {
+            let wheels = after(steps, Pose2::new(way, 0.0, 0.0), 0.06, 0.03);
             assert!((wheels.drift() - 0.06).abs() < 0.012, "{way} m: {}", wheels.drift());
-            // The matcher's own error, which short steps have a larger share of, is not the wheels'.
-            assert!((0.02..0.15).contains(&wheels.noise.value()), "{way} m: {}", wheels.noise.value());
+            assert!((0.75..1.25).contains(&(wheels.heading_std() / 0.03)), "{way} m: {}", wheels.heading_std());
         }
     }
 
     #[test]
     fn what_was_learnt_is_in_the_displacement() {
-        let (wheels, ahead) = (after(300, Pose2::new(0.7, 0.0, 0.1), 0.06, 0.3), Pose2::new(1.0, 0.0, 0.0));
+        let (wheels, ahead) = (after(300, Pose2::new(0.7, 0.0, 0.0), 0.06, 0.03), Pose2::new(1.0, 0.0, 0.0));
         let Displacement { mean, covariance } = wheels.displacement(&ahead);
         assert!((mean.theta - 0.06).abs() < 0.012 && (mean.y - 0.03).abs() < 0.006, "{mean:?}");
-        let std = covariance.m33.sqrt();
-        assert!((0.25..0.4).contains(&(std / WHEELS.heading[1])), "{std}");
-        assert!((std - wheels.heading_std()).abs() < 1e-12);
+        assert!((covariance.m33.sqrt() - ops::hypot(wheels.heading_std(), FLOOR.heading[1])).abs() < 1e-12);
     }
 
     #[test]
@@ -225,7 +233,7 @@ mod tests {
 
     #[test]
     fn one_scan_in_a_wrong_place_is_not_learnt_as_if_it_were_the_wheels() {
-        let (mut wheels, ahead) = (after(100, Pose2::new(1.0, 0.0, 0.0), 0.0, 0.3), Pose2::new(1.0, 0.0, 0.0));
+        let (mut wheels, ahead) = (after(100, Pose2::new(1.0, 0.0, 0.0), 0.0, 0.03), Pose2::new(1.0, 0.0, 0.0));
         let before = wheels.clone();
         wheels.add(&ahead, 0.8);
         assert!((wheels.drift() - before.drift()).abs() < 0.01, "{}", wheels.drift());

@@ -40,9 +40,9 @@ pub trait Score<M: ConditionalMap<Association = ()>>: Likelihood<M> {
     /// better of two poses is asked for, every `stride`-th part of the observation is enough.
     fn near<'a>(&'a self, map: &'a M, place: &Pose2, observation: &'a M::Observation, stride: usize) -> Self::Near<'a>;
 
-    /// What an observation at the pose that was drawn says of the whole path \[nats\]: ln p(z | x, m), by what the map knew before the
-    /// last few observations, if it can tell. See [`FromScan`](crate::proposal::FromScan) for why.
-    fn log_weight(&self, map: &M, world_from_robot: &Pose2, observation: &M::Observation) -> f64 {
+    /// ln p_old \[nats\]: ln p(z | x, m) by what the map knew before the last few observations, if it can tell. See
+    /// [`IncrementalWeight`](crate::proposal::IncrementalWeight) for why.
+    fn log_old(&self, map: &M, world_from_robot: &Pose2, observation: &M::Observation) -> f64 {
         self.log_likelihood(map, world_from_robot, observation).0
     }
 }

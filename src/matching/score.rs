@@ -217,7 +217,7 @@ impl<const CELLS_PER_NDT: usize> Score<Grid<CELLS_PER_NDT>> for ScanModel {
     }
 
     /// By [`Grid::past`].
-    fn log_weight(&self, grid: &Grid<CELLS_PER_NDT>, world_from_robot: &Pose2, scan: &Scan) -> f64 {
+    fn log_old(&self, grid: &Grid<CELLS_PER_NDT>, world_from_robot: &Pose2, scan: &Scan) -> f64 {
         self.log_score(&grid.past(), world_from_robot, scan)
     }
 }

@@ -102,6 +102,26 @@ fn probes(center: &Pose2, axes: &Matrix3<f64>, log_target: &impl Fn(&Pose2) -> f
     Some(points.map(probe).collect())
 }
 
+/// Gradient, and negative second derivatives (3 × 3), of a parabola of which these are the values: at the centre, and `step` × `side` × u from it
+/// for the six diagonals u of an icosahedron and sides 1 and −1.
+pub(super) fn differences(
+    center: f64,
+    step: f64,
+    value: impl Fn(&Vector3<f64>, f64) -> f64,
+) -> (Vector3<f64>, Matrix3<f64>) {
+    // Over the six diagonals u: Σ (uᵀg) u = 2 g, Σ (uᵀHu) u uᵀ = ⅖ tr(H) I + ⅘ H and Σ uᵀHu = 2 tr H.
+    let (mut gradient, mut outer, mut sum) = (Vector3::zeros(), Matrix3::zeros(), 0.0);
+    for corner in CORNERS {
+        let u = Vector3::from(corner);
+        let (ahead, behind) = (value(&u, 1.0), value(&u, -1.0));
+        gradient += u * ((ahead - behind) / (4.0 * step));
+        let curvature = (2.0 * center - ahead - behind) / (step * step);
+        outer += u * u.transpose() * curvature;
+        sum += curvature;
+    }
+    (gradient, outer * 1.25 - Matrix3::identity() * (0.25 * sum))
+}
+
 /// From the differences of `log_target` along the six diagonals of an icosahedron: Newton's step to the top of the parabola, and the
 /// principal axes of the hill as columns, each as long as the standard deviation along it \[m, m, rad\].
 ///
@@ -113,19 +133,8 @@ fn curvature(mode: &Pose2, limits: &FitLimits, log_target: &impl Fn(&Pose2) -> f
     let frame = Matrix3::new(most * cos, -most * sin, 0.0, most * sin, most * cos, 0.0, 0.0, 0.0, turn);
     let ratio = |k: usize| limits.least[k] / limits.most[k];
     let step = ratio(0).max(ratio(1)).max(STEP);
-    // Over the six diagonals u: Σ (uᵀg) u = 2 g, Σ (uᵀHu) u uᵀ = ⅖ tr(H) I + ⅘ H and Σ uᵀHu = 2 tr H.
-    let (mut gradient, mut outer, mut sum) = (Vector3::zeros(), Matrix3::zeros(), 0.0);
-    let log_mode = log_target(mode);
-    for corner in CORNERS {
-        let u = Vector3::from(corner);
-        let d = frame * u * step;
-        let (ahead, behind) = (log_target(&mode.plus(&d)), log_target(&mode.plus(&-d)));
-        gradient += u * ((ahead - behind) / (4.0 * step));
-        let curvature = (2.0 * log_mode - ahead - behind) / (step * step);
-        outer += u * u.transpose() * curvature;
-        sum += curvature;
-    }
-    let information = outer * 1.25 - Matrix3::identity() * (0.25 * sum);
+    let (gradient, information) =
+        differences(log_target(mode), step, |u, side| log_target(&mode.plus(&(frame * u * step * side))));
     let SymmetricEigen { eigenvalues, eigenvectors } = SymmetricEigen::new(information);
     let least = Vector3::new(ratio(0), ratio(0), ratio(1));
     let mut axes = eigenvectors;

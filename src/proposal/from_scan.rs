@@ -3,6 +3,7 @@
 //! Reference: Grisetti, Stachniss, Burgard, *Improved techniques for grid mapping with Rao-Blackwellized particle filters*,
 //! T-RO 2007, §IV and algorithm 1.
 
+use super::incremental_weight::{IncrementalWeight, log_mean_inverse, log_mixture};
 use super::{Fit, FitLimits, Proposal, ProposalTrace, Proposed, Search, Target};
 use crate::error::{Range, SettingError};
 use crate::geometry::{Gaussian3, Pose2};
@@ -34,6 +35,8 @@ pub struct FromScanSettings<S> {
     pub full_weight: f64,
     /// Limits of the standard deviations of the fit.
     pub limits: FitLimits,
+    /// What a particle pays for a scan.
+    pub weight: IncrementalWeight,
 }
 
 impl<S> FromScanSettings<S> {
@@ -44,7 +47,7 @@ impl<S> FromScanSettings<S> {
     pub fn validate(&self) -> Result<(), SettingError> {
         /// Of a length or an angle that must not vanish.
         const POSITIVE: Range = Range::number(1e-9, 1e3, "m, rad");
-        let Self { motion_floor, climb, hills, climb_stride, full_weight, limits, .. } = self;
+        let Self { motion_floor, climb, hills, climb_stride, full_weight, limits, weight: _, .. } = self;
         motion_floor.iter().try_for_each(|std| POSITIVE.check("motion_floor", *std).map(drop))?;
         POSITIVE.check("climb.linear", climb.linear)?;
         POSITIVE.check("climb.angular", climb.angular)?;
@@ -67,18 +70,10 @@ impl<S> FromScanSettings<S> {
 /// mixture Σᵢ η̂ᵢ N(μᵢ, Σᵢ) of one Gaussian a hill, with η̂ᵢ the hill's integral, and a draw is one of that: first the hill, then the
 /// pose.
 ///
-/// # What a scan says of the path
+/// What a particle pays is a setting, [`IncrementalWeight`]: the integral of the fit, or what of it new ground has no say in. Where the matcher is
+/// not trusted the pose is drawn from the motion, which pays ln p(z | x, m) at the pose that was drawn or, for the others, ln p_old.
 ///
-/// The paper's weight is the normaliser η = ∫ p(z | x, m) p(x | x′, u) dx of the map as it is. Split the map into what was seen for the
-/// first time in the last L scans, and the rest. Where a scan meets the first part only, η depends on the last poses relative to each
-/// other, and on nothing before: move the path with its map rigidly, and it stays what it is. There every particle whose last steps
-/// fit has the same η in truth; what is computed differs by where the raster happens to lie, and resampling by it is a
-/// lottery, which spends the diversity that the closing of a loop will need. So a scan is weighed against the other part alone,
-///
-/// ln w ← ln w + ln p(z | x, m of L scans ago), x the pose that was drawn,
-///
-/// whether it was drawn from the fit or, where the matcher is not trusted, from the motion. Ground that the old map does not know
-/// says the same of all.
+/// No increment is evidence where the score is tempered (κ < 1) or [`FromScanSettings::full_weight`] is above 0.
 #[derive(Clone, Debug)]
 pub struct FromScan<D, L, S> {
     /// Noise of the odometry.
@@ -107,17 +102,23 @@ where
     ) -> Proposed<()> {
         let from = &particle.world_from_robot;
         let prior = self.motion.gaussian(from, control, self.settings.motion_floor);
-        let hills = prior.as_ref().map_or_else(Vec::new, |prior| {
+        let hills: Vec<(ScoredPose, Fit)> = prior.as_ref().map_or_else(Vec::new, |prior| {
             let target = self.target(prior, &particle.map, observation);
             let (tops, log_mean) = self.search(&target);
             let trusted = tops.into_iter().filter_map(|top| self.guard(top, log_mean, prior));
             trusted.filter_map(|top| Some((top, self.fit(&top, &target)?))).collect()
         });
-        let (world_from_robot, trace) = match choose(hills, stream) {
-            Some((top, fit)) => draw(&top, &fit, stream),
+        let (world_from_robot, trace) = match choose(&hills, stream) {
+            Some((top, fit)) => draw(top, fit, stream),
             None => (self.motion.sample(from, control, stream), ProposalTrace::Motion),
         };
-        let log_increment = self.price(&particle.map, &world_from_robot, control, observation);
+        let log_weight = match &prior {
+            Some(prior) if !hills.is_empty() => {
+                self.weigh(&particle.map, prior, &hills, &world_from_robot, observation)
+            }
+            _ => self.weigh_draw(&particle.map, &world_from_robot, observation),
+        };
+        let log_increment = self.share(control) * log_weight;
         Proposed { world_from_robot, association: (), log_increment, trace }
     }
 
@@ -179,20 +180,53 @@ impl<D: Motion, L, S: Search> FromScan<D, L, S> {
         Fit::around(&top.pose, &self.settings.limits, |pose| target.log_value(pose))
     }
 
-    /// What the observation says of the path \[nats\], in the share that a motion of this length has.
-    fn price<M: ConditionalMap<Association = ()>>(
+    /// What the observation says of the path \[nats\], where poses are drawn from these hills.
+    fn weigh<M: ConditionalMap<Association = ()>>(
         &self,
         map: &M,
-        world_from_robot: &Pose2,
-        control: &D::Control,
+        prior: &Gaussian3,
+        hills: &[(ScoredPose, Fit)],
+        drawn: &Pose2,
         observation: &M::Observation,
     ) -> f64
     where
         L: Score<M>,
     {
+        let log_old = |pose: &Pose2| self.score.log_old(map, pose, observation);
+        match self.settings.weight {
+            IncrementalWeight::Marginal => {
+                ops::log_sum_exp(&hills.iter().map(|(_, fit)| fit.log_integral).collect::<Vec<_>>())
+            }
+            IncrementalWeight::NewGroundFree => {
+                let inverse = |(_, fit): &(_, Fit)| (log_mean_inverse(&fit.gaussian, prior, log_old), fit.log_integral);
+                -log_mixture(&hills.iter().map(inverse).collect::<Vec<_>>())
+            }
+            IncrementalWeight::OldMapAtDraw => log_old(drawn),
+        }
+    }
+
+    /// What the observation says of the path \[nats\], where the pose is a draw from the motion.
+    fn weigh_draw<M: ConditionalMap<Association = ()>>(
+        &self,
+        map: &M,
+        drawn: &Pose2,
+        observation: &M::Observation,
+    ) -> f64
+    where
+        L: Score<M>,
+    {
+        match self.settings.weight {
+            IncrementalWeight::Marginal => self.score.log_likelihood(map, drawn, observation).0,
+            IncrementalWeight::NewGroundFree | IncrementalWeight::OldMapAtDraw => {
+                self.score.log_old(map, drawn, observation)
+            }
+        }
+    }
+
+    /// The share of a scan's weight that counts after this motion: see [`FromScanSettings::full_weight`].
+    fn share(&self, control: &D::Control) -> f64 {
         let (travel, full) = (self.motion.travel(control), self.settings.full_weight);
-        let share = if travel < full { travel / full } else { 1.0 };
-        share * self.score.log_weight(map, world_from_robot, observation)
+        if travel < full { travel / full } else { 1.0 }
     }
 }
 
@@ -200,9 +234,9 @@ impl<D: Motion, L, S: Search> FromScan<D, L, S> {
 const NEGLIGIBLE: f64 = 6.0;
 
 /// One of these hills, drawn by their integrals; `None` of none.
-fn choose(mut hills: Vec<(ScoredPose, Fit)>, stream: &mut Stream) -> Option<(ScoredPose, Fit)> {
+fn choose<'a>(hills: &'a [(ScoredPose, Fit)], stream: &mut Stream) -> Option<&'a (ScoredPose, Fit)> {
     if hills.len() < 2 {
-        return hills.pop();
+        return hills.first();
     }
     let log_integrals: Vec<f64> = hills.iter().map(|(_, fit)| fit.log_integral).collect();
     let log_sum = ops::log_sum_exp(&log_integrals);
@@ -211,7 +245,7 @@ fn choose(mut hills: Vec<(ScoredPose, Fit)>, stream: &mut Stream) -> Option<(Sco
         left -= ops::exp(log - log_sum);
         left < 0.0
     });
-    Some(hills.swap_remove(chosen.unwrap_or(0)))
+    hills.get(chosen.unwrap_or(0))
 }
 
 /// One draw from the fit.

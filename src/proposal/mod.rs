@@ -1,13 +1,18 @@
 //! Where a particle's next pose is drawn from.
 //!
-//! Every proposal pays for its choice by one formula: the log weight increment is ln p(z | x, m) + ln p(x | x′, u) − ln q(x), or
-//! its integral over q where that can be had.
+//! A draw x from q pays ln p(z | x, m) + ln p(x | x′, u) − ln q(x), whose exponential has the mean p(z | x′, u, m), or the log of that mean
+//! where it can be had. Each proposal states its own log weight increment:
+//! - [`FromMotion`] draws by the motion, and pays ln p(z | x, m);
+//! - [`FromMeasurement`] draws by motion and sightings, and pays the integral, in closed form;
+//! - [`FromScan`] draws by motion and scan, and pays the integral or what of it new ground has no say in: [`IncrementalWeight`];
+//! - [`FromWindow`] draws late, and pays each scan's share of the window's integral.
 
 mod fit;
 mod from_measurement;
 mod from_motion;
 mod from_scan;
 mod from_window;
+mod incremental_weight;
 mod retrace;
 mod search;
 mod window;
@@ -17,6 +22,7 @@ pub use from_measurement::{FromMeasurement, Measured};
 pub use from_motion::{FromMotion, Marginal};
 pub use from_scan::{FromScan, FromScanSettings};
 pub use from_window::{Followed, FromWindow, Windowed};
+pub use incremental_weight::IncrementalWeight;
 pub use retrace::Retrace;
 pub(crate) use search::SEARCH_STDS;
 pub use search::{CorrelativeSearch, HeadingSeeds, Search, Starts, Target};

@@ -13,7 +13,7 @@ use crate::weights::Weights;
 
 /// Slots are counted in 32 bits on every platform.
 pub(super) const PARTICLES: Range = Range::whole(1, u32::MAX);
-/// Of [`Builder::selection_temper`].
+/// What [`Builder::selection_temper`] takes.
 pub(super) const SELECTION_TEMPER: Range = Range::number(1e-6, 1.0, "");
 
 /// Where the particles stand at step 0.
@@ -114,10 +114,11 @@ impl<M: ConditionalMap, P: Proposal<M>> Builder<M, P> {
 
     /// τ, the share of what a step says of the particles that they are selected by, 10⁻⁶ to 1; by default 1.
     ///
-    /// The weights, N_eff and every resampling go by Σ τ Δ of a particle's log increments Δ, [`Rbpf::best`] and [`Rbpf::path_weights`]
-    /// by Σ Δ. With 1 the filter's target is the posterior. With less it is a flatter one, on purpose: where many readings repeat one
-    /// error, as beams and scans against one map do, the product of their likelihoods is too sure, and a population that is selected
-    /// by it has lost its variety before a loop closes. gmapping selects by 1 / (3 M), and takes its best particle by the whole sum.
+    /// Particles are drawn by their scores w^τ where the policy calls for it at N_eff of the scores, and survivors keep the weight w^(1 − τ).
+    /// Whatever τ is, the weights w are those of the posterior, and the evidence has no bias ([`Rbpf::resample`]). With less than 1 the population
+    /// keeps its variety longer: where many readings repeat one error, as beams and scans against one map do, the product of their likelihoods
+    /// is too sure, and a population that is selected by all of it has one ancestor before a loop closes. The price is that the weights become
+    /// uneven. gmapping selects by 1 / (3 M), and takes its best particle by the whole sum.
     pub fn selection_temper(self, selection_temper: f64) -> Self {
         Self { selection_temper, ..self }
     }
@@ -151,6 +152,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Builder<M, P> {
             resamplings: 0,
             particles: (0..count as u32).map(|slot| Particle::start(start.draw(seed, slot), map.clone())).collect(),
             weights: Weights::uniform(count),
+            log_selected: 0.0,
             path_weights: Weights::uniform(count),
         })
     }

@@ -24,6 +24,7 @@ pub struct Saved<T> {
     seed: u64,
     resamplings: u32,
     weights: SavedWeights,
+    log_selected: f64,
     path_weights: SavedWeights,
     /// The step is theirs, and so are the poses.
     paths: SavedPaths,
@@ -31,7 +32,7 @@ pub struct Saved<T> {
 }
 
 /// Of the form of [`Saved`] and of all that is in it.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 impl<M: ConditionalMap + SaveShared, P: Proposal<M>> Rbpf<M, P> {
     /// The filter's state. What its particles share is in it once.
@@ -65,6 +66,7 @@ impl<M: ConditionalMap + SaveShared, P: Proposal<M>> Rbpf<M, P> {
             seed: self.seed,
             resamplings: self.resamplings,
             weights: self.weights.save(),
+            log_selected: self.log_selected,
             path_weights: self.path_weights.save(),
             paths: Path::save_all(self.particles.iter().map(|particle| &particle.path)),
             maps: M::save_all(self.particles.iter().map(|particle| &particle.map)),
@@ -77,8 +79,19 @@ impl<M: ConditionalMap + SaveShared, P: Proposal<M>> Rbpf<M, P> {
     /// # Errors
     /// Where the state is not that of a filter, with the part of it that is wrong; where the proposal refuses one of its settings.
     pub fn restore(saved: Saved<M::Saved>, proposal: P) -> Result<Self, RestoreError> {
-        let Saved { version, policy, scheme, selection_temper, seed, resamplings, weights, path_weights, paths, maps } =
-            saved;
+        let Saved {
+            version,
+            policy,
+            scheme,
+            selection_temper,
+            seed,
+            resamplings,
+            weights,
+            log_selected,
+            path_weights,
+            paths,
+            maps,
+        } = saved;
         if version != VERSION {
             return Err(RestoreError::Version { found: version, known: VERSION });
         }
@@ -92,6 +105,7 @@ impl<M: ConditionalMap + SaveShared, P: Proposal<M>> Rbpf<M, P> {
         save::holds(paths.iter().all(|path| path.step() == step), "paths", "all of one step")?;
         let (weights, path_weights) = (Weights::restore(weights)?, Weights::restore(path_weights)?);
         save::count("weights", weights.as_slice().len(), paths.len())?;
+        save::finite("log_selected", [log_selected])?;
         save::count("path_weights", path_weights.as_slice().len(), paths.len())?;
         let maps = M::restore_all(maps)?;
         save::count("maps", maps.len(), paths.len())?;
@@ -107,6 +121,7 @@ impl<M: ConditionalMap + SaveShared, P: Proposal<M>> Rbpf<M, P> {
             resamplings,
             particles: paths.into_iter().zip(maps).map(particle).collect(),
             weights,
+            log_selected,
             path_weights,
         })
     }

@@ -1,8 +1,9 @@
 //! A range finder: one reading per beam.
 
+use crate::geometry::Pose2;
 use crate::ops;
 
-/// A planar range finder.
+/// A planar range finder in the robot's centre.
 #[derive(Clone, PartialEq, Debug)]
 pub struct BeamSensor {
     /// Direction of each beam in the robot's frame \[rad\].
@@ -37,9 +38,13 @@ impl BeamSensor {
     }
 }
 
-/// A scan as its end points in the robot's frame \[m\].
+/// A scan: where it was taken, and the end points of its beams, in the robot's frame \[m\].
+///
+/// The way of a beam from `origin` to its end is free. A scan of a range finder in the robot's centre has the origin (0, 0), the default.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Scan {
+    /// Where the range finder sits: all beams begin here.
+    pub origin: [f64; 2],
     /// Where beams met something.
     pub hits: Vec<[f64; 2]>,
     /// Where beams that met nothing reached their longest range.
@@ -47,10 +52,17 @@ pub struct Scan {
 }
 
 impl Scan {
+    /// This scan, given in the range finder's frame, in the frame of a robot on which it is mounted at `robot_from_sensor`.
+    pub fn mounted(&self, robot_from_sensor: &Pose2) -> Self {
+        let place = |points: &[[f64; 2]]| points.iter().map(|point| robot_from_sensor.transform(*point)).collect();
+        let origin = robot_from_sensor.transform(self.origin);
+        Self { origin, hits: place(&self.hits), misses: place(&self.misses) }
+    }
+
     /// Every `stride`-th end point.
     pub fn thinned(&self, stride: usize) -> Self {
         let every = |ends: &[[f64; 2]]| ends.iter().step_by(stride.max(1)).copied().collect();
-        Self { hits: every(&self.hits), misses: every(&self.misses) }
+        Self { hits: every(&self.hits), misses: every(&self.misses), ..*self }
     }
 }
 

@@ -1,7 +1,7 @@
 //! What the variants of the filter's enums are called on controls. Their words in links are their own.
 
 use crate::words::names;
-use fastslam::{matching::Matcher, resampling::Scheme};
+use fastslam::{matching::Matcher, proposal::IncrementalWeight, resampling::Scheme};
 use fastslam_lab::experiment::{ProposalKind, lap::Course};
 
 /// A proposal's name for readers.
@@ -17,6 +17,15 @@ pub fn matcher(matcher: Matcher) -> &'static str {
     match matcher {
         Matcher::SubCell => names::sub_cell(),
         Matcher::Cell => names::cell(),
+    }
+}
+
+/// The name for readers of what is paid for a scan.
+pub fn weight(weight: IncrementalWeight) -> &'static str {
+    match weight {
+        IncrementalWeight::Marginal => names::marginal(),
+        IncrementalWeight::NewGroundFree => names::without_new_ground(),
+        IncrementalWeight::OldMapAtDraw => names::old_map_at_draw(),
     }
 }
 

@@ -17,7 +17,9 @@ use fastslam::map::{ConditionalMap, Footprint};
 use fastslam::matching::{HillClimbSteps, Matcher, ScanModel};
 use fastslam::motion::{Odometry, OdometryModel};
 use fastslam::particle::Particle;
-use fastslam::proposal::{Either, FitLimits, FromMotion, FromScan, FromScanSettings, HeadingSeeds, ProposalTrace};
+use fastslam::proposal::{
+    Either, FitLimits, FromMotion, FromScan, FromScanSettings, HeadingSeeds, IncrementalWeight, ProposalTrace,
+};
 use fastslam::random::Stream;
 use fastslam::rbpf::{Rbpf, Report};
 use fastslam::resampling::{ResamplePolicy, Scheme};
@@ -52,7 +54,7 @@ pub const MAX_RANGE: f64 = 8.0;
 pub const START_SCANS: u32 = 30;
 
 /// L: a scan is weighed against the map of so many scans ago, as in the mapper for lasers.
-pub const LAG: u32 = fastslam::mapper::tuning::LAG;
+pub const LAG: u32 = 20;
 
 /// How the map learns.
 ///
@@ -94,6 +96,7 @@ pub const FROM_SCAN: FromScanSettings<HeadingSeeds> = FromScanSettings {
     full_weight: 0.0,
     // From half a centimetre, below which there is nothing to see, to a third of a cell, the plateau of the cell matcher.
     limits: FitLimits { least: [0.005, 0.003], most: [0.1, 0.05] },
+    weight: IncrementalWeight::OldMapAtDraw,
 };
 
 /// Where a lap is driven.
@@ -197,6 +200,8 @@ pub struct LapSetup {
     pub seed: u64,
     /// Where new poses are drawn from.
     pub proposal: ProposalKind,
+    /// What a particle that looks first pays for a scan.
+    pub weight: IncrementalWeight,
     /// What an end point is compared with.
     pub matcher: Matcher,
     /// When to resample.
@@ -222,6 +227,7 @@ impl Default for LapSetup {
             particles: 16,
             seed: 3,
             proposal: ProposalKind::Improved,
+            weight: FROM_SCAN.weight,
             matcher: Matcher::SubCell,
             policy: ResamplePolicy::EssBelow(0.5),
             scheme: Scheme::Systematic,
@@ -257,7 +263,7 @@ impl LapSetup {
         let score = ScanModel::new(self.matcher, self.temper, OUTLIER);
         // The best of the search is never below its mean.
         let minimum_improvement = if self.guard { FROM_SCAN.minimum_improvement } else { 0.0 };
-        let settings = FromScanSettings { minimum_improvement, ..FROM_SCAN };
+        let settings = FromScanSettings { minimum_improvement, weight: self.weight, ..FROM_SCAN };
         match self.proposal {
             ProposalKind::Motion => Either::Left(FromMotion { motion, likelihood: score }),
             ProposalKind::Improved => Either::Right(FromScan { motion, score, settings }),
@@ -507,6 +513,7 @@ impl Lap {
             .scheme(setup.scheme)
             .build()?;
         let uniform = Report {
+            selection_ess: 0.0,
             step: 0,
             log_increments: Vec::new(),
             weights: filter.weights().as_slice().to_vec(),

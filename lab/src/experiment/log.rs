@@ -28,8 +28,12 @@ pub struct Recipe {
     pub askew: f64,
     /// From one scan to the next \[m\].
     pub spacing: f64,
-    /// Beams of the laser, at least two, from right to left: 2 n of them from −90° on by π / n, or 2 n + 1 with +90° too.
+    /// Beams of the laser, at least two, from its right to its left: 2 n of them from −90° on by π / n, or 2 n + 1 with +90° too.
     pub beams: u32,
+    /// Where the laser sits on the robot, and which way it looks.
+    pub robot_from_laser: Pose2,
+    /// Whether it hangs upside down, so that its beams go from left to right.
+    pub upside_down: bool,
     /// Longest range of the laser \[m\].
     pub max_range: f64,
     /// Standard deviation of a range \[m\].
@@ -70,6 +74,8 @@ impl Recipe {
             askew: 0.0,
             spacing: 0.35,
             beams: 180,
+            robot_from_laser: Pose2::default(),
+            upside_down: false,
             max_range: 30.0,
             range_std: 0.015,
             people: 0.0,
@@ -128,8 +134,8 @@ impl Recipe {
 
     /// Ranges \[m\] at the step-th pose of this way; the longest where nothing is met.
     fn ranges(&self, way: &[Pose2], sensor: &BeamSensor, step: u32) -> Vec<f64> {
-        let pose = &way[step as usize];
-        let mut ranges = self.plan.ranges(pose, sensor, &mut Stream::at(self.seed, WORLD_SENSOR, step, 0));
+        let laser = way[step as usize].compose(&self.robot_from_laser);
+        let mut ranges = self.plan.ranges(&laser, sensor, &mut Stream::at(self.seed, WORLD_SENSOR, step, 0));
         let mut stream = Stream::at(self.seed, WORLD_SENSOR, step, 1);
         for range in &mut ranges {
             *range = range.min(sensor.max_range);
@@ -139,7 +145,7 @@ impl Recipe {
         }
         let people = self.people(way, step);
         for (range, angle) in ranges.iter_mut().zip(&sensor.angles) {
-            *range = range.min(until_people(&people, pose, *angle));
+            *range = range.min(until_people(&people, &laser, *angle));
         }
         ranges
     }
@@ -182,7 +188,8 @@ impl Example {
         let half = recipe.beams / 2;
         assert!(half > 0, "a laser of ours needs two beams");
         let angle_step = PI / f64::from(2 * half);
-        let angles = (0..recipe.beams).map(|k| (f64::from(k) - f64::from(half)) * angle_step).collect();
+        let to_the_left = if recipe.upside_down { -1.0 } else { 1.0 };
+        let angles = (0..recipe.beams).map(|k| to_the_left * (f64::from(k) - f64::from(half)) * angle_step).collect();
         let sensor = BeamSensor { angles, max_range: recipe.max_range, range_std: recipe.range_std };
         let mut log = LaserLog::default();
         let mut odometry = Pose2::default();
@@ -201,9 +208,9 @@ impl Example {
             log.scans.push(LaserScan {
                 time,
                 odometry,
-                robot_from_laser: Pose2::default(),
-                first_angle: -0.5 * PI,
-                angle_step,
+                robot_from_laser: recipe.robot_from_laser,
+                first_angle: to_the_left * -0.5 * PI,
+                angle_step: to_the_left * angle_step,
                 max_range: None,
                 ranges,
             });
@@ -276,15 +283,21 @@ pub fn digest(mapper: &LaserMapper) -> Digest {
 
 /// Runs whose fingerprints are kept with the tests.
 pub fn golden_runs() -> Vec<(&'static str, Replay)> {
-    let log = Arc::new(Example::new(40).log);
-    let run =
-        |settings: LaserMapperSettings| Replay::new(settings, Arc::clone(&log)).expect("a golden setting is valid");
+    let run = |settings: LaserMapperSettings, recipe: Recipe| {
+        let log = Arc::new(Example::of(&recipe, 40).log);
+        Replay::new(settings, log).expect("a golden setting is valid")
+    };
+    let (building, hung) = (Recipe::building(), Recipe { upside_down: true, ..Recipe::building() });
+    let hung = Recipe { robot_from_laser: Pose2::new(0.6, 0.4, 0.5 * PI), ..hung };
     let settings = LaserMapperSettings::default();
     vec![
-        ("log", run(LaserMapperSettings { particles: 5, ..settings })),
+        ("log", run(LaserMapperSettings { particles: 5, ..settings }, building)),
         (
             "log-sparse",
-            run(LaserMapperSettings { particles: 3, min_travel: 0.8, cell_size: 0.1, max_range: 6.0, ..settings }),
+            run(
+                LaserMapperSettings { particles: 3, min_travel: 0.8, cell_size: 0.1, max_range: 6.0, ..settings },
+                hung,
+            ),
         ),
         ("log-bent", LongRingSetup { particles: 2, ..LongRingSetup::default() }.start().expect("a ring").into_replay()),
     ]

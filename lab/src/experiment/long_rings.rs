@@ -15,6 +15,7 @@ use fastslam::log::LaserLog;
 use fastslam::mapper::{LaserMapper, LaserMapperSettings, Replay};
 use fastslam::motion::OdometryModel;
 use fastslam::ops;
+use fastslam::proposal::IncrementalWeight;
 use std::sync::Arc;
 
 /// Once round \[m\].
@@ -29,13 +30,15 @@ pub struct LongRingSetup {
     pub particles: usize,
     /// Seed of the building, of its noises, and of the filter's draws.
     pub seed: u64,
+    /// What a particle pays for a scan.
+    pub weight: IncrementalWeight,
 }
 
 impl Default for LongRingSetup {
     /// The shortest ring, with what [`LaserMapperSettings`] have.
     fn default() -> Self {
-        let LaserMapperSettings { particles, seed, .. } = LaserMapperSettings::default();
-        Self { length: LENGTHS[0], particles, seed }
+        let LaserMapperSettings { particles, seed, weight, .. } = LaserMapperSettings::default();
+        Self { length: LENGTHS[0], particles, seed, weight }
     }
 }
 
@@ -70,8 +73,12 @@ impl LongRingSetup {
         Self::LENGTH.check("length", f64::from(self.length))?;
         let Example { log, truth, .. } = Example::of(&self.recipe(), usize::MAX);
         let log = Arc::new(log);
-        let settings =
-            LaserMapperSettings { particles: self.particles, seed: self.seed, ..LaserMapperSettings::default() };
+        let settings = LaserMapperSettings {
+            particles: self.particles,
+            seed: self.seed,
+            weight: self.weight,
+            ..LaserMapperSettings::default()
+        };
         Ok(LongRingRun { replay: Replay::new(settings, Arc::clone(&log))?, log, truth })
     }
 }

@@ -119,6 +119,7 @@ mod tests {
 
     fn report(step: u32, paths: Vec<Path>, weights: &[f64]) -> Report<()> {
         Report {
+            selection_ess: 0.0,
             step,
             log_increments: Vec::new(),
             weights: weights.to_vec(),

@@ -381,7 +381,7 @@ mod tests {
     fn walls_overlap_by_what_two_maps_have_in_common() {
         let map = |hits: [[f64; 2]; 2]| {
             let mut map: Grid = Grid::new(GRID);
-            map.assimilate(&Pose2::default(), &Scan { hits: hits.to_vec(), misses: Vec::new() }, &());
+            map.assimilate(&Pose2::default(), &Scan { hits: hits.to_vec(), ..Scan::default() }, &());
             map
         };
         let (one, other) = (map([[1.0, 0.1], [0.1, 1.0]]), map([[1.0, 0.1], [0.1, -1.0]]));

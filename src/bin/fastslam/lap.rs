@@ -3,6 +3,7 @@
 use crate::{Usage, graph, picture, print, print_json, whole};
 use anyhow::{Result, bail};
 use fastslam::matching::Matcher;
+use fastslam::proposal::IncrementalWeight;
 use fastslam::resampling::{ResamplePolicy, Scheme};
 use fastslam_lab::experiment::ProposalKind;
 use fastslam_lab::experiment::lap::{self, Course, Lap, LapSetup, StepReport};
@@ -41,6 +42,9 @@ pub struct Options {
     /// Where new poses are drawn from: aware (of the scan) or motion
     #[arg(long, default_value_t = LapSetup::default().proposal)]
     proposal: ProposalKind,
+    /// What a particle that looks first pays for a scan: marginal, new-ground-free or old-map-at-draw
+    #[arg(long, default_value_t = LapSetup::default().weight)]
+    weight: IncrementalWeight,
     /// What the end point of a beam is compared with: cell or subcell
     #[arg(long, default_value_t = LapSetup::default().matcher)]
     matcher: Matcher,
@@ -67,13 +71,15 @@ pub struct Options {
 impl Options {
     /// The lap of a seed.
     pub fn setup(&self, course: Course, seed: u64) -> LapSetup {
-        let &Self { particles, proposal, matcher, policy, scheme, odometry, range_std, temper, no_guard } = self;
+        let &Self { particles, proposal, weight, matcher, policy, scheme, odometry, range_std, temper, no_guard } =
+            self;
         let (odometry_scale, guard) = (odometry, !no_guard);
         LapSetup {
             course,
             particles,
             seed,
             proposal,
+            weight,
             matcher,
             policy,
             scheme,

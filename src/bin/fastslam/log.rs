@@ -11,6 +11,7 @@ use fastslam::log::{
 };
 use fastslam::map::grid::{MapImage, MapImageSettings};
 use fastslam::mapper::{LaserMapper, LaserMapperSettings, Replay};
+use fastslam::proposal::IncrementalWeight;
 use fastslam_lab::experiment::log::{Example, digest};
 use flate2::read::MultiGzDecoder;
 use serde::Serialize;
@@ -33,6 +34,9 @@ pub struct Arguments {
     /// Seed of the filter's draws
     #[arg(long, default_value_t = LaserMapperSettings::default().seed)]
     seed: u64,
+    /// What a particle pays for a scan: marginal, new-ground-free or old-map-at-draw
+    #[arg(long, default_value_t = LaserMapperSettings::default().weight)]
+    weight: IncrementalWeight,
     /// Side of a cell of the map [m], 0.02 to 0.2
     #[arg(long, value_name = "METRES", default_value_t = LaserMapperSettings::default().cell_size, allow_negative_numbers = true)]
     cell: f64,
@@ -149,6 +153,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         cell_size: arguments.cell,
         max_range: arguments.max_range,
         min_travel: arguments.min_travel,
+        weight: arguments.weight,
         ..LaserMapperSettings::default()
     };
     let log = Arc::new(log);
@@ -182,7 +187,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         resampled += u32::from(report.resampled());
         scans_unexplained += u32::from(!report.explained());
         let lineage = replay.mapper().filter().lineage();
-        bar.set_message(format!("N_eff {:.1}, {resampled} resamplings, lineage {lineage}", report.ess));
+        bar.set_message(format!("N_eff {:.1}, {resampled} resamplings, lineage {lineage}", report.selection_ess));
         bar.inc(1);
     }
     bar.finish_and_clear();

@@ -4,6 +4,7 @@ use crate::{print, print_json, progress, whole};
 use anyhow::Result;
 use fastslam::execute::Executor;
 use fastslam::mapper::LaserMapperSettings;
+use fastslam::proposal::IncrementalWeight;
 use fastslam_lab::experiment::ErrorSummary;
 use fastslam_lab::experiment::log::digest;
 use fastslam_lab::experiment::long_rings::{LENGTHS, LongRingSetup, LoopErrors};
@@ -22,6 +23,9 @@ pub struct Arguments {
     /// Number of particles M, 1 to 4096
     #[arg(long, value_name = "M", default_value_t = LongRingSetup::default().particles, value_parser = whole(LaserMapperSettings::PARTICLES), allow_negative_numbers = true)]
     particles: usize,
+    /// What a particle pays for a scan: marginal, new-ground-free or old-map-at-draw
+    #[arg(long, default_value_t = LongRingSetup::default().weight)]
+    weight: IncrementalWeight,
     /// Seeds 1 to N
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     seeds: u64,
@@ -88,13 +92,13 @@ struct Run {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<()> {
-    let &Arguments { length, particles, seeds, json } = arguments;
+    let &Arguments { length, particles, weight, seeds, json } = arguments;
     let lengths = length.map_or_else(|| LENGTHS.to_vec(), |length| vec![length as u32]);
     // The longest first, so that no thread is left with one of them at the end; the table is in the order of the lengths.
     let setups: Vec<LongRingSetup> = lengths
         .iter()
         .rev()
-        .flat_map(|length| (1..=seeds).map(|seed| LongRingSetup { length: *length, particles, seed }))
+        .flat_map(|length| (1..=seeds).map(|seed| LongRingSetup { length: *length, particles, seed, weight }))
         .collect();
     let bar = progress(setups.len(), "runs");
     let runs: Result<Vec<Run>> = setups.par_iter().progress_with(bar).map(one).collect();

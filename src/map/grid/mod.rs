@@ -91,7 +91,7 @@ pub struct GridModel {
     /// How many times longer than its end points say a distribution is along the wall: 1 or more. A wall goes on from NDT cell to NDT cell,
     /// but a normal distribution in each is a string of beads: between two of them, even the right pose fits badly.
     pub ndt_stretch: f64,
-    /// How many scans old [`Grid::past`] is, at the least; with 0 no past is kept, and it is the present.
+    /// How many scans old [`Grid::past`] is, at the least; with 0 no past is kept but what is [marked](Grid::mark).
     pub lag: u32,
     /// How far from a hit the distance field is kept \[NDT cells\], 0 to 2: what a coarse search looks at. With 0 there is none.
     pub distance_reach: u32,
@@ -213,6 +213,15 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
         self.past = vec![(self.scans, Arc::clone(&self.directory))];
     }
 
+    /// Keeps the map as it is for [`Self::past`], for whoever counts the age of a map otherwise than in scans: with [`GridModel::lag`] = 0,
+    /// the past is the map before the last two marks, or before fewer as long as there are no more.
+    pub fn mark(&mut self) {
+        /// The past, and what it will be after one mark and after two.
+        const KEPT: usize = 3;
+        self.past.push((self.scans, Arc::clone(&self.directory)));
+        self.past.drain(..self.past.len().saturating_sub(KEPT));
+    }
+
     /// Keeps the map before another scan for [`Self::past`]: one for every half of the lag, and none that will not be asked for.
     fn remember(&mut self) {
         let lag = self.model.lag;
@@ -220,7 +229,7 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
             self.past.push((self.scans, Arc::clone(&self.directory)));
         }
         self.scans += 1;
-        while self.past.get(1).is_some_and(|(scans, _)| scans + lag <= self.scans) {
+        while lag > 0 && self.past.get(1).is_some_and(|(scans, _)| scans + lag <= self.scans) {
             self.past.remove(0);
         }
     }

@@ -38,7 +38,7 @@ pub(super) struct RayTrace {
     pub hits: Vec<([f64; 2], i32, i32)>,
 }
 
-/// Follows every beam from the robot to its end, through a grid whose tiles have `tile` × `tile` cells.
+/// Follows every beam from where the scan was taken to its end, through a grid whose tiles have `tile` × `tile` cells.
 pub(super) fn trace(world_from_robot: &Pose2, scan: &Scan, cell_size: f64, tile: i32) -> RayTrace {
     let (sin, cos) = ops::sin_cos(world_from_robot.theta);
     let to_world =
@@ -47,7 +47,7 @@ pub(super) fn trace(world_from_robot: &Pose2, scan: &Scan, cell_size: f64, tile:
     let in_cells = |p: [f64; 2]| [p[0] * per_cell, p[1] * per_cell];
     let reachable = |p: &[f64; 2]| p.iter().all(|c| (c * per_cell).abs() < FARTHEST);
 
-    let origin = [world_from_robot.x, world_from_robot.y];
+    let origin = to_world(&scan.origin);
     let nothing = CellRect::default();
     let side = tile * BLOCK.div_ceil(tile as u32) as i32;
     let (places, cells, hits) = (Vec::new(), Vec::new(), Vec::new());

@@ -35,7 +35,7 @@ fn a_beam_frees_what_it_passes_and_fills_where_it_ends() {
 fn a_cell_that_a_beam_ends_in_is_hit_though_another_beam_passes_through_it() {
     for hits in [[[1.5, 0.0], [3.0, 0.0]], [[3.0, 0.0], [1.5, 0.0]]] {
         let mut grid = Grid::<1>::new(MODEL);
-        let scan = Scan { hits: hits.to_vec(), misses: Vec::new() };
+        let scan = Scan { hits: hits.to_vec(), ..Scan::default() };
         grid.assimilate(&Pose2::new(0.15, 0.15, 0.0), &scan, &());
         assert_eq!([4, 5, 6, 10].map(|i| grid.log_odds(i, 0)), [-0.40625, 0.90625, -0.40625, 0.90625], "{hits:?}");
     }
@@ -130,7 +130,10 @@ fn absurd_ranges_change_nothing_and_exhaust_nothing() {
     for range in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -1e300, 1e12, 12_000.0] {
         for end in [[range, 0.0], [0.3, range], [range, range]] {
             let ends = vec![end, [1.5, 0.0]];
-            for scan in [Scan { hits: ends, misses: Vec::new() }, Scan { hits: vec![[1.5, 0.0]], misses: vec![end] }] {
+            for scan in [
+                Scan { hits: ends, ..Scan::default() },
+                Scan { hits: vec![[1.5, 0.0]], misses: vec![end], ..Scan::default() },
+            ] {
                 let mut grid = Grid::<1>::new(MODEL);
                 grid.assimilate(&pose, &scan, &());
                 assert_eq!(grid.bounds(), sound.bounds(), "{scan:?}");
@@ -260,7 +263,7 @@ fn floor_is_floor() {
 #[test]
 fn stretched_distributions_make_a_row_of_cells_one_wall() {
     // A wall along y = 2.05, seen evenly; then points on it, and 5 cm off it.
-    let scan = Scan { hits: (0..400).map(|k| [-2.0 + 0.01 * f64::from(k), 2.05]).collect(), misses: Vec::new() };
+    let scan = Scan { hits: (0..400).map(|k| [-2.0 + 0.01 * f64::from(k), 2.05]).collect(), ..Scan::default() };
     let least_and_most = |ndt_stretch: f64, off: f64| {
         let mut grid = Grid::<4>::new(GridModel { cell_size: 0.05, ndt_std: 0.06, ndt_stretch, ..MODEL });
         grid.assimilate(&Pose2::default(), &scan, &());
@@ -284,8 +287,8 @@ fn what_was_seen_through_is_forgotten() {
         let wall =
             |hidden: bool| (0..150).map(|k| -1.5 + 0.02 * f64::from(k)).filter(move |x| !(hidden && x.abs() < 0.3));
         let back = (0..16).map(|k| [-0.15 + 0.02 * f64::from(k), 1.05]);
-        let first = Scan { hits: wall(true).map(|x| [x, 2.05]).chain(back).collect(), misses: Vec::new() };
-        let then = Scan { hits: wall(false).map(|x| [x, 2.05]).collect(), misses: Vec::new() };
+        let first = Scan { hits: wall(true).map(|x| [x, 2.05]).chain(back).collect(), ..Scan::default() };
+        let then = Scan { hits: wall(false).map(|x| [x, 2.05]).collect(), ..Scan::default() };
         grid.assimilate(&Pose2::default(), &first, &());
         (0..passes).for_each(|_| grid.assimilate(&Pose2::default(), &then, &()));
         let (back, beside) = (nearest(&grid, [0.0, 1.05]), nearest(&grid, [0.15, 0.9]));

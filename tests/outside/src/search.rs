@@ -2,7 +2,7 @@
 
 use fastslam::matching::{HillClimbSteps, ScoreNear, ScoredPose};
 use fastslam::ops;
-use fastslam::proposal::{FitLimits, FromScanSettings, Search, Starts, Target};
+use fastslam::proposal::{FitLimits, FromScanSettings, IncrementalWeight, Search, Starts, Target};
 
 /// At the best of the prediction and the poses two standard deviations from it along the prior's axes.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -18,6 +18,7 @@ pub const SETTINGS: FromScanSettings<AlongAxes> = FromScanSettings {
     minimum_improvement: 0.1,
     full_weight: 0.0,
     limits: FitLimits { least: [0.002, 0.002], most: [0.1, 0.1] },
+    weight: IncrementalWeight::NewGroundFree,
 };
 
 impl Search for AlongAxes {

@@ -291,8 +291,8 @@ impl Model for LapModel {
             Column::new("rms_best_aligned_m", "the same after the best rigid alignment [m]"),
             Column::new("rms_odometry_m", "RMS position error of raw odometry so far [m]"),
             Column::new(
-                "log_evidence_nats",
-                "log of the evidence as the filter estimates it, by the matcher's score [nats]",
+                "mean_increment_nats",
+                "log of the weighted mean of what the universes pay for the scan [nats]: of a score, not evidence",
             ),
             Column::new("ess", "effective number of universes before resampling"),
             Column::new("best", "slot of the best universe"),

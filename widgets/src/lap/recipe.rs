@@ -90,6 +90,14 @@ impl recipe::Recipe for Recipe {
                 lap::proposal_help(),
             ),
             P::choice(
+                "weight",
+                lap::what_is_paid(),
+                Menu::of(usual.weight, names::weight),
+                field!(setup.weight),
+                lap::what_is_paid_help(),
+            )
+            .folded(),
+            P::choice(
                 "matcher",
                 lap::matcher(),
                 Menu::of(usual.matcher, names::matcher),

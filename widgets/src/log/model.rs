@@ -176,7 +176,7 @@ impl LogModel {
         let now = if looks { replay.mapper().footprint() } else { NOTHING };
         self.history.push(Moment {
             log_evidence: report.log_evidence,
-            ess: report.ess,
+            ess: report.selection_ess,
             resampled: report.resampled(),
             died: paths.len() as u32,
             lineage: descent.lineage(BACK),

@@ -132,8 +132,8 @@ pub fn series(model: &LogModel) -> Series {
         Column::new("y_m", "best path at the end [m]"),
         Column::new("theta_rad", "best path at the end [rad]"),
         Column::new(
-            "log_evidence_nats",
-            "log of the evidence as the filter estimates it, by the matcher's score [nats]",
+            "mean_increment_nats",
+            "log of the weighted mean of what the universes pay for the scan [nats]: of a score, not evidence",
         ),
         Column::new("ess", "effective number of universes before resampling"),
         Column::new("resampled", "1 where the step resampled"),

@@ -139,7 +139,7 @@ macro_rules! columns {
         &[
             Column::new("step", "step of the course"),
             $(
-                Column::new(concat!($name, "_log_evidence_nats"), "log of the evidence as the filter estimates it [nats]"),
+                Column::new(concat!($name, "_mean_increment_nats"), "log of the weighted mean of what the universes pay for the scan [nats]: of a score, not evidence"),
                 Column::new(concat!($name, "_ess"), "effective number of particles before resampling"),
                 Column::new(concat!($name, "_resampled"), "1 where the step resampled"),
                 Column::new(concat!($name, "_lineage"), "distinct ancestors at step 0"),

@@ -3,6 +3,7 @@
 use assert_cmd::Command;
 use fastslam::geometry::{Pose2, align, rms};
 use fastslam::mapper::{LaserMapperSettings, Replay};
+use fastslam_lab::experiment::long_rings::LoopErrors;
 use fastslam_lab::experiment::looking_back::fixed_lag;
 use fastslam_widgets::figure::Figure;
 use serde_json::Value;
@@ -787,7 +788,8 @@ fn the_first_scans_of_the_intel_log_err_by_36_millimetres_and_1_5_degrees_at_mos
     assert!(translation <= 0.036 && rotation <= 1.5, "{translation} m, {rotation}°");
 }
 
-/// The Intel Research Lab, by the rule of the published figures. With these settings seeds 1 to 3 gave 0.066, 0.065 and 0.068 m, and
+/// The Intel Research Lab, by the rule of the published figures. This bar is one of scan matching and of closing loops: a single particle holds it
+/// too, so what the filter is for is shown by `sixteen_particles_map_the_aces_building_better_than_one`. With these settings seeds 1 to 3 gave 0.066, 0.065 and 0.068 m, and
 /// 2.4° each; gmapping, run on the same log, 0.068 to 0.070 m. The bounds leave as much above the worst as lies between seeds.
 #[test]
 #[ignore = "breadth: a whole recorded log"]
@@ -828,6 +830,50 @@ fn the_record_of_the_intel_log_is_hardly_better_than_the_best_particle_s_path() 
     );
 }
 
+/// A path in the format of TUM or of a reference: a time \[s\] and a pose a line, whose heading is found in its numbers by `heading`.
+fn poses(text: &str, heading: fn(&[f64]) -> f64) -> Vec<(f64, Pose2)> {
+    let numbers = text.lines().map(|line| line.split_whitespace().map(|word| word.parse().unwrap()).collect());
+    numbers.map(|n: Vec<f64>| (n[0], Pose2::new(n[1], n[2], heading(&n)))).collect()
+}
+
+/// The path of a recorded building that the log comes with.
+fn reference(prefix: &str) -> Vec<(f64, Pose2)> {
+    poses(&std::fs::read_to_string(format!("{prefix}.reference")).unwrap(), |n| n[3])
+}
+
+/// What many particles are for: in the ACES building, whose loops are long and look alike. Medians over seeds 1 to 5 were 0.19 m with one
+/// particle, of which two left places off that were seen again, and 0.143 m with sixteen.
+#[test]
+#[ignore = "breadth: a whole recorded log, ten times"]
+fn sixteen_particles_map_the_aces_building_better_than_one() {
+    let Some(prefix) = recorded("buildings/aces", [".clf.gz", ".reference"]) else { return };
+    let mut text = Vec::new();
+    let file = std::fs::File::open(format!("{prefix}.clf.gz")).unwrap();
+    std::io::Read::read_to_end(&mut flate2::read::GzDecoder::new(file), &mut text).unwrap();
+    let log = std::sync::Arc::new(fastslam::log::parse(&text, false).unwrap());
+    let truth: Vec<Pose2> = reference(&prefix).into_iter().map(|(_, pose)| pose).collect();
+    let errors = |particles: usize| -> Vec<LoopErrors> {
+        let errors = |seed: u64| {
+            let settings = LaserMapperSettings { particles, seed, ..LaserMapperSettings::default() };
+            let mut replay = Replay::new(settings, std::sync::Arc::clone(&log)).unwrap();
+            replay.by_ref().for_each(drop);
+            let path: Vec<Pose2> = replay.mapper().path().into_iter().map(|(_, pose)| pose).collect();
+            LoopErrors::of(&path, &truth)
+        };
+        (1..=5).map(errors).collect()
+    };
+    let median = |errors: &[LoopErrors]| {
+        let mut rms: Vec<f64> = errors.iter().map(|one| one.rms).collect();
+        rms.sort_by(f64::total_cmp);
+        rms[rms.len() / 2]
+    };
+    let (one, sixteen) = (errors(1), errors(16));
+    println!("1 particle: {one:.3?}\n16 particles: {sixteen:.3?}");
+    assert!(median(&sixteen) <= 0.16 && sixteen.iter().all(|one| one.revisits_off == 0.0), "{sixteen:.3?}");
+    // Or a filter that does not select would pass as well.
+    assert!(median(&one) > 1.2 * median(&sixteen), "{one:.3?}, {sixteen:.3?}");
+}
+
 /// A campus, outdoors, where often half of the beams or more meet nothing. With a prior of one width for all wheels, scans turned the map
 /// by up to 47°, and runs ended 23 to 57 m off; gmapping's end 2.5 m off. In `npm test`, `a_laser_that_meets_little_does_not_turn_the_map` of
 /// tests/laws is a shorter drive of the kind.
@@ -835,11 +881,7 @@ fn the_record_of_the_intel_log_is_hardly_better_than_the_best_particle_s_path() 
 #[ignore = "breadth: a whole recorded log"]
 fn where_few_beams_return_the_wheels_that_were_learnt_keep_the_map_from_turning() {
     let Some(prefix) = recorded("buildings/freiburg-campus", [".clf.gz", ".reference"]) else { return };
-    let poses = |text: &str, heading: fn(&[f64]) -> f64| -> Vec<(f64, Pose2)> {
-        let numbers = text.lines().map(|line| line.split_whitespace().map(|word| word.parse().unwrap()).collect());
-        numbers.map(|n: Vec<f64>| (n[0], Pose2::new(n[1], n[2], heading(&n)))).collect()
-    };
-    let reference = poses(&std::fs::read_to_string(format!("{prefix}.reference")).unwrap(), |n| n[3]);
+    let reference = reference(&prefix);
     let folder = tempdir().unwrap();
     let file = folder.path().join("path.tum").display().to_string();
     let run = json(&format!("log {prefix}.clf.gz --particles 8 --seed 1 --trajectory {file} --json"));

@@ -11,6 +11,7 @@ mod mapper;
 mod proposal;
 mod resampling;
 mod ring;
+mod robots;
 mod saved;
 mod smoothing;
 mod steering;

@@ -1,7 +1,7 @@
 //! Laws of the copy-on-write grid: sharing is never seen.
 
 use fastslam::geometry::Pose2;
-use fastslam::laws::map::a_family_of_clones_is_independent;
+use fastslam::laws::map::{a_family_of_clones_is_independent, a_mounting_changes_nothing};
 use fastslam::map::{ConditionalMap, grid::Grid};
 use fastslam::matching::{Likelihood, Matcher, ScanModel};
 use fastslam::ops;
@@ -46,7 +46,7 @@ fastslam::map_laws!(grid, || Grid::new(GRID), ScanModel::new(Matcher::SubCell, 1
 #[test]
 fn nothing_known_is_judged_by_its_own_probability() {
     let grid = <Grid>::new(GRID);
-    let scan = Scan { hits: vec![[1.0, 0.5]], misses: Vec::new() };
+    let scan = Scan { hits: vec![[1.0, 0.5]], ..Scan::default() };
     let score = |model: ScanModel| model.log_score(&grid, &Pose2::default(), &scan);
     for matcher in [Matcher::Cell, Matcher::SubCell] {
         let model = ScanModel::new(matcher, 0.8, 0.1);
@@ -59,8 +59,30 @@ fn nothing_known_is_judged_by_its_own_probability() {
     assert_eq!(Likelihood::<Grid>::validate(&refused).unwrap_err().field(), "score.unknown");
 }
 
+/// The cells of two grids are alike: log-odds to the bit, means of end points to within a nanometre.
+fn alike(a: &Grid, b: &Grid) {
+    let ([(a, _), (b, _)], near) = ([a, b].map(content), |a: [u64; 2], b: [u64; 2]| {
+        (0..2).all(|k| (f64::from_bits(a[k]) - f64::from_bits(b[k])).abs() < 1e-9)
+    });
+    assert_eq!(a.len(), b.len(), "the grids reach as far");
+    for (a, b) in a.into_iter().zip(b) {
+        assert_eq!((a.0, a.1, a.2), (b.0, b.1, b.2), "column, row and log-odds");
+        assert!(a.3.is_some() == b.3.is_some() && a.3.zip(b.3).is_none_or(|(a, b)| near(a, b)), "{a:?} {b:?}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, cases: 64, ..ProptestConfig::default() })]
+
+    /// Of a laser ahead, aside or behind, looking any way, free space begins where it is.
+    #[test]
+    fn wherever_a_laser_is_mounted_it_maps_what_it_sees(
+        scans in prop::collection::vec(sighting(), 1..6),
+        mounting in (-1.0..1.0_f64, -1.0..1.0_f64, -4.0..4.0_f64),
+    ) {
+        let (x, y, theta) = mounting;
+        a_mounting_changes_nothing(|| <Grid>::new(GRID), &scans, &[Pose2::new(x, y, theta)], alike);
+    }
 
     /// A family of clones, each written to in turn, holds what grids hold that never shared anything.
     #[test]

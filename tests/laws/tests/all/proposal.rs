@@ -1,6 +1,7 @@
 //! The grid proposals against the posterior of one step, summed on a dense grid of poses.
 
 use fastslam::geometry::{Gaussian3, Pose2};
+use fastslam::laws;
 use fastslam::map::ConditionalMap;
 use fastslam::map::grid::{Grid, GridModel};
 use fastslam::mapper::tuning;
@@ -9,9 +10,12 @@ use fastslam::motion::{Displaced, Displacement, Motion, Odometry, OdometryModel}
 use fastslam::ops;
 use fastslam::particle::Particle;
 use fastslam::proposal::{
-    Fit, FromMotion, FromScan, FromScanSettings, HeadingSeeds, Proposal, ProposalTrace, Proposed, Search,
+    CorrelativeSearch, Fit, FitLimits, FromMotion, FromScan, FromScanSettings, HeadingSeeds, IncrementalWeight,
+    Proposal, ProposalTrace, Proposed, Search,
 };
 use fastslam::random::{Purpose, Stream};
+use fastslam::rbpf::Rbpf;
+use fastslam::resampling::ResamplePolicy;
 use fastslam_lab::experiment::lap::{ALPHAS, FROM_SCAN, GRID, LapWorld, OUTLIER, TEMPER};
 use nalgebra::{Matrix3, Vector3};
 use statrs::distribution::{ContinuousCDF, Normal};
@@ -39,10 +43,28 @@ fn one_step_by<S>(matcher: Matcher, search: S) -> OneStep<S> {
     let particle = Particle::start(world.truth[0], map);
     // Tempered harder, or the posterior is too narrow for a dense grid and for the motion model's samples to meet it.
     let scan = ScanModel::new(matcher, TEMPER * 0.4, OUTLIER);
-    let FromScanSettings { motion_floor, climb, hills, climb_stride, minimum_improvement, full_weight, limits, .. } =
-        FROM_SCAN;
-    let settings =
-        FromScanSettings { motion_floor, search, climb, hills, climb_stride, minimum_improvement, full_weight, limits };
+    let FromScanSettings {
+        motion_floor,
+        climb,
+        hills,
+        climb_stride,
+        minimum_improvement,
+        full_weight,
+        limits,
+        weight,
+        ..
+    } = FROM_SCAN;
+    let settings = FromScanSettings {
+        motion_floor,
+        search,
+        climb,
+        hills,
+        climb_stride,
+        minimum_improvement,
+        full_weight,
+        limits,
+        weight,
+    };
     OneStep { particle, world, from_scan: FromScan { motion, score: scan, settings } }
 }
 
@@ -123,8 +145,9 @@ fn the_motion_prior_weighted_by_the_scan_has_the_posteriors_mean() {
     }
 }
 
-/// What the proposal draws from, beside the posterior.
-fn compare<S: Search>(name: &str, step: &OneStep<S>) {
+/// What the proposal draws from, beside the posterior. Along each axis it must be `least` times as wide or more: where it is too narrow, no weight
+/// makes up for what is never drawn.
+fn compare<S: Search>(name: &str, step: &OneStep<S>, least: [f64; 3]) {
     let FromScan { score, settings, .. } = &step.from_scan;
     let (prior, control, scan) = (step.prior(settings.motion_floor), &step.world.controls[0], &step.world.scans[0]);
     let target = |pose: &Pose2| score.log_score(&step.particle.map, pose, scan) + prior.log_density(pose);
@@ -141,11 +164,12 @@ fn compare<S: Search>(name: &str, step: &OneStep<S>) {
     let ratio = fit.gaussian.covariance().diagonal().map(f64::sqrt).component_div(&std);
     assert!((log_integral - log_evidence).abs() < 0.15, "{name}: ln η̂ {log_integral} for {log_evidence}");
     assert!(off.amax() < 0.25, "{name}: off by {off} standard deviations");
-    assert!(ratio.min() > 0.65 && ratio.max() < 1.1, "{name}: {ratio} times as wide");
+    let narrow = ratio.iter().zip(least).any(|(ratio, least)| *ratio < least);
+    assert!(!narrow && ratio.max() < 1.1, "{name}: {ratio} times as wide");
 }
 
-/// Within a quarter of a standard deviation, 0.15 nats, and a third of each standard deviation: the posterior of a grid is no Gaussian, and
-/// the fit sees the bump at the mode, not the whole. No draws: nothing here is chance.
+/// Within a quarter of a standard deviation, 0.15 nats, and a tenth of each standard deviation. With normal distributions in cells the heading has
+/// several bumps, and the fit sees the one at the mode: there it may be a quarter too narrow. No draws: nothing here is chance.
 #[test]
 fn the_measurement_aware_proposal_has_the_posteriors_mean_covariance_and_integral() {
     for matcher in [Matcher::Cell, Matcher::SubCell] {
@@ -155,17 +179,21 @@ fn the_measurement_aware_proposal_has_the_posteriors_mean_covariance_and_integra
         if matcher == Matcher::Cell {
             spread.from_scan.settings.minimum_improvement = f64::NEG_INFINITY;
         }
-        compare(&format!("{matcher} spread"), &spread);
-        compare(&format!("{matcher} lattice"), &lattice);
+        let least = [0.92, 0.92, if matcher == Matcher::Cell { 0.92 } else { 0.75 }];
+        compare(&format!("{matcher} spread"), &spread, least);
+        compare(&format!("{matcher} lattice"), &lattice, least);
     }
 }
 
-/// The price is one, λ × share × the score of what was drawn by the map of some scans ago, whether the matcher was trusted or not.
-/// 1e-12: rounding.
+/// A step weighs in the share of [`FromScanSettings::full_weight`] that it drives, whether the matcher was trusted or not; and the heuristic pays the score
+/// of the pose that was drawn by the map of some scans ago. 1e-12: rounding.
 #[test]
 fn a_short_step_weighs_in_proportion_in_both_branches_of_the_guard() {
-    for matcher in [Matcher::Cell, Matcher::SubCell] {
+    use IncrementalWeight::{Marginal, NewGroundFree, OldMapAtDraw};
+    let weights = [Marginal, NewGroundFree, OldMapAtDraw];
+    for (matcher, weight) in [Matcher::Cell, Matcher::SubCell].into_iter().flat_map(|m| weights.map(|w| (m, w))) {
         let mut step = one_step(matcher);
+        step.from_scan.settings.weight = weight;
         // One scan is old, and the rest new.
         let mut map = Grid::new(GRID);
         for (k, (pose, scan)) in step.world.start_scans.iter().take(20).enumerate() {
@@ -177,26 +205,28 @@ fn a_short_step_weighs_in_proportion_in_both_branches_of_the_guard() {
         step.particle.map = map;
         let (control, scan) = (step.world.controls[0], &step.world.scans[0]);
         let motion = control.trans.abs() + control.rot1.abs() + control.rot2.abs();
-        let still = Odometry { rot1: 0.0, trans: 0.0, rot2: 0.0 };
-        for (full_weight, control, share) in
-            [(0.0, control, 1.0), (0.5 * motion, control, 1.0), (4.0 * motion, control, 0.25), (0.5, still, 0.0)]
-        {
-            step.from_scan.settings.full_weight = full_weight;
-            for (gain, trusted) in [(f64::NEG_INFINITY, true), (f64::INFINITY, false)] {
-                step.from_scan.settings.minimum_improvement = gain;
-                for k in 0..5 {
-                    let mut stream = Stream::at(7, Purpose::TRIAL, k, 0);
-                    let proposed = step.from_scan.propose(&step.particle, &control, scan, &mut stream);
-                    assert_eq!(matches!(proposed.trace, ProposalTrace::Matched { .. }), trusted);
-                    let score = |map: &Grid| step.from_scan.score.log_score(map, &proposed.world_from_robot, scan);
-                    let (old, new) = (score(&step.particle.map.past()), score(&step.particle.map));
-                    assert!((old - new).abs() > 1e-3, "the two maps differ: {old} and {new}");
-                    let expected = share * old;
+        for (gain, trusted) in [(f64::NEG_INFINITY, true), (f64::INFINITY, false)] {
+            step.from_scan.settings.minimum_improvement = gain;
+            for slot in 0..5 {
+                let mut proposed = |full_weight| {
+                    step.from_scan.settings.full_weight = full_weight;
+                    let mut stream = Stream::at(7, Purpose::TRIAL, slot, 0);
+                    step.from_scan.propose(&step.particle, &control, scan, &mut stream)
+                };
+                let whole = proposed(0.0);
+                assert_eq!(matches!(whole.trace, ProposalTrace::Matched { .. }), trusted);
+                for (full_weight, share) in [(0.5 * motion, 1.0), (4.0 * motion, 0.25)] {
+                    let (part, expected) = (proposed(full_weight).log_increment, share * whole.log_increment);
                     assert!(
-                        (proposed.log_increment - expected).abs() <= 1e-12 * expected.abs(),
-                        "{matcher}, trusted {trusted}, share {share}: {} for {expected}",
-                        proposed.log_increment
+                        expected != 0.0 && (part - expected).abs() <= 1e-12 * expected.abs(),
+                        "{matcher}, {weight}"
                     );
+                }
+                let score = |map: &Grid| step.from_scan.score.log_score(map, &whole.world_from_robot, scan);
+                let (old, new) = (score(&step.particle.map.past()), score(&step.particle.map));
+                assert!((old - new).abs() > 1e-3, "the two maps differ: {old} and {new}");
+                if weight == IncrementalWeight::OldMapAtDraw {
+                    assert!((whole.log_increment - old).abs() <= 1e-12 * old.abs(), "{matcher}, trusted {trusted}");
                 }
             }
         }
@@ -267,6 +297,135 @@ fn hills_are_drawn_by_their_integrals() {
     assert_eq!(share(1), 1.0);
     let (found, error) = (share(3), (0.75 * 0.25 / f64::from(DRAWS)).sqrt());
     assert!((found - 0.75).abs() < 4.0 * error, "{found}");
+}
+
+/// A known map of which a scan says N(x; here, Σ), up to a constant factor: all of it is old.
+#[derive(Clone)]
+struct KnownPlace;
+
+impl KnownPlace {
+    const HERE: Pose2 = Pose2 { x: 0.2, y: -0.1, theta: 0.05 };
+
+    /// Σ \[m, m, rad\]: a hill that runs askew.
+    const SPREAD: Matrix3<f64> = Matrix3::new(0.0016, 0.0006, -0.0002, 0.0006, 0.0009, 0.0001, -0.0002, 0.0001, 0.0004);
+}
+
+impl ConditionalMap for KnownPlace {
+    type Observation = ();
+    type Association = ();
+    fn assimilate(&mut self, _: &Pose2, (): &(), (): &()) {}
+}
+
+impl Likelihood<KnownPlace> for KnownPlace {
+    fn log_likelihood(&self, _: &KnownPlace, world_from_robot: &Pose2, (): &()) -> (f64, ()) {
+        (self.log_score(world_from_robot), ())
+    }
+}
+
+impl Score<KnownPlace> for KnownPlace {
+    type Near<'a> = Self;
+
+    fn near<'a>(&'a self, _: &'a KnownPlace, _: &Pose2, (): &'a (), _: usize) -> Self {
+        Self
+    }
+}
+
+impl ScoreNear for KnownPlace {
+    fn log_score(&self, pose: &Pose2) -> f64 {
+        let d = pose.minus(&Self::HERE);
+        -7.0 - 0.5 * d.dot(&(Self::SPREAD.try_inverse().unwrap() * d))
+    }
+}
+
+/// A proposal that looks first on the known map, a step whose prior is `times` as wide as the scan's hill and 1.2 of its own standard deviations off it
+/// along each axis, and ln η.
+fn on_known_ground(
+    times: f64,
+    weight: IncrementalWeight,
+) -> (FromScan<Displaced, KnownPlace, CorrelativeSearch>, laws::proposal::Step<KnownPlace, Displacement>, f64) {
+    // Floors and limits of the fit out of the way, and every match trusted.
+    let settings = FromScanSettings {
+        motion_floor: [1e-6; 3],
+        minimum_improvement: f64::NEG_INFINITY,
+        full_weight: 0.0,
+        limits: FitLimits { least: [1e-4; 2], most: [1.0; 2] },
+        weight,
+        ..tuning::FROM_SCAN
+    };
+    let covariance = KnownPlace::SPREAD.map_with_location(|i, j, s| if i == j { times * times * s } else { 0.0 });
+    let off = covariance.diagonal().map(|variance| 1.2 * variance.sqrt());
+    let control = Displacement { mean: KnownPlace::HERE.plus(&off), covariance };
+    let particle = Particle::start(Pose2::default(), KnownPlace);
+    let sum = covariance + KnownPlace::SPREAD;
+    let log_eta = -7.0
+        - 0.5 * off.dot(&(sum.try_inverse().unwrap() * off))
+        - 0.5 * ops::ln(sum.determinant() / KnownPlace::SPREAD.determinant());
+    let step = laws::proposal::Step { particle, control, observation: () };
+    (FromScan { motion: Displaced, score: KnownPlace, settings }, step, log_eta)
+}
+
+/// Within 0.05 nats, of prior wide and narrow. One draw of each: both weights are the same whatever is drawn.
+#[test]
+fn on_known_ground_either_weight_is_the_normaliser() {
+    for times in [0.5, 1.0, 2.0, 3.0, 5.0, 10.0] {
+        for weight in [IncrementalWeight::Marginal, IncrementalWeight::NewGroundFree] {
+            let (proposal, step, expected) = on_known_ground(times, weight);
+            for slot in 0..3 {
+                let mut stream = Stream::at(3, Purpose::TRIAL, 0, slot);
+                let found = proposal.propose(&step.particle, &step.control, &(), &mut stream);
+                assert!(matches!(found.trace, ProposalTrace::Matched { .. }), "{weight}, {times} times");
+                let off = found.log_increment - expected;
+                println!("{weight}, a prior {times} times as wide: {:.4} for {expected:.4}", found.log_increment);
+                assert!(off.abs() < 0.05, "{weight}, {times} times: off by {off}");
+            }
+        }
+    }
+}
+
+/// By the law that all proposals with a right price obey, against draws from the motion.
+#[test]
+fn on_known_ground_looking_first_draws_and_pays_as_the_motion_does() {
+    for weight in [IncrementalWeight::Marginal, IncrementalWeight::NewGroundFree] {
+        let (proposal, step, _) = on_known_ground(1.5, weight);
+        let reference = FromMotion { motion: Displaced, likelihood: KnownPlace };
+        laws::proposal::draws_and_prices_are_those_of_the_reference(&proposal, &reference, &step);
+    }
+}
+
+/// The drawn pose pays by the old map, which is the whole map, a second time: the variance of a Gaussian hill and a prior as wide is then a third and not
+/// half of either, and the law of right prices is broken.
+#[test]
+#[should_panic(expected = "the mean price is")]
+fn on_known_ground_the_price_at_the_draw_counts_the_map_twice() {
+    let (proposal, step, _) = on_known_ground(1.0, IncrementalWeight::OldMapAtDraw);
+    let reference = FromMotion { motion: Displaced, likelihood: KnownPlace };
+    laws::proposal::draws_and_prices_are_those_of_the_reference(&proposal, &reference, &step);
+}
+
+/// Where nothing is old, all particles weigh the same, to the bit, as long as they look first by the weight that new ground has no say in; and not by
+/// the other.
+#[test]
+fn new_ground_tells_no_particle_from_another() {
+    let world = LapWorld::new(3, &OdometryModel { alphas: ALPHAS }, 0.02);
+    let steps = |weight| {
+        let settings = FromScanSettings { weight, ..FROM_SCAN };
+        let score = ScanModel::new(Matcher::SubCell, TEMPER, OUTLIER);
+        let proposal = FromScan { motion: OdometryModel { alphas: ALPHAS }, score, settings };
+        // A map that never becomes old.
+        let mut map = <Grid>::new(GridModel { lag: 1_000_000, ..GRID });
+        world.start_scans.iter().for_each(|(pose, scan)| map.assimilate(pose, scan, &()));
+        let filter = Rbpf::builder(map, proposal).particles(8).start(world.truth[0]);
+        let mut filter = filter.policy(ResamplePolicy::Never).build().unwrap();
+        let mut matched = 0;
+        for (control, scan) in world.controls.iter().zip(&world.scans).take(20) {
+            matched += filter.step(control, scan).matched();
+        }
+        (filter.weights().as_slice().to_vec(), matched)
+    };
+    let (weights, matched) = steps(IncrementalWeight::NewGroundFree);
+    assert!(matched > 100, "{matched} of 160 looked first");
+    assert!(weights.iter().all(|weight| *weight == weights[0]), "{weights:?}");
+    assert!(steps(IncrementalWeight::Marginal).0.iter().any(|weight| *weight < 0.1 / 8.0));
 }
 
 /// On an unknown map every pose scores alike: the optimum is noise, and the motion model must be drawn from.

@@ -349,7 +349,7 @@ fn what_is_wrong_with_a_state_is_named() {
         let restored: Result<Rbpf<Grid<2>, _>, _> = Rbpf::restore(serde_json::from_value(changed).unwrap(), proposal);
         restored.unwrap_err().to_string()
     };
-    assert_eq!(refused("/version", 3.into()), "version = 3: must be 2");
+    assert_eq!(refused("/version", 2.into()), "version = 2: must be 3");
     let tiles = document["maps"]["tiles"].as_array().unwrap().len();
     assert_eq!(
         refused("/maps/directories/0/tiles/0", 999.into()),
