@@ -14,7 +14,7 @@ const TINY = join(root, 'tests', 'figures', 'golden', 'tiny.clf')
 const INTEL = join(root, '..', 'shared', 'data', 'intel.clf')
 
 /** Coarse and few, where it does not matter how good the map is. */
-const QUICK = 'v=2&universes=2&cell=0.2'
+const QUICK = 'v=3&universes=2&cell=0.2'
 
 async function content(download: Download): Promise<Buffer> {
   return readFileSync(await download.path())
@@ -273,7 +273,7 @@ test('a log is mapped to the bits of the native build, and compared scan by scan
   await expect.poll(() => log.picture()).toBe(alone)
   await chip.click()
   await expect(compare).toBeChecked()
-  expect(await log.element.evaluate((element: HTMLElement & { link: string }) => element.link.split('#')[1])).toBe('fastslam-log?v=2&odometry=on')
+  expect(await log.element.evaluate((element: HTMLElement & { link: string }) => element.link.split('#')[1])).toBe('fastslam-log?v=3&odometry=on')
 })
 
 test('its program is not fetched until something is asked of it, and what was asked first is not lost', async ({ page }) => {
@@ -591,7 +591,7 @@ test('a link holds the settings, and attributes set them', async ({ page }) => {
   await expect(log.alert).toContainText('cell')
   await expect(log.element.locator('input[type=number][name=universes]')).toHaveValue('7')
   const link = await log.element.evaluate((element: HTMLElement & { link: string }) => element.link)
-  expect(link.split('#')[1]).toBe('fastslam-log?v=2&universes=7&cell=0.2&policy=always&raw=off') // as links of its time had it
+  expect(link.split('#')[1]).toBe('fastslam-log?v=3&universes=7&cell=0.2&policy=always&raw=off') // as links of its time had it
   await log.element.evaluate(element => element.setAttribute('universes', '9'))
   await expect(log.element.locator('input[type=number][name=universes]')).toHaveValue('9')
   await log.element.evaluate(element => element.setAttribute('universes', 'many'))

@@ -204,7 +204,12 @@ fn refused(message: impl Into<String>) -> FigureError {
 impl Declared for LogModel {
     type Recipe = Recipe;
     const TITLE: &'static str = words::TITLE;
-    const CHANGES: &'static [Change] = &[Change::Default { name: "raw", was: "off" }];
+    const CHANGES: &'static [Change] = &[
+        Change::Default { name: "raw", was: "off" },
+        Change::Told(
+            "Free ground begins at the laser, and the noise of the wheels goes by the way: paths and maps differ a little.",
+        ),
+    ];
 
     fn challenges() -> Vec<Challenge<Self>> {
         challenges::challenges()

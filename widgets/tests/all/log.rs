@@ -11,7 +11,7 @@ use fastslam_widgets::{
 const TINY: &[u8] = include_bytes!("../../../tests/figures/golden/tiny.clf");
 
 /// Coarse and few, as most laws do not ask how good the map is.
-const QUICK: &str = "universes=4&cell=0.2";
+const QUICK: &str = "v=3&universes=4&cell=0.2";
 
 fn opened(query: &str) -> Figure {
     let mut figure = figure("fastslam-log", query);
@@ -148,13 +148,19 @@ fn raw_odometry_is_drawn_up_to_the_scan_shown_unless_it_is_left_out_as_in_older_
         // In the legend there is one too, of two points.
         lines.sum::<usize>() - 2
     };
-    let mut figure = mapped(&format!("v=2&{QUICK}"), 90);
+    let mut figure = mapped(QUICK, 90);
     let whole = drawn(&figure);
     figure.model_mut().seek(30);
     assert!(drawn(&figure) > 10 && drawn(&figure) < whole / 2, "{} of {whole}", drawn(&figure));
-    assert_eq!(drawn(&mapped(QUICK, 90)), 0);
-    assert_eq!(figure.query(), "v=2&universes=4&cell=0.2");
-    assert_eq!(mapped(QUICK, 9).query(), "v=2&universes=4&cell=0.2&raw=off");
+    assert_eq!(figure.query(), QUICK);
+
+    let mut older = Figure::new("fastslam-log").unwrap();
+    let said = older.load("universes=4&cell=0.2");
+    assert!(said.len() == 1 && said[0].parameter == "v", "{said:?}");
+    older.open(TINY).unwrap();
+    older.model_mut().seek(90);
+    older.model_mut().settle();
+    assert_eq!((older.query().as_str(), drawn(&older)), ("v=3&universes=4&cell=0.2&raw=off", 0));
 }
 
 #[test]
@@ -224,7 +230,7 @@ fn what_does_not_fit_is_refused_before_it_starts_with_parameter_and_range() {
         let line = |k| format!("FLASER 2 80 80 {0} {1} 0 {0} {1} 0 {k} host {k}\n", 800 * k, 70 * (k % 9));
         (0..scans).map(line).collect()
     };
-    let mut figure = opened("universes=256&cell=0.02&policy=never&max-range=80");
+    let mut figure = opened("v=3&universes=256&cell=0.02&policy=never&max-range=80");
     figure.open(far(20).as_bytes()).unwrap();
     let error = figure.ready().unwrap_err();
     assert_eq!(error.parameter, "universes");
@@ -260,32 +266,32 @@ fn the_estimate_is_near_what_the_maps_take(queries: &[&str]) {
 #[test]
 fn the_estimate_is_never_below_what_the_maps_take_and_not_far_above() {
     the_estimate_is_near_what_the_maps_take(&[
-        "universes=1&cell=0.05",
-        "universes=1&cell=0.1",
-        "universes=1&cell=0.2",
-        "universes=1&cell=0.1&max-range=3",
-        "universes=16&cell=0.1",
-        "universes=16&cell=0.1&policy=never",
-        "universes=64&cell=0.2&policy=always",
+        "v=3&universes=1&cell=0.05",
+        "v=3&universes=1&cell=0.1",
+        "v=3&universes=1&cell=0.2",
+        "v=3&universes=1&cell=0.1&max-range=3",
+        "v=3&universes=16&cell=0.1",
+        "v=3&universes=16&cell=0.1&policy=never",
+        "v=3&universes=64&cell=0.2&policy=always",
     ]);
 }
 
 #[test]
 #[ignore = "breadth: as many universes as there can be"]
 fn the_estimate_of_256_universes_is_never_below_what_their_maps_take_and_not_far_above() {
-    the_estimate_is_near_what_the_maps_take(&["universes=256&cell=0.2"]);
+    the_estimate_is_near_what_the_maps_take(&["v=3&universes=256&cell=0.2"]);
 }
 
 #[test]
 fn all_universes_are_drawn_and_those_that_died_fade_and_go() {
-    let figure = mapped("universes=24&cell=0.2&policy=never", 40);
+    let figure = mapped("v=3&universes=24&cell=0.2&policy=never", 40);
     let seen = scene(&figure, 800.0);
     assert_eq!(strands(&seen, Role::Path).len(), 1);
     assert_eq!(strands(&seen, Role::Copied)[0].1, 23, "each has left the others at the start");
     assert_eq!(strands(&seen, Role::Extinct), []);
 
     // Selection by a small power of what scans say lets few of them die: of 256, one a scan.
-    let figure = mapped("universes=256&cell=0.2&policy=always", 89);
+    let figure = mapped("v=3&universes=256&cell=0.2&policy=always", 89);
     let dead = strands(&scene(&figure, 800.0), Role::Extinct);
     assert!(dead.len() > 2 && dead.windows(2).all(|pair| pair[0].0 < pair[1].0), "older ones are thinner: {dead:?}");
     let export = figure.export();
@@ -331,9 +337,12 @@ fn the_map_stays_in_its_frame_however_it_is_magnified() {
 
 #[test]
 fn every_text_fits_at_every_width() {
-    for figure in
-        [figure("fastslam-log", ""), opened("universes=256"), mapped("universes=256&cell=0.2", 3), mapped(QUICK, 90)]
-    {
+    for figure in [
+        figure("fastslam-log", ""),
+        opened("v=3&universes=256"),
+        mapped("v=3&universes=256&cell=0.2", 3),
+        mapped(QUICK, 90),
+    ] {
         for width in [240.0, 300.0, 340.0, 399.0, 400.0, 559.0, 560.0, 639.0, 640.0, 800.0, 1280.0] {
             let seen = scene(&figure, width);
             let layout = Layout::new(width);
