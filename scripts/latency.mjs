@@ -10,8 +10,8 @@ import { startServer } from './serve.mjs'
 
 /** Of each figure the slider that changes most of it; `values` are moved between, and `atMost` is in ms. @type {Drag[]} */
 const DRAGS = [
-  { what: 'lap, M = 16', tag: 'fastslam-lap', attributes: { course: 'apartment', temper: '0.85', overlay: 'off', universes: '16', step: '90' }, slider: 'odometry', values: ['1.05', '1'], atMost: 150 },
-  { what: 'lap, M = 64', tag: 'fastslam-lap', attributes: { course: 'apartment', temper: '0.85', overlay: 'off', universes: '64', step: '90' }, slider: 'odometry', values: ['1.05', '1'], atMost: 600 },
+  { what: 'lap, M = 16', tag: 'fastslam-lap', attributes: { course: 'apartment', 'range-std': '0.02', overlay: 'off', universes: '16', step: '90' }, slider: 'odometry', values: ['1.05', '1'], atMost: 150 },
+  { what: 'lap, M = 64', tag: 'fastslam-lap', attributes: { course: 'apartment', 'range-std': '0.02', overlay: 'off', universes: '64', step: '90' }, slider: 'odometry', values: ['1.05', '1'], atMost: 600 },
   { what: 'resampling, M = 64', tag: 'fastslam-resampling', attributes: { particles: '64', step: '90' }, slider: 'odometry', values: ['1.05', '1'], atMost: 1500 },
   { what: 'proposals', tag: 'fastslam-proposal', attributes: {}, slider: 'range-std', values: ['0.15', '0.1'], atMost: 32 },
   { what: 'graphical model', tag: 'fastslam-conditioning', attributes: { step: '999' }, slider: 'odometry', values: ['1.05', '1'], atMost: 32 },

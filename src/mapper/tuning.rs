@@ -189,7 +189,7 @@ pub const FROM_SCAN: FromScanSettings<CorrelativeSearch> = FromScanSettings {
     full_weight: 0.5,
     // From what cannot be seen to what wheels are off by after a metre or two: along a corridor a scan knows no better.
     limits: FitLimits { least: [0.005, 0.003], most: [0.15, 0.05] },
-    weight: IncrementalWeight::OldMapAtDraw,
+    weight: IncrementalWeight::NewGroundFree,
 };
 
 /// [`FROM_SCAN`] for a laser of so many beams: of a denser one the search takes fewer, since neighbours tell it the same.

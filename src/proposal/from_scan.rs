@@ -116,7 +116,7 @@ where
             Some(prior) if !hills.is_empty() => {
                 self.weigh(&particle.map, prior, &hills, &world_from_robot, observation)
             }
-            _ => self.weigh_draw(&particle.map, &world_from_robot, observation),
+            _ => self.settings.weight.of_motion(&self.score, &particle.map, &world_from_robot, observation),
         };
         let log_increment = self.share(control) * log_weight;
         Proposed { world_from_robot, association: (), log_increment, trace }
@@ -202,24 +202,6 @@ impl<D: Motion, L, S: Search> FromScan<D, L, S> {
                 -log_mixture(&hills.iter().map(inverse).collect::<Vec<_>>())
             }
             IncrementalWeight::OldMapAtDraw => log_old(drawn),
-        }
-    }
-
-    /// What the observation says of the path \[nats\], where the pose is a draw from the motion.
-    fn weigh_draw<M: ConditionalMap<Association = ()>>(
-        &self,
-        map: &M,
-        drawn: &Pose2,
-        observation: &M::Observation,
-    ) -> f64
-    where
-        L: Score<M>,
-    {
-        match self.settings.weight {
-            IncrementalWeight::Marginal => self.score.log_likelihood(map, drawn, observation).0,
-            IncrementalWeight::NewGroundFree | IncrementalWeight::OldMapAtDraw => {
-                self.score.log_old(map, drawn, observation)
-            }
         }
     }
 

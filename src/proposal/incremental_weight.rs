@@ -15,6 +15,8 @@
 use super::fit::differences;
 use crate::error::SettingError;
 use crate::geometry::{Gaussian3, Pose2};
+use crate::map::ConditionalMap;
+use crate::matching::{Likelihood, Score};
 use crate::ops;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
@@ -36,6 +38,43 @@ pub enum IncrementalWeight {
     OldMapAtDraw,
 }
 
+impl IncrementalWeight {
+    /// The same of a pose that was drawn from p(x | x′, u) \[nats\]: ln p(z | x, m), the importance weight of such a draw, for
+    /// [`Self::Marginal`]; ln p_old for the others, as all that new ground says of the draw is left out.
+    pub(super) fn of_motion<M: ConditionalMap<Association = ()>>(
+        self,
+        score: &impl Score<M>,
+        map: &M,
+        drawn: &Pose2,
+        observation: &M::Observation,
+    ) -> f64 {
+        match self {
+            Self::Marginal => score.log_likelihood(map, drawn, observation).0,
+            Self::NewGroundFree | Self::OldMapAtDraw => score.log_old(map, drawn, observation),
+        }
+    }
+}
+
+/// What [`FromMotion`](super::FromMotion) pays for a scan by a choice of [`IncrementalWeight`]: ln p(z | x, m) with
+/// [`IncrementalWeight::Marginal`], which is FastSLAM 1.0, and ln p_old with the others.
+#[derive(Clone, Copy, Debug)]
+pub struct ScanAtDraw<L> {
+    /// How well a scan fits a map.
+    pub score: L,
+    /// What is paid.
+    pub weight: IncrementalWeight,
+}
+
+impl<M: ConditionalMap<Association = ()>, L: Score<M>> Likelihood<M> for ScanAtDraw<L> {
+    fn log_likelihood(&self, map: &M, world_from_robot: &Pose2, observation: &M::Observation) -> (f64, ()) {
+        (self.weight.of_motion(&self.score, map, world_from_robot, observation), ())
+    }
+
+    fn validate(&self) -> Result<(), SettingError> {
+        self.score.validate()
+    }
+}
+
 fn unknown_weight(given: &str) -> SettingError {
     SettingError::unknown_word("weight", given, <IncrementalWeight as strum::VariantNames>::VARIANTS)
 }
@@ -52,12 +91,11 @@ fn unknown_weight(given: &str) -> SettingError {
 /// old map says the same of all thirteen poses, −l to the bit.
 pub(super) fn log_mean_inverse(q: &Gaussian3, prior: &Gaussian3, log_old: impl Fn(&Pose2) -> f64) -> f64 {
     let center = log_old(q.mean());
-    let aside = |u: &Vector3<f64>| prior.at([u.x, u.y, u.z]).minus(prior.mean());
-    let (gradient, information) = differences(center, 1.0, |u, side| log_old(&q.mean().plus(&(aside(u) * side))));
+    let Some(axes) = axes(prior) else { return -center };
+    let (gradient, information) = differences(center, 1.0, |u, side| log_old(&q.mean().plus(&(axes * u * side))));
     if gradient == Vector3::zeros() && information == Matrix3::zeros() {
         return -center;
     }
-    let axes = Matrix3::from_columns(&[Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| aside(&axis)));
     let Some(precision) = q.covariance().try_inverse() else { return -center };
     let precision = axes.transpose() * precision * axes;
     let SymmetricEigen { eigenvalues, eigenvectors } = SymmetricEigen::new(precision - information);
@@ -65,6 +103,14 @@ pub(super) fn log_mean_inverse(q: &Gaussian3, prior: &Gaussian3, log_old: impl F
     let new = |k: usize| eigenvalues[k].max(1.0);
     let sum: f64 = (0..3).map(|k| along[k] * along[k] / new(k) - ops::ln(new(k))).sum();
     0.5 * (ops::ln(precision.determinant()) + sum) - center
+}
+
+/// L with Σ = L Lᵀ, made in the frame of the mean: it turns with the world.
+fn axes(gaussian: &Gaussian3) -> Option<Matrix3<f64>> {
+    let (sin, cos) = ops::sin_cos(gaussian.mean().theta);
+    let frame = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
+    let covariance = frame.transpose() * gaussian.covariance() * frame;
+    Some(frame * covariance.cholesky()?.l())
 }
 
 /// ln Σ ωᵢ exp(aᵢ) of weights ωᵢ ∝ exp(bᵢ), given as (aᵢ, bᵢ); exactly a where all aᵢ are a.

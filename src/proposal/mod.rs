@@ -2,7 +2,7 @@
 //!
 //! A draw x from q pays ln p(z | x, m) + ln p(x | x′, u) − ln q(x), whose exponential has the mean p(z | x′, u, m), or the log of that mean
 //! where it can be had. Each proposal states its own log weight increment:
-//! - [`FromMotion`] draws by the motion, and pays ln p(z | x, m);
+//! - [`FromMotion`] draws by the motion, and pays ln p(z | x, m), or, with [`ScanAtDraw`], what the old map says of the draw;
 //! - [`FromMeasurement`] draws by motion and sightings, and pays the integral, in closed form;
 //! - [`FromScan`] draws by motion and scan, and pays the integral or what of it new ground has no say in: [`IncrementalWeight`];
 //! - [`FromWindow`] draws late, and pays each scan's share of the window's integral.
@@ -22,7 +22,7 @@ pub use from_measurement::{FromMeasurement, Measured};
 pub use from_motion::{FromMotion, Marginal};
 pub use from_scan::{FromScan, FromScanSettings};
 pub use from_window::{Followed, FromWindow, Windowed};
-pub use incremental_weight::IncrementalWeight;
+pub use incremental_weight::{IncrementalWeight, ScanAtDraw};
 pub use retrace::Retrace;
 pub(crate) use search::SEARCH_STDS;
 pub use search::{CorrelativeSearch, HeadingSeeds, Search, Starts, Target};

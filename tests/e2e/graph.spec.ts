@@ -8,7 +8,7 @@ import { breadth } from './host'
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
 const TAG = 'fastslam-graph'
-const open = (page: Page, query?: string) => new Figure(page, TAG).alone(query && `#${TAG}?${query}`)
+const open = (page: Page, query?: string) => new Figure(page, TAG).alone(query && `#${TAG}?v=2&${query}`)
 
 const number = async (figure: Figure, name: string) => Number.parseFloat((await figure.readouts())[name]!)
 

@@ -164,6 +164,15 @@ pub enum Change {
         /// The default before.
         was: &'static str,
     },
+    /// The same, but for those links that give another parameter a value of its own.
+    DefaultUnless {
+        /// The parameter.
+        name: &'static str,
+        /// The default before.
+        was: &'static str,
+        /// The other parameter, and the value with which nothing has changed.
+        unless: (&'static str, &'static str),
+    },
     /// Changes for those links only that switch a parameter on.
     Switched {
         /// The parameter.
@@ -172,6 +181,11 @@ pub enum Change {
         changes: &'static [Change],
     },
 }
+
+/// What a lap's universes are weighed by in figures that have no parameter for it.
+pub(crate) const WEIGHED_ANEW: Change = Change::Told(
+    "Universes pay what known ground says of all poses that they might have drawn, and not of the one that they drew.",
+);
 
 /// A model that has a recipe. It is all that a figure writes of its parameters besides their table: [`Parameters`] follows.
 pub trait Declared {

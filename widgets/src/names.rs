@@ -1,8 +1,11 @@
 //! What the variants of the filter's enums are called on controls. Their words in links are their own.
 
 use crate::words::names;
-use fastslam::{matching::Matcher, proposal::IncrementalWeight, resampling::Scheme};
-use fastslam_lab::experiment::{ProposalKind, lap::Course};
+use fastslam::{matching::Matcher, resampling::Scheme};
+use fastslam_lab::experiment::{
+    ProposalKind,
+    lap::{Course, ScanWeight},
+};
 
 /// A proposal's name for readers.
 pub fn proposal(kind: ProposalKind) -> &'static str {
@@ -21,11 +24,12 @@ pub fn matcher(matcher: Matcher) -> &'static str {
 }
 
 /// The name for readers of what is paid for a scan.
-pub fn weight(weight: IncrementalWeight) -> &'static str {
+pub fn weight(weight: ScanWeight) -> &'static str {
     match weight {
-        IncrementalWeight::Marginal => names::marginal(),
-        IncrementalWeight::NewGroundFree => names::without_new_ground(),
-        IncrementalWeight::OldMapAtDraw => names::old_map_at_draw(),
+        ScanWeight::Usual => names::usual_weight(),
+        ScanWeight::Marginal => names::marginal(),
+        ScanWeight::NewGroundFree => names::without_new_ground(),
+        ScanWeight::OldMapAtDraw => names::old_map_at_draw(),
     }
 }
 

@@ -66,6 +66,11 @@ fn since(query: &str, changes: &[Change]) -> (Vec<FigureError>, Vec<(String, Str
                         }
                     }
                     Change::Default { name, was } => meant.push((name.into(), was.into())),
+                    Change::DefaultUnless { name, was, unless: (other, value) } => {
+                        if !decoded(query).any(|(n, text)| n == other && text.trim() == value) {
+                            meant.push((name.into(), was.into()));
+                        }
+                    }
                     // They are not nested.
                     Change::Switched { .. } => (),
                 }
@@ -165,6 +170,13 @@ mod tests {
         assert_eq!(meant("seed=4"), [pair("raw", "on"), pair("cell", "0.1"), pair("raw", "off")]);
         assert_eq!(meant("v=3&raw=off"), [pair("raw", "on"), pair("cell", "0.1")]);
         assert_eq!((meant("v=5"), since("v=2", changes).0.len()), (vec![], 1));
+    }
+
+    #[test]
+    fn a_default_that_changed_for_some_links_only_is_that_of_the_others_as_it_was() {
+        let changes = &[Change::DefaultUnless { name: "weight", was: "old", unless: ("proposal", "motion") }];
+        let meant = |query| since(query, changes).1.len();
+        assert_eq!(["seed=1", "proposal=aware", "proposal=motion", "v=2&seed=1"].map(meant), [1, 1, 0, 0]);
     }
 
     #[test]

@@ -19,6 +19,7 @@ use fastslam::motion::{Odometry, OdometryModel};
 use fastslam::particle::Particle;
 use fastslam::proposal::{
     Either, FitLimits, FromMotion, FromScan, FromScanSettings, HeadingSeeds, IncrementalWeight, ProposalTrace,
+    ScanAtDraw,
 };
 use fastslam::random::Stream;
 use fastslam::rbpf::{Rbpf, Report};
@@ -96,8 +97,51 @@ pub const FROM_SCAN: FromScanSettings<HeadingSeeds> = FromScanSettings {
     full_weight: 0.0,
     // From half a centimetre, below which there is nothing to see, to a third of a cell, the plateau of the cell matcher.
     limits: FitLimits { least: [0.005, 0.003], most: [0.1, 0.05] },
-    weight: IncrementalWeight::OldMapAtDraw,
+    weight: IncrementalWeight::NewGroundFree,
 };
+
+/// What a particle pays for a scan.
+#[derive(
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Debug,
+    Default,
+    strum::Display,
+    strum::EnumString,
+    strum::VariantNames,
+    strum::VariantArray,
+)]
+#[strum(serialize_all = "kebab-case", parse_err_ty = SettingError, parse_err_fn = unknown_weight)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+pub enum ScanWeight {
+    /// That of the filter by name: FastSLAM 1.0 moves first and pays [`Self::Marginal`], ours looks first and pays what [`FROM_SCAN`] says.
+    #[default]
+    Usual,
+    /// [`IncrementalWeight::Marginal`], whatever poses are drawn from.
+    Marginal,
+    /// [`IncrementalWeight::NewGroundFree`], whatever poses are drawn from.
+    NewGroundFree,
+    /// [`IncrementalWeight::OldMapAtDraw`], whatever poses are drawn from.
+    OldMapAtDraw,
+}
+
+impl ScanWeight {
+    /// What is paid where poses are drawn so.
+    pub const fn by(self, proposal: ProposalKind) -> IncrementalWeight {
+        match (self, proposal) {
+            (Self::Usual, ProposalKind::Motion) | (Self::Marginal, _) => IncrementalWeight::Marginal,
+            (Self::Usual, ProposalKind::Improved) => FROM_SCAN.weight,
+            (Self::NewGroundFree, _) => IncrementalWeight::NewGroundFree,
+            (Self::OldMapAtDraw, _) => IncrementalWeight::OldMapAtDraw,
+        }
+    }
+}
+
+fn unknown_weight(given: &str) -> SettingError {
+    SettingError::unknown_word("weight", given, <ScanWeight as strum::VariantNames>::VARIANTS)
+}
 
 /// Where a lap is driven.
 #[derive(
@@ -200,8 +244,8 @@ pub struct LapSetup {
     pub seed: u64,
     /// Where new poses are drawn from.
     pub proposal: ProposalKind,
-    /// What a particle that looks first pays for a scan.
-    pub weight: IncrementalWeight,
+    /// What a particle pays for a scan.
+    pub weight: ScanWeight,
     /// What an end point is compared with.
     pub matcher: Matcher,
     /// When to resample.
@@ -227,7 +271,7 @@ impl Default for LapSetup {
             particles: 16,
             seed: 3,
             proposal: ProposalKind::Improved,
-            weight: FROM_SCAN.weight,
+            weight: ScanWeight::Usual,
             matcher: Matcher::SubCell,
             policy: ResamplePolicy::EssBelow(0.5),
             scheme: Scheme::Systematic,
@@ -241,10 +285,10 @@ impl Default for LapSetup {
 }
 
 impl LapSetup {
-    /// What the lap's figure opens with: the ring, on which the universes differ until the loop closes and most of them die. Of each
-    /// beam's evidence less counts than in the lap table, so that they are told apart by the closing and not on the way there.
+    /// What the lap's figure opens with: the ring, on which the universes differ until the loop closes and most of them die. The laser
+    /// is a worse one than that of the lap table, with which positions differ by centimetres at the closing: too little for the eye.
     pub fn opening() -> Self {
-        Self { course: Course::Ring, temper: 0.3, ..Self::default() }
+        Self { course: Course::Ring, seed: 9, range_std: 0.1, ..Self::default() }
     }
 
     /// Noise of the wheels.
@@ -263,9 +307,10 @@ impl LapSetup {
         let score = ScanModel::new(self.matcher, self.temper, OUTLIER);
         // The best of the search is never below its mean.
         let minimum_improvement = if self.guard { FROM_SCAN.minimum_improvement } else { 0.0 };
-        let settings = FromScanSettings { minimum_improvement, weight: self.weight, ..FROM_SCAN };
+        let weight = self.weight.by(self.proposal);
+        let settings = FromScanSettings { minimum_improvement, weight, ..FROM_SCAN };
         match self.proposal {
-            ProposalKind::Motion => Either::Left(FromMotion { motion, likelihood: score }),
+            ProposalKind::Motion => Either::Left(FromMotion { motion, likelihood: ScanAtDraw { score, weight } }),
             ProposalKind::Improved => Either::Right(FromScan { motion, score, settings }),
         }
     }
@@ -470,7 +515,8 @@ pub struct StepReport {
 }
 
 /// What a lap's filter draws poses from.
-pub type Proposals = Either<FromMotion<OdometryModel, ScanModel>, FromScan<OdometryModel, ScanModel, HeadingSeeds>>;
+pub type Proposals =
+    Either<FromMotion<OdometryModel, ScanAtDraw<ScanModel>>, FromScan<OdometryModel, ScanModel, HeadingSeeds>>;
 
 /// The filter of a lap.
 pub type Filter = Rbpf<Grid, Proposals>;

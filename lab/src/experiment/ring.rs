@@ -365,6 +365,7 @@ fn mean_and_std(values: &[f64]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::experiment::lap::ScanWeight;
     use crate::experiment::lap::{Course, GRID};
     use fastslam::map::ConditionalMap;
     use fastslam::sensor::Scan;
@@ -435,11 +436,15 @@ mod tests {
         assert!(run.end_odometry > run.end_best, "{run:?}");
     }
 
-    /// Before the first step all particles are one: with the same draws they pay the same, and all that a draw of their own tells
-    /// between them is noise.
+    /// Before the first step all particles are one: where the drawn pose is paid for, those with the same draws pay the same, and all that a draw
+    /// of their own tells between them is noise. Where the integral is paid, a draw tells nothing.
     #[test]
     fn equal_particles_that_share_their_draws_pay_the_same() {
-        let setup = RingSetup { lap: LapSetup { particles: 3, ..LapSetup::default() }, ..RingSetup::default() };
+        let usual = LapSetup { particles: 3, ..LapSetup::default() };
+        let at_draw = LapSetup { weight: ScanWeight::OldMapAtDraw, ..usual.clone() };
+        let [usual, setup] = [usual, at_draw].map(|lap| RingSetup { lap, ..RingSetup::default() });
+        let noise = noise_at(&usual.start().unwrap(), &usual.lap, NoiseProbe { draws: 20, ..NoiseProbe::default() }, 1);
+        assert_eq!((noise.noise, noise.matched), (0.0, 1.0), "{noise:?}");
         let lap = setup.start().unwrap();
         let probe = NoiseProbe { draws: 20, ..NoiseProbe::default() };
         let shared = noise_at(&lap, &setup.lap, NoiseProbe { shared: true, ..probe }, 1);

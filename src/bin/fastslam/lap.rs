@@ -3,10 +3,9 @@
 use crate::{Usage, graph, picture, print, print_json, whole};
 use anyhow::{Result, bail};
 use fastslam::matching::Matcher;
-use fastslam::proposal::IncrementalWeight;
 use fastslam::resampling::{ResamplePolicy, Scheme};
 use fastslam_lab::experiment::ProposalKind;
-use fastslam_lab::experiment::lap::{self, Course, Lap, LapSetup, StepReport};
+use fastslam_lab::experiment::lap::{self, Course, Lap, LapSetup, ScanWeight, StepReport};
 use fastslam_lab::world::Edits;
 use fastslam_widgets::{figure::Figure, paint::Theme};
 use serde::Serialize;
@@ -42,9 +41,9 @@ pub struct Options {
     /// Where new poses are drawn from: aware (of the scan) or motion
     #[arg(long, default_value_t = LapSetup::default().proposal)]
     proposal: ProposalKind,
-    /// What a particle that looks first pays for a scan: marginal, new-ground-free or old-map-at-draw
+    /// What a particle pays for a scan: usual (of the proposal), marginal, new-ground-free or old-map-at-draw
     #[arg(long, default_value_t = LapSetup::default().weight)]
-    weight: IncrementalWeight,
+    weight: ScanWeight,
     /// What the end point of a beam is compared with: cell or subcell
     #[arg(long, default_value_t = LapSetup::default().matcher)]
     matcher: Matcher,

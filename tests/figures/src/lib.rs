@@ -227,8 +227,8 @@ fn in_256_colours(pixels: Vec<u8>) -> Vec<u8> {
 /// Cells as small as those of a large building would be more than a phone's screen has pixels.
 const TINY: &str = "cell=0.1&raw=on";
 
-/// The lap as the figure opens, at a step at which half of the universes have just died.
-const CLOSING: &str = "v=4&step=85";
+/// The lap as the figure opens, at a step at which most of the universes have just died.
+const CLOSING: &str = "v=8&step=86";
 
 /// A step of the apartment's lap at which it resampled.
 const RESAMPLED: &str = "step=62";
@@ -236,7 +236,7 @@ const RESAMPLED: &str = "step=62";
 /// Figures and setups whose readouts are kept for every step.
 pub const SETUPS: &[(&str, &str)] = &[
     (LAP, "course=apartment"),
-    (LAP, "v=4"),
+    (LAP, "v=8"),
     (LAP, "universes=1"),
     (LAP, "universes=7&seed=5&proposal=motion&matcher=cell"),
     (LAP, "universes=24&policy=always&scheme=residual&odometry=1.5"),
@@ -289,13 +289,9 @@ pub const JOBS: &[(&str, &str, [u32; 2])] = &[
     ("wings", "particles=9&threshold=0.7&odometry=1.5&range=0.5&scheme=stratified", [40, 43]),
     ("doors", "", [1, 5]),
     ("doors", "ride=6&proposal=aware&range=0.2&price=5&gate=95&policy=always&door-5=16", [40, 42]),
-    ("laps", "course=apartment&temper=0.85", [1, 3]),
+    ("laps", "course=apartment&range-std=0.02", [1, 3]),
     ("graphs", "course=apartment&odometry=1", [1, 4]),
-    (
-        "laps",
-        "course=apartment&temper=0.85&universes=4&proposal=motion&matcher=cell&policy=always&range-std=0.1&step=7",
-        [1, 4],
-    ),
+    ("laps", "course=apartment&universes=4&proposal=motion&matcher=cell&policy=always&range-std=0.1&step=7", [1, 4]),
 ];
 
 /// The rows of a job, as a fingerprint.

@@ -8,7 +8,7 @@ use super::{
 use crate::{
     challenge::Challenge,
     ghost::{self, Curves},
-    model::{Declared, FigureError, Model, Readout, Series},
+    model::{Change, Declared, FigureError, Model, Readout, Series, WEIGHED_ANEW},
     prediction::{Outcome, State},
     words::graph,
 };
@@ -153,6 +153,7 @@ impl GraphModel {
 impl Declared for GraphModel {
     type Recipe = Recipe;
     const TITLE: &'static str = graph::TITLE;
+    const CHANGES: &'static [Change] = &[WEIGHED_ANEW];
 
     fn challenges() -> Vec<Challenge<Self>> {
         challenges::challenges()

@@ -18,20 +18,24 @@ pub(super) fn challenges() -> Vec<Challenge<LapModel>> {
         Challenge::new(
             "no-measurements",
             words::chip_no_measurements(),
-            "proposal=motion&policy=never&temper=0.85&course=apartment&step=80",
+            "seed=3&range-std=0.02&proposal=motion&policy=never&course=apartment&step=80",
         ),
         Challenge::new(
             "measurements",
             words::chip_measurements(),
-            "proposal=motion&temper=0.85&course=apartment&step=80",
+            "seed=3&range-std=0.02&proposal=motion&course=apartment&step=80",
         ),
-        Challenge::new("four", words::chip_four(), "universes=4&proposal=motion&temper=0.85&course=apartment&step=90")
-            .with(words::goal_four(), "universes proposal matcher policy threshold scheme temper guard", near_with_few),
         Challenge::new(
-            "blurred",
-            words::chip_blurred(),
-            "odometry=2&range-std=0.3&temper=0.85&course=apartment&step=90",
+            "four",
+            words::chip_four(),
+            "universes=4&seed=3&range-std=0.02&proposal=motion&course=apartment&step=90",
+        )
+        .with(
+            words::goal_four(),
+            "universes proposal weight matcher policy threshold scheme temper guard",
+            near_with_few,
         ),
+        Challenge::new("blurred", words::chip_blurred(), "seed=3&odometry=2&range-std=0.3&course=apartment&step=90"),
     ]
 }
 

@@ -172,11 +172,15 @@ impl LapModel {
 impl Declared for LapModel {
     type Recipe = Recipe;
     const TITLE: &'static str = lap::TITLE;
-    /// The figure opened in the apartment, with one universe shown large.
+    /// The figure opened in the apartment, with one universe shown large; then on the ring with a share of the evidence of its own.
     const CHANGES: &'static [Change] = &[
         Change::Default { name: "course", was: "apartment" },
         Change::Default { name: "temper", was: "0.85" },
         Change::Default { name: "overlay", was: "off" },
+        Change::DefaultUnless { name: "weight", was: "old-map-at-draw", unless: ("proposal", "motion") },
+        Change::Default { name: "temper", was: "0.3" },
+        Change::Default { name: "range-std", was: "0.02" },
+        Change::Default { name: "seed", was: "3" },
     ];
 
     fn challenges() -> Vec<Challenge<Self>> {

@@ -4,7 +4,9 @@ use super::{challenges, recipe::Recipe, stroke, told};
 use crate::challenge::Challenge;
 use crate::decimal::{fixed, write};
 use crate::ghost::{self, Curves};
-use crate::model::{Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text};
+use crate::model::{
+    Change, Declared, FigureError, Model, Readout, Series, TraceLine, WEIGHED_ANEW, ess_text, pose_text,
+};
 use crate::names;
 use crate::prediction::{Outcome, State, off_by};
 use crate::words::resampling;
@@ -209,6 +211,7 @@ impl ResamplingModel {
 impl Declared for ResamplingModel {
     type Recipe = Recipe;
     const TITLE: &'static str = resampling::TITLE;
+    const CHANGES: &'static [Change] = &[WEIGHED_ANEW];
 
     fn challenges() -> Vec<Challenge<Self>> {
         challenges::challenges()

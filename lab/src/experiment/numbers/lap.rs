@@ -3,7 +3,7 @@
 use super::{Group, Made, Number, Recipe, Runs, SEEDS, VALID};
 use crate::experiment::ErrorSummary;
 use crate::experiment::ProposalKind;
-use crate::experiment::lap::{BEAMS, GRID, LAG, Lap, LapSetup, LapWorld, MAX_RANGE, STEPS};
+use crate::experiment::lap::{BEAMS, GRID, LAG, Lap, LapSetup, LapWorld, MAX_RANGE, STEPS, ScanWeight};
 use crate::experiment::table::{LapResult, PARTICLES, rms_best};
 use crate::experiment::universes::{TRIED, WELL};
 use fastslam::execute::Executor;
@@ -32,6 +32,9 @@ pub fn recipes() -> Vec<Recipe> {
     });
     let aligned = "the RMS position error of the best particle's path after its best rigid alignment with the truth";
     let of_one = "the first step at which all particles descend from one";
+    // The table's filters, each by the weight of the other.
+    let weights = [(ProposalKind::Improved, ScanWeight::Marginal), (ProposalKind::Motion, ScanWeight::NewGroundFree)];
+    let weights = weights.map(|(proposal, weight)| weighed(proposal, weight));
     let medians = [
         median_of(ProposalKind::Improved, Matcher::Cell, "aligned", "m", aligned, |lap| lap.rms_best_aligned),
         median_of(ProposalKind::Improved, Matcher::SubCell, "aligned", "m", aligned, |lap| lap.rms_best_aligned),
@@ -43,7 +46,7 @@ pub fn recipes() -> Vec<Recipe> {
         let cells = TRIED.map(|particles| LapCell { proposal, matcher: Matcher::SubCell, particles });
         cells.into_iter().filter(|cell| !PARTICLES.contains(&cell.particles)).map(tried)
     });
-    table.chain(beside).chain(medians).chain(others).chain(sufficient).chain(besides).collect()
+    table.chain(beside).chain(weights).chain(medians).chain(others).chain(sufficient).chain(besides).collect()
 }
 
 /// A cell of the lap table: errors over many laps.
@@ -111,6 +114,18 @@ impl LapCell {
     fn errors(&self, runs: &Runs<'_>) -> Vec<f64> {
         runs.over(|seed| rms_best(&self.setup(seed)).expect(VALID))
     }
+}
+
+/// Errors of the sub-cell column of the default M, where another weight is paid for a scan.
+fn weighed(proposal: ProposalKind, weight: ScanWeight) -> Recipe {
+    let cell = LapCell { proposal, matcher: Matcher::SubCell, particles: LapSetup::default().particles };
+    let name = format!("lap.{proposal}.{weight}");
+    let group = Group(name.clone());
+    let what = format!("{ERROR}: {} --weight {weight}", cell.command());
+    Recipe::new(name, SEEDS, move |runs| {
+        let errors = runs.over(|seed| rms_best(&LapSetup { weight, ..cell.setup(seed) }).expect(VALID));
+        group.spread(&errors, &what).into()
+    })
 }
 
 /// How often a table of four laps in each cell would have a larger worst error in its last row than in some row above, column by

@@ -3,32 +3,42 @@
 use super::{Group, Number, Recipe, Runs, SEEDS, VALID};
 use crate::experiment::ErrorSummary;
 use crate::experiment::ProposalKind;
-use crate::experiment::lap::LapSetup;
+use crate::experiment::lap::{LapSetup, ScanWeight};
 use crate::experiment::ring::{AFTER, RingRun, RingSetup, closing};
 
 /// All recipes of the ring: the course, and both proposals on it.
 pub fn recipes() -> Vec<Recipe> {
-    let proposals = [ProposalKind::Improved, ProposalKind::Motion].map(|proposal| {
-        let name = format!("ring.{proposal}");
+    // By the usual weight of each, and by that of the other.
+    let filters = [
+        (ProposalKind::Improved, ScanWeight::Usual),
+        (ProposalKind::Improved, ScanWeight::Marginal),
+        (ProposalKind::Motion, ScanWeight::Usual),
+        (ProposalKind::Motion, ScanWeight::NewGroundFree),
+    ];
+    let filters = filters.map(|(proposal, weight)| {
+        let name = match weight {
+            ScanWeight::Usual => format!("ring.{proposal}"),
+            other => format!("ring.{proposal}.{other}"),
+        };
         let group = Group(name.clone());
-        Recipe::new(name, SEEDS, move |runs| runs_of(&group, proposal, runs).into())
+        Recipe::new(name, SEEDS, move |runs| runs_of(&group, proposal, weight, runs).into())
     });
-    [course(), opening()].into_iter().chain(proposals).collect()
+    [course(), opening()].into_iter().chain(filters).collect()
 }
 
 /// Of the very run that the lap's figure opens with.
 fn opening() -> Recipe {
     Recipe::fixed("ring.opening", |group| {
         let lap = LapSetup::opening();
-        let LapSetup { temper, seed, particles, .. } = lap;
+        let LapSetup { range_std, seed, particles, .. } = lap;
         let run = RingRun::of(&RingSetup { lap, ..RingSetup::default() }).expect(VALID);
         let of = |what: &str| {
             format!(
-                "{what}, in the run that the lap's figure opens with: fastslam ring --temper {temper} --particles {particles}, seed {seed}"
+                "{what}, in the run that the lap's figure opens with: fastslam ring --range-std {range_std} --particles {particles}, seed {seed}"
             )
         };
         vec![
-            group.number("temper", temper, "", of("the share of each beam's evidence that counts")),
+            group.number("range_std", range_std, "m", of("the standard deviation of a range")),
             group.number(
                 "before",
                 run.deviation_before,
@@ -63,15 +73,15 @@ fn course() -> Recipe {
 }
 
 /// The medians over the seeds to be run.
-fn runs_of(group: &Group, proposal: ProposalKind, runs: &Runs<'_>) -> Vec<Number> {
-    let setup = |seed| {
-        let mut setup = RingSetup::default();
-        (setup.lap.proposal, setup.lap.seed) = (proposal, seed);
-        setup
+fn runs_of(group: &Group, proposal: ProposalKind, weight: ScanWeight, runs: &Runs<'_>) -> Vec<Number> {
+    let setup = |seed| RingSetup {
+        lap: LapSetup { proposal, weight, seed, ..RingSetup::default().lap },
+        ..RingSetup::default()
     };
     let particles = setup(1).lap.particles;
     let found = runs.over(|seed| RingRun::of(&setup(seed)).expect(VALID));
-    let command = format!("fastslam ring --proposal {proposal} --particles {particles} --seeds {}", runs.seeds);
+    let command =
+        format!("fastslam ring --proposal {proposal} --weight {weight} --particles {particles} --seeds {}", runs.seeds);
     let median = |key: &str, unit, what: &str, of: fn(&RingRun) -> f64| {
         let values: Vec<f64> = found.iter().map(of).collect();
         let made = format!("Median over seeds 1 to {} of {what}: {command}", runs.seeds);
@@ -91,6 +101,7 @@ fn runs_of(group: &Group, proposal: ProposalKind, runs: &Runs<'_>) -> Vec<Number
             run.deviation_after
         }),
         median("died", "", "the share of universes that the closing ends", |run| run.died),
+        median("rms", "m", "the RMS position error over the best universe's path", |run| run.rms_best),
         median("end", "m", "the best universe's error at the last step", |run| run.end_best),
         median("odometry", "m", "raw odometry's error at the last step", |run| run.end_odometry),
     ]

@@ -347,9 +347,13 @@ fn the_ring_prints_what_the_closing_leaves() {
     assert_ne!(ring["medians"], json("ring --seeds 3 --particles 6 --niches 1 --max-range 2.5 --json")["medians"]);
     fastslam("ring --seeds 2 --particles 2").success();
 
-    let noise = json("ring --price-noise --every 50 --draws 3 --seeds 2 --particles 2 --json");
-    assert_eq!(noise["runs"][1].as_array().unwrap().len(), 2, "steps 50 and 100");
-    assert!(noise["medians"]["noise"].as_f64().unwrap() > 0.0);
+    let noise = |weight| {
+        json(&format!("ring --price-noise --every 50 --draws 3 --seeds 2 --particles 2 --json --weight {weight}"))
+    };
+    let of_draws = noise("old-map-at-draw");
+    assert_eq!(of_draws["runs"][1].as_array().unwrap().len(), 2, "steps 50 and 100");
+    assert!(of_draws["medians"]["noise"].as_f64().unwrap() > 0.0);
+    assert_eq!(noise("usual")["medians"]["noise"], 0.0, "the integral is the same whatever was drawn");
     fastslam("ring --price-noise --every 110 --draws 2 --seeds 1 --particles 2 --shared-streams").success();
 }
 

@@ -122,13 +122,17 @@ struct Bars {
     half: f64,
 }
 
+impl Bars {
+    fn hold(self, mut times: Vec<f64>) {
+        times.sort_by(f64::total_cmp);
+        assert!(times[0] > self.each && times[(times.len() - 1) / 2] > self.half, "{times:.1?}");
+    }
+}
+
 /// Drives with twenty people beside the way: two thirds of the beams end on them within 2 m, and they stand for a while and go.
-fn a_crowd_turns_no_map_of(drive: Drive, seeds: impl IntoIterator<Item = u64>, Bars { each, half }: Bars) {
+fn a_crowd_turns_no_map_of(drive: Drive, seeds: impl IntoIterator<Item = u64>, bars: Bars) {
     let crowd = |yard| Recipe { crowd: 20, ..yard };
-    let times = seeds.into_iter().map(|seed| times_nearer("crowd", drive, seed, 2.0, [0.62, 0.72], crowd));
-    let mut times: Vec<f64> = times.collect();
-    times.sort_by(f64::total_cmp);
-    assert!(times[0] > each && times[(times.len() - 1) / 2] > half, "{times:.1?}");
+    bars.hold(seeds.into_iter().map(|seed| times_nearer("crowd", drive, seed, 2.0, [0.62, 0.72], crowd)).collect());
 }
 
 /// Where nothing is taken to move, seed 2 is 2.4 times nearer.
@@ -145,18 +149,10 @@ fn a_crowd_round_the_robot_turns_the_map_of_none_of_sixteen_seeds() {
 
 /// Drives with people who keep their places round the robot, and so say that it stands still: two of them with a tenth of the beams, four with a
 /// quarter, where walls are far and say little.
-fn people_hold_no_robot_back_of(
-    escort: u32,
-    drive: Drive,
-    seeds: impl IntoIterator<Item = u64>,
-    Bars { each, half }: Bars,
-) {
+fn people_hold_no_robot_back_of(escort: u32, drive: Drive, seeds: impl IntoIterator<Item = u64>, bars: Bars) {
     let told = if escort == 2 { [0.05, 0.2] } else { [0.15, 0.3] };
     let along = |yard| Recipe { escort, ..yard };
-    let times = seeds.into_iter().map(|seed| times_nearer("escort", drive, seed, 2.0, told, along));
-    let mut times: Vec<f64> = times.collect();
-    times.sort_by(f64::total_cmp);
-    assert!(times[0] > each && times[times.len() / 2] > half, "{escort}: {times:.1?}");
+    bars.hold(seeds.into_iter().map(|seed| times_nearer("escort", drive, seed, 2.0, told, along)).collect());
 }
 
 /// With two people no path is further off than raw odometry, with four none twice as far and half of them no further. Where nothing is taken to
@@ -174,11 +170,23 @@ fn people_who_go_along_hold_the_robot_back_on_none_of_eight_seeds() {
     people_hold_no_robot_back_of(4, ROUND, 1..=8, Bars { each: 0.5, half: 2.0 });
 }
 
-/// Of 360 beams some 200 meet something, where the laser sees 12 m of a yard of forty. Where it sees 7 m, 75 do: too little to be nearer to
-/// the truth than odometry, and no reason to turn.
+/// Of 360 beams some 200 meet something, where the laser sees 12 m of a yard of forty. Of twelve seeds, when this was written: in the median
+/// 9.7 times nearer than odometry, and 1.8 times on seed 2, whose wheels are off by 0.31 m and no more.
+fn a_laser_that_meets_little_maps_well(seeds: impl IntoIterator<Item = u64>, bars: Bars) {
+    let sparse = |yard| Recipe { beams: 360, max_range: 12.0, ..yard };
+    bars.hold(seeds.into_iter().map(|seed| times_nearer("sparse", ROUND, seed, 11.6, [0.5, 0.6], sparse)).collect());
+}
+
+#[test]
+#[ignore = "breadth: twelve seeds"]
+fn a_laser_that_meets_little_maps_well_on_twelve_seeds() {
+    a_laser_that_meets_little_maps_well(1..=12, Bars { each: 1.5, half: 7.0 });
+}
+
+/// Where the laser sees 7 m, 75 of its beams meet something: too little to be nearer to the truth than odometry, and no reason to turn.
 #[test]
 fn a_laser_that_meets_little_does_not_turn_the_map() {
-    holds("sparse", 2.0, 11.6, [0.5, 0.6], |yard| Recipe { beams: 360, max_range: 12.0, ..yard });
+    a_laser_that_meets_little_maps_well(1..=3, Bars { each: 1.5, half: 4.0 });
     holds("sparser", NO_BAR, 6.7, [0.15, 0.25], |yard| Recipe { beams: 360, max_range: 7.0, ..yard });
 }
 

@@ -57,8 +57,7 @@ fn the_closing_of_the_loop_selects_and_not_the_way_there() {
 }
 
 /// What must be seen where the chapter opens, as medians over seeds: before the loop closes the universes differ, and the closing ends
-/// most of them. Of 50 seeds, when this was written: deviation 0.617 m, overlap 0.537, 81 % died, 0.051 m after, the best 0.174 m off at the end; 31,
-/// 40, 48, 44 and 49 of the seeds hold the laws one by one.
+/// most of them. Of 50 seeds, when this was written: deviation 0.627 m, overlap 0.615, 81 % died, 0.064 m after.
 fn universes_differ_until_the_loop_closes(seeds: impl IntoIterator<Item = u64>) {
     let run = |seed| {
         let lap = LapSetup { seed, ..LapSetup::opening() };
@@ -89,7 +88,7 @@ fn universes_differ_until_the_loop_closes(seeds: impl IntoIterator<Item = u64>) 
 /// The first seeds, and the one that the chapter opens with.
 #[test]
 fn where_the_chapter_opens_universes_differ_until_the_loop_closes_and_most_of_them_die() {
-    universes_differ_until_the_loop_closes(1..=5);
+    universes_differ_until_the_loop_closes(1..=20);
 }
 
 #[test]
