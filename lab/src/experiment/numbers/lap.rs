@@ -24,8 +24,8 @@ pub fn recipes() -> Vec<Recipe> {
             Made { numbers: cell.numbers(&errors), errors }
         })
     });
-    // A scan matcher that never looks back; and more particles than it takes to look up as many beams as four measurement-aware ones
-    // do, 50 scans each at the least: 45 poses of the search by every second beam, 27 of curvature, quadrature and price by all.
+    // A scan matcher that never looks back; and as many particles as it takes to look up as many beams as four measurement-aware ones
+    // do, some 60 scans each: 45 poses of the search by every second beam, 39 of curvature, quadrature and weight by all.
     let beside = [(ProposalKind::Improved, 1), (ProposalKind::Motion, 240)].map(|(proposal, particles)| {
         let cell = LapCell { proposal, matcher: Matcher::SubCell, particles };
         Recipe::new(cell.name(), SEEDS, move |runs| cell.numbers(&cell.errors(runs)).into())
