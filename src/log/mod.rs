@@ -143,6 +143,10 @@ impl LaserLog {
     fn in_order(&mut self) {
         self.notes.out_of_order = self.scans.windows(2).filter(|pair| pair[1].time < pair[0].time).count() as u32;
         self.scans.sort_by(|a, b| a.time.total_cmp(&b.time));
+        self.odometry_in_order();
+    }
+
+    fn odometry_in_order(&mut self) {
         self.odometry.sort_by(|a, b| a.0.total_cmp(&b.0));
     }
 

@@ -50,6 +50,6 @@ pub(super) fn place(log: &mut LaserLog) -> Result<(), LogError> {
     let own: Vec<_> =
         log.scans.iter().map(|scan| (scan.time, scan.odometry)).filter(|(time, _)| !known(*time)).collect();
     log.odometry.extend(own);
-    log.odometry.sort_by(|a, b| a.0.total_cmp(&b.0));
+    log.odometry_in_order();
     Ok(())
 }

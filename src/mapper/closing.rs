@@ -313,7 +313,7 @@ impl Now<'_> {
         let target = Target::new(&prior, score.near(self.map, &here, &self.picture, 2), 0.0);
         let climbed = |start| hill_climb(start, CLOSING.climb, |pose, floor| target.log_posterior(pose, floor));
         let mut tops: Vec<ScoredPose> = CLOSING.search.starts(&target).poses.into_iter().map(climbed).collect();
-        tops.sort_by(|a, b| b.value.total_cmp(&a.value));
+        tops.sort_by(ScoredPose::highest_first);
         let top = tops.first()?;
         let stay = target.log_posterior(&here, f64::NEG_INFINITY);
         let gain = |top: &ScoredPose| (top.value - stay) / self.picture.hits.len() as f64;

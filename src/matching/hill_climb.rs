@@ -1,6 +1,7 @@
 //! Greedy hill climbing over poses.
 
 use crate::geometry::Pose2;
+use core::cmp::Ordering;
 
 /// Step sizes of a climb.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -20,6 +21,13 @@ pub struct ScoredPose {
     pub pose: Pose2,
     /// The objective there.
     pub value: f64,
+}
+
+impl ScoredPose {
+    /// An order for sorting: what is worth most comes first. One function, so that all sorts of poses are compiled once.
+    pub(crate) fn highest_first(a: &Self, b: &Self) -> Ordering {
+        b.value.total_cmp(&a.value)
+    }
 }
 
 /// Climbs `objective` greedily from `start`: tries a step ahead, back, left, right and a turn to each side, takes each that

@@ -150,7 +150,7 @@ impl<D: Motion, L, S: Search> FromScan<D, L, S> {
         let starts = self.settings.search.starts(target);
         let climb = |start| hill_climb(start, self.settings.climb, |pose, floor| target.log_posterior(pose, floor));
         let mut tops: Vec<ScoredPose> = starts.poses.into_iter().map(climb).collect();
-        tops.sort_by(|a, b| b.value.total_cmp(&a.value));
+        tops.sort_by(ScoredPose::highest_first);
         let mut hills: Vec<ScoredPose> = Vec::new();
         for top in tops {
             let room = hills.len() < self.settings.hills as usize;

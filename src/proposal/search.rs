@@ -97,7 +97,7 @@ impl Search for HeadingSeeds {
             log_seeds.push(log_seed);
             poses.push(ScoredPose { pose, value: log_seed + prior.log_density(&pose) });
         }
-        poses.sort_by(|a, b| b.value.total_cmp(&a.value));
+        poses.sort_by(ScoredPose::highest_first);
         poses.truncate(self.climbs);
         Starts { poses, log_mean: ops::log_sum_exp(&log_seeds) - ops::ln(log_seeds.len() as f64) }
     }

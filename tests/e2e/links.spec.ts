@@ -21,8 +21,8 @@ async function addFigure(page: Page, attributes: Record<string, string>): Promis
 }
 
 test('a link of a later version says so, and what this page knows of it is shown; another is followed when the address changes, and plays nothing', async ({ page }) => {
-  const lap = await new Figure(page, 'fastslam-lap').alone('#fastslam-lap?v=5&universes=8&step=3')
-  await expect(lap.alert).toContainText('version 5 of the figure')
+  const lap = await new Figure(page, 'fastslam-lap').alone('#fastslam-lap?v=9&universes=8&step=3')
+  await expect(lap.alert).toContainText('version 9 of the figure')
   await lap.settled()
   expect(await lap.position()).toBe(3)
   await lap.openSettings()
@@ -121,7 +121,7 @@ test('attributes set the parameters, at any time, and taking one away gives the 
     element.removeAttribute('seed')
   })
   await expect(lap.box('universes')).toHaveValue('5')
-  await expect(lap.seed).toHaveValue('3')
+  await expect(lap.seed).toHaveValue('9')
 })
 
 test('properties set the parameters, before and after the figure is live', async ({ page }) => {
@@ -333,7 +333,7 @@ for (const address of ['embed.html?figure=lap&', 'embed-lap.html?']) {
     const lap = await new Figure(page, 'fastslam-lap').open(`./${address}universes=8&seed=5&step=10#fastslam-lap?v=8&universes=4&step=20`)
     expect(await lap.position()).toBe(20)
     await expect(lap.box('universes')).toHaveValue('4')
-    await expect(lap.seed).toHaveValue('3')
+    await expect(lap.seed).toHaveValue('9')
     const link = await lap.element.evaluate(element => (element as HTMLElement & { link: string }).link)
     expect(link.split('#')[1], 'what is copied is what was opened').toBe('fastslam-lap?v=8&universes=4&step=20')
     await lap.reset.click()
