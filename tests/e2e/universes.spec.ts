@@ -5,7 +5,7 @@ import { breadth } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
-const open = (page: ConstructorParameters<typeof Figure>[0], query = '') => new Figure(page, 'fastslam-universes').alone(query && `#fastslam-universes?${query}`)
+const open = (page: ConstructorParameters<typeof Figure>[0], query = '') => new Figure(page, 'fastslam-universes').alone(query && `#fastslam-universes?v=2&${query}`)
 
 test('it opens with both answers of exercise 5, and another rule is another chance', async ({ page }) => {
   const figure = await open(page)
