@@ -182,10 +182,12 @@ pub enum Change {
     },
 }
 
-/// What a lap's universes are weighed by in figures that have no parameter for it.
-pub(crate) const WEIGHED_ANEW: Change = Change::Told(
-    "Universes pay what known ground says of all poses that they might have drawn, and not of the one that they drew.",
-);
+impl Change {
+    /// What a lap's universes are weighed by, in figures that have no parameter for it.
+    pub const WEIGHED_ANEW: Self = Self::Told(
+        "Universes pay what known ground says of all poses that they might have drawn, and not of the one that they drew.",
+    );
+}
 
 /// A model that has a recipe. It is all that a figure writes of its parameters besides their table: [`Parameters`] follows.
 pub trait Declared {

@@ -8,7 +8,7 @@ use super::{
 use crate::{
     challenge::Challenge,
     ghost::{self, Curves},
-    model::{Change, Declared, FigureError, Model, Readout, Series, WEIGHED_ANEW},
+    model::{Change, Declared, FigureError, Model, Readout, Series},
     prediction::{Outcome, State},
     words::graph,
 };
@@ -153,7 +153,7 @@ impl GraphModel {
 impl Declared for GraphModel {
     type Recipe = Recipe;
     const TITLE: &'static str = graph::TITLE;
-    const CHANGES: &'static [Change] = &[WEIGHED_ANEW];
+    const CHANGES: &'static [Change] = &[Change::WEIGHED_ANEW];
 
     fn challenges() -> Vec<Challenge<Self>> {
         challenges::challenges()

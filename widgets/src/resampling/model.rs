@@ -5,7 +5,7 @@ use crate::challenge::Challenge;
 use crate::decimal::{fixed, write};
 use crate::ghost::{self, Curves};
 use crate::model::{
-    Change, Declared, FigureError, Model, Readout, Series, TraceLine, WEIGHED_ANEW, ess_text, pose_text,
+    Change, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text,
 };
 use crate::names;
 use crate::prediction::{Outcome, State, off_by};
@@ -211,7 +211,7 @@ impl ResamplingModel {
 impl Declared for ResamplingModel {
     type Recipe = Recipe;
     const TITLE: &'static str = resampling::TITLE;
-    const CHANGES: &'static [Change] = &[WEIGHED_ANEW];
+    const CHANGES: &'static [Change] = &[Change::WEIGHED_ANEW];
 
     fn challenges() -> Vec<Challenge<Self>> {
         challenges::challenges()

@@ -8,7 +8,7 @@ use super::{
 use crate::{
     challenge::Challenge,
     decimal::{fixed, write},
-    model::{Change, Column, Declared, FigureError, Model, Readout, Series, WEIGHED_ANEW},
+    model::{Change, Column, Declared, FigureError, Model, Readout, Series},
     prediction::{Outcome, State, off_by},
     words::universes as words,
 };
@@ -160,7 +160,7 @@ pub fn percent(share: f64) -> String {
 impl Declared for UniversesModel {
     type Recipe = Recipe;
     const TITLE: &'static str = words::TITLE;
-    const CHANGES: &'static [Change] = &[WEIGHED_ANEW];
+    const CHANGES: &'static [Change] = &[Change::WEIGHED_ANEW];
 
     fn challenges() -> Vec<Challenge<Self>> {
         challenges::challenges()
