@@ -375,11 +375,9 @@ fn chain(poses: &[Pose2]) -> Chain<'_> {
 
 /// Marks the heaviest slots, of equals the lower.
 fn heaviest(weights: &[f64], count: usize) -> Vec<bool> {
-    let mut slots: Vec<usize> = (0..weights.len()).collect();
-    slots.sort_by(|a, b| weights[*b].total_cmp(&weights[*a]));
-    let mut heavy = vec![false; weights.len()];
-    slots.iter().take(count).for_each(|slot| heavy[*slot] = true);
-    heavy
+    let is_ahead = |of: usize, other: usize| weights[other].total_cmp(&weights[of]).then(of.cmp(&other)).is_gt();
+    let slots = 0..weights.len();
+    slots.clone().map(|of| slots.clone().filter(|other| is_ahead(of, *other)).count() < count).collect()
 }
 
 #[cfg(test)]

@@ -193,13 +193,12 @@ impl<D: Motion, L, S: Search> FromScan<D, L, S> {
         L: Score<M>,
     {
         let log_old = |pose: &Pose2| self.score.log_old(map, pose, observation);
+        let integrals: Vec<f64> = hills.iter().map(|(_, fit)| fit.log_integral).collect();
         match self.settings.weight {
-            IncrementalWeight::Marginal => {
-                ops::log_sum_exp(&hills.iter().map(|(_, fit)| fit.log_integral).collect::<Vec<_>>())
-            }
+            IncrementalWeight::Marginal => ops::log_sum_exp(&integrals),
             IncrementalWeight::NewGroundFree => {
-                let inverse = |(_, fit): &(_, Fit)| (log_mean_inverse(&fit.gaussian, prior, log_old), fit.log_integral);
-                -log_mixture(&hills.iter().map(inverse).collect::<Vec<_>>())
+                let inverse = |(_, fit): &(_, Fit)| log_mean_inverse(&fit.gaussian, prior, log_old);
+                -log_mixture(&hills.iter().map(inverse).collect::<Vec<_>>(), &integrals)
             }
             IncrementalWeight::OldMapAtDraw => log_old(drawn),
         }

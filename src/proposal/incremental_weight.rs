@@ -113,11 +113,11 @@ fn axes(gaussian: &Gaussian3) -> Option<Matrix3<f64>> {
     Some(frame * covariance.cholesky()?.l())
 }
 
-/// ln Σ ωᵢ exp(aᵢ) of weights ωᵢ ∝ exp(bᵢ), given as (aᵢ, bᵢ); exactly a where all aᵢ are a.
-pub(super) fn log_mixture(terms: &[(f64, f64)]) -> f64 {
-    let log_sum = ops::log_sum_exp(&terms.iter().map(|(_, b)| *b).collect::<Vec<_>>());
-    let most = terms.iter().map(|(a, _)| *a).fold(f64::NEG_INFINITY, f64::max);
-    let less: f64 = terms.iter().map(|(a, b)| ops::exp(b - log_sum) * (ops::exp(a - most) - 1.0)).sum();
+/// ln Σ ωᵢ exp(aᵢ) of weights ωᵢ ∝ exp(bᵢ); exactly a where all aᵢ are a.
+pub(super) fn log_mixture(a: &[f64], b: &[f64]) -> f64 {
+    let log_sum = ops::log_sum_exp(b);
+    let most = a.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let less: f64 = a.iter().zip(b).map(|(a, b)| ops::exp(b - log_sum) * (ops::exp(a - most) - 1.0)).sum();
     most + ops::ln(1.0 + less)
 }
 
@@ -128,9 +128,9 @@ mod tests {
     #[test]
     fn a_mixture_of_equals_is_each_of_them_to_the_bit() {
         for a in [-1.1, -300.7, 0.0] {
-            assert_eq!(log_mixture(&[(a, 0.3), (a, -4.1), (a, 1.7)]), a);
+            assert_eq!(log_mixture(&[a; 3], &[0.3, -4.1, 1.7]), a);
         }
-        let mixed = log_mixture(&[(-1.0, ops::ln(0.25)), (-3.0, ops::ln(0.75))]);
+        let mixed = log_mixture(&[-1.0, -3.0], &[ops::ln(0.25), ops::ln(0.75)]);
         assert!((mixed - ops::ln(0.25 * ops::exp(-1.0) + 0.75 * ops::exp(-3.0))).abs() < 1e-15);
     }
 }
