@@ -4,9 +4,7 @@ use super::{challenges, recipe::Recipe, stroke, told};
 use crate::challenge::Challenge;
 use crate::decimal::{fixed, write};
 use crate::ghost::{self, Curves};
-use crate::model::{
-    Change, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text,
-};
+use crate::model::{Change, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text};
 use crate::names;
 use crate::prediction::{Outcome, State, off_by};
 use crate::words::resampling;
