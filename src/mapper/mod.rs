@@ -32,7 +32,6 @@ use crate::geometry::Pose2;
 use crate::log::{FARTHEST_JUMP, LaserScan};
 use crate::map::{ConditionalMap, Footprint};
 use crate::particle::Particle;
-use crate::proposal::FromScanSettings;
 use crate::rbpf::{Rbpf, Report};
 use crate::sensor::Scan;
 
@@ -292,9 +291,8 @@ fn moved(last: Option<&Pose2>, scan: &LaserScan) -> Result<Option<Pose2>, Settin
 
 /// The filter at the origin, with this map in each particle.
 fn filter(settings: &LaserMapperSettings, beams: u32, map: Map) -> Result<Filter, SettingError> {
-    let proposal = tuning::proposal(beams);
-    let proposal =
-        tuning::Proposal { settings: FromScanSettings { weight: settings.weight, ..proposal.settings }, ..proposal };
+    let mut proposal = tuning::proposal(beams);
+    proposal.settings.weight = settings.weight;
     Rbpf::builder(map, proposal)
         .particles(settings.particles)
         .seed(settings.seed)

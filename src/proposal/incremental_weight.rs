@@ -39,8 +39,8 @@ pub enum IncrementalWeight {
 }
 
 impl IncrementalWeight {
-    /// The same of a pose that was drawn from p(x | x′, u) \[nats\]: ln p(z | x, m), the importance weight of such a draw, for
-    /// [`Self::Marginal`]; ln p_old for the others, as all that new ground says of the draw is left out.
+    /// The log weight increment of a pose that was drawn from p(x | x′, u) \[nats\]: ln p(z | x, m), the importance weight of such a draw,
+    /// for [`Self::Marginal`]; ln p_old for the others, as all that new ground says of the draw is left out.
     pub(super) fn of_motion<M: ConditionalMap<Association = ()>>(
         self,
         score: &impl Score<M>,

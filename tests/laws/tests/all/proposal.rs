@@ -233,45 +233,49 @@ fn a_short_step_weighs_in_proportion_in_both_branches_of_the_guard() {
     }
 }
 
-/// A map of nothing, in which two places explain what is seen: one of them three times as well as the other.
-#[derive(Clone)]
-struct TwoPlaces;
+/// A map that never changes: it is known how well each pose explains what is seen.
+#[derive(Clone, Copy)]
+struct Explained(fn(&Pose2) -> f64);
 
-/// Where they are along x \[m\], and how well they explain it.
-const PLACES: [(f64, f64); 2] = [(-0.3, 0.75), (0.3, 0.25)];
-
-/// Of either place, along each axis \[m, m, rad\].
-const WIDTH: [f64; 3] = [0.05, 0.05, 0.03];
-
-impl ConditionalMap for TwoPlaces {
+impl ConditionalMap for Explained {
     type Observation = ();
     type Association = ();
     fn assimilate(&mut self, _: &Pose2, (): &(), (): &()) {}
 }
 
-impl Likelihood<TwoPlaces> for TwoPlaces {
-    fn log_likelihood(&self, _: &TwoPlaces, world_from_robot: &Pose2, (): &()) -> (f64, ()) {
+impl Likelihood<Explained> for Explained {
+    fn log_likelihood(&self, _: &Explained, world_from_robot: &Pose2, (): &()) -> (f64, ()) {
         (self.log_score(world_from_robot), ())
     }
 }
 
-impl Score<TwoPlaces> for TwoPlaces {
+impl Score<Explained> for Explained {
     type Near<'a> = Self;
 
-    fn near<'a>(&'a self, _: &'a TwoPlaces, _: &Pose2, (): &'a (), _: usize) -> Self {
-        Self
+    fn near<'a>(&'a self, _: &'a Explained, _: &Pose2, (): &'a (), _: usize) -> Self {
+        *self
     }
 }
 
-impl ScoreNear for TwoPlaces {
+impl ScoreNear for Explained {
     fn log_score(&self, pose: &Pose2) -> f64 {
-        let at = |(x, share): (f64, f64)| {
-            let [a, b, c] = [(pose.x - x) / WIDTH[0], pose.y / WIDTH[1], pose.theta / WIDTH[2]];
-            ops::ln(share) - 0.5 * (a * a + b * b + c * c)
-        };
-        ops::log_sum_exp(&PLACES.map(at))
+        self.0(pose)
     }
 }
+
+/// Where two places explain what is seen along x \[m\], and how well: one of them three times as well as the other.
+const PLACES: [(f64, f64); 2] = [(-0.3, 0.75), (0.3, 0.25)];
+
+/// Of either place, along each axis \[m, m, rad\].
+const WIDTH: [f64; 3] = [0.05, 0.05, 0.03];
+
+const TWO_PLACES: Explained = Explained(|pose| {
+    let at = |(x, share): (f64, f64)| {
+        let [a, b, c] = [(pose.x - x) / WIDTH[0], pose.y / WIDTH[1], pose.theta / WIDTH[2]];
+        ops::ln(share) - 0.5 * (a * a + b * b + c * c)
+    };
+    ops::log_sum_exp(&PLACES.map(at))
+});
 
 /// Where two hills are told apart, a particle is on either as often as the hill is large: four standard deviations of the binomial. Where
 /// the highest is all, all are there, and what the other explained is lost.
@@ -280,10 +284,10 @@ fn hills_are_drawn_by_their_integrals() {
     const DRAWS: u32 = 2000;
     let share = |hills: u32| {
         let settings = FromScanSettings { hills, ..tuning::FROM_SCAN };
-        let proposal = FromScan { motion: Displaced, score: TwoPlaces, settings };
+        let proposal = FromScan { motion: Displaced, score: TWO_PLACES, settings };
         let covariance = Matrix3::from_diagonal(&Vector3::new(0.09, 0.09, 0.01));
         let control = Displacement { mean: Pose2::default(), covariance };
-        let particle = Particle::start(Pose2::default(), TwoPlaces);
+        let particle = Particle::start(Pose2::default(), TWO_PLACES);
         let at_the_better = (0..DRAWS).filter(|slot| {
             let mut stream = Stream::at(11, Purpose::TRIAL, 0, *slot);
             let proposed = proposal.propose(&particle, &control, &(), &mut stream);
@@ -299,50 +303,23 @@ fn hills_are_drawn_by_their_integrals() {
     assert!((found - 0.75).abs() < 4.0 * error, "{found}");
 }
 
-/// A known map of which a scan says N(x; here, Σ), up to a constant factor: all of it is old.
-#[derive(Clone)]
-struct KnownPlace;
+/// Where a scan of a known map has its hill N(x; here, Σ), up to a constant factor: all of the map is old.
+const HERE: Pose2 = Pose2 { x: 0.2, y: -0.1, theta: 0.05 };
 
-impl KnownPlace {
-    const HERE: Pose2 = Pose2 { x: 0.2, y: -0.1, theta: 0.05 };
+/// Σ \[m, m, rad\]: a hill that runs askew.
+const SPREAD: Matrix3<f64> = Matrix3::new(0.0016, 0.0006, -0.0002, 0.0006, 0.0009, 0.0001, -0.0002, 0.0001, 0.0004);
 
-    /// Σ \[m, m, rad\]: a hill that runs askew.
-    const SPREAD: Matrix3<f64> = Matrix3::new(0.0016, 0.0006, -0.0002, 0.0006, 0.0009, 0.0001, -0.0002, 0.0001, 0.0004);
-}
-
-impl ConditionalMap for KnownPlace {
-    type Observation = ();
-    type Association = ();
-    fn assimilate(&mut self, _: &Pose2, (): &(), (): &()) {}
-}
-
-impl Likelihood<KnownPlace> for KnownPlace {
-    fn log_likelihood(&self, _: &KnownPlace, world_from_robot: &Pose2, (): &()) -> (f64, ()) {
-        (self.log_score(world_from_robot), ())
-    }
-}
-
-impl Score<KnownPlace> for KnownPlace {
-    type Near<'a> = Self;
-
-    fn near<'a>(&'a self, _: &'a KnownPlace, _: &Pose2, (): &'a (), _: usize) -> Self {
-        Self
-    }
-}
-
-impl ScoreNear for KnownPlace {
-    fn log_score(&self, pose: &Pose2) -> f64 {
-        let d = pose.minus(&Self::HERE);
-        -7.0 - 0.5 * d.dot(&(Self::SPREAD.try_inverse().unwrap() * d))
-    }
-}
+const KNOWN_PLACE: Explained = Explained(|pose| {
+    let d = pose.minus(&HERE);
+    -7.0 - 0.5 * d.dot(&(SPREAD.try_inverse().unwrap() * d))
+});
 
 /// A proposal that looks first on the known map, a step whose prior is `times` as wide as the scan's hill and 1.2 of its own standard deviations off it
 /// along each axis, and ln η.
 fn on_known_ground(
     times: f64,
     weight: IncrementalWeight,
-) -> (FromScan<Displaced, KnownPlace, CorrelativeSearch>, laws::proposal::Step<KnownPlace, Displacement>, f64) {
+) -> (FromScan<Displaced, Explained, CorrelativeSearch>, laws::proposal::Step<Explained, Displacement>, f64) {
     // Floors and limits of the fit out of the way, and every match trusted.
     let settings = FromScanSettings {
         motion_floor: [1e-6; 3],
@@ -352,16 +329,16 @@ fn on_known_ground(
         weight,
         ..tuning::FROM_SCAN
     };
-    let covariance = KnownPlace::SPREAD.map_with_location(|i, j, s| if i == j { times * times * s } else { 0.0 });
+    let covariance = SPREAD.map_with_location(|i, j, s| if i == j { times * times * s } else { 0.0 });
     let off = covariance.diagonal().map(|variance| 1.2 * variance.sqrt());
-    let control = Displacement { mean: KnownPlace::HERE.plus(&off), covariance };
-    let particle = Particle::start(Pose2::default(), KnownPlace);
-    let sum = covariance + KnownPlace::SPREAD;
+    let control = Displacement { mean: HERE.plus(&off), covariance };
+    let particle = Particle::start(Pose2::default(), KNOWN_PLACE);
+    let sum = covariance + SPREAD;
     let log_eta = -7.0
         - 0.5 * off.dot(&(sum.try_inverse().unwrap() * off))
-        - 0.5 * ops::ln(sum.determinant() / KnownPlace::SPREAD.determinant());
+        - 0.5 * ops::ln(sum.determinant() / SPREAD.determinant());
     let step = laws::proposal::Step { particle, control, observation: () };
-    (FromScan { motion: Displaced, score: KnownPlace, settings }, step, log_eta)
+    (FromScan { motion: Displaced, score: KNOWN_PLACE, settings }, step, log_eta)
 }
 
 /// Within 0.05 nats, of prior wide and narrow. One draw of each: both weights are the same whatever is drawn.
@@ -387,7 +364,7 @@ fn on_known_ground_either_weight_is_the_normaliser() {
 fn on_known_ground_looking_first_draws_and_pays_as_the_motion_does() {
     for weight in [IncrementalWeight::Marginal, IncrementalWeight::NewGroundFree] {
         let (proposal, step, _) = on_known_ground(1.5, weight);
-        let reference = FromMotion { motion: Displaced, likelihood: KnownPlace };
+        let reference = FromMotion { motion: Displaced, likelihood: KNOWN_PLACE };
         laws::proposal::draws_and_prices_are_those_of_the_reference(&proposal, &reference, &step);
     }
 }
@@ -398,7 +375,7 @@ fn on_known_ground_looking_first_draws_and_pays_as_the_motion_does() {
 #[should_panic(expected = "the mean price is")]
 fn on_known_ground_the_price_at_the_draw_counts_the_map_twice() {
     let (proposal, step, _) = on_known_ground(1.0, IncrementalWeight::OldMapAtDraw);
-    let reference = FromMotion { motion: Displaced, likelihood: KnownPlace };
+    let reference = FromMotion { motion: Displaced, likelihood: KNOWN_PLACE };
     laws::proposal::draws_and_prices_are_those_of_the_reference(&proposal, &reference, &step);
 }
 
