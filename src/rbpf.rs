@@ -44,6 +44,10 @@ pub struct Report<A> {
     pub paths: Vec<Path>,
     /// Slot each particle was copied from, where the step resampled.
     pub ancestors: Option<Vec<u32>>,
+    /// How many parts of the observation cannot have been measured, such as a range that is not a number: every particle ignores them.
+    pub ignored: u32,
+    /// Whether the control cannot be driven, as one that is not a number cannot: the step is taken for standing still.
+    pub refused_control: bool,
     /// How each slot came by its pose.
     pub traces: Vec<ProposalTrace>,
     /// What each slot took the observation for.
@@ -149,9 +153,10 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
 
     /// The first half of a step: every particle draws its new pose, pays for it, and maps what it sees from there.
     pub fn weigh(&mut self, control: &P::Control, observation: &M::Observation) -> Report<M::Association> {
-        self.weigh_by(observation, |proposal, _, particle, stream| {
+        let report = self.weigh_by(observation, |proposal, _, particle, stream| {
             proposal.propose(particle, control, observation, stream)
-        })
+        });
+        Report { refused_control: !self.proposal.can_drive(control), ..report }
     }
 
     /// The same, where the new pose of a slot comes from this function.
@@ -161,11 +166,12 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         propose: impl Fn(&P, usize, &Particle<M>, &mut Stream) -> Proposed<M::Association> + Sync + Send,
     ) -> Report<M::Association> {
         (self.step, self.resamplings) = (self.step + 1, 0);
+        let ignored = self.particles[0].map.ignored(observation);
         let proposed = self.propose_and_map(observation, propose);
         self.extend_paths();
         let log_increments: Vec<f64> = proposed.iter().map(|p| p.log_increment).collect();
         let log_evidence = self.reweigh(&log_increments);
-        self.report(proposed, log_increments, log_evidence)
+        Report { ignored, ..self.report(proposed, log_increments, log_evidence) }
     }
 
     /// Draws a pose for each particle, and maps what is seen from it: each slot by itself, so that it does not matter who computes
@@ -222,6 +228,8 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
             selection_ess: self.scores().ess(),
             paths: self.particles.iter().map(|p| p.path.clone()).collect(),
             ancestors: None,
+            ignored: 0,
+            refused_control: false,
             traces: proposed.iter().map(|p| p.trace).collect(),
             associations: proposed.into_iter().map(|p| p.association).collect(),
         }

@@ -24,6 +24,12 @@ pub trait ConditionalMap: Clone + Send + Sync {
         association: &Self::Association,
     );
 
+    /// How many parts of an observation cannot have been measured, and are ignored by every particle. As given here, none.
+    fn ignored(&self, observation: &Self::Observation) -> u32 {
+        let _ = observation;
+        0
+    }
+
     /// Whether all settings are in range: asked once, when a filter is built.
     ///
     /// # Errors

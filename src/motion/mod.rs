@@ -56,12 +56,79 @@ pub trait Motion: Sync {
         Matrix3::new(1.0, 0.0, from.y - to.y, 0.0, 1.0, to.x - from.x, 0.0, 0.0, 1.0)
     }
 
+    /// Whether a control can be driven: from the origin it leads to a finite place at most 10⁹ m away, with finite noise.
+    ///
+    /// A step with any other control is taken for standing still, and the report says so
+    /// ([`Report::refused_control`](crate::rbpf::Report::refused_control)).
+    fn can_drive(&self, control: &Self::Control) -> bool {
+        const FARTHEST: f64 = 1e9;
+        let (from, least) = (Pose2::default(), -FARTHEST..=FARTHEST);
+        let to = self.apply(&from, control);
+        let covariance = self.covariance(&from, control);
+        least.contains(&to.x)
+            && least.contains(&to.y)
+            && to.theta.is_finite()
+            && covariance.iter().all(|x| x.is_finite())
+    }
+
+    /// One step of this motion: the control, or standing still where it cannot be driven. What proposals move particles by.
+    fn drive<'a>(&'a self, control: &'a Self::Control) -> Drive<'a, Self>
+    where
+        Self: Sized,
+    {
+        Drive { motion: self, control: Some(control).filter(|control| self.can_drive(control)) }
+    }
+
     /// Whether all settings are in range: asked once, when a filter is built.
     ///
     /// # Errors
     /// Where one is not. As given here there are none.
     fn validate(&self) -> Result<(), SettingError> {
         Ok(())
+    }
+}
+
+/// A step of a motion model D, from wherever it begins: a control, or standing still without any noise where the control cannot be driven
+/// ([`Motion::can_drive`]).
+#[derive(Debug)]
+pub struct Drive<'a, D: Motion> {
+    motion: &'a D,
+    control: Option<&'a D::Control>,
+}
+
+impl<D: Motion> Drive<'_, D> {
+    /// [`Motion::apply`].
+    pub fn apply(&self, from: &Pose2) -> Pose2 {
+        self.control.map_or(*from, |control| self.motion.apply(from, control))
+    }
+
+    /// [`Motion::sample`].
+    pub fn sample(&self, from: &Pose2, stream: &mut Stream) -> Pose2 {
+        self.control.map_or(*from, |control| self.motion.sample(from, control, stream))
+    }
+
+    /// [`Motion::covariance`] (3 × 3, \[m, m, rad\]).
+    pub fn covariance(&self, from: &Pose2) -> Matrix3<f64> {
+        self.control.map_or_else(Matrix3::zeros, |control| self.motion.covariance(from, control))
+    }
+
+    /// [`Motion::gaussian`] with this floor \[m, m, rad\].
+    pub fn gaussian(&self, from: &Pose2, floor_stds: [f64; 3]) -> Option<Gaussian3> {
+        let floor = || Matrix3::from_diagonal(&Vector3::from(floor_stds.map(|std| std * std)));
+        match self.control {
+            Some(control) => self.motion.gaussian(from, control, floor_stds),
+            None => Gaussian3::new(*from, floor()),
+        }
+    }
+
+    /// [`Motion::travel`].
+    pub fn travel(&self) -> f64 {
+        self.control.map_or(0.0, |control| self.motion.travel(control))
+    }
+
+    /// [`Motion::jacobian`] (3 × 3).
+    pub fn jacobian(&self, from: &Pose2) -> Matrix3<f64> {
+        self.control.map_or_else(Matrix3::identity, |control| self.motion.jacobian(from, control))
     }
 }
 

@@ -6,7 +6,7 @@
 use super::{Proposal, ProposalTrace, Proposed};
 use crate::error::SettingError;
 use crate::geometry::{Pose2, sample_semidefinite};
-use crate::map::landmarks::{Association, Landmarks, Store};
+use crate::map::landmarks::{Associated, Association, Belief, Innovation, Landmarks, Store};
 use crate::motion::Motion;
 use crate::particle::Particle;
 use crate::random::Stream;
@@ -37,7 +37,8 @@ pub struct Measured {
 
 impl<D: Motion> FromMeasurement<D> {
     /// Folds every feature of a mapped landmark into N(x̂, R_t), each from where the one before left it: with
-    /// L = H_x P H_xᵀ + H_m Σ_j H_mᵀ + Q and K = P H_xᵀ L⁻¹, μ ← μ + K ν, and P by Joseph's form.
+    /// L = H_x P H_xᵀ + H_m Σ_j H_mᵀ + Q and K = P H_xᵀ L⁻¹, μ ← μ + K ν, and P by Joseph's form. The sequence is that of
+    /// [`Correspondence::associate`](crate::map::landmarks::Correspondence::associate), in whatever order the features are listed.
     pub fn fold<Z: LandmarkSensor, S: Store>(
         &self,
         map: &Landmarks<Z, S>,
@@ -45,25 +46,44 @@ impl<D: Motion> FromMeasurement<D> {
         control: &D::Control,
         features: &[Feature],
     ) -> Measured {
-        let mut mean = self.motion.apply(from, control);
-        let mut p = self.motion.covariance(from, control);
-        let (mut log_evidence, mut associations) = (0.0, Vec::with_capacity(features.len()));
-        let mut informed = false;
-        for feature in features {
-            let decision = map.associate(&mean, &p, feature, &associations);
-            if let Some(innovation) = decision.innovation {
-                let h_x = innovation.prediction.h_x;
-                let gain = p * h_x.transpose() * innovation.inverse;
-                let keep = Matrix3::identity() - gain * h_x;
-                mean = mean.plus(&(gain * innovation.residual));
-                p = keep * p * keep.transpose() + gain * innovation.given_pose * gain.transpose();
-                p = (p + p.transpose()) * 0.5;
-                informed = true;
-            }
-            log_evidence += decision.log_likelihood;
-            associations.push(decision.association);
-        }
-        Measured { mean, covariance: p, associations, log_evidence, informed }
+        let drive = self.motion.drive(control);
+        let mut fold = Fold { map, mean: drive.apply(from), p: drive.covariance(from) };
+        let Associated { associations, log_likelihood, informed } = map.correspondence().associate(features, &mut fold);
+        Measured { mean: fold.mean, covariance: fold.p, associations, log_evidence: log_likelihood, informed }
+    }
+}
+
+/// N(μ, P), which learns from each feature of a landmark of this map.
+struct Fold<'a, Z, S> {
+    map: &'a Landmarks<Z, S>,
+    mean: Pose2,
+    p: Matrix3<f64>,
+}
+
+impl<Z: LandmarkSensor, S: Store> Belief for Fold<'_, Z, S> {
+    const LEARNS: bool = true;
+    type Sensor = Z;
+
+    fn index_bound(&self) -> u32 {
+        self.map.len()
+    }
+
+    fn sensor(&self) -> &Z {
+        self.map.sensor()
+    }
+
+    fn innovation(&self, feature: &Feature, index: u32, gate: Option<f64>) -> Option<Innovation> {
+        self.map.innovation(&self.mean, &self.p, feature, index, gate)
+    }
+
+    /// K = P H_xᵀ L⁻¹, μ ← μ + K ν, P ← (I − K H_x) P (I − K H_x)ᵀ + K Q_j Kᵀ.
+    fn learn(&mut self, _: u32, innovation: &Innovation) {
+        let (h_x, p) = (innovation.prediction.h_x, self.p);
+        let gain = p * h_x.transpose() * innovation.inverse;
+        let keep = Matrix3::identity() - gain * h_x;
+        self.mean = self.mean.plus(&(gain * innovation.residual));
+        let p = keep * p * keep.transpose() + gain * innovation.given_pose * gain.transpose();
+        self.p = (p + p.transpose()) * 0.5;
     }
 }
 
@@ -84,9 +104,13 @@ impl<Z: LandmarkSensor, S: Store, D: Motion> Proposal<Landmarks<Z, S>> for FromM
             let pose = sample_semidefinite(&measured.mean, &measured.covariance, stream);
             (pose, ProposalTrace::Matched { mode: measured.mean, log_integral: measured.log_evidence })
         } else {
-            (self.motion.sample(from, control, stream), ProposalTrace::Motion)
+            (self.motion.drive(control).sample(from, stream), ProposalTrace::Motion)
         };
         Proposed { world_from_robot, association: measured.associations, log_increment: measured.log_evidence, trace }
+    }
+
+    fn can_drive(&self, control: &D::Control) -> bool {
+        self.motion.can_drive(control)
     }
 
     fn validate(&self) -> Result<(), SettingError> {

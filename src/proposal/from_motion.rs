@@ -23,13 +23,8 @@ impl<Z: LandmarkSensor, S: Store> Likelihood<Landmarks<Z, S>> for Marginal {
         world_from_robot: &Pose2,
         features: &Vec<Feature>,
     ) -> (f64, Vec<Association>) {
-        let (mut log_likelihood, mut associations) = (0.0, Vec::with_capacity(features.len()));
-        for feature in features {
-            let decision = map.associate(world_from_robot, &Matrix3::zeros(), feature, &associations);
-            log_likelihood += decision.log_likelihood;
-            associations.push(decision.association);
-        }
-        (log_likelihood, associations)
+        let associated = map.associate(world_from_robot, &Matrix3::zeros(), features);
+        (associated.log_likelihood, associated.associations)
     }
 }
 
@@ -53,10 +48,14 @@ impl<M: ConditionalMap, D: Motion, L: Likelihood<M>> Proposal<M> for FromMotion<
         observation: &M::Observation,
         stream: &mut Stream,
     ) -> Proposed<M::Association> {
-        let world_from_robot = self.motion.sample(&particle.world_from_robot, control, stream);
+        let world_from_robot = self.motion.drive(control).sample(&particle.world_from_robot, stream);
         let (log_increment, association) =
             self.likelihood.log_likelihood(&particle.map, &world_from_robot, observation);
         Proposed { world_from_robot, association, log_increment, trace: ProposalTrace::Motion }
+    }
+
+    fn can_drive(&self, control: &D::Control) -> bool {
+        self.motion.can_drive(control)
     }
 
     fn validate(&self) -> Result<(), SettingError> {

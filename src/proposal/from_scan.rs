@@ -101,7 +101,8 @@ where
         stream: &mut Stream,
     ) -> Proposed<()> {
         let from = &particle.world_from_robot;
-        let prior = self.motion.gaussian(from, control, self.settings.motion_floor);
+        let drive = self.motion.drive(control);
+        let prior = drive.gaussian(from, self.settings.motion_floor);
         let hills: Vec<(ScoredPose, Fit)> = prior.as_ref().map_or_else(Vec::new, |prior| {
             let target = self.target(prior, &particle.map, observation);
             let (tops, log_mean) = self.search(&target);
@@ -110,7 +111,7 @@ where
         });
         let (world_from_robot, trace) = match choose(&hills, stream) {
             Some((top, fit)) => draw(top, fit, stream),
-            None => (self.motion.sample(from, control, stream), ProposalTrace::Motion),
+            None => (drive.sample(from, stream), ProposalTrace::Motion),
         };
         let log_weight = match &prior {
             Some(prior) if !hills.is_empty() => {
@@ -120,6 +121,10 @@ where
         };
         let log_increment = self.share(control) * log_weight;
         Proposed { world_from_robot, association: (), log_increment, trace }
+    }
+
+    fn can_drive(&self, control: &D::Control) -> bool {
+        self.motion.can_drive(control)
     }
 
     fn validate(&self) -> Result<(), SettingError> {
@@ -206,7 +211,7 @@ impl<D: Motion, L, S: Search> FromScan<D, L, S> {
 
     /// The share of a scan's weight that counts after this motion: see [`FromScanSettings::full_weight`].
     fn share(&self, control: &D::Control) -> f64 {
-        let (travel, full) = (self.motion.travel(control), self.settings.full_weight);
+        let (travel, full) = (self.motion.drive(control).travel(), self.settings.full_weight);
         if travel < full { travel / full } else { 1.0 }
     }
 }

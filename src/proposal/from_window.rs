@@ -120,6 +120,10 @@ impl<Z: LandmarkSensor, U: Clone + Send + Sync, S: Store> ConditionalMap for Win
         self.clone_from(&followed.after);
     }
 
+    fn ignored(&self, features: &Vec<Feature>) -> u32 {
+        self.landmarks.ignored(features)
+    }
+
     fn validate(&self) -> Result<(), SettingError> {
         self.landmarks.validate()
     }
@@ -161,6 +165,10 @@ where
                 ProposalTrace::Motion
             },
         }
+    }
+
+    fn can_drive(&self, control: &U) -> bool {
+        self.motion.can_drive(control)
     }
 
     fn validate(&self) -> Result<(), SettingError> {

@@ -47,6 +47,13 @@ pub trait Proposal<M: ConditionalMap>: Sync {
         stream: &mut Stream,
     ) -> Proposed<M::Association>;
 
+    /// Whether a control can be driven: [`Motion::can_drive`](crate::motion::Motion::can_drive) of the proposal's motion. A step with one
+    /// that cannot is taken for standing still. As given here every control can.
+    fn can_drive(&self, control: &Self::Control) -> bool {
+        let _ = control;
+        true
+    }
+
     /// Whether all settings are in range: asked once, when a filter is built.
     ///
     /// # Errors
@@ -106,6 +113,13 @@ impl<M: ConditionalMap, P: Proposal<M>, Q: Proposal<M, Control = P::Control>> Pr
         match self {
             Self::Left(proposal) => proposal.propose(particle, control, observation, stream),
             Self::Right(proposal) => proposal.propose(particle, control, observation, stream),
+        }
+    }
+
+    fn can_drive(&self, control: &P::Control) -> bool {
+        match self {
+            Self::Left(proposal) => proposal.can_drive(control),
+            Self::Right(proposal) => proposal.can_drive(control),
         }
     }
 

@@ -31,7 +31,7 @@ pub trait Retrace<M: ConditionalMap>: Proposal<M> {
 
 impl<M: ConditionalMap, D: GaussianMotion, L: Likelihood<M>> Retrace<M> for FromMotion<D, L> {
     fn log_motion(&self, from: &Pose2, control: &D::Control, to: &Pose2) -> f64 {
-        log_density(self.motion.gaussian(from, control, [0.0; 3]), to)
+        log_density(self.motion.drive(control).gaussian(from, [0.0; 3]), to)
     }
 
     fn log_likelihood(&self, map: &M, world_from_robot: &Pose2, observation: &M::Observation) -> (f64, M::Association) {
@@ -53,7 +53,7 @@ impl<M: ConditionalMap, D: GaussianMotion, L: Likelihood<M>> Retrace<M> for From
 
 impl<Z: LandmarkSensor, S: Store, D: GaussianMotion> Retrace<Landmarks<Z, S>> for FromMeasurement<D> {
     fn log_motion(&self, from: &Pose2, control: &D::Control, to: &Pose2) -> f64 {
-        log_density(self.motion.gaussian(from, control, [0.0; 3]), to)
+        log_density(self.motion.drive(control).gaussian(from, [0.0; 3]), to)
     }
 
     fn log_likelihood(
@@ -79,7 +79,7 @@ impl<Z: LandmarkSensor, S: Store, D: GaussianMotion> Retrace<Landmarks<Z, S>> fo
         let (paid, trace) = if measured.informed {
             let q = Gaussian3::new(measured.mean, measured.covariance);
             let paid = match q {
-                Some(q) => log_density(self.motion.gaussian(from, control, [0.0; 3]), to) - q.log_density(to),
+                Some(q) => log_density(self.motion.drive(control).gaussian(from, [0.0; 3]), to) - q.log_density(to),
                 None => f64::NEG_INFINITY,
             };
             (paid, ProposalTrace::Matched { mode: measured.mean, log_integral: measured.log_evidence })

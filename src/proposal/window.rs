@@ -5,7 +5,7 @@
 
 use crate::genealogy::Path;
 use crate::geometry::Pose2;
-use crate::map::landmarks::{Association, Innovation, Landmark, Landmarks, Store};
+use crate::map::landmarks::{Associated, Association, Belief, Innovation, Landmark, Landmarks, Store};
 use crate::motion::Motion;
 use crate::random::Stream;
 use crate::sensor::{Feature, LandmarkSensor, Prediction};
@@ -77,23 +77,11 @@ impl<U: Clone> Window<U> {
         S: Store,
     {
         let row = self.predict(motion, control);
-        let len = self.seen.iter().map(|seen| seen.index + 1).fold(map.len(), u32::max);
-        let (mut log_evidence, mut informed, mut associations) = (0.0, false, Vec::with_capacity(features.len()));
-        for feature in features {
-            let decision = map
-                .correspondence()
-                .decide(feature, &associations, len, |index, gate| self.innovation(map, row, index, feature, gate));
-            if let (Association::Matched(index), Some(innovation)) = (decision.association, &decision.innovation) {
-                self.update(map, row, index, innovation);
-                informed = true;
-            }
-            log_evidence += decision.log_likelihood;
-            associations.push(decision.association);
-        }
-        for (feature, association) in features.iter().zip(&associations) {
-            if let Association::New(index) = association {
-                self.found(map.sensor(), row, *index, feature);
-            }
+        let mut newest = Newest { window: self, map, row };
+        let Associated { associations, log_likelihood: log_evidence, informed } =
+            map.correspondence().associate(features, &mut newest);
+        for (index, k) in founded(&associations) {
+            self.found(map.sensor(), row, index, &features[k]);
         }
         if let Some(step) = self.steps.last_mut() {
             (step.features, step.associations) = (features.to_vec(), associations);
@@ -104,7 +92,8 @@ impl<U: Clone> Window<U> {
     /// Appends g(x, u): G times the rows of the pose before, and R_t. Returns its first row.
     fn predict<D: Motion<Control = U>>(&mut self, motion: &D, control: &U) -> usize {
         let (from, row) = (self.pose(), self.covariance.nrows());
-        let (g, mut own) = (motion.jacobian(&from, control), motion.covariance(&from, control));
+        let drive = motion.drive(control);
+        let (g, mut own) = (drive.jacobian(&from), drive.covariance(&from));
         let mut cross = OMatrix::<f64, U3, Dyn>::zeros(row);
         if let Some(before) = self.steps.last() {
             cross = g * self.covariance.fixed_rows::<3>(before.row);
@@ -115,13 +104,7 @@ impl<U: Clone> Window<U> {
         self.covariance.view_mut((0, row), (row, 3)).copy_from(&cross.transpose());
         self.covariance.fixed_view_mut::<3, 3>(row, row).copy_from(&own);
         let (features, associations) = (Vec::new(), Vec::new());
-        self.steps.push(Step {
-            control: control.clone(),
-            features,
-            associations,
-            pose: motion.apply(&from, control),
-            row,
-        });
+        self.steps.push(Step { control: control.clone(), features, associations, pose: drive.apply(&from), row });
         row
     }
 
@@ -217,6 +200,43 @@ impl<U: Clone> Window<U> {
         let drawn = |(k, step): (usize, &Step<U>)| step.pose.plus(&Vector3::from_fn(|i, _| row(3 * k + i)));
         steps.iter().enumerate().map(drawn).collect()
     }
+}
+
+/// The newest pose of a window, of which the covariance has these rows, and the landmarks of the window and of the map.
+struct Newest<'a, U, Z, S> {
+    window: &'a mut Window<U>,
+    map: &'a Landmarks<Z, S>,
+    row: usize,
+}
+
+impl<U: Clone, Z: LandmarkSensor, S: Store> Belief for Newest<'_, U, Z, S> {
+    const LEARNS: bool = true;
+    type Sensor = Z;
+
+    fn index_bound(&self) -> u32 {
+        self.window.seen.iter().map(|seen| seen.index + 1).fold(self.map.len(), u32::max)
+    }
+
+    fn sensor(&self) -> &Z {
+        self.map.sensor()
+    }
+
+    fn innovation(&self, feature: &Feature, index: u32, gate: Option<f64>) -> Option<Innovation> {
+        self.window.innovation(self.map, self.row, index, feature, gate)
+    }
+
+    fn learn(&mut self, index: u32, innovation: &Innovation) {
+        self.window.update(self.map, self.row, index, innovation);
+    }
+}
+
+/// The new landmarks by index, each with its feature's.
+fn founded(associations: &[Association]) -> std::collections::BTreeMap<u32, usize> {
+    let new = |(k, association): (usize, &Association)| match association {
+        Association::New(index) => Some((*index, k)),
+        Association::Matched(_) | Association::Ignored => None,
+    };
+    associations.iter().enumerate().filter_map(new).collect()
 }
 
 /// L with Σ = L Lᵀ (n × n), which may be singular: a pivot that is nothing against its variance, as rounding leaves it, counts as zero with

@@ -15,13 +15,14 @@ impl<M: ConditionalMap, P: Retrace<M>> Rbpf<M, P> {
         given: &Pose2,
     ) -> Report<M::Association> {
         let last = self.particles().len() - 1;
-        self.weigh_by(observation, |proposal, slot, particle, stream| {
+        let report = self.weigh_by(observation, |proposal, slot, particle, stream| {
             let pose = if slot == last {
                 *given
             } else {
                 proposal.propose(particle, control, observation, stream).world_from_robot
             };
             proposal.retrace(particle, control, observation, &pose)
-        })
+        });
+        Report { refused_control: !self.proposal.can_drive(control), ..report }
     }
 }

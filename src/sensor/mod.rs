@@ -15,7 +15,8 @@ use nalgebra::{Matrix2, Matrix2x3, Vector2};
 pub struct Feature {
     /// What was measured; for [`RangeBearing`] (r, φ) \[m, rad\].
     pub z: Vector2<f64>,
-    /// Which landmark it is, where the sensor can tell (a bar code): counted from 0, without large gaps.
+    /// Which landmark it is, where the sensor can tell (a bar code): any number below 2³² − 1, which is refused. Gaps cost nothing in a
+    /// [`Shared`](crate::map::landmarks::Shared) store; a store that is a plain vector has a place for each number up to the largest.
     pub signature: Option<u32>,
 }
 
@@ -48,6 +49,12 @@ pub trait LandmarkSensor: Clone + Send + Sync {
         _z: &Vector2<f64>,
     ) -> f64 {
         0.0
+    }
+
+    /// Whether z can have been measured at all: whatever cannot is ignored and counted ([`Report::ignored`](crate::rbpf::Report::ignored)).
+    /// As given here, two finite numbers.
+    fn can_measure(&self, z: &Vector2<f64>) -> bool {
+        z.iter().all(|number| number.is_finite())
     }
 
     /// h⁻¹: the landmark that is seen without noise as z.

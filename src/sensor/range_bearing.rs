@@ -27,6 +27,9 @@ pub struct RangeBearing {
     pub field_of_view: f64,
 }
 
+/// No range is longer than this \[m\]: its square must stay far from the largest number there is.
+const FARTHEST: f64 = 1e9;
+
 /// Nearer than this \[m\] a bearing means nothing, and its derivatives grow without bounds.
 const NEAREST: f64 = 1e-6;
 
@@ -74,6 +77,11 @@ impl LandmarkSensor for RangeBearing {
         let q = d.norm_squared().max(NEAREST * NEAREST);
         let nu = z.x - q.sqrt();
         nu * nu / (d.dot(&(spread * d)) / q + self.range_std * self.range_std)
+    }
+
+    /// A range above 0, of at most 10⁹ m, and a finite bearing. A range beyond [`max_range`](Self::max_range) can be noise.
+    fn can_measure(&self, z: &Vector2<f64>) -> bool {
+        z.x > 0.0 && z.x <= FARTHEST && z.y.is_finite()
     }
 
     fn locate(&self, world_from_robot: &Pose2, z: &Vector2<f64>) -> Vector2<f64> {

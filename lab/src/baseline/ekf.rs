@@ -7,7 +7,7 @@
 //! Reference: Thrun, Burgard, Fox, *Probabilistic Robotics* (2005), tables 10.1 and 10.2.
 
 use fastslam::geometry::Pose2;
-use fastslam::map::landmarks::{Association, Correspondence, Gate, Innovation, Landmark};
+use fastslam::map::landmarks::{Associated, Association, Belief, Correspondence, Gate, Innovation, Landmark};
 use fastslam::motion::Motion;
 use fastslam::nalgebra::{DMatrix, Dyn, Matrix2, Matrix3, OMatrix, U2, Vector2};
 use fastslam::sensor::{Feature, LandmarkSensor, Prediction};
@@ -46,6 +46,27 @@ pub struct EkfStep {
 /// P Hᵀ and its like: n × 2.
 type Tall = OMatrix<f64, Dyn, U2>;
 
+impl<D: Motion, Z: LandmarkSensor> Belief for EkfSlam<D, Z> {
+    const LEARNS: bool = true;
+    type Sensor = Z;
+
+    fn index_bound(&self) -> u32 {
+        self.len
+    }
+
+    fn sensor(&self) -> &Z {
+        &self.sensor
+    }
+
+    fn innovation(&self, feature: &Feature, index: u32, _: Option<f64>) -> Option<Innovation> {
+        Some(self.innovation_of(self.row(index)?, &feature.z))
+    }
+
+    fn learn(&mut self, index: u32, innovation: &Innovation) {
+        self.update(index, innovation);
+    }
+}
+
 impl<D: Motion, Z: LandmarkSensor> EkfSlam<D, Z> {
     /// A robot that surely stands at `start`, with an empty map.
     pub fn new(motion: D, sensor: Z, correspondence: Correspondence, start: Pose2) -> Self {
@@ -57,25 +78,23 @@ impl<D: Motion, Z: LandmarkSensor> EkfSlam<D, Z> {
     /// is new as seen from the corrected pose.
     pub fn step(&mut self, control: &D::Control, features: &[Feature]) -> EkfStep {
         self.predict(control);
-        let (mut log_evidence, mut associations) = (0.0, Vec::with_capacity(features.len()));
-        for feature in features {
-            let innovation = |index, _| Some(self.innovation(self.row(index)?, &feature.z));
-            let decision = self.correspondence.decide(feature, &associations, self.len, innovation);
-            if let (Association::Matched(index), Some(innovation)) = (decision.association, &decision.innovation) {
-                self.update(index, innovation);
-            }
-            log_evidence += decision.log_likelihood;
-            associations.push(decision.association);
-        }
+        let correspondence = self.correspondence;
+        let Associated { associations, log_likelihood, .. } = correspondence.associate(features, self);
         if let Correspondence::Unknown(Gate { removal: true, .. }) = self.correspondence {
             self.apply_negative_information(&associations);
         }
-        for (feature, association) in features.iter().zip(&associations) {
+        // By index, so that the order of the features does not decide that of the rows.
+        let mut founded: Vec<(u32, usize)> = Vec::new();
+        for (k, association) in associations.iter().enumerate() {
             if let Association::New(index) = association {
-                self.append(*index, &feature.z);
+                founded.push((*index, k));
             }
         }
-        EkfStep { associations, log_evidence }
+        founded.sort_unstable();
+        for (index, k) in founded {
+            self.append(index, &features[k].z);
+        }
+        EkfStep { associations, log_evidence: log_likelihood }
     }
 
     /// Mean of the pose.
@@ -121,9 +140,9 @@ impl<D: Motion, Z: LandmarkSensor> EkfSlam<D, Z> {
 
     /// P ← G P Gᵀ + R_t, where G differs from the identity in the pose's block only.
     fn predict(&mut self, control: &D::Control) {
-        let g = self.motion.jacobian(&self.pose, control);
-        let noise = self.motion.covariance(&self.pose, control);
-        self.pose = self.motion.apply(&self.pose, control);
+        let drive = self.motion.drive(control);
+        let (g, noise) = (drive.jacobian(&self.pose), drive.covariance(&self.pose));
+        self.pose = drive.apply(&self.pose);
         let rows = g * self.covariance.fixed_rows::<3>(0);
         self.covariance.fixed_rows_mut::<3>(0).copy_from(&rows);
         let columns = self.covariance.fixed_columns::<3>(0) * g.transpose();
@@ -134,7 +153,7 @@ impl<D: Motion, Z: LandmarkSensor> EkfSlam<D, Z> {
     }
 
     /// S = H P Hᵀ + Q, where H is zero but for H_x and the landmark's H_m.
-    fn innovation(&self, row: usize, z: &Vector2<f64>) -> Innovation {
+    fn innovation_of(&self, row: usize, z: &Vector2<f64>) -> Innovation {
         let cross = self.covariance.fixed_view::<3, 2>(0, 3 + 2 * row);
         self.marginal(row).innovation_with(&self.sensor, &self.pose, z, |Prediction { h_x, h_m, .. }| {
             let both = h_x * cross * h_m.transpose();

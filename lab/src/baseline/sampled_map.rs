@@ -88,9 +88,9 @@ impl<D: Motion, Z: LandmarkSensor> Proposal<SampledMap> for WithMap<D, Z> {
         features: &Vec<Feature>,
         stream: &mut Stream,
     ) -> Proposed<Vec<(u32, Vector2<f64>)>> {
-        let world_from_robot = self.motion.sample(&particle.world_from_robot, control, stream);
+        let world_from_robot = self.motion.drive(control).sample(&particle.world_from_robot, stream);
         let (mut log_increment, mut association) = (0.0, Vec::with_capacity(features.len()));
-        for Feature { z, signature } in features {
+        for Feature { z, signature } in features.iter().filter(|feature| self.sensor.can_measure(&feature.z)) {
             let Some(index) = *signature else { continue };
             let Some(mean) = particle.map.at_sight(index, stream) else { continue };
             let point = Landmark { mean, covariance: Matrix2::zeros(), existence_count: 1, apart: 0 };

@@ -567,6 +567,8 @@ impl Lap {
             ess: filter.weights().ess(),
             paths: Vec::new(),
             ancestors: None,
+            ignored: 0,
+            refused_control: false,
             traces: Vec::new(),
             associations: Vec::new(),
         };

@@ -127,6 +127,8 @@ mod tests {
             ess: 0.0,
             paths,
             ancestors: None,
+            ignored: 0,
+            refused_control: false,
             traces: Vec::new(),
             associations: Vec::new(),
         }

@@ -1,5 +1,6 @@
 //! Which landmark a sighting is of. Every particle decides for itself, and lives or dies by it.
 
+use super::assignment::{Candidate, assign};
 use super::{Innovation, Landmarks, Store};
 use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
@@ -11,7 +12,8 @@ use nalgebra::Matrix3;
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Correspondence {
-    /// By the signature that each feature brings; a feature without one is passed over.
+    /// By the signature that each feature brings; a feature without one is ignored, and so is all but the first of one signature in a
+    /// step, in the order of z.
     Known,
     /// By maximum likelihood.
     Unknown(Gate),
@@ -19,11 +21,12 @@ pub enum Correspondence {
 
 /// Settings of the maximum-likelihood association.
 ///
-/// A feature goes to the landmark of the largest π_j = N(ν_j; 0, S_j) among those with ν_jᵀ S_j⁻¹ ν_j within the gate, if
-/// that exceeds p₀; else it is a new landmark, at the price p₀ (PR tables 13.2 and 13.3).
+/// A feature may be of any landmark with νᵀ S⁻¹ ν within the gate and π = N(ν; 0, S) above p₀, or a new landmark, of the weight p₀ (PR
+/// tables 13.2 and 13.3).
 ///
-/// No landmark is given two features of one step. The rule: features choose in the order in which the sensor reports them, and
-/// a landmark that was chosen is not to be had again in this step; who comes later takes the next best, or founds a new one.
+/// No landmark is given two features of one step, and the features of a step are assigned together: the product of all π and p₀ is the
+/// largest that a one-to-one assignment has. Where the pose learns from each feature, as in FastSLAM 2.0, the most certain pair goes
+/// first, and the others are assigned anew by what it has told.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Gate {
@@ -92,79 +95,231 @@ pub enum Association {
     Matched(u32),
     /// A landmark seen for the first time, to get this index.
     New(u32),
-    /// Not to be used: no signature, or a second feature of a landmark in one step.
+    /// Not to be used: impossible as a measurement, without a signature where that is needed, or a second feature of one signature.
     Ignored,
 }
 
-/// A decision with its likelihood.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Decision {
-    /// What was decided.
-    pub association: Association,
-    /// What was seen against what was expected, where the landmark is in the map and the sighting can say anything: see
-    /// [`Innovation::is_regular`].
-    pub innovation: Option<Innovation>,
-    /// ln p(z) under the decision \[nats\].
+/// The features of a step with the landmarks that they are taken to be of.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Associated {
+    /// What each feature is taken to be, in the order in which the features are listed.
+    pub associations: Vec<Association>,
+    /// ln p(z) of all features under these decisions \[nats\], of which each new landmark has ln p₀, or 0 where it has a name.
     pub log_likelihood: f64,
+    /// Whether any feature is of a landmark in the map, and says something: see [`Innovation::is_regular`].
+    pub informed: bool,
+}
+
+/// What a step's features are told apart by: a belief about the robot's pose and the landmarks, which may learn from one feature before it is
+/// asked about the next.
+pub trait Belief {
+    /// Whether [`Self::learn`] changes anything. Where it does not, one look at all features is enough.
+    const LEARNS: bool;
+
+    /// What measures the features.
+    type Sensor: LandmarkSensor;
+
+    /// One past the largest index of a landmark.
+    fn index_bound(&self) -> u32;
+
+    /// What has measured the features.
+    fn sensor(&self) -> &Self::Sensor;
+
+    /// What a feature says of the landmark of an index; `None` where there is none, or where it surely lies beyond the gate that is asked
+    /// for.
+    fn innovation(&self, feature: &Feature, index: u32, gate: Option<f64>) -> Option<Innovation>;
+
+    /// Takes in that a feature, of this innovation, is of the landmark of an index.
+    fn learn(&mut self, index: u32, innovation: &Innovation);
 }
 
 impl Correspondence {
-    /// Decides what one feature is, after `taken` was decided for the features before it. Indices up to `len` are in use;
-    /// `innovation` is what the feature says of the landmark of an index, `None` where there is none, or where it surely lies
-    /// beyond the gate that is asked for.
+    /// Decides what the features of a step are, all together, and has the belief learn from each that is of a known landmark.
     ///
-    /// A sighting that can say nothing (S has no inverse) says nothing: by its signature it is of its landmark and changes neither
-    /// pose, landmark nor weight; without one it is of no landmark in the map, since there is no likelihood to choose by.
-    pub fn decide(
-        &self,
-        feature: &Feature,
-        taken: &[Association],
-        len: u32,
-        innovation: impl Fn(u32, Option<f64>) -> Option<Innovation>,
-    ) -> Decision {
-        let free =
-            |index: u32| !taken.contains(&Association::Matched(index)) && !taken.contains(&Association::New(index));
+    /// The order in which they are listed decides nothing: they are looked at in the order of z and signature. What cannot be measured is
+    /// ignored.
+    ///
+    /// A feature that can say nothing (S has no inverse) says nothing: by its signature it is of its landmark and changes neither pose,
+    /// landmark nor weight; without one it is of no landmark in the map, since there is no likelihood to choose by.
+    pub fn associate<B: Belief>(&self, features: &[Feature], belief: &mut B) -> Associated {
+        let mut associated = Associated {
+            associations: vec![Association::Ignored; features.len()],
+            log_likelihood: 0.0,
+            informed: false,
+        };
+        let order = canonical_order(features, |feature| is_possible(feature, belief.sensor()));
         match self {
-            Self::Known => match feature.signature.filter(|index| free(*index)) {
-                Some(index) => match innovation(index, None) {
-                    Some(innovation) if innovation.is_regular() => matched(index, innovation),
-                    Some(_) => {
-                        Decision { association: Association::Matched(index), innovation: None, log_likelihood: 0.0 }
-                    }
-                    None => Decision { association: Association::New(index), innovation: None, log_likelihood: 0.0 },
-                },
-                None => Decision { association: Association::Ignored, innovation: None, log_likelihood: 0.0 },
-            },
-            Self::Unknown(gate) => {
-                let mut best: Option<Decision> = None;
-                for index in 0..len {
-                    let innovation = innovation(index, Some(gate.mahalanobis_squared)).filter(Innovation::is_regular);
-                    let Some(innovation) = innovation else { continue };
-                    let within = innovation.mahalanobis_squared < gate.mahalanobis_squared;
-                    let to_beat = best.map_or(gate.log_new, |best| best.log_likelihood);
-                    if within && innovation.log_likelihood > to_beat && free(index) {
-                        best = Some(matched(index, innovation));
-                    }
-                }
-                best.unwrap_or_else(|| {
-                    let founded = taken.iter().filter(|other| matches!(other, Association::New(_))).count() as u32;
-                    Decision {
-                        association: Association::New(len + founded),
-                        innovation: None,
-                        log_likelihood: gate.log_new,
-                    }
-                })
-            }
+            Self::Known => associated.by_signature(features, &order, belief),
+            Self::Unknown(gate) => associated.by_likelihood(gate, features, order, belief),
         }
+        associated
     }
 }
 
+/// Whether a sensor can have measured a feature. The largest signature cannot be: it would leave no index for the next landmark.
+pub(super) fn is_possible<Z: LandmarkSensor>(feature: &Feature, sensor: &Z) -> bool {
+    feature.signature != Some(u32::MAX) && sensor.can_measure(&feature.z)
+}
+
+/// Indices of the possible features by z, number by number, and then by signature: the same sequence of features in whatever order they
+/// are listed.
+fn canonical_order(features: &[Feature], is_possible: impl Fn(&Feature) -> bool) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..features.len()).filter(|k| is_possible(&features[*k])).collect();
+    order.sort_by(|a, b| {
+        let [a, b] = [a, b].map(|k| &features[*k]);
+        let by_z = a.z.x.total_cmp(&b.z.x).then(a.z.y.total_cmp(&b.z.y));
+        by_z.then(a.signature.cmp(&b.signature))
+    });
+    order
+}
+
+impl Associated {
+    /// Each feature by its signature; the second of one signature is ignored.
+    fn by_signature<B: Belief>(&mut self, features: &[Feature], order: &[usize], belief: &mut B) {
+        let mut taken = Vec::with_capacity(order.len());
+        for &k in order {
+            let Some(index) = features[k].signature.filter(|index| !taken.contains(index)) else { continue };
+            taken.push(index);
+            match belief.innovation(&features[k], index, None) {
+                Some(innovation) if innovation.is_regular() => {
+                    self.accept(k, index, innovation.log_likelihood);
+                    belief.learn(index, &innovation);
+                }
+                Some(_) => self.associations[k] = Association::Matched(index),
+                None => self.associations[k] = Association::New(index),
+            }
+        }
+    }
+
+    /// Round by round: of all features that are left and all landmarks that are free, the one-to-one assignment of the largest likelihood.
+    ///
+    /// The pairs that nothing competes with go first, and what the belief learns from them decides between the others, of which the most
+    /// certain goes first. What no landmark explains better than p₀ in the end is new.
+    fn by_likelihood<B: Belief>(&mut self, gate: &Gate, features: &[Feature], order: Vec<usize>, belief: &mut B) {
+        let len = belief.index_bound();
+        let (mut left, mut taken) = (order, Vec::new());
+        loop {
+            let pairs = ranked(&candidates(gate, features, &left, &taken, belief));
+            let accepted = if B::LEARNS { acceptable(&pairs, !taken.is_empty()) } else { pairs.len() };
+            let mut learnt = false;
+            for Pair { chosen: Candidate { feature, landmark, log_likelihood, .. }, .. } in &pairs[..accepted] {
+                if !B::LEARNS {
+                    self.accept(*feature, *landmark, *log_likelihood);
+                } else if let Some(innovation) = gate.admits(belief, &features[*feature], *landmark) {
+                    self.accept(*feature, *landmark, innovation.log_likelihood);
+                    belief.learn(*landmark, &innovation);
+                    taken.push(*landmark);
+                    learnt = true;
+                }
+            }
+            left.retain(|k| self.associations[*k] == Association::Ignored);
+            if !learnt {
+                break;
+            }
+        }
+        for (k, index) in left.into_iter().zip(len..) {
+            self.associations[k] = Association::New(index);
+            self.log_likelihood += gate.log_new;
+        }
+    }
+
+    fn accept(&mut self, feature: usize, index: u32, log_likelihood: f64) {
+        self.associations[feature] = Association::Matched(index);
+        self.log_likelihood += log_likelihood;
+        self.informed = true;
+    }
+}
+
+impl Gate {
+    /// What a feature says of a landmark, where that is within the gate and likelier than a new landmark.
+    fn admits<B: Belief>(&self, belief: &B, feature: &Feature, index: u32) -> Option<Innovation> {
+        let innovation = belief.innovation(feature, index, Some(self.mahalanobis_squared))?;
+        let within = innovation.mahalanobis_squared < self.mahalanobis_squared;
+        (innovation.is_regular() && within && innovation.log_likelihood > self.log_new).then_some(innovation)
+    }
+}
+
+/// All that the features that are left may be of, feature by feature.
+fn candidates<B: Belief>(
+    gate: &Gate,
+    features: &[Feature],
+    left: &[usize],
+    taken: &[u32],
+    belief: &B,
+) -> Vec<Candidate> {
+    let mut candidates = Vec::new();
+    for &feature in left {
+        for landmark in (0..belief.index_bound()).filter(|index| !taken.contains(index)) {
+            if let Some(innovation) = gate.admits(belief, &features[feature], landmark) {
+                let log_likelihood = innovation.log_likelihood;
+                candidates.push(Candidate { feature, landmark, gain: log_likelihood - gate.log_new, log_likelihood });
+            }
+        }
+    }
+    candidates
+}
+
+/// A pair of the best assignment.
+struct Pair {
+    chosen: Candidate,
+    /// Whether the feature has another candidate, or the landmark another feature.
+    is_contested: bool,
+    /// How much likelier it is than the next best use of its feature or its landmark \[nats\].
+    margin: f64,
+}
+
+/// The best assignment: pairs that nothing competes with, in the order of the features, then the others, the most certain first.
+fn ranked(candidates: &[Candidate]) -> Vec<Pair> {
+    let judged = |chosen: Candidate| {
+        let competes = |other: &&Candidate| (other.feature == chosen.feature) != (other.landmark == chosen.landmark);
+        let next = candidates.iter().filter(competes).map(|other| other.gain).fold(f64::NEG_INFINITY, f64::max);
+        Pair { chosen, is_contested: next > f64::NEG_INFINITY, margin: chosen.gain - next }
+    };
+    let mut pairs: Vec<Pair> = assign(candidates).into_iter().map(judged).collect();
+    pairs.sort_by(|a, b| a.is_contested.cmp(&b.is_contested).then(b.margin.total_cmp(&a.margin)));
+    pairs
+}
+
+/// How many of these pairs are to be accepted before the others are asked about again: those that nothing competes with. Without any, one,
+/// if the belief has learnt nothing yet; else all, since it will hardly learn more.
+fn acceptable(pairs: &[Pair], has_learnt: bool) -> usize {
+    match pairs.iter().filter(|pair| !pair.is_contested).count() {
+        0 if has_learnt => pairs.len(),
+        0 => pairs.len().min(1),
+        free => free,
+    }
+}
+
+/// A pose of this mean and covariance P (3 × 3), and a map, neither of which learns.
+struct Given<'a, Z, S> {
+    map: &'a Landmarks<Z, S>,
+    pose: &'a Pose2,
+    p: &'a Matrix3<f64>,
+}
+
+impl<Z: LandmarkSensor, S: Store> Belief for Given<'_, Z, S> {
+    const LEARNS: bool = false;
+    type Sensor = Z;
+
+    fn index_bound(&self) -> u32 {
+        self.map.len()
+    }
+
+    fn sensor(&self) -> &Z {
+        &self.map.sensor
+    }
+
+    fn innovation(&self, feature: &Feature, index: u32, gate: Option<f64>) -> Option<Innovation> {
+        self.map.innovation(self.pose, self.p, feature, index, gate)
+    }
+
+    fn learn(&mut self, _: u32, _: &Innovation) {}
+}
+
 impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
-    /// Decides what one feature is, for a pose of this mean and covariance P (3 × 3; zeros for a pose that is sure), after
-    /// `taken` was decided for the features before it.
-    pub fn associate(&self, pose: &Pose2, p: &Matrix3<f64>, feature: &Feature, taken: &[Association]) -> Decision {
-        self.correspondence
-            .decide(feature, taken, self.store.len(), |index, gate| self.innovation(pose, p, feature, index, gate))
+    /// Decides what the features of a step are, for a pose of this mean and covariance P (3 × 3; zeros for a pose that is known).
+    pub fn associate(&self, pose: &Pose2, p: &Matrix3<f64>, features: &[Feature]) -> Associated {
+        self.correspondence.associate(features, &mut Given { map: self, pose, p })
     }
 
     /// What a feature says of the landmark of an index, for such a pose; `None` where there is none, or where it surely lies beyond the gate.
@@ -184,13 +339,5 @@ impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
             let of_pose = |prediction: &Prediction| prediction.h_x * p * prediction.h_x.transpose();
             landmark.innovation_with(&self.sensor, pose, &feature.z, of_pose)
         })
-    }
-}
-
-fn matched(index: u32, innovation: Innovation) -> Decision {
-    Decision {
-        association: Association::Matched(index),
-        log_likelihood: innovation.log_likelihood,
-        innovation: Some(innovation),
     }
 }

@@ -5,6 +5,7 @@
 //!
 //! References: Montemerlo, Thrun, Koller, Wegbreit, *FastSLAM* (AAAI 2002; IJCAI 2003); PR tables 13.1 to 13.3.
 
+mod assignment;
 mod association;
 mod landmark;
 #[cfg(feature = "serde")]
@@ -12,7 +13,8 @@ mod saved;
 mod shared;
 mod store;
 
-pub use association::{Association, Correspondence, Decision, Gate};
+use association::is_possible;
+pub use association::{Associated, Association, Belief, Correspondence, Gate};
 pub use landmark::{Innovation, Landmark};
 #[cfg(feature = "serde")]
 pub use saved::{SavedLandmarks, SavedTrees};
@@ -78,7 +80,7 @@ impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
 
     /// All landmarks with their indices, in ascending order.
     pub fn iter(&self) -> impl Iterator<Item = (u32, &Landmark)> {
-        (0..self.store.len()).filter_map(|index| Some((index, self.store.get(index)?)))
+        self.store.iter()
     }
 
     /// Memory of these maps.
@@ -128,6 +130,12 @@ impl<Z: LandmarkSensor, S: Store> ConditionalMap for Landmarks<Z, S> {
         }
     }
 
+    /// Features that are impossible: of a z that the sensor cannot have measured ([`LandmarkSensor::can_measure`]), or of the signature
+    /// 2³² − 1.
+    fn ignored(&self, features: &Vec<Feature>) -> u32 {
+        features.iter().filter(|feature| !is_possible(feature, &self.sensor)).count() as u32
+    }
+
     fn validate(&self) -> Result<(), SettingError> {
         self.sensor.validate()?;
         match &self.correspondence {
@@ -156,13 +164,14 @@ impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
     }
     /// Merges what was sighted with what coincides with it: see [the type](Self#landmarks-that-coincide).
     fn merge_coinciding(&mut self, gate: &Gate, associations: &[Association]) {
-        let sighted: Vec<u32> = associations
+        let mut sighted: Vec<u32> = associations
             .iter()
             .filter_map(|association| match association {
                 Association::Matched(index) | Association::New(index) => Some(*index),
                 Association::Ignored => None,
             })
             .collect();
+        sighted.sort_unstable(); // the order in which features are listed decides nothing
         for (k, &a) in sighted.iter().enumerate() {
             for &b in &sighted[..k] {
                 if let (Some(one), Some(other)) = (self.store.get(a), self.store.get(b))
