@@ -252,11 +252,21 @@ fn candidates<B: Belief>(
         for landmark in (0..belief.index_bound()).filter(|index| !taken.contains(index)) {
             if let Some(innovation) = gate.admits(belief, &features[feature], landmark) {
                 let log_likelihood = innovation.log_likelihood;
-                candidates.push(Candidate { feature, landmark, gain: log_likelihood - gate.log_new, log_likelihood });
+                candidates.push(Candidate { feature, landmark, gain: 0.0, log_likelihood });
             }
         }
     }
+    let log_new = felt(gate.log_new, &candidates);
+    candidates.iter_mut().for_each(|candidate| candidate.gain = candidate.log_likelihood - log_new);
     candidates
+}
+
+/// ln p₀ \[nats\], but no lower than where one new landmark less outweighs all else: below that nothing would be decided otherwise, and a p₀
+/// of next to nothing would leave no digits for the likelihoods.
+fn felt(log_new: f64, candidates: &[Candidate]) -> f64 {
+    let all = || candidates.iter().map(|candidate| candidate.log_likelihood);
+    let (least, most) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
+    if candidates.is_empty() { log_new } else { log_new.max(least - candidates.len() as f64 * (most - least) - 1.0) }
 }
 
 /// A pair of the best assignment.

@@ -701,10 +701,16 @@ fn a_feature_is_a_new_landmark_where_p0_explains_it_better() {
 #[test]
 fn the_likeliest_landmark_wins_even_where_another_is_nearer() {
     // 0 is nearer in its own deviations, but so uncertain that its density is lower.
-    let map = unknown(SENSOR, Gate::default(), &[landmark(4.3, 0.0, 4.0), landmark(4.1, 0.0, 1e-4)]);
+    let known = [landmark(4.3, 0.0, 4.0), landmark(4.1, 0.0, 1e-4)];
+    let map = unknown(SENSOR, Gate::default(), &known);
     let distance = |index| map.get(index).unwrap().innovation(&SENSOR, &Pose2::default(), &Vector2::new(4.2, 0.0));
     assert!(distance(0).mahalanobis_squared < distance(1).mahalanobis_squared);
     assert_eq!(decide(&map, [4.2, 0.0]).0, Association::Matched(1));
+    // However little a new landmark is worth.
+    for log_new in [-1e300, f64::MIN, f64::NEG_INFINITY] {
+        let map = unknown(SENSOR, Gate { log_new, ..Gate::default() }, &known);
+        assert_eq!(decide(&map, [4.2, 0.0]).0, Association::Matched(1), "{log_new}");
+    }
 }
 
 #[test]
