@@ -1,8 +1,8 @@
 //! Which feature gets which landmark where several want the same one: the assignment problem.
 //!
 //! The Hungarian method with potentials, one shortest augmenting path for each feature (Kuhn 1955; Jonker and Volgenant 1987). It is written
-//! here because no crate fits: `pathfinding` needs costs that are `Ord` and so whole numbers, `lapjv` square matrices of `ndarray`, and
-//! `linear_assignment` is under the AGPL.
+//! here because `pathfinding`, the crate that would fit, needs `num-traits` with its default features, which switch `nalgebra` from `libm` to
+//! the functions of the platform, so that results would differ from one to the next.
 
 /// A landmark that a feature may be of.
 #[derive(Clone, Copy, PartialEq, Debug)]
