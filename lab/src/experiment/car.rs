@@ -79,7 +79,8 @@ mod tests {
     /// FastSLAM 2.0 resamples every few steps. When a loop closes all particles descend from one or two of those that began it, and their mean is hardly
     /// more than one draw of where the car may be, which errs by √2 times what the mean of all draws does: it comes near the joint filter, and does
     /// not reach it. Particles that draw late resample less often, some lines are left, and they do.
-    fn late_draws_are_near_the_joint_filter(seeds: core::ops::RangeInclusive<u64>) {
+    /// Returns the medians of FastSLAM 2.0 and of late draws.
+    fn late_draws_are_near_the_joint_filter(seeds: core::ops::RangeInclusive<u64>) -> [f64; 2] {
         let errors: Vec<[f64; 4]> = seeds
             .map(|seed| {
                 let setup = LandmarkSetup { seed, ..LandmarkSetup::default() };
@@ -94,7 +95,8 @@ mod tests {
         let [ours, late, joint, raw] =
             [0, 1, 2, 3].map(|k| ErrorSummary::of(&errors.iter().map(|run| run[k]).collect::<Vec<_>>()).median);
         assert!(ours < 2.0 * joint && raw > 3.0 * joint, "{ours} {joint} {raw}");
-        assert!(late < 1.2 * joint && late < ours, "{late} {ours} {joint}");
+        assert!(late < 1.2 * joint, "{late} {joint}");
+        [ours, late]
     }
 
     #[test]
@@ -102,9 +104,11 @@ mod tests {
         late_draws_are_near_the_joint_filter(1..=3);
     }
 
+    /// Of a few seeds the median does not tell which of the two is nearer to the truth.
     #[test]
-    #[ignore = "breadth: ten seeds"]
-    fn a_hundred_particles_that_draw_late_are_near_the_joint_filter_over_ten_seeds() {
-        late_draws_are_near_the_joint_filter(1..=10);
+    #[ignore = "breadth: forty seeds"]
+    fn a_hundred_particles_that_draw_late_are_nearer_than_those_that_do_not_over_forty_seeds() {
+        let [ours, late] = late_draws_are_near_the_joint_filter(1..=40);
+        assert!(late < ours, "{late} {ours}");
     }
 }

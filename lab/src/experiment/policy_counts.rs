@@ -234,12 +234,13 @@ mod tests {
         assert!((low - 0.8389).abs() < 1e-4 && high == 1.0, "{low} {high}");
     }
 
-    /// By design of the course, not of the seeds: n = 200 that it was not tuned on, M = 16. The 95 % intervals of the two
-    /// policies do not even touch.
+    /// By design of the course, not of the seeds: n = 400 that it was not tuned on, M = 16. The 95 % intervals of the two
+    /// policies do not even touch. (Of 200 they do for the stratified scheme: with features assigned together both policies
+    /// lose the right wing less often, in 77 % and 90 % of 400 runs it was alive where it had been in 73 % and 87 %.)
     fn n_eff_keeps_the_right_wing_more_often(schemes: &[Scheme]) {
         for &scheme in schemes {
             let setup = PoliciesSetup { scheme, ..PoliciesSetup::of(PolicyCourse::Wings) };
-            let [_, always, selective] = summary(&outcomes(&setup, 70_000..70_200).unwrap(), 16);
+            let [_, always, selective] = summary(&outcomes(&setup, 70_000..70_400).unwrap(), 16);
             assert!(always.alive_interval.unwrap()[1] < selective.alive_interval.unwrap()[0], "{scheme}");
             assert!(always.settled_interval.unwrap()[1] < selective.settled_interval.unwrap()[0], "{scheme}");
         }
@@ -251,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "breadth: two more schemes, 200 seeds each"]
+    #[ignore = "breadth: two more schemes, 400 seeds each"]
     fn resampling_by_n_eff_keeps_the_right_wing_more_often_by_other_schemes_too() {
         n_eff_keeps_the_right_wing_more_often(&[Scheme::Residual, Scheme::Multinomial]);
     }
