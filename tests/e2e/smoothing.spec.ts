@@ -8,7 +8,7 @@ import { breadth } from './host'
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
 const TAG = 'fastslam-smoothing'
-const open = (page: Page, query?: string) => new Figure(page, TAG).alone(query && `#${TAG}?${query}`)
+const open = (page: Page, query?: string) => new Figure(page, TAG).alone(query && `#${TAG}?v=3&${query}`)
 
 const number = async (figure: Figure, name: string) => Number.parseFloat((await figure.readouts())[name]!)
 
@@ -97,8 +97,8 @@ test('exercise 10: how many pasts sweeps find is guessed in the chart, and witho
   await expect(figure.box('guess')).toHaveValue(String(dragged + 1))
   await figure.toggle('run').click()
   await figure.settled()
-  await expect(figure.sentence).toContainText(`All 24 sweeps have 18 different poses at step 1; the guess was ${dragged + 1}`)
-  expect(await number(figure, 'first_after')).toBe(18)
+  await expect(figure.sentence).toContainText(`All 24 sweeps have 24 different poses at step 1; the guess was ${dragged + 1}`)
+  expect(await number(figure, 'first_after')).toBe(24)
   // (b), waived.
   await figure.element.getByRole('checkbox', { name: 'New ancestors' }).uncheck()
   await figure.settled()

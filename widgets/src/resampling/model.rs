@@ -209,7 +209,13 @@ impl ResamplingModel {
 impl Declared for ResamplingModel {
     type Recipe = Recipe;
     const TITLE: &'static str = resampling::TITLE;
-    const CHANGES: &'static [Change] = &[Change::WEIGHED_ANEW];
+    const CHANGES: &'static [Change] = &[
+        Change::WEIGHED_ANEW,
+        Change::Switched {
+            name: "wings",
+            changes: &[Change::Told("What is seen in a step is told apart all together: paths and weights differ.")],
+        },
+    ];
 
     fn challenges() -> Vec<Challenge<Self>> {
         challenges::challenges()

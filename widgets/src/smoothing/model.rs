@@ -4,7 +4,7 @@ use super::{challenges, recipe::Recipe, told};
 use crate::{
     challenge::Challenge,
     ghost::Curves,
-    model::{Declared, FigureError, Model, Readout, Series},
+    model::{Change, Declared, FigureError, Model, Readout, Series},
     prediction::{Outcome, State},
     words::smoothing as words,
 };
@@ -131,6 +131,12 @@ impl SmoothingModel {
 impl Declared for SmoothingModel {
     type Recipe = Recipe;
     const TITLE: &'static str = words::TITLE;
+    const CHANGES: &'static [Change] = &[
+        Change::Default { name: "seed", was: "1" },
+        Change::Told(
+            "What is seen in a step is taken in by its range, the nearest first: paths and their errors differ.",
+        ),
+    ];
 
     fn challenges() -> Vec<Challenge<Self>> {
         challenges::challenges()

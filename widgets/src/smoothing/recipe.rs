@@ -26,7 +26,9 @@ pub struct Recipe {
 
 impl Default for Recipe {
     fn default() -> Self {
-        Self { setup: SmoothingSetup::default(), at: 12, prediction: Prediction::default(), step: MOST }
+        // A seed on which the sweeps do what they do on most: they take a third off the error.
+        let setup = SmoothingSetup { seed: 3, ..SmoothingSetup::default() };
+        Self { setup, at: 12, prediction: Prediction::default(), step: MOST }
     }
 }
 
