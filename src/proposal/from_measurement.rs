@@ -11,7 +11,7 @@ use crate::motion::Motion;
 use crate::particle::Particle;
 use crate::random::Stream;
 use crate::sensor::{Feature, LandmarkSensor};
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector2};
 
 /// x_t ~ N(μ_x, Σ_x), the motion's Gaussian with the step's features folded in one after another.
 #[derive(Clone, Debug)]
@@ -61,15 +61,16 @@ struct Fold<'a, Z, S> {
 }
 
 impl<Z: LandmarkSensor, S: Store> Belief for Fold<'_, Z, S> {
-    const LEARNS: bool = true;
-    type Sensor = Z;
+    fn learns(&self) -> bool {
+        true
+    }
+
+    fn can_measure(&self, z: &Vector2<f64>) -> bool {
+        self.map.sensor().can_measure(z)
+    }
 
     fn index_bound(&self) -> u32 {
         self.map.len()
-    }
-
-    fn sensor(&self) -> &Z {
-        self.map.sensor()
     }
 
     fn innovation(&self, feature: &Feature, index: u32, gate: Option<f64>) -> Option<Innovation> {

@@ -5,7 +5,7 @@
 
 use crate::genealogy::Path;
 use crate::geometry::Pose2;
-use crate::map::landmarks::{Associated, Association, Belief, Innovation, Landmark, Landmarks, Store};
+use crate::map::landmarks::{Association, Belief, Innovation, Landmark, Landmarks, Store};
 use crate::motion::Motion;
 use crate::random::Stream;
 use crate::sensor::{Feature, LandmarkSensor, Prediction};
@@ -78,15 +78,14 @@ impl<U: Clone> Window<U> {
     {
         let row = self.predict(motion, control);
         let mut newest = Newest { window: self, map, row };
-        let Associated { associations, log_likelihood: log_evidence, informed } =
-            map.correspondence().associate(features, &mut newest);
-        for (index, k) in founded(&associations) {
+        let associated = map.correspondence().associate(features, &mut newest);
+        for (index, k) in associated.founded() {
             self.found(map.sensor(), row, index, &features[k]);
         }
         if let Some(step) = self.steps.last_mut() {
-            (step.features, step.associations) = (features.to_vec(), associations);
+            (step.features, step.associations) = (features.to_vec(), associated.associations);
         }
-        (log_evidence, informed)
+        (associated.log_likelihood, associated.informed)
     }
 
     /// Appends g(x, u): G times the rows of the pose before, and R_t. Returns its first row.
@@ -210,15 +209,16 @@ struct Newest<'a, U, Z, S> {
 }
 
 impl<U: Clone, Z: LandmarkSensor, S: Store> Belief for Newest<'_, U, Z, S> {
-    const LEARNS: bool = true;
-    type Sensor = Z;
+    fn learns(&self) -> bool {
+        true
+    }
+
+    fn can_measure(&self, z: &Vector2<f64>) -> bool {
+        self.map.sensor().can_measure(z)
+    }
 
     fn index_bound(&self) -> u32 {
         self.window.seen.iter().map(|seen| seen.index + 1).fold(self.map.len(), u32::max)
-    }
-
-    fn sensor(&self) -> &Z {
-        self.map.sensor()
     }
 
     fn innovation(&self, feature: &Feature, index: u32, gate: Option<f64>) -> Option<Innovation> {
@@ -228,15 +228,6 @@ impl<U: Clone, Z: LandmarkSensor, S: Store> Belief for Newest<'_, U, Z, S> {
     fn learn(&mut self, index: u32, innovation: &Innovation) {
         self.window.update(self.map, self.row, index, innovation);
     }
-}
-
-/// The new landmarks by index, each with its feature's.
-fn founded(associations: &[Association]) -> std::collections::BTreeMap<u32, usize> {
-    let new = |(k, association): (usize, &Association)| match association {
-        Association::New(index) => Some((*index, k)),
-        Association::Matched(_) | Association::Ignored => None,
-    };
-    associations.iter().enumerate().filter_map(new).collect()
 }
 
 /// L with Σ = L Lᵀ (n × n), which may be singular: a pivot that is nothing against its variance, as rounding leaves it, counts as zero with

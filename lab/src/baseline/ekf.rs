@@ -7,7 +7,7 @@
 //! Reference: Thrun, Burgard, Fox, *Probabilistic Robotics* (2005), tables 10.1 and 10.2.
 
 use fastslam::geometry::Pose2;
-use fastslam::map::landmarks::{Associated, Association, Belief, Correspondence, Gate, Innovation, Landmark};
+use fastslam::map::landmarks::{Association, Belief, Correspondence, Gate, Innovation, Landmark};
 use fastslam::motion::Motion;
 use fastslam::nalgebra::{DMatrix, Dyn, Matrix2, Matrix3, OMatrix, U2, Vector2};
 use fastslam::sensor::{Feature, LandmarkSensor, Prediction};
@@ -47,15 +47,16 @@ pub struct EkfStep {
 type Tall = OMatrix<f64, Dyn, U2>;
 
 impl<D: Motion, Z: LandmarkSensor> Belief for EkfSlam<D, Z> {
-    const LEARNS: bool = true;
-    type Sensor = Z;
+    fn learns(&self) -> bool {
+        true
+    }
+
+    fn can_measure(&self, z: &Vector2<f64>) -> bool {
+        self.sensor.can_measure(z)
+    }
 
     fn index_bound(&self) -> u32 {
         self.len
-    }
-
-    fn sensor(&self) -> &Z {
-        &self.sensor
     }
 
     fn innovation(&self, feature: &Feature, index: u32, _: Option<f64>) -> Option<Innovation> {
@@ -79,22 +80,14 @@ impl<D: Motion, Z: LandmarkSensor> EkfSlam<D, Z> {
     pub fn step(&mut self, control: &D::Control, features: &[Feature]) -> EkfStep {
         self.predict(control);
         let correspondence = self.correspondence;
-        let Associated { associations, log_likelihood, .. } = correspondence.associate(features, self);
+        let associated = correspondence.associate(features, self);
         if let Correspondence::Unknown(Gate { removal: true, .. }) = self.correspondence {
-            self.apply_negative_information(&associations);
+            self.apply_negative_information(&associated.associations);
         }
-        // By index, so that the order of the features does not decide that of the rows.
-        let mut founded: Vec<(u32, usize)> = Vec::new();
-        for (k, association) in associations.iter().enumerate() {
-            if let Association::New(index) = association {
-                founded.push((*index, k));
-            }
-        }
-        founded.sort_unstable();
-        for (index, k) in founded {
+        for (index, k) in associated.founded() {
             self.append(index, &features[k].z);
         }
-        EkfStep { associations, log_evidence: log_likelihood }
+        EkfStep { associations: associated.associations, log_evidence: associated.log_likelihood }
     }
 
     /// Mean of the pose.

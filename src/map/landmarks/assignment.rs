@@ -29,9 +29,7 @@ pub(super) fn assign(candidates: &[Candidate]) -> Vec<Candidate> {
     let (part, features) = connected(candidates, contested);
     let solved = solve(&part);
     greedy.retain(|candidate| !features.contains(&candidate.feature));
-    greedy.extend(solved);
-    greedy.sort_by_key(|chosen| candidates.iter().position(|other| other == chosen));
-    greedy
+    candidates.iter().filter(|one| greedy.contains(one) || solved.contains(one)).copied().collect()
 }
 
 /// The candidate of the largest gain, the first of equals.

@@ -6,7 +6,9 @@ use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
 use crate::ops;
 use crate::sensor::{Feature, LandmarkSensor, Prediction};
-use nalgebra::Matrix3;
+use core::cmp::Ordering;
+use nalgebra::{Matrix3, Vector2};
+use std::collections::BTreeMap;
 
 /// How sightings are told apart.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -114,16 +116,13 @@ pub struct Associated {
 /// asked about the next.
 pub trait Belief {
     /// Whether [`Self::learn`] changes anything. Where it does not, one look at all features is enough.
-    const LEARNS: bool;
+    fn learns(&self) -> bool;
 
-    /// What measures the features.
-    type Sensor: LandmarkSensor;
+    /// [`LandmarkSensor::can_measure`] of what measures the features.
+    fn can_measure(&self, z: &Vector2<f64>) -> bool;
 
     /// One past the largest index of a landmark.
     fn index_bound(&self) -> u32;
-
-    /// What has measured the features.
-    fn sensor(&self) -> &Self::Sensor;
 
     /// What a feature says of the landmark of an index; `None` where there is none, or where it surely lies beyond the gate that is asked
     /// for.
@@ -141,13 +140,15 @@ impl Correspondence {
     ///
     /// A feature that can say nothing (S has no inverse) says nothing: by its signature it is of its landmark and changes neither pose,
     /// landmark nor weight; without one it is of no landmark in the map, since there is no likelihood to choose by.
-    pub fn associate<B: Belief>(&self, features: &[Feature], belief: &mut B) -> Associated {
+    pub fn associate(&self, features: &[Feature], belief: &mut dyn Belief) -> Associated {
         let mut associated = Associated {
             associations: vec![Association::Ignored; features.len()],
             log_likelihood: 0.0,
             informed: false,
         };
-        let order = canonical_order(features, |feature| is_possible(feature, belief.sensor()));
+        let is_possible = |feature: &Feature| has_possible_signature(feature) && belief.can_measure(&feature.z);
+        let possible = (0..features.len()).filter(|k| is_possible(&features[*k])).collect();
+        let order = in_order(possible, &|a, b| canonical(&features[a], &features[b]));
         match self {
             Self::Known => associated.by_signature(features, &order, belief),
             Self::Unknown(gate) => associated.by_likelihood(gate, features, order, belief),
@@ -156,26 +157,36 @@ impl Correspondence {
     }
 }
 
-/// Whether a sensor can have measured a feature. The largest signature cannot be: it would leave no index for the next landmark.
-pub(super) fn is_possible<Z: LandmarkSensor>(feature: &Feature, sensor: &Z) -> bool {
-    feature.signature != Some(u32::MAX) && sensor.can_measure(&feature.z)
+/// Whether a feature can have this signature, if any: the largest would leave no index for the next landmark.
+pub(super) fn has_possible_signature(feature: &Feature) -> bool {
+    feature.signature != Some(u32::MAX)
 }
 
-/// Indices of the possible features by z, number by number, and then by signature: the same sequence of features in whatever order they
-/// are listed.
-fn canonical_order(features: &[Feature], is_possible: impl Fn(&Feature) -> bool) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..features.len()).filter(|k| is_possible(&features[*k])).collect();
-    order.sort_by(|a, b| {
-        let [a, b] = [a, b].map(|k| &features[*k]);
-        let by_z = a.z.x.total_cmp(&b.z.x).then(a.z.y.total_cmp(&b.z.y));
-        by_z.then(a.signature.cmp(&b.signature))
-    });
-    order
+/// These numbers in the order that a comparison gives them, equals as they stand. One sort for all, as each that is compiled weighs kilobytes in
+/// a browser.
+fn in_order(mut numbers: Vec<usize>, compare: &dyn Fn(usize, usize) -> Ordering) -> Vec<usize> {
+    numbers.sort_by(|a, b| compare(*a, *b));
+    numbers
+}
+
+/// z number by number, and then the signature: features that are sorted so are the same sequence in whatever order they are listed.
+fn canonical(a: &Feature, b: &Feature) -> Ordering {
+    let by_z = a.z.x.total_cmp(&b.z.x).then(a.z.y.total_cmp(&b.z.y));
+    by_z.then(a.signature.cmp(&b.signature))
 }
 
 impl Associated {
+    /// The new landmarks by index, each with the number of its feature.
+    pub fn founded(&self) -> BTreeMap<u32, usize> {
+        let new = |(k, association): (usize, &Association)| match association {
+            Association::New(index) => Some((*index, k)),
+            Association::Matched(_) | Association::Ignored => None,
+        };
+        self.associations.iter().enumerate().filter_map(new).collect()
+    }
+
     /// Each feature by its signature; the second of one signature is ignored.
-    fn by_signature<B: Belief>(&mut self, features: &[Feature], order: &[usize], belief: &mut B) {
+    fn by_signature(&mut self, features: &[Feature], order: &[usize], belief: &mut dyn Belief) {
         let mut taken = Vec::with_capacity(order.len());
         for &k in order {
             let Some(index) = features[k].signature.filter(|index| !taken.contains(index)) else { continue };
@@ -195,15 +206,15 @@ impl Associated {
     ///
     /// The pairs that nothing competes with go first, and what the belief learns from them decides between the others, of which the most
     /// certain goes first. What no landmark explains better than p₀ in the end is new.
-    fn by_likelihood<B: Belief>(&mut self, gate: &Gate, features: &[Feature], order: Vec<usize>, belief: &mut B) {
+    fn by_likelihood(&mut self, gate: &Gate, features: &[Feature], order: Vec<usize>, belief: &mut dyn Belief) {
         let len = belief.index_bound();
         let (mut left, mut taken) = (order, Vec::new());
         loop {
             let pairs = ranked(&candidates(gate, features, &left, &taken, belief));
-            let accepted = if B::LEARNS { acceptable(&pairs, !taken.is_empty()) } else { pairs.len() };
+            let accepted = if belief.learns() { acceptable(&pairs, !taken.is_empty()) } else { pairs.len() };
             let mut learnt = false;
             for Pair { chosen: Candidate { feature, landmark, log_likelihood, .. }, .. } in &pairs[..accepted] {
-                if !B::LEARNS {
+                if !belief.learns() {
                     self.accept(*feature, *landmark, *log_likelihood);
                 } else if let Some(innovation) = gate.admits(belief, &features[*feature], *landmark) {
                     self.accept(*feature, *landmark, innovation.log_likelihood);
@@ -232,7 +243,7 @@ impl Associated {
 
 impl Gate {
     /// What a feature says of a landmark, where that is within the gate and likelier than a new landmark.
-    fn admits<B: Belief>(&self, belief: &B, feature: &Feature, index: u32) -> Option<Innovation> {
+    fn admits(&self, belief: &dyn Belief, feature: &Feature, index: u32) -> Option<Innovation> {
         let innovation = belief.innovation(feature, index, Some(self.mahalanobis_squared))?;
         let within = innovation.mahalanobis_squared < self.mahalanobis_squared;
         (innovation.is_regular() && within && innovation.log_likelihood > self.log_new).then_some(innovation)
@@ -240,13 +251,7 @@ impl Gate {
 }
 
 /// All that the features that are left may be of, feature by feature.
-fn candidates<B: Belief>(
-    gate: &Gate,
-    features: &[Feature],
-    left: &[usize],
-    taken: &[u32],
-    belief: &B,
-) -> Vec<Candidate> {
+fn candidates(gate: &Gate, features: &[Feature], left: &[usize], taken: &[u32], belief: &dyn Belief) -> Vec<Candidate> {
     let mut candidates = Vec::new();
     for &feature in left {
         for landmark in (0..belief.index_bound()).filter(|index| !taken.contains(index)) {
@@ -270,6 +275,7 @@ fn felt(log_new: f64, candidates: &[Candidate]) -> f64 {
 }
 
 /// A pair of the best assignment.
+#[derive(Clone, Copy)]
 struct Pair {
     chosen: Candidate,
     /// Whether the feature has another candidate, or the landmark another feature.
@@ -285,9 +291,10 @@ fn ranked(candidates: &[Candidate]) -> Vec<Pair> {
         let next = candidates.iter().filter(competes).map(|other| other.gain).fold(f64::NEG_INFINITY, f64::max);
         Pair { chosen, is_contested: next > f64::NEG_INFINITY, margin: chosen.gain - next }
     };
-    let mut pairs: Vec<Pair> = assign(candidates).into_iter().map(judged).collect();
-    pairs.sort_by(|a, b| a.is_contested.cmp(&b.is_contested).then(b.margin.total_cmp(&a.margin)));
-    pairs
+    let pairs: Vec<Pair> = assign(candidates).into_iter().map(judged).collect();
+    let first = |a: &Pair, b: &Pair| a.is_contested.cmp(&b.is_contested).then(b.margin.total_cmp(&a.margin));
+    let order = in_order((0..pairs.len()).collect(), &|a, b| first(&pairs[a], &pairs[b]));
+    order.into_iter().map(|k| pairs[k]).collect()
 }
 
 /// How many of these pairs are to be accepted before the others are asked about again: those that nothing competes with. Without any, one,
@@ -308,15 +315,16 @@ struct Given<'a, Z, S> {
 }
 
 impl<Z: LandmarkSensor, S: Store> Belief for Given<'_, Z, S> {
-    const LEARNS: bool = false;
-    type Sensor = Z;
+    fn learns(&self) -> bool {
+        false
+    }
+
+    fn can_measure(&self, z: &Vector2<f64>) -> bool {
+        self.map.sensor.can_measure(z)
+    }
 
     fn index_bound(&self) -> u32 {
         self.map.len()
-    }
-
-    fn sensor(&self) -> &Z {
-        &self.map.sensor
     }
 
     fn innovation(&self, feature: &Feature, index: u32, gate: Option<f64>) -> Option<Innovation> {

@@ -13,7 +13,7 @@ mod saved;
 mod shared;
 mod store;
 
-use association::is_possible;
+use association::has_possible_signature;
 pub use association::{Associated, Association, Belief, Correspondence, Gate};
 pub use landmark::{Innovation, Landmark};
 #[cfg(feature = "serde")]
@@ -133,7 +133,8 @@ impl<Z: LandmarkSensor, S: Store> ConditionalMap for Landmarks<Z, S> {
     /// Features that are impossible: of a z that the sensor cannot have measured ([`LandmarkSensor::can_measure`]), or of the signature
     /// 2³² − 1.
     fn ignored(&self, features: &Vec<Feature>) -> u32 {
-        features.iter().filter(|feature| !is_possible(feature, &self.sensor)).count() as u32
+        let is_possible = |f: &&Feature| has_possible_signature(f) && self.sensor.can_measure(&f.z);
+        (features.len() - features.iter().filter(is_possible).count()) as u32
     }
 
     fn validate(&self) -> Result<(), SettingError> {
