@@ -35,6 +35,7 @@ mod message;
 pub mod model;
 #[cfg(feature = "page")]
 mod names;
+pub mod order;
 pub mod paint;
 pub mod panels;
 pub mod param;

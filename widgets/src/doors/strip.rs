@@ -5,6 +5,7 @@ use crate::{
     decimal::write,
     font::{self, Weight},
     model::Model,
+    order::ascending,
     scene::{Anchor, Mark, Point, Rect, Role, Scene, diamond, heading, rimmed_polygon, robot, text},
     words::doors as words,
 };
@@ -129,10 +130,8 @@ impl Strip<'_> {
         let pitch = (room / m).sqrt().clamp(SMALLEST, LARGEST);
         let (columns, rows) = ((area.w / pitch) as usize, ((area.h - 4.0) / pitch) as usize);
         let mut filled = vec![0_usize; columns.max(1)];
-        let mut order: Vec<usize> = (0..now.places.len()).collect();
-        order.sort_by(|&a, &b| now.places[a].total_cmp(&now.places[b]));
         let mut kinds: Vec<(Role, Vec<Point>)> = Vec::new();
-        for slot in order {
+        for slot in ascending(&now.places) {
             let wanted = (self.x(now.places[slot]) - area.x) / pitch;
             if !(0.0..columns as f64).contains(&wanted) {
                 continue;

@@ -9,6 +9,7 @@ use super::{
 use crate::{
     font::{self, Weight},
     model::Model,
+    order::ascending,
     scene::{Anchor, Mark, Rect, Region, Role, Sample, Scene, Shading, cross, heading, legend, text},
     words::{common, lap},
 };
@@ -22,11 +23,10 @@ const TILES: usize = 16;
 /// The slots that have a tile, in ascending order: the heaviest, and the one shown large.
 fn shown(model: &LapModel) -> Vec<u32> {
     let (weights, selected) = (model.lap().weights(), model.selected());
-    let mut slots: Vec<u32> = (0..weights.len() as u32).collect();
     // Of equal weights, those in the first slots.
-    slots.sort_by(|&a, &b| weights[b as usize].total_cmp(&weights[a as usize]));
-    slots.sort_by_key(|&slot| slot != selected);
-    slots.truncate(TILES);
+    let lightness = |(slot, weight): (usize, &f64)| if slot == selected as usize { f64::NEG_INFINITY } else { -weight };
+    let lightness: Vec<f64> = weights.iter().enumerate().map(lightness).collect();
+    let mut slots: Vec<u32> = ascending(&lightness).into_iter().take(TILES).map(|slot| slot as u32).collect();
     slots.sort_unstable();
     slots
 }

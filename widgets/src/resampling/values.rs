@@ -3,6 +3,7 @@
 use super::{charts::Picture, stroke};
 use crate::{
     font::{self, Weight},
+    order::ascending,
     scene::{Anchor, Rect, Region, Scene, text},
 };
 
@@ -15,8 +16,7 @@ const AFTER: f64 = 4.0;
 
 /// Heights as near to those wanted as they can be, in their order, this far from each other and between two ends.
 fn spread(wanted: [f64; 3], [first, last]: [f64; 2]) -> [f64; 3] {
-    let mut order = [0, 1, 2];
-    order.sort_by(|&a, &b| wanted[a].total_cmp(&wanted[b]));
+    let order = ascending(&wanted);
     let mut at = wanted;
     let mut least = first;
     for &k in &order {
