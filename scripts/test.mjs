@@ -67,7 +67,7 @@ const oracle = () => tests('cargo', ['test', '--workspace', '--test', 'oracle', 
 const compile = () => run('cargo', ['test', '--workspace', '--no-run'])
 
 /** What the tests of the page take on two quiet cores [s]: by that, breadth knows how slow this machine is now. */
-const usualPage = 240
+const usualPage = 320
 
 async function playwright() {
   rmSync(cache('e2e.json'), { force: true })

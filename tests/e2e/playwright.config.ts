@@ -10,8 +10,8 @@ export default defineConfig({
   globalSetup: './server.ts',
   forbidOnly: Boolean(process.env.CI),
   fullyParallel: true,
-  // Two cores. A flaky test is a bug of ours, so there is no second try.
-  workers: 2,
+  // Two a core: half of the time a page waits for something. A flaky test is a bug of ours, so there is no second try.
+  workers: 4,
   retries: 0,
   // What a busy machine takes longer for is no failure.
   timeout: 180_000,
