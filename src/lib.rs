@@ -51,6 +51,7 @@ pub mod mapper;
 pub mod matching;
 pub mod motion;
 pub mod ops;
+mod order;
 pub mod particle;
 pub mod proposal;
 pub mod random;

@@ -23,6 +23,7 @@ use crate::geometry::{Chain, Gaussian3, Pose2, Relation};
 use crate::map::ConditionalMap;
 use crate::matching::{Score, ScoredPose, hill_climb};
 use crate::ops;
+use crate::order::sorted;
 use crate::particle::Particle;
 use crate::proposal::{CorrelativeSearch, Search, Target};
 use crate::sensor::Scan;
@@ -312,8 +313,8 @@ impl Now<'_> {
         // A climb asks which of two poses is better, for which every second end point will do.
         let target = Target::new(&prior, score.near(self.map, &here, &self.picture, 2), 0.0);
         let climbed = |start| hill_climb(start, CLOSING.climb, |pose, floor| target.log_posterior(pose, floor));
-        let mut tops: Vec<ScoredPose> = CLOSING.search.starts(&target).poses.into_iter().map(climbed).collect();
-        tops.sort_by(ScoredPose::highest_first);
+        let starts = CLOSING.search.starts(&target).poses;
+        let tops: Vec<ScoredPose> = sorted(starts.into_iter().map(climbed).collect(), ScoredPose::highest_first);
         let top = tops.first()?;
         let stay = target.log_posterior(&here, f64::NEG_INFINITY);
         let gain = |top: &ScoredPose| (top.value - stay) / self.picture.hits.len() as f64;

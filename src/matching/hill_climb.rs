@@ -24,7 +24,7 @@ pub struct ScoredPose {
 }
 
 impl ScoredPose {
-    /// An order for sorting: what is worth most comes first. One function, so that all sorts of poses are compiled once.
+    /// An order for sorting: what is worth most comes first.
     pub(crate) fn highest_first(a: &Self, b: &Self) -> Ordering {
         b.value.total_cmp(&a.value)
     }

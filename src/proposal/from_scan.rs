@@ -11,6 +11,7 @@ use crate::map::ConditionalMap;
 use crate::matching::{HillClimbSteps, Score, ScoreNear, ScoredPose, hill_climb};
 use crate::motion::Motion;
 use crate::ops;
+use crate::order::sorted;
 use crate::particle::Particle;
 use crate::random::Stream;
 
@@ -154,8 +155,7 @@ impl<D: Motion, L, S: Search> FromScan<D, L, S> {
     fn search<N: ScoreNear>(&self, target: &Target<'_, N>) -> (Vec<ScoredPose>, f64) {
         let starts = self.settings.search.starts(target);
         let climb = |start| hill_climb(start, self.settings.climb, |pose, floor| target.log_posterior(pose, floor));
-        let mut tops: Vec<ScoredPose> = starts.poses.into_iter().map(climb).collect();
-        tops.sort_by(ScoredPose::highest_first);
+        let tops = sorted(starts.poses.into_iter().map(climb).collect(), ScoredPose::highest_first);
         let mut hills: Vec<ScoredPose> = Vec::new();
         for top in tops {
             let room = hills.len() < self.settings.hills as usize;

@@ -3,6 +3,7 @@
 use crate::geometry::{Gaussian3, Pose2};
 use crate::matching::{ScoreNear, ScoredPose};
 use crate::ops;
+use crate::order::sorted;
 
 /// How the poses are found from which a climb is worth while.
 pub trait Search: Sync {
@@ -97,7 +98,7 @@ impl Search for HeadingSeeds {
             log_seeds.push(log_seed);
             poses.push(ScoredPose { pose, value: log_seed + prior.log_density(&pose) });
         }
-        poses.sort_by(ScoredPose::highest_first);
+        let mut poses = sorted(poses, ScoredPose::highest_first);
         poses.truncate(self.climbs);
         Starts { poses, log_mean: ops::log_sum_exp(&log_seeds) - ops::ln(log_seeds.len() as f64) }
     }

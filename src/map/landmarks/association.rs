@@ -5,6 +5,7 @@ use super::{Innovation, Landmarks, Store};
 use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
 use crate::ops;
+use crate::order::sorted;
 use crate::sensor::{Feature, LandmarkSensor, Prediction};
 use core::cmp::Ordering;
 use nalgebra::{Matrix3, Vector2};
@@ -148,7 +149,7 @@ impl Correspondence {
         };
         let is_possible = |feature: &Feature| has_possible_signature(feature) && belief.can_measure(&feature.z);
         let possible = (0..features.len()).filter(|k| is_possible(&features[*k])).collect();
-        let order = in_order(possible, &|a, b| canonical(&features[a], &features[b]));
+        let order = sorted(possible, |a, b| canonical(&features[*a], &features[*b]));
         match self {
             Self::Known => associated.by_signature(features, &order, belief),
             Self::Unknown(gate) => associated.by_likelihood(gate, features, order, belief),
@@ -160,13 +161,6 @@ impl Correspondence {
 /// Whether a feature can have this signature, if any: the largest would leave no index for the next landmark.
 pub(super) fn has_possible_signature(feature: &Feature) -> bool {
     feature.signature != Some(u32::MAX)
-}
-
-/// These numbers in the order that a comparison gives them, equals as they stand. One sort for all, as each that is compiled weighs kilobytes in
-/// a browser.
-fn in_order(mut numbers: Vec<usize>, compare: &dyn Fn(usize, usize) -> Ordering) -> Vec<usize> {
-    numbers.sort_by(|a, b| compare(*a, *b));
-    numbers
 }
 
 /// z number by number, and then the signature: features that are sorted so are the same sequence in whatever order they are listed.
@@ -275,7 +269,6 @@ fn felt(log_new: f64, candidates: &[Candidate]) -> f64 {
 }
 
 /// A pair of the best assignment.
-#[derive(Clone, Copy)]
 struct Pair {
     chosen: Candidate,
     /// Whether the feature has another candidate, or the landmark another feature.
@@ -291,10 +284,8 @@ fn ranked(candidates: &[Candidate]) -> Vec<Pair> {
         let next = candidates.iter().filter(competes).map(|other| other.gain).fold(f64::NEG_INFINITY, f64::max);
         Pair { chosen, is_contested: next > f64::NEG_INFINITY, margin: chosen.gain - next }
     };
-    let pairs: Vec<Pair> = assign(candidates).into_iter().map(judged).collect();
     let first = |a: &Pair, b: &Pair| a.is_contested.cmp(&b.is_contested).then(b.margin.total_cmp(&a.margin));
-    let order = in_order((0..pairs.len()).collect(), &|a, b| first(&pairs[a], &pairs[b]));
-    order.into_iter().map(|k| pairs[k]).collect()
+    sorted(assign(candidates).into_iter().map(judged).collect(), first)
 }
 
 /// How many of these pairs are to be accepted before the others are asked about again: those that nothing competes with. Without any, one,
