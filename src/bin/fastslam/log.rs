@@ -19,7 +19,6 @@ use std::fmt::Write as _;
 use std::io::{BufRead as _, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Duration;
 
 /// Map a recorded log of a robot with a laser: a ROS 2 bag (MCAP), a ROS 1 bag, CARMEN's format, or scans as JSON lines
 #[derive(clap::Args)]
@@ -101,8 +100,9 @@ struct Output {
     scans: u32,
     /// That the filter took.
     scans_used: u32,
-    /// CPU time of all threads, for each scan taken and particle \[ms\].
+    /// CPU time of the whole process, from reading the log to writing the results, for each scan taken and particle \[ms\].
     ms_per_scan_particle: f64,
+    /// Of the particles' maps, where one looked.
     peak_map_bytes: u64,
     /// At the same time, if every map were kept whole and apart.
     dense_map_bytes: u64,
@@ -125,8 +125,8 @@ struct Output {
     digest: String,
 }
 
-/// Steps between two looks at the memory of the maps of before, each of which takes as long as a step.
-const LOOK_EVERY: u32 = 10;
+/// Steps between two looks at the memory of the maps, each of which takes as long as some steps.
+const LOOK_EVERY: u32 = 50;
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<()> {
@@ -171,17 +171,14 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         indicatif::ProgressStyle::with_template("{wide_bar} {pos}/{len} scans, {per_sec}, {eta} to go, {msg}")
             .expect("the template is right"),
     );
-    let (mut cpu, mut peak) = (Duration::ZERO, replay.mapper().footprint());
-    let (mut kept, mut resampled, mut scans_unexplained) = (0, 0, 0);
-    loop {
-        let start = ProcessTime::now();
-        let Some(report) = replay.next() else { break };
-        cpu += start.elapsed();
-        let now = replay.mapper().footprint();
-        if now.unique > peak.unique {
-            peak = now;
-        }
-        if report.step.is_multiple_of(LOOK_EVERY) {
+    let (mut peak, mut kept) = (replay.mapper().footprint(), 0);
+    let (mut resampled, mut scans_unexplained) = (0, 0);
+    while let Some(report) = replay.next() {
+        if report.step.is_multiple_of(LOOK_EVERY) || report.step == replay.step_count() {
+            let now = replay.mapper().footprint();
+            if now.unique > peak.unique {
+                peak = now;
+            }
             kept = kept.max(replay.mapper().footprint_with_kept().unique - now.unique);
         }
         resampled += u32::from(report.resampled());
@@ -196,10 +193,11 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let path = mapper.path();
     outputs.write(mapper, &path, &rules)?;
     let steps = mapper.steps();
+    let cpu = ProcessTime::now().as_duration();
     let output = Output {
         scans: log.scans.len() as u32,
         scans_used: steps + 1,
-        ms_per_scan_particle: 1e3 * cpu.as_secs_f64() / f64::from(steps.max(1)) / settings.particles as f64,
+        ms_per_scan_particle: 1e3 * cpu.as_secs_f64() / f64::from(steps + 1) / settings.particles as f64,
         peak_map_bytes: peak.unique,
         dense_map_bytes: peak.dense,
         kept_map_bytes: kept,
