@@ -208,6 +208,9 @@ impl Reader {
                     if !scan.odometry.x.is_nan() {
                         self.log.odometry.push((scan.time, scan.odometry));
                     }
+                    if let Some(declared) = scan.max_range {
+                        self.log.notes.beyond.count(&scan.ranges, declared as f32);
+                    }
                     self.log.scans.push(scan);
                 }
                 Told::Remark(remark) => self.log.notes.remarks.push(Remark::Told(remark)),

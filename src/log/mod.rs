@@ -6,6 +6,7 @@
 #[cfg(feature = "bags")]
 mod bag;
 mod carmen;
+mod clock;
 mod extent;
 #[cfg(feature = "json")]
 mod json;
@@ -28,6 +29,7 @@ pub use tum::write_tum;
 use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
 use crate::ops;
+use crate::order::sorted;
 use crate::sensor::Scan;
 
 /// Farthest a coordinate may be from the log's origin \[m\]: beyond it a number is no place.
@@ -51,7 +53,7 @@ pub struct LaserScan {
     pub angle_step: f64,
     /// Longest range \[m\] as the log itself declares it.
     pub max_range: Option<f64>,
-    /// Ranges \[m\]; what is not finite or not positive met nothing.
+    /// Ranges \[m\]. +∞: nothing is in reach. What is no number, 0 or less says nothing, nor does [`Self::max_range`] or more.
     pub ranges: Vec<f32>,
 }
 
@@ -85,19 +87,20 @@ impl LaserScan {
     /// may be glass. One of `max_range` \[m\] or more is cut there, and says that the way is free.
     pub fn end_points(&self, longest: f64, max_range: f64) -> Scan {
         let mut ends = Scan { origin: self.origin(), ..Scan::default() };
-        for Beam { end, met, .. } in self.beams(longest, max_range).flatten() {
+        for Beam { end, met, .. } in self.beams(longest, max_range, 0.0).flatten() {
             if met { ends.hits.push(end) } else { ends.misses.push(end) }
         }
         ends
     }
 
-    /// The same beam by beam, with `None` for those that say nothing.
-    pub(crate) fn beams(&self, longest: f64, max_range: f64) -> impl Iterator<Item = Option<Beam>> {
+    /// The same beam by beam, with `None` for those that say nothing. A reading of +∞ says that the way is free up to `clear_range` \[m\].
+    pub(crate) fn beams(&self, longest: f64, max_range: f64, clear_range: f64) -> impl Iterator<Item = Option<Beam>> {
         let longest = self.max_range.map_or(longest, |declared| declared.min(longest));
         self.ranges.iter().map(|range| f64::from(*range)).enumerate().map(move |(k, range)| {
-            (range > 0.0 && range < longest).then(|| {
+            let clears = range == f64::INFINITY && clear_range > 0.0;
+            (clears || (range > 0.0 && range < longest)).then(|| {
                 let (sin, cos) = ops::sin_cos(self.first_angle + k as f64 * self.angle_step);
-                let length = range.min(max_range);
+                let length = range.min(if clears { clear_range.min(max_range) } else { max_range });
                 let end = self.robot_from_laser.transform([length * cos, length * sin]);
                 Beam { length, end, met: range < max_range }
             })
@@ -128,35 +131,40 @@ pub struct LaserLog {
 }
 
 impl LaserLog {
-    /// The range \[m\] that all but one in a thousand of the finite readings stay within, 0 without any: the longest one is
+    /// The range \[m\] that all but one in a thousand of the readings stay within, 0 without any: the longest one is
     /// often an error, or says something else than the laser's *nothing met*.
     pub fn longest_reading(&self) -> f64 {
-        let ranges = self.scans.iter().flat_map(|scan| &scan.ranges).filter(|range| range.is_finite());
-        let mut ranges: Vec<f32> = ranges.copied().collect();
+        let ranges = self.scans.iter().flat_map(|scan| &scan.ranges).copied();
+        let mut ranges: Vec<f32> = ranges.filter(|range| range.is_finite() && *range > 0.0).collect();
         let within = ranges.len() - ranges.len() / 1000;
         let Some(last) = within.checked_sub(1) else { return 0.0 };
         f64::from(*ranges.select_nth_unstable_by(last, f32::total_cmp).1)
     }
 
-    /// Puts what is in it in order: messages come over a network, and some are late. The sorts are stable, so that equal stamps keep the
-    /// file's order.
+    /// Puts what is in it in order: clocks are set back, and of messages that come over a network some are late. The sorts are stable, so that
+    /// equal stamps keep the file's order.
     fn in_order(&mut self) {
+        clock::run_on(self);
         self.notes.out_of_order = self.scans.windows(2).filter(|pair| pair[1].time < pair[0].time).count() as u32;
-        self.scans.sort_by(|a, b| a.time.total_cmp(&b.time));
+        self.scans = sorted(core::mem::take(&mut self.scans), |a, b| a.time.total_cmp(&b.time));
         self.odometry_in_order();
     }
 
     fn odometry_in_order(&mut self) {
-        self.odometry.sort_by(|a, b| a.0.total_cmp(&b.0));
+        self.odometry = sorted(core::mem::take(&mut self.odometry), |a, b| a.0.total_cmp(&b.0));
     }
 
     /// Whether any of its readings has met anything.
     fn seen_something(&self) -> Result<(), LogError> {
         let readings = || self.scans.iter().flat_map(|scan| &scan.ranges);
-        if readings().any(|range| range.is_finite() && *range > 0.0) {
+        let Beyond { count, max_range, .. } = self.notes.beyond;
+        // Those of scans in JSON are still there.
+        let ranges =
+            readings().filter(|range| range.is_finite() && **range > 0.0 && (count == 0 || **range <= max_range));
+        if ranges.count() > 0 {
             return Ok(());
         }
-        Err(LogError::whole(LogProblem::NoReading { readings: readings().count() }))
+        Err(LogError::whole(LogProblem::NoReading { readings: readings().count(), beyond: self.notes.beyond }))
     }
 }
 
@@ -173,8 +181,32 @@ pub struct Notes {
     pub first_malformed: Option<LogError>,
     /// Scans whose stamp is before that of the scan above them: they were put in order.
     pub out_of_order: u32,
+    /// Readings of bags and of JSON lines that are beyond the longest range that their scan declares.
+    pub beyond: Beyond,
     /// What else was made of the log.
     pub remarks: Vec<Remark>,
+}
+
+/// Readings beyond the longest range that scans declare.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Beyond {
+    /// How many there are.
+    pub count: u32,
+    /// The shortest of them.
+    pub shortest: f32,
+    /// What is declared \[m\].
+    pub max_range: f32,
+}
+
+impl Beyond {
+    /// Counts those of a scan that declares this.
+    #[cfg(any(feature = "bags", feature = "json"))]
+    fn count(&mut self, ranges: &[f32], max_range: f32) {
+        for range in ranges.iter().filter(|range| range.is_finite() && **range > max_range) {
+            let shortest = if self.count > 0 { self.shortest.min(*range) } else { *range };
+            *self = Self { count: self.count + 1, shortest, max_range };
+        }
+    }
 }
 
 /// Raw odometry at a time \[s\], interpolated between its neighbours and held beyond its ends; `None` without any. Poses

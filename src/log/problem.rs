@@ -1,7 +1,7 @@
 //! What can be wrong with a log: each problem as the data that tell of it, so that whoever shows it can say it in the words of his readers.
 //! Displayed, they are said in English.
 
-use super::fixed;
+use super::{Beyond, fixed};
 use crate::error::Shown;
 use core::fmt;
 
@@ -149,10 +149,12 @@ pub enum LogProblem {
         but: Option<String>,
     },
     /// No beam has met anything.
-    #[error("none of its {readings} readings is a range: a finite number above 0")]
+    #[error("none of its {readings} readings is a range: a number above 0{}", in_reach(beyond))]
     NoReading {
         /// Readings of all scans.
         readings: usize,
+        /// Those of them that are beyond what their scans declare.
+        beyond: Beyond,
     },
     /// Odometry is of another time than the scans.
     #[error(
@@ -223,6 +225,16 @@ pub enum LogProblem {
     /// What the writer of a log in JSON lines says of the log that it was made of.
     #[error("{0}")]
     Told(String),
+}
+
+/// What else a range must be, where that is what they are not.
+fn in_reach(Beyond { count, shortest, max_range }: &Beyond) -> String {
+    if *count == 0 {
+        return String::new();
+    }
+    format!(
+        " and up to range_max, {max_range} m; {count} are beyond it, the shortest of them {shortest}: are they in metres?"
+    )
 }
 
 /// A field of a message, as it is called where it is missing.
@@ -319,11 +331,20 @@ impl fmt::Display for Topics {
 }
 
 /// What was made of a log that does not tell all.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum Remark {
     /// It has no odometry.
     NoOdometry,
+    /// Its odometry never moves.
+    StillOdometry,
+    /// The clock was set back.
+    ClockSetBack {
+        /// By how much \[s\].
+        seconds: f64,
+        /// Stamp of the last scan before it \[s\].
+        time: f64,
+    },
     /// So many scans are before the first or after the last word of odometry.
     Beyond(u32),
     /// No transform tells where the laser sits.
@@ -341,6 +362,15 @@ impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoOdometry => f.write_str("there is no odometry: each scan is matched with those before"),
+            Self::StillOdometry => f.write_str(
+                "the odometry never moves: it is taken for none, and each scan is matched with those before",
+            ),
+            Self::ClockSetBack { seconds, time } => write!(
+                f,
+                "the clock was set back by {} s after {} s: scans and odometry stay in the order in which they were recorded",
+                fixed(*seconds, 1),
+                fixed(*time, 3)
+            ),
             Self::Beyond(scans) => write!(
                 f,
                 "scans before the first or after the last word of odometry: {scans}; they have the pose nearest in time"

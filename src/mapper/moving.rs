@@ -247,7 +247,7 @@ mod tests {
     fn sorted(scans: &[LaserScan]) -> Vec<[usize; 2]> {
         let mut views = LastViews::default();
         let sort = |scan: &LaserScan| {
-            let Scan { hits, misses, .. } = views.standing(scan, scan.beams(f64::INFINITY, 30.0), told);
+            let Scan { hits, misses, .. } = views.standing(scan, scan.beams(f64::INFINITY, 30.0, 0.0), told);
             [hits.len(), misses.len()]
         };
         scans.iter().map(sort).collect()

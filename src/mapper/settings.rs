@@ -38,6 +38,8 @@ pub struct LaserMapperSettings {
     /// it to what each scan declares, [`LaserScan::max_range`](crate::log::LaserScan::max_range); where it declares nothing,
     /// every finite reading met something.
     pub no_return: Option<f64>,
+    /// How far the way is free \[m\] where nothing is in reach: of a reading of +∞, in [`Self::CLEAR_RANGE`]. 0: it says nothing.
+    pub clear_range: f64,
     /// Beams of a scan: of a dense laser the search looks at fewer of them. `None` goes by the first scan.
     pub beams: Option<u32>,
 }
@@ -53,6 +55,7 @@ impl Default for LaserMapperSettings {
             policy: ResamplePolicy::EssBelow(0.5),
             weight: FROM_SCAN.weight,
             no_return: None,
+            clear_range: 0.0,
             beams: None,
         }
     }
@@ -67,6 +70,8 @@ impl LaserMapperSettings {
     pub const MAX_RANGE: Range = Range::number(0.5, 200.0, "m");
     /// Range of [`Self::min_travel`].
     pub const MIN_TRAVEL: Range = Range::number(0.0, 5.0, "m");
+    /// Range of [`Self::clear_range`].
+    pub const CLEAR_RANGE: Range = Range::number(0.0, 200.0, "m");
     /// Range of [`Self::no_return`].
     const NO_RETURN: Range = Range::number(0.0, f64::INFINITY, "m");
 
@@ -79,6 +84,7 @@ impl LaserMapperSettings {
         Self::CELL_SIZE.check("cell_size", self.cell_size)?;
         Self::MAX_RANGE.check("max_range", self.max_range)?;
         Self::MIN_TRAVEL.check("min_travel", self.min_travel)?;
+        Self::CLEAR_RANGE.check("clear_range", self.clear_range)?;
         self.no_return.map_or(Ok(0.0), |length| Self::NO_RETURN.check("no_return", length))?;
         self.policy.validate()
     }
@@ -103,7 +109,7 @@ impl LaserMapperSettings {
 
     /// What a scan says, beam by beam.
     pub(super) fn beams_of<'a>(&self, scan: &'a LaserScan) -> impl Iterator<Item = Option<Beam>> + use<'a> {
-        scan.beams(self.no_return.unwrap_or(f64::INFINITY), self.max_range)
+        scan.beams(self.no_return.unwrap_or(f64::INFINITY), self.max_range, self.clear_range)
     }
 
     /// About how many bytes the maps will take when this log is mapped: for each particle all tiles that beams pass through by raw

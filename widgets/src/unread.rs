@@ -2,7 +2,7 @@
 //! English; a problem that has no words here is said so.
 
 use crate::words::unread as words;
-use fastslam::log::{Field, LogProblem, MessageProblem, Remark, Topics};
+use fastslam::log::{Beyond, Field, LogProblem, MessageProblem, Remark, Topics};
 
 /// A problem of a log.
 pub fn problem(problem: &LogProblem) -> String {
@@ -39,7 +39,11 @@ pub fn problem(problem: &LogProblem) -> String {
         LogProblem::NoScanSoon { megabytes, but: other } => {
             words::NoScanSoon { megabytes, but: &but(other.as_ref()) }.say()
         }
-        LogProblem::NoReading { readings } => words::NoReading { readings }.say(),
+        LogProblem::NoReading { readings, beyond: Beyond { count: 0, .. } } => words::NoReading { readings }.say(),
+        LogProblem::NoReading { readings, beyond: Beyond { count, shortest, max_range } } => {
+            let [max_range, shortest] = [max_range, shortest].map(|metres| tenths(f64::from(*metres)));
+            words::AllBeyond { readings, beyond: count, max_range: &max_range, shortest: &shortest }.say()
+        }
         LogProblem::NoCommonTime { scans, odometry } => {
             let ([first, last], [begin, end]) = (scans.map(milliseconds), odometry.map(milliseconds));
             words::NoCommonTime { first: &first, last: &last, begin: &begin, end: &end }.say()
@@ -65,6 +69,10 @@ pub fn problem(problem: &LogProblem) -> String {
 pub fn remark(remark: &Remark) -> String {
     match remark {
         Remark::NoOdometry => words::no_odometry().into(),
+        Remark::StillOdometry => words::still_odometry().into(),
+        Remark::ClockSetBack { seconds, time } => {
+            words::ClockSetBack { seconds: &tenths(*seconds), time: &milliseconds(*time) }.say()
+        }
         Remark::Beyond(scans) => words::Beyond { scans }.say(),
         Remark::NoTransform { laser, robot } => words::NoTransform { laser, robot }.say(),
         other => other.to_string(),

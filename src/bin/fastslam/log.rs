@@ -42,6 +42,10 @@ pub struct Arguments {
     /// Ranges beyond this [m], 0.5 to 200, are not matched
     #[arg(long, value_name = "METRES", default_value_t = LaserMapperSettings::default().max_range, allow_negative_numbers = true)]
     max_range: f64,
+    /// How far the way is free [m] where nothing is in reach, 0 to 200: a range of +inf in a bag, null in JSON lines. 0: such a beam says
+    /// nothing, as what it passed may be glass
+    #[arg(long, value_name = "METRES", default_value_t = LaserMapperSettings::default().clear_range, allow_negative_numbers = true)]
+    clear_range: f64,
     /// Pass scans over until the robot has driven this far [m], or turned by as many radians, 0 to 5
     #[arg(long, value_name = "METRES", default_value_t = LaserMapperSettings::default().min_travel, allow_negative_numbers = true)]
     min_travel: f64,
@@ -152,6 +156,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         seed: arguments.seed,
         cell_size: arguments.cell,
         max_range: arguments.max_range,
+        clear_range: arguments.clear_range,
         min_travel: arguments.min_travel,
         weight: arguments.weight,
         ..LaserMapperSettings::default()
@@ -218,6 +223,7 @@ fn by_flag(error: SettingError) -> SettingError {
     match error.field() {
         "cell_size" => error.called("cell"),
         "max_range" => error.called("max-range"),
+        "clear_range" => error.called("clear-range"),
         "min_travel" => error.called("min-travel"),
         "occupied_threshold" => error.called("occupied-threshold"),
         "free_threshold" => error.called("free-threshold"),
@@ -288,7 +294,7 @@ fn read(path: &Path, options: BagOptions) -> Result<LaserLog> {
 }
 
 fn notes(notes: &Notes, of_bag: bool) -> Vec<String> {
-    let Notes { rear, unknown, malformed, first_malformed, out_of_order, remarks } = notes;
+    let Notes { rear, unknown, malformed, first_malformed, out_of_order, remarks, .. } = notes;
     let mut said: Vec<String> = remarks.iter().map(ToString::to_string).collect();
     if *rear > 0 {
         said.push(format!("{rear} messages of a rear laser are passed over"));

@@ -180,6 +180,9 @@ impl Gathered {
                 let message: messages::LaserScan = encoding.one(bytes)?;
                 let time = stamp(message.header.stamp);
                 let scan = scan(&message, time)?;
+                if message.range_max > 0.0 {
+                    self.log.notes.beyond.count(&message.ranges, message.range_max);
+                }
                 self.scans.entry(topic.clone()).or_default().push((message.header.frame_id, scan));
             }
             "nav_msgs/Odometry" if !other(&self.options.odometry_topic) => {
@@ -325,7 +328,9 @@ fn scan(message: &messages::LaserScan, time: f64) -> Result<LaserScan, MessagePr
         return Err(MessageProblem::Angles { first, step });
     }
     let longest = if *range_max > 0.0 { *range_max } else { f32::INFINITY };
-    let reading = |range: &f32| if *range >= *range_min && *range <= longest { *range } else { f32::INFINITY };
+    // What is too near, too far or no number says nothing.
+    let told = |range: f32| (range >= *range_min && range <= longest) || range == f32::INFINITY;
+    let reading = |range: &f32| if told(*range) { *range } else { 0.0 };
     Ok(LaserScan {
         time,
         odometry: NOWHERE,

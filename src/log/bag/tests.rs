@@ -220,6 +220,44 @@ fn without_odometry_scans_are_matched_to_each_other_and_it_is_said() {
 }
 
 #[test]
+fn odometry_that_never_moves_while_scans_do_is_none() {
+    let drive = parse(CARMEN, false).unwrap();
+    let standing = Pose2::new(3.0, -2.0, 0.5);
+    let placed = |mut log: LaserLog, odometry: &[(f64, Pose2)]| {
+        log.odometry = odometry.to_vec();
+        log.scans.iter_mut().for_each(|scan| scan.odometry = NOWHERE);
+        place(&mut log).map(|()| log).map_err(|error| error.to_string())
+    };
+    let none = placed(drive.clone(), &[]).unwrap();
+    // Of wheels that tell nothing: once, of another time, and with every scan.
+    let each: Vec<(f64, Pose2)> = drive.scans.iter().map(|scan| (scan.time, standing)).collect();
+    for odometry in [&[(-7.0, standing)][..], &each] {
+        let still = placed(drive.clone(), odometry).unwrap();
+        assert_eq!(still.notes.remarks, [Remark::StillOdometry]);
+        assert_eq!((&still.scans, &still.odometry), (&none.scans, &none.odometry));
+    }
+    // A robot that stands is where its odometry has it.
+    let mut stands = drive.clone();
+    let first = stands.scans[0].clone();
+    stands.scans.iter_mut().for_each(|scan| scan.ranges.clone_from(&first.ranges));
+    let stands = placed(stands, &each).unwrap();
+    assert!(stands.notes.remarks.is_empty() && stands.scans.iter().all(|scan| scan.odometry == standing));
+}
+
+#[test]
+fn a_clock_that_is_set_back_shuffles_nothing() {
+    let drive = parse(CARMEN, false).unwrap();
+    let (mut spoiled, at) = (drive.clone(), drive.scans[15].time);
+    let back = |time: &mut f64| *time -= if *time >= at { 10.07 } else { 0.0 };
+    spoiled.scans.iter_mut().for_each(|scan| back(&mut scan.time));
+    spoiled.odometry.iter_mut().for_each(|(time, _)| back(time));
+    spoiled.in_order();
+    let poses = |log: &LaserLog| log.scans.iter().map(|scan| scan.odometry).collect::<Vec<Pose2>>();
+    assert_eq!(poses(&spoiled), poses(&drive));
+    assert!(matches!(spoiled.notes.remarks[..], [Remark::ClockSetBack { .. }]), "{:?}", spoiled.notes);
+}
+
+#[test]
 fn what_is_missing_is_named_with_its_topic() {
     let error = |made: Made| made.read().unwrap_err();
     let said = error(Made::new().odometry("/odom", 1, 0.0));
@@ -249,6 +287,36 @@ fn what_is_missing_is_named_with_its_topic() {
         "the topic /o is of type nav_msgs/Odometry, not sensor_msgs/LaserScan"
     );
     assert!(read_with(&bag, wanted("/c")).unwrap_err().starts_with("there is no topic /c in it; there is /a (1 × "));
+}
+
+#[test]
+fn ranges_beyond_what_the_laser_declares_are_counted_where_there_are_no_others() {
+    let said = "none of its 4 readings is a range: a number above 0 and up to range_max, 12 m; 3 are beyond it, the shortest of them 1033: \
+                are they in metres?";
+    let millimetres = |scan: &mut ScanMessage| {
+        (scan.range_max, scan.ranges) = (12.0, vec![1033.0, f32::INFINITY, 2500.0, 4100.0]);
+    };
+    assert_eq!(Made::new().scan("/scan", 9, millimetres).read().unwrap_err(), said);
+    let line =
+        br#"{"time": 1, "angle_min": 0, "angle_increment": 0.1, "range_max": 12, "ranges": [1033, null, 2500, 4100]}"#;
+    assert_eq!(parse(line, false).unwrap_err().problem.to_string(), said);
+}
+
+#[test]
+fn what_is_in_reach_of_nothing_is_told_from_what_says_nothing() {
+    let spoil = |scan: &mut ScanMessage| {
+        (scan.range_min, scan.range_max) = (0.2, 12.0);
+        scan.ranges = vec![3.0, f32::INFINITY, f32::NAN, 0.1, 13.0, f32::NEG_INFINITY];
+    };
+    let log = Made::new().scan("/scan", 9, spoil).read().unwrap();
+    let again = parse(write_json_lines(&log).as_bytes(), false).unwrap();
+    for log in [&log, &again] {
+        assert_eq!(log.scans[0].ranges, [3.0, f32::INFINITY, 0.0, 0.0, 0.0, 0.0]);
+        let beams: Vec<_> = log.scans[0].beams(f64::INFINITY, 30.0, 5.0).collect();
+        let told: Vec<_> = beams.iter().map(|beam| beam.map(|beam| (beam.length, beam.met))).collect();
+        assert_eq!(told, [Some((3.0, true)), Some((5.0, false)), None, None, None, None]);
+        assert_eq!(log.scans[0].beams(f64::INFINITY, 30.0, 0.0).flatten().count(), 1);
+    }
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use fastslam_widgets::{
     fastslam::log::{
-        BagOptions, BagReader, Field, LogProblem, MessageProblem, Remark, Topics, parse, write_json_lines,
+        BagOptions, BagReader, Beyond, Field, LogProblem, MessageProblem, Remark, Topics, parse, write_json_lines,
     },
     figure::Figure,
     model::{ParamSpec, Readout},
@@ -223,7 +223,8 @@ fn problems() -> Vec<LogProblem> {
         P::NoScan { but: None },
         P::NoScan { but: Some("SYNC".into()) },
         P::NoScanSoon { megabytes: 64, but: None },
-        P::NoReading { readings: 12 },
+        P::NoReading { readings: 12, beyond: Beyond::default() },
+        P::NoReading { readings: 12, beyond: Beyond { count: 9, shortest: 1033.0, max_range: 12.0 } },
         P::NoCommonTime { scans: [9.0, 9.5], odometry: [2.0, 3.25] },
         P::OdometryJumps { kilometres: 2.35, time: 7.125 },
         P::NoBag,
@@ -239,8 +240,14 @@ fn problems() -> Vec<LogProblem> {
     fields.map(field).into_iter().chain(messages.map(message)).chain(others).collect()
 }
 
-fn remarks() -> [Remark; 3] {
-    [Remark::NoOdometry, Remark::Beyond(2), Remark::NoTransform { laser: "laser".into(), robot: "base_link".into() }]
+fn remarks() -> [Remark; 5] {
+    [
+        Remark::NoOdometry,
+        Remark::StillOdometry,
+        Remark::ClockSetBack { seconds: 10.07, time: 1029.6 },
+        Remark::Beyond(2),
+        Remark::NoTransform { laser: "laser".into(), robot: "base_link".into() },
+    ]
 }
 
 /// The words of a text but for numbers, what begins with a capital, and those of both languages: names, and what is cited.

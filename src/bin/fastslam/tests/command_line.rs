@@ -637,12 +637,70 @@ fn the_example_that_the_page_ships_is_the_one_that_is_written() {
 /// Where a log of shared/data is, which may not be shipped. Where one of its files is absent `npm test` counts the test as skipped, by
 /// the line that this prints.
 fn recorded(name: &str, files: [&str; 2]) -> Option<String> {
-    let prefix = format!("{}/../../../../shared/data/{name}", env!("CARGO_MANIFEST_DIR"));
+    shared("data", name, files)
+}
+
+/// The same of one of the folders of shared.
+fn shared(of: &str, name: &str, files: [&str; 2]) -> Option<String> {
+    let prefix = format!("{}/../../../../shared/{of}/{name}", env!("CARGO_MANIFEST_DIR"));
     match files.iter().find(|file| !std::path::Path::new(&format!("{prefix}{file}")).exists()) {
-        Some(file) => println!("skipped: {name}{file} is not in ../shared/data"),
+        Some(file) => println!("skipped: {name}{file} is not in ../shared/{of}"),
         None => return Some(prefix),
     }
     None
+}
+
+/// The positions of a TUM file, seen from the first pose.
+fn positions(path: &str) -> Vec<[f64; 2]> {
+    let text = std::fs::read_to_string(path).unwrap();
+    let numbers = |line: &str| line.split(' ').map(|word| word.parse().unwrap()).collect::<Vec<f64>>();
+    let rows: Vec<Vec<f64>> = text.lines().filter(|line| !line.starts_with('#')).map(numbers).collect();
+    let (sin, cos) = fastslam::ops::sin_cos(2.0 * fastslam::ops::atan2(rows[0][6], rows[0][7]));
+    let seen = |row: &Vec<f64>| {
+        let [x, y] = [row[1] - rows[0][1], row[2] - rows[0][2]];
+        [cos * x + sin * y, cos * y - sin * x]
+    };
+    rows.iter().map(seen).collect()
+}
+
+/// One drive, spoiled in ways that owners of robots have reported: the path is that of the drive as it was, pose by pose in the order of
+/// recording, and what was made of the log is said.
+#[test]
+fn a_spoiled_drive_is_mapped_as_it_was_driven() {
+    let still = "the odometry never moves: it is taken for none, and each scan is matched with those before";
+    let folder = tempdir().unwrap();
+    for (file, said) in [
+        ("base/base", ""),
+        ("clock-set-back/clock-set-back", "the clock was set back by 10.1 s after "),
+        ("no-wheels/static-transform", still),
+        ("no-wheels/repeated-transform", still),
+        ("no-wheels/zero-odometry", still),
+    ] {
+        let truth = format!("{}/truth.tum", file.split_once('/').unwrap().0);
+        let Some(cases) = shared("cases", "", [&format!("{file}.mcap.gz"), &truth]) else { return };
+        let path = folder.path().join("path.tum").display().to_string();
+        let run = fastslam(&format!("log {cases}{file}.mcap.gz --particles 8 --trajectory {path} --json")).success();
+        let noted = String::from_utf8(run.get_output().stderr.clone()).unwrap();
+        assert!(noted.contains(said) && (!said.is_empty() || noted.is_empty()), "{file}: {noted}");
+        let [found, truth] = [path, format!("{cases}{truth}")].map(|path| positions(&path));
+        assert_eq!(found.len(), truth.len(), "{file}");
+        let squared = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
+        let rms = (found.iter().zip(&truth).map(squared).sum::<f64>() / found.len() as f64).sqrt();
+        assert!(rms < 0.03, "{file}: {rms} m");
+    }
+}
+
+#[test]
+fn millimetres_are_told() {
+    let file = "millimetres/range-max-in-metres.jsonl.gz";
+    let Some(cases) = shared("cases", "", [file, file]) else { return };
+    let refused = fastslam(&format!("log {cases}{file}")).code(2);
+    let said = String::from_utf8(refused.get_output().stderr.clone()).unwrap();
+    assert!(
+        said.contains("readings is a range: a number above 0 and up to range_max")
+            && said.contains("are they in metres?"),
+        "{said}"
+    );
 }
 
 #[test]
