@@ -105,6 +105,8 @@ for (const width of [1280, 380]) {
     await expect(figure.element.locator('.title')).not.toBeEmpty()
     const height = () => figure.element.evaluate(element => element.getBoundingClientRect().height)
     const before = await height()
+    // Also on a slow network, of which it tells.
+    await expect(figure.element.getByRole('status')).toContainText('Still loading')
     open()
     await figure.live()
     expect(Math.abs((await height()) - before)).toBeLessThan(width > 500 ? 3 : 64)

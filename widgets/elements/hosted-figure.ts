@@ -57,7 +57,9 @@ export abstract class HostedFigure extends FigureParts implements Listener {
     if (!this.status.textContent) write(this.status, this.words.say('loading'))
     const slow = setTimeout(() => {
       this.showFallback()
-      write(this.status, this.words.say('still_loading'))
+      // Longer words in the place of others would be seen to move: a frame goes by without any.
+      write(this.status, '')
+      requestAnimationFrame(() => this.#starting && !this.host && write(this.status, this.words.say('still_loading')))
     }, SLOW)
     try {
       const Host = this.heavy ? WorkerHost : LocalHost
