@@ -134,11 +134,17 @@ impl LaserLog {
     /// The range \[m\] that all but one in a thousand of the readings stay within, 0 without any: the longest one is
     /// often an error, or says something else than the laser's *nothing met*.
     pub fn longest_reading(&self) -> f64 {
-        let ranges = self.scans.iter().flat_map(|scan| &scan.ranges).copied();
-        let mut ranges: Vec<f32> = ranges.filter(|range| range.is_finite() && *range > 0.0).collect();
-        let within = ranges.len() - ranges.len() / 1000;
-        let Some(last) = within.checked_sub(1) else { return 0.0 };
-        f64::from(*ranges.select_nth_unstable_by(last, f32::total_cmp).1)
+        let readings =
+            || self.scans.iter().flat_map(|scan| &scan.ranges).filter(|range| range.is_finite() && **range > 0.0);
+        let most_beyond = readings().count() / 1000;
+        // The smallest range that no more go beyond, by bisection: positive numbers are in the order of their bits.
+        let (mut low, mut high) = (0, f32::INFINITY.to_bits());
+        while low < high {
+            let middle = low.midpoint(high);
+            let beyond = readings().filter(|range| range.to_bits() > middle).count();
+            if beyond > most_beyond { low = middle + 1 } else { high = middle }
+        }
+        f64::from(f32::from_bits(low))
     }
 
     /// Puts what is in it in order: clocks are set back, and of messages that come over a network some are late. The sorts are stable, so that
