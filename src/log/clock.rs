@@ -5,6 +5,9 @@ use super::{LaserLog, Remark};
 /// Most that a message is late over a network \[s\]: stamps that go back by more, and stay there, are of a clock that was set back.
 const LATE: f64 = 1.0;
 
+/// Most messages in a row that are late by more.
+const MOST_LATE: usize = 5;
+
 /// That a clock was set back.
 #[derive(Clone, Copy)]
 struct SetBack {
@@ -48,7 +51,7 @@ fn set_backs(stamps: &[f64]) -> Vec<SetBack> {
             let rest = &stamps[first..];
             let before = rest.iter().take_while(|stamp| **stamp + offset < latest).count();
             // Late messages are few; of a clock that was set back all come until it is where it was.
-            if before > 1 && before as f64 >= (0.5 * back / usual).min(rest.len() as f64) {
+            if before > MOST_LATE && before as f64 >= (0.5 * back / usual).min(rest.len() as f64) {
                 let by = back + usual;
                 offset += by;
                 found.push(SetBack { first, by });

@@ -149,7 +149,7 @@ pub enum LogProblem {
         but: Option<String>,
     },
     /// No beam has met anything.
-    #[error("none of its {readings} readings is a range: a number above 0{}", in_reach(beyond))]
+    #[error("none of its {readings} readings is a range: a finite number above 0{}", in_reach(beyond))]
     NoReading {
         /// Readings of all scans.
         readings: usize,
@@ -232,6 +232,7 @@ fn in_reach(Beyond { count, shortest, max_range }: &Beyond) -> String {
     if *count == 0 {
         return String::new();
     }
+    let [max_range, shortest] = [max_range, shortest].map(|metres| fixed(f64::from(*metres), 1));
     format!(
         " and up to range_max, {max_range} m; {count} are beyond it, the shortest of them {shortest}: are they in metres?"
     )

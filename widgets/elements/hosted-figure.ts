@@ -59,7 +59,8 @@ export abstract class HostedFigure extends FigureParts implements Listener {
       this.showFallback()
       // Longer words in the place of others would be seen to move: a frame goes by without any.
       write(this.status, '')
-      requestAnimationFrame(() => this.#starting && !this.host && write(this.status, this.words.say('still_loading')))
+      const say = () => this.#starting && !this.host && write(this.status, this.words.say('still_loading'))
+      requestAnimationFrame(() => requestAnimationFrame(say))
     }, SLOW)
     try {
       const Host = this.heavy ? WorkerHost : LocalHost

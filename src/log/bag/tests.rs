@@ -291,7 +291,7 @@ fn what_is_missing_is_named_with_its_topic() {
 
 #[test]
 fn ranges_beyond_what_the_laser_declares_are_counted_where_there_are_no_others() {
-    let said = "none of its 4 readings is a range: a number above 0 and up to range_max, 12 m; 3 are beyond it, the shortest of them 1033: \
+    let said = "none of its 4 readings is a range: a finite number above 0 and up to range_max, 12.0 m; 3 are beyond it, the shortest of them 1033.0: \
                 are they in metres?";
     let millimetres = |scan: &mut ScanMessage| {
         (scan.range_max, scan.ranges) = (12.0, vec![1033.0, f32::INFINITY, 2500.0, 4100.0]);

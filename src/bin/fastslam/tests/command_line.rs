@@ -684,8 +684,9 @@ fn a_spoiled_drive_is_mapped_as_it_was_driven() {
         assert!(noted.contains(said) && (!said.is_empty() || noted.is_empty()), "{file}: {noted}");
         let [found, truth] = [path, format!("{cases}{truth}")].map(|path| positions(&path));
         assert_eq!(found.len(), truth.len(), "{file}");
-        let squared = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
-        let rms = (found.iter().zip(&truth).map(squared).sum::<f64>() / found.len() as f64).sqrt();
+        let error = |(a, b): (&[f64; 2], &[f64; 2])| fastslam::ops::hypot(a[0] - b[0], a[1] - b[1]);
+        let squares: f64 = found.iter().zip(&truth).map(error).map(|error| error * error).sum();
+        let rms = (squares / found.len() as f64).sqrt();
         assert!(rms < 0.03, "{file}: {rms} m");
     }
 }
@@ -697,7 +698,7 @@ fn millimetres_are_told() {
     let refused = fastslam(&format!("log {cases}{file}")).code(2);
     let said = String::from_utf8(refused.get_output().stderr.clone()).unwrap();
     assert!(
-        said.contains("readings is a range: a number above 0 and up to range_max")
+        said.contains("readings is a range: a finite number above 0 and up to range_max")
             && said.contains("are they in metres?"),
         "{said}"
     );
