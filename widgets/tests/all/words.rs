@@ -252,7 +252,7 @@ fn remarks() -> [Remark; 5] {
 
 /// The words of a text but for numbers, what begins with a capital, and those of both languages: names, and what is cited.
 fn words_of(text: &str) -> impl Iterator<Item = &str> {
-    const BOTH: &str = "angle base cdr convert html in increment km laser link migrate min msgs nav odom protobuf qx ranges rosbag \
+    const BOTH: &str = "angle base cdr convert html in increment km laser link m max migrate min msgs nav odom protobuf qx range ranges rosbag \
         rosbags s scan sensor tf theta time tv wall x xz y zstd";
     text.split(|c: char| !c.is_alphanumeric()).filter(|word| {
         !word.is_empty() && word.chars().all(char::is_lowercase) && BOTH.split(' ').all(|both| both != *word)
