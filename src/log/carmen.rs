@@ -208,9 +208,7 @@ impl Reader {
                     if !scan.odometry.x.is_nan() {
                         self.log.odometry.push((scan.time, scan.odometry));
                     }
-                    if let Some(declared) = scan.max_range {
-                        self.log.notes.beyond.count(&scan.ranges, declared as f32);
-                    }
+                    self.log.notes.beyond.add(&scan.ranges, scan.max_range);
                     self.log.scans.push(scan);
                 }
                 Told::Remark(remark) => self.log.notes.remarks.push(Remark::Told(remark)),

@@ -4,10 +4,10 @@
 //! {"time": 1.5, "angle_min": -1.57, "angle_increment": 0.0175, "range_max": 30, "ranges": [2.1, null, 2.3], "laser": [0.1, 0, 0], "odometry": [0.5, 0, 0.02]}
 //! ```
 //!
-//! Seconds, metres, radians, in the frames and with the names of `sensor_msgs/LaserScan`. `ranges` has a number for each beam, `null` where nothing is
-//! in reach, 0 where nothing is known. `range_max`, `laser` (x, y, heading of the laser on the robot; at its centre where it is missing) and `odometry` (x, y, heading of the
-//! robot) may be missing. Where scans have no odometry of their own it comes from lines of a TUM file, which may stand anywhere between
-//! them or in front of them. What else an object holds is passed over.
+//! Seconds, metres, radians, in the frames and with the names of `sensor_msgs/LaserScan`. `ranges` has a number for each beam, `null` where
+//! nothing is in reach, 0 where nothing is known. `range_max`, `laser` (x, y, heading of the laser on the robot; at its centre where it is
+//! missing) and `odometry` (x, y, heading of the robot) may be missing. Where scans have no odometry of their own it comes from lines of a TUM
+//! file, which may stand anywhere between them or in front of them. What else an object holds is passed over.
 
 use super::place::NOWHERE;
 use super::{LaserLog, LaserScan, LogProblem, Notes};
@@ -80,9 +80,13 @@ pub(super) fn read(line: &str) -> Result<Told, LogProblem> {
     Ok(Told::Scan(if line.odometry.is_some() { scan } else { LaserScan { odometry: NOWHERE, ..scan } }))
 }
 
-/// A range as JSON can tell it: +∞ is `null`, and no number 0.
+/// A range as JSON can tell it: `null` where nothing is in reach, and 0 for what is no number.
 fn reading(range: &f32) -> Option<f32> {
-    if range.is_finite() { Some(*range) } else { Some(0.0).filter(|_| *range != f32::INFINITY) }
+    match *range {
+        f32::INFINITY => None,
+        range if range.is_finite() => Some(range),
+        _ => Some(0.0),
+    }
 }
 
 /// The scans of a log as JSON lines, each with its odometry, and what was noted of it: [`parse`](super::parse) reads back the same bits.

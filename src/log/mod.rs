@@ -164,7 +164,7 @@ impl LaserLog {
     fn seen_something(&self) -> Result<(), LogError> {
         let readings = || self.scans.iter().flat_map(|scan| &scan.ranges);
         let Beyond { count, max_range, .. } = self.notes.beyond;
-        // Those of scans in JSON are still there.
+        // Readings of bags that are beyond are 0 by now; those of JSON lines are as they were.
         let ranges =
             readings().filter(|range| range.is_finite() && **range > 0.0 && (count == 0 || **range <= max_range));
         if ranges.count() > 0 {
@@ -205,9 +205,10 @@ pub struct Beyond {
 }
 
 impl Beyond {
-    /// Counts those of a scan that declares this.
+    /// Adds those of a scan, if it declares a longest range.
     #[cfg(any(feature = "bags", feature = "json"))]
-    fn count(&mut self, ranges: &[f32], max_range: f32) {
+    fn add(&mut self, ranges: &[f32], declared: Option<f64>) {
+        let Some(max_range) = declared.map(|declared| declared as f32) else { return };
         for range in ranges.iter().filter(|range| range.is_finite() && **range > max_range) {
             let shortest = if self.count > 0 { self.shortest.min(*range) } else { *range };
             *self = Self { count: self.count + 1, shortest, max_range };

@@ -79,6 +79,7 @@ mod tests {
     /// FastSLAM 2.0 resamples every few steps. When a loop closes all particles descend from one or two of those that began it, and their mean is hardly
     /// more than one draw of where the car may be, which errs by √2 times what the mean of all draws does: it comes near the joint filter, and does
     /// not reach it. Particles that draw late resample less often, some lines are left, and they do.
+    ///
     /// Returns the medians of FastSLAM 2.0 and of late draws.
     fn late_draws_are_near_the_joint_filter(seeds: core::ops::RangeInclusive<u64>) -> [f64; 2] {
         let errors: Vec<[f64; 4]> = seeds

@@ -180,9 +180,7 @@ impl Gathered {
                 let message: messages::LaserScan = encoding.one(bytes)?;
                 let time = stamp(message.header.stamp);
                 let scan = scan(&message, time)?;
-                if message.range_max > 0.0 {
-                    self.log.notes.beyond.count(&message.ranges, message.range_max);
-                }
+                self.log.notes.beyond.add(&message.ranges, scan.max_range);
                 self.scans.entry(topic.clone()).or_default().push((message.header.frame_id, scan));
             }
             "nav_msgs/Odometry" if !other(&self.options.odometry_topic) => {
