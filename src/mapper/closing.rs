@@ -4,7 +4,7 @@
 //! Where the robot comes back, the nearest of them may be off by more than a matcher finds, and all map the building a second time
 //! beside the first. So every few metres the scans of the last metres are held, as one rigid picture, against the map as it was before what
 //! they show came in sight. Where end points lie in what that map knows to be free, the picture is searched for as far as the path
-//! may have drifted, up to eight steps of the lattice to each side (3.2 m). If it fits somewhere else much better, and nowhere else nearly
+//! may have drifted by its own covariance, up to 12 m to each side. If it fits somewhere else much better, and nowhere else nearly
 //! as well, the path is bent until it ends there, each motion by its share, with the loops closed so far as they are ([`Chain::bent`]); and
 //! it is mapped again.
 //!
@@ -17,8 +17,10 @@
 //! Bayesian models*, JRSS B 2001 (moving particles between steps).
 
 use super::Filter;
+use super::agreement::Agreement;
+use super::loops::{Account, Loop, LoopEnd};
 use super::moving::driven;
-use super::tuning::{CLOSING, IN_FREE_SPACE, Map, ON_A_WALL, score};
+use super::tuning::{CLOSING, Map, score};
 use crate::geometry::{Chain, Gaussian3, Pose2, Relation};
 use crate::map::ConditionalMap;
 use crate::matching::{Score, ScoredPose, hill_climb};
@@ -38,8 +40,8 @@ pub(super) struct Closings {
     views: Vec<View>,
     /// The oldest first.
     before: VecDeque<Before>,
-    /// By slot, the loops that its path has closed.
-    relations: Vec<Vec<Relation>>,
+    /// By slot, what its path has come back to.
+    accounts: Vec<Account>,
     /// Step of the last check.
     checked: usize,
     /// Particles that were bent.
@@ -90,12 +92,14 @@ struct Before {
 
 /// What a check found of a particle.
 enum Found {
-    /// No loop.
+    /// It is nowhere back.
     Nothing,
-    /// One that is closed as it is.
-    Closed(Relation),
-    /// One that was closed now, with the maps of [`Closings::before`] as they would have been.
-    Bent(Relation, Vec<Map>),
+    /// What it sees agrees with the map of before; and the loop that is closed by it.
+    Agrees(Agreement, Option<Relation>),
+    /// That map contradicts what it sees; and the loop of which that may be the end.
+    Contradicts(Agreement, Option<Relation>),
+    /// A loop that was closed now, with the maps of [`Closings::before`] as they would have been.
+    Bent(Relation, LoopEnd, Vec<Map>),
 }
 
 impl Closings {
@@ -121,14 +125,24 @@ impl Closings {
             ancestors.iter().map(|slot| of[*slot as usize].clone()).collect()
         }
         self.before.iter_mut().for_each(|before| before.maps = copied(&before.maps, ancestors));
-        if !self.relations.is_empty() {
-            self.relations = copied(&self.relations, ancestors);
+        if !self.accounts.is_empty() {
+            self.accounts = copied(&self.accounts, ancestors);
         }
     }
 
     /// How many times a particle's path was bent.
     pub(super) fn bent(&self) -> u32 {
         self.bent
+    }
+
+    /// What the path in this slot has come back to, and the share of what it saw there that the map of before contradicts.
+    pub(super) fn of(&self, slot: usize) -> (&[Loop], f64) {
+        self.accounts.get(slot).map_or((&[], 0.0), |account| (&account.loops, account.disputed()))
+    }
+
+    /// Whether no scan has met anything.
+    pub(super) fn met_nothing(&self) -> bool {
+        self.views.iter().all(|view| view.scan.hits.is_empty())
     }
 
     /// The maps that are kept besides those of the particles.
@@ -144,7 +158,7 @@ impl Closings {
         }
         self.checked = now;
         let particles = filter.particles().len();
-        self.relations.resize(particles, Vec::new());
+        self.accounts.resize(particles, Account::default());
         let reach = self.last_steps(now).map(|step| self.views[step].reach).fold(0.0, f64::max);
         let least = CLOSING.window + reach.min(CLOSING.farthest);
         let is_old = |before: &Before| self.way(before.step, now) >= least;
@@ -155,11 +169,13 @@ impl Closings {
             let heavy = heaviest(filter.weights().as_slice(), CLOSING.searched);
             let found = filter.revise(|slot, particle| self.look(slot, particle, heavy[slot]));
             for (slot, found) in found.into_iter().enumerate() {
+                let account = &mut self.accounts[slot];
                 match found {
                     Found::Nothing => {}
-                    Found::Closed(relation) => self.relations[slot].push(relation),
-                    Found::Bent(relation, maps) => {
-                        self.relations[slot].push(relation);
+                    Found::Agrees(agreement, closed) => account.agrees(&agreement, closed),
+                    Found::Contradicts(agreement, back) => account.contradicts(&agreement, back),
+                    Found::Bent(relation, end, maps) => {
+                        account.bent(relation, end);
                         self.before.iter_mut().zip(maps).for_each(|(before, map)| before.maps[slot] = map);
                         self.bent += 1;
                     }
@@ -190,20 +206,23 @@ impl Closings {
             picture: self.picture(&poses),
             old: &self.before[0],
             map: &self.before[0].maps[slot],
-            relations: &self.relations[slot],
+            relations: &self.accounts[slot].relations,
             poses: &poses,
         };
-        let nothing = (None, Found::Nothing);
         if now.picture.hits.len() < CLOSING.picture / 4 || now.nearest(&now.here()).is_none() {
-            return nothing;
+            return (None, Found::Nothing);
         }
         let agreement = now.agreement(&now.here());
         if agreement.disputed() < CLOSING.disputed {
-            return now.closed(&agreement).map_or(nothing, |relation| (None, Found::Closed(relation)));
+            let closed = now.closed(&agreement);
+            return (None, Found::Agrees(agreement, closed));
         }
-        let Some((relation, bent)) = searched.then(|| now.bent()).flatten() else { return nothing };
+        let Some((relation, end, bent)) = searched.then(|| now.bent()).flatten() else {
+            let back = now.relation(&now.here());
+            return (None, Found::Contradicts(agreement, back));
+        };
         let (particle, maps) = self.mapped(particle, &poses, &bent);
-        (Some(particle), Found::Bent(relation, maps))
+        (Some(particle), Found::Bent(relation, end, maps))
     }
 
     /// The end points of the last metres in the robot's frame, evenly picked. They were seen from many places: no one origin is theirs.
@@ -291,11 +310,12 @@ impl Now<'_> {
     }
 
     /// The loop that was missed, and the path that closes it, where the picture is found elsewhere.
-    fn bent(&self) -> Option<(Relation, Vec<Pose2>)> {
+    fn bent(&self) -> Option<(Relation, LoopEnd, Vec<Pose2>)> {
         let chain = chain(self.poses);
-        let relation = self.relation(&self.search(&chain)?)?;
+        let (place, end) = self.search(&chain)?;
+        let relation = self.relation(&place)?;
         let relations: Vec<Relation> = self.relations.iter().copied().chain([relation]).collect();
-        Some((relation, chain.bent(&relations)?))
+        Some((relation, end, chain.bent(&relations)?))
     }
 
     /// Where the robot may be as far as matching and the loops so far know.
@@ -308,7 +328,7 @@ impl Now<'_> {
     }
 
     /// Where the picture fits the old map much better than here, if nothing else does nearly as well.
-    fn search(&self, chain: &Chain) -> Option<Pose2> {
+    fn search(&self, chain: &Chain) -> Option<(Pose2, LoopEnd)> {
         let (prior, score, here) = (self.prior(chain)?, score(), self.here());
         // A climb asks which of two poses is better, for which every second end point will do.
         let target = Target::new(&prior, score.near(self.map, &here, &self.picture, 2), 0.0);
@@ -321,36 +341,18 @@ impl Now<'_> {
         let second = tops.iter().find(|other| are_apart(&other.pose, &top.pose)).map_or(0.0, gain);
         let there = self.agreement(&top.pose);
         let is_there = there.fits >= CLOSING.fits && there.is_undisputed();
-        let is_clear = gain(top) >= CLOSING.gain && second <= CLOSING.ambiguity * gain(top);
-        (is_there && is_clear && are_apart(&top.pose, &here)).then_some(top.pose)
+        let (shift, gain) = (here.distance(&top.pose), gain(top));
+        let is_clear = gain >= CLOSING.gain && second <= CLOSING.ambiguity * gain;
+        (is_there && is_clear && is_elsewhere(&top.pose, &here))
+            .then_some((top.pose, LoopEnd::Bent { shift, gain, second }))
     }
 }
 
-/// How well a picture agrees with a map.
-struct Agreement {
-    /// Share of the end points that lie on a wall.
-    fits: f64,
-    /// Share of those that lie where it was seen to be free.
-    contradicts: f64,
-}
-
-impl Agreement {
-    /// Of what each end point adds to a score \[nats\].
-    fn of(beams: &[f64]) -> Self {
-        let share = |is: fn(f64) -> bool| beams.iter().filter(|log| is(**log)).count() as f64 / beams.len() as f64;
-        Self { fits: share(|log| log > ON_A_WALL), contradicts: share(|log| log < IN_FREE_SPACE) }
-    }
-
-    /// Whether hardly anything is disputed.
-    fn is_undisputed(&self) -> bool {
-        self.disputed() < 0.5 * CLOSING.disputed
-    }
-
-    /// Share of the end points that contradict, of those of which the map knows anything.
-    fn disputed(&self) -> f64 {
-        let known = self.fits + self.contradicts;
-        if known > 0.0 { self.contradicts / known } else { 0.0 }
-    }
+/// Whether a place that was found is another than where the path has the robot.
+fn is_elsewhere(there: &Pose2, here: &Pose2) -> bool {
+    let [position, heading] = CLOSING.elsewhere;
+    let [way, turn] = driven(&here.between(there));
+    way > position || turn > heading
 }
 
 /// Whether two poses are of two hills: more than a step of the lattice from each other, or more than two of its turns. What is nearer the
@@ -384,28 +386,6 @@ fn heaviest(weights: &[f64], count: usize) -> Vec<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_map_that_knows_nothing_of_a_picture_disputes_none_of_it() {
-        let [wall, unknown, free] = [-0.1, -1.07, -2.0];
-        let strange = Agreement::of(&[unknown; 4]);
-        assert_eq!([strange.fits, strange.contradicts, strange.disputed()], [0.0; 3]);
-        let missed = Agreement::of(&[wall, unknown, unknown, free, free, free, wall, free]);
-        assert_eq!([missed.fits, missed.contradicts, missed.disputed()], [0.25, 0.5, 2.0 / 3.0]);
-    }
-
-    /// By what a beam adds where the mapper's score knows one of three things.
-    #[test]
-    fn what_is_unknown_lies_neither_on_a_wall_nor_in_free_space() {
-        // Along the middle of a row of NDT cells, by which space is judged.
-        let (mut map, pose) = (Map::new(super::super::tuning::grid(0.05)), Pose2::new(0.02, 0.12, 0.0));
-        let ahead = Scan { hits: vec![[3.0, 0.0]], ..Scan::default() };
-        map.assimilate(&pose, &ahead, &());
-        let points = Scan { hits: vec![[3.0, 0.02], [5.0, 0.0], [1.0, 0.0]], ..Scan::default() };
-        let beams = score().log_beams(&map, &pose, &points);
-        let kinds = beams.iter().map(|log| [*log > ON_A_WALL, *log < IN_FREE_SPACE]).collect::<Vec<_>>();
-        assert_eq!(kinds, [[true, false], [false, false], [false, true]], "{beams:?}");
-    }
 
     #[test]
     fn the_heaviest_are_marked_and_of_equals_the_lower() {

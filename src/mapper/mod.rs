@@ -10,8 +10,12 @@
 //! scans that will come; whoever has a whole log lets [`Replay`] push it, or fills the laser's settings in by
 //! [`LaserMapperSettings::for_log`]. What is not a setting has one value for every building and robot: [`tuning`] says why.
 
+mod agreement;
 mod closing;
+mod last_places;
+mod loops;
 mod moving;
+mod odometer;
 mod replay;
 mod settings;
 #[cfg(test)]
@@ -20,16 +24,20 @@ pub mod tuning;
 mod wheels;
 
 use closing::Closings;
+pub(crate) use last_places::{LastPlaces, MAX_RANGE, fan};
+pub use loops::{Loop, LoopEnd};
 use moving::{LastViews, driven};
+use odometer::Odometer;
+pub use odometer::Unbelieved;
 pub use replay::Replay;
 pub use settings::LaserMapperSettings;
 pub use tuning::Map;
 pub use wheels::{WheelNoise, Wheels};
 
-use crate::error::{Range, SettingError};
+use crate::error::SettingError;
 use crate::execute::Executor;
 use crate::geometry::Pose2;
-use crate::log::{FARTHEST_JUMP, LaserScan};
+use crate::log::{LaserScan, Remark};
 use crate::map::{ConditionalMap, Footprint};
 use crate::particle::Particle;
 use crate::rbpf::{Rbpf, Report};
@@ -80,6 +88,8 @@ pub struct LaserMapper {
     settings: LaserMapperSettings,
     executor: Executor,
     filter: Filter,
+    /// What odometry says, as far as it is believed.
+    odometer: Odometer,
     /// What is known of the wheels.
     wheels: Wheels,
     /// Metres driven by odometry since the particles' maps were marked for the last time.
@@ -88,7 +98,7 @@ pub struct LaserMapper {
     views: LastViews,
     /// What closes the loops that were missed.
     closings: Closings,
-    /// Raw odometry of the last scan that the filter took; `None` before the first.
+    /// Odometry of the last scan that the filter took, as it was believed; `None` before the first.
     last: Option<Pose2>,
     /// Steps of the filter: scans it took after the first.
     steps: u32,
@@ -112,6 +122,7 @@ impl LaserMapper {
             settings,
             executor: Executor::default(),
             filter: filter(&settings, settings.beams.unwrap_or(tuning::BEAMS), map)?,
+            odometer: Odometer::default(),
             wheels: Wheels::default(),
             since_mark: 0.0,
             views: LastViews::default(),
@@ -130,27 +141,32 @@ impl LaserMapper {
     }
 
     /// The next scan, with the pose that raw odometry gives for it. Odometry may be in any frame, as long as it is one: only
-    /// motions count.
+    /// motions count. Where the clock or the scans contradict it ([`Self::unbelieved`]), the scan is matched with those before instead.
     ///
     /// A scan whose time or pose is not finite, whose pose lies further than 10 000 km from odometry's origin, or more than 1 km from
     /// that of the last scan that was taken, is refused.
     ///
     /// A step in which a path is bent to close a loop takes longer: all scans so far are mapped again for it.
     pub fn push(&mut self, scan: &LaserScan) -> Pushed {
-        let moved = match moved(self.last.as_ref(), scan) {
-            Ok(Some(moved)) => moved,
-            Ok(None) => {
-                self.begin(scan);
-                return Pushed::First;
-            }
-            Err(reason) => return Pushed::Refused(reason),
+        match self.odometer.next(scan, self.settings.longest()) {
+            Ok(odometry) => self.push_from(scan, odometry),
+            Err(reason) => Pushed::Refused(reason),
+        }
+    }
+
+    /// The next scan, taken where odometry that is believed has the robot.
+    fn push_from(&mut self, scan: &LaserScan, odometry: Pose2) -> Pushed {
+        let Some(last) = self.last else {
+            self.begin(scan, odometry);
+            return Pushed::First;
         };
+        let moved = last.between(&odometry);
         if !self.settings.takes(&moved) {
             self.stamps.push(Stamp { time: scan.time, step: self.steps, step_from_robot: moved });
             return Pushed::Still;
         }
         let control = self.wheels.displacement(&moved);
-        let standing = self.standing(scan);
+        let standing = self.standing(scan, odometry);
         self.mark(driven(&moved)[0]);
         let report = self.filter.step(&control, &standing);
         self.wheels.learn(&moved, &report);
@@ -159,7 +175,7 @@ impl LaserMapper {
         if self.single_lineage_since.is_none() && self.filter.lineage() == 1 {
             self.single_lineage_since = Some(report.step);
         }
-        self.take(scan);
+        self.take(scan, odometry);
         if let Some(ancestors) = &report.ancestors {
             self.closings.resampled(ancestors);
         }
@@ -183,28 +199,28 @@ impl LaserMapper {
     }
 
     /// Maps the first scan, once for all particles.
-    fn begin(&mut self, scan: &LaserScan) {
+    fn begin(&mut self, scan: &LaserScan, odometry: Pose2) {
         let mut map = Map::new(tuning::grid(self.settings.cell_size));
-        let standing = self.standing(scan);
+        let standing = self.standing(scan, odometry);
         map.assimilate(&Pose2::default(), &standing, &());
         map.settle();
         self.closings.take(&standing, 0.0);
         let beams = self.settings.beams.unwrap_or(scan.ranges.len() as u32);
         let filter = filter(&self.settings, beams, map).expect("`new` has built one of these settings");
         self.filter = filter.with_executor(self.executor.clone());
-        self.take(scan);
+        self.take(scan, odometry);
     }
 
     /// What the filter sees of a scan: what moves by itself is no landmark.
-    fn standing(&mut self, scan: &LaserScan) -> Scan {
+    fn standing(&mut self, scan: &LaserScan, odometry: Pose2) -> Scan {
         let displacement = |moved: &Pose2, driven| self.wheels.displacement_over(moved, driven);
-        self.views.standing(scan, self.settings.beams_of(scan), displacement)
+        self.views.standing(scan, odometry, self.settings.beams_of(scan), displacement)
     }
 
     /// Writes down a scan that the filter took.
-    fn take(&mut self, scan: &LaserScan) {
+    fn take(&mut self, scan: &LaserScan, odometry: Pose2) {
         self.stamps.push(Stamp { time: scan.time, step: self.steps, step_from_robot: Pose2::default() });
-        self.last = Some(scan.odometry);
+        self.last = Some(odometry);
     }
 
     /// As they were set.
@@ -215,6 +231,29 @@ impl LaserMapper {
     /// The filter, for those who watch it: its particles, their weights, and what they descend from.
     pub fn filter(&self) -> &Filter {
         &self.filter
+    }
+
+    /// The steps of odometry that were not believed, as time and scans contradict them.
+    pub fn unbelieved(&self) -> &[Unbelieved] {
+        self.odometer.unbelieved()
+    }
+
+    /// What whoever reads path and map should know of them.
+    pub fn remarks(&self) -> Vec<Remark> {
+        let unbelieved = self.unbelieved();
+        let contradicted = unbelieved.first().map(|first| Remark::Contradicted {
+            steps: unbelieved.len(),
+            time: first.time,
+            told: driven(&first.told),
+            elapsed: first.elapsed,
+        });
+        let scans = self.stamps.len();
+        let never_moved = (self.steps == 0 && scans > 1).then_some(Remark::NeverMoved(scans));
+        let nothing_met = (scans > 0 && self.closings.met_nothing()).then_some(Remark::NothingMet);
+        let open: Vec<&Loop> = self.loops().iter().filter(|one| one.is_open()).collect();
+        let last = open.last().and_then(|last| self.at_step(last.to));
+        let open = last.map(|(time, _)| Remark::OpenLoops { loops: open.len(), time });
+        [contradicted, never_moved, nothing_met, open].into_iter().flatten().collect()
     }
 
     /// What has been learnt of the wheels.
@@ -263,6 +302,22 @@ impl LaserMapper {
         self.closings.bent()
     }
 
+    /// The loops of the best particle's path, in the order in which they were found, with the numbers of the filter's steps.
+    pub fn loops(&self) -> &[Loop] {
+        self.closings.of(self.filter.best()).0
+    }
+
+    /// Share, 0 to 1, of what the best particle saw of places that it came back to that lies where its map of before knew the space to be free.
+    pub fn disputed_fraction(&self) -> f64 {
+        self.closings.of(self.filter.best()).1
+    }
+
+    /// The stamp of the scan \[s\] that the filter took in a step, and where the best particle has the robot then; `None` of a step that was not.
+    pub fn at_step(&self, step: usize) -> Option<(f64, Pose2)> {
+        let stamp = self.stamps.iter().find(|stamp| stamp.step as usize == step)?;
+        Some((stamp.time, *self.best().path.poses().get(step)?))
+    }
+
     /// Bytes of all particles' maps.
     pub fn footprint(&self) -> Footprint {
         Map::footprint(self.filter.particles().iter().map(|particle| &particle.map))
@@ -276,17 +331,6 @@ impl LaserMapper {
     fn best(&self) -> &Particle<Map> {
         &self.filter.particles()[self.filter.best()]
     }
-}
-
-/// How the robot moved since the last scan that was taken, by raw odometry; `None` for the first scan.
-///
-/// # Errors
-/// Where what the scan says of its time or its place is not finite, or no place: see [`LaserMapper::push`].
-fn moved(last: Option<&Pose2>, scan: &LaserScan) -> Result<Option<Pose2>, SettingError> {
-    scan.validate()?;
-    let Some(last) = last else { return Ok(None) };
-    Range::number(0.0, FARTHEST_JUMP, "m").check("odometry since the last scan", last.distance(&scan.odometry))?;
-    Ok(Some(last.between(&scan.odometry)))
 }
 
 /// The filter at the origin, with this map in each particle.

@@ -52,10 +52,11 @@ impl LastViews {
     pub(super) fn standing(
         &mut self,
         scan: &LaserScan,
+        odometry: Pose2,
         beams: impl Iterator<Item = Option<Beam>>,
         displacement: impl Fn(&Pose2, [f64; 2]) -> Displacement,
     ) -> Scan {
-        let view = View::new(scan, beams.collect());
+        let view = View::new(scan, odometry, beams.collect());
         let last = self.views.back().map_or(view.odometry, |last| last.odometry);
         let step = driven(&last.between(&view.odometry));
         let mut moving = vec![false; view.beams.len()];
@@ -114,9 +115,9 @@ impl Since {
 }
 
 impl View {
-    fn new(scan: &LaserScan, beams: Vec<Option<Beam>>) -> Self {
+    fn new(scan: &LaserScan, odometry: Pose2, beams: Vec<Option<Beam>>) -> Self {
         Self {
-            odometry: scan.odometry,
+            odometry,
             driven: [0.0; 2],
             robot_from_laser: scan.robot_from_laser,
             angles: [scan.first_angle, scan.angle_step],
@@ -247,7 +248,8 @@ mod tests {
     fn sorted(scans: &[LaserScan]) -> Vec<[usize; 2]> {
         let mut views = LastViews::default();
         let sort = |scan: &LaserScan| {
-            let Scan { hits, misses, .. } = views.standing(scan, scan.beams(f64::INFINITY, 30.0, 0.0), told);
+            let Scan { hits, misses, .. } =
+                views.standing(scan, scan.odometry, scan.beams(f64::INFINITY, 30.0, 0.0), told);
             [hits.len(), misses.len()]
         };
         scans.iter().map(sort).collect()

@@ -1,6 +1,6 @@
 //! A log, pushed into a mapper.
 
-use super::{LaserMapper, LaserMapperSettings, moved};
+use super::{LaserMapper, LaserMapperSettings};
 use crate::error::SettingError;
 use crate::execute::Executor;
 use crate::geometry::Pose2;
@@ -33,6 +33,8 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Replay {
     log: Arc<LaserLog>,
+    /// Of each scan, as far as it is believed; `None` of a scan that is refused.
+    odometry: Arc<[Option<Pose2>]>,
     /// Numbers of the scans that the filter takes, the first included, and at the end how many scans there are.
     bounds: Arc<[usize]>,
     mapper: LaserMapper,
@@ -46,9 +48,11 @@ impl Replay {
     /// [`SettingError::OutOfRange`] where a setting is, by the name of its field.
     pub fn new(settings: LaserMapperSettings, log: Arc<LaserLog>) -> Result<Self, SettingError> {
         let settings = settings.for_log(&log);
-        let mapper = LaserMapper::new(settings)?;
-        let bounds = taken(&settings, &log).into_iter().chain([log.scans.len()]).collect();
-        let mut replay = Self { log, bounds, mapper };
+        let mut mapper = LaserMapper::new(settings)?;
+        let odometry: Arc<[_]> =
+            log.scans.iter().map(|scan| mapper.odometer.next(scan, settings.longest()).ok()).collect();
+        let bounds = taken(&settings, &odometry).into_iter().chain([log.scans.len()]).collect();
+        let mut replay = Self { log, odometry, bounds, mapper };
         replay.push(0);
         Ok(replay)
     }
@@ -76,7 +80,9 @@ impl Replay {
     /// Pushes the n-th scan that the filter takes and all up to the next.
     fn push(&mut self, n: usize) -> Option<Report<()>> {
         let [start, end] = *self.bounds.get(n..n + 2)? else { return None };
-        let mut reports = self.log.scans[start..end].iter().filter_map(|scan| self.mapper.push(scan).report());
+        let scans = self.log.scans[start..end].iter().zip(&self.odometry[start..end]);
+        let placed = scans.filter_map(|(scan, odometry)| Some((scan, (*odometry)?)));
+        let mut reports = placed.filter_map(|(scan, odometry)| self.mapper.push_from(scan, odometry).report());
         let report = reports.next();
         reports.for_each(drop);
         report
@@ -102,14 +108,15 @@ impl ExactSizeIterator for Replay {}
 impl core::iter::FusedIterator for Replay {}
 
 /// Numbers of the scans that a mapper takes, the first included.
-fn taken(settings: &LaserMapperSettings, log: &LaserLog) -> Vec<usize> {
-    let mut taken: Vec<usize> = Vec::new();
-    for (k, scan) in log.scans.iter().enumerate() {
-        let last = taken.last().map(|last| log.scans[*last].odometry);
-        let takes = |moved: Option<Pose2>| moved.is_none_or(|moved| settings.takes(&moved));
-        if moved(last.as_ref(), scan).is_ok_and(takes) {
-            taken.push(k);
+fn taken(settings: &LaserMapperSettings, odometry: &[Option<Pose2>]) -> Vec<usize> {
+    let mut last: Option<Pose2> = None;
+    let mut takes = |pose: &Pose2| {
+        let takes = last.is_none_or(|last| settings.takes(&last.between(pose)));
+        if takes {
+            last = Some(*pose);
         }
-    }
-    taken
+        takes
+    };
+    let placed = odometry.iter().enumerate().filter_map(|(k, pose)| Some((k, (*pose)?)));
+    placed.filter(|(_, pose)| takes(pose)).map(|(k, _)| k).collect()
 }

@@ -1,6 +1,6 @@
 //! What can be set about a mapper, and what a log tells of its laser.
 
-use super::tuning::{FROM_SCAN, Map, NOTHING_MET, STILL};
+use super::tuning::{CELL, FROM_SCAN, Map, NOTHING_MET, STILL};
 use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
 use crate::log::{Beam, LaserLog, LaserScan};
@@ -49,7 +49,7 @@ impl Default for LaserMapperSettings {
         Self {
             particles: 16,
             seed: 1,
-            cell_size: 0.05,
+            cell_size: CELL,
             max_range: 30.0,
             min_travel: 0.0,
             policy: ResamplePolicy::EssBelow(0.5),
@@ -107,9 +107,14 @@ impl LaserMapperSettings {
         moved.distance(&Pose2::default()).max(moved.theta.abs()) >= self.min_travel.max(STILL)
     }
 
+    /// A reading of this length \[m\] or more met nothing.
+    pub(super) fn longest(&self) -> f64 {
+        self.no_return.unwrap_or(f64::INFINITY)
+    }
+
     /// What a scan says, beam by beam.
     pub(super) fn beams_of<'a>(&self, scan: &'a LaserScan) -> impl Iterator<Item = Option<Beam>> + use<'a> {
-        scan.beams(self.no_return.unwrap_or(f64::INFINITY), self.max_range, self.clear_range)
+        scan.beams(self.longest(), self.max_range, self.clear_range)
     }
 
     /// About how many bytes the maps will take when this log is mapped: for each particle all tiles that beams pass through by raw

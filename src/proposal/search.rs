@@ -66,8 +66,8 @@ impl<'a, N: ScoreNear> Target<'a, N> {
 /// by: a few degrees more, and far end points fall on the wrong wall.
 pub(crate) const SEARCH_STDS: f64 = 3.0;
 
-/// Most steps of a lattice to each side, of position and of heading: an absurd motion must not take for ever.
-const MOST_STEPS: [f64; 2] = [8.0, 24.0];
+/// Most steps of a lattice to each side, of the heading: an absurd motion must not take for ever.
+const MOST_TURNS: f64 = 24.0;
 
 /// At the best of the odometry's prediction and so many poses spread over the prior's heading: enough where a step's error is
 /// about as wide as an NDT cell of the map.
@@ -112,6 +112,8 @@ pub struct CorrelativeSearch {
     pub linear: f64,
     /// Step of the heading \[rad\].
     pub angular: f64,
+    /// Most steps along each axis to each side.
+    pub most_steps: u32,
     /// The lattice looks at every n-th beam.
     pub stride: usize,
     /// How many of the best poses, a step or more apart, are climbed from.
@@ -152,12 +154,12 @@ struct LatticePoint {
 impl CorrelativeSearch {
     /// The lattice within [`SEARCH_STDS`] of the prior's mean, judged coarsely.
     fn lattice<N: ScoreNear>(&self, target: &Target<'_, N>) -> Vec<LatticePoint> {
-        let Self { linear, angular, stride, .. } = *self;
+        let Self { linear, angular, most_steps, stride, .. } = *self;
         let (prior, mean, covariance) = (target.prior, target.prior.mean(), target.prior.covariance());
         let steps =
             |variance: f64, step: f64, most: f64| (SEARCH_STDS * variance.sqrt() / step).ceil().min(most) as i32;
-        let [columns, rows] = [covariance.m11, covariance.m22].map(|v| steps(v, linear, MOST_STEPS[0]));
-        let turns = steps(covariance.m33, angular, MOST_STEPS[1]);
+        let [columns, rows] = [covariance.m11, covariance.m22].map(|v| steps(v, linear, f64::from(most_steps)));
+        let turns = steps(covariance.m33, angular, MOST_TURNS);
         let least = prior.log_density(mean) - 0.5 * SEARCH_STDS * SEARCH_STDS;
         let mut lattice = Vec::new();
         for turn in -turns..=turns {

@@ -96,7 +96,7 @@ test('where several topics have scans, the reader chooses one', async ({ page })
   await expect(log.alert).toContainText('two.mcap has several topics with scans. Which one is to be mapped?')
   await log.alert.getByRole('button', { name: '/rear/scan' }).click()
   await expect(log.sentence).toContainText('3 scans of up to 60 beams')
-  await expect(log.sentence).toContainText('The bag: there is no odometry')
+  await expect(log.sentence).toContainText('Note: there is no odometry')
   await expect(log.alert).toBeEmpty()
 })
 

@@ -73,6 +73,17 @@ pub fn remark(remark: &Remark) -> String {
         Remark::ClockSetBack { seconds, time } => {
             words::ClockSetBack { seconds: &tenths(*seconds), time: &milliseconds(*time) }.say()
         }
+        Remark::Contradicted { steps, time, told: [metres, turn], elapsed } => words::Contradicted {
+            steps,
+            time: &milliseconds(*time),
+            metres: &crate::decimal::fixed(*metres, 2),
+            degrees: &crate::decimal::fixed(turn.to_degrees(), 0),
+            seconds: &tenths(*elapsed),
+        }
+        .say(),
+        Remark::NeverMoved(scans) => words::NeverMoved { scans }.say(),
+        Remark::OpenLoops { loops, time } => words::OpenLoops { loops, time: &milliseconds(*time) }.say(),
+        Remark::NothingMet => words::nothing_met().into(),
         Remark::Beyond(scans) => words::Beyond { scans }.say(),
         Remark::NoTransform { laser, robot } => words::NoTransform { laser, robot }.say(),
         other => other.to_string(),

@@ -47,7 +47,7 @@ const LEAST_HITS: usize = 24;
 const LIMITS: FitLimits = FitLimits { least: [0.01, 0.005], most: [0.4, 0.1] };
 
 /// The search of a loop: a lattice over the drift, and climbs from the best of it.
-const SEARCH: CorrelativeSearch = CorrelativeSearch { linear: 0.2, angular: 0.06, stride: 3, climbs: 4 };
+const SEARCH: CorrelativeSearch = CorrelativeSearch { linear: 0.2, angular: 0.06, most_steps: 8, stride: 3, climbs: 4 };
 
 /// Side of a cell of the map that is drawn \[m\].
 pub const DRAWN: f64 = 0.15;

@@ -6,11 +6,11 @@ use cpu_time::ProcessTime;
 use fastslam::error::SettingError;
 use fastslam::geometry::Pose2;
 use fastslam::log::{
-    BagOptions, BagReader, LaserLog, LogError, LogReader, Notes, RelationErrors, is_bag, parse_relations,
+    BagOptions, BagReader, LaserLog, LogError, LogReader, Notes, RelationErrors, Remark, is_bag, parse_relations,
     relation_errors, write, write_path, write_tum,
 };
 use fastslam::map::grid::{MapImage, MapImageSettings};
-use fastslam::mapper::{LaserMapper, LaserMapperSettings, Replay};
+use fastslam::mapper::{LaserMapper, LaserMapperSettings, Loop, LoopEnd, Replay};
 use fastslam::proposal::IncrementalWeight;
 use fastslam_lab::experiment::log::{Example, digest};
 use flate2::read::MultiGzDecoder;
@@ -115,10 +115,18 @@ struct Output {
     #[serde(flatten)]
     errors: Option<RelationErrors>,
     resampled_fraction: f64,
+    /// Steps of odometry that the clock or the scans contradict: they are matched with the scans before.
+    steps_contradicted: u32,
     /// Scans that no particle explains.
     scans_unexplained: u32,
     /// How many times a particle's path was bent, to close a loop that no particle had closed by itself.
     paths_bent: u32,
+    /// Of the best path, in the order in which they were found.
+    loops: Vec<LoopOutput>,
+    /// How many of them stay open.
+    loops_open: u32,
+    /// Share of what the best path saw of places that it came back to that the map of before contradicts.
+    disputed_fraction: f64,
     /// First scan at which all particles descend from one; null if they never do.
     lineage_one_scan: Option<u32>,
     /// By how much more than odometry tells the robot turns to the left \[deg/m\], as it was learnt by the end.
@@ -197,6 +205,11 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let mapper = replay.mapper();
     let path = mapper.path();
     outputs.write(mapper, &path, &rules)?;
+    let (open, remarks): (Vec<_>, Vec<_>) =
+        mapper.remarks().into_iter().partition(|remark| matches!(remark, Remark::OpenLoops { .. }));
+    for remark in remarks {
+        eprintln!("fastslam: {}: {remark}", arguments.file.display());
+    }
     let steps = mapper.steps();
     let cpu = ProcessTime::now().as_duration();
     let output = Output {
@@ -208,14 +221,69 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         kept_map_bytes: kept,
         errors: relations.and_then(|relations| relation_errors(&path, &log.odometry, &relations)),
         resampled_fraction: mapper.resampled_fraction(),
+        steps_contradicted: mapper.unbelieved().len() as u32,
         scans_unexplained,
         paths_bent: mapper.closings(),
+        loops: loops(mapper),
+        loops_open: mapper.loops().iter().filter(|one| one.is_open()).count() as u32,
+        disputed_fraction: mapper.disputed_fraction(),
         lineage_one_scan: mapper.single_lineage_since(),
         wheel_drift_deg_per_m: mapper.wheels().drift().to_degrees(),
         wheel_heading_std_deg_per_m: mapper.wheels().heading_std().to_degrees(),
         digest: format!("{:016x}", digest(mapper).value()),
     };
-    if arguments.json { print_json(&output) } else { print(&summary(&settings, &log, &output)) }
+    if arguments.json {
+        print_json(&output)?
+    } else {
+        print(&summary(&settings, &log, &output))?
+    }
+    open.first().map_or(Ok(()), |open| Err(OpenLoop(format!("{}: {open}", arguments.file.display())).into()))
+}
+
+/// A log was mapped, and its map contradicts itself: exit status 3.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct OpenLoop(String);
+
+/// A loop of the best path, as it is printed.
+#[derive(Serialize)]
+struct LoopOutput {
+    /// Stamp of the scan at which the robot was there first \[s\].
+    from: f64,
+    /// Stamp of the scan at which it was back \[s\].
+    to: f64,
+    /// met, bent or open.
+    end: &'static str,
+    /// How far the later end was moved \[m\].
+    shift: Option<f64>,
+    /// How much better the scans fit there \[nats an end point\].
+    gain: Option<f64>,
+    /// The same of the next best place.
+    second: Option<f64>,
+    /// Share of the end points that the map of before contradicts.
+    disputed: Option<f64>,
+}
+
+/// The loops of the best path.
+fn loops(mapper: &LaserMapper) -> Vec<LoopOutput> {
+    let output = |one: &Loop| {
+        let time = |step| mapper.at_step(step).map_or(f64::NAN, |(time, _)| time);
+        let of = |end, [shift, gain, second, disputed]: [Option<f64>; 4]| LoopOutput {
+            from: time(one.from),
+            to: time(one.to),
+            end,
+            shift,
+            gain,
+            second,
+            disputed,
+        };
+        match one.end {
+            LoopEnd::Met => of("met", [None; 4]),
+            LoopEnd::Bent { shift, gain, second } => of("bent", [Some(shift), Some(gain), Some(second), None]),
+            LoopEnd::Open { disputed } => of("open", [None, None, None, Some(disputed)]),
+        }
+    };
+    mapper.loops().iter().map(output).collect()
 }
 
 /// A refusal by the flag that its reader gave.
@@ -345,6 +413,27 @@ fn summary(settings: &LaserMapperSettings, log: &LaserLog, output: &Output) -> S
     if output.paths_bent > 0 {
         _ = writeln!(text, "paths bent to close a loop        {:8}", output.paths_bent);
     }
+    if !output.loops.is_empty() {
+        let count = |end| output.loops.iter().filter(|one| one.end == end).count();
+        let [met, bent, open] = ["met", "bent", "open"].map(count);
+        _ = writeln!(text, "loops of the best path                   met {met}, bent {bent}, open {open}");
+        _ = writeln!(text, "of what is seen again, contradicted {:6.1} %", 100.0 * output.disputed_fraction);
+    }
+    for LoopOutput { from, to, shift, gain, second, disputed, .. } in &output.loops {
+        if let (Some(shift), Some(gain), Some(second)) = (shift, gain, second) {
+            _ = writeln!(
+                text,
+                "  bent at {to:.3} s, back where it was at {from:.3} s: by {shift:.2} m; an end point fits better by {gain:.2} nats, at the next best place by {second:.2}"
+            );
+        }
+        if let Some(disputed) = disputed {
+            _ = writeln!(
+                text,
+                "  open at {to:.3} s, near where it was at {from:.3} s: {:.0} % of what is seen contradicts the map",
+                100.0 * disputed
+            );
+        }
+    }
     match output.lineage_one_scan {
         Some(scan) => _ = writeln!(text, "all descend from one particle from scan {scan} on"),
         None => text.push_str("the particles never come to descend from one\n"),
@@ -403,7 +492,8 @@ impl Outputs {
         }
         if let Some([png, pgm, yaml]) = &self.map {
             let map = MapImage::of(mapper.map(), path, rules)?;
-            picture::save_map(&map, path, png)?;
+            let open = mapper.loops().iter().filter(|one| one.is_open()).filter_map(|one| mapper.at_step(one.to));
+            picture::save_map(&map, path, &open.map(|(_, pose)| pose).collect::<Vec<_>>(), png)?;
             save(pgm, &map.pgm())?;
             save(yaml, map.yaml(&pgm.file_name().unwrap_or_default().to_string_lossy()).as_bytes())?;
         }

@@ -86,25 +86,39 @@ pub fn save(canvas: &Canvas, path: &Path) -> Result<()> {
     write_png(path, canvas.size(), png::ColorType::Rgba, canvas.pixels())
 }
 
-/// Writes a map with the path on it as PNG, one pixel a cell.
-pub fn save_map(map: &MapImage, path: &[(f64, Pose2)], file: &Path) -> Result<()> {
-    /// Red, green, blue of the path.
+/// Writes a map with the path on it as PNG, one pixel a cell; where a loop stays open there is a ring of a metre.
+pub fn save_map(map: &MapImage, path: &[(f64, Pose2)], open: &[Pose2], file: &Path) -> Result<()> {
+    /// Red, green, blue of the path, and of what is open.
     const PATH: [u8; 3] = [190, 60, 30];
+    const OPEN: [u8; 3] = [220, 0, 160];
+    /// Radius of a ring, and how wide it is drawn \[m\].
+    const RING: [f64; 2] = [1.0, 0.15];
     let [width, height] = [map.width, map.height].map(|side| side as usize);
     let mut pixels: Vec<u8> = map.grey.iter().flat_map(|grey| [*grey; 3]).collect();
     let at = |pose: &Pose2| {
         let [x, y] = [pose.x - map.origin[0], pose.y - map.origin[1]].map(|metres| metres / map.cell_size);
         [x, height as f64 - y]
     };
+    let mut paint = |[x, y]: [f64; 2], colour: [u8; 3]| {
+        if (0.0..width as f64).contains(&x) && (0.0..height as f64).contains(&y) {
+            let first = 3 * (y as usize * width + x as usize);
+            pixels[first..first + 3].copy_from_slice(&colour);
+        }
+    };
     for leg in path.windows(2) {
         let (a, b) = (at(&leg[0].1), at(&leg[1].1));
         let steps = (b[0] - a[0]).abs().max((b[1] - a[1]).abs()).ceil().max(1.0);
         for k in 0..=(steps as u32).min(10_000) {
             let share = f64::from(k) / steps;
-            let [x, y] = [0, 1].map(|k: usize| a[k] + share * (b[k] - a[k]));
-            if (0.0..width as f64).contains(&x) && (0.0..height as f64).contains(&y) {
-                let first = 3 * (y as usize * width + x as usize);
-                pixels[first..first + 3].copy_from_slice(&PATH);
+            paint([0, 1].map(|k: usize| a[k] + share * (b[k] - a[k])), PATH);
+        }
+    }
+    let [inner, outer] = [RING[0] - RING[1], RING[0]].map(|metres| metres / map.cell_size);
+    let reach = outer.ceil() as i32;
+    for centre in open.iter().map(at) {
+        for (dx, dy) in (-reach..=reach).flat_map(|dy| (-reach..=reach).map(move |dx| (f64::from(dx), f64::from(dy)))) {
+            if (inner..=outer).contains(&fastslam::ops::hypot(dx, dy)) {
+                paint([centre[0] + dx, centre[1] + dy], OPEN);
             }
         }
     }

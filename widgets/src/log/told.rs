@@ -52,7 +52,11 @@ fn told(model: &LogModel, opened: &Opened) -> String {
 fn progress(model: &LogModel, replay: &Replay) -> String {
     let (step, last) = (model.step(), replay.step_count());
     let m = model.setup().particles;
-    let Some(moment) = model.history().last() else { return words::start_alike().into() };
+    let noted = replay.mapper().remarks();
+    let noted = noted.iter().map(|remark| words::Remark { remark: &unread::remark(remark) }.say());
+    let Some(moment) = model.history().last() else {
+        return [words::start_alike().into()].into_iter().chain(noted).collect::<Vec<String>>().join(" ");
+    };
     let mapped =
         if step == last { words::all_mapped().into() } else { words::ScanMapped { step: &step, last: &last }.say() };
     let shared = words::Shared { ess: &fixed(moment.ess, 1), m: &m, shared: &moment.shared }.say();
@@ -63,7 +67,7 @@ fn progress(model: &LogModel, replay: &Replay) -> String {
     let apart = model.apart().filter(|_| model.compared().is_some());
     let apart = apart.map(|metres| words::OdometryApart { metres: &fixed(metres, 2) }.say());
     let sentences = [Some(mapped), apart, unexplained(moment.log_evidence), Some(shared), Some(died)];
-    sentences.into_iter().flatten().collect::<Vec<_>>().join(" ")
+    sentences.into_iter().flatten().chain(noted).collect::<Vec<_>>().join(" ")
 }
 
 /// The numbers of the state shown.

@@ -240,11 +240,15 @@ fn problems() -> Vec<LogProblem> {
     fields.map(field).into_iter().chain(messages.map(message)).chain(others).collect()
 }
 
-fn remarks() -> [Remark; 5] {
+fn remarks() -> [Remark; 9] {
     [
         Remark::NoOdometry,
         Remark::StillOdometry,
         Remark::ClockSetBack { seconds: 10.07, time: 1029.6 },
+        Remark::Contradicted { steps: 3, time: 1029.6, told: [10.166, 2.309], elapsed: 0.37 },
+        Remark::NeverMoved(160),
+        Remark::NothingMet,
+        Remark::OpenLoops { loops: 2, time: 512.25 },
         Remark::Beyond(2),
         Remark::NoTransform { laser: "laser".into(), robot: "base_link".into() },
     ]

@@ -14,6 +14,7 @@ mod resampling;
 mod ring;
 mod robots;
 mod saved;
+mod sense;
 mod smoothing;
 mod sound;
 mod steering;

@@ -1,0 +1,89 @@
+//! The scans of the last few places, as a map to match the next scan with: what tells of a motion without odometry.
+
+use super::tuning::{self, Map};
+use crate::geometry::Pose2;
+use crate::map::ConditionalMap;
+use crate::matching::{HillClimbSteps, ScoredPose, hill_climb};
+use crate::sensor::Scan;
+use std::collections::VecDeque;
+
+/// The longest range that counts \[m\].
+pub(crate) const MAX_RANGE: f64 = 30.0;
+
+/// The robot is at another place after so many metres, or radians.
+const PLACE: f64 = 0.25;
+
+/// So many: a wall that one coarse sweep touches here and there is a wall after some more.
+const PLACES: usize = 8;
+
+/// From a step as long as a fast robot makes between two sweeps down to half a centimetre.
+const CLIMB: HillClimbSteps = HillClimbSteps { linear: 0.16, angular: 0.08, halvings: 5 };
+
+/// See the module.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct LastPlaces {
+    places: VecDeque<(Pose2, Scan)>,
+    /// Of these places, once it is asked for.
+    map: Option<Map>,
+}
+
+impl LastPlaces {
+    /// Where a scan fits best upon the last places of all poses that climbs reach from these starts and that are `allowed`, with the score there
+    /// \[nats\]; `None` where there is nothing to match.
+    pub(crate) fn matched(
+        &mut self,
+        starts: &[Pose2],
+        ends: &Scan,
+        allowed: impl Fn(&Pose2) -> bool,
+    ) -> Option<ScoredPose> {
+        if self.places.is_empty() || ends.hits.is_empty() {
+            return None;
+        }
+        let (score, map) = (tuning::score(), self.map());
+        let value = |pose: &Pose2| if allowed(pose) { score.log_score(map, pose, ends) } else { f64::NEG_INFINITY };
+        let climb =
+            |pose: &Pose2| hill_climb(ScoredPose { pose: *pose, value: value(pose) }, CLIMB, |pose, _| value(pose));
+        let better = |a: ScoredPose, b: ScoredPose| if b.value > a.value { b } else { a };
+        starts.iter().map(climb).reduce(better)
+    }
+
+    /// Keeps a scan that was taken at this pose, if that is another place than the last one; tells whether it is.
+    pub(crate) fn take(&mut self, pose: Pose2, ends: impl FnOnce() -> Scan) -> bool {
+        if self.places.back().is_some_and(|(last, _)| is_same(last, &pose)) {
+            return false;
+        }
+        let ends = ends();
+        if ends.hits.is_empty() {
+            return false;
+        }
+        self.places.push_back((pose, ends));
+        if self.places.len() > PLACES {
+            self.places.pop_front();
+        }
+        self.map = None;
+        true
+    }
+
+    /// The map of these places.
+    pub(crate) fn map(&mut self) -> &Map {
+        let Self { places, map } = self;
+        map.get_or_insert_with(|| {
+            let mut map = Map::new(tuning::grid(tuning::CELL));
+            for (pose, ends) in places {
+                map.assimilate(pose, ends, &());
+            }
+            map
+        })
+    }
+}
+
+/// Poses to climb from where the heading is uncertain: this one, and turned to either side.
+pub(crate) fn fan(pose: Pose2) -> [Pose2; 5] {
+    [0.0, 0.15, -0.15, 0.3, -0.3].map(|turn| Pose2::new(pose.x, pose.y, pose.theta + turn))
+}
+
+/// Whether two poses are of one place.
+fn is_same(a: &Pose2, b: &Pose2) -> bool {
+    let moved = a.between(b);
+    moved.distance(&Pose2::default()).max(moved.theta.abs()) <= PLACE
+}

@@ -1,0 +1,267 @@
+//! Odometry, as far as it can be believed.
+//!
+//! A base restarts, a counter wraps, wheels stand while the robot is pushed, two sources write under one name: odometry then tells of motions
+//! that never were, or of none. A step is doubted where it is faster or more abrupt than robots are, or where the scan does not show the
+//! last place as it would from there. A doubted step is searched for upon the map of the last few places ([`LastPlaces`]), as if there were
+//! no odometry. If the scan fits much better where odometry cannot have led, the robot is there, and odometry goes on from there. The search
+//! continues until odometry agrees with it again.
+//!
+//! Particles have no part in it, so that a whole log can be checked before it is mapped ([`Replay`](super::Replay)).
+//!
+//! The constants were chosen on a simulated drive that was spoilt in ten ways (`tests/laws`, `sense.rs`), and so that no step of the three recorded
+//! logs that are at hand (Intel, ACES, Freiburg's campus) is disbelieved.
+
+use super::agreement::Agreement;
+use super::last_places::{LastPlaces, MAX_RANGE, fan};
+use super::moving::driven;
+use super::tuning::{RANGE_ERROR, SEEN_THROUGH_STDS, score};
+use super::wheels::Wheels;
+use crate::error::{Range, SettingError};
+use crate::geometry::Pose2;
+use crate::log::{FARTHEST_JUMP, LaserScan};
+use crate::ops;
+
+/// A step of odometry that was not believed.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Unbelieved {
+    /// Stamp of the scan that it leads to \[s\].
+    pub time: f64,
+    /// How long it took \[s\].
+    pub elapsed: f64,
+    /// The motion that odometry tells, in the frame of the robot before it.
+    pub told: Pose2,
+    /// The motion that was found by matching the scan with those of the last few places.
+    pub matched: Pose2,
+}
+
+/// No robot with a laser drives faster \[m/s\] or turns faster \[rad/s\], but for this much \[m, rad\] by which stamps may be late.
+const FASTEST: [f64; 2] = [15.0, 9.0];
+const LATE: [f64; 2] = [1.0, 1.0];
+
+/// Motions change seldom by more from one scan to the next \[m/s, rad\].
+const STEADY: [f64; 2] = [2.0, 1.0];
+
+/// Odometry that moves by less from one scan to the next \[m, rad\] says that the robot stands.
+const STANDS: f64 = 1e-3;
+
+/// About how many beams are compared with the last place.
+const COMPARED: usize = 60;
+
+/// The share of the beams that must end where those of the last place do: of a robot that moves, and of one that is said to stand.
+const AGREED: [f64; 2] = [0.3, 0.9];
+
+/// Least share of a scan's beams that can be compared with another: fewer say nothing of where it was taken.
+const IN_COMMON: f64 = 0.2;
+
+/// What can be off of a heading besides wheels \[rad\].
+const HEADING_ERROR: f64 = 0.1;
+
+/// Where a scan fits: the least share of its end points that are on walls, and the largest of those with which the map disagrees. Of a robot that is
+/// said to stand, as people walk about before it.
+const FITS: [f64; 2] = [0.5, 0.8];
+const DISPUTED: [f64; 2] = [0.125, 0.05];
+
+/// After a step that was not believed: how near \[m, rad\] the next one must be to what is matched to be believed again, and the share of the step that
+/// it may be off besides.
+const AGAIN: [f64; 3] = [0.05, 0.03, 0.1];
+
+/// Why a step is doubted.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Doubt {
+    /// The step before was not believed.
+    Still,
+    /// No robot is as fast.
+    Impossible,
+    /// The motion has changed more than motions do.
+    Odd,
+    /// Odometry stands, and the scan has changed.
+    Stands,
+    /// The scan is of another place.
+    Differs,
+}
+
+impl Doubt {
+    /// How much better than where odometry leads a scan must fit elsewhere \[nats an end point\].
+    fn gain(self) -> f64 {
+        match self {
+            Self::Still | Self::Impossible => f64::NEG_INFINITY,
+            Self::Odd => 0.0,
+            Self::Stands => 0.05,
+            Self::Differs => 0.3,
+        }
+    }
+}
+
+/// See the module.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Odometer {
+    /// What leads from the frame of odometry to that of the poses that are believed; `None` as long as all of it is.
+    correction: Option<Pose2>,
+    last: Option<Last>,
+    places: LastPlaces,
+    /// The scan of the last place, and where it was taken.
+    place: Option<(Pose2, LaserScan)>,
+    /// Whether the last step was not believed.
+    doubts: bool,
+    unbelieved: Vec<Unbelieved>,
+}
+
+/// The last scan.
+#[derive(Clone, Copy, Debug)]
+struct Last {
+    time: f64,
+    /// By odometry itself.
+    told: Pose2,
+    pose: Pose2,
+    /// The motion that led there.
+    motion: Pose2,
+    elapsed: f64,
+}
+
+impl Odometer {
+    /// Where the robot was at the next scan, in the frame of odometry up to the first step that is not believed. A reading of `longest` \[m\] or more
+    /// met nothing.
+    ///
+    /// # Errors
+    /// Where what the scan says of its time or its place is not finite, or no place: see [`LaserMapper::push`](super::LaserMapper::push). It is as
+    /// if that scan had not been there.
+    pub(super) fn next(&mut self, scan: &LaserScan, longest: f64) -> Result<Pose2, SettingError> {
+        scan.validate()?;
+        if let Some(last) = &self.last {
+            let jump = last.told.distance(&scan.odometry);
+            Range::number(0.0, FARTHEST_JUMP, "m").check("odometry since the last scan", jump)?;
+        }
+        let told = self.correction.map_or(scan.odometry, |correction| correction.compose(&scan.odometry));
+        let mut pose = told;
+        if let Some(last) = self.last
+            && let Some(doubt) = self.doubt(&last, scan, &told, longest)
+        {
+            let matched = self.searched(&last, scan, longest, &told, doubt);
+            self.doubts = matched.is_some();
+            if let Some(matched) = matched {
+                pose = matched;
+                self.correction = Some(pose.compose(&scan.odometry.between(&Pose2::default())));
+                self.unbelieved.push(Unbelieved {
+                    time: scan.time,
+                    elapsed: scan.time - last.time,
+                    told: last.pose.between(&told),
+                    matched: last.pose.between(&pose),
+                });
+            }
+        }
+        let motion = self.last.map_or(Pose2::default(), |last| last.pose.between(&pose));
+        let elapsed = self.last.map_or(0.0, |last| scan.time - last.time);
+        self.last = Some(Last { time: scan.time, told: scan.odometry, pose, motion, elapsed });
+        if self.places.take(pose, || scan.end_points(longest, MAX_RANGE)) {
+            self.place = Some((pose, scan.clone()));
+        }
+        Ok(pose)
+    }
+
+    pub(super) fn unbelieved(&self) -> &[Unbelieved] {
+        &self.unbelieved
+    }
+
+    /// Why the step to this pose is doubted, if it is.
+    fn doubt(&self, last: &Last, scan: &LaserScan, told: &Pose2, longest: f64) -> Option<Doubt> {
+        if self.doubts {
+            return Some(Doubt::Still);
+        }
+        let elapsed = scan.time - last.time;
+        let moved = driven(&last.pose.between(told));
+        if elapsed > 0.0 && (0..2).any(|k| moved[k] > FASTEST[k] * elapsed + LATE[k]) {
+            return Some(Doubt::Impossible);
+        }
+        let change = driven(&last.ahead(elapsed).between(told));
+        if change[0] > STEADY[0] * f64::max(elapsed, 0.5) || change[1] > STEADY[1] {
+            return Some(Doubt::Odd);
+        }
+        let stands = moved[0].max(moved[1]) < STANDS;
+        let doubt = if stands { Doubt::Stands } else { Doubt::Differs };
+        self.differs(scan, told, longest, AGREED[usize::from(stands)]).then_some(doubt)
+    }
+
+    /// Whether of a scan that was taken at this pose a smaller share than this agrees with the last place.
+    fn differs(&self, scan: &LaserScan, pose: &Pose2, longest: f64, least: f64) -> bool {
+        let Some((place, before)) = &self.place else { return false };
+        let before_from_now = before.robot_from_laser.between(&place.between(&pose.compose(&scan.robot_from_laser)));
+        let [way, turn] = driven(&place.between(pose));
+        let met = |range: f64| range > 0.0 && range < longest;
+        let (mut looked, mut compared, mut agreed) = (0, 0, 0);
+        for k in (0..scan.ranges.len()).step_by(scan.ranges.len().div_ceil(COMPARED).max(1)) {
+            let range = f64::from(scan.ranges[k]);
+            if !met(range) {
+                continue;
+            }
+            looked += 1;
+            let (sin, cos) = ops::sin_cos(scan.first_angle + k as f64 * scan.angle_step);
+            let [x, y] = before_from_now.transform([range * cos, range * sin]);
+            let at = ops::wrap_angle(ops::atan2(y, x) - before.first_angle) / before.angle_step;
+            let at = at.round();
+            let Some(then) = (at >= 0.0).then(|| before.ranges.get(at as usize)).flatten() else { continue };
+            let (then, distance) = (f64::from(*then), ops::hypot(x, y));
+            if met(then) {
+                compared += 1;
+                let tolerance = RANGE_ERROR + 0.1 * way + 0.1 * (way + turn).min(0.5) * distance;
+                agreed += u32::from((then - distance).abs() < tolerance);
+            }
+        }
+        let [looked, compared, agreed] = [looked, compared, agreed].map(f64::from);
+        looked > 0.0 && (compared < IN_COMMON * looked || agreed < least * compared)
+    }
+
+    /// Where the scan was taken, if not where odometry leads.
+    fn searched(&mut self, last: &Last, scan: &LaserScan, longest: f64, told: &Pose2, doubt: Doubt) -> Option<Pose2> {
+        let ends = scan.end_points(longest, MAX_RANGE);
+        let moved = last.pose.between(told);
+        let wheels = Wheels::default().displacement(&moved).covariance;
+        let within = [
+            SEEN_THROUGH_STDS * wheels.m11.max(wheels.m22).sqrt() + RANGE_ERROR,
+            SEEN_THROUGH_STDS * wheels.m33.sqrt() + HEADING_ERROR,
+        ];
+        let near = move |pose: &Pose2| {
+            let off = driven(&told.between(pose));
+            off[0] < within[0] && off[1] < within[1]
+        };
+        let agreement =
+            |places: &mut LastPlaces, pose: &Pose2| Agreement::of(&score().log_beams(places.map(), pose, &ends));
+        if doubt == Doubt::Differs {
+            // The scan may have much that is new, and yet be where odometry says.
+            let there = self.places.matched(&[*told], &ends, near)?;
+            let there = agreement(&mut self.places, &there.pose);
+            if there.disputed() < 0.25 && there.fits > 0.25 {
+                return None;
+            }
+        }
+        let ahead = last.ahead(scan.time - last.time);
+        let best = self.places.matched(&[ahead, last.pose, *told].map(fan).concat(), &ends, |_| true)?;
+        if doubt == Doubt::Still {
+            let ([way, turn], off) = (driven(&last.pose.between(&best.pose)), driven(&told.between(&best.pose)));
+            let [position, heading, share] = AGAIN;
+            let agrees = off[0] < position + share * way && off[1] < heading + share * turn;
+            return (!agrees).then_some(best.pose);
+        }
+        if doubt != Doubt::Impossible {
+            if near(&best.pose) {
+                return None;
+            }
+            let there = self.places.matched(&fan(*told), &ends, near)?;
+            let found = agreement(&mut self.places, &best.pose);
+            let gain = (best.value - there.value) / ends.hits.len() as f64;
+            let stands = usize::from(doubt == Doubt::Stands);
+            if gain < doubt.gain() || found.fits < FITS[stands] || found.disputed() > DISPUTED[stands] {
+                return None;
+            }
+        }
+        Some(best.pose)
+    }
+}
+
+impl Last {
+    /// Where the robot is after so long \[s\], if it goes on as it went.
+    fn ahead(&self, elapsed: f64) -> Pose2 {
+        let times = if self.elapsed > 0.0 && elapsed > 0.0 { (elapsed / self.elapsed).min(3.0) } else { 1.0 };
+        let Pose2 { x, y, theta } = self.motion;
+        self.pose.compose(&Pose2::new(times * x, times * y, times * theta))
+    }
+}
