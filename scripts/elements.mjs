@@ -10,7 +10,7 @@ import { programs } from './registry.mjs'
  * @typedef {import('../widgets/elements/shell').ParamSpec} ParamSpec
  * @typedef {import('../widgets/elements/shell').Readout} Readout
  * @typedef {import('../widgets/elements/shell').Chip} Chip
- * @typedef {{ tag: string, name: string, className: string, title: string, describe: string, params: ParamSpec[], readouts: Readout[], chips: Chip[], panels: string[] }} FigureInfo
+ * @typedef {{ tag: string, name: string, className: string, title: string, describe: string, params: ParamSpec[], readouts: Readout[], chips: Chip[], panels: string[], version: number, unsaid: number }} FigureInfo
  */
 
 const told = cache('figures.json')
@@ -36,6 +36,7 @@ const languages = readdirSync(join(root, 'widgets', 'words')).map(file => file.r
 /** Attributes of every figure that are no parameters. */
 export const options = [
   { name: 'lang', values: undefined, help: `Language of all it says: ${languages.join(' or ')}. Where it is not given, that of the page around it; English for any other.` },
+  { name: 'v', values: undefined, type: "number | 'latest'", help: 'Version of the figure that the other attributes are of: what they leave out is at the default of that version, whatever has become of it since. Copied codes have it. Without it, the version of the day on which codes began to say theirs; latest follows the figure.' },
   { name: 'theme', values: ['auto', 'light', 'dark'], help: 'Colours; auto follows the reader’s system.' },
   { name: 'controls', values: undefined, help: 'Controls that readers see, apart by spaces: names of parameters, playback (the whole row of it), play (its button alone), numbers, chips; or none, or all. controls="seed" leaves the seed; a name that is none is answered with those that there are.' },
   { name: 'chips', values: ['on', 'off'], help: 'off leaves the chips of its challenges out.' },
@@ -87,7 +88,7 @@ const properties = [
 
 /** The figure that maps logs has files to open, and goes back through what it has mapped. */
 const log = {
-  options: options.filter(({ name }) => ['lang', 'theme', 'controls', 'chips', 'show', 'lock', 'size'].includes(name)),
+  options: options.filter(({ name }) => ['lang', 'v', 'theme', 'controls', 'chips', 'show', 'lock', 'size'].includes(name)),
   methods: [
     { name: 'open', type: '(file: Blob, name?: string, start?: boolean, topics?: { scan?: string; odometry?: string }) => Promise<void>', help: 'Reads a log, of a bag the topics named; maps it too if it is to start.' },
     { name: 'example', type: '() => Promise<void>', help: 'Maps the log that comes with the figure.' },
@@ -163,10 +164,10 @@ export function manifest(all) {
     summary: figure.title,
     attributes: [
       ...figure.params.map(attribute(figure)),
-      ...membersOf(figure).options.map(({ name, values, help }) => ({
+      ...membersOf(figure).options.map(({ name, values, type = 'string', help }) => ({
         name,
         description: name === 'show' ? `${help} There are ${figure.panels.join(', ') || 'none: it is one piece'}.` : help,
-        type: { text: values ? values.map(v => `'${v}'`).join(' | ') : 'string' },
+        type: { text: values ? values.map(v => `'${v}'`).join(' | ') : type },
         ...(values && { default: values[0] }),
       })),
     ],
@@ -276,7 +277,7 @@ ${[...methods, ...properties].map(member).join('\n')}
 
 /** Attributes of every figure. */
 export interface FigureAttributes {
-${options.map(({ name, values, help }) => `${doc(help)}\n  ${name}?: ${values ? values.map(v => `'${v}'`).join(' | ') : 'string'}`).join('\n')}
+${options.map(({ name, values, type = 'string', help }) => `${doc(help)}\n  ${name}?: ${values ? values.map(v => `'${v}'`).join(' | ') : type.replace('number', 'number | `${number}`')}`).join('\n')}
 }
 
 ${classes.join('\n\n')}
@@ -307,10 +308,10 @@ export async function writeNames() {
   write(join(generated, 'shell.js'), shellModule(readGlue()))
   write(join(generated, 'shell.d.ts'), shellTypes)
   const all = figures()
-  const rows = all.map(({ tag, title, params }) => `  '${tag}': { title: ${JSON.stringify(title)}, program: '${programs.get(tag)}', parameters: ${JSON.stringify(params.map(({ name }) => name).join(' '))}.split(' ') },`)
+  const rows = all.map(({ tag, title, params, version, unsaid }) => `  '${tag}': { title: ${JSON.stringify(title)}, program: '${programs.get(tag)}', version: '${version}', unsaid: '${unsaid}', parameters: ${JSON.stringify(params.map(({ name }) => name).join(' '))}.split(' ') },`)
   write(
     join(root, 'widgets', 'elements', 'generated', 'figures.ts'),
-    `// Made by scripts/elements.mjs from what the figures tell of themselves.\nexport const FIGURES: Record<string, { title: string; program: string; parameters: string[] } | undefined> = {\n${rows.join('\n')}\n}\n`,
+    `// Made by scripts/elements.mjs from what the figures tell of themselves.\nexport const FIGURES: Record<string, { title: string; program: string; version: string; unsaid: string; parameters: string[] } | undefined> = {\n${rows.join('\n')}\n}\n`,
   )
   const mapper = all.find(isLog)
   if (!mapper) throw new StepError('There is no figure that maps logs.')

@@ -51,7 +51,7 @@ function oembed(figure, codes) {
     provider_url: site(),
     width,
     height,
-    html: codes.embedCode('iframe', { tag: figure.tag, attributes: [] }, site(), figure.title),
+    html: codes.embedCode('iframe', { tag: figure.tag, attributes: [['v', String(figure.version)]] }, site(), figure.title),
     thumbnail_url: site() + light,
     thumbnail_width: thumbnailWidth,
     thumbnail_height: thumbnailHeight,

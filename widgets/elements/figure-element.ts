@@ -4,6 +4,7 @@
 // over what the author gave, by attribute or property, and that over the default. It is kept in settings.ts.
 import { embedCode, type CodeName } from './embed-code'
 import { homeAddress } from './files'
+import { FIGURES } from './generated/figures'
 import { HostedFigure } from './hosted-figure'
 import { linkedQuery, linkTo } from './link'
 import { OPTIONS } from './options'
@@ -137,18 +138,25 @@ export abstract class FigureElement extends HostedFigure {
     this.#load(query, false)
   }
 
-  /** The address of this page with this figure's whole state. */
+  /** The address of this page with this figure's whole state; of the chapter's, where this page is one for frames. */
   get link(): string {
-    return linkTo(this, this.state)
+    return linkTo(this, this.state, homeAddress())
   }
 
   /** The code that puts this figure, as it stands, into another page; undefined where that would need an address it does not have. */
   embedCode(name: CodeName): string | undefined {
     const home = homeAddress()
     if (!home && (name === 'iframe' || name === 'myst')) return undefined
-    const options = Object.keys(OPTIONS).filter(option => option !== 'fit' && this.hasAttribute(option))
-    const parameters = [...new URLSearchParams(this.state)].filter(([name]) => name !== 'v') // an attribute is of no version
-    const attributes: [string, string][] = [...parameters, ...options.map((o): [string, string] => [o, this.getAttribute(o)!])]
+    const given = (name: string): [string, string] => [name, this.getAttribute(name)!]
+    const options = Object.keys(OPTIONS).filter(option => !['fit', 'v'].includes(option) && this.hasAttribute(option))
+    const { version, unsaid, parameters } = FIGURES[this.localName]!
+    // Before it has a state, it is what its author wrote.
+    const written = [['v', this.getAttribute('v') ?? unsaid], ...parameters.filter(parameter => this.hasAttribute(parameter)).map(given)] as [string, string][]
+    const { state } = this
+    const shown = state || this.host ? [...new URLSearchParams(state)] : written
+    const v = shown.find(([name]) => name === 'v')?.[1] ?? '1' // as links have it
+    const values = shown.filter(([name]) => name !== 'v')
+    const attributes: [string, string][] = [['v', v === 'latest' ? version : v], ...values, ...options.map(given)]
     return embedCode(name, { tag: this.localName, attributes }, home, this.heading.textContent)
   }
 

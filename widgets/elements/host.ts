@@ -34,8 +34,10 @@ export interface Beginning {
   query: string | undefined
   /** What is set after that, in this order; null is the default. */
   settings: [string, string | null][]
-  /** What the page's author gave, if the query is a reader's link: locked parameters keep it. */
-  authored: Record<string, string> | undefined
+  /** What the page's author gave, and `v`, of which version that is: what is left out or taken away is at the default of that version. */
+  authored: Record<string, string>
+  /** Whether the query is a reader's link: locked parameters keep what the author gave. */
+  linked: boolean
 }
 
 /** Topics of a bag that a reader has chosen. */
@@ -83,7 +85,7 @@ export const clampedStep = (step: number, last: number): number => Math.max(0, M
 /** What a host remembers of its figure, so that it can be made again after a trap. */
 export class HostMemory {
   readonly #kept = new Map<Command['do'], Command>()
-  #beginning: Command | undefined // for a figure that traps before it has shown anything
+  #beginning: (Command & { do: 'begin' }) | undefined
   #shown: string | undefined
 
   /** A command is sent. */
@@ -99,8 +101,10 @@ export class HostMemory {
 
   /** What makes the figure again: in this state, else as it was when it was shown last, else as it began. */
   again(query = this.#shown): Command[] {
-    const begin: Command | undefined = query === undefined ? this.#beginning : { do: 'begin', query, settings: [], authored: undefined, changed: false }
-    return [...this.#kept.values(), ...(begin ? [begin] : [])]
+    const begin = this.#beginning
+    if (!begin) return [...this.#kept.values()]
+    // One that traps before it has shown anything begins as it was to.
+    return [...this.#kept.values(), query === undefined ? begin : { ...begin, query, settings: [], linked: false, changed: false }]
   }
 }
 

@@ -221,6 +221,7 @@ export abstract class HostedFigure extends FigureParts implements Listener {
   /** An option was set, or taken away. */
   protected takeOption(name: string): void {
     if (name === 'lang') return void this.speak()
+    if (name === 'v' && this.host) return this.reset() // all that is given means another thing
     this.#showOption(name)
     this.#sendOption(name) // after that: what the program refuses of it is said then
     this.refresh()

@@ -4,11 +4,12 @@ import type { Command } from './host'
 import type { Words } from './words'
 
 /**
- * The words each of them takes. `lock` and `controls` take names of parameters, `show` those of parts of the picture. `lang` comes
+ * The words each of them takes. `v` says which version of the figure the other attributes are of. `lock` and `controls` take names of parameters, `show` those of parts of the picture. `lang` comes
  * first: what is wrong with the others is said in it.
  */
 export const OPTIONS: Record<string, string[] | undefined> = {
   lang: undefined,
+  v: undefined,
   theme: ['light', 'dark', 'auto'],
   controls: undefined,
   chips: ['on', 'off'],

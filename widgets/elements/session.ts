@@ -18,6 +18,7 @@ export class Session {
   #layout: Layout | undefined
   #changed = false
   #mustTrace = false
+  #usual: Partial<Record<string, string>> = {} // defaults of the version that the author names, where they are others now
   #followed = new Map<string, string>() // what a pointer has changed by passing over it: the values to go back to
   #arrived = false // at what was asked for, at least once
 
@@ -193,18 +194,17 @@ export class Session {
 
   // --- Parameters --------------------------------------------------------------------------------------------------------
 
-  protected begin({ query, settings, authored }: Beginning, changed: boolean): void {
+  protected begin({ query, settings, authored, linked }: Beginning, changed: boolean): void {
     const refused = this.#fresh && query === undefined ? '' : this.figure.load(query ?? '').join('\n')
     this.#fresh = false
     this.#specs = undefined
     if (query !== undefined) this.tell({ told: 'refused', parameter: 'link', message: refused })
-    if (authored) {
-      const wanted = Object.fromEntries(this.specs.map(({ name, default: usual }) => [name, authored[name] ?? usual]))
-      this.#keepLocked(wanted)
-    }
+    this.#usual = this.#meant(authored)
+    if (linked) this.#keepLocked(Object.fromEntries(this.specs.map(spec => [spec.name, authored[spec.name] ?? this.#default(spec.name)!])))
     // In the order of the parameters, whatever that of an author's attributes: a guess is about the settings before it.
     const rank = (name: string) => this.specs.findIndex(spec => spec.name === name)
-    for (const [name, value] of [...settings].sort(([a], [b]) => rank(a) - rank(b))) {
+    const usual = query === undefined ? (Object.entries(this.#usual) as [string, string][]) : []
+    for (const [name, value] of [...usual, ...settings].sort(([a], [b]) => rank(a) - rank(b))) {
       try {
         this.set(name, value)
       } catch (error) {
@@ -216,10 +216,27 @@ export class Session {
   }
 
   protected set(name: string, value: string | null): void {
-    const text = value ?? this.specs.find(spec => spec.name === name)?.default
+    const text = value ?? this.#default(name)
     if (text === undefined) return // a name that nobody knows was taken away again
     this.figure.set(name, text)
     this.#changes()
+  }
+
+  /** The value of a parameter of which the author says nothing. */
+  #default(name: string): string | undefined {
+    return this.#usual[name] ?? this.specs.find(spec => spec.name === name)?.default
+  }
+
+  /** What an author's code means without saying so. */
+  #meant(authored: Record<string, string>): Record<string, string> {
+    const usual: Record<string, string> = {}
+    try {
+      const told = this.figure.meant(String(new URLSearchParams(authored)))
+      for (let i = 0; i < told.length; i += 2) usual[told[i]!] = told[i + 1]!
+    } catch (error) {
+      this.refuse(error)
+    }
+    return usual
   }
 
   protected refuse(error: unknown, file?: string): void {

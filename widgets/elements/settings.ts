@@ -47,7 +47,9 @@ export class Settings {
 
   /** Whether anything was asked of the figure. */
   get any(): boolean {
-    return Boolean(this.recipe) || this.#waiting.size > 0 || this.figure.getAttributeNames().some(isParameter)
+    const { version, unsaid } = FIGURES[this.figure.localName]!
+    const v = this.figure.getAttribute('v') ?? unsaid
+    return Boolean(this.recipe) || this.#waiting.size > 0 || ![version, 'latest'].includes(v) || this.figure.getAttributeNames().some(isParameter)
   }
 
   /** The state to begin with. What waited is on its way with the command of this number. */
@@ -60,9 +62,10 @@ export class Settings {
     const given = this.recipe === undefined ? attributes.map((name): [string, string | null] => [name, this.figure.getAttribute(name)]) : []
     const settings = [...given, ...waiting]
     for (const [name, text] of settings) if (text !== null) this.#asked.set(name, { text, number })
-    const authored = this.#linked ? { ...Object.fromEntries(attributes.map(name => [name, this.figure.getAttribute(name)!])), ...Object.fromEntries(this.#given) } : undefined
+    const authored = Object.fromEntries([...attributes, ...(this.figure.hasAttribute('v') ? ['v'] : [])].map(name => [name, this.figure.getAttribute(name)!]))
+    const linked = this.#linked
     this.#linked = false
-    return { query: this.recipe, settings, authored }
+    return { query: this.recipe, settings, authored: { ...authored, ...Object.fromEntries(this.#given) }, linked }
   }
 
   /** A setting was sent with the command of this number. */

@@ -9,6 +9,9 @@ use serde::Serialize;
 struct Told {
     tag: &'static str,
     title: &'static str,
+    /// The newest, and that of a code which says none.
+    version: usize,
+    unsaid: usize,
     describe: String,
     params: Vec<ParamSpec>,
     readouts: Vec<Readout>,
@@ -22,6 +25,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Told {
             tag: entry.tag,
             title: entry.title,
+            version: figure.model().changes().len() + 1,
+            unsaid: figure.model().unsaid(),
             describe: figure.describe(),
             params: figure.params(),
             readouts: figure.readouts(),

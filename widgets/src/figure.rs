@@ -338,6 +338,15 @@ impl Figure {
         query::read(self.model_mut(), query)
     }
 
+    /// What a pasted code means without saying so, by names and values: the defaults of its version, `v=…`, where these are others now.
+    ///
+    /// # Errors
+    /// For a version that there is not.
+    pub fn meant(&self, code: &str) -> Result<Vec<(String, String)>, FigureError> {
+        let _speaking = self.language.spoken();
+        query::meant(self.model(), code)
+    }
+
     /// Measured data of every step so far.
     pub fn export(&self) -> Export {
         Export::new(self.tag, self.model())

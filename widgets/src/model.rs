@@ -201,6 +201,10 @@ pub trait Declared {
     /// parameter means, or of the numbers is one.
     const CHANGES: &'static [Change] = &[];
 
+    /// Version of the figure that a pasted code means which says none: the newest one of the day on which codes began to say theirs, and 1
+    /// for figures that are younger. It never changes: it is what keeps older pages as they are.
+    const UNSAID: usize = 1;
+
     /// States that are worth trying, in the order in which they are offered.
     fn challenges() -> Vec<Challenge<Self>>
     where
@@ -258,6 +262,9 @@ pub trait Parameters {
     /// [`Declared::CHANGES`].
     fn changes(&self) -> &'static [Change];
 
+    /// [`Declared::UNSAID`].
+    fn unsaid(&self) -> usize;
+
     /// [`Declared::challenges`], and how it stands with them now.
     fn chips(&self) -> Vec<Chip>;
 
@@ -287,6 +294,10 @@ impl<M: Declared> Parameters for M {
 
     fn changes(&self) -> &'static [Change] {
         M::CHANGES
+    }
+
+    fn unsaid(&self) -> usize {
+        M::UNSAID
     }
 
     fn chips(&self) -> Vec<Chip> {

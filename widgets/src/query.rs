@@ -3,16 +3,23 @@
 //! A link says of which version of the figure it is, `v=2`, and says nothing where that is 1. What is left out of a link is at its default,
 //! and what is in it is simulated: a figure that changes a default, the meaning of a parameter or its numbers has another version. What an
 //! older link leaves out is at the default of its version; of what else has changed, those who come by it are told.
+//!
+//! A code that was pasted into a page, as attributes or as the query of a frame, means by its `v` what a link means, but nobody is told
+//! of changes: its readers have not come by it. One without `v` is of the version that was shown when codes began to say theirs,
+//! [`Declared::UNSAID`](crate::model::Declared::UNSAID), for ever; one that follows the figure says `v=latest`.
 
 use crate::{
     decimal,
     model::{Change, FigureError, Model},
     param::{flag, quoted},
-    words::common::{AWholeNumber, EarlierLink, LaterLink},
+    words::common::{AWholeNumber, EarlierLink, LaterLink, WordsOrRange},
 };
 
 /// Name of the version in a link.
 const VERSION: &str = "v";
+
+/// In place of a version: whatever is the newest.
+const LATEST: &str = "latest";
 
 /// What a link of the present version says before its values; nothing in version 1.
 fn version(changes: &[Change]) -> Option<String> {
@@ -47,44 +54,79 @@ pub fn read(model: &mut dyn Model, query: &str) -> Vec<FigureError> {
     said
 }
 
+/// What a pasted code means without saying so: names of parameters and the defaults of its version, where these are others now.
+///
+/// # Errors
+/// For a version that there is not; the code is then taken for one of the newest.
+pub fn meant(model: &dyn Model, code: &str) -> Result<Vec<(String, String)>, FigureError> {
+    implied(code, model.unsaid(), model.changes())
+}
+
+fn implied(code: &str, unsaid: usize, changes: &[Change]) -> Result<Vec<(String, String)>, FigureError> {
+    let newest = changes.len() + 1;
+    match given(code) {
+        None => Ok(after(code, unsaid, changes).1),
+        Some(version) if version.trim() == LATEST => Ok(Vec::new()),
+        Some(version) => {
+            let range = AWholeNumber { min: &1, max: &newest, unit: &"" }.say();
+            let allowed = WordsOrRange { words: &LATEST, range: &range }.say();
+            checked(&version, newest, allowed).map(|version| after(code, version, changes).1)
+        }
+    }
+}
+
 /// What a reader is told of a link of another version, and what it means without saying so: `changes` has one for each version from the
 /// second on.
 fn since(query: &str, changes: &[Change]) -> (Vec<FigureError>, Vec<(String, String)>) {
     let newest = changes.len() + 1;
-    let given = decoded(query).find(|(name, _)| name == VERSION).map_or("1".into(), |(_, version)| version);
-    let about = |message: String| FigureError { parameter: VERSION.into(), message };
+    let allowed = AWholeNumber { min: &1, max: &newest, unit: &"" }.say();
+    match checked(&given(query).unwrap_or("1".into()), newest, allowed) {
+        Ok(version) => after(query, version, changes),
+        Err(error) => (vec![error], Vec::new()),
+    }
+}
+
+/// The version as it is written; `None` where nothing is said of it.
+fn given(query: &str) -> Option<String> {
+    decoded(query).find(|(name, _)| name == VERSION).map(|(_, version)| version)
+}
+
+/// A version from 1 to the newest, or what is wrong with it: `allowed` follows *must be*.
+fn checked(given: &str, newest: usize, allowed: String) -> Result<usize, FigureError> {
     match given.trim().parse::<usize>() {
-        Ok(version) if (1..=newest).contains(&version) => {
-            let (mut said, mut meant) = (Vec::new(), Vec::new());
-            // The default that held in the version of the link is the one before the first change after it.
-            for change in changes.iter().skip(version - 1).rev().flat_map(|change| applying(query, change)) {
-                match *change {
-                    Change::Told(change) => said.insert(0, about(EarlierLink { change: &change }.say())),
-                    Change::ToldAt { name, value, change } => {
-                        if decoded(query).any(|(n, text)| n == name && decimal::parse(&text) == Some(value)) {
-                            said.insert(0, about(EarlierLink { change: &change }.say()));
-                        }
-                    }
-                    Change::Default { name, was } => meant.push((name.into(), was.into())),
-                    Change::DefaultUnless { name, was, unless: (other, value) } => {
-                        if !decoded(query).any(|(n, text)| n == other && text.trim() == value) {
-                            meant.push((name.into(), was.into()));
-                        }
-                    }
-                    // They are not nested.
-                    Change::Switched { .. } => (),
+        Ok(version) if (1..=newest).contains(&version) => Ok(version),
+        Ok(version) if version > newest => Err(about(LaterLink { version: &version, newest: &newest }.say())),
+        _ => Err(FigureError::new(VERSION, quoted(given), allowed)),
+    }
+}
+
+fn about(message: String) -> FigureError {
+    FigureError { parameter: VERSION.into(), message }
+}
+
+/// What has changed since a version: what there is to tell, and the defaults of then that are others now.
+fn after(query: &str, version: usize, changes: &[Change]) -> (Vec<FigureError>, Vec<(String, String)>) {
+    let (mut said, mut meant) = (Vec::new(), Vec::new());
+    // The default that held in the version of the link is the one before the first change after it.
+    for change in changes.iter().skip(version - 1).rev().flat_map(|change| applying(query, change)) {
+        match *change {
+            Change::Told(change) => said.insert(0, about(EarlierLink { change: &change }.say())),
+            Change::ToldAt { name, value, change } => {
+                if decoded(query).any(|(n, text)| n == name && decimal::parse(&text) == Some(value)) {
+                    said.insert(0, about(EarlierLink { change: &change }.say()));
                 }
             }
-            (said, meant)
-        }
-        Ok(version) if version > newest => {
-            (vec![about(LaterLink { version: &version, newest: &newest }.say())], Vec::new())
-        }
-        _ => {
-            let allowed = AWholeNumber { min: &1, max: &newest, unit: &"" }.say();
-            (vec![FigureError::new(VERSION, quoted(&given), allowed)], Vec::new())
+            Change::Default { name, was } => meant.push((name.into(), was.into())),
+            Change::DefaultUnless { name, was, unless: (other, value) } => {
+                if !decoded(query).any(|(n, text)| n == other && text.trim() == value) {
+                    meant.push((name.into(), was.into()));
+                }
+            }
+            // They are not nested.
+            Change::Switched { .. } => (),
         }
     }
+    (said, meant)
 }
 
 /// What of a change holds for the link.
@@ -194,6 +236,28 @@ mod tests {
         let of = |query| since(query, changes);
         assert_eq!(of("run=on&seed=1").1, [("guess".to_owned(), "2".to_owned())]);
         assert_eq!(["run=on", "run=true", "run=off", "seed=1", "v=2&run=on"].map(|q| of(q).0.len()), [1, 1, 0, 0, 0]);
+    }
+
+    #[test]
+    fn a_code_means_what_the_link_of_its_version_means_and_tells_nothing() {
+        let was = |name, was| Change::Default { name, was };
+        let changes = &[was("raw", "off"), Change::Told("The seed is another."), was("cell", "0.1"), was("raw", "on")];
+        for query in ["v=1", "v=2&raw=off", "v=3", "v=4", "v=5&seed=4"] {
+            for unsaid in 1..=5 {
+                assert_eq!(implied(query, unsaid, changes).unwrap(), since(query, changes).1, "{query}");
+            }
+        }
+        // Without one it stays at the version of its time, whatever has changed since.
+        for unsaid in 1..=5 {
+            let then = since(&format!("v={unsaid}&seed=4"), changes).1;
+            assert_eq!(implied("seed=4", unsaid, changes).unwrap(), then);
+            assert_eq!(implied("seed=4&v=latest", unsaid, changes).unwrap(), []);
+        }
+        let wrong = |code| implied(code, 2, changes).unwrap_err().message;
+        for bad in ["v=0", "v=", "v=last", "v=1.5"] {
+            assert!(wrong(bad).ends_with("must be latest or a whole number from 1 to 5"), "{}", wrong(bad));
+        }
+        assert!(wrong("v=6").contains("version 6"));
     }
 
     #[test]

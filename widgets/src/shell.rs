@@ -384,6 +384,12 @@ impl Figure {
         self.figure.load(query).into_iter().map(|error| error.message).collect()
     }
 
+    /// What a pasted code, as a query, means without saying so: names and values in turn; throws a `FigureError` for a bad version.
+    pub fn meant(&self, code: &str) -> Result<Vec<String>, Error> {
+        let pairs = self.figure.meant(code).map_err(thrown)?;
+        Ok(pairs.into_iter().flat_map(|(name, value)| [name, value]).collect())
+    }
+
     /// Measured data of every step so far, as CSV. JavaScript writes the numbers: with the fewest digits that read back as the
     /// same bits.
     pub fn csv(&self) -> String {

@@ -172,6 +172,7 @@ impl Declared for ConditioningModel {
         value: 0.0,
         change: "Wheels without error leave the path known; a hidden floor of their noise used to couple all landmarks.",
     }];
+    const UNSAID: usize = 2;
 
     fn challenges() -> Vec<Challenge<Self>> {
         challenges::challenges()

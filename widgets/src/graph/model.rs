@@ -154,6 +154,7 @@ impl Declared for GraphModel {
     type Recipe = Recipe;
     const TITLE: &'static str = graph::TITLE;
     const CHANGES: &'static [Change] = &[Change::WEIGHED_ANEW];
+    const UNSAID: usize = 2;
 
     fn challenges() -> Vec<Challenge<Self>> {
         challenges::challenges()

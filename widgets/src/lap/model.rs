@@ -182,6 +182,7 @@ impl Declared for LapModel {
         Change::Default { name: "range-std", was: "0.02" },
         Change::Default { name: "seed", was: "3" },
     ];
+    const UNSAID: usize = 8;
 
     fn challenges() -> Vec<Challenge<Self>> {
         challenges::challenges()

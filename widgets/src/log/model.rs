@@ -210,6 +210,7 @@ impl Declared for LogModel {
             "Free ground begins at the laser, and the noise of the wheels goes by the way: paths and maps differ a little.",
         ),
     ];
+    const UNSAID: usize = 3;
 
     fn challenges() -> Vec<Challenge<Self>> {
         challenges::challenges()

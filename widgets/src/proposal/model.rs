@@ -115,6 +115,7 @@ impl Declared for ProposalModel {
             ],
         },
     ];
+    const UNSAID: usize = 3;
 
     fn challenges() -> Vec<Challenge<Self>> {
         challenges::challenges()

@@ -216,6 +216,7 @@ impl Declared for ResamplingModel {
             changes: &[Change::Told("What is seen in a step is told apart all together: paths and weights differ.")],
         },
     ];
+    const UNSAID: usize = 3;
 
     fn challenges() -> Vec<Challenge<Self>> {
         challenges::challenges()

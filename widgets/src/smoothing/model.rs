@@ -137,6 +137,7 @@ impl Declared for SmoothingModel {
             "What is seen in a step is taken in by its range, the nearest first: paths and their errors differ.",
         ),
     ];
+    const UNSAID: usize = 3;
 
     fn challenges() -> Vec<Challenge<Self>> {
         challenges::challenges()

@@ -161,6 +161,7 @@ impl Declared for UniversesModel {
     type Recipe = Recipe;
     const TITLE: &'static str = words::TITLE;
     const CHANGES: &'static [Change] = &[Change::WEIGHED_ANEW];
+    const UNSAID: usize = 2;
 
     fn challenges() -> Vec<Challenge<Self>> {
         challenges::challenges()

@@ -50,6 +50,46 @@ fn every_default_and_every_choice_is_accepted() {
     }
 }
 
+/// What is pasted into a thousand pages keeps its meaning: these numbers never change.
+#[test]
+fn a_code_that_says_no_version_is_of_that_of_the_day_on_which_codes_began_to() {
+    let said = [
+        ("fastslam-conditioning", 2),
+        ("fastslam-graph", 2),
+        ("fastslam-lap", 8),
+        ("fastslam-log", 3),
+        ("fastslam-proposal", 3),
+        ("fastslam-resampling", 3),
+        ("fastslam-smoothing", 3),
+        ("fastslam-universes", 2),
+    ];
+    for entry in FIGURES {
+        let expected = said.iter().find(|(tag, _)| *tag == entry.tag).map_or(1, |(_, version)| *version);
+        assert_eq!(Figure::new(entry.tag).unwrap().model().unsaid(), expected, "{}", entry.tag);
+    }
+}
+
+/// As links do, but in silence.
+#[test]
+fn a_code_of_any_version_makes_the_figure_that_the_link_of_that_version_makes() {
+    for entry in FIGURES {
+        let mut figure = Figure::new(entry.tag).unwrap();
+        let newest = figure.model().changes().len() + 1;
+        for version in 1..=newest {
+            let code = format!("v={version}");
+            figure.load(&code);
+            let (linked, mut by_code) = (figure.query(), Figure::new(entry.tag).unwrap());
+            let meant = by_code.meant(&code).unwrap();
+            assert_eq!(by_code.model_mut().load(&meant), [], "{} {code}", entry.tag);
+            assert_eq!(by_code.query(), linked, "{} {code}", entry.tag);
+        }
+        let [unsaid, said] = ["", &format!("v={}", figure.model().unsaid())].map(|code| figure.meant(code).unwrap());
+        assert_eq!(unsaid, said);
+        assert_eq!(figure.meant("v=latest").unwrap(), []);
+        assert!(figure.meant("v=0").unwrap_err().message.contains("latest"));
+    }
+}
+
 /// The Python wheel makes a keyword argument of every parameter: `samples=64`.
 #[test]
 fn no_parameter_has_a_name_that_python_keeps_for_itself() {
