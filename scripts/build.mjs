@@ -3,6 +3,7 @@ import { createHash } from 'node:crypto'
 import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, renameSync, rmSync, statSync, writeFileSync } from 'node:fs'
 import { basename, dirname, join } from 'node:path'
 import { fileURLToPath } from 'node:url'
+import { askForSite } from './address.mjs'
 import { tellFigures, writeNames } from './elements.mjs'
 import { writeFrames } from './frames.mjs'
 import { checkGlue, gluePaths } from './glue.mjs'
@@ -126,4 +127,9 @@ async function optimise(file) {
 export const kilobytes = bytes => `${(bytes / 1000).toFixed(1)} KB`
 
 // `-- --pages`: the pages alone, from programs that are there.
-if (isMain(import.meta)) await main(process.argv.includes('--pages') ? buildPages : build)
+if (isMain(import.meta)) {
+  await main(async () => {
+    await askForSite()
+    await (process.argv.includes('--pages') ? buildPages() : build())
+  })
+}

@@ -1,15 +1,32 @@
-// npm run pdf: the chapter on paper, through Chromium: dist/chapter.pdf. `-- --url https://…` is the address that its figures' links name;
-// without it, that of package.json's homepage, or the page's own file name.
-import { existsSync, readFileSync, statSync } from 'node:fs'
+// npm run pdf: the chapter on paper, through Chromium: dist/chapter.pdf. Its links lead to where the site will be: `-- --url https://…`, else
+// FASTSLAM_SITE or the homepage of package.json. Without an address, what is on other pages is text.
+import { existsSync, statSync } from 'node:fs'
 import { join } from 'node:path'
+import { asAddress, askForSite, site } from './address.mjs'
 import { launchChromium } from './browser.mjs'
 import { build, dist, kilobytes } from './build.mjs'
-import { isMain, main, root, step } from './lib.mjs'
+import { isMain, main, step } from './lib.mjs'
 import { startServer } from './serve.mjs'
 import { setUp } from './setup.mjs'
 
-/** @param {string} site where the live chapter is @param {string} [folder] */
-export async function makePdf(site, folder = dist) {
+/**
+ * The page as it goes to paper: all pictures at once, and each link whole. Places in the text are places in the PDF; what is live, and other
+ * pages, are on the site, or nowhere.
+ * @param {string} html @param {string} address of the site, or empty
+ */
+export function forPaper(html, address) {
+  return html
+    .replaceAll(' loading="lazy"', '') // paper does not scroll
+    .replace(/<noscript>[^]*?<\/noscript>/, '')
+    .replace(/<p class="address">Live: (#[^<]*)<\/p>/g, (_, anchor) => (address ? `<p class="address">Live: <a href="./${anchor}">${address}${anchor}</a></p>` : ''))
+    .replace(/(<a\b[^>]*?) href="([^"]*)"/g, (whole, before, link) => {
+      if (/^([a-z]+:|#[^?]*$)/i.test(link)) return whole
+      return address ? `${before} href="${new URL(link.replaceAll('&amp;', '&'), address).href.replaceAll('&', '&amp;')}"` : before
+    })
+}
+
+/** @param {string} address of the live chapter, or empty @param {string} [folder] */
+export async function makePdf(address, folder = dist) {
   const server = await startServer({ folder })
   const browser = await launchChromium()
   const path = join(folder, 'chapter.pdf')
@@ -18,12 +35,7 @@ export async function makePdf(site, folder = dist) {
     const page = await browser.newPage({ javaScriptEnabled: false })
     await page.route(server.url, async route => {
       const response = await route.fetch()
-      const html = (await response.text())
-        // Paper does not scroll: all pictures now.
-        .replaceAll(' loading="lazy"', '')
-        .replace(/<noscript>[^]*?<\/noscript>/, '')
-        .replace(/(<p class="address">Live: )<a href="(#[^"]*)">[^<]*/g, (_, label, anchor) => `${label}<a href="${site}${anchor}">${site}${anchor}`)
-      await route.fulfill({ response, body: html })
+      await route.fulfill({ response, body: forPaper(await response.text(), address) })
     })
     await page.goto(server.url, { waitUntil: 'networkidle' })
     await page.pdf({ path, preferCSSPageSize: true, printBackground: true, outline: true, tagged: true })
@@ -37,9 +49,9 @@ export async function makePdf(site, folder = dist) {
 if (isMain(import.meta)) {
   await main(async () => {
     const given = process.argv.includes('--url') ? process.argv[process.argv.indexOf('--url') + 1] : undefined
-    const { homepage } = JSON.parse(readFileSync(join(root, 'package.json'), 'utf8'))
+    if (given === undefined) await askForSite()
     await setUp({ browser: true })
     if (!existsSync(join(dist, 'index.html'))) await build()
-    await step('PDF', () => makePdf(given ?? homepage ?? 'index.html'))
+    await step('PDF', () => makePdf(given === undefined ? site() : asAddress(given)))
   })
 }

@@ -4,19 +4,19 @@ import { dirname, join, relative } from 'node:path'
 import { fromHtml } from 'hast-util-from-html'
 import { FileSystemConfigLoader, formatterFactory, HtmlValidate } from 'html-validate'
 import { visit } from 'unist-util-visit'
+import { site } from './address.mjs'
 import { dist } from './build.mjs'
-import { site } from './frames.mjs'
 import { StepError } from './lib.mjs'
 
 /** @param {string} folder */
 const pagesOf = folder => readdirSync(folder, { recursive: true, encoding: 'utf8' }).filter(file => file.endsWith('.html')).sort()
 
-/** @typedef {{ ids: Set<string>, tags: Set<string>, links: string[], twice: string[] }} Page */
+/** @typedef {{ ids: Set<string>, tags: Set<string>, links: string[], ways: string[], twice: string[] }} Page `ways`: links that a reader can follow */
 
 /** @param {string} html @returns {Page} */
 function read(html) {
   /** @type {Page} */
-  const page = { ids: new Set(), tags: new Set(), links: [], twice: [] }
+  const page = { ids: new Set(), tags: new Set(), links: [], ways: [], twice: [] }
   visit(fromHtml(html), 'element', ({ tagName, properties }) => {
     const { id, href, src, srcSet } = properties
     page.tags.add(tagName)
@@ -24,6 +24,7 @@ function read(html) {
       if (page.ids.has(id)) page.twice.push(id)
       page.ids.add(id)
     }
+    if (tagName === 'a' && href) page.ways.push(String(href).trim())
     for (const link of [href, src, ...[srcSet ?? []].flat()]) if (link) page.links.push(String(link).trim().split(' ')[0] ?? '')
   })
   return page
@@ -65,10 +66,39 @@ export function brokenLinks(folder, home) {
   return { wrong, count }
 }
 
+/** A page for frames that is told which figure: without that it can only say what there is. @param {string} link */
+const isBareFrame = link => /(^|\/)embed\.html(?!\?(.*&)?figure=)/.test(link)
+
+/**
+ * Which pages of a folder no reader finds who begins at index.html, and which links of theirs lead to a frame without a figure.
+ * @param {string} folder @returns {string[]}
+ */
+export function unreached(folder) {
+  const pages = new Map(pagesOf(folder).map(file => [join(folder, file), read(readFileSync(join(folder, file), 'utf8')).ways]))
+  const bare = [...pages].flatMap(([path, ways]) => ways.filter(isBareFrame).map(way => `${relative(folder, path)}: ${way} is a frame without a figure`))
+  const reached = new Set([join(folder, 'index.html')])
+  // A set that grows while it is walked: what is added is visited.
+  for (const path of reached) {
+    for (const way of pages.get(path) ?? []) {
+      if (/^[a-z]+:/i.test(way)) continue
+      const target = join(dirname(path), decodeURIComponent(way.replace(/[?#].*/, '')))
+      for (const found of [target, join(target, 'index.html')]) if (way.replace(/[?#].*/, '') && pages.has(found)) reached.add(found)
+    }
+  }
+  return [...bare, ...[...pages.keys()].filter(path => !reached.has(path)).map(path => `${relative(folder, path)}: no way leads there from index.html`)]
+}
+
+/** Files of a folder that name the machine on which they were built. @param {string} folder @returns {string[]} */
+export const atHome = folder =>
+  readdirSync(folder, { recursive: true, encoding: 'utf8' })
+    .filter(file => /\.(html|json|js|css|ts|svg|txt|pdf)$/.test(file) && /\/\/(localhost|127\.0\.0\.1)\b/.test(readFileSync(join(folder, file), 'latin1')))
+    .map(file => `${file}: says localhost`)
+
 export async function checkLinks() {
-  const { wrong, count } = brokenLinks(dist, site())
+  const { wrong, count } = brokenLinks(dist, site() || undefined)
+  wrong.push(...unreached(dist), ...atHome(dist))
   if (count === 0) throw new StepError('There is not one link: has the site been built?')
-  if (wrong.length > 0) throw new StepError(`Links that lead nowhere:\n${wrong.join('\n')}`)
+  if (wrong.length > 0) throw new StepError(`Links that lead nowhere, and pages that no link leads to:\n${wrong.join('\n')}`)
   return `${count} links`
 }
 

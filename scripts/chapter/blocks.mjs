@@ -2,7 +2,7 @@
 import { fromHtml } from 'hast-util-from-html'
 import { h } from 'hastscript'
 import { visit } from 'unist-util-visit'
-import { attribute, content, idOf, inline, nameOf, parts, sentence } from './context.mjs'
+import { attribute, content, idOf, inline, latest, nameOf, parts, sentence } from './context.mjs'
 import { display, formula } from './inline.mjs'
 
 /** @typedef {import('./context.mjs').Handler} Handler */
@@ -68,7 +68,7 @@ function trial({ problems, file }, node) {
   if (!tag) return []
   if (!/^fastslam-[a-z-]+$/.test(tag)) problems.add(file, node, `:::predict has no tag of ours, but “${tag}”`)
   if (!id) problems.add(file, node, ':::predict with a figure has an id, by which links and guesses know it')
-  return [h('div.trial', h(tag, { id: `${id}-figure`, predict: 'on', ...passed }))]
+  return [h('div.trial', h(tag, { id: `${id}-figure`, predict: 'on', ...latest, ...passed }))]
 }
 
 /** @param {string} name @param {string} title @returns {Handler} */

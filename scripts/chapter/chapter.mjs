@@ -78,7 +78,7 @@ export async function renderChapter(root) {
   const model = join(www, 'model.md')
   if (existsSync(model)) {
     const text = read(model)
-    pages['model.html'] = renderPage({ ...shared, chapter: number, texts: [text], front: { ...titleOf(text, problems), ...text.front }, kicker: `Chapter ${number}`, script: './src/page.ts' })
+    pages['model.html'] = renderPage({ ...shared, chapter: number, texts: [text], front: { ...titleOf(text, problems), ...text.front }, kicker: h('a', { href: 'index.html' }, `Chapter ${number}`), script: './src/page.ts' })
   }
 
   // A number, a work or a term that nobody uses was forgotten, by the text or in its list.
@@ -114,7 +114,7 @@ function titleOf({ file, tree }, problems) {
 
 /**
  * @param {Pick<Context, 'root' | 'problems' | 'maths' | 'numbers' | 'citations' | 'glossary' | 'sources' | 'lapTable' | 'repository'>
- *   & { chapter: string, texts: Source[], front: Record<string, any>, kicker: string, script: string }} options
+ *   & { chapter: string, texts: Source[], front: Record<string, any>, kicker: ElementContent | string, script: string }} options
  * @returns {Rendered}
  */
 function renderPage({ chapter, texts, front, kicker, script, ...shared }) {

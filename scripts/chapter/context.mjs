@@ -63,3 +63,5 @@ export function sentence(context, state, text) {
 
 /** “Figure 17.1” and the like, as captions and boxes begin. @param {Context} context @param {import('unist').Node} node */
 export const nameOf = (context, node) => context.labels.get(idOf(node) ?? '')?.name ?? ''
+/** The chapter goes with its figures: no default of theirs is kept for it. */
+export const latest = { v: 'latest' }

@@ -2,7 +2,7 @@
 import { existsSync, readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { h } from 'hastscript'
-import { attribute, content, idOf } from './context.mjs'
+import { attribute, content, idOf, latest } from './context.mjs'
 import { captioned } from './blocks.mjs'
 import { challengesOf, judgeChips } from './challenges.mjs'
 
@@ -31,13 +31,13 @@ export function figure(context, state, node) {
   judgeChips(context, node)
   context.figure = undefined
   return h('figure.wide', { id }, [
-    h(tag || 'div', Object.fromEntries(passed), [
+    h(tag || 'div', { ...latest, ...Object.fromEntries(passed) }, [
       h('picture', [
         // Paper is light.
         h('source', { srcset: `../${dark}`, media: 'screen and (prefers-color-scheme: dark)' }),
         h('img', { src: `../${light}`, ...size, loading: 'lazy', alt }),
       ]),
     ]),
-    h('figcaption', caption, h('p.address', 'Live: ', h('a', { href: `#${id}` }, `#${id}`))),
+    h('figcaption', caption, h('p.address', `Live: #${id}`)),
   ])
 }

@@ -3,6 +3,7 @@ import { h } from 'hastscript'
 import { algorithm } from './algorithm.mjs'
 import { derivation, equation, exercise, hint, lapTable, margin, predict, solution, table, theorem } from './blocks.mjs'
 import { chip } from './challenges.mjs'
+import { citation } from './citation.mjs'
 import { heading } from './contents.mjs'
 import { inline } from './context.mjs'
 import { figure } from './figure.mjs'
@@ -20,7 +21,7 @@ const references = () => /** @type {any} */ ({ type: 'element', tagName: 'refere
 /** @type {Record<string, Handler>} */
 const containers = { algorithm, derivation, equation, exercise, figure, hint, 'lap-table': lapTable, margin, predict, solution, table, theorem }
 /** @type {Record<string, Handler>} */
-const leaves = { 'lap-table': lapTable, listing, references }
+const leaves = { citation, 'lap-table': lapTable, listing, references }
 /** @type {Record<string, Handler>} */
 const texts = { chip, num, term }
 

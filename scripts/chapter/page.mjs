@@ -12,7 +12,7 @@ import { contents } from './contents.mjs'
  * @typedef {object} Page
  * @property {string} title
  * @property {ElementContent[]} heading the title as it is set
- * @property {string} kicker
+ * @property {ElementContent | string} kicker
  * @property {ElementContent[]} lead
  * @property {string} description for search engines
  * @property {string} script the module that the page runs
@@ -24,6 +24,9 @@ import { contents } from './contents.mjs'
  * @property {string} foot who may do what with it
  * @property {string[]} fonts those to fetch at once
  */
+
+/** What stands beside the chapter, from every page. */
+const doors = [['model.html', 'For teachers'], ['embed/', 'Embed'], ['model.html#cite', 'Cite']].flatMap(([href, name]) => [' · ', h('a', { href }, name)])
 
 /** @param {Page} page @returns {{ head: ElementContent[], body: ElementContent[] }} */
 export function page({ title, heading, kicker, lead, description, script, heads, main, previous, next, live, foot, fonts }) {
@@ -44,14 +47,14 @@ export function page({ title, heading, kicker, lead, description, script, heads,
     ],
     body: [
       h('a.skip', { href: '#chapter' }, 'Skip to the chapter'),
-      h('header', h('p.kicker', kicker), h('h1', heading), lead.length > 0 ? h('p.lead', lead) : []),
+      h('header', h('nav.kicker', { ariaLabel: 'Site' }, kicker, h('span', doors)), h('h1', heading), lead.length > 0 ? h('p.lead', lead) : []),
       heads.length > 1 ? h('nav.contents', { ariaLabel: 'Contents' }, h('details', h('summary', 'Contents'), contents(heads))) : [],
       h('main', { id: 'chapter', tabIndex: -1 }, [
         ...(live ? [h('noscript', h('p.hint', 'The figures run with JavaScript and WebAssembly. Without them you see them at rest.'))] : []),
         ...main,
       ]),
       around.length > 0 ? h('nav.around', { ariaLabel: 'Other chapters' }, around) : [],
-      h('footer', h('p', foot)),
+      h('footer', h('p', foot, h('span', doors))),
     ].flat(),
   }
 }

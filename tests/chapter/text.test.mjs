@@ -36,7 +36,7 @@ test('equations, figures and the rest are counted, and an empty link names them'
       ':::figure{#fig-a tag="fastslam-lap" alt="a" seed="4"}\nCaption.\n:::\n\n:::theorem[T]{#thm-a}\nx\n:::\n\n:::derivation[D]{#der-a}\nx\n:::\n\n::::exercise[E]{#ex-a kind="k" level="1"}\nx\n::::',
   )
   for (const name of ['(17.1)', '(17.2)', 'Figure\u00a017.1', 'Theorem\u00a017.1', 'Derivation\u00a017.1', 'Exercise\u00a01', 'A', 'own']) assert.ok(text.includes(`>${name}</a>`), name)
-  assert.match(text, /<fastslam-lap seed="4"><picture>/)
+  assert.match(text, /<fastslam-lap v="latest" seed="4"><picture>/)
   assert.match(text, /width="120" height="60"/)
 })
 

@@ -42,7 +42,7 @@ export class Aside implements Listener {
 
   /** Goes to a state, and says what there is to show of it at this size; rejects when the signal says so, or where it traps. */
   async reach(state: string, size: Omit<Size, 'canvas'>, signal: AbortSignal): Promise<Frame> {
-    this.#send({ do: 'begin', query: state, settings: [], authored: undefined, changed: false })
+    this.#send({ do: 'begin', query: state, settings: [], authored: {}, linked: false, changed: false })
     while (this.#host?.busy) {
       this.#host.work(SLICE)
       await yieldToMain()

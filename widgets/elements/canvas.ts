@@ -83,6 +83,13 @@ export class Canvas {
     this.stage.classList.add('live')
   }
 
+  /** Its size now, for whoever cannot wait until the observer tells it. */
+  measure(): void {
+    const { width, height } = getComputedStyle(this.element)
+    const contentRect = { width: parseFloat(width), height: parseFloat(height) } as DOMRectReadOnly
+    if (contentRect.width > 0) this.#measure({ contentRect })
+  }
+
   /** All of the figure but its picture [css px]. */
   get #around(): number {
     // The stage to a fraction of a pixel: were it rounded, a picture beside half a pixel would grow and shrink for ever.
@@ -99,7 +106,7 @@ export class Canvas {
     this.resized()
   }
 
-  #measure({ contentRect, devicePixelContentBoxSize }: ResizeObserverEntry): void {
+  #measure({ contentRect, devicePixelContentBoxSize }: Pick<ResizeObserverEntry, 'contentRect'> & Partial<ResizeObserverEntry>): void {
     let [width, height] = [Math.round(contentRect.width * devicePixelRatio), Math.round(contentRect.height * devicePixelRatio)]
     // To the very pixel where the browser tells it; but emulated screens tell css pixels here.
     const box = devicePixelContentBoxSize?.[0]

@@ -23,6 +23,9 @@ const NEEDS_WORKER = 'fastslam-log'
 /** Height that shows all of a figure in a frame of that width, what is folded closed [px]. */
 export const frameHeight = (tag: string): number => usualHeight(tag, FRAME_WIDTH) + EDGE
 
+/** What an address says of a figure, for the page for frames and for that on embedding. */
+export const frameQuery = ({ tag, attributes }: FigureMarkup): string => String(new URLSearchParams([['figure', tag.replace('fastslam-', '')], ...attributes]))
+
 /** The code, for figures whose files are in the folder `home` (an address with a slash at its end). */
 export function embedCode(name: CodeName, { tag, attributes }: FigureMarkup, home: string, title: string): string {
   const short = tag.replace('fastslam-', '')
@@ -31,10 +34,9 @@ export function embedCode(name: CodeName, { tag, attributes }: FigureMarkup, hom
     return `<script type="module" src="${home}fastslam.js"></script>\n<${tag}${text}></${tag}>`
   }
   if (name === 'iframe') {
-    const query = new URLSearchParams([['figure', short], ...attributes])
     return (
-      `<iframe src="${escape(`${home}embed.html?${query}`)}" title="${escape(title)}" width="${FRAME_WIDTH}" height="${frameHeight(tag)}" ` +
-      `${tag === NEEDS_WORKER ? '' : 'sandbox="allow-scripts allow-downloads" '}allowfullscreen></iframe>`
+      `<iframe src="${escape(`${home}embed.html?${frameQuery({ tag, attributes })}`)}" title="${escape(title)}" width="${FRAME_WIDTH}" height="${frameHeight(tag)}" ` +
+      `${tag === NEEDS_WORKER ? '' : 'sandbox="allow-scripts allow-downloads allow-modals allow-popups allow-popups-to-escape-sandbox" '}allowfullscreen></iframe>`
     )
   }
   if (name === 'myst') {

@@ -2,7 +2,7 @@
 //
 // One order holds for a parameter, however the element came to be: what is locked keeps the author's value; else a reader's link stands
 // over what the author gave, by attribute or property, and that over the default. It is kept in settings.ts.
-import { embedCode, type CodeName } from './embed-code'
+import { embedCode, type CodeName, type FigureMarkup } from './embed-code'
 import { homeAddress } from './files'
 import { FIGURES } from './generated/figures'
 import { HostedFigure } from './hosted-figure'
@@ -10,6 +10,7 @@ import { linkedQuery, linkTo } from './link'
 import { OPTIONS } from './options'
 import { unwatchReached, watchReached } from './reached'
 import { isParameter, takeEarlyProperties, toText, watchUnknown } from './parameters'
+import { takeToPaper } from './paper'
 import { onThemeChange } from './theme'
 
 export abstract class FigureElement extends HostedFigure {
@@ -34,6 +35,7 @@ export abstract class FigureElement extends HostedFigure {
     addEventListener('hashchange', () => this.followLink(), { signal })
     this.body.classList.toggle('pictured', this.querySelector('img, picture') !== null)
     watchReached(this.#onReached)
+    takeToPaper(this, signal)
     this.frames.observe(signal)
     this.canvas.observe()
     void this.speak()
@@ -140,24 +142,32 @@ export abstract class FigureElement extends HostedFigure {
 
   /** The address of this page with this figure's whole state; of the chapter's, where this page is one for frames. */
   get link(): string {
-    return linkTo(this, this.state, homeAddress())
+    return linkTo(this, this.#linkable, homeAddress())
   }
 
   /** The code that puts this figure, as it stands, into another page; undefined where that would need an address it does not have. */
   embedCode(name: CodeName): string | undefined {
     const home = homeAddress()
     if (!home && (name === 'iframe' || name === 'myst')) return undefined
-    const given = (name: string): [string, string] => [name, this.getAttribute(name)!]
+    return embedCode(name, this.markup, home, this.heading.textContent)
+  }
+
+  protected get markup(): FigureMarkup {
     const options = Object.keys(OPTIONS).filter(option => !['fit', 'v'].includes(option) && this.hasAttribute(option))
-    const { version, unsaid, parameters } = FIGURES[this.localName]!
-    // Before it has a state, it is what its author wrote.
-    const written = [['v', this.getAttribute('v') ?? unsaid], ...parameters.filter(parameter => this.hasAttribute(parameter)).map(given)] as [string, string][]
+    const state = new URLSearchParams(this.#linkable)
+    const version = state.get('v') ?? '1' // as links have it
+    state.delete('v')
+    return { tag: this.localName, attributes: [['v', version], ...state, ...options.map((name): [string, string] => [name, this.getAttribute(name)!])] }
+  }
+
+  /** The state; of a figure that has none yet, what its author gave. */
+  get #linkable(): string {
     const { state } = this
-    const shown = state || this.host ? [...new URLSearchParams(state)] : written
-    const v = shown.find(([name]) => name === 'v')?.[1] ?? '1' // as links have it
-    const values = shown.filter(([name]) => name !== 'v')
-    const attributes: [string, string][] = [['v', v === 'latest' ? version : v], ...values, ...options.map(given)]
-    return embedCode(name, { tag: this.localName, attributes }, home, this.heading.textContent)
+    if (state || this.host) return state
+    const { version, unsaid, parameters } = FIGURES[this.localName]!
+    const v = this.getAttribute('v') ?? unsaid
+    const given = parameters.map(name => [name, this.getParameter(name)]).filter(([, value]) => value !== undefined)
+    return String(new URLSearchParams([['v', v === 'latest' ? version : v], ...given.map(([name, value]) => [name as string, toText(value)])]))
   }
 
   /** Height [css px] that shows all of the figure at its present width, the picture as large as it would like to be. */

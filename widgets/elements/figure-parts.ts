@@ -4,7 +4,7 @@ import { Canvas } from './canvas'
 import { Chips } from './chips'
 import { Controls } from './controls'
 import { h, write } from './dom'
-import { CODES, type CodeName } from './embed-code'
+import { CODES, frameQuery, type CodeName, type FigureMarkup } from './embed-code'
 import css from './figure.css?inline'
 import chipsCss from './chips.css?inline'
 import { homeAddress, pictureAddress } from './files'
@@ -14,6 +14,7 @@ import { keepKeys } from './keys'
 import { inChapter } from './link'
 import { Menu, type MenuItem } from './menu'
 import { Messages } from './messages'
+import { printAll } from './paper'
 import { Playback } from './playback'
 import { Help } from './popover'
 import { forgetReached } from './reached'
@@ -57,6 +58,9 @@ export abstract class FigureParts extends HTMLElement {
   readonly #undo = h('button', { type: 'button', class: 'undo', part: 'button undo', hidden: '' })
   #before = '' // the state that undoing brings back
   readonly #help = new Help(this.words)
+  /** On paper: where all of this is to be had again, and whose picture it is. */
+  readonly #where = h('a')
+  readonly #notThis = h('span')
   readonly #fallback = h('div', { class: 'fallback' }, h('slot'))
   readonly #handles = new Handles({
     drag: (handle, x, y) => this.#byPointer({ do: 'drag', handle, x, y }),
@@ -92,6 +96,7 @@ export abstract class FigureParts extends HTMLElement {
       this.sentence.spoken,
       this.folds,
       this.#help.element,
+      h('p', { class: 'paper' }, this.#notThis, this.#where),
     )
     root.append(this.body)
     this.#undo.addEventListener('click', () => this.#takeBack())
@@ -116,6 +121,7 @@ export abstract class FigureParts extends HTMLElement {
   abstract get state(): string
   abstract set state(query: string)
   abstract embedCode(name: CodeName): string | undefined
+  protected abstract get markup(): FigureMarkup
   protected abstract send(command: Command): void
   /** Shows again what is shown. */
   protected abstract refresh(): void
@@ -204,6 +210,14 @@ export abstract class FigureParts extends HTMLElement {
   /** Whether readers may unfold the numbers. */
   protected showNumbers(on: boolean): void {
     this.#numbers.classList.toggle('left-out', !on)
+  }
+
+  /** Below it stands where its state is to be had again; where the picture is not of that state, that is said. */
+  protected writeForPaper(): void {
+    write(this.#where, (this.#where.href = this.link))
+    // A page's own picture is what its author says it is; that of our codes is the default's.
+    const own = this.querySelector('img')?.src.includes(`${this.localName}-`) ?? true
+    write(this.#notThis, own && !this.stage.matches('.live') ? `${this.words.say('default_picture')} ` : '')
   }
 
   /** Without a living program nothing can be done. */
@@ -304,10 +318,12 @@ export abstract class FigureParts extends HTMLElement {
     })
     return [
       { name: words.say('copy_link'), act: () => void this.#copy('link', this.link) },
+      ...(home ? [{ name: words.say('use_in_class'), act: () => void open(`${home}embed/?${frameQuery(this.markup)}`, '_blank', 'noopener') }] : []),
       ...codes.map(name => ({ name: words.say('copy_code', { name: codeName(name) }), act: () => void this.#copy('code', this.embedCode(name)!) })),
       { name: words.say('save_picture'), act: () => this.canvas.element.toBlob(blob => blob && download(this.fileName('png'), blob)) },
       save('csv'),
       save('json'),
+      { name: words.say('print'), act: () => void printAll().then(allowed => this.messages.set('print', allowed ? '' : words.say('no_print'))) },
       { name: words.say('explain'), act: () => this.#help.open() },
       { name: words.say('forget_reached'), act: forgetReached },
       // On other pages: whose it is, and where the rest of it is.

@@ -7,6 +7,7 @@ import { FIGURES } from './generated/figures'
 import type { Answer, Command, FigureHost, Frame, Listener } from './host'
 import { LocalHost } from './local-host'
 import { CHIPS, hasComma, locked, NUMBERS, offered, optionCommand, OPTIONS, refusal, unknownNames } from './options'
+import type { Printed } from './paper'
 import { programOf } from './program'
 import { reach } from './reached'
 import { download } from './save'
@@ -17,9 +18,10 @@ import { languageAround } from './words'
 import { yieldToMain } from './yield'
 
 const WORK_SLICE = 8 // [ms] of simulation, in a frame and between two looks at what else the page has to do
+const PATIENCE = 4000 // [ms] of simulation for paper, while the browser waits
 const SLOW = 3000 // [ms] of loading after which the picture is shown meanwhile
 
-export abstract class HostedFigure extends FigureParts implements Listener {
+export abstract class HostedFigure extends FigureParts implements Listener, Printed {
   /** Whether its program runs in a worker, because it would keep the page waiting. */
   static heavy = false
 
@@ -65,18 +67,49 @@ export abstract class HostedFigure extends FigureParts implements Listener {
     try {
       const Host = this.heavy ? WorkerHost : LocalHost
       const [host] = await Promise.all([Host.create(programOf(this.localName), this.localName, this), this.words.speak(languageAround(this))])
-      if (!this.isConnected) return host.free()
-      this.host = host
-      write(this.status, '')
-      this.stage.classList.remove('still')
-      this.messages.set('start', '')
-      this.begin(false)
-      this.begun()
+      if (!this.isConnected || this.host) return host.free() // paper may have been quicker
+      this.#live(host)
     } catch (error) {
       this.refuseToLive(this.words.why(error))
     } finally {
       clearTimeout(slow)
     }
+  }
+
+  #live(host: FigureHost): void {
+    this.host = host
+    write(this.status, '')
+    this.stage.classList.remove('still')
+    this.messages.set('start', '')
+    this.begin(false)
+    this.begun()
+  }
+
+  load(): Promise<void> | undefined {
+    return this.heavy ? undefined : this.start()
+  }
+
+  /** At once, where the program is there: seen or not. */
+  toPaper(): void {
+    if (!this.host && !this.stopped && !this.heavy) {
+      const host = LocalHost.now(programOf(this.localName), this.localName, this)
+      if (host) this.#live(host)
+    }
+    if (!this.host?.remote) {
+      this.host?.work(PATIENCE)
+      // Its height comes from the first of them, and the picture of that height from the second.
+      for (let paints = 0; paints < 2 && this.host && !this.host.busy; paints++) {
+        this.canvas.measure()
+        this.#tellSize()
+        const frame = this.host.frame()
+        if (frame) this.present(frame)
+      }
+    }
+    this.writeForPaper()
+  }
+
+  offPaper(): void {
+    this.refresh()
   }
 
   /** Gives the host all that was asked until now. */

@@ -32,6 +32,11 @@ export class LocalHost implements FigureHost, InstanceUser {
     return new LocalHost(program, await program.shell(), tag, listener)
   }
 
+  /** At once, where the program is there. */
+  static now(program: Program, tag: string, listener: Listener): LocalHost | undefined {
+    return program.ready && new LocalHost(program, program.ready, tag, listener)
+  }
+
   get values(): Record<string, string> | undefined {
     return this.#ask(session => session.values) ?? this.#known?.values
   }

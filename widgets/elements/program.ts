@@ -19,6 +19,8 @@ export class Program {
   readonly module: () => Promise<WebAssembly.Module>
   readonly users = new Set<InstanceUser>()
   #shell: Promise<Shell> | undefined
+  /** The instance of now, where it is there already. */
+  ready: Shell | undefined
 
   constructor(name: string) {
     this.module = once(() => compiled(name))
@@ -28,6 +30,7 @@ export class Program {
   shell(): Promise<Shell> {
     this.#shell ??= this.module()
       .then(createShell)
+      .then(shell => (this.ready = shell))
       .catch((error: unknown) => {
         this.#shell = undefined
         throw error
@@ -37,7 +40,7 @@ export class Program {
 
   /** One of the users has seen the instance trap: all of them get another one. */
   replace(): void {
-    this.#shell = undefined
+    this.#shell = this.ready = undefined
     const users = [...this.users]
     for (const user of users) user.lose()
     const revive = () => users.filter(user => this.users.has(user)).forEach(user => user.revive())

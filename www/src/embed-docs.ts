@@ -2,11 +2,14 @@
 // from the manifest of the elements.
 import type { FigureElement } from '../../widgets/elements/figure-element'
 import { h } from '../../widgets/elements/dom'
-import { CODES, embedCode, type CodeName } from '../../widgets/elements/embed-code'
+import type { FigureDetail } from '../../widgets/elements/events'
+import { CODES, type CodeName } from '../../widgets/elements/embed-code'
 import { FIGURES } from '../../widgets/elements/generated/figures'
 import '../../widgets/elements/index'
 import { OPTIONS } from '../../widgets/elements/options'
+import { takePrintKey } from '../../widgets/elements/paper'
 import { copy } from '../../widgets/elements/save'
+import { asked, askedTag, configure } from './asked'
 
 interface Described {
   name: string
@@ -24,6 +27,8 @@ interface Declaration {
   cssParts: Described[]
   cssProperties: Described[]
 }
+
+takePrintKey()
 
 const home = new URL('../', location.href).href
 const form = document.querySelector<HTMLFormElement>('#editor')!
@@ -55,32 +60,51 @@ function edit(declarations: Declaration[]): void {
   })
 
   let figure: FigureElement
-  const attributes = (): [string, string][] => [...new FormData(form)].filter(([name, value]) => name !== 'figure' && value !== '') as [string, string][]
+  /** The codes, as the figure's own menu has them. */
   const print = () => {
     for (const { name, code } of outputs) {
-      const text = embedCode(name, { tag: figure.localName, attributes: attributes() }, home, FIGURES[figure.localName]!.title)
+      const text = figure.embedCode(name) ?? ''
       if (code.textContent !== text) code.textContent = text
     }
   }
-  const begin = () => {
+  /** The fields follow the figure, except for the one that is being written. */
+  const follow = (event: Event) => {
+    if (event.currentTarget !== figure) return
+    const { by, phase } = (event as CustomEvent<FigureDetail>).detail
+    if (by === 'playback' || phase === 'running') return // nobody asked for that step
+    const state = new URLSearchParams(figure.state)
+    for (const input of fields.querySelectorAll<HTMLInputElement | HTMLSelectElement>('[name]')) {
+      if (!(input.name in OPTIONS) && input !== document.activeElement) input.value = state.get(input.name) ?? ''
+    }
+    print()
+  }
+  const begin = (first = false) => {
     const declared = declarations.find(({ tagName }) => tagName === choose.value)!
     const own = declared.attributes.filter(({ name }) => !(name in OPTIONS))
-    const common = declared.attributes.filter(({ name }) => name in OPTIONS)
-    fields.replaceChildren(h('h3', {}, 'Parameters'), ...own.map(field), h('h3', {}, 'Options'), ...common.map(field))
+    const common = declared.attributes.filter(({ name }) => name in OPTIONS && name !== 'v')
     figure = document.createElement(declared.tagName) as FigureElement
+    figure.setAttribute('v', 'latest') // this page goes with its figures; the code says of which version it is
+    if (first) configure(figure)
+    // What is copied here opens here.
+    else history.replaceState(undefined, '', `?figure=${declared.tagName.replace('fastslam-', '')}`)
+    fields.replaceChildren(h('h3', {}, 'Parameters'), ...own.map(field), h('h3', {}, 'Options'), ...common.map(field))
+    for (const input of fields.querySelectorAll<HTMLInputElement | HTMLSelectElement>('[name]')) input.value = figure.getAttribute(input.name) ?? ''
+    for (const name of ['fastslam-step', 'fastslam-change'] as const) figure.addEventListener(name, follow)
     preview.replaceChildren(figure)
     print()
   }
-  choose.addEventListener('change', begin)
+  choose.addEventListener('change', () => begin())
   fields.addEventListener('input', event => {
     const { name, value } = event.target as HTMLInputElement
-    if (value === '') figure.removeAttribute(name)
-    else figure.setAttribute(name, value)
+    figure.setAttribute(name, value)
+    if (value === '') figure.removeAttribute(name) // also where the figure was moved, and no attribute said so
     print()
   })
   form.addEventListener('submit', event => event.preventDefault())
-  form.replaceChildren(h('label', {}, h('span', { class: 'name' }, 'Figure'), choose), fields)
-  begin()
+  const unknown = asked && !askedTag ? [h('p', { role: 'alert', class: 'hint' }, `There is no figure “${asked.slice(0, 40)}”. These are the figures:`)] : []
+  form.replaceChildren(...unknown, h('label', {}, h('span', { class: 'name' }, 'Figure'), choose), fields)
+  if (askedTag) choose.value = askedTag
+  begin(true)
 }
 
 function table(caption: string, heads: string[], rows: (string | HTMLElement)[][]): HTMLElement[] {

@@ -1,10 +1,12 @@
 // The chapter: a page like any other, with figures, algorithms and a table that run.
 import '../../widgets/elements/index'
 import '../../widgets/elements/lap-table'
-import './addresses'
 import './algorithm'
 import './challenges'
 import './guesses'
 import './lap-table.css'
 import './page'
 import './place'
+import { takePrintKey } from '../../widgets/elements/paper'
+
+takePrintKey()

@@ -1,0 +1,26 @@
+// Where the site will be: canonical links, oEmbed and the links on paper need whole addresses, which nothing in dist/ can know.
+import { readFileSync } from 'node:fs'
+import { join } from 'node:path'
+import { createInterface } from 'node:readline/promises'
+import { root, StepError } from './lib.mjs'
+
+/** The folder of the site, with a slash at its end: `FASTSLAM_SITE`, else the homepage of package.json; empty where nobody has said. @returns {string} */
+export const site = () => asAddress(process.env.FASTSLAM_SITE ?? JSON.parse(readFileSync(join(root, 'package.json'), 'utf8')).homepage ?? '')
+
+/** @param {string} text as somebody has written it @returns {string} */
+export function asAddress(text) {
+  if (text.trim() === '') return ''
+  if (!URL.canParse(text.trim())) throw new StepError(`FASTSLAM_SITE=${text}: not an address.`, 'For example FASTSLAM_SITE=https://course.example/fastslam/')
+  const { protocol, origin, pathname } = new URL(text.trim())
+  if (!/^https?:$/.test(protocol)) throw new StepError(`FASTSLAM_SITE=${text}: an address begins with https:// or http://.`)
+  return `${origin}${pathname.replace(/(\/index\.html|\/*)$/, '/')}`
+}
+
+/** Asks whoever builds for others, where somebody can answer. */
+export async function askForSite() {
+  if (site() || process.env.FASTSLAM_SITE !== undefined || process.env.CI || !process.stdin.isTTY || !process.stdout.isTTY) return
+  const terminal = createInterface({ input: process.stdin, output: process.stdout })
+  const answer = await terminal.question('Where will the site be? (https://…; nothing leaves canonical links and oEmbed out; FASTSLAM_SITE answers for good) ')
+  terminal.close()
+  process.env.FASTSLAM_SITE = asAddress(answer)
+}
