@@ -24,3 +24,16 @@ export async function askForSite() {
   terminal.close()
   process.env.FASTSLAM_SITE = asAddress(answer)
 }
+
+/**
+ * Links of a page that leaves the site, made whole: those to its other pages, and those that `isElsewhere` besides. Without an address they are
+ * text, and the ways between pages in head and foot are left out.
+ * @param {string} html @param {string} address @param {(link: string) => boolean} [isElsewhere]
+ */
+export function wholeLinks(html, address, isElsewhere = () => false) {
+  const ways = address ? html : html.replace(/<span>(?: · <a [^>]*>[^<]*<\/a>)+<\/span>/g, '')
+  return ways.replace(/(<a\b[^>]*?) href="([^"]*)"/g, (whole, before, link) => {
+    if (/^([a-z]+:|#)/i.test(link) && !isElsewhere(link)) return whole
+    return address ? `${before} href="${new URL(link.replaceAll('&amp;', '&'), address).href.replaceAll('&', '&amp;')}"` : before
+  })
+}

@@ -2,6 +2,7 @@
 // and each figure as a SCORM 1.2 package for learning systems, which keeps a learner's state. All in packages/offline/.
 import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs'
 import { dirname, join, posix } from 'node:path'
+import { askForSite, site, wholeLinks } from './address.mjs'
 import { build, dist, kilobytes } from './build.mjs'
 import { figures } from './elements.mjs'
 import { escape } from './frames.mjs'
@@ -61,6 +62,8 @@ function inlined(file, script) {
     return path ? before + dataAddress(path) + after : whole
   })
   html = html.replace(/<script[^>]*src="[^"]+"[^>]*><\/script>\s*/g, '')
+  // The file is a version of its own, whatever becomes of the figures.
+  html = wholeLinks(html, site()).replace(/(<div id="figure">\s*<fastslam-[a-z-]+)/, '$1 v="latest"')
   return html.replace('</body>', () => `<script type="module">\n${script.replaceAll('</script', '<\\/script')}</script>\n  </body>`)
 }
 
@@ -121,6 +124,7 @@ export async function writeOffline() {
 
 if (isMain(import.meta)) {
   await main(async () => {
+    await askForSite()
     if (!existsSync(join(dist, 'fastslam-anywidget.js'))) await build()
     await step('Files for offline use, and SCORM packages', async () => `${(await writeOffline()).length} files in packages/offline/`)
   })

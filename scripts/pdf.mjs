@@ -2,7 +2,7 @@
 // FASTSLAM_SITE or the homepage of package.json. Without an address, what is on other pages is text.
 import { existsSync, statSync } from 'node:fs'
 import { join } from 'node:path'
-import { asAddress, askForSite, site } from './address.mjs'
+import { asAddress, askForSite, site, wholeLinks } from './address.mjs'
 import { launchChromium } from './browser.mjs'
 import { build, dist, kilobytes } from './build.mjs'
 import { isMain, main, step } from './lib.mjs'
@@ -15,14 +15,11 @@ import { setUp } from './setup.mjs'
  * @param {string} html @param {string} address of the site, or empty
  */
 export function forPaper(html, address) {
-  return html
+  const page = html
     .replaceAll(' loading="lazy"', '') // paper does not scroll
     .replace(/<noscript>[^]*?<\/noscript>/, '')
     .replace(/<p class="address">Live: (#[^<]*)<\/p>/g, (_, anchor) => (address ? `<p class="address">Live: <a href="./${anchor}">${address}${anchor}</a></p>` : ''))
-    .replace(/(<a\b[^>]*?) href="([^"]*)"/g, (whole, before, link) => {
-      if (/^([a-z]+:|#[^?]*$)/i.test(link)) return whole
-      return address ? `${before} href="${new URL(link.replaceAll('&amp;', '&'), address).href.replaceAll('&', '&amp;')}"` : before
-    })
+  return wholeLinks(page, address, link => /^#.*\?/.test(link))
 }
 
 /** @param {string} address of the live chapter, or empty @param {string} [folder] */

@@ -30,7 +30,7 @@ import { together } from './together.mjs'
  */
 
 const home = fileURLToPath(new URL('.', import.meta.url))
-const licence = 'Text: CC BY 4.0. Code: MIT or Apache-2.0.'
+const licence = 'Text: CC BY 4.0. Code: MIT or Apache-2.0'
 
 /**
  * @param {string} root of the repository

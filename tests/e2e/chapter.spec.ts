@@ -196,7 +196,7 @@ test.describe('by touch', () => {
   })
 })
 
-test('on paper a figure is its picture and everything is unfolded; on a screen a derivation is once a link leads into it, and what follows a question once a guess is written', async ({ page }) => {
+test('on paper a figure is what it shows, with the link to that, and everything is unfolded; on a screen a derivation is once a link leads into it, and what follows a question once a guess is written', async ({ page }) => {
   await page.goto('./')
   const lap = page.locator('fastslam-lap')
   await lap.scrollIntoViewIfNeeded()
@@ -204,11 +204,11 @@ test('on paper a figure is its picture and everything is unfolded; on a screen a
   const fold = page.locator('.derivation > .fold').first()
   await expect(fold).toBeHidden()
   await page.emulateMedia({ media: 'print' })
-  await expect(lap.locator('img')).toBeVisible()
-  await expect(lap.locator('canvas')).toBeHidden()
+  await expect(lap.locator('img')).toBeHidden()
+  await expect(lap.locator('canvas')).toBeVisible()
   await expect(lap.locator('.transport')).toBeHidden()
   await expect(fold).toBeVisible()
-  await expect(page.locator('#fig-lap .address')).toBeVisible()
+  await expect(page.locator('#fig-lap .address')).toBeHidden()
 
   await page.emulateMedia({ media: 'screen' })
   await expect(fold).toBeHidden()

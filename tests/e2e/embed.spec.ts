@@ -5,7 +5,7 @@ import { root } from '../../scripts/lib.mjs'
 import { brokenRules } from './axe'
 import { expect, test } from './fixtures'
 import { Figure, frames } from './figure'
-import { breadth, breadthOf, FIGURES, forgiveHost, openHost, quick, sanitised } from './host'
+import { breadth, breadthOf, FIGURES, forgiveHost, openCourse, openHost, quick, sanitised } from './host'
 
 /** What a page's script may ask of a figure. */
 type FigureElement = HTMLElement & { embedCode(name: string): string | undefined; naturalHeight: number; state: string }
@@ -152,20 +152,52 @@ test('the figure of logs is no exception: refusals, locks, the height that its f
   forgiveHost(complaints)
 })
 
-test('each figure has a page with its picture, its oEmbed answer and a link to it', async ({ page, baseURL, request }) => {
+// What such a page says where the site knows its address is in tests/chapter/site.test.mjs.
+test('each figure has a page with its picture', async ({ page, request }) => {
   for (const name of FIGURES) {
-    const html = await (await request.get(`./embed-${name}.html`)).text()
-    const link = /<link rel="alternate" type="application\/json\+oembed" href="([^"]+)"/.exec(html)
-    expect(link, name).not.toBeNull()
-    const answer = await request.get(link![1]!)
-    expect(answer.headers()['content-type']).toContain('application/json')
-    const oembed = await answer.json()
-    expect(oembed).toMatchObject({ version: '1.0', type: 'rich', width: 900 })
-    expect(oembed.html).toMatch(new RegExp(`^<iframe src="https?://[^"]+/embed\\.html\\?figure=${name}" .*height="${oembed.height}"`))
-    expect(new URL(oembed.thumbnail_url).pathname.split('/').slice(-2)[0]).toBe('assets')
+    const picture = /<img src="([^"]+)"/.exec(await (await request.get(`./embed-${name}.html`)).text())
+    expect((await request.get(picture![1]!)).headers()['content-type'], name).toBe('image/png')
   }
-  await page.goto(`${baseURL}embed-lap.html`)
-  await live(page, 'fastslam-lap')
+  await page.goto('./embed-lap.html')
+  await live(page.mainFrame(), 'fastslam-lap')
+})
+
+test('a frame of an earlier version shows what the link of that version shows, and tells nobody of changes; one without a version is pinned, too', async ({ page }) => {
+  // Of the changes, some are of defaults and some are told to whoever comes by a link.
+  for (const [name, code] of [['lap', 'v=1&universes=8&step=3'], ['conditioning', 'v=1&odometry=0'], ['proposal', 'v=2&run=on'], ['lap', 'universes=4&step=3'], ['lap', 'v=latest&universes=4']] as const) {
+    await page.goto(`./embed.html?figure=${name}&${code}`)
+    const figure = new Figure(page, `fastslam-${name}`)
+    await figure.live()
+    await expect(figure.alert, code).toBeEmpty()
+    const framed = await figure.state()
+    if (code.startsWith('v=1') || code.startsWith('v=2')) await figure.goTo(code)
+    else await figure.goTo(`${framed.split('&')[0]}&${code.replace('v=latest&', '')}`) // nothing has changed since codes say their version
+    expect(framed, `${name}: ${code}`).toBe(await figure.state())
+  }
+  await page.goto('./embed.html?figure=lap&v=eight')
+  await expect(new Figure(page, 'fastslam-lap').alert).toContainText('v = "eight": must be latest or a whole number from 1 to')
+})
+
+test('an element of an earlier version has the defaults of that version: taken away, locked, after Reset, and after a change of version', async ({ page }) => {
+  const lap = new Figure(page, 'fastslam-lap')
+  const values = () => lap.element.evaluate(element => ['course', 'seed', 'universes'].map(name => (element as unknown as Record<string, unknown>)[name]))
+  await openCourse(page, '<fastslam-lap v="1" seed="5" universes="8" lock="course"></fastslam-lap>')
+  await lap.live()
+  expect(await values()).toEqual(['apartment', 5, 8])
+  await lap.element.evaluate(element => element.removeAttribute('seed'))
+  await lap.settled()
+  expect(await values(), 'the seed was another then').toEqual(['apartment', 3, 8])
+  await lap.element.evaluate(element => element.setAttribute('v', '8'))
+  await lap.settled()
+  expect(await values()).toEqual(['ring', 9, 8])
+  await lap.element.evaluate(element => element.setAttribute('v', '1'))
+  await lap.reset.click()
+  await lap.settled()
+  expect(await values()).toEqual(['apartment', 3, 8])
+  await expect(lap.alert).toBeEmpty()
+  await page.evaluate(() => (location.hash = 'fastslam-lap?v=8&universes=4'))
+  await lap.settled()
+  expect(await values(), 'what is locked is the author’s, as it was in that version').toEqual(['apartment', 9, 4])
 })
 
 test.describe('without the script', () => {
@@ -198,13 +230,13 @@ test('the menu copies code that works as it is: element, iframe, MyST and Python
     return page.evaluate(() => navigator.clipboard.readText())
   }
   const element = await copied('Copy code: HTML element')
-  expect(element).toBe(`<script type="module" src="${baseURL}fastslam.js"></script>\n<fastslam-lap universes="5" step="6" truth="on" decimal="comma"></fastslam-lap>`)
+  expect(element).toBe(`<script type="module" src="${baseURL}fastslam.js"></script>\n<fastslam-lap v="8" universes="5" step="6" truth="on" decimal="comma"></fastslam-lap>`)
   const iframe = await copied('Copy code: iframe')
-  expect(iframe).toMatch(/embed\.html\?figure=lap&amp;universes=5&amp;step=6&amp;truth=on&amp;decimal=comma"/)
+  expect(iframe).toMatch(/embed\.html\?figure=lap&amp;v=8&amp;universes=5&amp;step=6&amp;truth=on&amp;decimal=comma"/)
   expect(await copied('Copy code: MyST')).toBe(
-    `\`\`\`{anywidget} ${baseURL}fastslam-anywidget.js\n{\n  "figure": "lap",\n  "universes": "5",\n  "step": "6",\n  "truth": "on",\n  "decimal": "comma"\n}\n\`\`\``,
+    `\`\`\`{anywidget} ${baseURL}fastslam-anywidget.js\n{\n  "figure": "lap",\n  "v": "8",\n  "universes": "5",\n  "step": "6",\n  "truth": "on",\n  "decimal": "comma"\n}\n\`\`\``,
   )
-  expect(await copied('Copy code: Python')).toBe('from fastslam_widgets import FastslamLap\n\nFastslamLap(universes=5, step=6, truth=True, decimal="comma")')
+  expect(await copied('Copy code: Python')).toBe('from fastslam_widgets import FastslamLap\n\nFastslamLap(v=8, universes=5, step=6, truth=True, decimal="comma")')
 
   // Both on a page of another site.
   const readouts = await lap.readouts()

@@ -341,3 +341,30 @@ for (const address of ['embed.html?figure=lap&', 'embed-lap.html?']) {
     await expect(lap.box('universes')).toHaveValue('8')
   })
 }
+
+for (const [how, address, head] of [
+  ['under a base address', 'site', '<base href="https://elsewhere.example/assets/" />'],
+  ['that routes by its path', 'site/lesson/3', ''],
+  ['that routes by its query', 'site?page=lesson/3&x', ''],
+  ['that routes by its fragment', 'site#/lesson/3?tab=1', '<script>addEventListener("DOMContentLoaded", () => /^#\\/lesson\\/3\\?tab=1$/.test(location.hash) || document.body.replaceChildren("404"))</script>'],
+] as const) {
+  test(`on a site ${how}, what a figure copies opens again`, async ({ page, baseURL }) => {
+    const open = async (address: string) => {
+      await page.goto('about:blank')
+      await page.goto(address)
+      const lap = new Figure(page, 'fastslam-lap')
+      await lap.live()
+      return lap
+    }
+    const html = `<!doctype html><html lang="en"><head><title>Course</title><link rel="icon" href="data:," />${head}<script type="module" src="${baseURL}fastslam.js"></script></head><body><fastslam-lap universes="4"></fastslam-lap></body></html>`
+    await page.route(url => url.pathname.startsWith('/site'), route => route.fulfill({ contentType: 'text/html', body: html }))
+    const lap = await open(`${baseURL}${address}`)
+    await lap.scrubTo(3)
+    const state = await lap.state()
+    await lap.menu('Copy link')
+    await expect(lap.element.getByText('Link copied')).toBeVisible()
+    const again = await open(await page.evaluate(() => navigator.clipboard.readText()))
+    expect(await again.state()).toBe(state)
+    expect(await again.position()).toBe(3)
+  })
+}

@@ -9,7 +9,7 @@ import { HostedFigure } from './hosted-figure'
 import { linkedQuery, linkTo } from './link'
 import { OPTIONS } from './options'
 import { unwatchReached, watchReached } from './reached'
-import { isParameter, takeEarlyProperties, toText, watchUnknown } from './parameters'
+import { fromText, isParameter, takeEarlyProperties, toText, watchUnknown } from './parameters'
 import { takeToPaper } from './paper'
 import { onThemeChange } from './theme'
 
@@ -166,8 +166,9 @@ export abstract class FigureElement extends HostedFigure {
     if (state || this.host) return state
     const { version, unsaid, parameters } = FIGURES[this.localName]!
     const v = this.getAttribute('v') ?? unsaid
-    const given = parameters.map(name => [name, this.getParameter(name)]).filter(([, value]) => value !== undefined)
-    return String(new URLSearchParams([['v', v === 'latest' ? version : v], ...given.map(([name, value]) => [name as string, toText(value)])]))
+    const usual = (name: string) => fromText(this.specs.find(spec => spec.name === name)?.default)
+    const given = parameters.map((name): [string, unknown] => [name, this.getParameter(name)]).filter(([name, value]) => value !== undefined && value !== usual(name))
+    return String(new URLSearchParams([['v', v === 'latest' ? version : v], ...given.map(([name, value]) => [name, toText(value)])]))
   }
 
   /** Height [css px] that shows all of the figure at its present width, the picture as large as it would like to be. */

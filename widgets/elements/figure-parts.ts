@@ -214,7 +214,9 @@ export abstract class FigureParts extends HTMLElement {
 
   /** Below it stands where its state is to be had again; where the picture is not of that state, that is said. */
   protected writeForPaper(): void {
-    write(this.#where, (this.#where.href = this.link))
+    write(this.#where, this.link)
+    // A link to the page itself, browsers take for a place on the paper.
+    this.#where.href = this.link.replace(/^[^#]*/, page => page + (page.includes('?') ? '&' : '?'))
     // A page's own picture is what its author says it is; that of our codes is the default's.
     const own = this.querySelector('img')?.src.includes(`${this.localName}-`) ?? true
     write(this.#notThis, own && !this.stage.matches('.live') ? `${this.words.say('default_picture')} ` : '')
