@@ -1,9 +1,9 @@
 // A script, and all it needs, as one file that carries the figures' program along: for notebooks, and for pages opened from a file.
 import { readFileSync } from 'node:fs'
-import { join } from 'node:path'
+import { dirname, join } from 'node:path'
 import { gzipSync } from 'node:zlib'
 import { root, StepError } from './lib.mjs'
-import { programFile, programNames } from './registry.mjs'
+import { programFile, programNames, programs as programOf } from './registry.mjs'
 
 const elements = join(root, 'widgets', 'elements')
 export const notebook = join(elements, 'notebook.ts')
@@ -19,6 +19,7 @@ async function bundle(entry, format, plugins = []) {
     build: {
       write: false,
       target: 'es2022',
+      cssTarget: ['chrome125', 'firefox125', 'safari17.5'],
       assetsInlineLimit: 0,
       reportCompressedSize: false,
       rollupOptions: { input: entry, preserveEntrySignatures: 'strict', output: { format, entryFileNames: '[name].js', codeSplitting: false } },
@@ -47,15 +48,18 @@ export async function singleFile(entry, names = programNames) {
   const example = names.includes('log') ? readFileSync(join(root, 'www', 'public', 'example.clf.gz')).toString('base64') : ''
   const words = Object.fromEntries(languages.map(language => [language, JSON.parse(readFileSync(join(root, 'widgets', 'words', `${language}.json`), 'utf8'))]))
   const carried = `export const example = ${JSON.stringify(example)}; export const programs = ${JSON.stringify(programs)}; export const worker = ${JSON.stringify(worker)}; export const words = ${JSON.stringify(words)}`
+  /** Elements that would find no program in it. */
+  const without = [...programOf].filter(([, program]) => !names.includes(program)).map(([tag]) => join(elements, tag.replace('fastslam-', '')))
   return bundle(entry, 'es', [
     {
       name: 'fastslam-files',
       enforce: 'pre',
       resolveId(source, importer) {
         if (source === 'virtual:fastslam-files') return `\0${source}`
+        if (importer && without.includes(join(dirname(importer), source))) return '\0none'
         return source === './files' && importer?.startsWith(elements) ? join(elements, 'files-inline.ts') : undefined
       },
-      load: id => (id === '\0virtual:fastslam-files' ? carried : undefined),
+      load: id => (id === '\0virtual:fastslam-files' ? carried : id === '\0none' ? 'export {}' : undefined),
     },
   ])
 }

@@ -101,6 +101,7 @@ test('on paper a place is a place of the paper, and what is live or on another p
 
 test('from the head and the foot of every page of text ways lead to those for teachers, to embedding and to citing', async () => {
   const { pages } = await book('## A {#a}', { 'www/model.md': '## For teachers {#model}\n\n### How to cite {#cite}\n\n::citation\n', 'CITATION.cff': readFileSync(join(root, 'CITATION.cff')) })
+  /** @type {Record<string, string>} */
   const html = { ...Object.fromEntries(Object.entries(pages).map(([name, { body }]) => [name, serialize(body)])), 'embed/index.html': readFileSync(join(root, 'www', 'embed', 'index.html'), 'utf8') }
   assert.deepEqual(Object.keys(html), ['index.html', 'model.html', 'embed/index.html'])
   for (const [name, page] of Object.entries(html)) {

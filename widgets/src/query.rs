@@ -64,23 +64,18 @@ pub fn meant(model: &dyn Model, code: &str) -> Result<Vec<(String, String)>, Fig
 
 fn implied(code: &str, unsaid: usize, changes: &[Change]) -> Result<Vec<(String, String)>, FigureError> {
     let newest = changes.len() + 1;
-    match given(code) {
-        None => Ok(after(code, unsaid, changes).1),
-        Some(version) if version.trim() == LATEST => Ok(Vec::new()),
-        Some(version) => {
-            let range = AWholeNumber { min: &1, max: &newest, unit: &"" }.say();
-            let allowed = WordsOrRange { words: &LATEST, range: &range }.say();
-            checked(&version, newest, allowed).map(|version| after(code, version, changes).1)
-        }
-    }
+    let version = match given(code) {
+        None => unsaid,
+        Some(latest) if latest == LATEST => newest,
+        Some(version) => checked(&version, newest, LATEST)?,
+    };
+    Ok(after(code, version, changes).1)
 }
 
 /// What a reader is told of a link of another version, and what it means without saying so: `changes` has one for each version from the
 /// second on.
 fn since(query: &str, changes: &[Change]) -> (Vec<FigureError>, Vec<(String, String)>) {
-    let newest = changes.len() + 1;
-    let allowed = AWholeNumber { min: &1, max: &newest, unit: &"" }.say();
-    match checked(&given(query).unwrap_or("1".into()), newest, allowed) {
+    match checked(&given(query).unwrap_or("1".into()), changes.len() + 1, "") {
         Ok(version) => after(query, version, changes),
         Err(error) => (vec![error], Vec::new()),
     }
@@ -91,12 +86,17 @@ fn given(query: &str) -> Option<String> {
     decoded(query).find(|(name, _)| name == VERSION).map(|(_, version)| version)
 }
 
-/// A version from 1 to the newest, or what is wrong with it: `allowed` follows *must be*.
-fn checked(given: &str, newest: usize, allowed: String) -> Result<usize, FigureError> {
+/// A version from 1 to the newest, or what is wrong with it: it may be `word` as well, where there is one.
+#[inline(never)] // a program has it once
+fn checked(given: &str, newest: usize, word: &str) -> Result<usize, FigureError> {
     match given.trim().parse::<usize>() {
         Ok(version) if (1..=newest).contains(&version) => Ok(version),
         Ok(version) if version > newest => Err(about(LaterLink { version: &version, newest: &newest }.say())),
-        _ => Err(FigureError::new(VERSION, quoted(given), allowed)),
+        _ => {
+            let range = AWholeNumber { min: &1, max: &newest, unit: &"" }.say();
+            let allowed = if word.is_empty() { range } else { WordsOrRange { words: &word, range: &range }.say() };
+            Err(FigureError::new(VERSION, quoted(given), allowed))
+        }
     }
 }
 
@@ -105,6 +105,7 @@ fn about(message: String) -> FigureError {
 }
 
 /// What has changed since a version: what there is to tell, and the defaults of then that are others now.
+#[inline(never)]
 fn after(query: &str, version: usize, changes: &[Change]) -> (Vec<FigureError>, Vec<(String, String)>) {
     let (mut said, mut meant) = (Vec::new(), Vec::new());
     // The default that held in the version of the link is the one before the first change after it.
