@@ -10,17 +10,17 @@ export const gluePaths = ['fastslam_widgets.js', 'fastslam_widgets.d.ts', 'fasts
 /** `createShell(module)`, which makes an instance and returns what the glue exports. @param {string} glue */
 export function shellModule(glue) {
   const names = [...glue.matchAll(/^export (?:class|function) (\w+)/gm)].map(([, name]) => name)
-  const inner = glue
-    .replace(/^export (?=class |function )/gm, '')
-    .replace(/^export \{ initSync, __wbg_init as default \};$/m, '')
-    .replace("new URL('fastslam_widgets_bg.wasm', import.meta.url)", 'undefined')
-  if (names.length === 0 || /^(export|import) /m.test(inner) || inner.includes('import.meta')) {
+  // How it fetches a program is left out: ours has been compiled when it comes here.
+  const [body = '', loader] = glue.split(/^async function __wbg_load\(/m)
+  const inner = body.replace(/^export (?=class |function )/gm, '')
+  const known = /^export \{ initSync, __wbg_init as default \};$/m.test(loader ?? '') && inner.includes('function __wbg_finalize_init(instance, module)')
+  if (names.length === 0 || !known || /^(export|import) /m.test(inner) || inner.includes('import.meta')) {
     throw new StepError('widgets/pkg/fastslam_widgets.js is not what scripts/glue.mjs knows of wasm-bindgen: has its version changed?')
   }
   return `// Made by scripts/glue.mjs from widgets/pkg/fastslam_widgets.js.
 export async function createShell(module) {
 ${inner}
-await __wbg_init({ module_or_path: module })
+__wbg_finalize_init(await WebAssembly.instantiate(module, __wbg_get_imports()), module)
 return { memory: wasm.memory, ${names.join(', ')} }
 }
 `
