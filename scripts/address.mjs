@@ -16,13 +16,19 @@ export function asAddress(text) {
   return `${origin}${pathname.replace(/(\/index\.html|\/*)$/, '/')}`
 }
 
-/** Asks whoever builds for others, where somebody can answer. */
-export async function askForSite() {
-  if (site() || process.env.FASTSLAM_SITE !== undefined || process.env.CI || !process.stdin.isTTY || !process.stdout.isTTY) return
-  const terminal = createInterface({ input: process.stdin, output: process.stdout })
-  const answer = await terminal.question('Where will the site be? (https://…; nothing leaves canonical links and oEmbed out; FASTSLAM_SITE answers for good) ')
-  terminal.close()
-  process.env.FASTSLAM_SITE = asAddress(answer)
+/**
+ * Asks whoever builds for others, where somebody can answer and nobody has. The answer holds for this run.
+ * @param {{ input: NodeJS.ReadableStream & { isTTY?: boolean }, output: NodeJS.WritableStream & { isTTY?: boolean } }} [terminal]
+ */
+export async function askForSite({ input, output } = { input: process.stdin, output: process.stdout }) {
+  if (site() || process.env.FASTSLAM_SITE !== undefined || process.env.CI || !input.isTTY || !output.isTTY) return
+  const lines = createInterface({ input, output })
+  try {
+    const answer = await lines.question('Where will the site be? Its address, or nothing to leave out what needs one (FASTSLAM_SITE answers for good): ')
+    process.env.FASTSLAM_SITE = asAddress(answer)
+  } finally {
+    lines.close()
+  }
 }
 
 /**

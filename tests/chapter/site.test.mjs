@@ -3,9 +3,10 @@ import assert from 'node:assert/strict'
 import { existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { join } from 'node:path'
+import { PassThrough } from 'node:stream'
 import { test } from 'node:test'
 import { parse } from 'yaml'
-import { asAddress } from '../../scripts/address.mjs'
+import { asAddress, askForSite } from '../../scripts/address.mjs'
 import { embedCodes, writePages } from '../../scripts/frames.mjs'
 import { root } from '../../scripts/lib.mjs'
 import { forPaper } from '../../scripts/pdf.mjs'
@@ -81,6 +82,32 @@ test('an address is taken as somebody writes it, and one that is none is refused
   assert.equal(asAddress('https://course.example'), 'https://course.example/')
   assert.equal(asAddress(' '), '')
   for (const bad of ['course.example/17', 'ftp://course.example/', 'https://']) assert.throws(() => asAddress(bad), /FASTSLAM_SITE/)
+})
+
+test('whoever builds on a terminal is asked where the site will be, unless that is said; elsewhere nobody is', async () => {
+  const before = { ...process.env }
+  const ask = async (/** @type {string} */ answer, /** @type {Record<string, string>} */ env, isTTY = true) => {
+    delete process.env.FASTSLAM_SITE
+    delete process.env.CI
+    Object.assign(process.env, env)
+    const [input, output] = [0, 1].map(() => Object.assign(new PassThrough(), { isTTY }))
+    if (!input || !output) return []
+    input.end(`${answer}\n`)
+    await askForSite({ input, output })
+    return [String(output.read() ?? '').includes('Where will the site be?'), process.env.FASTSLAM_SITE]
+  }
+  try {
+    assert.deepEqual(await ask('https://course.example/17', {}), [true, 'https://course.example/17/'])
+    assert.deepEqual(await ask('', {}), [true, ''])
+    assert.deepEqual(await ask('', { FASTSLAM_SITE: 'https://a.example/' }), [false, 'https://a.example/'])
+    assert.deepEqual(await ask('', { FASTSLAM_SITE: '' }), [false, ''])
+    assert.deepEqual(await ask('', { CI: '1' }), [false, undefined])
+    assert.deepEqual(await ask('', {}, false), [false, undefined])
+    await assert.rejects(ask('nowhere', {}), /FASTSLAM_SITE=nowhere/)
+  } finally {
+    for (const name of ['FASTSLAM_SITE', 'CI']) delete process.env[name]
+    Object.assign(process.env, before)
+  }
 })
 
 test('what names the machine of the build is found in whatever is text', async () => {

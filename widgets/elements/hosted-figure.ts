@@ -7,7 +7,7 @@ import { FIGURES } from './generated/figures'
 import type { Answer, Command, FigureHost, Frame, Listener } from './host'
 import { LocalHost } from './local-host'
 import { CHIPS, hasComma, locked, NUMBERS, offered, optionCommand, OPTIONS, refusal, unknownNames } from './options'
-import { printing, type Printed } from './paper'
+import type { Printed } from './paper'
 import { programOf } from './program'
 import { reach } from './reached'
 import { download } from './save'
@@ -315,7 +315,7 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
   }
 
   #frame(now: number): void {
-    if (!this.host || printing) return
+    if (!this.host) return
     this.#tellSize()
     const plays = this.playback.playing && this.frames.inView
     if (plays && !this.host.busy) this.#advance(now)
