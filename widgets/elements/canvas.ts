@@ -2,7 +2,7 @@
 import { h } from './dom'
 import { release, reserve } from './heights'
 import type { Layout, Picture, Size } from './host'
-import { themeName } from './theme'
+import type { Theme } from './theme'
 
 const FONT_SCALE = 1.5 // letters and lines of the presentation size, over the normal one
 const PICTURE_SHARE = 0.6 // of a frame's height, which the picture takes if the rest has to be scrolled
@@ -21,6 +21,7 @@ export class Canvas {
     private readonly figure: HTMLElement,
     private readonly body: HTMLElement,
     private readonly stage: HTMLElement,
+    private readonly theme: Theme,
     private readonly resized: () => void,
   ) {}
 
@@ -52,7 +53,7 @@ export class Canvas {
   get size(): Size {
     const height = this.fits ? Math.floor(Math.max(this.body.offsetHeight - this.#around, PICTURE_SHARE * this.body.offsetHeight)) : this.#highest
     const fontScale = this.figure.getAttribute('size') === 'presentation' ? FONT_SCALE : 1
-    return { room: this.#room, height, fontScale, canvas: this.#size, theme: themeName(this.figure.getAttribute('theme')) }
+    return { room: this.#room, height, fontScale, canvas: this.#size, theme: this.theme.name }
   }
 
   /** Height [css px] that shows all of the figure at its present width, the picture as large as it would like to be. */

@@ -3,6 +3,7 @@
 import { h, icon, write, type IconName } from './dom'
 import css from './drive.css?inline'
 import { label } from './fields'
+import { pointIn } from './pointer'
 import type { Room } from './shell'
 import type { Key, Words } from './words'
 
@@ -188,15 +189,15 @@ export class Drive {
     this.#map.append(svg)
     let held: { pointer: number; line: number[] } | undefined
     const show = () => {
-      const box = this.#map.getBoundingClientRect()
       const canvas = this.#canvas!.getBoundingClientRect()
-      const points = (held?.line ?? []).map((c, i) => c + (i % 2 ? canvas.y - box.y : canvas.x - box.x))
+      const from = pointIn(this.#map, { clientX: canvas.x, clientY: canvas.y })
+      const points = (held?.line ?? []).map((c, i) => c + (i % 2 ? from.y : from.x))
       const straight = [...points.slice(0, 2), ...points.slice(-2)]
       this.#line.setAttribute('points', (this.#tool === 'wall' ? straight : this.#tool === 'wheel' ? points : []).join(' '))
     }
-    const at = ({ clientX, clientY }: PointerEvent) => {
-      const { x, y } = this.#canvas!.getBoundingClientRect()
-      return [clientX - x, clientY - y] as [number, number]
+    const at = (event: PointerEvent): [number, number] => {
+      const { x, y } = pointIn(this.#canvas!, event)
+      return [x, y]
     }
     this.#map.addEventListener('mousedown', event => event.preventDefault()) // the picture keeps the focus
     this.#map.addEventListener('pointerdown', event => {

@@ -11,7 +11,6 @@ import { OPTIONS } from './options'
 import { unwatchReached, watchReached } from './reached'
 import { fromText, isParameter, takeEarlyProperties, toText, watchUnknown } from './parameters'
 import { takeToPaper } from './paper'
-import { onThemeChange } from './theme'
 
 export abstract class FigureElement extends HostedFigure {
   #targetBefore = 0 // the step asked for, while there is no host
@@ -31,7 +30,7 @@ export abstract class FigureElement extends HostedFigure {
   connectedCallback(): void {
     this.#disconnected = new AbortController()
     const { signal } = this.#disconnected
-    onThemeChange(() => this.refresh(), signal)
+    this.theme.observe(signal)
     addEventListener('hashchange', () => this.followLink(), { signal })
     this.body.classList.toggle('pictured', this.querySelector('img, picture') !== null)
     watchReached(this.#onReached)

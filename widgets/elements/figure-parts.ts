@@ -16,13 +16,14 @@ import { Menu, type MenuItem } from './menu'
 import { Messages } from './messages'
 import { printAll } from './paper'
 import { Playback } from './playback'
+import { pointIn } from './pointer'
 import { Help } from './popover'
 import { forgetReached } from './reached'
 import { showReadouts } from './readouts'
 import { copy, download } from './save'
 import { Sentence } from './sentence'
 import type { Chip, ParamSpec } from './shell'
-import { themeName } from './theme'
+import { Theme } from './theme'
 import { Words } from './words'
 
 const sheet = new CSSStyleSheet()
@@ -53,7 +54,10 @@ export abstract class FigureParts extends HTMLElement {
   /** The picture with what plays it and what matters for it: on one screen. */
   protected readonly panes = h('div', { class: 'panes' }, this.stage)
   protected readonly body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title' })
-  protected readonly canvas = new Canvas(this, this.body, this.stage, () => this.refresh())
+  /** Where the styles of the page end. */
+  readonly #edge = h('div', { class: 'edge' }, this.body)
+  protected readonly theme = new Theme(this, this.#edge, this.body, () => this.refresh())
+  protected readonly canvas = new Canvas(this, this.body, this.stage, this.theme, () => this.refresh())
   protected readonly menu = new Menu(() => this.menuItems(), this, this.words)
   readonly #undo = h('button', { type: 'button', class: 'undo', part: 'button undo', hidden: '' })
   #before = '' // the state that undoing brings back
@@ -81,7 +85,7 @@ export abstract class FigureParts extends HTMLElement {
     const keys = h('p', { class: 'hidden', id: 'keys' })
     const handleKeys = h('p', { class: 'hidden', id: 'handle-keys' })
     this.words.always(() => {
-      this.body.lang = this.words.language
+      this.#edge.lang = this.words.language
       write(keys, this.keysHelp)
       write(handleKeys, this.words.say('handle_keys'))
       write(this.#numbersName, this.words.say('numbers'))
@@ -98,10 +102,10 @@ export abstract class FigureParts extends HTMLElement {
       this.#help.element,
       h('p', { class: 'paper' }, this.#notThis, this.#where),
     )
-    root.append(this.body)
+    root.append(this.#edge)
     this.#undo.addEventListener('click', () => this.#takeBack())
     keepKeys(this.body, event => this.onKey(event))
-    this.canvas.element.addEventListener('click', ({ offsetX: x, offsetY: y }) => this.#byPointer({ do: 'pick', x, y }))
+    this.canvas.element.addEventListener('click', event => this.#byPointer({ do: 'pick', ...pointIn(this.canvas.element, event) }))
     for (const type of ['pointerdown', 'pointermove', 'pointerup', 'pointerleave'] as const) {
       this.canvas.element.addEventListener(type, event => this.#handles.follow(event))
     }
@@ -230,7 +234,7 @@ export abstract class FigureParts extends HTMLElement {
 
   /** In place of a frame: the author's picture, or our own of the figure at rest. Returns what is to be said of it. */
   protected showFallback(): string {
-    const shown = this.takePicture(themeName(this.getAttribute('theme')).endsWith('dark') ? 'dark' : 'light')
+    const shown = this.takePicture(this.theme.shade)
     this.stage.classList.add('still')
     return shown ? ` ${this.words.say('picture_at_rest')}` : ''
   }

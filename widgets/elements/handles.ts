@@ -1,6 +1,7 @@
 // Points of the picture that a reader moves. The picture draws them; here something to grasp lies over each, which takes the pointer. In it
 // is a slider for each direction, unseen: it takes the focus and the keys, and tells assistive technology where the point is and can be.
 import { h } from './dom'
+import { pointIn } from './pointer'
 import type { Handle, ParamSpec } from './shell'
 
 /** What the handles may ask of the figure. */
@@ -63,7 +64,9 @@ export class Handles {
    * For pointers over the canvas: the handle of the area below follows a mouse, until it leaves the area; with a click it stays. A finger
    * takes it along when it taps or moves sideways; up and down it scrolls the page.
    */
-  follow({ type, pointerType, offsetX: x, offsetY: y }: PointerEvent): void {
+  follow(event: PointerEvent): void {
+    const { type, pointerType } = event
+    const { x, y } = pointIn(this.layer, event)
     const below = this.shown.find(({ hover }) => hover && hover.x <= x && x < hover.x + hover.w && hover.y <= y && y < hover.y + hover.h)
     if (pointerType !== 'touch') {
       const over = type === 'pointerleave' ? undefined : below
@@ -88,15 +91,15 @@ export class Handles {
       grip.querySelector('input')?.focus({ preventScroll: true })
       // It is held where it was grasped, and does not jump to have its middle there.
       const { clientX: x, clientY: y } = event
-      const box = grip.getBoundingClientRect()
-      held = { pointer: event.pointerId, x, y, dx: x - box.x - box.width / 2, dy: y - box.y - box.height / 2 }
+      const at = pointIn(grip, event)
+      held = { pointer: event.pointerId, x, y, dx: at.x - grip.offsetWidth / 2, dy: at.y - grip.offsetHeight / 2 }
     })
     grip.addEventListener('pointermove', event => {
       const { clientX: x, clientY: y } = event
       if (event.pointerId !== held?.pointer || (x === held.x && y === held.y)) return // browsers also send moves by 0 px, after a scroll for example
       held = { ...held, x, y }
-      const box = this.layer.getBoundingClientRect()
-      this.moves.drag(name, x - box.x - held.dx, y - box.y - held.dy)
+      const at = pointIn(this.layer, event)
+      this.moves.drag(name, at.x - held.dx, at.y - held.dy)
     })
     grip.addEventListener('lostpointercapture', () => (held = undefined)) // after up and cancel too
     grip.addEventListener('keydown', event => {

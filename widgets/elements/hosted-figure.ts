@@ -255,6 +255,7 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
   protected takeOption(name: string): void {
     if (name === 'lang') return void this.speak()
     if (name === 'v' && this.host) return this.reset() // all that is given means another thing
+    if (name === 'theme' && this.isConnected) this.theme.look()
     this.#showOption(name)
     this.#sendOption(name) // after that: what the program refuses of it is said then
     this.refresh()

@@ -12,7 +12,6 @@ import type { MenuItem } from './menu'
 import { register } from './parameters'
 import { programNamed } from './program'
 import type { Chip, ParamSpec, Readout } from './shell'
-import { themeName } from './theme'
 import { ToldError, type Key } from './words'
 
 const ZOOM = 1.4 // magnified by one press of + or −
@@ -257,7 +256,7 @@ export class FastslamLog extends FigureElement {
   }
 
   #paintPoster(): void {
-    this.#poster.paint(themeName(this.getAttribute('theme')).endsWith('dark') ? 'dark' : 'light')
+    this.#poster.paint(this.theme.shade)
   }
 
   protected override present(frame: Frame): void {

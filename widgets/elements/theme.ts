@@ -1,4 +1,6 @@
-// Light or dark, and the same two with high contrast: from the reader's system, unless the attribute `theme` decides.
+// Light or dark, and the same two with high contrast. The attribute `theme` decides; else the colours that the page says it has around the
+// figure, by `color-scheme`; and where it says nothing, the reader's system. Forced colours are the system's, whatever was asked for.
+// Paper is light.
 import { printing } from './paper'
 
 const dark = matchMedia('(prefers-color-scheme: dark)')
@@ -7,12 +9,50 @@ const forced = matchMedia('(forced-colors: active)')
 
 export const reducedMotion = matchMedia('(prefers-reduced-motion: reduce)')
 
-export function themeName(attribute: string | null): string {
-  if (printing) return 'light'
-  const shade = attribute === 'light' || attribute === 'dark' ? attribute : dark.matches ? 'dark' : 'light'
-  return contrast.matches || forced.matches ? `contrast-${shade}` : shade
+export type ThemeName = `${'' | 'contrast-'}${'light' | 'dark'}`
+
+export class Theme {
+  #name: ThemeName = 'light'
+
+  /** Around the edge of the figure are the colours of the page; its own colours are those of the body. */
+  constructor(
+    private readonly figure: HTMLElement,
+    private readonly edge: HTMLElement,
+    private readonly body: HTMLElement,
+    private readonly changed: () => void,
+  ) {
+    // A page tells nobody that it is switched to its dark colours; but those of the edge are on their way then (figure.css).
+    edge.addEventListener('transitionrun', ({ target }) => target === edge && this.look())
+  }
+
+  get name(): ThemeName {
+    return this.#name
+  }
+
+  get shade(): 'light' | 'dark' {
+    return this.#name.endsWith('dark') ? 'dark' : 'light'
+  }
+
+  observe(signal: AbortSignal): void {
+    for (const query of [dark, contrast, forced]) query.addEventListener('change', () => this.look(), { signal })
+    this.look()
+  }
+
+  /** Looks around. */
+  look(): void {
+    const silent = getComputedStyle(this.figure).colorScheme === 'normal'
+    this.body.classList.toggle('silent', silent)
+    const isDark = silent && !forced.matches ? dark.matches : isLight(getComputedStyle(this.edge).color)
+    const shade = isDark && !printing ? 'dark' : 'light'
+    const name: ThemeName = contrast.matches || forced.matches ? `contrast-${shade}` : shade
+    if (name === this.#name) return
+    this.#name = name
+    this.changed()
+  }
 }
 
-export function onThemeChange(listener: () => void, signal: AbortSignal): void {
-  for (const query of [dark, contrast, forced]) query.addEventListener('change', listener, { signal })
+/** Whether a colour, which is a grey, is light: that of letters, on a dark page. */
+function isLight(colour: string): boolean {
+  const [r = 0, g = 0, b = 0] = (colour.match(/[\d.]+/g) ?? []).map(Number)
+  return 0.299 * r + 0.587 * g + 0.114 * b > 127
 }
