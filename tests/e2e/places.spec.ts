@@ -1,8 +1,12 @@
 // Whatever place a page gives a figure, the figure has a width there, and what a reader does in it happens where the pointer is.
-import type { Page } from '@playwright/test'
+import { readFileSync } from 'node:fs'
+import { join } from 'node:path'
+import type { Locator, Page } from '@playwright/test'
+import { root } from '../../scripts/lib.mjs'
 import { expect, test } from './fixtures'
-import { Figure } from './figure'
+import { Figure, frames } from './figure'
 import { openCourse } from './host'
+import { LogFigure } from './log-figure'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -68,52 +72,53 @@ const PLACES: Record<'fills' | 'up to usual' | 'shrinks' | 'shares', Record<stri
 
 const TEXT = 'As long as a paragraph is, which would take all of the width for itself if it were let. '.repeat(30)
 
-/** Places of these kinds, each in a column of this width, with a figure in each that need not live. */
-async function openPlaces(page: Page, kind: keyof typeof PLACES, room: number, dir: string): Promise<{ name: string; width: number; column: number }[]> {
-  const body = Object.entries(PLACES[kind])
-    .map(([name, html]) => `<div class="column" data-name="${name}" dir="${dir}" style="inline-size: ${room}px; display: flow-root">${html.replace('FIGURE', '<fastslam-proposal></fastslam-proposal>').replace('TEXT', TEXT)}</div>`)
-    .join('')
+/** The least and the most that a figure may be wide in a column of this width, and whether the column then holds it. */
+const LAWS: Record<keyof typeof PLACES, (room: number) => [least: number, most: number, holds: boolean]> = {
+  fills: room => [room, room, true],
+  'up to usual': room => [Math.min(room, USUAL), Math.min(room, USUAL), true],
+  shrinks: room => [Math.min(room, USUAL), Math.max(LEAST, Math.min(room, USUAL)), room >= LEAST],
+  shares: room => [Math.min(LEAST, room / 2), Math.max(LEAST, room), false],
+}
+
+test('a figure has a width in any parent, from left to right and from right to left', async ({ page }) => {
+  await page.setViewportSize({ width: 1366, height: 650 })
+  const places = Object.entries(PLACES).flatMap(([kind, all]) => Object.entries(all).map(([name, html]) => ({ kind: kind as keyof typeof PLACES, name, html })))
+  const columns = places.map(({ name, html }) => `<div class="column" data-name="${name}">${html.replace('FIGURE', '<fastslam-proposal></fastslam-proposal>').replace('TEXT', TEXT)}</div>`)
+  // So far down that none is about to be seen: it is widths that are looked at.
   await openCourse(
     page,
-    `<script>
+    `<style>#all { padding-block-start: 4000px } .column { display: flow-root }</style>
+    <script>
       customElements.define('test-box', class extends HTMLElement {
         constructor() {
           super()
           this.attachShadow({ mode: 'open' }).innerHTML = '<slot></slot>'
         }
       })
-    </script>${body}`,
+    </script><div id="all">${columns.join('')}</div>`,
   )
   await page.evaluate(() => customElements.whenDefined('fastslam-proposal'))
-  return page.locator('.column').evaluateAll(columns =>
-    columns.map(column => {
-      const { width } = column.querySelector('fastslam-proposal')!.getBoundingClientRect()
-      return { name: (column as HTMLElement).dataset['name']!, width: Math.round(width), column: column.scrollWidth }
-    }),
-  )
-}
-
-for (const dir of ['ltr', 'rtl']) {
-  test(`a figure has a width in any parent, ${dir}`, async ({ page }) => {
-    await page.setViewportSize({ width: 1366, height: 650 })
-    const wrong: string[] = []
+  const wrong: string[] = []
+  for (const dir of ['ltr', 'rtl']) {
     for (const room of [1200, 600, 332, 200]) {
-      // The least and the most that it may be wide in this column, and whether the column then holds it.
-      const laws: Record<keyof typeof PLACES, [least: number, most: number, holds: boolean]> = {
-        fills: [room, room, true],
-        'up to usual': [Math.min(room, USUAL), Math.min(room, USUAL), true],
-        shrinks: [Math.min(room, USUAL), Math.max(LEAST, Math.min(room, USUAL)), room >= LEAST],
-        shares: [Math.min(LEAST, room / 2), Math.max(LEAST, room), false],
-      }
-      for (const [kind, [least, most, holds]] of Object.entries(laws) as [keyof typeof PLACES, [number, number, boolean]][]) {
-        for (const { name, width, column } of await openPlaces(page, kind, room, dir)) {
-          if (width < least || width > most || (holds && column > room)) wrong.push(`${name} in ${room} px: ${width} px wide, its column ${column}`)
-        }
-      }
+      const widths = await page.locator('#all').evaluate(
+        (all, [dir, room]) => {
+          Object.assign(all, { dir })
+          return [...all.children].map(column => {
+            Object.assign((column as HTMLElement).style, { width: `${room}px` })
+            return [Math.round(column.querySelector('fastslam-proposal')!.getBoundingClientRect().width), column.scrollWidth] as const
+          })
+        },
+        [dir, room] as const,
+      )
+      places.forEach(({ kind, name }, i) => {
+        const [[width, column], [least, most, holds]] = [widths[i]!, LAWS[kind](room)]
+        if (width < least || width > most || (holds && column > room)) wrong.push(`${name} in ${room} px, ${dir}: ${width} px wide, its column ${column}`)
+      })
     }
-    expect(wrong).toEqual([])
-  })
-}
+  }
+  expect(wrong).toEqual([])
+})
 
 test('what a page gives the figure itself stands over that', async ({ page }) => {
   const cases: [style: string, width: number, around?: string][] = [
@@ -132,4 +137,142 @@ test('what a page gives the figure itself stands over that', async ({ page }) =>
   await page.evaluate(() => customElements.whenDefined('fastslam-proposal'))
   const widths = await page.locator('body > div').evaluateAll(boxes => boxes.map(box => Math.round(box.querySelector('fastslam-proposal')!.getBoundingClientRect().width)))
   expect(widths).toEqual(cases.map(([, width]) => width))
+})
+
+/** Boxes that pages scale, by the name that a figure in them has as its id. */
+const SCALED: Record<string, string> = {
+  whole: 'width: 832px',
+  smaller: 'width: 832px; transform: scale(.8); transform-origin: 0 0',
+  zoomed: 'width: 832px; zoom: 1.3',
+  'zoomed-out': 'width: 832px; zoom: .8',
+  // As reveal.js does it: a slide of 960 × 700 px in the middle of the window.
+  slide: 'width: 960px; height: 900px; position: absolute; inset: 50% auto auto 50%; transform: translate(-50%, -50%) scale(.7)',
+  'large-slide': 'width: 960px; height: 900px; position: absolute; inset: 50% auto auto 50%; transform: translate(-50%, -50%) scale(1.37)',
+  stretched: 'width: 832px; transform: scale(1.1, .9); transform-origin: 0 0',
+}
+
+/** A page of one figure in one of those boxes. */
+async function openScaled(page: Page, box: string, tag: string, attributes = ''): Promise<Figure> {
+  await page.setViewportSize({ width: 1366, height: 1300 })
+  await openCourse(page, `<div style="${SCALED[box]}"><${tag} ${attributes}></${tag}></div>`)
+  const figure = new Figure(page, tag)
+  await figure.live()
+  return figure
+}
+
+async function middle(locator: Locator): Promise<{ x: number; y: number }> {
+  const box = (await locator.boundingBox())!
+  return { x: box.x + box.width / 2, y: box.y + box.height / 2 }
+}
+
+for (const box of Object.keys(SCALED)) {
+  test(`handles, drawings and clicks are where the pointer is, ${box}`, async ({ page }) => {
+    const proposal = await openScaled(page, box, 'fastslam-proposal')
+    for (const [name, right, down] of [['landmark', -40, -20], ['odometry', 20, 0], ['landmark', -30, 30]] as const) {
+      const handle = proposal.handle(name)
+      const { x, y } = await middle(handle)
+      await page.mouse.move(x + 3, y - 2)
+      await page.mouse.down()
+      await page.mouse.move(x + 3 + right, y - 2 + down, { steps: 5 })
+      await proposal.settled()
+      const now = await middle(handle)
+      expect(Math.abs(now.x - x - right), `${name}, sideways`).toBeLessThan(3)
+      expect(Math.abs(now.y - y - down), `${name}, up and down`).toBeLessThan(3)
+      await page.mouse.up()
+    }
+  })
+}
+
+/** A place of a picture, from its upper left corner [share of its width and height]. */
+async function at(picture: Locator, [across, down]: readonly [number, number]): Promise<[number, number]> {
+  const box = (await picture.boundingBox())!
+  return [box.x + across * box.width, box.y + down * box.height]
+}
+
+test('what is drawn, clicked and pointed at is what lies below the pointer, however the page scales the picture', async ({ page }) => {
+  const done: Record<string, unknown[]> = {}
+  for (const box of ['whole', 'smaller', 'zoomed', 'stretched']) {
+    const lap = await openScaled(page, box, 'fastslam-lap', 'course="apartment" universes="4" step="3"')
+    await page.mouse.click(...(await at(lap.canvas, [0.93, 0.2])))
+    await lap.settled()
+    const picked = await lap.element.locator('select[name=universe]').inputValue()
+    await lap.button('Drive it yourself').click()
+    await lap.button('Wall').click()
+    const map = lap.element.locator('.wheel-map')
+    await page.mouse.move(...(await at(map, [0.3, 0.55])))
+    await page.mouse.down()
+    const end = await at(map, [0.5, 0.75])
+    await page.mouse.move(...end, { steps: 8 })
+    // The line that is being drawn ends at the pointer.
+    const tip = await lap.element.locator('polyline').evaluate((line: SVGPolylineElement) => {
+      const { x, y } = line.points.getItem(line.points.numberOfItems - 1).matrixTransform(line.getScreenCTM()!)
+      return [x, y]
+    })
+    expect(Math.hypot(tip[0]! - end[0], tip[1]! - end[1]), `the line, ${box}`).toBeLessThan(3)
+    await page.mouse.up()
+    await lap.settled()
+    const plan = new URLSearchParams(await lap.state()).get('plan')
+    const matrix = await openScaled(page, box, 'fastslam-conditioning')
+    const to = await at(matrix.canvas, [0.8, 0.6])
+    await page.mouse.move(...to, { steps: 3 })
+    await matrix.settled()
+    const cell = await middle(matrix.handle('entry'))
+    done[box] = [picked, plan]
+    // The entry below it: they are about 14 px wide.
+    expect(Math.hypot(to[0] - cell.x, to[1] - cell.y), `the entry, ${box}`).toBeLessThan(12)
+
+  }
+  const { whole, ...scaled } = done
+  expect(whole).toEqual([expect.stringMatching(/^\d$/), expect.stringMatching(/^1\./)])
+  for (const [box, same] of Object.entries(scaled)) expect(same, box).toEqual(whole)
+})
+
+/** The picture in greys, a quarter as large. */
+const greys = (canvas: Locator): Promise<number[]> =>
+  canvas.evaluate((canvas: HTMLCanvasElement) => {
+    const [width, height] = [canvas.width >> 2, canvas.height >> 2]
+    const small = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true })!
+    small.drawImage(canvas, 0, 0, width, height)
+    return [...small.getImageData(0, 0, width, height).data].filter((_, i) => i % 4 === 1)
+  })
+
+/** The share of two pictures that is not the same. */
+const differs = (a: number[], b: number[]) => a.filter((grey, i) => Math.abs(grey - b[i]!) > 24).length / a.length
+
+test('a map goes with the pointer, and is magnified at it, however the page scales the picture', async ({ page }) => {
+  const seen: number[][] = []
+  for (const [box, scale] of [['whole', 1], ['smaller', 0.8]] as const) {
+    await page.setViewportSize({ width: 1366, height: 1300 })
+    await openCourse(page, `<div style="${SCALED[box]}"><fastslam-log universes="2" cell="0.2"></fastslam-log></div>`)
+    const log = new LogFigure(page)
+    const canvas = log.element.locator('canvas')
+    await log.choose('tiny.clf', readFileSync(join(root, 'tests', 'figures', 'golden', 'tiny.clf')))
+    await log.button('Map this building').click()
+    await log.done()
+    await log.settled()
+    const whole = await greys(canvas)
+    // A wheel is heard later than it is turned.
+    const changed = async () => {
+      await expect.poll(async () => differs(whole, await greys(canvas))).toBeGreaterThan(0.02)
+      await frames(page, 10)
+      await log.settled()
+      return greys(canvas)
+    }
+    const [x, y] = await at(canvas, [0.5, 0.5])
+    await page.mouse.move(x, y)
+    await page.mouse.down()
+    await page.mouse.move(x + 50 * scale, y + 30 * scale, { steps: 2 })
+    await page.mouse.up()
+    seen.push(await changed())
+    await log.stage.press('0')
+    await expect.poll(async () => differs(whole, await greys(canvas))).toBe(0)
+    await page.keyboard.down('Control')
+    await page.mouse.wheel(0, -100)
+    await page.keyboard.up('Control')
+    seen.push(await changed())
+  }
+  const [moved, magnified, movedScaled, magnifiedScaled] = seen as [number[], number[], number[], number[]]
+  expect(differs(moved, magnified)).toBeGreaterThan(0.04)
+  expect(differs(moved, movedScaled)).toBeLessThan(0.005)
+  expect(differs(magnified, magnifiedScaled)).toBeLessThan(0.02)
 })
