@@ -91,6 +91,7 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
 
   /** At once, where the program is there: seen or not. */
   toPaper(): void {
+    this.theme.look()
     if (!this.host && !this.stopped && !this.heavy) {
       const host = LocalHost.now(programOf(this.localName), this.localName, this)
       if (host) this.#live(host)
@@ -109,6 +110,7 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
   }
 
   offPaper(): void {
+    this.theme.look()
     this.refresh()
   }
 

@@ -1,8 +1,6 @@
 // Light or dark, and the same two with high contrast. The attribute `theme` decides; else the colours that the page says it has around the
 // figure, by `color-scheme`; and where it says nothing, the reader's system. Forced colours are the system's, whatever was asked for.
-// Paper is light.
-import { printing } from './paper'
-
+// And letters that a reader has spaced by a style of their own: they take more lines than there are otherwise.
 const dark = matchMedia('(prefers-color-scheme: dark)')
 const contrast = matchMedia('(prefers-contrast: more)')
 const forced = matchMedia('(forced-colors: active)')
@@ -21,7 +19,7 @@ export class Theme {
     private readonly body: HTMLElement,
     private readonly changed: () => void,
   ) {
-    // A page tells nobody that it is switched to its dark colours; but those of the edge are on their way then (figure.css).
+    // A page tells nobody that it is switched to its dark colours; but what the edge inherits is on its way then (figure.css).
     edge.addEventListener('transitionrun', ({ target }) => target === edge && this.look())
   }
 
@@ -41,9 +39,11 @@ export class Theme {
   /** Looks around. */
   look(): void {
     const silent = getComputedStyle(this.figure).colorScheme === 'normal'
-    this.body.classList.toggle('silent', silent)
-    const isDark = silent && !forced.matches ? dark.matches : isLight(getComputedStyle(this.edge).color)
+    const { color, letterSpacing, wordSpacing } = getComputedStyle(this.edge)
+    this.body.classList.toggle('spaced', letterSpacing !== 'normal' || wordSpacing !== '0px')
+    const isDark = silent && !forced.matches ? dark.matches : isLight(color)
     const shade = isDark && !printing ? 'dark' : 'light'
+    this.body.classList.toggle('dark', shade === 'dark')
     const name: ThemeName = contrast.matches || forced.matches ? `contrast-${shade}` : shade
     if (name === this.#name) return
     this.#name = name

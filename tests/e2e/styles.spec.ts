@@ -1,0 +1,95 @@
+// Styles of the page around a figure end at its edge; those that a reader has set do not. Its colours are those that the page says it has.
+import type { Page } from '@playwright/test'
+import { expect, test } from './fixtures'
+import { Figure, frames } from './figure'
+import { breadthOf, FIGURES, openCourse } from './host'
+
+test.use({ contextOptions: { reducedMotion: 'reduce' } })
+
+/** What is inherited, each as unlike its usual value as it can be. */
+const HOSTILE = `
+  border-collapse: collapse; border-spacing: 30px; caption-side: bottom; empty-cells: hide; list-style: upper-roman inside; quotes: "<" ">";
+  color: red; cursor: wait; caret-color: red; accent-color: red; fill: red; stroke: red; stroke-width: 4px; paint-order: stroke; image-rendering: pixelated;
+  font: italic small-caps 900 condensed 31px/3 monospace; font-feature-settings: "zero", "ss01"; font-kerning: none; font-palette: dark; font-size-adjust: 1.2;
+  font-synthesis: none; font-variant-numeric: slashed-zero oldstyle-nums; font-variant-ligatures: none; font-variant-position: super; font-variation-settings: "wght" 900; font-optical-sizing: none;
+  letter-spacing: .3em; word-spacing: 2em; line-height: 3; tab-size: 40; orphans: 9; widows: 9; ruby-position: under; ruby-align: start;
+  text-align: end; text-align-last: justify; text-indent: 3em; text-transform: uppercase; text-shadow: 3px 3px red; text-rendering: geometricPrecision; text-size-adjust: 300%;
+  text-decoration: underline wavy red 3px; text-decoration-skip-ink: none; text-underline-offset: 9px; text-underline-position: under; text-emphasis: "★" red; text-emphasis-position: under;
+  text-orientation: upright; text-spacing-trim: space-all; text-autospace: no-autospace; text-wrap: balance; text-box-edge: ex alphabetic; hanging-punctuation: first; hyphens: auto; hyphenate-character: "+";
+  white-space: nowrap; word-break: break-all; overflow-wrap: anywhere; line-break: anywhere; user-select: none; scrollbar-color: red blue; print-color-adjust: exact; forced-color-adjust: none;
+  -webkit-text-fill-color: red; -webkit-text-stroke: 2px red; -webkit-text-security: disc; -webkit-font-smoothing: none; -webkit-tap-highlight-color: red;`
+
+interface Look {
+  styles: Record<string, string[]>
+  shot: Buffer
+}
+
+/** What the styles of all parts of a figure come to, on a page with these styles, and a picture of it. */
+async function look(page: Page, name: string, css: string): Promise<Look> {
+  await openCourse(page, `<style>${css}</style><main style="width: 832px; margin: 0"><fastslam-${name}></fastslam-${name}></main>`)
+  const figure = new Figure(page, `fastslam-${name}`)
+  await figure.live()
+  await figure.openSettings()
+  await figure.settled()
+  await page.mouse.move(0, 0)
+  const styles = await figure.element.evaluate(element =>
+    Object.fromEntries(
+      [...element.shadowRoot!.querySelectorAll('*')].map((inner, i) => {
+        const style = getComputedStyle(inner)
+        return [`${i} ${inner.localName}.${inner.getAttribute('class')}`, [...style].map(property => `${property}: ${style.getPropertyValue(property)}`)]
+      }),
+    ),
+  )
+  return { styles, shot: await figure.element.screenshot() }
+}
+
+for (const name of FIGURES) {
+  test(`no style that the page gives its text reaches ${name}`, breadthOf(name), async ({ page }) => {
+    const plain = await look(page, name, '')
+    const hostile = await look(page, name, `main { ${HOSTILE} } main::first-letter { font-size: 70px; float: left } main::first-line { background: red; color: red } main { color-scheme: light }`)
+    const wrong = Object.entries(hostile.styles).flatMap(([part, styles]) => {
+      const own = new Set(plain.styles[part])
+      return styles.filter(style => !own.has(style) && !/^color-scheme: /.test(style)).map(style => `${part} { ${style} }`)
+    })
+    expect(wrong).toEqual([])
+    expect(hostile.shot.equals(plain.shot), 'it looks the same').toBe(true)
+  })
+}
+
+/** What sticks out of a figure sideways, is cut off, or lies over its neighbour. */
+const lost = (figure: Figure) =>
+  figure.element.evaluate(element => {
+    const root = element.shadowRoot!
+    const { left, right } = element.getBoundingClientRect()
+    const seen = [...root.querySelectorAll<HTMLElement>('*')].filter(inner => inner.checkVisibility() && !inner.matches('svg *, option, .handles, .handles *') && getComputedStyle(inner).clipPath === 'none')
+    const name = (inner: HTMLElement) => `${inner.localName}.${inner.className} ${inner.textContent?.slice(0, 40)}`
+    // Chips are in a row that is scrolled sideways, where there is little room.
+    const out = seen.filter(inner => {
+      const box = inner.getBoundingClientRect()
+      return box.width > 0 && !inner.closest('.chips') && (box.left < left - 0.5 || box.right > right + 0.5)
+    })
+    const cut = seen.filter(inner => {
+      const { overflowX, overflowY } = getComputedStyle(inner)
+      if (inner.matches('select, input, canvas, .wheel')) return false
+      return (['hidden', 'clip'].includes(overflowX) && inner.scrollWidth > inner.clientWidth + 1) || (['hidden', 'clip'].includes(overflowY) && inner.scrollHeight > inner.clientHeight + 1)
+    })
+    return { out: out.map(name), cut: cut.map(name) }
+  })
+
+// As 1.4.12 of WCAG has it; what a reader's own style sheet says, the page's cannot stop.
+const READER = '* { letter-spacing: .12em !important; line-height: 1.5 !important; word-spacing: .16em !important }'
+
+for (const name of FIGURES) {
+  test(`a reader’s own spacing reaches ${name}, and nothing of it is lost`, breadthOf(name), async ({ page }) => {
+    await openCourse(page, `<style>${READER}</style><fastslam-${name}></fastslam-${name}>`)
+    const figure = new Figure(page, `fastslam-${name}`)
+    for (const width of [1366, 848, 380]) {
+      await page.setViewportSize({ width, height: 800 })
+      await figure.live()
+      await frames(page, 3)
+      expect(await figure.sentence.evaluate(sentence => [getComputedStyle(sentence).letterSpacing, getComputedStyle(sentence).wordSpacing])).toEqual(['1.92px', '2.56px'])
+      expect(await lost(figure), `${width} px`).toEqual({ out: [], cut: [] })
+      expect(await page.evaluate(() => document.documentElement.scrollWidth), 'nothing scrolls sideways').toBe(width)
+    }
+  })
+}
