@@ -93,3 +93,56 @@ for (const name of FIGURES) {
     }
   })
 }
+
+/** Whether the picture is dark, and whether all that stands around it is. */
+async function shades(figure: Figure): Promise<string> {
+  await frames(figure.page, 3)
+  await figure.settled()
+  return figure.element.evaluate(element => {
+    const body = element.shadowRoot!.querySelector<HTMLElement>('.figure')!
+    const light = (colour: string) => Math.max(...(colour.match(/[\d.]+/g) ?? []).slice(0, 3).map(Number)) > 127
+    const { backgroundColor, color } = getComputedStyle(body)
+    const name = (isLight: boolean) => (isLight ? 'light' : 'dark')
+    // The body takes the paper that was painted.
+    return [name(light(body.style.getPropertyValue('--_paper'))), name(light(backgroundColor)), name(!light(color))].join(' ')
+  })
+}
+
+test('of itself a figure has the colours that the page says it has, at once when it is switched; where it says nothing, the reader’s', async ({ page }) => {
+  await openCourse(page, '<div id="switch"><main><fastslam-proposal></fastslam-proposal></main></div>')
+  const figure = new Figure(page, 'fastslam-proposal')
+  await figure.live()
+  const set = (where: string, scheme: string) => page.locator(where).evaluate((element, scheme) => ((element as HTMLElement).style.colorScheme = scheme), scheme)
+  for (const reader of ['light', 'dark'] as const) {
+    const other = reader === 'light' ? 'dark' : 'light'
+    await page.emulateMedia({ colorScheme: reader })
+    for (const [scheme, seen] of [['', reader], [other, other], [reader, reader], ['light dark', reader], ['only dark', 'dark'], ['', reader]] as const) {
+      await set('#switch', scheme)
+      expect(await shades(figure), `${scheme || 'nothing'} on the page, ${reader} for the reader`).toBe(`${seen} ${seen} ${seen}`)
+    }
+    // An author's word stands over it.
+    await figure.element.evaluate((element, theme) => element.setAttribute('theme', theme), other)
+    expect(await shades(figure)).toBe(`${other} ${other} ${other}`)
+    await set('#switch', reader)
+    expect(await shades(figure)).toBe(`${other} ${other} ${other}`)
+    await figure.element.evaluate(element => element.setAttribute('theme', 'auto'))
+    expect(await shades(figure)).toBe(`${reader} ${reader} ${reader}`)
+    await set('#switch', '')
+  }
+})
+
+test('where colours are forced, the picture is as dark as they are, whatever was asked for', async ({ page }) => {
+  await openCourse(page, '<main><fastslam-proposal></fastslam-proposal></main>')
+  const figure = new Figure(page, 'fastslam-proposal')
+  await figure.live()
+  for (const colorScheme of ['dark', 'light'] as const) {
+    await page.emulateMedia({ forcedColors: 'active', colorScheme })
+    for (const theme of ['auto', 'light', 'dark']) {
+      for (const scheme of ['', 'light', 'dark']) {
+        await page.locator('main').evaluate((main, scheme) => (main.style.colorScheme = scheme), scheme)
+        await figure.element.evaluate((element, theme) => element.setAttribute('theme', theme), theme)
+        expect(await shades(figure), `${theme}, ${scheme || 'nothing'} on the page`).toBe(`${colorScheme} ${colorScheme} ${colorScheme}`)
+      }
+    }
+  }
+})

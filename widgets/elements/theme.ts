@@ -19,8 +19,8 @@ export class Theme {
     private readonly body: HTMLElement,
     private readonly changed: () => void,
   ) {
-    // A page tells nobody that it is switched to its dark colours; but what the edge inherits is on its way then (figure.css).
-    edge.addEventListener('transitionrun', ({ target }) => target === edge && this.look())
+    // A page tells nobody that it is switched to its dark colours; but what the edge inherits goes on its way then (figure.css).
+    edge.addEventListener('transitionend', ({ target }) => target === edge && this.look())
   }
 
   get name(): ThemeName {
