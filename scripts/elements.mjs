@@ -37,7 +37,7 @@ const languages = readdirSync(join(root, 'widgets', 'words')).map(file => file.r
 export const options = [
   { name: 'lang', values: undefined, help: `Language of all it says: ${languages.join(' or ')}. Where it is not given, that of the page around it; English for any other.` },
   { name: 'v', values: undefined, type: "number | 'latest'", help: 'Version of the figure that the other attributes are of: what they leave out is at the default of that version, whatever has become of it since. Copied codes have it. Without it, the version of the day on which codes began to say theirs; latest follows the figure.' },
-  { name: 'theme', values: ['auto', 'light', 'dark'], help: 'Colours; auto follows the reader’s system.' },
+  { name: 'theme', values: ['auto', 'light', 'dark'], help: 'Colours; auto follows the color-scheme that the page has around the figure or, where it has none, the reader’s system.' },
   { name: 'controls', values: undefined, help: 'Controls that readers see, apart by spaces: names of parameters, playback (the whole row of it), play (its button alone), numbers, chips; or none, or all. controls="seed" leaves the seed; a name that is none is answered with those that there are.' },
   { name: 'chips', values: ['on', 'off'], help: 'off leaves the chips of its challenges out.' },
   { name: 'show', values: undefined, help: 'Parts of the picture to show, apart by spaces; or all.' },

@@ -1,6 +1,6 @@
 // What lies beside the chapter for other pages: a page of each figure for frames, with its oEmbed answer, the manifest and the types of
 // the elements, and the script of one file for notebooks.
-import { readdirSync, readFileSync } from 'node:fs'
+import { copyFileSync, readdirSync, readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { site } from './address.mjs'
 import { dist } from './build.mjs'
@@ -95,6 +95,8 @@ export function writePages(folder, address, all, codes) {
 export async function writeFrames() {
   const [all, address] = [figures(), site()]
   writePages(dist, address, all, await embedCodes())
+  // Under names that stay: codes on other pages have them for where the script does not arrive.
+  for (const figure of all) copyFileSync(join(dist, pictureFile(figure, 'light', dist)), join(dist, `embed-${figure.name}.png`))
   write(join(dist, 'custom-elements.json'), `${JSON.stringify(manifest(all), undefined, 2)}\n`)
   write(join(dist, 'fastslam.d.ts'), types(all))
   // The code for MyST names it, and MyST copies that one file when a book is built: it must stand alone.

@@ -9,8 +9,11 @@ import { brotliCompress, constants, gzip } from 'node:zlib'
 import { cache, isMain, main, StepError } from './lib.mjs'
 import { policy } from './policy.mjs'
 
-/** Other sites may frame the pages that are made for it, and no other. A course would name its learning system in place of the star. */
-const frameAncestors = (/** @type {string} */ path) => `frame-ancestors ${/(^|\/)embed(-[a-z-]+)?\.html$/.test(path) ? '*' : "'self'"}`
+/** Pages that are made for frames on other sites. */
+const isFrame = (/** @type {string} */ path) => /(^|\/)embed(-[a-z-]+)?\.html$/.test(path)
+
+/** Other sites may frame those, and no other. A course would name its learning system in place of the star. */
+const frameAncestors = (/** @type {string} */ path) => `frame-ancestors ${isFrame(path) ? '*' : "'self'"}`
 
 /** @type {Record<string, string>} */
 const types = {
@@ -138,11 +141,16 @@ function listen(server, port, host) {
  */
 async function answer(base, encoded, request, response) {
   const url = request.url ?? '/'
-  response.setHeader('Content-Security-Policy', `${policy}; ${frameAncestors(url.split('?')[0] ?? '')}`)
+  const named = url.split('?')[0] ?? ''
+  response.setHeader('Content-Security-Policy', `${policy}; ${frameAncestors(named)}`)
   response.setHeader('X-Content-Type-Options', 'nosniff')
   response.setHeader('Referrer-Policy', 'no-referrer')
   // A figure embedded in a sandboxed frame has an origin of its own and must still load its module.
   response.setHeader('Access-Control-Allow-Origin', '*')
+  // A page that is isolated from other origins takes from them only what says that it may be taken, and frames that are isolated as well;
+  // so are the scripts of their workers.
+  response.setHeader('Cross-Origin-Resource-Policy', 'cross-origin')
+  if (isFrame(named) || named.endsWith('.js')) response.setHeader('Cross-Origin-Embedder-Policy', 'require-corp')
 
   /** @param {number} status @param {string} text @param {Record<string, string>} [headers] @returns {Served} */
   const refuse = (status, text, headers = {}) => {

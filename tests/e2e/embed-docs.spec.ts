@@ -17,7 +17,7 @@ test('the editor changes the figure and prints the code for it', async ({ page, 
   await editor.getByRole('combobox', { name: 'truth' }).selectOption('on')
   await editor.getByRole('textbox', { name: 'controls' }).fill('playback')
   await expect(lap.element.locator('[part=settings]')).toBeHidden()
-  await expect(page.getByLabel('Code: HTML element', { exact: true })).toHaveText(`<script type="module" src="${baseURL}fastslam.js"></script>\n<fastslam-lap v="8" universes="6" truth="on" controls="playback"></fastslam-lap>`)
+  await expect(page.getByLabel('Code: HTML element', { exact: true })).toHaveText(`<script type="module" src="${baseURL}fastslam.js"></script>\n<fastslam-lap v="8" universes="6" truth="on" controls="playback"><p slot="no-script"><a href="${baseURL}embed-lap.html"><img src="${baseURL}embed-lap.png" alt="One lap, many maps" width="100%" loading="lazy"></a><br>This figure is not live here: its script has not arrived. The picture leads to it.</p></fastslam-lap>`)
   await expect(page.getByLabel('Code: Python', { exact: true })).toContainText('FastslamLap(v=8, universes=6, truth=True, controls="playback")')
   expect(await lap.element.evaluate(element => (element as unknown as { universes: number }).universes)).toBe(6)
   await page.getByRole('button', { name: 'Copy the code: iframe' }).click()

@@ -21,9 +21,9 @@ const QUICK: Record<string, string> = { joint: ' particles="20"', smoothing: ' p
 export const quick = (name: string): string => `<fastslam-${name}${QUICK[name] ?? ''}></fastslam-${name}>`
 
 /** A course's own site, on another origin: it serves one page with this in its body, and nothing else. */
-export async function openHost(page: Page, body: string, head = ''): Promise<void> {
+export async function openHost(page: Page, body: string, head = '', headers: Record<string, string> = {}): Promise<void> {
   const html = `<!doctype html><html lang="en"><head><title>Course</title><link rel="icon" href="data:," />${head}</head><body>${body}</body></html>`
-  const server = createServer((_, response) => response.writeHead(200, { 'Content-Type': 'text/html' }).end(html))
+  const server = createServer((_, response) => response.writeHead(200, { 'Content-Type': 'text/html', ...headers }).end(html))
   await new Promise<void>(done => server.listen(0, '127.0.0.1', done))
   page.once('close', () => server.close())
   await page.goto(`http://127.0.0.1:${(server.address() as AddressInfo).port}/course`)

@@ -1,5 +1,6 @@
 // The code that puts a figure, as it stands, into another page: for the menu, and for the page that documents embedding.
 
+import { elements as english } from '../words/en.json'
 import { usualHeight } from './heights'
 
 /** A figure as its author would write it: tag, and attributes in their order. */
@@ -31,12 +32,14 @@ export function embedCode(name: CodeName, { tag, attributes }: FigureMarkup, hom
   const short = tag.replace('fastslam-', '')
   if (name === 'element') {
     const text = attributes.map(([key, value]) => ` ${key}="${escape(value)}"`).join('')
-    return `<script type="module" src="${home}fastslam.js"></script>\n<${tag}${text}></${tag}>`
+    const page = escape(`${home}embed-${short}`)
+    const instead = `<p slot="no-script"><a href="${page}.html"><img src="${page}.png" alt="${escape(title)}" width="100%" loading="lazy"></a><br>${escape(noScript)}</p>`
+    return `<script type="module" src="${home}fastslam.js"></script>\n<${tag}${text}>${home && instead}</${tag}>`
   }
   if (name === 'iframe') {
     return (
       `<iframe src="${escape(`${home}embed.html?${frameQuery({ tag, attributes })}`)}" title="${escape(title)}" width="${FRAME_WIDTH}" height="${frameHeight(tag)}" ` +
-      `${tag === NEEDS_WORKER ? '' : 'sandbox="allow-scripts allow-downloads allow-modals allow-popups allow-popups-to-escape-sandbox" '}allowfullscreen></iframe>`
+      `${tag === NEEDS_WORKER ? '' : 'sandbox="allow-scripts allow-downloads allow-modals allow-popups allow-popups-to-escape-sandbox" '}credentialless allowfullscreen></iframe>`
     )
   }
   if (name === 'myst') {

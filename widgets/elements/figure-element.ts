@@ -32,7 +32,7 @@ export abstract class FigureElement extends HostedFigure {
     const { signal } = this.#disconnected
     this.theme.observe(signal)
     addEventListener('hashchange', () => this.followLink(), { signal })
-    this.body.classList.toggle('pictured', this.querySelector('img, picture') !== null)
+    this.body.classList.toggle('pictured', this.hasPicture)
     watchReached(this.#onReached)
     takeToPaper(this, signal)
     this.frames.observe(signal)
@@ -148,7 +148,7 @@ export abstract class FigureElement extends HostedFigure {
   embedCode(name: CodeName): string | undefined {
     const home = homeAddress()
     if (!home && (name === 'iframe' || name === 'myst')) return undefined
-    return embedCode(name, this.markup, home, this.heading.textContent)
+    return embedCode(name, this.markup, home, this.heading.textContent, this.words.say('no_script'))
   }
 
   protected get markup(): FigureMarkup {

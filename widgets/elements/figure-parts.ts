@@ -239,12 +239,17 @@ export abstract class FigureParts extends HTMLElement {
     return shown ? ` ${this.words.say('picture_at_rest')}` : ''
   }
 
+  /** Whether its author gives a picture: not one that stands for a script that has not arrived. */
+  protected get hasPicture(): boolean {
+    return this.querySelector(':scope > :is(img, picture):not([slot]), :scope > :not([slot]) :is(img, picture)') !== null
+  }
+
   /** Has a picture at hand that is not fetched before it is shown: also paper shows one, of a figure that has not been seen. */
   protected takePicture(shade: 'light' | 'dark'): boolean {
-    if (this.querySelector('img, picture')) return true
+    if (this.hasPicture) return true
     const slot = this.#fallback.firstElementChild!
     const src = pictureAddress(this.localName, shade)
-    if (src) slot.replaceChildren(h('img', { loading: 'lazy', src, alt: this.words.say('at_rest', { title: this.heading.textContent }) }))
+    if (src) slot.replaceChildren(h('img', { crossorigin: '', loading: 'lazy', src, alt: this.words.say('at_rest', { title: this.heading.textContent }) }))
     return slot.hasChildNodes()
   }
 

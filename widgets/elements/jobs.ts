@@ -82,12 +82,28 @@ export function createWorker(): Worker {
     const own = 'address' in file && new URL(file.address, location.href).origin === self.origin
     const script = 'text' in file ? file.text : `import ${JSON.stringify(new URL(file.address, location.href).href)}`
     const url = own ? file.address : URL.createObjectURL(new Blob([script], { type: 'text/javascript' }))
-    const worker = new Worker(url, { type: 'text' in file ? 'classic' : 'module' })
+    const worker = new Worker(trusted(url), { type: 'text' in file ? 'classic' : 'module' })
     if (!own) setTimeout(() => URL.revokeObjectURL(url), 10_000) // when it has been read
     return worker
   } catch (error) {
     throw workerRefused(error instanceof Error ? error.message : '')
   }
+}
+
+/** Where a page lets no text become the address of a script, a policy of ours has to vouch for it: this one, for this address alone. */
+interface TrustedTypes {
+  createPolicy(name: string, rules: { createScriptURL(url: string): string }): { createScriptURL(url: string): URL }
+}
+
+let policy: ReturnType<TrustedTypes['createPolicy']> | undefined
+
+function trusted(url: string): string | URL {
+  try {
+    policy ??= (self as { trustedTypes?: TrustedTypes }).trustedTypes?.createPolicy('fastslam', { createScriptURL: address => address })
+  } catch {
+    // The page does not know the name. Whether it asks for a policy at all, the worker will tell.
+  }
+  return policy?.createScriptURL(url) ?? url
 }
 
 export function workerRefused(why: string | undefined): ToldError {
