@@ -49,6 +49,9 @@ export async function npmFiles() {
     }
   }
   for (const file of files.filter(file => file.endsWith('.js'))) take(readFileSync(join(dist, file), 'utf8'), 'assets/')
+  // A bundler has all of them at hand, and nothing to load anew.
+  const figuresFile = readdirSync(join(to, 'assets')).find(file => file.startsWith('figures-'))
+  writeFileSync(join(to, 'fastslam.js'), `export * from './assets/${figuresFile}'\n`)
   cpSync(join(dist, 'fastslam-anywidget.js'), join(to, 'standalone.js'))
   writeFileSync(join(to, 'fastslam.d.ts'), types(all))
   writeFileSync(join(to, 'react.d.ts'), reactTypes(all))

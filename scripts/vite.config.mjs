@@ -1,6 +1,7 @@
 // The pages of www/ and the elements of widgets/elements, to dist/. Relative addresses, so that dist/ works in any folder of
 // any site; hashed names, except for fastslam.js: the one line of a teacher's page names it.
-import { readdirSync } from 'node:fs'
+import { createHash } from 'node:crypto'
+import { readdirSync, readFileSync } from 'node:fs'
 import { basename, join } from 'node:path'
 import { defineConfig } from 'vite'
 import { chapter } from './chapter/plugin.mjs'
@@ -23,10 +24,33 @@ const policyInHead = {
   transformIndexHtml: () => [{ tag: 'meta', attrs: { 'http-equiv': 'Content-Security-Policy', content: policy }, injectTo: 'head-prepend' }],
 }
 
+/** fastslam.js becomes what loads it, as it is kept in a file with a hash (loader.js). @type {import('vite').Plugin} */
+const loader = {
+  name: 'loader',
+  apply: 'build',
+  generateBundle: {
+    order: 'post',
+    handler(_, bundle) {
+      const entry = bundle['fastslam.js']
+      if (entry?.type !== 'chunk') throw new Error('There is no fastslam.js.')
+      const code = entry.code.replaceAll(/(["'])\.\/(assets\/)?/g, (_, quote, assets) => `${quote}${assets ? './' : '../'}`)
+      const fileName = `assets/figures-${createHash('sha256').update(code).digest('base64url').slice(0, 8)}.js`
+      this.emitFile({ type: 'asset', fileName, source: code })
+      const words = (/** @type {string} */ language) => JSON.parse(readFileSync(join(root, 'widgets', 'words', `${language}.json`), 'utf8')).elements.no_script
+      entry.code = readFileSync(join(root, 'scripts', 'loader.js'), 'utf8')
+        .replace('FIGURES', `./${fileName}`)
+        .replace('SHARED', `./${entry.imports.find(file => file.startsWith('fastslam-'))}`)
+        .replace('NAMES', entry.exports.join(', '))
+        .replace('GERMAN', words('de'))
+        .replace('ENGLISH', words('en'))
+    },
+  },
+}
+
 export default defineConfig({
   root: www,
   base: './',
-  plugins: [chapter(root), policyInHead],
+  plugins: [chapter(root), policyInHead, loader],
   build: {
     outDir: dist,
     emptyOutDir: true,

@@ -12,6 +12,7 @@ import { LogFigure } from './log-figure'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
+const ANYONE = { 'Access-Control-Allow-Origin': '*' }
 const ISOLATED = { 'Cross-Origin-Embedder-Policy': 'require-corp', 'Cross-Origin-Opener-Policy': 'same-origin' }
 
 /** The code that a figure copies. */
@@ -75,12 +76,12 @@ test('a frame is offered in a code that also isolated pages take from a host tha
   expect(await codeOf(page, 'iframe')).toMatch(/^<iframe [^>]* credentialless /)
 })
 
-/** Our site as a host serves it that sends no header that is not needed, without some of its files. Gives its address. */
-async function poorHost(page: Page, baseURL: string, missing = /^$/): Promise<string> {
+/** Our site as a host serves it that sends no header that it need not, without some of its files. Gives its address. */
+async function poorHost(page: Page, baseURL: string, missing: RegExp, headers: Record<string, string> = {}): Promise<string> {
   const server = createServer(async (request, response) => {
     const answer = await fetch(new URL(`.${request.url}`, baseURL))
     const gone = missing.test(request.url!)
-    response.writeHead(gone ? 404 : answer.status, { 'Content-Type': gone ? 'text/plain' : answer.headers.get('Content-Type')! })
+    response.writeHead(gone ? 404 : answer.status, { 'Content-Type': gone ? 'text/plain' : answer.headers.get('Content-Type')!, ...headers })
     response.end(gone ? 'gone' : Buffer.from(await answer.arrayBuffer()))
   })
   await new Promise<void>(done => server.listen(0, '127.0.0.1', done))
@@ -111,7 +112,7 @@ for (const [what, missing] of [
   ['file with a hash in its name, of a host that was renewed', /^\/fastslam-.*\.js$/],
 ] as const) {
   test(`an element as it is copied, without its ${what}, is its picture, which leads to it, and says why`, async ({ page, baseURL, complaints }) => {
-    const home = await poorHost(page, baseURL!, missing)
+    const home = await poorHost(page, baseURL!, missing, ANYONE)
     const code = (await codeOf(page, 'element')).replaceAll(baseURL!, home)
     for (const [around, width] of [['width: 700px', 700], ['display: flex; width: 700px', 700], ['width: 300px', 300]] as const) {
       await openHost(page, `<div style="${around}">${code}</div>`)
@@ -127,6 +128,32 @@ for (const [what, missing] of [
     complaints.splice(0)
   })
 }
+
+test('an element without anything in it is its picture and says why, where the file with its hash is gone', async ({ page, baseURL, complaints }) => {
+  const home = await poorHost(page, baseURL!, /^\/(assets\/figures|fastslam)-.*\.js$/, ANYONE)
+  const script = `<script type="module" src="${home}fastslam.js"></script>`
+  await openHost(page, `${script}<fastslam-lap></fastslam-lap><fastslam-log lang="de"></fastslam-log><fastslam-em><b>of the author</b></fastslam-em>`)
+  for (const [tag, words] of [['lap', 'its script has not arrived'], ['log', 'Skript ist nicht angekommen']] as const) {
+    const figure = page.locator(`fastslam-${tag}`)
+    await expect(figure.getByRole('link')).toHaveAttribute('href', `${home}embed-${tag}.html`)
+    await expect(figure).toContainText(words)
+    await expect.poll(() => figure.locator('img').evaluate((image: HTMLImageElement) => image.complete && image.naturalWidth)).toBeGreaterThan(300)
+  }
+  await expect(page.locator('fastslam-em')).toHaveText('of the author')
+  complaints.splice(0)
+})
+
+test('a script that a browser has kept from before the site was renewed finds the files of now', async ({ page, baseURL, complaints }) => {
+  await page.route(`${baseURL}fastslam.js`, async route => {
+    const response = await route.fetch()
+    await route.fulfill({ response, body: (await response.text()).replace(/figures-[\w-]{8}/, 'figures-of-long-ago').replace(/fastslam-[\w-]{8}\.js/, 'fastslam-of-long-ago.js') })
+  })
+  await openHost(page, `<script type="module">import { FastslamLap } from '${baseURL}fastslam.js'; document.querySelector('fastslam-lap').title = FastslamLap.name</script><fastslam-lap></fastslam-lap>`)
+  await new Figure(page, 'fastslam-lap').live()
+  await expect(page.locator('fastslam-lap')).toHaveAttribute('title', /./)
+  forgiveHost(complaints)
+  expect(complaints.splice(0).filter(line => !/of-long-ago|404/.test(line) && !line.startsWith('left the site'))).toEqual([])
+})
 
 test('of what stands for a missing script nothing is left when it has arrived, on paper either, nor where the program then fails', async ({ page, baseURL, complaints }) => {
   const code = await codeOf(page, 'element')
