@@ -120,8 +120,9 @@ test('a figure has a width in any parent, from left to right and from right to l
   expect(wrong).toEqual([])
 })
 
-test('what a page gives the figure itself stands over that', async ({ page }) => {
-  const cases: [style: string, width: number, around?: string][] = [
+test('what a page gives the figure itself stands over that, and what floats is beside it', async ({ page }) => {
+  const float = '<b style="float: left; inline-size: 200px; block-size: 90px">x</b>'
+  const cases: [style: string, width: number, around?: string, within?: string][] = [
     ['width: 240px', 240],
     ['inline-size: 50%', 300],
     ['margin-inline: -40px', 680],
@@ -129,11 +130,13 @@ test('what a page gives the figure itself stands over that', async ({ page }) =>
     ['width: 760px', 760],
     ['display: inline-block', 600],
     ['position: absolute', 832],
-    ['', 300, 'display: grid; grid-template-columns: 1fr 1fr'],
-    ['flex: 1', 300, 'display: flex'],
+    ['', 300, 'display: grid; grid-template-columns: 1fr 1fr', 'FIGUREFIGURE'],
+    ['flex: 1', 300, 'display: flex', 'FIGUREFIGURE'],
+    ['', 400, '', `${float}FIGURE`],
+    ['display: block', 400, '', `${float}FIGURE`],
   ]
-  const figure = (style: string) => `<fastslam-proposal style="${style}"></fastslam-proposal>`
-  await openCourse(page, cases.map(([style, , around]) => `<div style="width: 600px; ${around ?? ''}">${figure(style)}${around ? figure(style) : ''}</div>`).join(''))
+  const body = cases.map(([style, , around = '', within = 'FIGURE']) => `<div style="width: 600px; ${around}">${within.replaceAll('FIGURE', `<fastslam-proposal style="${style}"></fastslam-proposal>`)}</div>`)
+  await openCourse(page, body.join(''))
   await page.evaluate(() => customElements.whenDefined('fastslam-proposal'))
   const widths = await page.locator('body > div').evaluateAll(boxes => boxes.map(box => Math.round(box.querySelector('fastslam-proposal')!.getBoundingClientRect().width)))
   expect(widths).toEqual(cases.map(([, width]) => width))
