@@ -101,6 +101,7 @@ for (const [what, missing, sandbox, why] of [
       const frame = page.frameLocator('iframe').nth(i)
       await expect(frame.locator('.blocked')).toContainText(why)
       await expect(frame.locator('img')).toBeVisible({ timeout: 2000 })
+      expect((await frame.locator('img').boundingBox())!.width, 'it fits the frame').toBeLessThanOrEqual(832)
       expect(await frame.locator('img').evaluate((image: HTMLImageElement) => image.decode().then(() => image.naturalWidth))).toBeGreaterThan(300)
     }
     complaints.splice(0)

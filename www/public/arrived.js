@@ -20,6 +20,8 @@ addEventListener(
     // The page of one figure has its picture; the common one is told by its address which it is.
     const name = /^(?:fastslam-)?([a-z-]+)$/.exec(new URLSearchParams(location.search).get('figure') ?? '')?.[1]
     if (name && line.parentElement.children.length === 1) line.before(Object.assign(new Image(), { src: `./embed-${name}.png`, alt: '' }))
+    // The style sheet may not have arrived either.
+    for (const { style } of document.images) Object.assign(style, { width: '100%', height: 'auto' })
   },
   true,
 )
