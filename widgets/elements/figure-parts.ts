@@ -85,7 +85,7 @@ export abstract class FigureParts extends HTMLElement {
     const keys = h('p', { class: 'hidden', id: 'keys' })
     const handleKeys = h('p', { class: 'hidden', id: 'handle-keys' })
     this.words.always(() => {
-      this.#edge.lang = this.words.language
+      this.#edge.lang = this.body.lang = this.words.language
       write(keys, this.keysHelp)
       write(handleKeys, this.words.say('handle_keys'))
       write(this.#numbersName, this.words.say('numbers'))
