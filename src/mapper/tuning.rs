@@ -9,7 +9,7 @@ use super::wheels::WheelNoise;
 use crate::map::grid::{Grid, GridModel};
 use crate::matching::{HillClimbSteps, Kernel, Matcher, ScanModel};
 use crate::motion::Displaced;
-use crate::proposal::{CorrelativeSearch, FitLimits, FromScan, FromScanSettings, IncrementalWeight, SEARCH_STDS};
+use crate::proposal::{CorrelativeSearch, DRIFT_STDS, FitLimits, FromScan, FromScanSettings, IncrementalWeight, SEARCH_STDS};
 
 /// Cells along a side of an NDT cell: NDT cells of 0.2 m with the default cells. Much smaller ones hold too few hits to tell which
 /// way a wall runs, much larger ones more than one wall.
@@ -35,7 +35,7 @@ pub const WHEELS: WheelNoise = WheelNoise { heading: [0.14, 0.1], position: [0.0
 pub const FLOOR: WheelNoise = WheelNoise { heading: [0.014, 0.014], position: [0.028, 0.028] };
 
 /// Standard deviation of the wheels' drift \[rad/m\], before anything is known: some 3° a metre, as one log has.
-pub const DRIFT_STD: f64 = 0.05;
+pub const DRIFT_STD: f64 = DRIFT_STDS[0];
 
 /// What is assumed of the wheels counts as much as so many metres of the way \[m\].
 pub const TRUST: f64 = 5.0;

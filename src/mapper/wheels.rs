@@ -10,7 +10,7 @@
 use super::moving::driven;
 use super::tuning::{DRIFT_STD, FLOOR, MEMORY, OUTLYING, STRETCH, TRUST, WHEELS};
 use crate::geometry::Pose2;
-use crate::motion::Displacement;
+use crate::motion::{Displacement, Drift};
 use crate::ops;
 use crate::proposal::ProposalTrace;
 use crate::rbpf::Report;
@@ -46,10 +46,8 @@ impl WheelNoise {
 /// differed by so many: one scan in a wrong place must not make the next wrong place likely.
 #[derive(Clone, Debug)]
 pub struct Wheels {
-    /// Of the drift \[m²/rad²\].
-    information: f64,
-    /// Drift times information \[m/rad\].
-    weighted: f64,
+    /// Of the heading, a metre of the way.
+    drift: Drift<1>,
     noise: Scale,
     /// What is not learnt from yet.
     stretch: Stretch,
@@ -98,8 +96,7 @@ const MATCHED_STD: f64 = 0.01;
 impl Default for Wheels {
     fn default() -> Self {
         Self {
-            information: 1.0 / (DRIFT_STD * DRIFT_STD),
-            weighted: 0.0,
+            drift: Drift::new([DRIFT_STD]),
             noise: Scale::ASSUMED,
             stretch: Stretch::default(),
         }
@@ -109,12 +106,12 @@ impl Default for Wheels {
 impl Wheels {
     /// b \[rad/m\]: by how much more than odometry tells the robot turns to the left, a metre.
     pub fn drift(&self) -> f64 {
-        self.weighted / self.information
+        self.drift.mean([1.0])
     }
 
     /// Standard deviation of the heading after a metre straight on \[rad\], the [floor](super::tuning::FLOOR) apart.
     pub fn heading_std(&self) -> f64 {
-        (self.noise.value() * WHEELS.heading[1] * WHEELS.heading[1] + 1.0 / self.information).sqrt()
+        (self.noise.value() * WHEELS.heading[1] * WHEELS.heading[1] + self.drift.variance([1.0])).sqrt()
     }
 
     /// Where the robot is, seen from where it was, when odometry tells this motion. Half of an error of the heading is there from the
@@ -132,14 +129,10 @@ impl Wheels {
 
     /// The displacement after driving so far, with the noise of driving and turning by as much as `noisy` \[m, rad\].
     fn displaced(&self, odometry: &Pose2, [way, _]: [f64; 2], noisy: [f64; 2]) -> Displacement {
-        let drift = self.drift() * way;
-        let mean = Pose2::new(0.0, 0.0, 0.5 * drift).compose(odometry).compose(&Pose2::new(0.0, 0.0, 0.5 * drift));
         let ([heading, position], floor) = (WHEELS.variances(noisy), FLOOR.variances(noisy));
-        let turn = self.noise.value() * heading + way * way / self.information + floor[0];
-        let aside = [-0.5 * mean.y, 0.5 * mean.x, 1.0];
-        let covariance = Matrix3::from_fn(|i, j| turn * aside[i] * aside[j])
-            + Matrix3::from_diagonal(&[position + floor[1], position + floor[1], 0.0].into());
-        Displacement { mean, covariance }
+        let covariance = Matrix3::from_diagonal(&[position + floor[1], position + floor[1], 0.0].into());
+        let variance = self.noise.value() * heading + self.drift.variance([way]) + floor[0];
+        Displacement { mean: *odometry, covariance }.turned(self.drift.mean([way]), variance)
     }
 
     /// Learns from a step of the filter, to which odometry told this motion: from the mean over the particles that were matched. Whatever a path
@@ -174,8 +167,7 @@ impl Wheels {
         let most = OUTLYING * variance.sqrt();
         let error = (stretch.turned - expected).clamp(-most, most);
         let kept = kept(stretch.way);
-        self.information = kept * self.information + stretch.way * stretch.way / variance;
-        self.weighted = kept * self.weighted + stretch.way * (expected + error) / variance;
+        self.drift.learn_and_forget([stretch.way], expected + error, variance, kept);
         self.noise.learn(error * error / (stretch.variance + matched), stretch.way);
     }
 }

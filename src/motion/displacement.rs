@@ -15,6 +15,17 @@ pub struct Displacement {
     pub covariance: Matrix3<f64>,
 }
 
+impl Displacement {
+    /// The displacement where the heading errs besides, by N(turn, variance) \[rad, rad²\], evenly along the way: half of the error is there from the
+    /// start of the motion, so that it moves the position too.
+    pub fn turned(&self, turn: f64, variance: f64) -> Self {
+        let half = Pose2::new(0.0, 0.0, 0.5 * turn);
+        let mean = half.compose(&self.mean).compose(&half);
+        let aside = [-0.5 * mean.y, 0.5 * mean.x, 1.0];
+        Self { mean, covariance: self.covariance + Matrix3::from_fn(|i, j| variance * aside[i] * aside[j]) }
+    }
+}
+
 /// The motion model of a [`Displacement`]: x_t = x_{t−1} ⊕ d, d ~ N(mean, covariance).
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Displaced;

@@ -3,6 +3,7 @@
 mod car;
 mod diffusion;
 mod displacement;
+mod drift;
 mod floored;
 mod odometry;
 mod velocity;
@@ -10,6 +11,7 @@ mod velocity;
 pub use car::Car;
 pub use diffusion::VelocityDiffusion;
 pub use displacement::{Displaced, Displacement};
+pub use drift::Drift;
 pub use floored::Floored;
 pub use odometry::{Odometry, OdometryModel};
 pub use velocity::{Velocity, VelocityModel};

@@ -5,8 +5,10 @@
 //! - [`FromMotion`] draws by the motion, and pays ln p(z | x, m), or, with [`ScanAtDraw`], what the old map says of the draw;
 //! - [`FromMeasurement`] draws by motion and sightings, and pays the integral, in closed form;
 //! - [`FromScan`] draws by motion and scan, and pays the integral or what of it new ground has no say in: [`IncrementalWeight`];
-//! - [`FromWindow`] draws late, and pays each scan's share of the window's integral.
+//! - [`FromWindow`] draws late, and pays each scan's share of the window's integral;
+//! - [`Calibrating`] corrects odometry by the drift that the particle has learnt, and pays what the proposal pays that it draws by.
 
+mod calibrating;
 mod fit;
 mod from_measurement;
 mod from_motion;
@@ -17,6 +19,7 @@ mod retrace;
 mod search;
 mod window;
 
+pub use calibrating::{Calibrated, Calibrating, DRIFT_STDS, Learnt};
 pub use fit::{Fit, FitLimits};
 pub use from_measurement::{FromMeasurement, Measured};
 pub use from_motion::{FromMotion, Marginal};
