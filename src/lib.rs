@@ -19,6 +19,7 @@
 //! | lineage | distinct ancestors at the start, [`Rbpf::lineage`](rbpf::Rbpf::lineage) |
 //! | measurement-aware proposal, *aware* | the improved proposal: [`FromScan`](proposal::FromScan) for grids, [`FromMeasurement`](proposal::FromMeasurement) for landmarks |
 //! | fixed lag, block proposal, delayed draw | [`FromWindow`](proposal::FromWindow), with a map that is [`Windowed`](proposal::Windowed) |
+//! | static parameter, self-calibration, drift of the odometry | [`Calibrating`](proposal::Calibrating), with a map that is [`Calibrated`](proposal::Calibrated) |
 //! | motion model only, FastSLAM 1.0 | the motion prior: [`FromMotion`](proposal::FromMotion) |
 //! | what a particle pays, its price | log weight increment: [`log_increment`](proposal::Proposed::log_increment) |
 //! | tempering, likelihood smoothing | the temper κ of [`ScanModel`](matching::ScanModel::new) |

@@ -280,6 +280,11 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         })
     }
 
+    /// Where the particles' next poses are drawn from.
+    pub fn proposal(&self) -> &P {
+        &self.proposal
+    }
+
     /// The population, by slot.
     pub fn particles(&self) -> &[Particle<M>] {
         &self.particles

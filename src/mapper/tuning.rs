@@ -9,7 +9,9 @@ use super::wheels::WheelNoise;
 use crate::map::grid::{Grid, GridModel};
 use crate::matching::{HillClimbSteps, Kernel, Matcher, ScanModel};
 use crate::motion::Displaced;
-use crate::proposal::{CorrelativeSearch, DRIFT_STDS, FitLimits, FromScan, FromScanSettings, IncrementalWeight, SEARCH_STDS};
+use crate::proposal::{
+    CorrelativeSearch, DRIFT_STDS, FitLimits, FromScan, FromScanSettings, IncrementalWeight, SEARCH_STDS,
+};
 
 /// Cells along a side of an NDT cell: NDT cells of 0.2 m with the default cells. Much smaller ones hold too few hits to tell which
 /// way a wall runs, much larger ones more than one wall.

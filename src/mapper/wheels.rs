@@ -95,11 +95,7 @@ const MATCHED_STD: f64 = 0.01;
 
 impl Default for Wheels {
     fn default() -> Self {
-        Self {
-            drift: Drift::new([DRIFT_STD]),
-            noise: Scale::ASSUMED,
-            stretch: Stretch::default(),
-        }
+        Self { drift: Drift::new([DRIFT_STD]), noise: Scale::ASSUMED, stretch: Stretch::default() }
     }
 }
 

@@ -64,8 +64,7 @@ impl<const N: usize> Drift<N> {
     /// The same, where this share of what was known is kept.
     pub(crate) fn learn_and_forget(&mut self, causes: [f64; N], error: f64, variance: f64, kept: f64) {
         let (information, weighted) = (self.information, self.weighted);
-        self.information =
-            SMatrix::from_fn(|i, j| kept * information[(i, j)] + causes[i] * causes[j] / variance);
+        self.information = SMatrix::from_fn(|i, j| kept * information[(i, j)] + causes[i] * causes[j] / variance);
         self.weighted = SVector::from_fn(|i, _| kept * weighted[i] + causes[i] * error / variance);
     }
 

@@ -128,6 +128,23 @@ impl<D: Motion, P> Calibrating<D, P> {
         let (from, drive) = (Pose2::default(), self.motion.drive(control));
         Displacement { mean: drive.apply(&from), covariance: drive.covariance(&from) }
     }
+
+    /// Where the control leads by odometry and what is known of its drift, seen from where the robot was: what `then` draws by.
+    pub fn corrected(&self, drift: &Drift<2>, control: &D::Control) -> Displacement {
+        let reported = self.reported(control);
+        let causes = causes(&reported);
+        if learns(&reported) { reported.turned(drift.mean(causes), drift.variance(causes)) } else { reported }
+    }
+}
+
+/// What a drift of the heading grows with: metres ahead, and radians turned.
+fn causes(reported: &Displacement) -> [f64; 2] {
+    [reported.mean.x, reported.mean.theta]
+}
+
+/// Whether odometry is told to err in its heading at all.
+fn learns(reported: &Displacement) -> bool {
+    reported.covariance.m33 > 0.0
 }
 
 impl<M, D, P> Proposal<Calibrated<M>> for Calibrating<D, P>
@@ -146,19 +163,13 @@ where
         stream: &mut Stream,
     ) -> Proposed<Learnt<M::Association>> {
         let Particle { world_from_robot, map: Calibrated { map, drift }, path } = particle;
-        let (reported, mut drift) = (self.reported(control), *drift);
-        let (causes, variance) = ([reported.mean.x, reported.mean.theta], reported.covariance.m33);
-        let corrected = if variance > 0.0 {
-            reported.turned(drift.mean(causes), drift.variance(causes))
-        } else {
-            reported
-        };
+        let (reported, corrected, mut drift) = (self.reported(control), self.corrected(drift, control), *drift);
         let inner = Particle { world_from_robot: *world_from_robot, map: map.clone(), path: path.clone() };
         let Proposed { world_from_robot: to, association, log_increment, trace } =
             self.then.propose(&inner, &corrected, observation, stream);
-        if variance > 0.0 {
-            let turned = world_from_robot.between(&to).theta;
-            drift.learn(causes, ops::wrap_angle(turned - reported.mean.theta), variance);
+        if learns(&reported) {
+            let error = ops::wrap_angle(world_from_robot.between(&to).theta - reported.mean.theta);
+            drift.learn(causes(&reported), error, reported.covariance.m33);
         }
         Proposed { world_from_robot: to, association: Learnt { association, drift }, log_increment, trace }
     }

@@ -12,13 +12,15 @@ use fastslam::execute::Executor;
 use fastslam::geometry::{Pose2, align, rms};
 use fastslam::map::landmarks::{Association, Correspondence, Gate, Landmarks};
 use fastslam::map::{ConditionalMap, Footprint};
-use fastslam::motion::{Motion, Velocity, VelocityModel};
+use fastslam::motion::{Displaced, Motion, Velocity, VelocityModel};
 use fastslam::nalgebra::Vector2;
 use fastslam::ops;
 use fastslam::particle::Particle;
-use fastslam::proposal::{Either, FromMeasurement, FromMotion, FromWindow, Marginal, Proposal, Windowed};
+use fastslam::proposal::{
+    Calibrated, Calibrating, Either, FromMeasurement, FromMotion, FromWindow, Learnt, Marginal, Proposal, Windowed,
+};
 use fastslam::random::Stream;
-use fastslam::rbpf::Rbpf;
+use fastslam::rbpf::{Rbpf, Report};
 use fastslam::resampling::{ResamplePolicy, Scheme};
 use fastslam::sensor::{Feature, LandmarkSensor, RangeBearing};
 use std::sync::Arc;
@@ -276,8 +278,49 @@ fn error_of_mean<M: ConditionalMap, P: Proposal<M>>(filter: &Rbpf<M, P>, truth: 
 /// A particle's map.
 pub type LandmarkMap = Landmarks<RangeBearing>;
 
-/// FastSLAM 1.0 or 2.0.
-pub type Filter<D = VelocityModel> = Rbpf<LandmarkMap, Either<FromMotion<D, Marginal>, FromMeasurement<D>>>;
+/// FastSLAM 1.0 or 2.0, which takes odometry for what its motion model says.
+pub type FastSlam<D> = Either<FromMotion<D, Marginal>, FromMeasurement<D>>;
+
+impl ProposalKind {
+    fn of<D>(self, motion: D) -> FastSlam<D> {
+        match self {
+            Self::Motion => Either::Left(FromMotion { motion, likelihood: Marginal }),
+            Self::Improved => Either::Right(FromMeasurement { motion }),
+        }
+    }
+}
+
+/// FastSLAM 1.0 or 2.0 in which each particle learns the drift of the odometry along its path.
+pub type Learning<D> = Calibrating<D, FastSlam<Displaced>>;
+
+/// A particle's map of landmarks, with or without more that is known along its path.
+pub trait WithLandmarks: ConditionalMap<Observation = Vec<Feature>> {
+    /// The landmarks.
+    fn landmarks(&self) -> &LandmarkMap;
+
+    /// What the features of a step were taken for.
+    fn associations(of: &Self::Association) -> &Vec<Association>;
+}
+
+impl WithLandmarks for LandmarkMap {
+    fn landmarks(&self) -> &LandmarkMap {
+        self
+    }
+
+    fn associations(of: &Vec<Association>) -> &Vec<Association> {
+        of
+    }
+}
+
+impl WithLandmarks for Calibrated<LandmarkMap> {
+    fn landmarks(&self) -> &LandmarkMap {
+        self.map()
+    }
+
+    fn associations(of: &Learnt<Vec<Association>>) -> &Vec<Association> {
+        &of.association
+    }
+}
 
 /// What one step did, and how far from the truth it led.
 #[derive(Clone, Debug, PartialEq)]
@@ -322,11 +365,11 @@ pub struct AssociationSummary {
     pub log_increment: f64,
 }
 
-/// A run under way.
+/// A run under way, of particles with maps M that are drawn by a proposal P.
 #[derive(Clone, Debug)]
-pub struct LandmarkRun<D: Motion = VelocityModel> {
+pub struct LandmarkRun<D: Motion = VelocityModel, M = LandmarkMap, P = FastSlam<D>> {
     log: Arc<LandmarkLog<D::Control>>,
-    filter: Filter<D>,
+    filter: Rbpf<M, P>,
     step: u32,
     /// Sum over the steps so far of the squared error of the weighted mean \[m²\].
     squared_errors: f64,
@@ -342,16 +385,40 @@ impl<D: Motion + Clone> LandmarkRun<D> {
         tuning: &Tuning<D>,
         log: Arc<LandmarkLog<D::Control>>,
     ) -> Result<Self, SettingError> {
-        let motion = tuning.motion.clone();
-        let proposal = match setup.proposal {
-            ProposalKind::Motion => Either::Left(FromMotion { motion, likelihood: Marginal }),
-            ProposalKind::Improved => Either::Right(FromMeasurement { motion }),
-        };
         let map = Landmarks::new(tuning.sensor, setup.correspondence.of(tuning));
+        let filter = setup.filter(map, setup.proposal.of(tuning.motion.clone()), &log)?;
+        Ok(Self { log, filter, step: 0, squared_errors: 0.0 })
+    }
+}
+
+impl<D: Motion + Clone> LandmarkRun<D, Calibrated<LandmarkMap>, Learning<D>> {
+    /// At the log's start, which is known, where nothing is known of the drift of the odometry.
+    ///
+    /// # Errors
+    /// Where a setting is out of its range.
+    pub fn learning(
+        setup: &LandmarkSetup,
+        tuning: &Tuning<D>,
+        log: Arc<LandmarkLog<D::Control>>,
+    ) -> Result<Self, SettingError> {
+        let map = Calibrated::new(Landmarks::new(tuning.sensor, setup.correspondence.of(tuning)));
+        let proposal = Calibrating { motion: tuning.motion.clone(), then: setup.proposal.of(Displaced) };
         let filter = setup.filter(map, proposal, &log)?;
         Ok(Self { log, filter, step: 0, squared_errors: 0.0 })
     }
 
+    /// The drift of the odometry: how much the robot turns to the left beyond it, per metre ahead \[rad/m\] and per radian turned \[–\]. The
+    /// weighted mean over the particles of their means.
+    pub fn drift(&self) -> [f64; 2] {
+        let weighted = self.filter.particles().iter().zip(self.filter.weights().as_slice());
+        weighted.fold([0.0; 2], |[a, b], (particle, w)| {
+            let [a_metre, a_turn] = particle.map.drift().coefficients();
+            [a + w * a_metre, b + w * a_turn]
+        })
+    }
+}
+
+impl<D: Motion + Clone, M: WithLandmarks, P: Proposal<M, Control = D::Control>> LandmarkRun<D, M, P> {
     /// The same run, resampled by another policy from here on.
     pub fn with_policy(self, policy: ResamplePolicy) -> Self {
         Self { filter: self.filter.with_policy(policy), ..self }
@@ -364,6 +431,11 @@ impl<D: Motion + Clone> LandmarkRun<D> {
 
     /// One step of the filter; `None` after the last.
     pub fn step(&mut self) -> Option<LandmarkReport> {
+        self.advance().map(|(report, _)| report)
+    }
+
+    /// The same, with what the filter's step did.
+    pub(super) fn advance(&mut self) -> Option<(LandmarkReport, Report<M::Association>)> {
         let k = self.step as usize;
         let (control, features) = (self.log.controls.get(k)?, self.log.sightings.get(k)?);
         let report = self.filter.step(control, features);
@@ -373,26 +445,27 @@ impl<D: Motion + Clone> LandmarkRun<D> {
         let best = &particles[self.filter.best()];
         // The slot the best had before resampling.
         let slot = report.ancestors.as_ref().map_or(self.filter.best(), |from| from[self.filter.best()] as usize);
-        let count =
-            |of: fn(&Association) -> bool| report.associations[slot].iter().filter(|sighted| of(sighted)).count();
+        let count = |of: fn(&Association) -> bool| {
+            M::associations(&report.associations[slot]).iter().filter(|seen| of(seen)).count()
+        };
         let mut answers: Vec<&Vec<Association>> = Vec::new();
-        for association in &report.associations {
+        for association in report.associations.iter().map(M::associations) {
             if !answers.contains(&association) {
                 answers.push(association);
             }
         }
         let error_mean = error_of_mean(&self.filter, truth);
         self.squared_errors += error_mean * error_mean;
-        Some(LandmarkReport {
+        let told = LandmarkReport {
             step: self.step,
             seen: features.len() as u32,
             log_evidence: report.log_evidence,
             ess: report.ess,
-            ancestors: report.ancestors,
+            ancestors: report.ancestors.clone(),
             error_best: best.world_from_robot.distance(truth),
             error_mean,
             error_odometry: odometry.distance(truth),
-            landmarks: best.map.iter().count() as u32,
+            landmarks: best.map.landmarks().iter().count() as u32,
             lineage: self.filter.lineage() as u32,
             best: AssociationSummary {
                 again: count(|sighted| matches!(sighted, Association::Matched(_))) as u32,
@@ -400,7 +473,13 @@ impl<D: Motion + Clone> LandmarkRun<D> {
                 log_increment: report.log_increments[slot],
             },
             answers: answers.len() as u32,
-        })
+        };
+        Some((told, report))
+    }
+
+    /// How many steps were taken.
+    pub(super) fn steps_taken(&self) -> usize {
+        self.step as usize
     }
 
     /// The drive.
@@ -409,12 +488,12 @@ impl<D: Motion + Clone> LandmarkRun<D> {
     }
 
     /// The population, by slot.
-    pub fn particles(&self) -> &[Particle<LandmarkMap>] {
+    pub fn particles(&self) -> &[Particle<M>] {
         self.filter.particles()
     }
 
     /// The filter, for those who watch it.
-    pub fn filter(&self) -> &Filter<D> {
+    pub fn filter(&self) -> &Rbpf<M, P> {
         &self.filter
     }
 
@@ -506,7 +585,7 @@ impl<D: Motion + Clone> LandmarkRun<D> {
             }
             self.filter.weights().as_slice().iter().for_each(|weight| digest.f64(*weight));
         }
-        for (index, landmark) in self.particles().iter().flat_map(|particle| particle.map.iter()) {
+        for (index, landmark) in self.particles().iter().flat_map(|particle| particle.map.landmarks().iter()) {
             digest.u32(index);
             landmark.mean.iter().chain(&landmark.covariance).for_each(|x| digest.f64(*x));
             digest.write(&landmark.existence_count.to_le_bytes());
@@ -516,7 +595,7 @@ impl<D: Motion + Clone> LandmarkRun<D> {
 
     /// Memory of all maps.
     pub fn footprint(&self) -> Footprint {
-        Landmarks::footprint(self.particles().iter().map(|p| &p.map))
+        Landmarks::footprint(self.particles().iter().map(|p| p.map.landmarks()))
     }
 }
 

@@ -7,6 +7,7 @@ pub mod doors;
 pub mod em;
 pub mod graph;
 pub mod hill;
+pub mod innovations;
 pub mod joint_map;
 pub mod landmarks;
 pub mod lap;

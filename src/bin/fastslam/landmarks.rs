@@ -1,19 +1,24 @@
 //! `fastslam landmarks`: FastSLAM 1.0 and 2.0 on simulated courses and recorded logs.
 
-use crate::settings::SettingsOptions;
+use crate::remarks::Outcome;
+use crate::settings::{Adjust, SettingsOptions};
 use crate::{landmark_graph, mrclam, picture, print, print_json, progress, victoria, whole};
 use anyhow::Result;
+use fastslam::error::SettingError;
+use fastslam::map::landmarks::Correspondence;
 use fastslam::motion::Motion;
 use fastslam::resampling::ResamplePolicy;
 use fastslam_lab::experiment::ErrorSummary;
 use fastslam_lab::experiment::ProposalKind;
+use fastslam_lab::experiment::innovations::{Innovations, Predicts};
 use fastslam_lab::experiment::landmarks::{
-    self, CorrespondenceKind, Course, LandmarkLog, LandmarkReport, LandmarkRun, LandmarkSetup, Tuning,
+    self, CorrespondenceKind, Course, LandmarkLog, LandmarkReport, LandmarkRun, LandmarkSetup, Tuning, WithLandmarks,
 };
 use fastslam_lab::experiment::{camera, car};
 use indicatif::ParallelProgressIterator;
 use rayon::prelude::*;
 use serde::Serialize;
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -48,6 +53,10 @@ pub struct Arguments {
     /// Read a landmark graph in the format of g2o instead
     #[arg(long, value_name = "FILE", conflicts_with_all = ["course", "mrclam", "victoria"])]
     g2o: Option<PathBuf>,
+    /// Whether each particle learns the drift of the odometry along its path: learnt or none; by default learnt with --g2o and --victoria, none
+    /// with --mrclam, whose robots scatter more than they drift, and on courses
+    #[arg(long, value_name = "DRIFT", value_parser = learns)]
+    drift: Option<bool>,
     /// Also run FastSLAM 2.0 that draws its poses late: so many together, when so many steps after them are seen. With known correspondence particles
     /// so outlive a loop even if a single step's sightings say little
     #[arg(long, value_name = "DRAWN,AHEAD", num_args = 0..=1, value_parser = late)]
@@ -71,6 +80,15 @@ fn late(text: &str) -> Result<[u32; 2], &'static str> {
     match numbers {
         Some((Ok(drawn @ 1..=1000), Ok(ahead @ 0..=1000))) => Ok([drawn, ahead]),
         _ => Err("must be two whole numbers, the first from 1 to 1000, the second from 0 to 1000, as 4,4"),
+    }
+}
+
+/// Whether the drift of the odometry is learnt.
+fn learns(text: &str) -> Result<bool, &'static str> {
+    match text {
+        "learnt" => Ok(true),
+        "none" => Ok(false),
+        _ => Err("must be learnt or none"),
     }
 }
 
@@ -103,6 +121,12 @@ struct Output {
     rms_late: Option<f64>,
     /// In the best particle's map.
     landmarks: u32,
+    /// What the robot turns to the left beyond its odometry, per metre ahead \[rad/m\] and per radian turned \[–\], where that is learnt.
+    drift: Option<[f64; 2]>,
+    /// Mean normalised innovation squared; 2 is expected.
+    innovation: Option<f64>,
+    /// What speaks against the result, with what to change.
+    remarks: Vec<String>,
     /// Share of the steps that resampled.
     resampled_fraction: f64,
     map_bytes_unique: u64,
@@ -131,6 +155,12 @@ struct Summary {
     odometry: ErrorSummary,
     /// How many landmarks the best particle's map has at the end.
     landmarks: ErrorSummary,
+    /// Medians of what the robot turns to the left beyond its odometry, per metre ahead \[rad/m\] and per radian turned \[–\], where that is learnt.
+    drift: Option<[f64; 2]>,
+    /// Median of the mean normalised innovations squared; 2 is expected.
+    innovation: Option<f64>,
+    /// What speaks against the median result, with what to change.
+    remarks: Vec<String>,
 }
 
 /// What a command runs: a log for each seed, and what the filters are told.
@@ -139,6 +169,8 @@ struct Task<D: Motion, F> {
     tuning: Tuning<D>,
     /// Whether every seed has the same log.
     recorded: bool,
+    /// Whether the drift of the odometry is learnt, if nothing else is asked for.
+    learns: bool,
     /// Where the tuning comes from.
     noises: String,
 }
@@ -150,34 +182,64 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     if let Some(prefix) = &arguments.mrclam {
         let log = Arc::new(mrclam::read(prefix)?);
         let tuning = noises.adjust(camera::tuning())?;
-        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, noises: told(mrclam::NOISES) }.run(arguments);
+        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, learns: false, noises: told(mrclam::NOISES) }
+            .run(arguments);
     }
     if let Some(folder) = &arguments.victoria {
         let tuning = noises.adjust(car::tuning())?;
         let named = arguments.association == CorrespondenceKind::Known;
         let log = Arc::new(victoria::read(folder, &tuning.motion, named)?);
-        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, noises: told(victoria::NOISES) }
-            .run(arguments);
+        return Task {
+            log: |_| Arc::clone(&log),
+            tuning,
+            recorded: true,
+            learns: true,
+            noises: told(victoria::NOISES),
+        }
+        .run(arguments);
     }
     if let Some(path) = &arguments.g2o {
         let (log, tuning) = landmark_graph::read(path)?;
         let (log, tuning) = (Arc::new(log), noises.adjust(tuning)?);
         let noises = told(landmark_graph::NOISES);
-        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, noises }.run(arguments);
+        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, learns: true, noises }.run(arguments);
     }
     let course = arguments.course;
     let tuning = noises.adjust(course.tuning())?;
     let log = |seed| Arc::new(course.simulate(seed));
-    Task { log, tuning, recorded: false, noises: told("those of the course") }.run(arguments)
+    Task { log, tuning, recorded: false, learns: false, noises: told("those of the course") }.run(arguments)
 }
 
 impl<D, F> Task<D, F>
 where
-    D: Motion + Clone + Send,
+    D: Motion + Adjust + Clone + Send,
     D::Control: Clone + Send,
     F: Fn(u64) -> Arc<LandmarkLog<D::Control>> + Sync,
 {
     fn run(&self, arguments: &Arguments) -> Result<()> {
+        if arguments.drift.unwrap_or(self.learns) {
+            self.run_of(arguments, LandmarkRun::learning, |run| Some(run.drift()))
+        } else {
+            self.run_of(arguments, LandmarkRun::new, |_| None)
+        }
+    }
+
+    /// Runs the command with filters that begin by this function; `drift` is what one has learnt.
+    fn run_of<M, P>(
+        &self,
+        arguments: &Arguments,
+        begin: impl Fn(
+            &LandmarkSetup,
+            &Tuning<D>,
+            Arc<LandmarkLog<D::Control>>,
+        ) -> Result<LandmarkRun<D, M, P>, SettingError>
+        + Sync,
+        drift: impl Fn(&LandmarkRun<D, M, P>) -> Option<[f64; 2]> + Sync,
+    ) -> Result<()>
+    where
+        M: WithLandmarks,
+        P: Predicts<M, Control = D::Control>,
+    {
         let setup = |seed| LandmarkSetup {
             particles: arguments.particles,
             seed,
@@ -186,15 +248,16 @@ where
             policy: arguments.policy,
             ..LandmarkSetup::default()
         };
-        let run = |seed| LandmarkRun::new(&setup(seed), &self.tuning, (self.log)(seed));
+        let run = |seed| begin(&setup(seed), &self.tuning, (self.log)(seed));
         let late = arguments.late.map(|window| window.unwrap_or(car::WINDOW));
-        let rms_late =
-            |run: &LandmarkRun<D>, setup: &_| late.map(|window| run.rms_late(setup, &self.tuning, window)).transpose();
+        let rms_late = |run: &LandmarkRun<D, M, P>, setup: &_| {
+            late.map(|window| run.rms_late(setup, &self.tuning, window)).transpose()
+        };
         let Some(seeds) = arguments.seeds else {
             let run = run(arguments.seed)?;
             let setup = setup(arguments.seed);
             let others = Others { ekf: run.rms_ekf(&setup, &self.tuning), late: rms_late(&run, &setup)? };
-            return one(arguments, run, others, &self.noises);
+            return one(arguments, run, others, drift, &self.noises);
         };
         let first = run(1)?; // refused before anything is run, if it is
         // EKF-SLAM draws nothing: on a recorded log it is the same for every seed.
@@ -205,17 +268,20 @@ where
             .progress_with(progress(seeds.len(), "runs"))
             .map(|seed| {
                 let mut run = run(*seed)?;
-                while run.step().is_some() {}
+                let (mut innovations, mut founded) = (Innovations::default(), 0);
+                while let Some(report) = innovations.step(&mut run) {
+                    founded += report.best.first;
+                }
                 let others = Others {
                     ekf: recorded.unwrap_or_else(|| run.rms_ekf(&setup(*seed), &self.tuning)),
                     late: rms_late(&run, &setup(*seed))?,
                 };
                 let path = [run.rms_best(), run.rms_best_aligned(), run.rms_odometry()];
-                let landmarks = run.particles()[run.best()].map.iter().count() as f64;
-                Ok(Errors { online: run.rms_online(), others, path, landmarks })
+                let outcome = outcome(&run, innovations, founded, drift(&run));
+                Ok(Errors { online: run.rms_online(), others, path, outcome, drift: drift(&run) })
             })
             .collect();
-        many(arguments, &errors?, &self.noises)
+        many(arguments, &errors?, &self.noises, D::NAMES)
     }
 }
 
@@ -231,13 +297,49 @@ struct Errors {
     others: Others,
     /// Of the best particle's path at the end, of the same aligned, and of raw odometry.
     path: [f64; 3],
-    /// Landmarks in the best particle's map at the end.
-    landmarks: f64,
+    outcome: Outcome,
+    /// What was learnt of the odometry's drift.
+    drift: Option<[f64; 2]>,
 }
 
-fn one<D: Motion + Clone>(arguments: &Arguments, mut run: LandmarkRun<D>, others: Others, noises: &str) -> Result<()> {
-    let mut steps = Vec::new();
-    while let Some(report) = run.step() {
+/// What is known of a run at its end.
+fn outcome<D, M, P>(
+    run: &LandmarkRun<D, M, P>,
+    innovations: Innovations,
+    founded: u32,
+    drift: Option<[f64; 2]>,
+) -> Outcome
+where
+    D: Motion + Clone,
+    M: WithLandmarks,
+    P: Predicts<M, Control = D::Control>,
+{
+    let map = run.particles()[run.best()].map.landmarks();
+    let seen: BTreeSet<u32> = run.log().sightings.iter().flatten().filter_map(|feature| feature.signature).collect();
+    Outcome {
+        innovations: (innovations.count(), innovations.mean(), innovations.share_beyond()),
+        unknown: matches!(map.correspondence(), Correspondence::Unknown(_)),
+        learnt: drift.is_some(),
+        left: map.iter().count() as f64,
+        founded: f64::from(founded),
+        there: seen.len() as f64,
+    }
+}
+
+fn one<D, M, P>(
+    arguments: &Arguments,
+    mut run: LandmarkRun<D, M, P>,
+    others: Others,
+    drift: impl Fn(&LandmarkRun<D, M, P>) -> Option<[f64; 2]>,
+    noises: &str,
+) -> Result<()>
+where
+    D: Motion + Adjust + Clone,
+    M: WithLandmarks,
+    P: Predicts<M, Control = D::Control>,
+{
+    let (mut steps, mut innovations) = (Vec::new(), Innovations::default());
+    while let Some(report) = innovations.step(&mut run) {
         steps.push(report);
     }
     if let Some(path) = &arguments.png {
@@ -245,6 +347,9 @@ fn one<D: Motion + Clone>(arguments: &Arguments, mut run: LandmarkRun<D>, others
     }
     let footprint = run.footprint();
     let resampled = steps.iter().filter(|step| step.ancestors.is_some()).count();
+    let drift = drift(&run);
+    let outcome = outcome(&run, innovations, steps.iter().map(|step| step.best.first).sum(), drift);
+    let remarks = outcome.remarks(D::NAMES);
     let output = Output {
         noises: noises.into(),
         rms_best: run.rms_best(),
@@ -253,12 +358,16 @@ fn one<D: Motion + Clone>(arguments: &Arguments, mut run: LandmarkRun<D>, others
         rms_online: run.rms_online(),
         rms_ekf: others.ekf,
         rms_late: others.late,
-        landmarks: run.particles()[run.best()].map.iter().count() as u32,
+        landmarks: outcome.left as u32,
+        drift,
+        innovation: innovations.mean(),
+        remarks,
         resampled_fraction: resampled as f64 / steps.len().max(1) as f64,
         map_bytes_unique: footprint.unique,
         map_bytes_dense: footprint.dense,
         steps,
     };
+    say(&output.remarks);
     if arguments.json {
         return print_json(&output);
     }
@@ -272,6 +381,8 @@ fn one<D: Motion + Clone>(arguments: &Arguments, mut run: LandmarkRun<D>, others
          the same after rigid alignment    {:8.3} m\n\
          raw odometry                      {:8.3} m\n\
          landmarks in the best map         {:8} (there are {})\n\
+         {}\
+         {}\
          steps that resampled              {:8.0} %\n\
          maps                              {:8.1} kB, {:.1} kB as dense copies\n",
         output.steps.len(),
@@ -283,14 +394,56 @@ fn one<D: Motion + Clone>(arguments: &Arguments, mut run: LandmarkRun<D>, others
         output.rms_odometry,
         output.landmarks,
         run.log().landmarks.len(),
+        drift_row(output.drift),
+        innovation_row(output.innovation),
         100.0 * output.resampled_fraction,
         output.map_bytes_unique as f64 / 1e3,
         output.map_bytes_dense as f64 / 1e3,
     ))
 }
 
-fn many(arguments: &Arguments, errors: &[Errors], noises: &str) -> Result<()> {
+/// Says remarks on standard error: they leave the exit status as it is.
+fn say(remarks: &[String]) {
+    remarks.iter().for_each(|remark| eprintln!("fastslam: {remark}"));
+}
+
+fn drift_row(drift: Option<[f64; 2]>) -> String {
+    let row = |[a_metre, a_turn]: [f64; 2]| {
+        let (degrees, share) = (a_metre.to_degrees(), 100.0 * a_turn);
+        format!("drift of the odometry, learnt     {degrees:+8.3} °/m, {share:+.1} % of turns\n")
+    };
+    drift.map(row).unwrap_or_default()
+}
+
+fn innovation_row(innovation: Option<f64>) -> String {
+    let row = |mean| format!("mean normalised innovation²       {mean:8.2} (2 is expected)\n");
+    innovation.map(row).unwrap_or_default()
+}
+
+/// The medians of runs.
+fn median_of(errors: &[Errors]) -> (Outcome, Option<[f64; 2]>) {
+    let median = |of: &dyn Fn(&Errors) -> f64| ErrorSummary::of(&errors.iter().map(of).collect::<Vec<f64>>()).median;
+    let innovation = median(&|errors| errors.outcome.innovations.1.unwrap_or(f64::NAN));
+    let of_first = errors[0].outcome;
+    let outcome = Outcome {
+        innovations: (
+            median(&|errors| f64::from(errors.outcome.innovations.0)) as u32,
+            Some(innovation).filter(|innovation| !innovation.is_nan()),
+            median(&|errors| errors.outcome.innovations.2),
+        ),
+        left: median(&|errors| errors.outcome.left),
+        founded: median(&|errors| errors.outcome.founded),
+        there: median(&|errors| errors.outcome.there),
+        ..of_first
+    };
+    let drift =
+        errors[0].drift.map(|_| [0, 1].map(|k| median(&|errors| errors.drift.map_or(f64::NAN, |drift| drift[k]))));
+    (outcome, drift)
+}
+
+fn many(arguments: &Arguments, errors: &[Errors], noises: &str, options: &[&str]) -> Result<()> {
     let spread = |of: &dyn Fn(&Errors) -> f64| ErrorSummary::of(&errors.iter().map(of).collect::<Vec<f64>>());
+    let (median, drift) = median_of(errors);
     let summary = Summary {
         seeds: errors.len(),
         noises: noises.into(),
@@ -300,8 +453,12 @@ fn many(arguments: &Arguments, errors: &[Errors], noises: &str) -> Result<()> {
         best: spread(&|errors| errors.path[0]),
         best_aligned: spread(&|errors| errors.path[1]),
         odometry: spread(&|errors| errors.path[2]),
-        landmarks: spread(&|errors| errors.landmarks),
+        landmarks: spread(&|errors| errors.outcome.left),
+        drift,
+        innovation: median.innovations.1,
+        remarks: median.remarks(options),
     };
+    say(&summary.remarks);
     if arguments.json {
         return print_json(&summary);
     }
@@ -321,6 +478,8 @@ fn many(arguments: &Arguments, errors: &[Errors], noises: &str) -> Result<()> {
                 "{:34}{:8.0} median, {:.0} p90, {:.0} worst\n",
                 "landmarks in the best map", summary.landmarks.median, summary.landmarks.p90, summary.landmarks.worst,
             ),
+            drift_row(summary.drift),
+            innovation_row(summary.innovation),
         ]
         .concat(),
     )

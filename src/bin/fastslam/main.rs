@@ -11,6 +11,7 @@ mod mrclam;
 mod numbers;
 mod picture;
 mod policies;
+mod remarks;
 mod ring;
 mod rings;
 mod settings;

@@ -6,7 +6,8 @@ use fastslam::geometry::Pose2;
 use fastslam::map::grid::MapImage;
 use fastslam::map::landmarks::Landmark;
 use fastslam::motion::Motion;
-use fastslam_lab::experiment::landmarks::LandmarkRun;
+use fastslam::proposal::Proposal;
+use fastslam_lab::experiment::landmarks::{LandmarkRun, WithLandmarks};
 use fastslam_widgets::font::Weight;
 use fastslam_widgets::paint::{Canvas, Theme};
 use fastslam_widgets::scene::{Anchor, Mark, Point, Rect, Role, Scene, closed, ellipse, text};
@@ -27,7 +28,12 @@ const CHI_95: f64 = 2.447_746_830_680_816;
 const MARGIN: f64 = 80.0;
 
 /// What a run ends with: truth, raw odometry, the best particle's path and its landmarks with their 95 % ellipses.
-pub fn of_landmarks<D: Motion + Clone>(run: &LandmarkRun<D>) -> Canvas {
+pub fn of_landmarks<D, M, P>(run: &LandmarkRun<D, M, P>) -> Canvas
+where
+    D: Motion + Clone,
+    M: WithLandmarks,
+    P: Proposal<M, Control = D::Control>,
+{
     let (log, best) = (run.log(), run.best());
     let path = run.path(best);
     let place = |p: &Pose2| [p.x, p.y];
@@ -52,7 +58,7 @@ pub fn of_landmarks<D: Motion + Clone>(run: &LandmarkRun<D>) -> Canvas {
         dash,
         role,
     };
-    let ellipses = run.particles()[best].map.iter().map(|(_, Landmark { mean, covariance: c, .. })| {
+    let ellipses = run.particles()[best].map.landmarks().iter().map(|(_, Landmark { mean, covariance: c, .. })| {
         let pixels = [[c.m11, -c.m12], [-c.m12, c.m22]].map(|row| row.map(|x| x * scale * scale));
         closed(ellipse(at([mean.x, mean.y]), pixels, CHI_95))
     });

@@ -1,6 +1,7 @@
 //! The laws but for those that need a program of their own, in one program: it is linked once, and its tests keep both cores busy to the end.
 
 mod broken;
+mod drift;
 mod filter;
 mod fit;
 mod graphs;

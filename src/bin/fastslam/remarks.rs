@@ -1,0 +1,135 @@
+//! What is said of a run among landmarks whose result is not to be trusted: beside it, on standard error and in JSON as `remarks`.
+
+use fastslam_lab::experiment::innovations::agreeing;
+
+/// What is known of a run at its end; of several, the medians.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Outcome {
+    /// Innovations: how many there were, their mean square when normalised, and the share beyond the 99 % bound.
+    pub innovations: (u32, Option<f64>, f64),
+    /// Whether the filter was to find out by itself which landmark it sees.
+    pub unknown: bool,
+    /// Whether the drift of the odometry was learnt.
+    pub learnt: bool,
+    /// Landmarks in the best map.
+    pub left: f64,
+    /// Landmarks that were founded on the way, by the best particles.
+    pub founded: f64,
+    /// Different landmarks that were truly seen, where their names are known; 0 where they are not.
+    pub there: f64,
+}
+
+/// Without names: of a map of which less than this share is left, too much was struck off. Other robots, which come and go, take two thirds.
+const LEAST_LEFT: f64 = 0.2;
+
+impl Outcome {
+    /// The remarks, each with what to change. `noises` are the options that set the noise of the odometry.
+    pub fn remarks(&self, noises: &[&str]) -> Vec<String> {
+        [self.of_noises(noises), self.of_landmarks()].into_iter().flatten().collect()
+    }
+
+    fn of_noises(&self, noises: &[&str]) -> Option<String> {
+        let (count, Some(mean), beyond) = self.innovations else { return None };
+        let [least, most] = agreeing(count);
+        let options: Vec<String> =
+            ["range-std", "bearing-std"].iter().chain(noises).map(|name| format!("--{name}")).collect();
+        let options = options.join(", ");
+        if mean > most {
+            let drift = if self.learnt { "" } else { ", let the drift of the odometry be learnt (--drift learnt)" };
+            return Some(format!(
+                "what was seen contradicts the noises that were told: the mean normalised innovation squared is {mean:.1} where 2 is \
+                 expected and {most:.1} the most by chance, and {:.0} % are beyond the 99 % bound; tell larger noises ({options}){drift} or run \
+                 more --particles",
+                100.0 * beyond
+            ));
+        }
+        // Where the filter chooses the landmark, it chooses what agrees.
+        (mean < least && !self.unknown).then(|| {
+            format!(
+                "what was seen agrees far better than the noises that were told: the mean normalised innovation squared is {mean:.2} where 2 \
+                 is expected and {least:.2} the least by chance; tell smaller noises ({options})"
+            )
+        })
+    }
+
+    fn of_landmarks(&self) -> Option<String> {
+        let Self { left, founded, there, .. } = *self;
+        let said = if there > 0.0 && left < 0.5 * there {
+            format!("only {left} of the {there} landmarks that were seen are left in the best map")
+        } else if there == 0.0 && founded >= 10.0 && left < LEAST_LEFT * founded {
+            format!("only {left} of the {founded} landmarks that were mapped are left in the best map")
+        } else if there > 0.0 && left > 2.0 * there {
+            return Some(format!(
+                "the best map has {left} landmarks where {there} were seen: many are mapped twice; tell larger noises, or merge what coincides \
+                 (--merge)"
+            ));
+        } else {
+            return None;
+        };
+        Some(format!(
+            "{said}: the others were struck off because they were not seen where they should have been, or merged; let a sighting pay for more \
+             misses (--sighting-worth, 0: nothing is struck off; --most-count), tell where the sensor truly sees (--max-range, --field-of-view) or \
+             merge less (--merge)"
+        ))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GOOD: Outcome = Outcome {
+        innovations: (900, Some(2.1), 0.012),
+        unknown: true,
+        learnt: false,
+        left: 18.0,
+        founded: 57.0,
+        there: 15.0,
+    };
+
+    fn said(outcome: Outcome) -> String {
+        outcome.remarks(&["alphas"]).join("\n")
+    }
+
+    #[test]
+    fn of_a_run_that_agrees_nothing_is_said() {
+        assert_eq!(said(GOOD), "");
+        assert_eq!(said(Outcome { there: 0.0, ..GOOD }), "", "other robots were struck off");
+        assert_eq!(said(Outcome { innovations: (0, None, 0.0), ..GOOD }), "");
+        assert_eq!(said(Outcome { innovations: (3, Some(6.0), 0.3), ..GOOD }), "", "three say little");
+        assert_eq!(
+            said(Outcome { innovations: (900, Some(0.43), 0.0), unknown: false, ..GOOD }),
+            "",
+            "errors that repeat"
+        );
+    }
+
+    #[test]
+    fn innovations_that_contradict_the_noises_are_told_with_what_to_change() {
+        let large = Outcome { innovations: (900, Some(18.4), 0.07), ..GOOD };
+        let message = said(large);
+        for part in
+            ["18.4 where 2 is expected and 4.0", "7 % are", "--range-std, --bearing-std, --alphas", "--drift learnt"]
+        {
+            assert!(message.contains(part), "{message}");
+        }
+        assert!(!said(Outcome { learnt: true, ..large }).contains("--drift"));
+        let small = Outcome { innovations: (900, Some(0.05), 0.0), unknown: false, ..GOOD };
+        assert!(
+            said(small).contains("0.05 where 2 is expected") && said(small).contains("smaller noises"),
+            "{}",
+            said(small)
+        );
+        assert_eq!(said(Outcome { unknown: true, ..small }), "");
+    }
+
+    #[test]
+    fn landmarks_that_vanish_or_are_mapped_twice_are_told() {
+        let few = Outcome { left: 8.0, there: 151.0, ..GOOD };
+        assert!(said(few).starts_with("only 8 of the 151 landmarks that were seen are left"), "{}", said(few));
+        let nameless = Outcome { left: 8.0, founded: 900.0, there: 0.0, ..GOOD };
+        assert!(said(nameless).starts_with("only 8 of the 900 landmarks that were mapped"), "{}", said(nameless));
+        let many = Outcome { left: 406.0, there: 151.0, ..GOOD };
+        assert!(said(many).starts_with("the best map has 406 landmarks where 151 were seen"), "{}", said(many));
+    }
+}
