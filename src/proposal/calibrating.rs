@@ -20,21 +20,24 @@ use crate::ops;
 use crate::particle::Particle;
 use crate::random::Stream;
 
-/// Standard deviations of the drift before anything is known: 0.05 rad (3°) a metre ahead, as of one log's wheels, and 0.05 of each turn.
+/// Standard deviations of the drift of wheels of which nothing is known: 0.05 rad (3°) a metre ahead, as one log has, and 0.05 of each turn.
+///
+/// For a robot whose noise is told to be a tenth of that, this is too wide a prior for the drift a metre: few of the particles go the way
+/// that it goes. The noise after a metre \[rad/√m\], taken as a drift \[rad/m\], is a prior that costs next to nothing where there is no drift.
 pub const DRIFT_STDS: [f64; 2] = [0.05, 0.05];
 
 /// Draws by another proposal, from odometry that is corrected by the drift that the particle has learnt.
 ///
 /// The heading after a step errs by e = b₁ x + b₂ θ + ε, where odometry reports x metres ahead (negative astern) and a turn of θ, and ε has the
-/// variance of the motion's own noise. b is N(0, diag([`DRIFT_STDS`]²)) at the start, and then what the particle's path says ([`Drift`]). Where
+/// variance of the motion's own noise. b has the prior of [`Calibrated::new`] at the start, and then what the particle's path says ([`Drift`]). Where
 /// the motion has no noise of the heading, odometry is taken at its word, and nothing is learnt.
 ///
 /// The map is a [`Calibrated`] one; `then` draws for its inner map, by a [`Displacement`]. Its log weight increment is passed on as it is.
 ///
 /// ```
 /// use fastslam::map::landmarks::{Correspondence, Landmarks};
-/// use fastslam::motion::{Displaced, Odometry, OdometryModel};
-/// use fastslam::proposal::{Calibrated, Calibrating, FromMeasurement};
+/// use fastslam::motion::{Displaced, Drift, Odometry, OdometryModel};
+/// use fastslam::proposal::{Calibrated, Calibrating, DRIFT_STDS, FromMeasurement};
 /// use fastslam::rbpf::Rbpf;
 /// use fastslam::sensor::{Feature, RangeBearing};
 /// # use fastslam::nalgebra::Vector2;
@@ -42,7 +45,7 @@ pub const DRIFT_STDS: [f64; 2] = [0.05, 0.05];
 /// // Wheels say "straight on", and the robot goes round in a circle of 20 m: 0.05 rad a metre. Four posts stand around.
 /// let sensor = RangeBearing { range_std: 0.1, bearing_std: 0.02, max_range: 99.0, field_of_view: 6.3 };
 /// let motion = OdometryModel { alphas: [1e-3, 1e-4, 1e-3, 0.0] };
-/// let map = Calibrated::new(<Landmarks<_>>::new(sensor, Correspondence::Known));
+/// let map = Calibrated::new(<Landmarks<_>>::new(sensor, Correspondence::Known), Drift::new(DRIFT_STDS));
 /// let then = FromMeasurement { motion: Displaced };
 /// let mut filter = Rbpf::builder(map, Calibrating { motion, then }).particles(100).seed(1).build()?;
 /// for step in 1..=200 {
@@ -75,13 +78,8 @@ pub struct Calibrated<M> {
 }
 
 impl<M> Calibrated<M> {
-    /// This map, before anything is known of the drift: [`DRIFT_STDS`].
-    pub fn new(map: M) -> Self {
-        Self::with_prior(map, Drift::new(DRIFT_STDS))
-    }
-
-    /// This map, with what is known of the drift.
-    pub fn with_prior(map: M, drift: Drift<2>) -> Self {
+    /// This map, with what is known of the drift: a prior before the first step, such as `Drift::new(`[`DRIFT_STDS`]`)`.
+    pub fn new(map: M, drift: Drift<2>) -> Self {
         Self { map, drift }
     }
 

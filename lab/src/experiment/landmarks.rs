@@ -12,12 +12,13 @@ use fastslam::execute::Executor;
 use fastslam::geometry::{Pose2, align, rms};
 use fastslam::map::landmarks::{Association, Correspondence, Gate, Landmarks};
 use fastslam::map::{ConditionalMap, Footprint};
-use fastslam::motion::{Displaced, Motion, Velocity, VelocityModel};
+use fastslam::motion::{Displaced, Drift, Motion, Velocity, VelocityModel};
 use fastslam::nalgebra::Vector2;
 use fastslam::ops;
 use fastslam::particle::Particle;
 use fastslam::proposal::{
-    Calibrated, Calibrating, Either, FromMeasurement, FromMotion, FromWindow, Learnt, Marginal, Proposal, Windowed,
+    Calibrated, Calibrating, DRIFT_STDS, Either, FromMeasurement, FromMotion, FromWindow, Learnt, Marginal, Proposal,
+    Windowed,
 };
 use fastslam::random::Stream;
 use fastslam::rbpf::{Rbpf, Report};
@@ -293,6 +294,23 @@ impl ProposalKind {
 /// FastSLAM 1.0 or 2.0 in which each particle learns the drift of the odometry along its path.
 pub type Learning<D> = Calibrating<D, FastSlam<Displaced>>;
 
+/// Standard deviations of the drift before a log is read: a metre turns the robot by as much as the noise that is told of a metre, and never by more than
+/// [`DRIFT_STDS`]; a turn is off by the share that stands there.
+///
+/// A wider prior finds as large a drift, but costs where there is none: with 0.05 rad/m, where the noise is 0.002 rad/√m, the errors of a simulated car
+/// without any drift (M = 50) are up to 45 times as large. As the noise is taken by the metre, the prior is the same however a drive is cut into steps.
+fn drift_stds<D: Motion>(motion: &D, controls: &[D::Control]) -> [f64; 2] {
+    let start = Pose2::default();
+    let (mut variance, mut way) = (0.0, 0.0);
+    for drive in controls.iter().map(|control| motion.drive(control)) {
+        variance += drive.covariance(&start).m33;
+        way += drive.apply(&start).x.abs();
+    }
+    let [a_metre, a_turn] = DRIFT_STDS;
+    let after_a_metre = if way > 0.0 { (variance / way).sqrt() } else { a_metre };
+    [after_a_metre.clamp(1e-6, a_metre), a_turn]
+}
+
 /// A particle's map of landmarks, with or without more that is known along its path.
 pub trait WithLandmarks: ConditionalMap<Observation = Vec<Feature>> {
     /// The landmarks.
@@ -392,7 +410,7 @@ impl<D: Motion + Clone> LandmarkRun<D> {
 }
 
 impl<D: Motion + Clone> LandmarkRun<D, Calibrated<LandmarkMap>, Learning<D>> {
-    /// At the log's start, which is known, where nothing is known of the drift of the odometry.
+    /// At the log's start, which is known, where nothing is known of the drift of the odometry: it has the prior of [`drift_stds`].
     ///
     /// # Errors
     /// Where a setting is out of its range.
@@ -401,7 +419,8 @@ impl<D: Motion + Clone> LandmarkRun<D, Calibrated<LandmarkMap>, Learning<D>> {
         tuning: &Tuning<D>,
         log: Arc<LandmarkLog<D::Control>>,
     ) -> Result<Self, SettingError> {
-        let map = Calibrated::new(Landmarks::new(tuning.sensor, setup.correspondence.of(tuning)));
+        let prior = Drift::new(drift_stds(&tuning.motion, &log.controls));
+        let map = Calibrated::new(Landmarks::new(tuning.sensor, setup.correspondence.of(tuning)), prior);
         let proposal = Calibrating { motion: tuning.motion.clone(), then: setup.proposal.of(Displaced) };
         let filter = setup.filter(map, proposal, &log)?;
         Ok(Self { log, filter, step: 0, squared_errors: 0.0 })

@@ -35,7 +35,7 @@ fn moved_step(world: &Pose2) -> Step<Calibrated<Map>, Odometry> {
     drift.learn([30.0, 1.0], 0.9, 0.01);
     let map = Map::new(sensor, Correspondence::Known).with([landmark]);
     Step {
-        particle: Particle::start(*world, Calibrated::with_prior(map, drift)),
+        particle: Particle::start(*world, Calibrated::new(map, drift)),
         control: Odometry { rot1: 0.1, trans: 1.0, rot2: 0.05 },
         observation: vec![Feature { z: Vector2::new(2.2, 0.3), signature: Some(0) }],
     }
@@ -54,7 +54,7 @@ fn a_drift_is_as_uncertain_however_a_drive_is_cut() {
     let expected = 4.0 * 0.04 * 0.04 + Drift::new(DRIFT_STDS).variance([4.0, 0.4]);
     for steps in [4, 40] {
         let sensor = RangeBearing { range_std: 0.1, bearing_std: 0.1, max_range: 1.0, field_of_view: TAU };
-        let map = Calibrated::new(Map::new(sensor, Correspondence::Known));
+        let map = Calibrated::new(Map::new(sensor, Correspondence::Known), Drift::new(DRIFT_STDS));
         let then = FromMotion { motion: Displaced, likelihood: Marginal };
         let mut filter = Rbpf::builder(map, Calibrating { motion, then }).particles(N).seed(3).build().unwrap();
         let control = Velocity { speed: 1.0, turn_rate: 0.1, duration: 4.0 / f64::from(steps) };
@@ -63,7 +63,10 @@ fn a_drift_is_as_uncertain_however_a_drive_is_cut() {
         }
         let squares = filter.particles().iter().map(|particle| particle.world_from_robot.theta - 0.4).map(|e| e * e);
         let variance = squares.sum::<f64>() / N as f64;
-        assert!((variance / expected - 1.0).abs() < 4.5 * (2.0 / N as f64).sqrt(), "{steps} steps: {variance}, {expected}");
+        assert!(
+            (variance / expected - 1.0).abs() < 4.5 * (2.0 / N as f64).sqrt(),
+            "{steps} steps: {variance}, {expected}"
+        );
     }
 }
 
@@ -94,9 +97,8 @@ fn drifting(bias: f64, seed: u64) -> (LandmarkLog<Displacement>, Tuning<Displace
         log.odometry.push(log.odometry[log.odometry.len() - 1].compose(&reported));
         log.truth.push(truth);
         log.controls.push(Displacement { mean: reported, covariance });
-        let seen = (0..).zip(&log.landmarks).filter(|(k, m)| {
-            sensor.sees(&truth, m, 0.0) && at(step, 200 + k).uniform() < 0.3
-        });
+        let seen =
+            (0..).zip(&log.landmarks).filter(|(k, m)| sensor.sees(&truth, m, 0.0) && at(step, 200 + k).uniform() < 0.3);
         let look = |(k, m): (u32, &Vector2<f64>)| {
             let [e, f] = at(step, k).normals();
             let z = sensor.predict(&truth, m).z + Vector2::new(0.25 * e, 0.025 * f);
@@ -125,18 +127,24 @@ fn a_heading_that_drifts_is_followed_where_the_drift_is_learnt_and_only_there() 
     for seed in 1..=3 {
         let [learning, plain, drift] = errors(0.0011, seed);
         println!("{learning:.2} {plain:.2} {drift:.5}");
-        assert!(learning < 1.5 && plain > 2.0 * learning, "seed {seed}: {learning} m, {plain} m where it is not learnt");
+        assert!(
+            learning < 1.5 && plain > 3.0 * learning,
+            "seed {seed}: {learning} m, {plain} m where it is not learnt"
+        );
         assert!((drift - 0.0011 / 0.75).abs() < 0.0005, "seed {seed}: {drift} rad/m");
     }
 }
 
-/// What it costs to learn that there is no drift.
+/// What it costs to learn that there is none. With a prior of 0.05 rad/m, which does not ask for the told noise, seed 1 was 14.6 m off.
 #[test]
 fn wheels_without_a_drift_are_followed_all_the_same() {
     for seed in 1..=3 {
         let [learning, plain, drift] = errors(0.0, seed);
         println!("{learning:.2} {plain:.2} {drift:.5}");
-        assert!(learning < 1.5 && drift.abs() < 0.0005, "seed {seed}: {learning} m, {plain} m where it is not learnt; {drift}");
+        assert!(
+            learning < 1.5 && drift.abs() < 0.0005,
+            "seed {seed}: {learning} m, {plain} m where it is not learnt; {drift}"
+        );
     }
 }
 
