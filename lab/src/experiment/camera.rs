@@ -209,20 +209,18 @@ mod tests {
         ErrorSummary::of(&(1..=5).map(ratio).collect::<Vec<f64>>()).median
     }
 
-    /// Nothing of the tuning was chosen by these robots. Over five seeds of the filter: 0.83 for FastSLAM 2.0 and 1.42 for 1.0.
+    /// Nothing of the tuning was chosen by these robots. Found: 0.83 for FastSLAM 2.0 and 1.42 for 1.0; by the first seed alone, 1.77 for 2.0.
     #[test]
     fn without_bar_codes_particles_err_by_at_most_half_more_than_the_joint_filter() {
-        let ratio = of_the_joint_filter(ProposalKind::Improved, 1..=1);
+        let ratio = of_the_joint_filter(ProposalKind::Improved, 1..=5);
         assert!(ratio <= 1.5, "{ratio}");
     }
 
     #[test]
-    #[ignore = "breadth: five seeds of both filters"]
-    fn without_bar_codes_particles_err_by_at_most_half_more_than_the_joint_filter_over_five_seeds() {
-        for proposal in [ProposalKind::Improved, ProposalKind::Motion] {
-            let ratio = of_the_joint_filter(proposal, 1..=5);
-            assert!(ratio <= 1.5, "{proposal:?}: {ratio}");
-        }
+    #[ignore = "breadth: the other version"]
+    fn without_bar_codes_particles_of_fastslam_1_err_by_at_most_half_more_than_the_joint_filter() {
+        let ratio = of_the_joint_filter(ProposalKind::Motion, 1..=5);
+        assert!(ratio <= 1.5, "{ratio}");
     }
 
     /// The median over steps and particles of how much of the motion's deviation of heading is left after what was seen of mapped landmarks.

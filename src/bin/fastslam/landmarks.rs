@@ -53,8 +53,8 @@ pub struct Arguments {
     /// Read a landmark graph in the format of g2o instead
     #[arg(long, value_name = "FILE", conflicts_with_all = ["course", "mrclam", "victoria"])]
     g2o: Option<PathBuf>,
-    /// Whether each particle learns the drift of the odometry along its path: learnt or none; by default learnt with --g2o and --victoria, none
-    /// with --mrclam, whose robots scatter more than they drift, and on courses
+    /// Whether each particle learns the drift of the odometry along its path: learnt or none; by default learnt with --g2o, whose noise is told
+    /// as if each step erred by itself, and none otherwise, where the noise that is told is wide enough for a drift
     #[arg(long, value_name = "DRIFT", value_parser = learns)]
     drift: Option<bool>,
     /// Also run FastSLAM 2.0 that draws its poses late: so many together, when so many steps after them are seen. With known correspondence particles
@@ -193,7 +193,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
             log: |_| Arc::clone(&log),
             tuning,
             recorded: true,
-            learns: true,
+            learns: false,
             noises: told(victoria::NOISES),
         }
         .run(arguments);

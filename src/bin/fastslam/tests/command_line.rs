@@ -739,7 +739,8 @@ fn noises_that_are_contradicted_and_landmarks_that_vanish_are_told() {
         let run = fastslam(&format!("landmarks --particles 20 --json {options}")).success();
         let said = String::from_utf8(run.get_output().stderr.clone()).unwrap();
         let output: Value = serde_json::from_slice(&run.get_output().stdout).unwrap();
-        let remarks: Vec<&str> = output["remarks"].as_array().unwrap().iter().map(|one| one.as_str().unwrap()).collect();
+        let remarks: Vec<&str> =
+            output["remarks"].as_array().unwrap().iter().map(|one| one.as_str().unwrap()).collect();
         assert_eq!(said, remarks.iter().map(|one| format!("fastslam: {one}\n")).collect::<String>());
         said
     };
