@@ -150,7 +150,7 @@ mod tests {
         innovations
     }
 
-    /// Told right, the mean is 2 to a tenth and one in a hundred is large; told a quarter, or eight times, the deviations of the sensor, it is neither.
+    /// Told right, the mean is 2 to a tenth and one in a hundred is large; told a quarter of the deviations of the sensor, or eight times all deviations, it is neither.
     #[test]
     fn the_mean_is_two_where_the_noises_are_told_right_and_nowhere_near_where_they_are_not() {
         for course in [Course::Eight, Course::Tags] {
@@ -163,7 +163,7 @@ mod tests {
             assert!(right.share_beyond() < 0.025, "{course}: {}", right.share_beyond());
             let small = watched(course, &course.tuning().scaled(1.0, 0.25));
             assert!(small.mean().unwrap() > most && small.share_beyond() > 0.1, "{course} {small:?}");
-            let large = watched(course, &course.tuning().scaled(1.0, 8.0));
+            let large = watched(course, &course.tuning().scaled(8.0, 8.0));
             assert!(large.mean().unwrap() < least, "{course} {large:?}");
         }
     }
