@@ -23,7 +23,7 @@ use crate::random::Stream;
 /// Standard deviations of the drift of wheels of which nothing is known: 0.05 rad (3°) a metre ahead, as one log has, and 0.05 of each turn.
 ///
 /// For a robot whose noise is told to be a tenth of that, this is too wide a prior for the drift a metre: few of the particles go the way
-/// that it goes. The noise after a metre \[rad/√m\], taken as a drift \[rad/m\], is a prior that costs next to nothing where there is no drift.
+/// that it goes. The noise after a metre \[rad/√m\], taken as a drift \[rad/m\], is a prior that costs little where there is no drift.
 pub const DRIFT_STDS: [f64; 2] = [0.05, 0.05];
 
 /// Draws by another proposal, from odometry that is corrected by the drift that the particle has learnt.
