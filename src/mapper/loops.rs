@@ -64,7 +64,11 @@ impl Account {
     /// The last metres agree with the map of before, and close this loop.
     pub(super) fn agrees(&mut self, agreement: &Agreement, closed: Option<Relation>) {
         self.compare(agreement);
-        self.doubts = 0;
+        let doubts = core::mem::take(&mut self.doubts);
+        // The robot had only just come round: some metres on, the path meets what it passed then.
+        if closed.is_some() && doubts > 1 && self.loops.last().is_some_and(Loop::is_open) {
+            self.loops.pop();
+        }
         if let Some(relation) = closed {
             self.close(relation, LoopEnd::Met);
         }
@@ -128,8 +132,20 @@ mod tests {
         assert!(account.loops.is_empty(), "people, or a door: {:?}", account.loops);
         account.contradicts(&seen(30), Some(back(4, 65)));
         account.contradicts(&seen(60), Some(back(5, 70)));
-        assert_eq!(account.loops, [Loop { from: 5 - 1, to: 70, end: LoopEnd::Open { disputed: 60.0 / 90.0 } }]);
+        let [Loop { from: 4, to: 70, end: LoopEnd::Open { disputed } }] = account.loops[..] else {
+            panic!("{:?}", account.loops)
+        };
+        assert!((disputed - 60.0 / 90.0).abs() < 1e-12, "{disputed}");
         assert!((account.disputed() - (45.0 + 45.0 + 30.0 + 60.0) / 450.0).abs() < 1e-12, "{}", account.disputed());
+    }
+
+    #[test]
+    fn a_path_that_meets_itself_at_the_next_check_has_left_nothing_open() {
+        let mut account = Account::default();
+        account.contradicts(&seen(45), Some(back(0, 50)));
+        account.contradicts(&seen(45), Some(back(0, 55)));
+        account.agrees(&seen(0), Some(back(20, 60)));
+        assert_eq!(account.loops, [Loop { from: 20, to: 60, end: LoopEnd::Met }]);
     }
 
     #[test]
@@ -137,6 +153,7 @@ mod tests {
         let mut account = Account::default();
         for to in [40, 45, 90, 95] {
             if to == 90 {
+                account.agrees(&seen(0), None);
                 account.agrees(&seen(0), Some(back(30, 60)));
             }
             account.contradicts(&seen(45), Some(back(2, to)));

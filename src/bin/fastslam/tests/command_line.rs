@@ -3,7 +3,8 @@
 use assert_cmd::Command;
 use fastslam::geometry::{Pose2, align, rms};
 use fastslam::mapper::{LaserMapperSettings, Replay};
-use fastslam_lab::experiment::long_rings::LoopErrors;
+use fastslam_lab::experiment::log::Example;
+use fastslam_lab::experiment::long_rings::{LongRingSetup, LoopErrors};
 use fastslam_lab::experiment::looking_back::fixed_lag;
 use fastslam_widgets::figure::Figure;
 use serde_json::Value;
@@ -693,6 +694,30 @@ fn a_spoiled_drive_is_mapped_as_it_was_driven() {
         let rms = (squares / found.len() as f64).sqrt();
         assert!(rms < 0.03, "{file}: {rms} m");
     }
+}
+
+/// A loop of 240 m that two particles leave open: the fifth of the rings of tests/laws.
+#[test]
+fn a_map_that_contradicts_itself_ends_with_exit_status_3() {
+    let folder = tempdir().unwrap();
+    let [log, map] = ["ring.clf", "ring"].map(|name| folder.path().join(name).display().to_string());
+    let recipe = LongRingSetup { length: 240, seed: 5, ..LongRingSetup::default() }.recipe();
+    std::fs::write(&log, fastslam::log::write(&Example::of(&recipe, usize::MAX).log)).unwrap();
+    let run = fastslam(&format!("log {log} --particles 2 --seed 5 --map {map} --json")).code(3);
+    let output = run.get_output();
+    let said = String::from_utf8(output.stderr.clone()).unwrap();
+    assert!(said.contains("loops that stay open: 1, the last of them at "), "{said}");
+    let told: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(told["loops_open"], 1);
+    let open = told["loops"].as_array().unwrap().iter().find(|one| one["end"] == "open").unwrap();
+    assert!(open["disputed"].as_f64().unwrap() > 0.25 && open["from"].as_f64() < open["to"].as_f64(), "{open}");
+    // A ring round the place, in a colour that is nowhere else.
+    let mut png = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(format!("{map}.png")).unwrap()));
+    png.set_transformations(png::Transformations::IDENTITY);
+    let mut reader = png.read_info().unwrap();
+    let mut picture = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut picture).unwrap();
+    assert!(picture.chunks(3).filter(|pixel| *pixel == [220, 0, 160]).count() > 100);
 }
 
 #[test]
