@@ -13,7 +13,9 @@ test('code escapes what a value and a title hold', async () => {
   /** @type {import('../../widgets/elements/embed-code').FigureMarkup} */
   const figure = { tag: 'fastslam-lap', attributes: [['walls', '"<b>&'], ['seed', '3'], ['truth', 'on']] }
   const code = (/** @type {import('../../widgets/elements/embed-code').CodeName} */ name) => embedCode(name, figure, home, 'A “lap”, "seen" & <more>')
-  assert.equal(code('element').split('\n')[1], '<fastslam-lap walls="&quot;&lt;b>&amp;" seed="3" truth="on"></fastslam-lap>')
+  const element = code('element').split('\n')[1] ?? ''
+  assert.ok(element.startsWith('<fastslam-lap walls="&quot;&lt;b>&amp;" seed="3" truth="on"><p slot="no-script"><a href="https://example.org/17/embed-lap.html">'), element)
+  assert.ok(element.includes(' alt="A “lap”, &quot;seen&quot; &amp; &lt;more>" ') && element.endsWith('</p></fastslam-lap>'), element)
   assert.match(code('iframe'), / src="https:\/\/example\.org\/17\/embed\.html\?figure=lap&amp;walls=%22%3Cb%3E%26&amp;seed=3&amp;truth=on" /)
   assert.match(code('iframe'), / title="A “lap”, &quot;seen&quot; &amp; &lt;more>" /)
   assert.match(code('myst'), /\n {2}"walls": "\\"<b>&",\n/)

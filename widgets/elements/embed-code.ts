@@ -27,8 +27,11 @@ export const frameHeight = (tag: string): number => usualHeight(tag, FRAME_WIDTH
 /** What an address says of a figure, for the page for frames and for that on embedding. */
 export const frameQuery = ({ tag, attributes }: FigureMarkup): string => String(new URLSearchParams([['figure', tag.replace('fastslam-', '')], ...attributes]))
 
-/** The code, for figures whose files are in the folder `home` (an address with a slash at its end). */
-export function embedCode(name: CodeName, { tag, attributes }: FigureMarkup, home: string, title: string): string {
+/**
+ * The code, for figures whose files are in the folder `home` (an address with a slash at its end). Until its script has arrived, and where
+ * it never does, an element is what is in it: a picture that leads to the figure, and why it is none. The slot is one that no element has.
+ */
+export function embedCode(name: CodeName, { tag, attributes }: FigureMarkup, home: string, title: string, noScript: string = english.no_script): string {
   const short = tag.replace('fastslam-', '')
   if (name === 'element') {
     const text = attributes.map(([key, value]) => ` ${key}="${escape(value)}"`).join('')

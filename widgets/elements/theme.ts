@@ -1,6 +1,8 @@
 // Light or dark, and the same two with high contrast. The attribute `theme` decides; else the colours that the page says it has around the
 // figure, by `color-scheme`; and where it says nothing, the reader's system. Forced colours are the system's, whatever was asked for.
 // And letters that a reader has spaced by a style of their own: they take more lines than there are otherwise.
+import { printing } from './paper'
+
 const dark = matchMedia('(prefers-color-scheme: dark)')
 const contrast = matchMedia('(prefers-contrast: more)')
 const forced = matchMedia('(forced-colors: active)')

@@ -410,7 +410,7 @@ impl<D: Motion + Clone> LandmarkRun<D> {
 }
 
 impl<D: Motion + Clone> LandmarkRun<D, Calibrated<LandmarkMap>, Learning<D>> {
-    /// At the log's start, which is known, where nothing is known of the drift of the odometry: it has the prior of [`drift_stds`].
+    /// At the log's start, which is known, where nothing is known of the drift of the odometry but its prior, which comes from the noise that is told.
     ///
     /// # Errors
     /// Where a setting is out of its range.
