@@ -1,5 +1,6 @@
 //! The scans of the last few places, as a map to match the next scan with: what tells of a motion without odometry.
 
+use super::moving::driven;
 use super::tuning::{self, Map};
 use crate::geometry::Pose2;
 use crate::map::ConditionalMap;
@@ -62,6 +63,13 @@ impl LastPlaces {
         }
         self.map = None;
         true
+    }
+
+    /// How far it is from the first of these places to a pose, and by how much one turns on the way, to whichever side \[m, rad\].
+    pub(crate) fn span(&self, pose: &Pose2) -> [f64; 2] {
+        let poses = || self.places.iter().map(|(pose, _)| pose).chain([pose]);
+        let legs = poses().zip(poses().skip(1)).map(|(from, to)| driven(&from.between(to)));
+        legs.fold([0.0; 2], |sum, leg| [sum[0] + leg[0], sum[1] + leg[1]])
     }
 
     /// The map of these places.

@@ -53,6 +53,9 @@ const AGREED: [f64; 2] = [0.3, 0.9];
 /// Least share of a scan's beams that can be compared with another: fewer say nothing of where it was taken.
 const IN_COMMON: f64 = 0.2;
 
+/// Fewer end points are no witness against odometry.
+const ENOUGH: usize = 20;
+
 /// What can be off of a heading besides wheels \[rad\].
 const HEADING_ERROR: f64 = 0.1;
 
@@ -213,12 +216,14 @@ impl Odometer {
     /// Where the scan was taken, if not where odometry leads.
     fn searched(&mut self, last: &Last, scan: &LaserScan, longest: f64, told: &Pose2, doubt: Doubt) -> Option<Pose2> {
         let ends = scan.end_points(longest, MAX_RANGE);
-        let moved = last.pose.between(told);
-        let wheels = Wheels::default().displacement(&moved).covariance;
-        let within = [
-            SEEN_THROUGH_STDS * wheels.m11.max(wheels.m22).sqrt() + RANGE_ERROR,
-            SEEN_THROUGH_STDS * wheels.m33.sqrt() + HEADING_ERROR,
-        ];
+        if ends.hits.len() < ENOUGH && doubt != Doubt::Impossible {
+            return None;
+        }
+        // Errors of the wheels on all of the way are in the map of the places. Of a robot that stands the last place alone is asked.
+        let [x, theta] = if doubt == Doubt::Stands { [0.0; 2] } else { self.places.span(told) };
+        let wheels = Wheels::default().displacement(&Pose2 { x, y: 0.0, theta }).covariance;
+        let within = [wheels.m11, wheels.m33].map(|variance| SEEN_THROUGH_STDS * variance.sqrt());
+        let within = [within[0] + RANGE_ERROR, within[1] + HEADING_ERROR];
         let near = move |pose: &Pose2| {
             let off = driven(&told.between(pose));
             off[0] < within[0] && off[1] < within[1]
