@@ -19,7 +19,9 @@ use std::collections::BTreeSet;
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct LaserMapperSettings {
-    /// Number of particles M, in [`Self::PARTICLES`]. 16 do for a building; a long loop asks for more.
+    /// Number of particles M, in [`Self::PARTICLES`]. One does for a building: median errors over seeds, for M = 1, 2, 4, 8 and 16, were 0.066, 0.066, 0.065, 0.066
+    /// and 0.065 m on the Intel log and 0.127, 0.109, 0.122, 0.132 and 0.140 m on that of ACES. More of them help the worst of many runs round a long loop: of
+    /// twelve simulated rings of 240 m, 1.8 m with one and 1.0 m with eight.
     pub particles: usize,
     /// Seed of the filter's draws: the same scans, settings and seed give the same map, bit for bit.
     pub seed: u64,

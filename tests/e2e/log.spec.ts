@@ -408,7 +408,7 @@ test('on a German page, what cannot be read is told in German, by the program of
   }
   await log.choose('two.mcap', readFileSync(join(root, 'tests', 'bags', 'two-lasers.mcap')))
   await log.alert.getByRole('button', { name: '/rear/scan' }).click()
-  await expect(log.sentence).toContainText('Zum Bag: es gibt keine Odometrie: Jeder Scan wird mit denen davor abgeglichen.')
+  await expect(log.sentence).toContainText('Hinweis: es gibt keine Odometrie: Jeder Scan wird mit denen davor abgeglichen.')
 })
 
 /** Whether its sentence stands there to its last word, and with it the button that plays. */

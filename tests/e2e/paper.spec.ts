@@ -66,7 +66,7 @@ test('a figure whose program is not there is its default picture, and says so; a
   const open = await holdPrograms(page)
   const pixel = 'data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=='
   await openCourse(page, `<fastslam-lap universes="4" step="30"></fastslam-lap><fastslam-doors step="3"><img src="${pixel}" alt="A dot" /></fastslam-doors>`)
-  await page.evaluate(() => customElements.whenDefined('fastslam-lap').then(() => undefined))
+  await page.evaluate(() => Promise.all(['lap', 'doors'].map(name => customElements.whenDefined(`fastslam-${name}`))).then(() => undefined))
   await page.evaluate(() => dispatchEvent(new Event('beforeprint')))
   await page.emulateMedia({ media: 'print' })
   const [lap, doors] = [page.locator('fastslam-lap'), page.locator('fastslam-doors')]

@@ -6,7 +6,7 @@ const quiet = () => ({ matches: false, addEventListener: () => undefined })
 
 /** Steps that are due within a second of frames, from a moment at which one was. */
 async function stepsIn(change: (playback: { rate: number; pace: number }) => void): Promise<number> {
-  Object.assign(globalThis, { matchMedia: quiet })
+  Object.assign(globalThis, { matchMedia: quiet, addEventListener: () => undefined })
   const { Playback } = await import('../../widgets/elements/playback')
   const playback = new Playback()
   playback.start()
