@@ -65,14 +65,16 @@ test('on paper a dark figure is light, and dark again after it', async ({ page }
 test('a figure whose program is not there is its default picture, and says so; a picture of the page’s own is its author’s word', async ({ page }) => {
   const open = await holdPrograms(page)
   const pixel = 'data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=='
-  await openCourse(page, `<fastslam-lap universes="4" step="30"></fastslam-lap><fastslam-doors step="3"><img src="${pixel}" alt="A dot" /></fastslam-doors>`)
-  await page.evaluate(() => Promise.all(['lap', 'doors'].map(name => customElements.whenDefined(`fastslam-${name}`))).then(() => undefined))
+  await openCourse(page, `<fastslam-lap universes="4" step="30"></fastslam-lap><fastslam-doors step="3"><img src="${pixel}" alt="A dot" /></fastslam-doors><fastslam-joint><p slot="no-script"><img src="${pixel}" alt="" /></p></fastslam-joint>`)
+  await page.evaluate(() => Promise.all(['lap', 'doors', 'joint'].map(name => customElements.whenDefined(`fastslam-${name}`))).then(() => undefined))
   await page.evaluate(() => dispatchEvent(new Event('beforeprint')))
   await page.emulateMedia({ media: 'print' })
   const [lap, doors] = [page.locator('fastslam-lap'), page.locator('fastslam-doors')]
   await expect(lap.locator('.fallback img')).toBeVisible()
   await expect(lap.getByText('default picture')).toBeVisible()
   await expect(lap.getByRole('link')).toHaveText(/#fastslam-lap\?v=8&universes=4&step=30$/)
+  // What a copied code has in its tag until the script arrives is no picture of the author's.
+  await expect(page.locator('fastslam-joint').getByText('default picture')).toBeVisible()
   await expect(doors.locator('img')).toBeVisible()
   await expect(doors.getByText('default picture')).toHaveCount(0)
   await expect(doors.getByRole('link')).toHaveText(/#fastslam-doors\?v=1&step=3$/)

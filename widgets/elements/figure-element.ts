@@ -32,7 +32,7 @@ export abstract class FigureElement extends HostedFigure {
     const { signal } = this.#disconnected
     this.theme.observe(signal)
     addEventListener('hashchange', () => this.followLink(), { signal })
-    this.body.classList.toggle('pictured', this.hasPicture)
+    this.body.classList.toggle('pictured', this.ownPicture !== null)
     watchReached(this.#onReached)
     takeToPaper(this, signal)
     this.frames.observe(signal)
@@ -163,11 +163,10 @@ export abstract class FigureElement extends HostedFigure {
   get #linkable(): string {
     const { state } = this
     if (state || this.host) return state
-    const { version, unsaid, parameters } = FIGURES[this.localName]!
-    const v = this.getAttribute('v') ?? unsaid
+    const { parameters } = FIGURES[this.localName]!
     const usual = (name: string) => fromText(this.specs.find(spec => spec.name === name)?.default)
     const given = parameters.map((name): [string, unknown] => [name, this.getParameter(name)]).filter(([name, value]) => value !== undefined && value !== usual(name))
-    return String(new URLSearchParams([['v', v === 'latest' ? version : v], ...given.map(([name, value]) => [name, toText(value)])]))
+    return String(new URLSearchParams([['v', this.settings.version], ...given.map(([name, value]) => [name, toText(value)])]))
   }
 
   /** Height [css px] that shows all of the figure at its present width, the picture as large as it would like to be. */

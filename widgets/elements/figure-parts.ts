@@ -222,8 +222,8 @@ export abstract class FigureParts extends HTMLElement {
     // A link to the page itself, browsers take for a place on the paper.
     this.#where.href = this.link.replace(/^[^#]*/, page => page + (page.includes('?') ? '&' : '?'))
     // A page's own picture is what its author says it is; that of our codes is the default's.
-    const own = this.querySelector('img')?.src.includes(`${this.localName}-`) ?? true
-    write(this.#notThis, own && !this.stage.matches('.live') ? `${this.words.say('default_picture')} ` : '')
+    const ours = this.ownPicture?.src.includes(`${this.localName}-`) ?? true
+    write(this.#notThis, ours && !this.stage.matches('.live') ? `${this.words.say('default_picture')} ` : '')
   }
 
   /** Without a living program nothing can be done. */
@@ -239,14 +239,14 @@ export abstract class FigureParts extends HTMLElement {
     return shown ? ` ${this.words.say('picture_at_rest')}` : ''
   }
 
-  /** Whether its author gives a picture: not one that stands for a script that has not arrived. */
-  protected get hasPicture(): boolean {
-    return this.querySelector(':scope > :is(img, picture):not([slot]), :scope > :not([slot]) :is(img, picture)') !== null
+  /** The picture that its author gives: not one that stands for a script that has not arrived. */
+  protected get ownPicture(): HTMLImageElement | null {
+    return this.querySelector(':scope > img:not([slot]), :scope > :not([slot]) img')
   }
 
   /** Has a picture at hand that is not fetched before it is shown: also paper shows one, of a figure that has not been seen. */
   protected takePicture(shade: 'light' | 'dark'): boolean {
-    if (this.hasPicture) return true
+    if (this.ownPicture) return true
     const slot = this.#fallback.firstElementChild!
     const src = pictureAddress(this.localName, shade)
     if (src) slot.replaceChildren(h('img', { crossorigin: '', loading: 'lazy', src, alt: this.words.say('at_rest', { title: this.heading.textContent }) }))

@@ -45,11 +45,16 @@ export class Settings {
     else this.#waiting.set(name, this.figure.getAttribute(name))
   }
 
-  /** Whether anything was asked of the figure. */
-  get any(): boolean {
+  /** The version of the figure that its attributes are of. */
+  get version(): string {
     const { version, unsaid } = FIGURES[this.figure.localName]!
     const v = this.figure.getAttribute('v') ?? unsaid
-    return Boolean(this.recipe) || this.#waiting.size > 0 || ![version, 'latest'].includes(v) || this.figure.getAttributeNames().some(isParameter)
+    return v === 'latest' ? version : v
+  }
+
+  /** Whether anything was asked of the figure. */
+  get any(): boolean {
+    return Boolean(this.recipe) || this.#waiting.size > 0 || this.version !== FIGURES[this.figure.localName]!.version || this.figure.getAttributeNames().some(isParameter)
   }
 
   /** The state to begin with. What waited is on its way with the command of this number. */
