@@ -31,7 +31,7 @@ const pascal = name => name.replace(/(?:^|-)(.)/g, (_, letter) => letter.toUpper
 export const camel = name => name.replace(/-(.)/g, (_, letter) => letter.toUpperCase())
 
 /** Languages that figures speak: a file each. */
-const languages = readdirSync(join(root, 'widgets', 'words')).map(file => file.replace(/\.json$/, '')).sort()
+export const languages = readdirSync(join(root, 'widgets', 'words')).map(file => file.replace(/\.json$/, '')).sort()
 
 /** Attributes of every figure that are no parameters. */
 export const options = [

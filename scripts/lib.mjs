@@ -9,6 +9,9 @@ import { fileURLToPath } from 'node:url'
 
 export const root = dirname(dirname(fileURLToPath(import.meta.url)))
 
+/** What the build writes for. Styles: the year of popovers, which no figure can do without, so that light-dark() need not be spelt out for older browsers. */
+export const targets = { target: 'es2022', cssTarget: ['chrome125', 'firefox125', 'safari17.5'] }
+
 /** Everything the scripts keep between runs, besides target/ and node_modules/. @param {string[]} parts */
 export const cache = (...parts) => join(root, '.cache', ...parts)
 

@@ -2,7 +2,7 @@
 import { readFileSync } from 'node:fs'
 import { dirname, join } from 'node:path'
 import { gzipSync } from 'node:zlib'
-import { root, StepError } from './lib.mjs'
+import { root, StepError, targets } from './lib.mjs'
 import { programFile, programNames, programs as programOf } from './registry.mjs'
 
 const elements = join(root, 'widgets', 'elements')
@@ -18,8 +18,7 @@ async function bundle(entry, format, plugins = []) {
     logLevel: 'error', // it warns of addresses that only modules have, which nothing here asks for
     build: {
       write: false,
-      target: 'es2022',
-      cssTarget: ['chrome125', 'firefox125', 'safari17.5'],
+      ...targets,
       assetsInlineLimit: 0,
       reportCompressedSize: false,
       rollupOptions: { input: entry, preserveEntrySignatures: 'strict', output: { format, entryFileNames: '[name].js', codeSplitting: false } },

@@ -13,6 +13,9 @@ const pagesOf = folder => readdirSync(folder, { recursive: true, encoding: 'utf8
 
 /** @typedef {{ ids: Set<string>, tags: Set<string>, links: string[], ways: string[], twice: string[] }} Page `ways`: links that a reader can follow */
 
+/** The pages of a folder. @param {string} folder */
+export const readPages = folder => new Map(pagesOf(folder).map(file => [join(folder, file), read(readFileSync(join(folder, file), 'utf8'))]))
+
 /** @param {string} html @returns {Page} */
 function read(html) {
   /** @type {Page} */
@@ -34,10 +37,10 @@ function read(html) {
  * What is wrong with the links of a folder of pages. Links to other sites are looked at, not followed: a check that needs the network fails
  * for reasons that are not ours.
  * @param {string} folder @param {string} [home] where the folder is served, for links that have to be whole addresses
+ * @param {Map<string, Page>} [pages] of the folder, where they were read before
  * @returns {{ wrong: string[], count: number }}
  */
-export function brokenLinks(folder, home) {
-  const pages = new Map(pagesOf(folder).map(file => [join(folder, file), read(readFileSync(join(folder, file), 'utf8'))]))
+export function brokenLinks(folder, home, pages = readPages(folder)) {
   /** @type {string[]} */
   const wrong = []
   let count = 0
@@ -71,18 +74,18 @@ const isBareFrame = link => /(^|\/)embed\.html(?!\?(.*&)?figure=)/.test(link)
 
 /**
  * Which pages of a folder no reader finds who begins at index.html, and which links of theirs lead to a frame without a figure.
- * @param {string} folder @returns {string[]}
+ * @param {string} folder @param {Map<string, Page>} [pages] of the folder, where they were read before @returns {string[]}
  */
-export function unreached(folder) {
-  const pages = new Map(pagesOf(folder).map(file => [join(folder, file), read(readFileSync(join(folder, file), 'utf8')).ways]))
-  const bare = [...pages].flatMap(([path, ways]) => ways.filter(isBareFrame).map(way => `${relative(folder, path)}: ${way} is a frame without a figure`))
+export function unreached(folder, pages = readPages(folder)) {
+  const bare = [...pages].flatMap(([path, { ways }]) => ways.filter(isBareFrame).map(way => `${relative(folder, path)}: ${way} is a frame without a figure`))
   const reached = new Set([join(folder, 'index.html')])
   // A set that grows while it is walked: what is added is visited.
   for (const path of reached) {
-    for (const way of pages.get(path) ?? []) {
-      if (/^[a-z]+:/i.test(way)) continue
-      const target = join(dirname(path), decodeURIComponent(way.replace(/[?#].*/, '')))
-      for (const found of [target, join(target, 'index.html')]) if (way.replace(/[?#].*/, '') && pages.has(found)) reached.add(found)
+    for (const way of pages.get(path)?.ways ?? []) {
+      const file = way.replace(/[?#].*/, '')
+      if (file === '' || /^[a-z]+:/i.test(way)) continue
+      const target = join(dirname(path), decodeURIComponent(file))
+      for (const found of [target, join(target, 'index.html')]) if (pages.has(found)) reached.add(found)
     }
   }
   return [...bare, ...[...pages.keys()].filter(path => !reached.has(path)).map(path => `${relative(folder, path)}: no way leads there from index.html`)]
@@ -95,8 +98,9 @@ export const atHome = folder =>
     .map(file => `${file}: says localhost`)
 
 export async function checkLinks() {
-  const { wrong, count } = brokenLinks(dist, site() || undefined)
-  wrong.push(...unreached(dist), ...atHome(dist))
+  const pages = readPages(dist)
+  const { wrong, count } = brokenLinks(dist, site() || undefined, pages)
+  wrong.push(...unreached(dist, pages), ...atHome(dist))
   if (count === 0) throw new StepError('There is not one link: has the site been built?')
   if (wrong.length > 0) throw new StepError(`Links that lead nowhere, and pages that no link leads to:\n${wrong.join('\n')}`)
   return `${count} links`

@@ -6,7 +6,8 @@ import { basename, join } from 'node:path'
 import { defineConfig } from 'vite'
 import { chapter } from './chapter/plugin.mjs'
 import { dist } from './build.mjs'
-import { root } from './lib.mjs'
+import { languages } from './elements.mjs'
+import { root, targets } from './lib.mjs'
 import { policy } from './policy.mjs'
 
 const www = join(root, 'www')
@@ -41,8 +42,7 @@ const loader = {
         .replace('FIGURES', `./${fileName}`)
         .replace('SHARED', `./${entry.imports.find(file => file.startsWith('fastslam-'))}`)
         .replace('NAMES', entry.exports.join(', '))
-        .replace('GERMAN', words('de'))
-        .replace('ENGLISH', words('en'))
+        .replace('WORDS', JSON.stringify(Object.fromEntries(languages.map(language => [language, words(language)]))))
     },
   },
 }
@@ -54,9 +54,7 @@ export default defineConfig({
   build: {
     outDir: dist,
     emptyOutDir: true,
-    target: 'es2022',
-    // The year of popovers, which no figure can do without: light-dark() need not be spelt out for older browsers.
-    cssTarget: ['chrome125', 'firefox125', 'safari17.5'],
+    ...targets,
     // Under the content security policy neither a data: font nor an inline style is allowed.
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },

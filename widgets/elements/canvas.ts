@@ -87,8 +87,8 @@ export class Canvas {
   /** Its size now, for whoever cannot wait until the observer tells it. */
   measure(): void {
     const { width, height } = getComputedStyle(this.element)
-    const contentRect = { width: parseFloat(width), height: parseFloat(height) } as DOMRectReadOnly
-    if (contentRect.width > 0) this.#measure({ contentRect })
+    const css = { width: parseFloat(width), height: parseFloat(height) }
+    if (css.width > 0) this.#measure(css)
   }
 
   /** All of the figure but its picture [css px]. */
@@ -103,16 +103,15 @@ export class Canvas {
     this.#highest = parseFloat(getComputedStyle(this.stage).getPropertyValue('--_highest')) || Infinity
     this.#room = entries.findLast(({ target }) => target === this.stage)?.contentRect.width ?? this.#room
     const entry = entries.findLast(({ target }) => target === this.element)
-    if (entry) this.#measure(entry)
+    if (entry) this.#measure(entry.contentRect, entry.devicePixelContentBoxSize?.[0])
     this.resized()
   }
 
-  #measure({ contentRect, devicePixelContentBoxSize }: Pick<ResizeObserverEntry, 'contentRect'> & Partial<ResizeObserverEntry>): void {
-    let [width, height] = [Math.round(contentRect.width * devicePixelRatio), Math.round(contentRect.height * devicePixelRatio)]
+  #measure(css: { width: number; height: number }, box?: ResizeObserverSize): void {
+    let [width, height] = [Math.round(css.width * devicePixelRatio), Math.round(css.height * devicePixelRatio)]
     // To the very pixel where the browser tells it; but emulated screens tell css pixels here.
-    const box = devicePixelContentBoxSize?.[0]
     if (box && Math.abs(box.inlineSize - width) < 2) [width, height] = [box.inlineSize, box.blockSize]
     const shrink = Math.min(1, Math.sqrt(MAX_PIXELS / (width * height)))
-    this.#size = { css: contentRect.width, width: Math.floor(width * shrink), height: Math.floor(height * shrink) }
+    this.#size = { css: css.width, width: Math.floor(width * shrink), height: Math.floor(height * shrink) }
   }
 }

@@ -1,6 +1,7 @@
 // What a figure on a page and a figure beside its program say to each other: the same words whether the two share a thread or not. A
 // figure is asked by commands and tells by answers. The host is who carries them: LocalHost by calls, WorkerHost by messages.
 import type { Chip, Handle, Outcome, ParamSpec, Readout, Room, TraceLine } from './shell'
+import type { ThemeName } from './theme'
 import type { Message } from './words'
 
 /** Where the picture goes, and how it is to look. */
@@ -13,7 +14,7 @@ export interface Size {
   fontScale: number
   /** The canvas: its width on the page [css px], and its pixels. */
   canvas: { css: number; width: number; height: number }
-  theme: string
+  theme: ThemeName
 }
 
 /** How large the picture is on the page. */

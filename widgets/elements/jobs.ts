@@ -90,13 +90,13 @@ export function createWorker(): Worker {
   }
 }
 
-/** Where a page lets no text become the address of a script, a policy of ours has to vouch for it: this one, for this address alone. */
 interface TrustedTypes {
   createPolicy(name: string, rules: { createScriptURL(url: string): string }): { createScriptURL(url: string): URL }
 }
 
 let policy: ReturnType<TrustedTypes['createPolicy']> | undefined
 
+/** Where a page lets no text become the address of a script, a policy of ours has to vouch for it: this one, for this address alone. */
 function trusted(url: string): string | URL {
   try {
     policy ??= (self as { trustedTypes?: TrustedTypes }).trustedTypes?.createPolicy('fastslam', { createScriptURL: address => address })

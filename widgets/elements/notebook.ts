@@ -5,7 +5,7 @@ import type { FigureElement } from './figure-element'
 import { FIGURES } from './generated/figures'
 import './index'
 import { OPTIONS } from './options'
-import { toText } from './parameters'
+import { noFigure, tagOf, toText } from './parameters'
 
 /** What anywidget, marimo and MyST give: MyST only ever reads. */
 interface Model {
@@ -21,13 +21,13 @@ const trait = (name: string) => name.replaceAll('-', '_')
 
 function render({ model, el }: { model: Model; el: HTMLElement }): () => void {
   const asked = String(model.get('figure') ?? '')
-  const tag = `fastslam-${asked.replace(/^fastslam-/, '')}`
-  const known = FIGURES[tag]
-  if (!known) {
+  const tag = tagOf(asked)
+  if (!tag) {
     const names = Object.keys(FIGURES).map(name => name.slice('fastslam-'.length))
-    el.append(Object.assign(document.createElement('p'), { textContent: `There is no figure “${asked.slice(0, 40)}”. There are ${names.join(', ')}.` }))
+    el.append(Object.assign(document.createElement('p'), { textContent: `${noFigure(asked)} There are ${names.join(', ')}.` }))
     return () => el.replaceChildren()
   }
+  const known = FIGURES[tag]!
   const figure = document.createElement(tag) as FigureElement
   const ended = new AbortController()
   const off: (() => void)[] = []

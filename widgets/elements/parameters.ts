@@ -73,6 +73,15 @@ function parametersOf(tag: string): string[] {
   return FIGURES[tag]?.parameters ?? []
 }
 
+/** The tag of a figure by its name, with or without what all of them begin with; undefined where there is none. */
+export function tagOf(name: string): string | undefined {
+  const tag = `fastslam-${name.replace(/^fastslam-/, '')}`
+  return FIGURES[tag] && tag
+}
+
+/** What is said of a name that is no figure's. */
+export const noFigure = (name: string): string => `There is no figure “${name.slice(0, 40)}”.`
+
 function observed(tag: string): string[] {
   return [...parametersOf(tag), ...Object.keys(OPTIONS)]
 }

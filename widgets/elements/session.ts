@@ -200,7 +200,7 @@ export class Session {
     this.#specs = undefined
     if (query !== undefined) this.tell({ told: 'refused', parameter: 'link', message: refused })
     this.#usual = this.#meant(authored)
-    if (linked) this.#keepLocked(Object.fromEntries(this.specs.map(spec => [spec.name, authored[spec.name] ?? this.#default(spec.name)!])))
+    if (linked) this.#keepLocked(Object.fromEntries(this.specs.map(({ name, default: usual }) => [name, authored[name] ?? this.#usual[name] ?? usual])))
     // In the order of the parameters, whatever that of an author's attributes: a guess is about the settings before it.
     const rank = (name: string) => this.specs.findIndex(spec => spec.name === name)
     const usual = query === undefined ? (Object.entries(this.#usual) as [string, string][]) : []

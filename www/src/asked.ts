@@ -2,6 +2,7 @@
 import type { FigureElement } from '../../widgets/elements/figure-element'
 import { FIGURES } from '../../widgets/elements/generated/figures'
 import { OPTIONS } from '../../widgets/elements/options'
+import { tagOf } from '../../widgets/elements/parameters'
 
 /** Short names of parameters, as formulas have them: the first that a figure has. */
 const SHORT: Record<string, string[]> = {
@@ -17,11 +18,6 @@ const query = new URLSearchParams(location.search)
 /** Which figure is asked for, as it is written, and its tag where there is such a one. */
 export const asked = query.get('figure') ?? ''
 export const askedTag = tagOf(asked)
-
-function tagOf(name: string): string | undefined {
-  const tag = `fastslam-${name.replace(/^fastslam-/, '')}`
-  return FIGURES[tag] && tag
-}
 
 /** Only what a figure knows becomes an attribute: an address is nobody's to trust. The rest the figure refuses in its own words. */
 export function configure(figure: FigureElement): void {

@@ -3,11 +3,12 @@
 import type { FigureElement } from '../../widgets/elements/figure-element'
 import { h } from '../../widgets/elements/dom'
 import type { FigureDetail } from '../../widgets/elements/events'
-import { CODES, type CodeName } from '../../widgets/elements/embed-code'
+import { CODES, type CodeName, frameQuery } from '../../widgets/elements/embed-code'
 import { FIGURES } from '../../widgets/elements/generated/figures'
 import '../../widgets/elements/index'
 import { OPTIONS } from '../../widgets/elements/options'
 import { takePrintKey } from '../../widgets/elements/paper'
+import { noFigure } from '../../widgets/elements/parameters'
 import { copy } from '../../widgets/elements/save'
 import { asked, askedTag, configure } from './asked'
 
@@ -86,7 +87,7 @@ function edit(declarations: Declaration[]): void {
     figure.setAttribute('v', 'latest') // this page goes with its figures; the code says of which version it is
     if (first) configure(figure)
     // What is copied here opens here.
-    else history.replaceState(undefined, '', `?figure=${declared.tagName.replace('fastslam-', '')}`)
+    else history.replaceState(undefined, '', `?${frameQuery({ tag: declared.tagName, attributes: [] })}`)
     fields.replaceChildren(h('h3', {}, 'Parameters'), ...own.map(field), h('h3', {}, 'Options'), ...common.map(field))
     for (const input of fields.querySelectorAll<HTMLInputElement | HTMLSelectElement>('[name]')) input.value = figure.getAttribute(input.name) ?? ''
     for (const name of ['fastslam-step', 'fastslam-change'] as const) figure.addEventListener(name, follow)
@@ -101,7 +102,7 @@ function edit(declarations: Declaration[]): void {
     print()
   })
   form.addEventListener('submit', event => event.preventDefault())
-  const unknown = asked && !askedTag ? [h('p', { role: 'alert', class: 'hint' }, `There is no figure “${asked.slice(0, 40)}”. These are the figures:`)] : []
+  const unknown = asked && !askedTag ? [h('p', { role: 'alert', class: 'hint' }, `${noFigure(asked)} These are the figures:`)] : []
   form.replaceChildren(...unknown, h('label', {}, h('span', { class: 'name' }, 'Figure'), choose), fields)
   if (askedTag) choose.value = askedTag
   begin(true)

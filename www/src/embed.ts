@@ -8,6 +8,7 @@ import '../../widgets/elements/proposal'
 import '../../widgets/elements/smoothing'
 import '../../widgets/elements/worked-example'
 import { FIGURES } from '../../widgets/elements/generated/figures'
+import { noFigure } from '../../widgets/elements/parameters'
 import { takePrintKey } from '../../widgets/elements/paper'
 import { asked, askedTag, configure } from './asked'
 
@@ -32,7 +33,7 @@ function figureAsked(): FigureElement | undefined {
   const there = main.querySelector<FigureElement>(Object.keys(FIGURES).join())
   if (there) return there
   if (askedTag) return document.createElement(askedTag) as FigureElement
-  const wrong = asked ? `There is no figure “${asked.slice(0, 40)}”.` : 'The address of this page names no figure.'
+  const wrong = asked ? noFigure(asked) : 'The address of this page names no figure.'
   const list = document.createElement('p')
   list.setAttribute('role', 'alert')
   list.append(`${wrong} There are `)
