@@ -92,6 +92,5 @@ pub(crate) fn fan(pose: Pose2) -> [Pose2; 5] {
 
 /// Whether two poses are of one place.
 fn is_same(a: &Pose2, b: &Pose2) -> bool {
-    let moved = a.between(b);
-    moved.distance(&Pose2::default()).max(moved.theta.abs()) <= PLACE
+    driven(&a.between(b)).into_iter().all(|moved| moved <= PLACE)
 }

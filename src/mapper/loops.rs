@@ -25,7 +25,7 @@ pub enum LoopEnd {
         shift: f64,
         /// How much better the scans of the last metres fit there than where they were \[nats an end point, tempered\].
         gain: f64,
-        /// The same of the next best place \[nats an end point, tempered\].
+        /// Gain at the second-best place \[nats an end point, tempered\].
         second: f64,
     },
     /// Where the path has the robot, this share of the end points of the last metres, 0 to 1, lies in what the map of before knows to be free;

@@ -144,7 +144,7 @@ impl LaserMapper {
     /// motions count. Where the clock or the scans contradict it ([`Self::unbelieved`]), the scan is matched with those before instead.
     ///
     /// A scan whose time or pose is not finite, whose pose lies further than 10 000 km from odometry's origin, or more than 1 km from
-    /// that of the last scan that was taken, is refused.
+    /// that of the last scan that was not refused, is refused.
     ///
     /// A step in which a path is bent to close a loop takes longer: all scans so far are mapped again for it.
     pub fn push(&mut self, scan: &LaserScan) -> Pushed {
@@ -250,9 +250,8 @@ impl LaserMapper {
         let scans = self.stamps.len();
         let never_moved = (self.steps == 0 && scans > 1).then_some(Remark::NeverMoved(scans));
         let nothing_met = (scans > 0 && self.closings.met_nothing()).then_some(Remark::NothingMet);
-        let open: Vec<&Loop> = self.loops().iter().filter(|one| one.is_open()).collect();
-        let last = open.last().and_then(|last| self.at_step(last.to));
-        let open = last.map(|(time, _)| Remark::OpenLoops { loops: open.len(), time });
+        let last = self.open_loops().last().and_then(|last| self.at_step(last.to));
+        let open = last.map(|(time, _)| Remark::OpenLoops { loops: self.open_loops().count(), time });
         [contradicted, never_moved, nothing_met, open].into_iter().flatten().collect()
     }
 
@@ -305,6 +304,11 @@ impl LaserMapper {
     /// The loops of the best particle's path, in the order in which they were found, with the numbers of the filter's steps.
     pub fn loops(&self) -> &[Loop] {
         self.closings.of(self.filter.best()).0
+    }
+
+    /// Those of [`Self::loops`] that stay open.
+    pub fn open_loops(&self) -> impl Iterator<Item = &Loop> {
+        self.loops().iter().filter(|one| one.is_open())
     }
 
     /// Share, 0 to 1, of what the best particle saw of places that it came back to that lies where its map of before knew the space to be free.

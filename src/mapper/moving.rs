@@ -37,11 +37,7 @@ struct View {
     odometry: Pose2,
     /// How far the robot has driven since \[m\], and by how much it has turned, to whichever side \[rad\].
     driven: [f64; 2],
-    robot_from_laser: Pose2,
-    /// Direction of the first beam in the laser's frame, and from one beam to the next \[rad\].
-    angles: [f64; 2],
-    /// Beams in a full turn.
-    around: i64,
+    directions: Directions,
     /// By direction; `None` of what says nothing.
     beams: Vec<Option<Beam>>,
 }
@@ -116,14 +112,7 @@ impl Since {
 
 impl View {
     fn new(scan: &LaserScan, odometry: Pose2, beams: Vec<Option<Beam>>) -> Self {
-        Self {
-            odometry,
-            driven: [0.0; 2],
-            robot_from_laser: scan.robot_from_laser,
-            angles: [scan.first_angle, scan.angle_step],
-            around: (TAU / scan.angle_step.abs()).round() as i64,
-            beams,
-        }
+        Self { odometry, driven: [0.0; 2], directions: Directions::of(scan), beams }
     }
 
     /// Marks the beams that ended on something that has moved since a view from `before`.
@@ -149,39 +138,59 @@ impl View {
     /// Whether every beam towards a circle \[m\] went on beyond it. What no beam looked at was not seen to be free, nor was the place of the
     /// laser itself.
     fn sees_through(&self, center: [f64; 2], radius: f64) -> bool {
-        let (distance, at) = self.beam_towards(center);
+        let (distance, at) = self.directions.towards(center);
         let tangent2 = distance * distance - radius * radius;
         if tangent2 <= 0.0 {
             return false;
         }
-        let half = ops::atan2(radius, tangent2.sqrt()) / self.angles[1].abs();
+        let half = ops::atan2(radius, tangent2.sqrt()) / self.directions.angles[1].abs();
         let [first, last] = [(at - half).floor(), (at + half).ceil()].map(|k| k as i64);
         (first..=last).all(|k| self.beam(k).is_some_and(|beam| beam.length > distance + radius))
     }
 
     /// Whether the beam towards a point met something that is `gone` now, no further from the point than `walk` \[m\].
     fn is_near_gone(&self, gone: &[bool], point: [f64; 2], walk: f64) -> bool {
-        let (_, at) = self.beam_towards(point);
-        let k = self.index(at.round() as i64);
+        let (_, at) = self.directions.towards(point);
+        let k = self.directions.index(at.round() as i64);
         let end = self.beams.get(k).copied().flatten().map(|beam| beam.end);
         gone.get(k) == Some(&true) && end.is_some_and(|end| length([end[0] - point[0], end[1] - point[1]]) < walk)
     }
 
+    /// The k-th beam, counted all around.
+    fn beam(&self, k: i64) -> Option<Beam> {
+        self.beams.get(self.directions.index(k)).copied().flatten()
+    }
+}
+
+/// Which way a laser's beams look.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Directions {
+    robot_from_laser: Pose2,
+    /// Direction of the first beam in the laser's frame, and from one beam to the next \[rad\].
+    angles: [f64; 2],
+    /// Beams in a full turn.
+    around: i64,
+}
+
+impl Directions {
+    pub(super) fn of(scan: &LaserScan) -> Self {
+        Self {
+            robot_from_laser: scan.robot_from_laser,
+            angles: [scan.first_angle, scan.angle_step],
+            around: (TAU / scan.angle_step.abs()).round() as i64,
+        }
+    }
+
     /// How far from the laser a point of the robot's frame is \[m\], and in which direction, in beams from the first.
-    fn beam_towards(&self, point: [f64; 2]) -> (f64, f64) {
+    pub(super) fn towards(&self, point: [f64; 2]) -> (f64, f64) {
         let from_laser = self.robot_from_laser.between(&Pose2::new(point[0], point[1], 0.0));
         let [first, step] = self.angles;
         let bearing = ops::atan2(from_laser.y, from_laser.x);
         (length([from_laser.x, from_laser.y]), ops::wrap_angle(bearing - first) / step)
     }
 
-    /// The k-th beam, counted all around.
-    fn beam(&self, k: i64) -> Option<Beam> {
-        self.beams.get(self.index(k)).copied().flatten()
-    }
-
     /// Index of the k-th beam, counted all around: below 0, that of a laser that looks all around begins again at its last one.
-    fn index(&self, k: i64) -> usize {
+    pub(super) fn index(&self, k: i64) -> usize {
         k.checked_rem_euclid(self.around).unwrap_or(k) as usize
     }
 }

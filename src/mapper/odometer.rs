@@ -13,7 +13,7 @@
 
 use super::agreement::Agreement;
 use super::last_places::{LastPlaces, MAX_RANGE, fan};
-use super::moving::driven;
+use super::moving::{Directions, driven};
 use super::tuning::{RANGE_ERROR, SEEN_THROUGH_STDS, score};
 use super::wheels::Wheels;
 use crate::error::{Range, SettingError};
@@ -59,10 +59,9 @@ const ENOUGH: usize = 20;
 /// What can be off of a heading besides wheels \[rad\].
 const HEADING_ERROR: f64 = 0.1;
 
-/// Where a scan fits: the least share of its end points that are on walls, and the largest of those with which the map disagrees. Of a robot that is
-/// said to stand, as people walk about before it.
-const FITS: [f64; 2] = [0.5, 0.8];
-const DISPUTED: [f64; 2] = [0.125, 0.05];
+/// Where odometry leads, a scan is at home if the map disputes less of it than this share, and more than this share of its end points are on walls: it may
+/// have much that is new.
+const AT_HOME: [f64; 2] = [0.25, 0.25];
 
 /// After a step that was not believed: how near \[m, rad\] the next one must be to what is matched to be believed again, and the share of the step that
 /// it may be off besides.
@@ -83,16 +82,14 @@ enum Doubt {
     Differs,
 }
 
-impl Doubt {
-    /// How much better than where odometry leads a scan must fit elsewhere \[nats an end point\].
-    fn gain(self) -> f64 {
-        match self {
-            Self::Still | Self::Impossible => f64::NEG_INFINITY,
-            Self::Odd => 0.0,
-            Self::Stands => 0.05,
-            Self::Differs => 0.3,
-        }
-    }
+/// What a scan must show at another place to be believed against odometry.
+struct Proof {
+    /// How much better it must fit than where odometry leads \[nats an end point\].
+    gain: f64,
+    /// The least share of its end points that are on walls.
+    fits: f64,
+    /// The largest share that the map disputes.
+    disputed: f64,
 }
 
 /// See the module.
@@ -152,8 +149,8 @@ impl Odometer {
                 });
             }
         }
-        let motion = self.last.map_or(Pose2::default(), |last| last.pose.between(&pose));
-        let elapsed = self.last.map_or(0.0, |last| scan.time - last.time);
+        let since = |last: Last| (last.pose.between(&pose), scan.time - last.time);
+        let (motion, elapsed) = self.last.map_or((Pose2::default(), 0.0), since);
         self.last = Some(Last { time: scan.time, told: scan.odometry, pose, motion, elapsed });
         if self.places.take(pose, || scan.end_points(longest, MAX_RANGE)) {
             self.place = Some((pose, scan.clone()));
@@ -187,8 +184,8 @@ impl Odometer {
     /// Whether of a scan that was taken at this pose a smaller share than this agrees with the last place.
     fn differs(&self, scan: &LaserScan, pose: &Pose2, longest: f64, least: f64) -> bool {
         let Some((place, before)) = &self.place else { return false };
-        let before_from_now = before.robot_from_laser.between(&place.between(&pose.compose(&scan.robot_from_laser)));
-        let [way, turn] = driven(&place.between(pose));
+        let (before_from_now, directions) = (place.between(pose), Directions::of(before));
+        let [way, turn] = driven(&before_from_now);
         let met = |range: f64| range > 0.0 && range < longest;
         let (mut looked, mut compared, mut agreed) = (0, 0, 0);
         for k in (0..scan.ranges.len()).step_by(scan.ranges.len().div_ceil(COMPARED).max(1)) {
@@ -198,12 +195,10 @@ impl Odometer {
             }
             looked += 1;
             let (sin, cos) = ops::sin_cos(scan.first_angle + k as f64 * scan.angle_step);
-            let [x, y] = before_from_now.transform([range * cos, range * sin]);
-            let at = ops::wrap_angle(ops::atan2(y, x) - before.first_angle) / before.angle_step;
-            let at = at.round();
-            let Some(then) = (at >= 0.0).then(|| before.ranges.get(at as usize)).flatten() else { continue };
-            let (then, distance) = (f64::from(*then), ops::hypot(x, y));
-            if met(then) {
+            let end = scan.robot_from_laser.transform([range * cos, range * sin]);
+            let (distance, at) = directions.towards(before_from_now.transform(end));
+            let then = before.ranges.get(directions.index(at.round() as i64)).map(|then| f64::from(*then));
+            if let Some(then) = then.filter(|then| met(*then)) {
                 compared += 1;
                 let tolerance = RANGE_ERROR + 0.1 * way + 0.1 * (way + turn).min(0.5) * distance;
                 agreed += u32::from((then - distance).abs() < tolerance);
@@ -231,34 +226,35 @@ impl Odometer {
         let agreement =
             |places: &mut LastPlaces, pose: &Pose2| Agreement::of(&score().log_beams(places.map(), pose, &ends));
         if doubt == Doubt::Differs {
-            // The scan may have much that is new, and yet be where odometry says.
             let there = self.places.matched(&[*told], &ends, near)?;
-            let there = agreement(&mut self.places, &there.pose);
-            if there.disputed() < 0.25 && there.fits > 0.25 {
+            let (there, [disputed, fits]) = (agreement(&mut self.places, &there.pose), AT_HOME);
+            if there.disputed() < disputed && there.fits > fits {
                 return None;
             }
         }
         let ahead = last.ahead(scan.time - last.time);
         let best = self.places.matched(&[ahead, last.pose, *told].map(fan).concat(), &ends, |_| true)?;
-        if doubt == Doubt::Still {
-            let ([way, turn], off) = (driven(&last.pose.between(&best.pose)), driven(&told.between(&best.pose)));
-            let [position, heading, share] = AGAIN;
-            let agrees = off[0] < position + share * way && off[1] < heading + share * turn;
-            return (!agrees).then_some(best.pose);
-        }
-        if doubt != Doubt::Impossible {
-            if near(&best.pose) {
-                return None;
+        let proof = match doubt {
+            Doubt::Impossible => return Some(best.pose),
+            Doubt::Still => {
+                let ([way, turn], off) = (driven(&last.pose.between(&best.pose)), driven(&told.between(&best.pose)));
+                let [position, heading, share] = AGAIN;
+                let agrees = off[0] < position + share * way && off[1] < heading + share * turn;
+                return (!agrees).then_some(best.pose);
             }
-            let there = self.places.matched(&fan(*told), &ends, near)?;
-            let found = agreement(&mut self.places, &best.pose);
-            let gain = (best.value - there.value) / ends.hits.len() as f64;
-            let stands = usize::from(doubt == Doubt::Stands);
-            if gain < doubt.gain() || found.fits < FITS[stands] || found.disputed() > DISPUTED[stands] {
-                return None;
-            }
+            Doubt::Odd => Proof { gain: 0.0, fits: 0.5, disputed: 0.125 },
+            // People walk about before a robot that stands.
+            Doubt::Stands => Proof { gain: 0.05, fits: 0.8, disputed: 0.05 },
+            Doubt::Differs => Proof { gain: 0.3, fits: 0.5, disputed: 0.125 },
+        };
+        if near(&best.pose) {
+            return None;
         }
-        Some(best.pose)
+        let there = self.places.matched(&fan(*told), &ends, near)?;
+        let found = agreement(&mut self.places, &best.pose);
+        let gain = (best.value - there.value) / ends.hits.len() as f64;
+        let is_proved = gain >= proof.gain && found.fits >= proof.fits && found.disputed() <= proof.disputed;
+        is_proved.then_some(best.pose)
     }
 }
 

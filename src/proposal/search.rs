@@ -112,7 +112,7 @@ pub struct CorrelativeSearch {
     pub linear: f64,
     /// Step of the heading \[rad\].
     pub angular: f64,
-    /// Most steps along each axis to each side.
+    /// Maximum number of position steps to either side, along x and along y.
     pub most_steps: u32,
     /// The lattice looks at every n-th beam.
     pub stride: usize,

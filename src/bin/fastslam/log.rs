@@ -121,9 +121,9 @@ struct Output {
     scans_unexplained: u32,
     /// How many times a particle's path was bent, to close a loop that no particle had closed by itself.
     paths_bent: u32,
-    /// Of the best path, in the order in which they were found.
+    /// Loops of the best path, in the order in which they were found.
     loops: Vec<LoopOutput>,
-    /// How many of them stay open.
+    /// Number of loops of the best path that stay open.
     loops_open: u32,
     /// Share of what the best path saw of places that it came back to that the map of before contradicts.
     disputed_fraction: f64,
@@ -225,7 +225,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         scans_unexplained,
         paths_bent: mapper.closings(),
         loops: loops(mapper),
-        loops_open: mapper.loops().iter().filter(|one| one.is_open()).count() as u32,
+        loops_open: mapper.open_loops().count() as u32,
         disputed_fraction: mapper.disputed_fraction(),
         lineage_one_scan: mapper.single_lineage_since(),
         wheel_drift_deg_per_m: mapper.wheels().drift().to_degrees(),
@@ -246,7 +246,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
 pub struct OpenLoop(String);
 
 /// A loop of the best path, as it is printed.
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 struct LoopOutput {
     /// Stamp of the scan at which the robot was there first \[s\].
     from: f64,
@@ -258,7 +258,7 @@ struct LoopOutput {
     shift: Option<f64>,
     /// How much better the scans fit there \[nats an end point\].
     gain: Option<f64>,
-    /// The same of the next best place.
+    /// Gain at the second-best place \[nats an end point\].
     second: Option<f64>,
     /// Share of the end points that the map of before contradicts.
     disputed: Option<f64>,
@@ -268,19 +268,13 @@ struct LoopOutput {
 fn loops(mapper: &LaserMapper) -> Vec<LoopOutput> {
     let output = |one: &Loop| {
         let time = |step| mapper.at_step(step).map_or(f64::NAN, |(time, _)| time);
-        let of = |end, [shift, gain, second, disputed]: [Option<f64>; 4]| LoopOutput {
-            from: time(one.from),
-            to: time(one.to),
-            end,
-            shift,
-            gain,
-            second,
-            disputed,
-        };
+        let back = LoopOutput { from: time(one.from), to: time(one.to), ..LoopOutput::default() };
         match one.end {
-            LoopEnd::Met => of("met", [None; 4]),
-            LoopEnd::Bent { shift, gain, second } => of("bent", [Some(shift), Some(gain), Some(second), None]),
-            LoopEnd::Open { disputed } => of("open", [None, None, None, Some(disputed)]),
+            LoopEnd::Met => LoopOutput { end: "met", ..back },
+            LoopEnd::Bent { shift, gain, second } => {
+                LoopOutput { end: "bent", shift: Some(shift), gain: Some(gain), second: Some(second), ..back }
+            }
+            LoopEnd::Open { disputed } => LoopOutput { end: "open", disputed: Some(disputed), ..back },
         }
     };
     mapper.loops().iter().map(output).collect()
@@ -492,7 +486,7 @@ impl Outputs {
         }
         if let Some([png, pgm, yaml]) = &self.map {
             let map = MapImage::of(mapper.map(), path, rules)?;
-            let open = mapper.loops().iter().filter(|one| one.is_open()).filter_map(|one| mapper.at_step(one.to));
+            let open = mapper.open_loops().filter_map(|one| mapper.at_step(one.to));
             picture::save_map(&map, path, &open.map(|(_, pose)| pose).collect::<Vec<_>>(), png)?;
             save(pgm, &map.pgm())?;
             save(yaml, map.yaml(&pgm.file_name().unwrap_or_default().to_string_lossy()).as_bytes())?;

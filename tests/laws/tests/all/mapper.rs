@@ -258,7 +258,7 @@ fn loops_that_no_particle_closes_are_closed_by_bending_on_twelve_seeds() {
 }
 
 /// Rings of 240 m, two particles: the fifth does not close, its revisits are all off by more than half a metre, and the mapper says that its loop stays
-/// open. Of those of which hardly a revisit is off it says nothing. It cannot tell of a path that was bent to a wrong place that looks alike, as the
+/// open. It says nothing of the rings whose revisits are nearly all right. It cannot tell of a path that was bent to a wrong place that looks alike, as the
 /// sixth is.
 #[test]
 fn a_loop_that_stays_open_is_told_and_none_that_closes() {

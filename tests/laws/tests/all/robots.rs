@@ -19,7 +19,7 @@ fn ring(seed: u64) -> Recipe {
     Recipe { seed, plan, route, spacing: 0.4, max_range: 12.0, wheels, ..Recipe::building() }
 }
 
-fn mapped(log: LaserLog, particles: usize, seed: u64) -> LaserMapper {
+pub fn mapped(log: LaserLog, particles: usize, seed: u64) -> LaserMapper {
     let settings = LaserMapperSettings { particles, seed, ..LaserMapperSettings::default() };
     let mut replay = Replay::new(settings, Arc::new(log)).unwrap();
     replay.by_ref().for_each(drop);

@@ -1,12 +1,12 @@
 //! Odometry that cannot be true must not be believed: each kind of it, made of one drive through our building whose truth is known.
 
+use super::robots::mapped;
 use fastslam::geometry::Pose2;
 use fastslam::log::{LaserLog, Remark};
-use fastslam::mapper::{LaserMapper, LaserMapperSettings, Pushed, Replay};
+use fastslam::mapper::{LaserMapper, LaserMapperSettings, Pushed};
 use fastslam_lab::experiment::graph::PathError;
 use fastslam_lab::experiment::log::{Example, Recipe};
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 const SCANS: usize = 160;
 /// What goes wrong, from which scan on, and how it changes what is told: the number of a scan and all that odometry tells, to what is told in its place.
@@ -46,6 +46,16 @@ fn shifted(is: bool, by: &Pose2, pose: Pose2) -> Pose2 {
     if is { by.compose(&pose) } else { pose }
 }
 
+/// The log with odometry that is wrong in this way.
+fn spoilt_by(log: &LaserLog, spoilt: fn(usize, &[Pose2]) -> Pose2) -> LaserLog {
+    let told: Vec<Pose2> = log.scans.iter().map(|scan| scan.odometry).collect();
+    let mut log = log.clone();
+    for (k, scan) in log.scans.iter_mut().enumerate() {
+        scan.odometry = spoilt(k, &told);
+    }
+    log
+}
+
 fn error(mapper: &LaserMapper, truth: &[Pose2]) -> f64 {
     let path: Vec<Pose2> = mapper.path().into_iter().map(|(_, pose)| pose).collect();
     assert_eq!(path.len(), truth.len());
@@ -58,15 +68,12 @@ fn error(mapper: &LaserMapper, truth: &[Pose2]) -> f64 {
 fn odometry_that_cannot_be_true_is_not_believed_and_told() {
     let Example { log, truth, .. } = Example::of(&Recipe { scatter: 0.3, ..Recipe::building() }, SCANS);
     let told: Vec<Pose2> = log.scans.iter().map(|scan| scan.odometry).collect();
-    let unspoilt = replayed(&log);
+    let unspoilt = mapped(log.clone(), 2, 1);
     assert!(unspoilt.unbelieved().is_empty() && unspoilt.remarks().is_empty(), "{:?}", unspoilt.unbelieved());
     let unspoilt = error(&unspoilt, &truth);
     for (name, spoilt) in KINDS {
-        let mut log = log.clone();
-        for (k, scan) in log.scans.iter_mut().enumerate() {
-            scan.odometry = spoilt(k, &told);
-        }
-        let mapper = replayed(&log);
+        let log = spoilt_by(&log, spoilt);
+        let mapper = mapped(log.clone(), 2, 1);
         let error = error(&mapper, &truth);
         let [Remark::Contradicted { steps, time, .. }] = mapper.remarks()[..] else {
             panic!("{name}: nothing is told")
@@ -83,16 +90,14 @@ fn odometry_that_cannot_be_true_is_not_believed_and_told() {
 /// One door: what is pushed scan by scan becomes what a whole log does, to the bit.
 #[test]
 fn scans_that_are_pushed_are_believed_as_those_of_a_log_are() {
-    let Example { mut log, .. } = Example::of(&Recipe { scatter: 0.3, ..Recipe::building() }, 100);
-    let told: Vec<Pose2> = log.scans.iter().map(|scan| scan.odometry).collect();
-    for (k, scan) in log.scans.iter_mut().enumerate() {
-        scan.odometry = if k < FROM { told[k] } else { told[FROM].between(&told[k]) };
-    }
-    let mut mapper = LaserMapper::new(settings().for_log(&log)).unwrap();
+    let Example { log, .. } = Example::of(&Recipe { scatter: 0.3, ..Recipe::building() }, 100);
+    let log = spoilt_by(&log, KINDS[0].1);
+    let mut mapper =
+        LaserMapper::new(LaserMapperSettings { particles: 2, ..LaserMapperSettings::default() }.for_log(&log)).unwrap();
     for scan in &log.scans {
         assert!(!matches!(mapper.push(scan), Pushed::Refused(_)));
     }
-    let replayed = replayed(&log);
+    let replayed = mapped(log.clone(), 2, 1);
     assert_eq!((mapper.path(), mapper.unbelieved()), (replayed.path(), replayed.unbelieved()));
     assert_eq!(mapper.unbelieved().len(), 1);
 }
@@ -106,25 +111,16 @@ fn a_map_of_one_place_or_of_nothing_is_not_passed_off_as_one_of_the_building() {
     for scan in &mut standing.scans {
         (scan.odometry, scan.ranges) = (log.scans[0].odometry, log.scans[0].ranges.clone());
     }
-    assert_eq!(replayed(&standing).remarks(), [Remark::NeverMoved(12)]);
+    assert_eq!(mapped(standing.clone(), 2, 1).remarks(), [Remark::NeverMoved(12)]);
     for (k, scan) in standing.scans.iter_mut().enumerate() {
         // Somebody, 0.6 m wide a metre away, walks round it.
         scan.ranges[10 * k..10 * k + 35].iter_mut().for_each(|range| *range = range.min(1.0));
     }
-    assert_eq!(replayed(&standing).remarks(), [Remark::NeverMoved(12)]);
+    assert_eq!(mapped(standing.clone(), 2, 1).remarks(), [Remark::NeverMoved(12)]);
     let mut empty = log;
     empty.scans.iter_mut().for_each(|scan| scan.ranges.fill(29.0));
-    let mut mapper = LaserMapper::new(LaserMapperSettings { max_range: 20.0, ..settings() }).unwrap();
+    let mut mapper =
+        LaserMapper::new(LaserMapperSettings { max_range: 20.0, ..LaserMapperSettings::default() }).unwrap();
     empty.scans.iter().for_each(|scan| drop(mapper.push(scan)));
     assert_eq!(mapper.remarks(), [Remark::NothingMet]);
-}
-
-fn settings() -> LaserMapperSettings {
-    LaserMapperSettings { particles: 2, ..LaserMapperSettings::default() }
-}
-
-fn replayed(log: &LaserLog) -> LaserMapper {
-    let mut replay = Replay::new(settings(), Arc::new(log.clone())).unwrap();
-    replay.by_ref().for_each(drop);
-    replay.mapper().clone()
 }
