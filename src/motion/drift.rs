@@ -61,7 +61,7 @@ impl<const N: usize> Drift<N> {
         self.learn_and_forget(causes, error, variance, 1.0);
     }
 
-    /// The same, where this share of what was known is kept.
+    /// [`Self::learn`] with exponential forgetting: what was known before is scaled by `kept`, 0 to 1.
     pub(crate) fn learn_and_forget(&mut self, causes: [f64; N], error: f64, variance: f64, kept: f64) {
         let (information, weighted) = (self.information, self.weighted);
         self.information = SMatrix::from_fn(|i, j| kept * information[(i, j)] + causes[i] * causes[j] / variance);

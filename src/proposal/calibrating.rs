@@ -97,7 +97,7 @@ impl<M> Calibrated<M> {
 /// What an observation was taken for, and what the step has taught of the drift.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Learnt<A> {
-    /// The inner map's.
+    /// Association of the inner map.
     pub association: A,
     drift: Drift<2>,
 }
@@ -129,10 +129,14 @@ impl<D: Motion, P> Calibrating<D, P> {
 
     /// Where the control leads by odometry and what is known of its drift, seen from where the robot was: what `then` draws by.
     pub fn corrected(&self, drift: &Drift<2>, control: &D::Control) -> Displacement {
-        let reported = self.reported(control);
-        let causes = causes(&reported);
-        if learns(&reported) { reported.turned(drift.mean(causes), drift.variance(causes)) } else { reported }
+        without_drift(&self.reported(control), drift)
     }
+}
+
+/// A reported motion, corrected by what is known of the drift.
+fn without_drift(reported: &Displacement, drift: &Drift<2>) -> Displacement {
+    let causes = causes(reported);
+    if learns(reported) { reported.turned(drift.mean(causes), drift.variance(causes)) } else { *reported }
 }
 
 /// What a drift of the heading grows with: metres ahead, and radians turned.
@@ -161,7 +165,8 @@ where
         stream: &mut Stream,
     ) -> Proposed<Learnt<M::Association>> {
         let Particle { world_from_robot, map: Calibrated { map, drift }, path } = particle;
-        let (reported, corrected, mut drift) = (self.reported(control), self.corrected(drift, control), *drift);
+        let reported = self.reported(control);
+        let (corrected, mut drift) = (without_drift(&reported, drift), *drift);
         let inner = Particle { world_from_robot: *world_from_robot, map: map.clone(), path: path.clone() };
         let Proposed { world_from_robot: to, association, log_increment, trace } =
             self.then.propose(&inner, &corrected, observation, stream);

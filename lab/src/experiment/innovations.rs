@@ -101,9 +101,9 @@ impl Innovations {
             .map(|particle| (particle.map.clone(), filter.proposal().predicted(particle, control)))
             .collect();
         let features = features.clone();
-        let (told, report) = run.advance()?;
+        let (told, associations) = run.advance()?;
         for (k, feature) in features.iter().enumerate() {
-            let innovations = before.iter().zip(&weights).zip(&report.associations).filter_map(|((slot, w), seen)| {
+            let innovations = before.iter().zip(&weights).zip(&associations).filter_map(|((slot, w), seen)| {
                 let ((map, (pose, p)), Association::Matched(index)) = (slot, M::associations(seen)[k]) else {
                     return None;
                 };

@@ -21,7 +21,7 @@ use fastslam::proposal::{
     Windowed,
 };
 use fastslam::random::Stream;
-use fastslam::rbpf::{Rbpf, Report};
+use fastslam::rbpf::Rbpf;
 use fastslam::resampling::{ResamplePolicy, Scheme};
 use fastslam::sensor::{Feature, LandmarkSensor, RangeBearing};
 use std::sync::Arc;
@@ -318,6 +318,11 @@ pub trait WithLandmarks: ConditionalMap<Observation = Vec<Feature>> {
 
     /// What the features of a step were taken for.
     fn associations(of: &Self::Association) -> &Vec<Association>;
+
+    /// What is known of the drift of the odometry, where that is learnt.
+    fn drift(&self) -> Option<&Drift<2>> {
+        None
+    }
 }
 
 impl WithLandmarks for LandmarkMap {
@@ -337,6 +342,10 @@ impl WithLandmarks for Calibrated<LandmarkMap> {
 
     fn associations(of: &Learnt<Vec<Association>>) -> &Vec<Association> {
         &of.association
+    }
+
+    fn drift(&self) -> Option<&Drift<2>> {
+        Some(self.drift())
     }
 }
 
@@ -425,16 +434,6 @@ impl<D: Motion + Clone> LandmarkRun<D, Calibrated<LandmarkMap>, Learning<D>> {
         let filter = setup.filter(map, proposal, &log)?;
         Ok(Self { log, filter, step: 0, squared_errors: 0.0 })
     }
-
-    /// The drift of the odometry: how much the robot turns to the left beyond it, per metre ahead \[rad/m\] and per radian turned \[–\]. The
-    /// weighted mean over the particles of their means.
-    pub fn drift(&self) -> [f64; 2] {
-        let weighted = self.filter.particles().iter().zip(self.filter.weights().as_slice());
-        weighted.fold([0.0; 2], |[a, b], (particle, w)| {
-            let [a_metre, a_turn] = particle.map.drift().coefficients();
-            [a + w * a_metre, b + w * a_turn]
-        })
-    }
 }
 
 impl<D: Motion + Clone, M: WithLandmarks, P: Proposal<M, Control = D::Control>> LandmarkRun<D, M, P> {
@@ -448,13 +447,23 @@ impl<D: Motion + Clone, M: WithLandmarks, P: Proposal<M, Control = D::Control>> 
         Self { filter: self.filter.with_executor(executor), ..self }
     }
 
+    /// The drift of the odometry, where it is learnt: how much the robot turns to the left beyond it, per metre ahead \[rad/m\] and per radian
+    /// turned \[–\]. The weighted mean over the particles of their means.
+    pub fn drift(&self) -> Option<[f64; 2]> {
+        let mut weighted = self.filter.particles().iter().zip(self.filter.weights().as_slice());
+        weighted.try_fold([0.0; 2], |[a, b], (particle, w)| {
+            let [a_metre, a_turn] = particle.map.drift()?.coefficients();
+            Some([a + w * a_metre, b + w * a_turn])
+        })
+    }
+
     /// One step of the filter; `None` after the last.
     pub fn step(&mut self) -> Option<LandmarkReport> {
         self.advance().map(|(report, _)| report)
     }
 
-    /// The same, with what the filter's step did.
-    pub(super) fn advance(&mut self) -> Option<(LandmarkReport, Report<M::Association>)> {
+    /// [`Self::step`], with what each particle, before resampling, took the features for.
+    pub(super) fn advance(&mut self) -> Option<(LandmarkReport, Vec<M::Association>)> {
         let k = self.step as usize;
         let (control, features) = (self.log.controls.get(k)?, self.log.sightings.get(k)?);
         let report = self.filter.step(control, features);
@@ -480,7 +489,7 @@ impl<D: Motion + Clone, M: WithLandmarks, P: Proposal<M, Control = D::Control>> 
             seen: features.len() as u32,
             log_evidence: report.log_evidence,
             ess: report.ess,
-            ancestors: report.ancestors.clone(),
+            ancestors: report.ancestors,
             error_best: best.world_from_robot.distance(truth),
             error_mean,
             error_odometry: odometry.distance(truth),
@@ -493,7 +502,7 @@ impl<D: Motion + Clone, M: WithLandmarks, P: Proposal<M, Control = D::Control>> 
             },
             answers: answers.len() as u32,
         };
-        Some((told, report))
+        Some((told, report.associations))
     }
 
     /// How many steps were taken.

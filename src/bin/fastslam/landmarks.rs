@@ -169,8 +169,6 @@ struct Task<D: Motion, F> {
     tuning: Tuning<D>,
     /// Whether every seed has the same log.
     recorded: bool,
-    /// Whether the drift of the odometry is learnt, if nothing else is asked for.
-    learns: bool,
     /// Where the tuning comes from.
     noises: String,
 }
@@ -182,32 +180,25 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     if let Some(prefix) = &arguments.mrclam {
         let log = Arc::new(mrclam::read(prefix)?);
         let tuning = noises.adjust(camera::tuning())?;
-        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, learns: false, noises: told(mrclam::NOISES) }
-            .run(arguments);
+        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, noises: told(mrclam::NOISES) }.run(arguments);
     }
     if let Some(folder) = &arguments.victoria {
         let tuning = noises.adjust(car::tuning())?;
         let named = arguments.association == CorrespondenceKind::Known;
         let log = Arc::new(victoria::read(folder, &tuning.motion, named)?);
-        return Task {
-            log: |_| Arc::clone(&log),
-            tuning,
-            recorded: true,
-            learns: false,
-            noises: told(victoria::NOISES),
-        }
-        .run(arguments);
+        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, noises: told(victoria::NOISES) }
+            .run(arguments);
     }
     if let Some(path) = &arguments.g2o {
         let (log, tuning) = landmark_graph::read(path)?;
         let (log, tuning) = (Arc::new(log), noises.adjust(tuning)?);
         let noises = told(landmark_graph::NOISES);
-        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, learns: true, noises }.run(arguments);
+        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, noises }.run(arguments);
     }
     let course = arguments.course;
     let tuning = noises.adjust(course.tuning())?;
     let log = |seed| Arc::new(course.simulate(seed));
-    Task { log, tuning, recorded: false, learns: false, noises: told("those of the course") }.run(arguments)
+    Task { log, tuning, recorded: false, noises: told("those of the course") }.run(arguments)
 }
 
 impl<D, F> Task<D, F>
@@ -217,14 +208,15 @@ where
     F: Fn(u64) -> Arc<LandmarkLog<D::Control>> + Sync,
 {
     fn run(&self, arguments: &Arguments) -> Result<()> {
-        if arguments.drift.unwrap_or(self.learns) {
-            self.run_of(arguments, LandmarkRun::learning, |run| Some(run.drift()))
+        // A graph tells the noise of its odometry without the drift.
+        if arguments.drift.unwrap_or(arguments.g2o.is_some()) {
+            self.run_of(arguments, LandmarkRun::learning)
         } else {
-            self.run_of(arguments, LandmarkRun::new, |_| None)
+            self.run_of(arguments, LandmarkRun::new)
         }
     }
 
-    /// Runs the command with filters that begin by this function; `drift` is what one has learnt.
+    /// Runs the command with filters that begin by this function.
     fn run_of<M, P>(
         &self,
         arguments: &Arguments,
@@ -234,7 +226,6 @@ where
             Arc<LandmarkLog<D::Control>>,
         ) -> Result<LandmarkRun<D, M, P>, SettingError>
         + Sync,
-        drift: impl Fn(&LandmarkRun<D, M, P>) -> Option<[f64; 2]> + Sync,
     ) -> Result<()>
     where
         M: WithLandmarks,
@@ -257,7 +248,7 @@ where
             let run = run(arguments.seed)?;
             let setup = setup(arguments.seed);
             let others = Others { ekf: run.rms_ekf(&setup, &self.tuning), late: rms_late(&run, &setup)? };
-            return one(arguments, run, others, drift, &self.noises);
+            return one(arguments, run, others, &self.noises);
         };
         let first = run(1)?; // refused before anything is run, if it is
         // EKF-SLAM draws nothing: on a recorded log it is the same for every seed.
@@ -277,8 +268,8 @@ where
                     late: rms_late(&run, &setup(*seed))?,
                 };
                 let path = [run.rms_best(), run.rms_best_aligned(), run.rms_odometry()];
-                let outcome = outcome(&run, innovations, founded, drift(&run));
-                Ok(Errors { online: run.rms_online(), others, path, outcome, drift: drift(&run) })
+                let outcome = outcome(&run, innovations, founded);
+                Ok(Errors { online: run.rms_online(), others, path, outcome })
             })
             .collect();
         many(arguments, &errors?, &self.noises, D::NAMES)
@@ -298,17 +289,10 @@ struct Errors {
     /// Of the best particle's path at the end, of the same aligned, and of raw odometry.
     path: [f64; 3],
     outcome: Outcome,
-    /// What was learnt of the odometry's drift.
-    drift: Option<[f64; 2]>,
 }
 
 /// What is known of a run at its end.
-fn outcome<D, M, P>(
-    run: &LandmarkRun<D, M, P>,
-    innovations: Innovations,
-    founded: u32,
-    drift: Option<[f64; 2]>,
-) -> Outcome
+fn outcome<D, M, P>(run: &LandmarkRun<D, M, P>, innovations: Innovations, founded: u32) -> Outcome
 where
     D: Motion + Clone,
     M: WithLandmarks,
@@ -319,20 +303,14 @@ where
     Outcome {
         innovations: (innovations.count(), innovations.mean(), innovations.share_beyond()),
         unknown: matches!(map.correspondence(), Correspondence::Unknown(_)),
-        learnt: drift.is_some(),
+        drift: run.drift(),
         left: map.iter().count() as f64,
         founded: f64::from(founded),
         there: seen.len() as f64,
     }
 }
 
-fn one<D, M, P>(
-    arguments: &Arguments,
-    mut run: LandmarkRun<D, M, P>,
-    others: Others,
-    drift: impl Fn(&LandmarkRun<D, M, P>) -> Option<[f64; 2]>,
-    noises: &str,
-) -> Result<()>
+fn one<D, M, P>(arguments: &Arguments, mut run: LandmarkRun<D, M, P>, others: Others, noises: &str) -> Result<()>
 where
     D: Motion + Adjust + Clone,
     M: WithLandmarks,
@@ -347,8 +325,7 @@ where
     }
     let footprint = run.footprint();
     let resampled = steps.iter().filter(|step| step.ancestors.is_some()).count();
-    let drift = drift(&run);
-    let outcome = outcome(&run, innovations, steps.iter().map(|step| step.best.first).sum(), drift);
+    let outcome = outcome(&run, innovations, steps.iter().map(|step| step.best.first).sum());
     let remarks = outcome.remarks(D::NAMES);
     let output = Output {
         noises: noises.into(),
@@ -359,7 +336,7 @@ where
         rms_ekf: others.ekf,
         rms_late: others.late,
         landmarks: outcome.left as u32,
-        drift,
+        drift: outcome.drift,
         innovation: innovations.mean(),
         remarks,
         resampled_fraction: resampled as f64 / steps.len().max(1) as f64,
@@ -420,30 +397,35 @@ fn innovation_row(innovation: Option<f64>) -> String {
     innovation.map(row).unwrap_or_default()
 }
 
+/// The distribution of a number over runs.
+fn spread(errors: &[Errors], of: impl Fn(&Errors) -> f64) -> ErrorSummary {
+    ErrorSummary::of(&errors.iter().map(of).collect::<Vec<f64>>())
+}
+
 /// The medians of runs.
-fn median_of(errors: &[Errors]) -> (Outcome, Option<[f64; 2]>) {
-    let median = |of: &dyn Fn(&Errors) -> f64| ErrorSummary::of(&errors.iter().map(of).collect::<Vec<f64>>()).median;
-    let innovation = median(&|errors| errors.outcome.innovations.1.unwrap_or(f64::NAN));
+fn median_outcome(errors: &[Errors]) -> Outcome {
+    let median = |of: &dyn Fn(&Outcome) -> f64| spread(errors, |errors| of(&errors.outcome)).median;
+    let innovation = median(&|outcome| outcome.innovations.1.unwrap_or(f64::NAN));
     let of_first = errors[0].outcome;
-    let outcome = Outcome {
+    Outcome {
         innovations: (
-            median(&|errors| f64::from(errors.outcome.innovations.0)) as u32,
+            median(&|outcome| f64::from(outcome.innovations.0)) as u32,
             Some(innovation).filter(|innovation| !innovation.is_nan()),
-            median(&|errors| errors.outcome.innovations.2),
+            median(&|outcome| outcome.innovations.2),
         ),
-        left: median(&|errors| errors.outcome.left),
-        founded: median(&|errors| errors.outcome.founded),
-        there: median(&|errors| errors.outcome.there),
+        left: median(&|outcome| outcome.left),
+        founded: median(&|outcome| outcome.founded),
+        there: median(&|outcome| outcome.there),
+        drift: of_first
+            .drift
+            .map(|_| [0, 1].map(|k| median(&|outcome| outcome.drift.map_or(f64::NAN, |drift| drift[k])))),
         ..of_first
-    };
-    let drift =
-        errors[0].drift.map(|_| [0, 1].map(|k| median(&|errors| errors.drift.map_or(f64::NAN, |drift| drift[k]))));
-    (outcome, drift)
+    }
 }
 
 fn many(arguments: &Arguments, errors: &[Errors], noises: &str, options: &[&str]) -> Result<()> {
-    let spread = |of: &dyn Fn(&Errors) -> f64| ErrorSummary::of(&errors.iter().map(of).collect::<Vec<f64>>());
-    let (median, drift) = median_of(errors);
+    let spread = |of: &dyn Fn(&Errors) -> f64| spread(errors, of);
+    let median = median_outcome(errors);
     let summary = Summary {
         seeds: errors.len(),
         noises: noises.into(),
@@ -454,7 +436,7 @@ fn many(arguments: &Arguments, errors: &[Errors], noises: &str, options: &[&str]
         best_aligned: spread(&|errors| errors.path[1]),
         odometry: spread(&|errors| errors.path[2]),
         landmarks: spread(&|errors| errors.outcome.left),
-        drift,
+        drift: median.drift,
         innovation: median.innovations.1,
         remarks: median.remarks(options),
     };

@@ -58,7 +58,7 @@ enum Command {
     Variants(variants::Arguments),
 }
 
-/// What was asked for cannot be done as it was asked: exit status 2, where any other failure is 1, and a map that contradicts itself 3.
+/// What was asked for cannot be done as it was asked: exit status 2, where any other failure is 1.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 struct Usage(String);
@@ -79,11 +79,8 @@ fn main() -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
     eprintln!("fastslam: {error:#}");
     let usage = error.is::<Usage>() || error.is::<SettingError>() || error.is::<FigureError>();
-    ExitCode::from(match error.is::<log::OpenLoop>() {
-        true => 3,
-        false if usage => 2,
-        false => 1,
-    })
+    let status = if usage { 2 } else { 1 };
+    ExitCode::from(if error.is::<log::OpenLoop>() { 3 } else { status })
 }
 
 fn run(arguments: Arguments) -> Result<()> {

@@ -9,8 +9,8 @@ pub struct Outcome {
     pub innovations: (u32, Option<f64>, f64),
     /// Whether the filter was to find out by itself which landmark it sees.
     pub unknown: bool,
-    /// Whether the drift of the odometry was learnt.
-    pub learnt: bool,
+    /// Drift of the odometry, per metre ahead \[rad/m\] and per radian turned \[–\], where it was learnt.
+    pub drift: Option<[f64; 2]>,
     /// Landmarks in the best map.
     pub left: f64,
     /// Landmarks that were founded on the way, by the best particles.
@@ -35,7 +35,8 @@ impl Outcome {
             ["range-std", "bearing-std"].iter().chain(noises).map(|name| format!("--{name}")).collect();
         let options = options.join(", ");
         if mean > most {
-            let drift = if self.learnt { "" } else { ", let the drift of the odometry be learnt (--drift learnt)" };
+            let drift =
+                if self.drift.is_some() { "" } else { ", let the drift of the odometry be learnt (--drift learnt)" };
             return Some(format!(
                 "what was seen contradicts the noises that were told: the mean normalised innovation squared is {mean:.1} where 2 is \
                  expected and {most:.1} the most by chance, and {:.0} % are beyond the 99 % bound; tell larger noises ({options}){drift} or run \
@@ -54,15 +55,16 @@ impl Outcome {
 
     fn of_landmarks(&self) -> Option<String> {
         let Self { left, founded, there, .. } = *self;
-        let said = if there > 0.0 && left < 0.5 * there {
-            format!("only {left} of the {there} landmarks that were seen are left in the best map")
-        } else if there == 0.0 && founded >= 10.0 && left < LEAST_LEFT * founded {
-            format!("only {left} of the {founded} landmarks that were mapped are left in the best map")
-        } else if there > 0.0 && left > 2.0 * there {
+        if there > 0.0 && left > 2.0 * there {
             return Some(format!(
                 "the best map has {left} landmarks where {there} were seen: many are mapped twice; tell larger noises, or merge what coincides \
                  (--merge)"
             ));
+        }
+        let said = if there > 0.0 && left < 0.5 * there {
+            format!("only {left} of the {there} landmarks that were seen are left in the best map")
+        } else if there == 0.0 && founded >= 10.0 && left < LEAST_LEFT * founded {
+            format!("only {left} of the {founded} landmarks that were mapped are left in the best map")
         } else {
             return None;
         };
@@ -81,7 +83,7 @@ mod tests {
     const GOOD: Outcome = Outcome {
         innovations: (900, Some(2.1), 0.012),
         unknown: true,
-        learnt: false,
+        drift: None,
         left: 18.0,
         founded: 57.0,
         there: 15.0,
@@ -113,7 +115,7 @@ mod tests {
         {
             assert!(message.contains(part), "{message}");
         }
-        assert!(!said(Outcome { learnt: true, ..large }).contains("--drift"));
+        assert!(!said(Outcome { drift: Some([0.0; 2]), ..large }).contains("--drift"));
         let small = Outcome { innovations: (900, Some(0.05), 0.0), unknown: false, ..GOOD };
         assert!(
             said(small).contains("0.05 where 2 is expected") && said(small).contains("smaller noises"),

@@ -757,7 +757,7 @@ fn without_bar_codes_the_recorded_log_is_followed_nearly_as_by_the_joint_filter(
     }
 }
 
-/// On standard error and in JSON, with the exit status as ever.
+/// Remarks stand on standard error and in JSON; the exit status stays 0.
 #[test]
 fn noises_that_are_contradicted_and_landmarks_that_vanish_are_told() {
     let told = |options: &str| {
