@@ -14,6 +14,13 @@ export async function holdPrograms(page: Page): Promise<() => void> {
   return open
 }
 
+/** Until what was asked of a figure is shown; also of one whose module is still on its way. */
+export const settled = (element: Locator): Promise<void> =>
+  element.evaluate(async figure => {
+    await customElements.whenDefined(figure.localName)
+    await (figure as HTMLElement & { settled(): Promise<void> }).settled()
+  })
+
 /** The page has painted so many times: whatever was on its way has come, whatever the machine. */
 export const frames = (page: Page | Frame, count: number): Promise<void> =>
   page.evaluate(async n => {
@@ -107,7 +114,7 @@ export class Figure {
 
   /** Until what was asked for is shown. */
   async settled(): Promise<void> {
-    await this.element.evaluate(figure => (figure as HTMLElement & { settled(): Promise<void> }).settled())
+    await settled(this.element)
   }
 
   async playing(): Promise<boolean> {

@@ -1,6 +1,7 @@
 // The figure that maps logs, as its specs handle it.
 import type { Locator, Page } from '@playwright/test'
 import { expect } from './fixtures'
+import { settled } from './figure'
 import { openAlone } from './host'
 
 export class LogFigure {
@@ -65,7 +66,7 @@ export class LogFigure {
 
   /** Until what was asked for is shown. */
   async settled(): Promise<void> {
-    await this.element.evaluate((figure: HTMLElement & { settled(): Promise<void> }) => figure.settled())
+    await settled(this.element)
   }
 
   /** A fingerprint of the pixels. */
