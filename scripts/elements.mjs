@@ -111,10 +111,12 @@ const membersOf = figure => {
   return { options, methods: [...methods, ...extras.methods], properties: [...properties, ...extras.properties] }
 }
 
-const events = [
+/** Each bubbles, through the borders of shadow roots too. */
+export const events = [
   { name: 'fastslam-step', type: 'CustomEvent<FigureDetail>', help: 'Another step is shown; also once when the figure comes to life.' },
   { name: 'fastslam-change', type: 'CustomEvent<FigureDetail>', help: 'A parameter has changed, whoever did it.' },
   { name: 'fastslam-challenge', type: 'CustomEvent<ChallengeDetail>', help: 'A reader has taken up a challenge or, where it is done, reached it.' },
+  { name: 'fastslam-trace', type: 'CustomEvent<TraceDetail>', help: 'The lines of the algorithm that led to the step shown.' },
   { name: 'fastslam-guess', type: 'CustomEvent<GuessDetail>', help: 'A prediction was judged: guess and result stand side by side; or the reader has waived it.' },
 ]
 
@@ -122,6 +124,17 @@ const parts =
   'figure title stage canvas chips chip transport button primary play rewind step-back step reset undo scrub seed controls control notices notice sentence numbers readouts readout settings menu toggle handle count again stop inputs pin pinned go-back unpin seeds seeds-start seeds-strip seed-run'.split(' ')
 
 const cssProperties = ['accent', 'ink', 'muted', 'line', 'paper', 'radius', 'font'].map(name => `--fastslam-${name}`)
+
+/** What a figure tells the page. @param {{ tag: string }} figure */
+export const eventsOf = figure => [...events, ...extrasOf(figure).events]
+
+/** The names in an event's detail, in braces; those with a question mark are not always there. @param {string} type `CustomEvent<…>` */
+function detailOf(type) {
+  const name = /<(\w+)>/.exec(type)?.[1]
+  const body = new RegExp(`interface ${name} \\{([^}]*)\\}`).exec(details())?.[1]
+  if (!body) throw new StepError(`widgets/elements/details.ts has no ${name}.`)
+  return `{ ${[...body.matchAll(/^  (\w+\??):/gm)].map(([, field]) => field).join(', ')} }`
+}
 
 /** The type of a parameter in TypeScript. @param {ParamSpec} spec */
 function type({ kind, choices }) {
@@ -178,7 +191,8 @@ export function manifest(all) {
       ...membersOf(figure).properties.map(({ name, type: text, readonly, help }) => ({ kind: 'field', name, type: { text }, readonly, description: help })),
       ...membersOf(figure).methods.map(({ name, help }) => ({ kind: 'method', name, description: help })),
     ],
-    events: [...events, ...extrasOf(figure).events].map(({ name, type: text, help }) => ({ name, type: { text }, description: help })),
+    events: eventsOf(figure).map(({ name, type: text, help }) => ({ name, type: { text }, description: `${help} Its detail: ${detailOf(text)}.` })),
+    ...Object.fromEntries(named(figure).map(([what, all]) => [what.toLowerCase(), all])),
     cssParts: parts.map(name => ({ name })),
     cssProperties: cssProperties.map(name => ({ name })),
     slots: [{ name: '', description: 'A picture of the figure, for where it cannot run.' }],
@@ -190,6 +204,15 @@ export function manifest(all) {
   return { schemaVersion: '1.0.0', readme: 'README.md', modules: [{ kind: 'javascript-module', path: 'fastslam.js', declarations, exports: exported }] }
 }
 
+/** What a figure tells and offers by name: its readouts, as events and saved data have them, and its challenges. @param {FigureInfo} figure @returns {[string, { name: string, description: string }[]][]} */
+const named = ({ readouts, chips }) => [
+  ['Readouts', readouts.map(({ name, title, unit }) => ({ name, description: unit ? `${title} [${unit}]` : title }))],
+  ['Challenges', chips.map(({ name, title }) => ({ name, description: title }))],
+]
+
+/** The shapes of what figures tell the page, as the elements have them: after the line that says what the file is. */
+const details = () => readFileSync(join(root, 'widgets', 'elements', 'details.ts'), 'utf8').replace(/^.*\n+/, '')
+
 /** The types of the elements. @param {FigureInfo[]} all */
 export function types(all) {
   const doc = (/** @type {string} */ text) => `  /** ${text} */`
@@ -198,7 +221,7 @@ export function types(all) {
     `${doc(item.help)}\n  ${item.readonly ? 'readonly ' : ''}${item.name}: ${item.type}`
   const classes = all.map(
     figure =>
-      `/** ${figure.title}. */\nexport declare class ${figure.className} extends FigureElement {\n${[
+      `/**\n * ${[`${figure.title}.`, ...named(figure).map(([what, all]) => `${what}: ${all.map(({ name, description }) => `${name} (${description})`).join(', ')}.`)].join('\n *\n * ')}\n */\nexport declare class ${figure.className} extends FigureElement {\n${[
         ...(isLog(figure) ? log.methods.map(member) : []),
         ...[...extrasOf(figure).methods, ...extrasOf(figure).properties].map(member),
         ...figure.params.filter(({ name }) => name !== 'step').map(field),
@@ -210,61 +233,7 @@ export function types(all) {
   )
   return `// Made by scripts/elements.mjs from what the figures tell of themselves.
 
-export interface FigureReadout {
-  name: string
-  title: string
-  value: number | null
-  text: string
-  unit: string
-  help: string
-}
-
-export interface FigureDetail {
-  step: number
-  /** The last step there is; 0 where there is nothing to play. */
-  last: number
-  /** Whose doing it was: the reader's own hand, playing, or the page (an attribute, a property, a link, a script). */
-  by: 'reader' | 'playback' | 'page'
-  values: Record<string, string>
-  readouts: FigureReadout[]
-  /** Of a figure that maps a file. */
-  phase?: 'empty' | 'ready' | 'running' | 'paused' | 'stopped' | 'done'
-}
-
-export interface ChallengeDetail {
-  /** Of the challenge, the same in every language. */
-  name: string
-  /** Whether it was reached, or taken up. */
-  done: boolean
-}
-
-/** What came out at one seed. */
-export interface SeedRun {
-  seed: number
-  step: number
-  /** The state that shows it, as a link has it. */
-  state: string
-  readouts: FigureReadout[]
-}
-
-export interface SeedsDetail {
-  /** The readout that matters, by its name. */
-  readout: string
-  /** Its median over the seeds; null where some have none. */
-  median: number | null
-  runs: SeedRun[]
-}
-
-export interface GuessDetail {
-  /** What was predicted. */
-  name: string
-  guess: number | null
-  /** Null where what was to be predicted never came. */
-  result: number | null
-  /** Whether the reader has seen the result without a guess. */
-  waived: boolean
-}
-
+${details()}
 export interface FigureEventMap extends HTMLElementEventMap {
 ${[...events, ...comparing.events].map(({ name, type: text, help }) => `${doc(help)}\n  '${name}': ${text}`).join('\n')}
 }

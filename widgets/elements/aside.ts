@@ -4,21 +4,10 @@ import { h } from './dom'
 import type { Answer, Command, Frame, Listener, Size } from './host'
 import { LocalHost } from './local-host'
 import { programOf } from './program'
-import type { Readout } from './shell'
 import { ToldError } from './words'
 import { yieldToMain } from './yield'
 
 const SLICE = 8 // [ms] of simulation between two looks at what else the page has to do
-
-/** What came out at one seed. */
-export interface SeedRun {
-  seed: number
-  /** The step that all of it is of. */
-  step: number
-  /** The state that shows it, as a link has it. */
-  state: string
-  readouts: Readout[]
-}
 
 export class Aside implements Listener {
   #host: LocalHost | undefined

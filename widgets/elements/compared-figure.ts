@@ -1,5 +1,6 @@
 // A figure whose runs can be compared: one of them pinned beside the others, and the same setting at further seeds.
-import { Aside, atSeed, pictureOf, type SeedRun } from './aside'
+import { Aside, atSeed, pictureOf } from './aside'
+import type { SeedRun } from './details'
 import css from './compare.css?inline'
 import { h, write } from './dom'
 import { FigureElement } from './figure-element'

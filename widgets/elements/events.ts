@@ -1,41 +1,8 @@
-// What figures tell the page. Events are always the last thing done: who listens may remove, reset, move or clone the figure.
-import type { Frame, Phase } from './host'
-import type { Readout, TraceLine } from './shell'
+// Events: always the last thing done: who listens may remove, reset, move or clone the figure.
+import type { Cause, ChallengeDetail, FigureDetail, GuessDetail, TraceDetail } from './details'
+import type { Frame } from './host'
 
-/** Who made a state what it is: the reader's own hand, playing, or the page (an attribute, a property, a link, a script). */
-export type Cause = 'reader' | 'playback' | 'page'
-
-export interface FigureDetail {
-  step: number
-  /** The last step there is; 0 where there is nothing to play. */
-  last: number
-  by: Cause
-  values: Record<string, string>
-  readouts: Readout[]
-  /** Of a figure that maps a file. */
-  phase?: Phase
-}
-
-export interface TraceDetail {
-  step: number
-  lines: TraceLine[]
-}
-
-/** A challenge: taken up, or reached. */
-export interface ChallengeDetail {
-  name: string
-  done: boolean
-}
-
-/** A prediction was judged, or waived. */
-export interface GuessDetail {
-  /** What was predicted. */
-  name: string
-  guess: number | null
-  /** `null` where what was to be predicted never came. */
-  result: number | null
-  waived: boolean
-}
+export type { Cause, ChallengeDetail, FigureDetail, GuessDetail, TraceDetail } from './details'
 
 export class Events {
   cause: Cause = 'page' // of what is told next

@@ -1,20 +1,12 @@
 // Folded away below a figure: its setting at the seed shown and at the next four, a small picture each, with the number that matters.
-import { pictureOf, type SeedRun } from './aside'
+import { pictureOf } from './aside'
+import type { SeedRun, SeedsDetail } from './details'
 import { h, write } from './dom'
 import type { Frame } from './host'
 import type { Words } from './words'
 
 /** How many. */
 const COUNT = 5
-
-/** What `fastslam-seeds` tells: every run of the strip, when the last of them is there. */
-export interface SeedsDetail {
-  /** The readout that matters, by its name. */
-  readout: string
-  /** Its median over the seeds; null where some have none. */
-  median: number | null
-  runs: SeedRun[]
-}
 
 export interface SeedsActions {
   run(wish: { step?: number }, signal: AbortSignal, came: (run: SeedRun, frame: Frame) => void): Promise<void>

@@ -1,5 +1,6 @@
 // What a figure on a page and a figure beside its program say to each other: the same words whether the two share a thread or not. A
 // figure is asked by commands and tells by answers. The host is who carries them: LocalHost by calls, WorkerHost by messages.
+import type { Phase } from './details'
 import type { Chip, Handle, Outcome, ParamSpec, Readout, Room, TraceLine } from './shell'
 import type { ThemeName } from './theme'
 import type { Message } from './words'
@@ -111,8 +112,7 @@ export class HostMemory {
 
 export type SavedFile = 'map.png' | 'map.ros' | 'path.tum' | 'path.mcap' | 'report.json'
 
-/** How far the mapping of a file is. */
-export type Phase = 'empty' | 'ready' | 'running' | 'paused' | 'done'
+export type { Phase }
 
 export interface Run {
   phase: Phase

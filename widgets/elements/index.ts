@@ -1,7 +1,5 @@
 // Registers every figure; one file a tag.
-export type { FigureDetail } from './events'
-export type { SeedRun } from './aside'
-export type { SeedsDetail } from './five-seeds'
+export type * from './details'
 export { FigureElement } from './figure-element'
 export { FastslamConditioning } from './conditioning'
 export { FastslamDoors } from './doors'

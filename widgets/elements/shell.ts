@@ -3,6 +3,7 @@ import type { Shell } from './generated/shell'
 import type { Message } from './words'
 
 export type { Shell }
+export type { FigureReadout as Readout, TraceLine } from './details'
 export type ShellFigure = InstanceType<Shell['Figure']>
 
 /** What the shell tells about one parameter: the only source of attributes, properties, controls and links. */
@@ -20,16 +21,6 @@ export interface ParamSpec {
   slider: boolean
   folded: boolean
   help: string
-}
-
-export interface Readout {
-  name: string
-  title: string
-  value: number | null
-  text: string
-  unit: string
-  help: string
-  drawn: boolean // the picture says it
 }
 
 /** A state that is worth trying (widgets/src/challenge.rs). */
@@ -59,12 +50,6 @@ export interface Outcome {
   /** Whether the reader has seen the result without a guess. */
   waived: boolean
   shown: boolean
-}
-
-/** A line of the figure's algorithm that the step shown has run. */
-export interface TraceLine {
-  key: string
-  text: string
 }
 
 /** A point of the picture that a reader moves, where it lies on the canvas [css px]. */

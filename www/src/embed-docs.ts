@@ -25,6 +25,8 @@ interface Declaration {
   attributes: Described[]
   members: Described[]
   events: Described[]
+  readouts: Described[]
+  challenges: Described[]
   cssParts: Described[]
   cssProperties: Described[]
 }
@@ -117,10 +119,11 @@ function list(declarations: Declaration[]): void {
   const reference = document.querySelector('#reference')!
   const code = (text: string) => h('code', {}, text)
   const attributes = (all: Described[]) => all.map(({ name, type, default: value, description }) => [code(name), code(type?.text ?? ''), code(value ?? ''), description ?? ''])
-  for (const { tagName, summary, attributes: all } of declarations) {
+  const terms = (what: string, all: Described[]) => (all.length > 0 ? table(what, ['Name', 'For readers'], all.map(({ name, description }) => [code(name), description ?? ''])) : [])
+  for (const { tagName, summary, attributes: all, readouts, challenges } of declarations) {
     // Each has parts of its own to show.
     const rows = attributes(all.filter(({ name }) => name === 'show' || !(name in OPTIONS)))
-    reference.append(h('details', {}, h('summary', {}, code(`<${tagName}>`), ` ${summary}`), ...table('Attributes', ['Attribute', 'Values', 'Default', 'What it does'], rows)))
+    reference.append(h('details', {}, h('summary', {}, code(`<${tagName}>`), ` ${summary}`), ...table('Attributes', ['Attribute', 'Values', 'Default', 'What it does'], rows), ...terms('Readouts', readouts), ...terms('Challenges', challenges)))
   }
   const { attributes: every, members, events, cssParts, cssProperties } = declarations[0]!
   const methods = members.filter(({ kind }) => kind === 'method')
@@ -130,7 +133,7 @@ function list(declarations: Declaration[]): void {
     ...table('Methods, properties and events', ['Name', 'What it does'], [
       ...methods.map(({ name, description }) => [code(`${name}()`), description ?? '']),
       ...properties.map(({ name, description }) => [code(name), description ?? '']),
-      ...events.map(({ name, description }) => [code(name), `${description} It bubbles, and its detail is { step, values, readouts }.`]),
+      ...events.map(({ name, description }) => [code(name), description ?? '']),
     ]),
     h('p', {}, 'Every parameter is a property too, its name without dashes: ', code('range-std'), ' is ', code('rangeStd'), '. For style sheets: the properties ', ...cssProperties.flatMap(({ name }, i) => [i > 0 ? ', ' : '', code(name)]), ' and, by ', code('::part()'), ', the parts ', ...cssParts.flatMap(({ name }, i) => [i > 0 ? ', ' : '', code(name)]), '.'),
   )

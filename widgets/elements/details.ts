@@ -1,0 +1,75 @@
+// What figures tell the page. The types of the packages (scripts/elements.mjs) have these lines as they are: nothing is imported here.
+
+/** A number that a figure shows. */
+export interface FigureReadout {
+  name: string
+  title: string
+  value: number | null
+  text: string
+  unit: string
+  help: string
+  /** Whether the picture says it. */
+  drawn: boolean
+}
+
+/** Whose doing it was: the reader's own hand, playing, or the page (an attribute, a property, a link, a script). */
+export type Cause = 'reader' | 'playback' | 'page'
+
+/** How far the mapping of a file is. */
+export type Phase = 'empty' | 'ready' | 'running' | 'paused' | 'done'
+
+export interface FigureDetail {
+  step: number
+  /** The last step there is; 0 where there is nothing to play. */
+  last: number
+  by: Cause
+  values: Record<string, string>
+  readouts: FigureReadout[]
+  /** Of a figure that maps a file. */
+  phase?: Phase
+}
+
+/** A line of the algorithm that led to what is shown. */
+export interface TraceLine {
+  key: string
+  text: string
+}
+
+export interface TraceDetail {
+  step: number
+  lines: TraceLine[]
+}
+
+export interface ChallengeDetail {
+  /** Of the challenge, the same in every language. */
+  name: string
+  /** Whether it was reached, or taken up. */
+  done: boolean
+}
+
+export interface GuessDetail {
+  /** What was predicted. */
+  name: string
+  guess: number | null
+  /** Null where what was to be predicted never came. */
+  result: number | null
+  /** Whether the reader has seen the result without a guess. */
+  waived: boolean
+}
+
+/** What came out at one seed. */
+export interface SeedRun {
+  seed: number
+  step: number
+  /** The state that shows it, as a link has it. */
+  state: string
+  readouts: FigureReadout[]
+}
+
+export interface SeedsDetail {
+  /** The readout that matters, by its name. */
+  readout: string
+  /** Its median over the seeds; null where some have none. */
+  median: number | null
+  runs: SeedRun[]
+}
