@@ -99,6 +99,9 @@ export async function writeFrames() {
   for (const figure of all) copyFileSync(join(dist, pictureFile(figure, 'light', dist)), join(dist, `embed-${figure.name}.png`))
   write(join(dist, 'custom-elements.json'), `${JSON.stringify(manifest(all), undefined, 2)}\n`)
   write(join(dist, 'fastslam.d.ts'), types(all))
+  // Imported late: set-up may be what installs the packages that it stands on.
+  const { notices } = await import('./notices.mjs')
+  write(join(dist, 'licences.txt'), notices())
   // The code for MyST names it, and MyST copies that one file when a book is built: it must stand alone.
   write(join(dist, 'fastslam-anywidget.js'), await singleFile(notebook))
   return `of ${all.length} figures${address ? `, for ${address}` : '; no canonical links and no oEmbed, as FASTSLAM_SITE does not say where the site will be'}`

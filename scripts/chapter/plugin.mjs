@@ -3,7 +3,7 @@ import { mkdirSync, writeFileSync } from 'node:fs'
 import { basename, join } from 'node:path'
 import { readIfThere } from '../lib.mjs'
 import { renderChapter } from './chapter.mjs'
-import { Letters, licences, writeFonts } from './fonts.mjs'
+import { Letters, writeFonts } from './fonts.mjs'
 import { serialize } from './page.mjs'
 
 /** @param {string} root @returns {import('vite').Plugin} */
@@ -27,9 +27,6 @@ export function chapter(root) {
     name: 'chapter',
     async buildStart() {
       await (made ??= make())
-    },
-    generateBundle() {
-      this.emitFile({ type: 'asset', fileName: 'assets/fonts-licence.txt', source: licences(root) })
     },
     transformIndexHtml: {
       order: 'pre',

@@ -48,6 +48,7 @@ test('it is what its README says: exports with types, no word of the chapter, no
   const files = Object.values(exports).flatMap(target => (typeof target === 'string' ? [target] : Object.values(target as Record<string, string>)))
   for (const file of files) expect(readFileSync(join(installed, file)).length, file).toBeGreaterThan(0)
   expect(sideEffects).toContain('./dist/*.js')
+  expect(readFileSync(join(installed, 'dist', 'licences.txt'), 'utf8')).toContain('SIL OPEN FONT LICENSE')
   const scripts = readdirSync(join(installed, 'dist')).filter(file => /^fastslam(-|\.js)/.test(file))
   const script = scripts.map(file => readFileSync(join(installed, 'dist', file), 'utf8')).join('')
   const named = [...script.matchAll(/new URL\([`"']([^`"']+\.(?:wasm|png|js))[`"'],/g)]
