@@ -18,6 +18,10 @@ const pages = readdirSync(www, { recursive: true, encoding: 'utf8' }).filter(
 /** @param {{ names: string[] }} asset */
 const assetFileNames = asset => (asset.names.some(name => basename(name).endsWith('.wasm')) ? '[name]-[hash][extname]' : 'assets/[name]-[hash][extname]')
 
+/** What single figures have that no other has; www/src/embed.ts loads these where one of them is asked for. */
+const apart = ['log', 'drops', 'map-gestures', 'lap', 'drive', 'resampling', 'doors', 'count-study', 'universes', 'universes-again', 'worked-example', 'matrix-inputs', 'lap-table', 'index']
+const shared = new RegExp(`widgets[/\\\\](pkg[/\\\\]|words[/\\\\]|elements[/\\\\](?!(generated[/\\\\])?(${apart.join('|')})\\.))`)
+
 /** In the head of every page, before all that it loads; vite's own server needs what the policy forbids. @type {import('vite').Plugin} */
 const policyInHead = {
   name: 'policy-in-head',
@@ -69,7 +73,7 @@ export default defineConfig({
       output: {
         entryFileNames: chunk => (chunk.name === 'fastslam' ? '[name].js' : 'assets/[name]-[hash].js'),
         // What all figures share is one file, and what only one has is a file of its own: a page for frames loads no other's.
-        codeSplitting: { groups: [{ name: 'shared', test: /widgets[/\\](pkg[/\\]|words[/\\]|elements[/\\](?!(generated[/\\])?(log|drops|map-gestures|resampling|doors|count-study|lap-table|index)\.))/ }] },
+        codeSplitting: { groups: [{ name: 'shared', test: shared }] },
         // It lies beside fastslam.js, which only names them: figures find the site's other pages from there.
         chunkFileNames: chunk => (chunk.name === 'shared' ? 'fastslam-[hash].js' : 'assets/[name]-[hash].js'),
         assetFileNames,

@@ -2,24 +2,24 @@
 // so it runs in a frame with sandbox="allow-scripts".
 import type { FigureElement } from '../../widgets/elements/figure-element'
 import '../../widgets/elements/conditioning'
+import '../../widgets/elements/em'
+import '../../widgets/elements/graph'
 import '../../widgets/elements/joint'
-import '../../widgets/elements/lap'
 import '../../widgets/elements/proposal'
 import '../../widgets/elements/smoothing'
-import '../../widgets/elements/worked-example'
 import { FIGURES } from '../../widgets/elements/generated/figures'
 import { noFigure } from '../../widgets/elements/parameters'
 import { takePrintKey } from '../../widgets/elements/paper'
 import { asked, askedTag, configure } from './asked'
 
-/** Figures with much code of their own, which is loaded where one of them is asked for. */
+/** Figures with code of their own, which is loaded where one of them is asked for. */
 const LATER: Record<string, () => Promise<unknown>> = {
-  'fastslam-log': () => import('../../widgets/elements/log'),
   'fastslam-doors': () => import('../../widgets/elements/doors'),
-  'fastslam-em': () => import('../../widgets/elements/em'),
-  'fastslam-graph': () => import('../../widgets/elements/graph'),
+  'fastslam-lap': () => import('../../widgets/elements/lap'),
+  'fastslam-log': () => import('../../widgets/elements/log'),
   'fastslam-resampling': () => import('../../widgets/elements/resampling'),
   'fastslam-universes': () => import('../../widgets/elements/universes'),
+  'fastslam-worked-example': () => import('../../widgets/elements/worked-example'),
 }
 
 takePrintKey()
