@@ -7,9 +7,9 @@ import { askForSite } from './address.mjs'
 import { tellFigures, writeNames } from './elements.mjs'
 import { writeFrames } from './frames.mjs'
 import { checkGlue, gluePaths } from './glue.mjs'
-import { programFile, programNames } from './registry.mjs'
+import { chapterPrograms, programFile, singlePrograms } from './registry.mjs'
 import { setUp } from './setup.mjs'
-import { cache, capture, isMain, main, npmBin, readIfThere, root, run, step, StepError } from './lib.mjs'
+import { cache, capture, isMain, kilobytes, main, npmBin, readIfThere, root, run, step, StepError } from './lib.mjs'
 
 /** Where the site is built; deliberate faults are built elsewhere. */
 export const dist = process.env.FASTSLAM_DIST ?? join(root, 'dist')
@@ -30,23 +30,28 @@ const features = [
 const optimiser = [...features, '-O3', '--strip-debug']
 
 /**
- * What pages load: the program of the figures that run on the page itself, that of the one that maps logs, in a worker, and that which
- * reads bags for it. One after the other, so that what they share is compiled once. All use the same glue.
+ * What pages load: the programs of the chapter, and of those of single figures the ones that are asked for. What is there of the others
+ * stays where it is of these sources. One after the other, so that what they share is compiled once. All use the same glue.
+ * @param {string[]} singles
  */
-export async function buildPrograms() {
-  const made = (/** @type {string} */ program) => cache('programs', program)
-  for (const program of programNames) {
-    await step(basename(programFile(program)), async () => {
-      await wasmPack(made(program), program, 'page')
-      mkdirSync(dirname(programFile(program)), { recursive: true })
-      copyFileSync(join(made(program), wasm), programFile(program))
-      return optimise(programFile(program))
-    })
-  }
+export async function buildPrograms(singles = []) {
+  for (const program of singlePrograms) if (!isMade(program)) rmSync(programFile(program), { force: true })
+  for (const program of [...chapterPrograms, ...singles]) await step(basename(programFile(program)), () => buildProgram(program))
   await step('Glue of the programs', () => {
-    for (const path of gluePaths) copyFileSync(join(made(gluedAs), basename(path)), path)
-    for (const program of programNames) checkGlue(programFile(program))
+    for (const path of gluePaths) copyFileSync(join(folderOf(gluedAs), basename(path)), path)
+    for (const program of [...chapterPrograms, ...singlePrograms.filter(program => existsSync(programFile(program)))]) checkGlue(programFile(program))
   })
+}
+
+/** Where a program is made. @param {string} program */
+const folderOf = program => cache('programs', program)
+
+/** @param {string} program */
+async function buildProgram(program) {
+  await wasmPack(folderOf(program), program, 'page')
+  mkdirSync(dirname(programFile(program)), { recursive: true })
+  copyFileSync(join(folderOf(program), wasm), programFile(program))
+  return optimise(programFile(program))
 }
 
 /** The one program that exports all that any of them does. */
@@ -66,14 +71,26 @@ function madeFrom() {
   return hash.digest('hex')
 }
 
+/** @param {string} folder @param {string} features @param {string} profile of Cargo.toml */
+const wasmPackArgs = (folder, features, profile) => ['build', 'widgets', '--target', 'web', '--profile', profile, '--no-pack', '--out-dir', folder, '--no-default-features', '--features', `single-threaded,${features}`]
+
+/** Of a program as these sources give it. @param {string[]} args of wasm-pack */
+const stampOf = args => `${args.join(' ')} ${madeFrom()}`
+
+/** @param {string} folder */
+const stampIn = folder => join(folder, 'made-from')
+
+/** Whether a program of the page's is there as these sources give it. @param {string} program */
+const isMade = program => readIfThere(stampIn(folderOf(program))) === stampOf(wasmPackArgs(folderOf(program), program, 'page'))
+
 /**
  * Compiles a program, unless it is there as these sources give it: Cargo keeps one library of the widgets for each profile, whatever its
  * features, and would compile all of them anew each time.
  * @param {string} folder @param {string} features @param {string} profile of Cargo.toml
  */
 async function wasmPack(folder, features, profile) {
-  const args = ['build', 'widgets', '--target', 'web', '--profile', profile, '--no-pack', '--out-dir', folder, '--no-default-features', '--features', `single-threaded,${features}`]
-  const [stamp, wanted] = [join(folder, 'made-from'), `${args.join(' ')} ${madeFrom()}`]
+  const args = wasmPackArgs(folder, features, profile)
+  const [stamp, wanted] = [stampIn(folder), stampOf(args)]
   if (readIfThere(stamp) === wanted && existsSync(join(folder, wasm))) return
   rmSync(stamp, { force: true })
   await run('wasm-pack', args)
@@ -97,10 +114,11 @@ export async function buildPages() {
   await step('Frames, oEmbed and the files for other pages', writeFrames)
 }
 
-export async function build() {
+/** The site. @param {string[]} singles figures that get a program of their own, beside that of the chapter */
+export async function build(singles = []) {
   await setUp()
   // The compiler of the one has a core to spare while the other links.
-  await Promise.all([buildPrograms(), step('What the figures tell of themselves', () => tellFigures())])
+  await Promise.all([buildPrograms(singles), step('What the figures tell of themselves', () => tellFigures())])
   await step('Names of the figures', writeNames)
   await buildPages()
 }
@@ -123,13 +141,20 @@ async function optimise(file) {
   return `${kilobytes(input.length)} → ${kilobytes(statSync(file).size)}`
 }
 
-/** @param {number} bytes */
-export const kilobytes = bytes => `${(bytes / 1000).toFixed(1)} KB`
+/** The figures that the command line names for programs of their own: `--singles` for all, `--singles lap,em` for these. @param {string[]} otherwise */
+export function singlesAsked(otherwise = []) {
+  const at = process.argv.indexOf('--singles')
+  if (at < 0) return otherwise
+  const names = process.argv[at + 1]?.match(/^[a-z].*/)?.[0].split(',') ?? singlePrograms
+  const unknown = names.find(name => !singlePrograms.includes(name))
+  if (unknown !== undefined) throw new StepError(`No figure named ${unknown} can have a program of its own.`, `There are: ${singlePrograms.join(', ')}`)
+  return names
+}
 
-// `-- --pages`: the pages alone, from programs that are there.
+// `-- --pages`: the pages alone, from programs that are there. `-- --singles`: with a program for each figure, for those who load one.
 if (isMain(import.meta)) {
   await main(async () => {
     await askForSite()
-    await (process.argv.includes('--pages') ? buildPages() : build())
+    await (process.argv.includes('--pages') ? buildPages() : build(singlesAsked()))
   })
 }

@@ -5,7 +5,7 @@ import { join } from 'node:path'
 import { build } from './build.mjs'
 import { audit, checkCrates } from './dependencies.mjs'
 import { isMain, main, npmBin, root, run, step, StepError } from './lib.mjs'
-import { programNames } from './registry.mjs'
+import { chapterPrograms } from './registry.mjs'
 
 /** The checks, as [name, action]: the tests run them as well. @type {[string, () => Promise<unknown>][]} */
 export const checks = [
@@ -26,7 +26,7 @@ export const checks = [
 async function clippyWasm() {
   const clippy = (/** @type {string[]} */ ...what) => run('cargo', ['clippy', ...what, '--target', 'wasm32-unknown-unknown', '--', '-D', 'warnings'])
   await clippy('-p', 'fastslam-widgets', '-p', 'browser', '--all-targets')
-  for (const program of programNames) await clippy('-p', 'fastslam-widgets', '--lib', '--no-default-features', '--features', `single-threaded,${program}`)
+  for (const program of chapterPrograms) await clippy('-p', 'fastslam-widgets', '--lib', '--no-default-features', '--features', `single-threaded,${program}`)
 }
 
 const crates = ['fastslam', 'fastslam-lab', 'fastslam-widgets']

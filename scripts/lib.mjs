@@ -58,6 +58,9 @@ export function processorSeconds() {
   return fields?.reduce((sum, ticks) => sum + Number(ticks) / 100, 0)
 }
 
+/** @param {number} bytes */
+export const kilobytes = bytes => `${(bytes / 1000).toFixed(1)} KB`
+
 /** @param {number} since */
 const elapsed = since => {
   const seconds = (performance.now() - since) / 1000

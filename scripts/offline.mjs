@@ -1,22 +1,18 @@
 // npm run offline: each figure, and the whole chapter, as one HTML file that works from a stick or an e-mail, opened by a double click;
-// and each figure as a SCORM 1.2 package for learning systems, which keeps a learner's state. All in packages/offline/.
+// and each figure as a SCORM 1.2 package for learning systems, which keeps a learner's state. All in packages/offline/. Each carries the
+// program of its figure; `-- --singles lap,em` makes them for these alone, and the others carry the chapter's.
 import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs'
 import { dirname, join, posix } from 'node:path'
 import { askForSite, site, wholeLinks } from './address.mjs'
-import { build, dist, kilobytes } from './build.mjs'
+import { build, dist, singlesAsked } from './build.mjs'
 import { figures } from './elements.mjs'
 import { escape } from './frames.mjs'
-import { isMain, main, root, say, step, StepError } from './lib.mjs'
-import { programs } from './registry.mjs'
+import { isMain, kilobytes, main, root, say, step, StepError } from './lib.mjs'
+import { alsoUsed, programFile, programs, singlePrograms } from './registry.mjs'
 import { singleFile } from './single.mjs'
+import { judge } from './sizes.mjs'
 
 export const offline = join(root, 'packages', 'offline')
-/**
- * What one figure's file may weigh [bytes]: the program of the page's figures, packed, has nearly 1 MB of it, and the file of logs has two programs,
- * one that maps and one that reads bags and writes paths for ROS; closing loops took 25 KB of it. The design's 1 MB is missed.
- */
-export const limit = 1_510_000
-
 /** Of a file that carries all it needs. */
 const policy = "default-src 'none'; script-src 'self' 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; img-src data: blob:; font-src data:; worker-src blob:; base-uri 'none'"
 
@@ -86,10 +82,17 @@ const imsManifest = ({ name, title }) => `<?xml version="1.0" encoding="UTF-8"?>
     <resource identifier="page" type="webcontent" adlcp:scormtype="sco" href="index.html">
       <file href="index.html" />
       <file href="scorm.js" />
+      <file href="licences.txt" />
     </resource>
   </resources>
 </manifest>
 `
+
+/** What a figure's file carries: its own program and what that uses; where these were not made, that of the chapter. @param {import('./elements.mjs').FigureInfo} figure */
+function programsOf({ tag, name }) {
+  const own = [name, ...(alsoUsed[name] ?? [])]
+  return own.every(program => existsSync(programFile(program))) ? own : [programs.get(tag) ?? '']
+}
 
 /** Every figure's file and package, and the chapter. @returns {Promise<string[]>} the files */
 export async function writeOffline() {
@@ -106,16 +109,18 @@ export async function writeOffline() {
     say(`  ${kilobytes(statSync(path).size).padStart(10)}  ${name}`)
     return statSync(path).size
   }
+  const licences = readFileSync(join(dist, 'licences.txt'), 'utf8')
+  put('licences.txt', licences)
   const scorm = readFileSync(join(root, 'widgets', 'scorm', 'scorm.js'), 'utf8')
   for (const figure of figures()) {
-    const program = programs.get(figure.tag) ?? ''
-    const script = await singleFile(join(root, 'www', 'src', 'embed.ts'), program === 'log' ? ['log', 'bags'] : [program])
+    const carried = programsOf(figure)
+    const script = await singleFile(join(root, 'www', 'src', 'embed.ts'), carried)
     const page = inlined(`embed-${figure.name}.html`, script)
     const size = put(`${figure.tag}.html`, page)
-    if (size > limit) throw new StepError(`${figure.tag}.html has ${kilobytes(size)}, over the limit of ${kilobytes(limit)}.`)
+    if (carried.includes(figure.name)) say(`  ${await judge(`offline.${figure.name}`, size)}`)
     const started = page.replace('</body>', () => '<script defer src="scorm.js"></script>\n  </body>')
     // The same time in every package, so that the same figure gives the same file.
-    const entries = { 'imsmanifest.xml': imsManifest(figure), 'index.html': started, 'scorm.js': scorm }
+    const entries = { 'imsmanifest.xml': imsManifest(figure), 'index.html': started, 'scorm.js': scorm, 'licences.txt': licences }
     put(`${figure.tag}-scorm.zip`, zipSync(Object.fromEntries(Object.entries(entries).map(([name, text]) => [name, strToU8(text)])), { level: 9, mtime: '1980-01-01T00:00:00' }))
   }
   put('chapter.html', inlined('index.html', await singleFile(join(root, 'www', 'src', 'main.ts'))))
@@ -125,7 +130,7 @@ export async function writeOffline() {
 if (isMain(import.meta)) {
   await main(async () => {
     await askForSite()
-    if (!existsSync(join(dist, 'fastslam-anywidget.js'))) await build()
+    await build(singlesAsked(singlePrograms))
     await step('Files for offline use, and SCORM packages', async () => `${(await writeOffline()).length} files in packages/offline/`)
   })
 }

@@ -2,30 +2,32 @@
 // Both hold what the site's build made, so what is tested on the site is what they ship.
 import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { build, dist } from './build.mjs'
-import { figures, types } from './elements.mjs'
+import { build, dist, singlesAsked } from './build.mjs'
+import { eventsOf, figures, types } from './elements.mjs'
 import { isMain, main, root, run, step } from './lib.mjs'
 import { python, pythonFiles } from './python.mjs'
+import { singlePrograms } from './registry.mjs'
 
 const npm = join(root, 'widgets', 'npm')
 export const packages = join(root, 'packages')
 
 /** Types of the tags in React's JSX, beside those of the elements. @param {import('./elements.mjs').FigureInfo[]} all */
 const reactTypes = all => `import type { HTMLAttributes, RefAttributes } from 'react'
-import type { FigureDetail, FigureTagAttributes${all.map(({ className }) => `, ${className}`).join('')} } from './fastslam.js'
+import type { FigureEventMap, FigureTagAttributes${all.map(({ className }) => `, ${className}`).join('')} } from './fastslam.js'
 
 export * from './fastslam.js'
 
-type Tag<T extends keyof FigureTagAttributes, E> = Omit<HTMLAttributes<E>, keyof FigureTagAttributes[T]> & RefAttributes<E> & FigureTagAttributes[T] & {
+/** A listener for each event, by its name. */
+type Listeners<Names extends keyof FigureEventMap> = { [Name in Names as \`on\${Name}\`]?: (event: FigureEventMap[Name]) => void }
+
+type Tag<T extends keyof FigureTagAttributes, E, Names extends keyof FigureEventMap> = Omit<HTMLAttributes<E>, keyof FigureTagAttributes[T]> & RefAttributes<E> & FigureTagAttributes[T] & Listeners<Names> & {
   class?: string
-  'onfastslam-step'?: (event: CustomEvent<FigureDetail>) => void
-  'onfastslam-change'?: (event: CustomEvent<FigureDetail>) => void
 }
 
 declare module 'react' {
   namespace JSX {
     interface IntrinsicElements {
-${all.map(({ tag, className }) => `      '${tag}': Tag<'${tag}', ${className}>`).join('\n')}
+${all.map(figure => `      '${figure.tag}': Tag<'${figure.tag}', ${figure.className}, ${eventsOf(figure).map(({ name }) => `'${name}'`).join(' | ')}>`).join('\n')}
     }
   }
 }
@@ -37,8 +39,8 @@ export async function npmFiles() {
   rmSync(to, { recursive: true, force: true })
   mkdirSync(join(to, 'assets'), { recursive: true })
   const all = figures()
-  const files = readdirSync(dist).filter(file => /^fastslam(-[\w-]{8})?\.js$|^fastslam-(page|log|bags)-.*\.wasm$/.test(file))
-  for (const file of [...files, 'custom-elements.json', 'example.clf.gz']) cpSync(join(dist, file), join(to, file))
+  const files = readdirSync(dist).filter(file => /^fastslam(-[\w-]{8})?\.js$|^fastslam-.*\.wasm$/.test(file))
+  for (const file of [...files, 'custom-elements.json', 'example.clf.gz', 'licences.txt']) cpSync(join(dist, file), join(to, file))
   // What they name, and what that names, and nothing of the chapter's.
   const assets = new Set(readdirSync(join(dist, 'assets')))
   const take = (/** @type {string} */ script, /** @type {string} */ folder) => {
@@ -82,7 +84,7 @@ export async function packWheel() {
 if (isMain(import.meta)) {
   await main(async () => {
     if (process.argv.includes('--npm-files')) return step('Files of the npm package', npmFiles)
-    await build()
+    await build(singlesAsked(singlePrograms))
     await step('npm package', packNpm)
     await step('Python wheel', packWheel)
   })

@@ -3,8 +3,9 @@ import { readFileSync } from 'node:fs'
 import { dirname, join } from 'node:path'
 import { gzipSync } from 'node:zlib'
 import { root, StepError, targets } from './lib.mjs'
-import { programFile, programNames, programs as programOf } from './registry.mjs'
+import { chapterPrograms, programFile, programs as programOf } from './registry.mjs'
 
+const nameOf = (/** @type {string} */ tag) => tag.replace('fastslam-', '')
 const elements = join(root, 'widgets', 'elements')
 export const notebook = join(elements, 'notebook.ts')
 
@@ -39,7 +40,7 @@ const languages = (process.env.FASTSLAM_LANGUAGES ?? '').split(/[\s,]+/).filter(
  * @param {string} entry its source @param {string[]} [names] the programs that it carries: that of logs with the example
  * @returns {Promise<string>}
  */
-export async function singleFile(entry, names = programNames) {
+export async function singleFile(entry, names = chapterPrograms) {
   const packed = (/** @type {string} */ name) => gzipSync(readFileSync(programFile(name)), { level: 9 }).toString('base64')
   const programs = Object.fromEntries(names.map(name => [name, packed(name)]))
   // No module: pages opened from a file may not start workers that are modules.
@@ -48,7 +49,7 @@ export async function singleFile(entry, names = programNames) {
   const words = Object.fromEntries(languages.map(language => [language, JSON.parse(readFileSync(join(root, 'widgets', 'words', `${language}.json`), 'utf8'))]))
   const carried = `export const example = ${JSON.stringify(example)}; export const programs = ${JSON.stringify(programs)}; export const worker = ${JSON.stringify(worker)}; export const words = ${JSON.stringify(words)}`
   /** Elements that would find no program in it. */
-  const without = [...programOf].filter(([, program]) => !names.includes(program)).map(([tag]) => join(elements, tag.replace('fastslam-', '')))
+  const without = [...programOf].filter(([tag, program]) => !names.includes(program) && !names.includes(nameOf(tag))).map(([tag]) => join(elements, nameOf(tag)))
   return bundle(entry, 'es', [
     {
       name: 'fastslam-files',

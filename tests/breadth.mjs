@@ -6,13 +6,16 @@
  * @typedef {{ name: string, seconds: number, command: string }} Unit
  */
 
-const page = (/** @type {string} */ specs) => `playwright test --config tests/e2e --grep @breadth ${specs}`
+const page = (/** @type {string} */ specs) => `playwright test --config tests/e2e --grep @breadth --grep-invert @programs ${specs}`
 /** Tests in Rust that npm test ignores. @param {string} which programs @param {string} [names] of tests */
 const ignored = (which, names = '') => `cargo test --workspace --no-fail-fast ${which} -- --ignored --show-output ${names}`
 /** For packages outside the workspace: where most of what they need is built. */
 const shared = 'CARGO_TARGET_DIR="${CARGO_TARGET_DIR:-../../target}"'
 /** Of what is run from a release: compiled without the optimisations across crates, which take minutes. */
 const quick = 'CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 CARGO_PROFILE_BENCH_LTO=off CARGO_PROFILE_BENCH_CODEGEN_UNITS=16'
+
+/** Programs of single figures, made, looked at to the last pixel, and weighed. @param {string} names */
+const singles = names => `npm run build -- --singles ${names} && playwright test --config tests/e2e --grep @programs && npm run size -- --singles ${names}`
 
 /** @type {Unit[]} */
 export const units = [
@@ -26,6 +29,9 @@ export const units = [
   { name: 'page-screens', seconds: 70, command: page('/screens.spec.ts /heights.spec.ts') },
   { name: 'page-embed', seconds: 70, command: page('/embed.spec.ts /embed-docs.spec.ts /course.spec.ts') },
   { name: 'page-packages', seconds: 60, command: page('/offline.spec.ts /package.spec.ts /pixels.spec.ts') },
+  { name: 'programs-landmarks', seconds: 330, command: singles('conditioning,worked-example,joint,doors') },
+  { name: 'programs-grids', seconds: 330, command: singles('lap,resampling,graph,universes') },
+  { name: 'programs-others', seconds: 300, command: singles('proposal,em,smoothing') },
 
   // Statistics over many seeds, whole recorded logs, all kept links, and the chapter's numbers by all their seeds.
   { name: 'laws-mapper', seconds: 200, command: ignored('--test all', 'mapper:: ring:: turned::') },
@@ -56,11 +62,11 @@ export const units = [
   // What README promises, each in its cheapest form.
   { name: 'readme-check', seconds: 150, command: 'npm run check' },
   { name: 'readme-bench', seconds: 240, command: `${quick} npm run bench -- --quick` },
-  { name: 'readme-size', seconds: 40, command: 'npm run size' },
+  { name: 'readme-size', seconds: 40, command: 'npm run size -- --singles proposal' },
   { name: 'readme-numbers', seconds: 210, command: `${quick} npm run numbers -- --only worked && git diff --exit-code www/data` },
   { name: 'readme-pdf', seconds: 30, command: 'npm run pdf' },
-  { name: 'readme-package', seconds: 60, command: 'npm run package' },
-  { name: 'readme-offline', seconds: 60, command: 'npm run offline' },
+  { name: 'readme-package', seconds: 60, command: 'npm run package -- --singles proposal' },
+  { name: 'readme-offline', seconds: 60, command: 'npm run offline -- --singles proposal' },
   { name: 'readme-build', seconds: 30, command: 'npm run build && npm start -- --no-serve' },
   { name: 'readme-wasm-pack', seconds: 120, command: `${quick} wasm-pack build widgets --target web --out-dir ../.cache/wasm-pack && test -s .cache/wasm-pack/fastslam_widgets_bg.wasm` },
   { name: 'readme-breadth', seconds: 5, command: 'npm run test:all -- --list' },

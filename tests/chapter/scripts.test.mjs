@@ -1,7 +1,8 @@
 // What the scripts of tests conclude from what they see.
 import assert from 'node:assert/strict'
 import { test } from 'node:test'
-import { judge } from '../../scripts/size.mjs'
+import { stripVTControlCharacters } from 'node:util'
+import { judge } from '../../scripts/sizes.mjs'
 import { counted } from '../../scripts/tally.mjs'
 
 test('every runner’s tests are counted, and whatever is not a success at once counts as failed', () => {
@@ -18,9 +19,11 @@ test('every runner’s tests are counted, and whatever is not a success at once 
   assert.equal(counted('error: could not compile `fastslam` (lib test) due to 1 previous error\n'), undefined)
 })
 
-test('a size over its target is told, and one over its limit refused', () => {
-  const budget = { target: 50_000, limit: 60_000 }
-  assert.equal(judge('all', 50_000, budget), 'all 50.0 KB of 50.0 KB')
-  assert.equal(judge('all', 60_000, budget), 'all 60.0 KB of 50.0 KB, 10.0 KB more than the target')
-  assert.throws(() => judge('all', 60_001, budget), /Too heavy: all 60\.0 KB/)
+test('a size over its target is marked, and one more than 1 % above its baseline refused', async () => {
+  const budget = { target: 50_000, baseline: 60_000 }
+  const plain = async (/** @type {number} */ bytes) => stripVTControlCharacters(await judge('all', bytes, budget))
+  assert.equal(await plain(50_000), '✓ all 50.0 KB of 50.0 KB')
+  assert.equal(await plain(60_600), '✗ all 60.6 KB, 10.6 KB over its target of 50.0 KB')
+  await assert.rejects(plain(60_601), /Too heavy: all has 60\.6 KB, more than 1 % above its baseline of 60\.0 KB/)
+  await assert.rejects(judge('a thing that is in no table', 1), /has no line for a thing/)
 })

@@ -8,6 +8,9 @@ export const FIGURES = ['lap', 'conditioning', 'proposal', 'worked-example', 're
 /** Of a test that is breadth: `npm test` leaves it to `npm run test:all`, which runs it in a unit. */
 export const breadth = { tag: '@breadth' }
 
+/** Of one that needs programs of several single figures, which its unit makes. */
+export const programsMade = { tag: ['@breadth', '@programs'] }
+
 /** Figures that stand for all of them in `npm test`: grids with a drive of its own, landmarks with handles, and the one beside a worker. */
 const REPRESENTATIVES = ['lap', 'proposal', 'log']
 

@@ -1,12 +1,13 @@
-// The wasm that readers get, after wasm-opt, against the golden pictures: the program of the page's figures, and that which maps logs.
-import { readFileSync } from 'node:fs'
+// The wasm that readers get, after wasm-opt, against the golden pictures: the program of the page's figures, that which maps logs, and those of
+// single figures.
+import { existsSync, readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import type { Browser } from '@playwright/test'
-import { programs } from '../../scripts/registry.mjs'
+import { programFile, programs, singlePrograms } from '../../scripts/registry.mjs'
 import { root } from '../../scripts/lib.mjs'
 import { startServer } from '../../scripts/serve.mjs'
 import { expect, test } from './fixtures'
-import { breadth } from './host'
+import { breadth, programsMade } from './host'
 
 interface Picture {
   name: string
@@ -97,4 +98,15 @@ test('fastslam-log.wasm paints its golden pictures to the last pixel', async ({ 
 test('fastslam-page.wasm paints all its golden pictures to the last pixel', breadth, async ({ browser }) => {
   test.slow()
   await expectGolden(browser, 'fastslam-page', of('page'))
+})
+
+test('the program of a single figure paints its golden pictures to the last pixel', async ({ browser }) => {
+  await expectGolden(browser, 'fastslam-proposal', pictures.filter(({ tag }) => tag === 'fastslam-proposal'))
+})
+
+test('every program of a single figure paints its golden pictures to the last pixel', programsMade, async ({ browser }) => {
+  test.slow()
+  const built = singlePrograms.filter(name => existsSync(programFile(name)))
+  expect(built.length, 'of these there are several, or this test shows nothing').toBeGreaterThan(1)
+  for (const name of built) await expectGolden(browser, `fastslam-${name}`, pictures.filter(({ tag, name: picture }) => tag === `fastslam-${name}` && !LONG.test(picture)))
 })

@@ -2,6 +2,8 @@
 import { example, programs, worker, words } from 'virtual:fastslam-files'
 import type { Catalogue } from './words'
 
+export const hasProgram = (name: string): boolean => name in programs
+
 /** Packed as gzip in base64: a third smaller than the program itself. */
 export async function fetchProgram(name: string): Promise<Response> {
   const stream = new Blob([bytes(programs[name] ?? '')]).stream().pipeThrough(new DecompressionStream('gzip'))

@@ -6,10 +6,15 @@ import worker from './worker?worker&url'
 const WORDS = import.meta.glob<string>(['../words/*.json', '!../words/en.json'], { eager: true, query: '?url', import: 'default' })
 const PICTURES = import.meta.glob<string>('../../tests/figures/golden/fastslam-*.png', { eager: true, query: '?url', import: 'default' })
 
-/** A program, and the one place where its file is chosen. Those for logs and for bags are apart, as many a reader never maps one. */
+const PROGRAMS = import.meta.glob<string>('../pkg/fastslam-*.wasm', { eager: true, query: '?url', import: 'default' })
+
+const programAddress = (name: string) => PROGRAMS[`../pkg/fastslam-${name}.wasm`]
+
+/** Whether this program came along: those of single figures take minutes to make, and a site may do without. */
+export const hasProgram = (name: string): boolean => programAddress(name) !== undefined
+
 export function fetchProgram(name: string): Promise<Response> {
-  if (name === 'bags') return fetch(new URL('../pkg/fastslam-bags.wasm', import.meta.url))
-  return fetch(name === 'log' ? new URL('../pkg/fastslam-log.wasm', import.meta.url) : new URL('../pkg/fastslam-page.wasm', import.meta.url))
+  return fetch(programAddress(name)!)
 }
 
 /** The words of a language; undefined for one that we do not have. */

@@ -1,6 +1,6 @@
 // Programs: fetched when the first figure that needs one is seen, compiled once, with one instance that its figures share. After a trap
 // the instance is dead: it is dropped, and another one is made of what was compiled.
-import { fetchProgram } from './files'
+import { fetchProgram, hasProgram } from './files'
 import { FIGURES } from './generated/figures'
 import { createShell } from './generated/shell'
 import type { Shell } from './shell'
@@ -50,10 +50,25 @@ export class Program {
 
 const programs = new Map<string, Program>()
 
-/** The program of a figure: figures of one program share it. */
+/** On a page with more kinds of figures than that, one program for all of them is less to load. */
+const FEW = 2
+
+/**
+ * The program of a figure: its own on a page with one or two kinds of figures, where all of these have one; else that which the chapter's
+ * figures share. A program that is there already is taken.
+ */
 export function programOf(tag: string): Program {
-  return programNamed(FIGURES[tag]?.program ?? 'page')
+  const own = nameOf(tag)
+  const { program: shared = own } = FIGURES[tag] ?? {}
+  const there = programs.get(own) ?? programs.get(shared)
+  if (there) return there
+  const kinds = Object.keys(FIGURES).filter(kind => kind === tag || programs.has(nameOf(kind)) || document.querySelector(kind))
+  const sharing = kinds.filter(kind => FIGURES[kind]?.program === shared)
+  const few = sharing.length <= FEW && sharing.every(kind => hasProgram(nameOf(kind)))
+  return programNamed(few || !hasProgram(shared) ? own : shared)
 }
+
+const nameOf = (tag: string) => tag.slice('fastslam-'.length)
 
 /** The program of this name. */
 export function programNamed(name: string): Program {

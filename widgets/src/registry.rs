@@ -1,21 +1,5 @@
 //! All figures: a row each. Tests, tools, the page and its generated files iterate over this list.
 
-#[cfg(feature = "log")]
-use crate::log::LogView;
-#[cfg(feature = "page")]
-use crate::{
-    conditioning::ConditioningView,
-    doors::{DOORS, DoorsView},
-    em::EmView,
-    graph::{GRAPHS, GraphView},
-    joint::JointView,
-    lap::{LAPS, LapView},
-    proposal::ProposalView,
-    resampling::{ResamplingView, WINGS},
-    smoothing::SmoothingView,
-    universes::UniversesView,
-    worked_example::WorkedExampleView,
-};
 use crate::{
     job::Job,
     model::Declared,
@@ -23,13 +7,13 @@ use crate::{
     view::{Shown, Shows, View},
 };
 
-/// The program that has a figure, and the feature of this crate that makes it.
+/// Where a page finds a figure. Each has a program of its own, made by the feature of its name.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Program {
-    /// `page`: of all figures that run on the page itself.
+    /// Also in that of all figures that run on the page itself: feature `page`.
     Page,
-    /// `log`: maps recorded logs, in a worker, and only where a reader asks for it.
-    Log,
+    /// In its own alone, which runs in a worker, and only where a reader asks for it.
+    Own,
 }
 
 /// A kind of figure.
@@ -59,33 +43,31 @@ impl Entry {
     }
 }
 
-/// Every kind there is in this build.
-pub const FIGURES: &[Entry] = &[
-    #[cfg(feature = "page")]
-    Entry::of::<LapView>("fastslam-lap", Program::Page, Some(&LAPS)),
-    #[cfg(feature = "page")]
-    Entry::of::<ConditioningView>("fastslam-conditioning", Program::Page, None),
-    #[cfg(feature = "page")]
-    Entry::of::<ProposalView>("fastslam-proposal", Program::Page, None),
-    #[cfg(feature = "page")]
-    Entry::of::<WorkedExampleView>("fastslam-worked-example", Program::Page, None),
-    #[cfg(feature = "log")]
-    Entry::of::<LogView>("fastslam-log", Program::Log, None),
-    #[cfg(feature = "page")]
-    Entry::of::<ResamplingView>("fastslam-resampling", Program::Page, Some(&WINGS)),
-    #[cfg(feature = "page")]
-    Entry::of::<JointView>("fastslam-joint", Program::Page, None),
-    #[cfg(feature = "page")]
-    Entry::of::<UniversesView>("fastslam-universes", Program::Page, None),
-    #[cfg(feature = "page")]
-    Entry::of::<DoorsView>("fastslam-doors", Program::Page, Some(&DOORS)),
-    #[cfg(feature = "page")]
-    Entry::of::<EmView>("fastslam-em", Program::Page, None),
-    #[cfg(feature = "page")]
-    Entry::of::<SmoothingView>("fastslam-smoothing", Program::Page, None),
-    #[cfg(feature = "page")]
-    Entry::of::<GraphView>("fastslam-graph", Program::Page, Some(&GRAPHS)),
-];
+/// A row for each figure: its name, which is that of its feature and of its element, and what it is.
+macro_rules! figures {
+    ($($name:literal: $figure:ident::$view:ident, $program:ident, $count:expr;)*) => {
+        /// Every kind there is in this build.
+        pub const FIGURES: &[Entry] = &[$(
+            #[cfg(feature = $name)]
+            Entry::of::<crate::$figure::$view>(concat!("fastslam-", $name), Program::$program, $count),
+        )*];
+    };
+}
+
+figures! {
+    "lap": lap::LapView, Page, Some(&crate::lap::LAPS);
+    "conditioning": conditioning::ConditioningView, Page, None;
+    "proposal": proposal::ProposalView, Page, None;
+    "worked-example": worked_example::WorkedExampleView, Page, None;
+    "log": log::LogView, Own, None;
+    "resampling": resampling::ResamplingView, Page, Some(&crate::resampling::WINGS);
+    "joint": joint::JointView, Page, None;
+    "universes": universes::UniversesView, Page, None;
+    "doors": doors::DoorsView, Page, Some(&crate::doors::DOORS);
+    "em": em::EmView, Page, None;
+    "smoothing": smoothing::SmoothingView, Page, None;
+    "graph": graph::GraphView, Page, Some(&crate::graph::GRAPHS);
+}
 
 /// The figure of a tag.
 pub fn find(tag: &str) -> Option<&'static Entry> {

@@ -113,8 +113,6 @@ impl Drop for Spoken {
     }
 }
 
-// A build of one program uses the words of its figures.
-#[cfg_attr(not(all(feature = "page", feature = "log")), allow(dead_code))]
 mod catalogue {
     use super::{Display, fill, text};
     include!(concat!(env!("OUT_DIR"), "/words.rs"));
