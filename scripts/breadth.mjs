@@ -5,6 +5,7 @@
 import { delimiter, join } from 'node:path'
 import { build } from './build.mjs'
 import { aboutFailures, bold, cache, capture, main, readIfThere, red, root, run, step, StepError } from './lib.mjs'
+import { singlesTested } from './registry.mjs'
 import { setUp } from './setup.mjs'
 import { add, closingLine, counted, inWords, printTable, total } from './tally.mjs'
 import { shareOf, shares, takes, units } from '../tests/breadth.mjs'
@@ -88,7 +89,7 @@ await main(async () => {
   if (all) await runUnit({ name: 'npm test', seconds: 0, command: 'npm test' })
   else {
     await setUp({ browser: true })
-    await build()
+    await build(singlesTested)
   }
   if (share) {
     const turn = shareOf(Number(capture('git', 'log', '-1', '--format=%ct')))

@@ -15,6 +15,9 @@ export const chapterPrograms = [...new Set(programs.values()), 'bags']
 /** What a page loads that has one or two figures: a program for each of those that `page` has. */
 export const singlePrograms = rows.flatMap(([, name = '', where]) => (where === 'Page' ? [name] : []))
 
+/** Of these, the one that stands for all in npm test: breadth makes the others. */
+export const singlesTested = ['proposal']
+
 /** Programs that a figure uses besides its own: bags are read for logs, and the laps behind the points of a chart are run again. @type {Record<string, string[] | undefined>} */
 export const alsoUsed = { log: ['bags'], universes: ['lap'] }
 

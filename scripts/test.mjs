@@ -7,6 +7,7 @@ import { buildPages, buildPrograms, buildTrouble } from './build.mjs'
 import { checks } from './check.mjs'
 import { tellFigures, writeNames } from './elements.mjs'
 import { aboutFailures, bold, cache, capture, main, npmBin, red, root, run, step, StepError } from './lib.mjs'
+import { singlesTested } from './registry.mjs'
 import { setUp } from './setup.mjs'
 import { checkEmbedSizes, checkSize } from './size.mjs'
 import { add, closingLine, counted, inWords, printTable, timeCargo, timePlaywright, total } from './tally.mjs'
@@ -66,9 +67,6 @@ const oracle = () => tests('cargo', ['test', '--workspace', '--test', 'oracle', 
 /** All that runs natively, compiled: the tests, the examples and the command line stand on the same crates. */
 const compile = () => run('cargo', ['test', '--workspace', '--no-run'])
 
-/** Of the programs of single figures, which take minutes, one stands for all: breadth makes the others. */
-const singles = ['proposal']
-
 /** What the tests of the page take on two quiet cores [s]: by that, breadth knows how slow this machine is now. */
 const usualPage = 320
 
@@ -86,7 +84,7 @@ await main(async () => {
   const [format, ...otherChecks] = checks
   await attempt(...format)
   // Without these there is nothing to test: a failure here ends the run. While one links, the other has a core to spare.
-  await Promise.all([buildPrograms(singles), step('Native tests, compiled', compile)])
+  await Promise.all([buildPrograms(singlesTested), step('Native tests, compiled', compile)])
   await step('What the figures tell of themselves', () => tellFigures(join(target, 'debug', 'examples', 'figures')))
   await step('Names of the figures', writeNames)
   await buildPages()
