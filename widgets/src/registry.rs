@@ -36,6 +36,7 @@ pub struct Entry {
 
 impl Entry {
     /// The row of a figure: its title, its height and all else follow from what it is.
+    #[allow(dead_code)] // the program that reads bags has no figure
     const fn of<V: View>(tag: &'static str, program: Program, count: Option<&'static Job>) -> Self {
         let make = || Box::new(Shows::<V>::default()) as Box<dyn Shown>;
         let height = |width| V::height(width, &Panels::default());
