@@ -6,6 +6,7 @@ import { join } from 'node:path'
 import { gzipSync } from 'node:zlib'
 import { root } from '../../scripts/lib.mjs'
 import { brokenRules } from './axe'
+import { holdPrograms } from './figure'
 import { expect, test } from './fixtures'
 import { breadth, openAlone, openCourse } from './host'
 import { LogFigure } from './log-figure'
@@ -389,6 +390,31 @@ test('what cannot be read is told with line and reason, and the example is a cli
   await log.alert.getByRole('button', { name: 'Run the example' }).click()
   await expect(log.alert).toBeEmpty()
   await expect(log.status).toHaveText('the example')
+})
+
+test('while a reader’s own log is on its way, the example is not mapped in its place', async ({ page }) => {
+  const arrive = await holdPrograms(page)
+  const log = new LogFigure(page)
+  await openCourse(page, '<fastslam-log cell="0.2"></fastslam-log>')
+  await log.choose('tiny.clf', readFileSync(TINY))
+  await expect(log.status).toContainText('tiny.clf')
+  await expect(log.button('Map this building')).toBeDisabled()
+  arrive()
+  await expect(log.status).toHaveText('tiny.clf')
+  await log.button('Map this building').click()
+  await log.done()
+  await expect(log.status).toHaveText('tiny.clf')
+})
+
+test('what is said of a log goes when another one is chosen, also one that cannot be read', async ({ page }) => {
+  const log = await new LogFigure(page).open()
+  await log.choose('spoilt.clf', `${readFileSync(TINY, 'utf8')}ROBOTLASER1 what\n`)
+  await expect(log.alert).toContainText('spoilt.clf')
+  await expect(log.button('Skip malformed lines')).toBeVisible()
+  await log.choose('empty.clf', '')
+  await expect(log.alert).toContainText('empty.clf cannot be mapped')
+  await expect(log.button('Skip malformed lines')).toHaveCount(0)
+  await expect(log.alert).not.toContainText('spoilt.clf')
 })
 
 test('on a German page, what cannot be read is told in German, by the program of logs and by that of bags', async ({ page }) => {

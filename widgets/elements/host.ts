@@ -118,6 +118,8 @@ export interface Run {
   phase: Phase
   /** Name of the file. */
   log: string
+  /** Whether another one is being read. */
+  reading: boolean
   /** [s] until the end, at the speed so far. */
   left: number
   /** What keeps it from being started: the parameter, and a line. */

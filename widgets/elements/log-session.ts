@@ -11,6 +11,7 @@ const LAST = 0xffffffff // a step beyond every log's last
 export class LogSession extends Session {
   #phase: Phase = 'empty'
   #log = ''
+  #reading = 0 // files that are on their way
   #spent = 0 // [ms] of mapping
   #mapped = false // anything, when it was looked at last
 
@@ -96,7 +97,7 @@ export class LogSession extends Session {
   protected override run(): Run {
     const [step, last] = [this.figure.step(), this.figure.step_count()]
     const left = step > 0 ? ((this.#spent / step) * (last - step)) / 1000 : NaN
-    return { phase: this.#phase, log: this.#log, left, unfit: this.#phase === 'ready' ? this.#unfit() : undefined }
+    return { phase: this.#phase, log: this.#log, reading: this.#reading > 0, left, unfit: this.#phase === 'ready' ? this.#unfit() : undefined }
   }
 
   #start(): void {
@@ -121,6 +122,7 @@ export class LogSession extends Session {
 
   async #open({ file, name, start, topics, decoder }: Extract<Command, { do: 'open' }>): Promise<void> {
     if (this.#phase === 'running') this.#phase = 'paused' // the log before stays until this one is read
+    this.#reading++
     const reading = (megabytes: number) => this.tell({ told: 'reading', megabytes })
     try {
       const bytes = decoder ? await this.#decoded(file, decoder, topics, reading) : await unpacked(file, reading)
@@ -128,6 +130,8 @@ export class LogSession extends Session {
       this.figure.open(bytes)
     } catch (error) {
       return this.refuse(error, name)
+    } finally {
+      this.#reading--
     }
     this.#log = name
     this.#phase = 'ready'

@@ -56,6 +56,7 @@ export class FastslamLog extends FigureElement {
   #sent: unknown // the source that this worker was given
   #lived = false // there has been a frame
   #unfit = '' // what was said to stand in the way
+  #refused = false // the log chosen last, so that there is nothing to say of the one before
   #left = new AbortController()
 
   readonly #zoom = h(
@@ -115,12 +116,16 @@ export class FastslamLog extends FigureElement {
     this.crashes = 0 // another log, another chance
     const log = (this.#log = { file, name, start, topics, decoder: undefined as WebAssembly.Module | undefined })
     write(this.status, this.words.say('reading', { name }))
-    this.messages.set('topic', '')
+    for (const about of ['topic', 'unfit']) this.messages.set(about, '') // of the log before
+    this.#unfit = ''
+    this.#refused = false
+    this.#poster.show(this.#phase, true)
     try {
       if (await isBag(file)) log.decoder = await bagProgram()
     } catch (error) {
       if (this.#log !== log) return
       this.#log = undefined
+      this.#poster.show(this.#phase, false)
       write(this.status, '')
       return this.messages.set('file', this.words.say('cannot_map', { file: name, why: this.words.tell(error instanceof ToldError ? error.told : String(error)) }), this.words.say('try_again'), () => void this.open(file, name, start, topics))
     }
@@ -181,7 +186,7 @@ export class FastslamLog extends FigureElement {
     const { params: specs, readouts, describe: sentence } = AT_REST
     const values = Object.fromEntries(specs.map(spec => [spec.name, spec.default]))
     const rest = { done: 0, language: 'en', specs, values, query: '', step: 0, target: 0, last: 0, pace: 1, busy: false, readouts, handles: [], rooms: [], sentence, changed: false }
-    const frame: Frame = { ...rest, chips: AT_REST.chips, trace: undefined, prediction: null, layout: undefined, gist: { x: 0, y: 0, w: 0, h: 0 }, picture: undefined, run: { phase: 'empty', log: '', left: NaN, unfit: undefined } }
+    const frame: Frame = { ...rest, chips: AT_REST.chips, trace: undefined, prediction: null, layout: undefined, gist: { x: 0, y: 0, w: 0, h: 0 }, picture: undefined, run: { phase: 'empty', log: '', reading: false, left: NaN, unfit: undefined } }
     this.present(frame)
     if (this.wanted) return // where more is on its way, that will be told
     this.events.tell(frame, true)
@@ -207,6 +212,7 @@ export class FastslamLog extends FigureElement {
     if (answer.told !== 'refused' || answer.file === undefined) return super.hear(answer)
     write(this.status, '')
     if (this.#log?.name === answer.file) this.#log = undefined
+    this.#refused = true
     this.messages.set('file', this.words.say('cannot_map', { file: answer.file, why: this.words.tell(answer.message) }), this.words.say('run_example'), () => void this.example())
   }
 
@@ -272,7 +278,7 @@ export class FastslamLog extends FigureElement {
     const phase = (this.#phase = run!.phase)
     const begun = phase !== 'empty' && phase !== 'ready'
     if (phase !== 'done') this.playback.playing = false
-    this.#poster.show(phase, run!.unfit !== undefined)
+    this.#poster.show(phase, run!.unfit !== undefined || this.#reads(run!))
     this.stage.classList.toggle('empty', phase === 'empty')
     this.#zoom.inert = phase === 'empty'
     this.#example.hidden = phase === 'empty'
@@ -288,10 +294,16 @@ export class FastslamLog extends FigureElement {
     if (held === this.#poster.go && begun) transport.querySelector<HTMLElement>('.play')!.focus()
   }
 
+  /** Whether a log is on its way: what was chosen is not there yet, and nothing else is to be mapped in its place. */
+  #reads({ reading }: Run): boolean {
+    return reading || (this.#log !== undefined && this.#sent !== this.#log)
+  }
+
   /** Why it cannot be started; told once, not with every picture. */
-  #showUnfit({ unfit, log }: Run): void {
+  #showUnfit(run: Run): void {
+    const { unfit, log } = run
     const [parameter, message] = unfit ?? ['', '']
-    if (message === this.#unfit) return
+    if (message === this.#unfit || this.#refused || this.#reads(run)) return
     this.#unfit = message
     if (parameter !== 'lenient') return this.messages.set('unfit', message)
     this.messages.set('unfit', `${log}, ${message}.`, this.words.say('skip_malformed'), () => this.setParameter('lenient', 'on'))
