@@ -4,7 +4,7 @@ use super::moving::driven;
 use super::tuning::{self, Map};
 use crate::geometry::Pose2;
 use crate::map::ConditionalMap;
-use crate::matching::{HillClimbSteps, ScoredPose, hill_climb};
+use crate::matching::{HillClimbSteps, Score, ScoreNear, ScoredPose, hill_climb};
 use crate::sensor::Scan;
 use std::collections::VecDeque;
 
@@ -40,10 +40,13 @@ impl LastPlaces {
         if self.places.is_empty() || ends.hits.is_empty() {
             return None;
         }
-        let (score, map) = (tuning::score(), self.map());
-        let value = |pose: &Pose2| if allowed(pose) { score.log_score(map, pose, ends) } else { f64::NEG_INFINITY };
+        let score = tuning::score();
+        let near = score.near(self.map(), starts.first()?, ends, 1);
+        let value = |pose: &Pose2, floor| {
+            if allowed(pose) { near.log_score_above(pose, floor) } else { f64::NEG_INFINITY }
+        };
         let climb =
-            |pose: &Pose2| hill_climb(ScoredPose { pose: *pose, value: value(pose) }, CLIMB, |pose, _| value(pose));
+            |pose: &Pose2| hill_climb(ScoredPose { pose: *pose, value: value(pose, f64::NEG_INFINITY) }, CLIMB, value);
         let better = |a: ScoredPose, b: ScoredPose| if b.value > a.value { b } else { a };
         starts.iter().map(climb).reduce(better)
     }

@@ -45,6 +45,12 @@ pub trait Score<M: ConditionalMap<Association = ()>>: Likelihood<M> {
     fn log_old(&self, map: &M, world_from_robot: &Pose2, observation: &M::Observation) -> f64 {
         self.log_likelihood(map, world_from_robot, observation).0
     }
+
+    /// [`Self::log_old`] as a function of the pose, made ready for many poses near `place`; far from it the answers are the same.
+    fn near_old(&self, map: &M, place: &Pose2, observation: &M::Observation) -> impl Fn(&Pose2) -> f64 {
+        let _ = place;
+        move |pose| self.log_old(map, pose, observation)
+    }
 }
 
 /// A [`Score`] near one place. Only [`Self::log_score`] must be written; the others are where a search can be made fast.

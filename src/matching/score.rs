@@ -211,8 +211,7 @@ impl<const CELLS_PER_NDT: usize> Score<Grid<CELLS_PER_NDT>> for ScanModel {
         scan: &'a Scan,
         stride: usize,
     ) -> ScanNear<'a, CELLS_PER_NDT> {
-        let reach = scan.hits.iter().map(|[x, y]| x * x + y * y).fold(0.0, f64::max).sqrt();
-        let map = LocalMap::new(grid, [place.x, place.y], reach + SLACK).into();
+        let map = around(grid.present(), place, scan).with_distances().into();
         ScanNear { model: self, map, scan, thinned: scan.thinned(stride), share: stride as f64 }
     }
 
@@ -220,6 +219,21 @@ impl<const CELLS_PER_NDT: usize> Score<Grid<CELLS_PER_NDT>> for ScanModel {
     fn log_old(&self, grid: &Grid<CELLS_PER_NDT>, world_from_robot: &Pose2, scan: &Scan) -> f64 {
         self.log_score(&grid.past(), world_from_robot, scan)
     }
+
+    fn near_old(&self, grid: &Grid<CELLS_PER_NDT>, place: &Pose2, scan: &Scan) -> impl Fn(&Pose2) -> f64 {
+        let map = RefCell::new(around(grid.past(), place, scan));
+        move |pose| self.log_score_above(f64::NEG_INFINITY, &mut *map.borrow_mut(), pose, scan)
+    }
+}
+
+/// What a scan can reach that was taken near this place.
+fn around<const CELLS_PER_NDT: usize>(
+    grid: Grid<CELLS_PER_NDT>,
+    place: &Pose2,
+    scan: &Scan,
+) -> LocalMap<CELLS_PER_NDT> {
+    let reach = scan.hits.iter().map(|[x, y]| x * x + y * y).fold(0.0, f64::max).sqrt();
+    LocalMap::new(grid, [place.x, place.y], reach + SLACK)
 }
 
 /// How far from the place a pose may lie \[m\] and be looked up fast.
@@ -228,7 +242,7 @@ const SLACK: f64 = 1.0;
 /// A scan against the part of a grid that it can reach from one place.
 pub struct ScanNear<'a, const CELLS_PER_NDT: usize> {
     model: &'a ScanModel,
-    map: RefCell<LocalMap<'a, CELLS_PER_NDT>>,
+    map: RefCell<LocalMap<CELLS_PER_NDT>>,
     scan: &'a Scan,
     /// A part of the scan, of which each beam counts for `share`.
     thinned: Scan,

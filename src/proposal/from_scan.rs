@@ -197,15 +197,15 @@ impl<D: Motion, L, S: Search> FromScan<D, L, S> {
     where
         L: Score<M>,
     {
-        let log_old = |pose: &Pose2| self.score.log_old(map, pose, observation);
         let integrals: Vec<f64> = hills.iter().map(|(_, fit)| fit.log_integral).collect();
         match self.settings.weight {
             IncrementalWeight::Marginal => ops::log_sum_exp(&integrals),
             IncrementalWeight::NewGroundFree => {
-                let inverse = |(_, fit): &(_, Fit)| log_mean_inverse(&fit.gaussian, prior, log_old);
+                let log_old = self.score.near_old(map, prior.mean(), observation);
+                let inverse = |(_, fit): &(_, Fit)| log_mean_inverse(&fit.gaussian, prior, &log_old);
                 -log_mixture(&hills.iter().map(inverse).collect::<Vec<_>>(), &integrals)
             }
-            IncrementalWeight::OldMapAtDraw => log_old(drawn),
+            IncrementalWeight::OldMapAtDraw => self.score.log_old(map, drawn, observation),
         }
     }
 

@@ -486,38 +486,36 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
         }
     }
 
-    /// Adds the log-odds of a hit or of a pass to every cell that a beam touched (PR table 9.1).
+    /// Adds the log-odds of a hit or of a pass to every cell that a beam touched (PR table 9.1), a row of a tile at a time: such loops are what
+    /// compilers make vector instructions of.
     fn update_cells(&mut self, trace: &RayTrace) {
         let (hit, pass) = (tile::units(self.model.log_odds_hit), tile::units(self.model.log_odds_pass));
-        let add = [0, pass, hit]; // by mark
         let [free, occupied] = self.model.log_odds_bounds.map(tile::units);
         let side = Self::TILE_CELLS as usize;
         for (ti, tj, block) in trace.tiles() {
-            // Rows of the cells of one NDT cell, with their marks.
             let rows = block.chunks(trace.side as usize).map(|row| &row[..side]).take(side).enumerate();
-            let rows = rows.filter(|(_, marks)| marks.iter().any(|mark| *mark != ray_trace::UNTOUCHED));
-            let rows = rows.flat_map(|(row, marks)| {
-                let ndt_cells = marks.chunks_exact(CELLS_PER_NDT).zip(row / CELLS_PER_NDT * TILE as usize..);
-                ndt_cells.map(move |(marks, local)| (local, row % CELLS_PER_NDT, marks))
-            });
+            let rows = rows.filter(|(_, marks)| marks.iter().fold(ray_trace::UNTOUCHED, |any, mark| any | mark) > 0);
             // Look before writing: a tile in which nothing would change stays shared.
             let before = self.directory.tile(ti, tj);
-            let changes = rows.clone().any(|(local, row, marks)| {
-                let changes = |(column, mark): (usize, &u8)| match *mark {
-                    ray_trace::HIT => true,
-                    ray_trace::PASSED => before.is_none_or(|tile| tile.log_odds[local][row][column] > free),
-                    _ => false,
+            let changes = rows.clone().any(|(row, marks)| {
+                let Some(tile) = before else { return true };
+                let changes = |(cell, mark): (&i8, &u8)| {
+                    (*mark == ray_trace::HIT) | ((*mark == ray_trace::PASSED) & (*cell > free))
                 };
-                marks.iter().enumerate().any(changes)
+                tile.row(row).as_flattened().iter().zip(marks).fold(false, |any, one| any | changes(one))
             });
             if !changes {
                 continue;
             }
             let tile = self.tile_mut(ti, tj).expect("the directory was grown to cover the scan");
-            for (local, row, marks) in rows {
-                for (cell, mark) in tile.log_odds[local][row].iter_mut().zip(marks) {
-                    *cell = cell.saturating_add(add[usize::from(*mark)]).max(free).min(occupied);
+            for (row, marks) in rows {
+                let mut cells = tile.row(row);
+                for (cell, mark) in cells.as_flattened_mut().iter_mut().zip(marks) {
+                    let passed = if *mark == ray_trace::PASSED { pass } else { 0 };
+                    let add = if *mark == ray_trace::HIT { hit } else { passed };
+                    *cell = cell.saturating_add(add).max(free).min(occupied);
                 }
+                tile.set_row(row, &cells);
             }
         }
     }

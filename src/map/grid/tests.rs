@@ -236,7 +236,7 @@ fn a_local_map_says_of_every_point_what_its_grid_says() {
     let mut grid = Grid::<1>::new(MODEL);
     grid.assimilate(&Pose2::new(2.0, 1.0, 0.3), &BeamSensor::panorama(90, 8.0, 0.0).scan(&[1.7; 90]), &());
     grid.assimilate(&Pose2::new(14.0, 2.0, 0.3), &BeamSensor::panorama(90, 8.0, 0.0).scan(&[1.3; 90]), &());
-    let mut local = LocalMap::new(&grid, [2.0, 1.0], 3.0);
+    let mut local = LocalMap::new(grid.present(), [2.0, 1.0], 3.0).with_distances();
     let points: Vec<[f64; 2]> = (0..12_000)
         .map(|k| [f64::from(k % 200) * 0.1 - 2.013, f64::from(k / 200) * 0.1 - 2.71])
         .chain([[1e6, -1e6], [-1e6, 2.0]])
@@ -248,6 +248,29 @@ fn a_local_map_says_of_every_point_what_its_grid_says() {
             assert_eq!((here.d2[k].to_bits(), here.units[k]), (there.d2[k].to_bits(), there.units[k]), "{point:?}");
         }
     }
+}
+
+/// What a step costs: of thirteen poses that are tried near one place, each quad of distributions is put together once, and none for what lies elsewhere.
+#[test]
+fn a_local_map_puts_each_quad_together_once() {
+    let mut grid = Grid::<1>::new(MODEL);
+    let scan = BeamSensor::panorama(180, 8.0, 0.0).scan(&[2.7; 180]);
+    grid.assimilate(&Pose2::new(2.0, 1.0, 0.3), &scan, &());
+    let mut local = LocalMap::new(grid.past(), [2.0, 1.0], 4.0);
+    let (mut asked, mut corners) = (0, Vec::new());
+    for k in 0..13 {
+        let pose = Pose2::new(2.0 + 0.004 * f64::from(k), 1.0, 0.3 + 0.002 * f64::from(k));
+        for points in scan.hits.chunks(BLOCK) {
+            let block = core::array::from_fn(|k| points.get(k).map_or([0.0; 2], |end| pose.transform(*end)));
+            local.nearest_ndt(&block, points.len());
+            asked += points.len();
+            corners.extend(block[..points.len()].iter().map(|point| grid.corner(*point)).map(|at| (at.i, at.j)));
+        }
+    }
+    corners.sort_unstable();
+    corners.dedup();
+    assert_eq!(local.quad_count(), corners.len());
+    assert!(asked > 15 * corners.len(), "{asked} questions, {} answers", corners.len());
 }
 
 #[test]

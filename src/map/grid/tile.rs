@@ -107,6 +107,21 @@ impl<const CELLS_PER_NDT: usize> Tile<CELLS_PER_NDT> {
         self.log_odds[local][CELLS_PER_NDT / 2][CELLS_PER_NDT / 2]
     }
 
+    /// Log-odds in units of a row of occupancy cells, by NDT cell.
+    #[inline]
+    pub fn row(&self, row: usize) -> [[i8; CELLS_PER_NDT]; TILE as usize] {
+        let (first, row) = (row / CELLS_PER_NDT * TILE as usize, row % CELLS_PER_NDT);
+        core::array::from_fn(|k| self.log_odds[first + k][row])
+    }
+
+    #[inline]
+    pub fn set_row(&mut self, row: usize, cells: &[[i8; CELLS_PER_NDT]; TILE as usize]) {
+        let (first, row) = (row / CELLS_PER_NDT * TILE as usize, row % CELLS_PER_NDT);
+        for (ndt_cell, cells) in self.log_odds[first..].iter_mut().zip(cells) {
+            ndt_cell[row] = *cells;
+        }
+    }
+
     /// Whether beams have passed all of an NDT cell: each occupancy cell of it is less likely occupied than before anything was seen.
     pub fn is_seen_through(&self, local: usize) -> bool {
         self.log_odds[local].as_flattened().iter().all(|units| *units < 0)
