@@ -13,6 +13,7 @@
 mod agreement;
 mod closing;
 mod last_places;
+mod innovations;
 mod loops;
 mod moving;
 mod odometer;
@@ -26,6 +27,7 @@ mod wheels;
 use closing::Closings;
 pub(crate) use last_places::{LastPlaces, MAX_RANGE, fan};
 pub use loops::{Loop, LoopEnd};
+pub use innovations::OdometryInnovations;
 use moving::{LastViews, driven};
 use odometer::Odometer;
 pub use odometer::Unbelieved;
@@ -41,6 +43,7 @@ use crate::log::{LaserScan, Remark};
 use crate::map::{ConditionalMap, Footprint};
 use crate::particle::Particle;
 use crate::rbpf::{Rbpf, Report};
+use crate::motion::Displacement;
 use crate::sensor::Scan;
 
 /// The filter of a [`LaserMapper`].
@@ -94,6 +97,8 @@ pub struct LaserMapper {
     wheels: Wheels,
     /// Metres driven by odometry since the particles' maps were marked for the last time.
     since_mark: f64,
+    /// What was expected of the last step.
+    predicted: Option<Displacement>,
     /// What was seen on the last metres of the way.
     views: LastViews,
     /// What closes the loops that were missed.
@@ -126,6 +131,7 @@ impl LaserMapper {
             wheels: Wheels::default(),
             since_mark: 0.0,
             views: LastViews::default(),
+            predicted: None,
             closings: Closings::default(),
             last: None,
             steps: 0,
@@ -168,6 +174,7 @@ impl LaserMapper {
         let control = self.wheels.displacement(&moved);
         let standing = self.standing(scan, odometry);
         self.mark(driven(&moved)[0]);
+        self.predicted = Some(control);
         let report = self.filter.step(&control, &standing);
         self.wheels.learn(&moved, &report);
         self.steps = report.step;
@@ -262,6 +269,12 @@ impl LaserMapper {
 
     /// Steps of the filter so far: the scans that it took, without the first.
     pub fn steps(&self) -> u32 {
+    /// Where the last step of the filter led by odometry, with the drift and the noise of the wheels as they were known before it; `None` before the first.
+    /// What [`OdometryInnovations`] hold scans against.
+    pub fn predicted(&self) -> Option<&Displacement> {
+        self.predicted.as_ref()
+    }
+
         self.steps
     }
 

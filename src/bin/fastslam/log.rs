@@ -10,7 +10,7 @@ use fastslam::log::{
     relation_errors, write, write_path, write_tum,
 };
 use fastslam::map::grid::{MapImage, MapImageSettings};
-use fastslam::mapper::{LaserMapper, LaserMapperSettings, Loop, LoopEnd, Replay};
+use fastslam::mapper::{LaserMapper, LaserMapperSettings, Loop, LoopEnd, OdometryInnovations, Replay};
 use fastslam::proposal::IncrementalWeight;
 use fastslam_lab::experiment::log::{Example, digest};
 use flate2::read::MultiGzDecoder;
@@ -117,6 +117,11 @@ struct Output {
     resampled_fraction: f64,
     /// Steps of odometry that the clock or the scans contradict: they are matched with the scans before.
     steps_contradicted: u32,
+    /// Mean normalised innovation squared of odometry, against the drift and noise learnt so far: 3 where they are right, less where scans tell less;
+    /// null where no scan was matched.
+    odometry_innovation: Option<f64>,
+    /// Share of the steps whose innovation is beyond the 99 % bound.
+    odometry_innovations_beyond: f64,
     /// Scans that no particle explains.
     scans_unexplained: u32,
     /// How many times a particle's path was bent, to close a loop that no particle had closed by itself.
@@ -185,7 +190,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
             .expect("the template is right"),
     );
     let (mut peak, mut kept) = (replay.mapper().footprint(), 0);
-    let (mut resampled, mut scans_unexplained) = (0, 0);
+    let (mut resampled, mut scans_unexplained, mut innovations) = (0, 0, OdometryInnovations::default());
     while let Some(report) = replay.next() {
         if report.step.is_multiple_of(LOOK_EVERY) || report.step == replay.step_count() {
             let now = replay.mapper().footprint();
@@ -196,6 +201,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         }
         resampled += u32::from(report.resampled());
         scans_unexplained += u32::from(!report.explained());
+        replay.mapper().predicted().into_iter().for_each(|predicted| innovations.add(predicted, &report));
         let lineage = replay.mapper().filter().lineage();
         bar.set_message(format!("N_eff {:.1}, {resampled} resamplings, lineage {lineage}", report.selection_ess));
         bar.inc(1);
@@ -222,6 +228,8 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         errors: relations.and_then(|relations| relation_errors(&path, &log.odometry, &relations)),
         resampled_fraction: mapper.resampled_fraction(),
         steps_contradicted: mapper.unbelieved().len() as u32,
+        odometry_innovation: innovations.mean(),
+        odometry_innovations_beyond: innovations.share_beyond(),
         scans_unexplained,
         paths_bent: mapper.closings(),
         loops: loops(mapper),
@@ -401,6 +409,13 @@ fn summary(settings: &LaserMapperSettings, log: &LaserLog, output: &Output) -> S
         "wheels, as learnt: heading drifts by {:.1}° a metre, ± {:.1}°",
         output.wheel_drift_deg_per_m, output.wheel_heading_std_deg_per_m
     );
+    if let Some(mean) = output.odometry_innovation {
+        _ = writeln!(
+            text,
+            "odometry against scans: mean normalised innovation squared {mean:.1} (3 where noises are right), {:.1} % of the steps beyond the 99 % bound",
+            100.0 * output.odometry_innovations_beyond
+        );
+    }
     if output.scans_unexplained > 0 {
         _ = writeln!(text, "scans that no particle explains   {:8}", output.scans_unexplained);
     }

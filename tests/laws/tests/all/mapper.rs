@@ -3,7 +3,7 @@
 
 use fastslam::geometry::Pose2;
 use fastslam::log::{LaserLog, Remark};
-use fastslam::mapper::{LaserMapperSettings, Replay};
+use fastslam::mapper::{LaserMapperSettings, OdometryInnovations, Replay};
 use fastslam::motion::OdometryModel;
 use fastslam_lab::experiment::graph::PathError;
 use fastslam_lab::experiment::log::{Example, Recipe};
@@ -255,6 +255,29 @@ fn a_loop_that_no_particle_closes_is_closed_by_bending_its_path_and_no_bend_make
 fn loops_that_no_particle_closes_are_closed_by_bending_on_twelve_seeds() {
     let bent = (1..=12).filter(|seed| !bends(*seed).is_empty()).count();
     assert!(bent >= 3, "{bent} of 12: too few to tell");
+}
+
+/// 3 is expected of noises that are right, and one in a hundred beyond the bound. The mapper assumes no less of wheels than it knows, so that of wheels of half the noise of recorded
+/// logs less is found; and more of wheels that slip in a third of the steps, by more than what is learnt of them can be.
+#[test]
+fn innovations_of_odometry_tell_wheels_that_slip_from_those_that_scatter() {
+    let innovations = |slip: f64| {
+        let log = Example::of(&Recipe { slip, scatter: 0.5, ..Recipe::building() }, 200).log;
+        let settings = LaserMapperSettings { particles: 2, ..LaserMapperSettings::default() };
+        let mut replay = Replay::new(settings, Arc::new(log)).unwrap();
+        assert!(replay.mapper().predicted().is_none());
+        let mut innovations = OdometryInnovations::default();
+        while let Some(report) = replay.next() {
+            innovations.add(replay.mapper().predicted().unwrap(), &report);
+        }
+        assert!(innovations.count() > 150, "{innovations:?}");
+        println!("slip {slip}: {:.2?}, {:.3} beyond", innovations.mean(), innovations.share_beyond());
+        innovations
+    };
+    let [scatter, slip] = [0.0, 0.3].map(innovations);
+    let [mean, more] = [scatter, slip].map(|one| one.mean().unwrap());
+    assert!(mean < 3.0 && scatter.share_beyond() < 0.02 && more > 1.5 * mean, "{scatter:?}, {slip:?}");
+    assert_eq!(OdometryInnovations::default().mean(), None);
 }
 
 /// Rings of 240 m, two particles: the fifth does not close, its revisits are all off by more than half a metre, and the mapper says that its loop stays
