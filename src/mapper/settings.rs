@@ -19,9 +19,10 @@ use std::collections::BTreeSet;
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct LaserMapperSettings {
-    /// Number of particles M, in [`Self::PARTICLES`]. One does for a building: median errors over seeds, for M = 1, 2, 4, 8 and 16, were 0.066, 0.066, 0.065, 0.066
-    /// and 0.065 m on the Intel log and 0.127, 0.109, 0.122, 0.132 and 0.140 m on that of ACES. More of them help the worst of many runs round a long loop: of
-    /// twelve simulated rings of 240 m, 1.8 m with one and 1.0 m with eight.
+    /// Number of particles M, in [`Self::PARTICLES`]. Where a scan is taken every half metre, one does for a building: median errors over seeds, for M = 1, 2, 4, 8
+    /// and 16, were 0.066, 0.066, 0.065, 0.066 and 0.065 m on the Intel log and 0.127, 0.109, 0.122, 0.132 and 0.140 m on that of ACES. The default is for the worst
+    /// seed outdoors and where scans are a metre apart: of three of Freiburg's campus, 26, 6, 1, 17 and 2 % of the places seen again were off by more than half a
+    /// metre, and on average over 24 simulated loops of 120 m with a scan a metre 26, 13, 19, 11 and 8 %.
     pub particles: usize,
     /// Seed of the filter's draws: the same scans, settings and seed give the same map, bit for bit.
     pub seed: u64,

@@ -27,7 +27,8 @@ pub struct Arguments {
     /// scans and the odometry stay in memory, of a log in plain text about as much as it has bytes
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Number of particles M, 1 to 4096
+    /// Number of particles M, 1 to 4096. One maps a building of which there is a scan every half metre as well as sixteen, in an eighth of the time;
+    /// outdoors, or where scans are a metre apart, sixteen leave the fewest loops open
     #[arg(long, value_name = "M", default_value_t = LaserMapperSettings::default().particles, value_parser = whole(LaserMapperSettings::PARTICLES), allow_negative_numbers = true)]
     particles: usize,
     /// Seed of the filter's draws

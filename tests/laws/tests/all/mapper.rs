@@ -215,6 +215,32 @@ fn particles_stay_apart_until_a_long_loop_closes() {
     }
 }
 
+/// Where a scan is taken every metre, as in some recorded logs, a matched heading says little for the next one, and paths drift apart before a loop of 120 m
+/// closes. Of its revisits, over 24 seeds, 26 % were off by more than half a metre with one particle, 13, 19, 11 and 8 % with 2, 4, 8 and 16; of the first twelve
+/// 26 % with one and 3 % with eight. (With a scan every 0.4 m one particle does as well.) Should one hold the bar some day, a harder course must tell them apart.
+#[test]
+#[ignore = "breadth: twelve seeds"]
+fn eight_particles_close_loops_of_sparse_scans_that_one_leaves_open() {
+    const BAR: f64 = 0.18;
+    let off = |particles: usize| {
+        let off = |seed: u64| {
+            let recipe =
+                Recipe { spacing: 1.0, ..LongRingSetup { length: 120, seed, ..LongRingSetup::default() }.recipe() };
+            let Example { log, truth, .. } = Example::of(&recipe, usize::MAX);
+            let settings = LaserMapperSettings { particles, seed, ..LaserMapperSettings::default() };
+            let mut replay = Replay::new(settings, Arc::new(log)).unwrap();
+            replay.by_ref().for_each(drop);
+            let path: Vec<Pose2> = replay.mapper().path().into_iter().map(|(_, pose)| pose).collect();
+            LoopErrors::of(&path, &truth).revisits_off
+        };
+        let off: Vec<f64> = (1..=12).map(off).collect();
+        println!("{particles} particles: {off:.2?}");
+        off.iter().sum::<f64>() / off.len() as f64
+    };
+    let [one, eight] = [1, 8].map(off);
+    assert!(eight <= BAR && one > BAR, "revisits off: {one} with one particle, {eight} with eight");
+}
+
 /// RMS error after the best rigid alignment \[m\] and share of the revisits that are off, of one path, before it was bent and after.
 type Bend = [LoopErrors; 2];
 
