@@ -720,6 +720,42 @@ fn a_map_that_contradicts_itself_ends_with_exit_status_3() {
     assert!(picture.chunks(3).filter(|pixel| *pixel == [220, 0, 160]).count() > 100);
 }
 
+/// A laser of 2 m in a hall: by default a beam that meets nothing says nothing, and a third of the ground within a metre of the robot's way stays unknown.
+#[test]
+fn beams_that_meet_nothing_clear_the_way_if_asked() {
+    let file = "nothing-in-reach/inf.mcap.gz";
+    let Some(cases) = shared("cases", "", [file, file]) else { return };
+    let folder = tempdir().unwrap();
+    let [map, path] = ["map", "path.tum"].map(|name| folder.path().join(name).display().to_string());
+    let unknown = |option: &str| {
+        let run = format!("log {cases}{file} --particles 2 --map {map} --trajectory {path} {option}");
+        fastslam(&run).success();
+        let pgm = std::fs::read(format!("{map}.pgm")).unwrap();
+        let yaml = std::fs::read_to_string(format!("{map}.yaml")).unwrap();
+        let header = pgm.iter().enumerate().filter(|(_, byte)| **byte == b'\n').nth(2).unwrap().0;
+        let size: Vec<usize> = std::str::from_utf8(&pgm[..header])
+            .unwrap()
+            .split_whitespace()
+            .skip(1)
+            .map(|word| word.parse().unwrap())
+            .collect();
+        let (pixels, [width, height]) = (&pgm[header + 1..], [size[0], size[1]]);
+        let origin = yaml.split(['[', ']']).nth(1).unwrap();
+        let origin: Vec<f64> = origin.split(',').map(|number| number.trim().parse().unwrap()).collect();
+        let way: Vec<[f64; 2]> =
+            poses(&std::fs::read_to_string(&path).unwrap(), |_| 0.0).iter().map(|(_, pose)| [pose.x, pose.y]).collect();
+        let near = (0..width * height).filter(|k| {
+            let x = origin[0] + 0.05 * ((k % width) as f64 + 0.5);
+            let y = origin[1] + 0.05 * ((height - 1 - k / width) as f64 + 0.5);
+            way.iter().any(|at| fastslam::ops::hypot(at[0] - x, at[1] - y) < 1.0)
+        });
+        let near: Vec<u8> = near.map(|k| pixels[k]).collect();
+        near.iter().filter(|pixel| **pixel == 205).count() as f64 / near.len() as f64
+    };
+    let [before, after] = ["", "--clear-range 2"].map(unknown);
+    assert!(before > 0.2 && after < 0.02, "unknown: {before}, with --clear-range {after}");
+}
+
 #[test]
 fn millimetres_are_told() {
     let file = "millimetres/range-max-in-metres.jsonl.gz";
