@@ -74,7 +74,7 @@ impl LogReader {
     ///
     /// # Errors
     /// A malformed line, and what was expected there, unless the reader is lenient: one that is cut short, a scan without beams, with
-    /// another number of beams than those before it, or farther than a kilometre from the one before it. With line 0, that 64 MB went by
+    /// (but for ROBOTLASER1) another number of beams than those before it, or farther than a kilometre from the one before it. With line 0, that 64 MB went by
     /// without a scan.
     pub fn push(&mut self, bytes: &[u8]) -> Result<(), LogError> {
         self.bytes += bytes.len() as u64;
@@ -178,8 +178,8 @@ struct Reader {
     offset: f64,
     /// `robot_front_laser_max` \[m\].
     max_range: Option<f64>,
-    /// Beams of the first scan of each kind of message: FLASER, ROBOTLASER1.
-    beams: [Option<usize>; 2],
+    /// Beams of the first FLASER.
+    beams: Option<usize>,
 }
 
 impl Reader {
@@ -310,7 +310,8 @@ impl Reader {
         if count == 0 {
             return Err(LogProblem::NoRanges { message });
         }
-        let beams = *self.beams[usize::from(message == ROBOT)].get_or_insert(count);
+        // Only a scan that says itself where its beams are may have another number of them: some lasers change it with every turn.
+        let beams = if message == ROBOT { count } else { *self.beams.get_or_insert(count) };
         if count != beams {
             return Err(LogProblem::OtherRanges { message, before: beams, found: count });
         }

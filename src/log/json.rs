@@ -48,7 +48,11 @@ pub(super) enum Told {
 }
 
 pub(super) fn read(line: &str) -> Result<Told, LogProblem> {
-    let line: Line = serde_json::from_str(line).map_err(|error| LogProblem::Json(error.to_string()))?;
+    let line: Line = serde_json::from_str(line).map_err(|error| {
+        // As Python writes them, unless it is told not to.
+        let is_python = line.contains("NaN") || line.contains("Infinity");
+        LogProblem::Json(if is_python { PYTHON.into() } else { error.to_string() })
+    })?;
     match (line.malformed, line.remark) {
         (Some(count), remark) => return Ok(Told::Malformed(count, remark.unwrap_or_default())),
         (None, Some(remark)) => return Ok(Told::Remark(remark)),
@@ -79,6 +83,10 @@ pub(super) fn read(line: &str) -> Result<Told, LogProblem> {
     }
     Ok(Told::Scan(if line.odometry.is_some() { scan } else { LaserScan { odometry: NOWHERE, ..scan } }))
 }
+
+/// What is wrong with a line of Python's.
+const PYTHON: &str =
+    "NaN and Infinity are not JSON; write null where nothing is in reach, and 0 where nothing is known";
 
 /// A range as JSON can tell it: `null` where nothing is in reach, and 0 for what is no number.
 fn reading(range: &f32) -> Option<f32> {

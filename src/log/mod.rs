@@ -28,6 +28,7 @@ pub use tum::write_tum;
 
 use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
+use crate::mapper::tuning::{NOTHING_MET, STILL};
 use crate::ops;
 use crate::order::sorted;
 use crate::sensor::Scan;
@@ -145,6 +146,38 @@ impl LaserLog {
             if beyond > most_beyond { low = middle + 1 } else { high = middle }
         }
         f64::from(f32::from_bits(low))
+    }
+
+    /// Leaves out scans whose ranges are, to the bit, those of the one before, though the robot moved in between: a driver that sends its last scan
+    /// again. How many there were, and the stamp of the first \[s\]; `None` where there were none. In a corridor that a simulator draws without noise, all
+    /// that is left out says nothing new.
+    pub fn leave_repeated_out(&mut self) -> Option<(usize, f64)> {
+        /// Fewer ranges may be equal by chance.
+        const ENOUGH: usize = 10;
+        let tells = |scan: &LaserScan| scan.ranges.iter().filter(|range| range.is_finite() && **range > 0.0).count();
+        let (mut count, mut first, mut kept) = (0, None, Vec::<LaserScan>::new());
+        for scan in core::mem::take(&mut self.scans) {
+            let repeats = kept.last().is_some_and(|last| {
+                let moved = last.odometry.between(&scan.odometry);
+                let moves = moved.x.abs().max(moved.y.abs()).max(moved.theta.abs()) > STILL;
+                moves && last.ranges == scan.ranges && tells(&scan) >= ENOUGH
+            });
+            if repeats {
+                count += 1;
+                first = first.or(Some(scan.time));
+            } else {
+                kept.push(scan);
+            }
+        }
+        self.scans = kept;
+        first.map(|time| (count, time))
+    }
+
+    /// Gives each scan the pose at which it fits best upon those before, in place of that by odometry: for odometry that is none. [`Self::odometry`] stays
+    /// as it was told.
+    pub fn match_scans(&mut self) {
+        let longest = NOTHING_MET * self.longest_reading();
+        scan_to_scan::give_odometry(&mut self.scans, longest);
     }
 
     /// Puts what is in it in order: clocks are set back, and of messages that come over a network some are late. The sorts are stable, so that

@@ -1,8 +1,7 @@
 //! Where the robot was at each scan by raw odometry, for logs that tell of scans and of odometry apart.
 
-use super::{FARTHEST_JUMP, LaserLog, LaserScan, LogError, LogProblem, Remark, odometry_at, scan_to_scan};
+use super::{FARTHEST_JUMP, LaserLog, LaserScan, LogError, LogProblem, Remark, odometry_at};
 use crate::geometry::Pose2;
-use crate::mapper::tuning::NOTHING_MET;
 
 /// The odometry of a scan that has none of its own yet.
 #[cfg(any(feature = "bags", feature = "json"))]
@@ -50,8 +49,7 @@ fn stay<'a>(mut poses: impl Iterator<Item = &'a Pose2>, near: f64) -> bool {
 /// By matching scans to each other; where they say that the robot stands, odometry that says so too is right.
 fn by_scans(log: &mut LaserLog) {
     let told: Vec<Pose2> = log.scans.iter().map(|scan| scan.odometry).collect();
-    let longest = NOTHING_MET * log.longest_reading();
-    scan_to_scan::give_odometry(&mut log.scans, longest);
+    log.match_scans();
     match log.odometry.first() {
         None => log.notes.remarks.push(Remark::NoOdometry),
         Some((_, pose)) if stay(log.scans.iter().map(|scan| &scan.odometry), STANDING) => {

@@ -288,7 +288,7 @@ pub enum MessageProblem {
     #[error("is shorter than its type asks for")]
     Short,
     /// It has a pose that is none.
-    #[error("has a pose that is no number")]
+    #[error("has a pose that is no number, or a quaternion of zeros")]
     Pose,
     /// It has a transform that is none.
     #[error("has a transform that is no number")]

@@ -11,9 +11,10 @@
 //! [`LaserMapperSettings::for_log`]. What is not a setting has one value for every building and robot: [`tuning`] says why.
 
 mod agreement;
+mod check;
 mod closing;
-mod last_places;
 mod innovations;
+mod last_places;
 mod loops;
 mod moving;
 mod odometer;
@@ -24,10 +25,11 @@ mod tests;
 pub mod tuning;
 mod wheels;
 
+pub use check::{OdometryCheck, OdometryFault};
 use closing::Closings;
+pub use innovations::OdometryInnovations;
 pub(crate) use last_places::{LastPlaces, MAX_RANGE, fan};
 pub use loops::{Loop, LoopEnd};
-pub use innovations::OdometryInnovations;
 use moving::{LastViews, driven};
 use odometer::Odometer;
 pub use odometer::Unbelieved;
@@ -41,9 +43,9 @@ use crate::execute::Executor;
 use crate::geometry::Pose2;
 use crate::log::{LaserScan, Remark};
 use crate::map::{ConditionalMap, Footprint};
+use crate::motion::Displacement;
 use crate::particle::Particle;
 use crate::rbpf::{Rbpf, Report};
-use crate::motion::Displacement;
 use crate::sensor::Scan;
 
 /// The filter of a [`LaserMapper`].
@@ -95,10 +97,10 @@ pub struct LaserMapper {
     odometer: Odometer,
     /// What is known of the wheels.
     wheels: Wheels,
-    /// Metres driven by odometry since the particles' maps were marked for the last time.
-    since_mark: f64,
     /// What was expected of the last step.
     predicted: Option<Displacement>,
+    /// Metres driven by odometry since the particles' maps were marked for the last time.
+    since_mark: f64,
     /// What was seen on the last metres of the way.
     views: LastViews,
     /// What closes the loops that were missed.
@@ -129,9 +131,9 @@ impl LaserMapper {
             filter: filter(&settings, settings.beams.unwrap_or(tuning::BEAMS), map)?,
             odometer: Odometer::default(),
             wheels: Wheels::default(),
+            predicted: None,
             since_mark: 0.0,
             views: LastViews::default(),
-            predicted: None,
             closings: Closings::default(),
             last: None,
             steps: 0,
@@ -172,9 +174,9 @@ impl LaserMapper {
             return Pushed::Still;
         }
         let control = self.wheels.displacement(&moved);
+        self.predicted = Some(control);
         let standing = self.standing(scan, odometry);
         self.mark(driven(&moved)[0]);
-        self.predicted = Some(control);
         let report = self.filter.step(&control, &standing);
         self.wheels.learn(&moved, &report);
         self.steps = report.step;
@@ -267,14 +269,14 @@ impl LaserMapper {
         &self.wheels
     }
 
-    /// Steps of the filter so far: the scans that it took, without the first.
-    pub fn steps(&self) -> u32 {
     /// Where the last step of the filter led by odometry, with the drift and the noise of the wheels as they were known before it; `None` before the first.
     /// What [`OdometryInnovations`] hold scans against.
     pub fn predicted(&self) -> Option<&Displacement> {
         self.predicted.as_ref()
     }
 
+    /// Steps of the filter so far: the scans that it took, without the first.
+    pub fn steps(&self) -> u32 {
         self.steps
     }
 

@@ -10,7 +10,9 @@ use fastslam::log::{
     relation_errors, write, write_path, write_tum,
 };
 use fastslam::map::grid::{MapImage, MapImageSettings};
-use fastslam::mapper::{LaserMapper, LaserMapperSettings, Loop, LoopEnd, OdometryInnovations, Replay};
+use fastslam::mapper::{
+    LaserMapper, LaserMapperSettings, Loop, LoopEnd, OdometryCheck, OdometryFault, OdometryInnovations, Replay,
+};
 use fastslam::proposal::IncrementalWeight;
 use fastslam_lab::experiment::log::{Example, digest};
 use flate2::read::MultiGzDecoder;
@@ -123,6 +125,8 @@ struct Output {
     odometry_innovation: Option<f64>,
     /// Share of the steps whose innovation is beyond the 99 % bound.
     odometry_innovations_beyond: f64,
+    /// What is wrong with the odometry as a whole, or with what is said of the laser; null where nothing is.
+    odometry_fault: Option<String>,
     /// Scans that no particle explains.
     scans_unexplained: u32,
     /// How many times a particle's path was bent, to close a loop that no particle had closed by itself.
@@ -151,7 +155,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let Arguments { scan_topic, odometry_topic, lenient, .. } = arguments;
     let options =
         BagOptions { scan_topic: scan_topic.clone(), odometry_topic: odometry_topic.clone(), lenient: *lenient };
-    let log = read(&arguments.file, options)?;
+    let mut log = read(&arguments.file, options)?;
     let relations = match &arguments.relations {
         Some(path) => Some(parse_relations(&bytes_of(path)?).map_err(|error| what(path, error))?),
         None => None,
@@ -175,6 +179,10 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         weight: arguments.weight,
         ..LaserMapperSettings::default()
     };
+    settings.validate().map_err(by_flag)?;
+    let (scans, file) = (log.scans.len(), &arguments.file);
+    let repeated = leave_repeated_out(&mut log, file);
+    let fault = put_right(&mut log, &settings, file);
     let log = Arc::new(log);
     let mut replay = Replay::new(settings, Arc::clone(&log)).map_err(by_flag)?;
     let rules = MapImageSettings {
@@ -212,15 +220,18 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let mapper = replay.mapper();
     let path = mapper.path();
     outputs.write(mapper, &path, &rules)?;
-    let (open, remarks): (Vec<_>, Vec<_>) =
-        mapper.remarks().into_iter().partition(|remark| matches!(remark, Remark::OpenLoops { .. }));
+    let (doubts, remarks): (Vec<_>, Vec<_>) = mapper.remarks().into_iter().partition(|remark| match remark {
+        Remark::OpenLoops { .. } | Remark::NothingMet => true,
+        Remark::Contradicted { steps, .. } => *steps > mapper.steps() as usize / 3,
+        _ => false,
+    });
     for remark in remarks {
         eprintln!("fastslam: {}: {remark}", arguments.file.display());
     }
     let steps = mapper.steps();
     let cpu = ProcessTime::now().as_duration();
     let output = Output {
-        scans: log.scans.len() as u32,
+        scans: scans as u32,
         scans_used: steps + 1,
         ms_per_scan_particle: 1e3 * cpu.as_secs_f64() / f64::from(steps + 1) / settings.particles as f64,
         peak_map_bytes: peak.unique,
@@ -231,6 +242,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         steps_contradicted: mapper.unbelieved().len() as u32,
         odometry_innovation: innovations.mean(),
         odometry_innovations_beyond: innovations.share_beyond(),
+        odometry_fault: fault.map(|fault| fault.to_string()),
         scans_unexplained,
         paths_bent: mapper.closings(),
         loops: loops(mapper),
@@ -246,13 +258,43 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     } else {
         print(&summary(&settings, &log, &output))?
     }
-    open.first().map_or(Ok(()), |open| Err(OpenLoop(format!("{}: {open}", arguments.file.display())).into()))
+    let of_fault = "the map may be wrong in size or shape, as scans and odometry contradict each other throughout";
+    let of_fault = fault.filter(OdometryFault::doubts_scans).map(|_| of_fault.into());
+    let of_repeated =
+        (repeated > scans / 2).then(|| "the map is one of few places, as most scans repeat another".into());
+    let doubt = doubts.iter().map(ToString::to_string).chain(of_fault).chain(of_repeated).next();
+    doubt.map_or(Ok(()), |doubt| Err(Doubtful(format!("{}: {doubt}", arguments.file.display())).into()))
 }
 
-/// A log was mapped, and its map contradicts itself: exit status 3.
+/// A log was mapped, and its map is not to be trusted: it contradicts itself, is empty, or scans contradict the log as a whole. Exit status 3.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
-pub struct OpenLoop(String);
+pub struct Doubtful(String);
+
+/// Leaves out the scans that repeat the one before while the robot drives, and says so: how many there were.
+fn leave_repeated_out(log: &mut LaserLog, file: &Path) -> usize {
+    let Some((count, time)) = log.leave_repeated_out() else { return 0 };
+    eprintln!(
+        "fastslam: {}: scans that repeat the one before, to the last digit, while odometry moves: {count}, the first at {time:.3} s; they are left out",
+        file.display()
+    );
+    count
+}
+
+/// Puts odometry right that scans contradict throughout, and says so: what is wrong with it.
+fn put_right(log: &mut LaserLog, settings: &LaserMapperSettings, file: &Path) -> Option<OdometryFault> {
+    if log.notes.remarks.iter().any(|remark| matches!(remark, Remark::NoOdometry | Remark::StillOdometry)) {
+        return None;
+    }
+    let fault = OdometryCheck::of(log, settings)?.fault()?;
+    fault.put_right(log);
+    let done = match fault {
+        OdometryFault::Unrelated { .. } => "is taken for none, and each scan is matched with those before",
+        _ => "is corrected by that",
+    };
+    eprintln!("fastslam: {}: {fault} Odometry {done}", file.display());
+    Some(fault)
+}
 
 /// A loop of the best path, as it is printed.
 #[derive(Default, Serialize)]
@@ -332,6 +374,9 @@ fn what(path: &Path, error: LogError) -> Usage {
 /// Reads a log of any kind, which may be compressed, and says on standard error what of it is not used. The file itself is never whole in
 /// memory.
 fn read(path: &Path, options: BagOptions) -> Result<LaserLog> {
+    if path.is_dir() {
+        bail!(Usage::of_file(path, parts(path)));
+    }
     let mut file = std::io::BufReader::new(std::fs::File::open(path).with_context(in_file(path))?);
     let compressed = file.fill_buf().with_context(in_file(path))?.starts_with(&[0x1f, 0x8b]);
     let bytes: Box<dyn Read> = if compressed { Box::new(MultiGzDecoder::new(file)) } else { Box::new(file) };
@@ -340,6 +385,9 @@ fn read(path: &Path, options: BagOptions) -> Result<LaserLog> {
         false => anyhow::Error::new(error).context(path.display().to_string()),
     };
     let mut bytes = std::io::BufReader::new(bytes);
+    if let Some(cure) = cure(bytes.fill_buf().map_err(failed)?) {
+        bail!(Usage::of_file(path, cure));
+    }
     let of_bag = is_bag(bytes.fill_buf().map_err(failed)?);
     let (lenient, bag_topics) = (options.lenient, options.scan_topic.is_some() || options.odometry_topic.is_some());
     let (mut bag, mut text) = (BagReader::new(options), LogReader::new(lenient));
@@ -362,6 +410,27 @@ fn read(path: &Path, options: BagOptions) -> Result<LaserLog> {
         eprintln!("fastslam: {}: {note}", path.display());
     }
     Ok(log)
+}
+
+/// How a file that begins with these bytes becomes one that can be read, if it is of a kind that cannot.
+fn cure(bytes: &[u8]) -> Option<&'static str> {
+    let kinds: [(&[u8], &str); 2] = [
+        (&[0x28, 0xb5, 0x2f, 0xfd], "it is compressed by zstd: unpack it first (zstd -d)"),
+        (b"SQLite format 3", "it is a ROS 2 bag in SQLite: convert it to MCAP first (ros2 bag convert)"),
+    ];
+    kinds.into_iter().find(|(begins, _)| bytes.starts_with(begins)).map(|(_, cure)| cure)
+}
+
+/// What is said of a folder: a ROS 2 bag is one.
+fn parts(path: &Path) -> String {
+    let files = std::fs::read_dir(path).into_iter().flatten().flatten().map(|entry| entry.file_name());
+    let mut bags: Vec<String> = files.map(|name| name.to_string_lossy().into_owned()).collect();
+    bags.retain(|name| [".mcap", ".db3", ".bag"].iter().any(|end| name.ends_with(end)));
+    bags.sort();
+    match bags.is_empty() {
+        true => "it is a folder without a bag in it; name a file".into(),
+        false => format!("it is a folder; name one of the bags in it: {}", bags.join(", ")),
+    }
 }
 
 fn notes(notes: &Notes, of_bag: bool) -> Vec<String> {

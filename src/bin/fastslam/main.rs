@@ -80,7 +80,7 @@ fn main() -> ExitCode {
     eprintln!("fastslam: {error:#}");
     let usage = error.is::<Usage>() || error.is::<SettingError>() || error.is::<FigureError>();
     let status = if usage { 2 } else { 1 };
-    ExitCode::from(if error.is::<log::OpenLoop>() { 3 } else { status })
+    ExitCode::from(if error.is::<log::Doubtful>() { 3 } else { status })
 }
 
 fn run(arguments: Arguments) -> Result<()> {

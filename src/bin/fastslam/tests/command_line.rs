@@ -3,7 +3,7 @@
 use assert_cmd::Command;
 use fastslam::geometry::{Pose2, align, rms};
 use fastslam::mapper::{LaserMapperSettings, Replay};
-use fastslam_lab::experiment::log::Example;
+use fastslam_lab::experiment::log::{Example, Recipe};
 use fastslam_lab::experiment::long_rings::{LongRingSetup, LoopErrors};
 use fastslam_lab::experiment::looking_back::fixed_lag;
 use fastslam_widgets::figure::Figure;
@@ -674,17 +674,21 @@ fn a_spoiled_drive_is_mapped_as_it_was_driven() {
     let still = "the odometry never moves: it is taken for none, and each scan is matched with those before";
     let folder = tempdir().unwrap();
     for (file, said) in [
-        ("base/base", ""),
-        ("clock-set-back/clock-set-back", "the clock was set back by 10.1 s after "),
-        ("no-wheels/static-transform", still),
-        ("no-wheels/repeated-transform", still),
-        ("no-wheels/zero-odometry", still),
-        ("odometry-starts-anew/reset", "contradict odometry: 1, the first at 1029.600 s (10.17 m and 132° in 0.4 s)"),
+        ("base/base.mcap.gz", ""),
+        ("clock-set-back/clock-set-back.mcap.gz", "the clock was set back by 10.1 s after "),
+        ("no-wheels/static-transform.mcap.gz", still),
+        ("no-wheels/repeated-transform.mcap.gz", still),
+        ("no-wheels/zero-odometry.mcap.gz", still),
+        ("beams-vary/robotlaser1.clf.gz", ""),
+        (
+            "odometry-starts-anew/reset.mcap.gz",
+            "contradict odometry: 1, the first at 1029.600 s (10.17 m and 132° in 0.4 s)",
+        ),
     ] {
         let truth = format!("{}/truth.tum", file.split_once('/').unwrap().0);
-        let Some(cases) = shared("cases", "", [&format!("{file}.mcap.gz"), &truth]) else { return };
+        let Some(cases) = shared("cases", "", [file, &truth]) else { return };
         let path = folder.path().join("path.tum").display().to_string();
-        let run = fastslam(&format!("log {cases}{file}.mcap.gz --particles 8 --trajectory {path} --json")).success();
+        let run = fastslam(&format!("log {cases}{file} --particles 8 --trajectory {path} --json")).success();
         let noted = String::from_utf8(run.get_output().stderr.clone()).unwrap();
         assert!(noted.contains(said) && (!said.is_empty() || noted.is_empty()), "{file}: {noted}");
         let [found, truth] = [path, format!("{cases}{truth}")].map(|path| positions(&path));
@@ -692,7 +696,9 @@ fn a_spoiled_drive_is_mapped_as_it_was_driven() {
         let error = |(a, b): (&[f64; 2], &[f64; 2])| fastslam::ops::hypot(a[0] - b[0], a[1] - b[1]);
         let squares: f64 = found.iter().zip(&truth).map(error).map(|error| error * error).sum();
         let rms = (squares / found.len() as f64).sqrt();
-        assert!(rms < 0.03, "{file}: {rms} m");
+        // Seen from the first pose, whose heading is off by 0.3° where each scan has another number of beams; aligned, that path is 8 mm off as the others are.
+        let bar = if file.starts_with("beams-vary") { 0.04 } else { 0.03 };
+        assert!(rms < bar, "{file}: {rms} m");
     }
 }
 
@@ -718,6 +724,38 @@ fn a_map_that_contradicts_itself_ends_with_exit_status_3() {
     let mut picture = vec![0; reader.output_buffer_size().unwrap()];
     reader.next_frame(&mut picture).unwrap();
     assert!(picture.chunks(3).filter(|pixel| *pixel == [220, 0, 160]).count() > 100);
+}
+
+/// Scans and odometry that contradict each other throughout: the cause is named, odometry taken for none, and the exit status says whether the map may be
+/// wrong. Which of the two a mirror image is of cannot be known.
+#[test]
+fn what_is_wrong_throughout_is_named_and_ends_with_its_exit_status() {
+    let folder = tempdir().unwrap();
+    let [file, path] = ["log.clf", "path.tum"].map(|name| folder.path().join(name).display().to_string());
+    let Example { log, truth, .. } = Example::of(&Recipe { scatter: 0.3, ..Recipe::building() }, 160);
+    type Spoil = fn(&Pose2) -> Pose2;
+    let kinds: [(Spoil, u8, &str); 3] = [
+        (Pose2::clone, 0, ""),
+        (|pose| Pose2::new(100.0 * pose.x, 100.0 * pose.y, pose.theta), 0, "the robot drives 0.0"),
+        (|pose| Pose2::new(pose.x, -pose.y, -pose.theta), 3, "the robot turns to the other side"),
+    ];
+    for (spoil, status, said) in kinds {
+        let mut log = log.clone();
+        for scan in &mut log.scans {
+            scan.odometry = spoil(&scan.odometry);
+        }
+        std::fs::write(&file, fastslam::log::write(&log)).unwrap();
+        let run = fastslam(&format!("log {file} --particles 2 --trajectory {path} --json")).code(i32::from(status));
+        let output = run.get_output();
+        let noted = String::from_utf8(output.stderr.clone()).unwrap();
+        assert!(noted.contains(said) && noted.is_empty() == said.is_empty(), "{noted}");
+        let told: Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(told["odometry_fault"].is_null(), said.is_empty(), "{told}");
+        let found: Vec<Pose2> = positions(&path).iter().map(|[x, y]| Pose2::new(*x, *y, 0.0)).collect();
+        let motion = align(&found, &truth);
+        let error = rms(&found.iter().map(|pose| motion.compose(pose)).collect::<Vec<_>>(), &truth);
+        assert!(error < 0.06, "{said}: {error} m");
+    }
 }
 
 /// A laser of 2 m in a hall: by default a beam that meets nothing says nothing, and a third of the ground within a metre of the robot's way stays unknown.
@@ -899,6 +937,11 @@ fn a_log_that_cannot_be_read_is_refused_by_line_and_one_with_flaws_is_read_if_as
         (good.replace("FLASER 180", "FLASER 0"), "expected ranges, found 0 of them"),
         (good.clone() + "FLASER 1 1 0 0 0 0 0 0 9 h 9\n", "expected 180 ranges as in the scans before, found 1"),
         ("FLASER 2 nan 0 0 0 0 0 0 0 1 h 1\n".repeat(9), "none of its 18 readings is a range"),
+        (
+            "{\"time\": 1, \"ranges\": [1.0, NaN]}\n".to_owned(),
+            "line 1: expected a scan in JSON: NaN and Infinity are not JSON",
+        ),
+        ("SQLite format 3\0".to_owned(), "it is a ROS 2 bag in SQLite: convert it to MCAP first (ros2 bag convert)"),
         (good.clone() + "ODOM 1 2\n", "line 5: ODOM: expected x, y, theta, found the end of the line"),
     ] {
         std::fs::write(&log, text).unwrap();
@@ -906,6 +949,9 @@ fn a_log_that_cannot_be_read_is_refused_by_line_and_one_with_flaws_is_read_if_as
         let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
         assert!(message.contains(said) && message.trim_end().lines().count() == 1, "{message}");
     }
+    let folder_itself = fastslam(&format!("log {}", folder.path().display())).code(2);
+    let said = String::from_utf8_lossy(&folder_itself.get_output().stderr).into_owned();
+    assert!(said.contains("it is a folder without a bag in it; name a file"), "{said}");
     let flawed = fastslam(&format!("log {log} --lenient --particles 2 --json")).success();
     assert!(String::from_utf8_lossy(&flawed.get_output().stderr).contains("malformed lines passed over: 1"));
     std::fs::write(&log, good + "RLASER 0\nGPS 1\n").unwrap();
