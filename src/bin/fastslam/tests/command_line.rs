@@ -1022,9 +1022,9 @@ fn map_megabytes(run: &Value) -> f64 {
     ["peak_map_bytes", "kept_map_bytes"].iter().map(|key| run[key].as_f64().unwrap()).sum::<f64>() / 1e6
 }
 
-/// Why there is no `log --smooth`: on the Intel log what is told at once is worse than the best particle's path, and the mean over the ancestry at the
-/// end hardly better. With 16 particles, seeds 1 to 3 gave 70, 70 and 86 mm as it went, 64.6, 64.4 and 66.1 mm for the record, and 65.3, 65.0 and
-/// 67.4 mm for the best path; the means of ancestors of 10, 50 and 200 steps ago lie between.
+/// Why there is no `log --smooth`: on the Intel log the mean over the ancestry at the end is hardly better than the best particle's path. Before loops
+/// were bent so finely, what is told at once was worse by 5 mm (16 particles, seeds 1 to 3: 70, 70 and 86 mm as it went, 64.6, 64.4 and 66.1 mm for the
+/// record, 65.3, 65.0 and 67.4 mm for the best path). Now all three are the same to .3 mm (8 particles, seed 1: 66.4, 66.6, 66.6 mm).
 #[test]
 #[ignore = "breadth: a whole recorded log"]
 fn the_record_of_the_intel_log_is_hardly_better_than_the_best_particle_s_path() {
@@ -1044,7 +1044,7 @@ fn the_record_of_the_intel_log_is_hardly_better_than_the_best_particle_s_path() 
     let [went, record] = [&paths[0], &paths[1]].map(|path| error(path));
     let best = error(&best.iter().map(|(_, pose)| *pose).collect::<Vec<_>>());
     assert!(
-        (record - best).abs() < 0.001 && went > best,
+        (record - best).abs() < 0.001 && went > best - 0.001,
         "as it went {went} m, the record {record} m, the best path {best} m"
     );
 }
