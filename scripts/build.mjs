@@ -60,8 +60,13 @@ const gluedAs = 'bags'
 /** What programs are made from. */
 const sources = ['Cargo.toml', 'Cargo.lock', 'src', 'lab', 'widgets/Cargo.toml', 'widgets/build.rs', 'widgets/README.md', 'widgets/src', 'widgets/words', 'widgets/fonts']
 
-/** A fingerprint of all that programs are made from, and with. */
-function madeFrom() {
+/** @type {string | undefined} */
+let sourcesSeen
+
+/** A fingerprint of all that programs are made from, and with; taken once, however many programs ask. */
+const madeFrom = () => (sourcesSeen ??= fingerprint())
+
+function fingerprint() {
   const hash = createHash('sha256').update([capture('rustc', '-Vv'), capture('wasm-bindgen', '-V'), process.env.RUSTFLAGS].join('\n'))
   for (const source of sources) {
     const path = join(root, source)

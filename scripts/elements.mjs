@@ -112,7 +112,7 @@ const membersOf = figure => {
 }
 
 /** Each bubbles, through the borders of shadow roots too. */
-export const events = [
+const events = [
   { name: 'fastslam-step', type: 'CustomEvent<FigureDetail>', help: 'Another step is shown; also once when the figure comes to life.' },
   { name: 'fastslam-change', type: 'CustomEvent<FigureDetail>', help: 'A parameter has changed, whoever did it.' },
   { name: 'fastslam-challenge', type: 'CustomEvent<ChallengeDetail>', help: 'A reader has taken up a challenge or, where it is done, reached it.' },

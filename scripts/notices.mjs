@@ -26,13 +26,14 @@ const textsIn = folder =>
 export function notices() {
   /** @type {{ name: string, version: string, manifest_path: string }[]} */
   const all = JSON.parse(capture('cargo', 'metadata', '--locked', '--format-version', '1') ?? '{"packages":[]}').packages
+  const crates = cratesShipped()
   /** The crates of each text, as many have the same. @type {Map<string, string[]>} */
   const texts = new Map()
-  for (const { name, version } of cratesShipped()) {
+  for (const { name, version } of crates) {
     const found = all.find(crate => crate.name === name && crate.version === version)
     for (const text of found ? textsIn(dirname(found.manifest_path)) : []) texts.set(text, [...(texts.get(text) ?? []), name])
   }
-  const list = cratesShipped().map(({ name, version, licence }) => `  ${name} ${version}: ${licence}`)
+  const list = crates.map(({ name, version, licence }) => `  ${name} ${version}: ${licence}`)
   const line = '='.repeat(80)
   return [
     'The figures and the library fastslam are under the MIT licence or the Apache licence 2.0, as you like; the text of the chapter is under CC BY 4.0.',
