@@ -5,7 +5,7 @@ import { keepPage, takeDrops } from './drops'
 import { FigureElement } from './figure-element'
 import { fetchExample } from './files'
 import { AT_REST } from './generated/log'
-import type { Answer, Command, Frame, Phase, SavedFile, Topics } from './host'
+import type { Answer, Command, Frame, Phase, Run, SavedFile, Topics } from './host'
 import { Poster } from './log-poster'
 import { takeGestures } from './map-gestures'
 import type { MenuItem } from './menu'
@@ -54,7 +54,7 @@ export class FastslamLog extends FigureElement {
   #phase: Phase = 'empty'
   #log: { file: Blob; name: string; start: boolean; topics: Topics; decoder: WebAssembly.Module | undefined } | undefined // read again by another worker, after a move of the element
   #sent: unknown // the source that this worker was given
-  #opened = 0 // commands that had been sent then
+  #opened = 0 // commands that had been sent then, to this worker and to those that died before
   #lived = false // there has been a frame
   #unfit = '' // what was said to stand in the way
   #refused = false // the log chosen last, so that there is nothing to say of the one before
@@ -272,17 +272,16 @@ export class FastslamLog extends FigureElement {
     super.present(frame)
     if (!this.alive) return
     this.#lived = true
-    this.#showUnfit(frame)
+    this.#showUnfit(frame.run!)
     write(this.status, frame.run!.phase === 'empty' ? '' : frame.run!.log)
   }
 
-  protected override showPlayback(frame: Frame): void {
-    const { step, target, last, run } = frame
+  protected override showPlayback({ step, target, last, run }: Frame): void {
     const held = document.activeElement === this && this.shadowRoot!.activeElement
     const phase = (this.#phase = run!.phase)
     const begun = phase !== 'empty' && phase !== 'ready'
     if (phase !== 'done') this.playback.playing = false
-    this.#poster.show(phase, run!.unfit !== undefined || this.#reads(frame))
+    this.#poster.show(phase, run!.unfit !== undefined || this.#reads(run!))
     this.stage.classList.toggle('empty', phase === 'empty')
     this.#zoom.inert = phase === 'empty'
     this.#example.hidden = phase === 'empty'
@@ -299,15 +298,15 @@ export class FastslamLog extends FigureElement {
   }
 
   /** Whether a log is on its way: what was chosen is not there yet, and nothing else is to be mapped in its place. */
-  #reads({ run, done }: Frame): boolean {
-    return run!.reading || (this.#log !== undefined && (this.#sent !== this.#log || done < this.#opened))
+  #reads(run: Run): boolean {
+    return run.reading || (this.#log !== undefined && (this.#sent !== this.#log || (this.host?.done ?? 0) < this.#opened))
   }
 
   /** Why it cannot be started; told once, not with every picture. */
-  #showUnfit(frame: Frame): void {
-    const { unfit, log } = frame.run!
+  #showUnfit(run: Run): void {
+    const { unfit, log } = run
     const [parameter, message] = unfit ?? ['', '']
-    if (message === this.#unfit || this.#refused || this.#reads(frame)) return
+    if (message === this.#unfit || this.#refused || this.#reads(run)) return
     this.#unfit = message
     if (parameter !== 'lenient') return this.messages.set('unfit', message)
     this.messages.set('unfit', `${log}, ${message}.`, this.words.say('skip_malformed'), () => this.setParameter('lenient', 'on'))
