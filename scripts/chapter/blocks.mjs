@@ -76,6 +76,13 @@ const folded = (name, title) => (_, state, node) => h(`details.${name}`, h('summ
 export const hint = folded('hint', 'Hint')
 export const solution = folded('solution', 'Solution')
 
+/** `:::deeper[Title]`: what stands beside the way through the chapter. Read past it, and nothing that follows is missing. @type {Handler} */
+export function deeper(context, state, node) {
+  const { label, body } = parts(node)
+  if (!label) context.problems.add(context.file, node, ':::deeper has no title: say in a few words what unfolds')
+  return h('details.deeper', h('summary', 'Deeper: ', h('span.title', label ? inline(state, label) : [])), h('div.fold', content(state, body)))
+}
+
 /** `:::table{#tab-x}`: the table, then its caption. @type {Handler} */
 export function table(context, state, node) {
   const tables = node.children.filter((/** @type {any} */ child) => child.type === 'table')

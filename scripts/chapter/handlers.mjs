@@ -1,7 +1,7 @@
 // Which module renders what. A directive that is not in these lists is a mistake of the writer.
 import { h } from 'hastscript'
 import { algorithm } from './algorithm.mjs'
-import { derivation, equation, exercise, hint, lapTable, margin, predict, solution, table, theorem } from './blocks.mjs'
+import { deeper, derivation, equation, exercise, hint, lapTable, margin, predict, solution, table, theorem } from './blocks.mjs'
 import { chip } from './challenges.mjs'
 import { citation } from './citation.mjs'
 import { heading } from './contents.mjs'
@@ -19,7 +19,7 @@ import { code, listing } from './listing.mjs'
 const references = () => /** @type {any} */ ({ type: 'element', tagName: 'references', properties: {}, children: [] })
 
 /** @type {Record<string, Handler>} */
-const containers = { algorithm, derivation, equation, exercise, figure, hint, 'lap-table': lapTable, margin, predict, solution, table, theorem }
+const containers = { algorithm, deeper, derivation, equation, exercise, figure, hint, 'lap-table': lapTable, margin, predict, solution, table, theorem }
 /** @type {Record<string, Handler>} */
 const leaves = { citation, 'lap-table': lapTable, listing, references }
 /** @type {Record<string, Handler>} */

@@ -39,6 +39,7 @@ const mistakes = [
   ['a line of an algorithm that links to nowhere', '## A {#a}\n\n:::algorithm[A]{#alg-a}\n1. do :line[a]{src="src/a.rs#body"}\n:::', '## A {#a}\n\n:::algorithm[A]{#alg-a}\n1. do :line[a]{src="src/a.rs#legs"}\n:::', /:4: .*legs/, rust],
   ['an algorithm for a figure that is not there', '## A {#a}\n\n:::algorithm[A]{#alg-a}\n1. do\n:::', '## A {#a}\n\n:::algorithm[A]{#alg-a figure="fig-a"}\n1. do\n:::', /:3: .*#fig-a/],
   ['TeX that is none', '## A {#a}\n\n$\\frac12$', '## A {#a}\n\n$\\fraction12$', /:3: TeX: .*\\fraction/],
+  ['a fold that does not say what is in it', '## A {#a}\n\n:::deeper[B]\nx\n:::', '## A {#a}\n\n:::deeper\nx\n:::', /:3: :::deeper has no title/],
   ['HTML', '## A {#a}\n\n<!-- a remark -->', '## A {#a}\n\n<div>x</div>', /:3: HTML has no place/],
   ['an exercise without a level', '## A {#a}\n\n::::exercise[A]{#ex-a kind="k" level="2"}\nx\n::::', '## A {#a}\n\n::::exercise[A]{#ex-a kind="k"}\nx\n::::', /:3: .*level/],
 ]

@@ -4,6 +4,7 @@ import { test } from 'node:test'
 import { Letters } from '../../scripts/chapter/fonts.mjs'
 import { Numbers } from '../../scripts/chapter/numbers.mjs'
 import { curly } from '../../scripts/chapter/quotes.mjs'
+import { total, wordsOf } from '../../scripts/words.mjs'
 import { book, html } from './book.mjs'
 
 const number = (/** @type {number} */ value, unit = 'm') => ({ value, unit, made: 'by a test' })
@@ -77,6 +78,20 @@ test('a page has nothing that the content security policy forbids', async () => 
 
 test('what touches a formula stays on its line', async () => {
   assert.match(await html('## A {#a}\n\nall ($x$), and'), /all <span class="w">\(<math>.*<\/math>\),<\/span> and/)
+})
+
+test('what goes deeper is folded under a line that says what it is, and a link leads into it', async () => {
+  const text = await html('## A {#a}\n\n[](#eq-x)\n\n::::deeper[Why $x$ *is*]\n:::equation{#eq-x}\n$$x$$\n:::\n::::')
+  assert.match(text, /<details class="deeper"><summary>Deeper: <span class="title">Why .*<em>is<\/em><\/span><\/summary><div class="fold">\s*<div class="eq[^>]* id="eq-x"/)
+})
+
+test('words are counted by section, once: those that are open, and with them those that unfold', async () => {
+  const caption = ':::figure{#fig-a tag="fastslam-lap" alt="no word"}\nNot one.\n:::'
+  const { pages } = await book(`## A b {#a}\n\none $x$ (two)\n\n${caption}\n\n:::deeper[three]\nfour five\n:::\n\n### C {#c}\n\n:::table{#tab-a caption="not"}\n| six |\n|---|\n| — |\n:::`)
+  const counts = wordsOf({ type: 'root', children: pages['index.html']?.body ?? [] })
+  // A line that is pressed begins with “Deeper”.
+  assert.deepEqual(counts, [{ id: 'a', open: 6, whole: 8 }, { id: 'c', open: 2, whole: 2 }])
+  assert.deepEqual(total(counts), { id: 'all', open: 8, whole: 10 })
 })
 
 test('typewriter quotes become typographic ones', () => {
