@@ -45,7 +45,7 @@ export function wordsOf(node) {
   const below = node.children.flatMap(child => wordsOf(child))
   const id = anchorOf(node)
   if (id === undefined) return below
-  const [open, whole] = countOf({ ...node, children: node.children.filter(child => !inner.includes(child)) })
+  const [open, whole] = countOf(/** @type {Node} */ ({ ...node, children: node.children.filter(child => !inner.includes(child)) }))
   return [{ id, open, whole }, ...below]
 }
 

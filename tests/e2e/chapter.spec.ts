@@ -120,7 +120,12 @@ test.describe('without JavaScript', () => {
   test('text, formulas, tables and pictures are there, and terms lead to their entries', async ({ page }) => {
     await page.goto('./')
     await expect(page.locator('noscript .hint')).toBeVisible()
-    for (const what of ['.eq math', 'table', 'pre', '.algorithm li']) await expect(page.locator(`main > section > ${what}, main > section > * > ${what}, main > section > section > * ${what}`).first()).toBeVisible()
+    // What is open is there, and what is folded is a click away.
+    for (const what of ['.eq math', 'table', 'pre', '.algorithm li']) await expect(page.locator(`main > section ${what}:not(details *)`).first()).toBeVisible()
+    const deeper = page.locator('.deeper').filter({ has: page.locator('table') }).first()
+    await expect(deeper.locator('table')).toBeHidden()
+    await deeper.locator('summary').click()
+    await expect(deeper.locator('table')).toBeVisible()
     for (const picture of await page.locator('main figure picture img').all()) {
       await picture.scrollIntoViewIfNeeded()
       await expect(picture).toBeVisible()
@@ -196,7 +201,7 @@ test.describe('by touch', () => {
   })
 })
 
-test('on paper a figure is what it shows, with the link to that, and everything is unfolded; on a screen a derivation is once a link leads into it, and what follows a question once a guess is written', async ({ page }) => {
+test('on paper a figure is what it shows, with the link to that, and everything is unfolded; on a screen a derivation is once a link leads into it, as is what goes deeper, and what follows a question once a guess is written', async ({ page }) => {
   await page.goto('./')
   const lap = page.locator('fastslam-lap')
   await lap.scrollIntoViewIfNeeded()
@@ -208,12 +213,20 @@ test('on paper a figure is what it shows, with the link to that, and everything 
   await expect(lap.locator('canvas')).toBeVisible()
   await expect(lap.locator('.transport')).toBeHidden()
   await expect(fold).toBeVisible()
+  for (const deeper of await page.locator('.deeper > .fold').all()) await expect(deeper).toBeVisible()
   await expect(page.locator('#fig-lap .address')).toBeHidden()
 
   await page.emulateMedia({ media: 'screen' })
   await expect(fold).toBeHidden()
   await page.goto(`./#${await fold.getAttribute('id')}`)
   await expect(fold).toBeVisible()
+  // So it is with what goes deeper, whose line the keyboard opens and closes.
+  const deeper = page.locator('.deeper').filter({ has: page.locator('.fold > .eq[id]') }).first()
+  await expect(deeper.locator('.fold')).toBeHidden()
+  await page.goto(`./#${await deeper.locator('.fold > .eq').first().getAttribute('id')}`)
+  await expect(deeper.locator('.eq').first()).toBeInViewport()
+  await deeper.locator('summary').press('Enter')
+  await expect(deeper.locator('.fold')).toBeHidden()
   await unfold(page)
   const question = page.locator('.predict').first()
   await expect(question.locator('.fold')).toBeHidden()
