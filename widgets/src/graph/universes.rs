@@ -20,7 +20,7 @@ pub fn draw(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
     heading_if_fits(scene, &layout.universes_header, (&title, Role::Ink), &rest);
     let area = centred(&layout.universes);
     let plane = map::plane(area, course);
-    scene.marks.push(Mark::Raster { area, cells: map::shares(lap, course), shading: Shading::Share });
+    scene.marks.push(Mark::Raster { area, cells: map::shares(lap, lap.weights(), course), shading: Shading::Share });
     let paths = (0..m).flat_map(|slot| plane.path(&lap.path(slot), 1.0)).collect();
     scene.marks.push(Mark::Lines { lines: paths, width: 1.0, dash: None, role: Role::Path });
     for particle in lap.particles() {

@@ -42,12 +42,12 @@ pub fn share(p: f64) -> u8 {
     SHARES + (p.min(1.0) * f64::from(255 - SHARES)).round() as u8
 }
 
-/// The cells of a course by what all universes make of them: how much of the weight holds each to be a wall, and where none does, the
-/// mean of how free they hold it to be.
-pub fn shares(lap: &Lap, course: Course) -> Cells {
+/// The cells of a course by what all universes make of them, each counting for its weight: how much of that holds each cell to be a wall,
+/// and where none does, the mean of how free they hold it to be.
+pub fn shares(lap: &Lap, weights: &[f64], course: Course) -> Cells {
     let CellRect { i0, i1, j0, j1 } = cells(course);
     let mut sums = vec![[0.0; 2]; cells(course).width() * cells(course).height()];
-    for (particle, weight) in lap.particles().iter().zip(lap.weights()) {
+    for (particle, weight) in lap.particles().iter().zip(weights) {
         let places = (j0..j1).rev().flat_map(|j| (i0..i1).map(move |i| (i, j)));
         for ([wall, open], (i, j)) in sums.iter_mut().zip(places) {
             let log_odds = particle.map.log_odds(i, j);

@@ -6,9 +6,9 @@ use crate::decimal::fixed;
 use crate::ghost::{self, Curves};
 use crate::model::{Change, Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text};
 use crate::words::{common, lap};
-use fastslam::genealogy::Path;
+use fastslam::{genealogy::Path, geometry::Pose2, resampling::ResamplePolicy};
 use fastslam_lab::experiment::lap::{Lap, LapSetup, StepReport};
-use fastslam_lab::experiment::ring::{AFTER, deviation_of, died};
+use fastslam_lab::experiment::ring::{AFTER, deviation, died};
 use fastslam_lab::world::Edits;
 use std::sync::Arc;
 
@@ -80,9 +80,20 @@ impl LapModel {
         self.recipe.overlay && self.recipe.universe.is_none()
     }
 
-    /// How far the universes are apart: the standard deviation of the robot's position over them \[m\].
+    /// What each universe counts for in a picture and a number of all of them: its weight; where nothing resamples, as much as any
+    /// other, as their weights choose among them then only on paper.
+    pub fn shares(&self) -> Vec<f64> {
+        let weights = self.shown.weights();
+        match self.recipe.setup.policy {
+            ResamplePolicy::Never => vec![1.0 / weights.len() as f64; weights.len()],
+            _ => weights.to_vec(),
+        }
+    }
+
+    /// How far the universes are apart: the standard deviation of the robot's position over them \[m\], each counting for its share.
     pub fn spread(&self) -> f64 {
-        deviation_of(&self.shown)
+        let poses: Vec<Pose2> = self.shown.particles().iter().map(|particle| particle.world_from_robot).collect();
+        deviation(&poses, &self.shares())
     }
 
     /// Whether the loop closes about now: from one step before until [`AFTER`] steps after.
@@ -283,6 +294,11 @@ impl Model for LapModel {
                 "",
                 lap::lineage_help(),
             ),
+            Readout {
+                text: fixed(self.spread(), 2),
+                ..metres("spread", lap::spread_title(), self.spread(), lap::spread_help())
+            }
+            .drawn(),
             kilobytes("map_unique", common::memory(), unique, lap::memory_help()),
             kilobytes("map_dense", common::dense(), dense, lap::dense_help()),
             Readout::new("map_share", lap::share(), share, fixed(share, 0), "%", lap::share_help()),

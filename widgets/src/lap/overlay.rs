@@ -47,7 +47,8 @@ pub fn overlay(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     heading(scene, &layout.large_header, (&title, if model.closes() { Role::Extinct } else { Role::Ink }), &rest);
 
     let plane = map::plane(layout.large, course);
-    scene.marks.push(Mark::Raster { area: plane.area, cells: map::shares(lap, course), shading: Shading::Share });
+    let cells = map::shares(lap, &model.shares(), course);
+    scene.marks.push(Mark::Raster { area: plane.area, cells, shading: Shading::Share });
     true_walls(scene, model, &plane);
     paths(scene, model, &plane);
     odometry(scene, model, &plane);

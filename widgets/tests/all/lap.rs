@@ -11,7 +11,7 @@ use fastslam_widgets::{
     lap::{LapModel, LapView, Layout},
     model::{Model, Parameters},
     panels::Panels,
-    scene::{Mark, Role},
+    scene::{Mark, Role, SHARES, Shading},
     view::View,
 };
 
@@ -321,4 +321,18 @@ fn the_dead_fade_and_the_living_are_all_shown() {
         model.settle();
         assert_eq!(robots(&model, role), dead, "{age} steps later");
     }
+}
+
+/// Sixteen buildings that nobody chooses among are sixteen in the picture of all: by weight it was the one that the last scans fit.
+#[test]
+fn where_nothing_resamples_a_picture_of_all_universes_is_of_all_of_them() {
+    let figure = lap("v=8&seed=3&range-std=0.02&proposal=motion&policy=never&course=apartment&step=80");
+    let scene = scene(&figure, 800.0);
+    let map = scene.marks.iter().find_map(|mark| match mark {
+        Mark::Raster { cells, shading: Shading::Share, .. } => Some(&cells.shades),
+        _ => None,
+    });
+    let walls: Vec<u8> = map.unwrap().iter().copied().filter(|shade| *shade > SHARES).collect();
+    let in_all = walls.iter().filter(|shade| **shade == u8::MAX).count();
+    assert!(walls.len() > 500 && in_all * 10 < walls.len(), "{in_all} of {}", walls.len());
 }

@@ -1,6 +1,7 @@
 //! The laws of all figures, in one program: it is linked once, and its tests keep both cores busy to the end.
 
 mod challenges;
+mod claims;
 mod common;
 mod conditioning;
 mod doors;
