@@ -8,7 +8,7 @@ import { breadthOf } from './host'
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
 const proposal = (page: Page, query: string) => new Figure(page, 'fastslam-proposal').alone(`#fastslam-proposal?v=3&${query}`)
-const resampling = (page: Page, query: string) => new Figure(page, 'fastslam-resampling').alone(`#fastslam-resampling?v=3&${query}`)
+const resampling = (page: Page, query: string) => new Figure(page, 'fastslam-resampling').alone(`#fastslam-resampling?v=4&${query}`)
 
 interface Guess {
   name: string

@@ -8,7 +8,7 @@ import { breadth } from './host'
 /** Few particles, where it does not matter how many. */
 const FEW = 'particles=6'
 
-const open = (page: Page, query?: string) => new Figure(page, 'fastslam-resampling').alone(query && `#fastslam-resampling?v=3&${query}`)
+const open = (page: Page, query?: string) => new Figure(page, 'fastslam-resampling').alone(query && `#fastslam-resampling?v=4&${query}`)
 
 /** The step that is read. */
 async function cursor(figure: Figure): Promise<string> {

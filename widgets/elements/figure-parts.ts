@@ -60,6 +60,9 @@ export abstract class FigureParts extends HTMLElement {
   protected readonly canvas = new Canvas(this, this.body, this.stage, this.theme, () => this.refresh())
   protected readonly menu = new Menu(() => this.menuItems(), this, this.words)
   readonly #undo = h('button', { type: 'button', class: 'undo', part: 'button undo', hidden: '' })
+  /** Offers an end to be watched that was not. */
+  readonly #watch = h('button', { type: 'button', class: 'undo watch', part: 'button watch', hidden: '' })
+  #watchFrom = 0
   #before = '' // the state that undoing brings back
   readonly #help = new Help(this.words)
   /** On paper: where all of this is to be had again, and whose picture it is. */
@@ -91,7 +94,7 @@ export abstract class FigureParts extends HTMLElement {
       write(this.#numbersName, this.words.say('numbers'))
     })
     this.body.append(
-      h('div', { class: 'head' }, this.heading, this.chips.element, this.chips.said, this.status, this.#undo, this.menu.element),
+      h('div', { class: 'head' }, this.heading, this.chips.element, this.chips.said, this.status, this.#watch, this.#undo, this.menu.element),
       this.panes,
       keys,
       handleKeys,
@@ -104,6 +107,12 @@ export abstract class FigureParts extends HTMLElement {
     )
     root.append(this.#edge)
     this.#undo.addEventListener('click', () => this.#takeBack())
+    this.#watch.addEventListener('click', () =>
+      this.byHand(() => {
+        this.seek(this.#watchFrom)
+        this.play()
+      }),
+    )
     keepKeys(this.body, event => this.onKey(event))
     this.canvas.element.addEventListener('click', event => this.#byPointer({ do: 'pick', ...pointIn(this.canvas.element, event) }))
     for (const type of ['pointerdown', 'pointermove', 'pointerup', 'pointerleave'] as const) {
@@ -197,6 +206,14 @@ export abstract class FigureParts extends HTMLElement {
   protected showBusy(busy: boolean): void {
     this.stage.classList.toggle('busy', busy)
     this.controls?.showBusy(busy)
+  }
+
+  /** Offers what is to be watched, or nothing. */
+  protected offerWatch(watch: Frame['watch']): void {
+    this.#watch.hidden = !watch
+    if (!watch) return
+    this.#watchFrom = watch.from
+    write(this.#watch, `▶ ${watch.words}`)
   }
 
   /** A page that names the element names its picture. */

@@ -1,13 +1,15 @@
 // When a figure is painted: in frames of the page, as long as it is about to be seen and has something to show.
 
-const SEEN = 0.35 // share of the picture in view at which the figure counts as seen
+// Shares of the picture in view, or of the window that it fills, from which on it counts as looked at, and below which it does not.
+const LOOKED_AT = 0.9
+const LEFT = 0.6
 
 /** What a figure does when. */
 export interface FrameActions {
   /** It comes within a screen of being seen: time to be built and painted, so that nothing moves when it comes into view. */
   approach(): void
-  /** Its picture is in view. */
-  seen(): void
+  /** Its picture is looked at, or goes out of sight. */
+  seen(on: boolean): void
   /** Whether it is to be painted also where nobody looks. */
   unseen(): boolean
   frame(now: number): void
@@ -16,9 +18,10 @@ export interface FrameActions {
 export class FrameLoop {
   near = false
   inView = false
+  #share = 0 // of the picture
   #request = 0
   readonly #approach = new IntersectionObserver(entries => this.#onApproach(entries[entries.length - 1]!), { rootMargin: '100% 0px' })
-  readonly #views = new IntersectionObserver(entries => this.#onView(entries), { threshold: [0, SEEN] })
+  readonly #views = new IntersectionObserver(entries => this.#onView(entries), { threshold: Array.from({ length: 51 }, (_, k) => k / 50) })
 
   constructor(
     private readonly figure: HTMLElement,
@@ -40,6 +43,12 @@ export class FrameLoop {
     this.#request = 0
     this.near = false
     this.inView = false
+    this.#share = 0
+  }
+
+  /** Whether all of the picture is in view, or all that the window can show. */
+  get lookedAt(): boolean {
+    return this.#share >= LOOKED_AT
   }
 
   /** Whether a frame has been asked for. */
@@ -67,9 +76,15 @@ export class FrameLoop {
   }
 
   #onView(entries: IntersectionObserverEntry[]): void {
-    for (const entry of entries) {
-      if (entry.target === this.figure) this.inView = entry.isIntersecting
-      else if (entry.intersectionRatio >= SEEN) this.actions.seen()
+    for (const { target, isIntersecting, intersectionRatio, intersectionRect, rootBounds } of entries) {
+      if (target === this.figure) {
+        this.inView = isIntersecting
+        continue
+      }
+      const before = this.#share
+      this.#share = Math.max(intersectionRatio, intersectionRect.height / (rootBounds?.height ?? Infinity))
+      if (this.lookedAt) this.actions.seen(true)
+      else if (this.#share < Math.min(LEFT, before)) this.actions.seen(false) // who comes nearer, to what was started below, has not left
     }
     this.wake()
   }

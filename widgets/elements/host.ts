@@ -54,6 +54,8 @@ export type Command =
   /** What it says: of a language, as the program takes them. */
   | { do: 'words'; language: string; messages: string }
   | { do: 'seek'; step: number }
+  /** To the step that tells most, if there is such a one. */
+  | { do: 'tell' }
   | { do: 'trace' }
   | { do: 'pick'; x: number; y: number }
   | { do: 'drag'; handle: string; x: number; y: number }
@@ -146,6 +148,8 @@ export interface Frame {
   step: number
   target: number
   last: number
+  /** What is to be watched until the end, and the step before it. */
+  watch: { from: number; words: string } | undefined
   /** How fast this step is played, of the usual speed. */
   pace: number
   /** Whether it is still on its way to what was asked for. */

@@ -12,6 +12,7 @@ import { programOf } from './program'
 import { reach } from './reached'
 import { download } from './save'
 import { Settings } from './settings'
+import { reducedMotion } from './theme'
 import type { Chip } from './shell'
 import { WorkerHost } from './worker-host'
 import { languageAround } from './words'
@@ -30,13 +31,19 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
   protected stopped = false // after an error that beginning again did not cure, until Reset
   protected crashes = 0
   #sentSize = ''
+  #off: { step: number; playing: boolean } | undefined // what is shown off paper
+  #since = Infinity // the step from which on all was played and looked at
+  #watched = false // to the end
   #catchingUp = false
 
   protected readonly events = new Events(this)
   protected readonly settings = new Settings(this)
   protected readonly frames = new FrameLoop(this, this.stage, {
     approach: () => (this.approached(), this.reconsider()),
-    seen: () => this.playback.onSeen(),
+    seen: on => {
+      this.playback.onSeen(on)
+      this.refresh()
+    },
     unseen: () => this.host?.remote ?? false,
     frame: now => this.#frame(now),
   })
@@ -97,6 +104,11 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
       if (host) this.#live(host)
     }
     if (!this.host?.remote) {
+      if (this.host && this.playback.untouched) {
+        this.#off = { step: this.host.target, playing: this.playback.playing }
+        this.playback.playing = false
+        this.send({ do: 'tell' })
+      }
       this.host?.work(PATIENCE)
       // Its height comes from the first of them, and the picture of that height from the second.
       for (let paints = 0; paints < 2 && this.host && !this.host.busy; paints++) {
@@ -111,6 +123,9 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
 
   offPaper(): void {
     this.theme.look()
+    if (this.#off) this.seekTo(this.#off.step)
+    this.playback.playing ||= this.#off?.playing ?? false
+    this.#off = undefined
     this.refresh()
   }
 
@@ -119,8 +134,10 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
     for (const name of Object.keys(OPTIONS)) this.#sendOption(name)
     if (!this.host) return
     const beginning = this.settings.begin(this.host.sent + 1)
-    if (beginning.settings.some(([name]) => name === 'step')) this.playback.stop() // who names a step wants it looked at
+    const named = beginning.settings.some(([name]) => name === 'step')
+    if (named) this.playback.stop() // who names a step wants it looked at
     this.send({ do: 'begin', changed, ...beginning })
+    if (!named && beginning.query === undefined && reducedMotion.matches) this.send({ do: 'tell' })
     this.enable(true)
     this.#tellSize()
     // All in one frame, so that nothing of it need move in the next.
@@ -229,7 +246,12 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
 
   protected change(name: string, value: string): void {
     this.playback.stay()
-    this.byHand(() => this.setTo(name, value))
+    this.byHand(() => {
+      const first = this.host?.target === 0
+      this.setTo(name, value)
+      // At the first step nothing is seen of it.
+      if (first && this.specs.find(spec => spec.name === name)?.group === 'setup') this.send({ do: 'tell' })
+    })
     void this.start()
   }
 
@@ -245,6 +267,7 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
   }
 
   protected seekTo(step: number): void {
+    this.#since = Infinity
     this.send({ do: 'seek', step })
   }
 
@@ -354,6 +377,7 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
       this.playback.playing = false
       this.host!.refresh()
     } else if (this.playback.isDue(now)) {
+      this.#since = this.frames.lookedAt ? Math.min(this.#since, target) : Infinity
       this.events.cause = 'playback'
       this.host!.send({ do: 'seek', step: target + 1 })
     }
@@ -362,6 +386,10 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
   protected show(frame: Frame | undefined): void {
     if (!frame) return
     this.present(frame)
+    const { step, last, watch } = frame
+    const atEnd = watch !== undefined && last > 0 && step === last && !frame.busy
+    if (atEnd && this.#since <= watch.from) this.#watched = true
+    this.offerWatch(atEnd && !this.#watched ? watch : undefined)
     if (!frame.busy) {
       this.settings.recipe = frame.query
       if (this.stage.matches('.live')) this.canvas.release()

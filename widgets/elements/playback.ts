@@ -10,12 +10,15 @@ export class Playback {
   rate = NORMAL_RATE
   /** Of the step shown: how fast the figure wants it played, of the usual speed. A rate that a reader has chosen holds for every step. */
   pace = 1
-  #mayStart = true // by itself, when it is seen
+  /** Whether nobody has touched the figure, and no author has chosen what is shown. */
+  untouched = true
+  #mayStart = true // by itself, when it is looked at
+  #left = false // it stopped as it went out of sight
   #shown = -Infinity // since when the step before the next one has been due [ms]
 
   /** Somebody has touched the figure, or an author has chosen what is shown: it does not play by itself any more. */
   stay(): void {
-    this.#mayStart = false
+    this.untouched = this.#mayStart = this.#left = false
   }
 
   /** Stops, and does not play by itself any more. */
@@ -30,11 +33,15 @@ export class Playback {
     this.#shown = -Infinity
   }
 
-  /** The figure has come into view. */
-  onSeen(): void {
-    if (!this.#mayStart || reducedMotion.matches) return
-    this.stay()
-    this.playing = true
+  /** The picture is looked at, or goes out of sight: there it waits. */
+  onSeen(on: boolean): void {
+    if (!on) {
+      if (this.playing) this.#left = true
+      this.playing = false
+    } else if (this.#left || (this.#mayStart && !reducedMotion.matches)) {
+      this.#mayStart = this.#left = false
+      this.playing = true
+    }
   }
 
   /** Whether the next step is due. Where the machine is too slow for the rate, playing takes longer; no step is ever skipped. */

@@ -9,7 +9,8 @@ export class Session {
   protected readonly figure: ShellFigure
   #done = 0
   #fresh = true
-  #target = 0
+  #target = 0 // as it was asked for
+  #authored = '' // with the version that the author names
   #specs: ParamSpec[] | undefined // until something changes that they may depend on
   #language = 'en'
   protected messages = '' // of that language, for the program
@@ -63,8 +64,13 @@ export class Session {
       case 'comma':
         return figure.set_decimal_comma(command.on)
       case 'seek':
-        this.#target = clampedStep(command.step, figure.step_count())
-        return figure.seek(this.#target)
+        this.#target = command.step
+        return figure.seek(this.target)
+      case 'tell': {
+        const step = figure.telling(this.#authored)
+        if (step > 0) figure.seek(step)
+        return this.#adoptTarget()
+      }
       case 'trace':
         this.#mustTrace = true
         return
@@ -115,8 +121,9 @@ export class Session {
     return this.figure.query()
   }
 
+  /** Of a figure whose drives end at different steps, one beyond the end is the end, also where that moves. */
   get target(): number {
-    return this.#target
+    return clampedStep(this.#target, this.last)
   }
 
   get last(): number {
@@ -149,6 +156,7 @@ export class Session {
     const picture = this.#paint()
     const changed = this.#changed && !busy && !ahead
     const trace = this.#mustTrace && !busy && !ahead ? (figure.trace() as TraceLine[]) : undefined
+    const from = figure.watch_from()
     if (changed) this.#changed = false
     if (trace) this.#mustTrace = false
     this.#arrived ||= !busy
@@ -159,8 +167,9 @@ export class Session {
       values: this.values,
       query: this.query,
       step: figure.step(),
-      target: this.#target,
+      target: this.target,
       last: this.last,
+      watch: from === undefined ? undefined : { from, words: figure.watch() },
       pace: figure.pace(),
       busy,
       readouts: figure.readouts() as Readout[],
@@ -199,7 +208,8 @@ export class Session {
     this.#fresh = false
     this.#specs = undefined
     if (query !== undefined) this.tell({ told: 'refused', parameter: 'link', message: refused })
-    this.#usual = this.#meant(authored)
+    this.#authored = String(new URLSearchParams(authored))
+    this.#usual = this.#meant()
     if (linked) this.#keepLocked(Object.fromEntries(this.specs.map(({ name, default: usual }) => [name, authored[name] ?? this.#usual[name] ?? usual])))
     // In the order of the parameters, whatever that of an author's attributes: a guess is about the settings before it.
     const rank = (name: string) => this.specs.findIndex(spec => spec.name === name)
@@ -228,10 +238,10 @@ export class Session {
   }
 
   /** What an author's code means without saying so. */
-  #meant(authored: Record<string, string>): Record<string, string> {
+  #meant(): Record<string, string> {
     const usual: Record<string, string> = {}
     try {
-      const told = this.figure.meant(String(new URLSearchParams(authored)))
+      const told = this.figure.meant(this.#authored)
       for (let i = 0; i < told.length; i += 2) usual[told[i]!] = told[i + 1]!
     } catch (error) {
       this.refuse(error)
@@ -250,9 +260,8 @@ export class Session {
     this.#adoptTarget()
   }
 
-  /** Of a figure whose drives end at different steps, a step beyond the end is the end. */
   #adoptTarget(): void {
-    this.#target = clampedStep(Number(this.values['step'] ?? this.figure.step()), this.figure.step_count())
+    this.#target = Number(this.values['step'] ?? this.figure.step())
   }
 
   /** What a pointer does. A move that changes no parameter, because it ended where it began or at a limit, is none. */

@@ -138,6 +138,12 @@ impl Figure {
         self.written(self.model().describe())
     }
 
+    /// The words of [`Model::watch`], in the figure's language; none where there is nothing to be watched.
+    pub fn watch(&self) -> String {
+        let _speaking = self.language.spoken();
+        self.model().watch().map_or(String::new(), |(_, words)| words.into())
+    }
+
     /// [`Model::trace`], in the figure's language.
     pub fn trace(&self) -> Vec<TraceLine> {
         let _speaking = self.language.spoken();
@@ -336,6 +342,11 @@ impl Figure {
     pub fn load(&mut self, query: &str) -> Vec<FigureError> {
         let _speaking = self.language.spoken();
         query::read(self.model_mut(), query)
+    }
+
+    /// [`Model::telling`] for whom a pasted code of this version opens the figure; 0 for one of a version that opened at its first step.
+    pub fn telling(&self, code: &str) -> u32 {
+        if query::opens_telling(self.model(), code) { self.model().telling() } else { 0 }
     }
 
     /// What a pasted code means without saying so, by names and values: the defaults of its version, `v=…`, where these are others now.

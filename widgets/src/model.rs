@@ -173,6 +173,8 @@ pub enum Change {
         /// The other parameter, and the value with which nothing has changed.
         unless: (&'static str, &'static str),
     },
+    /// Opens at its telling step where nothing is to move and on paper: before, at its first. A link shows what it did.
+    Opens,
     /// Changes for those links only that switch a parameter on.
     Switched {
         /// The parameter.
@@ -338,6 +340,17 @@ pub trait Model: Parameters {
     /// The step shown.
     fn step(&self) -> u32 {
         0
+    }
+
+    /// The step that tells most of what the figure is about: what is shown where nothing is to move, on paper and in pictures of it, and
+    /// where a reader who is still at the first step changes what is simulated. 0 for a figure without a timeline.
+    fn telling(&self) -> u32 {
+        0
+    }
+
+    /// What is to be watched of it until its end, in a few words that ask for it, and the step before it.
+    fn watch(&self) -> Option<(u32, &'static str)> {
+        None
     }
 
     /// Steps of simulation between what is shown and what was asked for.

@@ -54,6 +54,15 @@ pub fn read(model: &mut dyn Model, query: &str) -> Vec<FigureError> {
     said
 }
 
+/// Whether a pasted code is of a version that opens at the figure's telling step: the others open at the first step, as they did.
+pub fn opens_telling(model: &dyn Model, code: &str) -> bool {
+    let (changes, given) = (model.changes(), given(code));
+    let since = changes.iter().position(|change| *change == Change::Opens).map_or(1, |at| at + 2);
+    let unsaid = model.unsaid();
+    given.map_or(unsaid, |text| if text.trim() == LATEST { usize::MAX } else { text.trim().parse().unwrap_or(unsaid) })
+        >= since
+}
+
 /// What a pasted code means without saying so: names of parameters and the defaults of its version, where these are others now.
 ///
 /// # Errors
@@ -124,7 +133,7 @@ fn after(query: &str, version: usize, changes: &[Change]) -> (Vec<FigureError>, 
                 }
             }
             // They are not nested.
-            Change::Switched { .. } => (),
+            Change::Opens | Change::Switched { .. } => (),
         }
     }
     (said, meant)

@@ -208,6 +208,21 @@ impl Figure {
         self.figure.model_mut().seek(step);
     }
 
+    /// The step that tells most, for a pasted code of this version: `v=…`.
+    pub fn telling(&self, code: &str) -> u32 {
+        self.figure.telling(code)
+    }
+
+    /// The step from which the rest is to be watched; none where there is nothing to be watched.
+    pub fn watch_from(&self) -> Option<u32> {
+        self.figure.model().watch().map(|(step, _)| step)
+    }
+
+    /// What asks for that, in words.
+    pub fn watch(&self) -> String {
+        self.figure.watch()
+    }
+
     /// Steps of simulation still to do before what was asked for is shown.
     pub fn pending(&self) -> u32 {
         self.figure.model().pending()

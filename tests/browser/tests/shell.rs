@@ -58,15 +58,15 @@ fn errors_are_thrown_with_the_name_of_their_parameter() {
     assert_eq!(text(&error, "name"), "FigureError");
     assert_eq!(text(&error, "parameter"), "range-std");
     assert!(text(&error, "message").contains("from 0.01 to 0.3 m"), "{}", text(&error, "message"));
-    assert_eq!(figure.load("v=8&range-std=7&seed=4").len(), 1);
-    assert_eq!(figure.query(), "v=8&seed=4");
+    assert_eq!(figure.load("v=9&range-std=7&seed=4").len(), 1);
+    assert_eq!(figure.query(), "v=9&seed=4");
 }
 
 #[wasm_bindgen_test]
 fn data_parses() {
-    let figure = figure("v=8&universes=2&step=3");
+    let figure = figure("v=9&universes=2&step=3");
     let data = JSON::parse(&figure.json()).expect("JSON");
-    assert_eq!(text(&data, "query"), "v=8&universes=2&step=3");
+    assert_eq!(text(&data, "query"), "v=9&universes=2&step=3");
     assert_eq!(get(&get(&data, "steps"), "length").as_f64(), Some(4.0));
     assert!(figure.csv().starts_with("step,"));
 }

@@ -137,8 +137,8 @@ pub const PICTURES: &[Picture] = &[
     picture(JOINT, "joint-asked", "odometry=0&predict=on", 692, 1.0, "dark"),
     picture(JOINT, "joint-judged", "odometry=0&predict=on&guess=10&run=on", 340, 2.0, "light"),
     picture(JOINT, "joint-phone", "landmarks=3&particles=200&sensor=2", 340, 2.0, "light"),
-    picture(GRAPH, "fastslam-graph-light", "", 800, 1.5, "light"),
-    picture(GRAPH, "fastslam-graph-dark", "", 800, 1.5, "dark"),
+    picture(GRAPH, "fastslam-graph-light", BENT, 800, 1.5, "light"),
+    picture(GRAPH, "fastslam-graph-dark", BENT, 800, 1.5, "dark"),
     picture(GRAPH, "graph-folded", "wrong=on&step=60", 692, 1.0, "light"),
     picture(GRAPH, "graph-mended", "repair=switchable&wrong=on&step=60", 1112, 1.0, "dark"),
     picture(GRAPH, "graph-phone", "repair=robust&wrong=on&wrong-from=30&wrong-to=80&step=1", 340, 2.0, "light"),
@@ -227,8 +227,8 @@ fn in_256_colours(pixels: Vec<u8>) -> Vec<u8> {
 /// Cells as small as those of a large building would be more than a phone's screen has pixels.
 const TINY: &str = "cell=0.1&raw=on";
 
-/// The lap as the figure opens, at a step at which most of the universes have just died.
-const CLOSING: &str = "v=8&step=86";
+/// The lap as the figure opens, at its telling step: most of the universes have just died.
+const CLOSING: &str = "v=9&step=86";
 
 /// A step of the apartment's lap at which it resampled.
 const RESAMPLED: &str = "step=62";
@@ -236,7 +236,7 @@ const RESAMPLED: &str = "step=62";
 /// Figures and setups whose readouts are kept for every step.
 pub const SETUPS: &[(&str, &str)] = &[
     (LAP, "course=apartment"),
-    (LAP, "v=8"),
+    (LAP, "v=9"),
     (LAP, "universes=1"),
     (LAP, "universes=7&seed=5&proposal=motion&matcher=cell"),
     (LAP, "universes=24&policy=always&scheme=residual&odometry=1.5"),
@@ -281,7 +281,10 @@ pub const SETUPS: &[(&str, &str)] = &[
 const GUESSES: &str = "predict=on&guess=8&guess-aware=8&guess-floor=40&run=on";
 
 /// Ancestors are fewer than particles, and the last common one is not long ago.
-const COALESCED: &str = "step=70";
+const COALESCED: &str = "v=4&step=70";
+
+/// After the last iteration.
+const BENT: &str = "v=3&step=60";
 
 /// Experiments over the seeds from the first to before the second, whose rows are kept.
 pub const JOBS: &[(&str, &str, [u32; 2])] = &[

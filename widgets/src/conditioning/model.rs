@@ -208,6 +208,10 @@ impl Model for ConditioningModel {
         self.recipe.step as u32
     }
 
+    fn telling(&self) -> u32 {
+        self.step_count()
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         let Couplings { largest, mean, largest_std } = couplings(self.map());
         let count = |name, title, n: usize, of: usize, help| {

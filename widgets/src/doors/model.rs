@@ -130,6 +130,10 @@ impl Model for DoorsModel {
         self.recipe.step.min(self.run.step_number())
     }
 
+    fn telling(&self) -> u32 {
+        END
+    }
+
     fn pending(&self) -> u32 {
         self.recipe.step.min(self.step_count()).saturating_sub(self.run.step_number())
     }

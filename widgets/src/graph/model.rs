@@ -153,7 +153,7 @@ impl GraphModel {
 impl Declared for GraphModel {
     type Recipe = Recipe;
     const TITLE: &'static str = graph::TITLE;
-    const CHANGES: &'static [Change] = &[Change::WEIGHED_ANEW];
+    const CHANGES: &'static [Change] = &[Change::WEIGHED_ANEW, Change::Opens];
     const UNSAID: usize = 2;
 
     fn challenges() -> Vec<Challenge<Self>> {
@@ -192,6 +192,14 @@ impl Model for GraphModel {
 
     fn step(&self) -> u32 {
         self.recipe.step.min(self.step_count())
+    }
+
+    fn telling(&self) -> u32 {
+        END
+    }
+
+    fn watch(&self) -> Option<(u32, &'static str)> {
+        Some((0, graph::watch()))
     }
 
     fn pending(&self) -> u32 {

@@ -192,6 +192,7 @@ impl Declared for LapModel {
         Change::Default { name: "temper", was: "0.3" },
         Change::Default { name: "range-std", was: "0.02" },
         Change::Default { name: "seed", was: "3" },
+        Change::Opens,
     ];
     const UNSAID: usize = 8;
 
@@ -242,6 +243,15 @@ impl Model for LapModel {
 
     fn step(&self) -> u32 {
         self.report().step
+    }
+
+    /// The loop closes: universes that disagree die.
+    fn telling(&self) -> u32 {
+        self.closing().map_or(self.step_count(), |closing| closing + 2)
+    }
+
+    fn watch(&self) -> Option<(u32, &'static str)> {
+        Some((self.closing()?.saturating_sub(1), lap::watch()))
     }
 
     fn pending(&self) -> u32 {

@@ -215,6 +215,7 @@ impl Declared for ResamplingModel {
             name: "wings",
             changes: &[Change::Told("What is seen in a step is told apart all together: paths and weights differ.")],
         },
+        Change::Opens,
     ];
     const UNSAID: usize = 3;
 
@@ -250,6 +251,15 @@ impl Model for ResamplingModel {
 
     fn step(&self) -> u32 {
         self.recipe.step.min(self.run.step_number())
+    }
+
+    /// Few ancestors are left, and the last one that all have in common is not long ago.
+    fn telling(&self) -> u32 {
+        TELLING.min(self.step_count())
+    }
+
+    fn watch(&self) -> Option<(u32, &'static str)> {
+        Some((0, resampling::watch()))
     }
 
     fn pending(&self) -> u32 {
@@ -364,6 +374,9 @@ impl Model for ResamplingModel {
         lines
     }
 }
+
+/// The step shown at rest.
+const TELLING: u32 = 70;
 
 /// Curves that are pinned of each policy.
 const PINNED: usize = 3;

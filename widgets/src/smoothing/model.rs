@@ -172,6 +172,10 @@ impl Model for SmoothingModel {
         self.sweeps()
     }
 
+    fn telling(&self) -> u32 {
+        MOST
+    }
+
     fn pending(&self) -> u32 {
         self.next.as_ref().unwrap_or(&self.shown).pending(self.wanted())
     }

@@ -200,3 +200,27 @@ fn every_panel_can_be_shown_alone_and_whole() {
         assert!(!figure.query().contains("show"), "what is shown is for the page to say");
     }
 }
+
+/// Where nothing moves, the first step shows nothing of what the figure is about: empty charts, and universes that have not parted.
+#[test]
+fn every_figure_with_a_timeline_has_a_step_that_tells_and_pasted_codes_of_before_open_where_they_did() {
+    for entry in FIGURES {
+        let mut figure = Figure::new(entry.tag).unwrap();
+        figure.model_mut().settle();
+        let (opening, last) = (figure.model().step(), figure.model().step_count());
+        let step = figure.telling("v=latest").min(last);
+        assert_eq!(step > 0, last > 0, "{}: step {step} of {last}", entry.tag);
+        let (unsaid, first) = (figure.telling(""), figure.telling("v=1"));
+        if opening > 0 {
+            assert_eq!(opening, step, "{} opens elsewhere", entry.tag);
+        } else if last > 0 {
+            assert_eq!([unsaid, first], [0, 0], "{}: a code of before opened at the first step", entry.tag);
+            let (before, at_rest) = (figure.describe(), scene(&figure, 800.0));
+            figure.model_mut().seek(step);
+            figure.model_mut().settle();
+            assert!(figure.describe() != before && scene(&figure, 800.0) != at_rest, "{}", entry.tag);
+            let (from, words) = figure.model().watch().expect("what plays has an end to be watched");
+            assert!(from < last && !words.is_empty(), "{}: from {from} of {last}", entry.tag);
+        }
+    }
+}

@@ -32,7 +32,7 @@ fn the_core_takes_the_ends_of_every_range() {
 
 #[test]
 fn a_step_back_shows_the_same_bits_as_the_way_forward() {
-    for query in ["universes=5&seed=9", "universes=200&proposal=motion&matcher=cell", "v=8&policy=always"] {
+    for query in ["universes=5&seed=9", "universes=200&proposal=motion&matcher=cell", "v=9&policy=always"] {
         let mut figure = lap(query);
         let mut forward = Vec::new();
         for step in 0..=7 {
@@ -51,27 +51,27 @@ fn a_step_back_shows_the_same_bits_as_the_way_forward() {
 #[test]
 fn a_link_brings_back_the_whole_state() {
     let mut figure =
-        lap("v=8&universes=9&seed=77&policy=always&scheme=residual&threshold=0.25&step=6&universe=4&truth=on");
+        lap("v=9&universes=9&seed=77&policy=always&scheme=residual&threshold=0.25&step=6&universe=4&truth=on");
     assert_eq!(
         figure.query(),
-        "v=8&universes=9&seed=77&policy=always&threshold=0.25&scheme=residual&step=6&universe=4&truth=on"
+        "v=9&universes=9&seed=77&policy=always&threshold=0.25&scheme=residual&step=6&universe=4&truth=on"
     );
     let other = lap(&format!("?{}", figure.query()));
     assert_eq!(state(&figure), state(&other));
     // A link is the whole state: what it does not name is the default again.
-    assert_eq!(figure.load("v=8&seed=5"), []);
-    assert_eq!(figure.query(), "v=8&seed=5");
+    assert_eq!(figure.load("v=9&seed=5"), []);
+    assert_eq!(figure.query(), "v=9&seed=5");
 }
 
 #[test]
 fn a_bad_link_is_told_of_and_the_rest_of_it_applied() {
     let mut figure = Figure::new("fastslam-lap").unwrap();
     let messages: Vec<String> = figure
-        .load("v=8&universes=999&seed=5&tempo=3&universe=12&proposal=magic&&=&%zz=%")
+        .load("v=9&universes=999&seed=5&tempo=3&universe=12&proposal=magic&&=&%zz=%")
         .into_iter()
         .map(|e| e.message)
         .collect();
-    assert_eq!(figure.query(), "v=8&seed=5&universe=12");
+    assert_eq!(figure.query(), "v=9&seed=5&universe=12");
     for part in [
         "tempo",
         "universes = \"999\": must be a whole number from 1 to 256",
@@ -80,10 +80,10 @@ fn a_bad_link_is_told_of_and_the_rest_of_it_applied() {
         assert!(messages.iter().any(|m| m.contains(part)), "{part}: {messages:?}");
     }
     // A universe that another setting of the same link does away with.
-    let messages = figure.load("v=8&universe=12&universes=8");
+    let messages = figure.load("v=9&universe=12&universes=8");
     assert_eq!(messages.len(), 1);
     assert!(messages[0].message.contains("from -1 to 7"), "{messages:?}");
-    assert_eq!(figure.query(), "v=8&universes=8");
+    assert_eq!(figure.query(), "v=9&universes=8");
 }
 
 #[test]
@@ -163,7 +163,7 @@ fn texts_fit_their_boxes_and_the_figure_and_cover_no_other() {
     for query in [
         "universes=1&step=1",
         "step=2&truth=on&raw=on",
-        "v=8&step=85&truth=on&raw=on",
+        "v=9&step=85&truth=on&raw=on",
         "universes=100&seed=4294967295&step=2&policy=always",
     ] {
         let figure = lap(query);
@@ -195,7 +195,7 @@ fn tiles_are_disjoint_inside_the_figure_and_readable_for_every_number_of_univers
 
 #[test]
 fn the_height_depends_on_the_width_only() {
-    let (a, b) = (lap("universes=1"), lap("v=8&universes=256&proposal=motion&step=1&truth=on&raw=on"));
+    let (a, b) = (lap("universes=1"), lap("v=9&universes=256&proposal=motion&step=1&truth=on&raw=on"));
     for width in [100.0, 340.0, 640.0, 1280.0] {
         assert_eq!(a.height(width), b.height(width));
         assert!(a.height(width) > 0.4 * width);
@@ -217,13 +217,13 @@ fn no_size_makes_it_panic() {
 
 #[test]
 fn data_has_a_row_for_every_step_so_far() {
-    let figure = lap("v=8&universes=4&step=6");
+    let figure = lap("v=9&universes=4&step=6");
     let export = figure.export();
     let (header, rows) = (export.header(), export.rows());
     assert_eq!(rows.len(), 7);
     assert!(rows.iter().all(|row| row.len() == header.len() && row.iter().all(Option::is_some)), "{rows:?}");
     let data = serde_json::to_value(export).unwrap();
-    assert_eq!(data["query"], "v=8&universes=4&step=6");
+    assert_eq!(data["query"], "v=9&universes=4&step=6");
     assert_eq!(data["steps"][6]["step"], 6.0);
     assert_eq!(data["columns"].as_object().unwrap().len(), header.len());
 }
@@ -257,8 +257,8 @@ fn the_cell_of_the_pose_graph_is_the_job_of_its_link() {
 
 #[test]
 fn links_of_before_the_ring_open_in_the_apartment_with_one_universe_large() {
-    assert_eq!(lap("seed=5").query(), "v=8&seed=5&range-std=0.02&weight=old-map-at-draw&course=apartment&overlay=off");
-    assert_eq!(lap("v=8&seed=5").query(), "v=8&seed=5");
+    assert_eq!(lap("seed=5").query(), "v=9&seed=5&range-std=0.02&weight=old-map-at-draw&course=apartment&overlay=off");
+    assert_eq!(lap("v=9&seed=5").query(), "v=9&seed=5");
     assert_eq!(lap("").model().value("course").unwrap(), "ring", "nothing was asked");
 }
 
@@ -326,7 +326,7 @@ fn the_dead_fade_and_the_living_are_all_shown() {
 /// Sixteen buildings that nobody chooses among are sixteen in the picture of all: by weight it was the one that the last scans fit.
 #[test]
 fn where_nothing_resamples_a_picture_of_all_universes_is_of_all_of_them() {
-    let figure = lap("v=8&seed=3&range-std=0.02&proposal=motion&policy=never&course=apartment&step=80");
+    let figure = lap("v=9&seed=3&range-std=0.02&proposal=motion&policy=never&course=apartment&step=80");
     let scene = scene(&figure, 800.0);
     let map = scene.marks.iter().find_map(|mark| match mark {
         Mark::Raster { cells, shading: Shading::Share, .. } => Some(&cells.shades),

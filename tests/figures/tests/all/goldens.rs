@@ -219,3 +219,16 @@ fn the_page_without_javascript_shows_a_resampling() {
         assert!(told.contains("died out"), "{told} Choose another step for {}.", picture.name);
     }
 }
+
+#[test]
+fn what_stands_for_a_figure_is_its_telling_step() {
+    for picture in PICTURES.iter().filter(|picture| picture.name == format!("{}-light", picture.tag)) {
+        let mut telling = figure(picture.tag, "");
+        let step = telling.telling("v=latest");
+        if step > 0 {
+            telling.model_mut().seek(step);
+            telling.model_mut().settle();
+        }
+        assert_eq!(figure(picture.tag, picture.query).query(), telling.query(), "{}", picture.name);
+    }
+}
