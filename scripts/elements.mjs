@@ -58,25 +58,22 @@ const methods = [
   { name: 'settled', type: '() => Promise<void>', help: 'Resolves when all that was asked of the figure is shown; playing goes on.' },
 ]
 
-/** Of the figures whose runs can be compared. */
+/** Of the figures that a script can run at several seeds. */
 const comparing = {
   methods: [
-    { name: 'pin', type: '() => void', help: 'Pins the run shown: its curves stay behind those of the next runs, its picture and its numbers beside them.' },
-    { name: 'unpin', type: '() => void', help: 'Takes the pinned run away.' },
     {
       name: 'runSeeds',
       type: '(wish?: { seeds?: number[]; step?: number; state?: string; signal?: AbortSignal }) => Promise<SeedRun[]>',
       help: 'Runs the setting at several seeds, the one shown and the next four where none are named, to the step shown where none is; the figure stays as it is.',
     },
   ],
-  properties: [{ name: 'pinned', type: 'string | undefined', readonly: true, help: 'The state of the pinned run, as a link has it.' }],
-  events: [{ name: 'fastslam-seeds', type: 'CustomEvent<SeedsDetail>', help: 'The strip of five seeds has been run.' }],
+  events: [{ name: 'fastslam-seeds', type: 'CustomEvent<SeedsDetail>', help: 'A script’s seeds have been run: what came out at each, and the median.' }],
 }
 
 const COMPARED = ['lap', 'proposal', 'resampling', 'doors', 'joint', 'graph', 'smoothing', 'em'].map(name => `fastslam-${name}`)
 
 /** What only some figures have. @param {{ tag: string }} figure */
-const extrasOf = ({ tag }) => (COMPARED.includes(tag) ? comparing : { methods: [], properties: [], events: [] })
+const extrasOf = ({ tag }) => (COMPARED.includes(tag) ? comparing : { methods: [], events: [] })
 
 const properties = [
   { name: 'playing', type: 'boolean', readonly: true, help: 'Whether it plays.' },
@@ -108,7 +105,7 @@ const isLog = ({ tag }) => tag === 'fastslam-log'
 const membersOf = figure => {
   if (isLog(figure)) return log
   const extras = extrasOf(figure)
-  return { options, methods: [...methods, ...extras.methods], properties: [...properties, ...extras.properties] }
+  return { options, methods: [...methods, ...extras.methods], properties }
 }
 
 /** Each bubbles, through the borders of shadow roots too. */
@@ -121,7 +118,7 @@ const events = [
 ]
 
 const parts =
-  'figure title stage canvas chips chip transport button primary play rewind step-back step reset undo scrub seed controls control notices notice sentence numbers readouts readout settings menu toggle handle count again stop inputs pin pinned go-back unpin seeds seeds-start seeds-strip seed-run'.split(' ')
+  'figure title stage canvas chips chip transport button primary play rewind step-back step reset undo scrub seed controls control notices notice sentence numbers readouts readout settings menu toggle handle count again stop inputs verdict watch'.split(' ')
 
 const cssProperties = ['accent', 'ink', 'muted', 'line', 'paper', 'radius', 'font'].map(name => `--fastslam-${name}`)
 
@@ -223,7 +220,7 @@ export function types(all) {
     figure =>
       `/**\n * ${[`${figure.title}.`, ...named(figure).map(([what, all]) => `${what}: ${all.map(({ name, description }) => `${name} (${description})`).join(', ')}.`)].join('\n *\n * ')}\n */\nexport declare class ${figure.className} extends FigureElement {\n${[
         ...(isLog(figure) ? log.methods.map(member) : []),
-        ...[...extrasOf(figure).methods, ...extrasOf(figure).properties].map(member),
+        ...extrasOf(figure).methods.map(member),
         ...figure.params.filter(({ name }) => name !== 'step').map(field),
       ].join('\n')}\n}`,
   )

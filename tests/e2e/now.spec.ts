@@ -162,3 +162,77 @@ test('Reset is taken back by Undo, until something else is done', async ({ page 
   await lap.step.click()
   await expect(lap.button('Undo reset')).toBeHidden()
 })
+
+test('a step beyond the end is the end, in the row of playback too', async ({ page }) => {
+  for (const link of ['v=2&wrong=on&step=60', 'v=2&repair=switchable&wrong=on&step=60', 'v=3&repair=mixture&step=60']) {
+    const graph = await new Figure(page, 'fastslam-graph').alone(`#fastslam-graph?${link}`)
+    await expect(graph.scrub).toHaveValue(String(await graph.last()))
+    expect(await graph.position()).toBe(await graph.last())
+  }
+  const graph = await new Figure(page, 'fastslam-graph').alone()
+  for (const chip of await graph.element.getByRole('group', { name: 'Challenges' }).getByRole('button').all()) {
+    await chip.click()
+    await graph.settled()
+    await expect(graph.scrub).toHaveValue(String(await graph.position()))
+  }
+})
+
+test('a setting that was made by hand comes back after Reset, in a figure without a run too', async ({ page }) => {
+  const figure = await new Figure(page, 'fastslam-conditioning').alone()
+  await figure.box('odometry').fill('2')
+  await figure.box('odometry').press('Enter')
+  await figure.settled()
+  const state = await figure.state()
+  await figure.reset.click()
+  await figure.settled()
+  expect(await figure.state()).not.toBe(state)
+  await figure.button('Undo reset').click()
+  await figure.settled()
+  expect(await figure.state()).toBe(state)
+  await expect(figure.box('odometry')).toHaveValue('2')
+})
+
+test('a tile that is picked takes the tick from Overlay all, which lets go of the tile', async ({ page }) => {
+  const lap = await new Figure(page, 'fastslam-lap').alone('#fastslam-lap?v=9&universes=4&step=9')
+  const overlay = lap.element.locator('input[name=overlay]')
+  await expect(overlay).toBeChecked()
+  const { width, height } = (await lap.canvas.boundingBox())!
+  await lap.canvas.click({ position: { x: 0.65 * width, y: 0.2 * height } })
+  await lap.settled()
+  await expect(overlay).not.toBeChecked()
+  await expect(lap.sentence).not.toContainText('overlaid')
+  await overlay.check()
+  await lap.settled()
+  await expect(lap.sentence).toContainText('overlaid')
+})
+
+test('the slider of what a prediction is about moves with its run', async ({ page }) => {
+  const figure = await new Figure(page, 'fastslam-proposal').alone('#fastslam-proposal?v=3&predict=on&guess=4')
+  await expect(figure.box('range-std')).toHaveValue('0.05')
+  await figure.toggle('run').click()
+  await figure.settled()
+  await expect(figure.box('range-std')).toHaveValue('0.025')
+  await figure.toggle('predict').click()
+  await figure.settled()
+  await expect(figure.box('range-std')).toHaveValue('0.05')
+})
+
+test('what is on its way dims all that is old: picture, sentence, numbers and how near a goal is', async ({ page }) => {
+  const lap = await openLap(page, 'universes="64" step="0"')
+  const dimmed = (seek: boolean) =>
+    lap.element.evaluate(async (element, seek) => {
+      const figure = element as FigureElement
+      const parts = ['canvas', '.sentence', '.readouts', '.verdict'].map(part => figure.shadowRoot!.querySelector(part)!)
+      const most = parts.map(() => 1)
+      let done = !seek
+      if (seek) figure.seek(90)
+      void figure.settled().then(() => (done = true))
+      do {
+        await new Promise(requestAnimationFrame)
+        parts.forEach((part, k) => (most[k] = Math.min(most[k]!, Number(getComputedStyle(part).opacity))))
+      } while (!done)
+      return most.map(opacity => opacity < 1)
+    }, seek)
+  expect(await dimmed(true)).toEqual([true, true, true, true])
+  await expect.poll(() => dimmed(false)).toEqual([false, false, false, false])
+})

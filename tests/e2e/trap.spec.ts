@@ -145,28 +145,20 @@ test('one figure among six dies, of a panic, a full stack or a full memory: it s
   forgiveTrap(complaints)
 })
 
-test('a run that was pinned stays beside a figure and behind its curves when its program dies', async ({ page, complaints }) => {
-  const pinnable = await openAll(page, THREE)
-  const look = async () => {
-    const pictures: number[] = []
-    for (const figure of pinnable) {
-      await figure.element.scrollIntoViewIfNeeded()
-      await figure.settled()
-      await expect(figure.element.locator('[part=pinned]')).toBeVisible()
-      pictures.push(await figure.picture())
-    }
-    return pictures
-  }
-  for (const figure of pinnable) {
-    await figure.element.scrollIntoViewIfNeeded()
-    await figure.button('Pin this run').click()
-    await figure.element.evaluate(element => element.setAttribute('seed', '77'))
-  }
-  const before = await look()
-  await die(pinnable[0]!, 'panic')
-  await expect(pinnable[0]!.alert).toContainText('rebuilt as it was before')
+test('whoever compares nothing compares nothing after a program died, and what is set then is compared by all others', async ({ page, complaints }) => {
+  const figures = await openAll(page, THREE)
+  await figures[0]!.element.scrollIntoViewIfNeeded()
+  await figures[0]!.menu('Compare with nothing')
+  await die(figures[0]!, 'panic')
+  await expect(figures[0]!.alert).toContainText('rebuilt as it was before')
   await expect.poll(async () => (await seen(page)).instances).toBe(2)
-  expect(await look()).toEqual(before)
+  for (const [k, figure] of figures.entries()) {
+    await figure.element.scrollIntoViewIfNeeded()
+    await figure.reroll.click()
+    await figure.settled()
+    const compared = await figure.sentence.evaluate(sentence => sentence.textContent!.includes(' → '))
+    expect(compared, `figure ${k}`).toBe(k > 0)
+  }
   forgiveTrap(complaints)
 })
 

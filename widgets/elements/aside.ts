@@ -1,7 +1,6 @@
 // Another figure of the same program, which nobody sees: it is brought to a state in slices, between which the page does what else it
 // has to do, and then asked what there is to show. What is run over several seeds goes through one of them, one seed after the other.
-import { h } from './dom'
-import type { Answer, Command, Frame, Listener, Size } from './host'
+import type { Answer, Command, Frame, Listener } from './host'
 import { LocalHost } from './local-host'
 import { programOf } from './program'
 import { ToldError } from './words'
@@ -29,36 +28,22 @@ export class Aside implements Listener {
 
   wake(): void {}
 
-  /** Goes to a state, and says what there is to show of it at this size; rejects when the signal says so, or where it traps. */
-  async reach(state: string, size: Omit<Size, 'canvas'>, signal: AbortSignal): Promise<Frame> {
-    this.#send({ do: 'begin', query: state, settings: [], authored: {}, linked: false, changed: false })
+  /** Goes to a state, and says what there is of it; rejects when the signal says so, or where it traps. */
+  async reach(state: string, signal: AbortSignal): Promise<Frame> {
+    this.#host?.send({ do: 'begin', query: state, settings: [], authored: {}, linked: false, changed: false })
     while (this.#host?.busy) {
       this.#host.work(SLICE)
       await yieldToMain()
       signal.throwIfAborted()
     }
-    const canvas = { css: 0, width: 0, height: 0 }
-    this.#send({ do: 'size', size: { ...size, canvas } })
-    const layout = this.#frame().layout!
-    const [css, height] = [layout.width ?? size.room, layout.height]
-    const pixels = (length: number) => Math.round(length * devicePixelRatio)
-    this.#send({ do: 'size', size: { ...size, canvas: { css, width: pixels(css), height: pixels(height) } } })
-    return this.#frame()
+    const frame = this.#host?.frame()
+    if (!frame) throw this.#failed ?? new ToldError({ key: 'no_background' })
+    return frame
   }
 
   free(): void {
     this.#host?.free()
     this.#host = undefined
-  }
-
-  #send(command: Command): void {
-    this.#host?.send(command)
-  }
-
-  #frame(): Frame {
-    const frame = this.#host?.frame()
-    if (!frame) throw this.#failed ?? new ToldError({ key: 'no_background' })
-    return frame
   }
 }
 
@@ -67,16 +52,4 @@ export function atSeed(state: string, seed: number): string {
   const query = new URLSearchParams(state)
   query.set('seed', String(seed))
   return query.toString()
-}
-
-/** A frame's picture, or the part of it that tells most, as a canvas of its own; it has to be asked for before the program is asked anything else. */
-export function pictureOf({ picture, layout, gist }: Frame, room: number, whole = false): HTMLCanvasElement {
-  const canvas = h('canvas')
-  if (!picture) return canvas
-  const scale = picture.width / (layout?.width ?? room)
-  const part = [gist.x, gist.y, gist.w, gist.h].map(length => Math.round(length * scale))
-  const [x, y, width, height] = (whole ? [0, 0, picture.width, picture.height] : part) as [number, number, number, number]
-  Object.assign(canvas, { width, height })
-  canvas.getContext('2d', { alpha: false })!.putImageData(new ImageData(picture.pixels(), picture.width, picture.height), -x, -y)
-  return canvas
 }

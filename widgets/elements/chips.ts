@@ -1,5 +1,5 @@
-// The challenges of a figure: numbered chips, each of which sets its state. Where there is room, the words of the one that is pointed at,
-// or of the one that is on, stand beside them; on a phone they stand in them. What was reached is ticked (reached.ts).
+// The challenges of a figure: chips, each of which sets its state, and below them what there is to reach from the one that is pointed at, or
+// that is on: how far that is, from now to the goal. What was reached is ticked (reached.ts).
 import { h, write } from './dom'
 import { isReached } from './reached'
 import type { Chip, ParamSpec } from './shell'
@@ -9,8 +9,11 @@ const MARGIN = 24 // [px] of the chip before it, so that it is seen that there i
 
 export class Chips {
   readonly element = h('div', { class: 'chips', part: 'chips', role: 'group', hidden: '' })
+  readonly #goal = h('span')
+  readonly #bar = h('progress', { max: '1' })
+  readonly #said = h('span', { class: 'now' })
   /** Of the chip that is pointed at, or on. What screen readers need of them is in the chips. */
-  readonly said = h('span', { class: 'chip-words', 'aria-hidden': 'true' })
+  readonly verdict = h('div', { class: 'verdict', part: 'verdict', 'aria-hidden': 'true', hidden: '' }, this.#goal, this.#bar, this.#said)
   #chips: Chip[] = []
   #locked = new Set<string>()
   #specs: ParamSpec[] = []
@@ -35,6 +38,7 @@ export class Chips {
   show(chips: Chip[], specs: ParamSpec[], values: Record<string, string>): void {
     if (this.element.childElementCount !== chips.length) this.#make(chips.length)
     ;[this.#chips, this.#specs, this.#values] = [chips, specs, values]
+    this.verdict.hidden = !chips.some(({ goal }) => goal)
     this.refresh()
   }
 
@@ -57,7 +61,7 @@ export class Chips {
       button.ariaDisabled = String(why !== '')
       button.title = why || [chip.goal, i === now ? chip.said : ''].filter(Boolean).join(': ')
       button.classList.toggle('reached', reached)
-      write(button.lastElementChild as HTMLElement, i === now ? told(chip) : chip.title)
+      write(button, chip.title)
     }
     if (now !== this.#seen) {
       this.#seen = now
@@ -101,9 +105,7 @@ export class Chips {
   }
 
   #make(count: number): void {
-    const chip = (_: unknown, i: number) =>
-      h('button', { type: 'button', class: 'chip', part: 'button chip' }, h('span', { class: 'number' }, String(i + 1)), h('span', { class: 'words' }))
-    this.element.replaceChildren(...Array.from({ length: count }, chip))
+    this.element.replaceChildren(...Array.from({ length: count }, () => h('button', { type: 'button', class: 'chip', part: 'button chip' })))
     this.element.hidden = count === 0
   }
 
@@ -131,10 +133,13 @@ export class Chips {
 
   #say(): void {
     const now = this.#chips[this.#now]
-    const chip = this.#chips[this.#pointed] ?? now
-    const text = chip ? told(chip, this.#why(chip) || chip.goal, chip === now ? chip.said : '') : ''
-    write(this.said, text)
-    this.said.title = text
+    const pointed = this.#chips[this.#pointed]
+    const chip = pointed && (pointed.goal || this.#why(pointed)) ? pointed : now
+    const on = chip !== undefined && chip === now && chip.goal !== ''
+    write(this.#goal, chip ? this.#why(chip) || chip.goal : '')
+    write(this.#said, on ? `${chip.said}${chip.done ? ' ✓' : ''}` : '')
+    this.#bar.hidden = !on
+    this.#bar.value = on ? chip.near : 0
   }
 
   #move(event: KeyboardEvent): void {
@@ -150,9 +155,4 @@ export class Chips {
     button.focus()
     this.refresh()
   }
-}
-
-/** A challenge, what there is to reach, and how it stands. */
-function told({ title, goal, said }: Chip, aim = goal, now = said): string {
-  return [title, aim, now].filter(Boolean).join(' · ')
 }

@@ -18,7 +18,6 @@ const RIGHT: Counted = {
 
 /** Six identical doors: particles that each decide which one they see, and EKF-SLAM, which decides once for all. */
 export class FastslamDoors extends ComparedFigure {
-  protected readonly compared = { readouts: () => ['fastslam_right', 'ekf_right', 'alive'], panels: 'history' }
   readonly #study = new CountStudy(RIGHT, name => this.getParameter(name), this.words)
 
   constructor() {

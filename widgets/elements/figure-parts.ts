@@ -35,6 +35,7 @@ export abstract class FigureParts extends HTMLElement {
   #timeline = true // whether there are steps to play
 
   #introduced = '' // the language of the controls
+  #compares = true // the setting before with that of now
 
   protected readonly words = new Words()
   protected specs: ParamSpec[] = []
@@ -94,7 +95,7 @@ export abstract class FigureParts extends HTMLElement {
       write(this.#numbersName, this.words.say('numbers'))
     })
     this.body.append(
-      h('div', { class: 'head' }, this.heading, this.chips.element, this.chips.said, this.status, this.#watch, this.#undo, this.menu.element),
+      h('div', { class: 'head' }, this.heading, this.chips.element, this.chips.verdict, this.status, this.#watch, this.#undo, this.menu.element),
       this.panes,
       keys,
       handleKeys,
@@ -162,8 +163,8 @@ export abstract class FigureParts extends HTMLElement {
     this.#handles.show(frame.handles, frame.specs, frame.values)
     this.showPlayback(frame)
     this.controls!.stand(frame.rooms, this.#rooms)
-    this.controls!.showValues(frame.specs, frame.values)
-    this.sentence.show(frame.sentence, this.playing || frame.busy)
+    this.controls!.showValues(frame.specs, { ...frame.values, ...frame.instead })
+    this.sentence.show(frame.difference || frame.sentence, `${frame.difference} ${frame.sentence}`.trim(), this.playing || frame.busy)
   }
 
   /** When the figure first tells what it is, in a language: its controls. */
@@ -279,7 +280,7 @@ export abstract class FigureParts extends HTMLElement {
   }
 
   /** Does what throws away what a reader has made, and offers it back until something else is done. */
-  protected undoable(name: 'undo_rewind' | 'undo_reset' | 'undo_challenge' | 'undo_back' | 'undo_seed', act: () => void): void {
+  protected undoable(name: 'undo_rewind' | 'undo_reset' | 'undo_challenge', act: () => void): void {
     const before = this.state
     this.byHand(act)
     this.#before = before
@@ -352,11 +353,18 @@ export abstract class FigureParts extends HTMLElement {
       save('csv'),
       save('json'),
       { name: words.say('print'), act: () => void printAll().then(allowed => this.messages.set('print', allowed ? '' : words.say('no_print'))) },
+      { name: words.say(this.#compares ? 'compare_off' : 'compare_on'), act: () => this.#compare(!this.#compares) },
       { name: words.say('explain'), act: () => this.#help.open() },
       { name: words.say('forget_reached'), act: forgetReached },
       // On other pages: whose it is, and where the rest of it is.
       ...(home && !inChapter(home) ? [{ name: words.say('chapter'), act: () => void open(home, '_blank', 'noopener') }] : []),
     ]
+  }
+
+  #compare(on: boolean): void {
+    this.#compares = on
+    this.menu.remake()
+    this.send({ do: 'compare', on })
   }
 
   async #copy(what: 'link' | 'code', text: string): Promise<void> {

@@ -47,7 +47,8 @@ export type Topics = { scan?: string; odometry?: string }
 
 export type Command =
   | ({ do: 'begin'; changed: boolean } & Beginning)
-  | { do: 'set'; name: string; value: string | null }
+  /** By a reader's hand, what was set before is compared with it. */
+  | { do: 'set'; name: string; value: string | null; hand?: boolean }
   | { do: 'lock'; text: string | null }
   | { do: 'show'; names: string }
   | { do: 'comma'; on: boolean }
@@ -69,9 +70,8 @@ export type Command =
   | { do: 'press'; key: string; right: number; up: number }
   | { do: 'stroke'; line: number[] }
   | { do: 'size'; size: Size }
-  /** To tell the curves of its run, and to draw such curves behind its own. */
-  | { do: 'pin' }
-  | { do: 'haunt'; curves: Float64Array<ArrayBuffer> }
+  /** Whether the setting before is compared with that of now. */
+  | { do: 'compare'; on: boolean }
   | { do: 'export'; kind: 'csv' | 'json'; name: string }
   // Of figures that map a file:
   | { do: 'open'; file: Blob; name: string; start: boolean; topics: Topics; decoder: WebAssembly.Module | undefined }
@@ -81,7 +81,7 @@ export type Command =
   | { do: 'save'; what: SavedFile; writer: WebAssembly.Module | undefined }
 
 /** Whether a command says how the figure is to be shown, which holds also after a trap, whatever is loaded. */
-export const isKept = ({ do: name }: Command): boolean => ['size', 'words', 'lock', 'show', 'comma', 'haunt', 'take'].includes(name)
+export const isKept = ({ do: name }: Command): boolean => ['size', 'words', 'lock', 'show', 'comma', 'compare', 'take'].includes(name)
 
 /** The step that is meant where another one is asked for than those there are. */
 export const clampedStep = (step: number, last: number): number => Math.max(0, Math.min(last, Math.round(step) || 0))
@@ -159,6 +159,12 @@ export interface Frame {
   rooms: Room[]
   chips: Chip[]
   sentence: string
+  /** What is different from the setting before, at the same step; empty where nothing is, or nobody wants to know. */
+  difference: string
+  /** What controls show instead of the values, where a prediction was run. */
+  instead: Record<string, string>
+  /** The readout that matters first, by its name. */
+  main: string
   /** Whether a parameter was changed since the frame before. */
   changed: boolean
   trace: TraceLine[] | undefined
@@ -177,7 +183,6 @@ export type Answer =
   | { told: 'saved'; name: string; data: Blob }
   | { told: 'reading'; megabytes: number }
   | { told: 'choose'; what: 'scan' | 'odometry'; topics: string[] }
-  | { told: 'pinned'; curves: Float64Array<ArrayBuffer> }
   /** It has trapped. `why` is for readers, `error` for the console. */
   | { told: 'failed'; why: Message; error: string }
 

@@ -248,7 +248,7 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
     this.playback.stay()
     this.byHand(() => {
       const first = this.host?.target === 0
-      this.setTo(name, value)
+      this.setTo(name, value, true)
       // At the first step nothing is seen of it.
       if (first && this.specs.find(spec => spec.name === name)?.group === 'setup') this.send({ do: 'tell' })
     })
@@ -256,13 +256,13 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
   }
 
   /** What a parameter is to be; null for the default. */
-  protected setTo(name: string, text: string | null): void {
+  protected setTo(name: string, text: string | null, hand = false): void {
     if (name === 'step') this.playback.stop()
     if (!this.host) return this.settings.wait(name, text)
     for (const cause of [name, 'link']) this.messages.set(cause, '')
     const value = text ?? this.specs.find(spec => spec.name === name)?.default
     if (value !== undefined) this.settings.ask(name, value, this.host.sent + 1)
-    this.send({ do: 'set', name, value: text })
+    this.send({ do: 'set', name, value: text, hand })
     if (this.host) this.settings.answered(this.host.done)
   }
 

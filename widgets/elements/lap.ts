@@ -9,7 +9,6 @@ const PLAN = ['plan', 'drive', 'step'] as const
 
 /** w17.1, the lap: every particle's own map, path and robot; and a reader who takes the wheel. */
 export class FastslamLap extends ComparedFigure {
-  protected readonly compared = { readouts: () => ['rms_best', 'ess', 'lineage'], panels: 'map' }
   readonly #before: Record<string, string>[] = [] // as the plan was, the newest last
   readonly #drive = new Drive(this.words, this.body, this.sentence.element, {
     take: tool => this.send({ do: 'take', tool }),

@@ -14,13 +14,17 @@ export class Menu {
   readonly #list = h('div', { class: 'items', id: 'menu', popover: 'auto', role: 'menu' })
   readonly element = h('div', { class: 'menu' }, this.#button, this.#list)
 
+  /** What an item is called may have changed. */
+  readonly remake: () => void
+
   constructor(items: () => MenuItem[], figure: HTMLElement, words: Words) {
     const toggle = () => void (document.fullscreenElement ? document.exitFullscreen() : figure.requestFullscreen())
-    words.always(() => {
+    this.remake = () => {
       const all = document.fullscreenEnabled ? [...items(), { name: words.say('full_screen'), act: toggle }] : items()
       this.#list.replaceChildren(...all.map(item => this.#item(item)))
       this.#button.ariaLabel = this.#button.title = this.#list.ariaLabel = words.say('menu')
-    })
+    }
+    words.always(this.remake)
     this.#list.addEventListener('toggle', () => {
       this.#button.ariaExpanded = String(this.#open)
       if (this.#open && !this.#focused) this.#focus(0)

@@ -17,11 +17,6 @@ const WINGS: Counted = {
 
 /** w17.2, when to resample: three filters on one log, their ancestry, and a count over many seeds. */
 export class FastslamResampling extends ComparedFigure {
-  /** Of the policy that is shown; in the loop of ambiguity it matters who still has the right wing. */
-  protected readonly compared = {
-    readouts: ({ policy = '', wings }: Record<string, string>) => [wings === 'on' ? 'right' : 'error_best', 'ess', 'lineage'].map(name => `${policy}_${name}`),
-    panels: 'n-eff',
-  }
   readonly #study = new CountStudy(WINGS, name => this.getParameter(name), this.words)
 
   constructor() {

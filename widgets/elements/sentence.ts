@@ -14,9 +14,9 @@ export class Sentence {
   /** Whether a sentence is still to be said. */
   waiting = false
 
-  /** Shows the sentence of a frame. While it plays, or is on its way somewhere, nothing is said. */
-  show(text: string, moving: boolean): void {
-    write(this.element, text)
+  /** Shows what a frame has to say, and has it read out with the rest of it. While it plays, or is on its way somewhere, nothing is said. */
+  show(shown: string, text: string, moving: boolean): void {
+    write(this.element, shown)
     clearTimeout(this.#timer)
     this.waiting = !moving && this.#said !== undefined && text !== this.#said
     if (this.waiting) this.#timer = window.setTimeout(() => this.#say(text), PAUSE)

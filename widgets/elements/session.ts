@@ -50,7 +50,7 @@ export class Session {
       case 'begin':
         return this.begin(command, command.changed)
       case 'set':
-        return this.set(command.name, command.value)
+        return this.set(command.name, command.value, command.hand)
       case 'lock':
         this.#lock = command.text
         return
@@ -96,10 +96,8 @@ export class Session {
       case 'size':
         this.#size = command.size
         return
-      case 'pin':
-        return this.tell({ told: 'pinned', curves: figure.curves() as Float64Array<ArrayBuffer> })
-      case 'haunt':
-        return figure.haunt(command.curves)
+      case 'compare':
+        return figure.compare(command.on)
       case 'export': {
         const type = { csv: 'text/csv', json: 'application/json' }[command.kind]
         return this.tell({ told: 'saved', name: command.name, data: new Blob([figure[command.kind]()], { type }) })
@@ -177,6 +175,9 @@ export class Session {
       rooms: figure.rooms(this.#size?.canvas.css ?? 0) as Room[],
       chips: figure.chips() as Chip[],
       sentence: figure.describe(),
+      difference: figure.difference(),
+      main: figure.main_readout(),
+      instead: Object.fromEntries(new URLSearchParams(figure.instead())),
       changed,
       trace,
       prediction: figure.prediction() as Outcome | null,
@@ -225,10 +226,11 @@ export class Session {
     this.#adoptTarget()
   }
 
-  protected set(name: string, value: string | null): void {
+  protected set(name: string, value: string | null, hand = false): void {
     const text = value ?? this.#default(name)
     if (text === undefined) return // a name that nobody knows was taken away again
-    this.figure.set(name, text)
+    if (hand) this.figure.set_by_hand(name, text)
+    else this.figure.set(name, text)
     this.#changes()
   }
 

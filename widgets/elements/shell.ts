@@ -36,8 +36,9 @@ export interface Chip {
   /** The same but for the parameters that it leaves to the reader. */
   still: boolean
   done: boolean
-  /** What counts for the goal, as it is now. */
+  /** What counts for the goal, as it is now, and how near that is, from 0 to 1. */
   said: string
+  near: number
 }
 
 /** What comes of a reader's prediction. */

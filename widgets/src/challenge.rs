@@ -34,12 +34,23 @@ pub struct Check<M> {
     pub judge: fn(&M) -> Verdict,
 }
 
-/// What a check finds: the numbers that count, in words.
-pub enum Verdict {
-    /// It is reached.
-    Done(String),
-    /// Not yet.
-    NotYet(String),
+/// What a check finds.
+pub struct Verdict {
+    /// Whether the goal is reached.
+    done: bool,
+    /// How near that is, from 0 to 1.
+    near: f64,
+    /// The numbers that count, in words.
+    said: String,
+}
+
+impl Verdict {
+    /// Reached or not, how near in parts that have all to be 1 (more counts as 1, and what is no number as 0), and the numbers in words.
+    pub fn new(done: bool, parts: &[f64], said: String) -> Self {
+        // A goal that is almost reached looks so.
+        let near = if done { 1.0 } else { parts.iter().map(|part| part.max(0.0).min(1.0)).product::<f64>().min(0.97) };
+        Self { done, near, said }
+    }
 }
 
 impl<M> Challenge<M> {
@@ -75,6 +86,8 @@ pub struct Chip {
     pub still: bool,
     /// Whether its goal is reached, where it is still the challenge.
     pub done: bool,
+    /// How near that is, from 0 to 1.
+    pub near: f64,
     /// What its check finds; empty where it is not the challenge, or there is nothing to reach.
     pub said: String,
 }
@@ -97,11 +110,7 @@ pub fn chips<M: Declared>(model: &M) -> Vec<Chip> {
         let check = challenge.check.as_ref();
         let (now, still) = (!differs(k, false), !differs(k, true));
         let verdict = check.filter(|_| still).map(|check| (check.judge)(model));
-        let (done, said) = match verdict {
-            Some(Verdict::Done(said)) => (true, said),
-            Some(Verdict::NotYet(said)) => (false, said),
-            None => (false, String::new()),
-        };
+        let Verdict { done, near, said } = verdict.unwrap_or(Verdict::new(false, &[0.0], String::new()));
         Chip {
             name: challenge.name,
             title: challenge.title,
@@ -110,6 +119,7 @@ pub fn chips<M: Declared>(model: &M) -> Vec<Chip> {
             now,
             still,
             done,
+            near,
             said,
         }
     };

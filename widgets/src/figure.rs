@@ -4,8 +4,9 @@
 use crate::{
     challenge::Chip,
     comma,
+    comparison::{Before, Comparison},
     export::{Entries, Export},
-    ghost,
+    ghost::Curves,
     model::{FigureError, Files, Model, ParamSpec, Readout, TraceLine},
     paint::{Canvas, Theme},
     param, query, registry,
@@ -23,6 +24,7 @@ pub struct Figure {
     painted: Painted,
     decimal_comma: bool,
     language: Language,
+    comparison: Comparison,
 }
 
 /// What the scene painted last had besides its pixels.
@@ -75,7 +77,7 @@ impl Figure {
 
     fn showing(tag: &'static str, shown: Box<dyn Shown>) -> Self {
         let (canvas, painted, language) = (Canvas::default(), Painted::default(), Language::default());
-        Self { tag, shown, canvas, painted, decimal_comma: false, language }
+        Self { tag, shown, canvas, painted, decimal_comma: false, language, comparison: Comparison::default() }
     }
 
     /// What the figure is about.
@@ -192,14 +194,61 @@ impl Figure {
         self.painted = Painted { handles: scene.handles, rooms: scene.rooms, width: scene.width };
     }
 
-    /// [`Model::curves`] as one row of numbers.
-    pub fn curves(&self) -> Vec<f64> {
-        ghost::flat(&self.model().curves())
+    /// Gives a parameter a new value by a reader's hand.
+    ///
+    /// # Errors
+    /// See [`Figure::set`].
+    pub fn set_by_hand(&mut self, name: &str, value: &str) -> Result<(), FigureError> {
+        let before = self.about_to_leave(name);
+        let done = self.set(name, value);
+        self.left(name, before);
+        done
     }
 
-    /// [`Model::haunt`] with curves as they came out of [`Figure::curves`].
-    pub fn haunt(&mut self, curves: &[f64]) {
-        self.model_mut().haunt(ghost::curves(curves));
+    /// What a reader is about to change by a control: the setting that it leaves is compared with what comes then, unless the same control has
+    /// left another one just before.
+    fn about_to_leave(&self, control: &str) -> Option<Before> {
+        let another = self.comparison.control != control && self.model().pending() == 0;
+        another.then(|| Before::of(self.model()))
+    }
+
+    /// A reader has moved the control.
+    fn left(&mut self, control: &str, before: Option<Before>) {
+        if let Some(before) = before.filter(|before| before.differs(self.model())) {
+            self.comparison.control = control.into();
+            self.comparison.before = Some(before);
+        } else if self.comparison.drawn == self.differs() {
+            return;
+        }
+        self.haunt();
+    }
+
+    /// Whether there is anything to compare.
+    fn differs(&self) -> bool {
+        let before = self.comparison.before.as_ref().filter(|_| !self.comparison.off);
+        before.is_some_and(|before| before.differs(self.model()))
+    }
+
+    /// Whether the setting before is compared with that of now.
+    pub fn compare(&mut self, on: bool) {
+        self.comparison.off = !on;
+        self.haunt();
+    }
+
+    fn haunt(&mut self) {
+        let drawn = self.differs();
+        let before = self.comparison.before.as_ref().filter(|_| drawn);
+        let curves = before.map_or_else(Curves::new, |before| before.curves.clone());
+        self.comparison.drawn = drawn;
+        self.model_mut().haunt(curves);
+    }
+
+    /// What is different from the setting that a reader has left last, in the figure's language and way of writing numbers: what was set,
+    /// and at the same step what came out. Empty where nothing is, or nothing is to be compared.
+    pub fn difference(&self) -> String {
+        let _speaking = self.language.spoken();
+        let before = self.comparison.before.as_ref().filter(|_| self.differs());
+        self.written(before.map_or(String::new(), |before| before.told(self.model())))
     }
 
     /// The part of the picture that tells most where there is no room for the whole, in a figure of this width \[css px\].
@@ -244,14 +293,18 @@ impl Figure {
         let scene_width = self.shown.scene_width(width);
         let to = in_scene([x, y], scene_width / width);
         if to.iter().all(|c| c.is_finite()) {
+            let before = self.about_to_leave(handle);
             self.shown.drag(handle, to, scene_width);
+            self.left(handle, before);
         }
     }
 
     /// Moves a handle right and up, in steps of its parameters.
     pub fn nudge(&mut self, handle: &str, right: f64, up: f64) {
         if right.is_finite() && up.is_finite() {
+            let before = self.about_to_leave(handle);
             self.shown.nudge(handle, [right, up]);
+            self.left(handle, before);
         }
     }
 
@@ -341,6 +394,8 @@ impl Figure {
     /// Makes the figure what a link says. Returns what was refused; the rest is applied.
     pub fn load(&mut self, query: &str) -> Vec<FigureError> {
         let _speaking = self.language.spoken();
+        self.comparison = Comparison { off: self.comparison.off, ..Comparison::default() };
+        self.haunt();
         query::read(self.model_mut(), query)
     }
 

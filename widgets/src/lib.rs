@@ -8,6 +8,7 @@
 
 pub mod challenge;
 mod comma;
+mod comparison;
 pub mod conditioning;
 pub mod decimal;
 pub mod doors;

@@ -395,7 +395,17 @@ pub trait Model: Parameters {
         Vec::new()
     }
 
-    /// Curves of all that was simulated, for another run to be compared with; none of a figure that nothing is pinned of.
+    /// A parameter whose control shows another value than was set, and that value: what is shown is of it.
+    fn instead(&self) -> Option<(&'static str, String)> {
+        None
+    }
+
+    /// Names of the readouts that tell most of what is shown, the one that matters first.
+    fn compared(&self) -> Vec<&'static str> {
+        Vec::new()
+    }
+
+    /// Curves of all that was simulated, for another run to be compared with; none of a figure that has none.
     fn curves(&self) -> Curves {
         Curves::new()
     }

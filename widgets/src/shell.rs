@@ -303,20 +303,35 @@ impl Figure {
         self.figure.canvas().pixels().as_ptr() as u32
     }
 
-    /// Curves of the run, for [`Figure::haunt`]: numbers in a row.
-    pub fn curves(&self) -> Vec<f64> {
-        self.figure.curves()
-    }
-
-    /// Draws such curves behind its own; none takes them away.
-    pub fn haunt(&mut self, curves: &[f64]) {
-        self.figure.haunt(curves);
-    }
-
     /// The part of the picture that tells most, in a figure of this width \[css px\]: x, y, width and height.
     pub fn gist(&self, width_css: f64) -> Vec<f64> {
         let Rect { x, y, w, h } = self.figure.gist(width_css);
         vec![x, y, w, h]
+    }
+
+    /// Gives a parameter a new value by a reader's hand: what was set before is compared with it.
+    pub fn set_by_hand(&mut self, name: &str, value: &str) -> Result<(), Error> {
+        self.figure.set_by_hand(name, value).map_err(thrown)
+    }
+
+    /// Whether the setting before is compared with that of now.
+    pub fn compare(&mut self, on: bool) {
+        self.figure.compare(on);
+    }
+
+    /// What is different from the setting before, at the same step; empty where nothing is.
+    pub fn difference(&self) -> String {
+        self.figure.difference()
+    }
+
+    /// A parameter whose control shows another value than was set: `name=value`, or nothing.
+    pub fn instead(&self) -> String {
+        self.figure.model().instead().map_or(String::new(), |(name, value)| [name, "=", &value].concat())
+    }
+
+    /// The name of the readout that matters first.
+    pub fn main_readout(&self) -> String {
+        self.figure.model().compared().first().map_or(String::new(), |name| (*name).into())
     }
 
     /// A click at a point of a figure of this width \[css px\]. True if it changed something.

@@ -32,8 +32,9 @@ pub(super) fn challenges() -> Vec<Challenge<ConditioningModel>> {
 fn far_and_tied(model: &ConditioningModel) -> Verdict {
     let [a, b] = model.entry().map(|k| k / 2);
     let said = words::ChipPair { entry: &model.entry_text(), n: &model.seen_together(a, b) }.say();
-    let strong = model.correlation().is_some_and(|rho| rho.abs() > STRONG);
-    if a != b && model.seen_together(a, b) == 0 && strong { Verdict::Done(said) } else { Verdict::NotYet(said) }
+    let strength = model.correlation().map_or(0.0, f64::abs) / STRONG;
+    let never = a != b && model.seen_together(a, b) == 0;
+    Verdict::new(never && strength > 1.0, &[if never { strength } else { 0.0 }], said)
 }
 
 /// Whether nothing ties a landmark to another, though nobody conditioned.
@@ -41,5 +42,5 @@ fn untied(model: &ConditioningModel) -> Verdict {
     let (n, odometry) = (model.map().off_block_nonzeros(), model.drive().setup().odometry_scale);
     let said = words::ChipEntries { n: &n, odometry: &fixed(odometry, 2) }.say();
     let all_seen = model.off_block() > 0 && model.given() != Given::LastPose;
-    if n == 0 && all_seen { Verdict::Done(said) } else { Verdict::NotYet(said) }
+    Verdict::new(n == 0 && all_seen, &[1.0 - n as f64 / model.off_block() as f64], said)
 }

@@ -212,6 +212,10 @@ impl Model for ConditioningModel {
         self.step_count()
     }
 
+    fn compared(&self) -> Vec<&'static str> {
+        vec!["largest", "off_block", "largest_std"]
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         let Couplings { largest, mean, largest_std } = couplings(self.map());
         let count = |name, title, n: usize, of: usize, help| {

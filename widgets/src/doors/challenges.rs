@@ -23,7 +23,7 @@ pub(super) fn challenges() -> Vec<Challenge<DoorsModel>> {
 fn ekf_right(model: &DoorsModel) -> Verdict {
     let now = model.now();
     let said = words::ChipRide { std: &fixed(model.setup().ride_std, 2), off: &model.ekf_off().abs() }.say();
-    if model.at_end() && now.ekf_right() { Verdict::Done(said) } else { Verdict::NotYet(said) }
+    Verdict::new(model.at_end() && now.ekf_right(), &[1.0 / (1.0 + f64::from(model.ekf_off().abs()))], said)
 }
 
 /// Whether EKF-SLAM ends sure of a wrong place, and the particles at the right one.
@@ -31,5 +31,6 @@ fn fooled(model: &DoorsModel) -> Verdict {
     let now = model.now();
     let said = words::ChipOff { off: &model.ekf_off().abs(), std: &fixed(100.0 * now.ekf_std, 0) }.say();
     let fooled = model.at_end() && !now.ekf_right() && now.ekf_std < SURE && now.fastslam_right();
-    if fooled { Verdict::Done(said) } else { Verdict::NotYet(said) }
+    let wrong = if now.ekf_right() { 0.0 } else { 1.0 };
+    Verdict::new(fooled, &[wrong, SURE / now.ekf_std], said)
 }

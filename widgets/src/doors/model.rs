@@ -144,6 +144,10 @@ impl Model for DoorsModel {
         }
     }
 
+    fn compared(&self) -> Vec<&'static str> {
+        vec!["fastslam_right", "ekf_right", "alive"]
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         told::readouts(self)
     }

@@ -25,12 +25,12 @@ fn said(model: &EmModel) -> String {
 
 /// Whether the second ride's doors are new at the end, as they are.
 fn unfolds(model: &EmModel) -> Verdict {
-    let unfolded = model.put_down().is_some_and(|(_, again)| again < 0.5);
-    if model.at_end() && unfolded { Verdict::Done(said(model)) } else { Verdict::NotYet(said(model)) }
+    let again = model.put_down().map_or(f64::NAN, |(_, again)| again);
+    Verdict::new(model.at_end() && again < 0.5, &[2.0 * (1.0 - again)], said(model))
 }
 
 /// Whether it has converged with the first two doors come again.
 fn folds(model: &EmModel) -> Verdict {
-    let folded = model.put_down().is_some_and(|(_, again)| again > 0.5) && model.is_still();
-    if model.at_end() && folded { Verdict::Done(said(model)) } else { Verdict::NotYet(said(model)) }
+    let again = model.put_down().map_or(f64::NAN, |(_, again)| again);
+    Verdict::new(model.at_end() && again > 0.5 && model.is_still(), &[2.0 * again], said(model))
 }

@@ -307,6 +307,10 @@ impl Model for EmModel {
         self.recipe.prediction.outcome("put_down_end", self.end.map(|(place, _)| place))
     }
 
+    fn compared(&self) -> Vec<&'static str> {
+        vec!["log_posterior", "doors", "again"]
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         told::readouts(self)
     }

@@ -35,23 +35,23 @@ pub(super) fn challenges() -> Vec<Challenge<GraphModel>> {
 }
 
 /// What the end of the optimisation is off by, in words.
-fn at_end(model: &GraphModel, reached: fn(f64) -> bool) -> Verdict {
+fn at_end(model: &GraphModel, near: fn(f64) -> f64) -> Verdict {
     let rms = model.frame().error.rms;
     let said = words::ChipOff { rms: &metres(rms) }.say();
-    if model.at_end() && reached(rms) { Verdict::Done(said) } else { Verdict::NotYet(said) }
+    Verdict::new(model.at_end() && near(rms) > 1.0, &[near(rms)], said)
 }
 
 /// Whether the loop is closed.
 fn closed(model: &GraphModel) -> Verdict {
-    at_end(model, |rms| rms < CLOSED)
+    at_end(model, |rms| CLOSED / rms)
 }
 
 /// Whether the path is folded worse than it was.
 fn folded(model: &GraphModel) -> Verdict {
-    at_end(model, |rms| rms > WORSE)
+    at_end(model, |rms| rms / WORSE)
 }
 
 /// Whether right edges were let go of, and the loop is open still.
 fn let_go(model: &GraphModel) -> Verdict {
-    at_end(model, |rms| rms > OPEN)
+    at_end(model, |rms| rms / OPEN)
 }

@@ -233,6 +233,10 @@ impl Model for GraphModel {
         self.recipe.prediction.outcome("rms_end", self.end())
     }
 
+    fn compared(&self) -> Vec<&'static str> {
+        vec!["rms", "cost", "wrong_weight"]
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         told::readouts(self)
     }

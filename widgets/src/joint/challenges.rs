@@ -31,12 +31,12 @@ fn first_below_one(model: &JointModel) -> Verdict {
     let n = model.landmarks();
     let [now, before] = [n, n - 1].map(|n| model.predicted(SAMPLED, n));
     let said = words::ChipPredicted { ess: &count(now), n: &n }.say();
-    if now < 1.0 && before >= 1.0 { Verdict::Done(said) } else { Verdict::NotYet(said) }
+    Verdict::new(now < 1.0 && before >= 1.0, &[1.0 / now, before], said)
 }
 
 /// Whether the sampled map keeps enough.
 fn keeps(model: &JointModel) -> Verdict {
     let ess = model.population(SAMPLED).map_or(0.0, |found| found.ess);
     let said = words::ChipKept { ess: &count(ess) }.say();
-    if ess >= KEPT { Verdict::Done(said) } else { Verdict::NotYet(said) }
+    Verdict::new(ess >= KEPT, &[ess / KEPT], said)
 }

@@ -207,6 +207,10 @@ impl Model for JointModel {
         self.next.is_none() && !self.shown.repeats().is_empty()
     }
 
+    fn compared(&self) -> Vec<&'static str> {
+        vec!["ess_sampled", "ess_computed", "removed"]
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         let m = self.particles();
         let of_all = |x: f64| common::Of { n: &count(x), all: &m }.say();

@@ -44,5 +44,6 @@ fn near_with_few(model: &LapModel) -> Verdict {
     let (m, error) = (model.setup().particles, model.report().rms_best);
     let (step, last) = (model.step(), model.step_count());
     let said = words::ChipError { error: &fixed(error, 2), m: &m, step: &step, last: &last }.say();
-    if m <= FEW && step == last && error < NEAR { Verdict::Done(said) } else { Verdict::NotYet(said) }
+    let far = f64::from(step) / f64::from(last);
+    Verdict::new(m <= FEW && step == last && error < NEAR, &[FEW as f64 / m as f64, far, NEAR / error], said)
 }

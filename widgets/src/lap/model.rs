@@ -34,6 +34,8 @@ pub struct LapModel {
     dead: Vec<Vec<Path>>,
     /// The step at which the loop of the course closes.
     closing: Option<u32>,
+    /// Whether all were shown at once before one was chosen.
+    overlaid_before: bool,
     /// Of the run that is pinned.
     pinned: Curves,
 }
@@ -45,7 +47,7 @@ impl Default for LapModel {
         let closing = recipe.setup.course.closing();
         let (keyframes, reports) = (vec![lap.clone()], vec![lap.report().clone()]);
         let (dead, pinned) = (vec![Vec::new()], Curves::new());
-        Self { recipe, hand: None, keyframes, reports, dead, closing, shown: lap, pinned }
+        Self { recipe, hand: None, keyframes, reports, dead, closing, shown: lap, overlaid_before: true, pinned }
     }
 }
 
@@ -139,7 +141,15 @@ impl LapModel {
     /// Chooses a slot for the large view, or lets go of it if it was chosen.
     pub fn pick(&mut self, target: u32) {
         if (target as usize) < self.recipe.setup.particles {
-            self.recipe.universe = Some(target).filter(|_| self.recipe.universe != Some(target));
+            let recipe = &mut self.recipe;
+            (recipe.universe, recipe.overlay) = match recipe.universe {
+                Some(chosen) if chosen == target => (None, self.overlaid_before),
+                Some(_) => (Some(target), false),
+                None => {
+                    self.overlaid_before = recipe.overlay;
+                    (Some(target), false)
+                }
+            };
         }
     }
 
@@ -272,6 +282,10 @@ impl Model for LapModel {
         if self.keyframes.last().is_none_or(|lap| lap.report().step + interval <= step) {
             self.keyframes.push(self.shown.clone());
         }
+    }
+
+    fn compared(&self) -> Vec<&'static str> {
+        vec!["rms_best", "spread", "ess"]
     }
 
     fn readouts(&self) -> Vec<Readout> {

@@ -147,6 +147,15 @@ impl recipe::Recipe for Recipe {
         ]
     }
 
+    /// One is seen alone, or all at once: who chooses one sees it, and who asks for all lets go of it.
+    fn follow(&mut self, before: &Self) {
+        if self.universe.is_some() && self.universe != before.universe {
+            self.overlay = false;
+        } else if self.overlay && !before.overlay {
+            self.universe = None;
+        }
+    }
+
     /// Walls and a drive are of one place: they go with it, and what does not fit into it is refused.
     fn refuse(&mut self, before: &Self) -> Vec<FigureError> {
         if self.setup.course != before.setup.course && self.setup.edits == before.setup.edits {

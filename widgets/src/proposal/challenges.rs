@@ -33,7 +33,7 @@ pub(super) fn challenges() -> Vec<Challenge<ProposalModel>> {
 fn worth_ten(model: &ProposalModel) -> Verdict {
     let ratio = model.proposals().ratio();
     let said = words::ChipRatio { ratio: &fixed(ratio, 1) }.say();
-    if ratio >= WORTH { Verdict::Done(said) } else { Verdict::NotYet(said) }
+    Verdict::new(ratio >= WORTH, &[ratio / WORTH], said)
 }
 
 /// Whether the measurement-aware samples miss the posterior, and their weights do not tell.
@@ -42,5 +42,5 @@ fn misses_unseen(model: &ProposalModel) -> Verdict {
     let (inside, ess) = (aware.share_inside(None), aware.ess() / model.setup().samples as f64);
     let [inside_text, ess_text] = [inside, ess].map(|share| fixed(100.0 * share, 0));
     let said = words::ChipMisses { inside: &inside_text, ess: &ess_text }.say();
-    if inside < INSIDE && ess > ESS { Verdict::Done(said) } else { Verdict::NotYet(said) }
+    Verdict::new(inside < INSIDE && ess > ESS, &[INSIDE / inside, ess / ESS], said)
 }

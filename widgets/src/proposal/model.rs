@@ -153,6 +153,14 @@ impl Model for ProposalModel {
         self.computed.prediction.outcome("ratio_half", self.at_half())
     }
 
+    fn instead(&self) -> Option<(&'static str, String)> {
+        self.computed.prediction.is_shown().then(|| ("range-std", self.half()))
+    }
+
+    fn compared(&self) -> Vec<&'static str> {
+        vec!["ratio", "inside_motion", "inside_aware"]
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         let Proposals { motion, aware, exact, z, .. } = &self.shown;
         let m = self.setup().samples;

@@ -26,7 +26,7 @@ pub(super) fn challenges() -> Vec<Challenge<ResamplingModel>> {
 /// Whether the selective filter lost the right wing up to the step shown, at a step at which its weights told of no harm.
 fn lost_in_good_health(model: &ResamplingModel) -> Verdict {
     let lost = model.history(SELECTIVE).find(|moment| moment.report.right == Some(0));
-    let Some(moment) = lost else { return Verdict::NotYet(words::not_lost_yet().into()) };
+    let Some(moment) = lost else { return Verdict::new(false, &[0.0], words::not_lost_yet().into()) };
     let said = words::ChipLost { step: &moment.report.step, ess: &fixed(moment.report.ess, 1) }.say();
-    if moment.report.ess > WELL { Verdict::Done(said) } else { Verdict::NotYet(said) }
+    Verdict::new(moment.report.ess > WELL, &[moment.report.ess / WELL], said)
 }

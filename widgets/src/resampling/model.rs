@@ -9,7 +9,7 @@ use crate::names;
 use crate::prediction::{Outcome, State, off_by};
 use crate::words::resampling;
 use fastslam::geometry::Pose2;
-use fastslam_lab::experiment::policies::{POLICIES, Policies, PoliciesSetup, PolicyReport};
+use fastslam_lab::experiment::policies::{POLICIES, Policies, PoliciesSetup, PolicyCourse, PolicyReport};
 
 /// Figure w17.2.
 pub struct ResamplingModel {
@@ -271,6 +271,17 @@ impl Model for ResamplingModel {
             let newest = moments(&self.run, self.moments.last());
             self.moments.push(newest);
         }
+    }
+
+    /// Of the policy that is shown; in the loop of ambiguity it matters who still has the right wing.
+    fn compared(&self) -> Vec<&'static str> {
+        const OF: [[&str; 4]; 3] = [
+            ["never_error_best", "never_right", "never_ess", "never_lineage"],
+            ["always_error_best", "always_right", "always_ess", "always_lineage"],
+            ["selective_error_best", "selective_right", "selective_ess", "selective_lineage"],
+        ];
+        let [error, right, ess, lineage] = OF[self.chosen()];
+        vec![if self.setup().course == PolicyCourse::Wings { right } else { error }, ess, lineage]
     }
 
     fn readouts(&self) -> Vec<Readout> {

@@ -6,7 +6,7 @@ use crate::{
     decimal::fixed,
     words::smoothing as words,
 };
-use fastslam_lab::experiment::smoothing::MOST;
+use fastslam_lab::experiment::smoothing::{MOST, STEPS};
 
 /// So many of five sweeps are to have a pose of their own.
 const FIVE: u32 = 5;
@@ -32,7 +32,8 @@ fn at_coalescence(model: &SmoothingModel) -> Verdict {
     let at = model.at();
     let distinct = |step: u32| model.before().and_then(|before| before.distinct.get(step as usize).copied());
     let said = words::ChipDistinct { n: &distinct(at).unwrap_or(0), at: &at }.say();
-    if model.coalescence() == Some(at) { Verdict::Done(said) } else { Verdict::NotYet(said) }
+    let off = model.coalescence().map_or(f64::NAN, |last| f64::from(last.abs_diff(at)) / f64::from(STEPS));
+    Verdict::new(off == 0.0, &[1.0 - off], said)
 }
 
 /// What the sweeps shown have at the step looked at.
@@ -45,7 +46,8 @@ fn drawn(model: &SmoothingModel) -> (u32, String) {
 /// Whether each of the five sweeps has a pose of its own.
 fn all_differ(model: &SmoothingModel) -> Verdict {
     let (n, said) = drawn(model);
-    if model.sweeps() == FIVE && n == FIVE { Verdict::Done(said) } else { Verdict::NotYet(said) }
+    let parts = [n, model.sweeps()].map(|count| f64::from(count) / f64::from(FIVE));
+    Verdict::new(model.sweeps() == FIVE && n == FIVE, &parts, said)
 }
 
 /// Whether all the sweeps have but few, on average over the steps.
@@ -55,5 +57,6 @@ fn sticks(model: &SmoothingModel) -> Verdict {
         f64::from(after.distinct[1..].iter().sum::<u32>()) / steps as f64
     });
     let said = words::ChipMean { n: &fixed(mean, 1) }.say();
-    if model.sweeps() == MOST && mean <= STUCK { Verdict::Done(said) } else { Verdict::NotYet(said) }
+    let swept = f64::from(model.sweeps()) / f64::from(MOST);
+    Verdict::new(model.sweeps() == MOST && mean <= STUCK, &[swept, STUCK / mean], said)
 }

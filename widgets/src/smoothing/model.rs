@@ -198,6 +198,10 @@ impl Model for SmoothingModel {
         self.recipe.prediction.outcome("first_after", self.first_of_all().map(f64::from))
     }
 
+    fn compared(&self) -> Vec<&'static str> {
+        vec!["early_after", "early_before", "distinct_after"]
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         told::readouts(self)
     }

@@ -30,12 +30,12 @@ fn seldom_passes(model: &UniversesModel) -> Verdict {
     let (_, passes) = model.read(ProposalKind::Motion);
     let m = TRIED[model.recipe().rank()];
     let said = words::ChipPasses { m: &m, passes: &fixed(100.0 * passes, 1) }.say();
-    if passes < SELDOM && m == 8 { Verdict::Done(said) } else { Verdict::NotYet(said) }
+    Verdict::new(passes < SELDOM && m == 8, &[SELDOM / passes], said)
 }
 
 /// Whether a single measurement-aware universe is too few, while some number of them is enough.
 fn one_is_not_enough(model: &UniversesModel) -> Verdict {
     let needs = model.sufficient(ProposalKind::Improved);
     let said = words::ChipNeeds { needs: &model.needs(ProposalKind::Improved) }.say();
-    if needs.is_some_and(|needs| needs > 1) { Verdict::Done(said) } else { Verdict::NotYet(said) }
+    Verdict::new(needs.is_some_and(|needs| needs > 1), &[needs.map_or(0.0, |needs| 0.5 * needs as f64)], said)
 }

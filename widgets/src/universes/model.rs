@@ -186,6 +186,10 @@ impl Model for UniversesModel {
         self.recipe.prediction.outcome("sufficient_motion", result)
     }
 
+    fn compared(&self) -> Vec<&'static str> {
+        vec!["share_motion", "share_aware", "passes_motion"]
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         let known = |x: f64| if self.hides() { f64::NAN } else { x };
         let needs = |proposal| known(self.sufficient(proposal).map_or(f64::NAN, |needs| needs as f64));

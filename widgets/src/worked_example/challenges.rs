@@ -24,10 +24,10 @@ pub(super) fn challenges() -> Vec<Challenge<WorkedExampleModel>> {
 fn ten_to_one(model: &WorkedExampleModel) -> Verdict {
     let [one, two] = [0, 1].map(|slot| model.example().weights.as_slice()[slot]);
     let said = words::ChipTimes { times: &plain(one / two, 3) }.say();
-    if one >= TIMES * two { Verdict::Done(said) } else { Verdict::NotYet(said) }
+    Verdict::new(one >= TIMES * two, &[one / (TIMES * two)], said)
 }
 
 fn resamples(model: &WorkedExampleModel) -> Verdict {
     let said = model.verdict();
-    if model.example().resamples { Verdict::Done(said) } else { Verdict::NotYet(said) }
+    Verdict::new(model.example().resamples, &[model.example().limit / model.example().ess], said)
 }

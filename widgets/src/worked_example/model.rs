@@ -69,6 +69,10 @@ impl Declared for WorkedExampleModel {
 }
 
 impl Model for WorkedExampleModel {
+    fn compared(&self) -> Vec<&'static str> {
+        vec!["w1", "w2", "ess"]
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         let WorkedExample { updates: [one, two], weights, ess, resamples, .. } = &self.example;
         let density = |name, title, update: &Update| {

@@ -130,8 +130,8 @@ fn texts_fit_at_every_width_in_states_of_every_kind() {
         let mut figure = figure(TAG, query);
         for pinned in [false, true] {
             if pinned {
-                let curves = figure.curves();
-                figure.haunt(&curves);
+                let curves = figure.model().curves();
+                figure.model_mut().haunt(curves.clone());
             }
             for width in (300..1400).step_by(37).map(f64::from) {
                 let scene = scene(&figure, width);

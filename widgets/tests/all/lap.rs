@@ -54,7 +54,7 @@ fn a_link_brings_back_the_whole_state() {
         lap("v=9&universes=9&seed=77&policy=always&scheme=residual&threshold=0.25&step=6&universe=4&truth=on");
     assert_eq!(
         figure.query(),
-        "v=9&universes=9&seed=77&policy=always&threshold=0.25&scheme=residual&step=6&universe=4&truth=on"
+        "v=9&universes=9&seed=77&policy=always&threshold=0.25&scheme=residual&step=6&universe=4&overlay=off&truth=on"
     );
     let other = lap(&format!("?{}", figure.query()));
     assert_eq!(state(&figure), state(&other));
@@ -71,7 +71,7 @@ fn a_bad_link_is_told_of_and_the_rest_of_it_applied() {
         .into_iter()
         .map(|e| e.message)
         .collect();
-    assert_eq!(figure.query(), "v=9&seed=5&universe=12");
+    assert_eq!(figure.query(), "v=9&seed=5&universe=12&overlay=off");
     for part in [
         "tempo",
         "universes = \"999\": must be a whole number from 1 to 256",
@@ -270,8 +270,19 @@ fn all_universes_are_shown_at_once_until_one_is_picked_and_again_when_it_is_let_
     assert!(!model.overlaid() && model.selected() == 7);
     model.pick(7);
     assert!(model.overlaid());
-    model.configure(&[("overlay".into(), "off".into())]);
+    // What the tick says is so: a chosen one takes it away, and the tick lets go of the chosen one.
+    let overlay = |model: &LapModel| model.value("overlay").unwrap();
+    model.pick(3);
+    assert_eq!((overlay(&model).as_str(), model.overlaid()), ("off", false));
+    model.configure(&[("overlay".into(), "on".into())]);
+    assert!(model.overlaid() && model.follows_best());
+    model.configure(&[("universe".into(), "5".into())]);
+    assert_eq!((overlay(&model).as_str(), model.selected()), ("off", 5));
+    model.configure(&[("universe".into(), "best".into()), ("overlay".into(), "off".into())]);
     assert!(!model.overlaid() && model.follows_best());
+    model.pick(2);
+    model.pick(2);
+    assert!(!model.overlaid(), "as it was before one was chosen");
 }
 
 /// What the reader must see when the loop closes: how far the universes are apart, slow motion, who died, and that it goes on.

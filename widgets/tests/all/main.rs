@@ -3,6 +3,7 @@
 mod challenges;
 mod claims;
 mod common;
+mod comparison;
 mod conditioning;
 mod doors;
 mod drive;

@@ -94,7 +94,10 @@ fn while_a_reader_is_asked_nothing_of_the_answer_is_shown_told_or_written() {
         assert!(!written || result.fract() == 0.0, "{tag}");
         let known = |figure: &Figure| rows(figure).iter().flatten().filter(|x| x.is_finite()).count();
         assert!(known(&asked) < known(&open), "{tag}: {}", known(&asked));
-        assert!(asked.curves().len() < open.curves().len(), "{tag}: a pin would keep the curve");
+        assert!(
+            asked.model().curves().concat().len() < open.model().curves().concat().len(),
+            "{tag}: a pin would keep the curve"
+        );
         assert_eq!(asked.model().step_count(), 0, "{tag}: nothing to play");
         let outcome = asked.model().prediction().unwrap();
         assert_eq!((outcome.guess, outcome.result, outcome.shown, outcome.waived), (None, None, false, false));
@@ -103,9 +106,9 @@ fn while_a_reader_is_asked_nothing_of_the_answer_is_shown_told_or_written() {
         assert_eq!((scene(&asked, 800.0), asked.describe()), begun, "{tag}");
         assert!(asked.describe().contains("Place your guess"), "{tag}: {}", asked.describe());
         // The pinned run of the same settings is kept back too.
-        let curves = open.curves();
+        let curves = open.model().curves();
         let marks = scene(&asked, 800.0).marks.len();
-        asked.haunt(&curves);
+        asked.model_mut().haunt(curves.clone());
         let haunted = scene(&asked, 800.0).marks.len();
         // A smoother's record is no secret, and of its own legend a mark and a word.
         assert!(haunted <= marks + 4, "{tag}: {marks} {haunted}");

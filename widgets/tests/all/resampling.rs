@@ -186,6 +186,7 @@ fn the_threshold_is_dragged_up_and_down_by_its_line_and_moved_by_arrow_keys() {
     assert_eq!([by(0.0, 100.0), by(0.0, -100.0)], ["1", "0"]);
     // The filters are those of the threshold, and the tree is of the policy as before.
     figure.model_mut().settle();
+    figure.compare(false);
     assert_eq!(state(&figure), state(&resampling(&figure.query())));
 }
 
@@ -287,13 +288,13 @@ fn what_is_read_at_a_step_does_not_depend_on_how_far_time_went() {
 
 #[test]
 fn a_link_brings_back_the_whole_state() {
-    let query = "v=3&wings=on&particles=7&seed=77&threshold=0.25&odometry=0.5&range=1.5&scheme=residual&policy=never&back=4&step=80&cursor=66";
+    let query = "v=4&wings=on&particles=7&seed=77&threshold=0.25&odometry=0.5&range=1.5&scheme=residual&policy=never&back=4&step=80&cursor=66";
     let mut figure = resampling(query);
     assert_eq!(figure.query(), query);
     assert_eq!(state(&figure), state(&resampling(&format!("?{}", figure.query()))));
-    assert_eq!(figure.load("v=3&cursor=3&step=9"), []);
+    assert_eq!(figure.load("v=4&cursor=3&step=9"), []);
     figure.model_mut().settle();
-    assert_eq!(figure.query(), "v=3&step=9&cursor=3");
+    assert_eq!(figure.query(), "v=4&step=9&cursor=3");
     for (name, value) in
         [("particles", "5"), ("back", "2"), ("wings", "on"), ("step", "100"), ("cursor", "now"), ("wings", "off")]
     {
@@ -306,9 +307,9 @@ fn a_link_brings_back_the_whole_state() {
 #[test]
 fn a_bad_link_is_told_of_and_the_rest_of_it_applied() {
     let mut figure = Figure::new("fastslam-resampling").unwrap();
-    let refused = figure.load("v=3&particles=65&step=91&cursor=-2&scheme=magic&tempo=3&back=0&seed=4&policy=neff");
+    let refused = figure.load("v=4&particles=65&step=91&cursor=-2&scheme=magic&tempo=3&back=0&seed=4&policy=neff");
     let messages: Vec<String> = refused.into_iter().map(|e| e.message).collect();
-    assert_eq!(figure.query(), "v=3&seed=4");
+    assert_eq!(figure.query(), "v=4&seed=4");
     for part in [
         "particles = \"65\": must be a whole number from 4 to 64",
         "step = \"91\": must be a whole number from 0 to 90",

@@ -152,9 +152,9 @@ const PINNED: [(&str, &str, &str, &str, f64); 9] = [
 fn the_curves_of_a_pinned_run_are_behind_those_of_the_one_shown() {
     let mut wrong = Vec::new();
     for (name, tag, pinned, query, width) in PINNED {
-        let curves = figure(tag, pinned).curves();
+        let curves = figure(tag, pinned).model().curves();
         let mut shown = figure(tag, query);
-        shown.haunt(&curves);
+        shown.model_mut().haunt(curves.clone());
         for (shade, theme) in [("light", Theme::Light), ("dark", Theme::Dark)] {
             let size = [width, shown.height(width)].map(|side| side as u32);
             shown.paint(size[0], size[1], 1.0, theme);
