@@ -32,6 +32,7 @@ export abstract class FigureElement extends HostedFigure {
     const { signal } = this.#disconnected
     this.theme.observe(signal)
     addEventListener('hashchange', () => this.followLink(), { signal })
+    addEventListener('scroll', () => this.frames.inView && this.tuck(), { signal, capture: true, passive: true })
     this.body.classList.toggle('pictured', this.ownPicture !== null)
     watchReached(this.#onReached)
     takeToPaper(this, signal)

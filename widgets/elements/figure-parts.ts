@@ -35,6 +35,7 @@ export abstract class FigureParts extends HTMLElement {
   #timeline = true // whether there are steps to play
 
   #introduced = '' // the language of the controls
+  #below = 0 // the part of the picture that stays in sight [css px]
   #compares = true // the setting before with that of now
 
   protected readonly words = new Words()
@@ -156,6 +157,7 @@ export abstract class FigureParts extends HTMLElement {
     if (this.#introduced !== frame.language) this.#introduce(frame)
     this.specs = frame.specs
     if (frame.layout) this.canvas.place(frame.layout)
+    this.#keepInSight(frame)
     if (frame.picture) this.canvas.show(frame.picture)
     showReadouts(this.readouts, frame.readouts, frame.language)
     this.chips.show(frame.chips, frame.specs, frame.values)
@@ -165,6 +167,21 @@ export abstract class FigureParts extends HTMLElement {
     this.controls!.stand(frame.rooms, this.#rooms)
     this.controls!.showValues(frame.specs, { ...frame.values, ...frame.instead })
     this.sentence.show(frame.difference || frame.sentence, `${frame.difference} ${frame.sentence}`.trim(), this.playing || frame.busy)
+  }
+
+  /** The part of the picture that stays in sight on a phone, whatever is set. */
+  #keepInSight({ gist: { y, h }, layout }: Frame): void {
+    if (!layout) return
+    this.panes.style.setProperty('--_low', `${y + h}px`)
+    this.panes.style.setProperty('--_tell', `${h}px`)
+    this.#below = layout.height - y - h
+  }
+
+  /** Controls that come up over the picture are seen, but for the part of it that stays. */
+  protected tuck(): void {
+    const { bottom } = this.stage.getBoundingClientRect()
+    const cut = Math.min(bottom - (this.controls?.transport.getBoundingClientRect().top ?? bottom), this.#below)
+    this.stage.style.clipPath = cut > 0 ? `inset(-20px -20px ${cut}px)` : ''
   }
 
   /** When the figure first tells what it is, in a language: its controls. */

@@ -34,6 +34,10 @@ impl View for ConditioningView {
         Layout::of(width, panels)
     }
 
+    fn gist(_model: &ConditioningModel, layout: &Layout, width: f64) -> Rect {
+        if layout.graph.h > 0.0 { layout.graph } else { Rect::new(0.0, 0.0, width, layout.height) }
+    }
+
     fn draw(&self, model: &ConditioningModel, layout: &Layout, scene: &mut Scene) {
         if layout.panels.has(GRAPH) {
             graph(scene, model, layout);
