@@ -3,7 +3,7 @@
 use super::{layout::Layout, model::ConditioningModel, view::ENTRY};
 use crate::{
     font::{self, Weight},
-    scene::{Anchor, Cells, Handle, Mark, Rect, Role, Scene, Shading, heading, text},
+    scene::{Anchor, Cells, Handle, Mark, Rect, Role, Scene, Shading, heading_if_fits, text},
     words::conditioning,
 };
 
@@ -54,7 +54,7 @@ fn scale(scene: &mut Scene, header: &Rect) {
         let area = Rect::new(end, y, 10.0, h);
         scene.marks.push(text(area, Anchor::Middle, 11.5, Weight::Regular, Role::Muted, label));
     }
-    heading(scene, &Rect::new(x, y, w - 94.0, h), (conditioning::covariance(), Role::Ink), "|ρ|");
+    heading_if_fits(scene, &Rect::new(x, y, w - 94.0, h), (conditioning::covariance(), Role::Ink), "|ρ|");
 }
 
 /// Names of the landmarks along the matrix: as many as fit, and always those of the entry.

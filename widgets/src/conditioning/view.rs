@@ -11,7 +11,8 @@ use crate::{
     font::Weight,
     panels::Panels,
     scene::{
-        Anchor, LINE, Mark, Point, Rect, Role, Room, Sample, Scene, closed, diamond, ellipse, heading, legend, text,
+        Anchor, LINE, Mark, Point, Rect, Role, Room, Sample, Scene, closed, diamond, ellipse, fitting, heading_if_fits,
+        legend,
     },
     view::{View, whole_step},
     words::conditioning,
@@ -78,7 +79,7 @@ fn graph(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
         Given::Path if model.is_sure() => (conditioning::path_sure_header(), conditioning::no_error(), Role::Accent),
         Given::Path => (conditioning::given_path(), conditioning::stands_alone(), Role::Accent),
     };
-    heading(scene, &layout.graph_header, (title, role), rest);
+    heading_if_fits(scene, &layout.graph_header, (title, role), rest);
     Graph::new(model, &layout.graph).draw(scene);
     names(scene, model, layout);
 }
@@ -126,17 +127,19 @@ fn notes(scene: &mut Scene, model: &ConditioningModel, area: &Rect) {
     };
     let (off, all) = (&model.map().off_block_nonzeros(), &model.off_block());
     let off_block = conditioning::OffBlocks { off, all }.say();
+    let off_block_short = conditioning::OffBlocksShort { off, all }.say();
     let size = 2 * model.drive().landmarks().len() + 3;
     let touched = conditioning::Touched { size: &size, entries: &model.ekf_entries() }.say();
+    let entry = model.entry_text();
     let lines = [
-        (model.entry_text(), Weight::SemiBold, Role::Accent),
-        (together, Weight::Regular, Role::Muted),
-        (off_block, Weight::SemiBold, Role::Ink),
-        (conditioning::touches().into(), Weight::Regular, Role::Muted),
-        (touched, Weight::SemiBold, Role::Ink),
+        ([&*entry, &entry], Weight::SemiBold, Role::Accent),
+        ([&*together, &together], Weight::Regular, Role::Muted),
+        ([&*off_block, &off_block_short], Weight::SemiBold, Role::Ink),
+        ([conditioning::touches(), conditioning::touches_short()], Weight::Regular, Role::Muted),
+        ([&*touched, &touched], Weight::SemiBold, Role::Ink),
     ];
-    for (k, (line, weight, role)) in lines.into_iter().enumerate() {
+    for (k, (lines, weight, role)) in lines.into_iter().enumerate() {
         let place = Rect::new(area.x, area.y + k as f64 * LINE, area.w, LINE);
-        scene.marks.push(text(place, Anchor::Start, 12.0, weight, role, line));
+        scene.marks.push(fitting(place, Anchor::Start, 12.0, weight, role, &lines));
     }
 }

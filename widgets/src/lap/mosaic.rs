@@ -10,7 +10,7 @@ use crate::{
     font::{self, Weight},
     model::Model,
     order::ascending,
-    scene::{Anchor, Mark, Rect, Region, Role, Sample, Scene, Shading, cross, heading, legend, text},
+    scene::{Anchor, Mark, Rect, Region, Role, Sample, Scene, Shading, cross, heading_if_fits, legend, text},
     words::{common, lap},
 };
 
@@ -43,6 +43,13 @@ fn extinct_cross(area: &Rect) -> [Mark; 2] {
     [Mark::Fill { area: *area, role: Role::Paper }, Mark::Lines { lines, width, dash: None, role: Role::Extinct }]
 }
 
+/// What a resampling did, as long as there is room for \[css px\].
+fn resampled(dead: usize, m: usize, room: f64) -> String {
+    let long = lap::Resampled { dead: &dead, m: &m }.say();
+    let fits = font::measure(&long, 13.5, Weight::SemiBold) <= room;
+    if fits { long } else { lap::DiedOf { dead: &dead, m: &m }.say() }
+}
+
 /// Up to [`TILES`] universes, each in a tile that can be chosen.
 pub fn mosaic(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     let (lap, selected) = (model.lap(), model.selected());
@@ -52,13 +59,13 @@ pub fn mosaic(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     let name = common::UniverseCount { m: &m }.say();
     let (title, role, rest) = match &model.report().ancestors {
         Some(_) if extinct.is_empty() => (name, Role::Ink, lap::none_died_out().into()),
-        Some(_) => (lap::Resampled { dead: &extinct.len(), m: &m }.say(), Role::Extinct, String::new()),
+        Some(_) => (resampled(extinct.len(), m, layout.mosaic_header.w), Role::Extinct, String::new()),
         None if m == 1 => (name, Role::Ink, lap::only_hypothesis().into()),
         None if model.step() == 0 => (name, Role::Ink, lap::all_alike().into()),
         None if slots.len() < m => (name, Role::Ink, lap::Heaviest { n: &slots.len() }.say()),
         None => (name, Role::Ink, lap::map_each().into()),
     };
-    heading(scene, &layout.mosaic_header, (&title, role), &rest);
+    heading_if_fits(scene, &layout.mosaic_header, (&title, role), &rest);
 
     let tiles = Tiles::fit(&layout.mosaic.inset(RING), slots.len(), ASPECT);
     let width = tiles.size[0];

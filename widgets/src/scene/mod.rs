@@ -29,7 +29,7 @@ pub use rect::assert_apart;
 pub use scale_bar::{bar, scale_bar};
 pub use shape::{NINE_TENTHS, closed, ellipse, robot};
 pub use stack::Stack;
-pub use text::{Anchor, Text, heading, heading_if_fits, n_eff, text};
+pub use text::{Anchor, Text, fitting, heading, heading_if_fits, n_eff, text};
 
 use serde::Serialize;
 

@@ -70,12 +70,22 @@ pub fn text(area: Rect, anchor: Anchor, size: f64, weight: Weight, role: Role, t
     Mark::Text(Text::new(area, anchor, size, weight, role, text))
 }
 
+/// The first of these texts that has room in its box; where none has, the last, shortened.
+pub fn fitting(area: Rect, anchor: Anchor, size: f64, weight: Weight, role: Role, texts: &[&str]) -> Mark {
+    let fits = |text: &&&str| font::measure(text, size, weight) <= area.w;
+    let chosen = texts.iter().find(fits).or(texts.last()).copied().unwrap_or_default();
+    text(area, anchor, size, weight, role, chosen)
+}
+
 /// A heading: a strong part, and more after it, in one line.
 pub fn heading(scene: &mut Scene, area: &Rect, strong: (&str, Role), rest: &str) {
     let size = 13.5;
     let line = Text::new(*area, Anchor::Start, size, Weight::SemiBold, strong.1, strong.0);
     let used = line.width() + font::measure("  ", size, Weight::Regular);
     scene.marks.push(Mark::Text(line));
+    if rest.is_empty() {
+        return;
+    }
     let rest_area = Rect::new(area.x + used, area.y, (area.w - used).max(0.0), area.h);
     scene.marks.push(text(rest_area, Anchor::Start, 12.5, Weight::Regular, Role::Muted, rest));
 }

@@ -20,5 +20,6 @@ mod proposal;
 mod resampling;
 mod smoothing;
 mod trace;
+mod whole;
 mod words;
 mod worked_example;

@@ -16,7 +16,7 @@ use std::{collections::BTreeMap, fs, path::Path};
 const LAP: &str = "fastslam-lap";
 
 /// A catalogue as the page hands it to a figure.
-fn lines(language: &str) -> String {
+pub fn lines(language: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("words").join(format!("{language}.json"));
     let sections: BTreeMap<String, BTreeMap<String, String>> =
         serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
