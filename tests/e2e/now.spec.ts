@@ -219,6 +219,7 @@ test('the slider of what a prediction is about moves with its run', async ({ pag
 
 test('what is on its way dims all that is old: picture, sentence, numbers and how near a goal is', async ({ page }) => {
   const lap = await openLap(page, 'universes="64" step="0"')
+  await lap.openNumbers()
   const dimmed = (seek: boolean) =>
     lap.element.evaluate(async (element, seek) => {
       const figure = element as FigureElement

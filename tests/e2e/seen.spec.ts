@@ -15,7 +15,8 @@ const below = (page: Page, body: string) => openCourse(page, `<div style="height
 /** Scrolls so far that this share of the picture is in the window, at its lower edge, or its upper one. */
 async function show(figure: Figure, share: number, edge: 'lower' | 'upper' = 'lower'): Promise<void> {
   await figure.element.evaluate(
-    (element, [share, edge]) => {
+    async (element, [share, edge]) => {
+      await customElements.whenDefined(element.localName)
       const { top, bottom, height } = element.shadowRoot!.querySelector('.stage')!.getBoundingClientRect()
       scrollBy(0, edge === 'lower' ? top + Number(share) * height - innerHeight : bottom - Number(share) * height)
     },

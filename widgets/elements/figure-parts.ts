@@ -172,9 +172,11 @@ export abstract class FigureParts extends HTMLElement {
   /** The part of the picture that stays in sight on a phone, whatever is set. */
   #keepInSight({ gist: { y, h }, layout }: Frame): void {
     if (!layout) return
-    this.panes.style.setProperty('--_low', `${y + h}px`)
-    this.panes.style.setProperty('--_tell', `${h}px`)
-    this.#below = layout.height - y - h
+    const below = layout.height - y - h
+    if (below === this.#below) return
+    this.#below = below
+    for (const [name, length] of Object.entries({ low: y + h, tell: h, below })) this.panes.style.setProperty(`--_${name}`, `${length}px`)
+    this.tuck()
   }
 
   /** Controls that come up over the picture are seen, but for the part of it that stays. */

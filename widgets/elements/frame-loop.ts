@@ -36,6 +36,12 @@ export class FrameLoop {
     document.addEventListener('visibilitychange', () => this.wake(), { signal })
   }
 
+  /** The picture is another size now, and whether it is in view is told anew. */
+  lookAgain(): void {
+    this.#views.unobserve(this.stage)
+    this.#views.observe(this.stage)
+  }
+
   disconnect(): void {
     this.#approach.disconnect()
     this.#views.disconnect()

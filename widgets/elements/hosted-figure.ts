@@ -34,6 +34,7 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
   #off: { step: number; playing: boolean } | undefined // what is shown off paper
   #since = Infinity // the step from which on all was played and looked at
   #watched = false // to the end
+  #pictured = false
   #catchingUp = false
 
   protected readonly events = new Events(this)
@@ -41,6 +42,7 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
   protected readonly frames = new FrameLoop(this, this.stage, {
     approach: () => (this.approached(), this.reconsider()),
     seen: on => {
+      if (on && !this.#pictured) return // a place that is kept free is no picture yet
       this.playback.onSeen(on)
       this.refresh()
     },
@@ -386,6 +388,10 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
   protected show(frame: Frame | undefined): void {
     if (!frame) return
     this.present(frame)
+    if (!this.#pictured && frame.picture) {
+      this.#pictured = true
+      this.frames.lookAgain()
+    }
     const { step, last, watch } = frame
     const atEnd = watch !== undefined && last > 0 && step === last && !frame.busy
     if (atEnd && this.#since <= watch.from) this.#watched = true

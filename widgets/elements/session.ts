@@ -325,11 +325,13 @@ export class Session {
     const natural = Math.round(this.figure.height(scene) * scale)
     if (natural > height) {
       const fitting = (wide: number) => Math.min(fontScale, room / wide, height / this.figure.height(wide))
-      // Other widths have other layouts, so the one is looked for that can be shown largest. What would be too small to read is scrolled.
-      let best = LEGIBLE
-      for (let wide = 0.5 * scene, most = room / LEGIBLE; wide <= most; wide += 10) {
+      // Other widths have other layouts, so the one is looked for that can be shown largest: in its letters, and in the room that it takes of
+      // that there is. What would be too small to read is scrolled.
+      let [best, usual] = [0, scene]
+      for (let wide = 0.5 * usual, most = room / LEGIBLE; wide <= most; wide += 10) {
         const found = fitting(wide)
-        if (found >= best) [scene, scale, best] = [wide, found, found]
+        const large = found * Math.min(1, (found * wide) / room)
+        if (found >= LEGIBLE && large >= best) [scene, scale, best] = [wide, found, large]
       }
     }
     const width = natural > height ? Math.floor(Math.min(room, scene * scale)) : undefined
