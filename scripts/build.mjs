@@ -54,8 +54,8 @@ async function buildProgram(program) {
   return optimise(programFile(program))
 }
 
-/** The one program that exports all that any of them does. */
-const gluedAs = 'bags'
+/** The program that asks most of JavaScript; all export the same. */
+const gluedAs = 'page'
 
 /** What programs are made from. */
 const sources = ['Cargo.toml', 'Cargo.lock', 'src', 'lab', 'widgets/Cargo.toml', 'widgets/build.rs', 'widgets/README.md', 'widgets/src', 'widgets/words', 'widgets/fonts']

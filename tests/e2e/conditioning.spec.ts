@@ -20,14 +20,17 @@ async function inMatrix(figure: Figure, across: number, down: number): Promise<{
     await figure.box('column').fill(String(column))
     await figure.box('column').press('Enter')
     await figure.settled()
-    const box = (await figure.handle('entry').boundingBox())!
-    return [box.x + box.width / 2, box.y + box.height / 2] as const
+    const [box, canvas] = [(await figure.handle('entry').boundingBox())!, (await figure.canvas.boundingBox())!]
+    return [box.x + box.width / 2 - canvas.x, box.y + box.height / 2 - canvas.y] as const
   }
   const last = Number(await figure.box('row').getAttribute('max'))
-  await figure.canvas.evaluate(canvas => canvas.scrollIntoView({ block: 'center', behavior: 'instant' }))
   const [x0, y0] = await middle(1, 1)
   const [x1, y1] = await middle(last, last)
-  return { x: x0 + across * (x1 - x0), y: y0 + down * (y1 - y0) }
+  // Where nothing of the picture is scrolled over.
+  await figure.element.evaluate(element => element.scrollIntoView({ block: 'start', behavior: 'instant' }))
+  await figure.settled()
+  const canvas = (await figure.canvas.boundingBox())!
+  return { x: canvas.x + x0 + across * (x1 - x0), y: canvas.y + y0 + down * (y1 - y0) }
 }
 
 test.describe('at rest', () => {

@@ -164,7 +164,7 @@ test('each figure has a page with its picture', async ({ page, request }) => {
 
 test('a frame of an earlier version shows what the link of that version shows, and tells nobody of changes; one without a version is pinned, too', async ({ page }) => {
   // Of the changes, some are of defaults and some are told to whoever comes by a link.
-  for (const [name, code] of [['lap', 'v=1&universes=8&step=3'], ['conditioning', 'v=1&odometry=0'], ['proposal', 'v=2&run=on'], ['lap', 'universes=4&step=3'], ['lap', 'v=latest&universes=4']] as const) {
+  for (const [name, code] of [['lap', 'v=1&universes=8&step=3'], ['conditioning', 'v=1&odometry=0'], ['proposal', 'v=2&run=on'], ['lap', 'universes=4&step=3'], ['lap', 'v=latest&universes=4&step=86']] as const) {
     await page.goto(`./embed.html?figure=${name}&${code}`)
     const figure = new Figure(page, `fastslam-${name}`)
     await figure.live()
@@ -234,7 +234,7 @@ test('the menu copies code that works as it is: element, iframe, MyST and Python
   const iframe = await copied('Copy code: iframe')
   expect(iframe).toMatch(/embed\.html\?figure=lap&amp;v=9&amp;universes=5&amp;step=6&amp;truth=on&amp;decimal=comma"/)
   expect(await copied('Copy code: MyST')).toBe(
-    `\`\`\`{anywidget} ${baseURL}fastslam-anywidget.js\n{\n  "figure": "lap",\n  "v": "8",\n  "universes": "5",\n  "step": "6",\n  "truth": "on",\n  "decimal": "comma"\n}\n\`\`\``,
+    `\`\`\`{anywidget} ${baseURL}fastslam-anywidget.js\n{\n  "figure": "lap",\n  "v": "9",\n  "universes": "5",\n  "step": "6",\n  "truth": "on",\n  "decimal": "comma"\n}\n\`\`\``,
   )
   expect(await copied('Copy code: Python')).toBe('from fastslam_widgets import FastslamLap\n\nFastslamLap(v=9, universes=5, step=6, truth=True, decimal="comma")')
 

@@ -35,7 +35,7 @@ test('it opens before the first iteration with a ring that does not close; by it
   await figure.scrubTo(await figure.last())
   expect(await number(figure, 'rms')).toBeLessThan(0.1)
   await expect(figure.sentence).toContainText('the path is off by 0.07 m')
-  expect(await figure.state()).toBe('v=2&step=60')
+  expect(await figure.state()).toBe('v=3&step=60')
   await figure.scrub.focus()
   await page.keyboard.press('Home')
   await figure.settled()

@@ -87,7 +87,7 @@ for (const [particles, repeats, more] of [['5000', 12, {}], ['20000', 6, breadth
     expect(await number(figure, 'repeats')).toBe(repeats)
     const [frames, told] = await page.evaluate(particles => {
       const { slices, repeats } = window as Window & { slices?: number; repeats?: Set<string> }
-      return [slices!, [...repeats!].filter(text => text.includes(`${particles} particles`)).length]
+      return [slices!, [...repeats!].filter(text => text.includes(`→ ${particles}.`)).length]
     }, particles)
     expect(frames, 'the page went on').toBeGreaterThan(20)
     expect(told, 'of the repeats so far').toBeGreaterThan(2)

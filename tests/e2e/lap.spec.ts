@@ -183,6 +183,7 @@ test.describe('at rest', () => {
     }
     expect(Number(await list.inputValue())).toBeGreaterThanOrEqual(0)
     await list.selectOption('best')
+    await lap.element.getByRole('checkbox', { name: 'Overlay all' }).click() // whoever picks one wants to see it alone
     await lap.settled()
     expect(await lap.picture()).toBe(best)
     await lap.openSettings()

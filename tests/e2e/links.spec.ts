@@ -22,7 +22,7 @@ async function addFigure(page: Page, attributes: Record<string, string>): Promis
 
 test('a link of a later version says so, and what this page knows of it is shown; another is followed when the address changes, and plays nothing', async ({ page }) => {
   const lap = await new Figure(page, 'fastslam-lap').alone('#fastslam-lap?v=10&universes=8&step=3')
-  await expect(lap.alert).toContainText('version 9 of the figure')
+  await expect(lap.alert).toContainText('version 10 of the figure')
   await lap.settled()
   expect(await lap.position()).toBe(3)
   await lap.openSettings()
@@ -61,6 +61,8 @@ test('a copied link opens the very same state', async ({ page, context }) => {
   await expect(other.box('universes')).toHaveValue('8')
   await expect(other.box('odometry')).toHaveValue('1.35')
   await expect(other.element.locator('select[name=universe]')).toHaveValue('3')
+  await lap.menu('Compare with nothing') // what was set before is in no link
+  await lap.settled()
   expect(await other.picture()).toBe(await lap.picture())
 })
 

@@ -36,7 +36,7 @@ test('it says what it shows before anyone touches it, and has no timeline; of a 
 test('the landmark is dragged by the mouse, with a picture at every frame, and moved by keyboard, coarsely with Shift and finely with Alt', async ({ page }) => {
   const figure = await open(page)
   await figure.openSettings()
-  const numbers = async () => [await figure.readouts(), await figure.sentence.textContent()]
+  const numbers = async () => [await figure.readouts(), await figure.element.evaluate(element => element.shadowRoot!.querySelector('.numbers')!.textContent)]
   const [before, picture] = [await numbers(), await figure.picture()]
   const { x, y } = await middle(figure, 'landmark')
   await page.mouse.move(x + 3, y - 2)
@@ -132,7 +132,8 @@ test.describe('on a phone', () => {
   test('a finger drags the landmark and not the page, and elsewhere the page and not the landmark', async ({ page }) => {
     const figure = await open(page)
     await figure.openSettings()
-    await figure.canvas.evaluate(canvas => canvas.scrollIntoView({ block: 'start', behavior: 'instant' }))
+    // Where nothing of the picture is scrolled over.
+    await figure.element.evaluate(element => element.scrollIntoView({ block: 'start', behavior: 'instant' }))
     await figure.settled()
     expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(380)
     const client = await page.context().newCDPSession(page)

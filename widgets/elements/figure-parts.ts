@@ -166,7 +166,7 @@ export abstract class FigureParts extends HTMLElement {
     this.showPlayback(frame)
     this.controls!.stand(frame.rooms, this.#rooms)
     this.controls!.showValues(frame.specs, { ...frame.values, ...frame.instead })
-    this.sentence.show(frame.difference || frame.sentence, `${frame.difference} ${frame.sentence}`.trim(), this.playing || frame.busy)
+    this.sentence.show(frame.told, `${frame.difference} ${frame.sentence}`.trim(), this.playing || frame.busy)
   }
 
   /** The part of the picture that stays in sight on a phone, whatever is set. */

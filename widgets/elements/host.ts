@@ -158,7 +158,10 @@ export interface Frame {
   handles: Handle[]
   rooms: Room[]
   chips: Chip[]
+  /** What is shown. */
   sentence: string
+  /** What stands below the picture: where a number was changed what it changed, else that. */
+  told: string
   /** What is different from the setting before, at the same step; empty where nothing is, or nobody wants to know. */
   difference: string
   /** What controls show instead of the values, where a prediction was run. */

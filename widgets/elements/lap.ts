@@ -24,12 +24,12 @@ export class FastslamLap extends ComparedFigure {
     super()
     const root = this.shadowRoot!
     root.adoptedStyleSheets = [...root.adoptedStyleSheets, Drive.sheet]
-    this.panes.append(this.#drive.element)
   }
 
   protected override introduced(): void {
     super.introduced()
     this.controls!.main.append(this.#drive.opener)
+    this.controls!.main.before(this.#drive.element) // in whose place it comes
   }
 
   protected override takeOption(name: string): void {

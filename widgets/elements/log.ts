@@ -186,7 +186,7 @@ export class FastslamLog extends FigureElement {
     if (this.controls) return
     const { params: specs, readouts, describe: sentence } = AT_REST
     const values = Object.fromEntries(specs.map(spec => [spec.name, spec.default]))
-    const rest = { done: 0, language: 'en', specs, values, query: '', step: 0, target: 0, last: 0, watch: undefined, pace: 1, busy: false, readouts, handles: [], rooms: [], sentence, difference: '', instead: {}, main: '', changed: false }
+    const rest = { done: 0, language: 'en', specs, values, query: '', step: 0, target: 0, last: 0, watch: undefined, pace: 1, busy: false, readouts, handles: [], rooms: [], sentence, told: sentence, difference: '', instead: {}, main: '', changed: false }
     const frame: Frame = { ...rest, chips: AT_REST.chips, trace: undefined, prediction: null, layout: undefined, gist: { x: 0, y: 0, w: 0, h: 0 }, picture: undefined, run: { phase: 'empty', log: '', reading: false, left: NaN, unfit: undefined } }
     this.present(frame)
     if (this.wanted) return // where more is on its way, that will be told

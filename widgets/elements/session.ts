@@ -3,7 +3,8 @@ import { clampedStep, type Answer, type Beginning, type Command, type Frame, typ
 import { locked } from './options'
 import { isRefusal, type Chip, type Handle, type Outcome, type ParamSpec, type Readout, type Room, type Shell, type ShellFigure, type TraceLine } from './shell'
 
-const LEGIBLE = 0.5 // a picture is not made smaller than that to fit, whatever the size of its letters
+const LEGIBLE = 0.6 // a picture is not made smaller than that to fit, whatever the size of its letters
+const WORTH = 0.25 // … nor so narrow that its letters, times the share of the room's width that it takes, are less
 
 export class Session {
   protected readonly figure: ShellFigure
@@ -175,6 +176,7 @@ export class Session {
       rooms: figure.rooms(this.#size?.canvas.css ?? 0) as Room[],
       chips: figure.chips() as Chip[],
       sentence: figure.describe(),
+      told: figure.told(),
       difference: figure.difference(),
       main: figure.main_readout(),
       instead: Object.fromEntries(new URLSearchParams(figure.instead())),
@@ -323,18 +325,19 @@ export class Session {
     const { room, height, fontScale } = this.#size
     let [scene, scale] = [room / fontScale, fontScale]
     const natural = Math.round(this.figure.height(scene) * scale)
+    let best = WORTH
     if (natural > height) {
       const fitting = (wide: number) => Math.min(fontScale, room / wide, height / this.figure.height(wide))
       // Other widths have other layouts, so the one is looked for that can be shown largest: in its letters, and in the room that it takes of
       // that there is. What would be too small to read is scrolled.
-      let [best, usual] = [0, scene]
+      const usual = scene
       for (let wide = 0.5 * usual, most = room / LEGIBLE; wide <= most; wide += 10) {
         const found = fitting(wide)
         const large = found * Math.min(1, (found * wide) / room)
-        if (found >= LEGIBLE && large >= best) [scene, scale, best] = [wide, found, large]
+        if (found >= LEGIBLE && large > best) [scene, scale, best] = [wide, found, large]
       }
     }
-    const width = natural > height ? Math.floor(Math.min(room, scene * scale)) : undefined
+    const width = best > WORTH ? Math.floor(Math.min(room, scene * scale)) : undefined
     return (this.#layout = { scale, width, height: Math.round(this.figure.height(scene) * scale), natural })
   }
 

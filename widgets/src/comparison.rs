@@ -51,13 +51,22 @@ impl Before {
         self.setup.iter().any(|(rank, before)| now[*rank].1 != *before)
     }
 
+    /// Whether nothing else but numbers is set otherwise: what they change, numbers tell. Another choice is another subject, which the
+    /// figure's own sentence explains.
+    pub fn in_numbers(&self, model: &dyn Model) -> bool {
+        let (specs, now) = (model.params(), model.values());
+        let mut changed = self.setup.iter().filter(|(rank, before)| now[*rank].1 != *before);
+        changed.all(|(rank, _)| matches!(specs[*rank].kind, Kind::Integer | Kind::Number))
+    }
+
     /// What is set otherwise now and, at the same step or at both ends, what has come of it. Of another step nothing is told: what is
-    /// different there is the step.
+    /// different there is the step; nor where a reader is asked to predict it.
     pub fn told(&self, model: &dyn Model) -> String {
-        if model.step() != self.step && !(self.ended && ended(model)) {
+        let (specs, now) = (model.params(), model.values());
+        let asked = now.iter().any(|(name, value)| *name == "predict" && value == "on");
+        if asked || (model.step() != self.step && !(self.ended && ended(model))) {
             return String::new();
         }
-        let (specs, now) = (model.params(), model.values());
         let mut changes = Vec::new();
         for (rank, before) in &self.setup {
             let (spec, now) = (&specs[*rank], &now[*rank].1);

@@ -251,6 +251,17 @@ impl Figure {
         self.written(before.map_or(String::new(), |before| before.told(self.model())))
     }
 
+    /// What stands below the picture: where a number was changed what it changed, else what is shown.
+    pub fn told(&self) -> String {
+        let before = self.comparison.before.as_ref();
+        let difference = if before.is_some_and(|before| before.in_numbers(self.model())) {
+            self.difference()
+        } else {
+            String::new()
+        };
+        if difference.is_empty() { self.describe() } else { difference }
+    }
+
     /// The part of the picture that tells most where there is no room for the whole, in a figure of this width \[css px\].
     pub fn gist(&self, width: f64) -> Rect {
         self.shown.gist(width)

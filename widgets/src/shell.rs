@@ -9,8 +9,17 @@ use crate::{
     paint::Theme,
     registry,
     scene::{Rect, Room},
+    unread,
+    words::Language,
 };
-use core::cell::RefCell;
+use core::{
+    cell::RefCell,
+    ops::{Deref, DerefMut},
+};
+use fastslam::{
+    geometry::Pose2,
+    log::{BagOptions, BagReader, LogError, write_json_lines, write_path},
+};
 use fastslam_lab::experiment::{ErrorSummary, policy_counts::Fraction};
 use js_sys::{Array, Error, JSON, Object};
 use serde::Serialize;
@@ -74,23 +83,51 @@ pub fn spread(errors: &[f64]) -> Vec<f64> {
     vec![median, low, high, p90, worst]
 }
 
-/// A reader of ROS bags: what it makes of one is a log that the figure of logs opens.
-#[cfg(feature = "bags")]
-#[wasm_bindgen]
-pub struct Bag {
-    reader: fastslam::log::BagReader,
-    language: crate::words::Language,
+/// What only some programs have. All export the same, so that one glue serves them all: of what another program has, the compiler is told
+/// here that nothing ever comes this far, and leaves out all that would be done with it.
+struct Held<T, const HERE: bool>(T);
+
+impl<T, const HERE: bool> Held<T, HERE> {
+    fn given(self) -> T {
+        assert!(HERE);
+        self.0
+    }
 }
 
-#[cfg(feature = "bags")]
+impl<T, const HERE: bool> Deref for Held<T, HERE> {
+    type Target = T;
+
+    fn deref(&self) -> &T {
+        assert!(HERE);
+        &self.0
+    }
+}
+
+impl<T, const HERE: bool> DerefMut for Held<T, HERE> {
+    fn deref_mut(&mut self) -> &mut T {
+        assert!(HERE);
+        &mut self.0
+    }
+}
+
+const BAGS: bool = cfg!(feature = "bags");
+
+/// A reader of ROS bags: what it makes of one is a log that the figure of logs opens.
+#[wasm_bindgen]
+pub struct Bag {
+    reader: Held<BagReader, BAGS>,
+    language: Language,
+}
+
 #[wasm_bindgen]
 impl Bag {
     /// For a bag of which nothing has been read, with the topics that were chosen, and the catalogue of the language in which it is told
     /// what is wrong with it, as `Figure.set_words` takes it.
     #[wasm_bindgen(constructor)]
     pub fn new(scan_topic: Option<String>, odometry_topic: Option<String>, catalogue: &str) -> Bag {
-        let options = fastslam::log::BagOptions { scan_topic, odometry_topic, lenient: true };
-        Bag { reader: fastslam::log::BagReader::new(options), language: crate::words::Language::learnt(catalogue) }
+        assert!(BAGS);
+        let options = BagOptions { scan_topic, odometry_topic, lenient: true };
+        Bag { reader: Held(BagReader::new(options)), language: Language::learnt(catalogue) }
     }
 
     /// The next bytes; throws a `FigureError` if they cannot be read.
@@ -107,32 +144,30 @@ impl Bag {
     /// The log, as JSON lines; throws a `FigureError` that says what is missing.
     pub fn finish(self) -> Result<Vec<u8>, Error> {
         let _spoken = self.language.spoken();
-        let log = self.reader.finish().map_err(|error| thrown(bad_bag(&error)))?;
-        Ok(fastslam::log::write_json_lines(&crate::unread::in_words(log)).into_bytes())
+        let log = self.reader.given().finish().map_err(|error| thrown(bad_bag(&error)))?;
+        Ok(write_json_lines(&unread::in_words(log)).into_bytes())
     }
 }
 
 /// Poses, each as its time \[s\], x \[m\], y \[m\] and heading \[rad\], as a `nav_msgs/Path` in an MCAP file: what `fastslam log --path-mcap`
 /// writes. Throws a `FigureError` if it cannot be written.
-#[cfg(feature = "bags")]
 #[wasm_bindgen]
 pub fn path_mcap(poses: &[f64]) -> Result<Vec<u8>, Error> {
+    assert!(BAGS);
     let (poses, _) = poses.as_chunks();
-    let path: Vec<_> =
-        poses.iter().map(|&[time, x, y, theta]| (time, fastslam::geometry::Pose2 { x, y, theta })).collect();
+    let path: Vec<_> = poses.iter().map(|&[time, x, y, theta]| (time, Pose2 { x, y, theta })).collect();
     let refused = |message| thrown(FigureError { parameter: "file".into(), message });
-    fastslam::log::write_path(&path).map_err(refused)
+    write_path(&path).map_err(refused)
 }
 
-#[cfg(feature = "bags")]
-fn bad_bag(error: &fastslam::log::LogError) -> FigureError {
-    FigureError { parameter: "file".into(), message: crate::unread::problem(&error.problem) }
+fn bad_bag(error: &LogError) -> FigureError {
+    FigureError { parameter: "file".into(), message: unread::problem(&error.problem) }
 }
 
 /// One figure on a page; to be freed when it leaves the page.
 #[wasm_bindgen]
 pub struct Figure {
-    figure: figure::Figure,
+    figure: Held<figure::Figure, { !registry::FIGURES.is_empty() }>,
     readouts: RefCell<Told<Readout>>,
     chips: RefCell<Told<Chip>>,
     handles: RefCell<Told<PlacedHandle>>,
@@ -159,7 +194,7 @@ impl Figure {
         fn nothing<T>() -> RefCell<Told<T>> {
             RefCell::new(Told { last: Vec::new(), array: Array::new() })
         }
-        Self { figure, readouts: nothing(), chips: nothing(), handles: nothing(), rooms: nothing() }
+        Self { figure: Held(figure), readouts: nothing(), chips: nothing(), handles: nothing(), rooms: nothing() }
     }
 }
 
@@ -322,6 +357,11 @@ impl Figure {
     /// What is different from the setting before, at the same step; empty where nothing is.
     pub fn difference(&self) -> String {
         self.figure.difference()
+    }
+
+    /// What stands below the picture: the difference in numbers, or what is shown.
+    pub fn told(&self) -> String {
+        self.figure.told()
     }
 
     /// A parameter whose control shows another value than was set: `name=value`, or nothing.

@@ -91,7 +91,6 @@ pub fn remark(remark: &Remark) -> String {
 }
 
 /// The log with all that was noted of it in words, which can be written and read by a program that knows neither.
-#[cfg(feature = "bags")]
 pub fn in_words(mut log: fastslam::log::LaserLog) -> fastslam::log::LaserLog {
     let notes = &mut log.notes;
     notes.remarks = notes.remarks.iter().map(|noted| Remark::Told(remark(noted))).collect();

@@ -86,6 +86,28 @@ fn whatever_a_reader_sets_is_told_in_every_figure_with_the_numbers_that_matter()
 }
 
 #[test]
+fn what_a_number_changes_stands_below_the_picture_and_another_choice_is_explained() {
+    let mut figure = figure("fastslam-proposal", "");
+    assert_eq!(figure.told(), figure.describe());
+    set(&mut figure, "range-std", "0.1");
+    assert_eq!(figure.told(), figure.difference());
+    set(&mut figure, "landmarks", "pair");
+    assert!(figure.difference().starts_with("Landmarks one"), "{}", figure.difference());
+    assert_eq!(figure.told(), figure.describe());
+}
+
+#[test]
+fn nothing_is_told_of_what_a_reader_is_asked_to_predict() {
+    let mut figure = figure("fastslam-proposal", "");
+    set(&mut figure, "range-std", "0.1");
+    assert_ne!(figure.difference(), "");
+    for (name, value) in [("predict", "on"), ("range-std", "0.2"), ("run", "on")] {
+        set(&mut figure, name, value);
+        assert_eq!((figure.difference(), figure.told()), (String::new(), figure.describe()), "{name}");
+    }
+}
+
+#[test]
 fn a_handle_is_a_control_and_what_a_pointer_only_looks_at_is_none() {
     let mut figure = figure("fastslam-proposal", "");
     let width = 800.0;
