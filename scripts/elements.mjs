@@ -10,7 +10,7 @@ import { programs } from './registry.mjs'
  * @typedef {import('../widgets/elements/shell').ParamSpec} ParamSpec
  * @typedef {import('../widgets/elements/shell').Readout} Readout
  * @typedef {import('../widgets/elements/shell').Chip} Chip
- * @typedef {{ tag: string, name: string, className: string, title: string, describe: string, params: ParamSpec[], readouts: Readout[], chips: Chip[], panels: string[], version: number, unsaid: number }} FigureInfo
+ * @typedef {{ tag: string, name: string, className: string, title: string, describe: string, params: ParamSpec[], readouts: Readout[], chips: Chip[], prediction: string | null, handles: boolean, panels: string[], version: number, unsaid: number }} FigureInfo
  */
 
 const told = cache('figures.json')
@@ -117,8 +117,52 @@ const events = [
   { name: 'fastslam-guess', type: 'CustomEvent<GuessDetail>', help: 'A prediction was judged: guess and result stand side by side; or the reader has waived it.' },
 ]
 
-const parts =
-  'figure title stage canvas chips chip transport button primary play rewind step-back step reset undo scrub seed controls control notices notice sentence numbers readouts readout settings menu toggle handle count again stop inputs verdict watch'.split(' ')
+/** What a page may style of every figure, and what it is. */
+const parts = {
+  figure: 'All of it.',
+  title: 'Its title.',
+  chips: 'The row of challenges.',
+  chip: 'A challenge.',
+  verdict: 'What a challenge asks, and how near that is.',
+  stage: 'What the picture stands in.',
+  canvas: 'The picture.',
+  transport: 'The row that plays it.',
+  button: 'Every button.',
+  primary: 'The button that matters most.',
+  play: 'Plays, or pauses.',
+  rewind: 'Goes to the first step.',
+  'step-back': 'Goes one step back.',
+  step: 'Goes one step on.',
+  reset: 'Goes back to what the author set.',
+  undo: 'Takes back what threw something away.',
+  watch: 'Plays an end that was not watched.',
+  scrub: 'The slider of steps.',
+  controls: 'The controls that matter.',
+  control: 'A control with its name.',
+  notices: 'What there is to tell.',
+  notice: 'One thing of it; there only then.',
+  sentence: 'What is shown, in words.',
+  numbers: 'The fold of numbers.',
+  readouts: 'The numbers.',
+  readout: 'A number with its name.',
+  settings: 'The fold of other controls.',
+  menu: 'The menu’s button.',
+}
+
+/** Figures that run something over many seeds. */
+const COUNTED = ['resampling', 'doors', 'universes'].map(name => `fastslam-${name}`)
+
+/** And of some figures alone. @param {FigureInfo} figure @returns {Record<string, string>} */
+const partsOf = figure => ({
+  ...parts,
+  ...(figure.params.some(({ name }) => name === 'seed') && { seed: 'The seed, and the die that draws one.' }),
+  ...(figure.params.some(({ kind }) => kind === 'toggle') && { toggle: 'A button that is on or off.' }),
+  ...(figure.handles && { handle: 'What can be grasped in the picture; there only then.' }),
+  ...(COUNTED.includes(figure.tag) && { count: 'What runs over many seeds, and the button that starts it.', stop: 'Ends that.' }),
+  ...(figure.tag === 'fastslam-universes' && { again: 'Runs the laps of a point again.' }),
+  ...(figure.tag === 'fastslam-worked-example' && { inputs: 'The numbers to change, as matrices.' }),
+  ...(isLog(figure) && { source: 'Where a log is chosen.', example: 'Maps the example.', map: 'Maps the log that is open.', saves: 'The fold of what can be saved.' }),
+})
 
 const cssProperties = ['accent', 'ink', 'muted', 'line', 'paper', 'radius', 'font'].map(name => `--fastslam-${name}`)
 
@@ -190,7 +234,7 @@ export function manifest(all) {
     ],
     events: eventsOf(figure).map(({ name, type: text, help }) => ({ name, type: { text }, description: `${help} Its detail: ${detailOf(text)}.` })),
     ...Object.fromEntries(named(figure).map(([what, all]) => [what.toLowerCase(), all])),
-    cssParts: parts.map(name => ({ name })),
+    cssParts: Object.entries(partsOf(figure)).map(([name, description]) => ({ name, description })),
     cssProperties: cssProperties.map(name => ({ name })),
     slots: [{ name: '', description: 'A picture of the figure, for where it cannot run.' }],
   }))
@@ -201,10 +245,11 @@ export function manifest(all) {
   return { schemaVersion: '1.0.0', readme: 'README.md', modules: [{ kind: 'javascript-module', path: 'fastslam.js', declarations, exports: exported }] }
 }
 
-/** What a figure tells and offers by name: its readouts, as events and saved data have them, and its challenges. @param {FigureInfo} figure @returns {[string, { name: string, description: string }[]][]} */
-const named = ({ readouts, chips }) => [
+/** What a figure tells and offers by name: its readouts, as events and saved data have them, its challenges, and what it asks to be predicted. @param {FigureInfo} figure @returns {[string, { name: string, description: string }[]][]} */
+const named = ({ readouts, chips, prediction, params }) => [
   ['Readouts', readouts.map(({ name, title, unit }) => ({ name, description: unit ? `${title} [${unit}]` : title }))],
   ['Challenges', chips.map(({ name, title }) => ({ name, description: title }))],
+  ...(prediction ? [/** @type {[string, { name: string, description: string }[]]} */ (['Predictions', [{ name: prediction, description: params.find(({ name }) => name === 'guess')?.help ?? '' }]])] : []),
 ]
 
 /** The shapes of what figures tell the page, as the elements have them: after the line that says what the file is. */

@@ -2,8 +2,20 @@
 //!
 //! `cargo run -p fastslam-widgets --example figures`
 
-use fastslam_widgets::{challenge::Chip, figure::Figure, model::ParamSpec, model::Readout, registry::FIGURES};
+use fastslam_widgets::{
+    challenge::Chip,
+    figure::Figure,
+    model::{Kind, ParamSpec, Readout},
+    paint::Theme,
+    registry::FIGURES,
+};
 use serde::Serialize;
+
+/// The buttons of every prediction.
+const PREDICTING: [&str; 2] = ["predict", "run"];
+
+/// \[css px\]
+const WIDTH: f64 = 832.0;
 
 #[derive(Serialize)]
 struct Told {
@@ -16,7 +28,36 @@ struct Told {
     params: Vec<ParamSpec>,
     readouts: Vec<Readout>,
     chips: Vec<Chip>,
+    /// What a reader is asked to predict, by the name that a judged guess has.
+    prediction: Option<&'static str>,
+    /// Whether something in the picture can be grasped.
+    handles: bool,
     panels: &'static [&'static str],
+}
+
+/// What the figure asks a reader to predict.
+fn asked(tag: &str) -> Option<&'static str> {
+    let mut figure = Figure::new(tag).expect("the registry has it");
+    figure.set("predict", "on").ok()?;
+    if figure.model().prediction().is_none() {
+        figure.model_mut().settle();
+    }
+    figure.model().prediction().map(|outcome| outcome.name)
+}
+
+/// Whether something in its picture can be grasped, as it opens or with one of its own buttons pressed.
+fn grasped(tag: &str) -> bool {
+    let mut figure = Figure::new(tag).expect("the registry has it");
+    let buttons = figure
+        .params()
+        .into_iter()
+        .filter(|spec| spec.kind == Kind::Toggle && !PREDICTING.contains(&spec.name))
+        .map(|spec| Some(spec.name));
+    [None].into_iter().chain(buttons).any(|button| {
+        button.into_iter().for_each(|name| figure.set(name, "on").expect("a button can be pressed"));
+        figure.paint(WIDTH as u32, figure.height(WIDTH) as u32, 1.0, Theme::default());
+        !figure.handles(WIDTH).is_empty()
+    })
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -31,6 +72,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             params: figure.params(),
             readouts: figure.readouts(),
             chips: figure.chips(),
+            prediction: asked(entry.tag),
+            handles: grasped(entry.tag),
             panels: entry.panels,
         }
     };

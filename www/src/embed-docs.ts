@@ -26,6 +26,7 @@ interface Declaration {
   members: Described[]
   events: Described[]
   readouts: Described[]
+  predictions?: Described[]
   challenges: Described[]
   cssParts: Described[]
   cssProperties: Described[]
@@ -119,13 +120,15 @@ function list(declarations: Declaration[]): void {
   const reference = document.querySelector('#reference')!
   const code = (text: string) => h('code', {}, text)
   const attributes = (all: Described[]) => all.map(({ name, type, default: value, description }) => [code(name), code(type?.text ?? ''), code(value ?? ''), description ?? ''])
-  const terms = (what: string, all: Described[]) => (all.length > 0 ? table(what, ['Name', 'For readers'], all.map(({ name, description }) => [code(name), description ?? ''])) : [])
-  for (const { tagName, summary, attributes: all, readouts, challenges } of declarations) {
+  const terms = (what: string, all: Described[]) => (all.length > 0 ? table(what, ['Name', 'What it is'], all.map(({ name, description }) => [code(name), description ?? ''])) : [])
+  const common = declarations[0]!.cssParts.filter(({ name }) => declarations.every(({ cssParts }) => cssParts.some(part => part.name === name)))
+  for (const { tagName, summary, attributes: all, readouts, challenges, predictions = [], cssParts } of declarations) {
+    const own = cssParts.filter(({ name }) => !common.some(part => part.name === name))
     // Each has parts of its own to show.
     const rows = attributes(all.filter(({ name }) => name === 'show' || !(name in OPTIONS)))
-    reference.append(h('details', {}, h('summary', {}, code(`<${tagName}>`), ` ${summary}`), ...table('Attributes', ['Attribute', 'Values', 'Default', 'What it does'], rows), ...terms('Readouts', readouts), ...terms('Challenges', challenges)))
+    reference.append(h('details', {}, h('summary', {}, code(`<${tagName}>`), ` ${summary}`), ...table('Attributes', ['Attribute', 'Values', 'Default', 'What it does'], rows), ...terms('Readouts', readouts), ...terms('Challenges', challenges), ...terms('Predictions', predictions), ...terms('Parts of its own', own)))
   }
-  const { attributes: every, members, events, cssParts, cssProperties } = declarations[0]!
+  const { attributes: every, members, events, cssProperties } = declarations[0]!
   const methods = members.filter(({ kind }) => kind === 'method')
   const properties = members.filter(({ name, kind }) => kind === 'field' && !FIGURES[declarations[0]!.tagName]!.parameters.some(parameter => parameter.replace(/-(.)/g, (_, letter: string) => letter.toUpperCase()) === name))
   reference.append(
@@ -135,7 +138,8 @@ function list(declarations: Declaration[]): void {
       ...properties.map(({ name, description }) => [code(name), description ?? '']),
       ...events.map(({ name, description }) => [code(name), description ?? '']),
     ]),
-    h('p', {}, 'Every parameter is a property too, its name without dashes: ', code('range-std'), ' is ', code('rangeStd'), '. For style sheets: the properties ', ...cssProperties.flatMap(({ name }, i) => [i > 0 ? ', ' : '', code(name)]), ' and, by ', code('::part()'), ', the parts ', ...cssParts.flatMap(({ name }, i) => [i > 0 ? ', ' : '', code(name)]), '.'),
+    h('p', {}, 'Every parameter is a property too, its name without dashes: ', code('range-std'), ' is ', code('rangeStd'), '. For style sheets: the properties ', ...cssProperties.flatMap(({ name }, i) => [i > 0 ? ', ' : '', code(name)]), ' and, by ', code('::part()'), ', these parts.'),
+    ...terms('Parts of every figure', common),
   )
 }
 
