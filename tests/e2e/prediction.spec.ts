@@ -222,5 +222,5 @@ test('a guess that is placed in the figure of an exercise is in its box too, and
   await universes.getByRole('textbox').press('Enter')
   await expect(universes.getByRole('status').first()).toHaveText('You guessed 6, the figure says 12: 50 % too low.')
   // Over how many samples its numbers are means, where the figure draws its own.
-  await expect(page.locator('p', { hasText: 'At the settings it opens with' })).toContainText(/the mean over 200.000 samples/)
+  await expect(page.locator('p', { hasText: 'FastSLAM 1.0 puts' })).toContainText(/the mean over 200.000 samples/)
 })

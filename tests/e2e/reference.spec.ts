@@ -33,6 +33,7 @@ for (const tag of programs.keys()) {
       namesOf(events),
     )
     if (logs) {
+      await figure.settled()
       await figure.element.evaluate(element => (element as unknown as { example(): Promise<void> }).example())
       await expect(figure.sentence).toContainText('All scans are mapped', { timeout: 120_000 })
     } else await figure.live()
