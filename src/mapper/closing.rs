@@ -4,9 +4,13 @@
 //! Where the robot comes back, the nearest of them may be off by more than a matcher finds, and all map the building a second time
 //! beside the first. So every few metres the scans of the last metres are held, as one rigid picture, against the map as it was before what
 //! they show came in sight. Where end points lie in what that map knows to be free, the picture is searched for as far as the path
-//! may have drifted by its own covariance, up to 12 m to each side. If it fits somewhere else much better, and nowhere else nearly
-//! as well, the path is bent until it ends there, each motion by its share, with the loops closed so far as they are ([`Chain::bent`]); and
+//! may have drifted by its own covariance, up to 12 m to each side. If it fits somewhere else much better than here and than
+//! anywhere else, the path is bent until it ends there, each motion by its share, with the loops closed so far as they are ([`Chain::bent`]); and
 //! it is mapped again.
+//!
+//! A loop whose ends seem to meet is searched for just so, and counts as closed only if the picture fits nowhere else nearly as well. Along a corridor with doors
+//! that look alike a path may be off by one door and agree with the map; closed there, it would be taken as certain, and the right place be
+//! out of reach when the next corner shows it.
 //!
 //! This is a heuristic. Weights are not changed, as if the move left the posterior as it is: a motion's share is within what matching leaves open,
 //! so that the scans on the way fit about as they did. A particle that is bent to a wrong place contradicts what it sees next, and its weight
@@ -213,16 +217,24 @@ impl Closings {
             return (None, Found::Nothing);
         }
         let agreement = now.agreement(&now.here());
-        if agreement.disputed() < CLOSING.disputed {
-            let closed = now.closed(&agreement);
-            return (None, Found::Agrees(agreement, closed));
+        let is_contradicted = agreement.disputed() >= CLOSING.disputed;
+        let closed = now.closed(&agreement).filter(|_| !is_contradicted);
+        let is_asked = closed.is_some() || (is_contradicted && searched);
+        match if is_asked { now.search() } else { Place::Unclear } {
+            Place::Elsewhere(pose, end) if searched => {
+                if let Some((relation, bent)) = now.bent(&pose) {
+                    let (particle, maps) = self.mapped(particle, &poses, &bent);
+                    return (Some(particle), Found::Bent(relation, end, maps));
+                }
+            }
+            Place::Here if !is_contradicted => return (None, Found::Agrees(agreement, closed)),
+            _ => {}
         }
-        let Some((relation, end, bent)) = searched.then(|| now.bent()).flatten() else {
-            let back = now.relation(&now.here());
-            return (None, Found::Contradicts(agreement, back));
-        };
-        let (particle, maps) = self.mapped(particle, &poses, &bent);
-        (Some(particle), Found::Bent(relation, end, maps))
+        if is_contradicted {
+            (None, Found::Contradicts(agreement, now.relation(&now.here())))
+        } else {
+            (None, Found::Agrees(agreement, None))
+        }
     }
 
     /// The end points of the last metres in the robot's frame, evenly picked. They were seen from many places: no one origin is theirs.
@@ -309,43 +321,56 @@ impl Now<'_> {
         self.relation(&self.here()).filter(|_| is_sure && is_new)
     }
 
-    /// The loop that was missed, and the path that closes it, where the picture is found elsewhere.
-    fn bent(&self) -> Option<(Relation, LoopEnd, Vec<Pose2>)> {
-        let chain = chain(self.poses);
-        let (place, end) = self.search(&chain)?;
-        let relation = self.relation(&place)?;
+    /// The loop that was missed, and the path that closes it, where the robot is at this place.
+    fn bent(&self, place: &Pose2) -> Option<(Relation, Vec<Pose2>)> {
+        let relation = self.relation(place)?;
         let relations: Vec<Relation> = self.relations.iter().copied().chain([relation]).collect();
-        Some((relation, end, chain.bent(&relations)?))
+        Some((relation, chain(self.poses).bent(&relations)?))
     }
 
     /// Where the robot may be as far as matching and the loops so far know.
-    fn prior(&self, chain: &Chain) -> Option<Gaussian3> {
+    fn prior(&self) -> Option<Gaussian3> {
         let from = self.nearest(&self.here())?;
-        let covariance = chain.covariance(self.relations, from, self.step())?;
+        let covariance = chain(self.poses).covariance(self.relations, from, self.step())?;
         let (sin, cos) = ops::sin_cos(self.poses[from].theta);
         let turn = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
         Gaussian3::new(self.here(), turn * covariance * turn.transpose())
     }
 
-    /// Where the picture fits the old map much better than here, if nothing else does nearly as well.
-    fn search(&self, chain: &Chain) -> Option<(Pose2, LoopEnd)> {
-        let (prior, score, here) = (self.prior(chain)?, score(), self.here());
+    /// Where the picture fits the old map, and nowhere else nearly as well.
+    fn search(&self) -> Place {
+        let Some(prior) = self.prior() else { return Place::Unclear };
+        let (score, here) = (score(), self.here());
         // A climb asks which of two poses is better, for which every second end point will do.
         let target = Target::new(&prior, score.near(self.map, &here, &self.picture, 2), 0.0);
         let climbed = |start| hill_climb(start, CLOSING.climb, |pose, floor| target.log_posterior(pose, floor));
         let starts = CLOSING.search.starts(&target).poses;
         let tops: Vec<ScoredPose> = sorted(starts.into_iter().map(climbed).collect(), ScoredPose::highest_first);
-        let top = tops.first()?;
         let stay = target.log_posterior(&here, f64::NEG_INFINITY);
         let gain = |top: &ScoredPose| (top.value - stay) / self.picture.hits.len() as f64;
+        let Some(top) = tops.iter().find(|top| is_elsewhere(&top.pose, &here) && gain(top) > -CLOSING.gain) else {
+            return Place::Here;
+        };
         let second = tops.iter().find(|other| are_apart(&other.pose, &top.pose)).map_or(0.0, gain);
         let there = self.agreement(&top.pose);
         let is_there = there.fits >= CLOSING.fits && there.is_undisputed();
         let (shift, gain) = (here.distance(&top.pose), gain(top));
-        let is_clear = gain >= CLOSING.gain && second <= CLOSING.ambiguity * gain;
-        (is_there && is_clear && is_elsewhere(&top.pose, &here))
-            .then_some((top.pose, LoopEnd::Bent { shift, gain, second }))
+        if is_there && gain - f64::max(second, 0.0) >= CLOSING.gain {
+            Place::Elsewhere(top.pose, LoopEnd::Bent { shift, gain, second })
+        } else {
+            Place::Unclear
+        }
     }
+}
+
+/// Where the robot is, by what it saw on the last metres.
+enum Place {
+    /// Where the path has it: they fit much better there than anywhere else.
+    Here,
+    /// At another place: they fit much better there than where the path has it, and than anywhere else.
+    Elsewhere(Pose2, LoopEnd),
+    /// They do not tell.
+    Unclear,
 }
 
 /// Whether a place that was found is another than where the path has the robot.

@@ -64,11 +64,7 @@ impl Account {
     /// The last metres agree with the map of before, and close this loop.
     pub(super) fn agrees(&mut self, agreement: &Agreement, closed: Option<Relation>) {
         self.compare(agreement);
-        let doubts = core::mem::take(&mut self.doubts);
-        // The robot had only just come round: some metres on, the path meets what it passed then.
-        if closed.is_some() && doubts > 1 && self.loops.last().is_some_and(Loop::is_open) {
-            self.loops.pop();
-        }
+        self.doubts = 0;
         if let Some(relation) = closed {
             self.close(relation, LoopEnd::Met);
         }
@@ -90,14 +86,15 @@ impl Account {
         }
     }
 
-    /// The path was bent: what was open on the way is no longer.
+    /// The path was bent.
     pub(super) fn bent(&mut self, relation: Relation, end: LoopEnd) {
         self.doubts = 0;
-        self.loops.retain(|one| !one.is_open() || one.to < relation.from);
         self.close(relation, end);
     }
 
+    /// What was open on the way is no longer.
     fn close(&mut self, relation: Relation, end: LoopEnd) {
+        self.loops.retain(|one| !one.is_open() || one.to < relation.from);
         self.relations.push(relation);
         self.loops.push(Loop { from: relation.from, to: relation.to, end });
     }
@@ -149,9 +146,12 @@ mod tests {
     }
 
     #[test]
-    fn a_path_that_is_bent_closes_what_was_open_on_the_way() {
+    fn a_loop_that_is_closed_closes_what_was_open_on_the_way() {
         let mut account = Account::default();
-        for to in [40, 45, 90, 95] {
+        for to in [20, 25, 40, 45, 90, 95] {
+            if to == 40 {
+                account.agrees(&seen(0), None);
+            }
             if to == 90 {
                 account.agrees(&seen(0), None);
                 account.agrees(&seen(0), Some(back(30, 60)));
@@ -159,11 +159,11 @@ mod tests {
             account.contradicts(&seen(45), Some(back(2, to)));
         }
         let open: Vec<usize> = account.loops.iter().filter(|one| one.is_open()).map(|one| one.to).collect();
-        assert_eq!(open, [45, 95]);
+        assert_eq!(open, [25, 95]);
         let end = LoopEnd::Bent { shift: 2.0, gain: 0.4, second: 0.1 };
         account.bent(back(50, 100), end);
         let ends: Vec<(usize, bool)> = account.loops.iter().map(|one| (one.to, one.is_open())).collect();
-        assert_eq!(ends, [(45, true), (60, false), (100, false)]);
+        assert_eq!(ends, [(25, true), (60, false), (100, false)]);
         assert_eq!(account.relations, [back(30, 60), back(50, 100)]);
     }
 }

@@ -136,10 +136,9 @@ pub(super) struct Closing {
     pub fits: f64,
     /// Share from which on a loop counts as closed for good.
     pub sure: f64,
-    /// How much better than here the picture must fit \[nats an end point, tempered\]: a sixth of what lies between a wall and unknown space.
+    /// How much better than anywhere else the picture must fit where the robot is taken to be \[nats an end point, tempered\]: a sixth of what lies between a
+    /// wall and unknown space.
     pub gain: f64,
-    /// What share of that the next best place may have.
-    pub ambiguity: f64,
     /// How far from here a place counts as another one \[m, rad\]: what is nearer the matcher has looked at.
     pub elsewhere: [f64; 2],
     /// How many of the particles are searched for, the heaviest first: from those that fit, selection makes the others.
@@ -150,7 +149,8 @@ pub(super) struct Closing {
     pub drift: [f64; 2],
     /// Standard deviations of a place that was found again \[m, m, rad\].
     pub relation: [f64; 3],
-    /// The lattice. It reaches as far as the path may have drifted by its own covariance, and 12 m at the most.
+    /// The lattice. It reaches as far as the path may have drifted by its own covariance, and 12 m at the most. Half of the climbs begin on one hill: the others find
+    /// the next best.
     pub search: CorrelativeSearch,
     /// From half the lattice's step down to half a centimetre.
     pub climb: HillClimbSteps,
@@ -176,13 +176,12 @@ pub(super) const CLOSING: Closing = Closing {
     fits: 0.35,
     sure: 0.5,
     gain: 0.15,
-    ambiguity: 0.8,
     elsewhere: [0.15, 0.02],
     searched: 4,
     apart: 20.0,
     drift: [0.03, 0.0026],
     relation: [0.03, 0.03, 0.005],
-    search: CorrelativeSearch { linear: CLOSING_STEP, angular: 0.02, most_steps: 30, stride: 3, climbs: 6 },
+    search: CorrelativeSearch { linear: CLOSING_STEP, angular: 0.02, most_steps: 30, stride: 3, climbs: 12 },
     climb: HillClimbSteps { linear: 0.5 * CLOSING_STEP, angular: 0.02, halvings: 5 },
 };
 

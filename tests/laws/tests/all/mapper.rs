@@ -3,7 +3,7 @@
 
 use fastslam::geometry::Pose2;
 use fastslam::log::{LaserLog, Remark};
-use fastslam::mapper::{LaserMapperSettings, OdometryInnovations, Replay};
+use fastslam::mapper::{LaserMapperSettings, LoopEnd, OdometryInnovations, Replay};
 use fastslam::motion::OdometryModel;
 use fastslam_lab::experiment::graph::PathError;
 use fastslam_lab::experiment::log::{Example, Recipe};
@@ -247,8 +247,8 @@ fn eight_particles_close_loops_of_sparse_scans_that_one_leaves_open() {
 type Bend = [LoopErrors; 2];
 
 /// A single particle round a ring of 120 m: its loop ends closed, and each time that its path is bent, it comes nearer to the truth and no place
-/// that is seen again gets off. A path that was right before cannot come nearer, so none may be bent in vain.
-fn bends(seed: u64) -> Vec<Bend> {
+/// that is seen again gets off. A path that was right before cannot come nearer, so none may be bent in vain. With its RMS error at the end \[m\].
+fn bends(seed: u64) -> (Vec<Bend>, f64) {
     let mut run = LongRingSetup { length: 120, particles: 1, seed, ..LongRingSetup::default() }.start().unwrap();
     let (mut path, mut bends) = (Vec::new(), Vec::new());
     while run.step() {
@@ -263,27 +263,42 @@ fn bends(seed: u64) -> Vec<Bend> {
     let errors = run.errors();
     println!("seed {seed}: {errors:.3?}, bent {bends:.3?}");
     // A twelfth of the revisits are those of the first metres after the corner.
-    assert!(errors.revisits_off < 0.1 && errors.rms < 0.25, "seed {seed}: {errors:?}");
+    assert!(errors.revisits_off < 0.1, "seed {seed}: {errors:?}");
     for [before, after] in &bends {
         let better = after.rms < before.rms && after.revisits_off <= before.revisits_off;
         assert!(better, "seed {seed}: from {before:?} to {after:?}");
     }
-    bends
+    (bends, errors.rms)
 }
+
+/// The most that a path round a ring of 120 m may be off by at the end \[m\].
+const OFF: f64 = 0.25;
 
 /// A single particle has no other beside it that might have drifted less: without closings eight of twelve paths have revisits off by more than
 /// half a metre, three of them all. Seeds are taken from the first on, until one needs to be bent.
 #[test]
 fn a_loop_that_no_particle_closes_is_closed_by_bending_its_path_and_no_bend_makes_it_worse() {
-    assert!((1..=6).any(|seed| !bends(seed).is_empty()), "none of six loops was left open");
+    let is_bent = |seed| {
+        let (bends, rms) = bends(seed);
+        assert!(rms < OFF, "seed {seed}: {rms} m");
+        !bends.is_empty()
+    };
+    assert!((1..=6).any(is_bent), "none of six loops was left open");
 }
 
 #[test]
 #[ignore = "breadth: twelve seeds"]
-#[should_panic(expected = "seed 3")] // open, in issue 31: since issue 30 the path of seed 3 is bent to a wrong place that looks alike; red as soon as that is mended
 fn loops_that_no_particle_closes_are_closed_by_bending_on_twelve_seeds() {
-    let bent = (1..=12).filter(|seed| !bends(*seed).is_empty()).count();
+    let bent = (1..=12).filter(|seed| !bends(*seed).0.is_empty()).count();
     assert!(bent >= 3, "{bent} of 12: too few to tell");
+}
+
+#[test]
+#[ignore = "breadth: twelve seeds"]
+#[should_panic(expected = "[0.266")] // open, in issue 31: seed 7 ends closed, and 27 cm off: a single particle draws its poses along the corridor, and what it drifted so is spread over all of the way
+fn loops_that_are_closed_by_bending_are_off_by_little_on_twelve_seeds() {
+    let off: Vec<f64> = (1..=12).map(|seed| bends(seed).1).filter(|rms| *rms >= OFF).collect();
+    assert!(off.is_empty(), "{off:.3?}");
 }
 
 /// 3 is expected of noises that are right, and one in a hundred beyond the bound. The mapper assumes no less of wheels than it knows, so that of wheels of half the noise of recorded
@@ -309,18 +324,50 @@ fn innovations_of_odometry_tell_wheels_that_slip_from_those_that_scatter() {
     assert_eq!(OdometryInnovations::default().mean(), None);
 }
 
-/// Rings of 240 m, two particles: the fifth does not close, its revisits are all off by more than half a metre, and the mapper says that its loop stays
-/// open. It says nothing of the rings whose revisits are nearly all right. It cannot tell of a path that was bent to a wrong place that looks alike, as the
-/// sixth is.
+/// Rings of 240 m, along which doors look alike. A place that a loop is closed at, as the path is or by bending it, is the right one, to half a metre. Where
+/// paths that seemed to meet counted as closed without a look at the next door, and a second-best place could have four fifths of the best one's gain, 8 of 18
+/// bends on 24 seeds ended at a wrong door, and 36 % of all revisits were off; on the four seeds of the quick test all.
+fn loops_are_closed_at_no_place_that_only_looks_alike(seeds: impl IntoIterator<Item = u64>) {
+    let (mut bent, mut off) = (0, Vec::new());
+    for seed in seeds {
+        let mut run = LongRingSetup { length: 240, particles: 2, seed, ..LongRingSetup::default() }.start().unwrap();
+        while run.step() {}
+        let (path, errors) = (run.path(), run.errors());
+        println!("seed {seed}: {errors:.3?}, {:?}", run.mapper().loops());
+        for one in run.mapper().loops().iter().filter(|one| !one.is_open()) {
+            let [is, should] = [&path[..], run.truth()].map(|poses| poses[one.from].between(&poses[one.to]));
+            assert!(is.distance(&should) < 0.5, "seed {seed}: {one:?}, {is:?} and not {should:?}");
+            bent += u32::from(matches!(one.end, LoopEnd::Bent { .. }));
+        }
+        off.push(errors.revisits_off);
+    }
+    let mean = off.iter().sum::<f64>() / off.len() as f64;
+    assert!(bent > 0 && mean < 0.1, "{bent} bent, revisits off {mean}: {off:.2?}");
+}
+
+#[test]
+fn loops_are_closed_at_no_door_that_only_looks_alike() {
+    loops_are_closed_at_no_place_that_only_looks_alike([5, 6, 18, 19]);
+}
+
+#[test]
+#[ignore = "breadth: twenty-four seeds"]
+fn loops_are_closed_at_no_door_that_only_looks_alike_on_twenty_four_seeds() {
+    loops_are_closed_at_no_place_that_only_looks_alike(1..=24);
+}
+
+/// A ring of 120 m that does not close, as its end is further from its beginning than a path's covariance says: the mapper says that its loop stays open. It says
+/// nothing of rings that close, be it after a look at a corner where little was known yet.
 #[test]
 fn a_loop_that_stays_open_is_told_and_none_that_closes() {
-    for seed in [2, 4, 5, 10] {
-        let mut run = LongRingSetup { length: 240, particles: 2, seed, ..LongRingSetup::default() }.start().unwrap();
+    for (length, particles, seed) in [(120, 1, 73), (120, 1, 10), (120, 1, 30), (240, 2, 2), (240, 2, 15)] {
+        let mut run = LongRingSetup { length, particles, seed, ..LongRingSetup::default() }.start().unwrap();
         while run.step() {}
         let (errors, loops) = (run.errors(), run.mapper().loops());
         let told = run.mapper().remarks().iter().any(|remark| matches!(remark, Remark::OpenLoops { loops: 1, .. }));
-        println!("seed {seed}: {errors:.3?}, {loops:?}");
+        println!("{length} m, seed {seed}: {errors:.3?}, {loops:?}");
+        assert_eq!(errors.revisits_off == 1.0, seed == 73, "closed or not: {errors:?}");
         assert!(errors.revisits_off == 1.0 || errors.revisits_off < 0.1, "neither closed nor open: {errors:?}");
-        assert_eq!(told, errors.revisits_off == 1.0, "seed {seed}: {errors:?}, {loops:?}");
+        assert_eq!(told, seed == 73, "seed {seed}: {errors:?}, {loops:?}");
     }
 }
