@@ -48,7 +48,11 @@ impl Verdict {
     /// Reached or not, how near in parts that have all to be 1 (more counts as 1, and what is no number as 0), and the numbers in words.
     pub fn new(done: bool, parts: &[f64], said: String) -> Self {
         // A goal that is almost reached looks so.
-        let near = if done { 1.0 } else { parts.iter().map(|part| part.max(0.0).min(1.0)).product::<f64>().min(0.97) };
+        let near = if done {
+            1.0
+        } else {
+            parts.iter().map(|part| if *part > 0.0 { part.min(1.0) } else { 0.0 }).product::<f64>().min(0.97)
+        };
         Self { done, near, said }
     }
 }
