@@ -1,11 +1,11 @@
 // npm run pdf: the chapter on paper, through Chromium: dist/chapter.pdf. Its links lead to where the site will be: `-- --url https://…`, else
 // FASTSLAM_SITE or the homepage of package.json. Without an address, what is on other pages is text.
-import { existsSync, statSync } from 'node:fs'
+import { existsSync, readFileSync, statSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { asAddress, askForSite, site, wholeLinks } from './address.mjs'
 import { launchChromium } from './browser.mjs'
 import { build, dist } from './build.mjs'
-import { isMain, kilobytes, main, step } from './lib.mjs'
+import { isMain, kilobytes, main, root, step, StepError } from './lib.mjs'
 import { startServer } from './serve.mjs'
 import { setUp } from './setup.mjs'
 
@@ -22,6 +22,26 @@ export function forPaper(html, address) {
   return wholeLinks(page, address, link => /^#.*\?/.test(link))
 }
 
+/**
+ * Adds who wrote it to what a PDF says of itself, which Chromium leaves out: its entry once more, after the end, as PDF has it for changes.
+ * @param {Buffer} pdf @param {string} author
+ */
+export function withAuthor(pdf, author) {
+  const text = pdf.toString('latin1')
+  const [, size, rest] = /trailer\s*<<\/Size (\d+)([^]*?)>>\s*startxref\s*\d+\s*%%EOF\s*$/.exec(text) ?? []
+  const info = /\/Info (\d+) 0 R/.exec(rest ?? '')?.[1]
+  const before = text.match(/startxref\s*(\d+)\s*%%EOF\s*$/)?.[1]
+  const entry = new RegExp(`\\n${info} 0 obj\\s*<<([^]*?)>>\\s*endobj`).exec(text)?.[1]
+  if (!info || !before || entry === undefined) throw new StepError('Chromium’s PDF is not made as it was: no author can be added.')
+  const added = `\n${info} 0 obj\n<<${entry}\n/Author (${author})>>\nendobj\n`
+  const at = String(pdf.length + 1).padStart(10, '0')
+  const table = `xref\n${info} 1\n${at} 00000 n \ntrailer\n<</Size ${size}${rest}\n/Prev ${before}>>\nstartxref\n${pdf.length + added.length}\n%%EOF\n`
+  return Buffer.concat([pdf, Buffer.from(added + table, 'latin1')])
+}
+
+/** Who is to be cited. */
+const author = () => /^ *- name: "(.*)"$/m.exec(readFileSync(join(root, 'CITATION.cff'), 'utf8'))?.[1] ?? ''
+
 /** @param {string} address of the live chapter, or empty @param {string} [folder] */
 export async function makePdf(address, folder = dist) {
   const server = await startServer({ folder })
@@ -35,7 +55,7 @@ export async function makePdf(address, folder = dist) {
       await route.fulfill({ response, body: forPaper(await response.text(), address) })
     })
     await page.goto(server.url, { waitUntil: 'networkidle' })
-    await page.pdf({ path, preferCSSPageSize: true, printBackground: true, outline: true, tagged: true })
+    writeFileSync(path, withAuthor(await page.pdf({ preferCSSPageSize: true, printBackground: true, outline: true, tagged: true }), author()))
   } finally {
     await browser.close()
     await server.close()

@@ -9,7 +9,7 @@ import { parse } from 'yaml'
 import { asAddress, askForSite } from '../../scripts/address.mjs'
 import { embedCodes, writePages } from '../../scripts/frames.mjs'
 import { root } from '../../scripts/lib.mjs'
-import { forPaper } from '../../scripts/pdf.mjs'
+import { forPaper, withAuthor } from '../../scripts/pdf.mjs'
 import { atHome, unreached } from '../../scripts/site.mjs'
 import { serialize } from '../../scripts/chapter/page.mjs'
 import { book } from './book.mjs'
@@ -154,4 +154,15 @@ test('every example of a code in README and in the documents says its version', 
     }
   }
   assert.ok(count >= 8, `${count} examples`)
+})
+
+test('a PDF says who wrote it, and every place that its new table names is where it says', () => {
+  const made = '%PDF-1.4\n1 0 obj\n<</Title (T)\n/Producer (Skia)>>\nendobj\n2 0 obj\n<</Type /Catalog>>\nendobj\n'
+  const pdf = Buffer.from(`${made}xref\n0 3\n…\ntrailer\n<</Size 3\n/Root 2 0 R\n/Info 1 0 R>>\nstartxref\n${made.length}\n%%EOF\n`, 'latin1')
+  const text = withAuthor(pdf, 'The authors').toString('latin1')
+  const from = (/** @type {RegExp} */ place) => text.slice(Number(text.slice(pdf.length).match(place)?.[1]))
+  assert.match(from(/^(\d{10}) 00000 n $/m), /^1 0 obj\n<<\/Title \(T\)\n\/Producer \(Skia\)\n\/Author \(The authors\)>>\nendobj/)
+  assert.match(from(/startxref\n(\d+)/), /^xref\n1 1\n/)
+  assert.match(from(/\/Prev (\d+)/), /^xref\n0 3\n/)
+  assert.throws(() => withAuthor(Buffer.from('%PDF'), 'x'), /no author/)
 })
