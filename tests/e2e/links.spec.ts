@@ -370,3 +370,23 @@ for (const [how, address, head] of [
     expect(await again.position()).toBe(3)
   })
 }
+
+test('a page that its host puts aside as a copy, and takes back, has the state that the reader left', async ({ page }) => {
+  const lap = await new Figure(page, 'fastslam-lap').alone()
+  await lap.goTo('v=9&universes=4&step=7')
+  const left = await lap.state()
+  // As Turbo does it: the copy is made of the page, which another takes the place of, and Back puts the copy there.
+  await page.evaluate(() => {
+    document.dispatchEvent(new Event('turbo:before-cache'))
+    const copy = document.body.cloneNode(true)
+    document.body.replaceWith(document.createElement('body'))
+    document.body.replaceWith(copy)
+  })
+  await lap.live()
+  expect(await lap.state()).toBe(left)
+  expect(await lap.position()).toBe(7)
+  await expect(lap.element).not.toHaveAttribute('data-state')
+  // What is put aside again is what is there then.
+  await lap.step.click()
+  expect(await lap.position()).toBe(8)
+})

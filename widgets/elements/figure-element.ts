@@ -12,6 +12,9 @@ import { unwatchReached, watchReached } from './reached'
 import { fromText, isParameter, takeEarlyProperties, toText, watchUnknown } from './parameters'
 import { takeToPaper } from './paper'
 
+/** What hosts say that put a copy of the page aside, of which Back makes the page again: of a figure it has the attributes only. */
+const CACHES = ['turbo:before-cache', 'htmx:beforeHistorySave']
+
 export abstract class FigureElement extends HostedFigure {
   #targetBefore = 0 // the step asked for, while there is no host
   #disconnected = new AbortController()
@@ -36,13 +39,18 @@ export abstract class FigureElement extends HostedFigure {
     this.body.classList.toggle('pictured', this.ownPicture !== null)
     watchReached(this.#onReached)
     takeToPaper(this, signal)
+    for (const type of CACHES) document.addEventListener(type, () => this.state && (this.dataset['state'] = this.state), { signal })
     this.frames.observe(signal)
     this.canvas.observe()
     void this.speak()
     this.takeName()
     this.takePicture('light') // for paper
     takeEarlyProperties(this)
-    if (this.settings.recipe === undefined) this.followLink() // a node that was only moved goes on from where it was
+    const { state } = this.dataset
+    delete this.dataset['state']
+    if (this.settings.recipe !== undefined) return // a node that was only moved goes on from where it was
+    if (state) this.#load(state, false)
+    else this.followLink()
   }
 
   disconnectedCallback(): void {
