@@ -89,7 +89,7 @@ struct Held<T, const HERE: bool>(T);
 
 impl<T, const HERE: bool> Held<T, HERE> {
     fn given(self) -> T {
-        assert!(HERE);
+        here::<HERE>();
         self.0
     }
 }
@@ -98,16 +98,21 @@ impl<T, const HERE: bool> Deref for Held<T, HERE> {
     type Target = T;
 
     fn deref(&self) -> &T {
-        assert!(HERE);
+        here::<HERE>();
         &self.0
     }
 }
 
 impl<T, const HERE: bool> DerefMut for Held<T, HERE> {
     fn deref_mut(&mut self) -> &mut T {
-        assert!(HERE);
+        here::<HERE>();
         &mut self.0
     }
+}
+
+/// Nothing comes this far in a program that has it not.
+fn here<const HERE: bool>() {
+    assert!(HERE);
 }
 
 const BAGS: bool = cfg!(feature = "bags");
@@ -125,7 +130,7 @@ impl Bag {
     /// what is wrong with it, as `Figure.set_words` takes it.
     #[wasm_bindgen(constructor)]
     pub fn new(scan_topic: Option<String>, odometry_topic: Option<String>, catalogue: &str) -> Bag {
-        assert!(BAGS);
+        here::<BAGS>();
         let options = BagOptions { scan_topic, odometry_topic, lenient: true };
         Bag { reader: Held(BagReader::new(options)), language: Language::learnt(catalogue) }
     }
@@ -153,7 +158,7 @@ impl Bag {
 /// writes. Throws a `FigureError` if it cannot be written.
 #[wasm_bindgen]
 pub fn path_mcap(poses: &[f64]) -> Result<Vec<u8>, Error> {
-    assert!(BAGS);
+    here::<BAGS>();
     let (poses, _) = poses.as_chunks();
     let path: Vec<_> = poses.iter().map(|&[time, x, y, theta]| (time, Pose2 { x, y, theta })).collect();
     let refused = |message| thrown(FigureError { parameter: "file".into(), message });
