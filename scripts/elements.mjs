@@ -152,7 +152,7 @@ const parts = {
 /** Figures that run something over many seeds. */
 const COUNTED = ['resampling', 'doors', 'universes'].map(name => `fastslam-${name}`)
 
-/** And of some figures alone. @param {FigureInfo} figure @returns {Record<string, string>} */
+/** The parts of a figure: those that all have, and its own. @param {FigureInfo} figure @returns {Record<string, string>} */
 const partsOf = figure => ({
   ...parts,
   ...(figure.params.some(({ name }) => name === 'seed') && { seed: 'The seed, and the die that draws one.' }),
