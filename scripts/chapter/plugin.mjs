@@ -1,6 +1,7 @@
 // The chapter in Vite: its text goes into www/*.html, its fonts and the rules of its formulas to www/generated, for every way to build or serve.
-import { mkdirSync, writeFileSync } from 'node:fs'
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs'
 import { basename, join } from 'node:path'
+import { toBibtex, toCsl } from './bibliography.mjs'
 import { readIfThere } from '../lib.mjs'
 import { renderChapter } from './chapter.mjs'
 import { Letters, writeFonts } from './fonts.mjs'
@@ -27,6 +28,10 @@ export function chapter(root) {
     name: 'chapter',
     async buildStart() {
       await (made ??= make())
+    },
+    generateBundle() {
+      const works = JSON.parse(readFileSync(join(root, 'www', 'references.json'), 'utf8'))
+      for (const [fileName, source] of Object.entries({ 'references.bib': toBibtex(works), 'references.json': toCsl(works) })) this.emitFile({ type: 'asset', fileName, source })
     },
     transformIndexHtml: {
       order: 'pre',
