@@ -31,7 +31,7 @@ impl ScoredPose {
 }
 
 /// Climbs `objective` greedily from `start`: tries a step ahead, back, left, right and a turn to each side, takes each that
-/// improves, and halves the steps where none of the six does (after the matcher of gmapping; GSB §IV).
+/// improves, and halves the steps where none of the six does (after the matcher of gmapping).
 ///
 /// `objective(pose, bar)` need not be exact where it does not exceed `bar`: −∞ will do.
 pub fn hill_climb(

@@ -1,7 +1,7 @@
 //! The improved proposal, which the chapter calls measurement-aware: look first, then move.
 //!
 //! Reference: Grisetti, Stachniss, Burgard, *Improved techniques for grid mapping with Rao-Blackwellized particle filters*,
-//! T-RO 2007, §IV and algorithm 1.
+//! T-RO 2007, algorithm 1.
 
 use super::incremental_weight::{IncrementalWeight, log_mean_inverse, log_mixture};
 use super::{Fit, FitLimits, Proposal, ProposalTrace, Proposed, Search, Target};
