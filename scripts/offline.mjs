@@ -6,6 +6,7 @@ import { dirname, join, posix } from 'node:path'
 import { askForSite, site, wholeLinks } from './address.mjs'
 import { build, dist, singlesAsked } from './build.mjs'
 import { figures } from './elements.mjs'
+import { fillFolds } from './folds.mjs'
 import { escape } from './frames.mjs'
 import { isMain, kilobytes, main, root, say, step, StepError } from './lib.mjs'
 import { alsoUsed, programFile, programs, singlePrograms } from './registry.mjs'
@@ -44,7 +45,7 @@ function inlined(file, script) {
       return asset ? `url(${dataAddress(asset)})` : whole
     })
   }
-  let html = readFileSync(join(dist, file), 'utf8')
+  let html = fillFolds(readFileSync(join(dist, file), 'utf8'), dist)
   html = html
     .replace(/<link[^>]*rel="(?:preload|modulepreload|canonical|alternate)"[^>]*>\s*/g, '')
     // All is inside, and nothing may come from outside, which the site's policy could not say.

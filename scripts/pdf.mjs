@@ -5,6 +5,7 @@ import { join } from 'node:path'
 import { asAddress, askForSite, site, wholeLinks } from './address.mjs'
 import { launchChromium } from './browser.mjs'
 import { build, dist } from './build.mjs'
+import { fillFolds } from './folds.mjs'
 import { isMain, kilobytes, main, root, step, StepError } from './lib.mjs'
 import { startServer } from './serve.mjs'
 import { setUp } from './setup.mjs'
@@ -52,7 +53,7 @@ export async function makePdf(address, folder = dist) {
     const page = await browser.newPage({ javaScriptEnabled: false })
     await page.route(server.url, async route => {
       const response = await route.fetch()
-      await route.fulfill({ response, body: forPaper(await response.text(), address) })
+      await route.fulfill({ response, body: forPaper(fillFolds(await response.text(), folder), address) })
     })
     await page.goto(server.url, { waitUntil: 'networkidle' })
     writeFileSync(path, withAuthor(await page.pdf({ preferCSSPageSize: true, printBackground: true, outline: true, tagged: true }), author()))

@@ -4,12 +4,18 @@ import { join } from 'node:path'
 import { h } from 'hastscript'
 import { attribute, inline } from './context.mjs'
 
-/** Names of a figure's challenges, in their order. @param {string} root @param {string} tag */
-export function challengesOf(root, tag) {
+/** A figure's challenges in their order, each with its source. @param {string} root @param {string} tag */
+function readChallenges(root, tag) {
   const file = join(root, 'widgets', 'src', tag.replace('fastslam-', '').replaceAll('-', '_'), 'challenges.rs')
   if (!existsSync(file)) return []
-  return [...readFileSync(file, 'utf8').matchAll(/Challenge::new\(\s*"([a-z-]+)"/g)].map(([, name = '']) => name)
+  return readFileSync(file, 'utf8').split('Challenge::new(').slice(1).map(source => ({ name: /^\s*"([a-z-]+)"/.exec(source)?.[1] ?? '', source }))
 }
+
+/** Names of a figure's challenges, in their order. @param {string} root @param {string} tag */
+export const challengesOf = (root, tag) => readChallenges(root, tag).map(({ name }) => name)
+
+/** Names of those that there is something to reach in. @param {string} root @param {string} tag */
+export const goalsOf = (root, tag) => readChallenges(root, tag).flatMap(({ name, source }) => (/^[^;]*?\)\s*\.with\(/.test(source) ? [name] : []))
 
 /** @type {import('./context.mjs').Handler} */
 export function chip(context, state, node) {

@@ -1,4 +1,4 @@
-// The chapter: www/chapter/*.md, and www/model.md, to pages.
+// The chapter: www/chapter/*.md, and the pages beside it, to pages.
 import { existsSync, readdirSync, readFileSync } from 'node:fs'
 import { join, relative } from 'node:path'
 import { fileURLToPath, pathToFileURL } from 'node:url'
@@ -9,6 +9,7 @@ import { visit } from 'unist-util-visit'
 import { Citations } from './citations.mjs'
 import { isContent } from './context.mjs'
 import { sections } from './contents.mjs'
+import { total, wordsOf } from './count.mjs'
 import { Glossary } from './glossary.mjs'
 import { handlers } from './handlers.mjs'
 import { Labels, takeHeadingId } from './labels.mjs'
@@ -30,6 +31,8 @@ import { together } from './together.mjs'
  */
 
 const home = fileURLToPath(new URL('.', import.meta.url))
+/** Pages beside the chapter, each with what it runs. */
+const beside = [['model', './src/page.ts'], ['practice', './src/practice.ts']]
 const licence = 'Text: CC BY 4.0. Code: MIT or Apache-2.0'
 
 /**
@@ -75,10 +78,11 @@ export async function renderChapter(root) {
     for (const key of ['title', 'number', 'lead']) if (!front[key]) problems.add(first.file, 1, `the front matter has no ${key}`)
     pages['index.html'] = renderPage({ ...shared, chapter: number, texts: [first, ...rest], front, kicker: `Chapter ${number}`, script: './src/main.ts' })
   }
-  const model = join(www, 'model.md')
-  if (existsSync(model)) {
-    const text = read(model)
-    pages['model.html'] = renderPage({ ...shared, chapter: number, texts: [text], front: { ...titleOf(text, problems), ...text.front }, kicker: h('a', { href: 'index.html' }, `Chapter ${number}`), script: './src/page.ts' })
+  for (const [stem, script] of beside) {
+    const path = join(www, `${stem}.md`)
+    if (!existsSync(path)) continue
+    const text = read(path)
+    pages[`${stem}.html`] = renderPage({ ...shared, chapter: number, texts: [text], front: { ...titleOf(text, problems), ...text.front }, kicker: h('a', { href: 'index.html' }, `Chapter ${number}`), script })
   }
 
   // A number, a work or a term that nobody uses was forgotten, by the text or in its list.
@@ -137,6 +141,7 @@ function renderPage({ chapter, texts, front, kicker, script, ...shared }) {
   replaceReferences(context, nodes)
   const terms = context.glossary.here()
   const main = [...sections(nodes), ...(terms.length > 0 ? [glossarySection(context, terms)] : [])]
+  replaceMinutes(main)
   const lead = inlineMarkdown(context, texts[0]?.file ?? '', String(front.lead ?? ''))
   return page({
     title: String(front.title ?? ''),
@@ -196,6 +201,19 @@ function replaceReferences(context, nodes) {
   if (placed || !context.citations.citedHere) return
   context.heads.push({ depth: 2, id: 'references', content: [{ type: 'text', value: 'References' }] })
   nodes.push(h('h2', { id: 'references' }, h('a', { href: '#references' }, 'References')), context.citations.list())
+}
+
+/** Words that are read in a minute, where they are about mathematics; formulas are not counted. */
+const PACE = 200
+
+/** The minutes that a page takes to read, where its text says them: in steps of five. @param {ElementContent[]} main */
+function replaceMinutes(main) {
+  const words = total(wordsOf({ type: 'root', children: main }))
+  visit({ type: 'root', children: main }, 'element', (element, index, parent) => {
+    if (element.tagName !== 'minutes' || !parent || index === undefined) return
+    const of = element.properties.dataOf === 'whole' ? words.whole : words.open
+    parent.children[index] = { type: 'text', value: String(5 * Math.max(1, Math.round(of / PACE / 5))) }
+  })
 }
 
 /** @param {Context} context @param {[key: string, entry: import('./glossary.mjs').Entry][]} terms */

@@ -3,11 +3,12 @@ import { h } from 'hastscript'
 import { algorithm } from './algorithm.mjs'
 import { deeper, derivation, equation, exercise, hint, lapTable, margin, predict, solution, table, theorem } from './blocks.mjs'
 import { chip } from './challenges.mjs'
+import { choice, count, reach, takeaway, unfold } from './checks.mjs'
 import { citation } from './citation.mjs'
 import { heading } from './contents.mjs'
 import { inline } from './context.mjs'
 import { figure } from './figure.mjs'
-import { footnoteReference, inlineMath, link, math, num, term, text } from './inline.mjs'
+import { footnoteReference, inlineMath, link, math, minutes, num, term, text } from './inline.mjs'
 import { code, listing } from './listing.mjs'
 
 /**
@@ -19,11 +20,11 @@ import { code, listing } from './listing.mjs'
 const references = () => /** @type {any} */ ({ type: 'element', tagName: 'references', properties: {}, children: [] })
 
 /** @type {Record<string, Handler>} */
-const containers = { algorithm, deeper, derivation, equation, exercise, figure, hint, 'lap-table': lapTable, margin, predict, solution, table, theorem }
+const containers = { algorithm, choice, count, deeper, derivation, equation, exercise, figure, hint, 'lap-table': lapTable, margin, predict, reach, solution, table, takeaway, theorem }
 /** @type {Record<string, Handler>} */
-const leaves = { citation, 'lap-table': lapTable, listing, references }
+const leaves = { citation, 'lap-table': lapTable, listing, references, unfold }
 /** @type {Record<string, Handler>} */
-const texts = { chip, num, term }
+const texts = { chip, minutes, num, term }
 
 /** @param {string} colons @param {Record<string, Handler>} known @returns {Handler} */
 const directive = (colons, known) => (context, state, node) => {

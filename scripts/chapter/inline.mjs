@@ -24,6 +24,14 @@ export function num(context, _, node) {
   return { type: 'text', value: text ?? '' }
 }
 
+/** `:minutes[open]` or `:minutes[whole]`: how long the page takes to read, known when all of it has been rendered. @type {Handler} */
+export function minutes(context, _, node) {
+  const of = textOf(node)
+  if (of !== 'open' && of !== 'whole') context.problems.add(context.file, node, `:minutes is of what is open or of the whole, not of “${of}”`)
+  context.last = 'x'
+  return h('minutes', { dataOf: of })
+}
+
 /** `:term[effective sample size]{#ess}` @type {Handler} */
 export function term(context, state, node) {
   const key = attribute(node, 'id') ?? ''

@@ -8,6 +8,7 @@ import { test } from 'node:test'
 import { parse } from 'yaml'
 import { asAddress, askForSite } from '../../scripts/address.mjs'
 import { embedCodes, writePages } from '../../scripts/frames.mjs'
+import { fillFolds } from '../../scripts/folds.mjs'
 import { root } from '../../scripts/lib.mjs'
 import { forPaper, withAuthor } from '../../scripts/pdf.mjs'
 import { atHome, unreached } from '../../scripts/site.mjs'
@@ -124,6 +125,17 @@ test('on paper a place is a place of the paper, and what is live or on another p
   assert.deepEqual(links(forPaper(text, '')), ['#eq-x', 'https://doi.org/1'])
   assert.match(forPaper(text, ''), /<a class="x">predict<\/a>, <a>Cite<\/a>/)
   assert.doesNotMatch(forPaper(text, ''), /address|lazy/)
+})
+
+test('what unfolds from another page is there in a file that can fetch nothing, with its styles, and its links lead within the page', async () => {
+  const fold = '<details class="deeper elsewhere"><summary>A</summary><div class="fold"><p><a href="practice.html#b">A (on a page of its own)</a></p></div></details>'
+  const practice = '<head><link rel="stylesheet" href="./a.css"><link rel="stylesheet" href="./b.css"></head><section><h2 id="a">A</h2>no</section><section><h2 id="b"><a href="#b">B</a></h2><p>yes <a href="./index.html#c">c</a></p></section>'
+  await inFolder({ 'practice.html': practice }, folder => {
+    const html = fillFolds(`<head><link rel="stylesheet" href="./a.css"></head>${fold}${fold}`, folder)
+    const filled = fold.replace(/<p>.*<\/p>/, '<p>yes <a href="#c">c</a></p>')
+    assert.equal(html, `<head><link rel="stylesheet" href="./a.css"><link rel="stylesheet" href="./b.css"></head>${filled}${filled}`)
+    assert.throws(() => fillFolds(fold.replace('#b', '#d'), folder), /no section #d/)
+  })
 })
 
 test('from the head and the foot of every page of text ways lead to those for teachers, to embedding and to citing', async () => {

@@ -4,7 +4,7 @@ import { test } from 'node:test'
 import { Letters } from '../../scripts/chapter/fonts.mjs'
 import { Numbers } from '../../scripts/chapter/numbers.mjs'
 import { curly } from '../../scripts/chapter/quotes.mjs'
-import { total, wordsOf } from '../../scripts/words.mjs'
+import { total, wordsOf } from '../../scripts/chapter/count.mjs'
 import { book, html } from './book.mjs'
 
 const number = (/** @type {number} */ value, unit = 'm') => ({ value, unit, made: 'by a test' })
@@ -83,6 +83,30 @@ test('what touches a formula stays on its line', async () => {
 test('what goes deeper is folded under a line that says what it is, and a link leads into it', async () => {
   const text = await html('## A {#a}\n\n[](#eq-x)\n\n::::deeper[Why $x$ *is*]\n:::equation{#eq-x}\n$$x$$\n:::\n::::')
   assert.match(text, /<details class="deeper"><summary>Deeper: <span class="title">Why .*<em>is<\/em><\/span><\/summary><div class="fold">\s*<div class="eq[^>]* id="eq-x"/)
+})
+
+test('a question has its answer folded below it: each choice its reason, a number what its text lets one compute, a state of a figure its goal', async () => {
+  const others = {
+    'www/data/numbers.json': JSON.stringify({ 'a.b': number(0.5), 'a.c': number(2) }),
+    'widgets/src/lap/challenges.rs': 'vec![Challenge::new("one", a(), ""), Challenge::new(\n    "two",\n    b(), "").with(c())]',
+  }
+  const text = await html(
+    '## A {#a}\n\n:::choice[Why $x$?]{#q1}\n- [ ] This.\n\n  Not it.\n- [x] *That.*\n\n  It is.\n:::\n\n:::count[How many?]{#q2 is="10 * sqrt(a.c / a.b) + 2 ** 10" within="0.01" unit="m"}\nOf :num[a.b] and :num[a.c].\n:::\n\n' +
+      ':::reach[Do it.]{#q3 figure="fig-a" tag="fastslam-lap" challenge="two"}\nDone.\n:::',
+    others,
+  )
+  assert.match(text, /<fieldset class="check" id="q1"><legend>Why .*<label><input type="radio" name="q1"> <span><b>A<\/b> This\.<\/span><\/label><label>.*<b>B<\/b> <em>That\./)
+  assert.match(text, /<details class="answer"><summary>Answer<\/summary><div class="fold"><ul><li>\s*<p><b>A: no\.<\/b> Not it\.<\/p>\s*<\/li><li class="right">\s*<p><b>B: yes\.<\/b> It is/)
+  assert.match(text, /<fieldset class="check" id="q2" data-is="1044" data-within="0.01">.*<input type="text" inputmode="decimal" autocomplete="off"> m<\/label>.*<p><b>1044\u00a0m\.<\/b> Of 0\.50\u00a0m/s)
+  assert.match(text, /<fieldset class="check" id="q3" data-tag="fastslam-lap" data-challenge="two">.*href="\.\/index\.html#fig-a"/)
+})
+
+test('what unfolds from another page is a link until then, and the page says how many minutes it takes', async () => {
+  const words = 'word '.repeat(1990)
+  const text = await html(`## A {#a}\n\n${words} :minutes[open] and :minutes[whole]\n\n:::deeper[B]\n${words}\n:::\n\n:::takeaway\n- One.\n- Two.\n:::\n\n::unfold[More of $x$]{from="practice.html#b"}`)
+  assert.match(text, /word\s+10 and 20<\/p>/)
+  assert.match(text, /<div class="takeaway"><p><b>To take away<\/b><\/p>\s*<ul>/)
+  assert.match(text, /<details class="deeper elsewhere"><summary>More of .*<div class="fold"><p><a href="practice\.html#b">On a page of its own<\/a><\/p><\/div>/)
 })
 
 test('words are counted by section, once: those that are open, and with them those that unfold', async () => {

@@ -1,4 +1,6 @@
 // Guesses of the exercises: compared with the live figure beside the question, where there is one, and kept on this device.
+import { lineWith, recall, remember } from './kept'
+
 interface Guess {
   guess: number | null
   result: number | null
@@ -17,22 +19,12 @@ interface Kept {
 
 const key = (question: Element) => `fastslam-guess:${question.id || question.closest('[id]')?.id}`
 
-// Where there is no storage, in a frame without an origin, nothing is kept.
 function kept(question: Element): Kept | undefined {
   try {
-    const { text, told } = JSON.parse(localStorage.getItem(key(question)) ?? '{}') as Partial<Kept>
+    const { text, told } = JSON.parse(recall(key(question)) ?? '{}') as Partial<Kept>
     return typeof text === 'string' && text ? { text, told: typeof told === 'string' ? told : '' } : undefined
   } catch {
-    return undefined
-  }
-}
-
-function keep(question: Element, state: Kept | undefined): void {
-  try {
-    if (state) localStorage.setItem(key(question), JSON.stringify(state))
-    else localStorage.removeItem(key(question))
-  } catch {
-    // then it is not kept
+    return undefined // what is in a storage may be anybody's
   }
 }
 
@@ -50,30 +42,26 @@ function compared({ guess, result, waived }: Guess): string {
 function follow(question: HTMLElement): void {
   const input = question.querySelector('input')!
   const figure = question.querySelector<Asking>(':scope > .trial > *')
-  const told = Object.assign(document.createElement('span'), { role: 'status' })
-  const forget = Object.assign(document.createElement('button'), { type: 'button', textContent: 'Forget my guess' })
-  const line = Object.assign(document.createElement('p'), { className: 'told' })
-  line.append(told, ' ', forget)
-  question.querySelector('label')!.after(line)
-
-  const show = (text: string) => {
-    told.textContent = text
-    forget.hidden = !input.value
-    line.hidden = !text && !input.value
-    keep(question, input.value ? { text: input.value, told: text } : undefined)
-  }
-  const before = kept(question)
-  if (before) input.value = before.text
-  show(before?.told ?? '')
-
-  input.addEventListener('input', () => show(''))
-  forget.addEventListener('click', () => {
+  const { line, told, button: forget } = lineWith('Forget my guess', () => {
     input.value = ''
     figure?.setParameter('predict', 'off') // which takes the guess away, and the result
     figure?.setParameter('predict', 'on')
     show('')
     input.focus()
   })
+  question.querySelector('label')!.after(line)
+
+  const show = (text: string) => {
+    told.textContent = text
+    forget.hidden = !input.value
+    line.hidden = !text && !input.value
+    remember(key(question), input.value ? JSON.stringify({ text: input.value, told: text } satisfies Kept) : undefined)
+  }
+  const before = kept(question)
+  if (before) input.value = before.text
+  show(before?.told ?? '')
+
+  input.addEventListener('input', () => show(''))
   if (!figure) return
   input.inputMode = 'decimal'
   input.addEventListener('change', () => {
@@ -94,5 +82,3 @@ function follow(question: HTMLElement): void {
 }
 
 for (const question of document.querySelectorAll<HTMLElement>('.predict')) follow(question)
-
-export {}

@@ -5,6 +5,9 @@ const observer = new ResizeObserver(entries => {
     else target.removeAttribute('tabindex')
   }
 })
-for (const scroller of document.querySelectorAll('.scroll')) observer.observe(scroller)
 
-export {}
+export function watch(root: ParentNode): void {
+  for (const scroller of root.querySelectorAll('.scroll')) observer.observe(scroller)
+}
+
+watch(document)

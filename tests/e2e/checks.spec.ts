@@ -1,0 +1,130 @@
+// Questions at the ends of sections: fetched when they are unfolded, graded at once with the reason, kept on this device, worked by keyboard;
+// without script the answers unfold on their own page.
+import type { Page } from '@playwright/test'
+import { brokenRules } from './axe'
+import { expect, test } from './fixtures'
+import { settled } from './figure'
+
+test.use({ contextOptions: { reducedMotion: 'reduce' } })
+
+const fold = (page: Page, name: string) => page.locator(`details.elsewhere:has(a[href="practice.html#check-${name}"]), details.elsewhere:has([id^="check-${name}-"])`)
+
+/** Unfolds the questions of a section by keyboard. */
+async function unfold(page: Page, name: string): Promise<void> {
+  const summary = fold(page, name).locator('> summary')
+  await summary.focus()
+  await page.keyboard.press('Enter')
+  await expect(fold(page, name).locator('.check')).toHaveCount(2)
+}
+
+test('questions unfold where they belong, are graded at once with the reason, kept on this device and forgotten', async ({ page }) => {
+  await page.goto('./')
+  const asked: string[] = []
+  page.on('request', request => asked.push(new URL(request.url()).pathname))
+  await unfold(page, 'opening')
+  expect(asked.filter(path => path.endsWith('practice.html'))).toHaveLength(1)
+
+  // One of several answers, by keyboard.
+  const walls = page.locator('#check-opening-walls')
+  const radios = walls.getByRole('radio')
+  await radios.first().focus()
+  await page.keyboard.press('Space')
+  await expect(walls.getByRole('status')).toHaveText(/^A: no\. This filter never moves a wall/)
+  await page.keyboard.press('ArrowDown')
+  await page.keyboard.press('ArrowDown')
+  await expect(walls.getByRole('status')).toHaveText(/^C: yes\. A universe that did not fit/)
+  await expect(walls).toHaveAttribute('data-grade', 'right')
+  await expect(walls.locator('.answer .fold')).toBeHidden()
+
+  // A number within its tolerance, however it is written.
+  const halves = page.locator('#check-opening-halves')
+  const field = halves.getByRole('textbox', { name: 'Your answer' })
+  for (const [answer, said] of [['5000', /^5000 is too low\.$/], ['20480', /^20480 is too high\.$/], ['many', /^Write a number/], ['20 480/2', /^Yes\. 10.240\. Each of the ten axes/]] as const) {
+    await field.fill(answer)
+    await field.press('Enter')
+    await expect(halves.getByRole('status')).toHaveText(said)
+  }
+  expect(await brokenRules(page, { of: 'details.elsewhere[open]' })).toEqual([])
+
+  await page.reload()
+  await unfold(page, 'opening')
+  await expect(walls.getByRole('status')).toHaveText(/^C: yes\./)
+  await expect(radios.nth(2)).toBeChecked()
+  await expect(field).toHaveValue('20 480/2')
+  await halves.getByRole('button', { name: 'Forget my answer' }).click()
+  await expect(field).toHaveValue('')
+  await expect(field).toBeFocused()
+
+  // The page of questions has what is left.
+  await page.goto('./practice.html#check-opening')
+  await expect(walls.getByRole('status')).toHaveText(/^C: yes\./)
+  await expect(halves.getByRole('status')).toBeHidden()
+})
+
+test('a state to reach is graded by the figure, a recap and short exercises unfold, and links within them are links of this page', async ({ page }) => {
+  await page.goto('./')
+  await unfold(page, 'by-hand')
+  const ten = page.locator('#check-by-hand-ten')
+  await expect(ten.getByRole('status')).toBeHidden()
+  await ten.getByRole('link', { name: 'Set the figure up for it' }).click()
+  const figure = page.locator('figure > fastslam-worked-example')
+  await expect(figure).toBeInViewport()
+  await expect(figure.locator('.stage.live')).toBeVisible()
+  await settled(figure)
+  await expect(ten.getByRole('status')).toBeHidden()
+  const far = figure.locator('input[name=phi2]').first()
+  await far.fill('0.3')
+  await far.press('Enter')
+  await expect(ten.getByRole('status')).toHaveText(/^Done\. The squared distance/)
+  await page.reload()
+  await unfold(page, 'by-hand')
+  await expect(ten.getByRole('status')).toHaveText(/^Done\./)
+
+  for (const [id, words] of [['recap-kalman', 'The gain'], ['short', 'Does a filter that resamples below']] as const) {
+    const recap = page.locator(`details.elsewhere:has(a[href="practice.html#${id}"])`)
+    await recap.locator('> summary').click()
+    await expect(page.getByText(words).first()).toBeVisible()
+  }
+  expect(await page.locator('details.elsewhere a[href*="index.html#"]').count()).toBe(0)
+})
+
+test('where the questions cannot be fetched, a link leads to their page, and another try may find them', async ({ page, complaints }) => {
+  await page.goto('./')
+  await page.route('**/practice.html', route => route.abort())
+  const summary = fold(page, 'weight').locator('> summary')
+  await summary.click()
+  await expect(fold(page, 'weight').getByRole('link')).toBeVisible()
+  await page.unroute('**/practice.html')
+  await summary.click()
+  await summary.click()
+  await expect(fold(page, 'weight').locator('.check')).toHaveCount(2)
+  complaints.splice(0, Infinity, ...complaints.filter(line => !/ERR_FAILED/.test(line)))
+})
+
+test('axe finds nothing in the page of questions, answered and unfolded, light and dark', async ({ page }) => {
+  await page.goto('./practice.html')
+  for (const radio of await page.locator('.check label:first-of-type input[type=radio]').all()) await radio.check()
+  await page.evaluate(() => document.querySelectorAll('details').forEach(details => (details.open = true)))
+  for (const colorScheme of ['light', 'dark'] as const) {
+    await page.emulateMedia({ colorScheme })
+    expect(await brokenRules(page)).toEqual([])
+  }
+  await page.setViewportSize({ width: 320, height: 700 })
+  expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(320)
+})
+
+test.describe('without JavaScript', () => {
+  test.use({ javaScriptEnabled: false })
+
+  test('a fold of the chapter leads to the questions, whose answers unfold', async ({ page }) => {
+    await page.goto('./')
+    const summary = fold(page, 'opening').locator('> summary')
+    await summary.click()
+    await fold(page, 'opening').getByRole('link').click()
+    const walls = page.locator('#check-opening-walls')
+    await expect(walls.locator('legend')).toBeInViewport()
+    await expect(walls.locator('.answer .fold')).toBeHidden()
+    await walls.locator('.answer summary').click()
+    await expect(walls.getByText('C: yes.')).toBeVisible()
+  })
+})

@@ -1,0 +1,5 @@
+// The page of questions and short exercises.
+import './page'
+import { follow } from './checks'
+
+follow(document)
