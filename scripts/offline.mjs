@@ -95,6 +95,9 @@ function programsOf({ tag, name }) {
   return own.every(program => existsSync(programFile(program))) ? own : [programs.get(tag) ?? '']
 }
 
+/** The chapter as one file, with what unfolds in it. */
+export const offlineChapter = async () => inlined('index.html', await singleFile(join(root, 'www', 'src', 'main.ts')))
+
 /** Every figure's file and package, and the chapter. @returns {Promise<string[]>} the files */
 export async function writeOffline() {
   const { zipSync, strToU8 } = await import('fflate')
@@ -124,7 +127,7 @@ export async function writeOffline() {
     const entries = { 'imsmanifest.xml': imsManifest(figure), 'index.html': started, 'scorm.js': scorm, 'licences.txt': licences }
     put(`${figure.tag}-scorm.zip`, zipSync(Object.fromEntries(Object.entries(entries).map(([name, text]) => [name, strToU8(text)])), { level: 9, mtime: '1980-01-01T00:00:00' }))
   }
-  put('chapter.html', inlined('index.html', await singleFile(join(root, 'www', 'src', 'main.ts'))))
+  put('chapter.html', await offlineChapter())
   return files
 }
 

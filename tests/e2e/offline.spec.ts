@@ -76,6 +76,11 @@ test('the whole chapter lives from one file', breadth, async ({ page, context })
   await lap.step.click()
   await lap.settled()
   expect(await lap.position()).toBe(1)
+  // What unfolds from another page is in it.
+  const walls = page.locator('#check-opening-walls')
+  await page.locator('details.elsewhere', { has: walls }).locator('> summary').click()
+  await walls.getByRole('radio').last().check()
+  await expect(walls.getByRole('status')).toHaveText(/^C: yes/)
   expect(asked).toEqual([address])
 })
 
