@@ -31,11 +31,14 @@ fn on_the_lap() -> Recipe {
                 let key = format!("{}.{key}", policy.policy);
                 numbers.extend(value.map(|value| group.number(&key, value, unit, format!("{made}, {of}"))));
             };
-            let [_, factor, _] = policy.error_factor;
+            let [p10, factor, p90] = policy.error_factor.map(Some);
             let one = "the first step at which all particles descend from one";
             put("ess_final_median", Some(policy.final_ess_median), "", "Median N_eff at the end of the lap");
             put("error_median", Some(policy.rms_median), "m", "Median RMS position error of the best particle's path");
-            put("error_factor", Some(factor), "", "Median of the error over the selective filter's on the same seed");
+            let ratio = "of the error over the selective filter's on the same seed";
+            put("error_factor", factor, "", &format!("Median {ratio}"));
+            put("error_factor_p10", p10, "", &format!("10th percentile {ratio}"));
+            put("error_factor_p90", p90, "", &format!("90th percentile {ratio}"));
             put("resampled_fraction", Some(policy.resampled_fraction), "", "Mean share of the steps that resampled");
             put("lineage_one_step", policy.lineage_one_step_median, "", &format!("Median of {one}"));
             put("ess_at_lineage_one", policy.ess_at_lineage_one_median, "", &format!("Median N_eff at {one}"));
