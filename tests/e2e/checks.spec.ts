@@ -101,6 +101,22 @@ test('where the questions cannot be fetched, a link leads to their page, and ano
   complaints.splice(0, Infinity, ...complaints.filter(line => !/ERR_FAILED/.test(line)))
 })
 
+test('the key for printing has all of them on paper, with their answers', async ({ page }) => {
+  await page.addInitScript(() => {
+    self.print = () => void (document.body.dataset['printed'] = String(document.querySelectorAll('.check').length))
+    // The figures have their own tests.
+    const leave = () => document.querySelectorAll('main figure > *, .trial > *').forEach(element => element.localName.startsWith('fastslam-') && element.remove())
+    document.addEventListener('readystatechange', leave, { once: true })
+  })
+  await page.goto('./')
+  await expect(page.locator('main')).toBeVisible()
+  await page.keyboard.press('Control+p')
+  await expect(page.locator('body')).toHaveAttribute('data-printed', /^3\d$/)
+  await page.emulateMedia({ media: 'print' })
+  await expect(page.locator('#check-verdict-why .answer .fold')).toBeVisible()
+  await expect(page.locator('#check-verdict-why input').first()).toBeHidden()
+})
+
 test('axe finds nothing in the page of questions, answered and unfolded, light and dark', async ({ page }) => {
   await page.goto('./practice.html')
   for (const radio of await page.locator('.check label:first-of-type input[type=radio]').all()) await radio.check()

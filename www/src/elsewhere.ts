@@ -1,15 +1,19 @@
 // Folds of the chapter whose text is on a page of its own: it is fetched when a reader unfolds it. Without script, and where nothing can be
 // fetched, a link leads there.
+import { takeToPaper } from '../../widgets/elements/paper'
 import { isReached } from '../../widgets/elements/reached'
 import { watch } from './scrollers'
 
 const pages = new Map<string, Promise<Document>>()
 
 function fetched(address: string): Promise<Document> {
-  const page = pages.get(address) ?? fetch(address).then(async answer => {
+  const known = pages.get(address)
+  if (known) return known
+  const page = fetch(address).then(async answer => {
     if (!answer.ok) throw new Error(`${address}: ${answer.status}`)
     return new DOMParser().parseFromString(await answer.text(), 'text/html')
   })
+  page.catch(() => pages.delete(address))
   pages.set(address, page)
   return page
 }
@@ -19,10 +23,7 @@ async function fill(fold: HTMLElement): Promise<void> {
   const link = fold.querySelector<HTMLAnchorElement>(':scope > p:only-child > a:only-child')
   if (link) {
     const address = link.href.replace(/#.*/, '')
-    const page = await fetched(address).catch(error => {
-      pages.delete(address) // the next time may be a better one
-      throw error
-    })
+    const page = await fetched(address)
     const [, ...content] = page.getElementById(link.hash.slice(1))!.parentElement!.childNodes
     fold.replaceChildren(...content)
     // Its links to the chapter are links within this page.
@@ -33,10 +34,13 @@ async function fill(fold: HTMLElement): Promise<void> {
   follow(fold, isReached)
 }
 
-for (const details of document.querySelectorAll<HTMLDetailsElement>('details.elsewhere')) {
+const loads = [...document.querySelectorAll<HTMLDetailsElement>('details.elsewhere')].map(details => {
   let filling: Promise<void> | undefined
-  details.addEventListener('toggle', () => {
-    // Without it the link is still there.
-    if (details.open) filling ??= fill(details.querySelector('.fold')!).catch(() => void (filling = undefined))
-  })
-}
+  // Where it fails the link is still there, and the next time may be a better one.
+  const load = () => (filling ??= fill(details.querySelector('.fold')!).catch(() => void (filling = undefined)))
+  details.addEventListener('toggle', () => void (details.open && load()))
+  return load
+})
+
+const nothing = () => {}
+takeToPaper({ load: () => Promise.all(loads.map(load => load())).then(nothing), toPaper: nothing, offPaper: nothing }, new AbortController().signal)
