@@ -73,27 +73,24 @@ function followOne(question: HTMLElement, isReached: (tag: string, name: string)
   const key = `fastslam-check:${question.id}`
   const { tag, challenge, is } = question.dataset
   const { line, told, button } = lineWith('Forget my answer', () => {
-    remember(key, undefined)
     for (const input of question.querySelectorAll('input')) {
       input.checked = false
       if (input.type === 'text') input.value = ''
     }
-    say(undefined)
+    give('')
     question.querySelector<HTMLElement>('input, a')!.focus()
   })
   question.querySelector('.answer')!.before(line)
 
   const say = (judged: Judged | undefined): void => {
     told.replaceChildren(...(judged?.said ?? []))
-    button.hidden = !judged
-    line.hidden = !judged
+    button.hidden = !judged // the line stays, so that screen readers know it when it speaks
     if (judged) question.dataset['grade'] = judged.right ? 'right' : 'wrong'
     else delete question.dataset['grade']
   }
   const give = (answer: string): void => {
-    if (!answer.trim()) return say(undefined)
-    const judged = judge(answer)
-    if (judged) remember(key, answer)
+    const judged = answer.trim() ? judge(answer) : undefined
+    remember(key, judged && answer)
     say(judged)
   }
   const judge = tag ? reach(question, give) : is === undefined ? choice(question, give) : count(question, give)
