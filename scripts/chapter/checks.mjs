@@ -75,9 +75,18 @@ function valueOf(context, node, formula) {
   })
   for (const key of unknown) context.problems.add(context.file, node, `www/data/numbers.json has no number ${key}`)
   const plain = calculation.replace(/\b(?:sqrt|exp|log|floor)(?=\()/g, '')
-  const value = /^[\d\s.()e+*/-]+$/.test(plain) ? Number(Function(`const { sqrt, exp, log, floor } = Math; return ${calculation}`)()) : NaN
+  const value = /^[\d\s.()e+*/-]+$/.test(plain) ? calculated(calculation) : NaN
   if (!Number.isFinite(value) && unknown.length === 0) context.problems.add(context.file, node, `is="${formula}" is no calculation`)
   return value
+}
+
+/** @param {string} calculation of numbers and four functions */
+function calculated(calculation) {
+  try {
+    return Number(Function(`const { sqrt, exp, log, floor } = Math; return ${calculation}`)())
+  } catch {
+    return NaN
+  }
 }
 
 /** `::unfold[What is in it]{from="practice.html#id"}` @type {Handler} */

@@ -112,9 +112,36 @@ test('the key for printing has all of them on paper, with their answers', async 
   await expect(page.locator('main')).toBeVisible()
   await page.keyboard.press('Control+p')
   await expect(page.locator('body')).toHaveAttribute('data-printed', /^3\d$/)
+  expect(await page.locator('details.elsewhere > .fold > p:only-child > a:only-child').count(), 'folds that are links still').toBe(0)
   await page.emulateMedia({ media: 'print' })
   await expect(page.locator('#check-verdict-why .answer .fold')).toBeVisible()
   await expect(page.locator('#check-verdict-why input').first()).toBeHidden()
+})
+
+test('each question has one right answer, which its answer gives, and says another reason to each other one', async ({ page }) => {
+  await page.goto('./practice.html')
+  await expect(page.locator('.check [role=status]')).toHaveCount(await page.locator('.check').count())
+  const said = await page.evaluate(() => {
+    const answer = (question: HTMLElement, act: () => void) => {
+      act()
+      return { grade: question.dataset['grade'], text: question.querySelector('[role=status]')!.textContent!.trim() }
+    }
+    return [...document.querySelectorAll<HTMLElement>('.check')].map(question => {
+      const [radios, field] = [[...question.querySelectorAll<HTMLInputElement>('[type=radio]')], question.querySelector<HTMLInputElement>('[type=text]')]
+      const write = (value: number) => () => (Object.assign(field!, { value: String(value) }), field!.dispatchEvent(new Event('change')))
+      const is = Number(question.dataset['is'])
+      // As the answer prints it, and far from it.
+      const printed = Number.parseFloat((question.querySelector('.answer b')?.textContent ?? '').replace(/\s/g, ''))
+      const answers = field ? [write(printed), write(2 * is), write(is / 2)].map(act => answer(question, act)) : radios.map(radio => answer(question, () => radio.click()))
+      return { id: question.id, answers }
+    })
+  })
+  expect(said.length).toBeGreaterThanOrEqual(30)
+  for (const { id, answers } of said.filter(({ answers }) => answers.length > 0)) {
+    expect(answers.filter(({ grade }) => grade === 'right'), id).toHaveLength(1)
+    expect(new Set(answers.map(({ text }) => text)).size, id).toBe(answers.length)
+    for (const { text } of answers) expect(text.length, id).toBeGreaterThan(8)
+  }
 })
 
 test('axe finds nothing in the page of questions, answered and unfolded, light and dark', async ({ page }) => {
