@@ -15,11 +15,13 @@ export function fillFolds(html, folder) {
     pages.set(file, page)
     return page
   }
-  const filled = html.replace(/(<details class="deeper elsewhere">.*?<div class="fold">)<p><a href="([^"#]+)#([^"]+)">.*?<\/a><\/p>(?=<\/div>)/gs, (_, before, file, id) => {
+  const filled = html.replace(/(<details class="[a-z]+ elsewhere">.*?<div class="fold">)<p><a href="([^"#]+)#([^"]+)">.*?<\/a><\/p>(?=<\/div>)/gs, (_, before, file, id) => {
     const section = new RegExp(`<h2 id="${id}">.*?</h2>([^]*?)</section>`).exec(read(file))?.[1]
     if (section === undefined) throw new Error(`${file} has no section #${id}.`)
     return before + section.replace(/href="(?:\.\/)?index\.html#/g, 'href="#')
   })
+  // What was on those pages is here now.
+  const whole = filled.replace(/href="([\w-]+\.html)#([^"]+)"/g, (link, file, id) => (pages.has(file) && filled.includes(` id="${id}"`) ? `href="#${id}"` : link))
   const styles = [...pages.values()].flatMap(page => page.match(/<link[^>]*rel="stylesheet"[^>]*>/g) ?? []).filter(link => !html.includes(link))
-  return filled.replace('</head>', () => `${[...new Set(styles)].join('')}</head>`)
+  return whole.replace('</head>', () => `${[...new Set(styles)].join('')}</head>`)
 }

@@ -6,7 +6,9 @@ import { isMain, main, root, say } from './lib.mjs'
 /** The words of the chapter as it stands. */
 export async function chapterWords() {
   const { pages } = await renderChapter(root)
-  return wordsOf({ type: 'root', children: pages['index.html']?.body ?? [] })
+  const [chapter, solutions] = ['index.html', 'solutions.html'].map(name => wordsOf({ type: 'root', children: pages[name]?.body ?? [] }))
+  // Solutions are folds of the chapter, though on a page of their own.
+  return (chapter ?? []).map(count => (count.id === 'exercises' ? { ...count, whole: count.whole + total(solutions ?? []).whole } : count))
 }
 
 if (isMain(import.meta)) {

@@ -19,6 +19,7 @@ import { Numbers } from './numbers.mjs'
 import { page } from './page.mjs'
 import { parse } from './parse.mjs'
 import { Problems } from './problems.mjs'
+import { solutionsPage, takeSolutions } from './solutions.mjs'
 import { Sources } from './source.mjs'
 import { together } from './together.mjs'
 
@@ -33,7 +34,8 @@ import { together } from './together.mjs'
 const home = fileURLToPath(new URL('.', import.meta.url))
 /** Pages beside the chapter, each with what it runs. */
 const beside = [['model', './src/page.ts'], ['practice', './src/practice.ts']]
-const licence = 'Text: CC BY 4.0. Code: MIT or Apache-2.0'
+/** What is the same of every page. */
+const plain = { previous: undefined, next: undefined, live: false, foot: 'Text: CC BY 4.0. Code: MIT or Apache-2.0', fonts: ['text', 'italic', 'bold', 'math', 'mono'] }
 
 /**
  * @param {string} root of the repository
@@ -78,11 +80,17 @@ export async function renderChapter(root) {
     for (const key of ['title', 'number', 'lead']) if (!front[key]) problems.add(first.file, 1, `the front matter has no ${key}`)
     pages['index.html'] = renderPage({ ...shared, chapter: number, texts: [first, ...rest], front, kicker: `Chapter ${number}`, script: './src/main.ts' })
   }
+  const kicker = h('a', { href: 'index.html' }, `Chapter ${number}`)
+  const { heads, sections: solutions } = takeSolutions(pages['index.html']?.body ?? [])
+  if (solutions.length > 0) {
+    const title = 'Solutions'
+    pages[solutionsPage] = page({ ...plain, title, heading: [{ type: 'text', value: title }], kicker, lead: [], description: `${title} of the exercises of chapter ${number}`, script: './src/page.ts', heads, main: solutions })
+  }
   for (const [stem, script] of beside) {
     const path = join(www, `${stem}.md`)
     if (!existsSync(path)) continue
     const text = read(path)
-    pages[`${stem}.html`] = renderPage({ ...shared, chapter: number, texts: [text], front: { ...titleOf(text, problems), ...text.front }, kicker: h('a', { href: 'index.html' }, `Chapter ${number}`), script })
+    pages[`${stem}.html`] = renderPage({ ...shared, chapter: number, texts: [text], front: { ...titleOf(text, problems), ...text.front }, kicker, script })
   }
 
   // A number, a work or a term that nobody uses was forgotten, by the text or in its list.
@@ -144,6 +152,7 @@ function renderPage({ chapter, texts, front, kicker, script, ...shared }) {
   replaceMinutes(main)
   const lead = inlineMarkdown(context, texts[0]?.file ?? '', String(front.lead ?? ''))
   return page({
+    ...plain,
     title: String(front.title ?? ''),
     heading: unbroken(String(front.title ?? '')),
     kicker,
@@ -155,8 +164,6 @@ function renderPage({ chapter, texts, front, kicker, script, ...shared }) {
     previous: front.previous,
     next: front.next,
     live: texts.some(({ tree }) => tree.children.length > 0) && script.endsWith('main.ts'),
-    foot: licence,
-    fonts: ['text', 'italic', 'bold', 'math', 'mono'],
   })
 }
 

@@ -129,12 +129,16 @@ test('on paper a place is a place of the paper, and what is live or on another p
 
 test('what unfolds from another page is there in a file that can fetch nothing, with its styles, and its links lead within the page', async () => {
   const fold = '<details class="deeper elsewhere"><summary>A</summary><div class="fold"><p><a href="practice.html#b">A (on a page of its own)</a></p></div></details>'
+  const solution = '<details class="solution elsewhere"><summary>B</summary><div class="fold"><p><a href="solutions.html#s">On a page of its own</a></p></div></details>'
   const practice = '<head><link rel="stylesheet" href="./a.css"><link rel="stylesheet" href="./b.css"></head><section><h2 id="a">A</h2>no</section><section><h2 id="b"><a href="#b">B</a></h2><p>yes <a href="./index.html#c">c</a></p></section>'
   await inFolder({ 'practice.html': practice }, folder => {
     const html = fillFolds(`<head><link rel="stylesheet" href="./a.css"></head>${fold}${fold}`, folder)
     const filled = fold.replace(/<p>.*<\/p>/, '<p>yes <a href="#c">c</a></p>')
     assert.equal(html, `<head><link rel="stylesheet" href="./a.css"><link rel="stylesheet" href="./b.css"></head>${filled}${filled}`)
     assert.throws(() => fillFolds(fold.replace('#b', '#d'), folder), /no section #d/)
+    // And links to what was on the other page.
+    writeFileSync(join(folder, 'solutions.html'), '<section><h2 id="s">S</h2><p id="q">so</p></section>')
+    assert.equal(fillFolds(`<a href="solutions.html#q">1</a><a href="other.html#q">2</a>${solution}`, folder), `<a href="#q">1</a><a href="other.html#q">2</a>${solution.replace(/<p>.*<\/p>/, '<p id="q">so</p>')}`)
   })
 })
 

@@ -5,6 +5,7 @@ import { Letters } from '../../scripts/chapter/fonts.mjs'
 import { Numbers } from '../../scripts/chapter/numbers.mjs'
 import { curly } from '../../scripts/chapter/quotes.mjs'
 import { total, wordsOf } from '../../scripts/chapter/count.mjs'
+import { serialize } from '../../scripts/chapter/page.mjs'
 import { book, html } from './book.mjs'
 
 const number = (/** @type {number} */ value, unit = 'm') => ({ value, unit, made: 'by a test' })
@@ -107,6 +108,19 @@ test('what unfolds from another page is a link until then, and the page says how
   assert.match(text, /word\s+10 and 20<\/p>/)
   assert.match(text, /<div class="takeaway"><p><b>To take away<\/b><\/p>\s*<ul>/)
   assert.match(text, /<details class="deeper elsewhere"><summary>More of .*<div class="fold"><p><a href="practice\.html#b">On a page of its own<\/a><\/p><\/div>/)
+})
+
+test('solutions are on a page of their own, a fold leads to each, and links between the pages follow', async () => {
+  const exercise = (/** @type {string} */ id, /** @type {string} */ text) => `::::::exercise[On *${id}*]{#ex-${id} kind="k" level="1"}\nSee [](#eq-y).\n\n:::::solution\n${text}\n:::::\n::::::\n\n`
+  const equation = (/** @type {string} */ id) => `::::equation{#eq-${id}}\n$$${id}$$\n::::\n\n`
+  const { pages } = await book(`## A {#a}\n\n${equation('x')}${exercise('b', `${equation('y')}Of [](#eq-x), [](#eq-z) and [lap](#fastslam-lap?v=1).`)}${exercise('c', equation('z'))}`)
+  const [chapter = '', solutions = ''] = ['index.html', 'solutions.html'].map(name => serialize(pages[name]?.body ?? []))
+  assert.match(chapter, /<details class="solution elsewhere"><summary>Solution<\/summary><div class="fold"><p><a href="solutions\.html#solution-ex-b">On a page of its own<\/a><\/p><\/div>/)
+  assert.match(chapter, /See <a class="eqref" href="solutions\.html#eq-y">\(17\.2\)<\/a>/)
+  assert.ok(!chapter.includes('id="eq-y"') && chapter.includes('id="eq-x"'))
+  assert.match(solutions, /<section><h2 id="solution-ex-b"><a href="\.\/index\.html#ex-b"><b>Exercise 1<\/b> <span class="title">On <em>b<\/em><\/span><\/a><\/h2>\s*<div class="eq" id="eq-y">/)
+  for (const link of ['./index.html#eq-x', '#eq-z', './index.html#fastslam-lap?v=1']) assert.ok(solutions.includes(` href="${link}"`), link)
+  assert.ok(!('solutions.html' in (await book('## A {#a}\n\n::::exercise[E]{#ex-a kind="k" level="1"}\nx\n::::')).pages))
 })
 
 test('words are counted by section, once: those that are open, and with them those that unfold', async () => {

@@ -14,7 +14,7 @@ const unfold = (page: Page) => page.evaluate(() => document.querySelectorAll('de
 const but = FIGURES.map(name => `fastslam-${name}`)
 
 test('axe finds nothing in the text, unfolded, nor in the colours of each kind of text, light and dark', async ({ page }) => {
-  for (const address of ['./', './model.html']) {
+  for (const address of ['./', './model.html', './solutions.html']) {
     await page.goto(address)
     await unfold(page)
     expect(await brokenRules(page, { but, contrast: false }), address).toEqual([])
@@ -32,7 +32,7 @@ for (const colorScheme of ['light', 'dark'] as const) {
   test(`axe finds nothing in the ${colorScheme} text, unfolded, with every text and formula of it`, breadth, async ({ page }) => {
     test.slow()
     await page.emulateMedia({ colorScheme })
-    for (const address of ['./', './model.html']) {
+    for (const address of ['./', './model.html', './solutions.html']) {
       await page.goto(address)
       await unfold(page)
       expect(await brokenRules(page, { but })).toEqual([])

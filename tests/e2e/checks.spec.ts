@@ -88,6 +88,24 @@ test('a state to reach is graded by the figure, a recap and short exercises unfo
   expect(await page.locator('details.elsewhere a[href*="index.html#"]').count()).toBe(0)
 })
 
+test('a solution unfolds below its exercise, and links lead to what is in it here from then on', async ({ page }) => {
+  await page.goto('./')
+  const solution = page.locator('#ex-depletion .solution')
+  const link = page.locator('#fig-universes figcaption a[href$="#eq-depletion"]')
+  await expect(link).toHaveAttribute('href', 'solutions.html#eq-depletion')
+  await solution.locator('summary').click()
+  await expect(solution.locator('#eq-depletion math')).toBeVisible()
+  await expect(link).toHaveAttribute('href', '#eq-depletion')
+  // From it to another solution, which is not here, and to the text, which is.
+  await expect(solution.locator('a[href="#ex-variance"]').first()).toBeVisible()
+  for (const href of await solution.locator('a').evaluateAll(links => links.map(link => link.getAttribute('href')!))) {
+    if (href.startsWith('#') && !href.includes('?')) expect(await page.locator(`[id="${href.slice(1)}"]`).count(), href).toBe(1)
+    else expect(href).toMatch(/^solutions\.html#|^#fastslam|^https:/)
+  }
+  await page.goto('./solutions.html#eq-depletion')
+  await expect(page.locator('#eq-depletion')).toBeInViewport()
+})
+
 test('where the questions cannot be fetched, a link leads to their page, and another try may find them', async ({ page, complaints }) => {
   await page.goto('./')
   await page.route('**/practice.html', route => route.abort())
@@ -158,6 +176,14 @@ test('axe finds nothing in the page of questions, answered and unfolded, light a
 
 test.describe('without JavaScript', () => {
   test.use({ javaScriptEnabled: false })
+
+  test('a fold of the chapter leads to the solution on its page', async ({ page }) => {
+    await page.goto('./')
+    const solution = page.locator('#ex-prove .solution')
+    await solution.locator('summary').click()
+    await solution.getByRole('link').click()
+    await expect(page.locator('#solution-ex-prove')).toBeInViewport()
+  })
 
   test('a fold of the chapter leads to the questions, whose answers unfold', async ({ page }) => {
     await page.goto('./')

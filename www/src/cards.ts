@@ -66,7 +66,8 @@ document.addEventListener('keydown', event => event.key === 'Escape' && hide())
 document.addEventListener('click', event => {
   const link = linkAt(event)
   const touch = (event as PointerEvent).pointerType === 'touch'
-  if (link && touch && link !== shown) {
+  // A few lead to another page.
+  if (link && touch && link !== shown && document.getElementById(decodeURIComponent(link.hash.slice(1)))) {
     event.preventDefault()
     show(link)
   } else if (!card.contains(event.target as Node)) hide()

@@ -18,6 +18,18 @@ function fetched(address: string): Promise<Document> {
   return page
 }
 
+/** Lets links lead to this page where their places are here now, and to the other where they are not. */
+function follow(fold: Element, file: string): void {
+  const isHere = (hash: string) => document.getElementById(decodeURIComponent(hash)) !== null
+  for (const link of fold.querySelectorAll('a')) {
+    const [, page, hash] = /^(?:\.\/)?(index\.html)?#(.*)$/.exec(link.getAttribute('href')!) ?? []
+    if (hash !== undefined) link.setAttribute('href', page || isHere(hash) ? `#${hash}` : `${file}#${hash}`)
+  }
+  for (const link of document.querySelectorAll<HTMLAnchorElement>(`a[href^="${file}#"]`)) {
+    if (isHere(link.hash.slice(1))) link.setAttribute('href', link.hash)
+  }
+}
+
 /** What the link of a fold leads to, in its place; of a file that carries all it needs it is there already. */
 async function fill(fold: HTMLElement): Promise<void> {
   const link = fold.querySelector<HTMLAnchorElement>(':scope > p:only-child > a:only-child')
@@ -26,12 +38,12 @@ async function fill(fold: HTMLElement): Promise<void> {
     const page = await fetched(address)
     const [, ...content] = page.getElementById(link.hash.slice(1))!.parentElement!.childNodes
     fold.replaceChildren(...content)
-    // Its links to the chapter are links within this page.
-    for (const inner of fold.querySelectorAll('a')) inner.setAttribute('href', inner.getAttribute('href')!.replace(/^(\.\/)?index\.html(?=#)/, ''))
+    follow(fold, link.getAttribute('href')!.replace(/#.*/, ''))
     watch(fold)
   }
-  const { follow } = await import('./checks')
-  follow(fold, isReached)
+  if (!fold.querySelector('.check')) return
+  const { follow: grade } = await import('./checks')
+  grade(fold, isReached)
 }
 
 const loads = [...document.querySelectorAll<HTMLDetailsElement>('details.elsewhere')].map(details => {
