@@ -4,9 +4,11 @@ import { expect, test } from '@playwright/test'
 /** A page that asks for as much motion as there is. */
 const quiet = () => ({ matches: false, addEventListener: () => undefined })
 
+// Each test may be the first of its worker.
+test.beforeAll(() => void Object.assign(globalThis, { matchMedia: quiet, addEventListener: () => undefined }))
+
 /** Steps that are due within a second of frames, from a moment at which one was. */
 async function stepsIn(change: (playback: { rate: number; pace: number }) => void): Promise<number> {
-  Object.assign(globalThis, { matchMedia: quiet, addEventListener: () => undefined })
   const { Playback } = await import('../../widgets/elements/playback')
   const playback = new Playback()
   playback.start()
