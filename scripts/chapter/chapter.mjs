@@ -148,7 +148,9 @@ function renderPage({ chapter, texts, front, kicker, script, ...shared }) {
   })
   replaceReferences(context, nodes)
   const terms = context.glossary.here()
-  const main = [...sections(nodes), ...(terms.length > 0 ? [glossarySection(context, terms)] : [])]
+  // The figure beside the title is written before the first heading.
+  const hero = nodes.filter(isHero)
+  const main = [...sections(nodes.filter(node => !isHero(node))), ...(terms.length > 0 ? [glossarySection(context, terms)] : [])]
   replaceMinutes(main)
   const lead = inlineMarkdown(context, texts[0]?.file ?? '', String(front.lead ?? ''))
   return page({
@@ -160,12 +162,16 @@ function renderPage({ chapter, texts, front, kicker, script, ...shared }) {
     description: String(front.description ?? front.lead ?? front.title ?? ''),
     script,
     heads: context.heads,
+    hero,
     main,
     previous: front.previous,
     next: front.next,
     live: texts.some(({ tree }) => tree.children.length > 0) && script.endsWith('main.ts'),
   })
 }
+
+/** @param {ElementContent} node */
+const isHero = node => node.type === 'element' && [node.properties.className].flat().includes('hero')
 
 /** @param {Context} context @param {import('mdast').Root} tree @returns {ElementContent[]} */
 function toContent(context, tree) {

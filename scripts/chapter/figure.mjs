@@ -7,10 +7,13 @@ import { captioned } from './blocks.mjs'
 import { challengesOf, judgeChips } from './challenges.mjs'
 
 const golden = 'tests/figures/golden'
-const own = new Set(['id', 'class', 'tag', 'alt'])
+const own = new Set(['id', 'class', 'tag', 'alt', 'hero'])
 
 /** Width and height [px] from a PNG's header. @param {Buffer} png */
 const sizeOf = png => ({ width: png.readUInt32BE(16), height: png.readUInt32BE(20) })
+
+/** A list of its challenges. @param {any} node */
+const isTries = node => node.type === 'list' && node.children.every((/** @type {any} */ item) => item.children[0]?.children?.[0]?.name === 'chip')
 
 /** @type {import('./context.mjs').Handler} */
 export function figure(context, state, node) {
@@ -27,10 +30,14 @@ export function figure(context, state, node) {
   const passed = Object.entries(node.attributes ?? {}).filter(([name]) => !own.has(name))
   const id = idOf(node)
   context.figure = { tag, challenges: challengesOf(root, tag), told: [] }
-  const caption = captioned(context, node, content(state, node.children))
+  // What there is to try unfolds: the chips over the picture have the same.
+  const parts = node.children.map((/** @type {any} */ child) => (isTries(child) ? h('details.tries', h('summary', 'Things to try'), content(state, [child])) : content(state, [child])))
+  const caption = captioned(context, node, parts.flat())
   judgeChips(context, node)
   context.figure = undefined
-  return h('figure.wide', { id }, [
+  // Beside the title it is folded to its picture and plays by itself: from a step to a step, and then rests at one (www/src/hero.ts).
+  const hero = attribute(node, 'hero')
+  return h(hero ? 'figure.hero' : 'figure.wide', { id, dataPlays: hero }, [
     h(tag || 'div', { ...latest, ...Object.fromEntries(passed) }, [
       h('picture', [
         // Paper is light.

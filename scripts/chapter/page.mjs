@@ -17,6 +17,7 @@ import { contents } from './contents.mjs'
  * @property {string} description for search engines
  * @property {string} script the module that the page runs
  * @property {import('./context.mjs').Head[]} heads
+ * @property {ElementContent[]} hero the figure beside the title, if there is one
  * @property {ElementContent[]} main
  * @property {Neighbour | undefined} previous
  * @property {Neighbour | undefined} next
@@ -29,7 +30,7 @@ import { contents } from './contents.mjs'
 const doors = [['model.html', 'For teachers'], ['embed/', 'Embed'], ['model.html#cite', 'Cite']].flatMap(([href, name]) => [' · ', h('a', { href }, name)])
 
 /** @param {Page} page @returns {{ head: ElementContent[], body: ElementContent[] }} */
-export function page({ title, heading, kicker, lead, description, script, heads, main, previous, next, live, foot, fonts }) {
+export function page({ title, heading, kicker, lead, description, script, heads, hero, main, previous, next, live, foot, fonts }) {
   const neighbour = (/** @type {string} */ rel, /** @type {string} */ name, /** @type {Neighbour | undefined} */ to) =>
     to ? [h('a', { href: to.href, rel }, h('small', name), ' ', to.title)] : []
   const around = [...neighbour('prev', 'Previous', previous), ...neighbour('next', 'Next', next)]
@@ -47,7 +48,7 @@ export function page({ title, heading, kicker, lead, description, script, heads,
     ],
     body: [
       h('a.skip', { href: '#chapter' }, 'Skip to the chapter'),
-      h('header', h('nav.kicker', { ariaLabel: 'Site' }, kicker, h('span', doors)), h('h1', heading), lead.length > 0 ? h('p.lead', lead) : []),
+      h('header', h('div', h('nav.kicker', { ariaLabel: 'Site' }, kicker, h('span', doors)), h('h1', heading), lead.length > 0 ? h('p.lead', lead) : []), hero),
       heads.length > 1 ? h('nav.contents', { ariaLabel: 'Contents' }, h('details', h('summary', 'Contents'), contents(heads))) : [],
       h('main', { id: 'chapter', tabIndex: -1 }, [
         ...(live ? [h('noscript', h('p.hint', 'The figures run with JavaScript and WebAssembly. Without them you see them at rest.'))] : []),

@@ -59,7 +59,8 @@ function tellHeight(figure: FigureElement): void {
   }
   figure.addEventListener('fastslam-step', tell)
   figure.addEventListener('fastslam-change', tell)
-  figure.addEventListener('fastslam-step', () => figure.shadowRoot!.querySelector('.settings')?.addEventListener('toggle', tell), { once: true })
+  // What is opened and closed in it: its Lab, and what is folded there.
+  figure.shadowRoot!.addEventListener('click', () => requestAnimationFrame(tell))
   addEventListener('resize', () => requestAnimationFrame(tell))
 }
 
