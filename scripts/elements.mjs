@@ -39,6 +39,7 @@ export const options = [
   { name: 'v', values: undefined, type: "number | 'latest'", help: 'Version of the figure that the other attributes are of: what they leave out is at the default of that version, whatever has become of it since. Copied codes have it. Without it, the version of the day on which codes began to say theirs; latest follows the figure.' },
   { name: 'theme', values: ['auto', 'light', 'dark'], help: 'Colours; auto follows the color-scheme that the page has around the figure or, where it has none, the reader’s system.' },
   { name: 'controls', values: undefined, help: 'Controls that readers see, apart by spaces: names of parameters, playback (the whole row of it), play (its button alone), numbers, chips; or none, or all. controls="seed" leaves the seed; a name that is none is answered with those that there are.' },
+  { name: 'lab', values: ['closed', 'open'], help: 'open: readers begin with all that can be set, the seed, the speed and the numbers in sight; they can close it. A link has it too.' },
   { name: 'chips', values: ['on', 'off'], help: 'off leaves the chips of its challenges out.' },
   { name: 'show', values: undefined, help: 'Parts of the picture to show, apart by spaces; or all.' },
   { name: 'lock', values: undefined, help: 'Names of parameters, apart by spaces, that readers cannot change; or all. lock="seed" fixes the seed.' },
@@ -85,7 +86,7 @@ const properties = [
 
 /** The figure that maps logs has files to open, and goes back through what it has mapped. */
 const log = {
-  options: options.filter(({ name }) => ['lang', 'v', 'theme', 'controls', 'chips', 'show', 'lock', 'size'].includes(name)),
+  options: options.filter(({ name }) => ['lang', 'v', 'theme', 'controls', 'lab', 'chips', 'show', 'lock', 'size'].includes(name)),
   methods: [
     { name: 'open', type: '(file: Blob, name?: string, start?: boolean, topics?: { scan?: string; odometry?: string }) => Promise<void>', help: 'Reads a log, of a bag the topics named; maps it too if it is to start.' },
     { name: 'example', type: '() => Promise<void>', help: 'Maps the log that comes with the figure.' },
@@ -141,7 +142,8 @@ const parts = {
   control: 'A control with its name.',
   notices: 'What there is to tell.',
   notice: 'One thing of it; there only then.',
-  sentence: 'What is shown, in words.',
+  sentence: 'What happens now, in a line.',
+  lab: 'Opens all that can be set, and closes it.',
   numbers: 'The fold of numbers.',
   readouts: 'The numbers.',
   readout: 'A number with its name.',

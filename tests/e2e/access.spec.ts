@@ -349,6 +349,6 @@ test('a page that names a figure names its picture, and on paper without a pictu
 
   await page.emulateMedia({ media: 'print' })
   await expect(lap.canvas).toBeVisible()
-  await expect(lap.sentence).toBeVisible()
+  await expect(lap.told).toBeVisible()
   for (const part of ['transport', 'settings', 'view', 'menu']) await expect(lap.element.locator(`[part="${part}"]`)).toBeHidden()
 })

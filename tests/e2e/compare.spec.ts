@@ -30,24 +30,24 @@ async function give(figure: Figure, [name, value]: [string, string]): Promise<vo
 for (const [tag, link, change, says] of RUNS) {
   test(`${tag} tells what a reader’s setting has changed, with the one before behind it, until nobody wants to know`, breadthBut(tag), async ({ page }) => {
     const figure = await open(page, tag, link)
-    const [opened, usual] = [await figure.state(), await figure.sentence.textContent()]
+    const [opened, usual] = [await figure.state(), await figure.told.textContent()]
     await give(figure, change)
-    await expect(figure.sentence).toHaveText(says)
+    await expect(figure.told).toHaveText(says)
     const [state, compared] = [await figure.state(), await figure.picture()]
     await figure.menu('Compare with nothing')
     await figure.settled()
-    await expect(figure.sentence).not.toHaveText(says)
+    await expect(figure.told).not.toHaveText(says)
     const alone = await figure.picture()
     expect(alone, 'the setting before is drawn').not.toBe(compared)
     await figure.menu('Compare with the setting before')
     await figure.settled()
-    await expect(figure.sentence).toHaveText(says)
+    await expect(figure.told).toHaveText(says)
     expect(await figure.picture()).toBe(compared)
     // A link has nothing of it, and the setting before has nothing to tell of itself.
     await figure.goTo(state)
     expect(await figure.picture()).toBe(alone)
     await figure.goTo(opened)
-    await expect(figure.sentence).toHaveText(usual!)
+    await expect(figure.told).toHaveText(usual!)
   })
 }
 
@@ -55,13 +55,13 @@ test('at another step nothing is compared, and what is read out is both', async 
   const lap = await open(page, 'fastslam-lap', 'v=9&universes=4&step=9')
   const spoken = lap.element.locator('.spoken')
   await give(lap, ['odometry', '1.5'])
-  await expect(spoken).toHaveText(/^Step 9: Odometry noise σ 1 → 1\.5 × α\. .*Step 9 of 110, 4 universes/)
+  await expect(spoken).toHaveText(/^Step 9: Odometry noise σ 1 → 1\.5 ×\. .*Step 9 of 110, 4 universes/)
   await lap.step.click()
   await lap.settled()
   await expect(lap.sentence).toHaveText(/^Step 10 of 110/)
   await lap.stepBack.click()
   await lap.settled()
-  await expect(lap.sentence).toHaveText(/^Step 9: Odometry/)
+  await expect(lap.told).toHaveText(/^Step 9: Odometry/)
 })
 
 test('a script runs seeds of its own, hears of them, and ends them by a signal; the figure stays as it is', async ({ page }) => {

@@ -81,7 +81,7 @@ test.describe('at rest', () => {
     await figure.settled()
     await expect(figure.sentence).toContainText('it is off by 0 doors, which is right')
     await drag(page, figure, 'end', 60)
-    await expect(figure.sentence).toContainText('Particles: right? right → right, EKF-SLAM: right? right → wrong')
+    await expect(figure.told).toContainText('Particles: right? right → right, EKF-SLAM: right? right → wrong')
     await expect(figure.element.getByRole('button', { name: 'Fool EKF-SLAM (reached)' })).toBeVisible()
     await figure.goTo('ride=1')
     await expect(figure.sentence).toContainText('it is off by 0 doors, which is right')

@@ -55,7 +55,10 @@ export class Figure {
   readonly scrub: Locator
   readonly seed: Locator
   readonly alert: Locator
+  /** The picture in words, for who does not see it. */
   readonly sentence: Locator
+  /** The line over the picture. */
+  readonly told: Locator
   readonly canvas: Locator
 
   constructor(
@@ -73,7 +76,8 @@ export class Figure {
     this.scrub = this.element.getByRole('slider', { name: 'Step shown' })
     this.seed = this.element.getByRole('spinbutton', { name: 'Seed' })
     this.alert = this.element.getByRole('alert')
-    this.sentence = this.element.locator('[part=sentence]')
+    this.sentence = this.element.locator('.described')
+    this.told = this.element.locator('[part=sentence]')
     this.canvas = this.element.locator('[part=canvas]')
   }
 
@@ -107,8 +111,10 @@ export class Figure {
     return this
   }
 
+  /** All of its controls are there, as after a press on *Lab*; of that, links and codes would tell (lab.spec.ts). */
   async live(): Promise<void> {
     await expect(this.element.locator('.stage.live')).toBeVisible()
+    await this.element.evaluate(element => element.shadowRoot!.querySelector('.figure')!.classList.add('lab-open'))
     await this.settled()
   }
 

@@ -107,7 +107,7 @@ for (const heavy of [false, true]) {
         figure.seek(step)
         await figure.settled()
         const root = figure.shadowRoot!
-        return [root.querySelector('.timeline .position')!.textContent, root.querySelector('.position.busy') === null, root.querySelector('.sentence')!.textContent]
+        return [root.querySelector('.timeline .position')!.textContent, root.querySelector('.position.busy') === null, root.querySelector('.described')!.textContent]
       }, step)
       expect(shown.slice(0, 2)).toEqual([expect.stringMatching(new RegExp(`^${step} /`)), true])
       expect(shown[2]).toBe(await lap.sentence.textContent())

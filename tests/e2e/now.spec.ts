@@ -30,7 +30,7 @@ async function openLap(page: Page, attributes: string): Promise<Figure> {
       copy.drawImage(canvas, 0, 0)
       const { data } = copy.getImageData(0, 0, canvas.width, canvas.height)
       const picture = new Uint32Array(data.buffer).reduce((hash, pixel) => Math.imul(hash ^ pixel, 16777619), 2166136261)
-      return { transport: number('.timeline .position'), sentence: number('.sentence'), readout: number('[data-name=step] dd'), picture, universes: (figure as unknown as { universes: number }).universes }
+      return { transport: number('.timeline .position'), sentence: number('.described'), readout: number('[data-name=step] dd'), picture, universes: (figure as unknown as { universes: number }).universes }
     }
     Object.assign(window, { look })
   })

@@ -120,7 +120,7 @@ test('decimal commas: in boxes, readouts, the sentence and the picture, and type
 
 test('the presentation size is half as large again, in the picture and beside it, and pointers still hit', async ({ page }) => {
   const normal = await open(page, 'lap', 'step=20')
-  const letters = (figure: Figure) => figure.sentence.evaluate(element => parseFloat(getComputedStyle(element).fontSize))
+  const letters = (figure: Figure) => figure.told.evaluate(element => parseFloat(getComputedStyle(element).fontSize))
   const [before, handles] = [await letters(normal), await normal.play.evaluate(button => (button as HTMLElement).offsetHeight)]
   const figure = await open(page, 'lap', 'step=20&size=presentation')
   await figure.element.evaluate(element => element.removeAttribute('fit'))

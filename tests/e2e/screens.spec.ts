@@ -48,7 +48,7 @@ test('at 400 % nothing of any figure scrolls sideways and nothing is cut off, wh
     await frames(page, 2)
     for (const [i, figure] of figures.entries()) {
       expect(await lost(figure.element), `${ALL[i]}, ${dir}`).toEqual({ out: [], cut: [] })
-      expect(await figure.sentence.evaluate(sentence => sentence.scrollHeight - sentence.clientHeight), `the sentence of ${ALL[i]}`).toBeLessThanOrEqual(1)
+      expect(await figure.told.evaluate(sentence => sentence.scrollHeight - sentence.clientHeight), `the sentence of ${ALL[i]}`).toBeLessThanOrEqual(1)
     }
     expect(await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]), dir).toEqual([320, 320])
   }

@@ -102,7 +102,7 @@ for (const name of FIGURES) {
       await page.setViewportSize({ width, height: 800 })
       await figure.live()
       await frames(page, 3)
-      expect(await figure.sentence.evaluate(sentence => [getComputedStyle(sentence).letterSpacing, getComputedStyle(sentence).wordSpacing])).toEqual(['1.92px', '2.56px'])
+      expect(await figure.told.evaluate(sentence => [getComputedStyle(sentence).letterSpacing, getComputedStyle(sentence).wordSpacing])).toEqual(['1.92px', '2.56px'])
       expect(await lost(figure), `${width} px`).toEqual({ out: [], cut: [] })
       expect(await page.evaluate(() => document.documentElement.scrollWidth), 'nothing scrolls sideways').toBe(width)
     }

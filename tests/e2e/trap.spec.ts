@@ -156,7 +156,7 @@ test('whoever compares nothing compares nothing after a program died, and what i
     await figure.element.scrollIntoViewIfNeeded()
     await figure.reroll.click()
     await figure.settled()
-    const compared = await figure.sentence.evaluate(sentence => sentence.textContent!.includes(' → '))
+    const compared = await figure.told.evaluate(sentence => sentence.textContent!.includes(' → '))
     expect(compared, `figure ${k}`).toBe(k > 0)
   }
   forgiveTrap(complaints)

@@ -9,7 +9,7 @@ const PICTURE_SHARE = 0.6 // of a frame's height, which the picture takes if the
 const MAX_PIXELS = 6e6 // a canvas beyond this is painted coarser: no screen shows the difference, every phone feels it
 
 export class Canvas {
-  readonly element = h('canvas', { part: 'canvas', role: 'img', 'aria-labelledby': 'title', 'aria-describedby': 'sentence' })
+  readonly element = h('canvas', { part: 'canvas', role: 'img', 'aria-labelledby': 'title', 'aria-describedby': 'described' })
   #room = 0 // [css px] for the picture, sideways
   #natural: number | undefined // [css px] high, if nothing had to fit
   #highest = Infinity // [css px], so that picture and controls are on one screen

@@ -89,6 +89,11 @@ export class Chips {
     this.#taken = name
   }
 
+  /** Names of the parameters that the one that is on leaves to the reader. */
+  get free(): string[] {
+    return this.#chips[this.#now]?.free ?? []
+  }
+
   /** The one that is on, where its goal is reached and was not before. */
   get justReached(): Chip | undefined {
     const chip = this.#chips[this.#now]

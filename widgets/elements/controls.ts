@@ -17,6 +17,8 @@ export interface Actions {
   /** To all that the page's author gave. */
   reset(): void
   rate(stepsPerSecond: number): void
+  /** Opens the Lab, or closes it. */
+  lab(): void
   /** The value as a reader typed it; the figure refuses it or shows it. */
   change(name: string, value: string): void
 }
@@ -27,12 +29,15 @@ const STEP = 'step' // has its place in the row of playback, as the seed has
 
 export class Controls {
   readonly transport: HTMLElement
-  /** The controls that matter, always in sight. */
+  /** The controls that matter, in first sight, and below them those of the Lab. */
   readonly main: HTMLElement
+  /** Opens the Lab: all that is not in first sight. */
+  readonly lab: HTMLButtonElement
   /** The others, folded away. */
   readonly settings: HTMLDetailsElement
   private readonly fields = new Map<string, Field>()
   private readonly shown = new Map<string, string>()
+  private offered: Set<string> | undefined // what an author picks; undefined for all
   private readonly rewind: HTMLButtonElement
   private readonly play: HTMLButtonElement
   private readonly back: HTMLButtonElement
@@ -80,15 +85,19 @@ export class Controls {
 
     this.main = h('div', { class: 'main', part: 'controls', role: 'group', 'aria-label': words.say('controls') })
     const grid = h('div', { class: 'grid' })
+    this.lab = h('button', { type: 'button', class: 'lab', part: 'button lab', title: words.say('lab_help'), 'aria-expanded': 'false' }, words.say('lab'))
+    this.lab.addEventListener('click', actions.lab)
     this.settings = h('details', { class: 'settings', part: 'settings' }, h('summary', {}, words.say('settings')), grid)
-    for (const spec of specs) {
+    const rest = document.createDocumentFragment()
+    for (const spec of [...specs].sort((a, b) => Number(b.sight) - Number(a.sight))) {
       if (spec.name === STEP || spec.kind === 'text') continue
       const field = fieldFor(spec, words, this.style, value => actions.change(spec.name, value))
       this.fields.set(spec.name, field)
       for (const input of field.element.querySelectorAll<HTMLElement>('input, select')) input.title = spec.help // read out after the name
-      const place = spec.name === SEED ? extras : spec.folded ? grid : this.main
+      const place = spec.name === SEED ? extras : spec.sight ? this.main : spec.folded ? grid : rest
       place.append(field.element)
     }
+    this.main.append(this.lab, rest)
     extras.append(reset)
     this.settings.hidden = !grid.hasChildNodes()
     this.rows = [buttons, extras, this.transport, grid, this.settings, this.main]
@@ -107,6 +116,7 @@ export class Controls {
       const { name } = spec
       const field = this.fields.get(name)
       if (!field) continue
+      field.element.hidden = !spec.applies && !this.offered?.has(name)
       const value = values[name] ?? ''
       const changed = field.limit?.(spec) || this.shown.get(name) !== value || name === force
       if (!changed) continue // a box that is being typed into is left alone until its value changes under it
@@ -139,8 +149,14 @@ export class Controls {
     this.scrub.disabled = names.has(STEP)
   }
 
+  /** Brings those into first sight that are left to a reader who takes up a challenge. */
+  free(specs: ParamSpec[], names: string[]): void {
+    for (const { name, sight } of specs) this.fields.get(name)?.element.classList.toggle('in-lab', !sight && !names.includes(name))
+  }
+
   /** The controls that readers see: all, or those of these names. */
   offer(names?: Set<string>): void {
+    this.offered = names
     const show = (element: HTMLElement, on: boolean) => element.classList.toggle('left-out', !on)
     const has = (...any: string[]) => !names || any.some(name => names.has(name))
     for (const [name, { element }] of this.fields) show(element, has(name) || (name === SEED && has(PLAYBACK)))
@@ -171,6 +187,7 @@ export class Controls {
   showPosition(step: number, target: number, last: number, playing: boolean): void {
     const steps = last > 0
     for (const element of this.playback) element.hidden = !steps
+    this.transport.classList.toggle('stepless', !steps)
     this.transport.setAttribute('aria-label', this.words.say(steps ? 'playback' : 'start_over'))
     this.scrub.max = String(last)
     if (step === target) this.scrub.value = String(step)

@@ -58,7 +58,7 @@ export class Drive {
   readonly #line = document.createElementNS(SVG, 'polyline')
   #canvas: HTMLCanvasElement | undefined
   #tool: Tool = 'wheel'
-  #sentenceBefore: Node | null = null
+  #sentenceAfter: ChildNode | null = null
   #alone = false // the map is shown alone
 
   constructor(
@@ -146,7 +146,7 @@ export class Drive {
   }
 
   #open(): void {
-    this.#sentenceBefore = this.sentence.previousSibling
+    this.#sentenceAfter = this.sentence.nextSibling
     this.element.hidden = false
     this.element.append(this.sentence)
     this.body.classList.add('driving')
@@ -161,7 +161,7 @@ export class Drive {
     this.element.hidden = true
     this.#map.hidden = true
     this.body.classList.remove('driving')
-    ;(this.#sentenceBefore as ChildNode | null)?.after(this.sentence)
+    this.#sentenceAfter?.before(this.sentence)
     this.asked.take('')
     if (this.#alone) this.asked.showMap(false)
     this.#alone = false

@@ -6,7 +6,7 @@ import { embedCode, type CodeName, type FigureMarkup } from './embed-code'
 import { homeAddress } from './files'
 import { FIGURES } from './generated/figures'
 import { HostedFigure } from './hosted-figure'
-import { linkedQuery, linkTo } from './link'
+import { linkedQuery, linkTo, withoutLab } from './link'
 import { OPTIONS } from './options'
 import { unwatchReached, watchReached } from './reached'
 import { fromText, isParameter, takeEarlyProperties, toText, watchUnknown } from './parameters'
@@ -150,7 +150,7 @@ export abstract class FigureElement extends HostedFigure {
 
   /** The address of this page with this figure's whole state; of the chapter's, where this page is one for frames. */
   get link(): string {
-    return linkTo(this, this.#linkable, homeAddress())
+    return linkTo(this, this.#linkable + (this.labIsOpen ? '&lab=open' : ''), homeAddress())
   }
 
   /** The code that puts this figure, as it stands, into another page; undefined where that would need an address it does not have. */
@@ -161,11 +161,12 @@ export abstract class FigureElement extends HostedFigure {
   }
 
   protected get markup(): FigureMarkup {
-    const options = Object.keys(OPTIONS).filter(option => !['fit', 'v'].includes(option) && this.hasAttribute(option))
+    const options = Object.keys(OPTIONS).filter(option => !['fit', 'v', 'lab'].includes(option) && this.hasAttribute(option))
+    const lab: [string, string][] = this.labIsOpen ? [['lab', 'open']] : []
     const state = new URLSearchParams(this.#linkable)
     const version = state.get('v') ?? '1' // as links have it
     state.delete('v')
-    return { tag: this.localName, attributes: [['v', version], ...state, ...options.map((name): [string, string] => [name, this.getAttribute(name)!])] }
+    return { tag: this.localName, attributes: [['v', version], ...state, ...lab, ...options.map((name): [string, string] => [name, this.getAttribute(name)!])] }
   }
 
   /** The state; of a figure that has none yet, what its author gave. */
@@ -216,8 +217,10 @@ export abstract class FigureElement extends HostedFigure {
     this.reconsider()
   }
 
-  /** A whole state, over what was given until now. */
-  #load(query: string, linked: boolean): void {
+  /** A whole state, over what was given until now; a link says of the Lab only that it is open. */
+  #load(link: string, linked: boolean): void {
+    const [query, lab] = withoutLab(link)
+    if (lab !== null) this.showLab(lab === 'open')
     this.playback.stop() // the sender meant this very state
     this.events.cause = 'page'
     this.settings.load(query, linked)

@@ -36,6 +36,7 @@ export abstract class FigureParts extends HTMLElement {
 
   #introduced = '' // the language of the controls
   #below = 0 // the part of the picture that stays in sight [css px]
+  #lab = false // open
   #compares = true // the setting before with that of now
 
   protected readonly words = new Words()
@@ -54,7 +55,7 @@ export abstract class FigureParts extends HTMLElement {
   protected readonly sentence = new Sentence()
   protected readonly stage = h('div', { class: 'stage', part: 'stage', role: 'group', tabindex: '0', 'aria-labelledby': 'title', 'aria-describedby': 'keys' })
   /** The picture with what plays it and what matters for it: on one screen. */
-  protected readonly panes = h('div', { class: 'panes' }, this.stage)
+  protected readonly panes = h('div', { class: 'panes' }, this.sentence.element, this.stage)
   protected readonly body = h('div', { class: 'figure', part: 'figure', role: 'group', 'aria-labelledby': 'title' })
   /** Where the styles of the page end. */
   readonly #edge = h('div', { class: 'edge' }, this.body)
@@ -101,7 +102,7 @@ export abstract class FigureParts extends HTMLElement {
       keys,
       handleKeys,
       this.messages.element,
-      this.sentence.element,
+      this.sentence.described,
       this.sentence.spoken,
       this.folds,
       this.#help.element,
@@ -166,7 +167,8 @@ export abstract class FigureParts extends HTMLElement {
     this.showPlayback(frame)
     this.controls!.stand(frame.rooms, this.#rooms)
     this.controls!.showValues(frame.specs, { ...frame.values, ...frame.instead })
-    this.sentence.show(frame.told, `${frame.difference} ${frame.sentence}`.trim(), this.playing || frame.busy)
+    this.controls!.free(frame.specs, this.chips.free)
+    this.sentence.show(frame, this.playing || frame.busy)
   }
 
   /** The part of the picture that stays in sight on a phone, whatever is set. */
@@ -198,9 +200,11 @@ export abstract class FigureParts extends HTMLElement {
       rewind: () => this.undoable('undo_rewind', () => this.seek(0)),
       reset: () => this.undoable('undo_reset', () => this.reset()),
       rate: rate => (this.playback.rate = rate),
+      lab: () => this.showLab(!this.labIsOpen),
       change: (name, value) => this.change(name, value),
     })
     this.specs = specs
+    this.showLab(this.#lab)
     if (before) this.controls.replace(before)
     else this.placeControls(this.controls)
     this.introduced()
@@ -246,6 +250,17 @@ export abstract class FigureParts extends HTMLElement {
       if (name) element.removeAttribute('aria-labelledby')
       else element.setAttribute('aria-labelledby', 'title')
     }
+  }
+
+  /** Whether all that can be set is in sight, and not the few that matter first. */
+  protected get labIsOpen(): boolean {
+    return this.#lab
+  }
+
+  protected showLab(open: boolean): void {
+    this.#lab = open
+    this.body.classList.toggle('lab-open', open)
+    this.controls?.lab.setAttribute('aria-expanded', String(open))
   }
 
   /** Whether readers may unfold the numbers. */

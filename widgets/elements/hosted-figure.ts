@@ -310,6 +310,7 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
     const text = this.getAttribute(name)
     const { controls } = this
     let wrong = refusal(name, text, this.words)
+    if (name === 'lab') this.showLab(text === 'open')
     if (controls) {
       const names = this.specs.map(spec => spec.name)
       if (name === 'lock') {

@@ -30,6 +30,15 @@ function queryFor(element: Element, text: string): string | undefined {
   return query.length > 0 && decode(key!) === linkKey(element) ? query.join('?') || FIRST_VERSION : undefined
 }
 
+/** A figure's state, and what the link has about its Lab, which is no part of it. */
+export function withoutLab(link: string): [query: string, lab: string | null] {
+  const asked = new URLSearchParams(link)
+  const lab = asked.get('lab')
+  if (lab === null) return [link, lab]
+  asked.delete('lab')
+  return [asked.toString(), lab]
+}
+
 /** The address of this page with the state of a figure. `home` is the folder of our site, or empty. */
 export function linkTo(element: Element, query: string, home: string): string {
   const text = `${encodeURIComponent(linkKey(element))}?${query}`

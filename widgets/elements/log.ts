@@ -82,6 +82,7 @@ export class FastslamLog extends FigureElement {
     this.stage.classList.add('map')
     this.canvas.element.after(this.#zoom, this.#poster.element)
     this.panes.before(this.messages.element, this.#file)
+    this.panes.after(this.sentence.element) // what was left out of a log can take many lines
     const save = h('summary')
     this.#saves.append(save, h('div', { class: 'work' }, ...FILES.map(([what, name]) => this.#named(name, () => void this.#save(what)))))
     this.folds.append(this.#saves)
@@ -291,7 +292,7 @@ export class FastslamLog extends FigureElement {
     if (phase === 'running' && step > 0) transport.querySelector('.position')!.append(` · ${this.words.say('time_left', { time: duration(run!.left) })}`)
     // Other settings would begin anew. What is only drawn may change.
     for (const field of [...main.children, settings, transport.querySelector('.extras')!] as HTMLElement[]) {
-      if (!field.matches('.flag, .source')) field.inert = phase === 'running'
+      if (!field.matches('.flag, .source, .lab')) field.inert = phase === 'running'
     }
     // The focus does not fall out of the figure with the button that had it.
     if (held === this.#poster.go && begun) transport.querySelector<HTMLElement>('.play')!.focus()

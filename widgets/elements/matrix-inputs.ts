@@ -22,27 +22,17 @@ const EQUATIONS: Equation[] = [
 ]
 
 export class MatrixInputs {
-  readonly element: HTMLDetailsElement
   readonly #mirrors: [HTMLElement, HTMLInputElement][] = []
-  #narrow: boolean | undefined
 
-  /** Takes the boxes out of the controls and stands in their place; Reset, which would have a row for itself, goes to the end. */
-  constructor({ main, transport }: Controls, name: string) {
+  /** Takes the boxes out of the controls and stands in their place: the noise of the sensor in first sight, the others in the Lab, with
+      Reset, which would have a row for itself, at their end. */
+  constructor({ main, lab, transport }: Controls) {
     const boxes = new Map([...main.querySelectorAll('input')].map(box => [box.name, box]))
     const [mean, covariance, noise, ...ofParticles] = EQUATIONS.map(equation => this.#equation(equation, boxes)) as [HTMLElement, HTMLElement, HTMLElement]
     const heads = h('div', { class: 'equation', 'aria-hidden': 'true' }, h('i'), ...[1, 2].map(slot => h('span', { class: 'of' }, String(slot))))
     const rest = main.querySelectorAll(':scope > .number')
-    const equations = h('div', { class: 'equations' }, mean, covariance, noise, heads, ...ofParticles, ...rest)
-    this.element = h('details', { class: 'matrices', part: 'inputs' }, h('summary', {}, name), equations)
-    main.replaceChildren(this.element, h('div', { class: 'last' }, ...main.querySelectorAll(':scope > .flag'), transport))
-  }
-
-  /** Where there is no room beside the picture, it is folded. What a reader has opened stays so until the room changes. */
-  fold(narrow: boolean): void {
-    if (narrow === this.#narrow) return
-    this.#narrow = narrow
-    this.element.classList.toggle('beside', !narrow)
-    this.element.open = !narrow
+    const equations = h('div', { class: 'equations in-lab', part: 'inputs' }, mean, covariance, heads, ...ofParticles, ...rest)
+    main.replaceChildren(noise, lab, equations, h('div', { class: 'last in-lab' }, ...main.querySelectorAll(':scope > .flag'), transport))
   }
 
   /** Writes the entries that are the same as others. */

@@ -12,6 +12,7 @@ export const OPTIONS: Record<string, string[] | undefined> = {
   v: undefined,
   theme: ['light', 'dark', 'auto'],
   controls: undefined,
+  lab: ['closed', 'open'],
   chips: ['on', 'off'],
   show: undefined,
   lock: undefined,

@@ -19,7 +19,11 @@ export interface ParamSpec {
   default: string
   group: 'setup' | 'view'
   slider: boolean
+  /** Whether its control is in first sight; those that are not are in the Lab. */
+  sight: boolean
   folded: boolean
+  /** Whether it means anything in this state. */
+  applies: boolean
   help: string
 }
 
@@ -31,6 +35,8 @@ export interface Chip {
   query: string
   /** What there is to reach; empty where there is nothing. */
   goal: string
+  /** Names of the parameters that are left to the reader. */
+  free: string[]
   /** Whether the figure is in it, at whatever step and seed. */
   now: boolean
   /** The same but for the parameters that it leaves to the reader. */

@@ -84,6 +84,8 @@ pub struct Chip {
     pub query: String,
     /// [`Check::goal`]; empty where there is nothing to reach.
     pub goal: String,
+    /// [`Check::free`].
+    pub free: Vec<&'static str>,
     /// Whether the figure is in its state now, at whatever step and seed.
     pub now: bool,
     /// The same but for the parameters that it leaves to the reader.
@@ -120,6 +122,7 @@ pub fn chips<M: Declared>(model: &M) -> Vec<Chip> {
             title: challenge.title,
             query: query::versioned(challenge.query, M::CHANGES),
             goal: check.map_or(String::new(), |check| check.goal.into()),
+            free: check.map_or(Vec::new(), |check| check.free.split(' ').collect()),
             now,
             still,
             done,

@@ -251,7 +251,7 @@ impl Figure {
         self.written(before.map_or(String::new(), |before| before.told(self.model())))
     }
 
-    /// What stands below the picture: where a number was changed what it changed, else what is shown.
+    /// What stands over the picture: where a number was changed what it changed, else what happens now.
     pub fn told(&self) -> String {
         let before = self.comparison.before.as_ref();
         let difference = if before.is_some_and(|before| before.in_numbers(self.model())) {
@@ -259,7 +259,12 @@ impl Figure {
         } else {
             String::new()
         };
-        if difference.is_empty() { self.describe() } else { difference }
+        if difference.is_empty() { self.written(self.narrated()) } else { difference }
+    }
+
+    fn narrated(&self) -> String {
+        let _speaking = self.language.spoken();
+        self.model().narrate()
     }
 
     /// The part of the picture that tells most where there is no room for the whole, in a figure of this width \[css px\].

@@ -382,8 +382,13 @@ pub trait Model: Parameters {
         None
     }
 
-    /// One or two sentences that tell what is shown now.
+    /// One or two sentences that tell what is shown now, for who does not see it.
     fn describe(&self) -> String;
+
+    /// What happens in the picture now, in a line in the words of its subject, with the one number that matters.
+    fn narrate(&self) -> String {
+        self.describe()
+    }
 
     /// How fast the step shown is played, of the usual speed: below 1 where there is much to see in it.
     fn pace(&self) -> f64 {

@@ -75,8 +75,12 @@ pub struct ParamSpec {
     pub group: Group,
     /// Whether a number is also set by a slider, or by its box alone.
     pub slider: bool,
-    /// Whether its control is folded away: few matter to every reader.
+    /// Whether its control is one of the few in first sight; the others are in the *Lab*.
+    pub sight: bool,
+    /// Whether its control is folded away in the Lab as well: few matter to every reader.
     pub folded: bool,
+    /// Whether it means anything in this state: what does nothing is not offered.
+    pub applies: bool,
     /// What it does, in a sentence.
     pub help: &'static str,
 }
@@ -179,8 +183,24 @@ mod tests {
         };
         let (name, title, unit, min, max, step) = ("speed", "Speed", "m/s", 0.5, 8.0, 0.5);
         let (default, group, help) = (String::new(), Group::Setup, "");
-        let (slider, folded) = (true, false);
-        ParamSpec { name, title, unit, kind, min, max, step, choices, default, group, slider, folded, help }
+        let (slider, sight, folded, applies) = (true, false, false, true);
+        ParamSpec {
+            name,
+            title,
+            unit,
+            kind,
+            min,
+            max,
+            step,
+            choices,
+            default,
+            group,
+            slider,
+            sight,
+            folded,
+            applies,
+            help,
+        }
     }
 
     #[test]

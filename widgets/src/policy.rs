@@ -91,6 +91,7 @@ pub fn rows<R: Chosen>() -> [Param<R>; 2] {
             },
         },
         policy::threshold_help(),
-    );
+    )
+    .only_where(|recipe: &R| kind(recipe.chosen().0) == Kind::Below);
     [policy, threshold]
 }

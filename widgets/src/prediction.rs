@@ -118,6 +118,11 @@ pub struct Asks {
     pub run: [&'static str; 2],
 }
 
+/// Whether a reader predicts: only then there is anything to guess and to run.
+pub fn is_asked<R: Predicts>(recipe: &R) -> bool {
+    recipe.prediction().predict
+}
+
 /// The rows of a table that hold a prediction. They stand below all that it asks about, and above what shows it.
 pub fn rows<R: Predicts>(asks: Asks) -> [Param<R>; 3] {
     let predict = Field {
@@ -148,7 +153,7 @@ pub fn rows<R: Predicts>(asks: Asks) -> [Param<R>; 3] {
         },
     };
     [
-        Param::toggle("predict", prediction::predict(), predict, asks.predict_help).view(),
+        Param::toggle("predict", prediction::predict(), predict, asks.predict_help).view().in_sight(),
         Param::number_or(
             "guess",
             prediction::guess(),
@@ -159,11 +164,15 @@ pub fn rows<R: Predicts>(asks: Asks) -> [Param<R>; 3] {
             asks.guess_help,
         )
         .view()
-        .without_slider(),
-        Param::toggle("run", asks.run[0], run, asks.run[1]).view().titled(|recipe: &R| {
-            let asked = recipe.prediction().state() == State::Asked;
-            asked.then(prediction::show_me)
-        }),
+        .without_slider()
+        .in_sight()
+        .only_where(is_asked),
+        Param::toggle("run", asks.run[0], run, asks.run[1]).view().in_sight().only_where(is_asked).titled(
+            |recipe: &R| {
+                let asked = recipe.prediction().state() == State::Asked;
+                asked.then(prediction::show_me)
+            },
+        ),
     ]
 }
 

@@ -125,6 +125,8 @@ pub struct Param<R> {
     most: Option<fn(&R) -> f64>,
     /// Its name for readers, where that depends on the state.
     title: Option<Title<R>>,
+    /// Whether it means anything, where that depends on the state.
+    applies: Option<fn(&R) -> bool>,
     get: Get<R>,
     set: Set<R>,
     /// Of a text, whether it means anything.
@@ -149,10 +151,26 @@ impl<R: Recipe> Param<R> {
     fn new(name: &'static str, title: &'static str, kind: Kind, get: Get<R>, set: Set<R>, help: &'static str) -> Self {
         let (min, max, step) =
             if matches!(kind, Kind::Choice | Kind::Text) { (0.0, 0.0, 0.0) } else { (0.0, 1.0, 1.0) };
-        let (group, slider, folded) = (Group::Setup, true, false);
+        let (group, slider, sight, folded, applies) = (Group::Setup, true, false, false, true);
         let (choices, default, unit) = (Vec::new(), String::new(), "");
-        let spec = ParamSpec { name, title, unit, kind, min, max, step, choices, default, group, slider, folded, help };
-        Self { spec, most: None, title: None, get, set, read: None }
+        let spec = ParamSpec {
+            name,
+            title,
+            unit,
+            kind,
+            min,
+            max,
+            step,
+            choices,
+            default,
+            group,
+            slider,
+            sight,
+            folded,
+            applies,
+            help,
+        };
+        Self { spec, most: None, title: None, applies: None, get, set, read: None }
     }
 
     /// A number of the setup, from the first of the range to the second; a slider goes by the third.
@@ -309,6 +327,16 @@ impl<R: Recipe> Param<R> {
         Self { spec: ParamSpec { slider: false, ..self.spec }, ..self }
     }
 
+    /// The same in first sight: of a figure's parameters one or two that it is about.
+    pub fn in_sight(self) -> Self {
+        Self { spec: ParamSpec { sight: true, ..self.spec }, ..self }
+    }
+
+    /// The same offered only in states where it means anything.
+    pub fn only_where(self, applies: fn(&R) -> bool) -> Self {
+        Self { applies: Some(applies), ..self }
+    }
+
     /// The same folded away, among *More settings*.
     pub fn folded(self) -> Self {
         Self { spec: ParamSpec { folded: true, ..self.spec }, ..self }
@@ -329,7 +357,8 @@ impl<R: Recipe> Param<R> {
         let default = self.spec.text((self.get)(&R::default()));
         let max = self.most.map_or(self.spec.max, |most| most(recipe));
         let title = self.title.and_then(|title| title(recipe)).unwrap_or(self.spec.title);
-        ParamSpec { title, max, default, ..self.spec.clone() }
+        let applies = self.applies.is_none_or(|applies| applies(recipe));
+        ParamSpec { title, max, default, applies, ..self.spec.clone() }
     }
 
     /// The value that `text` means, or what is wrong with it.

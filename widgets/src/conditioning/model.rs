@@ -312,6 +312,20 @@ impl Model for ConditioningModel {
             Given::Path => conditioning::PathKnown { n, poses, seen, off, all, entry }.say(),
         }
     }
+
+    fn narrate(&self) -> String {
+        if self.recipe.step == 0 {
+            return conditioning::at_start().into();
+        }
+        let (off, all) = (&self.map().off_block_nonzeros(), &self.off_block());
+        match self.given() {
+            Given::Nothing => conditioning::NUnknown { off, all }.say(),
+            Given::LastPose => conditioning::NLast { off, all }.say(),
+            Given::Path if *off > 0 => conditioning::NPairs { off, all }.say(),
+            Given::Path if self.is_sure() => conditioning::NSure { off, all }.say(),
+            Given::Path => conditioning::NKnown { off, all }.say(),
+        }
+    }
 }
 
 impl ConditioningModel {

@@ -59,11 +59,12 @@ impl recipe::Recipe for Recipe {
             P::number(
                 "odometry",
                 common::odometry_noise(),
-                "× α",
+                "×",
                 (0.0, 3.0, 0.05),
                 field!(setup.odometry_scale),
                 conditioning::odometry_help(),
-            ),
+            )
+            .in_sight(),
             P::number(
                 "range-std",
                 conditioning::range_noise(),
@@ -79,7 +80,8 @@ impl recipe::Recipe for Recipe {
                 range(LANDMARKS),
                 field!(setup.landmarks),
                 conditioning::landmarks_help(),
-            ),
+            )
+            .in_sight(),
             P::integer(
                 "poses",
                 conditioning::poses(),
@@ -97,6 +99,7 @@ impl recipe::Recipe for Recipe {
                 },
                 conditioning::condition_help(),
             )
+            .in_sight()
             .view(),
             P::toggle(
                 "last-pose",
@@ -107,8 +110,9 @@ impl recipe::Recipe for Recipe {
                 },
                 conditioning::last_pose_help(),
             )
+            .in_sight()
             .view(),
-            P::toggle("pairs", conditioning::pairs(), field!(setup.pairs), conditioning::pairs_help()),
+            P::toggle("pairs", conditioning::pairs(), field!(setup.pairs), conditioning::pairs_help()).in_sight(),
             P::integer("step", common::step(), "", (0, 0), field!(step), conditioning::step_help())
                 .at_most(|recipe| recipe.setup.poses as f64)
                 .view(),

@@ -160,6 +160,10 @@ impl Model for DoorsModel {
         told::describe(self)
     }
 
+    fn narrate(&self) -> String {
+        told::narrate(self)
+    }
+
     fn curves(&self) -> Curves {
         let after = self.reports.iter().skip(self.ride() as usize);
         vec![after.map(|report| f64::from(self.setup().off(report.ekf_place, report.truth))).collect()]

@@ -95,7 +95,8 @@ impl recipe::Recipe for Recipe {
         let place = |name, title, field| P::number(name, title, "m", DOOR, field, doors::door_help());
         let [policy, threshold] = policy::rows();
         vec![
-            P::number("ride", doors::ride(), "m", (0.5, 8.0, 0.25), field!(asked.ride_std), doors::ride_help()),
+            P::number("ride", doors::ride(), "m", (0.5, 8.0, 0.25), field!(asked.ride_std), doors::ride_help())
+                .in_sight(),
             P::integer(
                 "particles",
                 doors::particles(),
@@ -103,7 +104,8 @@ impl recipe::Recipe for Recipe {
                 (1, 1000),
                 field!(asked.particles),
                 doors::particles_help(),
-            ),
+            )
+            .in_sight(),
             P::seed(field!(asked.seed), doors::seed_help()),
             P::choice("proposal", doors::proposal(), versions, field!(asked.proposal), doors::proposal_help()),
             P::integer("price", doors::price(), "", (0, 12), field!(price), doors::price_help()),

@@ -119,3 +119,15 @@ pub fn describe(model: &DoorsModel) -> String {
     let ekf = words::ToldEkf { door, std, off: &off(model.ekf_off()), right: &verdict(now.ekf_right()) };
     [told.say(), ekf.say()].join(" ")
 }
+
+pub fn narrate(model: &DoorsModel) -> String {
+    let (now, setup) = (model.now(), model.setup());
+    if !model.is_carried() {
+        return words::NMaps { doors: &setup.doors.len() }.say();
+    }
+    let (particles, ekf) = (&verdict(now.fastslam_right()), &verdict(now.ekf_right()));
+    match &now.explanations(setup) {
+        0 | 1 => words::NOne { particles, ekf }.say(),
+        alive => words::NSeveral { alive, ekf }.say(),
+    }
+}

@@ -323,6 +323,10 @@ impl Model for EmModel {
         told::describe(self)
     }
 
+    fn narrate(&self) -> String {
+        told::narrate(self)
+    }
+
     fn curves(&self) -> Curves {
         vec![self.iterates().iter().map(|iterate| iterate.log_posterior).collect()]
     }

@@ -105,8 +105,9 @@ impl recipe::Recipe for Recipe {
             P::number(MARKS[rank], title, "m", MARK, field, em::mark_help()).folded().without_slider()
         };
         vec![
-            P::number("odometry", em::odometry(), "m", (0.01, 0.3, 0.01), field!(odometry), em::odometry_help()),
-            P::number("sensor", em::sensor(), "%", (0.0, 45.0, 1.0), field!(sensor), em::sensor_help()),
+            P::number("odometry", em::odometry(), "m", (0.01, 0.3, 0.01), field!(odometry), em::odometry_help())
+                .in_sight(),
+            P::number("sensor", em::sensor(), "%", (0.0, 45.0, 1.0), field!(sensor), em::sensor_help()).in_sight(),
             P::integer("iterations", em::iterations(), "", (1, ITERATIONS), field!(iterations), em::iterations_help()),
             P::seed(field!(seed), em::seed_help()),
             P::number("trust", em::trust(), "%", (0.0, 100.0, 5.0), field!(trust), em::trust_help()).folded(),

@@ -124,3 +124,19 @@ pub fn describe(model: &EmModel) -> String {
         model.again().map(|again| words::ToldParticles { new: &percent(1.0 - again), again: &percent(again) }.say());
     judged(model).into_iter().chain([em]).chain(particles).collect::<Vec<_>>().join(" ")
 }
+
+pub fn narrate(model: &EmModel) -> String {
+    if let Some(judged) = judged(model) {
+        return judged;
+    }
+    let now = model.now();
+    match (now.ticks, model.put_down()) {
+        (0, _) => words::NBegins { doors: &model.doors().len() }.say(),
+        (ticks, _) if ticks <= FILLS => words::n_forward().into(),
+        (_, Some((place, again))) if now.has_product() => {
+            let place = &fixed(place, 1);
+            if again > 0.5 { words::NAgain { place }.say() } else { words::NNew { place }.say() }
+        }
+        _ => words::n_backward().into(),
+    }
+}

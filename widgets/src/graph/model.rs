@@ -249,6 +249,10 @@ impl Model for GraphModel {
         told::describe(self)
     }
 
+    fn narrate(&self) -> String {
+        told::narrate(self)
+    }
+
     fn curves(&self) -> Curves {
         vec![self.frames().iter().map(|frame| frame.error.rms).collect()]
     }

@@ -127,7 +127,7 @@ impl recipe::Recipe for Recipe {
         };
         vec![
             P::choice("repair", graph::repair(), repairs, field!(asked.repair), graph::repair_help()),
-            P::toggle("wrong", graph::wrong(), field!(wrong), graph::wrong_help()),
+            P::toggle("wrong", graph::wrong(), field!(wrong), graph::wrong_help()).in_sight(),
             P::number(
                 "odometry",
                 common::odometry_noise(),
@@ -135,7 +135,8 @@ impl recipe::Recipe for Recipe {
                 (0.0, 2.0, 0.05),
                 field!(asked.lap.odometry_scale),
                 graph::odometry_help(),
-            ),
+            )
+            .in_sight(),
             P::seed(field!(asked.lap.seed), graph::seed_help()),
             P::choice(
                 "course",

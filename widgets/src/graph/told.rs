@@ -77,12 +77,12 @@ pub fn readouts(model: &GraphModel) -> Vec<Readout> {
             words::graph_bytes(),
             bytes as f64,
             kilobytes(bytes),
-            "kB",
+            "KB",
             words::graph_bytes_help(),
         )
         .drawn(),
-        Readout::new("map_bytes", words::map_bytes(), unique, kilo(unique), "kB", words::map_bytes_help()).drawn(),
-        Readout::new("dense_bytes", words::dense_bytes(), dense, kilo(dense), "kB", words::dense_bytes_help()),
+        Readout::new("map_bytes", words::map_bytes(), unique, kilo(unique), "KB", words::map_bytes_help()).drawn(),
+        Readout::new("dense_bytes", words::dense_bytes(), dense, kilo(dense), "KB", words::dense_bytes_help()),
     ]
 }
 
@@ -139,4 +139,20 @@ pub fn describe(model: &GraphModel) -> String {
         sentences.push(words::ToldUniverses { m, rms: &metres(report.rms_best), maps, graph }.say());
     }
     sentences.join(" ")
+}
+
+pub fn narrate(model: &GraphModel) -> String {
+    let frame = model.frame();
+    if !model.graph().is_solved() {
+        return words::tying().into();
+    }
+    if let Some(judged) = judged(model) {
+        return judged;
+    }
+    let rms = &metres(frame.error.rms);
+    match (model.step(), model.setup().wrong, frame.wrong_weight) {
+        (0, ..) => words::NStart { rms, loops: &model.edges(EdgeKind::Loop).count() }.say(),
+        (_, Some([i, j]), Some(weight)) => words::NWrong { i: &i, j: &j, weight: &percent(weight), rms }.say(),
+        (step, ..) => words::NTold { step: &step, rms, start: &metres(model.frames()[0].error.rms) }.say(),
+    }
 }

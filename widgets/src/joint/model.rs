@@ -306,4 +306,13 @@ impl Model for JointModel {
         }
         sentences.join(" ")
     }
+
+    fn narrate(&self) -> String {
+        let [Some(sampled), Some(computed)] = [SAMPLED, COMPUTED].map(|filter| self.population(filter)) else {
+            return self.describe();
+        };
+        let (n, m) = (&self.landmarks(), &self.particles());
+        let told = || joint::NTold { n, m, sampled: &count(sampled.ess), computed: &count(computed.ess) }.say();
+        self.judged().unwrap_or_else(told)
+    }
 }

@@ -49,7 +49,8 @@ impl recipe::Recipe for Recipe {
             run: [joint::run(), joint::run_help()],
         });
         vec![
-            P::integer("landmarks", joint::landmarks(), "", (1, MOST), field!(landmarks), joint::landmarks_help()),
+            P::integer("landmarks", joint::landmarks(), "", (1, MOST), field!(landmarks), joint::landmarks_help())
+                .in_sight(),
             P::integer(
                 "particles",
                 joint::particles(),
@@ -57,7 +58,8 @@ impl recipe::Recipe for Recipe {
                 (1, PARTICLES),
                 field!(setup.particles),
                 joint::particles_help(),
-            ),
+            )
+            .in_sight(),
             P::number(
                 "sensor",
                 joint::sensor(),

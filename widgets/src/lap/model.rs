@@ -384,6 +384,13 @@ impl Model for LapModel {
         }
     }
 
+    fn narrate(&self) -> String {
+        match &self.hand {
+            Some(hand) => self.told_at_the_wheel(hand),
+            None => self.news().unwrap_or_else(|| self.narrated(self.report())),
+        }
+    }
+
     /// In slow motion while the loop closes.
     fn pace(&self) -> f64 {
         if self.closes() { SLOW } else { 1.0 }

@@ -8,7 +8,6 @@ use super::{
     view::{RAW, TRUTH, branches, odometry, true_path, true_walls},
 };
 use crate::{
-    decimal::fixed,
     scene::{
         Cells, FREE, Mark, Plane, Rect, Role, Sample, Scene, Shading, UNKNOWN, heading, legend, rimmed_polygon,
         rimmed_robot, scale_bar,
@@ -21,30 +20,19 @@ use std::collections::BTreeSet;
 /// How strongly universes are drawn that died out at the step shown, one step before it, and two.
 const FADING: [u8; 3] = [255, 150, 80];
 
-/// From this width on \[css px\] the heading has room for how far the universes are apart while the loop closes.
-const ROOMY: f64 = 380.0;
-
 /// Lengths of robots from centre to nose \[css px\]: of the living, and of those that died out.
 const LIVING: f64 = 8.0;
 const DEAD: f64 = 6.5;
 
-/// All of them, and above how far they are apart.
+/// All of them. How far they are apart is said over the picture.
 pub fn overlay(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     let (lap, course) = (model.lap(), model.setup().course);
-    let m = lap.particles().len();
-    let spread = fixed(model.spread(), 2);
-    let (title, rest) = if model.closes() {
-        let dead = &model.died_in_closing();
-        let rest = if layout.large_header.w < ROOMY {
-            lap::DiedOf { dead, m: &m }.say()
-        } else {
-            lap::DiedSoFar { dead, m: &m, spread: &spread }.say()
-        };
-        (lap::closes().into(), rest)
+    let title = if model.closes() {
+        (lap::closes(), Role::Extinct)
     } else {
-        (lap::Overlaid { m: &m }.say(), lap::Spread { spread: &spread }.say())
+        (&*lap::Overlaid { m: &lap.particles().len() }.say(), Role::Ink)
     };
-    heading(scene, &layout.large_header, (&title, if model.closes() { Role::Extinct } else { Role::Ink }), &rest);
+    heading(scene, &layout.large_header, title, "");
 
     let plane = map::plane(layout.large, course);
     let cells = map::shares(lap, &model.shares(), course);

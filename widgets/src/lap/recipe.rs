@@ -64,16 +64,18 @@ impl recipe::Recipe for Recipe {
                 (1, 256),
                 field!(setup.particles),
                 common::universes_help(),
-            ),
+            )
+            .in_sight(),
             P::seed(field!(setup.seed), lap::seed_help()),
             P::number(
                 "odometry",
                 common::odometry_noise(),
-                "× α",
+                "×",
                 (0.0, 2.0, 0.05),
                 field!(setup.odometry_scale),
                 lap::odometry_help(),
-            ),
+            )
+            .in_sight(),
             P::number(
                 "range-std",
                 common::range_noise(),

@@ -51,6 +51,34 @@ impl LapModel {
         sentences.into_iter().flatten().collect::<Vec<_>>().join(" ")
     }
 
+    /// What happens at a step, by the part of the lap that it is in.
+    pub(super) fn narrated(&self, report: &StepReport) -> String {
+        let m = &self.recipe.setup.particles;
+        if let Some(unexplained) = unexplained(report.log_evidence) {
+            return unexplained;
+        }
+        if report.step == 0 {
+            return lap::NStart { m }.say();
+        }
+        let best = &fixed(report.rms_best, 2);
+        if *m == 1 {
+            return lap::NAlone { best }.say();
+        }
+        if !self.overlaid() {
+            let slot = self.selected();
+            let weight = &fixed(100.0 * report.weights[slot as usize], 0);
+            return lap::NOne { slot: &slot, weight }.say();
+        }
+        let (spread, dead) = (&fixed(self.spread(), 2), &self.died_in_closing());
+        match self.closing() {
+            Some(_) if self.closes() && *dead == 0 => lap::n_view().into(),
+            Some(_) if self.closes() => lap::NClosing { dead, m, spread }.say(),
+            Some(closing) if report.step < closing => lap::NApart { spread }.say(),
+            Some(_) => lap::NClosed { dead, m, spread }.say(),
+            None => lap::NLap { m, spread, best, odometry: &fixed(report.rms_odometry, 2) }.say(),
+        }
+    }
+
     /// Of the universe shown large, and of all where the line is about all.
     pub(super) fn lines(&self) -> Vec<TraceLine> {
         let (report, slot) = (self.report(), self.selected() as usize);

@@ -42,7 +42,8 @@ impl recipe::Recipe for Recipe {
                 (1, 256),
                 field!(setup.particles),
                 common::universes_help(),
-            ),
+            )
+            .in_sight(),
             P::seed(field!(setup.seed), log::seed_help()),
             P::number("cell", log::cell(), "m", (0.02, 0.2, 0.01), field!(setup.cell_size), log::cell_help()),
             P::number(

@@ -88,7 +88,7 @@ impl Noise {
     /// What its knob is called where it cannot be seen, and the unit of its value.
     pub fn told(self) -> (&'static str, &'static str) {
         match self {
-            Self::Odometry => (proposal::odometry_handle(), "× α"),
+            Self::Odometry => (proposal::odometry_handle(), "×"),
             Self::Range => (proposal::range_handle(), "m"),
             Self::Bearing => (proposal::bearing_handle(), "rad"),
         }

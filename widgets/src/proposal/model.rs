@@ -248,7 +248,29 @@ impl Model for ProposalModel {
             aware_ess: &fixed(aware.ess(), 0),
             ratio: &fixed(self.shown.ratio(), 1),
         };
-        // What cannot be seen at a glance comes first: a sentence is read from its beginning, and may be cut off at its end.
+        // What cannot be seen at a glance comes first.
+        let mut sentences = self.news();
+        sentences.push(told.say());
+        if self.setup().twins {
+            let shares = |cloud: &Cloud| [0, 1].map(|k| percent(cloud.share_inside(Some(k))));
+            let ([a, b], [c, d]) = (shares(motion), shares(aware));
+            let [p, q] = [0, 1].map(|k| percent(exact.candidates[k]));
+            sentences.push(proposal::EitherLandmark { p: &p, q: &q, a: &a, b: &b, c: &c, d: &d }.say());
+        }
+        sentences.join(" ")
+    }
+
+    fn narrate(&self) -> String {
+        let [motion, aware] = [&self.shown.motion, &self.shown.aware]
+            .map(|cloud| format!("{} %", fixed(100.0 * cloud.share_inside(None), 0)));
+        let told = || proposal::NTold { motion: &motion, aware: &aware }.say();
+        self.news().into_iter().next().unwrap_or_else(told)
+    }
+}
+
+impl ProposalModel {
+    /// What cannot be seen at a glance: a prediction, and what has been lost.
+    fn news(&self) -> Vec<String> {
         let mut sentences = Vec::new();
         let half = &self.half();
         match (self.state(), self.at_half()) {
@@ -264,13 +286,6 @@ impl Model for ProposalModel {
             _ => (),
         }
         sentences.extend(self.lost().map(|lost| proposal::IsLost { landmark: &["A", "B"][lost] }.say()));
-        sentences.push(told.say());
-        if self.setup().twins {
-            let shares = |cloud: &Cloud| [0, 1].map(|k| percent(cloud.share_inside(Some(k))));
-            let ([a, b], [c, d]) = (shares(motion), shares(aware));
-            let [p, q] = [0, 1].map(|k| percent(exact.candidates[k]));
-            sentences.push(proposal::EitherLandmark { p: &p, q: &q, a: &a, b: &b, c: &c, d: &d }.say());
-        }
-        sentences.join(" ")
+        sentences
     }
 }

@@ -67,7 +67,8 @@ impl recipe::Recipe for Recipe {
                 (0.005, 0.5, 0.005),
                 field!(setup.range_std),
                 proposal::range_help(),
-            ),
+            )
+            .in_sight(),
             P::number(
                 "bearing-std",
                 proposal::bearing_noise(),
@@ -79,12 +80,13 @@ impl recipe::Recipe for Recipe {
             P::number(
                 "odometry",
                 common::odometry_noise(),
-                "× α",
+                "×",
                 (0.25, 2.0, 0.05),
                 field!(setup.odometry_scale),
                 proposal::odometry_help(),
             ),
-            P::integer("samples", proposal::samples(), "", (1, MOST), field!(setup.samples), proposal::samples_help()),
+            P::integer("samples", proposal::samples(), "", (1, MOST), field!(setup.samples), proposal::samples_help())
+                .in_sight(),
             P::seed(field!(setup.seed), proposal::seed_help()),
             P::choice(
                 "landmarks",

@@ -344,6 +344,22 @@ impl Model for ResamplingModel {
         sentences.join(" ")
     }
 
+    fn narrate(&self) -> String {
+        if let Some(predicted) = self.predicted() {
+            return predicted;
+        }
+        let (step, m) = (self.cursor(), &self.setup().particles);
+        if step == 0 {
+            return resampling::n_start().into();
+        }
+        let all = [0, 1, 2].map(|policy| self.read(policy));
+        if let [Some(a), Some(b), Some(c)] = all.map(|moment| moment.report.right) {
+            return resampling::NWings { m, a: &a, b: &b, c: &c }.say();
+        }
+        let [a, b, c] = all.map(|moment| moment.report.descent.lineage(step));
+        resampling::NTold { m, a: &a, b: &b, c: &c }.say()
+    }
+
     /// Of the selective filter's best particle at the step that is read, among landmarks.
     fn trace(&self) -> Vec<TraceLine> {
         let (m, moment) = (self.setup().particles, self.read(SELECTIVE));

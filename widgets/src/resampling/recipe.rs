@@ -112,7 +112,8 @@ impl recipe::Recipe for Recipe {
                 (4, 64),
                 field!(asked.particles),
                 resampling::particles_help(),
-            ),
+            )
+            .in_sight(),
             P::seed(field!(asked.seed), resampling::seed_help()),
             P::number(
                 "threshold",
@@ -121,11 +122,12 @@ impl recipe::Recipe for Recipe {
                 (0.0, 1.0, 0.05),
                 field!(asked.threshold),
                 resampling::threshold_help(),
-            ),
+            )
+            .in_sight(),
             P::number(
                 "odometry",
                 common::odometry_noise(),
-                "× α",
+                "×",
                 (0.0, 2.0, 0.05),
                 field!(asked.odometry_scale),
                 resampling::odometry_help(),
@@ -133,7 +135,7 @@ impl recipe::Recipe for Recipe {
             P::number(
                 "range",
                 common::range_noise(),
-                "× σ",
+                "×",
                 (0.25, 4.0, 0.05),
                 field!(asked.sensor_scale),
                 resampling::range_help(),

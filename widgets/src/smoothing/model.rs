@@ -214,6 +214,10 @@ impl Model for SmoothingModel {
         told::describe(self)
     }
 
+    fn narrate(&self) -> String {
+        told::narrate(self)
+    }
+
     fn curves(&self) -> Curves {
         let of = |account: Option<Account>| {
             let distinct = account.iter().flat_map(|account| account.distinct.iter().map(|n| f64::from(*n))).collect();

@@ -60,7 +60,8 @@ impl recipe::Recipe for Recipe {
                 (2, PARTICLES),
                 field!(setup.particles),
                 words::particles_help(),
-            ),
+            )
+            .in_sight(),
             P::number(
                 "odometry",
                 common::odometry_noise(),
@@ -77,7 +78,7 @@ impl recipe::Recipe for Recipe {
                 field!(setup.sensor_scale),
                 words::sensor_help(),
             )
-            .folded(),
+            .in_sight(),
             P::flag("reconnect", words::reconnect(), field!(setup.reconnect), words::reconnect_help()),
             P::seed(field!(setup.seed), words::seed_help()),
             predict,

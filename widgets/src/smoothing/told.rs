@@ -124,3 +124,18 @@ pub fn describe(model: &SmoothingModel) -> String {
     });
     sentences.join(" ")
 }
+
+pub fn narrate(model: &SmoothingModel) -> String {
+    let m = &model.particles();
+    let (Some(before), Some(coalescence)) = (model.before(), model.coalescence()) else { return describe(model) };
+    if let Some(judged) = judged(model) {
+        return judged;
+    }
+    let at = &model.at();
+    let was = &before.distinct[*at as usize];
+    match (model.after(), coalescence) {
+        (Some(after), _) => words::NSwept { at, n: &after.distinct[*at as usize], was }.say(),
+        (None, 0) => words::NNone { m }.say(),
+        (None, step) => words::NOne { m, step: &step }.say(),
+    }
+}

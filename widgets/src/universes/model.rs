@@ -291,4 +291,14 @@ impl Model for UniversesModel {
         }
         sentences.join(" ")
     }
+
+    fn narrate(&self) -> String {
+        let threshold = &write(self.recipe.threshold);
+        if self.hides() {
+            return words::Asked { threshold, enough: &percent(ENOUGH) }.say();
+        }
+        let [motion, aware] = PROPOSALS.map(|proposal| self.needs(proposal));
+        let told = || words::NTold { threshold, motion: &motion, aware: &aware }.say();
+        self.judged().unwrap_or_else(told)
+    }
 }

@@ -107,7 +107,10 @@ impl recipe::Recipe for Recipe {
             run: [universes::run(), universes::run_help()],
         });
         let also = |name, title, unit, range, field, help| {
-            P::number_or(name, title, unit, range, ("none", asked::none()), field, help).view().without_slider()
+            P::number_or(name, title, unit, range, ("none", asked::none()), field, help)
+                .view()
+                .without_slider()
+                .only_where(prediction::is_asked)
         };
         vec![
             P::number(
@@ -117,7 +120,8 @@ impl recipe::Recipe for Recipe {
                 (0.03, 2.0, 0.01),
                 threshold,
                 universes::threshold_help(),
-            ),
+            )
+            .in_sight(),
             P::integer("seeds", universes::seeds(), "", (1, 100), field!(rule.seeds), universes::seeds_help()),
             P::integer(
                 "universes",
@@ -127,6 +131,7 @@ impl recipe::Recipe for Recipe {
                 field!(universes),
                 universes::universes_help(),
             )
+            .in_sight()
             .view(),
             P::choice("proposals", universes::proposals(), Menu::new(only), field!(only), universes::proposals_help())
                 .view(),
@@ -142,7 +147,7 @@ impl recipe::Recipe for Recipe {
             P::number(
                 "odometry",
                 common::odometry_noise(),
-                "× α",
+                "×",
                 (0.25, 2.0, 0.05),
                 field!(setup.odometry_scale),
                 universes::odometry_help(),

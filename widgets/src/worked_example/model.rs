@@ -203,6 +203,11 @@ impl Model for WorkedExampleModel {
         .say()
     }
 
+    fn narrate(&self) -> String {
+        let [w1, w2] = [0, 1].map(|slot| plain(self.example.updates[slot].weight, 4));
+        worked_example::NTold { w1: &w1, w2: &w2, verdict: &self.verdict() }.say()
+    }
+
     /// Of both particles.
     fn trace(&self) -> Vec<TraceLine> {
         let WorkedExample { updates, weights, ess, resamples, .. } = &self.example;

@@ -47,8 +47,8 @@ impl recipe::Recipe for Recipe {
             P::number("sigma-xx", "Σ, xx", "m²", VARIANCE, field!(inputs.covariance[0]), worked_example::sigma_xx_help()),
             P::number("sigma-xy", "Σ, xy", "m²", PLACE, field!(inputs.covariance[1]), worked_example::sigma_xy_help()),
             P::number("sigma-yy", "Σ, yy", "m²", VARIANCE, field!(inputs.covariance[2]), worked_example::sigma_yy_help()),
-            P::number("range-std", worked_example::range_std(), "m", (0.001, 10.0, 0.05), field!(inputs.noise_std[0]), worked_example::range_std_help()),
-            P::number("bearing-std", worked_example::bearing_std(), "rad", (0.001, 3.0, 0.01), field!(inputs.noise_std[1]), worked_example::bearing_std_help()),
+            P::number("range-std", worked_example::range_std(), "m", (0.001, 10.0, 0.05), field!(inputs.noise_std[0]), worked_example::range_std_help()).in_sight(),
+            P::number("bearing-std", worked_example::bearing_std(), "rad", (0.001, 3.0, 0.01), field!(inputs.noise_std[1]), worked_example::bearing_std_help()).in_sight(),
             P::number("threshold", policy::threshold(), policy::of_m(), (0.0, 1.0, 0.05), field!(inputs.threshold), worked_example::threshold_help()),
         ];
         let every = P::flag("all-steps", worked_example::all_steps(), field!(all_steps), worked_example::all_steps_help()).view();

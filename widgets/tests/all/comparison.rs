@@ -34,7 +34,7 @@ fn the_setting_that_a_control_leaves_is_compared_at_the_same_step_and_at_no_othe
     }
     lap.model_mut().settle();
     let told = lap.difference();
-    assert!(told.starts_with("Step 12: Odometry noise σ 1 → 1.85 × α. "), "not with a setting on the way: {told}");
+    assert!(told.starts_with("Step 12: Odometry noise σ 1 → 1.85 ×. "), "not with a setting on the way: {told}");
     assert!(told.contains(&format!(" {before} → {} m, ", number(&lap, "rms_best"))), "{told}");
     assert!(haunted(&lap));
 
@@ -86,14 +86,14 @@ fn whatever_a_reader_sets_is_told_in_every_figure_with_the_numbers_that_matter()
 }
 
 #[test]
-fn what_a_number_changes_stands_below_the_picture_and_another_choice_is_explained() {
+fn what_a_number_changes_stands_over_the_picture_and_another_choice_is_explained() {
     let mut figure = figure("fastslam-proposal", "");
-    assert_eq!(figure.told(), figure.describe());
+    assert_eq!(figure.told(), figure.model().narrate());
     set(&mut figure, "range-std", "0.1");
     assert_eq!(figure.told(), figure.difference());
     set(&mut figure, "landmarks", "pair");
     assert!(figure.difference().starts_with("Landmarks one"), "{}", figure.difference());
-    assert_eq!(figure.told(), figure.describe());
+    assert_eq!(figure.told(), figure.model().narrate());
 }
 
 #[test]
@@ -103,7 +103,7 @@ fn nothing_is_told_of_what_a_reader_is_asked_to_predict() {
     assert_ne!(figure.difference(), "");
     for (name, value) in [("predict", "on"), ("range-std", "0.2"), ("run", "on")] {
         set(&mut figure, name, value);
-        assert_eq!((figure.difference(), figure.told()), (String::new(), figure.describe()), "{name}");
+        assert_eq!((figure.difference(), figure.told()), (String::new(), figure.model().narrate()), "{name}");
     }
 }
 

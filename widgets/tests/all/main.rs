@@ -12,6 +12,7 @@ mod figures;
 mod graph;
 mod joint;
 mod lap;
+mod led;
 mod log;
 mod pinned;
 mod prediction;
