@@ -111,9 +111,12 @@ export class Figure {
     return this
   }
 
-  /** All of its controls are there, as after a press on *Lab*; of that, links and codes would tell (lab.spec.ts). */
+  /** All of it is there: unfolded, where it stands beside the title (hero.spec.ts), and as after a press on *Lab*; of that, links and codes
+   * would tell (lab.spec.ts). */
   async live(): Promise<void> {
     await expect(this.element.locator('.stage.live')).toBeVisible()
+    const unfold = this.page.locator('.hero', { has: this.element }).getByRole('button', { name: 'Open this figure' })
+    if ((await unfold.count()) > 0) await unfold.click()
     await this.element.evaluate(element => element.shadowRoot!.querySelector('.figure')!.classList.add('lab-open'))
     await this.settled()
   }

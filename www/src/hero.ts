@@ -15,48 +15,53 @@ if (hero) tell(hero, hero.querySelector<FigureElement & HTMLElement>('fastslam-l
 function tell(hero: HTMLElement, figure: FigureElement): void {
   const [from, to, rest] = hero.dataset['plays']!.split(' ').map(Number) as [number, number, number]
   const unfolds = Object.assign(document.createElement('button'), { type: 'button', className: 'unfold', textContent: 'Open this figure' })
-  const ended = new AbortController() // of the story: a reader has taken over, or it was told
-  let told = 0
+  const folded = new AbortController()
+  const story = new AbortController() // until it was told, or a reader takes over
 
   const open = () => {
-    ended.abort()
+    story.abort()
+    folded.abort()
     for (const name of Object.keys(FOLDED)) figure.removeAttribute(name)
     hero.classList.replace('hero', 'wide')
+    hero.classList.remove('folded')
     unfolds.remove()
   }
-  const { signal } = ended
-  // A link to it, or a challenge from its caption, is about all of it.
+  // A link to it is about all of it, and so is what a box of the text runs with it.
   const meant = () => location.hash.startsWith(`#${figure.localName}`) || location.hash === `#${hero.id}`
   if (meant()) return open()
   for (const [name, value] of Object.entries(FOLDED)) figure.setAttribute(name, value)
   hero.classList.add('folded')
   hero.querySelector('figcaption')!.before(unfolds)
+  const { signal } = folded
   addEventListener('hashchange', () => meant() && open(), { signal })
+  for (const type of ['fastslam-challenge', 'fastslam-trace']) figure.addEventListener(type, open, { signal })
+  figure.addEventListener('click', event => event.composedPath().some(one => one instanceof HTMLCanvasElement) && open(), { capture: true, signal })
   unfolds.addEventListener('click', () => {
     open()
-    figure.focus()
+    figure.shadowRoot!.querySelector<HTMLElement>('.stage')!.focus({ preventScroll: true }) // the button is gone
   })
-  figure.addEventListener('fastslam-challenge', open, { signal })
-  figure.addEventListener('click', event => event.composedPath().some(one => one instanceof HTMLCanvasElement) && open(), { capture: true, signal })
   if (reducedMotion.matches) return
 
+  let begun = 0
   const begin = () => {
+    begun += 1
     figure.seek(from)
     figure.play()
   }
-  addEventListener('keydown', ({ key }) => {
+  const stop = ({ key }: KeyboardEvent) => {
     if (key !== 'Escape' || !figure.playing) return
+    story.abort()
     figure.pause()
-    ended.abort()
-  }, { signal })
-  figure.addEventListener('fastslam-step', event => {
-    const { detail } = event as CustomEvent<FigureDetail>
-    if (detail.by === 'reader') return ended.abort()
-    if (detail.step < to || !figure.playing) return
-    told += 1
-    if (told < TIMES) return begin()
-    ended.abort()
+  }
+  const onStep = (event: Event) => {
+    const { step, by } = (event as CustomEvent<FigureDetail>).detail
+    if (begun === 0) return begin() // it lives
+    if (by === 'reader') return story.abort()
+    if (step < to || !figure.playing) return
+    if (begun < TIMES) return begin()
+    story.abort()
     figure.seek(rest)
-  }, { signal })
-  void figure.settled().then(() => signal.aborted || begin())
+  }
+  addEventListener('keydown', stop, { signal: story.signal })
+  figure.addEventListener('fastslam-step', onStep, { signal: story.signal })
 }
