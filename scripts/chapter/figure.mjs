@@ -12,6 +12,9 @@ const own = new Set(['id', 'class', 'tag', 'alt', 'hero'])
 /** Width and height [px] from a PNG's header. @param {Buffer} png */
 const sizeOf = png => ({ width: png.readUInt32BE(16), height: png.readUInt32BE(20) })
 
+/** What the figure beside the title has not while it is folded: all of the picture but its first part, and all controls but its pause. */
+const folded = { show: 'map', controls: 'play', chips: 'off', fit: 'on' }
+
 /** A list of its challenges. @param {any} node */
 const isTries = node => node.type === 'list' && node.children.every((/** @type {any} */ item) => item.children[0]?.children?.[0]?.name === 'chip')
 
@@ -38,7 +41,7 @@ export function figure(context, state, node) {
   // Beside the title it is folded to its picture and plays by itself: from a step to a step, and then rests at one (www/src/hero.ts).
   const hero = attribute(node, 'hero')
   return h(hero ? 'figure.hero' : 'figure.wide', { id, dataPlays: hero }, [
-    h(tag || 'div', { ...latest, ...Object.fromEntries(passed) }, [
+    h(tag || 'div', { ...latest, ...(hero && folded), ...Object.fromEntries(passed) }, [
       h('picture', [
         // Paper is light.
         h('source', { srcset: `../${dark}`, media: 'screen and (prefers-color-scheme: dark)' }),

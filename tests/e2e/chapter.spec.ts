@@ -1,5 +1,5 @@
 // The chapter as a text: to read, to print, to follow by keyboard, on every screen, with and without script.
-import type { Page } from '@playwright/test'
+import type { Locator, Page } from '@playwright/test'
 import { brokenRules, leaveOneOfEachKind } from './axe'
 import { expect, test } from './fixtures'
 import { Figure, holdPrograms } from './figure'
@@ -100,7 +100,7 @@ for (const width of [1280, 380]) {
     const shifts = await watchShifts(page)
     const open = await holdPrograms(page)
     await page.goto('./')
-    const figure = new Figure(page, 'fastslam-lap')
+    const figure = new Figure(page, 'fastslam-resampling')
     await figure.element.evaluate(element => element.scrollIntoView({ block: 'end', behavior: 'instant' }))
     await expect(figure.element.locator('.title')).not.toBeEmpty()
     const height = () => figure.element.evaluate(element => element.getBoundingClientRect().height)
@@ -267,15 +267,17 @@ test('the button of an algorithm steps its figure, also one that nobody has seen
   await page.goto('./')
   const keys = await tellTrace(page)
   await expect(page.locator('.algorithm[data-figure]').first().locator('.lit')).toHaveCount(keys.length)
-  for (const [id, step, lines] of [
+  const stepOf = (figure: Locator) => figure.evaluate(element => (element as unknown as { currentStep?: number }).currentStep ?? 0)
+  for (const [id, on, lines] of [
     ['fig-lap', 1, { ess: / of 16$/, draw: /^\(.*\)$/ }],
     ['fig-resampling', 1, { associate: / known, \d+ new; (all agree|\d+ different answers in all)$/, resample: /^N_eff .* of 16: / }],
     ['fig-worked-example', 0, { weigh: /^2\.753 \/ 0\.8632$/, resample: /^no$/ }],
   ] as const) {
     const box = page.locator(`.algorithm[data-figure=${id}]`)
+    const figure = page.locator(`#${id} > *`).first()
+    const before = await stepOf(figure)
     await box.getByRole('button', { name: 'Run one step' }).click()
     for (const [line, value] of Object.entries(lines)) await expect(box.locator(`[data-line=${line}] .value`).first()).toHaveText(value, { timeout: 20_000 })
-    const figure = page.locator(`#${id} > *`).first()
-    expect(await figure.evaluate(element => (element as unknown as { currentStep: number }).currentStep)).toBe(step)
+    expect(await stepOf(figure)).toBe(before + on)
   }
 })

@@ -72,6 +72,7 @@ test('a state to reach is graded by the figure, a recap and short exercises unfo
   await expect(figure.locator('.stage.live')).toBeVisible()
   await settled(figure)
   await expect(ten.getByRole('status')).toBeHidden()
+  await figure.getByRole('button', { name: 'Lab' }).click()
   const far = figure.locator('input[name=phi2]').first()
   await far.fill('0.3')
   await far.press('Enter')

@@ -101,7 +101,7 @@ test('hosts that listen are told the height, in our words and in those of LTI', 
   const figure = new Figure(page.frames()[1]!, 'fastslam-lap')
   await figure.settled()
   const closed = await height()
-  await page.frames()[1]!.locator('details[part=settings] summary').click()
+  await page.frames()[1]!.getByRole('button', { name: 'Lab' }).click()
   await expect.poll(height).toBeGreaterThan(closed + 50)
   const count = (await told()).length
   await frames(page.frames()[1]!, 60)
@@ -113,7 +113,6 @@ test('short names of formulas are taken in addresses, and options too', async ({
   await page.goto('./embed.html?figure=proposal&sigma_r=0.08&m=16&theme=dark')
   await live(page, 'fastslam-proposal')
   const figure = new Figure(page, 'fastslam-proposal')
-  await figure.openSettings()
   await expect(figure.box('range-std')).toHaveValue('0.08')
   await expect(figure.box('samples')).toHaveValue('16')
   await expect(figure.element).toHaveAttribute('theme', 'dark')

@@ -36,8 +36,8 @@ export async function openChapterOf(page: Page, tags: string[], headers = (sent:
   await page.route(address, async route => {
     const response = await route.fetch()
     const html = await response.text()
-    const figures = tags.map(tag => new RegExp(`<figure[^>]*>\\s*<${tag}[ >][^]*?</figure>`).exec(html)![0])
-    const body = html.replace(/(?<=<main[^>]*>)[^]*(?=<\/main>)/, () => figures.join(''))
+    const figures = tags.map(tag => new RegExp(`<figure[^>]*>\\s*<${tag}[ >][^]*?</figure>`).exec(html)![0].replace(' class="hero"', ' class="wide"'))
+    const body = html.replace(/<figure[^>]*class="hero"[^]*?<\/figure>/, '').replace(/(?<=<main[^>]*>)[^]*(?=<\/main>)/, () => figures.join(''))
     await route.fulfill({ response, headers: headers(response.headers()), body })
   })
   await page.goto('./')

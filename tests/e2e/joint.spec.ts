@@ -76,7 +76,7 @@ for (const [particles, repeats, more] of [['5000', 12, {}], ['20000', 6, breadth
       page.slices = 0
       const tick = () => {
         page.slices! += 1
-        page.repeats!.add(element.shadowRoot!.querySelector('.described')!.textContent!)
+        page.repeats!.add(element.shadowRoot!.querySelector('.sentence')!.textContent!)
         requestAnimationFrame(tick)
       }
       requestAnimationFrame(tick)

@@ -6,8 +6,8 @@ import { reducedMotion } from '../../widgets/elements/theme'
 
 const TIMES = 2
 
-/** What it has not while it is folded: the rest of the picture, and all controls but the one that pauses it. */
-const FOLDED = { show: 'map', controls: 'play', chips: 'off', fit: 'on' }
+/** What the page gives it that leaves out the rest of it. */
+const FOLDS = ['show', 'controls', 'chips', 'fit']
 
 const hero = document.querySelector<HTMLElement>('.hero')
 if (hero) tell(hero, hero.querySelector<FigureElement & HTMLElement>('fastslam-lap')!)
@@ -21,16 +21,13 @@ function tell(hero: HTMLElement, figure: FigureElement): void {
   const open = () => {
     story.abort()
     folded.abort()
-    for (const name of Object.keys(FOLDED)) figure.removeAttribute(name)
+    for (const name of FOLDS) figure.removeAttribute(name)
     hero.classList.replace('hero', 'wide')
-    hero.classList.remove('folded')
     unfolds.remove()
   }
   // A link to it is about all of it, and so is what a box of the text runs with it.
   const meant = () => location.hash.startsWith(`#${figure.localName}`) || location.hash === `#${hero.id}`
   if (meant()) return open()
-  for (const [name, value] of Object.entries(FOLDED)) figure.setAttribute(name, value)
-  hero.classList.add('folded')
   hero.querySelector('figcaption')!.before(unfolds)
   const { signal } = folded
   addEventListener('hashchange', () => meant() && open(), { signal })

@@ -134,6 +134,11 @@ impl Model for DoorsModel {
         END
     }
 
+    /// It opens when all is over; what went before is the story.
+    fn watch(&self) -> Option<(u32, &'static str)> {
+        Some((self.ride(), doors::watch()))
+    }
+
     fn pending(&self) -> u32 {
         self.recipe.step.min(self.step_count()).saturating_sub(self.run.step_number())
     }

@@ -123,11 +123,6 @@ impl LapModel {
         self.recipe.universe.unwrap_or(self.report().best)
     }
 
-    /// True if the large view follows the best universe.
-    pub fn follows_best(&self) -> bool {
-        self.recipe.universe.is_none()
-    }
-
     /// Whether the truth is drawn.
     pub fn shows_truth(&self) -> bool {
         self.recipe.truth || self.hand.is_some()

@@ -162,9 +162,10 @@ fn looked_at(scene: &mut Scene, model: &SmoothingModel, ground: &Ground, rank: u
 /// corner that is farther away.
 fn lens(scene: &mut Scene, model: &SmoothingModel, ground: &Ground, rank: usize) {
     let Some(account) = (if rank == 0 { model.before() } else { model.after() }) else { return };
-    let at = model.at() as usize;
-    let truth = &model.run().log().truth[at];
-    let place = [truth.x, truth.y];
+    let (at, Some(before)) = (model.at() as usize, model.before()) else { return };
+    // Between the truth and what the filter has left, so that both are seen.
+    let (truth, left) = (&model.run().log().truth[at], &before.moments[at].0);
+    let place = [0.5 * (truth.x + left.x), 0.5 * (truth.y + left.y)];
     let (map, [x, y]) = (ground.plane.area, ground.point(place));
     let side = (0.44 * map.h).min(0.47 * map.w).min(110.0).floor();
     let left = if x < map.centre()[0] { map.right() - side - INSET } else { map.x + INSET };

@@ -67,3 +67,14 @@ fn a_seventh_door_is_a_landmark_like_the_others() {
     let figure = figure(TAG, "door-7=1.5&step=43");
     assert_eq!(figure.scene(800.0, 500.0).handles.len(), 8, "seven doors and the end of the ride");
 }
+
+/// Where it opens all is over: it offers to be watched from the ride on, when several explanations are still to come.
+#[test]
+fn what_led_to_where_it_opens_can_be_watched() {
+    let mut figure = figure(TAG, "");
+    let (from, words) = figure.model().watch().unwrap();
+    assert!(!words.is_empty());
+    figure.model_mut().seek(from + 6);
+    figure.model_mut().settle();
+    assert!(value(&figure, "alive") >= 4.0 && from < figure.model().step_count(), "from step {from}");
+}

@@ -275,11 +275,11 @@ fn all_universes_are_shown_at_once_until_one_is_picked_and_again_when_it_is_let_
     model.pick(3);
     assert_eq!((overlay(&model).as_str(), model.overlaid()), ("off", false));
     model.configure(&[("overlay".into(), "on".into())]);
-    assert!(model.overlaid() && model.follows_best());
+    assert!(model.overlaid() && model.value("universe").as_deref() == Some("best"));
     model.configure(&[("universe".into(), "5".into())]);
     assert_eq!((overlay(&model).as_str(), model.selected()), ("off", 5));
     model.configure(&[("universe".into(), "best".into()), ("overlay".into(), "off".into())]);
-    assert!(!model.overlaid() && model.follows_best());
+    assert!(!model.overlaid() && model.value("universe").as_deref() == Some("best"));
     model.pick(2);
     model.pick(2);
     assert!(!model.overlaid(), "as it was before one was chosen");

@@ -72,11 +72,6 @@ impl WallEdits {
         &self.added
     }
 
-    /// How many walls of the course are taken away.
-    pub fn erased_count(&self) -> usize {
-        self.erased.len()
-    }
-
     /// Puts up a wall.
     ///
     /// # Errors
