@@ -80,6 +80,8 @@ const properties = [
   { name: 'playing', type: 'boolean', readonly: true, help: 'Whether it plays.' },
   { name: 'currentStep', type: 'number', readonly: false, help: 'The step asked for.' },
   { name: 'state', type: 'string', readonly: false, help: 'The whole state, as a link has it: name=value&…' },
+  { name: 'readouts', type: 'FigureReadout[]', readonly: true, help: 'The numbers of what is shown, each with name, value and unit, as events have them; empty before anything is shown. Await settled() after a change.' },
+  { name: 'values', type: 'Record<string, string>', readonly: true, help: 'The parameters of what is shown, by name, as links write them; empty before anything is shown.' },
   { name: 'link', type: 'string', readonly: true, help: 'The address of this page with the figure’s whole state.' },
   { name: 'naturalHeight', type: 'number', readonly: true, help: 'Height [css px] that shows all of the figure at its present width.' },
 ]
@@ -115,6 +117,7 @@ const events = [
   { name: 'fastslam-change', type: 'CustomEvent<FigureDetail>', help: 'A parameter has changed, whoever did it.' },
   { name: 'fastslam-challenge', type: 'CustomEvent<ChallengeDetail>', help: 'A reader has taken up a challenge or, where it is done, reached it.' },
   { name: 'fastslam-trace', type: 'CustomEvent<TraceDetail>', help: 'The lines of the algorithm that led to the step shown.' },
+  { name: 'fastslam-notice', type: 'CustomEvent<NoticeDetail>', help: 'The page’s author has given what a figure cannot take: an attribute that it does not know, or a value out of its range. Readers see nothing of it, but on localhost.' },
   { name: 'fastslam-guess', type: 'CustomEvent<GuessDetail>', help: 'A prediction was judged: guess and result stand side by side; or the reader has waived it.' },
 ]
 

@@ -57,6 +57,13 @@ export interface GuessDetail {
   waived: boolean
 }
 
+export interface NoticeDetail {
+  /** Of the attribute. */
+  name: string
+  /** What is wrong with it, in the figure's language. */
+  text: string
+}
+
 /** What came out at one seed. */
 export interface SeedRun {
   seed: number

@@ -63,6 +63,7 @@ function python(value: string): string {
   return value !== '' && Number.isFinite(Number(value)) ? value : JSON.stringify(value)
 }
 
-function escape(text: string): string {
+/** For an attribute in quotes, and for text. */
+export function escape(text: string): string {
   return text.replaceAll('&', '&amp;').replaceAll('"', '&quot;').replaceAll('<', '&lt;')
 }

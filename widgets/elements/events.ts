@@ -2,10 +2,11 @@
 import type { Cause, ChallengeDetail, FigureDetail, GuessDetail, TraceDetail } from './details'
 import type { Frame } from './host'
 
-export type { Cause, ChallengeDetail, FigureDetail, GuessDetail, TraceDetail } from './details'
+export type { Cause, ChallengeDetail, FigureDetail, GuessDetail, NoticeDetail, TraceDetail } from './details'
 
 export class Events {
   cause: Cause = 'page' // of what is told next
+  told: FigureDetail | undefined // of the last frame at rest
   #waiting: CustomEvent[] = []
   #step = -1 // told last
   #guess = '' // told last
@@ -15,6 +16,7 @@ export class Events {
   /** What a frame shows is told when the frame is over; each step once, unless `always`. */
   tell({ step, last, values, readouts, run, changed, trace, prediction }: Frame, always: boolean): void {
     const detail: FigureDetail = { step, last, by: this.cause, values, readouts, ...(run && { phase: run.phase }) }
+    this.told = detail
     if (changed) this.#add('fastslam-change', detail)
     if (always || step !== this.#step) this.#add('fastslam-step', detail)
     this.#step = step

@@ -2,6 +2,7 @@
 //
 // One order holds for a parameter, however the element came to be: what is locked keeps the author's value; else a reader's link stands
 // over what the author gave, by attribute or property, and that over the default. It is kept in settings.ts.
+import type { FigureReadout } from './details'
 import { embedCode, type CodeName, type FigureMarkup } from './embed-code'
 import { homeAddress } from './files'
 import { FIGURES } from './generated/figures'
@@ -148,6 +149,16 @@ export abstract class FigureElement extends HostedFigure {
     this.#load(query, false)
   }
 
+  /** The numbers of the step shown, by name, as events have them; none before the figure has shown anything. */
+  get readouts(): FigureReadout[] {
+    return this.events.told?.readouts ?? []
+  }
+
+  /** The parameters of what is shown, by name, as links write them; none before the figure has shown anything. */
+  get values(): Record<string, string> {
+    return this.events.told?.values ?? {}
+  }
+
   /** The address of this page with this figure's whole state; of the chapter's, where this page is one for frames. */
   get link(): string {
     return linkTo(this, this.#linkable + (this.labIsOpen ? '&lab=open' : ''), homeAddress())
@@ -160,7 +171,8 @@ export abstract class FigureElement extends HostedFigure {
     return embedCode(name, this.markup, home, this.heading.textContent, this.words.say('no_script'))
   }
 
-  protected get markup(): FigureMarkup {
+  /** @internal What its author would write for it as it stands. */
+  get markup(): FigureMarkup {
     const options = Object.keys(OPTIONS).filter(option => !['fit', 'v', 'lab'].includes(option) && this.hasAttribute(option))
     const lab: [string, string][] = this.labIsOpen ? [['lab', 'open']] : []
     const state = new URLSearchParams(this.#linkable)

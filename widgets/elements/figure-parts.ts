@@ -47,9 +47,9 @@ export abstract class FigureParts extends HTMLElement {
   protected readonly heading = h('p', { class: 'title', part: 'title', id: 'title' })
   protected readonly status = h('span', { class: 'status', role: 'status' })
   protected readonly chips = new Chips(this.localName, this.words, chip => this.takeUp(chip))
-  protected readonly readouts = h('dl', { class: 'readouts', part: 'readouts' })
+  readonly #readoutList = h('dl', { class: 'readouts', part: 'readouts' })
   readonly #numbersName = h('summary')
-  readonly #numbers = h('details', { class: 'numbers', part: 'numbers' }, this.#numbersName, this.readouts)
+  readonly #numbers = h('details', { class: 'numbers', part: 'numbers' }, this.#numbersName, this.#readoutList)
   /** Numbers and settings that not every reader needs, folded away. */
   protected readonly folds = h('div', { class: 'folds' }, this.#numbers)
   protected readonly sentence = new Sentence()
@@ -137,7 +137,7 @@ export abstract class FigureParts extends HTMLElement {
   abstract get state(): string
   abstract set state(query: string)
   abstract embedCode(name: CodeName): string | undefined
-  protected abstract get markup(): FigureMarkup
+  abstract get markup(): FigureMarkup
   protected abstract send(command: Command): void
   /** Shows again what is shown. */
   protected abstract refresh(): void
@@ -160,7 +160,7 @@ export abstract class FigureParts extends HTMLElement {
     if (frame.layout) this.canvas.place(frame.layout)
     this.#keepInSight(frame)
     if (frame.picture) this.canvas.show(frame.picture)
-    showReadouts(this.readouts, frame.readouts, frame.language)
+    showReadouts(this.#readoutList, frame.readouts, frame.language)
     this.chips.show(frame.chips, frame.specs, frame.values)
     this.#help.about(frame.specs, frame.readouts)
     this.#handles.show(frame.handles, frame.specs, frame.values)

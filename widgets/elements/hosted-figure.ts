@@ -2,6 +2,7 @@
 import { Events } from './events'
 import { FigureParts } from './figure-parts'
 import { FrameLoop } from './frame-loop'
+import type { NoticeDetail } from './details'
 import { write } from './dom'
 import { FIGURES } from './generated/figures'
 import type { Answer, Command, FigureHost, Frame, Listener } from './host'
@@ -21,6 +22,7 @@ import { yieldToMain } from './yield'
 const WORK_SLICE = 8 // [ms] of simulation, in a frame and between two looks at what else the page has to do
 const PATIENCE = 4000 // [ms] of simulation for paper, while the browser waits
 const SLOW = 3000 // [ms] of loading after which the picture is shown meanwhile
+const AT_HOME = /^(localhost|127\.0\.0\.1|\[::1\])$/.test(location.hostname)
 
 export abstract class HostedFigure extends FigureParts implements Listener, Printed {
   /** Whether its program runs in a worker, because it would keep the page waiting. */
@@ -203,7 +205,7 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
   hear(answer: Answer): void {
     switch (answer.told) {
       case 'refused':
-        this.messages.set(answer.parameter, this.words.tell(answer.message))
+        this.#refused(answer.parameter, this.words.tell(answer.message))
         if (this.host?.values) this.controls?.showValues(this.specs, this.host.values, answer.parameter)
         break
       case 'saved':
@@ -215,6 +217,22 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
         this.crashes += 1
         this.failed(this.words.tell(answer.why), this.crashes > 1 || !this.isConnected)
     }
+  }
+
+  /** A reader's input is refused in the figure. What the page asks for by an attribute, or by a name that no figure has, its author has mistaken. */
+  #refused(cause: string, text: string): void {
+    const authors = this.events.cause === 'page' && !['link', 'locked'].includes(cause) && (this.hasAttribute(cause) || !FIGURES[this.localName]!.parameters.includes(cause))
+    if (authors) this.#tellAuthor(cause, text)
+    else this.messages.set(cause, text)
+  }
+
+  /** Readers can do nothing about it: it goes to the console and to whoever listens, and stands in the figure on the machine where a page is made. */
+  #tellAuthor(name: string, text: string): void {
+    if (AT_HOME) this.messages.set(name, text)
+    if (!text) return
+    console.info(`<${this.localName}>: ${text}`)
+    // The program may be at work just now.
+    queueMicrotask(() => this.dispatchEvent(new CustomEvent('fastslam-notice', { bubbles: true, composed: true, detail: { name, text } satisfies NoticeDetail })))
   }
 
   /** After a trap: the first time it is made again as it was, the second time it stops. */
@@ -274,8 +292,9 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
   }
 
   protected override byHand(act: () => void, lasts?: boolean): void {
-    super.byHand(act, lasts)
     this.events.cause = 'reader'
+    super.byHand(act, lasts)
+    this.events.cause = 'reader' // whatever it went by
   }
 
   /** An option was set, or taken away. */
@@ -329,7 +348,7 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
         controls.writeComma(hasComma(text, this.words))
       }
     }
-    this.messages.set(name, wrong)
+    this.#tellAuthor(name, wrong)
   }
 
   // --- Frames ------------------------------------------------------------------------------------------------------------
