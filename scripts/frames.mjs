@@ -6,6 +6,7 @@ import { site } from './address.mjs'
 import { dist } from './build.mjs'
 import { figures, manifest, types, write } from './elements.mjs'
 import { root, StepError } from './lib.mjs'
+import { alsoUsed, programs } from './registry.mjs'
 import { notebook, singleFile } from './single.mjs'
 
 /** @typedef {import('./elements.mjs').FigureInfo} FigureInfo */
@@ -92,6 +93,40 @@ export function writePages(folder, address, all, codes) {
   }
 }
 
+/**
+ * The files of an assignment, from which the page on embedding zips packages: what its page loads whatever the figure, and what each figure has
+ * besides. Found by the names in what is found, as a page finds them; of other figures nothing is taken.
+ * @param {string} folder of the site @param {Pick<Framed, 'tag' | 'name'>[]} all
+ */
+export function taskFiles(folder, all) {
+  const there = readdirSync(folder, { recursive: true, encoding: 'utf8' }).map(file => file.replaceAll('\\', '/'))
+  const named = there.filter(file => /^(assets\/)?[\w-]+-[\w-]{8}\.(js|css|json|wasm|png)$|^(arrived\.js|favicon\.svg|example\.clf\.gz)$/.test(file))
+  /** Programs and pictures are those of figures, and the example that of logs; undefined for what any page may need. @param {string} file */
+  const owners = file => {
+    const program = /^fastslam-([a-z-]+)-[\w-]{8}\.wasm$/.exec(file)?.[1]
+    if (program) return all.filter(figure => programsAsked(figure, there).includes(program)).map(({ name }) => name)
+    const picture = /^assets\/fastslam-([a-z-]+?)(-poster)?-(light|dark)-[\w-]{8}\.png$/.exec(file)?.[1]
+    return picture ? [picture] : file === 'example.clf.gz' ? ['log'] : undefined
+  }
+  /** @type {Set<string>} */
+  const found = new Set(['task.html'])
+  for (const file of found) {
+    if (!/\.(html|js|css)$/.test(file)) continue
+    const text = readFileSync(join(folder, file), 'utf8')
+    for (const other of named) if (text.includes(other.replace(/^assets\//, ''))) found.add(other)
+  }
+  const common = [...found].filter(file => !owners(file))
+  const own = all.map(({ name }) => [name, [...found].filter(file => owners(file)?.includes(name)).sort()])
+  return { common: [...common, 'licences.txt'].sort(), figures: Object.fromEntries(own) }
+}
+
+/** The programs that a figure may ask for on a page of its own. @param {Pick<Framed, 'tag' | 'name'>} figure @param {string[]} there files of the site */
+function programsAsked({ tag, name }, there) {
+  const own = [name, ...(alsoUsed[name] ?? [])]
+  const isThere = (/** @type {string} */ program) => there.some(file => new RegExp(`^fastslam-${program}-[\\w-]{8}\\.wasm$`).test(file))
+  return own.every(isThere) ? own : [...own, programs.get(tag) ?? '']
+}
+
 export async function writeFrames() {
   const [all, address] = [figures(), site()]
   writePages(dist, address, all, await embedCodes())
@@ -102,6 +137,7 @@ export async function writeFrames() {
   // Imported late: set-up may be what installs the packages that it stands on.
   const { notices } = await import('./notices.mjs')
   write(join(dist, 'licences.txt'), notices())
+  write(join(dist, 'task-files.json'), `${JSON.stringify(taskFiles(dist, all), undefined, 1)}\n`)
   // The code for MyST names it, and MyST copies that one file when a book is built: it must stand alone.
   write(join(dist, 'fastslam-anywidget.js'), await singleFile(notebook))
   return `of ${all.length} figures${address ? `, for ${address}` : '; no canonical links and no oEmbed, as FASTSLAM_SITE does not say where the site will be'}`

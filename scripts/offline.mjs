@@ -7,7 +7,6 @@ import { askForSite, site, wholeLinks } from './address.mjs'
 import { build, dist, singlesAsked } from './build.mjs'
 import { figures } from './elements.mjs'
 import { fillFolds } from './folds.mjs'
-import { escape } from './frames.mjs'
 import { isMain, kilobytes, main, root, say, step, StepError } from './lib.mjs'
 import { alsoUsed, programFile, programs, singlePrograms } from './registry.mjs'
 import { singleFile } from './single.mjs'
@@ -15,7 +14,8 @@ import { judge } from './sizes.mjs'
 
 export const offline = join(root, 'packages', 'offline')
 /** Of a file that carries all it needs. */
-const policy = "default-src 'none'; script-src 'self' 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; img-src data: blob:; font-src data:; worker-src blob:; base-uri 'none'"
+/** @type {string} */
+const policy = JSON.parse(readFileSync(join(root, 'www', 'src', 'offline-policy.json'), 'utf8'))
 
 /** @type {Record<string, string>} */
 const types = { '.svg': 'image/svg+xml', '.png': 'image/png', '.woff2': 'font/woff2', '.webp': 'image/webp', '.jpg': 'image/jpeg' }
@@ -64,31 +64,6 @@ function inlined(file, script) {
   return html.replace('</body>', () => `<script type="module">\n${script.replaceAll('</script', '<\\/script')}</script>\n  </body>`)
 }
 
-/** What a learning system asks for: what is in the package, and what to start. @param {import('./elements.mjs').FigureInfo} figure */
-const imsManifest = ({ name, title }) => `<?xml version="1.0" encoding="UTF-8"?>
-<manifest identifier="fastslam-${name}" version="1.0" xmlns="http://www.imsproject.org/xsd/imscp_rootv1p1p2" xmlns:adlcp="http://www.adlnet.org/xsd/adlcp_rootv1p2">
-  <metadata>
-    <schema>ADL SCORM</schema>
-    <schemaversion>1.2</schemaversion>
-  </metadata>
-  <organizations default="fastslam">
-    <organization identifier="fastslam">
-      <title>${escape(title)}</title>
-      <item identifier="figure" identifierref="page">
-        <title>${escape(title)}</title>
-      </item>
-    </organization>
-  </organizations>
-  <resources>
-    <resource identifier="page" type="webcontent" adlcp:scormtype="sco" href="index.html">
-      <file href="index.html" />
-      <file href="scorm.js" />
-      <file href="licences.txt" />
-    </resource>
-  </resources>
-</manifest>
-`
-
 /** What a figure's file carries: its own program and what that uses; where these were not made, that of the chapter. @param {import('./elements.mjs').FigureInfo} figure */
 function programsOf({ tag, name }) {
   const own = [name, ...(alsoUsed[name] ?? [])]
@@ -98,9 +73,17 @@ function programsOf({ tag, name }) {
 /** The chapter as one file, with what unfolds in it. */
 export const offlineChapter = async () => inlined('index.html', await singleFile(join(root, 'www', 'src', 'main.ts')))
 
+/** What writes the manifests of packages, which the page on embedding has as well. */
+async function manifests() {
+  const { runnerImport } = await import('vite')
+  const { module } = await runnerImport(join(root, 'www', 'src', 'ims-manifest.ts'), { configFile: false, logLevel: 'silent' })
+  return /** @type {typeof import('../www/src/ims-manifest')} */ (module)
+}
+
 /** Every figure's file and package, and the chapter. @returns {Promise<string[]>} the files */
 export async function writeOffline() {
   const { zipSync, strToU8 } = await import('fflate')
+  const { imsManifest } = await manifests()
   rmSync(offline, { recursive: true, force: true })
   mkdirSync(offline, { recursive: true })
   /** @type {string[]} */
@@ -124,7 +107,8 @@ export async function writeOffline() {
     if (carried.includes(figure.name)) say(`  ${await judge(`offline.${figure.name}`, size)}`)
     const started = page.replace('</body>', () => '<script defer src="scorm.js"></script>\n  </body>')
     // The same time in every package, so that the same figure gives the same file.
-    const entries = { 'imsmanifest.xml': imsManifest(figure), 'index.html': started, 'scorm.js': scorm, 'licences.txt': licences }
+    const inside = { 'index.html': started, 'scorm.js': scorm, 'licences.txt': licences }
+    const entries = { 'imsmanifest.xml': imsManifest({ identifier: figure.tag, title: figure.title, start: 'index.html', files: Object.keys(inside) }), ...inside }
     put(`${figure.tag}-scorm.zip`, zipSync(Object.fromEntries(Object.entries(entries).map(([name, text]) => [name, strToU8(text)])), { level: 9, mtime: '1980-01-01T00:00:00' }))
   }
   put('chapter.html', await offlineChapter())

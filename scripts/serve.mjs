@@ -10,7 +10,7 @@ import { cache, isMain, main, StepError } from './lib.mjs'
 import { policy } from './policy.mjs'
 
 /** Pages that are made for frames on other sites. */
-const isFrame = (/** @type {string} */ path) => /(^|\/)embed(-[a-z-]+)?\.html$/.test(path)
+const isFrame = (/** @type {string} */ path) => /(^|\/)(embed(-[a-z-]+)?|task)\.html$/.test(path)
 
 /** Other sites may frame those, and no other. A course would name its learning system in place of the star. */
 const frameAncestors = (/** @type {string} */ path) => `frame-ancestors ${isFrame(path) ? '*' : "'self'"}`

@@ -1,16 +1,14 @@
 // The files for offline use, opened as a double click does; and the SCORM packages in a run-time that learning systems are built on.
-import { createServer, type IncomingMessage, type ServerResponse } from 'node:http'
 import { readFileSync } from 'node:fs'
-import { createRequire } from 'node:module'
-import type { AddressInfo } from 'node:net'
 import { join } from 'node:path'
 import { pathToFileURL } from 'node:url'
 import type { Page } from '@playwright/test'
-import { strFromU8, unzipSync } from 'fflate'
+import { unzipSync } from 'fflate'
 import { offline, writeOffline } from '../../scripts/offline.mjs'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
 import { breadth, breadthOf, FIGURES, programsMade } from './host'
+import { forgiveSystem, LearningSystem } from './learning-system'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -84,79 +82,17 @@ test('the whole chapter lives from one file', breadth, async ({ page, context })
   expect(asked).toEqual([address])
 })
 
-/** A learning system: a page with scorm-again around a frame with the package in it, which keeps what the run-time commits. */
-class LearningSystem {
-  address = ''
-  private readonly server = createServer()
-
-  constructor(
-    readonly page: Page,
-    private readonly name: string,
-  ) {}
-
-  /** The learner opens the package, for the first time or again. */
-  async visit(): Promise<Figure> {
-    if (!this.address) await this.listen()
-    await this.page.goto(this.address)
-    const figure = new Figure(this.page.frames()[1]!, `fastslam-${this.name}`)
-    await expect(figure.element.locator('.stage.live')).toBeVisible()
-    return figure
-  }
-
-  /** What a window that is closed does, until the run-time has been told that it is over. */
-  async leave(): Promise<void> {
-    await this.page.evaluate(() => {
-      delete sessionStorage['finished']
-      document.querySelector('iframe')!.remove()
-    })
-    await expect.poll(() => this.page.evaluate(() => sessionStorage['finished'] ?? '')).toBe('yes')
-  }
-
-  /** What the package set last. */
-  told(element: string): Promise<string | undefined> {
-    return this.page.evaluate(name => JSON.parse(sessionStorage['told'] ?? '{}')[name] as string | undefined, element)
-  }
-
-  close(): void {
-    this.server.close()
-  }
-
-  private async listen(): Promise<void> {
-    const files = unzipSync(readFileSync(join(offline, `fastslam-${this.name}-scorm.zip`)))
-    expect(Object.keys(files).sort()).toEqual(['imsmanifest.xml', 'index.html', 'licences.txt', 'scorm.js'])
-    const manifest = strFromU8(files['imsmanifest.xml']!)
-    expect(manifest).toMatch(/<schemaversion>1\.2<\/schemaversion>/)
-    const start = /adlcp:scormtype="sco" href="([^"]+)"/.exec(manifest)![1]!
-    for (const [, file] of manifest.matchAll(/<file href="([^"]+)"/g)) expect(files[file!]).toBeDefined()
-    const runtime = readFileSync(createRequire(import.meta.url).resolve('scorm-again/scorm12'), 'utf8')
-    const system = `<!doctype html><html lang="en"><head><title>LMS</title><link rel="icon" href="data:," /><script src="runtime.js"></script></head><body><script>
-      const kept = JSON.parse(sessionStorage.kept ?? '{}')
-      window.API = new Scorm12API({ logLevel: 5 })
-      if (kept.cmi) API.loadFromJSON(kept.cmi, 'cmi')
-      const set = API.LMSSetValue.bind(API)
-      API.LMSSetValue = (name, value) => {
-        sessionStorage.told = JSON.stringify({ ...JSON.parse(sessionStorage.told ?? '{}'), [name]: value })
-        return set(name, value)
-      }
-      API.on('LMSCommit', () => (sessionStorage.kept = JSON.stringify({ cmi: API.renderCMIToJSONObject().cmi })))
-      API.on('LMSFinish', () => (sessionStorage.finished = 'yes'))
-    </script><iframe src="${start}" width="800" height="780"></iframe></body></html>`
-    const types: Record<string, string> = { html: 'text/html', js: 'text/javascript' }
-    this.server.on('request', ({ url }: IncomingMessage, response: ServerResponse) => {
-      const name = url!.slice(1).split('?')[0]!
-      const body = name === 'lms' ? system : name === 'runtime.js' ? runtime : files[name]
-      response.writeHead(body ? 200 : 404, { 'Content-Type': types[name.split('.')[1] ?? 'html']! }).end(body)
-    })
-    await new Promise<void>(done => this.server.listen(0, '127.0.0.1', done))
-    this.address = `http://127.0.0.1:${(this.server.address() as AddressInfo).port}/lms`
-  }
+/** The package of a figure, whole, in a learning system. */
+function systemOf(page: Page, name: string): LearningSystem {
+  const files = unzipSync(readFileSync(join(offline, `fastslam-${name}-scorm.zip`)))
+  expect(Object.keys(files).sort()).toEqual(['imsmanifest.xml', 'index.html', 'licences.txt', 'scorm.js'])
+  return new LearningSystem(page, `fastslam-${name}`, files)
 }
 
-const forgiveSystem = (complaints: string[]) => complaints.splice(0, Infinity, ...complaints.filter(line => !/^left the site: http:\/\/127\.0\.0\.1/.test(line)))
 const STATUS = 'cmi.core.lesson_status'
 
 test('a learning system that speaks SCORM 1.2 keeps the state and gives it back at the next visit', async ({ page, complaints }) => {
-  const system = new LearningSystem(page, 'lap')
+  const system = systemOf(page, 'lap')
   const first = await system.visit()
   await first.openSettings()
   await first.box('universes').fill('6')
@@ -165,6 +101,7 @@ test('a learning system that speaks SCORM 1.2 keeps the state and gives it back 
   for (let i = 0; i < 3; i++) await first.step.click()
   await expect.poll(() => page.evaluate(() => sessionStorage['kept'] ?? ''), { timeout: 10_000 }).toContain(`universes=6&step=${step}`)
   await system.leave()
+  expect(await system.told('cmi.core.session_time')).toMatch(/^0000:\d\d:\d\d$/)
   expect(await system.told('cmi.core.exit'), 'the next visit is told to begin with what was kept').toBe('suspend')
   const second = await system.visit()
   await expect.poll(() => second.position()).toBe(step)
@@ -175,7 +112,7 @@ test('a learning system that speaks SCORM 1.2 keeps the state and gives it back 
 
 test('in a learning system, what merely played completes nothing, and the last step reached by hand does', async ({ browser }) => {
   const page = await (await browser.newContext({ reducedMotion: 'no-preference' })).newPage()
-  const system = new LearningSystem(page, 'lap')
+  const system = systemOf(page, 'lap')
   const first = await system.visit()
   // It begins by itself: nobody touches it.
   await expect.poll(() => first.position()).toBeGreaterThan(1)
@@ -216,7 +153,7 @@ test('in a learning system, what merely played completes nothing, and the last s
 })
 
 test('in a learning system, a prediction completes what has no steps, once it was placed and run; it is an interaction, which is not told again', async ({ page, complaints }) => {
-  const system = new LearningSystem(page, 'proposal')
+  const system = systemOf(page, 'proposal')
   const figure = await system.visit()
   await figure.reroll.click()
   await figure.reset.click()
@@ -239,6 +176,7 @@ test('in a learning system, a prediction completes what has no steps, once it wa
   await figure.settled()
   await figure.toggle('run').click() // without a guess
   await expect.poll(() => system.told('cmi.interactions.1.result')).toBe('neutral')
+  expect((await said(1))['id'], 'the result was known by then').toBe('ratio_half.try_2.after_the_answer')
   expect((await said(1))['student_response']).toBeUndefined()
   await expect.poll(() => system.told('cmi.suspend_data')).toContain('run=on')
   await system.leave()

@@ -91,7 +91,7 @@ async function poorHost(page: Page, baseURL: string, missing: RegExp, headers: R
 
 for (const [what, missing, sandbox, why] of [
   ['without CORS, sandboxed', /^$/, 'sandbox="allow-scripts"', 'Access-Control-Allow-Origin'],
-  ['without its script', /^\/assets\/page-embed-.*\.js$/, '', 'the server answered 404'],
+  ['without its script', /^\/assets\/embed-.*\.js$/, '', 'the server answered 404'],
   ['renewed since', /^\/fastslam-.*\.js$/, '', 'load this page again'],
 ] as const) {
   test(`a frame from a host ${what} names the cause and shows the picture`, async ({ page, baseURL, complaints }) => {

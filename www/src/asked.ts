@@ -13,7 +13,10 @@ const SHORT: Record<string, string[]> = {
   'sigma-phi': ['bearing-std'],
 }
 
-const query = new URLSearchParams(location.search)
+export const query = new URLSearchParams(location.search)
+
+/** What an address says besides, to the page and not to the figure. */
+const OURS = ['figure', 'task', 'print', 'tell']
 
 /** Which figure is asked for, as it is written, and its tag where there is such a one. */
 export const asked = query.get('figure') ?? ''
@@ -23,7 +26,7 @@ export const askedTag = tagOf(asked)
 export function configure(figure: FigureElement): void {
   const { parameters } = FIGURES[figure.localName]!
   for (const [key, value] of query) {
-    if (key === 'figure') continue
+    if (OURS.includes(key)) continue
     const dashed = key.replaceAll('_', '-')
     const name = parameters.includes(dashed) ? dashed : (SHORT[dashed]?.find(long => parameters.includes(long)) ?? dashed)
     if (parameters.includes(name) || name in OPTIONS) figure.setAttribute(name, value)

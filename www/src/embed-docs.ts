@@ -1,25 +1,25 @@
-// The page on embedding: an editor of a figure's attributes beside the figure, the code to paste, and tables of all there is, both made
-// from the manifest of the elements.
+// The page on embedding: a figure to set up, what can be done with it in class (wishes.ts), and tables of all there is, made from the
+// manifest of the elements.
 import type { FigureElement } from '../../widgets/elements/figure-element'
-import { h } from '../../widgets/elements/dom'
-import type { FigureDetail } from '../../widgets/elements/events'
-import { CODES, type CodeName, frameQuery } from '../../widgets/elements/embed-code'
+import { h, write } from '../../widgets/elements/dom'
+import { frameQuery } from '../../widgets/elements/embed-code'
+import type { FigureDetail, NoticeDetail } from '../../widgets/elements/events'
 import { FIGURES } from '../../widgets/elements/generated/figures'
 import '../../widgets/elements/index'
 import { OPTIONS } from '../../widgets/elements/options'
 import { takePrintKey } from '../../widgets/elements/paper'
 import { noFigure } from '../../widgets/elements/parameters'
-import { copy } from '../../widgets/elements/save'
 import { asked, askedTag, configure } from './asked'
+import { Wishes } from './wishes'
 
-interface Described {
+export interface Described {
   name: string
   description?: string
   type?: { text: string }
   default?: string
   kind?: string
 }
-interface Declaration {
+export interface Declaration {
   tagName: string
   summary: string
   attributes: Described[]
@@ -37,78 +37,89 @@ takePrintKey()
 const home = new URL('../', location.href).href
 const form = document.querySelector<HTMLFormElement>('#editor')!
 const preview = document.querySelector('#preview')!
-const codes = document.querySelector('#codes')!
 
-/** A field for an attribute; empty means that it is left away. */
+/** Where the figure stands beside the fields, as high as the window; else below them. */
+const beside = matchMedia('(min-width: 68rem)')
+
+/** A field for an attribute, with what it does; empty means that it is left away. */
 function field({ name, description, type, default: value }: Described): HTMLElement {
   const words = [...(type?.text ?? '').matchAll(/'([^']*)'/g)].map(match => match[1]!)
   const choices = type?.text === 'boolean' ? ['on', 'off'] : type?.text.includes('number') ? [] : words
-  const input = choices.length > 0 ? h('select', { name }, new Option(`${value ?? choices[0]} (default)`, ''), ...choices.map(word => new Option(word, word))) : h('input', { name, placeholder: value ?? '', autocomplete: 'off' })
-  return h('label', { title: description ?? '' }, h('span', { class: 'name' }, name), input)
+  const told = { name, 'aria-describedby': `about-${name}` }
+  const input = choices.length > 0 ? h('select', told, new Option(`${value ?? choices[0]} (default)`, ''), ...choices.map(word => new Option(word, word))) : h('input', { ...told, placeholder: value ?? '', autocomplete: 'off' })
+  return h('div', { class: 'field' }, h('label', {}, h('span', { class: 'name' }, name), input), h('small', { id: `about-${name}` }, description ?? ''))
 }
 
 function edit(declarations: Declaration[]): void {
   const choose = h('select', { name: 'figure' }, ...declarations.map(({ tagName, summary }) => new Option(summary, tagName)))
   const fields = h('fieldset', { 'aria-label': 'Attributes of the figure' })
-  const outputs = (Object.entries(CODES) as [CodeName, string][]).map(([name, title]) => {
-    const code = h('code')
-    const button = h('button', { type: 'button', 'aria-label': `Copy the code: ${title}` }, 'Copy')
-    button.addEventListener('click', () => {
-      void copy(code.textContent).then(done => {
-        button.textContent = done ? 'Copied' : 'Select it by hand'
-        setTimeout(() => (button.textContent = 'Copy'), 2000)
-      })
-    })
-    codes.append(h('div', {}, h('div', { class: 'head' }, h('h3', {}, title), button), h('pre', { tabindex: '0', 'aria-label': `Code: ${title}` }, code)))
-    return { name, code }
-  })
-
+  /** What is wrong with what is written here: the figure tells its author, and not its readers. */
+  const notice = h('p', { class: 'notice', role: 'alert' })
   let figure: FigureElement
-  /** The codes, as the figure's own menu has them. */
-  const print = () => {
-    for (const { name, code } of outputs) {
-      const text = figure.embedCode(name) ?? ''
-      if (code.textContent !== text) code.textContent = text
-    }
+  const declared = () => declarations.find(({ tagName }) => tagName === choose.value)!
+  const inputs = () => fields.querySelectorAll<HTMLInputElement | HTMLSelectElement>('[name]')
+
+  /** Gives an attribute, or takes it away, also where the figure was moved and no attribute said so. */
+  const give = (name: string, value: string) => {
+    figure.setAttribute(name, value)
+    if (value === '') figure.removeAttribute(name)
+    for (const input of inputs()) if (input.name === name && input.value !== value) input.value = value
+    write(notice, '') // unless it is refused again
+    wishes.print()
   }
+  const wishes = new Wishes(home, { figure: () => figure, declared, give })
+
   /** The fields follow the figure, except for the one that is being written. */
   const follow = (event: Event) => {
     if (event.currentTarget !== figure) return
     const { by, phase } = (event as CustomEvent<FigureDetail>).detail
     if (by === 'playback' || phase === 'running') return // nobody asked for that step
     const state = new URLSearchParams(figure.state)
-    for (const input of fields.querySelectorAll<HTMLInputElement | HTMLSelectElement>('[name]')) {
-      if (!(input.name in OPTIONS) && input !== document.activeElement) input.value = state.get(input.name) ?? ''
-    }
-    print()
+    for (const input of inputs()) if (!(input.name in OPTIONS) && input !== document.activeElement) input.value = state.get(input.name) ?? ''
+    wishes.print()
   }
   const begin = (first = false) => {
-    const declared = declarations.find(({ tagName }) => tagName === choose.value)!
-    const own = declared.attributes.filter(({ name }) => !(name in OPTIONS))
-    const common = declared.attributes.filter(({ name }) => name in OPTIONS && name !== 'v')
-    figure = document.createElement(declared.tagName) as FigureElement
+    const { tagName, attributes } = declared()
+    const own = attributes.filter(({ name }) => !(name in OPTIONS))
+    const common = attributes.filter(({ name }) => name in OPTIONS && name !== 'v' && name !== 'fit') // of the place here, and not of the code
+    figure = document.createElement(tagName) as FigureElement
     figure.setAttribute('v', 'latest') // this page goes with its figures; the code says of which version it is
     if (first) configure(figure)
     // What is copied here opens here.
-    else history.replaceState(undefined, '', `?${frameQuery({ tag: declared.tagName, attributes: [] })}`)
-    fields.replaceChildren(h('h3', {}, 'Parameters'), ...own.map(field), h('h3', {}, 'Options'), ...common.map(field))
-    for (const input of fields.querySelectorAll<HTMLInputElement | HTMLSelectElement>('[name]')) input.value = figure.getAttribute(input.name) ?? ''
+    else history.replaceState(undefined, '', `?${frameQuery({ tag: tagName, attributes: [] })}${location.hash}`)
+    figure.toggleAttribute('fit', beside.matches)
+    fields.replaceChildren(h('p', { class: 'what' }, 'Parameters'), ...own.map(field), h('p', { class: 'what' }, 'Options'), ...common.map(field))
+    for (const input of inputs()) input.value = figure.getAttribute(input.name) ?? ''
     for (const name of ['fastslam-step', 'fastslam-change'] as const) figure.addEventListener(name, follow)
+    figure.addEventListener('fastslam-notice', event => write(notice, (event as CustomEvent<NoticeDetail>).detail.text))
+    write(notice, '')
     preview.replaceChildren(figure)
-    print()
+    wishes.begin()
   }
+  beside.addEventListener('change', () => figure.toggleAttribute('fit', beside.matches))
   choose.addEventListener('change', () => begin())
   fields.addEventListener('input', event => {
     const { name, value } = event.target as HTMLInputElement
-    figure.setAttribute(name, value)
-    if (value === '') figure.removeAttribute(name) // also where the figure was moved, and no attribute said so
-    print()
+    give(name, value)
   })
   form.addEventListener('submit', event => event.preventDefault())
   const unknown = asked && !askedTag ? [h('p', { role: 'alert', class: 'hint' }, `${noFigure(asked)} These are the figures:`)] : []
-  form.replaceChildren(...unknown, h('label', {}, h('span', { class: 'name' }, 'Figure'), choose), fields)
+  const all = h('details', { class: 'all' }, h('summary', {}, 'All attributes'), fields)
+  form.replaceChildren(...unknown, h('label', { class: 'choose' }, h('span', { class: 'name' }, 'Figure'), choose), notice, wishes.element, all)
   if (askedTag) choose.value = askedTag
   begin(true)
+
+  for (const button of document.querySelectorAll<HTMLButtonElement>('#gallery button')) {
+    button.addEventListener('click', () => {
+      const { figure: name, challenge } = button.dataset
+      if (choose.value !== `fastslam-${name}`) {
+        choose.value = `fastslam-${name}`
+        begin()
+      }
+      form.scrollIntoView({ block: 'start' })
+      void figure.challenge(challenge!)
+    })
+  }
 }
 
 function table(caption: string, heads: string[], rows: (string | HTMLElement)[][]): HTMLElement[] {

@@ -10,7 +10,7 @@ import '../../widgets/elements/smoothing'
 import { FIGURES } from '../../widgets/elements/generated/figures'
 import { noFigure } from '../../widgets/elements/parameters'
 import { takePrintKey } from '../../widgets/elements/paper'
-import { asked, askedTag, configure } from './asked'
+import { asked, askedTag, configure, query } from './asked'
 
 /** Figures with code of their own, which is loaded where one of them is asked for. */
 const LATER: Record<string, () => Promise<unknown>> = {
@@ -24,7 +24,7 @@ const LATER: Record<string, () => Promise<unknown>> = {
 
 takePrintKey()
 
-const main = document.querySelector('#figure')!
+const main = document.querySelector<HTMLElement>('#figure')!
 // In a frame it is no landmark: the page around has its own.
 if (parent === self) main.role = 'main'
 
@@ -50,7 +50,7 @@ function figureAsked(): FigureElement | undefined {
 function tellHeight(figure: FigureElement): void {
   let told = 0
   const tell = (): void => {
-    const height = figure.naturalHeight
+    const height = figure.naturalHeight + main.offsetTop // and what a page has above it
     if (Math.abs(height - told) < 2) return
     told = height
     for (const message of [{ type: 'fastslam-height', figure: figure.localName, height }, { subject: 'lti.frameResize', height }]) {
@@ -72,6 +72,9 @@ if (figure) {
   figure.setAttribute('fit', '')
   if (figure.isConnected) figure.followLink() // which stands over what the address gives, as it does where the figure comes later
   document.title = FIGURES[figure.localName]!.title
-  if (parent !== window) tellHeight(figure)
+  if (parent !== window) {
+    tellHeight(figure)
+    if (query.has('tell')) void import('./tell').then(({ tellHosts }) => tellHosts(figure, query.getAll('tell')))
+  }
   if (!figure.isConnected) main.replaceChildren(figure)
 }
