@@ -117,7 +117,7 @@ export function taskFiles(folder, all) {
   }
   const common = [...found].filter(file => !owners(file))
   const own = all.map(({ name }) => [name, [...found].filter(file => owners(file)?.includes(name)).sort()])
-  return { common: [...common, 'licences.txt'].sort(), figures: Object.fromEntries(own) }
+  return { common: [...common, 'licences.txt', 'sbom.cdx.json'].sort(), figures: Object.fromEntries(own) }
 }
 
 /** The programs that a figure may ask for on a page of its own. @param {Pick<Framed, 'tag' | 'name'>} figure @param {string[]} there files of the site */
@@ -137,6 +137,8 @@ export async function writeFrames() {
   // Imported late: set-up may be what installs the packages that it stands on.
   const { notices } = await import('./notices.mjs')
   write(join(dist, 'licences.txt'), notices())
+  const { sbom } = await import('./sbom.mjs')
+  write(join(dist, 'sbom.cdx.json'), `${await sbom()}\n`)
   write(join(dist, 'task-files.json'), `${JSON.stringify(taskFiles(dist, all), undefined, 1)}\n`)
   // The code for MyST names it, and MyST copies that one file when a book is built: it must stand alone.
   write(join(dist, 'fastslam-anywidget.js'), await singleFile(notebook))

@@ -43,6 +43,7 @@ export function notices() {
     readFileSync(join(root, 'widgets', 'fonts', 'OFL.txt'), 'utf8').trim(),
     'Fonts of the chapter.',
     licences(root).trim(),
+    `fflate, which zips packages on the page on embedding.\n\n${readFileSync(join(root, 'node_modules', 'fflate', 'LICENSE'), 'utf8').trim()}`,
     ...[...texts].map(([text, names]) => `${names.join(', ')}\n\n${text}`),
   ].join(`\n\n${line}\n\n`)
 }

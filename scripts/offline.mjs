@@ -98,6 +98,8 @@ export async function writeOffline() {
   }
   const licences = readFileSync(join(dist, 'licences.txt'), 'utf8')
   put('licences.txt', licences)
+  const sbom = readFileSync(join(dist, 'sbom.cdx.json'), 'utf8')
+  put('sbom.cdx.json', sbom)
   const scorm = readFileSync(join(root, 'widgets', 'scorm', 'scorm.js'), 'utf8')
   for (const figure of figures()) {
     const carried = programsOf(figure)
@@ -107,7 +109,7 @@ export async function writeOffline() {
     if (carried.includes(figure.name)) say(`  ${await judge(`offline.${figure.name}`, size)}`)
     const started = page.replace('</body>', () => '<script defer src="scorm.js"></script>\n  </body>')
     // The same time in every package, so that the same figure gives the same file.
-    const inside = { 'index.html': started, 'scorm.js': scorm, 'licences.txt': licences }
+    const inside = { 'index.html': started, 'scorm.js': scorm, 'licences.txt': licences, 'sbom.cdx.json': sbom }
     const entries = { 'imsmanifest.xml': imsManifest({ identifier: figure.tag, title: figure.title, start: 'index.html', files: Object.keys(inside) }), ...inside }
     put(`${figure.tag}-scorm.zip`, zipSync(Object.fromEntries(Object.entries(entries).map(([name, text]) => [name, strToU8(text)])), { level: 9, mtime: '1980-01-01T00:00:00' }))
   }

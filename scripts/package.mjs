@@ -40,7 +40,7 @@ export async function npmFiles() {
   mkdirSync(join(to, 'assets'), { recursive: true })
   const all = figures()
   const files = readdirSync(dist).filter(file => /^fastslam(-[\w-]{8})?\.js$|^fastslam-.*\.wasm$/.test(file))
-  for (const file of [...files, 'custom-elements.json', 'example.clf.gz', 'licences.txt']) cpSync(join(dist, file), join(to, file))
+  for (const file of [...files, 'custom-elements.json', 'example.clf.gz', 'licences.txt', 'sbom.cdx.json']) cpSync(join(dist, file), join(to, file))
   // What they name, and what that names, and nothing of the chapter's.
   const assets = new Set(readdirSync(join(dist, 'assets')))
   const take = (/** @type {string} */ script, /** @type {string} */ folder) => {

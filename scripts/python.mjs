@@ -61,5 +61,5 @@ export async function pythonFiles() {
   )
   const optionTraits = options.map(({ name, values }) => `    ${name} = ${name === 'v' ? 'traitlets.Union([traitlets.Int(min=1), traitlets.Enum(["latest"])], allow_none=True, default_value=None)' : values ? `traitlets.Enum([${values.map(v => `"${v}"`).join(', ')}], None, allow_none=True)` : 'traitlets.Unicode(None, allow_none=True)'}.tag(sync=True)`)
   write(join(folder, '_options.py'), `"""Attributes of every figure. Made by scripts/python.mjs."""\n\nimport traitlets\n\n\nclass Options(traitlets.HasTraits):\n    """What an author may fix about any figure, besides its parameters."""\n\n${optionTraits.join('\n')}\n`)
-  for (const file of ['fastslam-anywidget.js', 'licences.txt']) write(join(folder, 'static', file), readFileSync(join(dist, file), 'utf8'))
+  for (const file of ['fastslam-anywidget.js', 'licences.txt', 'sbom.cdx.json']) write(join(folder, 'static', file), readFileSync(join(dist, file), 'utf8'))
 }

@@ -55,7 +55,7 @@ export function page({ title, heading, kicker, lead, description, script, heads,
         ...main,
       ]),
       around.length > 0 ? h('nav.around', { ariaLabel: 'Other chapters' }, around) : [],
-      h('footer', h('p', foot, h('span', doors))),
+      h('footer', h('p', foot, h('span', doors, ' · ', h('a', { href: 'trust.html' }, 'Privacy and accessibility')))),
     ].flat(),
   }
 }

@@ -129,7 +129,7 @@ test('a SCORM package zipped in the browser: wrong, right, and a guess after the
   const [saved] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save: SCORM 1.2 package' }).click()])
   expect(saved.suggestedFilename()).toBe('fastslam-proposal-task.zip')
   const files = unzipSync(readFileSync(await saved.path()))
-  expect(Object.keys(files)).toEqual(expect.arrayContaining(['index.html', 'imsmanifest.xml', 'scorm.js', 'licences.txt']))
+  expect(Object.keys(files)).toEqual(expect.arrayContaining(['index.html', 'imsmanifest.xml', 'scorm.js', 'licences.txt', 'sbom.cdx.json']))
 
   const system = new LearningSystem(page, 'fastslam-proposal', files)
   const figure = await system.visit()

@@ -85,7 +85,7 @@ test('the whole chapter lives from one file', breadth, async ({ page, context })
 /** The package of a figure, whole, in a learning system. */
 function systemOf(page: Page, name: string): LearningSystem {
   const files = unzipSync(readFileSync(join(offline, `fastslam-${name}-scorm.zip`)))
-  expect(Object.keys(files).sort()).toEqual(['imsmanifest.xml', 'index.html', 'licences.txt', 'scorm.js'])
+  expect(Object.keys(files).sort()).toEqual(['imsmanifest.xml', 'index.html', 'licences.txt', 'sbom.cdx.json', 'scorm.js'])
   return new LearningSystem(page, `fastslam-${name}`, files)
 }
 
