@@ -21,6 +21,9 @@ export const settled = (element: Locator): Promise<void> =>
     await (figure as HTMLElement & { settled(): Promise<void> }).settled()
   })
 
+/** All that can be set is in sight, as after a press on *Lab*; of that, links and codes would tell (lab.spec.ts). */
+export const openLab = (element: Locator): Promise<void> => element.evaluate(element => element.shadowRoot!.querySelector('.figure')!.classList.add('lab-open'))
+
 /** The page has painted so many times: whatever was on its way has come, whatever the machine. */
 export const frames = (page: Page | Frame, count: number): Promise<void> =>
   page.evaluate(async n => {
@@ -111,13 +114,12 @@ export class Figure {
     return this
   }
 
-  /** All of it is there: unfolded, where it stands beside the title (hero.spec.ts), and as after a press on *Lab*; of that, links and codes
-   * would tell (lab.spec.ts). */
+  /** All of it is there, also of the one that stands folded beside the title (hero.spec.ts). */
   async live(): Promise<void> {
     await expect(this.element.locator('.stage.live')).toBeVisible()
     const unfold = this.page.locator('.hero', { has: this.element }).getByRole('button', { name: 'Open this figure' })
     if ((await unfold.count()) > 0) await unfold.click()
-    await this.element.evaluate(element => element.shadowRoot!.querySelector('.figure')!.classList.add('lab-open'))
+    await openLab(this.element)
     await this.settled()
   }
 

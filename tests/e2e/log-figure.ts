@@ -1,7 +1,7 @@
 // The figure that maps logs, as its specs handle it.
 import type { Locator, Page } from '@playwright/test'
 import { expect } from './fixtures'
-import { settled } from './figure'
+import { openLab, settled } from './figure'
 import { openAlone } from './host'
 
 export class LogFigure {
@@ -24,6 +24,7 @@ export class LogFigure {
     await openAlone(this.page, 'fastslam-log', link && `#fastslam-log?${link}`)
     if (!link) await this.stage.click() // its program comes when something is asked of it
     await expect(this.element.locator('.stage.live')).toBeVisible()
+    await openLab(this.element)
     return this
   }
 

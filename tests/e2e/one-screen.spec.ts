@@ -78,7 +78,7 @@ test('every figure is whole on a small laptop, in columns and as wide as in the 
     return widths
   }
   await page.setViewportSize(LAPTOP)
-  await page.goto('./')
+  await page.goto('./#fig-lap') // where it is unfolded
   const onLaptop = await widthsInChapter()
   await page.setViewportSize(TABLET)
   const onTablet = await widthsInChapter()
@@ -118,7 +118,7 @@ test('every figure is whole on a small laptop, in columns and as wide as in the 
 
 test('every figure is whole in the chapter on a small laptop, and on a tablet picture and controls are', breadth, async ({ page }) => {
   await page.setViewportSize(LAPTOP)
-  await page.goto('./')
+  await page.goto('./#fig-lap') // where it is unfolded
   for (const tag of programs.keys()) {
     const { element } = await ready(page, tag)
     expect((await element.boundingBox())!.height, tag).toBeLessThanOrEqual(HIGHEST)
