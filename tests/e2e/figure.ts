@@ -189,6 +189,8 @@ export class Figure {
 
   async #unfold(part: string): Promise<void> {
     const details = this.element.locator(`details[part=${part}]`)
+    await details.waitFor({ state: 'attached' })
+    await openLab(this.element)
     // Not every figure has settings that are folded away.
     const folded = await details.evaluate((details: HTMLDetailsElement) => !details.open && !details.hidden)
     if (folded) await details.locator('summary').click()

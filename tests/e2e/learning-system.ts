@@ -5,7 +5,7 @@ import { createRequire } from 'node:module'
 import type { AddressInfo } from 'node:net'
 import type { Frame, Page } from '@playwright/test'
 import { strFromU8 } from 'fflate'
-import { Figure } from './figure'
+import { Figure, openLab } from './figure'
 import { expect } from './fixtures'
 
 /** A learning system: a page with scorm-again around a frame with the package in it, which keeps what the run-time commits. */
@@ -25,6 +25,7 @@ export class LearningSystem {
     await this.page.goto(this.address)
     const figure = new Figure(this.frame, this.tag)
     await expect(figure.element.locator('.stage.live')).toBeVisible()
+    await openLab(figure.element)
     return figure
   }
 
