@@ -35,7 +35,8 @@ async function middle(handle: Locator): Promise<{ x: number; y: number }> {
 test('without a guess nothing is run, unless the reader says so', async ({ page }) => {
   const figure = await proposal(page, '')
   const told = await guesses(figure)
-  await figure.toggle('run').click()
+  await expect(figure.toggle('run'), 'where nobody was asked, there is nothing to run').toBeHidden()
+  await figure.toggle('predict').click()
   await figure.settled()
   // It asks, instead of answering.
   await expect(figure.toggle('predict')).toHaveAttribute('aria-pressed', 'true')
