@@ -95,7 +95,7 @@ export function unfold(context, state, node) {
   if (!/^[\w-]+\.html#[\w-]+$/.test(from)) context.problems.add(context.file, node, '::unfold says where its text is: from="page.html#id"')
   const words = inline(state, node)
   if (words.length === 0) context.problems.add(context.file, node, '::unfold has no title')
-  return h('details.deeper.elsewhere', h('summary', words), h('div.fold', h('p', h('a', { href: from }, 'On a page of its own'))))
+  return h('details.deeper.elsewhere', h('summary', words), h('div.fold', h('p', h('a', { href: from }, structuredClone(words), ', on a page of its own'))))
 }
 
 /** What is to be remembered of a section: two lines. @type {Handler} */

@@ -37,7 +37,7 @@ export function takeSolutions(nodes) {
     heads.push({ depth: 2, id, content: title })
     // The way back to what is asked.
     sections.push(h('section', h('h2', { id }, h('a', { href: `#${asked}` }, title)), fold.children))
-    fold.children = [h('p', h('a', { href: `${solutionsPage}#${id}` }, 'On a page of its own'))]
+    fold.children = [h('p', h('a', { href: `${solutionsPage}#${id}` }, 'Solution, on a page of its own'))]
     solution.properties.className = ['solution', 'elsewhere']
   })
   /** @type {Set<string>} */

@@ -107,7 +107,7 @@ test('what unfolds from another page is a link until then, and the page says how
   const text = await html(`## A {#a}\n\n${words} :minutes[open] and :minutes[whole]\n\n:::deeper[B]\n${words}\n:::\n\n:::takeaway\n- One.\n- Two.\n:::\n\n::unfold[More of $x$]{from="practice.html#b"}`)
   assert.match(text, /word\s+10 and 20<\/p>/)
   assert.match(text, /<div class="takeaway"><p><b>To take away<\/b><\/p>\s*<ul>/)
-  assert.match(text, /<details class="deeper elsewhere"><summary>More of .*<div class="fold"><p><a href="practice\.html#b">On a page of its own<\/a><\/p><\/div>/)
+  assert.match(text, /<details class="deeper elsewhere"><summary>More of .*<div class="fold"><p><a href="practice\.html#b">More of .*,<\/span> on a page of its own<\/a><\/p><\/div>/)
 })
 
 test('solutions are on a page of their own, a fold leads to each, and links between the pages follow', async () => {
@@ -115,7 +115,7 @@ test('solutions are on a page of their own, a fold leads to each, and links betw
   const equation = (/** @type {string} */ id) => `::::equation{#eq-${id}}\n$$${id}$$\n::::\n\n`
   const { pages } = await book(`## A {#a}\n\n${equation('x')}${exercise('b', `${equation('y')}Of [](#eq-x), [](#eq-z) and [lap](#fastslam-lap?v=1).`)}${exercise('c', equation('z'))}`)
   const [chapter = '', solutions = ''] = ['index.html', 'solutions.html'].map(name => serialize(pages[name]?.body ?? []))
-  assert.match(chapter, /<details class="solution elsewhere"><summary>Solution<\/summary><div class="fold"><p><a href="solutions\.html#solution-ex-b">On a page of its own<\/a><\/p><\/div>/)
+  assert.match(chapter, /<details class="solution elsewhere"><summary>Solution<\/summary><div class="fold"><p><a href="solutions\.html#solution-ex-b">Solution, on a page of its own<\/a><\/p><\/div>/)
   assert.match(chapter, /See <a class="eqref" href="solutions\.html#eq-y">\(17\.2\)<\/a>/)
   assert.ok(!chapter.includes('id="eq-y"') && chapter.includes('id="eq-x"'))
   assert.match(solutions, /<section><h2 id="solution-ex-b"><a href="\.\/index\.html#ex-b"><b>Exercise 1<\/b> <span class="title">On <em>b<\/em><\/span><\/a><\/h2>\s*<div class="eq" id="eq-y">/)
