@@ -12,6 +12,9 @@ import { policy } from './policy.mjs'
 /** Pages that are made for frames on other sites. */
 const isFrame = (/** @type {string} */ path) => /(^|\/)(embed(-[a-z-]+)?|task)\.html$/.test(path)
 
+/** A name with a hash of the content: all in assets/, and scripts and programs beside fastslam.js. Others only look so: custom-elements.json. @param {string} path */
+export const isHashed = path => /(^|[/\\])(assets[/\\][^/\\]+|fastslam-([a-z]+-)*[\w-]{8}\.(js|wasm))$/.test(path)
+
 /** Other sites may frame those, and no other. A course would name its learning system in place of the star. */
 const frameAncestors = (/** @type {string} */ path) => `frame-ancestors ${isFrame(path) ? '*' : "'self'"}`
 
@@ -175,7 +178,7 @@ async function answer(base, encoded, request, response) {
   response.setHeader('ETag', etag)
   response.setHeader('Vary', 'Accept-Encoding')
   // Names with a hash of their content never change; the others are asked about each time.
-  response.setHeader('Cache-Control', /-[\w-]{8}\.\w+$/.test(file.path) ? 'public, max-age=31536000, immutable' : 'no-cache')
+  response.setHeader('Cache-Control', isHashed(file.path) ? 'public, max-age=31536000, immutable' : 'no-cache')
   if (request.headers['if-none-match'] === etag) {
     response.writeHead(304).end()
     return { path, status: 304, raw: raw.length, sent: 0 }

@@ -33,7 +33,7 @@ import { together } from './together.mjs'
 
 const home = fileURLToPath(new URL('.', import.meta.url))
 /** Pages beside the chapter, each with what it runs. */
-const beside = [['model', './src/page.ts'], ['trust', './src/page.ts'], ['practice', './src/practice.ts']]
+const beside = [['model', './src/page.ts'], ['trust', './src/page.ts'], ['hosting', './src/page.ts'], ['practice', './src/practice.ts']]
 /** What is the same of every page. */
 const plain = { hero: [], previous: undefined, next: undefined, live: false, foot: 'Text: CC BY 4.0. Code: MIT or Apache-2.0', fonts: ['text', 'italic', 'bold', 'math', 'mono'] }
 
