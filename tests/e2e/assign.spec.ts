@@ -187,7 +187,29 @@ test('answered wrongly to the end it is failed, and looking at it completes noth
   forgiveSystem(complaints)
 })
 
-test('a text is handed in whole, without points, and is there at the next visit; the page speaks the figure’s language', async ({ page, complaints }) => {
+test('what is handed in on paper is one page: name, date, question, tries, and below the whole picture the words and the link of its state', async ({ page }) => {
+  await compose(page, 'figure=proposal&v=3&range-std=0.08')
+  await composeChoice(page)
+  await page.goto((await code(page).textContent())!)
+  const figure = new Figure(page, 'fastslam-proposal')
+  await figure.live()
+  await page.getByLabel('FastSLAM 1.0').check()
+  await page.getByRole('button', { name: 'Hand in' }).click()
+  await page.getByLabel('Name').fill('A. Student')
+  const pdf = (await page.pdf({ format: 'A4' })).toString('latin1')
+  expect(pdf.match(/\/Type\s*\/Page\b(?!s)/g)).toHaveLength(1)
+  expect(pdf).toContain('range-std=0.08')
+  // As wide as A4 between its margins.
+  await page.setViewportSize({ width: 718, height: 1000 })
+  await page.emulateMedia({ media: 'print' })
+  const [picture, words, link] = await Promise.all([figure.canvas, figure.sentence, figure.element.locator('.paper')].map(part => part.boundingBox()))
+  expect(words!.y).toBeGreaterThanOrEqual(picture!.y + picture!.height)
+  expect(link!.y).toBeGreaterThanOrEqual(words!.y + words!.height)
+  for (const text of ['Which filter has samples', 'Tries: 1 · Score: 100 of 100']) await expect(page.getByText(text)).toBeVisible()
+  await expect(page.getByRole('button', { name: 'Hand in' })).toBeHidden()
+})
+
+test('a text is handed in whole, without points, and is there at the next visit; the page speaks the figure’s language, and on paper names the site where the state opens again', async ({ page, baseURL, complaints }) => {
   await compose(page, 'figure=proposal&v=3&lang=de')
   await editor(page).getByLabel('Question').fill('Warum verliert FastSLAM 1.0 seine Partikel?')
   await editor(page).getByLabel('Asks for').selectOption('text')
@@ -201,6 +223,8 @@ test('a text is handed in whole, without points, and is there at the next visit;
   await expect.poll(() => system.told('cmi.core.lesson_status')).toBe('completed')
   expect([await system.told('cmi.comments'), await system.told('cmi.interactions.0.result'), await system.told('cmi.core.score.raw')]).toEqual([text, 'neutral', undefined])
   expect((await system.told('cmi.interactions.0.student_response'))!.length).toBe(255)
+  await system.frame.evaluate(() => dispatchEvent(new Event('beforeprint')))
+  await expect(system.frame.locator('.site')).toHaveText(`Der Zustand der Abbildung: ${baseURL}#fastslam-proposal?v=3`)
   await system.leave()
   await system.visit()
   await expect(system.frame.getByText('Abgegeben.')).toBeVisible()

@@ -25,13 +25,14 @@ async function fetched(address: string): Promise<Uint8Array> {
 }
 
 /** The page of the assignment, with its figure and its question in it, and with what speaks to the learning system before all else. */
-function startPage(html: string, { figure: { tag, attributes }, title, task }: Assigned): string {
+function startPage(html: string, home: string, { figure: { tag, attributes }, title, task }: Assigned): string {
   const page = new DOMParser().parseFromString(html, 'text/html')
   const figure = page.createElement(tag)
   for (const [name, value] of attributes) figure.setAttribute(name, value)
   figure.setAttribute('fit', '')
   page.querySelector('#figure')!.prepend(figure)
   page.title = title
+  page.head.append(Object.assign(page.createElement('meta'), { name: 'site', content: home }))
   const given = page.createElement('script')
   given.type = 'application/json'
   given.id = 'given'
@@ -60,7 +61,7 @@ export async function scormPackage(home: string, assigned: Assigned): Promise<Bl
   for (const [path, bytes] of entries) {
     const isText = /\.(js|css|html)$/.test(path)
     const text = isText ? new TextDecoder().decode(bytes).replace(SITE, 'shared$1') : ''
-    if (path === 'task.html') files['index.html'] = strToU8(startPage(text, assigned))
+    if (path === 'task.html') files['index.html'] = strToU8(startPage(text, home, assigned))
     else files[path.replace(SITE, 'shared$1')] = isText ? strToU8(text) : bytes
   }
   files['scorm.js'] = strToU8(scorm)

@@ -210,12 +210,12 @@ function addPaper(): void {
   const note = h('p', { class: 'verdict', role: 'status' })
   print.addEventListener('click', () => void printAll().then(allowed => write(note, allowed ? '' : say('no_print', { link: figure!.link }))))
   panel.append(h('div', { class: 'paper' }, line('name'), line('date', new Date().toLocaleDateString()), print), note)
-}
-
-/** On paper the figure has all the height that it needs; before it looks how much there is. */
-function makeRoomOnPaper(figure: HTMLElement): void {
-  addEventListener('beforeprint', () => figure.removeAttribute('fit'), { capture: true })
-  addEventListener('afterprint', () => figure.setAttribute('fit', ''))
+  const site = document.querySelector<HTMLMetaElement>('meta[name=site]')?.content
+  if (!site) return
+  // A package's own address is nothing outside of the learning system: the state opens on the site that it was made on.
+  const link = h('p', { class: 'site' })
+  panel.append(link)
+  addEventListener('beforeprint', () => write(link, `${say('state')}: ${site}#${figure!.localName}?${figure!.state}`))
 }
 
 document.documentElement.lang = language
@@ -226,6 +226,5 @@ if (figure) {
   else if (task === null) panel.append(h('p', { role: 'alert' }, say('no_task')))
   else panel.append(h('h1', {}, FIGURES[figure.localName]!.title)) // a sheet without a question
   addPaper()
-  makeRoomOnPaper(figure)
   if (query.has('print') && !packed) void figure.settled().then(printAll)
 }
