@@ -1,0 +1,45 @@
+// What the page for teachers says of the states that break a misconception: each link opens without a notice, and shows what is claimed.
+import { readFileSync } from 'node:fs'
+import { join } from 'node:path'
+import { root } from '../../scripts/lib.mjs'
+import { expect, test } from './fixtures'
+import { Figure } from './figure'
+import { breadth } from './host'
+
+test.use({ contextOptions: { reducedMotion: 'reduce' } })
+
+type Numbers = Record<string, number | null>
+
+/** What is claimed of a link, by its figure and a part of its state; every link of the list has one. */
+const CLAIMS: [link: string, holds: (now: Numbers, words: string) => boolean][] = [
+  ['proposal?v=3&landmarks=pair', (_, words) => words.includes('is lost, and N_eff does not tell')],
+  ['resampling?v=4&wings=on', ({ always_ess, always_right }) => always_ess! > 15.9 && always_right === 0],
+  ['proposal?v=3&range-std=0.005', ({ ess_motion }) => ess_motion! < 200],
+  ['proposal?v=3&range-std=0.5', ({ ess_motion }) => ess_motion! > 800],
+  ['resampling?v=4&threshold=1', ({ always_lineage }) => always_lineage === 1],
+  ['conditioning?v=2', ({ rho }, words) => Math.abs(rho!) > 0.3 && words.includes('though no pose saw both')],
+  ['conditioning?v=2&last-pose=on', (_, words) => /others still couple the map: [1-9]/.test(words)],
+  ['doors?v=1', ({ ekf_std }, words) => ekf_std! < 0.1 && words.includes('which is wrong')],
+  ['joint?v=1', ({ ess_sampled }) => ess_sampled! < 2],
+  ['em?v=1&mark-3=5.2', (_, words) => words.includes('nothing changes any more') && words.includes('passed the same two doors again')],
+  ['smoothing?v=3&at=30', ({ coalescence }) => coalescence! >= 30],
+  ['graph?v=3&wrong=on', ({ rms, rms_start }) => rms! > rms_start!],
+  ['universes?v=2&proposals=motion', ({ passes_motion }) => passes_motion! > 0],
+]
+
+test('each misconception is broken by the state that its link opens', breadth, async ({ page }) => {
+  const text = readFileSync(join(root, 'www', 'model.md'), 'utf8')
+  const list = text.slice(text.indexOf('{#misconceptions}'), text.indexOf('{#plans}'))
+  const links = [...list.matchAll(/index\.html#fastslam-([a-z-]+)\?([^)]*)\)/g)].map(([, name, state]) => ({ name: name!, state: state! }))
+  expect(links.length).toBe(CLAIMS.length)
+  for (const { name, state } of links) {
+    await page.goto('about:blank')
+    const figure = await new Figure(page, `fastslam-${name}`).open(`./embed-${name}.html#fastslam-${name}?${state}`)
+    await expect(figure.alert).toBeEmpty()
+    const now = await figure.element.evaluate(element => Object.fromEntries((element as unknown as { readouts: { name: string; value: number | null }[] }).readouts.map(({ name, value }) => [name, value])))
+    // The claim of that link is the longest that fits.
+    const claims = CLAIMS.filter(([link]) => `${name}?${state}`.startsWith(link)).sort(([a], [b]) => b.length - a.length)
+    const words = (await figure.sentence.textContent())!
+    expect(claims[0]?.[1](now, words), `${name}?${state}: ${words} ${JSON.stringify(now)}`).toBe(true)
+  }
+})
