@@ -49,6 +49,7 @@ test('it is what its README says: exports with types, no word of the chapter, no
   for (const file of files) expect(readFileSync(join(installed, file)).length, file).toBeGreaterThan(0)
   expect(sideEffects).toContain('./dist/*.js')
   expect(readFileSync(join(installed, 'dist', 'licences.txt'), 'utf8')).toContain('SIL OPEN FONT LICENSE')
+  expect(JSON.parse(readFileSync(join(installed, 'dist', 'sbom.cdx.json'), 'utf8')).components.length).toBeGreaterThan(20)
   const scripts = readdirSync(join(installed, 'dist')).filter(file => /^fastslam(-|\.js)/.test(file))
   const script = scripts.map(file => readFileSync(join(installed, 'dist', file), 'utf8')).join('')
   const named = [...script.matchAll(/new URL\([`"']([^`"']+\.(?:wasm|png|js))[`"'],/g)]

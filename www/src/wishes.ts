@@ -2,7 +2,7 @@
 // notebook. Each has a few fields and one block to copy or to save, made from the figure as it stands.
 import type { FigureElement } from '../../widgets/elements/figure-element'
 import { h, write } from '../../widgets/elements/dom'
-import { CODES, FRAME_WIDTH, frameHeight, frameQuery, type CodeName } from '../../widgets/elements/embed-code'
+import { CODES, FRAME_WIDTH, frameHeight, frameQuery, type CodeName, type FigureMarkup } from '../../widgets/elements/embed-code'
 import { OPTIONS } from '../../widgets/elements/options'
 import { copy, download } from '../../widgets/elements/save'
 import { Composer } from './compose'
@@ -58,6 +58,8 @@ export class Wishes {
   readonly #controls: HTMLSelectElement[] = []
   readonly #composer: Composer
   #block: Block = { title: '' }
+  /** The figure as the block has it: it may play on meanwhile. */
+  #markup: FigureMarkup = { tag: '', attributes: [] }
 
   constructor(
     private readonly home: string,
@@ -86,6 +88,7 @@ export class Wishes {
   /** The block, for the figure as it stands. */
   print(): void {
     for (const [selects, name] of [[this.#lock, 'lock'], [this.#controls, 'controls']] as const) for (const select of selects) this.#showOption(select, name)
+    this.#markup = this.editor.figure().markup
     const block = (this.#block = this.#all[this.#chosen]!.block())
     write(this.#title, block.title)
     write(this.#code, block.code ?? '')
@@ -108,7 +111,7 @@ export class Wishes {
   /** The address names a wish: embed/#assign. */
   #follow(): void {
     const name = location.hash.slice(1)
-    this.#choose(name in this.#all ? name : (this.#radios.find(radio => radio.checked)?.value ?? 'show'), false)
+    this.#choose(Object.hasOwn(this.#all, name) ? name : (this.#radios.find(radio => radio.checked)?.value ?? 'show'), false)
   }
 
   #choose(name: string, told = true): void {
@@ -205,12 +208,8 @@ export class Wishes {
     }
   }
 
-  get #markup() {
-    return this.editor.figure().markup
-  }
-
   /** A page of the site for a figure. */
-  #page(page: string, markup: Parameters<typeof frameQuery>[0]): string {
+  #page(page: string, markup: FigureMarkup): string {
     return `${this.home}${page}?${frameQuery(markup)}`
   }
 
