@@ -23,6 +23,7 @@ use crate::weights::Weights;
 
 /// What one step did. `A` is what a map takes an observation for: [`ConditionalMap::Association`].
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Report<A> {
     /// The step, from 1 on.
     pub step: u32,
@@ -41,6 +42,7 @@ pub struct Report<A> {
     /// the weights.
     pub selection_ess: f64,
     /// The path of each slot before resampling: nobody else holds those that the step let die.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "newest_poses"))]
     pub paths: Vec<Path>,
     /// Slot each particle was copied from, where the step resampled.
     pub ancestors: Option<Vec<u32>>,
@@ -52,6 +54,12 @@ pub struct Report<A> {
     pub traces: Vec<ProposalTrace>,
     /// What each slot took the observation for.
     pub associations: Vec<A>,
+}
+
+/// Of a report that is written the newest pose of each path: the poses before it are those of the reports before.
+#[cfg(feature = "serde")]
+fn newest_poses<S: serde::Serializer>(paths: &[Path], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(paths.iter().map(Path::pose))
 }
 
 impl<A> Report<A> {

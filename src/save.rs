@@ -9,6 +9,7 @@
 //! What is read may have been written by anybody. It is checked in full before anything is made of it.
 
 use crate::error::{Range, SettingError};
+use crate::geometry::Pose2;
 use serde::{Serialize, de::DeserializeOwned};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -89,6 +90,11 @@ pub(crate) fn holds(is: bool, part: &'static str, needed: &'static str) -> Resul
 /// Refuses infinities and NaN.
 pub(crate) fn finite(part: &'static str, numbers: impl IntoIterator<Item = f64>) -> Result<(), RestoreError> {
     numbers.into_iter().try_for_each(|number| Ok(Range::finite("").check(part, number).map(drop)?))
+}
+
+/// Refuses poses that are not finite.
+pub(crate) fn poses(part: &'static str, poses: impl IntoIterator<Item = Pose2>) -> Result<(), RestoreError> {
+    finite(part, poses.into_iter().flat_map(|pose| [pose.x, pose.y, pose.theta]))
 }
 
 /// The thing of an index.

@@ -111,6 +111,7 @@ impl LaserScan {
 
 /// A beam that says something.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Beam {
     /// How far the way is free, from the laser \[m\].
     pub length: f64,

@@ -32,6 +32,8 @@ use crate::ops;
 use crate::order::sorted;
 use crate::particle::Particle;
 use crate::proposal::{CorrelativeSearch, Search, Target};
+#[cfg(feature = "serde")]
+use crate::save::{self, RestoreError};
 use crate::sensor::Scan;
 use nalgebra::Matrix3;
 use std::collections::VecDeque;
@@ -56,11 +58,13 @@ pub(super) struct Closings {
 
 /// A scan that the filter took.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct View {
     /// Metres driven up to here, by odometry.
     way: f64,
     /// Distance within which nine of ten beams end that met something \[m\].
     reach: f64,
+    #[cfg_attr(feature = "serde", serde(with = "shared"))]
     scan: Arc<KeptScan>,
     /// Whether the maps before it were marked.
     marked: bool,
@@ -68,6 +72,7 @@ struct View {
 
 /// A scan, in single precision: it is kept as long as the mapper is.
 #[derive(Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct KeptScan {
     origin: [f32; 2],
     hits: Box<[[f32; 2]]>,
@@ -406,6 +411,74 @@ fn heaviest(weights: &[f64], count: usize) -> Vec<bool> {
     let is_ahead = |of: usize, other: usize| weights[other].total_cmp(&weights[of]).then(of.cmp(&other)).is_gt();
     let slots = 0..weights.len();
     slots.clone().map(|of| slots.clone().filter(|other| is_ahead(of, *other)).count() < count).collect()
+}
+
+/// What is behind an [`Arc`] of its own.
+#[cfg(feature = "serde")]
+mod shared {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+    use std::sync::Arc;
+
+    pub fn serialize<T: Serialize, S: Serializer>(shared: &Arc<T>, serializer: S) -> Result<S::Ok, S::Error> {
+        T::serialize(shared, serializer)
+    }
+
+    pub fn deserialize<'de, T: Deserialize<'de>, D: Deserializer<'de>>(deserializer: D) -> Result<Arc<T>, D::Error> {
+        T::deserialize(deserializer).map(Arc::new)
+    }
+}
+
+/// [`Closings`] without the maps, which share tiles with those of the particles.
+#[cfg(feature = "serde")]
+#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
+pub(super) struct SavedClosings {
+    views: Vec<View>,
+    /// Steps of the maps of before.
+    before: Vec<usize>,
+    accounts: Vec<Account>,
+    checked: usize,
+    bent: u32,
+    marked: bool,
+}
+
+#[cfg(feature = "serde")]
+impl Closings {
+    pub(super) fn save(&self) -> SavedClosings {
+        let Self { views, before, accounts, checked, bent, marked } = self.clone();
+        let before = before.into_iter().map(|before| before.step).collect();
+        SavedClosings { views, before, accounts, checked, bent, marked }
+    }
+
+    /// What was saved of a filter with so many particles after so many steps, or before the first scan; with the maps of before, by step and slot.
+    pub(super) fn restore(
+        saved: SavedClosings,
+        maps: Vec<Map>,
+        particles: usize,
+        steps: Option<usize>,
+    ) -> Result<Self, RestoreError> {
+        let SavedClosings { views, before, accounts, checked, bent, marked } = saved;
+        let last = steps.unwrap_or(0);
+        save::count("closings.views", views.len(), steps.map_or(0, |steps| steps + 1))?;
+        for View { way, reach, scan, .. } in &views {
+            save::finite("closings.views", [*way, *reach])?;
+            let points = [&scan.origin].into_iter().chain(&scan.hits).chain(&scan.misses);
+            save::finite("closings.views", points.flatten().map(|c| f64::from(*c)))?;
+        }
+        save::holds(views.is_sorted_by_key(|view| view.way), "closings.views", "along the way")?;
+        let known = |step: &usize| steps.is_some() && *step <= last;
+        save::holds(
+            before.is_sorted() && before.iter().all(known),
+            "closings.before",
+            "in order, and of steps so far",
+        )?;
+        save::count("closings.before", maps.len(), before.len() * particles)?;
+        save::holds(checked <= last, "closings.checked", "a step so far")?;
+        save::holds(accounts.is_empty() || accounts.len() == particles, "closings.accounts", "one for each particle")?;
+        accounts.iter().try_for_each(|account| account.check(last))?;
+        let mut maps = maps.into_iter();
+        let before = before.into_iter().map(|step| Before { step, maps: maps.by_ref().take(particles).collect() });
+        Ok(Self { before: before.collect(), views, accounts, checked, bent, marked })
+    }
 }
 
 #[cfg(test)]

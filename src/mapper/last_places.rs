@@ -5,6 +5,8 @@ use super::tuning::{self, Map};
 use crate::geometry::Pose2;
 use crate::map::ConditionalMap;
 use crate::matching::{HillClimbSteps, Score, ScoreNear, ScoredPose, hill_climb};
+#[cfg(feature = "serde")]
+use crate::save::{self, RestoreError};
 use crate::sensor::Scan;
 use std::collections::VecDeque;
 
@@ -22,9 +24,11 @@ const CLIMB: HillClimbSteps = HillClimbSteps { linear: 0.16, angular: 0.08, halv
 
 /// See the module.
 #[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct LastPlaces {
     places: VecDeque<(Pose2, Scan)>,
     /// Of these places, once it is asked for.
+    #[cfg_attr(feature = "serde", serde(skip))]
     map: Option<Map>,
 }
 
@@ -85,6 +89,18 @@ impl LastPlaces {
             }
             map
         })
+    }
+}
+
+#[cfg(feature = "serde")]
+impl LastPlaces {
+    /// Whether these can be places.
+    pub(crate) fn check(&self) -> Result<(), RestoreError> {
+        save::holds(self.places.len() <= PLACES, "odometer.places", "the last few")?;
+        save::poses("odometer.places", self.places.iter().map(|(pose, _)| *pose))?;
+        let points =
+            |scan: &Scan| [scan.origin].into_iter().chain(scan.hits.clone()).chain(scan.misses.clone()).flatten();
+        save::finite("odometer.places", self.places.iter().flat_map(|(_, scan)| points(scan).collect::<Vec<_>>()))
     }
 }
 

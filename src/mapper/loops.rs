@@ -2,9 +2,12 @@
 
 use super::agreement::Agreement;
 use crate::geometry::Relation;
+#[cfg(feature = "serde")]
+use crate::save::{self, RestoreError};
 
 /// A place that a path comes back to after a loop.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Loop {
     /// Step of the filter at which the robot was there first.
     pub from: usize,
@@ -16,6 +19,7 @@ pub struct Loop {
 
 /// What became of a loop.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum LoopEnd {
     /// Its ends met as the path was.
     Met,
@@ -45,6 +49,7 @@ impl Loop {
 
 /// What a path has come back to.
 #[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Account {
     pub(super) loops: Vec<Loop>,
     /// Those that are closed.
@@ -97,6 +102,22 @@ impl Account {
         self.loops.retain(|one| !one.is_open() || one.to < relation.from);
         self.relations.push(relation);
         self.loops.push(Loop { from: relation.from, to: relation.to, end });
+    }
+
+    /// Whether this can be of a path of so many steps.
+    #[cfg(feature = "serde")]
+    pub(super) fn check(&self, steps: usize) -> Result<(), RestoreError> {
+        let mut ends =
+            self.relations.iter().map(|one| (one.from, one.to)).chain(self.loops.iter().map(|one| (one.from, one.to)));
+        let are_known = ends.all(|(from, to)| from <= to && to <= steps);
+        save::holds(are_known, "closings.accounts", "of steps so far")?;
+        let numbers = self.loops.iter().flat_map(|one| match one.end {
+            LoopEnd::Met => [0.0; 3],
+            LoopEnd::Bent { shift, gain, second } => [shift, gain, second],
+            LoopEnd::Open { disputed } => [disputed; 3],
+        });
+        let between = self.relations.iter().flat_map(|one| [one.between.x, one.between.y, one.between.theta]);
+        save::finite("closings.accounts", numbers.chain(between).chain(self.compared))
     }
 
     fn compare(&mut self, agreement: &Agreement) {

@@ -19,6 +19,8 @@ mod loops;
 mod moving;
 mod odometer;
 mod replay;
+#[cfg(feature = "serde")]
+mod saved;
 mod settings;
 #[cfg(test)]
 mod tests;
@@ -34,6 +36,8 @@ use moving::{LastViews, driven};
 use odometer::Odometer;
 pub use odometer::Unbelieved;
 pub use replay::Replay;
+#[cfg(feature = "serde")]
+pub use saved::SavedMapper;
 pub use settings::LaserMapperSettings;
 pub use tuning::Map;
 pub use wheels::{WheelNoise, Wheels};
@@ -75,6 +79,7 @@ impl Pushed {
 
 /// A scan that was pushed.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Stamp {
     /// When \[s\].
     time: f64,
@@ -93,6 +98,8 @@ pub struct LaserMapper {
     settings: LaserMapperSettings,
     executor: Executor,
     filter: Filter,
+    /// Beams that the filter's search is made for.
+    beams: u32,
     /// What odometry says, as far as it is believed.
     odometer: Odometer,
     /// What is known of the wheels.
@@ -125,10 +132,12 @@ impl LaserMapper {
     pub fn new(settings: LaserMapperSettings) -> Result<Self, SettingError> {
         settings.validate()?;
         let map = Map::new(tuning::grid(settings.cell_size));
+        let beams = settings.beams.unwrap_or(tuning::BEAMS);
         Ok(Self {
             settings,
             executor: Executor::default(),
-            filter: filter(&settings, settings.beams.unwrap_or(tuning::BEAMS), map)?,
+            filter: filter(&settings, beams, map)?,
+            beams,
             odometer: Odometer::default(),
             wheels: Wheels::default(),
             predicted: None,
@@ -214,8 +223,8 @@ impl LaserMapper {
         map.assimilate(&Pose2::default(), &standing, &());
         map.settle();
         self.closings.take(&standing, 0.0);
-        let beams = self.settings.beams.unwrap_or(scan.ranges.len() as u32);
-        let filter = filter(&self.settings, beams, map).expect("`new` has built one of these settings");
+        self.beams = self.settings.beams.unwrap_or(scan.ranges.len() as u32);
+        let filter = filter(&self.settings, self.beams, map).expect("`new` has built one of these settings");
         self.filter = filter.with_executor(self.executor.clone());
         self.take(scan, odometry);
     }
@@ -352,11 +361,15 @@ impl LaserMapper {
     }
 }
 
-/// The filter at the origin, with this map in each particle.
-fn filter(settings: &LaserMapperSettings, beams: u32, map: Map) -> Result<Filter, SettingError> {
+fn proposal(settings: &LaserMapperSettings, beams: u32) -> tuning::Proposal {
     let mut proposal = tuning::proposal(beams);
     proposal.settings.weight = settings.weight;
-    Rbpf::builder(map, proposal)
+    proposal
+}
+
+/// The filter at the origin, with this map in each particle.
+fn filter(settings: &LaserMapperSettings, beams: u32, map: Map) -> Result<Filter, SettingError> {
+    Rbpf::builder(map, proposal(settings, beams))
         .particles(settings.particles)
         .seed(settings.seed)
         .policy(settings.policy)

@@ -19,6 +19,8 @@ use crate::geometry::Pose2;
 use crate::log::{Beam, LaserScan};
 use crate::motion::Displacement;
 use crate::ops;
+#[cfg(feature = "serde")]
+use crate::save::{self, RestoreError};
 use crate::sensor::Scan;
 use core::f64::consts::TAU;
 use nalgebra::{Matrix2x3, Matrix3};
@@ -26,6 +28,7 @@ use std::collections::VecDeque;
 
 /// What was seen on the last metres of the way.
 #[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct LastViews {
     /// The oldest first.
     views: VecDeque<View>,
@@ -33,6 +36,7 @@ pub(super) struct LastViews {
 
 /// What one scan saw.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct View {
     odometry: Pose2,
     /// How far the robot has driven since \[m\], and by how much it has turned, to whichever side \[rad\].
@@ -81,6 +85,19 @@ impl LastViews {
         while self.views.front().is_some_and(|first| first.driven[0] > VIEW_REACH) {
             self.views.pop_front();
         }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl LastViews {
+    /// Whether these can be views.
+    pub(super) fn check(&self) -> Result<(), RestoreError> {
+        for View { odometry, driven, directions, beams } in &self.views {
+            save::poses("views", [*odometry, directions.robot_from_laser])?;
+            let of_beams = beams.iter().flatten().flat_map(|beam| [beam.length, beam.end[0], beam.end[1]]);
+            save::finite("views", driven.iter().chain(&directions.angles).copied().chain(of_beams))?;
+        }
+        Ok(())
     }
 }
 
@@ -164,6 +181,7 @@ impl View {
 
 /// Which way a laser's beams look.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Directions {
     robot_from_laser: Pose2,
     /// Direction of the first beam in the laser's frame, and from one beam to the next \[rad\].

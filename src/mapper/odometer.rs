@@ -20,9 +20,12 @@ use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
 use crate::log::{FARTHEST_JUMP, LaserScan};
 use crate::ops;
+#[cfg(feature = "serde")]
+use crate::save::{self, RestoreError};
 
 /// A step of odometry that was not believed.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Unbelieved {
     /// Stamp of the scan that it leads to \[s\].
     pub time: f64,
@@ -94,12 +97,14 @@ struct Proof {
 
 /// See the module.
 #[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Odometer {
     /// What leads from the frame of odometry to that of the poses that are believed; `None` as long as all of it is.
     correction: Option<Pose2>,
     last: Option<Last>,
     places: LastPlaces,
     /// The scan of the last place, and where it was taken.
+    #[cfg_attr(feature = "serde", serde(with = "super::saved::place"))]
     place: Option<(Pose2, LaserScan)>,
     /// Whether the last step was not believed.
     doubts: bool,
@@ -108,6 +113,7 @@ pub(super) struct Odometer {
 
 /// The last scan.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Last {
     time: f64,
     /// By odometry itself.
@@ -255,6 +261,22 @@ impl Odometer {
         let gain = (best.value - there.value) / ends.hits.len() as f64;
         let is_proved = gain >= proof.gain && found.fits >= proof.fits && found.disputed() <= proof.disputed;
         is_proved.then_some(best.pose)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl Odometer {
+    /// Whether this can be what was found of odometry.
+    pub(super) fn check(&self) -> Result<(), RestoreError> {
+        let Self { correction, last, places, place, doubts: _, unbelieved } = self;
+        let of_last = last.iter().flat_map(|last| [last.told, last.pose, last.motion]);
+        let of_steps = unbelieved.iter().flat_map(|step| [step.told, step.matched]);
+        let of_place = place.iter().map(|(pose, _)| *pose);
+        save::poses("odometer", correction.iter().copied().chain(of_last).chain(of_steps).chain(of_place))?;
+        let times = last.iter().map(|last| [last.time, last.elapsed]);
+        save::finite("odometer", times.chain(unbelieved.iter().map(|step| [step.time, step.elapsed])).flatten())?;
+        place.iter().try_for_each(|(_, scan)| scan.validate())?;
+        places.check()
     }
 }
 

@@ -18,6 +18,7 @@ use std::collections::BTreeSet;
 /// assert_eq!(error.to_string(), "particles = 0: must be a whole number from 1 to 4096");
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LaserMapperSettings {
     /// Number of particles M, in [`Self::PARTICLES`]. Where a scan is taken every half metre, one does for a building: median errors over seeds, for M = 1, 2, 4, 8
     /// and 16, were 0.066, 0.066, 0.065, 0.066 and 0.065 m on the Intel log and 0.127, 0.109, 0.122, 0.132 and 0.140 m on that of ACES. The default is for the worst

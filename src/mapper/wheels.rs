@@ -45,6 +45,11 @@ impl WheelNoise {
 /// [`MEMORY`] metres. What differs by more than [`OUTLYING`] standard deviations counts as if it
 /// differed by so many: one scan in a wrong place must not make the next wrong place likely.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(into = "SavedWheels", from = "SavedWheels")
+)]
 pub struct Wheels {
     /// Of the heading, a metre of the way.
     drift: Drift<1>,
@@ -165,6 +170,43 @@ impl Wheels {
         let kept = kept(stretch.way);
         self.drift.learn_and_forget([stretch.way], expected + error, variance, kept);
         self.noise.learn(error * error / (stretch.variance + matched), stretch.way);
+    }
+}
+
+/// In plain numbers.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct SavedWheels {
+    drift: [f64; 2],
+    noise: [f64; 2],
+    stretch: [f64; 3],
+}
+
+#[cfg(feature = "serde")]
+impl From<Wheels> for SavedWheels {
+    fn from(Wheels { drift, noise, stretch: Stretch { way, variance, turned } }: Wheels) -> Self {
+        Self { drift: drift.sums(), noise: [noise.squares, noise.count], stretch: [way, variance, turned] }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<SavedWheels> for Wheels {
+    fn from(SavedWheels { drift, noise: [squares, count], stretch: [way, variance, turned] }: SavedWheels) -> Self {
+        let stretch = Stretch { way, variance, turned };
+        Self { drift: Drift::of_sums(drift), noise: Scale { squares, count }, stretch }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl Wheels {
+    /// Whether these can be what was learnt of wheels.
+    pub(super) fn check(&self) -> Result<(), crate::save::RestoreError> {
+        let Self { drift, noise: Scale { squares, count }, stretch: Stretch { way, variance, turned } } = self;
+        let [information, weighted] = drift.sums();
+        crate::save::finite("wheels", [information, weighted, *squares, *count, *way, *variance, *turned])?;
+        let [information, count] = [information, *count].map(|sum| sum > 0.0);
+        let is_known = information && count && *squares >= 0.0 && *way >= 0.0 && *variance >= 0.0;
+        crate::save::holds(is_known, "wheels", "sums of squares and ways")
     }
 }
 

@@ -82,6 +82,19 @@ impl<const N: usize> Drift<N> {
     }
 }
 
+#[cfg(feature = "serde")]
+impl Drift<1> {
+    /// Λ and η.
+    pub(crate) fn sums(&self) -> [f64; 2] {
+        [self.information[0], self.weighted[0]]
+    }
+
+    /// Of these sums.
+    pub(crate) fn of_sums([information, weighted]: [f64; 2]) -> Self {
+        Self { information: SMatrix::from([[information]]), weighted: SVector::from([weighted]) }
+    }
+}
+
 /// L⁻¹ c.
 fn forward<const N: usize>(l: &SMatrix<f64, N, N>, mut c: [f64; N]) -> [f64; N] {
     for k in 0..N {

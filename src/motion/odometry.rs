@@ -15,6 +15,7 @@ use nalgebra::{Matrix3, Vector3};
 
 /// u = (δ_rot1, δ_trans, δ_rot2): turn, drive, turn.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Odometry {
     /// First turn \[rad\].
     pub rot1: f64,
@@ -64,6 +65,7 @@ impl Odometry {
 /// The four α of the noise: σ²_rot1 = α₁ δ_rot1² + α₂ δ_trans², σ²_trans = α₃ δ_trans² + α₄ (δ_rot1² + δ_rot2²),
 /// σ²_rot2 = α₁ δ_rot2² + α₂ δ_trans².
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct OdometryModel {
     /// α₁ \[–\], α₂ \[rad²/m²\], α₃ \[–\], α₄ \[m²/rad²\].
     pub alphas: [f64; 4],

@@ -58,6 +58,22 @@ impl<M: ConditionalMap + SaveShared, P: Proposal<M>> Rbpf<M, P> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn save(&self) -> Saved<M::Saved> {
+        self.save_with(M::save_all(self.particles.iter().map(|particle| &particle.map)))
+    }
+
+    /// The filter that was saved, if this is its proposal. It goes on with the same bits, whoever computes: by default
+    /// [`Executor::default`].
+    ///
+    /// # Errors
+    /// Where the state is not that of a filter, with the part of it that is wrong; where the proposal refuses one of its settings.
+    pub fn restore(saved: Saved<M::Saved>, proposal: P) -> Result<Self, RestoreError> {
+        Self::restore_with(saved, proposal, M::restore_all)
+    }
+}
+
+impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
+    /// The state with maps that were saved by somebody who keeps more of them.
+    pub(crate) fn save_with<T>(&self, maps: T) -> Saved<T> {
         Saved {
             version: VERSION,
             policy: self.policy,
@@ -69,16 +85,16 @@ impl<M: ConditionalMap + SaveShared, P: Proposal<M>> Rbpf<M, P> {
             log_selected: self.log_selected,
             path_weights: self.path_weights.save(),
             paths: Path::save_all(self.particles.iter().map(|particle| &particle.path)),
-            maps: M::save_all(self.particles.iter().map(|particle| &particle.map)),
+            maps,
         }
     }
 
-    /// The filter that was saved, if this is its proposal. It goes on with the same bits, whoever computes: by default
-    /// [`Executor::default`].
-    ///
-    /// # Errors
-    /// Where the state is not that of a filter, with the part of it that is wrong; where the proposal refuses one of its settings.
-    pub fn restore(saved: Saved<M::Saved>, proposal: P) -> Result<Self, RestoreError> {
+    /// The filter of a state, whose maps are read by whoever saved them.
+    pub(crate) fn restore_with<T>(
+        saved: Saved<T>,
+        proposal: P,
+        read: impl FnOnce(T) -> Result<Vec<M>, RestoreError>,
+    ) -> Result<Self, RestoreError> {
         let Saved {
             version,
             policy,
@@ -107,7 +123,7 @@ impl<M: ConditionalMap + SaveShared, P: Proposal<M>> Rbpf<M, P> {
         save::count("weights", weights.as_slice().len(), paths.len())?;
         save::finite("log_selected", [log_selected])?;
         save::count("path_weights", path_weights.as_slice().len(), paths.len())?;
-        let maps = M::restore_all(maps)?;
+        let maps = read(maps)?;
         save::count("maps", maps.len(), paths.len())?;
         let particle = |(path, map): (Path, M)| Particle { world_from_robot: path.pose(), map, path };
         Ok(Self {

@@ -42,6 +42,7 @@ impl BeamSensor {
 ///
 /// The way of a beam from `origin` to its end is free. A scan of a range finder in the robot's centre has the origin (0, 0), the default.
 #[derive(Clone, PartialEq, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Scan {
     /// Where the range finder sits: all beams begin here.
     pub origin: [f64; 2],

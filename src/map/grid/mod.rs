@@ -189,6 +189,12 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
         Self::new(self.model)
     }
 
+    /// How it learns.
+    #[cfg(feature = "serde")]
+    pub(crate) fn model(&self) -> &GridModel {
+        &self.model
+    }
+
     /// Bytes of a tile of which so many NDT cells were hit.
     pub fn tile_bytes(ndt_cells: usize) -> usize {
         tile::bytes::<CELLS_PER_NDT>(ndt_cells)

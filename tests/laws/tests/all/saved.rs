@@ -1,9 +1,11 @@
 //! Laws of a saved state: it goes on with the same bits, it shares what was shared, and what is none is refused.
 
 use fastslam::geometry::Pose2;
+use fastslam::log::LaserLog;
 use fastslam::map::grid::{Grid, GridModel};
 use fastslam::map::landmarks::{Balanced, Correspondence, Gate, Landmark, Landmarks, Store};
 use fastslam::map::{ConditionalMap, Footprint};
+use fastslam::mapper::{LaserMapper, LaserMapperSettings};
 use fastslam::matching::{Matcher, ScanModel};
 use fastslam::motion::{Odometry, OdometryModel};
 use fastslam::particle::Particle;
@@ -16,6 +18,8 @@ use fastslam::sensor::{BeamSensor, Feature, LandmarkSensor, RangeBearing, Scan};
 use fastslam_lab::digest::Digest;
 use fastslam_lab::experiment::ProposalKind;
 use fastslam_lab::experiment::lap::{GRID, Lap, LapSetup, Proposals};
+use fastslam_lab::experiment::log::Example;
+use fastslam_lab::experiment::long_rings::LongRingSetup;
 use serde_json::Value;
 use std::hash::Hasher;
 
@@ -368,4 +372,110 @@ fn what_is_wrong_with_a_state_is_named() {
         "particles = 0: must be a whole number from 1 to 4294967295"
     );
     assert_eq!(refused("/paths/ends/1", 0.into()), "paths: must be all of one step");
+}
+
+// Of a mapper.
+
+/// Path, weights and maps of a mapper, with what is known besides of the way, to the bit; and its memory, with what is kept.
+fn mapped(mapper: &LaserMapper) -> (Digest, Footprint, String) {
+    let (mut digest, _, _) = state(mapper.filter());
+    for (time, pose) in mapper.path() {
+        [time, pose.x, pose.y, pose.theta].into_iter().for_each(|x| digest.f64(x));
+    }
+    [mapper.wheels().drift(), mapper.wheels().heading_std()].into_iter().for_each(|x| digest.f64(x));
+    let counts = (mapper.steps(), mapper.closings(), mapper.single_lineage_since(), mapper.resampled_fraction());
+    let said = format!("{:?} {counts:?} {:?} {:?}", mapper.loops(), mapper.unbelieved(), mapper.remarks());
+    (digest, mapper.footprint_with_kept(), said)
+}
+
+fn saved_and_restored(mapper: &LaserMapper) -> LaserMapper {
+    let text = serde_json::to_string(&mapper.save()).unwrap();
+    let restored = LaserMapper::restore(serde_json::from_str(&text).unwrap()).unwrap();
+    assert_eq!(mapped(&restored), mapped(mapper), "after {} steps", mapper.steps());
+    assert_eq!(serde_json::to_string(&restored.save()).unwrap(), text, "after {} steps", mapper.steps());
+    restored
+}
+
+/// Pushes a log into a mapper, and into one that is stopped before the first scan, after it, and after every 29 scans.
+fn assert_a_session_goes_on(log: &LaserLog, settings: LaserMapperSettings) -> LaserMapper {
+    let mut whole = LaserMapper::new(settings.for_log(log)).unwrap();
+    let mut stopped = saved_and_restored(&whole);
+    for (number, scan) in log.scans.iter().enumerate() {
+        _ = (whole.push(scan), stopped.push(scan));
+        if number % 29 == 0 {
+            stopped = saved_and_restored(&stopped);
+        }
+    }
+    assert_eq!(mapped(&stopped), mapped(&whole));
+    whole
+}
+
+/// Round a corner where particles are resampled and a loop is closed, and odometry starts anew on the way.
+#[test]
+fn a_session_that_is_stopped_goes_on_to_the_path_of_one_run_to_the_bit() {
+    let mut log = ring(60, 8);
+    let at = log.scans.len() / 4;
+    let back = log.scans[at].odometry;
+    log.scans[at..].iter_mut().for_each(|scan| scan.odometry = back.between(&scan.odometry));
+    let mapper =
+        assert_a_session_goes_on(&log, LaserMapperSettings { particles: 4, seed: 8, ..LaserMapperSettings::default() });
+    assert!(mapper.resampled_fraction() > 0.0 && !mapper.loops().is_empty(), "{:?}", mapped(&mapper).2);
+    assert_eq!(mapper.unbelieved().len(), 1);
+}
+
+/// All scans are mapped again then, with the maps of before. Seeds are taken from the first on, until a path is bent.
+#[test]
+fn a_session_that_is_stopped_bends_the_same_paths() {
+    let is_bent = |seed| {
+        let settings = LaserMapperSettings { particles: 1, seed, ..LaserMapperSettings::default() };
+        assert_a_session_goes_on(&ring(120, seed), settings).closings() > 0
+    };
+    assert!((1..=6).any(is_bent), "none of six loops was left open");
+}
+
+/// The log of a ring of so many metres.
+fn ring(length: u32, seed: u64) -> LaserLog {
+    Example::of(&LongRingSetup { length, seed, ..LongRingSetup::default() }.recipe(), usize::MAX).log
+}
+
+#[test]
+fn a_mutilated_session_is_refused_or_used_and_never_panics() {
+    let mut log = ring(60, 1);
+    for scan in &mut log.scans {
+        scan.ranges = scan.ranges.iter().step_by(12).copied().collect();
+        scan.angle_step *= 12.0;
+    }
+    let settings =
+        LaserMapperSettings { particles: 2, cell_size: 0.2, max_range: 2.0, ..LaserMapperSettings::default() };
+    let mut mapper = LaserMapper::new(settings.for_log(&log)).unwrap();
+    let (first, rest) = log.scans.split_at(40);
+    first.iter().for_each(|scan| drop(mapper.push(scan)));
+    let document = serde_json::to_value(mapper.save()).unwrap();
+    let (mut all, mut outcomes) = (Vec::new(), [0, 0]);
+    places(&document, String::new(), &mut all);
+    // What is in filter and maps is mutilated above.
+    let own = |place: &&String| !place.starts_with("/filter/") && !place.starts_with("/maps/");
+    for place in all.iter().filter(own) {
+        for value in [
+            0.into(),
+            1.into(),
+            7.into(),
+            u64::from(u32::MAX).into(),
+            Value::Null,
+            (-1).into(),
+            1e300.into(),
+            Value::Array(Vec::new()),
+        ] {
+            let mut changed = document.clone();
+            *changed.pointer_mut(place).unwrap() = value;
+            let restored = serde_json::from_value(changed).ok().and_then(|saved| LaserMapper::restore(saved).ok());
+            outcomes[usize::from(restored.is_some())] += 1;
+            if let Some(mut mapper) = restored {
+                rest.iter().take(3).for_each(|scan| drop(mapper.push(scan)));
+                (mapper.path(), mapper.remarks(), mapper.pose());
+            }
+        }
+    }
+    let [refused, used] = outcomes;
+    assert!(refused > 500 && used > 100, "{refused} refused, {used} used");
 }
