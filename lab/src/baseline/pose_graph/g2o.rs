@@ -29,7 +29,29 @@ pub enum G2oError {
     Graph(#[from] GraphError),
 }
 
-/// Reads a graph. Poses are put in the order of their ids; comments, `FIX` and empty lines are passed over.
+/// Whether lines that begin so say nothing of motions between poses: what is held fast, parameters, priors, and scans that g2o writes behind a pose.
+pub fn says_nothing_of_motion(word: &str) -> bool {
+    const WORDS: [&str; 7] =
+        ["FIX", "EDGE_PRIOR_SE2", "EDGE_SE2_PRIOR", "EDGE_PRIOR_XY", "EDGE_PRIOR_SE2_XY", "ROBOTLASER1", "RAWLASER1"];
+    WORDS.contains(&word) || word.starts_with("PARAMS_")
+}
+
+/// What is said besides of a word that is of another kind of graph; nothing of others.
+pub fn of_another_kind(word: &str) -> &'static str {
+    match word {
+        "VERTEX_SE3:QUAT" | "EDGE_SE3:QUAT" | "VERTEX_SE3" | "EDGE_SE3" | "VERTEX_TRACKXYZ" | "EDGE_SE3_TRACKXYZ" => {
+            "; it is of a graph in space, and only graphs in the plane can be read"
+        }
+        "VERTEX2" | "EDGE2" | "VERTEX" | "EDGE" => {
+            "; it is of a graph of TORO, which g2o reads (g2o -o FILE.g2o FILE.graph)"
+        }
+        "VERTEX_XY" | "EDGE_SE2_XY" => "; `fastslam landmarks --g2o` reads graphs with landmarks",
+        "EDGE_BEARING_SE2_XY" | "EDGE_SE2_XY_BEARING" => "; a landmark needs a range as well",
+        _ => "",
+    }
+}
+
+/// Reads a graph. Poses are put in the order of their ids; comments, empty lines and what [`says_nothing_of_motion`] are passed over.
 ///
 /// # Errors
 /// With the number of the line: of an unknown word, a number that is none or not finite, too few numbers, an id that is there already or
@@ -41,8 +63,8 @@ pub fn read(text: &str) -> Result<PoseGraph, G2oError> {
         let fail = |problem: String| G2oError::Line { line, problem };
         let mut words = content.split_whitespace();
         match words.next() {
-            None | Some("FIX") => (),
-            Some(word) if word.starts_with('#') => (),
+            None => (),
+            Some(word) if word.starts_with('#') || says_nothing_of_motion(word) => (),
             Some("VERTEX_SE2") => {
                 let id = id(words.next()).map_err(fail)?;
                 let [x, y, theta] = numbers(words).map_err(fail)?;
@@ -67,7 +89,8 @@ pub fn read(text: &str) -> Result<PoseGraph, G2oError> {
             }
             Some(word) => {
                 let word: String = word.chars().take(40).collect();
-                return Err(fail(format!("{word}: must be VERTEX_SE2, EDGE_SE2, FIX or a comment that begins with #")));
+                let known = "VERTEX_SE2, EDGE_SE2, FIX or a comment that begins with #";
+                return Err(fail(format!("{word}: must be {known}{}", of_another_kind(&word))));
             }
         }
     }

@@ -604,6 +604,13 @@ fn a_landmark_graph_is_read_and_a_bad_line_of_it_named() {
     assert!(output["drift"][0].is_f64(), "the drift of a graph's odometry is learnt");
     assert_eq!(json(&format!("{} --drift none --json", run(graph)))["drift"], Value::Null);
     assert!(refusal(&format!("{} --speed-std 1", run(graph))).contains("speed-std: cannot be set of a graph"));
+    // An edge that leads back, a landmark that is named first, and what says nothing of motion.
+    let turned = graph
+        .replace("EDGE_SE2 2 5 1 0 0", "EDGE_SE2 5 2 -1 0 0")
+        .replace("EDGE_SE2_XY 2 1", "EDGE_SE2_XY 1 2")
+        .replace("FIX 0", "FIX 0\nPARAMS_SE2OFFSET 0 0 0 0\nEDGE_PRIOR_SE2 0 0 0 0 1 0 0 1 0 1");
+    let again = json(&format!("{} --json", run(&turned)));
+    assert_eq!((&again["rms_odometry"], &again["landmarks"]), (&output["rms_odometry"], &output["landmarks"]));
     // A landmark that is seen from the first pose alone: there is a step more, in which the robot stands.
     let early = format!("{graph}VERTEX_XY 3 -1 1\nEDGE_SE2_XY 0 3 -1 1 100 0 100\nEDGE_SE2_XY 0 1 2 1 100 0 100\n");
     let output = json(&format!("{} --json", run(&early)));
@@ -615,7 +622,9 @@ fn a_landmark_graph_is_read_and_a_bad_line_of_it_named() {
         ("VERTEX_XY 1 2 1", "VERTEX_XY 1 2", "line 3: VERTEX_XY needs 1 ids and 2 numbers, not 2 words"),
         ("VERTEX_XY 1 2 1", "VERTEX_XY 1 2 inf", "line 3: VERTEX_XY needs 2 finite numbers"),
         ("VERTEX_XY 1 2 1", "VERTEX_XY -1 2 1", "line 3: an id must be a whole number from 0"),
-        ("EDGE_SE2 2 5", "EDGE_SE2 5 2", "no EDGE_SE2 leads from vertex 2 to 5"),
+        ("EDGE_SE2 2 5", "EDGE_SE2 5 0", "no EDGE_SE2 leads from vertex 2 to 5"),
+        ("VERTEX_XY 1 2 1", "VERTEX_SE3:QUAT 1 2 1", "line 3: VERTEX_SE3:QUAT: must be VERTEX_SE2, VERTEX_XY"),
+        ("VERTEX_XY 1 2 1", "VERTEX_SE3:QUAT 1 2 1", "only graphs in the plane can be read"),
         ("EDGE_SE2_XY 2 1", "EDGE_SE2_XY 2 9", "line 10: no VERTEX_XY has the id 9"),
         ("EDGE_SE2_XY 2 1", "EDGE_SE2_XY 1 1", "line 10: no VERTEX_SE2 has the id 1"),
         ("2 1 1 1 100 0 100", "2 1 1 1 0 0 100", "line 10: the information matrix must be positive definite"),
