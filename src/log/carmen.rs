@@ -103,13 +103,33 @@ impl LogReader {
         Ok(())
     }
 
+    /// Ends one of several files that are a log together. The next bytes are those of the next file, whose lines are counted from 1 again.
+    ///
+    /// # Errors
+    /// As [`Self::push`], of the last line.
+    pub fn end_part(&mut self) -> Result<(), LogError> {
+        self.end_line()?;
+        self.lines = 0;
+        Ok(())
+    }
+
+    /// Number of scans read so far.
+    pub fn scans(&self) -> usize {
+        self.reader.log.scans.len()
+    }
+
     /// The log, with what is in it by time.
     ///
     /// # Errors
-    /// As [`Self::push`], of the last line; with line 0, that there is no scan at all, or none that has met anything.
+    /// As [`Self::push`], of the last line. Where there is no scan at all, the first malformed line that was passed over; with line 0, that there is no scan,
+    /// or none that has met anything.
     pub fn finish(mut self) -> Result<LaserLog, LogError> {
         self.end_line()?;
         if self.reader.log.scans.is_empty() {
+            // What could not be read tells more than what is not there.
+            if let Some(first) = self.reader.log.notes.first_malformed.take() {
+                return Err(first);
+            }
             return Err(LogError::whole(LogProblem::NoScan { but: self.other_kind() }));
         }
         let mut log = self.reader.log;
@@ -184,6 +204,9 @@ struct Reader {
 
 impl Reader {
     fn line(&mut self, bytes: &[u8]) -> Result<(), LogProblem> {
+        /// The byte-order mark of UTF-8, which some editors write in front of a text.
+        const MARK: &[u8] = b"\xef\xbb\xbf";
+        let bytes = bytes.strip_prefix(MARK).unwrap_or(bytes);
         let text = core::str::from_utf8(bytes).map_err(|_| LogProblem::Binary)?;
         let mut words = text.split_ascii_whitespace();
         let Some(kind) = words.next() else { return Ok(()) };

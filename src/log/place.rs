@@ -8,7 +8,7 @@ use crate::geometry::Pose2;
 pub(super) const NOWHERE: Pose2 = Pose2 { x: f64::NAN, y: f64::NAN, theta: f64::NAN };
 
 /// Odometry that stays this near to its first pose \[m, rad\] tells of no motion.
-const STILL: f64 = 1e-3;
+pub(super) const STILL: f64 = 1e-3;
 
 /// So near to the first one \[m, rad\] are the poses of scans that are matched to each other where the robot stands.
 const STANDING: f64 = 0.1;

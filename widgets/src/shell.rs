@@ -131,7 +131,7 @@ impl Bag {
     #[wasm_bindgen(constructor)]
     pub fn new(scan_topic: Option<String>, odometry_topic: Option<String>, catalogue: &str) -> Bag {
         here::<BAGS>();
-        let options = BagOptions { scan_topic, odometry_topic, lenient: true };
+        let options = BagOptions { scan_topic, odometry_topic, lenient: true, ..BagOptions::default() };
         Bag { reader: Held(BagReader::new(options)), language: Language::learnt(catalogue) }
     }
 

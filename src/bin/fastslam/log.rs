@@ -154,7 +154,7 @@ const LOOK_EVERY: u32 = 200;
 pub fn run(arguments: &Arguments) -> Result<()> {
     let Arguments { scan_topic, odometry_topic, lenient, .. } = arguments;
     let options =
-        BagOptions { scan_topic: scan_topic.clone(), odometry_topic: odometry_topic.clone(), lenient: *lenient };
+        BagOptions { scan_topic: scan_topic.clone(), odometry_topic: odometry_topic.clone(), lenient: *lenient, ..BagOptions::default() };
     let mut log = read(&arguments.file, options)?;
     let relations = match &arguments.relations {
         Some(path) => Some(parse_relations(&bytes_of(path)?).map_err(|error| what(path, error))?),

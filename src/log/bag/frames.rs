@@ -39,6 +39,14 @@ impl Frames {
         }
     }
 
+    /// The frames that a laser hangs from, each with that below it, from the laser up.
+    pub fn above(&self, laser: &str) -> impl Iterator<Item = (&String, &String)> + use<'_> {
+        let Self(frames) = self;
+        let pair = |child: &str| frames.get_key_value(frame(child)).map(|(child, (parent, _))| (parent, child));
+        // In a tree no chain is longer than there are frames.
+        core::iter::successors(pair(laser), move |(parent, _)| pair(parent)).take(frames.len())
+    }
+
     /// Where a laser sits on the robot; `None` where no chain of transforms tells.
     pub fn mounting(&self, robot: &str, laser: &str) -> Option<Result<Mounting, LogProblem>> {
         let [robot, laser] = [frame(robot), frame(laser)];

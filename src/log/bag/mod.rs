@@ -1,4 +1,6 @@
-//! ROS 2 bags (MCAP) and ROS 1 bags: `sensor_msgs/LaserScan` with `nav_msgs/Odometry`, or with `tf` from `odom` to the robot.
+//! ROS 2 bags (MCAP) and ROS 1 bags: `sensor_msgs/LaserScan` with `nav_msgs/Odometry`, or with `tf` from the frame of the odometry to the robot.
+//!
+//! That frame is `odom`. Where no transform leads from there, it is the first one above the laser that the robot moves in.
 //!
 //! Where the laser sits is told by the transforms: those that are fixed, and of others the first of each. Nothing is kept of a file but the
 //! scans, the odometry, and the chunk that is begun.
@@ -14,16 +16,14 @@ pub use path::write_path;
 
 use self::containers::{Channel, Container, Mcap, ROS1_MAGIC, Ros1, Sink};
 use self::frames::{Frames, Mounting, flat, frame};
-use super::place::{NOWHERE, place};
+use super::place::{NOWHERE, STILL, place};
 use super::{LaserLog, LaserScan, LogError, LogProblem, MessageProblem, Remark, Topics};
+use crate::geometry::Pose2;
 use core::f32::consts::PI;
 use std::collections::BTreeMap;
 
-/// What the frame is called that odometry is told in.
+/// What the frame is called that odometry is told in, by REP 105.
 const ODOM: &str = "odom";
-
-/// What is behind the topic of odometry that is told by transforms.
-const OF_TF: &str = " (from odom)";
 
 /// What the robot's own frame is called where odometry does not say.
 const ROBOT: [&str; 2] = ["base_link", "base_footprint"];
@@ -40,6 +40,8 @@ pub struct BagOptions {
     pub scan_topic: Option<String>,
     /// That of the odometry, or of `tf`; needed where several have some.
     pub odometry_topic: Option<String>,
+    /// Frame that transforms tell odometry in, where it is another one than `odom` or the first above the laser that the robot moves in.
+    pub odometry_frame: Option<String>,
     /// Malformed messages are passed over, and a bag that breaks off is read up to there; both are counted.
     pub lenient: bool,
 }
@@ -97,11 +99,25 @@ impl BagReader {
     /// What [`BagOptions`] must choose, once all is read: `scan` or `odometry`, and the topics that have it.
     pub fn choice(&self) -> Option<(&'static str, Vec<String>)> {
         let Gathered { scans, odometry, .. } = &self.gathered;
-        let odometry: Vec<String> = odometry.keys().filter(|topic| !of_tf(topic)).cloned().collect();
         match (scans.len(), odometry.len()) {
             (2.., _) => Some(("scan", scans.keys().cloned().collect())),
-            (_, 2..) => Some(("odometry", odometry)),
+            (_, 2..) => Some(("odometry", odometry.keys().cloned().collect())),
             _ => None,
+        }
+    }
+
+    /// Ends one of several files that are a recording together: the next bytes are those of the next file.
+    ///
+    /// # Errors
+    /// That the file breaks off, unless the reader is lenient; that it is no bag at all.
+    pub fn end_part(&mut self) -> Result<(), LogError> {
+        let (container, broken) = (self.container.take(), core::mem::take(&mut self.broken));
+        match container {
+            None => Err(LogError::whole(LogProblem::NoBag)),
+            Some(_) if broken => Ok(()),
+            Some(mut container) => {
+                container.finish(&mut self.gathered).or_else(|problem| self.gathered.malformed(problem))
+            }
         }
     }
 
@@ -111,20 +127,9 @@ impl BagReader {
     /// That the bag breaks off, unless the reader is lenient; that it has no scans, or several topics of them and none was chosen, and
     /// which topics there are; that scans and odometry have no time in common; a laser that is not level.
     pub fn finish(mut self) -> Result<LaserLog, LogError> {
-        match &mut self.container {
-            None => return Err(LogError::whole(LogProblem::NoBag)),
-            Some(_) if self.broken => {}
-            Some(container) => {
-                container.finish(&mut self.gathered).or_else(|problem| self.gathered.malformed(problem))?;
-            }
-        }
+        self.end_part()?;
         self.gathered.log()
     }
-}
-
-/// Whether odometry of this name is not a topic's own but out of the transforms.
-fn of_tf(topic: &str) -> bool {
-    topic.ends_with(OF_TF)
 }
 
 /// What is said of a topic that was asked for, or of one that must be: to whoever names topics, as a command does.
@@ -140,6 +145,8 @@ struct Gathered {
     topics: BTreeMap<String, (String, u32)>,
     scans: BTreeMap<String, Vec<(String, LaserScan)>>,
     odometry: BTreeMap<String, Track>,
+    /// What transforms tell. As soon as one leads from the frame of the odometry, no other is kept.
+    transforms: Vec<Led>,
     frames: Frames,
     log: LaserLog,
 }
@@ -148,7 +155,16 @@ struct Gathered {
 #[derive(Default)]
 struct Track {
     robot: String,
-    poses: Vec<(f64, crate::geometry::Pose2)>,
+    /// Whether it is told by fixed transforms, which count for nothing where there are others.
+    is_fixed: bool,
+    poses: Vec<(f64, Pose2)>,
+}
+
+/// What the transforms from one frame to another tell.
+struct Led {
+    from: String,
+    to: String,
+    track: Track,
 }
 
 impl Sink for Gathered {
@@ -192,18 +208,59 @@ impl Gathered {
             }
             "tf2_msgs/TFMessage" | "tf/tfMessage" => {
                 for transform in encoding.list::<messages::Transform>(bytes)? {
-                    self.frames.take(&transform, topic.ends_with("tf_static"));
-                    if frame(&transform.header.frame_id) == ODOM && !other(&self.options.odometry_topic) {
-                        let pose = flat(&transform.parent_from_child).ok_or(MessageProblem::Transform)?;
-                        let track = self.odometry.entry(format!("{topic}{OF_TF}")).or_default();
-                        track.robot = transform.child_frame_id;
-                        track.poses.push((stamp(transform.header.stamp), pose));
+                    let is_fixed = topic.ends_with("tf_static");
+                    self.frames.take(&transform, is_fixed);
+                    if !other(&self.options.odometry_topic) {
+                        self.transform(transform, is_fixed, stamp)?;
                     }
                 }
             }
             _ => {}
         }
         Ok(())
+    }
+
+    /// Keeps a transform that may be odometry.
+    fn transform(
+        &mut self,
+        transform: messages::Transform,
+        is_fixed: bool,
+        stamp: impl Fn(messages::Time) -> f64,
+    ) -> Result<(), MessageProblem> {
+        let messages::Transform { header, child_frame_id: robot, parent_from_child } = transform;
+        let (from, to, wanted) = (frame(&header.frame_id), frame(&robot), self.odometry_frame());
+        let is_wanted = from == wanted;
+        let is_chosen = self.options.odometry_frame.is_some();
+        let is_found = self.transforms.first().is_some_and(|led| led.from == wanted);
+        if !is_wanted && (is_fixed || (is_found && !is_chosen)) {
+            return Ok(());
+        }
+        let pose = match flat(&parent_from_child) {
+            Some(pose) => pose,
+            None if is_wanted => return Err(MessageProblem::Transform),
+            None => return Ok(()),
+        };
+        if is_wanted && !is_found && !is_chosen {
+            self.transforms.clear();
+        }
+        let at = self.transforms.iter().position(|led| led.from == from && led.to == to).unwrap_or_else(|| {
+            self.transforms.push(Led { from: from.into(), to: to.into(), track: Track::default() });
+            self.transforms.len() - 1
+        });
+        let track = &mut self.transforms[at].track;
+        if is_fixed && !track.is_fixed && !track.poses.is_empty() {
+            return Ok(());
+        }
+        if core::mem::replace(&mut track.is_fixed, is_fixed) && !is_fixed {
+            track.poses.clear();
+        }
+        track.robot = robot;
+        track.poses.push((stamp(header.stamp), pose));
+        Ok(())
+    }
+
+    fn odometry_frame(&self) -> &str {
+        self.options.odometry_frame.as_deref().map_or(ODOM, frame)
     }
 
     fn malformed(&mut self, problem: LogProblem) -> Result<(), LogError> {
@@ -219,7 +276,7 @@ impl Gathered {
     fn log(mut self) -> Result<LaserLog, LogError> {
         let scan_topic = self.chosen_scans()?;
         let scans = self.scans.remove(&scan_topic).unwrap_or_default();
-        let track = self.chosen_odometry()?;
+        let track = self.chosen_odometry(scans.first().map_or("", |(laser, _)| laser))?;
         let mut log = core::mem::take(&mut self.log);
         let mounting = self.mounting(&scans, track.as_ref(), &mut log)?;
         log.scans = scans.into_iter().map(|(_, scan)| mounted(scan, &mounting)).collect();
@@ -248,21 +305,51 @@ impl Gathered {
         }
     }
 
-    /// The chosen one, that of the one topic of odometry, or that of tf.
-    fn chosen_odometry(&mut self) -> Result<Option<Track>, LogError> {
+    /// The chosen one, that of the one topic of odometry, or that of the transforms.
+    fn chosen_odometry(&mut self, laser: &str) -> Result<Option<Track>, LogError> {
         if let Some(wanted) = &self.options.odometry_topic {
             self.is_of(wanted, &["nav_msgs/Odometry", "tf2_msgs/TFMessage", "tf/tfMessage"])?;
         }
-        let told: Vec<&String> = self.odometry.keys().filter(|topic| !of_tf(topic)).collect();
-        let topic = match told[..] {
-            [] => self.odometry.keys().next().cloned(),
-            [topic] => Some(topic.clone()),
-            _ => {
-                let counts = told.iter().map(|topic| (*topic, self.odometry[*topic].poses.len()));
-                return Err(self.several("odometry-topic", "odometry", counts));
-            }
+        if self.odometry.is_empty() || self.options.odometry_frame.is_some() {
+            return self.of_transforms(laser);
+        }
+        if self.odometry.len() > 1 {
+            let counts = self.odometry.iter().map(|(topic, track)| (topic, track.poses.len()));
+            return Err(self.several("odometry-topic", "odometry", counts));
+        }
+        Ok(self.odometry.pop_first().map(|(_, track)| track))
+    }
+
+    /// What transforms tell from the frame of the odometry, to the robot that carries the laser where there are several. Where none leads from there and none
+    /// was asked for, the first one above the laser that moves, or the only one that does.
+    fn of_transforms(&mut self, laser: &str) -> Result<Option<Track>, LogError> {
+        let (transforms, wanted) = (&self.transforms, self.odometry_frame());
+        // From the laser up: the place of a transform in the chain that it hangs from.
+        let above: Vec<_> = self.frames.above(laser).collect();
+        let height = |led: &Led| above.iter().position(|(from, to)| **from == led.from && **to == led.to);
+        let lowest = |among: &dyn Fn(&Led) -> bool| {
+            let kept = transforms.iter().enumerate().filter(|(_, led)| among(led));
+            kept.min_by_key(|(_, led)| height(led).unwrap_or(usize::MAX)).map(|(at, _)| at)
         };
-        Ok(topic.and_then(|topic| self.odometry.remove(&topic)))
+        let mut at = lowest(&|led| led.from == wanted);
+        let moving: Vec<String> = transforms
+            .iter()
+            .filter(|led| moves(&led.track.poses))
+            .map(|Led { from, to, .. }| format!("{from} to {to}"))
+            .collect();
+        if at.is_none() && self.options.odometry_frame.is_some() {
+            let listed = if moving.is_empty() { "none".into() } else { moving.join(", ") };
+            return Err(of_topic(format!("no transform leads from the frame {wanted}; those that move: {listed}")));
+        }
+        if at.is_none() {
+            at = lowest(&|led| moves(&led.track.poses) && (moving.len() == 1 || height(led).is_some()));
+        }
+        if at.is_none() && moving.len() > 1 {
+            let listed = moving.join(", ");
+            let words = format!("odometry-frame may name a transform that tells odometry by its first frame: {listed}");
+            self.log.notes.remarks.push(Remark::Told(words));
+        }
+        Ok(at.map(|at| self.transforms.swap_remove(at).track))
     }
 
     /// Whether a topic that was asked for is there, and is of one of these types.
@@ -310,6 +397,11 @@ impl Gathered {
     }
 }
 
+/// Whether poses are not all one.
+fn moves(poses: &[(f64, Pose2)]) -> bool {
+    poses.iter().any(|(_, pose)| pose.minus(&poses[0].1).amax() > STILL)
+}
+
 /// A sweep, in the laser's own frame.
 fn scan(message: &messages::LaserScan, time: f64) -> Result<LaserScan, MessageProblem> {
     let messages::LaserScan { angle_min, angle_increment, range_min, range_max, ranges, .. } = message;
@@ -332,7 +424,7 @@ fn scan(message: &messages::LaserScan, time: f64) -> Result<LaserScan, MessagePr
     Ok(LaserScan {
         time,
         odometry: NOWHERE,
-        robot_from_laser: crate::geometry::Pose2::default(),
+        robot_from_laser: Pose2::default(),
         first_angle: f64::from(*angle_min),
         angle_step: f64::from(*angle_increment),
         max_range: Some(f64::from(longest)).filter(|range| range.is_finite()),

@@ -112,6 +112,13 @@ impl Made {
         self.raw("/tf_static", "tf2_msgs/msg/TFMessage", "cdr", &to_cdr(&vec![transform]).unwrap())
     }
 
+    fn moving(self, parent: &str, child: &str, sec: i32, x: f64) -> Self {
+        let header = Header { stamp: Time { sec, nanosec: 0 }, frame_id: parent.into() };
+        let parent_from_child = Rigid { position: [x, 0.0, 0.0], ..ROBOT_AT };
+        let transform = Transform { header, child_frame_id: child.into(), parent_from_child };
+        self.raw("/tf", "tf2_msgs/msg/TFMessage", "cdr", &to_cdr(&vec![transform]).unwrap())
+    }
+
     fn bytes(mut self) -> Vec<u8> {
         self.writer.finish().unwrap();
         self.writer.into_inner().into_inner()
@@ -362,4 +369,74 @@ fn a_compression_that_is_not_known_is_named() {
     let lenient = read_with(&other, BagOptions { lenient: true, ..BagOptions::default() });
     assert_eq!(lenient.unwrap_err(), read(&other).unwrap_err());
     assert_eq!(read(&other).unwrap_err(), "its chunks are compressed by “xz9”; zstd, lz4 and bz2 can be read");
+}
+
+/// Two scans of a laser that sits 0.2 m ahead on a robot, under a frame for its odometry and a map.
+fn framed(odom: &str, robot: &str) -> Made {
+    let made = Made::new().fixed(robot, "laser", Rigid { position: [0.2, 0.0, 0.0], ..ROBOT_AT });
+    [1, 2].into_iter().fold(made, |made, sec| {
+        let x = f64::from(sec);
+        made.moving("map", odom, sec, 0.1 * x).moving(odom, robot, sec, x).moving(robot, "wheel", sec, 7.0 * x).scan(
+            "/scan",
+            sec,
+            |_| (),
+        )
+    })
+}
+
+#[test]
+fn the_frame_of_the_odometry_may_have_any_name() {
+    let driven = |log: &LaserLog| log.scans.iter().map(|scan| scan.odometry.x).collect::<Vec<_>>();
+    for (odom, robot) in [("odom", "base_link"), ("odom_comb", "base_footprint"), ("robot1/odom", "robot1/base_link")] {
+        let log = framed(odom, robot).read().unwrap();
+        assert_eq!((driven(&log), log.scans[0].robot_from_laser.x), (vec![1.0, 2.0], 0.2), "{odom}");
+        assert_eq!(log.notes.remarks, [], "{odom}");
+    }
+    let chosen = |name: &str| BagOptions { odometry_frame: Some(name.into()), ..BagOptions::default() };
+    let bag = framed("odom", "base_link").bytes();
+    assert_eq!(driven(&read_with(&bag, chosen("/map")).unwrap()), [0.1, 0.2]);
+    assert_eq!(
+        read_with(&bag, chosen("odometry")).unwrap_err(),
+        "no transform leads from the frame odometry; those that move: map to odom, odom to base_link, base_link to wheel"
+    );
+    // Where no transform tells what the laser hangs from, only one of them can be it, or its owner must say.
+    let loose = |made: Made| {
+        made.moving("o", "r", 1, 1.0).moving("o", "r", 2, 2.0).scan("/scan", 1, |_| ()).scan("/scan", 2, |_| ())
+    };
+    assert_eq!(driven(&loose(Made::new()).read().unwrap()), [1.0, 2.0]);
+    let log = loose(Made::new().moving("p", "q", 1, 0.0).moving("p", "q", 2, 1.0)).read().unwrap();
+    let said: Vec<String> = log.notes.remarks.iter().map(ToString::to_string).collect();
+    assert!(
+        said[0].ends_with("by its first frame: p to q, o to r") && said[2].starts_with("there is no odometry"),
+        "{said:?}"
+    );
+}
+
+#[test]
+fn a_fixed_transform_counts_for_nothing_beside_one_that_moves() {
+    let made = Made::new().fixed("odom", "base_link", ROBOT_AT).moving("odom", "base_link", 3, 3.0);
+    let made = made.fixed("odom", "base_link", ROBOT_AT).moving("odom", "base_link", 4, 4.0);
+    let log = [3, 4].into_iter().fold(made, |made, sec| made.scan("/scan", sec, |_| ())).read().unwrap();
+    assert_eq!(log.odometry.iter().map(|(time, pose)| (*time, pose.x)).collect::<Vec<_>>(), [(3.0, 3.0), (4.0, 4.0)]);
+}
+
+#[test]
+fn a_recording_in_parts_is_one_log() {
+    let whole = Made::new().odometry("/odom", 1, 0.0).scan("/scan", 1, |_| ()).odometry("/odom", 2, 1.0).scan(
+        "/scan",
+        2,
+        |_| (),
+    );
+    let parts = [
+        Made::new().odometry("/odom", 1, 0.0).scan("/scan", 1, |_| ()).bytes(),
+        Made::new().odometry("/odom", 2, 1.0).scan("/scan", 2, |_| ()).bytes(),
+    ];
+    let mut reader = BagReader::new(BagOptions::default());
+    reader.push(&parts[0]).unwrap();
+    reader.end_part().unwrap();
+    reader.push(&parts[1]).unwrap();
+    assert_eq!(reader.finish().unwrap(), whole.read().unwrap());
+    let mut broken = BagReader::new(BagOptions::default());
+    broken.push(&parts[0][..parts[0].len() / 2]).unwrap();
+    assert_eq!(broken.end_part().unwrap_err().problem, LogProblem::Truncated);
 }

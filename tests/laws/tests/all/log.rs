@@ -114,6 +114,23 @@ fn a_malformed_line_is_named_and_what_was_expected() {
 }
 
 #[test]
+fn a_mark_of_utf_8_is_passed_over_and_files_that_are_parts_count_their_own_lines() {
+    let marked = format!("\u{feff}{SMALL}");
+    assert_eq!(parse(marked.as_bytes(), false).unwrap(), parse(SMALL.as_bytes(), false).unwrap());
+    let mut reader = LogReader::new(false);
+    reader.push(SMALL.as_bytes()).unwrap();
+    assert_eq!(reader.scans(), 2);
+    reader.end_part().unwrap();
+    assert_eq!(reader.push(marked.as_bytes()).and_then(|()| reader.push(b"\nODOM 1\n")).unwrap_err().line, 12);
+}
+
+#[test]
+fn where_there_is_no_scan_the_first_malformed_line_tells_most() {
+    let error = parse(b"SYNC 1\nODOM 1\nFLASER 1\n", true).unwrap_err();
+    assert_eq!(error.to_string(), "line 2: ODOM: expected x, y, theta, found the end of the line");
+}
+
+#[test]
 fn a_scan_that_does_not_go_with_those_before_it_is_named() {
     let scan = |beams: usize, x: f64| format!("FLASER {beams}{} 0 0 0 {x} 0 0 1 h 1\n", " 1".repeat(beams));
     for (second, said) in [
