@@ -11,13 +11,17 @@ of nearly unit length, whose heading is the same to a twentieth of its last bit:
 
 import random
 import re
+import sqlite3
+import tempfile
 from pathlib import Path
 
 import numpy as np
+from mcap.reader import make_reader
 from mcap.writer import CompressionType
 from mcap_ros2.writer import Writer as McapWriter
 from mpmath import atan2, cos, mp, mpf, sin
 from rosbags.rosbag1 import Writer as Ros1Writer
+from rosbags.rosbag2 import Writer as Ros2Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 mp.prec = 200
@@ -164,6 +168,24 @@ def ros1(path, log, compression):
             )
 
 
+def sqlite(path, source):
+    """By rosbags, the messages of another bag. Small pages: rows go on in others, and tables have three levels."""
+    with tempfile.TemporaryDirectory() as folder:
+        bag = Path(folder) / "bag"
+        with source.open("rb") as file, Ros2Writer(bag, version=8) as writer:
+            store, connections = get_typestore(Stores.ROS2_HUMBLE), {}
+            for _, channel, message in make_reader(file).iter_messages(log_time_order=False):
+                if channel.topic not in connections:
+                    kind = {"/scan": "sensor_msgs/msg/LaserScan", "/wheels/odom": "nav_msgs/msg/Odometry"}.get(channel.topic, "tf2_msgs/msg/TFMessage")
+                    connections[channel.topic] = writer.add_connection(channel.topic, kind, typestore=store)
+                writer.write(connections[channel.topic], message.log_time, message.data)
+        (database,) = bag.glob("*.db3")
+        connection = sqlite3.connect(database)
+        connection.executescript("PRAGMA page_size = 512; VACUUM")
+        connection.close()
+        path.write_bytes(database.read_bytes())
+
+
 def two_lasers(path, log):
     """Two topics of scans, and no odometry."""
     with path.open("wb") as file:
@@ -182,6 +204,7 @@ log = list(scans())[:MOST]
 (here / "lap.clf").write_text("".join(carmen(log)))
 mcap(here / "odometry-zstd.mcap", log, CompressionType.ZSTD, tf=False)
 mcap(here / "tf-lz4.mcap", log, CompressionType.LZ4, tf=True)
+sqlite(here / "odometry.db3", here / "odometry-zstd.mcap")
 ros1(here / "plain.bag", log, None)
 ros1(here / "lz4.bag", log, Ros1Writer.CompressionFormat.LZ4)
 ros1(here / "bz2.bag", log, Ros1Writer.CompressionFormat.BZ2)

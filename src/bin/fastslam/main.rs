@@ -46,7 +46,7 @@ enum Command {
     Doors(doors::Arguments),
     Joint(joint::Arguments),
     Lap(lap::Arguments),
-    Log(log::Arguments),
+    Log(Box<log::Arguments>),
     ExampleLog(log::ExampleArguments),
     Landmarks(Box<landmarks::Arguments>),
     Numbers(numbers::Arguments),
@@ -79,8 +79,12 @@ fn main() -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
     eprintln!("fastslam: {error:#}");
     let usage = error.is::<Usage>() || error.is::<SettingError>() || error.is::<FigureError>();
-    let status = if usage { 2 } else { 1 };
-    ExitCode::from(if error.is::<log::Doubtful>() { 3 } else { status })
+    ExitCode::from(match () {
+        () if error.is::<log::Stopped>() => 130,
+        () if error.is::<log::Doubtful>() => 3,
+        () if usage => 2,
+        () => 1,
+    })
 }
 
 fn run(arguments: Arguments) -> Result<()> {
@@ -115,7 +119,7 @@ fn one_line(message: &clap::Error) -> String {
     let said =
         text.lines().take_while(|line| !line.trim_start().starts_with("Usage:") && !line.starts_with("For more"));
     let words: Vec<&str> = said.flat_map(str::split_whitespace).collect();
-    words.join(" ").trim_start_matches("error: ").to_owned()
+    words.join(" ").trim_start_matches("error: ").replace(" tip: ", "; ")
 }
 
 /// A flag's whole number in a range, which the refusal of any other names.

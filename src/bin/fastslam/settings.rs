@@ -7,6 +7,7 @@ use fastslam::map::landmarks::Gate;
 use fastslam::motion::{Car, Displaced, VelocityDiffusion, VelocityModel};
 use fastslam_lab::experiment::landmarks::Tuning;
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -123,25 +124,21 @@ impl SettingsOptions {
     /// What is set by options, and by the file where no option does.
     pub fn read(&self) -> Result<Noises> {
         let Some(path) = &self.settings else { return Ok(self.noises) };
-        let text = std::fs::read_to_string(path).with_context(in_file(path))?;
-        Ok(self.noises.or(parse(path, &text)?))
+        let noises: Noises = from_toml(path)?;
+        noises.check().map_err(|error| Usage::of_file(path, error))?;
+        Ok(self.noises.or(noises))
     }
 }
 
-fn parse(path: &Path, text: &str) -> Result<Noises> {
-    let noises: Noises = match toml::from_str(text) {
-        Ok(noises) => noises,
-        Err(error) => {
-            let line = error.span().map(|span| 1 + text[..span.start].matches('\n').count());
-            let place = line.map_or(String::new(), |line| format!("line {line}: "));
-            let said: Vec<&str> = error.message().split_whitespace().collect();
-            bail!(Usage::of_file(path, format_args!("{place}{}", said.join(" "))));
-        }
-    };
-    match noises.check() {
-        Ok(()) => Ok(noises),
-        Err(error) => bail!(Usage::of_file(path, error)),
-    }
+/// What a file in TOML says, or what is wrong with it, and in which line.
+pub fn from_toml<T: DeserializeOwned>(path: &Path) -> Result<T> {
+    let text = std::fs::read_to_string(path).with_context(in_file(path))?;
+    toml::from_str(&text).map_err(|error| {
+        let line = error.span().map(|span| 1 + text[..span.start].matches('\n').count());
+        let place = line.map_or(String::new(), |line| format!("line {line}: "));
+        let said: Vec<&str> = error.message().split_whitespace().collect();
+        Usage::of_file(path, format_args!("{place}{}", said.join(" "))).into()
+    })
 }
 
 /// A motion whose noise can be set.

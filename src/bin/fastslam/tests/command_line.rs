@@ -12,9 +12,19 @@ use tempfile::{TempDir, tempdir};
 
 #[path = "command_line/exports.rs"]
 mod exports;
+#[path = "command_line/recordings.rs"]
+mod recordings;
+#[path = "command_line/sessions.rs"]
+mod sessions;
 
 fn fastslam(arguments: &str) -> assert_cmd::assert::Assert {
     Command::new(env!("CARGO_BIN_EXE_fastslam")).args(arguments.split_whitespace()).assert()
+}
+
+/// What a command says besides its results, without how far it is, which a busy machine makes it tell.
+fn noted(run: &assert_cmd::assert::Assert) -> String {
+    let said = String::from_utf8_lossy(&run.get_output().stderr).into_owned();
+    said.lines().filter(|line| !line.ends_with(" to go")).map(|line| format!("{line}\n")).collect()
 }
 
 fn json(arguments: &str) -> Value {
@@ -698,7 +708,7 @@ fn a_spoiled_drive_is_mapped_as_it_was_driven() {
         let Some(cases) = shared("cases", "", [file, &truth]) else { return };
         let path = folder.path().join("path.tum").display().to_string();
         let run = fastslam(&format!("log {cases}{file} --particles 8 --trajectory {path} --json")).success();
-        let noted = String::from_utf8(run.get_output().stderr.clone()).unwrap();
+        let noted = noted(&run);
         assert!(noted.contains(said) && (!said.is_empty() || noted.is_empty()), "{file}: {noted}");
         let [found, truth] = [path, format!("{cases}{truth}")].map(|path| positions(&path));
         assert_eq!(found.len(), truth.len(), "{file}");
@@ -756,7 +766,7 @@ fn what_is_wrong_throughout_is_named_and_ends_with_its_exit_status() {
         std::fs::write(&file, fastslam::log::write(&log)).unwrap();
         let run = fastslam(&format!("log {file} --particles 2 --trajectory {path} --json")).code(i32::from(status));
         let output = run.get_output();
-        let noted = String::from_utf8(output.stderr.clone()).unwrap();
+        let noted = noted(&run);
         assert!(noted.contains(said) && noted.is_empty() == said.is_empty(), "{noted}");
         let told: Value = serde_json::from_slice(&output.stdout).unwrap();
         assert_eq!(told["odometry_fault"].is_null(), said.is_empty(), "{told}");
@@ -950,7 +960,7 @@ fn a_log_that_cannot_be_read_is_refused_by_line_and_one_with_flaws_is_read_if_as
             "{\"time\": 1, \"ranges\": [1.0, NaN]}\n".to_owned(),
             "line 1: expected a scan in JSON: NaN and Infinity are not JSON",
         ),
-        ("SQLite format 3\0".to_owned(), "it is a ROS 2 bag in SQLite: convert it to MCAP first (ros2 bag convert)"),
+        ("SQLite format 3\0".to_owned(), "becomes MCAP by `ros2 bag convert`"),
         (good.clone() + "ODOM 1 2\n", "line 5: ODOM: expected x, y, theta, found the end of the line"),
     ] {
         std::fs::write(&log, text).unwrap();
@@ -1143,7 +1153,7 @@ fn a_bag_is_mapped_as_the_log_that_says_the_same_and_its_path_is_written_for_ros
     };
     let expected = digest(&bag("lap.clf"));
     let (path, message) = (std::fs::read(&tum).unwrap(), std::fs::read(&mcap).unwrap());
-    for name in ["odometry-zstd.mcap", "tf-lz4.mcap", "plain.bag", "lz4.bag", "bz2.bag"] {
+    for name in ["odometry-zstd.mcap", "odometry.db3", "tf-lz4.mcap", "plain.bag", "lz4.bag", "bz2.bag"] {
         assert_eq!(digest(&bag(name)), expected, "{name}");
         assert_eq!((&std::fs::read(&tum).unwrap(), &std::fs::read(&mcap).unwrap()), (&path, &message), "{name}");
     }

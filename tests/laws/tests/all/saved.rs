@@ -472,7 +472,7 @@ fn a_mutilated_session_is_refused_or_used_and_never_panics() {
             outcomes[usize::from(restored.is_some())] += 1;
             if let Some(mut mapper) = restored {
                 rest.iter().take(3).for_each(|scan| drop(mapper.push(scan)));
-                (mapper.path(), mapper.remarks(), mapper.pose());
+                drop((mapper.path(), mapper.remarks(), mapper.pose()));
             }
         }
     }

@@ -1,0 +1,105 @@
+//! Runs that are stopped, and go on.
+
+use super::{fastslam, json, refusal, short_log};
+use std::path::Path;
+use tempfile::tempdir;
+
+fn names(folder: &Path) -> Vec<String> {
+    folder.read_dir().unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+}
+
+/// Runs a command until a file is there whose name ends so, and sends it a signal then.
+#[cfg(unix)]
+fn interrupted(arguments: &str, folder: &Path, end: &str, signal: &str) -> std::process::Output {
+    use std::process::{Command, Stdio};
+    let mut command = Command::new(env!("CARGO_BIN_EXE_fastslam"));
+    let command = command.args(arguments.split_whitespace()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let run = command.spawn().unwrap();
+    while !names(folder).iter().any(|name| name.ends_with(end)) {
+        std::thread::yield_now();
+    }
+    let id = run.id().to_string();
+    assert!(Command::new("kill").args([signal, &id]).status().unwrap().success());
+    run.wait_with_output().unwrap()
+}
+
+/// As long as the run is, maps of before are there; stopped by Ctrl-C, it writes what it has, and goes on from there to the map of one run.
+#[cfg(unix)]
+#[test]
+fn a_run_that_is_stopped_leaves_whole_files_and_goes_on_to_the_map_of_one_run() {
+    let folder = tempdir().unwrap();
+    let log = short_log(&folder, 400);
+    let file = |name: &str| folder.path().join(name).display().to_string();
+    let (map, session) = (file("map"), file("session"));
+    let options = format!("log {log} --particles 8 --map {map} --session {session} --json");
+    std::fs::write(file("map.pgm"), "of before").unwrap();
+    let killed = interrupted(&options, folder.path(), ".part", "-KILL");
+    assert!(killed.stdout.is_empty());
+    assert_eq!(std::fs::read_to_string(file("map.pgm")).unwrap(), "of before");
+    names(folder.path())
+        .iter()
+        .filter(|name| name.ends_with(".part"))
+        .for_each(|name| std::fs::remove_file(file(name)).unwrap());
+    let (stopped, said) = loop {
+        let stopped = interrupted(&options, folder.path(), ".part", "-INT");
+        let said = String::from_utf8_lossy(&stopped.stderr).into_owned();
+        if !said.contains("stopped before the first scan") {
+            break (stopped, said);
+        }
+    };
+    assert_eq!(stopped.status.code(), Some(130), "{said}");
+    assert!(said.contains(" of 400 scans; what was asked for is written up to there"), "{said}");
+    assert!(std::fs::read(file("map.pgm")).unwrap().starts_with(b"P5\n"));
+    assert!(!names(folder.path()).iter().any(|name| name.ends_with(".part")));
+    let run = json(&options);
+    assert_eq!(run["digest"], json(&format!("log {log} --particles 8 --json"))["digest"]);
+}
+
+/// Killed at any time after a checkpoint, perhaps while it writes the next: what was written last is whole.
+#[cfg(unix)]
+#[test]
+fn a_run_that_is_killed_goes_on_from_its_last_checkpoint() {
+    let folder = tempdir().unwrap();
+    let log = short_log(&folder, 300);
+    let file = |name: &str| folder.path().join(name).display().to_string();
+    let options = format!("log {log} --particles 8 --json");
+    let saved = format!("{options} --map {} --session {}", file("map"), file("the.session"));
+    interrupted(&format!("{saved} --checkpoint 0.001"), folder.path(), "the.session", "-KILL");
+    assert!(std::fs::read(file("map.pgm")).unwrap().starts_with(b"P5\n"));
+    let again = fastslam(&saved).success();
+    let said = String::from_utf8_lossy(&again.get_output().stderr).into_owned();
+    assert!(said.contains("the session has "), "{said}");
+    let run: serde_json::Value = serde_json::from_slice(&again.get_output().stdout).unwrap();
+    assert_eq!(run["digest"], json(&options)["digest"]);
+}
+
+#[test]
+fn a_session_goes_on_with_the_next_log_and_with_its_own_settings() {
+    let folder = tempdir().unwrap();
+    let log = short_log(&folder, 60);
+    let text = std::fs::read_to_string(&log).unwrap();
+    let next = folder.path().join("next.clf").display().to_string();
+    let [session, path] = ["session", "path.tum"].map(|name| folder.path().join(name).display().to_string());
+    std::fs::write(&next, text.lines().skip(21).map(|line| format!("{line}\n")).collect::<String>()).unwrap();
+    std::fs::write(&log, text.lines().take(41).map(|line| format!("{line}\n")).collect::<String>()).unwrap();
+    let first = json(&format!("log {log} --particles 2 --session {session} --json"));
+    assert_eq!((&first["scans"], &first["scans_used"]), (&40.into(), &40.into()));
+    let run = fastslam(&format!("log {next} --session {session} --trajectory {path}")).success();
+    let said = String::from_utf8_lossy(&run.get_output().stderr).into_owned();
+    assert!(said.contains("the session has 20 of 40 scans already"), "{said}");
+    assert_eq!(std::fs::read_to_string(&path).unwrap().lines().count(), 60);
+    let refused = refusal(&format!("log {next} --particles 3 --session {session}"));
+    assert!(refused.contains("the session was begun with particles = 2, seed = 1, "), "{refused}");
+    let good = std::fs::read(&session).unwrap();
+    for (bytes, part) in
+        [(&b"hello"[..], "it is not a session of this version"), (&good[..good.len() - 9], "the session is damaged: ")]
+    {
+        std::fs::write(&session, bytes).unwrap();
+        let refused = refusal(&format!("log {next} --session {session}"));
+        assert!(refused.contains(part), "{refused}");
+    }
+    assert!(
+        refusal(&format!("log {log} --checkpoint 0"))
+            .contains("checkpoint = 0: must be a number from 0.001 to 10000 [min]")
+    );
+}
