@@ -51,13 +51,7 @@ pub(super) fn read(line: &str) -> Result<Told, LogProblem> {
     let line: Line = serde_json::from_str(line).map_err(|error| {
         // As Python writes them, unless it is told not to.
         let is_python = line.contains("NaN") || line.contains("Infinity");
-        // The line is told with the problem: to the library it is always the first.
-        let (mut told, column) = (error.to_string(), error.column());
-        if told.ends_with(&format!(" at line 1 column {column}")) {
-            told.truncate(told.rfind(" at line").unwrap_or(told.len()));
-            told += &format!(" at column {column}");
-        }
-        LogProblem::Json(if is_python { PYTHON.into() } else { told })
+        LogProblem::Json(if is_python { PYTHON.into() } else { error.to_string() })
     })?;
     match (line.malformed, line.remark) {
         (Some(count), remark) => return Ok(Told::Malformed(count, remark.unwrap_or_default())),

@@ -8,13 +8,14 @@
 //! along, is told from walls before a scan is matched, and left out. A loop that no particle has closed by itself is closed by bending its path
 //! (`closing.rs`). It runs online and needs to know nothing of the
 //! scans that will come; whoever has a whole log lets [`Replay`] push it, or fills the laser's settings in by
-//! [`LaserMapperSettings::for_log`]. What is not a setting has one value for every building and robot: [`tuning`] says why.
+//! [`LaserMapperSettings::for_log`]. [`Localizer`] finds a robot in a map that stays as it is. What is not a setting has one value for every building and robot: [`tuning`] says why.
 
 mod agreement;
 mod check;
 mod closing;
 mod innovations;
 mod last_places;
+mod localizer;
 mod loops;
 mod moving;
 mod odometer;
@@ -31,6 +32,7 @@ pub use check::{OdometryCheck, OdometryFault};
 use closing::Closings;
 pub use innovations::OdometryInnovations;
 pub(crate) use last_places::{LastPlaces, MAX_RANGE, fan};
+pub use localizer::Localizer;
 pub use loops::{Loop, LoopEnd};
 use moving::{LastViews, driven};
 use odometer::Odometer;
@@ -49,7 +51,7 @@ use crate::log::{LaserScan, Remark};
 use crate::map::{ConditionalMap, Footprint};
 use crate::motion::Displacement;
 use crate::particle::Particle;
-use crate::rbpf::{Rbpf, Report};
+use crate::rbpf::{Builder, Rbpf, Report};
 use crate::sensor::Scan;
 
 /// The filter of a [`LaserMapper`].
@@ -136,7 +138,7 @@ impl LaserMapper {
         Ok(Self {
             settings,
             executor: Executor::default(),
-            filter: filter(&settings, beams, map)?,
+            filter: filter(&settings, beams, map).build()?,
             beams,
             odometer: Odometer::default(),
             wheels: Wheels::default(),
@@ -224,7 +226,7 @@ impl LaserMapper {
         map.settle();
         self.closings.take(&standing, 0.0);
         self.beams = self.settings.beams.unwrap_or(scan.ranges.len() as u32);
-        let filter = filter(&self.settings, self.beams, map).expect("`new` has built one of these settings");
+        let filter = filter(&self.settings, self.beams, map).build().expect("`new` has built one of these settings");
         self.filter = filter.with_executor(self.executor.clone());
         self.take(scan, odometry);
     }
@@ -367,12 +369,11 @@ fn proposal(settings: &LaserMapperSettings, beams: u32) -> tuning::Proposal {
     proposal
 }
 
-/// The filter at the origin, with this map in each particle.
-fn filter(settings: &LaserMapperSettings, beams: u32, map: Map) -> Result<Filter, SettingError> {
+/// The filter with this map in each particle, at the origin if nothing else is said.
+fn filter(settings: &LaserMapperSettings, beams: u32, map: Map) -> Builder<Map, tuning::Proposal> {
     Rbpf::builder(map, proposal(settings, beams))
         .particles(settings.particles)
         .seed(settings.seed)
         .policy(settings.policy)
         .selection_temper(tuning::SELECTION_TEMPER)
-        .build()
 }

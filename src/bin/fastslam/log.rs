@@ -1,6 +1,7 @@
 //! `fastslam log`: a recorded log, mapped; `fastslam example-log`: one of our own.
 
 mod choices;
+mod localize;
 mod outputs;
 mod progress;
 mod recording;
@@ -58,6 +59,13 @@ pub struct Arguments {
     /// over: a run that was stopped goes on with the same log, and a building is mapped on with the next
     #[arg(long, value_name = "FILE")]
     session: Option<PathBuf>,
+    /// Only find the robot in the map of the session, which stays as it is: paths are written, and no map
+    #[arg(long, requires = "session", conflicts_with_all = ["map", "checkpoint", "relations"])]
+    localize: bool,
+    /// With --localize: about where the robot is at the first scan, in the frame of the session's map, x and y [m] and heading [deg]; it is searched for within
+    /// 1.5 m and 43° [default: where the session ended]
+    #[arg(long, value_name = "X,Y,DEG", requires = "localize", allow_hyphen_values = true)]
+    start: Option<localize::Start>,
     /// Write what is asked for, and the session, every so many minutes as well, 0.001 to 10000
     #[arg(long, value_name = "MINUTES", allow_negative_numbers = true)]
     checkpoint: Option<f64>,
@@ -149,9 +157,11 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let scans = log.scans.len();
     let repeated = leave_repeated_out(&mut log, &name);
     let fault = put_right(&mut log, &settings, &name);
-    let mut mapper = match session {
-        Some(mapper) => mapper,
-        None => LaserMapper::new(settings.for_log(&log))?,
+    let mut mapper = match (session, &arguments.session) {
+        (Some(mapper), _) if arguments.localize => return localize::run(arguments, &name, &log, &mapper),
+        (None, Some(path)) if arguments.localize => bail!(Usage::of_file(path, "there is no session to localize in")),
+        (Some(mapper), _) => mapper,
+        (None, _) => LaserMapper::new(settings.for_log(&log))?,
     };
     let had = session::had(&mapper, &log.scans);
     if had > 0 {
@@ -186,7 +196,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         }
         scans_unexplained += u32::from(!report.explained());
         mapper.predicted().into_iter().for_each(|predicted| innovations.add(predicted, &report));
-        progress.tell(&mapper, report.selection_ess);
+        progress.tell(mapper.filter(), report.selection_ess);
         if checkpoint.is_some_and(|minutes| progress.elapsed() >= saved + Duration::from_secs_f64(60.0 * minutes)) {
             Outputs::open(arguments)?.write(&mapper, &mapper.path(), &rules)?;
             save_session(arguments, &mapper)?;

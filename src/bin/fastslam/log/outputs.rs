@@ -111,14 +111,22 @@ impl Outputs {
         Ok(Self { trajectory: open(trajectory)?, path_mcap: open(path_mcap)?, map })
     }
 
-    pub fn write(self, mapper: &LaserMapper, path: &[(f64, Pose2)], rules: &MapImageSettings) -> Result<()> {
+    /// Writes a path.
+    pub fn write_path(self, path: &[(f64, Pose2)]) -> Result<()> {
         if let Some(file) = self.trajectory {
             file.save(write_tum(path).as_bytes())?;
         }
         if let Some(file) = self.path_mcap {
             file.save(&write_path(path).map_err(anyhow::Error::msg)?)?;
         }
-        if let Some(MapOutputs { png, pgm, yaml, image }) = self.map {
+        Ok(())
+    }
+
+    /// Writes a path and the map of a mapper.
+    pub fn write(mut self, mapper: &LaserMapper, path: &[(f64, Pose2)], rules: &MapImageSettings) -> Result<()> {
+        let map = self.map.take();
+        self.write_path(path)?;
+        if let Some(MapOutputs { png, pgm, yaml, image }) = map {
             let map = MapImage::of(mapper.map(), path, rules)?;
             let open = mapper.open_loops().filter_map(|one| mapper.at_step(one.to));
             picture::save_map(&map, path, &open.map(|(_, pose)| pose).collect::<Vec<_>>(), png.path())?;

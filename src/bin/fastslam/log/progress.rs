@@ -1,6 +1,6 @@
 //! How far a run is.
 
-use fastslam::mapper::LaserMapper;
+use fastslam::mapper::Filter;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::time::Duration;
 
@@ -27,14 +27,14 @@ impl<'a> Progress<'a> {
         self.scans as f64 / self.bar.elapsed().as_secs_f64().max(1e-3)
     }
 
-    pub fn tell(&mut self, mapper: &LaserMapper, effective: f64) {
+    pub fn tell(&mut self, filter: &Filter, effective: f64) {
         /// Between two lines.
         const EVERY: Duration = Duration::from_secs(10);
         let rate = self.rate();
         let to_go = (self.all - self.scans) as f64 / rate;
         let said = || format!("{rate:.0} scans/s, {to_go:.0} s to go");
         if !self.bar.is_hidden() {
-            let lineage = mapper.filter().lineage();
+            let lineage = filter.lineage();
             let of_particles = format!("{effective:.1} effective particles, which descend from {lineage}");
             self.bar.set_position(self.scans as u64);
             self.bar.set_message(format!("{}; {of_particles}", said()));

@@ -11,7 +11,7 @@ use std::io::{self, BufRead, BufReader, Cursor, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 /// Reads a recording of one file, or of several that are its parts, and says on standard error what of it is not used. No file is ever whole in
-/// memory.
+/// memory, but for a database that is packed.
 pub fn read(paths: &[PathBuf], options: BagOptions) -> Result<LaserLog> {
     let BagOptions { scan_topic, odometry_topic, odometry_frame, lenient } = &options;
     let (lenient, names_topics) =

@@ -6,6 +6,7 @@ mod filter;
 mod fit;
 mod graphs;
 mod landmarks;
+mod localizer;
 mod log;
 mod map;
 mod mapper;

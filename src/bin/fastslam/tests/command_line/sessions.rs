@@ -103,3 +103,41 @@ fn a_session_goes_on_with_the_next_log_and_with_its_own_settings() {
             .contains("checkpoint = 0: must be a number from 0.001 to 10000 [min]")
     );
 }
+
+#[test]
+fn a_robot_is_found_in_the_map_of_a_session_which_stays_as_it_is() {
+    let folder = tempdir().unwrap();
+    let log = short_log(&folder, 150);
+    let file = |name: &str| folder.path().join(name).display().to_string();
+    let (session, next) = (file("session"), file("next.clf"));
+    json(&format!("log {log} --particles 2 --session {session} --trajectory {} --json", file("mapped.tum")));
+    let saved = std::fs::read(&session).unwrap();
+    let text = std::fs::read_to_string(&log).unwrap();
+    std::fs::write(&next, text.lines().skip(81).map(|line| format!("{line}\n")).collect::<String>()).unwrap();
+    let rows = |name: &str| -> Vec<[f64; 4]> {
+        let text = std::fs::read_to_string(file(name)).unwrap();
+        let numbers = |line: &str| line.split(' ').map(|word| word.parse().unwrap()).collect::<Vec<f64>>();
+        text.lines().map(numbers).map(|row| [row[1], row[2], row[6], row[7]]).collect()
+    };
+    let mapped = rows("mapped.tum")[80..].to_vec();
+    let [x, y, z, w] = mapped[0];
+    let heading = 2.0 * fastslam::ops::atan2(z, w).to_degrees();
+    let options = format!("log {next} --localize --session {session} --trajectory {}", file("found.tum"));
+    let found = json(&format!("{options} --json --start {},{},{}", x + 0.4, y - 0.3, heading + 10.0));
+    assert_eq!((&found["scans"], &found["scans_used"]), (&70.into(), &70.into()));
+    assert!(found["matched_fraction"].as_f64().unwrap() > 0.9, "{found}");
+    for (found, mapped) in rows("found.tum").iter().zip(&mapped) {
+        let off = fastslam::ops::hypot(found[0] - mapped[0], found[1] - mapped[1]);
+        assert!(off < 0.1, "{found:?}, {mapped:?}");
+    }
+    assert!(std::fs::read(&session).unwrap() == saved);
+    let lost = fastslam(&format!("{options} --start {},{},0", x + 200.0, y)).code(3);
+    assert!(String::from_utf8_lossy(&lost.get_output().stderr).contains("little of what was seen is in the map"));
+    assert!(
+        refusal(&format!("log {next} --localize --session {session} --start 1,2")).contains("must be three numbers")
+    );
+    assert!(
+        refusal(&format!("log {next} --localize --session {}", file("none")))
+            .contains("there is no session to localize in")
+    );
+}

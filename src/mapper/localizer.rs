@@ -1,0 +1,149 @@
+//! A robot that finds its way in a map that it does not change.
+
+use super::moving::LastViews;
+use super::odometer::Odometer;
+use super::tuning::{CLOSING, Map, ON_A_WALL, score};
+use super::wheels::Wheels;
+use super::{Filter, LaserMapper, LaserMapperSettings, Pushed, Stamp, filter};
+use crate::error::SettingError;
+use crate::geometry::{Gaussian3, Pose2};
+use crate::log::LaserScan;
+use crate::matching::{Score, ScoredPose, hill_climb};
+use crate::particle::Particle;
+use crate::proposal::{Search, Target};
+use crate::sensor::Scan;
+
+/// The filter of a [`LaserMapper`] in a map that stays as it is: where the robot is, and nothing else.
+///
+/// Each particle draws its pose by looking first, as in mapping, upon one map that all share. What has changed in the building since it was mapped
+/// is outvoted by what has not, and is not learnt.
+#[derive(Clone, Debug)]
+pub struct Localizer {
+    settings: LaserMapperSettings,
+    map: Map,
+    start: Gaussian3,
+    /// Beams that the search is made for.
+    beams: u32,
+    filter: Filter,
+    odometer: Odometer,
+    wheels: Wheels,
+    views: LastViews,
+    /// Odometry of the last scan that was taken; `None` before the first.
+    last: Option<Pose2>,
+    steps: u32,
+    stamps: Vec<Stamp>,
+    /// End points so far, and those of them that lay on walls.
+    compared: [f64; 2],
+}
+
+impl Localizer {
+    /// In the best map of a mapper. The robot is somewhere about `start`, in the frame of that map: its first scan is searched for within three standard
+    /// deviations, and 12 m to each side at the most.
+    ///
+    /// # Errors
+    /// [`SettingError::OutOfRange`] where `start` is not finite.
+    pub fn new(mapper: &LaserMapper, start: Gaussian3) -> Result<Self, SettingError> {
+        let (settings, mut map) = (*mapper.settings(), mapper.map().present());
+        // All of it is old: there is no new ground.
+        map.settle();
+        Ok(Self {
+            filter: filter(&settings, mapper.beams, map.clone()).start(*start.mean()).build()?,
+            settings,
+            map,
+            start,
+            beams: mapper.beams,
+            odometer: Odometer::default(),
+            wheels: mapper.wheels().clone(),
+            views: LastViews::default(),
+            last: None,
+            steps: 0,
+            stamps: Vec::new(),
+            compared: [0.0; 2],
+        })
+    }
+
+    /// The next scan, with the pose that raw odometry gives for it in any frame: see [`LaserMapper::push`].
+    pub fn push(&mut self, scan: &LaserScan) -> Pushed {
+        let odometry = match self.odometer.next(scan, self.settings.longest()) {
+            Ok(odometry) => odometry,
+            Err(reason) => return Pushed::Refused(reason),
+        };
+        let moved = self.last.map(|last| last.between(&odometry));
+        if let Some(moved) = moved.filter(|moved| !self.settings.takes(moved)) {
+            self.stamps.push(Stamp { time: scan.time, step: self.steps, step_from_robot: moved });
+            return Pushed::Still;
+        }
+        let displacement = |moved: &Pose2, driven| self.wheels.displacement_over(moved, driven);
+        let standing = self.views.standing(scan, odometry, self.settings.beams_of(scan), displacement);
+        self.last = Some(odometry);
+        let pushed = match moved {
+            None => {
+                self.begin(&standing);
+                Pushed::First
+            }
+            Some(moved) => {
+                let report = self.filter.step(&self.wheels.displacement(&moved), &standing);
+                self.wheels.learn(&moved, &report);
+                self.steps = report.step;
+                self.keep_map();
+                Pushed::Step(report)
+            }
+        };
+        self.stamps.push(Stamp { time: scan.time, step: self.steps, step_from_robot: Pose2::default() });
+        let beams = score().log_beams(&self.map, &self.pose(), &standing);
+        let on_walls = beams.iter().filter(|log| **log > ON_A_WALL).count();
+        self.compared = [self.compared[0] + beams.len() as f64, self.compared[1] + on_walls as f64];
+        pushed
+    }
+
+    /// Where the first scan fits best of all places about the start.
+    fn begin(&mut self, scan: &Scan) {
+        let score = score();
+        let target = Target::new(&self.start, score.near(&self.map, self.start.mean(), scan, 1), 0.0);
+        let climbed = |start| hill_climb(start, CLOSING.climb, |pose, floor| target.log_posterior(pose, floor));
+        let tops = CLOSING.search.starts(&target).poses.into_iter().map(climbed);
+        let better = |a: ScoredPose, b: ScoredPose| if b.value > a.value { b } else { a };
+        if let Some(ScoredPose { pose, .. }) = tops.reduce(better) {
+            let mapped = filter(&self.settings, self.beams, self.map.clone()).start(pose).build();
+            self.filter = mapped.expect("`new` has built one of these settings");
+        }
+    }
+
+    /// Takes what the step has written into the particles' maps out of them.
+    fn keep_map(&mut self) {
+        let map = &self.map;
+        self.filter.revise(|_, particle| (Some(Particle { map: map.clone(), ..particle.clone() }), ()));
+    }
+
+    /// Where the best particle has the robot now, in the frame of the map.
+    pub fn pose(&self) -> Pose2 {
+        let pose = self.best().world_from_robot;
+        self.stamps.last().map_or(pose, |stamp| pose.compose(&stamp.step_from_robot))
+    }
+
+    /// The best particle's path: see [`LaserMapper::path`].
+    pub fn path(&self) -> Vec<(f64, Pose2)> {
+        let poses = self.best().path.poses();
+        let placed = |stamp: &Stamp| (stamp.time, poses[stamp.step as usize].compose(&stamp.step_from_robot));
+        self.stamps.iter().map(placed).collect()
+    }
+
+    /// Share, 0 to 1, of what was seen so far that lay on walls of the map where the best particle had the robot: small where it is lost, or in another building.
+    pub fn matched_fraction(&self) -> f64 {
+        self.compared[1] / self.compared[0].max(1.0)
+    }
+
+    /// The map, as it was from the start.
+    pub fn map(&self) -> &Map {
+        &self.map
+    }
+
+    /// The filter, for those who watch it.
+    pub fn filter(&self) -> &Filter {
+        &self.filter
+    }
+
+    fn best(&self) -> &Particle<Map> {
+        &self.filter.particles()[self.filter.best()]
+    }
+}
