@@ -32,9 +32,14 @@ function tell(hero: HTMLElement, figure: FigureElement): void {
   const { signal } = folded
   addEventListener('hashchange', () => meant() && open(), { signal })
   for (const type of ['fastslam-challenge', 'fastslam-trace']) figure.addEventListener(type, open, { signal })
-  figure.addEventListener('click', event => event.composedPath().some(one => one instanceof HTMLCanvasElement) && open(), { capture: true, signal })
-  unfolds.addEventListener('click', () => {
+  // By hand, all of it comes into view.
+  const unfold = () => {
     open()
+    hero.scrollIntoView({ block: 'nearest' })
+  }
+  figure.addEventListener('click', event => event.composedPath().some(one => one instanceof HTMLCanvasElement) && unfold(), { capture: true, signal })
+  unfolds.addEventListener('click', () => {
+    unfold()
     figure.shadowRoot!.querySelector<HTMLElement>('.stage')!.focus({ preventScroll: true }) // the button is gone
   })
   if (reducedMotion.matches) return

@@ -28,7 +28,7 @@ pub(super) fn challenges() -> Vec<Challenge<GraphModel>> {
         Challenge::new("repair", words::chip_repair(), "repair=switchable&wrong=on&step=60"),
         Challenge::new("early", words::chip_early(), "repair=mixture&step=60").with(
             words::goal_early(),
-            "odometry",
+            "odometry seed",
             let_go,
         ),
     ]
