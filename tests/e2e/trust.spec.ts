@@ -20,7 +20,7 @@ test('after use there is no cookie, and in storage nothing but what the statemen
   await question.press('Enter')
   await expect.poll(kept).toContainEqual(expect.stringMatching(/^fastslam-guess:/))
   await page.goto('./embed/?figure=doors#assign')
-  expect((await kept()).filter(key => !/^fastslam-(challenges$|guess:)/.test(key))).toEqual([])
+  expect((await kept()).filter(key => !/^fastslam-(challenges$|guess:|check:)/.test(key))).toEqual([])
   expect(await context.cookies()).toEqual([])
   expect(await page.evaluate(async () => [(await indexedDB.databases()).length, (await caches.keys()).length])).toEqual([0, 0])
 })
