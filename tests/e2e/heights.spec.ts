@@ -29,7 +29,7 @@ const updated: Record<string, number[]> = {}
 // At two of these widths, one-screen.spec.ts looks at every figure.
 for (const tag of programs.keys()) {
   test(`${tag} keeps its place free before it lives`, breadth, async ({ page }) => {
-    if (UPDATE) test.setTimeout(240_000) // five times as many figures
+    if (UPDATE) test.setTimeout(600_000) // five times as many figures
     const widths = UPDATE ? SAMPLES : WIDTHS
     // One above the other, so that all are seen.
     const html = widths.map(width => `<div style="position: absolute; inset: 0 auto auto 0; width: ${width}px"><${tag}></${tag}></div>`)
@@ -49,7 +49,7 @@ for (const tag of programs.keys()) {
     open()
     // The figure of logs has its program only when something is asked of it, and is whole without.
     // Forty-nine figures that compute need a while on a busy machine.
-    const patient = UPDATE ? { timeout: 200_000 } : {}
+    const patient = UPDATE ? { timeout: 500_000 } : {}
     await expect(all.locator(tag === 'fastslam-log' ? '.idle' : '.stage.live')).toHaveCount(widths.length, patient)
     await expect(all.locator('.sentence:not(:empty)')).toHaveCount(widths.length, patient)
     // What is said at first, of a run under way, may be shorter than what is said in the end.
