@@ -202,9 +202,9 @@ test('what is handed in on paper is one page: name, date, question, tries, and b
   // As wide as A4 between its margins.
   await page.setViewportSize({ width: 718, height: 1000 })
   await page.emulateMedia({ media: 'print' })
-  const [picture, words, link] = await Promise.all([figure.canvas, figure.sentence, figure.element.locator('.paper')].map(part => part.boundingBox()))
-  expect(words!.y).toBeGreaterThanOrEqual(picture!.y + picture!.height)
-  expect(link!.y).toBeGreaterThanOrEqual(words!.y + words!.height)
+  const [words, picture, link] = await Promise.all([figure.told, figure.canvas, figure.element.locator('.paper')].map(part => part.boundingBox()))
+  expect(picture!.y, 'below what happens in it').toBeGreaterThanOrEqual(words!.y + words!.height)
+  expect(link!.y).toBeGreaterThanOrEqual(picture!.y + picture!.height)
   for (const text of ['Which filter has samples', 'Tries: 1 · Score: 100 of 100']) await expect(page.getByText(text)).toBeVisible()
   await expect(page.getByRole('button', { name: 'Hand in' })).toBeHidden()
 })

@@ -100,7 +100,7 @@ for (const width of [1280, 380]) {
     const shifts = await watchShifts(page)
     const open = await holdPrograms(page)
     await page.goto('./')
-    const figure = new Figure(page, 'fastslam-resampling')
+    const figure = new Figure(page, 'fastslam-conditioning') // which has nothing to play at first
     await figure.element.evaluate(element => element.scrollIntoView({ block: 'end', behavior: 'instant' }))
     await expect(figure.element.locator('.title')).not.toBeEmpty()
     const height = () => figure.element.evaluate(element => element.getBoundingClientRect().height)
@@ -108,7 +108,8 @@ for (const width of [1280, 380]) {
     // Also on a slow network, of which it tells.
     await expect(figure.element.getByRole('status')).toContainText('Still loading')
     open()
-    await figure.live()
+    await expect(figure.element.locator('.stage.live')).toBeVisible()
+    await figure.settled()
     expect(Math.abs((await height()) - before)).toBeLessThan(width > 500 ? 3 : 64)
     if (width > 500) expect(await shifts()).toEqual([])
   })
@@ -267,6 +268,7 @@ test('the button of an algorithm steps its figure, also one that nobody has seen
   await page.goto('./')
   const keys = await tellTrace(page)
   await expect(page.locator('.algorithm[data-figure]').first().locator('.lit')).toHaveCount(keys.length)
+  await expect(page.locator('#fig-lap .stage.live')).toBeVisible() // it is on the first screen
   const stepOf = (figure: Locator) => figure.evaluate(element => (element as unknown as { currentStep?: number }).currentStep ?? 0)
   for (const [id, on, lines] of [
     ['fig-lap', 1, { ess: / of 16$/, draw: /^\(.*\)$/ }],

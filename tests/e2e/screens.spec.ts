@@ -35,7 +35,7 @@ const lost = (figure: Locator) =>
       const box = inner.getBoundingClientRect()
       return box.width > 0 && (box.left < left - 0.5 || box.right > right + 0.5)
     })
-    const cut = seen.filter(inner => !inner.matches('select, input, canvas') && getComputedStyle(inner).overflowX !== 'visible' && inner.scrollWidth > inner.clientWidth + 1)
+    const cut = seen.filter(inner => !inner.matches('select, input, canvas') && getComputedStyle(inner).clipPath === 'none' && getComputedStyle(inner).overflowX !== 'visible' && inner.scrollWidth > inner.clientWidth + 1)
     // A list is as wide as what it shows, or shows the beginning of it.
     return { out: out.map(name), cut: cut.map(name) }
   })

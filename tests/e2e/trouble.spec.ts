@@ -219,7 +219,8 @@ test('a node that is moved or taken out and put back is freed and restored', asy
 test('nothing is fetched before a figure is seen', async ({ page }) => {
   const fetched = watchFiles(page)
   await page.setViewportSize({ width: 1000, height: 300 })
-  await page.goto('./', { waitUntil: 'networkidle' })
+  await openCourse(page, '<div style="height: 3000px"></div><fastslam-lap></fastslam-lap>')
+  await page.waitForLoadState('networkidle')
   expect(fetched).toEqual([])
 })
 

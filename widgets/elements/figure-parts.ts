@@ -204,7 +204,7 @@ export abstract class FigureParts extends HTMLElement {
       change: (name, value) => this.change(name, value),
     })
     this.specs = specs
-    this.showLab(this.#lab)
+    this.controls.lab.ariaExpanded = String(this.#lab)
     if (before) this.controls.replace(before)
     else this.placeControls(this.controls)
     this.introduced()
@@ -260,7 +260,7 @@ export abstract class FigureParts extends HTMLElement {
   protected showLab(open: boolean): void {
     this.#lab = open
     this.body.classList.toggle('lab-open', open)
-    this.controls?.lab.setAttribute('aria-expanded', String(open))
+    if (this.controls) this.controls.lab.ariaExpanded = String(open)
   }
 
   /** Whether readers may unfold the numbers. */
