@@ -16,7 +16,7 @@ const cut = (figure: Locator): Promise<string[]> =>
   figure.evaluate(element => {
     const root = element.shadowRoot!
     const { left, right } = root.querySelector('.figure')!.getBoundingClientRect()
-    const shown = (one: Element) => one.checkVisibility({ visibilityProperty: true }) && !one.closest('.hidden') && one.getBoundingClientRect().width > 0
+    const shown = (one: Element) => one.checkVisibility({ visibilityProperty: true }) && !one.closest('.hidden') && getComputedStyle(one).clipPath === 'none' && one.getBoundingClientRect().width > 0
     const texts = [...root.querySelectorAll<HTMLElement>('.title, .status, .chip, .verdict span, .sentence, .name, .flag, .toggle, .lab, .to-wheel, .work button, summary, dt, dd, .unit, .said, .position, .source *')]
     const wrong: string[] = []
     for (const text of texts.filter(shown)) {

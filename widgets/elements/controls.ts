@@ -106,6 +106,7 @@ export class Controls {
   /** Takes the place of those in another language, and stands as they do. */
   replace(before: Controls): void {
     for (const part of ['transport', 'main', 'settings'] as const) before[part].replaceWith(this[part])
+    for (const { element } of before.fields.values()) element.remove() // also what stood in the picture
     this.settings.open = before.settings.open
     this.rate.value = before.rate.value
   }
