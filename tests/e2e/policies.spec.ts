@@ -18,7 +18,11 @@ const ISOLATED = { 'Cross-Origin-Embedder-Policy': 'require-corp', 'Cross-Origin
 /** The code that a figure copies. */
 async function codeOf(page: Page, name: 'element' | 'iframe', tag = 'fastslam-lap'): Promise<string> {
   await page.goto(`./embed-${tag.replace('fastslam-', '')}.html`)
-  return page.locator(tag).evaluate((figure, name) => (figure as HTMLElement & { embedCode(name: string): string }).embedCode(name), name)
+  // The element may be there before its class.
+  return page.locator(tag).evaluate(async (figure, name) => {
+    await customElements.whenDefined(figure.localName)
+    return (figure as HTMLElement & { embedCode(name: string): string }).embedCode(name)
+  }, name)
 }
 
 /** Maps a log, which needs a worker. */
