@@ -99,6 +99,19 @@ pub enum Value {
 }
 
 impl ParamSpec {
+    /// One of the setup, with a slider, in the Lab and not folded there; without unit, choices and default.
+    pub(crate) fn new(
+        name: &'static str,
+        title: &'static str,
+        kind: Kind,
+        (min, max, step): (f64, f64, f64),
+        help: &'static str,
+    ) -> Self {
+        let (choices, default, unit, group) = (Vec::new(), String::new(), "", Group::Setup);
+        let (slider, sight, folded, applies) = (true, false, false, true);
+        Self { name, title, unit, kind, min, max, step, choices, default, group, slider, sight, folded, applies, help }
+    }
+
     /// A value as text: what [`ParamSpec::check`] takes.
     pub(crate) fn text(&self, value: Value) -> String {
         match value {
@@ -181,26 +194,7 @@ mod tests {
             Kind::Choice => vec![Choice::new("red", "Red"), Choice::new("blue", "Blue")],
             _ => Vec::new(),
         };
-        let (name, title, unit, min, max, step) = ("speed", "Speed", "m/s", 0.5, 8.0, 0.5);
-        let (default, group, help) = (String::new(), Group::Setup, "");
-        let (slider, sight, folded, applies) = (true, false, false, true);
-        ParamSpec {
-            name,
-            title,
-            unit,
-            kind,
-            min,
-            max,
-            step,
-            choices,
-            default,
-            group,
-            slider,
-            sight,
-            folded,
-            applies,
-            help,
-        }
+        ParamSpec { unit: "m/s", choices, ..ParamSpec::new("speed", "Speed", kind, (0.5, 8.0, 0.5), "") }
     }
 
     #[test]

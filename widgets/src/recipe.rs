@@ -149,27 +149,8 @@ pub trait Recipe: Clone + PartialEq + Default + 'static {
 
 impl<R: Recipe> Param<R> {
     fn new(name: &'static str, title: &'static str, kind: Kind, get: Get<R>, set: Set<R>, help: &'static str) -> Self {
-        let (min, max, step) =
-            if matches!(kind, Kind::Choice | Kind::Text) { (0.0, 0.0, 0.0) } else { (0.0, 1.0, 1.0) };
-        let (group, slider, sight, folded, applies) = (Group::Setup, true, false, false, true);
-        let (choices, default, unit) = (Vec::new(), String::new(), "");
-        let spec = ParamSpec {
-            name,
-            title,
-            unit,
-            kind,
-            min,
-            max,
-            step,
-            choices,
-            default,
-            group,
-            slider,
-            sight,
-            folded,
-            applies,
-            help,
-        };
+        let range = if matches!(kind, Kind::Choice | Kind::Text) { (0.0, 0.0, 0.0) } else { (0.0, 1.0, 1.0) };
+        let spec = ParamSpec::new(name, title, kind, range, help);
         Self { spec, most: None, title: None, applies: None, get, set, read: None }
     }
 
