@@ -83,8 +83,10 @@ fn a_recording_in_parts_is_mapped_as_the_whole() {
     assert_eq!(digest(&both), digest(&bag("lap.clf")));
     std::fs::write(place("b.clf"), "# one\nODOM 1\n").unwrap();
     assert!(refusal(&format!("log {both}")).contains("b.clf: line 2: ODOM: expected x, y, theta"));
-    let mixed = refusal(&format!("log {} {}", place("a.clf").display(), bag("odometry-zstd.mcap")));
-    assert!(mixed.contains("odometry-zstd.mcap: it is of another kind than the file before it"), "{mixed}");
+    // In one folder: files are read in the order of their paths, and where the samples lie is nobody's choice.
+    std::fs::copy(bag("odometry-zstd.mcap"), place("c.mcap")).unwrap();
+    let mixed = refusal(&format!("log {} {}", place("c.mcap").display(), place("a.clf").display()));
+    assert!(mixed.contains("c.mcap: it is of another kind than the file before it"), "{mixed}");
 }
 
 #[test]
