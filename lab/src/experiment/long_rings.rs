@@ -14,7 +14,6 @@ use fastslam::geometry::Pose2;
 use fastslam::log::LaserLog;
 use fastslam::mapper::{LaserMapper, LaserMapperSettings, Replay};
 use fastslam::motion::OdometryModel;
-use fastslam::ops;
 use fastslam::proposal::IncrementalWeight;
 use std::sync::Arc;
 
@@ -191,22 +190,10 @@ impl LongRingRun {
     }
 }
 
-/// By how much more a path turns in a step than odometry tells \[rad\], at the most.
-///
-/// # Panics
-/// Where they are of different lengths.
-pub fn greatest_turn(path: &[Pose2], log: &LaserLog) -> f64 {
-    assert_eq!(path.len(), log.scans.len(), "a pose for each scan");
-    let turn = |k: usize| {
-        let told = log.scans[k - 1].odometry.between(&log.scans[k].odometry).theta;
-        ops::wrap_angle(path[k - 1].between(&path[k]).theta - told).abs()
-    };
-    (1..path.len()).map(turn).fold(0.0, f64::max)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fastslam::ops;
 
     #[test]
     fn the_robot_drives_once_round_and_on_and_no_wall_is_in_its_way() {

@@ -5,9 +5,10 @@ use fastslam::geometry::Pose2;
 use fastslam::log::{LaserLog, Remark};
 use fastslam::mapper::{LaserMapperSettings, LoopEnd, OdometryInnovations, Replay};
 use fastslam::motion::OdometryModel;
+use fastslam::ops;
 use fastslam_lab::experiment::graph::PathError;
 use fastslam_lab::experiment::log::{Example, Recipe};
-use fastslam_lab::experiment::long_rings::{LongRingSetup, LoopErrors, greatest_turn};
+use fastslam_lab::experiment::long_rings::{LongRingSetup, LoopErrors};
 use fastslam_lab::world::{FloorPlan, Segment};
 use std::sync::Arc;
 
@@ -78,6 +79,16 @@ fn mapped(recipe: &Recipe, Drive { particles, scans }: Drive) -> (Mapped, LaserL
     };
     drop(replay);
     (found, Arc::unwrap_or_clone(log))
+}
+
+/// By how much more a path turns in a step than odometry tells \[rad\], at the most.
+fn greatest_turn(path: &[Pose2], log: &LaserLog) -> f64 {
+    assert_eq!(path.len(), log.scans.len(), "a pose for each scan");
+    let turn = |k: usize| {
+        let told = log.scans[k - 1].odometry.between(&log.scans[k].odometry).theta;
+        ops::wrap_angle(path[k - 1].between(&path[k]).theta - told).abs()
+    };
+    (1..path.len()).map(turn).fold(0.0, f64::max)
 }
 
 /// Share of a log's readings for which this holds.
