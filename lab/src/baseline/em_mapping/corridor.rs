@@ -1,6 +1,7 @@
 //! What both methods assume: a corridor of cells, wheels that err, and a sensor that says *door* or does not.
 
-use fastslam::error::{Range, SettingError};
+use core::ops::Range;
+use fastslam::error::{self, SettingError};
 use fastslam::ops;
 
 /// A corridor of cells, and what is known beforehand of how often the sensor says *door* in each.
@@ -20,8 +21,8 @@ impl Corridor {
     /// # Errors
     /// Where a setting is out of its range.
     pub fn validate(&self) -> Result<(), SettingError> {
-        Range::whole(1, 1000).check("cells", f64::from(self.cells))?;
-        Range::number(0.01, 10.0, "m").check("cell_size", self.cell_size)?;
+        error::Range::whole(1, 1000).check("cells", f64::from(self.cells))?;
+        error::Range::number(0.01, 10.0, "m").check("cell_size", self.cell_size)?;
         self.known.validate()
     }
 
@@ -49,7 +50,7 @@ pub struct Beta {
 impl Beta {
     fn validate(&self) -> Result<(), SettingError> {
         // At 1 the density's peak may be at an end, where a single reading to the contrary is impossible.
-        let range = Range::number(1.001, 1000.0, "");
+        let range = error::Range::number(1.001, 1000.0, "");
         range.check("known.yes", self.yes)?;
         range.check("known.no", self.no).map(drop)
     }
@@ -102,8 +103,8 @@ impl Kernel {
     /// # Errors
     /// Where the step is not finite, or its standard deviation is not one.
     pub fn new(corridor: &Corridor, shift: &Shift) -> Result<Self, SettingError> {
-        Range::number(-1000.0, 1000.0, "m").check("by", shift.by)?;
-        Range::number(0.0, 1000.0, "m").check("std", shift.std)?;
+        error::Range::number(-1000.0, 1000.0, "m").check("by", shift.by)?;
+        error::Range::number(0.0, 1000.0, "m").check("std", shift.std)?;
         let [by, std] = [shift.by, shift.std].map(|length| length / corridor.cell_size);
         // Further than from end to end nothing leads.
         let most = i64::from(corridor.cells);
@@ -125,9 +126,7 @@ impl Kernel {
         // The cell that lies so many masses from the first, were there no walls.
         let first = cell as i64 + self.first;
         let end = first + self.masses.len() as i64 - 1;
-        let sum = |masses: core::ops::Range<i64>| -> f64 {
-            self.masses[masses.start as usize..masses.end as usize].iter().sum()
-        };
+        let sum = |masses: Range<i64>| -> f64 { self.masses[masses.start as usize..masses.end as usize].iter().sum() };
         (first.clamp(0, last)..=end.clamp(0, last)).map(move |to| {
             // At a wall, with all that would lead beyond it.
             let from = if to == 0 { 0 } else { (to - first).max(0) };
@@ -151,20 +150,58 @@ impl Kernel {
         found.or_else(|| self.from(from).last()).map_or(from, |(cell, _)| cell)
     }
 
-    /// Σᵢ p(x_t = j | x_{t−1} = i) before(i) for every j.
+    /// Σᵢ p(x_t = j | x_{t−1} = i) before(i) for every j, summed in the order of i.
     pub fn push(&self, before: &[f64]) -> Vec<f64> {
         let mut after = vec![0.0; self.cells];
-        for (cell, p) in before.iter().enumerate().filter(|(_, p)| **p > 0.0) {
-            for (to, mass) in self.from(cell) {
-                after[to] += p * mass;
+        let free = self.free();
+        self.push_to_walls(before, 0..free.start, &mut after);
+        for (to, mass) in self.shifted(&free).rev() {
+            for (after, p) in after[to].iter_mut().zip(&before[free.clone()]) {
+                *after += p * mass;
             }
         }
+        self.push_to_walls(before, free.end..self.cells, &mut after);
         after
     }
 
-    /// Σⱼ p(x_t = j | x_{t−1} = i) after(j) for every i.
+    fn push_to_walls(&self, before: &[f64], cells: Range<usize>, after: &mut [f64]) {
+        for cell in cells.filter(|cell| before[*cell] > 0.0) {
+            for (to, mass) in self.from(cell) {
+                after[to] += before[cell] * mass;
+            }
+        }
+    }
+
+    /// Σⱼ p(x_t = j | x_{t−1} = i) after(j) for every i, summed in the order of j.
     pub fn pull(&self, after: &[f64]) -> Vec<f64> {
-        (0..self.cells).map(|cell| self.from(cell).map(|(to, mass)| mass * after[to]).sum()).collect()
+        let mut before = vec![0.0; self.cells];
+        let free = self.free();
+        for (to, mass) in self.shifted(&free) {
+            for (before, p) in before[free.clone()].iter_mut().zip(&after[to]) {
+                *before += mass * p;
+            }
+        }
+        for cell in (0..free.start).chain(free.end..self.cells) {
+            before[cell] = self.from(cell).map(|(to, mass)| mass * after[to]).sum();
+        }
+        before
+    }
+
+    /// Cells from which no step meets a wall: from all of them it leads as far, with the same masses.
+    fn free(&self) -> Range<usize> {
+        let (cells, reach) = (self.cells as i64, self.first + self.masses.len() as i64 - 1);
+        let start = (-self.first).clamp(0, cells);
+        let end = (cells - reach).clamp(start, cells);
+        start as usize..end as usize
+    }
+
+    /// Where the steps from these cells lead to: for each mass, from the first on, cells as many.
+    fn shifted(&self, free: &Range<usize>) -> impl DoubleEndedIterator<Item = (Range<usize>, f64)> {
+        let to = |cell: usize, k: usize| (cell as i64 + self.first) as usize + k;
+        let (start, end) = (free.start, free.end);
+        // From no cells nothing leads anywhere.
+        let masses = if free.is_empty() { &[][..] } else { &self.masses[..] };
+        masses.iter().enumerate().map(move |(k, mass)| (to(start, k)..to(end, k), *mass))
     }
 }
 
@@ -197,6 +234,25 @@ mod tests {
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let [one, other] = [dot(&kernel.push(&before), &after), dot(&before, &kernel.pull(&after))];
         assert!((one - other).abs() < 1e-12 * one, "{one} {other}");
+    }
+
+    /// Bit for bit what the sums over all cells are, however near the walls are.
+    #[test]
+    fn cells_far_from_walls_are_summed_as_all_others() {
+        let before: Vec<f64> = (0..20).map(|k| f64::from(k * k % 7) / 3.0).collect();
+        for by in [-9.0, -3.0, -0.4, 0.0, 0.1, 0.2, 1.0, 3.7, 7.0] {
+            for std in [0.0, 0.1, 0.3, 0.9, 900.0] {
+                let kernel = kernel(by, std);
+                let (mut pushed, mut pulled) = (vec![0.0; 20], vec![0.0; 20]);
+                for from in 0..20 {
+                    for (to, mass) in kernel.from(from) {
+                        pushed[to] += before[from] * mass;
+                        pulled[from] += mass * before[to];
+                    }
+                }
+                assert_eq!((kernel.push(&before), kernel.pull(&before)), (pushed, pulled), "{by} {std}");
+            }
+        }
     }
 
     #[test]
