@@ -8,6 +8,9 @@
 
 use core::f64::consts::{PI, TAU};
 
+/// ln 2π, to the bit what [`ln`] says of it.
+pub(crate) const LN_TAU: f64 = 1.837_877_066_409_345_3;
+
 /// Sine of an angle \[rad\].
 pub fn sin(x: f64) -> f64 {
     libm::sin(x)
@@ -91,6 +94,11 @@ mod tests {
             assert!(-PI < y && y <= PI, "{x} wrapped to {y}");
             assert!((sin(x) - sin(y)).abs() < 1e-12 && (cos(x) - cos(y)).abs() < 1e-12);
         }
+    }
+
+    #[test]
+    fn the_logarithm_of_a_turn_is_what_is_written() {
+        assert_eq!(LN_TAU.to_bits(), ln(TAU).to_bits());
     }
 
     #[test]

@@ -87,6 +87,17 @@ impl Stream {
     pub fn normals<const N: usize>(&mut self) -> [f64; N] {
         core::array::from_fn(|_| self.normal())
     }
+
+    /// Independent normals of these standard deviations; takes 2 N `u64`s. One without any is 0, and costs no logarithm.
+    pub fn noise<const N: usize>(&mut self, stds: [f64; N]) -> [f64; N] {
+        stds.map(|std| {
+            if std == 0.0 {
+                let _ = (self.uniform(), self.uniform());
+                return 0.0;
+            }
+            std * self.normal()
+        })
+    }
 }
 
 impl TryRng for Stream {
@@ -134,6 +145,15 @@ mod tests {
     }
 
     /// What is drawn through the traits and by the stream's own functions comes from one sequence.
+    #[test]
+    fn noise_is_normals_times_their_deviations_and_goes_on_where_they_would() {
+        let stream = || Stream::at(7, Purpose::PROPOSAL, 3, 5);
+        let (mut scaled, mut plain) = (stream(), stream());
+        let [a, _, c] = plain.normals();
+        assert_eq!(scaled.noise([0.5, 0.0, 2.0]), [0.5 * a, 0.0, 2.0 * c]);
+        assert_eq!(scaled.uniform(), plain.uniform());
+    }
+
     #[test]
     fn as_a_generator_of_rand_it_gives_its_own_numbers() {
         let [mut own, mut generator] = [(); 2].map(|()| Stream::at(3, Purpose::PROPOSAL, 7, 11));

@@ -24,7 +24,7 @@ impl Gaussian3 {
         if !log_sqrt_det.is_finite() {
             return None;
         }
-        Some(Self { mean, cholesky, log_normalizer: -1.5 * ops::ln(core::f64::consts::TAU) - log_sqrt_det })
+        Some(Self { mean, cholesky, log_normalizer: -1.5 * ops::LN_TAU - log_sqrt_det })
     }
 
     /// Mean pose.

@@ -61,9 +61,8 @@ impl Car {
 
     /// The control with its noise added: of v and of α, as far as ω is linear in them. Takes four `u64`s.
     pub fn perturb(&self, u: &Velocity, stream: &mut Stream) -> Velocity {
-        let ([speed_std, steering_std], [a, b]) = (self.stds(u), stream.normals());
+        let [dv, da] = stream.noise(self.stds(u));
         let [by_speed, by_steering] = self.turning(u);
-        let (dv, da) = (speed_std * a, steering_std * b);
         Velocity { speed: u.speed + dv, turn_rate: u.turn_rate + by_speed * dv + by_steering * da, ..*u }
     }
 

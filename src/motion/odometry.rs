@@ -87,8 +87,8 @@ impl OdometryModel {
     /// The control with its noise added: what wheels report of a true motion, or what may have been driven, given what they
     /// reported. Takes six `u64`s.
     pub fn perturb(&self, u: &Odometry, stream: &mut Stream) -> Odometry {
-        let ([s1, st, s2], [e1, et, e2]) = (self.stds(u), stream.normals());
-        Odometry { rot1: u.rot1 + s1 * e1, trans: u.trans + st * et, rot2: u.rot2 + s2 * e2 }
+        let [rot1, trans, rot2] = stream.noise(self.stds(u));
+        Odometry { rot1: u.rot1 + rot1, trans: u.trans + trans, rot2: u.rot2 + rot2 }
     }
 }
 

@@ -71,8 +71,8 @@ impl VelocityModel {
 
     /// The control with its noise added. Takes four `u64`s.
     pub fn perturb(&self, u: &Velocity, stream: &mut Stream) -> Velocity {
-        let ([speed_std, turn_rate_std], [a, b]) = (self.stds(u), stream.normals());
-        Velocity { speed: u.speed + speed_std * a, turn_rate: u.turn_rate + turn_rate_std * b, ..*u }
+        let [speed, turn_rate] = stream.noise(self.stds(u));
+        Velocity { speed: u.speed + speed, turn_rate: u.turn_rate + turn_rate, ..*u }
     }
 }
 

@@ -69,7 +69,7 @@ impl OneStep {
             let h = seen.prediction.h_x.column(2);
             let gain = s2 * s2 * h.transpose() * seen.inverse;
             let heading = [pose.theta + (gain * seen.residual).x, s2 * s2 * (1.0 - (gain * h).x)];
-            put([pose.x, pose.y], Account { candidate, log_density: log_prior + seen.log_likelihood, heading });
+            put([pose.x, pose.y], Account { candidate, log_density: log_prior + seen.log_likelihood(), heading });
         }
     }
 
@@ -293,7 +293,7 @@ mod tests {
                 let pose = driven.apply(&step.from);
                 let prior = ops::exp(-0.5 * (a * a + b * b + c * c)) / (TAU * TAU.sqrt()) * spacing * spacing * spacing;
                 for (share, landmark) in shares.iter_mut().zip(&step.candidates) {
-                    let Innovation { log_likelihood, .. } = landmark.innovation(&step.sensor, &pose, &step.z);
+                    let log_likelihood = landmark.innovation(&step.sensor, &pose, &step.z).log_likelihood();
                     let p = prior * ops::exp(log_likelihood) / candidates.len() as f64;
                     let d = pose.minus(&origin);
                     *share += p;

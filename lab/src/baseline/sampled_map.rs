@@ -94,7 +94,7 @@ impl<D: Motion, Z: LandmarkSensor> Proposal<SampledMap> for WithMap<D, Z> {
             let Some(index) = *signature else { continue };
             let Some(mean) = particle.map.at_sight(index, stream) else { continue };
             let point = Landmark { mean, covariance: Matrix2::zeros(), existence_count: 1, apart: 0 };
-            log_increment += point.innovation(&self.sensor, &world_from_robot, z).log_likelihood;
+            log_increment += point.innovation(&self.sensor, &world_from_robot, z).log_likelihood();
             association.push((index, mean));
         }
         Proposed { world_from_robot, association, log_increment, trace: ProposalTrace::Motion }

@@ -98,12 +98,12 @@ impl WorkedExample {
             let innovation = before.innovation(&sensor, &world_from_robot, &z);
             let mut after = before;
             after.update(&sensor, &world_from_robot, &z);
-            let (weight, gain) = (ops::exp(innovation.log_likelihood), before.gain(&innovation));
+            let (weight, gain) = (ops::exp(innovation.log_likelihood()), before.gain(&innovation));
             let seen_at = sensor.locate(&world_from_robot, &z);
             Update { world_from_robot, z, seen_at, innovation, weight, gain, after }
         });
         let count = updates.len();
-        let (weights, _) = Weights::uniform(count).reweighted(&updates.map(|u| u.innovation.log_likelihood));
+        let (weights, _) = Weights::uniform(count).reweighted(&updates.map(|u| u.innovation.log_likelihood()));
         let ess = weights.ess();
         let resamples = ResamplePolicy::EssBelow(threshold).should_resample(ess, count);
         Self { before, noise: sensor.noise(), updates, weights, ess, limit: threshold * count as f64, resamples }

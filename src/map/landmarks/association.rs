@@ -187,7 +187,7 @@ impl Associated {
             taken.push(index);
             match belief.innovation(&features[k], index, None) {
                 Some(innovation) if innovation.is_regular() => {
-                    self.accept(k, index, innovation.log_likelihood);
+                    self.accept(k, index, innovation.log_likelihood());
                     belief.learn(index, &innovation);
                 }
                 Some(_) => self.associations[k] = Association::Matched(index),
@@ -211,7 +211,7 @@ impl Associated {
                 if !belief.learns() {
                     self.accept(*feature, *landmark, *log_likelihood);
                 } else if let Some(innovation) = gate.admits(belief, &features[*feature], *landmark) {
-                    self.accept(*feature, *landmark, innovation.log_likelihood);
+                    self.accept(*feature, *landmark, innovation.log_likelihood());
                     belief.learn(*landmark, &innovation);
                     taken.push(*landmark);
                     learnt = true;
@@ -240,7 +240,7 @@ impl Gate {
     fn admits(&self, belief: &dyn Belief, feature: &Feature, index: u32) -> Option<Innovation> {
         let innovation = belief.innovation(feature, index, Some(self.mahalanobis_squared))?;
         let within = innovation.mahalanobis_squared < self.mahalanobis_squared;
-        (innovation.is_regular() && within && innovation.log_likelihood > self.log_new).then_some(innovation)
+        (innovation.is_regular() && within && innovation.log_likelihood() > self.log_new).then_some(innovation)
     }
 }
 
@@ -250,7 +250,7 @@ fn candidates(gate: &Gate, features: &[Feature], left: &[usize], taken: &[u32], 
     for &feature in left {
         for landmark in (0..belief.index_bound()).filter(|index| !taken.contains(index)) {
             if let Some(innovation) = gate.admits(belief, &features[feature], landmark) {
-                let log_likelihood = innovation.log_likelihood;
+                let log_likelihood = innovation.log_likelihood();
                 candidates.push(Candidate { feature, landmark, gain: 0.0, log_likelihood });
             }
         }

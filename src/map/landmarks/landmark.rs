@@ -38,8 +38,6 @@ pub struct Innovation {
     pub covariance: Matrix2<f64>,
     /// S⁻¹.
     pub inverse: Matrix2<f64>,
-    /// ln N(ν; 0, S) \[nats\].
-    pub log_likelihood: f64,
     /// νᵀ S⁻¹ ν.
     pub mahalanobis_squared: f64,
 }
@@ -48,9 +46,7 @@ impl Innovation {
     fn new(prediction: Prediction, residual: Vector2<f64>, given_pose: Matrix2<f64>, covariance: Matrix2<f64>) -> Self {
         let inverse = inverse(&covariance);
         let mahalanobis_squared = residual.dot(&(inverse * residual));
-        let log_likelihood =
-            -0.5 * (mahalanobis_squared + ops::ln(determinant(&covariance))) - ops::ln(core::f64::consts::TAU);
-        Self { prediction, residual, given_pose, covariance, inverse, log_likelihood, mahalanobis_squared }
+        Self { prediction, residual, given_pose, covariance, inverse, mahalanobis_squared }
     }
 
     /// The same with the noise of the pose in it: S + H_x P H_xᵀ for a pose of covariance P (3 × 3).
@@ -58,6 +54,11 @@ impl Innovation {
         let h_x = &self.prediction.h_x;
         let covariance = symmetric(self.given_pose + h_x * pose_covariance * h_x.transpose());
         Self::new(self.prediction, self.residual, self.given_pose, covariance)
+    }
+
+    /// ln N(ν; 0, S) \[nats\].
+    pub fn log_likelihood(&self) -> f64 {
+        -0.5 * (self.mahalanobis_squared + ops::ln(self.determinant())) - ops::LN_TAU
     }
 
     /// det S.
@@ -86,7 +87,7 @@ impl Landmark {
         }
     }
 
-    /// ν = z − h(x, μ), S = H_m Σ H_mᵀ + Q: exp(`log_likelihood`) is the marginal ∫ p(z | x, m) p(m | path) dm of a sighting.
+    /// ν = z − h(x, μ), S = H_m Σ H_mᵀ + Q: exp([`Innovation::log_likelihood`]) is the marginal ∫ p(z | x, m) p(m | path) dm of a sighting.
     #[inline]
     pub fn innovation<Z: LandmarkSensor>(&self, sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) -> Innovation {
         self.innovation_with(sensor, world_from_robot, z, |_| Matrix2::zeros())
@@ -205,7 +206,7 @@ mod tests {
             assert!((innovation.determinant() - 0.0025).abs() < 1e-15);
             // Of the range what the map lacks, of the bearing 4 m of it.
             assert!((landmark.gain(&innovation) - Matrix2::new(0.84, 0.0, 0.0, 3.0)).norm() < 1e-14);
-            assert!((ops::exp(innovation.log_likelihood) - weight).abs() < 1e-9);
+            assert!((ops::exp(innovation.log_likelihood()) - weight).abs() < 1e-9);
         }
     }
 

@@ -80,7 +80,7 @@ impl Model for WorkedExampleModel {
             Readout::new(name, title, x, plain(x, DIGITS), "/(m rad)", help)
         };
         let log = |name, title, update: &Update| {
-            let (x, help) = (update.innovation.log_likelihood, worked_example::log_help());
+            let (x, help) = (update.innovation.log_likelihood(), worked_example::log_help());
             Readout::new(name, title, x, plain(x, DIGITS), "nats", help)
         };
         let share = |name, title, slot: usize| {
@@ -172,7 +172,7 @@ impl Model for WorkedExampleModel {
                 &[z.x, z.y, before.mean.x, before.mean.y, b.m11, b.m12, b.m22, q.m11, q.m22],
                 &[expected.x, expected.y, nu.x, nu.y, h.m11, h.m12, h.m21, h.m22],
                 &[s.m11, s.m12, s.m22, i.m11, i.m12, i.m22, innovation.determinant()],
-                &[innovation.mahalanobis_squared, innovation.log_likelihood, *weight],
+                &[innovation.mahalanobis_squared, innovation.log_likelihood(), *weight],
                 &[k.m11, k.m12, k.m21, k.m22, after.mean.x, after.mean.y, a.m11, a.m12, a.m22],
                 &[weights.as_slice()[slot], *ess, *limit, resampled],
             ]

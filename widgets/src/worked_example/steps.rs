@@ -175,7 +175,7 @@ pub const STEPS: &[Step] = &[
         caption: worked_example::log_weight,
         formula: "ln w = −½ (d^2 + ln |2πS|)",
         tall: false,
-        write: |to, e, slot| to.number(e.updates[slot].innovation.log_likelihood),
+        write: |to, e, slot| to.number(e.updates[slot].innovation.log_likelihood()),
     },
     WEIGHT,
     Step {
