@@ -20,6 +20,7 @@ pub mod ghost;
 pub mod graph;
 pub mod job;
 pub mod joint;
+pub mod kept;
 pub mod lap;
 pub mod log;
 pub mod marks;

@@ -8,6 +8,7 @@ use super::{
 use crate::{
     challenge::Challenge,
     ghost::{self, Curves},
+    kept::Kept,
     model::{Declared, FigureError, Model, Readout, Series},
     prediction::{Outcome, State},
     words::em,
@@ -66,6 +67,7 @@ pub struct EmModel {
     end: Option<(f64, f64)>,
     cloud: Cloud,
     others: Others,
+    kept: Kept<(Log, Cloud, Others)>,
     /// Of the run that is pinned: what never falls, by iterations.
     pinned: Curves,
 }
@@ -94,8 +96,8 @@ impl EmModel {
         let iterates = climb(&recipe, &log)?;
         let passes = Expectation::new(iterates[0].map.clone(), &log.ride)?;
         let (cloud, entropy) = (Cloud::new(&log)?, 0.0);
-        let (others, pinned, end) = Default::default();
-        let mut model = Self { recipe, log, iterates, passes, entropy, end, cloud, others, pinned };
+        let (others, kept, pinned, end) = Default::default();
+        let mut model = Self { recipe, log, iterates, passes, entropy, end, cloud, others, kept, pinned };
         model.localise()?;
         Ok(model)
     }
@@ -246,9 +248,24 @@ impl Declared for EmModel {
 
     fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
         if recipe.log() != *self.log.setup() {
-            let pinned = core::mem::take(&mut self.pinned);
-            *self = Self { pinned, ..Self::new(recipe)? };
-            return Ok(());
+            let finished = self.pending() == 0;
+            let (log, cloud, others) = match self.kept.take(|(log, ..)| *log.setup() == recipe.log()) {
+                Some(kept) => kept,
+                None => {
+                    let log = Log::new(&recipe.log())?;
+                    let cloud = Cloud::new(&log)?;
+                    (log, cloud, Others::default())
+                }
+            };
+            self.iterates = climb(&recipe, &log)?;
+            let log = core::mem::replace(&mut self.log, log);
+            let before =
+                (log, core::mem::replace(&mut self.cloud, cloud), core::mem::replace(&mut self.others, others));
+            if finished {
+                self.kept.put(before);
+            }
+            self.recipe = recipe;
+            return self.localise();
         }
         let other = recipe.guess() != self.recipe.guess() || recipe.iterations != self.recipe.iterations;
         if other {

@@ -8,6 +8,7 @@ use super::{
 use crate::{
     challenge::Challenge,
     ghost::{self, Curves},
+    kept::Kept,
     model::{Change, Declared, FigureError, Model, Readout, Series},
     prediction::{Outcome, State},
     words::graph,
@@ -31,6 +32,7 @@ pub struct GraphModel {
     shown: GraphLap,
     /// What was asked for since.
     next: Option<GraphLap>,
+    kept: Kept<GraphLap>,
     /// The scans at the poses of the iteration shown, and which that is.
     map: (u32, Grid),
     /// Of the run that is pinned: the error of each iteration \[m\].
@@ -42,7 +44,7 @@ impl Default for GraphModel {
         let recipe = Recipe::default();
         let shown = begin(&recipe.setup());
         let map = (0, shown.build().drawn(&shown.frames()[0].poses));
-        Self { recipe, shown, next: None, map, pinned: Curves::new() }
+        Self { recipe, shown, next: None, kept: Kept::default(), map, pinned: Curves::new() }
     }
 }
 
@@ -141,6 +143,15 @@ impl GraphModel {
         if self.hides() { &[] } else { ghost::curve(&self.pinned, 0) }
     }
 
+    /// Shows another run; the one before is kept, if there was anything to be seen of it.
+    fn show(&mut self, run: GraphLap) {
+        let before = core::mem::replace(&mut self.shown, run);
+        if before.is_solved() {
+            self.kept.put(before);
+        }
+        self.place(true);
+    }
+
     /// Maps the scans anew if other poses are shown.
     fn place(&mut self, anew: bool) {
         let step = self.step();
@@ -169,7 +180,10 @@ impl Declared for GraphModel {
         if setup != *self.next.as_ref().unwrap_or(&self.shown).setup() {
             // Of the same log, whichever is further: a graph that is not tied together yet need not be begun again.
             let nearest = self.next.as_ref().filter(|next| next.setup().lap == setup.lap).unwrap_or(&self.shown);
-            self.next = if setup == *self.shown.setup() { None } else { Some(nearest.asked(&setup)?) };
+            let kept = self.kept.take(|run| *run.setup() == setup);
+            let begins = kept.is_none() && setup != *self.shown.setup();
+            self.next = if begins { Some(nearest.asked(&setup)?) } else { None };
+            kept.into_iter().for_each(|kept| self.show(kept));
         }
         self.recipe = recipe;
         self.place(false);
@@ -213,8 +227,7 @@ impl Model for GraphModel {
         let solved = self.shown.is_solved();
         advance(self.next.as_mut().unwrap_or(&mut self.shown));
         if let Some(next) = self.next.take_if(|next| next.is_solved()) {
-            self.shown = next;
-            self.place(true);
+            self.show(next);
         } else if !solved && self.shown.is_solved() {
             self.place(true);
         }

@@ -4,6 +4,7 @@ use super::{challenges, recipe::Recipe};
 use crate::challenge::Challenge;
 use crate::decimal::{fixed, write};
 use crate::ghost::Curves;
+use crate::kept::Kept;
 use crate::model::{Column, Declared, FigureError, Model, Readout, Series};
 use crate::prediction::{Outcome, State, off_by};
 use crate::words::{common, joint};
@@ -16,6 +17,7 @@ pub struct JointModel {
     shown: JointMap,
     /// What was asked for since.
     next: Option<JointMap>,
+    kept: Kept<JointMap>,
     /// Of the run that is pinned: N_eff of both filters, by landmarks from none on.
     pinned: Curves,
 }
@@ -23,7 +25,7 @@ pub struct JointModel {
 impl Default for JointModel {
     fn default() -> Self {
         let recipe = Recipe::default();
-        Self { shown: begin(&recipe.setup), recipe, next: None, pinned: Curves::new() }
+        Self { shown: begin(&recipe.setup), recipe, next: None, kept: Kept::default(), pinned: Curves::new() }
     }
 }
 
@@ -77,6 +79,14 @@ impl JointModel {
     /// Standard deviation of the estimate of the first landmark over the repeats \[m\].
     pub fn spread(&self, filter: usize) -> f64 {
         self.shown.variance(filter, self.landmarks()).sqrt()
+    }
+
+    /// Shows another run; the one before is kept, if there was anything to be seen of it.
+    fn show(&mut self, run: JointMap) {
+        let before = core::mem::replace(&mut self.shown, run);
+        if !before.repeats().is_empty() {
+            self.kept.put(before);
+        }
     }
 
     /// How far the reader's prediction is.
@@ -182,7 +192,12 @@ impl Declared for JointModel {
     fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
         let asked = self.next.as_ref().unwrap_or(&self.shown).setup();
         if recipe.setup != *asked {
-            self.next = (recipe.setup != *self.shown.setup()).then(|| begin(&recipe.setup));
+            self.next = None;
+            if let Some(kept) = self.kept.take(|run| *run.setup() == recipe.setup) {
+                self.show(kept);
+            } else if recipe.setup != *self.shown.setup() {
+                self.next = Some(begin(&recipe.setup));
+            }
         }
         self.recipe = recipe;
         Ok(())
@@ -198,7 +213,7 @@ impl Model for JointModel {
         let done = self.next.as_mut().unwrap_or(&mut self.shown).advance();
         done.unwrap_or_else(|error| unreachable!("it has begun: {error}"));
         if let Some(next) = self.next.take_if(|next| !next.repeats().is_empty()) {
-            self.shown = next;
+            self.show(next);
         }
     }
 

@@ -4,8 +4,10 @@ use super::{challenges, drive::Hand, recipe::Recipe};
 use crate::challenge::Challenge;
 use crate::decimal::fixed;
 use crate::ghost::{self, Curves};
+use crate::kept::Kept;
 use crate::model::{Change, Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text};
 use crate::words::{common, lap};
+use core::mem::replace;
 use fastslam::{genealogy::Path, geometry::Pose2, resampling::ResamplePolicy};
 use fastslam_lab::experiment::lap::{Lap, LapSetup, StepReport};
 use fastslam_lab::experiment::ring::{AFTER, deviation, died};
@@ -18,6 +20,35 @@ const KEPT: u32 = 2048;
 
 /// How fast the closing of the loop is played, of the usual speed.
 const SLOW: f64 = 0.25;
+
+/// Most universes that the keyframes of a run keep that is shown no more.
+const KEPT_ASIDE: usize = 256;
+
+/// A lap in a setting, as far as it was simulated.
+struct Run {
+    setup: LapSetup,
+    /// The step shown.
+    shown: Lap,
+    keyframes: Vec<Lap>,
+    reports: Vec<StepReport>,
+    dead: Vec<Vec<Path>>,
+}
+
+impl Run {
+    fn new(setup: &LapSetup) -> Result<Self, FigureError> {
+        let lap = Lap::new(setup)?;
+        let (keyframes, reports, dead) = (vec![lap.clone()], vec![lap.report().clone()], vec![Vec::new()]);
+        Ok(Self { setup: setup.clone(), shown: lap, keyframes, reports, dead })
+    }
+
+    /// With no more keyframes than are kept of a run that is put aside; the first is always.
+    fn thinned(mut self) -> Self {
+        let kept = (KEPT_ASIDE / self.setup.particles).max(1);
+        let every = self.keyframes.len().div_ceil(kept);
+        self.keyframes = self.keyframes.into_iter().step_by(every).collect();
+        self
+    }
+}
 
 /// Figure w17.1.
 pub struct LapModel {
@@ -32,6 +63,7 @@ pub struct LapModel {
     reports: Vec<StepReport>,
     /// The paths that each of these steps ended, up to the step before it.
     dead: Vec<Vec<Path>>,
+    kept: Kept<Run>,
     /// The step at which the loop of the course closes.
     closing: Option<u32>,
     /// Whether all were shown at once before one was chosen.
@@ -43,11 +75,10 @@ pub struct LapModel {
 impl Default for LapModel {
     fn default() -> Self {
         let recipe = Recipe::default();
-        let lap = Lap::new(&recipe.setup).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
-        let closing = recipe.setup.course.closing();
-        let (keyframes, reports) = (vec![lap.clone()], vec![lap.report().clone()]);
-        let (dead, pinned) = (vec![Vec::new()], Curves::new());
-        Self { recipe, hand: None, keyframes, reports, dead, closing, shown: lap, overlaid_before: true, pinned }
+        let run = Run::new(&recipe.setup).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
+        let Run { shown, keyframes, reports, dead, .. } = run;
+        let (closing, kept, pinned) = (recipe.setup.course.closing(), Kept::default(), Curves::new());
+        Self { recipe, hand: None, keyframes, reports, dead, kept, closing, shown, overlaid_before: true, pinned }
     }
 }
 
@@ -216,14 +247,24 @@ impl Declared for LapModel {
                 self.steer(&recipe.setup);
             }
         } else {
-            let lap = Lap::new(&recipe.setup)?;
-            self.keyframes = vec![lap.clone()];
-            self.reports = vec![lap.report().clone()];
-            self.dead = vec![Vec::new()];
+            let run = match self.kept.take(|run| run.setup == recipe.setup) {
+                Some(kept) => kept,
+                None => Run::new(&recipe.setup)?,
+            };
+            let finished = self.pending() == 0 && self.step() > 0;
+            let before = Run {
+                setup: self.recipe.setup.clone(),
+                shown: replace(&mut self.shown, run.shown),
+                keyframes: replace(&mut self.keyframes, run.keyframes),
+                reports: replace(&mut self.reports, run.reports),
+                dead: replace(&mut self.dead, run.dead),
+            };
+            if finished {
+                self.kept.put(before.thinned());
+            }
             if recipe.setup.course != self.recipe.setup.course {
                 self.closing = recipe.setup.course.closing();
             }
-            self.shown = lap;
         }
         self.recipe = recipe;
         self.seek(self.recipe.step);

@@ -4,6 +4,7 @@ use super::{challenges, recipe::Recipe, stroke, told};
 use crate::challenge::Challenge;
 use crate::decimal::{fixed, write};
 use crate::ghost::{self, Curves};
+use crate::kept::Kept;
 use crate::model::{Change, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text};
 use crate::names;
 use crate::prediction::{Outcome, State, off_by};
@@ -19,6 +20,7 @@ pub struct ResamplingModel {
     /// Of every step simulated so far, from 0 on, one for each policy: any of them can be shown, and whoever died out since,
     /// whom the filters forget.
     moments: Vec<[Moment; 3]>,
+    kept: Kept<(Policies, Vec<[Moment; 3]>)>,
     /// Of the run that is pinned: N_eff, ancestors at the start \[shares of its particles\] and errors of the best \[m\] of each policy in turn.
     pinned: Curves,
 }
@@ -41,7 +43,7 @@ impl Default for ResamplingModel {
         let recipe = Recipe::default();
         let run = Policies::new(&recipe.setup()).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
         let moments = vec![moments(&run, None)];
-        Self { recipe, run, moments, pinned: Curves::new() }
+        Self { recipe, run, moments, kept: Kept::default(), pinned: Curves::new() }
     }
 }
 
@@ -230,8 +232,19 @@ impl Declared for ResamplingModel {
     fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
         let setup = recipe.setup();
         if setup != *self.setup() {
-            self.run = Policies::new(&setup)?;
-            self.moments = vec![moments(&self.run, None)];
+            let finished = self.pending() == 0 && self.run.step_number() > 0;
+            let (run, moments) = match self.kept.take(|(run, _)| *run.setup() == setup) {
+                Some(kept) => kept,
+                None => {
+                    let run = Policies::new(&setup)?;
+                    let moments = vec![moments(&run, None)];
+                    (run, moments)
+                }
+            };
+            let before = (core::mem::replace(&mut self.run, run), core::mem::replace(&mut self.moments, moments));
+            if finished {
+                self.kept.put(before);
+            }
         }
         self.recipe = recipe;
         Ok(())

@@ -4,6 +4,7 @@ use super::{challenges, recipe::Recipe, told};
 use crate::{
     challenge::Challenge,
     ghost::Curves,
+    kept::Kept,
     model::{Change, Declared, FigureError, Model, Readout, Series},
     prediction::{Outcome, State},
     words::smoothing as words,
@@ -30,6 +31,7 @@ pub struct SmoothingModel {
     shown: Smoothing,
     /// What was asked for since.
     next: Option<Smoothing>,
+    kept: Kept<Smoothing>,
     /// Of the run that is pinned: different poses and errors of record and draws, step by step.
     pinned: Curves,
 }
@@ -37,7 +39,7 @@ pub struct SmoothingModel {
 impl Default for SmoothingModel {
     fn default() -> Self {
         let recipe = Recipe::default();
-        Self { shown: begin(&recipe.setup), recipe, next: None, pinned: Curves::new() }
+        Self { shown: begin(&recipe.setup), recipe, next: None, kept: Kept::default(), pinned: Curves::new() }
     }
 }
 
@@ -64,6 +66,14 @@ impl SmoothingModel {
     /// How many sweeps are needed: those that are looked at, or where a prediction is judged, all.
     fn wanted(&self) -> u32 {
         if self.recipe.prediction.predict { MOST } else { self.recipe.step }
+    }
+
+    /// Shows another run; the one before is kept, if there was anything to be seen of it.
+    fn show(&mut self, run: Smoothing) {
+        let before = core::mem::replace(&mut self.shown, run);
+        if !before.draws().is_empty() {
+            self.kept.put(before);
+        }
     }
 
     /// How far the reader's prediction is.
@@ -150,7 +160,12 @@ impl Declared for SmoothingModel {
     fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
         let asked = self.next.as_ref().unwrap_or(&self.shown).setup();
         if recipe.setup != *asked {
-            self.next = (recipe.setup != *self.shown.setup()).then(|| begin(&recipe.setup));
+            self.next = None;
+            if let Some(kept) = self.kept.take(|run| *run.setup() == recipe.setup) {
+                self.show(kept);
+            } else if recipe.setup != *self.shown.setup() {
+                self.next = Some(begin(&recipe.setup));
+            }
         }
         self.recipe = recipe;
         Ok(())
@@ -185,7 +200,7 @@ impl Model for SmoothingModel {
         let asked = self.wanted().min(1) as usize;
         let begun = |next: &mut Smoothing| next.record().is_some() && next.draws().len() >= asked;
         if let Some(next) = self.next.take_if(begun) {
-            self.shown = next;
+            self.show(next);
         }
     }
 

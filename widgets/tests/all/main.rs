@@ -11,6 +11,7 @@ mod em;
 mod figures;
 mod graph;
 mod joint;
+mod kept;
 mod lap;
 mod led;
 mod log;
