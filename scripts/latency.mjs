@@ -1,31 +1,32 @@
-// How long a reader waits: from one event of a slider, at the last step, until the figure shows that step by the new value. Part of `npm run
-// bench`; by itself, of the pages as they were built last: node scripts/latency.mjs
+// How long a reader waits: from one event of a slider, at the last step, until the picture differs (by then it is what the controls tell, if
+// not yet of all repeats), until all is computed that belongs to it, and back at the value before. Each event sets a value that was not there
+// yet. Part of `npm run bench`; by itself, of the pages as they were built last: node scripts/latency.mjs
 import { join } from 'node:path'
 import { launchChromium } from './browser.mjs'
 import { dist } from './build.mjs'
 import { isMain, main, root, say } from './lib.mjs'
 import { startServer } from './serve.mjs'
 
-/** @typedef {{ what: string, tag: string, attributes: Record<string, string>, slider: string, values: [string, string], atMost: number, file?: string }} Drag */
+/** @typedef {{ what: string, tag: string, attributes: Record<string, string>, slider: string, from: number, by: number, atMost: number, file?: string }} Drag */
 
-/** Of each figure the slider that changes most of it; `values` are moved between, and `atMost` is in ms. @type {Drag[]} */
+/** Of each figure the slider that changes most of it; it is moved `from` a value by as much each time, and `atMost` is in ms. @type {Drag[]} */
 const DRAGS = [
-  { what: 'lap, M = 16', tag: 'fastslam-lap', attributes: { course: 'apartment', 'range-std': '0.02', overlay: 'off', universes: '16', step: '90' }, slider: 'odometry', values: ['1.05', '1'], atMost: 150 },
-  { what: 'lap, M = 64', tag: 'fastslam-lap', attributes: { course: 'apartment', 'range-std': '0.02', overlay: 'off', universes: '64', step: '90' }, slider: 'odometry', values: ['1.05', '1'], atMost: 600 },
-  { what: 'resampling, M = 64', tag: 'fastslam-resampling', attributes: { particles: '64', step: '90' }, slider: 'odometry', values: ['1.05', '1'], atMost: 1500 },
-  { what: 'proposals', tag: 'fastslam-proposal', attributes: {}, slider: 'range-std', values: ['0.15', '0.1'], atMost: 32 },
-  { what: 'graphical model', tag: 'fastslam-conditioning', attributes: { step: '999' }, slider: 'odometry', values: ['1.05', '1'], atMost: 32 },
-  { what: 'worked example', tag: 'fastslam-worked-example', attributes: {}, slider: 'range-std', values: ['0.15', '0.1'], atMost: 32 },
-  { what: 'doors', tag: 'fastslam-doors', attributes: {}, slider: 'ride', values: ['4.5', '4'], atMost: 32 },
-  { what: 'sampled map, N', tag: 'fastslam-joint', attributes: {}, slider: 'landmarks', values: ['9', '10'], atMost: 32 },
-  { what: 'sampled map, sensor', tag: 'fastslam-joint', attributes: {}, slider: 'sensor', values: ['1.05', '1'], atMost: 32 },
-  { what: 'pose graph, another false edge', tag: 'fastslam-graph', attributes: { wrong: 'on', step: '60' }, slider: 'wrong-to', values: ['53', '52'], atMost: 150 },
-  { what: 'pose graph, wheels', tag: 'fastslam-graph', attributes: { step: '60' }, slider: 'odometry', values: ['0.55', '0.5'], atMost: 1500 },
-  { what: 'EM mapping', tag: 'fastslam-em', attributes: {}, slider: 'odometry', values: ['0.06', '0.05'], atMost: 150 },
-  { what: 'smoothing, step looked at', tag: 'fastslam-smoothing', attributes: {}, slider: 'at', values: ['13', '12'], atMost: 32 },
-  { what: 'smoothing, M = 16', tag: 'fastslam-smoothing', attributes: {}, slider: 'odometry', values: ['1.05', '1'], atMost: 600 },
-  { what: 'universes', tag: 'fastslam-universes', attributes: {}, slider: 'threshold', values: ['0.3', '0.4'], atMost: 32 },
-  { what: 'log, before it is mapped', tag: 'fastslam-log', attributes: {}, slider: 'universes', values: ['20', '16'], atMost: 32, file: join(root, 'www', 'public', 'example.clf.gz') },
+  { what: 'lap, M = 16', tag: 'fastslam-lap', attributes: { course: 'apartment', 'range-std': '0.02', overlay: 'off', universes: '16', step: '90' }, slider: 'odometry', from: 1, by: 0.05, atMost: 100 },
+  { what: 'lap, M = 64', tag: 'fastslam-lap', attributes: { course: 'apartment', 'range-std': '0.02', overlay: 'off', universes: '64', step: '90' }, slider: 'odometry', from: 1, by: 0.05, atMost: 400 },
+  { what: 'resampling, M = 64', tag: 'fastslam-resampling', attributes: { particles: '64', step: '90' }, slider: 'odometry', from: 1, by: 0.05, atMost: 1000 },
+  { what: 'proposals', tag: 'fastslam-proposal', attributes: {}, slider: 'range-std', from: 0.1, by: 0.01, atMost: 32 },
+  { what: 'graphical model', tag: 'fastslam-conditioning', attributes: { step: '999' }, slider: 'odometry', from: 1, by: 0.05, atMost: 32 },
+  { what: 'worked example', tag: 'fastslam-worked-example', attributes: {}, slider: 'range-std', from: 0.1, by: 0.01, atMost: 32 },
+  { what: 'doors', tag: 'fastslam-doors', attributes: {}, slider: 'ride', from: 4, by: 0.1, atMost: 32 },
+  { what: 'sampled map, N', tag: 'fastslam-joint', attributes: {}, slider: 'landmarks', from: 4, by: 1, atMost: 32 },
+  { what: 'sampled map, sensor', tag: 'fastslam-joint', attributes: {}, slider: 'sensor', from: 1, by: 0.05, atMost: 150 },
+  { what: 'pose graph, another false edge', tag: 'fastslam-graph', attributes: { wrong: 'on', step: '60' }, slider: 'wrong-to', from: 52, by: -1, atMost: 150 },
+  { what: 'pose graph, wheels', tag: 'fastslam-graph', attributes: { step: '60' }, slider: 'odometry', from: 0.5, by: 0.01, atMost: 200 },
+  { what: 'EM mapping', tag: 'fastslam-em', attributes: {}, slider: 'odometry', from: 0.05, by: 0.002, atMost: 150 },
+  { what: 'smoothing, step looked at', tag: 'fastslam-smoothing', attributes: {}, slider: 'at', from: 12, by: 1, atMost: 32 },
+  { what: 'smoothing, M = 16', tag: 'fastslam-smoothing', attributes: {}, slider: 'odometry', from: 1, by: 0.05, atMost: 200 },
+  { what: 'universes', tag: 'fastslam-universes', attributes: {}, slider: 'threshold', from: 0.4, by: 0.01, atMost: 32 },
+  { what: 'log, before it is mapped', tag: 'fastslam-log', attributes: {}, slider: 'universes', from: 16, by: 1, atMost: 32, file: join(root, 'www', 'public', 'example.clf.gz') },
 ]
 const WIDTH = 1366
 const HEIGHT = 650
@@ -41,8 +42,11 @@ async function show({ tag, attributes }) {
   document.body.replaceChildren(figure)
 }
 
-/** Runs in the page: the times of all events [ms]. @param {Drag & { events: number }} drag */
-async function timeDrag({ slider, values, events }) {
+/**
+ * Runs in the page: the times of all events [ms]. @param {Drag & { events: number }} drag
+ * @returns {Promise<{ first: number[], settled: number[], back: number, longest: number }>} `longest` task of the page, of over 50 ms; else 0
+ */
+async function timeDrag({ slider, from, by, events }) {
   const figure = /** @type {any} */ (document.body.firstElementChild)
   // A parameter without a slider has a box alone.
   const find = (/** @type {string} */ type) => figure.shadowRoot.querySelector(`input${type}[name=${slider}]`)
@@ -50,20 +54,45 @@ async function timeDrag({ slider, values, events }) {
   const range = /** @type {HTMLInputElement} */ (find('[type=range]') ?? find(''))
   const moves = range.type === 'range' ? 'input' : 'change'
   await figure.settled()
-  const times = []
-  for (let event = -2; event < events; event++) {
-    const settled = new Promise(done => figure.addEventListener('fastslam-change', done, { once: true }))
-    range.value = /** @type {string} */ (values[event & 1])
-    const from = performance.now()
-    range.dispatchEvent(new Event(moves, { bubbles: true, composed: true }))
-    await settled
-    if (event >= 0) times.push(performance.now() - from)
-    await figure.settled()
+  const tasks = [0]
+  new PerformanceObserver(list => tasks.push(...list.getEntries().map(({ duration }) => duration))).observe({ type: 'longtask' })
+  // The picture, small: enough to tell whether it is another.
+  const small = new OffscreenCanvas(96, 64).getContext('2d', { willReadFrequently: true })
+  const look = () => {
+    small?.drawImage(figure.shadowRoot.querySelector('[part=canvas]'), 0, 0, 96, 64)
+    return small?.getImageData(0, 0, 96, 64).data.join()
   }
+  const move = async (/** @type {number} */ value) => {
+    const before = look()
+    let first = NaN
+    const started = performance.now()
+    const settled = new Promise(done => figure.addEventListener('fastslam-change', () => done(performance.now() - started), { once: true }))
+    const watch = () => {
+      const now = performance.now()
+      if (look() !== before) first = now - started
+      else requestAnimationFrame(watch)
+    }
+    range.value = String(value)
+    range.dispatchEvent(new Event(moves, { bubbles: true, composed: true }))
+    requestAnimationFrame(watch)
+    const time = await settled
+    await figure.settled()
+    await new Promise(requestAnimationFrame)
+    return { first: Number.isNaN(first) ? time : Math.min(first, time), settled: time }
+  }
+  const times = { first: /** @type {number[]} */ ([]), settled: /** @type {number[]} */ ([]), back: NaN, longest: 0 }
+  for (let event = -2; event < events; event++) {
+    const { first, settled } = await move(from + (event + 3) * by)
+    if (event < 0) continue
+    times.first.push(first)
+    times.settled.push(settled)
+  }
+  times.back = (await move(from + (events + 1) * by)).settled
+  times.longest = Math.max(...tasks)
   return times
 }
 
-/** The median and the worst of each [ms]. */
+/** The medians, the worst, and the way back of each [ms]. */
 export async function latencies() {
   const server = await startServer({ folder: dist })
   const browser = await launchChromium()
@@ -75,8 +104,9 @@ export async function latencies() {
       await page.goto(`${server.url}bench`)
       await page.evaluate(show, drag)
       if (drag.file) await page.locator('input[type=file]').setInputFiles(drag.file)
-      const times = (await page.evaluate(timeDrag, { ...drag, events: EVENTS })).sort((a, b) => a - b)
-      found.push({ what: drag.what, atMost: drag.atMost, median: times[times.length >> 1] ?? NaN, worst: times[times.length - 1] ?? NaN })
+      const { first, settled, back, longest } = await page.evaluate(timeDrag, { ...drag, events: EVENTS })
+      const median = (/** @type {number[]} */ times) => times.sort((a, b) => a - b)[times.length >> 1] ?? NaN
+      found.push({ what: drag.what, atMost: drag.atMost, first: median(first), median: median(settled), worst: Math.max(...settled), back, longest })
     }
     return found
   } finally {
@@ -87,7 +117,9 @@ export async function latencies() {
 
 if (isMain(import.meta)) {
   await main(async () => {
-    for (const { what, atMost, median, worst } of await latencies())
-      say(`  ${median.toFixed(0).padStart(6)} ms, at the worst ${worst.toFixed(0)} ms, of ${atMost} ms: ${what}`)
+    for (const { what, atMost, first, median, worst, back, longest } of await latencies()) {
+      const [another, settled, most, again] = [first, median, worst, back].map(time => time.toFixed(0).padStart(5))
+      say(`  ${another} ms to another picture, ${settled} ms until it is settled (at the worst ${most}, of ${atMost}), ${again} ms back${longest > 0 ? `, a task of ${longest.toFixed(0)} ms` : ''}: ${what}`)
+    }
   })
 }

@@ -40,7 +40,7 @@ export function figure(context, state, node) {
   context.figure = undefined
   // Beside the title it is folded to its picture and plays by itself: from a step to a step, and then rests at one (www/src/hero.ts).
   const hero = attribute(node, 'hero')
-  return h(hero ? 'figure.hero' : 'figure.wide', { id, dataPlays: hero }, [
+  return h(hero ? 'figure.hero' : 'figure.wide', { id, dataPlays: hero, dataFolds: hero && Object.keys(folded).join(' ') }, [
     h(tag || 'div', { ...latest, ...(hero && folded), ...Object.fromEntries(passed) }, [
       h('picture', [
         // Paper is light.

@@ -6,9 +6,6 @@ import { reducedMotion } from '../../widgets/elements/theme'
 
 const TIMES = 2
 
-/** What the page gives it that leaves out the rest of it. */
-const FOLDS = ['show', 'controls', 'chips', 'fit']
-
 const hero = document.querySelector<HTMLElement>('.hero')
 if (hero) tell(hero, hero.querySelector<FigureElement & HTMLElement>('fastslam-lap')!)
 
@@ -21,7 +18,8 @@ function tell(hero: HTMLElement, figure: FigureElement): void {
   const open = () => {
     story.abort()
     folded.abort()
-    for (const name of FOLDS) figure.removeAttribute(name)
+    // What leaves out the rest of it (scripts/chapter/figure.mjs).
+    for (const name of hero.dataset['folds']!.split(' ')) figure.removeAttribute(name)
     hero.classList.replace('hero', 'wide')
     unfolds.remove()
   }
