@@ -107,6 +107,17 @@ test('a solution unfolds below its exercise, and links lead to what is in it her
   await expect(page.locator('#eq-depletion')).toBeInViewport()
 })
 
+test('an old link to a place that is in a solution now unfolds it and goes there, on arrival and on the page', async ({ page }) => {
+  await page.goto('./#eq-depletion')
+  await expect(page.locator('#ex-depletion #eq-depletion')).toBeInViewport()
+  await page.evaluate(() => void (location.hash = '#tab-doors'))
+  await expect(page.locator('.solution[open] #tab-doors')).toBeInViewport()
+  // Of a place that is nowhere nothing unfolds.
+  await page.goto('./?again#nowhere')
+  await page.waitForLoadState('networkidle')
+  expect(await page.locator('details.elsewhere[open]').count()).toBe(0)
+})
+
 test('where the questions cannot be fetched, a link leads to their page, and another try may find them', async ({ page, complaints }) => {
   await page.goto('./')
   await page.route('**/practice.html', route => route.abort())

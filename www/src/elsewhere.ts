@@ -51,8 +51,28 @@ const loads = [...document.querySelectorAll<HTMLDetailsElement>('details.elsewhe
   // Where it fails the link is still there, and the next time may be a better one.
   const load = () => (filling ??= fill(details.querySelector('.fold')!).catch(() => void (filling = undefined)))
   details.addEventListener('toggle', () => void (details.open && load()))
-  return load
+  return { details, load }
 })
 
+/** Leads on whoever followed an old link: its place was on this page, and is in a fold now that is fetched. */
+async function arrive(): Promise<void> {
+  const id = location.hash.slice(1)
+  if (!id || id.includes('?') || document.getElementById(id)) return
+  for (const { details, load } of loads) {
+    const link = details.querySelector<HTMLAnchorElement>('.fold > p:only-child > a:only-child')
+    const page = link && (await fetched(link.href.replace(/#.*/, '')))
+    if (!page?.getElementById(link!.hash.slice(1))?.parentElement?.contains(page.getElementById(id))) continue
+    details.open = true
+    await load()
+    // Goes there as to any place, and unfolds what it stands in.
+    if (location.hash.slice(1) === id) location.replace(location.hash)
+    return
+  }
+}
 const nothing = () => {}
-takeToPaper({ load: () => Promise.all(loads.map(load => load())).then(nothing), toPaper: nothing, offPaper: nothing }, new AbortController().signal)
+// Where nothing can be fetched the page stays at its beginning, with links to the others.
+const lead = () => void arrive().catch(nothing)
+
+takeToPaper({ load: () => Promise.all(loads.map(({ load }) => load())).then(nothing), toPaper: nothing, offPaper: nothing }, new AbortController().signal)
+lead()
+addEventListener('hashchange', lead)
