@@ -9,6 +9,8 @@ import { setUp } from './setup.mjs'
 
 const www = join(root, 'www')
 const file = join(www, 'data', 'numbers.json')
+/** Of recorded logs, by scripts/recorded.mjs. */
+const logs = join(www, 'data', 'logs.json')
 
 /** Keys that the Markdown of the pages names, and those that their lap table reads. @param {Record<string, { value: number }>} numbers */
 function usedIn(numbers) {
@@ -32,7 +34,8 @@ function leaveOutUnused() {
   const keyOf = (/** @type {string} */ line) => /^"([^"]+)":/.exec(line)?.[1]
   const kept = lines.filter(line => used.has(keyOf(line) ?? ''))
   writeFileSync(file, `{\n${kept.map(line => line.replace(/,$/, '')).join(',\n')}\n}\n`)
-  const missing = [...used].filter(key => !(key in numbers))
+  const ofLogs = JSON.parse(readFileSync(logs, 'utf8'))
+  const missing = [...used].filter(key => !(key in numbers || key in ofLogs))
   const out = Object.keys(numbers).length - kept.length
   if (missing.length > 0) throw new StepError(`The prose uses numbers that are not there: ${missing.join(', ')}.`, 'npm run numbers -- --only KEY measures one that src/experiment/numbers knows.')
   return `${kept.length} numbers kept, ${out} that no page uses left out`

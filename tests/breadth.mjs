@@ -39,6 +39,7 @@ export const units = [
   { name: 'laws-others', seconds: 200, command: ignored('--test all', '--skip mapper:: --skip ring:: --skip turned::') },
   { name: 'laws-lab', seconds: 200, command: ignored('--lib') },
   { name: 'logs', seconds: 200, command: ignored('--test command_line') },
+  { name: 'logs-numbers', seconds: 120, command: 'cargo build --workspace --profile test --bin fastslam && node --test --test-reporter=tap tests/readme/recorded.test.mjs' },
   { name: 'wasm-numbers', seconds: 150, command: 'node scripts/wasm-tests.mjs --include-ignored by_all_their_seeds' },
 
   // Deliberate faults, by the first figure of their names: filters, landmarks and fits, logs and laboratory, figures, boundary and

@@ -62,8 +62,10 @@ export async function renderChapter(root) {
 
   const glossaryFile = join(www, 'glossary.md')
   files.push(glossaryFile)
-  const [numbersFile, worksFile] = [join(www, 'data', 'numbers.json'), join(www, 'references.json')]
-  const numbers = new Numbers(json(numbersFile, {}))
+  const [numbersFile, logsFile, worksFile] = [join(www, 'data', 'numbers.json'), join(www, 'data', 'logs.json'), join(www, 'references.json')]
+  // Numbers of recorded logs are kept apart: only who has the logs can measure them again.
+  const ofLogs = json(logsFile, {})
+  const numbers = new Numbers({ ...json(numbersFile, {}), ...ofLogs })
   const citations = new Citations(json(worksFile, []))
   const glossary = new Glossary(existsSync(glossaryFile) ? read(glossaryFile) : parse(name(glossaryFile), '', problems), problems)
   const sources = await new Sources(root).open()
@@ -94,7 +96,10 @@ export async function renderChapter(root) {
   }
 
   // A number, a work or a term that nobody uses was forgotten, by the text or in its list.
-  for (const key of numbers.unused()) problems.add(name(numbersFile), lineWith(numbersFile, `"${key}"`), `no page uses the number ${key}`)
+  for (const key of numbers.unused()) {
+    const file = key in ofLogs ? logsFile : numbersFile
+    problems.add(name(file), lineWith(file, `"${key}"`), `no page uses the number ${key}`)
+  }
   for (const key of citations.unused()) problems.add(name(worksFile), lineWith(worksFile, `"${key}"`), `nobody cites ${key}`)
   for (const [key, { line }] of glossary.unused()) problems.add(glossary.file, line, `nobody uses the term ${key}`)
   problems.throwIfAny()

@@ -51,3 +51,14 @@ export function figure(context, state, node) {
     h('figcaption', caption, h('p.address', `Live: #${id}`)),
   ])
 }
+
+/** `:::picture{#fig-x src="x.png" alt="…"}`: a still picture of www/data, for what cannot be run on the page. @type {import('./context.mjs').Handler} */
+export function picture(context, state, node) {
+  const { file, problems, root } = context
+  const [src, alt] = [attribute(node, 'src') ?? '', attribute(node, 'alt')]
+  const path = join(root, 'www', 'data', src)
+  if (!alt) problems.add(file, node, ':::picture has no alt: say in words what it shows')
+  if (!src || !existsSync(path)) problems.add(file, node, `there is no picture www/data/${src}`)
+  const size = src && existsSync(path) ? sizeOf(readFileSync(path)) : {}
+  return h('figure.wide', { id: idOf(node) }, h('img', { src: `./data/${src}`, ...size, loading: 'lazy', alt }), h('figcaption', captioned(context, node, content(state, node.children))))
+}

@@ -7,7 +7,7 @@ import { choice, count, reach, takeaway, unfold } from './checks.mjs'
 import { citation } from './citation.mjs'
 import { heading } from './contents.mjs'
 import { inline } from './context.mjs'
-import { figure } from './figure.mjs'
+import { figure, picture } from './figure.mjs'
 import { footnoteReference, inlineMath, link, math, minutes, num, term, text } from './inline.mjs'
 import { code, listing } from './listing.mjs'
 
@@ -20,7 +20,7 @@ import { code, listing } from './listing.mjs'
 const references = () => /** @type {any} */ ({ type: 'element', tagName: 'references', properties: {}, children: [] })
 
 /** @type {Record<string, Handler>} */
-const containers = { algorithm, choice, count, deeper, derivation, equation, exercise, figure, hint, 'lap-table': lapTable, margin, predict, reach, solution, table, takeaway, theorem }
+const containers = { algorithm, choice, count, deeper, derivation, equation, exercise, figure, hint, 'lap-table': lapTable, margin, picture, predict, reach, solution, table, takeaway, theorem }
 /** @type {Record<string, Handler>} */
 const leaves = { citation, 'lap-table': lapTable, listing, references, unfold }
 /** @type {Record<string, Handler>} */

@@ -18,6 +18,7 @@ export const counted = {
   figure: 'Figure',
   'lap-table': 'Table',
   listing: 'Listing',
+  picture: 'Figure',
   table: 'Table',
   theorem: 'Theorem',
 }

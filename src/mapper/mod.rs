@@ -189,7 +189,9 @@ impl LaserMapper {
         let standing = self.standing(scan, odometry);
         self.mark(driven(&moved)[0]);
         let report = self.filter.step(&control, &standing);
-        self.wheels.learn(&moved, &report);
+        if self.settings.learn_wheels {
+            self.wheels.learn(&moved, &report);
+        }
         self.steps = report.step;
         self.resampled += u32::from(report.resampled());
         if self.single_lineage_since.is_none() && self.filter.lineage() == 1 {

@@ -18,7 +18,7 @@ use std::collections::BTreeSet;
 /// assert_eq!(error.to_string(), "particles = 0: must be a whole number from 1 to 4096");
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(default))]
 pub struct LaserMapperSettings {
     /// Number of particles M, in [`Self::PARTICLES`]. Where a scan is taken every half metre, one does for a building: median errors over seeds, for M = 1, 2, 4, 8
     /// and 16, were 0.066, 0.066, 0.065, 0.066 and 0.065 m on the Intel log and 0.127, 0.109, 0.122, 0.132 and 0.140 m on that of ACES. The default is for the worst
@@ -46,6 +46,8 @@ pub struct LaserMapperSettings {
     pub clear_range: f64,
     /// Beams of a scan: of a dense laser the search looks at fewer of them. `None` goes by the first scan.
     pub beams: Option<u32>,
+    /// Whether drift and noise of the wheels are learnt along the way. `false` keeps to what is assumed of any wheels: for comparisons.
+    pub learn_wheels: bool,
 }
 
 impl Default for LaserMapperSettings {
@@ -61,6 +63,7 @@ impl Default for LaserMapperSettings {
             no_return: None,
             clear_range: 0.0,
             beams: None,
+            learn_wheels: true,
         }
     }
 }

@@ -49,6 +49,19 @@ fn state(mapper: &LaserMapper) -> (Vec<(f64, Pose2)>, u32, f64, Option<u32>, u64
     (mapper.path(), mapper.steps, mapper.resampled_fraction(), mapper.single_lineage_since, hasher.finish())
 }
 
+/// For comparisons: with and without, the same scans by wheels that turn by 3° a metre.
+#[test]
+fn wheels_that_are_not_learnt_stay_as_they_are_assumed() {
+    let mut scans = scans(25, 60);
+    for (k, scan) in scans.iter_mut().enumerate() {
+        scan.odometry.theta = 0.005 * k as f64;
+    }
+    let [kept, learnt] = [false, true]
+        .map(|learn_wheels| pushed(LaserMapperSettings { learn_wheels, ..settings() }, &scans).wheels().drift());
+    assert_eq!(kept, 0.0);
+    assert!(learnt != 0.0);
+}
+
 #[test]
 fn scans_that_are_pushed_one_by_one_give_the_replay_of_their_log() {
     let mut scans = scans(12, 60);

@@ -53,6 +53,7 @@ const mistakes = [
   ['a section to take three lines away from', '## A {#a}\n\n:::takeaway\n- x\n- y\n:::', '## A {#a}\n\n:::takeaway\n- x\n- y\n- z\n:::', /:3: :::takeaway is a list of two lines/],
   ['a time to read that is of nothing', '## A {#a}\n\n:minutes[open]', '## A {#a}\n\n:minutes[half]', /:3: :minutes is of what is open or of the whole/],
   ['HTML', '## A {#a}\n\n<!-- a remark -->', '## A {#a}\n\n<div>x</div>', /:3: HTML has no place/],
+  ['a still picture that is not there', '## A {#a}', '## A {#a}\n\n:::picture{#fig-a src="a.png" alt="b"}\nc\n:::', /:3: there is no picture www\/data\/a\.png/],
   ['an exercise without a level', '## A {#a}\n\n::::exercise[A]{#ex-a kind="k" level="2"}\nx\n::::', '## A {#a}\n\n::::exercise[A]{#ex-a kind="k"}\nx\n::::', /:3: .*level/],
 ]
 
@@ -72,6 +73,12 @@ test('a number, a work or a term that nobody uses is said, with its line in the 
     'www/references.json:3: nobody cites blackwell',
     'www/glossary.md:2: nobody uses the term ess',
   ])
+})
+
+test('so is a number of a recorded log, in the list of its own', async () => {
+  const { 'www/data/numbers.json': ofLogs } = numbers('logs.a', 'logs.b')
+  const lines = await wrong('## A {#a}\n\n:num[logs.b] :num[a.b]', { ...numbers('a.b'), 'www/data/logs.json': ofLogs })
+  assert.deepEqual(lines, ['www/data/logs.json:2: no page uses the number logs.a'])
 })
 
 test('all mistakes are said at once', async () => {

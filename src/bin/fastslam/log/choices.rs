@@ -53,6 +53,9 @@ choices! {
     /// Pass scans over until the robot has driven this far [m], or turned by as many radians, 0 to 5 [default: 0]
     #[arg(long, value_name = "METRES", allow_negative_numbers = true)]
     min_travel: f64;
+    /// Learn drift and noise of the wheels along the way; false keeps to what is assumed of any wheels, for comparisons [default: true]
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL")]
+    learn_wheels: bool;
     /// Pass malformed lines and messages over, and count them; read a bag that breaks off up to there
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL")]
     lenient: bool;
@@ -97,6 +100,7 @@ impl Choices {
             clear_range: self.clear_range.unwrap_or(default.clear_range),
             min_travel: self.min_travel.unwrap_or(default.min_travel),
             weight: self.weight.unwrap_or(default.weight),
+            learn_wheels: self.learn_wheels.unwrap_or(default.learn_wheels),
             ..default
         }
     }
@@ -161,6 +165,7 @@ mod tests {
             ("max_range", mapper.max_range.to_string()),
             ("clear_range", mapper.clear_range.to_string()),
             ("min_travel", mapper.min_travel.to_string()),
+            ("learn_wheels", mapper.learn_wheels.to_string()),
             ("occupied_threshold", map.occupied_threshold.to_string()),
             ("free_threshold", map.free_threshold.to_string()),
             ("footprint_radius", map.footprint_radius.to_string()),
