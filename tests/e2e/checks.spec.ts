@@ -118,6 +118,23 @@ test('an old link to a place that is in a solution now unfolds it and goes there
   expect(await page.locator('details.elsewhere[open]').count()).toBe(0)
 })
 
+test('the picture of a real robot is fetched by who unfolds it, and goes to paper with the rest', async ({ page }) => {
+  const fetched: string[] = []
+  page.on('request', request => /\/intel-[^/]*\.png$/.test(request.url()) && fetched.push(request.url()))
+  await page.goto('./#real-robot')
+  const fold = page.locator('details:has(> .fold > #fig-intel)')
+  await expect(fold.locator('> summary')).toBeInViewport()
+  await page.waitForLoadState('networkidle')
+  expect(fetched).toEqual([])
+  await fold.locator('> summary').click()
+  const picture = fold.locator('img')
+  await picture.scrollIntoViewIfNeeded()
+  await expect.poll(() => picture.evaluate(img => (img as HTMLImageElement).naturalWidth)).toBe(1160)
+  expect((await picture.boundingBox())!.width).toBeLessThanOrEqual(page.viewportSize()!.width)
+  await page.emulateMedia({ media: 'print' })
+  await expect(picture).toBeVisible()
+})
+
 test('where the questions cannot be fetched, a link leads to their page, and another try may find them', async ({ page, complaints }) => {
   await page.goto('./')
   await page.route('**/practice.html', route => route.abort())
