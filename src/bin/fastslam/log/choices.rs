@@ -140,10 +140,20 @@ pub fn by_flag(error: SettingError) -> SettingError {
 
 /// What can be chosen of a mapper, by the names of the options.
 pub fn listed(settings: &LaserMapperSettings) -> String {
-    let LaserMapperSettings { particles, seed, weight, cell_size, max_range, clear_range, min_travel, .. } = settings;
+    let LaserMapperSettings {
+        particles,
+        seed,
+        weight,
+        cell_size,
+        max_range,
+        clear_range,
+        min_travel,
+        learn_wheels,
+        ..
+    } = settings;
     format!(
         "particles = {particles}, seed = {seed}, weight = {weight}, cell = {cell_size}, max-range = {max_range}, \
-         clear-range = {clear_range}, min-travel = {min_travel}"
+         clear-range = {clear_range}, min-travel = {min_travel}, learn-wheels = {learn_wheels}"
     )
 }
 
