@@ -12,6 +12,19 @@ const own = new Set(['id', 'class', 'tag', 'alt', 'hero'])
 /** Width and height [px] from a PNG's header. @param {Buffer} png */
 const sizeOf = png => ({ width: png.readUInt32BE(16), height: png.readUInt32BE(20) })
 
+/** In both themes. @param {string} name */
+export const pictures = name => ['light', 'dark'].map(theme => `${golden}/${name}-${theme}.png`)
+
+/** A picture in the theme of the reader's screen. @param {string} root @param {string} light @param {string} dark @param {string} [alt] */
+export const sized = (root, light, dark, alt) => {
+  const size = existsSync(join(root, light)) ? sizeOf(readFileSync(join(root, light))) : {}
+  return h('picture', [
+    // Paper is light.
+    h('source', { srcset: `../${dark}`, media: 'screen and (prefers-color-scheme: dark)' }),
+    h('img', { src: `../${light}`, ...size, loading: 'lazy', alt }),
+  ])
+}
+
 /** What the figure beside the title has not while it is folded: all of the picture but its first part, and all controls but its pause. */
 const folded = { show: 'map', controls: 'play', chips: 'off', fit: 'on' }
 
@@ -25,11 +38,10 @@ export function figure(context, state, node) {
   const alt = attribute(node, 'alt')
   if (!/^fastslam-[a-z-]+$/.test(tag)) problems.add(file, node, `:::figure has no tag of ours, but “${tag}”`)
   if (!alt) problems.add(file, node, ':::figure has no alt: say in words what its picture shows')
-  const [light, dark] = ['light', 'dark'].map(theme => `${golden}/${tag}-${theme}.png`)
+  const [light = '', dark = ''] = pictures(tag)
   for (const picture of [light, dark]) {
-    if (!existsSync(join(root, picture ?? ''))) problems.add(file, node, `there is no picture ${picture} for this figure`)
+    if (!existsSync(join(root, picture))) problems.add(file, node, `there is no picture ${picture} for this figure`)
   }
-  const size = existsSync(join(root, light ?? '')) ? sizeOf(readFileSync(join(root, light ?? ''))) : {}
   const passed = Object.entries(node.attributes ?? {}).filter(([name]) => !own.has(name))
   const id = idOf(node)
   context.figure = { tag, challenges: challengesOf(root, tag), told: [] }
@@ -42,11 +54,7 @@ export function figure(context, state, node) {
   const hero = attribute(node, 'hero')
   return h(hero ? 'figure.hero' : 'figure.wide', { id, dataPlays: hero, dataFolds: hero && Object.keys(folded).join(' ') }, [
     h(tag || 'div', { ...latest, ...(hero && folded), ...Object.fromEntries(passed) }, [
-      h('picture', [
-        // Paper is light.
-        h('source', { srcset: `../${dark}`, media: 'screen and (prefers-color-scheme: dark)' }),
-        h('img', { src: `../${light}`, ...size, loading: 'lazy', alt }),
-      ]),
+      sized(root, light, dark, alt),
     ]),
     h('figcaption', caption, h('p.address', `Live: #${id}`)),
   ])

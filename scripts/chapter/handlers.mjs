@@ -10,6 +10,7 @@ import { inline } from './context.mjs'
 import { figure, picture } from './figure.mjs'
 import { footnoteReference, inlineMath, link, math, minutes, num, term, text } from './inline.mjs'
 import { code, listing } from './listing.mjs'
+import { vignette } from './vignette.mjs'
 
 /**
  * @typedef {import('./context.mjs').Context} Context
@@ -20,7 +21,7 @@ import { code, listing } from './listing.mjs'
 const references = () => /** @type {any} */ ({ type: 'element', tagName: 'references', properties: {}, children: [] })
 
 /** @type {Record<string, Handler>} */
-const containers = { algorithm, choice, count, deeper, derivation, equation, exercise, figure, hint, 'lap-table': lapTable, margin, picture, predict, reach, solution, table, takeaway, theorem }
+const containers = { algorithm, choice, count, deeper, derivation, equation, exercise, figure, hint, 'lap-table': lapTable, margin, picture, predict, reach, solution, table, takeaway, theorem, vignette }
 /** @type {Record<string, Handler>} */
 const leaves = { citation, 'lap-table': lapTable, listing, references, unfold }
 /** @type {Record<string, Handler>} */

@@ -4,4 +4,4 @@ mod policy;
 mod scheme;
 
 pub use policy::ResamplePolicy;
-pub use scheme::Scheme;
+pub use scheme::{Scheme, systematic};

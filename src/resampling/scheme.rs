@@ -32,7 +32,7 @@ impl Scheme {
     pub fn ancestors(&self, weights: &Weights, n: usize, stream: &mut Stream) -> Vec<u32> {
         let w = weights.as_slice();
         match self {
-            Self::Systematic => systematic(w, n, stream),
+            Self::Systematic => systematic(w, n, stream.uniform()),
             Self::Stratified => invert(w, (0..n).map(|k| (k as f64 + stream.uniform()) / n as f64)),
             Self::Multinomial => expand(&offspring(w, 1.0, n, stream)),
             Self::Residual => {
@@ -50,9 +50,10 @@ impl Scheme {
     }
 }
 
-/// One random number shifts a comb of n teeth over the cumulative weights, and each tooth picks the slot under it.
-fn systematic(weights: &[f64], n: usize, stream: &mut Stream) -> Vec<u32> {
-    let shift = stream.uniform();
+/// A comb of `n` teeth over the cumulative weights: each tooth picks the slot under it.
+///
+/// `shift` is a share of the distance between two teeth, from 0 to below 1: one random number.
+pub fn systematic(weights: &[f64], n: usize, shift: f64) -> Vec<u32> {
     invert(weights, (0..n).map(|k| (k as f64 + shift) / n as f64))
 }
 

@@ -11,6 +11,7 @@ const works = (/** @type {string[]} */ ...ids) => ({
 })
 const rust = { 'src/a.rs': 'fn body() {\n    let x = 1;\n}\n\nstruct A;\n\nimpl A {\n    fn twin() {}\n}\n\nfn twin() {}\n' }
 const challenges = { 'widgets/src/lap/challenges.rs': 'vec![Challenge::new("one", a(), ""), Challenge::new(\n    "two",\n    b(), "")]' }
+const small = { 'tests/figures/golden/vignette-a-light.png': '.'.repeat(24), 'tests/figures/golden/vignette-a-dark.png': '' }
 const file = 'www/chapter/01-text.md'
 
 /** @type {[name: string, good: string, bad: string, expected: RegExp, others?: Record<string, string>][]} */
@@ -22,6 +23,9 @@ const mistakes = [
   ['a figure without an anchor', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap" alt="a"}\nA.\n:::', '## A {#a}\n\n:::figure{tag="fastslam-lap" alt="a"}\nA.\n:::', /:3: :::figure has no anchor/],
   ['a figure without words for its picture', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap" alt="a"}\nA.\n:::', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap"}\nA.\n:::', /:3: .*alt/],
   ['a figure that has no picture', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap" alt="a"}\nA.\n:::', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-none" alt="a"}\nA.\n:::', /:3: .*fastslam-none-light\.png/],
+  ['a vignette without words for its picture', '## A {#a}\n\n:::vignette{#vig-a which="a" alt="a"}\nA.\n:::', '## A {#a}\n\n:::vignette{#vig-a which="a"}\nA.\n:::', /:3: :::vignette has no alt/, small],
+  ['a vignette that has no picture', '## A {#a}\n\n:::vignette{#vig-a which="a" alt="a"}\nA.\n:::', '## A {#a}\n\n:::vignette{#vig-a which="b" alt="a"}\nA.\n:::', /:3: .*vignette-b-light\.png/, small],
+  ['a vignette with more than a line below it', `## A {#a}\n\n:::vignette{#vig-a which="a" alt="a"}\n${'word '.repeat(25)}\n:::`, `## A {#a}\n\n:::vignette{#vig-a which="a" alt="a"}\n${'word '.repeat(26)}\n:::`, /:3: the caption of a vignette has 25 words at most, and not 26/, small],
   ['a challenge that the figure does not have', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap" alt="a"}\n:chip[A]{#one} :chip[B]{#two}\n:::', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap" alt="a"}\n:chip[A]{#one} :chip[B]{#three}\n:::', /:4: fastslam-lap has no challenge three, only one, two/, challenges],
   ['a caption that leaves a challenge out', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap" alt="a"}\nA.\n:::', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap" alt="a"}\n:chip[B]{#two}\n:::', /:3: the caption has the challenges two, and fastslam-lap has one, two/, challenges],
   ['a challenge that belongs to no figure', '## A {#a}\n\n:::figure{#fig-a tag="fastslam-lap" alt="a"}\n:chip[A]{#one} :chip[B]{#two}\n:::', '## A {#a}\n\n:chip[A]{#one}', /:3: :chip has its place in the caption/, challenges],

@@ -48,6 +48,7 @@ mod trouble;
 pub mod universes;
 pub mod unread;
 pub mod view;
+pub mod vignette;
 pub mod words;
 pub mod worked_example;
 

@@ -70,7 +70,13 @@ figures! {
     "graph": graph::GraphView, Page, Some(&crate::graph::GRAPHS);
 }
 
+/// The small figures of the chapter, all of one kind. They are no elements of their own for other pages, and so not among [`FIGURES`].
+pub const VIGNETTES: &[Entry] = &[
+    #[cfg(feature = "vignettes")]
+    Entry::of::<crate::vignette::VignetteView>("fastslam-vignette", Program::Page, None),
+];
+
 /// The figure of a tag.
 pub fn find(tag: &str) -> Option<&'static Entry> {
-    FIGURES.iter().find(|f| f.tag == tag)
+    FIGURES.iter().chain(VIGNETTES).find(|f| f.tag == tag)
 }

@@ -41,6 +41,7 @@ const SMOOTHING: &str = "fastslam-smoothing";
 const JOINT: &str = "fastslam-joint";
 const EM: &str = "fastslam-em";
 const GRAPH: &str = "fastslam-graph";
+const VIGNETTE: &str = "fastslam-vignette";
 /// Its pictures and readouts are those of [`TINY_LOG`], mapped to its end.
 pub const LOG: &str = "fastslam-log";
 
@@ -160,6 +161,24 @@ pub const PICTURES: &[Picture] = &[
     picture(EM, "em-judged", "mark-3=5.2&predict=on&guess=4&run=on", 340, 2.0, "light"),
     picture(SMOOTHING, "smoothing-asked", "predict=on&guess=7", 692, 1.0, "light"),
     picture(SMOOTHING, "smoothing-judged", "predict=on&guess=7&run=on", 340, 2.0, "dark"),
+    picture(VIGNETTE, "vignette-comb-light", "which=comb&at=10", 560, 1.5, "light"),
+    picture(VIGNETTE, "vignette-comb-dark", "which=comb&at=10", 560, 1.5, "dark"),
+    picture(VIGNETTE, "vignette-comb-phone", "which=comb&at=10", 340, 1.0, "contrast-dark"),
+    picture(VIGNETTE, "vignette-halves-light", "which=halves&at=3", 560, 1.5, "light"),
+    picture(VIGNETTE, "vignette-halves-dark", "which=halves&at=3", 560, 1.5, "dark"),
+    picture(VIGNETTE, "vignette-halves-phone", "which=halves&at=3", 340, 1.0, "contrast-light"),
+    picture(VIGNETTE, "vignette-overlap-light", "which=overlap&at=28", 560, 1.5, "light"),
+    picture(VIGNETTE, "vignette-overlap-dark", "which=overlap&at=28", 560, 1.5, "dark"),
+    picture(VIGNETTE, "vignette-overlap-phone", "which=overlap&at=28", 340, 1.0, "contrast-light"),
+    picture(VIGNETTE, "vignette-tree-light", "which=tree&at=20", 560, 1.5, "light"),
+    picture(VIGNETTE, "vignette-tree-dark", "which=tree&at=20", 560, 1.5, "dark"),
+    picture(VIGNETTE, "vignette-tree-phone", "which=tree&at=20", 340, 1.0, "contrast-dark"),
+    picture(VIGNETTE, "vignette-beams-light", "which=beams&at=9", 560, 1.5, "light"),
+    picture(VIGNETTE, "vignette-beams-dark", "which=beams&at=9", 560, 1.5, "dark"),
+    picture(VIGNETTE, "vignette-beams-phone", "which=beams&at=9", 340, 1.0, "contrast-dark"),
+    picture(VIGNETTE, "vignette-slip-light", "which=slip&at=18", 560, 1.5, "light"),
+    picture(VIGNETTE, "vignette-slip-dark", "which=slip&at=18", 560, 1.5, "dark"),
+    picture(VIGNETTE, "vignette-slip-phone", "which=slip&at=18", 340, 1.0, "contrast-light"),
     picture(SMOOTHING, "smoothing-tiny", "particles=2&odometry=3&sensor=2&at=62", 240, 1.0, "contrast-dark"),
 ];
 

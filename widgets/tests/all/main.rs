@@ -22,6 +22,7 @@ mod proposal;
 mod resampling;
 mod smoothing;
 mod trace;
+mod vignettes;
 mod whole;
 mod words;
 mod worked_example;

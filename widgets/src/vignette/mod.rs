@@ -1,0 +1,112 @@
+//! Small figures beside a sentence of the chapter: one handle, one picture, and one line that holds the number. All are one figure to the
+//! kit, with two parameters: which of them it is, and where its handle stands.
+
+mod beams;
+mod comb;
+mod halves;
+mod overlap;
+mod slip;
+mod tree;
+
+use crate::{
+    field,
+    model::{Model, Readout, Stateless},
+    panels::Panels,
+    recipe::{self, Menu, Param},
+    scene::{Rect, Scene},
+    view::View,
+    words::vignette,
+};
+
+/// Height of every picture \[css px\].
+const HEIGHT: f64 = 150.0;
+
+/// Free around every picture \[css px\].
+const MARGIN: f64 = 10.0;
+
+/// What one of them is.
+pub struct Kind {
+    /// Its name in the chapter's source.
+    pub name: &'static str,
+    /// What its handle sets, for readers.
+    handle: fn() -> &'static str,
+    /// The last place of the handle; the first is 0.
+    pub last: u32,
+    /// What the handle sets at a place, as text and unit.
+    value: fn(u32) -> (String, &'static str),
+    /// What the number in the line is, for readers.
+    number: fn() -> &'static str,
+    /// The number in the line, its text and its unit.
+    result: fn(u32) -> (f64, String, &'static str),
+    /// The line.
+    told: fn(u32) -> String,
+    draw: fn(u32, &Rect, &mut Scene),
+}
+
+/// All there are.
+pub const KINDS: &[Kind] = &[comb::KIND, halves::KIND, overlap::KIND, tree::KIND, beams::KIND, slip::KIND];
+
+/// One of them, and where its handle stands.
+#[derive(Clone, PartialEq, Default)]
+pub struct Vignette {
+    which: usize,
+    at: u32,
+}
+
+impl Vignette {
+    fn kind(&self) -> &'static Kind {
+        &KINDS[self.which]
+    }
+}
+
+impl recipe::Recipe for Vignette {
+    fn table() -> Vec<Param<Self>> {
+        type P = Param<Vignette>;
+        let kinds = KINDS.iter().enumerate().map(|(rank, kind)| (kind.name, (kind.handle)(), rank));
+        vec![
+            P::choice("which", vignette::which(), Menu::new(kinds), field!(which), vignette::which_help()),
+            P::integer("at", vignette::at(), "", (0, 0), field!(at), vignette::at_help())
+                .at_most(|recipe| recipe.kind().last.into())
+                .titled(|recipe| Some((recipe.kind().handle)()))
+                .in_sight(),
+        ]
+    }
+}
+
+impl Stateless for Vignette {
+    const TITLE: &'static str = "A small figure of the chapter";
+}
+
+impl Model for Vignette {
+    /// What the handle sets, and what comes of it.
+    fn readouts(&self) -> Vec<Readout> {
+        let Kind { handle, value, number, result, .. } = self.kind();
+        let ((set, unit), (came, text, of)) = (value(self.at), result(self.at));
+        let help = [vignette::at_help(), vignette::number_help()];
+        vec![
+            Readout::new("value", handle(), self.at.into(), set, unit, help[0]),
+            Readout::new("number", number(), came, text, of, help[1]),
+        ]
+    }
+
+    fn describe(&self) -> String {
+        (self.kind().told)(self.at)
+    }
+}
+
+/// Its picture.
+#[derive(Default)]
+pub struct VignetteView;
+
+impl View for VignetteView {
+    type Model = Vignette;
+    type Layout = Rect;
+
+    fn layout(width: f64, _: &Panels) -> Rect {
+        Rect::new(0.0, 0.0, width, HEIGHT)
+    }
+
+    fn draw(&self, model: &Vignette, area: &Rect, scene: &mut Scene) {
+        (model.kind().draw)(model.at, &area.inset(MARGIN), scene);
+    }
+}
