@@ -2,7 +2,7 @@
 import { existsSync } from 'node:fs'
 import { join } from 'node:path'
 import { h } from 'hastscript'
-import { attribute, content, idOf } from './context.mjs'
+import { attribute, content } from './context.mjs'
 import { pictures, sized } from './figure.mjs'
 
 const MOST_WORDS = 25
@@ -19,5 +19,5 @@ export function vignette({ file, problems, root }, state, node) {
   for (const picture of [light, dark]) if (!existsSync(join(root, picture))) complain(`there is no picture ${picture} for this vignette`)
   const words = textOf(node).split(/\s+/).filter(word => /[\p{L}\p{N}]/u.test(word)).length
   if (words > MOST_WORDS) complain(`the caption of a vignette has ${MOST_WORDS} words at most, and not ${words}`)
-  return h('figure.vignette', { id: idOf(node) }, [h('fastslam-vignette', { which, at }, sized(root, light, dark, alt)), h('figcaption', content(state, node.children))])
+  return h('figure.vignette', { id: `vignette-${which}` }, [h('fastslam-vignette', { which, at }, sized(root, light, dark, alt)), h('figcaption', content(state, node.children))])
 }
