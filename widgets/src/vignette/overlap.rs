@@ -51,7 +51,7 @@ fn measured(at: u32) -> Vector2<f64> {
 
 /// The weight, as a share of that of a measurement that is as expected.
 fn share(at: u32) -> f64 {
-    let log_weight = |at| map().innovation(&SENSOR, &Pose2::default(), &measured(at)).log_likelihood;
+    let log_weight = |at| map().innovation(&SENSOR, &Pose2::default(), &measured(at)).log_likelihood();
     ops::exp(log_weight(at) - log_weight(MIDDLE))
 }
 
