@@ -1,31 +1,31 @@
 //! What was computed for the settings before: who goes back to one of them has it at once.
 
-use std::collections::VecDeque;
-
 /// Settings that are kept, beside the one that is shown.
 const MOST: usize = 3;
 
-/// Runs that were shown before, the last one first.
+/// Runs that were shown before, the last one last.
 #[derive(Clone, Debug)]
-pub struct Kept<T>(VecDeque<T>);
+pub struct Kept<T>(Vec<T>);
 
 impl<T> Default for Kept<T> {
     fn default() -> Self {
-        Self(VecDeque::new())
+        Self(Vec::new())
     }
 }
 
 impl<T> Kept<T> {
     /// Keeps a run that is shown no more, and forgets the one that was left the longest time ago where there are too many.
     pub fn put(&mut self, run: T) {
-        self.0.push_front(run);
-        self.0.truncate(MOST);
+        if self.0.len() == MOST {
+            self.0.remove(0);
+        }
+        self.0.push(run);
     }
 
     /// Takes the run out for which this holds, if there is one.
     pub fn take(&mut self, is: impl FnMut(&T) -> bool) -> Option<T> {
         let found = self.0.iter().position(is)?;
-        self.0.remove(found)
+        Some(self.0.remove(found))
     }
 }
 
