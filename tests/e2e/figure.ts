@@ -39,11 +39,17 @@ export async function openChapterOf(page: Page, tags: string[], headers = (sent:
   await page.route(address, async route => {
     const response = await route.fetch()
     const html = await response.text()
-    const figures = tags.map(tag => new RegExp(`<figure[^>]*>\\s*<${tag}[ >][^]*?</figure>`).exec(html)![0].replace(' class="hero"', ' class="wide"'))
+    const figures = tags.map(tag => unfolded(new RegExp(`<figure[^>]*>\\s*<${tag}[ >][^]*?</figure>`).exec(html)![0]))
     const body = html.replace(/<figure[^>]*class="hero"[^]*?<\/figure>/, '').replace(/(?<=<main[^>]*>)[^]*(?=<\/main>)/, () => figures.join(''))
     await route.fulfill({ response, headers: headers(response.headers()), body })
   })
   await page.goto('./')
+}
+
+/** The figure that stands folded beside the title, as the others stand in the text. */
+function unfolded(figure: string): string {
+  const folds = / data-folds="([^"]*)"/.exec(figure)?.[1]?.split(' ') ?? []
+  return folds.reduce((html, name) => html.replace(new RegExp(` ${name}="[^"]*"`), ''), figure.replace(' class="hero"', ' class="wide"'))
 }
 
 export class Figure {
