@@ -2,13 +2,11 @@
 import { existsSync } from 'node:fs'
 import { join } from 'node:path'
 import { h } from 'hastscript'
+import { toString } from 'mdast-util-to-string'
 import { attribute, content } from './context.mjs'
 import { pictures, sized } from './figure.mjs'
 
 const MOST_WORDS = 25
-
-/** @param {any} node @returns {string} */
-const textOf = node => node.value ?? node.children?.map(textOf).join('') ?? ''
 
 /** @type {import('./context.mjs').Handler} */
 export function vignette({ file, problems, root }, state, node) {
@@ -17,7 +15,7 @@ export function vignette({ file, problems, root }, state, node) {
   if (!alt) complain(':::vignette has no alt: say in words what its picture shows')
   const [light = '', dark = ''] = pictures(`vignette-${which}`)
   for (const picture of [light, dark]) if (!existsSync(join(root, picture))) complain(`there is no picture ${picture} for this vignette`)
-  const words = textOf(node).split(/\s+/).filter(word => /[\p{L}\p{N}]/u.test(word)).length
+  const words = toString(node).split(/\s+/).filter(word => /[\p{L}\p{N}]/u.test(word)).length
   if (words > MOST_WORDS) complain(`the caption of a vignette has ${MOST_WORDS} words at most, and not ${words}`)
   return h('figure.vignette', { id: `vignette-${which}` }, [h('fastslam-vignette', { which, at }, sized(root, light, dark, alt)), h('figcaption', content(state, node.children))])
 }

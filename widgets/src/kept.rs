@@ -22,6 +22,14 @@ impl<T> Kept<T> {
         self.0.push(run);
     }
 
+    /// Shows another run in the place of one, which is kept where there was anything to be seen of it.
+    pub fn show(&mut self, shown: &mut T, run: T, was_seen: impl FnOnce(&T) -> bool) {
+        let before = core::mem::replace(shown, run);
+        if was_seen(&before) {
+            self.put(before);
+        }
+    }
+
     /// Takes the run out for which this holds, if there is one.
     pub fn take(&mut self, is: impl FnMut(&T) -> bool) -> Option<T> {
         let found = self.0.iter().position(is)?;

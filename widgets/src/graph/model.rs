@@ -143,12 +143,9 @@ impl GraphModel {
         if self.hides() { &[] } else { ghost::curve(&self.pinned, 0) }
     }
 
-    /// Shows another run; the one before is kept, if there was anything to be seen of it.
+    /// Shows another run.
     fn show(&mut self, run: GraphLap) {
-        let before = core::mem::replace(&mut self.shown, run);
-        if before.is_solved() {
-            self.kept.put(before);
-        }
+        self.kept.show(&mut self.shown, run, GraphLap::is_solved);
         self.place(true);
     }
 

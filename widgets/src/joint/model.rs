@@ -81,12 +81,9 @@ impl JointModel {
         self.shown.variance(filter, self.landmarks()).sqrt()
     }
 
-    /// Shows another run; the one before is kept, if there was anything to be seen of it.
+    /// Shows another run.
     fn show(&mut self, run: JointMap) {
-        let before = core::mem::replace(&mut self.shown, run);
-        if !before.repeats().is_empty() {
-            self.kept.put(before);
-        }
+        self.kept.show(&mut self.shown, run, |before| !before.repeats().is_empty());
     }
 
     /// How far the reader's prediction is.

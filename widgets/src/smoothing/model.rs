@@ -68,12 +68,9 @@ impl SmoothingModel {
         if self.recipe.prediction.predict { MOST } else { self.recipe.step }
     }
 
-    /// Shows another run; the one before is kept, if there was anything to be seen of it.
+    /// Shows another run.
     fn show(&mut self, run: Smoothing) {
-        let before = core::mem::replace(&mut self.shown, run);
-        if !before.draws().is_empty() {
-            self.kept.put(before);
-        }
+        self.kept.show(&mut self.shown, run, |before| !before.draws().is_empty());
     }
 
     /// How far the reader's prediction is.
