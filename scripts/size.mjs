@@ -5,7 +5,7 @@ import { build, dist, singlesAsked } from './build.mjs'
 import { isMain, kilobytes, main, say, step, StepError } from './lib.mjs'
 import { singlePrograms } from './registry.mjs'
 import { startServer } from './serve.mjs'
-import { judge } from './sizes.mjs'
+import { judge, judgeAll } from './sizes.mjs'
 import { launchChromium } from './browser.mjs'
 
 /** What each figure's page for frames loads, nothing cached. */
@@ -131,7 +131,8 @@ async function report(answers) {
   for (const [path, raw, sent] of rows) say(`${kilobytes(Number(sent)).padStart(12)}${kilobytes(Number(raw)).padStart(12)}  ${path}`)
   const text = loaded.filter(({ path }) => path === '/' || path.endsWith('.css')).reduce((bytes, { sent }) => bytes + sent, 0)
   const poster = posters.reduce((bytes, { sent }) => bytes + sent, 0)
-  return [await judge('chapter', sum('sent')), await judge('poster', poster), await judge('text', text)].join('; ')
+  const judged = await judgeAll([['chapter', sum('sent')], ['poster', poster], ['text', text]])
+  return judged.join('; ')
 }
 
 if (isMain(import.meta)) {

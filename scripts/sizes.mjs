@@ -31,3 +31,14 @@ export async function judge(name, bytes, given = undefined) {
   if (bytes > baseline * (1 + SLACK)) throw new StepError(`Too heavy: ${name} has ${kilobytes(bytes)}, more than 1 % above its baseline of ${kilobytes(baseline)}.`, `Make it lighter; or move the baseline in ${file} and say there why.`)
   return bytes > target ? `${red('✗')} ${name} ${kilobytes(bytes)}, ${kilobytes(bytes - target)} over its target of ${kilobytes(target)}` : `✓ ${name} ${kilobytes(bytes)} of ${kilobytes(target)}`
 }
+
+/**
+ * Several sizes at once: whatever is too heavy is told, not the first alone.
+ * @param {[name: string, bytes: number][]} sizes
+ */
+export async function judgeAll(sizes) {
+  const judged = await Promise.allSettled(sizes.map(([name, bytes]) => judge(name, bytes)))
+  const refused = judged.flatMap(result => (result.status === 'rejected' ? [result.reason] : []))
+  if (refused.length > 0) throw new StepError(refused.map(({ message }) => message).join('\n'), refused[0].hint)
+  return judged.map(result => (result.status === 'fulfilled' ? result.value : ''))
+}

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict'
 import { test } from 'node:test'
 import { stripVTControlCharacters } from 'node:util'
-import { judge } from '../../scripts/sizes.mjs'
+import { judge, judgeAll } from '../../scripts/sizes.mjs'
 import { counted } from '../../scripts/tally.mjs'
 
 test('every runner’s tests are counted, and whatever is not a success at once counts as failed', () => {
@@ -26,4 +26,5 @@ test('a size over its target is marked, and one more than 1 % above its baseline
   assert.equal(await plain(60_600), '✗ all 60.6 KB, 10.6 KB over its target of 50.0 KB')
   await assert.rejects(plain(60_601), /Too heavy: all has 60\.6 KB, more than 1 % above its baseline of 60\.0 KB/)
   await assert.rejects(judge('a thing that is in no table', 1), /has no line for a thing/)
+  await assert.rejects(judgeAll([['chapter', 9e9], ['poster', 1], ['text', 9e9]]), /Too heavy: chapter.*\nToo heavy: text/)
 })

@@ -68,12 +68,18 @@ test('nothing is wider than the window, with text at 200 % either, and lines are
   }
 })
 
-/** What moved without the reader's doing, from the start on; asked when it is over. */
+/**
+ * What moved without the reader's doing, from the start on; asked when it is over. The thumb of a slider goes along while a figure plays, and
+ * is no such thing: a square of a shadow tree, whose nodes are not told, that moves sideways.
+ */
 async function watchShifts(page: Page): Promise<() => Promise<string[]>> {
   await page.addInitScript(() => {
+    type Moved = { node?: Node | null; previousRect: DOMRectReadOnly; currentRect: DOMRectReadOnly }
+    const isThumb = ({ node, previousRect: from, currentRect: to }: Moved) => !node && to.width === to.height && from.y === to.y && from.width === to.width
     const seen = Object.assign(window, { shifts: [] as string[] }).shifts
     new PerformanceObserver(list => {
-      for (const entry of list.getEntries() as (PerformanceEntry & { value: number; sources: { node?: Node }[] })[]) {
+      for (const entry of list.getEntries() as (PerformanceEntry & { value: number; sources: Moved[] })[]) {
+        if (entry.sources.every(isThumb)) continue
         seen.push(`${entry.value.toFixed(5)} at ${scrollY}: ${entry.sources.map(({ node }) => (node as Element)?.outerHTML?.slice(0, 60)).join(' ')}`)
       }
     }).observe({ type: 'layout-shift', buffered: true })
