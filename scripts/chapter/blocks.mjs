@@ -37,6 +37,9 @@ export function margin(_, state, node) {
   return h('div.margin', { role: 'note' }, content(state, node.children))
 }
 
+/** How hard, of three. @param {number} level */
+export const dots = level => h('span.level', { role: 'img', ariaLabel: `level ${level} of 3` }, [1, 2, 3].map(dot => (dot <= level ? '●' : '○')).join(''))
+
 /** @type {Handler} */
 export function exercise(context, state, node) {
   const { label, body } = parts(node)
@@ -44,9 +47,8 @@ export function exercise(context, state, node) {
   const kind = attribute(node, 'kind')
   if (!(level >= 1 && level <= 3)) context.problems.add(context.file, node, 'an exercise has a level from 1 to 3')
   if (!kind) context.problems.add(context.file, node, 'an exercise has a kind')
-  const dots = h('span.level', { role: 'img', ariaLabel: `level ${level} of 3` }, '●'.repeat(level || 0) + '○'.repeat(3 - (level || 0)))
   const title = h(`h${Math.min(6, context.depth + 1)}`, h('b', nameOf(context, node)), ' ', h('span.title', label ? inline(state, label) : []))
-  return h('div.exercise', { id: idOf(node) }, h('div.head', title, h('p.kind', kind ?? '', ' ', dots)), content(state, body))
+  return h('div.exercise', { id: idOf(node) }, h('div.head', title, h('p.kind', kind ?? '', ' ', dots(level))), content(state, body))
 }
 
 /** Folded until a guess is written: by style alone, so it needs no script. @type {Handler} */

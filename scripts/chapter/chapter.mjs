@@ -6,6 +6,7 @@ import { h } from 'hastscript'
 import { toHast } from 'mdast-util-to-hast'
 import { toString } from 'mdast-util-to-string'
 import { visit } from 'unist-util-visit'
+import { aimsIn, askedIn } from './bank.mjs'
 import { Citations } from './citations.mjs'
 import { isContent } from './context.mjs'
 import { sections } from './contents.mjs'
@@ -16,10 +17,12 @@ import { Labels, takeHeadingId } from './labels.mjs'
 import { readLine, readListing } from './listing.mjs'
 import { lettersOf, Maths } from './math.mjs'
 import { Numbers } from './numbers.mjs'
+import { toGift, toMoodle } from './exports.mjs'
 import { page } from './page.mjs'
 import { parse } from './parse.mjs'
 import { Problems } from './problems.mjs'
 import { solutionsPage, takeSolutions } from './solutions.mjs'
+import { site } from '../address.mjs'
 import { Sources } from './source.mjs'
 import { together } from './together.mjs'
 
@@ -28,12 +31,13 @@ import { together } from './together.mjs'
  * @typedef {import('./context.mjs').Context} Context
  * @typedef {import('./parse.mjs').Source} Source
  * @typedef {{ head: ElementContent[], body: ElementContent[] }} Rendered
- * @typedef {{ pages: Record<string, Rendered>, css: string, files: string[] }} Chapter `files`: what it was made from
+ * @typedef {{ pages: Record<string, Rendered>, downloads: Record<string, string>, css: string, files: string[] }} Chapter `downloads`: files beside
+ *   the pages; `files`: what it was made from
  */
 
 const home = fileURLToPath(new URL('.', import.meta.url))
 /** Pages beside the chapter, each with what it runs. */
-const beside = [['model', './src/page.ts'], ['trust', './src/page.ts'], ['hosting', './src/page.ts'], ['practice', './src/practice.ts']]
+const beside = [['model', './src/page.ts'], ['trust', './src/page.ts'], ['hosting', './src/page.ts'], ['practice', './src/practice.ts'], ['bank', './src/practice.ts']]
 /** What is the same of every page. */
 const plain = { hero: [], previous: undefined, next: undefined, live: false, foot: 'Text: CC BY 4.0. Code: MIT or Apache-2.0', fonts: ['text', 'italic', 'bold', 'math', 'mono'] }
 
@@ -72,7 +76,10 @@ export async function renderChapter(root) {
   const lapTableFile = join(home, 'lap-table.mjs')
   const lapTable = existsSync(lapTableFile) ? (await import(pathToFileURL(lapTableFile).href)).renderLapTable : undefined
   const maths = new Maths()
-  const shared = { root, problems, maths, numbers, citations, glossary, sources, lapTable, repository: repositoryOf(root) }
+  const titles = new Map([first, ...rest].flatMap(text => (text ? titlesIn(text) : [])))
+  const modelFile = join(www, 'model.md')
+  const aims = aimsIn(existsSync(modelFile) ? readFileSync(modelFile, 'utf8') : '')
+  const shared = { root, problems, maths, numbers, citations, glossary, sources, lapTable, aims, titles, repository: repositoryOf(root) }
 
   /** @type {Record<string, Rendered>} */
   const pages = {}
@@ -103,7 +110,21 @@ export async function renderChapter(root) {
   for (const key of citations.unused()) problems.add(name(worksFile), lineWith(worksFile, `"${key}"`), `nobody cites ${key}`)
   for (const [key, { line }] of glossary.unused()) problems.add(glossary.file, line, `nobody uses the term ${key}`)
   problems.throwIfAny()
-  return { pages, css: maths.css(), files: [...files, ...sources.files] }
+  const asked = askedIn(pages['bank.html']?.body ?? [])
+  /** @type {Record<string, string>} */
+  const downloads = asked.length > 0 ? { 'bank.gift.txt': toGift(asked, site()), 'bank.xml': toMoodle(asked, site()) } : {}
+  return { pages, downloads, css: maths.css(), files: [...files, ...sources.files] }
+}
+
+/** Headings with an anchor, before anything is made of them. @param {Source} source @returns {[anchor: string, title: string][]} */
+function titlesIn({ tree }) {
+  /** @type {[string, string][]} */
+  const found = []
+  visit(tree, 'heading', heading => {
+    const [, title, id] = /^(.*?)\s*\{#([\w-]+)\}\s*$/s.exec(toString(heading)) ?? []
+    if (title && id) found.push([id, title])
+  })
+  return found
 }
 
 /** @param {string} path @param {string} text */
@@ -130,14 +151,14 @@ function titleOf({ file, tree }, problems) {
 }
 
 /**
- * @param {Pick<Context, 'root' | 'problems' | 'maths' | 'numbers' | 'citations' | 'glossary' | 'sources' | 'lapTable' | 'repository'>
+ * @param {Pick<Context, 'root' | 'problems' | 'maths' | 'numbers' | 'citations' | 'glossary' | 'sources' | 'lapTable' | 'aims' | 'titles' | 'repository'>
  *   & { chapter: string, texts: Source[], front: Record<string, any>, kicker: ElementContent | string, script: string }} options
  * @returns {Rendered}
  */
 function renderPage({ chapter, texts, front, kicker, script, ...shared }) {
   const labels = new Labels(chapter)
   /** @type {Context} */
-  const context = { ...shared, file: '', labels, listings: new Map(), lines: new Set(), figure: undefined, heads: [], depth: 1, notes: 0, last: '' }
+  const context = { ...shared, file: '', labels, listings: new Map(), lines: new Set(), figure: undefined, bank: undefined, heads: [], depth: 1, notes: 0, last: '' }
   context.citations.beginPage()
   context.glossary.beginPage()
   for (const text of texts) labels.collect(text, context.problems)

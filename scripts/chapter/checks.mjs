@@ -1,6 +1,7 @@
 // Questions that a reader answers alone: `:::choice`, `:::count` (a number within a tolerance) and `:::reach` (a state of a figure). Without
 // script the answer unfolds; www/src/checks.ts grades. `::unfold` is a fold of the chapter that takes what it unfolds from another page.
 import { h } from 'hastscript'
+import { banked } from './bank.mjs'
 import { goalsOf } from './challenges.mjs'
 import { attribute, content, inline, parts } from './context.mjs'
 import { typeset } from './numbers.mjs'
@@ -10,14 +11,21 @@ import { typeset } from './numbers.mjs'
 
 const letters = ['A', 'B', 'C', 'D']
 
-/** @param {Context} context @param {any} state @param {any} node @param {Record<string, unknown>} properties @param {any[]} asked @param {any[]} answer */
-function question(context, state, node, properties, asked, answer) {
+/**
+ * @param {Context} context @param {any} state @param {any} node @param {Record<string, unknown>} properties @param {any[]} asked @param {any[]} answer
+ * @param {import('./bank.mjs').Kind} kind what the bank has to know of it
+ */
+function question(context, state, node, properties, asked, answer, kind) {
   const { label } = parts(node)
   const id = attribute(node, 'id')
   if (!label) context.problems.add(context.file, node, `:::${node.name} has no question`)
   if (!id) context.problems.add(context.file, node, `:::${node.name} has no anchor: give it {#id}`)
-  const legend = h('legend', label ? inline(state, label) : [])
-  return h('fieldset.check', { id, ...properties }, legend, asked, h('details.answer', h('summary', 'Answer'), h('div.fold', answer)))
+  const words = label ? inline(state, label) : []
+  const bank = context.bank && banked(context, node, structuredClone(words), kind)
+  const legend = h('legend', bank ? [h('b', `${bank.number}.`), ' '] : [], words)
+  const fieldset = h('fieldset.check', { id, ...properties }, legend, bank?.line ?? [], asked, h('details.answer', h('summary', 'Answer'), h('div.fold', answer)))
+  if (bank) fieldset.data = /** @type {any} */ ({ asked: bank.asked })
+  return fieldset
 }
 
 /** A list of tasks, of which the right one is ticked; what follows in an item is the reason. @type {Handler} */
@@ -27,12 +35,11 @@ export function choice(context, state, node) {
   if (items.length < 2 || items.length > letters.length) context.problems.add(context.file, node, `:::choice has ${items.length} answers, not two to ${letters.length}`)
   if (items.filter(item => item.checked).length !== 1) context.problems.add(context.file, node, ':::choice has one right answer, ticked [x]')
   if (items.some(item => item.children.length < 2)) context.problems.add(context.file, node, ':::choice has a reason for each of its answers')
-  const asked = items.map(({ children: [first] }, i) => h('label', h('input', { type: 'radio', name: id }), ' ', h('span', h('b', letters[i]), ' ', first ? inline(state, first) : [])))
-  const answer = items.map(({ checked, children: [, ...reason] }, i) => {
-    const verdict = h('b', `${letters[i]}: ${checked ? 'yes' : 'no'}.`)
-    return h('li', { className: checked ? ['right'] : undefined }, after(verdict, content(state, reason)))
-  })
-  return question(context, state, node, {}, asked, [h('ul', answer)])
+  const choices = items.map(({ checked, children: [first, ...reason] }) => ({ right: checked === true, text: first ? inline(state, first) : [], reason: content(state, reason) }))
+  const kept = structuredClone(choices)
+  const asked = choices.map(({ text }, i) => h('label', h('input', { type: 'radio', name: id }), ' ', h('span', h('b', letters[i]), ' ', text)))
+  const answer = choices.map(({ right, reason }, i) => h('li', { className: right ? ['right'] : undefined }, after(h('b', `${letters[i]}: ${right ? 'yes' : 'no'}.`), reason)))
+  return question(context, state, node, {}, asked, [h('ul', answer)], { choices: kept })
 }
 
 /** `is="(2 * 24 + 3) ** 2"` or `is="100 * (1 - a.key / another.key)"`, `within` a share of it. @type {Handler} */
@@ -45,7 +52,9 @@ export function count(context, state, node) {
   const field = h('label', 'Your answer ', h('input', { type: 'text', inputMode: 'decimal', autocomplete: 'off' }), unit ? ` ${unit}` : [])
   const digits = Number(attribute(node, 'digits') ?? (Number.isInteger(value) ? 0 : 2))
   const verdict = h('b', `${typeset(value, digits)}${unit ? `\u00a0${unit}` : ''}.`)
-  return question(context, state, node, { dataIs: value, dataWithin: within }, [field], after(verdict, content(state, parts(node).body)))
+  const reason = content(state, parts(node).body)
+  const kept = structuredClone(reason)
+  return question(context, state, node, { dataIs: value, dataWithin: within }, [field], after(verdict, reason), { value, within, unit, reason: kept })
 }
 
 /** What is to be done in a figure of the chapter, whose goal says whether it is. @type {Handler} */
@@ -54,7 +63,8 @@ export function reach(context, state, node) {
   const goals = goalsOf(context.root, tag)
   if (!goals.includes(challenge)) context.problems.add(context.file, node, `${tag} has no goal ${challenge}, only ${goals.join(', ')}`)
   const way = h('p', h('a', { href: `./index.html#${figure}` }, 'Set the figure up for it'))
-  return question(context, state, node, { dataTag: tag, dataChallenge: challenge }, [way], content(state, parts(node).body))
+  const reason = content(state, parts(node).body)
+  return question(context, state, node, { dataTag: tag, dataChallenge: challenge }, [way], reason, { way: structuredClone(way), reason: structuredClone(reason) })
 }
 
 /** Begins a text with a word of its own. @param {import('hast').Element} word @param {import('hast').ElementContent[]} nodes */

@@ -8,6 +8,7 @@ import { parse } from './parse.mjs'
  * @typedef {import('mdast-util-directive').ContainerDirective} Container
  * @typedef {(context: Context, state: State, node: any) => ElementContent | ElementContent[]} Handler
  * @typedef {{ depth: number, id: string, content: ElementContent[] }} Head a heading, for the table of contents
+ * @typedef {Map<string, { figure: string, can: string }>} Aims
  */
 
 /**
@@ -26,6 +27,9 @@ import { parse } from './parse.mjs'
  * @property {string} repository its address, for source that no listing shows
  * @property {((numbers: Record<string, unknown>) => string) | undefined} lapTable
  * @property {{ tag: string, challenges: string[], told: string[] } | undefined} figure whose caption is in hand, with the challenges it has, and those told
+ * @property {Aims} aims what a student can do after work with each figure, by its name
+ * @property {Map<string, string>} titles those of the chapter's sections, by anchor
+ * @property {{ of: string, asked: number } | undefined} bank where questions of the bank are: the figure whose goal is in hand, and how many have been asked
  * @property {Head[]} heads
  * @property {number} depth of the last heading
  * @property {number} notes side notes so far

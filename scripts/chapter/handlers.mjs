@@ -1,6 +1,7 @@
 // Which module renders what. A directive that is not in these lists is a mistake of the writer.
 import { h } from 'hastscript'
 import { algorithm } from './algorithm.mjs'
+import { goal } from './bank.mjs'
 import { deeper, derivation, equation, exercise, hint, lapTable, margin, predict, solution, table, theorem } from './blocks.mjs'
 import { chip } from './challenges.mjs'
 import { choice, count, reach, takeaway, unfold } from './checks.mjs'
@@ -23,7 +24,7 @@ const references = () => /** @type {any} */ ({ type: 'element', tagName: 'refere
 /** @type {Record<string, Handler>} */
 const containers = { algorithm, choice, count, deeper, derivation, equation, exercise, figure, hint, 'lap-table': lapTable, margin, picture, predict, reach, solution, table, takeaway, theorem, vignette }
 /** @type {Record<string, Handler>} */
-const leaves = { citation, 'lap-table': lapTable, listing, references, unfold }
+const leaves = { citation, goal, 'lap-table': lapTable, listing, references, unfold }
 /** @type {Record<string, Handler>} */
 const texts = { chip, minutes, num, term }
 

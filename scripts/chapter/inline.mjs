@@ -99,7 +99,8 @@ export function display(formula, id, name) {
 /** @param {import('./context.mjs').Context} context @param {any} node @param {boolean} display */
 export function formula(context, node, display) {
   try {
-    return context.maths.render(node.value, display)
+    // Learning systems set TeX themselves (exports.mjs).
+    return Object.assign(context.maths.render(node.value, display), { data: { tex: node.value } })
   } catch (error) {
     context.problems.add(context.file, node, `TeX: ${/** @type {Error} */ (error).message.replaceAll('\n', ' ')} in ${node.value.replaceAll('\n', ' ')}`)
     return h('math')

@@ -95,7 +95,7 @@ export function breakable(math) {
     // At the end of its piece an operator would pass for a postfix, with no space before it.
     if (!factor) child.properties.form ??= 'infix'
     pieces.push(piece)
-    piece = { ...math, children: [] }
+    piece = { ...math, data: undefined, children: [] } // the first has the TeX of all
   }
   return piece.children.length > 0 ? [...pieces, piece] : pieces
 }

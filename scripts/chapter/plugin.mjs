@@ -29,9 +29,10 @@ export function chapter(root) {
     async buildStart() {
       await (made ??= make())
     },
-    generateBundle() {
+    async generateBundle() {
       const works = JSON.parse(readFileSync(join(root, 'www', 'references.json'), 'utf8'))
-      for (const [fileName, source] of Object.entries({ 'references.bib': toBibtex(works), 'references.json': toCsl(works) })) this.emitFile({ type: 'asset', fileName, source })
+      const { downloads } = await (made ??= make())
+      for (const [fileName, source] of Object.entries({ 'references.bib': toBibtex(works), 'references.json': toCsl(works), ...downloads })) this.emitFile({ type: 'asset', fileName, source })
     },
     transformIndexHtml: {
       order: 'pre',

@@ -165,43 +165,45 @@ test('the key for printing has all of them on paper, with their answers', async 
   await expect(page.locator('#check-verdict-why input').first()).toBeHidden()
 })
 
-test('each question has one right answer, which its answer gives, and says another reason to each other one', async ({ page }) => {
-  await page.goto('./practice.html')
-  await expect(page.locator('.check [role=status]')).toHaveCount(await page.locator('.check').count())
-  const said = await page.evaluate(() => {
-    const answer = (question: HTMLElement, act: () => void) => {
-      act()
-      return { grade: question.dataset['grade'], text: question.querySelector('[role=status]')!.textContent!.trim() }
-    }
-    return [...document.querySelectorAll<HTMLElement>('.check')].map(question => {
-      const [radios, field] = [[...question.querySelectorAll<HTMLInputElement>('[type=radio]')], question.querySelector<HTMLInputElement>('[type=text]')]
-      const write = (value: number) => () => (Object.assign(field!, { value: String(value) }), field!.dispatchEvent(new Event('change')))
-      const is = Number(question.dataset['is'])
-      // As the answer prints it, and far from it.
-      const printed = Number.parseFloat((question.querySelector('.answer b')?.textContent ?? '').replace(/\s/g, ''))
-      const answers = field ? [write(printed), write(2 * is), write(is / 2)].map(act => answer(question, act)) : radios.map(radio => answer(question, () => radio.click()))
-      return { id: question.id, answers }
+for (const [name, least] of [['practice', 30], ['bank', 40]] as const) {
+  test(`each question of ${name} has one right answer, which its answer gives, and says another reason to each other one`, async ({ page }) => {
+    await page.goto(`./${name}.html`)
+    await expect(page.locator('.check [role=status]')).toHaveCount(await page.locator('.check').count())
+    const said = await page.evaluate(() => {
+      const answer = (question: HTMLElement, act: () => void) => {
+        act()
+        return { grade: question.dataset['grade'], text: question.querySelector('[role=status]')!.textContent!.trim() }
+      }
+      return [...document.querySelectorAll<HTMLElement>('.check')].map(question => {
+        const [radios, field] = [[...question.querySelectorAll<HTMLInputElement>('[type=radio]')], question.querySelector<HTMLInputElement>('[type=text]')]
+        const write = (value: number) => () => (Object.assign(field!, { value: String(value) }), field!.dispatchEvent(new Event('change')))
+        const is = Number(question.dataset['is'])
+        // As the answer prints it, and far from it.
+        const printed = Number.parseFloat((question.querySelector('.answer b')?.textContent ?? '').replace(/\s/g, ''))
+        const answers = field ? [write(printed), write(2 * is), write(is / 2)].map(act => answer(question, act)) : radios.map(radio => answer(question, () => radio.click()))
+        return { id: question.id, answers }
+      })
     })
+    expect(said.length).toBeGreaterThanOrEqual(least)
+    for (const { id, answers } of said.filter(({ answers }) => answers.length > 0)) {
+      expect(answers.filter(({ grade }) => grade === 'right'), id).toHaveLength(1)
+      expect(new Set(answers.map(({ text }) => text)).size, id).toBe(answers.length)
+      for (const { text } of answers) expect(text.length, id).toBeGreaterThan(8)
+    }
   })
-  expect(said.length).toBeGreaterThanOrEqual(30)
-  for (const { id, answers } of said.filter(({ answers }) => answers.length > 0)) {
-    expect(answers.filter(({ grade }) => grade === 'right'), id).toHaveLength(1)
-    expect(new Set(answers.map(({ text }) => text)).size, id).toBe(answers.length)
-    for (const { text } of answers) expect(text.length, id).toBeGreaterThan(8)
-  }
-})
 
-test('axe finds nothing in the page of questions, answered and unfolded, light and dark', async ({ page }) => {
-  await page.goto('./practice.html')
-  for (const radio of await page.locator('.check label:first-of-type input[type=radio]').all()) await radio.check()
-  await page.evaluate(() => document.querySelectorAll('details').forEach(details => (details.open = true)))
-  for (const colorScheme of ['light', 'dark'] as const) {
-    await page.emulateMedia({ colorScheme })
-    expect(await brokenRules(page)).toEqual([])
-  }
-  await page.setViewportSize({ width: 320, height: 700 })
-  expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(320)
-})
+  test(`axe finds nothing in the questions of ${name}, answered and unfolded, light and dark`, async ({ page }) => {
+    await page.goto(`./${name}.html`)
+    for (const radio of await page.locator('.check label:first-of-type input[type=radio]').all()) await radio.check()
+    await page.evaluate(() => document.querySelectorAll('details').forEach(details => (details.open = true)))
+    for (const colorScheme of ['light', 'dark'] as const) {
+      await page.emulateMedia({ colorScheme })
+      expect(await brokenRules(page)).toEqual([])
+    }
+    await page.setViewportSize({ width: 320, height: 700 })
+    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(320)
+  })
+}
 
 test.describe('without JavaScript', () => {
   test.use({ javaScriptEnabled: false })

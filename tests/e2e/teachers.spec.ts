@@ -43,3 +43,22 @@ test('each misconception is broken by the state that its link opens', breadth, a
     expect(claims[0]?.[1](now, words), `${name}?${state}: ${words} ${JSON.stringify(now)}`).toBe(true)
   }
 })
+
+test('from the page for teachers a lecturer reaches the bank of questions, and takes it along for a learning system', async ({ page }) => {
+  await page.goto('./')
+  await page.getByRole('navigation', { name: 'Site' }).getByRole('link', { name: 'For teachers' }).click()
+  await page.getByRole('link', { name: 'bank of forty more' }).click()
+  await expect(page.getByRole('heading', { level: 1 })).toHaveText('Question bank')
+  await expect(page.locator('.check')).toHaveCount(40)
+  const take = async (name: string): Promise<string> => (await page.request.get(await page.getByRole('link', { name, exact: true }).evaluate(link => (link as HTMLAnchorElement).href))).text()
+  expect((await take('GIFT')).match(/^::/gm)).toHaveLength(40)
+  const kinds = await page.evaluate(
+    xml => [...new DOMParser().parseFromString(xml, 'text/xml').querySelectorAll('question, parsererror')].map(element => element.getAttribute('type') ?? element.textContent),
+    await take('Moodle XML'),
+  )
+  const count = (kind: string) => kinds.filter(other => other === kind).length
+  expect([count('multichoice') + count('numerical') + count('essay'), count('category'), kinds.length]).toEqual([40, 12, 52])
+  // Its questions lead to what they are about.
+  await page.getByRole('link', { name: 'three policies after 90 steps' }).click()
+  await expect(page).toHaveURL(/index\.html#fastslam-resampling\?v=4&step=90$/)
+})
