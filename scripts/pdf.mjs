@@ -1,6 +1,6 @@
-// npm run pdf: the chapter on paper, through Chromium: dist/chapter.pdf. Its links lead to where the site will be: `-- --url https://…`, else
+// npm run pdf: the chapter on paper, through Chromium: dist/chapter.pdf, and the worksheets. Their links lead to where the site will be: `-- --url https://…`, else
 // FASTSLAM_SITE or the homepage of package.json. Without an address, what is on other pages is text.
-import { existsSync, readFileSync, statSync, writeFileSync } from 'node:fs'
+import { existsSync, readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { asAddress, askForSite, site, wholeLinks } from './address.mjs'
 import { launchChromium } from './browser.mjs'
@@ -64,12 +64,53 @@ export async function makePdf(address, folder = dist) {
   return `${path}, ${kilobytes(statSync(path).size)}`
 }
 
+/** Pages whose figures stand on paper in states of their own, which no picture has: they run. @param {string} file */
+const runs = file => /^worksheet-.*\.html$/.test(file)
+
+/**
+ * Worksheets, each beside its page. A figure prints the link of its state, so the pages are served under the address of the site.
+ * @param {string} address of the site, or empty @param {string} [folder] @param {(file: string) => boolean} [isWanted] @param {string} [target] where the files go
+ */
+export async function makeSheets(address, folder = dist, isWanted = runs, target = folder) {
+  const files = readdirSync(folder).filter(isWanted)
+  const server = await startServer({ folder })
+  const browser = await launchChromium()
+  const home = address || server.url
+  try {
+    const page = await browser.newPage()
+    await page.route(`${home}**`, async route => {
+      const response = await route.fetch({ url: server.url + route.request().url().slice(home.length) })
+      const isPage = files.some(file => route.request().url() === home + file)
+      await route.fulfill({ response, ...(isPage && { body: wholeLinks(await response.text(), address) }) })
+    })
+    for (const file of files) {
+      await page.goto(home + file)
+      for (const figure of await page.locator('figure > :defined:not(figcaption)').all()) {
+        await figure.scrollIntoViewIfNeeded()
+        await figure.locator('.stage.live').waitFor()
+        await figure.evaluate(async (element, isNowhere) => {
+          await /** @type {import('../widgets/elements/figure-element').FigureElement} */ (element).settled()
+          if (isNowhere) element.shadowRoot?.querySelector('.paper')?.remove()
+        }, !address)
+      }
+      const pdf = await page.pdf({ preferCSSPageSize: true, printBackground: true, tagged: true })
+      writeFileSync(join(target, file.replace(/html$/, 'pdf')), withAuthor(pdf, author()))
+    }
+  } finally {
+    await browser.close()
+    await server.close()
+  }
+  return `${files.length} files`
+}
+
 if (isMain(import.meta)) {
   await main(async () => {
     const given = process.argv.includes('--url') ? process.argv[process.argv.indexOf('--url') + 1] : undefined
     if (given === undefined) await askForSite()
     await setUp({ browser: true })
     if (!existsSync(join(dist, 'index.html'))) await build()
-    await step('PDF', () => makePdf(given === undefined ? site() : asAddress(given)))
+    const address = given === undefined ? site() : asAddress(given)
+    await step('PDF', () => makePdf(address))
+    await step('PDF of the worksheets', () => makeSheets(address))
   })
 }

@@ -9,8 +9,8 @@ import { attribute, sentence } from './context.mjs'
  * @typedef {import('hast').ElementContent} ElementContent
  * @typedef {{ right: boolean, text: ElementContent[], reason: ElementContent[] }} Choice
  * @typedef {{ choices: Choice[] }
- *   | { value: number, within: number, unit: string | undefined, reason: ElementContent[] }
- *   | { way: ElementContent, reason: ElementContent[] }} Kind choices, a number, or a state of a figure that is to be reached
+ *   | { value: number, within: number, unit: string | undefined, shown: string, reason: ElementContent[] }
+ *   | { way: ElementContent, reason: ElementContent[] }} Kind choices, a number (`shown`: as the page writes it), or a state of a figure that is to be reached
  * @typedef {{ id: string, number: number, level: number, goal: string, figure: string, section: string, text: ElementContent[] } & Kind} Asked `goal`: the
  *   figure by its name in addresses, `figure`: by its title, `section`: an anchor of the chapter
  */

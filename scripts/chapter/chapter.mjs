@@ -36,8 +36,19 @@ import { together } from './together.mjs'
  */
 
 const home = fileURLToPath(new URL('.', import.meta.url))
-/** Pages beside the chapter, each with what it runs. */
-const beside = [['model', './src/page.ts'], ['trust', './src/page.ts'], ['hosting', './src/page.ts'], ['practice', './src/practice.ts'], ['bank', './src/practice.ts']]
+/** Plans of a lesson that have a worksheet [minutes]. */
+const sheets = [20, 45, 90]
+/**
+ * Pages beside the chapter, each with its text and what it runs. Those that ask questions of the bank come after it.
+ * @type {{ name: string, text?: string, script: string, live?: boolean, solved?: boolean }[]}
+ */
+const beside = [
+  ...['model', 'trust', 'hosting'].map(name => ({ name, script: './src/page.ts' })),
+  ...['practice', 'bank'].map(name => ({ name, script: './src/practice.ts' })),
+  ...sheets.flatMap(minutes =>
+    [false, true].map(solved => ({ name: `worksheet-${minutes}${solved ? '-solutions' : ''}`, text: `worksheet-${minutes}`, script: './src/sheet.ts', live: true, solved })),
+  ),
+]
 /** What is the same of every page. */
 const plain = { hero: [], previous: undefined, next: undefined, live: false, foot: 'Text: CC BY 4.0. Code: MIT or Apache-2.0', fonts: ['text', 'italic', 'bold', 'math', 'mono'] }
 
@@ -79,7 +90,7 @@ export async function renderChapter(root) {
   const titles = new Map([first, ...rest].flatMap(text => (text ? titlesIn(text) : [])))
   const modelFile = join(www, 'model.md')
   const aims = aimsIn(existsSync(modelFile) ? readFileSync(modelFile, 'utf8') : '')
-  const shared = { root, problems, maths, numbers, citations, glossary, sources, lapTable, aims, titles, repository: repositoryOf(root) }
+  const shared = { root, problems, maths, numbers, citations, glossary, sources, lapTable, aims, titles, asked: new Map(), repository: repositoryOf(root) }
 
   /** @type {Record<string, Rendered>} */
   const pages = {}
@@ -87,7 +98,7 @@ export async function renderChapter(root) {
   const number = String(front.number ?? '')
   if (first) {
     for (const key of ['title', 'number', 'lead']) if (!front[key]) problems.add(first.file, 1, `the front matter has no ${key}`)
-    pages['index.html'] = renderPage({ ...shared, chapter: number, texts: [first, ...rest], front, kicker: `Chapter ${number}`, script: './src/main.ts' })
+    pages['index.html'] = renderPage({ ...shared, chapter: number, texts: [first, ...rest], front, kicker: `Chapter ${number}`, script: './src/main.ts', live: true })
   }
   const kicker = h('a', { href: 'index.html' }, `Chapter ${number}`)
   const { heads, sections: solutions } = takeSolutions(pages['index.html']?.body ?? [])
@@ -95,11 +106,13 @@ export async function renderChapter(root) {
     const title = 'Solutions'
     pages[solutionsPage] = page({ ...plain, title, heading: [{ type: 'text', value: title }], kicker, lead: [], description: `${title} of the exercises of chapter ${number}`, script: './src/page.ts', heads, main: solutions })
   }
-  for (const [stem, script] of beside) {
+  for (const { name, text: stem = name, script, live = false, solved } of beside) {
     const path = join(www, `${stem}.md`)
     if (!existsSync(path)) continue
     const text = read(path)
-    pages[`${stem}.html`] = renderPage({ ...shared, chapter: number, texts: [text], front: { ...titleOf(text, problems), ...text.front }, kicker, script })
+    const sheet = solved === undefined ? undefined : { solved, tasks: 0 }
+    pages[`${name}.html`] = renderPage({ ...shared, chapter: number, texts: [text], front: { ...titleOf(text, problems), ...text.front }, kicker, script, live, sheet })
+    for (const asked of askedIn(pages[`${name}.html`]?.body ?? [])) shared.asked.set(asked.id, asked)
   }
 
   // A number, a work or a term that nobody uses was forgotten, by the text or in its list.
@@ -110,7 +123,7 @@ export async function renderChapter(root) {
   for (const key of citations.unused()) problems.add(name(worksFile), lineWith(worksFile, `"${key}"`), `nobody cites ${key}`)
   for (const [key, { line }] of glossary.unused()) problems.add(glossary.file, line, `nobody uses the term ${key}`)
   problems.throwIfAny()
-  const asked = askedIn(pages['bank.html']?.body ?? [])
+  const asked = [...shared.asked.values()]
   /** @type {Record<string, string>} */
   const downloads = asked.length > 0 ? { 'bank.gift.txt': toGift(asked, site()), 'bank.xml': toMoodle(asked, site()) } : {}
   return { pages, downloads, css: maths.css(), files: [...files, ...sources.files] }
@@ -151,14 +164,14 @@ function titleOf({ file, tree }, problems) {
 }
 
 /**
- * @param {Pick<Context, 'root' | 'problems' | 'maths' | 'numbers' | 'citations' | 'glossary' | 'sources' | 'lapTable' | 'aims' | 'titles' | 'repository'>
- *   & { chapter: string, texts: Source[], front: Record<string, any>, kicker: ElementContent | string, script: string }} options
+ * @param {Pick<Context, 'root' | 'problems' | 'maths' | 'numbers' | 'citations' | 'glossary' | 'sources' | 'lapTable' | 'aims' | 'titles' | 'asked' | 'repository'>
+ *   & { chapter: string, texts: Source[], front: Record<string, any>, kicker: ElementContent | string, script: string, live: boolean, sheet?: Context['sheet'] }} options
  * @returns {Rendered}
  */
-function renderPage({ chapter, texts, front, kicker, script, ...shared }) {
+function renderPage({ chapter, texts, front, kicker, script, live, sheet, ...shared }) {
   const labels = new Labels(chapter)
   /** @type {Context} */
-  const context = { ...shared, file: '', labels, listings: new Map(), lines: new Set(), figure: undefined, bank: undefined, heads: [], depth: 1, notes: 0, last: '' }
+  const context = { ...shared, file: '', labels, listings: new Map(), lines: new Set(), figure: undefined, bank: undefined, sheet, heads: [], depth: 1, notes: 0, last: '' }
   context.citations.beginPage()
   context.glossary.beginPage()
   for (const text of texts) labels.collect(text, context.problems)
@@ -187,12 +200,12 @@ function renderPage({ chapter, texts, front, kicker, script, ...shared }) {
     lead,
     description: String(front.description ?? front.lead ?? front.title ?? ''),
     script,
-    heads: context.heads,
+    heads: sheet ? [] : context.heads,
     hero,
     main,
     previous: front.previous,
     next: front.next,
-    live: texts.some(({ tree }) => tree.children.length > 0) && script.endsWith('main.ts'),
+    live: live && texts.some(({ tree }) => tree.children.length > 0),
   })
 }
 

@@ -51,10 +51,10 @@ export function count(context, state, node) {
   const unit = attribute(node, 'unit')
   const field = h('label', 'Your answer ', h('input', { type: 'text', inputMode: 'decimal', autocomplete: 'off' }), unit ? ` ${unit}` : [])
   const digits = Number(attribute(node, 'digits') ?? (Number.isInteger(value) ? 0 : 2))
-  const verdict = h('b', `${typeset(value, digits)}${unit ? `\u00a0${unit}` : ''}.`)
+  const shown = `${typeset(value, digits)}${unit ? `\u00a0${unit}` : ''}.`
   const reason = content(state, parts(node).body)
   const kept = structuredClone(reason)
-  return question(context, state, node, { dataIs: value, dataWithin: within }, [field], after(verdict, reason), { value, within, unit, reason: kept })
+  return question(context, state, node, { dataIs: value, dataWithin: within }, [field], after(h('b', shown), reason), { value, within, unit, shown, reason: kept })
 }
 
 /** What is to be done in a figure of the chapter, whose goal says whether it is. @type {Handler} */
@@ -68,7 +68,7 @@ export function reach(context, state, node) {
 }
 
 /** Begins a text with a word of its own. @param {import('hast').Element} word @param {import('hast').ElementContent[]} nodes */
-function after(word, nodes) {
+export function after(word, nodes) {
   const first = nodes.find(node => node.type === 'element')
   if (first?.type === 'element' && first.tagName === 'p') first.children.unshift(word, { type: 'text', value: ' ' })
   return nodes

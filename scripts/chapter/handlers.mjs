@@ -12,6 +12,7 @@ import { figure, picture } from './figure.mjs'
 import { footnoteReference, inlineMath, link, math, minutes, num, term, text } from './inline.mjs'
 import { code, listing } from './listing.mjs'
 import { vignette } from './vignette.mjs'
+import { ask, name, shown, write } from './worksheet.mjs'
 
 /**
  * @typedef {import('./context.mjs').Context} Context
@@ -22,9 +23,9 @@ import { vignette } from './vignette.mjs'
 const references = () => /** @type {any} */ ({ type: 'element', tagName: 'references', properties: {}, children: [] })
 
 /** @type {Record<string, Handler>} */
-const containers = { algorithm, choice, count, deeper, derivation, equation, exercise, figure, hint, 'lap-table': lapTable, margin, picture, predict, reach, solution, table, takeaway, theorem, vignette }
+const containers = { algorithm, choice, count, deeper, derivation, equation, exercise, figure, hint, 'lap-table': lapTable, margin, picture, predict, reach, solution, state: shown, table, takeaway, theorem, vignette, write }
 /** @type {Record<string, Handler>} */
-const leaves = { citation, goal, 'lap-table': lapTable, listing, references, unfold }
+const leaves = { ask, citation, goal, 'lap-table': lapTable, listing, name, references, unfold }
 /** @type {Record<string, Handler>} */
 const texts = { chip, minutes, num, term }
 

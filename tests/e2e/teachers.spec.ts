@@ -44,6 +44,31 @@ test('each misconception is broken by the state that its link opens', breadth, a
   }
 })
 
+/** What the answers to questions of the bank say of a state that they ask to open, each by its link. */
+const ANSWERS: [state: string, holds: (now: Numbers) => boolean][] = [
+  ['resampling?v=4&step=90', ({ never_ess, never_lineage, always_lineage, always_ess }) => never_ess! < 1.5 && never_lineage === 16 && always_lineage === 1 && always_ess! > 8],
+  ['proposal?v=3', ({ ess_motion }) => Math.abs(ess_motion! - 1000 * measured('proposal.ess.motion')) < 0.1 * 1000 * measured('proposal.ess.motion')],
+  ['graph?v=3&step=60', ({ rms }) => Math.abs(rms! - measured('graph.opening.end')) < 1e-6],
+  ['graph?v=3&wrong=on&step=60', ({ rms }) => Math.abs(rms! - measured('graph.opening.folded')) < 1e-6],
+]
+const measured = (key: string): number => (JSON.parse(readFileSync(join(root, 'www', 'data', 'numbers.json'), 'utf8')) as Record<string, { value: number }>)[key]!.value
+
+test('what the bank asks to open shows what its answers say', breadth, async ({ page }) => {
+  const text = readFileSync(join(root, 'www', 'bank.md'), 'utf8')
+  const links = [...text.matchAll(/index\.html#fastslam-([^)]*)\)/g)].map(([, state]) => state!)
+  expect(links.filter(state => !state.startsWith('lap?')).sort()).toEqual(ANSWERS.map(([state]) => state).sort())
+  for (const [state, holds] of ANSWERS) {
+    await page.goto('about:blank')
+    const name = state.split('?')[0]!
+    const figure = await new Figure(page, `fastslam-${name}`).open(`./embed-${name}.html#fastslam-${state}`)
+    await expect(figure.alert).toBeEmpty()
+    const now = await figure.element.evaluate(element => Object.fromEntries((element as unknown as { readouts: { name: string; value: number | null }[] }).readouts.map(({ name, value }) => [name, value])))
+    expect(holds(now), `${state}: ${JSON.stringify(now)}`).toBe(true)
+  }
+  // Of the ring the deaths are no readout: the picture says them, and the numbers of the chapter count them (ring.opening.deaths).
+  expect(links.filter(state => state.startsWith('lap?'))).toEqual(['lap?v=9&step=83'])
+})
+
 test('from the page for teachers a lecturer reaches the bank of questions, and takes it along for a learning system', async ({ page }) => {
   await page.goto('./')
   await page.getByRole('navigation', { name: 'Site' }).getByRole('link', { name: 'For teachers' }).click()
