@@ -1,4 +1,4 @@
-// npm run pdf: the chapter on paper, through Chromium: dist/chapter.pdf, and the worksheets. Their links lead to where the site will be: `-- --url https://…`, else
+// npm run pdf: the chapter on paper, through Chromium: dist/chapter.pdf, the worksheets and the deck. Their links lead to where the site will be: `-- --url https://…`, else
 // FASTSLAM_SITE or the homepage of package.json. Without an address, what is on other pages is text.
 import { existsSync, readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
@@ -65,10 +65,10 @@ export async function makePdf(address, folder = dist) {
 }
 
 /** Pages whose figures stand on paper in states of their own, which no picture has: they run. @param {string} file */
-const runs = file => /^worksheet-.*\.html$/.test(file)
+const runs = file => /^(worksheet-.*|deck)\.html$/.test(file)
 
 /**
- * Worksheets, each beside its page. A figure prints the link of its state, so the pages are served under the address of the site.
+ * Worksheets and the deck, each beside its page. A figure prints the link of its state, so the pages are served under the address of the site.
  * @param {string} address of the site, or empty @param {string} [folder] @param {(file: string) => boolean} [isWanted] @param {string} [target] where the files go
  */
 export async function makeSheets(address, folder = dist, isWanted = runs, target = folder) {
@@ -77,7 +77,7 @@ export async function makeSheets(address, folder = dist, isWanted = runs, target
   const browser = await launchChromium()
   const home = address || server.url
   try {
-    const page = await browser.newPage()
+    const page = await browser.newPage({ viewport: { width: 1366, height: 768 } })
     await page.route(`${home}**`, async route => {
       const response = await route.fetch({ url: server.url + route.request().url().slice(home.length) })
       const isPage = files.some(file => route.request().url() === home + file)
@@ -86,10 +86,13 @@ export async function makeSheets(address, folder = dist, isWanted = runs, target
     for (const file of files) {
       await page.goto(home + file)
       for (const figure of await page.locator('figure > :defined:not(figcaption)').all()) {
+        // A slide is in sight once it is gone to.
+        await figure.evaluate(element => void (location.hash = element.closest('.slide')?.id ?? ''))
         await figure.scrollIntoViewIfNeeded()
-        await figure.locator('.stage.live').waitFor()
+        // A log waits until its reader asks for it, and is its picture.
+        await figure.locator('.stage.live, .idle').first().waitFor({ state: 'attached' })
         await figure.evaluate(async (element, isNowhere) => {
-          await /** @type {import('../widgets/elements/figure-element').FigureElement} */ (element).settled()
+          if (element.shadowRoot?.querySelector('.live')) await /** @type {import('../widgets/elements/figure-element').FigureElement} */ (element).settled()
           if (isNowhere) element.shadowRoot?.querySelector('.paper')?.remove()
         }, !address)
       }
@@ -111,6 +114,6 @@ if (isMain(import.meta)) {
     if (!existsSync(join(dist, 'index.html'))) await build()
     const address = given === undefined ? site() : asAddress(given)
     await step('PDF', () => makePdf(address))
-    await step('PDF of the worksheets', () => makeSheets(address))
+    await step('PDF of the worksheets and the deck', () => makeSheets(address))
   })
 }

@@ -48,6 +48,7 @@ const beside = [
   ...sheets.flatMap(minutes =>
     [false, true].map(solved => ({ name: `worksheet-${minutes}${solved ? '-solutions' : ''}`, text: `worksheet-${minutes}`, script: './src/sheet.ts', live: true, solved })),
   ),
+  { name: 'deck', script: './src/deck.ts', live: true },
 ]
 /** What is the same of every page. */
 const plain = { hero: [], previous: undefined, next: undefined, live: false, foot: 'Text: CC BY 4.0. Code: MIT or Apache-2.0', fonts: ['text', 'italic', 'bold', 'math', 'mono'] }

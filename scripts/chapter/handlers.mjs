@@ -8,6 +8,7 @@ import { choice, count, reach, takeaway, unfold } from './checks.mjs'
 import { citation } from './citation.mjs'
 import { heading } from './contents.mjs'
 import { inline } from './context.mjs'
+import { slide } from './deck.mjs'
 import { figure, picture } from './figure.mjs'
 import { footnoteReference, inlineMath, link, math, minutes, num, term, text } from './inline.mjs'
 import { code, listing } from './listing.mjs'
@@ -23,7 +24,7 @@ import { ask, name, shown, write } from './worksheet.mjs'
 const references = () => /** @type {any} */ ({ type: 'element', tagName: 'references', properties: {}, children: [] })
 
 /** @type {Record<string, Handler>} */
-const containers = { algorithm, choice, count, deeper, derivation, equation, exercise, figure, hint, 'lap-table': lapTable, margin, picture, predict, reach, solution, state: shown, table, takeaway, theorem, vignette, write }
+const containers = { algorithm, choice, count, deeper, derivation, equation, exercise, figure, hint, 'lap-table': lapTable, margin, picture, predict, reach, slide, solution, state: shown, table, takeaway, theorem, vignette, write }
 /** @type {Record<string, Handler>} */
 const leaves = { ask, citation, goal, 'lap-table': lapTable, listing, name, references, unfold }
 /** @type {Record<string, Handler>} */

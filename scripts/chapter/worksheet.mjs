@@ -31,15 +31,18 @@ export function name(context, _, node) {
  */
 const task = (sheet, text, room, answer) => h('div.task', h('p', h('b', `${++sheet.tasks}.`), ' ', text), room, sheet.solved && answer.length > 0 ? h('div.solved', answer) : [])
 
+/** A copy of a question of the bank, for a page of its own. @param {Context} context @param {any} node @param {string} of */
+export function askedOf(context, node, of) {
+  const asked = structuredClone(context.asked.get(of))
+  if (!asked) context.problems.add(context.file, node, `the bank has no question ${of}`)
+  return asked
+}
+
 /** `::ask{of="bank-lap-copy"}`: a question of the bank. @type {Handler} */
 export function ask(context, _, node) {
   const sheet = sheetOf(context, node)
-  const of = attribute(node, 'of') ?? ''
-  const asked = structuredClone(context.asked.get(of))
-  if (!asked) {
-    context.problems.add(context.file, node, `the bank has no question ${of}`)
-    return []
-  }
+  const asked = askedOf(context, node, attribute(node, 'of') ?? '')
+  if (!asked) return []
   const text = [...asked.text, /** @type {const} */ ({ type: 'text', value: ' ' }), h('span.kind', dots(asked.level))]
   if ('choices' in asked) {
     const items = asked.choices.map(({ right, text, reason }) => (sheet.solved ? h('li', { className: right ? ['right'] : undefined }, text, h('div.reason', after(h('b', right ? 'Right.' : 'No.'), reason))) : h('li', text)))
@@ -61,12 +64,16 @@ export function write(context, state, node) {
   return task(sheet, label ? inline(state, label) : [], room, content(state, body))
 }
 
+/** A figure of ours in a state. @param {Context} context @param {any} node @param {string} tag @param {Record<string, string>} state its attributes */
+export function figureIn({ root, problems, file }, node, tag, state) {
+  if (!/^fastslam-[a-z-]+$/.test(tag)) problems.add(file, node, `:::${node.name} has no tag of ours, but “${tag}”`)
+  // The picture for readers without script is of the figure as it opens: of another state it would be a wrong one.
+  const [light = '', dark = ''] = pictures(tag)
+  return h(tag || 'div', { ...latest, ...state }, Object.keys(state).length === 0 ? sized(root, light, dark, '') : [])
+}
+
 /** `:::state{tag="fastslam-lap" step="83"}`: a figure in a state, and below it what it is of. @type {Handler} */
 export function shown(context, state, node) {
   const { tag = '', ...passed } = node.attributes
-  if (!/^fastslam-[a-z-]+$/.test(tag)) context.problems.add(context.file, node, `:::state has no tag of ours, but “${tag}”`)
-  // The picture for readers without script is of the figure as it opens: of another state it would be a wrong one.
-  const [light = '', dark = ''] = pictures(tag)
-  const opens = Object.keys(passed).length === 0
-  return h('figure.wide.state', h(tag || 'div', { ...latest, ...passed }, opens ? sized(context.root, light, dark, '') : []), h('figcaption', content(state, node.children)))
+  return h('figure.wide.state', figureIn(context, node, tag, passed), h('figcaption', content(state, node.children)))
 }
