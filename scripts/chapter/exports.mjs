@@ -21,7 +21,7 @@ const tagsOf = ({ level, goal, section }) => [`level ${level}`, `goal ${goal}`, 
 function elsewhere(nodes, address) {
   const root = { type: /** @type {const} */ ('root'), children: structuredClone(nodes) }
   visit(root, 'element', (element, index, parent) => {
-    if (!parent || index === undefined) return
+    if (!parent || index === undefined) return undefined
     if (element.tagName === 'math') {
       const { tex } = /** @type {{ tex?: string }} */ (element.data ?? {})
       const [open, close] = element.properties.display ? ['\\[', '\\]'] : ['\\(', '\\)']
@@ -29,8 +29,12 @@ function elsewhere(nodes, address) {
     } else if (element.tagName === 'a') {
       const href = String(element.properties.href)
       if (address) element.properties = { href: new URL(href, address).href }
-      else parent.children.splice(index, 1, ...element.children, { type: 'text', value: ` (${href.replace('./', '')})` })
+      else {
+        parent.children.splice(index, 1, ...element.children, { type: 'text', value: ` (${href.replace('./', '')})` })
+        return index // what was in it has its turn
+      }
     }
+    return undefined
   })
   return toHtml(root, { characterReferences: { useNamedReferences: true } }).replace(/\s+/g, ' ').trim()
 }

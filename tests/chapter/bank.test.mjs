@@ -18,7 +18,7 @@ const bank = (/** @type {string} */ questions) => ({
   'www/data/numbers.json': JSON.stringify({ 'a.b': { value: 0.5, unit: 'm', made: 'by a test' } }),
 })
 const chapter = '## A {#a}\n\n:num[a.b]'
-const count = ':::count[How {far}: $\\frac{1}{2}$ = ~?]{#q1 level="2" section="a" is="4 * a.b" within="0.1" unit="m"}\nAs [there](./index.html#a?x=1&y=2).\n:::'
+const count = ':::count[How {far}: $\\frac{1}{2}$ = ~?]{#q1 level="2" section="a" is="4 * a.b" within="0.1" unit="m"}\nAs [there, $y$](./index.html#a?x=1&y=2).\n:::'
 
 test('a question of the bank has its number, its level and its section, below the goal that it tests', async () => {
   const { pages } = await book(chapter, bank(`${count}\n\n${count.replace('q1', 'q2')}`))
@@ -50,10 +50,10 @@ test('a measured number is the answer wherever the bank goes, and what means som
   assert.ok(question?.type === 'Numerical')
   assert.deepEqual(question.choices, { type: 'range', number: 2, range: 0.2 })
   assert.equal(question.stem.text, '<p>How {far}: \\(\\frac{1}{2}\\) = ~? (in m)</p>')
-  assert.equal(question.globalFeedback?.text, '<p>As there (index.html#a?x=1&amp;y=2).</p>')
-  assert.match(toGift(asked, 'https://a.example/b/'), /As <a href\\="https\\:\/\/a\.example\/b\/index\.html\\#a\?x\\=1&amp;y\\=2">there<\/a>/)
+  assert.equal(question.globalFeedback?.text, '<p>As there, \\(y\\) (index.html#a?x=1&amp;y=2).</p>')
+  assert.match(toGift(asked, 'https://a.example/b/'), /As <a href\\="https\\:\/\/a\.example\/b\/index\.html\\#a\?x\\=1&amp;y\\=2">there, \\\\\(y\\\\\)<\/a>/)
   assert.match(toMoodle(asked, ''), /<answer fraction="100" format="moodle_auto_format"><text>2<\/text>.*<tolerance>0\.2<\/tolerance>/)
-  assert.match(toMoodle(asked, ''), /&lt;p&gt;As there \(index\.html#a\?x=1&amp;amp;y=2\)\.&lt;\/p&gt;/)
+  assert.match(toMoodle(asked, ''), /&lt;p&gt;As there, \\\(y\\\) \(index\.html#a\?x=1&amp;amp;y=2\)\.&lt;\/p&gt;/)
 })
 
 const { pages, downloads } = await renderChapter(root)
