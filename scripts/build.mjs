@@ -48,7 +48,7 @@ const folderOf = program => cache('programs', program)
 
 /** @param {string} program */
 async function buildProgram(program) {
-  await wasmPack(folderOf(program), program, 'page')
+  await wasmPack(folderOf(program), pageArgs(program))
   mkdirSync(dirname(programFile(program)), { recursive: true })
   copyFileSync(join(folderOf(program), wasm), programFile(program))
   return optimise(programFile(program))
@@ -76,8 +76,24 @@ function fingerprint() {
   return hash.digest('hex')
 }
 
-/** @param {string} folder @param {string} features @param {string} profile of Cargo.toml */
-const wasmPackArgs = (folder, features, profile) => ['build', 'widgets', '--target', 'web', '--profile', profile, '--no-pack', '--out-dir', folder, '--no-default-features', '--features', `single-threaded,${features}`]
+/** @param {string} folder @param {string} features @param {string} profile of Cargo.toml @param {string[]} [more] of Cargo's arguments */
+const wasmPackArgs = (folder, features, profile, more = []) => ['build', 'widgets', '--target', 'web', '--profile', profile, '--no-pack', '--out-dir', folder, '--no-default-features', '--features', `single-threaded,${features}`, ...more]
+
+/** @type {string[] | undefined} */
+let placesUnnamed
+
+/** For what is published: panics name files, and from any folder and any home the same sources have to give the same bytes. */
+const unnamed = () => (placesUnnamed ??= ['--config', `target.wasm32-unknown-unknown.rustflags=${JSON.stringify(remapped())}`])
+
+function remapped() {
+  /** @type {{ source: string | null, manifest_path: string }[]} */
+  const crates = JSON.parse(capture('cargo', 'metadata', '--locked', '--format-version', '1') ?? '{"packages":[]}').packages
+  const registries = new Set(crates.flatMap(({ source, manifest_path }) => (source ? [dirname(dirname(manifest_path))] : [])))
+  return [[root, '.'], ...[...registries].map(folder => [folder, 'crates'])].map(([from, to]) => `--remap-path-prefix=${from}=${to}`)
+}
+
+/** Of a program of the page's. @param {string} program */
+const pageArgs = program => wasmPackArgs(folderOf(program), program, 'page', unnamed())
 
 /** Of a program as these sources give it. @param {string[]} args of wasm-pack */
 const stampOf = args => `${args.join(' ')} ${madeFrom()}`
@@ -86,15 +102,14 @@ const stampOf = args => `${args.join(' ')} ${madeFrom()}`
 const stampIn = folder => join(folder, 'made-from')
 
 /** Whether a program of the page's is there as these sources give it. @param {string} program */
-const isMade = program => readIfThere(stampIn(folderOf(program))) === stampOf(wasmPackArgs(folderOf(program), program, 'page'))
+const isMade = program => readIfThere(stampIn(folderOf(program))) === stampOf(pageArgs(program))
 
 /**
  * Compiles a program, unless it is there as these sources give it: Cargo keeps one library of the widgets for each profile, whatever its
  * features, and would compile all of them anew each time.
- * @param {string} folder @param {string} features @param {string} profile of Cargo.toml
+ * @param {string} folder @param {string[]} args of wasm-pack
  */
-async function wasmPack(folder, features, profile) {
-  const args = wasmPackArgs(folder, features, profile)
+async function wasmPack(folder, args) {
   const [stamp, wanted] = [stampIn(folder), stampOf(args)]
   if (readIfThere(stamp) === wanted && existsSync(join(folder, wasm))) return
   rmSync(stamp, { force: true })
@@ -106,7 +121,7 @@ async function wasmPack(folder, features, profile) {
 export const troubleWasm = cache('trouble', wasm)
 
 /** Built as the tests in WebAssembly are, so that both stand on the same compiled crates. */
-export const buildTrouble = () => step('A program that dies on request', () => wasmPack(dirname(troubleWasm), 'page,log,bags,trouble', 'browser'))
+export const buildTrouble = () => step('A program that dies on request', () => wasmPack(dirname(troubleWasm), wasmPackArgs(dirname(troubleWasm), 'page,log,bags,trouble', 'browser')))
 
 export async function buildPages() {
   await step('Pages', async () => {
