@@ -8,6 +8,7 @@ import { figures, manifest, types, write } from './elements.mjs'
 import { root, StepError } from './lib.mjs'
 import { alsoUsed, programs } from './registry.mjs'
 import { notebook, singleFile } from './single.mjs'
+import { filesOf, listVersions, version, writeVersion } from './versions.mjs'
 
 /** @typedef {import('./elements.mjs').FigureInfo} FigureInfo */
 
@@ -95,12 +96,11 @@ export function writePages(folder, address, all, codes) {
 
 /**
  * The files of an assignment, from which the page on embedding zips packages: what its page loads whatever the figure, and what each figure has
- * besides. Found by the names in what is found, as a page finds them; of other figures nothing is taken.
+ * besides; of other figures nothing is taken.
  * @param {string} folder of the site @param {Pick<Framed, 'tag' | 'name'>[]} all
  */
 export function taskFiles(folder, all) {
-  const there = readdirSync(folder, { recursive: true, encoding: 'utf8' }).map(file => file.replaceAll('\\', '/'))
-  const named = there.filter(file => /^(assets\/)?[\w-]+-[\w-]{8}\.(js|css|json|wasm|png)$|^(arrived\.js|favicon\.svg|example\.clf\.gz)$/.test(file))
+  const [there, found] = [readdirSync(folder), filesOf(folder, ['task.html'])]
   /** Programs and pictures are those of figures, and the example that of logs; undefined for what any page may need. @param {string} file */
   const owners = file => {
     const program = /^fastslam-([a-z-]+)-[\w-]{8}\.wasm$/.exec(file)?.[1]
@@ -108,15 +108,8 @@ export function taskFiles(folder, all) {
     const picture = /^assets\/fastslam-([a-z-]+?)(-poster)?-(light|dark)-[\w-]{8}\.png$/.exec(file)?.[1]
     return picture ? [picture] : file === 'example.clf.gz' ? ['log'] : undefined
   }
-  /** @type {Set<string>} */
-  const found = new Set(['task.html'])
-  for (const file of found) {
-    if (!/\.(html|js|css)$/.test(file)) continue
-    const text = readFileSync(join(folder, file), 'utf8')
-    for (const other of named) if (text.includes(other.replace(/^assets\//, ''))) found.add(other)
-  }
-  const common = [...found].filter(file => !owners(file))
-  const own = all.map(({ name }) => [name, [...found].filter(file => owners(file)?.includes(name)).sort()])
+  const common = found.filter(file => !owners(file))
+  const own = all.map(({ name }) => [name, found.filter(file => owners(file)?.includes(name)).sort()])
   return { common: [...common, 'licences.txt', 'sbom.cdx.json'].sort(), figures: Object.fromEntries(own) }
 }
 
@@ -142,5 +135,7 @@ export async function writeFrames() {
   write(join(dist, 'task-files.json'), `${JSON.stringify(taskFiles(dist, all), undefined, 1)}\n`)
   // The code for MyST names it, and MyST copies that one file when a book is built: it must stand alone.
   write(join(dist, 'fastslam-anywidget.js'), await singleFile(notebook))
+  writeVersion(dist, version())
+  listVersions(dist)
   return `of ${all.length} figures${address ? `, for ${address}` : '; no canonical links and no oEmbed, as FASTSLAM_SITE does not say where the site will be'}`
 }

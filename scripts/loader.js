@@ -3,10 +3,14 @@
 // the page becomes its picture, which leads to it, and says so.
 const home = new URL('.', import.meta.url)
 const words = WORDS // in every language
-import('SHARED').catch(() => {}) // what the figures share, which they would ask for later
-const figures = await import('FIGURES').catch(async why => {
+const sums = {} // of a version that is kept: what the scripts have to be that it loads (scripts/versions.mjs)
+const kept = Object.entries(sums)
+if (!kept.length) import('SHARED').catch(() => {}) // what the figures share, which they would ask for later
+// A browser compares as it fetches: what has been fetched so is what is run.
+const checked = kept.map(([file, integrity]) => new Promise((onload, onerror) => document.head.append(Object.assign(document.createElement('link'), { rel: 'modulepreload', crossOrigin: '', integrity, href: home + file, onload, onerror }))))
+const figures = await Promise.all(checked).then(() => import('FIGURES')).catch(async why => {
   try {
-    if (!import.meta.url.includes('?')) return await import(`${home}fastslam.js?renewed`)
+    if (!kept.length && !import.meta.url.includes('?')) return await import(`${home}fastslam.js?renewed`)
   } catch {}
   for (const figure of document.querySelectorAll(':not(:defined)')) {
     if (!figure.localName.startsWith('fastslam-') || figure.childElementCount) continue

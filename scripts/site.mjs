@@ -8,8 +8,8 @@ import { site } from './address.mjs'
 import { dist } from './build.mjs'
 import { StepError } from './lib.mjs'
 
-/** @param {string} folder */
-const pagesOf = folder => readdirSync(folder, { recursive: true, encoding: 'utf8' }).filter(file => file.endsWith('.html')).sort()
+/** Without the versions that are kept: they are copies, and nothing can be mended in them. @param {string} folder */
+const pagesOf = folder => readdirSync(folder, { recursive: true, encoding: 'utf8' }).filter(file => file.endsWith('.html') && !/^v[/\\]/.test(file)).sort()
 
 /** @typedef {{ ids: Set<string>, tags: Set<string>, links: string[], ways: string[], twice: string[] }} Page `ways`: links that a reader can follow */
 

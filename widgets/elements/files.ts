@@ -13,22 +13,25 @@ const programAddress = (name: string) => PROGRAMS[`../pkg/fastslam-${name}.wasm`
 /** Whether this program came along: those of single figures take minutes to make, and a site may do without. */
 export const hasProgram = (name: string): boolean => programAddress(name) !== undefined
 
+/** What may arrive: of a version that is kept, files with these hashes (scripts/versions.mjs writes them here); else any. */
+const checked = { integrity: '' }
+
 export function fetchProgram(name: string): Promise<Response> {
-  return fetch(programAddress(name)!)
+  return fetch(programAddress(name)!, checked)
 }
 
 /** The words of a language; undefined for one that we do not have. */
 export async function fetchWords(language: string): Promise<Catalogue | undefined> {
   const address = WORDS[`../words/${language}.json`]
   if (!address) return undefined
-  const response = await fetch(address)
+  const response = await fetch(address, checked)
   if (!response.ok) throw new Error(`the server answered ${response.status}`)
   return (await response.json()) as Catalogue
 }
 
 /** The log that comes with that figure. */
 export function fetchExample(): Promise<Response> {
-  return fetch(new URL('../../www/public/example.clf.gz', import.meta.url))
+  return fetch(new URL('../../www/public/example.clf.gz', import.meta.url), checked)
 }
 
 /** The worker's script: an address, or what is in it. */
@@ -41,8 +44,7 @@ export function pictureAddress(tag: string, shade: 'light' | 'dark'): string | u
   return PICTURES[`../../tests/figures/golden/${tag}-${shade}.png`]
 }
 
-/** The folder of the site that serves this script, where it is one: the pages for frames lie beside it. Else empty. */
+/** The folder of the site that serves this script, where it is one; a version that is kept lies in a folder of it. Else empty. */
 export function homeAddress(): string {
-  const { protocol, pathname, href } = new URL(import.meta.url)
-  return /^https?:$/.test(protocol) && /\/fastslam(-[\w-]{8})?\.js$/.test(pathname) ? new URL('.', href).href : ''
+  return /^https?:[^?#]*?\/(?=(v\/\d+\.\d+\.[^/]+\/)?fastslam(-[\w-]{8})?\.js([?#]|$))/.exec(import.meta.url)?.[0] ?? ''
 }

@@ -50,7 +50,7 @@ function field({ name, description, type, default: value }: Described): HTMLElem
   return h('div', { class: 'field' }, h('label', {}, h('span', { class: 'name' }, name), input), h('small', { id: `about-${name}` }, description ?? ''))
 }
 
-function edit(declarations: Declaration[]): void {
+function edit(declarations: Declaration[], kept: readonly [string, string] | undefined): void {
   const choose = h('select', { name: 'figure' }, ...declarations.map(({ tagName, summary }) => new Option(summary, tagName)))
   const fields = h('fieldset', { 'aria-label': 'Attributes of the figure' })
   /** What is wrong with what is written here: the figure tells its author, and not its readers. */
@@ -67,7 +67,7 @@ function edit(declarations: Declaration[]): void {
     write(notice, '') // unless it is refused again
     wishes.print()
   }
-  const wishes = new Wishes(home, { figure: () => figure, declared, give })
+  const wishes = new Wishes(home, { figure: () => figure, declared, give }, kept)
 
   /** The fields follow the figure, except for the one that is being written. */
   const follow = (event: Event) => {
@@ -154,6 +154,8 @@ function list(declarations: Declaration[]): void {
   )
 }
 
-const manifest = (await (await fetch(new URL('custom-elements.json', home))).json()) as { modules: { declarations: Declaration[] }[] }
-edit(manifest.modules[0]!.declarations)
+const get = async (file: string): Promise<unknown> => (await fetch(new URL(file, home))).json()
+const manifest = (await get('custom-elements.json')) as { modules: { declarations: Declaration[] }[] }
+const versions = (await get('v/versions.json').catch(() => ({}))) as Record<string, string>
+edit(manifest.modules[0]!.declarations, Object.entries(versions).at(-1))
 list(manifest.modules[0]!.declarations)

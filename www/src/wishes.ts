@@ -64,6 +64,8 @@ export class Wishes {
   constructor(
     private readonly home: string,
     private readonly editor: Editor,
+    /** The newest version that is kept, and the hash of its script. */
+    private readonly kept: readonly [string, string] | undefined,
   ) {
     this.#composer = new Composer(editor, () => this.print())
     this.#all = this.#make()
@@ -144,7 +146,7 @@ export class Wishes {
   // --- The wishes ------------------------------------------------------------------------------------------------------------
 
   #make(): Record<string, Wish> {
-    const into = this.#select('Into', [['element', 'a page of mine'], ['iframe', 'a learning system (frame)'], ['link', 'a mail or a text (link)'], ['myst', 'MyST or Jupyter Book']])
+    const into = this.#select('Into', [['element', 'a page of mine'], ...(this.kept ? [['kept', `a page of mine, as of ${this.kept[0]} for good`] as [string, string]] : []), ['iframe', 'a learning system (frame)'], ['link', 'a mail or a text (link)'], ['myst', 'MyST or Jupyter Book']])
     const out = this.#select('Hand it out as', [['link', 'a link'], ['iframe', 'a frame'], ['scorm', 'a SCORM package']])
     const mastery = h('input', { type: 'number', min: '0', max: '100', step: '5', placeholder: 'none' })
     mastery.addEventListener('input', () => this.print())
@@ -216,6 +218,11 @@ export class Wishes {
   #codeFor(name: string): Block {
     const figure = this.editor.figure()
     if (name === 'link') return { title: 'Link', code: `${this.home}#${figure.localName}?${new URLSearchParams(this.#markup.attributes.filter(([name]) => name === 'v' || !(name in OPTIONS)))}` }
+    if (name === 'kept') {
+      const [version, integrity] = this.kept!
+      const code = figure.embedCode('element')!.replaceAll(`"${this.home}`, `"${this.home}v/${version}/`)
+      return { title: `${CODES.element}, version ${version}`, code: code.replace('></script>', ` integrity="${integrity}" crossorigin></script>`) }
+    }
     return { title: CODES[name as CodeName], code: figure.embedCode(name as CodeName) ?? '' }
   }
 
