@@ -46,6 +46,8 @@ pub struct Fit {
     pub gaussian: Gaussian3,
     /// ln ∫ exp(log_target) dx \[nats\].
     pub log_integral: f64,
+    /// The thirteen poses of the quadrature: the centre, and twelve around it.
+    pub points: [Pose2; 13],
 }
 
 impl Fit {
@@ -77,7 +79,8 @@ impl Fit {
         let [least, turn] = limits.least;
         let floor = Matrix3::from_diagonal(&Vector3::new(least, least, turn).map(|std| 0.25 * std * std));
         let gaussian = Gaussian3::new(center.plus(&mu), second - mu * mu.transpose() + floor)?;
-        Some(Self { gaussian, log_integral })
+        let points = core::array::from_fn(|k| probes.get(k).map_or(*center, |probe| center.plus(&probe.offset)));
+        Some(Self { gaussian, log_integral, points })
     }
 }
 

@@ -104,12 +104,7 @@ where
         let from = &particle.world_from_robot;
         let drive = self.motion.drive(control);
         let prior = drive.gaussian(from, self.settings.motion_floor);
-        let hills: Vec<(ScoredPose, Fit)> = prior.as_ref().map_or_else(Vec::new, |prior| {
-            let target = self.target(prior, &particle.map, observation);
-            let (tops, log_mean) = self.search(&target);
-            let trusted = tops.into_iter().filter_map(|top| self.guard(top, log_mean, prior));
-            trusted.filter_map(|top| Some((top, self.fit(&top, &target)?))).collect()
-        });
+        let hills = prior.as_ref().map_or_else(Vec::new, |prior| self.find(prior, &particle.map, observation).hills);
         let (world_from_robot, trace) = match choose(&hills, stream) {
             Some((top, fit)) => draw(top, fit, stream),
             None => (drive.sample(from, stream), ProposalTrace::Motion),
@@ -135,7 +130,35 @@ where
     }
 }
 
+/// What [`FromScan::find`] finds.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// The highest tops, one of each hill, the highest first.
+    pub tops: Vec<ScoredPose>,
+    /// ln of the mean likelihood over what the search looked at \[nats\].
+    pub log_mean: f64,
+    /// Those tops that are trusted, with a Gaussian each.
+    pub hills: Vec<(ScoredPose, Fit)>,
+}
+
 impl<D: Motion, L, S: Search> FromScan<D, L, S> {
+    /// Looks without moving: all that [`Proposal::propose`] finds out before it draws.
+    pub fn find<M: ConditionalMap<Association = ()>>(
+        &self,
+        prior: &Gaussian3,
+        map: &M,
+        observation: &M::Observation,
+    ) -> Found
+    where
+        L: Score<M>,
+    {
+        let target = self.target(prior, map, observation);
+        let (tops, log_mean) = self.search(&target);
+        let trusted = tops.iter().filter_map(|top| self.guard(*top, log_mean, prior));
+        let hills = trusted.filter_map(|top| Some((top, self.fit(&top, &target)?))).collect();
+        Found { tops, log_mean, hills }
+    }
+
     /// ln p(z | x, m) + ln p(x | x′, u) as a function of x.
     fn target<'a, M: ConditionalMap<Association = ()>>(
         &'a self,

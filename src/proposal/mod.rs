@@ -23,7 +23,7 @@ pub use calibrating::{Calibrated, Calibrating, DRIFT_STDS, Learnt};
 pub use fit::{Fit, FitLimits};
 pub use from_measurement::{FromMeasurement, Measured};
 pub use from_motion::{FromMotion, Marginal};
-pub use from_scan::{FromScan, FromScanSettings};
+pub use from_scan::{Found, FromScan, FromScanSettings};
 pub use from_window::{Followed, FromWindow, Windowed};
 pub use incremental_weight::{IncrementalWeight, ScanAtDraw};
 pub use retrace::Retrace;

@@ -2,6 +2,7 @@
 
 pub mod camera;
 pub mod car;
+pub mod close_up;
 pub mod conditioning;
 pub mod doors;
 pub mod em;

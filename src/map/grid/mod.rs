@@ -310,11 +310,14 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
     ///
     /// Counted as on a 64-bit machine everywhere, and without the allocator's slack: the same number on every platform.
     pub fn footprint<'a>(grids: impl IntoIterator<Item = &'a Self>) -> Footprint {
+        Self::footprint_of(&grids.into_iter().collect::<Vec<_>>())
+    }
+
+    fn footprint_of(grids: &[&Self]) -> Footprint {
         const POINTER: usize = 8;
-        let grids: Vec<&Self> = grids.into_iter().collect();
         let dense: usize =
             grids.iter().map(|grid| grid.directory.tiles.len() * Tile::<CELLS_PER_NDT>::DENSE_BYTES).sum();
-        let directories = distinct(grids.into_iter().flat_map(Self::directories).collect());
+        let directories = distinct(grids.iter().copied().flat_map(Self::directories).collect());
         let pointers: usize = directories.iter().map(|d| d.tiles.len() * POINTER).sum();
         let tiles = distinct(directories.iter().flat_map(|d| d.tiles.iter().flatten()).collect());
         let unique = pointers + tiles.iter().map(|tile| tile.bytes()).sum::<usize>();

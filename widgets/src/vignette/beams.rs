@@ -1,10 +1,9 @@
 //! Beams that stack into over-confidence: they share one error, and are counted as if each erred by itself.
 
-use super::Kind;
+use super::{Kind, label};
 use crate::{
     decimal::fixed,
-    font::Weight,
-    scene::{Anchor, Mark, Rect, Role, Scene, text},
+    scene::{Anchor, Mark, Rect, Role, Scene},
     words::vignette::{self, BeamsTold},
 };
 use fastslam::weights::Weights;
@@ -77,6 +76,6 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
     let middle = x(PARTICLES / 2);
     let truth = vec![vec![[middle, area.y + line], [middle, ground]]];
     scene.marks.push(Mark::Lines { lines: truth, width: 2.0, dash: Some([5.0, 3.0]), role: Role::Truth });
-    let label = Rect::new(area.x, area.y, middle - area.x, line);
-    scene.marks.push(text(label, Anchor::End, 12.0, Weight::Regular, Role::Muted, vignette::beams_truth()));
+    let beside = Rect::new(area.x, area.y, middle - area.x, line);
+    label(scene, beside, Anchor::End, Role::Muted, vignette::beams_truth());
 }

@@ -1,10 +1,10 @@
 //! The comb of systematic resampling, which a reader shifts.
 
-use super::Kind;
+use super::{Kind, label};
 use crate::{
     decimal::fixed,
     font::Weight,
-    scene::{Anchor, Mark, Rect, Role, Scene, fitting, rimmed, text},
+    scene::{Anchor, Mark, Rect, Role, Scene, fitting, rimmed},
     words::vignette::{self, CombTold},
 };
 use fastslam::resampling::systematic;
@@ -58,9 +58,9 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
         let piece = Rect::new(x + 0.5, top, weight * area.w - 1.0, below - top);
         let role = if copies == 0 { Role::Extinct } else { Role::Posterior };
         scene.marks.push(Mark::Fill { area: piece, role });
-        let label = Rect::new(x, below + 2.0, weight * area.w, line);
+        let under = Rect::new(x, below + 2.0, weight * area.w, line);
         let (long, short) = (format!("× {copies}"), copies.to_string());
-        scene.marks.push(fitting(label, Anchor::Middle, 13.0, Weight::SemiBold, role, &[&long, &short, ""]));
+        scene.marks.push(fitting(under, Anchor::Middle, 13.0, Weight::SemiBold, role, &[&long, &short, ""]));
     }
     let tooth = |k: usize| {
         let x = left + (k as f64 + shift(at)) / n * area.w;
@@ -70,8 +70,7 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
     let back = vec![teeth[0][0], teeth[WEIGHTS.len() - 1][0]];
     rimmed(scene, teeth, 2.0, None, Role::Accent);
     scene.marks.push(Mark::Lines { lines: vec![back], width: 4.0, dash: None, role: Role::Accent });
-    let said =
-        |y, words| text(Rect::new(left, y, area.w, line), Anchor::Start, 12.0, Weight::Regular, Role::Muted, words);
-    scene.marks.push(said(area.y, vignette::comb_teeth()));
-    scene.marks.push(said(area.bottom() - line, vignette::comb_weights()));
+    for (y, words) in [(area.y, vignette::comb_teeth()), (area.bottom() - line, vignette::comb_weights())] {
+        label(scene, Rect::new(left, y, area.w, line), Anchor::Start, Role::Muted, words);
+    }
 }

@@ -2,21 +2,29 @@
 //! kit, with two parameters: which of them it is, and where its handle stands.
 
 mod beams;
+mod cells;
 mod comb;
 mod halves;
+mod look;
+mod lottery;
+mod names;
 mod overlap;
 mod slip;
+mod surface;
+mod tiles;
 mod tree;
 
 use crate::{
     field,
+    font::Weight,
     model::{Model, Readout, Stateless},
     panels::Panels,
     recipe::{self, Menu, Param},
-    scene::{Rect, Scene},
+    scene::{Anchor, Cells, Mark, Rect, Role, Scene, Shading, shade, text},
     view::View,
     words::vignette,
 };
+use fastslam::map::grid::Grid;
 
 /// Height of every picture \[css px\].
 const HEIGHT: f64 = 150.0;
@@ -44,7 +52,33 @@ pub struct Kind {
 }
 
 /// All there are.
-pub const KINDS: &[Kind] = &[comb::KIND, halves::KIND, overlap::KIND, tree::KIND, beams::KIND, slip::KIND];
+pub const KINDS: &[Kind] = &[
+    comb::KIND,
+    halves::KIND,
+    overlap::KIND,
+    tree::KIND,
+    beams::KIND,
+    slip::KIND,
+    look::KIND,
+    names::KIND,
+    tiles::KIND,
+    surface::KIND,
+    cells::KIND,
+    lottery::KIND,
+];
+
+/// Words in a picture.
+#[inline(never)]
+fn label(scene: &mut Scene, area: Rect, anchor: Anchor, role: Role, words: &str) {
+    scene.marks.push(text(area, anchor, 12.0, Weight::Regular, role, words));
+}
+
+/// A part of a map, so many columns and rows of cells from a cell on.
+fn cells(scene: &mut Scene, area: Rect, map: &Grid, [i, j]: [i32; 2], [columns, rows]: [i32; 2]) {
+    let at = |k| shade(map.log_odds(i + k % columns, j + rows - 1 - k / columns));
+    let cells = Cells { columns: columns as usize, shades: (0..columns * rows).map(at).collect() };
+    scene.marks.push(Mark::Raster { area, cells, shading: Shading::Map });
+}
 
 /// One of them, and where its handle stands.
 #[derive(Clone, PartialEq, Default)]

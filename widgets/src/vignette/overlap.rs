@@ -1,10 +1,9 @@
 //! A weight as the overlap of two ellipses: what the map says of a landmark, and what the measurement says of it.
 
-use super::Kind;
+use super::{Kind, label};
 use crate::{
     decimal::fixed,
-    font::Weight,
-    scene::{Anchor, LINE, Mark, NINE_TENTHS, Plane, Rect, Role, Sample, Scene, legend, text},
+    scene::{Anchor, LINE, Mark, NINE_TENTHS, Plane, Rect, Role, Sample, Scene, legend},
     words::vignette::{self, OverlapTold},
 };
 use fastslam::{
@@ -86,5 +85,5 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
     scene.marks.push(Mark::Fill { area: Rect::new(bar.x, bar.bottom() - full, bar.w, full), role: Role::Weight(255) });
     scene.marks.push(Mark::Frame { area: bar, width: 1.0, role: Role::Muted });
     let over = Rect::new(area.right() - 60.0, area.y, 60.0, LINE);
-    scene.marks.push(text(over, Anchor::Middle, 12.0, Weight::Regular, Role::Muted, vignette::overlap_weight()));
+    label(scene, over, Anchor::Middle, Role::Muted, vignette::overlap_weight());
 }

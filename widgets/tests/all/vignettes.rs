@@ -4,7 +4,7 @@ use crate::words::lines;
 use fastslam_widgets::{
     fastslam::ops,
     figure::Figure,
-    scene::{Mark, Rect},
+    scene::{Mark, Rect, Role},
     vignette::KINDS,
 };
 
@@ -136,4 +136,114 @@ fn a_slip_turns_all_landmarks_about_the_place_where_it_happened_and_leaves_their
         assert!((number("slip", at) - expected).abs() < 1e-9, "{at}");
         assert!(vignette("slip", at).describe().contains("change by 0.00 m"));
     }
+}
+
+/// By hand: poses that spread by s along an axis, weighed by a Gaussian of σ, are worth the share √2 σ √(s² + σ²/2) / (s² + σ²) of them, times
+/// the density of where it is: s is 0.16 rad × 4 m along the arc and 0.08 m across it, σ is 0.05 m. Each place has some thirty in
+/// it, so that the seventeen about the middle, seven of them independent, scatter by a twelfth.
+#[test]
+fn of_poses_drawn_before_the_scan_few_are_worth_anything_and_the_fewer_the_further_off_it_fits() {
+    let axis = |s: f64| 2.0_f64.sqrt() * 0.05 * (s * s + 0.00125).sqrt() / (s * s + 0.0025);
+    let expected = |at: u32| {
+        let deviations = 0.08 * (f64::from(at) - 20.0) / 0.64;
+        400.0 * axis(0.64) * axis(0.08) * ops::exp(-0.5 * deviations * deviations)
+    };
+    let (found, predicted) = (12..=28).fold((0.0, 0.0), |(a, b), at| (a + number("look", at), b + expected(at)));
+    assert!((found / predicted - 1.0).abs() < 0.25, "{found} of {predicted}");
+    assert!(number("look", 0) < 5.0 && number("look", 40) < 5.0);
+}
+
+/// By hand: the sighting is (0.9, 0.5) m from the robot, so of a door of Σ = diag(0.04, 0.01) S is H Σ Hᵀ + Q with H of the
+/// door as B has it before it.
+#[test]
+fn each_particle_names_the_door_by_its_own_pose_and_is_weighed_for_it() {
+    let names = |at| vignette("names", at).describe();
+    assert!(names(0).contains("door 2, B for door 2") && number("names", 0) == 50.0, "{}", names(0));
+    assert!(names(20).contains("door 2, B for a new door"), "midway between two doors: {}", names(20));
+    assert!(names(40).contains("door 2, B for door 3"), "doors are 2 m apart: {}", names(40));
+    assert!((number("names", 40) - 50.0).abs() < 1e-9);
+    let log_weight = |ahead: f64| {
+        let (dx, dy) = (0.9 - ahead, 0.5_f64);
+        let (q, seen) = (dx * dx + dy * dy, 0.9_f64 * 0.9 + 0.25);
+        let r = q.sqrt();
+        let [rr, rb, bb] = [
+            (0.04 * dx * dx + 0.01 * dy * dy) / q + 0.0225,
+            (-0.04 + 0.01) * dx * dy / (q * r),
+            (0.04 * dy * dy + 0.01 * dx * dx) / (q * q) + 0.0036,
+        ];
+        let (range, bearing) = (seen.sqrt() - r, ops::atan2(0.5, 0.9) - ops::atan2(dy, dx));
+        let det = rr * bb - rb * rb;
+        let squared = (bb * range * range - 2.0 * rb * range * bearing + rr * bearing * bearing) / det;
+        -0.5 * (squared + ops::ln(det))
+    };
+    for at in [3, 6, 35] {
+        let ahead = 0.05 * f64::from(at);
+        let odds = ops::exp(log_weight(if at > 20 { ahead - 2.0 } else { ahead }) - log_weight(0.0));
+        assert!((number("names", at) - 100.0 * odds / (1.0 + odds)).abs() < 1e-6, "{at}");
+    }
+}
+
+#[test]
+fn a_map_is_copied_tile_by_tile_as_beams_reach_them_and_never_before() {
+    let copied: Vec<f64> = (0..=36).map(|at| number("tiles", at)).collect();
+    assert_eq!(copied[0], 0.0);
+    assert!(copied.is_sorted() && copied[36] > 20.0, "{copied:?}");
+    let kilobytes = |at: u32| {
+        let told = vignette("tiles", at).describe();
+        let before = |words| told.split(words).next().unwrap().rsplit(' ').next().unwrap().parse::<f64>().unwrap();
+        [before(" KB, and"), before(" KB.")]
+    };
+    let ([shared, dense], [written, _]) = (kilobytes(0), kilobytes(36));
+    // A tile has 64 cells and as many places, three words, and 28 bytes for every cell that was hit.
+    let per_tile = 1000.0 * (written - shared) / copied[36];
+    assert!((152.0..152.0 + 64.0 * 28.0).contains(&per_tile), "{per_tile}");
+    assert!(dense > 10.0 * written);
+}
+
+#[test]
+fn the_gate_ignores_a_mode_over_an_empty_map_and_thirteen_points_stand_around_one_that_it_lets_through() {
+    let points = |at| {
+        let accents = |mark: &Mark| matches!(mark, Mark::Discs { role: Role::Accent, .. });
+        let marks = vignette("surface", at).scene(560.0, 150.0).marks;
+        marks
+            .iter()
+            .filter(|mark| accents(mark))
+            .map(|mark| match mark {
+                Mark::Discs { centres, .. } => centres.len(),
+                _ => 0,
+            })
+            .sum::<usize>()
+    };
+    assert_eq!(number("surface", 0), 0.0, "every pose explains the scan equally badly");
+    for at in 0..=36 {
+        let (told, through) = (vignette("surface", at).describe(), number("surface", at) >= 0.5);
+        assert_eq!(told.contains("a Gaussian is fitted"), through, "{told}");
+        assert_eq!(points(at), if through { 13 } else { 0 }, "{told}");
+    }
+    assert!(number("surface", 36) > 4.0);
+}
+
+/// By hand: the end points reach from 0.02 m before to 0.02 m behind 0.69 m, in the cell from 0.6 to 0.9 m.
+#[test]
+fn a_score_of_cells_is_the_same_as_long_as_all_points_stay_in_theirs_and_that_of_distributions_nowhere() {
+    assert!((number("cells", 60) - 0.26).abs() <= 0.011, "{}", number("cells", 60));
+    for at in 54..=78 {
+        assert_eq!(number("cells", at), number("cells", 60), "{at}");
+    }
+    let worse = |at| vignette("cells", at).describe();
+    assert!(worse(60).contains("0.0 nats below"), "{}", worse(60));
+    assert!(!worse(54).contains(" 0.0 nats") && !worse(66).contains(" 0.0 nats"), "6 cm are seen");
+    assert!(number("cells", 0) > 0.3 && number("cells", 120) > 0.3, "where nothing is known, all is alike");
+}
+
+/// By hand: after t steps ln w has the variance t (0.8 p)², and N_eff/M = exp(−that) falls below a half at ln 2.
+#[test]
+fn a_score_that_scatters_by_chance_leaves_all_paths_where_it_counts_little_and_one_or_two_where_it_counts_in_full() {
+    let resampled = |at| vignette("lottery", at).describe().split(' ').nth(3).unwrap().parse::<f64>().unwrap();
+    for at in 0..=2 {
+        assert_eq!((number("lottery", at), resampled(at)), (16.0, 0.0), "exp(−40 × 0.08²) = 0.77");
+    }
+    // Not after one step, where it is exp(−0.64) = 0.53 on average, but mostly after two.
+    assert!((13.0..=26.0).contains(&resampled(20)), "{}", resampled(20));
+    assert!(number("lottery", 20) <= 2.0);
 }
