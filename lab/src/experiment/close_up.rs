@@ -7,7 +7,7 @@ use fastslam::map::grid::{Grid, GridModel};
 use fastslam::map::{ConditionalMap as _, Footprint};
 use fastslam::matching::{Matcher, ScanModel};
 use fastslam::motion::OdometryModel;
-use fastslam::proposal::{Found, FromScan};
+use fastslam::proposal::{Found, FromScan, FromScanSettings};
 use fastslam::sensor::{BeamSensor, Scan};
 
 /// The first `beams` of so many that a laser without noise has from a place of the apartment \[m\].
@@ -45,7 +45,9 @@ pub fn scores(matcher: Matcher, map: &Grid, scan: &Scan, poses: &[Pose2]) -> Vec
 
 /// What the measurement-aware proposal finds for a motion of this Gaussian, before it draws.
 pub fn find(motion: &Gaussian3, map: &Grid, scan: &Scan) -> Found {
-    let proposal =
-        FromScan { motion: OdometryModel { alphas: [0.0; 4] }, score: model(Matcher::SubCell), settings: FROM_SCAN };
+    // Of so few beams all are looked at.
+    let settings = FromScanSettings { climb_stride: 1, ..FROM_SCAN };
+    let motion_noise = OdometryModel { alphas: [0.0; 4] };
+    let proposal = FromScan { motion: motion_noise, score: model(Matcher::SubCell), settings };
     proposal.find(motion, map, scan)
 }
