@@ -194,9 +194,9 @@ pub const PICTURES: &[Picture] = &[
     picture(VIGNETTE, "vignette-cells-light", "which=cells&at=76", 560, 1.5, "light"),
     picture(VIGNETTE, "vignette-cells-dark", "which=cells&at=76", 560, 1.5, "dark"),
     picture(VIGNETTE, "vignette-cells-phone", "which=cells&at=76", 340, 1.0, "contrast-dark"),
-    picture(VIGNETTE, "vignette-lottery-light", "which=lottery&at=20", 560, 1.5, "light"),
-    picture(VIGNETTE, "vignette-lottery-dark", "which=lottery&at=20", 560, 1.5, "dark"),
-    picture(VIGNETTE, "vignette-lottery-phone", "which=lottery&at=20", 340, 1.0, "contrast-light"),
+    picture(VIGNETTE, "vignette-lottery-light", "which=lottery&at=19", 560, 1.5, "light"),
+    picture(VIGNETTE, "vignette-lottery-dark", "which=lottery&at=19", 560, 1.5, "dark"),
+    picture(VIGNETTE, "vignette-lottery-phone", "which=lottery&at=19", 340, 1.0, "contrast-light"),
     picture(SMOOTHING, "smoothing-tiny", "particles=2&odometry=3&sensor=2&at=62", 240, 1.0, "contrast-dark"),
 ];
 
