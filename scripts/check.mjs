@@ -46,7 +46,7 @@ async function listPackages() {
  * Packs the crates, and builds each from its package alone, with the others out of a registry that cargo makes for the purpose.
  * What they depend on besides is there from the lints: the network is not asked.
  */
-async function buildPackages() {
+export async function buildPackages() {
   // What a registry has, Cargo takes for unchangeable: it would build the crates as they were packed the last time.
   const target = join(root, 'target', 'published')
   const sources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry', 'src')

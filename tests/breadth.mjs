@@ -68,6 +68,7 @@ export const units = [
   { name: 'readme-numbers', seconds: 210, command: `${quick} npm run numbers -- --only worked && git diff --exit-code www/data` },
   { name: 'readme-pdf', seconds: 30, command: 'npm run pdf' },
   { name: 'readme-package', seconds: 60, command: 'npm run package -- --singles proposal' },
+  { name: 'readme-release', seconds: 120, command: 'npm run release -- --singles proposal' },
   { name: 'readme-offline', seconds: 60, command: 'npm run offline -- --singles proposal' },
   { name: 'readme-build', seconds: 30, command: 'npm run build && npm run site -- .cache/site && npm start -- --no-serve' },
   { name: 'readme-wasm-pack', seconds: 120, command: `${quick} wasm-pack build widgets --target web --out-dir ../.cache/wasm-pack && test -s .cache/wasm-pack/fastslam_widgets_bg.wasm` },
