@@ -14,7 +14,8 @@
 //!
 //! This is a heuristic. Weights are not changed, as if the move left the posterior as it is: a motion's share is within what matching leaves open,
 //! so that the scans on the way fit about as they did. A particle that is bent to a wrong place contradicts what it sees next, and its weight
-//! falls. Mapping again takes as long as the mapping so far, once for each path that is bent.
+//! falls. Mapping again takes as long as the mapping so far, once for each path that is bent; it may be spread over the scans that follow, and the
+//! path is corrected when all are mapped ([`Correction`]).
 //!
 //! References: Gutmann and Konolige, *Incremental mapping of large cyclic environments*, CIRA 1999 (the last scans as one picture, found again by
 //! correlation); Lu and Milios 1997 (bending the path); Gilks and Berzuini, *Following a moving target: Monte Carlo inference for dynamic
@@ -37,7 +38,7 @@ use crate::save::{self, RestoreError};
 use crate::sensor::Scan;
 use nalgebra::Matrix3;
 use std::collections::VecDeque;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 /// What finds the loops that were missed, and closes them: all scans, and maps of before.
 #[derive(Clone, Debug, Default)]
@@ -48,6 +49,8 @@ pub(super) struct Closings {
     before: VecDeque<Before>,
     /// By slot, what its path has come back to.
     accounts: Vec<Account>,
+    /// By slot, the path that will be the particle's as soon as it is mapped; empty where no path ever was.
+    corrections: Vec<Option<Correction>>,
     /// Step of the last check.
     checked: usize,
     /// Particles that were bent.
@@ -99,6 +102,57 @@ struct Before {
     maps: Vec<Map>,
 }
 
+/// A path that closes a loop, and its map as far as it is mapped again.
+#[derive(Clone, Debug)]
+struct Correction {
+    relation: Relation,
+    end: LoopEnd,
+    /// Poses up to the end of the loop. The motions since are as the particle makes them.
+    bent: Vec<Pose2>,
+    map: Map,
+    /// Of the first so many scans.
+    mapped: usize,
+    /// The maps of [`Closings::before`] as they would have been, by step.
+    before: Vec<(usize, Map)>,
+}
+
+impl Correction {
+    /// The pose of a step, of a particle with these poses as it has them.
+    fn pose(&self, poses: &[Pose2], step: usize) -> Pose2 {
+        let last = self.bent.len() - 1;
+        if step <= last { self.bent[step] } else { self.bent[last].compose(&poses[last].between(&poses[step])) }
+    }
+
+    /// Maps so many more scans, and no more than there are; tells whether all of them are mapped.
+    fn advance(&mut self, closings: &Closings, poses: &[Pose2], scans: usize) -> bool {
+        let end = self.mapped.saturating_add(scans).min(poses.len());
+        for step in self.mapped..end {
+            let (view, pose) = (&closings.views[step], self.pose(poses, step));
+            if view.marked {
+                self.map.mark();
+            }
+            self.map.assimilate(&pose, &view.scan.scan(), &());
+            if step == 0 {
+                self.map.settle();
+            }
+            if closings.before.iter().any(|before| before.step == step) {
+                self.before.push((step, self.map.present()));
+            }
+        }
+        self.mapped = end;
+        end == poses.len()
+    }
+
+    /// The particle that was corrected.
+    fn particle(&self, particle: &Particle<Map>, poses: &[Pose2]) -> Particle<Map> {
+        let corrected: Vec<Pose2> = (0..poses.len()).map(|step| self.pose(poses, step)).collect();
+        let same = corrected.iter().zip(poses).take_while(|(corrected, pose)| corrected == pose).count();
+        let mut path = particle.path.back().nth(poses.len() - same).expect("the first pose stays").clone();
+        corrected[same..].iter().for_each(|pose| path.push(*pose));
+        Particle { world_from_robot: path.pose(), map: self.map.clone(), path }
+    }
+}
+
 /// What a check found of a particle.
 enum Found {
     /// It is nowhere back.
@@ -107,8 +161,8 @@ enum Found {
     Agrees(Agreement, Option<Relation>),
     /// That map contradicts what it sees; and the loop of which that may be the end.
     Contradicts(Agreement, Option<Relation>),
-    /// A loop that was closed now, with the maps of [`Closings::before`] as they would have been.
-    Bent(Relation, LoopEnd, Vec<Map>),
+    /// A loop that was missed: the path that closes it, of which nothing is mapped yet.
+    Missed(Correction),
 }
 
 impl Closings {
@@ -137,6 +191,9 @@ impl Closings {
         if !self.accounts.is_empty() {
             self.accounts = copied(&self.accounts, ancestors);
         }
+        if !self.corrections.is_empty() {
+            self.corrections = copied(&self.corrections, ancestors);
+        }
     }
 
     /// How many times a particle's path was bent.
@@ -154,20 +211,66 @@ impl Closings {
         self.views.iter().all(|view| view.scan.hits.is_empty())
     }
 
-    /// The maps that are kept besides those of the particles.
+    /// The maps that are kept besides those of the particles: of before, and of paths that are being corrected.
     pub(super) fn maps(&self) -> impl Iterator<Item = &Map> {
-        self.before.iter().flat_map(|before| &before.maps)
+        let of_corrections = self
+            .corrections
+            .iter()
+            .flatten()
+            .flat_map(|correction| correction.before.iter().map(|(_, map)| map).chain([&correction.map]));
+        self.before.iter().flat_map(|before| &before.maps).chain(of_corrections)
     }
 
-    /// Looks for loops every few metres, and closes those that the heaviest particles have missed.
-    pub(super) fn check(&mut self, filter: &mut Filter) {
+    /// Looks for loops every few metres, and corrects the paths of the heaviest particles that have missed one, for which so many scans are mapped again.
+    pub(super) fn check(&mut self, filter: &mut Filter, budget: usize) {
         let now = self.views.len() - 1;
-        if self.way(self.checked, now) < CLOSING.every {
+        let is_due = self.way(self.checked, now) >= CLOSING.every;
+        if is_due {
+            self.checked = now;
+            self.find(filter, now);
+        }
+        self.correct(filter, budget);
+        if is_due && self.before.back().is_none_or(|last| self.way(last.step, now) >= CLOSING.spacing) {
+            let maps = filter.particles().iter().map(|particle| particle.map.present()).collect();
+            self.before.push_back(Before { step: now, maps });
+        }
+    }
+
+    /// Maps paths again that close a loop: so many scans, which they share. A path that is mapped as far as the robot is takes the place of the particle's.
+    pub(super) fn correct(&mut self, filter: &mut Filter, budget: usize) {
+        let pending = self.corrections.iter().flatten().count();
+        if pending == 0 {
             return;
         }
-        self.checked = now;
+        // The robot goes on by a scan meanwhile, and is caught up with.
+        let share = (budget / pending).max(2);
+        let corrections: Vec<_> = core::mem::take(&mut self.corrections).into_iter().map(Mutex::new).collect();
+        let corrected = filter.revise(|slot, particle| {
+            let mut correction = corrections[slot].lock().expect("no thread panics with it");
+            let Some(correction) = &mut *correction else { return (None, false) };
+            let poses = particle.path.poses();
+            let is_done = correction.advance(self, &poses, share);
+            (is_done.then(|| correction.particle(particle, &poses)), is_done)
+        });
+        for (slot, (correction, is_done)) in corrections.into_iter().zip(corrected).enumerate() {
+            let mut correction = correction.into_inner().expect("no thread panics with it");
+            if let Some(Correction { relation, end, before: maps, .. }) = correction.take_if(|_| is_done) {
+                self.accounts[slot].bent(relation, end);
+                for (step, map) in maps {
+                    let before = self.before.iter_mut().find(|before| before.step == step);
+                    before.into_iter().for_each(|before| before.maps[slot] = map.clone());
+                }
+                self.bent += 1;
+            }
+            self.corrections.push(correction);
+        }
+    }
+
+    /// Looks at what the robot has come back to.
+    fn find(&mut self, filter: &mut Filter, now: usize) {
         let particles = filter.particles().len();
         self.accounts.resize(particles, Account::default());
+        self.corrections.resize_with(particles, || None);
         let reach = self.last_steps(now).map(|step| self.views[step].reach).fold(0.0, f64::max);
         let least = CLOSING.window + reach.min(CLOSING.farthest);
         let is_old = |before: &Before| self.way(before.step, now) >= least;
@@ -176,24 +279,16 @@ impl Closings {
         self.before.drain(..old.saturating_sub(1));
         if old > 0 {
             let heavy = heaviest(filter.weights().as_slice(), CLOSING.searched);
-            let found = filter.revise(|slot, particle| self.look(slot, particle, heavy[slot]));
+            let found = filter.revise(|slot, particle| (None, self.look(slot, particle, heavy[slot])));
             for (slot, found) in found.into_iter().enumerate() {
                 let account = &mut self.accounts[slot];
                 match found {
                     Found::Nothing => {}
                     Found::Agrees(agreement, closed) => account.agrees(&agreement, closed),
                     Found::Contradicts(agreement, back) => account.contradicts(&agreement, back),
-                    Found::Bent(relation, end, maps) => {
-                        account.bent(relation, end);
-                        self.before.iter_mut().zip(maps).for_each(|(before, map)| before.maps[slot] = map);
-                        self.bent += 1;
-                    }
+                    Found::Missed(correction) => self.corrections[slot] = Some(correction),
                 }
             }
-        }
-        if self.before.back().is_none_or(|last| self.way(last.step, now) >= CLOSING.spacing) {
-            let maps = filter.particles().iter().map(|particle| particle.map.present()).collect();
-            self.before.push_back(Before { step: now, maps });
         }
     }
 
@@ -207,8 +302,11 @@ impl Closings {
         self.views[to].way - self.views[from].way
     }
 
-    /// Whether this particle is back somewhere; bent, if it has missed that and is `searched` for.
-    fn look(&self, slot: usize, particle: &Particle<Map>, searched: bool) -> (Option<Particle<Map>>, Found) {
+    /// Whether this particle is back somewhere, and the path that closes the loop, if it has missed that and is `searched` for.
+    fn look(&self, slot: usize, particle: &Particle<Map>, searched: bool) -> Found {
+        if self.corrections[slot].is_some() {
+            return Found::Nothing;
+        }
         let poses = particle.path.poses();
         let now = Now {
             closings: self,
@@ -219,7 +317,7 @@ impl Closings {
             poses: &poses,
         };
         if now.picture.hits.len() < CLOSING.picture / 4 || now.nearest(&now.here()).is_none() {
-            return (None, Found::Nothing);
+            return Found::Nothing;
         }
         let agreement = now.agreement(&now.here());
         let is_contradicted = agreement.disputed() >= CLOSING.disputed;
@@ -228,17 +326,17 @@ impl Closings {
         match if is_asked { now.search() } else { Place::Unclear } {
             Place::Elsewhere(pose, end) if searched => {
                 if let Some((relation, bent)) = now.bent(&pose) {
-                    let (particle, maps) = self.mapped(particle, &poses, &bent);
-                    return (Some(particle), Found::Bent(relation, end, maps));
+                    let map = particle.map.blank();
+                    return Found::Missed(Correction { relation, end, bent, map, mapped: 0, before: Vec::new() });
                 }
             }
-            Place::Here if !is_contradicted => return (None, Found::Agrees(agreement, closed)),
+            Place::Here if !is_contradicted => return Found::Agrees(agreement, closed),
             _ => {}
         }
         if is_contradicted {
-            (None, Found::Contradicts(agreement, now.relation(&now.here())))
+            Found::Contradicts(agreement, now.relation(&now.here()))
         } else {
-            (None, Found::Agrees(agreement, None))
+            Found::Agrees(agreement, None)
         }
     }
 
@@ -252,28 +350,6 @@ impl Closings {
         });
         let picked = ends.step_by(count.div_ceil(CLOSING.picture).max(1));
         Scan { hits: picked.map(|(seen, end)| seen.transform(end.map(f64::from))).collect(), ..Scan::default() }
-    }
-
-    /// A particle of the path `bent` instead of `poses`, and its maps at the steps of [`Self::before`].
-    fn mapped(&self, particle: &Particle<Map>, poses: &[Pose2], bent: &[Pose2]) -> (Particle<Map>, Vec<Map>) {
-        let same = bent.iter().zip(poses).take_while(|(bent, pose)| bent == pose).count();
-        let mut path = particle.path.back().nth(poses.len() - same).expect("the first pose stays").clone();
-        bent[same..].iter().for_each(|pose| path.push(*pose));
-        let mut map = particle.map.blank();
-        let mut maps = Vec::new();
-        for (step, (pose, view)) in bent.iter().zip(&self.views).enumerate() {
-            if view.marked {
-                map.mark();
-            }
-            map.assimilate(pose, &view.scan.scan(), &());
-            if step == 0 {
-                map.settle();
-            }
-            if self.before.iter().any(|before| before.step == step) {
-                maps.push(map.present());
-            }
-        }
-        (Particle { world_from_robot: path.pose(), map, path }, maps)
     }
 }
 
@@ -436,27 +512,54 @@ pub(super) struct SavedClosings {
     /// Steps of the maps of before.
     before: Vec<usize>,
     accounts: Vec<Account>,
+    corrections: Vec<Option<SavedCorrection>>,
     checked: usize,
     bent: u32,
     marked: bool,
 }
 
+/// [`Correction`] without its maps.
+#[cfg(feature = "serde")]
+#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
+struct SavedCorrection {
+    relation: Relation,
+    end: LoopEnd,
+    bent: Vec<Pose2>,
+    mapped: usize,
+    /// Steps of its maps of before.
+    before: Vec<usize>,
+}
+
 #[cfg(feature = "serde")]
 impl Closings {
+    /// Without the maps, which are [`Self::maps`].
     pub(super) fn save(&self) -> SavedClosings {
-        let Self { views, before, accounts, checked, bent, marked } = self.clone();
-        let before = before.into_iter().map(|before| before.step).collect();
-        SavedClosings { views, before, accounts, checked, bent, marked }
+        let saved = |correction: &Correction| SavedCorrection {
+            relation: correction.relation,
+            end: correction.end,
+            bent: correction.bent.clone(),
+            mapped: correction.mapped,
+            before: correction.before.iter().map(|(step, _)| *step).collect(),
+        };
+        SavedClosings {
+            views: self.views.clone(),
+            before: self.before.iter().map(|before| before.step).collect(),
+            accounts: self.accounts.clone(),
+            corrections: self.corrections.iter().map(|one| one.as_ref().map(saved)).collect(),
+            checked: self.checked,
+            bent: self.bent,
+            marked: self.marked,
+        }
     }
 
-    /// What was saved of a filter with so many particles after so many steps, or before the first scan; with the maps of before, by step and slot.
+    /// What was saved of a filter with so many particles after so many steps, or before the first scan; with the maps, in the order of [`Self::maps`].
     pub(super) fn restore(
         saved: SavedClosings,
         maps: Vec<Map>,
         particles: usize,
         steps: Option<usize>,
     ) -> Result<Self, RestoreError> {
-        let SavedClosings { views, before, accounts, checked, bent, marked } = saved;
+        let SavedClosings { views, before, accounts, corrections, checked, bent, marked } = saved;
         let last = steps.unwrap_or(0);
         save::count("closings.views", views.len(), steps.map_or(0, |steps| steps + 1))?;
         for View { way, reach, scan, .. } in &views {
@@ -465,19 +568,30 @@ impl Closings {
             save::finite("closings.views", points.flatten().map(|c| f64::from(*c)))?;
         }
         save::holds(views.is_sorted_by_key(|view| view.way), "closings.views", "along the way")?;
-        let known = |step: &usize| steps.is_some() && *step <= last;
-        save::holds(
-            before.is_sorted() && before.iter().all(known),
-            "closings.before",
-            "in order, and of steps so far",
-        )?;
-        save::count("closings.before", maps.len(), before.len() * particles)?;
+        let are_known = |of: &[usize]| of.is_sorted() && of.iter().all(|step| steps.is_some() && *step <= last);
+        save::holds(are_known(&before), "closings.before", "in order, and of steps so far")?;
         save::holds(checked <= last, "closings.checked", "a step so far")?;
-        save::holds(accounts.is_empty() || accounts.len() == particles, "closings.accounts", "one for each particle")?;
+        for (name, count) in [("closings.accounts", accounts.len()), ("closings.corrections", corrections.len())] {
+            save::holds(count == 0 || count == particles, name, "one for each particle")?;
+        }
         accounts.iter().try_for_each(|account| account.check(last))?;
+        let of_corrections = corrections.iter().flatten().map(|one| one.before.len() + 1).sum::<usize>();
+        save::count("closings.maps", maps.len(), before.len() * particles + of_corrections)?;
         let mut maps = maps.into_iter();
         let before = before.into_iter().map(|step| Before { step, maps: maps.by_ref().take(particles).collect() });
-        Ok(Self { before: before.collect(), views, accounts, checked, bent, marked })
+        let before = before.collect();
+        let mut restored = |one: SavedCorrection| {
+            let SavedCorrection { relation, end, bent, mapped, before } = one;
+            save::poses("closings.corrections", bent.iter().copied().chain([relation.between]))?;
+            let is_known = relation.from <= relation.to && relation.to + 1 == bent.len() && relation.to <= last;
+            save::holds(is_known && mapped <= last && are_known(&before), "closings.corrections", "of steps so far")?;
+            let before = before.into_iter().zip(maps.by_ref()).collect();
+            let map = maps.next().expect("as many as were counted");
+            Ok(Correction { relation, end, bent, map, mapped, before })
+        };
+        let corrections = corrections.into_iter().map(|one| one.map(&mut restored).transpose());
+        let corrections = corrections.collect::<Result<_, RestoreError>>()?;
+        Ok(Self { before, views, accounts, corrections, checked, bent, marked })
     }
 }
 

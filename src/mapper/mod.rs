@@ -165,7 +165,7 @@ impl LaserMapper {
     /// A scan whose time or pose is not finite, whose pose lies further than 10 000 km from odometry's origin, or more than 1 km from
     /// that of the last scan that was not refused, is refused.
     ///
-    /// A step in which a path is bent to close a loop takes longer: all scans so far are mapped again for it.
+    /// Where a path is bent to close a loop, all scans so far are mapped again: [`LaserMapperSettings::remapped_per_scan`] of them a call.
     pub fn push(&mut self, scan: &LaserScan) -> Pushed {
         match self.odometer.next(scan, self.settings.longest()) {
             Ok(odometry) => self.push_from(scan, odometry),
@@ -202,7 +202,7 @@ impl LaserMapper {
             self.closings.resampled(ancestors);
         }
         self.closings.take(&standing, driven(&moved)[0]);
-        self.closings.check(&mut self.filter);
+        self.closings.check(&mut self.filter, self.settings.remapped());
         Pushed::Step(report)
     }
 
@@ -248,6 +248,11 @@ impl LaserMapper {
     /// As they were set.
     pub fn settings(&self) -> &LaserMapperSettings {
         &self.settings
+    }
+
+    /// Completes what is under way: paths that are being corrected to close a loop take over now, whatever that takes. For the end of a log.
+    pub fn finish(&mut self) {
+        self.closings.correct(&mut self.filter, usize::MAX);
     }
 
     /// The filter, for those who watch it: its particles, their weights, and what they descend from.

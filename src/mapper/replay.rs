@@ -85,6 +85,9 @@ impl Replay {
         let mut reports = placed.filter_map(|(scan, odometry)| self.mapper.push_from(scan, odometry).report());
         let report = reports.next();
         reports.for_each(drop);
+        if end == self.log.scans.len() {
+            self.mapper.finish();
+        }
         report
     }
 }

@@ -38,7 +38,7 @@ pub struct SavedMapper {
 }
 
 /// Of the form of [`SavedMapper`] and of what is in it besides the filter.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 impl LaserMapper {
     /// The mapper's state, with which a session goes on later. What maps share is in it once.

@@ -48,6 +48,9 @@ pub struct LaserMapperSettings {
     pub beams: Option<u32>,
     /// Whether drift and noise of the wheels are learnt along the way. `false` keeps to what is assumed of any wheels: for comparisons.
     pub learn_wheels: bool,
+    /// About how many scans are mapped again when one is pushed, in [`Self::REMAPPED_PER_SCAN`], where a path is bent to close a loop: the corrected path takes over
+    /// once it is mapped as far as the robot is. Work is counted and not time, so that results are the same on every machine. 0: all of them at once.
+    pub remapped_per_scan: u32,
 }
 
 impl Default for LaserMapperSettings {
@@ -64,6 +67,7 @@ impl Default for LaserMapperSettings {
             clear_range: 0.0,
             beams: None,
             learn_wheels: true,
+            remapped_per_scan: 0,
         }
     }
 }
@@ -79,6 +83,8 @@ impl LaserMapperSettings {
     pub const MIN_TRAVEL: Range = Range::number(0.0, 5.0, "m");
     /// Range of [`Self::clear_range`].
     pub const CLEAR_RANGE: Range = Range::number(0.0, 200.0, "m");
+    /// Range of [`Self::remapped_per_scan`]. Each path that is corrected gets two at the least, as the robot goes on by one.
+    pub const REMAPPED_PER_SCAN: Range = Range::whole(0, 1_000_000);
     /// Range of [`Self::no_return`].
     const NO_RETURN: Range = Range::number(0.0, f64::INFINITY, "m");
 
@@ -93,6 +99,7 @@ impl LaserMapperSettings {
         Self::MIN_TRAVEL.check("min_travel", self.min_travel)?;
         Self::CLEAR_RANGE.check("clear_range", self.clear_range)?;
         self.no_return.map_or(Ok(0.0), |length| Self::NO_RETURN.check("no_return", length))?;
+        Self::REMAPPED_PER_SCAN.check("remapped_per_scan", f64::from(self.remapped_per_scan))?;
         self.policy.validate()
     }
 
@@ -117,6 +124,11 @@ impl LaserMapperSettings {
     /// A reading of this length \[m\] or more met nothing.
     pub(super) fn longest(&self) -> f64 {
         self.no_return.unwrap_or(f64::INFINITY)
+    }
+
+    /// How many scans are mapped again in a call.
+    pub(super) fn remapped(&self) -> usize {
+        if self.remapped_per_scan == 0 { usize::MAX } else { self.remapped_per_scan as usize }
     }
 
     /// What a scan says, beam by beam.

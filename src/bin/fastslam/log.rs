@@ -204,6 +204,9 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         }
     }
     look(&mapper);
+    // The session goes on as one run would, with what is under way; what is written is of the whole log.
+    let session = mapper.clone();
+    mapper.finish();
     let elapsed = progress.finish();
     let stopped = (progress.scans < progress.all).then_some(had + progress.scans);
     if mapper.path().is_empty() && stopped.is_some() {
@@ -212,7 +215,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
 
     let path = mapper.path();
     outputs.write(&mapper, &path, &rules)?;
-    save_session(arguments, &mapper)?;
+    save_session(arguments, &session)?;
     let (doubts, remarks): (Vec<_>, Vec<_>) = mapper.remarks().into_iter().partition(|remark| match remark {
         Remark::OpenLoops { .. } | Remark::NothingMet => true,
         Remark::Contradicted { steps, .. } => *steps > mapper.steps() as usize / 3,

@@ -56,6 +56,10 @@ choices! {
     /// Learn drift and noise of the wheels along the way; false keeps to what is assumed of any wheels, for comparisons [default: true]
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL")]
     learn_wheels: bool;
+    /// Where a path is bent to close a loop, map about so many of the scans so far again for each new one, 0 to 1000000, so that no scan takes long;
+    /// the corrected path takes over when it is mapped. 0: all of them at once [default: 0]
+    #[arg(long, value_name = "SCANS", allow_negative_numbers = true)]
+    remapped_per_scan: u32;
     /// Pass malformed lines and messages over, and count them; read a bag that breaks off up to there
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL")]
     lenient: bool;
@@ -101,6 +105,7 @@ impl Choices {
             min_travel: self.min_travel.unwrap_or(default.min_travel),
             weight: self.weight.unwrap_or(default.weight),
             learn_wheels: self.learn_wheels.unwrap_or(default.learn_wheels),
+            remapped_per_scan: self.remapped_per_scan.unwrap_or(default.remapped_per_scan),
             ..default
         }
     }
@@ -131,6 +136,7 @@ pub fn by_flag(error: SettingError) -> SettingError {
         "max_range" => error.called("max-range"),
         "clear_range" => error.called("clear-range"),
         "min_travel" => error.called("min-travel"),
+        "remapped_per_scan" => error.called("remapped-per-scan"),
         "occupied_threshold" => error.called("occupied-threshold"),
         "free_threshold" => error.called("free-threshold"),
         "footprint_radius" => error.called("footprint-radius"),
@@ -149,11 +155,13 @@ pub fn listed(settings: &LaserMapperSettings) -> String {
         clear_range,
         min_travel,
         learn_wheels,
+        remapped_per_scan,
         ..
     } = settings;
     format!(
         "particles = {particles}, seed = {seed}, weight = {weight}, cell = {cell_size}, max-range = {max_range}, \
-         clear-range = {clear_range}, min-travel = {min_travel}, learn-wheels = {learn_wheels}"
+         clear-range = {clear_range}, min-travel = {min_travel}, learn-wheels = {learn_wheels}, \
+         remapped-per-scan = {remapped_per_scan}"
     )
 }
 
@@ -176,6 +184,7 @@ mod tests {
             ("clear_range", mapper.clear_range.to_string()),
             ("min_travel", mapper.min_travel.to_string()),
             ("learn_wheels", mapper.learn_wheels.to_string()),
+            ("remapped_per_scan", mapper.remapped_per_scan.to_string()),
             ("occupied_threshold", map.occupied_threshold.to_string()),
             ("free_threshold", map.free_threshold.to_string()),
             ("footprint_radius", map.footprint_radius.to_string()),
