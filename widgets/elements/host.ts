@@ -52,6 +52,8 @@ export type Command =
   | { do: 'lock'; text: string | null }
   | { do: 'show'; names: string }
   | { do: 'comma'; on: boolean }
+  /** A symbol that a reader of the chapter points at, in the picture too; an empty one puts it out. */
+  | { do: 'light'; symbol: string }
   /** What it says: of a language, as the program takes them. */
   | { do: 'words'; language: string; messages: string }
   | { do: 'seek'; step: number }

@@ -64,6 +64,8 @@ export class Session {
         return figure.set_words(command.messages)
       case 'comma':
         return figure.set_decimal_comma(command.on)
+      case 'light':
+        return figure.light(command.symbol)
       case 'seek':
         this.#target = command.step
         return figure.seek(this.target)

@@ -11,6 +11,7 @@ use crate::{
     paint::{Canvas, Theme},
     param, query, registry,
     scene::{Handle, Point, Rect, Room, Scene},
+    symbol,
     view::{Shown, Shows, View},
     words::{Language, common},
 };
@@ -23,6 +24,7 @@ pub struct Figure {
     canvas: Canvas,
     painted: Painted,
     decimal_comma: bool,
+    lit: String,
     language: Language,
     comparison: Comparison,
 }
@@ -77,7 +79,16 @@ impl Figure {
 
     fn showing(tag: &'static str, shown: Box<dyn Shown>) -> Self {
         let (canvas, painted, language) = (Canvas::default(), Painted::default(), Language::default());
-        Self { tag, shown, canvas, painted, decimal_comma: false, language, comparison: Comparison::default() }
+        Self {
+            tag,
+            shown,
+            canvas,
+            painted,
+            decimal_comma: false,
+            lit: String::new(),
+            language,
+            comparison: Comparison::default(),
+        }
     }
 
     /// What the figure is about.
@@ -118,6 +129,11 @@ impl Figure {
     /// Writes numbers with a decimal comma, in the picture and in words.
     pub fn set_decimal_comma(&mut self, on: bool) {
         self.decimal_comma = on;
+    }
+
+    /// Lights a symbol wherever the picture writes it: `S`, `H_m`, `w_~`. An empty one puts it out.
+    pub fn light(&mut self, symbol: &str) {
+        self.lit = symbol.into();
     }
 
     /// [`Model::readouts`], in the figure's language and way of writing numbers.
@@ -189,7 +205,8 @@ impl Figure {
     pub fn paint(&mut self, width_px: u32, height_px: u32, dpr: f64, theme: Theme) {
         let dpr = if dpr.is_finite() { dpr.clamp(0.25, 16.0) } else { 1.0 };
         let side = |px: u32| f64::from(px.max(1)) / dpr;
-        let scene = self.scene(side(width_px), side(height_px));
+        let mut scene = self.scene(side(width_px), side(height_px));
+        symbol::light(&mut scene, &self.lit);
         self.canvas.paint(&scene, width_px, height_px, theme);
         self.painted = Painted { handles: scene.handles, rooms: scene.rooms, width: scene.width };
     }

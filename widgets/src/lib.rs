@@ -43,6 +43,7 @@ pub mod scene;
 #[cfg(target_arch = "wasm32")]
 pub mod shell;
 pub mod smoothing;
+mod symbol;
 #[cfg(all(target_arch = "wasm32", feature = "trouble"))]
 mod trouble;
 pub mod universes;

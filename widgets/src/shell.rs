@@ -288,6 +288,11 @@ impl Figure {
         self.figure.set_decimal_comma(on);
     }
 
+    /// Lights a symbol wherever the picture writes it; an empty one puts it out.
+    pub fn light(&mut self, symbol: &str) {
+        self.figure.light(symbol);
+    }
+
     /// The numbers of the state shown: an array of `Readout`.
     pub fn readouts(&self) -> Array {
         self.readouts.borrow_mut().tell(self.figure.readouts())

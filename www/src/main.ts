@@ -9,6 +9,7 @@ import './hero'
 import './lap-table.css'
 import './page'
 import './place'
+import './symbols'
 import './vignette'
 import { takePrintKey } from '../../widgets/elements/paper'
 

@@ -81,6 +81,11 @@ class Vignette extends HTMLElement implements Listener, Printed {
     this.#send({ do: 'comma', on: hasComma(null, this.#words) })
   }
 
+  /** Lights a symbol wherever the picture writes it; an empty one puts it out. */
+  light(symbol: string): void {
+    this.#send({ do: 'light', symbol })
+  }
+
   #send(command: Command): void {
     this.#host?.send(command)
     this.wake()

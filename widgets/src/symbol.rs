@@ -1,0 +1,98 @@
+//! A symbol of the chapter that a reader points at, lit wherever a picture writes it.
+
+use crate::{
+    font,
+    scene::{Mark, Rect, Role, Scene, Text},
+};
+
+/// Font size above which a text is no index \[css px\].
+const LARGEST_INDEX: f64 = 10.0;
+
+/// Between the letters and the frame, and thickness of the frame \[css px\].
+const PAD: f64 = 2.0;
+const WIDTH: f64 = 1.5;
+
+/// Frames each place where the picture writes the symbol: a letter, or a letter and its index with `_` between them. An accent is an index too.
+pub fn light(scene: &mut Scene, symbol: &str) {
+    let (base, index) = symbol.split_once('_').unwrap_or((symbol, ""));
+    if base.is_empty() {
+        return;
+    }
+    let texts: Vec<&Text> =
+        scene.marks.iter().filter_map(|mark| if let Mark::Text(text) = mark { Some(text) } else { None }).collect();
+    let frames: Vec<Mark> =
+        (0..texts.len()).flat_map(|i| places(texts[i], texts.get(i + 1).copied(), base, index)).collect();
+    scene.marks.extend(frames);
+}
+
+/// Where a text has the symbol; its index is in the text after it.
+fn places(text: &Text, next: Option<&Text>, base: &str, index: &str) -> Vec<Mark> {
+    if text.size < LARGEST_INDEX {
+        return Vec::new();
+    }
+    let written = next.filter(|next| next.size < LARGEST_INDEX).map_or("", |next| &next.text);
+    let lower = next.is_some_and(|next| next.area.y > text.area.y);
+    let letters = written.starts_with(char::is_alphabetic) && lower;
+    let fits = |(at, _): &(usize, &str)| {
+        let (before, after) = (&text.text[..*at], &text.text[at + base.len()..]);
+        let apart =
+            !before.ends_with(char::is_alphanumeric) && !after.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+        let other = after.is_empty() && (letters || written == "^" || written == "~");
+        apart && if index.is_empty() { !other } else { after.is_empty() && written == index }
+    };
+    let [x, baseline] = text.origin();
+    let frame = |(at, _): (usize, &str)| {
+        let end = |to: usize| x + font::measure(&text.text[..to], text.size, text.weight);
+        let right = next
+            .filter(|_| !index.is_empty())
+            .map_or(end(at + base.len()), |next| end(at + base.len()).max(next.origin()[0] + next.width()));
+        let area = Rect::new(end(at) - PAD, baseline - text.size, right - end(at) + 2.0 * PAD, 1.35 * text.size);
+        Mark::Frame { area, width: WIDTH, role: Role::Accent }
+    };
+    text.text.match_indices(base).filter(fits).map(frame).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        font::Weight,
+        scene::{Anchor, Formula, n_eff, text},
+    };
+
+    /// Left edges of the frames, in px beside the left edge of the picture.
+    fn lit(symbol: &str) -> Vec<f64> {
+        let mut scene = Scene::new(400.0, 100.0, String::new());
+        Formula::new(13.0, Weight::Regular, Role::Ink).tex("S = H_m Σ H_m^T + Q").draw(&mut scene, [0.0, 20.0]);
+        Formula::new(13.0, Weight::Regular, Role::Ink).tex("w\u{303} = w").draw(&mut scene, [200.0, 20.0]);
+        n_eff(&mut scene, &Rect::new(0.0, 40.0, 200.0, 20.0), 12.0, Weight::Regular, Role::Ink);
+        scene.marks.push(text(
+            Rect::new(0.0, 70.0, 200.0, 20.0),
+            Anchor::Start,
+            12.0,
+            Weight::Regular,
+            Role::Ink,
+            "Six Sigma of N, M",
+        ));
+        let before = scene.marks.len();
+        light(&mut scene, symbol);
+        let left = |mark: &Mark| if let Mark::Frame { area, .. } = mark { area.x.round() } else { panic!("{mark:?}") };
+        scene.marks[before..].iter().map(left).collect()
+    }
+
+    #[test]
+    fn a_symbol_is_lit_where_it_is_written_and_no_part_of_a_word_or_of_another_symbol_is() {
+        assert_eq!(lit("S"), [-2.0]);
+        assert_eq!(lit("H_m").len(), 2);
+        assert!(lit("H").is_empty());
+        assert_eq!(lit("Q").len(), 1);
+        assert!(lit("Q_j").is_empty());
+        assert_eq!(lit("N_eff"), [-2.0]);
+        assert_eq!(lit("N").len(), 1);
+        assert_eq!(lit("M").len(), 1);
+        assert_eq!(lit("w_~"), [198.0]);
+        assert!(matches!(lit("w")[..], [x] if x > 210.0));
+        assert!(lit("i").is_empty());
+        assert!(lit("").is_empty());
+    }
+}
