@@ -79,7 +79,7 @@ test('the example comes with it; where a page lets no worker run that comes in t
     const figure = course.locator('fastslam-log')
     await figure.getByRole('button', { name: 'Map this building' }).click()
     if (file === 'plain.html') await expect(figure.locator('[part=transport] .position')).toHaveText(/^[1-9]\d+ /)
-    else await expect(figure.getByRole('alert')).toContainText('This figure is not live here: this page lets nothing run in the background.')
+    else await expect(figure.getByRole('alert')).toContainText('This figure is not live here: this page allows nothing to run in the background.')
     await figure.evaluate(element => (element as HTMLElement & { settled(): Promise<void> }).settled())
     expect(warnings.length, 'it does not try for ever').toBeLessThan(10)
   }

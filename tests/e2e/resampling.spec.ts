@@ -295,7 +295,7 @@ test.describe('at rest', () => {
     await figure.live()
     await figure.openCount()
     await panel(figure).start.click()
-    await expect(panel(figure).said).toContainText('lets nothing run in the background')
+    await expect(panel(figure).said).toContainText('allows nothing to run in the background')
     await expect(panel(figure).start).toBeEnabled()
     const before = await figure.position()
     await figure.step.click()

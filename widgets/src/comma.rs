@@ -6,7 +6,7 @@ use crate::scene::{Mark, Scene};
 /// What FastSLAM's versions are called; `2.0` there is a name and no number.
 const VERSIONS: [&str; 2] = ["1.0", "2.0"];
 /// Words that a version follows.
-const BEFORE_VERSION: [&str; 3] = ["FastSLAM ", "of ", "but "];
+const BEFORE_VERSION: [&str; 4] = ["FastSLAM ", "of ", "but ", "von "];
 
 /// The text with a comma wherever a point parts two digits of a number.
 pub fn in_text(text: &str) -> String {
@@ -51,6 +51,7 @@ mod tests {
             ("1.5·10^{−7}. Then 12.", "1,5·10^{−7}. Then 12."),
             ("FastSLAM 2.0: ratio 2.0", "FastSLAM 2.0: ratio 2,0"),
             ("one sample of 2.0 is worth 2.0 of 1.0", "one sample of 2.0 is worth 2,0 of 1.0"),
+            ("Eine Stichprobe von 2.0 ist 2.0 von 1.0 wert", "Eine Stichprobe von 2.0 ist 2,0 von 1.0 wert"),
             ("FastSLAM 2.05", "FastSLAM 2,05"),
             ("of 12.0 m1.y", "of 12,0 m1.y"),
             (".5", ".5"),

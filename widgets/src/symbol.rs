@@ -35,8 +35,8 @@ fn places(text: &Text, next: Option<&Text>, base: &str, index: &str) -> Vec<Mark
     let letters = written.starts_with(char::is_alphabetic) && lower;
     let fits = |(at, _): &(usize, &str)| {
         let (before, after) = (&text.text[..*at], &text.text[at + base.len()..]);
-        let apart =
-            !before.ends_with(char::is_alphanumeric) && !after.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+        let apart = (before.ends_with('π') || !before.ends_with(char::is_alphanumeric))
+            && !after.starts_with(|c: char| c.is_alphanumeric() || c == '_');
         let other = after.is_empty() && (letters || written == "^" || written == "~");
         apart && if index.is_empty() { !other } else { after.is_empty() && written == index }
     };
@@ -63,7 +63,7 @@ mod tests {
     /// Left edges of the frames, in px beside the left edge of the picture.
     fn lit(symbol: &str) -> Vec<f64> {
         let mut scene = Scene::new(400.0, 100.0, String::new());
-        Formula::new(13.0, Weight::Regular, Role::Ink).tex("S = H_m Σ H_m^T + Q").draw(&mut scene, [0.0, 20.0]);
+        Formula::new(13.0, Weight::Regular, Role::Ink).tex("S = H_m Σ H_m^T + Q, 2πS").draw(&mut scene, [0.0, 20.0]);
         Formula::new(13.0, Weight::Regular, Role::Ink).tex("w\u{303} = w").draw(&mut scene, [200.0, 20.0]);
         n_eff(&mut scene, &Rect::new(0.0, 40.0, 200.0, 20.0), 12.0, Weight::Regular, Role::Ink);
         scene.marks.push(text(
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn a_symbol_is_lit_where_it_is_written_and_no_part_of_a_word_or_of_another_symbol_is() {
-        assert_eq!(lit("S"), [-2.0]);
+        assert!(matches!(lit("S")[..], [-2.0, _]));
         assert_eq!(lit("H_m").len(), 2);
         assert!(lit("H").is_empty());
         assert_eq!(lit("Q").len(), 1);
