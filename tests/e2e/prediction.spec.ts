@@ -46,7 +46,7 @@ test('without a guess nothing is run, unless the reader says so', async ({ page 
   await expect(figure.toggle('run')).toHaveText('Show me')
   await figure.toggle('run').click()
   await figure.settled()
-  await expect(figure.sentence).toContainText('it was not guessed')
+  await expect(figure.sentence).toContainText('no guess was made')
   const [guess] = await told()
   expect(guess).toMatchObject({ name: 'ratio_half', guess: null, waived: true })
   expect(guess!.result).toBeGreaterThan(1)

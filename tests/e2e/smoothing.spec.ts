@@ -105,5 +105,5 @@ test('exercise 10: how many pasts sweeps find is guessed in the chart, and witho
   expect((await figure.readouts())['first_after']).toMatch(/^–/)
   await figure.toggle('run').click()
   await figure.settled()
-  await expect(figure.sentence).toContainText('All 24 sweeps have 1 different pose at step 1; it was not guessed.')
+  await expect(figure.sentence).toContainText('All 24 sweeps have 1 different pose at step 1; no guess was made.')
 })

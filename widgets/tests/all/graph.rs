@@ -68,7 +68,7 @@ fn each_repair_is_a_question_of_its_own_and_its_answer_is_that_of_the_exercise()
         let rms = readout(&shown, "rms");
         assert!(least < rms && rms < most, "{repair}: {rms}");
         assert!(readout(&shown, "wrong_weight") < 0.1, "{repair}");
-        assert!(shown.model().describe().contains("it was not guessed"), "{repair}: {}", shown.model().describe());
+        assert!(shown.model().describe().contains("no guess was made"), "{repair}: {}", shown.model().describe());
     }
 }
 

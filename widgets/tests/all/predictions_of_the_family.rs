@@ -143,7 +143,7 @@ fn a_guess_is_placed_moved_and_judged_and_goes_with_its_question() {
         set(&mut asked, "run", "on");
         let outcome = asked.model().prediction().unwrap();
         assert!(outcome.waived && outcome.result.is_some() && outcome.result != Some(result), "{tag}: {outcome:?}");
-        assert!(asked.describe().contains("it was not guessed"), "{tag}: {}", asked.describe());
+        assert!(asked.describe().contains("no guess was made"), "{tag}: {}", asked.describe());
         assert!(last.model().prediction().is_none());
     }
 }
