@@ -17,7 +17,7 @@ async function middle(figure: Figure, handle: string): Promise<{ x: number; y: n
 
 test('it says what it shows before anyone touches it, and has no timeline; of a pair, 2.0 loses the one', async ({ page }) => {
   const figure = await open(page)
-  await expect(figure.sentence).toContainText(/in the posterior's 90 % region/)
+  await expect(figure.sentence).toContainText(/lie in the posterior's 90 % region/)
   await expect(figure.play).toBeHidden()
   await expect(figure.scrub).toBeHidden()
   await expect(figure.sentence).toContainText(/N_eff 1000 and \d\d\d of 1000/)

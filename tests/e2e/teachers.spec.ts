@@ -12,7 +12,7 @@ type Numbers = Record<string, number | null>
 
 /** What is claimed of a link, by its figure and a part of its state; every link of the list has one. */
 const CLAIMS: [link: string, holds: (now: Numbers, words: string) => boolean][] = [
-  ['proposal?v=3&landmarks=pair', (_, words) => words.includes('is lost, and N_eff does not tell')],
+  ['proposal?v=3&landmarks=pair', (_, words) => words.includes('is lost, and N_eff does not show it')],
   ['resampling?v=4&wings=on', ({ always_ess, always_right }) => always_ess! > 15.9 && always_right === 0],
   ['proposal?v=3&range-std=0.005', ({ ess_motion }) => ess_motion! < 200],
   ['proposal?v=3&range-std=0.5', ({ ess_motion }) => ess_motion! > 800],
