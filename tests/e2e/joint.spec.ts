@@ -42,7 +42,7 @@ test('exercise 2 (c): a guess is dragged, nothing tells the answer before, and t
   const hidden = ['ess_sampled', 'predicted_sampled', 'rho', 'removed']
   const asked = await figure.readouts()
   for (const name of hidden) expect(asked[name], name).toMatch(/^–/)
-  await expect(figure.sentence).toContainText('With how many landmarks are 1000 particles, whose maps are sampled, worth less than a single one?')
+  await expect(figure.sentence).toContainText('After how many landmarks are 1000 particles with sampled maps worth less than a single one?')
   await expect(figure.toggle('run')).toHaveText('Show me')
   const handle = figure.handle('guess')
   await handle.scrollIntoViewIfNeeded()
