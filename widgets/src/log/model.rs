@@ -448,7 +448,7 @@ mod tests {
         let walls = walls.filter(|&(i, j)| map.log_odds(i, j) > 0.0).count();
         let laid = model.compared().unwrap().cells(90).len();
         assert!(laid as f64 > 1.5 * walls as f64, "{laid} cells by odometry, {walls} in the map");
-        assert!(model.apart().unwrap() > 0.5 && model.describe().contains("Raw odometry alone has the robot "));
+        assert!(model.apart().unwrap() > 0.5 && model.describe().contains("By raw odometry alone the robot would be "));
         model.adopt(Recipe { odometry: false, ..model.recipe.clone() }).unwrap();
         assert!(model.compared().is_none() && !model.describe().contains("Raw odometry"));
     }

@@ -301,7 +301,7 @@ fn a_log_that_cannot_be_opened_is_refused_in_the_language_of_its_figure() {
         ("FLASER 3 1 2".into(), "Zeile 1: FLASER: erwartet Entfernung 3 von 3, gefunden das Ende der Zeile"),
         (scan("0"), "Zeile 1: FLASER: erwartet Entfernungen, gefunden keine"),
         (scan("2 nan nan").repeat(2), "keiner der 4 Messwerte ist eine Entfernung: eine endliche Zahl über 0"),
-        (scan("1 2"), "es ist nur ein Scan darin, und nichts zu kartieren"),
+        (scan("1 2"), "sie hat nur einen Scan, und damit ist nichts zu kartieren"),
         ("{\"time\": 1}\n".into(), "Zeile 1: ein Scan als JSON: erwartet „angle_min“, gefunden nichts"),
     ] {
         assert_eq!(figure.open(file.as_bytes()).unwrap_err().message, says);
