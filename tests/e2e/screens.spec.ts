@@ -54,6 +54,28 @@ test('at 400 % nothing of any figure scrolls sideways and nothing is cut off, wh
   }
 })
 
+test('at 400 % the picture begins in the first screen, and chips unfold over it', async ({ page }) => {
+  await page.setViewportSize({ width: 320, height: 256 })
+  await openCourse(page, '<fastslam-lap></fastslam-lap>')
+  const lap = new Figure(page, 'fastslam-lap')
+  await lap.live()
+  const above = () => lap.element.evaluate(element => element.shadowRoot!.querySelector('canvas')!.getBoundingClientRect().top - element.getBoundingClientRect().top)
+  const folded = await above()
+  expect(folded).toBeLessThan(160)
+  const chip = lap.element.getByRole('button', { name: 'Only four' })
+  await expect(chip).toBeHidden()
+  const fold = lap.element.getByRole('button', { name: 'Challenges' })
+  await fold.click()
+  await expect(fold).toHaveAttribute('aria-expanded', 'true')
+  await expect(chip).toBeVisible()
+  expect(await above()).toBeGreaterThan(folded + 60)
+  await chip.click()
+  await lap.settled()
+  await expect(chip).toHaveAttribute('aria-pressed', 'true')
+  await fold.click()
+  expect(await above()).toBe(folded)
+})
+
 test('on a page from right to left the controls change sides, and time and numbers do not', async ({ page }) => {
   await page.setViewportSize({ width: 1000, height: 800 })
   const lap = await openWhole(page, 'lap', 'rtl')

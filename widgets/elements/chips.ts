@@ -9,6 +9,8 @@ const MARGIN = 24 // [px] of the chip before it, so that it is seen that there i
 
 export class Chips {
   readonly element = h('div', { class: 'chips', part: 'chips', role: 'group', hidden: '' })
+  /** Unfolds them where there is no room for a row of them. */
+  readonly fold = h('button', { type: 'button', class: 'fold', part: 'button', 'aria-expanded': 'false', hidden: '' })
   readonly #goal = h('span')
   readonly #bar = h('progress', { max: '1' })
   readonly #said = h('span', { class: 'now' })
@@ -27,7 +29,8 @@ export class Chips {
     private readonly words: Words,
     private readonly take: (chip: Chip) => void,
   ) {
-    words.always(() => (this.element.ariaLabel = words.say('challenges')))
+    words.always(() => write(this.fold, (this.element.ariaLabel = words.say('challenges'))))
+    this.fold.addEventListener('click', () => (this.fold.ariaExpanded = String(this.fold.ariaExpanded !== 'true')))
     this.element.addEventListener('keydown', event => this.#move(event))
     this.element.addEventListener('click', ({ target }) => this.#press(this.#numberOf(target)))
     for (const type of ['pointerover', 'focusin'] as const) this.element.addEventListener(type, ({ target }) => this.#point(this.#numberOf(target)))
@@ -111,7 +114,7 @@ export class Chips {
 
   #make(count: number): void {
     this.element.replaceChildren(...Array.from({ length: count }, () => h('button', { type: 'button', class: 'chip', part: 'button chip' })))
-    this.element.hidden = count === 0
+    this.element.hidden = this.fold.hidden = count === 0
   }
 
   #numberOf(target: EventTarget | null): number {

@@ -97,7 +97,7 @@ export abstract class FigureParts extends HTMLElement {
       write(this.#numbersName, this.words.say('numbers'))
     })
     this.body.append(
-      h('div', { class: 'head' }, this.heading, this.chips.element, this.chips.verdict, this.status, this.#watch, this.#undo, this.menu.element),
+      h('div', { class: 'head' }, this.heading, this.chips.fold, this.chips.element, this.chips.verdict, this.status, this.#watch, this.#undo, this.menu.element),
       this.panes,
       keys,
       handleKeys,
