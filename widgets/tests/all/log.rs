@@ -195,7 +195,7 @@ fn files_that_are_no_logs_are_refused_with_line_and_reason_and_the_log_before_st
         (nan, "line 1: ODOM: expected "),
         (b"FLASER 999999999 1 2 3\n", "line 1: FLASER: "),
         (b"ODOM 0 0 0 0 0 0 1 host 1\n", "no FLASER"),
-        (b"FLASER 1 2 0 0 0 0 0 0 1 host 1\n", "only one scan"),
+        (b"FLASER 1 2 0 0 0 0 0 0 1 host 1\n", "one scan only"),
     ] {
         let error = figure.open(file).unwrap_err();
         assert!(error.message.contains(says), "{error}");

@@ -271,7 +271,7 @@ fn what_is_lost_is_told_in_words() {
         (figure.model().describe(), words.collect::<Vec<_>>().join("\n"))
     };
     let (told, drawn) = model("landmarks=pair");
-    assert!(told.contains("What speaks for A is lost") && drawn.contains("2.0 has lost A"), "{told}\n{drawn}");
+    assert!(told.contains("The hypothesis A is lost") && drawn.contains("2.0 has lost A"), "{told}\n{drawn}");
     let pair = proposal("landmarks=pair");
     assert!(said(&pair, "The motion prior has ", " %").parse::<f64>().unwrap() > 5.0, "{told}");
     assert_eq!(said(&pair, "samples there, the measurement-aware proposal ", " %"), "0", "{told}");
@@ -298,7 +298,7 @@ fn data_has_a_row_for_every_sample_and_what_is_said_follows_from_it() {
     });
     assert_eq!(ratio(&figure), fixed(aware.0 / motion.0, 1));
     assert_eq!(said(&figure, "(N_eff ", ")"), format!("{} and {} of 300", aware.1, motion.1));
-    assert_eq!(said(&figure, "region are ", " of them"), format!("{} % and {} %", aware.2, motion.2));
+    assert_eq!(said(&figure, "); ", " of them"), format!("{} % and {} %", aware.2, motion.2));
 }
 
 #[test]

@@ -14,6 +14,7 @@ mod policies;
 mod proposals;
 mod ring;
 mod smoothing;
+mod stores;
 
 pub use lap::LapCell;
 
@@ -194,6 +195,7 @@ pub fn recipes() -> Vec<Recipe> {
         looking_back::recipes(),
         landmarks::recipes(),
         em::recipes(),
+        stores::recipes(),
     ];
     all.into_iter().flatten().collect()
 }

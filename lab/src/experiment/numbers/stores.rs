@@ -1,0 +1,38 @@
+//! What a first write to a copied map of landmarks copies: a vector all of it, a tree one path.
+
+use super::{Group, Number, Recipe};
+use fastslam::map::landmarks::{Balanced, Blocks, Landmark, Store};
+use fastslam::nalgebra::{Matrix2, Vector2};
+
+/// Maps up to this size are tried.
+const LARGEST: u32 = 1000;
+
+/// All recipes of the stores.
+pub fn recipes() -> Vec<Recipe> {
+    vec![Recipe::fixed("stores", |group| {
+        vec![crossing::<Balanced>(group, "binary tree"), crossing::<Blocks>(group, "blocked tree, eight wide,")]
+    })]
+}
+
+/// The size of map from which on a tree copies less than a vector.
+fn crossing<S: Store>(group: &Group, tree: &str) -> Number {
+    let copies_more = |n: &u32| copied::<S>(*n) >= copied::<Vec<Option<Landmark>>>(*n);
+    let last = (1..=LARGEST).filter(copies_more).next_back().unwrap_or_default();
+    let key = format!("{}.copies_less", tree.split(' ').next().unwrap_or_default());
+    let made = format!(
+        "Smallest number of landmarks from which on, up to {LARGEST}, a first write after a copy copies fewer bytes in a {tree} than in a vector, counted by their footprints"
+    );
+    group.number(&key, f64::from(last + 1), "", made)
+}
+
+/// Bytes that two maps of this many landmarks hold more than one, once one is a copy of the other and has written to one landmark.
+fn copied<S: Store>(landmarks: u32) -> u64 {
+    let landmark = Landmark { mean: Vector2::zeros(), covariance: Matrix2::identity(), existence_count: 1, apart: 0 };
+    let mut map = S::default();
+    for index in 0..landmarks {
+        *map.entry(index) = Some(landmark);
+    }
+    let mut copy = map.clone();
+    *copy.entry(landmarks / 2) = Some(landmark);
+    S::footprint([&map, &copy].into_iter()).unique - S::footprint([&map].into_iter()).unique
+}
