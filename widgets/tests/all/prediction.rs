@@ -172,6 +172,6 @@ fn one_ancestor_that_never_comes_is_told_too() {
     let figure = resampling("policy=never&predict=on&guess=40&run=on");
     assert_eq!(figure.model().prediction().unwrap().result, None);
     assert!(
-        figure.model().describe().starts_with("Until the end more than one ancestor is left; the guess was step 40.")
+        figure.model().describe().starts_with("More than one ancestor is left at the end; the guess was step 40.")
     );
 }
