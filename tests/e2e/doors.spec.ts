@@ -27,8 +27,8 @@ test.describe('at rest', () => {
     const figure = await open(page)
     expect(await figure.position()).toBe(await figure.last())
     await expect(figure.scrub).toHaveValue(String(await figure.last()))
-    await expect(figure.sentence).toContainText('which is right. EKF-SLAM')
-    await expect(figure.sentence).toContainText('Its σ is 5 cm, and it is off by −1 doors, which is wrong')
+    await expect(figure.sentence).toContainText(': right. EKF-SLAM')
+    await expect(figure.sentence).toContainText('Its σ is 5 cm, and it is off by −1 doors: wrong')
     // Who is at the end stays there, and a link says so.
     for (const seed of ['8', '21']) {
       await figure.seed.fill(seed)
@@ -79,12 +79,12 @@ test.describe('at rest', () => {
     const figure = await open(page)
     await figure.element.getByRole('button', { name: /Fool EKF-SLAM/ }).click()
     await figure.settled()
-    await expect(figure.sentence).toContainText('it is off by 0 doors, which is right')
+    await expect(figure.sentence).toContainText('it is off by 0 doors: right')
     await drag(page, figure, 'end', 60)
     await expect(figure.told).toContainText('Particles: right? right → right, EKF-SLAM: right? right → wrong')
     await expect(figure.element.getByRole('button', { name: 'Fool EKF-SLAM (reached)' })).toBeVisible()
     await figure.goTo('ride=1')
-    await expect(figure.sentence).toContainText('it is off by 0 doors, which is right')
+    await expect(figure.sentence).toContainText('it is off by 0 doors: right')
   })
 
   test('nothing axe finds', async ({ page }) => {
