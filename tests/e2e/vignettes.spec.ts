@@ -6,11 +6,11 @@ import { expect, test } from './fixtures'
 
 const MOST = { width: 560, height: 200 }
 
-/** Those of the chapter, by what they are. */
-const names = (page: Page): Promise<string[]> => page.locator('fastslam-vignette').evaluateAll(all => all.map(one => one.getAttribute('which')!))
+/** Those of the chapter, by their names there: some stand in it twice. */
+const names = (page: Page): Promise<string[]> => page.locator('figure.vignette').evaluateAll(all => all.map(one => one.id))
 
 async function shown(page: Page, which: string) {
-  const element = page.locator(`fastslam-vignette[which=${which}]`)
+  const element = page.locator(`#${which} fastslam-vignette`)
   await element.evaluate(one => {
     for (let at = one.closest('details'); at; at = at.parentElement!.closest('details')) at.open = true
     one.scrollIntoView({ block: 'center' })
@@ -119,4 +119,18 @@ test.describe('without script', () => {
     await picture.scrollIntoViewIfNeeded()
     await expect(picture).toBeVisible()
   })
+})
+
+test('on a laptop a picture is never far: there are at least 26, and no more than four screens of what is open are without one', async ({ page }) => {
+  await page.setViewportSize({ width: 1366, height: 650 })
+  await page.goto('./')
+  const { count, far } = await page.evaluate(() => {
+    const seen = [...document.querySelectorAll('main :is(figure.vignette, figure[id^=fig-])')].filter(figure => figure.checkVisibility()).map(figure => ({ name: figure.id, box: figure.getBoundingClientRect() }))
+    const end = document.querySelector('#exercises')!.getBoundingClientRect().top
+    const text = seen.filter(({ box }) => box.top < end)
+    const far = text.map(({ name, box }, i) => ({ name, screens: (box.top - (text[i - 1]?.box.bottom ?? document.querySelector('h1')!.getBoundingClientRect().bottom)) / innerHeight }))
+    return { count: seen.length, far: far.filter(({ screens }) => screens > 4) }
+  })
+  expect(far).toEqual([])
+  expect(count).toBeGreaterThanOrEqual(26)
 })

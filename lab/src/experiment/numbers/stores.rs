@@ -20,7 +20,8 @@ fn crossing<S: Store>(group: &Group, tree: &str) -> Number {
     let last = (1..=LARGEST).filter(copies_more).next_back().unwrap_or_default();
     let key = format!("{}.copies_less", tree.split(' ').next().unwrap_or_default());
     let made = format!(
-        "Smallest number of landmarks from which on, up to {LARGEST}, a first write after a copy copies fewer bytes in a {tree} than in a vector, counted by their footprints"
+        "Smallest number of landmarks from which on, up to {LARGEST}, a first write after a copy copies fewer bytes in a \
+         {tree} than in a vector, counted by their footprints"
     );
     group.number(&key, f64::from(last + 1), "", made)
 }
@@ -35,4 +36,24 @@ fn copied<S: Store>(landmarks: u32) -> u64 {
     let mut copy = map.clone();
     *copy.entry(landmarks / 2) = Some(landmark);
     S::footprint([&map, &copy].into_iter()).unique - S::footprint([&map].into_iter()).unique
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tree_copies_one_path_and_a_vector_everything() {
+        // The formulas of the exercise, for 24 landmarks.
+        assert_eq!(copied::<Vec<Option<Landmark>>>(24), 64 * 24);
+        assert_eq!(copied::<Balanced>(24), 128 + 32 * 4);
+        assert_eq!(copied::<Blocks>(24), 512 + 128);
+        let crossings: Vec<f64> = recipes()[0]
+            .make(0, &fastslam::execute::Executor::Serial, &Default::default(), &|| ())
+            .numbers
+            .iter()
+            .map(|number| number.value)
+            .collect();
+        assert_eq!(crossings, [3.0, 11.0]);
+    }
 }
