@@ -1,9 +1,8 @@
 //! Where particles come from: the tree of all paths that are still needed.
 //!
 //! A particle holds its newest node, a node its pose and the node before. Cloning a path is counting one reference more, and what
-//! two particles have in common they share. A node that nobody descends from any more is freed with its last reference, and its
-//! memory is used again. So the tree never holds more than what the population needs, and what the copies of it need that somebody
-//! keeps. With multinomial resampling at every step that is t + O(M log M) nodes in expectation (Jacob, Murray, Rubenthaler 2015),
+//! two particles have in common they share. A node without descendants is freed with its last reference, and its memory is
+//! reused. So the tree never holds more than the population and its kept copies need. With multinomial resampling at every step that is t + O(M log M) nodes in expectation (Jacob, Murray, Rubenthaler 2015),
 //! against M · t for paths kept apart; other schemes and policies are not covered by their proof, but share just as well.
 
 #[cfg(feature = "serde")]

@@ -2,7 +2,7 @@
 //!
 //! # Modules
 //!
-//! [`mapper`] is ready-made for odometry and a laser. Whoever has another sensor, map or motion builds a filter of their own:
+//! [`mapper`] is ready-made for odometry and a laser. For another sensor, map or motion, build a filter of your own:
 //! [`rbpf`] is the algorithm, and takes any [`proposal`] and any [`map`]. Modules are the mathematics, in the order in which they
 //! depend on each other: [`ops`] → [`random`] → [`geometry`] → [`motion`], [`sensor`] → [`map`] → [`matching`] → [`proposal`] → [`rbpf`] →
 //! [`mapper`], [`smoothing`]. [`log`] reads recorded drives and writes paths. Why the bits are the

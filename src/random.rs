@@ -1,8 +1,8 @@
 //! Addressable randomness: a stream of random numbers is a pure function of (seed, purpose, step, slot).
 //!
 //! A generator carried inside a particle would be cloned with it at a resampling, and every copy would draw the same
-//! noise: the copies would never part. Here nobody carries a generator. Whoever needs noise asks for the stream at an
-//! address, and two filters that ask for the same address, whatever else they do, see the same noise. So filters compared on
+//! noise: the copies would never part. So there is no generator to carry. Noise is read from the stream at an
+//! address, and two filters that read from the same address see the same noise, whatever else they do. So filters compared on
 //! one figure share their world, and the order in which threads reach the particles does not matter.
 
 use crate::ops;
