@@ -4,7 +4,9 @@ import { readFileSync, rmSync } from 'node:fs'
 import { join } from 'node:path'
 import { build, dist, singlesAsked } from './build.mjs'
 import { buildPackages } from './check.mjs'
+import { putDownloads } from './downloads.mjs'
 import { cache, isMain, main, root, run, say, step, StepError } from './lib.mjs'
+import { writeOffline } from './offline.mjs'
 import { packNpm, packWheel } from './package.mjs'
 import { python } from './python.mjs'
 import { singlePrograms } from './registry.mjs'
@@ -38,11 +40,12 @@ const tryNpm = packed => run('npm', ['publish', '--dry-run', packed])
 /** @param {string} wheel */
 const tryWheel = async wheel => run(await python('release', 'twine'), ['-m', 'twine', 'check', '--strict', wheel])
 
-/** Into a folder that is new, as nothing is published by this. */
-function trySite() {
+/** Into a folder that is new, as nothing is published by this. @param {string[]} downloads */
+function trySite(downloads) {
   const folder = cache('release', 'site')
   rmSync(folder, { recursive: true, force: true })
   publish(dist, folder)
+  putDownloads(folder, downloads)
 }
 
 if (isMain(import.meta)) {
@@ -51,10 +54,11 @@ if (isMain(import.meta)) {
     const tag = given < 0 ? undefined : (process.argv[given + 1] ?? '')
     await step('One version in all places', async () => theVersion(file => readFileSync(join(root, file), 'utf8'), tag))
     await build(singlesAsked(singlePrograms))
-    await step('npm package', async () => tryNpm(await packNpm()))
-    await step('Python wheel', async () => tryWheel(await packWheel()))
+    let [npm, wheel] = ['', '']
+    await step('npm package', async () => tryNpm((npm = await packNpm())))
+    await step('Python wheel', async () => tryWheel((wheel = await packWheel())))
     await step('Crates, built from their packages', buildPackages)
-    await step('Site', async () => trySite())
+    await step('Site with its downloads', async () => trySite([npm, wheel, ...(await writeOffline())]))
     say('Nothing was uploaded.')
   })
 }

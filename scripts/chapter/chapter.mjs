@@ -43,7 +43,7 @@ const sheets = [20, 45, 90]
  * @type {{ name: string, text?: string, script: string, live?: boolean, solved?: boolean }[]}
  */
 const beside = [
-  ...['model', 'trust', 'hosting'].map(name => ({ name, script: './src/page.ts' })),
+  ...['model', 'trust', 'hosting', 'downloads'].map(name => ({ name, script: './src/page.ts' })),
   ...['practice', 'bank'].map(name => ({ name, script: './src/practice.ts' })),
   ...sheets.flatMap(minutes =>
     [false, true].map(solved => ({ name: `worksheet-${minutes}${solved ? '-solutions' : ''}`, text: `worksheet-${minutes}`, script: './src/sheet.ts', live: true, solved })),

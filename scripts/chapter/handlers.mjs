@@ -23,10 +23,13 @@ import { ask, name, shown, write } from './worksheet.mjs'
 /** The works cited on the page, known when all of it has been rendered. @type {Handler} */
 const references = () => /** @type {any} */ ({ type: 'element', tagName: 'references', properties: {}, children: [] })
 
+/** What a site has that was put somewhere for others (scripts/downloads.mjs). @type {Handler} */
+const downloads = () => h('div', { id: 'made' }, h('p', 'This copy of the site was built without its downloads. ', h('code', 'npm run site'), ' makes them.'))
+
 /** @type {Record<string, Handler>} */
 const containers = { algorithm, choice, count, deeper, derivation, equation, exercise, figure, hint, 'lap-table': lapTable, margin, picture, predict, reach, slide, solution, state: shown, table, takeaway, theorem, vignette, write }
 /** @type {Record<string, Handler>} */
-const leaves = { ask, citation, goal, 'lap-table': lapTable, listing, name, references, unfold }
+const leaves = { ask, citation, downloads, goal, 'lap-table': lapTable, listing, name, references, unfold }
 /** @type {Record<string, Handler>} */
 const texts = { chip, minutes, num, term }
 
