@@ -3,7 +3,8 @@
 import { h } from 'hastscript'
 import { visit } from 'unist-util-visit'
 import { dots } from './blocks.mjs'
-import { attribute, sentence } from './context.mjs'
+import { attribute, inline, sentence } from './context.mjs'
+import { say } from './translation.mjs'
 
 /**
  * @typedef {import('hast').ElementContent} ElementContent
@@ -18,18 +19,20 @@ import { attribute, sentence } from './context.mjs'
 /** The goals of the page for teachers: its table is their only list. @param {string} model its text @returns {import('./context.mjs').Aims} */
 export const aimsIn = model => new Map([...model.matchAll(/^\| \[(.+?)\]\(#model-([\w-]+)\) \| (.+?) \| .+ \|$/gm)].map(([, figure = '', of = '', can = '']) => [of, { figure, can }]))
 
-/** `::goal{of="lap"}`: what the questions that follow test. @type {import('./context.mjs').Handler} */
+/** `::goal{of="lap"}`: what the questions that follow test; in a translation with that, `::goal[say it in another language]{figure="Runde"}`. @type {import('./context.mjs').Handler} */
 export function goal(context, state, node) {
   const of = attribute(node, 'of') ?? ''
   const aim = context.aims.get(of)
   if (!aim) context.problems.add(context.file, node, `www/model.md has no goal of ${of}, only of ${[...context.aims.keys()].join(', ')}`)
-  context.bank = { of, asked: context.bank?.asked ?? 0 }
-  return h('p', h('b', 'Goal.'), ' A student can ', sentence(context, state, aim?.can ?? ''), ' (', h('a', { href: `./model.html#model-${of}` }, 'what the figure computes'), ').')
+  const { language } = context
+  context.bank = { of, figure: attribute(node, 'figure') ?? aim?.figure ?? '', asked: context.bank?.asked ?? 0 }
+  const can = node.children.length > 0 ? inline(state, node) : sentence(context, state, aim?.can ?? '')
+  return h('p', h('b', say(language, 'Goal.')), ` ${say(language, 'A student can')} `, can, ' (', h('a', { href: `./model.html#model-${of}` }, say(language, 'what the figure computes')), ').')
 }
 
 /** What a question of the bank has besides. @param {import('./context.mjs').Context} context @param {any} node @param {ElementContent[]} text @param {Kind} kind */
 export function banked(context, node, text, kind) {
-  const { bank, aims, titles, problems, file } = context
+  const { bank, titles, problems, file, language } = context
   if (!bank) throw new Error('There is no bank here.')
   const [id = '', section = ''] = ['id', 'section'].map(name => attribute(node, name))
   const level = Number(attribute(node, 'level') ?? NaN)
@@ -37,8 +40,8 @@ export function banked(context, node, text, kind) {
   if (!titles.has(section)) problems.add(file, node, `the chapter has no section ${section}`)
   const number = ++bank.asked
   /** @type {Asked} */
-  const asked = { id, number, level, goal: bank.of, figure: aims.get(bank.of)?.figure ?? '', section, text, ...kind }
-  return { number, asked, line: h('p.kind', dots(level), ' ', h('a', { href: `./index.html#${section}` }, titles.get(section) ?? '')) }
+  const asked = { id, number, level, goal: bank.of, figure: bank.figure, section, text, ...kind }
+  return { number, asked, line: h('p.kind', dots(level, language), ' ', h('a', { href: `./index.html#${section}`, lang: language === 'en' ? undefined : 'en' }, titles.get(section) ?? '')) }
 }
 
 /** The questions of a page. @param {ElementContent[]} nodes @returns {Asked[]} */

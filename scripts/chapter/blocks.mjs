@@ -4,6 +4,7 @@ import { h } from 'hastscript'
 import { visit } from 'unist-util-visit'
 import { attribute, content, idOf, inline, latest, nameOf, parts, sentence } from './context.mjs'
 import { display, formula } from './inline.mjs'
+import { say } from './translation.mjs'
 
 /** @typedef {import('./context.mjs').Handler} Handler */
 
@@ -38,7 +39,7 @@ export function margin(_, state, node) {
 }
 
 /** How hard, of three. @param {number} level */
-export const dots = level => h('span.level', { role: 'img', ariaLabel: `level ${level} of 3` }, [1, 2, 3].map(dot => (dot <= level ? '●' : '○')).join(''))
+export const dots = (level, /** @type {import('./translation.mjs').Language} */ language = 'en') => h('span.level', { role: 'img', ariaLabel: say(language, 'level {n} of 3', level) }, [1, 2, 3].map(dot => (dot <= level ? '●' : '○')).join(''))
 
 /** @type {Handler} */
 export function exercise(context, state, node) {

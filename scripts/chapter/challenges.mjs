@@ -32,3 +32,11 @@ export function judgeChips({ figure, file, problems }, node) {
   if (!figure || figure.told.length === 0 || figure.told.join() === figure.challenges.join()) return
   problems.add(file, node, `the caption has the challenges ${figure.told.join(', ')}, and ${figure.tag} has ${figure.challenges.join(', ')}`)
 }
+
+/** `:task[bend]{of="proposal"}`: a challenge of a figure as the figure calls it, in the language of the page. @type {import('./context.mjs').Handler} */
+export function task({ root, file, language, problems }, _, node) {
+  const [name, of = ''] = [node.children[0]?.value ?? '', attribute(node, 'of')]
+  const called = JSON.parse(readFileSync(join(root, 'widgets', 'words', `${language}.json`), 'utf8'))[of.replaceAll('-', '_')]?.[`chip_${name.replaceAll('-', '_')}`]
+  if (!called) problems.add(file, node, `${of} has no challenge ${name} with a name`)
+  return h('em', called ?? '')
+}

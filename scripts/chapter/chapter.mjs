@@ -25,12 +25,13 @@ import { Problems } from './problems.mjs'
 import { solutionsPage, takeSolutions } from './solutions.mjs'
 import { Sources } from './source.mjs'
 import { together } from './together.mjs'
+import { complete, inGerman, say } from './translation.mjs'
 
 /**
  * @typedef {import('hast').ElementContent} ElementContent
  * @typedef {import('./context.mjs').Context} Context
  * @typedef {import('./parse.mjs').Source} Source
- * @typedef {{ head: ElementContent[], body: ElementContent[] }} Rendered
+ * @typedef {ReturnType<typeof page>} Rendered
  * @typedef {{ pages: Record<string, Rendered>, downloads: Record<string, string>, css: string, files: string[] }} Chapter `downloads`: files beside
  *   the pages; `files`: what it was made from
  */
@@ -38,20 +39,24 @@ import { together } from './together.mjs'
 const home = fileURLToPath(new URL('.', import.meta.url))
 /** Plans of a lesson that have a worksheet [minutes]. */
 const sheets = [20, 45, 90]
-/**
- * Pages beside the chapter, each with its text and what it runs. Those that ask questions of the bank come after it.
- * @type {{ name: string, text?: string, script: string, live?: boolean, solved?: boolean }[]}
- */
-const beside = [
-  ...['model', 'trust', 'hosting', 'downloads'].map(name => ({ name, script: './src/page.ts' })),
-  ...['practice', 'bank'].map(name => ({ name, script: './src/practice.ts' })),
+/** @typedef {{ name: string, text?: string, script: string, live?: boolean, solved?: boolean }} Beside a page beside the chapter, with its text and what it runs */
+/** Pages that are there in German as well. Those that ask questions of the bank come after it. @type {Beside[]} */
+const bilingual = [
+  { name: 'bank', script: './src/practice.ts' },
   ...sheets.flatMap(minutes =>
     [false, true].map(solved => ({ name: `worksheet-${minutes}${solved ? '-solutions' : ''}`, text: `worksheet-${minutes}`, script: './src/sheet.ts', live: true, solved })),
   ),
   { name: 'deck', script: './src/deck.ts', live: true },
 ]
+/** @type {(Beside & { language?: import('./translation.mjs').Language })[]} */
+const beside = [
+  ...['model', 'trust', 'hosting', 'downloads'].map(name => ({ name, script: './src/page.ts' })),
+  { name: 'practice', script: './src/practice.ts' },
+  ...bilingual,
+  ...bilingual.map(page => ({ ...page, name: inGerman(page.name), text: inGerman(page.text ?? page.name), script: page.script.replace('practice', 'practice-de'), language: /** @type {const} */ ('de') })),
+]
 /** What is the same of every page. */
-const plain = { hero: [], previous: undefined, next: undefined, live: false, foot: 'Text: CC BY 4.0. Code: MIT or Apache-2.0', fonts: ['text', 'italic', 'bold', 'math', 'mono'] }
+const plain = { hero: [], previous: undefined, next: undefined, live: false, language: /** @type {const} */ ('en'), other: undefined, foot: 'Text: CC BY 4.0. Code: MIT or Apache-2.0', fonts: ['text', 'italic', 'bold', 'math', 'mono'] }
 
 /**
  * @param {string} root of the repository
@@ -91,7 +96,10 @@ export async function renderChapter(root) {
   const titles = new Map([first, ...rest].flatMap(text => (text ? titlesIn(text) : [])))
   const modelFile = join(www, 'model.md')
   const aims = aimsIn(existsSync(modelFile) ? readFileSync(modelFile, 'utf8') : '')
-  const shared = { root, problems, maths, numbers, citations, glossary, sources, lapTable, aims, titles, asked: new Map(), repository: repositoryOf(root) }
+  const shared = { root, problems, maths, numbers, citations, glossary, sources, lapTable, aims, titles, repository: repositoryOf(root) }
+
+  /** Questions of the bank, by language. */
+  const asked = { en: new Map(), de: new Map() }
 
   /** @type {Record<string, Rendered>} */
   const pages = {}
@@ -99,21 +107,26 @@ export async function renderChapter(root) {
   const number = String(front.number ?? '')
   if (first) {
     for (const key of ['title', 'number', 'lead']) if (!front[key]) problems.add(first.file, 1, `the front matter has no ${key}`)
-    pages['index.html'] = renderPage({ ...shared, chapter: number, texts: [first, ...rest], front, kicker: `Chapter ${number}`, script: './src/main.ts', live: true })
+    pages['index.html'] = renderPage({ ...shared, language: 'en', asked: asked.en, chapter: number, texts: [first, ...rest], front, kicker: `Chapter ${number}`, script: './src/main.ts', live: true })
   }
-  const kicker = h('a', { href: 'index.html' }, `Chapter ${number}`)
+  const kickerIn = (/** @type {import('./translation.mjs').Language} */ language) => h('a', { href: 'index.html' }, `${say(language, 'Chapter')} ${number}`)
   const { heads, sections: solutions } = takeSolutions(pages['index.html']?.body ?? [])
   if (solutions.length > 0) {
     const title = 'Solutions'
-    pages[solutionsPage] = page({ ...plain, title, heading: [{ type: 'text', value: title }], kicker, lead: [], description: `${title} of the exercises of chapter ${number}`, script: './src/page.ts', heads, main: solutions })
+    pages[solutionsPage] = page({ ...plain, title, heading: [{ type: 'text', value: title }], kicker: kickerIn('en'), lead: [], description: `${title} of the exercises of chapter ${number}`, script: './src/page.ts', heads, main: solutions })
   }
-  for (const { name, text: stem = name, script, live = false, solved } of beside) {
+  for (const { name, text: stem = name, script, live = false, solved, language = 'en' } of beside) {
     const path = join(www, `${stem}.md`)
     if (!existsSync(path)) continue
     const text = read(path)
+    const original = name.replace('-de', '')
+    if (language === 'de') complete(text, read(join(www, `${stem.replace('-de', '')}.md`)), problems)
+    const other = language === 'de' ? original : existsSync(join(www, `${inGerman(stem)}.md`)) ? inGerman(name) : undefined
     const sheet = solved === undefined ? undefined : { solved, tasks: 0 }
-    pages[`${name}.html`] = renderPage({ ...shared, chapter: number, texts: [text], front: { ...titleOf(text, problems), ...text.front }, kicker, script, live, sheet })
-    for (const asked of askedIn(pages[`${name}.html`]?.body ?? [])) shared.asked.set(asked.id, asked)
+    const front = { ...titleOf(text, problems), ...text.front }
+    const own = { language, asked: asked[language], other: other && `${other}.html`, kicker: kickerIn(language) }
+    pages[`${name}.html`] = renderPage({ ...shared, ...own, chapter: number, texts: [text], front, script, live, sheet })
+    for (const question of askedIn(pages[`${name}.html`]?.body ?? [])) asked[language].set(question.id, question)
   }
 
   // A number, a work or a term that nobody uses was forgotten, by the text or in its list.
@@ -124,9 +137,12 @@ export async function renderChapter(root) {
   for (const key of citations.unused()) problems.add(name(worksFile), lineWith(worksFile, `"${key}"`), `nobody cites ${key}`)
   for (const [key, { line }] of glossary.unused()) problems.add(glossary.file, line, `nobody uses the term ${key}`)
   problems.throwIfAny()
-  const asked = [...shared.asked.values()]
   /** @type {Record<string, string>} */
-  const downloads = asked.length > 0 ? { 'bank.gift.txt': toGift(asked, site()), 'bank.xml': toMoodle(asked, site()) } : {}
+  const downloads = {}
+  for (const [language, name] of /** @type {const} */ ([['en', 'bank'], ['de', 'bank-de']])) {
+    const bank = [...asked[language].values()]
+    if (bank.length > 0) Object.assign(downloads, { [`${name}.gift.txt`]: toGift(bank, site(), language), [`${name}.xml`]: toMoodle(bank, site(), language) })
+  }
   return { pages, downloads, css: maths.css(), files: [...files, ...sources.files] }
 }
 
@@ -165,11 +181,11 @@ function titleOf({ file, tree }, problems) {
 }
 
 /**
- * @param {Pick<Context, 'root' | 'problems' | 'maths' | 'numbers' | 'citations' | 'glossary' | 'sources' | 'lapTable' | 'aims' | 'titles' | 'asked' | 'repository'>
- *   & { chapter: string, texts: Source[], front: Record<string, any>, kicker: ElementContent | string, script: string, live: boolean, sheet?: Context['sheet'] }} options
+ * @param {Pick<Context, 'root' | 'problems' | 'maths' | 'numbers' | 'citations' | 'glossary' | 'sources' | 'lapTable' | 'aims' | 'titles' | 'asked' | 'language' | 'repository'>
+ *   & { chapter: string, texts: Source[], front: Record<string, any>, kicker: ElementContent | string, script: string, live: boolean, other?: string | undefined, sheet?: Context['sheet'] }} options
  * @returns {Rendered}
  */
-function renderPage({ chapter, texts, front, kicker, script, live, sheet, ...shared }) {
+function renderPage({ chapter, texts, front, kicker, script, live, other, sheet, ...shared }) {
   const labels = new Labels(chapter)
   /** @type {Context} */
   const context = { ...shared, file: '', labels, listings: new Map(), lines: new Set(), figure: undefined, bank: undefined, sheet, heads: [], depth: 1, notes: 0, last: '' }
@@ -207,6 +223,8 @@ function renderPage({ chapter, texts, front, kicker, script, live, sheet, ...sha
     previous: front.previous,
     next: front.next,
     live: live && texts.some(({ tree }) => tree.children.length > 0),
+    language: shared.language,
+    other,
   })
 }
 

@@ -5,6 +5,7 @@ import { banked } from './bank.mjs'
 import { goalsOf } from './challenges.mjs'
 import { attribute, content, inline, parts } from './context.mjs'
 import { typeset } from './numbers.mjs'
+import { say } from './translation.mjs'
 
 /** @typedef {import('./context.mjs').Context} Context */
 /** @typedef {import('./context.mjs').Handler} Handler */
@@ -23,7 +24,7 @@ function question(context, state, node, properties, asked, answer, kind) {
   const words = label ? inline(state, label) : []
   const bank = context.bank && banked(context, node, structuredClone(words), kind)
   const legend = h('legend', bank ? [h('b', `${bank.number}.`), ' '] : [], words)
-  const fieldset = h('fieldset.check', { id, ...properties }, legend, bank?.line ?? [], asked, h('details.answer', h('summary', 'Answer'), h('div.fold', answer)))
+  const fieldset = h('fieldset.check', { id, ...properties }, legend, bank?.line ?? [], asked, h('details.answer', h('summary', say(context.language, 'Answer')), h('div.fold', answer)))
   if (bank) fieldset.data = /** @type {any} */ ({ asked: bank.asked })
   return fieldset
 }
@@ -38,7 +39,7 @@ export function choice(context, state, node) {
   const choices = items.map(({ checked, children: [first, ...reason] }) => ({ right: checked === true, text: first ? inline(state, first) : [], reason: content(state, reason) }))
   const kept = structuredClone(choices)
   const asked = choices.map(({ text }, i) => h('label', h('input', { type: 'radio', name: id }), ' ', h('span', h('b', letters[i]), ' ', text)))
-  const answer = choices.map(({ right, reason }, i) => h('li', { className: right ? ['right'] : undefined }, after(h('b', `${letters[i]}: ${right ? 'yes' : 'no'}.`), reason)))
+  const answer = choices.map(({ right, reason }, i) => h('li', { className: right ? ['right'] : undefined }, after(h('b', `${letters[i]}: ${say(context.language, right ? 'yes' : 'no')}.`), reason)))
   return question(context, state, node, {}, asked, [h('ul', answer)], { choices: kept })
 }
 
@@ -49,9 +50,9 @@ export function count(context, state, node) {
   const value = valueOf(context, node, formula)
   if (!(within >= 0 && within < 0.2)) context.problems.add(context.file, node, ':::count has a tolerance, within="0.02" of its value')
   const unit = attribute(node, 'unit')
-  const field = h('label', 'Your answer ', h('input', { type: 'text', inputMode: 'decimal', autocomplete: 'off' }), unit ? ` ${unit}` : [])
+  const field = h('label', `${say(context.language, 'Your answer')} `, h('input', { type: 'text', inputMode: 'decimal', autocomplete: 'off' }), unit ? ` ${unit}` : [])
   const digits = Number(attribute(node, 'digits') ?? (Number.isInteger(value) ? 0 : 2))
-  const shown = `${typeset(value, digits)}${unit ? `\u00a0${unit}` : ''}.`
+  const shown = `${typeset(value, digits, context.language)}${unit ? `\u00a0${unit}` : ''}.`
   const reason = content(state, parts(node).body)
   const kept = structuredClone(reason)
   return question(context, state, node, { dataIs: value, dataWithin: within }, [field], after(h('b', shown), reason), { value, within, unit, shown, reason: kept })
@@ -62,7 +63,7 @@ export function reach(context, state, node) {
   const [figure = '', tag = '', challenge = ''] = ['figure', 'tag', 'challenge'].map(name => attribute(node, name))
   const goals = goalsOf(context.root, tag)
   if (!goals.includes(challenge)) context.problems.add(context.file, node, `${tag} has no goal ${challenge}, only ${goals.join(', ')}`)
-  const way = h('p', h('a', { href: `./index.html#${figure}` }, 'Set the figure up for it'))
+  const way = h('p', h('a', { href: `./index.html#${figure}` }, say(context.language, 'Set the figure up for it')))
   const reason = content(state, parts(node).body)
   return question(context, state, node, { dataTag: tag, dataChallenge: challenge }, [way], reason, { way: structuredClone(way), reason: structuredClone(reason) })
 }

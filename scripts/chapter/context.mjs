@@ -29,7 +29,9 @@ import { parse } from './parse.mjs'
  * @property {{ tag: string, challenges: string[], told: string[] } | undefined} figure whose caption is in hand, with the challenges it has, and those told
  * @property {Aims} aims what a student can do after work with each figure, by its name
  * @property {Map<string, string>} titles those of the chapter's sections, by anchor
- * @property {{ of: string, asked: number } | undefined} bank where questions of the bank are: the figure whose goal is in hand, and how many have been asked
+ * @property {{ of: string, figure: string, asked: number } | undefined} bank where questions of the bank are: the figure whose goal is in hand, by its name in
+ *   addresses and by its title, and how many have been asked
+ * @property {import('./translation.mjs').Language} language
  * @property {Map<string, import('./bank.mjs').Asked>} asked questions of the bank, by id, for the pages that come after it
  * @property {{ solved: boolean, tasks: number } | undefined} sheet of a worksheet: whether it has its solutions, and how many tasks so far
  * @property {Head[]} heads

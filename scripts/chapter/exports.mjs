@@ -2,17 +2,22 @@
 // Formulas are TeX between \( and \), which MathJax sets there.
 import { toHtml } from 'hast-util-to-html'
 import { visit } from 'unist-util-visit'
+import { say } from './translation.mjs'
 
 /** @typedef {import('./bank.mjs').Asked} Asked */
 /** @typedef {import('hast').ElementContent} ElementContent */
+/** @typedef {import('./translation.mjs').Language} Language */
 
 const title = 'FastSLAM'
 
 /** A question's name in a list. @param {Asked} asked */
 const nameOf = ({ number, figure }) => `${title} ${String(number).padStart(2, '0')}: ${figure}`
 
-/** @param {Asked} asked */
-const tagsOf = ({ level, goal, section }) => [`level ${level}`, `goal ${goal}`, `section ${section}`]
+/** @param {Asked} asked @param {Language} language */
+const tagsOf = ({ level, goal, section }, language) => [`${say(language, 'level')} ${level}`, `${say(language, 'goal')} ${goal}`, `${say(language, 'section')} ${section}`]
+
+/** Apart by languages: in a system that has both, a question of one has not the place of that of the other. @param {Asked} asked @param {Language} language */
+const categoryOf = ({ figure }, language) => `$course$/top/${title}${language === 'de' ? ' (deutsch)' : ''}/${figure}`
 
 /**
  * HTML for another site: no element of ours, links whole. Where nobody knows the site's address, a link is its text with the place behind it.
@@ -42,11 +47,11 @@ function elsewhere(nodes, address) {
 /** A number as it is written for a program: as many figures as any tolerance asks for. @param {number} value */
 const plain = value => String(Number(value.toPrecision(6)))
 
-/** What a question says, with what its answer has to be given in. @param {Asked} asked @param {string} address */
-function textOf(asked, address) {
+/** What a question says, with what its answer has to be given in. @param {Asked} asked @param {string} address @param {Language} language */
+function textOf(asked, address, language) {
   const text = elsewhere(asked.text, address)
-  if ('way' in asked) return `<p>${text}</p><p>${elsewhere([asked.way], address).replace(/^<p>|<\/p>$/g, '')}. Hand in the link of the state that you reached: <em>Copy link</em> in the menu of the figure.</p>`
-  return `<p>${text}${'value' in asked && asked.unit ? ` (in ${asked.unit})` : ''}</p>`
+  if ('way' in asked) return `<p>${text}</p><p>${elsewhere([asked.way], address).replace(/^<p>|<\/p>$/g, '')}. ${say(language, 'Hand in the link of the state that you reached: <em>Copy link</em> in the menu of the figure.')}</p>`
+  return `<p>${text}${'value' in asked && asked.unit ? ` (${say(language, 'in')} ${asked.unit})` : ''}</p>`
 }
 
 /** @param {string} text */
@@ -60,14 +65,14 @@ function giftAnswer(asked, address) {
   return `####${said(asked.reason)}`
 }
 
-/** @param {Asked[]} bank @param {string} address of the site, or empty */
-export function toGift(bank, address) {
+/** @param {Asked[]} bank @param {string} address of the site, or empty @param {Language} [language] */
+export function toGift(bank, address, language = 'en') {
   const questions = bank.map((asked, i) => {
-    const category = asked.goal === bank[i - 1]?.goal ? '' : `$CATEGORY: $course$/top/${title}/${asked.figure}\n\n`
-    const tags = [`[id:${asked.id}]`, ...tagsOf(asked).map(tag => `[tag:${tag}]`)].join(' ')
-    return `${category}// ${tags}\n::${gift(nameOf(asked))}::[html]${gift(textOf(asked, address))} {\n${giftAnswer(asked, address)}\n}\n`
+    const category = asked.goal === bank[i - 1]?.goal ? '' : `$CATEGORY: ${categoryOf(asked, language)}\n\n`
+    const tags = [`[id:${asked.id}]`, ...tagsOf(asked, language).map(tag => `[tag:${tag}]`)].join(' ')
+    return `${category}// ${tags}\n::${gift(nameOf(asked))}::[html]${gift(textOf(asked, address, language))} {\n${giftAnswer(asked, address)}\n}\n`
   })
-  return `// ${bank.length} questions on FastSLAM and Rao-Blackwellization, in the GIFT format. Text: CC BY 4.0.\n\n${questions.join('\n')}`
+  return `// ${say(language, '{n} questions on FastSLAM and Rao-Blackwellization', bank.length)}, GIFT. Text: CC BY 4.0.\n\n${questions.join('\n')}`
 }
 
 /** @param {string} text */
@@ -79,14 +84,14 @@ const tag = (name, content, attributes = {}) => `<${name}${Object.entries(attrib
 /** A text as Moodle wraps each, in HTML. @param {string} name @param {string} html @param {Record<string, string>} [attributes] @param {string} [more] */
 const html = (name, html, attributes = {}, more = '') => tag(name, tag('text', escaped(html)) + more, { ...attributes, format: 'html' })
 
-/** @param {Asked} asked @param {string} address */
-function moodleQuestion(asked, address) {
+/** @param {Asked} asked @param {string} address @param {Language} language */
+function moodleQuestion(asked, address, language) {
   const said = (/** @type {ElementContent[]} */ nodes) => elsewhere(nodes, address)
   const reason = 'reason' in asked ? said(asked.reason) : ''
   const kind = 'choices' in asked ? 'multichoice' : 'value' in asked ? 'numerical' : 'essay'
   const parts = [
     tag('name', tag('text', escaped(nameOf(asked)))),
-    html('questiontext', textOf(asked, address)),
+    html('questiontext', textOf(asked, address, language)),
     html('generalfeedback', reason),
     tag('defaultgrade', '1'),
     tag('penalty', '0.3333333'),
@@ -102,15 +107,15 @@ function moodleQuestion(asked, address) {
   } else {
     parts.push(tag('responseformat', 'editor'), tag('responserequired', '1'), tag('responsefieldlines', '5'), tag('attachments', '0'), html('graderinfo', reason))
   }
-  parts.push(tag('tags', tagsOf(asked).map(name => tag('tag', tag('text', name))).join('')))
+  parts.push(tag('tags', tagsOf(asked, language).map(name => tag('tag', tag('text', name))).join('')))
   return `  ${tag('question', `\n    ${parts.join('\n    ')}\n  `, { type: kind })}\n`
 }
 
-/** @param {Asked[]} bank @param {string} address of the site, or empty */
-export function toMoodle(bank, address) {
+/** @param {Asked[]} bank @param {string} address of the site, or empty @param {Language} [language] */
+export function toMoodle(bank, address, language = 'en') {
   const questions = bank.map((asked, i) => {
-    const category = tag('question', tag('category', tag('text', escaped(`$course$/top/${title}/${asked.figure}`))), { type: 'category' })
-    return (asked.goal === bank[i - 1]?.goal ? '' : `  ${category}\n`) + moodleQuestion(asked, address)
+    const category = tag('question', tag('category', tag('text', escaped(categoryOf(asked, language)))), { type: 'category' })
+    return (asked.goal === bank[i - 1]?.goal ? '' : `  ${category}\n`) + moodleQuestion(asked, address, language)
   })
-  return `<?xml version="1.0" encoding="UTF-8"?>\n<!-- ${bank.length} questions on FastSLAM and Rao-Blackwellization, for Moodle. Text: CC BY 4.0. -->\n${tag('quiz', `\n${questions.join('')}`)}\n`
+  return `<?xml version="1.0" encoding="UTF-8"?>\n<!-- ${say(language, '{n} questions on FastSLAM and Rao-Blackwellization', bank.length)}, Moodle XML. Text: CC BY 4.0. -->\n${tag('quiz', `\n${questions.join('')}`)}\n`
 }

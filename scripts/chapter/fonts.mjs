@@ -22,6 +22,9 @@ const faces = {
   mono: { file: 'source-code-pro/files/source-code-pro-latin-400-normal.woff2', features: [] },
 }
 
+/** Letters of German, in files of their own that pages in German have besides (www/src/german.css): the chapter does not pay for them. */
+const umlauts = 'ÄÖÜßäöü„'
+
 /** Elements set in another face than what surrounds them; what style.css says of them must agree. @type {Record<string, Face>} */
 const faceOf = { b: 'bold', strong: 'bold', dt: 'bold', em: 'italic', i: 'italic', code: 'mono' }
 /** Whole paragraphs in italics. */
@@ -51,6 +54,13 @@ export class Letters {
   add(face, text) {
     for (const letter of text) if (letter > ' ') this.sets[face].add(letter)
   }
+
+  /** The letters of a page in German. @param {ElementContent[]} nodes */
+  collectGerman(nodes) {
+    const own = new Letters()
+    own.collect(nodes)
+    for (const face of /** @type {Face[]} */ (Object.keys(faces))) this.add(face, [...own.sets[face]].filter(letter => !umlauts.includes(letter)).join(''))
+  }
 }
 
 /**
@@ -63,9 +73,12 @@ export async function writeFonts(root, folder, letters) {
   // What scripts write: numbers in an algorithm's lines.
   for (const face of /** @type {const} */ (['text', 'bold'])) letters.add(face, '0123456789.,−-')
   letters.add('math', italic('x'))
-  for (const [name, { file, features }] of Object.entries(faces)) {
+  const files = Object.entries(faces).flatMap(([name, face]) => {
+    const own = { name, ...face, text: [...letters.sets[/** @type {Face} */ (name)]].sort().join('') }
+    return ['text', 'italic', 'bold'].includes(name) ? [own, { ...own, name: `${name}-german`, text: umlauts }] : [own]
+  })
+  for (const { name, file, features, text } of files) {
     const source = join(root, 'node_modules', '@fontsource', file)
-    const text = [...letters.sets[/** @type {Face} */ (name)]].sort().join('')
     const font = readFileSync(source)
     const key = createHash('sha256').update(font).update(features.join()).update(text).digest('hex').slice(0, 32)
     const kept = cache('fonts', `${name}-${key}.woff2`)

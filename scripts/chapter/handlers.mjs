@@ -3,7 +3,7 @@ import { h } from 'hastscript'
 import { algorithm } from './algorithm.mjs'
 import { goal } from './bank.mjs'
 import { deeper, derivation, equation, exercise, hint, lapTable, margin, predict, solution, table, theorem } from './blocks.mjs'
-import { chip } from './challenges.mjs'
+import { chip, task } from './challenges.mjs'
 import { choice, count, reach, takeaway, unfold } from './checks.mjs'
 import { citation } from './citation.mjs'
 import { heading } from './contents.mjs'
@@ -31,7 +31,7 @@ const containers = { algorithm, choice, count, deeper, derivation, equation, exe
 /** @type {Record<string, Handler>} */
 const leaves = { ask, citation, downloads, goal, 'lap-table': lapTable, listing, name, references, unfold }
 /** @type {Record<string, Handler>} */
-const texts = { chip, minutes, num, term }
+const texts = { chip, minutes, num, task, term }
 
 /** @param {string} colons @param {Record<string, Handler>} known @returns {Handler} */
 const directive = (colons, known) => (context, state, node) => {

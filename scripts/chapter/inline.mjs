@@ -18,6 +18,7 @@ export function num(context, _, node) {
     digits: digits === undefined ? undefined : Number(digits),
     unit: attribute(node, 'unit') !== 'false',
     percent: attribute(node, 'percent') !== undefined,
+    language: context.language,
   })
   if (text === undefined) context.problems.add(context.file, node, `www/data/numbers.json has no number ${key}`)
   context.last = 'x'

@@ -5,11 +5,11 @@
 const nonBreaking = '\u00a0'
 const thin = '\u202f'
 
-/** A number as the chapter sets it: a true minus, thin spaces between thousands from 10 000 on. @param {number} value @param {number} digits */
-export function typeset(value, digits) {
+/** A number as the chapter sets it: a true minus, thin spaces between thousands from 10 000 on. @param {number} value @param {number} digits @param {import('./translation.mjs').Language} [language] */
+export function typeset(value, digits, language = 'en') {
   const [whole = '', fraction] = Math.abs(value).toFixed(digits).split('.')
   const grouped = whole.length > 4 ? whole.replace(/\B(?=(\d{3})+$)/g, thin) : whole
-  return `${value < 0 && Number(value.toFixed(digits)) !== 0 ? '−' : ''}${grouped}${fraction ? `.${fraction}` : ''}`
+  return `${value < 0 && Number(value.toFixed(digits)) !== 0 ? '−' : ''}${grouped}${fraction ? `${language === 'de' ? ',' : '.'}${fraction}` : ''}`
 }
 
 /** Places after the point where the text asks for none: two or three figures that count, and none for a whole number. @param {number} value */
@@ -36,14 +36,14 @@ export class Numbers {
   }
 
   /**
-   * @param {string} key @param {{ digits?: number | undefined, unit?: boolean, percent?: boolean }} [options]
+   * @param {string} key @param {{ digits?: number | undefined, unit?: boolean, percent?: boolean, language?: import('./translation.mjs').Language }} [options]
    * @returns {string | undefined} undefined where there is no such number
    */
-  text(key, { digits, unit = true, percent = false } = {}) {
+  text(key, { digits, unit = true, percent = false, language = 'en' } = {}) {
     if (!Object.keys(this.all).includes(key)) return undefined
     const number = /** @type {Quantity} */ (this.all[key])
-    if (percent) return `${typeset(100 * number.value, digits ?? (Math.abs(number.value) < 0.095 ? 1 : 0))}${unit ? `${nonBreaking}%` : ''}`
-    const text = typeset(number.value, digits ?? places(number.value))
+    if (percent) return `${typeset(100 * number.value, digits ?? (Math.abs(number.value) < 0.095 ? 1 : 0), language)}${unit ? `${nonBreaking}%` : ''}`
+    const text = typeset(number.value, digits ?? places(number.value), language)
     return unit && number.unit !== '1' && number.unit !== '' ? `${text}${nonBreaking}${number.unit}` : text
   }
 

@@ -16,7 +16,7 @@ export function chapter(root) {
   const make = async () => {
     const result = await renderChapter(root)
     const letters = new Letters()
-    for (const { body } of Object.values(result.pages)) letters.collect(body)
+    for (const { body, language } of Object.values(result.pages)) language === 'de' ? letters.collectGerman(body) : letters.collect(body)
     await writeFonts(root, generated, letters)
     mkdirSync(generated, { recursive: true })
     const css = join(generated, 'math.css')

@@ -5,6 +5,7 @@ import { after } from './checks.mjs'
 import { dots } from './blocks.mjs'
 import { attribute, content, inline, latest, parts } from './context.mjs'
 import { pictures, sized } from './figure.mjs'
+import { say } from './translation.mjs'
 
 /** @typedef {import('./context.mjs').Context} Context */
 /** @typedef {import('./context.mjs').Handler} Handler */
@@ -21,8 +22,10 @@ function sheetOf(context, node) {
 
 /** `::name{minutes="20"}`: whose sheet it is, and for how long. @type {Handler} */
 export function name(context, _, node) {
-  const minutes = `${attribute(node, 'minutes') ?? ''} minutes`
-  return sheetOf(context, node).solved ? h('p.name', `With solutions, ${minutes}`) : h('p.name', 'Name ', blank('long'), ' Date ', blank(), ` ${minutes}`)
+  const { language } = context
+  const minutes = `${attribute(node, 'minutes') ?? ''} ${say(language, 'minutes')}`
+  if (sheetOf(context, node).solved) return h('p.name', `${say(language, 'With solutions')}, ${minutes}`)
+  return h('p.name', `${say(language, 'Name')} `, blank('long'), ` ${say(language, 'Date')} `, blank(), ` ${minutes}`)
 }
 
 /**
@@ -43,13 +46,13 @@ export function ask(context, _, node) {
   const sheet = sheetOf(context, node)
   const asked = askedOf(context, node, attribute(node, 'of') ?? '')
   if (!asked) return []
-  const text = [...asked.text, /** @type {const} */ ({ type: 'text', value: ' ' }), h('span.kind', dots(asked.level))]
+  const text = [...asked.text, /** @type {const} */ ({ type: 'text', value: ' ' }), h('span.kind', dots(asked.level, context.language))]
   if ('choices' in asked) {
-    const items = asked.choices.map(({ right, text, reason }) => (sheet.solved ? h('li', { className: right ? ['right'] : undefined }, text, h('div.reason', after(h('b', right ? 'Right.' : 'No.'), reason))) : h('li', text)))
+    const items = asked.choices.map(({ right, text, reason }) => (sheet.solved ? h('li', { className: right ? ['right'] : undefined }, text, h('div.reason', after(h('b', say(context.language, right ? 'Right.' : 'No.')), reason))) : h('li', text)))
     return task(sheet, text, [h('ol.boxes', items)], [])
   }
-  if ('value' in asked) return task(sheet, text, [h('p', 'Answer ', blank(), asked.unit ? ` ${asked.unit}` : '')], after(h('b', asked.shown), asked.reason))
-  return task(sheet, text, [h('p', 'What you set, or the link of the state ', blank('long'))], asked.reason)
+  if ('value' in asked) return task(sheet, text, [h('p', `${say(context.language, 'Answer')} `, blank(), asked.unit ? ` ${asked.unit}` : '')], after(h('b', asked.shown), asked.reason))
+  return task(sheet, text, [h('p', `${say(context.language, 'What you set, or the link of the state')} `, blank('long'))], asked.reason)
 }
 
 /** `:::write[Question]{lines="3"}`: an open question; below it what an answer should say. @type {Handler} */

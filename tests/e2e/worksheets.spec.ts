@@ -40,7 +40,7 @@ test('a plan leads to its sheet, whose figures stand in the states that its task
 })
 
 test('axe finds nothing in a sheet and its solutions, light and dark, and it fits a phone', async ({ page }) => {
-  for (const name of ['worksheet-45', 'worksheet-45-solutions']) {
+  for (const name of ['worksheet-45', 'worksheet-45-solutions', 'worksheet-90']) {
     await page.goto(`./${name}.html`)
     for (const colorScheme of ['light', 'dark'] as const) {
       await page.emulateMedia({ colorScheme })

@@ -14,6 +14,17 @@ interface Judged {
 type Judge = (answer: string) => Judged | undefined
 type Give = (answer: string) => void
 
+/** What is said to an answer. */
+export const english = {
+  number: 'Write a number, such as 0.25 or 1/4.',
+  right: 'Yes.',
+  low: '{answer} is too low.',
+  high: '{answer} is too high.',
+  done: 'Done.',
+  forget: 'Forget my answer',
+}
+type Words = typeof english
+
 /** What stands in it, once more. */
 const copies = (element: Element): Node[] => [...element.children].map(child => child.cloneNode(true))
 
@@ -37,21 +48,21 @@ function numberIn(text: string): number {
 }
 
 /** A number within a share of the right one. */
-function count(question: HTMLElement, give: Give): Judge {
+function count(question: HTMLElement, give: Give, words: Words): Judge {
   const input = question.querySelector<HTMLInputElement>('input[type=text]')!
   const [is, within] = [Number(question.dataset['is']), Number(question.dataset['within'])]
   input.addEventListener('change', () => give(input.value))
   return answer => {
     input.value = answer
     const value = numberIn(answer)
-    if (Number.isNaN(value)) return { right: false, said: ['Write a number, such as 0.25 or 1/4.'] }
-    if (Math.abs(value - is) <= within * Math.abs(is) + 1e-9) return { right: true, said: ['Yes. ', ...copies(question.querySelector('.answer > .fold')!)] }
-    return { right: false, said: [`${answer} is too ${value < is ? 'low' : 'high'}.`] }
+    if (Number.isNaN(value)) return { right: false, said: [words.number] }
+    if (Math.abs(value - is) <= within * Math.abs(is) + 1e-9) return { right: true, said: [`${words.right} `, ...copies(question.querySelector('.answer > .fold')!)] }
+    return { right: false, said: [words[value < is ? 'low' : 'high'].replace('{answer}', answer)] }
   }
 }
 
 /** A state of a figure of this page: taken up by the link, reached when the figure says so. */
-function reach(question: HTMLElement, give: Give): Judge {
+function reach(question: HTMLElement, give: Give, words: Words): Judge {
   const { tag, challenge } = question.dataset
   const link = question.querySelector('a')!
   const figure = document.querySelector<FigureElement>(`figure > ${tag}`)
@@ -66,13 +77,13 @@ function reach(question: HTMLElement, give: Give): Judge {
       if (done && name === challenge) give('done')
     })
   }
-  return () => ({ right: true, said: ['Done. ', ...copies(question.querySelector('.answer > .fold')!)] })
+  return () => ({ right: true, said: [`${words.done} `, ...copies(question.querySelector('.answer > .fold')!)] })
 }
 
-function followOne(question: HTMLElement, isReached: (tag: string, name: string) => boolean): void {
+function followOne(question: HTMLElement, isReached: (tag: string, name: string) => boolean, words: Words): void {
   const key = `fastslam-check:${question.id}`
   const { tag, challenge, is } = question.dataset
-  const { line, told, button } = lineWith('Forget my answer', () => {
+  const { line, told, button } = lineWith(words.forget, () => {
     for (const input of question.querySelectorAll('input')) {
       input.checked = false
       if (input.type === 'text') input.value = ''
@@ -93,11 +104,11 @@ function followOne(question: HTMLElement, isReached: (tag: string, name: string)
     remember(key, judged && answer)
     say(judged)
   }
-  const judge = tag ? reach(question, give) : is === undefined ? choice(question, give) : count(question, give)
+  const judge = tag ? reach(question, give, words) : is === undefined ? choice(question, give) : count(question, give, words)
   give(recall(key) ?? (tag && challenge && isReached(tag, challenge) ? 'done' : ''))
 }
 
 /** Follows the questions of a page, or of a part of it. */
-export function follow(root: ParentNode, isReached = (_tag: string, _name: string): boolean => false): void {
-  for (const question of root.querySelectorAll<HTMLElement>('.check')) followOne(question, isReached)
+export function follow(root: ParentNode, isReached = (_tag: string, _name: string): boolean => false, words = english): void {
+  for (const question of root.querySelectorAll<HTMLElement>('.check')) followOne(question, isReached, words)
 }

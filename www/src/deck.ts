@@ -12,7 +12,8 @@ takePrintKey()
 /** The title is the first of them. */
 const slides = [...document.querySelectorAll<HTMLElement>('body > header, .slide')]
 const figures = slides.map(slide => slide.querySelector<FigureElement>('figure > :first-child'))
-const [back, on] = ['Previous', 'Next'].map(name => h('button', { type: 'button' }, name)) as [HTMLButtonElement, HTMLButtonElement]
+const german = document.documentElement.lang === 'de'
+const [back, on] = (german ? ['Zurück', 'Weiter'] : ['Previous', 'Next']).map(name => h('button', { type: 'button' }, name)) as [HTMLButtonElement, HTMLButtonElement]
 const place = h('span', {})
 let now = 0
 
@@ -75,7 +76,7 @@ addEventListener('hashchange', () => {
 })
 back.addEventListener('click', () => show(now - 1))
 on.addEventListener('click', () => show(now + 1))
-document.body.append(h('nav', { class: 'turn', 'aria-label': 'Slides' }, back, place, on))
+document.body.append(h('nav', { class: 'turn', 'aria-label': german ? 'Folien' : 'Slides' }, back, place, on))
 document.body.classList.add('turned')
 // A page is as wide as a slide, whatever other sheets say of paper.
 const paper = new CSSStyleSheet()
