@@ -23,6 +23,7 @@ import { page } from './page.mjs'
 import { parse } from './parse.mjs'
 import { Problems } from './problems.mjs'
 import { solutionsPage, takeSolutions } from './solutions.mjs'
+import { toQti } from './qti.mjs'
 import { Sources } from './source.mjs'
 import { together } from './together.mjs'
 import { complete, inGerman, say } from './translation.mjs'
@@ -32,8 +33,8 @@ import { complete, inGerman, say } from './translation.mjs'
  * @typedef {import('./context.mjs').Context} Context
  * @typedef {import('./parse.mjs').Source} Source
  * @typedef {ReturnType<typeof page>} Rendered
- * @typedef {{ pages: Record<string, Rendered>, downloads: Record<string, string>, css: string, files: string[] }} Chapter `downloads`: files beside
- *   the pages; `files`: what it was made from
+ * @typedef {{ pages: Record<string, Rendered>, downloads: Record<string, string>, packages: Record<string, Uint8Array>, css: string, files: string[] }} Chapter
+ *   `downloads` and `packages`: files beside the pages; `files`: what it was made from
  */
 
 const home = fileURLToPath(new URL('.', import.meta.url))
@@ -137,13 +138,14 @@ export async function renderChapter(root) {
   for (const key of citations.unused()) problems.add(name(worksFile), lineWith(worksFile, `"${key}"`), `nobody cites ${key}`)
   for (const [key, { line }] of glossary.unused()) problems.add(glossary.file, line, `nobody uses the term ${key}`)
   problems.throwIfAny()
-  /** @type {Record<string, string>} */
-  const downloads = {}
+  /** @type {Pick<Chapter, 'downloads' | 'packages'>} */
+  const { downloads, packages } = { downloads: {}, packages: {} }
   for (const [language, name] of /** @type {const} */ ([['en', 'bank'], ['de', 'bank-de']])) {
     const bank = [...asked[language].values()]
     if (bank.length > 0) Object.assign(downloads, { [`${name}.gift.txt`]: toGift(bank, site(), language), [`${name}.xml`]: toMoodle(bank, site(), language) })
+    if (bank.length > 0) packages[`${name}.qti.zip`] = toQti(bank, site(), language)
   }
-  return { pages, downloads, css: maths.css(), files: [...files, ...sources.files] }
+  return { pages, downloads, packages, css: maths.css(), files: [...files, ...sources.files] }
 }
 
 /** Headings with an anchor, before anything is made of them. @param {Source} source @returns {[anchor: string, title: string][]} */

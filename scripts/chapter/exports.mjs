@@ -10,8 +10,11 @@ import { say } from './translation.mjs'
 
 const title = 'FastSLAM'
 
+/** @param {Asked[]} bank @param {Language} language */
+export const titleOf = (bank, language) => say(language, '{n} questions on FastSLAM and Rao-Blackwellization', bank.length)
+
 /** A question's name in a list. @param {Asked} asked */
-const nameOf = ({ number, figure }) => `${title} ${String(number).padStart(2, '0')}: ${figure}`
+export const nameOf = ({ number, figure }) => `${title} ${String(number).padStart(2, '0')}: ${figure}`
 
 /** @param {Asked} asked @param {Language} language */
 const tagsOf = ({ level, goal, section }, language) => [`${say(language, 'level')} ${level}`, `${say(language, 'goal')} ${goal}`, `${say(language, 'section')} ${section}`]
@@ -21,9 +24,9 @@ const categoryOf = ({ figure }, language) => `$course$/top/${title}${language ==
 
 /**
  * HTML for another site: no element of ours, links whole. Where nobody knows the site's address, a link is its text with the place behind it.
- * @param {ElementContent[]} nodes @param {string} address of the site, or empty
+ * @param {ElementContent[]} nodes @param {string} address of the site, or empty @param {boolean} [xml] whether it has to be XML as well
  */
-function elsewhere(nodes, address) {
+export function elsewhere(nodes, address, xml = false) {
   const root = { type: /** @type {const} */ ('root'), children: structuredClone(nodes) }
   visit(root, 'element', (element, index, parent) => {
     if (!parent || index === undefined) return undefined
@@ -41,11 +44,11 @@ function elsewhere(nodes, address) {
     }
     return undefined
   })
-  return toHtml(root, { characterReferences: { useNamedReferences: true } }).replace(/\s+/g, ' ').trim()
+  return toHtml(root, xml ? { closeSelfClosing: true } : { characterReferences: { useNamedReferences: true } }).replace(/\s+/g, ' ').trim()
 }
 
 /** A number as it is written for a program: as many figures as any tolerance asks for. @param {number} value */
-const plain = value => String(Number(value.toPrecision(6)))
+export const plain = value => String(Number(value.toPrecision(6)))
 
 /** What a question says, with what its answer has to be given in. @param {Asked} asked @param {string} address @param {Language} language */
 function textOf(asked, address, language) {
@@ -72,14 +75,14 @@ export function toGift(bank, address, language = 'en') {
     const tags = [`[id:${asked.id}]`, ...tagsOf(asked, language).map(tag => `[tag:${tag}]`)].join(' ')
     return `${category}// ${tags}\n::${gift(nameOf(asked))}::[html]${gift(textOf(asked, address, language))} {\n${giftAnswer(asked, address)}\n}\n`
   })
-  return `// ${say(language, '{n} questions on FastSLAM and Rao-Blackwellization', bank.length)}, GIFT. Text: CC BY 4.0.\n\n${questions.join('\n')}`
+  return `// ${titleOf(bank, language)}, GIFT. Text: CC BY 4.0.\n\n${questions.join('\n')}`
 }
 
 /** @param {string} text */
-const escaped = text => text.replace(/&/g, '&amp;').replace(/</g, '&lt;').replace(/>/g, '&gt;').replace(/"/g, '&quot;')
+export const escaped = text => text.replace(/&/g, '&amp;').replace(/</g, '&lt;').replace(/>/g, '&gt;').replace(/"/g, '&quot;')
 
 /** @param {string} name @param {string} content @param {Record<string, string>} [attributes] */
-const tag = (name, content, attributes = {}) => `<${name}${Object.entries(attributes).map(([key, value]) => ` ${key}="${escaped(value)}"`).join('')}>${content}</${name}>`
+export const tag = (name, content, attributes = {}) => `<${name}${Object.entries(attributes).map(([key, value]) => ` ${key}="${escaped(value)}"`).join('')}>${content}</${name}>`
 
 /** A text as Moodle wraps each, in HTML. @param {string} name @param {string} html @param {Record<string, string>} [attributes] @param {string} [more] */
 const html = (name, html, attributes = {}, more = '') => tag(name, tag('text', escaped(html)) + more, { ...attributes, format: 'html' })
@@ -117,5 +120,5 @@ export function toMoodle(bank, address, language = 'en') {
     const category = tag('question', tag('category', tag('text', escaped(categoryOf(asked, language)))), { type: 'category' })
     return (asked.goal === bank[i - 1]?.goal ? '' : `  ${category}\n`) + moodleQuestion(asked, address, language)
   })
-  return `<?xml version="1.0" encoding="UTF-8"?>\n<!-- ${say(language, '{n} questions on FastSLAM and Rao-Blackwellization', bank.length)}, Moodle XML. Text: CC BY 4.0. -->\n${tag('quiz', `\n${questions.join('')}`)}\n`
+  return `<?xml version="1.0" encoding="UTF-8"?>\n<!-- ${titleOf(bank, language)}, Moodle XML. Text: CC BY 4.0. -->\n${tag('quiz', `\n${questions.join('')}`)}\n`
 }

@@ -31,8 +31,8 @@ export function chapter(root) {
     },
     async generateBundle() {
       const works = JSON.parse(readFileSync(join(root, 'www', 'references.json'), 'utf8'))
-      const { downloads } = await (made ??= make())
-      for (const [fileName, source] of Object.entries({ 'references.bib': toBibtex(works), 'references.json': toCsl(works), ...downloads })) this.emitFile({ type: 'asset', fileName, source })
+      const { downloads, packages } = await (made ??= make())
+      for (const [fileName, source] of Object.entries({ 'references.bib': toBibtex(works), 'references.json': toCsl(works), ...downloads, ...packages })) this.emitFile({ type: 'asset', fileName, source })
     },
     transformIndexHtml: {
       order: 'pre',
