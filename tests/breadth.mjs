@@ -28,7 +28,7 @@ export const units = [
   { name: 'page-one-screen', seconds: 60, command: page('/one-screen.spec.ts') },
   { name: 'page-screens', seconds: 70, command: page('/screens.spec.ts /heights.spec.ts') },
   { name: 'page-whole', seconds: 150, command: page('/whole.spec.ts') },
-  { name: 'page-embed', seconds: 140, command: page('/assign.spec.ts /embed.spec.ts /embed-docs.spec.ts /course.spec.ts /teachers.spec.ts /worksheets.spec.ts') },
+  { name: 'page-embed', seconds: 160, command: page('/assign.spec.ts /embed.spec.ts /embed-docs.spec.ts /course.spec.ts /teachers.spec.ts /walk.spec.ts /worksheets.spec.ts') },
   { name: 'page-packages', seconds: 60, command: page('/offline.spec.ts /package.spec.ts /pixels.spec.ts') },
   { name: 'programs-landmarks', seconds: 330, command: singles('conditioning,worked-example,joint,doors') },
   { name: 'programs-grids', seconds: 330, command: singles('lap,resampling,graph,universes') },

@@ -79,6 +79,19 @@ test('every state of the gallery is a challenge of its figure', async ({ page, r
   await expect(code(page)).toContainText(/<fastslam-conditioning v="\d+" condition="on">/)
 })
 
+test('who presses a state of the gallery before the page knows its figures gets it all the same', async ({ page }) => {
+  let arrive: () => void
+  const arrived = new Promise<void>(resolve => (arrive = resolve))
+  await page.route('**/custom-elements.json', async route => {
+    await arrived
+    await route.continue()
+  })
+  await Promise.all([page.waitForRequest('**/custom-elements.json'), page.goto('./embed/')])
+  await page.locator('#gallery [data-figure=em]').click()
+  arrive!()
+  await expect(page.locator('#preview fastslam-em')).toBeInViewport()
+})
+
 test('a number, foretold first: the figure waits for the prediction, and tries cost points', async ({ page }) => {
   const figure = await compose(page, 'figure=proposal&v=3&lock=odometry')
   await editor(page).getByLabel('Question').fill('How much is a sample of 2.0 worth?')

@@ -50,7 +50,10 @@ function field({ name, description, type, default: value }: Described): HTMLElem
   return h('div', { class: 'field' }, h('label', {}, h('span', { class: 'name' }, name), input), h('small', { id: `about-${name}` }, description ?? ''))
 }
 
-function edit(declarations: Declaration[], kept: readonly [string, string] | undefined): void {
+/** Opens a state of the gallery. */
+type Open = (figure: string, challenge: string) => void
+
+function edit(declarations: Declaration[], kept: readonly [string, string] | undefined): Open {
   const choose = h('select', { name: 'figure' }, ...declarations.map(({ tagName, summary }) => new Option(summary, tagName)))
   const fields = h('fieldset', { 'aria-label': 'Attributes of the figure' })
   /** What is wrong with what is written here: the figure tells its author, and not its readers. */
@@ -109,16 +112,13 @@ function edit(declarations: Declaration[], kept: readonly [string, string] | und
   if (askedTag) choose.value = askedTag
   begin(true)
 
-  for (const button of document.querySelectorAll<HTMLButtonElement>('#gallery button')) {
-    button.addEventListener('click', () => {
-      const { figure: name, challenge } = button.dataset
-      if (choose.value !== `fastslam-${name}`) {
-        choose.value = `fastslam-${name}`
-        begin()
-      }
-      form.scrollIntoView({ block: 'start' })
-      void figure.challenge(challenge!)
-    })
+  return (name, challenge) => {
+    if (choose.value !== `fastslam-${name}`) {
+      choose.value = `fastslam-${name}`
+      begin()
+    }
+    form.scrollIntoView({ block: 'start' })
+    void figure.challenge(challenge)
   }
 }
 
@@ -154,8 +154,13 @@ function list(declarations: Declaration[]): void {
   )
 }
 
+let open: (open: Open) => void
+const ready = new Promise<Open>(resolve => (open = resolve))
+// Who presses before all is there is not left without an answer.
+for (const button of document.querySelectorAll<HTMLButtonElement>('#gallery button')) button.addEventListener('click', async () => (await ready)(button.dataset['figure']!, button.dataset['challenge']!))
+
 const get = async (file: string): Promise<unknown> => (await fetch(new URL(file, home))).json()
 const manifest = (await get('custom-elements.json')) as { modules: { declarations: Declaration[] }[] }
 const versions = (await get('v/versions.json').catch(() => ({}))) as Record<string, string>
-edit(manifest.modules[0]!.declarations, Object.entries(versions).at(-1))
+open!(edit(manifest.modules[0]!.declarations, Object.entries(versions).at(-1)))
 list(manifest.modules[0]!.declarations)
