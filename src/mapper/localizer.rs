@@ -2,7 +2,8 @@
 
 use super::moving::LastViews;
 use super::odometer::Odometer;
-use super::tuning::{CLOSING, Map, ON_A_WALL, score};
+use super::spread::{PoseWithCovariance, Spreads};
+use super::tuning::{CLOSING, FROM_SCAN, Map, ON_A_WALL, score};
 use super::wheels::Wheels;
 use super::{Filter, LaserMapper, LaserMapperSettings, Pushed, Stamp, filter};
 use crate::error::SettingError;
@@ -10,7 +11,7 @@ use crate::geometry::{Gaussian3, Pose2};
 use crate::log::LaserScan;
 use crate::matching::{Score, ScoredPose, hill_climb};
 use crate::particle::Particle;
-use crate::proposal::{Search, Target};
+use crate::proposal::{Fit, Search, Target};
 use crate::sensor::Scan;
 
 /// The filter of a [`LaserMapper`] in a map that stays as it is: where the robot is, and nothing else.
@@ -32,6 +33,8 @@ pub struct Localizer {
     last: Option<Pose2>,
     steps: u32,
     stamps: Vec<Stamp>,
+    /// What the particles' last poses were drawn from; before the first scan, what is known of the start.
+    spreads: Spreads,
     /// End points so far, and those of them that lay on walls.
     compared: [f64; 2],
 }
@@ -48,6 +51,7 @@ impl Localizer {
         map.settle();
         Ok(Self {
             filter: filter(&settings, mapper.beams, map.clone()).start(*start.mean()).build()?,
+            spreads: Spreads::about(start.mean(), &start.covariance(), settings.particles),
             settings,
             map,
             start,
@@ -82,7 +86,9 @@ impl Localizer {
                 Pushed::First
             }
             Some(moved) => {
-                let report = self.filter.step(&self.wheels.displacement(&moved), &standing);
+                let control = self.wheels.displacement(&moved);
+                let report = self.filter.step(&control, &standing);
+                self.spreads = Spreads::of(&report, &control);
                 self.wheels.learn(&moved, &report);
                 self.steps = report.step;
                 self.keep_map();
@@ -106,6 +112,10 @@ impl Localizer {
         if let Some(ScoredPose { pose, .. }) = tops.reduce(better) {
             let mapped = filter(&self.settings, self.beams, self.map.clone()).start(pose).build();
             self.filter = mapped.expect("`new` has built one of these settings");
+            // The Gaussian of the hill, where what was seen makes one: otherwise no more is known than before.
+            if let Some(fit) = Fit::around(&pose, &FROM_SCAN.limits, |pose| target.log_value(pose)) {
+                self.spreads = Spreads::about(&pose, &fit.gaussian.covariance(), self.settings.particles);
+            }
         }
     }
 
@@ -119,6 +129,12 @@ impl Localizer {
     pub fn pose(&self) -> Pose2 {
         let pose = self.best().world_from_robot;
         self.stamps.last().map_or(pose, |stamp| pose.compose(&stamp.step_from_robot))
+    }
+
+    /// [`Self::pose`] with the covariance of its error in the frame of the map, as if the map had none: see [`LaserMapper::pose_with_covariance`].
+    /// Before the first scan it is that of the start.
+    pub fn pose_with_covariance(&self) -> PoseWithCovariance {
+        self.spreads.now(&self.filter, self.stamps.last(), &self.wheels)
     }
 
     /// The best particle's path: see [`LaserMapper::path`].

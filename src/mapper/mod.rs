@@ -23,6 +23,7 @@ mod replay;
 #[cfg(feature = "serde")]
 mod saved;
 mod settings;
+mod spread;
 #[cfg(test)]
 mod tests;
 pub mod tuning;
@@ -41,6 +42,8 @@ pub use replay::Replay;
 #[cfg(feature = "serde")]
 pub use saved::SavedMapper;
 pub use settings::LaserMapperSettings;
+pub use spread::PoseWithCovariance;
+use spread::Spreads;
 pub use tuning::Map;
 pub use wheels::{WheelNoise, Wheels};
 
@@ -108,6 +111,8 @@ pub struct LaserMapper {
     wheels: Wheels,
     /// What was expected of the last step.
     predicted: Option<Displacement>,
+    /// What the particles' last poses were drawn from.
+    spreads: Spreads,
     /// Metres driven by odometry since the particles' maps were marked for the last time.
     since_mark: f64,
     /// What was seen on the last metres of the way.
@@ -143,6 +148,7 @@ impl LaserMapper {
             odometer: Odometer::default(),
             wheels: Wheels::default(),
             predicted: None,
+            spreads: Spreads::default(),
             since_mark: 0.0,
             views: LastViews::default(),
             closings: Closings::default(),
@@ -189,6 +195,7 @@ impl LaserMapper {
         let standing = self.standing(scan, odometry);
         self.mark(driven(&moved)[0]);
         let report = self.filter.step(&control, &standing);
+        self.spreads = Spreads::of(&report, &control);
         if self.settings.learn_wheels {
             self.wheels.learn(&moved, &report);
         }
@@ -307,6 +314,11 @@ impl LaserMapper {
     pub fn pose(&self) -> Pose2 {
         let pose = self.best().world_from_robot;
         self.stamps.last().map_or(pose, |stamp| pose.compose(&stamp.step_from_robot))
+    }
+
+    /// [`Self::pose`] with the covariance of its error.
+    pub fn pose_with_covariance(&self) -> PoseWithCovariance {
+        self.spreads.now(&self.filter, self.stamps.last(), &self.wheels)
     }
 
     /// The best particle's path: a pose for each scan so far with its time \[s\], in the frame of the first. A scan that was passed

@@ -3,6 +3,7 @@
 use super::closing::{Closings, SavedClosings};
 use super::moving::LastViews;
 use super::odometer::Odometer;
+use super::spread::{SavedSpread, Spreads};
 use super::tuning::{self, Map};
 use super::wheels::Wheels;
 use super::{Filter, LaserMapper, LaserMapperSettings, Stamp, proposal};
@@ -28,6 +29,7 @@ pub struct SavedMapper {
     wheels: Wheels,
     /// Mean, and covariance by columns.
     predicted: Option<(Pose2, [[f64; 3]; 3])>,
+    spreads: Vec<SavedSpread>,
     since_mark: f64,
     views: LastViews,
     closings: SavedClosings,
@@ -38,7 +40,7 @@ pub struct SavedMapper {
 }
 
 /// Of the form of [`SavedMapper`] and of what is in it besides the filter.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 impl LaserMapper {
     /// The mapper's state, with which a session goes on later. What maps share is in it once.
@@ -68,6 +70,7 @@ impl LaserMapper {
             odometer: self.odometer.clone(),
             wheels: self.wheels.clone(),
             predicted: self.predicted.map(|Displacement { mean, covariance }| (mean, covariance.into())),
+            spreads: self.spreads.save(),
             since_mark: self.since_mark,
             views: self.views.clone(),
             closings: self.closings.save(),
@@ -92,6 +95,7 @@ impl LaserMapper {
             odometer,
             wheels,
             predicted,
+            spreads,
             since_mark,
             views,
             closings,
@@ -118,6 +122,7 @@ impl LaserMapper {
         let steps = filter.particles()[0].path.step();
         save::holds(last.is_some() || steps == 0, "last", "there after the first scan")?;
         let closings = Closings::restore(closings, before, particles, last.map(|_| steps as usize))?;
+        let spreads = Spreads::restore(spreads, particles)?;
         odometer.check()?;
         wheels.check()?;
         views.check()?;
@@ -139,6 +144,7 @@ impl LaserMapper {
             odometer,
             wheels,
             predicted,
+            spreads,
             since_mark,
             views,
             closings,

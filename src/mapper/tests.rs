@@ -1,6 +1,9 @@
 use super::*;
 use crate::log::LaserLog;
 use crate::ops;
+use crate::proposal::ProposalTrace;
+use crate::resampling::ResamplePolicy;
+use nalgebra::{Matrix3, Vector3};
 use std::hash::{DefaultHasher, Hasher};
 use std::sync::Arc;
 
@@ -153,6 +156,75 @@ fn the_pose_is_the_end_of_the_path() {
         assert_eq!(mapper.path().last(), Some(&(scan.time, mapper.pose())));
     }
     assert_eq!(mapper.steps(), 2);
+}
+
+/// What the particles drew from in a step, with their scores.
+fn mixture(mapper: &LaserMapper, report: &Report<()>) -> Vec<(Pose2, Matrix3<f64>, f64)> {
+    let scores = mapper.filter.weights().tempered(tuning::SELECTION_TEMPER);
+    let drawn_from = report.traces.iter().map(|trace| match trace {
+        ProposalTrace::Matched { mode, covariance, .. } => (*mode, *covariance),
+        ProposalTrace::Motion => panic!("every scan is matched here"),
+    });
+    drawn_from.zip(scores.as_slice()).map(|((mode, covariance), score)| (mode, covariance, *score)).collect()
+}
+
+/// By the mean of the mixture, and Huygens and Steiner: the covariance about the mean, and what lies between the mean and the pose. Of a single particle
+/// it is that of the fit about the mode.
+#[test]
+fn the_covariance_of_the_pose_is_the_second_moment_of_what_was_drawn_from_about_it() {
+    for particles in [1, 4] {
+        let settings = LaserMapperSettings { particles, policy: ResamplePolicy::Never, ..settings() };
+        let mut mapper = LaserMapper::new(settings).unwrap();
+        assert_eq!(mapper.pose_with_covariance().covariance, Matrix3::zeros());
+        for scan in &scans(9, 60) {
+            let Some(report) = mapper.push(scan).report() else { continue };
+            let now = mapper.pose_with_covariance();
+            let mixture = mixture(&mapper, &report);
+            let offset = |pose: &Pose2| pose.minus(&now.pose);
+            let mean: Vector3<f64> = mixture.iter().map(|(mode, _, score)| offset(mode) * *score).sum();
+            let within = mixture.iter().map(|(mode, covariance, score)| {
+                let d = offset(mode) - mean;
+                (covariance + d * d.transpose()) * *score
+            });
+            let expected: Matrix3<f64> = within.sum::<Matrix3<f64>>() + mean * mean.transpose();
+            assert!((now.covariance - expected).norm() < 1e-12, "{} {expected}", now.covariance);
+            assert!(now.stds().iter().all(|std| *std > 1e-3), "{now:?}");
+        }
+    }
+}
+
+/// All particles are copies of one, with a heading at the cut of the angle: each was drawn from a tenth of a radian beside it.
+#[test]
+fn particles_that_are_copies_of_one_leave_what_it_was_drawn_from_open() {
+    let settings = LaserMapperSettings { particles: 2, ..settings() };
+    let start = Pose2::new(1.0, 2.0, core::f64::consts::PI);
+    let filter = filter(&settings, 60, Map::new(tuning::grid(0.05))).start(start).build().unwrap();
+    let covariance = Matrix3::from_diagonal(&[4e-4, 1e-4, 1e-4].into());
+    let still = Displacement { mean: Pose2::default(), covariance: Matrix3::zeros() };
+    let mut report = filter.clone().step(&still, &Scan::default());
+    let beside = Pose2::new(1.0, 2.0, core::f64::consts::PI + 0.1);
+    report.paths = filter.particles().iter().map(|particle| particle.path.clone()).collect();
+    report.traces = [start, beside].map(|mode| ProposalTrace::Matched { mode, covariance, log_integral: 0.0 }).into();
+    report.ancestors = Some(vec![1, 1]);
+    let resampled = Spreads::of(&report, &still).now(&filter, None, &Wheels::default());
+    let turned = Matrix3::from_diagonal(&[0.0, 0.0, 0.01].into());
+    assert!((resampled.covariance - covariance - turned).norm() < 1e-15, "{}", resampled.covariance);
+}
+
+/// By J C Jᵀ + Q: a metre ahead, an error of the heading lies to the side.
+#[test]
+fn a_robot_that_has_moved_on_is_as_uncertain_as_odometry_leaves_it() {
+    let settings = LaserMapperSettings { min_travel: 1.5, ..settings() };
+    let mut scans = scans(2, 60);
+    let mut mapper = pushed(settings, &scans[..1]);
+    scans[1].odometry = Pose2::new(1.0, 0.0, 0.0);
+    let covariance = Matrix3::from_diagonal(&[1e-4, 1e-4, 4e-4].into());
+    mapper.spreads = Spreads::about(&Pose2::default(), &covariance, 4);
+    drop(mapper.push(&scans[1]));
+    let noise = mapper.wheels.displacement(&scans[1].odometry).covariance;
+    let moved = Matrix3::new(1e-4, 0.0, 0.0, 0.0, 5e-4, 4e-4, 0.0, 4e-4, 4e-4);
+    let now = mapper.pose_with_covariance();
+    assert!((now.covariance - moved - noise).norm() < 1e-15 && now.pose == scans[1].odometry, "{now:?}");
 }
 
 #[test]

@@ -53,6 +53,13 @@ impl<D: Motion> FromMeasurement<D> {
     }
 }
 
+impl Measured {
+    /// What is told of a pose that is drawn from it.
+    pub(super) fn trace(&self) -> ProposalTrace {
+        ProposalTrace::Matched { mode: self.mean, covariance: self.covariance, log_integral: self.log_evidence }
+    }
+}
+
 /// N(μ, P), which learns from each feature of a landmark of this map.
 struct Fold<'a, Z, S> {
     map: &'a Landmarks<Z, S>,
@@ -103,7 +110,7 @@ impl<Z: LandmarkSensor, S: Store, D: Motion> Proposal<Landmarks<Z, S>> for FromM
         let measured = self.fold(&particle.map, from, control, features);
         let (world_from_robot, trace) = if measured.informed {
             let pose = sample_semidefinite(&measured.mean, &measured.covariance, stream);
-            (pose, ProposalTrace::Matched { mode: measured.mean, log_integral: measured.log_evidence })
+            (pose, measured.trace())
         } else {
             (self.motion.drive(control).sample(from, stream), ProposalTrace::Motion)
         };

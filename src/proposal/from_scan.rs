@@ -259,6 +259,7 @@ fn choose<'a>(hills: &'a [(ScoredPose, Fit)], stream: &mut Stream) -> Option<&'a
 
 /// One draw from the fit.
 fn draw(top: &ScoredPose, fit: &Fit, stream: &mut Stream) -> (Pose2, ProposalTrace) {
-    let trace = ProposalTrace::Matched { mode: top.pose, log_integral: fit.log_integral };
+    let covariance = fit.gaussian.covariance();
+    let trace = ProposalTrace::Matched { mode: top.pose, covariance, log_integral: fit.log_integral };
     (fit.gaussian.sample(stream), trace)
 }

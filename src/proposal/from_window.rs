@@ -150,7 +150,7 @@ where
         let mut window =
             window.map_or_else(|| Window::after(Path::start(particle.world_from_robot)), Arc::unwrap_or_clone);
         let (log_increment, informed) = window.advance(&self.motion, &landmarks, control, features);
-        let pose = window.pose();
+        let (pose, covariance) = (window.pose(), window.covariance());
         let associations = window.steps.last().map(|step| step.associations.clone()).unwrap_or_default();
         if window.steps.len() >= (self.drawn + self.ahead) as usize {
             window = self.settle(window, &mut landmarks, stream);
@@ -160,7 +160,7 @@ where
             association: Followed { associations, after: Windowed { landmarks, window: Some(Arc::new(window)) } },
             log_increment,
             trace: if informed {
-                ProposalTrace::Matched { mode: pose, log_integral: log_increment }
+                ProposalTrace::Matched { mode: pose, covariance, log_integral: log_increment }
             } else {
                 ProposalTrace::Motion
             },

@@ -35,6 +35,7 @@ use crate::geometry::Pose2;
 use crate::map::ConditionalMap;
 use crate::particle::Particle;
 use crate::random::Stream;
+use nalgebra::Matrix3;
 
 /// Draws the next pose of a particle and says what it costs.
 pub trait Proposal<M: ConditionalMap>: Sync {
@@ -89,6 +90,9 @@ pub enum ProposalTrace {
     Matched {
         /// The mode x̂.
         mode: Pose2,
+        /// Covariance of that Gaussian (3 × 3, \[m, m, rad\], in the world's frame).
+        #[cfg_attr(feature = "serde", serde(skip))]
+        covariance: Matrix3<f64>,
         /// ln η̂ \[nats\]: the normaliser of likelihood times motion prior, as the fit has it.
         log_integral: f64,
     },

@@ -82,7 +82,7 @@ impl<Z: LandmarkSensor, S: Store, D: GaussianMotion> Retrace<Landmarks<Z, S>> fo
                 Some(q) => log_density(self.motion.drive(control).gaussian(from, [0.0; 3]), to) - q.log_density(to),
                 None => f64::NEG_INFINITY,
             };
-            (paid, ProposalTrace::Matched { mode: measured.mean, log_integral: measured.log_evidence })
+            (paid, measured.trace())
         } else {
             (0.0, ProposalTrace::Motion)
         };

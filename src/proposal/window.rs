@@ -9,7 +9,7 @@ use crate::map::landmarks::{Association, Belief, Innovation, Landmark, Landmarks
 use crate::motion::Motion;
 use crate::random::Stream;
 use crate::sensor::{Feature, LandmarkSensor, Prediction};
-use nalgebra::{DMatrix, Dyn, OMatrix, U2, U3, Vector2, Vector3};
+use nalgebra::{DMatrix, Dyn, Matrix3, OMatrix, U2, U3, Vector2, Vector3};
 
 /// A step of which the pose is not drawn yet.
 #[derive(Clone, Debug)]
@@ -54,6 +54,12 @@ impl<U: Clone> Window<U> {
     /// Mean of the newest pose.
     pub(super) fn pose(&self) -> Pose2 {
         self.steps.last().map_or_else(|| self.drawn.pose(), |step| step.pose)
+    }
+
+    /// Covariance of the newest pose (3 × 3, \[m, m, rad\]).
+    pub(super) fn covariance(&self) -> Matrix3<f64> {
+        let at = |step: &Step<U>| self.covariance.fixed_view::<3, 3>(step.row, step.row).into_owned();
+        self.steps.last().map_or_else(Matrix3::zeros, at)
     }
 
     /// Means of the poses that are not drawn, by all that was seen.

@@ -335,7 +335,8 @@ pub fn fit_error(setup: &LapSetup, particle: &Particle<Grid>, control: &Odometry
     let Either::Right(from_scan) = setup.proposals() else { return None };
     // No draw has a part in the fit.
     let stream = &mut Stream::at(setup.seed, Purpose::TRIAL, 0, 0);
-    let ProposalTrace::Matched { mode, log_integral } = from_scan.propose(particle, control, scan, stream).trace else {
+    let ProposalTrace::Matched { mode, log_integral, .. } = from_scan.propose(particle, control, scan, stream).trace
+    else {
         return None;
     };
     let (motion, likelihood) = (&from_scan.motion, &from_scan.score);

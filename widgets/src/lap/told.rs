@@ -95,7 +95,7 @@ impl LapModel {
             lines.extend([TraceLine::new("predict", pose(&predicted)), TraceLine::new("seed", "")]);
             let (matched, m) = (&report.matched, &m);
             match report.traces[slot] {
-                ProposalTrace::Matched { mode, log_integral } => lines.extend([
+                ProposalTrace::Matched { mode, log_integral, .. } => lines.extend([
                     TraceLine::new("match", lap::MovedBy { pose: &pose_text(mode.minus(&predicted).into()) }.say()),
                     TraceLine::new("doubt", lap::Trusted { matched, m }.say()),
                     TraceLine::new("fit", format!("ln η̂ = {}", nats(log_integral))),

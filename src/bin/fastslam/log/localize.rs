@@ -53,6 +53,8 @@ struct Output {
     x: f64,
     y: f64,
     heading_deg: f64,
+    /// Of the error of x, y and heading, row by row \[m, m, rad\].
+    covariance: [[f64; 3]; 3],
 }
 
 /// Finds the robot of a log in the map of a mapper.
@@ -74,7 +76,8 @@ pub fn run(arguments: &Arguments, name: &str, log: &LaserLog, mapper: &LaserMapp
     }
     let elapsed = progress.finish().as_secs_f64();
     outputs.write_path(&localizer.path())?;
-    let Pose2 { x, y, theta } = localizer.pose();
+    let now = localizer.pose_with_covariance();
+    let Pose2 { x, y, theta } = now.pose;
     let output = Output {
         scans: progress.scans,
         scans_used: used,
@@ -84,17 +87,22 @@ pub fn run(arguments: &Arguments, name: &str, log: &LaserLog, mapper: &LaserMapp
         x,
         y,
         heading_deg: theta.to_degrees(),
+        // By columns, which are its rows.
+        covariance: now.covariance.into(),
     };
     if arguments.json {
         print_json(&output)?;
     } else {
         let Output { scans, scans_used, scans_per_s, heading_deg, matched_fraction, .. } = output;
+        let [x_std, y_std, heading_std] = now.stds();
         print(&format!(
             "{scans} scans, of which {scans_used} looked at, in the map of the session, which stays as it is\n\
              time                              {elapsed:8.1} s, {scans_per_s:.0} scans/s\n\
              of what was seen, on walls of the map {:4.0} %\n\
-             at the last scan                  {x:8.2} m, {y:.2} m, {heading_deg:.1}°\n",
-            100.0 * matched_fraction
+             at the last scan                  {x:8.2} m, {y:.2} m, {heading_deg:.1}°\n\
+             standard deviations of that       {x_std:8.3} m, {y_std:.3} m, {:.2}°\n",
+            100.0 * matched_fraction,
+            heading_std.to_degrees(),
         ))?;
     }
     if progress.scans < progress.all {

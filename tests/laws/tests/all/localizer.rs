@@ -52,10 +52,15 @@ fn a_robot_is_found_in_a_map_from_about_where_it_begins_and_the_map_stays_as_it_
     let start = path[first].1.compose(&Pose2::new(0.5, -0.4, 0.2));
     let mut localizer = Localizer::new(&mapper, about(&start)).unwrap();
     let before = hash(localizer.map());
+    let told = localizer.pose_with_covariance();
+    assert!(told.pose == start && (told.covariance - about(&start).covariance()).norm() < 1e-12, "{told:?}");
     let mut worst = 0.0_f64;
     for (scan, (_, pose)) in again(&scans[first..]).iter().zip(&path[first..]) {
         _ = localizer.push(scan);
         worst = worst.max(localizer.pose().distance(pose));
+        // From the first scan on, and never beyond the limits of a fit.
+        let [x, y, _] = localizer.pose_with_covariance().stds();
+        assert!([x, y].iter().all(|std| (1e-3..0.15).contains(std)), "{x}, {y}");
     }
     // Two cells of the map.
     assert!(worst < 0.1, "{worst} m");

@@ -153,7 +153,7 @@ fn compare<S: Search>(name: &str, step: &OneStep<S>, least: [f64; 3]) {
     let target = |pose: &Pose2| score.log_score(&step.particle.map, pose, scan) + prior.log_density(pose);
     let stream = || Stream::at(7, Purpose::TRIAL, 0, 0);
     let proposed = step.from_scan.propose(&step.particle, control, scan, &mut stream());
-    let ProposalTrace::Matched { mode, log_integral } = proposed.trace else { panic!("{name}: {proposed:?}") };
+    let ProposalTrace::Matched { mode, log_integral, .. } = proposed.trace else { panic!("{name}: {proposed:?}") };
     let fit = Fit::around(&mode, &settings.limits, target).unwrap();
     // The fit that is judged is the one that was drawn from. The map is looked up another way, in single precision.
     assert!(fit.gaussian.sample(&mut stream()).minus(&proposed.world_from_robot).norm() < 1e-9, "{name}");

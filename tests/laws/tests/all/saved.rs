@@ -384,7 +384,8 @@ fn mapped(mapper: &LaserMapper) -> (Digest, Footprint, String) {
     }
     [mapper.wheels().drift(), mapper.wheels().heading_std()].into_iter().for_each(|x| digest.f64(x));
     let counts = (mapper.steps(), mapper.closings(), mapper.single_lineage_since(), mapper.resampled_fraction());
-    let said = format!("{:?} {counts:?} {:?} {:?}", mapper.loops(), mapper.unbelieved(), mapper.remarks());
+    let now = mapper.pose_with_covariance();
+    let said = format!("{now:?} {counts:?} {:?} {:?} {:?}", mapper.loops(), mapper.unbelieved(), mapper.remarks());
     (digest, mapper.footprint_with_kept(), said)
 }
 

@@ -48,7 +48,7 @@ impl<S: Search, const CELLS_PER_NDT: usize> Scene<S, CELLS_PER_NDT> {
         let target = |pose: &Pose2| score.log_score(&particle.map, pose, scan) + prior.log_density(pose);
         let stream = || Stream::at(1, Purpose::TRIAL, seed, 0);
         let proposed = self.from_scan.propose(particle, control, scan, &mut stream());
-        let ProposalTrace::Matched { mode, log_integral } = proposed.trace else { return None };
+        let ProposalTrace::Matched { mode, log_integral, .. } = proposed.trace else { return None };
         let fit = Fit::around(&mode, &settings.limits, target)?;
         // What is judged here is what was drawn from.
         assert!((fit.log_integral - log_integral).abs() < 1e-9);

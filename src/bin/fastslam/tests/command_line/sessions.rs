@@ -126,6 +126,8 @@ fn a_robot_is_found_in_the_map_of_a_session_which_stays_as_it_is() {
     let found = json(&format!("{options} --json --start {},{},{}", x + 0.4, y - 0.3, heading + 10.0));
     assert_eq!((&found["scans"], &found["scans_used"]), (&70.into(), &70.into()));
     assert!(found["matched_fraction"].as_f64().unwrap() > 0.9, "{found}");
+    let variance = |k: usize| found["covariance"][k][k].as_f64().unwrap();
+    assert!((0..3).all(|k| variance(k) > 1e-8 && variance(k) < 0.0225), "{found}");
     for (found, mapped) in rows("found.tum").iter().zip(&mapped) {
         let off = fastslam::ops::hypot(found[0] - mapped[0], found[1] - mapped[1]);
         assert!(off < 0.1, "{found:?}, {mapped:?}");
