@@ -64,6 +64,7 @@ export const units = [
   // What README promises, each in its cheapest form.
   { name: 'readme-check', seconds: 150, command: 'npm run check' },
   { name: 'readme-bench', seconds: 240, command: `${quick} npm run bench -- --quick` },
+  { name: 'readme-threads', seconds: 90, command: `${quick} npm run threads` },
   { name: 'readme-size', seconds: 40, command: 'npm run size -- --singles proposal' },
   { name: 'readme-numbers', seconds: 210, command: `${quick} npm run numbers -- --only worked && git diff --exit-code www/data` },
   { name: 'readme-pdf', seconds: 30, command: 'npm run pdf' },
