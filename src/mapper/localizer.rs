@@ -3,13 +3,15 @@
 use super::moving::LastViews;
 use super::odometer::Odometer;
 use super::spread::{PoseWithCovariance, Spreads};
-use super::tuning::{CLOSING, FROM_SCAN, Map, ON_A_WALL, score};
+use super::tuning::{self, CLOSING, FROM_SCAN, Map, ON_A_WALL, score};
 use super::wheels::Wheels;
 use super::{Filter, LaserMapper, LaserMapperSettings, Pushed, Stamp, filter};
 use crate::error::SettingError;
 use crate::geometry::{Gaussian3, Pose2};
 use crate::log::LaserScan;
+use crate::map::grid::{MapImage, MapReading};
 use crate::matching::{Score, ScoredPose, hill_climb};
+use crate::motion::{Displaced, Displacement, Motion};
 use crate::particle::Particle;
 use crate::proposal::{Fit, Search, Target};
 use crate::sensor::Scan;
@@ -21,7 +23,10 @@ use crate::sensor::Scan;
 #[derive(Clone, Debug)]
 pub struct Localizer {
     settings: LaserMapperSettings,
+    /// In the frame that the filter works in.
     map: Map,
+    /// Of that frame.
+    world_from_map: Pose2,
     start: Gaussian3,
     /// Beams that the search is made for.
     beams: u32,
@@ -46,18 +51,53 @@ impl Localizer {
     /// # Errors
     /// [`SettingError::OutOfRange`] where `start` is not finite.
     pub fn new(mapper: &LaserMapper, start: Gaussian3) -> Result<Self, SettingError> {
-        let (settings, mut map) = (*mapper.settings(), mapper.map().present());
+        let map = mapper.map().present();
+        Self::of(map, Pose2::default(), *mapper.settings(), mapper.beams, mapper.wheels().clone(), start)
+    }
+
+    /// In a map that was drawn, as a picture of ROS's `map_server`. Start and path are in its frame, turned as its origin says. Cells are as large as those of the
+    /// picture, whatever the settings say. A pose is a little less exact than in a map of a mapper: see [`Grid::drawn`](crate::map::grid::Grid::drawn).
+    ///
+    /// # Errors
+    /// [`SettingError`] of a setting or of a value of the reading that is out of its range, or of a `start` that is not finite.
+    pub fn in_drawn(
+        image: &MapImage,
+        reading: &MapReading,
+        settings: LaserMapperSettings,
+        start: Gaussian3,
+    ) -> Result<Self, SettingError> {
+        let settings = LaserMapperSettings { cell_size: reading.resolution, ..settings };
+        settings.validate()?;
+        let map = Map::drawn(tuning::grid(settings.cell_size), image, reading)?;
+        let start = Displacement { mean: *start.mean(), covariance: start.covariance() };
+        let back = Pose2::new(0.0, 0.0, -reading.origin.theta);
+        let start = Gaussian3::new(reading.origin.between(&start.mean), Displaced.covariance(&back, &start))
+            .ok_or(SettingError::Unfit { field: "start", allowed: "a place" })?;
+        let beams = settings.beams.unwrap_or(tuning::BEAMS);
+        Self::of(map, reading.origin, settings, beams, Wheels::default(), start)
+    }
+
+    /// In this map, whose frame lies so in that of the path. The start is in that of the map.
+    fn of(
+        mut map: Map,
+        world_from_map: Pose2,
+        settings: LaserMapperSettings,
+        beams: u32,
+        wheels: Wheels,
+        start: Gaussian3,
+    ) -> Result<Self, SettingError> {
         // All of it is old: there is no new ground.
         map.settle();
         Ok(Self {
-            filter: filter(&settings, mapper.beams, map.clone()).start(*start.mean()).build()?,
+            filter: filter(&settings, beams, map.clone()).start(*start.mean()).build()?,
             spreads: Spreads::about(start.mean(), &start.covariance(), settings.particles),
             settings,
             map,
+            world_from_map,
             start,
-            beams: mapper.beams,
+            beams,
             odometer: Odometer::default(),
-            wheels: mapper.wheels().clone(),
+            wheels,
             views: LastViews::default(),
             last: None,
             steps: 0,
@@ -96,7 +136,7 @@ impl Localizer {
             }
         };
         self.stamps.push(Stamp { time: scan.time, step: self.steps, step_from_robot: Pose2::default() });
-        let beams = score().log_beams(&self.map, &self.pose(), &standing);
+        let beams = score().log_beams(&self.map, &self.pose_in_map(), &standing);
         let on_walls = beams.iter().filter(|log| **log > ON_A_WALL).count();
         self.compared = [self.compared[0] + beams.len() as f64, self.compared[1] + on_walls as f64];
         pushed
@@ -127,6 +167,11 @@ impl Localizer {
 
     /// Where the best particle has the robot now, in the frame of the map.
     pub fn pose(&self) -> Pose2 {
+        self.world_from_map.compose(&self.pose_in_map())
+    }
+
+    /// The same, as the filter has it.
+    fn pose_in_map(&self) -> Pose2 {
         let pose = self.best().world_from_robot;
         self.stamps.last().map_or(pose, |stamp| pose.compose(&stamp.step_from_robot))
     }
@@ -134,13 +179,19 @@ impl Localizer {
     /// [`Self::pose`] with the covariance of its error in the frame of the map, as if the map had none: see [`LaserMapper::pose_with_covariance`].
     /// Before the first scan it is that of the start.
     pub fn pose_with_covariance(&self) -> PoseWithCovariance {
-        self.spreads.now(&self.filter, self.stamps.last(), &self.wheels)
+        let PoseWithCovariance { pose, covariance } = self.spreads.now(&self.filter, self.stamps.last(), &self.wheels);
+        let in_map = Displacement { mean: pose, covariance };
+        PoseWithCovariance {
+            pose: Displaced.apply(&self.world_from_map, &in_map),
+            covariance: Displaced.covariance(&self.world_from_map, &in_map),
+        }
     }
 
     /// The best particle's path: see [`LaserMapper::path`].
     pub fn path(&self) -> Vec<(f64, Pose2)> {
         let poses = self.best().path.poses();
-        let placed = |stamp: &Stamp| (stamp.time, poses[stamp.step as usize].compose(&stamp.step_from_robot));
+        let world = |pose: Pose2| self.world_from_map.compose(&pose);
+        let placed = |stamp: &Stamp| (stamp.time, world(poses[stamp.step as usize].compose(&stamp.step_from_robot)));
         self.stamps.iter().map(placed).collect()
     }
 
@@ -149,12 +200,12 @@ impl Localizer {
         self.compared[1] / self.compared[0].max(1.0)
     }
 
-    /// The map, as it was from the start.
+    /// The map, as it was from the start. One that was drawn is in the frame of its picture.
     pub fn map(&self) -> &Map {
         &self.map
     }
 
-    /// The filter, for those who watch it.
+    /// The filter, for those who watch it, in the frame of [`Self::map`].
     pub fn filter(&self) -> &Filter {
         &self.filter
     }

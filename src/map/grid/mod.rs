@@ -12,6 +12,7 @@
 //! The first knows which cell an end point is in; the second knows where in it the wall is, and which way the wall runs. With cells as wide
 //! as a wall is looked for, an NDT cell is one cell; with finer cells it must be wider, or it holds too few points to tell a direction.
 
+mod drawn;
 mod image;
 mod local_map;
 mod quad;
@@ -25,6 +26,7 @@ use quad::{Corner, Quad, least};
 pub(crate) use tile::{MAX_DISTANCE, UNIT};
 use tile::{NdtCell, TILE};
 
+pub use drawn::{GreyMode, MapReading, PgmError};
 pub use image::{MapImage, MapImageSettings};
 #[cfg(feature = "serde")]
 pub use saved::SavedGrids;

@@ -2,7 +2,7 @@
 
 use fastslam::geometry::{Gaussian3, Pose2};
 use fastslam::log::LaserScan;
-use fastslam::map::grid::Grid;
+use fastslam::map::grid::{GreyMode, Grid, MapImage, MapImageSettings, MapReading};
 use fastslam::mapper::{LaserMapper, LaserMapperSettings, Localizer};
 use fastslam::nalgebra::Matrix3;
 use fastslam::random::{Purpose, Stream};
@@ -77,4 +77,44 @@ fn a_robot_that_is_lost_sees_little_of_the_map() {
     let mut localizer = Localizer::new(&mapper, about(&elsewhere)).unwrap();
     again(&scans[120..160]).iter().for_each(|scan| drop(localizer.push(scan)));
     assert!(localizer.matched_fraction() < 0.5, "{}", localizer.matched_fraction());
+}
+
+/// In the picture of the map, as it is written for ROS and read again: a path within a cell of that in the map itself, though a picture tells of a wall no more than the
+/// cells that it is in. Where the picture is turned, the same path is turned with it.
+#[test]
+fn a_robot_is_found_in_the_picture_of_a_map_as_in_the_map() {
+    let (mapper, scans) = building();
+    let (path, first) = (mapper.path(), 120);
+    let scans = again(&scans[first..]);
+    let start = path[first].1.compose(&Pose2::new(0.5, -0.4, 0.2));
+    let found = |mut localizer: Localizer| -> Vec<Pose2> {
+        scans.iter().for_each(|scan| drop(localizer.push(scan)));
+        assert!(localizer.matched_fraction() > 0.9, "{}", localizer.matched_fraction());
+        assert_eq!(localizer.path().last().unwrap().1, localizer.pose());
+        assert_eq!(localizer.pose_with_covariance().pose, localizer.pose());
+        localizer.path().into_iter().map(|(_, pose)| pose).collect()
+    };
+    let in_map = found(Localizer::new(&mapper, about(&start)).unwrap());
+    let image = MapImage::of(mapper.map(), &path, &MapImageSettings::default()).unwrap();
+    let reading = |origin| MapReading {
+        mode: GreyMode::Trinary,
+        resolution: 0.05,
+        origin,
+        negate: false,
+        occupied_thresh: 0.65,
+        free_thresh: 0.196,
+    };
+    let origin = Pose2::new(image.origin[0], image.origin[1], 0.0);
+    let read = MapImage::from_pgm(&image.pgm(), &reading(origin)).unwrap();
+    let in_picture = |origin: Pose2, start: Pose2| {
+        found(Localizer::in_drawn(&read, &reading(origin), *mapper.settings(), about(&start)).unwrap())
+    };
+    let drawn = in_picture(origin, start);
+    let off = in_map.iter().zip(&drawn).map(|(a, b)| a.distance(b)).fold(0.0, f64::max);
+    assert!(off < 0.05, "{off} m");
+    let turn = Pose2::new(3.0, -2.0, 0.7);
+    let turned = in_picture(turn.compose(&origin), turn.compose(&start));
+    for (turned, drawn) in turned.iter().zip(&drawn) {
+        assert!(turned.minus(&turn.compose(drawn)).norm() < 1e-6, "{turned:?}, {drawn:?}");
+    }
 }
