@@ -27,6 +27,9 @@ struct Node {
 }
 
 impl Path {
+    /// What a node takes, with its two counts of references \[bytes\].
+    pub(crate) const NODE_BYTES: usize = size_of::<Node>() + 2 * size_of::<usize>();
+
     /// A path of one pose, at step 0.
     pub fn start(world_from_robot: Pose2) -> Self {
         Self(Arc::new(Node { world_from_robot, step: 0, before: None }))

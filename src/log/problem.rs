@@ -368,6 +368,13 @@ pub enum Remark {
         /// Stamp of the last scan of the last of them \[s\].
         time: f64,
     },
+    /// The scans by which a path that is bent is mapped again are not all of them: more than may be kept were taken.
+    Thinned {
+        /// How many there are.
+        kept: usize,
+        /// How many were taken.
+        taken: usize,
+    },
     /// So many scans are before the first or after the last word of odometry.
     Beyond(u32),
     /// No transform tells where the laser sits.
@@ -413,6 +420,10 @@ impl fmt::Display for Remark {
                 f,
                 "loops that stay open: {loops}, the last of them at {} s; what is seen there contradicts the map of before",
                 fixed(*time, 3)
+            ),
+            Self::Thinned { kept, taken } => write!(
+                f,
+                "of the {taken} scans that were taken {kept} are kept: where a path is bent to close a loop, it is mapped again by these"
             ),
             Self::Beyond(scans) => write!(
                 f,

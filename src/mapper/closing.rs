@@ -57,6 +57,20 @@ pub(super) struct Closings {
     bent: u32,
     /// Whether the maps were marked since the last view.
     marked: bool,
+    /// How the scans are kept.
+    keeping: Keeping,
+}
+
+/// Which scans are kept: all of the last metres, and of those before them every 2ⁿ-th, with n as small as the bound allows.
+#[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Keeping {
+    /// n.
+    halvings: u32,
+    /// How many are kept.
+    kept: usize,
+    /// The scans before this step are not of the last metres.
+    past: usize,
 }
 
 /// A scan that the filter took.
@@ -67,8 +81,9 @@ struct View {
     way: f64,
     /// Distance within which nine of ten beams end that met something \[m\].
     reach: f64,
+    /// `None` of one that is not kept.
     #[cfg_attr(feature = "serde", serde(with = "shared"))]
-    scan: Arc<KeptScan>,
+    scan: Option<Arc<KeptScan>>,
     /// Whether the maps before it were marked.
     marked: bool,
 }
@@ -87,6 +102,10 @@ impl KeptScan {
         let single = |point: &[f64; 2]| point.map(|c| c as f32);
         let keep = |ends: &[[f64; 2]]| ends.iter().map(single).collect();
         Self { origin: single(&scan.origin), hits: keep(&scan.hits), misses: keep(&scan.misses) }
+    }
+
+    fn bytes(&self) -> usize {
+        size_of::<Self>() + size_of_val(&*self.hits) + size_of_val(&*self.misses)
     }
 
     fn scan(&self) -> Scan {
@@ -131,7 +150,9 @@ impl Correction {
             if view.marked {
                 self.map.mark();
             }
-            self.map.assimilate(&pose, &view.scan.scan(), &());
+            if let Some(scan) = &view.scan {
+                self.map.assimilate(&pose, &scan.scan(), &());
+            }
             if step == 0 {
                 self.map.settle();
             }
@@ -166,15 +187,43 @@ enum Found {
 }
 
 impl Closings {
-    /// A scan that the filter took after so many metres.
-    pub(super) fn take(&mut self, scan: &Scan, driven: f64) {
+    /// A scan that the filter took after so many metres, where at most so many are kept.
+    pub(super) fn take(&mut self, scan: &Scan, driven: f64, most: usize) {
         let way = self.views.last().map_or(0.0, |last| last.way) + driven;
         let [x0, y0] = scan.origin;
         let mut distances: Vec<f64> = scan.hits.iter().map(|[x, y]| ops::hypot(x - x0, y - y0)).collect();
         distances.sort_unstable_by(f64::total_cmp);
         let reach = distances.get(distances.len() * 9 / 10).copied().unwrap_or(0.0);
         let marked = core::mem::take(&mut self.marked);
-        self.views.push(View { way, reach, scan: KeptScan::new(scan).into(), marked });
+        self.views.push(View { way, reach, scan: Some(KeptScan::new(scan).into()), marked });
+        self.keep(most);
+    }
+
+    /// Lets go of scans, so that at most so many are kept: not of the first, and of the last metres of no more than half of the bound allows.
+    fn keep(&mut self, most: usize) {
+        let now = self.views.len() - 1;
+        self.keeping.kept += 1;
+        while self.way(self.keeping.past, now) >= CLOSING.window || now - self.keeping.past >= most / 2 {
+            self.let_go(self.keeping.past);
+            self.keeping.past += 1;
+        }
+        while self.keeping.kept > most {
+            self.keeping.halvings += 1;
+            (0..self.keeping.past).for_each(|step| self.let_go(step));
+        }
+    }
+
+    /// Lets go of the scan of a step, if it is not the 2ⁿ-th.
+    fn let_go(&mut self, step: usize) {
+        if !step.is_multiple_of(1 << self.keeping.halvings) && self.views[step].scan.take().is_some() {
+            self.keeping.kept -= 1;
+        }
+    }
+
+    /// How many of the scans that the filter took are kept, how many it took, and the bytes of those that are kept.
+    pub(super) fn kept_scans(&self) -> [usize; 3] {
+        let bytes = self.views.iter().flat_map(|view| &view.scan).map(|scan| scan.bytes()).sum::<usize>();
+        [self.keeping.kept, self.views.len(), bytes + size_of_val(&self.views[..])]
     }
 
     /// The particles' maps are marked now: [`Map::mark`].
@@ -208,7 +257,7 @@ impl Closings {
 
     /// Whether no scan has met anything.
     pub(super) fn met_nothing(&self) -> bool {
-        self.views.iter().all(|view| view.scan.hits.is_empty())
+        self.views.iter().all(|view| view.reach == 0.0)
     }
 
     /// The maps that are kept besides those of the particles: of before, and of paths that are being corrected.
@@ -257,8 +306,9 @@ impl Closings {
             if let Some(Correction { relation, end, before: maps, .. }) = correction.take_if(|_| is_done) {
                 self.accounts[slot].bent(relation, end);
                 for (step, map) in maps {
-                    let before = self.before.iter_mut().find(|before| before.step == step);
-                    before.into_iter().for_each(|before| before.maps[slot] = map.clone());
+                    if let Some(before) = self.before.iter_mut().find(|before| before.step == step) {
+                        before.maps[slot] = map;
+                    }
                 }
                 self.bent += 1;
             }
@@ -343,10 +393,11 @@ impl Closings {
     /// The end points of the last metres in the robot's frame, evenly picked. They were seen from many places: no one origin is theirs.
     fn picture(&self, poses: &[Pose2]) -> Scan {
         let now = poses.len() - 1;
-        let count: usize = self.last_steps(now).map(|step| self.views[step].scan.hits.len()).sum();
-        let ends = self.last_steps(now).flat_map(|step| {
+        let scans = || self.last_steps(now).filter_map(|step| Some((step, self.views[step].scan.as_ref()?)));
+        let count: usize = scans().map(|(_, scan)| scan.hits.len()).sum();
+        let ends = scans().flat_map(|(step, scan)| {
             let seen = poses[now].between(&poses[step]);
-            self.views[step].scan.hits.iter().map(move |end| (seen, end))
+            scan.hits.iter().map(move |end| (seen, end))
         });
         let picked = ends.step_by(count.div_ceil(CLOSING.picture).max(1));
         Scan { hits: picked.map(|(seen, end)| seen.transform(end.map(f64::from))).collect(), ..Scan::default() }
@@ -489,18 +540,20 @@ fn heaviest(weights: &[f64], count: usize) -> Vec<bool> {
     slots.clone().map(|of| slots.clone().filter(|other| is_ahead(of, *other)).count() < count).collect()
 }
 
-/// What is behind an [`Arc`] of its own.
+/// What is behind an [`Arc`] of its own, if it is there.
 #[cfg(feature = "serde")]
 mod shared {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
     use std::sync::Arc;
 
-    pub fn serialize<T: Serialize, S: Serializer>(shared: &Arc<T>, serializer: S) -> Result<S::Ok, S::Error> {
-        T::serialize(shared, serializer)
+    pub fn serialize<T: Serialize, S: Serializer>(shared: &Option<Arc<T>>, serializer: S) -> Result<S::Ok, S::Error> {
+        shared.as_deref().serialize(serializer)
     }
 
-    pub fn deserialize<'de, T: Deserialize<'de>, D: Deserializer<'de>>(deserializer: D) -> Result<Arc<T>, D::Error> {
-        T::deserialize(deserializer).map(Arc::new)
+    pub fn deserialize<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Option<Arc<T>>, D::Error> {
+        Ok(Option::deserialize(deserializer)?.map(Arc::new))
     }
 }
 
@@ -516,6 +569,7 @@ pub(super) struct SavedClosings {
     checked: usize,
     bent: u32,
     marked: bool,
+    keeping: Keeping,
 }
 
 /// [`Correction`] without its maps.
@@ -549,6 +603,7 @@ impl Closings {
             checked: self.checked,
             bent: self.bent,
             marked: self.marked,
+            keeping: self.keeping.clone(),
         }
     }
 
@@ -559,21 +614,24 @@ impl Closings {
         particles: usize,
         steps: Option<usize>,
     ) -> Result<Self, RestoreError> {
-        let SavedClosings { views, before, accounts, corrections, checked, bent, marked } = saved;
+        let SavedClosings { views, before, accounts, corrections, checked, bent, marked, keeping } = saved;
         let last = steps.unwrap_or(0);
         save::count("closings.views", views.len(), steps.map_or(0, |steps| steps + 1))?;
         for View { way, reach, scan, .. } in &views {
             save::finite("closings.views", [*way, *reach])?;
-            let points = [&scan.origin].into_iter().chain(&scan.hits).chain(&scan.misses);
+            let points = scan.iter().flat_map(|scan| [&scan.origin].into_iter().chain(&scan.hits).chain(&scan.misses));
             save::finite("closings.views", points.flatten().map(|c| f64::from(*c)))?;
         }
         save::holds(views.is_sorted_by_key(|view| view.way), "closings.views", "along the way")?;
         let are_known = |of: &[usize]| of.is_sorted() && of.iter().all(|step| steps.is_some() && *step <= last);
         save::holds(are_known(&before), "closings.before", "in order, and of steps so far")?;
         save::holds(checked <= last, "closings.checked", "a step so far")?;
-        for (name, count) in [("closings.accounts", accounts.len()), ("closings.corrections", corrections.len())] {
-            save::holds(count == 0 || count == particles, name, "one for each particle")?;
-        }
+        save::count("closings.keeping", keeping.kept, views.iter().flat_map(|view| &view.scan).count())?;
+        let is_known = keeping.past <= last && keeping.halvings < u32::BITS - 1;
+        save::holds(is_known, "closings.keeping", "of steps so far")?;
+        let count = accounts.len();
+        save::holds(count == 0 || count == particles, "closings.accounts", "one for each particle")?;
+        save::count("closings.corrections", corrections.len(), count)?;
         accounts.iter().try_for_each(|account| account.check(last))?;
         let of_corrections = corrections.iter().flatten().map(|one| one.before.len() + 1).sum::<usize>();
         save::count("closings.maps", maps.len(), before.len() * particles + of_corrections)?;
@@ -583,7 +641,8 @@ impl Closings {
         let mut restored = |one: SavedCorrection| {
             let SavedCorrection { relation, end, bent, mapped, before } = one;
             save::poses("closings.corrections", bent.iter().copied().chain([relation.between]))?;
-            let is_known = relation.from <= relation.to && relation.to + 1 == bent.len() && relation.to <= last;
+            save::holds(bent.first() == Some(&Pose2::default()), "closings.corrections", "from the origin on")?;
+            let is_known = relation.from <= relation.to && relation.to <= last && relation.to + 1 == bent.len();
             save::holds(is_known && mapped <= last && are_known(&before), "closings.corrections", "of steps so far")?;
             let before = before.into_iter().zip(maps.by_ref()).collect();
             let map = maps.next().expect("as many as were counted");
@@ -591,7 +650,7 @@ impl Closings {
         };
         let corrections = corrections.into_iter().map(|one| one.map(&mut restored).transpose());
         let corrections = corrections.collect::<Result<_, RestoreError>>()?;
-        Ok(Self { before, views, accounts, corrections, checked, bent, marked })
+        Ok(Self { before, views, accounts, corrections, checked, bent, marked, keeping })
     }
 }
 

@@ -49,6 +49,7 @@ pub use wheels::{WheelNoise, Wheels};
 
 use crate::error::SettingError;
 use crate::execute::Executor;
+use crate::genealogy::Path;
 use crate::geometry::Pose2;
 use crate::log::{LaserScan, Remark};
 use crate::map::{ConditionalMap, Footprint};
@@ -79,6 +80,28 @@ impl Pushed {
     /// What the filter's step did, if there was one.
     pub fn report(self) -> Option<Report<()>> {
         if let Self::Step(report) = self { Some(report) } else { None }
+    }
+}
+
+/// What a [`LaserMapper`] keeps.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Memory {
+    /// Of the particles' maps.
+    pub maps: Footprint,
+    /// Bytes of the maps of before by which loops are found, which they do not share with [`Self::maps`].
+    pub kept_map_bytes: u64,
+    /// Number of the scans by which a path that is bent is mapped again: at most [`LaserMapperSettings::kept_scans`].
+    pub kept_scans: u32,
+    /// Bytes of these scans, and of where on the way each one that was taken is.
+    pub scan_bytes: u64,
+    /// Bytes of the particles' paths and of the times of all scans.
+    pub path_bytes: u64,
+}
+
+impl Memory {
+    /// All of it \[bytes\].
+    pub fn bytes(&self) -> u64 {
+        self.maps.unique + self.kept_map_bytes + self.scan_bytes + self.path_bytes
     }
 }
 
@@ -208,7 +231,7 @@ impl LaserMapper {
         if let Some(ancestors) = &report.ancestors {
             self.closings.resampled(ancestors);
         }
-        self.closings.take(&standing, driven(&moved)[0]);
+        self.closings.take(&standing, driven(&moved)[0], self.settings.kept_scans as usize);
         self.closings.check(&mut self.filter, self.settings.remapped());
         Pushed::Step(report)
     }
@@ -233,7 +256,7 @@ impl LaserMapper {
         let standing = self.standing(scan, odometry);
         map.assimilate(&Pose2::default(), &standing, &());
         map.settle();
-        self.closings.take(&standing, 0.0);
+        self.closings.take(&standing, 0.0, self.settings.kept_scans as usize);
         self.beams = self.settings.beams.unwrap_or(scan.ranges.len() as u32);
         let filter = filter(&self.settings, self.beams, map).build().expect("`new` has built one of these settings");
         self.filter = filter.with_executor(self.executor.clone());
@@ -286,7 +309,9 @@ impl LaserMapper {
         let nothing_met = (scans > 0 && self.closings.met_nothing()).then_some(Remark::NothingMet);
         let last = self.open_loops().last().and_then(|last| self.at_step(last.to));
         let open = last.map(|(time, _)| Remark::OpenLoops { loops: self.open_loops().count(), time });
-        [contradicted, never_moved, nothing_met, open].into_iter().flatten().collect()
+        let [kept, taken, _] = self.closings.kept_scans();
+        let thinned = (kept < taken).then_some(Remark::Thinned { kept, taken });
+        [contradicted, never_moved, nothing_met, open, thinned].into_iter().flatten().collect()
     }
 
     /// What has been learnt of the wheels.
@@ -375,6 +400,20 @@ impl LaserMapper {
     /// The same with the maps of before that are kept to find loops by.
     pub fn footprint_with_kept(&self) -> Footprint {
         Map::footprint(self.filter.particles().iter().map(|particle| &particle.map).chain(self.closings.maps()))
+    }
+
+    /// What the mapper keeps, which grows with the way. What is besides, as the scans that tell what moves, is of a bounded number.
+    pub fn memory(&self) -> Memory {
+        let maps = self.footprint();
+        let [kept_scans, _, scan_bytes] = self.closings.kept_scans();
+        let poses = self.filter.descent().size() as usize * Path::NODE_BYTES + size_of_val(&self.stamps[..]);
+        Memory {
+            maps,
+            kept_map_bytes: self.footprint_with_kept().unique - maps.unique,
+            kept_scans: kept_scans as u32,
+            scan_bytes: scan_bytes as u64,
+            path_bytes: poses as u64,
+        }
     }
 
     fn best(&self) -> &Particle<Map> {

@@ -8,6 +8,7 @@ use super::tuning::{self, Map};
 use super::wheels::Wheels;
 use super::{Filter, LaserMapper, LaserMapperSettings, Stamp, proposal};
 use crate::execute::Executor;
+use crate::genealogy::Path;
 use crate::geometry::Pose2;
 use crate::map::grid::SavedGrids;
 use crate::motion::Displacement;
@@ -119,6 +120,8 @@ impl LaserMapper {
         let before = maps.split_off(particles);
         let filter: Filter = Filter::restore_with(filter, proposal(&settings, beams), |()| Ok(maps))?;
         save::count("particles", filter.particles().len(), settings.particles)?;
+        let begins = |path: &Path| path.back().last().is_some_and(|first| first.pose() == Pose2::default());
+        save::holds(filter.particles().iter().all(|one| begins(&one.path)), "paths", "from the origin on")?;
         let steps = filter.particles()[0].path.step();
         save::holds(last.is_some() || steps == 0, "last", "there after the first scan")?;
         let closings = Closings::restore(closings, before, particles, last.map(|_| steps as usize))?;

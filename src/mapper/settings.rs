@@ -51,6 +51,10 @@ pub struct LaserMapperSettings {
     /// About how many scans are mapped again when one is pushed, in [`Self::REMAPPED_PER_SCAN`], where a path is bent to close a loop: the corrected path takes over
     /// once it is mapped as far as the robot is. Work is counted and not time, so that results are the same on every machine. 0: all of them at once.
     pub remapped_per_scan: u32,
+    /// Most scans that are kept, in [`Self::KEPT_SCANS`]: where a path is bent, it is mapped again by them. Beyond that every second of them is let go, and again every
+    /// second of what is left, but those of the last metres; [`Remark::Thinned`](crate::log::Remark::Thinned) tells it, and [`LaserMapper::memory`](super::LaserMapper::memory)
+    /// how many bytes they take. A bound of the default is reached by no recorded log that we know: scans of 180 beams take 150 MB there.
+    pub kept_scans: u32,
 }
 
 impl Default for LaserMapperSettings {
@@ -68,6 +72,7 @@ impl Default for LaserMapperSettings {
             beams: None,
             learn_wheels: true,
             remapped_per_scan: 0,
+            kept_scans: 100_000,
         }
     }
 }
@@ -85,6 +90,8 @@ impl LaserMapperSettings {
     pub const CLEAR_RANGE: Range = Range::number(0.0, 200.0, "m");
     /// Range of [`Self::remapped_per_scan`]. Each path that is corrected gets two at the least, as the robot goes on by one.
     pub const REMAPPED_PER_SCAN: Range = Range::whole(0, 1_000_000);
+    /// Range of [`Self::kept_scans`].
+    pub const KEPT_SCANS: Range = Range::whole(100, 10_000_000);
     /// Range of [`Self::no_return`].
     const NO_RETURN: Range = Range::number(0.0, f64::INFINITY, "m");
 
@@ -100,6 +107,7 @@ impl LaserMapperSettings {
         Self::CLEAR_RANGE.check("clear_range", self.clear_range)?;
         self.no_return.map_or(Ok(0.0), |length| Self::NO_RETURN.check("no_return", length))?;
         Self::REMAPPED_PER_SCAN.check("remapped_per_scan", f64::from(self.remapped_per_scan))?;
+        Self::KEPT_SCANS.check("kept_scans", f64::from(self.kept_scans))?;
         self.policy.validate()
     }
 

@@ -1,7 +1,7 @@
 //! Laws of a saved state: it goes on with the same bits, it shares what was shared, and what is none is refused.
 
 use fastslam::geometry::Pose2;
-use fastslam::log::LaserLog;
+use fastslam::log::{LaserLog, LaserScan};
 use fastslam::map::grid::{Grid, GridModel};
 use fastslam::map::landmarks::{Balanced, Correspondence, Gate, Landmark, Landmarks, Store};
 use fastslam::map::{ConditionalMap, Footprint};
@@ -20,7 +20,7 @@ use fastslam_lab::experiment::ProposalKind;
 use fastslam_lab::experiment::lap::{GRID, Lap, LapSetup, Proposals};
 use fastslam_lab::experiment::log::Example;
 use fastslam_lab::experiment::long_rings::LongRingSetup;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::hash::Hasher;
 
 /// A map that tells all that it holds, with what its population shares.
@@ -454,12 +454,43 @@ fn a_mutilated_session_is_refused_or_used_and_never_panics() {
     let mut mapper = LaserMapper::new(settings.for_log(&log)).unwrap();
     let (first, rest) = log.scans.split_at(40);
     first.iter().for_each(|scan| drop(mapper.push(scan)));
-    let document = serde_json::to_value(mapper.save()).unwrap();
-    let (mut all, mut outcomes) = (Vec::new(), [0, 0]);
-    places(&document, String::new(), &mut all);
+    let mut document = serde_json::to_value(mapper.save()).unwrap();
     // What is in filter and maps is mutilated above.
-    let own = |place: &&String| !place.starts_with("/filter/") && !place.starts_with("/maps/");
-    for place in all.iter().filter(own) {
+    let own = |place: &str| !place.starts_with("/filter/") && !place.starts_with("/maps/");
+    let [refused, used] = mutilate_session(&document, own, rest);
+    assert!(refused > 500 && used > 100, "{refused} refused, {used} used");
+    under_correction(&mut document);
+    let mut mapper = LaserMapper::restore(serde_json::from_value(document.clone()).unwrap()).unwrap();
+    rest[..3].iter().for_each(|scan| drop(mapper.push(scan)));
+    assert_eq!(mapper.closings(), 0);
+    mapper.finish();
+    assert_eq!((mapper.closings(), mapper.loops().len()), (1, 1));
+    let own = |place: &str| place.starts_with("/closings/corrections") || place.starts_with("/closings/accounts");
+    let [refused, used] = mutilate_session(&document, own, rest);
+    assert!(refused > 100 && used > 20, "{refused} refused, {used} used");
+}
+
+/// Puts a path into a session that is being corrected: that of the last particle, which is back at step 20 where it was at step 2, and mapped again up to step 10. The map
+/// that it has so far is taken to be that of the first particle, and the one of before as well.
+fn under_correction(document: &mut Value) {
+    let poses: Vec<Pose2> = (0..=20).map(|step| Pose2::new(0.1 * f64::from(step), 0.0, 0.0)).collect();
+    let relation = json!({ "from": 2, "to": 20, "between": { "x": 0.1, "y": 0.0, "theta": 0.0 } });
+    let end = json!({ "Bent": { "shift": 0.5, "gain": 0.3, "second": 0.1 } });
+    let correction = json!({ "relation": relation, "end": end, "bent": poses, "mapped": 10, "before": [5] });
+    assert_eq!(document["closings"]["accounts"].as_array().unwrap().len(), 2, "it has been looked for loops");
+    document["settings"]["remapped_per_scan"] = 2.into();
+    document["closings"]["corrections"] = json!([null, correction]);
+    let grids = document["maps"]["grids"].as_array_mut().unwrap();
+    let map = grids[0].clone();
+    grids.extend([map.clone(), map]);
+}
+
+/// Puts several values that do not belong there at each place of a session that is its `own`. What can still be read goes on, and completes what is under way. Returns how
+/// many were refused and how many were not.
+fn mutilate_session(document: &Value, own: impl Fn(&str) -> bool, scans: &[LaserScan]) -> [u32; 2] {
+    let (mut all, mut outcomes) = (Vec::new(), [0, 0]);
+    places(document, String::new(), &mut all);
+    for place in all.iter().filter(|place| own(place)) {
         for value in [
             0.into(),
             1.into(),
@@ -475,11 +506,11 @@ fn a_mutilated_session_is_refused_or_used_and_never_panics() {
             let restored = serde_json::from_value(changed).ok().and_then(|saved| LaserMapper::restore(saved).ok());
             outcomes[usize::from(restored.is_some())] += 1;
             if let Some(mut mapper) = restored {
-                rest.iter().take(3).for_each(|scan| drop(mapper.push(scan)));
-                drop((mapper.path(), mapper.remarks(), mapper.pose()));
+                scans.iter().take(3).for_each(|scan| drop(mapper.push(scan)));
+                mapper.finish();
+                drop((mapper.path(), mapper.remarks(), mapper.pose_with_covariance(), mapper.memory()));
             }
         }
     }
-    let [refused, used] = outcomes;
-    assert!(refused > 500 && used > 100, "{refused} refused, {used} used");
+    outcomes
 }
