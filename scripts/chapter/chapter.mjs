@@ -56,6 +56,12 @@ const beside = [
   ...bilingual,
   ...bilingual.map(page => ({ ...page, name: inGerman(page.name), text: inGerman(page.text ?? page.name), script: page.script.replace('practice', 'practice-de'), language: /** @type {const} */ ('de') })),
 ]
+/** The files of all pages, with their languages. @param {string} www @returns {Map<string, import('./translation.mjs').Language>} */
+export function pageFiles(www) {
+  const there = beside.filter(({ name, text = name }) => existsSync(join(www, `${text}.md`)))
+  return new Map([['index.html', 'en'], [solutionsPage, 'en'], ...there.map(({ name, language = 'en' }) => /** @type {const} */ ([`${name}.html`, language]))])
+}
+
 /** What is the same of every page. */
 const plain = { hero: [], previous: undefined, next: undefined, live: false, language: /** @type {const} */ ('en'), other: undefined, foot: 'Text: CC BY 4.0. Code: MIT or Apache-2.0', fonts: ['text', 'italic', 'bold', 'math', 'mono'] }
 

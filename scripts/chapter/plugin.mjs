@@ -1,15 +1,30 @@
-// The chapter in Vite: its text goes into www/*.html, its fonts and the rules of its formulas to www/generated, for every way to build or serve.
+// The chapter in Vite: a page for each text of www/, its fonts and the rules of its formulas to www/generated, for every way to build or serve.
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs'
 import { basename, join } from 'node:path'
 import { toBibtex, toCsl } from './bibliography.mjs'
 import { readIfThere } from '../lib.mjs'
-import { renderChapter } from './chapter.mjs'
+import { pageFiles, renderChapter } from './chapter.mjs'
 import { Letters, writeFonts } from './fonts.mjs'
 import { serialize } from './page.mjs'
 
+/** A page before its text is in it. @param {string} language */
+const shell = language => `<!doctype html>
+<html lang="${language}">
+  <head>
+    <!-- head -->
+  </head>
+  <body>
+    <!-- body -->
+  </body>
+</html>
+`
+
 /** @param {string} root @returns {import('vite').Plugin} */
 export function chapter(root) {
-  const generated = join(root, 'www', 'generated')
+  const www = join(root, 'www')
+  /** Of the file that a page would be. */
+  const shells = new Map([...pageFiles(www)].map(([file, language]) => [join(www, file), shell(language)]))
+  const generated = join(www, 'generated')
   /** @type {Promise<import('./chapter.mjs').Chapter> | undefined} */
   let made
 
@@ -26,11 +41,14 @@ export function chapter(root) {
 
   return {
     name: 'chapter',
+    config: () => ({ build: { rollupOptions: { input: Object.fromEntries([...shells.keys()].map(file => [`page-${basename(file, '.html')}`, file])) } } }),
+    resolveId: id => (shells.has(id) ? id : undefined),
+    load: id => shells.get(id),
     async buildStart() {
       await (made ??= make())
     },
     async generateBundle() {
-      const works = JSON.parse(readFileSync(join(root, 'www', 'references.json'), 'utf8'))
+      const works = JSON.parse(readFileSync(join(www, 'references.json'), 'utf8'))
       const { downloads, packages } = await (made ??= make())
       for (const [fileName, source] of Object.entries({ 'references.bib': toBibtex(works), 'references.json': toCsl(works), ...downloads, ...packages })) this.emitFile({ type: 'asset', fileName, source })
     },
@@ -42,10 +60,15 @@ export function chapter(root) {
       },
     },
     async configureServer(server) {
-      const watched = join(root, 'www')
+      server.middlewares.use(async ({ url = '/' }, response, next) => {
+        const path = url.replace(/[?#].*/, '')
+        const html = shells.get(join(www, path === '/' ? 'index.html' : path))
+        if (html === undefined) next()
+        else response.setHeader('Content-Type', 'text/html').end(await server.transformIndexHtml(path, html))
+      })
       const watch = async () => {
         const { files } = await (made ??= make())
-        server.watcher.add([...files, join(watched, 'chapter')])
+        server.watcher.add([...files, join(www, 'chapter')])
       }
       await watch().catch(error => server.config.logger.error(error.message))
       server.watcher.on('all', (_, file) => {
