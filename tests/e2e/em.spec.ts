@@ -26,6 +26,19 @@ test('as it opens, the map has every door and the particles hold both answers; b
   expect(await number(figure, 'log_posterior')).toBeGreaterThanOrEqual(await number(figure, 'best'))
   expect(await brokenRules(page, { of: 'fastslam-em' })).toEqual([])
 
+  // How much future: without any there are several places, and with more of it fewer.
+  const [whole, picture] = [await figure.told.textContent(), await figure.picture()]
+  await figure.box('future').fill('0')
+  await figure.box('future').press('Enter')
+  await expect(figure.told).toContainText('63 % for the old ones')
+  expect(await figure.picture()).not.toBe(picture)
+  await figure.box('future').fill('20')
+  await figure.box('future').press('Enter')
+  await expect(figure.told).toContainText('8 % for the old ones')
+  await figure.box('future').fill('157')
+  await figure.box('future').press('Enter')
+  await expect(figure.told).toHaveText(whole!)
+
   await chip(figure, /From the first guess/)
   await expect(figure.sentence).toContainText('The first guess: a map with 3 doors')
   let before = await number(figure, 'log_posterior')

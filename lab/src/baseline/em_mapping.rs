@@ -157,11 +157,16 @@ impl Expectation {
             None => vec![1.0; self.map.len()],
             Some(after) => {
                 let step = self.last + 1 - self.backward.len();
-                let seen: Vec<f64> = after.iter().zip(ride.likelihood(step, &self.map)).map(|(p, z)| p * z).collect();
-                ride.kernel(step).pull(&seen)
+                self.pulled(ride, step, after)
             }
         };
         keep(&mut self.backward, &mut self.log_scales[1], column);
+    }
+
+    /// The column of the backward pass before a step, from the one after it.
+    fn pulled(&self, ride: &Ride, step: usize, after: &[f64]) -> Vec<f64> {
+        let seen: Vec<f64> = after.iter().zip(ride.likelihood(step, &self.map)).map(|(p, z)| p * z).collect();
+        ride.kernel(step).pull(&seen)
     }
 
     /// Both passes from end to end.
@@ -194,9 +199,20 @@ impl Expectation {
 
     /// γ_t: where the robot was, by all readings. `None` where not both passes have been.
     pub fn product(&self, step: usize) -> Option<Vec<f64>> {
-        let product: Vec<f64> = self.forward(step)?.iter().zip(self.backward(step)?).map(|(a, b)| a * b).collect();
-        let sum: f64 = product.iter().sum();
-        Some(product.iter().map(|p| p / sum).collect())
+        Some(shares(self.forward(step)?, self.backward(step)?))
+    }
+
+    /// p(x_t | z₁..z_{t+lag}, m), the fixed-lag smoother: where the robot was, by all readings up to then and so many after. With none it is
+    /// the forward pass, with all of them γ_t. It takes `lag` columns of a backward pass that begins there; of the backward pass that is kept it
+    /// needs none. `None` where the forward pass has not been yet.
+    pub fn smoothed(&self, ride: &Ride, step: usize, lag: usize) -> Option<Vec<f64>> {
+        let mut backward = vec![1.0; self.map.len()];
+        for later in (step + 1..=(step + lag).min(self.last)).rev() {
+            let column = self.pulled(ride, later, &backward);
+            let sum: f64 = column.iter().sum();
+            backward = column.iter().map(|p| p / sum).collect();
+        }
+        Some(shares(self.forward(step)?, &backward))
     }
 
     /// ln p(z₁..T | m) \[nats\]. `None` where the forward pass is not through.
@@ -247,6 +263,13 @@ impl Expectation {
         let known = ride.corridor.known;
         Some(counts.iter().map(|[yes, no]| known.after(*yes, *no).mode()).collect())
     }
+}
+
+/// The product of two columns over its sum.
+fn shares(forward: &[f64], backward: &[f64]) -> Vec<f64> {
+    let product: Vec<f64> = forward.iter().zip(backward).map(|(a, b)| a * b).collect();
+    let sum: f64 = product.iter().sum();
+    product.iter().map(|p| p / sum).collect()
 }
 
 /// Divides a column by its sum, and keeps it, and the log of all such sums so far.

@@ -44,6 +44,9 @@ const STEP: f64 = 0.2;
 const LEG: u32 = 26;
 const LEGS: u32 = 3;
 
+/// Number of the last step of a log: two rides, and the step with which the robot is carried between them.
+pub const STEPS: u32 = 2 * LEG * LEGS + 1;
+
 /// How far the robot is told to have been carried \[m\]: to the middle between the two answers.
 const CARRIED: f64 = -3.6;
 

@@ -1,4 +1,4 @@
-//! Where the parts of the figure stand: guess, passes, product and map on one axis, the corridor; below, what never falls, and the particles.
+//! Where the parts of the figure stand: guess, product and map on one axis, the corridor; below, what never falls, and the particles.
 
 use crate::{
     panels::Panels,
@@ -27,8 +27,8 @@ const GAP: f64 = 10.0;
 const PAD: f64 = 8.0;
 /// Names of times below a strip, and of iterations below the chart.
 const TIMES: f64 = 15.0;
-/// Height of the strips in a row; on a phone, of the two passes, and of their product.
-const STRIPS: [f64; 3] = [196.0, 62.0, 112.0];
+/// Height of the product.
+const PRODUCT: f64 = 196.0;
 /// Height of chart and particles beside each other; on a phone, of either.
 const BELOW: [f64; 3] = [128.0, 52.0, 74.0];
 /// Left of the chart, for its numbers, and right of it, for where other guesses end.
@@ -58,8 +58,8 @@ pub struct Layout {
     pub shown: Panels,
     /// Whether there is room for long names.
     pub wide: bool,
-    /// The forward pass, the backward one, and their product.
-    pub strips: [Part; 3],
+    /// Where the robot was, over time: the forward pass, and what the backward one makes of it.
+    pub product: Part,
     /// Names of places, left of the marks.
     pub scale: Rect,
     /// The marks of the first guess, left of what is made of them.
@@ -94,30 +94,11 @@ impl Layout {
         let mut stack = Stack::new(0.0, width);
         let map = if wide { (0.13 * width).clamp(84.0, 130.0) } else { 76.0 }.floor();
         let left = SCALE + GUESS;
-        let strips;
-        let header;
-        let row;
-        if wide {
-            header = stack.take(passes, HEADER, 0.0);
-            row = stack.take(passes, STRIPS[0], 0.0);
-            let each = ((width - left - map - 3.0 * GAP) / 3.2).floor();
-            let product = left + 2.0 * (each + GAP);
-            let wider = width - map - GAP - product;
-            strips = [(left, each), (left + each + GAP, each), (product, wider)]
-                .map(|(x, w)| Part::new(&header, &row, x, w));
-        } else {
-            let (above, two) = (stack.take(passes, HEADER, 0.0), stack.take(passes, STRIPS[1], 0.0));
-            header = stack.take(passes, HEADER, 0.0);
-            row = stack.take(passes, STRIPS[2], 0.0);
-            let each = (0.5 * (width - SCALE - GAP)).floor();
-            let [forward, backward] = [SCALE, SCALE + each + GAP].map(|x| Part::new(&above, &two, x, each));
-            strips = [forward, backward, Part::new(&header, &row, left, width - left - map - GAP)];
-        }
-        let times = Rect {
-            x: strips[2].area.x,
-            w: strips[2].area.w,
-            ..stack.take(passes, TIMES, if below { PAD } else { 0.0 })
-        };
+        let header = stack.take(passes, HEADER, 0.0);
+        let row = stack.take(passes, PRODUCT, 0.0);
+        let product = Part::new(&header, &row, left, width - left - map - GAP);
+        let times =
+            Rect { x: product.area.x, w: product.area.w, ..stack.take(passes, TIMES, if below { PAD } else { 0.0 }) };
         let map = Part::new(&header, &row, width - map, map);
         let guess = Part::new(&header, &row, 0.0, left);
         let guess = Part { area: Rect { x: SCALE, w: GUESS, ..guess.area }, ..guess };
@@ -150,13 +131,13 @@ impl Layout {
         let peaks = Part::new(&cloud_header, &cloud_row, width - w, w);
         let height = bottom.max(stack.y).ceil();
         let shown = shown.clone();
-        Self { shown, wide, strips, scale, guess, map, times, chart, numbers, axis, cloud, cloud_scale, peaks, height }
+        Self { shown, wide, product, scale, guess, map, times, chart, numbers, axis, cloud, cloud_scale, peaks, height }
     }
 
     /// All parts.
     pub fn parts(&self) -> Vec<Rect> {
-        let Self { strips: [forward, backward, product], guess, map, chart, cloud, peaks, .. } = self;
-        let parts = [forward, backward, product, map, chart, cloud, peaks, guess];
+        let Self { product, guess, map, chart, cloud, peaks, .. } = self;
+        let parts = [product, map, chart, cloud, peaks, guess];
         let parts = parts.into_iter().flat_map(|part| [part.header, part.area]);
         parts.chain([self.scale, self.times, self.numbers, self.axis, self.cloud_scale]).collect()
     }

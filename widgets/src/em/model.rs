@@ -174,6 +174,24 @@ impl EmModel {
         &self.passes
     }
 
+    /// How many readings after each step tell where the robot was then; `None` where all do.
+    pub fn future(&self) -> Option<u32> {
+        Some(self.recipe.future).filter(|future| *future < lab::STEPS)
+    }
+
+    /// Where the robot was at a step, as far as the passes are: by the readings up to then, and where the backward pass has been, by the ones
+    /// after that are asked for.
+    pub fn column(&self, step: usize) -> Option<Vec<f64>> {
+        let steps = self.log.steps();
+        let [forward, backward] = self.now().columns(steps + 1);
+        match self.future() {
+            _ if step >= forward => None,
+            None if step + backward > steps => self.passes.product(step),
+            Some(future) if step + backward > steps => self.passes.smoothed(&self.log.ride, step, future as usize),
+            _ => self.passes.forward(step).map(<[f64]>::to_vec),
+        }
+    }
+
     /// Entropy of the path \[nats\], once the two passes are multiplied.
     pub fn entropy(&self) -> Option<f64> {
         self.now().has_product().then_some(self.entropy)

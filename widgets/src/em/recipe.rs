@@ -6,7 +6,7 @@ use crate::{
     recipe::{self, Param},
     words::{common, em},
 };
-use fastslam_lab::experiment::em::{DOORS, Guess, ITERATIONS, LENGTH, LogSetup};
+use fastslam_lab::experiment::em::{DOORS, Guess, ITERATIONS, LENGTH, LogSetup, STEPS};
 
 /// Steps that an iteration is shown in: so many of the forward pass, so many of the backward one, their product, and the map.
 pub const FILLS: u32 = 4;
@@ -37,6 +37,8 @@ pub struct Recipe {
     trust: f64,
     /// How many iterations are made.
     pub iterations: u32,
+    /// How many readings after each step tell where the robot was then.
+    pub future: u32,
     /// Where the reader expects EM mapping to have the robot put down \[m\].
     pub prediction: Prediction,
     /// The step asked for.
@@ -54,6 +56,7 @@ impl Default for Recipe {
             marks,
             trust: 100.0,
             iterations: 20,
+            future: STEPS,
             prediction: Prediction::default(),
             step: END,
         }
@@ -105,9 +108,11 @@ impl recipe::Recipe for Recipe {
             P::number(MARKS[rank], title, "m", MARK, field, em::mark_help()).folded().without_slider()
         };
         vec![
+            P::integer("future", em::future(), em::readings(), (0, STEPS), field!(future), em::future_help())
+                .in_sight(),
             P::number("odometry", em::odometry(), "m", (0.01, 0.3, 0.01), field!(odometry), em::odometry_help())
                 .in_sight(),
-            P::number("sensor", em::sensor(), "%", (0.0, 45.0, 1.0), field!(sensor), em::sensor_help()).in_sight(),
+            P::number("sensor", em::sensor(), "%", (0.0, 45.0, 1.0), field!(sensor), em::sensor_help()),
             P::integer("iterations", em::iterations(), "", (1, ITERATIONS), field!(iterations), em::iterations_help()),
             P::seed(field!(seed), em::seed_help()),
             P::number("trust", em::trust(), "%", (0.0, 100.0, 5.0), field!(trust), em::trust_help()).folded(),

@@ -1,6 +1,10 @@
-//! Time from left to right, the corridor from below upwards: where the robot was, by one pass, by the other, by both.
+//! Time from left to right, the corridor from below upwards: where the robot was, by the past alone, and by as much future as is asked for.
 
-use super::{layout::Layout, model::EmModel, recipe::MARKS};
+use super::{
+    layout::Layout,
+    model::EmModel,
+    recipe::{FILLS, MARKS},
+};
 use crate::{
     decimal::write,
     font::{self, Weight},
@@ -14,7 +18,7 @@ use fastslam_lab::experiment::em::{CORRIDOR, HALF_DOOR, LENGTH};
 pub const SIZE: f64 = 11.0;
 
 /// What the reader may choose of a strip's name, from long to short.
-type Names = [&'static str; 2];
+type Names<'a> = [&'a str; 2];
 
 /// Where a place of the corridor \[m\] is in an area \[css px\].
 pub fn y(area: &Rect, place: f64) -> f64 {
@@ -37,8 +41,8 @@ pub fn strip(scene: &mut Scene, area: Rect, columns: &[Option<Vec<f64>>]) {
     let mut shades = vec![0; columns.len() * cells];
     for (step, column) in columns.iter().enumerate() {
         for (cell, share) in column.iter().flatten().enumerate() {
-            // Square roots: that something is there at all must be seen.
-            shades[(cells - 1 - cell) * columns.len() + step] = (255.0 * share.clamp(0.0, 1.0).sqrt()) as u8;
+            // Square roots, and a half is as dark as all: that something is there at all must be seen.
+            shades[(cells - 1 - cell) * columns.len() + step] = (255.0 * (2.0 * share).clamp(0.0, 1.0).sqrt()) as u8;
         }
     }
     let cells = Cells { columns: columns.len(), shades };
@@ -78,51 +82,52 @@ pub fn scale(scene: &mut Scene, area: &Rect) {
 }
 
 /// The name of a part, with as much of what it is as there is room for.
-pub fn name(scene: &mut Scene, header: &Rect, strong: &str, rest: Names) {
+pub fn name(scene: &mut Scene, header: &Rect, strong: &str, rest: Names<'_>) {
     let used = font::measure(strong, 13.5, Weight::SemiBold) + 12.0;
     let fits = |rest: &&&str| used + font::measure(rest, 12.5, Weight::Regular) <= header.w;
     heading(scene, header, (strong, Role::Ink), rest.iter().find(fits).unwrap_or(&""));
 }
 
-/// The two passes and their product, as far as they are.
-pub fn strips(scene: &mut Scene, model: &EmModel, layout: &Layout) {
-    let (passes, steps, now) = (model.passes(), model.log().steps(), model.now());
-    let [forward, backward] = now.columns(steps + 1);
-    let of_forward = |step: usize| passes.forward(step).filter(|_| step < forward).map(<[f64]>::to_vec);
-    // What explains the readings to come best is full dark: there is no more to a column of the backward pass than its proportions.
-    let proportions = |column: &[f64]| {
-        let most = column.iter().copied().fold(0.0, f64::max);
-        column.iter().map(|p| p / most).collect()
-    };
-    let of_backward = |step: usize| passes.backward(step).filter(|_| step + backward > steps).map(proportions);
-    let of_product = |step: usize| passes.product(step).filter(|_| now.has_product());
-    let columns: [Vec<Option<Vec<f64>>>; 3] = [
-        (0..=steps).map(of_forward).collect(),
-        (0..=steps).map(of_backward).collect(),
-        (0..=steps).map(of_product).collect(),
-    ];
-    let names = [
-        (words::forward(), [words::forward_what(), words::forward_what_short()]),
-        (words::backward(), [words::backward_what(), words::backward_what_short()]),
-        (words::product(), [words::product_what(), words::product_what_short()]),
-    ];
-    for ((part, columns), (strong, rest)) in layout.strips.iter().zip(&columns).zip(names) {
-        name(scene, &part.header, strong, rest);
-        strip(scene, part.area, columns);
-        carried(scene, model, &part.area);
-        scene.marks.push(Mark::Frame { area: part.area, width: 1.0, role: Role::Frame });
+/// What is shown of the path.
+fn title(model: &EmModel) -> (&'static str, [String; 2]) {
+    match model.future() {
+        future if model.now().ticks <= FILLS || future == Some(0) => {
+            (words::forward(), [words::forward_what().into(), words::forward_what_short().into()])
+        }
+        None => (words::product(), [words::product_what().into(), words::product_what_short().into()]),
+        Some(n) => {
+            let n = &n;
+            (words::product(), [words::FutureWhat { n }.say(), words::FutureWhatShort { n }.say()])
+        }
     }
-    truth(scene, model, &layout.strips[2].area);
+}
+
+/// Where the robot was by both passes, as far as they are.
+pub fn strips(scene: &mut Scene, model: &EmModel, layout: &Layout) {
+    let (area, steps) = (layout.product.area, model.log().steps());
+    let (strong, rest) = title(model);
+    name(scene, &layout.product.header, strong, rest.each_ref().map(String::as_str));
+    strip(scene, area, &(0..=steps).map(|step| model.column(step)).collect::<Vec<_>>());
+    carried(scene, model, &area);
+    scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
+    truth(scene, model, &area);
     // How far a pass is.
-    for (part, step) in layout.strips.iter().zip([forward, steps + 1 - backward]) {
-        let x = x(&part.area, step, steps);
-        if x > part.area.x + 1.0 && x < part.area.right() - 1.0 {
-            let lines = vec![vec![[x, part.area.y], [x, part.area.bottom()]]];
+    let [forward, backward] = model.now().columns(steps + 1);
+    for step in [forward, steps + 1 - backward] {
+        let x = x(&area, step, steps);
+        if x > area.x + 1.0 && x < area.right() - 1.0 {
+            let lines = vec![vec![[x, area.y], [x, area.bottom()]]];
             scene.marks.push(Mark::Lines { lines, width: 2.0, dash: None, role: Role::Accent });
         }
     }
+    // How far ahead of the carrying a column looks.
+    if let Some(future) = model.future() {
+        let from = model.log().carried;
+        let ends = [from, (from + future as usize).min(steps)].map(|step| [x(&area, step, steps), area.bottom()]);
+        scene.marks.push(Mark::Lines { lines: vec![ends.to_vec()], width: 4.0, dash: None, role: Role::Accent });
+    }
     times(scene, model, layout);
-    answer(scene, model, &layout.strips[2].area);
+    answer(scene, model, &area);
 }
 
 /// Where the reader's guess stands before there is one \[m\].
@@ -144,7 +149,7 @@ fn answer(scene: &mut Scene, model: &EmModel, area: &Rect) {
 
 /// When the robot was carried, and when the ride began and ended.
 fn times(scene: &mut Scene, model: &EmModel, layout: &Layout) {
-    let (area, times) = (&layout.strips[2].area, &layout.times);
+    let (area, times) = (&layout.product.area, &layout.times);
     let middle = x(area, model.log().carried, model.log().steps());
     let w = font::measure(words::carried(), SIZE, Weight::Regular) + 0.01;
     let line = |x: f64, anchor, what: String| {

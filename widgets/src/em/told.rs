@@ -7,7 +7,7 @@ use crate::{
     prediction::State,
     words::em as words,
 };
-use fastslam_lab::experiment::em::{AGAIN_BELOW, DOORS};
+use fastslam_lab::experiment::em::{self as lab, AGAIN_BELOW, DOORS};
 
 /// A share in percent.
 pub fn percent(share: f64) -> String {
@@ -97,6 +97,13 @@ fn judged(model: &EmModel) -> Option<String> {
     })
 }
 
+/// What the readings that are asked for say of the moment in which the robot was put down, where those are not all.
+fn by_future(model: &EmModel) -> Option<String> {
+    let n = &model.future()?;
+    let again = lab::again(&model.column(model.log().carried)?);
+    Some(words::ByFuture { n, new: &percent(1.0 - again), again: &percent(again) }.say())
+}
+
 pub fn describe(model: &EmModel) -> String {
     let (now, shown) = (model.now(), model.shown());
     let (n, all) = (&(now.iteration + 1), &model.iterations());
@@ -117,7 +124,7 @@ pub fn describe(model: &EmModel) -> String {
             } else {
                 words::Moving { n, doors, value }.say()
             };
-            format!("{done} {answer}")
+            [done, answer].into_iter().chain(by_future(model)).collect::<Vec<_>>().join(" ")
         }
     };
     let particles =
@@ -133,6 +140,7 @@ pub fn narrate(model: &EmModel) -> String {
     match (now.ticks, model.put_down()) {
         (0, _) => words::NBegins { doors: &model.doors().len() }.say(),
         (ticks, _) if ticks <= FILLS => words::n_forward().into(),
+        (_, Some(_)) if let Some(told) = by_future(model) => told,
         (_, Some((place, again))) if now.has_product() => {
             let place = &fixed(place, 1);
             if again > 0.5 { words::NAgain { place }.say() } else { words::NNew { place }.say() }

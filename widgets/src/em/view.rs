@@ -35,7 +35,7 @@ impl View for EmView {
             return Rect::new(0.0, 0.0, width, layout.height);
         }
         // Product and map, and what they are worth.
-        let top = layout.strips[2].area.y - 4.0;
+        let top = layout.product.area.y - 4.0;
         let last = if layout.shown.has(LIKELIHOOD) { layout.axis.bottom() } else { layout.times.bottom() };
         Rect::new(0.0, top, width, last - top)
     }
@@ -56,7 +56,7 @@ impl View for EmView {
 
     fn drag(&self, model: &mut EmModel, layout: &Layout, handle: &str, [_, y]: Point) {
         if handle == GUESS {
-            model.guess_at(strips::place(&layout.strips[2].area, y));
+            model.guess_at(strips::place(&layout.product.area, y));
         } else if let Some(rank) = rank(handle) {
             model.put(rank, strips::place(&layout.guess.area, y));
         }

@@ -1,7 +1,7 @@
 //! Laws of the figure of EM mapping, by its public face.
 
 use crate::common::{figure, scene, state};
-use fastslam_widgets::figure::Figure;
+use fastslam_widgets::{figure::Figure, scene::Mark};
 
 const TAG: &str = "fastslam-em";
 
@@ -26,6 +26,35 @@ fn as_it_opens_the_map_is_right_and_the_particles_hold_both_answers_and_a_foldin
     assert!(number(&fold, "log_posterior") < number(&right, "log_posterior") - 5.0);
     assert!(fold.describe().contains("nothing changes any more"), "{}", fold.describe());
     assert_eq!(number(&fold, "again"), number(&right, "again"), "the particles make no guess");
+}
+
+/// Where the path is in several places at once, of the columns after the robot was carried, and what is told of it.
+fn undecided(query: &str) -> (usize, String) {
+    let shown = figure(TAG, query);
+    let cells = scene(&shown, 800.0).marks.into_iter().find_map(|mark| match mark {
+        Mark::Raster { cells, .. } => Some(cells),
+        _ => None,
+    });
+    let cells = cells.unwrap();
+    let runs = |step: usize| {
+        let dark = |cell: usize| cells.shades[cell * cells.columns + step] > 25;
+        let rows = cells.shades.len() / cells.columns;
+        (0..rows).filter(|cell| dark(*cell) && (*cell == 0 || !dark(*cell - 1))).count()
+    };
+    ((80..cells.columns).filter(|step| runs(*step) > 1).count(), shown.model().narrate())
+}
+
+/// *Looking back sharpens*: each reading of the future takes some of the doubt away, and the map does not hang on what is looked at.
+#[test]
+fn the_more_future_the_fewer_moments_have_the_robot_in_several_places() {
+    let found = ["future=0", "future=10", "future=40", ""].map(undecided);
+    let counts = found.each_ref().map(|(count, _)| *count);
+    assert!(counts[0] >= 20 && counts.windows(2).all(|two| two[0] >= two[1]) && counts[3] == 0, "{counts:?}");
+    assert!(found[0].1.contains("63 % for the old ones") && found[3].1.contains("put down at 3.9 m"), "{found:?}");
+    let [now, all] = ["future=0&particles=50", "particles=50"].map(|query| figure(TAG, query));
+    for name in ["log_posterior", "put_down", "again_em", "entropy", "doors"] {
+        assert_eq!(number(&now, name), number(&all, name), "{name}");
+    }
 }
 
 /// The chips of the caption: wheels twice as bad make EM mapping sure of what the particles are not, and a blank map finds all doors.

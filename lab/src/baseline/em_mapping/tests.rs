@@ -74,6 +74,28 @@ fn passes_and_maximum_are_those_of_all_paths_one_by_one() {
     }
 }
 
+/// A robot that has read no further than the lag reaches knows as much.
+#[test]
+fn a_fixed_lag_is_the_product_of_a_ride_that_ends_there() {
+    let (ride, map) = small(7, 30, 40);
+    let whole = Expectation::of(map.clone(), &ride).unwrap();
+    let same = |found: Option<Vec<f64>>, wanted: Option<Vec<f64>>, of: &str| {
+        found.unwrap().into_iter().zip(wanted.unwrap()).for_each(|(a, b)| close(a, b, of));
+    };
+    for step in [0, 3, 20, 40] {
+        same(whole.smoothed(&ride, step, 0), whole.forward(step).map(<[f64]>::to_vec), "none");
+        same(whole.smoothed(&ride, step, 40), whole.product(step), "all");
+        for lag in [1, 7, 19] {
+            let mut cut = ride.clone();
+            cut.steps.truncate(step + lag);
+            cut.readings.truncate(step + lag);
+            let product = Expectation::of(map.clone(), &cut).unwrap().product(step);
+            same(whole.smoothed(&ride, step, lag), product, "some");
+        }
+    }
+    assert_eq!(Expectation::new(map, &ride).unwrap().smoothed(&ride, 0, 3), None);
+}
+
 /// α₂ and β₂ alone: the paths up to a step, and from it.
 #[test]
 fn a_pass_that_is_stopped_is_the_sum_over_the_paths_so_far() {
