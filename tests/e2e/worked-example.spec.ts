@@ -131,6 +131,49 @@ test('each handle is dragged by the mouse, where its numbers follow and no other
   await expect(figure.grasp('sighting-1')).toHaveAttribute('aria-valuetext', '3.2 m away, at 0.095 rad')
 })
 
+test('pointing at S lights what enters it, until the pointer leaves; arrow keys go from step to step, and a tap stays', async ({ page }) => {
+  const figure = await new Figure(page, tag).alone()
+  const [picture, told] = [await figure.picture(), await figure.told.textContent()]
+  const over = async (row: number) => {
+    const rows = figure.handle('row')
+    const box = (await rows.boundingBox())!
+    return { x: box.x + box.width / 2, y: box.y + box.height / 2 + row }
+  }
+  // The handle stands in the first row, which is as high as the second.
+  const { x, y } = await over(42)
+  await page.mouse.move(x, y)
+  await expect(figure.told).toHaveText('Covariance of ν: made of Σ, Q, x, μ.')
+  expect(await figure.picture()).not.toBe(picture)
+  await page.mouse.move(5, 5)
+  await expect(figure.told).toHaveText(told!)
+  await figure.settled()
+  expect(await figure.picture(), 'what is pointed at is let go').toBe(picture)
+
+  await figure.grasp('row').focus()
+  await page.keyboard.press('ArrowDown')
+  await page.keyboard.press('ArrowDown')
+  await expect(figure.told).toHaveText('Covariance of ν: made of Σ, Q, x, μ.')
+  await expect(figure.grasp('row')).toHaveAttribute('aria-valuetext', 'Covariance of ν: made of Σ, Q, x, μ.')
+  await page.keyboard.press('ArrowUp')
+  await page.keyboard.press('ArrowUp')
+  await figure.settled()
+  expect(await figure.picture()).toBe(picture)
+})
+
+test.describe('by touch', () => {
+  test.use({ viewport: { width: 380, height: 760 }, hasTouch: true, isMobile: true })
+
+  test('a tap on a step lights what enters it', async ({ page }) => {
+    const figure = await new Figure(page, tag).alone()
+    const rows = figure.handle('row')
+    await rows.evaluate(handle => handle.scrollIntoView({ block: 'center', behavior: 'instant' }))
+    const box = (await rows.boundingBox())!
+    await page.touchscreen.tap(box.x + box.width / 2, box.y + box.height / 2 + 42)
+    await expect(figure.told).toHaveText('Covariance of ν: made of Σ, Q, x, μ.')
+    expect(await figure.state()).toContain('row=5')
+  })
+})
+
 test('picture, rows and matrices are on one screen, and S is seen to change there', async ({ page }) => {
   await openCourse(page, `<main style="max-width: 960px; margin: auto"><${tag}></${tag}></main>`)
   const figure = new Figure(page, tag)

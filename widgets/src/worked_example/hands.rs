@@ -5,18 +5,23 @@ use super::{
     model::WorkedExampleModel,
     plot::lever,
     recipe::VARIANCE,
+    steps::{number_of, pointed, steps},
     window::{SIGMAS, Thing, nearest, plane},
 };
 use crate::{
     decimal::rounded,
     model::Declared,
     scene::{Plane, Point},
+    view::whole_step,
 };
 use fastslam::{geometry::Pose2, ops};
 use fastslam_lab::experiment::worked_example::{Inputs, WorkedExample};
 
 /// The threshold, on the bar of N_eff.
 pub const THRESHOLD: &str = "threshold";
+
+/// The step that is pointed at.
+pub const ROW: &str = "row";
 
 /// Lengths of the levers by which the robots are turned \[css px\].
 pub const HEADINGS: [f64; 2] = [54.0, 102.0];
@@ -107,6 +112,11 @@ pub fn drag(model: &mut WorkedExampleModel, layout: &Layout, name: &str, to: Poi
         let bar = chain.bar();
         return set(model, |inputs| inputs.threshold = rounded((to[0] - bar.x) / bar.w, 2));
     }
+    if let (ROW, Some(chain)) = (name, &layout.chain) {
+        let rank = chain.places.iter().position(|place| to[1] < place.label.bottom());
+        let rank = rank.unwrap_or(chain.places.len() - 1);
+        return model.change(|recipe| recipe.row = number_of(chain.steps(), rank));
+    }
     let (Some(area), Some(grip)) = (layout.plot, Grip::named(name)) else { return };
     let example = model.example().clone();
     let plane = plane(&example, area);
@@ -163,6 +173,13 @@ pub fn drag(model: &mut WorkedExampleModel, layout: &Layout, name: &str, to: Poi
 /// Moves what has this name right and up, in steps.
 pub fn nudge(model: &mut WorkedExampleModel, name: &str, [right, up]: [f64; 2]) {
     let along = right + up;
+    if name == ROW {
+        // Downwards through the table, from none on.
+        let shown = steps(model.recipe().all_steps);
+        let rank = pointed(model.recipe().row, shown).map_or(0.0, |rank| rank as f64 + 1.0) - whole_step(along);
+        let rank = rank.max(0.0).min(shown.len() as f64) as usize;
+        return model.change(|recipe| recipe.row = rank.checked_sub(1).map_or(0, |rank| number_of(shown, rank)));
+    }
     let near = |x: f64| rounded(x, 4);
     set(model, |inputs| match Grip::named(name) {
         Some(Grip::Thing(thing)) => {

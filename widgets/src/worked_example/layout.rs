@@ -1,7 +1,7 @@
 //! Where the parts stand: the drawing, below it a table with a column for each particle, and at the end the decision. What a row says of
 //! itself stands beside its values: caption and formula in one line, below each other, or on a phone the symbol with its unit.
 
-use super::steps::{FIVE_STEPS, GIVEN, STEPS, Step};
+use super::steps::{GIVEN, Step, steps};
 use crate::{
     panels::Panels,
     scene::{LINE, Rect},
@@ -169,6 +169,12 @@ impl Chain {
         Rect::new(area.x + 14.0, area.bottom() - 31.0, area.w - 32.0, 10.0)
     }
 
+    /// All its rows, over the whole width.
+    pub fn rows(&self) -> Rect {
+        let (first, last) = (self.places[0].label, self.places[self.places.len() - 1].values[1]);
+        Rect::new(first.x, first.y, last.right() + APART - first.x, last.bottom() - first.y)
+    }
+
     /// From this height on, which becomes that of its end.
     fn below(y: &mut f64, width: f64, labels: Labels, all: bool) -> Self {
         let label = labels.column(width, all);
@@ -201,10 +207,6 @@ impl Chain {
         };
         Self { head, all, places, selection }
     }
-}
-
-fn steps(all: bool) -> &'static [Step] {
-    if all { STEPS } else { FIVE_STEPS }
 }
 
 impl view::Layout for Layout {

@@ -3,6 +3,7 @@
 use super::{
     challenges,
     recipe::{Recipe, plain},
+    steps,
 };
 use crate::challenge::Challenge;
 use crate::decimal::fixed;
@@ -204,6 +205,10 @@ impl Model for WorkedExampleModel {
     }
 
     fn narrate(&self) -> String {
+        let shown = steps::steps(self.recipe.all_steps);
+        if let Some(rank) = steps::pointed(self.recipe.row, shown) {
+            return shown[rank].told(shown);
+        }
         let [w1, w2] = [0, 1].map(|slot| plain(self.example.updates[slot].weight, 4));
         worked_example::NTold { w1: &w1, w2: &w2, verdict: &self.verdict() }.say()
     }

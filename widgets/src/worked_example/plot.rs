@@ -21,8 +21,9 @@ const KNOB: f64 = 8.5;
 const GRIP: f64 = 5.0;
 
 /// Robots, what they see, and the landmark before and after.
-pub fn plot(scene: &mut Scene, example: &WorkedExample, area: &Rect) {
+pub fn plot(scene: &mut Scene, example: &WorkedExample, area: &Rect, lit: &[&str]) {
     let plane = plane(example, *area);
+    light(scene, example, &plane, lit);
     let ring = |landmark: &Landmark, width: f64, role: Role| {
         let mean = [landmark.mean.x, landmark.mean.y];
         let lines = plane.region(mean, landmark.covariance.into(), SIGMAS);
@@ -59,6 +60,39 @@ pub fn plot(scene: &mut Scene, example: &WorkedExample, area: &Rect) {
     for (name, grip) in Grip::NAMED {
         scene.handles.push(handle(name, grip, example, &plane));
     }
+}
+
+/// What enters the step that is pointed at, behind what is drawn of it; and the noise of the sensor, which is drawn only then.
+fn light(scene: &mut Scene, example: &WorkedExample, plane: &Plane, lit: &[&str]) {
+    let has = |symbol: &str| lit.contains(&symbol);
+    let at = |thing: Thing| plane.point(thing.place(example));
+    let (mut lines, mut discs, mut noise) = (Vec::new(), Vec::new(), Vec::new());
+    if has("Σ") {
+        let Landmark { mean, covariance, .. } = example.before;
+        lines.extend(plane.region([mean.x, mean.y], covariance.into(), SIGMAS));
+    }
+    if has("μ") {
+        discs.push(at(Thing::Mean));
+    }
+    for (slot, update) in example.updates.iter().enumerate() {
+        if has("x") {
+            discs.push(at(Thing::Robot(slot)));
+        }
+        if has("z") {
+            lines.extend(clip_polyline(&[at(Thing::Robot(slot)), at(Thing::Sighting(slot))], &plane.area));
+        }
+        if has("Q") {
+            let (sin, cos) = ops::sin_cos(update.world_from_robot.theta + update.z.y);
+            let [along, across] = [example.noise.m11, update.z.x * update.z.x * example.noise.m22];
+            let xy = (along - across) * sin * cos;
+            let covariance =
+                [[along * cos * cos + across * sin * sin, xy], [xy, along * sin * sin + across * cos * cos]];
+            noise.extend(plane.region(Thing::Sighting(slot).place(example), covariance, SIGMAS));
+        }
+    }
+    scene.marks.push(Mark::Lines { lines, width: 7.0, dash: None, role: Role::Accent });
+    scene.marks.push(Mark::Lines { lines: noise, width: 2.5, dash: None, role: Role::Accent });
+    scene.marks.push(Mark::Discs { centres: discs, radius: KNOB + 6.0, role: Role::Accent });
 }
 
 /// What is grasped, as it is seen.

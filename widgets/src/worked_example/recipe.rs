@@ -1,5 +1,6 @@
 //! What a reader can set: all numbers that the example begins with.
 
+use super::steps::STEPS;
 use crate::{
     decimal::{significant, write},
     field,
@@ -25,6 +26,8 @@ pub struct Recipe {
     pub inputs: Inputs,
     /// Whether every step is shown, not only those that decide.
     pub all_steps: bool,
+    /// The step that is pointed at, from 1 on of all that there are; 0 is none.
+    pub row: u32,
 }
 
 impl recipe::Recipe for Recipe {
@@ -52,7 +55,8 @@ impl recipe::Recipe for Recipe {
             P::number("threshold", policy::threshold(), policy::of_m(), (0.0, 1.0, 0.05), field!(inputs.threshold), worked_example::threshold_help()),
         ];
         let every = P::flag("all-steps", worked_example::all_steps(), field!(all_steps), worked_example::all_steps_help()).view();
-        rows.into_iter().map(P::without_slider).chain([every]).collect()
+        let row = P::integer("row", worked_example::row(), "", (0, STEPS.len() as u32), field!(row), worked_example::row_help()).view().folded();
+        rows.into_iter().chain([row]).map(P::without_slider).chain([every]).collect()
     }
 
     /// A covariance is positive definite: its three numbers are judged together.

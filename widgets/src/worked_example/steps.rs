@@ -12,6 +12,8 @@ pub struct Step {
     pub caption: fn() -> &'static str,
     /// Its formula, as [`Formula::tex`] takes it.
     pub formula: &'static str,
+    /// Symbols of what it is made of: results of steps before, and what is given.
+    pub enters: &'static str,
     /// Whether it has two rows.
     pub tall: bool,
     /// Writes its value for the particle in this slot.
@@ -23,6 +25,38 @@ impl Step {
     pub fn symbol(&self) -> &'static str {
         let name = |formula: &'static str, sign| formula.split(sign).next().unwrap_or_default();
         name(name(self.formula, " = "), " ← ")
+    }
+
+    /// Whether its result has this symbol. What is there after the sighting has that of before, and nothing is made of it.
+    fn makes(&self, symbol: &str) -> bool {
+        self.formula.split(" = ").next() == Some(symbol)
+    }
+
+    /// Symbols of what it is made of, by steps that are shown and by what is given: of a step that is not shown, what that is made of.
+    pub fn entering(&self, shown: &[Self]) -> Vec<&'static str> {
+        let mut found = Vec::new();
+        for symbol in self.enters.split_whitespace() {
+            let hidden = STEPS.iter().find(|step| step.makes(symbol) && !step.enters.is_empty());
+            let parts = match hidden.filter(|_| row_of(shown, symbol).is_none()) {
+                Some(step) => step.entering(shown),
+                None => vec![symbol],
+            };
+            for part in parts {
+                if !found.contains(&part) {
+                    found.push(part);
+                }
+            }
+        }
+        found
+    }
+
+    /// What it is made of, in words.
+    pub fn told(&self, shown: &[Self]) -> String {
+        let plain = |symbol: &str| symbol.replace("^2", "²").replace("^{−1}", "⁻¹").replace("_m", "");
+        let what: Vec<String> = self.entering(shown).into_iter().map(plain).collect();
+        let caption = (self.caption)();
+        let name = caption.split(" [").next().unwrap_or(caption);
+        worked_example::Enters { name: &name, what: &what.join(", ") }.say()
     }
 
     /// The unit that its caption tells.
@@ -73,21 +107,30 @@ pub const GIVEN: &[Step] = &[
     Step {
         caption: worked_example::landmark,
         formula: "μ",
+        enters: "",
         tall: true,
         write: |to, e, _| to.vector(to.line(), &e.before.mean),
     },
     Step {
         caption: worked_example::covariance,
         formula: "Σ",
+        enters: "",
         tall: true,
         write: |to, e, _| to.matrix(&e.before.covariance),
     },
-    Step { caption: worked_example::noise, formula: "Q", tall: true, write: |to, e, _| to.matrix(&e.noise) },
+    Step {
+        caption: worked_example::noise,
+        formula: "Q",
+        enters: "",
+        tall: true,
+        write: |to, e, _| to.matrix(&e.noise),
+    },
 ];
 
 const INNOVATION: Step = Step {
     caption: worked_example::innovation_step,
     formula: "ν = z − z\u{302}",
+    enters: "z z\u{302}",
     tall: true,
     write: |to, e, slot| {
         let update = &e.updates[slot];
@@ -103,6 +146,7 @@ const INNOVATION: Step = Step {
 const INNOVATION_COVARIANCE: Step = Step {
     caption: worked_example::innovation_covariance,
     formula: "S = H_m Σ H_m^T + Q",
+    enters: "Σ Q H_m",
     tall: true,
     write: |to, e, slot| to.matrix(&e.updates[slot].innovation.covariance),
 };
@@ -110,6 +154,7 @@ const INNOVATION_COVARIANCE: Step = Step {
 const DISTANCE: Step = Step {
     caption: worked_example::distance,
     formula: "d^2 = ν^T S^{−1} ν",
+    enters: "ν S^{−1}",
     tall: false,
     write: |to, e, slot| to.number(e.updates[slot].innovation.mahalanobis_squared),
 };
@@ -117,6 +162,7 @@ const DISTANCE: Step = Step {
 const WEIGHT: Step = Step {
     caption: worked_example::weight,
     formula: "w = |2πS|^{−1/2} exp(−½ d^2)",
+    enters: "d^2 S",
     tall: false,
     write: |to, e, slot| to.positive(e.updates[slot].weight),
 };
@@ -124,6 +170,7 @@ const WEIGHT: Step = Step {
 const MEAN_AFTER: Step = Step {
     caption: worked_example::landmark_after,
     formula: "μ ← μ + K ν",
+    enters: "μ K ν",
     tall: true,
     write: |to, e, slot| to.vector(to.line(), &e.updates[slot].after.mean),
 };
@@ -137,6 +184,7 @@ pub const STEPS: &[Step] = &[
     Step {
         caption: worked_example::pose,
         formula: "x = (x, y, θ)",
+        enters: "",
         tall: false,
         write: |to, e, slot| {
             let pose = e.updates[slot].world_from_robot;
@@ -147,6 +195,7 @@ pub const STEPS: &[Step] = &[
     Step {
         caption: worked_example::expected,
         formula: "z\u{302} = h(x, μ)",
+        enters: "x μ",
         tall: true,
         write: |to, e, slot| to.vector(to.line(), &e.updates[slot].innovation.prediction.z),
     },
@@ -154,6 +203,7 @@ pub const STEPS: &[Step] = &[
     Step {
         caption: worked_example::derivative,
         formula: "H_m = ∂h/∂m",
+        enters: "x μ",
         tall: true,
         write: |to, e, slot| to.matrix(&e.updates[slot].innovation.prediction.h_m),
     },
@@ -161,12 +211,14 @@ pub const STEPS: &[Step] = &[
     Step {
         caption: worked_example::determinant,
         formula: "det S",
+        enters: "S",
         tall: false,
         write: |to, e, slot| to.number(e.updates[slot].innovation.determinant()),
     },
     Step {
         caption: worked_example::inverse,
         formula: "S^{−1}",
+        enters: "S",
         tall: true,
         write: |to, e, slot| to.matrix(&e.updates[slot].innovation.inverse),
     },
@@ -174,6 +226,7 @@ pub const STEPS: &[Step] = &[
     Step {
         caption: worked_example::log_weight,
         formula: "ln w = −½ (d^2 + ln |2πS|)",
+        enters: "d^2 S",
         tall: false,
         write: |to, e, slot| to.number(e.updates[slot].innovation.log_likelihood()),
     },
@@ -181,6 +234,7 @@ pub const STEPS: &[Step] = &[
     Step {
         caption: worked_example::gain,
         formula: "K = Σ H_m^T S^{−1}",
+        enters: "Σ H_m S^{−1}",
         tall: true,
         write: |to, e, slot| to.matrix(&e.updates[slot].gain),
     },
@@ -188,13 +242,65 @@ pub const STEPS: &[Step] = &[
     Step {
         caption: worked_example::covariance_after,
         formula: "Σ ← (I − K H_m) Σ",
+        enters: "K H_m Σ",
         tall: true,
         write: |to, e, slot| to.matrix(&e.updates[slot].after.covariance),
     },
     Step {
         caption: worked_example::share,
         formula: "w\u{303} = w / Σ w",
+        enters: "w",
         tall: false,
         write: |to, e, slot| to.positive(e.weights.as_slice()[slot]),
     },
 ];
+
+/// Which of the steps that are shown makes a symbol.
+pub fn row_of(shown: &[Step], symbol: &str) -> Option<usize> {
+    shown.iter().position(|step| step.makes(symbol))
+}
+
+/// The steps that are shown, all or those that decide.
+pub fn steps(all: bool) -> &'static [Step] {
+    if all { STEPS } else { FIVE_STEPS }
+}
+
+/// The step with a number from 1 on, of all that there are, if it is shown.
+pub fn pointed(row: u32, shown: &[Step]) -> Option<usize> {
+    let formula = STEPS.get((row as usize).checked_sub(1)?)?.formula;
+    shown.iter().position(|step| step.formula == formula)
+}
+
+/// The number of a step that is shown, of all that there are.
+pub fn number_of(shown: &[Step], rank: usize) -> u32 {
+    let same = |step: &Step| shown.get(rank).is_some_and(|shown| shown.formula == step.formula);
+    STEPS.iter().position(same).map_or(0, |row| row as u32 + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_enters_a_step_is_shown_or_given() {
+        let of = |rank: usize| FIVE_STEPS[rank].entering(FIVE_STEPS).join(" ");
+        assert_eq!([0, 1, 2, 3, 4].map(of), ["z x μ", "Σ Q x μ", "ν S", "d^2 S", "μ Σ x S ν"]);
+        for step in STEPS {
+            for symbol in step.entering(STEPS) {
+                let given = "z x μ Σ Q".split(' ').any(|known| known == symbol);
+                assert!(given || row_of(STEPS, symbol).is_some(), "{symbol} of {}", step.formula);
+            }
+        }
+    }
+
+    #[test]
+    fn a_number_names_the_same_step_whichever_are_shown() {
+        for shown in [STEPS, FIVE_STEPS] {
+            for (rank, step) in shown.iter().enumerate() {
+                let number = number_of(shown, rank);
+                assert_eq!(pointed(number, shown), Some(rank), "{}", step.formula);
+            }
+        }
+        assert_eq!((pointed(0, STEPS), pointed(1, FIVE_STEPS), number_of(STEPS, 99)), (None, None, 0));
+    }
+}

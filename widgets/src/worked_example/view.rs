@@ -1,11 +1,11 @@
 //! What is to be seen: robots and landmark in the plane, the steps with their numbers, and the decision.
 
 use super::{
-    hands::{self, THRESHOLD},
+    hands::{self, ROW, THRESHOLD},
     layout::{CHAIN, Chain, FIVE, Labels, Layout, NARROWEST, PLOT, Place, START},
     model::WorkedExampleModel,
     plot::{after, before, plot},
-    steps::{GIVEN, Step, Writing},
+    steps::{self, GIVEN, Step, Writing},
 };
 use crate::{
     font::{self, Weight},
@@ -58,8 +58,11 @@ impl View for WorkedExampleView {
 
     fn draw(&self, model: &WorkedExampleModel, layout: &Layout, scene: &mut Scene) {
         let example = model.example();
+        let shown = layout.chain.as_ref().map_or(&[][..], Chain::steps);
+        let pointed = steps::pointed(model.recipe().row, shown);
+        let lit = pointed.map_or(Vec::new(), |rank| shown[rank].entering(shown));
         if let Some(area) = &layout.plot {
-            plot(scene, example, area);
+            plot(scene, example, area, &lit);
         }
         if let Some(area) = &layout.names {
             names(scene, area, layout.chain.is_none());
@@ -69,6 +72,7 @@ impl View for WorkedExampleView {
         }
         if let Some(steps) = &layout.chain {
             chain(scene, model, layout, steps);
+            light(scene, steps, pointed, &lit);
         }
     }
 
@@ -123,6 +127,27 @@ fn chain(scene: &mut Scene, model: &WorkedExampleModel, layout: &Layout, chain: 
     let lines = tops.map(|y| vec![[0.0, y.round() + 0.5], [right, y.round() + 0.5]]).collect();
     scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role: Role::Frame });
     selection(scene, model, chain, layout.labels);
+}
+
+/// The step that is pointed at between two lines, and those that enter it on one each.
+fn light(scene: &mut Scene, chain: &Chain, pointed: Option<usize>, lit: &[&str]) {
+    let (rows, shown) = (chain.rows(), chain.steps());
+    let line = |y: f64| vec![[rows.x, y.round() + 0.5], [rows.right(), y.round() + 0.5]];
+    let row = |rank: usize| &chain.places[rank].label;
+    let entering = lit.iter().filter_map(|symbol| steps::row_of(shown, symbol)).map(|rank| line(row(rank).bottom()));
+    scene.marks.push(Mark::Lines { lines: entering.collect(), width: 3.0, dash: None, role: Role::Accent });
+    let edges = pointed.into_iter().flat_map(|rank| [row(rank).y, row(rank).bottom()]).map(line);
+    scene.marks.push(Mark::Lines { lines: edges.collect(), width: 2.0, dash: None, role: Role::Ink });
+    let rank = pointed.unwrap_or(0);
+    scene.handles.push(Handle {
+        name: ROW,
+        title: worked_example::row().into(),
+        at: [rows.x + 0.5 * rows.w, row(rank).centre()[1]],
+        axes: &[ROW],
+        value: pointed.map_or(0.0, |rank| steps::number_of(shown, rank).into()),
+        text: pointed.map_or(worked_example::row_none().into(), |rank| shown[rank].told(shown)),
+        hover: Some(rows),
+    });
 }
 
 /// A line of text in the middle of a row.
@@ -192,9 +217,13 @@ fn selection(scene: &mut Scene, model: &WorkedExampleModel, chain: &Chain, label
         Labels::Short => {
             Formula::new(SIZE, Weight::Regular, Role::Ink).tex("N_{eff}").draw(scene, [name.x, name.centre()[1]])
         }
-        _ => {
-            label(scene, &Step { caption, formula, tall: false, write: |to, _, _| to.line() }, &name, labels, chain.all)
-        }
+        _ => label(
+            scene,
+            &Step { caption, formula, enters: "", tall: false, write: |to, _, _| to.line() },
+            &name,
+            labels,
+            chain.all,
+        ),
     }
     let role = if *resamples { Role::Copied } else { Role::Accent };
     let verdict = model.verdict();

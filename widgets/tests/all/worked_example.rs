@@ -23,7 +23,8 @@ fn text(figure: &Figure, name: &str) -> String {
 /// The ends of all ranges, one at a time and together, and numbers far from each other.
 fn hostile() -> Vec<String> {
     let figure = example("");
-    let specs: Vec<_> = figure.model().params().into_iter().filter(|s| s.name != "all-steps").collect();
+    let specs: Vec<_> =
+        figure.model().params().into_iter().filter(|s| !["all-steps", "row"].contains(&s.name)).collect();
     let at_end = |end: fn(f64, f64) -> f64| {
         let pair = |s: &fastslam_widgets::model::ParamSpec| {
             (s.name != "sigma-xy").then(|| format!("{}={}", s.name, end(s.min, s.max)))
@@ -126,7 +127,8 @@ fn a_covariance_that_is_none_is_refused_with_the_parameter_and_its_range() {
 #[test]
 fn a_link_brings_back_every_number() {
     let figure = example("");
-    let specs: Vec<_> = figure.model().params().into_iter().filter(|s| s.name != "all-steps").collect();
+    let specs: Vec<_> =
+        figure.model().params().into_iter().filter(|s| !["all-steps", "row"].contains(&s.name)).collect();
     assert!(specs.iter().all(|s| !s.slider && s.default.parse::<f64>().is_ok()));
     let query: Vec<String> =
         specs.iter().enumerate().map(|(k, s)| format!("{}={}", s.name, 0.05 + 0.01 * k as f64)).collect();
@@ -392,4 +394,47 @@ fn every_step_takes_the_place_of_the_five_and_what_an_author_shows_stays() {
     assert_eq!(height("all-steps=on", "plot"), height("", "plot"));
     assert!(height("", "five") < height("", "steps"));
     assert!(height("", "") < height("all-steps=on", ""));
+}
+
+/// Thick lines and discs that light something.
+fn lit(figure: &Figure) -> usize {
+    use fastslam_widgets::scene::Role;
+    let count = |mark: &Mark| match mark {
+        Mark::Lines { lines, width, role: Role::Accent, .. } if *width > 2.0 => lines.len(),
+        Mark::Discs { centres, radius, role: Role::Accent } if *radius > 10.0 => centres.len(),
+        _ => 0,
+    };
+    scene(figure, 800.0).marks.iter().map(count).sum()
+}
+
+#[test]
+fn pointing_at_a_step_lights_what_enters_it_by_pointer_and_keys_and_changes_no_number() {
+    let mut shown = example("");
+    assert_eq!(lit(&shown), 0, "nothing is pointed at");
+    let told = shown.model().narrate();
+    let rows = |figure: &Figure| {
+        let handle = scene(figure, 800.0).handles.into_iter().find(|handle| handle.name == "row").unwrap();
+        (handle.hover.unwrap(), handle.text)
+    };
+    let area = rows(&shown).0;
+    // S is the second of five rows.
+    shown.drag("row", 500.0, area.y + 0.3 * area.h, 800.0);
+    assert_eq!(shown.model().narrate(), "Covariance of ν: made of Σ, Q, x, μ.");
+    assert_eq!(rows(&shown).1, shown.model().narrate(), "what is read out");
+    // The ellipse of Σ, the noise at both sightings, of which the edge cuts one in two, μ, and both robots.
+    assert_eq!(lit(&shown), 1 + 3 + 1 + 2);
+    shown.nudge("row", 0.0, -1.0);
+    assert!(shown.model().narrate().starts_with("Squared distance: made of ν, S"), "{}", shown.model().narrate());
+    assert_eq!(lit(&shown), 2, "two rows");
+    for _ in 0..9 {
+        shown.nudge("row", 0.0, -1.0);
+    }
+    assert!(shown.model().narrate().starts_with("Landmark after"));
+    assert_eq!(shown.readouts(), example("").readouts());
+    for _ in 0..9 {
+        shown.nudge("row", 0.0, 1.0);
+    }
+    assert_eq!((shown.model().narrate(), lit(&shown), shown.query()), (told, 0, example("").query()));
+    // With every step in sight, what is named is what stands above.
+    assert_eq!(example("all-steps=on&row=5").model().narrate(), "Covariance of ν: made of Σ, Q, H.");
 }
