@@ -266,9 +266,9 @@ impl Model for ResamplingModel {
         self.recipe.step.min(self.run.step_number())
     }
 
-    /// Few ancestors are left, and the last one that all have in common is not long ago.
+    /// Few ancestors are left, and the last one that all have in common is not long ago; or the sign has said who was right.
     fn telling(&self) -> u32 {
-        TELLING.min(self.step_count())
+        if self.setup().course == PolicyCourse::Wings { self.step_count() } else { TELLING.min(self.step_count()) }
     }
 
     fn watch(&self) -> Option<(u32, &'static str)> {
@@ -415,7 +415,7 @@ impl Model for ResamplingModel {
     }
 }
 
-/// The step shown at rest.
+/// The step of the lap shown at rest.
 const TELLING: u32 = 70;
 
 /// Curves that are pinned of each policy.
