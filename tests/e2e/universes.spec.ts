@@ -19,6 +19,22 @@ test('it opens with both answers of exercise 5, and another rule is another chan
   expect(Number.parseFloat((await figure.readouts())['passes_motion']!)).toBeLessThan(5)
 })
 
+test('laps are run into the charts, each by itself, and in the end the answer is the one of all', async ({ page }) => {
+  const figure = await open(page)
+  const before = [await figure.readouts(), await figure.picture()]
+  await figure.element.getByRole('button', { name: 'Run the laps' }).click()
+  await expect(figure.told).toContainText(/^\d laps? of each M\./)
+  await figure.scrubTo(11)
+  await expect(figure.told).toContainText('12 laps of each M. With M = 8, 8 ended well by the wheels, 12 by looking first.')
+  await figure.step.click()
+  await figure.settled()
+  await expect(figure.told).toContainText('13 laps of each M.')
+  expect(await figure.state()).toContain('step=12')
+  await figure.scrubTo(199)
+  await expect(figure.told).toContainText('takes 12 universes; looking first, 1.')
+  expect(await figure.readouts()).toEqual(before[0])
+})
+
 test('nothing is shown before the guesses are placed, and then they stand beside the results; what the sharpest sensor leaves is guessed in the chart', async ({ page }) => {
   const figure = await open(page)
   const shown = await figure.picture()

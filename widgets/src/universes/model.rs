@@ -2,7 +2,7 @@
 
 use super::{
     challenges,
-    recipe::{NOISES, Recipe},
+    recipe::{LAST, NOISES, Recipe},
     shipped::{self, LAPS},
 };
 use crate::{
@@ -12,7 +12,10 @@ use crate::{
     prediction::{Outcome, State, off_by},
     words::universes as words,
 };
-use fastslam::ops;
+use fastslam::{
+    ops,
+    random::{Purpose, Stream},
+};
 use fastslam_lab::experiment::{
     ProposalKind,
     policy_counts::Fraction,
@@ -34,12 +37,25 @@ pub struct UniversesModel {
     recipe: Recipe,
     /// N_eff / M of the motion prior by the range noise \[m\].
     depletions: Vec<(f64, Depletion)>,
+    /// Of each proposal and number of universes, the order in which its laps come: those that are shipped are sorted.
+    orders: [[[u8; LAPS]; TRIED.len()]; 2],
+}
+
+/// The laps of one number of universes, shuffled (Fisher and Yates).
+fn shuffled(proposal: usize, rank: usize) -> [u8; LAPS] {
+    let mut stream = Stream::at(0, Purpose::TRIAL, proposal as u32, rank as u32);
+    let mut order = core::array::from_fn(|lap| lap as u8);
+    for rest in (1..LAPS).rev() {
+        order.swap(rest, (stream.uniform() * (rest + 1) as f64) as usize);
+    }
+    order
 }
 
 impl Default for UniversesModel {
     fn default() -> Self {
         let recipe = Recipe::default();
-        Self { depletions: depletions(&recipe.setup), recipe }
+        let orders = core::array::from_fn(|proposal| core::array::from_fn(|rank| shuffled(proposal, rank)));
+        Self { depletions: depletions(&recipe.setup), orders, recipe }
     }
 }
 
@@ -67,16 +83,29 @@ impl UniversesModel {
         self.recipe.prediction.hides()
     }
 
-    /// How many laps end well, by the rank of the number of universes.
-    pub fn fractions(&self, proposal: ProposalKind) -> [Fraction; TRIED.len()] {
-        let errors = match proposal {
-            ProposalKind::Motion => &shipped::MOTION,
-            ProposalKind::Improved => &shipped::AWARE,
+    /// How many laps have come of each number of universes.
+    pub fn laps(&self) -> usize {
+        self.recipe.step as usize + 1
+    }
+
+    /// Whether laps end well that have come, in the order in which they did, by the rank of the number of universes.
+    pub fn ends(&self, proposal: ProposalKind) -> [impl DoubleEndedIterator<Item = bool>; TRIED.len()] {
+        let (errors, orders) = match proposal {
+            ProposalKind::Motion => (&shipped::MOTION, &self.orders[0]),
+            ProposalKind::Improved => (&shipped::AWARE, &self.orders[1]),
         };
         // Whole millimetres rounded down are below whole millimetres where the error is.
         let limit = (1000.0 * self.recipe.threshold).round();
         let well = |errors: &[u16; LAPS]| errors.partition_point(|error| f64::from(*error) < limit) as u32;
-        core::array::from_fn(|rank| Fraction { successes: well(&errors[rank]), total: LAPS as u32 })
+        core::array::from_fn(|rank| {
+            let well = well(&errors[rank]);
+            orders[rank][..self.laps()].iter().map(move |lap| u32::from(*lap) < well)
+        })
+    }
+
+    /// How many of the laps that have come end well, by the rank of the number of universes.
+    pub fn fractions(&self, proposal: ProposalKind) -> [Fraction; TRIED.len()] {
+        self.ends(proposal).map(Fraction::of)
     }
 
     /// The smallest number of universes with which enough laps end well, if one of those tried is.
@@ -181,6 +210,31 @@ impl Declared for UniversesModel {
 }
 
 impl Model for UniversesModel {
+    fn seek(&mut self, step: u32) {
+        self.recipe.step = step.min(LAST);
+    }
+
+    fn step_count(&self) -> u32 {
+        if self.hides() { 0 } else { LAST }
+    }
+
+    fn step(&self) -> u32 {
+        self.recipe.step.min(self.step_count())
+    }
+
+    fn telling(&self) -> u32 {
+        LAST
+    }
+
+    fn watch(&self) -> Option<(u32, &'static str)> {
+        Some((0, words::watch()))
+    }
+
+    /// Of the first laps each is seen by itself.
+    fn pace(&self) -> f64 {
+        if self.recipe.step < 20 { 0.5 } else { 2.0 }
+    }
+
     fn prediction(&self) -> Option<Outcome> {
         let result = self.sufficient(ProposalKind::Motion).map(|needs| needs as f64);
         self.recipe.prediction.outcome("sufficient_motion", result)
@@ -265,13 +319,13 @@ impl Model for UniversesModel {
         if self.hides() {
             return words::Asked { threshold, enough: &percent(ENOUGH) }.say();
         }
-        let [motion, aware] = PROPOSALS;
+        let ([motion, aware], n) = (PROPOSALS, &self.laps());
         let mut sentences: Vec<String> = self.judged().into_iter().collect();
         let [needs_motion, needs_aware] = PROPOSALS.map(|proposal| self.needs(proposal));
         sentences.push(
-            words::Told { threshold, enough: &percent(ENOUGH), motion: &needs_motion, aware: &needs_aware }.say(),
+            words::Told { threshold, n, enough: &percent(ENOUGH), motion: &needs_motion, aware: &needs_aware }.say(),
         );
-        let buys = self.saturated(motion).map(|rank| words::BuysNothing { from: &TRIED[rank] }.say());
+        let buys = self.saturated(motion).map(|rank| words::BuysNothing { from: &TRIED[rank], n }.say());
         sentences.extend(buys);
         let [(share, passes), (other, also)] = [motion, aware].map(|proposal| self.read(proposal));
         let told = words::Reads {
@@ -298,7 +352,54 @@ impl Model for UniversesModel {
             return words::Asked { threshold, enough: &percent(ENOUGH) }.say();
         }
         let [motion, aware] = PROPOSALS.map(|proposal| self.needs(proposal));
+        if self.recipe.step < LAST {
+            let [(motion, _), (aware, _)] = PROPOSALS.map(|proposal| self.read(proposal));
+            let m = &TRIED[self.recipe.rank()];
+            return words::NSoFar { n: &self.laps(), m, motion: &motion.successes, aware: &aware.successes }.say();
+        }
         let told = || words::NTold { threshold, motion: &motion, aware: &aware }.say();
         self.judged().unwrap_or_else(told)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(step: u32) -> UniversesModel {
+        let mut model = UniversesModel::default();
+        model.seek(step);
+        model
+    }
+
+    #[test]
+    fn laps_come_one_by_one_in_an_order_that_is_mixed_and_at_the_end_all_have_come_once() {
+        let (mut before, end) = (at(0).fractions(ProposalKind::Motion), at(LAST).fractions(ProposalKind::Motion));
+        for step in 1..=LAST {
+            let now = at(step).fractions(ProposalKind::Motion);
+            for (before, now) in before.iter().zip(&now) {
+                assert_eq!(now.total, before.total + 1);
+                assert!([0, 1].contains(&(now.successes - before.successes)));
+            }
+            before = now;
+        }
+        for (rank, whole) in end.into_iter().enumerate() {
+            let well = shipped::MOTION[rank].iter().filter(|error| f64::from(**error) < 1000.0 * 0.5).count();
+            assert_eq!((whole.successes as usize, whole.total as usize), (well, LAPS), "M = {}", TRIED[rank]);
+            // In sorted order all that end well would come first.
+            let half = at(99).fractions(ProposalKind::Motion)[rank];
+            let [low, high] = half.wilson();
+            assert!((low - 0.05..=high + 0.05).contains(&whole.share()), "M = {}: {half:?} of {whole:?}", TRIED[rank]);
+        }
+    }
+
+    #[test]
+    fn few_laps_say_so_and_a_question_shows_none() {
+        assert!(at(11).narrate().starts_with("12 laps of each M."), "{}", at(11).narrate());
+        assert!(at(0).narrate().starts_with("1 lap of each M."), "{}", at(0).narrate());
+        assert!(at(11).describe().contains("of 12 laps") && at(LAST).describe().contains("of 200 laps"));
+        let mut asked = at(11);
+        asked.change(|recipe| recipe.prediction.predict = true);
+        assert_eq!((asked.step_count(), asked.step()), (0, 0));
     }
 }

@@ -1,5 +1,6 @@
 //! What a reader can set: when a lap has ended well, whose laps are shown, how long the rule runs, and the one step of the depletion.
 
+use super::shipped::LAPS;
 use crate::{
     decimal::rounded,
     field,
@@ -12,6 +13,9 @@ use fastslam_lab::experiment::{
     proposals::ProposalsSetup,
     universes::{Rule, TRIED, WELL},
 };
+
+/// The step at which the last lap has come: one comes with each.
+pub const LAST: u32 = LAPS as u32 - 1;
 
 /// Largest number of universes that was tried.
 pub const MOST: u32 = TRIED[TRIED.len() - 1] as u32;
@@ -28,6 +32,8 @@ pub struct Recipe {
     pub only: Option<ProposalKind>,
     /// Four fifths of so many seeds.
     pub rule: Rule,
+    /// How many laps are in the charts, but for the first.
+    pub step: u32,
     /// The number of universes that is read.
     pub universes: u32,
     /// The step of the depletion, but for its range noise.
@@ -46,6 +52,7 @@ impl Default for Recipe {
             threshold: WELL,
             only: None,
             rule: Rule { seeds: 5 },
+            step: LAST,
             universes: 8,
             setup: ProposalsSetup::default(),
             prediction: Prediction::default(),
@@ -172,6 +179,7 @@ impl recipe::Recipe for Recipe {
                 universes::guess_floor_help(),
             ),
             run,
+            P::integer("step", common::step(), "", (0, LAST), field!(step), universes::step_help()).view(),
         ]
     }
 

@@ -4,14 +4,14 @@ use super::{
     guess::asked,
     layout::{Layout, Part, SCALE},
     model::{PROPOSALS, UniversesModel, name, percent},
-    recipe::{MOST, nearest},
+    recipe::{LAST, MOST, nearest},
     view::UNIVERSES,
 };
 use crate::{
     decimal::write,
     font::{self, Weight},
     marks::{Place, label, line, pointer},
-    model::Declared,
+    model::{Declared, Model},
     scene::{Anchor, Chart, Handle, Mark, Point, Rect, Role, Sample, Scene, legend, text},
     words::universes as words,
 };
@@ -94,7 +94,7 @@ pub fn axis(scene: &mut Scene, part: &Part, names: impl Iterator<Item = (f64, St
 pub fn share(scene: &mut Scene, model: &UniversesModel, part: &Part, taken: &mut Vec<Rect>) {
     let (recipe, area, chart) = (model.recipe(), part.area, chart(part));
     let threshold = &write(recipe.threshold);
-    let title = [words::Share { threshold }.say(), words::ShareShort { threshold }.say()];
+    let title = [words::Share { threshold, n: &model.laps() }.say(), words::ShareShort { threshold }.say()];
     let title = if recipe.prediction.predict { asked(model) } else { title };
     line(scene, &part.header, SIZE, Weight::SemiBold, Role::Ink, title);
     let shown = || PROPOSALS.into_iter().filter(|proposal| recipe.shows(*proposal));
@@ -127,6 +127,12 @@ pub fn share(scene: &mut Scene, model: &UniversesModel, part: &Part, taken: &mut
         let points: Vec<Point> = points(&chart, &fractions, Fraction::share).collect();
         scene.marks.push(Mark::Lines { lines: vec![points.clone()], width: 2.0, dash: None, role: role(proposal) });
         scene.marks.push(Mark::Discs { centres: points, radius: 3.0, role: role(proposal) });
+    }
+    // The newest laps, up where they end well and down where they do not: the points go there.
+    for proposal in shown().filter(|_| model.step() < LAST) {
+        let ends = model.ends(proposal).map(|mut laps| laps.next_back() == Some(true));
+        let places = TRIED.iter().zip(ends).map(|(m, well)| [x(&area, *m as f64), chart.y(f64::from(u8::from(well)))]);
+        scene.marks.push(Mark::Discs { centres: places.collect(), radius: 5.0, role: role(proposal) });
     }
     for proposal in shown() {
         needs(scene, model, &chart, proposal, taken);
