@@ -7,7 +7,7 @@ import { captioned } from './blocks.mjs'
 import { challengesOf, judgeChips } from './challenges.mjs'
 
 const golden = 'tests/figures/golden'
-const own = new Set(['id', 'class', 'tag', 'alt', 'hero'])
+const own = new Set(['id', 'class', 'tag', 'alt', 'hero', 'poster'])
 
 /** Width and height [px] from a PNG's header. @param {Buffer} png */
 const sizeOf = png => ({ width: png.readUInt32BE(16), height: png.readUInt32BE(20) })
@@ -38,7 +38,8 @@ export function figure(context, state, node) {
   const alt = attribute(node, 'alt')
   if (!/^fastslam-[a-z-]+$/.test(tag)) problems.add(file, node, `:::figure has no tag of ours, but “${tag}”`)
   if (!alt) problems.add(file, node, ':::figure has no alt: say in words what its picture shows')
-  const [light = '', dark = ''] = pictures(tag)
+  // One that opens in a state of its own has a picture of that.
+  const [light = '', dark = ''] = pictures(attribute(node, 'poster') ?? tag)
   for (const picture of [light, dark]) {
     if (!existsSync(join(root, picture))) problems.add(file, node, `there is no picture ${picture} for this figure`)
   }

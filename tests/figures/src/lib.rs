@@ -101,8 +101,10 @@ pub const PICTURES: &[Picture] = &[
     picture(LOG, "log-odometry-light", "odometry=on&raw=on", 800, 1.0, "light"),
     picture(LOG, "log-odometry-dark", "odometry=on&raw=on", 340, 2.0, "dark"),
     picture(LOG, "log-tiny", "policy=always&cell=0.1&seed=4", 240, 1.0, "contrast-light"),
-    picture(RESAMPLING, "fastslam-resampling-light", "v=4&wings=on&step=104", 800, 1.5, "light"),
-    picture(RESAMPLING, "fastslam-resampling-dark", "v=4&wings=on&step=104", 800, 1.5, "dark"),
+    picture(RESAMPLING, "fastslam-resampling-light", COALESCED, 800, 1.5, "light"),
+    picture(RESAMPLING, "fastslam-resampling-dark", COALESCED, 800, 1.5, "dark"),
+    picture(RESAMPLING, "chapter-resampling-light", "v=4&wings=on&step=104", 800, 1.5, "light"),
+    picture(RESAMPLING, "chapter-resampling-dark", "v=4&wings=on&step=104", 800, 1.5, "dark"),
     picture(RESAMPLING, "resampling-wings", "wings=on&step=101", 1112, 1.0, "light"),
     picture(
         RESAMPLING,
@@ -118,8 +120,10 @@ pub const PICTURES: &[Picture] = &[
     picture(RESAMPLING, "resampling-phone", "wings=on&step=80&cursor=70&back=3", 340, 2.0, "light"),
     picture(RESAMPLING, "resampling-contrast", "particles=8&step=30&policy=never", 380, 1.0, "contrast-dark"),
     picture(RESAMPLING, "resampling-tiny", "particles=4&threshold=1&step=12", 240, 1.0, "contrast-light"),
-    picture(DOORS, "fastslam-doors-light", "step=47", 800, 1.5, "light"),
-    picture(DOORS, "fastslam-doors-dark", "step=47", 800, 1.5, "dark"),
+    picture(DOORS, "fastslam-doors-light", "", 800, 1.5, "light"),
+    picture(DOORS, "fastslam-doors-dark", "", 800, 1.5, "dark"),
+    picture(DOORS, "chapter-doors-light", "step=47", 800, 1.5, "light"),
+    picture(DOORS, "chapter-doors-dark", "step=47", 800, 1.5, "dark"),
     picture(DOORS, "doors-before-the-sign", "step=58", 1112, 1.0, "light"),
     picture(DOORS, "doors-ride", "step=43&ride=8&proposal=aware", 728, 1.0, "dark"),
     picture(DOORS, "doors-phone", "step=46&seed=2&door-7=1.5", 340, 2.0, "light"),
@@ -316,6 +320,9 @@ pub const SETUPS: &[(&str, &str)] = &[
 
 /// Both proposals guessed, and the depletion.
 const GUESSES: &str = "predict=on&guess=8&guess-aware=8&guess-floor=40&run=on";
+
+/// Ancestors are fewer than particles, and the last common one is not long ago.
+const COALESCED: &str = "v=4&step=70";
 
 /// After the last iteration.
 const BENT: &str = "v=3&step=60";
