@@ -14,7 +14,7 @@ use crate::{
     words::{common, lap},
 };
 
-/// Shares of weight (1 = 1/M) at which a border is full: a universe that weighs thrice its share.
+/// Share of weight (1 = 1/M) at which a bar is full: a universe that weighs thrice its share.
 const FULL_SHARE: f64 = 3.0;
 
 /// Most universes that have a tile: of more, none could be read.
@@ -31,10 +31,10 @@ fn shown(model: &LapModel) -> Vec<u32> {
     slots
 }
 
-/// The border of a universe that weighs this share (1 = 1/M), inside of its tile: greener and wider with weight.
-fn border(area: Rect, share: f64, full: f64) -> Mark {
-    let t = (share / FULL_SHARE).clamp(0.0, 1.0);
-    Mark::Frame { area, width: 1.0 + t * (full - 1.0), role: Role::Weight((255.0 * t).round() as u8) }
+/// The border of a universe that weighs this share (1 = 1/M), inside of its tile, and at its lower edge a bar as long as that weight.
+fn border(area: Rect, share: f64, high: f64) -> [Mark; 2] {
+    let bar = Rect::new(area.x, area.bottom() - high, area.w * (share / FULL_SHARE).clamp(0.0, 1.0), high);
+    [Mark::Frame { area, width: 1.0, role: Role::Weight(0) }, Mark::Fill { area: bar, role: Role::Weight(255) }]
 }
 
 /// The sign of a universe that died out: a cross on paper.
@@ -75,7 +75,7 @@ pub fn mosaic(scene: &mut Scene, model: &LapModel, layout: &Layout) {
         let tile = tiles.tile(rank);
         let cells = map::shades(&lap.particles()[slot as usize].map, model.setup().course);
         scene.marks.push(Mark::Raster { area: map_area(rank), cells, shading: Shading::Map });
-        scene.marks.push(border(tile, lap.weights()[slot as usize] * m as f64, full));
+        scene.marks.extend(border(tile, lap.weights()[slot as usize] * m as f64, full));
         scene.regions.push(Region { area: tile, target: slot });
         if slot == selected && !model.overlaid() {
             let ring = tile.inset(-(0.5 * tiles.gap[1]).clamp(1.0, RING));
@@ -131,9 +131,9 @@ fn origin(scene: &mut Scene, model: &LapModel, slot: u32, map: &Rect, width: f64
     }
 }
 
-/// What borders and marks mean.
+/// What bars and marks mean.
 pub fn notes(scene: &mut Scene, model: &LapModel, area: &Rect) {
-    let weight = |share| Sample::new(move |place| vec![border(*place, share, 4.0)]);
+    let weight = |share| Sample::new(move |place| border(*place, share, 4.0).into());
     if model.lap().particles().len() == 1 {
         legend(scene, area, [(weight(1.0), lap::all_weight())]);
         return;
