@@ -96,3 +96,15 @@ test('what a challenge leaves to the reader comes into sight with it, and what a
   await joint.toggle('predict').click()
   await expect(joint.box('guess')).toBeHidden()
 })
+
+test('where an author offers no controls, the picture has their column, and where one is offered it stands there', async ({ page }) => {
+  for (const tag of ['fastslam-proposal', 'fastslam-em', 'fastslam-worked-example']) {
+    const figure = await asFound(page, `<div style="width: 1000px"><${tag} controls="none"></${tag}></div>`, tag)
+    const width = () => figure.canvas.evaluate(canvas => canvas.closest<HTMLElement>('.stage')!.offsetWidth)
+    expect(await width(), tag).toBeGreaterThan(940)
+    // Nothing comes up over the picture, so that all of it is seen.
+    expect(await figure.canvas.evaluate(canvas => canvas.closest<HTMLElement>('.stage')!.style.clipPath), tag).toBe('')
+    await figure.element.evaluate((element, one) => element.setAttribute('controls', one), tag.endsWith('example') ? 'r1' : 'odometry')
+    await expect.poll(width, tag).toBeLessThan(830)
+  }
+})

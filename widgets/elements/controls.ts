@@ -162,7 +162,7 @@ export class Controls {
     const has = (...any: string[]) => !names || any.some(name => names.has(name))
     for (const [name, { element }] of this.fields) show(element, has(name) || (name === SEED && has(PLAYBACK)))
     for (const [part, any] of this.named) show(part, has(...any))
-    for (const row of this.rows) show(row, [...row.children].some(child => !child.matches('.left-out, summary, .ask')))
+    for (const row of this.rows) show(row, [...row.children].some(child => !child.matches('.left-out, summary, .ask, .lab')))
     // What an author picks is in sight.
     this.settings.classList.toggle('bare', names !== undefined)
     if (names) this.settings.open = true

@@ -184,7 +184,9 @@ export abstract class FigureParts extends HTMLElement {
   /** Controls that come up over the picture are seen, but for the part of it that stays. */
   protected tuck(): void {
     const { bottom } = this.stage.getBoundingClientRect()
-    const cut = Math.min(bottom - (this.controls?.transport.getBoundingClientRect().top ?? bottom), this.#below)
+    const over = this.controls?.transport.getBoundingClientRect()
+    // Those that are not offered are nowhere, and cover nothing.
+    const cut = over?.height ? Math.min(bottom - over.top, this.#below) : 0
     this.stage.style.clipPath = cut > 0 ? `inset(-20px -20px ${cut}px)` : ''
   }
 
