@@ -109,7 +109,8 @@ impl recipe::Recipe for Recipe {
         };
         vec![
             P::integer("future", em::future(), em::readings(), (0, STEPS), field!(future), em::future_help())
-                .in_sight(),
+                .in_sight()
+                .view(),
             P::number("odometry", em::odometry(), "m", (0.01, 0.3, 0.01), field!(odometry), em::odometry_help())
                 .in_sight(),
             P::number("sensor", em::sensor(), "%", (0.0, 45.0, 1.0), field!(sensor), em::sensor_help()),
