@@ -19,6 +19,23 @@ test('controls are all there, those of playback, or none; the figure itself stay
   await expect(lap.sentence).not.toBeEmpty()
 })
 
+test('for a slide the picture alone has the whole width, with the row of playback below it where that is wanted', async ({ page }) => {
+  await page.setViewportSize({ width: 900, height: 560 })
+  for (const [controls, bare] of [['picture', true], ['picture playback', true], ['none', false]] as const) {
+    const lap = await open(page, 'lap', `size=presentation&chips=off&controls=${controls}`)
+    await lap.live()
+    await lap.settled()
+    if (bare) for (const part of ['.sentence', '.head']) await expect(lap.element.locator(part), controls).toBeHidden()
+    else await expect(lap.element.locator('.sentence')).toBeVisible()
+    await expect(lap.play).toBeVisible({ visible: controls === 'picture playback' })
+    const [picture, figure] = [await lap.canvas.boundingBox(), await lap.element.boundingBox()]
+    if (bare) expect(picture!.width, controls).toBeGreaterThan(0.9 * figure!.width)
+    expect(picture!.y + picture!.height, controls).toBeLessThanOrEqual(figure!.y + figure!.height)
+    expect(await lap.element.locator('.stage').evaluate(stage => getComputedStyle(stage).clipPath), `${controls}: nothing stands over the picture`).toBe('none')
+    await expect(lap.alert).toBeEmpty()
+  }
+})
+
 test('controls can be picked by their names, and a name that is none is answered with those there are', async ({ page }) => {
   const lap = await open(page, 'lap', 'show=n-eff&controls=odometry&step=20')
   const visible = () => lap.element.evaluate(element => [...element.shadowRoot!.querySelectorAll('button, input, select, summary')].filter(control => control.checkVisibility() && !control.closest('[part=notice]')).map(control => control.getAttribute('name') ?? control.getAttribute('aria-label')))
@@ -39,7 +56,7 @@ test('controls can be picked by their names, and a name that is none is answered
   const all = await pick('all')
   expect(all.length).toBeGreaterThan(15)
   expect(await pick('seed odometri')).toEqual(all)
-  await expect(lap.alert).toContainText('controls names “odometri”, but this figure has none, playback, play, numbers, chips, universes, ')
+  await expect(lap.alert).toContainText('controls names “odometri”, but this figure has none, picture, playback, play, numbers, chips, universes, ')
   expect(await pick('none')).toEqual([])
   await expect(lap.alert).toBeEmpty()
 })

@@ -54,7 +54,7 @@ export const [PLAYBACK, PLAY, NUMBERS, CHIPS] = ['playback', 'play', 'numbers', 
 
 /** Names of the controls that readers see; undefined for all of them, which they also are where a name is unknown. */
 export function offered(text: string | null, names: string[]): { offered: Set<string> | undefined; unknown: string[]; known: string[] } {
-  const known = ['none', PLAYBACK, PLAY, NUMBERS, CHIPS, ...names]
+  const known = ['none', 'picture', PLAYBACK, PLAY, NUMBERS, CHIPS, ...names]
   const words = wordsOf(text)
   const unknown = words.filter(word => word !== 'all' && !known.includes(word))
   const all = words.length === 0 || words.includes('all') || unknown.length > 0
