@@ -1,6 +1,7 @@
 //! `fastslam log`: a recorded log, mapped; `fastslam example-log`: one of our own.
 
 mod choices;
+mod drawn;
 mod localize;
 mod outputs;
 mod progress;
@@ -19,7 +20,8 @@ use fastslam::error::Range;
 use fastslam::geometry::Pose2;
 use fastslam::log::{LaserLog, Relation, RelationErrors, Remark, parse_relations, relation_errors, write};
 use fastslam::mapper::{
-    LaserMapper, LaserMapperSettings, Loop, LoopEnd, OdometryCheck, OdometryFault, OdometryInnovations, Pushed,
+    LaserMapper, LaserMapperSettings, Localizer, Loop, LoopEnd, OdometryCheck, OdometryFault, OdometryInnovations,
+    Pushed,
 };
 use fastslam_lab::experiment::log::{Example, digest};
 use serde::Serialize;
@@ -59,11 +61,15 @@ pub struct Arguments {
     /// over: a run that was stopped goes on with the same log, and a building is mapped on with the next
     #[arg(long, value_name = "FILE")]
     session: Option<PathBuf>,
-    /// Only find the robot in the map of the session, which stays as it is: paths are written, and no map
-    #[arg(long, requires = "session", conflicts_with_all = ["map", "checkpoint", "relations"])]
+    /// Only find the robot in the map of the session, or of --in-map, which stays as it is: paths are written, and no map
+    #[arg(long, conflicts_with_all = ["map", "checkpoint", "relations"])]
     localize: bool,
-    /// With --localize: about where the robot is at the first scan, in the frame of the session's map, x and y [m] and heading [deg]; it is searched for within
-    /// 1.5 m and 43° [default: where the session ended]
+    /// With --localize: in place of a session, a map that was drawn, as map_server of ROS reads it: the YAML file, which names a picture in PGM. The settings of this
+    /// run count then, but for the size of the cells
+    #[arg(long, value_name = "YAML", requires = "localize", conflicts_with = "session")]
+    in_map: Option<PathBuf>,
+    /// With --localize: about where the robot is at the first scan, in the frame of the map, x and y [m] and heading [deg]; it is searched for within
+    /// 1.5 m and 43° [default: where the session ended; in a map that was drawn 0,0,0]
     #[arg(long, value_name = "X,Y,DEG", requires = "localize", allow_hyphen_values = true)]
     start: Option<localize::Start>,
     /// Write what is asked for, and the session, every so many minutes as well, 0.001 to 10000
@@ -104,6 +110,12 @@ struct Output {
     dense_map_bytes: u64,
     /// What the maps of before that are kept to find loops by take besides, at their peak.
     kept_map_bytes: u64,
+    /// Number of the scans that are kept by the end, by which a path that is bent is mapped again.
+    kept_scans: u32,
+    /// What these take.
+    scan_bytes: u64,
+    /// What the paths of all particles and the times of all scans take by the end.
+    path_bytes: u64,
     #[serde(flatten)]
     errors: Option<RelationErrors>,
     resampled_fraction: f64,
@@ -143,22 +155,39 @@ const LOOK_EVERY: u32 = 200;
 pub fn run(arguments: &Arguments) -> Result<()> {
     let name = named(&arguments.files);
     let choices = arguments.choices.clone().read(arguments.settings.as_deref())?;
+    if arguments.localize && arguments.session.is_none() && arguments.in_map.is_none() {
+        bail!(Usage("--localize needs a map: that of a session (--session), or one that was drawn (--in-map)".into()));
+    }
     let session = arguments.session.as_deref().map(session::read).transpose()?.flatten();
+    let drawn = arguments.in_map.as_deref().map(drawn::read).transpose()?;
     let begun = session.as_ref().map(|mapper| *mapper.settings());
-    let (settings, rules) = (choices.mapper(begun.unwrap_or_default()), choices.map());
+    let of_drawn = drawn
+        .as_ref()
+        .map(|(_, reading)| LaserMapperSettings { cell_size: reading.resolution, ..LaserMapperSettings::default() });
+    let (settings, rules) = (choices.mapper(begun.or(of_drawn).unwrap_or_default()), choices.map());
     settings.validate().and_then(|()| rules.validate()).map_err(by_flag)?;
     let checkpoint = arguments.checkpoint.map(|minutes| CHECKPOINT.check("checkpoint", minutes)).transpose()?;
     if let (Some(path), Some(begun)) = (&arguments.session, begun.filter(|begun| *begun != settings)) {
         let goes_on = format!("the session was begun with {}, and goes on with these alone", listed(&begun));
         bail!(Usage::of_file(path, goes_on));
     }
+    if let (Some(path), Some(of_drawn)) = (&arguments.in_map, of_drawn.filter(|of| of.cell_size != settings.cell_size))
+    {
+        bail!(Usage::of_file(path, format_args!("its cells are of {} m, and no others (--cell)", of_drawn.cell_size)));
+    }
     let mut log = read(&arguments.files, choices.bag())?;
     let relations = relations(arguments.relations.as_deref(), &log)?;
     let scans = log.scans.len();
     let repeated = leave_repeated_out(&mut log, &name);
     let fault = put_right(&mut log, &settings, &name);
+    if let Some((image, reading)) = drawn {
+        let begin = |start| Localizer::in_drawn(&image, &reading, settings.for_log(&log), start);
+        return localize::run(arguments, &name, &log, Pose2::default(), begin);
+    }
     let mut mapper = match (session, &arguments.session) {
-        (Some(mapper), _) if arguments.localize => return localize::run(arguments, &name, &log, &mapper),
+        (Some(mapper), _) if arguments.localize => {
+            return localize::run(arguments, &name, &log, mapper.pose(), |start| Localizer::new(&mapper, start));
+        }
         (None, Some(path)) if arguments.localize => bail!(Usage::of_file(path, "there is no session to localize in")),
         (Some(mapper), _) => mapper,
         (None, _) => LaserMapper::new(settings.for_log(&log))?,
@@ -224,6 +253,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     for remark in remarks {
         eprintln!("fastslam: {name}: {remark}");
     }
+    let memory = mapper.memory();
     let used = taken(&mapper) - taken_before;
     let cpu = ProcessTime::now().as_duration();
     let output = Output {
@@ -235,6 +265,9 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         peak_map_bytes: peak.unique,
         dense_map_bytes: peak.dense,
         kept_map_bytes: kept,
+        kept_scans: memory.kept_scans,
+        scan_bytes: memory.scan_bytes,
+        path_bytes: memory.path_bytes,
         errors: relations.and_then(|relations| relation_errors(&path, &log.odometry, &relations)),
         resampled_fraction: mapper.resampled_fraction(),
         steps_contradicted: mapper.unbelieved().len() as u32,
@@ -397,6 +430,8 @@ fn summary(settings: &LaserMapperSettings, log: &LaserLog, output: &Output) -> S
          CPU time per scan and particle    {:8.3} ms\n\
          maps at their peak                {:8.1} MB, {:.1} MB as dense copies, {:.1} MB estimated\n\
          maps of before, to find loops by  {:8.1} MB more\n\
+         scans kept, to bend paths by      {:8.1} MB more, of {} scans\n\
+         paths of all particles            {:8.1} MB more\n\
          steps that resampled              {:8.0} %\n",
         output.scans,
         output.scans_used,
@@ -410,6 +445,9 @@ fn summary(settings: &LaserMapperSettings, log: &LaserLog, output: &Output) -> S
         output.dense_map_bytes as f64 / 1e6,
         settings.memory_estimate(log) as f64 / 1e6,
         output.kept_map_bytes as f64 / 1e6,
+        output.scan_bytes as f64 / 1e6,
+        output.kept_scans,
+        output.path_bytes as f64 / 1e6,
         100.0 * output.resampled_fraction,
     );
     _ = writeln!(

@@ -60,6 +60,10 @@ choices! {
     /// the corrected path takes over when it is mapped. 0: all of them at once [default: 0]
     #[arg(long, value_name = "SCANS", allow_negative_numbers = true)]
     remapped_per_scan: u32;
+    /// Most scans that are kept to map a path again that is bent, 100 to 10000000: beyond that every second of the older ones is let go, and the end of the run tells it
+    /// [default: 100000]
+    #[arg(long, value_name = "SCANS", allow_negative_numbers = true)]
+    kept_scans: u32;
     /// Pass malformed lines and messages over, and count them; read a bag that breaks off up to there
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL")]
     lenient: bool;
@@ -106,6 +110,7 @@ impl Choices {
             weight: self.weight.unwrap_or(default.weight),
             learn_wheels: self.learn_wheels.unwrap_or(default.learn_wheels),
             remapped_per_scan: self.remapped_per_scan.unwrap_or(default.remapped_per_scan),
+            kept_scans: self.kept_scans.unwrap_or(default.kept_scans),
             ..default
         }
     }
@@ -137,6 +142,7 @@ pub fn by_flag(error: SettingError) -> SettingError {
         "clear_range" => error.called("clear-range"),
         "min_travel" => error.called("min-travel"),
         "remapped_per_scan" => error.called("remapped-per-scan"),
+        "kept_scans" => error.called("kept-scans"),
         "occupied_threshold" => error.called("occupied-threshold"),
         "free_threshold" => error.called("free-threshold"),
         "footprint_radius" => error.called("footprint-radius"),
@@ -156,12 +162,13 @@ pub fn listed(settings: &LaserMapperSettings) -> String {
         min_travel,
         learn_wheels,
         remapped_per_scan,
+        kept_scans,
         ..
     } = settings;
     format!(
         "particles = {particles}, seed = {seed}, weight = {weight}, cell = {cell_size}, max-range = {max_range}, \
          clear-range = {clear_range}, min-travel = {min_travel}, learn-wheels = {learn_wheels}, \
-         remapped-per-scan = {remapped_per_scan}"
+         remapped-per-scan = {remapped_per_scan}, kept-scans = {kept_scans}"
     )
 }
 
@@ -185,6 +192,7 @@ mod tests {
             ("min_travel", mapper.min_travel.to_string()),
             ("learn_wheels", mapper.learn_wheels.to_string()),
             ("remapped_per_scan", mapper.remapped_per_scan.to_string()),
+            ("kept_scans", mapper.kept_scans.to_string()),
             ("occupied_threshold", map.occupied_threshold.to_string()),
             ("free_threshold", map.free_threshold.to_string()),
             ("footprint_radius", map.footprint_radius.to_string()),

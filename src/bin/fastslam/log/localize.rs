@@ -1,14 +1,14 @@
-//! A robot found in the map of a session.
+//! A robot found in a map that stays as it is.
 
 use super::outputs::Outputs;
 use super::progress::Progress;
 use super::{Arguments, Doubtful, Stopped, stopped_by_signal};
 use crate::{print, print_json};
 use anyhow::{Context, Result, bail};
-use fastslam::error::Range;
+use fastslam::error::{Range, SettingError};
 use fastslam::geometry::{Gaussian3, Pose2};
 use fastslam::log::LaserLog;
-use fastslam::mapper::{LaserMapper, Localizer, Pushed};
+use fastslam::mapper::{Localizer, Pushed};
 use nalgebra::Matrix3;
 use serde::Serialize;
 use std::str::FromStr;
@@ -57,13 +57,19 @@ struct Output {
     covariance: [[f64; 3]; 3],
 }
 
-/// Finds the robot of a log in the map of a mapper.
-pub fn run(arguments: &Arguments, name: &str, log: &LaserLog, mapper: &LaserMapper) -> Result<()> {
+/// Finds the robot of a log in the map of a localizer that begins about where the robot is, by default here.
+pub fn run(
+    arguments: &Arguments,
+    name: &str,
+    log: &LaserLog,
+    here: Pose2,
+    begin: impl Fn(Gaussian3) -> Result<Localizer, SettingError>,
+) -> Result<()> {
     let stopped = stopped_by_signal()?;
     let outputs = Outputs::open(arguments)?;
-    let start = arguments.start.map_or_else(|| mapper.pose(), |Start(pose)| pose);
+    let start = arguments.start.map_or(here, |Start(pose)| pose);
     let start = Gaussian3::new(start, Matrix3::from_diagonal(&START_STDS.map(|std| std * std).into()));
-    let mut localizer = Localizer::new(mapper, start.context("start: must be a place")?)?;
+    let mut localizer = begin(start.context("start: must be a place")?)?;
     let mut progress = Progress::new(name, log.scans.len());
     let mut used = 0;
     for scan in log.scans.iter().take_while(|_| !stopped.load(Ordering::Relaxed)) {
@@ -96,7 +102,7 @@ pub fn run(arguments: &Arguments, name: &str, log: &LaserLog, mapper: &LaserMapp
         let Output { scans, scans_used, scans_per_s, heading_deg, matched_fraction, .. } = output;
         let [x_std, y_std, heading_std] = now.stds();
         print(&format!(
-            "{scans} scans, of which {scans_used} looked at, in the map of the session, which stays as it is\n\
+            "{scans} scans, of which {scans_used} looked at, in the map, which stays as it is\n\
              time                              {elapsed:8.1} s, {scans_per_s:.0} scans/s\n\
              of what was seen, on walls of the map {:4.0} %\n\
              at the last scan                  {x:8.2} m, {y:.2} m, {heading_deg:.1}°\n\

@@ -7,6 +7,7 @@ use fastslam::geometry::Pose2;
 use fastslam::log::{write_path, write_tum};
 use fastslam::map::grid::{MapImage, MapImageSettings};
 use fastslam::mapper::LaserMapper;
+use std::ffi::{OsStr, OsString};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile, TempPath};
@@ -23,6 +24,7 @@ impl Pending {
     pub fn new(path: &Path) -> Result<Self> {
         // A link stays one: what it leads to is replaced.
         let place = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        remove_left(&place);
         let beside = match place.metadata() {
             Ok(there) if !there.is_file() => None,
             Ok(there) => {
@@ -57,18 +59,52 @@ impl Pending {
     }
 }
 
-/// An empty file in the same folder, with the rights that a new file has.
+/// How the name of a file begins that is written beside another one.
+fn start(place: &Path) -> OsString {
+    [OsStr::new("."), place.file_name().unwrap_or_default(), OsStr::new(".")].into_iter().collect()
+}
+
+/// How it ends.
+const END: &str = ".part";
+
+/// The folder of a file.
+fn folder(place: &Path) -> &Path {
+    // A bare name has an empty folder before it.
+    place.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Removes what runs that were killed have left beside a file, and says so. What a run writes that is still going stays.
+fn remove_left(place: &Path) {
+    let (start, entries) = (start(place), folder(place).read_dir());
+    for file in entries.into_iter().flatten().flatten().map(|entry| entry.path()) {
+        let name = file.file_name().unwrap_or_default().to_string_lossy();
+        let middle = name.strip_prefix(&*start.to_string_lossy()).and_then(|rest| rest.strip_suffix(END));
+        let Some(process) = middle.and_then(|middle| middle.split('.').next()?.parse::<u32>().ok()) else { continue };
+        match is_running(process) {
+            Some(true) => {}
+            Some(false) if std::fs::remove_file(&file).is_ok() => {
+                eprintln!("fastslam: {}: removed, as the run that wrote it was killed", file.display());
+            }
+            _ => eprintln!("fastslam: {}: left by a run that was killed, or written by one now", file.display()),
+        }
+    }
+}
+
+/// Whether there is a process of this number; `None` where the system does not tell.
+fn is_running(process: u32) -> Option<bool> {
+    let processes = Path::new("/proc");
+    processes.join("self").exists().then(|| processes.join(process.to_string()).exists())
+}
+
+/// An empty file in the same folder, with the rights that a new file has, and the number of this process in its name.
 fn beside(place: &Path) -> std::io::Result<NamedTempFile> {
-    let name = place.file_name().unwrap_or_default();
     let mut builder = Builder::new();
-    let prefix =
-        [std::ffi::OsStr::new("."), name, std::ffi::OsStr::new(".")].into_iter().collect::<std::ffi::OsString>();
-    builder.prefix(&prefix).suffix(".part");
+    let mut prefix = start(place);
+    prefix.push(format!("{}.", std::process::id()));
+    builder.prefix(&prefix).suffix(END);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    // A bare name has an empty folder before it.
-    let folder = place.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    builder.tempfile_in(folder)
+    builder.tempfile_in(folder(place))
 }
 
 /// The files that results go to.
@@ -162,6 +198,24 @@ mod tests {
         Pending::new(&path).unwrap().save(b"after").unwrap();
         assert_eq!((std::fs::read_to_string(&path).unwrap().as_str(), names(folder.path()).len()), ("after", 1));
         assert!(Pending::new(&folder.path().join("no/such/folder")).is_err());
+    }
+
+    /// Of a process that is not there, of this one, and of names that are not ours.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn what_a_killed_run_has_left_is_removed_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("map.pgm");
+        let mine = format!(".map.pgm.{}.abc.part", std::process::id());
+        let others = [".map.pgm.abc.part", ".map.png.4294967295.abc.part", "map.pgm.4294967295.part", "map.pgm", &mine];
+        for name in others.iter().chain([&".map.pgm.4294967295.abc.part"]) {
+            std::fs::write(folder.path().join(name), name).unwrap();
+        }
+        drop(Pending::new(&path).unwrap());
+        let mut left = others.map(str::to_owned).to_vec();
+        left.sort();
+        assert_eq!(names(folder.path()), left);
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "map.pgm");
     }
 
     #[cfg(unix)]

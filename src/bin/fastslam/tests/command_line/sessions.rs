@@ -36,10 +36,15 @@ fn a_run_that_is_stopped_leaves_whole_files_and_goes_on_to_the_map_of_one_run() 
     let killed = interrupted(&options, folder.path(), ".part", "-KILL");
     assert!(killed.stdout.is_empty());
     assert_eq!(std::fs::read_to_string(file("map.pgm")).unwrap(), "of before");
-    names(folder.path())
-        .iter()
-        .filter(|name| name.ends_with(".part"))
-        .for_each(|name| std::fs::remove_file(file(name)).unwrap());
+    // The next run removes what that one left.
+    let left = || names(folder.path()).into_iter().filter(|name| name.ends_with(".part")).count();
+    let removes = left();
+    let few = tempdir().unwrap();
+    let next = fastslam(&format!("log {} --map {map} --session {session}", short_log(&few, 3))).success();
+    let said = String::from_utf8_lossy(&next.get_output().stderr).into_owned();
+    assert!(removes > 0 && left() == 0, "{said}");
+    std::fs::remove_file(&session).unwrap();
+    assert_eq!(said.matches("removed, as the run that wrote it was killed").count(), removes, "{said}");
     let (stopped, said) = loop {
         let stopped = interrupted(&options, folder.path(), ".part", "-INT");
         let said = String::from_utf8_lossy(&stopped.stderr).into_owned();
@@ -142,4 +147,46 @@ fn a_robot_is_found_in_the_map_of_a_session_which_stays_as_it_is() {
         refusal(&format!("log {next} --localize --session {}", file("none")))
             .contains("there is no session to localize in")
     );
+}
+
+/// In the map that a session wrote for ROS, in place of the session itself.
+#[test]
+fn a_robot_is_found_in_a_map_of_ros_and_one_that_cannot_be_is_refused_by_what_is_wrong() {
+    let folder = tempdir().unwrap();
+    let log = short_log(&folder, 60);
+    let file = |name: &str| folder.path().join(name).display().to_string();
+    let (map, yaml) = (file("map"), file("map.yaml"));
+    json(&format!("log {log} --particles 2 --map {map} --trajectory {} --json", file("mapped.tum")));
+    let options = format!("log {log} --particles 2 --localize --in-map");
+    let found = json(&format!("{options} {yaml} --trajectory {} --json", file("found.tum")));
+    assert!(found["matched_fraction"].as_f64().unwrap() > 0.9, "{found}");
+    let places = |name: &str| -> Vec<[f64; 2]> {
+        let text = std::fs::read_to_string(file(name)).unwrap();
+        let numbers = |line: &str| line.split(' ').map(|word| word.parse().unwrap()).collect::<Vec<f64>>();
+        text.lines().map(numbers).map(|row| [row[1], row[2]]).collect()
+    };
+    let (found, mapped) = (places("found.tum"), places("mapped.tum"));
+    assert_eq!(found.len(), mapped.len());
+    // Two cells.
+    let off = found.iter().zip(&mapped).map(|(a, b)| fastslam::ops::hypot(a[0] - b[0], a[1] - b[1]));
+    assert!(off.clone().fold(0.0, f64::max) < 0.1, "{:?}", off.collect::<Vec<_>>());
+    let good = std::fs::read_to_string(&yaml).unwrap();
+    for (part, other, said) in [
+        ("mode: trinary", "mode: raw", "mode = raw: must be trinary or scale"),
+        ("resolution: 0.05", "resolution: 5", "resolution = 5: must be a number from 0.02 to 0.2 [m]"),
+        ("negate: 0", "negate: 2", "negate = 2: must be 0 or 1"),
+        ("free_thresh: 0.196", "free_thresh: 0.7", "free_thresh: must be at most occupied_thresh"),
+        ("occupied_thresh: 0.65", "", "missing field `occupied_thresh`"),
+        ("0.0]", "0.0, 1]", "expected sequence of 3 elements"),
+        ("map.pgm", "map.png", "expected a picture in binary PGM"),
+    ] {
+        assert!(good.contains(part), "{part} in {good}");
+        std::fs::write(&yaml, good.replace(part, other)).unwrap();
+        let refused = refusal(&format!("{options} {yaml}"));
+        assert!(refused.contains(said), "{said}: {refused}");
+    }
+    std::fs::write(&yaml, good.replace("mode: trinary\n", "").replace("negate: 0", "negate: false")).unwrap();
+    fastslam(&format!("{options} {yaml}")).success();
+    assert!(refusal(&format!("{options} {yaml} --cell 0.1")).contains("its cells are of 0.05 m, and no others"));
+    assert!(refusal(&format!("log {log} --localize")).contains("--localize needs a map"));
 }
