@@ -86,7 +86,7 @@ impl Pushed {
 /// What a [`LaserMapper`] keeps.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Memory {
-    /// Of the particles' maps.
+    /// Size of the particles' maps.
     pub maps: Footprint,
     /// Bytes of the maps of before by which loops are found, which they do not share with [`Self::maps`].
     pub kept_map_bytes: u64,

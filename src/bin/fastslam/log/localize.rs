@@ -53,7 +53,7 @@ struct Output {
     x: f64,
     y: f64,
     heading_deg: f64,
-    /// Of the error of x, y and heading, row by row \[m, m, rad\].
+    /// Covariance of the error of x, y and heading, row by row \[m, m, rad\].
     covariance: [[f64; 3]; 3],
 }
 
