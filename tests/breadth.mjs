@@ -61,6 +61,9 @@ export const units = [
   { name: 'engine-webkit', seconds: 90, command: 'node tests/engines/run.mjs webkit' },
   { name: 'clients', seconds: 150, command: 'npm run test:clients' },
 
+  // The whole of dist/ once more from nothing, elsewhere: to the byte what is here.
+  { name: 'reproducible', seconds: 340, command: 'node scripts/reproduce.mjs' },
+
   // What README promises, each in its cheapest form.
   { name: 'readme-check', seconds: 150, command: 'npm run check' },
   { name: 'readme-bench', seconds: 240, command: `${quick} npm run bench -- --quick` },
