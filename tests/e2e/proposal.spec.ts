@@ -30,7 +30,7 @@ test('it says what it shows before anyone touches it, and has no timeline; of a 
   await figure.openSettings()
   await figure.element.locator('select[name=landmarks]').selectOption('pair')
   await figure.settled()
-  await expect(figure.sentence).toContainText(/^What speaks for A is lost.* \(N_eff 1000 and /)
+  await expect(figure.sentence).toContainText(/^The hypothesis A is lost.* \(N_eff 1000 and /)
 })
 
 test('the landmark is dragged by the mouse, with a picture at every frame, and moved by keyboard, coarsely with Shift and finely with Alt', async ({ page }) => {

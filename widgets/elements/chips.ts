@@ -10,7 +10,7 @@ const MARGIN = 24 // [px] of the chip before it, so that it is seen that there i
 export class Chips {
   readonly element = h('div', { class: 'chips', part: 'chips', role: 'group', hidden: '' })
   /** Unfolds them where there is no room for a row of them. */
-  readonly fold = h('button', { type: 'button', class: 'fold', part: 'button', 'aria-expanded': 'false', hidden: '' })
+  readonly fold = h('button', { type: 'button', class: 'unfolds', part: 'button', 'aria-expanded': 'false', hidden: '' })
   readonly #goal = h('span')
   readonly #bar = h('progress', { max: '1' })
   readonly #said = h('span', { class: 'now' })
