@@ -19,7 +19,7 @@ const CLAIMS: [link: string, holds: (now: Numbers, words: string) => boolean][] 
   ['resampling?v=4&threshold=1', ({ always_lineage }) => always_lineage === 1],
   ['conditioning?v=2', ({ rho }, words) => Math.abs(rho!) > 0.3 && words.includes('though no pose saw both')],
   ['conditioning?v=2&last-pose=on', (_, words) => /others still couple the map: [1-9]/.test(words)],
-  ['doors?v=1', ({ ekf_std }, words) => ekf_std! < 0.1 && words.includes('which is wrong')],
+  ['doors?v=1', ({ ekf_std }, words) => ekf_std! < 0.1 && words.includes('doors: wrong')],
   ['joint?v=1', ({ ess_sampled }) => ess_sampled! < 2],
   ['em?v=1&mark-3=5.2', (_, words) => words.includes('nothing changes any more') && words.includes('passed the same two doors again')],
   ['smoothing?v=3&at=30', ({ coalescence }) => coalescence! >= 30],
