@@ -171,7 +171,5 @@ fn a_guess_is_placed_on_the_axis_of_time_and_stands_beside_the_step_at_which_one
 fn one_ancestor_that_never_comes_is_told_too() {
     let figure = resampling("policy=never&predict=on&guess=40&run=on");
     assert_eq!(figure.model().prediction().unwrap().result, None);
-    assert!(
-        figure.model().describe().starts_with("More than one ancestor is left at the end; the guess was step 40.")
-    );
+    assert!(figure.model().describe().starts_with("More than one ancestor is left at the end; the guess was step 40."));
 }
