@@ -68,7 +68,7 @@ fn main() -> Result<(), SettingError> {
             let error = Vector2::from(noise.normals::<2>()) * camera.std;
             Feature { z: camera.predict(&truth, lamp).z + error, signature: Some(number) }
         };
-        filter.step(&control, &seen.map(look).collect());
+        filter.step(&control, &seen.map(look).collect::<Vec<_>>());
     }
     let errors = [filter.estimate().mean, dead_reckoning].map(|pose| pose.distance(&truth));
     println!("error after two rounds: {:.2} m, by dead reckoning {:.2} m", errors[0], errors[1]);

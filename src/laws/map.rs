@@ -4,9 +4,10 @@
 //! they were taken at, and `content`: all that the map says to whoever asks, as something that can be compared.
 
 use crate::geometry::Pose2;
-use crate::map::ConditionalMap;
+use crate::map::{ConditionalMap, Observed};
 use crate::matching::Likelihood;
 use crate::sensor::Scan;
+use core::borrow::Borrow;
 use core::fmt::Debug;
 
 /// A `#[test]` of every law in [`laws::map`](crate::laws::map): `map_laws!(name, empty, likelihood, observations, content)` makes a module
@@ -54,8 +55,9 @@ macro_rules! map_laws {
 fn assimilate<M: ConditionalMap>(
     map: &mut M,
     likelihood: &impl Likelihood<M>,
-    (pose, observation): &(Pose2, M::Observation),
+    (pose, observation): &(Pose2, Observed<M>),
 ) {
+    let observation = observation.borrow();
     let (_, association) = likelihood.log_likelihood(map, pose, observation);
     map.assimilate(pose, observation, &association);
 }
@@ -64,10 +66,10 @@ fn assimilate<M: ConditionalMap>(
 fn mapped<'a, M: ConditionalMap>(
     empty: &impl Fn() -> M,
     likelihood: &impl Likelihood<M>,
-    observations: impl IntoIterator<Item = &'a (Pose2, M::Observation)>,
+    observations: impl IntoIterator<Item = &'a (Pose2, Observed<M>)>,
 ) -> M
 where
-    M::Observation: 'a,
+    Observed<M>: 'a,
 {
     let mut map = empty();
     observations.into_iter().for_each(|observation| assimilate(&mut map, likelihood, observation));
@@ -80,7 +82,7 @@ where
 pub fn an_observation_changes_the_map<M: ConditionalMap, C: PartialEq + Debug>(
     empty: impl Fn() -> M,
     likelihood: &impl Likelihood<M>,
-    observations: &[(Pose2, M::Observation)],
+    observations: &[(Pose2, Observed<M>)],
     content: impl Fn(&M) -> C,
 ) {
     let before = content(&empty());
@@ -93,13 +95,13 @@ pub fn an_observation_changes_the_map<M: ConditionalMap, C: PartialEq + Debug>(
 pub fn assimilating_is_deterministic<M: ConditionalMap, C: PartialEq + Debug>(
     empty: impl Fn() -> M,
     likelihood: &impl Likelihood<M>,
-    observations: &[(Pose2, M::Observation)],
+    observations: &[(Pose2, Observed<M>)],
     content: impl Fn(&M) -> C,
 ) {
     let [one, other] = [(), ()].map(|()| mapped(&empty, likelihood, observations));
     assert_eq!(content(&one), content(&other), "the same observations made two maps");
     for (k, (pose, observation)) in observations.iter().enumerate() {
-        let [a, b] = [&one, &other].map(|map| likelihood.log_likelihood(map, pose, observation).0);
+        let [a, b] = [&one, &other].map(|map| likelihood.log_likelihood(map, pose, observation.borrow()).0);
         assert_eq!(a.to_bits(), b.to_bits(), "observation {k}: two likelihoods, {a} and {b}, of one map");
     }
 }
@@ -114,7 +116,7 @@ pub fn assimilating_is_deterministic<M: ConditionalMap, C: PartialEq + Debug>(
 pub fn clones_never_see_each_others_writes<M: ConditionalMap, C: PartialEq + Debug>(
     empty: impl Fn() -> M,
     likelihood: &impl Likelihood<M>,
-    observations: &[(Pose2, M::Observation)],
+    observations: &[(Pose2, Observed<M>)],
     content: impl Fn(&M) -> C,
 ) {
     let (trunk, rest) = observations.split_at(observations.len() / 2);
@@ -139,8 +141,8 @@ pub fn clones_never_see_each_others_writes<M: ConditionalMap, C: PartialEq + Deb
 pub fn a_family_of_clones_is_independent<M: ConditionalMap, C: PartialEq + Debug>(
     empty: impl Fn() -> M,
     likelihood: &impl Likelihood<M>,
-    trunk: &[(Pose2, M::Observation)],
-    branches: &[Vec<&(Pose2, M::Observation)>],
+    trunk: &[(Pose2, Observed<M>)],
+    branches: &[Vec<&(Pose2, Observed<M>)>],
     content: impl Fn(&M) -> C,
 ) {
     let mut shared = mapped(&empty, likelihood, trunk);

@@ -11,22 +11,22 @@
 
 use super::{Estimate, STANDARD_ERRORS, rounding, size, turn3};
 use crate::geometry::Pose2;
-use crate::map::ConditionalMap;
+use crate::map::{ConditionalMap, Observed};
 use crate::ops;
 use crate::particle::Particle;
 use crate::proposal::Proposal;
 use crate::random::{Purpose, Stream};
+use core::borrow::Borrow;
 use nalgebra::{Matrix3, Vector3};
 
 /// One step of one particle, before it is taken.
-#[derive(Clone, Debug)]
 pub struct Step<M: ConditionalMap, U> {
     /// Where the robot is, and its map.
     pub particle: Particle<M>,
     /// What the robot does.
     pub control: U,
     /// What it sees then.
-    pub observation: M::Observation,
+    pub observation: Observed<M>,
 }
 
 /// A `#[test]` of every law in [`laws::proposal`](crate::laws::proposal) that all proposals obey: `proposal_laws!(name, proposal, step, turns)`
@@ -117,7 +117,7 @@ impl Draws {
     ) -> Self {
         let draw = |slot| {
             let mut stream = Stream::at(4, Purpose::TRIAL, trial, slot);
-            let proposed = proposal.propose(particle, control, observation, &mut stream);
+            let proposed = proposal.propose(particle, control, observation.borrow(), &mut stream);
             (proposed.world_from_robot.minus(origin), proposed.log_increment)
         };
         Self((0..n).map(draw).collect())
@@ -184,7 +184,7 @@ pub fn one_stream_gives_one_draw<M: ConditionalMap, P: Proposal<M>>(
     for slot in 0..100 {
         let [one, other] = [(), ()].map(|()| {
             let mut stream = Stream::at(4, Purpose::TRIAL, 0, slot);
-            let proposed = proposal.propose(&particle, &control, &observation, &mut stream);
+            let proposed = proposal.propose(&particle, &control, observation.borrow(), &mut stream);
             let Pose2 { x, y, theta } = proposed.world_from_robot;
             [x, y, theta, proposed.log_increment].map(f64::to_bits)
         });

@@ -10,8 +10,8 @@ use crate::geometry::Pose2;
 ///
 /// `Clone` is what a resampling does, so it must cost O(1): implementations share what they hold and copy on writing.
 pub trait ConditionalMap: Clone + Send + Sync {
-    /// What one step of the sensor yields, in the robot's frame.
-    type Observation: Sync;
+    /// What one step of the sensor yields, in the robot's frame; of several parts, a slice.
+    type Observation: ?Sized + ToOwned<Owned: Sync> + Sync;
 
     /// What each part of an observation is taken to be of; nothing where the place alone decides, as in a grid.
     type Association: Send;
@@ -38,6 +38,9 @@ pub trait ConditionalMap: Clone + Send + Sync {
         Ok(())
     }
 }
+
+/// An observation as a log holds it: a vector, where it is a slice.
+pub type Observed<M> = <<M as ConditionalMap>::Observation as ToOwned>::Owned;
 
 /// Bytes that many maps take.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]

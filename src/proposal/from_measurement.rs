@@ -103,7 +103,7 @@ impl<Z: LandmarkSensor, S: Store, D: Motion> Proposal<Landmarks<Z, S>> for FromM
         &self,
         particle: &Particle<Landmarks<Z, S>>,
         control: &D::Control,
-        features: &Vec<Feature>,
+        features: &[Feature],
         stream: &mut Stream,
     ) -> Proposed<Vec<Association>> {
         let from = &particle.world_from_robot;

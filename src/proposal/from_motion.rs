@@ -21,7 +21,7 @@ impl<Z: LandmarkSensor, S: Store> Likelihood<Landmarks<Z, S>> for Marginal {
         &self,
         map: &Landmarks<Z, S>,
         world_from_robot: &Pose2,
-        features: &Vec<Feature>,
+        features: &[Feature],
     ) -> (f64, Vec<Association>) {
         let associated = map.associate(world_from_robot, &Matrix3::zeros(), features);
         (associated.log_likelihood, associated.associations)

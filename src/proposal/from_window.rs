@@ -112,15 +112,15 @@ pub struct Followed<Z, U, S = Blocks> {
 }
 
 impl<Z: LandmarkSensor, U: Clone + Send + Sync, S: Store> ConditionalMap for Windowed<Z, U, S> {
-    type Observation = Vec<Feature>;
+    type Observation = [Feature];
     type Association = Followed<Z, U, S>;
 
     /// Becomes the map that the proposal has found: its poses and landmarks are of one Gaussian.
-    fn assimilate(&mut self, _: &Pose2, _: &Vec<Feature>, followed: &Followed<Z, U, S>) {
+    fn assimilate(&mut self, _: &Pose2, _: &[Feature], followed: &Followed<Z, U, S>) {
         self.clone_from(&followed.after);
     }
 
-    fn ignored(&self, features: &Vec<Feature>) -> u32 {
+    fn ignored(&self, features: &[Feature]) -> u32 {
         self.landmarks.ignored(features)
     }
 
@@ -143,7 +143,7 @@ where
         &self,
         particle: &Particle<Windowed<Z, U, S>>,
         control: &U,
-        features: &Vec<Feature>,
+        features: &[Feature],
         stream: &mut Stream,
     ) -> Proposed<Followed<Z, U, S>> {
         let Windowed { mut landmarks, window } = particle.map.clone();

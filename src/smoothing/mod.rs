@@ -47,8 +47,9 @@ pub use sweep::{Draw, Sweep};
 use crate::error::{Range, SettingError};
 use crate::execute::Executor;
 use crate::geometry::Pose2;
-use crate::map::ConditionalMap;
+use crate::map::{ConditionalMap, Observed};
 use crate::proposal::Retrace;
+use core::fmt::{self, Debug, Formatter};
 use std::sync::Arc;
 
 /// How the path that is given to a sweep finds its ancestors.
@@ -134,14 +135,20 @@ impl Default for Settings {
 /// assert!((mean.x - 1.5).abs() < 0.2 && covariance.m11 > 0.0);
 /// # Ok::<(), fastslam::error::SettingError>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Smoother<M: ConditionalMap, P: Retrace<M>> {
     settings: Settings,
     map: M,
     proposal: P,
     start: Pose2,
     controls: Arc<[P::Control]>,
-    observations: Arc<[M::Observation]>,
+    observations: Arc<[Observed<M>]>,
+}
+
+impl<M: ConditionalMap, P: Retrace<M>> Debug for Smoother<M, P> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Smoother").field("settings", &self.settings).finish_non_exhaustive()
+    }
 }
 
 impl<M: ConditionalMap, P: Retrace<M> + Clone> Smoother<M, P> {
@@ -156,7 +163,7 @@ impl<M: ConditionalMap, P: Retrace<M> + Clone> Smoother<M, P> {
         proposal: P,
         start: Pose2,
         controls: impl Into<Arc<[P::Control]>>,
-        observations: impl Into<Arc<[M::Observation]>>,
+        observations: impl Into<Arc<[Observed<M>]>>,
     ) -> Result<Self, SettingError> {
         let (controls, observations) = (controls.into(), observations.into());
         Range::whole(2, u32::MAX).check("particles", settings.particles as f64)?;

@@ -9,6 +9,7 @@ use crate::proposal::Retrace;
 use crate::random::{Purpose, Stream};
 use crate::rbpf::Rbpf;
 use crate::resampling::{ResamplePolicy, Scheme};
+use core::borrow::Borrow;
 use rand::Rng as _;
 
 /// A path that a sweep has drawn.
@@ -87,7 +88,7 @@ impl<M: ConditionalMap, P: Retrace<M> + Clone> Smoother<M, P> {
                 let ancestors = self.ancestors(sweep);
                 sweep.filter.copy(&ancestors); // all were at the start before the first step
             }
-            sweep.filter.weigh_along(&self.controls[t], &self.observations[t], &sweep.path[t + 1]);
+            sweep.filter.weigh_along(&self.controls[t], self.observations[t].borrow(), &sweep.path[t + 1]);
             sweep.updates += sweep.filter.particles().len() as u64;
             sweep.step += 1;
         }
@@ -119,6 +120,7 @@ impl<M: ConditionalMap, P: Retrace<M> + Clone> Smoother<M, P> {
         let log_joins = self.settings.executor.map(&mut particles, |_, Particle { world_from_robot, map, .. }| {
             let log_motion = proposal.log_motion(world_from_robot, control, &path[0]);
             path.iter().zip(observations).fold(log_motion, |sum, (pose, observation)| {
+                let observation = observation.borrow();
                 let (log_likelihood, association) = proposal.log_likelihood(map, pose, observation);
                 map.assimilate(pose, observation, &association);
                 sum + log_likelihood

@@ -51,12 +51,12 @@ fn draw(landmark: &Landmark, stream: &mut Stream) -> Vector2<f64> {
 }
 
 impl ConditionalMap for SampledMap {
-    type Observation = Vec<Feature>;
+    type Observation = [Feature];
     /// Landmarks by index, each where this particle has it.
     type Association = Vec<(u32, Vector2<f64>)>;
 
     /// Keeps what was drawn. That is all: what is seen later moves no point, it only weighs the particle.
-    fn assimilate(&mut self, _: &Pose2, _: &Vec<Feature>, points: &Vec<(u32, Vector2<f64>)>) {
+    fn assimilate(&mut self, _: &Pose2, _: &[Feature], points: &Vec<(u32, Vector2<f64>)>) {
         let unseen = |(index, _): &&(u32, Vector2<f64>)| self.get(*index).is_none();
         let fresh: Vec<_> = points.iter().filter(unseen).copied().collect();
         if !fresh.is_empty() {
@@ -85,7 +85,7 @@ impl<D: Motion, Z: LandmarkSensor> Proposal<SampledMap> for WithMap<D, Z> {
         &self,
         particle: &Particle<SampledMap>,
         control: &D::Control,
-        features: &Vec<Feature>,
+        features: &[Feature],
         stream: &mut Stream,
     ) -> Proposed<Vec<(u32, Vector2<f64>)>> {
         let world_from_robot = self.motion.drive(control).sample(&particle.world_from_robot, stream);

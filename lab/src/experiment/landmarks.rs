@@ -312,7 +312,7 @@ fn drift_stds<D: Motion>(motion: &D, controls: &[D::Control]) -> [f64; 2] {
 }
 
 /// A particle's map of landmarks, with or without more that is known along its path.
-pub trait WithLandmarks: ConditionalMap<Observation = Vec<Feature>> {
+pub trait WithLandmarks: ConditionalMap<Observation = [Feature]> {
     /// The landmarks.
     fn landmarks(&self) -> &LandmarkMap;
 

@@ -364,7 +364,7 @@ fn a_map_that_is_read_from_its_own_picture_is_written_as_the_same_picture() {
     let image = MapImage::of(&grid, &[], &settings).unwrap();
     let read = MapImage::from_pgm(&image.pgm(), &READING).unwrap();
     assert_eq!((read.width, read.height, &read.grey), (image.width, image.height, &image.grey));
-    let drawn = Grid::<4>::drawn(*grid.model(), &read, &READING).unwrap();
+    let drawn = Grid::<4>::drawn(grid.model, &read, &READING).unwrap();
     let again = MapImage::of(&drawn, &[], &settings).unwrap();
     assert_eq!((again.origin, &again.grey), ([0.0, 0.0], &image.grey));
     for black in (0..image.grey.len()).filter(|k| image.grey[*k] == 0) {

@@ -93,12 +93,12 @@ impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
 }
 
 impl<Z: LandmarkSensor, S: Store> ConditionalMap for Landmarks<Z, S> {
-    type Observation = Vec<Feature>;
+    type Observation = [Feature];
     type Association = Vec<Association>;
 
     /// A first sighting makes a landmark, every further one is a Kalman update of that landmark alone. Where landmarks may be
     /// struck off, those that should have been seen and were not lose existence count.
-    fn assimilate(&mut self, world_from_robot: &Pose2, features: &Vec<Feature>, associations: &Vec<Association>) {
+    fn assimilate(&mut self, world_from_robot: &Pose2, features: &[Feature], associations: &Vec<Association>) {
         let gate = match self.correspondence {
             Correspondence::Unknown(gate) => gate,
             Correspondence::Known => Gate::default(),
@@ -132,7 +132,7 @@ impl<Z: LandmarkSensor, S: Store> ConditionalMap for Landmarks<Z, S> {
 
     /// Features that are impossible: of a z that the sensor cannot have measured ([`LandmarkSensor::can_measure`]), or of the signature
     /// 2³² − 1.
-    fn ignored(&self, features: &Vec<Feature>) -> u32 {
+    fn ignored(&self, features: &[Feature]) -> u32 {
         let is_possible = |f: &&Feature| has_possible_signature(f) && self.sensor.can_measure(&f.z);
         (features.len() - features.iter().filter(is_possible).count()) as u32
     }

@@ -1,8 +1,8 @@
 //! Mappers of this robot: every proposal with what is its own, over a drive of 40 m.
 
 use fastslam::geometry::{Pose2, rms};
-use fastslam::map::ConditionalMap;
 use fastslam::map::landmarks::{Correspondence, Landmarks};
+use fastslam::map::{ConditionalMap, Observed};
 use fastslam::motion::Motion;
 use fastslam::proposal::{FromMeasurement, FromMotion, FromScan, Marginal, Proposal};
 use fastslam::rbpf::Rbpf;
@@ -11,6 +11,7 @@ use outside::hall::{BEACONS, Drive, drive};
 use outside::points::{Nearest, Points};
 use outside::search::SETTINGS;
 use outside::wheels::{Rolled, Wheels};
+use std::borrow::Borrow;
 
 const WHEELS: Wheels = Wheels { axle: 0.4, slip: 0.06, jitter: 0.002 };
 const RECEIVER: Receiver = Receiver { strength_std: 0.05, direction_std: 0.02, reach: 9.0 };
@@ -26,20 +27,14 @@ fn odometry(drive: &Drive) -> Vec<Pose2> {
 }
 
 /// The filter after the drive, and the root mean square error of its best path \[m\].
-fn mapped<M, P>(
-    map: M,
-    proposal: P,
-    observations: &[M::Observation],
-    drive: &Drive,
-    particles: usize,
-) -> (Rbpf<M, P>, f64)
+fn mapped<M, P>(map: M, proposal: P, observations: &[Observed<M>], drive: &Drive, particles: usize) -> (Rbpf<M, P>, f64)
 where
     M: ConditionalMap,
     P: Proposal<M, Control = Rolled>,
 {
     let mut filter = Rbpf::builder(map, proposal).particles(particles).seed(1).build().unwrap();
     for (u, observation) in drive.counted.iter().zip(observations) {
-        assert!(filter.step(u, observation).explained());
+        assert!(filter.step(u, observation.borrow()).explained());
     }
     let path = filter.particles()[filter.best()].path.poses();
     let error = rms(&path, &drive.truth);

@@ -487,7 +487,7 @@ fn run_bits<S: Store>(run: u64, steps: u32, count: usize, policy: ResamplePolicy
     for (u, features) in arc(&motion, run, steps) {
         // Signatures far apart, so that the trees have several levels.
         let spread = |f: Feature| Feature { signature: f.signature.map(|s| s * 37), ..f };
-        let report = filter.step(&u, &features.into_iter().map(spread).collect());
+        let report = filter.step(&u, &features.into_iter().map(spread).collect::<Vec<_>>());
         all.extend(report.weights.iter().chain(&report.log_increments).map(|x| x.to_bits()));
         for particle in filter.particles() {
             all.extend(bits(&particle.world_from_robot));

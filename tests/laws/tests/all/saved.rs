@@ -4,7 +4,7 @@ use fastslam::geometry::Pose2;
 use fastslam::log::{LaserLog, LaserScan};
 use fastslam::map::grid::{Grid, GridModel};
 use fastslam::map::landmarks::{Balanced, Correspondence, Gate, Landmark, Landmarks, Store};
-use fastslam::map::{ConditionalMap, Footprint};
+use fastslam::map::{ConditionalMap, Footprint, Observed};
 use fastslam::mapper::{LaserMapper, LaserMapperSettings};
 use fastslam::matching::{Matcher, ScanModel};
 use fastslam::motion::{Odometry, OdometryModel};
@@ -21,6 +21,7 @@ use fastslam_lab::experiment::lap::{GRID, Lap, LapSetup, Proposals};
 use fastslam_lab::experiment::log::Example;
 use fastslam_lab::experiment::long_rings::LongRingSetup;
 use serde_json::{Value, json};
+use std::borrow::Borrow;
 use std::hash::Hasher;
 
 /// A map that tells all that it holds, with what its population shares.
@@ -92,11 +93,12 @@ fn read<M: Told, P: Proposal<M>>(text: &str, proposal: P) -> Result<Rbpf<M, P>, 
 fn assert_it_goes_on<M: Told, P: Proposal<M> + Clone>(
     mut filter: Rbpf<M, P>,
     proposal: &P,
-    log: &[(P::Control, M::Observation)],
+    log: &[(P::Control, Observed<M>)],
 ) {
     let mut copies: Vec<Rbpf<M, P>> = Vec::new();
     let mut resampled = 0;
     for (k, (control, observation)) in log.iter().enumerate() {
+        let observation = observation.borrow();
         if k % 20 == 0 {
             let text = written(&filter);
             let copy = read(&text, proposal.clone()).unwrap();
