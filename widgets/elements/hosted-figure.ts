@@ -196,12 +196,12 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
 
   // --- Commands and answers --------------------------------------------------------------------------------------------------
 
-  /** To the host, if there is one. */
   /** @internal Lights a symbol of the chapter wherever the picture writes it; an empty one puts it out. */
   light(symbol: string): void {
     this.send({ do: 'light', symbol })
   }
 
+  /** To the host, if there is one. */
   protected send(command: Command): void {
     this.host?.send(command)
     this.refresh()
