@@ -32,11 +32,11 @@ fn places(text: &Text, next: Option<&Text>, base: &str, index: &str) -> Vec<Mark
     }
     let written = next.filter(|next| next.size < LARGEST_INDEX).map_or("", |next| &next.text);
     let lower = next.is_some_and(|next| next.area.y > text.area.y);
-    let letters = written.starts_with(char::is_alphabetic) && lower;
+    let letters = written.starts_with(is_letter) && lower;
     let fits = |(at, _): &(usize, &str)| {
         let (before, after) = (&text.text[..*at], &text.text[at + base.len()..]);
-        let apart = (before.ends_with('π') || !before.ends_with(char::is_alphanumeric))
-            && !after.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+        let apart = (before.ends_with('π') || !before.ends_with(is_of_a_word))
+            && !after.starts_with(|c| is_of_a_word(c) || c == '_');
         let other = after.is_empty() && (letters || written == "^" || written == "~");
         apart && if index.is_empty() { !other } else { after.is_empty() && written == index }
     };
@@ -49,7 +49,18 @@ fn places(text: &Text, next: Option<&Text>, base: &str, index: &str) -> Vec<Mark
         let area = Rect::new(end(at) - PAD, baseline - text.size, right - end(at) + 2.0 * PAD, 1.35 * text.size);
         Mark::Frame { area, width: WIDTH, role: Role::Accent }
     };
-    text.text.match_indices(base).filter(fits).map(frame).collect()
+    let starts =
+        text.text.char_indices().map(|(at, _)| (at, &text.text[at..])).filter(|(_, rest)| rest.starts_with(base));
+    starts.filter(fits).map(frame).collect()
+}
+
+/// Of the alphabets in which figures are written. Not `char::is_alphabetic`, whose tables of all scripts weigh more than the rest of this.
+fn is_letter(c: char) -> bool {
+    matches!(c, 'A'..='Z' | 'a'..='z' | 'À'..='Ö' | 'Ø'..='ö' | 'ø'..='ž' | 'Α'..='ω')
+}
+
+fn is_of_a_word(c: char) -> bool {
+    is_letter(c) || c.is_ascii_digit()
 }
 
 #[cfg(test)]

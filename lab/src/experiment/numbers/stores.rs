@@ -17,7 +17,7 @@ pub fn recipes() -> Vec<Recipe> {
 /// The size of map from which on a tree copies less than a vector.
 fn crossing<S: Store>(group: &Group, tree: &str) -> Number {
     let copies_more = |n: &u32| copied::<S>(*n) >= copied::<Vec<Option<Landmark>>>(*n);
-    let last = (1..=LARGEST).filter(copies_more).next_back().unwrap_or_default();
+    let last = (1..=LARGEST).rfind(copies_more).unwrap_or_default();
     let key = format!("{}.copies_less", tree.split(' ').next().unwrap_or_default());
     let made = format!(
         "Smallest number of landmarks from which on, up to {LARGEST}, a first write after a copy copies fewer bytes in a \
