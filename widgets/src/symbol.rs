@@ -20,38 +20,43 @@ pub fn light(scene: &mut Scene, symbol: &str) {
     }
     let texts: Vec<&Text> =
         scene.marks.iter().filter_map(|mark| if let Mark::Text(text) = mark { Some(text) } else { None }).collect();
-    let frames: Vec<Mark> =
-        (0..texts.len()).flat_map(|i| places(texts[i], texts.get(i + 1).copied(), base, index)).collect();
+    let mut frames = Vec::new();
+    for (i, text) in texts.iter().enumerate() {
+        frame(text, texts.get(i + 1).copied(), base, index, &mut frames);
+    }
     scene.marks.extend(frames);
 }
 
-/// Where a text has the symbol; its index is in the text after it.
-fn places(text: &Text, next: Option<&Text>, base: &str, index: &str) -> Vec<Mark> {
+/// Frames a symbol in a text; its index is in the text after it.
+fn frame(text: &Text, next: Option<&Text>, base: &str, index: &str, frames: &mut Vec<Mark>) {
     if text.size < LARGEST_INDEX {
-        return Vec::new();
+        return;
     }
     let written = next.filter(|next| next.size < LARGEST_INDEX).map_or("", |next| &next.text);
     let lower = next.is_some_and(|next| next.area.y > text.area.y);
     let letters = written.starts_with(is_letter) && lower;
-    let fits = |(at, _): &(usize, &str)| {
-        let (before, after) = (&text.text[..*at], &text.text[at + base.len()..]);
-        let apart = (before.ends_with('π') || !before.ends_with(is_of_a_word))
-            && !after.starts_with(|c| is_of_a_word(c) || c == '_');
-        let other = after.is_empty() && (letters || written == "^" || written == "~");
-        apart && if index.is_empty() { !other } else { after.is_empty() && written == index }
-    };
     let [x, baseline] = text.origin();
-    let frame = |(at, _): (usize, &str)| {
-        let end = |to: usize| x + font::measure(&text.text[..to], text.size, text.weight);
-        let right = next
-            .filter(|_| !index.is_empty())
-            .map_or(end(at + base.len()), |next| end(at + base.len()).max(next.origin()[0] + next.width()));
+    // Not by ranges: what a string says where one is between letters weighs more than all of this.
+    let end = |to: usize| x + font::measure(text.text.get(..to).unwrap_or_default(), text.size, text.weight);
+    let mut of_a_word = false;
+    for (at, letter) in text.text.char_indices() {
+        // What π is a factor of stands by itself.
+        let apart = !core::mem::replace(&mut of_a_word, letter != 'π' && is_of_a_word(letter));
+        let Some(after) = text.text.get(at..).and_then(|rest| rest.strip_prefix(base)).filter(|_| apart) else {
+            continue;
+        };
+        let other = after.is_empty() && (letters || written == "^" || written == "~");
+        let whole = if index.is_empty() { !other } else { after.is_empty() && written == index };
+        if !whole || after.starts_with(|c| is_of_a_word(c) || c == '_') {
+            continue;
+        }
+        let mut right = end(at + base.len());
+        if let Some(next) = next.filter(|_| !index.is_empty()) {
+            right = right.max(next.origin()[0] + next.width());
+        }
         let area = Rect::new(end(at) - PAD, baseline - text.size, right - end(at) + 2.0 * PAD, 1.35 * text.size);
-        Mark::Frame { area, width: WIDTH, role: Role::Accent }
-    };
-    let starts =
-        text.text.char_indices().map(|(at, _)| (at, &text.text[at..])).filter(|(_, rest)| rest.starts_with(base));
-    starts.filter(fits).map(frame).collect()
+        frames.push(Mark::Frame { area, width: WIDTH, role: Role::Accent });
+    }
 }
 
 /// Of the alphabets in which figures are written. Not `char::is_alphabetic`, whose tables of all scripts weigh more than the rest of this.

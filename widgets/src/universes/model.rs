@@ -88,24 +88,21 @@ impl UniversesModel {
         self.recipe.step as usize + 1
     }
 
-    /// Whether laps end well that have come, in the order in which they did, by the rank of the number of universes.
-    pub fn ends(&self, proposal: ProposalKind) -> [impl DoubleEndedIterator<Item = bool>; TRIED.len()] {
+    /// Whether laps end well that have come, in the order in which they did, of the number of universes with this rank.
+    pub fn ends(&self, proposal: ProposalKind, rank: usize) -> impl DoubleEndedIterator<Item = bool> {
         let (errors, orders) = match proposal {
             ProposalKind::Motion => (&shipped::MOTION, &self.orders[0]),
             ProposalKind::Improved => (&shipped::AWARE, &self.orders[1]),
         };
         // Whole millimetres rounded down are below whole millimetres where the error is.
         let limit = (1000.0 * self.recipe.threshold).round();
-        let well = |errors: &[u16; LAPS]| errors.partition_point(|error| f64::from(*error) < limit) as u32;
-        core::array::from_fn(|rank| {
-            let well = well(&errors[rank]);
-            orders[rank][..self.laps()].iter().map(move |lap| u32::from(*lap) < well)
-        })
+        let well = errors[rank].partition_point(|error| f64::from(*error) < limit) as u32;
+        orders[rank][..self.laps()].iter().map(move |lap| u32::from(*lap) < well)
     }
 
     /// How many of the laps that have come end well, by the rank of the number of universes.
     pub fn fractions(&self, proposal: ProposalKind) -> [Fraction; TRIED.len()] {
-        self.ends(proposal).map(Fraction::of)
+        core::array::from_fn(|rank| Fraction::of(self.ends(proposal, rank)))
     }
 
     /// The smallest number of universes with which enough laps end well, if one of those tried is.

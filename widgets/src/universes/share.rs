@@ -130,8 +130,11 @@ pub fn share(scene: &mut Scene, model: &UniversesModel, part: &Part, taken: &mut
     }
     // The newest laps, up where they end well and down where they do not: the points go there.
     for proposal in shown().filter(|_| model.step() < LAST) {
-        let ends = model.ends(proposal).map(|mut laps| laps.next_back() == Some(true));
-        let places = TRIED.iter().zip(ends).map(|(m, well)| [x(&area, *m as f64), chart.y(f64::from(u8::from(well)))]);
+        let place = |(rank, m): (usize, &usize)| {
+            let well = model.ends(proposal, rank).next_back() == Some(true);
+            [x(&area, *m as f64), chart.y(f64::from(u8::from(well)))]
+        };
+        let places = TRIED.iter().enumerate().map(place);
         scene.marks.push(Mark::Discs { centres: places.collect(), radius: 5.0, role: role(proposal) });
     }
     for proposal in shown() {

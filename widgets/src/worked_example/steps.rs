@@ -52,8 +52,13 @@ impl Step {
 
     /// What it is made of, in words.
     pub fn told(&self, shown: &[Self]) -> String {
-        let plain = |symbol: &str| symbol.replace("^2", "²").replace("^{−1}", "⁻¹").replace("_m", "");
-        let what: Vec<String> = self.entering(shown).into_iter().map(plain).collect();
+        let plain = |symbol| match symbol {
+            "d^2" => "d²",
+            "S^{−1}" => "S⁻¹",
+            "H_m" => "H",
+            letter => letter,
+        };
+        let what: Vec<&str> = self.entering(shown).into_iter().map(plain).collect();
         let caption = (self.caption)();
         let name = caption.split(" [").next().unwrap_or(caption);
         worked_example::Enters { name: &name, what: &what.join(", ") }.say()
@@ -289,6 +294,15 @@ mod tests {
             for symbol in step.entering(STEPS) {
                 let given = "z x μ Σ Q".split(' ').any(|known| known == symbol);
                 assert!(given || row_of(STEPS, symbol).is_some(), "{symbol} of {}", step.formula);
+            }
+        }
+    }
+
+    #[test]
+    fn what_enters_a_step_is_said_as_it_is_read() {
+        for shown in [STEPS, FIVE_STEPS] {
+            for told in shown.iter().map(|step| step.told(shown)) {
+                assert!(!told.contains(['^', '_', '{']), "{told}");
             }
         }
     }
