@@ -106,7 +106,7 @@ impl<A> Report<A> {
 /// for step in 1..=3 {
 ///     let ahead: f64 = 2.0 - 0.5 * f64::from(step);
 ///     let seen = Feature { z: Vector2::new(ahead.hypot(1.0), 1.0_f64.atan2(ahead)), signature: Some(0) };
-///     let report = filter.step(&Odometry { rot1: 0.0, trans: 0.5, rot2: 0.0 }, &vec![seen]);
+///     let report = filter.step(&Odometry { rot1: 0.0, trans: 0.5, rot2: 0.0 }, &[seen]);
 ///     assert!(report.explained());
 /// }
 /// let estimate = filter.estimate();

@@ -52,7 +52,7 @@ const STEPS: Range = Range::whole(0, 1000);
 /// for step in 1..=5 {
 ///     let ahead: f64 = 2.0 - 0.5 * f64::from(step);
 ///     let seen = Feature { z: Vector2::new(ahead.hypot(1.0), 1.0_f64.atan2(ahead)), signature: Some(0) };
-///     filter.step(&Odometry { rot1: 0.0, trans: 0.5, rot2: 0.0 }, &vec![seen]);
+///     filter.step(&Odometry { rot1: 0.0, trans: 0.5, rot2: 0.0 }, &[seen]);
 /// }
 /// assert!((filter.estimate().mean.x - 2.5).abs() < 0.2);
 /// let map = &filter.particles()[filter.best()].map;

@@ -121,8 +121,8 @@ mod tests {
         for slot in 0..n {
             let mut map = SampledMap::new(&known);
             let point = map.at_sight(0, &mut Stream::at(1, Purpose::TRIAL, 0, slot)).unwrap();
-            map.assimilate(&Pose2::default(), &vec![], &vec![(0, point)]);
-            map.assimilate(&Pose2::default(), &vec![], &vec![(0, Vector2::zeros())]);
+            map.assimilate(&Pose2::default(), &[], &vec![(0, point)]);
+            map.assimilate(&Pose2::default(), &[], &vec![(0, Vector2::zeros())]);
             assert_eq!(map.at_sight(0, &mut Stream::at(2, Purpose::TRIAL, 0, slot)), Some(point));
             draws.push(point - known[0].mean);
         }

@@ -59,7 +59,7 @@ fn a_drift_is_as_uncertain_however_a_drive_is_cut() {
         let mut filter = Rbpf::builder(map, Calibrating { motion, then }).particles(N).seed(3).build().unwrap();
         let control = Velocity { speed: 1.0, turn_rate: 0.1, duration: 4.0 / f64::from(steps) };
         for _ in 0..steps {
-            filter.step(&control, &vec![]);
+            filter.step(&control, &[]);
         }
         let squares = filter.particles().iter().map(|particle| particle.world_from_robot.theta - 0.4).map(|e| e * e);
         let variance = squares.sum::<f64>() / N as f64;

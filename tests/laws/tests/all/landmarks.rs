@@ -726,7 +726,7 @@ fn two_features_of_one_step_never_share_a_landmark() {
         all.iter().all(|association| associations.contains(association))
     };
     assert!(each_once(&folded.associations), "{:?}", folded.associations);
-    assert_eq!(Marginal.log_likelihood(&map, &Pose2::default(), &vec![feature(None); 4]).1, folded.associations);
+    assert_eq!(Marginal.log_likelihood(&map, &Pose2::default(), &[feature(None); 4]).1, folded.associations);
 
     let map = Landmarks::<_, Blocks>::new(SENSOR, Correspondence::Known).with(known);
     let features = [Some(1), Some(1), Some(7), Some(7), None].map(feature);
@@ -807,9 +807,9 @@ fn what_should_be_seen_and_is_not_is_struck_off_and_nothing_else() {
             let z = sensor.predict(&Pose2::default(), &Vector2::new(3.0, -1.0)).z;
             for step in 0..6 {
                 let feature = Feature { z, signature: None };
-                let (_, sighted) = Marginal.log_likelihood(&map, &Pose2::default(), &vec![feature]);
+                let (_, sighted) = Marginal.log_likelihood(&map, &Pose2::default(), &[feature]);
                 assert_eq!(sighted, [Association::Matched(0)]);
-                map.assimilate(&Pose2::default(), &vec![feature], &sighted);
+                map.assimilate(&Pose2::default(), &[feature], &sighted);
                 let there = !(goes && removal && step >= 3);
                 assert_eq!(map.get(1).is_some(), there, "({x}, {y}), removal {removal}, step {step}");
             }
@@ -871,9 +871,9 @@ fn landmarks_seen_in_one_look_are_never_merged() {
     let mut map = unknown(SENSOR, Gate { merge_squared: 9.2, ..Gate::default() }, &known);
     let see = |k: usize| seen(&SENSOR, &Pose2::default(), &known[k].mean, 0, [0.0, 0.0]);
     let both = vec![Association::Matched(0), Association::Matched(1)];
-    map.assimilate(&Pose2::default(), &vec![see(0), see(1)], &both);
+    map.assimilate(&Pose2::default(), &[see(0), see(1)], &both);
     for _ in 0..3 {
-        map.assimilate(&Pose2::default(), &vec![see(0)], &vec![Association::Matched(0)]);
+        map.assimilate(&Pose2::default(), &[see(0)], &vec![Association::Matched(0)]);
     }
     assert_eq!(map.iter().count(), 2);
     assert!(map.iter().all(|(_, landmark)| landmark.apart != 0));
