@@ -55,7 +55,7 @@ pub const DRIFT_STDS: [f64; 2] = [0.05, 0.05];
 ///         let (dx, dy) = (to_x - x, to_y - y);
 ///         Vector2::new(dx.hypot(dy), fastslam::ops::wrap_angle(dy.atan2(dx) - heading))
 ///     });
-///     let features = (0..).zip(seen).map(|(signature, z)| Feature { z, signature: Some(signature) }).collect();
+///     let features: Vec<Feature> = (0..).zip(seen).map(|(signature, z)| Feature { z, signature: Some(signature) }).collect();
 ///     filter.step(&Odometry { rot1: 0.0, trans: 0.5, rot2: 0.0 }, &features);
 /// }
 /// let [a_metre, _] = filter.particles()[filter.best()].map.drift().coefficients();
