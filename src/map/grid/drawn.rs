@@ -4,10 +4,10 @@ use super::{CellRect, Grid, GridModel, MapImage, tile};
 use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
 use crate::ops;
-use core::str::FromStr;
 
 /// What the greys between the thresholds of a [`MapReading`] are taken for.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, strum::EnumString, strum::VariantNames)]
+#[strum(serialize_all = "lowercase", parse_err_ty = SettingError, parse_err_fn = unknown_mode)]
 pub enum GreyMode {
     /// Unknown: `trinary`.
     #[default]
@@ -16,16 +16,8 @@ pub enum GreyMode {
     Scale,
 }
 
-impl FromStr for GreyMode {
-    type Err = SettingError;
-
-    fn from_str(word: &str) -> Result<Self, SettingError> {
-        match word {
-            "trinary" => Ok(Self::Trinary),
-            "scale" => Ok(Self::Scale),
-            _ => Err(SettingError::unknown_word("mode", word, &["trinary", "scale"])),
-        }
-    }
+fn unknown_mode(given: &str) -> SettingError {
+    SettingError::unknown_word("mode", given, <GreyMode as strum::VariantNames>::VARIANTS)
 }
 
 /// What the YAML file beside a picture says of it, by the names of ROS's `map_server`.
