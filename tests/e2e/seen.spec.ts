@@ -25,6 +25,20 @@ async function show(figure: Figure, share: number, edge: 'lower' | 'upper' = 'lo
   await frames(figure.page, 4)
 }
 
+test('what is asked of a figure is waited for also where the browser tells late that the figure is about to be seen', async ({ page }) => {
+  await page.addInitScript(() => {
+    window.IntersectionObserver = class extends IntersectionObserver {
+      constructor(told: IntersectionObserverCallback, options?: IntersectionObserverInit) {
+        super((entries, observer) => setTimeout(() => told(entries, observer), 400), options)
+      }
+    }
+  })
+  await openCourse(page, '<fastslam-worked-example></fastslam-worked-example>')
+  const figure = new Figure(page, 'fastslam-worked-example')
+  await figure.settled()
+  expect(await figure.element.locator('.stage.live').count()).toBe(1)
+})
+
 test.describe('where things move', () => {
   test('a figure begins when its picture is looked at, waits out of sight, and goes on when the reader comes back', async ({ page }) => {
     await below(page, LAP)

@@ -18,6 +18,7 @@ export interface FrameActions {
 export class FrameLoop {
   near = false
   inView = false
+  #unsure = false
   #share = 0 // of the picture
   #request = 0
   readonly #approach = new IntersectionObserver(entries => this.#onApproach(entries[entries.length - 1]!), { rootMargin: '100% 0px' })
@@ -30,6 +31,7 @@ export class FrameLoop {
   ) {}
 
   observe(signal: AbortSignal): void {
+    this.#unsure = true
     this.#approach.observe(this.figure)
     this.#views.observe(this.figure)
     this.#views.observe(this.stage)
@@ -49,12 +51,18 @@ export class FrameLoop {
     this.#request = 0
     this.near = false
     this.inView = false
+    this.#unsure = false
     this.#share = 0
   }
 
   /** Whether all of the picture is in view, or all that the window can show. */
   get lookedAt(): boolean {
     return this.#share >= LOOKED_AT
+  }
+
+  /** The browser has not told yet whether the figure is near, which a busy page learns some frames late. */
+  get unsure(): boolean {
+    return this.#unsure
   }
 
   /** Whether a frame has been asked for. */
@@ -77,6 +85,7 @@ export class FrameLoop {
 
   #onApproach({ isIntersecting }: IntersectionObserverEntry): void {
     this.near = isIntersecting
+    this.#unsure = false
     if (isIntersecting) this.actions.approach()
     this.wake()
   }

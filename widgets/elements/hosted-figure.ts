@@ -189,7 +189,7 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
 
   get #unsettled(): boolean {
     const { host } = this
-    if (this.#starting) return true
+    if (this.#starting || this.frames.unsure) return true
     if (!host || !(host.remote || this.frames.near)) return false
     return host.busy || host.done < host.sent || (!this.playing && (this.frames.waiting || this.sentence.waiting))
   }
