@@ -169,7 +169,7 @@ const partsOf = figure => ({
   ...(isLog(figure) && { source: 'Where a log is chosen.', example: 'Maps the example.', map: 'Maps the log that is open.', saves: 'The fold of what can be saved.' }),
 })
 
-const cssProperties = ['accent', 'ink', 'muted', 'line', 'paper', 'radius', 'font'].map(name => `--fastslam-${name}`)
+const cssProperties = ['accent', 'ink', 'muted', 'line', 'paper', 'radius', 'font', 'height'].map(name => `--fastslam-${name}`)
 
 /** What a figure tells the page. @param {{ tag: string }} figure */
 export const eventsOf = figure => [...events, ...extrasOf(figure).events]

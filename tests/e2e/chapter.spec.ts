@@ -2,7 +2,7 @@
 import type { Locator, Page } from '@playwright/test'
 import { brokenRules, leaveOneOfEachKind } from './axe'
 import { expect, test } from './fixtures'
-import { Figure, holdPrograms } from './figure'
+import { Figure, holdPrograms, settled } from './figure'
 import { breadth, FIGURES } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
@@ -118,6 +118,25 @@ for (const width of [1280, 380]) {
     await figure.settled()
     expect(Math.abs((await height()) - before)).toBeLessThan(width > 500 ? 3 : 64)
     if (width > 500) expect(await shifts()).toEqual([])
+  })
+}
+
+for (const [width, most] of [[1280, 3], [380, 64]] as const) {
+  test(`the figures of the exercises take what was kept free for them, ${width} px`, async ({ page }) => {
+    await page.setViewportSize({ width, height: 800 })
+    const open = await holdPrograms(page)
+    await page.goto('./')
+    const trials = page.locator('.trial > *')
+    const heights = () => trials.evaluateAll(all => all.map(figure => figure.getBoundingClientRect().height))
+    await expect(trials.locator('.reserved')).toHaveCount(3)
+    const before = await heights()
+    open()
+    for (const trial of await trials.all()) {
+      await trial.scrollIntoViewIfNeeded()
+      await expect(trial.locator('.stage.live')).toBeVisible()
+      await settled(trial)
+    }
+    for (const [i, after] of (await heights()).entries()) expect(Math.abs(before[i]! - after), `the ${i + 1}th: ${before[i]} px kept, ${after} px taken`).toBeLessThan(most)
   })
 }
 

@@ -21,7 +21,7 @@ export class FrameLoop {
   #unsure = false
   #share = 0 // of the picture
   #request = 0
-  readonly #approach = new IntersectionObserver(entries => this.#onApproach(entries[entries.length - 1]!), { rootMargin: '100% 0px' })
+  readonly #approach = new IntersectionObserver(entries => this.#onApproach(entries), { rootMargin: '100% 0px' })
   readonly #views = new IntersectionObserver(entries => this.#onView(entries), { threshold: Array.from({ length: 51 }, (_, k) => k / 50) })
 
   constructor(
@@ -60,8 +60,9 @@ export class FrameLoop {
     return this.#share >= LOOKED_AT
   }
 
-  /** The browser has not told yet whether the figure is near, which a busy page learns some frames late. */
+  /** Whether the browser has still to tell if the figure is near. A busy one tells some frames late; what it has ready is asked for. */
   get unsure(): boolean {
+    this.#onApproach(this.#approach.takeRecords())
     return this.#unsure
   }
 
@@ -83,10 +84,12 @@ export class FrameLoop {
     return document.hidden || !(this.near || this.actions.unseen())
   }
 
-  #onApproach({ isIntersecting }: IntersectionObserverEntry): void {
-    this.near = isIntersecting
+  #onApproach(entries: IntersectionObserverEntry[]): void {
+    const now = entries.at(-1)
+    if (!now) return
+    this.near = now.isIntersecting
     this.#unsure = false
-    if (isIntersecting) this.actions.approach()
+    if (this.near) this.actions.approach()
     this.wake()
   }
 

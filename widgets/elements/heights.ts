@@ -1,10 +1,14 @@
 // How high a figure will be once it lives, so that it keeps that place free and nothing below it moves.
 import { apart, first, heights } from './heights.json'
 
-/** Keeps free what this figure took where tests/e2e/heights.spec.ts measured it at this width, unless its author has set options that make it another. */
+/**
+ * Keeps free what this figure took where tests/e2e/heights.spec.ts measured it at this width. One whose author has set options is another:
+ * of its height we know what `--fastslam-height` says.
+ */
 export function reserve(body: HTMLElement, figure: HTMLElement): void {
-  if (figure.matches('[fit], [size], [controls], [chips], [show]')) return
-  body.style.minHeight = `${usualHeight(figure.localName, figure.clientWidth)}px`
+  const told = getComputedStyle(figure).getPropertyValue('--fastslam-height')
+  if (!told && figure.matches('[fit], [size], [controls], [chips], [show]')) return
+  body.style.minHeight = told || `${usualHeight(figure.localName, figure.clientWidth)}px`
   body.classList.add('reserved')
 }
 
