@@ -47,10 +47,16 @@ test('a formula is a stop of the Tab key; arrow keys go from symbol to symbol, a
     for (let at = element.closest('details'); at; at = at.parentElement!.closest('details')) at.open = true
   })
   await formula.focus()
+  const { x, y } = (await formula.boundingBox())!
+  await page.mouse.move(x + 5, y - 20)
   const walk: string[] = []
   for (let i = 0; i < 4; i++) {
     await page.keyboard.press('ArrowRight')
     walk.push((await inFormulas(page)).join(' '))
+    // A mouse that rests has not moved where the page does below it.
+    await page.evaluate(by => scrollBy({ top: by, behavior: 'instant' }), i % 2 ? 200 : -200)
+    await frames(page, 8)
+    expect((await inFormulas(page)).join(' ')).toBe(walk[i])
   }
   expect(new Set(walk).size).toBeGreaterThanOrEqual(3)
   await page.keyboard.press('ArrowLeft')
@@ -88,8 +94,8 @@ test('a picture in sight lights the symbol where it writes it', async ({ page })
   await frames(page, 3)
   const before = await pixels(canvas)
   const surprise = page.locator('xpath=//h2[@id="by-hand"]/following::*[local-name()="mi"][text()="ν"]').first()
-  await surprise.evaluate(symbol => symbol.dispatchEvent(new PointerEvent('pointerover', { bubbles: true, pointerType: 'mouse' })))
+  await surprise.evaluate(symbol => symbol.dispatchEvent(new PointerEvent('pointermove', { bubbles: true, pointerType: 'mouse' })))
   await expect.poll(() => pixels(canvas)).not.toBe(before)
-  await page.locator('#by-hand').evaluate(heading => heading.dispatchEvent(new PointerEvent('pointerover', { bubbles: true, pointerType: 'mouse' })))
+  await page.locator('#by-hand').evaluate(heading => heading.dispatchEvent(new PointerEvent('pointermove', { bubbles: true, pointerType: 'mouse' })))
   await expect.poll(() => pixels(canvas)).toBe(before)
 })

@@ -6,14 +6,13 @@ import { apart, first, heights } from './heights.json'
  * of its height we know what `--fastslam-height` says.
  */
 export function reserve(body: HTMLElement, figure: HTMLElement): void {
-  const told = getComputedStyle(figure).getPropertyValue('--fastslam-height')
-  if (!told && figure.matches('[fit], [size], [controls], [chips], [show]')) return
-  body.style.minHeight = told || `${usualHeight(figure.localName, figure.clientWidth)}px`
+  const another = figure.matches('[fit], [size], [controls], [chips], [show]')
+  if (another && !getComputedStyle(figure).getPropertyValue('--fastslam-height')) return
+  body.style.setProperty('--_usual', `${usualHeight(figure.localName, figure.clientWidth)}px`)
   body.classList.add('reserved')
 }
 
 export function release(body: HTMLElement): void {
-  body.style.minHeight = ''
   body.classList.remove('reserved')
 }
 

@@ -111,7 +111,8 @@ function nameAt({ target }: Event): string | undefined {
   return letter ? listed(symbolAt(letter)) : undefined
 }
 
-document.addEventListener('pointerover', event => {
+// Not by what comes below a pointer that rests, when the page moves.
+document.addEventListener('pointermove', event => {
   if (event.pointerType !== 'touch') light(nameAt(event))
 })
 document.addEventListener('click', event => light(nameAt(event)))
