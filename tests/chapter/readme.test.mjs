@@ -1,6 +1,6 @@
 // What README promises is run: each command of its tables by a unit of breadth, which is told here if one is missing.
 import assert from 'node:assert/strict'
-import { readFileSync } from 'node:fs'
+import { readdirSync, readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { test } from 'node:test'
 import { root } from '../../scripts/lib.mjs'
@@ -12,6 +12,13 @@ test('every command in the tables of README is run by a unit of breadth', () => 
   const commands = [...text.matchAll(/^\| `([^`]+)` \|/gm)].map(([, command]) => String(command)).filter(command => /^(npm|wasm-pack) /.test(command))
   assert.ok(commands.length > 8)
   for (const command of commands) assert.ok(units.some(unit => unit.command.includes(command)), `no unit runs ${command}`)
+})
+
+test('every file with tests of breadth is run by a unit', () => {
+  const specs = join(root, 'tests', 'e2e')
+  const broad = readdirSync(specs).filter(file => file.endsWith('.spec.ts') && /\bbreadth(Of|But)?\b/.test(readFileSync(join(specs, file), 'utf8')))
+  assert.ok(broad.length > 20)
+  assert.deepEqual(broad.filter(file => !units.some(({ command }) => command.includes('--grep @breadth') && command.includes(`/${file}`))), [])
 })
 
 test('units of breadth have names of their own and take six minutes at most, and every one has its turn', () => {

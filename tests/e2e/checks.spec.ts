@@ -3,6 +3,7 @@
 import type { Page } from '@playwright/test'
 import { brokenRules } from './axe'
 import { expect, test } from './fixtures'
+import { breadth } from './host'
 import { settled } from './figure'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
@@ -165,7 +166,7 @@ test('the key for printing has all of them on paper, with their answers', async 
   await expect(page.locator('#check-verdict-why input').first()).toBeHidden()
 })
 
-for (const [name, least] of [['practice', 30], ['bank', 40]] as const) {
+for (const [name, least, more] of [['practice', 30, breadth], ['bank', 40, {}]] as const) {
   test(`each question of ${name} has one right answer, which its answer gives, and says another reason to each other one`, async ({ page }) => {
     await page.goto(`./${name}.html`)
     await expect(page.locator('.check [role=status]')).toHaveCount(await page.locator('.check').count())
@@ -192,7 +193,7 @@ for (const [name, least] of [['practice', 30], ['bank', 40]] as const) {
     }
   })
 
-  test(`axe finds nothing in the questions of ${name}, answered and unfolded, light and dark`, async ({ page }) => {
+  test(`axe finds nothing in the questions of ${name}, answered and unfolded, light and dark`, more, async ({ page }) => {
     await page.goto(`./${name}.html`)
     for (const radio of await page.locator('.check label:first-of-type input[type=radio]').all()) await radio.check()
     await page.evaluate(() => document.querySelectorAll('details').forEach(details => (details.open = true)))

@@ -1,6 +1,7 @@
 // The deck: a slide a screen, turned by keys, by buttons and by links, each on a page of its own on paper.
 import { brokenRules } from './axe'
 import { expect, test } from './fixtures'
+import { breadth } from './host'
 import { Figure, settled } from './figure'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
@@ -37,8 +38,8 @@ test('arrows and the keys of a remote turn the page; in a figure the arrows are 
   await expect(slides.getByRole('button', { name: 'Previous' })).toBeDisabled()
 })
 
-test('each slide fits a projector’s screen, with its question and a live figure', async ({ page }) => {
-  for (const [width, height] of [[1280, 720], [1366, 768], [1920, 1080]] as const) {
+for (const [width, height, more] of [[1280, 720, {}], [1366, 768, breadth], [1920, 1080, breadth]] as const) {
+  test(`each slide fits a projector’s screen of ${width} × ${height}, with its question and a live figure`, more, async ({ page }) => {
     await page.setViewportSize({ width, height })
     await page.goto('about:blank')
     await page.goto('./deck.html#slide-conditioning')
@@ -55,8 +56,8 @@ test('each slide fits a projector’s screen, with its question and a live figur
       expect([room, says, figure], `${id} at ${width}`).toEqual([0, 0, 0])
       await page.keyboard.press('PageDown')
     }
-  }
-})
+  })
+}
 
 test('a link to a state of a figure opens its slide; on paper every slide has a page, without the answers', async ({ page }) => {
   await page.goto('./deck.html#fastslam-doors?v=1&particles=100')

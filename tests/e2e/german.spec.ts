@@ -1,6 +1,7 @@
 // Pages in German for lecturers: their scripts and figures speak German as well.
 import { brokenRules } from './axe'
 import { expect, test } from './fixtures'
+import { breadth } from './host'
 import { Figure } from './figure'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
@@ -34,7 +35,7 @@ test('slides are turned in German, and their figures speak it', async ({ page })
   await expect(lap.element.getByRole('button', { name: 'Abspielen' })).toBeVisible()
 })
 
-test('axe finds nothing in bank, deck and sheet, and they fit a phone', async ({ page }) => {
+test('axe finds nothing in bank, deck and sheet, and they fit a phone', breadth, async ({ page }) => {
   for (const name of ['bank-de', 'deck-de', 'worksheet-90-de']) {
     for (const colorScheme of ['light', 'dark'] as const) {
       await page.emulateMedia({ colorScheme })

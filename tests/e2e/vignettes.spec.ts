@@ -3,6 +3,7 @@
 import type { Locator, Page } from '@playwright/test'
 import { frames, holdPrograms } from './figure'
 import { expect, test } from './fixtures'
+import { breadth } from './host'
 
 const MOST = { width: 560, height: 200 }
 
@@ -30,8 +31,8 @@ const state = async ({ slider, told, canvas }: Awaited<ReturnType<typeof shown>>
   picture: await pixels(canvas),
 })
 
-for (const [name, viewport] of [['laptop', { width: 1366, height: 650 }], ['phone', { width: 380, height: 760 }]] as const) {
-  test.describe(`on a ${name}`, () => {
+for (const [name, viewport, more] of [['laptop', { width: 1366, height: 650 }, breadth], ['phone', { width: 380, height: 760 }, {}]] as const) {
+  test.describe(`on a ${name}`, more, () => {
     test.use({ viewport, hasTouch: name === 'phone' })
 
     test('every vignette is small, fits the page, and its handle moves its picture, its value and its line by keyboard and pointer', async ({ page }) => {

@@ -3,7 +3,7 @@
 import type { Locator } from '@playwright/test'
 import { programs } from '../../scripts/registry.mjs'
 import { expect, test } from './fixtures'
-import { breadthOf, openCourse } from './host'
+import { breadth, openCourse } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -44,7 +44,7 @@ const cut = (figure: Locator): Promise<string[]> =>
   })
 
 for (const tag of programs.keys()) {
-  test(`no text of ${tag} is cut in any state, language and width`, breadthOf(tag), async ({ page }) => {
+  test(`no text of ${tag} is cut in any state, language and width`, tag === 'fastslam-lap' ? {} : breadth, async ({ page }) => {
     test.slow()
     const wrong = new Set<string>()
     await openCourse(page, `<${tag} lab="open"></${tag}>`)

@@ -39,8 +39,8 @@ test('a plan leads to its sheet, whose figures stand in the states that its task
   await expect(page.locator('.room')).toHaveCount(0)
 })
 
-test('axe finds nothing in a sheet and its solutions, light and dark, and it fits a phone', async ({ page }) => {
-  for (const name of ['worksheet-45', 'worksheet-45-solutions', 'worksheet-90']) {
+for (const [name, more] of [['worksheet-45', breadth], ['worksheet-45-solutions', {}], ['worksheet-90', breadth]] as const) {
+  test(`axe finds nothing in ${name}, light and dark, and it fits a phone`, more, async ({ page }) => {
     await page.goto(`./${name}.html`)
     for (const colorScheme of ['light', 'dark'] as const) {
       await page.emulateMedia({ colorScheme })
@@ -48,8 +48,8 @@ test('axe finds nothing in a sheet and its solutions, light and dark, and it fit
     }
     await page.setViewportSize({ width: 320, height: 700 })
     expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(320)
-  }
-})
+  })
+}
 
 test('as PDF a sheet links to where the site will be, and without an address to nowhere', breadth, async () => {
   const folder = mkdtempSync(join(tmpdir(), 'sheets-'))
