@@ -29,7 +29,7 @@ async function clippyWasm() {
   for (const program of chapterPrograms) await clippy('-p', 'fastslam-widgets', '--lib', '--no-default-features', '--features', `single-threaded,${program}`)
 }
 
-const crates = ['fastslam', 'fastslam-lab', 'fastslam-widgets']
+const crates = ['fastslam', 'fastslam-log', 'fastslam-lab', 'fastslam-widgets']
 
 async function listPackages() {
   for (const crate of crates) {

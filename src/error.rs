@@ -1,4 +1,4 @@
-//! What is said about a setting that cannot be used.
+//! What is said about a setting that cannot be used, and numbers as messages and files say them.
 
 use core::fmt;
 
@@ -157,12 +157,21 @@ fn one_of(words: &[&str]) -> String {
     }
 }
 
-/// A number on one short line, whatever it is.
-pub(crate) struct Shown(pub f64);
+/// A number, displayed on one short line, whatever it is.
+pub struct Shown(pub f64);
 
 impl fmt::Display for Shown {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.0.abs() < 1e15 || !self.0.is_finite() { write!(f, "{}", self.0) } else { write!(f, "{:e}", self.0) }
+    }
+}
+
+/// A number with so many decimals, and 0 without a sign.
+pub fn fixed(x: f64, decimals: usize) -> String {
+    let text = format!("{x:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(digits) if digits.bytes().all(|byte| matches!(byte, b'0' | b'.')) => digits.into(),
+        _ => text,
     }
 }
 

@@ -5,7 +5,7 @@
 //! [`mapper`] is ready-made for odometry and a laser. For another sensor, map or motion, build a filter of your own:
 //! [`rbpf`] is the algorithm, and takes any [`proposal`] and any [`map`]. Modules are the mathematics, in the order in which they
 //! depend on each other: [`ops`] → [`random`] → [`geometry`] → [`motion`], [`sensor`] → [`map`] → [`matching`] → [`proposal`] → [`rbpf`] →
-//! [`mapper`], [`smoothing`]. [`log`] reads recorded drives and writes paths. Why the bits are the
+//! [`mapper`], [`smoothing`]. Recorded drives are read by the crate `fastslam-log`. Why the bits are the
 //! same everywhere is said in [`ops`], [`random`] and [`execute`].
 //!
 //! # Glossary
@@ -46,13 +46,12 @@ pub mod genealogy;
 pub mod geometry;
 #[cfg(any(test, feature = "laws"))]
 pub mod laws;
-pub mod log;
 pub mod map;
 pub mod mapper;
 pub mod matching;
 pub mod motion;
 pub mod ops;
-mod order;
+pub mod order;
 pub mod particle;
 pub mod proposal;
 pub mod random;

@@ -3,7 +3,7 @@
 use core::cmp::Ordering;
 
 /// These things in the order that a comparison gives them, equals as they stand.
-pub(crate) fn sorted<T>(things: Vec<T>, compare: impl Fn(&T, &T) -> Ordering) -> Vec<T> {
+pub fn sorted<T>(things: Vec<T>, compare: impl Fn(&T, &T) -> Ordering) -> Vec<T> {
     let order = indices(things.len(), &|a, b| compare(&things[a], &things[b]));
     let mut things: Vec<Option<T>> = things.into_iter().map(Some).collect();
     order.into_iter().filter_map(|k| things[k].take()).collect()

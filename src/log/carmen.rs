@@ -15,10 +15,12 @@ use super::Remark;
 #[cfg(feature = "json")]
 use super::json::Told;
 use super::place::place;
-use super::{FARTHEST, FARTHEST_JUMP, Field, LaserLog, LaserScan, LogError, LogProblem, fixed};
-use crate::geometry::Pose2;
-use crate::ops;
+use super::{Field, LaserLog, LogError, LogProblem};
 use core::f64::consts::PI;
+use fastslam::error::fixed;
+use fastslam::geometry::Pose2;
+use fastslam::ops;
+use fastslam::sensor::LaserScan;
 
 /// A laser farther than this from the robot's centre \[m\] does not sit on it: then the two poses of a message are not what they
 /// should be (some logs hold a corrected pose in one of them), and the laser is taken to be in the centre.
@@ -45,13 +47,13 @@ pub fn parse(bytes: &[u8], lenient: bool) -> Result<LaserLog, LogError> {
 /// the text the line that is begun.
 ///
 /// ```
-/// use fastslam::log::LogReader;
+/// use fastslam_log::LogReader;
 /// let mut reader = LogReader::new(false);
 /// for piece in ["FLASER 2 1.0 ", "2.0 0 0 0 0 0 0 1 host 1\nFLA", "SER 2 1.1 2.1 0 0 0 0.1 0 0 2 host 2"] {
 ///     reader.push(piece.as_bytes())?;
 /// }
 /// assert_eq!(reader.finish()?.scans.len(), 2);
-/// # Ok::<(), fastslam::log::LogError>(())
+/// # Ok::<(), fastslam_log::LogError>(())
 /// ```
 pub struct LogReader {
     reader: Reader,
@@ -266,7 +268,7 @@ impl Reader {
             }
             numbers
         };
-        if x.abs().max(y.abs()) > FARTHEST || (sin == 0.0 && cos == 0.0) {
+        if x.abs().max(y.abs()) > LaserScan::FARTHEST || (sin == 0.0 && cos == 0.0) {
             return Err(LogProblem::NoPose);
         }
         self.log.odometry.push((time, Pose2::new(x, y, 2.0 * ops::atan2(sin, cos))));
@@ -340,7 +342,7 @@ impl Reader {
         }
         if let Some(last) = self.log.scans.last() {
             let jump = last.odometry.distance(&scan.odometry);
-            if jump > FARTHEST_JUMP {
+            if jump > LaserScan::FARTHEST_JUMP {
                 return Err(LogProblem::Jump { message, kilometres: 1e-3 * jump });
             }
         }
@@ -430,7 +432,7 @@ impl<'a> Words<'a> {
 
     fn pose(&mut self, names: &'static str) -> Result<Pose2, LogProblem> {
         let found @ [x, y, theta] = [self.number(names)?, self.number(names)?, self.number(names)?];
-        if x.abs().max(y.abs()) > FARTHEST || theta.abs() > FARTHEST {
+        if x.abs().max(y.abs()) > LaserScan::FARTHEST || theta.abs() > LaserScan::FARTHEST {
             return Err(LogProblem::Far { message: self.kind, names, found });
         }
         Ok(Pose2::new(x, y, theta))

@@ -1,7 +1,7 @@
 //! How large a building is before it is mapped: what decides whether its maps fit into memory.
 
-use super::LaserScan;
-use crate::ops;
+use fastslam::ops;
+use fastslam::sensor::LaserScan;
 use std::collections::BTreeSet;
 
 /// Side of the squares that are counted \[m\].
@@ -42,7 +42,7 @@ pub fn swept_area(scans: &[LaserScan], max_range: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Pose2;
+    use fastslam::geometry::Pose2;
 
     fn log(scans: &[(f64, Vec<f32>)]) -> Vec<LaserScan> {
         let scan = |(x, ranges): &(f64, Vec<f32>)| LaserScan {

@@ -10,9 +10,10 @@
 //! file, which may stand anywhere between them or in front of them. What else an object holds is passed over.
 
 use super::place::NOWHERE;
-use super::{LaserLog, LaserScan, LogProblem, Notes};
-use crate::geometry::Pose2;
+use super::{LaserLog, LogProblem, Notes};
 use core::f64::consts::PI;
+use fastslam::geometry::Pose2;
+use fastslam::sensor::LaserScan;
 use serde::{Deserialize, Serialize};
 
 /// What a line may hold.

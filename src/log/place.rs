@@ -1,7 +1,9 @@
 //! Where the robot was at each scan by raw odometry, for logs that tell of scans and of odometry apart.
 
-use super::{FARTHEST_JUMP, LaserLog, LaserScan, LogError, LogProblem, Remark, odometry_at};
-use crate::geometry::Pose2;
+use super::{LaserLog, LogError, LogProblem, Remark, odometry_at};
+use fastslam::geometry::Pose2;
+use fastslam::mapper::match_scans;
+use fastslam::sensor::LaserScan;
 
 /// The odometry of a scan that has none of its own yet.
 #[cfg(any(feature = "bags", feature = "json"))]
@@ -25,7 +27,7 @@ pub(super) fn place(log: &mut LaserLog) -> Result<(), LogError> {
     }
     for pair in log.scans.windows(2) {
         let jump = pair[0].odometry.distance(&pair[1].odometry);
-        if jump > FARTHEST_JUMP {
+        if jump > LaserScan::FARTHEST_JUMP {
             return Err(LogError::whole(LogProblem::OdometryJumps { kilometres: 1e-3 * jump, time: pair[1].time }));
         }
     }
@@ -49,7 +51,7 @@ fn stay<'a>(mut poses: impl Iterator<Item = &'a Pose2>, near: f64) -> bool {
 /// By matching scans to each other; where they say that the robot stands, odometry that says so too is right.
 fn by_scans(log: &mut LaserLog) {
     let told: Vec<Pose2> = log.scans.iter().map(|scan| scan.odometry).collect();
-    log.match_scans();
+    match_scans(&mut log.scans);
     match log.odometry.first() {
         None => log.notes.remarks.push(Remark::NoOdometry),
         Some((_, pose)) if stay(log.scans.iter().map(|scan| &scan.odometry), STANDING) => {

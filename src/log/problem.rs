@@ -1,9 +1,9 @@
 //! What can be wrong with a log: each problem as the data that tell of it, so that whoever shows it can say it in the words of his readers.
 //! Displayed, they are said in English.
 
-use super::{Beyond, fixed};
-use crate::error::Shown;
+use super::Beyond;
 use core::fmt;
+use fastslam::error::{Shown, fixed};
 
 /// A line that cannot be read, or a file.
 #[derive(Clone, PartialEq, Debug)]
@@ -331,7 +331,7 @@ impl fmt::Display for Topics {
     }
 }
 
-/// What was made of a log that does not tell all, and what of a map one does not see at once.
+/// What was made of a log that does not tell all.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum Remark {
@@ -345,35 +345,6 @@ pub enum Remark {
         seconds: f64,
         /// Stamp of the last scan before it \[s\].
         time: f64,
-    },
-    /// The clock or the scans contradict odometry.
-    Contradicted {
-        /// Steps that are matched with the scans before, in place of what odometry tells.
-        steps: usize,
-        /// Stamp of the scan that the first of them leads to \[s\].
-        time: f64,
-        /// How far, by odometry, that step goes \[m\] and turns \[rad\].
-        told: [f64; 2],
-        /// How long it took \[s\].
-        elapsed: f64,
-    },
-    /// So many scans, of which the robot moved in none.
-    NeverMoved(usize),
-    /// No beam met anything within the longest range that counts.
-    NothingMet,
-    /// The path comes back to places that it does not meet.
-    OpenLoops {
-        /// How many there are.
-        loops: usize,
-        /// Stamp of the last scan of the last of them \[s\].
-        time: f64,
-    },
-    /// The scans by which a path that is bent is mapped again are not all of them: more than may be kept were taken.
-    Thinned {
-        /// How many there are.
-        kept: usize,
-        /// How many were taken.
-        taken: usize,
     },
     /// So many scans are before the first or after the last word of odometry.
     Beyond(u32),
@@ -400,30 +371,6 @@ impl fmt::Display for Remark {
                 "the clock was set back by {} s after {} s: scans and odometry stay in the order in which they were recorded",
                 fixed(*seconds, 1),
                 fixed(*time, 3)
-            ),
-            Self::Contradicted { steps, time, told: [metres, turn], elapsed } => write!(
-                f,
-                "steps at which the clock or the scans contradict odometry: {steps}, the first at {} s ({} m and {}° in {} s); they are matched with the scans before",
-                fixed(*time, 3),
-                fixed(*metres, 2),
-                fixed(turn.to_degrees(), 0),
-                fixed(*elapsed, 1)
-            ),
-            Self::NeverMoved(scans) => write!(
-                f,
-                "only the first of {scans} scans is mapped: by odometry and by what they see, the robot never moves"
-            ),
-            Self::NothingMet => {
-                f.write_str("the map is empty: no beam met anything within the longest range that counts")
-            }
-            Self::OpenLoops { loops, time } => write!(
-                f,
-                "loops that stay open: {loops}, the last of them at {} s; what is seen there contradicts the map of before",
-                fixed(*time, 3)
-            ),
-            Self::Thinned { kept, taken } => write!(
-                f,
-                "of the {taken} scans that were taken {kept} are kept: where a path is bent to close a loop, it is mapped again by these"
             ),
             Self::Beyond(scans) => write!(
                 f,

@@ -7,7 +7,7 @@
 //! Reference: Kümmerle et al., *On measuring the accuracy of SLAM algorithms*, Autonomous Robots 2009.
 
 use super::{LogError, LogProblem, odometry_at};
-use crate::geometry::Pose2;
+use fastslam::geometry::Pose2;
 
 /// Where a robot was at one time, seen from where it was at another.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -2,9 +2,9 @@
 //!
 //! Reference: Sturm et al., *A benchmark for the evaluation of RGB-D SLAM systems*, IROS 2012; read by `evo` and by the benchmark's own tools.
 
-use super::fixed;
-use crate::geometry::Pose2;
-use crate::ops;
+use fastslam::error::fixed;
+use fastslam::geometry::Pose2;
+use fastslam::ops;
 
 /// Poses with their times \[s\]: a line `time x y z qx qy qz qw` for each, in seconds, metres, and a unit quaternion.
 pub fn write_tum(path: &[(f64, Pose2)]) -> String {
@@ -21,7 +21,7 @@ pub fn write_tum(path: &[(f64, Pose2)]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::log::parse;
+    use crate::parse;
 
     #[test]
     fn poses_are_read_back_as_they_were_written() {

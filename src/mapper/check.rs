@@ -8,12 +8,14 @@
 
 use super::agreement::Agreement;
 use super::last_places::{LastPlaces, MAX_RANGE, fan};
+use super::scan_to_scan::match_scans;
 use super::tuning::score;
 use super::{LaserMapperSettings, driven};
+use crate::error::fixed;
 use crate::geometry::Pose2;
-use crate::log::{LaserLog, LaserScan, fixed};
 use crate::ops;
 use crate::order::sorted;
+use crate::sensor::LaserScan;
 use core::fmt;
 
 /// How motions by scans and motions by odometry go together, over a sample of a log.
@@ -96,10 +98,10 @@ const OTHER_UNIT: f64 = 0.1;
 const FITTING: f64 = 0.9;
 
 impl OdometryCheck {
-    /// Of a log; `None` where its scans do not tell enough of their motions.
-    pub fn of(log: &LaserLog, settings: &LaserMapperSettings) -> Option<Self> {
-        let longest = settings.for_log(log).longest();
-        let scans = apart(&log.scans);
+    /// For the scans of a log; `None` where they do not tell enough of their motions.
+    pub fn of(scans: &[LaserScan], settings: &LaserMapperSettings) -> Option<Self> {
+        let longest = settings.for_scans(scans).longest();
+        let scans = apart(scans);
         let mut found = Found::default();
         if scans.len() <= STRETCH * STRETCHES.len() {
             found.add(&scans, longest);
@@ -152,16 +154,16 @@ impl OdometryFault {
 }
 
 impl OdometryFault {
-    /// Corrects the odometry of a log, motion by motion, so that it agrees with the scans; where it does not tell how the robot moves, each scan is matched with
-    /// those before. [`LaserLog::odometry`] stays as it was told.
-    pub fn put_right(&self, log: &mut LaserLog) {
+    /// Corrects the odometry of all scans of a log, motion by motion, so that it agrees with what they show; where it does not tell how the robot moves,
+    /// each scan is matched with those before ([`match_scans`]).
+    pub fn put_right(&self, scans: &mut [LaserScan]) {
         if matches!(self, Self::Unrelated { .. }) {
-            return log.match_scans();
+            return match_scans(scans);
         }
-        let told: Vec<Pose2> = log.scans.iter().map(|scan| scan.odometry).collect();
+        let told: Vec<Pose2> = scans.iter().map(|scan| scan.odometry).collect();
         for k in 1..told.len() {
             let motion = self.corrected(&told[k - 1].between(&told[k]));
-            log.scans[k].odometry = log.scans[k - 1].odometry.compose(&motion);
+            scans[k].odometry = scans[k - 1].odometry.compose(&motion);
         }
     }
 

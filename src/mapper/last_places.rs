@@ -11,7 +11,7 @@ use crate::sensor::Scan;
 use std::collections::VecDeque;
 
 /// The longest range that counts \[m\].
-pub(crate) const MAX_RANGE: f64 = 30.0;
+pub(super) const MAX_RANGE: f64 = 30.0;
 
 /// The robot is at another place after so many metres, or radians.
 const PLACE: f64 = 0.25;
@@ -25,7 +25,7 @@ const CLIMB: HillClimbSteps = HillClimbSteps { linear: 0.16, angular: 0.08, halv
 /// See the module.
 #[derive(Clone, Debug, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(crate) struct LastPlaces {
+pub(super) struct LastPlaces {
     places: VecDeque<(Pose2, Scan)>,
     /// Of these places, once it is asked for.
     #[cfg_attr(feature = "serde", serde(skip))]
@@ -35,7 +35,7 @@ pub(crate) struct LastPlaces {
 impl LastPlaces {
     /// Where a scan fits best upon the last places of all poses that climbs reach from these starts and that are `allowed`, with the score there
     /// \[nats\]; `None` where there is nothing to match.
-    pub(crate) fn matched(
+    pub(super) fn matched(
         &mut self,
         starts: &[Pose2],
         ends: &Scan,
@@ -56,7 +56,7 @@ impl LastPlaces {
     }
 
     /// Keeps a scan that was taken at this pose, if that is another place than the last one; tells whether it is.
-    pub(crate) fn take(&mut self, pose: Pose2, ends: impl FnOnce() -> Scan) -> bool {
+    pub(super) fn take(&mut self, pose: Pose2, ends: impl FnOnce() -> Scan) -> bool {
         if self.places.back().is_some_and(|(last, _)| is_same(last, &pose)) {
             return false;
         }
@@ -73,14 +73,14 @@ impl LastPlaces {
     }
 
     /// How far it is from the first of these places to a pose, and by how much one turns on the way, to whichever side \[m, rad\].
-    pub(crate) fn span(&self, pose: &Pose2) -> [f64; 2] {
+    pub(super) fn span(&self, pose: &Pose2) -> [f64; 2] {
         let poses = || self.places.iter().map(|(pose, _)| pose).chain([pose]);
         let legs = poses().zip(poses().skip(1)).map(|(from, to)| driven(&from.between(to)));
         legs.fold([0.0; 2], |sum, leg| [sum[0] + leg[0], sum[1] + leg[1]])
     }
 
     /// The map of these places.
-    pub(crate) fn map(&mut self) -> &Map {
+    pub(super) fn map(&mut self) -> &Map {
         let Self { places, map } = self;
         map.get_or_insert_with(|| {
             let mut map = Map::new(tuning::grid(tuning::CELL));
@@ -95,7 +95,7 @@ impl LastPlaces {
 #[cfg(feature = "serde")]
 impl LastPlaces {
     /// Whether these can be places.
-    pub(crate) fn check(&self) -> Result<(), RestoreError> {
+    pub(super) fn check(&self) -> Result<(), RestoreError> {
         save::holds(self.places.len() <= PLACES, "odometer.places", "the last few")?;
         save::poses("odometer.places", self.places.iter().map(|(pose, _)| *pose))?;
         let points =
@@ -105,7 +105,7 @@ impl LastPlaces {
 }
 
 /// Poses to climb from where the heading is uncertain: this one, and turned to either side.
-pub(crate) fn fan(pose: Pose2) -> [Pose2; 5] {
+pub(super) fn fan(pose: Pose2) -> [Pose2; 5] {
     [0.0, 0.15, -0.15, 0.3, -0.3].map(|turn| Pose2::new(pose.x, pose.y, pose.theta + turn))
 }
 

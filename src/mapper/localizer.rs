@@ -8,13 +8,12 @@ use super::wheels::Wheels;
 use super::{Filter, LaserMapper, LaserMapperSettings, Pushed, Stamp, filter};
 use crate::error::SettingError;
 use crate::geometry::{Gaussian3, Pose2};
-use crate::log::LaserScan;
 use crate::map::grid::{MapImage, MapReading};
 use crate::matching::{Score, ScoredPose, hill_climb};
 use crate::motion::{Displaced, Displacement, Motion};
 use crate::particle::Particle;
 use crate::proposal::{Fit, Search, Target};
-use crate::sensor::Scan;
+use crate::sensor::{LaserScan, Scan};
 
 /// The filter of a [`LaserMapper`] in a map that stays as it is: where the robot is, and nothing else.
 ///

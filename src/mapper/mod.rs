@@ -8,7 +8,7 @@
 //! along, is told from walls before a scan is matched, and left out. A loop that no particle has closed by itself is closed by bending its path
 //! (`closing.rs`). It runs online and needs to know nothing of the
 //! scans that will come; whoever has a whole log lets [`Replay`] push it, or fills the laser's settings in by
-//! [`LaserMapperSettings::for_log`]. [`Localizer`] finds a robot in a map that stays as it is. What is not a setting has one value for every building and robot: [`tuning`] says why.
+//! [`LaserMapperSettings::for_scans`]. [`Localizer`] finds a robot in a map that stays as it is. What is not a setting has one value for every building and robot: [`tuning`] says why.
 
 mod agreement;
 mod check;
@@ -19,9 +19,11 @@ mod localizer;
 mod loops;
 mod moving;
 mod odometer;
+mod remark;
 mod replay;
 #[cfg(feature = "serde")]
 mod saved;
+mod scan_to_scan;
 mod settings;
 mod spread;
 #[cfg(test)]
@@ -32,15 +34,16 @@ mod wheels;
 pub use check::{OdometryCheck, OdometryFault};
 use closing::Closings;
 pub use innovations::OdometryInnovations;
-pub(crate) use last_places::{LastPlaces, MAX_RANGE, fan};
 pub use localizer::Localizer;
 pub use loops::{Loop, LoopEnd};
 use moving::{LastViews, driven};
 use odometer::Odometer;
 pub use odometer::Unbelieved;
+pub use remark::Remark;
 pub use replay::Replay;
 #[cfg(feature = "serde")]
 pub use saved::SavedMapper;
+pub use scan_to_scan::match_scans;
 pub use settings::LaserMapperSettings;
 pub use spread::PoseWithCovariance;
 use spread::Spreads;
@@ -51,12 +54,11 @@ use crate::error::SettingError;
 use crate::execute::Executor;
 use crate::genealogy::Path;
 use crate::geometry::Pose2;
-use crate::log::{LaserScan, Remark};
 use crate::map::{ConditionalMap, Footprint};
 use crate::motion::Displacement;
 use crate::particle::Particle;
 use crate::rbpf::{Builder, Rbpf, Report};
-use crate::sensor::Scan;
+use crate::sensor::{LaserScan, Scan};
 
 /// The filter of a [`LaserMapper`].
 pub type Filter = Rbpf<Map, tuning::Proposal>;

@@ -16,12 +16,11 @@
 
 use super::tuning::{RANGE_ERROR, SEEN_THROUGH_STDS, VIEW_REACH, VIEW_SPACING, WALKED_ON};
 use crate::geometry::Pose2;
-use crate::log::{Beam, LaserScan};
 use crate::motion::Displacement;
 use crate::ops;
 #[cfg(feature = "serde")]
 use crate::save::{self, RestoreError};
-use crate::sensor::Scan;
+use crate::sensor::{Beam, LaserScan, Scan};
 use core::f64::consts::TAU;
 use nalgebra::{Matrix2x3, Matrix3};
 use std::collections::VecDeque;

@@ -18,10 +18,10 @@ use super::tuning::{RANGE_ERROR, SEEN_THROUGH_STDS, score};
 use super::wheels::Wheels;
 use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
-use crate::log::{FARTHEST_JUMP, LaserScan};
 use crate::ops;
 #[cfg(feature = "serde")]
 use crate::save::{self, RestoreError};
+use crate::sensor::LaserScan;
 
 /// A step of odometry that was not believed.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -135,7 +135,7 @@ impl Odometer {
         scan.validate()?;
         if let Some(last) = &self.last {
             let jump = last.told.distance(&scan.odometry);
-            Range::number(0.0, FARTHEST_JUMP, "m").check("odometry since the last scan", jump)?;
+            Range::number(0.0, LaserScan::FARTHEST_JUMP, "m").check("odometry since the last scan", jump)?;
         }
         let told = self.correction.map_or(scan.odometry, |correction| correction.compose(&scan.odometry));
         let mut pose = told;

@@ -4,25 +4,33 @@ use super::{LaserMapper, LaserMapperSettings};
 use crate::error::SettingError;
 use crate::execute::Executor;
 use crate::geometry::Pose2;
-use crate::log::LaserLog;
 use crate::rbpf::Report;
+use crate::sensor::LaserScan;
 use std::sync::Arc;
 
 /// A log on its way through a [`LaserMapper`]: an iterator over the steps of the filter.
 ///
-/// A step pushes the scan that the filter takes and those after it that it passes over, so that between two steps every scan up to
-/// the next one that is taken has its place on the path. Clones share the log.
+/// The log is a list of scans, or what has one, as the `LaserLog` of the crate `fastslam-log`. A step pushes the scan that the filter takes and
+/// those after it that it passes over, so that between two steps every scan up to the next one that is taken has its place on the path. Clones
+/// share the log.
 ///
 /// ```
-/// use fastslam::log::parse;
+/// use fastslam::geometry::Pose2;
 /// use fastslam::mapper::{LaserMapperSettings, Replay};
+/// use fastslam::sensor::LaserScan;
 /// use std::sync::Arc;
-/// // A robot a metre from a wall backs away from it. In the second message it stands where it stood.
-/// let text = "FLASER 3 9 1.0 9  0 0 0    0 0 0    1 host 1\n\
-///             FLASER 3 9 1.0 9  0 0 0    0 0 0    2 host 2\n\
-///             FLASER 3 9 1.1 9  -0.1 0 0 -0.1 0 0 3 host 3\n";
-/// let log = Arc::new(parse(text.as_bytes(), false)?);
-/// let mut replay = Replay::new(LaserMapperSettings::default(), log)?;
+/// // A robot a metre from a wall backs away from it. In the second scan it stands where it stood.
+/// let scan = |(time, x): (f64, f64)| LaserScan {
+///     time,
+///     odometry: Pose2::new(x, 0.0, 0.0),
+///     robot_from_laser: Pose2::default(),
+///     first_angle: -1.5,
+///     angle_step: 1.5,
+///     max_range: None,
+///     ranges: vec![9.0, 1.0 - x as f32, 9.0],
+/// };
+/// let log = [(1.0, 0.0), (2.0, 0.0), (3.0, -0.1)].map(scan).to_vec();
+/// let mut replay = Replay::new(LaserMapperSettings::default(), Arc::new(log))?;
 /// assert_eq!(replay.step_count(), 1);
 /// while let Some(report) = replay.next() {
 ///     println!("step {}: N_eff {:.1}, at {:?}", report.step, report.ess, replay.mapper().pose());
@@ -30,9 +38,9 @@ use std::sync::Arc;
 /// assert_eq!(replay.mapper().path().len(), 3);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug)]
-pub struct Replay {
-    log: Arc<LaserLog>,
+#[derive(Debug)]
+pub struct Replay<L> {
+    log: Arc<L>,
     /// Of each scan, as far as it is believed; `None` of a scan that is refused.
     odometry: Arc<[Option<Pose2>]>,
     /// Numbers of the scans that the filter takes, the first included, and at the end how many scans there are.
@@ -40,18 +48,18 @@ pub struct Replay {
     mapper: LaserMapper,
 }
 
-impl Replay {
+impl<L: AsRef<[LaserScan]>> Replay<L> {
     /// With the log's first scan mapped. What the settings do not say of the laser is read off the log
-    /// ([`LaserMapperSettings::for_log`]).
+    /// ([`LaserMapperSettings::for_scans`]).
     ///
     /// # Errors
     /// [`SettingError::OutOfRange`] where a setting is, by the name of its field.
-    pub fn new(settings: LaserMapperSettings, log: Arc<LaserLog>) -> Result<Self, SettingError> {
-        let settings = settings.for_log(&log);
+    pub fn new(settings: LaserMapperSettings, log: Arc<L>) -> Result<Self, SettingError> {
+        let scans = log.as_ref().as_ref();
+        let settings = settings.for_scans(scans);
         let mut mapper = LaserMapper::new(settings)?;
-        let odometry: Arc<[_]> =
-            log.scans.iter().map(|scan| mapper.odometer.next(scan, settings.longest()).ok()).collect();
-        let bounds = taken(&settings, &odometry).into_iter().chain([log.scans.len()]).collect();
+        let odometry: Arc<[_]> = scans.iter().map(|scan| mapper.odometer.next(scan, settings.longest()).ok()).collect();
+        let bounds = taken(&settings, &odometry).into_iter().chain([scans.len()]).collect();
         let mut replay = Self { log, odometry, bounds, mapper };
         replay.push(0);
         Ok(replay)
@@ -74,25 +82,31 @@ impl Replay {
 
     /// Scans of the log up to the last one that was pushed.
     pub fn scans(&self) -> usize {
-        self.bounds.get(self.mapper.steps() as usize + 1).copied().unwrap_or(self.log.scans.len())
+        self.bounds.get(self.mapper.steps() as usize + 1).copied().unwrap_or_else(|| self.all().len())
+    }
+
+    /// All scans of the log.
+    fn all(&self) -> &[LaserScan] {
+        self.log.as_ref().as_ref()
     }
 
     /// Pushes the n-th scan that the filter takes and all up to the next.
     fn push(&mut self, n: usize) -> Option<Report<()>> {
         let [start, end] = *self.bounds.get(n..n + 2)? else { return None };
-        let scans = self.log.scans[start..end].iter().zip(&self.odometry[start..end]);
+        let all: &[LaserScan] = self.log.as_ref().as_ref();
+        let scans = all[start..end].iter().zip(&self.odometry[start..end]);
         let placed = scans.filter_map(|(scan, odometry)| Some((scan, (*odometry)?)));
         let mut reports = placed.filter_map(|(scan, odometry)| self.mapper.push_from(scan, odometry).report());
         let report = reports.next();
         reports.for_each(drop);
-        if end == self.log.scans.len() {
+        if end == all.len() {
             self.mapper.finish();
         }
         report
     }
 }
 
-impl Iterator for Replay {
+impl<L: AsRef<[LaserScan]>> Iterator for Replay<L> {
     type Item = Report<()>;
 
     /// The next step; `None` after the last.
@@ -106,9 +120,17 @@ impl Iterator for Replay {
     }
 }
 
-impl ExactSizeIterator for Replay {}
+impl<L: AsRef<[LaserScan]>> ExactSizeIterator for Replay<L> {}
 
-impl core::iter::FusedIterator for Replay {}
+impl<L: AsRef<[LaserScan]>> core::iter::FusedIterator for Replay<L> {}
+
+/// The log is shared, so that it need not be one that can be cloned.
+impl<L> Clone for Replay<L> {
+    fn clone(&self) -> Self {
+        let Self { log, odometry, bounds, mapper } = self;
+        Self { log: log.clone(), odometry: odometry.clone(), bounds: bounds.clone(), mapper: mapper.clone() }
+    }
+}
 
 /// Numbers of the scans that a mapper takes, the first included.
 fn taken(settings: &LaserMapperSettings, odometry: &[Option<Pose2>]) -> Vec<usize> {

@@ -48,7 +48,7 @@ impl LaserMapper {
     ///
     /// ```
     /// # use fastslam::geometry::Pose2;
-    /// # use fastslam::log::LaserScan;
+    /// # use fastslam::sensor::LaserScan;
     /// # use fastslam::mapper::{LaserMapper, LaserMapperSettings};
     /// # let scan = LaserScan { time: 0.0, odometry: Pose2::default(), robot_from_laser: Pose2::default(), first_angle: -1.5,
     /// #     angle_step: 0.5, max_range: None, ranges: vec![2.0, 3.0, 4.0, 4.0, 3.0, 2.0] };
@@ -163,7 +163,7 @@ impl LaserMapper {
 /// A scan and where it was taken. Of its ranges, which may be infinite or none, the bits.
 pub(super) mod place {
     use crate::geometry::Pose2;
-    use crate::log::LaserScan;
+    use crate::sensor::LaserScan;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     /// See [`LaserScan`].

@@ -3,9 +3,9 @@
 use super::tuning::{CELL, FROM_SCAN, Map, NOTHING_MET, STILL};
 use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
-use crate::log::{Beam, LaserLog, LaserScan};
 use crate::proposal::IncrementalWeight;
 use crate::resampling::ResamplePolicy;
+use crate::sensor::{Beam, LaserScan, longest_reading};
 use std::collections::BTreeSet;
 
 /// Settings of a [`LaserMapper`](super::LaserMapper). The defaults suit a building and a laser of 180°.
@@ -39,7 +39,7 @@ pub struct LaserMapperSettings {
     /// What a particle pays for a scan.
     pub weight: IncrementalWeight,
     /// A reading of this length \[m\] or more, 0 or above, met nothing and says nothing: what it passed may be glass. `None` leaves
-    /// it to what each scan declares, [`LaserScan::max_range`](crate::log::LaserScan::max_range); where it declares nothing,
+    /// it to what each scan declares, [`LaserScan::max_range`](crate::sensor::LaserScan::max_range); where it declares nothing,
     /// every finite reading met something.
     pub no_return: Option<f64>,
     /// How far the way is free \[m\] where nothing is in reach: of a reading of +∞, in [`Self::CLEAR_RANGE`]. 0: it says nothing.
@@ -52,7 +52,7 @@ pub struct LaserMapperSettings {
     /// once it is mapped as far as the robot is. Work is counted and not time, so that results are the same on every machine. 0: all of them at once.
     pub remapped_per_scan: u32,
     /// Most scans that are kept, in [`Self::KEPT_SCANS`]: where a path is bent, it is mapped again by them. Beyond that every second of them is let go, and again every
-    /// second of what is left, but those of the last metres; [`Remark::Thinned`](crate::log::Remark::Thinned) tells it, and [`LaserMapper::memory`](super::LaserMapper::memory)
+    /// second of what is left, but those of the last metres; [`Remark::Thinned`](super::Remark::Thinned) tells it, and [`LaserMapper::memory`](super::LaserMapper::memory)
     /// how many bytes they take. A bound of the default is reached by no recorded log that we know: scans of 180 beams take 150 MB there.
     pub kept_scans: u32,
 }
@@ -111,14 +111,13 @@ impl LaserMapperSettings {
         self.policy.validate()
     }
 
-    /// The same settings, with what is not said about the laser read off a whole log: [`Self::no_return`] is
-    /// [`NOTHING_MET`] times its longest reading, as lasers write what they like for *nothing met*, and [`Self::beams`] the median
-    /// over its scans.
-    pub fn for_log(self, log: &LaserLog) -> Self {
-        let mut beams: Vec<u32> = log.scans.iter().map(|scan| scan.ranges.len() as u32).collect();
+    /// The same settings, with what is not said about the laser read off all scans of a log: [`Self::no_return`] is
+    /// [`NOTHING_MET`] times their [longest reading](longest_reading), as lasers write what they like for *nothing met*, and [`Self::beams`] their median.
+    pub fn for_scans(self, scans: &[LaserScan]) -> Self {
+        let mut beams: Vec<u32> = scans.iter().map(|scan| scan.ranges.len() as u32).collect();
         beams.sort_unstable();
         Self {
-            no_return: self.no_return.or_else(|| Some((NOTHING_MET * log.longest_reading()).max(0.0))),
+            no_return: self.no_return.or_else(|| Some((NOTHING_MET * longest_reading(scans)).max(0.0))),
             beams: self.beams.or_else(|| beams.get(beams.len() / 2).copied()),
             ..self
         }
@@ -144,16 +143,16 @@ impl LaserMapperSettings {
         scan.beams(self.longest(), self.max_range, self.clear_range)
     }
 
-    /// About how many bytes the maps will take when this log is mapped: for each particle all tiles that beams pass through by raw
+    /// About how many bytes the maps will take when these scans are mapped: for each particle all tiles that beams pass through by raw
     /// odometry, as particles that are selected seldom have long been apart. What they share makes it less; where odometry drifts it
     /// counts walls more than once. What is kept of maps from before to find loops by comes on top. It is no bound.
-    pub fn memory_estimate(&self, log: &LaserLog) -> u64 {
+    pub fn memory_estimate(&self, scans: &[LaserScan]) -> u64 {
         /// NDT cells in a tile, about.
         const NDT_CELLS: usize = 12;
-        let settings = self.for_log(log);
+        let settings = self.for_scans(scans);
         let tile = f64::from(Map::TILE_CELLS) * settings.cell_size;
         let mut all = BTreeSet::new();
-        for scan in &log.scans {
+        for scan in scans {
             let origin = scan.origin();
             for Beam { end, length, .. } in settings.beams_of(scan).flatten().filter(|beam| beam.met) {
                 // The tiles on the way are free space that is kept as well.

@@ -1,5 +1,4 @@
 use super::*;
-use crate::log::LaserLog;
 use crate::ops;
 use crate::proposal::ProposalTrace;
 use crate::resampling::ResamplePolicy;
@@ -28,10 +27,6 @@ fn scans(count: usize, beams: usize) -> Vec<LaserScan> {
         }
     };
     (0..count).map(scan).collect()
-}
-
-fn log(scans: Vec<LaserScan>) -> Arc<LaserLog> {
-    Arc::new(LaserLog { scans, ..LaserLog::default() })
 }
 
 fn settings() -> LaserMapperSettings {
@@ -72,12 +67,12 @@ fn scans_that_are_pushed_one_by_one_give_the_replay_of_their_log() {
     scans.insert(6, scans[5].clone());
     scans.insert(0, scans[0].clone());
     scans.push(scans[13].clone());
-    let log = log(scans);
+    let log = Arc::new(scans);
     for settings in [settings(), LaserMapperSettings { min_travel: 0.25, particles: 1, ..settings() }] {
         let mut replay = Replay::new(settings, Arc::clone(&log)).unwrap();
-        let mut mapper = LaserMapper::new(settings.for_log(&log)).unwrap();
+        let mut mapper = LaserMapper::new(settings.for_scans(&log)).unwrap();
         let mut reports = Vec::new();
-        for scan in &log.scans {
+        for scan in &*log {
             reports.extend(mapper.push(scan).report().map(|report| (report.step, report.ess, report.log_evidence)));
         }
         assert_eq!((replay.len(), replay.step_count() as usize), (reports.len(), reports.len()));
@@ -94,7 +89,7 @@ fn a_robot_that_stands_still_looks_once_and_its_path_goes_on() {
     let still = scans[1].clone();
     let again = |k: u32| LaserScan { time: still.time + 0.01 * f64::from(k), ..still.clone() };
     scans.splice(2..2, (1..=5).map(again));
-    let mut replay = Replay::new(settings(), log(scans)).unwrap();
+    let mut replay = Replay::new(settings(), Arc::new(scans)).unwrap();
     // Between two steps, every scan up to the next one that is taken has its place.
     assert_eq!((replay.mapper().path().len(), replay.scans()), (1, 1));
     replay.next();
@@ -271,8 +266,8 @@ fn a_scan_whose_pose_is_no_place_changes_nothing() {
                 mixed.insert(at, bad.clone());
             }
             assert_eq!(state(&pushed(settings(), &mixed)), state(&sound), "{bad:?}");
-            let online = settings().for_log(&log(mixed.clone()));
-            let mut replay = Replay::new(online, log(mixed)).unwrap();
+            let online = settings().for_scans(&mixed);
+            let mut replay = Replay::new(online, Arc::new(mixed)).unwrap();
             assert_eq!(replay.by_ref().count(), 4);
             assert_eq!(replay.mapper().path().len(), 5);
         }
@@ -307,12 +302,11 @@ fn an_executor_stays_when_the_first_scan_comes() {
 fn what_a_log_tells_of_its_laser_fills_in_what_is_not_set() {
     let mut scans = scans(5, 60);
     scans[2].ranges = vec![80.0];
-    let log = log(scans);
-    let of_log = settings().for_log(&log);
+    let of_log = settings().for_scans(&scans);
     assert_eq!((of_log.no_return, of_log.beams), (Some(0.97 * 80.0), Some(60)));
     let set = LaserMapperSettings { no_return: Some(7.0), beams: Some(9), ..settings() };
-    assert_eq!(set.for_log(&log), set);
-    assert_eq!(settings().for_log(&LaserLog::default()), LaserMapperSettings { no_return: Some(0.0), ..settings() });
+    assert_eq!(set.for_scans(&scans), set);
+    assert_eq!(settings().for_scans(&[]), LaserMapperSettings { no_return: Some(0.0), ..settings() });
 }
 
 #[test]
@@ -336,12 +330,12 @@ fn a_setting_out_of_its_range_is_refused_by_its_name() {
     assert_eq!(refused(LaserMapperSettings { no_return: Some(-1.0), ..settings() }), "no_return");
     let policy = crate::resampling::ResamplePolicy::EssBelow(2.0);
     assert_eq!(refused(LaserMapperSettings { policy, ..settings() }), "policy");
-    assert!(Replay::new(LaserMapperSettings { particles: 5000, ..settings() }, Arc::default()).is_err());
+    assert!(Replay::new(LaserMapperSettings { particles: 5000, ..settings() }, Arc::new(scans(1, 60))).is_err());
 }
 
 #[test]
 fn an_empty_log_is_no_steps() {
-    let mut replay = Replay::new(settings(), Arc::default()).unwrap();
+    let mut replay = Replay::new(settings(), Arc::new(Vec::new())).unwrap();
     assert_eq!((replay.step_count(), replay.len(), replay.next().is_none()), (0, 0, true));
     assert_eq!(replay.mapper().path(), []);
 }

@@ -1,9 +1,12 @@
 //! Sensors: what a measurement looks like in the robot's frame.
 
 mod beam;
+mod laser;
 mod range_bearing;
 
 pub use beam::{BeamSensor, Scan};
+pub(crate) use laser::Beam;
+pub use laser::{LaserScan, longest_reading};
 pub use range_bearing::RangeBearing;
 
 use crate::error::SettingError;

@@ -16,11 +16,9 @@ use core::{
     cell::RefCell,
     ops::{Deref, DerefMut},
 };
-use fastslam::{
-    geometry::Pose2,
-    log::{BagOptions, BagReader, LogError, write_json_lines, write_path},
-};
+use fastslam::geometry::Pose2;
 use fastslam_lab::experiment::{ErrorSummary, policy_counts::Fraction};
+use fastslam_log::{BagOptions, BagReader, LogError, write_json_lines, write_path};
 use js_sys::{Array, Error, JSON, Object};
 use serde::Serialize;
 use serde_wasm_bindgen::Serializer;

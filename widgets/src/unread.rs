@@ -2,7 +2,8 @@
 //! English; a problem that has no words here is said so.
 
 use crate::words::unread as words;
-use fastslam::log::{Beyond, Field, LogProblem, MessageProblem, Remark, Topics};
+use fastslam::mapper;
+use fastslam_log::{Beyond, Field, LaserLog, LogProblem, MessageProblem, Remark, Topics};
 
 /// A problem of a log.
 pub fn problem(problem: &LogProblem) -> String {
@@ -73,6 +74,16 @@ pub fn remark(remark: &Remark) -> String {
         Remark::ClockSetBack { seconds, time } => {
             words::ClockSetBack { seconds: &tenths(*seconds), time: &milliseconds(*time) }.say()
         }
+        Remark::Beyond(scans) => words::Beyond { scans }.say(),
+        Remark::NoTransform { laser, robot } => words::NoTransform { laser, robot }.say(),
+        other => other.to_string(),
+    }
+}
+
+/// What one does not see at once of a path and a map.
+pub fn mapped(remark: &mapper::Remark) -> String {
+    use mapper::Remark;
+    match remark {
         Remark::Contradicted { steps, time, told: [metres, turn], elapsed } => words::Contradicted {
             steps,
             time: &milliseconds(*time),
@@ -84,14 +95,12 @@ pub fn remark(remark: &Remark) -> String {
         Remark::NeverMoved(scans) => words::NeverMoved { scans }.say(),
         Remark::OpenLoops { loops, time } => words::OpenLoops { loops, time: &milliseconds(*time) }.say(),
         Remark::NothingMet => words::nothing_met().into(),
-        Remark::Beyond(scans) => words::Beyond { scans }.say(),
-        Remark::NoTransform { laser, robot } => words::NoTransform { laser, robot }.say(),
         other => other.to_string(),
     }
 }
 
 /// The log with all that was noted of it in words, which can be written and read by a program that knows neither.
-pub fn in_words(mut log: fastslam::log::LaserLog) -> fastslam::log::LaserLog {
+pub fn in_words(mut log: LaserLog) -> LaserLog {
     let notes = &mut log.notes;
     notes.remarks = notes.remarks.iter().map(|noted| Remark::Told(remark(noted))).collect();
     if let Some(first) = &mut notes.first_malformed {

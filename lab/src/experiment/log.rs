@@ -7,11 +7,12 @@ use crate::world::{FloorPlan, LongRing, corners_cut_short, crowd, drive, escort,
 use crate::{WORLD_ODOMETRY, WORLD_SENSOR};
 use core::f64::consts::PI;
 use fastslam::geometry::Pose2;
-use fastslam::log::{LaserLog, LaserScan, Relation};
 use fastslam::mapper::{LaserMapper, LaserMapperSettings, Map, Replay};
 use fastslam::motion::{Odometry, OdometryModel};
 use fastslam::random::Stream;
 use fastslam::sensor::BeamSensor;
+use fastslam::sensor::LaserScan;
+use fastslam_log::{LaserLog, Relation};
 use std::sync::Arc;
 
 /// How a log of our own comes about.
@@ -282,7 +283,7 @@ pub fn digest(mapper: &LaserMapper) -> Digest {
 }
 
 /// Runs whose fingerprints are kept with the tests.
-pub fn golden_runs() -> Vec<(&'static str, Replay)> {
+pub fn golden_runs() -> Vec<(&'static str, Replay<LaserLog>)> {
     let run = |settings: LaserMapperSettings, recipe: Recipe| {
         let log = Arc::new(Example::of(&recipe, 40).log);
         Replay::new(settings, log).expect("a golden setting is valid")
@@ -306,7 +307,7 @@ pub fn golden_runs() -> Vec<(&'static str, Replay)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fastslam::log::relation_errors;
+    use fastslam_log::relation_errors;
 
     #[test]
     fn our_own_building_is_mapped_within_centimetres() {
@@ -321,7 +322,7 @@ mod tests {
         let errors = relation_errors(&mapper.path(), &log.odometry, &relations).unwrap();
         assert!(raw.translation_mean > 0.5, "odometry alone must fail: {raw:?}");
         assert!(errors.translation_mean < 0.06 && errors.rotation_mean_deg < 0.5, "{errors:?}");
-        let (footprint, estimate) = (mapper.footprint(), settings.memory_estimate(&log));
+        let (footprint, estimate) = (mapper.footprint(), settings.memory_estimate(&log.scans));
         // Particles that are selected seldom share little with each other, but each shares what is old with the map of some scans ago.
         assert!(footprint.unique < footprint.dense / 2, "{footprint:?}");
         assert!(footprint.unique < estimate && estimate < 2 * footprint.unique, "{estimate} for {footprint:?}");

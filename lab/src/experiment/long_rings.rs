@@ -11,10 +11,10 @@ use crate::world::LongRing;
 use fastslam::error::{Range, SettingError};
 use fastslam::execute::Executor;
 use fastslam::geometry::Pose2;
-use fastslam::log::LaserLog;
 use fastslam::mapper::{LaserMapper, LaserMapperSettings, Replay};
 use fastslam::motion::OdometryModel;
 use fastslam::proposal::IncrementalWeight;
+use fastslam_log::LaserLog;
 use std::sync::Arc;
 
 /// Once round \[m\].
@@ -136,7 +136,7 @@ fn first_lap(truth: &[Pose2]) -> usize {
 /// A log of a long ring on its way through the mapper.
 #[derive(Clone, Debug)]
 pub struct LongRingRun {
-    replay: Replay,
+    replay: Replay<LaserLog>,
     log: Arc<LaserLog>,
     truth: Vec<Pose2>,
 }
@@ -153,7 +153,7 @@ impl LongRingRun {
     }
 
     /// The run as that of any log.
-    pub fn into_replay(self) -> Replay {
+    pub fn into_replay(self) -> Replay<LaserLog> {
         self.replay
     }
 

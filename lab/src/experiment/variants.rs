@@ -8,8 +8,8 @@ use super::log::{Example, Recipe};
 use crate::world::FloorPlan;
 use fastslam::error::SettingError;
 use fastslam::execute::Executor;
-use fastslam::log::{LaserLog, Relation, RelationErrors, relation_errors};
 use fastslam::mapper::{LaserMapper, LaserMapperSettings, Replay};
+use fastslam_log::{LaserLog, Relation, RelationErrors, relation_errors};
 use std::sync::Arc;
 
 /// A world and a robot by name.
@@ -71,7 +71,7 @@ const LONG_ROUTE: [[f64; 2]; 10] = [
 /// A log of a variant under way, on the calling thread.
 #[derive(Clone, Debug)]
 pub struct VariantRun {
-    replay: Replay,
+    replay: Replay<LaserLog>,
     log: Arc<LaserLog>,
     relations: Vec<Relation>,
 }

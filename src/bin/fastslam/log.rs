@@ -18,12 +18,12 @@ use anyhow::{Context, Result, bail};
 use cpu_time::ProcessTime;
 use fastslam::error::Range;
 use fastslam::geometry::Pose2;
-use fastslam::log::{LaserLog, Relation, RelationErrors, Remark, parse_relations, relation_errors, write};
 use fastslam::mapper::{
     LaserMapper, LaserMapperSettings, Localizer, Loop, LoopEnd, OdometryCheck, OdometryFault, OdometryInnovations,
-    Pushed,
+    Pushed, Remark as MapRemark,
 };
 use fastslam_lab::experiment::log::{Example, digest};
+use fastslam_log::{LaserLog, Relation, RelationErrors, Remark, parse_relations, relation_errors, write};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -181,7 +181,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let repeated = leave_repeated_out(&mut log, &name);
     let fault = put_right(&mut log, &settings, &name);
     if let Some((image, reading)) = drawn {
-        let begin = |start| Localizer::in_drawn(&image, &reading, settings.for_log(&log), start);
+        let begin = |start| Localizer::in_drawn(&image, &reading, settings.for_scans(&log.scans), start);
         return localize::run(arguments, &name, &log, Pose2::default(), begin);
     }
     let mut mapper = match (session, &arguments.session) {
@@ -190,7 +190,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         }
         (None, Some(path)) if arguments.localize => bail!(Usage::of_file(path, "there is no session to localize in")),
         (Some(mapper), _) => mapper,
-        (None, _) => LaserMapper::new(settings.for_log(&log))?,
+        (None, _) => LaserMapper::new(settings.for_scans(&log.scans))?,
     };
     let had = session::had(&mapper, &log.scans);
     if had > 0 {
@@ -246,8 +246,8 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     outputs.write(&mapper, &path, &rules)?;
     save_session(arguments, &session)?;
     let (doubts, remarks): (Vec<_>, Vec<_>) = mapper.remarks().into_iter().partition(|remark| match remark {
-        Remark::OpenLoops { .. } | Remark::NothingMet => true,
-        Remark::Contradicted { steps, .. } => *steps > mapper.steps() as usize / 3,
+        MapRemark::OpenLoops { .. } | MapRemark::NothingMet => true,
+        MapRemark::Contradicted { steps, .. } => *steps > mapper.steps() as usize / 3,
         _ => false,
     });
     for remark in remarks {
@@ -361,8 +361,8 @@ fn put_right(log: &mut LaserLog, settings: &LaserMapperSettings, name: &str) -> 
     if log.notes.remarks.iter().any(|remark| matches!(remark, Remark::NoOdometry | Remark::StillOdometry)) {
         return None;
     }
-    let fault = OdometryCheck::of(log, settings)?.fault()?;
-    fault.put_right(log);
+    let fault = OdometryCheck::of(&log.scans, settings)?.fault()?;
+    fault.put_right(&mut log.scans);
     let done = match fault {
         OdometryFault::Unrelated { .. } => "is taken for none, and each scan is matched with those before",
         _ => "is corrected by that",
@@ -443,7 +443,7 @@ fn summary(settings: &LaserMapperSettings, log: &LaserLog, output: &Output) -> S
         output.ms_per_scan_particle,
         output.peak_map_bytes as f64 / 1e6,
         output.dense_map_bytes as f64 / 1e6,
-        settings.memory_estimate(log) as f64 / 1e6,
+        settings.memory_estimate(&log.scans) as f64 / 1e6,
         output.kept_map_bytes as f64 / 1e6,
         output.scan_bytes as f64 / 1e6,
         output.kept_scans,

@@ -3,11 +3,11 @@
 use crate::{Usage, print, print_json, progress, whole};
 use anyhow::{Result, bail};
 use cpu_time::ThreadTime;
-use fastslam::log::RelationErrors;
 use fastslam::mapper::LaserMapperSettings;
 use fastslam_lab::experiment::ErrorSummary;
 use fastslam_lab::experiment::log::digest;
 use fastslam_lab::experiment::variants::{Variant, VariantRun, variants};
+use fastslam_log::RelationErrors;
 use indicatif::ParallelProgressIterator;
 use rayon::prelude::*;
 use serde::Serialize;

@@ -1,7 +1,7 @@
 //! The two kinds of files: records in chunks, which may be compressed, and channels of a topic and a type each.
 
 use super::messages::Encoding;
-use crate::log::LogProblem;
+use crate::LogProblem;
 use lz4_flex::frame::FrameDecoder;
 use mcap::records::Record;
 use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};

@@ -1,9 +1,9 @@
 //! The tree of frames, as far as it tells where the laser sits.
 
 use super::messages::{Rigid, Transform};
-use crate::geometry::Pose2;
-use crate::log::LogProblem;
-use crate::ops;
+use crate::LogProblem;
+use fastslam::geometry::Pose2;
+use fastslam::ops;
 use std::collections::BTreeMap;
 
 /// Frames that are kept: a robot has some dozens.

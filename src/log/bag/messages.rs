@@ -3,7 +3,7 @@
 //! ROS 2 encodes by CDR: four bytes that tell the order of bytes, then each number at a multiple of its size. ROS 1 packs the same fields
 //! without gaps, low bytes first, and begins each header with a number more. What follows the fields named here stays unread.
 
-use crate::log::MessageProblem;
+use crate::MessageProblem;
 use byteorder::{BigEndian, LittleEndian};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 

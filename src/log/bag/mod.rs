@@ -17,9 +17,10 @@ pub use path::write_path;
 use self::containers::{Channel, Container, Mcap, ROS1_MAGIC, Ros1, Sink};
 use self::frames::{Frames, Mounting, flat, frame};
 use super::place::{NOWHERE, STILL, place};
-use super::{LaserLog, LaserScan, LogError, LogProblem, MessageProblem, Remark, Topics};
-use crate::geometry::Pose2;
+use super::{LaserLog, LogError, LogProblem, MessageProblem, Remark, Topics};
 use core::f32::consts::PI;
+use fastslam::geometry::Pose2;
+use fastslam::sensor::LaserScan;
 use std::collections::BTreeMap;
 
 /// What the frame is called that odometry is told in, by REP 105.

@@ -1,8 +1,8 @@
 //! A path as a message of ROS 2, in an MCAP file.
 
 use super::messages::{Header, Path, PoseStamped, Rigid, Time, to_cdr};
-use crate::geometry::Pose2;
-use crate::ops;
+use fastslam::geometry::Pose2;
+use fastslam::ops;
 use mcap::{WriteOptions, records::MessageHeader};
 use std::collections::BTreeMap;
 use std::io::Cursor;

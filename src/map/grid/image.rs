@@ -1,9 +1,8 @@
 //! A map as other programs read it: a grey picture and what ROS's `map_server` has to know of it.
 
 use super::{CellRect, Grid, floor};
-use crate::error::{Range, SettingError};
+use crate::error::{Range, SettingError, fixed};
 use crate::geometry::Pose2;
-use crate::log::fixed;
 use crate::ops;
 
 /// Greys of occupied, free and unknown cells in a map of ROS, as `map_saver` writes them.

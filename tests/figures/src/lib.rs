@@ -2,8 +2,8 @@
 //! WebAssembly.
 
 use core::{cmp::Reverse, hash::Hasher as _};
-use fastslam::log::write;
 use fastslam_lab::{digest::Digest, experiment::log::Example};
+use fastslam_log::write;
 use fastslam_widgets::{
     figure::Figure,
     log::Layout as LogLayout,

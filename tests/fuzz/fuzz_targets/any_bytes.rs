@@ -1,7 +1,7 @@
 //! What the fuzzer does with each input. The laws of logs do the same with mutilated logs (`tests/laws/tests/all/log.rs`).
 
-use fastslam::log::{parse, parse_relations};
 use fastslam::mapper::{LaserMapperSettings, Replay};
+use fastslam_log::{parse, parse_relations};
 use std::sync::Arc;
 
 /// Any bytes as a log: the parser refuses or reads them, and the filter maps what was read, without a panic.

@@ -5,6 +5,7 @@ use fastslam::{
     genealogy::Path,
     mapper::{Map, Replay},
 };
+use fastslam_log::LaserLog;
 
 /// Most scans that are kept: as many places as a slider has.
 const MOST: usize = 300;
@@ -35,7 +36,7 @@ pub struct Seen {
 
 impl Seen {
     /// The population as it is now.
-    pub fn now(replay: &Replay, deaths: &[Death]) -> Self {
+    pub fn now(replay: &Replay<LaserLog>, deaths: &[Death]) -> Self {
         let (mapper, filter) = (replay.mapper(), replay.mapper().filter());
         let paths = filter.particles().iter().map(|particle| particle.path.clone()).collect();
         let (step, scans, best) = (mapper.steps(), replay.scans(), filter.best());
@@ -93,10 +94,8 @@ impl Kept {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fastslam::{
-        log::parse,
-        mapper::{LaserMapperSettings, tuning},
-    };
+    use fastslam::mapper::{LaserMapperSettings, tuning};
+    use fastslam_log::parse;
     use std::sync::Arc;
 
     fn after(step: u32) -> Seen {

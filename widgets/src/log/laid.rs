@@ -2,9 +2,9 @@
 
 use fastslam::{
     geometry::Pose2,
-    log::LaserLog,
     mapper::{LaserMapperSettings, Replay},
 };
+use fastslam_log::LaserLog;
 use std::collections::BTreeSet;
 
 /// Cells in which beams end that are laid out along raw odometry, in the frame of the first pose, as the maps are. They are kept in the order in
@@ -29,7 +29,7 @@ struct Step {
 
 impl Laid {
     /// The scan that a mapping has taken last, laid out too; to be called after each of its steps.
-    pub fn follow(&mut self, replay: &Replay, log: &LaserLog) {
+    pub fn follow(&mut self, replay: &Replay<LaserLog>, log: &LaserLog) {
         if let Some(scan) = log.scans.get(self.scans) {
             let settings: &LaserMapperSettings = replay.mapper().settings();
             let odometry = log.scans[0].odometry.between(&scan.odometry);

@@ -17,7 +17,6 @@ use crate::model::{Change, Declared, FigureError, Files, Model, Readout, Series}
 use crate::unread;
 use crate::words::log as words;
 use fastslam::{
-    log::{LaserLog, LogError, parse, write_tum},
     map::{
         Footprint,
         grid::{MapImage, MapImageSettings},
@@ -25,6 +24,7 @@ use fastslam::{
     mapper::{LaserMapper, LaserMapperSettings, Replay},
     rbpf::Report,
 };
+use fastslam_log::{LaserLog, LogError, parse, write_tum};
 
 /// Steps back of the lineage gauge.
 pub const BACK: u32 = 20;
@@ -43,7 +43,7 @@ pub struct LogModel {
     /// The step asked for.
     asked: u32,
     /// From the first step on.
-    replay: Option<Replay>,
+    replay: Option<Replay<LaserLog>>,
     /// Of every step that was made, from 1 on.
     history: Vec<Moment>,
     /// Of the last `FADE` steps.
@@ -94,7 +94,7 @@ impl LogModel {
     }
 
     /// The mapping, once it was asked for.
-    pub(super) fn replay(&self) -> Option<&Replay> {
+    pub(super) fn replay(&self) -> Option<&Replay<LaserLog>> {
         self.replay.as_ref()
     }
 

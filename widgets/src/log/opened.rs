@@ -1,10 +1,7 @@
 //! A log that was read, and the memory that it takes to map it.
 
-use fastslam::{
-    log::{LaserLog, swept_area},
-    mapper::LaserMapperSettings,
-    resampling::ResamplePolicy,
-};
+use fastslam::{mapper::LaserMapperSettings, resampling::ResamplePolicy};
+use fastslam_log::{LaserLog, swept_area};
 use std::sync::Arc;
 
 /// Most memory that maps and paths may take \[bytes\]: a quarter of what WebAssembly can address.

@@ -10,6 +10,7 @@ use crate::unread;
 use crate::words::{common, log as words};
 use fastslam::mapper::{LaserMapper, Replay};
 use fastslam_lab::experiment::log::digest;
+use fastslam_log::LaserLog;
 
 /// What is shown now.
 pub fn sentence(model: &LogModel) -> String {
@@ -49,11 +50,11 @@ fn told(model: &LogModel, opened: &Opened) -> String {
 }
 
 /// How far it is mapped, in words.
-fn progress(model: &LogModel, replay: &Replay) -> String {
+fn progress(model: &LogModel, replay: &Replay<LaserLog>) -> String {
     let (step, last) = (model.step(), replay.step_count());
     let m = model.setup().particles;
     let noted = replay.mapper().remarks();
-    let noted = noted.iter().map(|remark| words::Remark { remark: &unread::remark(remark) }.say());
+    let noted = noted.iter().map(|remark| words::Remark { remark: &unread::mapped(remark) }.say());
     let Some(moment) = model.history().last() else {
         return [words::start_alike().into()].into_iter().chain(noted).collect::<Vec<String>>().join(" ");
     };

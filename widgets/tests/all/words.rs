@@ -1,9 +1,10 @@
 //! Figures in other languages: every word is of the language, and nothing else changes.
 
+use fastslam_log::{
+    BagOptions, BagReader, Beyond, Field, LogProblem, MessageProblem, Remark, Topics, parse, write_json_lines,
+};
 use fastslam_widgets::{
-    fastslam::log::{
-        BagOptions, BagReader, Beyond, Field, LogProblem, MessageProblem, Remark, Topics, parse, write_json_lines,
-    },
+    fastslam::mapper,
     figure::Figure,
     model::{ParamSpec, Readout},
     registry::FIGURES,
@@ -240,17 +241,23 @@ fn problems() -> Vec<LogProblem> {
     fields.map(field).into_iter().chain(messages.map(message)).chain(others).collect()
 }
 
-fn remarks() -> [Remark; 9] {
+fn remarks() -> [Remark; 5] {
     [
         Remark::NoOdometry,
         Remark::StillOdometry,
         Remark::ClockSetBack { seconds: 10.07, time: 1029.6 },
+        Remark::Beyond(2),
+        Remark::NoTransform { laser: "laser".into(), robot: "base_link".into() },
+    ]
+}
+
+fn remarks_on_maps() -> [mapper::Remark; 4] {
+    use mapper::Remark;
+    [
         Remark::Contradicted { steps: 3, time: 1029.6, told: [10.166, 2.309], elapsed: 0.37 },
         Remark::NeverMoved(160),
         Remark::NothingMet,
         Remark::OpenLoops { loops: 2, time: 512.25 },
-        Remark::Beyond(2),
-        Remark::NoTransform { laser: "laser".into(), robot: "base_link".into() },
     ]
 }
 
@@ -278,6 +285,11 @@ fn what_is_wrong_with_a_log_is_said_in_english_as_the_library_says_it_and_in_ger
         let english = unread::remark(&remark);
         let _spoken = german.spoken();
         said.push(([remark.to_string(), english, unread::remark(&remark)], false));
+    }
+    for remark in remarks_on_maps() {
+        let english = unread::mapped(&remark);
+        let _spoken = german.spoken();
+        said.push(([remark.to_string(), english, unread::mapped(&remark)], false));
     }
     for ([told, english, german], cites) in said {
         assert_eq!(told, english);

@@ -4,10 +4,10 @@ use crate::settings::from_toml;
 use crate::{Usage, whole};
 use anyhow::Result;
 use fastslam::error::SettingError;
-use fastslam::log::BagOptions;
 use fastslam::map::grid::MapImageSettings;
 use fastslam::mapper::LaserMapperSettings;
 use fastslam::proposal::IncrementalWeight;
+use fastslam_log::BagOptions;
 use serde::Deserialize;
 use std::path::Path;
 

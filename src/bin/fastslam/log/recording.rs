@@ -3,7 +3,7 @@
 use super::sqlite;
 use crate::{Usage, in_file};
 use anyhow::{Context, Error, Result, bail};
-use fastslam::log::{BagOptions, BagReader, LaserLog, LogError, LogProblem, LogReader, Notes, is_bag};
+use fastslam_log::{BagOptions, BagReader, LaserLog, LogError, LogProblem, LogReader, Notes, is_bag};
 use flate2::read::MultiGzDecoder;
 use ruzstd::decoding::{FrameDecoder, StreamingDecoder};
 use std::fs::File;

@@ -3,8 +3,8 @@
 use super::outputs::Pending;
 use crate::{Usage, in_file};
 use anyhow::{Context, Result, bail};
-use fastslam::log::LaserScan;
 use fastslam::mapper::{LaserMapper, SavedMapper};
+use fastslam::sensor::LaserScan;
 use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;

@@ -727,7 +727,7 @@ fn a_map_that_contradicts_itself_ends_with_exit_status_3() {
     let folder = tempdir().unwrap();
     let [log, map] = ["ring.clf", "ring"].map(|name| folder.path().join(name).display().to_string());
     let recipe = LongRingSetup { length: 120, seed: 73, ..LongRingSetup::default() }.recipe();
-    std::fs::write(&log, fastslam::log::write(&Example::of(&recipe, usize::MAX).log)).unwrap();
+    std::fs::write(&log, fastslam_log::write(&Example::of(&recipe, usize::MAX).log)).unwrap();
     let run = fastslam(&format!("log {log} --particles 1 --seed 73 --map {map} --json")).code(3);
     let output = run.get_output();
     let said = String::from_utf8(output.stderr.clone()).unwrap();
@@ -763,7 +763,7 @@ fn what_is_wrong_throughout_is_named_and_ends_with_its_exit_status() {
         for scan in &mut log.scans {
             scan.odometry = spoil(&scan.odometry);
         }
-        std::fs::write(&file, fastslam::log::write(&log)).unwrap();
+        std::fs::write(&file, fastslam_log::write(&log)).unwrap();
         let run = fastslam(&format!("log {file} --particles 2 --trajectory {path} --json")).code(i32::from(status));
         let output = run.get_output();
         let noted = noted(&run);
@@ -1049,8 +1049,8 @@ fn map_megabytes(run: &Value) -> f64 {
 fn the_record_of_the_intel_log_is_hardly_better_than_the_best_particle_s_path() {
     let Some(file) = recorded("intel", [".clf", ".relations"]) else { return };
     let bytes = |extension: &str| std::fs::read(format!("{file}{extension}")).unwrap();
-    let log = std::sync::Arc::new(fastslam::log::parse(&bytes(".clf"), false).unwrap());
-    let relations = fastslam::log::parse_relations(&bytes(".relations")).unwrap();
+    let log = std::sync::Arc::new(fastslam_log::parse(&bytes(".clf"), false).unwrap());
+    let relations = fastslam_log::parse_relations(&bytes(".relations")).unwrap();
     let settings = LaserMapperSettings { particles: 8, ..LaserMapperSettings::default() };
     let mut replay = Replay::new(settings, std::sync::Arc::clone(&log)).unwrap();
     let paths = fixed_lag(Pose2::default(), &[0, u32::MAX], replay.by_ref());
@@ -1058,7 +1058,7 @@ fn the_record_of_the_intel_log_is_hardly_better_than_the_best_particle_s_path() 
     let error = |poses: &[Pose2]| {
         assert_eq!(poses.len(), best.len(), "the mapper takes every scan of this log");
         let path: Vec<(f64, Pose2)> = best.iter().zip(poses).map(|((time, _), pose)| (*time, *pose)).collect();
-        fastslam::log::relation_errors(&path, &log.odometry, &relations).unwrap().translation_mean
+        fastslam_log::relation_errors(&path, &log.odometry, &relations).unwrap().translation_mean
     };
     let [went, record] = [&paths[0], &paths[1]].map(|path| error(path));
     let best = error(&best.iter().map(|(_, pose)| *pose).collect::<Vec<_>>());
@@ -1089,7 +1089,7 @@ fn the_aces_building_is_mapped_within_16_centimetres_by_one_particle_and_by_sixt
     let mut text = Vec::new();
     let file = std::fs::File::open(format!("{prefix}.clf.gz")).unwrap();
     std::io::Read::read_to_end(&mut flate2::read::GzDecoder::new(file), &mut text).unwrap();
-    let log = std::sync::Arc::new(fastslam::log::parse(&text, false).unwrap());
+    let log = std::sync::Arc::new(fastslam_log::parse(&text, false).unwrap());
     let truth: Vec<Pose2> = reference(&prefix).into_iter().map(|(_, pose)| pose).collect();
     let errors = |particles: usize| -> Vec<LoopErrors> {
         let errors = |seed: u64| {

@@ -1,18 +1,18 @@
 //! What a robot that only finds its way must hold to: it is found in the map of another drive, and that map stays as it is.
 
 use fastslam::geometry::{Gaussian3, Pose2};
-use fastslam::log::LaserScan;
 use fastslam::map::grid::{GreyMode, Grid, MapImage, MapImageSettings, MapReading};
 use fastslam::mapper::{LaserMapper, LaserMapperSettings, Localizer};
 use fastslam::nalgebra::Matrix3;
 use fastslam::random::{Purpose, Stream};
+use fastslam::sensor::LaserScan;
 use fastslam_lab::digest::Digest;
 use fastslam_lab::experiment::log::{Example, Recipe};
 
 /// A building of which so many scans are mapped.
 fn building() -> (LaserMapper, Vec<LaserScan>) {
     let log = Example::of(&Recipe { scatter: 0.5, ..Recipe::building() }, 300).log;
-    let settings = LaserMapperSettings { particles: 2, ..LaserMapperSettings::default() }.for_log(&log);
+    let settings = LaserMapperSettings { particles: 2, ..LaserMapperSettings::default() }.for_scans(&log.scans);
     let mut mapper = LaserMapper::new(settings).unwrap();
     log.scans.iter().for_each(|scan| drop(mapper.push(scan)));
     (mapper, log.scans)

@@ -1,11 +1,12 @@
 //! Logs: what the parser reads and refuses, the benchmark's metric, and that no input makes either panic.
 
 use fastslam::geometry::Pose2;
-use fastslam::log::{LogError, LogReader, NEAR, Relation, parse, parse_relations, relation_errors, write};
 use fastslam::mapper::{LaserMapperSettings, Replay};
 use fastslam::ops;
 use fastslam::random::{Purpose, Stream};
+use fastslam::sensor::longest_reading;
 use fastslam_lab::experiment::log::Example;
+use fastslam_log::{LogError, LogReader, NEAR, Relation, parse, parse_relations, relation_errors, write};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -51,14 +52,14 @@ fn readings_that_met_nothing_are_no_end_points_and_far_ones_are_cut() {
     let ends = log.scans[0].end_points(100.0, 1.5);
     assert_eq!((ends.hits.len(), ends.misses.len()), (1, 1));
     assert!((ends.hits[0][0] - 0.25).abs() < 1e-12 && (ends.hits[0][1] + 1.0).abs() < 1e-12, "{ends:?}");
-    assert_eq!(log.longest_reading(), 30.0);
+    assert_eq!(longest_reading(&log.scans), 30.0);
 }
 
 #[test]
 fn a_few_errors_beyond_the_longest_range_do_not_make_walls_of_it() {
     let scan = |longest: f64| format!("FLASER 4 2.0 3.0 8.19 {longest} 0 0 0 0 0 0 1 h 1\n");
     let log = parse([scan(8.0).repeat(999), scan(81.91)].concat().as_bytes(), false).unwrap();
-    let longest = LaserMapperSettings::default().for_log(&log).no_return.unwrap();
+    let longest = LaserMapperSettings::default().for_scans(&log.scans).no_return.unwrap();
     assert!((7.9..8.0).contains(&longest), "{longest}");
     assert_eq!(log.scans[0].end_points(longest, 30.0).hits.len(), 2);
 }

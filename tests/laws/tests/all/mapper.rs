@@ -2,14 +2,14 @@
 //! loop so long that particles must have stayed apart until it closes. Each is a simulated log of which the truth is known; what each bar is for stands with it.
 
 use fastslam::geometry::Pose2;
-use fastslam::log::{LaserLog, Remark};
-use fastslam::mapper::{LaserMapper, LaserMapperSettings, LoopEnd, OdometryInnovations, Replay};
+use fastslam::mapper::{LaserMapper, LaserMapperSettings, LoopEnd, OdometryInnovations, Remark, Replay};
 use fastslam::motion::OdometryModel;
 use fastslam::ops;
 use fastslam_lab::experiment::graph::PathError;
 use fastslam_lab::experiment::log::{Example, Recipe};
 use fastslam_lab::experiment::long_rings::{LongRingSetup, LoopErrors};
 use fastslam_lab::world::{FloorPlan, Segment};
+use fastslam_log::LaserLog;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::sync::Arc;
 
@@ -311,7 +311,7 @@ fn a_path_that_is_corrected_a_few_scans_at_a_time_takes_over_once_all_are_mapped
             remapped_per_scan: EACH as u32,
             ..LaserMapperSettings::default()
         };
-        let mut mapper = LaserMapper::new(settings.for_log(&log)).unwrap();
+        let mut mapper = LaserMapper::new(settings.for_scans(&log.scans)).unwrap();
         for scan in &log.scans {
             _ = mapper.push(scan);
             if mapper.closings() > 0 {
@@ -420,7 +420,7 @@ fn the_covariance_of_the_pose_is_that_of_its_errors() {
     let squared = |seed: u64| {
         let Example { log, truth, .. } = Example::of(&Recipe { seed, ..Recipe::building() }, 60);
         let settings = LaserMapperSettings { particles: 16, seed, ..LaserMapperSettings::default() };
-        let mut mapper = LaserMapper::new(settings.for_log(&log)).unwrap();
+        let mut mapper = LaserMapper::new(settings.for_scans(&log.scans)).unwrap();
         log.scans.iter().for_each(|scan| drop(mapper.push(scan)));
         let now = mapper.pose_with_covariance();
         assert_eq!(now.pose, mapper.pose());
@@ -443,7 +443,8 @@ fn scans_are_kept_within_their_bound_which_is_told_and_loops_still_close() {
         let Example { log, truth, .. } =
             Example::of(&LongRingSetup { length: 120, seed, ..LongRingSetup::default() }.recipe(), usize::MAX);
         assert!(log.scans.len() as u32 > 2 * bound);
-        let settings = LaserMapperSettings { particles: 1, seed, ..LaserMapperSettings::default() }.for_log(&log);
+        let settings =
+            LaserMapperSettings { particles: 1, seed, ..LaserMapperSettings::default() }.for_scans(&log.scans);
         let mut all = LaserMapper::new(settings).unwrap();
         let mut few = LaserMapper::new(LaserMapperSettings { kept_scans: bound, ..settings }).unwrap();
         let thinned =
@@ -470,7 +471,7 @@ fn scans_are_kept_within_their_bound_which_is_told_and_loops_still_close() {
 fn memory_that_is_told_grows_with_the_scans_as_what_is_kept_of_them() {
     let log = Example::of(&Recipe { beams: 180, ..Recipe::building() }, 60).log;
     let settings = LaserMapperSettings { particles: 2, ..LaserMapperSettings::default() };
-    let mut mapper = LaserMapper::new(settings.for_log(&log)).unwrap();
+    let mut mapper = LaserMapper::new(settings.for_scans(&log.scans)).unwrap();
     let mut points = 0;
     for (number, scan) in (1..).zip(&log.scans) {
         _ = mapper.push(scan);

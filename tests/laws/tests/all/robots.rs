@@ -1,13 +1,13 @@
 //! What a mapper must find alike, however a robot is built and its drive is cut up: a laser mounted anywhere, steps of any length.
 
 use fastslam::geometry::Pose2;
-use fastslam::log::LaserLog;
 use fastslam::mapper::{LaserMapper, LaserMapperSettings, Replay};
 use fastslam::motion::OdometryModel;
 use fastslam::random::{Purpose, Stream};
 use fastslam_lab::experiment::graph::PathError;
 use fastslam_lab::experiment::log::{Example, Recipe};
 use fastslam_lab::world::LongRing;
+use fastslam_log::LaserLog;
 use std::f64::consts::PI;
 use std::sync::Arc;
 

@@ -1,7 +1,6 @@
 //! Laws of a saved state: it goes on with the same bits, it shares what was shared, and what is none is refused.
 
 use fastslam::geometry::Pose2;
-use fastslam::log::{LaserLog, LaserScan};
 use fastslam::map::grid::{Grid, GridModel};
 use fastslam::map::landmarks::{Balanced, Correspondence, Gate, Landmark, Landmarks, Store};
 use fastslam::map::{ConditionalMap, Footprint, Observed};
@@ -14,12 +13,14 @@ use fastslam::random::{Purpose, Stream};
 use fastslam::rbpf::Rbpf;
 use fastslam::resampling::{ResamplePolicy, Scheme};
 use fastslam::save::{RestoreError, SaveShared};
+use fastslam::sensor::LaserScan;
 use fastslam::sensor::{BeamSensor, Feature, LandmarkSensor, RangeBearing, Scan};
 use fastslam_lab::digest::Digest;
 use fastslam_lab::experiment::ProposalKind;
 use fastslam_lab::experiment::lap::{GRID, Lap, LapSetup, Proposals};
 use fastslam_lab::experiment::log::Example;
 use fastslam_lab::experiment::long_rings::LongRingSetup;
+use fastslam_log::LaserLog;
 use serde_json::{Value, json};
 use std::borrow::Borrow;
 use std::hash::Hasher;
@@ -401,7 +402,7 @@ fn saved_and_restored(mapper: &LaserMapper) -> LaserMapper {
 
 /// Pushes a log into a mapper, and into one that is stopped before the first scan, after it, and after every 29 scans.
 fn assert_a_session_goes_on(log: &LaserLog, settings: LaserMapperSettings) -> LaserMapper {
-    let mut whole = LaserMapper::new(settings.for_log(log)).unwrap();
+    let mut whole = LaserMapper::new(settings.for_scans(&log.scans)).unwrap();
     let mut stopped = saved_and_restored(&whole);
     for (number, scan) in log.scans.iter().enumerate() {
         _ = (whole.push(scan), stopped.push(scan));
@@ -453,7 +454,7 @@ fn a_mutilated_session_is_refused_or_used_and_never_panics() {
     }
     let settings =
         LaserMapperSettings { particles: 2, cell_size: 0.2, max_range: 2.0, ..LaserMapperSettings::default() };
-    let mut mapper = LaserMapper::new(settings.for_log(&log)).unwrap();
+    let mut mapper = LaserMapper::new(settings.for_scans(&log.scans)).unwrap();
     let (first, rest) = log.scans.split_at(40);
     first.iter().for_each(|scan| drop(mapper.push(scan)));
     let mut document = serde_json::to_value(mapper.save()).unwrap();

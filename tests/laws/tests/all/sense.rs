@@ -2,11 +2,12 @@
 
 use super::robots::mapped;
 use fastslam::geometry::Pose2;
-use fastslam::log::{LaserLog, LaserScan, Remark};
-use fastslam::mapper::{LaserMapper, LaserMapperSettings, OdometryCheck, OdometryFault, Pushed};
+use fastslam::mapper::{LaserMapper, LaserMapperSettings, OdometryCheck, OdometryFault, Pushed, Remark};
+use fastslam::sensor::LaserScan;
 use fastslam_lab::experiment::graph::PathError;
 use fastslam_lab::experiment::log::{Example, Recipe};
 use fastslam_lab::experiment::long_rings::LongRingSetup;
+use fastslam_log::LaserLog;
 use std::f64::consts::PI;
 
 const SCANS: usize = 160;
@@ -126,7 +127,8 @@ fn scans_that_are_pushed_are_believed_as_those_of_a_log_are() {
     let Example { log, .. } = Example::of(&Recipe { scatter: 0.3, ..Recipe::building() }, 100);
     let log = spoilt_by(&log, KINDS[0].1);
     let mut mapper =
-        LaserMapper::new(LaserMapperSettings { particles: 2, ..LaserMapperSettings::default() }.for_log(&log)).unwrap();
+        LaserMapper::new(LaserMapperSettings { particles: 2, ..LaserMapperSettings::default() }.for_scans(&log.scans))
+            .unwrap();
     for scan in &log.scans {
         assert!(!matches!(mapper.push(scan), Pushed::Refused(_)));
     }
@@ -219,10 +221,10 @@ fn what_is_wrong_throughout_is_named_and_put_right() {
     for (name, spoilt, is) in THROUGHOUT {
         let mut log = log.clone();
         log.scans = (0..SCANS).map(|k| spoilt(k, &log.scans)).collect();
-        let check = OdometryCheck::of(&log, &LaserMapperSettings::default());
+        let check = OdometryCheck::of(&log.scans, &LaserMapperSettings::default());
         let fault = check.and_then(|check| check.fault());
         assert!(fault.is_some_and(is), "{name}: {check:?}, {fault:?}");
-        fault.unwrap().put_right(&mut log);
+        fault.unwrap().put_right(&mut log.scans);
         let error = error(&mapped(log, 2, 1), &truth);
         let doubted = fault.is_some_and(|fault| fault.doubts_scans());
         println!("{name}: {}, {error:.3} m, doubted: {doubted}", fault.unwrap());
@@ -251,7 +253,7 @@ fn nothing_is_wrong_throughout_with_logs_of_all_kinds() {
     ];
     for (name, recipe) in kinds {
         let log = Example::of(&recipe, usize::MAX).log;
-        let check = OdometryCheck::of(&log, &LaserMapperSettings::default());
+        let check = OdometryCheck::of(&log.scans, &LaserMapperSettings::default());
         println!("{name}: {check:.3?}");
         assert_eq!(check.and_then(|check| check.fault()), None, "{name}: {check:?}");
     }

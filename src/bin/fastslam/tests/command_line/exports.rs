@@ -3,10 +3,10 @@
 
 use super::{json, short_log};
 use fastslam::geometry::Pose2;
-use fastslam::log::parse;
 use fastslam::map::grid::{MapImage, MapImageSettings};
 use fastslam::mapper::{LaserMapper, LaserMapperSettings, Map, Replay};
 use fastslam::ops;
+use fastslam_log::parse;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use tempfile::tempdir;

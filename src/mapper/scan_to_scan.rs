@@ -1,14 +1,17 @@
 //! Odometry from the scans alone, for logs that have no other.
 
-use super::LaserScan;
+use super::last_places::{LastPlaces, MAX_RANGE, fan};
+use super::tuning::NOTHING_MET;
 use crate::geometry::Pose2;
-use crate::mapper::{LastPlaces, MAX_RANGE, fan};
+use crate::sensor::{LaserScan, longest_reading};
 
-/// Gives each scan the pose at which it fits best upon the scans of the last few places, the first one the origin.
+/// Gives each scan, in place of its odometry, the pose at which it fits best upon the scans of the last few places, the first one the origin:
+/// for odometry that tells nothing.
 ///
 /// Each is searched for by hill climbing, from where the motion between the two scans before it leads. Errors add up along the way, as
 /// those of wheels do; in a long corridor without doors nothing tells how far the robot went.
-pub fn give_odometry(scans: &mut [LaserScan], longest: f64) {
+pub fn match_scans(scans: &mut [LaserScan]) {
+    let longest = NOTHING_MET * longest_reading(scans);
     let mut places = LastPlaces::default();
     let (mut last, mut motion) = (Pose2::default(), Pose2::default());
     for scan in scans {

@@ -1,10 +1,10 @@
 //! From a log of a robot with a laser, in CARMEN's format, to a map as ROS reads it and a path as evo reads it.
 //!
-//! `cargo run --release --example laser_log -- robot.clf folder`
+//! `cargo run --release -p fastslam-log --example laser_log -- robot.clf folder`
 
-use fastslam::log::{parse, write_tum};
 use fastslam::map::grid::{MapImage, MapImageSettings};
 use fastslam::mapper::{LaserMapper, LaserMapperSettings, Pushed};
+use fastslam_log::{parse, write_tum};
 use std::error::Error;
 use std::fs;
 use std::path::Path;
@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let log = parse(&fs::read(log)?, false)?;
 
     let settings = LaserMapperSettings { particles: 30, seed: 1, ..LaserMapperSettings::default() };
-    let mut mapper = LaserMapper::new(settings.for_log(&log))?;
+    let mut mapper = LaserMapper::new(settings.for_scans(&log.scans))?;
     for scan in &log.scans {
         match mapper.push(scan) {
             Pushed::Step(report) if report.step % 100 == 0 => println!(

@@ -1,0 +1,150 @@
+#![doc = include_str!("README.md")]
+
+#[cfg(feature = "bags")]
+mod bag;
+mod carmen;
+mod clock;
+mod extent;
+#[cfg(feature = "json")]
+mod json;
+mod place;
+mod problem;
+mod relations;
+mod tum;
+
+#[cfg(feature = "bags")]
+pub use bag::{BagOptions, BagReader, is_bag, write_path};
+pub use carmen::{LogReader, parse, write};
+pub use extent::swept_area;
+#[cfg(feature = "json")]
+pub use json::write_json_lines;
+pub use problem::{Field, LogError, LogProblem, MessageProblem, Remark, Topics};
+pub use relations::{NEAR, Relation, RelationErrors, parse_relations, relation_errors};
+pub use tum::write_tum;
+
+use fastslam::geometry::Pose2;
+use fastslam::mapper::tuning::STILL;
+use fastslam::order::sorted;
+use fastslam::sensor::LaserScan;
+
+/// A log, read.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct LaserLog {
+    /// Sweeps of the front laser, by time.
+    pub scans: Vec<LaserScan>,
+    /// Raw odometry by time \[s\]: that of the scans, and what was reported between them.
+    pub odometry: Vec<(f64, Pose2)>,
+    /// What else was met.
+    pub notes: Notes,
+}
+
+/// What a [`Replay`](fastslam::mapper::Replay) pushes.
+impl AsRef<[LaserScan]> for LaserLog {
+    fn as_ref(&self) -> &[LaserScan] {
+        &self.scans
+    }
+}
+
+impl LaserLog {
+    /// Leaves out scans whose ranges are, to the bit, those of the one before, though the robot moved in between: a driver that sends its last scan
+    /// again. How many there were, and the stamp of the first \[s\]; `None` where there were none. In a corridor that a simulator draws without noise, all
+    /// that is left out says nothing new.
+    pub fn leave_repeated_out(&mut self) -> Option<(usize, f64)> {
+        /// Fewer ranges may be equal by chance.
+        const ENOUGH: usize = 10;
+        let tells = |scan: &LaserScan| scan.ranges.iter().filter(|range| range.is_finite() && **range > 0.0).count();
+        let (mut count, mut first, mut kept) = (0, None, Vec::<LaserScan>::new());
+        for scan in core::mem::take(&mut self.scans) {
+            let repeats = kept.last().is_some_and(|last| {
+                let moved = last.odometry.between(&scan.odometry);
+                let moves = moved.x.abs().max(moved.y.abs()).max(moved.theta.abs()) > STILL;
+                moves && last.ranges == scan.ranges && tells(&scan) >= ENOUGH
+            });
+            if repeats {
+                count += 1;
+                first = first.or(Some(scan.time));
+            } else {
+                kept.push(scan);
+            }
+        }
+        self.scans = kept;
+        first.map(|time| (count, time))
+    }
+
+    /// Puts what is in it in order: clocks are set back, and of messages that come over a network some are late. The sorts are stable, so that
+    /// equal stamps keep the file's order.
+    fn in_order(&mut self) {
+        clock::run_on(self);
+        self.notes.out_of_order = self.scans.windows(2).filter(|pair| pair[1].time < pair[0].time).count() as u32;
+        self.scans = sorted(core::mem::take(&mut self.scans), |a, b| a.time.total_cmp(&b.time));
+        self.odometry_in_order();
+    }
+
+    fn odometry_in_order(&mut self) {
+        self.odometry = sorted(core::mem::take(&mut self.odometry), |a, b| a.0.total_cmp(&b.0));
+    }
+
+    /// Whether any of its readings has met anything.
+    fn seen_something(&self) -> Result<(), LogError> {
+        let readings = || self.scans.iter().flat_map(|scan| &scan.ranges);
+        let Beyond { count, max_range, .. } = self.notes.beyond;
+        // Readings of bags that are beyond are 0 by now; those of JSON lines are as they were.
+        let ranges =
+            readings().filter(|range| range.is_finite() && **range > 0.0 && (count == 0 || **range <= max_range));
+        if ranges.count() > 0 {
+            return Ok(());
+        }
+        Err(LogError::whole(LogProblem::NoReading { readings: readings().count(), beyond: self.notes.beyond }))
+    }
+}
+
+/// What was met in a log besides what is used.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Notes {
+    /// Messages of rear lasers, which are passed over.
+    pub rear: u32,
+    /// Messages of kinds that are not known here, by kind.
+    pub unknown: Vec<(String, u32)>,
+    /// Malformed lines that were passed over.
+    pub malformed: u32,
+    /// The first of them.
+    pub first_malformed: Option<LogError>,
+    /// Scans whose stamp is before that of the scan above them: they were put in order.
+    pub out_of_order: u32,
+    /// Readings of bags and of JSON lines that are beyond the longest range that their scan declares.
+    pub beyond: Beyond,
+    /// What else was made of the log.
+    pub remarks: Vec<Remark>,
+}
+
+/// Readings beyond the longest range that scans declare.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Beyond {
+    /// How many there are.
+    pub count: u32,
+    /// The shortest of them.
+    pub shortest: f32,
+    /// What is declared \[m\].
+    pub max_range: f32,
+}
+
+impl Beyond {
+    /// Adds those of a scan, if it declares a longest range.
+    #[cfg(any(feature = "bags", feature = "json"))]
+    fn add(&mut self, ranges: &[f32], declared: Option<f64>) {
+        let Some(max_range) = declared.map(|declared| declared as f32) else { return };
+        for range in ranges.iter().filter(|range| range.is_finite() && **range > max_range) {
+            let shortest = if self.count > 0 { self.shortest.min(*range) } else { *range };
+            *self = Self { count: self.count + 1, shortest, max_range };
+        }
+    }
+}
+
+/// Raw odometry at a time \[s\], interpolated between its neighbours and held beyond its ends; `None` without any. Poses
+/// with one stamp are in the order of the file, and at that stamp the first of them counts.
+pub fn odometry_at(odometry: &[(f64, Pose2)], time: f64) -> Option<Pose2> {
+    let after = odometry.partition_point(|(t, _)| *t < time).min(odometry.len().checked_sub(1)?);
+    let ((t0, a), (t1, b)) = (odometry[after.max(1) - 1], odometry[after]);
+    let share = if t1 > t0 { ((time - t0) / (t1 - t0)).clamp(0.0, 1.0) } else { 0.0 };
+    Some(a.plus(&(b.minus(&a) * share)))
+}

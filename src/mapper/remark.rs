@@ -1,0 +1,71 @@
+//! What whoever reads a path and a map should know of them: each remark as the data that tell of it, so that whoever shows it can say it in the
+//! words of his readers. Displayed, they are said in English.
+
+use crate::error::fixed;
+use core::fmt;
+
+/// What one does not see at once of a path and a map.
+#[derive(Clone, PartialEq, Debug)]
+#[non_exhaustive]
+pub enum Remark {
+    /// The clock or the scans contradict odometry.
+    Contradicted {
+        /// Steps that are matched with the scans before, in place of what odometry tells.
+        steps: usize,
+        /// Stamp of the scan that the first of them leads to \[s\].
+        time: f64,
+        /// How far, by odometry, that step goes \[m\] and turns \[rad\].
+        told: [f64; 2],
+        /// How long it took \[s\].
+        elapsed: f64,
+    },
+    /// So many scans, of which the robot moved in none.
+    NeverMoved(usize),
+    /// No beam met anything within the longest range that counts.
+    NothingMet,
+    /// The path comes back to places that it does not meet.
+    OpenLoops {
+        /// How many there are.
+        loops: usize,
+        /// Stamp of the last scan of the last of them \[s\].
+        time: f64,
+    },
+    /// The scans by which a path that is bent is mapped again are not all of them: more than may be kept were taken.
+    Thinned {
+        /// How many there are.
+        kept: usize,
+        /// How many were taken.
+        taken: usize,
+    },
+}
+
+impl fmt::Display for Remark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Contradicted { steps, time, told: [metres, turn], elapsed } => write!(
+                f,
+                "steps at which the clock or the scans contradict odometry: {steps}, the first at {} s ({} m and {}° in {} s); they are matched with the scans before",
+                fixed(*time, 3),
+                fixed(*metres, 2),
+                fixed(turn.to_degrees(), 0),
+                fixed(*elapsed, 1)
+            ),
+            Self::NeverMoved(scans) => write!(
+                f,
+                "only the first of {scans} scans is mapped: by odometry and by what they see, the robot never moves"
+            ),
+            Self::NothingMet => {
+                f.write_str("the map is empty: no beam met anything within the longest range that counts")
+            }
+            Self::OpenLoops { loops, time } => write!(
+                f,
+                "loops that stay open: {loops}, the last of them at {} s; what is seen there contradicts the map of before",
+                fixed(*time, 3)
+            ),
+            Self::Thinned { kept, taken } => write!(
+                f,
+                "of the {taken} scans that were taken {kept} are kept: where a path is bent to close a loop, it is mapped again by these"
+            ),
+        }
+    }
+}
