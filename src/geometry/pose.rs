@@ -58,6 +58,11 @@ impl Pose2 {
     }
 }
 
+/// How far a motion drives \[m\], and by how much it turns \[rad\], to whichever side.
+pub(crate) fn driven(motion: &Pose2) -> [f64; 2] {
+    [ops::hypot(motion.x, motion.y), motion.theta.abs()]
+}
+
 /// The rigid motion that carries `path` onto `reference` with the least sum of squared distances of positions.
 ///
 /// The planar case without scale of Umeyama (1991): with both centred, the angle is atan2(Σ pᵢ × rᵢ, Σ pᵢ · rᵢ). Both paths

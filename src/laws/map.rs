@@ -173,8 +173,8 @@ pub fn a_family_of_clones_is_independent<M: ConditionalMap, C: PartialEq + Debug
 ///
 /// ```
 /// use fastslam::{geometry::Pose2, laws, map::grid::{Grid, GridModel}, sensor::BeamSensor};
-/// # use fastslam::mapper::tuning;
-/// let empty = || <Grid<4>>::new(tuning::grid(0.05));
+/// # use fastslam::mapper::LaserMapperSettings;
+/// let empty = || <Grid<4>>::new(LaserMapperSettings::default().grid());
 /// let scan = BeamSensor::panorama(90, 8.0, 0.0).scan(&[2.0; 90]);
 /// let occupied = |map: &Grid<4>| (0..60).filter(|i| map.log_odds(*i, 0) > 0.0).count();
 /// let alike = |a: &Grid<4>, b: &Grid<4>| assert_eq!(occupied(a), occupied(b));

@@ -23,7 +23,7 @@ pub use relations::{NEAR, Relation, RelationErrors, parse_relations, relation_er
 pub use tum::write_tum;
 
 use fastslam::geometry::Pose2;
-use fastslam::mapper::tuning::STILL;
+use fastslam::mapper::LaserMapperSettings;
 use fastslam::order::sorted;
 use fastslam::sensor::LaserScan;
 
@@ -57,7 +57,7 @@ impl LaserLog {
         for scan in core::mem::take(&mut self.scans) {
             let repeats = kept.last().is_some_and(|last| {
                 let moved = last.odometry.between(&scan.odometry);
-                let moves = moved.x.abs().max(moved.y.abs()).max(moved.theta.abs()) > STILL;
+                let moves = moved.x.abs().max(moved.y.abs()).max(moved.theta.abs()) > LaserMapperSettings::STILL;
                 moves && last.ranges == scan.ranges && tells(&scan) >= ENOUGH
             });
             if repeats {

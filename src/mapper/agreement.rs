@@ -1,6 +1,20 @@
 //! Whether what was seen agrees with a map.
 
-use super::tuning::{CLOSING, IN_FREE_SPACE, ON_A_WALL};
+/// Constants of what counts as agreement.
+pub(super) struct AgreementConfig {
+    /// What an end point adds to a score where it lies on a wall, at the least \[nats, before tempering\]: three
+    /// quarters of what an end point far from any wall loses.
+    pub on_a_wall: f64,
+    /// What an end point adds to a score where it lies in space that was seen to be free, at the most \[nats, before tempering\]: by one beam
+    /// that passed. In unknown space it is −1.07.
+    in_free_space: f64,
+    /// Share of the end points of which the map knows anything that lies in free space where a loop was missed. Less than half of it is
+    /// hardly anything: people and doors.
+    pub disputed: f64,
+}
+
+/// See [`AgreementConfig`].
+pub(super) const AGREEMENT: AgreementConfig = AgreementConfig { on_a_wall: -0.75, in_free_space: -1.3, disputed: 0.25 };
 
 /// How well a picture agrees with a map.
 pub(super) struct Agreement {
@@ -17,15 +31,15 @@ impl Agreement {
     pub(super) fn of(beams: &[f64]) -> Self {
         let share = |is: fn(f64) -> bool| beams.iter().filter(|log| is(**log)).count() as f64 / beams.len() as f64;
         Self {
-            fits: share(|log| log > ON_A_WALL),
-            contradicts: share(|log| log < IN_FREE_SPACE),
+            fits: share(|log| log > AGREEMENT.on_a_wall),
+            contradicts: share(|log| log < AGREEMENT.in_free_space),
             count: beams.len() as f64,
         }
     }
 
     /// Whether hardly anything is disputed.
     pub(super) fn is_undisputed(&self) -> bool {
-        self.disputed() < 0.5 * CLOSING.disputed
+        self.disputed() < 0.5 * AGREEMENT.disputed
     }
 
     /// How many end points the map knows something about, and how many of them contradict.
@@ -42,7 +56,7 @@ impl Agreement {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tuning::{self, Map, score};
+    use super::super::models::{Map, grid, score};
     use super::*;
     use crate::geometry::Pose2;
     use crate::map::ConditionalMap;
@@ -61,12 +75,13 @@ mod tests {
     #[test]
     fn what_is_unknown_lies_neither_on_a_wall_nor_in_free_space() {
         // Along the middle of a row of NDT cells, by which space is judged.
-        let (mut map, pose) = (Map::new(tuning::grid(0.05)), Pose2::new(0.02, 0.12, 0.0));
+        let (mut map, pose) = (Map::new(grid(0.05)), Pose2::new(0.02, 0.12, 0.0));
         let ahead = Scan { hits: vec![[3.0, 0.0]], ..Scan::default() };
         map.assimilate(&pose, &ahead, &());
         let points = Scan { hits: vec![[3.0, 0.02], [5.0, 0.0], [1.0, 0.0]], ..Scan::default() };
         let beams = score().log_beams(&map, &pose, &points);
-        let kinds = beams.iter().map(|log| [*log > ON_A_WALL, *log < IN_FREE_SPACE]).collect::<Vec<_>>();
+        let kinds =
+            beams.iter().map(|log| [*log > AGREEMENT.on_a_wall, *log < AGREEMENT.in_free_space]).collect::<Vec<_>>();
         assert_eq!(kinds, [[true, false], [false, false], [false, true]], "{beams:?}");
     }
 }

@@ -6,13 +6,13 @@
 //! better, so that along a corridor, where scans do not tell how far one went, odometry is right. Motions by scans and by odometry are compared by
 //! regression: translations as complex numbers, whose ratio is a scale and an angle, and turns.
 
+use super::LaserMapperSettings;
 use super::agreement::Agreement;
 use super::last_places::{LastPlaces, MAX_RANGE, fan};
+use super::models::score;
 use super::scan_to_scan::match_scans;
-use super::tuning::score;
-use super::{LaserMapperSettings, driven};
 use crate::error::fixed;
-use crate::geometry::Pose2;
+use crate::geometry::{Pose2, driven};
 use crate::ops;
 use crate::order::sorted;
 use crate::sensor::LaserScan;

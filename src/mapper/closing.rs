@@ -21,12 +21,15 @@
 //! correlation); Lu and Milios 1997 (bending the path); Gilks and Berzuini, *Following a moving target: Monte Carlo inference for dynamic
 //! Bayesian models*, JRSS B 2001 (moving particles between steps).
 
+mod config;
+
+pub(super) use config::CLOSING;
+
 use super::Filter;
-use super::agreement::Agreement;
+use super::agreement::{AGREEMENT, Agreement};
 use super::loops::{Account, Loop, LoopEnd};
-use super::moving::driven;
-use super::tuning::{CLOSING, Map, score};
-use crate::geometry::{Chain, Gaussian3, Pose2, Relation};
+use super::models::{Map, score};
+use crate::geometry::{Chain, Gaussian3, Pose2, Relation, driven};
 use crate::map::ConditionalMap;
 use crate::matching::{Score, ScoredPose, hill_climb};
 use crate::ops;
@@ -370,7 +373,7 @@ impl Closings {
             return Found::Nothing;
         }
         let agreement = now.agreement(&now.here());
-        let is_contradicted = agreement.disputed() >= CLOSING.disputed;
+        let is_contradicted = agreement.disputed() >= AGREEMENT.disputed;
         let closed = now.closed(&agreement).filter(|_| !is_contradicted);
         let is_asked = closed.is_some() || (is_contradicted && searched);
         match if is_asked { now.search() } else { Place::Unclear } {

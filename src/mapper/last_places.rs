@@ -1,8 +1,7 @@
 //! The scans of the last few places, as a map to match the next scan with: what tells of a motion without odometry.
 
-use super::moving::driven;
-use super::tuning::{self, Map};
-use crate::geometry::Pose2;
+use super::models::{CELL, Map, grid, score};
+use crate::geometry::{Pose2, driven};
 use crate::map::ConditionalMap;
 use crate::matching::{HillClimbSteps, Score, ScoreNear, ScoredPose, hill_climb};
 #[cfg(feature = "serde")]
@@ -44,7 +43,7 @@ impl LastPlaces {
         if self.places.is_empty() || ends.hits.is_empty() {
             return None;
         }
-        let score = tuning::score();
+        let score = score();
         let near = score.near(self.map(), starts.first()?, ends, 1);
         let value = |pose: &Pose2, floor| {
             if allowed(pose) { near.log_score_above(pose, floor) } else { f64::NEG_INFINITY }
@@ -83,7 +82,7 @@ impl LastPlaces {
     pub(super) fn map(&mut self) -> &Map {
         let Self { places, map } = self;
         map.get_or_insert_with(|| {
-            let mut map = Map::new(tuning::grid(tuning::CELL));
+            let mut map = Map::new(grid(CELL));
             for (pose, ends) in places {
                 map.assimilate(pose, ends, &());
             }

@@ -1,9 +1,11 @@
 //! A robot that finds its way in a map that it does not change.
 
+use super::agreement::AGREEMENT;
+use super::closing::CLOSING;
+use super::models::{MODELS, Map, score};
 use super::moving::LastViews;
 use super::odometer::Odometer;
 use super::spread::{PoseWithCovariance, Spreads};
-use super::tuning::{self, CLOSING, FROM_SCAN, Map, ON_A_WALL, score};
 use super::wheels::Wheels;
 use super::{Filter, LaserMapper, LaserMapperSettings, Pushed, Stamp, filter};
 use crate::error::SettingError;
@@ -67,12 +69,12 @@ impl Localizer {
     ) -> Result<Self, SettingError> {
         let settings = LaserMapperSettings { cell_size: reading.resolution, ..settings };
         settings.validate()?;
-        let map = Map::drawn(tuning::grid(settings.cell_size), image, reading)?;
+        let map = Map::drawn(settings.grid(), image, reading)?;
         let start = Displacement { mean: *start.mean(), covariance: start.covariance() };
         let back = Pose2::new(0.0, 0.0, -reading.origin.theta);
         let start = Gaussian3::new(reading.origin.between(&start.mean), Displaced.covariance(&back, &start))
             .ok_or(SettingError::Unfit { field: "start", allowed: "a place" })?;
-        let beams = settings.beams.unwrap_or(tuning::BEAMS);
+        let beams = settings.beams.unwrap_or(MODELS.beams);
         Self::of(map, reading.origin, settings, beams, Wheels::default(), start)
     }
 
@@ -136,7 +138,7 @@ impl Localizer {
         };
         self.stamps.push(Stamp { time: scan.time, step: self.steps, step_from_robot: Pose2::default() });
         let beams = score().log_beams(&self.map, &self.pose_in_map(), &standing);
-        let on_walls = beams.iter().filter(|log| **log > ON_A_WALL).count();
+        let on_walls = beams.iter().filter(|log| **log > AGREEMENT.on_a_wall).count();
         self.compared = [self.compared[0] + beams.len() as f64, self.compared[1] + on_walls as f64];
         pushed
     }
@@ -152,7 +154,7 @@ impl Localizer {
             let mapped = filter(&self.settings, self.beams, self.map.clone()).start(pose).build();
             self.filter = mapped.expect("`new` has built one of these settings");
             // The Gaussian of the hill, where what was seen makes one: otherwise no more is known than before.
-            if let Some(fit) = Fit::around(&pose, &FROM_SCAN.limits, |pose| target.log_value(pose)) {
+            if let Some(fit) = Fit::around(&pose, &MODELS.from_scan.limits, |pose| target.log_value(pose)) {
                 self.spreads = Spreads::about(&pose, &fit.gaussian.covariance(), self.settings.particles);
             }
         }

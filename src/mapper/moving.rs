@@ -8,22 +8,46 @@
 //! - it lies close to something in the same direction through whose circle beams go now: who walks ahead hides what is before him.
 //!
 //! Such an end point is neither matched nor drawn; its beam says that the way up to it is free. The radius of the circle is
-//! [`SEEN_THROUGH_STDS`] standard deviations, as many as the pose is searched for. Some walls are left out by mistake: those thinner than the gap
-//! between two beams, and those that somebody stood right before, until the robot is [`VIEW_REACH`] metres on.
+//! three standard deviations, as many as the pose is searched for. Some walls are left out by mistake: those thinner than the gap
+//! between two beams, and those that somebody stood right before, until the robot is three metres on.
 //!
 //! Reference: Lindström and Eklundh, *Detecting and tracking moving objects from a mobile platform using a laser range scanner*, IROS 2001
 //! (violations of free space).
 
-use super::tuning::{RANGE_ERROR, SEEN_THROUGH_STDS, VIEW_REACH, VIEW_SPACING, WALKED_ON};
-use crate::geometry::Pose2;
+use crate::geometry::{Pose2, driven};
 use crate::motion::Displacement;
 use crate::ops;
+use crate::proposal::SEARCH_STDS;
 #[cfg(feature = "serde")]
 use crate::save::{self, RestoreError};
 use crate::sensor::{Beam, LaserScan, Scan};
 use core::f64::consts::TAU;
 use nalgebra::{Matrix2x3, Matrix3};
 use std::collections::VecDeque;
+
+/// Constants of what is taken to move.
+pub(super) struct MovingConfig {
+    /// Radius of the circle in which an end point may lie, in standard deviations of odometry: it is taken to move where all of the circle was
+    /// seen to be free. As many as the search for the pose reaches.
+    pub seen_through_stds: f64,
+    /// Length added to that radius \[m\]: three standard deviations of a range that is off by 3 cm.
+    pub range_error: f64,
+    /// Least distance on the way between two scans that are remembered to find what moves \[m\]; the last one always is.
+    view_spacing: f64,
+    /// Way after which a scan is forgotten \[m\]: odometry is then less certain than most free space is wide.
+    view_reach: f64,
+    /// How much further than the robot a person may have walked since a view \[m\].
+    walked_on: f64,
+}
+
+/// See [`MovingConfig`].
+pub(super) const MOVING: MovingConfig = MovingConfig {
+    seen_through_stds: SEARCH_STDS,
+    range_error: 0.1,
+    view_spacing: 0.5,
+    view_reach: 3.0,
+    walked_on: 0.5,
+};
 
 /// What was seen on the last metres of the way.
 #[derive(Clone, Debug, Default)]
@@ -76,12 +100,12 @@ impl LastViews {
     /// Keeps this view, and of those before it the ones that were taken from places apart and not long ago.
     fn remember(&mut self, view: View) {
         if let [.., before, last] = self.views.make_contiguous()
-            && before.driven[0] - last.driven[0] < VIEW_SPACING
+            && before.driven[0] - last.driven[0] < MOVING.view_spacing
         {
             self.views.pop_back();
         }
         self.views.push_back(view);
-        while self.views.front().is_some_and(|first| first.driven[0] > VIEW_REACH) {
+        while self.views.front().is_some_and(|first| first.driven[0] > MOVING.view_reach) {
             self.views.pop_front();
         }
     }
@@ -115,14 +139,14 @@ impl Since {
         Self { moved, back: moved.between(&Pose2::default()), covariance }
     }
 
-    /// Radius \[m\] of the circle in which a point p of the robot's frame now lies for the view of then, and the other way round: [`RANGE_ERROR`]
-    /// and [`SEEN_THROUGH_STDS`] times the largest standard deviation of x ⊕ p by the motion x.
+    /// Radius \[m\] of the circle in which a point p of the robot's frame now lies for the view of then, and the other way round: [`MovingConfig::range_error`]
+    /// and [`MovingConfig::seen_through_stds`] times the largest standard deviation of x ⊕ p by the motion x.
     fn radius(&self, p: [f64; 2]) -> f64 {
         let (sin, cos) = ops::sin_cos(self.moved.theta);
         let jacobian = Matrix2x3::new(1.0, 0.0, -sin * p[0] - cos * p[1], 0.0, 1.0, cos * p[0] - sin * p[1]);
         let covariance = jacobian * self.covariance * jacobian.transpose();
         let (mean, half) = (0.5 * (covariance.m11 + covariance.m22), 0.5 * (covariance.m11 - covariance.m22));
-        SEEN_THROUGH_STDS * (mean + length([half, covariance.m12])).sqrt() + RANGE_ERROR
+        MOVING.seen_through_stds * (mean + length([half, covariance.m12])).sqrt() + MOVING.range_error
     }
 }
 
@@ -133,7 +157,7 @@ impl View {
 
     /// Marks the beams that ended on something that has moved since a view from `before`.
     fn mark_moving(&self, before: &Self, since: &Since, moving: &mut [bool]) {
-        let walk = before.driven[0] + WALKED_ON;
+        let walk = before.driven[0] + MOVING.walked_on;
         let is_gone = |end| {
             let now = since.back.transform(end);
             self.sees_through(now, since.radius(now))
@@ -210,11 +234,6 @@ impl Directions {
     pub(super) fn index(&self, k: i64) -> usize {
         k.checked_rem_euclid(self.around).unwrap_or(k) as usize
     }
-}
-
-/// How far a motion drives \[m\], and by how much it turns \[rad\].
-pub(super) fn driven(moved: &Pose2) -> [f64; 2] {
-    [ops::hypot(moved.x, moved.y), moved.theta.abs()]
 }
 
 /// Of a vector \[m\].
@@ -361,7 +380,7 @@ mod tests {
         scans[0] = seen(way().next().unwrap(), AHEAD, &[]);
         let sorted = sorted(&scans);
         assert!(sorted[1][1] > 0, "{sorted:?}");
-        let later = (VIEW_REACH / 0.4).ceil() as usize + 1;
+        let later = (MOVING.view_reach / 0.4).ceil() as usize + 1;
         assert!(sorted[later..].iter().all(|[_, moving]| *moving == 0), "{sorted:?}");
     }
 
@@ -372,7 +391,7 @@ mod tests {
         scans[0] = seen(way().next().unwrap(), AHEAD, &[[-2.0, 3.3]]);
         let sorted = sorted(&scans);
         assert!(sorted.iter().any(|[_, moving]| *moving > 0), "{sorted:?}");
-        let later = (VIEW_REACH / 0.4).ceil() as usize + 1;
+        let later = (MOVING.view_reach / 0.4).ceil() as usize + 1;
         assert!(sorted[later..].iter().all(|[_, moving]| *moving == 0), "{sorted:?}");
     }
 

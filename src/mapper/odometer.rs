@@ -13,11 +13,11 @@
 
 use super::agreement::Agreement;
 use super::last_places::{LastPlaces, MAX_RANGE, fan};
-use super::moving::{Directions, driven};
-use super::tuning::{RANGE_ERROR, SEEN_THROUGH_STDS, score};
+use super::models::score;
+use super::moving::{Directions, MOVING};
 use super::wheels::Wheels;
 use crate::error::{Range, SettingError};
-use crate::geometry::Pose2;
+use crate::geometry::{Pose2, driven};
 use crate::ops;
 #[cfg(feature = "serde")]
 use crate::save::{self, RestoreError};
@@ -206,7 +206,7 @@ impl Odometer {
             let then = before.ranges.get(directions.index(at.round() as i64)).map(|then| f64::from(*then));
             if let Some(then) = then.filter(|then| met(*then)) {
                 compared += 1;
-                let tolerance = RANGE_ERROR + 0.1 * way + 0.1 * (way + turn).min(0.5) * distance;
+                let tolerance = MOVING.range_error + 0.1 * way + 0.1 * (way + turn).min(0.5) * distance;
                 agreed += u32::from((then - distance).abs() < tolerance);
             }
         }
@@ -223,8 +223,8 @@ impl Odometer {
         // Errors of the wheels on all of the way are in the map of the places. Of a robot that stands the last place alone is asked.
         let [x, theta] = if doubt == Doubt::Stands { [0.0; 2] } else { self.places.span(told) };
         let wheels = Wheels::default().displacement(&Pose2 { x, y: 0.0, theta }).covariance;
-        let within = [wheels.m11, wheels.m33].map(|variance| SEEN_THROUGH_STDS * variance.sqrt());
-        let within = [within[0] + RANGE_ERROR, within[1] + HEADING_ERROR];
+        let within = [wheels.m11, wheels.m33].map(|variance| MOVING.seen_through_stds * variance.sqrt());
+        let within = [within[0] + MOVING.range_error, within[1] + HEADING_ERROR];
         let near = move |pose: &Pose2| {
             let off = driven(&told.between(pose));
             off[0] < within[0] && off[1] < within[1]

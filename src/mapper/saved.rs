@@ -1,12 +1,12 @@
 //! A mapper's state between two scans.
 
 use super::closing::{Closings, SavedClosings};
+use super::models::{self, Map};
 use super::moving::LastViews;
 use super::odometer::Odometer;
 use super::spread::{SavedSpread, Spreads};
-use super::tuning::{self, Map};
 use super::wheels::Wheels;
-use super::{Filter, LaserMapper, LaserMapperSettings, Stamp, proposal};
+use super::{Filter, LaserMapper, LaserMapperSettings, Stamp};
 use crate::execute::Executor;
 use crate::genealogy::Path;
 use crate::geometry::Pose2;
@@ -109,7 +109,7 @@ impl LaserMapper {
             return Err(RestoreError::Version { found: version, known: VERSION });
         }
         settings.validate()?;
-        let model = tuning::grid(settings.cell_size);
+        let model = settings.grid();
         let mut maps = Map::restore_all(maps)?;
         save::holds(
             maps.iter().all(|map| *map.model() == model),
@@ -118,7 +118,7 @@ impl LaserMapper {
         )?;
         let particles = settings.particles.min(maps.len());
         let before = maps.split_off(particles);
-        let filter: Filter = Filter::restore_with(filter, proposal(&settings, beams), |()| Ok(maps))?;
+        let filter: Filter = Filter::restore_with(filter, models::proposal(beams, settings.weight), |()| Ok(maps))?;
         save::count("particles", filter.particles().len(), settings.particles)?;
         let begins = |path: &Path| path.back().last().is_some_and(|first| first.pose() == Pose2::default());
         save::holds(filter.particles().iter().all(|one| begins(&one.path)), "paths", "from the origin on")?;

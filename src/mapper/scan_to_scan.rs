@@ -1,7 +1,7 @@
 //! Odometry from the scans alone, for logs that have no other.
 
 use super::last_places::{LastPlaces, MAX_RANGE, fan};
-use super::tuning::NOTHING_MET;
+use super::settings::NOTHING_MET;
 use crate::geometry::Pose2;
 use crate::sensor::{LaserScan, longest_reading};
 

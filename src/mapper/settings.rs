@@ -1,12 +1,19 @@
 //! What can be set about a mapper, and what a log tells of its laser.
 
-use super::tuning::{CELL, FROM_SCAN, Map, NOTHING_MET, STILL};
+use super::models::{self, CELL, MODELS, Map};
 use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
-use crate::proposal::IncrementalWeight;
+use crate::map::grid::GridModel;
+use crate::matching::ScanModel;
+use crate::motion::Displaced;
+use crate::proposal::{CorrelativeSearch, FromScan, IncrementalWeight};
 use crate::resampling::ResamplePolicy;
 use crate::sensor::{Beam, LaserScan, longest_reading};
 use std::collections::BTreeSet;
+
+/// Share of a log's longest range from which on a range says *nothing met*: lasers write their longest range then, or one a
+/// little different (81.83, 80 and 81.91 m in one log).
+pub(super) const NOTHING_MET: f64 = 0.97;
 
 /// Settings of a [`LaserMapper`](super::LaserMapper). The defaults suit a building and a laser of 180°.
 ///
@@ -32,7 +39,7 @@ pub struct LaserMapperSettings {
     /// Readings beyond this \[m\], in [`Self::MAX_RANGE`], are not matched: up to it they say that the way is free.
     pub max_range: f64,
     /// Scans are passed over until the robot has driven this far \[m\], or turned by as many radians; in [`Self::MIN_TRAVEL`].
-    /// One that has moved by less than [`STILL`] is always taken to stand still.
+    /// One that has moved by less than [`Self::STILL`] is always taken to stand still.
     pub min_travel: f64,
     /// When the particles are resampled.
     pub policy: ResamplePolicy,
@@ -66,7 +73,7 @@ impl Default for LaserMapperSettings {
             max_range: 30.0,
             min_travel: 0.0,
             policy: ResamplePolicy::EssBelow(0.5),
-            weight: FROM_SCAN.weight,
+            weight: MODELS.from_scan.weight,
             no_return: None,
             clear_range: 0.0,
             beams: None,
@@ -86,6 +93,8 @@ impl LaserMapperSettings {
     pub const MAX_RANGE: Range = Range::number(0.5, 200.0, "m");
     /// Range of [`Self::min_travel`].
     pub const MIN_TRAVEL: Range = Range::number(0.0, 5.0, "m");
+    /// Way \[m\], or turn \[rad\], below which a robot stands still, whatever [`Self::min_travel`] says: another look from there tells nothing new.
+    pub const STILL: f64 = 0.02;
     /// Range of [`Self::clear_range`].
     pub const CLEAR_RANGE: Range = Range::number(0.0, 200.0, "m");
     /// Range of [`Self::remapped_per_scan`]. Each path that is corrected gets two at the least, as the robot goes on by one.
@@ -112,7 +121,7 @@ impl LaserMapperSettings {
     }
 
     /// The same settings, with what is not said about the laser read off all scans of a log: [`Self::no_return`] is
-    /// [`NOTHING_MET`] times their [longest reading](longest_reading), as lasers write what they like for *nothing met*, and [`Self::beams`] their median.
+    /// 0.97 times their [longest reading](longest_reading), as lasers write what they like for *nothing met*, and [`Self::beams`] their median.
     pub fn for_scans(self, scans: &[LaserScan]) -> Self {
         let mut beams: Vec<u32> = scans.iter().map(|scan| scan.ranges.len() as u32).collect();
         beams.sort_unstable();
@@ -123,9 +132,19 @@ impl LaserMapperSettings {
         }
     }
 
+    /// How the mapper's map learns from a scan.
+    pub fn grid(&self) -> GridModel {
+        models::grid(self.cell_size)
+    }
+
+    /// The proposal that the mapper's particles draw their poses from, and in it how well a scan fits a map: with a laser of [`Self::beams`], or of 180.
+    pub fn proposal(&self) -> FromScan<Displaced, ScanModel, CorrelativeSearch> {
+        models::proposal(self.beams.unwrap_or(MODELS.beams), self.weight)
+    }
+
     /// Whether a scan is taken when the robot has moved by this since the one that was taken last.
     pub(super) fn takes(&self, moved: &Pose2) -> bool {
-        moved.distance(&Pose2::default()).max(moved.theta.abs()) >= self.min_travel.max(STILL)
+        moved.distance(&Pose2::default()).max(moved.theta.abs()) >= self.min_travel.max(Self::STILL)
     }
 
     /// A reading of this length \[m\] or more met nothing.

@@ -1,6 +1,6 @@
 //! How uncertain the pose of the robot is.
 
-use super::tuning::SELECTION_TEMPER;
+use super::models::MODELS;
 use super::{Filter, Stamp, Wheels};
 use crate::geometry::Pose2;
 use crate::motion::{Displaced, Displacement, Motion};
@@ -19,7 +19,7 @@ use nalgebra::Matrix3;
 ///
 /// with x the pose, N(μᵢ, Σᵢ) what particle i drew from (the fit to the scan where it was matched, else the motion of the odometry), the difference of headings
 /// wrapped to (−π, π\], and wᵢ the scores by which particles are selected: their weights to the power of
-/// [`SELECTION_TEMPER`](super::tuning::SELECTION_TEMPER), since scans that are held against one map repeat its errors. It is taken about x
+/// the mapper's [selection temper](crate::rbpf::Builder::selection_temper), since scans that are held against one map repeat its errors. It is taken about x
 /// and not about the mean of the particles, so that it holds for the pose that stands with it. The Σᵢ are part of it: without them it would be zero as soon
 /// as all particles are copies of one. Where the robot has moved since the last scan that was taken, the motion by odometry moves the
 /// errors along and adds its noise.
@@ -79,7 +79,7 @@ impl Spreads {
     pub(super) fn now(&self, filter: &Filter, stamp: Option<&Stamp>, wheels: &Wheels) -> PoseWithCovariance {
         let best = filter.particles()[filter.best()].world_from_robot;
         let moved = stamp.map(|stamp| stamp.step_from_robot).filter(|moved| *moved != Pose2::default());
-        let scores = filter.weights().tempered(SELECTION_TEMPER);
+        let scores = filter.weights().tempered(MODELS.selection_temper);
         let of_particles = filter.particles().iter().zip(&self.0).zip(scores.as_slice());
         let covariance = of_particles
             .map(|((particle, spread), score)| {

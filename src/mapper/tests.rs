@@ -155,7 +155,7 @@ fn the_pose_is_the_end_of_the_path() {
 
 /// What the particles drew from in a step, with their scores.
 fn mixture(mapper: &LaserMapper, report: &Report<()>) -> Vec<(Pose2, Matrix3<f64>, f64)> {
-    let scores = mapper.filter.weights().tempered(tuning::SELECTION_TEMPER);
+    let scores = mapper.filter.weights().tempered(MODELS.selection_temper);
     let drawn_from = report.traces.iter().map(|trace| match trace {
         ProposalTrace::Matched { mode, covariance, .. } => (*mode, *covariance),
         ProposalTrace::Motion => panic!("every scan is matched here"),
@@ -193,7 +193,7 @@ fn the_covariance_of_the_pose_is_the_second_moment_of_what_was_drawn_from_about_
 fn particles_that_are_copies_of_one_leave_what_it_was_drawn_from_open() {
     let settings = LaserMapperSettings { particles: 2, ..settings() };
     let start = Pose2::new(1.0, 2.0, core::f64::consts::PI);
-    let filter = filter(&settings, 60, Map::new(tuning::grid(0.05))).start(start).build().unwrap();
+    let filter = filter(&settings, 60, Map::new(settings.grid())).start(start).build().unwrap();
     let covariance = Matrix3::from_diagonal(&[4e-4, 1e-4, 1e-4].into());
     let still = Displacement { mean: Pose2::default(), covariance: Matrix3::zeros() };
     let mut report = filter.clone().step(&still, &Scan::default());

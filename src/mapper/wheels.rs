@@ -7,12 +7,10 @@
 //! References: Roy and Thrun, *Online self-calibration for mobile robots*, ICRA 1999 (drift by exponential forgetting); Eliazar and Parr, *Learning
 //! probabilistic motion models for mobile robots*, ICML 2004 (motion as a Gaussian in pose space, its noise learnt with the map).
 
-use super::moving::driven;
-use super::tuning::{DRIFT_STD, FLOOR, MEMORY, OUTLYING, STRETCH, TRUST, WHEELS};
-use crate::geometry::Pose2;
+use crate::geometry::{Pose2, driven};
 use crate::motion::{Displacement, Drift};
 use crate::ops;
-use crate::proposal::ProposalTrace;
+use crate::proposal::{DRIFT_STDS, ProposalTrace};
 use crate::rbpf::Report;
 use nalgebra::Matrix3;
 
@@ -34,16 +32,48 @@ impl WheelNoise {
     }
 }
 
+/// Constants of what is assumed and learnt of wheels.
+struct WheelsConfig {
+    /// Noise of the wheels before any scan was matched. Wide on purpose: real wheels slip, and are off by a bias that no noise
+    /// describes. What is too wide is narrowed on the way. After half a metre a heading is uncertain by 4° and a position by 5 cm.
+    assumed: WheelNoise,
+    /// Noise that stays in a motion, however well the wheels are known: their own is not all that scans of one place differ by.
+    floor: WheelNoise,
+    /// Standard deviation of the wheels' drift \[rad/m\], before anything is known: some 3° a metre, as one log has.
+    drift_std: f64,
+    /// Weight of the prior on the noise of the wheels, as a length of the way \[m\].
+    trust: f64,
+    /// Way after which what was learnt of the wheels is forgotten to 1/e \[m\]: carpets change, and tyres warm up.
+    memory: f64,
+    /// Length of a stretch \[m\]: over less, a matched heading says little of the wheels.
+    stretch: f64,
+    /// Standard deviations beyond which an error is not noise of the wheels: the wheels are learnt from it as if it were of this many.
+    outlying: f64,
+    /// Standard deviation of a matched heading over a stretch \[rad\]: no wheel is to blame for it.
+    matched_std: f64,
+}
+
+/// See [`WheelsConfig`].
+const WHEELS: WheelsConfig = WheelsConfig {
+    assumed: WheelNoise { heading: [0.14, 0.1], position: [0.07, 0.07] },
+    floor: WheelNoise { heading: [0.014, 0.014], position: [0.028, 0.028] },
+    drift_std: DRIFT_STDS[0],
+    trust: 5.0,
+    memory: 50.0,
+    stretch: 0.5,
+    outlying: 3.0,
+    matched_std: 0.01,
+};
+
 /// Drift and noise of a robot's wheels, as far as is known.
 ///
 /// Over a stretch of d metres the heading that was matched and that of odometry differ by
 ///
 /// e = b d + ε, ε ~ N(0, s² v),
 ///
-/// where v is the variance that [`WHEELS`] have over the stretch. The drift b has a conjugate normal prior, N(0, [`DRIFT_STD`]²); s² is the
-/// mean of (e − b d)² / v over the way, in which the 1 that is assumed counts as [`TRUST`] metres. Both forget, with a memory of
-/// [`MEMORY`] metres. What differs by more than [`OUTLYING`] standard deviations counts as if it
-/// differed by so many: one scan in a wrong place must not make the next wrong place likely.
+/// where v is the variance of the noise that is assumed of any wheels. The drift b has a conjugate normal prior around 0; s² is the
+/// mean of (e − b d)² / v over the way, in which the 1 that is assumed counts as some metres. Both forget along the way. An error of more than
+/// three standard deviations counts as one of three: one scan in a wrong place must not make the next wrong place likely.
 #[derive(Clone, Debug)]
 #[cfg_attr(
     feature = "serde",
@@ -63,7 +93,7 @@ pub struct Wheels {
 struct Stretch {
     /// Metres driven.
     way: f64,
-    /// v, by [`WHEELS`] \[rad²\].
+    /// v, by the noise that is assumed \[rad²\].
     variance: f64,
     /// e, matched less odometry \[rad\].
     turned: f64,
@@ -77,7 +107,7 @@ struct Scale {
 }
 
 impl Scale {
-    const ASSUMED: Self = Self { squares: TRUST, count: TRUST };
+    const ASSUMED: Self = Self { squares: WHEELS.trust, count: WHEELS.trust };
 
     fn value(&self) -> f64 {
         self.squares / self.count
@@ -92,15 +122,12 @@ impl Scale {
 
 /// What is left of older stretches after so many more metres.
 fn kept(way: f64) -> f64 {
-    ops::exp(-way / MEMORY)
+    ops::exp(-way / WHEELS.memory)
 }
-
-/// Standard deviation of a matched heading over a stretch \[rad\]: what no wheel is to blame for.
-const MATCHED_STD: f64 = 0.01;
 
 impl Default for Wheels {
     fn default() -> Self {
-        Self { drift: Drift::new([DRIFT_STD]), noise: Scale::ASSUMED, stretch: Stretch::default() }
+        Self { drift: Drift::new([WHEELS.drift_std]), noise: Scale::ASSUMED, stretch: Stretch::default() }
     }
 }
 
@@ -110,9 +137,9 @@ impl Wheels {
         self.drift.mean([1.0])
     }
 
-    /// Standard deviation of the heading after a metre straight on \[rad\], the [floor](super::tuning::FLOOR) apart.
+    /// Standard deviation of the heading after a metre straight on \[rad\], apart from what stays uncertain of any motion.
     pub fn heading_std(&self) -> f64 {
-        (self.noise.value() * WHEELS.heading[1] * WHEELS.heading[1] + self.drift.variance([1.0])).sqrt()
+        (self.noise.value() * WHEELS.assumed.heading[1] * WHEELS.assumed.heading[1] + self.drift.variance([1.0])).sqrt()
     }
 
     /// Where the robot is, seen from where it was, when odometry tells this motion. Half of an error of the heading is there from the
@@ -123,14 +150,14 @@ impl Wheels {
     }
 
     /// The displacement where odometry tells this motion of many steps, in which the robot drove so far and turned by so much \[m, rad\]. It is a bound
-    /// on what wheels may be off by, there and back: beyond a [`STRETCH`], and half a radian, standard deviations grow as if all errors went one way.
+    /// on what wheels may be off by, there and back: beyond a stretch, and half a radian, standard deviations grow as if all errors went one way.
     pub(super) fn displacement_over(&self, odometry: &Pose2, driven: [f64; 2]) -> Displacement {
-        self.displaced(odometry, driven, driven.map(|way| way * (way / STRETCH).max(1.0)))
+        self.displaced(odometry, driven, driven.map(|way| way * (way / WHEELS.stretch).max(1.0)))
     }
 
     /// The displacement after driving so far, with the noise of driving and turning by as much as `noisy` \[m, rad\].
     fn displaced(&self, odometry: &Pose2, [way, _]: [f64; 2], noisy: [f64; 2]) -> Displacement {
-        let ([heading, position], floor) = (WHEELS.variances(noisy), FLOOR.variances(noisy));
+        let ([heading, position], floor) = (WHEELS.assumed.variances(noisy), WHEELS.floor.variances(noisy));
         let covariance = Matrix3::from_diagonal(&[position + floor[1], position + floor[1], 0.0].into());
         let variance = self.noise.value() * heading + self.drift.variance([way]) + floor[0];
         Displacement { mean: *odometry, covariance }.turned(self.drift.mean([way]), variance)
@@ -152,20 +179,20 @@ impl Wheels {
 
     /// Adds what was found in a step to the stretch, and learns from it where it is long enough.
     fn add(&mut self, odometry: &Pose2, turned: f64) {
-        let ([heading, _], stretch) = (WHEELS.variances(driven(odometry)), &mut self.stretch);
+        let ([heading, _], stretch) = (WHEELS.assumed.variances(driven(odometry)), &mut self.stretch);
         stretch.way += ops::hypot(odometry.x, odometry.y);
         stretch.variance += heading;
         stretch.turned += turned;
-        if stretch.way >= STRETCH {
+        if stretch.way >= WHEELS.stretch {
             let stretch = core::mem::take(stretch);
             self.conclude(&stretch);
         }
     }
 
     fn conclude(&mut self, stretch: &Stretch) {
-        let (matched, expected) = (MATCHED_STD * MATCHED_STD, self.drift() * stretch.way);
+        let (matched, expected) = (WHEELS.matched_std * WHEELS.matched_std, self.drift() * stretch.way);
         let variance = self.noise.value() * stretch.variance + matched;
-        let most = OUTLYING * variance.sqrt();
+        let most = WHEELS.outlying * variance.sqrt();
         let error = (stretch.turned - expected).clamp(-most, most);
         let kept = kept(stretch.way);
         self.drift.learn_and_forget([stretch.way], expected + error, variance, kept);
@@ -231,9 +258,9 @@ mod tests {
         let Displacement { mean, covariance } = Wheels::default().displacement(&Pose2::new(1.0, 0.0, 0.0));
         assert_eq!(mean, Pose2::new(1.0, 0.0, 0.0));
         let [x, _, theta] = [covariance.m11, covariance.m22, covariance.m33].map(f64::sqrt);
-        let known = ops::hypot(WHEELS.heading[1], DRIFT_STD);
-        assert!((x - ops::hypot(WHEELS.position[0], FLOOR.position[0])).abs() < 1e-12);
-        assert!((theta - ops::hypot(known, FLOOR.heading[1])).abs() < 1e-12);
+        let known = ops::hypot(WHEELS.assumed.heading[1], WHEELS.drift_std);
+        assert!((x - ops::hypot(WHEELS.assumed.position[0], WHEELS.floor.position[0])).abs() < 1e-12);
+        assert!((theta - ops::hypot(known, WHEELS.floor.heading[1])).abs() < 1e-12);
     }
 
     #[test]
@@ -250,7 +277,7 @@ mod tests {
         let (wheels, ahead) = (after(300, Pose2::new(0.7, 0.0, 0.0), 0.06, 0.03), Pose2::new(1.0, 0.0, 0.0));
         let Displacement { mean, covariance } = wheels.displacement(&ahead);
         assert!((mean.theta - 0.06).abs() < 0.012 && (mean.y - 0.03).abs() < 0.006, "{mean:?}");
-        assert!((covariance.m33.sqrt() - ops::hypot(wheels.heading_std(), FLOOR.heading[1])).abs() < 1e-12);
+        assert!((covariance.m33.sqrt() - ops::hypot(wheels.heading_std(), WHEELS.floor.heading[1])).abs() < 1e-12);
     }
 
     #[test]

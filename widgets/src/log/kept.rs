@@ -94,12 +94,12 @@ impl Kept {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fastslam::mapper::{LaserMapperSettings, tuning};
+    use fastslam::mapper::LaserMapperSettings;
     use fastslam_log::parse;
     use std::sync::Arc;
 
     fn after(step: u32) -> Seen {
-        let map = Map::new(tuning::grid(0.1));
+        let map = Map::new(LaserMapperSettings { cell_size: 0.1, ..LaserMapperSettings::default() }.grid());
         Seen { step, scans: step as usize, map, paths: Vec::new(), best: 0, deaths: Vec::new() }
     }
 

@@ -1,7 +1,7 @@
 //! The fit of a Gaussian through few values, which must not know north from east.
 
 use fastslam::geometry::{Gaussian3, Pose2};
-use fastslam::mapper::tuning;
+use fastslam::mapper::LaserMapperSettings;
 use fastslam::ops;
 use fastslam::proposal::{Fit, FitLimits};
 use fastslam_lab::experiment::hill::Hill;
@@ -126,6 +126,6 @@ fn of_a_bent_hill_the_integral_is_near_at_every_angle() {
 /// no weight. But it is short by as much at every angle; 1e-6 nats are what rounding leaves.
 #[test]
 fn a_hill_of_robust_beams_is_missed_by_as_much_at_every_angle() {
-    let errors = errors(&tuning::FROM_SCAN.limits, robust);
+    let errors = errors(&LaserMapperSettings::default().proposal().settings.limits, robust);
     assert!(errors.iter().all(|error| (error - errors[0]).abs() < 1e-6), "{errors:?}");
 }

@@ -4,7 +4,7 @@ use fastslam::geometry::{Gaussian3, Pose2};
 use fastslam::laws;
 use fastslam::map::ConditionalMap;
 use fastslam::map::grid::{Grid, GridModel};
-use fastslam::mapper::tuning;
+use fastslam::mapper::LaserMapperSettings;
 use fastslam::matching::{Likelihood, Matcher, ScanModel, Score, ScoreNear};
 use fastslam::motion::{Displaced, Displacement, Motion, Odometry, OdometryModel};
 use fastslam::ops;
@@ -19,6 +19,11 @@ use fastslam::resampling::ResamplePolicy;
 use fastslam_lab::experiment::lap::{ALPHAS, FROM_SCAN, GRID, LapWorld, OUTLIER, TEMPER};
 use nalgebra::{Matrix3, Vector3};
 use statrs::distribution::{ContinuousCDF, Normal};
+
+/// With which logs are mapped.
+fn of_logs() -> FromScanSettings<CorrelativeSearch> {
+    LaserMapperSettings::default().proposal().settings
+}
 
 /// A particle at the start of the lap, its map made there, and the first step's control and scan.
 struct OneStep<S = HeadingSeeds> {
@@ -173,7 +178,7 @@ fn compare<S: Search>(name: &str, step: &OneStep<S>, least: [f64; 3]) {
 #[test]
 fn the_measurement_aware_proposal_has_the_posteriors_mean_covariance_and_integral() {
     for matcher in [Matcher::Cell, Matcher::SubCell] {
-        let (mut spread, mut lattice) = (one_step(matcher), one_step_by(matcher, tuning::FROM_SCAN.search));
+        let (mut spread, mut lattice) = (one_step(matcher), one_step_by(matcher, of_logs().search));
         // So hard a temper leaves cells, and the coarse look of the lattice, too little for the guard to trust them.
         lattice.from_scan.settings.minimum_improvement = f64::NEG_INFINITY;
         if matcher == Matcher::Cell {
@@ -283,7 +288,7 @@ const TWO_PLACES: Explained = Explained(|pose| {
 fn hills_are_drawn_by_their_integrals() {
     const DRAWS: u32 = 2000;
     let share = |hills: u32| {
-        let settings = FromScanSettings { hills, ..tuning::FROM_SCAN };
+        let settings = FromScanSettings { hills, ..of_logs() };
         let proposal = FromScan { motion: Displaced, score: TWO_PLACES, settings };
         let covariance = Matrix3::from_diagonal(&Vector3::new(0.09, 0.09, 0.01));
         let control = Displacement { mean: Pose2::default(), covariance };
@@ -327,7 +332,7 @@ fn on_known_ground(
         full_weight: 0.0,
         limits: FitLimits { least: [1e-4; 2], most: [1.0; 2] },
         weight,
-        ..tuning::FROM_SCAN
+        ..of_logs()
     };
     let covariance = SPREAD.map_with_location(|i, j, s| if i == j { times * times * s } else { 0.0 });
     let off = covariance.diagonal().map(|variance| 1.2 * variance.sqrt());

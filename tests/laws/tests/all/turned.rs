@@ -3,7 +3,7 @@
 use fastslam::geometry::Pose2;
 use fastslam::map::ConditionalMap;
 use fastslam::map::grid::{Grid, GridModel};
-use fastslam::mapper::tuning;
+use fastslam::mapper::{CELLS_PER_NDT, LaserMapperSettings};
 use fastslam::matching::{Matcher, ScanModel};
 use fastslam::motion::{Motion as _, Odometry, OdometryModel};
 use fastslam::ops;
@@ -117,9 +117,10 @@ fn corridor_of_the_lap(seed: u32, angle: f64) -> Option<Judged> {
 /// With the map and settings for logs, in which 4 to 5 cm are unknown along a step.
 fn corridor_of_a_log(seed: u32, angle: f64) -> Option<Judged> {
     // With one hill the first numbers of the stream are those of the draw from its fit.
-    let settings = FromScanSettings { hills: 1, ..tuning::FROM_SCAN };
-    let from_scan = FromScan { motion: WHEELS, score: tuning::score(), settings };
-    corridor::<_, { tuning::CELLS_PER_NDT }>(from_scan, tuning::grid(0.05), 0.4, seed, angle).judged(seed)
+    let of_logs = LaserMapperSettings::default();
+    let FromScan { score, settings, .. } = of_logs.proposal();
+    let from_scan = FromScan { motion: WHEELS, score, settings: FromScanSettings { hills: 1, ..settings } };
+    corridor::<_, CELLS_PER_NDT>(from_scan, of_logs.grid(), 0.4, seed, angle).judged(seed)
 }
 
 /// The first step of the lap, turned about its start.
