@@ -4,6 +4,7 @@ import { homedir } from 'node:os'
 import { join } from 'node:path'
 import { build } from './build.mjs'
 import { audit, checkCrates } from './dependencies.mjs'
+import { checkItems } from './items.mjs'
 import { isMain, main, npmBin, root, run, step, StepError } from './lib.mjs'
 import { chapterPrograms } from './registry.mjs'
 
@@ -13,6 +14,7 @@ export const checks = [
   ['Lints (clippy)', () => run('cargo', ['clippy', '--workspace', '--all-targets', '--', '-D', 'warnings'])],
   ['Lints for WebAssembly (clippy)', clippyWasm],
   ['Documentation (cargo doc)', () => run('cargo', ['doc', '--workspace', '--no-deps', '--all-features'], { env: { RUSTDOCFLAGS: '-D warnings' } })],
+  ['Public items of the filters', checkItems],
   ['What the packages of the crates hold (cargo package --list)', listPackages],
   ['Licences and sources of crates', checkCrates],
   ['Types (TypeScript)', checkTypes],

@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict'
 import { test } from 'node:test'
 import { stripVTControlCharacters } from 'node:util'
+import { itemsIn, judgeItems } from '../../scripts/items.mjs'
 import { judge, judgeAll } from '../../scripts/sizes.mjs'
 import { counted } from '../../scripts/tally.mjs'
 
@@ -27,4 +28,13 @@ test('a size over its target is marked, and one more than 1 % above its baseline
   await assert.rejects(plain(60_601), /Too heavy: all has 60\.6 KB, more than 1 % above its baseline of 60\.0 KB/)
   await assert.rejects(judge('a thing that is in no table', 1), /has no line for a thing/)
   await assert.rejects(judgeAll([['chapter', 9e9], ['poster', 1], ['text', 9e9]]), /Too heavy: chapter.*\nToo heavy: text/)
+})
+
+test('the public items of a crate are counted by kind, and neither more nor fewer than were written down pass', () => {
+  const list = (/** @type {string} */ kind, /** @type {string[]} */ ...names) => `<h3 id="${kind}">${kind}</h3><ul class="all-items">${names.map(name => `<li><a href="${name}.html">${name}</a></li>`).join('')}</ul>`
+  const items = itemsIn(`<h3><a href="#structs">Crate Items</a></h3><ul><li><a href="#structs">Structs</a></li></ul>${list('structs', 'Path', 'map::Grid')}${list('traits', 'Motion')}</section>`)
+  assert.deepEqual(items, { structs: 2, traits: 1 })
+  assert.equal(judgeItems(items, 3), '3 public items: 2 structs, 1 traits')
+  assert.throws(() => judgeItems(items, 2), /has 3 public items \(2 structs, 1 traits\), 1 more/)
+  assert.throws(() => judgeItems(items, 4), /and 4 stand in/)
 })
