@@ -31,7 +31,7 @@ async function clippyWasm() {
   for (const program of chapterPrograms) await clippy('-p', 'fastslam-widgets', '--lib', '--no-default-features', '--features', `single-threaded,${program}`)
 }
 
-const crates = ['fastslam', 'fastslam-log', 'fastslam-lab', 'fastslam-widgets']
+const crates = ['fastslam', 'fastslam-log', 'fastslam-lab', 'fastslam-widgets', 'fastslam-cli']
 
 async function listPackages() {
   for (const crate of crates) {
@@ -39,7 +39,7 @@ async function listPackages() {
     const packed = output.trim().split(/\s+/)
     const missing = ['README.md', 'LICENSE-APACHE', 'LICENSE-MIT'].filter(file => !packed.some(path => path.endsWith(file)))
     if (missing.length > 0) throw new StepError(`The package ${crate} is without ${missing.join(', ')}.`)
-    const other = packed.filter(file => !/^(src|tests|examples|fonts|words)\/|^[^/]+$/.test(file))
+    const other = packed.filter(file => !/\.rs$|^(src|tests|fonts|words)\/|^[^/]+$/.test(file))
     if (other.length > 0) throw new StepError(`The package ${crate} holds what no crate needs: ${other.join(', ')}.`)
   }
 }

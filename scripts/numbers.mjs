@@ -44,7 +44,7 @@ function leaveOutUnused() {
 /** With its own progress bar on the terminal. @param {string[]} args @returns {Promise<void>} */
 function measure(args) {
   return new Promise((resolve, reject) => {
-    const child = spawn('cargo', ['run', '--release', '--quiet', '--bin', 'fastslam', '--', 'numbers', ...args], { cwd: root, stdio: 'inherit' })
+    const child = spawn('cargo', ['run', '--release', '--quiet', '--bin', 'fastslam-lab', '--', 'numbers', ...args], { cwd: root, stdio: 'inherit' })
     child.on('error', error => reject(new StepError(`cargo could not be started: ${error.message}`)))
     child.on('close', code => (code === 0 ? resolve() : reject(new StepError('The numbers were not measured.'))))
   })
@@ -55,7 +55,7 @@ if (isMain(import.meta)) {
     const args = process.argv.slice(2)
     if (!args.includes('--unused')) {
       await setUp()
-      await step('The command line', () => run('cargo', ['build', '--release', '--bin', 'fastslam']))
+      await step('The command line', () => run('cargo', ['build', '--release', '--bin', 'fastslam-lab']))
       await step('The numbers of the chapter', () => measure(args))
     }
     await step('What the pages use', leaveOutUnused)

@@ -80,7 +80,7 @@ export const units = [
   { name: 'readme-build', seconds: 80, command: 'npm run build && npm run site -- .cache/site && node --test --test-reporter=tap tests/readme/site.test.mjs && npm start -- --no-serve' },
   { name: 'readme-wasm-pack', seconds: 120, command: `${quick} wasm-pack build widgets --target web --out-dir ../.cache/wasm-pack && test -s .cache/wasm-pack/fastslam_widgets_bg.wasm` },
   { name: 'readme-breadth', seconds: 5, command: 'npm run test:all -- --list' },
-  { name: 'readme-command-line', seconds: 60, command: 'cargo build --workspace --profile test --bin fastslam && node --test --test-reporter=tap tests/readme/command-line.test.mjs' },
+  { name: 'readme-command-line', seconds: 60, command: 'cargo build --workspace --profile test --bin fastslam --bin fastslam-lab && node --test --test-reporter=tap tests/readme/command-line.test.mjs' },
 ]
 
 /** A share is meant to take no longer [s]. */

@@ -8,8 +8,8 @@ import { join } from 'node:path'
 import { after, test } from 'node:test'
 import { capture, root } from '../../scripts/lib.mjs'
 
-const lines = [...readFileSync(join(root, 'README.md'), 'utf8').matchAll(/^cargo run --release --bin fastslam -- (.+)$/gm)].map(([, line]) => String(line))
-const program = join(JSON.parse(capture('cargo', 'metadata', '--no-deps', '--format-version', '1') ?? '{}').target_directory, 'debug', 'fastslam')
+const lines = [...readFileSync(join(root, 'README.md'), 'utf8').matchAll(/^cargo run --release --bin (fastslam\S*) -- (.+)$/gm)].map(([, name, line]) => [String(name), String(line)])
+const programs = join(JSON.parse(capture('cargo', 'metadata', '--no-deps', '--format-version', '1') ?? '{}').target_directory, 'debug')
 
 const folder = mkdtempSync(join(tmpdir(), 'readme-'))
 after(() => rmSync(folder, { recursive: true }))
@@ -38,12 +38,12 @@ const smaller = [
 ]
 
 assert.ok(lines.length > 10, 'README has lines on the command line')
-for (const line of lines) {
+for (const [name = '', line = ''] of lines) {
   const words = smaller.reduce((text, [found, by]) => text.replace(found, by), line).split(' ')
   const shared = words.find(word => word.includes('/shared/'))
   const skip = shared && !existsSync(shared) && !existsSync(`${shared}-landmarks.dat`) ? `${shared} is not there` : false
-  test(`fastslam ${line}`, { skip }, () => {
-    const { status, stderr, error } = spawnSync(program, words, { cwd: folder, encoding: 'utf8' })
+  test(`${name} ${line}`, { skip }, () => {
+    const { status, stderr, error } = spawnSync(join(programs, name), words, { cwd: folder, encoding: 'utf8' })
     assert.equal(error, undefined)
     assert.equal(status, 0, stderr)
   })

@@ -79,7 +79,7 @@ pub fn read(path: &Path) -> Result<(LandmarkLog<Displacement>, Tuning<Displaced>
     }
     if poses.len() < 2 || seen.is_empty() {
         let needed = "needs two poses (VERTEX_SE2) or more and a sighting (EDGE_SE2_XY) or more";
-        let only_poses = "; `fastslam lap --method graph --from-g2o` optimizes a graph of poses";
+        let only_poses = "; `fastslam-lab lap --method graph --from-g2o` optimizes a graph of poses";
         let more = if poses.len() > 1 { only_poses } else { "" };
         bail!(Usage::of_file(path, format_args!("{needed}{more}")));
     }

@@ -1,18 +1,16 @@
 //! Pictures for files, by the painter of the figures.
 
-use crate::in_file;
-use anyhow::{Context, Result};
+use anyhow::Result;
 use fastslam::geometry::Pose2;
 use fastslam::map::grid::MapImage;
 use fastslam::map::landmarks::Landmark;
 use fastslam::motion::Motion;
 use fastslam::proposal::Proposal;
+use fastslam_cli::{ColorType, write_png};
 use fastslam_lab::experiment::landmarks::{LandmarkRun, WithLandmarks};
 use fastslam_widgets::font::Weight;
 use fastslam_widgets::paint::{Canvas, Theme};
 use fastslam_widgets::scene::{Anchor, Mark, Point, Rect, Role, Scene, closed, ellipse, text};
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::Path;
 
 /// Width of a drawing \[px\].
@@ -89,7 +87,7 @@ where
 
 /// Writes what was painted last as PNG.
 pub fn save(canvas: &Canvas, path: &Path) -> Result<()> {
-    write_png(path, canvas.size(), png::ColorType::Rgba, canvas.pixels())
+    write_png(path, canvas.size(), ColorType::Rgba, canvas.pixels())
 }
 
 /// Writes a map with the path on it as PNG, one pixel a cell; where a loop stays open there is a ring of a metre.
@@ -128,14 +126,5 @@ pub fn save_map(map: &MapImage, path: &[(f64, Pose2)], open: &[Pose2], file: &Pa
             }
         }
     }
-    write_png(file, [map.width, map.height], png::ColorType::Rgb, &pixels)
-}
-
-fn write_png(path: &Path, [width, height]: [u32; 2], colours: png::ColorType, pixels: &[u8]) -> Result<()> {
-    let write = || -> std::io::Result<()> {
-        let mut encoder = png::Encoder::new(BufWriter::new(File::create(path)?), width, height);
-        encoder.set_color(colours);
-        Ok(encoder.write_header()?.write_image_data(pixels)?)
-    };
-    write().with_context(in_file(path))
+    write_png(file, [map.width, map.height], ColorType::Rgb, &pixels)
 }

@@ -26,7 +26,7 @@ pub struct Entry {
 pub type Entries = BTreeMap<String, Entry>;
 
 /// # Panics
-/// Where a file was not written by `fastslam numbers`.
+/// Where a file was not written by `fastslam-lab numbers`.
 pub fn read<T: DeserializeOwned>(text: &str) -> BTreeMap<String, T> {
     serde_json::from_str(text).expect("`npm run numbers` writes the files in www/data")
 }

@@ -15,7 +15,7 @@ use fastslam_lab::experiment::{
 pub static GRAPHS: Job = Job { name: "graphs", columns: &["seed", "rms_path"], run };
 
 /// The setting is that of the figure's link. What it says about the seed, the start, the edges that are asked for and the view makes no
-/// difference: a row is what `fastslam table --method graph` makes of a log.
+/// difference: a row is what `fastslam-lab table --method graph` makes of a log.
 fn run(setting: &Setting, seeds: Range<u64>) -> Result<Rows, FigureError> {
     let recipe: Recipe = job::recipe(setting)?;
     let GraphSetup { lap, repair, .. } = recipe.setup();

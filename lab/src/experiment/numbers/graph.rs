@@ -72,7 +72,7 @@ fn over_seeds(group: &Group, course: Course, runs: &Runs<'_>) -> Made {
     let setup = |seed| LapSetup { course, seed, ..LapSetup::default() };
     let found = runs.over(|seed| GraphRun::of(&setup(seed), Repair::LeastSquares).expect(VALID));
     let of = |f: fn(&GraphRun) -> f64| found.iter().map(f).collect::<Vec<f64>>();
-    let command = format!("fastslam lap --method graph --course {course} --seed N");
+    let command = format!("fastslam-lab lap --method graph --course {course} --seed N");
     let errors = of(|run| run.rms_after);
     let what = format!("the RMS position error of the path at the optimum: {command}");
     let mut numbers = group.spread(&errors, &what);

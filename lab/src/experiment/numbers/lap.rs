@@ -84,7 +84,7 @@ impl LapCell {
     /// What runs its laps natively.
     fn command(&self) -> String {
         let Self { proposal, matcher, particles } = self;
-        format!("fastslam lap --proposal {proposal} --matcher {matcher} --particles {particles} --seed N")
+        format!("fastslam-lab lap --proposal {proposal} --matcher {matcher} --particles {particles} --seed N")
     }
 
     /// The numbers of the cell, from the errors of seeds 1 to their number.
@@ -203,7 +203,7 @@ fn odometry() -> Recipe {
             let world = LapWorld::new(seed, &setup.motion(), setup.range_std);
             rms(&world.odometry, &world.truth)
         };
-        let what = "the RMS position error of raw odometry over the Apartment lap: fastslam lap --seed N";
+        let what = "the RMS position error of raw odometry over the Apartment lap: fastslam-lab lap --seed N";
         Group("lap.odometry".into()).spread(&runs.over(error), what).into()
     })
 }
@@ -213,7 +213,7 @@ fn memory() -> Recipe {
         let setup = LapSetup::default();
         let (lap, _) = Lap::new(&setup).expect(VALID).with_executor(Executor::Serial).run(|_| ());
         let (unique, dense) = (lap.report().map_bytes_unique as f64, lap.report().map_bytes_dense as f64);
-        let of = format!("at the end of a lap: fastslam lap --particles {} --seed {}", setup.particles, setup.seed);
+        let of = format!("at the end of a lap: fastslam-lab lap --particles {} --seed {}", setup.particles, setup.seed);
         vec![
             group.number("unique", unique, "bytes", format!("All maps, shared tiles counted once, {of}")),
             group.number("dense", dense, "bytes", format!("As many dense maps of the same extent, {of}")),
@@ -275,7 +275,7 @@ fn sufficient(proposal: ProposalKind) -> Recipe {
         let least = TRIED.into_iter().find(enough);
         runs.all_done();
         let made = format!(
-            "Smallest M of {TRIED:?} with which at least four fifths of seeds 1 to {} end with an RMS position error under {WELL} m: fastslam lap --proposal {proposal} --matcher {matcher} --particles M --seed N",
+            "Smallest M of {TRIED:?} with which at least four fifths of seeds 1 to {} end with an RMS position error under {WELL} m: fastslam-lab lap --proposal {proposal} --matcher {matcher} --particles M --seed N",
             runs.seeds
         );
         Vec::from_iter(least.map(|least| Number { key: key.clone(), value: least as f64, unit: "", made })).into()

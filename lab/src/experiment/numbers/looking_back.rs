@@ -21,7 +21,7 @@ fn measured(group: &Group, course: Course, found: &[Accounts]) -> Vec<Number> {
     let median = |key, what: &str, f: fn(&Accounts) -> f64| {
         let values: Vec<f64> = found.iter().map(f).collect();
         let made = format!(
-            "Median over seeds 1 to {} of the RMS position error of {what}: fastslam lap --course {course} --seed N",
+            "Median over seeds 1 to {} of the RMS position error of {what}: fastslam-lab lap --course {course} --seed N",
             found.len()
         );
         group.number(key, ErrorSummary::of(&values).median, "m", made)

@@ -1,6 +1,6 @@
 //! Every measured number of the chapter, and how it is made.
 //!
-//! A [`Recipe`] makes a group of numbers from seeds 1 to n; [`recipes`] are all there are. `fastslam numbers` runs them natively and writes
+//! A [`Recipe`] makes a group of numbers from seeds 1 to n; [`recipes`] are all there are. `fastslam-lab numbers` runs them natively and writes
 //! the file that the chapter's prose takes its numbers from by key; `tests/portability` and `tests/browser` run them again and
 //! compare bits; the page runs one cell of the lap table in front of the reader ([`LapCell`]).
 

@@ -23,7 +23,7 @@ fn on_the_lap() -> Recipe {
         let group = Group("policies.lap".into());
         let setup = PoliciesSetup::of(PolicyCourse::Lap);
         let policies = summarised(runs, &setup);
-        let command = format!("fastslam policies --course lap --particles {}", setup.particles);
+        let command = format!("fastslam-lab policies --course lap --particles {}", setup.particles);
         let of = format!("over seeds 1 to {}: {command}", runs.seeds);
         let mut numbers = Vec::new();
         for policy in &policies {
@@ -69,7 +69,7 @@ fn wings(scheme: Scheme) -> Recipe {
     Recipe::new(name.clone(), SEEDS, move |runs| {
         let setup = PoliciesSetup { scheme, ..PoliciesSetup::of(PolicyCourse::Wings) };
         let kept = "the runs that still have a particle in the right wing before the sign comes in sight";
-        let command = format!("fastslam policies --course wings --scheme {scheme} --particles {}", setup.particles);
+        let command = format!("fastslam-lab policies --course wings --scheme {scheme} --particles {}", setup.particles);
         let what = format!("{kept}, over seeds 1 to {}: {command}", runs.seeds);
         let of_policy = |policy: PolicySummary| {
             let group = Group(format!("{name}.{}", policy.policy));

@@ -34,7 +34,7 @@ fn opening() -> Recipe {
         let run = RingRun::of(&RingSetup { lap, ..RingSetup::default() }).expect(VALID);
         let of = |what: &str| {
             format!(
-                "{what}, in the run that the lap's figure opens with: fastslam ring --range-std {range_std} --particles {particles}, seed {seed}"
+                "{what}, in the run that the lap's figure opens with: fastslam-lab ring --range-std {range_std} --particles {particles}, seed {seed}"
             )
         };
         vec![
@@ -80,8 +80,10 @@ fn runs_of(group: &Group, proposal: ProposalKind, weight: ScanWeight, runs: &Run
     };
     let particles = setup(1).lap.particles;
     let found = runs.over(|seed| RingRun::of(&setup(seed)).expect(VALID));
-    let command =
-        format!("fastslam ring --proposal {proposal} --weight {weight} --particles {particles} --seeds {}", runs.seeds);
+    let command = format!(
+        "fastslam-lab ring --proposal {proposal} --weight {weight} --particles {particles} --seeds {}",
+        runs.seeds
+    );
     let median = |key: &str, unit, what: &str, of: fn(&RingRun) -> f64| {
         let values: Vec<f64> = found.iter().map(of).collect();
         let made = format!("Median over seeds 1 to {} of {what}: {command}", runs.seeds);

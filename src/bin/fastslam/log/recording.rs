@@ -82,7 +82,7 @@ fn refusal(path: &Path, error: LogError, lenient: bool, is_known: bool) -> Usage
     let is_graph = |kind: &str| kind.starts_with("VERTEX") || kind.starts_with("EDGE") || kind == "FIX";
     let more = match &error.problem {
         LogProblem::NoScan { but: Some(kind) } if is_graph(kind) => {
-            ": `fastslam landmarks --g2o` reads graphs, or `fastslam lap --method graph --from-g2o`"
+            ": `fastslam landmarks --g2o` reads graphs, or `fastslam-lab lap --method graph --from-g2o`"
         }
         LogProblem::Json(what) if what.contains("NaN") => " (sed 's/-Infinity/0/g; s/Infinity/null/g; s/NaN/0/g')",
         _ if of_nothing && !is_known => {
@@ -231,7 +231,7 @@ fn cure(start: &[u8]) -> Option<&'static str> {
         (
             0,
             b"VERTEX",
-            "it is a graph of g2o: `fastslam landmarks --g2o` reads it, or `fastslam lap --method graph --from-g2o`",
+            "it is a graph of g2o: `fastslam landmarks --g2o` reads it, or `fastslam-lab lap --method graph --from-g2o`",
         ),
     ];
     let known = KINDS.iter().find(|(at, begins, _)| start.get(*at..).is_some_and(|rest| rest.starts_with(begins)));

@@ -1,4 +1,4 @@
-//! The errors that come with the figure of universes are those of the chapter's data, which `fastslam numbers` measures and
+//! The errors that come with the figure of universes are those of the chapter's data, which `fastslam-lab numbers` measures and
 //! `tests/portability` runs again: `UPDATE_GOLDENS=1` writes them anew.
 
 use fastslam_lab::experiment::universes::TRIED;

@@ -1,4 +1,4 @@
-//! `fastslam smoothing`: what a filter's record says of the past, and what sweeps of a smoother make of it.
+//! `fastslam-lab smoothing`: what a filter's record says of the past, and what sweeps of a smoother make of it.
 
 use crate::{print, print_json};
 use anyhow::Result;

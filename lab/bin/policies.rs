@@ -1,4 +1,4 @@
-//! `fastslam policies`: when to resample, over many seeds.
+//! `fastslam-lab policies`: when to resample, over many seeds.
 
 use crate::{print, print_json, progress, whole};
 use anyhow::Result;

@@ -1,4 +1,4 @@
-//! `fastslam rings`: whether the mapper of logs closes simulated loops of 60, 120 and 240 m, over many seeds.
+//! `fastslam-lab rings`: whether the mapper of logs closes simulated loops of 60, 120 and 240 m, over many seeds.
 
 use crate::{print, print_json, progress, whole};
 use anyhow::Result;

@@ -1,4 +1,4 @@
-//! `fastslam joint`: what particles are worth, landmark by landmark, when the map is drawn along with the path, and when it is computed.
+//! `fastslam-lab joint`: what particles are worth, landmark by landmark, when the map is drawn along with the path, and when it is computed.
 
 use crate::{print, print_json};
 use anyhow::Result;

@@ -1,9 +1,10 @@
-//! `fastslam lap`: one lap of the apartment, or of the ring.
+//! `fastslam-lab lap`: one lap of the apartment, or of the ring.
 
-use crate::{Usage, graph, picture, print, print_json, whole};
+use crate::{Usage, graph, print, print_json, whole, write_png};
 use anyhow::{Result, bail};
 use fastslam::matching::Matcher;
 use fastslam::resampling::{ResamplePolicy, Scheme};
+use fastslam_cli::ColorType;
 use fastslam_lab::experiment::ProposalKind;
 use fastslam_lab::experiment::lap::{self, Course, Lap, LapSetup, ScanWeight, StepReport};
 use fastslam_lab::world::Edits;
@@ -32,7 +33,7 @@ pub struct Arguments {
     png: Option<PathBuf>,
 }
 
-/// What can be set of any lap: those of `fastslam ring` as well.
+/// What can be set of any lap: those of `fastslam-lab ring` as well.
 #[derive(clap::Args)]
 pub struct Options {
     /// Number of particles M, 1 to 4096
@@ -198,5 +199,6 @@ fn paint(setup: &LapSetup, path: &Path) -> Result<()> {
     const DPR: u32 = 2;
     let height = figure.height(f64::from(WIDTH / DPR)) as u32 * DPR;
     figure.paint(WIDTH, height, f64::from(DPR), Theme::named("light"));
-    picture::save(figure.canvas(), path)
+    let canvas = figure.canvas();
+    write_png(path, canvas.size(), ColorType::Rgba, canvas.pixels())
 }

@@ -1,4 +1,4 @@
-//! `fastslam lap --method graph`: the same log as a pose graph.
+//! `fastslam-lab lap --method graph`: the same log as a pose graph.
 
 use crate::{Usage, in_file, print, print_json};
 use anyhow::{Context, Result};

@@ -1,4 +1,4 @@
-//! `fastslam table`: errors over many seeds, whole or in shards.
+//! `fastslam-lab table`: errors over many seeds, whole or in shards.
 
 use crate::graph::Method;
 use crate::shard::{self, Shard};

@@ -1,4 +1,4 @@
-//! `fastslam numbers`: every measured number of the chapter, into the file that its prose takes them from.
+//! `fastslam-lab numbers`: every measured number of the chapter, into the file that its prose takes them from.
 
 use crate::{Usage, in_file, progress};
 use anyhow::{Context, Result, bail};

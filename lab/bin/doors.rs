@@ -1,4 +1,4 @@
-//! `fastslam doors`: who ends at the right one of six identical doors, whole or in shards.
+//! `fastslam-lab doors`: who ends at the right one of six identical doors, whole or in shards.
 
 use crate::shard::{self, Shard};
 use crate::{print, print_json, progress};

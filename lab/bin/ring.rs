@@ -1,4 +1,4 @@
-//! `fastslam ring`: what a filter keeps until a loop closes, over many seeds.
+//! `fastslam-lab ring`: what a filter keeps until a loop closes, over many seeds.
 
 use crate::lap::Options;
 use crate::{print, print_json, progress};

@@ -1,4 +1,4 @@
-//! `fastslam variants`: the mapper of logs in worlds of our own that ask more of it than its example, over some seeds.
+//! `fastslam-lab variants`: the mapper of logs in worlds of our own that ask more of it than its example, over some seeds.
 
 use crate::{Usage, print, print_json, progress, whole};
 use anyhow::{Result, bail};
