@@ -1,7 +1,7 @@
 // What an author may fix about a figure: controls, locked parameters, seed, first step, decimal commas, size.
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
-import { openCourse } from './host'
+import { breadthOf, FIGURES, openCourse } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -35,6 +35,31 @@ test('for a slide the picture alone has the whole width, with the row of playbac
     await expect(lap.alert).toBeEmpty()
   }
 })
+
+for (const name of FIGURES) {
+  test(`on a projector the picture of ${name} grows with its letters until it meets an edge, and nothing is left to scroll`, breadthOf(name), async ({ page }) => {
+    const figure = await open(page, name, 'size=presentation&controls=picture')
+    await figure.live()
+    // Beside 700 px a figure once swung by a pixel for ever: what it left for the row of playback was there without the row.
+    for (const [width, height] of [[900, 560], [753, 700], [755, 700], [1920, 1080]] as const) {
+      await page.setViewportSize({ width, height })
+      for (const controls of ['picture', 'picture playback']) {
+        await figure.element.evaluate((element, controls) => element.setAttribute('controls', controls), controls)
+        await figure.settled()
+        const which = `${controls}, ${width} × ${height}`
+        const [picture, room, scrolled] = await figure.element.evaluate(element => {
+          const root = element.shadowRoot!
+          const [canvas, stage, body] = ['canvas', '.stage', '.figure'].map(inner => root.querySelector<HTMLElement>(inner)!) as [HTMLElement, HTMLElement, HTMLElement]
+          return [[canvas.clientWidth, canvas.clientHeight], [stage.clientWidth, body.clientHeight], body.scrollHeight - body.clientHeight] as const
+        })
+        expect(scrolled, `${which}, scrolled`).toBe(0)
+        expect(picture[0]! <= room[0]! && picture[1]! <= room[1]!, `${which}, in its window`).toBe(true)
+        // The row of playback is no higher than this.
+        expect(picture[0]! > 0.95 * room[0]! || room[1]! - picture[1]! < 64, `${which}: ${picture} in ${room}`).toBe(true)
+      }
+    }
+  })
+}
 
 test('controls can be picked by their names, and a name that is none is answered with those there are', async ({ page }) => {
   const lap = await open(page, 'lap', 'show=n-eff&controls=odometry&step=20')

@@ -328,8 +328,9 @@ export class Session {
     let [scene, scale] = [room / fontScale, fontScale]
     const natural = Math.round(this.figure.height(scene) * scale)
     let best = WORTH
-    if (natural > height) {
-      const fitting = (wide: number) => Math.min(fontScale, room / wide, height / this.figure.height(wide))
+    const grows = fontScale > 1 && height < Infinity // a projector's letters, with its screen
+    if (natural > height || grows) {
+      const fitting = (wide: number) => Math.min(grows ? Infinity : fontScale, room / wide, height / this.figure.height(wide))
       // Other widths have other layouts, so the one is looked for that can be shown largest: in its letters, and in the room that it takes of
       // that there is. What would be too small to read is scrolled.
       const usual = scene
