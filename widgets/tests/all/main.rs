@@ -22,6 +22,7 @@ mod proposal;
 mod resampling;
 mod smoothing;
 mod trace;
+mod units;
 mod vignettes;
 mod whole;
 mod words;
