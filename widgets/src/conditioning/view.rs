@@ -129,14 +129,20 @@ fn notes(scene: &mut Scene, model: &ConditioningModel, area: &Rect) {
     let off_block = conditioning::OffBlocks { off, all }.say();
     let off_block_short = conditioning::OffBlocksShort { off, all }.say();
     let size = 2 * model.drive().landmarks().len() + 3;
+    let off_block_tiny = conditioning::OffBlocksTiny { off, all }.say();
     let touched = conditioning::Touched { size: &size, entries: &model.ekf_entries() }.say();
+    let touched_short = conditioning::TouchedShort { entries: &model.ekf_entries() }.say();
     let entry = model.entry_text();
     let lines = [
-        ([&*entry, &entry], Weight::SemiBold, Role::Accent),
-        ([&*together, &together], Weight::Regular, Role::Muted),
-        ([&*off_block, &off_block_short], Weight::SemiBold, Role::Ink),
-        ([conditioning::touches(), conditioning::touches_short()], Weight::Regular, Role::Muted),
-        ([&*touched, &touched], Weight::SemiBold, Role::Ink),
+        ([&*entry, &entry, &entry], Weight::SemiBold, Role::Accent),
+        ([&*together, &together, &together], Weight::Regular, Role::Muted),
+        ([&*off_block, &off_block_short, &off_block_tiny], Weight::SemiBold, Role::Ink),
+        (
+            [conditioning::touches(), conditioning::touches_short(), conditioning::touches_short()],
+            Weight::Regular,
+            Role::Muted,
+        ),
+        ([&*touched, &touched_short, &touched_short], Weight::SemiBold, Role::Ink),
     ];
     for (k, (lines, weight, role)) in lines.into_iter().enumerate() {
         let place = Rect::new(area.x, area.y + k as f64 * LINE, area.w, LINE);

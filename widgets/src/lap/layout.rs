@@ -63,7 +63,7 @@ impl Layout {
         // Side by side, the large view is so much larger that both columns end at the same height.
         let beside = width >= WIDE && map && mosaic;
         let gap = 28.0;
-        let legend = if width < 860.0 { 3.0 } else { 2.0 } * LINE;
+        let legend = if width < 880.0 { 3.0 } else { 2.0 } * LINE;
         let notes = if beside && width < 680.0 { 3.0 } else { 2.0 } * LINE;
         let below_mosaic = notes + if meter { PAD + METER } else { 0.0 };
         let excess = (below_mosaic - legend) * ASPECT + 2.0 * RING * (ASPECT - 1.0);
