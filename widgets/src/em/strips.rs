@@ -185,3 +185,31 @@ pub fn guess(scene: &mut Scene, model: &EmModel, layout: &Layout) {
         });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{model::Model as _, panels::Panels};
+    use fastslam_lab::experiment::em::AGAIN_BELOW;
+
+    /// Why there is no lens here: what the forward pass leaves open is large enough to be seen.
+    #[test]
+    fn the_two_places_of_the_forward_pass_are_farther_apart_than_a_lens_is_for() {
+        let mut model = EmModel::default();
+        while model.pending() > 0 {
+            model.work();
+        }
+        let log = model.log();
+        let column = model.passes().forward(log.carried).unwrap();
+        let heaviest = |old: bool| {
+            let cells = (0..column.len()).filter(|cell| (CORRIDOR.place(*cell) < AGAIN_BELOW) == old);
+            cells.max_by(|a, b| column[*a].total_cmp(&column[*b])).unwrap()
+        };
+        let [old, new] = [heaviest(true), heaviest(false)];
+        for width in [322.0, 692.0, 1112.0] {
+            let area = Layout::of(width, &Panels::default()).product.area;
+            let [old, new] = [old, new].map(|cell| y(&area, CORRIDOR.place(cell)));
+            assert!(old - new > 20.0, "{width}: {old} {new}");
+        }
+    }
+}
