@@ -69,6 +69,8 @@ pub const PICTURES: &[Picture] = &[
     picture(LAP, "end-narrow", "step=90&truth=on&raw=on", 340, 2.0, "light"),
     picture(LAP, "phone", RESAMPLED, 380, 1.0, "contrast-dark"),
     picture(LAP, "tiny", RESAMPLED, 240, 1.0, "contrast-light"),
+    picture(LAP, "lap-lens", "v=9&step=8", 692, 1.0, "light"),
+    picture(LAP, "lap-survivors", "v=9&step=95", 692, 1.0, "dark"),
     picture(LAP, "one", "universes=1&step=30", 640, 1.0, "light"),
     picture(LAP, "motion-64", "universes=64&proposal=motion&matcher=cell&step=41", 800, 1.0, "light"),
     picture(LAP, "motion-256", "universes=256&proposal=motion&matcher=cell&step=12", 800, 1.0, "dark"),

@@ -134,6 +134,16 @@ impl LapModel {
         self.closing().is_some_and(|closing| (closing.saturating_sub(1)..=closing + AFTER).contains(&self.step()))
     }
 
+    /// Whether it is still to close.
+    pub fn drifts(&self) -> bool {
+        self.closing().is_some_and(|closing| self.step() < closing)
+    }
+
+    /// Whether it has closed, and that is over.
+    pub fn closed(&self) -> bool {
+        self.closing().is_some_and(|closing| self.step() > closing + AFTER)
+    }
+
     /// How many of the universes that lived one step before the loop closed have no descendant any more: as it is now while it
     /// closes, and as it was when it had.
     pub fn died_in_closing(&self) -> usize {

@@ -13,6 +13,8 @@ use crate::{
     scene::{Anchor, Mark, Rect, Region, Role, Sample, Scene, Shading, cross, heading_if_fits, legend, text},
     words::{common, lap},
 };
+use fastslam::genealogy::Path;
+use std::collections::BTreeSet;
 
 /// Share of weight (1 = 1/M) at which a bar is full: a universe that weighs thrice its share.
 const FULL_SHARE: f64 = 3.0;
@@ -20,15 +22,32 @@ const FULL_SHARE: f64 = 3.0;
 /// Most universes that have a tile: of more, none could be read.
 const TILES: usize = 16;
 
-/// The slots that have a tile, in ascending order: the heaviest, and the one shown large.
+/// And most of those that a closed loop has left: few enough to be compared.
+const SURVIVORS: usize = 4;
+
+/// The slots that have a tile, in ascending order: the heaviest, and the one shown large. Once the loop is closed, the heaviest, and by
+/// turns the one whose path parted first from those of all before it, of equals the heavier.
 fn shown(model: &LapModel) -> Vec<u32> {
-    let (weights, selected) = (model.lap().weights(), model.selected());
+    let (lap, selected) = (model.lap(), model.selected());
     // Of equal weights, those in the first slots.
     let lightness = |(slot, weight): (usize, &f64)| if slot == selected as usize { f64::NEG_INFINITY } else { -weight };
-    let lightness: Vec<f64> = weights.iter().enumerate().map(lightness).collect();
-    let mut slots: Vec<u32> = ascending(&lightness).into_iter().take(TILES).map(|slot| slot as u32).collect();
+    let lightness: Vec<f64> = lap.weights().iter().enumerate().map(lightness).collect();
+    let (mut slots, mut left) = (Vec::new(), ascending(&lightness));
+    if !model.closed() {
+        (slots, left) = (left, Vec::new());
+        slots.truncate(TILES);
+    }
+    let mut known = BTreeSet::new();
+    while slots.len() < SURVIVORS && !left.is_empty() {
+        let nodes = |slot: usize| lap.particles()[slot].path.back().map(Path::id);
+        let own = |rank: &usize| nodes(left[*rank]).take_while(|node| !known.contains(node)).count();
+        // Of equals, the last to come.
+        let slot = left.remove((0..left.len()).rev().max_by_key(own).unwrap_or(0));
+        known.extend(nodes(slot));
+        slots.push(slot);
+    }
     slots.sort_unstable();
-    slots
+    slots.into_iter().map(|slot| slot as u32).collect()
 }
 
 /// The border of a universe that weighs this share (1 = 1/M), inside of its tile, and at its lower edge a bar as long as that weight.
@@ -57,11 +76,13 @@ pub fn mosaic(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     let slots = shown(model);
     let extinct = model.extinct();
     let name = common::UniverseCount { m: &m }.say();
+    let few = if model.closed() && slots.len() < m { lap::LeastAlike { n: &slots.len() }.say() } else { String::new() };
     let (title, role, rest) = match &model.report().ancestors {
         Some(_) if extinct.is_empty() => (name, Role::Ink, lap::none_died_out().into()),
-        Some(_) => (resampled(extinct.len(), m, layout.mosaic_header.w), Role::Extinct, String::new()),
+        Some(_) => (resampled(extinct.len(), m, layout.mosaic_header.w), Role::Extinct, few),
         None if m == 1 => (name, Role::Ink, lap::only_hypothesis().into()),
         None if model.step() == 0 => (name, Role::Ink, lap::all_alike().into()),
+        None if !few.is_empty() => (name, Role::Ink, few),
         None if slots.len() < m => (name, Role::Ink, lap::Heaviest { n: &slots.len() }.say()),
         None => (name, Role::Ink, lap::map_each().into()),
     };
@@ -149,4 +170,36 @@ pub fn notes(scene: &mut Scene, model: &LapModel, area: &Rect) {
         [(Sample::dot(Role::Copied, 2.5), common::resampled()), copied, (Sample::new(died), common::died_out())];
     let y = legend(scene, area, weights);
     legend(scene, &Rect { y, ..*area }, resampling);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fastslam::genealogy::Descent;
+
+    fn at(model: &mut LapModel, step: u32) {
+        model.seek(step);
+        while model.pending() > 0 {
+            model.work();
+        }
+    }
+
+    #[test]
+    fn sixteen_tiles_give_way_to_the_four_least_alike_once_the_loop_is_closed() {
+        let mut model = LapModel::default();
+        for step in 0..=model.step_count() {
+            at(&mut model, step);
+            let slots = shown(&model);
+            assert!(slots.is_sorted() && slots.contains(&model.report().best));
+            assert_eq!(slots.len(), if model.closed() { 4 } else { 16 }, "step {step}");
+            // No two of all parted before two of these did.
+            let of =
+                |slots: &[u32]| Descent::of(slots.iter().map(|&slot| &model.lap().particles()[slot as usize].path));
+            assert_eq!(of(&slots).coalescence(), of(&(0..16).collect::<Vec<_>>()).coalescence(), "step {step}");
+        }
+        assert!(model.closed());
+        let other = (0..16).find(|slot| !shown(&model).contains(slot)).unwrap();
+        model.pick(other);
+        assert!(shown(&model).contains(&other), "a universe that is shown large has its tile");
+    }
 }

@@ -9,12 +9,12 @@ use super::{
 };
 use crate::{
     scene::{
-        Cells, FREE, Mark, Plane, Rect, Role, Sample, Scene, Shading, UNKNOWN, heading, legend, rimmed_polygon,
+        Cells, FREE, Mark, Plane, Rect, Role, Sample, Scene, Shading, UNKNOWN, heading, legend, lens, rimmed_polygon,
         rimmed_robot, scale_bar,
     },
     words::{common, lap},
 };
-use fastslam::genealogy::Path;
+use fastslam::{genealogy::Path, particle::Particle};
 use std::collections::BTreeSet;
 
 /// How strongly universes are drawn that died out at the step shown, one step before it, and two.
@@ -23,6 +23,10 @@ const FADING: [u8; 3] = [255, 150, 80];
 /// Lengths of robots from centre to nose \[css px\]: of the living, and of those that died out.
 const LIVING: f64 = 8.0;
 const DEAD: f64 = 6.5;
+
+/// How far apart \[css px\] robots are seen to be, and how far they are where they are as good as one.
+const SEEN: f64 = 10.0;
+const ALIKE: f64 = 0.1;
 
 /// All of them. How far they are apart is said over the picture.
 pub fn overlay(scene: &mut Scene, model: &LapModel, layout: &Layout) {
@@ -44,9 +48,29 @@ pub fn overlay(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     for particle in lap.particles() {
         rimmed_robot(scene, &plane, &particle.world_from_robot, LIVING, Role::Path);
     }
+    nearby(scene, model, &plane);
     drive::draw(scene, model, &plane);
     scale_bar(scene, &plane, 1.0, f64::INFINITY);
     scene.marks.push(Mark::Frame { area: plane.area, width: 1.0, role: Role::Frame });
+}
+
+/// How far they are apart on new ground, as long as it is too little to be seen.
+fn nearby(scene: &mut Scene, model: &LapModel, plane: &Plane) {
+    let across = 2.0 * model.spread() * plane.scale;
+    if !model.drifts() || !(ALIKE..SEEN).contains(&across) {
+        return;
+    }
+    let (particles, shares) = (model.lap().particles(), model.shares());
+    let mean = particles
+        .iter()
+        .zip(&shares)
+        .fold([0.0; 2], |[x, y], (Particle { world_from_robot: at, .. }, share)| [x + share * at.x, y + share * at.y]);
+    lens(scene, plane, mean, &mut |scene, near| {
+        paths(scene, model, &near);
+        for particle in particles {
+            rimmed_robot(scene, &near, &particle.world_from_robot, LIVING, Role::Path);
+        }
+    });
 }
 
 /// Those that died out lately, the fainter the longer ago, and over them the living: what paths have in common once.
@@ -105,7 +129,39 @@ pub fn names(scene: &mut Scene, model: &LapModel, area: &Rect) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::SHARES;
+    use crate::{
+        model::Model as _,
+        panels::Panels,
+        scene::SHARES,
+        view::{self, View as _},
+    };
+
+    #[test]
+    fn what_is_told_of_universes_on_new_ground_is_seen_by_eye_or_in_a_lens() {
+        let view = super::super::LapView;
+        for width in [322.0, 692.0, 1112.0] {
+            let layout = Layout::of(width, &Panels::default());
+            let mut model = LapModel::default();
+            let mut seen = Vec::new();
+            for step in 0..=model.step_count() {
+                model.seek(step);
+                while model.pending() > 0 {
+                    model.work();
+                }
+                let mut scene = Scene::new(width, view::Layout::height(&layout), String::new());
+                view.draw(&model, &layout, &mut scene);
+                let lens = scene.marks.iter().any(|mark| matches!(mark, Mark::Text(text) if text.text == "× 8"));
+                let across = 2.0 * model.spread() * map::plane(layout.large, model.setup().course).scale;
+                if step > 0 && step < model.closing().unwrap() {
+                    assert!(across >= 10.0 || lens, "{width}: {across} px at step {step}");
+                    seen.push(lens);
+                } else {
+                    assert!(!lens, "{width}: step {step}");
+                }
+            }
+            assert!(seen.contains(&true) && !seen.ends_with(&[true]), "{width}: at last the eye is enough");
+        }
+    }
 
     #[test]
     fn a_share_of_universes_with_a_wall_is_a_shade_above_all_without() {

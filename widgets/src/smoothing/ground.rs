@@ -7,8 +7,8 @@ use super::{
 use crate::{
     font::{self, Weight},
     scene::{
-        Anchor, Mark, NINE_TENTHS, Plane, Point, RIM, Rect, Role, Sample, Scene, clip_polyline, closed, cloud, heading,
-        legend, rimmed, scale_bar, text,
+        Mark, NINE_TENTHS, Plane, Point, RIM, Rect, Role, Sample, Scene, clip_polyline, cloud, heading, legend, lens,
+        rimmed, scale_bar,
     },
     words::{common, smoothing as words},
 };
@@ -25,11 +25,6 @@ const REACH: [f64; 2] = [6.6, 11.4];
 
 /// Every so many steps of the first half of the drive a region is drawn.
 const EVERY: usize = 5;
-
-/// How many times larger the lens shows it, and how far it is from the map's edges \[css px\].
-const MAGNIFIED: f64 = 8.0;
-/// See [`MAGNIFIED`].
-const INSET: f64 = 6.0;
 
 /// Radius of a pose at the step that is looked at \[css px\].
 const POSE: f64 = 2.2;
@@ -104,7 +99,7 @@ pub fn maps(scene: &mut Scene, model: &SmoothingModel, layout: &Layout) {
         }
         scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
         scale_bar(scene, &ground.plane, 5.0, 80.0);
-        lens(scene, model, &ground, rank);
+        nearby(scene, model, &ground, rank);
     }
 }
 
@@ -158,39 +153,24 @@ fn looked_at(scene: &mut Scene, model: &SmoothingModel, ground: &Ground, rank: u
     scene.marks.push(Mark::Lines { lines, width: 1.5, dash: None, role: Role::Truth });
 }
 
-/// What is too small to be told apart at the step that is looked at, as large as can be seen: at the same place in both maps, in the upper
-/// corner that is farther away.
-fn lens(scene: &mut Scene, model: &SmoothingModel, ground: &Ground, rank: usize) {
+/// What is too small to be told apart at the step that is looked at, at the same place in both maps.
+fn nearby(scene: &mut Scene, model: &SmoothingModel, ground: &Ground, rank: usize) {
     let Some(account) = (if rank == 0 { model.before() } else { model.after() }) else { return };
     let (at, Some(before)) = (model.at() as usize, model.before()) else { return };
     // Between the truth and what the filter has left, so that both are seen.
     let (truth, left) = (&model.run().log().truth[at], &before.moments[at].0);
     let place = [0.5 * (truth.x + left.x), 0.5 * (truth.y + left.y)];
-    let (map, [x, y]) = (ground.plane.area, ground.point(place));
-    let side = (0.44 * map.h).min(0.47 * map.w).min(110.0).floor();
-    let left = if x < map.centre()[0] { map.right() - side - INSET } else { map.x + INSET };
-    let area = Rect::new(left, map.y + INSET, side, side);
-    let small = 0.5 * side / MAGNIFIED;
-    let seen = [[x - small, y - small], [x + small, y - small], [x + small, y + small], [x - small, y + small]];
-    let seen = clip_polyline(&closed(seen.to_vec()), &map);
-    scene.marks.push(Mark::Lines { lines: seen, width: 1.0, dash: None, role: Role::Ink });
-    let plane = Plane::centred(area, ground.turned(place), MAGNIFIED * ground.plane.scale);
-    let near = Ground { plane, wide: ground.wide };
-    scene.marks.push(Mark::Fill { area, role: Role::Paper });
-    if rank == 0 {
-        record(scene, model, &near);
-    } else {
-        draws(scene, model, &near);
-    }
-    let region = near.region(&account.moments[at]);
-    scene.marks.push(Mark::Lines { lines: region, width: 1.25, dash: None, role: Role::Ink });
-    looked_at(scene, model, &near, rank);
-    scene.marks.push(Mark::Frame { area, width: 1.5, role: Role::Ink });
-    let label = format!("× {MAGNIFIED}");
-    let plate =
-        Rect::new(area.x + 2.0, area.bottom() - 16.0, font::measure(&label, 11.0, Weight::SemiBold) + 4.0, 14.0);
-    scene.marks.push(Mark::Fill { area: plate, role: Role::Paper });
-    scene.marks.push(text(plate, Anchor::Middle, 11.0, Weight::SemiBold, Role::Ink, label));
+    lens(scene, &ground.plane, ground.turned(place), &mut |scene, plane| {
+        let near = Ground { plane, wide: ground.wide };
+        if rank == 0 {
+            record(scene, model, &near);
+        } else {
+            draws(scene, model, &near);
+        }
+        let region = near.region(&account.moments[at]);
+        scene.marks.push(Mark::Lines { lines: region, width: 1.25, dash: None, role: Role::Ink });
+        looked_at(scene, model, &near, rank);
+    });
 }
 
 /// What lines and dots are.
