@@ -226,6 +226,26 @@ impl Route {
         Self { plan: FloorPlan::ring(niches), way_points, steps: RING_STEPS, max_range }
     }
 
+    /// Once round [`FloorPlan::rooms`] against the clock and a little further, with a laser that sees no further than 3 m: a loop that
+    /// closes in an apartment. 110 steps of some 0.3 m.
+    pub fn rooms() -> Self {
+        const CORNERS: [[f64; 2]; 11] = [
+            [1.6, 1.5],
+            [4.0, 1.5],
+            [8.0, 1.7],
+            [10.4, 1.7],
+            [10.6, 7.5],
+            [4.0, 7.3],
+            [1.6, 7.3],
+            [1.5, 3.0],
+            [1.6, 1.5],
+            [4.0, 1.5],
+            [7.0, 1.6],
+        ];
+        let way_points = corners_cut_short(&CORNERS, 0.9);
+        Self { plan: FloorPlan::rooms(), way_points, steps: RING_STEPS, max_range: 3.0 }
+    }
+
     /// The same place and way after a rigid motion of the plane.
     pub fn moved(&self, motion: &Pose2) -> Self {
         let way_points = self.way_points.iter().map(|point| motion.transform(*point)).collect();

@@ -142,6 +142,42 @@ impl FloorPlan {
         Self { size: [40.0, 24.0], walls, furniture }
     }
 
+    /// Our own rooms round a core, 12 m × 9 m: three rooms in the south, three in the north, one at each side, and a door from each to the
+    /// next. The core has none.
+    pub fn rooms() -> Self {
+        const DOOR: f64 = 1.0;
+        let mut walls = rectangle([0.0, 0.0], [12.0, 9.0]).to_vec();
+        walls.extend(rectangle([3.3, 3.0], [8.7, 6.0]));
+        let mut with_door = |upright: bool, at: f64, [from, to]: [f64; 2], door: f64| {
+            let place = |along: f64| if upright { [at, along] } else { [along, at] };
+            walls.push(Segment { a: place(from), b: place(door) });
+            walls.push(Segment { a: place(door + DOOR), b: place(to) });
+        };
+        with_door(true, 4.0, [0.0, 3.0], 1.0);
+        with_door(true, 8.0, [0.0, 3.0], 1.2);
+        with_door(false, 3.0, [8.7, 12.0], 9.9);
+        with_door(false, 6.0, [8.7, 12.0], 10.1);
+        with_door(true, 8.0, [6.0, 9.0], 7.0);
+        with_door(true, 4.0, [6.0, 9.0], 6.8);
+        with_door(false, 6.0, [0.0, 3.3], 1.2);
+        with_door(false, 3.0, [0.0, 3.3], 1.0);
+        let furniture = [
+            rectangle([0.0, 0.0], [1.2, 0.5]),   // counter
+            rectangle([2.6, 2.4], [3.8, 3.0]),   // cupboard
+            rectangle([4.6, 0.0], [6.2, 0.5]),   // shelf
+            rectangle([6.6, 2.5], [7.4, 3.0]),   // stove
+            rectangle([11.2, 0.0], [12.0, 1.0]), // wardrobe
+            rectangle([11.4, 4.0], [12.0, 5.2]), // bath tub
+            rectangle([8.4, 8.3], [9.8, 9.0]),   // sofa
+            rectangle([11.4, 8.2], [12.0, 9.0]), // armchair
+            rectangle([5.0, 8.4], [6.8, 9.0]),   // bed
+            rectangle([4.2, 6.0], [5.0, 6.4]),   // chest of drawers
+            rectangle([0.0, 8.2], [1.6, 9.0]),   // desk
+            rectangle([0.0, 3.9], [0.6, 5.1]),   // shoe rack
+        ];
+        Self { size: [12.0, 9.0], walls, furniture: furniture.concat() }
+    }
+
     /// Our own ring, 11 m × 8 m: a corridor 1.8 m wide round a block, which has up to two `niches` on each side: 0.5 m deep, and the only
     /// thing that tells one stretch of the corridor from the next. In the south-west corner, where the drive begins, a few
     /// pieces of furniture are there to be known again.
