@@ -238,8 +238,9 @@ pub fn died(count: usize, resamplings: &[Vec<u32>]) -> f64 {
     for ancestors in resamplings {
         origins = ancestors.iter().map(|slot| origins[*slot as usize]).collect();
     }
-    let alive: BTreeSet<u32> = origins.into_iter().collect();
-    1.0 - alive.len() as f64 / count as f64
+    origins.sort_unstable();
+    origins.dedup();
+    1.0 - origins.len() as f64 / count as f64
 }
 
 /// What the noise of prices is measured by.

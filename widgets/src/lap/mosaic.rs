@@ -14,7 +14,6 @@ use crate::{
     words::{common, lap},
 };
 use fastslam::genealogy::Path;
-use std::collections::BTreeSet;
 
 /// Share of weight (1 = 1/M) at which a bar is full: a universe that weighs thrice its share.
 const FULL_SHARE: f64 = 3.0;
@@ -25,29 +24,39 @@ const TILES: usize = 16;
 /// And most of those that a closed loop has left: few enough to be compared.
 const SURVIVORS: usize = 4;
 
-/// The slots that have a tile, in ascending order: the heaviest, and the one shown large. Once the loop is closed, the heaviest, and by
-/// turns the one whose path parted first from those of all before it, of equals the heavier.
+/// The slots that have a tile, in ascending order: the heaviest, and the one shown large; once the loop is closed, those of
+/// [`least_alike`].
 fn shown(model: &LapModel) -> Vec<u32> {
-    let (lap, selected) = (model.lap(), model.selected());
+    let (weights, selected) = (model.lap().weights(), model.selected());
     // Of equal weights, those in the first slots.
     let lightness = |(slot, weight): (usize, &f64)| if slot == selected as usize { f64::NEG_INFINITY } else { -weight };
-    let lightness: Vec<f64> = lap.weights().iter().enumerate().map(lightness).collect();
-    let (mut slots, mut left) = (Vec::new(), ascending(&lightness));
-    if !model.closed() {
-        (slots, left) = (left, Vec::new());
-        slots.truncate(TILES);
+    let lightness: Vec<f64> = weights.iter().enumerate().map(lightness).collect();
+    let mut slots: Vec<u32> = ascending(&lightness).into_iter().map(|slot| slot as u32).collect();
+    if model.closed() {
+        slots = least_alike(model, slots);
     }
-    let mut known = BTreeSet::new();
+    slots.truncate(TILES);
+    slots.sort_unstable();
+    slots
+}
+
+/// The first of these, and by turns the one whose path parted first from those of all before it, of equals the earlier.
+fn least_alike(model: &LapModel, mut left: Vec<u32>) -> Vec<u32> {
+    let nodes = |slot: u32| model.lap().particles()[slot as usize].path.back().map(Path::id);
+    let (mut slots, mut known) = (Vec::new(), Vec::new());
     while slots.len() < SURVIVORS && !left.is_empty() {
-        let nodes = |slot: usize| lap.particles()[slot].path.back().map(Path::id);
-        let own = |rank: &usize| nodes(left[*rank]).take_while(|node| !known.contains(node)).count();
-        // Of equals, the last to come.
-        let slot = left.remove((0..left.len()).rev().max_by_key(own).unwrap_or(0));
+        let (mut next, mut most) = (0, 0);
+        for (rank, &slot) in left.iter().enumerate() {
+            let own = nodes(slot).take_while(|node| !known.contains(node)).count();
+            if own > most {
+                (next, most) = (rank, own);
+            }
+        }
+        let slot = left.remove(next);
         known.extend(nodes(slot));
         slots.push(slot);
     }
-    slots.sort_unstable();
-    slots.into_iter().map(|slot| slot as u32).collect()
+    slots
 }
 
 /// The border of a universe that weighs this share (1 = 1/M), inside of its tile, and at its lower edge a bar as long as that weight.
