@@ -106,7 +106,7 @@ pub fn print(text: &str) -> Result<()> {
 /// One JSON value to standard output.
 ///
 /// # Errors
-/// As those of [`print`].
+/// As those of [`print()`].
 pub fn print_json(value: &impl serde::Serialize) -> Result<()> {
     print(&(serde_json::to_string(value)? + "\n"))
 }
