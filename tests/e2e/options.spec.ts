@@ -54,6 +54,8 @@ for (const name of FIGURES) {
         })
         expect(scrolled, `${which}, scrolled`).toBe(0)
         expect(picture[0]! <= room[0]! && picture[1]! <= room[1]!, `${which}, in its window`).toBe(true)
+        // With letters of one size for all screens em filled six tenths of it, and all of its width.
+        if (width === 1920) expect(picture[1]!, `${which}, high`).toBeGreaterThan(0.86 * height)
         // The row of playback is no higher than this.
         expect(picture[0]! > 0.95 * room[0]! || room[1]! - picture[1]! < 64, `${which}: ${picture} in ${room}`).toBe(true)
       }
