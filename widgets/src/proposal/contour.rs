@@ -1,6 +1,22 @@
-//! The outline of a region of highest density.
+//! The outline of a region of highest density, and how much of it all a Gaussian covers.
 
+use crate::scene::NINE_TENTHS;
+use fastslam::proposal::Measured;
 use fastslam_lab::baseline::one_step::Posterior;
+
+/// Share of the posterior inside the outline that holds nine tenths of a Gaussian, both of (x, y): 0.9 where they are the same. One that is
+/// too small has its own samples well inside the posterior, and covers less of it.
+pub fn covered(posterior: &Posterior, gaussian: &Measured) -> f64 {
+    let Posterior { cells, densities, .. } = posterior;
+    let (mean, c) = (&gaussian.mean, &gaussian.covariance);
+    let most = NINE_TENTHS * NINE_TENTHS * (c[(0, 0)] * c[(1, 1)] - c[(0, 1)] * c[(0, 1)]);
+    let holds = |k: &usize| {
+        let [x, y] = cells.centre(*k);
+        let (x, y) = (x - mean.x, y - mean.y);
+        c[(1, 1)] * x * x - 2.0 * c[(0, 1)] * x * y + c[(0, 0)] * y * y <= most
+    };
+    (0..cells.count()).filter(holds).map(|k| densities[k]).sum::<f64>() / densities.iter().sum::<f64>()
+}
 
 /// No crossing follows.
 const END: usize = usize::MAX;
@@ -48,6 +64,25 @@ pub fn outline(posterior: &Posterior) -> Vec<Vec<[f64; 2]>> {
 mod tests {
     use super::*;
     use fastslam_lab::experiment::proposals::{Proposals, ProposalsSetup};
+
+    #[test]
+    fn a_gaussian_covers_nine_tenths_of_its_own_kind_and_one_that_is_too_small_less_than_its_samples_tell() {
+        let covered_by = |setup: &ProposalsSetup| {
+            let found = Proposals::new(setup).unwrap();
+            (covered(&found.exact, &found.gaussian), found.aware.share_inside(None))
+        };
+        let (usual, _) = covered_by(&ProposalsSetup::default());
+        assert!((usual - 0.9).abs() < 0.02, "{usual}");
+        let bent = ProposalsSetup {
+            bearing_std: 0.3,
+            range_std: 0.01,
+            odometry_scale: 2.0,
+            landmark: [1.5, 0.3],
+            ..Default::default()
+        };
+        let (covered, inside) = covered_by(&bent);
+        assert!(inside > 0.9 && covered < 0.8, "{covered} covered, {inside} inside");
+    }
 
     #[test]
     fn the_outline_lies_on_the_edge_of_the_region_and_is_closed() {

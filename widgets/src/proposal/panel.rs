@@ -1,6 +1,7 @@
 //! One proposal's samples on the posterior, as near as the motion prior lets them be, and what they are worth.
 
 use super::{
+    contour::covered,
     ghost,
     knob::{self, Noise, Track},
     layout::Panel,
@@ -206,7 +207,11 @@ fn counters(scene: &mut Scene, model: &ProposalModel, panel: &Panel, cloud: &Clo
             proposal::InsideTiny { a: &a, b: &b, p: &p, q: &q }.say(),
         ]
     } else if weights.iter().all(|w| w.to_bits() == weights[0].to_bits()) {
-        [proposal::exactly_equal(), proposal::equal(), proposal::equal()].map(String::from)
+        // A share of samples says nothing of what they leave out.
+        let found = model.proposals();
+        let share = fixed(100.0 * covered(&found.exact, &found.gaussian), 0);
+        let short = proposal::CoveredShort { share: &share }.say();
+        [proposal::Covered { share: &share }.say(), short, proposal::CoveredTiny { share: &share }.say()]
     } else {
         let heaviest = weights[cloud.weights.heaviest()] * weights.len() as f64;
         let share = fixed(heaviest, 1);

@@ -277,7 +277,7 @@ fn what_is_lost_is_told_in_words() {
     assert_eq!(said(&pair, "samples there, the measurement-aware proposal ", " %"), "0", "{told}");
     let (told, drawn) = model("");
     assert!(!told.contains("lost") && !drawn.contains("lost"));
-    assert!(drawn.contains("all weights are exactly equal"));
+    assert!(drawn.contains("% of the posterior covered"));
 }
 
 #[test]
