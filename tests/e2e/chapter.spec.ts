@@ -98,6 +98,8 @@ test('nothing moves while one reads from top to end', async ({ page }) => {
     await page.evaluate(() => Promise.all([...document.querySelectorAll('figure *')].map(element => (element as Partial<{ settled(): Promise<void> }>).settled?.())))
   }
   expect(await shifts()).toEqual([])
+  const told = await page.locator('main :defined').evaluateAll(all => all.map(figure => figure.shadowRoot?.querySelector('[role=alert]')?.textContent ?? ''))
+  expect(told.filter(Boolean), 'no figure has anything to tell its author').toEqual([])
 })
 
 for (const width of [1280, 380]) {
@@ -135,6 +137,7 @@ for (const [width, most] of [[1280, 3], [380, 64]] as const) {
       await trial.scrollIntoViewIfNeeded()
       await expect(trial.locator('.stage.live')).toBeVisible()
       await settled(trial)
+      await expect(trial.getByRole('alert'), 'nothing in it is misspelt').toBeEmpty()
     }
     for (const [i, after] of (await heights()).entries()) expect(Math.abs(before[i]! - after), `the ${i + 1}th: ${before[i]} px kept, ${after} px taken`).toBeLessThan(most)
   })
