@@ -57,6 +57,7 @@ pub struct LaserMapperSettings {
     pub learn_wheels: bool,
     /// About how many scans are mapped again when one is pushed, in [`Self::REMAPPED_PER_SCAN`], where a path is bent to close a loop: the corrected path takes over
     /// once it is mapped as far as the robot is. Work is counted and not time, so that results are the same on every machine. 0: all of them at once.
+    /// A robot that maps as it drives wants some 100: of the 2,008 scans of the Freiburg campus, with 16 particles on two threads, the longest then took 0.11 s, and 1.6 s at 0.
     pub remapped_per_scan: u32,
     /// Most scans that are kept, in [`Self::KEPT_SCANS`]: where a path is bent, it is mapped again by them. Beyond that every second of them is let go, and again every
     /// second of what is left, but those of the last metres; [`Remark::Thinned`](super::Remark::Thinned) tells it, and [`LaserMapper::memory`](super::LaserMapper::memory)

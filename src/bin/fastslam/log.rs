@@ -102,6 +102,8 @@ struct Output {
     elapsed_s: f64,
     /// Scans of the log a second, over that time.
     scans_per_s: f64,
+    /// What the scan took that took longest \[s\]: by that, and `--remapped-per-scan`, one sees whether a robot can map as it drives.
+    longest_scan_s: f64,
     /// CPU time of the whole process, from reading the log to writing the results, for each scan taken and particle \[ms\].
     ms_per_scan_particle: f64,
     /// Of the particles' maps, where one looked.
@@ -203,7 +205,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let outputs = Outputs::open(arguments)?;
 
     let mut progress = Progress::new(&name, log.scans.len() - had);
-    let mut saved = Duration::ZERO;
+    let (mut saved, mut longest) = (Duration::ZERO, Duration::ZERO);
     let (mut peak, mut kept) = (mapper.footprint(), 0);
     let mut look = |mapper: &LaserMapper| {
         let now = mapper.footprint();
@@ -217,7 +219,9 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         if stopped.load(Ordering::Relaxed) {
             break;
         }
+        let before = progress.elapsed();
         let pushed = mapper.push(scan);
+        longest = longest.max(progress.elapsed() - before);
         progress.scans += 1;
         let Pushed::Step(report) = pushed else { continue };
         if report.step.is_multiple_of(LOOK_EVERY) {
@@ -261,6 +265,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         scans_used: used,
         elapsed_s: elapsed.as_secs_f64(),
         scans_per_s: progress.scans as f64 / elapsed.as_secs_f64().max(1e-3),
+        longest_scan_s: longest.as_secs_f64(),
         ms_per_scan_particle: 1e3 * cpu.as_secs_f64() / f64::from(used.max(1)) / settings.particles as f64,
         peak_map_bytes: peak.unique,
         dense_map_bytes: peak.dense,
@@ -427,6 +432,7 @@ fn summary(settings: &LaserMapperSettings, log: &LaserLog, output: &Output) -> S
     let mut text = format!(
         "{} scans, of which {} taken: {} particles, seed {}, cells of {} m\n\
          time                              {:8.1} s, {:.0} scans/s\n\
+         the scan that took longest        {:8.0} ms\n\
          CPU time per scan and particle    {:8.3} ms\n\
          maps at their peak                {:8.1} MB, {:.1} MB as dense copies, {:.1} MB estimated\n\
          maps of before, to find loops by  {:8.1} MB more\n\
@@ -440,6 +446,7 @@ fn summary(settings: &LaserMapperSettings, log: &LaserLog, output: &Output) -> S
         settings.cell_size,
         output.elapsed_s,
         output.scans_per_s,
+        1e3 * output.longest_scan_s,
         output.ms_per_scan_particle,
         output.peak_map_bytes as f64 / 1e6,
         output.dense_map_bytes as f64 / 1e6,

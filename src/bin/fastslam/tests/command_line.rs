@@ -551,6 +551,9 @@ fn a_log_is_mapped_and_its_path_map_and_errors_are_written() {
         "{run}"
     );
     assert!(run["peak_map_bytes"].as_f64().unwrap() < run["dense_map_bytes"].as_f64().unwrap());
+    let longest = run["longest_scan_s"].as_f64().unwrap();
+    let mean = run["elapsed_s"].as_f64().unwrap() / run["scans"].as_f64().unwrap();
+    assert!((mean..=run["elapsed_s"].as_f64().unwrap()).contains(&longest), "{longest} s, {mean} s in the mean");
     let keys =
         ["ms_per_scan_particle", "translation_std", "resampled_fraction", "lineage_one_scan", "wheel_drift_deg_per_m"];
     for key in keys {
