@@ -33,6 +33,9 @@ fn shown(model: &LapModel) -> Vec<u32> {
     let lightness: Vec<f64> = weights.iter().enumerate().map(lightness).collect();
     let mut slots: Vec<u32> = ascending(&lightness).into_iter().map(|slot| slot as u32).collect();
     if model.closed() {
+        // Of equals, not the one that took the place of another who has just died: it is crossed out for that.
+        let extinct = model.extinct();
+        slots.sort_by_key(|slot| *slot != selected && extinct.contains(slot));
         slots = least_alike(model, slots);
     }
     slots.truncate(TILES);
@@ -205,6 +208,16 @@ mod tests {
             let of =
                 |slots: &[u32]| Descent::of(slots.iter().map(|&slot| &model.lap().particles()[slot as usize].path));
             assert_eq!(of(&slots).coalescence(), of(&(0..16).collect::<Vec<_>>()).coalescence(), "step {step}");
+            // Nobody is crossed out while an equal who is not could be shown.
+            if let Some(ancestors) = model.report().ancestors.clone().filter(|_| model.closed()) {
+                let extinct = model.extinct();
+                let crossed = |slot: &&u32| **slot != model.selected() && extinct.contains(slot);
+                for &slot in slots.iter().filter(crossed) {
+                    let equal = |other: &u32| ancestors[*other as usize] == ancestors[slot as usize];
+                    let mut better = (0..16).filter(equal).filter(|other| !extinct.contains(other));
+                    assert!(better.all(|other| slots.contains(&other)), "step {step}: {slot} of {slots:?}");
+                }
+            }
         }
         assert!(model.closed());
         let other = (0..16).find(|slot| !shown(&model).contains(slot)).unwrap();
