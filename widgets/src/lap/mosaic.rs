@@ -28,14 +28,16 @@ const SURVIVORS: usize = 4;
 /// [`least_alike`].
 fn shown(model: &LapModel) -> Vec<u32> {
     let (weights, selected) = (model.lap().weights(), model.selected());
-    // Of equal weights, those in the first slots.
-    let lightness = |(slot, weight): (usize, &f64)| if slot == selected as usize { f64::NEG_INFINITY } else { -weight };
+    // After a resampling all weigh the same: last come those that took the place of one who has just died, and are crossed out for that.
+    let crossed = if model.closed() { model.extinct() } else { Vec::new() };
+    // Of equals, those in the first slots.
+    let lightness = |(slot, weight): (usize, &f64)| match slot as u32 {
+        slot if slot == selected => f64::NEG_INFINITY,
+        slot => f64::from(u8::from(crossed.contains(&slot))) - weight,
+    };
     let lightness: Vec<f64> = weights.iter().enumerate().map(lightness).collect();
     let mut slots: Vec<u32> = ascending(&lightness).into_iter().map(|slot| slot as u32).collect();
     if model.closed() {
-        // Of equals, not the one that took the place of another who has just died: it is crossed out for that.
-        let extinct = model.extinct();
-        slots.sort_by_key(|slot| *slot != selected && extinct.contains(slot));
         slots = least_alike(model, slots);
     }
     slots.truncate(TILES);
