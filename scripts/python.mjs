@@ -57,7 +57,7 @@ export async function pythonFiles() {
   const names = all.map(({ className }) => className)
   write(
     join(folder, '__init__.py'),
-    `"""Live figures on FastSLAM and Rao-Blackwellized particle filters, in notebooks.\n\n    from fastslam_widgets import FastslamLap\n\n    lap = FastslamLap(v=9, universes=16, seed=3)\n    lap\n"""\n\nfrom ._figures import ${names.join(', ')}\n\n__all__ = [${names.map(name => `"${name}"`).join(', ')}]\n`,
+    `"""Live figures on FastSLAM and Rao-Blackwellized particle filters, in notebooks.\n\n    from fastslam_widgets import FastslamLap\n\n    lap = FastslamLap(v=13, universes=16, seed=3)\n    lap\n"""\n\nfrom ._figures import ${names.join(', ')}\n\n__all__ = [${names.map(name => `"${name}"`).join(', ')}]\n`,
   )
   const optionTraits = options.map(({ name, values }) => `    ${name} = ${name === 'v' ? 'traitlets.Union([traitlets.Int(min=1), traitlets.Enum(["latest"])], allow_none=True, default_value=None)' : values ? `traitlets.Enum([${values.map(v => `"${v}"`).join(', ')}], None, allow_none=True)` : 'traitlets.Unicode(None, allow_none=True)'}.tag(sync=True)`)
   write(join(folder, '_options.py'), `"""Attributes of every figure. Made by scripts/python.mjs."""\n\nimport traitlets\n\n\nclass Options(traitlets.HasTraits):\n    """What an author may fix about any figure, besides its parameters."""\n\n${optionTraits.join('\n')}\n`)

@@ -1,4 +1,4 @@
-//! `fastslam-lab lap`: one lap of the apartment, or of the ring.
+//! `fastslam-lab lap`: one lap of the apartment, of the ring, or of the rooms.
 
 use crate::{Usage, graph, print, print_json, whole, write_png};
 use anyhow::{Result, bail};
@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// Drive one lap and report every step
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// Where: apartment (out along its corridor and back), or ring (round a block, with a laser that sees 3 m)
+    /// Where: apartment (out along its corridor and back), ring (round a block, with a laser that sees 3 m), or rooms (once round an apartment, with the same laser)
     #[arg(long, default_value_t = LapSetup::default().course)]
     course: Course,
     /// Seed of the world's noise and of the filter's

@@ -1,4 +1,4 @@
-//! `fastslam-lab ring`: what a filter keeps until a loop closes, over many seeds.
+//! `fastslam-lab ring`: what a filter keeps until a loop closes, over many seeds, on the ring or in an apartment's rooms.
 
 use crate::lap::Options;
 use crate::{print, print_json, progress};
@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Drive round the ring for many seeds: how different the universes are just before the loop closes, and what the closing leaves
+/// Drive round the ring, or through the rooms, for many seeds: how different the universes are just before the loop closes, and what the closing leaves
 #[derive(clap::Args)]
 pub struct Arguments {
     /// Seeds 1 to N
@@ -24,6 +24,9 @@ pub struct Arguments {
     /// Longest range of the laser [m], 0.5 to 20
     #[arg(long, value_name = "METRES", default_value_t = RingSetup::default().max_range, allow_negative_numbers = true)]
     max_range: f64,
+    /// Through the rooms of an apartment instead, with a laser that sees 3 m
+    #[arg(long, conflicts_with_all = ["niches", "max_range", "price_noise"])]
+    rooms: bool,
     #[command(flatten)]
     options: Options,
     /// Measure instead how much of a particle's price is noise: at every 10th step each particle draws its next pose 60 times
@@ -47,7 +50,9 @@ pub struct Arguments {
 #[derive(Serialize)]
 struct Output<T> {
     particles: usize,
-    niches: usize,
+    /// Of the ring.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    niches: Option<usize>,
     max_range: f64,
     /// Of each measure, over the seeds.
     medians: BTreeMap<&'static str, f64>,
@@ -57,9 +62,11 @@ struct Output<T> {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<()> {
-    let &Arguments { niches, max_range, options: Options { particles, .. }, .. } = arguments;
-    let setup = |seed| RingSetup { lap: arguments.options.setup(Course::Ring, seed), niches, max_range };
+    let &Arguments { niches, max_range, rooms, options: Options { particles, .. }, .. } = arguments;
+    let lap = |seed| arguments.options.setup(if rooms { Course::Rooms } else { Course::Ring }, seed);
+    let setup = |seed| RingSetup { lap: lap(seed), niches, max_range };
     setup(1).start()?; // refused before anything is run, if it is
+    let sides = (!rooms).then_some(niches);
     if arguments.price_noise {
         let &Arguments { every, draws, shared_streams: shared, .. } = arguments;
         let probe = NoiseProbe { every, draws, shared };
@@ -67,13 +74,23 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         let of = |f: fn(&PriceNoise) -> Option<f64>| median_of(runs.iter().flatten().filter_map(f).collect());
         let medians = NOISES.map(|(name, _, f)| (name, of(f))).into();
         let text = noise_text(arguments, &runs);
-        if arguments.json { print_json(&Output { particles, niches, max_range, medians, runs }) } else { print(&text) }
+        if arguments.json {
+            print_json(&Output { particles, niches: sides, max_range, medians, runs })
+        } else {
+            print(&text)
+        }
     } else {
-        let runs = sweep(arguments.seeds, |seed| RingRun::of(&setup(seed)))?;
+        let runs = sweep(arguments.seeds, |seed| {
+            if rooms { RingRun::on(&Course::Rooms.route(), &lap(seed)) } else { RingRun::of(&setup(seed)) }
+        })?;
         let of = |k: usize| median(runs.iter().map(|run| run.measures()[k].2).collect());
         let medians = runs[0].measures().iter().enumerate().map(|(k, (name, ..))| (*name, of(k))).collect();
         let text = text(arguments, &runs);
-        if arguments.json { print_json(&Output { particles, niches, max_range, medians, runs }) } else { print(&text) }
+        if arguments.json {
+            print_json(&Output { particles, niches: sides, max_range, medians, runs })
+        } else {
+            print(&text)
+        }
     }
 }
 
@@ -86,10 +103,10 @@ fn sweep<T: Send>(seeds: u64, run: impl Fn(u64) -> Result<T, SettingError> + Syn
 }
 
 fn head(arguments: &Arguments) -> String {
-    let Arguments { seeds, niches, max_range, options: Options { particles, policy, scheme, .. }, .. } = arguments;
-    format!(
-        "ring, {seeds} seeds, {particles} particles, {policy} ({scheme}), {niches} niches a side, laser {max_range} m\n"
-    )
+    let Arguments { seeds, niches, max_range, rooms, options: Options { particles, policy, scheme, .. }, .. } =
+        arguments;
+    let place = if *rooms { "rooms".into() } else { format!("ring of {niches} niches a side, laser {max_range} m") };
+    format!("{place}, {seeds} seeds, {particles} particles, {policy} ({scheme})\n")
 }
 
 fn text(arguments: &Arguments, runs: &[RingRun]) -> String {

@@ -9,7 +9,7 @@ test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
 /** A state, what a reader sets then, and what is said of it. */
 const RUNS: [string, string, [string, string], RegExp][] = [
-  ['fastslam-lap', 'v=9&universes=8&step=12', ['universes', '4'], /^Step 12: Universes M 8 → 4\. RMS error, best universe [\d.]+ → [\d.]+ m, /],
+  ['fastslam-lap', 'v=13&universes=8&step=12', ['universes', '4'], /^Step 12: Universes M 8 → 4\. RMS error, best universe [\d.]+ → [\d.]+ m, /],
   ['fastslam-resampling', 'v=4&particles=12&step=12', ['threshold', '0.9'], /^Step 12: Threshold 0\.5 → 0\.9 of M\. .* → /],
   ['fastslam-doors', 'particles=100&step=50', ['ride', '2'], /^Step 50: Ride σ 4 → 2 m\. .* → /],
   ['fastslam-proposal', 'v=3&samples=200', ['range-std', '0.3'], /^Range noise σ 0\.05 → 0\.3 m\. .* → /],
@@ -52,7 +52,7 @@ for (const [tag, link, change, says] of RUNS) {
 }
 
 test('at another step nothing is compared, and what is read out is both', async ({ page }) => {
-  const lap = await open(page, 'fastslam-lap', 'v=9&universes=4&step=9')
+  const lap = await open(page, 'fastslam-lap', 'v=13&universes=4&step=9')
   const spoken = lap.element.locator('.spoken')
   await give(lap, ['odometry', '1.5'])
   await expect(spoken).toHaveText(/^Step 9: Odometry noise σ 1 → 1\.5 ×\. .*Step 9 of 110, 4 universes/)
@@ -65,7 +65,7 @@ test('at another step nothing is compared, and what is read out is both', async 
 })
 
 test('a script runs seeds of its own, hears of them, and ends them by a signal; the figure stays as it is', async ({ page }) => {
-  const lap = await open(page, 'fastslam-lap', 'v=9&universes=4&step=9&seed=3')
+  const lap = await open(page, 'fastslam-lap', 'v=13&universes=4&step=9&seed=3')
   const before = await lap.state()
   const { runs, why, told, first } = await lap.element.evaluate(async element => {
     type Run = { seed: number; step: number; state: string; readouts: { name: string; value: number }[] }

@@ -194,7 +194,7 @@ test('an element of an earlier version has the defaults of that version: taken a
   await lap.settled()
   expect(await values()).toEqual(['apartment', 3, 8])
   await expect(lap.alert).toBeEmpty()
-  await page.evaluate(() => (location.hash = 'fastslam-lap?v=9&universes=4'))
+  await page.evaluate(() => (location.hash = 'fastslam-lap?v=13&universes=4'))
   await lap.settled()
   expect(await values(), 'what is locked is the author’s, as it was in that version').toEqual(['apartment', 9, 4])
 })
@@ -229,13 +229,13 @@ test('the menu copies code that works as it is: element, iframe, MyST and Python
     return page.evaluate(() => navigator.clipboard.readText())
   }
   const element = await copied('Copy code: HTML element')
-  expect(element).toBe(`<script type="module" src="${baseURL}fastslam.js"></script>\n<fastslam-lap v="9" universes="5" step="6" truth="on" decimal="comma"><p slot="no-script"><a href="${baseURL}embed-lap.html"><img src="${baseURL}embed-lap.png" alt="${await lap.element.locator('[part=title]').textContent()}" width="100%" loading="lazy"></a><br>This figure is not live here: its script has not arrived. The picture leads to it.</p></fastslam-lap>`)
+  expect(element).toBe(`<script type="module" src="${baseURL}fastslam.js"></script>\n<fastslam-lap v="13" universes="5" step="6" truth="on" decimal="comma"><p slot="no-script"><a href="${baseURL}embed-lap.html"><img src="${baseURL}embed-lap.png" alt="${await lap.element.locator('[part=title]').textContent()}" width="100%" loading="lazy"></a><br>This figure is not live here: its script has not arrived. The picture leads to it.</p></fastslam-lap>`)
   const iframe = await copied('Copy code: iframe')
-  expect(iframe).toMatch(/embed\.html\?figure=lap&amp;v=9&amp;universes=5&amp;step=6&amp;truth=on&amp;decimal=comma"/)
+  expect(iframe).toMatch(/embed\.html\?figure=lap&amp;v=13&amp;universes=5&amp;step=6&amp;truth=on&amp;decimal=comma"/)
   expect(await copied('Copy code: MyST')).toBe(
     `\`\`\`{anywidget} ${baseURL}fastslam-anywidget.js\n{\n  "figure": "lap",\n  "v": "9",\n  "universes": "5",\n  "step": "6",\n  "truth": "on",\n  "decimal": "comma"\n}\n\`\`\``,
   )
-  expect(await copied('Copy code: Python')).toBe('from fastslam_widgets import FastslamLap\n\nFastslamLap(v=9, universes=5, step=6, truth=True, decimal="comma")')
+  expect(await copied('Copy code: Python')).toBe('from fastslam_widgets import FastslamLap\n\nFastslamLap(v=13, universes=5, step=6, truth=True, decimal="comma")')
 
   // Both on a page of another site.
   const readouts = await lap.readouts()

@@ -79,7 +79,7 @@ test('a click on the picture unfolds all of the figure in its place, and so do i
   lap = await hero(page, './?by-keyboard')
   await unfold(page).press('Enter')
   await expect(lap.box('universes')).toBeVisible()
-  lap = await hero(page, './?by-link#fastslam-lap?v=9&universes=8&step=3')
+  lap = await hero(page, './?by-link#fastslam-lap?v=13&universes=8&step=3')
   await expect(lap.box('universes')).toHaveValue('8')
   expect(await lap.position()).toBe(3)
 })

@@ -210,7 +210,7 @@ test('where the clipboard is refused, the link is shown', async ({ page }) => {
   const lap = await new Figure(page, 'fastslam-lap').alone()
   await lap.scrubTo(3)
   await lap.menu('Copy link')
-  await expect(lap.alert).toContainText('#fastslam-lap?v=9&step=3')
+  await expect(lap.alert).toContainText('#fastslam-lap?v=13&step=3')
 })
 
 /** Every way in which an author's value comes to a figure. */
@@ -332,12 +332,12 @@ test('an attribute that is set is the property that is read, before the figure l
 
 for (const address of ['embed.html?figure=lap&', 'embed-lap.html?']) {
   test(`in a frame, a link stands over the parameters of its address: ${address}`, async ({ page }) => {
-    const lap = await new Figure(page, 'fastslam-lap').open(`./${address}universes=8&seed=5&step=10#fastslam-lap?v=9&universes=4&step=20`)
+    const lap = await new Figure(page, 'fastslam-lap').open(`./${address}universes=8&seed=5&step=10#fastslam-lap?v=13&universes=4&step=20`)
     expect(await lap.position()).toBe(20)
     await expect(lap.box('universes')).toHaveValue('4')
     await expect(lap.seed).toHaveValue('9')
     const link = await lap.element.evaluate(element => (element as HTMLElement & { link: string }).link)
-    expect(link.split('#')[1], 'what is copied is what was opened').toBe('fastslam-lap?v=9&universes=4&step=20')
+    expect(link.split('#')[1], 'what is copied is what was opened').toBe('fastslam-lap?v=13&universes=4&step=20')
     await lap.reset.click()
     await expect.poll(() => lap.position()).toBe(10)
     await expect(lap.box('universes')).toHaveValue('8')
@@ -373,7 +373,7 @@ for (const [how, address, head] of [
 
 test('a page that its host puts aside as a copy, and takes back, has the state that the reader left', async ({ page }) => {
   const lap = await new Figure(page, 'fastslam-lap').alone()
-  await lap.goTo('v=9&universes=4&step=7')
+  await lap.goTo('v=13&universes=4&step=7')
   const left = await lap.state()
   // As Turbo does it: the copy is made of the page, which another takes the place of, and Back puts the copy there.
   await page.evaluate(() => {

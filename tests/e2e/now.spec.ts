@@ -193,7 +193,7 @@ test('a setting that was made by hand comes back after Reset, in a figure withou
 })
 
 test('a tile that is picked takes the tick from Overlay all, which lets go of the tile', async ({ page }) => {
-  const lap = await new Figure(page, 'fastslam-lap').alone('#fastslam-lap?v=9&universes=4&step=9')
+  const lap = await new Figure(page, 'fastslam-lap').alone('#fastslam-lap?v=13&universes=4&step=9')
   const overlay = lap.element.locator('input[name=overlay]')
   await expect(overlay).toBeChecked()
   const { width, height } = (await lap.canvas.boundingBox())!

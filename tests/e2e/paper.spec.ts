@@ -29,7 +29,7 @@ test('a figure that nobody has seen is on paper in the state that its author ask
   const lap = new Figure(page, 'fastslam-lap >> nth=1')
   expect(await lap.element.locator('.stage.live').count(), 'it is out of sight').toBe(0)
   const links = await linksOf(page)
-  expect(links).toContain(`${baseURL}course?#fastslam-lap.2?v=9&universes=4&step=30`)
+  expect(links).toContain(`${baseURL}course?#fastslam-lap.2?v=13&universes=4&step=30`)
   expect(links).toContain(`${baseURL}course?#fastslam-doors?`)
   expect(await page.evaluate(() => scrollY)).toBe(0)
   const printed = [await lap.sentence.textContent(), await lap.readouts()]

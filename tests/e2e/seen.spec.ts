@@ -154,7 +154,7 @@ test.describe('where nothing may move', () => {
     expect(await at('fastslam-graph')).toBe(await graph.last())
     const lap = new Figure(page, 'fastslam-lap >> nth=0')
     await lap.element.scrollIntoViewIfNeeded()
-    await lap.goTo('v=9&universes=2')
+    await lap.goTo('v=13&universes=2')
     expect(await lap.position(), 'a link without a step').toBe(0)
     await lap.reset.click()
     await lap.settled()

@@ -65,8 +65,8 @@ test('what the bank asks to open shows what its answers say', breadth, async ({ 
     const now = await figure.element.evaluate(element => Object.fromEntries((element as unknown as { readouts: { name: string; value: number | null }[] }).readouts.map(({ name, value }) => [name, value])))
     expect(holds(now), `${state}: ${JSON.stringify(now)}`).toBe(true)
   }
-  // Of the ring the deaths are no readout: the picture says them, and the numbers of the chapter count them (ring.opening.deaths).
-  expect(links.filter(state => state.startsWith('lap?'))).toEqual(['lap?v=9&step=83'])
+  // Of the rooms the deaths are no readout: the picture says them, and the numbers of the chapter count them (rooms.deaths).
+  expect(links.filter(state => state.startsWith('lap?'))).toEqual(['lap?v=13&step=79'])
 })
 
 test('from the page for teachers a lecturer reaches the bank of questions, and takes it along for a learning system', async ({ page }) => {

@@ -8,7 +8,7 @@ test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
 /** What the page on embedding says for a figure, to be kept as it is. */
 async function keptCode(page: Page): Promise<string> {
-  await page.goto('./embed/?figure=lap&v=9&universes=4&step=3')
+  await page.goto('./embed/?figure=lap&v=13&universes=4&step=3')
   await new Figure(page, '#preview fastslam-lap').live()
   await page.getByLabel('Into').selectOption('kept')
   await expect(page.locator('.codes')).toContainText(/version \d+\.\d+\.\d+/)
@@ -24,7 +24,7 @@ const changed = (page: Page, files: RegExp) =>
 
 test('the code for a version runs on a page of another site, from the folder of that version alone', async ({ page, baseURL, complaints }) => {
   const code = await keptCode(page)
-  expect(code).toMatch(new RegExp(`^<script type="module" src="${baseURL}v/[\\w.]+/fastslam\\.js" integrity="sha384-[\\w+/]{64}" crossorigin></script>\n<fastslam-lap v="9" universes="4" step="3"><p slot="no-script"><a href="${baseURL}v/[\\w.]+/embed-lap\\.html">`))
+  expect(code).toMatch(new RegExp(`^<script type="module" src="${baseURL}v/[\\w.]+/fastslam\\.js" integrity="sha384-[\\w+/]{64}" crossorigin></script>\n<fastslam-lap v="13" universes="4" step="3"><p slot="no-script"><a href="${baseURL}v/[\\w.]+/embed-lap\\.html">`))
   const asked: string[] = []
   page.on('request', request => request.url().startsWith(baseURL!) && asked.push(request.url()))
   await openHost(page, code)
@@ -35,7 +35,7 @@ test('the code for a version runs on a page of another site, from the folder of 
   expect(asked.some(url => url.endsWith('.wasm'))).toBe(true)
   // The chapter, and the page on embedding, are those of the site.
   const [opened] = await Promise.all([page.context().waitForEvent('page'), lap.menu('Use this in class…')])
-  await expect(opened).toHaveURL(`${baseURL}embed/?figure=lap&v=9&universes=4&step=3`)
+  await expect(opened).toHaveURL(`${baseURL}embed/?figure=lap&v=13&universes=4&step=3`)
   forgiveHost(complaints)
 })
 
@@ -73,7 +73,7 @@ test('the pages for frames of a version show the figure from its folder', async 
   const versions = (await (await request.get('./v/versions.json')).json()) as Record<string, string>
   const asked: string[] = []
   page.on('request', request => asked.push(request.url()))
-  await page.goto(`./v/${Object.keys(versions).at(-1)}/embed.html?figure=lap&v=9&universes=4&step=3`)
+  await page.goto(`./v/${Object.keys(versions).at(-1)}/embed.html?figure=lap&v=13&universes=4&step=3`)
   const lap = new Figure(page, 'fastslam-lap')
   await lap.live()
   expect(await lap.position()).toBe(3)

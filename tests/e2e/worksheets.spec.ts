@@ -25,7 +25,7 @@ test('a plan leads to its sheet, whose figures stand in the states that its task
     await settled(figure.element)
     await expect(figure.alert).toBeEmpty()
   }
-  expect(await ring!.position()).toBe(83)
+  expect(await ring!.position()).toBe(79)
   expect(await alone!.position()).toBe(110)
   expect(await alone!.element.evaluate(element => (element as unknown as { values: Record<string, string> }).values['universes'])).toBe('1')
   await expect(ring!.element.locator('.sentence'), 'it would answer for the student').toBeHidden()

@@ -46,7 +46,7 @@ function cellNamed(name: string): { title: string; run: Run } {
   }
   const [proposal, matcher, m] = name.split('.') as [string, string, string]
   const particles = Number(m.slice(1))
-  const query = `course=apartment&range-std=0.02&universes=${particles}&proposal=${proposal}&matcher=${matcher}`
+  const query = `course=apartment&odometry=1&range-std=0.02&universes=${particles}&proposal=${proposal}&matcher=${matcher}`
   return {
     title: `${PROPOSALS[proposal]}, ${MATCHERS[matcher]}, M = ${particles}`,
     run: { tag: 'fastslam-lap', job: 'laps', query, rough: LAP + PARTICLE_LAP[proposal]! * particles },

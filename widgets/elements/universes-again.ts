@@ -59,7 +59,7 @@ export class UniversesAgain {
     this.progress.value = 0
     write(this.said, '')
     try {
-      const query = `course=apartment&range-std=0.02&universes=${universes}&proposal=${proposal}&matcher=subcell`
+      const query = `course=apartment&odometry=1&range-std=0.02&universes=${universes}&proposal=${proposal}&matcher=subcell`
       const add = (rows: number[][]) => {
         for (const [, error] of rows) found.push(error!)
         this.progress.value = found.length

@@ -38,6 +38,7 @@ pub fn course(course: Course) -> &'static str {
     match course {
         Course::Apartment => names::apartment(),
         Course::Ring => names::ring(),
+        Course::Rooms => names::rooms(),
     }
 }
 

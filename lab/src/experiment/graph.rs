@@ -715,7 +715,7 @@ mod tests {
     #[test]
     fn the_graph_of_a_log_is_the_same_however_it_is_asked() {
         let run = |setup: &LapSetup| trace(setup, Repair::SWITCHABLE).unwrap().value();
-        for course in [Course::Ring, Course::Apartment] {
+        for course in [Course::Ring, Course::Apartment, Course::Rooms] {
             let setup = LapSetup { course, ..LapSetup::default() };
             assert_eq!(run(&setup), run(&LapSetup { particles: 3, ..setup.clone() }), "the filter has no part in it");
             assert_ne!(run(&setup), run(&LapSetup { seed: 4, ..setup.clone() }));
@@ -725,7 +725,7 @@ mod tests {
     /// What edges say of the truth: χ² of three degrees of freedom has the mean 3, and a match that claims too much one far above it.
     #[test]
     fn edges_err_by_about_what_their_information_says() {
-        for course in [Course::Ring, Course::Apartment] {
+        for course in [Course::Ring, Course::Apartment, Course::Rooms] {
             let build = |seed| {
                 let mut build = GraphBuild::new(&LapSetup { course, seed, ..LapSetup::default() }).unwrap();
                 while build.step().unwrap() {}

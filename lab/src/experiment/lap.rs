@@ -1,5 +1,6 @@
-//! The Apartment lap: to the far end of the corridor, round the sun room, and home through what is mapped by then. And, as another
-//! [`Course`], the ring: round a block through ground never seen before, until the start comes in sight again.
+//! The Apartment lap: to the far end of the corridor, round the sun room, and home through what is mapped by then. And, as two more
+//! [`Course`]s, the rooms of an apartment, one after the other round its core, and the ring, a corridor round a block: through ground never
+//! seen before, until the start comes in sight again.
 //!
 //! The filter is told where the lap starts and with what noise wheels and sensor err. It is never told the truth: that stays
 //! in [`LapWorld`], and only the errors of a [`StepReport`] are taken from it.
@@ -33,7 +34,7 @@ pub const STEPS: usize = 90;
 /// How many particles a lap may have.
 pub const PARTICLES: Range = Range::whole(1, 4096);
 
-/// Steps of the ring, besides the start: round it, and on along the first side.
+/// Steps of the ring and of the rooms, besides the start: round, and on along the first side.
 pub const RING_STEPS: usize = 110;
 
 /// Noise of the wheels at scale 1: α₁ \[–\], α₂ \[rad²/m²\], α₃ \[–\], α₄ \[m²/rad²\].
@@ -165,6 +166,8 @@ pub enum Course {
     /// Once round [`FloorPlan::ring`] and a little further, with a laser that sees no further than 3 m and two niches on each side of the
     /// block: for most of the way nothing seen has been seen before.
     Ring,
+    /// Once round [`FloorPlan::rooms`] and a little further, from door to door, with a laser that sees no further than 3 m.
+    Rooms,
 }
 
 fn unknown_course(given: &str) -> SettingError {
@@ -176,7 +179,7 @@ impl Course {
     pub const fn steps(self) -> usize {
         match self {
             Self::Apartment => STEPS,
-            Self::Ring => RING_STEPS,
+            Self::Ring | Self::Rooms => RING_STEPS,
         }
     }
 
@@ -185,7 +188,7 @@ impl Course {
     pub fn closing(self) -> Option<u32> {
         match self {
             Self::Apartment => None,
-            Self::Ring => closing(&self.route()),
+            Self::Ring | Self::Rooms => closing(&self.route()),
         }
     }
 
@@ -199,6 +202,7 @@ impl Course {
                 max_range: MAX_RANGE,
             },
             Self::Ring => Route::ring(2, 3.0),
+            Self::Rooms => Route::rooms(),
         }
     }
 }
@@ -305,10 +309,10 @@ impl Default for LapSetup {
 }
 
 impl LapSetup {
-    /// What the lap's figure opens with: the ring, on which the universes differ until the loop closes and most of them die. The laser
-    /// is a worse one than that of the lap table, with which positions differ by centimetres at the closing: too little for the eye.
+    /// What the lap's figure opens with: an apartment's rooms, in which the universes differ until the loop closes and most of them die.
+    /// The wheels are worse than those of the lap table, with which positions differ by centimetres at the closing: too little for the eye.
     pub fn opening() -> Self {
-        Self { course: Course::Ring, seed: 9, range_std: 0.1, ..Self::default() }
+        Self { course: Course::Rooms, seed: 17, odometry_scale: 1.5, ..Self::default() }
     }
 
     /// Noise of the wheels.
@@ -750,14 +754,17 @@ mod tests {
     use super::*;
     use fastslam::ops;
 
-    const COURSES: [Course; 2] = [Course::Apartment, Course::Ring];
+    const COURSES: [Course; 3] = [Course::Apartment, Course::Ring, Course::Rooms];
 
     #[test]
     fn courses_are_read_as_they_are_printed() {
         for course in COURSES {
             assert_eq!(course.to_string().parse(), Ok(course));
         }
-        assert_eq!("moon".parse::<Course>().unwrap_err().to_string(), "course = moon: must be apartment or ring");
+        assert_eq!(
+            "moon".parse::<Course>().unwrap_err().to_string(),
+            "course = moon: must be apartment, ring or rooms"
+        );
     }
 
     /// A robot is some 0.4 m wide.
@@ -791,15 +798,16 @@ mod tests {
     #[test]
     fn each_course_has_its_own_world() {
         let setup = |course| LapSetup { course, ..LapSetup::default() };
-        let [apartment, ring] = COURSES.map(|course| Lap::new(&setup(course)).unwrap());
-        assert_eq!((apartment.step_count(), ring.step_count()), (STEPS as u32, RING_STEPS as u32));
+        let [apartment, ring, rooms] = COURSES.map(|course| Lap::new(&setup(course)).unwrap());
+        let steps = [&apartment, &ring, &rooms].map(Lap::step_count);
+        assert_eq!(steps, [STEPS, RING_STEPS, RING_STEPS].map(|steps| steps as u32));
         assert_eq!(COURSES.map(Course::steps), COURSES.map(|course| course.route().steps));
         let furthest = |lap: &Lap| {
             let ends = lap.world().scans.iter().flat_map(|scan| scan.hits.iter().chain(&scan.misses));
             ends.map(|[x, y]| ops::hypot(*x, *y)).fold(0.0, f64::max)
         };
-        assert!(furthest(&apartment) > 4.0 && furthest(&ring) <= 3.0 + 1e-9);
+        assert!(furthest(&apartment) > 4.0 && [&ring, &rooms].iter().all(|lap| furthest(lap) <= 3.0 + 1e-9));
         assert_eq!(apartment.world().plan, FloorPlan::apartment());
-        assert_eq!(COURSES.map(Course::closing), [None, Some(84)]);
+        assert_eq!(COURSES.map(Course::closing), [None, Some(84), Some(80)]);
     }
 }

@@ -469,26 +469,6 @@ mod tests {
         assert!(closing > 60 && closing + 2 * AFTER as usize <= route.steps, "{closing}");
     }
 
-    /// What the first figure of the chapter asks of its course, with the filter and the laser of all other laps: only the wheels are worse.
-    #[test]
-    #[ignore = "breadth: fifty seeds"]
-    fn in_the_rooms_universes_come_apart_and_the_closing_leaves_those_that_are_right() {
-        let lap = |seed| LapSetup { odometry_scale: 1.5, seed, ..LapSetup::default() };
-        let route = Route::rooms();
-        let runs: Vec<RingRun> = (1..=50).map(|seed| RingRun::on(&route, &lap(seed)).unwrap()).collect();
-        let median = |of: fn(&RingRun) -> f64| median(runs.iter().map(of).collect());
-        let before = median(|run| run.deviation_before);
-        assert!(before >= 0.4, "{before} m apart");
-        let common = median(|run| run.overlap_before);
-        assert!(common <= 0.75, "{common} of the walls in common");
-        let died = median(|run| run.died);
-        assert!(died >= 0.5, "{died} died");
-        let after = median(|run| run.deviation_after);
-        assert!(after <= 0.1, "{after} m apart afterwards");
-        let [end, odometry] = [median(|run| run.end_best), median(|run| run.end_odometry)];
-        assert!(end <= 0.25 * odometry, "{end} m off, raw odometry {odometry} m");
-    }
-
     /// Before the first step all particles are one: where the drawn pose is paid for, those with the same draws pay the same, and all that a draw
     /// of their own tells between them is noise. Where the integral is paid, a draw tells nothing.
     #[test]

@@ -69,8 +69,8 @@ pub const PICTURES: &[Picture] = &[
     picture(LAP, "end-narrow", "step=90&truth=on&raw=on", 340, 2.0, "light"),
     picture(LAP, "phone", RESAMPLED, 380, 1.0, "contrast-dark"),
     picture(LAP, "tiny", RESAMPLED, 240, 1.0, "contrast-light"),
-    picture(LAP, "lap-lens", "v=9&step=8", 692, 1.0, "light"),
-    picture(LAP, "lap-survivors", "v=9&step=95", 692, 1.0, "dark"),
+    picture(LAP, "lap-lens", "v=13&step=8", 692, 1.0, "light"),
+    picture(LAP, "lap-survivors", "v=13&step=92", 692, 1.0, "dark"),
     picture(LAP, "one", "universes=1&step=30", 640, 1.0, "light"),
     picture(LAP, "motion-64", "universes=64&proposal=motion&matcher=cell&step=41", 800, 1.0, "light"),
     picture(LAP, "motion-256", "universes=256&proposal=motion&matcher=cell&step=12", 800, 1.0, "dark"),
@@ -271,7 +271,7 @@ fn in_256_colours(pixels: Vec<u8>) -> Vec<u8> {
 const TINY: &str = "cell=0.1&raw=on";
 
 /// The lap as the figure opens, at its telling step: most of the universes have just died.
-const CLOSING: &str = "v=9&step=86";
+const CLOSING: &str = "v=13&step=82";
 
 /// A step of the apartment's lap at which it resampled.
 const RESAMPLED: &str = "step=62";
@@ -280,6 +280,7 @@ const RESAMPLED: &str = "step=62";
 pub const SETUPS: &[(&str, &str)] = &[
     (LAP, "course=apartment"),
     (LAP, "v=9"),
+    (LAP, "v=13"),
     (LAP, "universes=1"),
     (LAP, "universes=7&seed=5&proposal=motion&matcher=cell"),
     (LAP, "universes=24&policy=always&scheme=residual&odometry=1.5"),
@@ -335,9 +336,13 @@ pub const JOBS: &[(&str, &str, [u32; 2])] = &[
     ("wings", "particles=9&threshold=0.7&odometry=1.5&range=0.5&scheme=stratified", [40, 43]),
     ("doors", "", [1, 5]),
     ("doors", "ride=6&proposal=aware&range=0.2&price=5&gate=95&policy=always&door-5=16", [40, 42]),
-    ("laps", "course=apartment&range-std=0.02", [1, 3]),
+    ("laps", "course=apartment&odometry=1&range-std=0.02", [1, 3]),
     ("graphs", "course=apartment&odometry=1", [1, 4]),
-    ("laps", "course=apartment&universes=4&proposal=motion&matcher=cell&policy=always&range-std=0.1&step=7", [1, 4]),
+    (
+        "laps",
+        "course=apartment&odometry=1&universes=4&proposal=motion&matcher=cell&policy=always&range-std=0.1&step=7",
+        [1, 4],
+    ),
 ];
 
 /// The rows of a job, as a fingerprint.

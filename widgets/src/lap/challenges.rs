@@ -14,21 +14,21 @@ const NEAR: f64 = 0.5;
 
 pub(super) fn challenges() -> Vec<Challenge<LapModel>> {
     vec![
-        Challenge::new("closing", words::chip_closing(), "step=83&truth=on"),
+        Challenge::new("closing", words::chip_closing(), "step=79&truth=on"),
         Challenge::new(
             "no-measurements",
             words::chip_no_measurements(),
-            "seed=3&range-std=0.02&proposal=motion&policy=never&course=apartment&step=80",
+            "seed=3&odometry=1&proposal=motion&policy=never&course=apartment&step=80",
         ),
         Challenge::new(
             "measurements",
             words::chip_measurements(),
-            "seed=3&range-std=0.02&proposal=motion&course=apartment&step=80",
+            "seed=3&odometry=1&proposal=motion&course=apartment&step=80",
         ),
         Challenge::new(
             "four",
             words::chip_four(),
-            "universes=4&seed=3&range-std=0.02&proposal=motion&course=apartment&step=90",
+            "universes=4&seed=3&odometry=1&proposal=motion&course=apartment&step=90",
         )
         .with(
             words::goal_four(),

@@ -9,7 +9,7 @@ use fastslam_lab::experiment::lap::{Course, Lap};
 pub const fn cells(course: Course) -> CellRect {
     match course {
         // [0, 40) × [0, 30), and two cells around it.
-        Course::Apartment => CellRect { i0: -2, j0: -2, i1: 42, j1: 32 },
+        Course::Apartment | Course::Rooms => CellRect { i0: -2, j0: -2, i1: 42, j1: 32 },
         // [0, 36⅔) × [0, 26⅔).
         Course::Ring => CellRect { i0: -4, j0: -4, i1: 40, j1: 30 },
     }

@@ -229,7 +229,8 @@ impl LapModel {
 impl Declared for LapModel {
     type Recipe = Recipe;
     const TITLE: &'static str = lap::TITLE;
-    /// The figure opened in the apartment, with one universe shown large; then on the ring with a share of the evidence of its own.
+    /// The figure opened in the apartment, with one universe shown large; then on the ring, with a share of the evidence of its own and, later,
+    /// a worse laser.
     const CHANGES: &'static [Change] = &[
         Change::Default { name: "course", was: "apartment" },
         Change::Default { name: "temper", was: "0.85" },
@@ -239,6 +240,10 @@ impl Declared for LapModel {
         Change::Default { name: "range-std", was: "0.02" },
         Change::Default { name: "seed", was: "3" },
         Change::Opens,
+        Change::Default { name: "course", was: "ring" },
+        Change::Default { name: "seed", was: "9" },
+        Change::Default { name: "odometry", was: "1" },
+        Change::Default { name: "range-std", was: "0.1" },
     ];
     const UNSAID: usize = 8;
 

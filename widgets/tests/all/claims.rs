@@ -30,7 +30,7 @@ use In::{Chip, Reached};
 type Claim = (&'static str, &'static str, In, &'static str, RangeInclusive<f64>);
 
 const CLAIMS: &[Claim] = &[
-    ("lap", "closing", Chip, "step", 83.0..=83.0),
+    ("lap", "closing", Chip, "step", 79.0..=79.0),
     ("lap", "closing", Chip, "spread", 0.5..=MANY),
     ("lap", "no-measurements", Chip, "lineage", 16.0..=16.0),
     ("lap", "no-measurements", Chip, "spread", 1.0..=MANY),

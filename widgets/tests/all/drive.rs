@@ -206,7 +206,7 @@ fn the_longest_plan_fits_into_a_link() {
     let full = [at(&mut figure, [1.0, 8.0]), at(&mut figure, [2.0, 8.0])].concat();
     assert!(figure.stroke(&full, WIDTH).unwrap_err().message.contains("60 new walls"));
     // Whatever else is set, with the figure's other parameters and a page's address of 200 letters.
-    let others = "v=9&course=apartment&universes=256&seed=4294967295&odometry=1.95&range-std=0.29&proposal=motion&matcher=cell\
+    let others = "v=13&course=apartment&universes=256&seed=4294967295&odometry=1.95&range-std=0.29&proposal=motion&matcher=cell\
         &policy=always&threshold=0.95&scheme=multinomial&temper=0.05&guard=off&universe=255&step=400&truth=on&raw=on";
     let erased = 2 * 60;
     assert!(figure.query().len() + others.len() + erased + 200 <= 2000, "{}", figure.query().len());

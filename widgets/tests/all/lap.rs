@@ -32,7 +32,7 @@ fn the_core_takes_the_ends_of_every_range() {
 
 #[test]
 fn a_step_back_shows_the_same_bits_as_the_way_forward() {
-    for query in ["universes=5&seed=9", "universes=200&proposal=motion&matcher=cell", "v=9&policy=always"] {
+    for query in ["universes=5&seed=9", "universes=200&proposal=motion&matcher=cell", "v=13&policy=always"] {
         let mut figure = lap(query);
         let mut forward = Vec::new();
         for step in 0..=7 {
@@ -51,27 +51,27 @@ fn a_step_back_shows_the_same_bits_as_the_way_forward() {
 #[test]
 fn a_link_brings_back_the_whole_state() {
     let mut figure =
-        lap("v=9&universes=9&seed=77&policy=always&scheme=residual&threshold=0.25&step=6&universe=4&truth=on");
+        lap("v=13&universes=9&seed=77&policy=always&scheme=residual&threshold=0.25&step=6&universe=4&truth=on");
     assert_eq!(
         figure.query(),
-        "v=9&universes=9&seed=77&policy=always&threshold=0.25&scheme=residual&step=6&universe=4&overlay=off&truth=on"
+        "v=13&universes=9&seed=77&policy=always&threshold=0.25&scheme=residual&step=6&universe=4&overlay=off&truth=on"
     );
     let other = lap(&format!("?{}", figure.query()));
     assert_eq!(state(&figure), state(&other));
     // A link is the whole state: what it does not name is the default again.
-    assert_eq!(figure.load("v=9&seed=5"), []);
-    assert_eq!(figure.query(), "v=9&seed=5");
+    assert_eq!(figure.load("v=13&seed=5"), []);
+    assert_eq!(figure.query(), "v=13&seed=5");
 }
 
 #[test]
 fn a_bad_link_is_told_of_and_the_rest_of_it_applied() {
     let mut figure = Figure::new("fastslam-lap").unwrap();
     let messages: Vec<String> = figure
-        .load("v=9&universes=999&seed=5&tempo=3&universe=12&proposal=magic&&=&%zz=%")
+        .load("v=13&universes=999&seed=5&tempo=3&universe=12&proposal=magic&&=&%zz=%")
         .into_iter()
         .map(|e| e.message)
         .collect();
-    assert_eq!(figure.query(), "v=9&seed=5&universe=12&overlay=off");
+    assert_eq!(figure.query(), "v=13&seed=5&universe=12&overlay=off");
     for part in [
         "tempo",
         "universes = \"999\": must be a whole number from 1 to 256",
@@ -80,10 +80,10 @@ fn a_bad_link_is_told_of_and_the_rest_of_it_applied() {
         assert!(messages.iter().any(|m| m.contains(part)), "{part}: {messages:?}");
     }
     // A universe that another setting of the same link does away with.
-    let messages = figure.load("v=9&universe=12&universes=8");
+    let messages = figure.load("v=13&universe=12&universes=8");
     assert_eq!(messages.len(), 1);
     assert!(messages[0].message.contains("from -1 to 7"), "{messages:?}");
-    assert_eq!(figure.query(), "v=9&universes=8");
+    assert_eq!(figure.query(), "v=13&universes=8");
 }
 
 #[test]
@@ -95,7 +95,7 @@ fn the_course_says_how_many_steps_there_are() {
     assert_eq!((figure.model().pending(), figure.model().step_count()), (90, 90));
     let messages = figure.load("course=apartment&step=91");
     assert!(messages[0].message.contains("from 0 to 90"), "{messages:?}");
-    assert!(figure.load("course=moon")[0].message.contains("must be one of ring, apartment"));
+    assert!(figure.load("course=moon")[0].message.contains("must be one of rooms, apartment, ring"));
     let step = |query| lap(query).params().iter().find(|spec| spec.name == "step").unwrap().max;
     assert_eq!([step("course=apartment"), step("course=ring")], [90.0, 110.0]);
 }
@@ -163,7 +163,7 @@ fn texts_fit_their_boxes_and_the_figure_and_cover_no_other() {
     for query in [
         "universes=1&step=1",
         "step=2&truth=on&raw=on",
-        "v=9&step=85&truth=on&raw=on",
+        "v=13&step=85&truth=on&raw=on",
         "universes=100&seed=4294967295&step=2&policy=always",
     ] {
         let figure = lap(query);
@@ -195,7 +195,7 @@ fn tiles_are_disjoint_inside_the_figure_and_readable_for_every_number_of_univers
 
 #[test]
 fn the_height_depends_on_the_width_only() {
-    let (a, b) = (lap("universes=1"), lap("v=9&universes=256&proposal=motion&step=1&truth=on&raw=on"));
+    let (a, b) = (lap("universes=1"), lap("v=13&universes=256&proposal=motion&step=1&truth=on&raw=on"));
     for width in [100.0, 340.0, 640.0, 1280.0] {
         assert_eq!(a.height(width), b.height(width));
         assert!(a.height(width) > 0.4 * width);
@@ -217,13 +217,13 @@ fn no_size_makes_it_panic() {
 
 #[test]
 fn data_has_a_row_for_every_step_so_far() {
-    let figure = lap("v=9&universes=4&step=6");
+    let figure = lap("v=13&universes=4&step=6");
     let export = figure.export();
     let (header, rows) = (export.header(), export.rows());
     assert_eq!(rows.len(), 7);
     assert!(rows.iter().all(|row| row.len() == header.len() && row.iter().all(Option::is_some)), "{rows:?}");
     let data = serde_json::to_value(export).unwrap();
-    assert_eq!(data["query"], "v=9&universes=4&step=6");
+    assert_eq!(data["query"], "v=13&universes=4&step=6");
     assert_eq!(data["steps"][6]["step"], 6.0);
     assert_eq!(data["columns"].as_object().unwrap().len(), header.len());
 }
@@ -233,7 +233,7 @@ fn data_has_a_row_for_every_step_so_far() {
 fn a_cell_of_the_lap_table_is_the_job_of_its_link() {
     for cell in LapCell::all().filter(|cell| cell.particles == 4) {
         let link =
-            format!("course=apartment&range-std=0.02&universes=4&proposal={}&matcher={}", cell.proposal, cell.matcher);
+            format!("course=apartment&odometry=1&universes=4&proposal={}&matcher={}", cell.proposal, cell.matcher);
         let errors = [1, 2].map(|seed| vec![seed as f64, rms_best(&cell.setup(seed)).unwrap()]);
         assert_eq!(job::run("laps", &link, 1..3).unwrap(), errors, "{link}");
     }
@@ -256,10 +256,13 @@ fn the_cell_of_the_pose_graph_is_the_job_of_its_link() {
 }
 
 #[test]
-fn links_of_before_the_ring_open_in_the_apartment_with_one_universe_large() {
-    assert_eq!(lap("seed=5").query(), "v=9&seed=5&range-std=0.02&weight=old-map-at-draw&course=apartment&overlay=off");
-    assert_eq!(lap("v=9&seed=5").query(), "v=9&seed=5");
-    assert_eq!(lap("").model().value("course").unwrap(), "ring", "nothing was asked");
+fn links_of_before_open_where_they_opened() {
+    // The apartment, with one universe large; then the ring.
+    let first = "v=13&seed=5&odometry=1&weight=old-map-at-draw&course=apartment&overlay=off";
+    assert_eq!(lap("seed=5").query(), first);
+    assert_eq!(lap("v=9&universes=8").query(), "v=13&universes=8&seed=9&odometry=1&range-std=0.1&course=ring");
+    assert_eq!(lap("v=13&seed=5").query(), "v=13&seed=5");
+    assert_eq!(lap("").model().value("course").unwrap(), "rooms", "nothing was asked");
 }
 
 #[test]
@@ -293,16 +296,16 @@ fn the_closing_of_the_loop_is_slow_and_counts_who_dies() {
     for step in 0..=model.step_count() {
         model.seek(step);
         model.settle();
-        assert_eq!(model.pace() < 1.0, (83..=90).contains(&step), "step {step}");
+        assert_eq!(model.pace() < 1.0, (79..=86).contains(&step), "step {step}");
         seen.push((model.spread(), model.died_in_closing(), model.describe()));
     }
-    assert!(seen[83].0 > 0.5 && seen[90].0 < 0.2, "{} m and {} m", seen[83].0, seen[90].0);
-    assert!(seen[..84].iter().all(|(_, dead, told)| *dead == 0 && !told.contains("loop")));
+    assert!(seen[79].0 > 0.5 && seen[86].0 < 0.1, "{} m and {} m", seen[79].0, seen[86].0);
+    assert!(seen[..80].iter().all(|(_, dead, told)| *dead == 0 && !told.contains("loop")));
     assert!(seen.windows(2).all(|pair| pair[0].1 <= pair[1].1), "who is dead stays dead");
-    let dead = seen[90].1;
+    let dead = seen[86].1;
     assert!(dead >= 8 && seen[110].1 == dead, "{dead} of 16");
-    assert!(seen[90].2.contains(&format!("The loop closes: {dead} of 16 have died out since.")), "{}", seen[90].2);
-    assert!(seen[91].2.contains(&format!("When the loop closed, {dead} of 16 died out.")), "{}", seen[91].2);
+    assert!(seen[86].2.contains(&format!("The loop closes: {dead} of 16 have died out since.")), "{}", seen[86].2);
+    assert!(seen[87].2.contains(&format!("When the loop closed, {dead} of 16 died out.")), "{}", seen[87].2);
     // In the apartment nothing closes.
     let apartment = lap("universes=2&step=70");
     assert_eq!(apartment.model().pace(), 1.0);
@@ -337,7 +340,7 @@ fn the_dead_fade_and_the_living_are_all_shown() {
 /// Sixteen buildings that nobody chooses among are sixteen in the picture of all: by weight it was the one that the last scans fit.
 #[test]
 fn where_nothing_resamples_a_picture_of_all_universes_is_of_all_of_them() {
-    let figure = lap("v=9&seed=3&range-std=0.02&proposal=motion&policy=never&course=apartment&step=80");
+    let figure = lap("v=13&seed=3&odometry=1&proposal=motion&policy=never&course=apartment&step=80");
     let scene = scene(&figure, 800.0);
     let map = scene.marks.iter().find_map(|mark| match mark {
         Mark::Raster { cells, shading: Shading::Share, .. } => Some(&cells.shades),

@@ -8,11 +8,7 @@ use crate::experiment::lap::{Course, LapSetup};
 
 /// All recipes of the pose graph.
 pub fn recipes() -> Vec<Recipe> {
-    let courses = [Course::Apartment, Course::Ring].map(|course| {
-        let name = match course {
-            Course::Apartment => "lap.graph",
-            Course::Ring => "ring.graph",
-        };
+    let courses = [(Course::Apartment, "lap.graph"), (Course::Ring, "ring.graph")].map(|(course, name)| {
         let group = Group(name.into());
         Recipe::new(name, SEEDS, move |runs| over_seeds(&group, course, runs))
     });

@@ -1,4 +1,4 @@
-//! The ring: what a filter keeps until its loop closes, and what the closing leaves.
+//! The ring and the rooms: what a filter keeps until its loop closes, and what the closing leaves.
 
 use super::{Group, Number, Recipe, Runs, SEEDS, VALID};
 use crate::experiment::ErrorSummary;
@@ -6,7 +6,7 @@ use crate::experiment::ProposalKind;
 use crate::experiment::lap::{LapSetup, ScanWeight};
 use crate::experiment::ring::{AFTER, RingRun, RingSetup, closing};
 
-/// All recipes of the ring: the course, and both proposals on it.
+/// All recipes of both: the run in the rooms that the chapter opens with; the ring's course, and both proposals on it.
 pub fn recipes() -> Vec<Recipe> {
     // By the usual weight of each, and by that of the other.
     let filters = [
@@ -28,17 +28,22 @@ pub fn recipes() -> Vec<Recipe> {
 
 /// Of the very run that the lap's figure opens with.
 fn opening() -> Recipe {
-    Recipe::fixed("ring.opening", |group| {
+    Recipe::fixed("rooms", |group| {
         let lap = LapSetup::opening();
-        let LapSetup { range_std, seed, particles, .. } = lap;
-        let run = RingRun::of(&RingSetup { lap, ..RingSetup::default() }).expect(VALID);
+        let LapSetup { odometry_scale, seed, particles, course, .. } = lap;
+        let route = course.route();
+        let run = RingRun::on(&route, &lap).expect(VALID);
         let of = |what: &str| {
             format!(
-                "{what}, in the run that the lap's figure opens with: fastslam-lab ring --range-std {range_std} --particles {particles}, seed {seed}"
+                "{what}, in the run that the lap's figure opens with: fastslam-lab ring --rooms --odometry {odometry_scale} --particles {particles}, seed {seed}"
             )
         };
         vec![
-            group.number("range_std", range_std, "m", of("the standard deviation of a range")),
+            group.number("steps", route.steps as f64, "", of("steps after the start")),
+            group.number("range", route.max_range, "m", of("the longest range of a beam")),
+            group.number("odometry_scale", odometry_scale, "", of("the factor on the odometry's noise")),
+            group.number("closing", f64::from(run.closing), "", of("the first step that sees the start again")),
+            group.number("within", f64::from(AFTER), "", of("steps from there to the second look")),
             group.number(
                 "before",
                 run.deviation_before,

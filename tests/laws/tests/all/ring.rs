@@ -57,21 +57,22 @@ fn the_closing_of_the_loop_selects_and_not_the_way_there() {
 }
 
 /// What must be seen where the chapter opens, as medians over seeds: before the loop closes the universes differ, and the closing ends
-/// most of them. Of 50 seeds, when this was written: deviation 0.627 m, overlap 0.615, 81 % died, 0.064 m after.
+/// most of them. Of 50 seeds, when this was written: deviation 0.477 m, overlap 0.580, 69 % died, 0.052 m after, 0.058 m off at the end
+/// where odometry is 8.36 m off.
 fn universes_differ_until_the_loop_closes(seeds: impl IntoIterator<Item = u64>) {
     let run = |seed| {
         let lap = LapSetup { seed, ..LapSetup::opening() };
-        RingRun::of(&RingSetup { lap, ..RingSetup::default() }).unwrap()
+        RingRun::on(&lap.course.route(), &lap).unwrap()
     };
     let runs: Vec<RingRun> = seeds.into_iter().map(run).collect();
     let of = |f: fn(&RingRun) -> f64| median(runs.iter().map(f).collect());
     type Law = (&'static str, fn(&RingRun) -> f64, fn(f64) -> bool);
     let laws: [Law; 5] = [
-        ("deviation of position before [m]", |run| run.deviation_before, |x| x >= 0.5),
-        ("overlap of two universes' walls before", |run| run.overlap_before, |x| x <= 0.7),
+        ("deviation of position before [m]", |run| run.deviation_before, |x| x >= 0.4),
+        ("overlap of two universes' walls before", |run| run.overlap_before, |x| x <= 0.75),
         ("share that died", |run| run.died, |x| x >= 0.5),
-        ("deviation of position after [m]", |run| run.deviation_after, |x| x < 0.2),
-        ("error of the best over that of odometry", |run| run.end_best / run.end_odometry, |x| x < 0.5),
+        ("deviation of position after [m]", |run| run.deviation_after, |x| x <= 0.1),
+        ("error of the best over that of odometry", |run| run.end_best / run.end_odometry, |x| x <= 0.25),
     ];
     for (name, value, law) in laws {
         let holding = runs.iter().filter(|run| law(value(run))).count();
