@@ -196,7 +196,7 @@ test('an element of an earlier version has the defaults of that version: taken a
   await expect(lap.alert).toBeEmpty()
   await page.evaluate(() => (location.hash = 'fastslam-lap?v=13&universes=4'))
   await lap.settled()
-  expect(await values(), 'what is locked is the author’s, as it was in that version').toEqual(['apartment', 9, 4])
+  expect(await values(), 'what is locked is the author’s, as it was in that version').toEqual(['apartment', 17, 4])
 })
 
 test.describe('without the script', () => {
