@@ -1,4 +1,4 @@
-// Workers: what runs beside the page, so that nothing else has to wait for it. Experiments over many seeds run in one of their own.
+// Workers: what runs beside the page, so that nothing else has to wait for it. Experiments over many seeds run in two of their own.
 import { workerScript } from './files'
 import { programOf } from './program'
 import type { Shell } from './shell'
@@ -13,20 +13,44 @@ export interface Job {
   to: number
 }
 
+/** How many workers share a job, where there are as many processors: the page itself has little to do meanwhile. */
+const WORKERS = 2
+
+/** What becomes of the rows of a seed, with an instance of the same program on the page for what is to be computed from them. */
+type OnRows = (rows: number[][], shell: Shell) => void
+
 /**
- * Resolves when every seed has been run. A signal stops it at once; what came until then has been told, with an instance of the same
- * program on the page for what is to be computed from it.
+ * Resolves when every seed has been run; rows are told in the order of the seeds, whichever worker was the quicker. A signal stops it at
+ * once; what came until then has been told.
  */
-async function runInWorker(tag: string, job: Job, onRows: (rows: number[][], shell: Shell) => void, signal: AbortSignal): Promise<void> {
+async function runInWorkers(tag: string, job: Job, onRows: OnRows, signal: AbortSignal): Promise<void> {
   const program = programOf(tag)
   const [module, shell] = [await program.module(), await program.shell()]
   signal.throwIfAborted()
+  const every = Math.max(1, Math.min(WORKERS, navigator.hardwareConcurrency || 1, job.to - job.from))
+  const early = new Map<number, number[][]>()
+  let next = job.from
+  const take = (seed: number, rows: number[][]) => {
+    early.set(seed, rows)
+    for (let found; (found = early.get(next)); early.delete(next++)) onRows(found, shell)
+  }
+  const stop = new AbortController() // of the others, when one fails
+  const either = AbortSignal.any([signal, stop.signal])
+  try {
+    await Promise.all(Array.from({ length: every }, (_, k) => share({ do: 'job', module, job: { ...job, from: job.from + k }, every }, take, either)))
+  } finally {
+    stop.abort()
+  }
+}
+
+/** What one worker does of a job: every so many seeds. */
+async function share(request: Extract<WorkerRequest, { do: 'job' }>, onSeed: (seed: number, rows: number[][]) => void, signal: AbortSignal): Promise<void> {
   const worker = createWorker()
   try {
     await new Promise<void>((done, fail) => {
       signal.addEventListener('abort', () => fail(signal.reason as Error), { once: true })
       worker.addEventListener('message', ({ data }: MessageEvent<WorkerResponse>) => {
-        if (data.told === 'rows') onRows(data.rows, shell)
+        if (data.told === 'rows') onSeed(data.seed, data.rows)
         else if (data.told === 'done') done()
         else if (data.told === 'failed') fail(new ToldError(data.why))
       })
@@ -34,7 +58,7 @@ async function runInWorker(tag: string, job: Job, onRows: (rows: number[][], she
         event.preventDefault()
         fail(workerRefused(event.message))
       })
-      worker.postMessage({ do: 'job', module, job } satisfies WorkerRequest)
+      worker.postMessage(request)
     })
   } finally {
     worker.terminate()
@@ -58,11 +82,11 @@ export class Jobs {
   }
 
   /** Whether it was run to its end: nothing more is to be said of one that was stopped, or followed by another. */
-  async run(tag: string, job: Job, onRows: (rows: number[][], shell: Shell) => void): Promise<boolean> {
+  async run(tag: string, job: Job, onRows: OnRows): Promise<boolean> {
     this.stop()
     const now = (this.#now = new AbortController())
     try {
-      await runInWorker(tag, job, (rows, shell) => now === this.#now && onRows(rows, shell), now.signal)
+      await runInWorkers(tag, job, (rows, shell) => now === this.#now && onRows(rows, shell), now.signal)
     } catch (error) {
       if (now === this.#now) throw error
     } finally {

@@ -8,12 +8,12 @@ import { trapMessage, type Shell } from './shell'
 import { Session } from './session'
 import { yieldToMain } from './yield'
 
-export type WorkerRequest = { do: 'job'; module: WebAssembly.Module; job: Job } | { do: 'figure'; module: WebAssembly.Module; tag: string } | Command
+export type WorkerRequest = { do: 'job'; module: WebAssembly.Module; job: Job; every: number } | { do: 'figure'; module: WebAssembly.Module; tag: string } | Command
 
 /** A frame as it is sent: its pixels are a copy, which goes over to the page. */
 export type SentFrame = Omit<Frame, 'picture'> & { picture: { width: number; height: number; pixels: Uint8ClampedArray<ArrayBuffer> } | undefined }
 
-export type WorkerResponse = Answer | { told: 'frame'; frame: SentFrame } | { told: 'rows'; rows: number[][] } | { told: 'done' }
+export type WorkerResponse = Answer | { told: 'frame'; frame: SentFrame } | { told: 'rows'; seed: number; rows: number[][] } | { told: 'done' }
 
 const SLICE = 12 // [ms] of work between two looks at what the page asks
 const PICTURE = 100 // [ms] between two pictures of work under way …
@@ -57,9 +57,9 @@ async function carryOut(request: WorkerRequest): Promise<void> {
   void work()
 }
 
-async function run({ module, job: { name, query, from, to } }: Extract<WorkerRequest, { do: 'job' }>): Promise<void> {
+async function run({ module, job: { name, query, from, to }, every }: Extract<WorkerRequest, { do: 'job' }>): Promise<void> {
   shell = await createShell(module)
-  for (let seed = from; seed < to; seed++) tell({ told: 'rows', rows: shell.job(name, query, seed, seed + 1) as number[][] })
+  for (let seed = from; seed < to; seed += every) tell({ told: 'rows', seed, rows: shell.job(name, query, seed, seed + 1) as number[][] })
   tell({ told: 'done' })
 }
 
