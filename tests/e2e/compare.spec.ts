@@ -54,8 +54,8 @@ for (const [tag, link, change, says] of RUNS) {
 test('at another step nothing is compared, and what is read out is both', async ({ page }) => {
   const lap = await open(page, 'fastslam-lap', 'v=13&universes=4&step=9')
   const spoken = lap.element.locator('.spoken')
-  await give(lap, ['odometry', '1.5'])
-  await expect(spoken).toHaveText(/^Step 9: Odometry noise σ 1 → 1\.5 ×\. .*Step 9 of 110, 4 universes/)
+  await give(lap, ['odometry', '2'])
+  await expect(spoken).toHaveText(/^Step 9: Odometry noise σ 1\.5 → 2 ×\. .*Step 9 of 110, 4 universes/)
   await lap.step.click()
   await lap.settled()
   await expect(lap.sentence).toHaveText(/^Step 10 of 110/)
