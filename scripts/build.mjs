@@ -7,7 +7,7 @@ import { askForSite } from './address.mjs'
 import { tellFigures, writeNames } from './elements.mjs'
 import { writeFrames } from './frames.mjs'
 import { checkGlue, gluePaths } from './glue.mjs'
-import { chapterPrograms, programFile, singlePrograms } from './registry.mjs'
+import { chapterPrograms, programFile, singlePrograms, writeLists } from './registry.mjs'
 import { setUp } from './setup.mjs'
 import { cache, capture, isMain, kilobytes, main, npmBin, readIfThere, root, run, step, StepError } from './lib.mjs'
 
@@ -32,11 +32,11 @@ const optimiser = [...features, '-O3', '--strip-debug']
 /**
  * What pages load: the programs of the chapter, and of those of single figures the ones that are asked for. What is there of the others
  * stays where it is of these sources. One after the other, so that what they share is compiled once. All use the same glue.
- * @param {string[]} singles
+ * @param {string[]} singles @param {string[]} [shared] those of several figures
  */
-export async function buildPrograms(singles = []) {
+export async function buildPrograms(singles = [], shared = chapterPrograms) {
   for (const program of singlePrograms) if (!isMade(program)) rmSync(programFile(program), { force: true })
-  for (const program of [...chapterPrograms, ...singles]) await step(basename(programFile(program)), () => buildProgram(program))
+  for (const program of [...shared, ...singles]) await step(basename(programFile(program)), () => buildProgram(program))
   await step('Glue of the programs', () => {
     for (const path of gluePaths) copyFileSync(join(folderOf(gluedAs), basename(path)), path)
     for (const program of [...chapterPrograms, ...singlePrograms.filter(program => existsSync(programFile(program)))]) checkGlue(programFile(program))
@@ -137,6 +137,7 @@ export async function buildPages() {
 /** The site. @param {string[]} singles figures that get a program of their own, beside that of the chapter */
 export async function build(singles = []) {
   await setUp()
+  await step('Lists of the figures', writeLists)
   // The compiler of the one has a core to spare while the other links.
   await Promise.all([buildPrograms(singles), step('What the figures tell of themselves', () => tellFigures())])
   await step('Names of the figures', writeNames)
