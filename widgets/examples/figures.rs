@@ -5,9 +5,10 @@
 use fastslam_widgets::{
     challenge::Chip,
     figure::Figure,
+    job::{Counted, Job},
     model::{Kind, ParamSpec, Readout},
     paint::Theme,
-    registry::FIGURES,
+    registry::{FIGURES, Program},
 };
 use serde::Serialize;
 
@@ -33,6 +34,19 @@ struct Told {
     /// Whether something in the picture can be grasped.
     handles: bool,
     panels: &'static [&'static str],
+    /// Whether a script can run it at several seeds, on the page.
+    compared: bool,
+    /// What readers can have counted over many seeds.
+    counted: Option<Count>,
+}
+
+/// A count, and how its job has it.
+#[derive(Serialize)]
+struct Count {
+    job: &'static str,
+    columns: &'static [&'static str],
+    #[serde(flatten)]
+    counted: &'static Counted,
 }
 
 /// What the figure asks a reader to predict.
@@ -75,6 +89,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             prediction: asked(entry.tag),
             handles: grasped(entry.tag),
             panels: entry.panels,
+            compared: entry.program == Program::Page && figure.params().iter().any(|spec| spec.name == "seed"),
+            counted: entry.count.and_then(|&Job { name: job, columns, ref counted, .. }| {
+                Some(Count { job, columns, counted: counted.as_ref()? })
+            }),
         }
     };
     serde_json::to_writer(std::io::stdout(), &FIGURES.iter().map(told).collect::<Vec<_>>())?;

@@ -26,6 +26,19 @@ pub struct Job {
     pub columns: &'static [&'static str],
     /// A row for each seed, in a setting written as a figure's link.
     pub run: fn(&Setting, Range<u64>) -> Result<Rows, FigureError>,
+    /// What readers can have counted of it below the figure.
+    pub counted: Option<Counted>,
+}
+
+/// In how many runs something holds, for each of what is compared. What is said are keys among the words of the elements.
+#[derive(serde::Serialize)]
+pub struct Counted {
+    /// What it is about.
+    pub title: &'static str,
+    /// Names of the parameters that the count depends on, apart by spaces; it has seeds of its own.
+    pub settings: &'static str,
+    /// What is compared: its name, the column that is 1 where it holds, and the one that says how often it should, if there is one.
+    pub rows: &'static [(&'static str, &'static str, Option<&'static str>)],
 }
 
 /// The recipe of a setting. What that says about the view makes no numbers, and may be of another setup.

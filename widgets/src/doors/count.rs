@@ -2,7 +2,7 @@
 
 use super::recipe::Recipe;
 use crate::{
-    job::{self, Job, Rows, Setting},
+    job::{self, Counted, Job, Rows, Setting},
     model::FigureError,
 };
 use core::ops::Range;
@@ -12,7 +12,21 @@ use fastslam_lab::experiment::doors::{DoorsSetup, outcomes};
 const PARTICLES: [usize; 3] = [25, 100, 400];
 
 /// Who ends at the robot, and how often the EKF should.
-pub static DOORS: Job = Job { name: "doors", columns: &["seed", "ekf", "m25", "m100", "m400", "pencil"], run };
+pub static DOORS: Job = Job {
+    name: "doors",
+    columns: &["seed", "ekf", "m25", "m100", "m400", "pencil"],
+    run,
+    counted: Some(Counted {
+        title: "count_doors",
+        settings: "ride proposal price range gate policy threshold door-1 door-2 door-3 door-4 door-5 door-6 door-7",
+        rows: &[
+            ("ekf_slam", "ekf", Some("pencil")),
+            ("m_25", "m25", None),
+            ("m_100", "m100", None),
+            ("m_400", "m400", None),
+        ],
+    }),
+};
 
 /// The setting is that of the figure's link; what it says about seed, number of particles, the end of the
 /// ride and the view makes no difference.

@@ -2,7 +2,7 @@
 
 use super::recipe::Recipe;
 use crate::{
-    job::{self, Job, Rows, Setting},
+    job::{self, Counted, Job, Rows, Setting},
     model::FigureError,
 };
 use core::ops::Range;
@@ -24,6 +24,15 @@ pub static WINGS: Job = Job {
         "selective_settled",
     ],
     run,
+    counted: Some(Counted {
+        title: "count_title",
+        settings: "particles threshold odometry range scheme",
+        rows: &[
+            ("never", "never_alive", None),
+            ("every_step", "always_alive", None),
+            ("selective", "selective_alive", None),
+        ],
+    }),
 };
 
 /// The setting is that of the figure's link; what it says about the seed and the view makes no difference.
