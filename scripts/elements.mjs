@@ -1,6 +1,6 @@
 // What the compiled figures tell of themselves, and all that is made from it: the names that elements/ needs before a program runs,
 // the types, the manifest of the custom elements, and the classes of the Python package. A new parameter needs no other line.
-import { mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs'
+import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { readGlue, shellModule, shellTypes } from './glue.mjs'
 import { cache, isMain, main, readIfThere, root, run, step, StepError } from './lib.mjs'
@@ -10,7 +10,8 @@ import { programs } from './registry.mjs'
  * @typedef {import('../widgets/elements/shell').ParamSpec} ParamSpec
  * @typedef {import('../widgets/elements/shell').Readout} Readout
  * @typedef {import('../widgets/elements/shell').Chip} Chip
- * @typedef {{ tag: string, name: string, className: string, title: string, describe: string, params: ParamSpec[], readouts: Readout[], chips: Chip[], prediction: string | null, handles: boolean, panels: string[], version: number, unsaid: number }} FigureInfo
+ * @typedef {{ tag: string, name: string, className: string, title: string, describe: string, params: ParamSpec[], readouts: Readout[], chips: Chip[], prediction: string | null, handles: boolean, panels: string[], version: number, unsaid: number, compared: boolean, counted: Count | null }} FigureInfo
+ * @typedef {{ job: string, columns: string[], title: string, settings: string, rows: [name: string, column: string, expected: string | null][] }} Count
  */
 
 const told = cache('figures.json')
@@ -71,10 +72,8 @@ const comparing = {
   events: [{ name: 'fastslam-seeds', type: 'CustomEvent<SeedsDetail>', help: 'A script’s seeds have been run: what came out at each, and the median.' }],
 }
 
-const COMPARED = ['lap', 'proposal', 'resampling', 'doors', 'joint', 'graph', 'smoothing', 'em'].map(name => `fastslam-${name}`)
-
-/** What only some figures have. @param {{ tag: string }} figure */
-const extrasOf = ({ tag }) => (COMPARED.includes(tag) ? comparing : { methods: [], events: [] })
+/** What only some figures have. @param {{ compared: boolean }} figure */
+const extrasOf = ({ compared }) => (compared ? comparing : { methods: [], events: [] })
 
 const properties = [
   { name: 'playing', type: 'boolean', readonly: true, help: 'Whether it plays.' },
@@ -104,7 +103,7 @@ const log = {
 /** @param {{ tag: string }} figure */
 const isLog = ({ tag }) => tag === 'fastslam-log'
 
-/** What a figure has besides its parameters. @param {{ tag: string }} figure */
+/** What a figure has besides its parameters. @param {FigureInfo} figure */
 const membersOf = figure => {
   if (isLog(figure)) return log
   const extras = extrasOf(figure)
@@ -154,8 +153,16 @@ const parts = {
   menu: 'The menu’s button.',
 }
 
-/** Figures that run something over many seeds. */
-const COUNTED = ['resampling', 'doors', 'universes'].map(name => `fastslam-${name}`)
+const elements = join(root, 'widgets', 'elements')
+
+/** The file of an element with code of its own. @param {{ tag: string }} figure */
+const ownFile = ({ tag }) => join(elements, `${tag}.ts`)
+
+/** The parts that an element's code says it has. @param {FigureInfo} figure */
+function ownParts(figure) {
+  const code = readIfThere(figure.counted ? join(elements, 'counted-figure.ts') : ownFile(figure)) ?? ''
+  return Object.fromEntries([...code.matchAll(/^ \* @csspart ([\w-]+) - (.+)/gm)].map(([, name, what]) => [name, what]))
+}
 
 /** The parts of a figure: those that all have, and its own. @param {FigureInfo} figure @returns {Record<string, string>} */
 const partsOf = figure => ({
@@ -163,15 +170,12 @@ const partsOf = figure => ({
   ...(figure.params.some(({ name }) => name === 'seed') && { seed: 'The seed, and the die that draws one.' }),
   ...(figure.params.some(({ kind }) => kind === 'toggle') && { toggle: 'A button that is on or off.' }),
   ...(figure.handles && { handle: 'What can be grasped in the picture; there only then.' }),
-  ...(COUNTED.includes(figure.tag) && { count: 'What runs over many seeds, and the button that starts it.', stop: 'Ends that.' }),
-  ...(figure.tag === 'fastslam-universes' && { again: 'Runs the laps of a point again.' }),
-  ...(figure.tag === 'fastslam-worked-example' && { inputs: 'The numbers to change, as matrices.' }),
-  ...(isLog(figure) && { source: 'Where a log is chosen.', example: 'Maps the example.', map: 'Maps the log that is open.', saves: 'The fold of what can be saved.' }),
+  ...ownParts(figure),
 })
 
 const cssProperties = ['accent', 'ink', 'muted', 'line', 'paper', 'radius', 'font', 'height'].map(name => `--fastslam-${name}`)
 
-/** What a figure tells the page. @param {{ tag: string }} figure */
+/** What a figure tells the page. @param {FigureInfo} figure */
 export const eventsOf = figure => [...events, ...extrasOf(figure).events]
 
 /** The names in an event's detail, in braces; those with a question mark are not always there. @param {string} type `CustomEvent<…>` */
@@ -320,22 +324,38 @@ export function write(path, text) {
 
 /** The names that the elements need before a program runs, and the glue that runs it. */
 export async function writeNames() {
-  const generated = join(root, 'widgets', 'elements', 'generated')
+  const generated = join(elements, 'generated')
+  const put = (/** @type {string} */ file, /** @type {string} */ text) => write(join(generated, file), `// Made by scripts/elements.mjs from what the figures tell of themselves.\n${text}`)
   write(join(generated, 'shell.js'), shellModule(readGlue()))
   write(join(generated, 'shell.d.ts'), shellTypes)
   const all = figures()
-  const rows = all.map(({ tag, title, params, version, unsaid }) => `  '${tag}': { title: ${JSON.stringify(title)}, program: '${programs.get(tag)}', version: '${version}', unsaid: '${unsaid}', parameters: ${JSON.stringify(params.map(({ name }) => name).join(' '))}.split(' ') },`)
-  write(
-    join(root, 'widgets', 'elements', 'generated', 'figures.ts'),
-    `// Made by scripts/elements.mjs from what the figures tell of themselves.\nexport const FIGURES: Record<string, { title: string; program: string; version: string; unsaid: string; parameters: string[] } | undefined> = {\n${rows.join('\n')}\n}\n`,
+  const row = (/** @type {FigureInfo} */ { tag, title, params, version, unsaid, compared, counted }) =>
+    `  '${tag}': { title: ${JSON.stringify(title)}, program: '${programs.get(tag)}', version: '${version}', unsaid: '${unsaid}', parameters: ${JSON.stringify(params.map(({ name }) => name).join(' '))}.split(' ')${compared ? ', compared: true' : ''}${counted ? ', counted: true' : ''} },\n`
+  put('figures.ts', `export const FIGURES: Record<string, { title: string; program: string; version: string; unsaid: string; parameters: string[]; compared?: true; counted?: true } | undefined> = {\n${all.map(row).join('')}}\n`)
+  const count = (/** @type {FigureInfo} */ { tag, counted }) => {
+    if (!counted) return ''
+    const { job, columns, title, settings, rows } = counted
+    const at = (/** @type {string} */ name) => {
+      if (!columns.includes(name)) throw new StepError(`The count of ${tag} names a column ${name}, which its job does not have.`)
+      return columns.indexOf(name)
+    }
+    const of = rows.map(([name, column, expected]) => [name, at(column), ...(expected === null ? [] : [at(expected)])])
+    return `  '${tag}': ${JSON.stringify({ job, title, settings, rows: of })},\n`
+  }
+  put('counted.ts', `import type { Counted } from '../count-study'\n\nexport const COUNTED: Record<string, Counted | undefined> = {\n${all.map(count).join('')}}\n`)
+  const element = (/** @type {FigureInfo} */ figure) => {
+    const { tag, className, compared, counted } = figure
+    if (existsSync(ownFile(figure))) return `export { ${className} } from '../${tag}'\n`
+    return `export const ${className} = define('${tag}', ${counted ? 'CountedFigure' : compared ? 'ComparedFigure' : 'FigureElement'})\n`
+  }
+  put(
+    'elements.ts',
+    `import { ComparedFigure } from '../compared-figure'\nimport { CountedFigure } from '../counted-figure'\nimport { define } from '../define'\nimport { FigureElement } from '../figure-element'\n\n${all.map(element).join('')}`,
   )
   const mapper = all.find(isLog)
   if (!mapper) throw new StepError('There is no figure that maps logs.')
   const { title, params, readouts, chips, describe } = mapper
-  write(
-    join(root, 'widgets', 'elements', 'generated', 'log.ts'),
-    `// Made by scripts/elements.mjs from what the figure that maps logs tells of itself.\nimport type { AtRest } from '../log'\n\nexport const AT_REST: AtRest = ${JSON.stringify({ title, params, readouts, chips, describe })}\n`,
-  )
+  put('log.ts', `import type { AtRest } from '../fastslam-log'\n\nexport const AT_REST: AtRest = ${JSON.stringify({ title, params, readouts, chips, describe })}\n`)
   return `${all.length} figures`
 }
 

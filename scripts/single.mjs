@@ -49,14 +49,14 @@ export async function singleFile(entry, names = chapterPrograms) {
   const words = Object.fromEntries(languages.map(language => [language, JSON.parse(readFileSync(join(root, 'widgets', 'words', `${language}.json`), 'utf8'))]))
   const carried = `export const example = ${JSON.stringify(example)}; export const programs = ${JSON.stringify(programs)}; export const worker = ${JSON.stringify(worker)}; export const words = ${JSON.stringify(words)}`
   /** Elements that would find no program in it. */
-  const without = [...programOf].filter(([tag, program]) => !names.includes(program) && !names.includes(nameOf(tag))).map(([tag]) => join(elements, nameOf(tag)))
+  const without = [...programOf].filter(([tag, program]) => !names.includes(program) && !names.includes(nameOf(tag))).map(([tag]) => join(elements, tag))
   return bundle(entry, 'es', [
     {
       name: 'fastslam-files',
       enforce: 'pre',
       resolveId(source, importer) {
         if (source === 'virtual:fastslam-files') return `\0${source}`
-        if (importer && without.includes(join(dirname(importer), source))) return '\0none'
+        if (importer && without.includes(join(dirname(importer), source.replace(/\.ts$/, '')))) return '\0none'
         return source === './files' && importer?.startsWith(elements) ? join(elements, 'files-inline.ts') : undefined
       },
       load: id => (id === '\0virtual:fastslam-files' ? carried : id === '\0none' ? 'export {}' : undefined),

@@ -9,6 +9,7 @@ import { dist } from './build.mjs'
 import { languages } from './elements.mjs'
 import { root, targets } from './lib.mjs'
 import { policy } from './policy.mjs'
+import { programs } from './registry.mjs'
 
 const www = join(root, 'www')
 const pages = readdirSync(www, { recursive: true, encoding: 'utf8' }).filter(
@@ -18,15 +19,22 @@ const pages = readdirSync(www, { recursive: true, encoding: 'utf8' }).filter(
 /** @param {{ names: string[] }} asset */
 const assetFileNames = asset => (asset.names.some(name => basename(name).endsWith('.wasm')) ? '[name]-[hash][extname]' : 'assets/[name]-[hash][extname]')
 
-/** What single figures have that no other has; www/src/embed.ts loads these where one of them is asked for. */
-const apart = ['log', 'drops', 'map-gestures', 'lap', 'drive', 'resampling', 'doors', 'count-study', 'universes', 'universes-again', 'worked-example', 'matrix-inputs', 'lap-table', 'index']
-const shared = new RegExp(`widgets[/\\\\](pkg[/\\\\]|words[/\\\\]|elements[/\\\\](?!(generated[/\\\\])?(${apart.join('|')})\\.))`)
+/** What only some figures have: code of their own, and what that stands on; widgets/elements/define.ts loads it where one of them is asked for. */
+const apart = ['fastslam-[\\w-]+', 'drops', 'map-gestures', 'drive', 'counted-figure', 'count-study', 'universes-again', 'matrix-inputs', 'lap-table', 'index', 'generated[/\\\\](log|counted|elements)']
+const shared = new RegExp(`widgets[/\\\\](pkg[/\\\\]|words[/\\\\]|elements[/\\\\](?!(${apart.join('|')})\\.))`)
 
 /** In the head of every page, before all that it loads; vite's own server needs what the policy forbids. @type {import('vite').Plugin} */
 const policyInHead = {
   name: 'policy-in-head',
   apply: 'build',
   transformIndexHtml: () => [{ tag: 'meta', attrs: { 'http-equiv': 'Content-Security-Policy', content: policy }, injectTo: 'head-prepend' }],
+}
+
+/** In styles of pages, the element `fastslam-figure` stands for that of any figure. @type {import('vite').Plugin} */
+const anyFigure = {
+  name: 'any-figure',
+  enforce: 'pre',
+  transform: (code, id) => (id.endsWith('.css') ? code.replaceAll('fastslam-figure', `:is(${[...programs.keys()].join()})`) : undefined),
 }
 
 /** fastslam.js becomes what loads it, as it is kept in a file with a hash (loader.js). @type {import('vite').Plugin} */
@@ -54,7 +62,7 @@ const loader = {
 export default defineConfig({
   root: www,
   base: './',
-  plugins: [chapter(root), policyInHead, loader],
+  plugins: [anyFigure, chapter(root), policyInHead, loader],
   build: {
     outDir: dist,
     emptyOutDir: true,

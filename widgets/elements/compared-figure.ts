@@ -18,7 +18,7 @@ export interface SeedsWish {
   signal?: AbortSignal
 }
 
-export abstract class ComparedFigure extends FigureElement {
+export class ComparedFigure extends FigureElement {
   /** What comes out at several seeds, the figure staying as it is. They run one after the other, in slices that the page does not notice. */
   async runSeeds({ signal = new AbortController().signal, ...wish }: SeedsWish = {}): Promise<SeedRun[]> {
     const query = new URLSearchParams(wish.state ?? this.state)

@@ -4,16 +4,15 @@ import { Jobs } from './jobs'
 import type { Shell } from './shell'
 import type { Key, Words } from './words'
 
-/** What is counted. */
+/** What is counted (`Counted` in widgets/src/job.rs). */
 export interface Counted {
-  tag: string
   /** Name of the job of the figure's program, which counts. */
   job: string
   title: Key
-  /** Names of the parameters that the count depends on; it has seeds of its own. */
-  settings: string[]
-  /** What is compared, with the column of the job's rows that is 1 where it holds, and one that says how often it should. */
-  rows: { name: Key; column: number; expected?: number }[]
+  /** Names of the parameters that the count depends on, apart by spaces; it has seeds of its own. */
+  settings: string
+  /** What is compared, with the column of the job's rows that is 1 where it holds, and perhaps one that says how often it should. */
+  rows: [name: Key, column: number, expected?: number][]
 }
 
 const FIRST_SEED = 1
@@ -34,6 +33,7 @@ export class CountStudy {
   private shell: Shell | undefined // computes the intervals
 
   constructor(
+    private readonly tag: string,
     private readonly counted: Counted,
     private readonly setting: (name: string) => unknown,
     private readonly words: Words,
@@ -58,7 +58,7 @@ export class CountStudy {
       write(this.halt, words.say('stop'))
       this.runs.ariaLabel = words.say('number_of_seeds')
       this.progress.ariaLabel = words.say('seeds_counted')
-      this.rows.forEach(({ name }, k) => write(name, words.say(counted.rows[k]!.name)))
+      this.rows.forEach(({ name }, k) => write(name, words.say(counted.rows[k]![0])))
       this.label()
     })
     this.show()
@@ -80,7 +80,7 @@ export class CountStudy {
   }
 
   private settings(): string {
-    return this.counted.settings.map(name => `${name}=${String(this.setting(name))}`).join('&')
+    return this.counted.settings.split(' ').map(name => `${name}=${String(this.setting(name))}`).join('&')
   }
 
   private async count(): Promise<void> {
@@ -90,7 +90,7 @@ export class CountStudy {
     const to = FIRST_SEED + Number(this.runs.value)
     try {
       const job = { name: this.counted.job, query: this.query, from: FIRST_SEED, to }
-      const ran = this.jobs.run(this.counted.tag, job, (rows, shell) => this.add(rows, shell))
+      const ran = this.jobs.run(this.tag, job, (rows, shell) => this.add(rows, shell))
       this.show()
       if (!(await ran)) return
       this.show()
@@ -111,7 +111,7 @@ export class CountStudy {
   private add(rows: number[][], shell: Shell): void {
     this.shell = shell
     this.seeds += rows.length
-    this.counted.rows.forEach(({ column, expected }, k) => {
+    this.counted.rows.forEach(([, column, expected], k) => {
       this.held[k]! += rows.filter(row => row[column] === 1).length
       if (expected !== undefined && rows[0]) this.expected[k] = rows[0][expected]!
     })
@@ -149,7 +149,7 @@ export class CountStudy {
 
   /** Said once, at the end, with every number: nobody wants to hear it grow. */
   private say(what: string): void {
-    const shares = this.rows.map(({ share }, k) => `${this.words.say(this.counted.rows[k]!.name)} ${share.textContent}`)
+    const shares = this.rows.map(({ share }, k) => `${this.words.say(this.counted.rows[k]![0])} ${share.textContent}`)
     write(this.said, this.seeds > 0 ? `${what} ${this.words.say('shares', { shares: shares.join(', ') })}` : what)
   }
 }

@@ -48,6 +48,14 @@ export interface AtRest {
   describe: string
 }
 
+/**
+ * A building mapped from a log of its own, in a worker.
+ *
+ * @csspart source - Where a log is chosen.
+ * @csspart example - Maps the example.
+ * @csspart map - Maps the log that is open.
+ * @csspart saves - The fold of what can be saved.
+ */
 export class FastslamLog extends FigureElement {
   static override heavy = true
 

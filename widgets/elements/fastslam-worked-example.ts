@@ -7,7 +7,11 @@ import { register } from './parameters'
 const sheet = new CSSStyleSheet()
 sheet.replaceSync(css)
 
-/** One update by hand: a picture to drag in, the numbers that decide, and each that they begin with in its matrix. */
+/**
+ * One update by hand: a picture to drag in, the numbers that decide, and each that they begin with in its matrix.
+ *
+ * @csspart inputs - The numbers to change, as matrices.
+ */
 export class FastslamWorkedExample extends FigureElement {
   #inputs?: MatrixInputs
 

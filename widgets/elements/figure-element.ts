@@ -16,7 +16,7 @@ import { takeToPaper } from './paper'
 /** What hosts say that put a copy of the page aside, of which Back makes the page again: of a figure it has the attributes only. */
 const CACHES = ['turbo:before-cache', 'htmx:beforeHistorySave']
 
-export abstract class FigureElement extends HostedFigure {
+export class FigureElement extends HostedFigure {
   #targetBefore = 0 // the step asked for, while there is no host
   #disconnected = new AbortController()
   readonly #onReached = (): void => this.chips.refresh()

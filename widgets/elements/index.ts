@@ -1,15 +1,4 @@
-// Registers every figure; one file a tag.
+// Registers every figure.
 export type * from './details'
 export { FigureElement } from './figure-element'
-export { FastslamConditioning } from './conditioning'
-export { FastslamDoors } from './doors'
-export { FastslamEm } from './em'
-export { FastslamGraph } from './graph'
-export { FastslamJoint } from './joint'
-export { FastslamLap } from './lap'
-export { FastslamLog } from './log'
-export { FastslamProposal } from './proposal'
-export { FastslamResampling } from './resampling'
-export { FastslamSmoothing } from './smoothing'
-export { FastslamUniverses } from './universes'
-export { FastslamWorkedExample } from './worked-example'
+export * from './generated/elements'

@@ -1,26 +1,11 @@
 // A page of one figure, for frames: embed.html?figure=proposal&range-std=0.05&samples=16. It needs no storage and no origin of its own,
 // so it runs in a frame with sandbox="allow-scripts".
 import type { FigureElement } from '../../widgets/elements/figure-element'
-import '../../widgets/elements/conditioning'
-import '../../widgets/elements/em'
-import '../../widgets/elements/graph'
-import '../../widgets/elements/joint'
-import '../../widgets/elements/proposal'
-import '../../widgets/elements/smoothing'
+import { load } from '../../widgets/elements/define'
 import { FIGURES } from '../../widgets/elements/generated/figures'
 import { noFigure } from '../../widgets/elements/parameters'
 import { takePrintKey } from '../../widgets/elements/paper'
 import { asked, askedTag, configure, query } from './asked'
-
-/** Figures with code of their own, which is loaded where one of them is asked for. */
-const LATER: Record<string, () => Promise<unknown>> = {
-  'fastslam-doors': () => import('../../widgets/elements/doors'),
-  'fastslam-lap': () => import('../../widgets/elements/lap'),
-  'fastslam-log': () => import('../../widgets/elements/log'),
-  'fastslam-resampling': () => import('../../widgets/elements/resampling'),
-  'fastslam-universes': () => import('../../widgets/elements/universes'),
-  'fastslam-worked-example': () => import('../../widgets/elements/worked-example'),
-}
 
 takePrintKey()
 
@@ -66,7 +51,7 @@ function tellHeight(figure: FigureElement): void {
 
 const figure = figureAsked()
 if (figure) {
-  await LATER[figure.localName]?.()
+  await load(figure.localName)
   customElements.upgrade(figure) // it may have been made before its class was there
   configure(figure)
   figure.setAttribute('fit', '')
