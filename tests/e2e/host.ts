@@ -2,8 +2,10 @@
 import { createServer } from 'node:http'
 import type { AddressInfo } from 'node:net'
 import type { Page } from '@playwright/test'
+import { singlePrograms } from '../../scripts/registry.mjs'
 
-export const FIGURES = ['lap', 'conditioning', 'proposal', 'worked-example', 'resampling', 'joint', 'graph', 'smoothing', 'em', 'universes', 'doors']
+/** Names of all figures that run on the page itself; that of logs has tests of its own. */
+export const FIGURES = singlePrograms
 
 /** Of a test that is breadth: `npm test` leaves it to `npm run test:all`, which runs it in a unit. */
 export const breadth = { tag: '@breadth' }
