@@ -1,4 +1,4 @@
-// `:::figure`: the live element, with its golden picture for readers without script, for paper, and until it wakes.
+// `:::figure`: the live element, with its picture for readers without script, for paper, and until it wakes.
 import { existsSync, readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { h } from 'hastscript'
@@ -6,14 +6,13 @@ import { attribute, content, idOf, latest } from './context.mjs'
 import { captioned } from './blocks.mjs'
 import { challengesOf, judgeChips } from './challenges.mjs'
 
-const golden = 'tests/figures/golden'
 const own = new Set(['id', 'class', 'tag', 'alt', 'hero', 'poster'])
 
 /** Width and height [px] from a PNG's header. @param {Buffer} png */
 const sizeOf = png => ({ width: png.readUInt32BE(16), height: png.readUInt32BE(20) })
 
 /** In both themes. @param {string} name */
-export const pictures = name => ['light', 'dark'].map(theme => `${golden}/${name}-${theme}.png`)
+export const pictures = name => ['light', 'dark'].map(theme => `widgets/pictures/${name}-${theme}.png`)
 
 /** A picture in the theme of the reader's screen. @param {string} root @param {string} light @param {string} dark @param {string} [alt] */
 export const sized = (root, light, dark, alt) => {

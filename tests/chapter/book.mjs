@@ -11,8 +11,8 @@ const png = Buffer.concat([Buffer.from('89504e470d0a1a0a0000000d49484452', 'hex'
 
 const always = {
   'Cargo.toml': 'repository = "https://example.org/repo"\n',
-  'tests/figures/golden/fastslam-lap-light.png': png,
-  'tests/figures/golden/fastslam-lap-dark.png': png,
+  'widgets/pictures/fastslam-lap-light.png': png,
+  'widgets/pictures/fastslam-lap-dark.png': png,
   'www/chapter/00-title.md': title,
 }
 

@@ -11,7 +11,7 @@ const works = (/** @type {string[]} */ ...ids) => ({
 })
 const rust = { 'src/a.rs': 'fn body() {\n    let x = 1;\n}\n\nstruct A;\n\nimpl A {\n    fn twin() {}\n}\n\nfn twin() {}\n' }
 const challenges = { 'widgets/src/lap/challenges.rs': 'vec![Challenge::new("one", a(), ""), Challenge::new(\n    "two",\n    b(), "")]' }
-const small = { 'tests/figures/golden/vignette-a-light.png': '.'.repeat(24), 'tests/figures/golden/vignette-a-dark.png': '' }
+const small = { 'widgets/pictures/vignette-a-light.png': '.'.repeat(24), 'widgets/pictures/vignette-a-dark.png': '' }
 const file = 'www/chapter/01-text.md'
 
 /** @type {[name: string, good: string, bad: string, expected: RegExp, others?: Record<string, string>][]} */

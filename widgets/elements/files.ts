@@ -4,7 +4,7 @@ import worker from './worker?worker&url'
 
 /** Of every language but English, which is in the script: a file more here is a language more. */
 const WORDS = import.meta.glob<string>(['../words/*.json', '!../words/en.json'], { eager: true, query: '?url', import: 'default' })
-const PICTURES = import.meta.glob<string>('../../tests/figures/golden/fastslam-*.png', { eager: true, query: '?url', import: 'default' })
+const PICTURES = import.meta.glob<string>('../pictures/fastslam-*.png', { eager: true, query: '?url', import: 'default' })
 
 const PROGRAMS = import.meta.glob<string>('../pkg/fastslam-*.wasm', { eager: true, query: '?url', import: 'default' })
 
@@ -41,7 +41,7 @@ export function workerScript(): { address: string } | { text: string } {
 
 /** The picture of a figure at rest; undefined where the program came without pictures. */
 export function pictureAddress(tag: string, shade: 'light' | 'dark'): string | undefined {
-  return PICTURES[`../../tests/figures/golden/${tag}-${shade}.png`]
+  return PICTURES[`../pictures/${tag}-${shade}.png`]
 }
 
 /** The folder of the site that serves this script, where it is one; a version that is kept lies in a folder of it. Else empty. */

@@ -22,6 +22,14 @@ fn golden(file: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(file)
 }
 
+/// Those that pages show in place of a figure lie with the figures: at rest, in a state of the chapter's, and vignettes, in both themes.
+fn picture(name: &str) -> PathBuf {
+    let of_pages = ["fastslam-", "chapter-", "vignette-"].iter().any(|of| name.starts_with(of))
+        && ["-light", "-dark"].iter().any(|shade| name.ends_with(shade));
+    let folder = if of_pages { "../../widgets/pictures" } else { "golden" };
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(folder).join(format!("{name}.png"))
+}
+
 fn update() -> bool {
     env::var_os("UPDATE_GOLDENS").is_some()
 }
@@ -109,16 +117,16 @@ const LOOK: &str = "look at both, then UPDATE_GOLDENS=1 if the change is wanted:
 
 /// Compares a picture, or writes it: what is wrong with it.
 fn differs(name: &str, size: [u32; 2], pixels: &[u8]) -> Option<String> {
-    let (file, pixels) = (format!("{name}.png"), rgb(pixels));
+    let (kept, pixels) = (picture(name), rgb(pixels));
     if update() {
-        write_png(&golden(&file), size, &pixels);
+        write_png(&kept, size, &pixels);
     }
-    let actual = Path::new(env!("CARGO_TARGET_TMPDIR")).join(&file);
-    if read_png(&golden(&file)).as_ref() == Some(&(size, pixels.clone())) {
+    if read_png(&kept).as_ref() == Some(&(size, pixels.clone())) {
         return None;
     }
+    let actual = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.png"));
     write_png(&actual, size, &pixels);
-    Some(format!("{} is not {}", actual.display(), golden(&file).display()))
+    Some(format!("{} is not {}", actual.display(), kept.display()))
 }
 
 #[test]
