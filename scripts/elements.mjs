@@ -3,7 +3,7 @@
 import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { readGlue, shellModule, shellTypes } from './glue.mjs'
-import { cache, isMain, main, readIfThere, root, run, step, StepError } from './lib.mjs'
+import { cache, isMain, main, npmBin, readIfThere, root, run, step, StepError } from './lib.mjs'
 import { programs } from './registry.mjs'
 
 /**
@@ -49,76 +49,56 @@ export const options = [
   { name: 'fit', values: ['off', 'on'], help: 'on: the picture takes the height of its box rather than all of its width; not that of a log.' },
 ]
 
-const methods = [
-  { name: 'play', type: '() => void', help: 'Plays on; from the start where it is at its end.' },
-  { name: 'pause', type: '() => void', help: 'Stops at the step shown.' },
-  { name: 'step', type: '() => void', help: 'One step on.' },
-  { name: 'stepBack', type: '() => void', help: 'One step back.' },
-  { name: 'seek', type: '(step: number) => void', help: 'To a step.' },
-  { name: 'reset', type: '() => void', help: 'Back to what the page’s author gave.' },
-  { name: 'challenge', type: '(name: string) => Promise<boolean>', help: 'Takes up one of its challenges, as a press on its chip does; resolves to whether there is such a one here.' },
-  { name: 'settled', type: '() => Promise<void>', help: 'Resolves when all that was asked of the figure is shown; playing goes on.' },
-]
+/** What the figure of logs does without: its numbers have a point always, and it takes the height that it wants. */
+const notOfLogs = ['decimal', 'fit']
 
-/** Of the figures that a script can run at several seeds. */
-const comparing = {
-  methods: [
-    {
-      name: 'runSeeds',
-      type: '(wish?: { seeds?: number[]; step?: number; state?: string; signal?: AbortSignal }) => Promise<SeedRun[]>',
-      help: 'Runs the setting at several seeds, the one shown and the next four where none are named, to the step shown where none is; the figure stays as it is.',
-    },
-  ],
-  events: [{ name: 'fastslam-seeds', type: 'CustomEvent<SeedsDetail>', help: 'A script’s seeds have been run: what came out at each, and the median.' }],
-}
-
-/** What only some figures have. @param {{ compared: boolean }} figure */
-const extrasOf = ({ compared }) => (compared ? comparing : { methods: [], events: [] })
-
-const properties = [
-  { name: 'playing', type: 'boolean', readonly: true, help: 'Whether it plays.' },
-  { name: 'currentStep', type: 'number', readonly: false, help: 'The step asked for.' },
-  { name: 'state', type: 'string', readonly: false, help: 'The whole state, as a link has it: name=value&…' },
-  { name: 'readouts', type: 'FigureReadout[]', readonly: true, help: 'The numbers of what is shown, each with name, value and unit, as events have them; empty before anything is shown. Await settled() after a change.' },
-  { name: 'values', type: 'Record<string, string>', readonly: true, help: 'The parameters of what is shown, by name, as links write them; empty before anything is shown.' },
-  { name: 'link', type: 'string', readonly: true, help: 'The address of this page with the figure’s whole state.' },
-  { name: 'naturalHeight', type: 'number', readonly: true, help: 'Height [css px] that shows all of the figure at its present width.' },
-]
-
-/** The figure that maps logs has files to open, and goes back through what it has mapped. */
-const log = {
-  options: options.filter(({ name }) => ['lang', 'v', 'theme', 'controls', 'lab', 'chips', 'show', 'lock', 'size'].includes(name)),
-  methods: [
-    { name: 'open', type: '(file: Blob, name?: string, start?: boolean, topics?: { scan?: string; odometry?: string }) => Promise<void>', help: 'Reads a log, of a bag the topics named; maps it too if it is to start.' },
-    { name: 'example', type: '() => Promise<void>', help: 'Maps the log that comes with the figure.' },
-    { name: 'play', type: '() => void', help: 'Maps the log, or goes on after a pause; plays again what is mapped to its end.' },
-    { name: 'pause', type: '() => void', help: 'Waits; what is mapped can be looked at and saved.' },
-    { name: 'stop', type: '() => void', help: 'The same as pause.' },
-    { name: 'reset', type: '() => void', help: 'Back to the settings that the page’s author gave; the log stays open.' },
-    ...methods.filter(({ name }) => ['step', 'stepBack', 'seek', 'challenge', 'settled'].includes(name)),
-  ],
-  properties,
-}
-
-/** @param {{ tag: string }} figure */
+/** The figure that maps logs has files to open, and goes back through what it has mapped. @param {{ tag: string }} figure */
 const isLog = ({ tag }) => tag === 'fastslam-log'
 
-/** What a figure has besides its parameters. @param {FigureInfo} figure */
-const membersOf = figure => {
-  if (isLog(figure)) return log
-  const extras = extrasOf(figure)
-  return { options, methods: [...methods, ...extras.methods], properties }
+/** @param {FigureInfo} figure */
+const optionsOf = figure => options.filter(({ name }) => !(isLog(figure) && notOfLogs.includes(name)))
+
+/** The declarations of a file of widgets/elements, as tsc writes them. @param {string} name */
+const declarations = name => readFileSync(cache('types', 'widgets', 'elements', `${name}.d.ts`), 'utf8')
+
+/** Has tsc write the declarations of all elements, without what is marked as internal. */
+export const declare = () => run(npmBin('tsc'), ['-p', root, '--noEmit', 'false', '--declaration', '--emitDeclarationOnly', '--stripInternal', '--outDir', cache('types')])
+
+/**
+ * A method or a property that pages may use. `text` is how it is declared.
+ * @typedef {{ name: string, text: string, help: string, method: boolean, type: string, readonly: boolean }} Member
+ */
+
+/** Those that a class declares: it says something of each, and not of what is its own affair. @param {string} declaration @returns {Member[]} */
+export function membersIn(declaration) {
+  const found = [...declaration.matchAll(/^ {4}\/\*\* (.+) \*\/\n {4}(?:get (\w+)\(\): (.+)|(\w+)(\(.*));$/gm)]
+  return found.map(([, help = '', field, type = '', method, signature]) => {
+    if (field === undefined) return { name: method ?? '', text: `${method}${signature}`, help, method: true, type: '', readonly: false }
+    const readonly = !declaration.includes(`    set ${field}(`)
+    return { name: field, text: `${readonly ? 'readonly ' : ''}${field}: ${type}`, help, method: type.startsWith('() =>'), type, readonly }
+  })
 }
 
-/** Each bubbles, through the borders of shadow roots too. */
-const events = [
-  { name: 'fastslam-step', type: 'CustomEvent<FigureDetail>', help: 'Another step is shown; also once when the figure comes to life.' },
-  { name: 'fastslam-change', type: 'CustomEvent<FigureDetail>', help: 'A parameter has changed, whoever did it.' },
-  { name: 'fastslam-challenge', type: 'CustomEvent<ChallengeDetail>', help: 'A reader has taken up a challenge or, where it is done, reached it.' },
-  { name: 'fastslam-trace', type: 'CustomEvent<TraceDetail>', help: 'The lines of the algorithm that led to the step shown.' },
-  { name: 'fastslam-notice', type: 'CustomEvent<NoticeDetail>', help: 'The page’s author has given what a figure cannot take: an attribute that it does not know, or a value out of its range. Readers see nothing of it, but on localhost.' },
-  { name: 'fastslam-guess', type: 'CustomEvent<GuessDetail>', help: 'A prediction was judged: guess and result stand side by side; or the reader has waived it.' },
-]
+/** Those of every figure. */
+const commonMembers = () => [...membersIn(declarations('figure-element')), ...membersIn(declarations('hosted-figure'))]
+
+/** Those of its own. @param {FigureInfo} figure */
+const ownMembers = figure => [...(existsSync(ownFile(figure)) ? membersIn(declarations(figure.tag)) : []), ...(figure.compared ? membersIn(declarations('compared-figure')) : [])]
+
+/** All that a figure has besides its parameters: its own members first. @param {FigureInfo} figure */
+function membersOf(figure) {
+  const own = ownMembers(figure)
+  return [...own, ...commonMembers().filter(({ name }) => !own.some(other => other.name === name))]
+}
+
+/** What figures tell a page. @typedef {{ name: string, type: string, help: string }} FigureEvent @returns {FigureEvent[]} */
+const events = () => [...details().matchAll(/^ {2}\/\*\* (.+) \*\/\n {2}'(fastslam-[a-z]+)': (CustomEvent<\w+>)$/gm)].map(([, help = '', name = '', type = '']) => ({ name, type, help }))
+
+/** Of these, those of one figure: a class says which ones not every figure has. @param {FigureInfo} figure */
+export function eventsOf({ compared }) {
+  const only = /@fires (\S+)/.exec(readFileSync(join(elements, 'compared-figure.ts'), 'utf8'))?.[1]
+  return events().filter(({ name }) => compared || name !== only)
+}
 
 /** What a page may style of every figure, and what it is. */
 const parts = {
@@ -175,9 +155,6 @@ const partsOf = figure => ({
 
 const cssProperties = ['accent', 'ink', 'muted', 'line', 'paper', 'radius', 'font', 'height'].map(name => `--fastslam-${name}`)
 
-/** What a figure tells the page. @param {FigureInfo} figure */
-export const eventsOf = figure => [...events, ...extrasOf(figure).events]
-
 /** The names in an event's detail, in braces; those with a question mark are not always there. @param {string} type `CustomEvent<…>` */
 function detailOf(type) {
   const name = /<(\w+)>/.exec(type)?.[1]
@@ -227,7 +204,7 @@ export function manifest(all) {
     summary: figure.title,
     attributes: [
       ...figure.params.map(attribute(figure)),
-      ...membersOf(figure).options.map(({ name, values, type = 'string', help }) => ({
+      ...optionsOf(figure).map(({ name, values, type = 'string', help }) => ({
         name,
         description: name === 'show' ? `${help} There are ${figure.panels.join(', ') || 'none: it is one piece'}.` : help,
         type: { text: values ? values.map(v => `'${v}'`).join(' | ') : type },
@@ -238,8 +215,7 @@ export function manifest(all) {
       ...figure.params
         .filter(({ name }) => name !== 'step')
         .map(spec => ({ kind: 'field', name: camel(spec.name), attribute: spec.name, type: { text: type(spec) }, description: describe(spec) })),
-      ...membersOf(figure).properties.map(({ name, type: text, readonly, help }) => ({ kind: 'field', name, type: { text }, readonly, description: help })),
-      ...membersOf(figure).methods.map(({ name, help }) => ({ kind: 'method', name, description: help })),
+      ...membersOf(figure).map(({ name, method, type: text, readonly, help }) => (method ? { kind: 'method', name, description: help } : { kind: 'field', name, type: { text }, readonly, description: help })),
     ],
     events: eventsOf(figure).map(({ name, type: text, help }) => ({ name, type: { text }, description: `${help} Its detail: ${detailOf(text)}.` })),
     ...Object.fromEntries(named(figure).map(([what, all]) => [what.toLowerCase(), all])),
@@ -268,29 +244,25 @@ const details = () => readFileSync(join(root, 'widgets', 'elements', 'details.ts
 export function types(all) {
   const doc = (/** @type {string} */ text) => `  /** ${text} */`
   const field = (/** @type {ParamSpec} */ spec) => `${doc(describe(spec))}\n  ${camel(spec.name)}: ${type(spec)}`
-  const member = (/** @type {{ name: string, type: string, help: string, readonly?: boolean }} */ item) =>
-    `${doc(item.help)}\n  ${item.readonly ? 'readonly ' : ''}${item.name}: ${item.type}`
+  const member = (/** @type {Member} */ { text, help }) => `${doc(help)}\n  ${text}`
   const classes = all.map(
     figure =>
       `/**\n * ${[`${figure.title}.`, ...named(figure).map(([what, all]) => `${what}: ${all.map(({ name, description }) => `${name} (${description})`).join(', ')}.`)].join('\n *\n * ')}\n */\nexport declare class ${figure.className} extends FigureElement {\n${[
-        ...(isLog(figure) ? log.methods.map(member) : []),
-        ...extrasOf(figure).methods.map(member),
+        ...ownMembers(figure).map(member),
         ...figure.params.filter(({ name }) => name !== 'step').map(field),
       ].join('\n')}\n}`,
   )
   const attributes = all.map(
     figure =>
-      `export interface ${figure.className}Attributes extends ${isLog(figure) ? `Pick<FigureAttributes, ${log.options.map(({ name }) => `'${name}'`).join(' | ')}>` : 'FigureAttributes'} {\n${figure.params.map(spec => `  '${spec.name}'?: ${attributeType(spec)}`).join('\n')}\n}`,
+      `export interface ${figure.className}Attributes extends ${isLog(figure) ? `Omit<FigureAttributes, ${notOfLogs.map(name => `'${name}'`).join(' | ')}>` : 'FigureAttributes'} {\n${figure.params.map(spec => `  '${spec.name}'?: ${attributeType(spec)}`).join('\n')}\n}`,
   )
   return `// Made by scripts/elements.mjs from what the figures tell of themselves.
 
 ${details()}
-export interface FigureEventMap extends HTMLElementEventMap {
-${[...events, ...comparing.events].map(({ name, type: text, help }) => `${doc(help)}\n  '${name}': ${text}`).join('\n')}
-}
+export interface FigureEventMap extends HTMLElementEventMap, FigureEvents {}
 
 export declare abstract class FigureElement extends HTMLElement {
-${[...methods, ...properties].map(member).join('\n')}
+${commonMembers().map(member).join('\n')}
   addEventListener<K extends keyof FigureEventMap>(type: K, listener: (this: this, event: FigureEventMap[K]) => unknown, options?: boolean | AddEventListenerOptions): void
   addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void
 }

@@ -4,7 +4,7 @@ import { copyFileSync, readdirSync, readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { site } from './address.mjs'
 import { dist } from './build.mjs'
-import { figures, manifest, types, write } from './elements.mjs'
+import { declare, figures, manifest, types, write } from './elements.mjs'
 import { root, StepError } from './lib.mjs'
 import { alsoUsed, programs } from './registry.mjs'
 import { notebook, singleFile } from './single.mjs'
@@ -17,11 +17,10 @@ export const escape = text => text.replace(/[&"<>]/g, character => `&#${characte
 
 /** @typedef {Pick<FigureInfo, 'tag' | 'name' | 'title' | 'describe' | 'version'>} Framed */
 
-/** The picture of a figure, as the build named it. @param {Pick<Framed, 'tag'>} figure @param {string} shade @param {string} folder */
+/** The picture of a figure, as the build named it; undefined of one that is new and has none yet. @param {Pick<Framed, 'tag'>} figure @param {string} shade @param {string} folder */
 function pictureFile({ tag }, shade, folder) {
   const name = readdirSync(join(folder, 'assets')).find(file => new RegExp(`^${tag}-${shade}-[\\w-]{8}\\.png$`).test(file))
-  if (!name) throw new StepError(`The build did not write a ${shade} picture of ${tag}.`)
-  return `assets/${name}`
+  return name && `assets/${name}`
 }
 
 /** Width and height of a PNG [px]. @param {string} path */
@@ -33,6 +32,7 @@ function pngSize(path) {
 /** The element with its picture, as a page without script shows it. @param {Framed} figure @param {string} folder */
 function element(figure, folder) {
   const light = pictureFile(figure, 'light', folder)
+  if (!light) return `<${figure.tag} fit></${figure.tag}>`
   const [width, height] = pngSize(join(folder, light))
   return (
     `<${figure.tag} fit><picture><source srcset="./${pictureFile(figure, 'dark', folder)}" media="(prefers-color-scheme: dark)" />` +
@@ -44,7 +44,7 @@ function element(figure, folder) {
 function oembed(figure, codes, folder, address) {
   const [width, height] = [codes.FRAME_WIDTH, codes.frameHeight(figure.tag)]
   const light = pictureFile(figure, 'light', folder)
-  const [thumbnailWidth, thumbnailHeight] = pngSize(join(folder, light))
+  const [thumbnailWidth, thumbnailHeight] = light ? pngSize(join(folder, light)) : []
   return {
     version: '1.0',
     type: 'rich',
@@ -54,9 +54,7 @@ function oembed(figure, codes, folder, address) {
     width,
     height,
     html: codes.embedCode('iframe', { tag: figure.tag, attributes: [['v', String(figure.version)]] }, address, figure.title),
-    thumbnail_url: address + light,
-    thumbnail_width: thumbnailWidth,
-    thumbnail_height: thumbnailHeight,
+    ...(light && { thumbnail_url: address + light, thumbnail_width: thumbnailWidth, thumbnail_height: thumbnailHeight }),
   }
 }
 
@@ -77,14 +75,14 @@ export function writePages(folder, address, all, codes) {
   const page = readFileSync(join(folder, 'embed.html'), 'utf8')
   for (const figure of all) {
     const file = `embed-${figure.name}.html`
-    const title = escape(figure.title)
+    const [title, picture] = [escape(figure.title), pictureFile(figure, 'light', folder)]
     const head = [
       `<title>${title}</title>`,
       `<meta property="og:title" content="${title}" />`,
       ...(address && [
         `<link rel="canonical" href="${address}${file}" />`,
         `<link rel="alternate" type="application/json+oembed" href="./oembed/${figure.name}.json" title="${title}" />`,
-        `<meta property="og:image" content="${address}${pictureFile(figure, 'light', folder)}" />`,
+        ...(picture ? [`<meta property="og:image" content="${address}${picture}" />`] : []),
       ]),
     ].join('\n    ')
     const own = page.replace(/<title>.*?<\/title>/, head).replace(/(<div id="figure">)/, `$1\n      ${element(figure, folder)}`)
@@ -124,7 +122,11 @@ export async function writeFrames() {
   const [all, address] = [figures(), site()]
   writePages(dist, address, all, await embedCodes())
   // Under names that stay: codes on other pages have them for where the script does not arrive.
-  for (const figure of all) copyFileSync(join(dist, pictureFile(figure, 'light', dist)), join(dist, `embed-${figure.name}.png`))
+  for (const figure of all) {
+    const picture = pictureFile(figure, 'light', dist)
+    if (picture) copyFileSync(join(dist, picture), join(dist, `embed-${figure.name}.png`))
+  }
+  await declare()
   write(join(dist, 'custom-elements.json'), `${JSON.stringify(manifest(all), undefined, 2)}\n`)
   write(join(dist, 'fastslam.d.ts'), types(all))
   // Imported late: set-up may be what installs the packages that it stands on.

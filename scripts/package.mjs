@@ -3,7 +3,7 @@
 import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { build, dist, singlesAsked } from './build.mjs'
-import { eventsOf, figures, types } from './elements.mjs'
+import { eventsOf, figures } from './elements.mjs'
 import { isMain, main, root, run, step } from './lib.mjs'
 import { python, pythonFiles } from './python.mjs'
 import { singlePrograms } from './registry.mjs'
@@ -40,7 +40,7 @@ export async function npmFiles() {
   mkdirSync(join(to, 'assets'), { recursive: true })
   const all = figures()
   const files = readdirSync(dist).filter(file => /^fastslam(-[\w-]{8})?\.js$|^fastslam-.*\.wasm$/.test(file))
-  for (const file of [...files, 'custom-elements.json', 'example.clf.gz', 'licences.txt', 'sbom.cdx.json']) cpSync(join(dist, file), join(to, file))
+  for (const file of [...files, 'fastslam.d.ts', 'custom-elements.json', 'example.clf.gz', 'licences.txt', 'sbom.cdx.json']) cpSync(join(dist, file), join(to, file))
   // What they name, and what that names, and nothing of the chapter's.
   const assets = new Set(readdirSync(join(dist, 'assets')))
   const take = (/** @type {string} */ script, /** @type {string} */ folder) => {
@@ -55,7 +55,6 @@ export async function npmFiles() {
   const figuresFile = readdirSync(join(to, 'assets')).find(file => file.startsWith('figures-'))
   writeFileSync(join(to, 'fastslam.js'), `export * from './assets/${figuresFile}'\n`)
   cpSync(join(dist, 'fastslam-anywidget.js'), join(to, 'standalone.js'))
-  writeFileSync(join(to, 'fastslam.d.ts'), types(all))
   writeFileSync(join(to, 'react.d.ts'), reactTypes(all))
   writeFileSync(join(to, 'server.js'), '// Pages rendered on a server hold the tags; the elements come to life in the browser.\nexport {}\n')
   for (const file of ['LICENSE-MIT', 'LICENSE-APACHE']) cpSync(join(root, file), join(npm, file))

@@ -1,26 +1,18 @@
 // A figure that a script can run at several seeds.
 import { Aside, atSeed } from './aside'
-import type { SeedRun, SeedsDetail } from './details'
+import type { SeedRun, SeedsWish } from './details'
+import { figureEvent } from './events'
 import { FigureElement } from './figure-element'
 import { hasComma } from './options'
 
 /** Seeds are whole numbers of 32 bits. */
 const SEEDS = 2 ** 32
 
-export interface SeedsWish {
-  /** Where they are not given, the one shown and the next four. */
-  seeds?: number[]
-  /** Where it is not given, the step shown. */
-  step?: number
-  /** The setting, as a link has it; where it is not given, that of now. */
-  state?: string
-  /** Ends it. */
-  signal?: AbortSignal
-}
-
+/** @fires fastslam-seeds */
 export class ComparedFigure extends FigureElement {
-  /** What comes out at several seeds, the figure staying as it is. They run one after the other, in slices that the page does not notice. */
-  async runSeeds({ signal = new AbortController().signal, ...wish }: SeedsWish = {}): Promise<SeedRun[]> {
+  /** Runs the setting at several seeds, the one shown and the next four where none are named, to the step shown where none is; the figure stays as it is. */
+  async runSeeds(wish: SeedsWish = {}): Promise<SeedRun[]> {
+    const { signal = new AbortController().signal } = wish
     const query = new URLSearchParams(wish.state ?? this.state)
     if (wish.step !== undefined) query.set('step', String(wish.step))
     const first = Number((wish.state !== undefined && query.get('seed')) || this.getParameter('seed'))
@@ -44,7 +36,7 @@ export class ComparedFigure extends FigureElement {
     const values = runs.map(run => run.readouts.find(({ name }) => name === readout)?.value)
     const known = values.filter(value => value != null).sort((a, b) => a - b)
     const median = known.length === values.length ? ((known[(known.length - 1) >> 1]! + known[known.length >> 1]!) / 2) : null
-    this.dispatchEvent(new CustomEvent<SeedsDetail>('fastslam-seeds', { bubbles: true, composed: true, detail: { readout, median, runs } }))
+    this.dispatchEvent(figureEvent('fastslam-seeds', { readout, median, runs }))
     return runs
   }
 }

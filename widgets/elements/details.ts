@@ -80,3 +80,33 @@ export interface SeedsDetail {
   median: number | null
   runs: SeedRun[]
 }
+
+/** What a script may say of the seeds that it wants to be run. */
+export interface SeedsWish {
+  /** Where they are not given, the one shown and the next four. */
+  seeds?: number[]
+  /** Where it is not given, the step shown. */
+  step?: number
+  /** The setting, as a link has it; where it is not given, that of now. */
+  state?: string
+  /** Ends it. */
+  signal?: AbortSignal
+}
+
+/** Each bubbles, through the borders of shadow roots too. */
+export interface FigureEvents {
+  /** Another step is shown; also once when the figure comes to life. */
+  'fastslam-step': CustomEvent<FigureDetail>
+  /** A parameter has changed, whoever did it. */
+  'fastslam-change': CustomEvent<FigureDetail>
+  /** A reader has taken up a challenge or, where it is done, reached it. */
+  'fastslam-challenge': CustomEvent<ChallengeDetail>
+  /** The lines of the algorithm that led to the step shown. */
+  'fastslam-trace': CustomEvent<TraceDetail>
+  /** The page’s author has given what a figure cannot take: an attribute that it does not know, or a value out of its range. Readers see nothing of it, but on localhost. */
+  'fastslam-notice': CustomEvent<NoticeDetail>
+  /** A prediction was judged: guess and result stand side by side; or the reader has waived it. */
+  'fastslam-guess': CustomEvent<GuessDetail>
+  /** A script’s seeds have been run: what came out at each, and the median. */
+  'fastslam-seeds': CustomEvent<SeedsDetail>
+}

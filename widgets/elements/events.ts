@@ -1,8 +1,13 @@
 // Events: always the last thing done: who listens may remove, reset, move or clone the figure.
-import type { Cause, ChallengeDetail, FigureDetail, GuessDetail, TraceDetail } from './details'
+import type { Cause, FigureDetail, FigureEvents, GuessDetail } from './details'
 import type { Frame } from './host'
 
 export type { Cause, ChallengeDetail, FigureDetail, GuessDetail, NoticeDetail, TraceDetail } from './details'
+
+/** An event that pages are told of: there is no other way to make one, so that types and manifest name them all. */
+export function figureEvent<Name extends keyof FigureEvents>(name: Name, detail: FigureEvents[Name]['detail']): CustomEvent {
+  return new CustomEvent(name, { bubbles: true, composed: true, detail })
+}
 
 export class Events {
   cause: Cause = 'page' // of what is told next
@@ -29,14 +34,14 @@ export class Events {
 
   /** A challenge was taken up or, if it is done, reached. */
   challenge(name: string, done: boolean): void {
-    this.#add('fastslam-challenge', { name, done } satisfies ChallengeDetail)
+    this.#add('fastslam-challenge', { name, done })
   }
 
   send(): void {
     for (const event of this.#waiting.splice(0)) this.figure.dispatchEvent(event)
   }
 
-  #add(type: string, detail: FigureDetail | TraceDetail | ChallengeDetail | GuessDetail): void {
-    this.#waiting.push(new CustomEvent(type, { bubbles: true, composed: true, detail }))
+  #add<Name extends keyof FigureEvents>(name: Name, detail: FigureEvents[Name]['detail']): void {
+    this.#waiting.push(figureEvent(name, detail))
   }
 }

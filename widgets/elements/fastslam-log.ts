@@ -119,8 +119,8 @@ export class FastslamLog extends FigureElement {
 
   // --- What a page's script may use ------------------------------------------------------------------------------------
 
-  /** Reads a log. Nothing is mapped yet, unless it is to start at once. */
-  async open(file: Blob, name = file instanceof File ? file.name : 'log', start = false, topics: Topics = {}): Promise<void> {
+  /** Reads a log, of a bag the topics named; maps it too if it is to start. */
+  async open(file: Blob, name = file instanceof File ? file.name : 'log', start = false, topics: Partial<Record<'scan' | 'odometry', string>> = {}): Promise<void> {
     this.messages.set('file', '')
     this.playback.stop()
     this.crashes = 0 // another log, another chance
@@ -144,7 +144,7 @@ export class FastslamLog extends FigureElement {
     this.#sendLog()
   }
 
-  /** Reads and maps the log that comes with the figure. */
+  /** Maps the log that comes with the figure. */
   async example(): Promise<void> {
     this.events.cause = 'page'
     write(this.status, this.words.say('loading_example'))
@@ -155,24 +155,24 @@ export class FastslamLog extends FigureElement {
     this.messages.set('file', text, this.words.say('try_again'), () => void this.example())
   }
 
-  /** Maps the log, or goes on after a pause; what is mapped to its end is played again. */
+  /** Maps the log, or goes on after a pause; plays again what is mapped to its end. */
   override play(): void {
     if (this.#phase === 'done') return super.play()
     this.events.cause = 'page'
     this.send({ do: 'run' })
   }
 
+  /** Waits; what is mapped can be looked at and saved. */
   override pause(): void {
     if (this.#phase === 'running') this.send({ do: 'pause' })
     else super.pause()
   }
 
-  /** Ends the mapping where it is. What is mapped can still be looked at and saved. */
+  /** The same as pause. */
   stop(): void {
     this.pause()
   }
 
-  /** Shows what was mapped up to a scan. */
   override seek(step: number): void {
     if (this.alive) super.seek(step)
   }

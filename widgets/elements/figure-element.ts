@@ -65,8 +65,9 @@ export class FigureElement extends HostedFigure {
     this.end()
   }
 
-  // --- What a page's script may use ------------------------------------------------------------------------------------
+  // --- What a page's script may use: what is said of it, types, manifest and documentation have word for word ---------------
 
+  /** Plays on; from the start where it is at its end. */
   play(): void {
     this.events.cause = 'playback'
     if (this.host && this.host.target >= this.host.last) this.seekTo(0)
@@ -74,12 +75,14 @@ export class FigureElement extends HostedFigure {
     this.wake()
   }
 
+  /** Stops at the step shown. */
   pause(): void {
     this.playback.stop()
     this.refresh()
   }
 
-  /** A method; but frameworks that set properties write the parameter `step` here, and mean it. */
+  // A method; but frameworks that set properties write the parameter `step` here, and mean it.
+  /** One step on. */
   get step(): () => void {
     return () => {
       this.seek(this.currentStep + 1)
@@ -91,10 +94,12 @@ export class FigureElement extends HostedFigure {
     this.setParameter('step', step)
   }
 
+  /** One step back. */
   stepBack(): void {
     this.seek(this.currentStep - 1)
   }
 
+  /** To a step. */
   seek(step: number): void {
     this.pause()
     this.events.cause = 'page'
@@ -102,7 +107,7 @@ export class FigureElement extends HostedFigure {
     else this.settings.wait('step', String(step))
   }
 
-  /** Back to what the page's author gave: attributes, the first step, at rest. */
+  /** Back to what the page’s author gave. */
   reset(): void {
     this.playback.stop()
     this.events.cause = 'page'
@@ -116,7 +121,7 @@ export class FigureElement extends HostedFigure {
     else void this.start()
   }
 
-  /** Takes up one of its challenges, as a press on its chip does. Resolves to whether there is such a one on this page. */
+  /** Takes up one of its challenges, as a press on its chip does; resolves to whether there is such a one here. */
   async challenge(name: string): Promise<boolean> {
     if (!this.chips.any) {
       await this.start()
@@ -127,6 +132,7 @@ export class FigureElement extends HostedFigure {
     return chip !== undefined
   }
 
+  /** Whether it plays. */
   get playing(): boolean {
     return this.playback.playing
   }
@@ -140,7 +146,7 @@ export class FigureElement extends HostedFigure {
     this.seek(step)
   }
 
-  /** The whole state, as a link has it: `name=value&…`, what differs from the defaults. */
+  /** The whole state, as a link has it: name=value&… */
   get state(): string {
     return this.host?.query ?? this.settings.recipe ?? ''
   }
@@ -149,22 +155,22 @@ export class FigureElement extends HostedFigure {
     this.#load(query, false)
   }
 
-  /** The numbers of the step shown, by name, as events have them; none before the figure has shown anything. */
+  /** The numbers of what is shown, each with name, value and unit, as events have them; empty before anything is shown. Await settled() after a change. */
   get readouts(): FigureReadout[] {
     return this.events.told?.readouts ?? []
   }
 
-  /** The parameters of what is shown, by name, as links write them; none before the figure has shown anything. */
+  /** The parameters of what is shown, by name, as links write them; empty before anything is shown. */
   get values(): Record<string, string> {
     return this.events.told?.values ?? {}
   }
 
-  /** The address of this page with this figure's whole state; of the chapter's, where this page is one for frames. */
+  /** The address of this page with the figure’s whole state. */
   get link(): string {
     return linkTo(this, this.#linkable + (this.labIsOpen ? '&lab=open' : ''), homeAddress())
   }
 
-  /** The code that puts this figure, as it stands, into another page; undefined where that would need an address it does not have. */
+  /** @internal The code that puts this figure, as it stands, into another page; undefined where that would need an address it does not have. */
   embedCode(name: CodeName): string | undefined {
     const home = homeAddress()
     if (!home && (name === 'iframe' || name === 'myst')) return undefined
@@ -191,7 +197,7 @@ export class FigureElement extends HostedFigure {
     return String(new URLSearchParams([['v', this.settings.version], ...given.map(([name, value]) => [name, toText(value)])]))
   }
 
-  /** Height [css px] that shows all of the figure at its present width, the picture as large as it would like to be. */
+  /** Height [css px] that shows all of the figure at its present width. */
   get naturalHeight(): number {
     return this.canvas.naturalHeight
   }

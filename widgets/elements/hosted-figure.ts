@@ -1,8 +1,7 @@
 // A figure with its host: how it begins and ends, what it sends and hears, and the frames in which all that is shown.
-import { Events } from './events'
+import { Events, figureEvent } from './events'
 import { FigureParts } from './figure-parts'
 import { FrameLoop } from './frame-loop'
-import type { NoticeDetail } from './details'
 import { write } from './dom'
 import { FIGURES } from './generated/figures'
 import type { Answer, Command, FigureHost, Frame, Listener } from './host'
@@ -100,7 +99,7 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
     return this.heavy ? undefined : this.start()
   }
 
-  /** At once, where the program is there: seen or not. */
+  /** @internal At once, where the program is there: seen or not. */
   toPaper(): void {
     this.theme.look()
     if (!this.host && !this.stopped && !this.heavy) {
@@ -181,7 +180,7 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
     void this.start()
   }
 
-  /** Resolves when all that was asked of the figure is shown. Playing is not waited for: it goes on. */
+  /** Resolves when all that was asked of the figure is shown; playing goes on. */
   async settled(): Promise<void> {
     // What a frame shows may change sizes, which are told after it and ask for another one.
     for (let quiet = 0; quiet < 2; quiet = this.#unsettled ? 0 : quiet + 1) await new Promise(requestAnimationFrame)
@@ -237,7 +236,7 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
     if (!text) return
     console.info(`<${this.localName}>: ${text}`)
     // The program may be at work just now.
-    queueMicrotask(() => this.dispatchEvent(new CustomEvent('fastslam-notice', { bubbles: true, composed: true, detail: { name, text } satisfies NoticeDetail })))
+    queueMicrotask(() => this.dispatchEvent(figureEvent('fastslam-notice', { name, text })))
   }
 
   /** After a trap: the first time it is made again as it was, the second time it stops. */

@@ -1,0 +1,53 @@
+// Types and manifest of the elements are what their code has.
+import assert from 'node:assert/strict'
+import { readdirSync, readFileSync } from 'node:fs'
+import { join } from 'node:path'
+import { test } from 'node:test'
+import { membersIn, options } from '../../scripts/elements.mjs'
+import { root } from '../../scripts/lib.mjs'
+
+const elements = join(root, 'widgets', 'elements')
+
+test('members are those that a class says something of, as it declares them', () => {
+  const declaration = `export declare class Figure extends Parts {
+    #private;
+    constructor();
+    connectedCallback(): void;
+    /** Plays on. */
+    play(): void;
+    /** Of the figure itself. */
+    protected show(frame: Frame): void;
+    /** One step on. */
+    get step(): () => void;
+    set step(step: number | string);
+    /** The step asked for. */
+    get current(): number;
+    set current(step: number);
+    /** Whether it plays. */
+    get playing(): boolean;
+    /** Reads a log. */
+    open(file: Blob, name?: string): Promise<void>;
+}
+`
+  const brief = membersIn(declaration).map(({ text, help, method, type }) => [text, help, method, type])
+  assert.deepEqual(brief, [
+    ['play(): void', 'Plays on.', true, ''],
+    ['step: () => void', 'One step on.', true, '() => void'],
+    ['current: number', 'The step asked for.', false, 'number'],
+    ['readonly playing: boolean', 'Whether it plays.', false, 'boolean'],
+    ['open(file: Blob, name?: string): Promise<void>', 'Reads a log.', true, ''],
+  ])
+})
+
+test('every event is made where only those can be that the types name', () => {
+  const makers = readdirSync(elements).filter(file => file.endsWith('.ts') && readFileSync(join(elements, file), 'utf8').includes('new CustomEvent'))
+  assert.deepEqual(makers, ['events.ts'])
+})
+
+test('attributes that are no parameters are described with the values that they take', async () => {
+  const { runnerImport } = await import('vite')
+  const { module } = await runnerImport(join(elements, 'options.ts'), { configFile: false, logLevel: 'silent' })
+  const { OPTIONS } = /** @type {typeof import('../../widgets/elements/options')} */ (module)
+  assert.deepEqual(options.map(({ name }) => name), Object.keys(OPTIONS))
+  for (const { name, values } of options) assert.deepEqual(values && [...values].sort(), OPTIONS[name]?.filter(Boolean).sort(), name)
+})
