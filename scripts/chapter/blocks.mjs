@@ -4,6 +4,7 @@ import { h } from 'hastscript'
 import { visit } from 'unist-util-visit'
 import { attribute, content, idOf, inline, latest, nameOf, parts, sentence } from './context.mjs'
 import { display, formula } from './inline.mjs'
+import { renderLapTable } from './lap-table.mjs'
 import { say } from './translation.mjs'
 
 /** @typedef {import('./context.mjs').Handler} Handler */
@@ -96,10 +97,8 @@ export function table(context, state, node) {
 
 /** The measured laps, rendered from the numbers by their own module. @type {Handler} */
 export function lapTable(context, state, node) {
-  if (!context.lapTable) context.problems.add(context.file, node, '::lap-table needs scripts/chapter/lap-table.mjs')
   const caption = node.type === 'containerDirective' ? node.children : []
-  const html = context.lapTable?.(context.numbers.all) ?? ''
-  return tableFigure(context, state, node, fromHtml(html, { fragment: true }).children, caption)
+  return tableFigure(context, state, node, fromHtml(renderLapTable(context.numbers.all), { fragment: true }).children, caption)
 }
 
 /** @param {import('./context.mjs').Context} context @param {any} state @param {any} node @param {any[]} tables @param {any[]} caption */

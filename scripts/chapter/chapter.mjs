@@ -1,7 +1,6 @@
 // The chapter: www/chapter/*.md, and the pages beside it, to pages.
 import { existsSync, readdirSync, readFileSync } from 'node:fs'
 import { join, relative } from 'node:path'
-import { fileURLToPath, pathToFileURL } from 'node:url'
 import { h } from 'hastscript'
 import { toHast } from 'mdast-util-to-hast'
 import { toString } from 'mdast-util-to-string'
@@ -37,7 +36,6 @@ import { complete, inGerman, say } from './translation.mjs'
  *   `downloads` and `packages`: files beside the pages; `files`: what it was made from
  */
 
-const home = fileURLToPath(new URL('.', import.meta.url))
 /** Plans of a lesson that have a worksheet [minutes]. */
 const sheets = [20, 45, 90]
 /** @typedef {{ name: string, text?: string, script: string, live?: boolean, solved?: boolean }} Beside a page beside the chapter, with its text and what it runs */
@@ -97,13 +95,11 @@ export async function renderChapter(root) {
   const citations = new Citations(json(worksFile, []))
   const glossary = new Glossary(existsSync(glossaryFile) ? read(glossaryFile) : parse(name(glossaryFile), '', problems), problems)
   const sources = await new Sources(root).open()
-  const lapTableFile = join(home, 'lap-table.mjs')
-  const lapTable = existsSync(lapTableFile) ? (await import(pathToFileURL(lapTableFile).href)).renderLapTable : undefined
   const maths = new Maths()
   const titles = new Map([first, ...rest].flatMap(text => (text ? titlesIn(text) : [])))
   const modelFile = join(www, 'model.md')
   const aims = aimsIn(existsSync(modelFile) ? readFileSync(modelFile, 'utf8') : '')
-  const shared = { root, problems, maths, numbers, citations, glossary, sources, lapTable, aims, titles, repository: repositoryOf(root) }
+  const shared = { root, problems, maths, numbers, citations, glossary, sources, aims, titles, repository: repositoryOf(root) }
 
   /** Questions of the bank, by language. */
   const asked = { en: new Map(), de: new Map() }
@@ -189,7 +185,7 @@ function titleOf({ file, tree }, problems) {
 }
 
 /**
- * @param {Pick<Context, 'root' | 'problems' | 'maths' | 'numbers' | 'citations' | 'glossary' | 'sources' | 'lapTable' | 'aims' | 'titles' | 'asked' | 'language' | 'repository'>
+ * @param {Pick<Context, 'root' | 'problems' | 'maths' | 'numbers' | 'citations' | 'glossary' | 'sources' | 'aims' | 'titles' | 'asked' | 'language' | 'repository'>
  *   & { chapter: string, texts: Source[], front: Record<string, any>, kicker: ElementContent | string, script: string, live: boolean, other?: string | undefined, sheet?: Context['sheet'] }} options
  * @returns {Rendered}
  */

@@ -25,7 +25,6 @@ import { parse } from './parse.mjs'
  * @property {Map<string, { id: string, piece: import('./source.mjs').Piece }>} listings those of the page, by id
  * @property {Set<string>} lines ids of the lines in listings that something links to
  * @property {string} repository its address, for source that no listing shows
- * @property {((numbers: Record<string, unknown>) => string) | undefined} lapTable
  * @property {{ tag: string, challenges: string[], told: string[] } | undefined} figure whose caption is in hand, with the challenges it has, and those told
  * @property {Aims} aims what a student can do after work with each figure, by its name
  * @property {Map<string, string>} titles those of the chapter's sections, by anchor

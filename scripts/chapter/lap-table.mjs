@@ -1,5 +1,5 @@
 // The lap table as HTML, from the measured numbers: what readers without JavaScript see, and what <fastslam-lap-table>
-// (widgets/elements/lap-table.ts) puts its buttons into.
+// (www/src/lap-table.ts) puts its buttons into.
 
 /** @typedef {Record<string, { value: number }>} Numbers by key, of www/data/numbers.json */
 

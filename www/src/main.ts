@@ -1,6 +1,6 @@
 // The chapter: a page like any other, with figures, algorithms and a table that run.
 import '../../widgets/elements/index'
-import '../../widgets/elements/lap-table'
+import './lap-table'
 import './algorithm'
 import './challenges'
 import './elsewhere'

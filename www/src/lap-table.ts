@@ -1,8 +1,8 @@
 // The lap table of the chapter: a plain table (scripts/chapter/lap-table.mjs) that readers may compute again, cell by cell.
-import { h, icon, write } from './dom'
-import { Jobs } from './jobs'
-import { programOf } from './program'
-import type { Shell } from './shell'
+import { h, icon, write } from '../../widgets/elements/dom'
+import { Jobs } from '../../widgets/elements/jobs'
+import { programOf } from '../../widgets/elements/program'
+import type { Shell } from '../../widgets/elements/shell'
 
 const PROPOSALS: Record<string, string> = { aware: 'measurement-aware proposal', motion: 'motion prior' }
 const MATCHERS: Record<string, string> = { cell: 'cell score', subcell: 'sub-cell score' }
@@ -117,7 +117,7 @@ export class FastslamLapTable extends HTMLElement {
     const started = performance.now()
     const found: number[] = []
     try {
-      const { default: kept } = await import('../../www/data/lap-table.json')
+      const { default: kept } = await import('../data/lap-table.json')
       const printed = (kept as Record<string, number[]>)[`lap.${cell.name}`] ?? []
       const ofTable = Object.entries(kept as Record<string, number[]>).filter(([name]) => !name.startsWith('lap.tried.'))
       const axis = ofTable.flatMap(([, errors]) => errors)
