@@ -1,21 +1,22 @@
 // `:chip[words]{#name}`: a challenge of the figure in whose caption it stands, in words. Script makes a button of it (www/src/challenges.ts).
-import { existsSync, readFileSync } from 'node:fs'
+import { readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { h } from 'hastscript'
+import { readIfThere, StepError } from '../lib.mjs'
 import { attribute, inline } from './context.mjs'
 
-/** A figure's challenges in their order, each with its source. @param {string} root @param {string} tag */
-function readChallenges(root, tag) {
-  const file = join(root, 'widgets', 'src', tag.replace('fastslam-', '').replaceAll('-', '_'), 'challenges.rs')
-  if (!existsSync(file)) return []
-  return readFileSync(file, 'utf8').split('Challenge::new(').slice(1).map(source => ({ name: /^\s*"([a-z-]+)"/.exec(source)?.[1] ?? '', source }))
+/** A figure's challenges in their order, as it told them last (scripts/elements.mjs). @param {string} root @param {string} tag @returns {import('../elements.mjs').Chip[]} */
+function chipsOf(root, tag) {
+  const told = readIfThere(join(root, '.cache', 'figures.json'))
+  if (told === undefined) throw new StepError('The figures have not told yet which challenges they have.', 'npm run build asks them.')
+  return JSON.parse(told).find((/** @type {{ tag: string }} */ figure) => figure.tag === tag)?.chips ?? []
 }
 
 /** Names of a figure's challenges, in their order. @param {string} root @param {string} tag */
-export const challengesOf = (root, tag) => readChallenges(root, tag).map(({ name }) => name)
+export const challengesOf = (root, tag) => chipsOf(root, tag).map(({ name }) => name)
 
 /** Names of those that there is something to reach in. @param {string} root @param {string} tag */
-export const goalsOf = (root, tag) => readChallenges(root, tag).flatMap(({ name, source }) => (/^[^;]*?\)\s*\.with\(/.test(source) ? [name] : []))
+export const goalsOf = (root, tag) => chipsOf(root, tag).filter(({ goal }) => goal !== '').map(({ name }) => name)
 
 /** @type {import('./context.mjs').Handler} */
 export function chip(context, state, node) {

@@ -9,7 +9,11 @@ const title = '---\ntitle: A Title\nnumber: 17\nlead: What it *says*.\n---\n'
 /** The first bytes of a PNG, 120 by 60 pixels. */
 const png = Buffer.concat([Buffer.from('89504e470d0a1a0a0000000d49484452', 'hex'), Buffer.from([0, 0, 0, 120, 0, 0, 0, 60])])
 
+/** What the figures have told: that of the lap has these challenges, each with its goal. @param {Record<string, string>} goals */
+export const told = goals => ({ '.cache/figures.json': JSON.stringify([{ tag: 'fastslam-lap', chips: Object.entries(goals).map(([name, goal]) => ({ name, goal })) }]) })
+
 const always = {
+  ...told({}),
   'Cargo.toml': 'repository = "https://example.org/repo"\n',
   'widgets/pictures/fastslam-lap-light.png': png,
   'widgets/pictures/fastslam-lap-dark.png': png,

@@ -1,7 +1,7 @@
 // Whatever a writer can get wrong is said with file, line and what is wrong. Every test also holds that the same text without the mistake is fine.
 import assert from 'node:assert/strict'
 import { test } from 'node:test'
-import { wrong } from './book.mjs'
+import { told, wrong } from './book.mjs'
 
 const numbers = (/** @type {string[]} */ ...keys) => ({
   'www/data/numbers.json': `{\n${keys.map(key => `"${key}": {"made": "by a test", "unit": "m", "value": 0.5}`).join(',\n')}\n}`,
@@ -10,7 +10,7 @@ const works = (/** @type {string[]} */ ...ids) => ({
   'www/references.json': `[\n${ids.map(id => `{"id": "${id}", "title": "On ${id}", "author": [{"family": "Rao"}], "issued": {"date-parts": [[1945]]}}`).join(',\n')}\n]`,
 })
 const rust = { 'src/a.rs': 'fn body() {\n    let x = 1;\n}\n\nstruct A;\n\nimpl A {\n    fn twin() {}\n}\n\nfn twin() {}\n' }
-const challenges = { 'widgets/src/lap/challenges.rs': 'vec![Challenge::new("one", a(), ""), Challenge::new(\n    "two",\n    b(), "")]' }
+const challenges = told({ one: '', two: '' })
 const small = { 'widgets/pictures/vignette-a-light.png': '.'.repeat(24), 'widgets/pictures/vignette-a-dark.png': '' }
 const file = 'www/chapter/01-text.md'
 
@@ -52,7 +52,7 @@ const mistakes = [
   ['a number of what is no calculation', '## A {#a}\n\n:::count[Q]{#q is="1 + exp(2)" within="0.1"}\nx\n:::', '## A {#a}\n\n:::count[Q]{#q is="process.exit(2)" within="0.1"}\nx\n:::', /:3: is="process\.exit\(2\)"|no number process\.exit/],
   ['a number of what cannot be read', '## A {#a}\n\n:::count[Q]{#q is="1 + 2" within="0.1"}\nx\n:::', '## A {#a}\n\n:::count[Q]{#q is="1 + (2" within="0.1"}\nx\n:::', /:3: is="1 \+ \(2" is no calculation/],
   ['a number of a measured one that is not there', '## A {#a}\n\n:::count[Q]{#q is="2 * a.b" within="0.1"}\n:num[a.b]\n:::', '## A {#a}\n\n:::count[Q]{#q is="2 * a.c" within="0.1"}\n:num[a.b]\n:::', /:3: .*no number a\.c/, numbers('a.b')],
-  ['a goal that the figure does not have', '## A {#a}\n\n:::reach[Q]{#q figure="f" tag="fastslam-lap" challenge="three"}\nx\n:::', '## A {#a}\n\n:::reach[Q]{#q figure="f" tag="fastslam-lap" challenge="one"}\nx\n:::', /:3: fastslam-lap has no goal one, only three/, { 'widgets/src/lap/challenges.rs': 'vec![Challenge::new("one", a(), ""), Challenge::new("three", b(), "").with(c())]' }],
+  ['a goal that the figure does not have', '## A {#a}\n\n:::reach[Q]{#q figure="f" tag="fastslam-lap" challenge="three"}\nx\n:::', '## A {#a}\n\n:::reach[Q]{#q figure="f" tag="fastslam-lap" challenge="one"}\nx\n:::', /:3: fastslam-lap has no goal one, only three/, told({ one: '', three: 'Do it.' })],
   ['a fold of another page that does not say where', '## A {#a}\n\n::unfold[B]{from="page.html#b"}', '## A {#a}\n\n::unfold[B]{from="page.html"}', /:3: ::unfold says where/],
   ['a section to take three lines away from', '## A {#a}\n\n:::takeaway\n- x\n- y\n:::', '## A {#a}\n\n:::takeaway\n- x\n- y\n- z\n:::', /:3: :::takeaway is a list of two lines/],
   ['a time to read that is of nothing', '## A {#a}\n\n:minutes[open]', '## A {#a}\n\n:minutes[half]', /:3: :minutes is of what is open or of the whole/],

@@ -6,7 +6,7 @@ import { Numbers } from '../../scripts/chapter/numbers.mjs'
 import { curly } from '../../scripts/chapter/quotes.mjs'
 import { total, wordsOf } from '../../scripts/chapter/count.mjs'
 import { serialize } from '../../scripts/chapter/page.mjs'
-import { book, html } from './book.mjs'
+import { book, html, told } from './book.mjs'
 
 const number = (/** @type {number} */ value, unit = 'm') => ({ value, unit, made: 'by a test' })
 
@@ -89,7 +89,7 @@ test('what goes deeper is folded under a line that says what it is, and a link l
 test('a question has its answer folded below it: each choice its reason, a number what its text lets one compute, a state of a figure its goal', async () => {
   const others = {
     'www/data/numbers.json': JSON.stringify({ 'a.b': number(0.5), 'a.c': number(2) }),
-    'widgets/src/lap/challenges.rs': 'vec![Challenge::new("one", a(), ""), Challenge::new(\n    "two",\n    b(), "").with(c())]',
+    ...told({ one: '', two: 'Do it.' }),
   }
   const text = await html(
     '## A {#a}\n\n:::choice[Why $x$?]{#q1}\n- [ ] This.\n\n  Not it.\n- [x] *That.*\n\n  It is.\n:::\n\n:::count[How many?]{#q2 is="10 * sqrt(a.c / a.b) + 2 ** 10" within="0.01" unit="m"}\nOf :num[a.b] and :num[a.c].\n:::\n\n' +

@@ -6,13 +6,13 @@ import { visit } from 'unist-util-visit'
 import { renderChapter } from '../../scripts/chapter/chapter.mjs'
 import { serialize } from '../../scripts/chapter/page.mjs'
 import { root } from '../../scripts/lib.mjs'
-import { book, wrong } from './book.mjs'
+import { book, told, wrong } from './book.mjs'
 
 const chapter = '## A {#a}\n\n:num[a.b]'
 const files = {
   'www/model.md': '## T {#t}\n\n| Figure | A student can … | Needs |\n|---|---|---|\n| [One lap](#model-lap) | say it | all |\n\n### L {#model-lap}\n',
   'www/data/numbers.json': JSON.stringify({ 'a.b': { value: 0.5, unit: 'm', made: 'by a test' } }),
-  'widgets/src/lap/challenges.rs': 'vec![Challenge::new("one", a(), "").with(c())]',
+  ...told({ one: 'Do it.' }),
   'www/bank.md':
     '## B {#bank}\n\n::goal{of="lap"}\n\n:::choice[Why?]{#q1 level="1" section="a"}\n- [ ] This.\n\n  Not it.\n- [x] That.\n\n  It is.\n:::\n\n:::count[How far?]{#q2 level="2" section="a" is="4 * a.b" within="0.1" unit="m"}\nFour halves.\n:::\n\n' +
     ':::reach[Do it.]{#q3 level="3" section="a" figure="fig-a" tag="fastslam-lap" challenge="one"}\nDone.\n:::',
