@@ -85,7 +85,8 @@ let placesUnnamed
 /** For what is published: panics name files, and from any folder and any home the same sources have to give the same bytes. */
 const unnamed = () => (placesUnnamed ??= ['--config', `target.wasm32-unknown-unknown.rustflags=${JSON.stringify(remapped())}`])
 
-function remapped() {
+/** Flags of the compiler by which a program names no place of this machine. */
+export function remapped() {
   /** @type {{ source: string | null, manifest_path: string }[]} */
   const crates = JSON.parse(capture('cargo', 'metadata', '--locked', '--format-version', '1') ?? '{"packages":[]}').packages
   const registries = new Set(crates.flatMap(({ source, manifest_path }) => (source ? [dirname(dirname(manifest_path))] : [])))

@@ -29,7 +29,7 @@ const lists = [
   ['widgets/Cargo.toml', /(?<=^# A program for each figure.*\n)(?:[a-z-]+ = \[\]\n)*/m, () => rows.map(({ name }) => `${name} = []\n`).join('')],
   ['widgets/Cargo.toml', /^page = .*/m, () => `page = [${[...singlePrograms, 'vignettes'].map(name => `"${name}"`).join(', ')}]`],
   ['widgets/src/lib.rs', /(?<=^\/\/ The figures.*\n)(?:pub mod \w+;\n)*/m, () => rows.map(({ module }) => `pub mod ${module};\n`).sort().join('')],
-  ['README.md', /(?<=^ {2}and as easily ).*?(?=\.$)/m, () => rows.slice(1).map(({ name }) => `\`<fastslam-${name}>\``).join(', ').replace(/, (?=[^,]*$)/, ' or ')],
+  ['README.md', /(?<=^ {2}and as easily ).*?(?=\.$)/m, () => rows.filter(({ name }) => name !== 'lap').map(({ name }) => `\`<fastslam-${name}>\``).join(', ').replace(/, (?=[^,]*$)/, ' or ')],
 ]
 
 /** Files whose lists are not those of the rows, as they should be. @param {string} [folder] of the repository @returns {Map<string, string>} */

@@ -1,5 +1,7 @@
 // Breadth: what is tested besides npm test, in units of six minutes at most. All of them are `npm run test:all`; CI takes a share at a time.
 
+import { singlePrograms } from '../scripts/registry.mjs'
+
 /**
  * `seconds` is what it usually takes on two quiet cores, when all is built. The command is one of a shell in the repository's folder,
  * with the programs of npm packages on PATH.
@@ -14,8 +16,11 @@ const shared = 'CARGO_TARGET_DIR="${CARGO_TARGET_DIR:-../../target}"'
 /** Of what is run from a release: compiled without the optimisations across crates, which take minutes. */
 const quick = 'CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 CARGO_PROFILE_BENCH_LTO=off CARGO_PROFILE_BENCH_CODEGEN_UNITS=16'
 
-/** Programs of single figures, made, looked at to the last pixel, and weighed. @param {string} names */
+/** Programs of single figures, made, looked at to the last pixel, and weighed. @param {string[]} names */
 const singles = names => `npm run build -- --singles ${names} && playwright test --config tests/e2e --grep @programs && npm run size -- --singles ${names}`
+
+/** Those of most work, in units of their own: what has landmarks, and what has grids. */
+const [landmarks, grids] = [['conditioning', 'worked-example', 'joint', 'doors'], ['lap', 'resampling', 'graph', 'universes']]
 
 /** @type {Unit[]} */
 export const units = [
@@ -33,9 +38,9 @@ export const units = [
   // On a browser that tells late what is in sight and what has arrived, as a busy machine's does.
   { name: 'page-late', seconds: 200, command: 'FASTSLAM_LATE=150 playwright test --config tests/e2e --grep-invert @breadth /chapter.spec.ts /course.spec.ts /hosts.spec.ts /links.spec.ts /log.spec.ts /playback.spec.ts /programs.spec.ts /seen.spec.ts /trouble.spec.ts' },
   { name: 'page-packages', seconds: 60, command: page('/offline.spec.ts /package.spec.ts /pixels.spec.ts') },
-  { name: 'programs-landmarks', seconds: 330, command: singles('conditioning,worked-example,joint,doors') },
-  { name: 'programs-grids', seconds: 330, command: singles('lap,resampling,graph,universes') },
-  { name: 'programs-others', seconds: 300, command: singles('proposal,em,smoothing') },
+  { name: 'programs-landmarks', seconds: 330, command: singles(landmarks) },
+  { name: 'programs-grids', seconds: 330, command: singles(grids) },
+  { name: 'programs-others', seconds: 300, command: singles(singlePrograms.filter(name => ![...landmarks, ...grids].includes(name))) },
 
   // Statistics over many seeds, whole recorded logs, all kept links, and the chapter's numbers by all their seeds.
   { name: 'laws-mapper', seconds: 200, command: ignored('--test all', 'mapper:: ring:: turned::') },
@@ -66,6 +71,9 @@ export const units = [
 
   // The whole of dist/ once more from nothing, elsewhere: to the byte what is here.
   { name: 'reproducible', seconds: 340, command: 'node scripts/reproduce.mjs' },
+
+  // What widgets/README.md says of adding a figure, done in a copy of the sources.
+  { name: 'newcomer', seconds: 200, command: 'node tests/newcomer/run.mjs' },
 
   // What README promises, each in its cheapest form.
   { name: 'readme-check', seconds: 150, command: 'npm run check' },
