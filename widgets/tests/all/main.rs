@@ -19,6 +19,7 @@ mod pinned;
 mod prediction;
 mod predictions_of_the_family;
 mod proposal;
+mod repeated;
 mod resampling;
 mod smoothing;
 mod trace;
