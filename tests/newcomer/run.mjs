@@ -1,5 +1,5 @@
-// A unit of breadth: what widgets/README.md says of adding a figure, done by the letter in a copy of the sources. The figure of its example
-// becomes a folder, and the registry gets a row; then the site is built, and the figure is opened in a browser. No other file is touched.
+// A unit of breadth: what widgets/README.md says of adding a figure and a panel, done by the letter in a copy of the sources. The figure of
+// its example becomes a folder, and the registry gets a row; then the site is built, and the figure is opened in a browser. No other file is touched.
 //   node tests/newcomer/run.mjs
 import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
@@ -13,8 +13,9 @@ const copy = cache('newcomer')
 
 const registry = join(copy, 'widgets', 'src', 'registry.rs')
 
-/** What the README shows, and so what is tried. */
-const row = /^ {0,4}("pi": darts::DartsView, .*;)$/m.exec(readFileSync(join(root, 'widgets', 'README.md'), 'utf8'))?.[1]
+/** What the README shows, and so what is tried: the row, and the view with another panel. */
+const readme = readFileSync(join(root, 'widgets', 'README.md'), 'utf8')
+const [row, view] = [/^("pi": darts::DartsView, .*;)$/m, /^(\/\/\/ Where the darts are drawn[^]*?)^```$/m].map(shown => shown.exec(readme)?.[1])
 
 function copySources() {
   rmSync(copy, { recursive: true, force: true })
@@ -27,7 +28,10 @@ function copySources() {
 /** The folder: the example as a module of the crate. */
 function addFolder() {
   const example = readFileSync(join(root, 'widgets', 'examples', 'pi.rs'), 'utf8')
-  const module = example.slice(0, example.indexOf('fn main()')).replaceAll('fastslam_widgets::', 'crate::').replaceAll(/^struct/gm, 'pub struct')
+  const figure = example.slice(0, example.indexOf('fn main()')).replaceAll('fastslam_widgets::', 'crate::').replaceAll(/^struct/gm, 'pub struct')
+  const [, before, drawn] = /^([^]*)impl View for DartsView \{[^]* fn draw\(.*\n([^]*?)^ {4}\}\n\}\n/m.exec(figure) ?? []
+  if (!view || !before || !drawn) throw new StepError('widgets/README.md shows no panel for the view of the example.')
+  const module = before + view.replace('// as before\n', drawn)
   mkdirSync(join(copy, 'widgets', 'src', 'darts'))
   writeFileSync(join(copy, 'widgets', 'src', 'darts', 'mod.rs'), module)
 }
@@ -67,7 +71,7 @@ async function openFigure() {
     page.on('console', message => message.type() === 'error' && complaints.push(message.text()))
     page.on('pageerror', error => complaints.push(String(error)))
     await page.goto(`${server.url}embed-pi.html`)
-    const shown = await page.locator('fastslam-pi').evaluate(async element => {
+    const { shown, lower } = await page.locator('fastslam-pi').evaluate(async element => {
       const figure = /** @type {import('../../widgets/elements/figure-element').FigureElement & { darts: number }} */ (element)
       const look = async () => {
         await figure.settled()
@@ -77,8 +81,13 @@ async function openFigure() {
       }
       const before = await look()
       figure.darts = 4000
-      return [before, await look()]
+      const after = await look()
+      const high = figure.naturalHeight
+      figure.setAttribute('show', 'small')
+      await figure.settled()
+      return { shown: [before, after], lower: figure.naturalHeight < high - 100 }
     })
+    if (!lower) throw new StepError('The small panel alone is as high as both.')
     // The same number as natively, and another one of other darts.
     const native = JSON.parse(there('.cache/figures.json')).find((/** @type {{ tag: string }} */ { tag }) => tag === 'fastslam-pi').readouts[0].text
     expectSame('the figure, before and after a script has set a parameter', shown, [
