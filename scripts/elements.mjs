@@ -100,57 +100,21 @@ export function eventsOf({ compared }) {
   return events().filter(({ name }) => compared || name !== only)
 }
 
-/** What a page may style of every figure, and what it is. */
-const parts = {
-  figure: 'All of it.',
-  title: 'Its title.',
-  chips: 'The row of challenges.',
-  chip: 'A challenge.',
-  verdict: 'What a challenge asks, and how near that is.',
-  stage: 'What the picture stands in.',
-  canvas: 'The picture.',
-  transport: 'The row that plays it.',
-  button: 'Every button.',
-  primary: 'The button that matters most.',
-  play: 'Plays, or pauses.',
-  rewind: 'Goes to the first step.',
-  'step-back': 'Goes one step back.',
-  step: 'Goes one step on.',
-  reset: 'Goes back to what the author set.',
-  undo: 'Takes back what threw something away.',
-  watch: 'Plays an end that was not watched.',
-  scrub: 'The slider of steps.',
-  controls: 'The controls that matter.',
-  control: 'A control with its name.',
-  notices: 'What there is to tell.',
-  notice: 'One thing of it; there only then.',
-  sentence: 'What happens now, in a line.',
-  lab: 'Opens all that can be set, and closes it.',
-  numbers: 'The fold of numbers.',
-  readouts: 'The numbers.',
-  readout: 'A number with its name.',
-  settings: 'The fold of other controls.',
-  menu: 'The menu’s button.',
-}
-
 const elements = join(root, 'widgets', 'elements')
 
 /** The file of an element with code of its own. @param {{ tag: string }} figure */
 const ownFile = ({ tag }) => join(elements, `${tag}.ts`)
 
-/** The parts that an element's code says it has. @param {FigureInfo} figure */
-function ownParts(figure) {
-  const code = readIfThere(figure.counted ? join(elements, 'counted-figure.ts') : ownFile(figure)) ?? ''
-  return Object.fromEntries([...code.matchAll(/^ \* @csspart ([\w-]+) - (.+)/gm)].map(([, name, what]) => [name, what]))
-}
+/** The parts that a class says it has. @param {string} file */
+const partsIn = file => Object.fromEntries([...(readIfThere(file) ?? '').matchAll(/^ \* @csspart ([\w-]+) - (.+)/gm)].map(([, name, what]) => [name, what]))
 
 /** The parts of a figure: those that all have, and its own. @param {FigureInfo} figure @returns {Record<string, string>} */
 const partsOf = figure => ({
-  ...parts,
+  ...partsIn(join(elements, 'figure-element.ts')),
   ...(figure.params.some(({ name }) => name === 'seed') && { seed: 'The seed, and the die that draws one.' }),
   ...(figure.params.some(({ kind }) => kind === 'toggle') && { toggle: 'A button that is on or off.' }),
   ...(figure.handles && { handle: 'What can be grasped in the picture; there only then.' }),
-  ...ownParts(figure),
+  ...partsIn(figure.counted ? join(elements, 'counted-figure.ts') : ownFile(figure)),
 })
 
 const cssProperties = ['accent', 'ink', 'muted', 'line', 'paper', 'radius', 'font', 'height'].map(name => `--fastslam-${name}`)

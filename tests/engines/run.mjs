@@ -6,7 +6,6 @@ import { cpSync, existsSync, rmSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { dist } from '../../scripts/build.mjs'
 import { cache, main, step, StepError } from '../../scripts/lib.mjs'
-import { programs } from '../../scripts/registry.mjs'
 import { startServer } from '../../scripts/serve.mjs'
 import { differences, PARTS } from './differences.mjs'
 import { CHROMIUM, ENGINES } from './engines.mjs'
@@ -43,11 +42,6 @@ function expectSame(expected, found) {
   if (told.length > 0) throw new StepError(told.join('\n'))
 }
 
-function everyFigureHasAState() {
-  const [registered, compared] = [[...programs.keys()], Object.keys(STATES)].map(tags => tags.sort().join(', '))
-  if (registered !== compared) throw new StepError(`The registry has ${registered}.\nCompared are ${compared}.`, 'A new figure gets its row in tests/engines/states.mjs.')
-}
-
 /** What a reader does, after each of which another number is shown. @type {((browser: Browser) => Promise<void>)[]} */
 const HANDS = [
   async browser => browser.dragToEnd(await browser.run(find, HANDLED.slider)),
@@ -63,7 +57,6 @@ async function compare(chromium, other) {
   /** @param {(browser: Browser) => Promise<Seen>} action */
   const inBoth = action => Promise.all([action(chromium), action(other)])
 
-  await test('every figure of the registry is compared', everyFigureHasAState)
   for (const [tag, { attributes, changed }] of Object.entries(STATES)) {
     /** The light one in Chromium. @type {Seen | undefined} */
     let expected

@@ -1,4 +1,5 @@
 // The state in which each figure is compared, and another that must be told apart from it.
+import { programs } from '../../scripts/registry.mjs'
 
 /**
  * @typedef {Record<string, string>} Attributes
@@ -10,8 +11,8 @@
 /** The figure of logs, which maps its example: it has nothing to show before it has a log. */
 export const LOG = 'fastslam-log'
 
-/** Of every figure, by tag. @type {Record<string, State>} */
-export const STATES = {
+/** Of those that have more to compare than what they open with. @type {Record<string, State>} */
+const SPECIAL = {
   'fastslam-lap': { attributes: { step: '60' }, changed: { seed: '5' } },
   'fastslam-conditioning': { attributes: { step: '4' }, changed: { odometry: '2' } },
   'fastslam-proposal': { attributes: { landmarks: 'pair' }, changed: { seed: '5' } },
@@ -23,8 +24,10 @@ export const STATES = {
   'fastslam-smoothing': { attributes: { step: '3' }, changed: { seed: '5' } },
   'fastslam-em': { attributes: { step: '40' }, changed: { seed: '5' } },
   'fastslam-doors': { attributes: { step: '46' }, changed: { seed: '5' } },
-  [LOG]: { attributes: {}, changed: { seed: '5' } },
 }
+
+/** Of every figure, by tag. */
+export const STATES = Object.fromEntries([...programs.keys()].map(tag => [tag, SPECIAL[tag] ?? { attributes: {}, changed: { seed: '5' } }]))
 
 /** The figure that a pointer and keys are tried on. */
 export const HANDLED = { tag: 'fastslam-lap', attributes: { step: '20' }, slider: 'input[type=range][name=odometry]' }

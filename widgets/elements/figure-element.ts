@@ -16,6 +16,39 @@ import { takeToPaper } from './paper'
 /** What hosts say that put a copy of the page aside, of which Back makes the page again: of a figure it has the attributes only. */
 const CACHES = ['turbo:before-cache', 'htmx:beforeHistorySave']
 
+/**
+ * What a page may style of every figure, and what it is:
+ *
+ * @csspart figure - All of it.
+ * @csspart title - Its title.
+ * @csspart chips - The row of challenges.
+ * @csspart chip - A challenge.
+ * @csspart verdict - What a challenge asks, and how near that is.
+ * @csspart stage - What the picture stands in.
+ * @csspart canvas - The picture.
+ * @csspart transport - The row that plays it.
+ * @csspart button - Every button.
+ * @csspart primary - The button that matters most.
+ * @csspart play - Plays, or pauses.
+ * @csspart rewind - Goes to the first step.
+ * @csspart step-back - Goes one step back.
+ * @csspart step - Goes one step on.
+ * @csspart reset - Goes back to what the author set.
+ * @csspart undo - Takes back what threw something away.
+ * @csspart watch - Plays an end that was not watched.
+ * @csspart scrub - The slider of steps.
+ * @csspart controls - The controls that matter.
+ * @csspart control - A control with its name.
+ * @csspart notices - What there is to tell.
+ * @csspart notice - One thing of it; there only then.
+ * @csspart sentence - What happens now, in a line.
+ * @csspart lab - Opens all that can be set, and closes it.
+ * @csspart numbers - The fold of numbers.
+ * @csspart readouts - The numbers.
+ * @csspart readout - A number with its name.
+ * @csspart settings - The fold of other controls.
+ * @csspart menu - The menu’s button.
+ */
 export class FigureElement extends HostedFigure {
   #targetBefore = 0 // the step asked for, while there is no host
   #disconnected = new AbortController()
