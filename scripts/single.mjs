@@ -2,10 +2,10 @@
 import { readFileSync } from 'node:fs'
 import { dirname, join } from 'node:path'
 import { gzipSync } from 'node:zlib'
+import { figures } from './elements.mjs'
 import { root, StepError, targets } from './lib.mjs'
 import { chapterPrograms, programFile, programs as programOf } from './registry.mjs'
 
-const nameOf = (/** @type {string} */ tag) => tag.replace('fastslam-', '')
 const elements = join(root, 'widgets', 'elements')
 export const notebook = join(elements, 'notebook.ts')
 
@@ -48,8 +48,10 @@ export async function singleFile(entry, names = chapterPrograms) {
   const example = names.includes('log') ? readFileSync(join(root, 'www', 'public', 'example.clf.gz')).toString('base64') : ''
   const words = Object.fromEntries(languages.map(language => [language, JSON.parse(readFileSync(join(root, 'widgets', 'words', `${language}.json`), 'utf8'))]))
   const carried = `export const example = ${JSON.stringify(example)}; export const programs = ${JSON.stringify(programs)}; export const worker = ${JSON.stringify(worker)}; export const words = ${JSON.stringify(words)}`
-  /** Elements that would find no program in it. */
-  const without = [...programOf].filter(([tag, program]) => !names.includes(program) && !names.includes(nameOf(tag))).map(([tag]) => join(elements, tag))
+  const present = figures().filter(({ tag, name }) => names.includes(programOf.get(tag) ?? '') || names.includes(name))
+  /** Code of elements that would find no program in it. */
+  const without = [...programOf.keys()].filter(tag => !present.some(figure => figure.tag === tag)).map(tag => join(elements, tag))
+  if (!present.some(({ counted }) => counted)) without.push(join(elements, 'counted-figure'))
   return bundle(entry, 'es', [
     {
       name: 'fastslam-files',

@@ -34,7 +34,7 @@ const policyInHead = {
 const anyFigure = {
   name: 'any-figure',
   enforce: 'pre',
-  transform: (code, id) => (id.endsWith('.css') ? code.replaceAll('fastslam-figure', `:is(${[...programs.keys()].join()})`) : undefined),
+  transform: (code, id) => (/\.css(\?|$)/.test(id) ? code.replaceAll('fastslam-figure', `:is(${[...programs.keys()].join()})`) : undefined),
 }
 
 /** fastslam.js becomes what loads it, as it is kept in a file with a hash (loader.js). @type {import('vite').Plugin} */
