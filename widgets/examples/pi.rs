@@ -72,9 +72,8 @@ impl View for DartsView {
     fn draw(&self, model: &Darts, area: &Rect, scene: &mut Scene) {
         let plane = Plane::around(*area, [[-1.0; 2], [1.0; 2]], 8.0);
         let landed = model.landed().into_iter().map(|dart| plane.point(dart));
-        scene.marks.push(cloud(landed, area, 1.5, Role::Prior));
-        let lines = plane.region([0.0; 2], [[1.0, 0.0], [0.0, 1.0]], 1.0);
-        scene.marks.push(Mark::Lines { lines, width: 2.0, dash: None, role: Role::Ink });
+        scene.cloud(landed, area, 1.5, Role::Prior);
+        scene.lines(plane.region([0.0; 2], [[1.0, 0.0], [0.0, 1.0]], 1.0), 2.0, Role::Ink);
     }
 }
 

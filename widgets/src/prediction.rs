@@ -6,7 +6,7 @@
 
 mod level;
 
-pub use level::{GUESS, Level, level};
+pub use level::{AROUND, GUESS, Level, level};
 
 use crate::{
     decimal::fixed,

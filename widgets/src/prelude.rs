@@ -7,8 +7,6 @@ pub use crate::{
     model::{Declared, FigureError, Model, Readout, Series, Stateless},
     panels::Panels,
     recipe::{Menu, Param, Recipe},
-    scene::{
-        Anchor, Chart, Handle, Mark, Plane, Point, Rect, Role, Sample, Scene, Stack, cloud, heading, legend, text,
-    },
+    scene::{Anchor, Chart, Handle, Letters, Plane, Point, Rect, Role, Sample, Scene, Stack, legend, plain, strong},
     view::{Layout, View},
 };

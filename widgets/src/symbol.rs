@@ -73,7 +73,7 @@ mod tests {
     use super::*;
     use crate::{
         font::Weight,
-        scene::{Anchor, Formula, n_eff, text},
+        scene::{Formula, plain},
     };
 
     /// Left edges of the frames, in px beside the left edge of the picture.
@@ -81,15 +81,8 @@ mod tests {
         let mut scene = Scene::new(400.0, 100.0, String::new());
         Formula::new(13.0, Weight::Regular, Role::Ink).tex("S = H_m Σ H_m^T + Q, 2πS").draw(&mut scene, [0.0, 20.0]);
         Formula::new(13.0, Weight::Regular, Role::Ink).tex("w\u{303} = w").draw(&mut scene, [200.0, 20.0]);
-        n_eff(&mut scene, &Rect::new(0.0, 40.0, 200.0, 20.0), 12.0, Weight::Regular, Role::Ink);
-        scene.marks.push(text(
-            Rect::new(0.0, 70.0, 200.0, 20.0),
-            Anchor::Start,
-            12.0,
-            Weight::Regular,
-            Role::Ink,
-            "Six Sigma of N, M",
-        ));
+        scene.n_eff(&Rect::new(0.0, 40.0, 200.0, 20.0), plain(12.0, Role::Ink));
+        scene.text(Rect::new(0.0, 70.0, 200.0, 20.0), plain(12.0, Role::Ink), "Six Sigma of N, M");
         let before = scene.marks.len();
         light(&mut scene, symbol);
         let left = |mark: &Mark| if let Mark::Frame { area, .. } = mark { area.x.round() } else { panic!("{mark:?}") };

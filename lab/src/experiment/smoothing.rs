@@ -20,6 +20,7 @@ use fastslam::map::landmarks::Correspondence;
 use fastslam::matching::Likelihood;
 use fastslam::motion::{Floored, VelocityModel};
 use fastslam::nalgebra::Matrix3;
+use fastslam::order::sorted;
 use fastslam::proposal::{FromMeasurement, Marginal};
 use fastslam::random::{Purpose, Stream};
 use fastslam::rbpf::Rbpf;
@@ -344,8 +345,7 @@ impl Record {
         };
         let branches = lines(&alive, &mut branch);
         // From the youngest on, so that lines are long.
-        let mut ends = ends.to_vec();
-        ends.sort_by_key(|path| core::cmp::Reverse(path.step()));
+        let ends = sorted(ends.to_vec(), |a, b| b.step().cmp(&a.step()));
         let dead = lines(&ends, &mut branch);
         let paths: Vec<Vec<Pose2>> = alive.iter().map(Path::poses).collect();
         let weights = filter.weights().as_slice();

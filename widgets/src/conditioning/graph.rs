@@ -58,15 +58,13 @@ impl<'a> Graph<'a> {
         let (model, now) = (self.model, self.model.step() as usize);
         let seen = &model.covariances().seen;
         let sightings = (1..=now).flat_map(|t| model.drive().sightings(t).into_iter().map(move |j| (t, j)));
-        let lines = sightings.flat_map(|(t, j)| dashes(self.pose(t), self.landmark(j))).collect();
-        scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role: Role::Muted });
+        scene.lines(sightings.flat_map(|(t, j)| dashes(self.pose(t), self.landmark(j))).collect(), 1.0, Role::Muted);
         self.arcs(scene);
 
         let last = model.drive().path().len() - 1;
         let line = |from, to| (from..=to).map(|t| self.pose(t)).collect::<Vec<_>>();
-        let ahead = Mark::Lines { lines: vec![line(now, last)], width: 1.0, dash: Some([1.0, 4.0]), role: Role::Muted };
-        let driven = Mark::Lines { lines: vec![line(0, now)], width: 2.0, dash: None, role: Role::Path };
-        scene.marks.extend([ahead, driven]);
+        scene.dash(&line(now, last), 1.0, [1.0, 4.0], Role::Muted);
+        scene.line(&line(0, now), 2.0, Role::Path);
 
         // What is written stands on paper: arcs run everywhere.
         let mut names: Vec<Text> = (0..model.drive().landmarks().len()).map(|j| self.landmark_name(j)).collect();
@@ -74,7 +72,7 @@ impl<'a> Graph<'a> {
         for name in &names {
             let [x, y] = name.area.centre();
             let (w, h) = (name.width() + 2.0, name.size);
-            scene.marks.push(Mark::Fill { area: Rect::new(x - 0.5 * w, y - 0.5 * h, w, h), role: Role::Paper });
+            scene.fill(Rect::new(x - 0.5 * w, y - 0.5 * h, w, h), Role::Paper);
         }
 
         let open = match model.given() {
@@ -88,14 +86,13 @@ impl<'a> Graph<'a> {
                 let pose = &model.drive().path()[k + 1];
                 self.plane.region([pose.x, pose.y], [[p.m11, p.m12], [p.m12, p.m22]], NINE_TENTHS)
             });
-            let lines = lines.collect();
-            scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some([4.0, 3.0]), role: Role::Path });
+            scene.dashed(lines.collect(), 1.0, [4.0, 3.0], Role::Path);
         }
         let regions = seen.iter().enumerate().flat_map(|(k, &j)| {
             let block = model.map().block(k, k);
             self.plane.region(model.drive().landmarks()[j], block.into(), NINE_TENTHS)
         });
-        scene.marks.push(Mark::Lines { lines: regions.collect(), width: 1.5, dash: None, role: Role::Landmark });
+        scene.lines(regions.collect(), 1.5, Role::Landmark);
         self.nodes(scene, now, last);
         scene.marks.extend(names.into_iter().map(Mark::Text));
     }
@@ -103,8 +100,7 @@ impl<'a> Graph<'a> {
     fn nodes(&self, scene: &mut Scene, now: usize, last: usize) {
         let (model, radius) = (self.model, self.node());
         let mut discs = |poses: core::ops::RangeInclusive<usize>, radius: f64, role: Role| {
-            let centres = poses.map(|t| self.pose(t)).collect();
-            scene.marks.push(Mark::Discs { centres, radius, role });
+            scene.discs(poses.map(|t| self.pose(t)).collect(), radius, role);
         };
         discs(now + 1..=last, 2.0, Role::Muted);
         discs(0..=now, radius, Role::Path);
@@ -115,11 +111,10 @@ impl<'a> Graph<'a> {
         let diamonds = (0..model.drive().landmarks().len()).map(|j| (j, diamond(self.landmark(j), side(j))));
         let (seen, unseen): (Vec<_>, Vec<_>) = diamonds.partition(|(j, _)| model.place(*j).is_some());
         let corners = |diamonds: Vec<(usize, Vec<Point>)>| diamonds.into_iter().map(|(_, corners)| corners);
-        scene.marks.push(Mark::Polygons { polygons: corners(seen).collect(), role: Role::Landmark });
-        let lines = corners(unseen).map(closed).collect();
-        scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role: Role::Muted });
+        scene.polygons(corners(seen).collect(), Role::Landmark);
+        scene.lines(corners(unseen).map(closed).collect(), 1.0, Role::Muted);
         let rings = chosen(model).map(|j| closed(diamond(self.landmark(j), radius + 3.5)));
-        scene.marks.push(Mark::Lines { lines: rings.collect(), width: 2.0, dash: None, role: Role::Accent });
+        scene.lines(rings.collect(), 2.0, Role::Accent);
     }
 
     /// An arc between any two landmarks seen: as wide and as strong as |ρ|, and none where that is 0.
@@ -140,12 +135,12 @@ impl<'a> Graph<'a> {
         // The weakest first: what is strong is seen.
         for (level, lines) in levels.into_iter().enumerate().skip(1).filter(|(_, lines)| !lines.is_empty()) {
             let (width, role) = strength(level, self.full());
-            scene.marks.push(Mark::Lines { lines, width, dash: None, role });
+            scene.lines(lines, width, role);
         }
         if let Some((level, arc)) = accent {
             let width = strength(level, self.full()).0.max(1.0);
-            let rim = Mark::Lines { lines: vec![arc.clone()], width: width + 3.0, dash: None, role: Role::Paper };
-            scene.marks.extend([rim, Mark::Lines { lines: vec![arc], width, dash: None, role: Role::Accent }]);
+            scene.line(&arc, width + 3.0, Role::Paper);
+            scene.line(&arc, width, Role::Accent);
         }
     }
 

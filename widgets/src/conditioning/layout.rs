@@ -2,8 +2,7 @@
 
 use crate::{
     panels::Panels,
-    scene::{LINE, Rect, Stack},
-    view,
+    scene::{LINE, Parts, Rect, Stack, parts},
 };
 use fastslam_lab::experiment::conditioning::SIZE;
 
@@ -35,31 +34,32 @@ const BUTTON_GAP: f64 = 8.0;
 const ALONE: f64 = 380.0;
 const BELOW: f64 = 205.0;
 
-/// The parts of the figure \[css px\].
-#[derive(Clone, PartialEq, Debug)]
-pub struct Layout {
-    /// Which panels are shown.
-    pub panels: Panels,
-    /// What is known of the path.
-    pub graph_header: Rect,
-    /// Poses, landmarks and what connects them.
-    pub graph: Rect,
-    /// What is drawn in it.
-    pub legend: Rect,
-    /// What can be done to get from one to the other; nothing, where only one is shown.
-    pub buttons: [Rect; 3],
-    /// What the matrix is.
-    pub matrix_header: Rect,
-    /// Names of its columns.
-    pub columns: Rect,
-    /// Names of its rows.
-    pub rows: Rect,
-    /// The covariance, a square.
-    pub matrix: Rect,
-    /// The entry chosen, and what is counted.
-    pub notes: Rect,
-    /// Of the whole figure.
-    pub height: f64,
+parts! {
+    /// The parts of the figure \[css px\].
+    pub struct Layout {
+        /// Which panels are shown.
+        pub panels: Panels,
+        /// What is known of the path.
+        pub graph_header: Rect,
+        /// Poses, landmarks and what connects them.
+        pub graph: Rect,
+        /// What is drawn in it.
+        pub legend: Rect,
+        /// What can be done to get from one to the other; nothing, where only one is shown.
+        pub buttons: [Rect; 3],
+        /// What the matrix is.
+        pub matrix_header: Rect,
+        /// Names of its columns.
+        pub columns: Rect,
+        /// Names of its rows.
+        pub rows: Rect,
+        /// The covariance, a square.
+        pub matrix: Rect,
+        /// The entry chosen, and what is counted.
+        pub notes: Rect,
+        /// Of the whole figure.
+        pub height: f64,
+    }
 }
 
 impl Layout {
@@ -128,36 +128,19 @@ impl Layout {
             notes,
             height: 0.0,
         };
-        let shown = layout.parts().into_iter().filter(|part| part.h > 0.0);
-        layout.height = shown.map(|part| part.bottom()).fold(0.0, f64::max).ceil();
+        layout.height = layout.lowest().ceil();
         layout
-    }
-
-    /// All parts.
-    pub fn parts(&self) -> [Rect; 11] {
-        let Self { graph_header, graph, legend, buttons, matrix_header, columns, rows, matrix, notes, .. } = self;
-        let [first, second, third] = *buttons;
-        [*graph_header, *graph, *legend, first, second, third, *matrix_header, *columns, *rows, *matrix, *notes]
-    }
-}
-
-impl view::Layout for Layout {
-    fn height(&self) -> f64 {
-        self.height
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::assert_apart;
+    use crate::scene::assert_laid_out;
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        for width in (300..2000).step_by(7).map(f64::from) {
-            let layout = Layout::new(width);
-            assert_apart(&layout.parts(), &Rect::new(0.0, 0.0, width, layout.height));
-        }
+        assert_laid_out(Layout::of, &[GRAPH, MATRIX], NARROWEST, &[("all", 11), ("graph", 3), ("matrix", 5)], 1.0);
     }
 
     #[test]
@@ -169,18 +152,10 @@ mod tests {
         }
     }
     #[test]
-    fn panels_shown_alone_leave_no_place_for_the_other_and_fit_on_a_screen() {
-        for (names, shown) in [("graph", 3), ("matrix", 5), ("matrix graph", 11)] {
-            let panels = Panels::named(names, &[GRAPH, MATRIX]).unwrap();
-            for width in (300..2000).step_by(7).map(f64::from) {
-                let layout = Layout::of(width, &panels);
-                let parts: Vec<Rect> = layout.parts().into_iter().filter(|part| part.h > 0.0).collect();
-                assert_eq!(parts.len(), shown, "{names} at {width}");
-                assert_apart(&parts, &Rect::new(0.0, 0.0, width, layout.height));
-                let last = parts.iter().map(Rect::bottom).fold(0.0, f64::max);
-                assert!(layout.height - last < 1.0, "{names} at {width}: nothing is left below");
-                assert!(names != "matrix" || layout.height < 600.0, "{width}");
-            }
+    fn the_matrix_alone_fits_on_a_screen() {
+        let matrix = Panels::of(&[MATRIX]);
+        for width in (300..2000).step_by(7).map(f64::from) {
+            assert!(Layout::of(width, &matrix).height < 600.0, "{width}");
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::{layout::Layout, model::ConditioningModel, view::ENTRY};
 use crate::{
     font::{self, Weight},
-    scene::{Anchor, Cells, Handle, Mark, Rect, Role, Scene, Shading, heading_if_fits, text},
+    scene::{Cells, Handle, Letters, Rect, Role, Scene, Shading, plain},
     words::conditioning,
 };
 
@@ -21,13 +21,12 @@ pub fn matrix(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
         _ => 0,
     };
     let shades = (0..2 * n).flat_map(|row| (0..2 * n).map(move |column| (row, column))).map(|(r, c)| shade(r, c));
-    let cells = Cells { columns: 2 * n, shades: shades.collect() };
-    scene.marks.push(Mark::Raster { area, cells, shading: Shading::Correlation });
+    scene.raster(area, Cells { columns: 2 * n, shades: shades.collect() }, Shading::Correlation);
 
     let block = area.w / n as f64;
     for along in (1..n).map(|k| k as f64 * block) {
         for area in [Rect::new(area.x, area.y + along, area.w, 1.0), Rect::new(area.x + along, area.y, 1.0, area.h)] {
-            scene.marks.push(Mark::Fill { area, role: Role::Frame });
+            scene.fill(area, Role::Frame);
         }
     }
     // A landmark without a row and a column yet: struck through.
@@ -37,8 +36,8 @@ pub fn matrix(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
         struck.push(vec![[area.x + inset, area.y + at], [area.right() - inset, area.y + at]]);
         struck.push(vec![[area.x + at, area.y + inset], [area.x + at, area.bottom() - inset]]);
     }
-    scene.marks.push(Mark::Lines { lines: struck, width: 1.0, dash: Some([1.0, 3.0]), role: Role::Muted });
-    scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Muted });
+    scene.dashed(struck, 1.0, [1.0, 3.0], Role::Muted);
+    scene.frame(area, 1.0, Role::Muted);
     names(scene, model, layout, block);
     cursor(scene, model, &area, 0.5 * block);
 }
@@ -48,13 +47,12 @@ fn scale(scene: &mut Scene, header: &Rect) {
     let Rect { x, y, w, h } = *header;
     let bar = Rect::new(x + w - 72.0, y + 0.5 * (h - 11.0), 56.0, 11.0);
     let cells = Cells { columns: 14, shades: (0..14).map(|k| (k * 255 / 13) as u8).collect() };
-    scene.marks.push(Mark::Raster { area: bar, cells, shading: Shading::Correlation });
-    scene.marks.push(Mark::Frame { area: bar, width: 1.0, role: Role::Muted });
+    scene.raster(bar, cells, Shading::Correlation);
+    scene.frame(bar, 1.0, Role::Muted);
     for (end, label) in [(bar.x - 14.0, "0"), (bar.right() + 4.0, "1")] {
-        let area = Rect::new(end, y, 10.0, h);
-        scene.marks.push(text(area, Anchor::Middle, 11.5, Weight::Regular, Role::Muted, label));
+        scene.text(Rect::new(end, y, 10.0, h), plain(11.5, Role::Muted).middle(), label);
     }
-    heading_if_fits(scene, &Rect::new(x, y, w - 94.0, h), (conditioning::covariance(), Role::Ink), "|ρ|");
+    scene.heading_fit(&Rect::new(x, y, w - 94.0, h), (conditioning::covariance(), Role::Ink), &["|ρ|"]);
 }
 
 /// Names of the landmarks along the matrix: as many as fit, and always those of the entry.
@@ -79,7 +77,7 @@ fn names(scene: &mut Scene, model: &ConditioningModel, layout: &Layout, block: f
             };
             let (weight, role) =
                 if j == chosen { (Weight::SemiBold, Role::Accent) } else { (Weight::Regular, Role::Muted) };
-            scene.marks.push(text(area, Anchor::Middle, size, weight, role, format!("m{}", j + 1)));
+            scene.text(area, Letters { weight, ..plain(size, role) }.middle(), &format!("m{}", j + 1));
         }
     }
 }
@@ -88,8 +86,8 @@ fn names(scene: &mut Scene, model: &ConditioningModel, layout: &Layout, block: f
 fn cursor(scene: &mut Scene, model: &ConditioningModel, area: &Rect, cell: f64) {
     let [row, column] = model.entry();
     let at = Rect::new(area.x + column as f64 * cell, area.y + row as f64 * cell, cell, cell);
-    scene.marks.push(Mark::Frame { area: at.inset(-3.5), width: 3.5, role: Role::Paper });
-    scene.marks.push(Mark::Frame { area: at.inset(-3.0), width: 2.0, role: Role::Accent });
+    scene.frame(at.inset(-3.5), 3.5, Role::Paper);
+    scene.frame(at.inset(-3.0), 2.0, Role::Accent);
     scene.handles.push(Handle {
         name: ENTRY,
         title: conditioning::entry_handle().into(),

@@ -8,12 +8,8 @@ use super::{
     recipe::Given,
 };
 use crate::{
-    font::Weight,
     panels::Panels,
-    scene::{
-        Anchor, LINE, Mark, Point, Rect, Role, Room, Sample, Scene, closed, diamond, ellipse, fitting, heading_if_fits,
-        legend,
-    },
+    scene::{LINE, Letters, Point, Rect, Role, Room, Sample, Scene, closed, ellipse, legend, plain, strong},
     view::{View, whole_step},
     words::conditioning,
 };
@@ -79,36 +75,34 @@ fn graph(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
         Given::Path if model.is_sure() => (conditioning::path_sure_header(), conditioning::no_error(), Role::Accent),
         Given::Path => (conditioning::given_path(), conditioning::stands_alone(), Role::Accent),
     };
-    heading_if_fits(scene, &layout.graph_header, (title, role), rest);
+    scene.heading_fit(&layout.graph_header, (title, role), &[rest]);
     Graph::new(model, &layout.graph).draw(scene);
     names(scene, model, layout);
 }
 
 fn names(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
     let known = model.given() == Given::Path;
-    let pose = move |place: &Rect| {
-        let disc = |(radius, role)| Mark::Discs { centres: vec![place.centre()], radius, role };
-        let node = [(5.5, Role::Path), (3.5, Role::Paper)];
-        node.into_iter().take(if known { 1 } else { 2 }).map(disc).collect()
+    let pose = |scene: &mut Scene, at: Point| {
+        scene.disc(at, 5.5, Role::Path);
+        if !known {
+            scene.disc(at, 3.5, Role::Paper);
+        }
     };
-    let landmark = |at| Mark::Polygons { polygons: vec![diamond(at, 5.5)], role: Role::Landmark };
-    let region = |at| {
-        let lines = vec![closed(ellipse(at, [[16.0, 0.0], [0.0, 6.0]], 2.0))];
-        Mark::Lines { lines, width: 1.5, dash: None, role: Role::Landmark }
+    let region = |scene: &mut Scene, at: Point| {
+        scene.line(&closed(ellipse(at, [[16.0, 0.0], [0.0, 6.0]], 2.0)), 1.5, Role::Landmark);
     };
     let full = full_width(model, &layout.graph);
-    let arcs = move |place: &Rect| {
+    let arcs = |scene: &mut Scene, place: &Rect| {
         let (x, y) = (place.x, place.centre()[1]);
-        let arc = |(x, share): (f64, f64)| {
+        for (x, share) in [(x, 0.25), (x + 16.0, 0.5), (x + 32.0, 1.0)] {
             let (width, role) = strength((share * LEVELS as f64) as usize, full);
-            Mark::Lines { lines: vec![vec![[x + 1.0, y], [x + 13.0, y]]], width, dash: None, role }
-        };
-        [(x, 0.25), (x + 16.0, 0.5), (x + 32.0, 1.0)].map(arc).into()
+            scene.line(&[[x + 1.0, y], [x + 13.0, y]], width, role);
+        }
     };
     let items = [
-        (Sample::new(pose), if known { conditioning::pose_known() } else { conditioning::pose_unknown() }),
+        (Sample::at(pose), if known { conditioning::pose_known() } else { conditioning::pose_unknown() }),
         (Sample::line(Role::Path, 2.0, None), conditioning::odometry()),
-        (Sample::at(landmark), conditioning::landmark()),
+        (Sample::at(|scene, at| scene.filled_diamond(at, 5.5, Role::Landmark)), conditioning::landmark()),
         (Sample::line(Role::Muted, 1.0, Some(SIGHTING)), conditioning::sighting()),
         (Sample::at(region), conditioning::region()),
         (Sample::new(arcs).wide(48.0), "|ρ| = ¼, ½, 1"),
@@ -133,19 +127,15 @@ fn notes(scene: &mut Scene, model: &ConditioningModel, area: &Rect) {
     let touched = conditioning::Touched { size: &size, entries: &model.ekf_entries() }.say();
     let touched_short = conditioning::TouchedShort { entries: &model.ekf_entries() }.say();
     let entry = model.entry_text();
-    let lines = [
-        ([&*entry, &entry, &entry], Weight::SemiBold, Role::Accent),
-        ([&*together, &together, &together], Weight::Regular, Role::Muted),
-        ([&*off_block, &off_block_short, &off_block_tiny], Weight::SemiBold, Role::Ink),
-        (
-            [conditioning::touches(), conditioning::touches_short(), conditioning::touches_short()],
-            Weight::Regular,
-            Role::Muted,
-        ),
-        ([&*touched, &touched_short, &touched_short], Weight::SemiBold, Role::Ink),
+    let (said, told) = (strong(12.0, Role::Ink), plain(12.0, Role::Muted));
+    let lines: [(&[&str], Letters); 5] = [
+        (&[&entry], Letters { role: Role::Accent, ..said }),
+        (&[&together], told),
+        (&[&off_block, &off_block_short, &off_block_tiny], said),
+        (&[conditioning::touches(), conditioning::touches_short()], told),
+        (&[&touched, &touched_short], said),
     ];
-    for (k, (lines, weight, role)) in lines.into_iter().enumerate() {
-        let place = Rect::new(area.x, area.y + k as f64 * LINE, area.w, LINE);
-        scene.marks.push(fitting(place, Anchor::Start, 12.0, weight, role, &lines));
+    for (k, (texts, letters)) in lines.into_iter().enumerate() {
+        scene.fit(Rect::new(area.x, area.y + k as f64 * LINE, area.w, LINE), letters, texts);
     }
 }

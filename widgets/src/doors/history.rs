@@ -8,14 +8,14 @@ use super::{
 };
 use crate::{
     decimal::fixed,
-    font::{self, Weight},
     model::Model,
-    scene::{Anchor, Cells, GHOST, Mark, Point, Rect, Role, Sample, Scene, Shading, legend, rimmed, text},
+    scene::{Cells, GHOST, Letters, Point, Rect, Role, Sample, Scene, Shading, legend, plain, strong},
     words::{common, doors as words},
 };
 use fastslam_lab::experiment::doors::{DoorsReport, FARTHEST, HELD};
 
 const SIZE: f64 = 11.5;
+const NAME: Letters = plain(SIZE, Role::Muted);
 
 /// The history as it is drawn.
 pub struct History<'a> {
@@ -64,15 +64,11 @@ impl History<'_> {
     fn header(&self, scene: &mut Scene) {
         let area = self.layout.history_header;
         let title = words::history();
-        scene.marks.push(text(Rect { h: 18.0, ..area }, Anchor::Start, SIZE, Weight::SemiBold, Role::Ink, title));
-        let used = font::measure(title, SIZE, Weight::SemiBold) + 16.0;
-        let dark = Sample::new(|place| {
-            let cells = Cells { columns: 6, shades: vec![20, 60, 105, 150, 205, 255] };
-            vec![Mark::Raster {
-                area: Rect { h: 10.0, y: place.y + 1.0, ..*place },
-                cells,
-                shading: Shading::Correlation,
-            }]
+        scene.text(Rect { h: 18.0, ..area }, strong(SIZE, Role::Ink), title);
+        let used = strong(SIZE, Role::Ink).width(title) + 16.0;
+        let dark = Sample::new(|scene, place| {
+            let area = Rect { h: 10.0, y: place.y + 1.0, ..*place };
+            scene.raster(area, Cells::row(&[20, 60, 105, 150, 205, 255]), Shading::Correlation);
         });
         let wide = self.layout.wide;
         let mut items = vec![
@@ -104,12 +100,11 @@ impl History<'_> {
                 shades[row * columns + column] = shade as u8;
             }
         }
-        let cells = Cells { columns, shades };
-        scene.marks.push(Mark::Raster { area: self.layout.history, cells, shading: Shading::Correlation });
+        scene.raster(self.layout.history, Cells { columns, shades }, Shading::Correlation);
         let Rect { x, y, w, h } = self.layout.history;
         let between = (1..rows).map(|row| y + h * row as f64 / rows as f64).map(|y| vec![[x, y], [x + w, y]]);
-        scene.marks.push(Mark::Lines { lines: between.collect(), width: 1.5, dash: None, role: Role::Paper });
-        scene.marks.push(Mark::Frame { area: self.layout.history, width: 1.0, role: Role::Frame });
+        scene.lines(between.collect(), 1.5, Role::Paper);
+        scene.frame(self.layout.history, 1.0, Role::Frame);
     }
 
     /// What each row is called, and the one of the truth between two lines.
@@ -118,12 +113,10 @@ impl History<'_> {
         let row = h / f64::from(2 * MOST_OFF + 1);
         for off in (-MOST_OFF..=MOST_OFF).filter(|off| off % 2 == 0) {
             let area = Rect::new(self.layout.names.x, self.y(f64::from(off)) - 8.0, self.layout.names.w - 5.0, 16.0);
-            let (weight, role) =
-                if off == 0 { (Weight::SemiBold, Role::Truth) } else { (Weight::Regular, Role::Muted) };
-            scene.marks.push(text(area, Anchor::End, SIZE, weight, role, told::off(off)));
+            scene.text(area, if off == 0 { strong(SIZE, Role::Truth) } else { NAME }.end(), &told::off(off));
         }
-        let lines = [-0.5, 0.5].map(|side| self.y(0.0) + side * row).map(|y| vec![[x, y], [x + w, y]]);
-        scene.marks.push(Mark::Lines { lines: lines.into(), width: 1.5, dash: None, role: Role::Truth });
+        let edges = [-0.5, 0.5].map(|k| self.y(0.0) + k * row).map(|y| vec![[x, y], [x + w, y]]);
+        scene.lines(edges.into(), 1.5, Role::Truth);
     }
 
     /// The explanation of EKF-SLAM, a line that never lets go; and that of the run that is pinned.
@@ -132,15 +125,15 @@ impl History<'_> {
         let pinned = (ride..=self.model.step_count()).zip(self.model.pinned());
         let pinned: Vec<Point> = pinned.map(|(step, off)| [self.x(step), self.y(*off)]).collect();
         if pinned.len() > 1 {
-            scene.marks.push(Mark::Lines { lines: vec![pinned], width: 3.0, dash: None, role: GHOST });
+            scene.line(&pinned, 3.0, GHOST);
         }
         let setup = self.model.setup();
         let at =
             |report: &DoorsReport| [self.x(report.step), self.y(f64::from(setup.off(report.ekf_place, report.truth)))];
         let line: Vec<Point> = self.reports().map(at).collect();
         if let Some(end) = line.last().copied() {
-            rimmed(scene, vec![line], 3.0, None, EKF);
-            scene.marks.push(Mark::Discs { centres: vec![end], radius: 4.0, role: EKF });
+            scene.rimmed(vec![line], 3.0, None, EKF);
+            scene.disc(end, 4.0, EKF);
         }
     }
 
@@ -154,14 +147,12 @@ impl History<'_> {
                 continue; // it never came in sight
             }
             let x = self.x(step);
-            let dash = Some([1.0, 3.0]);
-            let lines = vec![vec![[x, history.y], [x, axis.y + 4.0]]];
-            scene.marks.push(Mark::Lines { lines, width: 1.0, dash, role: Role::Muted });
-            let w = font::measure(name, SIZE, Weight::Regular) + 0.01;
+            scene.dash(&[[x, history.y], [x, axis.y + 4.0]], 1.0, [1.0, 3.0], Role::Muted);
+            let w = NAME.width(name) + 0.01;
             let left = (x - 0.5 * w).max(free).min(axis.right() - w);
             if left >= free {
                 let area = Rect::new(left, axis.y + 2.0, w, 16.0);
-                scene.marks.push(text(area, Anchor::Start, SIZE, Weight::Regular, Role::Muted, name));
+                scene.text(area, NAME, name);
                 free = area.right() + 10.0;
             }
         }
@@ -180,10 +171,9 @@ impl History<'_> {
             let y = self.y(f64::from(off));
             let w = ((area.w - numbers - 4.0) * share.min(1.0)).max(1.5);
             let role = if off == 0 { Role::Truth } else { Role::Path };
-            scene.marks.push(Mark::Fill { area: Rect::new(area.x, y - 0.5 * row + 1.5, w, row - 3.0), role });
+            scene.fill(Rect::new(area.x, y - 0.5 * row + 1.5, w, row - 3.0), role);
             let number = Rect::new(area.x + w + 4.0, y - 8.0, numbers, 16.0);
-            let percent = format!("{} %", fixed(100.0 * share, 0));
-            scene.marks.push(text(number, Anchor::Start, 11.0, Weight::Regular, Role::Ink, percent));
+            scene.text(number, plain(11.0, Role::Ink), &format!("{} %", fixed(100.0 * share, 0)));
         }
     }
 }

@@ -2,8 +2,7 @@
 
 use crate::{
     panels::Panels,
-    scene::{LINE, Rect, Stack},
-    view,
+    scene::{LINE, Rect, Stack, parts},
 };
 
 /// Names of the panels: the corridor with both beliefs, and how they went on since the ride.
@@ -31,35 +30,36 @@ const SHARES: [f64; 2] = [78.0, 132.0];
 /// The most doors that an explanation of the history is off, on either side.
 pub const MOST_OFF: i32 = 5;
 
-/// The parts of the figure \[css px\].
-#[derive(Clone, PartialEq, Debug)]
-pub struct Layout {
-    /// Which panels are shown.
-    pub panels: Panels,
-    /// Whether there is room for long names.
-    pub wide: bool,
-    /// What the particles hold.
-    pub particles_header: Rect,
-    /// The particles, piled up where they are.
-    pub particles: Rect,
-    /// The corridor.
-    pub strip: Rect,
-    /// The Gaussian of EKF-SLAM, hanging from the corridor.
-    pub ekf: Rect,
-    /// What it holds.
-    pub ekf_header: Rect,
-    /// What the history shows, and what is drawn in it.
-    pub history_header: Rect,
-    /// Names of its rows.
-    pub names: Rect,
-    /// The share of the weight of every explanation, by step.
-    pub history: Rect,
-    /// The same at the step shown, as bars.
-    pub shares: Rect,
-    /// Names of steps.
-    pub axis: Rect,
-    /// Of the whole figure.
-    pub height: f64,
+parts! {
+    /// The parts of the figure \[css px\].
+    pub struct Layout {
+        /// Which panels are shown.
+        pub panels: Panels,
+        /// Whether there is room for long names.
+        pub wide: bool,
+        /// What the particles hold.
+        pub particles_header: Rect,
+        /// The particles, piled up where they are.
+        pub particles: Rect,
+        /// The corridor.
+        pub strip: Rect,
+        /// The Gaussian of EKF-SLAM, hanging from the corridor.
+        pub ekf: Rect,
+        /// What it holds.
+        pub ekf_header: Rect,
+        /// What the history shows, and what is drawn in it.
+        pub history_header: Rect,
+        /// Names of its rows.
+        pub names: Rect,
+        /// The share of the weight of every explanation, by step.
+        pub history: Rect,
+        /// The same at the step shown, as bars.
+        pub shares: Rect,
+        /// Names of steps.
+        pub axis: Rect,
+        /// Of the whole figure.
+        pub height: f64,
+    }
 }
 
 impl Layout {
@@ -100,54 +100,29 @@ impl Layout {
             height: bottom,
         }
     }
-
-    /// All parts.
-    pub fn parts(&self) -> [Rect; 10] {
-        let Self {
-            particles_header,
-            particles,
-            strip,
-            ekf,
-            ekf_header,
-            history_header,
-            names,
-            history,
-            shares,
-            axis,
-            ..
-        } = self;
-        [*particles_header, *particles, *strip, *ekf, *ekf_header, *history_header, *names, *history, *shares, *axis]
-    }
-}
-
-impl view::Layout for Layout {
-    fn height(&self) -> f64 {
-        self.height
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::assert_apart;
+    use crate::scene::{assert_laid_out, assert_on_screens};
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        for (names, shown) in [("all", 10), ("corridor", 5), ("history", 5)] {
-            let panels = Panels::named(names, &[CORRIDOR, HISTORY]).unwrap();
-            for width in (300..2000).step_by(7).map(f64::from) {
-                let layout = Layout::of(width, &panels);
-                let parts: Vec<Rect> = layout.parts().into_iter().filter(|part| part.h > 0.0).collect();
-                assert_eq!(parts.len(), shown, "{names} at {width}");
-                assert_apart(&parts, &Rect::new(0.0, 0.0, width, layout.height));
-            }
-        }
+        assert_laid_out(
+            Layout::of,
+            &[CORRIDOR, HISTORY],
+            NARROWEST,
+            &[("all", 10), ("corridor", 5), ("history", 5)],
+            PAD,
+        );
     }
 
     #[test]
     fn all_of_it_fits_on_a_screen_with_its_controls() {
-        for width in [352.0, 588.0, 728.0, 804.0, 1112.0] {
-            assert!(Layout::of(width, &Panels::default()).height < 460.0, "{width}");
-        }
+        assert_on_screens(
+            Layout::of,
+            &[(352.0, 460.0), (588.0, 460.0), (728.0, 460.0), (804.0, 460.0), (1112.0, 460.0)],
+        );
     }
 }

@@ -3,10 +3,9 @@
 use super::{layout::Layout, model::DoorsModel, told};
 use crate::{
     decimal::write,
-    font::{self, Weight},
     model::Model,
     order::ascending,
-    scene::{Anchor, Mark, Point, Rect, Role, Scene, diamond, heading, rimmed_polygon, robot, text},
+    scene::{Letters, Point, Rect, Role, Scene, diamond, plain, robot, strong},
     words::doors as words,
 };
 use fastslam::ops;
@@ -23,8 +22,8 @@ const DOOR: f64 = 1.0;
 const LARGEST: f64 = 5.5;
 const SMALLEST: f64 = 1.6;
 
-/// Font size of what the filters are told \[css px\].
-const TOLD: f64 = 11.0;
+/// What the filters are told.
+const TOLD: Letters = plain(11.0, Role::Muted).end();
 
 /// Corners of a bell.
 const CORNERS: u32 = 48;
@@ -100,7 +99,7 @@ impl Strip<'_> {
             (true, true) => words::HoldOne { right: &told::verdict(now.fastslam_right()) }.say(),
             (true, false) => words::HoldOneShort { right: &told::verdict(now.fastslam_right()) }.say(),
         };
-        heading(scene, &self.layout.particles_header, (&particles, Role::Path), &rest);
+        scene.heading(&self.layout.particles_header, (&particles, Role::Path), &rest);
         let door = &told::belief(model, now.ekf_belief);
         let std = &told::deviation(now.ekf_std);
         let right = &told::verdict(now.ekf_right());
@@ -111,14 +110,13 @@ impl Strip<'_> {
             (true, _, true) => words::EkfSure { door, std, right }.say(),
             (true, _, false) => words::EkfSureShort { std, right }.say(),
         };
-        heading(scene, &self.layout.ekf_header, ("EKF-SLAM", EKF), &rest);
+        scene.heading(&self.layout.ekf_header, ("EKF-SLAM", EKF), &rest);
     }
 
     /// A line through everything where the robot is.
     fn through(&self, scene: &mut Scene) {
         let (x, top) = (self.x(self.model.now().truth), self.layout.particles.y);
-        let lines = vec![vec![[x, top], [x, self.layout.ekf.bottom()]]];
-        scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some([2.0, 3.0]), role: Role::Truth });
+        scene.dash(&[[x, top], [x, self.layout.ekf.bottom()]], 1.0, [2.0, 3.0], Role::Truth);
     }
 
     /// Each particle where it is, and as near to it as there is room, on the others.
@@ -148,7 +146,9 @@ impl Strip<'_> {
             }
         }
         let radius = 0.46 * pitch;
-        scene.marks.extend(kinds.into_iter().map(|(role, centres)| Mark::Discs { centres, radius, role }));
+        for (role, centres) in kinds {
+            scene.discs(centres, radius, role);
+        }
     }
 
     /// The density of EKF-SLAM, as high at its mean whatever its width; from there a line to the landmark that it is tied to.
@@ -166,10 +166,9 @@ impl Strip<'_> {
         let mut corners = vec![[(mean - DEVIATIONS * std).clamp(edges[0], edges[1]), y]];
         corners.extend((0..=CORNERS).map(corner));
         corners.push([(mean + DEVIATIONS * std).clamp(edges[0], edges[1]), y]);
-        scene.marks.push(Mark::Polygons { polygons: vec![corners], role: EKF });
+        scene.polygon(corners, EKF);
         if let Some(place) = self.tied_to() {
-            let lines = vec![vec![[mean, y], [self.x(place), self.layout.strip.y + 18.0]]];
-            scene.marks.push(Mark::Lines { lines, width: 2.0, dash: None, role: EKF });
+            scene.line(&[[mean, y], [self.x(place), self.layout.strip.y + 18.0]], 2.0, EKF);
         }
     }
 
@@ -186,22 +185,19 @@ impl Strip<'_> {
     /// Walls, doors with their numbers, and the sign.
     fn corridor(&self, scene: &mut Scene) {
         let (Rect { x, y, w, h }, setup) = (self.layout.strip, self.model.setup());
-        let walls = [y + 9.0, y + h - 7.0].map(|y| vec![[x, y], [x + w, y]]);
-        scene.marks.push(Mark::Lines { lines: walls.into(), width: 2.0, dash: None, role: Role::Muted });
+        scene.lines([y + 9.0, y + h - 7.0].map(|y| vec![[x, y], [x + w, y]]).into(), 2.0, Role::Muted);
         for (rank, place) in setup.doors.iter().enumerate() {
             let half = 0.5 * DOOR * self.scale();
             let area = Rect::new(self.x(*place) - half, y + 3.0, 2.0 * half, 12.0);
-            scene.marks.push(Mark::Fill { area, role: Role::Door(rank as u8) });
+            scene.fill(area, Role::Door(rank as u8));
             let number = Rect::new(area.x, y + 1.0, area.w, 16.0);
-            let number = text(number, Anchor::Middle, 11.5, Weight::SemiBold, Role::Paper, (rank + 1).to_string());
-            scene.marks.push(number);
+            scene.text(number, strong(11.5, Role::Paper).middle(), &(rank + 1).to_string());
         }
         let sign = [self.x(SIGN), y + 9.0];
-        rimmed_polygon(scene, diamond(sign, 8.0), Role::Landmark);
+        scene.rimmed_polygon(diamond(sign, 8.0), Role::Landmark);
         if self.layout.wide {
             let left = self.x(SIGN + 1.8);
-            let area = Rect::new(left, y + 13.0, x + w - left, 16.0);
-            scene.marks.push(text(area, Anchor::Start, 11.5, Weight::Regular, Role::Muted, words::sign()));
+            scene.text(Rect::new(left, y + 13.0, x + w - left, 16.0), plain(11.5, Role::Muted), words::sign());
         }
     }
 
@@ -213,18 +209,17 @@ impl Strip<'_> {
             vec![[ends[0], y - 4.0], [ends[0], y], [ends[1], y], [ends[1], y - 4.0]],
             vec![[self.x(RIDE_END), y - 5.0], [self.x(RIDE_END), y]],
         ];
-        scene.marks.push(Mark::Lines { lines, width: 1.25, dash: None, role: Role::Muted });
+        scene.lines(lines, 1.25, Role::Muted);
         // While the Gaussian is as wide as that, it says so itself.
         if self.model.now().ekf_std < 1.0 {
             let told = words::ToldRide { place: &write(RIDE_END), std: &write(std) }.say();
             let (left, right) = (self.layout.strip.x + 2.0, ends[0] - 6.0);
-            if font::measure(&told, TOLD, Weight::Regular) < right - left {
-                let area = Rect::new(left, self.layout.ekf.y + 1.0, right - left, 14.0);
-                scene.marks.push(text(area, Anchor::End, TOLD, Weight::Regular, Role::Muted, told));
+            if TOLD.width(&told) < right - left {
+                scene.text(Rect::new(left, self.layout.ekf.y + 1.0, right - left, 14.0), TOLD, &told);
             }
         }
         let [x, y] = self.end();
-        rimmed_polygon(scene, vec![[x, y - 6.0], [x + 6.0, y + 5.0], [x - 6.0, y + 5.0]], Role::Accent);
+        scene.rimmed_polygon(vec![[x, y - 6.0], [x + 6.0, y + 5.0], [x - 6.0, y + 5.0]], Role::Accent);
     }
 
     /// The robot, as far as it sees, and what it sees.
@@ -233,18 +228,11 @@ impl Strip<'_> {
         let at = [self.x(now.truth), y + 33.0];
         for rank in &now.seen {
             let place = self.model.setup().doors.get(*rank as usize).copied().unwrap_or(SIGN);
-            let lines = vec![vec![at, [self.x(place), y + 16.0]]];
-            scene.marks.push(Mark::Lines { lines, width: 1.25, dash: None, role: Role::Truth });
+            scene.line(&[at, [self.x(place), y + 16.0]], 1.25, Role::Truth);
         }
-        let reach = [-REACH, REACH].map(|reach| [self.x(now.truth + reach), y + 20.0]);
-        scene.marks.push(Mark::Lines {
-            lines: vec![reach.into()],
-            width: 1.0,
-            dash: Some([2.0, 2.0]),
-            role: Role::Truth,
-        });
+        scene.dash(&[-REACH, REACH].map(|reach| [self.x(now.truth + reach), y + 20.0]), 1.0, [2.0, 2.0], Role::Truth);
         let back = self.model.step() == self.model.ride();
-        rimmed_polygon(scene, robot(at, if back { core::f64::consts::PI } else { 0.0 }, 10.0), Role::Truth);
+        scene.rimmed_polygon(robot(at, if back { core::f64::consts::PI } else { 0.0 }, 10.0), Role::Truth);
     }
 }
 

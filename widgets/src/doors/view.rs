@@ -54,15 +54,7 @@ impl View for DoorsView {
                 });
             }
             if model.will_be_carried() {
-                scene.handles.push(Handle {
-                    name: END,
-                    title: words::end().into(),
-                    at: strip.end(),
-                    axes: &[END],
-                    value: model.end(),
-                    text: metres(model.end()),
-                    hover: None,
-                });
+                scene.handles.push(Handle::of(&[END], words::end(), strip.end(), model.end(), metres(model.end())));
             }
         }
         if layout.panels.has(HISTORY) {

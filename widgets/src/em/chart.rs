@@ -7,8 +7,7 @@ use super::{
 };
 use crate::{
     decimal::fixed,
-    font::{self, Weight},
-    scene::{Anchor, Chart, GHOST, LINE, Mark, Point, Rect, Role, Sample, Scene, ghost, legend, text},
+    scene::{Chart, LINE, Point, Rect, Role, Sample, Scene, legend, plain, strong},
     words::{common, em as words},
 };
 
@@ -31,40 +30,39 @@ pub fn chart(scene: &mut Scene, model: &EmModel, layout: &Layout) {
     let [low, high] = range(model);
     let share = |x: f64| (x - low) / (high - low);
     names(scene, model, layout);
-    scene.marks.extend(chart.edges());
+    chart.edges(scene);
     ticks(scene, layout, [low, high], model.iterations());
-    scene.marks.extend(ghost(&chart, model.pinned().iter().map(|x| share(*x))));
+    chart.ghost(scene, model.pinned().iter().map(|x| share(*x)));
     let values: Vec<f64> = model.iterates().iter().map(|iterate| share(iterate.log_posterior)).collect();
     // What the reader has not come to yet is drawn, but as what it is.
     let rank = model.rank() as usize;
     let ahead = chart.curve((rank as u32..).zip(values[rank..].iter().copied()));
-    scene.marks.push(Mark::Lines { lines: vec![ahead], width: 1.0, dash: Some([2.0, 3.0]), role: Role::Muted });
+    scene.dash(&ahead, 1.0, [2.0, 3.0], Role::Muted);
     let curve = chart.curve((0..).zip(values[..=rank].iter().copied()));
     let now = curve.last().copied();
-    scene.marks.push(Mark::Lines { lines: vec![curve.clone()], width: 2.0, dash: None, role: Role::Posterior });
-    scene.marks.push(Mark::Discs { centres: curve, radius: 2.0, role: Role::Posterior });
-    scene.marks.push(Mark::Discs { centres: now.into_iter().collect(), radius: 4.5, role: Role::Posterior });
+    scene.line(&curve, 2.0, Role::Posterior);
+    scene.discs(curve, 2.0, Role::Posterior);
+    scene.discs(now.into_iter().collect(), 4.5, Role::Posterior);
     // Where others end, in an order that says nothing.
     let ends = model.others().ends().iter().enumerate().map(|(k, end)| -> Point {
         let x = chart.area.right() + 6.0 + (ENDS - 10.0) * ((k * 7 % 20) as f64 + 0.5) / 20.0;
         [x, chart.y(share(end.log_posterior))]
     });
-    scene.marks.push(Mark::Discs { centres: ends.collect(), radius: 2.25, role: Role::Prior });
+    scene.discs(ends.collect(), 2.25, Role::Prior);
 }
 
 fn names(scene: &mut Scene, model: &EmModel, layout: &Layout) {
     let header = layout.chart.header;
-    let strong = words::log_posterior();
-    let line = text(Rect { h: LINE, ..header }, Anchor::Start, 13.0, Weight::SemiBold, Role::Ink, strong);
-    scene.marks.push(line);
-    let left = header.x + font::measure(strong, 13.0, Weight::SemiBold) + 12.0;
+    let (letters, name) = (strong(13.0, Role::Ink), words::log_posterior());
+    scene.text(Rect { h: LINE, ..header }, letters, name);
+    let left = header.x + letters.width(name) + 12.0;
     let others = words::OtherGuesses { n: &model.others().ends().len() }.say();
     let mut items = vec![(Sample::dot(Role::Prior, 2.25).wide(7.0), others)];
     if !model.pinned().is_empty() {
-        items.push((Sample::line(GHOST, 1.75, None).wide(14.0), common::pinned_mark().into()));
+        items.push((Sample::pinned().wide(14.0), common::pinned_mark().into()));
     }
     let wanted = |items: &[(Sample<'_>, String)]| -> f64 {
-        items.iter().map(|(sample, name)| sample.width() + 17.0 + font::measure(name, 11.5, Weight::Regular)).sum()
+        items.iter().map(|(sample, name)| sample.width + 17.0 + plain(11.5, Role::Muted).width(name)).sum()
     };
     // On a phone, the pinned run's line speaks for itself.
     while wanted(&items) > header.right() - left && items.len() > 1 {
@@ -84,17 +82,15 @@ fn ticks(scene: &mut Scene, layout: &Layout, [low, high]: [f64; 2], iterations: 
     while value <= high {
         let y = chart.bottom() - chart.h * (value - low) / (high - low);
         if y > chart.y + 5.0 && y < chart.bottom() - 5.0 {
-            scene.marks.push(Mark::Fill { area: Rect::new(chart.x, y - 0.5, chart.w, 1.0), role: Role::Frame });
+            scene.fill(Rect::new(chart.x, y - 0.5, chart.w, 1.0), Role::Frame);
             let place = Rect::new(layout.numbers.x, y - 7.0, layout.numbers.w - 6.0, 14.0);
-            let number = fixed(value, 0).replace('-', "−");
-            scene.marks.push(text(place, Anchor::End, SIZE, Weight::Regular, Role::Muted, number));
+            scene.text(place, plain(SIZE, Role::Muted).end(), &fixed(value, 0).replace('-', "−"));
         }
         value += step;
     }
-    let name = |area, anchor, what: &str| text(area, anchor, SIZE, Weight::Regular, Role::Muted, what);
-    scene.marks.push(name(Rect { w: 20.0, ..layout.axis }, Anchor::Start, "0"));
-    let last = Rect { x: chart.right() - 26.0, w: 30.0, ..layout.axis };
-    scene.marks.push(name(last, Anchor::End, &iterations.to_string()));
+    let name = plain(SIZE, Role::Muted);
+    scene.text(Rect { w: 20.0, ..layout.axis }, name, "0");
+    scene.text(Rect { x: chart.right() - 26.0, w: 30.0, ..layout.axis }, name.end(), &iterations.to_string());
     let rest = Rect { x: layout.axis.x + 24.0, w: layout.axis.w - 24.0 - 30.0, ..layout.axis };
-    scene.marks.push(name(rest, Anchor::Middle, words::iterations()));
+    scene.text(rest, name.middle(), words::iterations());
 }

@@ -7,8 +7,7 @@ use super::{
     told::percent,
 };
 use crate::{
-    font::{self, Weight},
-    scene::{Anchor, Mark, Rect, Role, Scene, text},
+    scene::{Rect, Role, Scene, plain, strong},
     words::em as words,
 };
 use fastslam_lab::experiment::em::{AGAIN_BELOW, CORRIDOR, LENGTH};
@@ -17,8 +16,9 @@ use fastslam_lab::experiment::em::{AGAIN_BELOW, CORRIDOR, LENGTH};
 pub fn cloud(scene: &mut Scene, model: &EmModel, layout: &Layout) {
     let (area, steps) = (layout.cloud.area, model.log().steps());
     let m = &model.log().setup().particles;
-    let strong = words::ParticlesAre { m }.say();
-    strips::name(scene, &layout.cloud.header, &strong, [words::cloud_what(), words::cloud_what_short()]);
+    let name = words::ParticlesAre { m }.say();
+    let what = [words::cloud_what(), words::cloud_what_short()];
+    scene.heading_fit(&layout.cloud.header, (&name, Role::Ink), &what);
     strips::scale(scene, &layout.cloud_scale);
     let columns: Vec<_> = (0..=steps).map(|step| model.cloud().shares(step).map(<[f64]>::to_vec)).collect();
     strip(scene, area, &columns);
@@ -28,28 +28,25 @@ pub fn cloud(scene: &mut Scene, model: &EmModel, layout: &Layout) {
     } else {
         let done = &(steps - model.cloud().pending(model.log()) as usize);
         let line = Rect::new(area.x, area.centre()[1] - 9.0, area.w, 18.0);
-        let what = words::Running { done, all: &steps }.say();
-        scene.marks.push(text(line, Anchor::Middle, 12.0, Weight::Regular, Role::Muted, what));
+        scene.text(line, plain(12.0, Role::Muted).middle(), &words::Running { done, all: &steps }.say());
     }
-    scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
+    scene.frame(area, 1.0, Role::Frame);
     peaks(scene, model, layout);
 }
 
 /// Both answers, as far as the particles hold them, and the one of EM mapping.
 fn peaks(scene: &mut Scene, model: &EmModel, layout: &Layout) {
     let area = layout.peaks.area;
-    let title = words::put_down_at();
-    scene.marks.push(text(layout.peaks.header, Anchor::Start, 12.5, Weight::SemiBold, Role::Ink, title));
+    scene.text(layout.peaks.header, strong(12.5, Role::Ink), words::put_down_at());
     let limit = y(&area, AGAIN_BELOW);
-    let lines = vec![vec![[area.x, limit], [area.right(), limit]]];
-    scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some([1.0, 3.0]), role: Role::Muted });
+    scene.dash(&[[area.x, limit], [area.right(), limit]], 1.0, [1.0, 3.0], Role::Muted);
     if let Some(shares) = log_shares(model) {
         let most = shares.iter().copied().fold(0.0, f64::max);
         let height = area.h * CORRIDOR.cell_size / LENGTH;
         for (cell, share) in shares.iter().enumerate().filter(|(_, share)| **share > 0.0) {
             let top = area.bottom() - height * (cell + 1) as f64;
             let bar = Rect::new(area.x, top + 0.25, (0.42 * area.w * share / most).max(1.0), height - 0.5);
-            scene.marks.push(Mark::Fill { area: bar, role: Role::Prior });
+            scene.fill(bar, Role::Prior);
         }
     }
     if let Some(again) = model.again() {
@@ -60,27 +57,24 @@ fn peaks(scene: &mut Scene, model: &EmModel, layout: &Layout) {
         for (share, what, at) in answers {
             let left = area.x + 0.46 * area.w;
             let middle = y(&area, at);
-            let line = |y: f64, h: f64, size, weight, role, what: String| {
-                text(Rect::new(left, y, area.right() - left - 3.0, h), Anchor::Start, size, weight, role, what)
-            };
-            let percent = format!("{} %", percent(share));
+            let line = |y: f64, h: f64| Rect::new(left, y, area.right() - left - 3.0, h);
+            let (percent, told) = (format!("{} %", percent(share)), plain(SIZE, Role::Muted));
             if area.h > 100.0 {
-                scene.marks.push(line(middle - 16.0, 17.0, 14.0, Weight::SemiBold, Role::Ink, percent));
-                if font::measure(what, SIZE, Weight::Regular) <= area.right() - left - 3.0 {
-                    scene.marks.push(line(middle + 1.0, 14.0, SIZE, Weight::Regular, Role::Muted, what.into()));
+                scene.text(line(middle - 16.0, 17.0), strong(14.0, Role::Ink), &percent);
+                if let Some(what) = told.fitting(area.right() - left - 3.0, &[what]) {
+                    scene.text(line(middle + 1.0, 14.0), told, what);
                 }
             } else {
-                scene.marks.push(line(middle - 8.0, 16.0, 12.5, Weight::SemiBold, Role::Ink, percent));
+                scene.text(line(middle - 8.0, 16.0), strong(12.5, Role::Ink), &percent);
             }
         }
     }
     // Of EM mapping: one.
     if let Some((place, _)) = model.put_down() {
         let y = y(&area, place);
-        let corners = vec![[area.x - 7.0, y - 5.0], [area.x + 1.0, y], [area.x - 7.0, y + 5.0]];
-        scene.marks.push(Mark::Polygons { polygons: vec![corners], role: Role::Posterior });
+        scene.polygon(vec![[area.x - 7.0, y - 5.0], [area.x + 1.0, y], [area.x - 7.0, y + 5.0]], Role::Posterior);
     }
-    scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
+    scene.frame(area, 1.0, Role::Frame);
 }
 
 fn log_shares(model: &EmModel) -> Option<&[f64]> {

@@ -2,8 +2,7 @@
 
 use crate::{
     panels::Panels,
-    scene::{Rect, Stack},
-    view,
+    scene::{Rect, Stack, parts},
 };
 
 /// Names of the panels: one iteration of EM mapping, what its maps are worth, and the particles on the same log.
@@ -35,13 +34,14 @@ const BELOW: [f64; 3] = [128.0, 52.0, 74.0];
 const NUMBERS: f64 = 40.0;
 pub const ENDS: f64 = 24.0;
 
-/// A part with its name above.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Part {
-    /// What it is.
-    pub header: Rect,
-    /// What is drawn.
-    pub area: Rect,
+parts! {
+    /// A part with its name above.
+    pub struct Part {
+        /// What it is.
+        pub header: Rect,
+        /// What is drawn.
+        pub area: Rect,
+    }
 }
 
 impl Part {
@@ -51,37 +51,38 @@ impl Part {
     }
 }
 
-/// The parts of the figure \[css px\].
-#[derive(Clone, PartialEq, Debug)]
-pub struct Layout {
-    /// Which panels are shown.
-    pub shown: Panels,
-    /// Whether there is room for long names.
-    pub wide: bool,
-    /// Where the robot was, over time: the forward pass, and what the backward one makes of it.
-    pub product: Part,
-    /// Names of places, left of the marks.
-    pub scale: Rect,
-    /// The marks of the first guess, left of what is made of them.
-    pub guess: Part,
-    /// The map, right of the product.
-    pub map: Part,
-    /// Names of times, below the product.
-    pub times: Rect,
-    /// What never falls, over the iterations.
-    pub chart: Part,
-    /// Its numbers.
-    pub numbers: Rect,
-    /// Names of iterations below it.
-    pub axis: Rect,
-    /// Where the particles were, by their paths.
-    pub cloud: Part,
-    /// Names of places left of them.
-    pub cloud_scale: Rect,
-    /// Where they were right after the robot was carried.
-    pub peaks: Part,
-    /// Of the whole figure.
-    pub height: f64,
+parts! {
+    /// The parts of the figure \[css px\].
+    pub struct Layout {
+        /// Which panels are shown.
+        pub shown: Panels,
+        /// Whether there is room for long names.
+        pub wide: bool,
+        /// Where the robot was, over time: the forward pass, and what the backward one makes of it.
+        pub product: Part,
+        /// Names of places, left of the marks.
+        pub scale: Rect,
+        /// The marks of the first guess, left of what is made of them.
+        pub guess: Part,
+        /// The map, right of the product.
+        pub map: Part,
+        /// Names of times, below the product.
+        pub times: Rect,
+        /// What never falls, over the iterations.
+        pub chart: Part,
+        /// Its numbers.
+        pub numbers: Rect,
+        /// Names of iterations below it.
+        pub axis: Rect,
+        /// Where the particles were, by their paths.
+        pub cloud: Part,
+        /// Names of places left of them.
+        pub cloud_scale: Rect,
+        /// Where they were right after the robot was carried.
+        pub peaks: Part,
+        /// Of the whole figure.
+        pub height: f64,
+    }
 }
 
 impl Layout {
@@ -133,48 +134,36 @@ impl Layout {
         let shown = shown.clone();
         Self { shown, wide, product, scale, guess, map, times, chart, numbers, axis, cloud, cloud_scale, peaks, height }
     }
-
-    /// All parts.
-    pub fn parts(&self) -> Vec<Rect> {
-        let Self { product, guess, map, chart, cloud, peaks, .. } = self;
-        let parts = [product, map, chart, cloud, peaks, guess];
-        let parts = parts.into_iter().flat_map(|part| [part.header, part.area]);
-        parts.chain([self.scale, self.times, self.numbers, self.axis, self.cloud_scale]).collect()
-    }
-}
-
-impl view::Layout for Layout {
-    fn height(&self) -> f64 {
-        self.height
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::assert_apart;
-
-    const PANELS: [&str; 3] = [PASSES, LIKELIHOOD, PARTICLES];
+    use crate::scene::{assert_laid_out, assert_on_screens};
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        for names in ["", PASSES, LIKELIHOOD, PARTICLES, "likelihood particles", "passes particles"] {
-            let panels = Panels::named(names, &PANELS).unwrap();
-            for width in (300..2000).step_by(7).map(f64::from) {
-                let layout = Layout::of(width, &panels);
-                let parts: Vec<Rect> = layout.parts().into_iter().filter(|part| part.h > 0.0).collect();
-                assert_apart(&parts, &Rect::new(0.0, 0.0, width, layout.height));
-                let last = parts.iter().map(Rect::bottom).fold(0.0, f64::max);
-                assert!(layout.height - last <= 8.0, "{names} at {width}: nothing is left below");
-            }
-        }
+        assert_laid_out(
+            Layout::of,
+            &[PASSES, LIKELIHOOD, PARTICLES],
+            NARROWEST,
+            &[
+                ("all", 17),
+                (PASSES, 8),
+                (LIKELIHOOD, 4),
+                (PARTICLES, 5),
+                ("likelihood particles", 9),
+                ("passes particles", 13),
+            ],
+            PAD,
+        );
     }
 
     #[test]
     fn the_picture_and_its_controls_are_on_one_screen() {
-        for (width, most) in [(692.0, 452.0), (600.0, 452.0), (352.0, 452.0), (322.0, 452.0), (1112.0, 610.0)] {
-            let height = Layout::of(width, &Panels::default()).height;
-            assert!(height <= most, "{width}: {height}");
-        }
+        assert_on_screens(
+            Layout::of,
+            &[(692.0, 452.0), (600.0, 452.0), (352.0, 452.0), (322.0, 452.0), (1112.0, 610.0)],
+        );
     }
 }

@@ -2,8 +2,7 @@
 
 use super::{layout::Layout, model::EmModel, strips};
 use crate::{
-    font::{self, Weight},
-    scene::{Anchor, Mark, Point, Rect, Role, Scene, text},
+    scene::{Point, Rect, Role, Scene, plain, strong},
     words::em as words,
 };
 use fastslam_lab::experiment::em::{CORRIDOR, DOORS, LENGTH};
@@ -13,24 +12,21 @@ pub fn map(scene: &mut Scene, model: &EmModel, layout: &Layout) {
     let area = layout.map.area;
     let n = &model.doors().len();
     let wordings = [words::MapOf { n, all: &DOORS }.say(), words::MapShort { n }.say(), words::MapCount { n }.say()];
-    let fits = |wording: &&String| font::measure(wording, 12.5, Weight::SemiBold) <= layout.map.header.w;
-    let wording = wordings.iter().find(fits).unwrap_or(&wordings[2]).clone();
-    scene.marks.push(text(layout.map.header, Anchor::Start, 12.5, Weight::SemiBold, Role::Ink, wording));
+    scene.fit(layout.map.header, strong(12.5, Role::Ink), &wordings);
     let height = area.h * CORRIDOR.cell_size / LENGTH;
     for (cell, door) in model.shown().map.iter().enumerate() {
         let top = area.bottom() - height * (cell + 1) as f64;
         let bar = Rect::new(area.x, top + 0.25, (area.w * door).max(0.5), height - 0.5);
-        let role = if *door > 0.5 { Role::Posterior } else { Role::Weight(0) };
-        scene.marks.push(Mark::Fill { area: bar, role });
+        scene.fill(bar, if *door > 0.5 { Role::Posterior } else { Role::Weight(0) });
     }
     let corner = |(cell, door): (usize, f64)| -> [Point; 2] {
         [0, 1].map(|edge| [area.x + area.w * door, area.bottom() - height * (cell + edge) as f64])
     };
-    let truth = model.log().setup().true_map().into_iter().enumerate().flat_map(corner).collect();
-    scene.marks.push(Mark::Lines { lines: vec![truth], width: 1.25, dash: None, role: Role::Truth });
-    scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
+    let truth: Vec<Point> = model.log().setup().true_map().into_iter().enumerate().flat_map(corner).collect();
+    scene.line(&truth, 1.25, Role::Truth);
+    scene.frame(area, 1.0, Role::Frame);
     // How often, below.
     let below = Rect { x: area.x, w: area.w, ..layout.times };
-    scene.marks.push(text(below, Anchor::Start, strips::SIZE, Weight::Regular, Role::Truth, words::truth()));
-    scene.marks.push(text(below, Anchor::End, strips::SIZE, Weight::Regular, Role::Muted, "100 %"));
+    scene.text(below, plain(strips::SIZE, Role::Truth), words::truth());
+    scene.text(below, plain(strips::SIZE, Role::Muted).end(), "100 %");
 }

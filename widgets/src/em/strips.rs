@@ -9,7 +9,7 @@ use crate::{
     decimal::write,
     font::{self, Weight},
     prediction::{Level, State, level},
-    scene::{Anchor, Cells, Handle, Mark, Point, Rect, Role, Scene, Shading, heading, text},
+    scene::{Cells, Handle, Point, Rect, Role, Scene, Shading, plain, strong},
     words::em as words,
 };
 use fastslam_lab::experiment::em::{CORRIDOR, HALF_DOOR, LENGTH};
@@ -45,8 +45,7 @@ pub fn strip(scene: &mut Scene, area: Rect, columns: &[Option<Vec<f64>>]) {
             shades[(cells - 1 - cell) * columns.len() + step] = (255.0 * (2.0 * share).clamp(0.0, 1.0).sqrt()) as u8;
         }
     }
-    let cells = Cells { columns: columns.len(), shades };
-    scene.marks.push(Mark::Raster { area, cells, shading: Shading::Correlation });
+    scene.raster(area, Cells { columns: columns.len(), shades }, Shading::Correlation);
 }
 
 /// The true path, a line of dashes that hides nothing.
@@ -56,14 +55,13 @@ pub fn truth(scene: &mut Scene, model: &EmModel, area: &Rect) {
         [x(area, step, steps) + 0.5 * area.w / (steps + 1) as f64, y(area, CORRIDOR.place(model.log().truth[step]))]
     };
     let lines = vec![(0..carried).map(point).collect(), (carried..=steps).map(point).collect()];
-    scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some([1.5, 5.0]), role: Role::Truth });
+    scene.dashed(lines, 1.0, [1.5, 5.0], Role::Truth);
 }
 
 /// A line where the robot is carried.
 pub fn carried(scene: &mut Scene, model: &EmModel, area: &Rect) {
     let x = x(area, model.log().carried, model.log().steps());
-    let lines = vec![vec![[x, area.y], [x, area.bottom()]]];
-    scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some([1.0, 3.0]), role: Role::Muted });
+    scene.dash(&[[x, area.y], [x, area.bottom()]], 1.0, [1.0, 3.0], Role::Muted);
 }
 
 /// Names of places left of an area.
@@ -76,7 +74,7 @@ pub fn scale(scene: &mut Scene, area: &Rect) {
         let place = Rect::new(area.x, middle - 7.0, area.w - 5.0, 14.0);
         let name = if metres == 10 && area.h >= 100.0 { "m".into() } else { metres.to_string() };
         if metres < 10 || area.h >= 100.0 {
-            scene.marks.push(text(place, Anchor::End, SIZE, Weight::Regular, Role::Muted, name));
+            scene.text(place, plain(SIZE, Role::Muted).end(), &name);
         }
     }
 }
@@ -85,7 +83,7 @@ pub fn scale(scene: &mut Scene, area: &Rect) {
 pub fn name(scene: &mut Scene, header: &Rect, strong: &str, rest: Names<'_>) {
     let used = font::measure(strong, 13.5, Weight::SemiBold) + 12.0;
     let fits = |rest: &&&str| used + font::measure(rest, 12.5, Weight::Regular) <= header.w;
-    heading(scene, header, (strong, Role::Ink), rest.iter().find(fits).unwrap_or(&""));
+    scene.heading(header, (strong, Role::Ink), rest.iter().find(fits).unwrap_or(&""));
 }
 
 /// What is shown of the path.
@@ -109,22 +107,21 @@ pub fn strips(scene: &mut Scene, model: &EmModel, layout: &Layout) {
     name(scene, &layout.product.header, strong, rest.each_ref().map(String::as_str));
     strip(scene, area, &(0..=steps).map(|step| model.column(step)).collect::<Vec<_>>());
     carried(scene, model, &area);
-    scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
+    scene.frame(area, 1.0, Role::Frame);
     truth(scene, model, &area);
     // How far a pass is.
     let [forward, backward] = model.now().columns(steps + 1);
     for step in [forward, steps + 1 - backward] {
         let x = x(&area, step, steps);
         if x > area.x + 1.0 && x < area.right() - 1.0 {
-            let lines = vec![vec![[x, area.y], [x, area.bottom()]]];
-            scene.marks.push(Mark::Lines { lines, width: 2.0, dash: None, role: Role::Accent });
+            scene.line(&[[x, area.y], [x, area.bottom()]], 2.0, Role::Accent);
         }
     }
     // How far ahead of the carrying a column looks.
     if let Some(future) = model.future() {
         let from = model.log().carried;
         let ends = [from, (from + future as usize).min(steps)].map(|step| [x(&area, step, steps), area.bottom()]);
-        scene.marks.push(Mark::Lines { lines: vec![ends.to_vec()], width: 4.0, dash: None, role: Role::Accent });
+        scene.line(&ends.to_vec(), 4.0, Role::Accent);
     }
     times(scene, model, layout);
     answer(scene, model, &area);
@@ -141,7 +138,7 @@ fn answer(scene: &mut Scene, model: &EmModel, area: &Rect) {
         State::Guessed(guess) => (guess, [words::GuessedIs { guess: &write(guess) }.say(), write(guess)]),
         _ => (MIDDLE, [words::drag_here(), words::drag_short()].map(String::from)),
     };
-    let (log, said) = (model.log(), said.each_ref().map(String::as_str));
+    let log = model.log();
     let at = [x(area, log.carried, log.steps()), y(area, value)];
     let (title, text) = (words::guess_handle(), words::GuessIs { guess: &write(value) }.say());
     level(scene, area, &mut Vec::new(), Level { state, at, title, value, text, said });
@@ -151,29 +148,28 @@ fn answer(scene: &mut Scene, model: &EmModel, area: &Rect) {
 fn times(scene: &mut Scene, model: &EmModel, layout: &Layout) {
     let (area, times) = (&layout.product.area, &layout.times);
     let middle = x(area, model.log().carried, model.log().steps());
-    let w = font::measure(words::carried(), SIZE, Weight::Regular) + 0.01;
-    let line = |x: f64, anchor, what: String| {
-        text(Rect::new(x, times.y, w, times.h), anchor, SIZE, Weight::Regular, Role::Muted, what)
-    };
-    scene.marks.push(line(middle - 0.5 * w, Anchor::Middle, words::carried().into()));
-    scene.marks.push(line(times.x, Anchor::Start, "0".into()));
-    scene.marks.push(line(times.right() - w, Anchor::End, model.log().steps().to_string()));
+    let letters = plain(SIZE, Role::Muted);
+    let w = letters.width(words::carried()) + 0.01;
+    let place = |x: f64| Rect { x, w, ..*times };
+    scene.text(place(middle - 0.5 * w), letters.middle(), words::carried());
+    scene.text(place(times.x), letters, "0");
+    scene.text(place(times.right() - w), letters.end(), &model.log().steps().to_string());
 }
 
 /// The marks of the first guess, each in a lane of its own so that none hides another.
 pub fn guess(scene: &mut Scene, model: &EmModel, layout: &Layout) {
     let area = layout.guess.area;
     let title = Rect { x: 0.0, w: layout.guess.header.w - 8.0, ..layout.guess.header };
-    scene.marks.push(text(title, Anchor::Start, 12.5, Weight::SemiBold, Role::Accent, words::guess()));
+    scene.text(title, strong(12.5, Role::Accent), words::guess());
     scale(scene, &layout.scale);
     let lane = area.w / 3.0;
     let titles = [words::mark_1(), words::mark_2(), words::mark_3()];
     for (rank, mark) in model.marks().into_iter().enumerate() {
         let [top, bottom] = [HALF_DOOR, -HALF_DOOR].map(|to| y(&area, (mark + to).clamp(0.0, LENGTH)));
         let x = area.x + lane * rank as f64;
-        scene.marks.push(Mark::Fill { area: Rect::new(x + 1.0, top, lane - 2.0, bottom - top), role: Role::Accent });
+        scene.fill(Rect::new(x + 1.0, top, lane - 2.0, bottom - top), Role::Accent);
         let at = [x + 0.5 * lane, y(&area, mark)];
-        scene.marks.push(Mark::Discs { centres: vec![at], radius: 2.5, role: Role::Paper });
+        scene.disc(at, 2.5, Role::Paper);
         scene.handles.push(Handle {
             name: MARKS[rank],
             title: titles[rank].into(),

@@ -3,10 +3,9 @@
 use super::{layout::Layout, model::GraphModel, recipe::GUESSES};
 use crate::{
     decimal::write,
-    font::Weight,
     model::Model as _,
     prediction::{Level, State, level, off_by},
-    scene::{Anchor, Chart, GHOST, Mark, Rect, Role, Sample, Scene, ghost, heading_if_fits, legend, text},
+    scene::{Anchor, Chart, Rect, Role, Sample, Scene, legend, plain},
     words::{common, graph as words},
 };
 use fastslam::ops;
@@ -34,38 +33,37 @@ pub fn error(layout: &Layout, y: f64) -> f64 {
 }
 
 pub fn draw(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
-    heading_if_fits(scene, &layout.error_header, (words::error(), Role::Ink), words::error_unit());
+    scene.heading_fit(&layout.error_header, (words::error(), Role::Ink), &[words::error_unit()]);
     let chart = Chart { area: layout.error, last: model.step_count() };
     for level in LEVELS {
         let y = chart.y(share(level));
-        scene.marks.push(Mark::Fill { area: Rect::new(chart.area.x, y - 0.5, chart.area.w, 1.0), role: Role::Frame });
+        chart.rule(scene, y);
         let name = Rect::new(layout.scale.x, y - 7.0, layout.scale.w - 6.0, 14.0);
-        scene.marks.push(text(name, Anchor::End, 11.0, Weight::Regular, Role::Muted, write(level)));
+        scene.text(name, plain(11.0, Role::Muted).end(), &write(level));
     }
-    scene.marks.extend(chart.edges());
-    scene.marks.extend(ghost(&chart, model.pinned().iter().map(|error| share(*error))));
+    chart.edges(scene);
+    chart.ghost(scene, model.pinned().iter().map(|error| share(*error)));
     let best = if layout.error_legend.w >= ROOMY { words::best_line() } else { words::best_line_short() };
     let mut items = vec![(Sample::line(Role::Ink, 1.75, None), words::graph_line().to_string())];
     if let Some(report) = model.universes() {
-        let lines = vec![chart.level(share(report.rms_best))];
-        scene.marks.push(Mark::Lines { lines, width: 1.5, dash: Some([4.0, 3.0]), role: Role::Path });
+        scene.dash(&chart.level(share(report.rms_best)), 1.5, [4.0, 3.0], Role::Path);
     }
     items.push((Sample::line(Role::Path, 1.5, Some([4.0, 3.0])), best.into()));
     if !model.pinned().is_empty() {
-        items.push((Sample::line(GHOST, 1.75, None), common::pinned_mark().into()));
+        items.push((Sample::pinned(), common::pinned_mark().into()));
     }
     let curve = chart.curve((0..).zip(model.frames().iter().map(|frame| share(frame.error.rms))));
     let now = curve[model.step() as usize];
-    scene.marks.push(Mark::Lines { lines: vec![curve], width: 1.75, dash: None, role: Role::Ink });
-    scene.marks.push(Mark::Discs { centres: vec![now], radius: 4.0, role: Role::Ink });
+    scene.line(&curve, 1.75, Role::Ink);
+    scene.disc(now, 4.0, Role::Ink);
     legend(scene, &layout.error_legend, items);
     let ends = [(Anchor::Start, 0), (Anchor::End, model.step_count())];
     for (anchor, step) in ends.into_iter().take(if model.step_count() > 0 { 2 } else { 1 }) {
         let area = Rect::new(chart.area.x, layout.axis.y + 2.0, chart.area.w, 14.0);
-        scene.marks.push(text(area, anchor, 11.0, Weight::Regular, Role::Muted, step.to_string()));
+        scene.text(area, plain(11.0, Role::Muted).at(anchor), &step.to_string());
     }
     let area = Rect::new(chart.area.x + 20.0, layout.axis.y + 2.0, chart.area.w - 40.0, 14.0);
-    scene.marks.push(text(area, Anchor::Middle, 11.0, Weight::Regular, Role::Muted, words::iterations()));
+    scene.text(area, plain(11.0, Role::Muted).middle(), words::iterations());
     guess(scene, model, &chart);
 }
 
@@ -84,6 +82,5 @@ fn guess(scene: &mut Scene, model: &GraphModel, chart: &Chart) {
     };
     let at = [chart.area.centre()[0], chart.y(share(value))];
     let (title, text) = (words::guess_handle(), words::GuessIs { guess: &write(value) }.say());
-    let said = said.each_ref().map(String::as_str);
     level(scene, &chart.area, &mut Vec::new(), Level { state, at, title, value, text, said });
 }

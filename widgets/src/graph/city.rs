@@ -4,8 +4,7 @@ use super::{layout::Layout, model::GraphModel, told};
 use crate::{
     model::{Declared as _, Model as _},
     scene::{
-        Cells, FREE, Mark, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, clip_polyline, heading, legend,
-        rimmed, rimmed_robot, scale_bar, shade,
+        Cells, FREE, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, clip_polyline, legend, shade,
     },
     words::{common, graph as words},
 };
@@ -59,11 +58,11 @@ pub fn draw(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
     truth(scene, model, &plane);
     edges(scene, model, &plane);
     if let Some(last) = model.poses().last() {
-        rimmed_robot(scene, &plane, last, 8.0, MATCH);
+        scene.rimmed_robot(&plane, last, 8.0, MATCH);
     }
     wrong(scene, model, &plane);
-    scale_bar(scene, &plane, 1.0, f64::INFINITY);
-    scene.marks.push(Mark::Frame { area: plane.area, width: 1.0, role: Role::Frame });
+    scene.scale_bar(&plane, 1.0, f64::INFINITY);
+    scene.frame(plane.area, 1.0, Role::Frame);
     names(scene, model, layout);
 }
 
@@ -80,7 +79,7 @@ fn header(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
         (true, true) => words::OffAndCost { rms, cost: &cost }.say(),
         _ => words::Off { rms }.say(),
     };
-    heading(scene, &layout.city_header, (&strong, Role::Ink), &rest);
+    scene.heading(&layout.city_header, (&strong, Role::Ink), &rest);
 }
 
 /// The map, in its own cells: it fills the area.
@@ -96,10 +95,8 @@ fn raster(scene: &mut Scene, model: &GraphModel, plane: &Plane) {
     let shades = (j0..j1).rev().flat_map(row).collect();
     let [left, top] = plane.point([f64::from(i0) * cell, f64::from(j1) * cell]);
     let area = Rect::new(left, top, f64::from(i1 - i0) * cell * plane.scale, f64::from(j1 - j0) * cell * plane.scale);
-    let unknown = Cells { columns: 1, shades: vec![crate::scene::UNKNOWN] };
-    scene.marks.push(Mark::Raster { area: plane.area, cells: unknown, shading: Shading::Map });
-    let cells = Cells { columns: (i1 - i0).max(0) as usize, shades };
-    scene.marks.push(Mark::Raster { area, cells, shading: Shading::Map });
+    scene.raster(plane.area, Cells::row(&[UNKNOWN]), Shading::Map);
+    scene.raster(area, Cells { columns: (i1 - i0).max(0) as usize, shades }, Shading::Map);
 }
 
 fn truth(scene: &mut Scene, model: &GraphModel, plane: &Plane) {
@@ -107,7 +104,7 @@ fn truth(scene: &mut Scene, model: &GraphModel, plane: &Plane) {
         let plan = &model.world().plan;
         let walls =
             plan.walls.iter().chain(&plan.furniture).map(|s| vec![plane.point(s.a), plane.point(s.b)]).collect();
-        scene.marks.push(Mark::Lines { lines: walls, width: 1.25, dash: None, role: Role::Truth });
+        scene.lines(walls, 1.25, Role::Truth);
     }
 }
 
@@ -119,12 +116,12 @@ fn edges(scene: &mut Scene, model: &GraphModel, plane: &Plane) {
         let ends = model.edges(kind).map(|edge| [edge.i, edge.j].map(|pose| plane.position(&poses[pose])));
         ends.flat_map(|ends| clip_polyline(&ends, &plane.area)).collect::<Vec<_>>()
     };
-    scene.marks.push(Mark::Lines { lines: path, width: 6.0, dash: None, role: Role::Paper });
-    scene.marks.push(Mark::Lines { lines: tied(EdgeKind::Odometry), width: 4.0, dash: None, role: ODOMETRY });
-    scene.marks.push(Mark::Lines { lines: tied(EdgeKind::Match), width: 1.75, dash: None, role: MATCH });
-    rimmed(scene, tied(EdgeKind::Loop), 1.25, None, LOOP);
+    scene.lines(path, 6.0, Role::Paper);
+    scene.lines(tied(EdgeKind::Odometry), 4.0, ODOMETRY);
+    scene.lines(tied(EdgeKind::Match), 1.75, MATCH);
+    scene.rimmed(tied(EdgeKind::Loop), 1.25, None, LOOP);
     let dots = poses.iter().map(|pose| plane.position(pose)).filter(|at| plane.area.contains(*at)).collect();
-    scene.marks.push(Mark::Discs { centres: dots, radius: 1.75, role: Role::Ink });
+    scene.discs(dots, 1.75, Role::Ink);
 }
 
 /// What the false edge claims, between the true places; and between the poses that it pulls together.
@@ -137,11 +134,11 @@ fn wrong(scene: &mut Scene, model: &GraphModel, plane: &Plane) {
         model.recipe().ends().map(|pose| plane.position(&model.poses()[(pose as usize).min(model.poses().len() - 1)]));
     // As broad as it still pulls.
     let width = 1.0 + 2.0 * model.frame().wrong_weight.unwrap_or(1.0);
-    rimmed(scene, clip_polyline(&poses, &plane.area), width, None, WRONG);
-    rimmed(scene, clip_polyline(&ends, &plane.area), 1.75, Some([5.0, 4.0]), WRONG);
+    scene.rimmed(clip_polyline(&poses, &plane.area), width, None, WRONG);
+    scene.rimmed(clip_polyline(&ends, &plane.area), 1.75, Some([5.0, 4.0]), WRONG);
     for (k, at) in ends.into_iter().enumerate() {
-        scene.marks.push(Mark::Discs { centres: vec![at], radius: 7.25, role: Role::Paper });
-        scene.marks.push(Mark::Discs { centres: vec![at], radius: 6.0, role: WRONG });
+        scene.disc(at, 7.25, Role::Paper);
+        scene.disc(at, 6.0, WRONG);
         let pose = model.recipe().ends()[k];
         scene.handles.push(crate::scene::Handle {
             name: ENDS[k],
@@ -156,11 +153,9 @@ fn wrong(scene: &mut Scene, model: &GraphModel, plane: &Plane) {
 }
 
 fn names(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
-    let both = |place: &Rect| {
-        let y = place.centre()[1];
-        let line =
-            |width, role| Mark::Lines { lines: vec![vec![[place.x, y], [place.right(), y]]], width, dash: None, role };
-        vec![line(4.0, ODOMETRY), line(1.75, MATCH)]
+    let both = |scene: &mut Scene, place: &Rect| {
+        Sample::line(ODOMETRY, 4.0, None).draw(scene, place);
+        Sample::line(MATCH, 1.75, None).draw(scene, place);
     };
     let name = |long: &'static str, short: &'static str| if layout.wide { long } else { short };
     let mut items = vec![(Sample::new(both), name(words::path_edges(), words::path_edges_short()))];

@@ -2,8 +2,7 @@
 
 use crate::{
     panels::Panels,
-    scene::{LINE, Rect},
-    view,
+    scene::{LINE, Rect, parts},
 };
 
 /// Names of the panels: the building with the graph, the universes on the same log, and the error over the iterations.
@@ -32,35 +31,36 @@ const MOST: f64 = 510.0;
 /// Width over height of a universe.
 const UNIVERSE: f64 = crate::lap::ASPECT;
 
-/// The parts of the figure \[css px\].
-#[derive(Clone, PartialEq, Debug)]
-pub struct Layout {
-    /// Whether there is room for long names.
-    pub wide: bool,
-    /// What the building shows.
-    pub city_header: Rect,
-    /// The building, and the graph in it.
-    pub city: Rect,
-    /// What its marks are.
-    pub city_legend: Rect,
-    /// What the universes show.
-    pub universes_header: Rect,
-    /// The universes, laid over each other.
-    pub universes: Rect,
-    /// How far they are off, and how large.
-    pub universes_told: Rect,
-    /// What the chart shows.
-    pub error_header: Rect,
-    /// What its lines are.
-    pub error_legend: Rect,
-    /// The error over the iterations.
-    pub error: Rect,
-    /// Left of it.
-    pub scale: Rect,
-    /// Below it.
-    pub axis: Rect,
-    /// Of the whole figure.
-    pub height: f64,
+parts! {
+    /// The parts of the figure \[css px\].
+    pub struct Layout {
+        /// Whether there is room for long names.
+        pub wide: bool,
+        /// What the building shows.
+        pub city_header: Rect,
+        /// The building, and the graph in it.
+        pub city: Rect,
+        /// What its marks are.
+        pub city_legend: Rect,
+        /// What the universes show.
+        pub universes_header: Rect,
+        /// The universes, laid over each other.
+        pub universes: Rect,
+        /// How far they are off, and how large.
+        pub universes_told: Rect,
+        /// What the chart shows.
+        pub error_header: Rect,
+        /// What its lines are.
+        pub error_legend: Rect,
+        /// The error over the iterations.
+        pub error: Rect,
+        /// Left of it.
+        pub scale: Rect,
+        /// Below it.
+        pub axis: Rect,
+        /// Of the whole figure.
+        pub height: f64,
+    }
 }
 
 impl Layout {
@@ -119,56 +119,46 @@ impl Layout {
             height,
         }
     }
-
-    /// All parts.
-    pub fn parts(&self) -> Vec<Rect> {
-        vec![
-            self.city_header,
-            self.city,
-            self.city_legend,
-            self.universes_header,
-            self.universes,
-            self.universes_told,
-            self.error_header,
-            self.error_legend,
-            self.error,
-            self.scale,
-            self.axis,
-        ]
-    }
-}
-
-impl view::Layout for Layout {
-    fn height(&self) -> f64 {
-        self.height
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::assert_apart;
+    use crate::scene::{assert_laid_out, assert_on_screens};
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        for names in ["", GRAPH, UNIVERSES, ERROR, "graph universes", "graph error", "universes error"] {
-            let panels = Panels::named(names, &[GRAPH, UNIVERSES, ERROR]).unwrap();
-            for width in (300..2000).step_by(7).map(f64::from) {
-                let layout = Layout::of(width, &panels);
-                let parts: Vec<Rect> = layout.parts().into_iter().filter(|part| part.h > 0.0).collect();
-                assert_apart(&parts, &Rect::new(0.0, 0.0, width, layout.height));
-                assert!(layout.error.h == 0.0 || layout.error.h > 60.0, "{names} at {width}");
-            }
-        }
+        assert_laid_out(
+            Layout::of,
+            &[GRAPH, UNIVERSES, ERROR],
+            NARROWEST,
+            &[
+                ("all", 11),
+                (GRAPH, 3),
+                (UNIVERSES, 3),
+                (ERROR, 5),
+                ("graph universes", 6),
+                ("graph error", 8),
+                ("universes error", 8),
+            ],
+            PAD,
+        );
     }
 
     #[test]
     fn the_picture_and_its_controls_are_on_one_screen() {
-        for (width, most) in
-            [(692.0, 452.0), (600.0, 452.0), (352.0, 452.0), (322.0, 452.0), (760.0, 490.0), (1112.0, 610.0)]
-        {
-            let height = Layout::of(width, &Panels::default()).height;
-            assert!(height <= most, "{width}: {height}");
+        assert_on_screens(
+            Layout::of,
+            &[(692.0, 452.0), (600.0, 452.0), (352.0, 452.0), (322.0, 452.0), (760.0, 490.0), (1112.0, 610.0)],
+        );
+    }
+    #[test]
+    fn the_chart_is_high_enough_to_be_read() {
+        for names in ["all", ERROR, "graph error", "universes error"] {
+            let panels = Panels::named(names, &[GRAPH, UNIVERSES, ERROR]).unwrap();
+            for width in (300..2000).step_by(7).map(f64::from) {
+                assert!(Layout::of(width, &panels).error.h > 60.0, "{names} at {width}");
+            }
         }
     }
 }

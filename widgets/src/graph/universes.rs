@@ -2,9 +2,8 @@
 
 use super::{layout::Layout, model::GraphModel, told};
 use crate::{
-    font::Weight,
     lap::map,
-    scene::{Anchor, LINE, Mark, Rect, Role, Scene, Shading, heading_if_fits, rimmed_robot, text},
+    scene::{LINE, Rect, Role, Scene, Shading, plain},
     words::{common, graph as words},
 };
 
@@ -17,33 +16,23 @@ pub fn draw(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
         Some(_) => words::same_log().to_string(),
         None => words::UniversesStep { step: &lap.report().step, last: &lap.step_count() }.say(),
     };
-    heading_if_fits(scene, &layout.universes_header, (&title, Role::Ink), &rest);
+    scene.heading_fit(&layout.universes_header, (&title, Role::Ink), &[rest]);
     let area = centred(&layout.universes);
     let plane = map::plane(area, course);
-    scene.marks.push(Mark::Raster { area, cells: map::shares(lap, lap.weights(), course), shading: Shading::Share });
-    let paths = (0..m).flat_map(|slot| plane.path(&lap.path(slot), 1.0)).collect();
-    scene.marks.push(Mark::Lines { lines: paths, width: 1.0, dash: None, role: Role::Path });
+    scene.raster(area, map::shares(lap, lap.weights(), course), Shading::Share);
+    scene.lines((0..m).flat_map(|slot| plane.path(&lap.path(slot), 1.0)).collect(), 1.0, Role::Path);
     for particle in lap.particles() {
-        rimmed_robot(scene, &plane, &particle.world_from_robot, 6.0, Role::Path);
+        scene.rimmed_robot(&plane, &particle.world_from_robot, 6.0, Role::Path);
     }
-    scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
+    scene.frame(area, 1.0, Role::Frame);
     let bytes = told::kilobytes(model.graph().build().bytes());
-    let [first, second] = match done {
-        Some(report) => {
-            let best = words::BestOff { rms: &told::metres(report.rms_best) }.say();
-            let maps = &told::kilobytes(report.map_bytes_unique);
-            let wide = words::Bytes { m: &m, maps, graph: &bytes }.say();
-            let short = words::BytesShort { maps, graph: &bytes }.say();
-            let fits = crate::font::measure(&wide, 11.5, Weight::Regular) <= layout.universes_told.w;
-            [best, if fits { wide } else { short }]
-        }
-        None => [words::driving().into(), String::new()],
-    };
-    for (k, line) in [first, second].into_iter().enumerate() {
-        let place = Rect { y: layout.universes_told.y + k as f64 * LINE, h: LINE, ..layout.universes_told };
-        let role = if k == 0 { Role::Ink } else { Role::Muted };
-        scene.marks.push(text(place, Anchor::Start, 11.5, Weight::Regular, role, line));
-    }
+    let [first, second] =
+        [0.0, 1.0].map(|k| Rect { y: layout.universes_told.y + k * LINE, h: LINE, ..layout.universes_told });
+    let Some(report) = done else { return scene.text(first, plain(11.5, Role::Ink), words::driving()) };
+    scene.text(first, plain(11.5, Role::Ink), &words::BestOff { rms: &told::metres(report.rms_best) }.say());
+    let (maps, graph) = (&told::kilobytes(report.map_bytes_unique), &bytes);
+    let bytes = [words::Bytes { m: &m, maps, graph }.say(), words::BytesShort { maps, graph }.say()];
+    scene.fit(second, plain(11.5, Role::Muted), &bytes);
 }
 
 /// As much of the area as has the maps' shape.

@@ -3,9 +3,8 @@
 use super::{guess::guess, layout::Layout, model::JointModel};
 use crate::{
     decimal::{fixed, write},
-    font::{self, Weight},
     ghost::curve,
-    scene::{Anchor, Chart, GHOST, Handle, LINE, Mark, Point, Rect, Role, Sample, Scene, ghost, legend, n_eff, text},
+    scene::{Chart, Handle, LINE, Point, Rect, Role, Sample, Scene, legend, plain, strong},
     words::{common, joint},
 };
 use fastslam::ops;
@@ -32,40 +31,37 @@ pub fn chart(scene: &mut Scene, model: &JointModel, layout: &Layout, roles: [Rol
     let (chart, m) = (place(layout), model.particles());
     names(scene, model, layout, roles);
     ticks(scene, layout, m);
-    scene.marks.extend(chart.edges());
+    chart.edges(scene);
     let at = |ess: f64| share(ess, m);
     for filter in [SAMPLED, COMPUTED].into_iter().filter(|filter| !model.hides(*filter)) {
         let pinned = curve(model.pinned(), filter).iter().map(|ess| at(ess.max(1.0)));
-        scene.marks.extend(ghost(&chart, pinned));
+        chart.ghost(scene, pinned);
     }
     let shown = || [SAMPLED, COMPUTED].into_iter().zip(roles).filter(|(filter, _)| !model.hides(*filter));
     for (filter, role) in shown() {
         let line = line(&chart, &(0..=MOST).map(|n| at(model.predicted(filter, n))).collect::<Vec<_>>());
-        scene.marks.push(Mark::Lines { lines: vec![line], width: 1.75, dash: None, role });
+        scene.line(&line, 1.75, role);
     }
     // Of now, through both.
     let n = model.landmarks();
     let x = chart.x(n);
-    let now = vec![vec![[x, chart.area.y], [x, chart.area.bottom() + 5.0]]];
-    scene.marks.push(Mark::Lines { lines: now, width: 1.5, dash: None, role: Role::Accent });
+    scene.line(&[[x, chart.area.y], [x, chart.area.bottom() + 5.0]], 1.5, Role::Accent);
     for (filter, role) in shown() {
         let found = model.ess(filter);
         let centres: Vec<Point> = (0..).zip(&found).map(|(n, ess)| [chart.x(n), chart.y(at(*ess))]).collect();
         let here = centres.get(n as usize).copied();
-        scene.marks.push(Mark::Discs { centres, radius: POINT, role });
-        scene.marks.push(Mark::Discs { centres: here.into_iter().collect(), radius: 2.0 * POINT, role });
+        scene.discs(centres, POINT, role);
+        scene.discs(here.into_iter().collect(), 2.0 * POINT, role);
     }
     let grip = [x, chart.area.bottom() + 5.0];
-    scene.marks.push(Mark::Discs { centres: vec![grip], radius: 5.0, role: Role::Accent });
-    scene.handles.push(Handle {
-        name: LANDMARKS,
-        title: joint::landmarks().into(),
-        at: grip,
-        axes: &[LANDMARKS],
-        value: n.into(),
-        text: common::Of { n: &n, all: &MOST }.say(),
-        hover: None,
-    });
+    scene.disc(grip, 5.0, Role::Accent);
+    scene.handles.push(Handle::of(
+        &[LANDMARKS],
+        joint::landmarks(),
+        grip,
+        n.into(),
+        common::Of { n: &n, all: &MOST }.say(),
+    ));
     guess(scene, model, &chart);
 }
 
@@ -86,11 +82,10 @@ fn line(chart: &Chart, shares: &[f64]) -> Vec<Point> {
 fn names(scene: &mut Scene, model: &JointModel, layout: &Layout, roles: [Role; 2]) {
     let area = &layout.legend;
     let first = Rect { h: LINE, ..*area };
-    let end = n_eff(scene, &first, 12.5, Weight::SemiBold, Role::Ink) + 6.0;
-    let rest = joint::over_landmarks();
-    let words = font::measure(rest, 12.0, Weight::Regular);
-    let place = Rect::new(end, area.y, (area.right() - end).max(0.0), LINE);
-    scene.marks.push(text(place, Anchor::Start, 12.0, Weight::Regular, Role::Muted, rest));
+    let end = scene.n_eff(&first, strong(12.5, Role::Ink)) + 6.0;
+    let (rest, letters) = (joint::over_landmarks(), plain(12.0, Role::Muted));
+    let words = letters.width(rest);
+    scene.text(Rect::new(end, area.y, (area.right() - end).max(0.0), LINE), letters, rest);
     let samples = [joint::sampled_dot(), joint::computed_dot()].into_iter().zip(roles);
     let mut items: Vec<_> =
         samples.map(|(name, role)| (Sample::dot(role, POINT).wide(8.0), name.to_string())).collect();
@@ -99,7 +94,7 @@ fn names(scene: &mut Scene, model: &JointModel, layout: &Layout, roles: [Role; 2
     let line = if narrow { joint::LineShort { rho: &rho }.say() } else { joint::Line { rho: &rho }.say() };
     items.push((Sample::line(roles[0], 1.75, None), line));
     if !model.pinned().is_empty() {
-        items.push((Sample::line(GHOST, 1.75, None), common::pinned_mark().into()));
+        items.push((Sample::pinned(), common::pinned_mark().into()));
     }
     let taken = end + words + 16.0;
     let below = Rect::new(area.x, area.y + LINE, area.w, LINE);
@@ -115,13 +110,12 @@ fn ticks(scene: &mut Scene, layout: &Layout, m: u32) {
     let values = tens.filter(|ten| share(f64::from(*ten), m) < 0.86).chain(top);
     for value in values {
         let y = chart.y(if value == m { 1.0 } else { share(f64::from(value), m) });
-        let line = Mark::Fill { area: Rect::new(chart.area.x, y - 0.5, chart.area.w, 1.0), role: Role::Frame };
-        scene.marks.push(line);
+        chart.rule(scene, y);
         let area = Rect::new(scale.x, y - 7.0, scale.w - 6.0, 14.0);
-        scene.marks.push(text(area, Anchor::End, 11.0, Weight::Regular, Role::Muted, write(value.into())));
+        scene.text(area, plain(11.0, Role::Muted).end(), &write(value.into()));
     }
     for n in [0, 6, 12, 18, 24] {
         let area = Rect::new(chart.x(n) - 12.0, layout.axis.y + 12.0, 24.0, 14.0);
-        scene.marks.push(text(area, Anchor::Middle, 11.0, Weight::Regular, Role::Muted, n.to_string()));
+        scene.text(area, plain(11.0, Role::Muted).middle(), &n.to_string());
     }
 }

@@ -3,9 +3,8 @@
 use super::model::JointModel;
 use crate::{
     decimal::write,
-    marks::{Place, label},
-    prediction::{State, off_by},
-    scene::{Chart, Handle, Mark, Role, Scene},
+    prediction::{AROUND, State, off_by},
+    scene::{Chart, Handle, Role, Scene},
     words::{joint, prediction},
 };
 use fastslam_lab::experiment::joint_map::MOST;
@@ -40,20 +39,16 @@ pub fn guess(scene: &mut Scene, model: &JointModel, chart: &Chart) {
     };
     let open = matches!(state, State::Asked | State::Placed(_));
     let [x, y] = [chart.x(guess as u32), chart.y(LEVEL)];
-    let dash = Some(if state == State::Asked { [2.0, 4.0] } else { [5.0, 3.0] });
-    let line = vec![vec![[x, chart.area.y], [x, chart.area.bottom()]]];
-    scene.marks.push(Mark::Lines { lines: line, width: 2.0, dash, role: Role::Accent });
+    let dash = if state == State::Asked { [2.0, 4.0] } else { [5.0, 3.0] };
+    scene.dash(&[[x, chart.area.y], [x, chart.area.bottom()]], 2.0, dash, Role::Accent);
     if open {
-        scene.marks.push(Mark::Discs { centres: vec![[x, y]], radius: 6.0, role: Role::Accent });
+        scene.disc([x, y], 6.0, Role::Accent);
         let text = if state == State::Asked {
             prediction::none().into()
         } else {
             joint::GuessIs { guess: &write(guess) }.say()
         };
-        let title = joint::guess_handle().into();
-        scene.handles.push(Handle { name: GUESS, title, at: [x, y], axes: &[GUESS], value: guess, text, hover: None });
+        scene.handles.push(Handle::of(&[GUESS], joint::guess_handle(), [x, y], guess, text));
     }
-    let wordings = said.each_ref().map(String::as_str);
-    let places = [Place::Right(11.0), Place::Left(11.0), Place::Above(9.0), Place::Below(9.0)];
-    label(scene, &mut Vec::new(), &chart.area, [x, y], &wordings, &places);
+    scene.label(&mut Vec::new(), &chart.area, [x, y], &said, &AROUND);
 }

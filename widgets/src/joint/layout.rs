@@ -2,8 +2,7 @@
 
 use crate::{
     panels::Panels,
-    scene::{LINE, Rect, Stack},
-    view,
+    scene::{LINE, Rect, Stack, parts},
 };
 
 /// Names of the panels: the estimates of both filters, and N_eff over the landmarks.
@@ -30,40 +29,42 @@ pub const PITCH: f64 = 3.5;
 const SCALE: f64 = 44.0;
 const CHART: f64 = 112.0;
 
-/// One filter's part.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Panel {
-    /// Which filter.
-    pub header: Rect,
-    /// Where it believes the landmark to be, in each repeat.
-    pub view: Rect,
-    /// N_eff, and the spread.
-    pub counters: [Rect; 2],
-    /// How many particles are left, in words.
-    pub left: Rect,
-    /// And one by one.
-    pub particles: Rect,
+parts! {
+    /// One filter's part.
+    pub struct Panel {
+        /// Which filter.
+        pub header: Rect,
+        /// Where it believes the landmark to be, in each repeat.
+        pub view: Rect,
+        /// N_eff, and the spread.
+        pub counters: [Rect; 2],
+        /// How many particles are left, in words.
+        pub left: Rect,
+        /// And one by one.
+        pub particles: Rect,
+    }
 }
 
-/// The parts of the figure \[css px\].
-#[derive(Clone, PartialEq, Debug)]
-pub struct Layout {
-    /// Which panels are shown.
-    pub shown: Panels,
-    /// The sampled map's, and the computed one's.
-    pub panels: [Panel; 2],
-    /// What computing has removed of the variance, in words and as a bar.
-    pub removed: [Rect; 2],
-    /// What the chart is, with a legend.
-    pub legend: Rect,
-    /// N_eff over the landmarks.
-    pub chart: Rect,
-    /// The scale left of it.
-    pub scale: Rect,
-    /// The one below.
-    pub axis: Rect,
-    /// Of the whole figure.
-    pub height: f64,
+parts! {
+    /// The parts of the figure \[css px\].
+    pub struct Layout {
+        /// Which panels are shown.
+        pub shown: Panels,
+        /// The sampled map's, and the computed one's.
+        pub panels: [Panel; 2],
+        /// What computing has removed of the variance, in words and as a bar.
+        pub removed: [Rect; 2],
+        /// What the chart is, with a legend.
+        pub legend: Rect,
+        /// N_eff over the landmarks.
+        pub chart: Rect,
+        /// The scale left of it.
+        pub scale: Rect,
+        /// The one below.
+        pub axis: Rect,
+        /// Of the whole figure.
+        pub height: f64,
+    }
 }
 
 impl Layout {
@@ -111,47 +112,23 @@ impl Layout {
         let particles = Rect::new(x, left.bottom() + gap, w, of(ROWS as f64 * PITCH));
         Panel { header, view, counters, left, particles }
     }
-
-    /// All parts.
-    pub fn parts(&self) -> Vec<Rect> {
-        let panels = self.panels.iter().flat_map(|panel| {
-            let Panel { header, view, counters: [a, b], left, particles } = *panel;
-            [header, view, a, b, left, particles]
-        });
-        panels.chain(self.removed).chain([self.legend, self.chart, self.scale, self.axis]).collect()
-    }
-}
-
-impl view::Layout for Layout {
-    fn height(&self) -> f64 {
-        self.height
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::assert_apart;
+    use crate::scene::{assert_laid_out, assert_on_screens};
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        for names in ["", MAPS, ESS] {
-            let panels = Panels::named(names, &[MAPS, ESS]).unwrap();
-            for width in (300..2000).step_by(7).map(f64::from) {
-                let layout = Layout::of(width, &panels);
-                let parts: Vec<Rect> = layout.parts().into_iter().filter(|part| part.h > 0.0).collect();
-                assert_apart(&parts, &Rect::new(0.0, 0.0, width, layout.height));
-                let last = parts.iter().map(Rect::bottom).fold(0.0, f64::max);
-                assert!(layout.height - last < 1.0, "{names} at {width}: nothing is left below");
-            }
-        }
+        assert_laid_out(Layout::of, &[MAPS, ESS], NARROWEST, &[("all", 18), (MAPS, 14), (ESS, 4)], 1.0);
     }
 
     #[test]
     fn the_picture_and_its_controls_are_on_one_screen() {
-        for (width, most) in [(692.0, 452.0), (600.0, 452.0), (352.0, 452.0), (322.0, 452.0), (1112.0, 610.0)] {
-            let height = Layout::new(width).height;
-            assert!(height <= most, "{width}: {height}");
-        }
+        assert_on_screens(
+            Layout::of,
+            &[(692.0, 452.0), (600.0, 452.0), (352.0, 452.0), (322.0, 452.0), (1112.0, 610.0)],
+        );
     }
 }

@@ -5,14 +5,16 @@ use super::{
     model::{JointModel, count, length},
 };
 use crate::{
-    font::{self, Weight},
-    scene::{Anchor, Mark, NINE_TENTHS, Plane, Point, Rect, Role, Scene, cloud, cross, heading, scale_bar, text},
+    scene::{Letters, NINE_TENTHS, Plane, Point, Rect, Role, Scene, plain, strong},
     words::{common, joint},
 };
 
 /// Radius of an estimate, and of a particle \[css px\].
 const ESTIMATE: f64 = 2.6;
 const PARTICLE: f64 = 1.25;
+
+/// What a number is.
+const NAME: Letters = plain(11.5, Role::Muted);
 
 /// A filter, as it is named and drawn.
 pub struct Drawn {
@@ -28,9 +30,7 @@ pub struct Drawn {
 
 /// Draws all of one filter's part.
 pub fn panel(scene: &mut Scene, model: &JointModel, panel: &Panel, drawn: &Drawn) {
-    let used = font::measure(drawn.name, 13.5, Weight::SemiBold) + 12.0;
-    let fits = |what: &&&str| used + font::measure(what, 12.5, Weight::Regular) <= panel.header.w;
-    heading(scene, &panel.header, (drawn.name, Role::Ink), drawn.what.iter().find(fits).unwrap_or(&""));
+    scene.heading_fit(&panel.header, (drawn.name, Role::Ink), &drawn.what);
     estimates(scene, model, panel, drawn);
     counters(scene, model, panel, drawn);
     particles(scene, model, panel, drawn);
@@ -43,16 +43,12 @@ fn estimates(scene: &mut Scene, model: &JointModel, panel: &Panel, drawn: &Drawn
     let reach = [0, 1].map(|axis| NINE_TENTHS * known.covariance[(axis, axis)].sqrt());
     let corner = |sign: f64| [0, 1].map(|axis| mean[axis] + sign * reach[axis]);
     let plane = Plane::around(area, [corner(-1.0), corner(1.0)], 8.0);
-    let before = plane.region(mean, covariance, NINE_TENTHS);
-    scene.marks.push(Mark::Lines { lines: before, width: 1.5, dash: Some([4.0, 3.0]), role: Role::Landmark });
-    let [x, y] = plane.point(mean);
-    let lines = cross(Rect::new(x - 5.0, y - 5.0, 10.0, 10.0));
-    scene.marks.push(Mark::Lines { lines, width: 1.5, dash: None, role: Role::Truth });
+    scene.dashed(plane.region(mean, covariance, NINE_TENTHS), 1.5, [4.0, 3.0], Role::Landmark);
+    scene.cross(Rect::around(plane.point(mean), 5.0), 1.5, Role::Truth);
     let places = if model.hides(drawn.filter) { Vec::new() } else { model.estimates(drawn.filter) };
-    let points = places.into_iter().map(|place| plane.point(place));
-    scene.marks.push(cloud(points, &area.inset(ESTIMATE), ESTIMATE, drawn.role));
-    scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
-    scale_bar(scene, &plane, 0.5, 60.0);
+    scene.cloud(places.into_iter().map(|place| plane.point(place)), &area.inset(ESTIMATE), ESTIMATE, drawn.role);
+    scene.frame(area, 1.0, Role::Frame);
+    scene.scale_bar(&plane, 0.5, 60.0);
 }
 
 fn counters(scene: &mut Scene, model: &JointModel, panel: &Panel, drawn: &Drawn) {
@@ -68,12 +64,9 @@ fn counters(scene: &mut Scene, model: &JointModel, panel: &Panel, drawn: &Drawn)
     for (area, (number, names)) in panel.counters.iter().zip(told) {
         let number = number.unwrap_or_else(|| if shown { "…" } else { "?" }.into());
         let size = if panel.counters[0].w < 100.0 { 17.0 } else { 23.0 };
-        let line = Rect { h: 26.0, ..*area };
-        scene.marks.push(text(line, Anchor::Start, size, Weight::SemiBold, Role::Ink, number));
-        let line = Rect::new(area.x, area.y + 26.0, area.w, 16.0);
-        let fits = |name: &&String| font::measure(name, 11.5, Weight::Regular) <= area.w - 6.0;
-        let name = names.iter().find(fits).unwrap_or(&names[1]).clone();
-        scene.marks.push(text(line, Anchor::Start, 11.5, Weight::Regular, Role::Muted, name));
+        scene.text(Rect { h: 26.0, ..*area }, strong(size, Role::Ink), &number);
+        let name = NAME.fitting(area.w - 6.0, &names).unwrap_or(&names[1]);
+        scene.text(Rect::new(area.x, area.y + 26.0, area.w, 16.0), NAME, name);
     }
 }
 
@@ -89,22 +82,15 @@ fn particles(scene: &mut Scene, model: &JointModel, panel: &Panel, drawn: &Drawn
     let place = |k: usize| -> Point {
         [area.x + PITCH * ((k / ROWS) as f64 + 0.5), area.y + PITCH * ((k % ROWS) as f64 + 0.5)]
     };
-    let dots = |range: core::ops::Range<usize>, role| Mark::Discs {
-        centres: range.map(place).collect(),
-        radius: PARTICLE,
-        role,
-    };
-    scene.marks.push(dots(alive..all, Role::Frame));
-    scene.marks.push(dots(0..alive, drawn.role));
+    scene.discs((alive..all).map(place).collect(), PARTICLE, Role::Frame);
+    scene.discs((0..alive).map(place).collect(), PARTICLE, drawn.role);
     let said = match found {
         Some(found) => {
-            let left = common::Of { n: &found.left, all: &m }.say();
-            let said = joint::Left { left: &left }.say();
-            let fits = font::measure(&said, 12.0, Weight::Regular) <= panel.left.w;
-            if fits { said } else { joint::LeftShort { left: &left }.say() }
+            let left = &common::Of { n: &found.left, all: &m }.say();
+            vec![joint::Left { left }.say(), joint::LeftShort { left }.say()]
         }
-        None if !model.hides(drawn.filter) => common::OfAll { all: &m }.say(),
-        None => joint::Left { left: &common::Of { n: &"?", all: &m }.say() }.say(),
+        None if !model.hides(drawn.filter) => vec![common::OfAll { all: &m }.say()],
+        None => vec![joint::Left { left: &common::Of { n: &"?", all: &m }.say() }.say()],
     };
-    scene.marks.push(text(panel.left, Anchor::Start, 12.0, Weight::Regular, Role::Ink, said));
+    scene.fit(panel.left, plain(12.0, Role::Ink), &said);
 }

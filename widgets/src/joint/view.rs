@@ -8,10 +8,9 @@ use super::{
     panel::{Drawn, panel},
 };
 use crate::{
-    font::{self, Weight},
     panels::Panels,
     prediction::State,
-    scene::{Anchor, Mark, Point, Rect, Role, Scene, text},
+    scene::{Point, Rect, Role, Scene, strong},
     view::{View, whole_step},
     words::joint,
 };
@@ -96,13 +95,11 @@ fn removed(scene: &mut Scene, model: &JointModel, layout: &Layout) {
         None if model.hides(SAMPLED) => [joint::removed_hidden().to_string(), joint::removed_hidden().into()],
         None => [joint::removed_soon().to_string(), joint::removed_soon().into()],
     };
-    let fits = |wording: &&String| font::measure(wording, 13.0, Weight::SemiBold) <= words.w;
-    let wording = wordings.iter().find(fits).unwrap_or(&wordings[1]).clone();
-    scene.marks.push(text(words, Anchor::Start, 13.0, Weight::SemiBold, Role::Ink, wording));
+    scene.fit(words, strong(13.0, Role::Ink), &wordings);
     let share = model.filters().removed(model.landmarks());
     if share.is_finite() && !model.hides(SAMPLED) {
         let left = (bar.w * (1.0 - share).clamp(0.0, 1.0)).max(2.0);
-        scene.marks.push(Mark::Fill { area: bar, role: ROLES[0] });
-        scene.marks.push(Mark::Fill { area: Rect { w: left, ..bar }, role: ROLES[1] });
+        scene.fill(bar, ROLES[0]);
+        scene.fill(Rect { w: left, ..bar }, ROLES[1]);
     }
 }

@@ -6,7 +6,7 @@ use super::model::LapModel;
 use crate::{
     decimal::fixed,
     model::{Declared, FigureError, Model},
-    scene::{Plane, Role, Room, Scene, rimmed, rimmed_robot},
+    scene::{Plane, Role, Room, Scene},
     words::lap,
 };
 use fastslam::geometry::Pose2;
@@ -253,14 +253,14 @@ pub fn draw(scene: &mut Scene, model: &LapModel, plane: &Plane) {
     scene.rooms.push(Room { parameter: "drive", area: plane.area });
     let Some(hand) = &model.hand else { return };
     let walls = model.recipe.setup.edits.walls.added().iter().map(GridWall::segment);
-    rimmed(scene, walls.map(|wall| vec![plane.point(wall.a), plane.point(wall.b)]).collect(), 2.5, None, Role::Accent);
+    scene.rimmed(walls.map(|wall| vec![plane.point(wall.a), plane.point(wall.b)]).collect(), 2.5, None, Role::Accent);
     let robot = model.lap().world().truth[model.step() as usize];
-    rimmed_robot(scene, plane, &robot, 10.0, Role::Truth);
+    scene.rimmed_robot(plane, &robot, 10.0, Role::Truth);
     if hand.tool != Tool::Wheel {
         let [x, y] = plane.point(hand.cursor);
         let cross = vec![vec![[x - 7.0, y], [x + 7.0, y]], vec![[x, y - 7.0], [x, y + 7.0]]];
         let begun = hand.begun.map(|from| vec![plane.point(from), [x, y]]);
-        rimmed(scene, cross.into_iter().chain(begun).collect(), 2.0, None, Role::Accent);
+        scene.rimmed(cross.into_iter().chain(begun).collect(), 2.0, None, Role::Accent);
     }
 }
 

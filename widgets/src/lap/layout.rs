@@ -3,8 +3,7 @@
 use super::map::ASPECT;
 use crate::{
     panels::Panels,
-    scene::{LINE, Rect, Stack},
-    view,
+    scene::{LINE, Parts, Rect, Stack, parts},
 };
 
 /// Names of the panels: one universe large, all of them small, and N_eff over the steps.
@@ -27,27 +26,28 @@ const HEADER: f64 = 26.0;
 const PAD: f64 = 8.0;
 const METER: f64 = 64.0;
 
-/// The parts of the figure \[css px\].
-#[derive(Clone, PartialEq, Debug)]
-pub struct Layout {
-    /// Which panels are shown.
-    pub panels: Panels,
-    /// Which universe is shown large, and the step.
-    pub large_header: Rect,
-    /// Its map.
-    pub large: Rect,
-    /// What is drawn in it.
-    pub legend: Rect,
-    /// How many universes there are, and what became of them.
-    pub mosaic_header: Rect,
-    /// All of them, and a margin of `RING` around them.
-    pub mosaic: Rect,
-    /// What borders and marks of the mosaic mean.
-    pub notes: Rect,
-    /// N_eff over the steps.
-    pub meter: Rect,
-    /// Of the whole figure.
-    pub height: f64,
+parts! {
+    /// The parts of the figure \[css px\].
+    pub struct Layout {
+        /// Which panels are shown.
+        pub panels: Panels,
+        /// Which universe is shown large, and the step.
+        pub large_header: Rect,
+        /// Its map.
+        pub large: Rect,
+        /// What is drawn in it.
+        pub legend: Rect,
+        /// How many universes there are, and what became of them.
+        pub mosaic_header: Rect,
+        /// All of them, and a margin of `RING` around them.
+        pub mosaic: Rect,
+        /// What borders and marks of the mosaic mean.
+        pub notes: Rect,
+        /// N_eff over the steps.
+        pub meter: Rect,
+        /// Of the whole figure.
+        pub height: f64,
+    }
 }
 
 impl Layout {
@@ -84,34 +84,25 @@ impl Layout {
         let panels = panels.clone();
         let mut layout =
             Self { panels, large_header, large, legend, mosaic_header, mosaic: tiles, notes, meter, height: 0.0 };
-        let shown = layout.parts().into_iter().filter(|part| part.h > 0.0);
-        layout.height = shown.map(|part| part.bottom()).fold(0.0, f64::max).ceil();
+        layout.height = layout.lowest().ceil();
         layout
-    }
-
-    /// All parts.
-    pub fn parts(&self) -> [Rect; 7] {
-        [self.large_header, self.large, self.legend, self.mosaic_header, self.mosaic, self.notes, self.meter]
-    }
-}
-
-impl view::Layout for Layout {
-    fn height(&self) -> f64 {
-        self.height
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::assert_apart;
+    use crate::scene::assert_laid_out;
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        for width in (300..2000).step_by(7).map(f64::from) {
-            let layout = Layout::new(width);
-            assert_apart(&layout.parts(), &Rect::new(0.0, 0.0, width, layout.height));
-        }
+        assert_laid_out(
+            Layout::of,
+            &[MAP, MOSAIC, ESS],
+            NARROWEST,
+            &[("all", 7), (MAP, 3), (MOSAIC, 3), (ESS, 1), ("map n-eff", 4), ("map mosaic", 6)],
+            1.0,
+        );
     }
 
     #[test]
@@ -119,22 +110,6 @@ mod tests {
         for width in [640.0, 800.0, 1280.0] {
             let layout = Layout::new(width);
             assert!(layout.large.w > layout.mosaic.w && layout.mosaic.w > 0.35 * width, "{width}");
-        }
-    }
-
-    #[test]
-    fn panels_shown_alone_have_all_of_the_width_and_the_others_no_place() {
-        for (names, hidden) in [("map", 4), ("mosaic", 4), ("n-eff", 6), ("map n-eff", 3), ("map mosaic", 1)] {
-            let panels = Panels::named(names, &[MAP, MOSAIC, ESS]).unwrap();
-            for width in (300..2000).step_by(7).map(f64::from) {
-                let layout = Layout::of(width, &panels);
-                let parts = layout.parts();
-                let shown: Vec<Rect> = parts.iter().copied().filter(|part| part.h > 0.0).collect();
-                assert_eq!(parts.len() - shown.len(), hidden, "{names} at {width}");
-                assert_apart(&shown, &Rect::new(0.0, 0.0, width, layout.height));
-                let last = shown.iter().map(Rect::bottom).fold(0.0, f64::max);
-                assert!(layout.height - last < 1.0, "{names} at {width}: nothing is left below");
-            }
         }
     }
 }

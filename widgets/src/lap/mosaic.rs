@@ -7,13 +7,12 @@ use super::{
     model::LapModel,
 };
 use crate::{
-    font::{self, Weight},
     model::Model,
     order::ascending,
-    scene::{Anchor, Mark, Rect, Region, Role, Sample, Scene, Shading, cross, heading_if_fits, legend, text},
+    scene::{HEADING, Letters, Rect, Region, Role, Sample, Scene, Shading, legend, plain, strong},
     words::{common, lap},
 };
-use fastslam::genealogy::Path;
+use fastslam::{genealogy::Path, order::sorted};
 
 /// Share of weight (1 = 1/M) at which a bar is full: a universe that weighs thrice its share.
 const FULL_SHARE: f64 = 3.0;
@@ -41,8 +40,7 @@ fn shown(model: &LapModel) -> Vec<u32> {
         slots = least_alike(model, slots);
     }
     slots.truncate(TILES);
-    slots.sort_unstable();
-    slots
+    sorted(slots, Ord::cmp)
 }
 
 /// The first of these, and by turns the one whose path parted first from those of all before it, of equals the earlier.
@@ -65,21 +63,22 @@ fn least_alike(model: &LapModel, mut left: Vec<u32>) -> Vec<u32> {
 }
 
 /// The border of a universe that weighs this share (1 = 1/M), inside of its tile, and at its lower edge a bar as long as that weight.
-fn border(area: Rect, share: f64, high: f64) -> [Mark; 2] {
+fn border(scene: &mut Scene, area: Rect, share: f64, high: f64) {
     let bar = Rect::new(area.x, area.bottom() - high, area.w * (share / FULL_SHARE).clamp(0.0, 1.0), high);
-    [Mark::Frame { area, width: 1.0, role: Role::Weight(0) }, Mark::Fill { area: bar, role: Role::Weight(255) }]
+    scene.frame(area, 1.0, Role::Weight(0));
+    scene.fill(bar, Role::Weight(255));
 }
 
 /// The sign of a universe that died out: a cross on paper.
-fn extinct_cross(area: &Rect) -> [Mark; 2] {
-    let (lines, width) = (cross(area.inset(0.2 * area.w)), (0.16 * area.w).max(1.0));
-    [Mark::Fill { area: *area, role: Role::Paper }, Mark::Lines { lines, width, dash: None, role: Role::Extinct }]
+fn extinct_cross(scene: &mut Scene, area: Rect) {
+    scene.fill(area, Role::Paper);
+    scene.cross(area.inset(0.2 * area.w), (0.16 * area.w).max(1.0), Role::Extinct);
 }
 
 /// What a resampling did, as long as there is room for \[css px\].
 fn resampled(dead: usize, m: usize, room: f64) -> String {
     let long = lap::Resampled { dead: &dead, m: &m }.say();
-    let fits = font::measure(&long, 13.5, Weight::SemiBold) <= room;
+    let fits = HEADING.width(&long) <= room;
     if fits { long } else { lap::DiedOf { dead: &dead, m: &m }.say() }
 }
 
@@ -100,7 +99,7 @@ pub fn mosaic(scene: &mut Scene, model: &LapModel, layout: &Layout) {
         None if slots.len() < m => (name, Role::Ink, lap::Heaviest { n: &slots.len() }.say()),
         None => (name, Role::Ink, lap::map_each().into()),
     };
-    heading_if_fits(scene, &layout.mosaic_header, (&title, role), &rest);
+    scene.heading_fit(&layout.mosaic_header, (&title, role), &[rest]);
 
     let tiles = Tiles::fit(&layout.mosaic.inset(RING), slots.len(), ASPECT);
     let width = tiles.size[0];
@@ -109,12 +108,11 @@ pub fn mosaic(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     for (rank, &slot) in slots.iter().enumerate() {
         let tile = tiles.tile(rank);
         let cells = map::shades(&lap.particles()[slot as usize].map, model.setup().course);
-        scene.marks.push(Mark::Raster { area: map_area(rank), cells, shading: Shading::Map });
-        scene.marks.extend(border(tile, lap.weights()[slot as usize] * m as f64, full));
+        scene.raster(map_area(rank), cells, Shading::Map);
+        border(scene, tile, lap.weights()[slot as usize] * m as f64, full);
         scene.regions.push(Region { area: tile, target: slot });
         if slot == selected && !model.overlaid() {
-            let ring = tile.inset(-(0.5 * tiles.gap[1]).clamp(1.0, RING));
-            scene.marks.push(Mark::Frame { area: ring, width: 1.5, role: Role::Ink });
+            scene.frame(tile.inset(-(0.5 * tiles.gap[1]).clamp(1.0, RING)), 1.5, Role::Ink);
         }
     }
     paths(scene, model, &slots, &map_area, width);
@@ -124,7 +122,7 @@ pub fn mosaic(scene: &mut Scene, model: &LapModel, layout: &Layout) {
             if extinct.contains(&slot) {
                 let Rect { x, y, w, .. } = map_area(rank);
                 let side = (0.16 * w).clamp(8.0, 14.0);
-                scene.marks.extend(extinct_cross(&Rect::new(x + w - side, y, side, side)));
+                extinct_cross(scene, Rect::new(x + w - side, y, side, side));
             }
         }
     }
@@ -139,49 +137,42 @@ fn paths(scene: &mut Scene, model: &LapModel, slots: &[u32], map_area: &dyn Fn(u
         lines.extend(plane.path(&model.lap().path(slot as usize), 1.0));
         robots.extend(plane.robot(&model.lap().particles()[slot as usize].world_from_robot, length));
     }
-    scene.marks.push(Mark::Lines { lines: lines.clone(), width: 3.0, dash: None, role: Role::Paper });
-    scene.marks.push(Mark::Lines { lines, width: 1.5, dash: None, role: Role::Path });
-    scene.marks.push(Mark::Polygons { polygons: robots, role: Role::Path });
+    scene.lines(lines.clone(), 3.0, Role::Paper);
+    scene.lines(lines, 1.5, Role::Path);
+    scene.polygons(robots, Role::Path);
 }
 
 /// The number of a slot, and at a resampling whom its universe was copied from.
 fn origin(scene: &mut Scene, model: &LapModel, slot: u32, map: &Rect, width: f64) {
     let size = (0.12 * width).clamp(8.5, 11.0);
-    let plate = |label: &str, weight, bottom: bool| {
-        let (w, h) = (font::measure(label, size, weight) + 5.0, size + 2.0);
-        Rect::new(map.x, if bottom { map.bottom() - h } else { map.y }, w.min(map.w), h)
+    let mut plate = |label: &str, ground, letters: Letters, bottom: bool| {
+        let (w, h) = (letters.width(label) + 5.0, size + 2.0);
+        let area = Rect::new(map.x, if bottom { map.bottom() - h } else { map.y }, w.min(map.w), h);
+        scene.fill(area, ground);
+        scene.text(area, letters.middle(), label);
     };
     let chosen = slot == model.selected() && !model.overlaid();
-    let number = slot.to_string();
-    let area = plate(&number, Weight::Regular, false);
     let (ground, role) = if chosen { (Role::Ink, Role::Paper) } else { (Role::Paper, Role::Muted) };
-    scene.marks.push(Mark::Fill { area, role: ground });
-    scene.marks.push(text(area, Anchor::Middle, size, Weight::Regular, role, number));
+    plate(&slot.to_string(), ground, plain(size, role), false);
     let parent = model.report().ancestors.as_ref().map(|ancestors| ancestors[slot as usize]);
     if let Some(parent) = parent.filter(|&parent| parent != slot) {
-        let label = format!("← {parent}");
-        let area = plate(&label, Weight::SemiBold, true);
-        scene.marks.push(Mark::Fill { area, role: Role::Paper });
-        scene.marks.push(text(area, Anchor::Middle, size, Weight::SemiBold, Role::Copied, label));
+        plate(&format!("← {parent}"), Role::Paper, strong(size, Role::Copied), true);
     }
 }
 
 /// What bars and marks mean.
 pub fn notes(scene: &mut Scene, model: &LapModel, area: &Rect) {
-    let weight = |share| Sample::new(move |place| border(*place, share, 4.0).into());
+    let weight = |share| Sample::new(move |scene, place| border(scene, *place, share, 4.0));
     if model.lap().particles().len() == 1 {
         legend(scene, area, [(weight(1.0), lap::all_weight())]);
         return;
     }
     let weights = [(weight(0.0), lap::no_weight()), (weight(1.0), "1/M"), (weight(FULL_SHARE), lap::much_weight())];
-    let label = |place: &Rect| vec![text(*place, Anchor::Start, 10.5, Weight::SemiBold, Role::Copied, "← 7")];
-    let copied = (Sample::new(label).wide(font::measure("← 7", 10.5, Weight::SemiBold) + 4.0), lap::copied_from());
-    let died = |place: &Rect| {
-        let [x, y] = place.centre();
-        extinct_cross(&Rect::new(x - 5.0, y - 5.0, 10.0, 10.0)).into()
-    };
-    let resampling =
-        [(Sample::dot(Role::Copied, 2.5), common::resampled()), copied, (Sample::new(died), common::died_out())];
+    let letters = strong(10.5, Role::Copied);
+    let copied = Sample::new(move |scene, place| scene.text(*place, letters, "← 7")).wide(letters.width("← 7") + 4.0);
+    let died = Sample::at(|scene, at| extinct_cross(scene, Rect::around(at, 5.0)));
+    let resampled = Sample::dot(Role::Copied, 2.5);
+    let resampling = [(resampled, common::resampled()), (copied, lap::copied_from()), (died, common::died_out())];
     let y = legend(scene, area, weights);
     legend(scene, &Rect { y, ..*area }, resampling);
 }

@@ -8,10 +8,7 @@ use super::{
     view::{RAW, TRUTH, branches, odometry, true_path, true_walls},
 };
 use crate::{
-    scene::{
-        Cells, FREE, Mark, Plane, Rect, Role, Sample, Scene, Shading, UNKNOWN, heading, legend, lens, rimmed_polygon,
-        rimmed_robot, scale_bar,
-    },
+    scene::{FREE, Plane, Rect, Role, Sample, Scene, Shading, UNKNOWN, legend, lens},
     words::{common, lap},
 };
 use fastslam::{genealogy::Path, particle::Particle};
@@ -36,22 +33,21 @@ pub fn overlay(scene: &mut Scene, model: &LapModel, layout: &Layout) {
     } else {
         (&*lap::Overlaid { m: &lap.particles().len() }.say(), Role::Ink)
     };
-    heading(scene, &layout.large_header, title, "");
+    scene.heading(&layout.large_header, title, "");
 
     let plane = map::plane(layout.large, course);
-    let cells = map::shares(lap, &model.shares(), course);
-    scene.marks.push(Mark::Raster { area: plane.area, cells, shading: Shading::Share });
+    scene.raster(plane.area, map::shares(lap, &model.shares(), course), Shading::Share);
     true_walls(scene, model, &plane);
     paths(scene, model, &plane);
     odometry(scene, model, &plane);
     true_path(scene, model, &plane);
     for particle in lap.particles() {
-        rimmed_robot(scene, &plane, &particle.world_from_robot, LIVING, Role::Path);
+        scene.rimmed_robot(&plane, &particle.world_from_robot, LIVING, Role::Path);
     }
     nearby(scene, model, &plane);
     drive::draw(scene, model, &plane);
-    scale_bar(scene, &plane, 1.0, f64::INFINITY);
-    scene.marks.push(Mark::Frame { area: plane.area, width: 1.0, role: Role::Frame });
+    scene.scale_bar(&plane, 1.0, f64::INFINITY);
+    scene.frame(plane.area, 1.0, Role::Frame);
 }
 
 /// How far they are apart on new ground, as long as it is too little to be seen.
@@ -68,7 +64,7 @@ fn nearby(scene: &mut Scene, model: &LapModel, plane: &Plane) {
     lens(scene, plane, mean, &mut |scene, near| {
         paths(scene, model, &near);
         for particle in particles {
-            rimmed_robot(scene, &near, &particle.world_from_robot, LIVING, Role::Path);
+            scene.rimmed_robot(&near, &particle.world_from_robot, LIVING, Role::Path);
         }
     });
 }
@@ -80,36 +76,23 @@ fn paths(scene: &mut Scene, model: &LapModel, plane: &Plane) {
     let ages: Vec<_> = FADING.iter().zip(model.dead()).collect();
     let mut robots = Vec::new();
     for (&level, dead) in ages.into_iter().rev() {
-        let lines = branches(&mut drawn, plane, &mut dead.iter());
-        scene.marks.push(Mark::Lines { lines, width: 1.5, dash: None, role: Role::Fading(level) });
+        scene.lines(branches(&mut drawn, plane, &mut dead.iter()), 1.5, Role::Fading(level));
         robots.extend(dead.iter().filter_map(|path: &Path| Some((plane.robot(&path.pose(), DEAD)?, level))));
     }
-    scene.marks.push(Mark::Lines { lines: living, width: 1.25, dash: None, role: Role::Path });
+    scene.lines(living, 1.25, Role::Path);
     for (corners, level) in robots {
-        rimmed_polygon(scene, corners, Role::Fading(level));
+        scene.rimmed_polygon(corners, Role::Fading(level));
     }
 }
 
 /// What its colours and lines mean.
 pub fn names(scene: &mut Scene, model: &LapModel, area: &Rect) {
-    let share = |p: f64| {
-        Sample::new(move |place| {
-            let cells = Cells { columns: 1, shades: vec![map::share(p)] };
-            let frame = Mark::Frame { area: *place, width: 1.0, role: Role::Weight(0) };
-            vec![Mark::Raster { area: *place, cells, shading: Shading::Share }, frame]
-        })
-    };
+    let share = |shares: &[f64]| Sample::cells(shares.iter().map(|p| map::share(*p)).collect(), Shading::Share);
     let several = model.lap().particles().len() > 1;
     let mut items = Vec::new();
-    items.push((share(1.0), if several { lap::wall_in_all() } else { common::wall() }));
+    items.push((share(&[1.0]), if several { lap::wall_in_all() } else { common::wall() }));
     if several {
-        let run = |place: &Rect| {
-            let shades = [0.1, 0.3, 0.5, 0.7, 0.9].map(map::share).to_vec();
-            let cells = Cells { columns: shades.len(), shades };
-            let frame = Mark::Frame { area: *place, width: 1.0, role: Role::Weight(0) };
-            vec![Mark::Raster { area: *place, cells, shading: Shading::Share }, frame]
-        };
-        items.push((Sample::new(run).wide(34.0), lap::disagree()));
+        items.push((share(&[0.1, 0.3, 0.5, 0.7, 0.9]).wide(34.0), lap::disagree()));
     }
     items.push((Sample::cell(FREE), common::free()));
     items.push((Sample::cell(UNKNOWN), common::unknown()));
@@ -132,7 +115,7 @@ mod tests {
     use crate::{
         model::Model as _,
         panels::Panels,
-        scene::SHARES,
+        scene::{Mark, SHARES},
         view::{self, View as _},
     };
 

@@ -10,12 +10,10 @@ use super::{
 };
 use crate::decimal::fixed;
 use crate::{
-    font::Weight,
     model::{FigureError, Model},
     panels::Panels,
     scene::{
-        Anchor, Chart, FREE, GHOST, LINE, Mark, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN,
-        cloud, ghost, heading, legend, n_eff, rimmed, rimmed_robot, scale_bar, text,
+        Chart, FREE, LINE, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, legend, plain, strong,
     },
     view::View,
     words::{common, lap},
@@ -98,27 +96,23 @@ fn large(scene: &mut Scene, model: &LapModel, layout: &Layout) {
         false => lap::Weight { weight }.say(),
     };
     let name = lap::UniverseSlot { slot: &slot }.say();
-    heading(scene, &layout.large_header, (&name, Role::Ink), &weight);
+    scene.heading(&layout.large_header, (&name, Role::Ink), &weight);
 
     let course = model.setup().course;
     let plane = map::plane(layout.large, course);
     let particle = &lap.particles()[slot as usize];
-    scene.marks.push(Mark::Raster {
-        area: plane.area,
-        cells: map::shades(&particle.map, course),
-        shading: Shading::Map,
-    });
+    scene.raster(plane.area, map::shades(&particle.map, course), Shading::Map);
     true_walls(scene, model, &plane);
     let hits = map::hits(&particle.map, course).into_iter().map(|place| plane.point(place));
-    scene.marks.push(cloud(hits, &plane.area.inset(2.0), (0.035 * plane.scale).max(1.0), Role::Hit));
+    scene.cloud(hits, &plane.area.inset(2.0), (0.035 * plane.scale).max(1.0), Role::Hit);
     others(scene, model, &plane);
     odometry(scene, model, &plane);
-    rimmed(scene, plane.path(&lap.path(slot as usize), 0.5), 2.25, None, Role::Path);
+    scene.rimmed(plane.path(&lap.path(slot as usize), 0.5), 2.25, None, Role::Path);
     true_path(scene, model, &plane);
-    rimmed_robot(scene, &plane, &particle.world_from_robot, 9.0, Role::Path);
+    scene.rimmed_robot(&plane, &particle.world_from_robot, 9.0, Role::Path);
     drive::draw(scene, model, &plane);
-    scale_bar(scene, &plane, 1.0, f64::INFINITY);
-    scene.marks.push(Mark::Frame { area: plane.area, width: 1.0, role: Role::Frame });
+    scene.scale_bar(&plane, 1.0, f64::INFINITY);
+    scene.frame(plane.area, 1.0, Role::Frame);
 }
 
 /// The walls as they are, where the truth is shown.
@@ -126,8 +120,7 @@ pub fn true_walls(scene: &mut Scene, model: &LapModel, plane: &Plane) {
     if model.shows_truth() {
         let plan = &model.lap().world().plan;
         let walls = plan.walls.iter().chain(&plan.furniture);
-        let walls = walls.map(|s| vec![plane.point(s.a), plane.point(s.b)]).collect();
-        rimmed(scene, walls, 1.25, None, Role::Truth);
+        scene.rimmed(walls.map(|s| vec![plane.point(s.a), plane.point(s.b)]).collect(), 1.25, None, Role::Truth);
     }
 }
 
@@ -135,9 +128,8 @@ pub fn true_walls(scene: &mut Scene, model: &LapModel, plane: &Plane) {
 pub fn odometry(scene: &mut Scene, model: &LapModel, plane: &Plane) {
     let (world, now) = (model.lap().world(), model.step() as usize);
     if model.shows_raw() {
-        let lines = plane.path(&world.odometry[..=now], 0.5);
-        rimmed(scene, lines, 2.0, Some(RAW), Role::Odometry);
-        rimmed_robot(scene, plane, &world.odometry[now], 7.0, Role::Odometry);
+        scene.rimmed(plane.path(&world.odometry[..=now], 0.5), 2.0, Some(RAW), Role::Odometry);
+        scene.rimmed_robot(plane, &world.odometry[now], 7.0, Role::Odometry);
     }
 }
 
@@ -145,9 +137,8 @@ pub fn odometry(scene: &mut Scene, model: &LapModel, plane: &Plane) {
 pub fn true_path(scene: &mut Scene, model: &LapModel, plane: &Plane) {
     let (world, now) = (model.lap().world(), model.step() as usize);
     if model.shows_truth() {
-        let lines = plane.path(&world.truth[..=now], 0.5);
-        scene.marks.push(Mark::Lines { lines, width: 1.5, dash: Some(TRUTH), role: Role::Truth });
-        rimmed_robot(scene, plane, &world.truth[now], 7.0, Role::Truth);
+        scene.dashed(plane.path(&world.truth[..=now], 0.5), 1.5, TRUTH, Role::Truth);
+        scene.rimmed_robot(plane, &world.truth[now], 7.0, Role::Truth);
     }
 }
 
@@ -174,15 +165,14 @@ pub fn branches(drawn: &mut BTreeSet<Place>, plane: &Plane, paths: &mut dyn Iter
 fn others(scene: &mut Scene, model: &LapModel, plane: &Plane) {
     let mut drawn = BTreeSet::new();
     let living = branches(&mut drawn, plane, &mut model.lap().particles().iter().map(|particle| &particle.path));
-    let dead = branches(&mut drawn, plane, &mut model.dead().take(1).flatten());
-    scene.marks.push(Mark::Lines { lines: dead, width: 1.25, dash: None, role: Role::Extinct });
-    scene.marks.push(Mark::Lines { lines: living, width: 1.0, dash: None, role: OTHERS });
+    scene.lines(branches(&mut drawn, plane, &mut model.dead().take(1).flatten()), 1.25, Role::Extinct);
+    scene.lines(living, 1.0, OTHERS);
 }
 
 fn names(scene: &mut Scene, model: &LapModel, area: &Rect) {
-    let hit = |place: &Rect| {
-        let mean = Mark::Discs { centres: vec![place.centre()], radius: 1.5, role: Role::Hit };
-        Sample::cell(OCCUPIED).marks(place).into_iter().chain([mean]).collect()
+    let hit = |scene: &mut Scene, place: &Rect| {
+        Sample::cell(OCCUPIED).draw(scene, place);
+        scene.disc(place.centre(), 1.5, Role::Hit);
     };
     let mut items = vec![
         (Sample::cell(OCCUPIED), common::wall()),
@@ -215,39 +205,25 @@ fn meter(scene: &mut Scene, model: &LapModel, area: &Rect) {
     let pinned = model.pinned_ess();
     let rows = if pinned.is_empty() { 2.0 } else { 3.0 };
     let line = |k: f64| Rect::new(area.x, chart.y + 0.5 * chart.h + 17.0 * (k - 0.5 * rows), label_width - 6.0, 17.0);
-    let end = n_eff(scene, &line(0.0), 12.5, Weight::SemiBold, Role::Ink);
+    let end = scene.n_eff(&line(0.0), strong(12.5, Role::Ink));
     let value = Rect::new(end, line(0.0).y, label_width - 6.0 - (end - area.x), 17.0);
-    let ess = fixed(model.report().ess, 1);
-    scene.marks.push(text(value, Anchor::End, 12.5, Weight::Regular, Role::Ink, ess));
-    scene.marks.push(text(
-        line(1.0),
-        Anchor::Start,
-        11.5,
-        Weight::Regular,
-        Role::Muted,
-        common::OfAll { all: &count }.say(),
-    ));
+    scene.text(value, plain(12.5, Role::Ink).end(), &fixed(model.report().ess, 1));
+    scene.text(line(1.0), plain(11.5, Role::Muted), &common::OfAll { all: &count }.say());
     if !pinned.is_empty() {
-        legend(
-            scene,
-            &Rect { h: LINE, ..line(2.0) },
-            [(Sample::line(GHOST, 1.75, None).wide(12.0), common::pinned_mark())],
-        );
+        legend(scene, &Rect { h: LINE, ..line(2.0) }, [(Sample::pinned().wide(12.0), common::pinned_mark())]);
     }
 
     let chart = Chart { area: chart, last: model.step_count() };
-    let lines = vec![chart.level(0.0), chart.level(1.0)];
-    scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role: Role::Frame });
+    scene.lines(vec![chart.level(0.0), chart.level(1.0)], 1.0, Role::Frame);
     if let ResamplePolicy::EssBelow(fraction) = model.setup().policy {
-        let lines = vec![chart.level(fraction)];
-        scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some([3.0, 3.0]), role: Role::Weight(0) });
+        scene.dash(&chart.level(fraction), 1.0, [3.0, 3.0], Role::Weight(0));
     }
-    scene.marks.extend(ghost(&chart, pinned.iter().copied()));
+    chart.ghost(scene, pinned.iter().copied());
     let history = model.history();
     let curve = chart.curve(history.iter().map(|r| (r.step, r.ess / m)));
     let resampled = history.iter().zip(&curve).filter(|(r, _)| r.ancestors.is_some()).map(|(_, at)| *at).collect();
     let now = curve[curve.len() - 1];
-    scene.marks.push(Mark::Lines { lines: vec![curve], width: 1.25, dash: None, role: Role::Muted });
-    scene.marks.push(Mark::Discs { centres: resampled, radius: 2.0, role: Role::Copied });
-    scene.marks.push(Mark::Discs { centres: vec![now], radius: 3.0, role: Role::Ink });
+    scene.line(&curve, 1.25, Role::Muted);
+    scene.discs(resampled, 2.0, Role::Copied);
+    scene.disc(now, 3.0, Role::Ink);
 }

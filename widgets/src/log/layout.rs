@@ -2,8 +2,7 @@
 
 use crate::{
     panels::Panels,
-    scene::{LINE, Rect},
-    view,
+    scene::{LINE, Rect, parts},
 };
 
 /// Names of the panels: the map with the paths, and N_eff and lineage over the scans.
@@ -25,28 +24,30 @@ const SHARE: f64 = 0.545;
 const HEADER: f64 = 26.0;
 const PAD: f64 = 8.0;
 
-/// A gauge over the scans \[css px\].
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Gauge {
-    /// Its name and its value.
-    pub label: Rect,
-    /// The curve.
-    pub chart: Rect,
+parts! {
+    /// A gauge over the scans \[css px\].
+    pub struct Gauge {
+        /// Its name and its value.
+        pub label: Rect,
+        /// The curve.
+        pub chart: Rect,
+    }
 }
 
-/// The parts of the figure \[css px\].
-#[derive(Clone, PartialEq, Debug)]
-pub struct Layout {
-    /// How far the log is mapped.
-    pub header: Rect,
-    /// The map, if it is shown.
-    pub map: Option<Rect>,
-    /// N_eff and lineage, if they are shown.
-    pub gauges: Option<[Gauge; 2]>,
-    /// What marks mean.
-    pub legend: Rect,
-    /// Of the whole figure.
-    pub height: f64,
+parts! {
+    /// The parts of the figure \[css px\].
+    pub struct Layout {
+        /// How far the log is mapped.
+        pub header: Rect,
+        /// The map, if it is shown.
+        pub map: Option<Rect>,
+        /// N_eff and lineage, if they are shown.
+        pub gauges: Option<[Gauge; 2]>,
+        /// What marks mean.
+        pub legend: Rect,
+        /// Of the whole figure.
+        pub height: f64,
+    }
 }
 
 impl Layout {
@@ -84,7 +85,7 @@ impl Layout {
             let w = 0.5 * (width - 2.0 * PAD);
             [0.0, 1.0].map(|k| gauge(k * (w + 2.0 * PAD), y, w))
         });
-        y = gauges.map_or(y, |[first, _]| first.chart.bottom() + PAD);
+        y = gauges.as_ref().map_or(y, |[first, _]| first.chart.bottom() + PAD);
         let lines = match width {
             _ if map.is_none() => 1.0,
             560.0.. => 2.0,
@@ -96,31 +97,14 @@ impl Layout {
     }
 }
 
-impl view::Layout for Layout {
-    fn height(&self) -> f64 {
-        self.height
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::assert_apart;
+    use crate::scene::assert_laid_out;
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        for (names, count) in [("all", 7), ("map", 3), ("gauges", 6)] {
-            let panels = Panels::named(names, &[MAP, GAUGES]).unwrap();
-            for width in (300..2000).step_by(7).map(f64::from) {
-                let Layout { header, map, gauges, legend, height } = Layout::of(width, &panels);
-                let mut parts = vec![header, legend];
-                parts.extend(map);
-                parts.extend(gauges.iter().flatten().flat_map(|gauge| [gauge.label, gauge.chart]));
-                assert_eq!(parts.len(), count, "{names} at {width}");
-                assert!(parts.iter().all(|part| part.w > 0.0 && part.h > 0.0), "{names} at {width}");
-                assert_apart(&parts, &Rect::new(0.0, 0.0, width, height));
-            }
-        }
+        assert_laid_out(Layout::of, &[MAP, GAUGES], NARROWEST, &[("all", 7), (MAP, 3), (GAUGES, 6)], 1.0);
     }
 
     #[test]

@@ -10,12 +10,11 @@ use super::{
 };
 use crate::decimal::fixed;
 use crate::{
-    font::{self, Weight},
     model::Model,
     panels::Panels,
     scene::{
-        Anchor, Cells, Chart, FREE, Mark, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, heading,
-        legend, n_eff, rimmed_robot, scale_bar, text, thinned,
+        Cells, Chart, FREE, Letters, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, legend,
+        plain, strong, thinned,
     },
     view::{Navigation, View},
     words::{common, log as words},
@@ -24,6 +23,7 @@ use fastslam::{geometry::Pose2, resampling::ResamplePolicy};
 
 /// Font size of what is written beside the map \[css px\].
 const SIZE: f64 = 11.5;
+const NAME: Letters = plain(SIZE, Role::Muted);
 
 /// Dashes and gaps of raw odometry and of the threshold \[css px\].
 const RAW: [f64; 2] = [7.0, 4.0];
@@ -131,15 +131,14 @@ fn header(scene: &mut Scene, model: &LogModel, area: &Rect) {
             (scan, common::UniverseCount { m: &model.setup().particles }.say())
         }
     };
-    heading(scene, area, (&strong, Role::Ink), &rest);
+    scene.heading(area, (&strong, Role::Ink), &rest);
 }
 
 fn map(scene: &mut Scene, model: &LogModel, area: Rect, view: Option<&MapView>) {
-    let unknown = Cells { columns: 1, shades: vec![UNKNOWN] };
-    scene.marks.push(Mark::Raster { area, cells: unknown, shading: Shading::Map });
+    scene.raster(area, Cells::row(&[UNKNOWN]), Shading::Map);
     if let Some(view) = view {
         if let Some((area, cells)) = model.seen().and_then(|seen| view.cells(&seen.map)) {
-            scene.marks.push(Mark::Raster { area, cells, shading: Shading::Map });
+            scene.raster(area, cells, Shading::Map);
         }
         laid(scene, model, view);
         around(scene, &area);
@@ -149,16 +148,11 @@ fn map(scene: &mut Scene, model: &LogModel, area: Rect, view: Option<&MapView>) 
         round_scale_bar(scene, &view.0);
     } else {
         let [_, y] = area.centre();
-        let lines = [
-            (13.5, Weight::SemiBold, Role::Ink, words::no_log_open()),
-            (12.5, Weight::Regular, Role::Muted, words::run_example()),
-        ];
-        for (k, (size, weight, role, line)) in lines.into_iter().enumerate() {
-            let area = Rect::new(area.x, y + 22.0 * (k as f64 - 1.0), area.w, 22.0);
-            scene.marks.push(text(area, Anchor::Middle, size, weight, role, line));
-        }
+        let line = |y: f64| Rect::new(area.x, y, area.w, 22.0);
+        scene.text(line(y - 22.0), strong(13.5, Role::Ink).middle(), words::no_log_open());
+        scene.text(line(y), plain(12.5, Role::Muted).middle(), words::run_example());
     }
-    scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
+    scene.frame(area, 1.0, Role::Frame);
 }
 
 /// Paper over the cells that reach beyond the edge of the map.
@@ -170,7 +164,9 @@ fn around(scene: &mut Scene, area: &Rect) {
         Rect::new(0.0, area.y, area.x, area.h),
         Rect::new(area.right(), area.y, w - area.right(), area.h),
     ];
-    scene.marks.extend(strips.map(|area| Mark::Fill { area, role: Role::Paper }));
+    for strip in strips {
+        scene.fill(strip, Role::Paper);
+    }
 }
 
 fn odometry(scene: &mut Scene, model: &LogModel, plane: &Plane) {
@@ -180,23 +176,22 @@ fn odometry(scene: &mut Scene, model: &LogModel, plane: &Plane) {
     let scans = &log.scans[..model.seen().map_or(log.scans.len(), |seen| seen.scans)];
     let placed = |pose: &Pose2| if model.mapper().is_some() { first.between(pose) } else { *pose };
     let lines = plane.path(&scans.iter().map(|scan| placed(&scan.odometry)).collect::<Vec<_>>(), 1.0);
-    scene.marks.push(Mark::Lines { lines, width: 1.5, dash: Some(RAW), role: Role::Odometry });
+    scene.dashed(lines, 1.5, RAW, Role::Odometry);
 }
 
 /// What raw odometry alone would have drawn, over what is mapped.
 fn laid(scene: &mut Scene, model: &LogModel, view: &MapView) {
     let (Some(laid), Some(seen)) = (model.compared(), model.seen()) else { return };
     let (area, cells) = view.marked(laid.cells(seen.step), seen.map.cell_size());
-    scene.marks.push(Mark::Raster { area, cells, shading: Shading::Odometry });
+    scene.raster(area, cells, Shading::Odometry);
 }
 
 /// Where raw odometry has the robot, and from where the best universe has it.
 fn astray(scene: &mut Scene, model: &LogModel, plane: &Plane) {
     let (Some(laid), Some(seen)) = (model.compared(), model.seen()) else { return };
     let Some(odometry) = laid.odometry(seen.step) else { return };
-    let lines = plane.path(&[seen.paths[seen.best].pose(), odometry], 0.0);
-    scene.marks.push(Mark::Lines { lines, width: 1.25, dash: Some(THRESHOLD), role: Role::Ink });
-    rimmed_robot(scene, plane, &odometry, 9.0, Role::Odometry);
+    scene.dashed(plane.path(&[seen.paths[seen.best].pose(), odometry], 0.0), 1.25, THRESHOLD, Role::Ink);
+    scene.rimmed_robot(plane, &odometry, 9.0, Role::Odometry);
 }
 
 /// The paths of all universes, and of those that died out a short while ago.
@@ -207,18 +202,14 @@ fn paths(scene: &mut Scene, model: &LogModel, plane: &Plane) {
         let dead = tree.dead.iter().filter(|(a, _)| *a == age);
         let lines: Vec<_> = dead.flat_map(|(_, line)| plane.path(line, 1.0)).collect();
         if !lines.is_empty() {
-            let width = DIED * f64::from(FADE - age) / f64::from(FADE);
-            scene.marks.push(Mark::Lines { lines, width, dash: None, role: Role::Extinct });
+            scene.lines(lines, DIED * f64::from(FADE - age) / f64::from(FADE), Role::Extinct);
         }
     }
-    let others = tree.others.iter().flat_map(|line| plane.path(line, 1.0)).collect();
-    scene.marks.push(Mark::Lines { lines: others, width: LIVES, dash: None, role: Role::Copied });
-    let lines = plane.path(&tree.best, 1.0);
-    scene.marks.push(Mark::Lines { lines, width: 2.0, dash: None, role: Role::Path });
+    scene.lines(tree.others.iter().flat_map(|line| plane.path(line, 1.0)).collect(), LIVES, Role::Copied);
+    scene.lines(plane.path(&tree.best, 1.0), 2.0, Role::Path);
     let Seen { paths, best, .. } = seen;
-    let robots = paths.iter().filter_map(|path| plane.robot(&path.pose(), 5.0));
-    scene.marks.push(Mark::Polygons { polygons: robots.collect(), role: Role::Copied });
-    rimmed_robot(scene, plane, &paths[*best].pose(), 9.0, Role::Path);
+    scene.polygons(paths.iter().filter_map(|path| plane.robot(&path.pose(), 5.0)).collect(), Role::Copied);
+    scene.rimmed_robot(plane, &paths[*best].pose(), 9.0, Role::Path);
 }
 
 /// A round length, in the lower right corner.
@@ -226,34 +217,30 @@ fn round_scale_bar(scene: &mut Scene, plane: &Plane) {
     let metres = [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 5000.0, 20000.0];
     let room = 0.25 * plane.area.w;
     let fitting = metres.into_iter().rev().find(|metres| metres * plane.scale <= room);
-    scale_bar(scene, plane, fitting.unwrap_or(metres[0]), room);
+    scene.scale_bar(plane, fitting.unwrap_or(metres[0]), room);
 }
 
 /// The end of a gauge's label, and what is left before it.
 fn value(scene: &mut Scene, label: &Rect, words: String) -> Rect {
-    let width = font::measure(&words, SIZE, Weight::SemiBold) + 0.01;
-    let area = Rect::new(label.right() - width, label.y, width, label.h);
-    scene.marks.push(text(area, Anchor::Start, SIZE, Weight::SemiBold, Role::Ink, words));
+    let letters = strong(SIZE, Role::Ink);
+    let width = letters.width(&words) + 0.01;
+    scene.text(Rect::new(label.right() - width, label.y, width, label.h), letters, &words);
     Rect::new(label.x, label.y, (label.w - width - 6.0).max(0.0), label.h)
 }
 
 /// A curve over the scans: a share of the chart's height for each step.
 fn curve(scene: &mut Scene, model: &LogModel, chart: &Chart, share: impl Fn(&Moment) -> f64) -> Vec<Point> {
-    scene.marks.extend(chart.edges());
+    chart.edges(scene);
     let points = chart.curve((1..).zip(model.all_history().iter().map(share)));
     let (shown, later) = points.split_at(model.history().len());
-    let line = |points: &[Point], role| {
-        let lines = vec![thinned(&mut points.iter().copied(), 0.5)];
-        Mark::Lines { lines, width: 1.25, dash: None, role }
-    };
+    let line = |points: &[Point]| thinned(&mut points.iter().copied(), 0.5);
     // What came after the scan that is shown steps back.
     if !later.is_empty() {
         let x = chart.x(model.step());
-        let now = vec![vec![[x, chart.area.y], [x, chart.area.bottom()]]];
-        let now = Mark::Lines { lines: now, width: 1.5, dash: None, role: Role::Path };
-        scene.marks.extend([line(later, Role::Frame), now]);
+        scene.line(&line(later), 1.25, Role::Frame);
+        scene.line(&[[x, chart.area.y], [x, chart.area.bottom()]], 1.5, Role::Path);
     }
-    scene.marks.push(line(shown, Role::Ink));
+    scene.line(&line(shown), 1.25, Role::Ink);
     points
 }
 
@@ -262,17 +249,15 @@ fn ess(scene: &mut Scene, model: &LogModel, gauge: &Gauge) {
     let m = model.setup().particles;
     let now = model.history().last().map_or("–".into(), |moment| fixed(moment.ess, 1));
     let name = value(scene, &gauge.label, common::Of { n: &now, all: &m }.say());
-    n_eff(scene, &name, SIZE, Weight::Regular, Role::Muted);
+    scene.n_eff(&name, NAME);
     let chart = &Chart { area: gauge.chart, last: model.step_count() };
     let points = curve(scene, model, chart, |moment| moment.ess / m as f64);
     if let ResamplePolicy::EssBelow(fraction) = model.setup().policy {
-        let lines = vec![chart.level(fraction)];
-        scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some(THRESHOLD), role: Role::Accent });
+        scene.dash(&chart.level(fraction), 1.0, THRESHOLD, Role::Accent);
     }
     let resampled = points.iter().zip(model.all_history()).filter(|(_, moment)| moment.resampled);
     let lines = thinned(&mut resampled.map(|(at, _)| [at[0], chart.area.bottom()]), 0.75);
-    let lines = lines.into_iter().map(|[x, y]| vec![[x, y], [x, y - TICK]]).collect();
-    scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role: Role::Extinct });
+    scene.lines(lines.into_iter().map(|[x, y]| vec![[x, y], [x, y - TICK]]).collect(), 1.0, Role::Extinct);
 }
 
 /// Distinct ancestors some scans ago.
@@ -281,17 +266,14 @@ fn lineage(scene: &mut Scene, model: &LogModel, gauge: &Gauge) {
     let now = model.history().last().map_or("–".into(), |moment| moment.lineage.to_string());
     let name = value(scene, &gauge.label, common::Of { n: &now, all: &m }.say());
     let names = [words::AncestorsAgo { back: &BACK }.say(), words::LineageBack { back: &BACK }.say()];
-    let fits = |label: &String| font::measure(label, SIZE, Weight::Regular) < name.w;
-    let label = names.into_iter().find(fits).unwrap_or(common::lineage().into());
-    scene.marks.push(text(name, Anchor::Start, SIZE, Weight::Regular, Role::Muted, label));
+    scene.fit(name, NAME, &[&names[0], &names[1], common::lineage()]);
     let chart = Chart { area: gauge.chart, last: model.step_count() };
     curve(scene, model, &chart, |moment| f64::from(moment.lineage) / m as f64);
 }
 
 fn names(scene: &mut Scene, layout: &Layout, compared: bool) {
-    let tick = |[x, y]: Point| {
-        let lines = vec![vec![[x, y - 0.5 * TICK], [x, y + 0.5 * TICK]]];
-        Mark::Lines { lines, width: 1.25, dash: None, role: Role::Extinct }
+    let tick = |scene: &mut Scene, [x, y]: Point| {
+        scene.line(&[[x, y - 0.5 * TICK], [x, y + 0.5 * TICK]], 1.25, Role::Extinct);
     };
     let of_map = [
         (Sample::cell(OCCUPIED), common::wall()),
@@ -306,9 +288,9 @@ fn names(scene: &mut Scene, layout: &Layout, compared: bool) {
         (Sample::at(tick), common::resampled()),
         (Sample::line(Role::Accent, 1.0, Some(THRESHOLD)), words::threshold()),
     ];
-    let by_odometry = Sample::new(|place| {
+    let by_odometry = Sample::new(|scene, place| {
         let area = Rect::new(place.x, place.y + 0.5 * place.h - 2.0, place.w, 4.0);
-        vec![Mark::Raster { area, cells: Cells { columns: 1, shades: vec![OCCUPIED] }, shading: Shading::Odometry }]
+        scene.raster(area, Cells::row(&[OCCUPIED]), Shading::Odometry);
     });
     let by_odometry = Some((by_odometry, words::by_odometry())).filter(|_| compared);
     let of_map = of_map.into_iter().chain(by_odometry).filter(|_| layout.map.is_some());

@@ -2,16 +2,19 @@
 
 use super::State;
 use crate::{
-    marks::{Place, label},
-    scene::{Handle, Mark, Point, Rect, Role, Scene},
+    marks::Place,
+    scene::{Handle, Point, Rect, Role, Scene},
     words::prediction,
 };
 
 /// What a reader moves up and down.
 pub const GUESS: &str = "guess";
 
+/// Where words stand about what is grasped, from the best place on.
+pub const AROUND: [Place; 4] = [Place::Right(11.0), Place::Left(11.0), Place::Above(9.0), Place::Below(9.0)];
+
 /// The level, and what is asked or said of it.
-pub struct Level<'a> {
+pub struct Level {
     /// How far the prediction is.
     pub state: State,
     /// Where it is grasped, at the height of the guess, or where that would begin.
@@ -23,24 +26,21 @@ pub struct Level<'a> {
     /// See there.
     pub text: String,
     /// The same in the picture, from long to short.
-    pub said: [&'a str; 2],
+    pub said: [String; 2],
 }
 
 /// Draws it across an area, with the words where nothing is taken: nothing where nobody is asked, or where it was waived.
-pub fn level(scene: &mut Scene, area: &Rect, taken: &mut Vec<Rect>, level: Level<'_>) {
+pub fn level(scene: &mut Scene, area: &Rect, taken: &mut Vec<Rect>, level: Level) {
     let Level { state, at, title, value, text, said } = level;
     if matches!(state, State::Off | State::Waived) {
         return;
     }
-    let dash = Some(if state == State::Asked { [2.0, 4.0] } else { [5.0, 3.0] });
-    let line = vec![vec![[area.x, at[1]], [area.right(), at[1]]]];
-    scene.marks.push(Mark::Lines { lines: line, width: 2.0, dash, role: Role::Accent });
+    let dash = if state == State::Asked { [2.0, 4.0] } else { [5.0, 3.0] };
+    scene.dash(&[[area.x, at[1]], [area.right(), at[1]]], 2.0, dash, Role::Accent);
     if matches!(state, State::Asked | State::Placed(_)) {
-        scene.marks.push(Mark::Discs { centres: vec![at], radius: 6.0, role: Role::Accent });
+        scene.disc(at, 6.0, Role::Accent);
         let text = if state == State::Asked { prediction::none().into() } else { text };
-        let title = title.into();
-        scene.handles.push(Handle { name: GUESS, title, at, axes: &[GUESS], value, text, hover: None });
+        scene.handles.push(Handle::of(&[GUESS], title, at, value, text));
     }
-    let places = [Place::Right(11.0), Place::Left(11.0), Place::Above(9.0), Place::Below(9.0)];
-    label(scene, taken, area, at, &said, &places);
+    scene.label(taken, area, at, &said, &AROUND);
 }

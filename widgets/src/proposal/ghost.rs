@@ -3,7 +3,7 @@
 use super::{gauge, model::ProposalModel};
 use crate::{
     ghost::{Curves, curve},
-    scene::{GHOST, Mark, NINE_TENTHS, Plane, Point, Rect, Role, Scene, clip_polyline, cloud},
+    scene::{GHOST, NINE_TENTHS, Plane, Point, Rect, Role, Scene, clip_polyline},
 };
 use fastslam_lab::experiment::proposals::{Cloud, Proposals};
 
@@ -34,18 +34,17 @@ fn points<'a>(numbers: &'a [f64], plane: &'a Plane) -> impl Iterator<Item = Poin
 /// The samples of a panel, by its rank, and what they should be like.
 pub fn panel(scene: &mut Scene, model: &ProposalModel, rank: usize, plane: &Plane, area: &Rect, radius: f64) {
     let pinned = model.pinned();
-    scene.marks.push(cloud(points(curve(pinned, rank), plane), &area.inset(radius), radius, SAMPLES));
+    scene.cloud(points(curve(pinned, rank), plane), &area.inset(radius), radius, SAMPLES);
     let outline = pinned.iter().skip(OUTLINE);
     let lines = outline.flat_map(|line| clip_polyline(&points(line, plane).collect::<Vec<_>>(), area)).collect();
-    scene.marks.push(Mark::Lines { lines, width: 1.75, dash: None, role: GHOST });
+    scene.lines(lines, 1.75, GHOST);
     if let (1, [x, y, xx, xy, yx, yy]) = (rank, curve(pinned, GAUSSIAN)) {
-        let lines = plane.region([*x, *y], [[*xx, *xy], [*yx, *yy]], NINE_TENTHS);
-        scene.marks.push(Mark::Lines { lines, width: 1.75, dash: Some([5.0, 3.0]), role: GHOST });
+        scene.dashed(plane.region([*x, *y], [[*xx, *xy], [*yx, *yy]], NINE_TENTHS), 1.75, [5.0, 3.0], GHOST);
     }
 }
 
 /// The ratio on its scale, at this height \[css px\].
 pub fn ratio(scene: &mut Scene, model: &ProposalModel, axis: &Rect, y: f64) {
     let centres = curve(model.pinned(), RATIO).iter().map(|ratio| [gauge::position(axis, *ratio), y]).collect();
-    scene.marks.push(Mark::Discs { centres, radius: 5.0, role: GHOST });
+    scene.discs(centres, 5.0, GHOST);
 }

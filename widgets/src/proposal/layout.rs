@@ -3,8 +3,7 @@
 use super::recipe::WORLD;
 use crate::{
     panels::Panels,
-    scene::{LINE, Plane, Rect},
-    view,
+    scene::{LINE, Plane, Rect, parts},
 };
 use fastslam_lab::baseline::one_step::Area;
 
@@ -31,36 +30,38 @@ const ASPECT: f64 = 0.6;
 /// A panel beside the other is at least so high, and one alone at most \[css px\].
 const HEIGHTS: [f64; 2] = [132.0, 300.0];
 
-/// One proposal's part.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Panel {
-    /// Which proposal.
-    pub header: Rect,
-    /// Its samples.
-    pub view: Rect,
-    /// What they are worth, in large numbers.
-    pub counters: [Rect; 2],
-    /// What the numbers do not tell.
-    pub note: Rect,
+parts! {
+    /// One proposal's part.
+    pub struct Panel {
+        /// Which proposal.
+        pub header: Rect,
+        /// Its samples.
+        pub view: Rect,
+        /// What they are worth, in large numbers.
+        pub counters: [Rect; 2],
+        /// What the numbers do not tell.
+        pub note: Rect,
+    }
 }
 
-/// The parts of the figure \[css px\].
-#[derive(Clone, PartialEq, Debug)]
-pub struct Layout {
-    /// Which panels are shown.
-    pub shown: Panels,
-    /// The motion prior's, and the measurement-aware proposal's.
-    pub panels: [Panel; 2],
-    /// What can be done in the world, and the world: where the panels are in it, and the landmark.
-    pub world: [Rect; 2],
-    /// The ratio in words, and below it what is asked or answered about it.
-    pub ratio: [Rect; 2],
-    /// Its scale.
-    pub axis: Rect,
-    /// What is drawn.
-    pub legend: Rect,
-    /// Of the whole figure.
-    pub height: f64,
+parts! {
+    /// The parts of the figure \[css px\].
+    pub struct Layout {
+        /// Which panels are shown.
+        pub shown: Panels,
+        /// The motion prior's, and the measurement-aware proposal's.
+        pub panels: [Panel; 2],
+        /// What can be done in the world, and the world: where the panels are in it, and the landmark.
+        pub world: [Rect; 2],
+        /// The ratio in words, and below it what is asked or answered about it.
+        pub ratio: [Rect; 2],
+        /// Its scale.
+        pub axis: Rect,
+        /// What is drawn.
+        pub legend: Rect,
+        /// Of the whole figure.
+        pub height: f64,
+    }
 }
 
 impl Layout {
@@ -120,15 +121,6 @@ impl Layout {
         Self { shown: shown.clone(), panels, world, ratio, axis, legend, height }
     }
 
-    /// All parts.
-    pub fn parts(&self) -> Vec<Rect> {
-        let panels = self
-            .panels
-            .iter()
-            .flat_map(|Panel { header, view, counters: [a, b], note }| [*header, *view, *a, *b, *note]);
-        panels.chain(self.world).chain(self.ratio).chain([self.axis, self.legend]).collect()
-    }
-
     /// The world, where the landmark is moved.
     pub fn world_plane(&self) -> Plane {
         let (Area { low, high }, area) = (WORLD, self.world[1]);
@@ -139,49 +131,28 @@ impl Layout {
 /// From which width on \[css px\] the legend has how many lines.
 const LINES: [(f64, f64); 4] = [(1000.0, 2.0), (WIDE, 3.0), (400.0, 6.0), (0.0, 7.0)];
 
-impl view::Layout for Layout {
-    fn height(&self) -> f64 {
-        self.height
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::assert_apart;
+    use crate::scene::{assert_laid_out, assert_on_screens};
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        for width in (300..2000).step_by(7).map(f64::from) {
-            let layout = Layout::new(width);
-            assert_apart(&layout.parts(), &Rect::new(0.0, 0.0, width, layout.height));
-        }
-    }
-
-    #[test]
-    fn panels_shown_alone_leave_no_place_for_the_others() {
-        for (names, shown) in [("motion", 8), ("aware", 8), ("ratio", 3), ("motion aware", 13), ("aware ratio", 11)] {
-            let panels = Panels::named(names, &[MOTION, AWARE, RATIO]).unwrap();
-            for width in (300..2000).step_by(7).map(f64::from) {
-                let layout = Layout::of(width, &panels);
-                let parts: Vec<Rect> = layout.parts().into_iter().filter(|part| part.h > 0.0).collect();
-                assert_eq!(parts.len(), shown, "{names} at {width}");
-                assert_apart(&parts, &Rect::new(0.0, 0.0, width, layout.height));
-                let [first, last] = [parts[0].y, parts.iter().map(Rect::bottom).fold(0.0, f64::max)];
-                assert!(first == 0.0 && layout.height - last < 1.0, "{names} at {width}: nothing is left around");
-            }
-        }
+        assert_laid_out(
+            Layout::of,
+            &[MOTION, AWARE, RATIO],
+            NARROWEST,
+            &[("all", 16), (MOTION, 8), (AWARE, 8), (RATIO, 3), ("motion aware", 13), ("aware ratio", 11)],
+            1.0,
+        );
     }
 
     #[test]
     fn the_picture_and_its_controls_are_on_one_screen() {
-        // The chapter on a laptop, its narrowest column of that kind, a phone, a tablet, the whole of a 16:9 screen.
-        for (width, most) in
-            [(692.0, 452.0), (600.0, 452.0), (352.0, 450.0), (322.0, 450.0), (760.0, 490.0), (1112.0, 610.0)]
-        {
-            let height = Layout::new(width).height;
-            assert!(height <= most, "{width}: {height}");
-        }
+        assert_on_screens(
+            Layout::of,
+            &[(692.0, 452.0), (600.0, 452.0), (352.0, 450.0), (322.0, 450.0), (760.0, 490.0), (1112.0, 610.0)],
+        );
     }
 
     #[test]

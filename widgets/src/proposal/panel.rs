@@ -11,10 +11,9 @@ use super::{
 use crate::{
     decimal::{fixed, write},
     font::{self, Weight},
-    marks::{Place, filled_diamond, label, line, ring},
+    marks::Place,
     scene::{
-        Anchor, Cells, Handle, LINE, Mark, NINE_TENTHS, Plane, Point, Rect, Role, Scene, Shading, bar, clip_polyline,
-        cloud, heading, rimmed_robot, text,
+        Cells, Handle, LINE, Mark, NINE_TENTHS, Plane, Point, Rect, Role, Scene, Shading, clip_polyline, plain, strong,
     },
     words::proposal,
 };
@@ -42,9 +41,7 @@ pub struct Drawn<'a> {
 
 /// Draws all of one proposal's part.
 pub fn panel(scene: &mut Scene, model: &ProposalModel, panel: &Panel, drawn: &Drawn) {
-    let used = font::measure(drawn.name, 13.5, Weight::SemiBold) + 12.0;
-    let fits = |what: &&&str| used + font::measure(what, 12.5, Weight::Regular) <= panel.header.w;
-    heading(scene, &panel.header, (drawn.name, Role::Ink), drawn.what.iter().find(fits).unwrap_or(&""));
+    scene.heading_fit(&panel.header, (drawn.name, Role::Ink), &drawn.what);
     samples(scene, model, panel, drawn);
     counters(scene, model, panel, drawn.cloud);
 }
@@ -61,23 +58,21 @@ fn samples(scene: &mut Scene, model: &ProposalModel, panel: &Panel, drawn: &Draw
 
     // What was known before the sighting, and the sighting.
     let straight = |a: Point, b: Point| clip_polyline(&[a, b], area);
-    let drive = straight(plane.position(&FROM), plane.position(&CONTROL.apply(&FROM)));
-    scene.marks.push(Mark::Lines { lines: drive, width: 1.25, dash: None, role: Role::Muted });
+    scene.lines(straight(plane.position(&FROM), plane.position(&CONTROL.apply(&FROM))), 1.25, Role::Muted);
     let landmarks: Vec<Point> = found.landmarks.iter().map(|l| plane.point([l.mean.x, l.mean.y])).collect();
-    let sight = straight(plane.position(&found.truth), landmarks[0]);
-    scene.marks.push(Mark::Lines { lines: sight, width: 1.25, dash: Some([2.0, 4.0]), role: Role::Landmark });
+    scene.dashed(straight(plane.position(&found.truth), landmarks[0]), 1.25, [2.0, 4.0], Role::Landmark);
     for (landmark, at) in found.landmarks.iter().zip(&landmarks) {
         let reach = plane.region([landmark.mean.x, landmark.mean.y], landmark.covariance.into(), NINE_TENTHS);
-        scene.marks.push(Mark::Lines { lines: reach, width: 1.25, dash: None, role: Role::Landmark });
+        scene.lines(reach, 1.25, Role::Landmark);
         if area.inset(7.0).contains(*at) {
-            scene.marks.push(filled_diamond(*at, 6.0, Role::Landmark));
+            scene.filled_diamond(*at, 6.0, Role::Landmark);
         }
     }
 
     let radius = dot(drawn.cloud.poses.len());
     ghost::panel(scene, model, usize::from(role == Role::Posterior), &plane, area, radius);
     let samples = drawn.cloud.poses.iter().map(|pose| plane.position(pose));
-    scene.marks.push(cloud(samples, &area.inset(radius), radius, role));
+    scene.cloud(samples, &area.inset(radius), radius, role);
 
     // Where the robot is if the sighting is of A, or of B: the same sighting of another place is made from another place.
     let other = Pose2::new(found.truth.x + TWIN[0], found.truth.y + TWIN[1], found.truth.theta);
@@ -99,12 +94,12 @@ fn samples(scene: &mut Scene, model: &ProposalModel, panel: &Panel, drawn: &Draw
     };
     // With a rim each, so that they are seen on samples too.
     for lines in [&region, &gaussian] {
-        scene.marks.push(Mark::Lines { lines: lines.clone(), width: 3.5, dash: None, role: Role::Paper });
+        scene.lines(lines.clone(), 3.5, Role::Paper);
     }
-    scene.marks.push(Mark::Lines { lines: region, width: 1.75, dash: None, role: Role::Ink });
-    scene.marks.push(Mark::Lines { lines: gaussian, width: 1.75, dash: Some([5.0, 3.0]), role });
-    scene.marks.push(Mark::Lines { lines: noise, width: 1.25, dash: None, role: Role::Accent });
-    rimmed_robot(scene, &plane, &found.truth, ROBOT, Role::Ink);
+    scene.lines(region, 1.75, Role::Ink);
+    scene.dashed(gaussian, 1.75, [5.0, 3.0], role);
+    scene.lines(noise, 1.25, Role::Accent);
+    scene.rimmed_robot(&plane, &found.truth, ROBOT, Role::Ink);
 
     let around = |[x, y]: Point| Rect::new(x - 8.0, y - 8.0, 16.0, 16.0);
     let mut taken: Vec<Rect> = poses.iter().map(|pose| around(plane.position(pose))).collect();
@@ -117,25 +112,24 @@ fn samples(scene: &mut Scene, model: &ProposalModel, panel: &Panel, drawn: &Draw
     taken.extend(knobs.iter().map(|(_, _, at)| around(*at)));
     for (noise, track, at) in knobs {
         grip(scene, noise, &track, at, noise.value(setup));
-        label(scene, &mut taken, area, at, &noise.words(), noise.places());
+        scene.label(&mut taken, area, at, &noise.words(), noise.places());
     }
     if setup.twins {
         for (pose, words) in poses.iter().zip([proposal::if_a(), proposal::if_b()]) {
             let places = [Place::Below(12.0), Place::Above(12.0)];
-            label(scene, &mut taken, area, plane.position(pose), &[words], &places);
+            scene.label(&mut taken, area, plane.position(pose), &[words], &places);
         }
     }
-    scene.marks.push(Mark::Frame { area: *area, width: 1.0, role: Role::Frame });
+    scene.frame(*area, 1.0, Role::Frame);
 }
 
 /// What a noise is set with, and the semi-axis that it is the end of.
 fn grip(scene: &mut Scene, noise: Noise, track: &Track, at: Point, value: f64) {
     if noise != Noise::Odometry {
-        let lines = vec![vec![track.from, at]];
-        scene.marks.push(Mark::Lines { lines, width: 1.25, dash: None, role: Role::Accent });
+        scene.line(&[track.from, at], 1.25, Role::Accent);
     }
-    scene.marks.push(Mark::Discs { centres: vec![at], radius: 6.0, role: Role::Paper });
-    scene.marks.push(ring(at, 5.0));
+    scene.disc(at, 6.0, Role::Paper);
+    scene.ring(at, 5.0);
     let (title, unit) = noise.told();
     scene.handles.push(Handle {
         name: noise.name(),
@@ -152,8 +146,8 @@ fn grip(scene: &mut Scene, noise: Noise, track: &Track, at: Point, value: f64) {
 fn scale(scene: &mut Scene, plane: &Plane) -> Rect {
     let (x, y, length) = (plane.area.x + 8.0, plane.area.bottom() - 7.0, 0.2 * plane.scale);
     let name = Rect::new(x, y - 16.0, length.max(40.0), 14.0);
-    scene.marks.push(bar([x, y], length));
-    scene.marks.push(text(name, Anchor::Start, 11.0, Weight::Regular, Role::Ink, "0.2 m"));
+    scene.bar([x, y], length);
+    scene.text(name, plain(11.0, Role::Ink), "0.2 m");
     Rect { h: 20.0, ..name }
 }
 
@@ -194,8 +188,8 @@ fn counters(scene: &mut Scene, model: &ProposalModel, panel: &Panel, cloud: &Clo
         let fits = |size: &f64| font::measure("100.0 %", *size, Weight::SemiBold) <= w - 4.0;
         let size = [24.0, 20.0, 17.0].into_iter().find(fits).unwrap_or(15.0);
         let small = if w < 80.0 { 11.0 } else { 12.0 };
-        scene.marks.push(text(Rect::new(x, y, w, 26.0), Anchor::Start, size, Weight::SemiBold, Role::Ink, number));
-        line(scene, &Rect::new(x, y + 26.0, w, LINE), small, Weight::Regular, Role::Muted, what);
+        scene.text(Rect::new(x, y, w, 26.0), strong(size, Role::Ink), &number);
+        scene.fit(Rect::new(x, y + 26.0, w, LINE), plain(small, Role::Muted), &what);
     }
     let weights = cloud.weights.as_slice();
     let note = if model.setup().twins {
@@ -218,5 +212,5 @@ fn counters(scene: &mut Scene, model: &ProposalModel, panel: &Panel, cloud: &Clo
         let short = proposal::LargestShort { share: &share }.say();
         [proposal::Largest { share: &share }.say(), short.clone(), short]
     };
-    line(scene, &panel.note, if panel.note.w < 160.0 { 11.0 } else { 12.0 }, Weight::Regular, Role::Muted, note);
+    scene.fit(panel.note, plain(if panel.note.w < 160.0 { 11.0 } else { 12.0 }, Role::Muted), &note);
 }

@@ -9,12 +9,13 @@ use crate::decimal::{fixed, rounded, write};
 use crate::{
     font::{self, Weight},
     panels::Panels,
-    scene::{Anchor, Chart, LINE, Mark, Point, Rect, Role, Sample, Scene, ghost, legend, n_eff, text},
+    scene::{Chart, LINE, Letters, Point, Rect, Role, Sample, Scene, legend, plain, strong},
     words::{common, resampling},
 };
 
 /// Font size of what is written at the charts \[css px\].
 pub const SIZE: f64 = 11.5;
+const NAME: Letters = plain(SIZE, Role::Muted);
 
 /// Dash and gap of the second curve of the policy that is chosen, and of the threshold, and from dot to dot where something happens
 /// \[css px\].
@@ -89,10 +90,9 @@ impl Picture<'_> {
             let count = ((y1 - y0) / EVENT) as usize;
             (0..count).map(move |k| y0 + EVENT * k as f64).map(move |y| vec![[x, y], [x, y + 1.0]])
         });
-        scene.marks.push(Mark::Lines { lines: dots.collect(), width: 1.0, dash: None, role: Role::Muted });
+        scene.lines(dots.collect(), 1.0, Role::Muted);
         let role = if self.model.looks_back() { Role::Accent } else { Role::Muted };
-        let lines = through(self.model.cursor()).map(|(x, y0, y1)| vec![[x, y0], [x, y1]]).collect();
-        scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role });
+        scene.lines(through(self.model.cursor()).map(|(x, y0, y1)| vec![[x, y0], [x, y1]]).collect(), 1.0, role);
     }
 
     /// Steps of the course that have a name.
@@ -104,8 +104,7 @@ impl Picture<'_> {
 
     /// The name of a chart above it, and after it samples of marks with what they mean, as far as there is room.
     pub fn label(&self, scene: &mut Scene, rank: usize, name: &str, items: Vec<(Sample<'_>, String)>) {
-        let line = self.line(rank);
-        scene.marks.push(text(line, Anchor::Start, SIZE, Weight::Regular, Role::Muted, name));
+        scene.text(self.line(rank), plain(SIZE, Role::Muted), name);
         self.items(scene, rank, font::measure(name, SIZE, Weight::Regular), items);
     }
 
@@ -135,10 +134,10 @@ impl Picture<'_> {
         for (y, number) in [(y + 6.0, most), (y + h - 5.0, "0".into())] {
             if (y - taken).abs() > 13.0 {
                 let area = Rect::new(x - SCALE, y - 7.0, SCALE - 10.0, 14.0);
-                scene.marks.push(text(area, Anchor::End, SIZE, Weight::Regular, Role::Muted, number));
+                scene.text(area, plain(SIZE, Role::Muted).end(), &number);
             }
         }
-        scene.marks.extend(self.chart(rank).edges());
+        self.chart(rank).edges(scene);
     }
 
     /// Where N_eff calls for resampling \[css px\].
@@ -149,19 +148,16 @@ impl Picture<'_> {
     /// That line, with its handle and its number at the left.
     fn threshold(&self, scene: &mut Scene) {
         let (Rect { x, y: top, w, h }, y) = (self.parts.charts[0], self.threshold_y());
-        let lines = vec![vec![[x, y], [x + w, y]]];
-        scene.marks.push(Mark::Lines { lines, width: 1.5, dash: Some(THRESHOLD), role: Role::Accent });
-        let handle = vec![[x + 3.0, y], [x - 7.0, y - 6.0], [x - 7.0, y + 6.0]];
-        scene.marks.push(Mark::Polygons { polygons: vec![handle], role: Role::Accent });
+        scene.dash(&[[x, y], [x + w, y]], 1.5, THRESHOLD, Role::Accent);
+        scene.polygon(vec![[x + 3.0, y], [x - 7.0, y - 6.0], [x - 7.0, y + 6.0]], Role::Accent);
         let number = resampling::ShareOfM { share: &write(rounded(self.model.setup().threshold, 2)) }.say();
         // Inside of the edges, as the ends of the scale are.
         let middle = y.min(top + h - 5.0).max(top + 6.0);
-        let area = Rect::new(x - SCALE, middle - 7.0, SCALE - 9.0, 14.0);
-        scene.marks.push(text(area, Anchor::End, 11.0, Weight::SemiBold, Role::Accent, number));
+        scene.text(Rect::new(x - SCALE, middle - 7.0, SCALE - 9.0, 14.0), strong(11.0, Role::Accent).end(), &number);
     }
 
     /// A curve over the steps shown, by the share of the chart's height.
-    fn curve(&self, rank: usize, policy: usize, height: impl Fn(&Moment) -> f64) -> Vec<Point> {
+    fn curve(&self, rank: usize, policy: usize, height: &dyn Fn(&Moment) -> f64) -> Vec<Point> {
         self.chart(rank).curve(self.model.history(policy).map(|moment| (moment.report.step, height(moment))))
     }
 
@@ -171,45 +167,42 @@ impl Picture<'_> {
         &self,
         scene: &mut Scene,
         rank: usize,
-        first: impl Fn(&Moment) -> f64,
+        first: &dyn Fn(&Moment) -> f64,
         second: Option<&dyn Fn(&Moment) -> f64>,
-        value: impl Fn(&Moment) -> String,
+        value: &dyn Fn(&Moment) -> String,
     ) {
         let scale = if rank == 2 { self.error_scale } else { 1.0 };
-        scene.marks.extend(ghost(&self.chart(rank), self.model.pinned(rank).iter().map(|value| value / scale)));
+        self.chart(rank).ghost(scene, self.model.pinned(rank).iter().map(|value| value / scale));
         if let Some(second) = second {
-            let lines = vec![self.curve(rank, self.chosen(), second)];
-            let role = stroke::role(self.chosen());
-            scene.marks.push(Mark::Lines { lines, width: 1.0, dash: Some(SECOND), role });
+            scene.dash(&self.curve(rank, self.chosen(), second), 1.0, SECOND, stroke::role(self.chosen()));
         }
         for policy in self.in_order() {
-            let curve = self.curve(rank, policy, &first);
+            let curve = self.curve(rank, policy, first);
             let dot = curve[self.model.cursor() as usize];
-            scene.marks.push(stroke::lines(policy, policy == self.chosen(), vec![curve]));
-            scene.marks.push(Mark::Discs { centres: vec![dot], radius: 3.0, role: stroke::role(policy) });
+            stroke::lines(scene, policy, policy == self.chosen(), vec![curve]);
+            scene.disc(dot, 3.0, stroke::role(policy));
         }
         let place = self.parts.values[if rank == 0 { 0 } else { rank + 1 }];
         let read = |policy| self.model.read(policy);
-        self.values(scene, &place, |policy| value(read(policy)), |policy| self.chart(rank).y(first(read(policy))));
+        self.values(scene, &place, &|policy| value(read(policy)), &|policy| self.chart(rank).y(first(read(policy))));
     }
 
     /// N_eff, the threshold, and the steps that resampled.
     fn ess(&self, scene: &mut Scene) {
         let m = self.particles() as f64;
-        let end = n_eff(scene, &self.line(0), SIZE, Weight::Regular, Role::Muted);
-        let tick = |place: &Rect| {
-            let [x, y] = place.centre();
+        let end = scene.n_eff(&self.line(0), NAME);
+        let tick = |scene: &mut Scene, [x, y]: Point| {
             let ticks = [-5.0, 0.0, 5.0].map(|dx| vec![[x + dx, y - 4.0], [x + dx, y + 4.0]]);
-            vec![Mark::Lines { lines: ticks.into(), width: 1.5, dash: None, role: stroke::role(self.chosen()) }]
+            scene.lines(ticks.into(), 1.5, stroke::role(self.chosen()));
         };
         let items = vec![
             (Sample::line(Role::Accent, 1.5, Some(THRESHOLD)), resampling::threshold().to_string()),
-            (Sample::new(tick), common::resampled().to_string()),
+            (Sample::at(tick), common::resampled().to_string()),
         ];
         self.items(scene, 0, end - self.parts.labels[0].x, items);
         self.threshold(scene);
         self.scale(scene, 0, self.particles().to_string());
-        self.curves(scene, 0, |moment| moment.report.ess / m, None, |moment| fixed(moment.report.ess, 1));
+        self.curves(scene, 0, &|moment| moment.report.ess / m, None, &|moment| fixed(moment.report.ess, 1));
         self.ticks(scene);
     }
 
@@ -219,8 +212,7 @@ impl Picture<'_> {
             let rows = self.model.history(policy).filter(|moment| moment.report.resampled());
             let x = |moment: &Moment| self.x(moment.report.step);
             let lines = rows.map(x).map(|x| vec![[x, row.y + 2.0], [x, row.bottom() - 2.0]]).collect();
-            let width = if policy == self.chosen() { 2.0 } else { 1.25 };
-            scene.marks.push(Mark::Lines { lines, width, dash: None, role: stroke::role(policy) });
+            scene.lines(lines, if policy == self.chosen() { 2.0 } else { 1.25 }, stroke::role(policy));
             let times = resampling::Times { n: &self.model.read(policy).resampled }.say();
             self.value(scene, policy, &Rect { y: row.y, h: row.h, ..self.parts.values[1] }, &times);
         }
@@ -237,7 +229,7 @@ impl Picture<'_> {
         self.scale(scene, 1, self.particles().to_string());
         let second = |moment: &Moment| f64::from(of(moment, back)) / m;
         let value = |moment: &Moment| of(moment, u32::MAX).to_string();
-        self.curves(scene, 1, |moment| f64::from(of(moment, u32::MAX)) / m, Some(&second), value);
+        self.curves(scene, 1, &|moment| f64::from(of(moment, u32::MAX)) / m, Some(&second), &value);
         self.predicted(scene);
     }
 
@@ -251,6 +243,6 @@ impl Picture<'_> {
         self.scale(scene, 2, write(self.error_scale));
         let second = |moment: &Moment| moment.report.error_mean / self.error_scale;
         let first = |moment: &Moment| moment.report.error_best / self.error_scale;
-        self.curves(scene, 2, first, Some(&second), |moment| metres(moment.report.error_best));
+        self.curves(scene, 2, &first, Some(&second), &|moment| metres(moment.report.error_best));
     }
 }

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     font::{self, Weight},
-    scene::{Anchor, Mark, Plane, Point, Rect, Region, Role, Scene, clip_polyline, closed, cloud, diamond, text},
+    scene::{Anchor, Letters, Plane, Point, Rect, Region, Role, Scene, clip_polyline, closed, diamond, plain, strong},
     words::resampling,
 };
 use fastslam::ops;
@@ -43,10 +43,10 @@ impl Picture<'_> {
     fn title(&self, scene: &mut Scene, policy: usize, line: &Rect) {
         let name = self.policy_name(scene, policy, line, Anchor::Start);
         let piece = Rect::new(line.x + name + APART, line.y, PIECE, line.h);
-        scene.marks.push(stroke::sample(policy, policy == self.chosen(), &piece));
+        stroke::sample(scene, policy, policy == self.chosen(), &piece);
         let rest = Rect::new(piece.right() + APART, line.y, line.right() - piece.right() - APART, line.h);
         if let Some((role, says)) = self.right_wing(policy) {
-            scene.marks.push(text(rest, Anchor::End, SIZE, Weight::SemiBold, role, says));
+            scene.text(rest, strong(SIZE, role).end(), &says);
         }
     }
 
@@ -58,11 +58,10 @@ impl Picture<'_> {
         let name = if said.is_some() { Rect::new(x, y + 3.0, w, 16.0) } else { Rect::new(x, y + 7.0, w, 18.0) };
         self.policy_name(scene, policy, &name, Anchor::Middle);
         if let Some((role, says)) = said {
-            let line = Rect::new(x + 4.0, name.bottom(), w - 8.0, 14.0);
-            scene.marks.push(text(line, Anchor::Middle, SIZE, Weight::Regular, role, says));
+            scene.text(Rect::new(x + 4.0, name.bottom(), w - 8.0, 14.0), plain(SIZE, role).middle(), &says);
         }
         let piece = Rect::new(x + 10.0, y + h - 8.0, w - 20.0, 4.0);
-        scene.marks.push(stroke::sample(policy, chosen, &piece));
+        stroke::sample(scene, policy, chosen, &piece);
         self.frame(scene, policy, *tab);
     }
 
@@ -70,7 +69,7 @@ impl Picture<'_> {
     fn policy_name(&self, scene: &mut Scene, policy: usize, line: &Rect, anchor: Anchor) -> f64 {
         let weight = if policy == self.chosen() { Weight::SemiBold } else { Weight::Regular };
         let name = stroke::NAMES[policy]();
-        scene.marks.push(text(*line, anchor, NAME, weight, stroke::role(policy), name));
+        scene.text(*line, Letters { weight, ..plain(NAME, stroke::role(policy)) }.at(anchor), name);
         font::measure(name, NAME, weight)
     }
 
@@ -78,7 +77,7 @@ impl Picture<'_> {
     fn frame(&self, scene: &mut Scene, policy: usize, area: Rect) {
         let chosen = policy == self.chosen();
         let (width, role) = if chosen { (2.0, stroke::role(policy)) } else { (1.0, Role::Frame) };
-        scene.marks.push(Mark::Frame { area, width, role });
+        scene.frame(area, width, role);
     }
 
     /// What is said of the particles that hold the right explanation; nothing on a course that has only one.
@@ -115,24 +114,20 @@ impl Picture<'_> {
         let plane = whole(model, area);
         let role = Role::Muted;
         if let Some(world) = model.run().lap_world() {
-            let lines = world.plan.walls.iter().map(|s| vec![plane.point(s.a), plane.point(s.b)]).collect();
-            scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role });
+            scene.lines(world.plan.walls.iter().map(|s| vec![plane.point(s.a), plane.point(s.b)]).collect(), 1.0, role);
         }
         if let Some(log) = model.run().wings_log() {
             let diamonds = log.landmarks.iter().map(|m| diamond(plane.point([m.x, m.y]), 2.75)).collect();
-            scene.marks.push(Mark::Polygons { polygons: diamonds, role: Role::Landmark });
+            scene.polygons(diamonds, Role::Landmark);
         }
         let truth = &model.run().truth()[..=report.step as usize];
         let path: Vec<Point> = truth.iter().map(|p| plane.position(p)).collect();
-        scene.marks.push(Mark::Lines { lines: vec![path], width: 1.0, dash: Some([2.0, 3.0]), role: Role::Truth });
+        scene.dash(&path, 1.0, [2.0, 3.0], Role::Truth);
         let noses = poses.iter().map(|pose| nose(plane.position(pose), pose.theta, 6.0));
-        let noses = noses.flat_map(|line| clip_polyline(&line, &area)).collect();
-        scene.marks.push(Mark::Lines { lines: noses, width: 1.0, dash: None, role: particle });
-        scene.marks.push(cloud(poses.iter().map(|p| plane.position(p)), &area.inset(2.0), 2.0, particle));
-        let outlines = plane.robot(&truth[truth.len() - 1], 9.0).into_iter().map(closed).collect();
-        scene.marks.push(Mark::Lines { lines: outlines, width: 1.5, dash: None, role: Role::Truth });
-        let head = plane.robot(&poses[*best], 6.0).into_iter().collect();
-        scene.marks.push(Mark::Polygons { polygons: head, role: particle });
+        scene.lines(noses.flat_map(|line| clip_polyline(&line, &area)).collect(), 1.0, particle);
+        scene.cloud(poses.iter().map(|p| plane.position(p)), &area.inset(2.0), 2.0, particle);
+        scene.lines(plane.robot(&truth[truth.len() - 1], 9.0).into_iter().map(closed).collect(), 1.5, Role::Truth);
+        scene.polygons(plane.robot(&poses[*best], 6.0).into_iter().collect(), particle);
         self.frame(scene, policy, area);
     }
 }

@@ -6,10 +6,9 @@ use super::{
 };
 use crate::{
     decimal::write,
-    font::{self, Weight},
     model::Model,
     prediction::{State, off_by},
-    scene::{Anchor, Handle, Mark, Rect, Role, Scene, text},
+    scene::{Handle, Rect, Role, Scene, strong},
     words::{prediction, resampling},
 };
 
@@ -21,12 +20,9 @@ impl Picture<'_> {
     pub fn predicted(&self, scene: &mut Scene) {
         let Rect { y, h, .. } = self.parts.charts[1];
         let (state, result) = (self.model.state(), self.model.one_left());
-        let line = |step: f64, dash, role| {
-            let x = self.x(step as u32);
-            Mark::Lines { lines: vec![vec![[x, y], [x, y + h]]], width: 2.0, dash, role }
-        };
+        let line = |step: f64| [y, y + h].map(|y| [self.x(step as u32), y]);
         if let Some(result) = result {
-            scene.marks.push(line(result.into(), None, Role::Ink));
+            scene.line(&line(result.into()), 2.0, Role::Ink);
         }
         let wordings = match (state, result) {
             (State::Off, _) => return,
@@ -48,31 +44,27 @@ impl Picture<'_> {
             (State::Waived, None) => vec![resampling::never_came_alone().into()],
         };
         match state {
-            State::Asked => scene.marks.push(line(self.middle(), Some([2.0, 4.0]), Role::Accent)),
-            State::Placed(guess) | State::Guessed(guess) => {
-                scene.marks.push(line(guess, Some([5.0, 3.0]), Role::Accent));
-            }
+            State::Asked => scene.dash(&line(self.middle()), 2.0, [2.0, 4.0], Role::Accent),
+            State::Placed(guess) | State::Guessed(guess) => scene.dash(&line(guess), 2.0, [5.0, 3.0], Role::Accent),
             _ => (),
         }
-        self.say(scene, wordings);
+        self.say(scene, &wordings);
         if let State::Asked | State::Placed(_) = state {
             let x = self.x(if let State::Placed(guess) = state { guess } else { self.middle() } as u32);
-            let marker = vec![[x, y + 10.0], [x - 6.0, y], [x + 6.0, y]];
-            scene.marks.push(Mark::Polygons { polygons: vec![marker], role: Role::Accent });
-        }
-        if let State::Asked | State::Placed(_) = state {
+            scene.polygon(vec![[x, y + 10.0], [x - 6.0, y], [x + 6.0, y]], Role::Accent);
             scene.handles.push(self.guess(state));
         }
     }
 
     /// The first wording that fits into the chart, on a plate in its lower half, where no curve is before it is known.
-    fn say(&self, scene: &mut Scene, wordings: Vec<String>) {
+    fn say(&self, scene: &mut Scene, wordings: &[String]) {
         let Rect { x, y, w, h } = self.parts.charts[1];
-        let width = |words: &String| font::measure(words, SIZE, Weight::SemiBold) + 8.0;
-        let Some(words) = wordings.into_iter().find(|words| width(words) <= w - 8.0) else { return };
-        let plate = Rect::new(x + w - width(&words) - 4.0, y + 0.5 * h - 8.0, width(&words), 16.0);
-        scene.marks.push(Mark::Fill { area: plate, role: Role::Paper });
-        scene.marks.push(text(plate, Anchor::Middle, SIZE, Weight::SemiBold, Role::Ink, words));
+        let letters = strong(SIZE, Role::Ink).middle();
+        let Some(words) = letters.fitting(w - 16.0, &wordings) else { return };
+        let width = letters.width(words) + 8.0;
+        let plate = Rect::new(x + w - width - 4.0, y + 0.5 * h - 8.0, width, 16.0);
+        scene.fill(plate, Role::Paper);
+        scene.text(plate, letters, words);
     }
 
     /// Where the line stands before there is a guess.
@@ -87,14 +79,6 @@ impl Picture<'_> {
             _ => (self.middle(), prediction::none().into()),
         };
         let chart = self.parts.charts[1];
-        Handle {
-            name: GUESS,
-            title: resampling::guess_handle().into(),
-            at: [self.x(guess as u32), chart.y + 5.0],
-            axes: &[GUESS],
-            value: guess,
-            text,
-            hover: None,
-        }
+        Handle::of(&[GUESS], resampling::guess_handle(), [self.x(guess as u32), chart.y + 5.0], guess, text)
     }
 }

@@ -1,7 +1,7 @@
 //! How the three policies are told apart: by colour and by dash, and the one that is chosen by its width.
 
 use crate::{
-    scene::{Mark, Point, Rect, Role},
+    scene::{Point, Rect, Role, Scene},
     words::resampling,
 };
 
@@ -17,13 +17,12 @@ pub fn role(policy: usize) -> Role {
 }
 
 /// Lines of a policy.
-pub fn lines(policy: usize, chosen: bool, lines: Vec<Vec<Point>>) -> Mark {
-    let width = if chosen { 2.25 } else { 1.25 };
-    Mark::Lines { lines, width, dash: DASHES[policy], role: role(policy) }
+pub fn lines(scene: &mut Scene, policy: usize, chosen: bool, lines: Vec<Vec<Point>>) {
+    scene.strokes(lines, if chosen { 2.25 } else { 1.25 }, DASHES[policy], role(policy));
 }
 
 /// A piece of such a line across the middle of a place.
-pub fn sample(policy: usize, chosen: bool, place: &Rect) -> Mark {
+pub fn sample(scene: &mut Scene, policy: usize, chosen: bool, place: &Rect) {
     let y = place.centre()[1];
-    lines(policy, chosen, vec![vec![[place.x, y], [place.right(), y]]])
+    lines(scene, policy, chosen, vec![vec![[place.x, y], [place.right(), y]]]);
 }

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     font::{self, Weight},
-    scene::{Anchor, Mark, Point, Rect, Role, Sample, Scene, text},
+    scene::{Point, Rect, Role, Sample, Scene, plain},
     words::{self, resampling},
 };
 
@@ -61,18 +61,8 @@ impl Picture<'_> {
         }
         open.into_iter().flatten().for_each(close);
         let apart = self.parts.charts[3].h / self.particles() as f64;
-        scene.marks.push(Mark::Lines {
-            lines: dead,
-            width: (0.16 * apart).clamp(0.6, 1.0),
-            dash: None,
-            role: Role::Level(DEAD),
-        });
-        scene.marks.push(Mark::Lines {
-            lines: living,
-            width: (0.3 * apart).clamp(1.0, 2.0),
-            dash: None,
-            role: stroke::role(policy),
-        });
+        scene.lines(dead, (0.16 * apart).clamp(0.6, 1.0), Role::Level(DEAD));
+        scene.lines(living, (0.3 * apart).clamp(1.0, 2.0), stroke::role(policy));
         self.coalescence(scene, &alive);
     }
 
@@ -81,8 +71,8 @@ impl Picture<'_> {
         let Some(step) = self.model.now(self.chosen()).report.descent.coalescence() else { return };
         let Some(slot) = alive[step as usize].iter().position(|alive| *alive) else { return };
         let at = self.node(step, slot);
-        scene.marks.push(Mark::Discs { centres: vec![at], radius: 6.0, role: Role::Paper });
-        scene.marks.extend(common(at));
+        scene.disc(at, 6.0, Role::Paper);
+        common(scene, at);
     }
 
     /// Where a particle of a step is drawn.
@@ -116,15 +106,15 @@ impl Picture<'_> {
             }
             taken.push([left, left + width]);
             if ring {
-                scene.marks.extend(common([left + 4.5, y + 0.5 * h]));
+                common(scene, [left + 4.5, y + 0.5 * h]);
             }
-            let area = Rect::new(left + room, y, width - room, h);
-            scene.marks.push(text(area, Anchor::Start, SIZE, Weight::Regular, role, label));
+            scene.text(Rect::new(left + room, y, width - room, h), plain(SIZE, role), &label);
         }
     }
 }
 
 /// The mark of a common ancestor.
-pub fn common(at: Point) -> [Mark; 2] {
-    [(4.5, Role::Ink), (2.5, Role::Paper)].map(|(radius, role)| Mark::Discs { centres: vec![at], radius, role })
+pub fn common(scene: &mut Scene, at: Point) {
+    scene.disc(at, 4.5, Role::Ink);
+    scene.disc(at, 2.5, Role::Paper);
 }

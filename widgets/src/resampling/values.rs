@@ -2,9 +2,8 @@
 
 use super::{charts::Picture, stroke};
 use crate::{
-    font::{self, Weight},
     order::ascending,
-    scene::{Anchor, Rect, Region, Scene, text},
+    scene::{Rect, Region, Scene, plain, strong},
 };
 
 /// Font size, and from line to line \[css px\].
@@ -37,8 +36,8 @@ impl Picture<'_> {
         &self,
         scene: &mut Scene,
         place: &Rect,
-        value: impl Fn(usize) -> String,
-        height: impl Fn(usize) -> f64,
+        value: &dyn Fn(usize) -> String,
+        height: &dyn Fn(usize) -> f64,
     ) {
         // Into the line above the chart, where the chart is low: nothing stands there at this side.
         let last = place.bottom() - 4.0;
@@ -51,15 +50,14 @@ impl Picture<'_> {
     /// A value in its line, with the name of its policy, or with a piece of its line.
     pub fn value(&self, scene: &mut Scene, policy: usize, line: &Rect, value: &str) {
         let chosen = policy == self.chosen();
-        let weight = if chosen { Weight::SemiBold } else { Weight::Regular };
+        let letters = if chosen { strong } else { plain }(SIZE, stroke::role(policy));
         let (written, x) = if self.parts.named {
             (format!("{} {value}", stroke::NAMES[policy]()), line.x)
         } else {
-            scene.marks.push(stroke::sample(policy, chosen, &Rect::new(line.x, line.y, PIECE, line.h)));
+            stroke::sample(scene, policy, chosen, &Rect::new(line.x, line.y, PIECE, line.h));
             (value.into(), line.x + PIECE + AFTER)
         };
-        let area = Rect::new(x, line.y, font::measure(&written, SIZE, weight) + 0.01, line.h);
-        scene.marks.push(text(area, Anchor::Start, SIZE, weight, stroke::role(policy), written));
+        scene.text(Rect::new(x, line.y, letters.width(&written) + 0.01, line.h), letters, &written);
         scene.regions.push(Region { area: *line, target: policy as u32 });
     }
 }

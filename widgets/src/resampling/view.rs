@@ -13,7 +13,7 @@ use crate::{
     model::Model,
     panels::Panels,
     prediction::State,
-    scene::{GHOST, Handle, Mark, Point, Rect, Role, Sample, Scene, closed, diamond, legend, robot},
+    scene::{Handle, Point, Rect, Role, Sample, Scene, closed, legend, robot},
     view::{View, whole_step},
     words::{self, resampling},
 };
@@ -132,15 +132,13 @@ fn cursor(picture: &Picture) -> Handle {
 /// Moves the threshold, at the left end of its line.
 fn threshold(picture: &Picture) -> Handle {
     let threshold = picture.model.setup().threshold;
-    Handle {
-        name: THRESHOLD,
-        title: words::policy::threshold().into(),
-        at: [picture.parts.charts[0].x - 6.0, picture.threshold_y()],
-        axes: &[THRESHOLD],
-        value: threshold,
-        text: resampling::ShareOfM { share: &write(threshold) }.say(),
-        hover: None,
-    }
+    Handle::of(
+        &[THRESHOLD],
+        words::policy::threshold(),
+        [picture.parts.charts[0].x - 6.0, picture.threshold_y()],
+        threshold,
+        resampling::ShareOfM { share: &write(threshold) }.say(),
+    )
 }
 
 /// What the cursor reads, in words.
@@ -155,24 +153,20 @@ fn told(model: &ResamplingModel) -> String {
 /// What marks mean that have no name where they stand.
 fn names(scene: &mut Scene, picture: &Picture, area: &Rect) {
     let role = stroke::role(picture.chosen());
-    let truth = |place: &Rect| {
-        let [x, y] = place.centre();
-        let lines = vec![closed(robot([x - 1.0, y], 0.0, 7.0))];
-        vec![Mark::Lines { lines, width: 1.5, dash: None, role: Role::Truth }]
+    let truth = |scene: &mut Scene, [x, y]: Point| {
+        scene.line(&closed(robot([x - 1.0, y], 0.0, 7.0)), 1.5, Role::Truth);
     };
-    let mut items = vec![
-        (Sample::new(|place| common(place.centre()).into()), resampling::common_ancestor()),
-        (Sample::new(truth), words::common::truth()),
-    ];
+    let mut items =
+        vec![(Sample::at(common), resampling::common_ancestor()), (Sample::at(truth), words::common::truth())];
     if picture.model.run().wings_log().is_some() {
-        let landmark = |at| Mark::Polygons { polygons: vec![diamond(at, 3.5)], role: Role::Landmark };
-        items.push((Sample::at(landmark), resampling::landmark()));
+        let landmark = Sample::at(|scene, at| scene.filled_diamond(at, 3.5, Role::Landmark));
+        items.push((landmark, resampling::landmark()));
     }
     if picture.wide {
         items.push((Sample::dot(role, 2.0), resampling::particle()));
     }
     if !picture.model.pinned(0).is_empty() {
-        items.push((Sample::line(GHOST, 1.75, None), words::common::pinned_run()));
+        items.push((Sample::pinned(), words::common::pinned_run()));
     }
     legend(scene, area, items);
 }

@@ -1,16 +1,9 @@
 //! Curves over steps.
 
-use super::{Mark, Point, Rect, Role};
+use super::{Point, Rect, Role, Scene};
 
 /// Whatever is drawn of a run that is pinned.
 pub const GHOST: Role = Role::Level(48);
-
-/// A curve of a run that is pinned, by step, behind those of the run that is shown: of the steps that both have. `None` where nothing is
-/// pinned.
-pub fn ghost(chart: &Chart, shares: impl Iterator<Item = f64>) -> Option<Mark> {
-    let curve = chart.curve((0..=chart.last).zip(shares));
-    (!curve.is_empty()).then(|| Mark::Lines { lines: vec![curve], width: 1.75, dash: None, role: GHOST })
-}
 
 /// A place for curves: steps from left to right, shares of its height from the bottom up.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -42,10 +35,24 @@ impl Chart {
         [self.area.x, self.area.right()].map(|x| [x, self.y(share)]).to_vec()
     }
 
-    /// Its lower and upper edge.
-    pub fn edges(&self) -> [Mark; 2] {
-        let Rect { x, y, w, h } = self.area;
-        [y, y + h].map(|y| Mark::Fill { area: Rect::new(x, y - 0.5, w, 1.0), role: Role::Frame })
+    /// A line across, as thin as a pixel.
+    pub fn rule(&self, scene: &mut Scene, y: f64) {
+        scene.fill(Rect::new(self.area.x, y - 0.5, self.area.w, 1.0), Role::Frame);
+    }
+
+    /// Draws its lower and upper edge.
+    pub fn edges(&self, scene: &mut Scene) {
+        self.rule(scene, self.area.y);
+        self.rule(scene, self.area.y + self.area.h);
+    }
+
+    /// A curve of a run that is pinned, by step, behind those of the run that is shown: of the steps that both have. None where nothing is
+    /// pinned.
+    pub fn ghost(&self, scene: &mut Scene, shares: impl Iterator<Item = f64>) {
+        let curve = self.curve((0..=self.last).zip(shares));
+        if !curve.is_empty() {
+            scene.line(&curve, 1.75, GHOST);
+        }
     }
 }
 

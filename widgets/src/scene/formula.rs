@@ -109,7 +109,7 @@ impl Formula {
         let lines: Vec<_> =
             self.brackets.into_iter().map(|line| line.into_iter().map(|[u, v]| [x + u, y + v]).collect()).collect();
         if !lines.is_empty() {
-            scene.marks.push(Mark::Lines { lines, width: 1.1, dash: None, role: self.role });
+            scene.lines(lines, 1.1, self.role);
         }
     }
 

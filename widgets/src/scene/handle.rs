@@ -20,3 +20,10 @@ pub struct Handle {
     /// An area over which it follows the pointer without a button held, as the cursor of a heat map does.
     pub hover: Option<Rect>,
 }
+
+impl Handle {
+    /// That of one parameter, which has its name; or of two, with the name of the first.
+    pub fn of(axes: &'static [&'static str], title: &str, at: Point, value: f64, text: String) -> Self {
+        Self { name: axes[0], title: title.into(), at, axes, value, text, hover: None }
+    }
+}

@@ -1,7 +1,6 @@
 //! What marks mean: samples of them with their names, in as many lines as it takes.
 
-use super::{Anchor, Cells, Mark, Point, Rect, Role, Scene, Shading, robot, text};
-use crate::font::{self, Weight};
+use super::{Cells, GHOST, Letters, Point, Rect, Role, Scene, Shading, plain, robot};
 
 /// Height of a line of text \[css px\].
 pub const LINE: f64 = 18.0;
@@ -9,38 +8,36 @@ pub const LINE: f64 = 18.0;
 /// Height of a sample \[css px\].
 const SAMPLE: f64 = 12.0;
 
-/// Font size, between a sample and its name, and between a name and the next sample \[css px\].
-const SIZE: f64 = 11.5;
+/// Names.
+const NAME: Letters = plain(11.5, Role::Muted);
+
+/// Between a sample and its name, and between a name and the next sample \[css px\].
 const APART: f64 = 5.0;
 const GAP: f64 = 12.0;
 
-type Draw<'a> = Box<dyn Fn(&Rect) -> Vec<Mark> + 'a>;
+type Draw<'a> = Box<dyn Fn(&mut Scene, &Rect) + 'a>;
 
 /// How a mark looks that a legend names.
 pub struct Sample<'a> {
-    width: f64,
+    /// Width of the place that it takes \[css px\].
+    pub width: f64,
     draw: Draw<'a>,
 }
 
 impl<'a> Sample<'a> {
-    /// Marks in a place.
-    pub fn new(draw: impl Fn(&Rect) -> Vec<Mark> + 'a) -> Self {
+    /// What is drawn in a place.
+    pub fn new(draw: impl Fn(&mut Scene, &Rect) + 'a) -> Self {
         Self { width: 18.0, draw: Box::new(draw) }
     }
 
-    /// A mark about a point.
-    pub fn at(draw: impl Fn(Point) -> Mark + 'a) -> Self {
-        Self::new(move |place| vec![draw(place.centre())])
+    /// What is drawn about a point.
+    pub fn at(draw: impl Fn(&mut Scene, Point) + 'a) -> Self {
+        Self::new(move |scene, place| draw(scene, place.centre()))
     }
 
-    /// Width of the place that it takes \[css px\].
-    pub fn width(&self) -> f64 {
-        self.width
-    }
-
-    /// It, in a place.
-    pub fn marks(&self, place: &Rect) -> Vec<Mark> {
-        (self.draw)(place)
+    /// Draws it in a place.
+    pub fn draw(&self, scene: &mut Scene, place: &Rect) {
+        (self.draw)(scene, place);
     }
 
     /// The same in a place of this width \[css px\].
@@ -50,31 +47,38 @@ impl<'a> Sample<'a> {
 
     /// A line of this kind.
     pub fn line(role: Role, width: f64, dash: Option<[f64; 2]>) -> Self {
-        Self::new(move |place| {
+        Self::new(move |scene, place| {
             let y = place.centre()[1];
-            vec![Mark::Lines { lines: vec![vec![[place.x, y], [place.right(), y]]], width, dash, role }]
+            scene.strokes(vec![vec![[place.x, y], [place.right(), y]]], width, dash, role);
+        })
+    }
+
+    /// A curve of a run that is pinned.
+    pub fn pinned() -> Self {
+        Self::line(GHOST, 1.75, None)
+    }
+
+    /// Cells in a row, in a frame.
+    pub fn cells(shades: Vec<u8>, shading: Shading) -> Self {
+        Self::new(move |scene, place| {
+            scene.raster(*place, Cells::row(&shades), shading);
+            scene.frame(*place, 1.0, Role::Weight(0));
         })
     }
 
     /// A cell of a map.
     pub fn cell(shade: u8) -> Self {
-        Self::new(move |place| {
-            let cells = Cells { columns: 1, shades: vec![shade] };
-            vec![
-                Mark::Raster { area: *place, cells, shading: Shading::Map },
-                Mark::Frame { area: *place, width: 1.0, role: Role::Weight(0) },
-            ]
-        })
+        Self::cells(vec![shade], Shading::Map)
     }
 
     /// A robot that looks to the right.
     pub fn robot(role: Role) -> Self {
-        Self::at(move |[x, y]| Mark::Polygons { polygons: vec![robot([x - 1.0, y], 0.0, 7.0)], role })
+        Self::at(move |scene, [x, y]| scene.polygon(robot([x - 1.0, y], 0.0, 7.0), role))
     }
 
     /// A disc.
     pub fn dot(role: Role, radius: f64) -> Self {
-        Self::at(move |centre| Mark::Discs { centres: vec![centre], radius, role })
+        Self::at(move |scene, centre| scene.disc(centre, radius, role))
     }
 }
 
@@ -84,20 +88,22 @@ pub fn legend<'a>(
     area: &Rect,
     items: impl IntoIterator<Item = (Sample<'a>, impl AsRef<str>)>,
 ) -> f64 {
-    let [mut x, mut y] = [area.x, area.y];
-    for (Sample { width, draw }, name) in items {
-        let name = name.as_ref();
-        let words = font::measure(name, SIZE, Weight::Regular) + 0.01;
-        if x > area.x && x + width + APART + words > area.right() {
-            (x, y) = (area.x, y + LINE);
-        }
-        let place = Rect::new(x, y + 0.5 * (LINE - SAMPLE), width, SAMPLE);
-        scene.marks.extend(draw(&place));
-        let place = Rect::new(place.right() + APART, y, words, LINE);
-        scene.marks.push(text(place, Anchor::Start, SIZE, Weight::Regular, Role::Muted, name));
-        x = place.right() + GAP;
+    let place = |at, (sample, name): (Sample<'a>, _)| put(scene, area, at, &sample, AsRef::as_ref(&name));
+    items.into_iter().fold([area.x, area.y], place)[1] + LINE
+}
+
+/// Draws one of them at a place, or where the next line begins; returns the place of the next.
+#[inline(never)]
+fn put(scene: &mut Scene, area: &Rect, [mut x, mut y]: Point, sample: &Sample<'_>, name: &str) -> Point {
+    let words = NAME.width(name) + 0.01;
+    if x > area.x && x + sample.width + APART + words > area.right() {
+        (x, y) = (area.x, y + LINE);
     }
-    y + LINE
+    let place = Rect::new(x, y + 0.5 * (LINE - SAMPLE), sample.width, SAMPLE);
+    sample.draw(scene, &place);
+    let place = Rect::new(place.right() + APART, y, words, LINE);
+    scene.text(place, NAME, name);
+    [place.right() + GAP, y]
 }
 
 #[cfg(test)]

@@ -1,12 +1,14 @@
 //! A lens over a map, for what is too small there to be told apart.
 
-use super::{Anchor, Mark, Plane, Rect, Role, Scene, clip_polyline, closed, text};
-use crate::font::{self, Weight};
+use super::{Letters, Plane, Rect, Role, Scene, clip_polyline, closed, strong};
 
 /// How many times larger it shows what is below it, and how far it is from the map's edges \[css px\].
 const MAGNIFIED: f64 = 8.0;
 /// See [`MAGNIFIED`].
 const INSET: f64 = 6.0;
+
+/// How it tells that.
+const TIMES: Letters = strong(11.0, Role::Ink).middle();
 
 /// The place \[m\] as large as can be seen, in the map's upper corner that is farther away; there, `draw` draws what is looked at.
 pub fn lens(scene: &mut Scene, map: &Plane, place: [f64; 2], draw: &mut dyn FnMut(&mut Scene, Plane)) {
@@ -16,14 +18,12 @@ pub fn lens(scene: &mut Scene, map: &Plane, place: [f64; 2], draw: &mut dyn FnMu
     let area = Rect::new(left, all.y + INSET, side, side);
     let small = 0.5 * side / MAGNIFIED;
     let seen = [[x - small, y - small], [x + small, y - small], [x + small, y + small], [x - small, y + small]];
-    let seen = clip_polyline(&closed(seen.to_vec()), &all);
-    scene.marks.push(Mark::Lines { lines: seen, width: 1.0, dash: None, role: Role::Ink });
-    scene.marks.push(Mark::Fill { area, role: Role::Paper });
+    scene.lines(clip_polyline(&closed(seen.to_vec()), &all), 1.0, Role::Ink);
+    scene.fill(area, Role::Paper);
     draw(scene, Plane::centred(area, place, MAGNIFIED * map.scale));
-    scene.marks.push(Mark::Frame { area, width: 1.5, role: Role::Ink });
+    scene.frame(area, 1.5, Role::Ink);
     let label = format!("× {MAGNIFIED}");
-    let plate =
-        Rect::new(area.x + 2.0, area.bottom() - 16.0, font::measure(&label, 11.0, Weight::SemiBold) + 4.0, 14.0);
-    scene.marks.push(Mark::Fill { area: plate, role: Role::Paper });
-    scene.marks.push(text(plate, Anchor::Middle, 11.0, Weight::SemiBold, Role::Ink, label));
+    let plate = Rect::new(area.x + 2.0, area.bottom() - 16.0, TIMES.width(&label) + 4.0, 14.0);
+    scene.fill(plate, Role::Paper);
+    scene.text(plate, TIMES, &label);
 }

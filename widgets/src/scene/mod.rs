@@ -7,9 +7,11 @@ mod chart;
 mod clip;
 mod formula;
 mod handle;
+mod ink;
 mod legend;
 mod lens;
 mod marker;
+mod parts;
 mod plane;
 mod rect;
 mod scale_bar;
@@ -17,21 +19,25 @@ mod shape;
 mod stack;
 mod text;
 
-pub use chart::{Chart, GHOST, ghost};
+pub use chart::{Chart, GHOST};
 pub use clip::{clip_polyline, thinned};
 pub use formula::{Formula, number};
 pub use handle::Handle;
+pub use ink::{Letters, plain, strong};
 pub use legend::{LINE, Sample, legend};
 pub use lens::lens;
-pub use marker::{RIM, cloud, cross, diamond, rimmed, rimmed_polygon, rimmed_robot};
+pub use marker::{RIM, diamond};
+pub use parts::Parts;
+pub(crate) use parts::parts;
+#[cfg(test)]
+pub use parts::{assert_laid_out, assert_on_screens};
 pub use plane::Plane;
 pub use rect::Rect;
 #[cfg(test)]
 pub use rect::assert_apart;
-pub use scale_bar::{bar, scale_bar};
 pub use shape::{NINE_TENTHS, closed, ellipse, robot};
 pub use stack::Stack;
-pub use text::{Anchor, Text, fitting, heading, heading_if_fits, n_eff, text};
+pub use text::{Anchor, HEADING, Text};
 
 use serde::Serialize;
 
@@ -108,6 +114,13 @@ pub struct Cells {
     pub columns: usize,
     /// Of a map, [`FREE`] to [`OCCUPIED`], [`UNKNOWN`] in the middle; else as its [`Shading`] says.
     pub shades: Vec<u8>,
+}
+
+impl Cells {
+    /// One row of these shades.
+    pub fn row(shades: &[u8]) -> Self {
+        Self { columns: shades.len(), shades: shades.to_vec() }
+    }
 }
 
 /// The shade of a cell that is surely free.

@@ -22,6 +22,11 @@ impl Rect {
         Self { x, y, w, h }
     }
 
+    /// A square about its middle, from there to its edges so long \[css px\].
+    pub const fn around([x, y]: Point, half: f64) -> Self {
+        Self::new(x - half, y - half, 2.0 * half, 2.0 * half)
+    }
+
     /// Right edge.
     pub fn right(&self) -> f64 {
         self.x + self.w

@@ -1,6 +1,6 @@
 //! Lines of text that fit the box they were given.
 
-use super::{Mark, Point, Rect, Role, Scene};
+use super::{Letters, Point, Rect, Role, Scene, plain, strong};
 use crate::font::{self, Weight};
 
 /// Which end of a line stays where it is.
@@ -65,45 +65,36 @@ impl Text {
     }
 }
 
-/// A line of text as a mark.
-pub fn text(area: Rect, anchor: Anchor, size: f64, weight: Weight, role: Role, text: impl Into<String>) -> Mark {
-    Mark::Text(Text::new(area, anchor, size, weight, role, text))
-}
+/// What a heading says first.
+pub const HEADING: Letters = strong(13.5, Role::Ink);
+/// And what it says after that.
+const AFTER: Letters = plain(12.5, Role::Muted);
+/// What both must leave free together, so that the line does not look full \[css px\].
+const APART: f64 = 12.0;
 
-/// The first of these texts that has room in its box; where none has, the last, shortened.
-pub fn fitting(area: Rect, anchor: Anchor, size: f64, weight: Weight, role: Role, texts: &[&str]) -> Mark {
-    let fits = |text: &&&str| font::measure(text, size, weight) <= area.w;
-    let chosen = texts.iter().find(fits).or(texts.last()).copied().unwrap_or_default();
-    text(area, anchor, size, weight, role, chosen)
-}
-
-/// A heading: a strong part, and more after it, in one line.
-pub fn heading(scene: &mut Scene, area: &Rect, strong: (&str, Role), rest: &str) {
-    let size = 13.5;
-    let line = Text::new(*area, Anchor::Start, size, Weight::SemiBold, strong.1, strong.0);
-    let used = line.width() + font::measure("  ", size, Weight::Regular);
-    scene.marks.push(Mark::Text(line));
-    if rest.is_empty() {
-        return;
+impl Scene {
+    /// A heading: a strong part, and more after it in the same line, shortened where it is too long.
+    pub fn heading(&mut self, area: &Rect, (said, role): (&str, Role), rest: &str) {
+        self.text(*area, Letters { role, ..HEADING }, said);
+        if !rest.is_empty() {
+            let used = HEADING.width(said) + font::measure("  ", HEADING.size, Weight::Regular);
+            self.text(Rect { x: area.x + used, w: (area.w - used).max(0.0), ..*area }, AFTER, rest);
+        }
     }
-    let rest_area = Rect::new(area.x + used, area.y, (area.w - used).max(0.0), area.h);
-    scene.marks.push(text(rest_area, Anchor::Start, 12.5, Weight::Regular, Role::Muted, rest));
-}
 
-/// A heading whose second part is left out where there is no room for it.
-pub fn heading_if_fits(scene: &mut Scene, area: &Rect, strong: (&str, Role), rest: &str) {
-    let used = font::measure(strong.0, 13.5, Weight::SemiBold) + font::measure("  ", 13.5, Weight::Regular);
-    let fits = used + font::measure(rest, 12.5, Weight::Regular) <= area.w;
-    heading(scene, area, strong, if fits { rest } else { "" });
-}
+    /// A heading with the first of these texts after it that has room there, or with none.
+    pub fn heading_fit<T: AsRef<str>>(&mut self, area: &Rect, strong: (&str, Role), rest: &[T]) {
+        let fits = AFTER.fitting(area.w - HEADING.width(strong.0) - APART, rest);
+        self.heading(area, strong, fits.unwrap_or_default());
+    }
 
-/// N with the index "eff", smaller and lower; returns where it ends \[css px\].
-pub fn n_eff(scene: &mut Scene, area: &Rect, size: f64, weight: Weight, role: Role) -> f64 {
-    let n = Text::new(*area, Anchor::Start, size, weight, role, "N");
-    let index = Rect::new(area.x + n.width() + 0.5, area.y + 3.5, 20.0, area.h);
-    scene.marks.push(Mark::Text(n));
-    scene.marks.push(text(index, Anchor::Start, 8.5, weight, role, "eff"));
-    index.x + 16.0
+    /// N with the index "eff", smaller and lower; returns where it ends \[css px\].
+    pub fn n_eff(&mut self, area: &Rect, letters: Letters) -> f64 {
+        let index = Rect::new(area.x + letters.width("N") + 0.5, area.y + 3.5, 20.0, area.h);
+        self.text(*area, letters, "N");
+        self.text(index, Letters { size: 8.5, ..letters }, "eff");
+        index.x + 16.0
+    }
 }
 
 #[cfg(test)]

@@ -7,10 +7,9 @@ use super::{
 };
 use crate::{
     decimal::{fixed, write},
-    font::{self, Weight},
     ghost::curve,
     prediction::{Level, State, level, off_by},
-    scene::{Anchor, Chart, Handle, LINE, Mark, Rect, Role, Scene, ghost, text},
+    scene::{Chart, Handle, LINE, Rect, Role, Scene, plain, strong},
     words::smoothing as words,
 };
 use fastslam_lab::experiment::smoothing::{MOST, STEPS};
@@ -47,18 +46,16 @@ pub fn charts(scene: &mut Scene, model: &SmoothingModel, layout: &Layout) {
         let (chart, top) = (place(layout, rank), tops[rank]);
         title(scene, model, &layout.names[rank], rank);
         ticks(scene, layout, rank, top);
-        scene.marks.extend(chart.edges());
+        chart.edges(scene);
         for pinned in [rank, rank + 2].into_iter().take(if model.hides() { 1 } else { 2 }) {
-            scene.marks.extend(ghost(&chart, curve(model.pinned(), pinned).iter().map(|x| x / top)));
+            chart.ghost(scene, curve(model.pinned(), pinned).iter().map(|x| x / top));
         }
         shared(scene, model, &chart);
         for (values, role) in curves.iter().zip([RECORD, DRAWN]) {
             if let Some(values) = values {
-                let line = chart.curve((0..).zip(values.iter().map(|x| x / top)));
-                scene.marks.push(Mark::Lines { lines: vec![line], width: 2.0, dash: None, role });
+                scene.line(&chart.curve((0..).zip(values.iter().map(|x| x / top))), 2.0, role);
                 let at = model.at();
-                let dot = [chart.x(at), chart.y(values[at as usize] / top)];
-                scene.marks.push(Mark::Discs { centres: vec![dot], radius: 3.5, role });
+                scene.disc([chart.x(at), chart.y(values[at as usize] / top)], 3.5, role);
             }
         }
         cursor(scene, model, &chart, rank == 0);
@@ -83,7 +80,6 @@ fn guess(scene: &mut Scene, model: &SmoothingModel, chart: &Chart) {
     let mut taken = vec![Rect::new(chart.x(model.at()) - 3.0, chart.area.y, 6.0, chart.area.h)];
     let at = [chart.x(GRIP), chart.y(value / most(model))];
     let (title, text) = (words::guess_handle(), words::GuessIs { guess: &write(value) }.say());
-    let said = said.each_ref().map(String::as_str);
     level(scene, &chart.area, &mut taken, Level { state, at, title, value, text, said });
 }
 
@@ -91,8 +87,7 @@ fn guess(scene: &mut Scene, model: &SmoothingModel, chart: &Chart) {
 fn shared(scene: &mut Scene, model: &SmoothingModel, chart: &Chart) {
     if let Some(step) = model.coalescence().filter(|step| *step > 0) {
         let x = chart.x(step);
-        let line = vec![[x, chart.area.y], [x, chart.area.bottom()]];
-        scene.marks.push(Mark::Lines { lines: vec![line], width: 1.0, dash: Some([2.0, 3.0]), role: Role::Muted });
+        scene.dash(&[[x, chart.area.y], [x, chart.area.bottom()]], 1.0, [2.0, 3.0], Role::Muted);
     }
 }
 
@@ -104,20 +99,18 @@ fn title(scene: &mut Scene, model: &SmoothingModel, area: &Rect, rank: usize) {
     };
     let one = model.coalescence().filter(|step| rank == 0 && *step > 0);
     let one = one.map(|step| [words::OneUntil { step: &step }.say(), words::OneUntilShort { step: &step }.say()]);
-    let width = |name: &str| font::measure(name, 12.5, Weight::SemiBold);
+    let (title, after) = (strong(12.5, Role::Ink), plain(SIZE, Role::Muted).end());
     // The longest of both that have room together.
     let beside = |name: &'static str| {
-        let room = area.w - width(name) - 12.0;
-        let fits = |more: &&String| font::measure(more, SIZE, Weight::Regular) <= room;
-        one.iter().flatten().find(fits).map(|more| (name, more.clone()))
+        let more = after.fitting(area.w - title.width(name) - 12.0, one.as_ref().map_or(&[][..], |one| one))?;
+        Some((name, more))
     };
     let found = names.into_iter().find_map(beside);
-    let alone = names.into_iter().find(|name| width(name) <= area.w).unwrap_or("");
-    let name = found.as_ref().map_or(alone, |(name, _)| name);
+    let (name, more) = found.unwrap_or_else(|| (title.fitting(area.w, &names).unwrap_or_default(), ""));
     let line = Rect { h: LINE, ..*area };
-    scene.marks.push(text(line, Anchor::Start, 12.5, Weight::SemiBold, Role::Ink, name));
-    if let Some((_, more)) = found {
-        scene.marks.push(text(line, Anchor::End, SIZE, Weight::Regular, Role::Muted, more));
+    scene.text(line, title, name);
+    if !more.is_empty() {
+        scene.text(line, after, more);
     }
 }
 
@@ -125,19 +118,17 @@ fn title(scene: &mut Scene, model: &SmoothingModel, area: &Rect, rank: usize) {
 fn cursor(scene: &mut Scene, model: &SmoothingModel, chart: &Chart, grip: bool) {
     let (x, area) = (chart.x(model.at()), chart.area);
     let line = vec![[x, area.y], [x, area.bottom() + if grip { 5.0 } else { 0.0 }]];
-    scene.marks.push(Mark::Lines { lines: vec![line], width: 1.5, dash: None, role: Role::Accent });
+    scene.line(&line, 1.5, Role::Accent);
     if grip {
         let at = [x, area.bottom() + 5.0];
-        scene.marks.push(Mark::Discs { centres: vec![at], radius: 5.0, role: Role::Accent });
-        scene.handles.push(Handle {
-            name: AT,
-            title: words::at().into(),
+        scene.disc(at, 5.0, Role::Accent);
+        scene.handles.push(Handle::of(
+            &[AT],
+            words::at(),
             at,
-            axes: &[AT],
-            value: model.at().into(),
-            text: words::AtStep { at: &model.at() }.say(),
-            hover: None,
-        });
+            model.at().into(),
+            words::AtStep { at: &model.at() }.say(),
+        ));
     }
 }
 
@@ -146,15 +137,14 @@ fn ticks(scene: &mut Scene, layout: &Layout, rank: usize, top: f64) {
     let half = if rank == 0 { (0.5 * top).floor() } else { 0.5 * top };
     for value in [0.0, half, top] {
         let y = chart.y(value / top);
-        let line = Mark::Fill { area: Rect::new(chart.area.x, y - 0.5, chart.area.w, 1.0), role: Role::Frame };
-        scene.marks.push(line);
+        chart.rule(scene, y);
         let area = Rect::new(scale.x, y - 7.0, scale.w - 5.0, 14.0);
         let said = if rank == 0 { write(value) } else { fixed(value, if top < 0.4 { 2 } else { 1 }) };
-        scene.marks.push(text(area, Anchor::End, SIZE, Weight::Regular, Role::Muted, said));
+        scene.text(area, plain(SIZE, Role::Muted).end(), &said);
     }
     for step in [0, 20, 40, STEPS] {
         let area = Rect::new(chart.x(step) - 12.0, axis.y + 12.0, 24.0, 14.0);
-        scene.marks.push(text(area, Anchor::Middle, SIZE, Weight::Regular, Role::Muted, step.to_string()));
+        scene.text(area, plain(SIZE, Role::Muted).middle(), &step.to_string());
     }
 }
 

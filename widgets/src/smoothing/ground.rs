@@ -5,11 +5,7 @@ use super::{
     model::{Account, SmoothingModel},
 };
 use crate::{
-    font::{self, Weight},
-    scene::{
-        Mark, NINE_TENTHS, Plane, Point, RIM, Rect, Role, Sample, Scene, clip_polyline, cloud, heading, legend, lens,
-        rimmed, scale_bar,
-    },
+    scene::{NINE_TENTHS, Plane, Point, RIM, Rect, Role, Sample, Scene, clip_polyline, legend, lens},
     words::{common, smoothing as words},
 };
 use fastslam::{geometry::Pose2, nalgebra::Matrix3};
@@ -75,63 +71,52 @@ pub fn maps(scene: &mut Scene, model: &SmoothingModel, layout: &Layout) {
     let m = model.particles();
     let sweeps = model.sweeps();
     let names = [words::Record { m: &m }.say(), words::RecordShort { m: &m }.say()];
-    name(scene, &layout.headers[0], words::before(), &names);
+    scene.heading_fit(&layout.headers[0], (words::before(), Role::Ink), &names);
     let names = match sweeps {
         _ if model.hides() => [words::hidden().into(), words::hidden_short().into()],
         0 => [words::nothing_drawn().into(), words::nothing_drawn_short().into()],
         _ => [words::Drawn { n: &sweeps }.say(), words::DrawnShort { n: &sweeps }.say()],
     };
-    name(scene, &layout.headers[1], words::after(), &names);
+    scene.heading_fit(&layout.headers[1], (words::after(), Role::Ink), &names);
     for (rank, area) in layout.maps.into_iter().enumerate() {
         let ground = Ground::of(area, layout.wide);
         let landmarks = model.run().log().landmarks.iter().map(|m| ground.point([m.x, m.y]));
-        scene.marks.push(cloud(landmarks, &area.inset(3.0), 2.5, Role::Landmark));
+        scene.cloud(landmarks, &area.inset(3.0), 2.5, Role::Landmark);
         if rank == 0 {
             record(scene, model, &ground)
         } else {
             draws(scene, model, &ground)
         }
-        let truth = ground.path(&model.run().log().truth);
-        scene.marks.push(Mark::Lines { lines: truth, width: 1.5, dash: Some([4.0, 3.0]), role: Role::Truth });
+        scene.dashed(ground.path(&model.run().log().truth), 1.5, [4.0, 3.0], Role::Truth);
         let account = if rank == 0 { model.before() } else { model.after() };
         if let Some(account) = account {
             regions(scene, model, &ground, &account, rank);
         }
-        scene.marks.push(Mark::Frame { area, width: 1.0, role: Role::Frame });
-        scale_bar(scene, &ground.plane, 5.0, 80.0);
+        scene.frame(area, 1.0, Role::Frame);
+        scene.scale_bar(&ground.plane, 5.0, 80.0);
         nearby(scene, model, &ground, rank);
     }
-}
-
-fn name(scene: &mut Scene, area: &Rect, strong: &str, names: &[String; 2]) {
-    let used = font::measure(strong, 13.5, Weight::SemiBold) + 14.0;
-    let fits = |name: &&String| used + font::measure(name, 12.5, Weight::Regular) <= area.w;
-    heading(scene, area, (strong, Role::Ink), names.iter().find(fits).map_or("", String::as_str));
 }
 
 /// The ancestry: what has died out, and what is left.
 fn record(scene: &mut Scene, model: &SmoothingModel, ground: &Ground) {
     let Some(record) = model.run().record() else { return };
-    let dead = ground.lines(&record.dead);
-    scene.marks.push(Mark::Lines { lines: dead, width: 1.0, dash: None, role: DEAD });
-    let branches = ground.lines(&record.branches);
-    scene.marks.push(Mark::Lines { lines: branches, width: 1.25, dash: None, role: RECORD });
-    rimmed(scene, ground.lines([&record.trunk]), 2.25, None, RECORD);
+    scene.lines(ground.lines(&record.dead), 1.0, DEAD);
+    scene.lines(ground.lines(&record.branches), 1.25, RECORD);
+    scene.rimmed(ground.lines([&record.trunk]), 2.25, None, RECORD);
 }
 
 /// The paths that were drawn.
 fn draws(scene: &mut Scene, model: &SmoothingModel, ground: &Ground) {
     let draws = model.run().draws().iter().take(model.sweeps() as usize);
-    let lines = draws.flat_map(|draw| ground.path(&draw.path)).collect();
-    scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role: DRAWN });
+    scene.lines(draws.flat_map(|draw| ground.path(&draw.path)).collect(), 1.0, DRAWN);
 }
 
 /// How much is known of early poses, and the poses at the step that is looked at.
 fn regions(scene: &mut Scene, model: &SmoothingModel, ground: &Ground, account: &Account, rank: usize) {
     let early = model.run().early();
     let of_early = account.moments.iter().enumerate().filter(|(step, _)| early.contains(step) && step % EVERY == 0);
-    let lines = of_early.flat_map(|(_, moments)| ground.region(moments)).collect();
-    scene.marks.push(Mark::Lines { lines, width: 1.25, dash: None, role: Role::Ink });
+    scene.lines(of_early.flat_map(|(_, moments)| ground.region(moments)).collect(), 1.25, Role::Ink);
     looked_at(scene, model, ground, rank);
 }
 
@@ -145,12 +130,10 @@ fn looked_at(scene: &mut Scene, model: &SmoothingModel, ground: &Ground, rank: u
         draws.map(|draw| ground.point([draw.path[at].x, draw.path[at].y])).collect()
     };
     let area = ground.plane.area.inset(POSE + RIM);
-    scene.marks.push(cloud(poses.iter().copied(), &area, POSE + RIM, Role::Paper));
-    scene.marks.push(cloud(poses.into_iter(), &area, POSE, Role::Accent));
+    scene.cloud(poses.iter().copied(), &area, POSE + RIM, Role::Paper);
+    scene.cloud(poses.into_iter(), &area, POSE, Role::Accent);
     let truth = &model.run().log().truth[at];
-    let [x, y] = ground.point([truth.x, truth.y]);
-    let lines = crate::scene::cross(Rect::new(x - 4.0, y - 4.0, 8.0, 8.0));
-    scene.marks.push(Mark::Lines { lines, width: 1.5, dash: None, role: Role::Truth });
+    scene.cross(Rect::around(ground.point([truth.x, truth.y]), 4.0), 1.5, Role::Truth);
 }
 
 /// What is too small to be told apart at the step that is looked at, at the same place in both maps.
@@ -167,8 +150,7 @@ fn nearby(scene: &mut Scene, model: &SmoothingModel, ground: &Ground, rank: usiz
         } else {
             draws(scene, model, &near);
         }
-        let region = near.region(&account.moments[at]);
-        scene.marks.push(Mark::Lines { lines: region, width: 1.25, dash: None, role: Role::Ink });
+        scene.lines(near.region(&account.moments[at]), 1.25, Role::Ink);
         looked_at(scene, model, &near, rank);
     });
 }
@@ -183,7 +165,7 @@ pub fn key(scene: &mut Scene, model: &SmoothingModel, layout: &Layout, pinned: b
         (Sample::dot(Role::Accent, POSE).wide(8.0), words::KeyAt { at: &model.at() }.say()),
     ];
     if pinned {
-        items.push((Sample::line(crate::scene::GHOST, 1.75, None), common::pinned_mark().into()));
+        items.push((Sample::pinned(), common::pinned_mark().into()));
     }
     legend(scene, &layout.legend, items);
 }

@@ -2,8 +2,7 @@
 
 use crate::{
     panels::Panels,
-    scene::{LINE, Rect, Stack},
-    view,
+    scene::{LINE, Rect, Stack, parts},
 };
 
 /// Names of the panels: both maps, and the curves over the steps.
@@ -23,29 +22,30 @@ const GAP: f64 = 6.0;
 const SCALE: f64 = 30.0;
 const AXIS: f64 = 32.0;
 
-/// The parts of the figure \[css px\]; of each pair first the filter's record and the counts, then the draws and the errors.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Layout {
-    /// Which panels are shown.
-    pub shown: Panels,
-    /// Whether the drive lies on its side.
-    pub wide: bool,
-    /// What is to be seen below.
-    pub headers: [Rect; 2],
-    /// The drive.
-    pub maps: [Rect; 2],
-    /// What lines and dots are.
-    pub legend: Rect,
-    /// What the curves are.
-    pub names: [Rect; 2],
-    /// The curves.
-    pub charts: [Rect; 2],
-    /// Left of them.
-    pub scales: [Rect; 2],
-    /// Below them.
-    pub axes: [Rect; 2],
-    /// Of the whole figure.
-    pub height: f64,
+parts! {
+    /// The parts of the figure \[css px\]; of each pair first the filter's record and the counts, then the draws and the errors.
+    pub struct Layout {
+        /// Which panels are shown.
+        pub shown: Panels,
+        /// Whether the drive lies on its side.
+        pub wide: bool,
+        /// What is to be seen below.
+        pub headers: [Rect; 2],
+        /// The drive.
+        pub maps: [Rect; 2],
+        /// What lines and dots are.
+        pub legend: Rect,
+        /// What the curves are.
+        pub names: [Rect; 2],
+        /// The curves.
+        pub charts: [Rect; 2],
+        /// Left of them.
+        pub scales: [Rect; 2],
+        /// Below them.
+        pub axes: [Rect; 2],
+        /// Of the whole figure.
+        pub height: f64,
+    }
 }
 
 impl Layout {
@@ -87,42 +87,23 @@ impl Layout {
             height: stack.y.ceil(),
         }
     }
-
-    /// All parts.
-    pub fn parts(&self) -> Vec<Rect> {
-        let pairs = [self.headers, self.maps, self.names, self.charts, self.scales, self.axes];
-        pairs.into_iter().flatten().chain([self.legend]).collect()
-    }
-}
-
-impl view::Layout for Layout {
-    fn height(&self) -> f64 {
-        self.height
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::assert_apart;
+    use crate::scene::{assert_laid_out, assert_on_screens};
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        for names in ["", MAPS, CURVES] {
-            let panels = Panels::named(names, &[MAPS, CURVES]).unwrap();
-            for width in (300..2000).step_by(7).map(f64::from) {
-                let layout = Layout::of(width, &panels);
-                let parts: Vec<Rect> = layout.parts().into_iter().filter(|part| part.h > 0.0).collect();
-                assert_apart(&parts, &Rect::new(0.0, 0.0, width, layout.height));
-            }
-        }
+        assert_laid_out(Layout::of, &[MAPS, CURVES], NARROWEST, &[("all", 13), (MAPS, 5), (CURVES, 9)], GAP);
     }
 
     #[test]
     fn the_picture_and_its_controls_are_on_one_screen() {
-        for (width, most) in [(692.0, 452.0), (600.0, 452.0), (352.0, 452.0), (322.0, 452.0), (1112.0, 610.0)] {
-            let height = Layout::of(width, &Panels::default()).height;
-            assert!(height <= most, "{width}: {height}");
-        }
+        assert_on_screens(
+            Layout::of,
+            &[(692.0, 452.0), (600.0, 452.0), (352.0, 452.0), (322.0, 452.0), (1112.0, 610.0)],
+        );
     }
 }

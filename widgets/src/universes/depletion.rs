@@ -8,9 +8,8 @@ use super::{
 };
 use crate::{
     decimal::{fixed, write},
-    font::{self, Weight},
-    marks::{Place, label},
-    scene::{Anchor, Mark, Point, Rect, Role, Sample, Scene, legend, n_eff, text},
+    marks::Place,
+    scene::{Point, Rect, Role, Sample, Scene, legend, plain, strong},
     words::universes as words,
 };
 use fastslam::ops;
@@ -33,44 +32,40 @@ pub fn depletion(scene: &mut Scene, model: &UniversesModel, part: &Part, taken: 
     // As many as have room in the one line.
     let mut room = part.legend.w;
     let fit = items.into_iter().take_while(|(sample, name)| {
-        room -= sample.width() + font::measure(name, SIZE, Weight::Regular) + 18.0;
+        room -= sample.width + plain(SIZE, Role::Muted).width(name) + 18.0;
         room > -12.0
     });
     legend(scene, &part.legend, fit.collect::<Vec<_>>());
     frame(scene, part, &[(0.0, Role::Muted), (1.0, Role::Muted)]);
     let names = MEASURED.map(|noise| (x(&area, noise), write(noise)));
-    axis(scene, part, names.into_iter(), [words::axis_noise().into(), words::axis_noise_short().into()]);
+    axis(scene, part, &names, [words::axis_noise().into(), words::axis_noise_short().into()]);
     if model.hides() {
         return;
     }
     let point = |[noise, share]: [f64; 2]| [x(&area, noise), chart.y(share)];
     let map = x(&area, model.map_std());
-    let down = vec![[map, area.y], [map, area.bottom()]];
-    scene.marks.push(Mark::Lines { lines: vec![down], width: 1.0, dash: Some([2.0, 3.0]), role: Role::Muted });
-    let aware = vec![chart.level(1.0)];
-    scene.marks.push(Mark::Lines { lines: aware, width: 2.0, dash: None, role: Role::Posterior });
+    scene.dash(&[[map, area.y], [map, area.bottom()]], 1.0, [2.0, 3.0], Role::Muted);
+    scene.line(&chart.level(1.0), 2.0, Role::Posterior);
     let curve: Vec<Point> = model.closed_form().map(point).collect();
-    scene.marks.push(Mark::Lines { lines: vec![curve], width: 2.0, dash: None, role: Role::Prior });
-    let centres = model.measured().map(point).collect();
-    scene.marks.push(Mark::Discs { centres, radius: 3.5, role: Role::Prior });
+    scene.line(&curve, 2.0, Role::Prior);
+    scene.discs(model.measured().map(point).collect(), 3.5, Role::Prior);
     let std = &fixed(model.map_std(), 2);
     let wordings = [words::MapKnows { std }.say(), words::MapKnowsShort { std }.say()];
     let at = [map, area.y + 13.0];
-    label(scene, taken, &area, at, &wordings.each_ref().map(String::as_str), &[Place::Left(5.0), Place::Right(5.0)]);
+    scene.label(taken, &area, at, &wordings, &[Place::Left(5.0), Place::Right(5.0)]);
     let floor = format!("{} %", fixed(model.floor(), 0));
     let at = [area.x, chart.y(0.01 * model.floor())];
-    label(scene, taken, &area, at, &[&floor], &[Place::Right(3.0)]);
+    scene.label(taken, &area, at, &[&floor], &[Place::Right(3.0)]);
 }
 
 /// What it shows: a sentence that ends in N_eff / M.
 fn title(scene: &mut Scene, header: &Rect) {
-    let width = |words: &str| font::measure(words, SIZE, Weight::SemiBold) + 5.0;
-    let fits = |words: &&str| width(words) + 60.0 < header.w;
-    let words = Some(words::depletion()).filter(fits).unwrap_or(words::depletion_short());
-    let place = Rect { w: width(words), ..*header };
-    scene.marks.push(text(place, Anchor::Start, SIZE, Weight::SemiBold, Role::Ink, words));
-    let after = Rect::new(place.right(), header.y, header.right() - place.right(), header.h);
-    let end = n_eff(scene, &after, SIZE, Weight::SemiBold, Role::Ink);
-    let rest = Rect::new(end, header.y, header.right() - end, header.h);
-    scene.marks.push(text(rest, Anchor::Start, SIZE, Weight::SemiBold, Role::Ink, "/ M"));
+    let letters = strong(SIZE, Role::Ink);
+    let names = [words::depletion(), words::depletion_short()];
+    let words = letters.fitting(header.w - 65.0, &names).unwrap_or(names[1]);
+    let place = Rect { w: letters.width(words) + 5.0, ..*header };
+    scene.text(place, letters, words);
+    let rest = |x: f64| Rect { x, w: header.right() - x, ..*header };
+    let end = scene.n_eff(&rest(place.right()), letters);
+    scene.text(rest(end), letters, "/ M");
 }

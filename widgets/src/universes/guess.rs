@@ -9,9 +9,9 @@ use super::{
 };
 use crate::{
     decimal::write,
-    marks::{Place, label},
     model::Declared,
-    scene::{Handle, Mark, Point, Rect, Role, Scene},
+    prediction::AROUND,
+    scene::{Handle, Point, Rect, Role, Scene},
     words::{prediction, universes as words},
 };
 use fastslam_lab::experiment::ProposalKind;
@@ -63,9 +63,8 @@ struct Guess {
 impl Guess {
     fn line(&self, scene: &mut Scene, area: &Rect) {
         let [x, _] = self.at;
-        let dash = Some(if self.guess.is_some() { [5.0, 3.0] } else { [2.0, 4.0] });
-        let line = vec![vec![[x, area.y], [x, area.bottom()]]];
-        scene.marks.push(Mark::Lines { lines: line, width: 2.0, dash, role: role(self.proposal) });
+        let dash = if self.guess.is_some() { [5.0, 3.0] } else { [2.0, 4.0] };
+        scene.dash(&[[x, area.y], [x, area.bottom()]], 2.0, dash, role(self.proposal));
     }
 
     fn mark(&self, scene: &mut Scene, area: &Rect, taken: &mut Vec<Rect>, judged: bool) {
@@ -81,13 +80,12 @@ impl Guess {
         if judged {
             return;
         }
-        let (name, title, axes): (_, _, &'static [&'static str]) = match self.proposal {
-            ProposalKind::Motion => (GUESS, words::guess_handle(), &[GUESS]),
-            ProposalKind::Improved => (GUESS_AWARE, words::guess_aware(), &[GUESS_AWARE]),
+        let (axes, title): (&'static [&'static str], _) = match self.proposal {
+            ProposalKind::Motion => (&[GUESS], words::guess_handle()),
+            ProposalKind::Improved => (&[GUESS_AWARE], words::guess_aware()),
         };
         let text = self.guess.map_or(prediction::none().into(), |guess| words::CountOf { m: &write(guess) }.say());
-        let (title, at, value) = (title.into(), self.at, self.value);
-        scene.handles.push(Handle { name, title, at, axes, value, text, hover: None });
+        scene.handles.push(Handle::of(axes, title, self.at, self.value, text));
     }
 }
 
@@ -100,9 +98,8 @@ fn floor(scene: &mut Scene, model: &UniversesModel, part: &Part, taken: &mut Vec
     let area = part.area;
     let percent = guess.unwrap_or(MIDDLE[2]);
     let [x, y] = [area.x + 12.0, share::chart(part).y(0.01 * percent)];
-    let line = vec![vec![[area.x, y], [area.x + 0.3 * area.w, y]]];
-    let dash = Some(if guess.is_some() { [5.0, 3.0] } else { [2.0, 4.0] });
-    scene.marks.push(Mark::Lines { lines: line, width: 2.0, dash, role: Role::Accent });
+    let dash = if guess.is_some() { [5.0, 3.0] } else { [2.0, 4.0] };
+    scene.dash(&[[area.x, y], [area.x + 0.3 * area.w, y]], 2.0, dash, Role::Accent);
     let said = match guess {
         Some(guess) => {
             [words::FloorIs { guess: &write(guess) }.say(), words::FloorShort { guess: &write(guess) }.say()]
@@ -112,23 +109,14 @@ fn floor(scene: &mut Scene, model: &UniversesModel, part: &Part, taken: &mut Vec
     marker(scene, taken, &area, [x, y], &said);
     if !judged {
         let text = guess.map_or(prediction::none().into(), |guess| format!("{} %", write(guess)));
-        let (name, title, axes) = (GUESS_FLOOR, words::guess_floor().into(), &[GUESS_FLOOR][..]);
-        scene.handles.push(Handle { name, title, at: [x, y], axes, value: percent, text, hover: None });
+        scene.handles.push(Handle::of(&[GUESS_FLOOR], words::guess_floor(), [x, y], percent, text));
     }
 }
 
 /// A disc that is dragged, and words beside it.
 fn marker(scene: &mut Scene, taken: &mut Vec<Rect>, area: &Rect, at: Point, said: &[String; 2]) {
-    scene.marks.push(Mark::Discs { centres: vec![at], radius: 6.0, role: Role::Accent });
-    let wordings = said.each_ref().map(String::as_str);
-    label(
-        scene,
-        taken,
-        area,
-        at,
-        &wordings,
-        &[Place::Right(11.0), Place::Left(11.0), Place::Above(9.0), Place::Below(9.0)],
-    );
+    scene.disc(at, 6.0, Role::Accent);
+    scene.label(taken, area, at, said, &AROUND);
 }
 
 /// What is asked before, and what both proposals need after.

@@ -2,8 +2,7 @@
 
 use crate::{
     panels::Panels,
-    scene::{LINE, Rect},
-    view,
+    scene::{LINE, Rect, parts},
 };
 
 /// Names of the panels: the share of laps that end well over M, what the rule makes of it, and the depletion over the range noise.
@@ -34,32 +33,34 @@ const GAP: [f64; 2] = [16.0, 8.0];
 /// Right of an area: half of a name, or of a handle \[css px\].
 const RIGHT: f64 = 14.0;
 
-/// A chart with what stands around it.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Part {
-    /// What it shows.
-    pub header: Rect,
-    /// What its marks are.
-    pub legend: Rect,
-    /// Its curves.
-    pub area: Rect,
-    /// Names of places on its lower axis.
-    pub ticks: Rect,
-    /// What these places are.
-    pub axis: Rect,
+parts! {
+    /// A chart with what stands around it.
+    pub struct Part {
+        /// What it shows.
+        pub header: Rect,
+        /// What its marks are.
+        pub legend: Rect,
+        /// Its curves.
+        pub area: Rect,
+        /// Names of places on its lower axis.
+        pub ticks: Rect,
+        /// What these places are.
+        pub axis: Rect,
+    }
 }
 
-/// The parts of the figure \[css px\].
-#[derive(Clone, PartialEq, Debug)]
-pub struct Layout {
-    /// Shares over M.
-    pub share: Part,
-    /// The rule's operating curve, on the same levels.
-    pub rule: Part,
-    /// N_eff / M over the range noise.
-    pub depletion: Part,
-    /// Of the whole figure.
-    pub height: f64,
+parts! {
+    /// The parts of the figure \[css px\].
+    pub struct Layout {
+        /// Shares over M.
+        pub share: Part,
+        /// The rule's operating curve, on the same levels.
+        pub rule: Part,
+        /// N_eff / M over the range noise.
+        pub depletion: Part,
+        /// Of the whole figure.
+        pub height: f64,
+    }
 }
 
 impl Layout {
@@ -85,12 +86,6 @@ impl Layout {
         let height = above.max(depletion.axis.bottom()).ceil();
         Self { share, rule, depletion, height }
     }
-
-    /// All parts.
-    pub fn parts(&self) -> Vec<Rect> {
-        let of = |part: &Part| [part.header, part.legend, part.area, part.ticks, part.axis];
-        [&self.share, &self.rule, &self.depletion].into_iter().flat_map(of).collect()
-    }
 }
 
 impl Part {
@@ -111,36 +106,35 @@ impl Part {
     }
 }
 
-impl view::Layout for Layout {
-    fn height(&self) -> f64 {
-        self.height
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::assert_apart;
+    use crate::scene::{assert_laid_out, assert_on_screens};
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        for names in ["", SHARE, RULE, DEPLETION, "share rule", "rule depletion", "share depletion"] {
-            let panels = Panels::named(names, &[SHARE, RULE, DEPLETION]).unwrap();
-            for width in (300..2000).step_by(7).map(f64::from) {
-                let layout = Layout::of(width, &panels);
-                assert_apart(&layout.parts(), &Rect::new(0.0, 0.0, width, layout.height));
-            }
-        }
+        assert_laid_out(
+            Layout::of,
+            &[SHARE, RULE, DEPLETION],
+            NARROWEST,
+            &[
+                ("all", 14),
+                (SHARE, 5),
+                (RULE, 5),
+                (DEPLETION, 5),
+                ("share rule", 9),
+                ("rule depletion", 10),
+                ("share depletion", 10),
+            ],
+            1.0,
+        );
     }
 
     #[test]
     fn the_picture_and_its_controls_are_on_one_screen() {
-        // The chapter on a laptop, its narrowest column of that kind, a phone, a tablet, the whole of a 16:9 screen.
-        for (width, most) in
-            [(692.0, 452.0), (600.0, 452.0), (352.0, 450.0), (322.0, 450.0), (760.0, 490.0), (1112.0, 620.0)]
-        {
-            let height = Layout::of(width, &Panels::default()).height;
-            assert!(height <= most, "{width}: {height}");
-        }
+        assert_on_screens(
+            Layout::of,
+            &[(692.0, 452.0), (600.0, 452.0), (352.0, 450.0), (322.0, 450.0), (760.0, 490.0), (1112.0, 620.0)],
+        );
     }
 }

@@ -9,10 +9,9 @@ use super::{
 };
 use crate::{
     decimal::write,
-    font::{self, Weight},
-    marks::{Place, label, line, pointer},
+    marks::Place,
     model::{Declared, Model},
-    scene::{Anchor, Chart, Handle, Mark, Point, Rect, Role, Sample, Scene, legend, text},
+    scene::{Chart, Handle, Letters, Point, Rect, Role, Sample, Scene, legend, plain, strong},
     words::universes as words,
 };
 use fastslam::ops;
@@ -27,6 +26,9 @@ pub const SIZE: f64 = 11.5;
 
 /// Numbers of universes with a name on the axis.
 const TICKS: [usize; 6] = [1, 2, 4, 8, 16, 40];
+
+/// The name of a place.
+const TICK: Letters = plain(11.0, Role::Muted).middle();
 
 /// Between the lines of a band \[css px\].
 const HATCH: f64 = 3.0;
@@ -61,33 +63,34 @@ pub fn chart(part: &Part) -> Chart {
 }
 
 /// Edges, the level that is asked for, and names of levels where there is room for them.
+#[inline(never)]
 pub fn frame(scene: &mut Scene, part: &Part, levels: &[(f64, Role)]) {
-    let (chart, Rect { x, w, .. }) = (chart(part), part.area);
-    scene.marks.extend(chart.edges());
+    let (chart, x) = (chart(part), part.area.x);
+    chart.edges(scene);
     if part.area.x - part.header.x < SCALE {
         return;
     }
     for (level, role) in levels {
         let y = chart.y(*level);
         let place = Rect::new(x - SCALE, y - 7.0, SCALE - 5.0, 14.0);
-        scene.marks.push(text(place, Anchor::End, 11.0, Weight::Regular, *role, format!("{} %", percent(*level))));
-        scene.marks.push(Mark::Fill { area: Rect::new(x, y - 0.5, w, 1.0), role: Role::Frame });
+        scene.text(place, plain(11.0, *role).end(), &format!("{} %", percent(*level)));
+        chart.rule(scene, y);
     }
 }
 
 /// Names of places below a chart, and what they are.
-pub fn axis(scene: &mut Scene, part: &Part, names: impl Iterator<Item = (f64, String)>, what: [String; 2]) {
-    for (x, name) in names {
-        let tick = vec![[x, part.area.bottom()], [x, part.area.bottom() + 4.0]];
-        scene.marks.push(Mark::Lines { lines: vec![tick], width: 1.0, dash: None, role: Role::Muted });
+#[inline(never)]
+pub fn axis(scene: &mut Scene, part: &Part, names: &[(f64, String)], what: [String; 2]) {
+    for &(x, ref name) in names {
+        scene.line(&[[x, part.area.bottom()], [x, part.area.bottom() + 4.0]], 1.0, Role::Muted);
         // Around its place, and inside of the part.
-        let w = font::measure(&name, 11.0, Weight::Regular) + 1.0;
+        let w = TICK.width(name) + 1.0;
         let left = (x - 0.5 * w).min(part.ticks.right() - w).max(part.ticks.x);
         let place = Rect::new(left, part.ticks.y + 4.0, w, part.ticks.h - 4.0);
-        scene.marks.push(text(place, Anchor::Middle, 11.0, Weight::Regular, Role::Muted, name));
+        scene.text(place, TICK, name);
     }
     let place = Rect { x: part.area.x, w: part.axis.right() - part.area.x, ..part.axis };
-    line(scene, &place, SIZE, Weight::Regular, Role::Muted, what);
+    scene.fit(place, plain(SIZE, Role::Muted), &what);
 }
 
 /// Shares over M.
@@ -96,37 +99,35 @@ pub fn share(scene: &mut Scene, model: &UniversesModel, part: &Part, taken: &mut
     let threshold = &write(recipe.threshold);
     let title = [words::Share { threshold, n: &model.laps() }.say(), words::ShareShort { threshold }.say()];
     let title = if recipe.prediction.predict { asked(model) } else { title };
-    line(scene, &part.header, SIZE, Weight::SemiBold, Role::Ink, title);
+    scene.fit(part.header, strong(SIZE, Role::Ink), &title);
     let shown = || PROPOSALS.into_iter().filter(|proposal| recipe.shows(*proposal));
     let dotted = |role| {
-        Sample::new(move |place| {
-            let [from, to] = [place.x, place.right()].map(|x| [x, place.centre()[1]]);
-            let disc = Mark::Discs { centres: vec![place.centre()], radius: 3.0, role };
-            vec![Mark::Lines { lines: vec![vec![from, to]], width: 2.0, dash: None, role }, disc]
+        Sample::new(move |scene, place| {
+            Sample::line(role, 2.0, None).draw(scene, place);
+            scene.disc(place.centre(), 3.0, role);
         })
     };
     let items = shown().map(|proposal| (dotted(role(proposal)), name(proposal)));
-    let band = (Sample::new(|place| vec![hatched(*place, Role::Muted)]), words::interval());
+    let band = (Sample::new(|scene, place| hatched(scene, place, Role::Muted)), words::interval());
     let enough = (Sample::line(Role::Accent, 1.5, Some(LEVEL)), words::four_fifths());
     legend(scene, &part.legend, items.chain([enough, band]));
 
     frame(scene, part, &[(0.0, Role::Muted), (0.5, Role::Muted), (1.0, Role::Muted)]);
     let ticks = TICKS.map(|universes| (x(&area, universes as f64), universes.to_string()));
-    axis(scene, part, ticks.into_iter(), [words::axis_universes().into(), words::axis_universes_short().into()]);
-    let level = vec![chart.level(ENOUGH)];
-    scene.marks.push(Mark::Lines { lines: level, width: 1.5, dash: Some(LEVEL), role: Role::Accent });
+    axis(scene, part, &ticks, [words::axis_universes().into(), words::axis_universes_short().into()]);
+    scene.dash(&chart.level(ENOUGH), 1.5, LEVEL, Role::Accent);
     if model.hides() {
         return;
     }
     for proposal in shown() {
         let fractions = model.fractions(proposal);
-        scene.marks.push(band_of(&chart, &fractions, role(proposal)));
+        band_of(scene, &chart, &fractions, role(proposal));
     }
     for proposal in shown() {
         let fractions = model.fractions(proposal);
         let points: Vec<Point> = points(&chart, &fractions, Fraction::share).collect();
-        scene.marks.push(Mark::Lines { lines: vec![points.clone()], width: 2.0, dash: None, role: role(proposal) });
-        scene.marks.push(Mark::Discs { centres: points, radius: 3.0, role: role(proposal) });
+        scene.line(&points, 2.0, role(proposal));
+        scene.discs(points, 3.0, role(proposal));
     }
     // The newest laps, up where they end well and down where they do not: the points go there.
     for proposal in shown().filter(|_| model.step() < LAST) {
@@ -134,8 +135,7 @@ pub fn share(scene: &mut Scene, model: &UniversesModel, part: &Part, taken: &mut
             let well = model.ends(proposal, rank).next_back() == Some(true);
             [x(&area, *m as f64), chart.y(f64::from(u8::from(well)))]
         };
-        let places = TRIED.iter().enumerate().map(place);
-        scene.marks.push(Mark::Discs { centres: places.collect(), radius: 5.0, role: role(proposal) });
+        scene.discs(TRIED.iter().enumerate().map(place).collect(), 5.0, role(proposal));
     }
     for proposal in shown() {
         needs(scene, model, &chart, proposal, taken);
@@ -155,7 +155,7 @@ fn points<'a>(
 }
 
 /// The 95 % intervals, hatched.
-fn band_of(chart: &Chart, fractions: &[Fraction], role: Role) -> Mark {
+fn band_of(scene: &mut Scene, chart: &Chart, fractions: &[Fraction], role: Role) {
     let [low, high] = [0, 1].map(|end| points(chart, fractions, move |fraction| fraction.wilson()[end]).collect());
     let at = |line: &Vec<Point>, x: f64| {
         let k = line.partition_point(|point| point[0] < x).clamp(1, line.len() - 1);
@@ -164,16 +164,15 @@ fn band_of(chart: &Chart, fractions: &[Fraction], role: Role) -> Mark {
     };
     let count = (chart.area.w / HATCH) as u32;
     let places = (0..=count).map(|k| chart.area.x + HATCH * f64::from(k));
-    let lines = places.map(|x| vec![[x, at(&low, x)], [x, at(&high, x)]]).collect();
-    Mark::Lines { lines, width: 0.75, dash: None, role }
+    scene.lines(places.map(|x| vec![[x, at(&low, x)], [x, at(&high, x)]]).collect(), 0.75, role);
 }
 
-fn hatched(place: Rect, role: Role) -> Mark {
+fn hatched(scene: &mut Scene, place: &Rect, role: Role) {
     let count = (place.w / HATCH) as u32;
     let lines = (0..=count)
         .map(|k| place.x + HATCH * f64::from(k))
         .map(|x| vec![[x, place.y + 1.0], [x, place.bottom() - 1.0]]);
-    Mark::Lines { lines: lines.collect(), width: 0.75, dash: None, role }
+    scene.lines(lines.collect(), 0.75, role);
 }
 
 /// The smallest number that is enough, at the lower edge below its dot.
@@ -181,15 +180,13 @@ fn needs(scene: &mut Scene, model: &UniversesModel, chart: &Chart, proposal: Pro
     let Some(needs) = model.sufficient(proposal) else { return };
     let fraction = model.fractions(proposal)[nearest(needs as f64)];
     let at = [x(&chart.area, needs as f64), chart.y(fraction.share())];
-    let down = vec![at, [at[0], chart.area.bottom()]];
-    scene.marks.push(Mark::Lines { lines: vec![down], width: 1.5, dash: Some([2.0, 3.0]), role: role(proposal) });
+    scene.dash(&[at, [at[0], chart.area.bottom()]], 1.5, [2.0, 3.0], role(proposal));
     let foot = [at[0], chart.area.bottom()];
     let wordings = [words::NeedsShort { m: &needs }.say(), needs.to_string()];
-    let wordings = wordings.each_ref().map(String::as_str);
     let places = [Place::Right(4.0), Place::Left(4.0)].map(|place| raised(place, foot));
     for (place, at) in places {
         let before = taken.len();
-        label(scene, taken, &chart.area, at, &wordings, &[place]);
+        scene.label(taken, &chart.area, at, &wordings, &[place]);
         if taken.len() > before {
             return;
         }
@@ -214,14 +211,14 @@ fn nothing_more(
     let y = chart.y(0.3);
     let ends = [from, to].map(|x| vec![[x, y - 4.0], [x, y + 4.0]]);
     let bracket = ends.into_iter().chain([vec![[from, y], [to, y]]]).collect();
-    scene.marks.push(Mark::Lines { lines: bracket, width: 1.5, dash: None, role: role(proposal) });
+    scene.lines(bracket, 1.5, role(proposal));
     let long = words::MoreBuysNothing { from: &TRIED[rank] }.say();
-    let room = 0.5 * chart.area.w;
-    let fits = |words: &&str| font::measure(words, SIZE, Weight::SemiBold) < room;
-    let words = Some(long.as_str()).filter(fits).unwrap_or(words::more_buys_nothing_short());
+    let letters = strong(SIZE, Role::Ink);
+    let names = [&long, words::more_buys_nothing_short()];
+    let words = letters.fitting(0.5 * chart.area.w, &names).unwrap_or(names[1]);
     // Ends with the bracket.
-    let half = 0.5 * font::measure(words, SIZE, Weight::SemiBold) + 6.0;
-    label(scene, taken, &chart.area, [to - half, y + 5.0], &[words], &[Place::Below(2.0)]);
+    let half = 0.5 * letters.width(words) + 6.0;
+    scene.label(taken, &chart.area, [to - half, y + 5.0], &[words], &[Place::Below(2.0)]);
 }
 
 /// The rule's operating curve, with the level asked for and, from the number that is read, the way there.
@@ -229,23 +226,16 @@ pub fn rule(scene: &mut Scene, model: &UniversesModel, layout: &Layout, taken: &
     let (part, recipe) = (&layout.rule, model.recipe());
     let (area, chart, rule) = (part.area, chart(part), recipe.rule);
     let (k, n) = (&rule.successes(), &rule.seeds);
-    line(
-        scene,
-        &part.header,
-        SIZE,
-        Weight::SemiBold,
-        Role::Ink,
-        [words::Rule { k, n }.say(), words::RuleShort { k, n }.say()],
-    );
+    let title = [words::Rule { k, n }.say(), words::RuleShort { k, n }.say()];
+    scene.fit(part.header, strong(SIZE, Role::Ink), &title);
     frame(scene, part, &[(0.0, Role::Muted), (0.5, Role::Muted), (1.0, Role::Muted)]);
     let at = |passes: f64| area.x + area.w * passes;
     let ticks = [0.0, 0.5, 1.0].map(|share| (at(share), format!("{} %", percent(share))));
-    axis(scene, part, ticks.into_iter(), [words::axis_passes().into(), words::axis_passes_short().into()]);
-    let level = vec![chart.level(ENOUGH)];
-    scene.marks.push(Mark::Lines { lines: level, width: 1.5, dash: Some(LEVEL), role: Role::Accent });
+    axis(scene, part, &ticks, [words::axis_passes().into(), words::axis_passes_short().into()]);
+    scene.dash(&chart.level(ENOUGH), 1.5, LEVEL, Role::Accent);
     let place = |p: f64| [at(rule.passes(p)), chart.y(p)];
-    let curve = (0..=PLACES).map(|k| place(f64::from(k) / f64::from(PLACES))).collect();
-    scene.marks.push(Mark::Lines { lines: vec![curve], width: 2.0, dash: None, role: Role::Ink });
+    let curve: Vec<Point> = (0..=PLACES).map(|k| place(f64::from(k) / f64::from(PLACES))).collect();
+    scene.line(&curve, 2.0, Role::Ink);
     if model.hides() {
         return;
     }
@@ -254,11 +244,11 @@ pub fn rule(scene: &mut Scene, model: &UniversesModel, layout: &Layout, taken: &
         let to = place(fraction.share());
         let from = if layout.share.is_shown() { x(&layout.share.area, TRIED[recipe.rank()] as f64) } else { area.x };
         let way = vec![vec![[from, to[1]], to], vec![to, [to[0], area.bottom()]]];
-        scene.marks.push(Mark::Lines { lines: way, width: 1.0, dash: Some([2.0, 3.0]), role: role(proposal) });
-        scene.marks.push(Mark::Discs { centres: vec![to], radius: 4.0, role: role(proposal) });
+        scene.dashed(way, 1.0, [2.0, 3.0], role(proposal));
+        scene.disc(to, 4.0, role(proposal));
         let said = format!("{} %", percent(passes));
         let places = [Place::Left(8.0), Place::Right(8.0), Place::Below(7.0), Place::Above(7.0)];
-        label(scene, taken, &area, to, &[&said], &places);
+        scene.label(taken, &area, to, &[&said], &places);
     }
 }
 
@@ -266,16 +256,13 @@ pub fn rule(scene: &mut Scene, model: &UniversesModel, layout: &Layout, taken: &
 pub fn cursor(scene: &mut Scene, model: &UniversesModel, part: &Part) {
     let universes = TRIED[model.recipe().rank()];
     let [x, y] = [x(&part.area, universes as f64), part.area.y];
-    let lines = vec![vec![[x, y], [x, part.area.bottom()]]];
-    scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role: Role::Accent });
-    scene.marks.push(pointer([x, y], 6.0));
-    scene.handles.push(Handle {
-        name: UNIVERSES,
-        title: words::universes_handle().into(),
-        at: [x, y - 5.0],
-        axes: &[UNIVERSES],
-        value: universes as f64,
-        text: words::CountOf { m: &universes }.say(),
-        hover: None,
-    });
+    scene.line(&[[x, y], [x, part.area.bottom()]], 1.0, Role::Accent);
+    scene.pointer([x, y], 6.0);
+    scene.handles.push(Handle::of(
+        &[UNIVERSES],
+        words::universes_handle(),
+        [x, y - 5.0],
+        universes as f64,
+        words::CountOf { m: &universes }.say(),
+    ));
 }

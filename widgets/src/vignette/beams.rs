@@ -3,7 +3,7 @@
 use super::{Kind, label};
 use crate::{
     decimal::fixed,
-    scene::{Anchor, Mark, Rect, Role, Scene},
+    scene::{Anchor, Rect, Role, Scene},
     words::vignette::{self, BeamsTold},
 };
 use fastslam::weights::Weights;
@@ -71,11 +71,10 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
         (0..PARTICLES).zip(shares(at)).map(bar).collect()
     };
     for (lines, role) in [(bars(0), Role::Level(48)), (bars(at), Role::Posterior)] {
-        scene.marks.push(Mark::Lines { lines, width: 0.6 * pitch, dash: None, role });
+        scene.lines(lines, 0.6 * pitch, role);
     }
     let middle = x(PARTICLES / 2);
-    let truth = vec![vec![[middle, area.y + line], [middle, ground]]];
-    scene.marks.push(Mark::Lines { lines: truth, width: 2.0, dash: Some([5.0, 3.0]), role: Role::Truth });
+    scene.dash(&[[middle, area.y + line], [middle, ground]], 2.0, [5.0, 3.0], Role::Truth);
     let beside = Rect::new(area.x, area.y, middle - area.x, line);
     label(scene, beside, Anchor::End, Role::Muted, vignette::beams_truth());
 }

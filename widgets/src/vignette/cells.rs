@@ -4,7 +4,7 @@
 use super::{Kind, cells, label};
 use crate::{
     decimal::fixed,
-    scene::{Anchor, LINE, Mark, Rect, Role, Scene, rimmed},
+    scene::{Anchor, LINE, Rect, Role, Scene},
     words::vignette::{self, CellsTold},
 };
 use fastslam::{geometry::Pose2, map::grid::Grid, matching::Matcher, sensor::Scan};
@@ -77,18 +77,17 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
     cells(scene, row, &map, [0, 0], [COLUMNS, 1]);
     let side = map.cell_size();
     for column in 0..COLUMNS {
-        let cell = Rect::new(row.x + f64::from(column) * pitch, row.y, pitch, row.h);
-        scene.marks.push(Mark::Frame { area: cell, width: 0.5, role: Role::Frame });
+        scene.frame(Rect::new(row.x + f64::from(column) * pitch, row.y, pitch, row.h), 0.5, Role::Frame);
     }
     let x = |metres: f64| area.x + metres / side * pitch;
     for (off, radius, role) in [(0.0, 2.5, Role::Hit), (off(at), 4.9, Role::Paper), (off(at), 3.6, Role::Accent)] {
         let end = |[dx, y]: [f64; 2]| [x(WALL + dx + off), row.bottom() - y / side * row.h];
-        scene.marks.push(Mark::Discs { centres: ENDS.map(end).to_vec(), radius, role });
+        scene.discs(ENDS.map(end).to_vec(), radius, role);
     }
     let line = Rect::new(area.x, area.bottom() - LINE, area.w, LINE);
     let chart = Rect::new(area.x, row.bottom() + 8.0, area.w, line.y - row.bottom() - 12.0);
     let now = vec![vec![[x(WALL + off(at)), row.bottom()], [x(WALL + off(at)), chart.bottom()]]];
-    scene.marks.push(Mark::Lines { lines: now, width: 1.5, dash: Some([3.0, 3.0]), role: Role::Accent });
+    scene.dashed(now, 1.5, [3.0, 3.0], Role::Accent);
     for (matcher, role, anchor, words) in [
         (Matcher::Cell, Role::Prior, Anchor::Start, vignette::cells_cell()),
         (Matcher::SubCell, Role::Posterior, Anchor::End, vignette::cells_ndt()),
@@ -97,7 +96,7 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
         let (least, most) = (extreme(&scores, f64::min), extreme(&scores, f64::max));
         let y = |score: f64| chart.bottom() - chart.h * (score - least) / (most - least);
         let curve = scores.iter().zip(0..).map(|(score, at)| [x(WALL + off(at)), y(*score)]).collect();
-        rimmed(scene, vec![curve], 2.0, None, role);
+        scene.rimmed(vec![curve], 2.0, None, role);
         label(scene, line, anchor, role, words);
     }
 }

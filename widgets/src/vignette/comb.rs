@@ -3,8 +3,7 @@
 use super::{Kind, label};
 use crate::{
     decimal::fixed,
-    font::Weight,
-    scene::{Anchor, Mark, Rect, Role, Scene, fitting, rimmed},
+    scene::{Anchor, Rect, Role, Scene, strong},
     words::vignette::{self, CombTold},
 };
 use fastslam::resampling::systematic;
@@ -57,10 +56,10 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
         from += weight;
         let piece = Rect::new(x + 0.5, top, weight * area.w - 1.0, below - top);
         let role = if copies == 0 { Role::Extinct } else { Role::Posterior };
-        scene.marks.push(Mark::Fill { area: piece, role });
+        scene.fill(piece, role);
         let under = Rect::new(x, below + 2.0, weight * area.w, line);
         let (long, short) = (format!("× {copies}"), copies.to_string());
-        scene.marks.push(fitting(under, Anchor::Middle, 13.0, Weight::SemiBold, role, &[&long, &short, ""]));
+        scene.fit(under, strong(13.0, role).middle(), &[&long, &short, ""]);
     }
     let tooth = |k: usize| {
         let x = left + (k as f64 + shift(at)) / n * area.w;
@@ -68,8 +67,8 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
     };
     let teeth: Vec<_> = (0..WEIGHTS.len()).map(tooth).collect();
     let back = vec![teeth[0][0], teeth[WEIGHTS.len() - 1][0]];
-    rimmed(scene, teeth, 2.0, None, Role::Accent);
-    scene.marks.push(Mark::Lines { lines: vec![back], width: 4.0, dash: None, role: Role::Accent });
+    scene.rimmed(teeth, 2.0, None, Role::Accent);
+    scene.line(&back, 4.0, Role::Accent);
     for (y, words) in [(area.y, vignette::comb_teeth()), (area.bottom() - line, vignette::comb_weights())] {
         label(scene, Rect::new(left, y, area.w, line), Anchor::Start, Role::Muted, words);
     }

@@ -3,7 +3,7 @@
 use super::{Kind, MARGIN, label};
 use crate::{
     decimal::fixed,
-    scene::{Anchor, LINE, Mark, NINE_TENTHS, Plane, Rect, Role, Scene, cloud},
+    scene::{Anchor, LINE, NINE_TENTHS, Plane, Rect, Role, Scene},
     words::vignette::{self, LookTold},
 };
 use fastslam::{
@@ -78,11 +78,10 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
         let shown = drawn().zip(weights.as_slice()).filter(move |(_, weight)| counts(**weight) == heavy);
         shown.map(|(pose, _)| plane.point(pose))
     };
-    scene.marks.push(cloud(draws(false), &plane.area, 1.8, Role::Prior));
-    scene.marks.push(cloud(draws(true), &plane.area, 3.2, Role::Posterior));
+    scene.cloud(draws(false), &plane.area, 1.8, Role::Prior);
+    scene.cloud(draws(true), &plane.area, 3.2, Role::Posterior);
     let variance = FIT_STD * FIT_STD;
-    let lines = plane.region(fit(at), [[variance, 0.0], [0.0, variance]], NINE_TENTHS);
-    scene.marks.push(Mark::Lines { lines, width: 2.0, dash: None, role: Role::Accent });
+    scene.lines(plane.region(fit(at), [[variance, 0.0], [0.0, variance]], NINE_TENTHS), 2.0, Role::Accent);
     let line = Rect::new(area.x, area.bottom() - LINE, area.w, LINE);
     label(scene, line, Anchor::Start, Role::Prior, vignette::look_drawn());
     label(scene, line, Anchor::End, Role::Accent, vignette::look_fits());

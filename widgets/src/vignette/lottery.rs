@@ -3,7 +3,7 @@
 use super::{Kind, MARGIN, label};
 use crate::{
     decimal::fixed,
-    scene::{Anchor, LINE, Mark, Plane, Rect, Role, Scene},
+    scene::{Anchor, LINE, Plane, Rect, Role, Scene},
     words::vignette::{self, LotteryTold},
 };
 use fastslam::{
@@ -130,12 +130,10 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
     let plane = Plane { at: [area.x, place.centre()[1]], ..Plane::from_lower_left(place, [0.0; 2], area.w / way) };
     for (paths, role) in [(&run.dead, Role::Fading(130)), (&run.living, Role::Path)] {
         for path in paths {
-            let lines = plane.path(&path.poses(), 0.0);
-            scene.marks.push(Mark::Lines { lines, width: 1.5, dash: None, role });
+            scene.lines(plane.path(&path.poses(), 0.0), 1.5, role);
         }
     }
-    let lines = plane.path(&truth(), 0.0);
-    scene.marks.push(Mark::Lines { lines, width: 2.5, dash: Some([6.0, 4.0]), role: Role::Truth });
+    scene.dashed(plane.path(&truth(), 0.0), 2.5, [6.0, 4.0], Role::Truth);
     let line = Rect::new(area.x, area.bottom() - LINE, area.w, LINE);
     label(scene, line, Anchor::Start, Role::Path, vignette::lottery_left());
     label(scene, line, Anchor::Middle, Role::Extinct, vignette::lottery_gone());

@@ -16,11 +16,10 @@ mod tree;
 
 use crate::{
     field,
-    font::Weight,
     model::{Model, Readout, Stateless},
     panels::Panels,
     recipe::{self, Menu, Param},
-    scene::{Anchor, Cells, Mark, Rect, Role, Scene, Shading, shade, text},
+    scene::{Anchor, Cells, Rect, Role, Scene, Shading, plain, shade},
     view::View,
     words::vignette,
 };
@@ -70,14 +69,14 @@ pub const KINDS: &[Kind] = &[
 /// Words in a picture.
 #[inline(never)]
 fn label(scene: &mut Scene, area: Rect, anchor: Anchor, role: Role, words: &str) {
-    scene.marks.push(text(area, anchor, 12.0, Weight::Regular, role, words));
+    scene.text(area, plain(12.0, role).at(anchor), words);
 }
 
 /// A part of a map, so many columns and rows of cells from a cell on.
 fn cells(scene: &mut Scene, area: Rect, map: &Grid, [i, j]: [i32; 2], [columns, rows]: [i32; 2]) {
     let at = |k| shade(map.log_odds(i + k % columns, j + rows - 1 - k / columns));
     let cells = Cells { columns: columns as usize, shades: (0..columns * rows).map(at).collect() };
-    scene.marks.push(Mark::Raster { area, cells, shading: Shading::Map });
+    scene.raster(area, cells, Shading::Map);
 }
 
 /// One of them, and where its handle stands.

@@ -3,7 +3,7 @@
 use super::{Kind, label};
 use crate::{
     decimal::fixed,
-    scene::{Anchor, Mark, Plane, Rect, Role, Scene, rimmed_robot},
+    scene::{Anchor, Plane, Rect, Role, Scene},
     words::vignette::{self, NamesDoor, NamesTold},
 };
 use fastslam::{
@@ -91,12 +91,10 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
         let plane = Plane { at: [strip.x, strip.y + 20.0], ..Plane::from_upper_left(strip, [0.0, WALL], area.w / 9.0) };
         let (pose, named) = (robot(ahead), decides(ahead).0);
         let seen = SENSOR.locate(&pose, &sighting().z);
-        let wall = Rect::new(strip.x, plane.at[1] - 2.0, strip.w, 4.0);
-        scene.marks.push(Mark::Fill { area: wall, role: Role::Frame });
+        scene.fill(Rect::new(strip.x, plane.at[1] - 2.0, strip.w, 4.0), Role::Frame);
         let mut leaf = |x: f64, role, words: &str| {
             let [middle, y] = plane.point([x, WALL]);
-            let area = Rect::new(middle - 0.3 * plane.scale, y - 4.0, 0.6 * plane.scale, 8.0);
-            scene.marks.push(Mark::Fill { area, role });
+            scene.fill(Rect::new(middle - 0.3 * plane.scale, y - 4.0, 0.6 * plane.scale, 8.0), role);
             label(scene, Rect::new(middle - 20.0, y - 21.0, 40.0, 16.0), Anchor::Middle, role, words);
         };
         for (door, x) in DOORS.into_iter().enumerate() {
@@ -105,10 +103,9 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
         if named.is_none() {
             leaf(seen.x, Role::Accent, vignette::names_short());
         }
-        let beam = vec![plane.position(&pose), plane.point([seen.x, seen.y])];
-        scene.marks.push(Mark::Lines { lines: vec![beam], width: 2.0, dash: Some([4.0, 3.0]), role: Role::Accent });
+        scene.dash(&[plane.position(&pose), plane.point([seen.x, seen.y])], 2.0, [4.0, 3.0], Role::Accent);
         let role = Role::Particle(row as u8);
-        rimmed_robot(scene, &plane, &pose, 10.0, role);
+        scene.rimmed_robot(&plane, &pose, 10.0, role);
         let line = Rect::new(strip.x, plane.position(&pose)[1] - 9.0, strip.w, 18.0);
         label(scene, line, Anchor::Start, role, ["A", "B"][row]);
         label(scene, line, Anchor::End, role, &format!("{} %", percent(share)));

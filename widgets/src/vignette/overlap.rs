@@ -3,7 +3,7 @@
 use super::{Kind, label};
 use crate::{
     decimal::fixed,
-    scene::{Anchor, LINE, Mark, NINE_TENTHS, Plane, Rect, Role, Sample, Scene, legend},
+    scene::{Anchor, LINE, NINE_TENTHS, Plane, Rect, Role, Sample, Scene, legend},
     words::vignette::{self, OverlapTold},
 };
 use fastslam::{
@@ -77,13 +77,13 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
     for (landmark, role, width, _) in &said {
         let [[xx, xy], [yx, yy]]: [[f64; 2]; 2] = landmark.covariance.into();
         let lines = plane.region([landmark.mean.x, landmark.mean.y], [[xx, xy], [yx, yy]], NINE_TENTHS);
-        scene.marks.push(Mark::Lines { lines, width: *width, dash: None, role: *role });
+        scene.lines(lines, *width, *role);
     }
     let line = Rect::new(area.x, area.bottom() - LINE, area.w, LINE);
     legend(scene, &line, said.map(|(_, role, width, words)| (Sample::line(role, width, None), words)));
     let full = share(at) * bar.h;
-    scene.marks.push(Mark::Fill { area: Rect::new(bar.x, bar.bottom() - full, bar.w, full), role: Role::Weight(255) });
-    scene.marks.push(Mark::Frame { area: bar, width: 1.0, role: Role::Muted });
+    scene.fill(Rect::new(bar.x, bar.bottom() - full, bar.w, full), Role::Weight(255));
+    scene.frame(bar, 1.0, Role::Muted);
     let over = Rect::new(area.right() - 60.0, area.y, 60.0, LINE);
     label(scene, over, Anchor::Middle, Role::Muted, vignette::overlap_weight());
 }

@@ -3,7 +3,7 @@
 use super::{Kind, MARGIN};
 use crate::{
     decimal::fixed,
-    scene::{Mark, Plane, Rect, Role, Scene, closed, diamond, rimmed_robot},
+    scene::{Plane, Rect, Role, Scene, closed, diamond},
     words::vignette::{self, SlipTold},
 };
 use fastslam::{
@@ -90,11 +90,9 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
     ];
     for (path, landmarks, dash, [of_path, of_landmarks]) in worlds {
         let corners = landmarks.map(|place| plane.point(place));
-        let lines = vec![closed(corners.to_vec())];
-        scene.marks.push(Mark::Lines { lines, width: 1.5, dash, role: of_landmarks });
-        scene.marks.push(Mark::Lines { lines: plane.path(&path, 0.0), width: 2.0, dash, role: of_path });
-        let polygons = corners.map(|corner| diamond(corner, 5.5)).to_vec();
-        scene.marks.push(Mark::Polygons { polygons, role: of_landmarks });
-        rimmed_robot(scene, &plane, &path[STEPS], 9.0, of_path);
+        scene.strokes(vec![closed(corners.to_vec())], 1.5, dash, of_landmarks);
+        scene.strokes(plane.path(&path, 0.0), 2.0, dash, of_path);
+        scene.polygons(corners.map(|corner| diamond(corner, 5.5)).to_vec(), of_landmarks);
+        scene.rimmed_robot(&plane, &path[STEPS], 9.0, of_path);
     }
 }

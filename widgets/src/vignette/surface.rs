@@ -4,9 +4,7 @@
 use super::{Kind, cells, label};
 use crate::{
     decimal::fixed,
-    scene::{
-        Anchor, Cells, LINE, Mark, Plane, Rect, Role, Scene, Shading, cloud, cross, rimmed, rimmed_polygon, robot,
-    },
+    scene::{Anchor, Cells, LINE, Plane, RIM, Rect, Role, Scene, Shading, robot},
     words::vignette::{self, SurfaceTold},
 };
 use fastslam::{
@@ -123,27 +121,27 @@ fn draw(beams: u32, area: &Rect, scene: &mut Scene) {
     let place = Rect::new(area.x, area.y, f64::from(wide) * pitch, area.h);
     cells(scene, place, &found.map, [i - wide / 2, j - CELLS / 2], [wide, CELLS]);
     let middle = [place.x + (f64::from(wide / 2) + 0.5) * pitch, place.centre()[1]];
-    rimmed_polygon(scene, robot(middle, 0.0, 9.0), Role::Path);
+    scene.rimmed_polygon(robot(middle, 0.0, 9.0), Role::Path);
 
     let area_of = Rect::new(place.right() + 10.0, area.y, columns as f64 * side, area.h);
     let plane = Plane::centred(area_of, ODOMETRY, 0.5 * area.h / HALF);
     let shades = found.shares(columns).iter().map(|share| (255.0 * share).round() as u8).collect();
-    scene.marks.push(Mark::Raster { area: area_of, cells: Cells { columns, shades }, shading: Shading::Correlation });
-    scene.marks.push(Mark::Frame { area: area_of, width: 1.0, role: Role::Frame });
+    scene.raster(area_of, Cells { columns, shades }, Shading::Correlation);
+    scene.frame(area_of, 1.0, Role::Frame);
     for (radius, role) in [(3.5, Role::Paper), (2.5, mark)] {
-        let points = found.points.iter().map(|point| plane.position(point));
-        scene.marks.push(cloud(points, &area_of, radius, role));
+        scene.cloud(found.points.iter().map(|point| plane.position(point)), &area_of, radius, role);
     }
-    let [x, y] = plane.position(&found.mode);
-    rimmed(scene, cross(Rect::new(x - 5.0, y - 5.0, 10.0, 10.0)), 2.0, None, mark);
+    let mode = Rect::around(plane.position(&found.mode), 5.0);
+    scene.cross(mode, 2.0 + 2.0 * RIM, Role::Paper);
+    scene.cross(mode, 2.0, mark);
 
     let bar = Rect::new(area_of.right() + 12.0, area.y, 16.0, area.h);
     let high = |nats: f64| bar.h * (nats / MOST).clamp(0.0, 1.0);
     let gain = high(found.gain);
-    scene.marks.push(Mark::Fill { area: Rect::new(bar.x, bar.bottom() - gain, bar.w, gain), role: mark });
-    scene.marks.push(Mark::Frame { area: bar, width: 1.0, role: Role::Muted });
+    scene.fill(Rect::new(bar.x, bar.bottom() - gain, bar.w, gain), mark);
+    scene.frame(bar, 1.0, Role::Muted);
     let gate = bar.bottom() - high(FROM_SCAN.minimum_improvement);
-    rimmed(scene, vec![vec![[bar.x - 4.0, gate], [bar.right() + 4.0, gate]]], 2.0, None, Role::Ink);
+    scene.rimmed(vec![vec![[bar.x - 4.0, gate], [bar.right() + 4.0, gate]]], 2.0, None, Role::Ink);
     let beside = Rect::new(bar.right() + 7.0, gate - LINE / 2.0, area.right() - bar.right() - 7.0, LINE);
     label(scene, beside, Anchor::Start, Role::Ink, vignette::surface_guard());
 }

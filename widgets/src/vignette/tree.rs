@@ -2,7 +2,7 @@
 
 use super::Kind;
 use crate::{
-    scene::{Mark, Point, Rect, Role, Scene},
+    scene::{Point, Rect, Role, Scene},
     words::vignette::{self, TreeTold},
 };
 use fastslam::{
@@ -80,7 +80,7 @@ fn draw(last: u32, area: &Rect, scene: &mut Scene) {
         living = parents;
     }
     for (lines, centres, width, role) in [(dead, gone, 1.0, Role::Fading(120)), (alive, nodes, 2.0, Role::Path)] {
-        scene.marks.push(Mark::Lines { lines, width, dash: None, role });
-        scene.marks.push(Mark::Discs { centres, radius: width + 0.5, role });
+        scene.lines(lines, width, role);
+        scene.discs(centres, width + 0.5, role);
     }
 }

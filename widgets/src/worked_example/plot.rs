@@ -6,11 +6,7 @@ use super::{
 };
 use crate::{
     decimal::write,
-    font::Weight,
-    scene::{
-        Anchor, Handle, Mark, Plane, Point, Rect, Role, Sample, Scene, bar, clip_polyline, closed, cross, ellipse,
-        rimmed_polygon, robot, text,
-    },
+    scene::{Handle, Plane, Point, Rect, Role, Sample, Scene, clip_polyline, closed, ellipse, plain, robot, strong},
     words::worked_example,
 };
 use fastslam::{map::landmarks::Landmark, ops};
@@ -24,29 +20,26 @@ const GRIP: f64 = 5.0;
 pub fn plot(scene: &mut Scene, example: &WorkedExample, area: &Rect, lit: &[&str]) {
     let plane = plane(example, *area);
     light(scene, example, &plane, lit);
-    let ring = |landmark: &Landmark, width: f64, role: Role| {
+    let ring = |scene: &mut Scene, landmark: &Landmark, width: f64, role: Role| {
         let mean = [landmark.mean.x, landmark.mean.y];
-        let lines = plane.region(mean, landmark.covariance.into(), SIGMAS);
-        let middle = Some(plane.point(mean)).filter(|at| area.inset(3.0).contains(*at));
-        let dot = middle.map(|at| Mark::Discs { centres: vec![at], radius: 2.5, role });
-        [Mark::Lines { lines, width, dash: None, role }].into_iter().chain(dot)
+        scene.lines(plane.region(mean, landmark.covariance.into(), SIGMAS), width, role);
+        if area.inset(3.0).contains(plane.point(mean)) {
+            scene.disc(plane.point(mean), 2.5, role);
+        }
     };
-    scene.marks.extend(ring(&example.before, 2.0, Role::Landmark));
+    ring(scene, &example.before, 2.0, Role::Landmark);
     for (slot, update) in example.updates.iter().enumerate() {
         let role = Role::Particle(slot as u8);
         let [from, to] = [Thing::Robot(slot), Thing::Sighting(slot)].map(|thing| plane.point(thing.place(example)));
-        let lines = clip_polyline(&[from, to], area);
-        scene.marks.push(Mark::Lines { lines, width: 1.25, dash: Some([5.0, 4.0]), role });
-        scene.marks.extend(ring(&update.after, 1.25, role));
-        let lever = vec![from, Grip::Heading(slot).at(example, &plane)];
-        scene.marks.push(Mark::Lines { lines: vec![lever], width: 1.5, dash: None, role });
+        scene.dashed(clip_polyline(&[from, to], area), 1.25, [5.0, 4.0], role);
+        ring(scene, &update.after, 1.25, role);
+        scene.line(&[from, Grip::Heading(slot).at(example, &plane)], 1.5, role);
     }
     for (slot, length) in [(0, 13.0), (1, 8.0)] {
         let pose = &example.updates[slot].world_from_robot;
-        let corners = robot(plane.position(pose), pose.theta, length);
-        rimmed_polygon(scene, corners, Role::Particle(slot as u8));
+        scene.rimmed_polygon(robot(plane.position(pose), pose.theta, length), Role::Particle(slot as u8));
         let (role, at) = (Role::Particle(slot as u8), plane.point(Thing::Sighting(slot).place(example)));
-        scene.marks.push(seen_at(at, role));
+        seen_at(scene, at, role);
     }
     scale(scene, &plane);
     let places = Grip::NAMED.map(|(_, grip)| grip.at(example, &plane));
@@ -56,7 +49,7 @@ pub fn plot(scene: &mut Scene, example: &WorkedExample, area: &Rect, lit: &[&str
         let open = places[k + 1..].iter().all(|[u, v]| ops::hypot(u - x, v - y) > 2.0 * KNOB);
         draw(scene, grip, example, &plane, open);
     }
-    scene.marks.push(Mark::Frame { area: *area, width: 1.0, role: Role::Frame });
+    scene.frame(*area, 1.0, Role::Frame);
     for (name, grip) in Grip::NAMED {
         scene.handles.push(handle(name, grip, example, &plane));
     }
@@ -90,37 +83,28 @@ fn light(scene: &mut Scene, example: &WorkedExample, plane: &Plane, lit: &[&str]
             noise.extend(plane.region(Thing::Sighting(slot).place(example), covariance, SIGMAS));
         }
     }
-    scene.marks.push(Mark::Lines { lines, width: 7.0, dash: None, role: Role::Accent });
-    scene.marks.push(Mark::Lines { lines: noise, width: 2.5, dash: None, role: Role::Accent });
-    scene.marks.push(Mark::Discs { centres: discs, radius: KNOB + 6.0, role: Role::Accent });
+    scene.lines(lines, 7.0, Role::Accent);
+    scene.lines(noise, 2.5, Role::Accent);
+    scene.discs(discs, KNOB + 6.0, Role::Accent);
 }
 
 /// What is grasped, as it is seen.
 fn draw(scene: &mut Scene, grip: Grip, example: &WorkedExample, plane: &Plane, named: bool) {
     let at = grip.at(example, plane);
-    let disc = |radius: f64, role: Role| Mark::Discs { centres: vec![at], radius, role };
     match grip {
         Grip::Thing(Thing::Mean) => {
-            let circle = closed(ellipse(at, [[1.0, 0.0], [0.0, 1.0]], KNOB));
-            scene.marks.push(Mark::Lines { lines: vec![circle], width: 2.0, dash: None, role: Role::Landmark });
+            scene.line(&closed(ellipse(at, [[1.0, 0.0], [0.0, 1.0]], KNOB)), 2.0, Role::Landmark);
         }
         Grip::Thing(thing @ (Thing::Robot(slot) | Thing::Sighting(slot))) => {
             let role = Role::Particle(slot as u8);
-            let stem = vec![plane.point(thing.place(example)), at];
-            scene.marks.push(Mark::Lines { lines: vec![stem], width: 1.0, dash: None, role });
-            scene.marks.extend([disc(KNOB + 1.5, Role::Paper), disc(KNOB, role)]);
+            scene.line(&[plane.point(thing.place(example)), at], 1.0, role);
+            scene.knob(at, KNOB, role);
             if named {
-                let place = Rect::new(at[0] - KNOB, at[1] - KNOB, 2.0 * KNOB, 2.0 * KNOB);
-                let name = (slot + 1).to_string();
-                scene.marks.push(text(place, Anchor::Middle, 11.5, Weight::SemiBold, Role::Paper, name));
+                scene.text(Rect::around(at, KNOB), strong(11.5, Role::Paper).middle(), &(slot + 1).to_string());
             }
         }
-        Grip::Heading(slot) => {
-            scene.marks.extend([disc(GRIP + 1.5, Role::Paper), disc(GRIP, Role::Particle(slot as u8))]);
-        }
-        Grip::Spread | Grip::Height => {
-            scene.marks.extend([disc(GRIP + 1.5, Role::Paper), disc(GRIP, Role::Landmark)]);
-        }
+        Grip::Heading(slot) => scene.knob(at, GRIP, Role::Particle(slot as u8)),
+        Grip::Spread | Grip::Height => scene.knob(at, GRIP, Role::Landmark),
     }
 }
 
@@ -167,35 +151,36 @@ fn scale(scene: &mut Scene, plane: &Plane) {
     }
     let px = (length * plane.scale).min(area.w - 20.0);
     let (x, y) = (area.right() - 10.0 - px, area.bottom() - 7.0);
-    scene.marks.push(bar([x, y], px));
+    scene.bar([x, y], px);
     let room = px.max(36.0);
     let name = Rect::new(area.right() - 10.0 - room, y - 17.0, room, 15.0);
-    scene.marks.push(text(name, Anchor::End, 11.0, Weight::Regular, Role::Ink, format!("{} m", write(length))));
+    scene.text(name, plain(11.0, Role::Ink).end(), &format!("{} m", write(length)));
 }
 
-fn seen_at([x, y]: Point, role: Role) -> Mark {
-    let lines = cross(Rect::new(x - 4.0, y - 4.0, 8.0, 8.0));
-    Mark::Lines { lines, width: 2.0, dash: None, role }
+fn seen_at(scene: &mut Scene, at: Point, role: Role) {
+    scene.cross(Rect::around(at, 4.0), 2.0, role);
 }
 
-fn landmark([x, y]: Point, width: f64, role: Role) -> [Mark; 2] {
-    let lines = vec![closed(ellipse([x, y], [[64.0, 0.0], [0.0, 25.0]], 1.0))];
-    [Mark::Lines { lines, width, dash: None, role }, Mark::Discs { centres: vec![[x, y]], radius: 2.0, role }]
+fn landmark(scene: &mut Scene, at: Point, width: f64, role: Role) {
+    scene.line(&closed(ellipse(at, [[64.0, 0.0], [0.0, 25.0]], 1.0)), width, role);
+    scene.disc(at, 2.0, role);
 }
 
 /// The landmark before the sightings, in a legend.
 pub fn before() -> Sample<'static> {
-    Sample::new(|place| landmark([place.right() - 9.0, place.centre()[1]], 2.0, Role::Landmark).into()).wide(19.0)
+    let draw = |scene: &mut Scene, place: &Rect| {
+        landmark(scene, [place.right() - 9.0, place.centre()[1]], 2.0, Role::Landmark);
+    };
+    Sample::new(draw).wide(19.0)
 }
 
 /// What a particle sees, and the landmark after that.
 pub fn after(role: Role) -> Sample<'static> {
-    let draw = move |place: &Rect| {
+    let draw = move |scene: &mut Scene, place: &Rect| {
         let (x, y) = (place.x, place.centre()[1]);
-        let lines = vec![vec![[x, y], [x + 20.0, y]]];
-        let sight = Mark::Lines { lines, width: 1.25, dash: Some([5.0, 4.0]), role };
-        let after = landmark([place.right() - 9.0, y], 1.25, role);
-        [sight, seen_at([x + 22.0, y], role)].into_iter().chain(after).collect()
+        scene.dash(&[[x, y], [x + 20.0, y]], 1.25, [5.0, 4.0], role);
+        seen_at(scene, [x + 22.0, y], role);
+        landmark(scene, [place.right() - 9.0, y], 1.25, role);
     };
     Sample::new(draw).wide(50.0)
 }

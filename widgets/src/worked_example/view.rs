@@ -11,7 +11,7 @@ use crate::{
     font::{self, Weight},
     model::Declared,
     panels::Panels,
-    scene::{Anchor, Formula, Handle, LINE, Mark, Point, Rect, Role, Sample, Scene, legend, number, text},
+    scene::{Anchor, Formula, Handle, LINE, Point, Rect, Role, Sample, Scene, legend, number, plain, strong},
     view::View,
     words::worked_example,
 };
@@ -103,7 +103,7 @@ fn given(scene: &mut Scene, step: &Step, area: &Rect, example: &WorkedExample) {
     let used = name.width();
     name.draw(scene, [area.x, area.centre()[1]]);
     let room = Rect::new(area.x + used, area.y, area.w - used - 8.0, area.h);
-    value(scene, &room, |writing| (step.write)(writing, example, 0));
+    value(scene, &room, &|writing| (step.write)(writing, example, 0));
 }
 
 /// The steps of both particles, and what follows.
@@ -118,14 +118,13 @@ fn chain(scene: &mut Scene, model: &WorkedExampleModel, layout: &Layout, chain: 
     for (step, place) in chain.steps().iter().zip(&chain.places) {
         label(scene, step, &place.label, layout.labels, chain.all);
         for (slot, area) in place.values.iter().enumerate() {
-            value(scene, area, |writing| (step.write)(writing, model.example(), slot));
+            value(scene, area, &|writing| (step.write)(writing, model.example(), slot));
         }
     }
     let [name, ..] = chain.selection;
     let tops = chain.places.iter().map(|Place { label, .. }| label.y).chain([name.y]);
     let right = scene.width;
-    let lines = tops.map(|y| vec![[0.0, y.round() + 0.5], [right, y.round() + 0.5]]).collect();
-    scene.marks.push(Mark::Lines { lines, width: 1.0, dash: None, role: Role::Frame });
+    scene.lines(tops.map(|y| vec![[0.0, y.round() + 0.5], [right, y.round() + 0.5]]).collect(), 1.0, Role::Frame);
     selection(scene, model, chain, layout.labels);
 }
 
@@ -135,9 +134,9 @@ fn light(scene: &mut Scene, chain: &Chain, pointed: Option<usize>, lit: &[&str])
     let line = |y: f64| vec![[rows.x, y.round() + 0.5], [rows.right(), y.round() + 0.5]];
     let row = |rank: usize| &chain.places[rank].label;
     let entering = lit.iter().filter_map(|symbol| steps::row_of(shown, symbol)).map(|rank| line(row(rank).bottom()));
-    scene.marks.push(Mark::Lines { lines: entering.collect(), width: 3.0, dash: None, role: Role::Accent });
+    scene.lines(entering.collect(), 3.0, Role::Accent);
     let edges = pointed.into_iter().flat_map(|rank| [row(rank).y, row(rank).bottom()]).map(line);
-    scene.marks.push(Mark::Lines { lines: edges.collect(), width: 2.0, dash: None, role: Role::Ink });
+    scene.lines(edges.collect(), 2.0, Role::Ink);
     let rank = pointed.unwrap_or(0);
     scene.handles.push(Handle {
         name: ROW,
@@ -159,11 +158,11 @@ fn middle_line(row: &Rect) -> Rect {
 fn heading(scene: &mut Scene, slot: usize, area: &Rect, drawn: bool) {
     let (line, role) = (middle_line(area), Role::Particle(slot as u8));
     let sample = if drawn { after(role) } else { Sample::dot(role, 5.0).wide(12.0) };
-    let place = Rect::new(line.x, line.y + 3.0, sample.width(), LINE - 6.0);
-    scene.marks.extend(sample.marks(&place));
+    let place = Rect::new(line.x, line.y + 3.0, sample.width, LINE - 6.0);
+    sample.draw(scene, &place);
     let name = Rect::new(place.right() + 6.0, line.y, line.right() - place.right() - 6.0, LINE);
     let title = worked_example::Particle { slot: &(slot + 1) }.say();
-    scene.marks.push(text(name, Anchor::Start, SIZE, Weight::SemiBold, Role::Ink, title));
+    scene.text(name, strong(SIZE, Role::Ink), &title);
 }
 
 /// What a row says of itself.
@@ -174,7 +173,7 @@ fn label(scene: &mut Scene, step: &Step, area: &Rect, labels: Labels, all: bool)
         Formula::new(SIZE, Weight::Regular, Role::Ink).tex(tex).draw(scene, at);
     };
     let words = |scene: &mut Scene, area: Rect, words: &str| {
-        scene.marks.push(text(area, Anchor::Start, WORDS, Weight::Regular, Role::Muted, words));
+        scene.text(area, plain(WORDS, Role::Muted), words);
     };
     match labels {
         Labels::Line => {
@@ -198,7 +197,7 @@ fn label(scene: &mut Scene, step: &Step, area: &Rect, labels: Labels, all: bool)
 }
 
 /// A value at the left of an area: where there is little room, with fewer digits rather than too small to read.
-fn value(scene: &mut Scene, area: &Rect, write: impl Fn(&Writing) -> Formula) {
+fn value(scene: &mut Scene, area: &Rect, write: &dyn Fn(&Writing) -> Formula) {
     let brief = area.w < SPACIOUS;
     let fitting = |digits: i32| {
         let full = write(&Writing { size: SIZE, digits, brief }).width();
@@ -228,39 +227,27 @@ fn selection(scene: &mut Scene, model: &WorkedExampleModel, chain: &Chain, label
     let role = if *resamples { Role::Copied } else { Role::Accent };
     let verdict = model.verdict();
     let full = font::measure(&verdict, 14.5, Weight::SemiBold);
-    let size = if full > words.w { 0.99 * 14.5 * words.w / full } else { 14.5 };
-    scene.marks.push(text(words, Anchor::Start, size, Weight::SemiBold, role, verdict));
+    scene.text(words, strong(if full > words.w { 0.99 * 14.5 * words.w / full } else { 14.5 }, role), &verdict);
 
     let bar = chain.bar();
     let at = |ess: f64| bar.x + bar.w * ess / model.example().updates.len() as f64;
     for (name, x, anchor) in [("0", bar.x - 14.0, Anchor::Start), ("2", bar.right() + 4.0, Anchor::End)] {
-        let end = Rect::new(x, bar.y - 3.0, 14.0, 16.0);
-        scene.marks.push(text(end, anchor, WORDS, Weight::Regular, Role::Muted, name));
+        scene.text(Rect::new(x, bar.y - 3.0, 14.0, 16.0), plain(WORDS, Role::Muted).at(anchor), name);
     }
-    scene.marks.push(Mark::Fill { area: Rect { w: at(*ess) - bar.x, ..bar }, role });
-    scene.marks.push(Mark::Frame { area: bar, width: 1.0, role: Role::Weight(0) });
+    scene.fill(Rect { w: at(*ess) - bar.x, ..bar }, role);
+    scene.frame(bar, 1.0, Role::Weight(0));
     let x = at(*limit);
     let lines = vec![vec![[x, bar.y - 2.0], [x, bar.bottom() + 5.0]]];
-    scene.marks.push(Mark::Lines { lines: lines.clone(), width: 5.0, dash: None, role: Role::Paper });
-    scene.marks.push(Mark::Lines { lines, width: 2.0, dash: None, role: Role::Ink });
+    scene.lines(lines.clone(), 5.0, Role::Paper);
+    scene.lines(lines, 2.0, Role::Ink);
     // It can be moved.
     let grip = [x, bar.centre()[1]];
-    scene.marks.push(Mark::Discs { centres: vec![grip], radius: 7.5, role: Role::Paper });
-    scene.marks.push(Mark::Discs { centres: vec![grip], radius: 6.0, role: Role::Ink });
+    scene.knob(grip, 6.0, Role::Ink);
     let name = worked_example::ThresholdM { limit: &number(*limit, DIGITS) }.say();
     let w = font::measure(&name, WORDS, Weight::Regular) + 0.01;
     // Not `clamp`: its panic writes both ends, which takes 20 KB.
     let left = (x - 0.5 * w).min(bar.right() + 18.0 - w).max(bar.x - 14.0);
-    let under = Rect::new(left, bar.bottom() + 3.0, w, LINE);
-    scene.marks.push(text(under, Anchor::Start, WORDS, Weight::Regular, Role::Ink, name.clone()));
+    scene.text(Rect::new(left, bar.bottom() + 3.0, w, LINE), plain(WORDS, Role::Ink), &name);
     let value = model.recipe().inputs.threshold;
-    scene.handles.push(Handle {
-        name: THRESHOLD,
-        title: worked_example::threshold_handle().into(),
-        at: grip,
-        axes: &[THRESHOLD],
-        value,
-        text: name,
-        hover: None,
-    });
+    scene.handles.push(Handle::of(&[THRESHOLD], worked_example::threshold_handle(), grip, value, name));
 }
