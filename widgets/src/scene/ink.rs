@@ -1,6 +1,6 @@
 //! The words of drawing: each puts one mark into a scene.
 //!
-//! None of them is inlined, nor made again for each type: there are hundreds of calls, and what a call takes every page loads.
+//! None that makes a mark is inlined: there are hundreds of calls, and what a call takes every page loads.
 
 use super::{Anchor, Cells, Mark, Point, Rect, Role, Scene, Shading, Text};
 use crate::font::{self, Weight};

@@ -5,8 +5,8 @@ use crate::panels::Panels;
 
 /// Places of a picture: of a part, of some, or of a whole layout.
 pub trait Parts {
-    /// Adds those that it has; what is not shown has no height.
-    fn add_to(&self, places: &mut Vec<Rect>);
+    /// Adds those that it has: none, unless it says so. What is not shown has no height.
+    fn add_to(&self, _places: &mut Vec<Rect>) {}
 
     /// All of them.
     fn parts(&self) -> Vec<Rect> {
@@ -45,12 +45,9 @@ impl<T: Parts> Parts for Option<T> {
     }
 }
 
-/// What a layout says besides has no place.
-macro_rules! no_place {
-    ($($type:ty),*) => { $(impl Parts for $type { fn add_to(&self, _: &mut Vec<Rect>) {} })* };
-}
-
-no_place!(f64, bool, Panels);
+impl Parts for f64 {}
+impl Parts for bool {}
+impl Parts for Panels {}
 
 /// A struct of places. One that is called `Layout` is that of a figure, and ends with its `height` \[css px\].
 macro_rules! parts {
@@ -81,8 +78,8 @@ macro_rules! parts {
 
 pub(crate) use parts;
 
-/// That of each choice of panels, at every width from the least on, the parts lie inside of the figure and nowhere over each other, as many as are told,
-/// and at most this much is left below them \[css px\].
+/// That of each choice of panels, at every width from the least on, as many parts as are told lie inside of the figure and nowhere over each
+/// other, and at most this much is left free around them \[css px\].
 #[cfg(test)]
 pub fn assert_laid_out<L: Parts + crate::view::Layout>(
     of: fn(f64, &Panels) -> L,

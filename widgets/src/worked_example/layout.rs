@@ -4,8 +4,7 @@
 use super::steps::{GIVEN, Step, steps};
 use crate::{
     panels::Panels,
-    scene::{LINE, Rect},
-    view,
+    scene::{LINE, Parts, Rect, parts},
 };
 
 /// Names of the panels: the drawing, what both particles begin with, the five numbers that decide, and the whole chain of steps.
@@ -42,6 +41,8 @@ pub enum Labels {
     /// The symbol, and its unit.
     Short,
 }
+
+impl Parts for Labels {}
 
 impl Labels {
     fn of(width: f64) -> Self {
@@ -88,43 +89,46 @@ impl Labels {
     }
 }
 
-/// Where a row is named, and where its values are written.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Place {
-    /// Caption and formula.
-    pub label: Rect,
-    /// The value of each particle.
-    pub values: [Rect; 2],
+parts! {
+    /// Where a row is named, and where its values are written.
+    pub struct Place {
+        /// Caption and formula.
+        pub label: Rect,
+        /// The value of each particle.
+        pub values: [Rect; 2],
+    }
 }
 
-/// Steps of both particles, and what follows \[css px\].
-#[derive(Clone, PartialEq, Debug)]
-pub struct Chain {
-    /// Heading of each particle, and in front of them room for what the drawing has besides.
-    pub head: Place,
-    /// Whether all steps are shown, not only the five that decide.
-    pub all: bool,
-    /// Of each step.
-    pub places: Vec<Place>,
-    /// N_eff and the verdict: their name, the words, and the bar.
-    pub selection: [Rect; 3],
+parts! {
+    /// Steps of both particles, and what follows \[css px\].
+    pub struct Chain {
+        /// Heading of each particle, and in front of them room for what the drawing has besides.
+        pub head: Place,
+        /// Whether all steps are shown, not only the five that decide.
+        pub all: bool,
+        /// Of each step.
+        pub places: Vec<Place>,
+        /// N_eff and the verdict: their name, the words, and the bar.
+        pub selection: [Rect; 3],
+    }
 }
 
-/// The parts of the figure \[css px\].
-#[derive(Clone, PartialEq, Debug)]
-pub struct Layout {
-    /// How the rows are labelled.
-    pub labels: Labels,
-    /// The drawing, if it is shown.
-    pub plot: Option<Rect>,
-    /// What is drawn in it, where the heading of a chain has no room to say it.
-    pub names: Option<Rect>,
-    /// What both begin with; nothing, if it is not shown.
-    pub given: Vec<Rect>,
-    /// The steps, if they are shown.
-    pub chain: Option<Chain>,
-    /// Of the whole figure.
-    pub height: f64,
+parts! {
+    /// The parts of the figure \[css px\].
+    pub struct Layout {
+        /// How the rows are labelled.
+        pub labels: Labels,
+        /// The drawing, if it is shown.
+        pub plot: Option<Rect>,
+        /// What is drawn in it, where the heading of a chain has no room to say it.
+        pub names: Option<Rect>,
+        /// What both begin with; nothing, if it is not shown.
+        pub given: Vec<Rect>,
+        /// The steps, if they are shown.
+        pub chain: Option<Chain>,
+        /// Of the whole figure.
+        pub height: f64,
+    }
 }
 
 impl Layout {
@@ -209,28 +213,10 @@ impl Chain {
     }
 }
 
-impl view::Layout for Layout {
-    fn height(&self) -> f64 {
-        self.height
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scene::assert_apart;
-
-    /// All parts that have a place.
-    fn parts(Layout { plot, names, given, chain, .. }: &Layout) -> Vec<Rect> {
-        let mut parts: Vec<Rect> = plot.iter().chain(names).chain(given).copied().collect();
-        if let Some(Chain { head, places, selection, .. }) = chain {
-            parts.extend(selection);
-            for Place { label, values } in places.iter().chain([head]) {
-                parts.extend([label, &values[0], &values[1]]);
-            }
-        }
-        parts
-    }
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
@@ -238,10 +224,9 @@ mod tests {
             let panels = Panels::named(names, &[PLOT, START, FIVE, CHAIN]).unwrap();
             for width in (330..1600).step_by(7).map(f64::from) {
                 let layout = Layout::of(width, &panels);
-                let parts = parts(&layout);
+                let parts = layout.parts();
                 assert_apart(&parts, &Rect::new(0.0, 0.0, width, layout.height));
-                let last = parts.iter().map(Rect::bottom).fold(0.0, f64::max);
-                assert!(layout.height - last <= GAP, "{names} at {width}: nothing is left below");
+                assert!(layout.height - layout.lowest() <= GAP, "{names} at {width}: nothing is left below");
             }
         }
     }
