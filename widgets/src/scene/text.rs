@@ -69,22 +69,25 @@ impl Text {
 pub const HEADING: Letters = strong(13.5, Role::Ink);
 /// And what it says after that.
 const AFTER: Letters = plain(12.5, Role::Muted);
-/// What both must leave free together, so that the line does not look full \[css px\].
-const APART: f64 = 12.0;
+
+/// Where more begins after this \[css px\].
+fn after(said: &str) -> f64 {
+    HEADING.width(said) + font::measure("  ", HEADING.size, Weight::Regular)
+}
 
 impl Scene {
     /// A heading: a strong part, and more after it in the same line, shortened where it is too long.
     pub fn heading(&mut self, area: &Rect, (said, role): (&str, Role), rest: &str) {
         self.text(*area, Letters { role, ..HEADING }, said);
         if !rest.is_empty() {
-            let used = HEADING.width(said) + font::measure("  ", HEADING.size, Weight::Regular);
+            let used = after(said);
             self.text(Rect { x: area.x + used, w: (area.w - used).max(0.0), ..*area }, AFTER, rest);
         }
     }
 
     /// A heading with the first of these texts after it that has room there, or with none.
     pub fn heading_fit<T: AsRef<str>>(&mut self, area: &Rect, strong: (&str, Role), rest: &[T]) {
-        let fits = AFTER.fitting(area.w - HEADING.width(strong.0) - APART, rest);
+        let fits = AFTER.fitting(area.w - after(strong.0), rest);
         self.heading(area, strong, fits.unwrap_or_default());
     }
 

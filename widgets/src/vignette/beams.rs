@@ -77,4 +77,8 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
     scene.dash(&[[middle, area.y + line], [middle, ground]], 2.0, [5.0, 3.0], Role::Truth);
     let beside = Rect::new(area.x, area.y, middle - area.x, line);
     label(scene, beside, Anchor::End, Role::Muted, vignette::beams_truth());
+    for (below, (count, role)) in [(count(0), Role::Muted), (count(at), Role::Posterior)].into_iter().enumerate() {
+        let names = Rect { y: area.y + line * (below + 1) as f64, ..beside };
+        label(scene, names, Anchor::Start, role, &format!("{}: {count}", vignette::beams_handle()));
+    }
 }

@@ -3,8 +3,11 @@
 use super::{Kind, MARGIN};
 use crate::{
     decimal::fixed,
-    scene::{Plane, Rect, Role, Scene, closed, diamond},
-    words::vignette::{self, SlipTold},
+    scene::{LINE, Plane, Rect, Role, Sample, Scene, closed, diamond, legend},
+    words::{
+        common,
+        vignette::{self, SlipTold},
+    },
 };
 use fastslam::{
     geometry::Pose2,
@@ -95,4 +98,6 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
         scene.polygons(corners.map(|corner| diamond(corner, 5.5)).to_vec(), of_landmarks);
         scene.rimmed_robot(&plane, &path[STEPS], 9.0, of_path);
     }
+    let names = Rect::new(area.x, area.bottom() - LINE, area.w, LINE);
+    legend(scene, &names, [(Sample::line(Role::Truth, 2.0, Some([4.0, 4.0])), common::truth())]);
 }

@@ -108,7 +108,8 @@ fn told(beams: u32) -> String {
 }
 
 /// The map so far with the robot in it; the surface with mode and points; and how far the mode is above the average, against the gate.
-fn draw(beams: u32, area: &Rect, scene: &mut Scene) {
+fn draw(beams: u32, whole: &Rect, scene: &mut Scene) {
+    let area = &Rect { y: whole.y + LINE, h: whole.h - LINE, ..*whole };
     let w = 0.5 * (area.w - 100.0);
     let side = area.h / ROWS as f64;
     let columns = (w / side) as usize;
@@ -134,6 +135,10 @@ fn draw(beams: u32, area: &Rect, scene: &mut Scene) {
     let mode = Rect::around(plane.position(&found.mode), 5.0);
     scene.cross(mode, 2.0 + 2.0 * RIM, Role::Paper);
     scene.cross(mode, 2.0, mark);
+
+    for (part, name) in [(place, vignette::surface_map()), (area_of, vignette::surface_fit())] {
+        label(scene, Rect { y: whole.y, h: LINE, ..part }, Anchor::Start, Role::Muted, name);
+    }
 
     let bar = Rect::new(area_of.right() + 12.0, area.y, 16.0, area.h);
     let high = |nats: f64| bar.h * (nats / MOST).clamp(0.0, 1.0);

@@ -1,8 +1,8 @@
 //! A tree that loses branches: the paths of a population that resamples at every step.
 
-use super::Kind;
+use super::{Kind, label};
 use crate::{
-    scene::{Point, Rect, Role, Scene},
+    scene::{Anchor, LINE, Point, Rect, Role, Scene},
     words::vignette::{self, TreeTold},
 };
 use fastslam::{
@@ -63,7 +63,7 @@ fn told(step: u32) -> String {
 fn draw(last: u32, area: &Rect, scene: &mut Scene) {
     let place = |step: usize, slot: u32| -> Point {
         let share = (f64::from(slot) + 0.5) / PARTICLES as f64;
-        [area.x + 4.0 + (area.w - 8.0) * step as f64 / f64::from(STEPS), area.y + area.h * share]
+        [area.x + 4.0 + (area.w - 8.0) * step as f64 / f64::from(STEPS), area.y + (area.h - LINE) * share]
     };
     let ancestors: Vec<Vec<u32>> = ancestors(last).collect();
     let mut living = [true; PARTICLES];
@@ -83,4 +83,7 @@ fn draw(last: u32, area: &Rect, scene: &mut Scene) {
         scene.lines(lines, width, role);
         scene.discs(centres, width + 0.5, role);
     }
+    let names = Rect::new(area.x, area.bottom() - LINE, area.w, LINE);
+    label(scene, names, Anchor::Start, Role::Path, vignette::lottery_left());
+    label(scene, names, Anchor::End, Role::Extinct, vignette::lottery_gone());
 }
