@@ -62,7 +62,11 @@ const optionsOf = figure => options.filter(({ name }) => !(isLog(figure) && notO
 const declarations = name => readFileSync(cache('types', 'widgets', 'elements', `${name}.d.ts`), 'utf8')
 
 /** Has tsc write the declarations of all elements, without what is marked as internal. */
-export const declare = () => run(npmBin('tsc'), ['-p', root, '--noEmit', 'false', '--declaration', '--emitDeclarationOnly', '--stripInternal', '--outDir', cache('types')])
+export async function declare() {
+  await run(npmBin('tsc'), ['-p', root, '--noEmit', 'false', '--declaration', '--emitDeclarationOnly', '--stripInternal', '--outDir', cache('types')])
+  const unsaid = ['figure-element', 'compared-figure'].flatMap(name => unsaidIn(declarations(name)))
+  if (unsaid.length > 0) throw new StepError(`Nothing is said of these members of figures: ${unsaid.join(', ')}.`, 'A line above one makes it a member for pages, and @internal keeps it out of their types.')
+}
 
 /**
  * A method or a property that pages may use. `text` is how it is declared.
@@ -78,6 +82,9 @@ export function membersIn(declaration) {
     return { name: field, text: `${readonly ? 'readonly ' : ''}${field}: ${type}`, help, method: type.startsWith('() =>'), type, readonly }
   })
 }
+
+/** Those of which it says nothing, though any page could use them. @param {string} declaration */
+export const unsaidIn = declaration => [...declaration.matchAll(/(?<! \*\/)\n {4}(?:get )?(\w+)(?=[(:])/g)].map(([, name = '']) => name).filter(name => !/^constructor$|Callback$/.test(name))
 
 /** Those of every figure. */
 const commonMembers = () => [...membersIn(declarations('figure-element')), ...membersIn(declarations('hosted-figure'))]

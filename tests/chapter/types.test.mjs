@@ -3,7 +3,7 @@ import assert from 'node:assert/strict'
 import { readdirSync, readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { test } from 'node:test'
-import { membersIn, options } from '../../scripts/elements.mjs'
+import { membersIn, options, unsaidIn } from '../../scripts/elements.mjs'
 import { root } from '../../scripts/lib.mjs'
 
 const elements = join(root, 'widgets', 'elements')
@@ -25,6 +25,9 @@ test('members are those that a class says something of, as it declares them', ()
     set current(step: number);
     /** Whether it plays. */
     get playing(): boolean;
+    markup: string;
+    get unsaid(): string;
+    wave(hand: Hand): void;
     /** Reads a log. */
     open(file: Blob, name?: string): Promise<void>;
 }
@@ -37,6 +40,7 @@ test('members are those that a class says something of, as it declares them', ()
     ['readonly playing: boolean', 'Whether it plays.', false, 'boolean'],
     ['open(file: Blob, name?: string): Promise<void>', 'Reads a log.', true, ''],
   ])
+  assert.deepEqual(unsaidIn(declaration), ['markup', 'unsaid', 'wave'])
 })
 
 test('every event is made where only those can be that the types name', () => {
