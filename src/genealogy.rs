@@ -12,6 +12,7 @@ mod saved;
 pub use saved::SavedPaths;
 
 use crate::geometry::Pose2;
+use crate::order::distinct;
 use core::fmt;
 use std::sync::Arc;
 
@@ -115,8 +116,7 @@ impl Descent {
         let mut widths = Vec::new();
         loop {
             // Siblings are neighbours already where particles were resampled in the order of their slots.
-            front.sort_unstable_by_key(|path| path.id());
-            front.dedup_by_key(|path| path.id());
+            front = distinct(&front, |path| path.id() as u64);
             widths.push(front.len() as u32);
             if front.len() == 1 || front[0].before().is_none() {
                 break;

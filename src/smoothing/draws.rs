@@ -3,6 +3,7 @@
 use crate::genealogy::Path;
 use crate::geometry::Pose2;
 use crate::map::ConditionalMap;
+use crate::order::sorted;
 use crate::proposal::Proposal;
 use crate::random::Stream;
 use crate::rbpf::{self, Rbpf};
@@ -20,8 +21,8 @@ pub fn traced<M: ConditionalMap, P: Proposal<M>>(filter: &Rbpf<M, P>, paths: usi
 pub fn distinct<P: AsRef<[Pose2]>>(paths: &[P]) -> Vec<u32> {
     at_each_step(paths)
         .map(|poses| {
-            let mut bits: Vec<[u64; 3]> = poses.map(|p| [p.x, p.y, p.theta].map(f64::to_bits)).collect();
-            bits.sort_unstable();
+            let bits = poses.map(|p| [p.x, p.y, p.theta].map(f64::to_bits)).collect();
+            let mut bits: Vec<[u64; 3]> = sorted(bits, Ord::cmp);
             bits.dedup();
             bits.len() as u32
         })

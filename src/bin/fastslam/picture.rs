@@ -8,9 +8,8 @@ use fastslam::motion::Motion;
 use fastslam::proposal::Proposal;
 use fastslam_cli::{ColorType, write_png};
 use fastslam_lab::experiment::landmarks::{LandmarkRun, WithLandmarks};
-use fastslam_widgets::font::Weight;
 use fastslam_widgets::paint::{Canvas, Theme};
-use fastslam_widgets::scene::{Anchor, Mark, Point, Rect, Role, Scene, closed, ellipse, text};
+use fastslam_widgets::scene::{Point, Rect, Role, Scene, closed, ellipse, plain};
 use std::path::Path;
 
 /// Width of a drawing \[px\].
@@ -50,23 +49,17 @@ where
     let scale = ((WIDTH - 2.0 * MARGIN) / (x1 - x0).max(1e-3)).min((HEIGHT - 2.0 * MARGIN) / (y1 - y0).max(1e-3));
     let height = (scale * (y1 - y0) + 2.0 * MARGIN).round();
     let at = |[x, y]: Point| [MARGIN + (x - x0) * scale, height - MARGIN - (y - y0) * scale];
-    let line = |points: &[Point], width, dash, role| Mark::Lines {
-        lines: vec![points.iter().map(|p| at(*p)).collect()],
-        width,
-        dash,
-        role,
-    };
+    let line = |points: &[Point]| points.iter().map(|p| at(*p)).collect::<Vec<_>>();
     let ellipses = run.particles()[best].map.landmarks().iter().map(|(_, Landmark { mean, covariance: c, .. })| {
         let pixels = [[c.m11, -c.m12], [-c.m12, c.m22]].map(|row| row.map(|x| x * scale * scale));
         closed(ellipse(at([mean.x, mean.y]), pixels, CHI_95))
     });
-    let mut marks = vec![
-        line(&odometry, 1.5, Some([7.0, 5.0]), Role::Odometry),
-        line(&truth, 4.0, None, Role::Truth),
-        line(&path, 2.0, None, Role::Path),
-        Mark::Discs { centres: landmarks.iter().map(|p| at(*p)).collect(), radius: 4.0, role: Role::Truth },
-        Mark::Lines { lines: ellipses.collect(), width: 1.5, dash: None, role: Role::Path },
-    ];
+    let mut scene = Scene::new(WIDTH, height, String::new());
+    scene.dash(&line(&odometry), 1.5, [7.0, 5.0], Role::Odometry);
+    scene.line(&line(&truth), 4.0, Role::Truth);
+    scene.line(&line(&path), 2.0, Role::Path);
+    scene.discs(line(&landmarks), 4.0, Role::Truth);
+    scene.lines(ellipses.collect(), 1.5, Role::Path);
     let names = [
         (Role::Truth, "truth"),
         (Role::Path, "path and landmarks of the best particle, 95 %"),
@@ -74,13 +67,10 @@ where
     ];
     for (k, (role, name)) in names.into_iter().enumerate() {
         let y = 8.0 + 20.0 * k as f64;
-        let sample = vec![vec![[8.0, y + 10.0], [38.0, y + 10.0]]];
-        marks.push(Mark::Lines { lines: sample, width: 3.0, dash: None, role });
-        let area = Rect::new(46.0, y, 400.0, 20.0);
-        marks.push(text(area, Anchor::Start, 14.0, Weight::Regular, Role::Ink, name));
+        scene.line(&[[8.0, y + 10.0], [38.0, y + 10.0]], 3.0, role);
+        scene.text(Rect::new(46.0, y, 400.0, 20.0), plain(14.0, Role::Ink), name);
     }
     let mut canvas = Canvas::default();
-    let scene = Scene { marks, ..Scene::new(WIDTH, height, String::new()) };
     canvas.paint(&scene, WIDTH as u32, height as u32, Theme::Light);
     canvas
 }

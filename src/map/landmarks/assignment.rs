@@ -4,6 +4,8 @@
 //! here because `pathfinding`, the crate that would fit, needs `num-traits` with its default features, which switch `nalgebra` from `libm` to
 //! the functions of the platform, so that results would differ from one to the next.
 
+use crate::order::sorted;
+
 /// A landmark that a feature may be of.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Candidate {
@@ -57,9 +59,9 @@ fn connected(candidates: &[Candidate], mut landmarks: Vec<u32>) -> (Vec<Candidat
 /// The same as [`assign`] for candidates that hang together.
 fn solve(candidates: &[Candidate]) -> Vec<Candidate> {
     let mut features: Vec<usize> = candidates.iter().map(|candidate| candidate.feature).collect();
-    let mut landmarks: Vec<u32> = candidates.iter().map(|candidate| candidate.landmark).collect();
+    let landmarks = candidates.iter().map(|candidate| candidate.landmark).collect();
+    let mut landmarks: Vec<u32> = sorted(landmarks, Ord::cmp);
     features.dedup();
-    landmarks.sort_unstable();
     landmarks.dedup();
     // Rows are features. A column of zeros is as good as a new landmark, and so is an entry of 0.
     let columns = landmarks.len().max(features.len());

@@ -176,7 +176,10 @@ impl Associated {
             Association::New(index) => Some((*index, k)),
             Association::Matched(_) | Association::Ignored => None,
         };
-        self.associations.iter().enumerate().filter_map(new).collect()
+        // Not `collect`, which sorts before: another sort.
+        let mut founded = BTreeMap::new();
+        founded.extend(self.associations.iter().enumerate().filter_map(new));
+        founded
     }
 
     /// Each feature by its signature; the second of one signature is ignored.

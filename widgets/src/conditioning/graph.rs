@@ -4,7 +4,7 @@ use super::{layout::MARGIN, matrix, model::ConditioningModel, recipe::Given};
 use crate::{
     font::{self, Weight},
     model::Model,
-    scene::{Anchor, Mark, NINE_TENTHS, Plane, Point, Rect, Role, Scene, Text, closed, diamond},
+    scene::{Anchor, Mark, NINE_TENTHS, Plane, Point, Rect, Role, Scene, Text, closed, diamond, joined},
 };
 use fastslam_lab::experiment::conditioning::SIZE;
 
@@ -57,8 +57,8 @@ impl<'a> Graph<'a> {
     pub fn draw(&self, scene: &mut Scene) {
         let (model, now) = (self.model, self.model.step() as usize);
         let seen = &model.covariances().seen;
-        let sightings = (1..=now).flat_map(|t| model.drive().sightings(t).into_iter().map(move |j| (t, j)));
-        scene.lines(sightings.flat_map(|(t, j)| dashes(self.pose(t), self.landmark(j))).collect(), 1.0, Role::Muted);
+        let sightings = |t| joined(model.drive().sightings(t).into_iter(), |j| dashes(self.pose(t), self.landmark(j)));
+        scene.lines(joined(1..=now, sightings), 1.0, Role::Muted);
         self.arcs(scene);
 
         let last = model.drive().path().len() - 1;
@@ -81,18 +81,17 @@ impl<'a> Graph<'a> {
             Given::Path => &[],
         };
         if !open.is_empty() {
-            let regions = open.iter().enumerate();
-            let lines = regions.flat_map(|(k, p)| {
+            let lines = joined(open.iter().enumerate(), |(k, p)| {
                 let pose = &model.drive().path()[k + 1];
                 self.plane.region([pose.x, pose.y], [[p.m11, p.m12], [p.m12, p.m22]], NINE_TENTHS)
             });
-            scene.dashed(lines.collect(), 1.0, [4.0, 3.0], Role::Path);
+            scene.dashed(lines, 1.0, [4.0, 3.0], Role::Path);
         }
-        let regions = seen.iter().enumerate().flat_map(|(k, &j)| {
+        let regions = joined(seen.iter().enumerate(), |(k, &j)| {
             let block = model.map().block(k, k);
             self.plane.region(model.drive().landmarks()[j], block.into(), NINE_TENTHS)
         });
-        scene.lines(regions.collect(), 1.5, Role::Landmark);
+        scene.lines(regions, 1.5, Role::Landmark);
         self.nodes(scene, now, last);
         scene.marks.extend(names.into_iter().map(Mark::Text));
     }

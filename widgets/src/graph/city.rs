@@ -4,7 +4,8 @@ use super::{layout::Layout, model::GraphModel, told};
 use crate::{
     model::{Declared as _, Model as _},
     scene::{
-        Cells, FREE, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, clip_polyline, legend, shade,
+        Cells, FREE, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, clip_polyline, joined,
+        legend, shade,
     },
     words::{common, graph as words},
 };
@@ -91,12 +92,11 @@ fn raster(scene: &mut Scene, model: &GraphModel, plane: &Plane) {
     // Whole cells inside: at the edges what is left is as unknown as what is beyond.
     let [i0, j0] = low.map(|c| (c / cell).ceil() as i32);
     let [i1, j1] = high.map(|c| (c / cell).floor() as i32);
-    let row = |j| (i0..i1).map(move |i| shade(map.log_odds(i, j)));
-    let shades = (j0..j1).rev().flat_map(row).collect();
+    let cells = Cells::of(i0..i1, j0..j1, |i, j| shade(map.log_odds(i, j)));
     let [left, top] = plane.point([f64::from(i0) * cell, f64::from(j1) * cell]);
     let area = Rect::new(left, top, f64::from(i1 - i0) * cell * plane.scale, f64::from(j1 - j0) * cell * plane.scale);
     scene.raster(plane.area, Cells::row(&[UNKNOWN]), Shading::Map);
-    scene.raster(area, Cells { columns: (i1 - i0).max(0) as usize, shades }, Shading::Map);
+    scene.raster(area, cells, Shading::Map);
 }
 
 fn truth(scene: &mut Scene, model: &GraphModel, plane: &Plane) {
@@ -114,7 +114,7 @@ fn edges(scene: &mut Scene, model: &GraphModel, plane: &Plane) {
     let path = plane.path(poses, 0.5);
     let tied = |kind| {
         let ends = model.edges(kind).map(|edge| [edge.i, edge.j].map(|pose| plane.position(&poses[pose])));
-        ends.flat_map(|ends| clip_polyline(&ends, &plane.area)).collect::<Vec<_>>()
+        joined(ends, |ends| clip_polyline(&ends, &plane.area))
     };
     scene.lines(path, 6.0, Role::Paper);
     scene.lines(tied(EdgeKind::Odometry), 4.0, ODOMETRY);

@@ -3,7 +3,7 @@
 use super::{layout::Layout, model::GraphModel, told};
 use crate::{
     lap::map,
-    scene::{LINE, Rect, Role, Scene, Shading, plain},
+    scene::{LINE, Rect, Role, Scene, Shading, joined, plain},
     words::{common, graph as words},
 };
 
@@ -20,7 +20,7 @@ pub fn draw(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
     let area = centred(&layout.universes);
     let plane = map::plane(area, course);
     scene.raster(area, map::shares(lap, lap.weights(), course), Shading::Share);
-    scene.lines((0..m).flat_map(|slot| plane.path(&lap.path(slot), 1.0)).collect(), 1.0, Role::Path);
+    scene.lines(joined(0..m, |slot| plane.path(&lap.path(slot), 1.0)), 1.0, Role::Path);
     for particle in lap.particles() {
         scene.rimmed_robot(&plane, &particle.world_from_robot, 6.0, Role::Path);
     }

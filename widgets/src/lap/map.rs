@@ -30,8 +30,7 @@ pub fn plane(area: Rect, course: Course) -> Plane {
 /// The shades of the cells of a course, from the upper row down.
 pub fn shades(map: &Grid, course: Course) -> Cells {
     let CellRect { i0, i1, j0, j1 } = cells(course);
-    let row = |j| (i0..i1).map(move |i| shade(map.log_odds(i, j)));
-    Cells { columns: cells(course).width(), shades: (j0..j1).rev().flat_map(row).collect() }
+    Cells::of(i0..i1, j0..j1, |i, j| shade(map.log_odds(i, j)))
 }
 
 /// Shares of the weight below this are none: one more shade than nothing would be seen of them.

@@ -13,7 +13,8 @@ use crate::{
     model::{FigureError, Model},
     panels::Panels,
     scene::{
-        Chart, FREE, LINE, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, legend, plain, strong,
+        Chart, FREE, LINE, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, joined, legend, plain,
+        strong,
     },
     view::View,
     words::{common, lap},
@@ -158,7 +159,7 @@ pub fn branches(drawn: &mut BTreeSet<Place>, plane: &Plane, paths: &mut dyn Iter
         }
         plane.path(&poses, 0.5)
     };
-    paths.flat_map(branch).collect()
+    joined(paths, branch)
 }
 
 /// The paths of all other universes, and for the one step at which they died out, those that did: what they have in common once.

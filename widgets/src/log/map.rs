@@ -89,11 +89,10 @@ impl MapView {
         if i0 >= i1 || j0 >= j1 {
             return None;
         }
-        let rows = (j0..j1).rev();
-        let shades = rows.flat_map(|j| (i0..i1).map(move |i| shade(map.log_odds(i, j)))).collect();
+        let cells = Cells::of(i0..i1, j0..j1, |i, j| shade(map.log_odds(i, j)));
         let [x, y] = self.0.point([f64::from(i0) * size, f64::from(j1) * size]);
         let side = |k: i32| f64::from(k) * size * scale;
-        Some((Rect::new(x, y, side(i1 - i0), side(j1 - j0)), Cells { columns: (i1 - i0) as usize, shades }))
+        Some((Rect::new(x, y, side(i1 - i0), side(j1 - j0)), cells))
     }
 
     /// Marked cells of this size \[m\] that are seen, and where they lie, as of a map. Where they are smaller than half a css px, as many of

@@ -13,8 +13,8 @@ use crate::{
     model::Model,
     panels::Panels,
     scene::{
-        Cells, Chart, FREE, Letters, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, legend,
-        plain, strong, thinned,
+        Cells, Chart, FREE, Letters, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, joined,
+        legend, plain, strong, thinned,
     },
     view::{Navigation, View},
     words::{common, log as words},
@@ -200,12 +200,12 @@ fn paths(scene: &mut Scene, model: &LogModel, plane: &Plane) {
     let tree = Tree::new(seen);
     for age in (0..FADE).rev() {
         let dead = tree.dead.iter().filter(|(a, _)| *a == age);
-        let lines: Vec<_> = dead.flat_map(|(_, line)| plane.path(line, 1.0)).collect();
+        let lines = joined(dead, |(_, line)| plane.path(line, 1.0));
         if !lines.is_empty() {
             scene.lines(lines, DIED * f64::from(FADE - age) / f64::from(FADE), Role::Extinct);
         }
     }
-    scene.lines(tree.others.iter().flat_map(|line| plane.path(line, 1.0)).collect(), LIVES, Role::Copied);
+    scene.lines(joined(tree.others.iter(), |line| plane.path(line, 1.0)), LIVES, Role::Copied);
     scene.lines(plane.path(&tree.best, 1.0), 2.0, Role::Path);
     let Seen { paths, best, .. } = seen;
     scene.polygons(paths.iter().filter_map(|path| plane.robot(&path.pose(), 5.0)).collect(), Role::Copied);

@@ -3,7 +3,7 @@
 use super::{gauge, model::ProposalModel};
 use crate::{
     ghost::{Curves, curve},
-    scene::{GHOST, NINE_TENTHS, Plane, Point, Rect, Role, Scene, clip_polyline},
+    scene::{GHOST, NINE_TENTHS, Plane, Point, Rect, Role, Scene, clip_polyline, joined},
 };
 use fastslam_lab::experiment::proposals::{Cloud, Proposals};
 
@@ -36,7 +36,7 @@ pub fn panel(scene: &mut Scene, model: &ProposalModel, rank: usize, plane: &Plan
     let pinned = model.pinned();
     scene.cloud(points(curve(pinned, rank), plane), &area.inset(radius), radius, SAMPLES);
     let outline = pinned.iter().skip(OUTLINE);
-    let lines = outline.flat_map(|line| clip_polyline(&points(line, plane).collect::<Vec<_>>(), area)).collect();
+    let lines = joined(outline, |line| clip_polyline(&points(line, plane).collect::<Vec<_>>(), area));
     scene.lines(lines, 1.75, GHOST);
     if let (1, [x, y, xx, xy, yx, yy]) = (rank, curve(pinned, GAUSSIAN)) {
         scene.dashed(plane.region([*x, *y], [[*xx, *xy], [*yx, *yy]], NINE_TENTHS), 1.75, [5.0, 3.0], GHOST);

@@ -13,7 +13,8 @@ use crate::{
     font::{self, Weight},
     marks::Place,
     scene::{
-        Cells, Handle, LINE, Mark, NINE_TENTHS, Plane, Point, Rect, Role, Scene, Shading, clip_polyline, plain, strong,
+        Cells, Handle, LINE, Mark, NINE_TENTHS, Plane, Point, Rect, Role, Scene, Shading, clip_polyline, joined, plain,
+        strong,
     },
     words::proposal,
 };
@@ -77,14 +78,13 @@ fn samples(scene: &mut Scene, model: &ProposalModel, panel: &Panel, drawn: &Draw
     // Where the robot is if the sighting is of A, or of B: the same sighting of another place is made from another place.
     let other = Pose2::new(found.truth.x + TWIN[0], found.truth.y + TWIN[1], found.truth.theta);
     let poses = if setup.twins { vec![found.truth, other] } else { vec![found.truth] };
-    let noise =
+    let mut noise =
         if drawn.noises.contains(&Noise::Odometry) { knob::prior(&plane, setup.odometry_scale) } else { vec![] };
     let seen = poses.iter().filter(|_| drawn.noises.contains(&Noise::Range));
-    let noise = noise.into_iter().chain(seen.flat_map(|pose| knob::sensor(&plane, found, setup, pose))).collect();
-    let outline = model.outline().iter();
-    let region: Vec<_> = outline
-        .flat_map(|line| clip_polyline(&line.iter().map(|place| plane.point(*place)).collect::<Vec<_>>(), area))
-        .collect();
+    noise.extend(joined(seen, |pose| knob::sensor(&plane, found, setup, pose)));
+    let region = joined(model.outline().iter(), |line| {
+        clip_polyline(&line.iter().map(|place| plane.point(*place)).collect::<Vec<_>>(), area)
+    });
     let gaussian = match role {
         Role::Posterior => {
             let covariance = found.gaussian.covariance.fixed_view::<2, 2>(0, 0).into_owned();

@@ -7,7 +7,9 @@ use super::{
 };
 use crate::{
     font::{self, Weight},
-    scene::{Anchor, Letters, Plane, Point, Rect, Region, Role, Scene, clip_polyline, closed, diamond, plain, strong},
+    scene::{
+        Anchor, Letters, Plane, Point, Rect, Region, Role, Scene, clip_polyline, closed, diamond, joined, plain, strong,
+    },
     words::resampling,
 };
 use fastslam::ops;
@@ -124,7 +126,7 @@ impl Picture<'_> {
         let path: Vec<Point> = truth.iter().map(|p| plane.position(p)).collect();
         scene.dash(&path, 1.0, [2.0, 3.0], Role::Truth);
         let noses = poses.iter().map(|pose| nose(plane.position(pose), pose.theta, 6.0));
-        scene.lines(noses.flat_map(|line| clip_polyline(&line, &area)).collect(), 1.0, particle);
+        scene.lines(joined(noses, |line| clip_polyline(&line, &area)), 1.0, particle);
         scene.cloud(poses.iter().map(|p| plane.position(p)), &area.inset(2.0), 2.0, particle);
         scene.lines(plane.robot(&truth[truth.len() - 1], 9.0).into_iter().map(closed).collect(), 1.5, Role::Truth);
         scene.polygons(plane.robot(&poses[*best], 6.0).into_iter().collect(), particle);

@@ -18,6 +18,13 @@ pub fn thinned(points: &mut dyn Iterator<Item = Point>, least: f64) -> Vec<Point
     kept
 }
 
+/// The lines of several things, one after the other. Not by `flat_map`: what that compiles to for each kind of thing takes a kilobyte.
+pub fn joined<T>(things: impl Iterator<Item = T>, mut lines: impl FnMut(T) -> Vec<Vec<Point>>) -> Vec<Vec<Point>> {
+    let mut all = Vec::new();
+    things.for_each(|thing| all.append(&mut lines(thing)));
+    all
+}
+
 /// The parts of a polyline inside a rectangle.
 pub fn clip_polyline(points: &[Point], area: &Rect) -> Vec<Vec<Point>> {
     let mut parts: Vec<Vec<Point>> = Vec::new();

@@ -20,7 +20,7 @@ mod stack;
 mod text;
 
 pub use chart::{Chart, GHOST};
-pub use clip::{clip_polyline, thinned};
+pub use clip::{clip_polyline, joined, thinned};
 pub use formula::{Formula, number};
 pub use handle::Handle;
 pub use ink::{Letters, plain, strong};
@@ -39,6 +39,7 @@ pub use shape::{NINE_TENTHS, closed, ellipse, robot};
 pub use stack::Stack;
 pub use text::{Anchor, HEADING, Text};
 
+use core::ops::Range;
 use serde::Serialize;
 
 /// A point \[css px\].
@@ -117,6 +118,15 @@ pub struct Cells {
 }
 
 impl Cells {
+    /// Columns from left to right, and rows from the last one down to the first.
+    pub fn of(columns: Range<i32>, rows: Range<i32>, shade: impl Fn(i32, i32) -> u8) -> Self {
+        let mut shades = Vec::with_capacity(columns.len() * rows.len());
+        for j in rows.rev() {
+            shades.extend(columns.clone().map(|i| shade(i, j)));
+        }
+        Self { columns: columns.len(), shades }
+    }
+
     /// One row of these shades.
     pub fn row(shades: &[u8]) -> Self {
         Self { columns: shades.len(), shades: shades.to_vec() }

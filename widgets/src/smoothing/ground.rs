@@ -5,7 +5,7 @@ use super::{
     model::{Account, SmoothingModel},
 };
 use crate::{
-    scene::{NINE_TENTHS, Plane, Point, RIM, Rect, Role, Sample, Scene, clip_polyline, legend, lens},
+    scene::{NINE_TENTHS, Plane, Point, RIM, Rect, Role, Sample, Scene, clip_polyline, joined, legend, lens},
     words::{common, smoothing as words},
 };
 use fastslam::{geometry::Pose2, nalgebra::Matrix3};
@@ -51,7 +51,7 @@ impl Ground {
             let points: Vec<Point> = line.iter().map(|place| self.point(*place)).collect();
             clip_polyline(&points, &self.plane.area)
         };
-        lines.into_iter().flat_map(cut).collect()
+        joined(lines.into_iter(), cut)
     }
 
     fn path(&self, poses: &[Pose2]) -> Vec<Vec<Point>> {
@@ -109,14 +109,14 @@ fn record(scene: &mut Scene, model: &SmoothingModel, ground: &Ground) {
 /// The paths that were drawn.
 fn draws(scene: &mut Scene, model: &SmoothingModel, ground: &Ground) {
     let draws = model.run().draws().iter().take(model.sweeps() as usize);
-    scene.lines(draws.flat_map(|draw| ground.path(&draw.path)).collect(), 1.0, DRAWN);
+    scene.lines(joined(draws, |draw| ground.path(&draw.path)), 1.0, DRAWN);
 }
 
 /// How much is known of early poses, and the poses at the step that is looked at.
 fn regions(scene: &mut Scene, model: &SmoothingModel, ground: &Ground, account: &Account, rank: usize) {
     let early = model.run().early();
     let of_early = account.moments.iter().enumerate().filter(|(step, _)| early.contains(step) && step % EVERY == 0);
-    scene.lines(of_early.flat_map(|(_, moments)| ground.region(moments)).collect(), 1.25, Role::Ink);
+    scene.lines(joined(of_early, |(_, moments)| ground.region(moments)), 1.25, Role::Ink);
     looked_at(scene, model, ground, rank);
 }
 

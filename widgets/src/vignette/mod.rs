@@ -74,9 +74,7 @@ fn label(scene: &mut Scene, area: Rect, anchor: Anchor, role: Role, words: &str)
 
 /// A part of a map, so many columns and rows of cells from a cell on.
 fn cells(scene: &mut Scene, area: Rect, map: &Grid, [i, j]: [i32; 2], [columns, rows]: [i32; 2]) {
-    let at = |k| shade(map.log_odds(i + k % columns, j + rows - 1 - k / columns));
-    let cells = Cells { columns: columns as usize, shades: (0..columns * rows).map(at).collect() };
-    scene.raster(area, cells, Shading::Map);
+    scene.raster(area, Cells::of(i..i + columns, j..j + rows, |i, j| shade(map.log_odds(i, j))), Shading::Map);
 }
 
 /// One of them, and where its handle stands.
