@@ -335,31 +335,96 @@ impl<R: Recipe> Param<R> {
 
     /// Its range and its name in this recipe, and its value in the default one.
     fn spec(&self, recipe: &R) -> ParamSpec {
-        let default = self.spec.text((self.get)(&R::default()));
-        let max = self.most.map_or(self.spec.max, |most| most(recipe));
-        let title = self.title.and_then(|title| title(recipe)).unwrap_or(self.spec.title);
+        let most = self.most.map(|most| most(recipe));
+        let title = self.title.and_then(|title| title(recipe));
         let applies = self.applies.is_none_or(|applies| applies(recipe));
-        ParamSpec { title, max, default, applies, ..self.spec.clone() }
-    }
-
-    /// The value that `text` means, or what is wrong with it.
-    fn check(&self, spec: &ParamSpec, text: &str) -> Result<Value, FigureError> {
-        let value = spec.check(text)?;
-        if let (Some(read), Value::Text(text)) = (&self.read, &value) {
-            read(text).map_err(|allowed| FigureError::new(spec.name, quoted(text), allowed))?;
-        }
-        Ok(value)
+        in_state(&self.spec, (self.get)(&R::default()), most, title, applies)
     }
 
     /// Brings a value that is out of its range to the nearest in it, or where there is a word besides, to that.
     fn confine(&self, recipe: &mut R) {
-        let (spec, value) = (self.spec(recipe), (self.get)(recipe));
-        let Value::Number(x) = value else { return };
-        let near = if spec.choices.is_empty() { Value::Number(x.max(spec.min).min(spec.max)) } else { Value::Word(0) };
-        if spec.within(x).is_none() {
+        if let Some(near) = near(&self.spec(recipe), &(self.get)(recipe)) {
             (self.set)(recipe, near);
         }
     }
+}
+
+/// A row in a state.
+fn in_state(
+    usual: &ParamSpec,
+    default: Value,
+    most: Option<f64>,
+    title: Option<&'static str>,
+    applies: bool,
+) -> ParamSpec {
+    let (default, max, title) = (usual.text(default), most.unwrap_or(usual.max), title.unwrap_or(usual.title));
+    ParamSpec { title, max, default, applies, ..usual.clone() }
+}
+
+/// What stands in the place of a value that is out of its range.
+fn near(spec: &ParamSpec, value: &Value) -> Option<Value> {
+    let Value::Number(x) = *value else { return None };
+    let near = if spec.choices.is_empty() { Value::Number(x.max(spec.min).min(spec.max)) } else { Value::Word(0) };
+    spec.within(x).is_none().then_some(near)
+}
+
+/// A table and the recipe that is filled by it, of whichever figure: what is done with the rows is compiled once, and not for each.
+trait Rows {
+    /// Brings the value of a row into its range, as the rows above it have it now; its range, and what reads its texts. None beyond the last.
+    fn confined(&mut self, row: usize) -> Option<(ParamSpec, Option<&Read>)>;
+
+    fn set(&mut self, row: usize, value: Value);
+}
+
+struct Filled<R> {
+    table: Vec<Param<R>>,
+    recipe: R,
+}
+
+impl<R: Recipe> Rows for Filled<R> {
+    fn confined(&mut self, row: usize) -> Option<(ParamSpec, Option<&Read>)> {
+        let param = self.table.get(row)?;
+        param.confine(&mut self.recipe);
+        Some((param.spec(&self.recipe), param.read.as_ref()))
+    }
+
+    fn set(&mut self, row: usize, value: Value) {
+        (self.table[row].set)(&mut self.recipe, value);
+    }
+}
+
+/// Gives the rows these values, and returns what is refused of them, and for how many there was a row.
+fn fill(rows: &mut dyn Rows, values: &[(String, String)]) -> (Vec<FigureError>, usize) {
+    let (mut refused, mut known) = (Vec::new(), 0);
+    let mut row = 0;
+    while let Some((spec, read)) = rows.confined(row) {
+        let named = values.iter().filter(|(name, _)| name == spec.name);
+        let meant: Vec<_> = named.map(|(_, text)| meaning(&spec, read, text)).collect();
+        known += meant.len();
+        for value in meant {
+            match value {
+                Ok(value) => rows.set(row, value),
+                Err(error) => refused.push(error),
+            }
+        }
+        row += 1;
+    }
+    (refused, known)
+}
+
+/// The value that `text` means, or what is wrong with it.
+fn meaning(spec: &ParamSpec, read: Option<&Read>, text: &str) -> Result<Value, FigureError> {
+    let value = spec.check(text)?;
+    if let (Some(read), Value::Text(text)) = (read, &value) {
+        read(text).map_err(|allowed| FigureError::new(spec.name, quoted(text), allowed))?;
+    }
+    Ok(value)
+}
+
+/// What is refused of values because no row has their name.
+fn strangers(values: &[(String, String)], specs: &[ParamSpec]) -> Vec<FigureError> {
+    let others = values.iter().filter(|(name, _)| !specs.iter().any(|spec| spec.name == name));
+    others.map(|(name, _)| unknown(name, specs)).collect()
 }
 
 /// All parameters with their ranges in this recipe.
@@ -375,22 +440,14 @@ pub fn values<R: Recipe>(recipe: &R) -> Vec<(&'static str, String)> {
 /// The recipe with these values by name, and what was refused of them. Row by row, whatever the order of the values: a row finds the ones
 /// above it as they will be, and what no longer fits to them is brought into its range.
 pub fn with<R: Recipe>(before: &R, values: &[(String, String)]) -> (R, Vec<FigureError>) {
-    let (table, mut recipe, mut refused) = (R::table(), before.clone(), Vec::new());
-    for param in &table {
-        param.confine(&mut recipe);
-        let spec = param.spec(&recipe);
-        for (_, text) in values.iter().filter(|(name, _)| name == spec.name) {
-            match param.check(&spec, text) {
-                Ok(value) => (param.set)(&mut recipe, value),
-                Err(error) => refused.push(error),
-            }
-        }
-    }
+    let mut filled = Filled { table: R::table(), recipe: before.clone() };
+    let (mut refused, known) = fill(&mut filled, values);
+    let mut recipe = filled.recipe;
     recipe.follow(before);
     refused.extend(recipe.refuse(before));
-    let known = |name: &str| table.iter().any(|param| param.spec.name == name);
-    let others = values.iter().filter(|(name, _)| !known(name));
-    refused.extend(others.map(|(name, _)| unknown(name, &specs(&recipe))));
+    if known < values.len() {
+        refused.extend(strangers(values, &specs(&recipe)));
+    }
     (recipe, refused)
 }
 
