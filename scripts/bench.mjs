@@ -58,30 +58,31 @@ async function timeLaps({ laps, width, height }) {
   const figure = new Figure('fastslam-lap')
   const canvas = Object.assign(document.createElement('canvas'), { width, height })
   const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d', { alpha: false }))
-  figure.load('v=9&seed=3&range-std=0.02&course=apartment&universes=16')
+  figure.act({ do: 'begin', value: 'v=9&seed=3&range-std=0.02&course=apartment&universes=16' })
+  figure.act({ do: 'size', name: 'light', at: [width, Infinity, 1, width, width, height] })
   const total = { steps: 0, alone: 0, work: 0, paint: 0, put: 0, slowest: 0 }
   // The lap that criterion times, from its start: setting another seed and the first one again simulates it anew.
   const restart = () => {
-    figure.seek(0)
-    for (const seed of ['1', '3']) figure.set('seed', seed)
-    while (figure.pending() > 0) figure.work()
+    figure.act({ do: 'seek', at: [0] })
+    for (const value of ['1', '3']) figure.act({ do: 'set', name: 'seed', value })
+    while (figure.pending()) figure.work()
   }
   // The first lap is for the compiler to warm up.
   for (let lap = 0; lap <= laps; lap++) {
     // Nobody looks, as natively.
     restart()
     const alone = performance.now()
-    figure.seek(figure.step_count())
-    while (figure.pending() > 0) figure.work()
+    figure.act({ do: 'seek', at: [Infinity] })
+    while (figure.pending()) figure.work()
     if (lap > 0) total.alone += performance.now() - alone
 
     restart()
-    for (let step = 1; step <= figure.step_count(); step++) {
+    for (let step = 1; step <= figure.state().last; step++) {
       const started = performance.now()
-      figure.seek(step)
-      while (figure.pending() > 0) figure.work()
+      figure.act({ do: 'seek', at: [step] })
+      while (figure.pending()) figure.work()
       const worked = performance.now()
-      figure.paint(width, height, 1, 'light')
+      figure.frame(true)
       const painted = performance.now()
       context.putImageData(new ImageData(new Uint8ClampedArray(memory.buffer, figure.pixels(), width * height * 4), width, height), 0, 0)
       const put = performance.now()
@@ -93,7 +94,7 @@ async function timeLaps({ laps, width, height }) {
       total.slowest = Math.max(total.slowest, painted - started)
     }
   }
-  return { ...total, perLap: figure.step_count() }
+  return { ...total, perLap: figure.state().last }
 }
 
 /** Runs in the page: a picture of the resampling figure that has most to draw [ms]. @param {{ width: number, height: number, frames: number }} size */
@@ -102,9 +103,10 @@ async function timeHeaviest({ width, height, frames }) {
   const { default: init, Figure } = await import(module)
   await init({ module_or_path: '/fastslam-page.wasm' })
   const figure = new Figure('fastslam-resampling')
-  figure.load('particles=64&step=90')
-  while (figure.pending() > 0) figure.work()
-  const paint = () => figure.paint(width, height, 1, 'light')
+  figure.act({ do: 'begin', value: 'particles=64&step=90' })
+  while (figure.pending()) figure.work()
+  figure.act({ do: 'size', name: 'light', at: [width, Infinity, 1, width, width, height] })
+  const paint = () => figure.frame(true)
   // The first are for the compiler to warm up.
   for (let frame = 0; frame < 10; frame++) paint()
   const started = performance.now()
@@ -184,12 +186,12 @@ async function timeFilter({ file, universes }) {
   // The first time is for the compiler to warm up.
   for (let time = 0; time < 2; time++) {
     const figure = new Figure('fastslam-log')
-    figure.load(`universes=${universes}`)
+    figure.act({ do: 'begin', value: `universes=${universes}` })
     figure.open(bytes)
-    while (figure.pending() > 0) figure.work()
+    while (figure.pending()) figure.work()
     const started = performance.now()
-    figure.seek(figure.step_count())
-    while (figure.pending() > 0) figure.work()
+    figure.act({ do: 'seek', at: [Infinity] })
+    while (figure.pending()) figure.work()
     milliseconds = performance.now() - started
     figure.free()
   }

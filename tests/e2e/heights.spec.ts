@@ -5,6 +5,8 @@ import { join } from 'node:path'
 import { programs } from '../../scripts/registry.mjs'
 import { root } from '../../scripts/lib.mjs'
 import type { FigureElement } from '../../widgets/elements'
+import type { Action } from '../../widgets/elements/action'
+import type { ProgramFrame } from '../../widgets/elements/shell'
 import { Figure, initSync } from '../../widgets/pkg/fastslam_widgets.js'
 import { holdPrograms } from './figure'
 import { expect, test } from './fixtures'
@@ -67,7 +69,9 @@ for (const tag of programs.keys()) {
       for (const [width, height, highest] of canvases) {
         // One that would be higher than it may be is made smaller as a whole.
         expect(height).toBeLessThanOrEqual(highest!)
-        if (figure.height(width!) <= highest! - 20) expect(height, `picture ${width} px wide`).toBeCloseTo(figure.height(width!), 0)
+        figure.act({ do: 'size', name: 'light', at: [width!, Infinity, 1, width!, 0, 0] } satisfies Action)
+        const { natural } = (figure.frame(true) as ProgramFrame).layout!
+        if (natural <= highest! - 20) expect(height, `picture ${width} px wide`).toBeCloseTo(natural, 0)
       }
       figure.free()
     }

@@ -6,6 +6,9 @@ import type { Browser } from '@playwright/test'
 import { programFile, programs, singlePrograms } from '../../scripts/registry.mjs'
 import { root } from '../../scripts/lib.mjs'
 import { startServer } from '../../scripts/serve.mjs'
+import type { Action } from '../../widgets/elements/action'
+import type { ProgramFrame } from '../../widgets/elements/shell'
+import type { ThemeName } from '../../widgets/elements/theme'
 import { expect, test } from './fixtures'
 import { breadth, programsMade } from './host'
 
@@ -15,7 +18,7 @@ interface Picture {
   query: string
   width: number
   dpr: number
-  theme: string
+  theme: ThemeName
   /** Size and value of the digest, as in the golden file. */
   digest: string
 }
@@ -27,7 +30,7 @@ const pictures = readFileSync(join(golden, 'pixels.txt'), 'utf8')
   .map((line): Picture => {
     const [name, figure, width, dpr, theme, ...digest] = line.split(' ')
     const [tag, query] = figure!.split(/\?(.*)/)
-    return { name: name!, tag: tag!, query: query!, width: Number(width), dpr: Number(dpr), theme: theme!, digest: digest.join(' ') }
+    return { name: name!, tag: tag!, query: query!, width: Number(width), dpr: Number(dpr), theme: theme as ThemeName, digest: digest.join(' ') }
   })
 
 /** Runs in the page: the digests of these pictures, by the calls that the page makes. */
@@ -38,21 +41,26 @@ async function digests({ program, wanted, log }: { program: string; wanted: Pict
   const { memory } = await init({ module_or_path: `/${program}.wasm` })
   // Pictures of one state are of one figure, which was brought there once.
   const figures = new Map<string, InstanceType<typeof Figure>>()
+  const act = (figure: InstanceType<typeof Figure>, action: Action) => void figure.act(action)
   const open = (tag: string, query: string) => {
     const figure = new Figure(tag)
-    figure.load(query)
+    act(figure, { do: 'begin', value: query, name: '', on: false })
     if (tag === 'fastslam-log') {
       figure.open(new TextEncoder().encode(log))
-      figure.seek(figure.step_count())
+      act(figure, { do: 'seek', at: [Infinity] })
     }
-    while (figure.pending() > 0) figure.work()
+    while (figure.pending()) figure.work()
     figures.set(`${tag}?${query}`, figure)
     return figure
   }
   return wanted.map(({ tag, query, width, dpr, theme }) => {
     const figure = figures.get(`${tag}?${query}`) ?? open(tag, query)
-    const [w, h] = [width, figure.height(width)].map(side => Math.round(side * dpr))
-    figure.paint(w!, h!, dpr, theme)
+    const look = (pixels: [number, number]) => {
+      act(figure, { do: 'size', name: theme, at: [width, Infinity, 1, width, ...pixels] })
+      return (figure.frame(true) as ProgramFrame).layout!.height
+    }
+    const [w, h] = [width, look([0, 0])].map(side => Math.round(side * dpr))
+    look([w!, h!])
     // FNV-1a of 64 bits, in halves: × 0x100000001b3 is × 0x1b3, and a shift by 40.
     let [high, low] = [0xcbf29ce4, 0x84222325]
     for (const byte of new Uint8Array(memory.buffer, figure.pixels(), 4 * w! * h!)) {

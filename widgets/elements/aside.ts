@@ -30,7 +30,7 @@ export class Aside implements Listener {
 
   /** Goes to a state, and says what there is of it; rejects when the signal says so, or where it traps. */
   async reach(state: string, signal: AbortSignal): Promise<Frame> {
-    this.#host?.send({ do: 'begin', query: state, settings: [], authored: {}, linked: false, changed: false })
+    this.#host?.send({ do: 'begin', value: state, name: '', on: false })
     while (this.#host?.busy) {
       this.#host.work(SLICE)
       await yieldToMain()

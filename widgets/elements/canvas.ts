@@ -1,7 +1,9 @@
 // The canvas of a figure: how much room there is for the picture, how large it becomes, and its pixels.
+import type { Action } from './action'
 import { h } from './dom'
 import { release, reserve } from './heights'
-import type { Layout, Picture, Size } from './host'
+import type { Picture } from './host'
+import type { Layout } from './shell'
 import type { Theme } from './theme'
 
 const FONT_SCALE = 1.5 // letters and lines of the presentation size, over the normal one
@@ -50,10 +52,11 @@ export class Canvas {
   }
 
   /** What the picture is to be painted for. */
-  get size(): Size {
+  get size(): Action & { do: 'size' } {
     const height = this.fits ? Math.floor(Math.max(this.body.offsetHeight - this.#around, PICTURE_SHARE * this.body.offsetHeight)) : this.#highest
     const fontScale = this.figure.getAttribute('size') === 'presentation' ? FONT_SCALE : 1
-    return { room: this.#room, height, fontScale, canvas: this.#size, theme: this.theme.name }
+    const { css, width, height: high } = this.#size
+    return { do: 'size', name: this.theme.name, at: [this.#room, height, fontScale, css, width, high] }
   }
 
   /** Height [css px] that shows all of the figure at its present width, the picture as large as it would like to be. */

@@ -18,7 +18,7 @@ export class ComparedFigure extends FigureElement {
     const first = Number((wish.state !== undefined && query.get('seed')) || this.getParameter('seed'))
     const { words } = this
     const aside = await Aside.of(this.localName, [
-      { do: 'words', language: words.language, messages: words.forProgram },
+      { do: 'words', name: words.language, value: words.forProgram },
       { do: 'comma', on: hasComma(this.getAttribute('decimal'), words) },
     ])
     const runs: SeedRun[] = []

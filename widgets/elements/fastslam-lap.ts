@@ -11,10 +11,10 @@ const PLAN = ['plan', 'drive', 'step'] as const
 export class FastslamLap extends ComparedFigure {
   readonly #before: Record<string, string>[] = [] // as the plan was, the newest last
   readonly #drive = new Drive(this.words, this.body, this.sentence.element, {
-    take: tool => this.send({ do: 'take', tool }),
-    showMap: alone => this.send({ do: 'show', names: alone ? 'map' : (this.getAttribute('show') ?? '') }),
-    press: (key, right, up) => this.#edit(() => this.send({ do: 'press', key, right, up })),
-    stroke: line => this.#edit(() => this.send({ do: 'stroke', line })),
+    take: tool => this.send({ do: 'own', name: 'take', value: tool }),
+    showMap: alone => this.send({ do: 'show', name: alone ? 'map' : (this.getAttribute('show') ?? '') }),
+    press: (key, right, up) => this.#edit(() => this.send({ do: 'own', name: 'press', value: key, at: [right, up] })),
+    stroke: line => this.#edit(() => this.send({ do: 'own', name: 'stroke', at: line })),
     drive: () => this.play(),
     undo: () => this.#undo(),
     opened: () => this.#opened(),

@@ -1,11 +1,12 @@
 // A recorded log, mapped. Its program runs in a worker, so that the page answers at once whatever the size of the log. That program is
 // large, and many a reader never maps a log: it is fetched when the first thing is asked of the figure.
+import type { Own } from './action'
 import { h, write } from './dom'
 import { keepPage, takeDrops } from './drops'
 import { FigureElement } from './figure-element'
 import { fetchExample } from './files'
 import { AT_REST } from './generated/log'
-import type { Answer, Command, Frame, Phase, Run, SavedFile, Topics } from './host'
+import type { Answer, Frame, Phase, Run, SavedFile, Topics } from './host'
 import { Poster } from './log-poster'
 import { takeGestures } from './map-gestures'
 import type { MenuItem } from './menu'
@@ -27,15 +28,14 @@ const FILES: [SavedFile, Key][] = [
   ['report.json', 'save_report'],
 ]
 
-const MIDDLE = { x: NaN, y: NaN }
-const MOVES: Record<string, Command> = {
-  '+': { do: 'zoom', factor: ZOOM, ...MIDDLE },
-  '−': { do: 'zoom', factor: 1 / ZOOM, ...MIDDLE },
-  '0': { do: 'fit' },
-  ArrowLeft: { do: 'pan', right: PAN, down: 0 },
-  ArrowRight: { do: 'pan', right: -PAN, down: 0 },
-  ArrowUp: { do: 'pan', right: 0, down: PAN },
-  ArrowDown: { do: 'pan', right: 0, down: -PAN },
+const MOVES: Record<string, Own> = {
+  '+': { name: 'zoom', at: [ZOOM] },
+  '−': { name: 'zoom', at: [1 / ZOOM] },
+  '0': { name: 'fit' },
+  ArrowLeft: { name: 'pan', at: [PAN, 0] },
+  ArrowRight: { name: 'pan', at: [-PAN, 0] },
+  ArrowUp: { name: 'pan', at: [0, PAN] },
+  ArrowDown: { name: 'pan', at: [0, -PAN] },
 }
 const SAME_KEYS: Record<string, string> = { '=': '+', '-': '−', _: '−' }
 
@@ -72,7 +72,7 @@ export class FastslamLog extends FigureElement {
     'div',
     { class: 'zoom', role: 'group' },
     ...(['+', '−', '0'] as const).map(key => {
-      const element = button(() => this.send(MOVES[key]!))
+      const element = button(() => this.#look(MOVES[key]!))
       element.textContent = key === '0' ? '⤢' : key
       this.words.always(() => (element.ariaLabel = element.title = this.words.say(({ '+': 'magnify', '−': 'make_smaller', '0': 'show_whole' } as const)[key])))
       return element
@@ -102,7 +102,7 @@ export class FastslamLog extends FigureElement {
     for (const type of ['click', 'keyup', 'dragenter'] as const) this.body.addEventListener(type, () => void this.start())
     for (const type of ['click', 'keydown', 'input', 'change', 'drop'] as const) this.body.addEventListener(type, () => (this.events.cause = 'reader'))
     takeDrops(this.body, file => void this.open(file))
-    takeGestures(this.canvas.element, command => this.send(command))
+    takeGestures(this.canvas.element, look => this.#look(look))
   }
 
   override connectedCallback(): void {
@@ -195,8 +195,8 @@ export class FastslamLog extends FigureElement {
     if (this.controls) return
     const { params: specs, readouts, describe: sentence } = AT_REST
     const values = Object.fromEntries(specs.map(spec => [spec.name, spec.default]))
-    const rest = { done: 0, language: 'en', specs, values, query: '', step: 0, target: 0, last: 0, watch: undefined, pace: 1, busy: false, readouts, handles: [], rooms: [], sentence, told: sentence, difference: '', instead: {}, main: '', changed: false }
-    const frame: Frame = { ...rest, chips: AT_REST.chips, trace: undefined, prediction: null, layout: undefined, gist: { x: 0, y: 0, w: 0, h: 0 }, picture: undefined, run: { phase: 'empty', log: '', reading: false, left: NaN, unfit: undefined } }
+    const rest = { done: 0, language: 'en', specs, values, query: '', step: 0, target: 0, last: 0, holds: false, pace: 1, busy: false, readouts, handles: [], rooms: [], sentence, told: sentence, difference: '', instead: {}, main: '', changed: false }
+    const frame: Frame = { ...rest, chips: AT_REST.chips, prediction: null, gist: { x: 0, y: 0, w: 0, h: 0 }, picture: undefined, run: { phase: 'empty', log: '', reading: false, left: NaN, unfit: undefined } }
     this.present(frame)
     if (this.wanted) return // where more is on its way, that will be told
     this.events.tell(frame, true)
@@ -340,6 +340,10 @@ export class FastslamLog extends FigureElement {
 
   // --- Reader's input ----------------------------------------------------------------------------------------------------
 
+  #look(look: Own): void {
+    this.send({ do: 'own', ...look })
+  }
+
   protected override get keysHelp(): string {
     return this.words.say('map_keys')
   }
@@ -348,8 +352,8 @@ export class FastslamLog extends FigureElement {
     if (target !== this.stage || this.#phase === 'empty') return undefined
     if (key === ' ') return () => (this.playing ? this.pause() : this.play())
     if (key === ',' || key === '.') return () => this.byHand(() => (key === ',' ? this.stepBack() : this.step()))
-    const command = MOVES[SAME_KEYS[key] ?? key]
-    return command && (() => this.send(command))
+    const look = MOVES[SAME_KEYS[key] ?? key]
+    return look && (() => this.#look(look))
   }
 
   /** The log itself is in none of it: it is a file of the reader's. */

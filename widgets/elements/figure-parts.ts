@@ -16,7 +16,7 @@ import { Menu, type MenuItem } from './menu'
 import { Messages } from './messages'
 import { printAll } from './paper'
 import { Playback } from './playback'
-import { pointIn } from './pointer'
+import { placeIn } from './pointer'
 import { Help } from './popover'
 import { forgetReached } from './reached'
 import { showReadouts } from './readouts'
@@ -73,9 +73,9 @@ export abstract class FigureParts extends HTMLElement {
   readonly #notThis = h('span')
   readonly #fallback = h('div', { class: 'fallback' }, h('slot'))
   readonly #handles = new Handles({
-    drag: (handle, x, y) => this.#byPointer({ do: 'drag', handle, x, y }),
-    nudge: (handle, right, up) => this.#byPointer({ do: 'nudge', handle, right, up }),
-    follow: (handle, x, y) => this.#byHover({ do: 'follow', handle, x, y }),
+    drag: (handle, x, y) => this.#byPointer({ do: 'drag', name: handle, at: [x, y] }),
+    nudge: (handle, right, up) => this.#byPointer({ do: 'nudge', name: handle, at: [right, up] }),
+    follow: (handle, x, y) => this.#byHover({ do: 'follow', name: handle, at: [x, y] }),
     leave: () => this.#byHover({ do: 'leave' }),
     change: (name, value) => this.change(name, value),
   })
@@ -117,7 +117,7 @@ export abstract class FigureParts extends HTMLElement {
       }),
     )
     keepKeys(this.body, event => this.onKey(event))
-    this.canvas.element.addEventListener('click', event => this.#byPointer({ do: 'pick', ...pointIn(this.canvas.element, event) }))
+    this.canvas.element.addEventListener('click', event => this.#byPointer({ do: 'pick', at: placeIn(this.canvas.element, event) }))
     for (const type of ['pointerdown', 'pointermove', 'pointerup', 'pointerleave'] as const) {
       this.canvas.element.addEventListener(type, event => this.#handles.follow(event))
     }

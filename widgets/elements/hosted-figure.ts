@@ -136,11 +136,12 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
   protected begin(changed: boolean): void {
     for (const name of Object.keys(OPTIONS)) this.#sendOption(name)
     if (!this.host) return
-    const beginning = this.settings.begin(this.host.sent + 1)
-    const named = beginning.settings.some(([name]) => name === 'step')
+    this.send({ do: 'author', name: this.settings.authored })
+    const beginning = this.settings.begin(this.host.sent + 1, changed)
+    const named = new URLSearchParams(beginning.name).has('step')
     if (named) this.playback.stop() // who names a step wants it looked at
-    this.send({ do: 'begin', changed, ...beginning })
-    if (!named && beginning.query === undefined && reducedMotion.matches) this.send({ do: 'tell' })
+    this.send(beginning)
+    if (!named && beginning.value === null && reducedMotion.matches) this.send({ do: 'tell' })
     this.enable(true)
     this.#tellSize()
     // All in one frame, so that nothing of it need move in the next.
@@ -197,7 +198,7 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
 
   /** @internal Lights a symbol of the chapter wherever the picture writes it; an empty one puts it out. */
   light(symbol: string): void {
-    this.send({ do: 'light', symbol })
+    this.send({ do: 'light', name: symbol })
   }
 
   /** To the host, if there is one. */
@@ -286,13 +287,13 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
     for (const cause of [name, 'link']) this.messages.set(cause, '')
     const value = text ?? this.specs.find(spec => spec.name === name)?.default
     if (value !== undefined) this.settings.ask(name, value, this.host.sent + 1)
-    this.send({ do: 'set', name, value: text, hand })
+    this.send({ do: 'set', name, value: text, on: hand })
     if (this.host) this.settings.answered(this.host.done)
   }
 
   protected seekTo(step: number): void {
     this.#since = Infinity
-    this.send({ do: 'seek', step })
+    this.send({ do: 'seek', at: [step] })
   }
 
   protected override byHand(act: () => void, lasts?: boolean): void {
@@ -394,7 +395,7 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
     const text = JSON.stringify(size)
     if (text === this.#sentSize) return
     this.#sentSize = text
-    this.host?.send({ do: 'size', size })
+    this.host?.send(size)
   }
 
   #advance(now: number): void {
@@ -405,7 +406,7 @@ export abstract class HostedFigure extends FigureParts implements Listener, Prin
     } else if (this.playback.isDue(now)) {
       this.#since = this.frames.lookedAt ? Math.min(this.#since, target) : Infinity
       this.events.cause = 'playback'
-      this.host!.send({ do: 'seek', step: target + 1 })
+      this.host!.send({ do: 'seek', at: [target + 1] })
     }
   }
 

@@ -1,7 +1,7 @@
 // A figure whose program runs on the page: commands are calls, and what they do can be read at once.
-import { HostMemory, isKept, type Command, type FigureHost, type Frame, type Listener } from './host'
+import { HostMemory, keptAs, type Command, type FigureHost, type Frame, type Listener } from './host'
 import type { InstanceUser, Program } from './program'
-import { trapMessage, type Shell } from './shell'
+import { trapMessage, type ProgramState, type Shell } from './shell'
 import { Session } from './session'
 import { ToldError } from './words'
 
@@ -16,7 +16,7 @@ export class LocalHost implements FigureHost, InstanceUser {
   #paintedAt = -Infinity // [ms]
   readonly #memory = new HostMemory()
   #trapped = false // it was this figure that killed the instance
-  #known: { values: Record<string, string>; query: string; target: number; last: number } | undefined // as it was asked to be, for the time without a session
+  #known: ProgramState | undefined // as it was asked to be, for the time without a session
 
   private constructor(
     private readonly program: Program,
@@ -38,19 +38,19 @@ export class LocalHost implements FigureHost, InstanceUser {
   }
 
   get values(): Record<string, string> | undefined {
-    return this.#ask(session => session.values) ?? this.#known?.values
+    return this.#ask(session => session.state.values) ?? this.#known?.values
   }
 
   get query(): string | undefined {
-    return this.#ask(session => session.query) ?? this.#known?.query
+    return this.#ask(session => session.state.query) ?? this.#known?.query
   }
 
   get target(): number {
-    return this.#session?.target ?? this.#known?.target ?? 0
+    return this.#ask(session => session.state.target) ?? this.#known?.target ?? 0
   }
 
   get last(): number {
-    return this.#ask(session => session.last) ?? this.#known?.last ?? 0
+    return this.#ask(session => session.state.last) ?? this.#known?.last ?? 0
   }
 
   get busy(): boolean {
@@ -81,7 +81,7 @@ export class LocalHost implements FigureHost, InstanceUser {
   frame(now?: number): Frame | undefined {
     return this.#ask(session => {
       const hurry = session.pending && now !== undefined && now < this.#paintedAt + CATCH_UP_PAINT
-      if (now !== undefined && (!this.#dirty || hurry || session.holds)) return undefined
+      if (now !== undefined && (!this.#dirty || hurry || session.state.holds)) return undefined
       const frame = session.frame(now === undefined)
       this.#dirty = now === undefined
       this.#paintedAt = performance.now()
@@ -121,7 +121,7 @@ export class LocalHost implements FigureHost, InstanceUser {
     this.#ask(session => {
       void session.do(command)
       // A state that is asked for is remembered, in case that another figure kills the instance before it is shown.
-      if (!isKept(command)) this.#known = { values: session.values, query: session.query, target: session.target, last: session.last }
+      if (!keptAs(command)) this.#known = session.state
     })
   }
 

@@ -1,23 +1,32 @@
 // The session of a figure that maps a log: it also reads the file, starts and pauses, goes back through what is mapped, and saves it.
 import { createShell } from './generated/shell'
-import { clampedStep, type Beginning, type Command, type Frame, type Phase, type Run, type Topics } from './host'
-import { isRefusal, type Readout } from './shell'
+import type { Command, Errand, Frame, Phase, Run, Topics } from './host'
 import type { Key } from './words'
 import { Session } from './session'
 
 const MOST_BYTES = 256e6 // of a log, unpacked
-const LAST = 0xffffffff // a step beyond every log's last
+const LAST = Infinity // a step beyond every log's last
 
 export class LogSession extends Session {
   #phase: Phase = 'empty'
   #log = ''
   #reading = 0 // files that are on their way
   #spent = 0 // [ms] of mapping
+  #messages = '' // of the language that is spoken, for the program
   #mapped = false // anything, when it was looked at last
 
   protected override perform(command: Command): void | Promise<void> {
-    const { figure } = this
     switch (command.do) {
+      case 'begin':
+      case 'link':
+      case 'set':
+        if (this.#atNewest(() => this.act(command)) || command.do !== 'set') this.#beginAnew()
+        return
+      case 'seek':
+        return this.#halted ? super.perform(command) : undefined
+      case 'words':
+        this.#messages = command.value ?? ''
+        return super.perform(command)
       case 'open':
         return this.#open(command)
       case 'run':
@@ -25,30 +34,11 @@ export class LogSession extends Session {
       case 'pause':
         if (this.#phase === 'running') this.#phase = 'paused'
         return
-      case 'seek':
-        if (this.#halted) figure.seek(clampedStep(command.step, this.last))
-        return
-      case 'fit':
-        return figure.fit()
-      case 'zoom':
-        return figure.zoom(command.factor, ...this.point(command))
-      case 'pan':
-        return figure.pan(...this.point({ x: command.right, y: command.down }))
       case 'save':
         return this.#save(command)
       default:
         return super.perform(command)
     }
-  }
-
-  protected override begin(beginning: Beginning, changed: boolean): void {
-    this.#atNewest(() => super.begin(beginning, changed))
-    this.#beginAnew()
-  }
-
-  protected override set(name: string, value: string | null): void {
-    this.#atNewest(() => super.set(name, value))
-    this.#beginAnew()
   }
 
   /** Other settings begin the mapping anew. */
@@ -63,24 +53,17 @@ export class LogSession extends Session {
 
   /** Does something where the mapping stands, whichever scan is shown; then that one is shown again. */
   #atNewest<T>(act: () => T): T {
-    const shown = this.figure.step()
-    if (this.#halted) this.figure.seek(LAST)
-    const back = () => {
-      this.#mapped = this.figure.step() > 0
-      if (this.#halted && this.#mapped) this.figure.seek(shown)
-    }
-    try {
-      const result = act()
-      back()
-      return result
-    } catch (error) {
-      if (isRefusal(error)) back() // after a trap, nothing may be called any more
-      throw error
-    }
+    const shown = this.state.step
+    if (this.#halted) this.act({ do: 'seek', at: [LAST] })
+    const result = act()
+    this.#mapped = this.state.step > 0
+    if (this.#halted && this.#mapped) this.act({ do: 'seek', at: [shown] })
+    return result
   }
 
   override frame(ahead?: boolean): Frame {
-    return { ...super.frame(ahead), target: this.figure.step() } // the next one of which something was kept
+    const frame = super.frame(ahead)
+    return { ...frame, target: frame.step } // the next one of which something was kept
   }
 
   override get pending(): boolean {
@@ -95,32 +78,22 @@ export class LogSession extends Session {
   }
 
   protected override run(): Run {
-    const [step, last] = [this.figure.step(), this.figure.step_count()]
+    const { step, last, unfit } = this.state
     const left = step > 0 ? ((this.#spent / step) * (last - step)) / 1000 : NaN
-    return { phase: this.#phase, log: this.#log, reading: this.#reading > 0, left, unfit: this.#phase === 'ready' ? this.#unfit() : undefined }
+    return { phase: this.#phase, log: this.#log, reading: this.#reading > 0, left, unfit: this.#phase === 'ready' && unfit ? [unfit.parameter, unfit.message] : undefined }
   }
 
   #start(): void {
     if (this.#phase !== 'ready' && this.#phase !== 'paused') return
     if (this.#phase === 'ready') {
-      if (this.#unfit()) return // it says why
+      if (this.state.unfit) return // it says why
       this.#spent = 0
     }
-    this.figure.seek(LAST)
+    this.act({ do: 'seek', at: [LAST] })
     this.#phase = 'running'
   }
 
-  #unfit(): [string, string] | undefined {
-    try {
-      this.figure.ready()
-      return undefined
-    } catch (error) {
-      if (isRefusal(error)) return [error.parameter, error.message]
-      throw error
-    }
-  }
-
-  async #open({ file, name, start, topics, decoder }: Extract<Command, { do: 'open' }>): Promise<void> {
+  async #open({ file, name, start, topics, decoder }: Extract<Errand, { do: 'open' }>): Promise<void> {
     if (this.#phase === 'running') this.#phase = 'paused' // the log before stays until this one is read
     this.#reading++
     const reading = (megabytes: number) => this.tell({ told: 'reading', megabytes })
@@ -141,7 +114,7 @@ export class LogSession extends Session {
   /** A bag as lines of JSON, by a program of its own, which goes when it is done; nothing where the reader has to choose a topic first. */
   async #decoded(file: Blob, decoder: WebAssembly.Module, topics: Topics, reading: (megabytes: number) => void): Promise<Uint8Array | undefined> {
     const { Bag } = await createShell(decoder)
-    const bag = new Bag(topics.scan, topics.odometry, this.messages)
+    const bag = new Bag(topics.scan, topics.odometry, this.#messages)
     for await (const piece of pieces(file, Infinity, reading)) bag.push(piece)
     const [what, ...choice] = bag.choice()
     if (what) {
@@ -153,7 +126,7 @@ export class LogSession extends Session {
     return bytes
   }
 
-  async #save({ what, writer }: Extract<Command, { do: 'save' }>): Promise<void> {
+  async #save({ what, writer }: Extract<Errand, { do: 'save' }>): Promise<void> {
     const saved = (name: string, data: BlobPart, type: string) => this.tell({ told: 'saved', name, data: new Blob([data], { type }) })
     const file = (name: string) => this.figure.file(name) as Uint8Array<ArrayBuffer> | undefined
     if (what === 'report.json') return saved(what, this.#atNewest(() => this.#report()), 'application/json')
@@ -175,11 +148,11 @@ export class LogSession extends Session {
 
   /** What was set and what came out, and every step. */
   #report(): string {
-    const readouts = (this.figure.readouts() as Readout[]).map(({ name, value, text, unit }) => [name, { value, text, unit }])
-    const { figure, query, columns, steps } = JSON.parse(this.figure.json()) as Record<string, unknown>
+    const readouts = this.frame(true).readouts.map(({ name, value, text, unit }) => [name, { value, text, unit }])
+    const { figure, query, columns, steps } = this.measured
     const results = Object.fromEntries(readouts) as Record<string, unknown>
     const seconds = Math.round(this.#spent) / 1000
-    return JSON.stringify({ figure, log: this.#log, query, settings: this.values, seconds, results, columns, steps }, null, 1)
+    return JSON.stringify({ figure, log: this.#log, query, settings: this.state.values, seconds, results, columns, steps }, null, 1)
   }
 }
 

@@ -1,10 +1,10 @@
 // How a map is moved and magnified: a mouse drags it, two fingers move and magnify it, one finger and the wheel scroll the page.
-import type { Command } from './host'
-import { pointIn, type Point } from './pointer'
+import type { Own } from './action'
+import { placeIn, pointIn, type Point } from './pointer'
 
 const LINE = 16 // [px] of a wheel that tells lines
 
-export function takeGestures(canvas: HTMLCanvasElement, send: (command: Command) => void): void {
+export function takeGestures(canvas: HTMLCanvasElement, send: (look: Own) => void): void {
   let held: Point | undefined
   canvas.addEventListener('pointerdown', event => {
     if (event.pointerType === 'touch' || event.button !== 0) return
@@ -14,11 +14,11 @@ export function takeGestures(canvas: HTMLCanvasElement, send: (command: Command)
   canvas.addEventListener('pointermove', event => {
     if (!held) return
     const now = pointIn(canvas, event)
-    send({ do: 'pan', right: now.x - held.x, down: now.y - held.y })
+    send({ name: 'pan', at: [now.x - held.x, now.y - held.y] })
     held = now
   })
   canvas.addEventListener('lostpointercapture', () => (held = undefined))
-  canvas.addEventListener('dblclick', event => send({ do: 'zoom', factor: 2, ...pointIn(canvas, event) }))
+  canvas.addEventListener('dblclick', event => send({ name: 'zoom', at: [2, ...placeIn(canvas, event)] }))
   canvas.addEventListener('wheel', event => onWheel(event, canvas, send), { passive: false })
 
   let fingers: (Point & { apart: number }) | undefined
@@ -27,8 +27,8 @@ export function takeGestures(canvas: HTMLCanvasElement, send: (command: Command)
     event.preventDefault()
     const now = twoFingers(event, canvas)
     if (fingers) {
-      send({ do: 'pan', right: now.x - fingers.x, down: now.y - fingers.y })
-      send({ do: 'zoom', factor: now.apart / fingers.apart, x: now.x, y: now.y })
+      send({ name: 'pan', at: [now.x - fingers.x, now.y - fingers.y] })
+      send({ name: 'zoom', at: [now.apart / fingers.apart, now.x, now.y] })
     }
     fingers = now
   }
@@ -36,11 +36,11 @@ export function takeGestures(canvas: HTMLCanvasElement, send: (command: Command)
 }
 
 /** The wheel scrolls the page, and magnifies with Ctrl: which is also what two fingers on a touchpad send. */
-function onWheel(event: WheelEvent, canvas: HTMLCanvasElement, send: (command: Command) => void): void {
+function onWheel(event: WheelEvent, canvas: HTMLCanvasElement, send: (look: Own) => void): void {
   if (!event.ctrlKey && !event.metaKey) return
   event.preventDefault()
   const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE : 1
-  send({ do: 'zoom', factor: Math.exp(-0.004 * lines * Math.max(-150, Math.min(150, event.deltaY))), ...pointIn(canvas, event) })
+  send({ name: 'zoom', at: [Math.exp(-0.004 * lines * Math.max(-150, Math.min(150, event.deltaY))), ...placeIn(canvas, event)] })
 }
 
 /** The middle between two fingers on the canvas, and how far they are apart [px]. */

@@ -31,9 +31,9 @@ export function refusal(name: string, text: string | null, words: Words): string
 
 /** Of all options, those that the program has to know: what it is told. */
 export function optionCommand(name: string, text: string | null, words: Words): Command | undefined {
-  if (name === 'lock') return { do: 'lock', text }
-  if (name === 'lang') return { do: 'words', language: words.language, messages: words.forProgram }
-  if (name === 'show') return { do: 'show', names: text ?? '' }
+  if (name === 'lock') return { do: 'lock', name: wordsOf(text).join(' ') }
+  if (name === 'lang') return { do: 'words', name: words.language, value: words.forProgram }
+  if (name === 'show') return { do: 'show', name: text ?? '' }
   return name === 'decimal' ? { do: 'comma', on: hasComma(text, words) } : undefined
 }
 

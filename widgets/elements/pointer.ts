@@ -12,3 +12,9 @@ export function pointIn(element: HTMLElement, { clientX, clientY }: { clientX: n
   const down = element.offsetHeight / box.height || across // a layer may have no height of its own
   return { x: (clientX - box.x) * across, y: (clientY - box.y) * down }
 }
+
+/** The same as x and y in a row. */
+export function placeIn(element: HTMLElement, event: { clientX: number; clientY: number }): [x: number, y: number] {
+  const { x, y } = pointIn(element, event)
+  return [x, y]
+}

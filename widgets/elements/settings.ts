@@ -1,7 +1,8 @@
 // What a figure's parameters are to be, for the time before its program is there, between two of them, and while a setting is on its
 // way. One order holds: what is locked keeps the author's value; else a reader's link stands over what the author gave, and that over
 // the default. What is set later, by whomever, stands over what was set before.
-import type { Beginning, FigureHost } from './host'
+import type { Beginning } from './action'
+import type { FigureHost } from './host'
 import { FIGURES } from './generated/figures'
 import { fromText, isParameter } from './parameters'
 import type { ParamSpec } from './shell'
@@ -54,23 +55,32 @@ export class Settings {
 
   /** Whether anything was asked of the figure. */
   get any(): boolean {
-    return Boolean(this.recipe) || this.#waiting.size > 0 || this.version !== FIGURES[this.figure.localName]!.version || this.figure.getAttributeNames().some(isParameter)
+    return Boolean(this.recipe) || this.#waiting.size > 0 || this.version !== FIGURES[this.figure.localName]!.version || this.#attributes.length > 0
+  }
+
+  /** What the page's author gave, as a code has it. */
+  get authored(): string {
+    const authored = new URLSearchParams()
+    for (const name of [...this.#attributes, 'v']) if (this.figure.hasAttribute(name)) authored.set(name, this.figure.getAttribute(name)!)
+    for (const [name, text] of this.#given) authored.set(name, text)
+    return authored.toString()
+  }
+
+  get #attributes(): string[] {
+    return this.figure.getAttributeNames().filter(isParameter)
   }
 
   /** The state to begin with. What waited is on its way with the command of this number. */
-  begin(number: number): Beginning {
+  begin(number: number, changed: boolean): Beginning {
     const waiting = [...this.#waiting]
     this.#waiting.clear()
-    // In the order of the parameters, so that the order of the attributes makes no difference.
-    const order = FIGURES[this.figure.localName]?.parameters ?? []
-    const attributes = this.figure.getAttributeNames().filter(isParameter).sort((a, b) => order.indexOf(a) - order.indexOf(b))
-    const given = this.recipe === undefined ? attributes.map((name): [string, string | null] => [name, this.figure.getAttribute(name)]) : []
+    const given = this.recipe === undefined ? this.#attributes.map((name): [string, string | null] => [name, this.figure.getAttribute(name)]) : []
     const settings = [...given, ...waiting]
     for (const [name, text] of settings) if (text !== null) this.#asked.set(name, { text, number })
-    const authored = Object.fromEntries([...attributes, ...(this.figure.hasAttribute('v') ? ['v'] : [])].map(name => [name, this.figure.getAttribute(name)!]))
+    const written = settings.map(([name, text]) => (text === null ? name : `${name}=${encodeURIComponent(text)}`))
     const linked = this.#linked
     this.#linked = false
-    return { query: this.recipe, settings, authored: { ...authored, ...Object.fromEntries(this.#given) }, linked }
+    return { do: linked ? 'link' : 'begin', value: this.recipe ?? null, name: written.join('&'), on: changed }
   }
 
   /** A setting was sent with the command of this number. */

@@ -1,5 +1,6 @@
 // What the program's shell (widgets/src/shell.rs) gives and takes: the shapes of its data, and the two ways in which a call can fail.
 import type { Shell } from './generated/shell'
+import type { TraceLine, FigureReadout as Readout } from './details'
 import type { Message } from './words'
 
 export type { Shell }
@@ -76,6 +77,86 @@ export interface Handle {
 export interface Room {
   parameter: string
   area: { x: number; y: number; w: number; h: number }
+}
+
+/** How large the picture is on the page. */
+export interface Layout {
+  /** Px of the page for one of the scene. */
+  scale: number
+  /** [css px]; undefined for all there is. */
+  width?: number
+  /** [css px] */
+  height: number
+  /** What the height would be if nothing had to fit [css px]. */
+  natural: number
+}
+
+/** What is refused, and why; of nothing where nothing is wrong any more. */
+export interface Refusal {
+  parameter: string
+  message: string
+}
+
+/** What is set, and how far it is computed (widgets/src/frame.rs, whose test holds these four to it). */
+export interface ProgramState {
+  values: Record<string, string>
+  query: string
+  /** The step that all of this is of, the one asked for, and the last there is. */
+  step: number
+  target: number
+  last: number
+  /** Whether to leave shown what is: on the way to what was asked for is another moment than that. */
+  holds: boolean
+  /** What keeps a file from being mapped. */
+  unfit?: Refusal
+}
+
+/** What is shown. */
+export interface ProgramFrame {
+  /** What is not as it was in the frame before. */
+  news: Partial<Told>
+  /** Whether it is still on its way to what was asked for. */
+  busy: boolean
+  /** What is to be watched until the end, and the step before it. */
+  watch?: { from: number; words: string }
+  /** How fast this step is played, of the usual speed. */
+  pace: number
+  /** What is shown. */
+  sentence: string
+  /** What stands below the picture: where a number was changed what it changed, else that. */
+  told: string
+  /** What is different from the setting before, at the same step; empty where nothing is, or nobody wants to know. */
+  difference: string
+  /** What controls show instead of the values, where a prediction was run. */
+  instead: Record<string, string>
+  /** The readout that matters first, by its name. */
+  main: string
+  /** Whether a parameter was changed since the frame before. */
+  changed: boolean
+  trace?: TraceLine[]
+  /** Where one is asked for. */
+  prediction: Outcome | null
+  layout?: Layout
+  /** The part of the picture that tells most where there is no room for the whole [css px]. */
+  gist: Room['area']
+}
+
+/** Measured data (widgets/src/export.rs). */
+export interface Measured {
+  figure: string
+  query: string
+  /** What each of them means. */
+  columns: Record<string, string>
+  steps: Record<string, number | null>[]
+}
+
+/** What most frames change nothing of. */
+export interface Told {
+  specs: ParamSpec[]
+  readouts: Readout[]
+  chips: Chip[]
+  handles: Handle[]
+  rooms: Room[]
 }
 
 /** Memory [bytes] beyond which a trap without a word is one of memory: every panic leaves a word. */

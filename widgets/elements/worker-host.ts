@@ -53,7 +53,7 @@ export class WorkerHost implements FigureHost {
 
   send(command: Command): void {
     this.#memory.note(command)
-    if (command.do === 'seek') this.#target = clampedStep(command.step, this.last)
+    if (command.do === 'seek') this.#target = clampedStep(command.at[0], this.last)
     this.sent += 1
     this.#post(command)
   }

@@ -89,7 +89,7 @@ function show(): Promise<void> {
   return (willShow ??= yieldToMain().then(() => {
     willShow = undefined
     return attempt(() => {
-      if (session!.holds) return
+      if (session!.state.holds) return
       const { picture, ...frame } = session!.frame()
       // A copy: the memory is the program's, and the next call may move it.
       const pixels = picture?.pixels().slice()

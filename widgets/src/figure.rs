@@ -2,10 +2,12 @@
 //! here.
 
 use crate::{
+    action::Own,
     challenge::Chip,
     comma,
     comparison::{Before, Comparison},
     export::{Entries, Export},
+    frame,
     ghost::Curves,
     model::{FigureError, Files, Model, ParamSpec, Readout, TraceLine},
     paint::{Canvas, Theme},
@@ -13,20 +15,26 @@ use crate::{
     scene::{Handle, Point, Rect, Room, Scene},
     symbol,
     view::{Shown, Shows, View},
-    words::{Language, common},
+    words::common,
 };
 use serde::Serialize;
+use voice::Voice;
+
+mod asked;
+mod fit;
+mod voice;
 
 /// One figure on a page.
 pub struct Figure {
     tag: &'static str,
-    shown: Box<dyn Shown>,
+    voice: Voice,
     canvas: Canvas,
     painted: Painted,
     decimal_comma: bool,
     lit: String,
-    language: Language,
     comparison: Comparison,
+    asked: asked::Asked,
+    told: frame::Told,
 }
 
 /// What the scene painted last had besides its pixels.
@@ -78,43 +86,50 @@ impl Figure {
     }
 
     fn showing(tag: &'static str, shown: Box<dyn Shown>) -> Self {
-        let (canvas, painted, language) = (Canvas::default(), Painted::default(), Language::default());
         Self {
             tag,
-            shown,
-            canvas,
-            painted,
+            voice: Voice::of(shown),
+            canvas: Canvas::default(),
+            painted: Painted::default(),
             decimal_comma: false,
             lit: String::new(),
-            language,
             comparison: Comparison::default(),
+            asked: asked::Asked::default(),
+            told: frame::Told::default(),
         }
     }
 
-    /// What the figure is about.
+    /// What the figure is about, in English: for tests and tools. On the page a figure is asked by [`Figure::act`].
     pub fn model(&self) -> &dyn Model {
-        self.shown.model()
+        self.voice.mute().model()
     }
 
     /// The same, to be acted upon.
     pub fn model_mut(&mut self) -> &mut dyn Model {
-        self.shown.model_mut()
+        self.voice.mute_mut().model_mut()
+    }
+
+    fn ask<T>(&self, ask: impl FnOnce(&dyn Model) -> T) -> T {
+        self.voice.ask(|shown| ask(shown.model()))
+    }
+
+    fn tell<T>(&mut self, tell: impl FnOnce(&mut dyn Model) -> T) -> T {
+        self.voice.tell(|shown| tell(shown.model_mut()))
     }
 
     /// Current values by name, in the order of the parameters.
     pub fn values(&self) -> Entries<String> {
-        Entries(self.model().values())
+        Entries(self.ask(|model| model.values()))
     }
 
-    /// Speaks the language of a catalogue ([`Language::learnt`]), or if that is empty, English.
+    /// Speaks the language of a catalogue ([`crate::words::Language::learnt`]), or if that is empty, English.
     pub fn set_words(&mut self, catalogue: &str) {
-        self.language = Language::learnt(catalogue);
+        self.voice.learn(catalogue);
     }
 
     /// [`crate::model::Parameters::params`], in the figure's language.
     pub fn params(&self) -> Vec<ParamSpec> {
-        let _speaking = self.language.spoken();
-        self.model().params()
+        self.ask(|model| model.params())
     }
 
     /// Gives a parameter a new value.
@@ -122,8 +137,9 @@ impl Figure {
     /// # Errors
     /// For a name or a value that is refused; the figure is as it was.
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), FigureError> {
-        let _speaking = self.language.spoken();
-        self.model_mut().configure(&[(name.into(), value.into())]).pop().map_or(Ok(()), Err)
+        #[cfg(all(target_arch = "wasm32", feature = "trouble"))]
+        crate::trouble::die_if_asked(name, value);
+        self.tell(|model| model.configure(&[(name.into(), value.into())])).pop().map_or(Ok(()), Err)
     }
 
     /// Writes numbers with a decimal comma, in the picture and in words.
@@ -138,39 +154,29 @@ impl Figure {
 
     /// [`Model::readouts`], in the figure's language and way of writing numbers.
     pub fn readouts(&self) -> Vec<Readout> {
-        let _speaking = self.language.spoken();
-        let readouts = self.model().readouts().into_iter();
+        let readouts = self.ask(|model| model.readouts()).into_iter();
         readouts.map(|readout| Readout { text: self.written(readout.text), ..readout }).collect()
     }
 
     /// [`crate::model::Parameters::chips`], in the figure's language and way of writing numbers.
     pub fn chips(&self) -> Vec<Chip> {
-        let _speaking = self.language.spoken();
-        let chips = self.model().chips().into_iter();
+        let chips = self.ask(|model| model.chips()).into_iter();
         chips.map(|chip| Chip { goal: self.written(chip.goal), said: self.written(chip.said), ..chip }).collect()
     }
 
     /// [`Model::describe`], in the figure's language and way of writing numbers.
     pub fn describe(&self) -> String {
-        let _speaking = self.language.spoken();
-        self.written(self.model().describe())
-    }
-
-    /// The words of [`Model::watch`], in the figure's language; none where there is nothing to be watched.
-    pub fn watch(&self) -> String {
-        let _speaking = self.language.spoken();
-        self.model().watch().map_or(String::new(), |(_, words)| words.into())
+        self.written(self.ask(|model| model.describe()))
     }
 
     /// [`Model::trace`], in the figure's language.
     pub fn trace(&self) -> Vec<TraceLine> {
-        let _speaking = self.language.spoken();
-        self.model().trace()
+        self.ask(|model| model.trace())
     }
 
     /// Names of the parts of its picture that can be shown by themselves.
     pub fn panels(&self) -> &'static [&'static str] {
-        self.shown.panels()
+        self.voice.ask(|shown| shown.panels())
     }
 
     /// Shows some parts of the picture, by their names apart by spaces; `all` or nothing for the whole.
@@ -178,19 +184,17 @@ impl Figure {
     /// # Errors
     /// For a name that no part of it has; the error has those that there are.
     pub fn show(&mut self, panels: &str) -> Result<(), FigureError> {
-        let _speaking = self.language.spoken();
-        self.shown.show(panels)
+        self.voice.tell(|shown| shown.show(panels))
     }
 
     /// Height \[css px\] that the figure wants at this width \[css px\].
     pub fn height(&self, width: f64) -> f64 {
-        self.shown.height(width)
+        self.voice.ask(|shown| shown.height(width))
     }
 
     /// What is to be seen at this size \[css px\], in the figure's language and way of writing numbers.
     pub fn scene(&self, width: f64, height: f64) -> Scene {
-        let _speaking = self.language.spoken();
-        let mut scene = self.shown.scene(width, height);
+        let mut scene = self.voice.ask(|shown| shown.scene(width, height));
         if self.decimal_comma {
             comma::in_scene(&mut scene);
         }
@@ -225,13 +229,13 @@ impl Figure {
     /// What a reader is about to change by a control: the setting that it leaves is compared with what comes then, unless the same control has
     /// left another one just before.
     fn about_to_leave(&self, control: &str) -> Option<Before> {
-        let another = self.comparison.control != control && self.model().pending() == 0;
-        another.then(|| Before::of(self.model()))
+        let another = self.comparison.control != control;
+        self.ask(|model| (another && model.pending() == 0).then(|| Before::of(model)))
     }
 
     /// A reader has moved the control.
     fn left(&mut self, control: &str, before: Option<Before>) {
-        if let Some(before) = before.filter(|before| before.differs(self.model())) {
+        if let Some(before) = before.filter(|before| self.ask(|model| before.differs(model))) {
             self.comparison.control = control.into();
             self.comparison.before = Some(before);
         } else if self.comparison.drawn == self.differs() {
@@ -243,7 +247,7 @@ impl Figure {
     /// Whether there is anything to compare.
     fn differs(&self) -> bool {
         let before = self.comparison.before.as_ref().filter(|_| !self.comparison.off);
-        before.is_some_and(|before| before.differs(self.model()))
+        before.is_some_and(|before| self.ask(|model| before.differs(model)))
     }
 
     /// Whether the setting before is compared with that of now.
@@ -257,36 +261,30 @@ impl Figure {
         let before = self.comparison.before.as_ref().filter(|_| drawn);
         let curves = before.map_or_else(Curves::new, |before| before.curves.clone());
         self.comparison.drawn = drawn;
-        self.model_mut().haunt(curves);
+        self.tell(|model| model.haunt(curves));
     }
 
     /// What is different from the setting that a reader has left last, in the figure's language and way of writing numbers: what was set,
     /// and at the same step what came out. Empty where nothing is, or nothing is to be compared.
     pub fn difference(&self) -> String {
-        let _speaking = self.language.spoken();
         let before = self.comparison.before.as_ref().filter(|_| self.differs());
-        self.written(before.map_or(String::new(), |before| before.told(self.model())))
+        self.written(before.map_or(String::new(), |before| self.ask(|model| before.told(model))))
     }
 
     /// What stands over the picture: where a number was changed what it changed, else what happens now.
     pub fn told(&self) -> String {
         let before = self.comparison.before.as_ref();
-        let difference = if before.is_some_and(|before| before.in_numbers(self.model())) {
+        let difference = if before.is_some_and(|before| self.ask(|model| before.in_numbers(model))) {
             self.difference()
         } else {
             String::new()
         };
-        if difference.is_empty() { self.written(self.narrated()) } else { difference }
-    }
-
-    fn narrated(&self) -> String {
-        let _speaking = self.language.spoken();
-        self.model().narrate()
+        if difference.is_empty() { self.written(self.ask(|model| model.narrate())) } else { difference }
     }
 
     /// The part of the picture that tells most where there is no room for the whole, in a figure of this width \[css px\].
     pub fn gist(&self, width: f64) -> Rect {
-        self.shown.gist(width)
+        self.voice.ask(|shown| shown.gist(width))
     }
 
     /// What was painted last.
@@ -296,11 +294,13 @@ impl Figure {
 
     /// A click at a point of a figure of this width \[css px\]. True if it changed something.
     pub fn pick(&mut self, x: f64, y: f64, width: f64) -> bool {
-        let _speaking = self.language.spoken();
-        let scene = self.shown.scene(width, self.height(width));
-        let target = scene.hit(in_scene([x, y], scene.width / width));
-        target.into_iter().for_each(|target| self.shown.pick(target));
-        target.is_some()
+        let height = self.height(width);
+        self.voice.tell(|shown| {
+            let scene = shown.scene(width, height);
+            let target = scene.hit(in_scene([x, y], scene.width / width));
+            target.into_iter().for_each(|target| shown.pick(target));
+            target.is_some()
+        })
     }
 
     /// What can be moved in the picture painted last, where it lies in a figure of this width \[css px\].
@@ -323,11 +323,11 @@ impl Figure {
 
     /// Moves a handle to a point of a figure of this width \[css px\].
     pub fn drag(&mut self, handle: &str, x: f64, y: f64, width: f64) {
-        let scene_width = self.shown.scene_width(width);
+        let scene_width = self.scene_width(width);
         let to = in_scene([x, y], scene_width / width);
         if to.iter().all(|c| c.is_finite()) {
             let before = self.about_to_leave(handle);
-            self.shown.drag(handle, to, scene_width);
+            self.voice.tell(|shown| shown.drag(handle, to, scene_width));
             self.left(handle, before);
         }
     }
@@ -336,58 +336,27 @@ impl Figure {
     pub fn nudge(&mut self, handle: &str, right: f64, up: f64) {
         if right.is_finite() && up.is_finite() {
             let before = self.about_to_leave(handle);
-            self.shown.nudge(handle, [right, up]);
+            self.voice.tell(|shown| shown.nudge(handle, [right, up]));
             self.left(handle, before);
         }
     }
 
-    /// Puts a tool into the reader's hand; an empty name puts it away.
-    pub fn take(&mut self, tool: &str) {
-        self.shown.take(tool);
-    }
-
-    /// Uses the tool by a key.
+    /// Does in a figure of this width \[css px\] what only its kind can do.
     ///
     /// # Errors
-    /// Where there is no more room for what it does.
-    pub fn press(&mut self, key: &str, right: f64, up: f64) -> Result<(), FigureError> {
-        let _speaking = self.language.spoken();
-        if right.is_finite() && up.is_finite() { self.shown.press(key, [right, up]) } else { Ok(()) }
+    /// Where there is no room for all of it; what there was room for is done.
+    pub fn own(&mut self, own: &Own, width: f64) -> Result<(), FigureError> {
+        self.own_at(own, width, 1.0)
     }
 
-    /// Uses the tool along a line in a figure of this width \[css px\]: x and y of each of its points.
-    ///
-    /// # Errors
-    /// Where there is no more room for what it does.
-    pub fn stroke(&mut self, line: &[f64], width: f64) -> Result<(), FigureError> {
-        let _speaking = self.language.spoken();
-        let scene_width = self.shown.scene_width(width);
-        let points = line.chunks_exact(2).map(|point| in_scene([point[0], point[1]], scene_width / width));
-        let points: Vec<Point> = points.filter(|point| point.iter().all(|c| c.is_finite())).collect();
-        if points.is_empty() { Ok(()) } else { self.shown.stroke(&points, scene_width) }
+    /// The same on a page that shows it at a scale.
+    fn own_at(&mut self, own: &Own, width: f64, scale: f64) -> Result<(), FigureError> {
+        let scene_width = self.scene_width(width);
+        self.voice.tell(|shown| shown.own(own, scene_width, scene_width / (width * scale)))
     }
 
-    /// Magnifies the picture about a point of a figure of this width \[css px\]; about its middle, where that is no point.
-    pub fn zoom(&mut self, factor: f64, x: f64, y: f64, width: f64) {
-        let scale = self.scene_px(width);
-        let at = Some(in_scene([x, y], scale)).filter(|at| at.iter().all(|c| c.is_finite()));
-        if factor.is_finite() && factor > 0.0 {
-            self.shown.zoom(factor, at, width * scale);
-        }
-    }
-
-    /// Moves the picture right and down in a figure of this width \[css px\].
-    pub fn pan(&mut self, right: f64, down: f64, width: f64) {
-        let scale = self.scene_px(width);
-        let by = in_scene([right, down], scale);
-        if by.iter().all(|c| c.is_finite()) {
-            self.shown.pan(by, width * scale);
-        }
-    }
-
-    /// Shows the whole again.
-    pub fn fit(&mut self) {
-        self.shown.fit();
+    fn scene_width(&self, width: f64) -> f64 {
+        self.voice.ask(|shown| shown.scene_width(width))
     }
 
     /// Takes a reader's file instead of the one before.
@@ -395,9 +364,10 @@ impl Figure {
     /// # Errors
     /// For a file that cannot be read, and for a figure that has no use for any; it is as it was.
     pub fn open(&mut self, file: &[u8]) -> Result<(), FigureError> {
-        let _speaking = self.language.spoken();
-        let none = FigureError { parameter: "file".into(), message: common::no_file().into() };
-        self.model_mut().files_mut().ok_or(none)?.open(file)
+        self.tell(|model| {
+            let none = FigureError { parameter: "file".into(), message: common::no_file().into() };
+            model.files_mut().ok_or(none)?.open(file)
+        })
     }
 
     /// Whether what was set can be computed at all.
@@ -405,36 +375,29 @@ impl Figure {
     /// # Errors
     /// The parameter that stands in the way, and its range.
     pub fn ready(&self) -> Result<(), FigureError> {
-        let _speaking = self.language.spoken();
-        self.model().files().map_or(Ok(()), Files::ready)
+        self.ask(|model| model.files().map_or(Ok(()), Files::ready))
     }
 
     /// A file of this name made of the state shown, if there is such a one.
     pub fn file(&self, name: &str) -> Option<Vec<u8>> {
-        self.model().files()?.file(name)
-    }
-
-    /// Px of the scene painted last in a css px of a figure of this width.
-    fn scene_px(&self, width: f64) -> f64 {
-        self.painted.width / width
+        self.ask(|model| model.files()?.file(name))
     }
 
     /// The link that makes this figure again: `name=value&…`.
     pub fn query(&self) -> String {
-        query::write(self.model())
+        self.ask(query::write)
     }
 
     /// Makes the figure what a link says. Returns what was refused; the rest is applied.
     pub fn load(&mut self, query: &str) -> Vec<FigureError> {
-        let _speaking = self.language.spoken();
         self.comparison = Comparison { off: self.comparison.off, ..Comparison::default() };
         self.haunt();
-        query::read(self.model_mut(), query)
+        self.tell(|model| query::read(model, query))
     }
 
     /// [`Model::telling`] for whom a pasted code of this version opens the figure; 0 for one of a version that opened at its first step.
     pub fn telling(&self, code: &str) -> u32 {
-        if query::opens_telling(self.model(), code) { self.model().telling() } else { 0 }
+        self.ask(|model| if query::opens_telling(model, code) { model.telling() } else { 0 })
     }
 
     /// What a pasted code means without saying so, by names and values: the defaults of its version, `v=…`, where these are others now.
@@ -442,13 +405,22 @@ impl Figure {
     /// # Errors
     /// For a version that there is not.
     pub fn meant(&self, code: &str) -> Result<Vec<(String, String)>, FigureError> {
-        let _speaking = self.language.spoken();
-        query::meant(self.model(), code)
+        self.ask(|model| query::meant(model, code))
+    }
+
+    /// Whether there is simulation to do before what was asked for is shown.
+    pub fn pending(&self) -> bool {
+        self.ask(|model| model.pending()) > 0
+    }
+
+    /// Does a step of it.
+    pub fn work(&mut self) {
+        self.tell(|model| model.work());
     }
 
     /// Measured data of every step so far.
     pub fn export(&self) -> Export {
-        Export::new(self.tag, self.model())
+        self.ask(|model| Export::new(self.tag, model))
     }
 }
 

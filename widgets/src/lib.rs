@@ -3,9 +3,10 @@
 //! # Modules
 //!
 //! A figure is a [`recipe`] (a typed table of parameters), a [`model`] (deterministic, without clock or pixels), a [`view`] that makes
-//! a [`scene`] of it (marks with meanings, without colours), the one painter of [`paint`] and, in the browser, a `shell` whose methods are one line each. Native tests and
+//! a [`scene`] of it (marks with meanings, without colours), the one painter of [`paint`] and, in the browser, a `shell`: an [`action`] goes in, a [`frame`] comes out. Native tests and
 //! the command line use the same [`figure::Figure`] as the page.
 
+pub mod action;
 pub mod challenge;
 mod comma;
 mod comparison;
@@ -13,6 +14,7 @@ pub mod decimal;
 pub mod export;
 pub mod figure;
 pub mod font;
+pub mod frame;
 pub mod ghost;
 pub mod job;
 pub mod kept;

@@ -17,7 +17,7 @@ use serde::Serialize;
 use std::borrow::Cow;
 
 /// Why a value was refused: the parameter, and one line that names it, what was given and what is allowed.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 pub struct FigureError {
     /// Name of the parameter as its reader knows it.
     pub parameter: String,
@@ -278,7 +278,7 @@ pub trait Parameters {
 
     /// Current value of a parameter; `None` for a name it does not know.
     fn value(&self, name: &str) -> Option<String> {
-        self.values().into_iter().find(|(known, _)| *known == name).map(|(_, value)| value)
+        named(self.values(), name)
     }
 
     /// Gives several parameters new values at once, rebuilding once. What is refused is returned and changes nothing; the
@@ -315,16 +315,26 @@ impl<M: Declared> Parameters for M {
     }
 
     fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
-        let (recipe, mut refused) = recipe::with(self.recipe(), values);
-        refused.extend(self.adopt(recipe).err());
-        refused
+        let before = self.recipe().clone();
+        adopted(self, &before, values)
     }
 
     fn load(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
-        let (recipe, mut refused) = recipe::with(&M::Recipe::default(), values);
-        refused.extend(self.adopt(recipe).err());
-        refused
+        adopted(self, &M::Recipe::default(), values)
     }
+}
+
+/// The value of a name; in a function of its own, as every figure asks for it.
+fn named(values: Vec<(&'static str, String)>, name: &str) -> Option<String> {
+    values.into_iter().find(|(known, _)| *known == name).map(|(_, value)| value)
+}
+
+/// Has a model take over these values from a recipe on.
+#[inline(never)] // a program has it once for each figure
+fn adopted<M: Declared>(model: &mut M, before: &M::Recipe, values: &[(String, String)]) -> Vec<FigureError> {
+    let (recipe, mut refused) = recipe::with(before, values);
+    refused.extend(model.adopt(recipe).err());
+    refused
 }
 
 /// A figure, without its pixels. One without a timeline leaves out everything about steps.

@@ -1,17 +1,7 @@
-//! The figures in the browser: the only code that knows of JavaScript. Every method is one line; what it does is in
-//! [`crate::figure`] and [`crate::model`].
+//! The figures in the browser: the only code that knows of JavaScript. An action goes in, a frame comes out, and the pixels with it; what
+//! that does is in [`crate::figure`].
 
-use crate::{
-    challenge::Chip,
-    figure::{self, PlacedHandle},
-    job,
-    model::{FigureError, Readout},
-    paint::Theme,
-    registry,
-    scene::{Rect, Room},
-    unread,
-    words::Language,
-};
+use crate::{figure, job, model::FigureError, registry, unread, words::Language};
 use core::{
     cell::RefCell,
     ops::{Deref, DerefMut},
@@ -19,7 +9,7 @@ use core::{
 use fastslam::geometry::Pose2;
 use fastslam_lab::experiment::{ErrorSummary, policy_counts::Fraction};
 use fastslam_log::{BagOptions, BagReader, LogError, write_json_lines, write_path};
-use js_sys::{Array, Error, JSON, Object};
+use js_sys::{Array, Error, Object};
 use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::prelude::*;
@@ -47,12 +37,6 @@ pub fn start() {
 #[wasm_bindgen]
 pub fn last_panic() -> Option<String> {
     LAST_PANIC.with_borrow(Clone::clone)
-}
-
-/// Tags of all figures.
-#[wasm_bindgen]
-pub fn tags() -> Vec<String> {
-    registry::FIGURES.iter().map(|f| f.tag.into()).collect()
 }
 
 /// The compiled program, for another instance in a worker: it is not fetched again.
@@ -113,11 +97,22 @@ fn here<const HERE: bool>() {
     assert!(HERE);
 }
 
+/// First in a thing that only some programs have: in the others nothing of it is ever dropped either.
+struct Here<const HERE: bool>;
+
+impl<const HERE: bool> Drop for Here<HERE> {
+    fn drop(&mut self) {
+        here::<HERE>();
+    }
+}
+
 const BAGS: bool = cfg!(feature = "bags");
+const FIGURES: bool = !registry::FIGURES.is_empty();
 
 /// A reader of ROS bags: what it makes of one is a log that the figure of logs opens.
 #[wasm_bindgen]
 pub struct Bag {
+    _here: Here<BAGS>,
     reader: Held<BagReader, BAGS>,
     language: Language,
 }
@@ -130,7 +125,7 @@ impl Bag {
     pub fn new(scan_topic: Option<String>, odometry_topic: Option<String>, catalogue: &str) -> Bag {
         here::<BAGS>();
         let options = BagOptions { scan_topic, odometry_topic, lenient: true, ..BagOptions::default() };
-        Bag { reader: Held(BagReader::new(options)), language: Language::learnt(catalogue) }
+        Bag { _here: Here, reader: Held(BagReader::new(options)), language: Language::learnt(catalogue) }
     }
 
     /// The next bytes; throws a `FigureError` if they cannot be read.
@@ -170,35 +165,8 @@ fn bad_bag(error: &LogError) -> FigureError {
 /// One figure on a page; to be freed when it leaves the page.
 #[wasm_bindgen]
 pub struct Figure {
-    figure: Held<figure::Figure, { !registry::FIGURES.is_empty() }>,
-    readouts: RefCell<Told<Readout>>,
-    chips: RefCell<Told<Chip>>,
-    handles: RefCell<Told<PlacedHandle>>,
-    rooms: RefCell<Told<Room>>,
-}
-
-/// What was told last, and the same as JavaScript has it: it is asked for at every frame, and most frames change nothing of it.
-struct Told<T> {
-    last: Vec<T>,
-    array: Array,
-}
-
-impl<T: PartialEq + Serialize> Told<T> {
-    fn tell(&mut self, now: Vec<T>) -> Array {
-        if self.last != now {
-            *self = Self { array: plain(&now), last: now };
-        }
-        self.array.clone()
-    }
-}
-
-impl Figure {
-    fn showing(figure: figure::Figure) -> Self {
-        fn nothing<T>() -> RefCell<Told<T>> {
-            RefCell::new(Told { last: Vec::new(), array: Array::new() })
-        }
-        Self { figure: Held(figure), readouts: nothing(), chips: nothing(), handles: nothing(), rooms: nothing() }
-    }
+    _here: Here<FIGURES>,
+    figure: Held<figure::Figure, FIGURES>,
 }
 
 #[wasm_bindgen]
@@ -206,139 +174,23 @@ impl Figure {
     /// The figure of a tag, of which nothing was asked yet.
     #[wasm_bindgen(constructor)]
     pub fn new(tag: &str) -> Result<Figure, Error> {
-        figure::Figure::new(tag).map(Self::showing).map_err(thrown)
+        figure::Figure::new(tag).map(|figure| Self { _here: Here, figure: Held(figure) }).map_err(thrown)
     }
 
-    /// Title for readers.
-    pub fn title(&self) -> String {
-        self.figure.model().title().into()
+    /// Does what is asked, an `Action`, and returns what is refused of it: an array of `Refusal`.
+    pub fn act(&mut self, action: JsValue) -> Result<Array, JsValue> {
+        let action = serde_wasm_bindgen::from_value(action)?;
+        Ok(plain(&self.figure.act(&action)))
     }
 
-    /// All parameters: an array of `ParamSpec`.
-    pub fn params(&self) -> Array {
-        plain(&self.figure.params())
+    /// What is set, and how far it is computed: a `State`.
+    pub fn state(&self) -> Object {
+        plain(&self.figure.state())
     }
 
-    /// Current values by name.
-    pub fn values(&self) -> Object {
-        plain(&self.figure.values())
-    }
-
-    /// Gives a parameter a new value; throws a `FigureError` if it is refused.
-    pub fn set(&mut self, name: &str, value: &str) -> Result<(), Error> {
-        #[cfg(feature = "trouble")]
-        crate::trouble::die_if_asked(name, value);
-        self.figure.set(name, value).map_err(thrown)
-    }
-
-    /// Number of the last step.
-    pub fn step_count(&self) -> u32 {
-        self.figure.model().step_count()
-    }
-
-    /// The step shown.
-    pub fn step(&self) -> u32 {
-        self.figure.model().step()
-    }
-
-    /// Asks for a step; beyond the last means the last.
-    pub fn seek(&mut self, step: u32) {
-        self.figure.model_mut().seek(step);
-    }
-
-    /// The step that tells most, for a pasted code of this version: `v=…`.
-    pub fn telling(&self, code: &str) -> u32 {
-        self.figure.telling(code)
-    }
-
-    /// The step from which the rest is to be watched; none where there is nothing to be watched.
-    pub fn watch_from(&self) -> Option<u32> {
-        self.figure.model().watch().map(|(step, _)| step)
-    }
-
-    /// What asks for that, in words.
-    pub fn watch(&self) -> String {
-        self.figure.watch()
-    }
-
-    /// Steps of simulation still to do before what was asked for is shown.
-    pub fn pending(&self) -> u32 {
-        self.figure.model().pending()
-    }
-
-    /// Whether they only add to what is shown.
-    pub fn refines(&self) -> bool {
-        self.figure.model().refines()
-    }
-
-    /// Does one of them.
-    pub fn work(&mut self) {
-        self.figure.model_mut().work();
-    }
-
-    /// Speaks the language of a catalogue: a line for each message, `section.key=text`. English where that is empty.
-    pub fn set_words(&mut self, catalogue: &str) {
-        self.figure.set_words(catalogue);
-    }
-
-    /// Writes numbers with a decimal comma, in the picture and in words.
-    pub fn set_decimal_comma(&mut self, on: bool) {
-        self.figure.set_decimal_comma(on);
-    }
-
-    /// Lights a symbol wherever the picture writes it; an empty one puts it out.
-    pub fn light(&mut self, symbol: &str) {
-        self.figure.light(symbol);
-    }
-
-    /// The numbers of the state shown: an array of `Readout`.
-    pub fn readouts(&self) -> Array {
-        self.readouts.borrow_mut().tell(self.figure.readouts())
-    }
-
-    /// States that are worth trying, and how it stands with them: an array of `Chip`.
-    pub fn chips(&self) -> Array {
-        self.chips.borrow_mut().tell(self.figure.chips())
-    }
-
-    /// One or two sentences that tell what is shown now.
-    pub fn describe(&self) -> String {
-        self.figure.describe()
-    }
-
-    /// What comes of the reader's prediction: an `Outcome`, or null where none is asked for.
-    pub fn prediction(&self) -> JsValue {
-        plain(&self.figure.model().prediction())
-    }
-
-    /// How fast the step shown is played, of the usual speed.
-    pub fn pace(&self) -> f64 {
-        self.figure.model().pace()
-    }
-
-    /// The lines of its algorithm that led to what is shown: an array of `TraceLine`.
-    pub fn trace(&self) -> Array {
-        plain(&self.figure.trace())
-    }
-
-    /// Names of the parts of its picture that can be shown by themselves.
-    pub fn panels(&self) -> Vec<String> {
-        self.figure.panels().iter().map(|name| name.to_string()).collect()
-    }
-
-    /// Shows some of them, apart by spaces, or `all`; throws a `FigureError` for a name that none has.
-    pub fn show(&mut self, names: &str) -> Result<(), Error> {
-        self.figure.show(names).map_err(thrown)
-    }
-
-    /// Height \[css px\] that the figure wants at this width \[css px\].
-    pub fn height(&self, width_css: f64) -> f64 {
-        self.figure.height(width_css)
-    }
-
-    /// Paints: size \[device px\], device px per css px, and "light", "dark", "contrast-light" or "contrast-dark".
-    pub fn paint(&mut self, width_px: u32, height_px: u32, dpr: f64, theme: &str) {
-        self.figure.paint(width_px, height_px, dpr, Theme::named(theme));
+    /// Paints, and tells what there is to know: a `ProgramFrame`. What is told once is not told by a look ahead.
+    pub fn frame(&mut self, ahead: bool) -> Object {
+        plain(&self.figure.frame(ahead))
     }
 
     /// Address of the pixels in the module's memory: RGBA, row by row. Any call may move them, and the memory.
@@ -346,80 +198,14 @@ impl Figure {
         self.figure.canvas().pixels().as_ptr() as u32
     }
 
-    /// The part of the picture that tells most, in a figure of this width \[css px\]: x, y, width and height.
-    pub fn gist(&self, width_css: f64) -> Vec<f64> {
-        let Rect { x, y, w, h } = self.figure.gist(width_css);
-        vec![x, y, w, h]
+    /// Whether there is simulation still to do before what was asked for is shown.
+    pub fn pending(&self) -> bool {
+        self.figure.pending()
     }
 
-    /// Gives a parameter a new value by a reader's hand: what was set before is compared with it.
-    pub fn set_by_hand(&mut self, name: &str, value: &str) -> Result<(), Error> {
-        self.figure.set_by_hand(name, value).map_err(thrown)
-    }
-
-    /// Whether the setting before is compared with that of now.
-    pub fn compare(&mut self, on: bool) {
-        self.figure.compare(on);
-    }
-
-    /// What is different from the setting before, at the same step; empty where nothing is.
-    pub fn difference(&self) -> String {
-        self.figure.difference()
-    }
-
-    /// What stands below the picture: the difference in numbers, or what is shown.
-    pub fn told(&self) -> String {
-        self.figure.told()
-    }
-
-    /// A parameter whose control shows another value than was set: `name=value`, or nothing.
-    pub fn instead(&self) -> String {
-        self.figure.model().instead().map_or(String::new(), |(name, value)| [name, "=", &value].concat())
-    }
-
-    /// The name of the readout that matters first.
-    pub fn main_readout(&self) -> String {
-        self.figure.model().compared().first().map_or(String::new(), |name| (*name).into())
-    }
-
-    /// A click at a point of a figure of this width \[css px\]. True if it changed something.
-    pub fn pick(&mut self, x_css: f64, y_css: f64, width_css: f64) -> bool {
-        self.figure.pick(x_css, y_css, width_css)
-    }
-
-    /// What can be moved in the picture painted last: an array of `PlacedHandle`, in a figure of this width \[css px\].
-    pub fn handles(&self, width_css: f64) -> Array {
-        self.handles.borrow_mut().tell(self.figure.handles(width_css))
-    }
-
-    /// Where controls stand in the picture painted last: an array of `Room`, in a figure of this width \[css px\].
-    pub fn rooms(&self, width_css: f64) -> Array {
-        self.rooms.borrow_mut().tell(self.figure.rooms(width_css))
-    }
-
-    /// Moves a handle to a point of a figure of this width \[css px\].
-    pub fn drag(&mut self, handle: &str, x_css: f64, y_css: f64, width_css: f64) {
-        self.figure.drag(handle, x_css, y_css, width_css);
-    }
-
-    /// Moves a handle right and up, in steps of its parameters.
-    pub fn nudge(&mut self, handle: &str, right: f64, up: f64) {
-        self.figure.nudge(handle, right, up);
-    }
-
-    /// Puts a tool into the reader's hand; an empty name puts it away.
-    pub fn take(&mut self, tool: &str) {
-        self.figure.take(tool);
-    }
-
-    /// Uses the tool by a key; throws a `FigureError` where there is no more room for what it does.
-    pub fn press(&mut self, key: &str, right: f64, up: f64) -> Result<(), Error> {
-        self.figure.press(key, right, up).map_err(thrown)
-    }
-
-    /// Uses the tool along a line in a figure of this width \[css px\], x and y of each point; throws as `press` does.
-    pub fn stroke(&mut self, line: &[f64], width_css: f64) -> Result<(), Error> {
-        self.figure.stroke(line, width_css).map_err(thrown)
+    /// Does a step of it.
+    pub fn work(&mut self) {
+        self.figure.work();
     }
 
     /// Takes a reader's file; throws a `FigureError` if it cannot be read.
@@ -427,58 +213,14 @@ impl Figure {
         self.figure.open(file).map_err(thrown)
     }
 
-    /// Throws a `FigureError` if what was set cannot be computed.
-    pub fn ready(&self) -> Result<(), Error> {
-        self.figure.ready().map_err(thrown)
-    }
-
     /// A file of this name made of the state shown, if there is such a one.
     pub fn file(&self, name: &str) -> Option<Vec<u8>> {
         self.figure.file(name)
     }
 
-    /// Magnifies the picture about a point of a figure of this width \[css px\], or about its middle where that is NaN.
-    pub fn zoom(&mut self, factor: f64, x_css: f64, y_css: f64, width_css: f64) {
-        self.figure.zoom(factor, x_css, y_css, width_css);
-    }
-
-    /// Moves the picture right and down in a figure of this width \[css px\].
-    pub fn pan(&mut self, right_css: f64, down_css: f64, width_css: f64) {
-        self.figure.pan(right_css, down_css, width_css);
-    }
-
-    /// Shows the whole again.
-    pub fn fit(&mut self) {
-        self.figure.fit();
-    }
-
-    /// The link that makes this figure again.
-    pub fn query(&self) -> String {
-        self.figure.query()
-    }
-
-    /// Makes the figure what a link says; returns a line for everything that was refused.
-    pub fn load(&mut self, query: &str) -> Vec<String> {
-        self.figure.load(query).into_iter().map(|error| error.message).collect()
-    }
-
-    /// What a pasted code, as a query, means without saying so: names and values in turn; throws a `FigureError` for a bad version.
-    pub fn meant(&self, code: &str) -> Result<Vec<String>, Error> {
-        let pairs = self.figure.meant(code).map_err(thrown)?;
-        Ok(pairs.into_iter().flat_map(|(name, value)| [name, value]).collect())
-    }
-
-    /// Measured data of every step so far, as CSV. JavaScript writes the numbers: with the fewest digits that read back as the
-    /// same bits.
-    pub fn csv(&self) -> String {
-        let export = self.figure.export();
-        let rows: Array = plain(&export.rows()); // an array in an array is joined by commas, and null to nothing
-        format!("{}\n{}\n", export.header().join(","), rows.join("\n"))
-    }
-
-    /// The same as JSON.
-    pub fn json(&self) -> String {
-        JSON::stringify(&plain(&self.figure.export())).map_or_else(|_| String::new(), String::from)
+    /// Measured data of every step so far: an `Export`.
+    pub fn export(&self) -> Object {
+        plain(&self.figure.export())
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a figure looks like and how it is touched: the other half of it, which knows its [`Model`], as the model does not know of it.
 
 use crate::{
+    action::Own,
     model::{Declared, FigureError, Model},
     panels::Panels,
     scene::{Point, Rect, Scene},
@@ -50,29 +51,19 @@ pub trait View: Default + 'static {
     /// Moves a handle right and up by steps of its parameters: 1 for an arrow key, 10 for a coarse one, 0.1 for a fine one.
     fn nudge(&self, _model: &mut Self::Model, _handle: &str, _steps: [f64; 2]) {}
 
-    /// Puts a tool into the reader's hand, one of those that the figure's own controls on the page have; an empty name puts it away.
-    /// What is in the hand is no part of the recipe.
-    fn take(&self, _model: &mut Self::Model, _tool: &str) {}
-
-    /// Uses the tool by a key, or a button that stands for it: right and up.
+    /// Does what only this kind of figure can do, in a scene of a width with these panels. Lengths in it are css px of the page, each of
+    /// which is `scale` of the scene's.
     ///
     /// # Errors
-    /// Where there is no more room for what it does; nothing has changed.
-    fn press(&self, _model: &mut Self::Model, _key: &str, _steps: [f64; 2]) -> Result<(), FigureError> {
+    /// Where there is no room for all of it; what there was room for is done.
+    fn own(
+        &mut self,
+        _model: &mut Self::Model,
+        _own: &Own,
+        (_width, _scale): (f64, f64),
+        _panels: &Panels,
+    ) -> Result<(), FigureError> {
         Ok(())
-    }
-
-    /// Uses the tool along a line that was drawn in the layout, or at its only point.
-    ///
-    /// # Errors
-    /// Where there is no more room for what it does; what there was room for is done.
-    fn stroke(&self, _model: &mut Self::Model, _layout: &Self::Layout, _line: &[Point]) -> Result<(), FigureError> {
-        Ok(())
-    }
-
-    /// How its picture is magnified and moved, if it can be.
-    fn navigation(&mut self) -> Option<&mut dyn Navigation<Self>> {
-        None
     }
 
     /// Width of the scene of a figure of this width.
@@ -113,18 +104,6 @@ pub fn whole_step(steps: f64) -> f64 {
     if steps == 0.0 { 0.0 } else { steps.signum() * steps.abs().max(1.0) }
 }
 
-/// Looking nearer and elsewhere. What is looked at is no part of the recipe.
-pub trait Navigation<V: View> {
-    /// Magnifies the picture about a point of the layout, or about its middle.
-    fn zoom(&mut self, model: &V::Model, layout: &V::Layout, factor: f64, at: Option<Point>);
-
-    /// Moves the picture right and down.
-    fn pan(&mut self, model: &V::Model, layout: &V::Layout, by: Point);
-
-    /// Shows the whole again.
-    fn fit(&mut self);
-}
-
 /// A model and its view, whichever they are: what [`crate::figure::Figure`] holds.
 pub(crate) trait Shown {
     fn model(&self) -> &dyn Model;
@@ -138,12 +117,7 @@ pub(crate) trait Shown {
     fn pick(&mut self, target: u32);
     fn drag(&mut self, handle: &str, to: Point, width: f64);
     fn nudge(&mut self, handle: &str, steps: [f64; 2]);
-    fn take(&mut self, tool: &str);
-    fn press(&mut self, key: &str, steps: [f64; 2]) -> Result<(), FigureError>;
-    fn stroke(&mut self, line: &[Point], width: f64) -> Result<(), FigureError>;
-    fn zoom(&mut self, factor: f64, at: Option<Point>, width: f64);
-    fn pan(&mut self, by: Point, width: f64);
-    fn fit(&mut self);
+    fn own(&mut self, own: &Own, width: f64, scale: f64) -> Result<(), FigureError>;
 }
 
 /// A view with the model that it shows, and the panels that are shown of it.
@@ -214,36 +188,7 @@ impl<V: View> Shown for Shows<V> {
         self.view.nudge(&mut self.model, handle, steps);
     }
 
-    fn take(&mut self, tool: &str) {
-        self.view.take(&mut self.model, tool);
-    }
-
-    fn press(&mut self, key: &str, steps: [f64; 2]) -> Result<(), FigureError> {
-        self.view.press(&mut self.model, key, steps)
-    }
-
-    fn stroke(&mut self, line: &[Point], width: f64) -> Result<(), FigureError> {
-        let layout = V::layout(width, &self.parts());
-        self.view.stroke(&mut self.model, &layout, line)
-    }
-
-    fn zoom(&mut self, factor: f64, at: Option<Point>, width: f64) {
-        let layout = V::layout(width, &self.parts());
-        if let Some(navigation) = self.view.navigation() {
-            navigation.zoom(&self.model, &layout, factor, at);
-        }
-    }
-
-    fn pan(&mut self, by: Point, width: f64) {
-        let layout = V::layout(width, &self.parts());
-        if let Some(navigation) = self.view.navigation() {
-            navigation.pan(&self.model, &layout, by);
-        }
-    }
-
-    fn fit(&mut self) {
-        if let Some(navigation) = self.view.navigation() {
-            navigation.fit();
-        }
+    fn own(&mut self, own: &Own, width: f64, scale: f64) -> Result<(), FigureError> {
+        self.view.own(&mut self.model, own, (width, scale), &self.panels)
     }
 }

@@ -67,7 +67,7 @@ class Vignette extends HTMLElement implements Listener, Printed {
       if (!this.isConnected) return host.free()
       this.#host = host
       const query = new URLSearchParams({ which: this.getAttribute('which') ?? '', at: this.getAttribute('at') ?? '0' })
-      this.#send({ do: 'begin', query: query.toString(), settings: [], authored: {}, linked: false, changed: false })
+      this.#send({ do: 'begin', value: query.toString(), name: '', on: false })
       this.#speak()
       this.#refresh()
     } catch {
@@ -77,13 +77,13 @@ class Vignette extends HTMLElement implements Listener, Printed {
 
   #speak(): void {
     const { language, forProgram } = this.#words
-    this.#send({ do: 'words', language, messages: forProgram })
+    this.#send({ do: 'words', name: language, value: forProgram })
     this.#send({ do: 'comma', on: hasComma(null, this.#words) })
   }
 
   /** Lights a symbol wherever the picture writes it; an empty one puts it out. */
   light(symbol: string): void {
-    this.#send({ do: 'light', symbol })
+    this.#send({ do: 'light', name: symbol })
   }
 
   #send(command: Command): void {
@@ -100,7 +100,7 @@ class Vignette extends HTMLElement implements Listener, Printed {
   }
 
   #refresh(): void {
-    this.#send({ do: 'size', size: this.#canvas.size })
+    this.#send(this.#canvas.size)
   }
 
   #frame(now?: number): void {

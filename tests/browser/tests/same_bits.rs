@@ -7,7 +7,7 @@ use fastslam::execute::Executor;
 use fastslam_lab::{digest::Digest, experiment::golden_traces};
 use fastslam_widgets::shell::{Figure, job};
 use figures::{JOBS, LOG, PICTURES, Picture, SETUPS, TINY_LOG, line, put_readout, rows};
-use js_sys::{Array, Reflect, Uint8Array, WebAssembly};
+use js_sys::{Array, JSON, Reflect, Uint8Array, WebAssembly};
 use portability::{Extent, assert_fresh, remake};
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
@@ -39,20 +39,35 @@ fn text(object: &JsValue, name: &str) -> String {
 /// A figure in the state of a link, through the calls that the page makes.
 fn figure(tag: &str, query: &str) -> Figure {
     let mut figure = Figure::new(tag).unwrap_or_else(|_| panic!("no figure {tag}"));
-    // A link of before is told what has changed since.
-    assert!(figure.load(query).iter().all(|said| said.contains("an earlier version")), "{query}");
+    // A link of before is told what has changed since, in a line for each change.
+    let said = act(&mut figure, &format!(r#"{{"do":"begin","value":"{query}"}}"#)).get(0);
+    assert!(text(&said, "message").lines().all(|said| said.contains("an earlier version")), "{query}");
     if tag == LOG {
         assert!(figure.open(TINY_LOG).is_ok());
-        figure.seek(u32::MAX);
+        seek(&mut figure, u32::MAX);
     }
     settle(&mut figure);
     figure
 }
 
 fn settle(figure: &mut Figure) {
-    while figure.pending() > 0 {
+    while figure.pending() {
         figure.work();
     }
+}
+
+fn act(figure: &mut Figure, action: &str) -> Array {
+    figure.act(JSON::parse(action).expect("JSON")).expect("an action")
+}
+
+fn seek(figure: &mut Figure, step: u32) {
+    act(figure, &format!(r#"{{"do":"seek","at":[{step}]}}"#));
+}
+
+/// A frame, for a canvas of this width \[css px\] and these pixels.
+fn frame(figure: &mut Figure, width: f64, theme: &str, [w, h]: [u32; 2]) -> JsValue {
+    act(figure, &format!(r#"{{"do":"size","name":"{theme}","at":[{width},1e9,1,{width},{w},{h}]}}"#));
+    figure.frame(false).into()
 }
 
 /// The pixels as the page gets them: a view of the module's memory.
@@ -82,10 +97,16 @@ fn every_readout_of_every_step_has_the_bits_of_the_native_build() {
     let readouts = SETUPS.iter().map(|(tag, query)| {
         let mut figure = figure(tag, query);
         let mut digest = Digest::new();
-        for step in 0..=figure.step_count() {
-            figure.seek(step);
+        let mut readouts = Array::new();
+        for step in 0..=get(&figure.state(), "last").as_f64().expect("a step") as u32 {
+            seek(&mut figure, step);
             settle(&mut figure);
-            for readout in figure.readouts() {
+            let frame: JsValue = figure.frame(false).into();
+            // Those that are not told are as they were.
+            if let Ok(changed) = get(&get(&frame, "news"), "readouts").dyn_into() {
+                readouts = changed;
+            }
+            for readout in &readouts {
                 put_readout(
                     &mut digest,
                     &text(&readout, "name"),
@@ -93,7 +114,7 @@ fn every_readout_of_every_step_has_the_bits_of_the_native_build() {
                     &text(&readout, "text"),
                 );
             }
-            digest.write(figure.describe().as_bytes());
+            digest.write(text(&frame, "sentence").as_bytes());
         }
         line(&format!("{tag}?{query}"), &digest)
     });
@@ -106,8 +127,10 @@ fn every_golden_picture_has_the_pixels_of_the_native_build() {
     for state in PICTURES.chunk_by(Picture::is_of_the_state_of) {
         let mut figure = figure(state[0].tag, state[0].query);
         for picture in state {
-            let size = picture.size(figure.height(f64::from(picture.width)));
-            figure.paint(size[0], size[1], picture.dpr, picture.theme);
+            let width = f64::from(picture.width);
+            let unpainted = frame(&mut figure, width, picture.theme, [0, 0]);
+            let size = picture.size(get(&get(&unpainted, "layout"), "height").as_f64().expect("a height"));
+            frame(&mut figure, width, picture.theme, size);
             let mut digest = Digest::new();
             digest.write(&pixels(&figure, size));
             lines.push(picture.line(&digest));

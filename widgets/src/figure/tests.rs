@@ -113,13 +113,13 @@ fn a_readout_that_is_no_number_is_a_dash() {
 }
 
 #[test]
-fn a_figure_without_files_takes_none_and_one_without_navigation_stays_where_it_is() {
+fn a_figure_without_files_takes_none_and_what_only_others_can_do_leaves_it_as_it_is() {
     let (mut figure, told) = point();
     assert_eq!(figure.open(b"x").unwrap_err().parameter, "file");
     assert_eq!((figure.ready(), figure.file("map.pgm")), (Ok(()), None));
     let before = figure.scene(400.0, 200.0);
-    figure.zoom(2.0, 9.0, 9.0, 400.0);
-    figure.pan(9.0, 9.0, 400.0);
-    figure.fit();
+    for own in [crate::lap::Verb::Take("wheel").into(), crate::log::Verb::Fit.into()] {
+        assert_eq!(figure.own(&own, 400.0), Ok(()));
+    }
     assert_eq!((figure.scene(400.0, 200.0), told.borrow().len()), (before, 0));
 }

@@ -12,10 +12,12 @@ mod mosaic;
 mod overlay;
 mod recipe;
 mod told;
+mod verb;
 mod view;
 
 pub use layout::Layout;
 pub use many::LAPS;
 pub(crate) use map::ASPECT;
 pub use model::LapModel;
+pub use verb::Verb;
 pub use view::LapView;

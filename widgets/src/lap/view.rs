@@ -7,9 +7,11 @@ use super::{
     model::LapModel,
     mosaic::{mosaic, notes},
     overlay,
+    verb::Verb,
 };
 use crate::decimal::fixed;
 use crate::{
+    action::Own,
     model::{FigureError, Model},
     panels::Panels,
     scene::{
@@ -71,18 +73,28 @@ impl View for LapView {
         model.pick(target);
     }
 
-    fn take(&self, model: &mut LapModel, tool: &str) {
-        model.take(tool);
-    }
-
-    fn press(&self, model: &mut LapModel, key: &str, steps: [f64; 2]) -> Result<(), FigureError> {
-        model.press(key, steps)
-    }
-
-    fn stroke(&self, model: &mut LapModel, layout: &Layout, line: &[Point]) -> Result<(), FigureError> {
-        let plane = map::plane(layout.large, model.setup().course);
-        let line: Vec<[f64; 2]> = line.iter().map(|point| plane.world(*point)).collect();
-        model.stroke(&line)
+    fn own(
+        &mut self,
+        model: &mut LapModel,
+        own: &Own,
+        (width, scale): (f64, f64),
+        panels: &Panels,
+    ) -> Result<(), FigureError> {
+        match Verb::of(own) {
+            Some(Verb::Take(tool)) => model.take(tool),
+            Some(Verb::Press(key, steps)) if steps.iter().all(|steps| steps.is_finite()) => {
+                return model.press(key, steps);
+            }
+            Some(Verb::Stroke(line)) => {
+                let plane = map::plane(Self::layout(width, panels).large, model.setup().course);
+                let (points, _) = line.as_chunks();
+                let points = points.iter().map(|point: &Point| point.map(|c| c * scale));
+                let points = points.filter(|point| point.iter().all(|c| c.is_finite()));
+                return model.stroke(&points.map(|point| plane.world(point)).collect::<Vec<_>>());
+            }
+            _ => (),
+        }
+        Ok(())
     }
 }
 

@@ -10,8 +10,10 @@ mod opened;
 mod recipe;
 mod told;
 mod tree;
+mod verb;
 mod view;
 
 pub use layout::Layout;
 pub use model::LogModel;
+pub use verb::Verb;
 pub use view::LogView;

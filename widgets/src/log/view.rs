@@ -7,16 +7,18 @@ use super::{
     map::{Frame, MapView},
     model::{BACK, LogModel, Moment},
     tree::{FADE, Tree},
+    verb::Verb,
 };
 use crate::decimal::fixed;
 use crate::{
-    model::Model,
+    action::Own,
+    model::{FigureError, Model},
     panels::Panels,
     scene::{
         Cells, Chart, FREE, Letters, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, joined,
         legend, plain, strong, thinned,
     },
-    view::{Navigation, View},
+    view::View,
     words::{common, log as words},
 };
 use fastslam::{geometry::Pose2, resampling::ResamplePolicy};
@@ -65,8 +67,29 @@ impl View for LogView {
         names(scene, layout, model.compared().is_some());
     }
 
-    fn navigation(&mut self) -> Option<&mut dyn Navigation<Self>> {
-        Some(self)
+    fn own(
+        &mut self,
+        model: &mut LogModel,
+        own: &Own,
+        (width, scale): (f64, f64),
+        panels: &Panels,
+    ) -> Result<(), FigureError> {
+        let layout = Self::layout(width, panels);
+        let finite = |point: Point| Some(point.map(|c| c * scale)).filter(|at| at.iter().all(|c| c.is_finite()));
+        match Verb::of(own) {
+            Some(Verb::Zoom(factor, at)) if factor.is_finite() && factor > 0.0 => {
+                let at = at.and_then(finite);
+                self.look(model, &layout, |view| view.zoomed(factor, at.unwrap_or(view.0.area.centre())));
+            }
+            Some(Verb::Pan(by)) => {
+                if let Some(by) = finite(by) {
+                    self.look(model, &layout, |view| view.panned(by));
+                }
+            }
+            Some(Verb::Fit) => self.frame = None,
+            _ => (),
+        }
+        Ok(())
     }
 }
 
@@ -83,20 +106,6 @@ impl LogView {
             let view = self.map_view(model, area);
             self.frame = view.map(|view| (model.log_number(), move_to(view).frame()));
         }
-    }
-}
-
-impl Navigation<Self> for LogView {
-    fn zoom(&mut self, model: &LogModel, layout: &Layout, factor: f64, at: Option<Point>) {
-        self.look(model, layout, |view| view.zoomed(factor, at.unwrap_or(view.0.area.centre())));
-    }
-
-    fn pan(&mut self, model: &LogModel, layout: &Layout, by: Point) {
-        self.look(model, layout, |view| view.panned(by));
-    }
-
-    fn fit(&mut self) {
-        self.frame = None;
     }
 }
 

@@ -2,7 +2,7 @@
 //! link can harm.
 
 use crate::common::{figure, state};
-use fastslam_widgets::{figure::Figure, scene::Mark};
+use fastslam_widgets::{figure::Figure, lap::Verb, model::FigureError, scene::Mark};
 
 const WIDTH: f64 = 800.0;
 
@@ -20,13 +20,21 @@ fn at(figure: &mut Figure, [x, y]: [f64; 2]) -> [f64; 2] {
 
 fn stroke(figure: &mut Figure, places: &[[f64; 2]]) {
     let line: Vec<f64> = places.iter().flat_map(|place| at(figure, *place)).collect();
-    figure.stroke(&line, WIDTH).unwrap();
+    wheel(figure, Verb::Stroke(&line)).unwrap();
     figure.model_mut().settle();
 }
 
 fn press(figure: &mut Figure, key: &str, right: f64, up: f64) {
-    figure.press(key, right, up).unwrap();
+    wheel(figure, Verb::Press(key, [right, up])).unwrap();
     figure.model_mut().settle();
+}
+
+fn take(figure: &mut Figure, tool: &str) {
+    wheel(figure, Verb::Take(tool)).unwrap();
+}
+
+fn wheel(figure: &mut Figure, verb: Verb) -> Result<(), FigureError> {
+    figure.own(&verb.into(), WIDTH)
 }
 
 fn value(figure: &Figure, name: &str) -> String {
@@ -36,18 +44,18 @@ fn value(figure: &Figure, name: &str) -> String {
 #[test]
 fn keys_drive_on_from_the_step_shown_and_the_link_brings_it_back() {
     let mut figure = lap("&step=12");
-    figure.take("wheel");
+    take(&mut figure, "wheel");
     for (right, up) in [(0.0, 1.0), (0.0, 1.0), (-1.0, 0.0), (1.0, 0.0), (1.0, 0.0), (0.0, -1.0)] {
         press(&mut figure, "move", right, up);
     }
     assert_eq!((value(&figure, "drive").as_str(), figure.model().step()), ("1.12.M2nl2z", 18));
     assert_eq!(figure.model().step_count(), 18);
-    figure.take("");
+    take(&mut figure, "");
     let again = lap(&format!("&{}", figure.query()));
     assert_eq!(state(&figure), state(&again));
     // From an earlier step, what came after it is cut off.
     figure.model_mut().seek(14);
-    figure.take("wheel");
+    take(&mut figure, "wheel");
     press(&mut figure, "move", 0.0, -1.0);
     assert_eq!(value(&figure, "drive"), "1.12.M2z");
 }
@@ -55,18 +63,18 @@ fn keys_drive_on_from_the_step_shown_and_the_link_brings_it_back() {
 #[test]
 fn what_is_driven_on_is_what_a_link_to_it_shows() {
     let mut figure = lap("&step=30");
-    figure.take("wheel");
+    take(&mut figure, "wheel");
     for k in 0..12 {
         press(&mut figure, "move", f64::from(k % 3) - 1.0, f64::from(k % 3 % 2));
-        figure.take("");
+        take(&mut figure, "");
         let linked = lap(&format!("&{}", figure.query()));
         assert_eq!(state(&figure), state(&linked), "after {} motions", k + 1);
-        figure.take("wheel");
+        take(&mut figure, "wheel");
     }
     // And back to the course, as undoing does.
     figure.set("drive", "").unwrap();
     figure.set("step", "30").unwrap();
-    figure.take("");
+    take(&mut figure, "");
     figure.model_mut().settle();
     assert_eq!(state(&figure), state(&lap("&step=30")));
 }
@@ -74,7 +82,7 @@ fn what_is_driven_on_is_what_a_link_to_it_shows() {
 #[test]
 fn a_line_is_driven_along_until_a_wall() {
     let mut figure = lap("&step=10");
-    figure.take("wheel");
+    take(&mut figure, "wheel");
     // Along the corridor, into its southern wall.
     stroke(&mut figure, &[[4.5, 4.6], [4.5, 3.0]]);
     let driven = value(&figure, "drive");
@@ -83,14 +91,14 @@ fn a_line_is_driven_along_until_a_wall() {
     assert!((13..40).contains(&last), "{driven}");
     figure.model_mut().seek(last);
     figure.model_mut().settle();
-    figure.take("");
+    take(&mut figure, "");
     assert!(figure.describe().starts_with("A wall stopped the robot"), "{}", figure.describe());
 }
 
 #[test]
 fn walls_are_put_up_by_a_line_by_two_points_and_by_keys_and_taken_away() {
     let mut figure = lap("");
-    figure.take("wall");
+    take(&mut figure, "wall");
     stroke(&mut figure, &[[6.0, 3.9], [6.0, 5.4]]);
     assert_eq!(value(&figure, "plan"), "1..1o131o1i");
     stroke(&mut figure, &[[1.0, 1.0]]);
@@ -102,7 +110,7 @@ fn walls_are_put_up_by_a_line_by_two_points_and_by_keys_and_taken_away() {
     press(&mut figure, "move", 2.0, 0.0);
     press(&mut figure, "set", 0.0, 0.0);
     assert_eq!(value(&figure, "plan"), "1..1o131o1i0a0a0k0a0k0a0m0a");
-    figure.take("erase");
+    take(&mut figure, "erase");
     stroke(&mut figure, &[[6.05, 4.6]]);
     assert_eq!(value(&figure, "plan"), "1..0a0a0k0a0k0a0m0a");
     stroke(&mut figure, &[[4.2, 2.0]]);
@@ -118,12 +126,12 @@ fn walls_are_put_up_by_a_line_by_two_points_and_by_keys_and_taken_away() {
 #[test]
 fn a_kidnapped_robot_is_lost_and_the_sentence_says_why() {
     let mut figure = lap("&step=25");
-    figure.take("lift");
+    take(&mut figure, "lift");
     stroke(&mut figure, &[[9.6, 7.6]]);
     assert!(value(&figure, "drive").starts_with("1.25.~96_76_"), "{}", value(&figure, "drive"));
     let said = figure.describe();
     assert!(said.contains("Kidnapped at step 26") && said.contains("resampling can only choose"), "{said}");
-    figure.take("");
+    take(&mut figure, "");
     assert!(figure.describe().starts_with("Kidnapped at step 26"), "{}", figure.describe());
     figure.model_mut().seek(25);
     figure.model_mut().settle();
@@ -135,9 +143,9 @@ fn the_truth_is_seen_at_the_wheel_alone() {
     let marks = |figure: &Figure| figure.scene(WIDTH, figure.height(WIDTH)).marks;
     let mut figure = lap("&step=3");
     let before = marks(&figure);
-    figure.take("wall");
+    take(&mut figure, "wall");
     assert!(marks(&figure).len() > before.len());
-    figure.take("");
+    take(&mut figure, "");
     assert!(marks(&figure) == before);
     assert!(before.iter().all(|mark| !matches!(mark, Mark::Lines { role: fastslam_widgets::scene::Role::Truth, .. })));
 }
@@ -186,25 +194,25 @@ fn another_course_begins_without_walls_and_drive() {
 #[test]
 fn the_longest_plan_fits_into_a_link() {
     let mut figure = lap("&step=0");
-    figure.take("lift");
+    take(&mut figure, "lift");
     for _ in 0..8 {
         press(&mut figure, "set", 0.0, 0.0);
     }
-    assert!(figure.press("set", 0.0, 0.0).unwrap_err().message.contains("8 kidnappings"));
+    assert!(wheel(&mut figure, Verb::Press("set", [0.0, 0.0])).unwrap_err().message.contains("8 kidnappings"));
     let query = figure.query();
-    figure.take("wheel");
+    take(&mut figure, "wheel");
     for k in 0..392 {
-        figure.press("move", if k % 2 == 0 { 1.0 } else { -1.0 }, 0.0).unwrap();
+        wheel(&mut figure, Verb::Press("move", [if k % 2 == 0 { 1.0 } else { -1.0 }, 0.0])).unwrap();
     }
-    assert!(figure.press("move", 1.0, 0.0).unwrap_err().message.contains("400 steps"));
+    assert!(wheel(&mut figure, Verb::Press("move", [1.0, 0.0])).unwrap_err().message.contains("400 steps"));
     assert!(figure.query().len() > query.len() + 390);
-    figure.take("wall");
+    take(&mut figure, "wall");
     for k in 0..60 {
         let y = 0.1 + 0.1 * f64::from(k);
         stroke_unsettled(&mut figure, &[[1.0, y], [11.0, y]]);
     }
     let full = [at(&mut figure, [1.0, 8.0]), at(&mut figure, [2.0, 8.0])].concat();
-    assert!(figure.stroke(&full, WIDTH).unwrap_err().message.contains("60 new walls"));
+    assert!(wheel(&mut figure, Verb::Stroke(&full)).unwrap_err().message.contains("60 new walls"));
     // Whatever else is set, with the figure's other parameters and a page's address of 200 letters.
     let others = "v=13&course=apartment&universes=256&seed=4294967295&odometry=1.95&range-std=0.29&proposal=motion&matcher=cell\
         &policy=always&threshold=0.95&scheme=multinomial&temper=0.05&guard=off&universe=255&step=400&truth=on&raw=on";
@@ -215,5 +223,5 @@ fn the_longest_plan_fits_into_a_link() {
 /// Where nobody looks, nothing has to be simulated.
 fn stroke_unsettled(figure: &mut Figure, places: &[[f64; 2]]) {
     let line: Vec<f64> = places.iter().flat_map(|place| at(figure, *place)).collect();
-    figure.stroke(&line, WIDTH).unwrap();
+    wheel(figure, Verb::Stroke(&line)).unwrap();
 }

@@ -4,7 +4,7 @@ use crate::common::{assert_texts_fit, figure, scene, state};
 use fastslam_widgets::{
     fastslam::ops,
     figure::Figure,
-    log::Layout,
+    log::{Layout, Verb},
     scene::{Mark, Rect, Role, Scene, Shading},
 };
 
@@ -24,6 +24,10 @@ fn mapped(query: &str, step: u32) -> Figure {
     figure.model_mut().seek(step);
     figure.model_mut().settle();
     figure
+}
+
+fn look(figure: &mut Figure, look: Verb, width: f64) {
+    figure.own(&look.into(), width).unwrap();
 }
 
 fn value(figure: &Figure, name: &str) -> Option<f64> {
@@ -96,12 +100,12 @@ fn pauses_and_looks_on_the_way_change_no_bit() {
     for step in [1, 2, 30, 31, 90] {
         halting.model_mut().seek(step);
         halting.model_mut().settle();
-        halting.zoom(1.5, 100.0, 90.0, 800.0);
-        halting.pan(-20.0, 5.0, 800.0);
+        look(&mut halting, Verb::Zoom(1.5, Some([100.0, 90.0])), 800.0);
+        look(&mut halting, Verb::Pan([-20.0, 5.0]), 800.0);
         let _ = state(&halting);
     }
     assert_ne!(state(&straight).2, state(&halting).2, "it is looked at elsewhere");
-    halting.fit();
+    look(&mut halting, Verb::Fit, 800.0);
     assert_eq!(state(&straight), state(&halting));
     // Going back on the way does not either.
     let mut looking = mapped(QUICK, 50);
@@ -309,7 +313,7 @@ fn the_map_stays_in_its_frame_however_it_is_magnified() {
         figure.paint(width as u32, figure.height(width) as u32, 1.0, Default::default());
         let whole = cells(&scene(&figure, width));
         for _ in 0..3 {
-            figure.zoom(2.0, f64::NAN, f64::NAN, width);
+            look(&mut figure, Verb::Zoom(2.0, None), width);
         }
         let near = cells(&scene(&figure, width));
         assert!(near.1 < whole.1 / 8, "{} of {} cells", near.1, whole.1);
@@ -325,12 +329,12 @@ fn the_map_stays_in_its_frame_however_it_is_magnified() {
         let figure_area = width * figure.height(width);
         assert!((paper.sum::<f64>() - (figure_area - map.w * map.h)).abs() < 2.0 * width);
         // Far away nothing is left, and nothing breaks.
-        figure.pan(1e7, -1e9, width);
-        figure.zoom(1e-9, 0.0, 0.0, width);
-        figure.zoom(f64::INFINITY, 0.0, 0.0, width);
-        figure.pan(f64::NAN, 0.0, width);
+        look(&mut figure, Verb::Pan([1e7, -1e9]), width);
+        look(&mut figure, Verb::Zoom(1e-9, Some([0.0, 0.0])), width);
+        look(&mut figure, Verb::Zoom(f64::INFINITY, Some([0.0, 0.0])), width);
+        look(&mut figure, Verb::Pan([f64::NAN, 0.0]), width);
         assert_texts_fit(&scene(&figure, width), "far away");
-        figure.fit();
+        look(&mut figure, Verb::Fit, 800.0);
         assert_eq!(cells(&scene(&figure, width)), whole);
     }
 }

@@ -1,5 +1,6 @@
 //! The laws of all figures, in one program: it is linked once, and its tests keep both cores busy to the end.
 
+mod asked;
 mod challenges;
 mod claims;
 mod common;

@@ -1,0 +1,161 @@
+//! The shapes that TypeScript has of what crosses the boundary, held to ours.
+
+use super::*;
+use crate::{figure::Figure, paint::Theme};
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
+
+#[test]
+fn an_action_is_read_as_the_page_writes_it() {
+    let read = |sent: Value| serde_json::from_value::<Action>(sent).map_err(|error| error.to_string());
+    let beginning =
+        |linked| Beginning { query: Some("v=9".into()), settings: "seed=4&step".into(), linked, changed: true };
+    for (name, linked) in [("begin", false), ("link", true)] {
+        let begin = json!({ "do": name, "value": "v=9", "name": "seed=4&step", "on": true });
+        assert_eq!(read(begin), Ok(Action::Begin(beginning(linked))));
+    }
+    let set = |value: Option<&str>, hand| Action::Set { name: "seed".into(), value: value.map(Into::into), hand };
+    assert_eq!(read(json!({ "do": "set", "name": "seed", "value": "4", "on": true })), Ok(set(Some("4"), true)));
+    assert_eq!(read(json!({ "do": "set", "name": "seed", "value": null })), Ok(set(None, false)));
+    let size =
+        Size { room: 800.0, height: 600.0, font_scale: 1.5, css: 700.0, px: [1400, 900], theme: Theme::ContrastDark };
+    let sent = json!({ "do": "size", "name": "contrast-dark", "at": [800, 600, 1.5, 700, 1400, 900] });
+    assert_eq!(read(sent), Ok(Action::Size(size)));
+    let drag = Action::Touch(Touch::Drag("r2".into(), [1.5, 2.0]));
+    assert_eq!(read(json!({ "do": "drag", "name": "r2", "at": [1.5, 2] })), Ok(drag));
+    let own = Own { name: "press".into(), with: "move".into(), at: vec![0.0, 1.0] };
+    let sent = json!({ "do": "own", "name": "press", "value": "move", "at": [0, 1] });
+    assert_eq!(read(sent), Ok(Action::Touch(Touch::Own(own))));
+    assert_eq!(read(json!({ "do": "sett" })), Err("no such action".into()));
+}
+
+#[test]
+fn a_figure_s_own_verbs_come_over_as_they_are() {
+    use crate::{lap, log};
+    let verbs =
+        [lap::Verb::Take("wall"), lap::Verb::Press("move", [1.0, 0.0]), lap::Verb::Stroke(&[1.0, 2.0, 3.0, 4.0])];
+    let looks = [
+        log::Verb::Zoom(2.0, None),
+        log::Verb::Zoom(2.0, Some([3.0, 4.0])),
+        log::Verb::Pan([1.0, 2.0]),
+        log::Verb::Fit,
+    ];
+    for verb in verbs {
+        let own = Own::from(verb);
+        assert_eq!((lap::Verb::of(&own), log::Verb::of(&own)), (Some(verb), None));
+    }
+    for look in looks {
+        let own = Own::from(look);
+        assert_eq!((lap::Verb::of(&own), log::Verb::of(&own)), (None, Some(look)));
+    }
+    let short = Own { name: "press".into(), at: vec![1.0], ..Own::default() };
+    assert_eq!(lap::Verb::of(&short), None);
+}
+
+/// What stands between two texts of a source, as often as they do.
+fn between<'a>(source: &'a str, before: &str, after: char) -> BTreeSet<&'a str> {
+    source.split(before).skip(1).filter_map(|rest| rest.split_once(after)).map(|(found, _)| found).collect()
+}
+
+/// The texts that a `match` of ours knows.
+fn arms<'a>(source: &'a str, before: &str) -> BTreeSet<&'a str> {
+    let lines = source.lines().map(str::trim).filter(|line| line.starts_with(before));
+    let sides = lines.filter_map(|line| line.split_once(" => ")).map(|(side, _)| side);
+    sides.flat_map(|side| side.split('"').skip(1).step_by(2)).collect()
+}
+
+/// Names of the fields that a type of TypeScript has at its top, or of one of its lines.
+fn fields(source: &str) -> BTreeSet<String> {
+    let (mut depth, mut names, mut word) = (0, BTreeSet::new(), String::new());
+    for line in source.lines().filter(|line| !line.trim_start().starts_with(['/', '*'])) {
+        for c in line.chars() {
+            match c {
+                '{' | '(' | '[' => depth += 1,
+                '}' | ')' | ']' => depth -= 1,
+                ':' if depth == 0 && !word.is_empty() => {
+                    names.insert(word.trim_end_matches('?').trim_start_matches("readonly ").into());
+                }
+                _ => (),
+            }
+            if c.is_alphanumeric() || c == '?' { word.push(c) } else { word.clear() }
+        }
+    }
+    names
+}
+
+/// What stands between the first of these braces and the one that closes it.
+fn body<'a>(source: &'a str, head: &str) -> &'a str {
+    let rest = source.split_once(head).unwrap_or_else(|| panic!("no {head}")).1;
+    let from = rest.find('{').unwrap() + 1;
+    let mut depth = 1;
+    let end = rest[from..].find(|c| {
+        depth += i32::from(c == '{') - i32::from(c == '}');
+        depth == 0
+    });
+    &rest[from..from + end.unwrap()]
+}
+
+fn keys(value: &Value) -> BTreeSet<String> {
+    value.as_object().unwrap_or_else(|| panic!("{value}")).keys().cloned().collect()
+}
+
+const ACTIONS: &str = include_str!("../../elements/action.ts");
+const SHAPES: &str = include_str!("../../elements/shell.ts");
+
+#[test]
+fn typescript_has_the_same_actions_with_the_same_fields() {
+    let (_, actions) = ACTIONS.split_once("export type Action =").unwrap();
+    let mut told = between(actions, "{ do: '", '\'');
+    told.insert("link"); // beside `begin`
+    assert_eq!(told, arms(include_str!("../action.rs"), "\""));
+    let (_, own) = ACTIONS.split_once("export type Own =").unwrap();
+    let verbs = [include_str!("../lap/verb.rs"), include_str!("../log/verb.rs")].map(|source| arms(source, "(\""));
+    assert_eq!(between(own, "{ name: '", '\''), &verbs[0] | &verbs[1]);
+    let mut told = fields(body(ACTIONS, "interface Message "));
+    told.insert("do".into());
+    assert_eq!(told, keys(&json!(Message::default())));
+}
+
+#[test]
+fn typescript_has_the_fields_of_what_is_told() {
+    // In a state in which there is one of each: a trace, something to watch, and a place in the page.
+    let mut figure = Figure::new("fastslam-doors").unwrap();
+    let (height, theme) = (f64::INFINITY, Theme::Light);
+    figure.act(&Action::Size(Size { room: 800.0, height, font_scale: 1.0, css: 800.0, px: [80, 45], theme }));
+    figure.act(&Action::Trace);
+    figure.model_mut().settle();
+    let state = json!(figure.state());
+    let mut told = keys(&state);
+    told.insert("unfit".into());
+    assert_eq!(fields(body(SHAPES, "export interface ProgramState ")), told);
+    let frame = json!(figure.frame(false));
+    assert_eq!(fields(body(SHAPES, "export interface ProgramFrame ")), keys(&frame));
+    let mut layout = keys(&frame["layout"]);
+    layout.insert("width".into());
+    assert_eq!(fields(body(SHAPES, "export interface Layout ")), layout);
+    let mut news = keys(&frame["news"]);
+    news.extend(["handles".into(), "rooms".into()]);
+    assert_eq!(fields(body(SHAPES, "export interface Told ")), news);
+    for (title, first) in [("ParamSpec", "specs"), ("Chip", "chips")] {
+        assert_eq!(
+            fields(body(SHAPES, &format!("export interface {title} "))),
+            keys(&frame["news"][first][0]),
+            "{title}"
+        );
+    }
+    let again = json!(figure.frame(false));
+    assert_eq!(again["news"], json!({}), "nothing has changed");
+    assert_eq!(again.get("trace"), None, "it is told once");
+}
+
+/// A figure speaks its language because there is one way to its model, which speaks it: no file of the boundary goes another one.
+#[test]
+fn the_page_has_no_way_to_a_model_that_does_not_speak() {
+    let files = [include_str!("../shell.rs"), include_str!("../figure/asked.rs"), include_str!("../figure/fit.rs")];
+    for way in [".model()", ".model_mut()", ".mute"] {
+        assert!(files.iter().all(|file| !file.contains(way)), "{way}");
+    }
+    let figure = include_str!("../figure.rs");
+    assert_eq!(figure.matches("mute").count(), 2, "the doors of tests and tools");
+    assert!(!figure.contains("self.model()") && !figure.contains("spoken()"));
+}
