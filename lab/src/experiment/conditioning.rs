@@ -197,20 +197,6 @@ impl Conditioning {
     }
 }
 
-/// Names and setups whose traces are kept.
-pub fn golden_setups() -> Vec<(&'static str, ConditioningSetup)> {
-    let default = ConditioningSetup::default();
-    vec![
-        ("conditioning", default.clone()),
-        (
-            "conditioning-large",
-            ConditioningSetup { landmarks: 24, poses: 12, odometry_scale: 2.0, range_std: 0.02, ..default },
-        ),
-        ("conditioning-pairs", ConditioningSetup { pairs: true, ..default }),
-        ("conditioning-sure", ConditioningSetup { odometry_scale: 0.0, ..default }),
-    ]
-}
-
 /// The places of so many landmarks \[m\]: each the farthest there is from all before it, so that more landmarks leave the others
 /// where they were. Numbered in the order in which the way comes by.
 fn places(count: usize) -> Vec<[f64; 2]> {

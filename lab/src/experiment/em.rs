@@ -388,7 +388,7 @@ pub fn outcome(setup: &LogSetup) -> Result<Outcome, SettingError> {
 }
 
 /// Fingerprint of a whole run: every number that the figure is drawn from.
-pub(super) fn golden() -> Result<Digest, SettingError> {
+pub(super) fn trace() -> Result<Digest, SettingError> {
     let (mut digest, log) = (Digest::new(), Log::new(&LogSetup::default())?);
     for Iterate { map, log_likelihood, log_posterior } in climb(&log, Guess::default().first_map()?, 20)? {
         map.iter().chain([&log_likelihood, &log_posterior]).for_each(|x| digest.f64(*x));

@@ -394,14 +394,6 @@ pub fn trace(setup: &LapSetup, repair: Repair) -> Result<Digest, GraphRunError> 
     Ok(digest)
 }
 
-/// Named laps whose graphs' fingerprints are kept with the tests, and must be the same natively and in WebAssembly.
-pub fn golden_setups() -> Vec<(&'static str, LapSetup, Repair)> {
-    vec![
-        ("graph", GraphSetup::opening().lap, Repair::LeastSquares),
-        ("graph-switchable", LapSetup::default(), Repair::SWITCHABLE),
-    ]
-}
-
 /// Where an optimisation starts.
 #[derive(
     Clone,

@@ -418,15 +418,6 @@ impl JointMap {
     }
 }
 
-/// Named experiments whose fingerprints are kept with the tests, and must be the same natively and in WebAssembly.
-pub fn golden_setups() -> Vec<(&'static str, JointMapSetup)> {
-    let setup = JointMapSetup::default;
-    vec![
-        ("joint", JointMapSetup { particles: 300, ..setup() }),
-        ("joint-blocks", JointMapSetup { particles: 1500, sensor_scale: 0.5, odometry_scale: 2.0, seed: 9 }),
-    ]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -627,21 +627,6 @@ impl<D: Motion + Clone, M: WithLandmarks, P: Proposal<M, Control = D::Control>> 
     }
 }
 
-/// Named runs whose fingerprints are kept with the tests, and must be the same natively and in WebAssembly.
-pub fn golden_runs() -> Vec<(&'static str, Course, LandmarkSetup)> {
-    let setup = || LandmarkSetup { particles: 12, ..LandmarkSetup::default() };
-    let motion = || LandmarkSetup { proposal: ProposalKind::Motion, ..setup() };
-    let unknown = |setup| LandmarkSetup { correspondence: CorrespondenceKind::Unknown, ..setup };
-    vec![
-        ("eight-2.0", Course::Eight, setup()),
-        ("eight-1.0", Course::Eight, motion()),
-        ("eight-2.0-unknown", Course::Eight, unknown(setup())),
-        ("eight-1.0-unknown", Course::Eight, unknown(motion())),
-        ("tags-2.0", Course::Tags, setup()),
-        ("tags-1.0-unknown", Course::Tags, unknown(motion())),
-    ]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -731,24 +731,6 @@ impl Lap {
     }
 }
 
-/// Named laps whose fingerprints are kept with the tests, and must be the same natively and in WebAssembly.
-pub fn golden_setups() -> Vec<(&'static str, LapSetup)> {
-    let setup = LapSetup::default;
-    vec![
-        ("default", setup()),
-        ("motion", LapSetup { proposal: ProposalKind::Motion, ..setup() }),
-        ("cell", LapSetup { matcher: Matcher::Cell, ..setup() }),
-        ("motion-cell", LapSetup { proposal: ProposalKind::Motion, matcher: Matcher::Cell, particles: 40, ..setup() }),
-        ("never", LapSetup { policy: ResamplePolicy::Never, seed: 7, ..setup() }),
-        ("always-residual", LapSetup { policy: ResamplePolicy::Always, scheme: Scheme::Residual, ..setup() }),
-        ("stratified", LapSetup { scheme: Scheme::Stratified, seed: 11, particles: 24, ..setup() }),
-        ("multinomial", LapSetup { scheme: Scheme::Multinomial, seed: 12, particles: 8, ..setup() }),
-        ("one", LapSetup { particles: 1, ..setup() }),
-        ("quiet", LapSetup { odometry_scale: 0.0, range_std: 0.0, particles: 4, ..setup() }),
-        ("ring", LapSetup { course: Course::Ring, ..setup() }),
-    ]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

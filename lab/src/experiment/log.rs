@@ -1,19 +1,17 @@
 //! Logs of our own, free to ship: a robot with a laser in a building of which the truth is known, for the
 //! [mapper](fastslam::mapper) to map.
 
-use super::long_rings::LongRingSetup;
 use crate::digest::Digest;
 use crate::world::{FloorPlan, LongRing, corners_cut_short, crowd, drive, escort, until_people};
 use crate::{WORLD_ODOMETRY, WORLD_SENSOR};
 use core::f64::consts::PI;
 use fastslam::geometry::Pose2;
-use fastslam::mapper::{LaserMapper, LaserMapperSettings, Map, Replay};
+use fastslam::mapper::{LaserMapper, Map};
 use fastslam::motion::{Odometry, OdometryModel};
 use fastslam::random::Stream;
 use fastslam::sensor::BeamSensor;
 use fastslam::sensor::LaserScan;
 use fastslam_log::{LaserLog, Relation};
-use std::sync::Arc;
 
 /// How a log of our own comes about.
 #[derive(Clone, PartialEq, Debug)]
@@ -282,32 +280,13 @@ pub fn digest(mapper: &LaserMapper) -> Digest {
     digest
 }
 
-/// Runs whose fingerprints are kept with the tests.
-pub fn golden_runs() -> Vec<(&'static str, Replay<LaserLog>)> {
-    let run = |settings: LaserMapperSettings, recipe: Recipe| {
-        let log = Arc::new(Example::of(&recipe, 40).log);
-        Replay::new(settings, log).expect("a golden setting is valid")
-    };
-    let (building, hung) = (Recipe::building(), Recipe { upside_down: true, ..Recipe::building() });
-    let hung = Recipe { robot_from_laser: Pose2::new(0.6, 0.4, 0.5 * PI), ..hung };
-    let settings = LaserMapperSettings::default();
-    vec![
-        ("log", run(LaserMapperSettings { particles: 5, ..settings }, building)),
-        (
-            "log-sparse",
-            run(
-                LaserMapperSettings { particles: 3, min_travel: 0.8, cell_size: 0.1, max_range: 6.0, ..settings },
-                hung,
-            ),
-        ),
-        ("log-bent", LongRingSetup { particles: 2, ..LongRingSetup::default() }.start().expect("a ring").into_replay()),
-    ]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::experiment::golden::logs;
+    use fastslam::mapper::{LaserMapperSettings, Replay};
     use fastslam_log::relation_errors;
+    use std::sync::Arc;
 
     #[test]
     fn our_own_building_is_mapped_within_centimetres() {
@@ -331,7 +310,7 @@ mod tests {
     /// Of the path that is bent to close its loop.
     #[test]
     fn the_golden_run_that_is_called_bent_is() {
-        let (name, mut replay) = golden_runs().pop().unwrap();
+        let (name, mut replay) = logs().pop().unwrap();
         replay.by_ref().for_each(drop);
         assert_eq!((name, replay.mapper().closings()), ("log-bent", 1));
     }

@@ -489,16 +489,6 @@ impl Policies {
     }
 }
 
-/// Named comparisons whose fingerprints are kept with the tests, and must be the same natively and in WebAssembly.
-pub fn golden_setups() -> Vec<(&'static str, PoliciesSetup)> {
-    let wings = || PoliciesSetup::of(PolicyCourse::Wings);
-    vec![
-        ("policies-lap", PoliciesSetup::default()),
-        ("policies-wings", wings()),
-        ("policies-wings-systematic", PoliciesSetup { scheme: Scheme::Systematic, particles: 40, seed: 5, ..wings() }),
-    ]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

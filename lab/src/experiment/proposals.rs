@@ -301,20 +301,10 @@ impl Cloud {
     }
 }
 
-/// Named experiments whose fingerprints are kept with the tests, and must be the same natively and in WebAssembly.
-pub fn golden_setups() -> Vec<(&'static str, ProposalsSetup)> {
-    let setup = ProposalsSetup::default;
-    vec![
-        ("proposals", setup()),
-        ("proposals-twins", ProposalsSetup { twins: true, ..setup() }),
-        ("proposals-sharp", ProposalsSetup { range_std: 0.005, bearing_std: 0.01, seed: 11, ..setup() }),
-        ("proposals-loose", ProposalsSetup { odometry_scale: 2.0, range_std: 0.5, landmark: [0.4, 0.9], ..setup() }),
-    ]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::experiment::golden;
     use fastslam::nalgebra::Vector3;
 
     const LARGE: ProposalsSetup = ProposalsSetup {
@@ -377,7 +367,7 @@ mod tests {
 
     #[test]
     fn the_depletion_is_that_of_the_clouds_and_ends_at_what_the_map_knows() {
-        for (name, setup) in golden_setups() {
+        for (name, setup) in golden::clouds() {
             let (found, quick) = (Proposals::new(&setup).unwrap(), depletion(&setup, true).unwrap());
             let share = found.motion.ess() / f64::from(setup.samples);
             assert_eq!((quick.predicted, quick.measured), (found.predicted_ess, Some(share)), "{name}");
@@ -389,7 +379,7 @@ mod tests {
 
     #[test]
     fn samples_of_one_history_weigh_the_same() {
-        for (name, setup) in golden_setups() {
+        for (name, setup) in golden::clouds() {
             let Cloud { weights, .. } = Proposals::new(&setup).unwrap().aware;
             assert!(weights.as_slice().iter().all(|w| w.to_bits() == weights.as_slice()[0].to_bits()), "{name}");
             assert!((weights.ess() / f64::from(setup.samples) - 1.0).abs() < 1e-12, "{name}: {}", weights.ess());
@@ -399,7 +389,7 @@ mod tests {
     /// Four standard errors, for three numbers of four setups.
     #[test]
     fn weighted_samples_of_the_motion_have_the_mean_of_the_exact_posterior() {
-        for (name, setup) in golden_setups() {
+        for (name, setup) in golden::clouds() {
             let found = Proposals::new(&ProposalsSetup { samples: 200_000, ..setup }).unwrap();
             let Cloud { poses, weights, .. } = &found.motion;
             let origin = &found.exact.mean;

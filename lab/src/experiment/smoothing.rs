@@ -361,11 +361,6 @@ impl Record {
     }
 }
 
-/// Named setups whose fingerprints are kept with the tests, and must be the same natively and in WebAssembly.
-pub fn golden_setups() -> Vec<(&'static str, SmoothingSetup, u32)> {
-    vec![("smoothing", SmoothingSetup { particles: 6, ..SmoothingSetup::default() }, 3)]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

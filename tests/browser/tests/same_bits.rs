@@ -4,7 +4,7 @@
 
 use core::hash::Hasher as _;
 use fastslam::execute::Executor;
-use fastslam_lab::{digest::Digest, experiment::golden_traces};
+use fastslam_lab::{digest::Digest, experiment::golden};
 use fastslam_widgets::shell::{Figure, job};
 use figures::{JOBS, LOG, PICTURES, Picture, SETUPS, TINY_LOG, line, put_readout, rows};
 use js_sys::{Array, JSON, Reflect, Uint8Array, WebAssembly};
@@ -88,7 +88,7 @@ fn single_threaded_wins_where_threads_are_compiled_in() {
 
 #[wasm_bindgen_test]
 fn whole_runs_leave_the_traces_of_the_native_build() {
-    let traces = golden_traces(&Executor::default()).into_iter().map(|(name, digest)| line(name, &digest));
+    let traces = golden::traces(&Executor::default()).into_iter().map(|(name, digest)| line(name, &digest));
     same_lines(&traces.collect::<Vec<_>>(), TRACES);
 }
 

@@ -4,8 +4,8 @@
 //! A change that is meant to change numbers is written with `UPDATE_GOLDENS=1 cargo test -p portability`.
 
 use fastslam::execute::Executor;
-use fastslam_lab::experiment::golden_traces;
-use fastslam_lab::experiment::lap::{Lap, LapSetup, golden_setups};
+use fastslam_lab::experiment::golden;
+use fastslam_lab::experiment::lap::{Lap, LapSetup};
 use std::fmt::Write;
 
 const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/golden.txt");
@@ -13,7 +13,7 @@ const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/golden.txt");
 /// Lines `name size digest`.
 fn fingerprints(executor: &Executor) -> String {
     let mut lines = String::new();
-    for (name, digest) in golden_traces(executor) {
+    for (name, digest) in golden::traces(executor) {
         writeln!(lines, "{name} {} {:016x}", digest.size(), digest.value()).unwrap();
     }
     lines
@@ -52,7 +52,7 @@ fn runs_on_other_numbers_of_threads_have_the_same_fingerprints() {
 fn another_seed_has_another_fingerprint() {
     let mut values: Vec<u64> = (0..4)
         .map(|seed| {
-            let (_, setup) = golden_setups().swap_remove(0);
+            let (_, setup) = golden::laps().swap_remove(0);
             Lap::new(&LapSetup { seed, ..setup }).unwrap().trace().value()
         })
         .collect();
