@@ -7,7 +7,6 @@ use super::{
 };
 use crate::{
     decimal::write,
-    font::{self, Weight},
     prediction::{Level, State, level},
     scene::{Cells, Handle, Point, Rect, Role, Scene, Shading, plain, strong},
     words::em as words,
@@ -16,9 +15,6 @@ use fastslam_lab::experiment::em::{CORRIDOR, HALF_DOOR, LENGTH};
 
 /// Font size of names beside a strip \[css px\].
 pub const SIZE: f64 = 11.0;
-
-/// What the reader may choose of a strip's name, from long to short.
-type Names<'a> = [&'a str; 2];
 
 /// Where a place of the corridor \[m\] is in an area \[css px\].
 pub fn y(area: &Rect, place: f64) -> f64 {
@@ -79,13 +75,6 @@ pub fn scale(scene: &mut Scene, area: &Rect) {
     }
 }
 
-/// The name of a part, with as much of what it is as there is room for.
-pub fn name(scene: &mut Scene, header: &Rect, strong: &str, rest: Names<'_>) {
-    let used = font::measure(strong, 13.5, Weight::SemiBold) + 12.0;
-    let fits = |rest: &&&str| used + font::measure(rest, 12.5, Weight::Regular) <= header.w;
-    scene.heading(header, (strong, Role::Ink), rest.iter().find(fits).unwrap_or(&""));
-}
-
 /// What is shown of the path.
 fn title(model: &EmModel) -> (&'static str, [String; 2]) {
     match model.future() {
@@ -103,8 +92,8 @@ fn title(model: &EmModel) -> (&'static str, [String; 2]) {
 /// Where the robot was by both passes, as far as they are.
 pub fn strips(scene: &mut Scene, model: &EmModel, layout: &Layout) {
     let (area, steps) = (layout.product.area, model.log().steps());
-    let (strong, rest) = title(model);
-    name(scene, &layout.product.header, strong, rest.each_ref().map(String::as_str));
+    let (name, what) = title(model);
+    scene.heading_fit(&layout.product.header, (name, Role::Ink), &what);
     strip(scene, area, &(0..=steps).map(|step| model.column(step)).collect::<Vec<_>>());
     carried(scene, model, &area);
     scene.frame(area, 1.0, Role::Frame);
@@ -121,7 +110,7 @@ pub fn strips(scene: &mut Scene, model: &EmModel, layout: &Layout) {
     if let Some(future) = model.future() {
         let from = model.log().carried;
         let ends = [from, (from + future as usize).min(steps)].map(|step| [x(&area, step, steps), area.bottom()]);
-        scene.line(&ends.to_vec(), 4.0, Role::Accent);
+        scene.line(&ends, 4.0, Role::Accent);
     }
     times(scene, model, layout);
     answer(scene, model, &area);

@@ -60,7 +60,7 @@ impl Picture<'_> {
     fn say(&self, scene: &mut Scene, wordings: &[String]) {
         let Rect { x, y, w, h } = self.parts.charts[1];
         let letters = strong(SIZE, Role::Ink).middle();
-        let Some(words) = letters.fitting(w - 16.0, &wordings) else { return };
+        let Some(words) = letters.fitting(w - 16.0, wordings) else { return };
         let width = letters.width(words) + 8.0;
         let plate = Rect::new(x + w - width - 4.0, y + 0.5 * h - 8.0, width, 16.0);
         scene.fill(plate, Role::Paper);
