@@ -19,8 +19,11 @@ export class LogSession extends Session {
     switch (command.do) {
       case 'begin':
       case 'link':
+        this.#atNewest(() => this.act(command))
+        return this.#beginAnew()
       case 'set':
-        if (this.#atNewest(() => this.act(command)) || command.do !== 'set') this.#beginAnew()
+        // Nothing is compared: what is set is mapped only when the reader says so.
+        if (this.#atNewest(() => this.act({ ...command, on: false }))) this.#beginAnew()
         return
       case 'seek':
         return this.#halted ? super.perform(command) : undefined
