@@ -106,7 +106,7 @@ fn every_readout_of_every_step_has_the_bits_of_the_native_build() {
             if let Ok(changed) = get(&get(&frame, "news"), "readouts").dyn_into() {
                 readouts = changed;
             }
-            for readout in &readouts {
+            for readout in readouts.iter() {
                 put_readout(
                     &mut digest,
                     &text(&readout, "name"),
