@@ -90,7 +90,7 @@ fn figures_do_not_touch_each_other() {
     let mut one = figure("universes=3&step=2");
     let mut other = figure("universes=6&seed=9&step=4");
     refused(&mut other, r#"{"do":"size","name":"dark","at":[300,200,1,300,300,200]}"#);
-    assert_eq!(get(&other.frame(false), "painted").as_bool(), Some(true));
+    assert_eq!(get(&get(&other.frame(false), "layout"), "scale").as_f64(), Some(1.0));
     refused(&mut one, r#"{"do":"set","name":"step","value":"4"}"#);
     settle(&mut one);
     drop(other);
