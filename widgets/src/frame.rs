@@ -1,4 +1,4 @@
-//! All that a figure tells the page of itself: an [`State`](State) whenever it is asked, and a [`Frame`] with every picture.
+//! All that a figure tells the page of itself: a [`State`] whenever it is asked, and a [`Frame`] with every picture.
 
 use crate::{
     challenge::Chip,
