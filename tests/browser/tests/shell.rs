@@ -71,15 +71,15 @@ fn what_is_refused_names_its_parameter_and_what_is_no_action_is_thrown() {
     let said = figure.act(set).expect("an action").get(0);
     assert_eq!(text(&said, "parameter"), "range-std");
     assert!(text(&said, "message").contains("from 0.01 to 0.3 m"), "{}", text(&said, "message"));
-    assert_eq!(refused(&mut figure, &load("v=9&range-std=7&seed=4")).len(), 1);
-    assert_eq!(text(&figure.state(), "query"), "v=9&seed=4");
+    assert_eq!(refused(&mut figure, &load("v=13&range-std=7&seed=4")).len(), 1);
+    assert_eq!(text(&figure.state(), "query"), "v=13&seed=4");
     assert!(figure.act(JSON::parse(r#"{"do":"sett"}"#).expect("JSON")).is_err());
 }
 
 #[wasm_bindgen_test]
 fn data_has_a_row_for_each_step() {
-    let data = figure("v=9&universes=2&step=3").export();
-    assert_eq!(text(&data, "query"), "v=9&universes=2&step=3");
+    let data = figure("v=13&universes=2&step=3").export();
+    assert_eq!(text(&data, "query"), "v=13&universes=2&step=3");
     assert_eq!(get(&get(&data, "steps"), "length").as_f64(), Some(4.0));
 }
 

@@ -1,7 +1,7 @@
 //! What a reader can set about the doors and the two filters.
 
 use crate::{
-    field,
+    decimal, field,
     policy::{self, Chosen},
     recipe::{self, Menu, Param},
     words::{common, doors},
@@ -56,7 +56,7 @@ impl Recipe {
         let gate = Gate {
             // The quantile of χ² with two degrees of freedom.
             mahalanobis_squared: -2.0 * ops::ln((100.0 - self.gate) / 100.0),
-            log_new: ops::ln(format!("1e-{}", self.price).parse().unwrap_or(1e-3)),
+            log_new: ops::ln(decimal::parse(&format!("1e-{}", self.price)).unwrap_or(1e-3)),
             ..Gate::default()
         };
         DoorsSetup { gate, doors: self.doors.into_iter().chain(self.seventh).collect(), ..self.asked.clone() }

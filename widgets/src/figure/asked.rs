@@ -4,6 +4,7 @@
 use super::Figure;
 use crate::{
     action::{Action, Beginning, Size, Touch},
+    decimal,
     frame::Layout,
     model::FigureError,
     query,
@@ -88,7 +89,7 @@ impl Figure {
     }
 
     fn adopt_target(&mut self) {
-        let named = self.ask(|model| model.value("step")).and_then(|step| step.parse().ok());
+        let named = self.ask(|model| model.value("step")).and_then(|step| decimal::parse(&step));
         self.asked.target = named.unwrap_or_else(|| self.ask(|model| model.step()).into());
     }
 
