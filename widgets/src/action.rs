@@ -109,12 +109,12 @@ pub struct Size {
 #[derive(Default, Deserialize)]
 #[cfg_attr(test, derive(serde::Serialize))]
 #[serde(default)]
-struct Message {
-    r#do: String,
-    name: String,
-    value: Option<String>,
-    on: bool,
-    at: Vec<f64>,
+pub(crate) struct Message {
+    pub r#do: String,
+    pub name: String,
+    pub value: Option<String>,
+    pub on: bool,
+    pub at: Vec<f64>,
 }
 
 impl TryFrom<Message> for Action {

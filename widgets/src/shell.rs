@@ -1,7 +1,13 @@
 //! The figures in the browser: the only code that knows of JavaScript. An action goes in, a frame comes out, and the pixels with it; what
 //! that does is in [`crate::figure`].
 
-use crate::{figure, job, model::FigureError, registry, unread, words::Language};
+use crate::{
+    action::{Action, Message},
+    figure, job,
+    model::FigureError,
+    registry, unread,
+    words::Language,
+};
 use core::{
     cell::RefCell,
     ops::{Deref, DerefMut},
@@ -9,7 +15,7 @@ use core::{
 use fastslam::geometry::Pose2;
 use fastslam_lab::experiment::{ErrorSummary, policy_counts::Fraction};
 use fastslam_log::{BagOptions, BagReader, LogError, write_json_lines, write_path};
-use js_sys::{Array, Error, Object};
+use js_sys::{Array, Error, Object, Reflect};
 use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::prelude::*;
@@ -178,8 +184,8 @@ impl Figure {
     }
 
     /// Does what is asked, an `Action`, and returns what is refused of it: an array of `Refusal`.
-    pub fn act(&mut self, action: JsValue) -> Result<Array, JsValue> {
-        let action = serde_wasm_bindgen::from_value(action)?;
+    pub fn act(&mut self, action: &Object) -> Result<Array, Error> {
+        let action = Action::try_from(message(action)).map_err(Error::new)?;
         Ok(plain(&self.figure.act(&action)))
     }
 
@@ -221,6 +227,21 @@ impl Figure {
     /// Measured data of every step so far: an `Export`.
     pub fn export(&self) -> Object {
         plain(&self.figure.export())
+    }
+}
+
+/// What the page asks, field by field: what serde-wasm-bindgen has to say of an object of another shape is five kilobytes of every program,
+/// and TypeScript lets none of them come this far.
+fn message(action: &Object) -> Message {
+    let field = |name: &str| Reflect::get(action, &name.into()).unwrap_or_default();
+    let text = |name| field(name).as_string();
+    let at = field("at").dyn_into::<Array>().unwrap_or_default();
+    Message {
+        r#do: text("do").unwrap_or_default(),
+        name: text("name").unwrap_or_default(),
+        value: text("value"),
+        on: field("on").is_truthy(),
+        at: at.iter().map(|x| x.as_f64().unwrap_or(f64::NAN)).collect(),
     }
 }
 

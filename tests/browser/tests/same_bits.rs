@@ -57,7 +57,7 @@ fn settle(figure: &mut Figure) {
 }
 
 fn act(figure: &mut Figure, action: &str) -> Array {
-    figure.act(JSON::parse(action).expect("JSON")).expect("an action")
+    figure.act(JSON::parse(action).expect("JSON").unchecked_ref()).expect("an action")
 }
 
 fn seek(figure: &mut Figure, step: u32) {

@@ -33,9 +33,14 @@ fn load(query: &str) -> String {
     format!(r#"{{"do":"begin","value":"{query}"}}"#)
 }
 
+/// What the page asks, written as JSON.
+fn object(action: &str) -> Object {
+    JSON::parse(action).expect("JSON").unchecked_into()
+}
+
 /// Asks for something, as the page does, and returns what is refused of it.
 fn refused(figure: &mut Figure, action: &str) -> Vec<String> {
-    let said = figure.act(JSON::parse(action).expect("JSON")).expect("an action");
+    let said = figure.act(&object(action)).expect("an action");
     said.iter().map(|said| text(&said, "message")).filter(|message| !message.is_empty()).collect()
 }
 
@@ -67,13 +72,13 @@ fn what_is_refused_names_its_parameter_and_what_is_no_action_is_thrown() {
     assert!(error.is_instance_of::<js_sys::Error>());
     assert_eq!((text(&error, "name"), text(&error, "parameter")), ("FigureError".into(), "tag".into()));
     let mut figure = figure("universes=2");
-    let set = JSON::parse(r#"{"do":"set","name":"range-std","value":"0.5"}"#).expect("JSON");
-    let said = figure.act(set).expect("an action").get(0);
+    let set = object(r#"{"do":"set","name":"range-std","value":"0.5"}"#);
+    let said = figure.act(&set).expect("an action").get(0);
     assert_eq!(text(&said, "parameter"), "range-std");
     assert!(text(&said, "message").contains("from 0.01 to 0.3 m"), "{}", text(&said, "message"));
     assert_eq!(refused(&mut figure, &load("v=13&range-std=7&seed=4")).len(), 1);
     assert_eq!(text(&figure.state(), "query"), "v=13&seed=4");
-    assert!(figure.act(JSON::parse(r#"{"do":"sett"}"#).expect("JSON")).is_err());
+    assert!(figure.act(&object(r#"{"do":"sett"}"#)).is_err());
 }
 
 #[wasm_bindgen_test]
