@@ -42,7 +42,7 @@ test('the code for a version runs on a page of another site, from the folder of 
 for (const [what, files] of [
   ['fastslam.js', /\/v\/[^/]+\/fastslam\.js$/],
   ['the script that the figures share', /\/v\/[^/]+\/fastslam-[\w-]{8}\.js$/],
-  ['a script of its own', /\/v\/[^/]+\/assets\/lap-[\w-]{8}\.js$/],
+  ['a script of its own', /\/v\/[^/]+\/assets\/fastslam-lap-[\w-]{8}\.js$/],
 ] as const) {
   test(`where a byte of ${what} is another, its picture stands there, leads to it, and says why`, async ({ page, baseURL, complaints }) => {
     const code = await keptCode(page)

@@ -104,6 +104,7 @@ export class LogSession extends Session {
       const bytes = decoder ? await this.#decoded(file, decoder, topics, reading) : await unpacked(file, reading)
       if (!bytes) return
       this.figure.open(bytes)
+      this.forget() // while it was read, pictures were told of the one before
     } catch (error) {
       return this.refuse(error, name)
     } finally {

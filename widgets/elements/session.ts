@@ -65,6 +65,11 @@ export class Session {
     return refused.every(({ message }) => !message)
   }
 
+  /** Of what is asked next nothing is known any more: the program is another than it was. */
+  protected forget(): void {
+    this.#state = undefined
+  }
+
   /** Data of every step so far. */
   protected get measured(): Measured {
     return this.figure.export() as Measured

@@ -140,7 +140,8 @@ impl Figure {
 
     /// The value of a parameter of which the author says nothing.
     fn usual(&self, name: &str) -> Option<String> {
-        let meant = self.asked.usual.iter().find(|(meant, _)| meant == name).map(|(_, value)| value.clone());
+        // Where a default has changed twice, the one of then is the last.
+        let meant = self.asked.usual.iter().rfind(|(meant, _)| meant == name).map(|(_, value)| value.clone());
         meant.or_else(|| self.params().into_iter().find(|spec| spec.name == name).map(|spec| spec.default))
     }
 
