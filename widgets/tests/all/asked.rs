@@ -152,3 +152,16 @@ fn a_picture_that_would_be_too_high_is_shown_as_large_as_it_fits() {
     let scrolled = figure.frame(false).layout.unwrap();
     assert_eq!((scrolled.width, scrolled.scale), (None, 1.0));
 }
+
+#[test]
+fn what_is_taken_away_is_at_the_default_of_its_version_also_where_that_has_changed_twice_since() {
+    for (version, seed, range) in [(1, "3", "0.02"), (8, "9", "0.1"), (13, "17", "0.02")] {
+        let mut lap = figure("fastslam-lap", "");
+        lap.act(&Action::Author(format!("v={version}")));
+        lap.act(&Action::Begin(Beginning { settings: "seed=5&range-std=0.2".into(), ..Default::default() }));
+        for (name, default) in [("seed", seed), ("range-std", range)] {
+            lap.act(&set(name, None));
+            assert_eq!(value(&lap, name), default, "{name} of version {version}");
+        }
+    }
+}
