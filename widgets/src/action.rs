@@ -3,11 +3,9 @@
 //! `elements/action.ts`, and a test holds the two together.
 
 use crate::paint::Theme;
-use serde::Deserialize;
 
 /// One thing that is asked. Points and lengths are in css px of the canvas.
-#[derive(Clone, PartialEq, Debug, Deserialize)]
-#[serde(try_from = "Message")]
+#[derive(Clone, PartialEq, Debug)]
 pub enum Action {
     /// What the page's author gave, as a code has it, with `v`, of which version that is: what is left out or taken away is at the default
     /// of that version.
@@ -106,9 +104,8 @@ pub struct Size {
 }
 
 /// An action as it comes over the boundary: flat, as that is the least to read.
-#[derive(Default, Deserialize)]
-#[cfg_attr(test, derive(serde::Serialize))]
-#[serde(default)]
+#[derive(Default)]
+#[cfg_attr(test, derive(serde::Serialize, serde::Deserialize), serde(default))]
 pub(crate) struct Message {
     pub r#do: String,
     pub name: String,

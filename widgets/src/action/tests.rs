@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 #[test]
 fn an_action_is_read_as_the_page_writes_it() {
-    let read = |sent: Value| serde_json::from_value::<Action>(sent).map_err(|error| error.to_string());
+    let read = |sent: Value| Action::try_from(serde_json::from_value::<Message>(sent).unwrap());
     let beginning =
         |linked| Beginning { query: Some("v=9".into()), settings: "seed=4&step".into(), linked, changed: true };
     for (name, linked) in [("begin", false), ("link", true)] {
@@ -26,7 +26,7 @@ fn an_action_is_read_as_the_page_writes_it() {
     let own = Own { name: "press".into(), with: "move".into(), at: vec![0.0, 1.0] };
     let sent = json!({ "do": "own", "name": "press", "value": "move", "at": [0, 1] });
     assert_eq!(read(sent), Ok(Action::Touch(Touch::Own(own))));
-    assert_eq!(read(json!({ "do": "sett" })), Err("no such action".into()));
+    assert_eq!(read(json!({ "do": "sett" })), Err("no such action"));
 }
 
 #[test]
