@@ -5,7 +5,7 @@
 // `-- --without NAME …` leaves the patches out: each command must be green, or its red would say nothing.
 import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { delimiter, dirname, join } from 'node:path'
-import { cache, capture, main, readIfThere, root, run, step, StepError } from './lib.mjs'
+import { aboutFailures, cache, capture, main, readIfThere, root, run, step, StepError } from './lib.mjs'
 import { add, closingLine, counted, printTable, total } from './tally.mjs'
 
 const folder = join(root, 'tests', 'faults')
@@ -29,7 +29,7 @@ const apart = {
   // Each fault compiles anew what it is in, which takes far longer than the few tests that are run.
   CARGO_PROFILE_TEST_OPT_LEVEL: '0',
   CARGO_PROFILE_TEST_CODEGEN_UNITS: '256',
-  CARGO_PROFILE_TEST_INCREMENTAL: 'true',
+  CARGO_INCREMENTAL: '1',
   CARGO_PROFILE_TEST_DEBUG: 'false',
   CARGO_TERM_COLOR: 'never',
 }
@@ -72,11 +72,11 @@ async function find(fault) {
     const { green, output } = await attempt(fault)
     if (green) throw new StepError(`Nothing turned red: ${what}`, command)
     if (says !== undefined) {
-      if (!output.includes(says)) throw Object.assign(new StepError(`The command broke, and did not say “${says}”: ${what}`, lastLines(output)), { output })
+      if (!output.includes(says)) throw Object.assign(new StepError(`The command broke, and did not say “${says}”: ${what}`, aboutFailures(output)), { output })
       return what
     }
     const failed = counted(output)?.failed ?? 0
-    if (failed === 0) throw Object.assign(new StepError(`The command broke, and no test failed: ${what}`, lastLines(output)), { output })
+    if (failed === 0) throw Object.assign(new StepError(`The command broke, and no test failed: ${what}`, aboutFailures(output)), { output })
     return `${what} (${failed} red)`
   } finally {
     undo()
@@ -86,14 +86,11 @@ async function find(fault) {
 /** @param {Fault} fault */
 async function leaveOut(fault) {
   const { green, output } = await attempt(fault)
-  if (!green) throw Object.assign(new StepError('Without the fault it is not green.', lastLines(output)), { output })
+  if (!green) throw Object.assign(new StepError('Without the fault it is not green.', aboutFailures(output)), { output })
   const { passed = 0 } = counted(output) ?? {}
   if (fault.says === undefined && passed === 0) throw new StepError('Not one test was run.', fault.command)
   return `${passed} green`
 }
-
-/** @param {string} output */
-const lastLines = output => output.trimEnd().split('\n').slice(-30).join('\n')
 
 await main(async () => {
   undo()

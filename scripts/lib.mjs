@@ -9,6 +9,9 @@ import { fileURLToPath } from 'node:url'
 
 export const root = dirname(dirname(fileURLToPath(import.meta.url)))
 
+/** What to do where a disk is full. */
+export const roomHint = 'rm -rf target .cache takes away all that was built here, and the next run builds it anew.'
+
 /** What the build writes for. Styles: the year of popovers, which no figure can do without, so that light-dark() need not be spelt out for older browsers. */
 export const targets = { target: 'es2022', cssTarget: ['chrome125', 'firefox125', 'safari17.5'] }
 
@@ -111,7 +114,10 @@ export function aboutFailures(output) {
 export async function step(title, action) {
   const path = cache('logs', `${title.toLowerCase().replace(/[^a-z0-9]+/g, '-')}.log`)
   mkdirSync(dirname(path), { recursive: true })
-  const log = createWriteStream(path)
+  const log = createWriteStream(path).on('error', ({ message }) => {
+    explain(new StepError(`${path} cannot be written: ${message}`, roomHint))
+    process.exit(1)
+  })
   const started = performance.now()
   const before = { processor: processorSeconds(), begun: ++counts.begun, alone: ++counts.running === 1 }
   if (live || !terminal) console.log(bold(`▸ ${title}`))
