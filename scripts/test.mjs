@@ -32,6 +32,11 @@ async function attempt(title, action) {
   }
 }
 
+/** @param {[title: string, action: () => unknown][]} steps */
+async function inTurn(steps) {
+  for (const step of steps) await attempt(...step)
+}
+
 /** Runs tests and adds up what they count. @param {Parameters<typeof run>} command */
 async function tests(...command) {
   const { output, error } = await run(...command).then(({ output }) => ({ output, error: undefined }), error => ({ output: String(error.output ?? ''), error }))
@@ -89,16 +94,21 @@ await main(async () => {
   await step('Names of the figures', writeNames)
   await buildPages()
   await buildTrouble()
-  for (const check of otherChecks) await attempt(...check)
-  await attempt('Tests of scripts and of what they make', nodeTest)
+  await inTurn(otherChecks)
   await attempt('Tests, native, with all checks on', () => cargoTest('--workspace', '--tests'))
-  await attempt('Examples in the documentation', docTest)
-  await attempt('Resampling against the Python package particles', oracle)
-  await attempt('Same bits, as releases are built', () => cargoTest('--release', '-p', 'portability'))
-  await attempt('Tests in WebAssembly, in Chromium', () => tests(...wasmTests()))
+  // The first keeps one core busy, and the others together keep the second.
+  await Promise.all([
+    attempt('Tests in WebAssembly, in Chromium', () => tests(...wasmTests())),
+    inTurn([
+      ['Tests of scripts and of what they make', nodeTest],
+      ['Examples in the documentation', docTest],
+      ['Resampling against the Python package particles', oracle],
+      ['Same bits, as releases are built', () => cargoTest('--release', '-p', 'portability')],
+      ['Size of the page', checkSize],
+      ['Size of an embedded figure', checkEmbedSizes],
+    ]),
+  ])
   await attempt('Tests of the page, in Chromium', playwright)
-  await attempt('Size of the page', checkSize)
-  await attempt('Size of an embedded figure', checkEmbedSizes)
 
   timePlaywright()
   printTable()

@@ -26,14 +26,14 @@ const [landmarks, grids] = [['conditioning', 'worked-example', 'joint', 'doors']
 export const units = [
   // All sizes, themes, languages and figures on the page.
   { name: 'page-chapter', seconds: 60, command: page('/chapter.spec.ts') },
-  { name: 'page-figures', seconds: 40, command: page('/conditioning.spec.ts /doors.spec.ts /em.spec.ts /graph.spec.ts /joint.spec.ts /prediction.spec.ts /smoothing.spec.ts /universes.spec.ts') },
+  { name: 'page-figures', seconds: 70, command: page('/conditioning.spec.ts /doors.spec.ts /em.spec.ts /graph.spec.ts /joint.spec.ts /prediction.spec.ts /reference.spec.ts /smoothing.spec.ts /universes.spec.ts') },
   { name: 'page-challenges', seconds: 60, command: page('/challenges.spec.ts') },
   { name: 'page-compare', seconds: 40, command: page('/compare.spec.ts /resampling.spec.ts') },
   { name: 'page-logs', seconds: 130, command: page('/log.spec.ts') },
   { name: 'page-one-screen', seconds: 60, command: page('/one-screen.spec.ts') },
-  { name: 'page-screens', seconds: 70, command: page('/screens.spec.ts /heights.spec.ts') },
-  { name: 'page-whole', seconds: 150, command: page('/whole.spec.ts') },
-  { name: 'page-themes', seconds: 140, command: page('/checks.spec.ts /deck.spec.ts /german.spec.ts /options.spec.ts /styles.spec.ts /vignettes.spec.ts') },
+  { name: 'page-screens', seconds: 85, command: page('/screens.spec.ts /heights.spec.ts') },
+  { name: 'page-whole', seconds: 170, command: page('/whole.spec.ts') },
+  { name: 'page-themes', seconds: 160, command: page('/checks.spec.ts /deck.spec.ts /german.spec.ts /options.spec.ts /styles.spec.ts /vignettes.spec.ts') },
   { name: 'page-embed', seconds: 160, command: page('/assign.spec.ts /embed.spec.ts /embed-docs.spec.ts /course.spec.ts /teachers.spec.ts /walk.spec.ts /worksheets.spec.ts') },
   // On a browser that tells late what is in sight and what has arrived, as a busy machine's does.
   { name: 'page-late', seconds: 200, command: 'FASTSLAM_LATE=150 playwright test --config tests/e2e --grep-invert @breadth /chapter.spec.ts /course.spec.ts /hosts.spec.ts /links.spec.ts /log.spec.ts /playback.spec.ts /programs.spec.ts /seen.spec.ts /trouble.spec.ts' },

@@ -2,7 +2,7 @@
 import { programs } from '../../scripts/registry.mjs'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
-import { openCourse } from './host'
+import { breadthOf, openCourse } from './host'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -19,11 +19,11 @@ function fieldsOf(description: string): [all: string[], always: string[]] {
 }
 
 for (const tag of programs.keys()) {
-  test(`${tag} has and tells what the reference says: parts, readouts, challenges, what is predicted, and the details of events`, async ({ page, request }) => {
+  test(`${tag} has and tells what the reference says: parts, readouts, challenges, what is predicted, and the details of events`, breadthOf(tag), async ({ page, request }) => {
     const { modules } = (await (await request.get('./custom-elements.json')).json()) as { modules: { declarations: Declaration[] }[] }
     const { members, cssParts, readouts, challenges, events, predictions = [] } = modules[0]!.declarations.find(({ tagName }) => tagName === tag)!
     const logs = tag === 'fastslam-log'
-    await openCourse(page, `<${tag} v="latest"></${tag}>`)
+    await openCourse(page, `<${tag} v="latest"${logs ? ' universes="2"' : ''}></${tag}>`)
     const figure = new Figure(page, tag)
     await figure.element.evaluate(
       (element, names) => {

@@ -44,7 +44,7 @@ const cut = (figure: Locator): Promise<string[]> =>
   })
 
 for (const tag of programs.keys()) {
-  test(`no text of ${tag} is cut in any state, language and width`, tag === 'fastslam-lap' ? {} : breadth, async ({ page }) => {
+  test(`no text of ${tag} is cut in any state, language and width`, tag === 'fastslam-proposal' ? {} : breadth, async ({ page }) => {
     test.slow()
     const wrong = new Set<string>()
     await openCourse(page, `<${tag} lab="open"></${tag}>`)
