@@ -12,9 +12,12 @@
 //! The first knows which cell an end point is in; the second knows where in it the wall is, and which way the wall runs. With cells as wide
 //! as a wall is looked for, an NDT cell is one cell; with finer cells it must be wider, or it holds too few points to tell a direction.
 
+mod directory;
 mod drawn;
 mod image;
 mod local_map;
+mod model;
+mod ndt_field;
 mod quad;
 mod ray_trace;
 #[cfg(feature = "serde")]
@@ -22,119 +25,26 @@ mod saved;
 mod tile;
 
 pub(crate) use local_map::LocalMap;
-use quad::{Corner, Quad, least};
+pub(crate) use ndt_field::{BLOCK, NdtField, Nearest};
 pub(crate) use tile::{MAX_DISTANCE, UNIT};
 use tile::{NdtCell, TILE};
 
+pub use directory::CellRect;
 pub use drawn::{GreyMode, MapReading, PgmError};
 pub use image::{MapImage, MapImageSettings};
+pub use model::GridModel;
 #[cfg(feature = "serde")]
 pub use saved::SavedGrids;
 
 use super::{ConditionalMap, Footprint};
-use crate::error::{Range, SettingError};
+use crate::error::SettingError;
 use crate::geometry::Pose2;
 use crate::sensor::Scan;
 use core::hash::Hasher;
+use directory::Directory;
 use ray_trace::RayTrace;
 use std::sync::Arc;
 use tile::Tile;
-
-/// Half-open rectangle of cells: i0 ≤ i < i1 along x, j0 ≤ j < j1 along y.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub struct CellRect {
-    /// First column.
-    pub i0: i32,
-    /// First row.
-    pub j0: i32,
-    /// One past the last column.
-    pub i1: i32,
-    /// One past the last row.
-    pub j1: i32,
-}
-
-impl CellRect {
-    /// Number of columns.
-    pub fn width(&self) -> usize {
-        (self.i1 - self.i0).max(0) as usize
-    }
-
-    /// Number of rows.
-    pub fn height(&self) -> usize {
-        (self.j1 - self.j0).max(0) as usize
-    }
-
-    /// The least rectangle that holds both.
-    fn united(self, other: Self) -> Self {
-        Self {
-            i0: self.i0.min(other.i0),
-            j0: self.j0.min(other.j0),
-            i1: self.i1.max(other.i1),
-            j1: self.j1.max(other.j1),
-        }
-    }
-}
-
-/// How a grid learns from a scan.
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct GridModel {
-    /// Side of a cell \[m\].
-    pub cell_size: f64,
-    /// Added to the log-odds of a cell that a beam ended in \[nats\].
-    pub log_odds_hit: f64,
-    /// Added to the log-odds of a cell that beams only passed through \[nats\], negative.
-    pub log_odds_pass: f64,
-    /// Where log-odds end \[nats\], free and occupied, to ±4: nearer to 0, a map changes its mind sooner (Hornung et al. 2013, OctoMap, clamp
-    /// at −2 and 3.5).
-    pub log_odds_bounds: [f64; 2],
-    /// Standard deviation \[m\] of the two pseudo-hits that every NDT cell begins with: how far one hit alone is trusted.
-    pub ndt_std: f64,
-    /// How many times longer than its end points say a distribution is along the wall: 1 or more. A wall goes on from NDT cell to NDT cell,
-    /// but a normal distribution in each is a string of beads: between two of them, even the right pose fits badly.
-    pub ndt_stretch: f64,
-    /// How many scans old [`Grid::past`] is, at the least; with 0 no past is kept but what is [marked](Grid::mark).
-    pub lag: u32,
-    /// How far from a hit the distance field is kept \[NDT cells\], 0 to 2: what a coarse search looks at. With 0 there is none.
-    pub distance_reach: u32,
-    /// Whether a distribution counts only until it is seen through: until beams have passed so often that the log-odds of all cells of its NDT
-    /// cell are below 0 (after NDT-OM: Saarinen et al. 2013). Without, a place in which somebody stood once attracts scans for ever, and so
-    /// does a wall that was drawn a little askew from afar.
-    pub ndt_forgets: bool,
-}
-
-impl GridModel {
-    /// Whether all settings are in range.
-    ///
-    /// # Errors
-    /// Where one is not: with cells of no size there is no map, and what is felt further than two NDT cells away would be kept in no byte.
-    pub fn validate(&self) -> Result<(), SettingError> {
-        /// More than a byte of log-odds holds.
-        const MOST: f64 = 4.0;
-        /// Lengths for which single precision is no worry.
-        const LENGTH: Range = Range::number(1e-6, 1e6, "m");
-        let Self {
-            cell_size,
-            log_odds_hit,
-            log_odds_pass,
-            log_odds_bounds: [free, occupied],
-            ndt_std,
-            ndt_stretch,
-            lag,
-            distance_reach,
-            ndt_forgets: _,
-        } = *self;
-        LENGTH.check("grid.cell_size", cell_size)?;
-        Range::number(0.0, MOST, "nats").check("grid.log_odds_hit", log_odds_hit)?;
-        Range::number(-MOST, 0.0, "nats").check("grid.log_odds_pass", log_odds_pass)?;
-        Range::number(-MOST, 0.0, "nats").check("grid.log_odds_bounds", free)?;
-        Range::number(0.0, MOST, "nats").check("grid.log_odds_bounds", occupied)?;
-        LENGTH.check("grid.ndt_std", ndt_std)?;
-        Range::number(1.0, 1e3, "").check("grid.ndt_stretch", ndt_stretch)?;
-        Range::whole(0, 1_000_000).check("grid.lag", f64::from(lag))?;
-        Range::whole(0, MAX_DISTANCE as u32 - 1).check("grid.distance_reach", f64::from(distance_reach)).map(drop)
-    }
-}
 
 /// Occupancy in cells of `cell_size`, and normal distributions in NDT cells of `CELLS_PER_NDT` × `CELLS_PER_NDT` cells, growing to
 /// wherever scans reach.
@@ -154,14 +64,6 @@ pub struct Grid<const CELLS_PER_NDT: usize = 1> {
     scans: u32,
     /// The directory as it was after so many scans, oldest first: what [`Grid::past`] is now, and what it will be.
     past: Vec<(u32, Arc<Directory<CELLS_PER_NDT>>)>,
-}
-
-/// The upper level: a rectangle of tiles. `None` is a tile nobody has written to.
-#[derive(Clone, Debug)]
-struct Directory<const CELLS_PER_NDT: usize> {
-    /// In tiles.
-    rect: CellRect,
-    tiles: Vec<Option<Arc<Tile<CELLS_PER_NDT>>>>,
 }
 
 impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
@@ -358,113 +260,11 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
     }
 }
 
-/// What a scan is held against. Asking may be to its advantage: what was worked out for one point it may keep for the next.
-pub(crate) trait NdtField {
-    /// Log-odds of the cell of a point \[m\], in [`UNIT`]s.
-    fn units_at(&mut self, point: [f64; 2]) -> i8;
-
-    /// What is known at the first `count` of these points \[m\]; of the others nothing of any meaning is said.
-    fn nearest_ndt(&mut self, points: &[[f64; 2]; BLOCK], count: usize) -> Nearest;
-}
-
-/// Points that are asked about together, so that each stage of the work is done to all of them before the next one: such loops are what
-/// compilers make vector instructions of. Half of the beams of a lap's climb; of 4, 6, 8, 12 and 18 the fastest in WebAssembly.
-pub(crate) const BLOCK: usize = 18;
-
-/// What is known at points, by their order.
-pub(crate) struct Nearest {
-    /// The smallest squared Mahalanobis distance to the distributions of the four NDT cells whose centres are nearest, infinite where
-    /// none of them was hit. The four contain everything within half an NDT cell of the point.
-    pub d2: [f32; BLOCK],
-    /// The log-odds of the middle of the point's own NDT cell in [`UNIT`]s.
-    pub units: [i8; BLOCK],
-}
-
-impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
-    /// Where a point lies \[m\].
-    #[inline]
-    fn corner(&self, point: [f64; 2]) -> Corner {
-        let at = point.map(|c| c * self.per_ndt - 0.5);
-        let [i, j] = at.map(fast_floor);
-        // In NDT cells from the centre of (i, j), 0 to 1: from one half on, the point itself lies in the next.
-        let beyond = [at[0] - f64::from(i), at[1] - f64::from(j)];
-        let offset = beyond.map(|c| c as f32 * self.ndt_size as f32);
-        Corner { i, j, offset, own: beyond.map(|c| c >= 0.5) }
-    }
-
-    /// The four NDT cells of which (i, j) is the lower left.
-    fn quad(&self, i: i32, j: i32) -> Quad {
-        let inner = |k: i32| k & (TILE - 1) != TILE - 1;
-        let tile = |i: i32, j: i32| self.directory.tile(i >> tile::SHIFT, j >> tile::SHIFT);
-        let forgets = self.model.ndt_forgets;
-        if inner(i) && inner(j) {
-            // The four lie in one tile: look it up once.
-            let (tile, first) = (tile(i, j), tile::local(i, j));
-            let locals = [first, first + TILE as usize, first + 1, first + TILE as usize + 1];
-            Quad::of(locals.map(|local| (tile, local)), forgets)
-        } else {
-            let (right, above) = (i.wrapping_add(1), j.wrapping_add(1));
-            let cells = [(i, j), (i, above), (right, j), (right, above)];
-            Quad::of(cells.map(|(i, j)| (tile(i, j), tile::local(i, j))), forgets)
-        }
-    }
-}
-
-impl<const CELLS_PER_NDT: usize> NdtField for &Grid<CELLS_PER_NDT> {
-    fn units_at(&mut self, [x, y]: [f64; 2]) -> i8 {
-        let (i, j) = self.cell_of(x, y);
-        self.units(i, j)
-    }
-
-    fn nearest_ndt(&mut self, points: &[[f64; 2]; BLOCK], count: usize) -> Nearest {
-        let size = self.ndt_size as f32;
-        let mut nearest = Nearest { d2: [f32::INFINITY; BLOCK], units: [0; BLOCK] };
-        for (k, point) in points.iter().enumerate().take(count) {
-            let corner = self.corner(*point);
-            let quad = self.quad(corner.i, corner.j);
-            (nearest.d2[k], nearest.units[k]) = (least(quad.mahalanobis2(&corner, size)), quad.units_at(&corner));
-        }
-        nearest
-    }
-}
-
 /// Each shared thing once, in no order.
 fn distinct<T>(mut shared: Vec<&Arc<T>>) -> Vec<&Arc<T>> {
     shared.sort_unstable_by_key(|arc| Arc::as_ptr(arc).addr());
     shared.dedup_by_key(|arc| Arc::as_ptr(arc).addr());
     shared
-}
-
-impl<const CELLS_PER_NDT: usize> Directory<CELLS_PER_NDT> {
-    #[inline]
-    fn index(&self, ti: i32, tj: i32) -> Option<usize> {
-        let CellRect { i0, j0, i1, j1 } = self.rect;
-        // Unsigned, a column left of the first is a large number: one comparison for each axis.
-        let (column, width) = (ti.wrapping_sub(i0) as u32, (i1 - i0) as u32);
-        let (row, height) = (tj.wrapping_sub(j0) as u32, (j1 - j0) as u32);
-        (column < width && row < height).then(|| (row * width + column) as usize)
-    }
-
-    #[inline]
-    fn tile(&self, ti: i32, tj: i32) -> Option<&Tile<CELLS_PER_NDT>> {
-        self.tiles.get(self.index(ti, tj)?)?.as_deref()
-    }
-
-    /// The directory grown so as to cover `needed` (in tiles) as well.
-    fn grown(&self, needed: CellRect) -> Self {
-        let old = self.rect;
-        let rect = if self.tiles.is_empty() { needed } else { old.united(needed) };
-        let mut grown = Self { rect, tiles: vec![None; rect.width() * rect.height()] };
-        for tj in old.j0..old.j1 {
-            for ti in old.i0..old.i1 {
-                let (from, to) = (self.index(ti, tj), grown.index(ti, tj));
-                if let (Some(from), Some(to)) = (from, to) {
-                    grown.tiles[to].clone_from(&self.tiles[from]);
-                }
-            }
-        }
-        grown
-    }
 }
 
 impl<const CELLS_PER_NDT: usize> ConditionalMap for Grid<CELLS_PER_NDT> {
@@ -492,7 +292,7 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
     fn grow(&mut self, CellRect { i0, j0, i1, j1 }: CellRect) {
         let margin = i32::from(self.model.distance_reach > 0);
         let needed = CellRect { i0: i0 - margin, j0: j0 - margin, i1: i1 + margin, j1: j1 + margin };
-        if !covers(self.directory.rect, needed) {
+        if !self.directory.rect.covers(needed) {
             self.directory = Arc::new(self.directory.grown(needed));
         }
     }
@@ -571,10 +371,6 @@ fn fast_floor(x: f64) -> i32 {
 fn floor(x: f64) -> i32 {
     let truncated = x as i32;
     truncated.saturating_sub(i32::from(f64::from(truncated) > x))
-}
-
-fn covers(outer: CellRect, inner: CellRect) -> bool {
-    outer.i0 <= inner.i0 && outer.j0 <= inner.j0 && outer.i1 >= inner.i1 && outer.j1 >= inner.j1
 }
 
 #[cfg(test)]
