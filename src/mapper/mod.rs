@@ -21,6 +21,7 @@ mod innovations;
 mod last_places;
 mod localizer;
 mod loops;
+mod memory;
 mod models;
 mod moving;
 mod odometer;
@@ -40,6 +41,7 @@ use closing::Closings;
 pub use innovations::OdometryInnovations;
 pub use localizer::Localizer;
 pub use loops::{Loop, LoopEnd};
+pub use memory::Memory;
 pub use models::{CELLS_PER_NDT, Map};
 use models::{MODELS, Proposal};
 use moving::LastViews;
@@ -57,9 +59,8 @@ pub use wheels::{WheelNoise, Wheels};
 
 use crate::error::SettingError;
 use crate::execute::Executor;
-use crate::genealogy::Path;
 use crate::geometry::{Pose2, driven};
-use crate::map::{ConditionalMap, Footprint};
+use crate::map::ConditionalMap;
 use crate::matching::ScanModel;
 use crate::motion::{Displaced, Displacement};
 use crate::particle::Particle;
@@ -89,28 +90,6 @@ impl Pushed {
     /// What the filter's step did, if there was one.
     pub fn report(self) -> Option<Report<()>> {
         if let Self::Step(report) = self { Some(report) } else { None }
-    }
-}
-
-/// What a [`LaserMapper`] keeps.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Memory {
-    /// Size of the particles' maps.
-    pub maps: Footprint,
-    /// Bytes of the maps of before by which loops are found, which they do not share with [`Self::maps`].
-    pub kept_map_bytes: u64,
-    /// Number of the scans by which a path that is bent is mapped again: at most [`LaserMapperSettings::kept_scans`].
-    pub kept_scans: u32,
-    /// Bytes of these scans, and of where on the way each one that was taken is.
-    pub scan_bytes: u64,
-    /// Bytes of the particles' paths and of the times of all scans.
-    pub path_bytes: u64,
-}
-
-impl Memory {
-    /// All of it \[bytes\].
-    pub fn bytes(&self) -> u64 {
-        self.maps.unique + self.kept_map_bytes + self.scan_bytes + self.path_bytes
     }
 }
 
@@ -304,25 +283,6 @@ impl LaserMapper {
         self.odometer.unbelieved()
     }
 
-    /// What whoever reads path and map should know of them.
-    pub fn remarks(&self) -> Vec<Remark> {
-        let unbelieved = self.unbelieved();
-        let contradicted = unbelieved.first().map(|first| Remark::Contradicted {
-            steps: unbelieved.len(),
-            time: first.time,
-            told: driven(&first.told),
-            elapsed: first.elapsed,
-        });
-        let scans = self.stamps.len();
-        let never_moved = (self.steps == 0 && scans > 1).then_some(Remark::NeverMoved(scans));
-        let nothing_met = (scans > 0 && self.closings.met_nothing()).then_some(Remark::NothingMet);
-        let last = self.open_loops().last().and_then(|last| self.at_step(last.to));
-        let open = last.map(|(time, _)| Remark::OpenLoops { loops: self.open_loops().count(), time });
-        let [kept, taken, _] = self.closings.kept_scans();
-        let thinned = (kept < taken).then_some(Remark::Thinned { kept, taken });
-        [contradicted, never_moved, nothing_met, open, thinned].into_iter().flatten().collect()
-    }
-
     /// What has been learnt of the wheels.
     pub fn wheels(&self) -> &Wheels {
         &self.wheels
@@ -399,30 +359,6 @@ impl LaserMapper {
     pub fn at_step(&self, step: usize) -> Option<(f64, Pose2)> {
         let stamp = self.stamps.iter().find(|stamp| stamp.step as usize == step)?;
         Some((stamp.time, *self.best().path.poses().get(step)?))
-    }
-
-    /// Bytes of all particles' maps.
-    pub fn footprint(&self) -> Footprint {
-        Map::footprint(self.filter.particles().iter().map(|particle| &particle.map))
-    }
-
-    /// The same with the maps of before that are kept to find loops by.
-    pub fn footprint_with_kept(&self) -> Footprint {
-        Map::footprint(self.filter.particles().iter().map(|particle| &particle.map).chain(self.closings.maps()))
-    }
-
-    /// What the mapper keeps, which grows with the way. What is besides, as the scans that tell what moves, is of a bounded number.
-    pub fn memory(&self) -> Memory {
-        let maps = self.footprint();
-        let [kept_scans, _, scan_bytes] = self.closings.kept_scans();
-        let poses = self.filter.descent().size() as usize * Path::NODE_BYTES + size_of_val(&self.stamps[..]);
-        Memory {
-            maps,
-            kept_map_bytes: self.footprint_with_kept().unique - maps.unique,
-            kept_scans: kept_scans as u32,
-            scan_bytes: scan_bytes as u64,
-            path_bytes: poses as u64,
-        }
     }
 
     fn best(&self) -> &Particle<Map> {

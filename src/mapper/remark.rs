@@ -1,7 +1,9 @@
 //! What whoever reads a path and a map should know of them: each remark as the data that tell of it, so that whoever shows it can say it in the
 //! words of his readers. Displayed, they are said in English.
 
+use super::LaserMapper;
 use crate::error::fixed;
+use crate::geometry::driven;
 use core::fmt;
 
 /// What one does not see at once of a path and a map.
@@ -67,5 +69,26 @@ impl fmt::Display for Remark {
                 "of the {taken} scans that were taken {kept} are kept: where a path is bent to close a loop, it is mapped again by these"
             ),
         }
+    }
+}
+
+impl LaserMapper {
+    /// What whoever reads path and map should know of them.
+    pub fn remarks(&self) -> Vec<Remark> {
+        let unbelieved = self.unbelieved();
+        let contradicted = unbelieved.first().map(|first| Remark::Contradicted {
+            steps: unbelieved.len(),
+            time: first.time,
+            told: driven(&first.told),
+            elapsed: first.elapsed,
+        });
+        let scans = self.stamps.len();
+        let never_moved = (self.steps == 0 && scans > 1).then_some(Remark::NeverMoved(scans));
+        let nothing_met = (scans > 0 && self.closings.met_nothing()).then_some(Remark::NothingMet);
+        let last = self.open_loops().last().and_then(|last| self.at_step(last.to));
+        let open = last.map(|(time, _)| Remark::OpenLoops { loops: self.open_loops().count(), time });
+        let [kept, taken, _] = self.closings.kept_scans();
+        let thinned = (kept < taken).then_some(Remark::Thinned { kept, taken });
+        [contradicted, never_moved, nothing_met, open, thinned].into_iter().flatten().collect()
     }
 }
