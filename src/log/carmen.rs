@@ -10,6 +10,9 @@
 //!
 //! Reference: the file format of CARMEN's logger, as its log files describe it in their own comments.
 
+mod words;
+
+use self::words::{Words, shown};
 #[cfg(feature = "json")]
 use super::Remark;
 #[cfg(feature = "json")]
@@ -193,6 +196,9 @@ pub fn write(log: &LaserLog) -> String {
     text
 }
 
+const FRONT: &str = "FLASER";
+const ROBOT: &str = "ROBOTLASER1";
+
 #[derive(Default)]
 struct Reader {
     log: LaserLog,
@@ -361,9 +367,6 @@ impl Reader {
     }
 }
 
-/// Beams that room is made for before they are read.
-const MOST_BEAMS: u32 = 4096;
-
 /// Kinds of unknown messages that are counted apart: a log has a few, a file of another sort has no end of them.
 const MOST_KINDS: usize = 64;
 
@@ -375,83 +378,4 @@ fn fan(count: usize) -> (f64, f64) {
     let degrees = if [100, 101, 200, 201, 400, 401].contains(&count) { 100.0 } else { 180.0 };
     let field_of_view = degrees * PI / 180.0;
     (-0.5 * field_of_view, field_of_view / (count - count % 2).max(1) as f64)
-}
-
-/// The words of one message.
-struct Words<'a> {
-    words: core::str::SplitAsciiWhitespace<'a>,
-    /// Its name; empty for a pose in a line of a TUM file.
-    kind: &'static str,
-}
-
-const FRONT: &str = "FLASER";
-const ROBOT: &str = "ROBOTLASER1";
-
-impl<'a> Words<'a> {
-    fn wrong(&self, field: Field, found: Option<&str>) -> LogProblem {
-        let message = Some(self.kind).filter(|kind| !kind.is_empty());
-        LogProblem::Field { message, field, found: found.map(shown) }
-    }
-
-    fn word(&mut self, field: Field) -> Result<&'a str, LogProblem> {
-        self.words.next().ok_or_else(|| self.wrong(field, None))
-    }
-
-    /// A finite number, by the name of its field.
-    fn number(&mut self, name: &'static str) -> Result<f64, LogProblem> {
-        self.value(Field::Named(name))
-    }
-
-    /// A finite number.
-    fn value(&mut self, field: Field) -> Result<f64, LogProblem> {
-        let word = self.word(field)?;
-        word.parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(|| self.wrong(field, Some(word)))
-    }
-
-    fn count(&mut self, field: Field) -> Result<u32, LogProblem> {
-        let word = self.word(field)?;
-        word.parse().map_err(|_| self.wrong(field, Some(word)))
-    }
-
-    /// A count, and as many ranges. What a laser writes for *nothing met* (nan, inf) is kept as infinite.
-    fn ranges(&mut self) -> Result<Vec<f32>, LogProblem> {
-        let count = self.count(Field::RangeCount)?;
-        let mut ranges = Vec::with_capacity(count.min(MOST_BEAMS) as usize); // it may say anything
-        for k in 0..count {
-            let field = Field::Range { number: k + 1, of: count };
-            let word = self.word(field)?;
-            let range = match word.parse::<f64>().ok().filter(|range| !range.is_nan()) {
-                Some(range) => range as f32,
-                None if is_no_number(word) => f32::INFINITY,
-                None => return Err(self.wrong(field, Some(word))),
-            };
-            ranges.push(range);
-        }
-        Ok(ranges)
-    }
-
-    fn pose(&mut self, names: &'static str) -> Result<Pose2, LogProblem> {
-        let found @ [x, y, theta] = [self.number(names)?, self.number(names)?, self.number(names)?];
-        if x.abs().max(y.abs()) > LaserScan::FARTHEST || theta.abs() > LaserScan::FARTHEST {
-            return Err(LogProblem::Far { message: self.kind, names, found });
-        }
-        Ok(Pose2::new(x, y, theta))
-    }
-
-    /// The first stamp at the end of the line.
-    fn time(&mut self) -> Result<f64, LogProblem> {
-        self.value(Field::Time)
-    }
-}
-
-fn is_no_number(word: &str) -> bool {
-    let unsigned = word.trim_start_matches(['-', '+']);
-    ["nan", "inf", "infinity"].iter().any(|name| unsigned.eq_ignore_ascii_case(name))
-}
-
-/// A word as a message shows it: the start of it, without control characters.
-fn shown(word: &str) -> String {
-    const MOST: usize = 24;
-    let start: String = word.chars().take(MOST).flat_map(char::escape_debug).collect();
-    if word.chars().count() > MOST { format!("“{start}…”") } else { format!("“{start}”") }
 }
