@@ -1,14 +1,14 @@
 //! Bags of two writers against the CARMEN log that says the same (tests/bags/make.py), and bags made here of whatever goes wrong.
 
-use super::messages::{Header, LaserScan as ScanMessage, Rigid, Time, Transform, to_cdr};
+mod made;
+
+use self::made::{Made, ROBOT_AT, framed};
+use super::messages::{LaserScan as ScanMessage, Rigid};
 use super::*;
 use crate::{parse, write_json_lines};
 use core::f64::consts::PI;
 use fastslam::geometry::Pose2;
 use fastslam::mapper::{LaserMapperSettings, Replay};
-use mcap::WriteOptions;
-use mcap::records::MessageHeader;
-use std::io::Cursor;
 use std::sync::Arc;
 
 const CARMEN: &[u8] = include_bytes!("../../../tests/bags/lap.clf");
@@ -62,71 +62,6 @@ fn json_lines_keep_every_bit() {
     let log = read(BAGS[0].1).unwrap();
     let again = parse(write_json_lines(&log).as_bytes(), false).unwrap();
     assert_eq!(again.scans, log.scans);
-}
-
-const ROBOT_AT: Rigid = Rigid { position: [0.0; 3], orientation: [0.0, 0.0, 0.0, 1.0] };
-
-/// A bag in the making.
-struct Made {
-    writer: mcap::Writer<Cursor<Vec<u8>>>,
-}
-
-impl Made {
-    fn new() -> Self {
-        Self { writer: WriteOptions::new().compression(None).create(Cursor::new(Vec::new())).unwrap() }
-    }
-
-    fn raw(mut self, topic: &str, kind: &str, encoding: &str, bytes: &[u8]) -> Self {
-        let schema = self.writer.add_schema(kind, "ros2msg", b"").unwrap();
-        let channel_id = self.writer.add_channel(schema, topic, encoding, &BTreeMap::new()).unwrap();
-        let header = MessageHeader { channel_id, sequence: 0, log_time: 77_500_000_000, publish_time: 0 };
-        self.writer.write_to_known_channel(&header, bytes).unwrap();
-        self
-    }
-
-    fn scan(self, topic: &str, sec: i32, change: impl Fn(&mut ScanMessage)) -> Self {
-        let header = Header { stamp: Time { sec, nanosec: 0 }, frame_id: "laser".into() };
-        let mut scan = ScanMessage {
-            header,
-            angle_min: -0.5,
-            angle_increment: 0.25,
-            range_min: 0.1,
-            range_max: 30.0,
-            ..ScanMessage::default()
-        };
-        scan.ranges = vec![1.0, 2.0, 3.0, 4.0, 5.0];
-        change(&mut scan);
-        self.raw(topic, "sensor_msgs/msg/LaserScan", "cdr", &to_cdr(&scan).unwrap())
-    }
-
-    fn odometry(self, topic: &str, sec: i32, x: f64) -> Self {
-        let header = Header { stamp: Time { sec, nanosec: 0 }, frame_id: "odom".into() };
-        let parent_from_child = Rigid { position: [x, 0.0, 0.0], ..ROBOT_AT };
-        let message = Transform { header, child_frame_id: "base_link".into(), parent_from_child };
-        self.raw(topic, "nav_msgs/msg/Odometry", "cdr", &to_cdr(&message).unwrap())
-    }
-
-    fn fixed(self, parent: &str, child: &str, parent_from_child: Rigid) -> Self {
-        let header = Header { frame_id: parent.into(), ..Header::default() };
-        let transform = Transform { header, child_frame_id: child.into(), parent_from_child };
-        self.raw("/tf_static", "tf2_msgs/msg/TFMessage", "cdr", &to_cdr(&vec![transform]).unwrap())
-    }
-
-    fn moving(self, parent: &str, child: &str, sec: i32, x: f64) -> Self {
-        let header = Header { stamp: Time { sec, nanosec: 0 }, frame_id: parent.into() };
-        let parent_from_child = Rigid { position: [x, 0.0, 0.0], ..ROBOT_AT };
-        let transform = Transform { header, child_frame_id: child.into(), parent_from_child };
-        self.raw("/tf", "tf2_msgs/msg/TFMessage", "cdr", &to_cdr(&vec![transform]).unwrap())
-    }
-
-    fn bytes(mut self) -> Vec<u8> {
-        self.writer.finish().unwrap();
-        self.writer.into_inner().into_inner()
-    }
-
-    fn read(self) -> Result<LaserLog, String> {
-        read(&self.bytes())
-    }
 }
 
 #[test]
@@ -365,19 +300,6 @@ fn a_compression_that_is_not_known_is_named() {
     let lenient = read_with(&other, BagOptions { lenient: true, ..BagOptions::default() });
     assert_eq!(lenient.unwrap_err(), read(&other).unwrap_err());
     assert_eq!(read(&other).unwrap_err(), "its chunks are compressed by “xz9”; zstd, lz4 and bz2 can be read");
-}
-
-/// Two scans of a laser that sits 0.2 m ahead on a robot, under a frame for its odometry and a map.
-fn framed(odom: &str, robot: &str) -> Made {
-    let made = Made::new().fixed(robot, "laser", Rigid { position: [0.2, 0.0, 0.0], ..ROBOT_AT });
-    [1, 2].into_iter().fold(made, |made, sec| {
-        let x = f64::from(sec);
-        made.moving("map", odom, sec, 0.1 * x).moving(odom, robot, sec, x).moving(robot, "wheel", sec, 7.0 * x).scan(
-            "/scan",
-            sec,
-            |_| (),
-        )
-    })
 }
 
 #[test]
