@@ -1,23 +1,26 @@
 //! `fastslam landmarks`: FastSLAM 1.0 and 2.0 on simulated courses and recorded logs.
 
+mod many;
+mod one;
+
+use self::many::{Errors, many};
+use self::one::one;
 use crate::remarks::Outcome;
 use crate::settings::{Adjust, SettingsOptions};
-use crate::{landmark_graph, mrclam, picture, print, print_json, progress, victoria, whole};
+use crate::{landmark_graph, mrclam, progress, victoria, whole};
 use anyhow::Result;
 use fastslam::error::SettingError;
 use fastslam::map::landmarks::Correspondence;
 use fastslam::motion::Motion;
 use fastslam::resampling::ResamplePolicy;
-use fastslam_lab::experiment::ErrorSummary;
 use fastslam_lab::experiment::ProposalKind;
 use fastslam_lab::experiment::innovations::{Innovations, Predicts};
 use fastslam_lab::experiment::landmarks::{
-    self, CorrespondenceKind, Course, LandmarkLog, LandmarkReport, LandmarkRun, LandmarkSetup, Tuning, WithLandmarks,
+    self, CorrespondenceKind, Course, LandmarkLog, LandmarkRun, LandmarkSetup, Tuning, WithLandmarks,
 };
 use fastslam_lab::experiment::{camera, car};
 use indicatif::ParallelProgressIterator;
 use rayon::prelude::*;
-use serde::Serialize;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -99,68 +102,6 @@ fn version(text: &str) -> Result<ProposalKind, &'static str> {
         "2.0" => Ok(ProposalKind::Improved),
         _ => Err("must be 1.0 or 2.0"),
     }
-}
-
-/// What `--json` prints of one run.
-#[derive(Serialize)]
-struct Output {
-    /// Where the noises that the filters are told come from.
-    noises: String,
-    /// Of the best particle's path at the end \[m\].
-    rms_best: f64,
-    /// \[m\]
-    rms_best_aligned: f64,
-    /// \[m\]
-    rms_odometry: f64,
-    /// RMS over the steps of the errors of the weighted mean, each when it was made \[m\].
-    rms_online: f64,
-    /// The same of EKF-SLAM on the same drive \[m\].
-    rms_ekf: f64,
-    /// The same of FastSLAM 2.0 that draws late \[m\].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    rms_late: Option<f64>,
-    /// In the best particle's map.
-    landmarks: u32,
-    /// What the robot turns to the left beyond its odometry, per metre ahead \[rad/m\] and per radian turned \[–\], where that is learnt.
-    drift: Option<[f64; 2]>,
-    /// Mean normalised innovation squared; 2 is expected.
-    innovation: Option<f64>,
-    /// What speaks against the result, with what to change.
-    remarks: Vec<String>,
-    /// Share of the steps that resampled.
-    resampled_fraction: f64,
-    map_bytes_unique: u64,
-    map_bytes_dense: u64,
-    steps: Vec<LandmarkReport>,
-}
-
-/// What `--json` prints of many: errors of position \[m\].
-#[derive(Serialize)]
-struct Summary {
-    seeds: usize,
-    /// Where the noises that the filters are told come from.
-    noises: String,
-    /// RMS over the steps of the errors of the weighted mean, each when it was made.
-    online: ErrorSummary,
-    /// The same of EKF-SLAM on the same drives.
-    ekf: ErrorSummary,
-    /// The same of FastSLAM 2.0 that draws late.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    late: Option<ErrorSummary>,
-    /// RMS of the best particle's path at the end.
-    best: ErrorSummary,
-    /// The same after the best rigid alignment.
-    best_aligned: ErrorSummary,
-    /// RMS of raw odometry.
-    odometry: ErrorSummary,
-    /// How many landmarks the best particle's map has at the end.
-    landmarks: ErrorSummary,
-    /// Medians of what the robot turns to the left beyond its odometry, per metre ahead \[rad/m\] and per radian turned \[–\], where that is learnt.
-    drift: Option<[f64; 2]>,
-    /// Median of the mean normalised innovations squared; 2 is expected.
-    innovation: Option<f64>,
-    /// What speaks against the median result, with what to change.
-    remarks: Vec<String>,
 }
 
 /// What a command runs: a log for each seed, and what the filters are told.
@@ -282,15 +223,6 @@ struct Others {
     late: Option<f64>,
 }
 
-/// What is kept of one of many runs \[m\].
-struct Errors {
-    online: f64,
-    others: Others,
-    /// Of the best particle's path at the end, of the same aligned, and of raw odometry.
-    path: [f64; 3],
-    outcome: Outcome,
-}
-
 /// What is known of a run at its end.
 fn outcome<D, M, P>(run: &LandmarkRun<D, M, P>, innovations: Innovations, founded: u32) -> Outcome
 where
@@ -310,75 +242,6 @@ where
     }
 }
 
-fn one<D, M, P>(arguments: &Arguments, mut run: LandmarkRun<D, M, P>, others: Others, noises: &str) -> Result<()>
-where
-    D: Motion + Adjust + Clone,
-    M: WithLandmarks,
-    P: Predicts<M, Control = D::Control>,
-{
-    let (mut steps, mut innovations) = (Vec::new(), Innovations::default());
-    while let Some(report) = innovations.step(&mut run) {
-        steps.push(report);
-    }
-    if let Some(path) = &arguments.png {
-        picture::save(&picture::of_landmarks(&run), path)?;
-    }
-    let footprint = run.footprint();
-    let resampled = steps.iter().filter(|step| step.ancestors.is_some()).count();
-    let outcome = outcome(&run, innovations, steps.iter().map(|step| step.best.first).sum());
-    let remarks = outcome.remarks(D::NAMES);
-    let output = Output {
-        noises: noises.into(),
-        rms_best: run.rms_best(),
-        rms_best_aligned: run.rms_best_aligned(),
-        rms_odometry: run.rms_odometry(),
-        rms_online: run.rms_online(),
-        rms_ekf: others.ekf,
-        rms_late: others.late,
-        landmarks: outcome.left as u32,
-        drift: outcome.drift,
-        innovation: innovations.mean(),
-        remarks,
-        resampled_fraction: resampled as f64 / steps.len().max(1) as f64,
-        map_bytes_unique: footprint.unique,
-        map_bytes_dense: footprint.dense,
-        steps,
-    };
-    say(&output.remarks);
-    if arguments.json {
-        return print_json(&output);
-    }
-    let late =
-        output.rms_late.map(|late| format!("the same, where poses are drawn late{late:6.3} m\n")).unwrap_or_default();
-    print(&format!(
-        "{} steps, {} particles; noises {noises}\n\
-         RMS error as it went, of the mean {:8.3} m, of EKF-SLAM {:.3} m\n\
-         {late}\
-         the best path at the end          {:8.3} m\n\
-         the same after rigid alignment    {:8.3} m\n\
-         raw odometry                      {:8.3} m\n\
-         landmarks in the best map         {:8} (there are {})\n\
-         {}\
-         {}\
-         steps that resampled              {:8.0} %\n\
-         maps                              {:8.1} kB, {:.1} kB as dense copies\n",
-        output.steps.len(),
-        arguments.particles,
-        output.rms_online,
-        output.rms_ekf,
-        output.rms_best,
-        output.rms_best_aligned,
-        output.rms_odometry,
-        output.landmarks,
-        run.log().landmarks.len(),
-        drift_row(output.drift),
-        innovation_row(output.innovation),
-        100.0 * output.resampled_fraction,
-        output.map_bytes_unique as f64 / 1e3,
-        output.map_bytes_dense as f64 / 1e3,
-    ))
-}
-
 /// Says remarks on standard error: they leave the exit status as it is.
 fn say(remarks: &[String]) {
     remarks.iter().for_each(|remark| eprintln!("fastslam: {remark}"));
@@ -395,74 +258,4 @@ fn drift_row(drift: Option<[f64; 2]>) -> String {
 fn innovation_row(innovation: Option<f64>) -> String {
     let row = |mean| format!("mean normalised innovation²       {mean:8.2} (2 is expected)\n");
     innovation.map(row).unwrap_or_default()
-}
-
-/// The distribution of a number over runs.
-fn spread(errors: &[Errors], of: impl Fn(&Errors) -> f64) -> ErrorSummary {
-    ErrorSummary::of(&errors.iter().map(of).collect::<Vec<f64>>())
-}
-
-/// The medians of runs.
-fn median_outcome(errors: &[Errors]) -> Outcome {
-    let median = |of: &dyn Fn(&Outcome) -> f64| spread(errors, |errors| of(&errors.outcome)).median;
-    let innovation = median(&|outcome| outcome.innovations.1.unwrap_or(f64::NAN));
-    let of_first = errors[0].outcome;
-    Outcome {
-        innovations: (
-            median(&|outcome| f64::from(outcome.innovations.0)) as u32,
-            Some(innovation).filter(|innovation| !innovation.is_nan()),
-            median(&|outcome| outcome.innovations.2),
-        ),
-        left: median(&|outcome| outcome.left),
-        founded: median(&|outcome| outcome.founded),
-        there: median(&|outcome| outcome.there),
-        drift: of_first
-            .drift
-            .map(|_| [0, 1].map(|k| median(&|outcome| outcome.drift.map_or(f64::NAN, |drift| drift[k])))),
-        ..of_first
-    }
-}
-
-fn many(arguments: &Arguments, errors: &[Errors], noises: &str, options: &[&str]) -> Result<()> {
-    let spread = |of: &dyn Fn(&Errors) -> f64| spread(errors, of);
-    let median = median_outcome(errors);
-    let summary = Summary {
-        seeds: errors.len(),
-        noises: noises.into(),
-        online: spread(&|errors| errors.online),
-        ekf: spread(&|errors| errors.others.ekf),
-        late: arguments.late.map(|_| spread(&|errors| errors.others.late.unwrap_or(f64::NAN))),
-        best: spread(&|errors| errors.path[0]),
-        best_aligned: spread(&|errors| errors.path[1]),
-        odometry: spread(&|errors| errors.path[2]),
-        landmarks: spread(&|errors| errors.outcome.left),
-        drift: median.drift,
-        innovation: median.innovations.1,
-        remarks: median.remarks(options),
-    };
-    say(&summary.remarks);
-    if arguments.json {
-        return print_json(&summary);
-    }
-    let row = |name: &str, ErrorSummary { median, p90, worst, .. }: &ErrorSummary| {
-        format!("{name:34}{median:8.3} m median, {p90:.3} m p90, {worst:.3} m worst\n")
-    };
-    print(
-        &[
-            format!("{} seeds, {} particles; noises {noises}\n", summary.seeds, arguments.particles),
-            row("RMS error as it went, of the mean", &summary.online),
-            summary.late.as_ref().map(|late| row("of the mean, poses drawn late", late)).unwrap_or_default(),
-            row("of EKF-SLAM as it went", &summary.ekf),
-            row("the best path at the end", &summary.best),
-            row("the same after rigid alignment", &summary.best_aligned),
-            row("raw odometry", &summary.odometry),
-            format!(
-                "{:34}{:8.0} median, {:.0} p90, {:.0} worst\n",
-                "landmarks in the best map", summary.landmarks.median, summary.landmarks.p90, summary.landmarks.worst,
-            ),
-            drift_row(summary.drift),
-            innovation_row(summary.innovation),
-        ]
-        .concat(),
-    )
 }
