@@ -9,6 +9,62 @@ use std::collections::BTreeMap;
 use std::io::{Cursor, Read as _};
 use tempfile::tempdir;
 
+#[test]
+fn a_bag_is_mapped_as_the_log_that_says_the_same_and_its_path_is_written_for_ros() {
+    let folder = tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name).display().to_string();
+    let (tum, mcap) = (file("path.tum"), file("path.mcap"));
+    let digest = |log: &str| {
+        json(&format!("log {log} --particles 3 --trajectory {tum} --path-mcap {mcap} --json"))["digest"].clone()
+    };
+    let expected = digest(&bag("lap.clf"));
+    let (path, message) = (std::fs::read(&tum).unwrap(), std::fs::read(&mcap).unwrap());
+    for name in ["odometry-zstd.mcap", "odometry.db3", "tf-lz4.mcap", "plain.bag", "lz4.bag", "bz2.bag"] {
+        assert_eq!(digest(&bag(name)), expected, "{name}");
+        assert_eq!((&std::fs::read(&tum).unwrap(), &std::fs::read(&mcap).unwrap()), (&path, &message), "{name}");
+    }
+    assert!(message.starts_with(b"\x89MCAP0\r\n") && message.ends_with(b"\x89MCAP0\r\n"));
+    // The figure of logs saves the same bytes (tests/e2e/log-bags.spec.ts).
+    if std::env::var_os("UPDATE_GOLDENS").is_some() {
+        std::fs::write(bag("lap-path.mcap"), &message).unwrap();
+    }
+    assert!(message == std::fs::read(bag("lap-path.mcap")).unwrap(), "UPDATE_GOLDENS=1 writes it if that is wanted");
+    // What the path's own reader finds in it: no scans, but a path.
+    let refused = fastslam(&format!("log {mcap}")).code(2).stdout("");
+    let said = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(
+        said.ends_with("path.mcap: no sensor_msgs/LaserScan in it; there is /path (1 × nav_msgs/Path)\n"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_bag_that_cannot_be_read_is_refused_by_file_and_topic() {
+    let folder = tempdir().unwrap();
+    let refused = |arguments: &str| {
+        let refused = fastslam(arguments).code(2).stdout("");
+        String::from_utf8_lossy(&refused.get_output().stderr).into_owned()
+    };
+    let said = refused(&format!("log {} --scan-topic /odom", bag("lz4.bag")));
+    assert!(
+        said.ends_with("lz4.bag: the topic /odom is of type nav_msgs/Odometry, not sensor_msgs/LaserScan\n"),
+        "{said}"
+    );
+    let said = refused(&format!("log {} --scan-topic /scan", bag("lap.clf")));
+    assert!(said.contains("are for bags"), "{said}");
+    let half = folder.path().join("half.mcap");
+    let bytes = std::fs::read(bag("odometry-zstd.mcap")).unwrap();
+    std::fs::write(&half, &bytes[..bytes.len() / 2]).unwrap();
+    let half = half.display();
+    assert!(refused(&format!("log {half}")).contains("half.mcap: it ends in the middle of a record"));
+    let read = fastslam(&format!("log {half} --lenient --particles 2 --json")).success();
+    let said = String::from_utf8_lossy(&read.get_output().stderr).into_owned();
+    assert!(
+        said.contains("malformed messages passed over: 1, the first of them: it ends in the middle of a record"),
+        "{said}"
+    );
+}
+
 /// A bag in so many parts of as many messages, as a recorder splits it: each tells all that its messages need.
 fn parts(name: &str, count: usize) -> Vec<Vec<u8>> {
     let bytes = std::fs::read(bag(name)).unwrap();
