@@ -12,7 +12,6 @@ const longer = {
   'lab/src/experiment/em.rs': 408,
   'lab/src/experiment/graph.rs': 627,
   'lab/src/experiment/joint_map.rs': 422,
-  'lab/src/experiment/landmarks.rs': 665,
   'lab/src/experiment/lap.rs': 735,
   'lab/src/experiment/policies.rs': 493,
   'widgets/elements/figure-parts.ts': 418,

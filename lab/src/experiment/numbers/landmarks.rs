@@ -131,7 +131,7 @@ fn eight() -> Vec<Recipe> {
     }));
     recipes.push(Recipe::fixed(NAME, |group| {
         let log = COURSE.simulate(1);
-        let of = "of the course: src/experiment/landmarks.rs";
+        let of = "of the course: src/experiment/landmarks/course.rs";
         vec![
             group.number("landmarks", log.landmarks.len() as f64, "", format!("Landmarks {of}")),
             group.number("runs", f64::from(SEEDS), "", "Seeds of every row of the landmark table, from 1 on"),
