@@ -11,7 +11,7 @@ pub struct Memory {
     pub maps: Footprint,
     /// Bytes of the maps of before by which loops are found, which they do not share with [`Self::maps`].
     pub kept_map_bytes: u64,
-    /// Number of the scans by which a path that is bent is mapped again: at most [`LaserMapperSettings::kept_scans`].
+    /// Number of the scans by which a path that is bent is mapped again: at most [`LaserMapperSettings::kept_scans`](super::LaserMapperSettings::kept_scans).
     pub kept_scans: u32,
     /// Bytes of these scans, and of where on the way each one that was taken is.
     pub scan_bytes: u64,

@@ -21,7 +21,7 @@ pub struct GridModel {
     /// How many times longer than its end points say a distribution is along the wall: 1 or more. A wall goes on from NDT cell to NDT cell,
     /// but a normal distribution in each is a string of beads: between two of them, even the right pose fits badly.
     pub ndt_stretch: f64,
-    /// How many scans old [`Grid::past`] is, at the least; with 0 no past is kept but what is [marked](Grid::mark).
+    /// How many scans old [`Grid::past`](super::Grid::past) is, at the least; with 0 no past is kept but what is [marked](super::Grid::mark).
     pub lag: u32,
     /// How far from a hit the distance field is kept \[NDT cells\], 0 to 2: what a coarse search looks at. With 0 there is none.
     pub distance_reach: u32,

@@ -6,7 +6,7 @@ use super::{Grid, fast_floor};
 
 /// What a scan is held against. Asking may be to its advantage: what was worked out for one point it may keep for the next.
 pub(crate) trait NdtField {
-    /// Log-odds of the cell of a point \[m\], in [`UNIT`]s.
+    /// Log-odds of the cell of a point \[m\], in [`UNIT`](super::UNIT)s.
     fn units_at(&mut self, point: [f64; 2]) -> i8;
 
     /// What is known at the first `count` of these points \[m\]; of the others nothing of any meaning is said.
@@ -22,7 +22,7 @@ pub(crate) struct Nearest {
     /// The smallest squared Mahalanobis distance to the distributions of the four NDT cells whose centres are nearest, infinite where
     /// none of them was hit. The four contain everything within half an NDT cell of the point.
     pub d2: [f32; BLOCK],
-    /// The log-odds of the middle of the point's own NDT cell in [`UNIT`]s.
+    /// The log-odds of the middle of the point's own NDT cell in [`UNIT`](super::UNIT)s.
     pub units: [i8; BLOCK],
 }
 
