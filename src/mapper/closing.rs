@@ -5,8 +5,8 @@
 //! beside the first. So every few metres the scans of the last metres are held, as one rigid picture, against the map as it was before what
 //! they show came in sight. Where end points lie in what that map knows to be free, the picture is searched for as far as the path
 //! may have drifted by its own covariance, up to 12 m to each side. If it fits somewhere else much better than here and than
-//! anywhere else, the path is bent until it ends there, each motion by its share, with the loops closed so far as they are ([`Chain::bent`](crate::geometry::Chain::bent)); and
-//! it is mapped again.
+//! anywhere else, the path is bent until it ends there, each motion by its share, with the loops closed so far as they are
+//! ([`Chain::bent`](crate::geometry::Chain::bent)); and it is mapped again.
 //!
 //! A loop whose ends seem to meet is searched for just so, and counts as closed only if the picture fits nowhere else nearly as well. Along a corridor with doors
 //! that look alike a path may be off by one door and agree with the map; closed there, it would be taken as certain, and the right place be

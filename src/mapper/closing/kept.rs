@@ -98,6 +98,7 @@ impl Closings {
         let bytes = self.views.iter().flat_map(|view| &view.scan).map(|scan| scan.bytes()).sum::<usize>();
         [self.keeping.kept, self.views.len(), bytes + size_of_val(&self.views[..])]
     }
+
     /// Whether no scan has met anything.
     pub(in crate::mapper) fn met_nothing(&self) -> bool {
         self.views.iter().all(|view| view.reach == 0.0)
