@@ -32,6 +32,7 @@ pub mod prelude;
 mod query;
 pub mod recipe;
 pub mod registry;
+mod robot;
 pub mod scene;
 #[cfg(target_arch = "wasm32")]
 pub mod shell;

@@ -4,6 +4,7 @@ use super::{layout::MARGIN, matrix, model::ConditioningModel, recipe::Given};
 use crate::{
     font::{self, Weight},
     model::Model,
+    robot::Poses,
     scene::{Anchor, Mark, NINE_TENTHS, Plane, Point, Rect, Role, Scene, Text, closed, diamond, joined},
 };
 use fastslam_lab::experiment::conditioning::SIZE;

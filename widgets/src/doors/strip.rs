@@ -5,7 +5,8 @@ use crate::{
     decimal::write,
     model::Model,
     order::ascending,
-    scene::{Letters, Point, Rect, Role, Scene, diamond, plain, robot, strong},
+    robot::robot,
+    scene::{Letters, Point, Rect, Role, Scene, diamond, plain, strong},
     words::doors as words,
 };
 use fastslam::ops;

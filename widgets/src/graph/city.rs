@@ -3,6 +3,7 @@
 use super::{layout::Layout, model::GraphModel, told};
 use crate::{
     model::{Declared as _, Model as _},
+    robot::{Poses, Robots},
     scene::{
         Cells, FREE, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, clip_polyline, joined,
         legend, shade,

@@ -3,6 +3,7 @@
 use super::{layout::Layout, model::GraphModel, told};
 use crate::{
     lap::map,
+    robot::{Poses, Robots},
     scene::{LINE, Rect, Role, Scene, Shading, joined, plain},
     words::{common, graph as words},
 };

@@ -6,6 +6,7 @@ use super::model::LapModel;
 use crate::{
     decimal::fixed,
     model::{Declared, FigureError, Model},
+    robot::Robots,
     scene::{Plane, Role, Room, Scene},
     words::lap,
 };

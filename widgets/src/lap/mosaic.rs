@@ -9,6 +9,7 @@ use super::{
 use crate::{
     model::Model,
     order::ascending,
+    robot::Poses,
     scene::{HEADING, Letters, Rect, Region, Role, Sample, Scene, Shading, legend, plain, strong},
     words::{common, lap},
 };

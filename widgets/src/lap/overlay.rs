@@ -8,6 +8,7 @@ use super::{
     view::{RAW, TRUTH, branches, odometry, true_path, true_walls},
 };
 use crate::{
+    robot::{self, Poses, Robots},
     scene::{FREE, Plane, Rect, Role, Sample, Scene, Shading, UNKNOWN, legend, lens},
     words::{common, lap},
 };
@@ -96,9 +97,9 @@ pub fn names(scene: &mut Scene, model: &LapModel, area: &Rect) {
     }
     items.push((Sample::cell(FREE), common::free()));
     items.push((Sample::cell(UNKNOWN), common::unknown()));
-    items.push((Sample::robot(Role::Path), if several { lap::all_paths() } else { lap::its_path() }));
+    items.push((robot::sample(Role::Path), if several { lap::all_paths() } else { lap::its_path() }));
     if model.dead().any(|dead| !dead.is_empty()) {
-        items.push((Sample::robot(Role::Extinct), lap::died_lately()));
+        items.push((robot::sample(Role::Extinct), lap::died_lately()));
     }
     if model.shows_truth() {
         items.push((Sample::line(Role::Truth, 1.5, Some(TRUTH)), common::truth()));

@@ -14,6 +14,7 @@ use crate::{
     action::Own,
     model::{FigureError, Model},
     panels::Panels,
+    robot::{Poses, Robots},
     scene::{
         Chart, FREE, LINE, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, joined, legend, plain,
         strong,

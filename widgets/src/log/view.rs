@@ -14,6 +14,7 @@ use crate::{
     action::Own,
     model::{FigureError, Model},
     panels::Panels,
+    robot::{Poses, Robots},
     scene::{
         Cells, Chart, FREE, Letters, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, joined,
         legend, plain, strong, thinned,

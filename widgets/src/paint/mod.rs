@@ -249,7 +249,7 @@ mod tests {
     #[test]
     fn a_line_of_any_width_has_the_ink_of_its_area() {
         for k in 0..24 {
-            let (sin, cos) = fastslam::ops::sin_cos(f64::from(k) * 0.27);
+            let (sin, cos) = libm::sincos(f64::from(k) * 0.27);
             let line = [-14.0, 3.0, 14.0].map(|along| [20.3 + along * cos, 19.6 + along * sin]);
             for width in [0.5, 1.0, 1.2, 1.4, 3.0] {
                 let ratio = ink(&lines(&line, width, None)) / (28.0 * width);

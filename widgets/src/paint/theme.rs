@@ -235,7 +235,7 @@ mod tests {
     fn luminance(color: Rgb) -> f64 {
         let [r, g, b] = color.map(|c| {
             let c = f64::from(c) / 255.0;
-            if c <= 0.040_45 { c / 12.92 } else { fastslam::ops::exp(2.4 * fastslam::ops::ln((c + 0.055) / 1.055)) }
+            if c <= 0.040_45 { c / 12.92 } else { libm::exp(2.4 * libm::log((c + 0.055) / 1.055)) }
         });
         0.2126 * r + 0.7152 * g + 0.0722 * b
     }

@@ -7,6 +7,7 @@
 use super::zoom::{self, HALF};
 use crate::{
     marks::Place,
+    robot::Poses,
     scene::{NINE_TENTHS, Plane, Point, Rect, clip_polyline},
     words::proposal,
 };

@@ -6,7 +6,8 @@ use super::{
 };
 use crate::{
     prediction::State,
-    scene::{Cells, Point, Rect, Role, Sample, Scene, Shading, legend, robot},
+    robot::robot,
+    scene::{Cells, Point, Rect, Role, Sample, Scene, Shading, legend},
     words::{common, proposal},
 };
 

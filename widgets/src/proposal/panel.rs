@@ -12,6 +12,7 @@ use crate::{
     decimal::{fixed, write},
     font::{self, Weight},
     marks::Place,
+    robot::{Poses, Robots},
     scene::{
         Cells, Handle, LINE, Mark, NINE_TENTHS, Plane, Point, Rect, Role, Scene, Shading, clip_polyline, joined, plain,
         strong,

@@ -3,6 +3,7 @@
 use super::{layout::Layout, model::ProposalModel, zoom};
 use crate::{
     decimal::write,
+    robot::{Poses, Robots},
     scene::{Handle, NINE_TENTHS, Point, Rect, Role, Scene, clip_polyline, plain, strong},
     words::proposal,
 };

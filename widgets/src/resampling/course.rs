@@ -7,6 +7,7 @@ use super::{
 };
 use crate::{
     font::{self, Weight},
+    robot::Poses,
     scene::{
         Anchor, Letters, Plane, Point, Rect, Region, Role, Scene, clip_polyline, closed, diamond, joined, plain, strong,
     },

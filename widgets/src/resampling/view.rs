@@ -13,7 +13,8 @@ use crate::{
     model::Model,
     panels::Panels,
     prediction::State,
-    scene::{Handle, Point, Rect, Role, Sample, Scene, closed, legend, robot},
+    robot::robot,
+    scene::{Handle, Point, Rect, Role, Sample, Scene, closed, legend},
     view::{View, whole_step},
     words::{self, resampling},
 };

@@ -1,6 +1,6 @@
 //! What marks mean: samples of them with their names, in as many lines as it takes.
 
-use super::{Cells, GHOST, Letters, Point, Rect, Role, Scene, Shading, plain, robot};
+use super::{Cells, GHOST, Letters, Point, Rect, Role, Scene, Shading, plain};
 
 /// Height of a line of text \[css px\].
 pub const LINE: f64 = 18.0;
@@ -69,11 +69,6 @@ impl<'a> Sample<'a> {
     /// A cell of a map.
     pub fn cell(shade: u8) -> Self {
         Self::cells(vec![shade], Shading::Map)
-    }
-
-    /// A robot that looks to the right.
-    pub fn robot(role: Role) -> Self {
-        Self::at(move |scene, [x, y]| scene.polygon(robot([x - 1.0, y], 0.0, 7.0), role))
     }
 
     /// A disc.

@@ -1,7 +1,6 @@
 //! Marks of one point, and lines and clouds of many, that stand out from what is below them.
 
-use super::{Plane, Point, Rect, Role, Scene};
-use fastslam::geometry::Pose2;
+use super::{Point, Rect, Role, Scene};
 
 /// Width of the paper-coloured rim that lifts a line off what is below it \[css px\], on each side.
 pub const RIM: f64 = 1.25;
@@ -29,12 +28,5 @@ impl Scene {
         let outline: Vec<_> = corners.iter().chain(corners.iter().take(2)).copied().collect();
         self.line(&outline, 2.0 * RIM, Role::Paper);
         self.polygon(corners, role);
-    }
-
-    /// A robot of this length \[css px\] with a rim; nothing where it is out of view.
-    pub fn rimmed_robot(&mut self, plane: &Plane, pose: &Pose2, length: f64, role: Role) {
-        if let Some(corners) = plane.robot(pose, length) {
-            self.rimmed_polygon(corners, role);
-        }
     }
 }

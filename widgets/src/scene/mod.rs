@@ -35,7 +35,7 @@ pub use plane::Plane;
 pub use rect::Rect;
 #[cfg(test)]
 pub use rect::assert_apart;
-pub use shape::{NINE_TENTHS, closed, ellipse, robot};
+pub use shape::{NINE_TENTHS, closed, ellipse};
 pub use stack::Stack;
 pub use text::{Anchor, HEADING, Text};
 

@@ -1,7 +1,6 @@
 //! From the world \[m\] to the picture \[css px\], and back.
 
-use super::{Point, RIM, Rect, clip_polyline, closed, ellipse, robot, thinned};
-use fastslam::geometry::Pose2;
+use super::{Point, Rect, clip_polyline, closed, ellipse, thinned};
 
 /// A part of the world as it is drawn: upright, at one scale, cut at the edges of an area.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -45,25 +44,14 @@ impl Plane {
         [self.at[0] + (x - self.place[0]) * self.scale, self.at[1] - (y - self.place[1]) * self.scale]
     }
 
-    /// Where a pose of the world is.
-    pub fn position(&self, pose: &Pose2) -> Point {
-        self.point([pose.x, pose.y])
-    }
-
     /// What place of the world \[m\] is at a point \[css px\].
     pub fn world(&self, [x, y]: Point) -> [f64; 2] {
         [self.place[0] + (x - self.at[0]) / self.scale, self.place[1] - (y - self.at[1]) / self.scale]
     }
 
-    /// The positions of a path, cut at the edges. Points nearer than `least` \[css px\] to the one before are left out.
-    pub fn path(&self, poses: &[Pose2], least: f64) -> Vec<Vec<Point>> {
-        clip_polyline(&thinned(&mut poses.iter().map(|pose| self.position(pose)), least), &self.area)
-    }
-
-    /// A robot of this length from centre to nose \[css px\]; `None` where not all of it is in the area.
-    pub fn robot(&self, pose: &Pose2, length: f64) -> Option<Vec<Point>> {
-        let (corners, view) = (robot(self.position(pose), pose.theta, length), self.area.inset(RIM));
-        corners.iter().all(|corner| view.contains(*corner)).then_some(corners)
+    /// A line through places of the world \[m\], cut at the edges. Points nearer than `least` \[css px\] to the one before are left out.
+    pub fn way(&self, places: &mut dyn Iterator<Item = [f64; 2]>, least: f64) -> Vec<Vec<Point>> {
+        clip_polyline(&thinned(&mut places.map(|place| self.point(place)), least), &self.area)
     }
 
     /// The points at a Mahalanobis distance from a Gaussian of the world, by its mean \[m\] and covariance \[m²\], cut at the edges.
@@ -102,14 +90,6 @@ mod tests {
             let seen = Rect::new(a[0], b[1], b[0] - a[0], a[1] - b[1]);
             assert!(AREA.inset(20.0).encloses(&seen), "{seen:?}");
         }
-    }
-
-    #[test]
-    fn a_robot_that_looks_up_points_up_and_one_out_of_view_is_not_drawn() {
-        let plane = Plane::centred(AREA, [0.0; 2], 10.0);
-        let corners = plane.robot(&Pose2::new(1.0, 1.0, core::f64::consts::FRAC_PI_2), 10.0).unwrap();
-        assert!(corners[1..].iter().all(|corner| corner[1] > corners[0][1]));
-        assert_eq!(plane.robot(&Pose2::new(90.0, 0.0, 0.0), 10.0), None);
     }
 
     #[test]

@@ -1,7 +1,6 @@
 //! Outlines made of points.
 
 use super::Point;
-use fastslam::ops;
 
 /// Corners of an ellipse: enough that no edge is seen at any size of a figure.
 const CORNERS: usize = 64;
@@ -24,20 +23,10 @@ pub fn ellipse(centre: Point, covariance: [[f64; 2]; 2], scale: f64) -> Vec<Poin
         return Vec::new();
     }
     let corner = |k: usize| {
-        let (sin, cos) = ops::sin_cos(core::f64::consts::TAU * k as f64 / CORNERS as f64);
+        let (sin, cos) = libm::sincos(core::f64::consts::TAU * k as f64 / CORNERS as f64);
         [centre[0] + scale * a * cos, centre[1] + scale * (b * cos + c * sin)]
     };
     (0..CORNERS).map(corner).collect()
-}
-
-/// A robot: an arrow head of this length from centre to nose \[css px\], which points along `theta` \[rad\], counter-clockwise from
-/// the right.
-pub fn robot([x, y]: Point, theta: f64, length: f64) -> Vec<Point> {
-    let (sin, cos) = ops::sin_cos(theta);
-    let corner = |[along, across]: [f64; 2]| {
-        [x + length * (along * cos - across * sin), y - length * (along * sin + across * cos)]
-    };
-    [[1.0, 0.0], [-0.8, 0.75], [-0.4, 0.0], [-0.8, -0.75]].map(corner).to_vec()
 }
 
 /// A polygon as a line that ends where it begins: its outline.

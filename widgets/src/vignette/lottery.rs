@@ -3,6 +3,7 @@
 use super::{Kind, MARGIN, label};
 use crate::{
     decimal::fixed,
+    robot::Poses,
     scene::{Anchor, LINE, Plane, Rect, Role, Scene},
     words::vignette::{self, LotteryTold},
 };

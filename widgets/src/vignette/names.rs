@@ -3,6 +3,7 @@
 use super::{Kind, label};
 use crate::{
     decimal::fixed,
+    robot::{Poses, Robots},
     scene::{Anchor, Plane, Rect, Role, Scene},
     words::vignette::{self, NamesDoor, NamesTold},
 };

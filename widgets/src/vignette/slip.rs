@@ -3,6 +3,7 @@
 use super::{Kind, MARGIN};
 use crate::{
     decimal::fixed,
+    robot::{Poses, Robots},
     scene::{LINE, Plane, Rect, Role, Sample, Scene, closed, diamond, legend},
     words::{
         common,

@@ -4,7 +4,8 @@
 use super::{Kind, cells, label};
 use crate::{
     decimal::fixed,
-    scene::{Anchor, Cells, LINE, Plane, RIM, Rect, Role, Scene, Shading, robot},
+    robot::{Poses, robot},
+    scene::{Anchor, Cells, LINE, Plane, RIM, Rect, Role, Scene, Shading},
     words::vignette::{self, SurfaceTold},
 };
 use fastslam::{

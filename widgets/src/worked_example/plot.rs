@@ -6,7 +6,8 @@ use super::{
 };
 use crate::{
     decimal::write,
-    scene::{Handle, Plane, Point, Rect, Role, Sample, Scene, clip_polyline, closed, ellipse, plain, robot, strong},
+    robot::{Poses, robot},
+    scene::{Handle, Plane, Point, Rect, Role, Sample, Scene, clip_polyline, closed, ellipse, plain, strong},
     words::worked_example,
 };
 use fastslam::{map::landmarks::Landmark, ops};
