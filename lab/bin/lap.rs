@@ -8,7 +8,7 @@ use fastslam_cli::ColorType;
 use fastslam_lab::experiment::ProposalKind;
 use fastslam_lab::experiment::lap::{self, Course, Lap, LapSetup, ScanWeight, StepReport};
 use fastslam_lab::world::Edits;
-use fastslam_widgets::{figure::Figure, paint::Theme};
+use fastslam_widgets::{paint::Theme, registry};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -164,7 +164,7 @@ fn summary(setup: &LapSetup, output: &Output) -> String {
 
 /// Paints the figure `<fastslam-lap>` at the end of this lap.
 fn paint(setup: &LapSetup, path: &Path) -> Result<()> {
-    let mut figure = Figure::new("fastslam-lap")?;
+    let mut figure = registry::figure("fastslam-lap")?;
     // The figure has the two parts of neff:F apart.
     let policy = setup.policy.to_string();
     let (policy, threshold) =

@@ -4,11 +4,10 @@
 
 use fastslam_widgets::{
     challenge::Chip,
-    figure::Figure,
     job::{Counted, Job},
     model::{Kind, ParamSpec, Readout},
     paint::Theme,
-    registry::{FIGURES, Program},
+    registry::{self, FIGURES, Program},
 };
 use serde::Serialize;
 
@@ -51,7 +50,7 @@ struct Count {
 
 /// What the figure asks a reader to predict.
 fn asked(tag: &str) -> Option<&'static str> {
-    let mut figure = Figure::new(tag).expect("the registry has it");
+    let mut figure = registry::figure(tag).expect("the registry has it");
     figure.set("predict", "on").ok()?;
     if figure.model().prediction().is_none() {
         figure.model_mut().settle();
@@ -61,7 +60,7 @@ fn asked(tag: &str) -> Option<&'static str> {
 
 /// Whether something in its picture can be grasped, as it opens or with one of its own buttons pressed.
 fn grasped(tag: &str) -> bool {
-    let mut figure = Figure::new(tag).expect("the registry has it");
+    let mut figure = registry::figure(tag).expect("the registry has it");
     let buttons = figure
         .params()
         .into_iter()
@@ -76,7 +75,7 @@ fn grasped(tag: &str) -> bool {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let told = |entry: &fastslam_widgets::registry::Entry| {
-        let figure = Figure::new(entry.tag).expect("the registry has it");
+        let figure = registry::figure(entry.tag).expect("the registry has it");
         Told {
             tag: entry.tag,
             title: entry.title,

@@ -4,14 +4,14 @@
 use crate::{
     action::Own,
     challenge::Chip,
-    comma,
+    comma::{self, Names},
     comparison::{Before, Comparison},
     export::{Entries, Export},
     frame,
     ghost::Curves,
     model::{FigureError, Files, Model, ParamSpec, Readout, TraceLine},
     paint::{Canvas, Theme},
-    param, query, registry,
+    query,
     scene::{Handle, Point, Rect, Room, Scene},
     symbol,
     view::{Shown, Shows, View},
@@ -30,6 +30,7 @@ pub struct Figure {
     voice: Voice,
     canvas: Canvas,
     painted: Painted,
+    names: &'static Names,
     decimal_comma: bool,
     lit: String,
     comparison: Comparison,
@@ -68,21 +69,14 @@ pub struct PlacedHandle {
 }
 
 impl Figure {
-    /// The figure of a tag, of which nothing was asked yet.
-    ///
-    /// # Errors
-    /// For a tag that the registry does not have.
-    pub fn new(tag: &str) -> Result<Self, FigureError> {
-        let entry = registry::find(tag).ok_or_else(|| {
-            let tags: Vec<&str> = registry::FIGURES.iter().map(|f| f.tag).collect();
-            FigureError::new("tag", param::quoted(tag), common::OneOf { words: &tags.join(", ") }.say())
-        })?;
-        Ok(Self::showing(entry.tag, (entry.make)()))
-    }
-
-    /// One that the registry does not have.
+    /// The figure of a view, of which nothing was asked yet; its tag names it in what it exports.
     pub fn of<V: View>(tag: &'static str) -> Self {
         Self::showing(tag, Box::new(Shows::<V>::default()))
+    }
+
+    /// The same with names that keep their point where numbers have a comma.
+    pub fn with_names(self, names: &'static Names) -> Self {
+        Self { names, ..self }
     }
 
     fn showing(tag: &'static str, shown: Box<dyn Shown>) -> Self {
@@ -91,6 +85,7 @@ impl Figure {
             voice: Voice::of(shown),
             canvas: Canvas::default(),
             painted: Painted::default(),
+            names: &Names::NONE,
             decimal_comma: false,
             lit: String::new(),
             comparison: Comparison::default(),
@@ -137,8 +132,6 @@ impl Figure {
     /// # Errors
     /// For a name or a value that is refused; the figure is as it was.
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), FigureError> {
-        #[cfg(all(target_arch = "wasm32", feature = "trouble"))]
-        crate::trouble::die_if_asked(name, value);
         self.tell(|model| model.configure(&[(name.into(), value.into())])).pop().map_or(Ok(()), Err)
     }
 
@@ -196,13 +189,13 @@ impl Figure {
     pub fn scene(&self, width: f64, height: f64) -> Scene {
         let mut scene = self.voice.ask(|shown| shown.scene(width, height));
         if self.decimal_comma {
-            comma::in_scene(&mut scene);
+            comma::in_scene(&mut scene, self.names);
         }
         scene
     }
 
     fn written(&self, text: String) -> String {
-        if self.decimal_comma { comma::in_text(&text) } else { text }
+        if self.decimal_comma { comma::in_text(&text, self.names) } else { text }
     }
 
     /// Paints the figure: size in device px, device px per css px, and colours. Sizes no screen has are clamped.

@@ -5,10 +5,7 @@
 
 use crate::{
     model::{FigureError, Group},
-    param, query,
     recipe::{self, Recipe},
-    registry,
-    words::common::OneOf,
 };
 use core::ops::Range;
 
@@ -51,17 +48,4 @@ pub fn recipe<R: Recipe>(setting: &Setting) -> Result<R, FigureError> {
     let numbers: Vec<_> = setting.iter().filter(|(name, _)| !shown(name)).cloned().collect();
     let (recipe, refused) = recipe::with(&R::default(), &numbers);
     refused.into_iter().next().map_or(Ok(recipe), Err)
-}
-
-/// A row for each of these seeds.
-///
-/// # Errors
-/// For an unknown name, or a setting that is refused.
-pub fn run(name: &str, setting: &str, seeds: Range<u64>) -> Result<Rows, FigureError> {
-    let jobs = || registry::FIGURES.iter().filter_map(|figure| figure.count);
-    let job = jobs().find(|job| job.name == name).ok_or_else(|| {
-        let names: Vec<&str> = jobs().map(|job| job.name).collect();
-        FigureError::new("job", param::quoted(name), OneOf { words: &names.join(", ") }.say())
-    })?;
-    (job.run)(&query::pairs(setting), seeds)
 }

@@ -8,7 +8,7 @@
 
 pub mod action;
 pub mod challenge;
-mod comma;
+pub mod comma;
 mod comparison;
 pub mod decimal;
 pub mod export;
@@ -29,7 +29,7 @@ pub mod param;
 mod policy;
 pub mod prediction;
 pub mod prelude;
-mod query;
+pub mod query;
 pub mod recipe;
 pub mod registry;
 mod robot;
@@ -37,6 +37,7 @@ pub mod scene;
 #[cfg(target_arch = "wasm32")]
 pub mod shell;
 mod symbol;
+mod told;
 #[cfg(all(target_arch = "wasm32", feature = "trouble"))]
 mod trouble;
 pub mod unread;

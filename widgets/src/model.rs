@@ -5,14 +5,13 @@
 //! asked for, [`Model::pending`] how far that is away, and [`Model::work`] goes one step nearer.
 
 use crate::challenge::{self, Challenge, Chip};
-use crate::decimal::fixed;
 use crate::ghost::Curves;
+use crate::param;
 pub use crate::param::{Choice, Group, Kind, ParamSpec};
 use crate::prediction::Outcome;
 use crate::recipe::{self, Recipe};
-use crate::words::common::{self, MustBe, NEffOf};
+use crate::words::common::{MustBe, OneOf};
 use core::fmt;
-use fastslam::error::SettingError;
 use serde::Serialize;
 use std::borrow::Cow;
 
@@ -31,11 +30,10 @@ impl FigureError {
         let message = MustBe { parameter: &parameter, value: &value, allowed: &allowed }.say();
         Self { parameter: parameter.into(), message }
     }
-}
 
-impl From<SettingError> for FigureError {
-    fn from(error: SettingError) -> Self {
-        Self { parameter: error.field().into(), message: error.to_string() }
+    /// `parameter` was given as something else than one of these names.
+    pub fn not_among(parameter: &str, given: &str, names: &[&str]) -> Self {
+        Self::new(parameter, param::quoted(given), OneOf { words: &names.join(", ") }.say())
     }
 }
 
@@ -103,21 +101,6 @@ impl TraceLine {
     }
 }
 
-/// A pose, or a difference of poses \[m, m, rad\], as text.
-pub fn pose_text([x, y, theta]: [f64; 3]) -> String {
-    format!("({}, {}, {})", fixed(x, 2), fixed(y, 2), fixed(theta, 3))
-}
-
-/// N_eff of so many, as text.
-pub fn ess_text(ess: f64, particles: usize) -> String {
-    NEffOf { ess: &fixed(ess, 1), m: &particles }.say()
-}
-
-/// What is to be said of a step of this log evidence \[nats\], if no universe explains what it saw.
-pub fn unexplained(log_evidence: f64) -> Option<String> {
-    (log_evidence == f64::NEG_INFINITY).then(|| common::unexplained().into())
-}
-
 /// A column of the measured data.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Column {
@@ -182,13 +165,6 @@ pub enum Change {
         /// What has changed for them.
         changes: &'static [Change],
     },
-}
-
-impl Change {
-    /// What a lap's universes are weighed by, in figures that have no parameter for it.
-    pub const WEIGHED_ANEW: Self = Self::Told(
-        "Universes pay what known ground says of all poses that they might have drawn, and not of the one that they drew.",
-    );
 }
 
 /// A model that has a recipe. It is all that a figure writes of its parameters besides their table: [`Parameters`] follows.

@@ -1,11 +1,15 @@
 //! All figures: a row each. Tests, tools, the page and its generated files iterate over this list.
 
 use crate::{
-    job::Job,
-    model::Declared,
+    comma::Names,
+    figure::Figure,
+    job::{Job, Rows},
+    model::{Declared, FigureError},
     panels::Panels,
-    view::{Shown, Shows, View},
+    query,
+    view::View,
 };
+use core::ops::Range;
 
 /// Where a page finds a figure. Each has a program of its own, made by the feature of its name.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -31,16 +35,16 @@ pub struct Entry {
     /// Height \[css px\] that its whole picture wants at a width \[css px\].
     pub height: fn(f64) -> f64,
     /// A new one, of which nothing was asked yet.
-    pub(crate) make: fn() -> Box<dyn Shown>,
+    pub(crate) make: fn(&'static str) -> Figure,
 }
 
 impl Entry {
     /// The row of a figure: its title, its height and all else follow from what it is.
     #[allow(dead_code)] // the program that reads bags has no figure
     const fn of<V: View>(tag: &'static str, program: Program, count: Option<&'static Job>) -> Self {
-        let make = || Box::new(Shows::<V>::default()) as Box<dyn Shown>;
         let height = |width| V::height(width, &Panels::default());
-        Self { tag, title: <V::Model as Declared>::TITLE, program, count, panels: V::PANELS, height, make }
+        let (title, panels, make) = (<V::Model as Declared>::TITLE, V::PANELS, Figure::of::<V>);
+        Self { tag, title, program, count, panels, height, make }
     }
 }
 
@@ -79,4 +83,32 @@ pub const VIGNETTES: &[Entry] = &[
 /// The figure of a tag.
 pub fn find(tag: &str) -> Option<&'static Entry> {
     FIGURES.iter().chain(VIGNETTES).find(|f| f.tag == tag)
+}
+
+/// What FastSLAM's versions are called; `2.0` there is a name and no number.
+pub const VERSIONS: Names = Names { names: &["1.0", "2.0"], after: &["FastSLAM ", "of ", "but ", "von "] };
+
+/// A figure, of which nothing was asked yet.
+///
+/// # Errors
+/// For a tag that there is not.
+pub fn figure(tag: &str) -> Result<Figure, FigureError> {
+    let entry = find(tag).ok_or_else(|| {
+        let tags: Vec<&str> = FIGURES.iter().map(|f| f.tag).collect();
+        FigureError::not_among("tag", tag, &tags)
+    })?;
+    Ok((entry.make)(entry.tag).with_names(&VERSIONS))
+}
+
+/// A row for each of these seeds of the experiment of this name.
+///
+/// # Errors
+/// For an unknown name, or a setting that is refused.
+pub fn count(name: &str, setting: &str, seeds: Range<u64>) -> Result<Rows, FigureError> {
+    let jobs = || FIGURES.iter().filter_map(|figure| figure.count);
+    let job = jobs().find(|job| job.name == name).ok_or_else(|| {
+        let names: Vec<&str> = jobs().map(|job| job.name).collect();
+        FigureError::not_among("job", name, &names)
+    })?;
+    (job.run)(&query::pairs(setting), seeds)
 }

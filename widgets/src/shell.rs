@@ -3,7 +3,7 @@
 
 use crate::{
     action::{Action, Message},
-    figure, job,
+    figure,
     model::FigureError,
     registry, unread,
     words::Language,
@@ -55,7 +55,7 @@ pub fn program() -> JsValue {
 /// seed. Takes as long as it takes: for workers.
 #[wasm_bindgen]
 pub fn job(name: &str, query: &str, from: u32, to: u32) -> Result<Array, Error> {
-    job::run(name, query, from.into()..to.into()).map(|rows| plain(&rows)).map_err(thrown)
+    registry::count(name, query, from.into()..to.into()).map(|rows| plain(&rows)).map_err(thrown)
 }
 
 /// The 95 % confidence interval of a share: its ends, from 0 to 1.
@@ -180,12 +180,14 @@ impl Figure {
     /// The figure of a tag, of which nothing was asked yet.
     #[wasm_bindgen(constructor)]
     pub fn new(tag: &str) -> Result<Figure, Error> {
-        figure::Figure::new(tag).map(|figure| Self { _here: Here, figure: Held(figure) }).map_err(thrown)
+        registry::figure(tag).map(|figure| Self { _here: Here, figure: Held(figure) }).map_err(thrown)
     }
 
     /// Does what is asked, an `Action`, and returns what is refused of it: an array of `Refusal`.
     pub fn act(&mut self, action: &Object) -> Result<Array, Error> {
         let action = Action::try_from(message(action)).map_err(Error::new)?;
+        #[cfg(feature = "trouble")]
+        crate::trouble::die_if_asked(&action);
         Ok(plain(&self.figure.act(&action)))
     }
 

@@ -1,7 +1,7 @@
 //! The laboratory's command line as its users see it.
 
 use assert_cmd::Command;
-use fastslam_widgets::figure::Figure;
+use fastslam_widgets::registry;
 use serde_json::Value;
 use tempfile::tempdir;
 
@@ -233,7 +233,7 @@ fn drawn_landmarks_take_the_particles_one_by_one_and_computed_ones_do_not() {
 /// The numbers of the figure: its readouts are made of the same run.
 #[test]
 fn a_smoother_s_table_is_that_of_its_figure() {
-    let mut figure = Figure::new("fastslam-smoothing").unwrap();
+    let mut figure = registry::figure("fastslam-smoothing").unwrap();
     for (name, value) in [("particles", "6"), ("seed", "2"), ("odometry", "1.5"), ("step", "3"), ("at", "9")] {
         figure.set(name, value).unwrap();
     }

@@ -9,6 +9,7 @@ use fastslam_widgets::{
     log::Layout as LogLayout,
     model::Readout,
     paint::{Canvas, Theme},
+    registry,
     scene::{Mark, Role},
 };
 use std::collections::BTreeMap;
@@ -217,7 +218,7 @@ const EXTREMES: &str = "x1=-99.123456&y1=-12.5&theta1=-3.1415926&x2=4.000001&y2=
 /// What the figure of logs shows at rest: the example that comes with it, mapped to its end. Four pictures of one run, which takes too long
 /// to be made again for each of them and in every browser.
 pub fn example() -> Figure {
-    let mut figure = Figure::new(LOG).expect("a tag of the registry");
+    let mut figure = registry::figure(LOG).expect("a tag of the registry");
     figure.open(write(&Example::new(usize::MAX).log).as_bytes()).expect("the example is a log");
     figure.model_mut().seek(u32::MAX);
     figure.model_mut().settle();
@@ -357,7 +358,7 @@ pub fn rows(rows: impl IntoIterator<Item = f64>) -> Digest {
 /// # Panics
 /// For an unknown tag or a link that is refused.
 pub fn figure(tag: &str, query: &str) -> Figure {
-    let mut figure = Figure::new(tag).expect("a tag of the registry");
+    let mut figure = registry::figure(tag).expect("a tag of the registry");
     // A link of before is told what has changed since.
     let refused = figure.load(query).into_iter().filter(|error| error.parameter != "v").collect::<Vec<_>>();
     assert!(refused.is_empty(), "{query}: {refused:?}");

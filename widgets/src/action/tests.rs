@@ -1,7 +1,7 @@
 //! The shapes that TypeScript has of what crosses the boundary, held to ours.
 
 use super::*;
-use crate::{figure::Figure, paint::Theme};
+use crate::{paint::Theme, registry};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
@@ -119,7 +119,7 @@ fn typescript_has_the_same_actions_with_the_same_fields() {
 #[test]
 fn typescript_has_the_fields_of_what_is_told() {
     // In a state in which there is one of each: a trace, something to watch, and a place in the page.
-    let mut figure = Figure::new("fastslam-doors").unwrap();
+    let mut figure = registry::figure("fastslam-doors").unwrap();
     let (height, theme) = (f64::INFINITY, Theme::Light);
     figure.act(&Action::Size(Size { room: 800.0, height, font_scale: 1.0, css: 800.0, px: [80, 45], theme }));
     figure.act(&Action::Trace);

@@ -7,6 +7,7 @@ use super::{
 use crate::challenge::Challenge;
 use crate::decimal::fixed;
 use crate::model::{Change, Column, Declared, FigureError, Model, Readout, Series};
+use crate::told::refused;
 use crate::words::{common, conditioning};
 use fastslam_lab::{
     baseline::joint::MapCovariance,
@@ -185,7 +186,7 @@ impl Declared for ConditioningModel {
     fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
         let anew = recipe.setup != self.recipe.setup;
         if anew {
-            self.drive = Conditioning::new(&recipe.setup)?;
+            self.drive = Conditioning::new(&recipe.setup).map_err(refused)?;
         }
         if anew || recipe.step != self.recipe.step {
             self.covariances = self.drive.after(recipe.step);

@@ -1,6 +1,7 @@
 //! The doors over many seeds.
 
 use super::recipe::Recipe;
+use crate::told::refused;
 use crate::{
     job::{self, Counted, Job, Rows, Setting},
     model::FigureError,
@@ -32,7 +33,7 @@ pub static DOORS: Job = Job {
 /// ride and the view makes no difference.
 fn run(setting: &Setting, seeds: Range<u64>) -> Result<Rows, FigureError> {
     let setup = DoorsSetup { end: None, ..job::recipe::<Recipe>(setting)?.setup() };
-    let of = |particles| outcomes(&DoorsSetup { particles, ..setup.clone() }, seeds.clone());
+    let of = |particles| outcomes(&DoorsSetup { particles, ..setup.clone() }, seeds.clone()).map_err(refused);
     let [few, some, many] = PARTICLES.map(of);
     let (few, some, many) = (few?, some?, many?);
     let row = |(k, seed): (usize, u64)| {

@@ -9,6 +9,7 @@ use crate::{
     challenge::Challenge,
     ghost::{self, Curves},
     model::{Declared, FigureError, Model, Readout, Series},
+    told::refused,
     words::doors,
 };
 use fastslam_lab::experiment::doors::{Doors, DoorsReport, DoorsSetup};
@@ -108,7 +109,7 @@ impl Declared for DoorsModel {
     fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
         let setup = recipe.setup();
         if setup != *self.setup() {
-            self.run = Doors::new(&setup)?;
+            self.run = Doors::new(&setup).map_err(refused)?;
             self.reports = vec![self.run.start()];
         }
         self.recipe = recipe;

@@ -11,8 +11,10 @@ use crate::{
     kept::Kept,
     model::{Declared, FigureError, Model, Readout, Series},
     prediction::{Outcome, State},
+    told::refused,
     words::em,
 };
+use fastslam::error::SettingError;
 use fastslam_lab::baseline::em_mapping::Expectation;
 use fastslam_lab::experiment::em::{self as lab, CORRIDOR, Cloud, Iterate, Log, Others};
 
@@ -79,8 +81,8 @@ impl Default for EmModel {
     }
 }
 
-fn climb(recipe: &Recipe, log: &Log) -> Result<Vec<Iterate>, FigureError> {
-    Ok(lab::climb(log, recipe.guess().first_map()?, recipe.iterations)?)
+fn climb(recipe: &Recipe, log: &Log) -> Result<Vec<Iterate>, SettingError> {
+    lab::climb(log, recipe.guess().first_map()?, recipe.iterations)
 }
 
 /// Where both passes have the robot put down at a step \[m\], in the mean, and the share of that which has the first two doors come again.
@@ -91,7 +93,7 @@ fn answer(passes: &Expectation, carried: usize) -> Option<(f64, f64)> {
 }
 
 impl EmModel {
-    fn new(recipe: Recipe) -> Result<Self, FigureError> {
+    fn new(recipe: Recipe) -> Result<Self, SettingError> {
         let log = Log::new(&recipe.log())?;
         let iterates = climb(&recipe, &log)?;
         let passes = Expectation::new(iterates[0].map.clone(), &log.ride)?;
@@ -103,7 +105,7 @@ impl EmModel {
     }
 
     /// Runs both passes of the iteration that is shown.
-    fn localise(&mut self) -> Result<(), FigureError> {
+    fn localise(&mut self) -> Result<(), SettingError> {
         let map = self.iterates[self.now().iteration as usize].map.clone();
         self.passes = Expectation::of(map, &self.log.ride)?;
         self.entropy = self.passes.path_entropy(&self.log.ride).unwrap_or(f64::NAN);
@@ -270,12 +272,12 @@ impl Declared for EmModel {
             let (log, cloud, others) = match self.kept.take(|(log, ..)| *log.setup() == recipe.log()) {
                 Some(kept) => kept,
                 None => {
-                    let log = Log::new(&recipe.log())?;
-                    let cloud = Cloud::new(&log)?;
+                    let log = Log::new(&recipe.log()).map_err(refused)?;
+                    let cloud = Cloud::new(&log).map_err(refused)?;
                     (log, cloud, Others::default())
                 }
             };
-            self.iterates = climb(&recipe, &log)?;
+            self.iterates = climb(&recipe, &log).map_err(refused)?;
             let log = core::mem::replace(&mut self.log, log);
             let before =
                 (log, core::mem::replace(&mut self.cloud, cloud), core::mem::replace(&mut self.others, others));
@@ -283,14 +285,14 @@ impl Declared for EmModel {
                 self.kept.put(before);
             }
             self.recipe = recipe;
-            return self.localise();
+            return self.localise().map_err(refused);
         }
         let other = recipe.guess() != self.recipe.guess() || recipe.iterations != self.recipe.iterations;
         if other {
-            self.iterates = climb(&recipe, &self.log)?;
+            self.iterates = climb(&recipe, &self.log).map_err(refused)?;
         }
         self.recipe = recipe;
-        self.localise()
+        self.localise().map_err(refused)
     }
 }
 

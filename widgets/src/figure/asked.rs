@@ -119,8 +119,6 @@ impl Figure {
             let value = if default { self.usual(&name) } else { Some(value) };
             all.extend(value.map(|value| (name, value)));
         }
-        #[cfg(all(target_arch = "wasm32", feature = "trouble"))]
-        all.iter().for_each(|(name, value)| crate::trouble::die_if_asked(name, value));
         if !all.is_empty() {
             refused.extend(self.tell(|model| model.configure(&all)));
         }

@@ -5,6 +5,7 @@ use super::{
     recipe::{END, GUESSES, Recipe},
     told,
 };
+use crate::told::{WEIGHED_ANEW, refused};
 use crate::{
     challenge::Challenge,
     ghost::{self, Curves},
@@ -161,7 +162,7 @@ impl GraphModel {
 impl Declared for GraphModel {
     type Recipe = Recipe;
     const TITLE: &'static str = graph::TITLE;
-    const CHANGES: &'static [Change] = &[Change::WEIGHED_ANEW, Change::Opens];
+    const CHANGES: &'static [Change] = &[WEIGHED_ANEW, Change::Opens];
     const UNSAID: usize = 2;
 
     fn challenges() -> Vec<Challenge<Self>> {
@@ -179,7 +180,7 @@ impl Declared for GraphModel {
             let nearest = self.next.as_ref().filter(|next| next.setup().lap == setup.lap).unwrap_or(&self.shown);
             let kept = self.kept.take(|run| *run.setup() == setup);
             let begins = kept.is_none() && setup != *self.shown.setup();
-            self.next = if begins { Some(nearest.asked(&setup)?) } else { None };
+            self.next = if begins { Some(nearest.asked(&setup).map_err(refused)?) } else { None };
             kept.into_iter().for_each(|kept| self.show(kept));
         }
         self.recipe = recipe;

@@ -1,6 +1,7 @@
 //! The lap over many seeds: what a cell of the chapter's table is made of.
 
 use super::recipe::Recipe;
+use crate::told::refused;
 use crate::{
     job::{self, Job, Rows, Setting},
     model::FigureError,
@@ -14,6 +15,6 @@ pub static LAPS: Job = Job { name: "laps", columns: &["seed", "rms_best"], run, 
 /// The setting is that of the figure's link; what it says about the seed and the view makes no difference.
 fn run(setting: &Setting, seeds: Range<u64>) -> Result<Rows, FigureError> {
     let recipe: Recipe = job::recipe(setting)?;
-    let row = |seed| Ok(vec![seed as f64, rms_best(&LapSetup { seed, ..recipe.setup.clone() })?]);
+    let row = |seed| Ok(vec![seed as f64, rms_best(&LapSetup { seed, ..recipe.setup.clone() }).map_err(refused)?]);
     seeds.map(row).collect()
 }

@@ -5,7 +5,8 @@ use crate::challenge::Challenge;
 use crate::decimal::fixed;
 use crate::ghost::{self, Curves};
 use crate::kept::Kept;
-use crate::model::{Change, Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text};
+use crate::model::{Change, Column, Declared, FigureError, Model, Readout, Series, TraceLine};
+use crate::told::{ess_text, refused};
 use crate::words::{common, lap};
 use core::mem::replace;
 use fastslam::{genealogy::Path, geometry::Pose2, resampling::ResamplePolicy};
@@ -36,7 +37,7 @@ struct Run {
 
 impl Run {
     fn new(setup: &LapSetup) -> Result<Self, FigureError> {
-        let lap = Lap::new(setup)?;
+        let lap = Lap::new(setup).map_err(refused)?;
         let (keyframes, reports, dead) = (vec![lap.clone()], vec![lap.report().clone()], vec![Vec::new()]);
         Ok(Self { setup: setup.clone(), shown: lap, keyframes, reports, dead })
     }
@@ -258,7 +259,7 @@ impl Declared for LapModel {
     fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
         if recipe.setup.but_for_steering(&self.recipe.setup) {
             if recipe.setup != self.recipe.setup {
-                recipe.setup.validate()?;
+                recipe.setup.validate().map_err(refused)?;
                 self.steer(&recipe.setup);
             }
         } else {

@@ -2,7 +2,8 @@
 
 use super::model::{LapModel, died_out};
 use crate::decimal::fixed;
-use crate::model::{Model, TraceLine, ess_text, pose_text, unexplained};
+use crate::model::{Model, TraceLine};
+use crate::told::{ess_text, pose_text, unexplained};
 use crate::words::{common, lap};
 use fastslam::{geometry::Pose2, proposal::ProposalTrace};
 use fastslam_lab::experiment::ProposalKind;

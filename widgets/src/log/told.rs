@@ -5,7 +5,8 @@ use super::{
     opened::Opened,
 };
 use crate::decimal::{fixed, write};
-use crate::model::{Column, Model, Readout, Series, unexplained};
+use crate::model::{Column, Model, Readout, Series};
+use crate::told::unexplained;
 use crate::unread;
 use crate::words::{common, log as words};
 use fastslam::mapper::{LaserMapper, Replay};

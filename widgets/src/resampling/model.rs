@@ -5,9 +5,10 @@ use crate::challenge::Challenge;
 use crate::decimal::{fixed, write};
 use crate::ghost::{self, Curves};
 use crate::kept::Kept;
-use crate::model::{Change, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text};
+use crate::model::{Change, Declared, FigureError, Model, Readout, Series, TraceLine};
 use crate::names;
 use crate::prediction::{Outcome, State, off_by};
+use crate::told::{WEIGHED_ANEW, ess_text, pose_text, refused};
 use crate::words::resampling;
 use fastslam::geometry::Pose2;
 use fastslam_lab::experiment::policies::{POLICIES, Policies, PoliciesSetup, PolicyCourse, PolicyReport};
@@ -212,7 +213,7 @@ impl Declared for ResamplingModel {
     type Recipe = Recipe;
     const TITLE: &'static str = resampling::TITLE;
     const CHANGES: &'static [Change] = &[
-        Change::WEIGHED_ANEW,
+        WEIGHED_ANEW,
         Change::Switched {
             name: "wings",
             changes: &[Change::Told("What is seen in a step is told apart all together: paths and weights differ.")],
@@ -236,7 +237,7 @@ impl Declared for ResamplingModel {
             let (run, moments) = match self.kept.take(|(run, _)| *run.setup() == setup) {
                 Some(kept) => kept,
                 None => {
-                    let run = Policies::new(&setup)?;
+                    let run = Policies::new(&setup).map_err(refused)?;
                     let moments = vec![moments(&run, None)];
                     (run, moments)
                 }

@@ -1,6 +1,7 @@
 //! The loop of ambiguity over many seeds.
 
 use super::recipe::Recipe;
+use crate::told::refused;
 use crate::{
     job::{self, Counted, Job, Rows, Setting},
     model::FigureError,
@@ -42,5 +43,5 @@ fn run(setting: &Setting, seeds: Range<u64>) -> Result<Rows, FigureError> {
         let kept = all.into_iter().flat_map(|outcome| outcome.kept.map(|kept| [kept.alive, kept.settled]));
         core::iter::once(seed as f64).chain(kept.flatten().map(|yes| f64::from(u8::from(yes)))).collect()
     };
-    Ok(seeds.clone().zip(outcomes(&recipe.on(PolicyCourse::Wings), seeds)?).map(row).collect())
+    Ok(seeds.clone().zip(outcomes(&recipe.on(PolicyCourse::Wings), seeds).map_err(refused)?).map(row).collect())
 }

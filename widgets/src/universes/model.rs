@@ -5,6 +5,7 @@ use super::{
     recipe::{LAST, NOISES, Recipe},
     shipped::{self, LAPS},
 };
+use crate::told::WEIGHED_ANEW;
 use crate::{
     challenge::Challenge,
     decimal::{fixed, write},
@@ -186,7 +187,7 @@ pub fn percent(share: f64) -> String {
 impl Declared for UniversesModel {
     type Recipe = Recipe;
     const TITLE: &'static str = words::TITLE;
-    const CHANGES: &'static [Change] = &[Change::WEIGHED_ANEW];
+    const CHANGES: &'static [Change] = &[WEIGHED_ANEW];
     const UNSAID: usize = 2;
 
     fn challenges() -> Vec<Challenge<Self>> {

@@ -7,7 +7,8 @@ use super::{
 };
 use crate::challenge::Challenge;
 use crate::decimal::fixed;
-use crate::model::{Column, Declared, FigureError, Model, Readout, Series, TraceLine, ess_text, pose_text};
+use crate::model::{Column, Declared, FigureError, Model, Readout, Series, TraceLine};
+use crate::told::{ess_text, pose_text};
 use crate::words::{common, worked_example};
 use fastslam::geometry::Pose2;
 use fastslam_lab::experiment::worked_example::{Update, WorkedExample};

@@ -1,7 +1,12 @@
 //! Laws of the challenges of every figure, and of what their checks take for reached.
 
 use crate::common::{figure, scene};
-use fastslam_widgets::{challenge::Chip, figure::Figure, registry::FIGURES, scene::Scene};
+use fastslam_widgets::{
+    challenge::Chip,
+    figure::Figure,
+    registry::{self, FIGURES},
+    scene::Scene,
+};
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
@@ -36,7 +41,7 @@ static TAKEN: LazyLock<Vec<Taken>> = LazyLock::new(|| {
             let (query, chips, describe) = (figure.query(), chips(&figure), figure.describe());
             Taken { tag, query, chips, describe, scene: scene(&figure, 800.0), values: figure.values().0, chip }
         };
-        chips(&Figure::new(tag).unwrap()).into_iter().map(take).collect::<Vec<_>>()
+        chips(&registry::figure(tag).unwrap()).into_iter().map(take).collect::<Vec<_>>()
     };
     std::thread::scope(|scope| {
         let threads: Vec<_> = FIGURES.iter().map(|entry| scope.spawn(move || take(entry.tag))).collect();
@@ -47,7 +52,7 @@ static TAKEN: LazyLock<Vec<Taken>> = LazyLock::new(|| {
 #[test]
 fn every_figure_has_challenges_with_short_titles_and_names_of_their_own() {
     for entry in FIGURES {
-        let chips = chips(&Figure::new(entry.tag).unwrap());
+        let chips = chips(&registry::figure(entry.tag).unwrap());
         assert!(chips.len() >= 3, "{}", entry.tag);
         let different = |of: fn(&Chip) -> &str| chips.iter().map(of).collect::<BTreeSet<_>>().len();
         assert_eq!([different(|chip| chip.name), different(|chip| chip.title)], [chips.len(); 2], "{}", entry.tag);
@@ -66,14 +71,18 @@ fn the_link_of_a_challenge_is_accepted_is_the_state_and_is_the_only_challenge_th
         assert_eq!(on, [chip.name]);
     }
     for entry in FIGURES {
-        assert!(chips(&Figure::new(entry.tag).unwrap()).iter().all(|chip| !chip.now), "{} opens in none", entry.tag);
+        assert!(
+            chips(&registry::figure(entry.tag).unwrap()).iter().all(|chip| !chip.now),
+            "{} opens in none",
+            entry.tag
+        );
     }
 }
 
 #[test]
 fn a_challenge_is_the_same_whichever_was_taken_up_before_also_where_that_one_is_still_at_work() {
     for entry in FIGURES {
-        let mut figure = Figure::new(entry.tag).unwrap();
+        let mut figure = registry::figure(entry.tag).unwrap();
         let all = chips(&figure);
         for Chip { name, query, .. } in all.iter().chain(all.iter().rev()) {
             assert_eq!(figure.load(query), [], "{name}");
@@ -87,7 +96,7 @@ fn a_challenge_is_the_same_whichever_was_taken_up_before_also_where_that_one_is_
 #[test]
 fn a_challenge_changes_what_is_to_be_seen_or_read() {
     for entry in FIGURES {
-        let opening = Figure::new(entry.tag).unwrap();
+        let opening = registry::figure(entry.tag).unwrap();
         let opening = (opening.describe(), scene(&opening, 800.0), opening.values().0);
         for Taken { tag, chip, describe, scene, values, .. } in TAKEN.iter().filter(|taken| taken.tag == entry.tag) {
             // Without a log, the figure of logs has nothing but its settings to show.

@@ -3,7 +3,10 @@
 //! This has caught a chip of sixteen guesses that showed one building, as pictures of all universes went by weights that chose among them.
 
 use crate::common::figure;
-use fastslam_widgets::{figure::Figure, registry::FIGURES};
+use fastslam_widgets::{
+    figure::Figure,
+    registry::{self, FIGURES},
+};
 use std::{
     collections::{BTreeMap, BTreeSet},
     ops::RangeInclusive,
@@ -128,7 +131,7 @@ fn number(figure: &Figure, name: &str) -> f64 {
 /// What is wrong with the claims of one figure.
 fn wrong(claims: &[Claim]) -> Vec<String> {
     let tag = &format!("fastslam-{}", claims[0].0);
-    let chips = Figure::new(tag).unwrap().chips();
+    let chips = registry::figure(tag).unwrap().chips();
     let mut states: BTreeMap<String, Figure> = BTreeMap::new();
     let mut read = |query: &str, name: &str| {
         let shown = states.entry(query.into()).or_insert_with(|| simulated(tag, query));
@@ -151,7 +154,7 @@ fn wrong(claims: &[Claim]) -> Vec<String> {
 fn each_chip_claims_something_and_nothing_else_does() {
     let claimed: BTreeSet<(String, &str)> =
         CLAIMS.iter().map(|claim| (format!("fastslam-{}", claim.0), claim.1)).collect();
-    let chips = |tag: &str| Figure::new(tag).unwrap().chips().into_iter().map(|chip| chip.name);
+    let chips = |tag: &str| registry::figure(tag).unwrap().chips().into_iter().map(|chip| chip.name);
     let all = FIGURES.iter().flat_map(|entry| chips(entry.tag).map(|chip| (entry.tag.into(), chip))).collect();
     assert_eq!(claimed, all, "a chip without a claim, or a claim without a chip");
 }

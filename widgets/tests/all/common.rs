@@ -2,12 +2,13 @@
 
 use fastslam_widgets::{
     figure::Figure,
+    registry,
     scene::{Mark, Rect, Scene},
 };
 
 /// The figure of a tag in the state that a link names, simulated. The link may be of an earlier version.
 pub fn figure(tag: &str, query: &str) -> Figure {
-    let mut figure = Figure::new(tag).unwrap();
+    let mut figure = registry::figure(tag).unwrap();
     let said = figure.load(query);
     assert!(said.iter().all(|remark| remark.parameter == "v"), "{query}: {said:?}");
     figure.model_mut().settle();

@@ -4,6 +4,7 @@ use crate::common::{assert_drawn_inside, assert_texts_fit, figure, scene, state}
 use fastslam_widgets::{
     conditioning::Layout,
     figure::Figure,
+    registry,
     scene::{Mark, Role, Scene, Shading},
 };
 
@@ -189,7 +190,7 @@ fn a_link_brings_back_the_whole_state() {
 
 #[test]
 fn a_bad_link_is_told_of_and_the_rest_of_it_applied() {
-    let mut figure = Figure::new("fastslam-conditioning").unwrap();
+    let mut figure = registry::figure("fastslam-conditioning").unwrap();
     let refused = figure.load("landmarks=99&poses=4&step=9&row=0&column=15&condition=perhaps&tempo=3");
     let messages: Vec<String> = refused.into_iter().map(|e| e.message).collect();
     assert_eq!(figure.query(), "v=2&poses=4&step=4");

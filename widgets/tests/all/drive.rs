@@ -2,7 +2,7 @@
 //! link can harm.
 
 use crate::common::{figure, state};
-use fastslam_widgets::{figure::Figure, lap::Verb, model::FigureError, scene::Mark};
+use fastslam_widgets::{figure::Figure, lap::Verb, model::FigureError, registry, scene::Mark};
 
 const WIDTH: f64 = 800.0;
 
@@ -169,7 +169,7 @@ fn a_link_that_nobody_wrote_is_refused_and_the_figure_lives() {
         (&format!("plan=1..{}", "0".repeat(90_000)), "plan", "as the figure writes it"),
         (&format!("drive=1.0.{}", "M".repeat(90_000)), "drive", "as the figure writes it"),
     ] {
-        let mut figure = Figure::new("fastslam-lap").unwrap();
+        let mut figure = registry::figure("fastslam-lap").unwrap();
         let refused = figure.load(&format!("course=apartment&universes=3&{query}"));
         let [error] = &refused[..] else { panic!("{query}: {refused:?}") };
         assert_eq!(error.parameter, name);

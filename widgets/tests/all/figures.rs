@@ -2,17 +2,16 @@
 
 use crate::common::{assert_drawn_inside, assert_texts_fit, scene, state};
 use fastslam_widgets::{
-    figure::Figure,
     model::Kind,
     paint::Theme,
-    registry::FIGURES,
+    registry::{self, FIGURES},
     scene::{Handle, Rect, Role, Scene},
 };
 
 #[test]
 fn every_parameter_refuses_what_is_out_of_range_and_stays_as_it_was() {
     for entry in FIGURES {
-        let mut figure = Figure::new(entry.tag).unwrap();
+        let mut figure = registry::figure(entry.tag).unwrap();
         figure.model_mut().seek(3);
         figure.model_mut().settle();
         let before = state(&figure);
@@ -38,7 +37,7 @@ fn every_parameter_refuses_what_is_out_of_range_and_stays_as_it_was() {
 #[test]
 fn every_default_and_every_choice_is_accepted() {
     for entry in FIGURES {
-        let mut figure = Figure::new(entry.tag).unwrap();
+        let mut figure = registry::figure(entry.tag).unwrap();
         for spec in figure.model().params() {
             assert_eq!(figure.model().value(spec.name).as_ref(), Some(&spec.default), "{}", spec.name);
             for value in spec.choices.iter().map(|c| c.value.as_str()).chain([spec.default.as_str()]) {
@@ -46,7 +45,7 @@ fn every_default_and_every_choice_is_accepted() {
                 assert_eq!(figure.model().value(spec.name).as_deref(), Some(value), "{}", spec.name);
             }
         }
-        assert_eq!(figure.query(), Figure::new(entry.tag).unwrap().query());
+        assert_eq!(figure.query(), registry::figure(entry.tag).unwrap().query());
     }
 }
 
@@ -65,7 +64,7 @@ fn a_code_that_says_no_version_is_of_that_of_the_day_on_which_codes_began_to() {
     ];
     for entry in FIGURES {
         let expected = said.iter().find(|(tag, _)| *tag == entry.tag).map_or(1, |(_, version)| *version);
-        assert_eq!(Figure::new(entry.tag).unwrap().model().unsaid(), expected, "{}", entry.tag);
+        assert_eq!(registry::figure(entry.tag).unwrap().model().unsaid(), expected, "{}", entry.tag);
     }
 }
 
@@ -73,12 +72,12 @@ fn a_code_that_says_no_version_is_of_that_of_the_day_on_which_codes_began_to() {
 #[test]
 fn a_code_of_any_version_makes_the_figure_that_the_link_of_that_version_makes() {
     for entry in FIGURES {
-        let mut figure = Figure::new(entry.tag).unwrap();
+        let mut figure = registry::figure(entry.tag).unwrap();
         let newest = figure.model().changes().len() + 1;
         for version in 1..=newest {
             let code = format!("v={version}");
             figure.load(&code);
-            let (linked, mut by_code) = (figure.query(), Figure::new(entry.tag).unwrap());
+            let (linked, mut by_code) = (figure.query(), registry::figure(entry.tag).unwrap());
             let meant = by_code.meant(&code).unwrap();
             assert_eq!(by_code.model_mut().load(&meant), [], "{} {code}", entry.tag);
             assert_eq!(by_code.query(), linked, "{} {code}", entry.tag);
@@ -96,7 +95,7 @@ fn no_parameter_has_a_name_that_python_keeps_for_itself() {
     const KEYWORDS: &str = "and as assert async await break class continue def del elif else except finally for from \
                             global if import in is lambda nonlocal not or pass raise return try while with yield";
     for entry in FIGURES {
-        for spec in Figure::new(entry.tag).unwrap().model().params() {
+        for spec in registry::figure(entry.tag).unwrap().model().params() {
             assert!(!KEYWORDS.split(' ').any(|word| word == spec.name), "{} of {}", spec.name, entry.tag);
         }
     }
@@ -106,7 +105,7 @@ fn no_parameter_has_a_name_that_python_keeps_for_itself() {
 #[test]
 fn every_figure_can_be_asked_and_drawn_while_it_is_still_at_work() {
     for entry in FIGURES {
-        let mut figure = Figure::new(entry.tag).unwrap();
+        let mut figure = registry::figure(entry.tag).unwrap();
         figure.model_mut().seek(u32::MAX);
         for _ in 0..20 {
             let model = figure.model();
@@ -126,7 +125,7 @@ fn every_figure_can_be_asked_and_drawn_while_it_is_still_at_work() {
 fn the_first_pixel_is_paper_because_the_page_takes_its_colour() {
     for entry in FIGURES {
         for (width, dpr) in [(340, 1.0), (1000, 2.0)] {
-            let mut figure = Figure::new(entry.tag).unwrap();
+            let mut figure = registry::figure(entry.tag).unwrap();
             figure.paint(width, width, dpr, Theme::Dark);
             assert_eq!(figure.canvas().pixels()[..3], Theme::Dark.color(Role::Paper), "{} at {width}", entry.tag);
         }
@@ -136,7 +135,7 @@ fn the_first_pixel_is_paper_because_the_page_takes_its_colour() {
 #[test]
 fn handles_have_names_of_their_own_and_lie_in_the_picture_with_words() {
     for entry in FIGURES {
-        let figure = Figure::new(entry.tag).unwrap();
+        let figure = registry::figure(entry.tag).unwrap();
         for width in [240.0, 340.0, 800.0] {
             let Scene { width, height, handles, .. } = scene(&figure, width);
             let picture = Rect::new(0.0, 0.0, width, height);
@@ -156,7 +155,7 @@ fn handles_have_names_of_their_own_and_lie_in_the_picture_with_words() {
 #[test]
 fn no_drag_and_no_nudge_makes_it_panic_or_leaves_a_range() {
     for entry in FIGURES {
-        let mut figure = Figure::new(entry.tag).unwrap();
+        let mut figure = registry::figure(entry.tag).unwrap();
         let names: Vec<&str> = scene(&figure, 800.0).handles.iter().map(|h| h.name).chain(["no-such-handle"]).collect();
         for name in names {
             for [x, y] in [[-1e300, 1e300], [0.0, 0.0], [1e9, -1e9], [f64::NAN, 1.0], [400.0, 200.0]] {
@@ -176,7 +175,7 @@ fn no_drag_and_no_nudge_makes_it_panic_or_leaves_a_range() {
 #[test]
 fn every_panel_can_be_shown_alone_and_whole() {
     for entry in FIGURES {
-        let mut figure = Figure::new(entry.tag).unwrap();
+        let mut figure = registry::figure(entry.tag).unwrap();
         figure.model_mut().seek(12);
         figure.model_mut().settle();
         for panel in entry.panels {
@@ -205,7 +204,7 @@ fn every_panel_can_be_shown_alone_and_whole() {
 #[test]
 fn every_figure_with_a_timeline_has_a_step_that_tells_and_pasted_codes_of_before_open_where_they_did() {
     for entry in FIGURES {
-        let mut figure = Figure::new(entry.tag).unwrap();
+        let mut figure = registry::figure(entry.tag).unwrap();
         figure.model_mut().settle();
         let (opening, last) = (figure.model().step(), figure.model().step_count());
         let step = figure.telling("v=latest").min(last);

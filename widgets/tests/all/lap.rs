@@ -7,10 +7,10 @@ use fastslam_lab::{
 };
 use fastslam_widgets::{
     figure::Figure,
-    job,
     lap::{LapModel, LapView, Layout},
     model::{Model, Parameters},
     panels::Panels,
+    registry,
     scene::{Mark, Role, SHARES, Shading},
     view::View,
 };
@@ -65,7 +65,7 @@ fn a_link_brings_back_the_whole_state() {
 
 #[test]
 fn a_bad_link_is_told_of_and_the_rest_of_it_applied() {
-    let mut figure = Figure::new("fastslam-lap").unwrap();
+    let mut figure = registry::figure("fastslam-lap").unwrap();
     let messages: Vec<String> = figure
         .load("v=13&universes=999&seed=5&tempo=3&universe=12&proposal=magic&&=&%zz=%")
         .into_iter()
@@ -235,9 +235,9 @@ fn a_cell_of_the_lap_table_is_the_job_of_its_link() {
         let link =
             format!("course=apartment&odometry=1&universes=4&proposal={}&matcher={}", cell.proposal, cell.matcher);
         let errors = [1, 2].map(|seed| vec![seed as f64, rms_best(&cell.setup(seed)).unwrap()]);
-        assert_eq!(job::run("laps", &link, 1..3).unwrap(), errors, "{link}");
+        assert_eq!(registry::count("laps", &link, 1..3).unwrap(), errors, "{link}");
     }
-    let refused = |link| job::run("laps", link, 1..2).unwrap_err().parameter;
+    let refused = |link| registry::count("laps", link, 1..2).unwrap_err().parameter;
     assert_eq!([refused("universes=257"), refused("universe=0&wings=on")], ["universes", "wings"]);
 }
 
@@ -247,12 +247,12 @@ fn the_cell_of_the_pose_graph_is_the_job_of_its_link() {
         let run = GraphRun::of(&LapSetup { seed, ..LapSetup::default() }, Repair::LeastSquares).unwrap();
         vec![seed as f64, run.rms_after]
     });
-    assert_eq!(job::run("graphs", "course=apartment&odometry=1", 1..3).unwrap(), errors);
+    assert_eq!(registry::count("graphs", "course=apartment&odometry=1", 1..3).unwrap(), errors);
     // What the figure asks besides makes no difference, and what it cannot mean is refused.
     let link = "course=apartment&odometry=1&seed=9&wrong=on&loops=off&start=matches";
-    assert_eq!(job::run("graphs", link, 2..3).unwrap(), errors[1..]);
-    assert_ne!(job::run("graphs", "course=ring&odometry=1", 1..3).unwrap(), errors);
-    assert_eq!(job::run("graphs", "odometry=3", 1..2).unwrap_err().parameter, "odometry");
+    assert_eq!(registry::count("graphs", link, 2..3).unwrap(), errors[1..]);
+    assert_ne!(registry::count("graphs", "course=ring&odometry=1", 1..3).unwrap(), errors);
+    assert_eq!(registry::count("graphs", "odometry=3", 1..2).unwrap_err().parameter, "odometry");
 }
 
 #[test]

@@ -2,7 +2,10 @@
 
 use crate::common::figure;
 use crate::words::lines;
-use fastslam_widgets::{figure::Figure, registry::FIGURES};
+use fastslam_widgets::{
+    figure::Figure,
+    registry::{self, FIGURES},
+};
 
 /// Controls of first sight that no figure has more of; the knobs on a picture, what plays it, its chips and its menu come to them.
 const KNOBS: usize = 6;
@@ -15,7 +18,7 @@ const LOG: &str = "fastslam-log";
 
 /// A figure in the states that its chips and its opening lead to.
 fn states(tag: &'static str) -> impl Iterator<Item = (String, Figure)> {
-    let chips = Figure::new(tag).unwrap().chips();
+    let chips = registry::figure(tag).unwrap().chips();
     let queries: Vec<String> = chips.into_iter().map(|chip| chip.query).chain([String::new()]).collect();
     queries.into_iter().map(move |query| (format!("{tag}?{query}"), figure(tag, &query)))
 }
@@ -23,7 +26,7 @@ fn states(tag: &'static str) -> impl Iterator<Item = (String, Figure)> {
 #[test]
 fn first_sight_has_a_few_controls_and_nothing_that_does_nothing() {
     for tag in FIGURES.iter().map(|entry| entry.tag) {
-        let figure = Figure::new(tag).unwrap();
+        let figure = registry::figure(tag).unwrap();
         let specs = figure.params();
         let knobs: Vec<&str> = specs.iter().filter(|spec| spec.sight && spec.applies).map(|spec| spec.name).collect();
         assert!((1..=KNOBS).contains(&knobs.len()), "{tag}: {knobs:?}");

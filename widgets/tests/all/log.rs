@@ -5,6 +5,7 @@ use fastslam_widgets::{
     fastslam::ops,
     figure::Figure,
     log::{Layout, Verb},
+    registry,
     scene::{Mark, Rect, Role, Scene, Shading},
 };
 
@@ -158,7 +159,7 @@ fn raw_odometry_is_drawn_up_to_the_scan_shown_unless_it_is_left_out_as_in_older_
     assert!(drawn(&figure) > 10 && drawn(&figure) < whole / 2, "{} of {whole}", drawn(&figure));
     assert_eq!(figure.query(), QUICK);
 
-    let mut older = Figure::new("fastslam-log").unwrap();
+    let mut older = registry::figure("fastslam-log").unwrap();
     let said = older.load("universes=4&cell=0.2");
     assert!(said.len() == 1 && said[0].parameter == "v", "{said:?}");
     older.open(TINY).unwrap();

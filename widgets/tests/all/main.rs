@@ -3,6 +3,7 @@
 mod asked;
 mod challenges;
 mod claims;
+mod commas;
 mod common;
 mod comparison;
 mod conditioning;

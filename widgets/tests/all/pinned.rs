@@ -3,6 +3,7 @@
 use crate::common::{assert_drawn_inside, assert_texts_fit, figure, scene, state};
 use fastslam_widgets::{
     figure::Figure,
+    registry,
     scene::{GHOST, Mark, Rect},
 };
 
@@ -126,7 +127,7 @@ fn what_comes_out_at_a_seed_is_the_same_whichever_seeds_were_run_before_it() {
         ("fastslam-em", "particles=100&step=83"),
         ("fastslam-smoothing", "particles=4&step=3"),
     ] {
-        let mut aside = Figure::new(tag).unwrap();
+        let mut aside = registry::figure(tag).unwrap();
         let mut different = 0;
         for seed in [4, 5, 6] {
             let query = format!("{setting}&seed={seed}");

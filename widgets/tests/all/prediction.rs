@@ -1,7 +1,7 @@
 //! Laws of predictions, by the figures' public face: nothing leaks before a guess, and nothing outlives its question.
 
 use crate::common::{figure, scene, state};
-use fastslam_widgets::{decimal::fixed, figure::Figure, paint::Theme};
+use fastslam_widgets::{decimal::fixed, figure::Figure, paint::Theme, registry};
 
 /// In the state that a link of today names.
 fn proposal(query: &str) -> Figure {
@@ -97,7 +97,7 @@ fn a_link_of_before_has_the_guess_that_was_there_before_readers_placed_one() {
         ("seed=4", "seed=4"),
         ("run=on&seed=4", "predict=on&guess=2&run=on&seed=4"),
     ] {
-        let mut figure = Figure::new("fastslam-proposal").unwrap();
+        let mut figure = registry::figure("fastslam-proposal").unwrap();
         let said = figure.load(before);
         figure.model_mut().settle();
         assert_eq!(state(&figure), state(&proposal(now)), "{before}");

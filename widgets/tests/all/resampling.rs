@@ -6,9 +6,9 @@ use fastslam_widgets::{
     decimal::fixed,
     figure::Figure,
     font::Weight,
-    job,
     model::{Model, Parameters},
     panels::Panels,
+    registry,
     resampling::{Layout, Parts, ResamplingModel, ResamplingView},
     scene::{Mark, Point, Rect, Role, Scene, Text},
     view::View,
@@ -306,7 +306,7 @@ fn a_link_brings_back_the_whole_state() {
 
 #[test]
 fn a_bad_link_is_told_of_and_the_rest_of_it_applied() {
-    let mut figure = Figure::new("fastslam-resampling").unwrap();
+    let mut figure = registry::figure("fastslam-resampling").unwrap();
     let refused = figure.load("v=4&particles=65&step=91&cursor=-2&scheme=magic&tempo=3&back=0&seed=4&policy=neff");
     let messages: Vec<String> = refused.into_iter().map(|e| e.message).collect();
     assert_eq!(figure.query(), "v=4&seed=4");
@@ -366,12 +366,16 @@ fn the_right_wing_is_told_where_there_are_two_and_lost_in_words() {
 #[test]
 fn a_job_can_be_cut_anywhere_and_counts_what_the_figure_shows() {
     let setting = "particles=8&threshold=0.4";
-    let whole = job::run("wings", setting, 3..9).unwrap();
-    let pieces = [job::run("wings", setting, 3..4).unwrap(), job::run("wings", setting, 4..9).unwrap()].concat();
+    let whole = registry::count("wings", setting, 3..9).unwrap();
+    let pieces =
+        [registry::count("wings", setting, 3..4).unwrap(), registry::count("wings", setting, 4..9).unwrap()].concat();
     assert_eq!(whole, pieces);
-    assert!(job::run("wings", setting, 5..5).unwrap().is_empty());
+    assert!(registry::count("wings", setting, 5..5).unwrap().is_empty());
     // The same as in the figure, whatever its view and its seed.
-    assert_eq!(whole, job::run("wings", &format!("?wings=off&seed=3&{setting}&step=5&cursor=now"), 3..9).unwrap());
+    assert_eq!(
+        whole,
+        registry::count("wings", &format!("?wings=off&seed=3&{setting}&step=5&cursor=now"), 3..9).unwrap()
+    );
     for row in whole {
         let mut model = ResamplingModel::default();
         let link = [("wings", "on"), ("particles", "8"), ("threshold", "0.4"), ("seed", &row[0].to_string())];
@@ -394,9 +398,9 @@ fn a_job_can_be_cut_anywhere_and_counts_what_the_figure_shows() {
 
 #[test]
 fn a_job_refuses_what_it_does_not_know() {
-    assert!(job::run("weather", "", 0..1).unwrap_err().message.contains("one of laps, wings"));
+    assert!(registry::count("weather", "", 0..1).unwrap_err().message.contains("one of laps, wings"));
     for (setting, part) in [("particles=99", "from 4 to 64"), ("tempo=3", "tempo"), ("scheme=", "systematic")] {
-        let message = job::run("wings", setting, 0..1).unwrap_err().message;
+        let message = registry::count("wings", setting, 0..1).unwrap_err().message;
         assert!(message.contains(part), "{message}");
     }
 }

@@ -8,7 +8,7 @@ use crate::words::lines;
 use fastslam_widgets::{
     figure::Figure,
     model::Kind,
-    registry::FIGURES,
+    registry::{self, FIGURES},
     scene::{Mark, Scene},
 };
 
@@ -62,7 +62,7 @@ fn a_noise_without_unit_is_found_and_one_with_unit_is_not() {
 #[test]
 fn every_parameter_and_readout_that_is_measured_has_a_unit_and_a_refusal_says_it() {
     for entry in FIGURES {
-        let mut figure = Figure::new(entry.tag).unwrap();
+        let mut figure = registry::figure(entry.tag).unwrap();
         figure.model_mut().settle();
         for language in LANGUAGES {
             speak(&mut figure, language);
@@ -111,7 +111,7 @@ fn said(figure: &Figure) -> Vec<String> {
 #[test]
 fn no_noise_is_told_without_its_unit_in_the_state_of_any_chip() {
     let of_figure = |tag: &'static str| {
-        let chips = Figure::new(tag).unwrap().chips();
+        let chips = registry::figure(tag).unwrap().chips();
         let states = chips.iter().map(|chip| (chip.name, chip.query.as_str())).chain([("opening", "")]);
         let mut wrong = Vec::new();
         for (chip, query) in states {

@@ -4,12 +4,13 @@ use crate::words::lines;
 use fastslam_widgets::{
     fastslam::ops,
     figure::Figure,
+    registry,
     scene::{Mark, Rect, Role},
     vignette::KINDS,
 };
 
 fn vignette(which: &str, at: u32) -> Figure {
-    let mut figure = Figure::new("fastslam-vignette").unwrap();
+    let mut figure = registry::figure("fastslam-vignette").unwrap();
     assert_eq!(figure.load(&format!("which={which}&at={at}")), []);
     figure
 }

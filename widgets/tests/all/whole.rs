@@ -4,7 +4,7 @@
 
 use crate::common::{figure, scene, texts};
 use crate::words::lines;
-use fastslam_widgets::{figure::Figure, registry::FIGURES};
+use fastslam_widgets::registry::{self, FIGURES};
 
 /// Of phones, columns, the chapter, laptops and projectors \[css px\]: whoever fits a picture into a frame looks for the width at which it
 /// can be shown largest, so that any of them comes up.
@@ -31,7 +31,7 @@ fn wrong(tag: &str, chip: &str, query: &str) -> Vec<String> {
 fn no_text_of_a_picture_is_cut_in_the_state_of_any_chip() {
     let all: Vec<String> = std::thread::scope(|scope| {
         let of_figure = |tag: &'static str| {
-            let chips = Figure::new(tag).unwrap().chips();
+            let chips = registry::figure(tag).unwrap().chips();
             let states = chips.iter().map(|chip| (chip.name, chip.query.as_str())).chain([("opening", "")]);
             states.flat_map(|(chip, query)| wrong(tag, chip, query)).collect::<Vec<_>>()
         };

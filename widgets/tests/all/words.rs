@@ -7,7 +7,7 @@ use fastslam_widgets::{
     fastslam::mapper,
     figure::Figure,
     model::{ParamSpec, Readout},
-    registry::FIGURES,
+    registry::{self, FIGURES},
     scene::Mark,
     unread,
     words::Language,
@@ -26,7 +26,7 @@ pub fn lines(language: &str) -> String {
 }
 
 fn figure(tag: &str, language: &str) -> Figure {
-    let mut figure = Figure::new(tag).unwrap();
+    let mut figure = registry::figure(tag).unwrap();
     if language != "en" {
         figure.set_words(&lines(language));
     }

@@ -2,10 +2,9 @@
 //! looked up in every run of the tests, where the pictures are painted; those of all other states are breadth.
 
 use fastslam_widgets::{
-    figure::Figure,
     font::{Weight, has},
     model::{Kind, ParamSpec},
-    registry::FIGURES,
+    registry::{self, FIGURES},
     scene::{Mark, Scene},
 };
 use figures::{PICTURES, SETUPS, TINY_LOG};
@@ -23,7 +22,7 @@ pub fn missing(scene: &Scene) -> String {
 fn links(tag: &str) -> Vec<String> {
     let kept = PICTURES.iter().map(|picture| (picture.tag, picture.query)).chain(SETUPS.iter().copied());
     let mut links: Vec<String> = kept.filter(|(of, _)| *of == tag).map(|(_, query)| query.to_string()).collect();
-    for spec in Figure::new(tag).unwrap().model().params() {
+    for spec in registry::figure(tag).unwrap().model().params() {
         // A log is mapped anew for each link: by few universes in large cells.
         let quick =
             if tag == LOG && !["universes", "cell"].contains(&spec.name) { "universes=4&cell=0.2&" } else { "" };
@@ -51,7 +50,7 @@ fn written(tag: &str) -> [BTreeSet<char>; 2] {
     // Without a log, it writes what it waits for.
     let files = if tag == LOG { vec![None, Some(TINY_LOG)] } else { vec![None] };
     for (link, file) in links(tag).into_iter().flat_map(|link| files.iter().map(move |file| (link.clone(), *file))) {
-        let mut figure = Figure::new(tag).unwrap();
+        let mut figure = registry::figure(tag).unwrap();
         if let Some(file) = file {
             figure.open(file).unwrap();
         }

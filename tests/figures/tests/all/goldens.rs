@@ -9,7 +9,7 @@ use fastslam_lab::{
     experiment::lap::{LapSetup, LapWorld},
 };
 use fastslam_widgets::decimal::fixed;
-use fastslam_widgets::{job, paint::Theme};
+use fastslam_widgets::{paint::Theme, registry};
 use figures::{JOBS, LOG, PICTURES, Picture, SETUPS, example, figure, line, poster, readouts, rows};
 use std::{
     collections::BTreeSet,
@@ -214,7 +214,7 @@ fn the_tiny_log_has_the_fingerprint_that_the_page_shows() {
 #[test]
 fn every_job_gives_the_golden_rows() {
     let kept = JOBS.iter().map(|(name, query, [from, to])| {
-        let found = job::run(name, query, u64::from(*from)..u64::from(*to)).unwrap();
+        let found = registry::count(name, query, u64::from(*from)..u64::from(*to)).unwrap();
         line(&format!("{name}?{query}"), &rows(found.concat()))
     });
     same_text("jobs.txt", &kept.collect::<String>());

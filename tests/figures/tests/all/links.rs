@@ -3,7 +3,11 @@
 //! link a line, and behind a tab the readouts at the step that it names, as they were when the line was written. Lines are added,
 //! never changed and never removed: other courses point here.
 
-use fastslam_widgets::{figure::Figure, model::FigureError, registry::FIGURES};
+use fastslam_widgets::{
+    figure::Figure,
+    model::FigureError,
+    registry::{self, FIGURES},
+};
 use figures::{LOG, TINY_LOG};
 
 const LINKS: &str = include_str!("../../golden/links.txt");
@@ -11,7 +15,7 @@ const LINKS: &str = include_str!("../../golden/links.txt");
 /// The figure that a link makes, and what it says of the link.
 fn open(link: &str) -> (Figure, Vec<FigureError>) {
     let (tag, query) = link.split_once('?').expect("a link has a ?");
-    let mut figure = Figure::new(tag).expect("a tag of the registry");
+    let mut figure = registry::figure(tag).expect("a tag of the registry");
     // A link without a word is of the first version, as the page reads it (`linkedQuery` in elements/link.ts).
     let said = figure.load(if query.is_empty() { "v=1" } else { query });
     if tag == LOG {

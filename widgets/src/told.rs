@@ -1,0 +1,33 @@
+//! What several figures say of the filters, in words.
+
+use crate::{
+    decimal::fixed,
+    model::{Change, FigureError},
+    words::common::{self, NEffOf},
+};
+use fastslam::error::SettingError;
+
+/// What a lap's universes are weighed by, in figures that have no parameter for it.
+pub const WEIGHED_ANEW: Change = Change::Told(
+    "Universes pay what known ground says of all poses that they might have drawn, and not of the one that they drew.",
+);
+
+/// A setting that the filters refuse.
+pub fn refused(error: SettingError) -> FigureError {
+    FigureError { parameter: error.field().into(), message: error.to_string() }
+}
+
+/// A pose, or a difference of poses \[m, m, rad\], as text.
+pub fn pose_text([x, y, theta]: [f64; 3]) -> String {
+    format!("({}, {}, {})", fixed(x, 2), fixed(y, 2), fixed(theta, 3))
+}
+
+/// N_eff of so many, as text.
+pub fn ess_text(ess: f64, particles: usize) -> String {
+    NEffOf { ess: &fixed(ess, 1), m: &particles }.say()
+}
+
+/// What is to be said of a step of this log evidence \[nats\], if no universe explains what it saw.
+pub fn unexplained(log_evidence: f64) -> Option<String> {
+    (log_evidence == f64::NEG_INFINITY).then(|| common::unexplained().into())
+}
