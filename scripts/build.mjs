@@ -58,7 +58,7 @@ async function buildProgram(program) {
 const gluedAs = 'page'
 
 /** What programs are made from. */
-const sources = ['Cargo.toml', 'Cargo.lock', 'src', 'lab', 'widgets/Cargo.toml', 'widgets/build.rs', 'widgets/README.md', 'widgets/src', 'widgets/words', 'widgets/fonts']
+const sources = ['Cargo.toml', 'Cargo.lock', 'src', 'lab', 'widgets/Cargo.toml', 'widgets/build.rs', 'widgets/README.md', 'widgets/src', 'widgets/words', 'widgets/kit']
 
 /** @type {string | undefined} */
 let sourcesSeen

@@ -31,7 +31,7 @@ async function clippyWasm() {
   for (const program of chapterPrograms) await clippy('-p', 'fastslam-widgets', '--lib', '--no-default-features', '--features', `single-threaded,${program}`)
 }
 
-const crates = ['fastslam', 'fastslam-log', 'fastslam-lab', 'fastslam-widgets', 'fastslam-cli']
+const crates = ['fastslam', 'fastslam-log', 'fastslam-lab', 'fastslam-figures-catalogue', 'fastslam-figures-kit', 'fastslam-widgets', 'fastslam-cli']
 
 async function listPackages() {
   for (const crate of crates) {

@@ -34,6 +34,9 @@ export const camel = name => name.replace(/-(.)/g, (_, letter) => letter.toUpper
 /** Languages that figures speak: a file each. */
 export const languages = readdirSync(join(root, 'widgets', 'words')).map(file => file.replace(/\.json$/, '')).sort()
 
+/** All that figures say in a language: what the kit has words for, and what they have. @param {string} language @returns {Record<string, Record<string, string>>} */
+export const catalogue = language => Object.assign({}, ...['widgets', 'widgets/kit'].map(folder => JSON.parse(readFileSync(join(root, folder, 'words', `${language}.json`), 'utf8'))))
+
 /** Attributes of every figure that are no parameters. */
 export const options = [
   { name: 'lang', values: undefined, help: `Language of all it says: ${languages.join(' or ')}. Where it is not given, that of the page around it; English for any other.` },

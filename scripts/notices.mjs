@@ -40,7 +40,7 @@ export function notices() {
     readFileSync(join(root, 'LICENSE-MIT'), 'utf8').trim(),
     `In the figures' programs are these crates, and the standard library of Rust (MIT OR Apache-2.0):\n${list.join('\n')}`,
     'Letters in the pictures are outlines of Inter.',
-    readFileSync(join(root, 'widgets', 'fonts', 'OFL.txt'), 'utf8').trim(),
+    readFileSync(join(root, 'widgets', 'kit', 'fonts', 'OFL.txt'), 'utf8').trim(),
     'Fonts of the chapter.',
     licences(root).trim(),
     `fflate, which zips packages on the page on embedding.\n\n${readFileSync(join(root, 'node_modules', 'fflate', 'LICENSE'), 'utf8').trim()}`,

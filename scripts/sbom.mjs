@@ -22,7 +22,7 @@ export const npmShipped = () => [
 
 /** The version of the font from which the letters in pictures are, as the font itself tells it: in OpenType, a fixed-point number of its head. */
 function inter() {
-  const font = readFileSync(join(root, 'widgets', 'fonts', 'Inter-Regular-subset.otf'))
+  const font = readFileSync(join(root, 'widgets', 'kit', 'fonts', 'Inter-Regular-subset.otf'))
   const tables = Array.from({ length: font.readUInt16BE(4) }, (_, i) => font.subarray(12 + 16 * i, 28 + 16 * i))
   const head = tables.find(table => table.toString('latin1', 0, 4) === 'head')
   if (!head) throw new StepError('The font Inter has no head.')

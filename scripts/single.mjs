@@ -2,7 +2,7 @@
 import { readFileSync } from 'node:fs'
 import { dirname, join } from 'node:path'
 import { gzipSync } from 'node:zlib'
-import { figures } from './elements.mjs'
+import { catalogue, figures } from './elements.mjs'
 import { root, StepError, targets } from './lib.mjs'
 import { chapterPrograms, programFile, programs as programOf } from './registry.mjs'
 
@@ -46,7 +46,7 @@ export async function singleFile(entry, names = chapterPrograms) {
   // No module: pages opened from a file may not start workers that are modules.
   const worker = await bundle(join(elements, 'worker.ts'), 'iife')
   const example = names.includes('log') ? readFileSync(join(root, 'www', 'public', 'example.clf.gz')).toString('base64') : ''
-  const words = Object.fromEntries(languages.map(language => [language, JSON.parse(readFileSync(join(root, 'widgets', 'words', `${language}.json`), 'utf8'))]))
+  const words = Object.fromEntries(languages.map(language => [language, catalogue(language)]))
   const carried = `export const example = ${JSON.stringify(example)}; export const programs = ${JSON.stringify(programs)}; export const worker = ${JSON.stringify(worker)}; export const words = ${JSON.stringify(words)}`
   const present = figures().filter(({ tag, name }) => names.includes(programOf.get(tag) ?? '') || names.includes(name))
   /** Code of elements that would find no program in it. */

@@ -1,13 +1,13 @@
 // The pages of www/ and the elements of widgets/elements, to dist/. Relative addresses, so that dist/ works in any folder of
 // any site; hashed names, except for fastslam.js: the one line of a teacher's page names it.
 import { createHash } from 'node:crypto'
-import { readdirSync, readFileSync } from 'node:fs'
-import { basename, join } from 'node:path'
+import { mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs'
+import { basename, dirname, join } from 'node:path'
 import { defineConfig } from 'vite'
 import { chapter } from './chapter/plugin.mjs'
 import { dist } from './build.mjs'
-import { languages } from './elements.mjs'
-import { root, targets } from './lib.mjs'
+import { catalogue, languages } from './elements.mjs'
+import { cache, root, targets } from './lib.mjs'
 import { policy } from './policy.mjs'
 import { programs } from './registry.mjs'
 
@@ -37,6 +37,20 @@ const anyFigure = {
   transform: (code, id) => (/\.css(\?|$)/.test(id) ? code.replaceAll('fastslam-figure', `:is(${[...programs.keys()].join()})`) : undefined),
 }
 
+/** A language is one file to a page, of what the kit says and of what its figures say. @type {import('vite').Plugin} */
+const wholeLanguages = {
+  name: 'whole-languages',
+  enforce: 'pre',
+  resolveId(source) {
+    const [, language] = /^\.\.\/words\/(\w+)\.json\?url$/.exec(source) ?? []
+    if (!language) return undefined
+    const file = cache('widgets', 'words', `${language}.json`)
+    mkdirSync(dirname(file), { recursive: true })
+    writeFileSync(file, JSON.stringify(catalogue(language), null, 2))
+    return `${file}?url`
+  },
+}
+
 /** fastslam.js becomes what loads it, as it is kept in a file with a hash (loader.js). @type {import('vite').Plugin} */
 const loader = {
   name: 'loader',
@@ -49,7 +63,7 @@ const loader = {
       const code = entry.code.replaceAll(/(["'])\.\/(assets\/)?/g, (_, quote, assets) => `${quote}${assets ? './' : '../'}`)
       const fileName = `assets/figures-${createHash('sha256').update(code).digest('base64url').slice(0, 8)}.js`
       this.emitFile({ type: 'asset', fileName, source: code })
-      const words = (/** @type {string} */ language) => JSON.parse(readFileSync(join(root, 'widgets', 'words', `${language}.json`), 'utf8')).elements.no_script
+      const words = (/** @type {string} */ language) => catalogue(language)['elements']?.['no_script']
       entry.code = readFileSync(join(root, 'scripts', 'loader.js'), 'utf8')
         .replace('FIGURES', `./${fileName}`)
         .replace('SHARED', `./${entry.imports.find(file => file.startsWith('fastslam-'))}`)
@@ -62,7 +76,7 @@ const loader = {
 export default defineConfig({
   root: www,
   base: './',
-  plugins: [anyFigure, chapter(root), policyInHead, loader],
+  plugins: [anyFigure, wholeLanguages, chapter(root), policyInHead, loader],
   build: {
     outDir: dist,
     emptyOutDir: true,

@@ -27,7 +27,7 @@ test('the workflow that releases runs scripts and crates that there are, and tri
   const asked = [...workflow.matchAll(/npm run ([\w:]+)/g)].map(([, name]) => String(name))
   assert.deepEqual(asked.filter(name => !(name in scripts)), [])
   const published = [...workflow.matchAll(/cargo publish -p ([\w-]+)/g)].map(([, name]) => name)
-  assert.deepEqual(published, ['fastslam', 'fastslam-log', 'fastslam-lab', 'fastslam-widgets', 'fastslam-cli'])
+  assert.deepEqual(published, ['fastslam', 'fastslam-log', 'fastslam-lab', 'fastslam-figures-catalogue', 'fastslam-figures-kit', 'fastslam-widgets', 'fastslam-cli'])
   const steps = workflow.match(/- (run|uses): .*/g) ?? []
   const upload = steps.findIndex(line => /publish/.test(line))
   assert.ok(steps.findIndex(line => line.includes('npm run release -- --tag')) < upload && upload > 0, steps.join('\n'))

@@ -27,8 +27,8 @@ function copySources() {
 
 /** The folder: the example as a module of the crate. */
 function addFolder() {
-  const example = readFileSync(join(root, 'widgets', 'examples', 'pi.rs'), 'utf8')
-  const figure = example.slice(0, example.indexOf('fn main()')).replaceAll('fastslam_widgets::', 'crate::').replaceAll(/^struct/gm, 'pub struct')
+  const example = readFileSync(join(root, 'widgets', 'kit', 'examples', 'pi.rs'), 'utf8')
+  const figure = example.slice(0, example.indexOf('fn main()')).replaceAll('fastslam_figures_kit::', 'crate::').replaceAll(/^struct/gm, 'pub struct')
   const [, before, drawn] = /^([^]*)impl View for DartsView \{[^]* fn draw\(.*\n([^]*?)^ {4}\}\n\}\n/m.exec(figure) ?? []
   if (!view || !before || !drawn) throw new StepError('widgets/README.md shows no panel for the view of the example.')
   const module = before + view.replace('// as before\n', drawn)

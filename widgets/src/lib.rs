@@ -2,46 +2,21 @@
 //!
 //! # Modules
 //!
-//! A figure is a [`recipe`] (a typed table of parameters), a [`model`] (deterministic, without clock or pixels), a [`view`] that makes
-//! a [`scene`] of it (marks with meanings, without colours), the one painter of [`paint`] and, in the browser, a `shell`: an [`action`] goes in, a [`frame`] comes out. Native tests and
-//! the command line use the same [`figure::Figure`] as the page.
+//! A folder for each figure, and the [`registry`] of all. What they are made with is the kit, `fastslam-figures-kit`, whose modules stand here
+//! too; what several of them say and draw of filters and robots is beside them. In the browser there is a `shell` as well: an [`action`] goes in,
+//! a [`frame`] comes out. Native tests and the command line use the same [`figure::Figure`] as the page.
 
-pub mod action;
-pub mod challenge;
-pub mod comma;
-mod comparison;
-pub mod decimal;
-pub mod export;
-pub mod figure;
-pub mod font;
-pub mod frame;
-pub mod ghost;
-pub mod job;
-pub mod kept;
-pub mod marks;
-mod message;
-pub mod model;
 mod names;
 pub mod order;
-pub mod paint;
-pub mod panels;
-pub mod param;
 mod policy;
-pub mod prediction;
-pub mod prelude;
-pub mod query;
-pub mod recipe;
 pub mod registry;
 mod robot;
-pub mod scene;
 #[cfg(target_arch = "wasm32")]
 pub mod shell;
-mod symbol;
 mod told;
 #[cfg(all(target_arch = "wasm32", feature = "trouble"))]
 mod trouble;
 pub mod unread;
-pub mod view;
 pub mod vignette;
 pub mod words;
 
@@ -60,3 +35,7 @@ pub mod universes;
 pub mod worked_example;
 
 pub use fastslam;
+pub use fastslam_figures_kit::{
+    action, challenge, comma, decimal, export, field, figure, font, frame, ghost, job, kept, marks, model, paint,
+    panels, param, prediction, prelude, query, recipe, scene, view,
+};

@@ -3,9 +3,9 @@
 use super::model::JointModel;
 use crate::{
     decimal::write,
-    prediction::{AROUND, State, off_by},
+    prediction::{AROUND, State, no_guess, off_by},
     scene::{Chart, Handle, Role, Scene},
-    words::{joint, prediction},
+    words::joint,
 };
 use fastslam_lab::experiment::joint_map::MOST;
 
@@ -43,11 +43,8 @@ pub fn guess(scene: &mut Scene, model: &JointModel, chart: &Chart) {
     scene.dash(&[[x, chart.area.y], [x, chart.area.bottom()]], 2.0, dash, Role::Accent);
     if open {
         scene.disc([x, y], 6.0, Role::Accent);
-        let text = if state == State::Asked {
-            prediction::none().into()
-        } else {
-            joint::GuessIs { guess: &write(guess) }.say()
-        };
+        let text =
+            if state == State::Asked { no_guess().into() } else { joint::GuessIs { guess: &write(guess) }.say() };
         scene.handles.push(Handle::of(&[GUESS], joint::guess_handle(), [x, y], guess, text));
     }
     scene.label(&mut Vec::new(), &chart.area, [x, y], &said, &AROUND);

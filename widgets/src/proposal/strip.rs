@@ -3,9 +3,9 @@
 use super::{gauge, ghost, layout::Layout, model::ProposalModel, recipe::RATIOS, view::GUESS};
 use crate::{
     decimal::{fixed, write},
-    prediction::{State, off_by},
+    prediction::{State, no_guess, off_by},
     scene::{Handle, Rect, Role, Scene, plain, strong},
-    words::{prediction, proposal},
+    words::proposal,
 };
 
 /// The ratio in words and on a scale, with the reader's guess.
@@ -77,6 +77,6 @@ pub fn ratio(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
         proposal::guess_handle(),
         [at(place), y - 9.0],
         place,
-        guess.map_or(prediction::none().into(), |guess| proposal::TimesOf { n: &write(guess) }.say()),
+        guess.map_or(no_guess().into(), |guess| proposal::TimesOf { n: &write(guess) }.say()),
     ));
 }

@@ -7,9 +7,9 @@ use super::{
 use crate::{
     decimal::write,
     model::Model,
-    prediction::{State, off_by},
+    prediction::{State, no_guess, off_by},
     scene::{Handle, Rect, Role, Scene, strong},
-    words::{prediction, resampling},
+    words::resampling,
 };
 
 /// The guess on the axis of time.
@@ -76,7 +76,7 @@ impl Picture<'_> {
     fn guess(&self, state: State) -> Handle {
         let (guess, text) = match state {
             State::Placed(guess) => (guess, resampling::StepIs { step: &write(guess) }.say()),
-            _ => (self.middle(), prediction::none().into()),
+            _ => (self.middle(), no_guess().into()),
         };
         let chart = self.parts.charts[1];
         Handle::of(&[GUESS], resampling::guess_handle(), [self.x(guess as u32), chart.y + 5.0], guess, text)

@@ -10,9 +10,9 @@ use super::{
 use crate::{
     decimal::write,
     model::Declared,
-    prediction::AROUND,
+    prediction::{AROUND, no_guess},
     scene::{Handle, Point, Rect, Role, Scene},
-    words::{prediction, universes as words},
+    words::universes as words,
 };
 use fastslam_lab::experiment::ProposalKind;
 
@@ -84,7 +84,7 @@ impl Guess {
             ProposalKind::Motion => (&[GUESS], words::guess_handle()),
             ProposalKind::Improved => (&[GUESS_AWARE], words::guess_aware()),
         };
-        let text = self.guess.map_or(prediction::none().into(), |guess| words::CountOf { m: &write(guess) }.say());
+        let text = self.guess.map_or(no_guess().into(), |guess| words::CountOf { m: &write(guess) }.say());
         scene.handles.push(Handle::of(axes, title, self.at, self.value, text));
     }
 }
@@ -108,7 +108,7 @@ fn floor(scene: &mut Scene, model: &UniversesModel, part: &Part, taken: &mut Vec
     };
     marker(scene, taken, &area, [x, y], &said);
     if !judged {
-        let text = guess.map_or(prediction::none().into(), |guess| format!("{} %", write(guess)));
+        let text = guess.map_or(no_guess().into(), |guess| format!("{} %", write(guess)));
         scene.handles.push(Handle::of(&[GUESS_FLOOR], words::guess_floor(), [x, y], percent, text));
     }
 }

@@ -6,7 +6,7 @@ use crate::{
     field,
     prediction::{self, Asks, Prediction, Predicts},
     recipe::{self, Field, Menu, Param},
-    words::{common, prediction as asked, universes},
+    words::{common, universes},
 };
 use fastslam_lab::experiment::{
     ProposalKind,
@@ -114,7 +114,7 @@ impl recipe::Recipe for Recipe {
             run: [universes::run(), universes::run_help()],
         });
         let also = |name, title, unit, range, field, help| {
-            P::number_or(name, title, unit, range, ("none", asked::none()), field, help)
+            P::number_or(name, title, unit, range, ("none", prediction::no_guess()), field, help)
                 .view()
                 .without_slider()
                 .only_where(prediction::is_asked)

@@ -23,6 +23,7 @@ mod predictions_of_the_family;
 mod proposal;
 mod repeated;
 mod resampling;
+mod shapes;
 mod smoothing;
 mod trace;
 mod units;

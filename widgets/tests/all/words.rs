@@ -1,5 +1,6 @@
 //! Figures in other languages: every word is of the language, and nothing else changes.
 
+use fastslam_figures_catalogue::build::read;
 use fastslam_log::{
     BagOptions, BagReader, Beyond, Field, LogProblem, MessageProblem, Remark, Topics, parse, write_json_lines,
 };
@@ -12,17 +13,20 @@ use fastslam_widgets::{
     unread,
     words::Language,
 };
-use std::{collections::BTreeMap, fs, path::Path};
+use std::path::Path;
 
 const LAP: &str = "fastslam-lap";
 
-/// A catalogue as the page hands it to a figure.
+/// A catalogue as the page hands it to a figure: what the kit says, and what the figures say.
 pub fn lines(language: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("words").join(format!("{language}.json"));
-    let sections: BTreeMap<String, BTreeMap<String, String>> =
-        serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
-    let line = |section: &str, (key, text): (&String, &String)| format!("{section}.{key}={text}\n");
-    sections.iter().flat_map(|(section, messages)| messages.iter().map(move |pair| line(section, pair))).collect()
+    let mut lines = String::new();
+    for folder in ["words", "kit/words"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder).join(format!("{language}.json"));
+        for (section, messages) in read(&path) {
+            lines.extend(messages.iter().map(|(key, text)| format!("{section}.{key}={text}\n")));
+        }
+    }
+    lines
 }
 
 fn figure(tag: &str, language: &str) -> Figure {

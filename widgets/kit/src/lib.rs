@@ -1,0 +1,33 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Modules
+//!
+//! A figure is a [`recipe`] (a typed table of parameters), a [`model`] (deterministic, without clock or pixels), a [`view`] that makes
+//! a [`scene`] of it (marks with meanings, without colours) and the one painter of [`paint`]. All of it together is a [`figure::Figure`]: an
+//! [`action`] goes in, a [`frame`] comes out.
+
+pub mod action;
+pub mod challenge;
+pub mod comma;
+mod comparison;
+pub mod decimal;
+pub mod export;
+pub mod figure;
+pub mod font;
+pub mod frame;
+pub mod ghost;
+pub mod job;
+pub mod kept;
+pub mod marks;
+pub mod model;
+pub mod paint;
+pub mod panels;
+pub mod param;
+pub mod prediction;
+pub mod prelude;
+pub mod query;
+pub mod recipe;
+pub mod scene;
+mod symbol;
+pub mod view;
+pub mod words;

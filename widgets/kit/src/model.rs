@@ -1,0 +1,441 @@
+//! What a figure is to everyone else: a deterministic state that parameters change and readouts describe.
+//!
+//! A model has no clock and no frame time. Its state is a function of the *recipe*, the values of its parameters, so that a
+//! link, a saved figure and a replay are the same thing. Long computations are cut into steps: [`Model::seek`] says what is
+//! asked for, [`Model::pending`] how far that is away, and [`Model::work`] goes one step nearer.
+
+use crate::challenge::{self, Challenge, Chip};
+use crate::ghost::Curves;
+use crate::param;
+pub use crate::param::{Choice, Group, Kind, ParamSpec};
+use crate::prediction::Outcome;
+use crate::recipe::{self, Recipe};
+use crate::words::kit::{MustBe, OneOf};
+use core::fmt;
+use serde::Serialize;
+use std::borrow::Cow;
+
+/// Why a value was refused: the parameter, and one line that names it, what was given and what is allowed.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct FigureError {
+    /// Name of the parameter as its reader knows it.
+    pub parameter: String,
+    /// What was given and what is allowed.
+    pub message: String,
+}
+
+impl FigureError {
+    /// `parameter` was given as `value`, where `allowed` names the range or the choices.
+    pub fn new(parameter: &str, value: impl fmt::Display, allowed: impl fmt::Display) -> Self {
+        let message = MustBe { parameter: &parameter, value: &value, allowed: &allowed }.say();
+        Self { parameter: parameter.into(), message }
+    }
+
+    /// `parameter` was given as something else than one of these names.
+    pub fn not_among(parameter: &str, given: &str, names: &[&str]) -> Self {
+        Self::new(parameter, param::quoted(given), OneOf { words: &names.join(", ") }.say())
+    }
+}
+
+impl fmt::Display for FigureError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl core::error::Error for FigureError {}
+
+/// A measured quantity of the state shown.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Readout {
+    /// Identifier, unique in the figure.
+    pub name: &'static str,
+    /// Name for readers.
+    pub title: &'static str,
+    /// The number, if there is one now.
+    pub value: Option<f64>,
+    /// The number as it is to be written, without its unit.
+    pub text: String,
+    /// Unit of value and text; empty for pure numbers.
+    pub unit: &'static str,
+    /// What it means, in a sentence.
+    pub help: &'static str,
+    /// Whether the picture says it: a page need not write it a second time.
+    pub drawn: bool,
+}
+
+impl Readout {
+    /// A number with its text, which is a dash where the number is not finite.
+    pub fn new(
+        name: &'static str,
+        title: &'static str,
+        value: f64,
+        text: impl Into<String>,
+        unit: &'static str,
+        help: &'static str,
+    ) -> Self {
+        let known = value.is_finite();
+        let text = if known { text.into() } else { "–".into() };
+        Self { name, title, value: known.then_some(value), text, unit, help, drawn: false }
+    }
+
+    /// The same where the picture says it.
+    pub fn drawn(self) -> Self {
+        Self { drawn: true, ..self }
+    }
+}
+
+/// A line of an algorithm that the step shown has run, for a page that shows the algorithm beside the figure.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct TraceLine {
+    /// What the line does: `propose`, `weigh`, `resample` …
+    pub key: &'static str,
+    /// What came out, with its unit; empty where there is nothing to tell.
+    pub text: String,
+}
+
+impl TraceLine {
+    /// A line, and what came out of it.
+    pub fn new(key: &'static str, text: impl Into<String>) -> Self {
+        Self { key, text: text.into() }
+    }
+}
+
+/// A column of the measured data.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Column {
+    /// Identifier with the unit as suffix, e.g. `rms_best_m`.
+    pub name: &'static str,
+    /// What it means, in a sentence.
+    pub help: &'static str,
+}
+
+impl Column {
+    /// By its name and what it means.
+    pub const fn new(name: &'static str, help: &'static str) -> Self {
+        Self { name, help }
+    }
+}
+
+/// Measured data of every step simulated so far.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Series {
+    /// What the values of a row are.
+    pub columns: Cow<'static, [Column]>,
+    /// One row a step.
+    pub rows: Vec<Vec<f64>>,
+}
+
+/// What makes a version of a figure another one than the version before, for links.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Change {
+    /// Older links show something else now: a sentence says what.
+    Told(&'static str),
+    /// The same for those links only in which a parameter has this number.
+    ToldAt {
+        /// The parameter.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// The sentence.
+        change: &'static str,
+    },
+    /// A parameter has another default. An older link that does not name it means the value that was the default then, and shows the same.
+    Default {
+        /// The parameter.
+        name: &'static str,
+        /// The default before.
+        was: &'static str,
+    },
+    /// The same, but for those links that give another parameter a value of its own.
+    DefaultUnless {
+        /// The parameter.
+        name: &'static str,
+        /// The default before.
+        was: &'static str,
+        /// The other parameter, and the value with which nothing has changed.
+        unless: (&'static str, &'static str),
+    },
+    /// Opens at its telling step where nothing is to move and on paper: before, at its first. A link shows what it did.
+    Opens,
+    /// Changes for those links only that switch a parameter on.
+    Switched {
+        /// The parameter.
+        name: &'static str,
+        /// What has changed for them.
+        changes: &'static [Change],
+    },
+}
+
+/// A model that has a recipe. It is all that a figure writes of its parameters besides their table: [`Parameters`] follows.
+pub trait Declared {
+    /// Everything that a link says.
+    type Recipe: Recipe;
+
+    /// Title for readers.
+    const TITLE: &'static str;
+
+    /// What has changed for those who made links, for each version of the figure from the second on. A change of a default, of what a
+    /// parameter means, or of the numbers is one.
+    const CHANGES: &'static [Change] = &[];
+
+    /// Version of the figure that a pasted code means which says none: the newest one of the day on which codes began to say theirs, and 1
+    /// for figures that are younger. It never changes: it is what keeps older pages as they are.
+    const UNSAID: usize = 1;
+
+    /// States that are worth trying, in the order in which they are offered.
+    fn challenges() -> Vec<Challenge<Self>>
+    where
+        Self: Sized,
+    {
+        Vec::new()
+    }
+
+    /// What it is made by.
+    fn recipe(&self) -> &Self::Recipe;
+
+    /// Becomes what another recipe says, and simulates anew only what that changes.
+    ///
+    /// # Errors
+    /// Where what goes on inside refuses a value; all is as it was.
+    fn adopt(&mut self, recipe: Self::Recipe) -> Result<(), FigureError>;
+
+    /// Changes the recipe by hand. Numbers end in their ranges, so that there is nothing to refuse.
+    fn change(&mut self, change: impl FnOnce(&mut Self::Recipe))
+    where
+        Self: Sized,
+    {
+        let mut recipe = self.recipe().clone();
+        change(&mut recipe);
+        recipe.follow(self.recipe());
+        let _ = self.adopt(recipe::confined(recipe));
+    }
+}
+
+/// A figure that has no state besides its parameters: it is its own recipe, and there is nothing to simulate.
+pub trait Stateless: Recipe {
+    /// Title for readers.
+    const TITLE: &'static str;
+}
+
+impl<M: Stateless> Declared for M {
+    type Recipe = M;
+    const TITLE: &'static str = <M as Stateless>::TITLE;
+
+    fn recipe(&self) -> &M {
+        self
+    }
+
+    fn adopt(&mut self, recipe: M) -> Result<(), FigureError> {
+        *self = recipe;
+        Ok(())
+    }
+}
+
+/// The title and the parameters of any model, by name and as text: what attributes, controls and links need.
+pub trait Parameters {
+    /// Title for readers.
+    fn title(&self) -> &'static str;
+
+    /// [`Declared::CHANGES`].
+    fn changes(&self) -> &'static [Change];
+
+    /// [`Declared::UNSAID`].
+    fn unsaid(&self) -> usize;
+
+    /// [`Declared::challenges`], and how it stands with them now.
+    fn chips(&self) -> Vec<Chip>;
+
+    /// All parameters with their ranges as they are now (the last step and the number of slots depend on the setup).
+    fn params(&self) -> Vec<ParamSpec>;
+
+    /// Current values of all parameters by name, as text that [`Parameters::configure`] takes.
+    fn values(&self) -> Vec<(&'static str, String)>;
+
+    /// Current value of a parameter; `None` for a name it does not know.
+    fn value(&self, name: &str) -> Option<String> {
+        named(self.values(), name)
+    }
+
+    /// Gives several parameters new values at once, rebuilding once. What is refused is returned and changes nothing; the
+    /// rest is applied. Values of the setup come first, whatever their order.
+    fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError>;
+
+    /// The same from the defaults on: what is not named is the default again.
+    fn load(&mut self, values: &[(String, String)]) -> Vec<FigureError>;
+}
+
+impl<M: Declared> Parameters for M {
+    fn title(&self) -> &'static str {
+        M::TITLE
+    }
+
+    fn changes(&self) -> &'static [Change] {
+        M::CHANGES
+    }
+
+    fn unsaid(&self) -> usize {
+        M::UNSAID
+    }
+
+    fn chips(&self) -> Vec<Chip> {
+        challenge::chips(self)
+    }
+
+    fn params(&self) -> Vec<ParamSpec> {
+        recipe::specs(self.recipe())
+    }
+
+    fn values(&self) -> Vec<(&'static str, String)> {
+        recipe::values(self.recipe())
+    }
+
+    fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
+        let before = self.recipe().clone();
+        adopted(self, &before, values)
+    }
+
+    fn load(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
+        adopted(self, &M::Recipe::default(), values)
+    }
+}
+
+/// The value of a name; in a function of its own, as every figure asks for it.
+fn named(values: Vec<(&'static str, String)>, name: &str) -> Option<String> {
+    values.into_iter().find(|(known, _)| *known == name).map(|(_, value)| value)
+}
+
+/// Has a model take over these values from a recipe on.
+#[inline(never)] // a program has it once for each figure
+fn adopted<M: Declared>(model: &mut M, before: &M::Recipe, values: &[(String, String)]) -> Vec<FigureError> {
+    let (recipe, mut refused) = recipe::with(before, values);
+    refused.extend(model.adopt(recipe).err());
+    refused
+}
+
+/// A figure, without its pixels. One without a timeline leaves out everything about steps.
+pub trait Model: Parameters {
+    /// Asks for a step of the simulation; beyond the last means the last.
+    fn seek(&mut self, _step: u32) {}
+
+    /// Number of the last step; 0 for a figure without a timeline.
+    fn step_count(&self) -> u32 {
+        0
+    }
+
+    /// The step shown.
+    fn step(&self) -> u32 {
+        0
+    }
+
+    /// The step that tells most of what the figure is about: what is shown where nothing is to move, on paper and in pictures of it, and
+    /// where a reader who is still at the first step changes what is simulated. 0 for a figure without a timeline.
+    fn telling(&self) -> u32 {
+        0
+    }
+
+    /// What is to be watched of it until its end, in a few words that ask for it, and the step before it.
+    fn watch(&self) -> Option<(u32, &'static str)> {
+        None
+    }
+
+    /// Steps of simulation between what is shown and what was asked for.
+    fn pending(&self) -> u32 {
+        0
+    }
+
+    /// Does one of the pending steps.
+    fn work(&mut self) {}
+
+    /// Whether what is pending only adds to what is shown, which is of what was asked for already: a page need not hold the picture until
+    /// it is done.
+    fn refines(&self) -> bool {
+        false
+    }
+
+    /// The numbers of the state shown.
+    fn readouts(&self) -> Vec<Readout>;
+
+    /// Measured data of every step simulated so far; of a figure without a timeline, one row: its readouts.
+    fn series(&self) -> Series {
+        let readouts = self.readouts();
+        let columns = readouts.iter().map(|readout| Column::new(readout.name, readout.help)).collect();
+        Series { columns, rows: vec![readouts.iter().map(|readout| readout.value.unwrap_or(f64::NAN)).collect()] }
+    }
+
+    /// What comes of the reader's prediction, if one is asked for.
+    fn prediction(&self) -> Option<Outcome> {
+        None
+    }
+
+    /// One or two sentences that tell what is shown now, for who does not see it.
+    fn describe(&self) -> String;
+
+    /// What happens in the picture now, in a line in the words of its subject, with the one number that matters.
+    fn narrate(&self) -> String {
+        self.describe()
+    }
+
+    /// How fast the step shown is played, of the usual speed: below 1 where there is much to see in it.
+    fn pace(&self) -> f64 {
+        1.0
+    }
+
+    /// The lines of its algorithm that led to what is shown, in the order in which they ran. None before the first step.
+    fn trace(&self) -> Vec<TraceLine> {
+        Vec::new()
+    }
+
+    /// A parameter whose control shows another value than was set, and that value: what is shown is of it.
+    fn instead(&self) -> Option<(&'static str, String)> {
+        None
+    }
+
+    /// Names of the readouts that tell most of what is shown, the one that matters first.
+    fn compared(&self) -> Vec<&'static str> {
+        Vec::new()
+    }
+
+    /// Curves of all that was simulated, for another run to be compared with; none of a figure that has none.
+    fn curves(&self) -> Curves {
+        Curves::new()
+    }
+
+    /// Draws these curves of another run behind its own, whatever is set, until there are none.
+    fn haunt(&mut self, _pinned: Curves) {}
+
+    /// What it does with files, if it takes or makes any.
+    fn files(&self) -> Option<&dyn Files> {
+        None
+    }
+
+    /// The same, to be given one.
+    fn files_mut(&mut self) -> Option<&mut dyn Files> {
+        None
+    }
+
+    /// Does all pending work.
+    fn settle(&mut self) {
+        while self.pending() > 0 {
+            self.work();
+        }
+    }
+}
+
+/// What a model does with files.
+pub trait Files {
+    /// Takes a reader's file instead of the one before.
+    ///
+    /// # Errors
+    /// For a file that cannot be read; the model is as it was.
+    fn open(&mut self, file: &[u8]) -> Result<(), FigureError>;
+
+    /// Whether what was set can be computed at all: asked before a computation that takes long.
+    ///
+    /// # Errors
+    /// The parameter that stands in the way, and its range.
+    fn ready(&self) -> Result<(), FigureError>;
+
+    /// A file of this name made of the state shown, if there is such a one.
+    fn file(&self, name: &str) -> Option<Vec<u8>>;
+}
