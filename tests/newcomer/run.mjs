@@ -13,9 +13,9 @@ const copy = cache('newcomer')
 
 const registry = join(copy, 'widgets', 'src', 'registry.rs')
 
-/** What the README shows, and so what is tried: the row, and the view with another panel. */
+/** What the README shows, and so what is tried: the row, and another panel. */
 const readme = readFileSync(join(root, 'widgets', 'README.md'), 'utf8')
-const [row, view] = [/^("pi": darts::DartsView, .*;)$/m, /^(\/\/\/ Where the darts are drawn[^]*?)^```$/m].map(shown => shown.exec(readme)?.[1])
+const [row, panel] = [/^("pi": darts::Darts, .*;)$/m, /^(\/\/\/ Where the darts are drawn[^]*?)^```$/m].map(shown => shown.exec(readme)?.[1])
 
 function copySources() {
   rmSync(copy, { recursive: true, force: true })
@@ -28,10 +28,10 @@ function copySources() {
 /** The folder: the example as a module of the crate. */
 function addFolder() {
   const example = readFileSync(join(root, 'widgets', 'kit', 'examples', 'pi.rs'), 'utf8')
-  const figure = example.slice(0, example.indexOf('fn main()')).replaceAll('fastslam_figures_kit::', 'crate::').replaceAll(/^struct/gm, 'pub struct')
-  const [, before, drawn] = /^([^]*)impl View for DartsView \{[^]* fn draw\(.*\n([^]*?)^ {4}\}\n\}\n/m.exec(figure) ?? []
-  if (!view || !before || !drawn) throw new StepError('widgets/README.md shows no panel for the view of the example.')
-  const module = before + view.replace('// as before\n', drawn)
+  const figure = example.slice(0, example.indexOf('fn main()')).replaceAll('fastslam_figures_kit::', 'crate::')
+  const title = /^ {4}const TITLE: .*\n/m
+  if (!panel || !title.test(figure)) throw new StepError('widgets/README.md shows no panel for the example.')
+  const module = figure.replace(title, `$&\n${panel.trimEnd().replaceAll(/^(?=.)/gm, '    ')}\n`)
   mkdirSync(join(copy, 'widgets', 'src', 'darts'))
   writeFileSync(join(copy, 'widgets', 'src', 'darts', 'mod.rs'), module)
 }

@@ -37,5 +37,5 @@ pub mod worked_example;
 pub use fastslam;
 pub use fastslam_figures_kit::{
     action, challenge, comma, decimal, export, field, figure, font, frame, ghost, job, kept, marks, model, paint,
-    panels, param, prediction, prelude, query, recipe, scene, view,
+    panels, param, prediction, prelude, query, recipe, scene, sketch, view,
 };

@@ -77,7 +77,7 @@ figures! {
 /// The small figures of the chapter, all of one kind. They are no elements of their own for other pages, and so not among [`FIGURES`].
 pub const VIGNETTES: &[Entry] = &[
     #[cfg(feature = "vignettes")]
-    Entry::of::<crate::vignette::VignetteView>("fastslam-vignette", Program::Page, None),
+    Entry::of::<crate::vignette::Vignette>("fastslam-vignette", Program::Page, None),
 ];
 
 /// The figure of a tag.

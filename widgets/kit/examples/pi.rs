@@ -4,49 +4,29 @@
 
 use fastslam_figures_kit::prelude::*;
 
-/// Everything that a link can say. There is no state besides: it is the model, too.
-#[derive(Clone, PartialEq)]
-struct Darts {
-    darts: u32,
-    seed: u64,
-}
-
-impl Default for Darts {
-    fn default() -> Self {
-        Self { darts: 500, seed: 1 }
+recipe! {
+    /// Everything that a link can say of it. There is no state besides.
+    pub struct Darts {
+        darts: u32 = 500, integer("darts", "Darts", "", (1, 5000)), "How many darts are thrown.", in_sight();
+        seed: u64 = 1, seed(), "Picks where they land.";
     }
-}
-
-impl Recipe for Darts {
-    fn table() -> Vec<Param<Self>> {
-        vec![
-            Param::integer("darts", "Darts", "", (1, 5000), field!(darts), "How many darts are thrown."),
-            Param::seed(field!(seed), "Picks where they land."),
-        ]
-    }
-}
-
-impl Stateless for Darts {
-    const TITLE: &'static str = "π by darts";
 }
 
 impl Darts {
-    fn landed(&self) -> Vec<[f64; 2]> {
-        // Evenly over the square, and on no two places alike: fractions of multiples of irrational numbers (Roberts, 2018).
-        let from = self.seed as f64 * 0.618_033_988_75;
-        let dart =
-            |k| [0.754_877_666_25, 0.569_840_290_998].map(|step| 2.0 * (from + f64::from(k) * step).fract() - 1.0);
-        (0..self.darts).map(dart).collect()
+    /// Where they land: evenly, and never twice in one place (fractions of multiples of irrational numbers).
+    fn landed(&self) -> impl Iterator<Item = [f64; 2]> {
+        let place = |k| [0.754_877_666, 0.569_840_291].map(|step| 2.0 * (step * k as f64).fract() - 1.0);
+        (5000 * self.seed..).take(self.darts as usize).map(place)
     }
 
     fn pi(&self) -> f64 {
-        let inside = self.landed().iter().filter(|[x, y]| x * x + y * y < 1.0).count();
-        4.0 * inside as f64 / f64::from(self.darts)
+        4.0 * self.landed().filter(|[x, y]| x * x + y * y < 1.0).count() as f64 / f64::from(self.darts)
     }
 }
 
-/// Readouts and a sentence: no pixels.
-impl Model for Darts {
+impl Sketch for Darts {
+    const TITLE: &'static str = "π by darts";
+
     fn readouts(&self) -> Vec<Readout> {
         vec![Readout::new("pi", "π", self.pi(), fixed(self.pi(), 3), "", "Four times the share in the circle.")]
     }
@@ -54,40 +34,22 @@ impl Model for Darts {
     fn describe(&self) -> String {
         format!("{} darts say that π is {}.", self.darts, fixed(self.pi(), 3))
     }
-}
 
-/// Layout and scene; it knows the model, and the model does not know it.
-#[derive(Default)]
-struct DartsView;
-
-impl View for DartsView {
-    type Model = Darts;
-    type Layout = Rect;
-
-    fn layout(width: f64, _: &Panels) -> Rect {
-        Rect::new(0.0, 0.0, width, 0.6 * width)
-    }
-
-    fn draw(&self, model: &Darts, area: &Rect, scene: &mut Scene) {
-        let plane = Plane::around(*area, [[-1.0; 2], [1.0; 2]], 8.0);
-        let landed = model.landed().into_iter().map(|dart| plane.point(dart));
-        scene.cloud(landed, area, 1.5, Role::Prior);
+    fn draw(&self, _panel: &str, area: Rect, scene: &mut Scene) {
+        let plane = Plane::around(area, [[-1.0; 2], [1.0; 2]], 8.0);
+        scene.cloud(self.landed().map(|dart| plane.point(dart)), &area, 1.5, Role::Prior);
         scene.lines(plane.region([0.0; 2], [[1.0, 0.0], [0.0, 1.0]], 1.0), 2.0, Role::Ink);
     }
 }
 
 fn main() {
-    println!("{}", Figure::of::<DartsView>("fastslam-pi").describe());
+    println!("{}", Figure::of::<Darts>("pi").describe());
 }
 
 #[test]
-fn the_figure_of_the_readme_is_set_by_a_link_and_painted() {
-    let mut figure = Figure::of::<DartsView>("fastslam-pi");
-    assert!(figure.load("darts=0").iter().any(|error| error.message.contains("from 1 to 5000")));
-    assert_eq!((figure.load("darts=4000&seed=7"), figure.query().as_str()), (vec![], "darts=4000&seed=7"));
-    let pi = figure.model().readouts()[0].value.unwrap();
-    assert!((pi - core::f64::consts::PI).abs() < 0.1, "{pi}");
-    figure.paint(400, figure.height(400.0) as u32, 1.0, Default::default());
-    let paper = figure.canvas().pixels()[..4].to_vec();
-    assert!(figure.canvas().pixels().chunks_exact(4).filter(|pixel| **pixel != paper).count() > 4000);
+fn the_figure_of_the_readme_is_set_by_a_link_and_drawn() {
+    let mut figure = Figure::of::<Darts>("pi");
+    assert!(figure.load("darts=6000&seed=7")[0].message.contains("from 1 to 5000") && figure.query() == "seed=7");
+    assert_eq!(figure.describe(), "500 darts say that π is 3.152.");
+    assert_eq!(figure.scene(400.0, 240.0).marks.len(), 2);
 }

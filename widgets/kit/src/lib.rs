@@ -28,6 +28,7 @@ pub mod prelude;
 pub mod query;
 pub mod recipe;
 pub mod scene;
+pub mod sketch;
 mod symbol;
 pub mod view;
 pub mod words;

@@ -212,26 +212,6 @@ pub trait Declared {
     }
 }
 
-/// A figure that has no state besides its parameters: it is its own recipe, and there is nothing to simulate.
-pub trait Stateless: Recipe {
-    /// Title for readers.
-    const TITLE: &'static str;
-}
-
-impl<M: Stateless> Declared for M {
-    type Recipe = M;
-    const TITLE: &'static str = <M as Stateless>::TITLE;
-
-    fn recipe(&self) -> &M {
-        self
-    }
-
-    fn adopt(&mut self, recipe: M) -> Result<(), FigureError> {
-        *self = recipe;
-        Ok(())
-    }
-}
-
 /// The title and the parameters of any model, by name and as text: what attributes, controls and links need.
 pub trait Parameters {
     /// Title for readers.

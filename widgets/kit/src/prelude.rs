@@ -4,9 +4,12 @@ pub use crate::{
     decimal::fixed,
     field,
     figure::Figure,
-    model::{Declared, FigureError, Model, Readout, Series, Stateless},
+    model::{Declared, FigureError, Model, Readout, Series},
+    paint::Theme,
     panels::Panels,
+    recipe,
     recipe::{Menu, Param, Recipe},
     scene::{Anchor, Chart, Handle, Letters, Plane, Point, Rect, Role, Sample, Scene, Stack, legend, plain, strong},
+    sketch::Sketch,
     view::{Layout, View},
 };

@@ -16,11 +16,10 @@ mod tree;
 
 use crate::{
     field,
-    model::{Model, Readout, Stateless},
-    panels::Panels,
+    model::Readout,
     recipe::{self, Menu, Param},
     scene::{Anchor, Cells, Rect, Role, Scene, Shading, plain, shade},
-    view::View,
+    sketch::Sketch,
     words::vignette,
 };
 use fastslam::map::grid::Grid;
@@ -104,11 +103,13 @@ impl recipe::Recipe for Vignette {
     }
 }
 
-impl Stateless for Vignette {
+impl Sketch for Vignette {
     const TITLE: &'static str = "A small figure of the chapter";
-}
 
-impl Model for Vignette {
+    fn height(_: &str, _: f64) -> f64 {
+        HEIGHT
+    }
+
     /// What the handle sets, and what comes of it.
     fn readouts(&self) -> Vec<Readout> {
         let Kind { handle, value, number, result, .. } = self.kind();
@@ -123,21 +124,8 @@ impl Model for Vignette {
     fn describe(&self) -> String {
         (self.kind().told)(self.at)
     }
-}
 
-/// Its picture.
-#[derive(Default)]
-pub struct VignetteView;
-
-impl View for VignetteView {
-    type Model = Vignette;
-    type Layout = Rect;
-
-    fn layout(width: f64, _: &Panels) -> Rect {
-        Rect::new(0.0, 0.0, width, HEIGHT)
-    }
-
-    fn draw(&self, model: &Vignette, area: &Rect, scene: &mut Scene) {
-        (model.kind().draw)(model.at, &area.inset(MARGIN), scene);
+    fn draw(&self, _: &str, area: Rect, scene: &mut Scene) {
+        (self.kind().draw)(self.at, &area.inset(MARGIN), scene);
     }
 }
