@@ -92,7 +92,7 @@ impl<'a> Graph<'a> {
             let block = model.map().block(k, k);
             self.plane.region(model.drive().landmarks()[j], block.into(), NINE_TENTHS)
         });
-        scene.lines(regions, 1.5, Role::Landmark);
+        scene.lines(regions, 1.5, Role::Feature);
         self.nodes(scene, now, last);
         scene.marks.extend(names.into_iter().map(Mark::Text));
     }
@@ -111,7 +111,7 @@ impl<'a> Graph<'a> {
         let diamonds = (0..model.drive().landmarks().len()).map(|j| (j, diamond(self.landmark(j), side(j))));
         let (seen, unseen): (Vec<_>, Vec<_>) = diamonds.partition(|(j, _)| model.place(*j).is_some());
         let corners = |diamonds: Vec<(usize, Vec<Point>)>| diamonds.into_iter().map(|(_, corners)| corners);
-        scene.polygons(corners(seen).collect(), Role::Landmark);
+        scene.polygons(corners(seen).collect(), Role::Feature);
         scene.lines(corners(unseen).map(closed).collect(), 1.0, Role::Muted);
         let rings = chosen(model).map(|j| closed(diamond(self.landmark(j), radius + 3.5)));
         scene.lines(rings.collect(), 2.0, Role::Accent);

@@ -89,7 +89,7 @@ fn names(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
         }
     };
     let region = |scene: &mut Scene, at: Point| {
-        scene.line(&closed(ellipse(at, [[16.0, 0.0], [0.0, 6.0]], 2.0)), 1.5, Role::Landmark);
+        scene.line(&closed(ellipse(at, [[16.0, 0.0], [0.0, 6.0]], 2.0)), 1.5, Role::Feature);
     };
     let full = full_width(model, &layout.graph);
     let arcs = |scene: &mut Scene, place: &Rect| {
@@ -102,7 +102,7 @@ fn names(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {
     let items = [
         (Sample::at(pose), if known { conditioning::pose_known() } else { conditioning::pose_unknown() }),
         (Sample::line(Role::Path, 2.0, None), conditioning::odometry()),
-        (Sample::at(|scene, at| scene.filled_diamond(at, 5.5, Role::Landmark)), conditioning::landmark()),
+        (Sample::at(|scene, at| scene.filled_diamond(at, 5.5, Role::Feature)), conditioning::landmark()),
         (Sample::line(Role::Muted, 1.0, Some(SIGHTING)), conditioning::sighting()),
         (Sample::at(region), conditioning::region()),
         (Sample::new(arcs).wide(48.0), "|ρ| = ¼, ½, 1"),

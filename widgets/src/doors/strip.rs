@@ -33,7 +33,7 @@ const CORNERS: u32 = 48;
 const DEVIATIONS: f64 = 3.5;
 
 /// Who is EKF-SLAM.
-pub const EKF: Role = Role::Odometry;
+pub const EKF: Role = Role::Raw;
 
 /// The corridor as it is drawn.
 pub struct Strip<'a> {
@@ -45,8 +45,8 @@ pub struct Strip<'a> {
 fn role(model: &DoorsModel, belief: Belief) -> Role {
     match belief {
         Belief::Nothing | Belief::New => Role::Muted,
-        Belief::Landmark(rank) if rank as usize == model.setup().doors.len() => Role::Landmark,
-        Belief::Landmark(rank) => Role::Door(rank as u8),
+        Belief::Landmark(rank) if rank as usize == model.setup().doors.len() => Role::Feature,
+        Belief::Landmark(rank) => Role::Class(rank as u8),
     }
 }
 
@@ -190,12 +190,12 @@ impl Strip<'_> {
         for (rank, place) in setup.doors.iter().enumerate() {
             let half = 0.5 * DOOR * self.scale();
             let area = Rect::new(self.x(*place) - half, y + 3.0, 2.0 * half, 12.0);
-            scene.fill(area, Role::Door(rank as u8));
+            scene.fill(area, Role::Class(rank as u8));
             let number = Rect::new(area.x, y + 1.0, area.w, 16.0);
             scene.text(number, strong(11.5, Role::Paper).middle(), &(rank + 1).to_string());
         }
         let sign = [self.x(SIGN), y + 9.0];
-        scene.rimmed_polygon(diamond(sign, 8.0), Role::Landmark);
+        scene.rimmed_polygon(diamond(sign, 8.0), Role::Feature);
         if self.layout.wide {
             let left = self.x(SIGN + 1.8);
             scene.text(Rect::new(left, y + 13.0, x + w - left, 16.0), plain(11.5, Role::Muted), words::sign());

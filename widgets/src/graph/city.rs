@@ -16,7 +16,7 @@ use fastslam_lab::baseline::pose_graph::EdgeKind;
 const MARGIN: f64 = 1.7;
 
 /// Colours of edges: of the wheels, of recent matches, of loops, and of the false one.
-pub const ODOMETRY: Role = Role::Odometry;
+pub const ODOMETRY: Role = Role::Raw;
 /// See [`ODOMETRY`].
 pub const MATCH: Role = Role::Path;
 /// See [`ODOMETRY`].

@@ -43,7 +43,7 @@ fn estimates(scene: &mut Scene, model: &JointModel, panel: &Panel, drawn: &Drawn
     let reach = [0, 1].map(|axis| NINE_TENTHS * known.covariance[(axis, axis)].sqrt());
     let corner = |sign: f64| [0, 1].map(|axis| mean[axis] + sign * reach[axis]);
     let plane = Plane::around(area, [corner(-1.0), corner(1.0)], 8.0);
-    scene.dashed(plane.region(mean, covariance, NINE_TENTHS), 1.5, [4.0, 3.0], Role::Landmark);
+    scene.dashed(plane.region(mean, covariance, NINE_TENTHS), 1.5, [4.0, 3.0], Role::Feature);
     scene.cross(Rect::around(plane.point(mean), 5.0), 1.5, Role::Truth);
     let places = if model.hides(drawn.filter) { Vec::new() } else { model.estimates(drawn.filter) };
     scene.cloud(places.into_iter().map(|place| plane.point(place)), &area.inset(ESTIMATE), ESTIMATE, drawn.role);

@@ -105,7 +105,7 @@ pub fn names(scene: &mut Scene, model: &LapModel, area: &Rect) {
         items.push((Sample::line(Role::Truth, 1.5, Some(TRUTH)), common::truth()));
     }
     if model.shows_raw() {
-        items.push((Sample::line(Role::Odometry, 2.0, Some(RAW)), common::raw_odometry_line()));
+        items.push((Sample::line(Role::Raw, 2.0, Some(RAW)), common::raw_odometry_line()));
     }
     legend(scene, area, items);
 }

@@ -142,8 +142,8 @@ pub fn true_walls(scene: &mut Scene, model: &LapModel, plane: &Plane) {
 pub fn odometry(scene: &mut Scene, model: &LapModel, plane: &Plane) {
     let (world, now) = (model.lap().world(), model.step() as usize);
     if model.shows_raw() {
-        scene.rimmed(plane.path(&world.odometry[..=now], 0.5), 2.0, Some(RAW), Role::Odometry);
-        scene.rimmed_robot(plane, &world.odometry[now], 7.0, Role::Odometry);
+        scene.rimmed(plane.path(&world.odometry[..=now], 0.5), 2.0, Some(RAW), Role::Raw);
+        scene.rimmed_robot(plane, &world.odometry[now], 7.0, Role::Raw);
     }
 }
 
@@ -205,7 +205,7 @@ fn names(scene: &mut Scene, model: &LapModel, area: &Rect) {
         items.push((Sample::line(Role::Truth, 1.5, Some(TRUTH)), common::truth()));
     }
     if model.shows_raw() {
-        items.push((Sample::line(Role::Odometry, 2.0, Some(RAW)), common::raw_odometry_line()));
+        items.push((Sample::line(Role::Raw, 2.0, Some(RAW)), common::raw_odometry_line()));
     }
     legend(scene, area, items);
 }

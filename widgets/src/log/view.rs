@@ -186,14 +186,14 @@ fn odometry(scene: &mut Scene, model: &LogModel, plane: &Plane) {
     let scans = &log.scans[..model.seen().map_or(log.scans.len(), |seen| seen.scans)];
     let placed = |pose: &Pose2| if model.mapper().is_some() { first.between(pose) } else { *pose };
     let lines = plane.path(&scans.iter().map(|scan| placed(&scan.odometry)).collect::<Vec<_>>(), 1.0);
-    scene.dashed(lines, 1.5, RAW, Role::Odometry);
+    scene.dashed(lines, 1.5, RAW, Role::Raw);
 }
 
 /// What raw odometry alone would have drawn, over what is mapped.
 fn laid(scene: &mut Scene, model: &LogModel, view: &MapView) {
     let (Some(laid), Some(seen)) = (model.compared(), model.seen()) else { return };
     let (area, cells) = view.marked(laid.cells(seen.step), seen.map.cell_size());
-    scene.raster(area, cells, Shading::Odometry);
+    scene.raster(area, cells, Shading::Glaze);
 }
 
 /// Where raw odometry has the robot, and from where the best universe has it.
@@ -201,7 +201,7 @@ fn astray(scene: &mut Scene, model: &LogModel, plane: &Plane) {
     let (Some(laid), Some(seen)) = (model.compared(), model.seen()) else { return };
     let Some(odometry) = laid.odometry(seen.step) else { return };
     scene.dashed(plane.path(&[seen.paths[seen.best].pose(), odometry], 0.0), 1.25, THRESHOLD, Role::Ink);
-    scene.rimmed_robot(plane, &odometry, 9.0, Role::Odometry);
+    scene.rimmed_robot(plane, &odometry, 9.0, Role::Raw);
 }
 
 /// The paths of all universes, and of those that died out a short while ago.
@@ -292,7 +292,7 @@ fn names(scene: &mut Scene, layout: &Layout, compared: bool) {
         (Sample::line(Role::Path, 2.0, None), words::best()),
         (Sample::line(Role::Copied, LIVES, None), words::others()),
         (Sample::line(Role::Extinct, DIED, None), words::just_died()),
-        (Sample::line(Role::Odometry, 1.5, Some(RAW)), common::raw_odometry_line()),
+        (Sample::line(Role::Raw, 1.5, Some(RAW)), common::raw_odometry_line()),
     ];
     let of_gauges = [
         (Sample::at(tick), common::resampled()),
@@ -300,7 +300,7 @@ fn names(scene: &mut Scene, layout: &Layout, compared: bool) {
     ];
     let by_odometry = Sample::new(|scene, place| {
         let area = Rect::new(place.x, place.y + 0.5 * place.h - 2.0, place.w, 4.0);
-        scene.raster(area, Cells::row(&[OCCUPIED]), Shading::Odometry);
+        scene.raster(area, Cells::row(&[OCCUPIED]), Shading::Glaze);
     });
     let by_odometry = Some((by_odometry, words::by_odometry())).filter(|_| compared);
     let of_map = of_map.into_iter().chain(by_odometry).filter(|_| layout.map.is_some());

@@ -62,12 +62,12 @@ fn samples(scene: &mut Scene, model: &ProposalModel, panel: &Panel, drawn: &Draw
     let straight = |a: Point, b: Point| clip_polyline(&[a, b], area);
     scene.lines(straight(plane.position(&FROM), plane.position(&CONTROL.apply(&FROM))), 1.25, Role::Muted);
     let landmarks: Vec<Point> = found.landmarks.iter().map(|l| plane.point([l.mean.x, l.mean.y])).collect();
-    scene.dashed(straight(plane.position(&found.truth), landmarks[0]), 1.25, [2.0, 4.0], Role::Landmark);
+    scene.dashed(straight(plane.position(&found.truth), landmarks[0]), 1.25, [2.0, 4.0], Role::Feature);
     for (landmark, at) in found.landmarks.iter().zip(&landmarks) {
         let reach = plane.region([landmark.mean.x, landmark.mean.y], landmark.covariance.into(), NINE_TENTHS);
-        scene.lines(reach, 1.25, Role::Landmark);
+        scene.lines(reach, 1.25, Role::Feature);
         if area.inset(7.0).contains(*at) {
-            scene.filled_diamond(*at, 6.0, Role::Landmark);
+            scene.filled_diamond(*at, 6.0, Role::Feature);
         }
     }
 

@@ -30,12 +30,12 @@ pub fn world(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {
     let straight = |a: Point, b: Point| clip_polyline(&[a, b], &area);
     scene.lines(straight(plane.position(&FROM), plane.position(&CONTROL.apply(&FROM))), 1.25, Role::Muted);
     let landmarks: Vec<Point> = found.landmarks.iter().map(|l| plane.point([l.mean.x, l.mean.y])).collect();
-    scene.dashed(straight(plane.position(&found.truth), landmarks[0]), 1.25, [2.0, 4.0], Role::Landmark);
+    scene.dashed(straight(plane.position(&found.truth), landmarks[0]), 1.25, [2.0, 4.0], Role::Feature);
     for (k, (landmark, at)) in found.landmarks.iter().zip(&landmarks).enumerate() {
         let reach = plane.region([landmark.mean.x, landmark.mean.y], landmark.covariance.into(), NINE_TENTHS);
-        scene.lines(reach, 1.25, Role::Landmark);
+        scene.lines(reach, 1.25, Role::Feature);
         if area.inset(5.0).contains(*at) {
-            scene.filled_diamond(*at, 5.0, Role::Landmark);
+            scene.filled_diamond(*at, 5.0, Role::Feature);
         }
         let [x, y] = *at;
         let name = Rect::new(x - 6.0, y - 23.0, 12.0, 14.0);

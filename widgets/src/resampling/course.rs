@@ -121,7 +121,7 @@ impl Picture<'_> {
         }
         if let Some(log) = model.run().wings_log() {
             let diamonds = log.landmarks.iter().map(|m| diamond(plane.point([m.x, m.y]), 2.75)).collect();
-            scene.polygons(diamonds, Role::Landmark);
+            scene.polygons(diamonds, Role::Feature);
         }
         let truth = &model.run().truth()[..=report.step as usize];
         let path: Vec<Point> = truth.iter().map(|p| plane.position(p)).collect();

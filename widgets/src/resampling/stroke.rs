@@ -13,7 +13,7 @@ const DASHES: [Option<[f64; 2]>; 3] = [Some([2.0, 2.0]), Some([8.0, 2.0]), None]
 
 /// The colour of a policy.
 pub fn role(policy: usize) -> Role {
-    Role::Policy(policy as u8)
+    Role::Variant(policy as u8)
 }
 
 /// Lines of a policy.

@@ -160,7 +160,7 @@ fn names(scene: &mut Scene, picture: &Picture, area: &Rect) {
     let mut items =
         vec![(Sample::at(common), resampling::common_ancestor()), (Sample::at(truth), words::common::truth())];
     if picture.model.run().wings_log().is_some() {
-        let landmark = Sample::at(|scene, at| scene.filled_diamond(at, 3.5, Role::Landmark));
+        let landmark = Sample::at(|scene, at| scene.filled_diamond(at, 3.5, Role::Feature));
         items.push((landmark, resampling::landmark()));
     }
     if picture.wide {

@@ -81,7 +81,7 @@ pub fn maps(scene: &mut Scene, model: &SmoothingModel, layout: &Layout) {
     for (rank, area) in layout.maps.into_iter().enumerate() {
         let ground = Ground::of(area, layout.wide);
         let landmarks = model.run().log().landmarks.iter().map(|m| ground.point([m.x, m.y]));
-        scene.cloud(landmarks, &area.inset(3.0), 2.5, Role::Landmark);
+        scene.cloud(landmarks, &area.inset(3.0), 2.5, Role::Feature);
         if rank == 0 {
             record(scene, model, &ground)
         } else {

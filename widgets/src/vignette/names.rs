@@ -105,7 +105,7 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
             leaf(seen.x, Role::Accent, vignette::names_short());
         }
         scene.dash(&[plane.position(&pose), plane.point([seen.x, seen.y])], 2.0, [4.0, 3.0], Role::Accent);
-        let role = Role::Particle(row as u8);
+        let role = Role::Series(row as u8);
         scene.rimmed_robot(&plane, &pose, 10.0, role);
         let line = Rect::new(strip.x, plane.position(&pose)[1] - 9.0, strip.w, 18.0);
         label(scene, line, Anchor::Start, role, ["A", "B"][row]);

@@ -70,7 +70,7 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
         0.0,
     );
     let said = [
-        (map(), Role::Landmark, 2.0, vignette::overlap_map()),
+        (map(), Role::Feature, 2.0, vignette::overlap_map()),
         (measurement, Role::Accent, 2.0, vignette::overlap_measured()),
         (both, Role::Ink, 3.0, vignette::overlap_both()),
     ];

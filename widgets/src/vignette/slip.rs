@@ -90,7 +90,7 @@ fn draw(at: u32, area: &Rect, scene: &mut Scene) {
     let plane = Plane::around(area.inset(-MARGIN), [[-0.3, -1.15], [8.3, 1.15]], 4.0);
     let worlds = [
         (path(0.0), LANDMARKS, Some([4.0, 4.0]), [Role::Truth; 2]),
-        (path(slip(at).to_radians()), mapped(at), None, [Role::Path, Role::Landmark]),
+        (path(slip(at).to_radians()), mapped(at), None, [Role::Path, Role::Feature]),
     ];
     for (path, landmarks, dash, [of_path, of_landmarks]) in worlds {
         let corners = landmarks.map(|place| plane.point(place));

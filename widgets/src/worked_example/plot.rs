@@ -28,9 +28,9 @@ pub fn plot(scene: &mut Scene, example: &WorkedExample, area: &Rect, lit: &[&str
             scene.disc(plane.point(mean), 2.5, role);
         }
     };
-    ring(scene, &example.before, 2.0, Role::Landmark);
+    ring(scene, &example.before, 2.0, Role::Feature);
     for (slot, update) in example.updates.iter().enumerate() {
-        let role = Role::Particle(slot as u8);
+        let role = Role::Series(slot as u8);
         let [from, to] = [Thing::Robot(slot), Thing::Sighting(slot)].map(|thing| plane.point(thing.place(example)));
         scene.dashed(clip_polyline(&[from, to], area), 1.25, [5.0, 4.0], role);
         ring(scene, &update.after, 1.25, role);
@@ -38,8 +38,8 @@ pub fn plot(scene: &mut Scene, example: &WorkedExample, area: &Rect, lit: &[&str
     }
     for (slot, length) in [(0, 13.0), (1, 8.0)] {
         let pose = &example.updates[slot].world_from_robot;
-        scene.rimmed_polygon(robot(plane.position(pose), pose.theta, length), Role::Particle(slot as u8));
-        let (role, at) = (Role::Particle(slot as u8), plane.point(Thing::Sighting(slot).place(example)));
+        scene.rimmed_polygon(robot(plane.position(pose), pose.theta, length), Role::Series(slot as u8));
+        let (role, at) = (Role::Series(slot as u8), plane.point(Thing::Sighting(slot).place(example)));
         seen_at(scene, at, role);
     }
     scale(scene, &plane);
@@ -94,18 +94,18 @@ fn draw(scene: &mut Scene, grip: Grip, example: &WorkedExample, plane: &Plane, n
     let at = grip.at(example, plane);
     match grip {
         Grip::Thing(Thing::Mean) => {
-            scene.line(&closed(ellipse(at, [[1.0, 0.0], [0.0, 1.0]], KNOB)), 2.0, Role::Landmark);
+            scene.line(&closed(ellipse(at, [[1.0, 0.0], [0.0, 1.0]], KNOB)), 2.0, Role::Feature);
         }
         Grip::Thing(thing @ (Thing::Robot(slot) | Thing::Sighting(slot))) => {
-            let role = Role::Particle(slot as u8);
+            let role = Role::Series(slot as u8);
             scene.line(&[plane.point(thing.place(example)), at], 1.0, role);
             scene.knob(at, KNOB, role);
             if named {
                 scene.text(Rect::around(at, KNOB), strong(11.5, Role::Paper).middle(), &(slot + 1).to_string());
             }
         }
-        Grip::Heading(slot) => scene.knob(at, GRIP, Role::Particle(slot as u8)),
-        Grip::Spread | Grip::Height => scene.knob(at, GRIP, Role::Landmark),
+        Grip::Heading(slot) => scene.knob(at, GRIP, Role::Series(slot as u8)),
+        Grip::Spread | Grip::Height => scene.knob(at, GRIP, Role::Feature),
     }
 }
 
@@ -170,7 +170,7 @@ fn landmark(scene: &mut Scene, at: Point, width: f64, role: Role) {
 /// The landmark before the sightings, in a legend.
 pub fn before() -> Sample<'static> {
     let draw = |scene: &mut Scene, place: &Rect| {
-        landmark(scene, [place.right() - 9.0, place.centre()[1]], 2.0, Role::Landmark);
+        landmark(scene, [place.right() - 9.0, place.centre()[1]], 2.0, Role::Feature);
     };
     Sample::new(draw).wide(19.0)
 }

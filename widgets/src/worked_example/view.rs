@@ -89,7 +89,7 @@ impl View for WorkedExampleView {
 fn names(scene: &mut Scene, area: &Rect, particles: bool) {
     let whose = |slot: usize| {
         let name = worked_example::Particle { slot: &(slot + 1) }.say();
-        (after(Role::Particle(slot as u8)), format!("{name}: {}", worked_example::seen_after()))
+        (after(Role::Series(slot as u8)), format!("{name}: {}", worked_example::seen_after()))
     };
     let what = || (after(Role::Muted), worked_example::seen_after().to_string());
     let others = if particles { vec![whose(0), whose(1)] } else { vec![what()] };
@@ -156,7 +156,7 @@ fn middle_line(row: &Rect) -> Rect {
 
 /// Whose column it is, after what is drawn of it.
 fn heading(scene: &mut Scene, slot: usize, area: &Rect, drawn: bool) {
-    let (line, role) = (middle_line(area), Role::Particle(slot as u8));
+    let (line, role) = (middle_line(area), Role::Series(slot as u8));
     let sample = if drawn { after(role) } else { Sample::dot(role, 5.0).wide(12.0) };
     let place = Rect::new(line.x, line.y + 3.0, sample.width, LINE - 6.0);
     sample.draw(scene, &place);

@@ -147,7 +147,7 @@ fn all_that_is_told_goes_back_to_the_scan_that_is_shown_and_what_is_saved_does_n
 fn raw_odometry_is_drawn_up_to_the_scan_shown_unless_it_is_left_out_as_in_older_links() {
     let drawn = |figure: &Figure| {
         let lines = scene(figure, 800.0).marks.into_iter().filter_map(|mark| match mark {
-            Mark::Lines { lines, role: Role::Odometry, .. } => Some(lines.concat().len()),
+            Mark::Lines { lines, role: Role::Raw, .. } => Some(lines.concat().len()),
             _ => None,
         });
         // In the legend there is one too, of two points.

@@ -50,7 +50,7 @@ const POLICIES: [&str; 3] = ["never", "always", "selective"];
 
 /// The colour of a policy.
 fn role(policy: &str) -> Role {
-    Role::Policy(POLICIES.iter().position(|name| *name == policy).unwrap() as u8)
+    Role::Variant(POLICIES.iter().position(|name| *name == policy).unwrap() as u8)
 }
 
 #[test]

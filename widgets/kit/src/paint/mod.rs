@@ -30,7 +30,7 @@ const HAIRLINE: f32 = 1.25;
 /// the edges.
 const TINY: f32 = 1.5;
 
-/// Opacity of [`Shading::Odometry`], 0 to 255: the building behind it must still be read.
+/// Opacity of [`Shading::Glaze`], 0 to 255: what is behind it must still be read.
 const GLAZE: u8 = 180;
 
 /// Reusable pixels.
@@ -68,7 +68,7 @@ impl Canvas {
         self.pixmap.pixels_mut().fill(glaze(theme.color(Role::Paper), 255));
         let scale = f64::from(size[0]) / scene.width;
         let all =
-            [Shading::Map, Shading::Ghost, Shading::Correlation, Shading::Share, Shading::Density, Shading::Odometry];
+            [Shading::Map, Shading::Ghost, Shading::Correlation, Shading::Share, Shading::Density, Shading::Glaze];
         let shades = all.map(|shading| {
             let colors = theme.shades(shading);
             core::array::from_fn(|shade| glaze(colors[shade], opacity(shading, shade)))
@@ -81,8 +81,8 @@ impl Canvas {
 /// Of a shade, 0 to 255.
 fn opacity(shading: Shading, shade: usize) -> u8 {
     match shading {
-        Shading::Odometry if shade == 0 => 0,
-        Shading::Odometry => GLAZE,
+        Shading::Glaze if shade == 0 => 0,
+        Shading::Glaze => GLAZE,
         Shading::Map | Shading::Ghost | Shading::Correlation | Shading::Share | Shading::Density => 255,
     }
 }
@@ -115,7 +115,7 @@ impl Brush<'_> {
             Mark::Raster { area, cells, shading } => {
                 let smaller = match shading {
                     Shading::Map | Shading::Ghost => Smaller::WallThenFree,
-                    Shading::Share | Shading::Correlation | Shading::Density | Shading::Odometry => Smaller::Largest,
+                    Shading::Share | Shading::Correlation | Shading::Density | Shading::Glaze => Smaller::Largest,
                 };
                 raster::draw(self.pixmap, self.device(area), cells, smaller, &self.shades[*shading as usize]);
             }

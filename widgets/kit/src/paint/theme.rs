@@ -30,7 +30,7 @@ struct Palette {
     frame: Rgb,
     path: Rgb,
     truth: Rgb,
-    odometry: Rgb,
+    raw: Rgb,
     copied: Rgb,
     extinct: Rgb,
     hit: Rgb,
@@ -53,7 +53,7 @@ const LIGHT: Palette = Palette {
     frame: rgb(0xc9d0d8),
     path: rgb(0x0a62c4),
     truth: rgb(0xb0266f),
-    odometry: rgb(0xa64f00),
+    raw: rgb(0xa64f00),
     copied: rgb(0x5a3fc0),
     extinct: rgb(0xa8281e),
     hit: rgb(0xffffff),
@@ -72,7 +72,7 @@ const DARK: Palette = Palette {
     frame: rgb(0x3c4653),
     path: rgb(0x6ab7ff),
     truth: rgb(0xf593c8),
-    odometry: rgb(0xf0a35a),
+    raw: rgb(0xf0a35a),
     copied: rgb(0xbda6ff),
     extinct: rgb(0xff8a7d),
     hit: rgb(0x12161c),
@@ -91,7 +91,7 @@ const CONTRAST_LIGHT: Palette = Palette {
     frame: rgb(0x5c6670),
     path: rgb(0x0036a8),
     truth: rgb(0x8a0050),
-    odometry: rgb(0x6e3400),
+    raw: rgb(0x6e3400),
     copied: rgb(0x3d1fa3),
     extinct: rgb(0x8c0d05),
     hit: rgb(0xffffff),
@@ -110,7 +110,7 @@ const CONTRAST_DARK: Palette = Palette {
     frame: rgb(0x8f9aa6),
     path: rgb(0x8ccaff),
     truth: rgb(0xffb0db),
-    odometry: rgb(0xffbe7a),
+    raw: rgb(0xffbe7a),
     copied: rgb(0xd6c8ff),
     extinct: rgb(0xffaaa0),
     hit: rgb(0x000000),
@@ -159,22 +159,22 @@ impl Theme {
         let palette = self.palette();
         match role {
             Role::Paper => palette.paper,
-            Role::Ink | Role::Policy(0) => palette.ink,
+            Role::Ink | Role::Variant(0) => palette.ink,
             Role::Muted => palette.muted,
             Role::Frame => palette.frame,
-            Role::Odometry | Role::Policy(1) => palette.odometry,
-            Role::Path | Role::Posterior | Role::Particle(0) | Role::Policy(_) => palette.path,
-            Role::Truth | Role::Landmark => palette.truth,
+            Role::Raw | Role::Variant(1) => palette.raw,
+            Role::Path | Role::Posterior | Role::Series(0) | Role::Variant(_) => palette.path,
+            Role::Truth | Role::Feature => palette.truth,
             Role::Copied => palette.copied,
-            // Five hues in turn: whoever is off by a door is never taken for one who is not.
-            Role::Door(rank) => {
+            // Five hues in turn: what is off by one is never taken for its neighbour.
+            Role::Class(rank) => {
                 [palette.path, palette.weight[1], palette.copied, palette.extinct, palette.ink][usize::from(rank % 5)]
             }
             Role::Extinct => palette.extinct,
             Role::Fading(level) => mix(palette.paper, palette.extinct, i32::from(level), 255),
             Role::Hit => palette.hit,
             Role::Weight(level) => mix(palette.weight[0], palette.weight[1], i32::from(level), 255),
-            Role::Prior | Role::Particle(_) => palette.prior,
+            Role::Prior | Role::Series(_) => palette.prior,
             Role::Accent => palette.weight[1],
             // Even the faintest is seen to be there.
             Role::Level(level) => mix(palette.paper, palette.ink, 40 + i32::from(level), 40 + 255),
@@ -192,7 +192,7 @@ impl Theme {
                 Shading::Share => palette.share(shade),
                 Shading::Correlation => mix(palette.paper, palette.correlation, shade, 255),
                 Shading::Density => mix(palette.paper, palette.density, shade, 255),
-                Shading::Odometry => palette.odometry,
+                Shading::Glaze => palette.raw,
             }
         })
     }
@@ -249,7 +249,7 @@ mod tests {
     fn text_has_the_contrast_of_wcag_aa_and_in_contrast_themes_of_aaa() {
         for theme in THEMES {
             let least = if matches!(theme, Theme::Light | Theme::Dark) { 4.5 } else { 7.0 };
-            let policies = [0, 1, 2].map(Role::Policy).into_iter().chain((0..7).map(Role::Door));
+            let policies = [0, 1, 2].map(Role::Variant).into_iter().chain((0..7).map(Role::Class));
             for role in [Role::Ink, Role::Muted, Role::Copied, Role::Extinct, Role::Path].into_iter().chain(policies) {
                 let ratio = contrast(theme.color(role), theme.color(Role::Paper));
                 assert!(ratio >= least, "{theme:?} {role:?}: {ratio}");
@@ -261,7 +261,7 @@ mod tests {
     fn lines_stand_out_from_paper_free_and_unknown_cells() {
         for theme in THEMES {
             let shades = theme.shades(Shading::Map);
-            for role in [Role::Path, Role::Truth, Role::Odometry, Role::Weight(255)] {
+            for role in [Role::Path, Role::Truth, Role::Raw, Role::Weight(255)] {
                 for ground in [theme.color(Role::Paper), shades[usize::from(FREE)], shades[usize::from(UNKNOWN)]] {
                     let ratio = contrast(theme.color(role), ground);
                     assert!(ratio >= 3.0, "{theme:?} {role:?}: {ratio}");
@@ -301,7 +301,7 @@ mod tests {
                 let ratio = contrast(half, other);
                 assert!(ratio >= 1.6, "{theme:?} {other:?}: {ratio}");
             }
-            // One universe of sixteen that has a wall where the others have none, and the other way round.
+            // One map of sixteen that has a wall where the others have none, and the other way round.
             for (one, all) in [(SHARES + 12, free), (255 - 12, wall)] {
                 let ratio = contrast(shades[usize::from(one)], all);
                 assert!(ratio >= 1.15, "{theme:?} {one}: {ratio}");
@@ -313,7 +313,7 @@ mod tests {
     fn samples_and_handles_are_seen_on_every_density() {
         for theme in THEMES {
             for ground in theme.shades(Shading::Density) {
-                for role in [Role::Prior, Role::Posterior, Role::Landmark, Role::Accent, Role::Muted, Role::Ink] {
+                for role in [Role::Prior, Role::Posterior, Role::Feature, Role::Accent, Role::Muted, Role::Ink] {
                     let ratio = contrast(theme.color(role), ground);
                     assert!(ratio >= 3.0, "{theme:?} {role:?}: {ratio}");
                 }

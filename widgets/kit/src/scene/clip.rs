@@ -1,4 +1,4 @@
-//! Clipping lines to a rectangle, so that what leaves a view (raw odometry does) is cut at its edge.
+//! Clipping lines to a rectangle, so that what leaves a view is cut at its edge.
 
 use super::{Point, Rect};
 

@@ -54,34 +54,34 @@ pub enum Role {
     Muted,
     /// Lines that only part areas.
     Frame,
-    /// The path and the robot of the universe in the large view.
+    /// The way of what the figure is about, and where it is now.
     Path,
     /// What truly happened: only the reader may see it.
     Truth,
-    /// Raw odometry, integrated.
-    Odometry,
-    /// Copied from another universe at this resampling.
+    /// What was measured, before anything was made of it.
+    Raw,
+    /// What has just become a copy of something else.
     Copied,
-    /// Died out at this resampling.
+    /// What has just died out.
     Extinct,
-    /// Died out a while ago: from 0 (not seen any more) to 255 (as [`Role::Extinct`]).
+    /// What died out a while ago: from 0 (not seen any more) to 255 (as [`Role::Extinct`]).
     Fading(u8),
     /// The mean of the hits in a cell, drawn on an occupied cell.
     Hit,
     /// A border that tells a weight, from 0 (no weight) to 255 (full).
     Weight(u8),
-    /// Samples of the motion prior.
+    /// Samples of what was believed before a measurement.
     Prior,
-    /// Samples of the proposal that has looked at the measurement.
+    /// Samples of what is believed after it.
     Posterior,
-    /// A landmark, and what is known of it.
-    Landmark,
-    /// One of the particles that are compared, from 0 on.
-    Particle(u8),
-    /// One of the policies that are compared, from 0 on.
-    Policy(u8),
-    /// One of the doors that look alike, from 0 on: neighbours differ.
-    Door(u8),
+    /// A thing that is observed, and what is known of it.
+    Feature,
+    /// One of several things that are followed side by side, from 0 on.
+    Series(u8),
+    /// One of three ways of doing the same that are compared, from 0 on.
+    Variant(u8),
+    /// One of many things that look alike, from 0 on: neighbours differ.
+    Class(u8),
     /// What the reader moves or has switched on.
     Accent,
     /// A line that tells a size, from 0 (faint) to 255 (as [`Role::Ink`]).
@@ -91,7 +91,7 @@ pub enum Role {
 /// How the cells of a raster are coloured.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Shading {
-    /// A living universe.
+    /// A map, from free over unknown to occupied.
     Map,
     /// One that died out: faded.
     Ghost,
@@ -102,8 +102,8 @@ pub enum Shading {
     Share,
     /// A probability density, from 0 (nothing) to 255 (its peak), pale enough to draw on.
     Density,
-    /// What raw odometry would have drawn, over what is there: where the shade is 0 that is left as it is.
-    Odometry,
+    /// A glaze over what is there: where the shade is 0 that is left as it is.
+    Glaze,
 }
 
 /// A rectangle of cells, row by row from the top.
