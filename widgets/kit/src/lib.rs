@@ -2,7 +2,7 @@
 //!
 //! # Modules
 //!
-//! A figure is a [`recipe`] (a typed table of parameters), a [`model`] (deterministic, without clock or pixels), a [`view`] that makes
+//! A figure is a [`mod@recipe`] (a typed table of parameters), a [`model`] (deterministic, without clock or pixels), a [`view`] that makes
 //! a [`scene`] of it (marks with meanings, without colours) and the one painter of [`paint`]. All of it together is a [`figure::Figure`]: an
 //! [`action`] goes in, a [`frame`] comes out.
 

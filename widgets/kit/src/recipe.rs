@@ -55,46 +55,6 @@ macro_rules! field {
     };
 }
 
-/// A recipe of which every row of the table holds one field: the struct, its defaults and the table in one. A field is written as
-/// `name: type = default, kind(…), help;`, where `kind` makes a [`Param`] of what is in the brackets, of the field and of its help; further
-/// words, as `in_sight()`, are calls on that.
-///
-/// ```
-/// use fastslam_figures_kit::{recipe, recipe::values};
-///
-/// recipe! {
-///     struct Walk {
-///         steps: u32 = 3, integer("steps", "Steps", "", (0, 9)), "How far it goes.", in_sight();
-///     }
-/// }
-///
-/// assert_eq!(values(&Walk::default()), [("steps", "3".to_owned())]);
-/// ```
-#[macro_export]
-macro_rules! recipe {
-    ($(#[$of:meta])* $visible:vis struct $name:ident {$(
-        $field:ident: $type:ty = $default:expr, $kind:ident($($with:expr),*), $help:expr $(, $more:ident($($how:expr),*))*;
-    )*}) => {
-        $(#[$of])*
-        #[derive(Clone, PartialEq)]
-        $visible struct $name {
-            $(pub(crate) $field: $type,)*
-        }
-
-        impl Default for $name {
-            fn default() -> Self {
-                Self { $($field: $default,)* }
-            }
-        }
-
-        impl $crate::recipe::Recipe for $name {
-            fn table() -> Vec<$crate::recipe::Param<Self>> {
-                vec![$($crate::recipe::Param::<Self>::$kind($($with,)* $crate::field!($field), $help)$(.$more($($how),*))*,)*]
-            }
-        }
-    };
-}
-
 /// A whole number of a recipe, whatever its type.
 pub trait Whole: Copy + 'static {
     /// From a number that is whole and in its range.
