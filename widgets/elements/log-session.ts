@@ -103,8 +103,7 @@ export class LogSession extends Session {
     try {
       const bytes = decoder ? await this.#decoded(file, decoder, topics, reading) : await unpacked(file, reading)
       if (!bytes) return
-      this.figure.open(bytes)
-      this.forget() // while it was read, pictures were told of the one before
+      this.ask(figure => figure.open(bytes))
     } catch (error) {
       return this.refuse(error, name)
     } finally {

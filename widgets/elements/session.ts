@@ -5,11 +5,11 @@ import type { Answer, Command, Frame, Picture, Run } from './host'
 import { isRefusal, type Measured, type ProgramFrame, type ProgramState, type Refusal, type Shell, type ShellFigure, type Told } from './shell'
 
 export class Session {
-  protected readonly figure: ShellFigure
+  protected readonly figure: ShellFigure // what changes nothing may be called; all else is asked
   #done = 0
   #canvas: [width: number, height: number] = [0, 0]
   #language = 'en'
-  #state: ProgramState | undefined // until something is done
+  #state: ProgramState | undefined // as it was told last, until something is asked
   #told: Told = { specs: [], readouts: [], chips: [], handles: [], rooms: [] }
 
   constructor(
@@ -22,11 +22,7 @@ export class Session {
 
   /** Carries out a command. What is refused is told; what is thrown is a trap. */
   do(command: Command): void | Promise<void> {
-    this.#state = undefined
-    const done = () => {
-      this.#state = undefined
-      this.#done += 1
-    }
+    const done = () => void this.#done++
     try {
       const underWay = this.perform(command)
       if (underWay) return underWay.catch(error => this.refuse(error)).then(done)
@@ -56,8 +52,7 @@ export class Session {
   protected act(action: Action): boolean {
     if (action.do === 'size') [, , , , ...this.#canvas] = action.at
     if (action.do === 'words') this.#language = action.name
-    this.#state = undefined
-    const refused = this.figure.act(action) as Refusal[]
+    const refused = this.ask(figure => figure.act(action)) as Refusal[]
     for (const { parameter, message } of refused) {
       const told = parameter === 'locked' ? { key: 'fixed' as const, values: { name: message } } : message
       this.tell({ told: 'refused', parameter, message: told })
@@ -65,9 +60,10 @@ export class Session {
     return refused.every(({ message }) => !message)
   }
 
-  /** Of what is asked next nothing is known any more: the program is another than it was. */
-  protected forget(): void {
+  /** Whatever may change the program goes this way: of its state nothing is known after it. */
+  protected ask<T>(call: (figure: ShellFigure) => T): T {
     this.#state = undefined
+    return call(this.figure)
   }
 
   /** Data of every step so far. */
@@ -94,16 +90,14 @@ export class Session {
 
   /** What there is to show. That something has changed, and a trace, are told in one frame only, unless it is a look ahead. */
   frame(ahead = false): Frame {
-    const { news, ...frame } = this.figure.frame(ahead) as ProgramFrame
-    this.#state = undefined // of the first frame on, it may hold
+    const { news, ...frame } = this.ask(figure => figure.frame(ahead)) as ProgramFrame // of the first frame on, it may hold
     this.#told = { ...this.#told, ...news }
     return { ...this.state, ...this.#told, ...frame, done: this.#done, language: this.#language, picture: frame.layout && this.#picture(), run: this.run() }
   }
 
   /** Does a step of the work that is pending. */
   work(): void {
-    this.#state = undefined
-    this.figure.work()
+    this.ask(figure => figure.work())
   }
 
   free(): void {
