@@ -67,7 +67,7 @@ const declarations = name => readFileSync(cache('types', 'widgets', 'elements', 
 /** Has tsc write the declarations of all elements, without what is marked as internal. */
 export async function declare() {
   await run(npmBin('tsc'), ['-p', root, '--noEmit', 'false', '--declaration', '--emitDeclarationOnly', '--stripInternal', '--outDir', cache('types')])
-  const unsaid = ['figure-element', 'compared-figure'].flatMap(name => unsaidIn(declarations(name)))
+  const unsaid = unsaidIn(declarations('figure-element'))
   if (unsaid.length > 0) throw new StepError(`Nothing is said of these members of figures: ${unsaid.join(', ')}.`, 'A line above one makes it a member for pages, and @internal keeps it out of their types.')
 }
 
@@ -90,10 +90,10 @@ export function membersIn(declaration) {
 export const unsaidIn = declaration => [...declaration.matchAll(/(?<! \*\/)\n {4}(?:get )?(\w+)(?=[(:])/g)].map(([, name = '']) => name).filter(name => !/^constructor$|Callback$/.test(name))
 
 /** Those of every figure. */
-const commonMembers = () => [...membersIn(declarations('figure-element')), ...membersIn(declarations('hosted-figure'))]
+const commonMembers = () => membersIn(declarations('figure-element'))
 
 /** Those of its own. @param {FigureInfo} figure */
-const ownMembers = figure => [...(existsSync(ownFile(figure)) ? membersIn(declarations(figure.tag)) : []), ...(figure.compared ? membersIn(declarations('compared-figure')) : [])]
+const ownMembers = figure => extrasOf(figure).flatMap(extra => membersIn(declarations(extra)))
 
 /** All that a figure has besides its parameters: its own members first. @param {FigureInfo} figure */
 function membersOf(figure) {
@@ -104,27 +104,34 @@ function membersOf(figure) {
 /** What figures tell a page. @typedef {{ name: string, type: string, help: string }} FigureEvent @returns {FigureEvent[]} */
 const events = () => [...details().matchAll(/^ {2}\/\*\* (.+) \*\/\n {2}'(fastslam-[a-z]+)': (CustomEvent<\w+>)$/gm)].map(([, help = '', name = '', type = '']) => ({ name, type, help }))
 
-/** Of these, those of one figure: a class says which ones not every figure has. @param {FigureInfo} figure */
+/** Of these, those of one figure: an extra says which ones not every figure has. @param {FigureInfo} figure */
 export function eventsOf({ compared }) {
-  const only = /@fires (\S+)/.exec(readFileSync(join(elements, 'compared-figure.ts'), 'utf8'))?.[1]
+  const only = /@fires (\S+)/.exec(readFileSync(join(elements, 'seeds.ts'), 'utf8'))?.[1]
   return events().filter(({ name }) => compared || name !== only)
 }
 
 const elements = join(root, 'widgets', 'elements')
 
-/** The file of an element with code of its own. @param {{ tag: string }} figure */
+/** The file of a figure that names extras of its own. @param {{ tag: string }} figure */
 const ownFile = ({ tag }) => join(elements, `${tag}.ts`)
 
-/** The parts that a class says it has. @param {string} file */
-const partsIn = file => Object.fromEntries([...(readIfThere(file) ?? '').matchAll(/^ \* @csspart ([\w-]+) - (.+)/gm)].map(([, name, what]) => [name, what]))
+/** The files of a figure's extras: those that it names, or the count, and then what all with a seed have. @param {FigureInfo} figure */
+const extrasOf = figure => {
+  const own = readIfThere(ownFile(figure))
+  const named = [...(own ?? '').matchAll(/from '\.\/([\w-]+)'/g)].map(([, name = '']) => name).filter(name => name !== 'define')
+  return [...named, ...(own === undefined && figure.counted ? ['count-study'] : []), ...(figure.compared ? ['seeds'] : [])]
+}
+
+/** The parts that a class says it has. @param {string} name of its file */
+const partsIn = name => Object.fromEntries([...(readIfThere(join(elements, `${name}.ts`)) ?? '').matchAll(/^ \* @csspart ([\w-]+) - (.+)/gm)].map(([, name, what]) => [name, what]))
 
 /** The parts of a figure: those that all have, and its own. @param {FigureInfo} figure @returns {Record<string, string>} */
 const partsOf = figure => ({
-  ...partsIn(join(elements, 'figure-element.ts')),
+  ...partsIn('figure-element'),
   ...(figure.params.some(({ name }) => name === 'seed') && { seed: 'The seed, and the die that draws one.' }),
   ...(figure.params.some(({ kind }) => kind === 'toggle') && { toggle: 'A button that is on or off.' }),
   ...(figure.handles && { handle: 'What can be grasped in the picture; there only then.' }),
-  ...partsIn(figure.counted ? join(elements, 'counted-figure.ts') : ownFile(figure)),
+  ...Object.assign({}, ...extrasOf(figure).map(partsIn)),
 })
 
 const cssProperties = ['accent', 'ink', 'muted', 'line', 'paper', 'radius', 'font', 'height'].map(name => `--fastslam-${name}`)
@@ -288,20 +295,17 @@ export async function writeNames() {
     const of = rows.map(([name, column, expected]) => [name, at(column), ...(expected === null ? [] : [at(expected)])])
     return `  '${tag}': ${JSON.stringify({ job, title, settings, rows: of })},\n`
   }
-  put('counted.ts', `import type { Counted } from '../count-study'\n\nexport const COUNTED: Record<string, Counted | undefined> = {\n${all.map(count).join('')}}\n`)
+  put('counted.ts', `import type { Counted } from '../shell'\n\nexport const COUNTED: Record<string, Counted | undefined> = {\n${all.map(count).join('')}}\n`)
   const element = (/** @type {FigureInfo} */ figure) => {
-    const { tag, className, compared, counted } = figure
+    const { tag, className, counted } = figure
     if (existsSync(ownFile(figure))) return `export { ${className} } from '../${tag}'\n`
-    return `export const ${className} = define('${tag}', ${counted ? 'CountedFigure' : compared ? 'ComparedFigure' : 'FigureElement'})\n`
+    return `export const ${className} = define('${tag}'${counted ? ', CountStudy' : ''})\n`
   }
-  put(
-    'elements.ts',
-    `import { ComparedFigure } from '../compared-figure'\nimport { CountedFigure } from '../counted-figure'\nimport { define } from '../define'\nimport { FigureElement } from '../figure-element'\n\n${all.map(element).join('')}`,
-  )
+  put('elements.ts', `import { CountStudy } from '../count-study'\nimport { define } from '../define'\n\n${all.map(element).join('')}`)
   const mapper = all.find(isLog)
   if (!mapper) throw new StepError('There is no figure that maps logs.')
   const { title, params, readouts, chips, describe } = mapper
-  put('log.ts', `import type { AtRest } from '../fastslam-log'\n\nexport const AT_REST: AtRest = ${JSON.stringify({ title, params, readouts, chips, describe })}\n`)
+  put('log.ts', `import type { AtRest } from '../shell'\n\nexport const AT_REST: AtRest = ${JSON.stringify({ title, params, readouts, chips, describe })}\n`)
   return `${all.length} figures`
 }
 

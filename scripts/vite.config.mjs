@@ -20,7 +20,7 @@ const pages = readdirSync(www, { recursive: true, encoding: 'utf8' }).filter(
 const assetFileNames = asset => (asset.names.some(name => basename(name).endsWith('.wasm')) ? '[name]-[hash][extname]' : 'assets/[name]-[hash][extname]')
 
 /** What only some figures have: code of their own, and what that stands on; widgets/elements/define.ts loads it where one of them is asked for. */
-const apart = ['fastslam-[\\w-]+', 'drops', 'map-gestures', 'drive', 'counted-figure', 'count-study', 'universes-again', 'matrix-inputs', 'index', 'generated[/\\\\](log|counted|elements)']
+const apart = ['fastslam-[\\w-]+', 'mapping', 'drops', 'map-gestures', 'drive', 'count-study', 'universes-again', 'laps', 'matrix-inputs', 'index', 'generated[/\\\\](log|counted|elements)']
 const shared = new RegExp(`widgets[/\\\\](pkg[/\\\\]|words[/\\\\]|elements[/\\\\](?!(${apart.join('|')})\\.))`)
 
 /** In the head of every page, before all that it loads; vite's own server needs what the policy forbids. @type {import('vite').Plugin} */

@@ -8,6 +8,9 @@ import { root } from '../../scripts/lib.mjs'
 
 const elements = join(root, 'widgets', 'elements')
 
+/** @param {string} folder */
+const sourcesOf = folder => readdirSync(folder).filter(file => file.endsWith('.ts')).map(file => ({ name: file.replace(/\.ts$/, ''), text: readFileSync(join(folder, file), 'utf8') }))
+
 test('members are those that a class says something of, as it declares them', () => {
   const declaration = `export declare class Figure extends Parts {
     #private;
@@ -44,8 +47,8 @@ test('members are those that a class says something of, as it declares them', ()
 })
 
 test('every event is made where only those can be that the types name', () => {
-  const makers = readdirSync(elements).filter(file => file.endsWith('.ts') && readFileSync(join(elements, file), 'utf8').includes('new CustomEvent'))
-  assert.deepEqual(makers, ['events.ts'])
+  const makers = sourcesOf(elements).filter(({ text }) => text.includes('new CustomEvent'))
+  assert.deepEqual(makers.map(({ name }) => name), ['events'])
 })
 
 test('attributes that are no parameters are described with the values that they take', async () => {
@@ -54,4 +57,22 @@ test('attributes that are no parameters are described with the values that they 
   const { OPTIONS } = /** @type {typeof import('../../widgets/elements/options')} */ (module)
   assert.deepEqual(options.map(({ name }) => name), Object.keys(OPTIONS))
   for (const { name, values } of options) assert.deepEqual(values && [...values].sort(), OPTIONS[name]?.filter(Boolean).sort(), name)
+})
+
+test('there is one class of elements: what only some figures have is in extras', () => {
+  const standing = sourcesOf(elements).flatMap(({ name, text }) => [...text.matchAll(/\bclass (?:\w+ )?extends (\w*(?:Element|Figure))\b/g)].map(([, base]) => `${name} extends ${base}`))
+  assert.deepEqual(standing, ['define extends FigureElement', 'figure-element extends HTMLElement'])
+})
+
+test('no file of the elements needs itself by way of others', () => {
+  const needs = new Map(sourcesOf(elements).map(({ name, text }) => [name, [...text.matchAll(/(?:from|import\() ?'\.\/([\w-]+)'/g)].map(([, needed = '']) => needed)]))
+  /** @type {Set<string>} */
+  const free = new Set()
+  /** @param {string} name @param {string[]} way */
+  const follow = (name, way) => {
+    assert.ok(!way.includes(name), [...way, name].join(' → '))
+    if (!free.has(name)) for (const needed of needs.get(name) ?? []) follow(needed, [...way, name])
+    free.add(name)
+  }
+  for (const name of needs.keys()) follow(name, [])
 })

@@ -44,6 +44,7 @@ export class Controls {
   private readonly forth: HTMLButtonElement
   private readonly scrub: HTMLInputElement
   private readonly position: HTMLElement
+  private readonly extras: HTMLElement // seed, speed and Reset, in the row of playback
   private readonly style: NumberStyle = { comma: false }
   private readonly rate: HTMLSelectElement
   private readonly playback: HTMLElement[] // all that a figure without steps has no use for
@@ -70,7 +71,7 @@ export class Controls {
     )
     this.rate = rate
     rate.value = String(NORMAL_RATE)
-    const extras = h('span', { class: 'extras' }, rate)
+    this.extras = h('span', { class: 'extras' }, rate)
     const timeline = h('span', { class: 'timeline' }, this.scrub, this.position)
     const buttons = h('span', { class: 'buttons' }, this.rewind, this.back, this.play, this.forth)
     this.playback = [this.rewind, this.back, this.play, this.forth, timeline, rate]
@@ -80,7 +81,7 @@ export class Controls {
       { class: 'transport', part: 'transport', role: 'group', 'aria-label': words.say('playback') },
       buttons,
       timeline,
-      extras,
+      this.extras,
     )
 
     this.main = h('div', { class: 'main', part: 'controls', role: 'group', 'aria-label': words.say('controls') })
@@ -94,13 +95,13 @@ export class Controls {
       const field = fieldFor(spec, words, this.style, value => actions.change(spec.name, value))
       this.fields.set(spec.name, field)
       for (const input of field.element.querySelectorAll<HTMLElement>('input, select')) input.title = spec.help // read out after the name
-      const place = spec.name === SEED ? extras : spec.sight ? this.main : spec.folded ? grid : rest
+      const place = spec.name === SEED ? this.extras : spec.sight ? this.main : spec.folded ? grid : rest
       place.append(field.element)
     }
     this.main.append(this.lab, rest)
-    extras.append(reset)
+    this.extras.append(reset)
     this.settings.hidden = !grid.hasChildNodes()
-    this.rows = [buttons, extras, this.transport, grid, this.settings, this.main]
+    this.rows = [buttons, this.extras, this.transport, grid, this.settings, this.main]
   }
 
   /** Takes the place of those in another language, and stands as they do. */
@@ -185,7 +186,7 @@ export class Controls {
   }
 
   /** The step shown; the handle of the scrubber is left to the hand that moves it until the step that it asked for is shown. */
-  showPosition(step: number, target: number, last: number, playing: boolean): void {
+  showPosition(step: number, target: number, last: number, playing: boolean, note = ''): void {
     const steps = last > 0
     for (const element of this.playback) element.hidden = !steps
     this.transport.classList.toggle('stepless', !steps)
@@ -193,7 +194,7 @@ export class Controls {
     this.scrub.max = String(last)
     if (step === target) this.scrub.value = String(step)
     this.scrub.setAttribute('aria-valuetext', this.words.say('step_of', { step, last }))
-    write(this.position, `${step} / ${last}`)
+    write(this.position, `${step} / ${last}${note}`)
     this.rewind.disabled = this.back.disabled = step <= 0
     this.forth.disabled = step >= last
     const name = this.words.say(playing ? 'pause' : 'play')
@@ -205,6 +206,16 @@ export class Controls {
 
   showBusy(busy: boolean): void {
     this.position.classList.toggle('busy', busy)
+  }
+
+  /** What is set stays for a while; what is only drawn may change. */
+  freeze(on: boolean): void {
+    for (const part of [...this.main.children, this.settings, this.extras] as HTMLElement[]) if (!part.matches('.flag, .source, .lab')) part.inert = on
+  }
+
+  /** At the button that plays. */
+  focus(): void {
+    this.play.focus()
   }
 
   enable(on: boolean): void {

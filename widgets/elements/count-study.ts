@@ -1,30 +1,29 @@
 // Folded away below a figure: in how many runs over many seeds something holds, for each of what is compared.
 import { h, write } from './dom'
+import type { Extra } from './extra'
+import type { Figure } from './figure'
+import { COUNTED } from './generated/counted'
 import { Jobs } from './jobs'
-import type { Shell } from './shell'
-import type { Key, Words } from './words'
-
-/** What is counted (`Counted` in widgets/src/job.rs). */
-export interface Counted {
-  /** Name of the job of the figure's program, which counts. */
-  job: string
-  title: Key
-  /** Names of the parameters that the count depends on, apart by spaces; it has seeds of its own. */
-  settings: string
-  /** What is compared, with the column of the job's rows that is 1 where it holds, and perhaps one that says how often it should. */
-  rows: [name: Key, column: number, expected?: number][]
-}
+import type { Counted, Shell } from './shell'
+import type { Words } from './words'
 
 const FIRST_SEED = 1
 
-export class CountStudy {
-  readonly element: HTMLElement
+/**
+ * A count over many seeds below a figure, which the page runs in the background.
+ *
+ * @csspart count - What runs over many seeds, and the button that starts it.
+ * @csspart stop - Ends that.
+ */
+export class CountStudy implements Extra {
+  private readonly counted: Counted
+  private readonly words: Words
   private readonly start = h('button', { type: 'button', part: 'button count' })
   private readonly halt = h('button', { type: 'button', part: 'button stop' })
   private readonly runs = h('select', { name: 'runs' })
   private readonly progress = h('progress', { value: '0' })
   private readonly said = h('p', { class: 'said', 'aria-live': 'polite' })
-  private readonly rows: Row[]
+  private readonly rows: ReturnType<typeof newRow>[]
   private query = '' // what is counted, or was
   private readonly jobs = new Jobs()
   private held: number[]
@@ -32,12 +31,10 @@ export class CountStudy {
   private seeds = 0
   private shell: Shell | undefined // computes the intervals
 
-  constructor(
-    private readonly tag: string,
-    private readonly counted: Counted,
-    private readonly setting: (name: string) => unknown,
-    private readonly words: Words,
-  ) {
+  constructor(private readonly figure: Figure) {
+    const { element, view, words } = figure
+    const counted = (this.counted = COUNTED[element.localName]!)
+    this.words = words
     this.rows = counted.rows.map(newRow)
     this.held = counted.rows.map(() => 0)
     for (const runs of ['50', '200', '1000']) this.runs.add(new Option(runs, runs))
@@ -50,7 +47,8 @@ export class CountStudy {
     const seeds = h('span', { class: 'name' })
     const work = h('div', { class: 'work' }, this.start, this.halt, h('label', { class: 'choice' }, seeds, this.runs), this.progress)
     const table = h('table', { 'aria-labelledby': 'count' }, h('tbody', {}, ...this.rows.map(({ row }) => row)))
-    this.element = h('details', { class: 'count', part: 'count' }, summary, heading, work, table, this.said)
+    view.folds.append(h('details', { class: 'count', part: 'count' }, summary, heading, work, table, this.said))
+    element.addEventListener('fastslam-change', () => this.check())
     words.always(() => {
       write(summary, words.say('count_many'))
       write(heading, words.say(counted.title))
@@ -64,15 +62,19 @@ export class CountStudy {
     this.show()
   }
 
+  connected(signal: AbortSignal): void {
+    signal.addEventListener('abort', () => this.stop())
+  }
+
   /** Ends a count that is under way. What was counted stays. */
-  stop(said?: 'stopped'): void {
+  private stop(said?: 'stopped'): void {
     if (!this.jobs.stop()) return
     this.show()
     if (said) this.say(this.words.say(said, { seeds: this.seeds, all: this.runs.value }))
   }
 
   /** After a change in the figure: a count of other settings begins again, and a finished one is taken away. */
-  check(): void {
+  private check(): void {
     if (!this.query || this.query === this.settings()) return
     if (this.jobs.running) return void this.count()
     this.clear()
@@ -80,7 +82,7 @@ export class CountStudy {
   }
 
   private settings(): string {
-    return this.counted.settings.split(' ').map(name => `${name}=${String(this.setting(name))}`).join('&')
+    return this.counted.settings.split(' ').map(name => `${name}=${String(this.figure.life.get(name))}`).join('&')
   }
 
   private async count(): Promise<void> {
@@ -90,7 +92,7 @@ export class CountStudy {
     const to = FIRST_SEED + Number(this.runs.value)
     try {
       const job = { name: this.counted.job, query: this.query, from: FIRST_SEED, to }
-      const ran = this.jobs.run(this.tag, job, (rows, shell) => this.add(rows, shell))
+      const ran = this.jobs.run(this.figure.element.localName, job, (rows, shell) => this.add(rows, shell))
       this.show()
       if (!(await ran)) return
       this.show()
@@ -154,16 +156,7 @@ export class CountStudy {
   }
 }
 
-interface Row {
-  fill: HTMLElement
-  range: HTMLElement
-  mark: HTMLElement
-  share: HTMLElement
-  name: HTMLElement
-  row: HTMLElement
-}
-
-function newRow(): Row {
+function newRow() {
   const fill = h('div', { class: 'fill' })
   const range = h('div', { class: 'range' })
   const mark = h('div', { class: 'expected' })

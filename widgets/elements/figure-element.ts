@@ -1,17 +1,20 @@
-// The element of every figure: what a page may do with it, by attributes, properties, links and methods.
+// The element of every figure: what a page may do with it, by attributes, properties, links and methods. What it is made of is a Figure.
 //
 // One order holds for a parameter, however the element came to be: what is locked keeps the author's value; else a reader's link stands
 // over what the author gave, by attribute or property, and that over the default. It is kept in settings.ts.
 import type { FigureReadout } from './details'
-import { embedCode, type CodeName, type FigureMarkup } from './embed-code'
-import { homeAddress } from './files'
-import { FIGURES } from './generated/figures'
-import { HostedFigure } from './hosted-figure'
-import { linkedQuery, linkTo, withoutLab } from './link'
+import type { CodeName, FigureMarkup } from './embed-code'
+import type { Extra } from './extra'
+import { Figure, type ExtraClass } from './figure'
+import { FigureMenu } from './figure-menu'
+import { linkedQuery } from './link'
 import { OPTIONS } from './options'
-import { unwatchReached, watchReached } from './reached'
-import { fromText, isParameter, takeEarlyProperties, toText, watchUnknown } from './parameters'
+import { PaperCopy } from './paper-copy'
 import { takeToPaper } from './paper'
+import { isParameter, takeEarlyProperties, toText, watchUnknown } from './parameters'
+import { watchReached } from './reached'
+import { codeOf, linkOf, markupOf } from './sharing'
+import { Timeline } from './timeline'
 
 /** What hosts say that put a copy of the page aside, of which Back makes the page again: of a figure it has the attributes only. */
 const CACHES = ['turbo:before-cache', 'htmx:beforeHistorySave']
@@ -49,14 +52,23 @@ const CACHES = ['turbo:before-cache', 'htmx:beforeHistorySave']
  * @csspart settings - The fold of other controls.
  * @csspart menu - The menu’s button.
  */
-export class FigureElement extends HostedFigure {
-  #targetBefore = 0 // the step asked for, while there is no host
+export class FigureElement extends HTMLElement {
+  /** @internal Whether its program runs in a worker, because it would keep the page waiting. */
+  static heavy = false
+  /** @internal What figures of this tag have that others do not. */
+  static extras: ExtraClass[] = []
+
+  readonly #figure = new Figure(this, this.constructor as typeof FigureElement)
+  readonly #paper = new PaperCopy(this.#figure)
   #disconnected = new AbortController()
-  readonly #onReached = (): void => this.chips.refresh()
 
   constructor() {
     super()
-    this.words.always(() => this.showTitle())
+    const figure = this.#figure
+    for (const Extra of figure.kind.extras) figure.extras.push(new Extra(figure))
+    figure.transport ??= new Timeline(figure)
+    figure.extras.unshift(new FigureMenu(figure)) // it knows what plays the figure, and closes before anything else
+    figure.words.always(() => figure.view.tellKeys(figure.words.say(figure.transport.keysHelp)))
     watchUnknown(this, name => this.#onAttribute(name))
   }
 
@@ -67,60 +79,49 @@ export class FigureElement extends HostedFigure {
   connectedCallback(): void {
     this.#disconnected = new AbortController()
     const { signal } = this.#disconnected
-    this.theme.observe(signal)
+    const { extras, frames, life, view } = this.#figure
+    view.theme.observe(signal)
     addEventListener('hashchange', () => this.followLink(), { signal })
-    addEventListener('scroll', () => this.frames.inView && this.tuck(), { signal, capture: true, passive: true })
-    this.body.classList.toggle('pictured', this.ownPicture !== null)
-    watchReached(this.#onReached)
-    takeToPaper(this, signal)
+    addEventListener('scroll', () => frames.inView && view.tuck(), { signal, capture: true, passive: true })
+    view.body.classList.toggle('pictured', view.ownPicture !== null)
+    watchReached(view.chips, signal)
+    takeToPaper(this.#paper, signal)
     for (const type of CACHES) document.addEventListener(type, () => this.state && (this.dataset['state'] = this.state), { signal })
-    this.frames.observe(signal)
-    this.canvas.observe()
-    void this.speak()
-    this.takeName()
-    this.takePicture('light') // for paper
+    frames.observe(signal)
+    view.canvas.observe()
+    void this.#figure.speak()
+    view.takeName()
+    view.takePicture('light') // for paper
+    for (const extra of extras) extra.connected?.(signal)
     takeEarlyProperties(this)
     const { state } = this.dataset
     delete this.dataset['state']
-    if (this.settings.recipe !== undefined) return // a node that was only moved goes on from where it was
-    if (state) this.#load(state, false)
+    if (life.settings.recipe !== undefined) return // a node that was only moved goes on from where it was
+    if (state) life.load(state)
     else this.followLink()
   }
 
   disconnectedCallback(): void {
     this.#disconnected.abort()
-    unwatchReached(this.#onReached)
-    this.frames.disconnect()
-    this.canvas.disconnect()
-    if (!this.host) return
-    this.#targetBefore = this.host.target
-    this.settings.keep(this.host.query)
-    this.end()
+    this.#figure.leave()
   }
 
   // --- What a page's script may use: what is said of it, types, manifest and documentation have word for word ---------------
 
   /** Plays on; from the start where it is at its end. */
   play(): void {
-    this.events.cause = 'playback'
-    if (this.host && this.host.target >= this.host.last) this.seekTo(0)
-    this.playback.start()
-    this.wake()
+    this.#figure.transport.play()
   }
 
   /** Stops at the step shown. */
   pause(): void {
-    this.playback.stop()
-    this.refresh()
+    this.#figure.transport.pause()
   }
 
   // A method; but frameworks that set properties write the parameter `step` here, and mean it.
   /** One step on. */
   get step(): () => void {
-    return () => {
-      this.seek(this.currentStep + 1)
-      void this.#trace()
-    }
+    return () => this.#figure.step()
   }
 
   set step(step: number | string) {
@@ -134,45 +135,34 @@ export class FigureElement extends HostedFigure {
 
   /** To a step. */
   seek(step: number): void {
-    this.pause()
-    this.events.cause = 'page'
-    if (this.host) this.seekTo(step)
-    else this.settings.wait('step', String(step))
+    this.#figure.transport.seek(step)
   }
 
   /** Back to what the page’s author gave. */
   reset(): void {
-    this.playback.stop()
-    this.events.cause = 'page'
-    this.crashes = 0
-    this.stopped = false
-    this.stage.classList.remove('still')
-    this.messages.clear()
-    this.settings.load(undefined)
-    this.chips.takenUp()
-    if (this.host) this.begin(true)
-    else void this.start()
+    this.#figure.life.reset()
   }
 
   /** Takes up one of its challenges, as a press on its chip does; resolves to whether there is such a one here. */
   async challenge(name: string): Promise<boolean> {
-    if (!this.chips.any) {
-      await this.start()
+    const { chips } = this.#figure.view
+    if (!chips.any) {
+      await this.#figure.life.start()
       await this.settled()
     }
-    const chip = this.chips.find(name)
-    if (chip) this.takeUp(chip)
+    const chip = chips.find(name)
+    if (chip) this.#figure.takeUp(chip)
     return chip !== undefined
   }
 
   /** Whether it plays. */
   get playing(): boolean {
-    return this.playback.playing
+    return this.#figure.transport.playing
   }
 
   /** The step asked for. */
   get currentStep(): number {
-    return this.host?.target ?? this.#targetBefore
+    return this.#figure.life.target
   }
 
   set currentStep(step: number) {
@@ -181,112 +171,85 @@ export class FigureElement extends HostedFigure {
 
   /** The whole state, as a link has it: name=value&… */
   get state(): string {
-    return this.host?.query ?? this.settings.recipe ?? ''
+    return this.#figure.life.state
   }
 
   set state(query: string) {
-    this.#load(query, false)
+    this.#figure.life.load(query)
   }
 
   /** The numbers of what is shown, each with name, value and unit, as events have them; empty before anything is shown. Await settled() after a change. */
   get readouts(): FigureReadout[] {
-    return this.events.told?.readouts ?? []
+    return this.#figure.events.told?.readouts ?? []
   }
 
   /** The parameters of what is shown, by name, as links write them; empty before anything is shown. */
   get values(): Record<string, string> {
-    return this.events.told?.values ?? {}
+    return this.#figure.events.told?.values ?? {}
   }
 
   /** The address of this page with the figure’s whole state. */
   get link(): string {
-    return linkTo(this, this.#linkable + (this.labIsOpen ? '&lab=open' : ''), homeAddress())
+    return linkOf(this.#figure)
   }
 
   /** @internal The code that puts this figure, as it stands, into another page; undefined where that would need an address it does not have. */
   embedCode(name: CodeName): string | undefined {
-    const home = homeAddress()
-    if (!home && (name === 'iframe' || name === 'myst')) return undefined
-    return embedCode(name, this.markup, home, this.heading.textContent, this.words.say('no_script'))
+    return codeOf(this.#figure, name)
   }
 
   /** @internal What its author would write for it as it stands. */
   get markup(): FigureMarkup {
-    const options = Object.keys(OPTIONS).filter(option => !['fit', 'v', 'lab'].includes(option) && this.hasAttribute(option))
-    const lab: [string, string][] = this.labIsOpen ? [['lab', 'open']] : []
-    const state = new URLSearchParams(this.#linkable)
-    const version = state.get('v') ?? '1' // as links have it
-    state.delete('v')
-    return { tag: this.localName, attributes: [['v', version], ...state, ...lab, ...options.map((name): [string, string] => [name, this.getAttribute(name)!])] }
-  }
-
-  /** The state; of a figure that has none yet, what its author gave. */
-  get #linkable(): string {
-    const { state } = this
-    if (state || this.host) return state
-    const { parameters } = FIGURES[this.localName]!
-    const usual = (name: string) => fromText(this.specs.find(spec => spec.name === name)?.default)
-    const given = parameters.map((name): [string, unknown] => [name, this.getParameter(name)]).filter(([name, value]) => value !== undefined && value !== usual(name))
-    return String(new URLSearchParams([['v', this.settings.version], ...given.map(([name, value]) => [name, toText(value)])]))
+    return markupOf(this.#figure)
   }
 
   /** Height [css px] that shows all of the figure at its present width. */
   get naturalHeight(): number {
-    return this.canvas.naturalHeight
+    return this.#figure.view.canvas.naturalHeight
   }
 
   /** @internal Takes the state that the page's address holds for this figure, over what was given until now. */
   followLink(): void {
     const query = linkedQuery(this)
     if (query === undefined) return
-    this.#load(query, true)
+    this.#figure.life.load(query, true)
     this.scrollIntoView({ block: 'nearest' })
   }
 
   /** @internal For the properties that are made from the parameters. */
   setParameter(name: string, value: unknown): void {
-    this.settings.give(name, toText(value))
-    this.events.cause = 'page'
-    this.setTo(name, toText(value))
+    this.#figure.life.give(name, toText(value))
   }
 
   /** @internal The value; of a figure that does not live, what it will begin with, or undefined for the default. */
   getParameter(name: string): unknown {
-    return this.settings.get(name, this.host, this.specs)
+    return this.#figure.life.get(name)
   }
 
-  // --- How it is done ------------------------------------------------------------------------------------------------------
+  /** Resolves when all that was asked of the figure is shown; playing goes on. */
+  async settled(): Promise<void> {
+    return this.#figure.settled()
+  }
+
+  /** @internal Lights a symbol of the chapter wherever the picture writes it; an empty one puts it out. */
+  light(symbol: string): void {
+    this.#figure.life.send({ do: 'light', name: symbol })
+  }
+
+  /** @internal Its extra of a kind, whose methods pages may call on the element (define.ts). */
+  extra<E extends Extra>(kind: ExtraClass<E>): E {
+    return this.#figure.extras.find(extra => extra instanceof kind) as E
+  }
 
   #onAttribute(name: string): void {
-    if (name in OPTIONS) return this.takeOption(name)
-    if (name === 'aria-label') return this.takeName()
+    const { events, host, life, view } = this.#figure
+    if (name in OPTIONS) return this.#figure.takeOption(name)
+    if (name === 'aria-label') return view.takeName()
     if (!isParameter(name)) return
-    this.settings.giveAttribute(name)
-    this.events.cause = 'page'
-    if (this.host) return this.setTo(name, this.getAttribute(name))
-    this.settings.waitAttribute(name)
-    this.reconsider()
-  }
-
-  /** A whole state, over what was given until now; a link says of the Lab only that it is open. */
-  #load(link: string, linked: boolean): void {
-    const [query, lab] = withoutLab(link)
-    if (lab !== null) this.showLab(lab === 'open')
-    this.playback.stop() // the sender meant this very state
-    this.events.cause = 'page'
-    this.settings.load(query, linked)
-    this.chips.takenUp()
-    if (this.host) this.begin(true)
-    else if (this.heavy && this.isConnected) void this.start() // where figures above it grow, it may not be seen for a while
-    else this.reconsider()
-  }
-
-  /** Which lines of the algorithm the step asked for runs, and what comes out of them; told also if the figure is not seen. */
-  async #trace(): Promise<void> {
-    if (!this.host) await this.start()
-    this.send({ do: 'trace' })
-    if (this.frames.inView) return
-    this.host?.work(Infinity)
-    this.show(this.host?.frame(Infinity))
+    life.settings.giveAttribute(name)
+    events.cause = 'page'
+    if (host) return life.setTo(name, this.getAttribute(name))
+    life.settings.waitAttribute(name)
+    this.#figure.reconsider()
   }
 }

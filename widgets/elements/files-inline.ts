@@ -1,6 +1,6 @@
 // The same as files.ts for a script that carries its files along (scripts/single.mjs): notebooks, pages from file://, learning systems.
 import { example, programs, worker, words } from 'virtual:fastslam-files'
-import type { Catalogue } from './words'
+import type { Catalogue } from './files'
 
 export const hasProgram = (name: string): boolean => name in programs
 

@@ -1,6 +1,8 @@
 // Where the files of the figures are: beside this script. A script that carries them along has files-inline.ts in place of this one.
-import type { Catalogue } from './words'
 import worker from './worker?worker&url'
+
+/** A file of ../words, by section and key. */
+export type Catalogue = Record<string, Record<string, string>>
 
 /** Of every language but English, which is in the script: a file more here is a language more. */
 const WORDS = import.meta.glob<string>(['../words/*.json', '!../words/en.json'], { eager: true, query: '?url', import: 'default' })

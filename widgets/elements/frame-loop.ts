@@ -60,10 +60,10 @@ export class FrameLoop {
     return this.#share >= LOOKED_AT
   }
 
-  /** Whether the browser has still to tell if the figure is near. A busy one tells some frames late; what it has ready is asked for. */
-  get unsure(): boolean {
+  /** Takes what a busy browser would tell some frames late. Whether it has said by now if the figure is near. */
+  ask(): boolean {
     this.#onApproach(this.#approach.takeRecords())
-    return this.#unsure
+    return !this.#unsure
   }
 
   /** Whether a frame has been asked for. */

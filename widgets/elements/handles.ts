@@ -1,20 +1,15 @@
 // Points of the picture that a reader moves. The picture draws them; here something to grasp lies over each, which takes the pointer. In it
 // is a slider for each direction, unseen: it takes the focus and the keys, and tells assistive technology where the point is and can be.
+import type { Action } from './action'
 import { h } from './dom'
 import { pointIn } from './pointer'
 import type { Handle, ParamSpec } from './shell'
 
 /** What the handles may ask of the figure. */
 export interface Moves {
-  /** To a point of the canvas [css px]. */
-  drag(name: string, x: number, y: number): void
-  /** Right and up, in steps of the parameters. */
-  nudge(name: string, right: number, up: number): void
-  /** To a point of the canvas that a pointer passes over [css px]. */
-  follow(name: string, x: number, y: number): void
-  /** The pointer has left: back to where it was. */
-  leave(): void
-  /** One of its parameters, as assistive technology sets it. */
+  /** What a pointer does in the picture; passing over it, nothing that lasts. */
+  point(action: Action, lasts?: boolean): void
+  /** A parameter, as assistive technology sets it. */
   change(parameter: string, value: string): void
 }
 
@@ -70,15 +65,15 @@ export class Handles {
     const below = this.shown.find(({ hover }) => hover && hover.x <= x && x < hover.x + hover.w && hover.y <= y && y < hover.y + hover.h)
     if (pointerType !== 'touch') {
       const over = type === 'pointerleave' ? undefined : below
-      if (!over && this.following) this.moves.leave()
-      else if (over && type === 'pointerup') this.moves.drag(over.name, x, y)
-      else if (over) this.moves.follow(over.name, x, y)
+      if (!over && this.following) this.moves.point({ do: 'leave' }, false)
+      else if (over && type === 'pointerup') this.moves.point({ do: 'drag', name: over.name, at: [x, y] })
+      else if (over) this.moves.point({ do: 'follow', name: over.name, at: [x, y] }, false)
       this.following = over !== undefined
       return
     }
     if (type === 'pointerdown') this.touch = { x, y, sideways: false }
     else if (type === 'pointermove') this.touch.sideways ||= Math.abs(x - this.touch.x) > Math.abs(y - this.touch.y)
-    if (below && (type === 'pointerup' || (type === 'pointermove' && this.touch.sideways))) this.moves.drag(below.name, x, y)
+    if (below && (type === 'pointerup' || (type === 'pointermove' && this.touch.sideways))) this.moves.point({ do: 'drag', name: below.name, at: [x, y] })
   }
 
   private make({ name, axes }: Handle): HTMLElement {
@@ -99,14 +94,14 @@ export class Handles {
       if (event.pointerId !== held?.pointer || (x === held.x && y === held.y)) return // browsers also send moves by 0 px, after a scroll for example
       held = { ...held, x, y }
       const at = pointIn(this.layer, event)
-      this.moves.drag(name, at.x - held.dx, at.y - held.dy)
+      this.moves.point({ do: 'drag', name, at: [at.x - held.dx, at.y - held.dy] })
     })
     grip.addEventListener('lostpointercapture', () => (held = undefined)) // after up and cancel too
     grip.addEventListener('keydown', event => {
       const arrow = ARROWS[event.key]
       if (!arrow || event.ctrlKey || event.metaKey) return
       event.preventDefault() // Alt with an arrow would leave the page
-      this.moves.nudge(name, arrow[0] * stride(event), arrow[1] * stride(event))
+      this.moves.point({ do: 'nudge', name, at: [arrow[0] * stride(event), arrow[1] * stride(event)] })
     })
     return grip
   }

@@ -101,6 +101,22 @@ export type Answer =
   /** It has trapped. `why` is for readers, `error` for the console. */
   | { told: 'failed'; why: Message; error: string }
 
+/** What is to be run: an experiment of a figure's program, its setting as a figure's link, and seeds from `from` to before `to`. */
+export interface Job {
+  name: string
+  query: string
+  from: number
+  to: number
+}
+
+/** What a worker is asked: seeds of a job, every so many; or to be the host of a figure, and then its commands. */
+export type WorkerRequest = { do: 'job'; module: WebAssembly.Module; job: Job; every: number } | { do: 'figure'; module: WebAssembly.Module; tag: string } | Command
+
+/** A frame as it is sent: its pixels are a copy, which goes over to the page. */
+export type SentFrame = Omit<Frame, 'picture'> & { picture: { width: number; height: number; pixels: Uint8ClampedArray<ArrayBuffer> } | undefined }
+
+export type WorkerResponse = Answer | { told: 'frame'; frame: SentFrame } | { told: 'rows'; seed: number; rows: number[][] } | { told: 'done' }
+
 /** What a host tells its figure. */
 export interface Listener {
   hear(answer: Answer): void
@@ -111,11 +127,8 @@ export interface Listener {
 export interface FigureHost {
   /** Whether it works and paints by itself, seen or not. */
   readonly remote: boolean
-  /** As known here; undefined before anything is. */
-  readonly values: Record<string, string> | undefined
-  readonly query: string | undefined
-  readonly target: number
-  readonly last: number
+  /** What is set, and how far it is, as known here; undefined before anything is. */
+  readonly state: ProgramState | undefined
   readonly busy: boolean
   /** Commands that have been sent, and that have been carried out. */
   readonly sent: number

@@ -1,17 +1,9 @@
 // Workers: what runs beside the page, so that nothing else has to wait for it. Experiments over many seeds run in two of their own.
 import { workerScript } from './files'
+import type { Job, WorkerRequest, WorkerResponse } from './host'
 import { programOf } from './program'
 import type { Shell } from './shell'
 import { ToldError } from './words'
-import type { WorkerRequest, WorkerResponse } from './worker'
-
-/** What is to be run: an experiment of a figure's program, its setting as a figure's link, and seeds from `from` to before `to`. */
-export interface Job {
-  name: string
-  query: string
-  from: number
-  to: number
-}
 
 /** How many workers share a job, where there are as many processors: the page itself has little to do meanwhile. */
 const WORKERS = 2

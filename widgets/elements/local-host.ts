@@ -37,20 +37,8 @@ export class LocalHost implements FigureHost, InstanceUser {
     return program.ready && new LocalHost(program, program.ready, tag, listener)
   }
 
-  get values(): Record<string, string> | undefined {
-    return this.#ask(session => session.state.values) ?? this.#known?.values
-  }
-
-  get query(): string | undefined {
-    return this.#ask(session => session.state.query) ?? this.#known?.query
-  }
-
-  get target(): number {
-    return this.#ask(session => session.state.target) ?? this.#known?.target ?? 0
-  }
-
-  get last(): number {
-    return this.#ask(session => session.state.last) ?? this.#known?.last ?? 0
+  get state(): ProgramState | undefined {
+    return this.#ask(session => session.state) ?? this.#known
   }
 
   get busy(): boolean {

@@ -1,6 +1,13 @@
 // Numbers to be changed where they stand in mathematics: in the entries of vectors and matrices.
 import type { Controls } from './controls'
 import { h, write } from './dom'
+import type { Extra } from './extra'
+import type { Figure } from './figure'
+import type { Frame } from './host'
+import css from './matrix-inputs.css?inline'
+
+const sheet = new CSSStyleSheet()
+sheet.replaceSync(css)
 
 /** The name of a parameter; `=name` for an entry that is the same as another; or what is always written there. */
 type Entry = string
@@ -21,12 +28,20 @@ const EQUATIONS: Equation[] = [
   { symbol: 'z', matrices: [1, 2].map(slot => [[`r${slot}`], [`phi${slot}`]]) },
 ]
 
-export class MatrixInputs {
-  readonly #mirrors: [HTMLElement, HTMLInputElement][] = []
+/**
+ * @csspart inputs - The numbers to change, as matrices.
+ */
+export class MatrixInputs implements Extra {
+  #mirrors: [HTMLElement, HTMLInputElement][] = []
+
+  constructor(private readonly figure: Figure) {
+    figure.view.style(sheet)
+  }
 
   /** Takes the boxes out of the controls and stands in their place: the noise of the sensor in first sight, the others in the Lab, with
       Reset, which would have a row for itself, at their end. */
-  constructor({ main, lab, transport }: Controls) {
+  mount({ main, lab, transport }: Controls): void {
+    this.#mirrors = []
     const boxes = new Map([...main.querySelectorAll('input')].map(box => [box.name, box]))
     const [mean, covariance, noise, ...ofParticles] = EQUATIONS.map(equation => this.#equation(equation, boxes)) as [HTMLElement, HTMLElement, HTMLElement]
     const heads = h('div', { class: 'equation', 'aria-hidden': 'true' }, h('i'), ...[1, 2].map(slot => h('span', { class: 'of' }, String(slot))))
@@ -35,9 +50,16 @@ export class MatrixInputs {
     main.replaceChildren(noise, lab, equations, h('div', { class: 'last in-lab' }, ...main.querySelectorAll(':scope > .flag'), transport))
   }
 
-  /** Writes the entries that are the same as others. */
-  mirror(): void {
+  frame({ values }: Frame): void {
+    // Entries that are the same as others.
     for (const [entry, box] of this.#mirrors) write(entry, box.value)
+    const { element, view } = this.figure
+    const every = values['all-steps'] === 'on' || /\bsteps\b/.test(element.getAttribute('show') ?? '')
+    if (every === view.body.classList.contains('every')) return
+    view.body.classList.toggle('every', every)
+    // The picture may be higher now: it is measured anew.
+    view.canvas.disconnect()
+    view.canvas.observe()
   }
 
   #equation({ symbol, matrices, squared }: Equation, boxes: Map<string, HTMLInputElement>): HTMLElement {

@@ -26,8 +26,8 @@ export class Menu {
     }
     words.always(this.remake)
     this.#list.addEventListener('toggle', () => {
-      this.#button.ariaExpanded = String(this.#open)
-      if (this.#open && !this.#focused) this.#focus(0)
+      this.#button.ariaExpanded = String(this.isOpen)
+      if (this.isOpen && !this.#focused) this.#focus(0)
     })
     this.#button.addEventListener('keydown', event => {
       if (event.key !== 'ArrowDown' && event.key !== 'ArrowUp') return
@@ -44,7 +44,7 @@ export class Menu {
     return closePopover(this.#list, this.#button)
   }
 
-  get #open(): boolean {
+  get isOpen(): boolean {
     return this.#list.matches(':popover-open')
   }
 

@@ -2,7 +2,7 @@
 // the page is open.
 const KEY = 'fastslam-challenges'
 
-const watchers = new Set<() => void>()
+const watchers = new Set<Watcher>()
 let reached: Set<string> | undefined
 
 /** What is stored; a page in a sandbox or of a file may have no storage, and what is in it may be anybody's. */
@@ -31,13 +31,14 @@ export function forgetReached(): void {
   keep(() => localStorage.removeItem(KEY))
 }
 
-/** Tells of every change, whichever figure made it. */
-export function watchReached(watch: () => void): void {
-  watchers.add(watch)
+/** Has them shown again after every change, whichever figure made it. */
+export function watchReached(watcher: Watcher, signal: AbortSignal): void {
+  watchers.add(watcher)
+  signal.addEventListener('abort', () => watchers.delete(watcher))
 }
 
-export function unwatchReached(watch: () => void): void {
-  watchers.delete(watch)
+interface Watcher {
+  refresh(): void
 }
 
 function keep(store: () => void): void {
@@ -46,5 +47,5 @@ function keep(store: () => void): void {
   } catch {
     // it is known while the page is open
   }
-  for (const watch of watchers) watch()
+  for (const watcher of watchers) watcher.refresh()
 }

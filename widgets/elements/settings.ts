@@ -2,7 +2,6 @@
 // way. One order holds: what is locked keeps the author's value; else a reader's link stands over what the author gave, and that over
 // the default. What is set later, by whomever, stands over what was set before.
 import type { Beginning } from './action'
-import type { FigureHost } from './host'
 import { FIGURES } from './generated/figures'
 import { fromText, isParameter } from './parameters'
 import type { ParamSpec } from './shell'
@@ -101,9 +100,9 @@ export class Settings {
   }
 
   /** The value, or what it will be; undefined for the default where that is not known yet. */
-  get(name: string, host: FigureHost | undefined, specs: ParamSpec[]): unknown {
+  get(name: string, values: Record<string, string> | undefined, specs: ParamSpec[]): unknown {
     const before = this.recipe === undefined ? this.figure.getAttribute(name) : new URLSearchParams(this.recipe).get(name)
-    const now = this.#asked.get(name)?.text ?? host?.values?.[name] ?? this.#waiting.get(name) ?? before
+    const now = this.#asked.get(name)?.text ?? values?.[name] ?? this.#waiting.get(name) ?? before
     return fromText(now ?? specs.find(spec => spec.name === name)?.default)
   }
 }

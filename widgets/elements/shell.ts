@@ -1,7 +1,7 @@
 // What the program's shell (widgets/src/shell.rs) gives and takes: the shapes of its data, and the two ways in which a call can fail.
 import type { Shell } from './generated/shell'
 import type { TraceLine, FigureReadout as Readout } from './details'
-import type { Message } from './words'
+import type { Key, Message } from './words'
 
 export type { Shell }
 export type { FigureReadout as Readout, TraceLine } from './details'
@@ -157,6 +157,26 @@ export interface Told {
   chips: Chip[]
   handles: Handle[]
   rooms: Room[]
+}
+
+/** What is shown of a figure before its program is there, where that waits for something to be asked. */
+export interface AtRest {
+  title: string
+  params: ParamSpec[]
+  readouts: Readout[]
+  chips: Chip[]
+  describe: string
+}
+
+/** What is counted over many seeds (`Counted` in widgets/src/job.rs). */
+export interface Counted {
+  /** Name of the job of the figure's program, which counts. */
+  job: string
+  title: Key
+  /** Names of the parameters that the count depends on, apart by spaces; it has seeds of its own. */
+  settings: string
+  /** What is compared, with the column of the job's rows that is 1 where it holds, and perhaps one that says how often it should. */
+  rows: [name: Key, column: number, expected?: number][]
 }
 
 /** Memory [bytes] beyond which a trap without a word is one of memory: every panic leaves a word. */

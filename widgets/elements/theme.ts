@@ -13,16 +13,23 @@ export type ThemeName = `${'' | 'contrast-'}${'light' | 'dark'}`
 
 export class Theme {
   #name: ThemeName = 'light'
+  readonly #listeners: (() => void)[] = []
 
   /** Around the edge of the figure are the colours of the page; its own colours are those of the body. */
   constructor(
     private readonly figure: HTMLElement,
     private readonly edge: HTMLElement,
     private readonly body: HTMLElement,
-    private readonly changed: () => void,
+    changed: () => void,
   ) {
+    this.onChange(changed)
     // A page tells nobody that it is switched to its dark colours; but what the edge inherits goes on its way then (figure.css).
     edge.addEventListener('transitionend', ({ target }) => target === edge && this.look())
+  }
+
+  /** Has something done whenever the colours are others. */
+  onChange(listener: () => void): void {
+    this.#listeners.push(listener)
   }
 
   get name(): ThemeName {
@@ -49,7 +56,7 @@ export class Theme {
     const name: ThemeName = contrast.matches || forced.matches ? `contrast-${shade}` : shade
     if (name === this.#name) return
     this.#name = name
-    this.changed()
+    for (const listener of this.#listeners) listener()
   }
 }
 

@@ -1,7 +1,10 @@
 // Folded away below the figure of universes: the laps behind one of its points, run on this machine and compared digit by digit.
 import { h, write } from './dom'
+import type { Extra } from './extra'
+import type { Figure } from './figure'
 import { Jobs } from './jobs'
-import type { Key, Words } from './words'
+import { lapsOf } from './laps'
+import type { Key } from './words'
 
 /** What was run, as the figure has it (TRIED in lab/src/experiment/universes.rs). */
 const TRIED = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 40]
@@ -9,11 +12,14 @@ const PROPOSALS: [string, Key][] = [
   ['motion', 'laps_motion'],
   ['aware', 'laps_aware'],
 ]
-const LAP_TAG = 'fastslam-lap' // whose program runs the laps
 const SEEDS = 200
 
-export class UniversesAgain {
-  readonly element: HTMLElement
+/**
+ * @csspart count - What runs over many seeds, and the button that starts it.
+ * @csspart stop - Ends that.
+ * @csspart again - Runs the laps of a point again.
+ */
+export class UniversesAgain implements Extra {
   private readonly start = h('button', { type: 'button', part: 'button again' })
   private readonly halt = h('button', { type: 'button', part: 'button stop', disabled: '' })
   private readonly proposal = h('select', { name: 'again-proposal' })
@@ -22,16 +28,14 @@ export class UniversesAgain {
   private readonly said = h('p', { class: 'said', 'aria-live': 'polite' })
   private readonly jobs = new Jobs()
 
-  constructor(
-    private readonly setting: (name: string) => unknown,
-    private readonly words: Words,
-  ) {
+  constructor(private readonly figure: Figure) {
+    const { view, words } = figure
     for (const universes of TRIED) this.universes.add(new Option(`M = ${universes}`, String(universes)))
     this.start.addEventListener('click', () => void this.run())
     this.halt.addEventListener('click', () => this.stop())
     const [summary, heading] = [h('summary'), h('p', { class: 'name' })]
     const work = h('div', { class: 'work' }, this.start, this.halt, this.proposal, this.universes, this.progress)
-    this.element = h('details', { class: 'count', part: 'count' }, summary, heading, work, this.said)
+    view.folds.append(h('details', { class: 'count', part: 'count' }, summary, heading, work, this.said))
     words.always(() => {
       write(summary, words.say('laps_again'))
       write(heading, words.say('laps_help'))
@@ -47,24 +51,27 @@ export class UniversesAgain {
     this.universes.value = '4'
   }
 
-  /** Ends what is being run. */
-  stop(): void {
+  connected(signal: AbortSignal): void {
+    signal.addEventListener('abort', () => this.stop())
+  }
+
+  private stop(): void {
     this.jobs.stop()
     this.show()
   }
 
   private async run(): Promise<void> {
-    const [proposal, universes, threshold] = [this.proposal.value, this.universes.value, Number(this.setting('threshold'))]
+    const [proposal, universes, threshold] = [this.proposal.value, this.universes.value, Number(this.figure.life.get('threshold'))]
     const found: number[] = []
     this.progress.value = 0
     write(this.said, '')
     try {
-      const query = `course=apartment&odometry=1&range-std=0.02&universes=${universes}&proposal=${proposal}&matcher=subcell`
+      const { tag, job, query } = lapsOf(universes, proposal, 'subcell')
       const add = (rows: number[][]) => {
         for (const [, error] of rows) found.push(error!)
         this.progress.value = found.length
       }
-      const ran = Promise.all([this.jobs.run(LAP_TAG, { name: 'laps', query, from: 1, to: SEEDS + 1 }, add), import('../../www/data/lap-table.json')])
+      const ran = Promise.all([this.jobs.run(tag, { name: job, query, from: 1, to: SEEDS + 1 }, add), import('../../www/data/lap-table.json')])
       this.show()
       const [whole, { default: kept }] = await ran
       if (!whole) return
@@ -74,10 +81,10 @@ export class UniversesAgain {
       const printed = shipped[`lap.${cell}`] ?? shipped[`lap.tried.${cell}`] ?? []
       const good = found.filter(error => error < threshold).length
       const same = found.length === printed.length && found.every((error, k) => error === printed[k])
-      write(this.said, this.words.say(same ? 'laps_same' : 'laps_differ', { seeds: SEEDS, good, threshold }))
+      write(this.said, this.figure.words.say(same ? 'laps_same' : 'laps_differ', { seeds: SEEDS, good, threshold }))
     } catch (error) {
       this.stop()
-      write(this.said, this.words.say('did_not_count', { why: this.words.why(error) }))
+      write(this.said, this.figure.words.say('did_not_count', { why: this.figure.words.why(error) }))
     }
   }
 

@@ -3,5 +3,5 @@ declare module 'virtual:fastslam-files' {
   /** By name, packed as gzip in base64. */
   export const programs: Record<string, string | undefined>
   export const worker: string
-  export const words: Record<string, import('./words').Catalogue | undefined>
+  export const words: Record<string, import('./files').Catalogue | undefined>
 }

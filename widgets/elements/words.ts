@@ -1,16 +1,13 @@
 // What a figure says on the page, in the language around it. English is in the script. Another language is a file (../words), fetched for
 // the first figure that speaks it; the words of the picture are in it too, and go to the program.
 import { elements as english } from '../words/en.json'
-import { fetchWords } from './files'
+import { fetchWords, type Catalogue } from './files'
 
 export type Key = keyof typeof english
 type Values = Record<string, string | number>
 
 /** A message of the catalogue with its values, or what the program has said in words. */
 export type Message = string | { key: Key; values?: Values }
-
-/** A file of ../words, by section and key. */
-export type Catalogue = Record<string, Record<string, string>>
 
 /** An error that readers are told of; in English for the console. */
 export class ToldError extends Error {

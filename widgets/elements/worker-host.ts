@@ -1,9 +1,9 @@
 // A figure whose program runs in a worker: commands are messages, and what they did comes with the next frame. The page answers at once
 // whatever the figure does.
-import { clampedStep, HostMemory, type Command, type FigureHost, type Frame, type Listener } from './host'
+import { clampedStep, HostMemory, type Command, type FigureHost, type Frame, type Listener, type SentFrame, type WorkerRequest, type WorkerResponse } from './host'
 import { createWorker, workerRefused } from './jobs'
 import type { Program } from './program'
-import type { SentFrame, WorkerRequest, WorkerResponse } from './worker'
+import type { ProgramState } from './shell'
 
 export class WorkerHost implements FigureHost {
   readonly remote = true
@@ -27,20 +27,8 @@ export class WorkerHost implements FigureHost {
     return new WorkerHost(await program.module(), tag, listener)
   }
 
-  get values(): Record<string, string> | undefined {
-    return this.#shown?.values
-  }
-
-  get query(): string | undefined {
-    return this.#shown?.query
-  }
-
-  get target(): number {
-    return this.#target ?? this.#shown?.target ?? 0
-  }
-
-  get last(): number {
-    return this.#shown?.last ?? 0
+  get state(): ProgramState | undefined {
+    return this.#shown && { ...this.#shown, target: this.#target ?? this.#shown.target }
   }
 
   get busy(): boolean {
@@ -53,7 +41,7 @@ export class WorkerHost implements FigureHost {
 
   send(command: Command): void {
     this.#memory.note(command)
-    if (command.do === 'seek') this.#target = clampedStep(command.at[0], this.last)
+    if (command.do === 'seek') this.#target = clampedStep(command.at[0], this.#shown?.last ?? 0)
     this.sent += 1
     this.#post(command)
   }

@@ -1,19 +1,11 @@
 // What runs beside the page, in an instance of its own of the program that the page has compiled: experiments, seed by seed, and the
 // sessions of figures that would keep the page waiting.
-import type { Answer, Command, Frame } from './host'
+import type { WorkerRequest, WorkerResponse } from './host'
 import { createShell } from './generated/shell'
-import type { Job } from './jobs'
 import { LogSession } from './log-session'
 import { trapMessage, type Shell } from './shell'
 import { Session } from './session'
 import { yieldToMain } from './yield'
-
-export type WorkerRequest = { do: 'job'; module: WebAssembly.Module; job: Job; every: number } | { do: 'figure'; module: WebAssembly.Module; tag: string } | Command
-
-/** A frame as it is sent: its pixels are a copy, which goes over to the page. */
-export type SentFrame = Omit<Frame, 'picture'> & { picture: { width: number; height: number; pixels: Uint8ClampedArray<ArrayBuffer> } | undefined }
-
-export type WorkerResponse = Answer | { told: 'frame'; frame: SentFrame } | { told: 'rows'; seed: number; rows: number[][] } | { told: 'done' }
 
 const SLICE = 12 // [ms] of work between two looks at what the page asks
 const PICTURE = 100 // [ms] between two pictures of work under way …

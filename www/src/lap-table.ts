@@ -1,6 +1,7 @@
 // The lap table of the chapter: a plain table (scripts/chapter/lap-table.mjs) that readers may compute again, cell by cell.
 import { h, icon, write } from '../../widgets/elements/dom'
 import { Jobs } from '../../widgets/elements/jobs'
+import { lapsOf } from '../../widgets/elements/laps'
 import { programOf } from '../../widgets/elements/program'
 import type { Shell } from '../../widgets/elements/shell'
 
@@ -46,10 +47,9 @@ function cellNamed(name: string): { title: string; run: Run } {
   }
   const [proposal, matcher, m] = name.split('.') as [string, string, string]
   const particles = Number(m.slice(1))
-  const query = `course=apartment&odometry=1&range-std=0.02&universes=${particles}&proposal=${proposal}&matcher=${matcher}`
   return {
     title: `${PROPOSALS[proposal]}, ${MATCHERS[matcher]}, M = ${particles}`,
-    run: { tag: 'fastslam-lap', job: 'laps', query, rough: LAP + PARTICLE_LAP[proposal]! * particles },
+    run: { ...lapsOf(particles, proposal, matcher), rough: LAP + PARTICLE_LAP[proposal]! * particles },
   }
 }
 
