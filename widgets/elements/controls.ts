@@ -104,6 +104,11 @@ export class Controls {
     this.rows = [buttons, this.extras, this.transport, grid, this.settings, this.main]
   }
 
+  /** The control of a parameter, for whoever gives it another place. */
+  field(name: string): HTMLElement | undefined {
+    return this.fields.get(name)?.element
+  }
+
   /** Takes the place of those in another language, and stands as they do. */
   replace(before: Controls): void {
     for (const part of ['transport', 'main', 'settings'] as const) before[part].replaceWith(this[part])
@@ -210,7 +215,8 @@ export class Controls {
 
   /** What is set stays for a while; what is only drawn may change. */
   freeze(on: boolean): void {
-    for (const part of [...this.main.children, this.settings, this.extras] as HTMLElement[]) if (!part.matches('.flag, .source, .lab')) part.inert = on
+    const set = [...this.fields.values()].map(({ element }) => element).filter(element => element.parentElement === this.main && !element.matches('.flag'))
+    for (const part of [...set, this.settings, this.extras]) part.inert = on
   }
 
   /** At the button that plays. */

@@ -46,7 +46,6 @@ export class Drive implements Extra {
   readonly #line = document.createElementNS(SVG, 'polyline')
   readonly #before: Record<string, string>[] = [] // as the plan was, the newest last
   #tool: Tool = 'wheel'
-  #sentenceAfter: ChildNode | null = null
   #alone = false // the map is shown alone
 
   constructor(private readonly figure: Figure) {
@@ -135,12 +134,11 @@ export class Drive implements Extra {
   }
 
   #open(): void {
-    const { body, sentence } = this.figure.view
-    this.#sentenceAfter = sentence.element.nextSibling
+    const { view } = this.figure
     this.#wheel.hidden = false
-    this.#wheel.append(sentence.element)
-    body.classList.add('driving')
-    this.#alone = body.clientWidth < BELOW
+    view.tellIn(this.#wheel)
+    view.body.classList.add('driving')
+    this.#alone = view.body.clientWidth < BELOW
     if (this.#alone) this.#showAlone(true)
     this.#take([...this.#tools].find(([, { disabled }]) => !disabled)?.[0] ?? 'wheel')
     this.#moved()
@@ -148,11 +146,11 @@ export class Drive implements Extra {
   }
 
   #close(): void {
-    const { body, sentence } = this.figure.view
+    const { view } = this.figure
     this.#wheel.hidden = true
     this.#map.hidden = true
-    body.classList.remove('driving')
-    this.#sentenceAfter?.before(sentence.element)
+    view.body.classList.remove('driving')
+    view.tellIn(undefined)
     this.#own({ name: 'take', value: '' })
     if (this.#alone) this.#showAlone(false)
     this.#alone = false

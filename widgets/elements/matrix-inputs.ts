@@ -40,10 +40,10 @@ export class MatrixInputs implements Extra {
 
   /** Takes the boxes out of the controls and stands in their place: the noise of the sensor in first sight, the others in the Lab, with
       Reset, which would have a row for itself, at their end. */
-  mount({ main, lab, transport }: Controls): void {
+  mount(controls: Controls): void {
+    const { main, lab, transport } = controls
     this.#mirrors = []
-    const boxes = new Map([...main.querySelectorAll('input')].map(box => [box.name, box]))
-    const [mean, covariance, noise, ...ofParticles] = EQUATIONS.map(equation => this.#equation(equation, boxes)) as [HTMLElement, HTMLElement, HTMLElement]
+    const [mean, covariance, noise, ...ofParticles] = EQUATIONS.map(equation => this.#equation(equation, controls)) as [HTMLElement, HTMLElement, HTMLElement]
     const heads = h('div', { class: 'equation', 'aria-hidden': 'true' }, h('i'), ...[1, 2].map(slot => h('span', { class: 'of' }, String(slot))))
     const rest = main.querySelectorAll(':scope > .number')
     const equations = h('div', { class: 'equations in-lab', part: 'inputs' }, mean, covariance, heads, ...ofParticles, ...rest)
@@ -62,27 +62,25 @@ export class MatrixInputs implements Extra {
     view.canvas.observe()
   }
 
-  #equation({ symbol, matrices, squared }: Equation, boxes: Map<string, HTMLInputElement>): HTMLElement {
-    const units = (matrices.at(-1) ?? []).map(row => {
-      const name = row.find(entry => boxes.has(entry))
-      return h('span', { class: 'unit' }, (name && boxes.get(name)!.nextElementSibling?.textContent) ?? '')
-    })
+  #equation({ symbol, matrices, squared }: Equation, controls: Controls): HTMLElement {
+    const { specs } = this.figure.view
+    const units = (matrices.at(-1) ?? []).map(row => h('span', { class: 'unit' }, specs.find(({ name }) => row.includes(name))?.unit ?? ''))
     const filled = matrices.map(rows => {
-      const matrix = h('span', { class: squared ? 'matrix squared' : 'matrix' }, ...rows.flat().map(entry => this.#entry(entry, boxes)))
+      const matrix = h('span', { class: squared ? 'matrix squared' : 'matrix' }, ...rows.flat().map(entry => this.#entry(entry, controls)))
       matrix.style.setProperty('--_columns', String(rows[0]!.length))
       return matrix
     })
     return h('div', { class: 'equation', role: 'group', 'aria-label': symbol }, h('i', { 'aria-hidden': 'true' }, symbol), ...filled, h('span', { class: 'units', 'aria-hidden': 'true' }, ...units))
   }
 
-  #entry(entry: Entry, boxes: Map<string, HTMLInputElement>): HTMLElement {
-    const box = boxes.get(entry)
-    if (box) {
-      const field = box.closest<HTMLElement>('.number')!
-      box.setAttribute('aria-label', field.querySelector('.name')!.textContent)
-      return field
+  #entry(entry: Entry, controls: Controls): HTMLElement {
+    const box = (name: string) => controls.field(name)?.querySelector('input')
+    const spec = this.figure.view.specs.find(({ name }) => name === entry)
+    if (spec) {
+      box(entry)!.ariaLabel = spec.title
+      return controls.field(entry)!
     }
-    const same = entry.startsWith('=') ? boxes.get(entry.slice(1)) : undefined
+    const same = entry.startsWith('=') ? box(entry.slice(1)) : undefined
     const fixed = h('span', { class: 'fixed' }, same ? '' : entry)
     if (same) this.#mirrors.push([fixed, same])
     return fixed

@@ -174,6 +174,12 @@ export class View {
     this.stage.style.clipPath = cut > 0 ? `inset(-20px -20px ${cut}px)` : ''
   }
 
+  /** The sentence stands elsewhere, or over the picture. */
+  tellIn(place: HTMLElement | undefined): void {
+    if (place) place.append(this.sentence.element)
+    else this.stage.before(this.sentence.element)
+  }
+
   /** What is shown is not yet what was asked for. */
   showBusy(busy: boolean): void {
     this.stage.classList.toggle('busy', busy)
