@@ -51,7 +51,7 @@ export async function singleFile(entry, names = chapterPrograms) {
   const present = figures().filter(({ tag, name }) => names.includes(programOf.get(tag) ?? '') || names.includes(name))
   /** Code of elements that would find no program in it. */
   const without = [...programOf.keys()].filter(tag => !present.some(figure => figure.tag === tag)).map(tag => join(elements, tag))
-  if (!present.some(({ counted }) => counted)) without.push(join(elements, 'counted-figure'))
+  if (!present.some(({ counted }) => counted)) without.push(join(elements, 'count-study'))
   return bundle(entry, 'es', [
     {
       name: 'fastslam-files',
