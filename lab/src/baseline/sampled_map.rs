@@ -36,18 +36,34 @@ impl SampledMap {
 
     /// The same, drawn now where it is seen for the first time; `None` for a landmark of which nothing is known.
     fn at_sight(&self, index: u32, stream: &mut Stream) -> Option<Vector2<f64>> {
-        self.get(index).or_else(|| self.known.get(index as usize).map(|landmark| draw(landmark, stream)))
+        self.get(index).or_else(|| {
+            let drawn = |landmark: &Landmark| Factor::of(&landmark.covariance).draw(&landmark.mean, stream);
+            self.known.get(index as usize).map(drawn)
+        })
     }
 }
 
-/// A draw of N(μ, Σ). Takes four `u64`s.
-fn draw(landmark: &Landmark, stream: &mut Stream) -> Vector2<f64> {
-    let (covariance, [a, b]) = (&landmark.covariance, stream.normals());
-    // Cholesky's factor, lower left.
-    let first = covariance.m11.sqrt();
-    let across = covariance.m21 / first;
-    let second = (covariance.m22 - across * across).max(0.0).sqrt();
-    landmark.mean + Vector2::new(first * a, across * a + second * b)
+/// Cholesky's factor of a covariance, lower left.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Factor {
+    first: f64,
+    across: f64,
+    second: f64,
+}
+
+impl Factor {
+    /// L with L Lᵀ = Σ.
+    pub fn of(covariance: &Matrix2<f64>) -> Self {
+        let first = covariance.m11.sqrt();
+        let across = covariance.m21 / first;
+        Self { first, across, second: (covariance.m22 - across * across).max(0.0).sqrt() }
+    }
+
+    /// A draw of N(μ, L Lᵀ). Takes four `u64`s.
+    pub fn draw(&self, mean: &Vector2<f64>, stream: &mut Stream) -> Vector2<f64> {
+        let [a, b] = stream.normals();
+        mean + Vector2::new(self.first * a, self.across * a + self.second * b)
+    }
 }
 
 impl ConditionalMap for SampledMap {

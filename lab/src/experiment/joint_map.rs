@@ -10,20 +10,17 @@
 //! is known, R = 0, the first is M ρ^(−N) with ρ = Π (1 + s) / √(1 + 2s) over the two coordinates of a sighting: exercise 2 of the
 //! chapter; and with one landmark and a computed map it is [`predicted_ess`](crate::baseline::one_step::predicted_ess).
 
-use crate::baseline::sampled_map::{SampledMap, WithMap};
+use crate::baseline::sampled_map::Factor;
 use crate::digest::Digest;
 use core::f64::consts::TAU;
 use fastslam::error::{Range, SettingError};
-use fastslam::execute::Executor;
 use fastslam::geometry::Pose2;
-use fastslam::map::landmarks::{Correspondence, Landmark, Landmarks};
+use fastslam::map::landmarks::Landmark;
 use fastslam::motion::{Motion, Odometry, OdometryModel};
 use fastslam::nalgebra::{Matrix2, Matrix3, Vector2};
 use fastslam::ops;
-use fastslam::proposal::{FromMotion, Marginal};
 use fastslam::random::{Purpose, Stream};
-use fastslam::rbpf::Rbpf;
-use fastslam::resampling::{ResamplePolicy, Scheme};
+use fastslam::resampling::Scheme;
 use fastslam::sensor::{Feature, LandmarkSensor, RangeBearing};
 use fastslam::weights::Weights;
 
@@ -43,9 +40,8 @@ const SENSOR: RangeBearing =
 /// The wheels, at scale 1: over a metre 5 cm along, 3 cm across, and 0.04 rad.
 const WHEELS: OdometryModel = OdometryModel { alphas: [0.0, 0.0009, 0.0025, 0.0] };
 
-/// The drive before the first look, and what follows: the robot stands.
+/// The drive before the first look; then the robot stands.
 const DRIVE: Odometry = Odometry { rot1: 0.0, trans: 1.0, rot2: 0.0 };
-const STAND: Odometry = Odometry { rot1: 0.0, trans: 0.0, rot2: 0.0 };
 
 /// Most repeats, least, and how many particles all of them have together where that allows more than the least.
 const REPEATS: [u32; 2] = [40, 6];
@@ -184,59 +180,102 @@ fn rotation(angle: f64) -> Matrix2<f64> {
     Matrix2::new(cos, -sin, sin, cos)
 }
 
-/// The sampled map's filter.
-type Sampling = Rbpf<SampledMap, WithMap<OdometryModel, RangeBearing>>;
-/// The computed map's filter.
-type Computing = Rbpf<Landmarks<RangeBearing>, FromMotion<OdometryModel, Marginal>>;
-
-/// Particles of a block. Nobody resamples, so that a population is its blocks, side by side: one after the other takes less memory, and a
-/// step of one no time to speak of.
+/// Particles of a block, the most that a step is computed for in one slice of work. Nobody resamples, so that a population is its blocks,
+/// side by side.
 const BLOCK: u32 = 1000;
 
 /// A block on its way along the log.
+///
+/// Where nobody resamples each particle is by itself, and each landmark is seen once: of a particle there is its pose, and for a moment the
+/// one landmark that it looks at. Draws, predictions and weights are those of the filters
+/// ([`Rbpf`](fastslam::rbpf::Rbpf) with a [`SampledMap`](crate::baseline::sampled_map::SampledMap) and with
+/// [`Landmarks`](fastslam::map::landmarks::Landmarks)), which the tests run beside it, bit for bit.
 #[derive(Clone, Debug)]
 struct Block {
-    sampled: Sampling,
-    computed: Computing,
+    seed: u64,
+    world_from_robot: Vec<Pose2>,
     seen: u32,
 }
 
 impl Block {
-    fn new(setup: &JointMapSetup, log: &Log, repeat: u32, block: u32) -> Result<Self, SettingError> {
-        let (motion, sensor) = (setup.motion(), setup.sensor());
+    fn new(setup: &JointMapSetup, repeat: u32, block: u32) -> Self {
         let seed = setup.seed + (u64::from(repeat) << 32) + (u64::from(block) << 40);
         let count = (setup.particles - block * BLOCK).min(BLOCK) as usize;
-        let map = Landmarks::new(sensor, Correspondence::Known).with(log.known.iter().copied());
-        let sampled = Rbpf::builder(SampledMap::new(&log.known), WithMap { motion, sensor });
-        let computed = Rbpf::builder(map, FromMotion { motion, likelihood: Marginal });
-        let (never, serial) = (ResamplePolicy::Never, Executor::Serial);
-        Ok(Self {
-            sampled: sampled.particles(count).seed(seed).policy(never).executor(serial.clone()).build()?,
-            computed: computed.particles(count).seed(seed).policy(never).executor(serial).build()?,
-            seen: 0,
-        })
+        Self { seed, world_from_robot: vec![Pose2::default(); count], seen: 0 }
     }
 
     /// The next landmark, for both filters.
     fn advance(&mut self, log: &Log, found: &mut [Weighed; 2]) {
-        let control = if self.seen == 0 { DRIVE } else { STAND };
-        let features = vec![log.features[self.seen as usize]];
-        let increments = [
-            self.sampled.step(&control, &features).log_increments,
-            self.computed.step(&control, &features).log_increments,
-        ];
-        let seen = self.seen as usize;
-        for (found, increments) in found.iter_mut().zip(increments) {
-            found.weigh(seen, &increments);
+        let (seen, motion) = (self.seen as usize, log.setup.motion());
+        let look = Look::new(log, seen);
+        let mut increments = [(); 2].map(|()| Vec::with_capacity(self.world_from_robot.len()));
+        for (slot, pose) in (0..).zip(&mut self.world_from_robot) {
+            let mut stream = Stream::at(self.seed, Purpose::PROPOSAL, self.seen + 1, slot);
+            if seen == 0 {
+                *pose = motion.sample(pose, &DRIVE, &mut stream);
+            } else {
+                // It stands: the wheels' noise is none, but has its place in the stream.
+                stream.noise([0.0; 3]);
+            }
+            let point = look.draw(&mut stream);
+            increments[SAMPLED].push(look.weigh_point(pose, &point));
+            increments[COMPUTED].push(look.weigh(pose));
+            if seen == 0 {
+                found[SAMPLED].first.push(point);
+                found[COMPUTED].first.push(look.seen_from(pose));
+            }
         }
-        if seen == 0 {
-            let known = log.known[0].mean;
-            let drawn = self.sampled.particles().iter().map(|p| p.map.get(0).unwrap_or(known));
-            found[SAMPLED].first.extend(drawn);
-            let kept = self.computed.particles().iter().map(|p| p.map.get(0).map_or(known, |landmark| landmark.mean));
-            found[COMPUTED].first.extend(kept);
+        for (found, increments) in found.iter_mut().zip(&increments) {
+            found.weigh(seen, increments);
         }
         self.seen += 1;
+    }
+}
+
+/// A landmark that is looked at: what all particles have in common.
+struct Look {
+    sensor: RangeBearing,
+    known: Landmark,
+    z: Vector2<f64>,
+    /// L of what is known beforehand, L Lᵀ = Σ.
+    factor: Factor,
+    /// Of a point there is no covariance, and of what is expected of it the sensor's alone, wherever it is.
+    inverse: Matrix2<f64>,
+    log_determinant: f64,
+    log_turn: f64,
+}
+
+impl Look {
+    fn new(log: &Log, seen: usize) -> Self {
+        let (sensor, known, z) = (log.setup.sensor(), log.known[seen], log.features[seen].z);
+        let point = Landmark { covariance: Matrix2::zeros(), ..known }.innovation(&sensor, &log.robot, &z);
+        let (inverse, log_determinant) = (point.inverse, ops::ln(point.determinant()));
+        let factor = Factor::of(&known.covariance);
+        Self { sensor, known, z, factor, inverse, log_determinant, log_turn: ops::ln(TAU) }
+    }
+
+    /// Where a particle of the sampled map has the landmark \[m\].
+    fn draw(&self, stream: &mut Stream) -> Vector2<f64> {
+        self.factor.draw(&self.known.mean, stream)
+    }
+
+    /// ln p(z | x, m) of a point \[nats\].
+    fn weigh_point(&self, pose: &Pose2, point: &Vector2<f64>) -> f64 {
+        let residual = self.sensor.residual(&self.z, &self.sensor.predict(pose, point).z);
+        -0.5 * (residual.dot(&(self.inverse * residual)) + self.log_determinant) - self.log_turn
+    }
+
+    /// ln ∫ p(z | x, m) p(m) dm \[nats\].
+    fn weigh(&self, pose: &Pose2) -> f64 {
+        let innovation = self.known.innovation(&self.sensor, pose, &self.z);
+        if innovation.is_regular() { innovation.log_likelihood() } else { 0.0 }
+    }
+
+    /// Where a particle of the computed map has the landmark then \[m\].
+    fn seen_from(&self, pose: &Pose2) -> Vector2<f64> {
+        let mut landmark = self.known;
+        landmark.update(&self.sensor, pose, &self.z);
+        landmark.mean
     }
 }
 
@@ -293,7 +332,7 @@ impl JointMap {
     pub fn new(setup: &JointMapSetup) -> Result<Self, SettingError> {
         setup.validate()?;
         let log = Log::new(setup);
-        let block = Block::new(setup, &log, 0, 0)?;
+        let block = Block::new(setup, 0, 0);
         let (weighed, populations) = Default::default();
         Ok(Self { setup: setup.clone(), log, repeats: Vec::new(), finished: 0, block, weighed, populations })
     }
@@ -343,7 +382,7 @@ impl JointMap {
             if self.block.seen == MOST {
                 self.finished += 1;
                 let next = if self.finished < self.blocks() { (repeat, self.finished) } else { (repeat + 1, 0) };
-                self.block = Block::new(&self.setup, &self.log, next.0, next.1)?;
+                self.block = Block::new(&self.setup, next.0, next.1);
             }
             return Ok(());
         }

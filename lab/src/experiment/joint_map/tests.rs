@@ -1,5 +1,13 @@
 use super::*;
 use crate::baseline::one_step::predicted_ess;
+use crate::baseline::sampled_map::{SampledMap, WithMap};
+use fastslam::map::landmarks::{Blocks, Correspondence, Landmarks};
+use fastslam::proposal::{FromMotion, Marginal};
+use fastslam::rbpf::Rbpf;
+use fastslam::resampling::ResamplePolicy;
+
+/// What the filters are told after the first step: the robot stands.
+const STAND: Odometry = Odometry { rot1: 0.0, trans: 0.0, rot2: 0.0 };
 
 const LARGE: JointMapSetup = JointMapSetup { particles: 20_000, sensor_scale: 1.0, odometry_scale: 0.0, seed: 1 };
 
@@ -88,14 +96,45 @@ fn the_mean_weight_of_drawn_maps_is_the_weight_of_the_computed_one() {
     }
 }
 
+/// The filters themselves, of a block of particles that nobody resamples: log weight increments of each step, and where each particle has
+/// the first landmark in the end.
+fn by_the_filters(setup: &JointMapSetup, log: &Log, seed: u64) -> [(Vec<Vec<f64>>, Vec<Vector2<f64>>); 2] {
+    let (motion, sensor, count) = (setup.motion(), setup.sensor(), setup.particles as usize);
+    let map = Landmarks::<_, Blocks>::new(sensor, Correspondence::Known).with(log.known.iter().copied());
+    let of = || Rbpf::builder(SampledMap::new(&log.known), WithMap { motion, sensor });
+    let mut sampled = of().particles(count).seed(seed).policy(ResamplePolicy::Never).build().unwrap();
+    let of = || Rbpf::builder(map, FromMotion { motion, likelihood: Marginal });
+    let mut computed = of().particles(count).seed(seed).policy(ResamplePolicy::Never).build().unwrap();
+    let mut increments = [(); 2].map(|()| Vec::new());
+    for (step, feature) in log.features.iter().enumerate() {
+        let (control, seen) = (if step == 0 { DRIVE } else { STAND }, vec![*feature]);
+        increments[SAMPLED].push(sampled.step(&control, &seen).log_increments);
+        increments[COMPUTED].push(computed.step(&control, &seen).log_increments);
+    }
+    let drawn = sampled.particles().iter().map(|particle| particle.map.get(0).unwrap()).collect();
+    let kept = computed.particles().iter().map(|particle| particle.map.get(0).unwrap().mean).collect();
+    let [of_sampled, of_computed] = increments;
+    [(of_sampled, drawn), (of_computed, kept)]
+}
+
+/// To the bit: with wheels that err, with a path that is known, and with a sensor so sharp or so blunt as there is.
 #[test]
-fn both_filters_drive_the_same_paths() {
-    let setup = JointMapSetup { particles: 50, ..JointMapSetup::default() };
-    let mut block = Block::new(&setup, &Log::new(&setup), 3, 0).unwrap();
-    let (log, mut weighed) = (Log::new(&setup), Default::default());
-    (0..MOST).for_each(|_| block.advance(&log, &mut weighed));
-    for (drawn, computed) in block.sampled.particles().iter().zip(block.computed.particles()) {
-        assert_eq!(drawn.path.poses(), computed.path.poses());
+fn particle_by_particle_comes_out_what_the_filters_come_to() {
+    for (odometry_scale, sensor_scale) in [(1.0, 1.0), (0.0, 1.0), (3.0, 0.1), (2.0, 10.0)] {
+        let setup = JointMapSetup { particles: 40, sensor_scale, odometry_scale, seed: 6 };
+        let log = Log::new(&setup);
+        let mut block = Block::new(&setup, 3, 0);
+        let expected = by_the_filters(&setup, &log, block.seed);
+        let mut weighed = <[Weighed; 2]>::default();
+        (0..MOST).for_each(|_| block.advance(&log, &mut weighed));
+        for (found, (increments, first)) in weighed.iter().zip(&expected) {
+            let mut log_weights = vec![0.0; 40];
+            for (found, increments) in found.log_weights.iter().zip(increments) {
+                log_weights.iter_mut().zip(increments).for_each(|(sum, increment)| *sum += increment);
+                assert_eq!(found, &log_weights, "{setup:?}");
+            }
+            assert_eq!(&found.first, first, "{setup:?}");
+        }
     }
 }
 
