@@ -106,8 +106,55 @@ impl Ride {
     }
 }
 
+/// Steps whose products are summed at once.
+const SIDE_BY_SIDE: usize = 4;
+
 /// A map: how probably the sensor says *door*, for each cell, between 0 and 1.
 pub type DoorMap = Vec<f64>;
+
+/// Columns of a pass one behind the other, each divided by its sum.
+#[derive(Clone, PartialEq, Debug)]
+struct Columns {
+    cells: usize,
+    values: Vec<f64>,
+    /// What each was divided by.
+    sums: Vec<f64>,
+}
+
+impl Columns {
+    fn new(cells: usize, count: usize) -> Self {
+        Self { cells, values: Vec::with_capacity(cells * count), sums: Vec::with_capacity(count) }
+    }
+
+    fn clear(&mut self) {
+        self.values.clear();
+        self.sums.clear();
+    }
+
+    fn len(&self) -> usize {
+        self.sums.len()
+    }
+
+    fn get(&self, index: usize) -> Option<&[f64]> {
+        self.values.chunks_exact(self.cells).nth(index)
+    }
+
+    /// Log of all that the pass was divided by up to a column \[nats\].
+    fn log_scale(&self, index: usize) -> Option<f64> {
+        Some(self.sums.get(..=index)?.iter().fold(0.0, |log, sum| log + ops::ln(*sum)))
+    }
+
+    /// Another column, made of zeros and the one before, if there is one.
+    fn push(&mut self, make: impl FnOnce(Option<&[f64]>, &mut [f64])) {
+        let begin = self.values.len();
+        self.values.resize(begin + self.cells, 0.0);
+        let (before, column) = self.values.split_at_mut(begin);
+        make(before.rchunks_exact(self.cells).next(), column);
+        let sum: f64 = column.iter().sum();
+        column.iter_mut().for_each(|p| *p /= sum);
+        self.sums.push(sum);
+    }
+}
 
 /// The E step, a column at a time: either pass can be stopped anywhere.
 #[derive(Clone, PartialEq, Debug)]
@@ -115,12 +162,10 @@ pub struct Expectation {
     map: DoorMap,
     /// T.
     last: usize,
-    /// α₀, α₁, … as far as they are computed, each divided by its sum.
-    forward: Vec<Vec<f64>>,
+    /// α₀, α₁, … as far as they are computed.
+    forward: Columns,
     /// β_T, β_{T−1}, … the same way.
-    backward: Vec<Vec<f64>>,
-    /// Logs of all that a pass was divided by up to a column \[nats\]: forward, and backward.
-    log_scales: [Vec<f64>; 2],
+    backward: Columns,
 }
 
 impl Expectation {
@@ -133,40 +178,40 @@ impl Expectation {
         if map.len() != cells || map.iter().any(|door| !(*door > 0.0 && *door < 1.0)) {
             return Err(SettingError::Unfit { field: "map", allowed: "a number between 0 and 1 for each cell" });
         }
-        Ok(Self { map, last: ride.steps(), forward: Vec::new(), backward: Vec::new(), log_scales: Default::default() })
+        let [forward, backward] = [(); 2].map(|()| Columns::new(cells, ride.steps() + 1));
+        Ok(Self { map, last: ride.steps(), forward, backward })
     }
 
     /// The next column of the forward pass, while there is one: move, then see.
     pub fn advance(&mut self, ride: &Ride) {
-        let step = self.forward.len();
-        let column = match self.forward.last() {
-            _ if step > self.last => return,
-            None => (0..self.map.len()).map(|cell| f64::from(u8::from(cell == ride.start))).collect(),
+        let (step, map) = (self.forward.len(), &self.map);
+        if step > self.last {
+            return;
+        }
+        self.forward.push(|before, column| match before {
+            None => column[ride.start] = 1.0,
             Some(before) => {
-                let moved = ride.kernel(step).push(before);
-                moved.iter().zip(ride.likelihood(step, &self.map)).map(|(p, seen)| p * seen).collect()
+                ride.kernel(step).push(before, column);
+                column.iter_mut().zip(ride.likelihood(step, map)).for_each(|(p, seen)| *p *= seen);
             }
-        };
-        keep(&mut self.forward, &mut self.log_scales[0], column);
+        });
     }
 
     /// The next column of the backward pass, while there is one, from the last step down: the same the other way round.
     pub fn retreat(&mut self, ride: &Ride) {
-        let column = match self.backward.last() {
-            _ if self.backward.len() > self.last => return,
-            None => vec![1.0; self.map.len()],
-            Some(after) => {
-                let step = self.last + 1 - self.backward.len();
-                self.pulled(ride, step, after)
-            }
-        };
-        keep(&mut self.backward, &mut self.log_scales[1], column);
+        self.retreat_by(ride, &mut Vec::new());
     }
 
-    /// The column of the backward pass before a step, from the one after it.
-    fn pulled(&self, ride: &Ride, step: usize, after: &[f64]) -> Vec<f64> {
-        let seen: Vec<f64> = after.iter().zip(ride.likelihood(step, &self.map)).map(|(p, z)| p * z).collect();
-        ride.kernel(step).pull(&seen)
+    fn retreat_by(&mut self, ride: &Ride, seen: &mut Vec<f64>) {
+        let (done, map) = (self.backward.len(), &self.map);
+        if done > self.last {
+            return;
+        }
+        let step = self.last + 1 - done;
+        self.backward.push(|after, column| match after {
+            None => column.fill(1.0),
+            Some(after) => pull(ride, step, map, after, seen, column),
+        });
     }
 
     /// Both passes from end to end.
@@ -175,11 +220,25 @@ impl Expectation {
     /// Those of [`Self::new`].
     pub fn of(map: DoorMap, ride: &Ride) -> Result<Self, SettingError> {
         let mut whole = Self::new(map, ride)?;
-        for _ in 0..=whole.last {
-            whole.advance(ride);
-            whole.retreat(ride);
-        }
+        whole.run(ride);
         Ok(whole)
+    }
+
+    fn run(&mut self, ride: &Ride) {
+        let mut seen = Vec::with_capacity(self.map.len());
+        for _ in 0..=self.last {
+            self.advance(ride);
+            self.retreat_by(ride, &mut seen);
+        }
+    }
+
+    /// Both passes again, with what the M step makes of the map. `None` where one is not through.
+    pub fn iterate(&mut self, ride: &Ride) -> Option<()> {
+        self.map = self.maximise(ride)?;
+        self.forward.clear();
+        self.backward.clear();
+        self.run(ride);
+        Some(())
     }
 
     /// The map that is taken for true.
@@ -189,12 +248,12 @@ impl Expectation {
 
     /// α_t over its sum: where the robot was, by all readings up to then. `None` where the pass has not been yet.
     pub fn forward(&self, step: usize) -> Option<&[f64]> {
-        self.forward.get(step).map(Vec::as_slice)
+        self.forward.get(step)
     }
 
     /// β_t over its sum: how well a cell explains all readings after. `None` where the pass has not been yet.
     pub fn backward(&self, step: usize) -> Option<&[f64]> {
-        self.backward.get(self.last.checked_sub(step)?).map(Vec::as_slice)
+        self.backward.get(self.last.checked_sub(step)?)
     }
 
     /// γ_t: where the robot was, by all readings. `None` where not both passes have been.
@@ -206,24 +265,25 @@ impl Expectation {
     /// the forward pass, with all of them γ_t. It takes `lag` columns of a backward pass that begins there; of the backward pass that is kept it
     /// needs none. `None` where the forward pass has not been yet.
     pub fn smoothed(&self, ride: &Ride, step: usize, lag: usize) -> Option<Vec<f64>> {
-        let mut backward = vec![1.0; self.map.len()];
+        let (mut backward, mut seen) = (Columns::new(self.map.len(), lag + 1), Vec::new());
+        backward.push(|_, column| column.fill(1.0));
         for later in (step + 1..=(step + lag).min(self.last)).rev() {
-            let column = self.pulled(ride, later, &backward);
-            let sum: f64 = column.iter().sum();
-            backward = column.iter().map(|p| p / sum).collect();
+            backward.push(|after, column| {
+                after.into_iter().for_each(|after| pull(ride, later, &self.map, after, &mut seen, column));
+            });
         }
-        Some(shares(self.forward(step)?, &backward))
+        Some(shares(self.forward(step)?, backward.get(backward.len() - 1)?))
     }
 
     /// ln p(z₁..T | m) \[nats\]. `None` where the forward pass is not through.
     pub fn log_likelihood(&self) -> Option<f64> {
-        self.log_scales[0].get(self.last).copied()
+        self.forward.log_scale(self.last)
     }
 
     /// The same by the columns of one step: ln Σ_c α_t(c) β_t(c). It does not depend on the step.
     pub fn log_likelihood_at(&self, step: usize) -> Option<f64> {
         let sum: f64 = self.forward(step)?.iter().zip(self.backward(step)?).map(|(a, b)| a * b).sum();
-        Some(ops::ln(sum) + self.log_scales[0][step] + self.log_scales[1][self.last - step])
+        Some(ops::ln(sum) + self.forward.log_scale(step)? + self.backward.log_scale(self.last - step)?)
     }
 
     /// Entropy of the whole path, given the readings and the map \[nats\]. `None` where a pass is not through.
@@ -253,11 +313,28 @@ impl Expectation {
     ///
     /// `None` where a pass is not through.
     pub fn maximise(&self, ride: &Ride) -> Option<DoorMap> {
-        let mut counts = vec![[0.0; 2]; self.map.len()];
-        for step in 1..=self.last {
-            let missed = usize::from(!ride.says_door(step));
-            for (count, p) in counts.iter_mut().zip(self.product(step)?) {
-                count[missed] += p;
+        let through = self.forward.len().min(self.backward.len()) > self.last;
+        let (cells, last) = (through.then_some(self.map.len())?, self.last);
+        let mut counts = vec![[0.0; 2]; cells];
+        // α₁, … and β₁, …, four steps at a time: their sums do not wait for each other.
+        let (forward, backward) = (&self.forward.values[cells..], &self.backward.values[..cells * last]);
+        for (first, forward) in (1..).step_by(SIDE_BY_SIDE).zip(forward.chunks(cells * SIDE_BY_SIDE)) {
+            let count = forward.len() / cells;
+            let alphas: [&[f64]; SIDE_BY_SIDE] =
+                core::array::from_fn(|k| &forward[cells * k.min(count - 1)..][..cells]);
+            let betas: [&[f64]; SIDE_BY_SIDE] =
+                core::array::from_fn(|k| &backward[cells * (last - first - k.min(count - 1))..][..cells]);
+            let mut sums = [0.0; SIDE_BY_SIDE];
+            for cell in 0..cells {
+                for (sum, (alpha, beta)) in sums.iter_mut().zip(alphas.iter().zip(&betas)) {
+                    *sum += alpha[cell] * beta[cell];
+                }
+            }
+            for (k, sum) in sums.into_iter().enumerate().take(count) {
+                let missed = usize::from(!ride.says_door(first + k));
+                for (count, (a, b)) in counts.iter_mut().zip(alphas[k].iter().zip(betas[k])) {
+                    count[missed] += a * b / sum;
+                }
             }
         }
         let known = ride.corridor.known;
@@ -272,11 +349,11 @@ fn shares(forward: &[f64], backward: &[f64]) -> Vec<f64> {
     product.iter().map(|p| p / sum).collect()
 }
 
-/// Divides a column by its sum, and keeps it, and the log of all such sums so far.
-fn keep(columns: &mut Vec<Vec<f64>>, log_scales: &mut Vec<f64>, column: Vec<f64>) {
-    let sum: f64 = column.iter().sum();
-    log_scales.push(log_scales.last().unwrap_or(&0.0) + ops::ln(sum));
-    columns.push(column.iter().map(|p| p / sum).collect());
+/// The column of the backward pass before a step, from the one after it.
+fn pull(ride: &Ride, step: usize, map: &[f64], after: &[f64], seen: &mut Vec<f64>, before: &mut [f64]) {
+    seen.clear();
+    seen.extend(after.iter().zip(ride.likelihood(step, map)).map(|(p, z)| p * z));
+    ride.kernel(step).pull(seen, before);
 }
 
 /// p ln p, which is 0 at 0.

@@ -214,19 +214,20 @@ pub struct Iterate {
 /// # Errors
 /// Where the first map is none of this corridor, or one of its numbers is not between 0 and 1.
 pub fn climb(log: &Log, first: DoorMap, iterations: u32) -> Result<Vec<Iterate>, SettingError> {
-    let (mut iterates, mut map) = (Vec::new(), first);
-    loop {
-        let passes = Expectation::of(map, &log.ride)?;
-        let (Some(log_likelihood), Some(next)) = (passes.log_likelihood(), passes.maximise(&log.ride)) else {
-            return Ok(iterates);
-        };
-        let log_posterior = log_likelihood + log_prior(passes.map(), CORRIDOR.known);
-        iterates.push(Iterate { map: passes.map().clone(), log_likelihood, log_posterior });
-        if iterates.len() > iterations as usize {
-            return Ok(iterates);
-        }
-        map = next;
+    let mut passes = Expectation::of(first, &log.ride)?;
+    let mut iterates = vec![iterate(&passes)];
+    for _ in 0..iterations {
+        passes.iterate(&log.ride);
+        iterates.push(iterate(&passes));
     }
+    Ok(iterates)
+}
+
+/// The map of both passes.
+fn iterate(passes: &Expectation) -> Iterate {
+    let log_likelihood = passes.log_likelihood().unwrap_or(f64::NAN);
+    let log_posterior = log_likelihood + log_prior(passes.map(), CORRIDOR.known);
+    Iterate { map: passes.map().clone(), log_likelihood, log_posterior }
 }
 
 /// The middles of the doors of a map \[m\]: runs of cells in which the sensor says *door* more often than not.
@@ -283,16 +284,19 @@ impl Others {
         let mut stream = Stream::at(log.setup.seed, GUESSES, self.ends.len() as u32, 0);
         let marks = core::array::from_fn(|_| LENGTH * stream.uniform());
         let first = Guess { marks, trust: 1.0 }.first_map()?;
-        let last = climb(log, first, ITERATIONS)?.pop();
-        self.ends.extend(last.map(|last| end(log, last)).transpose()?);
+        self.ends.push(end(log, first)?);
         Ok(())
     }
 }
 
-/// What a climb came to.
-fn end(log: &Log, Iterate { map, log_posterior, .. }: Iterate) -> Result<End, SettingError> {
-    let put_down = Expectation::of(map, &log.ride)?.product(log.carried).unwrap_or_default();
-    Ok(End { log_posterior, again: again(&put_down) })
+/// What a climb of [`ITERATIONS`] from a first map comes to.
+fn end(log: &Log, first: DoorMap) -> Result<End, SettingError> {
+    let mut passes = Expectation::of(first, &log.ride)?;
+    for _ in 0..ITERATIONS {
+        passes.iterate(&log.ride);
+    }
+    let put_down = passes.product(log.carried).unwrap_or_default();
+    Ok(End { log_posterior: iterate(&passes).log_posterior, again: again(&put_down) })
 }
 
 /// The filter with particles on a log: the path sampled, the map computed. It keeps what it has of every step, by the paths at the end.
@@ -368,10 +372,7 @@ pub const FOLDING: Guess = Guess { marks: [2.6, 5.2, 5.2], trust: 1.0 };
 /// Where a setting is out of its range.
 pub fn outcome(setup: &LogSetup) -> Result<Outcome, SettingError> {
     let log = Log::new(setup)?;
-    let last = |guess: &Guess| -> Result<End, SettingError> {
-        let mut iterates = climb(&log, guess.first_map()?, ITERATIONS)?;
-        end(&log, iterates.swap_remove(iterates.len() - 1))
-    };
+    let last = |guess: &Guess| end(&log, guess.first_map()?);
     let ends = [last(&Guess::default())?, last(&FOLDING)?];
     let (mut others, mut cloud) = (Others::default(), Cloud::new(&log)?);
     while others.pending() > 0 {

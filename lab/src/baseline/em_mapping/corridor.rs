@@ -97,6 +97,13 @@ pub struct Kernel {
     masses: Vec<f64>,
 }
 
+/// Cells that a step leads to, with their probabilities: those at the walls, near and far, and all between.
+struct Fan<'a> {
+    walls: [Option<(usize, f64)>; 2],
+    between: Range<usize>,
+    masses: &'a [f64],
+}
+
 impl Kernel {
     /// Of a step in a corridor.
     ///
@@ -150,31 +157,32 @@ impl Kernel {
         found.or_else(|| self.from(from).last()).map_or(from, |(cell, _)| cell)
     }
 
-    /// Σᵢ p(x_t = j | x_{t−1} = i) before(i) for every j, summed in the order of i.
-    pub fn push(&self, before: &[f64]) -> Vec<f64> {
-        let mut after = vec![0.0; self.cells];
+    /// Adds Σᵢ p(x_t = j | x_{t−1} = i) before(i) to every j, summed in the order of i.
+    pub fn push(&self, before: &[f64], after: &mut [f64]) {
         let free = self.free();
-        self.push_to_walls(before, 0..free.start, &mut after);
+        self.push_to_walls(before, 0..free.start, after);
         for (to, mass) in self.shifted(&free).rev() {
             for (after, p) in after[to].iter_mut().zip(&before[free.clone()]) {
                 *after += p * mass;
             }
         }
-        self.push_to_walls(before, free.end..self.cells, &mut after);
-        after
+        self.push_to_walls(before, free.end..self.cells, after);
     }
 
     fn push_to_walls(&self, before: &[f64], cells: Range<usize>, after: &mut [f64]) {
         for cell in cells.filter(|cell| before[*cell] > 0.0) {
-            for (to, mass) in self.from(cell) {
+            let Fan { walls, between, masses } = self.fan(cell);
+            for (to, mass) in walls.into_iter().flatten() {
                 after[to] += before[cell] * mass;
+            }
+            for (after, mass) in after[between].iter_mut().zip(masses) {
+                *after += before[cell] * mass;
             }
         }
     }
 
-    /// Σⱼ p(x_t = j | x_{t−1} = i) after(j) for every i, summed in the order of j.
-    pub fn pull(&self, after: &[f64]) -> Vec<f64> {
-        let mut before = vec![0.0; self.cells];
+    /// Adds Σⱼ p(x_t = j | x_{t−1} = i) after(j) to every i, summed in the order of j.
+    pub fn pull(&self, after: &[f64], before: &mut [f64]) {
         let free = self.free();
         for (to, mass) in self.shifted(&free) {
             for (before, p) in before[free.clone()].iter_mut().zip(&after[to]) {
@@ -182,9 +190,26 @@ impl Kernel {
             }
         }
         for cell in (0..free.start).chain(free.end..self.cells) {
-            before[cell] = self.from(cell).map(|(to, mass)| mass * after[to]).sum();
+            let Fan { walls: [near, far], between, masses } = self.fan(cell);
+            let near = near.map_or(0.0, |(to, mass)| mass * after[to]);
+            let sum = masses.iter().zip(&after[between]).fold(near, |sum, (mass, p)| sum + mass * p);
+            before[cell] += far.map_or(sum, |(to, mass)| sum + mass * after[to]);
         }
-        before
+    }
+
+    /// Where the steps from a cell lead to.
+    fn fan(&self, cell: usize) -> Fan<'_> {
+        let last = self.cells as i64 - 1;
+        let first = cell as i64 + self.first;
+        let end = first + self.masses.len() as i64 - 1;
+        let sum = |from: i64, until: i64| -> f64 { self.masses[from as usize..until as usize].iter().sum() };
+        // Where there is one cell alone, it is at the near wall.
+        let near = (first <= 0).then(|| (0, sum(0, if last == 0 { end } else { end.min(0) } - first + 1)));
+        let far = (end >= last && last > 0).then(|| (last as usize, sum((last - first).max(0), end - first + 1)));
+        let from = first.clamp(1, last.max(1));
+        let between = from as usize..(end + 1).clamp(from, last.max(from)) as usize;
+        let masses = if between.is_empty() { &[] } else { &self.masses[(from - first) as usize..][..between.len()] };
+        Fan { walls: [near, far], between, masses }
     }
 
     /// Cells from which no step meets a wall: from all of them it leads as far, with the same masses.
@@ -232,25 +257,33 @@ mod tests {
         let (kernel, a) = (kernel(0.3, 0.15), |k: u32| f64::from(k * k % 7));
         let [before, after]: [Vec<f64>; 2] = [(0..20).map(a).collect(), (0..20).map(|k| a(k + 3)).collect()];
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        let [one, other] = [dot(&kernel.push(&before), &after), dot(&before, &kernel.pull(&after))];
+        let [mut pushed, mut pulled] = [vec![0.0; 20], vec![0.0; 20]];
+        kernel.push(&before, &mut pushed);
+        kernel.pull(&after, &mut pulled);
+        let [one, other] = [dot(&pushed, &after), dot(&before, &pulled)];
         assert!((one - other).abs() < 1e-12 * one, "{one} {other}");
     }
 
     /// Bit for bit what the sums over all cells are, however near the walls are.
     #[test]
     fn cells_far_from_walls_are_summed_as_all_others() {
-        let before: Vec<f64> = (0..20).map(|k| f64::from(k * k % 7) / 3.0).collect();
-        for by in [-9.0, -3.0, -0.4, 0.0, 0.1, 0.2, 1.0, 3.7, 7.0] {
-            for std in [0.0, 0.1, 0.3, 0.9, 900.0] {
-                let kernel = kernel(by, std);
-                let (mut pushed, mut pulled) = (vec![0.0; 20], vec![0.0; 20]);
-                for from in 0..20 {
-                    for (to, mass) in kernel.from(from) {
-                        pushed[to] += before[from] * mass;
-                        pulled[from] += mass * before[to];
+        for cells in [1, 2, 3, 20] {
+            let corridor = Corridor { cells, ..CORRIDOR };
+            let before: Vec<f64> = (0..cells).map(|k| f64::from(k * k % 7 + 1) / 3.0).collect();
+            for by in [-9.0, -3.0, -0.4, 0.0, 0.1, 0.2, 1.0, 3.7, 7.0] {
+                for std in [0.0, 0.1, 0.3, 0.9, 900.0] {
+                    let kernel = Kernel::new(&corridor, &Shift { by, std }).unwrap();
+                    let [mut pushed, mut pulled, mut forward, mut backward] = [(); 4].map(|()| vec![0.0; before.len()]);
+                    for from in 0..before.len() {
+                        for (to, mass) in kernel.from(from) {
+                            pushed[to] += before[from] * mass;
+                            pulled[from] += mass * before[to];
+                        }
                     }
+                    kernel.push(&before, &mut forward);
+                    kernel.pull(&before, &mut backward);
+                    assert_eq!((forward, backward), (pushed, pulled), "{cells}: {by} {std}");
                 }
-                assert_eq!((kernel.push(&before), kernel.pull(&before)), (pushed, pulled), "{by} {std}");
             }
         }
     }
