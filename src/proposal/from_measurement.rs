@@ -51,6 +51,15 @@ impl<D: Motion> FromMeasurement<D> {
         let Associated { associations, log_likelihood, informed } = map.correspondence().associate(features, &mut fold);
         Measured { mean: fold.mean, covariance: fold.p, associations, log_evidence: log_likelihood, informed }
     }
+
+    /// A pose drawn from what the measurement says, or where it says nothing, from the motion.
+    pub(super) fn draw(&self, from: &Pose2, control: &D::Control, measured: &Measured, stream: &mut Stream) -> Pose2 {
+        if measured.informed {
+            sample_semidefinite(&measured.mean, &measured.covariance, stream)
+        } else {
+            self.motion.drive(control).sample(from, stream)
+        }
+    }
 }
 
 impl Measured {
@@ -108,12 +117,8 @@ impl<Z: LandmarkSensor, S: Store, D: Motion> Proposal<Landmarks<Z, S>> for FromM
     ) -> Proposed<Vec<Association>> {
         let from = &particle.world_from_robot;
         let measured = self.fold(&particle.map, from, control, features);
-        let (world_from_robot, trace) = if measured.informed {
-            let pose = sample_semidefinite(&measured.mean, &measured.covariance, stream);
-            (pose, measured.trace())
-        } else {
-            (self.motion.drive(control).sample(from, stream), ProposalTrace::Motion)
-        };
+        let world_from_robot = self.draw(from, control, &measured, stream);
+        let trace = if measured.informed { measured.trace() } else { ProposalTrace::Motion };
         Proposed { world_from_robot, association: measured.associations, log_increment: measured.log_evidence, trace }
     }
 

@@ -1,13 +1,16 @@
 //! What a pose costs that was not drawn.
 
-use super::{FromMeasurement, FromMotion, Proposal, ProposalTrace, Proposed};
+use super::{FromMeasurement, FromMotion, Measured, Proposal, ProposalTrace, Proposed};
+use crate::execute::Executor;
 use crate::geometry::{Gaussian3, Pose2};
-use crate::map::ConditionalMap;
-use crate::map::landmarks::{Landmarks, Store};
+use crate::map::landmarks::{Association, Landmarks, Store};
+use crate::map::{ConditionalMap, Observed};
 use crate::matching::Likelihood;
 use crate::motion::GaussianMotion;
 use crate::particle::Particle;
-use crate::sensor::LandmarkSensor;
+use crate::random::Stream;
+use crate::sensor::{Feature, LandmarkSensor};
+use core::borrow::Borrow;
 
 /// A proposal whose three densities are known at any pose, so that a path can be weighed that others have drawn: what a
 /// [`Smoother`](crate::smoothing::Smoother) needs.
@@ -27,6 +30,48 @@ pub trait Retrace<M: ConditionalMap>: Proposal<M> {
         observation: &M::Observation,
         to: &Pose2,
     ) -> Proposed<M::Association>;
+
+    /// A draw of [`Proposal::propose`], which pays for the very pose: [`Self::retrace`] of it.
+    fn draw_and_retrace(
+        &self,
+        particle: &Particle<M>,
+        control: &Self::Control,
+        observation: &M::Observation,
+        stream: &mut Stream,
+    ) -> Proposed<M::Association> {
+        let pose = self.propose(particle, control, observation, stream).world_from_robot;
+        self.retrace(particle, control, observation, &pose)
+    }
+
+    /// ln p(z | x, m) of each observation in its turn from its pose \[nats\], by each map, which takes in all that were before.
+    fn log_likelihoods_along(
+        &self,
+        maps: &[&M],
+        path: &[Pose2],
+        observations: &[Observed<M>],
+        executor: &Executor,
+    ) -> Vec<Vec<f64>> {
+        one_by_one(self, maps, path, observations, executor)
+    }
+}
+
+/// What [`Retrace::log_likelihoods_along`] is, map by map.
+fn one_by_one<M: ConditionalMap, P: Retrace<M> + ?Sized>(
+    proposal: &P,
+    maps: &[&M],
+    path: &[Pose2],
+    observations: &[Observed<M>],
+    executor: &Executor,
+) -> Vec<Vec<f64>> {
+    let mut maps: Vec<M> = maps.iter().map(|map| (*map).clone()).collect();
+    executor.map(&mut maps, |_, map| {
+        let say = |(pose, observation): (&Pose2, &Observed<M>)| {
+            let (log_likelihood, association) = proposal.log_likelihood(map, pose, observation.borrow());
+            map.assimilate(pose, observation.borrow(), &association);
+            log_likelihood
+        };
+        path.iter().zip(observations).map(say).collect()
+    })
 }
 
 impl<M: ConditionalMap, D: GaussianMotion, L: Likelihood<M>> Retrace<M> for FromMotion<D, L> {
@@ -48,6 +93,17 @@ impl<M: ConditionalMap, D: GaussianMotion, L: Likelihood<M>> Retrace<M> for From
     ) -> Proposed<M::Association> {
         let (log_increment, association) = self.likelihood.log_likelihood(&particle.map, to, observation);
         Proposed { world_from_robot: *to, association, log_increment, trace: ProposalTrace::Motion }
+    }
+
+    /// What is proposed pays for its pose already.
+    fn draw_and_retrace(
+        &self,
+        particle: &Particle<M>,
+        control: &D::Control,
+        observation: &M::Observation,
+        stream: &mut Stream,
+    ) -> Proposed<M::Association> {
+        self.propose(particle, control, observation, stream)
     }
 }
 
@@ -73,9 +129,46 @@ impl<Z: LandmarkSensor, S: Store, D: GaussianMotion> Retrace<Landmarks<Z, S>> fo
         features: &<Landmarks<Z, S> as ConditionalMap>::Observation,
         to: &Pose2,
     ) -> Proposed<<Landmarks<Z, S> as ConditionalMap>::Association> {
+        let measured = self.fold(&particle.map, &particle.world_from_robot, control, features);
+        self.paid(particle, control, features, to, &measured)
+    }
+
+    fn draw_and_retrace(
+        &self,
+        particle: &Particle<Landmarks<Z, S>>,
+        control: &D::Control,
+        features: &<Landmarks<Z, S> as ConditionalMap>::Observation,
+        stream: &mut Stream,
+    ) -> Proposed<<Landmarks<Z, S> as ConditionalMap>::Association> {
+        let measured = self.fold(&particle.map, &particle.world_from_robot, control, features);
+        let to = self.draw(&particle.world_from_robot, control, &measured, stream);
+        self.paid(particle, control, features, &to, &measured)
+    }
+
+    fn log_likelihoods_along(
+        &self,
+        maps: &[&Landmarks<Z, S>],
+        path: &[Pose2],
+        observations: &[Observed<Landmarks<Z, S>>],
+        executor: &Executor,
+    ) -> Vec<Vec<f64>> {
+        Landmarks::log_likelihoods_along(maps, path, observations, executor)
+            .unwrap_or_else(|| one_by_one(self, maps, path, observations, executor))
+    }
+}
+
+impl<D: GaussianMotion> FromMeasurement<D> {
+    /// [`Retrace::retrace`], where what the measurement says is known.
+    fn paid<Z: LandmarkSensor, S: Store>(
+        &self,
+        particle: &Particle<Landmarks<Z, S>>,
+        control: &D::Control,
+        features: &[Feature],
+        to: &Pose2,
+        measured: &Measured,
+    ) -> Proposed<Vec<Association>> {
         let from = &particle.world_from_robot;
         let (log_likelihood, association) = self.log_likelihood(&particle.map, to, features);
-        let measured = self.fold(&particle.map, from, control, features);
         let (paid, trace) = if measured.informed {
             let q = Gaussian3::new(measured.mean, measured.covariance);
             let paid = match q {

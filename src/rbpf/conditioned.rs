@@ -16,12 +16,11 @@ impl<M: ConditionalMap, P: Retrace<M>> Rbpf<M, P> {
     ) -> Report<M::Association> {
         let last = self.particles().len() - 1;
         let report = self.weigh_by(observation, |proposal, slot, particle, stream| {
-            let pose = if slot == last {
-                *given
+            if slot == last {
+                proposal.retrace(particle, control, observation, given)
             } else {
-                proposal.propose(particle, control, observation, stream).world_from_robot
-            };
-            proposal.retrace(particle, control, observation, &pose)
+                proposal.draw_and_retrace(particle, control, observation, stream)
+            }
         });
         Report { refused_control: !self.proposal.can_drive(control), ..report }
     }

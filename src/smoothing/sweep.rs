@@ -9,7 +9,7 @@ use crate::proposal::Retrace;
 use crate::random::{Purpose, Stream};
 use crate::rbpf::Rbpf;
 use crate::resampling::{ResamplePolicy, Scheme};
-use core::borrow::Borrow;
+use core::borrow::Borrow as _;
 use rand::Rng as _;
 
 /// A path that a sweep has drawn.
@@ -115,17 +115,15 @@ impl<M: ConditionalMap, P: Retrace<M> + Clone> Smoother<M, P> {
         }
         let (proposal, control) = (&self.proposal, &self.controls[t]);
         let (path, observations) = (&sweep.path[t + 1..], &self.observations[t..t + reach]);
-        let mut particles = sweep.filter.particles().to_vec();
+        let particles = sweep.filter.particles();
+        let maps: Vec<&M> = particles.iter().map(|particle| &particle.map).collect();
+        let said = proposal.log_likelihoods_along(&maps, path, observations, &self.settings.executor);
+        let join = |(particle, said): (&Particle<M>, &Vec<f64>)| {
+            let log_motion = proposal.log_motion(&particle.world_from_robot, control, &path[0]);
+            said.iter().fold(log_motion, |sum, log_likelihood| sum + log_likelihood)
+        };
+        let log_joins: Vec<f64> = particles.iter().zip(&said).map(join).collect();
         sweep.updates += (particles.len() * reach) as u64;
-        let log_joins = self.settings.executor.map(&mut particles, |_, Particle { world_from_robot, map, .. }| {
-            let log_motion = proposal.log_motion(world_from_robot, control, &path[0]);
-            path.iter().zip(observations).fold(log_motion, |sum, (pose, observation)| {
-                let observation = observation.borrow();
-                let (log_likelihood, association) = proposal.log_likelihood(map, pose, observation);
-                map.assimilate(pose, observation, &association);
-                sum + log_likelihood
-            })
-        });
         let (weights, log_sum) = sweep.filter.weights().reweighted(&log_joins);
         let mut stream = Stream::at(sweep.seed, Purpose::SMOOTHING, t as u32, 0);
         log_sum.is_finite().then(|| Scheme::Multinomial.ancestors(&weights, 1, &mut stream)[0])

@@ -147,9 +147,7 @@ impl Correspondence {
             log_likelihood: 0.0,
             informed: false,
         };
-        let is_possible = |feature: &Feature| has_possible_signature(feature) && belief.can_measure(&feature.z);
-        let possible = (0..features.len()).filter(|k| is_possible(&features[*k])).collect();
-        let order = sorted(possible, |a, b| canonical(&features[*a], &features[*b]));
+        let order = in_order(features, |z| belief.can_measure(z));
         match self {
             Self::Known => associated.by_signature(features, &order, belief),
             Self::Unknown(gate) => associated.by_likelihood(gate, features, order, belief),
@@ -169,6 +167,28 @@ fn canonical(a: &Feature, b: &Feature) -> Ordering {
     by_z.then(a.signature.cmp(&b.signature))
 }
 
+/// Sightings that are possible at all, in an order that does not depend on how they are listed.
+fn in_order(features: &[Feature], can_measure: impl Fn(&Vector2<f64>) -> bool) -> Vec<usize> {
+    let is_possible = |feature: &Feature| has_possible_signature(feature) && can_measure(&feature.z);
+    let possible = (0..features.len()).filter(|k| is_possible(&features[*k])).collect();
+    sorted(possible, |a, b| canonical(&features[*a], &features[*b]))
+}
+
+/// The sightings that say of which landmark they are, the first of each, and that landmark.
+fn by_name(features: &[Feature], order: &[usize]) -> Vec<(usize, u32)> {
+    let mut named: Vec<(usize, u32)> = Vec::with_capacity(order.len());
+    for &k in order {
+        let index = features[k].signature.filter(|index| named.iter().all(|(_, taken)| taken != index));
+        named.extend(index.map(|index| (k, index)));
+    }
+    named
+}
+
+/// With [`Correspondence::Known`], the sightings that a map takes in, in their order, and of which landmark each is.
+pub(super) fn known(features: &[Feature], sensor: &impl LandmarkSensor) -> Vec<(usize, u32)> {
+    by_name(features, &in_order(features, |z| sensor.can_measure(z)))
+}
+
 impl Associated {
     /// The new landmarks by index, each with the number of its feature.
     pub fn founded(&self) -> BTreeMap<u32, usize> {
@@ -184,10 +204,7 @@ impl Associated {
 
     /// Each feature by its signature; the second of one signature is ignored.
     fn by_signature(&mut self, features: &[Feature], order: &[usize], belief: &mut dyn Belief) {
-        let mut taken = Vec::with_capacity(order.len());
-        for &k in order {
-            let Some(index) = features[k].signature.filter(|index| !taken.contains(index)) else { continue };
-            taken.push(index);
+        for (k, index) in by_name(features, order) {
             match belief.innovation(&features[k], index, None) {
                 Some(innovation) if innovation.is_regular() => {
                     self.accept(k, index, innovation.log_likelihood());

@@ -113,15 +113,21 @@ impl Landmark {
     /// stay positive whatever K is. Where S has no inverse nothing is learnt.
     pub fn update<Z: LandmarkSensor>(&mut self, sensor: &Z, world_from_robot: &Pose2, z: &Vector2<f64>) {
         let innovation = self.innovation(sensor, world_from_robot, z);
+        self.take_in(sensor, &innovation);
+    }
+
+    /// [`Self::update`] by an innovation that is there already. Returns whether it was regular.
+    pub(super) fn take_in<Z: LandmarkSensor>(&mut self, sensor: &Z, innovation: &Innovation) -> bool {
         if !innovation.is_regular() {
-            return;
+            return false;
         }
-        let gain = self.gain(&innovation);
+        let gain = self.gain(innovation);
         let keep = Matrix2::identity() - gain * innovation.prediction.h_m;
         self.mean += gain * innovation.residual;
         self.covariance =
             symmetric(keep * self.covariance * keep.transpose() + gain * sensor.noise() * gain.transpose());
         self.existence_count = self.existence_count.saturating_add(1);
+        true
     }
 
     /// Δᵀ (Σ_a + Σ_b)⁻¹ Δ with Δ = μ_a − μ_b: how far apart two landmarks are in deviations, squared. Without a number (0/0) where

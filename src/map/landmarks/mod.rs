@@ -5,6 +5,7 @@
 //!
 //! References: Montemerlo, Thrun, Koller, Wegbreit, *FastSLAM* (AAAI 2002; IJCAI 2003); PR tables 13.1 to 13.3.
 
+mod ahead;
 mod assignment;
 mod association;
 mod landmark;

@@ -5,8 +5,9 @@ fn log(seed: u64) -> Log {
 }
 
 fn ended(log: &Log, guess: &Guess) -> (End, Iterate) {
-    let last = climb(log, guess.first_map().unwrap(), ITERATIONS).unwrap().pop().unwrap();
-    (end(log, last.clone()).unwrap(), last)
+    let first = guess.first_map().unwrap();
+    let last = climb(log, first.clone(), ITERATIONS).unwrap().pop().unwrap();
+    (end(log, first).unwrap(), last)
 }
 
 /// What the figure shows as it opens, and its chip.
