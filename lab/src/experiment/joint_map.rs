@@ -23,6 +23,7 @@ use fastslam::random::{Purpose, Stream};
 use fastslam::resampling::Scheme;
 use fastslam::sensor::{Feature, LandmarkSensor, RangeBearing};
 use fastslam::weights::Weights;
+use std::sync::Arc;
 
 /// How many landmarks there are: as many as the chapter's opening counts.
 pub const MOST: u32 = 24;
@@ -184,7 +185,7 @@ fn rotation(angle: f64) -> Matrix2<f64> {
 /// side by side.
 const BLOCK: u32 = 1000;
 
-/// A block on its way along the log.
+/// What the particles of a block have drawn, as far as they are along the log. It does not depend on how well the sensor measures.
 ///
 /// Where nobody resamples each particle is by itself, and each landmark is seen once: of a particle there is its pose, and for a moment the
 /// one landmark that it looks at. Draws, predictions and weights are those of the filters
@@ -194,23 +195,26 @@ const BLOCK: u32 = 1000;
 struct Block {
     seed: u64,
     world_from_robot: Vec<Pose2>,
-    seen: u32,
+    /// Where each particle of the sampled map has the first landmark \[m\].
+    first: Vec<Vector2<f64>>,
+    /// Landmark by landmark, how each particle's drawn one is off what is seen (range \[m\], bearing \[rad\]).
+    residuals: Vec<Vec<Vector2<f64>>>,
 }
 
 impl Block {
     fn new(setup: &JointMapSetup, repeat: u32, block: u32) -> Self {
         let seed = setup.seed + (u64::from(repeat) << 32) + (u64::from(block) << 40);
         let count = (setup.particles - block * BLOCK).min(BLOCK) as usize;
-        Self { seed, world_from_robot: vec![Pose2::default(); count], seen: 0 }
+        Self { seed, world_from_robot: vec![Pose2::default(); count], first: Vec::new(), residuals: Vec::new() }
     }
 
-    /// The next landmark, for both filters.
-    fn advance(&mut self, log: &Log, found: &mut [Weighed; 2]) {
-        let (seen, motion) = (self.seen as usize, log.setup.motion());
-        let look = Look::new(log, seen);
-        let mut increments = [(); 2].map(|()| Vec::with_capacity(self.world_from_robot.len()));
+    /// Draws the next landmark for each particle, and before the first of them, its pose.
+    fn draw(&mut self, log: &Log, look: &Look) {
+        let seen = self.residuals.len();
+        let motion = log.setup.motion();
+        let mut residuals = Vec::with_capacity(self.world_from_robot.len());
         for (slot, pose) in (0..).zip(&mut self.world_from_robot) {
-            let mut stream = Stream::at(self.seed, Purpose::PROPOSAL, self.seen + 1, slot);
+            let mut stream = Stream::at(self.seed, Purpose::PROPOSAL, seen as u32 + 1, slot);
             if seen == 0 {
                 *pose = motion.sample(pose, &DRIVE, &mut stream);
             } else {
@@ -218,17 +222,24 @@ impl Block {
                 stream.noise([0.0; 3]);
             }
             let point = look.draw(&mut stream);
-            increments[SAMPLED].push(look.weigh_point(pose, &point));
-            increments[COMPUTED].push(look.weigh(pose));
+            residuals.push(look.residual(pose, &point));
             if seen == 0 {
-                found[SAMPLED].first.push(point);
-                found[COMPUTED].first.push(look.seen_from(pose));
+                self.first.push(point);
             }
         }
-        for (found, increments) in found.iter_mut().zip(&increments) {
-            found.weigh(seen, increments);
+        self.residuals.push(residuals);
+    }
+
+    /// Weighs what was drawn, for both filters.
+    fn weigh(&self, look: &Look, seen: usize, found: &mut [Weighed; 2]) {
+        let sampled: Vec<f64> = self.residuals[seen].iter().map(|residual| look.weigh_point(residual)).collect();
+        let computed: Vec<f64> = self.world_from_robot.iter().map(|pose| look.weigh(pose)).collect();
+        found[SAMPLED].weigh(seen, &sampled);
+        found[COMPUTED].weigh(seen, &computed);
+        if seen == 0 {
+            found[SAMPLED].first.extend(&self.first);
+            found[COMPUTED].first.extend(self.world_from_robot.iter().map(|pose| look.seen_from(pose)));
         }
-        self.seen += 1;
     }
 }
 
@@ -259,9 +270,13 @@ impl Look {
         self.factor.draw(&self.known.mean, stream)
     }
 
+    /// How what is seen differs from what a point leads one to expect.
+    fn residual(&self, pose: &Pose2, point: &Vector2<f64>) -> Vector2<f64> {
+        self.sensor.residual(&self.z, &self.sensor.predict(pose, point).z)
+    }
+
     /// ln p(z | x, m) of a point \[nats\].
-    fn weigh_point(&self, pose: &Pose2, point: &Vector2<f64>) -> f64 {
-        let residual = self.sensor.residual(&self.z, &self.sensor.predict(pose, point).z);
+    fn weigh_point(&self, residual: &Vector2<f64>) -> f64 {
         -0.5 * (residual.dot(&(self.inverse * residual)) + self.log_determinant) - self.log_turn
     }
 
@@ -317,11 +332,14 @@ pub struct JointMap {
     setup: JointMapSetup,
     log: Log,
     repeats: Vec<Repeat>,
-    /// Of the repeat under way: blocks that are finished, the one that is not, and what came of them.
+    /// Of the repeat under way: blocks that are finished, the one that is not, how many landmarks that has seen, and what came of them.
     finished: u32,
-    block: Block,
+    block: Arc<Block>,
+    seen: u32,
     weighed: [Weighed; 2],
     populations: Repeat,
+    /// All blocks so far, where they are kept for another sensor.
+    drawn: Option<Vec<Arc<Block>>>,
 }
 
 impl JointMap {
@@ -332,9 +350,39 @@ impl JointMap {
     pub fn new(setup: &JointMapSetup) -> Result<Self, SettingError> {
         setup.validate()?;
         let log = Log::new(setup);
-        let block = Block::new(setup, 0, 0);
+        let block = Block::new(setup, 0, 0).into();
+        let (setup, repeats, drawn) = (setup.clone(), Vec::new(), None);
         let (weighed, populations) = Default::default();
-        Ok(Self { setup: setup.clone(), log, repeats: Vec::new(), finished: 0, block, weighed, populations })
+        Ok(Self { setup, log, repeats, finished: 0, block, seen: 0, weighed, populations, drawn })
+    }
+
+    /// With other settings. Where only the sensor is another, all that was drawn stays as it is, and is kept for the next one.
+    ///
+    /// # Errors
+    /// Where a setting is out of its range.
+    pub fn asked(&self, setup: &JointMapSetup) -> Result<Self, SettingError> {
+        let mut asked = Self::new(setup)?;
+        if self.draws_for(setup) && setup.particles * setup.repeats() <= TOGETHER {
+            asked.drawn = Some(self.drawn.clone().unwrap_or_default());
+            asked.block = asked.block_of(0, 0);
+        }
+        Ok(asked)
+    }
+
+    /// Whether another setup draws the same.
+    pub fn draws_for(&self, setup: &JointMapSetup) -> bool {
+        self.setup == JointMapSetup { sensor_scale: self.setup.sensor_scale, ..setup.clone() }
+    }
+
+    /// Keeps what came out, and no draws.
+    pub fn forget_draws(&mut self) {
+        self.drawn = None;
+    }
+
+    /// A block as it was drawn before, or before it is drawn.
+    fn block_of(&self, repeat: u32, block: u32) -> Arc<Block> {
+        let known = self.drawn.as_ref().and_then(|drawn| drawn.get((repeat * self.blocks() + block) as usize));
+        known.cloned().unwrap_or_else(|| Block::new(&self.setup, repeat, block).into())
     }
 
     /// What was set.
@@ -359,7 +407,7 @@ impl JointMap {
     /// Calls of [`Self::advance`] that are still to be made.
     pub fn pending(&self) -> u32 {
         let each = (self.blocks() + 1) * MOST;
-        let done = self.finished * MOST + self.block.seen + self.populations[SAMPLED].len() as u32;
+        let done = self.finished * MOST + self.seen + self.populations[SAMPLED].len() as u32;
         (self.setup.repeats() - self.repeats.len() as u32) * each - if self.is_done() { 0 } else { done }
     }
 
@@ -378,11 +426,18 @@ impl JointMap {
             return Ok(());
         }
         if self.finished < self.blocks() {
-            self.block.advance(&self.log, &mut self.weighed);
-            if self.block.seen == MOST {
-                self.finished += 1;
+            let (look, seen) = (Look::new(&self.log, self.seen as usize), self.seen as usize);
+            if seen == self.block.residuals.len() {
+                Arc::make_mut(&mut self.block).draw(&self.log, &look);
+            }
+            self.block.weigh(&look, seen, &mut self.weighed);
+            self.seen += 1;
+            if self.seen == MOST {
+                (self.seen, self.finished) = (0, self.finished + 1);
                 let next = if self.finished < self.blocks() { (repeat, self.finished) } else { (repeat + 1, 0) };
-                self.block = Block::new(&self.setup, next.0, next.1);
+                let next = self.block_of(next.0, next.1);
+                let block = core::mem::replace(&mut self.block, next);
+                self.remember(block, repeat);
             }
             return Ok(());
         }
@@ -396,6 +451,14 @@ impl JointMap {
             (self.finished, self.weighed) = Default::default();
         }
         Ok(())
+    }
+
+    /// Keeps a block of a repeat that is whole, if it is to be kept and is not yet.
+    fn remember(&mut self, block: Arc<Block>, repeat: u32) {
+        let number = (repeat * self.blocks() + self.finished - 1) as usize;
+        if let Some(drawn) = self.drawn.as_mut().filter(|drawn| drawn.len() == number) {
+            drawn.push(block);
+        }
     }
 
     /// All work that is left.

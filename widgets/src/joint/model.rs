@@ -83,6 +83,7 @@ impl JointModel {
 
     /// Shows another run.
     fn show(&mut self, run: JointMap) {
+        self.shown.forget_draws();
         self.kept.show(&mut self.shown, run, |before| !before.repeats().is_empty());
     }
 
@@ -189,11 +190,12 @@ impl Declared for JointModel {
     fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
         let asked = self.next.as_ref().unwrap_or(&self.shown).setup();
         if recipe.setup != *asked {
-            self.next = None;
+            let before = self.next.take();
             if let Some(kept) = self.kept.take(|run| *run.setup() == recipe.setup) {
                 self.show(kept);
             } else if recipe.setup != *self.shown.setup() {
-                self.next = Some(begin(&recipe.setup));
+                let nearest = before.as_ref().filter(|next| next.draws_for(&recipe.setup)).unwrap_or(&self.shown);
+                self.next = Some(nearest.asked(&recipe.setup)?);
             }
         }
         self.recipe = recipe;

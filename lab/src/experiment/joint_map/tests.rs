@@ -126,7 +126,11 @@ fn particle_by_particle_comes_out_what_the_filters_come_to() {
         let mut block = Block::new(&setup, 3, 0);
         let expected = by_the_filters(&setup, &log, block.seed);
         let mut weighed = <[Weighed; 2]>::default();
-        (0..MOST).for_each(|_| block.advance(&log, &mut weighed));
+        for seen in 0..MOST as usize {
+            let look = Look::new(&log, seen);
+            block.draw(&log, &look);
+            block.weigh(&look, seen, &mut weighed);
+        }
         for (found, (increments, first)) in weighed.iter().zip(&expected) {
             let mut log_weights = vec![0.0; 40];
             for (found, increments) in found.log_weights.iter().zip(increments) {
@@ -136,6 +140,35 @@ fn particle_by_particle_comes_out_what_the_filters_come_to() {
             assert_eq!(&found.first, first, "{setup:?}");
         }
     }
+}
+
+/// Also where the drag goes on before what was asked is there, and to a sensor that was there before.
+#[test]
+fn draws_that_are_kept_for_another_sensor_are_those_it_would_draw() {
+    let of = |sensor_scale| JointMapSetup { particles: 1500, sensor_scale, ..JointMapSetup::default() };
+    let mut run = finished(&of(1.0));
+    for (sensor_scale, slices) in [(1.1, 170), (1.2, 700), (1.3, u32::MAX), (1.1, u32::MAX)] {
+        run = run.asked(&of(sensor_scale)).unwrap();
+        let before = run.drawn.as_ref().unwrap().len();
+        (0..slices.min(run.pending())).for_each(|_| run.advance().unwrap());
+        let begun = JointMap::new(&of(sensor_scale)).unwrap();
+        let drawn = run.drawn.as_ref().unwrap();
+        assert!(drawn.len() >= before && drawn.iter().all(|block| block.residuals.len() == MOST as usize));
+        if run.is_done() {
+            assert_eq!(drawn.len(), 2 * run.repeats().len());
+            assert_eq!(run.repeats(), finished(&of(sensor_scale)).repeats());
+        } else {
+            assert!(run.pending() < begun.pending());
+        }
+    }
+    assert_eq!(run.drawn.as_ref().map(|drawn| drawn.iter().all(|block| Arc::strong_count(block) == 1)), Some(true));
+    let other = JointMapSetup { seed: 2, ..of(1.1) };
+    assert!(run.asked(&other).unwrap().drawn.is_none(), "nothing of it can be used");
+    let many = |sensor_scale| JointMapSetup { particles: 20_000, ..of(sensor_scale) };
+    let kept = JointMap::new(&many(1.0)).and_then(|run| run.asked(&many(1.1))).unwrap().drawn;
+    assert!(kept.is_none(), "more than there is room for");
+    run.forget_draws();
+    assert_eq!(run.repeats().len(), 40);
 }
 
 /// What a caption claims of the state that the figure opens in.
