@@ -204,7 +204,7 @@ impl Kernel {
         let end = first + self.masses.len() as i64 - 1;
         let sum = |from: i64, until: i64| -> f64 { self.masses[from as usize..until as usize].iter().sum() };
         // Where there is one cell alone, it is at the near wall.
-        let near = (first <= 0).then(|| (0, sum(0, if last == 0 { end } else { end.min(0) } - first + 1)));
+        let near = (first <= 0 || last == 0).then(|| (0, sum(0, if last == 0 { end } else { end.min(0) } - first + 1)));
         let far = (end >= last && last > 0).then(|| (last as usize, sum((last - first).max(0), end - first + 1)));
         let from = first.clamp(1, last.max(1));
         let between = from as usize..(end + 1).clamp(from, last.max(from)) as usize;
