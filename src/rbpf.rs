@@ -133,6 +133,8 @@ pub struct Rbpf<M, P> {
     log_selected: f64,
     /// The product of all that a path has paid, in full and as if no step had resampled: copies keep the weight of their original.
     path_weights: Weights,
+    /// Of which slot each particle is a copy to the bit, where the population was copied and nothing has happened to it since; else empty.
+    copied: Vec<u32>,
 }
 
 impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
@@ -161,42 +163,67 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
 
     /// The first half of a step: every particle draws its new pose, pays for it, and maps what it sees from there.
     pub fn weigh(&mut self, control: &P::Control, observation: &M::Observation) -> Report<M::Association> {
-        let report = self.weigh_by(observation, |proposal, _, particle, stream| {
-            proposal.propose(particle, control, observation, stream)
-        });
+        let report = self.weigh_by(
+            observation,
+            |proposal, _, particle, stream| proposal.propose(particle, control, observation, stream),
+            |proposal, _, particle, streams| proposal.propose_copies(particle, control, observation, streams),
+        );
         Report { refused_control: !self.proposal.can_drive(control), ..report }
     }
 
-    /// The same, where the new pose of a slot comes from this function.
+    /// The same, where the new pose of a slot comes from the one of these functions, and those of the copies of one particle, from this slot
+    /// on, from the other.
     fn weigh_by(
         &mut self,
         observation: &M::Observation,
         propose: impl Fn(&P, usize, &Particle<M>, &mut Stream) -> Proposed<M::Association> + Sync + Send,
+        copies: impl Fn(&P, usize, &Particle<M>, &mut [Stream]) -> Vec<Proposed<M::Association>> + Sync + Send,
     ) -> Report<M::Association> {
         (self.step, self.resamplings) = (self.step + 1, 0);
         let ignored = self.particles[0].map.ignored(observation);
-        let proposed = self.propose_and_map(observation, propose);
+        let proposed = self.propose_and_map(observation, propose, copies);
         self.extend_paths();
         let log_increments: Vec<f64> = proposed.iter().map(|p| p.log_increment).collect();
         let log_evidence = self.reweigh(&log_increments);
         Report { ignored, ..self.report(proposed, log_increments, log_evidence) }
     }
 
-    /// Draws a pose for each particle, and maps what is seen from it: each slot by itself, so that it does not matter who computes
-    /// which.
+    /// Draws a pose for each particle, and maps what is seen from it: each slot by itself, or with those beside it that are copies of one, so
+    /// that it does not matter who computes which.
     fn propose_and_map(
         &mut self,
         observation: &M::Observation,
         propose: impl Fn(&P, usize, &Particle<M>, &mut Stream) -> Proposed<M::Association> + Sync + Send,
+        copies: impl Fn(&P, usize, &Particle<M>, &mut [Stream]) -> Vec<Proposed<M::Association>> + Sync + Send,
     ) -> Vec<Proposed<M::Association>> {
         let (proposal, seed, step) = (&self.proposal, self.seed, self.step);
-        self.executor.map(&mut self.particles, |slot, particle| {
-            let mut stream = Stream::at(seed, Purpose::PROPOSAL, step, slot as u32);
-            let proposed = propose(proposal, slot, particle, &mut stream);
+        let stream = |slot: usize| Stream::at(seed, Purpose::PROPOSAL, step, slot as u32);
+        let move_to = |particle: &mut Particle<M>, proposed: &Proposed<M::Association>| {
             particle.world_from_robot = proposed.world_from_robot;
             particle.map.assimilate(&proposed.world_from_robot, observation, &proposed.association);
+        };
+        let copied = core::mem::take(&mut self.copied);
+        if copied.is_empty() {
+            return self.executor.map(&mut self.particles, |slot, particle| {
+                let proposed = propose(proposal, slot, particle, &mut stream(slot));
+                move_to(particle, &proposed);
+                proposed
+            });
+        }
+        let (mut alike, mut rest) = (Vec::new(), &mut self.particles[..]);
+        for slots in copied.chunk_by(|a, b| a == b) {
+            let first = copied.len() - rest.len();
+            let (particles, others) = rest.split_at_mut(slots.len());
+            alike.push((first, particles));
+            rest = others;
+        }
+        let proposed = self.executor.map(&mut alike, |_, (first, particles)| {
+            let mut streams: Vec<Stream> = (0..particles.len()).map(|k| stream(*first + k)).collect();
+            let proposed = copies(proposal, *first, &particles[0], &mut streams);
+            particles.iter_mut().zip(&proposed).for_each(|(particle, proposed)| move_to(particle, proposed));
             proposed
-        })
+        });
+        proposed.into_iter().flatten().collect()
     }
 
     /// Appends the new poses to the paths.
@@ -271,6 +298,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         self.particles = ancestors.iter().map(|slot| self.particles[*slot as usize].clone()).collect();
         self.weights = Weights::uniform(ancestors.len());
         self.path_weights = self.path_weights.copied(ancestors);
+        self.copied = ancestors.to_vec();
     }
 
     /// Puts what is made of a particle in its place, slot by slot, and returns what else was found. Weights stay as they are: that is exact where the
@@ -279,6 +307,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         &mut self,
         revise: impl Fn(usize, &Particle<M>) -> (Option<Particle<M>>, R) + Sync + Send,
     ) -> Vec<R> {
+        self.copied = Vec::new();
         self.executor.map(&mut self.particles, |slot, particle| {
             let (revised, found) = revise(slot, particle);
             if let Some(revised) = revised {

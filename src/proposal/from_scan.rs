@@ -101,22 +101,37 @@ where
         observation: &M::Observation,
         stream: &mut Stream,
     ) -> Proposed<()> {
-        let from = &particle.world_from_robot;
+        let copies = self.propose_copies(particle, control, observation, core::slice::from_mut(stream));
+        copies.into_iter().next().expect("a draw for each stream")
+    }
+
+    fn propose_copies(
+        &self,
+        particle: &Particle<M>,
+        control: &D::Control,
+        observation: &M::Observation,
+        streams: &mut [Stream],
+    ) -> Vec<Proposed<()>> {
+        let (from, map) = (&particle.world_from_robot, &particle.map);
         let drive = self.motion.drive(control);
         let prior = drive.gaussian(from, self.settings.motion_floor);
-        let hills = prior.as_ref().map_or_else(Vec::new, |prior| self.find(prior, &particle.map, observation).hills);
-        let (world_from_robot, trace) = match choose(&hills, stream) {
-            Some((top, fit)) => draw(top, fit, stream),
-            None => (drive.sample(from, stream), ProposalTrace::Motion),
+        let hills = prior.as_ref().map_or_else(Vec::new, |prior| self.find(prior, map, observation).hills);
+        let trusted = prior.as_ref().filter(|_| !hills.is_empty());
+        // What all of them pay, whichever pose they draw.
+        let common = trusted.and_then(|prior| self.weigh(map, prior, &hills, observation));
+        let draw = |stream: &mut Stream| {
+            let (world_from_robot, trace) = match choose(&hills, stream) {
+                Some((top, fit)) => draw(top, fit, stream),
+                None => (drive.sample(from, stream), ProposalTrace::Motion),
+            };
+            let log_weight = common.unwrap_or_else(|| match trusted {
+                Some(_) => self.score.log_old(map, &world_from_robot, observation),
+                None => self.settings.weight.of_motion(&self.score, map, &world_from_robot, observation),
+            });
+            let log_increment = self.share(control) * log_weight;
+            Proposed { world_from_robot, association: (), log_increment, trace }
         };
-        let log_weight = match &prior {
-            Some(prior) if !hills.is_empty() => {
-                self.weigh(&particle.map, prior, &hills, &world_from_robot, observation)
-            }
-            _ => self.settings.weight.of_motion(&self.score, &particle.map, &world_from_robot, observation),
-        };
-        let log_increment = self.share(control) * log_weight;
-        Proposed { world_from_robot, association: (), log_increment, trace }
+        streams.iter_mut().map(draw).collect()
     }
 
     fn can_drive(&self, control: &D::Control) -> bool {
@@ -208,27 +223,26 @@ impl<D: Motion, L, S: Search> FromScan<D, L, S> {
         Fit::around(&top.pose, &self.settings.limits, |pose| target.log_value(pose))
     }
 
-    /// What the observation says of the path \[nats\], where poses are drawn from these hills.
+    /// What the observation says of the path \[nats\], where poses are drawn from these hills; `None` where it depends on the pose that is drawn.
     fn weigh<M: ConditionalMap<Association = ()>>(
         &self,
         map: &M,
         prior: &Gaussian3,
         hills: &[(ScoredPose, Fit)],
-        drawn: &Pose2,
         observation: &M::Observation,
-    ) -> f64
+    ) -> Option<f64>
     where
         L: Score<M>,
     {
         let integrals: Vec<f64> = hills.iter().map(|(_, fit)| fit.log_integral).collect();
         match self.settings.weight {
-            IncrementalWeight::Marginal => ops::log_sum_exp(&integrals),
+            IncrementalWeight::Marginal => Some(ops::log_sum_exp(&integrals)),
             IncrementalWeight::NewGroundFree => {
                 let log_old = self.score.near_old(map, prior.mean(), observation);
                 let inverse = |(_, fit): &(_, Fit)| log_mean_inverse(&fit.gaussian, prior, &log_old);
-                -log_mixture(&hills.iter().map(inverse).collect::<Vec<_>>(), &integrals)
+                Some(-log_mixture(&hills.iter().map(inverse).collect::<Vec<_>>(), &integrals))
             }
-            IncrementalWeight::OldMapAtDraw => self.score.log_old(map, drawn, observation),
+            IncrementalWeight::OldMapAtDraw => None,
         }
     }
 

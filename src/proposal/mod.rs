@@ -51,6 +51,18 @@ pub trait Proposal<M: ConditionalMap>: Sync {
         stream: &mut Stream,
     ) -> Proposed<M::Association>;
 
+    /// A draw for each of some particles that are copies of this one, from its own stream: what [`Self::propose`] gives for each of them. What
+    /// does not depend on the draw need be found out only once. As given here it is found out for each.
+    fn propose_copies(
+        &self,
+        particle: &Particle<M>,
+        control: &Self::Control,
+        observation: &M::Observation,
+        streams: &mut [Stream],
+    ) -> Vec<Proposed<M::Association>> {
+        streams.iter_mut().map(|stream| self.propose(particle, control, observation, stream)).collect()
+    }
+
     /// Whether a control can be driven: [`Motion::can_drive`](crate::motion::Motion::can_drive) of the proposal's motion. A step with one
     /// that cannot is taken for standing still. As given here every control can.
     fn can_drive(&self, control: &Self::Control) -> bool {
@@ -120,6 +132,19 @@ impl<M: ConditionalMap, P: Proposal<M>, Q: Proposal<M, Control = P::Control>> Pr
         match self {
             Self::Left(proposal) => proposal.propose(particle, control, observation, stream),
             Self::Right(proposal) => proposal.propose(particle, control, observation, stream),
+        }
+    }
+
+    fn propose_copies(
+        &self,
+        particle: &Particle<M>,
+        control: &P::Control,
+        observation: &M::Observation,
+        streams: &mut [Stream],
+    ) -> Vec<Proposed<M::Association>> {
+        match self {
+            Self::Left(proposal) => proposal.propose_copies(particle, control, observation, streams),
+            Self::Right(proposal) => proposal.propose_copies(particle, control, observation, streams),
         }
     }
 

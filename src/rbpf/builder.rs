@@ -141,6 +141,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Builder<M, P> {
         proposal.validate()?;
         policy.validate()?;
         start.validate()?;
+        let copied = if matches!(start, Start::Pose(_)) { vec![0; count] } else { Vec::new() };
         Ok(Rbpf {
             proposal,
             policy,
@@ -154,6 +155,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Builder<M, P> {
             weights: Weights::uniform(count),
             log_selected: 0.0,
             path_weights: Weights::uniform(count),
+            copied,
         })
     }
 }

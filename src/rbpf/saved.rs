@@ -139,6 +139,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
             weights,
             log_selected,
             path_weights,
+            copied: Vec::new(),
         })
     }
 }

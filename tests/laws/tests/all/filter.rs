@@ -1,5 +1,6 @@
 //! Laws of the filter itself, whatever it maps.
 
+use fastslam::execute::Executor;
 use fastslam::geometry::Pose2;
 use fastslam::map::ConditionalMap;
 use fastslam::nalgebra::Matrix3;
@@ -197,6 +198,55 @@ fn particles_that_are_infinitely_likely_take_all_the_weight() {
         let expected = if *sure { before / shared } else { 0.0 };
         // Of numbers below 1: some of the last bits.
         assert!((after - expected).abs() < 1e-14, "{after} for {expected}");
+    }
+}
+
+/// Draws for itself how many it is asked for at once, and a number from its own stream.
+struct AtOnce;
+
+impl Proposal<Nothing> for AtOnce {
+    type Control = ();
+
+    fn propose(&self, particle: &Particle<Nothing>, control: &(), seen: &(), stream: &mut Stream) -> Proposed<()> {
+        self.propose_copies(particle, control, seen, core::slice::from_mut(stream)).remove(0)
+    }
+
+    fn propose_copies(&self, _: &Particle<Nothing>, (): &(), (): &(), streams: &mut [Stream]) -> Vec<Proposed<()>> {
+        let count = streams.len() as f64;
+        let draw = |stream: &mut Stream| Proposed {
+            world_from_robot: Pose2::new(count, stream.normal(), 0.0),
+            association: (),
+            log_increment: stream.normal(),
+            trace: ProposalTrace::Motion,
+        };
+        streams.iter_mut().map(draw).collect()
+    }
+}
+
+/// At the start all particles are one, and after a resampling those are that were copied from one slot, in the next step and no longer; each
+/// draws from the stream of its own slot, whoever computes.
+#[test]
+fn what_copies_of_a_particle_are_to_do_is_found_out_for_all_of_them_at_once() {
+    let policies = [ResamplePolicy::Always, ResamplePolicy::Never, ResamplePolicy::EssBelow(0.6)];
+    for (policy, scheme) in
+        policies.into_iter().flat_map(|policy| [Scheme::Systematic, Scheme::Residual].map(|scheme| (policy, scheme)))
+    {
+        let filter = || Rbpf::builder(Nothing, AtOnce).particles(COUNT).seed(5).policy(policy).scheme(scheme);
+        let mut filters = [Executor::Serial, Executor::default()].map(|by| filter().executor(by).build().unwrap());
+        let mut alike = vec![COUNT; COUNT];
+        for step in 1..=30 {
+            let [report, other] = filters.each_mut().map(|filter| filter.step(&(), &()));
+            assert_eq!(report.log_increments, other.log_increments);
+            for (slot, (path, count)) in report.paths.iter().zip(&alike).enumerate() {
+                let own = Stream::at(5, Purpose::PROPOSAL, step, slot as u32).normal();
+                assert_eq!([path.pose().x, path.pose().y], [*count as f64, own], "step {step}, slot {slot}");
+            }
+            alike = vec![1; COUNT];
+            if let Some(ancestors) = &report.ancestors {
+                let copies = |slot: &u32| ancestors.iter().filter(|other| *other == slot).count();
+                alike = ancestors.iter().map(copies).collect();
+            }
+        }
     }
 }
 

@@ -308,6 +308,30 @@ fn hills_are_drawn_by_their_integrals() {
     assert!((found - 0.75).abs() < 4.0 * error, "{found}");
 }
 
+/// To the bit, whatever is paid, of one hill and of several, and where no match is trusted.
+#[test]
+fn copies_of_a_particle_are_proposed_what_each_would_be_by_itself() {
+    let covariance = Matrix3::from_diagonal(&Vector3::new(0.09, 0.09, 0.01));
+    let control = Displacement { mean: Pose2::default(), covariance };
+    let particle = Particle::start(Pose2::default(), TWO_PLACES);
+    let streams = || (0..6).map(|slot| Stream::at(12, Purpose::TRIAL, 0, slot));
+    for weight in [IncrementalWeight::Marginal, IncrementalWeight::NewGroundFree, IncrementalWeight::OldMapAtDraw] {
+        for (hills, minimum_improvement) in [(1, 0.5), (3, 0.5), (1, 1e3)] {
+            let settings = FromScanSettings { hills, weight, minimum_improvement, ..of_logs() };
+            let proposal = FromScan { motion: Displaced, score: TWO_PLACES, settings };
+            let together = proposal.propose_copies(&particle, &control, &(), &mut streams().collect::<Vec<_>>());
+            let alone = streams().map(|mut stream| proposal.propose(&particle, &control, &(), &mut stream));
+            assert_eq!(together, alone.collect::<Vec<_>>(), "{weight:?}, {hills}");
+            assert!(together[1..].iter().all(|proposed| proposed.world_from_robot != together[0].world_from_robot));
+            let matched = |proposed: &Proposed<()>| matches!(proposed.trace, ProposalTrace::Matched { .. });
+            assert_eq!(
+                together.iter().filter(|proposed| matched(proposed)).count(),
+                if minimum_improvement < 1.0 { 6 } else { 0 }
+            );
+        }
+    }
+}
+
 /// Where a scan of a known map has its hill N(x; here, Σ), up to a constant factor: all of the map is old.
 const HERE: Pose2 = Pose2 { x: 0.2, y: -0.1, theta: 0.05 };
 
