@@ -263,11 +263,18 @@ impl Run {
 pub struct Policies {
     setup: PoliciesSetup,
     world: World,
+    /// Any of them before the first step.
+    start: Run,
     never: Run,
     always: Run,
     /// `None` until it resamples for the first time: up to there it is the one that never does, and is computed once.
     selective: Option<Run>,
     reports: [PolicyReport; 3],
+    /// That of step 0.
+    first: PolicyReport,
+    /// Of the next step, those that are there, and where the selective filter is to go on from if it has to go its own way.
+    next: Vec<PolicyReport>,
+    before: Option<Run>,
 }
 
 impl Policies {
@@ -304,8 +311,8 @@ impl Policies {
                 (World::Wings(Arc::clone(&log)), Run::Wings(Box::new(LandmarkRun::new(&of, &tuning, log)?)))
             }
         };
-        let always = never.clone().with_policy(setup.policies()[ALWAYS]);
-        let start = PolicyReport {
+        let (start, always) = (never.clone(), never.clone().with_policy(setup.policies()[ALWAYS]));
+        let first = PolicyReport {
             step: 0,
             log_evidence: 0.0,
             ess: particles as f64,
@@ -318,36 +325,86 @@ impl Policies {
             right: None,
             associations: None,
         };
-        let reports = [start.clone(), start.clone(), start];
-        Ok(Self { setup: setup.clone(), world, never, always, selective: None, reports })
+        let reports = [(); 3].map(|()| first.clone());
+        let (selective, next, before) = (None, Vec::new(), None);
+        Ok(Self { setup: setup.clone(), world, start, never, always, selective, reports, first, next, before })
+    }
+
+    /// Another threshold on the same log: the selective filter begins anew, and goes on until it has come as far as the two that know of no
+    /// threshold, which stay where they are. Until then [`Self::reports`], and all that is asked of a policy, are of two steps, and [`Self::advance`] is
+    /// a step of the selective filter alone. `None` where another setup differs in more than that, or one filter is ahead of another.
+    ///
+    /// # Errors
+    /// Where the threshold is out of its range.
+    pub fn asked(&self, setup: &PoliciesSetup) -> Result<Option<Self>, SettingError> {
+        setup.validate()?;
+        if *setup != (PoliciesSetup { threshold: setup.threshold, ..self.setup.clone() }) || !self.next.is_empty() {
+            return Ok(None);
+        }
+        let mut asked = Self { setup: setup.clone(), before: None, ..self.clone() };
+        asked.selective = Some(self.start.clone().with_policy(setup.policies()[SELECTIVE]));
+        asked.reports[SELECTIVE] = self.first.clone();
+        Ok(Some(asked))
+    }
+
+    /// Whether the selective filter is behind the others.
+    pub fn catches_up(&self) -> bool {
+        self.reports[SELECTIVE].step < self.reports[NEVER].step
     }
 
     /// The same, computed by another executor: the results are the same.
     pub fn with_executor(self, executor: Executor) -> Self {
         let by = |run: Run| run.with_executor(executor.clone());
-        Self { never: by(self.never), always: by(self.always), selective: self.selective.map(by), ..self }
+        let [selective, before] = [self.selective, self.before].map(|run| run.map(by));
+        let [start, never, always] = [self.start, self.never, self.always].map(by);
+        Self { start, never, always, selective, before, ..self }
     }
 
     /// One step of all three; `None` after the last.
     pub fn step(&mut self) -> Option<&[PolicyReport; 3]> {
-        // What the selective filter would go on from, if it has to go its own way.
-        let before = self.selective.is_none().then(|| self.never.clone());
-        let stepped = self.never.step()?;
-        self.reports[NEVER] = self.judge(NEVER, stepped);
-        let stepped = self.always.step()?;
-        self.reports[ALWAYS] = self.judge(ALWAYS, stepped);
-        let selective = self.setup.policies()[SELECTIVE];
-        if selective.should_resample(self.reports[NEVER].ess, self.setup.particles) {
-            self.selective = self.selective.take().or_else(|| before.map(|run| run.with_policy(selective)));
+        while !self.advance()? {}
+        Some(&self.reports)
+    }
+
+    /// A third of a step: that of one filter, which a page need not hold up for the others. Whether it was the last of the three, whose reports
+    /// are there from then on; `None` after the last step.
+    pub fn advance(&mut self) -> Option<bool> {
+        if self.catches_up() {
+            let stepped = self.selective.as_mut()?.step()?;
+            self.reports[SELECTIVE] = self.judge(SELECTIVE, stepped);
+            return Some(true);
         }
-        self.reports[SELECTIVE] = match &mut self.selective {
-            None => self.reports[NEVER].clone(),
-            Some(run) => {
-                let stepped = run.step()?;
-                self.judge(SELECTIVE, stepped)
+        let report = match self.next.len() {
+            NEVER => {
+                self.before = self.selective.is_none().then(|| self.never.clone());
+                let stepped = self.never.step()?;
+                self.judge(NEVER, stepped)
+            }
+            ALWAYS => {
+                let stepped = self.always.step()?;
+                self.judge(ALWAYS, stepped)
+            }
+            _ => {
+                let (before, selective) = (self.before.take(), self.setup.policies()[SELECTIVE]);
+                if selective.should_resample(self.next[NEVER].ess, self.setup.particles) {
+                    self.selective = self.selective.take().or_else(|| before.map(|run| run.with_policy(selective)));
+                }
+                match &mut self.selective {
+                    None => self.next[NEVER].clone(),
+                    Some(run) => {
+                        let stepped = run.step()?;
+                        self.judge(SELECTIVE, stepped)
+                    }
+                }
             }
         };
-        Some(&self.reports)
+        self.next.push(report);
+        let Ok(reports) = <[PolicyReport; 3]>::try_from(core::mem::take(&mut self.next)).map_err(|few| self.next = few)
+        else {
+            return Some(false);
+        };
+        self.reports = reports;
+        Some(true)
     }
 
     /// The filter of a policy.
@@ -396,9 +453,9 @@ impl Policies {
         &self.reports
     }
 
-    /// The newest step.
+    /// The newest step that all three have made.
     pub fn step_number(&self) -> u32 {
-        self.reports[0].step
+        self.reports[SELECTIVE].step
     }
 
     /// The last step.

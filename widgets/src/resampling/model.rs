@@ -10,8 +10,10 @@ use crate::names;
 use crate::prediction::{Outcome, State, off_by};
 use crate::told::{WEIGHED_ANEW, ess_text, pose_text, refused};
 use crate::words::resampling;
+use core::mem::replace;
 use fastslam::geometry::Pose2;
 use fastslam_lab::experiment::policies::{POLICIES, Policies, PoliciesSetup, PolicyCourse, PolicyReport};
+use std::sync::Arc;
 
 /// Figure w17.2.
 pub struct ResamplingModel {
@@ -21,10 +23,15 @@ pub struct ResamplingModel {
     /// Of every step simulated so far, from 0 on, one for each policy: any of them can be shown, and whoever died out since,
     /// whom the filters forget.
     moments: Vec<[Moment; 3]>,
-    kept: Kept<(Policies, Vec<[Moment; 3]>)>,
+    /// The same of the run before, while the selective filter catches up with the others, which know of no threshold and stand.
+    known: Arc<Vec<[Moment; 3]>>,
+    kept: Kept<Begun>,
     /// Of the run that is pinned: N_eff, ancestors at the start \[shares of its particles\] and errors of the best \[m\] of each policy in turn.
     pinned: Curves,
 }
+
+/// A run, its moments, and what is known of it.
+type Begun = (Policies, Vec<[Moment; 3]>, Arc<Vec<[Moment; 3]>>);
 
 /// One filter at one step.
 #[derive(Clone, PartialEq, Debug)]
@@ -43,14 +50,18 @@ impl Default for ResamplingModel {
     fn default() -> Self {
         let recipe = Recipe::default();
         let run = Policies::new(&recipe.setup()).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
-        let moments = vec![moments(&run, None)];
-        Self { recipe, run, moments, kept: Kept::default(), pinned: Curves::new() }
+        let moments = vec![moments(&run, None, None)];
+        let (known, kept) = Default::default();
+        Self { recipe, run, moments, known, kept, pinned: Curves::new() }
     }
 }
 
-/// The newest step of all three.
-fn moments(run: &Policies, before: Option<&[Moment; 3]>) -> [Moment; 3] {
+/// The newest step of all three: of those that stand, as it is known.
+fn moments(run: &Policies, before: Option<&[Moment; 3]>, known: Option<&[Moment; 3]>) -> [Moment; 3] {
     [0, 1, 2].map(|policy| {
+        if let Some(known) = known.filter(|_| policy < SELECTIVE) {
+            return known[policy].clone();
+        }
         let report = run.reports()[policy].clone();
         let resampled = before.map_or(0, |b| b[policy].resampled) + u32::from(report.resampled());
         Moment { report, poses: run.poses(policy), best: run.best(policy), resampled }
@@ -65,6 +76,17 @@ impl Moment {
 }
 
 impl ResamplingModel {
+    /// A run of another setup, its first moment, and what is known of it already.
+    fn begun(&self, setup: &PoliciesSetup) -> Result<Begun, FigureError> {
+        let (run, known) = match self.run.asked(setup).map_err(refused)? {
+            Some(run) if self.run.catches_up() => (run, self.known.clone()),
+            Some(run) => (run, self.moments.clone().into()),
+            None => (Policies::new(setup).map_err(refused)?, Arc::default()),
+        };
+        let first = vec![moments(&run, None, known.first())];
+        Ok((run, first, known))
+    }
+
     /// The setup of the filters.
     pub fn setup(&self) -> &PoliciesSetup {
         self.run.setup()
@@ -234,15 +256,12 @@ impl Declared for ResamplingModel {
         let setup = recipe.setup();
         if setup != *self.setup() {
             let finished = self.pending() == 0 && self.run.step_number() > 0;
-            let (run, moments) = match self.kept.take(|(run, _)| *run.setup() == setup) {
+            let (run, moments, known) = match self.kept.take(|(run, ..)| *run.setup() == setup) {
                 Some(kept) => kept,
-                None => {
-                    let run = Policies::new(&setup).map_err(refused)?;
-                    let moments = vec![moments(&run, None)];
-                    (run, moments)
-                }
+                None => self.begun(&setup)?,
             };
-            let before = (core::mem::replace(&mut self.run, run), core::mem::replace(&mut self.moments, moments));
+            let before =
+                (replace(&mut self.run, run), replace(&mut self.moments, moments), replace(&mut self.known, known));
             if finished {
                 self.kept.put(before);
             }
@@ -281,9 +300,12 @@ impl Model for ResamplingModel {
     }
 
     fn work(&mut self) {
-        if self.pending() > 0 && self.run.step().is_some() {
-            let newest = moments(&self.run, self.moments.last());
-            self.moments.push(newest);
+        if self.pending() > 0 && self.run.advance() == Some(true) {
+            let known = self.known.get(self.moments.len());
+            self.moments.push(moments(&self.run, self.moments.last(), known));
+            if !self.run.catches_up() {
+                self.known = Arc::default();
+            }
         }
     }
 
@@ -439,5 +461,36 @@ mod tests {
         let told = model.describe();
         assert!(told.contains("resamples selectively no particle explains what is seen"), "{told}");
         assert!(!told.contains("never resamples"), "{told}");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Parameters as _;
+
+    fn with(threshold: &str) -> impl Fn(&mut ResamplingModel) {
+        move |model| assert_eq!(model.configure(&[("threshold".into(), threshold.into())]), [])
+    }
+
+    /// Whatever was shown before, and how far it had come: also back at a threshold that is kept, and beyond the step at which it was left.
+    #[test]
+    fn a_threshold_that_is_dragged_shows_what_it_would_by_itself() {
+        let mut dragged = ResamplingModel::default();
+        dragged.seek(30);
+        dragged.finish();
+        for (threshold, slices, step) in
+            [("0.8", 7, 30), ("0.3", 200, 30), ("0.8", 12, 40), ("0.3", 200, 45), ("0.9", 400, 45)]
+        {
+            with(threshold)(&mut dragged);
+            dragged.seek(step);
+            (0..slices).for_each(|_| dragged.work());
+            let mut alone = ResamplingModel::default();
+            with(threshold)(&mut alone);
+            alone.seek(dragged.run.step_number());
+            alone.finish();
+            assert!(dragged.moments == alone.moments, "{threshold} up to step {}", dragged.step());
+        }
+        assert_eq!(dragged.pending(), 0);
     }
 }

@@ -18,6 +18,55 @@ fn the_three_differ_in_nothing_until_one_resamples() {
     }
 }
 
+/// Also where the drag goes on before the selective filter has caught up, and where all go on beyond that.
+#[test]
+fn another_threshold_is_a_run_of_the_selective_filter_alone() {
+    for course in [PolicyCourse::Lap, PolicyCourse::Wings] {
+        let of = |threshold| PoliciesSetup { threshold, ..PoliciesSetup::of(course) };
+        let every_step = |threshold| {
+            let mut run = Policies::new(&of(threshold)).unwrap();
+            core::iter::from_fn(move || run.step().cloned()).collect::<Vec<_>>()
+        };
+        let mut run = Policies::new(&of(0.5)).unwrap();
+        (0..20).for_each(|_| drop(run.step()));
+        for (threshold, far) in [(0.7, 12), (0.0, 20), (1.0, 20), (0.6, 30)] {
+            run = run.asked(&of(threshold)).unwrap().unwrap();
+            assert_eq!((run.step_number(), run.catches_up()), (0, true));
+            for (step, expected) in every_step(threshold).iter().enumerate().take(far) {
+                let alone = run.catches_up();
+                assert_eq!(alone, step < 20);
+                if alone {
+                    assert_eq!(run.advance(), Some(true));
+                    assert_eq!(run.reports()[SELECTIVE], expected[SELECTIVE], "{threshold}, {step}");
+                } else {
+                    assert_eq!(run.step(), Some(expected), "{threshold}, {step}");
+                }
+            }
+        }
+        assert!(run.asked(&PoliciesSetup { seed: 4, ..of(0.6) }).unwrap().is_none(), "another log");
+        run.advance();
+        assert!(run.asked(&of(0.5)).unwrap().is_none(), "in the middle of a step");
+        assert_eq!(run.asked(&of(2.0)).unwrap_err().field(), "threshold");
+    }
+}
+
+/// What a page is held up by is one filter's step; until all three have made it, what there is to see is of the step before.
+#[test]
+fn a_step_is_made_filter_by_filter_and_shown_when_all_have_made_it() {
+    for course in [PolicyCourse::Lap, PolicyCourse::Wings] {
+        let [mut whole, mut parts] = [(); 2].map(|()| Policies::new(&PoliciesSetup::of(course)).unwrap());
+        while let Some(reports) = whole.step() {
+            let before = parts.reports().clone();
+            assert_eq!([parts.advance(), parts.advance()], [Some(false); 2]);
+            assert_eq!((parts.reports(), parts.step_number()), (&before, reports[0].step - 1));
+            parts = parts.clone(); // also from there on
+            assert_eq!(parts.advance(), Some(true));
+            assert_eq!(parts.reports(), reports);
+        }
+        assert_eq!((parts.advance(), parts.reports()), (None, whole.reports()));
+    }
+}
+
 #[test]
 fn a_clone_goes_its_own_way_to_the_same_end() {
     let mut policies = Policies::new(&PoliciesSetup::of(PolicyCourse::Wings)).unwrap();
