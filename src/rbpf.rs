@@ -133,7 +133,7 @@ pub struct Rbpf<M, P> {
     log_selected: f64,
     /// The product of all that a path has paid, in full and as if no step had resampled: copies keep the weight of their original.
     path_weights: Weights,
-    /// Of which slot each particle is a copy to the bit, where the population was copied and nothing has happened to it since; else empty.
+    /// Slot that each particle was copied from, while the copies are still equal to the bit; empty otherwise.
     copied: Vec<u32>,
 }
 
@@ -171,8 +171,7 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         Report { refused_control: !self.proposal.can_drive(control), ..report }
     }
 
-    /// The same, where the new pose of a slot comes from the one of these functions, and those of the copies of one particle, from this slot
-    /// on, from the other.
+    /// [`Self::weigh`] with other draws: `propose` for the particle of a slot, and `copies` for equal particles in the slots from a first one on.
     fn weigh_by(
         &mut self,
         observation: &M::Observation,
@@ -188,8 +187,8 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         Report { ignored, ..self.report(proposed, log_increments, log_evidence) }
     }
 
-    /// Draws a pose for each particle, and maps what is seen from it: each slot by itself, or with those beside it that are copies of one, so
-    /// that it does not matter who computes which.
+    /// Draws a pose for each particle, and updates its map from there. A slot depends on no other, except that neighbouring copies of one
+    /// particle are proposed together, so that it does not matter who computes which.
     fn propose_and_map(
         &mut self,
         observation: &M::Observation,

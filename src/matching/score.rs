@@ -134,7 +134,7 @@ impl ScanModel {
     ) -> impl Iterator<Item = impl Iterator<Item = f64>> {
         let (sin, cos) = ops::sin_cos(world_from_robot.theta);
         let (origin, ahead, left) = ([world_from_robot.x, world_from_robot.y], [cos, sin], [-sin, cos]);
-        // Not zeros: to fill with those is a call of the engine on WebAssembly.
+        // Not zeros: in WebAssembly they are a `memory.fill`, a call of the engine.
         let mut ends = [origin; BLOCK];
         scan.hits.chunks(BLOCK).map(move |beams| {
             for ([x, y], end) in beams.iter().zip(&mut ends) {

@@ -52,7 +52,7 @@ impl<D: Motion> FromMeasurement<D> {
         Measured { mean: fold.mean, covariance: fold.p, associations, log_evidence: log_likelihood, informed }
     }
 
-    /// A pose drawn from what the measurement says, or where it says nothing, from the motion.
+    /// A pose drawn from the Gaussian of the proposal, or if no landmark was matched, from the motion.
     pub(super) fn draw(&self, from: &Pose2, control: &D::Control, measured: &Measured, stream: &mut Stream) -> Pose2 {
         if measured.informed {
             sample_semidefinite(&measured.mean, &measured.covariance, stream)

@@ -117,7 +117,7 @@ where
         let prior = drive.gaussian(from, self.settings.motion_floor);
         let hills = prior.as_ref().map_or_else(Vec::new, |prior| self.find(prior, map, observation).hills);
         let trusted = prior.as_ref().filter(|_| !hills.is_empty());
-        // What all of them pay, whichever pose they draw.
+        // The incremental weight, where it does not depend on the draw.
         let common = trusted.and_then(|prior| self.weigh(map, prior, &hills, observation));
         let draw = |stream: &mut Stream| {
             let (world_from_robot, trace) = match choose(&hills, stream) {

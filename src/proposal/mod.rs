@@ -51,8 +51,8 @@ pub trait Proposal<M: ConditionalMap>: Sync {
         stream: &mut Stream,
     ) -> Proposed<M::Association>;
 
-    /// A draw for each of some particles that are copies of this one, from its own stream: what [`Self::propose`] gives for each of them. What
-    /// does not depend on the draw need be found out only once. As given here it is found out for each.
+    /// One draw for each of several copies of this particle, from the stream of each: equal to [`Self::propose`] for each stream, but what does not
+    /// depend on the draw can be computed once for all of them. The default implementation computes it for each.
     fn propose_copies(
         &self,
         particle: &Particle<M>,

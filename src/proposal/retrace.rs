@@ -31,7 +31,7 @@ pub trait Retrace<M: ConditionalMap>: Proposal<M> {
         to: &Pose2,
     ) -> Proposed<M::Association>;
 
-    /// A draw of [`Proposal::propose`], which pays for the very pose: [`Self::retrace`] of it.
+    /// A pose drawn as by [`Proposal::propose`], with the incremental weight of [`Self::retrace`] at that pose.
     fn draw_and_retrace(
         &self,
         particle: &Particle<M>,
@@ -43,7 +43,7 @@ pub trait Retrace<M: ConditionalMap>: Proposal<M> {
         self.retrace(particle, control, observation, &pose)
     }
 
-    /// ln p(z | x, m) of each observation in its turn from its pose \[nats\], by each map, which takes in all that were before.
+    /// ln p(z_t | x_t, m) \[nats\] of each observation from its pose, for each map, which is updated with every observation before the next.
     fn log_likelihoods_along(
         &self,
         maps: &[&M],
@@ -55,7 +55,7 @@ pub trait Retrace<M: ConditionalMap>: Proposal<M> {
     }
 }
 
-/// What [`Retrace::log_likelihoods_along`] is, map by map.
+/// [`Retrace::log_likelihoods_along`] without anything shared between maps.
 fn one_by_one<M: ConditionalMap, P: Retrace<M> + ?Sized>(
     proposal: &P,
     maps: &[&M],
@@ -95,7 +95,7 @@ impl<M: ConditionalMap, D: GaussianMotion, L: Likelihood<M>> Retrace<M> for From
         Proposed { world_from_robot: *to, association, log_increment, trace: ProposalTrace::Motion }
     }
 
-    /// What is proposed pays for its pose already.
+    /// The incremental weight of a proposal from the motion is that of its pose already.
     fn draw_and_retrace(
         &self,
         particle: &Particle<M>,
@@ -158,7 +158,7 @@ impl<Z: LandmarkSensor, S: Store, D: GaussianMotion> Retrace<Landmarks<Z, S>> fo
 }
 
 impl<D: GaussianMotion> FromMeasurement<D> {
-    /// [`Retrace::retrace`], where what the measurement says is known.
+    /// [`Retrace::retrace`], with the Gaussian of the proposal.
     fn paid<Z: LandmarkSensor, S: Store>(
         &self,
         particle: &Particle<Landmarks<Z, S>>,

@@ -112,12 +112,12 @@ const SIDE_BY_SIDE: usize = 4;
 /// A map: how probably the sensor says *door*, for each cell, between 0 and 1.
 pub type DoorMap = Vec<f64>;
 
-/// Columns of a pass one behind the other, each divided by its sum.
+/// Columns of a pass in one array, each divided by its sum.
 #[derive(Clone, PartialEq, Debug)]
 struct Columns {
     cells: usize,
     values: Vec<f64>,
-    /// What each was divided by.
+    /// Sum of each column before the division.
     sums: Vec<f64>,
 }
 
@@ -144,7 +144,7 @@ impl Columns {
         Some(self.sums.get(..=index)?.iter().fold(0.0, |log, sum| log + ops::ln(*sum)))
     }
 
-    /// Another column, made of zeros and the one before, if there is one.
+    /// Appends a column of zeros, which `make` fills from the previous column, if there is one.
     fn push(&mut self, make: impl FnOnce(Option<&[f64]>, &mut [f64])) {
         let begin = self.values.len();
         self.values.resize(begin + self.cells, 0.0);
@@ -232,7 +232,7 @@ impl Expectation {
         }
     }
 
-    /// Both passes again, with what the M step makes of the map. `None` where one is not through.
+    /// One iteration: the M step, and both passes with the new map. `None` where a pass is not complete.
     pub fn iterate(&mut self, ride: &Ride) -> Option<()> {
         self.map = self.maximise(ride)?;
         self.forward.clear();

@@ -223,7 +223,7 @@ pub fn climb(log: &Log, first: DoorMap, iterations: u32) -> Result<Vec<Iterate>,
     Ok(iterates)
 }
 
-/// The map of both passes.
+/// The map of these passes with its log-likelihood and log posterior.
 fn iterate(passes: &Expectation) -> Iterate {
     let log_likelihood = passes.log_likelihood().unwrap_or(f64::NAN);
     let log_posterior = log_likelihood + log_prior(passes.map(), CORRIDOR.known);
@@ -289,7 +289,7 @@ impl Others {
     }
 }
 
-/// What a climb of [`ITERATIONS`] from a first map comes to.
+/// Result of [`ITERATIONS`] iterations from a first map.
 fn end(log: &Log, first: DoorMap) -> Result<End, SettingError> {
     let mut passes = Expectation::of(first, &log.ride)?;
     for _ in 0..ITERATIONS {

@@ -181,23 +181,23 @@ fn rotation(angle: f64) -> Matrix2<f64> {
     Matrix2::new(cos, -sin, sin, cos)
 }
 
-/// Particles of a block, the most that a step is computed for in one slice of work. Nobody resamples, so that a population is its blocks,
-/// side by side.
+/// Particles of a block: the most for which a step is computed in one slice of work. Without resampling a population is the union of its
+/// blocks.
 const BLOCK: u32 = 1000;
 
-/// What the particles of a block have drawn, as far as they are along the log. It does not depend on how well the sensor measures.
+/// Samples of the particles of a block, up to some landmark. They do not depend on the noise of the sensor.
 ///
-/// Where nobody resamples each particle is by itself, and each landmark is seen once: of a particle there is its pose, and for a moment the
-/// one landmark that it looks at. Draws, predictions and weights are those of the filters
+/// Without resampling particles are independent, and each landmark is observed once: all that is needed of a particle is its pose, and the one
+/// landmark that it observes. Draws, predictions and weights are those of the two filters
 /// ([`Rbpf`](fastslam::rbpf::Rbpf) with a [`SampledMap`](crate::baseline::sampled_map::SampledMap) and with
-/// [`Landmarks`](fastslam::map::landmarks::Landmarks)), which the tests run beside it, bit for bit.
+/// [`Landmarks`](fastslam::map::landmarks::Landmarks)); a test runs these beside it and compares bit for bit.
 #[derive(Clone, Debug)]
 struct Block {
     seed: u64,
     world_from_robot: Vec<Pose2>,
-    /// Where each particle of the sampled map has the first landmark \[m\].
+    /// First landmark of each particle's sampled map \[m\].
     first: Vec<Vector2<f64>>,
-    /// Landmark by landmark, how each particle's drawn one is off what is seen (range \[m\], bearing \[rad\]).
+    /// Residual of the measurement against each particle's sampled landmark, by landmark (range \[m\], bearing \[rad\]).
     residuals: Vec<Vec<Vector2<f64>>>,
 }
 
@@ -208,7 +208,7 @@ impl Block {
         Self { seed, world_from_robot: vec![Pose2::default(); count], first: Vec::new(), residuals: Vec::new() }
     }
 
-    /// Draws the next landmark for each particle, and before the first of them, its pose.
+    /// Draws the next landmark of each particle, and before the first one, the particle's pose.
     fn draw(&mut self, log: &Log, look: &Look) {
         let seen = self.residuals.len();
         let motion = log.setup.motion();
@@ -218,7 +218,7 @@ impl Block {
             if seen == 0 {
                 *pose = motion.sample(pose, &DRIVE, &mut stream);
             } else {
-                // It stands: the wheels' noise is none, but has its place in the stream.
+                // The robot stands: its odometry has no noise, but takes its numbers from the stream.
                 stream.noise([0.0; 3]);
             }
             let point = look.draw(&mut stream);
@@ -230,7 +230,7 @@ impl Block {
         self.residuals.push(residuals);
     }
 
-    /// Weighs what was drawn, for both filters.
+    /// Weighs the particles of both filters by the measurement of a landmark.
     fn weigh(&self, look: &Look, seen: usize, found: &mut [Weighed; 2]) {
         let sampled: Vec<f64> = self.residuals[seen].iter().map(|residual| look.weigh_point(residual)).collect();
         let computed: Vec<f64> = self.world_from_robot.iter().map(|pose| look.weigh(pose)).collect();
@@ -243,14 +243,14 @@ impl Block {
     }
 }
 
-/// A landmark that is looked at: what all particles have in common.
+/// An observation of one landmark: the part of its weights that all particles have in common.
 struct Look {
     sensor: RangeBearing,
     known: Landmark,
     z: Vector2<f64>,
-    /// L of what is known beforehand, L Lᵀ = Σ.
+    /// L with L Lᵀ = Σ, the prior covariance of the landmark.
     factor: Factor,
-    /// Of a point there is no covariance, and of what is expected of it the sensor's alone, wherever it is.
+    /// Q⁻¹ and ln |Q|: the innovation of a point has the covariance of the sensor.
     inverse: Matrix2<f64>,
     log_determinant: f64,
     log_turn: f64,
@@ -265,12 +265,12 @@ impl Look {
         Self { sensor, known, z, factor, inverse, log_determinant, log_turn: ops::ln(TAU) }
     }
 
-    /// Where a particle of the sampled map has the landmark \[m\].
+    /// A sample of the landmark \[m\].
     fn draw(&self, stream: &mut Stream) -> Vector2<f64> {
         self.factor.draw(&self.known.mean, stream)
     }
 
-    /// How what is seen differs from what a point leads one to expect.
+    /// Residual of the measurement against the prediction for a point.
     fn residual(&self, pose: &Pose2, point: &Vector2<f64>) -> Vector2<f64> {
         self.sensor.residual(&self.z, &self.sensor.predict(pose, point).z)
     }
@@ -286,7 +286,7 @@ impl Look {
         if innovation.is_regular() { innovation.log_likelihood() } else { 0.0 }
     }
 
-    /// Where a particle of the computed map has the landmark then \[m\].
+    /// Mean of the landmark after the update \[m\].
     fn seen_from(&self, pose: &Pose2) -> Vector2<f64> {
         let mut landmark = self.known;
         landmark.update(&self.sensor, pose, &self.z);
@@ -332,13 +332,13 @@ pub struct JointMap {
     setup: JointMapSetup,
     log: Log,
     repeats: Vec<Repeat>,
-    /// Of the repeat under way: blocks that are finished, the one that is not, how many landmarks that has seen, and what came of them.
+    /// Present repeat: number of finished blocks, the block under way, the landmarks that it has observed, and the weights so far.
     finished: u32,
     block: Arc<Block>,
     seen: u32,
     weighed: [Weighed; 2],
     populations: Repeat,
-    /// All blocks so far, where they are kept for another sensor.
+    /// Blocks of all repeats so far, if they are kept for another noise of the sensor.
     drawn: Option<Vec<Arc<Block>>>,
 }
 
@@ -356,7 +356,7 @@ impl JointMap {
         Ok(Self { setup, log, repeats, finished: 0, block, seen: 0, weighed, populations, drawn })
     }
 
-    /// With other settings. Where only the sensor is another, all that was drawn stays as it is, and is kept for the next one.
+    /// A run with other settings. If they differ in the noise of the sensor only, samples are taken over, and kept for the next run.
     ///
     /// # Errors
     /// Where a setting is out of its range.
@@ -369,17 +369,17 @@ impl JointMap {
         Ok(asked)
     }
 
-    /// Whether another setup draws the same.
+    /// Whether a run with these settings draws the same samples.
     pub fn draws_for(&self, setup: &JointMapSetup) -> bool {
         self.setup == JointMapSetup { sensor_scale: self.setup.sensor_scale, ..setup.clone() }
     }
 
-    /// Keeps what came out, and no draws.
+    /// Frees the memory of the samples; results are kept.
     pub fn forget_draws(&mut self) {
         self.drawn = None;
     }
 
-    /// A block as it was drawn before, or before it is drawn.
+    /// A block with its samples if they are kept, or else without any.
     fn block_of(&self, repeat: u32, block: u32) -> Arc<Block> {
         let known = self.drawn.as_ref().and_then(|drawn| drawn.get((repeat * self.blocks() + block) as usize));
         known.cloned().unwrap_or_else(|| Block::new(&self.setup, repeat, block).into())
@@ -453,7 +453,7 @@ impl JointMap {
         Ok(())
     }
 
-    /// Keeps a block of a repeat that is whole, if it is to be kept and is not yet.
+    /// Keeps the samples of a finished block, if that is wanted and they are new.
     fn remember(&mut self, block: Arc<Block>, repeat: u32) {
         let number = (repeat * self.blocks() + self.finished - 1) as usize;
         if let Some(drawn) = self.drawn.as_mut().filter(|drawn| drawn.len() == number) {

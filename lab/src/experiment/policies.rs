@@ -263,16 +263,16 @@ impl Run {
 pub struct Policies {
     setup: PoliciesSetup,
     world: World,
-    /// Any of them before the first step.
+    /// Any of the filters before the first step.
     start: Run,
     never: Run,
     always: Run,
     /// `None` until it resamples for the first time: up to there it is the one that never does, and is computed once.
     selective: Option<Run>,
     reports: [PolicyReport; 3],
-    /// That of step 0.
+    /// Report of step 0.
     first: PolicyReport,
-    /// Of the next step, those that are there, and where the selective filter is to go on from if it has to go its own way.
+    /// Reports of the next step so far, and the state from which the selective filter branches off if it resamples in that step.
     next: Vec<PolicyReport>,
     before: Option<Run>,
 }
@@ -330,9 +330,9 @@ impl Policies {
         Ok(Self { setup: setup.clone(), world, start, never, always, selective, reports, first, next, before })
     }
 
-    /// Another threshold on the same log: the selective filter begins anew, and goes on until it has come as far as the two that know of no
-    /// threshold, which stay where they are. Until then [`Self::reports`], and all that is asked of a policy, are of two steps, and [`Self::advance`] is
-    /// a step of the selective filter alone. `None` where another setup differs in more than that, or one filter is ahead of another.
+    /// A run with another threshold on the same log: only the selective filter starts again, and the two filters without a threshold keep their
+    /// state. Until the selective filter has caught up, [`Self::advance`] is a step of that filter alone, and reports and particles of the other two
+    /// are those of a later step. `None` if the setups differ in more than the threshold, or if a step is half done.
     ///
     /// # Errors
     /// Where the threshold is out of its range.
@@ -366,8 +366,8 @@ impl Policies {
         Some(&self.reports)
     }
 
-    /// A third of a step: that of one filter, which a page need not hold up for the others. Whether it was the last of the three, whose reports
-    /// are there from then on; `None` after the last step.
+    /// A third of a step, so that a page is not blocked by all three: the next filter makes its step. Returns whether it was the last of the three,
+    /// after which [`Self::reports`] are those of the new step; `None` after the last step.
     pub fn advance(&mut self) -> Option<bool> {
         if self.catches_up() {
             let stepped = self.selective.as_mut()?.step()?;

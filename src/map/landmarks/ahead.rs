@@ -1,7 +1,8 @@
-//! What many maps say of all that is to be seen along one path: each landmark by itself, and once for all maps that have it alike.
+//! Log-likelihoods of a sequence of observations along one path, for many maps at once: each landmark is filtered by itself, and once for all
+//! maps in which its Gaussian is the same.
 //!
-//! Given the path, what is seen of one landmark tells nothing of another. So a map's word on a log falls into those on its landmarks, one
-//! after the other; maps that descend from one share most of their landmarks, and one that is not yet seen is new to all of them.
+//! Given the path, landmarks are independent, so that the likelihood of a sequence is a product over landmarks. Particles with a common ancestor
+//! share most of their landmarks, and a landmark that was not observed yet is new to all of them.
 
 use super::{Correspondence, Landmark, Landmarks, Store, association};
 use crate::execute::Executor;
@@ -10,22 +11,23 @@ use crate::sensor::{Feature, LandmarkSensor};
 use core::borrow::Borrow;
 use nalgebra::Vector2;
 
-/// A landmark along the path.
+/// All observations of one landmark along the path.
 struct Track {
     index: u32,
-    /// What is seen of it: by its number among all sightings, from which step, and what.
+    /// Number of the observation among those of all landmarks, its step, and z.
     sightings: Vec<(usize, usize, Vector2<f64>)>,
 }
 
-/// What a landmark that some maps have alike says of its sightings \[nats\]; nothing of those that say nothing of it.
+/// Log-likelihoods of a track \[nats\] for maps that begin with the same Gaussian; `None` where an observation initializes the landmark, or its
+/// innovation is singular.
 struct Followed {
     from: Option<Landmark>,
     said: Vec<Option<f64>>,
 }
 
 impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
-    /// ln p(z | x, m) of each observation in its turn from its pose \[nats\], by each map, which takes in all that were before. `None` where
-    /// correspondence is not known: then each map has its own.
+    /// ln p(z_t | x_t, m) \[nats\] of each observation from its pose, for each map, which is updated with every observation before the next.
+    /// `None` where correspondence is unknown: then each map associates by itself.
     pub(crate) fn log_likelihoods_along(
         maps: &[&Self],
         path: &[Pose2],
@@ -64,7 +66,7 @@ impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
 }
 
 impl Track {
-    /// Follows the landmark of each map, those that are the same to the bit once. Returns which is that of each map, and what they say.
+    /// Filters the track once for each distinct Gaussian among the maps. Returns the index of each map's Gaussian, and the results by index.
     fn follow<Z: LandmarkSensor, S: Store>(
         &self,
         maps: &[&Landmarks<Z, S>],
@@ -97,7 +99,7 @@ impl Track {
     }
 }
 
-/// Whether two are the same to the bit, but for how often they were seen.
+/// Whether mean and covariance of two landmarks are equal to the bit.
 fn same(one: Option<&Landmark>, other: Option<&Landmark>) -> bool {
     let (Some(one), Some(other)) = (one, other) else { return one.is_none() && other.is_none() };
     let numbers = |landmark| {
@@ -126,7 +128,7 @@ mod tests {
         Feature { z: z.into(), signature }
     }
 
-    /// What a map says of a log, observation by observation.
+    /// The same for one map by association and update, step by step.
     fn one_by_one(map: &Map, path: &[Pose2], log: &[Vec<Feature>]) -> Vec<f64> {
         let mut map = map.clone();
         let say = |(pose, features): (&Pose2, &Vec<Feature>)| {
@@ -137,8 +139,8 @@ mod tests {
         path.iter().zip(log).map(say).collect()
     }
 
-    /// To the bit: with maps that share their landmarks, that differ in them, and that lack them; with sightings of one twice, of none by
-    /// name, and of what no sensor sees.
+    /// To the bit: for maps with equal, different and missing landmarks; with a landmark observed twice in a step, without a signature, and with
+    /// measurements that no sensor gives.
     #[test]
     fn many_maps_say_together_what_each_says_by_itself() {
         let mut stream = Stream::at(4, Purpose::TRIAL, 0, 0);
@@ -166,7 +168,7 @@ mod tests {
             assert_eq!(found, &one_by_one(map, &path, &log));
         }
         assert!(found[0] != found[1] && found[0] == found[2] && found[0].iter().all(|said| said.is_finite()));
-        // Who has to find out what is seen looks at all of its map.
+        // Data association needs the whole map.
         let unknown = begun(&log[0], Correspondence::Unknown(Gate::default()));
         assert_eq!(Map::log_likelihoods_along(&[&unknown], &path, &log, &Executor::default()), None);
     }

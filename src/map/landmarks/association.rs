@@ -167,14 +167,14 @@ fn canonical(a: &Feature, b: &Feature) -> Ordering {
     by_z.then(a.signature.cmp(&b.signature))
 }
 
-/// Sightings that are possible at all, in an order that does not depend on how they are listed.
+/// Indices of the possible measurements, in an order that does not depend on how they are listed.
 fn in_order(features: &[Feature], can_measure: impl Fn(&Vector2<f64>) -> bool) -> Vec<usize> {
     let is_possible = |feature: &Feature| has_possible_signature(feature) && can_measure(&feature.z);
     let possible = (0..features.len()).filter(|k| is_possible(&features[*k])).collect();
     sorted(possible, |a, b| canonical(&features[*a], &features[*b]))
 }
 
-/// The sightings that say of which landmark they are, the first of each, and that landmark.
+/// Indices of the measurements with a signature, the first of each signature, and their landmarks.
 fn by_name(features: &[Feature], order: &[usize]) -> Vec<(usize, u32)> {
     let mut named: Vec<(usize, u32)> = Vec::with_capacity(order.len());
     for &k in order {
@@ -184,7 +184,7 @@ fn by_name(features: &[Feature], order: &[usize]) -> Vec<(usize, u32)> {
     named
 }
 
-/// With [`Correspondence::Known`], the sightings that a map takes in, in their order, and of which landmark each is.
+/// Measurements that update a map with [`Correspondence::Known`], in their order: index and landmark of each.
 pub(super) fn known(features: &[Feature], sensor: &impl LandmarkSensor) -> Vec<(usize, u32)> {
     by_name(features, &in_order(features, |z| sensor.can_measure(z)))
 }

@@ -116,7 +116,7 @@ impl Landmark {
         self.take_in(sensor, &innovation);
     }
 
-    /// [`Self::update`] by an innovation that is there already. Returns whether it was regular.
+    /// [`Self::update`] with an innovation that was computed already. Returns whether it is regular.
     pub(super) fn take_in<Z: LandmarkSensor>(&mut self, sensor: &Z, innovation: &Innovation) -> bool {
         if !innovation.is_regular() {
             return false;

@@ -23,14 +23,14 @@ pub struct ResamplingModel {
     /// Of every step simulated so far, from 0 on, one for each policy: any of them can be shown, and whoever died out since,
     /// whom the filters forget.
     moments: Vec<[Moment; 3]>,
-    /// The same of the run before, while the selective filter catches up with the others, which know of no threshold and stand.
+    /// Moments of the previous run, while the selective filter catches up with the two that do not depend on the threshold.
     known: Arc<Vec<[Moment; 3]>>,
     kept: Kept<Begun>,
     /// Of the run that is pinned: N_eff, ancestors at the start \[shares of its particles\] and errors of the best \[m\] of each policy in turn.
     pinned: Curves,
 }
 
-/// A run, its moments, and what is known of it.
+/// A run, its moments, and those known from the previous run.
 type Begun = (Policies, Vec<[Moment; 3]>, Arc<Vec<[Moment; 3]>>);
 
 /// One filter at one step.
@@ -56,7 +56,7 @@ impl Default for ResamplingModel {
     }
 }
 
-/// The newest step of all three: of those that stand, as it is known.
+/// The newest step of all three; of the two filters without a threshold as it is known, if it is.
 fn moments(run: &Policies, before: Option<&[Moment; 3]>, known: Option<&[Moment; 3]>) -> [Moment; 3] {
     [0, 1, 2].map(|policy| {
         if let Some(known) = known.filter(|_| policy < SELECTIVE) {
@@ -76,7 +76,7 @@ impl Moment {
 }
 
 impl ResamplingModel {
-    /// A run of another setup, its first moment, and what is known of it already.
+    /// A run with another setup, its first moment, and the moments that are known already.
     fn begun(&self, setup: &PoliciesSetup) -> Result<Begun, FigureError> {
         let (run, known) = match self.run.asked(setup).map_err(refused)? {
             Some(run) if self.run.catches_up() => (run, self.known.clone()),
@@ -450,6 +450,7 @@ pub const SELECTIVE: usize = 2;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Parameters as _;
 
     #[test]
     fn the_sentence_says_which_filter_does_not_explain_what_is_seen() {
@@ -462,33 +463,27 @@ mod tests {
         assert!(told.contains("resamples selectively no particle explains what is seen"), "{told}");
         assert!(!told.contains("never resamples"), "{told}");
     }
-}
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::model::Parameters as _;
-
-    fn with(threshold: &str) -> impl Fn(&mut ResamplingModel) {
-        move |model| assert_eq!(model.configure(&[("threshold".into(), threshold.into())]), [])
+    fn set(model: &mut ResamplingModel, threshold: &str) {
+        assert_eq!(model.configure(&[("threshold".into(), threshold.into())]), []);
     }
 
-    /// Whatever was shown before, and how far it had come: also back at a threshold that is kept, and beyond the step at which it was left.
+    /// However far the previous run had come: also at a threshold whose run was kept, and at later steps.
     #[test]
-    fn a_threshold_that_is_dragged_shows_what_it_would_by_itself() {
+    fn dragging_the_threshold_shows_what_a_new_figure_shows() {
         let mut dragged = ResamplingModel::default();
         dragged.seek(30);
-        dragged.finish();
+        dragged.settle();
         for (threshold, slices, step) in
             [("0.8", 7, 30), ("0.3", 200, 30), ("0.8", 12, 40), ("0.3", 200, 45), ("0.9", 400, 45)]
         {
-            with(threshold)(&mut dragged);
+            set(&mut dragged, threshold);
             dragged.seek(step);
             (0..slices).for_each(|_| dragged.work());
             let mut alone = ResamplingModel::default();
-            with(threshold)(&mut alone);
+            set(&mut alone, threshold);
             alone.seek(dragged.run.step_number());
-            alone.finish();
+            alone.settle();
             assert!(dragged.moments == alone.moments, "{threshold} up to step {}", dragged.step());
         }
         assert_eq!(dragged.pending(), 0);

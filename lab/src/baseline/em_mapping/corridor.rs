@@ -97,7 +97,7 @@ pub struct Kernel {
     masses: Vec<f64>,
 }
 
-/// Cells that a step leads to, with their probabilities: those at the walls, near and far, and all between.
+/// Cells that a step leads to with their probabilities: the cells at the two walls, and those between.
 struct Fan<'a> {
     walls: [Option<(usize, f64)>; 2],
     between: Range<usize>,
@@ -203,7 +203,7 @@ impl Kernel {
         let first = cell as i64 + self.first;
         let end = first + self.masses.len() as i64 - 1;
         let sum = |from: i64, until: i64| -> f64 { self.masses[from as usize..until as usize].iter().sum() };
-        // Where there is one cell alone, it is at the near wall.
+        // A single cell counts as the near wall.
         let near = (first <= 0 || last == 0).then(|| (0, sum(0, if last == 0 { end } else { end.min(0) } - first + 1)));
         let far = (end >= last && last > 0).then(|| (last as usize, sum((last - first).max(0), end - first + 1)));
         let from = first.clamp(1, last.max(1));

@@ -96,8 +96,7 @@ fn the_mean_weight_of_drawn_maps_is_the_weight_of_the_computed_one() {
     }
 }
 
-/// The filters themselves, of a block of particles that nobody resamples: log weight increments of each step, and where each particle has
-/// the first landmark in the end.
+/// Both filters without resampling: log weight increments of each step, and each particle's first landmark at the end.
 fn by_the_filters(setup: &JointMapSetup, log: &Log, seed: u64) -> [(Vec<Vec<f64>>, Vec<Vector2<f64>>); 2] {
     let (motion, sensor, count) = (setup.motion(), setup.sensor(), setup.particles as usize);
     let map = Landmarks::<_, Blocks>::new(sensor, Correspondence::Known).with(log.known.iter().copied());
@@ -117,9 +116,9 @@ fn by_the_filters(setup: &JointMapSetup, log: &Log, seed: u64) -> [(Vec<Vec<f64>
     [(of_sampled, drawn), (of_computed, kept)]
 }
 
-/// To the bit: with wheels that err, with a path that is known, and with a sensor so sharp or so blunt as there is.
+/// To the bit: with noisy odometry, with a known path, and with the least and the largest noise of the sensor.
 #[test]
-fn particle_by_particle_comes_out_what_the_filters_come_to() {
+fn independent_particles_have_the_weights_of_the_filters() {
     for (odometry_scale, sensor_scale) in [(1.0, 1.0), (0.0, 1.0), (3.0, 0.1), (2.0, 10.0)] {
         let setup = JointMapSetup { particles: 40, sensor_scale, odometry_scale, seed: 6 };
         let log = Log::new(&setup);
@@ -142,9 +141,9 @@ fn particle_by_particle_comes_out_what_the_filters_come_to() {
     }
 }
 
-/// Also where the drag goes on before what was asked is there, and to a sensor that was there before.
+/// Also when a run is interrupted by the next one, and when a noise comes back.
 #[test]
-fn draws_that_are_kept_for_another_sensor_are_those_it_would_draw() {
+fn samples_kept_for_another_noise_of_the_sensor_are_those_of_a_new_run() {
     let of = |sensor_scale| JointMapSetup { particles: 1500, sensor_scale, ..JointMapSetup::default() };
     let mut run = finished(&of(1.0));
     for (sensor_scale, slices) in [(1.1, 170), (1.2, 700), (1.3, u32::MAX), (1.1, u32::MAX)] {

@@ -18,9 +18,9 @@ fn the_three_differ_in_nothing_until_one_resamples() {
     }
 }
 
-/// Also where the drag goes on before the selective filter has caught up, and where all go on beyond that.
+/// Also when the threshold changes again before the selective filter has caught up, and in the steps after that.
 #[test]
-fn another_threshold_is_a_run_of_the_selective_filter_alone() {
+fn another_threshold_runs_the_selective_filter_alone() {
     for course in [PolicyCourse::Lap, PolicyCourse::Wings] {
         let of = |threshold| PoliciesSetup { threshold, ..PoliciesSetup::of(course) };
         let every_step = |threshold| {
@@ -50,9 +50,9 @@ fn another_threshold_is_a_run_of_the_selective_filter_alone() {
     }
 }
 
-/// What a page is held up by is one filter's step; until all three have made it, what there is to see is of the step before.
+/// Until the last filter has made its step, reports are those of the previous one.
 #[test]
-fn a_step_is_made_filter_by_filter_and_shown_when_all_have_made_it() {
+fn a_step_is_made_filter_by_filter() {
     for course in [PolicyCourse::Lap, PolicyCourse::Wings] {
         let [mut whole, mut parts] = [(); 2].map(|()| Policies::new(&PoliciesSetup::of(course)).unwrap());
         while let Some(reports) = whole.step() {

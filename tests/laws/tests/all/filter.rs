@@ -201,7 +201,7 @@ fn particles_that_are_infinitely_likely_take_all_the_weight() {
     }
 }
 
-/// Draws for itself how many it is asked for at once, and a number from its own stream.
+/// Draws poses whose x is the number of copies that were proposed together, and whose y is from the stream.
 struct AtOnce;
 
 impl Proposal<Nothing> for AtOnce {
@@ -223,10 +223,10 @@ impl Proposal<Nothing> for AtOnce {
     }
 }
 
-/// At the start all particles are one, and after a resampling those are that were copied from one slot, in the next step and no longer; each
-/// draws from the stream of its own slot, whoever computes.
+/// All particles are equal at the start, and those copied from one slot in the step after a resampling. Each draws from the stream of its own
+/// slot, with either executor.
 #[test]
-fn what_copies_of_a_particle_are_to_do_is_found_out_for_all_of_them_at_once() {
+fn copies_of_a_particle_are_proposed_together_in_the_next_step() {
     let policies = [ResamplePolicy::Always, ResamplePolicy::Never, ResamplePolicy::EssBelow(0.6)];
     for (policy, scheme) in
         policies.into_iter().flat_map(|policy| [Scheme::Systematic, Scheme::Residual].map(|scheme| (policy, scheme)))

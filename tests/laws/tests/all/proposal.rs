@@ -308,9 +308,9 @@ fn hills_are_drawn_by_their_integrals() {
     assert!((found - 0.75).abs() < 4.0 * error, "{found}");
 }
 
-/// To the bit, whatever is paid, of one hill and of several, and where no match is trusted.
+/// To the bit, for each incremental weight, with one mode and with several, and where the match is rejected.
 #[test]
-fn copies_of_a_particle_are_proposed_what_each_would_be_by_itself() {
+fn copies_proposed_together_are_proposed_as_each_by_itself() {
     let covariance = Matrix3::from_diagonal(&Vector3::new(0.09, 0.09, 0.01));
     let control = Displacement { mean: Pose2::default(), covariance };
     let particle = Particle::start(Pose2::default(), TWO_PLACES);
