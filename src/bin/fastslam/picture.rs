@@ -55,7 +55,7 @@ where
         closed(ellipse(at([mean.x, mean.y]), pixels, CHI_95))
     });
     let mut scene = Scene::new(WIDTH, height, String::new());
-    scene.dash(&line(&odometry), 1.5, [7.0, 5.0], Role::Odometry);
+    scene.dash(&line(&odometry), 1.5, [7.0, 5.0], Role::Raw);
     scene.line(&line(&truth), 4.0, Role::Truth);
     scene.line(&line(&path), 2.0, Role::Path);
     scene.discs(line(&landmarks), 4.0, Role::Truth);
@@ -63,7 +63,7 @@ where
     let names = [
         (Role::Truth, "truth"),
         (Role::Path, "path and landmarks of the best particle, 95 %"),
-        (Role::Odometry, "raw odometry"),
+        (Role::Raw, "raw odometry"),
     ];
     for (k, (role, name)) in names.into_iter().enumerate() {
         let y = 8.0 + 20.0 * k as f64;

@@ -142,7 +142,7 @@ impl<S: Sketch> View for S {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{figure::Figure, recipe, scene::Role};
+    use crate::{figure::Figure, scene::Role};
 
     recipe! {
         struct Bars {

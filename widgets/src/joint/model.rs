@@ -7,6 +7,7 @@ use crate::ghost::Curves;
 use crate::kept::Kept;
 use crate::model::{Column, Declared, FigureError, Model, Readout, Series};
 use crate::prediction::{Outcome, State, off_by};
+use crate::told::refused;
 use crate::words::{common, joint};
 use fastslam_lab::experiment::joint_map::{COMPUTED, JointMap, JointMapSetup, MOST, Population, SAMPLED};
 
@@ -195,7 +196,7 @@ impl Declared for JointModel {
                 self.show(kept);
             } else if recipe.setup != *self.shown.setup() {
                 let nearest = before.as_ref().filter(|next| next.draws_for(&recipe.setup)).unwrap_or(&self.shown);
-                self.next = Some(nearest.asked(&recipe.setup)?);
+                self.next = Some(nearest.asked(&recipe.setup).map_err(refused)?);
             }
         }
         self.recipe = recipe;
