@@ -490,7 +490,10 @@ impl GraphLap {
     /// Where a setting is out of its range, or a false edge leads nowhere.
     pub fn new(setup: &GraphSetup) -> Result<Self, SettingError> {
         setup.validate()?;
-        let world = Arc::new(setup.lap.world());
+        Self::in_world(setup, Arc::new(setup.lap.world()))
+    }
+
+    fn in_world(setup: &GraphSetup, world: Arc<LapWorld>) -> Result<Self, SettingError> {
         let build = GraphBuild::in_world(&setup.lap, Arc::clone(&world));
         Self::of(setup, build, Lap::in_world(&setup.lap, world)?)
     }
@@ -500,10 +503,10 @@ impl GraphLap {
     /// # Errors
     /// Where a setting is out of its range, or a false edge leads nowhere.
     pub fn asked(&self, setup: &GraphSetup) -> Result<Self, SettingError> {
-        if setup.lap != self.setup.lap {
-            return Self::new(setup);
-        }
         setup.validate()?;
+        if setup.lap != self.setup.lap {
+            return Self::in_world(setup, setup.lap.world_like(&self.setup.lap, &self.build.world));
+        }
         Self::of(setup, self.build.clone(), self.universes.clone())
     }
 

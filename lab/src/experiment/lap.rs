@@ -325,6 +325,19 @@ impl LapSetup {
         LapWorld::edited(&self.course.route(), &self.edits, self.seed, &self.motion(), self.range_std)
     }
 
+    /// [`Self::world`], where that of another setup is there: what is equal in both is not computed again.
+    pub fn world_like(&self, other: &Self, world: &Arc<LapWorld>) -> Arc<LapWorld> {
+        let drive = |setup: &Self| (setup.course, setup.seed, setup.range_std);
+        if drive(self) != drive(other) || self.edits != other.edits {
+            return Arc::new(self.world());
+        }
+        if self.odometry_scale == other.odometry_scale {
+            Arc::clone(world)
+        } else {
+            world.with_motion(&self.motion()).into()
+        }
+    }
+
     /// What the filter draws poses from.
     pub fn proposals(&self) -> Proposals {
         let motion = self.motion();
@@ -382,6 +395,8 @@ pub struct LapWorld {
     pub stopped: Vec<u32>,
     /// Steps at which the robot was lifted and set down elsewhere, in ascending order: its wheels did not notice.
     pub lifted: Vec<u32>,
+    /// Controls without their noise.
+    felt: Vec<Odometry>,
     noise: Noise,
 }
 
@@ -418,6 +433,7 @@ impl LapWorld {
             start_scans: Vec::new(),
             stopped: Vec::new(),
             lifted: Vec::new(),
+            felt: Vec::with_capacity(STEPS),
             noise: Noise { seed, motion: *motion },
         };
         let turned = |k: u32| {
@@ -437,6 +453,7 @@ impl LapWorld {
         world.truth.truncate(kept + 1);
         world.odometry.truncate(kept + 1);
         world.controls.truncate(kept);
+        world.felt.truncate(kept);
         world.scans.truncate(kept);
         world.stopped.retain(|step| *step as usize <= kept);
         world.lifted.retain(|step| *step as usize <= kept);
@@ -482,12 +499,29 @@ impl LapWorld {
     /// A step of the truth, of which the wheels feel `felt`.
     fn step(&mut self, to: Pose2, felt: Odometry) {
         let step = self.controls.len() + 1;
-        let mut stream = Stream::at(self.noise.seed, WORLD_ODOMETRY, step as u32, 0);
-        let control = self.noise.motion.perturb(&felt, &mut stream);
-        self.odometry.push(control.apply(&self.odometry[step - 1]));
-        self.controls.push(control);
+        self.felt.push(felt);
+        self.report(&felt);
         self.truth.push(to);
         self.scans.push(self.look(&to, step, 0));
+    }
+
+    /// The next control with its noise.
+    fn report(&mut self, felt: &Odometry) {
+        let step = self.controls.len() + 1;
+        let mut stream = Stream::at(self.noise.seed, WORLD_ODOMETRY, step as u32, 0);
+        let control = self.noise.motion.perturb(felt, &mut stream);
+        self.odometry.push(control.apply(&self.odometry[step - 1]));
+        self.controls.push(control);
+    }
+
+    /// The same drive and scans with other odometry noise.
+    fn with_motion(&self, motion: &OdometryModel) -> Self {
+        let mut world = self.clone();
+        world.noise.motion = *motion;
+        world.odometry.truncate(1);
+        world.controls.clear();
+        self.felt.iter().for_each(|felt| world.report(felt));
+        world
     }
 
     fn look(&self, pose: &Pose2, step: usize, look: u32) -> Scan {
@@ -663,7 +697,7 @@ impl Lap {
     }
 
     /// The truth, for drawing and judging.
-    pub fn world(&self) -> &LapWorld {
+    pub fn world(&self) -> &Arc<LapWorld> {
         &self.world
     }
 

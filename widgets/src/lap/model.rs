@@ -10,7 +10,7 @@ use crate::told::{ess_text, refused};
 use crate::words::{common, lap};
 use core::mem::replace;
 use fastslam::{genealogy::Path, geometry::Pose2, resampling::ResamplePolicy};
-use fastslam_lab::experiment::lap::{Lap, LapSetup, StepReport};
+use fastslam_lab::experiment::lap::{Lap, LapSetup, LapWorld, StepReport};
 use fastslam_lab::experiment::ring::{AFTER, deviation, died};
 use fastslam_lab::world::Edits;
 use std::sync::Arc;
@@ -37,9 +37,18 @@ struct Run {
 
 impl Run {
     fn new(setup: &LapSetup) -> Result<Self, FigureError> {
-        let lap = Lap::new(setup).map_err(refused)?;
+        Ok(Self::of(setup, Lap::new(setup).map_err(refused)?))
+    }
+
+    /// The same where the world of another setup is there.
+    fn like(setup: &LapSetup, other: &LapSetup, world: &Arc<LapWorld>) -> Result<Self, FigureError> {
+        setup.validate().map_err(refused)?;
+        Ok(Self::of(setup, Lap::in_world(setup, setup.world_like(other, world)).map_err(refused)?))
+    }
+
+    fn of(setup: &LapSetup, lap: Lap) -> Self {
         let (keyframes, reports, dead) = (vec![lap.clone()], vec![lap.report().clone()], vec![Vec::new()]);
-        Ok(Self { setup: setup.clone(), shown: lap, keyframes, reports, dead })
+        Self { setup: setup.clone(), shown: lap, keyframes, reports, dead }
     }
 
     /// With no more keyframes than are kept of a run that is put aside; the first is always.
@@ -265,7 +274,7 @@ impl Declared for LapModel {
         } else {
             let run = match self.kept.take(|run| run.setup == recipe.setup) {
                 Some(kept) => kept,
-                None => Run::new(&recipe.setup)?,
+                None => Run::like(&recipe.setup, &self.recipe.setup, self.shown.world())?,
             };
             let finished = self.pending() == 0 && self.step() > 0;
             let before = Run {

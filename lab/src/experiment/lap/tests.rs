@@ -38,6 +38,40 @@ fn a_course_is_driven_to_its_end_without_being_stopped() {
     }
 }
 
+/// To the bit, also with a reader's own walls and drive.
+#[test]
+fn a_world_made_from_another_one_is_that_of_its_setup() {
+    let same = |a: &LapWorld, b: &LapWorld| {
+        let of = |w: &LapWorld| {
+            (
+                w.truth.clone(),
+                w.odometry.clone(),
+                w.controls.clone(),
+                w.scans.clone(),
+                w.start_scans.clone(),
+                w.stopped.clone(),
+            )
+        };
+        of(a) == of(b) && (a.felt.len(), a.noise.motion) == (b.felt.len(), b.noise.motion)
+    };
+    let base = LapSetup { course: Course::Rooms, ..LapSetup::default() };
+    let world = Arc::new(base.world());
+    let others = [
+        LapSetup { odometry_scale: 1.3, ..base.clone() },
+        LapSetup { odometry_scale: 0.0, particles: 4, ..base.clone() },
+        LapSetup { particles: 4, temper: 0.5, ..base.clone() },
+        LapSetup { range_std: 0.1, odometry_scale: 1.3, ..base.clone() },
+        LapSetup { seed: 8, ..base.clone() },
+        LapSetup { course: Course::Ring, ..base.clone() },
+    ];
+    for other in &others {
+        let made = other.world_like(&base, &world);
+        assert!(same(&made, &other.world()), "{other:?}");
+        assert_eq!(Arc::ptr_eq(&made, &world), other.particles == 4 && other.odometry_scale == 1.0);
+        assert!(same(&base.world_like(other, &made), &world), "and back: {other:?}");
+    }
+}
+
 #[test]
 fn each_course_has_its_own_world() {
     let setup = |course| LapSetup { course, ..LapSetup::default() };
