@@ -28,7 +28,9 @@ fn another_threshold_runs_the_selective_filter_alone() {
             core::iter::from_fn(move || run.step().cloned()).collect::<Vec<_>>()
         };
         let mut run = Policies::new(&of(0.5)).unwrap();
-        (0..20).for_each(|_| drop(run.step()));
+        for _ in 0..20 {
+            run.step();
+        }
         for (threshold, far) in [(0.7, 12), (0.0, 20), (1.0, 20), (0.6, 30)] {
             run = run.asked(&of(threshold)).unwrap().unwrap();
             assert_eq!((run.step_number(), run.catches_up()), (0, true));
