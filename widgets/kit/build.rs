@@ -2,19 +2,14 @@
 //! write with, in two weights (`OUT_DIR/font.rs`), so that they carry no parser of fonts. Coordinates are the font's own units, y up.
 
 use fastslam_figures_catalogue::build;
-use std::{
-    collections::{BTreeMap, BTreeSet},
-    env,
-    fmt::Write,
-    fs,
-    path::Path,
-};
-use ttf_parser::{Face, GlyphId, OutlineBuilder};
+use std::{collections::BTreeSet, env, fmt::Write, fs, path::Path};
+use ttf_parser::{Face, OutlineBuilder};
 
 /// What is written besides the words: by readers, and in formulas.
 const SIGNS: &str = "←→×±σαη√²³°–—−·…≤≥≈’†μνφθδκχπρτωΔΛΣΩ∂∑∏∫∞≠½¼⁻¹⁺⁰₀₁₂₃ₜₓᵢⱼ";
 
-/// Letters of languages that figures speak, besides those of the kit's own words; all of Latin's, with their accents, by the feature `latin`.
+/// Letters of languages that figures speak, besides those of the kit's own words. The fonts have those of all languages in Latin, Greek and
+/// Cyrillic script: one that is named here can be written.
 const LETTERS: &str = "Üßäöü„“”";
 
 /// Units of the tables in an em: a quarter of Inter's, which is a 40th of a pixel in text of 28 px.
@@ -65,8 +60,8 @@ impl OutlineBuilder for Outlines {
     fn close(&mut self) {} // a fill closes every contour
 }
 
-/// A weight's characters, in code point order; those that there may be `more` of only where the font has them.
-fn table(name: &str, weight: &str, characters: &BTreeSet<char>, more: &[char]) -> String {
+/// A weight's characters, in code point order.
+fn table(name: &str, weight: &str, characters: &BTreeSet<char>) -> String {
     let file = &format!("fonts/Inter-{weight}-subset.otf");
     println!("cargo:rerun-if-changed={file}");
     let data = fs::read(file).unwrap_or_else(|e| panic!("{file}: {e}"));
@@ -77,9 +72,7 @@ fn table(name: &str, weight: &str, characters: &BTreeSet<char>, more: &[char]) -
     let mut rows = String::new();
     let glyph =
         |&c: &char| (c, face.glyph_index(c).unwrap_or_else(|| panic!("{file} has no {c:?}: see fonts/subset.py")));
-    let more = more.iter().filter_map(|&c| Some((c, face.glyph_index(c)?)));
-    let glyphs: BTreeMap<char, GlyphId> = characters.iter().map(glyph).chain(more).collect();
-    for (character, glyph) in glyphs {
+    for (character, glyph) in characters.iter().map(glyph) {
         let advance = units(face.glyph_hor_advance(glyph).unwrap_or(0).into());
         let (verbs, steps) = (all.verbs.len(), all.steps.len());
         writeln!(rows, "    Glyph {{ character: {character:?}, advance: {advance}, verbs: {verbs}, steps: {steps} }},")
@@ -101,9 +94,7 @@ fn main() {
     build::write_words(&[]);
     let mut characters: BTreeSet<char> = (' '..='~').chain(SIGNS.chars()).chain(LETTERS.chars()).collect();
     characters.extend(build::characters(Path::new("words")));
-    let latin = env::var_os("CARGO_FEATURE_LATIN").is_some().then_some('¡'..='ſ');
-    let more: Vec<char> = latin.into_iter().flatten().collect();
-    let [regular, bold] = [("REGULAR", "Regular"), ("SEMI_BOLD", "SemiBold")]
-        .map(|(name, weight)| table(name, weight, &characters, &more));
+    let [regular, bold] =
+        [("REGULAR", "Regular"), ("SEMI_BOLD", "SemiBold")].map(|(name, weight)| table(name, weight, &characters));
     fs::write(Path::new(&env::var_os("OUT_DIR").unwrap()).join("font.rs"), regular + &bold).unwrap();
 }
