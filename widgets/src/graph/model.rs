@@ -9,7 +9,7 @@ use crate::told::{WEIGHED_ANEW, refused};
 use crate::{
     challenge::Challenge,
     ghost::{self, Curves},
-    kept::Kept,
+    kept::{Computes, Runs},
     model::{Change, Declared, FigureError, Model, Readout, Series},
     prediction::{Outcome, State},
     words::graph,
@@ -29,11 +29,7 @@ const SLOW: f64 = 0.2;
 /// The figure of the pose graph.
 pub struct GraphModel {
     recipe: Recipe,
-    /// What is shown: it is solved, or nothing was shown before.
-    shown: GraphLap,
-    /// What was asked for since.
-    next: Option<GraphLap>,
-    kept: Kept<GraphLap>,
+    runs: Runs<Self>,
     /// The scans at the poses of the iteration shown, and which that is.
     map: (u32, Grid),
     /// Of the run that is pinned: the error of each iteration \[m\].
@@ -45,12 +41,25 @@ impl Default for GraphModel {
         let recipe = Recipe::default();
         let shown = begin(&recipe.setup());
         let map = (0, shown.build().drawn(&shown.frames()[0].poses));
-        Self { recipe, shown, next: None, kept: Kept::default(), map, pinned: Curves::new() }
+        Self { recipe, runs: Runs::new(shown), map, pinned: Curves::new() }
     }
 }
 
 fn begin(setup: &GraphSetup) -> GraphLap {
     GraphLap::new(setup).unwrap_or_else(|error| unreachable!("the parameters' ranges are within the core's: {error}"))
+}
+
+impl Computes for GraphModel {
+    type Run = GraphLap;
+    type Setup = GraphSetup;
+
+    fn setup(run: &GraphLap) -> &GraphSetup {
+        run.setup()
+    }
+
+    fn is_begun(run: &GraphLap) -> bool {
+        run.is_solved()
+    }
 }
 
 fn advance(lap: &mut GraphLap) {
@@ -60,22 +69,22 @@ fn advance(lap: &mut GraphLap) {
 impl GraphModel {
     /// What decides the numbers of what is shown.
     pub fn setup(&self) -> &GraphSetup {
-        self.shown.setup()
+        self.runs.shown().setup()
     }
 
     /// The graph, and the particle filter as far as it is.
     pub fn graph(&self) -> &GraphLap {
-        &self.shown
+        self.runs.shown()
     }
 
     /// The truth and the log.
     pub fn world(&self) -> &LapWorld {
-        self.shown.world()
+        self.runs.shown().world()
     }
 
     /// Every iteration, the start first; that alone while the reader is asked what comes of it.
     pub fn frames(&self) -> &[Frame] {
-        let all = self.shown.frames();
+        let all = self.runs.shown().frames();
         if self.hides() { &all[..1] } else { all }
     }
 
@@ -91,7 +100,7 @@ impl GraphModel {
 
     /// RMS error of position at the last iteration \[m\]; nothing before that.
     pub fn end(&self) -> Option<f64> {
-        self.shown.frames().last().filter(|_| self.shown.is_solved()).map(|frame| frame.error.rms)
+        self.runs.shown().frames().last().filter(|_| self.runs.shown().is_solved()).map(|frame| frame.error.rms)
     }
 
     /// Places a guess \[m\], or the nearest that there can be.
@@ -120,18 +129,18 @@ impl GraphModel {
     /// The edges of the log, of the kind.
     pub fn edges(&self, kind: EdgeKind) -> impl Iterator<Item = &Edge> {
         let there = kind != EdgeKind::Loop || self.setup().loops;
-        self.shown.build().edges().iter().filter(move |edge| there && edge.kind == kind)
+        self.runs.shown().build().edges().iter().filter(move |edge| there && edge.kind == kind)
     }
 
     /// The particle filter at the end of the log; `None` while it is under way.
     pub fn universes(&self) -> Option<&StepReport> {
-        let lap = self.shown.universes();
+        let lap = self.runs.shown().universes();
         (lap.report().step == lap.step_count()).then(|| lap.report())
     }
 
     /// Whether the last iteration is shown.
     pub fn at_end(&self) -> bool {
-        !self.hides() && self.shown.is_solved() && self.step() == self.step_count()
+        !self.hides() && self.runs.shown().is_solved() && self.step() == self.step_count()
     }
 
     /// Whether the building is drawn as it is.
@@ -144,17 +153,11 @@ impl GraphModel {
         if self.hides() { &[] } else { ghost::curve(&self.pinned, 0) }
     }
 
-    /// Shows another run.
-    fn show(&mut self, run: GraphLap) {
-        self.kept.show(&mut self.shown, run, GraphLap::is_solved);
-        self.place(true);
-    }
-
     /// Maps the scans anew if other poses are shown.
     fn place(&mut self, anew: bool) {
         let step = self.step();
         if anew || self.map.0 != step {
-            self.map = (step, self.shown.build().drawn(self.poses()));
+            self.map = (step, self.runs.shown().build().drawn(self.poses()));
         }
     }
 }
@@ -175,16 +178,11 @@ impl Declared for GraphModel {
 
     fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
         let setup = recipe.setup();
-        if setup != *self.next.as_ref().unwrap_or(&self.shown).setup() {
-            // Of the same log, whichever is further: a graph that is not tied together yet need not be begun again.
-            let nearest = self.next.as_ref().filter(|next| next.setup().lap == setup.lap).unwrap_or(&self.shown);
-            let kept = self.kept.take(|run| *run.setup() == setup);
-            let begins = kept.is_none() && setup != *self.shown.setup();
-            self.next = if begins { Some(nearest.asked(&setup).map_err(refused)?) } else { None };
-            kept.into_iter().for_each(|kept| self.show(kept));
-        }
+        // Of the same log, whichever is further: a graph that is not tied together yet need not be begun again.
+        let of_this_log = |run: &GraphLap| run.setup().lap == setup.lap;
+        let shows = self.runs.ask(&setup, of_this_log, |nearest| nearest.asked(&setup).map_err(refused))?;
         self.recipe = recipe;
-        self.place(false);
+        self.place(shows);
         Ok(())
     }
 }
@@ -215,25 +213,23 @@ impl Model for GraphModel {
     }
 
     fn pending(&self) -> u32 {
-        self.next.as_ref().unwrap_or(&self.shown).pending()
+        self.runs.asked().pending()
     }
 
     fn work(&mut self) {
         if self.pending() == 0 {
             return;
         }
-        let solved = self.shown.is_solved();
-        advance(self.next.as_mut().unwrap_or(&mut self.shown));
-        if let Some(next) = self.next.take_if(|next| next.is_solved()) {
-            self.show(next);
-        } else if !solved && self.shown.is_solved() {
+        let solved = self.runs.shown().is_solved();
+        advance(self.runs.asked_mut());
+        if self.runs.show_if(GraphLap::is_solved) || !solved && self.runs.shown().is_solved() {
             self.place(true);
         }
     }
 
     /// From the solved graph on: what comes then is the particle filter beside it.
     fn refines(&self) -> bool {
-        self.next.is_none() && self.shown.is_solved()
+        self.runs.refines()
     }
 
     fn pace(&self) -> f64 {

@@ -4,7 +4,7 @@ use super::{challenges, recipe::Recipe};
 use crate::challenge::Challenge;
 use crate::decimal::{fixed, write};
 use crate::ghost::Curves;
-use crate::kept::Kept;
+use crate::kept::{Computes, Runs};
 use crate::model::{Column, Declared, FigureError, Model, Readout, Series};
 use crate::prediction::{Outcome, State, off_by};
 use crate::told::refused;
@@ -14,11 +14,7 @@ use fastslam_lab::experiment::joint_map::{COMPUTED, JointMap, JointMapSetup, MOS
 /// The sampled map against the computed one.
 pub struct JointModel {
     recipe: Recipe,
-    /// What is shown: its first run is finished, or nothing was shown before.
-    shown: JointMap,
-    /// What was asked for since.
-    next: Option<JointMap>,
-    kept: Kept<JointMap>,
+    runs: Runs<Self>,
     /// Of the run that is pinned: N_eff of both filters, by landmarks from none on.
     pinned: Curves,
 }
@@ -26,7 +22,7 @@ pub struct JointModel {
 impl Default for JointModel {
     fn default() -> Self {
         let recipe = Recipe::default();
-        Self { shown: begin(&recipe.setup), recipe, next: None, kept: Kept::default(), pinned: Curves::new() }
+        Self { runs: Runs::new(begin(&recipe.setup)), recipe, pinned: Curves::new() }
     }
 }
 
@@ -34,15 +30,33 @@ fn begin(setup: &JointMapSetup) -> JointMap {
     JointMap::new(setup).unwrap_or_else(|error| unreachable!("the parameters' ranges are within the core's: {error}"))
 }
 
+impl Computes for JointModel {
+    type Run = JointMap;
+    type Setup = JointMapSetup;
+
+    fn setup(run: &JointMap) -> &JointMapSetup {
+        run.setup()
+    }
+
+    /// Its first repeat is there.
+    fn is_begun(run: &JointMap) -> bool {
+        !run.repeats().is_empty()
+    }
+
+    fn put_aside(run: &mut JointMap) {
+        run.forget_draws();
+    }
+}
+
 impl JointModel {
     /// Both filters, as far as they are.
     pub fn filters(&self) -> &JointMap {
-        &self.shown
+        self.runs.shown()
     }
 
     /// Number of particles of what is shown.
     pub fn particles(&self) -> u32 {
-        self.shown.setup().particles
+        self.filters().setup().particles
     }
 
     /// After how many landmarks is looked.
@@ -57,35 +71,29 @@ impl JointModel {
 
     /// What the first run of a filter has come to.
     pub fn population(&self, filter: usize) -> Option<&Population> {
-        self.shown.population(filter, self.landmarks())
+        self.filters().population(filter, self.landmarks())
     }
 
     /// N_eff of a filter by landmarks, from none on; nothing before its first run.
     pub fn ess(&self, filter: usize) -> Vec<f64> {
-        let found = self.shown.repeats().first();
+        let found = self.filters().repeats().first();
         let start = found.map(|_| f64::from(self.particles()));
         start.into_iter().chain(found.into_iter().flat_map(|run| run[filter].iter().map(|found| found.ess))).collect()
     }
 
     /// Where a filter has the first landmark, in each repeat \[m\].
     pub fn estimates(&self, filter: usize) -> Vec<[f64; 2]> {
-        self.shown.estimates(filter, self.landmarks())
+        self.filters().estimates(filter, self.landmarks())
     }
 
     /// What N_eff of a filter is to be after so many landmarks.
     pub fn predicted(&self, filter: usize, landmarks: u32) -> f64 {
-        f64::from(self.particles()) * self.shown.log().predicted_share(filter, landmarks)
+        f64::from(self.particles()) * self.filters().log().predicted_share(filter, landmarks)
     }
 
     /// Standard deviation of the estimate of the first landmark over the repeats \[m\].
     pub fn spread(&self, filter: usize) -> f64 {
-        self.shown.variance(filter, self.landmarks()).sqrt()
-    }
-
-    /// Shows another run.
-    fn show(&mut self, run: JointMap) {
-        self.shown.forget_draws();
-        self.kept.show(&mut self.shown, run, |before| !before.repeats().is_empty());
+        self.filters().variance(filter, self.landmarks()).sqrt()
     }
 
     /// How far the reader's prediction is.
@@ -133,7 +141,7 @@ impl JointModel {
 
     /// How far the repeats are.
     pub fn repeats(&self) -> [u32; 2] {
-        [self.shown.repeats().len() as u32, self.shown.setup().repeats()]
+        [self.filters().repeats().len() as u32, self.filters().setup().repeats()]
     }
 
     /// The share of the variance that computing removed, in words; nothing where there is none yet.
@@ -141,7 +149,7 @@ impl JointModel {
         if self.hides(SAMPLED) {
             return None;
         }
-        let removed = self.shown.removed(self.landmarks());
+        let removed = self.filters().removed(self.landmarks());
         removed.is_finite().then(|| percent(removed))
     }
 }
@@ -189,16 +197,8 @@ impl Declared for JointModel {
     }
 
     fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
-        let asked = self.next.as_ref().unwrap_or(&self.shown).setup();
-        if recipe.setup != *asked {
-            let before = self.next.take();
-            if let Some(kept) = self.kept.take(|run| *run.setup() == recipe.setup) {
-                self.show(kept);
-            } else if recipe.setup != *self.shown.setup() {
-                let nearest = before.as_ref().filter(|next| next.draws_for(&recipe.setup)).unwrap_or(&self.shown);
-                self.next = Some(nearest.asked(&recipe.setup).map_err(refused)?);
-            }
-        }
+        let draws = |run: &JointMap| run.draws_for(&recipe.setup);
+        self.runs.ask(&recipe.setup, draws, |nearest| nearest.asked(&recipe.setup).map_err(refused))?;
         self.recipe = recipe;
         Ok(())
     }
@@ -206,20 +206,18 @@ impl Declared for JointModel {
 
 impl Model for JointModel {
     fn pending(&self) -> u32 {
-        self.next.as_ref().unwrap_or(&self.shown).pending()
+        self.runs.asked().pending()
     }
 
     fn work(&mut self) {
-        let done = self.next.as_mut().unwrap_or(&mut self.shown).advance();
+        let done = self.runs.asked_mut().advance();
         done.unwrap_or_else(|error| unreachable!("it has begun: {error}"));
-        if let Some(next) = self.next.take_if(|next| !next.repeats().is_empty()) {
-            self.show(next);
-        }
+        self.runs.show_if(Self::is_begun);
     }
 
     /// From the first run on: what comes then are more repeats.
     fn refines(&self) -> bool {
-        self.next.is_none() && !self.shown.repeats().is_empty()
+        self.runs.refines()
     }
 
     fn compared(&self) -> Vec<&'static str> {
@@ -243,9 +241,9 @@ impl Model for JointModel {
             let x = if self.hides(filter) { f64::NAN } else { self.spread(filter) };
             Readout::new(name, title, x, metres(x), "m", help).drawn()
         };
-        let removed = if hidden { f64::NAN } else { 100.0 * self.shown.removed(self.landmarks()) };
+        let removed = if hidden { f64::NAN } else { 100.0 * self.filters().removed(self.landmarks()) };
         let text = self.removed().map(|text| text.trim_end_matches(" %").to_string()).unwrap_or_default();
-        let (rho, [done, _]) = (if hidden { f64::NAN } else { self.shown.log().rho() }, self.repeats());
+        let (rho, [done, _]) = (if hidden { f64::NAN } else { self.filters().log().rho() }, self.repeats());
         vec![
             particles("ess_sampled", joint::ess_sampled(), ess[0], joint::ess_sampled_help()).drawn(),
             particles("ess_computed", joint::ess_computed(), ess[1], joint::ess_computed_help()).drawn(),
@@ -279,10 +277,11 @@ impl Model for JointModel {
             Column::new("spread_computed_m", "the same of the computed map [m]"),
         ];
         let row = |landmarks: u32| {
-            let of = |filter| self.shown.population(filter, landmarks).map(|found| (found.ess, f64::from(found.left)));
+            let of =
+                |filter| self.filters().population(filter, landmarks).map(|found| (found.ess, f64::from(found.left)));
             let [drawn, computed] = [SAMPLED, COMPUTED].map(|filter| of(filter).unwrap_or((f64::NAN, f64::NAN)));
             let [a, b] = [SAMPLED, COMPUTED].map(|filter| self.predicted(filter, landmarks));
-            let [c, d] = [SAMPLED, COMPUTED].map(|filter| self.shown.variance(filter, landmarks).sqrt());
+            let [c, d] = [SAMPLED, COMPUTED].map(|filter| self.filters().variance(filter, landmarks).sqrt());
             vec![landmarks.into(), drawn.0, a, computed.0, b, drawn.1, computed.1, c, d]
         };
         let count = if self.hides(SAMPLED) { 0 } else { MOST };

@@ -4,11 +4,12 @@ use super::{challenges, recipe::Recipe, told};
 use crate::{
     challenge::Challenge,
     ghost::Curves,
-    kept::Kept,
+    kept::{Computes, Runs},
     model::{Change, Declared, FigureError, Model, Readout, Series},
     prediction::{Outcome, State},
     words::smoothing as words,
 };
+use core::convert::Infallible;
 use fastslam::{geometry::Pose2, nalgebra::Matrix3};
 use fastslam_lab::experiment::smoothing::{MOST, STEPS, Smoothing, SmoothingSetup};
 
@@ -27,11 +28,7 @@ pub struct Account {
 /// The figure of the smoother.
 pub struct SmoothingModel {
     recipe: Recipe,
-    /// What is shown: its filter is done, or nothing was shown before.
-    shown: Smoothing,
-    /// What was asked for since.
-    next: Option<Smoothing>,
-    kept: Kept<Smoothing>,
+    runs: Runs<Self>,
     /// Of the run that is pinned: different poses and errors of record and draws, step by step.
     pinned: Curves,
 }
@@ -39,7 +36,7 @@ pub struct SmoothingModel {
 impl Default for SmoothingModel {
     fn default() -> Self {
         let recipe = Recipe::default();
-        Self { shown: begin(&recipe.setup), recipe, next: None, kept: Kept::default(), pinned: Curves::new() }
+        Self { runs: Runs::new(begin(&recipe.setup)), recipe, pinned: Curves::new() }
     }
 }
 
@@ -47,30 +44,39 @@ fn begin(setup: &SmoothingSetup) -> Smoothing {
     Smoothing::new(setup).unwrap_or_else(|error| unreachable!("the parameters' ranges are within the core's: {error}"))
 }
 
+impl Computes for SmoothingModel {
+    type Run = Smoothing;
+    type Setup = SmoothingSetup;
+
+    fn setup(run: &Smoothing) -> &SmoothingSetup {
+        run.setup()
+    }
+
+    /// Its first sweep is there.
+    fn is_begun(run: &Smoothing) -> bool {
+        !run.draws().is_empty()
+    }
+}
+
 impl SmoothingModel {
     /// Filter and sweeps, as far as they are.
     pub fn run(&self) -> &Smoothing {
-        &self.shown
+        self.runs.shown()
     }
 
     /// Number of particles of what is shown.
     pub fn particles(&self) -> u32 {
-        self.shown.setup().particles
+        self.run().setup().particles
     }
 
     /// How many sweeps are shown: none while the reader is asked what comes of them.
     pub fn sweeps(&self) -> u32 {
-        if self.hides() { 0 } else { self.recipe.step.min(self.shown.draws().len() as u32) }
+        if self.hides() { 0 } else { self.recipe.step.min(self.run().draws().len() as u32) }
     }
 
     /// How many sweeps are needed: those that are looked at, or where a prediction is judged, all.
     fn wanted(&self) -> u32 {
         if self.recipe.prediction.predict { MOST } else { self.recipe.step }
-    }
-
-    /// Shows another run.
-    fn show(&mut self, run: Smoothing) {
-        self.kept.show(&mut self.shown, run, |before| !before.draws().is_empty());
     }
 
     /// How far the reader's prediction is.
@@ -86,7 +92,7 @@ impl SmoothingModel {
     /// How many different poses all sweeps have at step 1; nothing before the last of them.
     pub fn first_of_all(&self) -> Option<u32> {
         let sweeps = MOST as usize;
-        (self.shown.draws().len() >= sweeps).then(|| self.shown.distinct(sweeps)[1])
+        (self.run().draws().len() >= sweeps).then(|| self.run().distinct(sweeps)[1])
     }
 
     /// Places a guess at a number of poses, or at the nearest that there can be.
@@ -109,24 +115,24 @@ impl SmoothingModel {
 
     /// What the filter's record says; nothing before it has come to the end.
     pub fn before(&self) -> Option<Account> {
-        let record = self.shown.record()?;
-        let errors = self.shown.errors(&record.moments);
-        let early = self.shown.early_rms(&errors);
+        let record = self.run().record()?;
+        let errors = self.run().errors(&record.moments);
+        let early = self.run().early_rms(&errors);
         Some(Account { distinct: record.distinct.clone(), moments: record.moments.clone(), errors, early })
     }
 
     /// What the draws of the sweeps that are shown say; nothing before the first.
     pub fn after(&self) -> Option<Account> {
         let sweeps = self.sweeps() as usize;
-        let (distinct, moments) = (self.shown.distinct(sweeps), self.shown.moments(sweeps));
-        let errors = self.shown.errors(&moments);
-        let early = self.shown.early_rms(&errors);
+        let (distinct, moments) = (self.run().distinct(sweeps), self.run().moments(sweeps));
+        let errors = self.run().errors(&moments);
+        let early = self.run().early_rms(&errors);
         (sweeps > 0).then_some(Account { distinct, moments, errors, early })
     }
 
     /// The last step at which all particles have one ancestor.
     pub fn coalescence(&self) -> Option<u32> {
-        self.shown.record().map(|record| record.coalescence)
+        self.run().record().map(|record| record.coalescence)
     }
 
     /// See [`Model::curves`].
@@ -155,15 +161,7 @@ impl Declared for SmoothingModel {
     }
 
     fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
-        let asked = self.next.as_ref().unwrap_or(&self.shown).setup();
-        if recipe.setup != *asked {
-            self.next = None;
-            if let Some(kept) = self.kept.take(|run| *run.setup() == recipe.setup) {
-                self.show(kept);
-            } else if recipe.setup != *self.shown.setup() {
-                self.next = Some(begin(&recipe.setup));
-            }
-        }
+        let Ok(_) = self.runs.ask(&recipe.setup, |_| false, |_| Ok::<_, Infallible>(begin(&recipe.setup)));
         self.recipe = recipe;
         Ok(())
     }
@@ -189,21 +187,18 @@ impl Model for SmoothingModel {
     }
 
     fn pending(&self) -> u32 {
-        self.next.as_ref().unwrap_or(&self.shown).pending(self.wanted())
+        self.runs.asked().pending(self.wanted())
     }
 
     fn work(&mut self) {
-        self.next.as_mut().unwrap_or(&mut self.shown).advance();
+        self.runs.asked_mut().advance();
         let asked = self.wanted().min(1) as usize;
-        let begun = |next: &mut Smoothing| next.record().is_some() && next.draws().len() >= asked;
-        if let Some(next) = self.next.take_if(begun) {
-            self.show(next);
-        }
+        self.runs.show_if(|next| next.record().is_some() && next.draws().len() >= asked);
     }
 
     /// From the first sweep on: what comes then are more of them.
     fn refines(&self) -> bool {
-        self.next.is_none() && !self.shown.draws().is_empty()
+        self.runs.refines()
     }
 
     fn prediction(&self) -> Option<Outcome> {
