@@ -3,9 +3,10 @@
 use crate::{print, print_json, progress, whole};
 use anyhow::Result;
 use fastslam::resampling::Scheme;
+use fastslam_lab::experiment::Fraction;
 use fastslam_lab::experiment::lap;
 use fastslam_lab::experiment::policies::{PoliciesSetup, PolicyCourse};
-use fastslam_lab::experiment::policy_counts::{Fraction, PolicySummary, outcomes, summary};
+use fastslam_lab::experiment::policy_counts::{PolicySummary, outcomes, summary};
 use indicatif::ParallelProgressIterator;
 use rayon::prelude::*;
 use serde::Serialize;

@@ -13,7 +13,7 @@ use core::{
     ops::{Deref, DerefMut},
 };
 use fastslam::geometry::Pose2;
-use fastslam_lab::experiment::{ErrorSummary, policy_counts::Fraction};
+use fastslam_lab::experiment::{ErrorSummary, Fraction};
 use fastslam_log::{BagOptions, BagReader, LogError, write_json_lines, write_path};
 use js_sys::{Array, Error, Object, Reflect};
 use serde::Serialize;

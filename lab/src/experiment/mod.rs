@@ -28,7 +28,7 @@ pub mod universes;
 pub mod variants;
 pub mod worked_example;
 
-pub use summary::{ErrorSummary, median_interval, quantile};
+pub use summary::{ErrorSummary, Fraction, median_interval, quantile};
 
 use fastslam::error::SettingError;
 

@@ -4,7 +4,7 @@
 //! together in the order of their seeds.
 
 use super::policies::{POLICIES, Policies, PoliciesSetup, PolicyReport, RIGHT_WITHIN};
-use super::quantile;
+use super::{Fraction, quantile};
 use core::ops::Range;
 use fastslam::error::SettingError;
 use fastslam::execute::Executor;
@@ -78,49 +78,6 @@ fn judge(steps: &[PolicyReport], evidence_at: Option<u32>) -> PolicyOutcome {
             alive: steps[step as usize - 2].right.is_some_and(|right| right > 0), // the k-th report is of step k + 1
             settled: last.error_best < RIGHT_WITHIN,
         }),
-    }
-}
-
-/// Successes among so many trials.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Fraction {
-    /// How many succeeded.
-    pub successes: u32,
-    /// Of how many.
-    pub total: u32,
-}
-
-impl Fraction {
-    /// How many of these are true.
-    pub fn of(trials: impl Iterator<Item = bool>) -> Self {
-        trials.fold(Self { successes: 0, total: 0 }, |Self { successes, total }, success| Self {
-            successes: successes + u32::from(success),
-            total: total + 1,
-        })
-    }
-
-    /// The share.
-    pub fn share(&self) -> f64 {
-        f64::from(self.successes) / f64::from(self.total)
-    }
-
-    /// 95 % confidence interval of the share, by Wilson's score (1927): unlike the plain one it never leaves \[0, 1\], and holds
-    /// for shares near its ends.
-    ///
-    /// ```
-    /// let [low, high] = fastslam_lab::experiment::policy_counts::Fraction { successes: 8, total: 10 }.wilson();
-    /// assert!((low - 0.4902).abs() < 1e-4 && (high - 0.9433).abs() < 1e-4);
-    /// ```
-    pub fn wilson(&self) -> [f64; 2] {
-        const Z: f64 = 1.959_963_984_540_054; // Φ⁻¹(0.975)
-        if self.total == 0 {
-            return [0.0, 1.0];
-        }
-        let (n, p) = (f64::from(self.total), self.share());
-        let middle = (p + Z * Z / (2.0 * n)) / (1.0 + Z * Z / n);
-        let half = Z / (1.0 + Z * Z / n) * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
-        [(middle - half).max(0.0), (middle + half).min(1.0)]
     }
 }
 
@@ -221,17 +178,6 @@ mod tests {
         let [never, always, _] = summary(&whole, 4);
         assert_eq!((never.resampled_fraction, never.tree_c, always.resampled_fraction), (0.0, None, 1.0));
         assert_eq!((never.tree_nodes, never.alive.unwrap().total), (4.0 * 105.0, 4));
-    }
-
-    /// Values of R's `prop.test(x, n, correct = FALSE)`.
-    #[test]
-    fn intervals_stay_within_zero_and_one() {
-        let interval = |successes, total| Fraction { successes, total }.wilson();
-        assert_eq!(interval(0, 0), [0.0, 1.0]);
-        let [low, high] = interval(0, 20);
-        assert!(low == 0.0 && (high - 0.1611).abs() < 1e-4, "{low} {high}");
-        let [low, high] = interval(20, 20);
-        assert!((low - 0.8389).abs() < 1e-4 && high == 1.0, "{low} {high}");
     }
 
     /// By design of the course, not of the seeds: n = 400 that it was not tuned on, M = 16. The 95 % intervals of the two

@@ -1,4 +1,4 @@
-//! What many runs come to: quantiles, and how far a median is to be trusted.
+//! What many runs come to: quantiles and shares, and how far they are to be trusted.
 
 /// The q-quantile of ascending values, interpolated linearly between neighbours (type 7 of Hyndman and Fan 1996).
 pub fn quantile(ascending: &[f64], q: f64) -> f64 {
@@ -68,6 +68,49 @@ impl ErrorSummary {
     }
 }
 
+/// Successes among so many trials.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Fraction {
+    /// How many succeeded.
+    pub successes: u32,
+    /// Of how many.
+    pub total: u32,
+}
+
+impl Fraction {
+    /// How many of these are true.
+    pub fn of(trials: impl Iterator<Item = bool>) -> Self {
+        trials.fold(Self { successes: 0, total: 0 }, |Self { successes, total }, success| Self {
+            successes: successes + u32::from(success),
+            total: total + 1,
+        })
+    }
+
+    /// The share.
+    pub fn share(&self) -> f64 {
+        f64::from(self.successes) / f64::from(self.total)
+    }
+
+    /// 95 % confidence interval of the share, by Wilson's score (1927): unlike the plain one it never leaves \[0, 1\], and holds
+    /// for shares near its ends.
+    ///
+    /// ```
+    /// let [low, high] = fastslam_lab::experiment::Fraction { successes: 8, total: 10 }.wilson();
+    /// assert!((low - 0.4902).abs() < 1e-4 && (high - 0.9433).abs() < 1e-4);
+    /// ```
+    pub fn wilson(&self) -> [f64; 2] {
+        const Z: f64 = 1.959_963_984_540_054; // Φ⁻¹(0.975)
+        if self.total == 0 {
+            return [0.0, 1.0];
+        }
+        let (n, p) = (f64::from(self.total), self.share());
+        let middle = (p + Z * Z / (2.0 * n)) / (1.0 + Z * Z / n);
+        let half = Z / (1.0 + Z * Z / n) * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
+        [(middle - half).max(0.0), (middle + half).min(1.0)]
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -111,5 +154,16 @@ mod tests {
         assert_eq!(ErrorSummary::of(&values), ErrorSummary::of(&turned));
         let ErrorSummary { median, median_interval, worst, .. } = ErrorSummary::of(&values);
         assert_eq!((median, median_interval, worst), (0.3, [0.1, 2.0], 2.0));
+    }
+
+    /// Values of R's `prop.test(x, n, correct = FALSE)`.
+    #[test]
+    fn intervals_stay_within_zero_and_one() {
+        let interval = |successes, total| Fraction { successes, total }.wilson();
+        assert_eq!(interval(0, 0), [0.0, 1.0]);
+        let [low, high] = interval(0, 20);
+        assert!(low == 0.0 && (high - 0.1611).abs() < 1e-4, "{low} {high}");
+        let [low, high] = interval(20, 20);
+        assert!((low - 0.8389).abs() < 1e-4 && high == 1.0, "{low} {high}");
     }
 }

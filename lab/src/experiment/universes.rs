@@ -4,7 +4,7 @@
 //! is worth; a rule such as *four of five seeds* is what somebody with less time judges it by. The rule has an
 //! [operating curve](Rule::passes) of its own: how often it passes a filter that succeeds with a given probability.
 
-use super::policy_counts::Fraction;
+use super::Fraction;
 
 /// The numbers of particles that are tried.
 pub const TRIED: [usize; 11] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 40];

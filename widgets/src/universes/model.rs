@@ -18,8 +18,7 @@ use fastslam::{
     random::{Purpose, Stream},
 };
 use fastslam_lab::experiment::{
-    ProposalKind,
-    policy_counts::Fraction,
+    Fraction, ProposalKind,
     proposals::{Depletion, ProposalsSetup, depletion},
     universes::{ENOUGH, TRIED, saturated, sufficient},
 };

@@ -16,8 +16,7 @@ use crate::{
 };
 use fastslam::ops;
 use fastslam_lab::experiment::{
-    ProposalKind,
-    policy_counts::Fraction,
+    Fraction, ProposalKind,
     universes::{ENOUGH, TRIED},
 };
 

@@ -1,5 +1,5 @@
 use super::*;
-use crate::experiment::policy_counts::Fraction;
+use crate::experiment::Fraction;
 
 fn log(seed: u64) -> Log {
     Log::new(&DoorsSetup { seed, ..DoorsSetup::default() })

@@ -1,9 +1,8 @@
 //! EM mapping beside particles, on the corridor of nameless doors.
 
 use super::{Group, Recipe, SEEDS, VALID};
-use crate::experiment::ErrorSummary;
 use crate::experiment::em::{self, LogSetup, OTHERS, Outcome};
-use crate::experiment::policy_counts::Fraction;
+use crate::experiment::{ErrorSummary, Fraction};
 
 /// An answer that has less than this share of the particles' weight is given up.
 const HELD: f64 = 0.05;

@@ -1,11 +1,10 @@
 //! Among landmarks: the figure of eight, and the doors that look alike.
 
 use super::{Group, Recipe, SEEDS, VALID};
-use crate::experiment::ErrorSummary;
 use crate::experiment::ProposalKind;
 use crate::experiment::doors::{self, DoorsOutcome, DoorsSetup};
 use crate::experiment::landmarks::{CorrespondenceKind, Course, LandmarkRun, LandmarkSetup};
-use crate::experiment::policy_counts::Fraction;
+use crate::experiment::{ErrorSummary, Fraction};
 use fastslam::execute::Executor;
 use fastslam::geometry::rms;
 use fastslam::resampling::ResamplePolicy;

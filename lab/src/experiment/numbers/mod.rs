@@ -18,8 +18,7 @@ mod stores;
 
 pub use lap::LapCell;
 
-use super::ErrorSummary;
-use super::policy_counts::Fraction;
+use super::{ErrorSummary, Fraction};
 use crate::digest::Digest;
 use core::hash::Hasher as _;
 use fastslam::execute::Executor;
