@@ -2,7 +2,7 @@
 
 use crate::{print, print_json};
 use anyhow::Result;
-use fastslam_lab::experiment::joint_map::{COMPUTED, JointMap, JointMapSetup, MOST, SAMPLED};
+use fastslam_lab::experiment::joint::{COMPUTED, Joint, JointSetup, MOST, SAMPLED};
 use serde::Serialize;
 
 /// The sampled map against the computed one: N_eff of both after each landmark, measured and by the closed form
@@ -11,16 +11,16 @@ use serde::Serialize;
 #[derive(clap::Args)]
 pub struct Arguments {
     /// Number of particles of each filter, 1 to 20000
-    #[arg(long, value_name = "M", default_value_t = JointMapSetup::default().particles)]
+    #[arg(long, value_name = "M", default_value_t = JointSetup::default().particles)]
     particles: u32,
     /// Factor on the standard deviations of the sensor, 0.1 to 10
-    #[arg(long, value_name = "F", default_value_t = JointMapSetup::default().sensor_scale, allow_negative_numbers = true)]
+    #[arg(long, value_name = "F", default_value_t = JointSetup::default().sensor_scale, allow_negative_numbers = true)]
     sensor: f64,
     /// Factor on the standard deviations of the wheels, 0 to 3: at 0 the path is known
-    #[arg(long, value_name = "F", default_value_t = JointMapSetup::default().odometry_scale, allow_negative_numbers = true)]
+    #[arg(long, value_name = "F", default_value_t = JointSetup::default().odometry_scale, allow_negative_numbers = true)]
     odometry: f64,
     /// Seed of both filters
-    #[arg(long, default_value_t = JointMapSetup::default().seed)]
+    #[arg(long, default_value_t = JointSetup::default().seed)]
     seed: u64,
     /// Print JSON: an array with one object for each number of landmarks
     #[arg(long)]
@@ -48,7 +48,7 @@ struct Found {
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<()> {
     let &Arguments { particles, sensor, odometry, seed, json } = arguments;
-    let mut joint = JointMap::new(&JointMapSetup { particles, sensor_scale: sensor, odometry_scale: odometry, seed })?;
+    let mut joint = Joint::new(&JointSetup { particles, sensor_scale: sensor, odometry_scale: odometry, seed })?;
     joint.finish()?;
     let found = |filter, landmarks| Found {
         ess: joint.population(filter, landmarks).map_or(f64::NAN, |found| found.ess),

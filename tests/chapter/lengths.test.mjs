@@ -11,7 +11,7 @@ const most = 400
 const longer = {
   'lab/src/experiment/em.rs': 408,
   'lab/src/experiment/graph.rs': 627,
-  'lab/src/experiment/joint_map.rs': 422,
+  'lab/src/experiment/joint.rs': 422,
   'lab/src/experiment/lap.rs': 735,
   'lab/src/experiment/policies.rs': 493,
   'widgets/elements/figure-parts.ts': 418,

@@ -3,7 +3,7 @@
 
 use super::conditioning::{Conditioning, ConditioningSetup};
 use super::graph::GraphSetup;
-use super::joint_map::{JointMap, JointMapSetup};
+use super::joint::{Joint, JointSetup};
 use super::landmarks::{CorrespondenceKind, Course, LandmarkRun, LandmarkSetup};
 use super::lap::{self, Lap, LapSetup};
 use super::log::{self, Example, Recipe};
@@ -39,7 +39,7 @@ pub fn traces(executor: &Executor) -> Vec<(&'static str, Digest)> {
     let clouds = clouds().into_iter();
     let clouds = clouds.map(|(name, setup)| (name, Proposals::new(&setup).expect(VALID).trace()));
     let maps = joint_maps().into_iter();
-    let maps = maps.map(|(name, setup)| (name, JointMap::new(&setup).and_then(JointMap::trace).expect(VALID)));
+    let maps = maps.map(|(name, setup)| (name, Joint::new(&setup).and_then(Joint::trace).expect(VALID)));
     let policies = policies()
         .into_iter()
         .map(|(name, setup)| (name, Policies::new(&setup).expect(VALID).with_executor(executor.clone()).trace()));
@@ -122,11 +122,11 @@ pub(super) fn clouds() -> Vec<(&'static str, ProposalsSetup)> {
     ]
 }
 
-fn joint_maps() -> Vec<(&'static str, JointMapSetup)> {
-    let setup = JointMapSetup::default;
+fn joint_maps() -> Vec<(&'static str, JointSetup)> {
+    let setup = JointSetup::default;
     vec![
-        ("joint", JointMapSetup { particles: 300, ..setup() }),
-        ("joint-blocks", JointMapSetup { particles: 1500, sensor_scale: 0.5, odometry_scale: 2.0, seed: 9 }),
+        ("joint", JointSetup { particles: 300, ..setup() }),
+        ("joint-blocks", JointSetup { particles: 1500, sensor_scale: 0.5, odometry_scale: 2.0, seed: 9 }),
     ]
 }
 

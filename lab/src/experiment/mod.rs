@@ -10,7 +10,7 @@ pub mod golden;
 pub mod graph;
 pub mod hill;
 pub mod innovations;
-pub mod joint_map;
+pub mod joint;
 pub mod landmarks;
 pub mod lap;
 pub mod log;

@@ -5,7 +5,7 @@ use crate::{
     challenge::{Challenge, Verdict},
     words::joint as words,
 };
-use fastslam_lab::experiment::joint_map::SAMPLED;
+use fastslam_lab::experiment::joint::SAMPLED;
 
 /// N_eff that the sampled map is to keep.
 const KEPT: f64 = 100.0;

@@ -8,7 +8,7 @@ use crate::{
     words::{common, joint},
 };
 use fastslam::ops;
-use fastslam_lab::experiment::joint_map::{COMPUTED, MOST, SAMPLED};
+use fastslam_lab::experiment::joint::{COMPUTED, MOST, SAMPLED};
 
 /// What a reader moves along the axis.
 pub const LANDMARKS: &str = "landmarks";

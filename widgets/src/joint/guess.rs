@@ -7,7 +7,7 @@ use crate::{
     scene::{Chart, Handle, Role, Scene},
     words::joint,
 };
-use fastslam_lab::experiment::joint_map::MOST;
+use fastslam_lab::experiment::joint::MOST;
 
 /// What a reader moves along the axis.
 pub const GUESS: &str = "guess";

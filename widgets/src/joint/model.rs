@@ -9,7 +9,7 @@ use crate::model::{Column, Declared, FigureError, Model, Readout, Series};
 use crate::prediction::{Outcome, State, off_by};
 use crate::told::refused;
 use crate::words::{common, joint};
-use fastslam_lab::experiment::joint_map::{COMPUTED, JointMap, JointMapSetup, MOST, Population, SAMPLED};
+use fastslam_lab::experiment::joint::{COMPUTED, Joint, JointSetup, MOST, Population, SAMPLED};
 
 /// The sampled map against the computed one.
 pub struct JointModel {
@@ -26,31 +26,31 @@ impl Default for JointModel {
     }
 }
 
-fn begin(setup: &JointMapSetup) -> JointMap {
-    JointMap::new(setup).unwrap_or_else(|error| unreachable!("the parameters' ranges are within the core's: {error}"))
+fn begin(setup: &JointSetup) -> Joint {
+    Joint::new(setup).unwrap_or_else(|error| unreachable!("the parameters' ranges are within the core's: {error}"))
 }
 
 impl Computes for JointModel {
-    type Run = JointMap;
-    type Setup = JointMapSetup;
+    type Run = Joint;
+    type Setup = JointSetup;
 
-    fn setup(run: &JointMap) -> &JointMapSetup {
+    fn setup(run: &Joint) -> &JointSetup {
         run.setup()
     }
 
     /// Its first repeat is there.
-    fn is_begun(run: &JointMap) -> bool {
+    fn is_begun(run: &Joint) -> bool {
         !run.repeats().is_empty()
     }
 
-    fn put_aside(run: &mut JointMap) {
+    fn put_aside(run: &mut Joint) {
         run.forget_draws();
     }
 }
 
 impl JointModel {
     /// Both filters, as far as they are.
-    pub fn filters(&self) -> &JointMap {
+    pub fn filters(&self) -> &Joint {
         self.runs.shown()
     }
 
@@ -197,7 +197,7 @@ impl Declared for JointModel {
     }
 
     fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
-        let draws = |run: &JointMap| run.draws_for(&recipe.setup);
+        let draws = |run: &Joint| run.draws_for(&recipe.setup);
         self.runs.ask(&recipe.setup, draws, |nearest| nearest.asked(&recipe.setup).map_err(refused))?;
         self.recipe = recipe;
         Ok(())

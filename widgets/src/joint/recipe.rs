@@ -6,7 +6,7 @@ use crate::{
     recipe::{self, Param},
     words::{common, joint},
 };
-use fastslam_lab::experiment::joint_map::{JointMapSetup, MOST};
+use fastslam_lab::experiment::joint::{JointSetup, MOST};
 
 /// Most particles.
 pub const PARTICLES: u32 = 20_000;
@@ -15,7 +15,7 @@ pub const PARTICLES: u32 = 20_000;
 #[derive(Clone, PartialEq)]
 pub struct Recipe {
     /// What decides the numbers.
-    pub setup: JointMapSetup,
+    pub setup: JointSetup,
     /// After how many landmarks is looked.
     pub landmarks: u32,
     /// The first landmark at which the reader expects the sampled map's particles to be worth less than one.
@@ -24,7 +24,7 @@ pub struct Recipe {
 
 impl Default for Recipe {
     fn default() -> Self {
-        Self { setup: JointMapSetup::default(), landmarks: MOST, prediction: Prediction::default() }
+        Self { setup: JointSetup::default(), landmarks: MOST, prediction: Prediction::default() }
     }
 }
 

@@ -14,7 +14,7 @@ use crate::{
     view::{View, whole_step},
     words::joint,
 };
-use fastslam_lab::experiment::joint_map::{COMPUTED, MOST, SAMPLED};
+use fastslam_lab::experiment::joint::{COMPUTED, MOST, SAMPLED};
 
 /// The sampled map against the computed one, as it is seen.
 #[derive(Default)]

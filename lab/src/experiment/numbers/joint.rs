@@ -2,7 +2,7 @@
 
 use super::{Group, Number, Recipe, VALID};
 use crate::experiment::ErrorSummary;
-use crate::experiment::joint_map::{COMPUTED, JointMap, JointMapSetup, MOST, SAMPLED};
+use crate::experiment::joint::{COMPUTED, Joint, JointSetup, MOST, SAMPLED};
 use fastslam::ops;
 
 /// Seeds of what is measured: each is forty runs of both filters.
@@ -18,8 +18,8 @@ pub fn recipes() -> Vec<Recipe> {
 
 /// With perfect wheels N_eff = M ρ^−N, so that M particles last for ln M / ln ρ landmarks.
 fn exercise(group: &Group) -> Vec<Number> {
-    let setup = JointMapSetup { odometry_scale: 0.0, ..JointMapSetup::default() };
-    let rho = JointMap::new(&setup).expect(VALID).log().rho();
+    let setup = JointSetup { odometry_scale: 0.0, ..JointSetup::default() };
+    let rho = Joint::new(&setup).expect(VALID).log().rho();
     let lasts = |particles: u32| {
         let made = format!(
             "ln {particles} / ln ρ: landmarks that divide {particles} particles by as many, with a path that is known"
@@ -43,7 +43,7 @@ fn exercise(group: &Group) -> Vec<Number> {
 
 /// Both filters' N_eff after all landmarks, and the share of the variance that computing the map removes.
 fn run(seed: u64) -> [f64; 3] {
-    let mut joint = JointMap::new(&JointMapSetup { seed, ..JointMapSetup::default() }).expect(VALID);
+    let mut joint = Joint::new(&JointSetup { seed, ..JointSetup::default() }).expect(VALID);
     joint.finish().expect(VALID);
     let ess = |filter| joint.population(filter, MOST).map_or(f64::NAN, |found| found.ess);
     [ess(SAMPLED), ess(COMPUTED), joint.removed(MOST)]
@@ -51,7 +51,7 @@ fn run(seed: u64) -> [f64; 3] {
 
 fn measured(found: &[[f64; 3]]) -> Vec<Number> {
     let group = Group("joint".into());
-    let JointMapSetup { particles, .. } = JointMapSetup::default();
+    let JointSetup { particles, .. } = JointSetup::default();
     let what = [
         ("ess.sampled", format!("N_eff of {particles} particles with sampled maps after {MOST} landmarks")),
         ("ess.computed", format!("N_eff of {particles} particles with computed maps after {MOST} landmarks")),

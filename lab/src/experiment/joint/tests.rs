@@ -9,21 +9,21 @@ use fastslam::resampling::ResamplePolicy;
 /// What the filters are told after the first step: the robot stands.
 const STAND: Odometry = Odometry { rot1: 0.0, trans: 0.0, rot2: 0.0 };
 
-const LARGE: JointMapSetup = JointMapSetup { particles: 20_000, sensor_scale: 1.0, odometry_scale: 0.0, seed: 1 };
+const LARGE: JointSetup = JointSetup { particles: 20_000, sensor_scale: 1.0, odometry_scale: 0.0, seed: 1 };
 
 /// What the bend of the sensor may change of N_eff, a landmark: a point that is drawn a standard deviation across the line of sight
 /// (0.35 m at 4 m) is 1.5 cm farther than a straight line has it, 0.08 of the range's σ, of which the weight feels the square.
 const BEND: f64 = 0.01;
 
-fn finished(setup: &JointMapSetup) -> JointMap {
-    let mut joint = JointMap::new(setup).unwrap();
+fn finished(setup: &JointSetup) -> Joint {
+    let mut joint = Joint::new(setup).unwrap();
     joint.finish().unwrap();
     assert!(joint.pending() == 0 && joint.repeats().len() as u32 == setup.repeats());
     joint
 }
 
 /// ln of N_eff / M over all repeats: their Σ w̃² are averaged, in which what one repeat misses of the heaviest weights another has.
-fn log_share(joint: &JointMap, filter: usize, landmarks: u32) -> f64 {
+fn log_share(joint: &Joint, filter: usize, landmarks: u32) -> f64 {
     let of = |repeat: &Repeat| 1.0 / repeat[filter][landmarks as usize - 1].ess;
     let inverse = joint.repeats().iter().map(of).sum::<f64>() / joint.repeats().len() as f64;
     -ops::ln(inverse * f64::from(joint.setup().particles))
@@ -33,7 +33,7 @@ fn log_share(joint: &JointMap, filter: usize, landmarks: u32) -> f64 {
 /// sampled map: who wants to measure how little is left needs more than is there.
 fn n_eff_falls_as_predicted(odometry_scales: &[f64]) {
     for &odometry_scale in odometry_scales {
-        let setup = JointMapSetup { odometry_scale, ..LARGE };
+        let setup = JointSetup { odometry_scale, ..LARGE };
         let joint = finished(&setup);
         let total = f64::from(setup.particles * setup.repeats());
         for (filter, landmarks) in [SAMPLED, COMPUTED].into_iter().flat_map(|filter| (1..=5).map(move |n| (filter, n)))
@@ -69,7 +69,7 @@ fn with_a_known_path_a_drawn_landmark_costs_the_rho_of_the_exercise() {
         assert!((ops::ln(share) + f64::from(landmarks) * ops::ln(rho)).abs() < 1e-9, "{landmarks}: {share}");
         assert!((log.predicted_share(COMPUTED, landmarks) - 1.0).abs() < 1e-12, "nothing is drawn that matters");
     }
-    let Log { known, robot, features, setup } = Log::new(&JointMapSetup { odometry_scale: 2.0, ..LARGE });
+    let Log { known, robot, features, setup } = Log::new(&JointSetup { odometry_scale: 2.0, ..LARGE });
     let innovation = known[0].innovation(&setup.sensor(), &robot, &features[0].z);
     let of_exercise_4 = predicted_ess(&innovation, &setup.motion().covariance(&Pose2::default(), &DRIVE));
     let log = Log { known, robot, features, setup };
@@ -80,7 +80,7 @@ fn with_a_known_path_a_drawn_landmark_costs_the_rho_of_the_exercise() {
 /// √((ρⁿ − 1) / M), and the bend.
 #[test]
 fn the_mean_weight_of_drawn_maps_is_the_weight_of_the_computed_one() {
-    let mut joint = JointMap::new(&LARGE).unwrap();
+    let mut joint = Joint::new(&LARGE).unwrap();
     while joint.finished < joint.blocks() {
         joint.advance().unwrap();
     }
@@ -100,7 +100,7 @@ fn the_mean_weight_of_drawn_maps_is_the_weight_of_the_computed_one() {
 type Filtered = (Vec<Vec<f64>>, Vec<Vector2<f64>>);
 
 /// Both filters without resampling.
-fn by_the_filters(setup: &JointMapSetup, log: &Log, seed: u64) -> [Filtered; 2] {
+fn by_the_filters(setup: &JointSetup, log: &Log, seed: u64) -> [Filtered; 2] {
     let (motion, sensor, count) = (setup.motion(), setup.sensor(), setup.particles as usize);
     let map = Landmarks::<_, Blocks>::new(sensor, Correspondence::Known).with(log.known.iter().copied());
     let of = || Rbpf::builder(SampledMap::new(&log.known), WithMap { motion, sensor });
@@ -123,7 +123,7 @@ fn by_the_filters(setup: &JointMapSetup, log: &Log, seed: u64) -> [Filtered; 2] 
 #[test]
 fn independent_particles_have_the_weights_of_the_filters() {
     for (odometry_scale, sensor_scale) in [(1.0, 1.0), (0.0, 1.0), (3.0, 0.1), (2.0, 10.0)] {
-        let setup = JointMapSetup { particles: 40, sensor_scale, odometry_scale, seed: 6 };
+        let setup = JointSetup { particles: 40, sensor_scale, odometry_scale, seed: 6 };
         let log = Log::new(&setup);
         let mut block = Block::new(&setup, 3, 0);
         let expected = by_the_filters(&setup, &log, block.seed);
@@ -147,13 +147,13 @@ fn independent_particles_have_the_weights_of_the_filters() {
 /// Also when a run is interrupted by the next one, and when a noise comes back.
 #[test]
 fn samples_kept_for_another_noise_of_the_sensor_are_those_of_a_new_run() {
-    let of = |sensor_scale| JointMapSetup { particles: 1500, sensor_scale, ..JointMapSetup::default() };
+    let of = |sensor_scale| JointSetup { particles: 1500, sensor_scale, ..JointSetup::default() };
     let mut run = finished(&of(1.0));
     for (sensor_scale, slices) in [(1.1, 170), (1.2, 700), (1.3, u32::MAX), (1.1, u32::MAX)] {
         run = run.asked(&of(sensor_scale)).unwrap();
         let before = run.drawn.as_ref().unwrap().len();
         (0..slices.min(run.pending())).for_each(|_| run.advance().unwrap());
-        let begun = JointMap::new(&of(sensor_scale)).unwrap();
+        let begun = Joint::new(&of(sensor_scale)).unwrap();
         let drawn = run.drawn.as_ref().unwrap();
         assert!(drawn.len() >= before && drawn.iter().all(|block| block.residuals.len() == MOST as usize));
         if run.is_done() {
@@ -164,10 +164,10 @@ fn samples_kept_for_another_noise_of_the_sensor_are_those_of_a_new_run() {
         }
     }
     assert_eq!(run.drawn.as_ref().map(|drawn| drawn.iter().all(|block| Arc::strong_count(block) == 1)), Some(true));
-    let other = JointMapSetup { seed: 2, ..of(1.1) };
+    let other = JointSetup { seed: 2, ..of(1.1) };
     assert!(run.asked(&other).unwrap().drawn.is_none(), "nothing of it can be used");
-    let many = |sensor_scale| JointMapSetup { particles: 20_000, ..of(sensor_scale) };
-    let kept = JointMap::new(&many(1.0)).and_then(|run| run.asked(&many(1.1))).unwrap().drawn;
+    let many = |sensor_scale| JointSetup { particles: 20_000, ..of(sensor_scale) };
+    let kept = Joint::new(&many(1.0)).and_then(|run| run.asked(&many(1.1))).unwrap().drawn;
     assert!(kept.is_none(), "more than there is room for");
     run.forget_draws();
     assert_eq!(run.repeats().len(), 40);
@@ -176,7 +176,7 @@ fn samples_kept_for_another_noise_of_the_sensor_are_those_of_a_new_run() {
 /// What a caption claims of the state that the figure opens in.
 fn the_sampled_map_runs_out_for(seeds: core::ops::RangeInclusive<u64>) {
     for seed in seeds {
-        let joint = finished(&JointMapSetup { seed, ..JointMapSetup::default() });
+        let joint = finished(&JointSetup { seed, ..JointSetup::default() });
         let ess = |filter| joint.population(filter, MOST).unwrap().ess;
         assert!(ess(SAMPLED) < 10.0 && ess(COMPUTED) > 400.0, "{seed}: {} {}", ess(SAMPLED), ess(COMPUTED));
         for landmarks in 1..=MOST {
@@ -200,7 +200,7 @@ fn the_sampled_map_runs_out_of_particles_whatever_the_seed() {
 
 #[test]
 fn a_population_of_several_blocks_is_their_union() {
-    let joint = finished(&JointMapSetup { particles: 2500, ..JointMapSetup::default() });
+    let joint = finished(&JointSetup { particles: 2500, ..JointSetup::default() });
     let [sampled, computed] = &joint.repeats()[0];
     assert!(sampled.iter().all(|found| (1.0..2500.0).contains(&found.ess) && found.left <= 2500));
     let share = computed[0].ess / 2500.0;
@@ -209,9 +209,9 @@ fn a_population_of_several_blocks_is_their_union() {
 
 #[test]
 fn a_setting_out_of_range_is_refused_by_name() {
-    let refused = |setup| JointMap::new(&setup).unwrap_err().field();
-    assert_eq!(refused(JointMapSetup { particles: 0, ..LARGE }), "particles");
-    assert_eq!(refused(JointMapSetup { particles: 20_001, ..LARGE }), "particles");
-    assert_eq!(refused(JointMapSetup { sensor_scale: f64::NAN, ..LARGE }), "sensor_scale");
-    assert_eq!(refused(JointMapSetup { odometry_scale: -0.1, ..LARGE }), "odometry_scale");
+    let refused = |setup| Joint::new(&setup).unwrap_err().field();
+    assert_eq!(refused(JointSetup { particles: 0, ..LARGE }), "particles");
+    assert_eq!(refused(JointSetup { particles: 20_001, ..LARGE }), "particles");
+    assert_eq!(refused(JointSetup { sensor_scale: f64::NAN, ..LARGE }), "sensor_scale");
+    assert_eq!(refused(JointSetup { odometry_scale: -0.1, ..LARGE }), "odometry_scale");
 }

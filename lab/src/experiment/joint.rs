@@ -55,7 +55,7 @@ pub const COMPUTED: usize = 1;
 
 /// What a reader can set.
 #[derive(Clone, PartialEq, Debug)]
-pub struct JointMapSetup {
+pub struct JointSetup {
     /// Number of particles M of each filter, 1 to 20 000.
     pub particles: u32,
     /// Factor on the standard deviations of the sensor, 0.2 m and 0.05 rad at 1; 0.1 to 10.
@@ -66,13 +66,13 @@ pub struct JointMapSetup {
     pub seed: u64,
 }
 
-impl Default for JointMapSetup {
+impl Default for JointSetup {
     fn default() -> Self {
         Self { particles: 1000, sensor_scale: 1.0, odometry_scale: 1.0, seed: 1 }
     }
 }
 
-impl JointMapSetup {
+impl JointSetup {
     fn validate(&self) -> Result<(), SettingError> {
         Range::whole(1, 20_000).check("particles", f64::from(self.particles))?;
         Range::number(0.1, 10.0, "").check("sensor_scale", self.sensor_scale)?;
@@ -116,11 +116,11 @@ pub struct Log {
     pub known: Vec<Landmark>,
     /// One sighting a step.
     pub features: Vec<Feature>,
-    setup: JointMapSetup,
+    setup: JointSetup,
 }
 
 impl Log {
-    fn new(setup: &JointMapSetup) -> Self {
+    fn new(setup: &JointSetup) -> Self {
         let (robot, sensor) = (DRIVE.apply(&Pose2::default()), setup.sensor());
         let landmark = |k: u32| {
             // One here, one there, so that a few are not all on one side.
@@ -171,7 +171,7 @@ impl Log {
 
     /// ρ of a landmark that is drawn, with a path that is known: by what a sighting of one divides N_eff.
     pub fn rho(&self) -> f64 {
-        let known = JointMapSetup { odometry_scale: 0.0, ..self.setup.clone() };
+        let known = JointSetup { odometry_scale: 0.0, ..self.setup.clone() };
         1.0 / Self { setup: known, ..self.clone() }.predicted_share(SAMPLED, 1)
     }
 }
@@ -202,7 +202,7 @@ struct Block {
 }
 
 impl Block {
-    fn new(setup: &JointMapSetup, repeat: u32, block: u32) -> Self {
+    fn new(setup: &JointSetup, repeat: u32, block: u32) -> Self {
         let seed = setup.seed + (u64::from(repeat) << 32) + (u64::from(block) << 40);
         let count = (setup.particles - block * BLOCK).min(BLOCK) as usize;
         Self { seed, world_from_robot: vec![Pose2::default(); count], first: Vec::new(), residuals: Vec::new() }
@@ -328,8 +328,8 @@ impl Weighed {
 
 /// Both filters on one log, over and over, with other draws each time.
 #[derive(Clone, Debug)]
-pub struct JointMap {
-    setup: JointMapSetup,
+pub struct Joint {
+    setup: JointSetup,
     log: Log,
     repeats: Vec<Repeat>,
     /// Present repeat: number of finished blocks, the block under way, the landmarks that it has observed, and the weights so far.
@@ -342,12 +342,12 @@ pub struct JointMap {
     drawn: Option<Vec<Arc<Block>>>,
 }
 
-impl JointMap {
+impl Joint {
     /// Before its first step.
     ///
     /// # Errors
     /// Where a setting is out of its range.
-    pub fn new(setup: &JointMapSetup) -> Result<Self, SettingError> {
+    pub fn new(setup: &JointSetup) -> Result<Self, SettingError> {
         setup.validate()?;
         let log = Log::new(setup);
         let block = Block::new(setup, 0, 0).into();
@@ -360,7 +360,7 @@ impl JointMap {
     ///
     /// # Errors
     /// Where a setting is out of its range.
-    pub fn asked(&self, setup: &JointMapSetup) -> Result<Self, SettingError> {
+    pub fn asked(&self, setup: &JointSetup) -> Result<Self, SettingError> {
         let mut asked = Self::new(setup)?;
         if self.draws_for(setup) && setup.particles * setup.repeats() <= TOGETHER {
             asked.drawn = Some(self.drawn.clone().unwrap_or_default());
@@ -370,8 +370,8 @@ impl JointMap {
     }
 
     /// Whether a run with these settings draws the same samples.
-    pub fn draws_for(&self, setup: &JointMapSetup) -> bool {
-        self.setup == JointMapSetup { sensor_scale: self.setup.sensor_scale, ..setup.clone() }
+    pub fn draws_for(&self, setup: &JointSetup) -> bool {
+        self.setup == JointSetup { sensor_scale: self.setup.sensor_scale, ..setup.clone() }
     }
 
     /// Frees the memory of the samples; results are kept.
@@ -386,7 +386,7 @@ impl JointMap {
     }
 
     /// What was set.
-    pub fn setup(&self) -> &JointMapSetup {
+    pub fn setup(&self) -> &JointSetup {
         &self.setup
     }
 
