@@ -2,7 +2,7 @@
 
 mod ekf;
 pub mod em_mapping;
-pub mod joint;
+pub mod information_matrix;
 pub mod one_step;
 pub mod pose_graph;
 pub mod sampled_map;

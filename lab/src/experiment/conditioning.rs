@@ -3,7 +3,7 @@
 //!
 //! Everything is linearised at the truth and no noise is drawn: covariances do not depend on it, so there is no seed.
 
-use crate::baseline::joint::{Joint, MapCovariance, PairPrediction};
+use crate::baseline::information_matrix::{InformationMatrix, MapCovariance, PairPrediction};
 use crate::digest::Digest;
 use crate::world::drive;
 use fastslam::error::{Range, SettingError};
@@ -142,11 +142,11 @@ impl Conditioning {
             (0..self.landmarks.len()).filter(|j| sightings.iter().any(|from| from.contains(j))).collect();
         let (motion, sensor) = (OdometryModel { alphas: ALPHAS }.scaled(self.setup.odometry_scale), self.sensor());
         let floor = Matrix3::from_diagonal(&Vector3::from(FLOOR_STDS.map(|std| std * std)));
-        let mut joint = Joint::new(poses, seen.len());
+        let mut information = InformationMatrix::new(poses, seen.len());
         for (t, visible) in sightings.iter().enumerate().skip(1) {
             let (from, to) = (&self.path[t - 1], &self.path[t]);
             let u = Odometry::between(from, to);
-            joint.add_odometry(t, &motion.jacobian(from, &u), &(motion.covariance(from, &u) + floor));
+            information.add_odometry(t, &motion.jacobian(from, &u), &(motion.covariance(from, &u) + floor));
             let in_view: Vec<_> = seen
                 .iter()
                 .enumerate()
@@ -154,15 +154,15 @@ impl Conditioning {
                 .map(|(row, &j)| (row, sensor.predict(to, &Vector2::from(self.landmarks[j]))))
                 .collect();
             for (row, predicted) in &in_view {
-                joint.add_observation(t, *row, predicted, &sensor.noise());
+                information.add_observation(t, *row, predicted, &sensor.noise());
             }
             for pair in in_view.windows(2).filter(|_| self.setup.pairs) {
                 let [(one, seen_one), (two, seen_two)] = pair else { continue };
-                joint.add_pair(t, [*one, *two], &PairPrediction::angle([seen_one, seen_two]), ANGLE_STD);
+                information.add_pair(t, [*one, *two], &PairPrediction::angle([seen_one, seen_two]), ANGLE_STD);
             }
         }
         let known = "every landmark in it was sighted, and every range is checked";
-        let conditional = joint.conditional().expect(known);
+        let conditional = information.conditional().expect(known);
         // Wheels without error leave nothing of the path open: it is known, whatever it is asked for.
         if self.setup.odometry_scale == 0.0 || poses == 0 {
             return Covariances {
@@ -175,11 +175,11 @@ impl Conditioning {
             };
         }
         Covariances {
-            marginal: joint.marginal().expect(known),
-            given_last: joint.given_last_pose().expect(known),
+            marginal: information.marginal().expect(known),
+            given_last: information.given_last_pose().expect(known),
             conditional,
-            path: joint.path(poses).expect(known),
-            path_given_last: joint.path(poses - 1).expect(known),
+            path: information.path(poses).expect(known),
+            path_given_last: information.path(poses - 1).expect(known),
             seen,
         }
     }

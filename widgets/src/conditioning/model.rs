@@ -10,7 +10,7 @@ use crate::model::{Change, Column, Declared, FigureError, Model, Readout, Series
 use crate::told::refused;
 use crate::words::{common, conditioning};
 use fastslam_lab::{
-    baseline::joint::MapCovariance,
+    baseline::information_matrix::MapCovariance,
     experiment::conditioning::{Conditioning, ConditioningSetup, Covariances},
 };
 

@@ -27,16 +27,16 @@ fn seen(t: usize, j: usize) -> Prediction {
     SENSOR.predict(&path()[t], &Vector2::from(MAP[j]))
 }
 
-fn joint(scale: f64) -> Joint {
-    let mut joint = Joint::new(3, 4);
+fn information(scale: f64) -> InformationMatrix {
+    let mut information = InformationMatrix::new(3, 4);
     for t in 1..=3 {
         let (jacobian, noise) = motion(t, scale);
-        joint.add_odometry(t, &jacobian, &noise);
+        information.add_odometry(t, &jacobian, &noise);
     }
     for (t, j) in SIGHTINGS {
-        joint.add_observation(t, j, &seen(t, j), &SENSOR.noise());
+        information.add_observation(t, j, &seen(t, j), &SENSOR.noise());
     }
-    joint
+    information
 }
 
 fn pairs() -> impl Iterator<Item = (usize, usize)> {
@@ -70,11 +70,11 @@ fn brute_inverse(m: &DMatrix<f64>) -> DMatrix<f64> {
 #[test]
 fn marginals_are_blocks_of_the_inverse_of_the_whole_matrix() {
     for scale in [0.3, 1.0, 3.0] {
-        let joint = joint(scale);
-        let whole = brute_inverse(joint.information());
-        let marginal = joint.marginal().unwrap();
+        let information = information(scale);
+        let whole = brute_inverse(information.matrix());
+        let marginal = information.marginal().unwrap();
         assert!((marginal.matrix() - whole.view_range(9.., 9..)).norm() < 1e-9, "{scale}");
-        for (t, covariance) in joint.path(joint.poses).unwrap().iter().enumerate() {
+        for (t, covariance) in information.path(information.poses).unwrap().iter().enumerate() {
             assert!((covariance - whole.fixed_view::<3, 3>(3 * t, 3 * t)).norm() < 1e-9, "{scale}: pose {t}");
         }
     }
@@ -113,12 +113,12 @@ fn the_marginal_is_the_map_covariance_of_a_kalman_filter_over_pose_and_map() {
             }
         }
     }
-    assert!((joint(1.0).marginal().unwrap().matrix() - p.view_range(3.., 3..)).norm() < 1e-12);
+    assert!((information(1.0).marginal().unwrap().matrix() - p.view_range(3.., 3..)).norm() < 1e-12);
 }
 
 #[test]
 fn given_the_path_every_landmark_is_a_filter_of_its_own() {
-    let conditional = joint(1.0).conditional().unwrap();
+    let conditional = information(1.0).conditional().unwrap();
     for (j, at) in MAP.into_iter().enumerate() {
         let mut alone: Option<Landmark> = None;
         for (t, _) in SIGHTINGS.into_iter().filter(|s| s.1 == j) {
@@ -136,7 +136,8 @@ fn given_the_path_every_landmark_is_a_filter_of_its_own() {
 #[test]
 fn given_the_path_every_entry_outside_the_blocks_is_exactly_zero() {
     for scale in [0.0, 1.0, 3.0] {
-        let (marginal, conditional) = (joint(scale).marginal().unwrap(), joint(scale).conditional().unwrap());
+        let (marginal, conditional) =
+            (information(scale).marginal().unwrap(), information(scale).conditional().unwrap());
         assert_eq!((marginal.off_block_nonzeros(), conditional.off_block_nonzeros()), (4 * 3 * 4, 0));
         for (i, j) in pairs() {
             assert_eq!((conditional.block(i, j), conditional.coupling(i, j)), (Matrix2::zeros(), 0.0));
@@ -146,12 +147,12 @@ fn given_the_path_every_entry_outside_the_blocks_is_exactly_zero() {
 
 #[test]
 fn landmarks_never_seen_together_are_correlated_all_the_same() {
-    assert!(joint(1.0).marginal().unwrap().coupling(0, 3) > 0.1);
+    assert!(information(1.0).marginal().unwrap().coupling(0, 3) > 0.1);
 }
 
 #[test]
 fn couplings_grow_with_the_noise_of_the_odometry_and_vanish_without() {
-    let at = |scale| joint(scale).marginal().unwrap();
+    let at = |scale| information(scale).marginal().unwrap();
     let maps = [0.0, 0.03, 0.1, 0.3, 1.0].map(at);
     for (i, j) in pairs() {
         assert!(maps[0].coupling(i, j) < 1e-6, "{}", maps[0].coupling(i, j));
@@ -161,7 +162,7 @@ fn couplings_grow_with_the_noise_of_the_odometry_and_vanish_without() {
 
 #[test]
 fn the_coupling_is_the_largest_correlation_of_any_two_directions() {
-    let map = joint(1.0).marginal().unwrap();
+    let map = information(1.0).marginal().unwrap();
     for (i, j) in pairs() {
         let direction = |k: u32| {
             let (sin, cos) = fastslam::ops::sin_cos(f64::from(k) * core::f64::consts::PI / 400.0);
@@ -185,8 +186,11 @@ fn the_coupling_is_the_largest_correlation_of_any_two_directions() {
 
 #[test]
 fn a_landmark_that_was_never_sighted_has_no_covariance() {
-    let mut joint = Joint::new(1, 1);
+    let mut information = InformationMatrix::new(1, 1);
     let (jacobian, noise) = motion(1, 1.0);
-    joint.add_odometry(1, &jacobian, &noise);
-    assert_eq!((joint.marginal(), joint.conditional(), joint.path(joint.poses)), (None, None, None));
+    information.add_odometry(1, &jacobian, &noise);
+    assert_eq!(
+        (information.marginal(), information.conditional(), information.path(information.poses)),
+        (None, None, None)
+    );
 }

@@ -31,14 +31,14 @@ impl PairPrediction {
 
 /// Λ over the poses x_1 … x_T (three numbers each; x_0 is known) and the landmarks m_1 … m_N (two each).
 #[derive(Clone, PartialEq, Debug)]
-pub struct Joint {
+pub struct InformationMatrix {
     poses: usize,
     landmarks: usize,
     /// 3 T + 2 N rows: all poses, then all landmarks.
     information: DMatrix<f64>,
 }
 
-impl Joint {
+impl InformationMatrix {
     /// Of so many poses besides the known start, and so many landmarks, of which nothing is known yet.
     pub fn new(poses: usize, landmarks: usize) -> Self {
         let size = 3 * poses + 2 * landmarks;
@@ -98,7 +98,7 @@ impl Joint {
     }
 
     /// Λ (3 T + 2 N rows): all poses, then all landmarks.
-    pub fn information(&self) -> &DMatrix<f64> {
+    pub fn matrix(&self) -> &DMatrix<f64> {
         &self.information
     }
 
