@@ -9,7 +9,7 @@ use super::lap::{self, Lap, LapSetup};
 use super::log::{self, Example, Recipe};
 use super::long_rings::LongRingSetup;
 use super::policies::{Policies, PoliciesSetup, PolicyCourse};
-use super::proposals::{Proposals, ProposalsSetup};
+use super::proposal::{Proposals, ProposalsSetup};
 use super::smoothing::{Smoothing, SmoothingSetup};
 use super::{ProposalKind, em, graph};
 use crate::baseline::pose_graph::Repair;

@@ -19,7 +19,7 @@ pub mod looking_back;
 pub mod numbers;
 pub mod policies;
 pub mod policy_counts;
-pub mod proposals;
+pub mod proposal;
 pub mod ring;
 pub mod smoothing;
 mod summary;

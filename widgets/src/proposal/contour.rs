@@ -63,7 +63,7 @@ pub fn outline(posterior: &Posterior) -> Vec<Vec<[f64; 2]>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fastslam_lab::experiment::proposals::{Proposals, ProposalsSetup};
+    use fastslam_lab::experiment::proposal::{Proposals, ProposalsSetup};
 
     #[test]
     fn a_gaussian_covers_nine_tenths_of_its_own_kind_and_one_that_is_too_small_less_than_its_samples_tell() {

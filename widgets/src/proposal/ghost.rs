@@ -5,7 +5,7 @@ use crate::{
     ghost::{Curves, curve},
     scene::{GHOST, NINE_TENTHS, Plane, Point, Rect, Role, Scene, clip_polyline, joined},
 };
-use fastslam_lab::experiment::proposals::{Cloud, Proposals};
+use fastslam_lab::experiment::proposal::{Cloud, Proposals};
 
 /// Ranks of the curves: both clouds as x and y in turn \[m\], the Gaussian of 2.0 as its mean \[m\] and covariance \[m²\], the ratio,
 /// and from then on the lines of the region's outline.

@@ -16,7 +16,7 @@ use fastslam::{
     motion::{Odometry, OdometryModel},
     ops,
 };
-use fastslam_lab::experiment::proposals::{ALPHAS, CONTROL, FROM, Proposals, ProposalsSetup};
+use fastslam_lab::experiment::proposal::{ALPHAS, CONTROL, FROM, Proposals, ProposalsSetup};
 
 /// From the end of an axis of the sensor to its knob \[css px\].
 const STEM: f64 = 20.0;

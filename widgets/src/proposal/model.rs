@@ -7,7 +7,7 @@ use crate::ghost::Curves;
 use crate::model::{Change, Column, Declared, FigureError, Model, Readout, Series};
 use crate::prediction::{Outcome, State, off_by};
 use crate::words::{common, proposal};
-use fastslam_lab::experiment::proposals::{Cloud, Proposals, ProposalsSetup};
+use fastslam_lab::experiment::proposal::{Cloud, Proposals, ProposalsSetup};
 
 /// In the first version a guess was there before the reader placed one.
 const GUESSED: Change = Change::Default { name: "guess", was: "2" };

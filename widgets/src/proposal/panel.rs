@@ -22,7 +22,7 @@ use crate::{
 use fastslam::geometry::Pose2;
 use fastslam_lab::{
     baseline::one_step::{Area, Posterior},
-    experiment::proposals::{CONTROL, Cloud, FROM, TWIN},
+    experiment::proposal::{CONTROL, Cloud, FROM, TWIN},
 };
 
 /// From a robot's centre to its nose \[css px\].

@@ -6,7 +6,7 @@ use crate::{
     recipe::{self, Menu, Param},
     words::{common, proposal},
 };
-use fastslam_lab::{baseline::one_step::Area, experiment::proposals::ProposalsSetup};
+use fastslam_lab::{baseline::one_step::Area, experiment::proposal::ProposalsSetup};
 
 /// Part of the world that is looked at \[m\]: what both panels show, and where a landmark can be put.
 pub const WORLD: Area = Area { low: [-0.25, -0.9], high: [2.95, 0.9] };

@@ -7,7 +7,7 @@ use crate::{
     scene::{Handle, NINE_TENTHS, Point, Rect, Role, Scene, clip_polyline, plain, strong},
     words::proposal,
 };
-use fastslam_lab::experiment::proposals::{CONTROL, FROM};
+use fastslam_lab::experiment::proposal::{CONTROL, FROM};
 
 /// The landmark.
 pub const LANDMARK: &str = "landmark";

@@ -1,7 +1,7 @@
 //! Which part of the world the panels show: what the motion prior reaches, whatever was drawn of it.
 
 use crate::scene::{Plane, Rect};
-use fastslam_lab::experiment::proposals::{CONTROL, FROM};
+use fastslam_lab::experiment::proposal::{CONTROL, FROM};
 
 /// Half of what is seen from the left to the right \[m\]: so much, and so much more for each unit of the odometry's scale. Not quite in
 /// proportion, so that noisier wheels are seen to reach farther.

@@ -19,7 +19,7 @@ use fastslam::{
 };
 use fastslam_lab::experiment::{
     Fraction, ProposalKind,
-    proposals::{Depletion, ProposalsSetup, depletion},
+    proposal::{Depletion, ProposalsSetup, depletion},
     universes::{ENOUGH, TRIED, saturated, sufficient},
 };
 

@@ -10,7 +10,7 @@ use crate::{
 };
 use fastslam_lab::experiment::{
     ProposalKind,
-    proposals::ProposalsSetup,
+    proposal::ProposalsSetup,
     universes::{Rule, TRIED, WELL},
 };
 

@@ -11,7 +11,7 @@ mod landmarks;
 mod lap;
 mod looking_back;
 mod policies;
-mod proposals;
+mod proposal;
 mod ring;
 mod smoothing;
 mod stores;
@@ -188,7 +188,7 @@ pub fn recipes() -> Vec<Recipe> {
         ring::recipes(),
         graph::recipes(),
         policies::recipes(),
-        proposals::recipes(),
+        proposal::recipes(),
         joint::recipes(),
         smoothing::recipes(),
         looking_back::recipes(),

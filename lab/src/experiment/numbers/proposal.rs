@@ -2,7 +2,7 @@
 
 use super::{Group, Number, Recipe, VALID};
 use crate::experiment::conditioning::{Conditioning, ConditioningSetup};
-use crate::experiment::proposals::{Proposals, ProposalsSetup};
+use crate::experiment::proposal::{Proposals, ProposalsSetup};
 use crate::experiment::worked_example::{Inputs, WorkedExample};
 
 /// Samples of a block of the one-step comparison, and how many blocks: their scatter is the standard error.
@@ -38,10 +38,8 @@ fn block() -> ProposalsSetup {
 /// A number of every block, with its standard error.
 fn of_blocks(group: &Group, key: &str, values: &[f64], what: &str) -> [Number; 2] {
     let [mean, error] = mean_and_error(values);
-    let over = format!(
-        "{} blocks (seeds) of {SAMPLES} samples of one step, src/experiment/proposals.rs: {what}",
-        values.len()
-    );
+    let over =
+        format!("{} blocks (seeds) of {SAMPLES} samples of one step, src/experiment/proposal.rs: {what}", values.len());
     [
         group.number(key, mean, "", format!("Mean over {over}")),
         group.number(&format!("{key}.se"), error, "", format!("Standard error of the mean over {over}")),
