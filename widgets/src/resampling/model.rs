@@ -12,7 +12,7 @@ use crate::told::{WEIGHED_ANEW, ess_text, pose_text, refused};
 use crate::words::resampling;
 use core::mem::replace;
 use fastslam::geometry::Pose2;
-use fastslam_lab::experiment::policies::{POLICIES, Policies, PoliciesSetup, PolicyCourse, PolicyReport};
+use fastslam_lab::experiment::resampling::{POLICIES, Policies, PoliciesSetup, PolicyCourse, PolicyReport};
 use std::sync::Arc;
 
 /// Figure w17.2.

@@ -11,7 +11,7 @@ use fastslam::resampling::Scheme;
 use fastslam_lab::{
     experiment::{
         lap::STEPS,
-        policies::{POLICIES, PoliciesSetup, PolicyCourse},
+        resampling::{POLICIES, PoliciesSetup, PolicyCourse},
     },
     world::Field as Landmarks,
 };

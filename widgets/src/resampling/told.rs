@@ -4,7 +4,7 @@ use super::model::{Moment, ResamplingModel};
 use crate::decimal::fixed;
 use crate::model::{Column, Model, Readout, Series};
 use crate::words::{common, resampling};
-use fastslam_lab::experiment::policies::{POLICIES, PolicyCourse};
+use fastslam_lab::experiment::resampling::{POLICIES, PolicyCourse};
 
 /// The numbers of the step that is read.
 pub fn readouts(model: &ResamplingModel) -> Vec<Readout> {

@@ -7,9 +7,9 @@ use crate::{
     model::FigureError,
 };
 use core::ops::Range;
-use fastslam_lab::experiment::{
-    policies::PolicyCourse,
-    policy_counts::{PolicyOutcome, outcomes},
+use fastslam_lab::experiment::resampling::{
+    PolicyCourse,
+    counts::{PolicyOutcome, outcomes},
 };
 
 /// Which policy keeps the right wing, and which ends in it.

@@ -1,7 +1,7 @@
 //! Laws of the figure of resampling, by its public face: what a page can do to it.
 
 use crate::common::{assert_drawn_inside, assert_texts_fit, figure, scene, state};
-use fastslam_lab::experiment::policies::RIGHT_WITHIN;
+use fastslam_lab::experiment::resampling::RIGHT_WITHIN;
 use fastslam_widgets::{
     decimal::fixed,
     figure::Figure,

@@ -10,8 +10,8 @@ mod joint;
 mod landmarks;
 mod lap;
 mod looking_back;
-mod policies;
 mod proposal;
+mod resampling;
 mod ring;
 mod smoothing;
 mod stores;
@@ -187,7 +187,7 @@ pub fn recipes() -> Vec<Recipe> {
         lap::recipes(),
         ring::recipes(),
         graph::recipes(),
-        policies::recipes(),
+        resampling::recipes(),
         proposal::recipes(),
         joint::recipes(),
         smoothing::recipes(),

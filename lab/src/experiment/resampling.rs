@@ -11,6 +11,8 @@
 //!
 //! [`Field::two_wings`]: crate::world::Field::two_wings
 
+pub mod counts;
+
 use super::landmarks::{AssociationSummary, CorrespondenceKind, Course, LandmarkLog, LandmarkRun, LandmarkSetup};
 use super::lap::PARTICLES;
 use super::lap::{Lap, LapSetup, LapWorld};

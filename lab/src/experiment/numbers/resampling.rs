@@ -2,8 +2,8 @@
 
 use super::{Group, Recipe, Runs, SEEDS, VALID};
 use crate::experiment::lap::STEPS;
-use crate::experiment::policies::{PoliciesSetup, PolicyCourse};
-use crate::experiment::policy_counts::{PolicySummary, outcomes, summary};
+use crate::experiment::resampling::counts::{PolicySummary, outcomes, summary};
+use crate::experiment::resampling::{PoliciesSetup, PolicyCourse};
 use fastslam::resampling::Scheme;
 
 /// All recipes of the policies.

@@ -3,8 +3,8 @@
 //! [`outcomes`] is a pure function of the setting and the seeds: a range can be run in pieces, anywhere, and the pieces put
 //! together in the order of their seeds.
 
-use super::policies::{POLICIES, Policies, PoliciesSetup, PolicyReport, RIGHT_WITHIN};
-use super::{Fraction, quantile};
+use super::{POLICIES, Policies, PoliciesSetup, PolicyReport, RIGHT_WITHIN};
+use crate::experiment::{Fraction, quantile};
 use core::ops::Range;
 use fastslam::error::SettingError;
 use fastslam::execute::Executor;
@@ -166,7 +166,7 @@ pub fn summary(outcomes: &[[PolicyOutcome; 3]], particles: usize) -> [PolicySumm
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiment::policies::PolicyCourse;
+    use crate::experiment::resampling::PolicyCourse;
     use fastslam::resampling::Scheme;
 
     #[test]
