@@ -1,4 +1,6 @@
+use super::ends::end;
 use super::*;
+use fastslam::random::Purpose;
 
 fn log(seed: u64) -> Log {
     Log::new(&LogSetup { seed, ..LogSetup::default() }).unwrap()
