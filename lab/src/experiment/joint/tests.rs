@@ -96,11 +96,11 @@ fn the_mean_weight_of_drawn_maps_is_the_weight_of_the_computed_one() {
     }
 }
 
-/// Log weight increments of each step, and each particle's first landmark at the end.
-type Filtered = (Vec<Vec<f64>>, Vec<Vector2<f64>>);
+/// Increments of the log weights \[nats\] by landmark, and where each particle has the first landmark \[m\].
+type Weighing = (Vec<Vec<f64>>, Vec<Vector2<f64>>);
 
-/// Both filters without resampling.
-fn by_the_filters(setup: &JointSetup, log: &Log, seed: u64) -> [Filtered; 2] {
+/// Both filters without resampling: log weight increments of each step, and each particle's first landmark at the end.
+fn by_the_filters(setup: &JointSetup, log: &Log, seed: u64) -> [Weighing; 2] {
     let (motion, sensor, count) = (setup.motion(), setup.sensor(), setup.particles as usize);
     let map = Landmarks::<_, Blocks>::new(sensor, Correspondence::Known).with(log.known.iter().copied());
     let of = || Rbpf::builder(SampledMap::new(&log.known), WithMap { motion, sensor });
