@@ -11,7 +11,6 @@ const most = 400
 const longer = {
   'lab/src/experiment/graph.rs': 627,
   'lab/src/experiment/lap.rs': 735,
-  'lab/src/experiment/resampling.rs': 493,
   'widgets/elements/figure-parts.ts': 418,
   'widgets/elements/figure.css': 464,
   'widgets/elements/hosted-figure.ts': 461,

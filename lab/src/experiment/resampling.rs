@@ -12,118 +12,29 @@
 //! [`Field::two_wings`]: crate::world::Field::two_wings
 
 pub mod counts;
+mod run;
+mod setup;
 
-use super::landmarks::{AssociationSummary, CorrespondenceKind, Course, LandmarkLog, LandmarkRun, LandmarkSetup};
-use super::lap::PARTICLES;
-use super::lap::{Lap, LapSetup, LapWorld};
+pub use setup::{PoliciesSetup, PolicyCourse};
+
+use super::landmarks::{AssociationSummary, LandmarkLog};
+use super::lap::LapWorld;
 use crate::digest::Digest;
-use crate::experiment::ProposalKind;
 use crate::world::{WINGS_LOST, WINGS_SIGN};
 use core::f64::consts::FRAC_PI_2;
-use fastslam::error::{Range, SettingError};
+use fastslam::error::SettingError;
 use fastslam::execute::Executor;
 use fastslam::genealogy::{Descent, Path};
 use fastslam::geometry::{Pose2, rms};
-use fastslam::matching::Matcher;
 use fastslam::ops;
-use fastslam::resampling::{ResamplePolicy, Scheme};
 use fastslam::sensor::Feature;
-use std::sync::Arc;
+use run::{Run, Stepped, World};
 
 /// The policies compared, by their index everywhere here.
 pub const POLICIES: [&str; 3] = ["never", "always", "selective"];
 const NEVER: usize = 0;
 const ALWAYS: usize = 1;
 const SELECTIVE: usize = 2;
-
-/// Where the filters are compared.
-#[derive(
-    Clone, Copy, PartialEq, Eq, Debug, strum::Display, strum::EnumString, strum::VariantNames, strum::VariantArray,
-)]
-#[strum(serialize_all = "lowercase", parse_err_ty = SettingError, parse_err_fn = unknown_course)]
-pub enum PolicyCourse {
-    /// The Apartment lap: grid maps.
-    Lap,
-    /// Two wings that look the same: landmarks of unknown correspondence, FastSLAM 2.0.
-    Wings,
-}
-
-fn unknown_course(given: &str) -> SettingError {
-    SettingError::unknown_word("course", given, <PolicyCourse as strum::VariantNames>::VARIANTS)
-}
-
-/// What a reader can set.
-#[derive(Clone, PartialEq, Debug)]
-pub struct PoliciesSetup {
-    /// The course.
-    pub course: PolicyCourse,
-    /// Number of particles M of each filter, 1 to 4096.
-    pub particles: usize,
-    /// Seed of the world's noise and of the filters': the same for all three.
-    pub seed: u64,
-    /// The selective filter resamples where N_eff < threshold · M, 0 to 1.
-    pub threshold: f64,
-    /// How to resample.
-    pub scheme: Scheme,
-    /// Factor on the standard deviations of the odometry's noise, 0 to 10: of the world's, and of what the filters expect.
-    pub odometry_scale: f64,
-    /// The same for the sensor, 0.1 to 10.
-    pub sensor_scale: f64,
-    /// Where new poses are drawn from on the lap.
-    pub proposal: ProposalKind,
-    /// What an end point is compared with on the lap.
-    pub matcher: Matcher,
-}
-
-impl PoliciesSetup {
-    /// What a course begins with: M = 16, threshold ½, and a scheme by the course.
-    ///
-    /// In the wings it is the multinomial one, that of the bootstrap filter. The explanations weigh nearly the same there, and
-    /// what resampling does to equal weights is the scheme's own noise: a systematic one copies nearly everybody once and does
-    /// little harm, a multinomial one is the drift of genes. Over seeds 1 to 3000 some particle is still in the right wing before
-    /// the sign, resampling always against by N_eff: systematic 77 % against 89 %, stratified 72 against 89, residual 55
-    /// against 87, multinomial 41 against 84.
-    pub fn of(course: PolicyCourse) -> Self {
-        Self {
-            course,
-            particles: 16,
-            seed: 3,
-            threshold: 0.5,
-            scheme: match course {
-                PolicyCourse::Lap => Scheme::Systematic,
-                PolicyCourse::Wings => Scheme::Multinomial,
-            },
-            odometry_scale: 1.0,
-            sensor_scale: 1.0,
-            proposal: ProposalKind::Improved,
-            matcher: Matcher::SubCell,
-        }
-    }
-}
-
-impl Default for PoliciesSetup {
-    fn default() -> Self {
-        Self::of(PolicyCourse::Lap)
-    }
-}
-
-impl PoliciesSetup {
-    /// Whether all settings are in range.
-    ///
-    /// # Errors
-    /// Where one is not.
-    pub fn validate(&self) -> Result<(), SettingError> {
-        PARTICLES.check("particles", self.particles as f64)?;
-        ResamplePolicy::FRACTION.check("threshold", self.threshold)?;
-        Range::number(0.0, 10.0, "").check("odometry_scale", self.odometry_scale)?;
-        Range::number(0.1, 10.0, "").check("sensor_scale", self.sensor_scale).map(drop)
-    }
-
-    /// When the filters resample, in the order of [`POLICIES`].
-    pub fn policies(&self) -> [ResamplePolicy; 3] {
-        [ResamplePolicy::Never, ResamplePolicy::Always, ResamplePolicy::EssBelow(self.threshold)]
-    }
-}
 
 /// What one filter did in one step, and how far from the truth it is.
 #[derive(Clone, PartialEq, Debug)]
@@ -181,85 +92,6 @@ fn is_right(pose: &Pose2, truth: &Pose2) -> bool {
     pose.distance(truth) < RIGHT_WITHIN && ops::wrap_angle(pose.theta - truth.theta).abs() < FRAC_PI_2
 }
 
-/// The world that all three filters share.
-#[derive(Clone, Debug)]
-enum World {
-    Lap(Arc<LapWorld>),
-    Wings(Arc<LandmarkLog>),
-}
-
-impl World {
-    fn truth(&self) -> &[Pose2] {
-        match self {
-            Self::Lap(world) => &world.truth,
-            Self::Wings(log) => &log.truth,
-        }
-    }
-}
-
-#[derive(Clone, Debug)]
-enum Run {
-    Lap(Box<Lap>),
-    Wings(Box<LandmarkRun>),
-}
-
-/// The same of either filter.
-macro_rules! of_filter {
-    ($run:expr, $filter:ident => $value:expr) => {
-        match $run {
-            Run::Lap(run) => {
-                let $filter = run.filter();
-                $value
-            }
-            Run::Wings(run) => {
-                let $filter = run.filter();
-                $value
-            }
-        }
-    };
-}
-
-/// What of a [`PolicyReport`] the filter itself reports.
-struct Stepped {
-    log_evidence: f64,
-    ess: f64,
-    ancestors: Option<Vec<u32>>,
-    associations: Option<(AssociationSummary, u32)>,
-}
-
-impl Run {
-    fn with_policy(self, policy: ResamplePolicy) -> Self {
-        match self {
-            Self::Lap(run) => Self::Lap(Box::new(run.with_policy(policy))),
-            Self::Wings(run) => Self::Wings(Box::new(run.with_policy(policy))),
-        }
-    }
-
-    fn with_executor(self, executor: Executor) -> Self {
-        match self {
-            Self::Lap(run) => Self::Lap(Box::new(run.with_executor(executor))),
-            Self::Wings(run) => Self::Wings(Box::new(run.with_executor(executor))),
-        }
-    }
-
-    fn step(&mut self) -> Option<Stepped> {
-        match self {
-            Self::Lap(run) => run.step().map(|report| Stepped {
-                log_evidence: report.log_evidence,
-                ess: report.ess,
-                ancestors: report.ancestors.clone(),
-                associations: None,
-            }),
-            Self::Wings(run) => run.step().map(|report| Stepped {
-                log_evidence: report.log_evidence,
-                ess: report.ess,
-                ancestors: report.ancestors,
-                associations: Some((report.best, report.answers)),
-            }),
-        }
-    }
-}
-
 /// Three filters under way. Cloning is cheap: the world, the maps and the past are shared.
 #[derive(Clone, Debug)]
 pub struct Policies {
@@ -286,40 +118,14 @@ impl Policies {
     /// Where a setting is out of its range.
     pub fn new(setup: &PoliciesSetup) -> Result<Self, SettingError> {
         setup.validate()?;
-        let &PoliciesSetup { particles, seed, scheme, odometry_scale, sensor_scale, proposal, matcher, .. } = setup;
-        let (world, never) = match setup.course {
-            PolicyCourse::Lap => {
-                let range_std = LapSetup::default().range_std * sensor_scale;
-                let lap = LapSetup {
-                    particles,
-                    seed,
-                    proposal,
-                    matcher,
-                    policy: ResamplePolicy::Never,
-                    scheme,
-                    odometry_scale,
-                    range_std,
-                    ..LapSetup::default()
-                };
-                let world = Arc::new(lap.world());
-                (World::Lap(Arc::clone(&world)), Run::Lap(Box::new(Lap::in_world(&lap, world)?)))
-            }
-            PolicyCourse::Wings => {
-                let tuning = Course::Wings.tuning().scaled(odometry_scale, sensor_scale);
-                let log = Arc::new(Course::Wings.simulate_with(&tuning, seed));
-                let (proposal, correspondence) = (ProposalKind::Improved, CorrespondenceKind::Unknown);
-                let policy = ResamplePolicy::Never;
-                let of = LandmarkSetup { particles, seed, proposal, correspondence, policy, scheme };
-                (World::Wings(Arc::clone(&log)), Run::Wings(Box::new(LandmarkRun::new(&of, &tuning, log)?)))
-            }
-        };
+        let (world, never) = run::begin(setup)?;
         let (start, always) = (never.clone(), never.clone().with_policy(setup.policies()[ALWAYS]));
         let first = PolicyReport {
             step: 0,
             log_evidence: 0.0,
-            ess: particles as f64,
+            ess: setup.particles as f64,
             ancestors: None,
-            descent: of_filter!(&never, filter => filter.descent()),
+            descent: never.descent(),
             error_best: 0.0,
             error_mean: 0.0,
             rms_best: 0.0,
@@ -435,7 +241,7 @@ impl Policies {
             log_evidence,
             ess,
             ancestors,
-            descent: of_filter!(self.run(policy), filter => filter.descent()),
+            descent: self.run(policy).descent(),
             error_best: poses[best].distance(here),
             error_mean,
             rms_best: rms(&self.paths(policy)[best].poses(), &truth[..=step as usize]),
@@ -472,10 +278,7 @@ impl Policies {
 
     /// Poses by raw odometry alone, of steps 0 to the last.
     pub fn odometry(&self) -> &[Pose2] {
-        match &self.world {
-            World::Lap(world) => &world.odometry,
-            World::Wings(log) => &log.odometry,
-        }
+        self.world.odometry()
     }
 
     /// The lap's world, on the lap.
@@ -508,22 +311,22 @@ impl Policies {
 
     /// Paths of one filter's particles, by slot.
     pub fn paths(&self, policy: usize) -> Vec<&Path> {
-        of_filter!(self.run(policy), filter => filter.particles().iter().map(|p| &p.path).collect())
+        self.run(policy).paths()
     }
 
     /// Poses of one filter's particles, by slot.
     pub fn poses(&self, policy: usize) -> Vec<Pose2> {
-        of_filter!(self.run(policy), filter => filter.particles().iter().map(|p| p.world_from_robot).collect())
+        self.run(policy).poses()
     }
 
     /// Normalised weights of one filter as they are now, by slot: uniform after a resampling.
     pub fn weights(&self, policy: usize) -> &[f64] {
-        of_filter!(self.run(policy), filter => filter.weights().as_slice())
+        self.run(policy).weights()
     }
 
     /// Slot of one filter's best particle.
     pub fn best(&self, policy: usize) -> usize {
-        of_filter!(self.run(policy), filter => filter.best())
+        self.run(policy).best()
     }
 
     /// Runs to the end. Returns a fingerprint of every report, pose and weight on the way, bit for bit.
