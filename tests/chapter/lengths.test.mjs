@@ -18,7 +18,6 @@ const longer = {
   'widgets/src/lap/model.rs': 473,
   'widgets/src/model.rs': 465,
   'widgets/src/recipe.rs': 461,
-  'widgets/src/resampling/model.rs': 442,
   'widgets/tests/all/resampling.rs': 485,
   'widgets/tests/all/worked_example.rs': 440,
 }

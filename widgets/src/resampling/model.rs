@@ -1,14 +1,12 @@
 //! Three filters as a deterministic state: what was set, how far they ran, and which step of that is shown.
 
-use super::{challenges, recipe::Recipe, stroke, told};
+use super::{challenges, recipe::Recipe, told};
 use crate::challenge::Challenge;
-use crate::decimal::{fixed, write};
 use crate::ghost::{self, Curves};
 use crate::kept::Kept;
 use crate::model::{Change, Declared, FigureError, Model, Readout, Series, TraceLine};
-use crate::names;
-use crate::prediction::{Outcome, State, off_by};
-use crate::told::{WEIGHED_ANEW, ess_text, pose_text, refused};
+use crate::prediction::{Outcome, State};
+use crate::told::{WEIGHED_ANEW, refused};
 use crate::words::resampling;
 use core::mem::replace;
 use fastslam::geometry::Pose2;
@@ -181,26 +179,6 @@ impl ResamplingModel {
         self.change(|recipe| recipe.prediction.place(Some(step.round().min(last).max(1.0))));
     }
 
-    /// What is said of the prediction, if one is asked for.
-    fn predicted(&self) -> Option<String> {
-        let policy = &stroke::NAMES[self.chosen()]();
-        let (result, over) = (self.one_left(), self.pending() == 0);
-        let says = match (self.state(), result) {
-            (State::Off, _) => return None,
-            (State::Asked, _) => resampling::Asks { policy }.say(),
-            (State::Placed(guess), _) => resampling::Placed { policy, guess: &write(guess) }.say(),
-            (State::Guessed(guess), Some(result)) => {
-                let off = &off_by(guess, result.into());
-                resampling::Came { result: &result, guess: &write(guess), off }.say()
-            }
-            (State::Waived, Some(result)) => resampling::CameWaived { result: &result }.say(),
-            (State::Guessed(guess), None) if over => resampling::NeverCame { guess: &write(guess) }.say(),
-            (State::Waived, None) if over => resampling::never_came_waived().into(),
-            _ => return None,
-        };
-        Some(says)
-    }
-
     /// Steps of the simulation that are needed: to the one that is shown, or where a prediction is judged, until it can be.
     fn needed(&self) -> u32 {
         let judged = self.recipe.prediction.is_shown() && self.one_left().is_none();
@@ -349,92 +327,15 @@ impl Model for ResamplingModel {
     }
 
     fn describe(&self) -> String {
-        let (step, last, m) = (self.cursor(), self.course_steps(), self.setup().particles);
-        if step == 0 {
-            let at = resampling::AtStep { step: &step, last: &last, m: &m }.say();
-            let said = self.predicted().into_iter().chain([at, resampling::at_start().into()]);
-            return said.collect::<Vec<_>>().join(" ");
-        }
-        let all = [0, 1, 2].map(|policy| self.read(policy));
-        let [never, always, selective] = all.map(|moment| fixed(moment.report.ess, 1));
-        let [a, b, c] = all.map(|moment| moment.report.descent.lineage(step));
-        let ancestors = resampling::AncestorsLeft { a: &a, b: &b, c: &c }.say();
-        let told = if let [Some(a), Some(b), Some(c)] = all.map(|moment| moment.report.right) {
-            let ess = resampling::NEffOfAll { never: &never, always: &always, selective: &selective }.say();
-            let ancestors = &ancestors;
-            resampling::ToldWings { step: &step, last: &last, a: &a, b: &b, c: &c, m: &m, ess: &ess, ancestors }.say()
-        } else {
-            let [never, always, selective, ancestors] = [&never, &always, &selective, &ancestors];
-            resampling::Told { step: &step, last: &last, m: &m, never, always, selective, ancestors }.say()
-        };
-        let [a, b, c] = all.map(|moment| moment.resampled);
-        let scheme = names::scheme(self.setup().scheme);
-        let times = resampling::ResampledTimes { a: &a, b: &b, c: &c, scheme: &scheme }.say();
-        let [a, b, c] = all.map(|moment| fixed(moment.report.error_best, 2));
-        let mut sentences: Vec<_> = self.predicted().into_iter().collect();
-        sentences.extend([told, times, resampling::OffBy { a: &a, b: &b, c: &c }.say()]);
-        let unexplained =
-            [resampling::never_unexplained(), resampling::always_unexplained(), resampling::selective_unexplained()];
-        let lost = all.iter().zip(unexplained).filter(|(moment, _)| moment.report.log_evidence == f64::NEG_INFINITY);
-        sentences.extend(lost.map(|(_, says)| says.to_string()));
-        sentences.join(" ")
+        told::described(self)
     }
 
     fn narrate(&self) -> String {
-        if let Some(predicted) = self.predicted() {
-            return predicted;
-        }
-        let (step, m) = (self.cursor(), &self.setup().particles);
-        if step == 0 {
-            return resampling::n_start().into();
-        }
-        let all = [0, 1, 2].map(|policy| self.read(policy));
-        if let [Some(a), Some(b), Some(c)] = all.map(|moment| moment.report.right) {
-            return resampling::NWings { m, a: &a, b: &b, c: &c }.say();
-        }
-        let [a, b, c] = all.map(|moment| moment.report.descent.lineage(step));
-        resampling::NTold { m, a: &a, b: &b, c: &c }.say()
+        told::narrated(self)
     }
 
-    /// Of the selective filter's best particle at the step that is read, among landmarks.
     fn trace(&self) -> Vec<TraceLine> {
-        let (m, moment) = (self.setup().particles, self.read(SELECTIVE));
-        let Some((associations, answers)) = moment.report.associations else { return Vec::new() };
-        let pose = moment.poses[moment.best];
-        let survivors = moment.report.descent.lineage(0);
-        let ess = ess_text(moment.report.ess, m);
-        let mut lines = vec![TraceLine::new("predict", "")];
-        if associations.again + associations.first > 0 {
-            let (again, first) = (&associations.again, &associations.first);
-            let made_of_it = if answers == 1 {
-                resampling::KnownAllAgree { again, first }.say()
-            } else {
-                resampling::KnownAnswers { again, first, answers: &answers }.say()
-            };
-            lines.extend([
-                TraceLine::new("gate", ""),
-                TraceLine::new("associate", made_of_it),
-                TraceLine::new("weigh", format!("{} nats", fixed(associations.log_increment, 1))),
-            ]);
-        }
-        if associations.again > 0 {
-            lines.push(TraceLine::new("fold", ""));
-        }
-        lines.push(TraceLine::new("draw", pose_text([pose.x, pose.y, pose.theta])));
-        if associations.again + associations.first > 0 {
-            let done = resampling::Updated { again: &associations.again, first: &associations.first }.say();
-            lines.push(TraceLine::new("assimilate", done));
-        }
-        lines.push(TraceLine::new("extend", resampling::Nodes { n: &moment.report.tree_nodes() }.say()));
-        lines.push(TraceLine::new(
-            "resample",
-            if moment.report.resampled() {
-                resampling::Resamples { ess: &ess, survivors: &survivors }.say()
-            } else {
-                resampling::ResamplesNot { ess: &ess }.say()
-            },
-        ));
-        lines
+        told::lines(self)
     }
 }
 

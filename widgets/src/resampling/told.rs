@@ -1,8 +1,12 @@
-//! What is told of the three filters: the readouts and the data.
+//! What is told of the three filters: the step in words, the lines of the algorithm, the readouts and the data.
 
-use super::model::{Moment, ResamplingModel};
-use crate::decimal::fixed;
-use crate::model::{Column, Model, Readout, Series};
+use super::model::{Moment, ResamplingModel, SELECTIVE};
+use super::stroke;
+use crate::decimal::{fixed, write};
+use crate::model::{Column, Model, Readout, Series, TraceLine};
+use crate::names;
+use crate::prediction::{State, off_by};
+use crate::told::{ess_text, pose_text};
 use crate::words::{common, resampling};
 use fastslam_lab::experiment::resampling::{POLICIES, PolicyCourse};
 
@@ -89,6 +93,117 @@ pub fn series(model: &ResamplingModel) -> Series {
         core::iter::once(step as f64).chain(all.iter().flat_map(of)).collect()
     };
     Series { columns: COLUMNS.into(), rows: model.moments().iter().enumerate().map(row).collect() }
+}
+
+/// The step that is read in words, with what is said of the prediction.
+pub fn described(model: &ResamplingModel) -> String {
+    let (step, last, m) = (model.cursor(), model.course_steps(), model.setup().particles);
+    if step == 0 {
+        let at = resampling::AtStep { step: &step, last: &last, m: &m }.say();
+        let said = predicted(model).into_iter().chain([at, resampling::at_start().into()]);
+        return said.collect::<Vec<_>>().join(" ");
+    }
+    let all = [0, 1, 2].map(|policy| model.read(policy));
+    let [never, always, selective] = all.map(|moment| fixed(moment.report.ess, 1));
+    let [a, b, c] = all.map(|moment| moment.report.descent.lineage(step));
+    let ancestors = resampling::AncestorsLeft { a: &a, b: &b, c: &c }.say();
+    let told = if let [Some(a), Some(b), Some(c)] = all.map(|moment| moment.report.right) {
+        let ess = resampling::NEffOfAll { never: &never, always: &always, selective: &selective }.say();
+        let ancestors = &ancestors;
+        resampling::ToldWings { step: &step, last: &last, a: &a, b: &b, c: &c, m: &m, ess: &ess, ancestors }.say()
+    } else {
+        let [never, always, selective, ancestors] = [&never, &always, &selective, &ancestors];
+        resampling::Told { step: &step, last: &last, m: &m, never, always, selective, ancestors }.say()
+    };
+    let [a, b, c] = all.map(|moment| moment.resampled);
+    let scheme = names::scheme(model.setup().scheme);
+    let times = resampling::ResampledTimes { a: &a, b: &b, c: &c, scheme: &scheme }.say();
+    let [a, b, c] = all.map(|moment| fixed(moment.report.error_best, 2));
+    let mut sentences: Vec<_> = predicted(model).into_iter().collect();
+    sentences.extend([told, times, resampling::OffBy { a: &a, b: &b, c: &c }.say()]);
+    let unexplained =
+        [resampling::never_unexplained(), resampling::always_unexplained(), resampling::selective_unexplained()];
+    let lost = all.iter().zip(unexplained).filter(|(moment, _)| moment.report.log_evidence == f64::NEG_INFINITY);
+    sentences.extend(lost.map(|(_, says)| says.to_string()));
+    sentences.join(" ")
+}
+
+/// What happens at the step that is read.
+pub fn narrated(model: &ResamplingModel) -> String {
+    if let Some(predicted) = predicted(model) {
+        return predicted;
+    }
+    let (step, m) = (model.cursor(), &model.setup().particles);
+    if step == 0 {
+        return resampling::n_start().into();
+    }
+    let all = [0, 1, 2].map(|policy| model.read(policy));
+    if let [Some(a), Some(b), Some(c)] = all.map(|moment| moment.report.right) {
+        return resampling::NWings { m, a: &a, b: &b, c: &c }.say();
+    }
+    let [a, b, c] = all.map(|moment| moment.report.descent.lineage(step));
+    resampling::NTold { m, a: &a, b: &b, c: &c }.say()
+}
+
+/// What is said of the prediction, if one is asked for.
+fn predicted(model: &ResamplingModel) -> Option<String> {
+    let policy = &stroke::NAMES[model.chosen()]();
+    let (result, over) = (model.one_left(), model.pending() == 0);
+    let says = match (model.state(), result) {
+        (State::Off, _) => return None,
+        (State::Asked, _) => resampling::Asks { policy }.say(),
+        (State::Placed(guess), _) => resampling::Placed { policy, guess: &write(guess) }.say(),
+        (State::Guessed(guess), Some(result)) => {
+            let off = &off_by(guess, result.into());
+            resampling::Came { result: &result, guess: &write(guess), off }.say()
+        }
+        (State::Waived, Some(result)) => resampling::CameWaived { result: &result }.say(),
+        (State::Guessed(guess), None) if over => resampling::NeverCame { guess: &write(guess) }.say(),
+        (State::Waived, None) if over => resampling::never_came_waived().into(),
+        _ => return None,
+    };
+    Some(says)
+}
+
+/// Of the selective filter's best particle at the step that is read, among landmarks.
+pub fn lines(model: &ResamplingModel) -> Vec<TraceLine> {
+    let (m, moment) = (model.setup().particles, model.read(SELECTIVE));
+    let Some((associations, answers)) = moment.report.associations else { return Vec::new() };
+    let pose = moment.poses[moment.best];
+    let survivors = moment.report.descent.lineage(0);
+    let ess = ess_text(moment.report.ess, m);
+    let mut lines = vec![TraceLine::new("predict", "")];
+    if associations.again + associations.first > 0 {
+        let (again, first) = (&associations.again, &associations.first);
+        let made_of_it = if answers == 1 {
+            resampling::KnownAllAgree { again, first }.say()
+        } else {
+            resampling::KnownAnswers { again, first, answers: &answers }.say()
+        };
+        lines.extend([
+            TraceLine::new("gate", ""),
+            TraceLine::new("associate", made_of_it),
+            TraceLine::new("weigh", format!("{} nats", fixed(associations.log_increment, 1))),
+        ]);
+    }
+    if associations.again > 0 {
+        lines.push(TraceLine::new("fold", ""));
+    }
+    lines.push(TraceLine::new("draw", pose_text([pose.x, pose.y, pose.theta])));
+    if associations.again + associations.first > 0 {
+        let done = resampling::Updated { again: &associations.again, first: &associations.first }.say();
+        lines.push(TraceLine::new("assimilate", done));
+    }
+    lines.push(TraceLine::new("extend", resampling::Nodes { n: &moment.report.tree_nodes() }.say()));
+    lines.push(TraceLine::new(
+        "resample",
+        if moment.report.resampled() {
+            resampling::Resamples { ess: &ess, survivors: &survivors }.say()
+        } else {
+            resampling::ResamplesNot { ess: &ess }.say()
+        },
+    ));
+    lines
 }
 
 /// Identifier and title of a number.
