@@ -15,7 +15,6 @@ const longer = {
   'widgets/elements/figure.css': 464,
   'widgets/elements/hosted-figure.ts': 461,
   'widgets/src/figure.rs': 433,
-  'widgets/src/lap/model.rs': 473,
   'widgets/src/model.rs': 465,
   'widgets/src/recipe.rs': 461,
   'widgets/tests/all/resampling.rs': 485,

@@ -2,12 +2,11 @@
 
 use super::{challenges, drive::Hand, recipe::Recipe};
 use crate::challenge::Challenge;
-use crate::decimal::fixed;
 use crate::ghost::{self, Curves};
 use crate::kept::Kept;
-use crate::model::{Change, Column, Declared, FigureError, Model, Readout, Series, TraceLine};
-use crate::told::{ess_text, refused};
-use crate::words::{common, lap};
+use crate::model::{Change, Declared, FigureError, Model, Readout, Series, TraceLine};
+use crate::told::refused;
+use crate::words::lap;
 use core::mem::replace;
 use fastslam::{genealogy::Path, geometry::Pose2, resampling::ResamplePolicy};
 use fastslam_lab::experiment::lap::{Lap, LapSetup, LapWorld, StepReport};
@@ -106,6 +105,11 @@ impl LapModel {
     /// Reports of steps 0 to the one shown.
     pub fn history(&self) -> &[StepReport] {
         &self.reports[..=self.report().step as usize]
+    }
+
+    /// Reports of every step simulated so far.
+    pub(super) fn simulated(&self) -> &[StepReport] {
+        &self.reports
     }
 
     /// N_eff of the run that is pinned, by step \[share of its universes\].
@@ -350,83 +354,11 @@ impl Model for LapModel {
     }
 
     fn readouts(&self) -> Vec<Readout> {
-        let (report, m) = (self.report(), self.recipe.setup.particles);
-        let metres = |name, title, x: f64, help| Readout::new(name, title, x, fixed(x, 3), "m", help);
-        let kilobytes = |name, title, bytes: u64, help| {
-            let x = bytes as f64 / 1000.0;
-            Readout::new(name, title, x, fixed(x, 0), "KB", help)
-        };
-        let (unique, dense) = (report.map_bytes_unique, report.map_bytes_dense);
-        let share = 100.0 * unique as f64 / dense as f64;
-        vec![
-            Readout::new(
-                "step",
-                common::step(),
-                f64::from(report.step),
-                common::Of { n: &report.step, all: &self.step_count() }.say(),
-                "",
-                lap::step_readout_help(),
-            ),
-            metres("rms_best", lap::rms_best(), report.rms_best, lap::rms_best_help()),
-            metres("rms_best_aligned", lap::aligned(), report.rms_best_aligned, lap::aligned_help()),
-            metres("rms_odometry", lap::rms_odometry(), report.rms_odometry, lap::rms_odometry_help()),
-            Readout::new("ess", "N_eff", report.ess, ess_text(report.ess, m), "", common::n_eff_help()),
-            Readout::new(
-                "lineage",
-                common::lineage(),
-                f64::from(report.lineage),
-                common::Of { n: &report.lineage, all: &m }.say(),
-                "",
-                lap::lineage_help(),
-            ),
-            Readout {
-                text: fixed(self.spread(), 2),
-                ..metres("spread", lap::spread_title(), self.spread(), lap::spread_help())
-            }
-            .drawn(),
-            kilobytes("map_unique", common::memory(), unique, lap::memory_help()),
-            kilobytes("map_dense", common::dense(), dense, lap::dense_help()),
-            Readout::new("map_share", lap::share(), share, fixed(share, 0), "%", lap::share_help()),
-        ]
+        self.numbers()
     }
 
     fn series(&self) -> Series {
-        const COLUMNS: &[Column] = &[
-            Column::new("step", "step of the lap"),
-            Column::new("rms_best_m", "RMS position error of the best universe's path so far [m]"),
-            Column::new("rms_best_aligned_m", "the same after the best rigid alignment [m]"),
-            Column::new("rms_odometry_m", "RMS position error of raw odometry so far [m]"),
-            Column::new(
-                "mean_increment_nats",
-                "log of the weighted mean of what the universes pay for the scan [nats]: of a score, not evidence",
-            ),
-            Column::new("ess", "effective number of universes before resampling"),
-            Column::new("best", "slot of the best universe"),
-            Column::new("resampled", "1 where the step resampled"),
-            Column::new("died_out", "universes without offspring at this resampling"),
-            Column::new("lineage", "distinct ancestors at step 0"),
-            Column::new("matched", "universes whose scan matcher was trusted"),
-            Column::new("map_unique_bytes", "memory of all maps, shared tiles counted once [bytes]"),
-            Column::new("map_dense_bytes", "memory of as many dense arrays [bytes]"),
-        ];
-        let row = |r: &StepReport| {
-            vec![
-                f64::from(r.step),
-                r.rms_best,
-                r.rms_best_aligned,
-                r.rms_odometry,
-                r.log_evidence,
-                r.ess,
-                f64::from(r.best),
-                f64::from(u8::from(r.ancestors.is_some())),
-                r.ancestors.as_ref().map_or(0, |a| died_out(a)) as f64,
-                f64::from(r.lineage),
-                f64::from(r.matched),
-                r.map_bytes_unique as f64,
-                r.map_bytes_dense as f64,
-            ]
-        };
-        Series { columns: COLUMNS.into(), rows: self.reports.iter().map(row).collect() }
+        self.rows()
     }
 
     fn curves(&self) -> Curves {
@@ -459,25 +391,5 @@ impl Model for LapModel {
 
     fn trace(&self) -> Vec<TraceLine> {
         self.lines()
-    }
-}
-
-/// How many slots no one descends from. Ancestors are in ascending order.
-pub fn died_out(ancestors: &[u32]) -> usize {
-    let survivors = 1 + ancestors.windows(2).filter(|pair| pair[0] != pair[1]).count();
-    ancestors.len() - survivors
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_sentence_says_when_no_universe_explains_a_scan() {
-        let model = LapModel::default();
-        let report = StepReport { step: 1, ..model.report().clone() };
-        assert!(!model.told(&report).contains("explains"));
-        let report = StepReport { log_evidence: f64::NEG_INFINITY, ..report };
-        assert!(model.told(&report).contains("No universe explains this scan: the weights stay."));
     }
 }
