@@ -17,8 +17,6 @@ const longer = {
   'widgets/src/figure.rs': 433,
   'widgets/src/model.rs': 465,
   'widgets/src/recipe.rs': 461,
-  'widgets/tests/all/resampling.rs': 485,
-  'widgets/tests/all/worked_example.rs': 440,
 }
 
 /** What is wrong with these lengths. @param {Map<string, number>} lengths @param {Record<string, number>} excused */
