@@ -19,6 +19,7 @@ pub mod ghost;
 pub mod job;
 pub mod kept;
 pub mod marks;
+mod measured;
 pub mod model;
 pub mod paint;
 pub mod panels;
