@@ -28,88 +28,18 @@
 //! let field: Field<u32, f64> = Field { get: |_| 0.0 };
 //! ```
 
+mod menu;
+mod place;
+
+pub use menu::Menu;
+pub use place::{Field, Whole};
+
 use crate::decimal;
 use crate::model::FigureError;
 use crate::param::{Choice, Group, Kind, ParamSpec, Value, quoted, unknown};
 use crate::words::kit;
 use std::fmt::Display;
 use std::str::FromStr;
-use strum::VariantArray;
-
-/// A place in a recipe: how its value is read, and how it is written. [`crate::field!`] makes one of a path.
-pub struct Field<R, T> {
-    /// Its value.
-    pub get: fn(&R) -> T,
-    /// Gives it another.
-    pub set: fn(&mut R, T),
-}
-
-/// The [`Field`] at a path of a recipe: `field!(setup.particles)`.
-#[macro_export]
-macro_rules! field {
-    ($($path:tt)+) => {
-        $crate::recipe::Field {
-            get: |recipe| recipe.$($path)+,
-            set: |recipe, value| recipe.$($path)+ = value,
-        }
-    };
-}
-
-/// A whole number of a recipe, whatever its type.
-pub trait Whole: Copy + 'static {
-    /// From a number that is whole and in its range.
-    fn of(x: f64) -> Self;
-    /// As a number: all that parameters hold are below 2⁵³.
-    fn number(self) -> f64;
-}
-
-macro_rules! whole {
-    ($($type:ty)*) => { $(
-        impl Whole for $type {
-            fn of(x: f64) -> Self {
-                x as Self
-            }
-            fn number(self) -> f64 {
-                self as f64
-            }
-        }
-    )* };
-}
-
-whole!(u32 u64 usize);
-
-/// The words of a choice, each with its name for readers and what it means.
-pub struct Menu<T> {
-    choices: Vec<Choice>,
-    meanings: Vec<T>,
-}
-
-impl<T: 'static> Menu<T> {
-    /// Words, names and meanings.
-    pub fn new(items: impl IntoIterator<Item = (impl Display, &'static str, T)>) -> Self {
-        let items = items.into_iter().map(|(word, title, meaning)| (Choice::new(word, title), meaning));
-        let (choices, meanings) = items.unzip();
-        Self { choices, meanings }
-    }
-
-    /// All variants of an enum by the words that it has for itself, `first` before the others; a variant without a name for
-    /// readers does not compile.
-    pub fn of(first: T, title: fn(T) -> &'static str) -> Self
-    where
-        T: VariantArray + Display + Copy + PartialEq,
-    {
-        let others = T::VARIANTS.iter().copied().filter(|variant| *variant != first);
-        Self::new(core::iter::once(first).chain(others).map(|variant| (variant, title(variant), variant)))
-    }
-
-    /// The same in another type, after a word and a meaning of its own.
-    pub fn after<U: 'static>(self, (word, title, meaning): (&str, &'static str, U), wrap: fn(T) -> U) -> Menu<U> {
-        let mut menu = Menu::new([(word, title, meaning)]);
-        menu.choices.extend(self.choices);
-        menu.meanings.extend(self.meanings.into_iter().map(wrap));
-        menu
-    }
-}
 
 type Get<R> = Box<dyn Fn(&R) -> Value>;
 type Set<R> = Box<dyn Fn(&mut R, Value)>;

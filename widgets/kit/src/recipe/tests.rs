@@ -1,4 +1,5 @@
 use super::*;
+use crate::field;
 use strum::{Display, VariantArray};
 
 #[derive(Clone, Copy, PartialEq, Debug, Display, VariantArray)]
