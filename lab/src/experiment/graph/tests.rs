@@ -24,7 +24,7 @@ fn the_ring_closes_from_wherever_the_wheels_led() {
         let [first, last] = [0, lap.frames().len() - 1].map(|k| &lap.frames()[k]);
         assert!(last.error.rms < 0.3 && last.error.rms < 0.15 * first.error.rms, "seed {seed}: {:?}", last.error);
         assert!(lap.frames().is_sorted_by(|a, b| a.cost >= b.cost));
-        before.push(PathError::of(lap.build().chain.as_slice(), &lap.world().truth).rms);
+        before.push(PathError::of(lap.build().chain(), &lap.world().truth).rms);
         after.push(last.error.rms);
     }
     // What the closing alone is worth: half of what the matches of recent scans leave.
@@ -101,7 +101,7 @@ fn edges_err_by_about_what_their_information_says() {
             let mut all = Vec::new();
             for build in &builds {
                 let truth = &build.world().truth;
-                let edges = build.edges.iter().filter(|edge| edge.kind == kind);
+                let edges = build.edges().iter().filter(|edge| edge.kind == kind);
                 all.extend(edges.map(|edge| edge.chi_squared(&truth[edge.i], &truth[edge.j])));
             }
             assert!(all.len() > 100, "{course}, {kind}");

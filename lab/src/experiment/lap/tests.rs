@@ -1,4 +1,5 @@
 use super::*;
+use crate::world::{FloorPlan, drive};
 use fastslam::ops;
 
 const COURSES: [Course; 3] = [Course::Apartment, Course::Ring, Course::Rooms];
