@@ -15,6 +15,7 @@ import { Messages } from './messages'
 import { placeIn } from './pointer'
 import { Help } from './popover'
 import { showReadouts } from './readouts'
+import roomCss from './room.css?inline'
 import { Sentence } from './sentence'
 import type { Chip, ParamSpec } from './shell'
 import { Theme } from './theme'
@@ -22,7 +23,7 @@ import { Undo, Watch } from './undo'
 import type { Words } from './words'
 
 const sheet = new CSSStyleSheet()
-sheet.replaceSync(css + chipsCss)
+sheet.replaceSync(css + roomCss + chipsCss)
 
 /** What it may ask of the figure. */
 export interface Asked extends Omit<Actions, 'lab'>, Moves {
