@@ -3,7 +3,7 @@
 //! On the way each step is tied to the one before twice: by its wheels, and by its scan, held against a map of the last scans. Where the
 //! path comes near a place of long ago, the same search holds the scan against a map of the scans of then: what it finds closes a
 //! loop. How well a match knows the pose, along and across and in heading, is the fit of a Gaussian to its score
-//! ([`Fit`]), as in the filter's proposal.
+//! ([`Fit`](fastslam::proposal::Fit)), as in the filter's proposal.
 
 mod build;
 

@@ -74,7 +74,7 @@ impl Course {
 pub struct Route {
     /// The place.
     pub plan: FloorPlan,
-    /// What [`drive`] goes through \[m\].
+    /// What [`drive`](crate::world::drive) goes through \[m\].
     pub way_points: Vec<[f64; 2]>,
     /// Steps, besides the start.
     pub steps: usize,
