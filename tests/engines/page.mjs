@@ -3,7 +3,7 @@
 /**
  * @typedef {HTMLElement & { readonly state: string, settled(): Promise<void>, example(): Promise<void> }} Figure
  * @typedef {object} Seen what a reader has of a figure
- * @property {string} sentence
+ * @property {string} sentence the line over the picture, and the picture in words
  * @property {[name: string, value: string][]} readouts
  * @property {[width: number, height: number]} size of the picture [device px]
  * @property {number[]} rows of the picture, a fingerprint of each
@@ -45,7 +45,8 @@ export async function look() {
   const rows = Array.from({ length: height }, (_, y) => pixels.subarray(y * width, (y + 1) * width).reduce((hash, pixel) => Math.imul(hash ^ pixel, 16777619), 2166136261))
   const written = (/** @type {Element} */ row) => [...row.querySelectorAll('dd > span')].map(part => part.textContent).join(' ')
   const readouts = [...root.querySelectorAll('[part=readout]')].map(row => /** @type {[string, string]} */ ([row.getAttribute('data-name'), written(row)]))
-  return { sentence: root.querySelector('[part=sentence]')?.textContent ?? '', readouts, size: [width, height], rows, state: figure.state }
+  const sentence = ['[part=sentence]', '.described'].map(selector => root.querySelector(selector)?.textContent ?? '').join(' ')
+  return { sentence, readouts, size: [width, height], rows, state: figure.state }
 }
 
 /** A part of the figure in the page, scrolled into view. @param {string} selector @returns {Promise<any>} an element, as WebDriver names it */
