@@ -20,7 +20,6 @@ use crate::proposal::{Proposal, ProposalTrace, Proposed};
 use crate::random::{Purpose, Stream};
 use crate::resampling::{ResamplePolicy, Scheme};
 use crate::weights::Weights;
-use core::ops::Range;
 
 /// What one step did. `A` is what a map takes an observation for: [`ConditionalMap::Association`].
 #[derive(Clone, Debug)]
@@ -210,19 +209,20 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
                 proposed
             });
         }
-        let particles = &self.particles;
-        let mut alike: Vec<Range<usize>> = Vec::new();
+        let (mut alike, mut rest) = (Vec::new(), &mut self.particles[..]);
         for slots in copied.chunk_by(|a, b| a == b) {
-            let first = alike.last().map_or(0, |before| before.end);
-            alike.push(first..first + slots.len());
+            let first = copied.len() - rest.len();
+            let (particles, others) = rest.split_at_mut(slots.len());
+            alike.push((first, particles));
+            rest = others;
         }
-        let proposed = self.executor.map(&mut alike, |_, slots| {
-            let mut streams: Vec<Stream> = slots.clone().map(stream).collect();
-            copies(proposal, slots.start, &particles[slots.start], &mut streams)
+        let proposed = self.executor.map(&mut alike, |_, (first, particles)| {
+            let mut streams: Vec<Stream> = (0..particles.len()).map(|k| stream(*first + k)).collect();
+            let proposed = copies(proposal, *first, &particles[0], &mut streams);
+            particles.iter_mut().zip(&proposed).for_each(|(particle, proposed)| move_to(particle, proposed));
+            proposed
         });
-        let mut moves: Vec<_> = self.particles.iter_mut().zip(proposed.into_iter().flatten()).collect();
-        self.executor.map(&mut moves, |_, (particle, proposed)| move_to(particle, proposed));
-        moves.into_iter().map(|(_, proposed)| proposed).collect()
+        proposed.into_iter().flatten().collect()
     }
 
     /// Appends the new poses to the paths.
