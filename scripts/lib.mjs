@@ -10,7 +10,7 @@ import { fileURLToPath } from 'node:url'
 export const root = dirname(dirname(fileURLToPath(import.meta.url)))
 
 /** What to do where a disk is full. */
-export const roomHint = 'rm -rf target .cache takes away all that was built here, and the next run builds it anew.'
+const roomHint = 'rm -rf target .cache takes away all that was built here, and the next run builds it anew.'
 
 /** What the build writes for. Styles: the year of popovers, which no figure can do without, so that light-dark() need not be spelt out for older browsers. */
 export const targets = { target: 'es2022', cssTarget: ['chrome125', 'firefox125', 'safari17.5'] }
