@@ -64,9 +64,12 @@ const optionsOf = figure => options.filter(({ name }) => !(isLog(figure) && notO
 /** The declarations of a file of widgets/elements, as tsc writes them. @param {string} name */
 const declarations = name => readFileSync(cache('types', 'widgets', 'elements', `${name}.d.ts`), 'utf8')
 
+/** What is declared and never used is for the check of types to tell: no build fails for it. */
+export const withUnused = ['--noUnusedLocals', 'false', '--noUnusedParameters', 'false']
+
 /** Has tsc write the declarations of all elements, without what is marked as internal. */
 export async function declare() {
-  await run(npmBin('tsc'), ['-p', root, '--noEmit', 'false', '--declaration', '--emitDeclarationOnly', '--stripInternal', '--outDir', cache('types')])
+  await run(npmBin('tsc'), ['-p', root, ...withUnused, '--noEmit', 'false', '--declaration', '--emitDeclarationOnly', '--stripInternal', '--outDir', cache('types')])
   const unsaid = unsaidIn(declarations('figure-element'))
   if (unsaid.length > 0) throw new StepError(`Nothing is said of these members of figures: ${unsaid.join(', ')}.`, 'A line above one makes it a member for pages, and @internal keeps it out of their types.')
 }
