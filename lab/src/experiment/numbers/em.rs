@@ -12,7 +12,7 @@ pub fn recipes() -> Vec<Recipe> {
     let run = |seed| em::outcome(&LogSetup { seed, ..LogSetup::default() }).expect(VALID);
     let many = Recipe::new("em", SEEDS, move |runs| {
         let found: Vec<Outcome> = runs.over(run);
-        let of = format!("seeds 1 to {} of the corridor (src/experiment/em.rs)", runs.seeds);
+        let of = format!("seeds 1 to {} of the corridor (lab/src/experiment/em.rs)", runs.seeds);
         let group = Group("em".into());
         let share = |key: &str, what: &str, is: fn(&Outcome) -> bool| {
             let fraction = Fraction::of(found.iter().map(is));
@@ -41,7 +41,7 @@ pub fn recipes() -> Vec<Recipe> {
     let one = Recipe::new("em.figure", 0, move |_| {
         let Outcome { ends: [right, fold], again, .. } = run(LogSetup::default().seed);
         let group = Group("em.figure".into());
-        let of = "as the figure opens (src/experiment/em.rs)";
+        let of = "as the figure opens (lab/src/experiment/em.rs)";
         let guess = "of a guess with the second and the third mark at one place";
         vec![
             group.number(

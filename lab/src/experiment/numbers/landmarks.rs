@@ -28,7 +28,7 @@ fn six_doors() -> Recipe {
                 DoorsSetup { particles: PARTICLES[2], policy: ResamplePolicy::Always, ..DoorsSetup::default() };
             [few, some, many, few2, some2, many2, run(always)]
         });
-        let of = format!("over seeds 1 to {} of the doors (src/experiment/doors.rs)", runs.seeds);
+        let of = format!("over seeds 1 to {} of the doors (lab/src/experiment/doors.rs)", runs.seeds);
         let right = |filter: &str, is_right: &dyn Fn(&[DoorsOutcome; 7]) -> bool| {
             let what = format!("the runs that end within a metre of the truth, {of}");
             Group(format!("doors.{filter}")).share("right", &Fraction::of(found.iter().map(is_right)), &what)
@@ -130,7 +130,7 @@ fn eight() -> Vec<Recipe> {
     }));
     recipes.push(Recipe::fixed(NAME, |group| {
         let log = COURSE.simulate(1);
-        let of = "of the course: src/experiment/landmarks/course.rs";
+        let of = "of the course: lab/src/experiment/landmarks/course.rs";
         vec![
             group.number("landmarks", log.landmarks.len() as f64, "", format!("Landmarks {of}")),
             group.number("runs", f64::from(SEEDS), "", "Seeds of every row of the landmark table, from 1 on"),

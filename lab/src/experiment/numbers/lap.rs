@@ -172,7 +172,7 @@ fn chance_of_a_worse_last(rows: &[&[f64]]) -> f64 {
 /// What is set on the lap.
 fn setting() -> Recipe {
     Recipe::fixed("lap", |group| {
-        let start = "The setting of the lap (src/experiment/lap.rs)";
+        let start = "The setting of the lap (lab/src/experiment/lap.rs)";
         vec![
             group.number("steps", STEPS as f64, "", format!("{start}: steps after the start")),
             group.number("runs", f64::from(SEEDS), "", "Seeds of every cell of the lap table, from 1 on"),

@@ -39,7 +39,7 @@ fn block() -> ProposalsSetup {
 fn of_blocks(group: &Group, key: &str, values: &[f64], what: &str) -> [Number; 2] {
     let [mean, error] = mean_and_error(values);
     let over =
-        format!("{} blocks (seeds) of {SAMPLES} samples of one step, src/experiment/proposal.rs: {what}", values.len());
+        format!("{} blocks (seeds) of {SAMPLES} samples of one step, lab/src/experiment/proposal.rs: {what}", values.len());
     [
         group.number(key, mean, "", format!("Mean over {over}")),
         group.number(&format!("{key}.se"), error, "", format!("Standard error of the mean over {over}")),
@@ -111,7 +111,7 @@ fn predicted() -> Recipe {
             let setup = ProposalsSetup::default();
             let found = Proposals::new(&ProposalsSetup { range_std: factor * setup.range_std, ..setup }).expect(VALID);
             let values = [(found.predicted_ess, MEASURED[2]), (found.predicted_ratio(), MEASURED[3])];
-            let by = "by the closed form, nothing drawn: src/exact/one_step.rs";
+            let by = "by the closed form, nothing drawn: lab/src/baseline/one_step.rs";
             let number = |(key, (value, what)): (&str, (f64, &str))| {
                 group.number(key, value, "", format!("{what}{sensor}, {by}"))
             };
@@ -159,7 +159,7 @@ fn conditioning(name: &str, setup: ConditioningSetup) -> Recipe {
     Recipe::fixed(name, move |group| {
         let known = Conditioning::new(&setup).expect(VALID).after(setup.poses);
         let of = format!(
-            "after {} poses among {} landmarks, nothing drawn: src/experiment/conditioning.rs",
+            "after {} poses among {} landmarks, nothing drawn: lab/src/experiment/conditioning.rs",
             setup.poses, setup.landmarks
         );
         let entries = "Entries outside the 2 × 2 blocks of the map's covariance that are not 0";
@@ -182,7 +182,7 @@ fn worked_example() -> Recipe {
         let example = WorkedExample::new(&Inputs::default());
         let [w1, w2] = [0, 1].map(|slot: usize| example.updates[slot].weight);
         let shares = example.weights.as_slice();
-        let of = "the worked example: src/experiment/worked_example.rs";
+        let of = "the worked example: lab/src/experiment/worked_example.rs";
         vec![
             group.number("w1", w1, "1/(m·rad)", format!("Weight of the first particle in {of}")),
             group.number("w2", w2, "1/(m·rad)", format!("Weight of the second particle in {of}")),

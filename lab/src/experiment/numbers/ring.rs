@@ -65,7 +65,7 @@ fn opening() -> Recipe {
 
 fn course() -> Recipe {
     Recipe::fixed("ring", |group| {
-        let ring = "The ring (Route::ring in src/experiment/lap/course.rs)";
+        let ring = "The ring (Route::ring in lab/src/experiment/lap/course.rs)";
         let route = RingSetup::default().route();
         let step = f64::from(closing(&route).expect("the ring comes back to where it began"));
         vec![
