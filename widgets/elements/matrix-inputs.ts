@@ -5,6 +5,7 @@ import type { Extra } from './extra'
 import type { Figure } from './figure'
 import type { Frame } from './host'
 import css from './matrix-inputs.css?inline'
+import type { ParamSpec } from './shell'
 
 const sheet = new CSSStyleSheet()
 sheet.replaceSync(css)
@@ -45,9 +46,10 @@ export class MatrixInputs implements Extra {
     this.#mirrors = []
     const [mean, covariance, noise, ...ofParticles] = EQUATIONS.map(equation => this.#equation(equation, controls)) as [HTMLElement, HTMLElement, HTMLElement]
     const heads = h('div', { class: 'equation', 'aria-hidden': 'true' }, h('i'), ...[1, 2].map(slot => h('span', { class: 'of' }, String(slot))))
-    const rest = main.querySelectorAll(':scope > .number')
-    const equations = h('div', { class: 'equations in-lab', part: 'inputs' }, mean, covariance, heads, ...ofParticles, ...rest)
-    main.replaceChildren(noise, lab, equations, h('div', { class: 'last in-lab' }, ...main.querySelectorAll(':scope > .flag'), transport))
+    const fields = this.figure.view.specs.map(({ name, kind }) => ({ kind, field: controls.field(name) }))
+    const left = (of: ParamSpec['kind']) => fields.flatMap(({ kind, field }) => (kind === of && field?.parentElement === main ? field : []))
+    const equations = h('div', { class: 'equations in-lab', part: 'inputs' }, mean, covariance, heads, ...ofParticles, ...left('number'))
+    main.replaceChildren(noise, lab, equations, h('div', { class: 'last in-lab' }, ...left('flag'), transport))
   }
 
   frame({ values }: Frame): void {
