@@ -145,7 +145,7 @@ impl Figure {
         self.lit = symbol.into();
     }
 
-    /// [`Model::readouts`], in the figure's language and way of writing numbers.
+    /// [`Tells::readouts`](crate::model::Tells::readouts), in the figure's language and way of writing numbers.
     pub fn readouts(&self) -> Vec<Readout> {
         let readouts = self.ask(|model| model.readouts()).into_iter();
         readouts.map(|readout| Readout { text: self.written(readout.text), ..readout }).collect()
@@ -157,12 +157,12 @@ impl Figure {
         chips.map(|chip| Chip { goal: self.written(chip.goal), said: self.written(chip.said), ..chip }).collect()
     }
 
-    /// [`Model::describe`], in the figure's language and way of writing numbers.
+    /// [`Tells::describe`](crate::model::Tells::describe), in the figure's language and way of writing numbers.
     pub fn describe(&self) -> String {
         self.written(self.ask(|model| model.describe()))
     }
 
-    /// [`Model::trace`], in the figure's language.
+    /// [`Tells::trace`](crate::model::Tells::trace), in the figure's language.
     pub fn trace(&self) -> Vec<TraceLine> {
         self.ask(|model| model.trace())
     }

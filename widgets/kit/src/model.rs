@@ -212,8 +212,34 @@ fn adopted<M: Declared>(model: &mut M, before: &M::Recipe, values: &[(String, St
     refused
 }
 
+/// What is told of the state shown, in numbers and in words.
+pub trait Tells {
+    /// The numbers of the state shown.
+    fn readouts(&self) -> Vec<Readout>;
+
+    /// Measured data of every step simulated so far; of a figure without a timeline, one row: its readouts.
+    fn series(&self) -> Series {
+        let readouts = self.readouts();
+        let columns = readouts.iter().map(|readout| Column::new(readout.name, readout.help)).collect();
+        Series { columns, rows: vec![readouts.iter().map(|readout| readout.value.unwrap_or(f64::NAN)).collect()] }
+    }
+
+    /// One or two sentences that tell what is shown now, for who does not see it.
+    fn describe(&self) -> String;
+
+    /// What happens in the picture now, in a line in the words of its subject, with the one number that matters.
+    fn narrate(&self) -> String {
+        self.describe()
+    }
+
+    /// The lines of its algorithm that led to what is shown, in the order in which they ran. None before the first step.
+    fn trace(&self) -> Vec<TraceLine> {
+        Vec::new()
+    }
+}
+
 /// A figure, without its pixels. One without a timeline leaves out everything about steps.
-pub trait Model: Parameters {
+pub trait Model: Parameters + Tells {
     /// Asks for a step of the simulation; beyond the last means the last.
     fn seek(&mut self, _step: u32) {}
 
@@ -252,37 +278,14 @@ pub trait Model: Parameters {
         false
     }
 
-    /// The numbers of the state shown.
-    fn readouts(&self) -> Vec<Readout>;
-
-    /// Measured data of every step simulated so far; of a figure without a timeline, one row: its readouts.
-    fn series(&self) -> Series {
-        let readouts = self.readouts();
-        let columns = readouts.iter().map(|readout| Column::new(readout.name, readout.help)).collect();
-        Series { columns, rows: vec![readouts.iter().map(|readout| readout.value.unwrap_or(f64::NAN)).collect()] }
-    }
-
     /// What comes of the reader's prediction, if one is asked for.
     fn prediction(&self) -> Option<Outcome> {
         None
     }
 
-    /// One or two sentences that tell what is shown now, for who does not see it.
-    fn describe(&self) -> String;
-
-    /// What happens in the picture now, in a line in the words of its subject, with the one number that matters.
-    fn narrate(&self) -> String {
-        self.describe()
-    }
-
     /// How fast the step shown is played, of the usual speed: below 1 where there is much to see in it.
     fn pace(&self) -> f64 {
         1.0
-    }
-
-    /// The lines of its algorithm that led to what is shown, in the order in which they ran. None before the first step.
-    fn trace(&self) -> Vec<TraceLine> {
-        Vec::new()
     }
 
     /// A parameter whose control shows another value than was set, and that value: what is shown is of it.

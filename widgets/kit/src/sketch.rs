@@ -2,7 +2,7 @@
 
 use crate::{
     challenge::Challenge,
-    model::{Change, Declared, FigureError, Model, Readout},
+    model::{Change, Declared, FigureError, Model, Readout, Tells},
     panels::Panels,
     recipe::Recipe,
     scene::{Rect, Scene, Stack},
@@ -99,7 +99,7 @@ impl<S: Sketch> Declared for S {
     }
 }
 
-impl<S: Sketch> Model for S {
+impl<S: Sketch> Tells for S {
     fn readouts(&self) -> Vec<Readout> {
         Sketch::readouts(self)
     }
@@ -108,6 +108,8 @@ impl<S: Sketch> Model for S {
         Sketch::describe(self)
     }
 }
+
+impl<S: Sketch> Model for S {}
 
 /// Panels one below the other, each over the whole width.
 pub struct Column(Vec<(&'static str, Rect)>);

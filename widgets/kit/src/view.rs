@@ -2,7 +2,7 @@
 
 use crate::{
     action::Own,
-    model::{Declared, FigureError, Model},
+    model::{Declared, FigureError, Model, Tells},
     panels::Panels,
     scene::{Point, Rect, Scene},
 };

@@ -6,6 +6,7 @@ mod layout;
 mod matrix;
 mod model;
 mod recipe;
+mod told;
 mod view;
 
 pub use layout::Layout;

@@ -3,12 +3,11 @@
 use super::{
     challenges,
     recipe::{END, Recipe},
-    told,
 };
 use crate::{
     challenge::Challenge,
     ghost::{self, Curves},
-    model::{Declared, FigureError, Model, Readout, Series},
+    model::{Declared, FigureError, Model},
     told::refused,
     words::doors,
 };
@@ -157,22 +156,6 @@ impl Model for DoorsModel {
 
     fn compared(&self) -> Vec<&'static str> {
         vec!["fastslam_right", "ekf_right", "alive"]
-    }
-
-    fn readouts(&self) -> Vec<Readout> {
-        told::readouts(self)
-    }
-
-    fn series(&self) -> Series {
-        told::series(self)
-    }
-
-    fn describe(&self) -> String {
-        told::describe(self)
-    }
-
-    fn narrate(&self) -> String {
-        told::narrate(self)
     }
 
     fn curves(&self) -> Curves {

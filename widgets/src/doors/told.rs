@@ -3,7 +3,7 @@
 use super::model::DoorsModel;
 use crate::{
     decimal::fixed,
-    model::{Column, Model, Readout, Series},
+    model::{Column, Model, Readout, Series, Tells},
     words::doors as words,
 };
 use fastslam_lab::experiment::doors::{Belief, FARTHEST};
@@ -37,97 +37,105 @@ pub fn deviation(std: f64) -> String {
     if std < 0.995 { format!("{} cm", fixed(100.0 * std, 0)) } else { format!("{} m", fixed(std, 1)) }
 }
 
-pub fn readouts(model: &DoorsModel) -> Vec<Readout> {
-    let now = model.now();
-    let alive = now.explanations(model.setup());
-    let yes = |right: bool| f64::from(u8::from(right));
-    let rank = |belief: Belief| if let Belief::Landmark(rank) = belief { f64::from(rank + 1) } else { f64::NAN };
-    let (best, ekf) = (model.off(now.places[now.best]), model.ekf_off());
-    let ekf_door = Readout {
-        text: belief(model, now.ekf_belief),
-        ..Readout::new("ekf_door", words::ekf_door(), rank(now.ekf_belief), "", "", words::ekf_door_help())
-    };
-    vec![
-        Readout::new("alive", words::alive(), alive.into(), alive.to_string(), "", words::alive_help()).drawn(),
-        Readout::new("best_off", words::best_off(), best.into(), off(best), words::doors_unit(), words::off_help()),
-        Readout::new(
-            "fastslam_right",
-            words::fastslam_right(),
-            yes(now.fastslam_right()),
-            verdict(now.fastslam_right()),
-            "",
-            words::right_help(),
-        )
-        .drawn(),
-        Readout::new("ess", "N_eff", now.ess, fixed(now.ess, 1), "", words::ess_help()),
-        ekf_door.drawn(),
-        Readout::new("ekf_std", words::ekf_std(), now.ekf_std, fixed(now.ekf_std, 3), "m", words::ekf_std_help())
-            .drawn(),
-        Readout::new("ekf_off", words::ekf_off(), ekf.into(), off(ekf), words::doors_unit(), words::off_help()),
-        Readout::new(
-            "ekf_right",
-            words::ekf_right(),
-            yes(now.ekf_right()),
-            verdict(now.ekf_right()),
-            "",
-            words::right_help(),
-        )
-        .drawn(),
-    ]
-}
-
-pub fn series(model: &DoorsModel) -> Series {
-    const COLUMNS: &[Column] = &[
-        Column::new("step", "step of the drive"),
-        Column::new("truth_m", "where the robot is [m]"),
-        Column::new("alive", "explanations with 1 % of the weight"),
-        Column::new("share_right", "share of the weight that is off by no door"),
-        Column::new("ess", "effective number of particles before resampling"),
-        Column::new("resampled", "1 where the step resampled"),
-        Column::new("best_m", "where the best particle is [m]"),
-        Column::new("ekf_m", "where EKF-SLAM is in the mean [m]"),
-        Column::new("ekf_std_m", "its standard deviation [m]"),
-    ];
-    let row = |report: &fastslam_lab::experiment::doors::DoorsReport| {
+impl Tells for DoorsModel {
+    fn readouts(&self) -> Vec<Readout> {
+        let now = self.now();
+        let alive = now.explanations(self.setup());
+        let yes = |right: bool| f64::from(u8::from(right));
+        let rank = |belief: Belief| if let Belief::Landmark(rank) = belief { f64::from(rank + 1) } else { f64::NAN };
+        let (best, ekf) = (self.off(now.places[now.best]), self.ekf_off());
+        let ekf_door = Readout {
+            text: belief(self, now.ekf_belief),
+            ..Readout::new("ekf_door", words::ekf_door(), rank(now.ekf_belief), "", "", words::ekf_door_help())
+        };
         vec![
-            f64::from(report.step),
-            report.truth,
-            f64::from(report.explanations(model.setup())),
-            report.shares(model.setup())[FARTHEST as usize],
-            report.ess,
-            f64::from(u8::from(report.resampled)),
-            report.places[report.best],
-            report.ekf_place,
-            report.ekf_std,
+            Readout::new("alive", words::alive(), alive.into(), alive.to_string(), "", words::alive_help()).drawn(),
+            Readout::new("best_off", words::best_off(), best.into(), off(best), words::doors_unit(), words::off_help()),
+            Readout::new(
+                "fastslam_right",
+                words::fastslam_right(),
+                yes(now.fastslam_right()),
+                verdict(now.fastslam_right()),
+                "",
+                words::right_help(),
+            )
+            .drawn(),
+            Readout::new("ess", "N_eff", now.ess, fixed(now.ess, 1), "", words::ess_help()),
+            ekf_door.drawn(),
+            Readout::new("ekf_std", words::ekf_std(), now.ekf_std, fixed(now.ekf_std, 3), "m", words::ekf_std_help())
+                .drawn(),
+            Readout::new("ekf_off", words::ekf_off(), ekf.into(), off(ekf), words::doors_unit(), words::off_help()),
+            Readout::new(
+                "ekf_right",
+                words::ekf_right(),
+                yes(now.ekf_right()),
+                verdict(now.ekf_right()),
+                "",
+                words::right_help(),
+            )
+            .drawn(),
         ]
-    };
-    Series { columns: COLUMNS.into(), rows: model.history().iter().map(row).collect() }
-}
-
-pub fn describe(model: &DoorsModel) -> String {
-    let (now, setup) = (model.now(), model.setup());
-    let (step, last) = (&model.step(), &model.step_count());
-    if !model.is_carried() {
-        return words::Maps { step, last, doors: &setup.doors.len() }.say();
     }
-    let alive = &now.explanations(setup);
-    let particles = &verdict(now.fastslam_right());
-    let std = &deviation(now.ekf_std);
-    let told =
-        words::Told { step, last, alive, m: &setup.particles, best: &off(model.off(now.places[now.best])), particles };
-    let door = &belief(model, now.ekf_belief);
-    let ekf = words::ToldEkf { door, std, off: &off(model.ekf_off()), right: &verdict(now.ekf_right()) };
-    [told.say(), ekf.say()].join(" ")
-}
 
-pub fn narrate(model: &DoorsModel) -> String {
-    let (now, setup) = (model.now(), model.setup());
-    if !model.is_carried() {
-        return words::NMaps { doors: &setup.doors.len() }.say();
+    fn series(&self) -> Series {
+        const COLUMNS: &[Column] = &[
+            Column::new("step", "step of the drive"),
+            Column::new("truth_m", "where the robot is [m]"),
+            Column::new("alive", "explanations with 1 % of the weight"),
+            Column::new("share_right", "share of the weight that is off by no door"),
+            Column::new("ess", "effective number of particles before resampling"),
+            Column::new("resampled", "1 where the step resampled"),
+            Column::new("best_m", "where the best particle is [m]"),
+            Column::new("ekf_m", "where EKF-SLAM is in the mean [m]"),
+            Column::new("ekf_std_m", "its standard deviation [m]"),
+        ];
+        let row = |report: &fastslam_lab::experiment::doors::DoorsReport| {
+            vec![
+                f64::from(report.step),
+                report.truth,
+                f64::from(report.explanations(self.setup())),
+                report.shares(self.setup())[FARTHEST as usize],
+                report.ess,
+                f64::from(u8::from(report.resampled)),
+                report.places[report.best],
+                report.ekf_place,
+                report.ekf_std,
+            ]
+        };
+        Series { columns: COLUMNS.into(), rows: self.history().iter().map(row).collect() }
     }
-    let (particles, ekf) = (&verdict(now.fastslam_right()), &verdict(now.ekf_right()));
-    match &now.explanations(setup) {
-        0 | 1 => words::NOne { particles, ekf }.say(),
-        alive => words::NSeveral { alive, ekf }.say(),
+
+    fn describe(&self) -> String {
+        let (now, setup) = (self.now(), self.setup());
+        let (step, last) = (&self.step(), &self.step_count());
+        if !self.is_carried() {
+            return words::Maps { step, last, doors: &setup.doors.len() }.say();
+        }
+        let alive = &now.explanations(setup);
+        let particles = &verdict(now.fastslam_right());
+        let std = &deviation(now.ekf_std);
+        let told = words::Told {
+            step,
+            last,
+            alive,
+            m: &setup.particles,
+            best: &off(self.off(now.places[now.best])),
+            particles,
+        };
+        let door = &belief(self, now.ekf_belief);
+        let ekf = words::ToldEkf { door, std, off: &off(self.ekf_off()), right: &verdict(now.ekf_right()) };
+        [told.say(), ekf.say()].join(" ")
+    }
+
+    fn narrate(&self) -> String {
+        let (now, setup) = (self.now(), self.setup());
+        if !self.is_carried() {
+            return words::NMaps { doors: &setup.doors.len() }.say();
+        }
+        let (particles, ekf) = (&verdict(now.fastslam_right()), &verdict(now.ekf_right()));
+        match &now.explanations(setup) {
+            0 | 1 => words::NOne { particles, ekf }.say(),
+            alive => words::NSeveral { alive, ekf }.say(),
+        }
     }
 }

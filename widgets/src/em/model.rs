@@ -3,13 +3,12 @@
 use super::{
     challenges,
     recipe::{END, FILLS, MARK, Recipe, TICKS},
-    told,
 };
 use crate::{
     challenge::Challenge,
     ghost::{self, Curves},
     kept::Kept,
-    model::{Declared, FigureError, Model, Readout, Series},
+    model::{Declared, FigureError, Model},
     prediction::{Outcome, State},
     told::refused,
     words::em,
@@ -346,22 +345,6 @@ impl Model for EmModel {
 
     fn compared(&self) -> Vec<&'static str> {
         vec!["log_posterior", "doors", "again"]
-    }
-
-    fn readouts(&self) -> Vec<Readout> {
-        told::readouts(self)
-    }
-
-    fn series(&self) -> Series {
-        told::series(self)
-    }
-
-    fn describe(&self) -> String {
-        told::describe(self)
-    }
-
-    fn narrate(&self) -> String {
-        told::narrate(self)
     }
 
     fn curves(&self) -> Curves {

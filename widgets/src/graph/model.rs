@@ -3,14 +3,13 @@
 use super::{
     challenges,
     recipe::{END, GUESSES, Recipe},
-    told,
 };
 use crate::told::{WEIGHED_ANEW, refused};
 use crate::{
     challenge::Challenge,
     ghost::{self, Curves},
     kept::{Computes, Runs},
-    model::{Change, Declared, FigureError, Model, Readout, Series},
+    model::{Change, Declared, FigureError, Model},
     prediction::{Outcome, State},
     words::graph,
 };
@@ -242,22 +241,6 @@ impl Model for GraphModel {
 
     fn compared(&self) -> Vec<&'static str> {
         vec!["rms", "cost", "wrong_weight"]
-    }
-
-    fn readouts(&self) -> Vec<Readout> {
-        told::readouts(self)
-    }
-
-    fn series(&self) -> Series {
-        told::series(self)
-    }
-
-    fn describe(&self) -> String {
-        told::describe(self)
-    }
-
-    fn narrate(&self) -> String {
-        told::narrate(self)
     }
 
     fn curves(&self) -> Curves {

@@ -3,7 +3,7 @@
 use super::model::GraphModel;
 use crate::{
     decimal::{fixed, write},
-    model::{Column, Model, Readout, Series},
+    model::{Column, Model, Readout, Series, Tells},
     prediction::{State, off_by},
     words::graph as words,
 };
@@ -47,58 +47,103 @@ pub fn matched(model: &GraphModel) -> f64 {
     PathError::of(chain, &model.world().truth[..chain.len()]).rms
 }
 
-pub fn readouts(model: &GraphModel) -> Vec<Readout> {
-    let (frame, start) = (model.frame(), &model.frames()[0]);
-    let universes = model.universes();
-    let count = |kind| model.edges(kind).count() as f64;
-    let whole = |x: f64| fixed(x, 0);
-    let best = universes.map_or(f64::NAN, |report| report.rms_best);
-    let bytes = model.graph().build().bytes();
-    let maps = universes.map(|report| [report.map_bytes_unique, report.map_bytes_dense]);
-    let [unique, dense] = maps.map_or([f64::NAN; 2], |bytes| bytes.map(|bytes| bytes as f64));
-    let wrong = frame.wrong_weight.map_or(f64::NAN, |weight| 100.0 * weight);
-    let wrong_text = frame.wrong_weight.map(percent).unwrap_or_default();
-    let kilo = |x: f64| if x.is_finite() { kilobytes(x as u64) } else { String::new() };
-    let length = |name, title, x: f64, help| Readout::new(name, title, x, metres(x), "m", help);
-    let edges = |name, title, kind, help| Readout::new(name, title, count(kind), whole(count(kind)), "", help);
-    vec![
-        length("rms", words::rms(), frame.error.rms, words::rms_help()).drawn(),
-        Readout::new("cost", words::cost(), frame.cost, cost(frame.cost), "nats", words::cost_help()).drawn(),
-        length("rms_start", words::rms_start(), start.error.rms, words::rms_start_help()),
-        length("rms_matched", words::rms_matched(), matched(model), words::rms_matched_help()),
-        length("rms_aligned", words::rms_aligned(), frame.error.aligned, words::rms_aligned_help()),
-        length("rms_universe", words::rms_universe(), best, words::rms_universe_help()).drawn(),
-        edges("odometry_edges", words::odometry_edges(), EdgeKind::Odometry, words::odometry_edges_help()),
-        edges("match_edges", words::match_edges(), EdgeKind::Match, words::match_edges_help()),
-        edges("loop_edges", words::loop_edges(), EdgeKind::Loop, words::loop_edges_help()),
-        Readout::new("wrong_weight", words::wrong_weight(), wrong, wrong_text, "%", words::wrong_weight_help()),
-        Readout::new(
-            "graph_bytes",
-            words::graph_bytes(),
-            bytes as f64,
-            kilobytes(bytes),
-            "KB",
-            words::graph_bytes_help(),
-        )
-        .drawn(),
-        Readout::new("map_bytes", words::map_bytes(), unique, kilo(unique), "KB", words::map_bytes_help()).drawn(),
-        Readout::new("dense_bytes", words::dense_bytes(), dense, kilo(dense), "KB", words::dense_bytes_help()),
-    ]
-}
+impl Tells for GraphModel {
+    fn readouts(&self) -> Vec<Readout> {
+        let (frame, start) = (self.frame(), &self.frames()[0]);
+        let universes = self.universes();
+        let count = |kind| self.edges(kind).count() as f64;
+        let whole = |x: f64| fixed(x, 0);
+        let best = universes.map_or(f64::NAN, |report| report.rms_best);
+        let bytes = self.graph().build().bytes();
+        let maps = universes.map(|report| [report.map_bytes_unique, report.map_bytes_dense]);
+        let [unique, dense] = maps.map_or([f64::NAN; 2], |bytes| bytes.map(|bytes| bytes as f64));
+        let wrong = frame.wrong_weight.map_or(f64::NAN, |weight| 100.0 * weight);
+        let wrong_text = frame.wrong_weight.map(percent).unwrap_or_default();
+        let kilo = |x: f64| if x.is_finite() { kilobytes(x as u64) } else { String::new() };
+        let length = |name, title, x: f64, help| Readout::new(name, title, x, metres(x), "m", help);
+        let edges = |name, title, kind, help| Readout::new(name, title, count(kind), whole(count(kind)), "", help);
+        vec![
+            length("rms", words::rms(), frame.error.rms, words::rms_help()).drawn(),
+            Readout::new("cost", words::cost(), frame.cost, cost(frame.cost), "nats", words::cost_help()).drawn(),
+            length("rms_start", words::rms_start(), start.error.rms, words::rms_start_help()),
+            length("rms_matched", words::rms_matched(), matched(self), words::rms_matched_help()),
+            length("rms_aligned", words::rms_aligned(), frame.error.aligned, words::rms_aligned_help()),
+            length("rms_universe", words::rms_universe(), best, words::rms_universe_help()).drawn(),
+            edges("odometry_edges", words::odometry_edges(), EdgeKind::Odometry, words::odometry_edges_help()),
+            edges("match_edges", words::match_edges(), EdgeKind::Match, words::match_edges_help()),
+            edges("loop_edges", words::loop_edges(), EdgeKind::Loop, words::loop_edges_help()),
+            Readout::new("wrong_weight", words::wrong_weight(), wrong, wrong_text, "%", words::wrong_weight_help()),
+            Readout::new(
+                "graph_bytes",
+                words::graph_bytes(),
+                bytes as f64,
+                kilobytes(bytes),
+                "KB",
+                words::graph_bytes_help(),
+            )
+            .drawn(),
+            Readout::new("map_bytes", words::map_bytes(), unique, kilo(unique), "KB", words::map_bytes_help()).drawn(),
+            Readout::new("dense_bytes", words::dense_bytes(), dense, kilo(dense), "KB", words::dense_bytes_help()),
+        ]
+    }
 
-pub fn series(model: &GraphModel) -> Series {
-    const COLUMNS: &[Column] = &[
-        Column::new("iteration", "iteration of the optimisation; 0 is where it starts"),
-        Column::new("cost_nats", "cost F of the graph"),
-        Column::new("rms_m", "RMS error of position over the path [m]"),
-        Column::new("rms_aligned_m", "the same after the best rigid alignment [m]"),
-        Column::new("wrong_weight", "share of the false edge's information that pulls"),
-    ];
-    let row = |(iteration, frame): (usize, &fastslam_lab::experiment::graph::Frame)| {
-        let weight = frame.wrong_weight.unwrap_or(f64::NAN);
-        vec![iteration as f64, frame.cost, frame.error.rms, frame.error.aligned, weight]
-    };
-    Series { columns: COLUMNS.into(), rows: model.frames().iter().enumerate().map(row).collect() }
+    fn series(&self) -> Series {
+        const COLUMNS: &[Column] = &[
+            Column::new("iteration", "iteration of the optimisation; 0 is where it starts"),
+            Column::new("cost_nats", "cost F of the graph"),
+            Column::new("rms_m", "RMS error of position over the path [m]"),
+            Column::new("rms_aligned_m", "the same after the best rigid alignment [m]"),
+            Column::new("wrong_weight", "share of the false edge's information that pulls"),
+        ];
+        let row = |(iteration, frame): (usize, &fastslam_lab::experiment::graph::Frame)| {
+            let weight = frame.wrong_weight.unwrap_or(f64::NAN);
+            vec![iteration as f64, frame.cost, frame.error.rms, frame.error.aligned, weight]
+        };
+        Series { columns: COLUMNS.into(), rows: self.frames().iter().enumerate().map(row).collect() }
+    }
+
+    fn describe(&self) -> String {
+        let frame = self.frame();
+        if !self.graph().is_solved() {
+            return words::tying().into();
+        }
+        let (step, last) = (&self.step(), &self.step_count());
+        let (rms, cost) = (&metres(frame.error.rms), &cost(frame.cost));
+        let loops = &self.edges(EdgeKind::Loop).count();
+        let told = match self.step() {
+            0 if self.hides() => words::AskedStart { rms, loops }.say(),
+            0 => words::ToldStart { last, rms, cost, loops }.say(),
+            _ => words::Told { step, last, rms, cost, start: &metres(self.frames()[0].error.rms), loops }.say(),
+        };
+        let mut sentences: Vec<String> = judged(self).into_iter().chain([told]).collect();
+        if let (Some([i, j]), Some(weight)) = (self.setup().wrong, frame.wrong_weight) {
+            let repair = &repair(self.setup().repair);
+            sentences.push(words::ToldWrong { i: &i, j: &j, repair, weight: &percent(weight) }.say());
+        }
+        if let Some(report) = self.universes() {
+            let m = &report.weights.len();
+            let maps = &kilobytes(report.map_bytes_unique);
+            let graph = &kilobytes(self.graph().build().bytes());
+            sentences.push(words::ToldUniverses { m, rms: &metres(report.rms_best), maps, graph }.say());
+        }
+        sentences.join(" ")
+    }
+
+    fn narrate(&self) -> String {
+        let frame = self.frame();
+        if !self.graph().is_solved() {
+            return words::tying().into();
+        }
+        if let Some(judged) = judged(self) {
+            return judged;
+        }
+        let rms = &metres(frame.error.rms);
+        match (self.step(), self.setup().wrong, frame.wrong_weight) {
+            (0, ..) => words::NStart { rms, loops: &self.edges(EdgeKind::Loop).count() }.say(),
+            (_, Some([i, j]), Some(weight)) => words::NWrong { i: &i, j: &j, weight: &percent(weight), rms }.say(),
+            (step, ..) => words::NTold { step: &step, rms, start: &metres(self.frames()[0].error.rms) }.say(),
+        }
+    }
 }
 
 /// What is said of the prediction, if one is asked for.
@@ -112,47 +157,4 @@ fn judged(model: &GraphModel) -> Option<String> {
         }
         (State::Waived, Some(end)) => words::CameAlone { rms: &metres(end) }.say(),
     })
-}
-
-pub fn describe(model: &GraphModel) -> String {
-    let frame = model.frame();
-    if !model.graph().is_solved() {
-        return words::tying().into();
-    }
-    let (step, last) = (&model.step(), &model.step_count());
-    let (rms, cost) = (&metres(frame.error.rms), &cost(frame.cost));
-    let loops = &model.edges(EdgeKind::Loop).count();
-    let told = match model.step() {
-        0 if model.hides() => words::AskedStart { rms, loops }.say(),
-        0 => words::ToldStart { last, rms, cost, loops }.say(),
-        _ => words::Told { step, last, rms, cost, start: &metres(model.frames()[0].error.rms), loops }.say(),
-    };
-    let mut sentences: Vec<String> = judged(model).into_iter().chain([told]).collect();
-    if let (Some([i, j]), Some(weight)) = (model.setup().wrong, frame.wrong_weight) {
-        let repair = &repair(model.setup().repair);
-        sentences.push(words::ToldWrong { i: &i, j: &j, repair, weight: &percent(weight) }.say());
-    }
-    if let Some(report) = model.universes() {
-        let m = &report.weights.len();
-        let maps = &kilobytes(report.map_bytes_unique);
-        let graph = &kilobytes(model.graph().build().bytes());
-        sentences.push(words::ToldUniverses { m, rms: &metres(report.rms_best), maps, graph }.say());
-    }
-    sentences.join(" ")
-}
-
-pub fn narrate(model: &GraphModel) -> String {
-    let frame = model.frame();
-    if !model.graph().is_solved() {
-        return words::tying().into();
-    }
-    if let Some(judged) = judged(model) {
-        return judged;
-    }
-    let rms = &metres(frame.error.rms);
-    match (model.step(), model.setup().wrong, frame.wrong_weight) {
-        (0, ..) => words::NStart { rms, loops: &model.edges(EdgeKind::Loop).count() }.say(),
-        (_, Some([i, j]), Some(weight)) => words::NWrong { i: &i, j: &j, weight: &percent(weight), rms }.say(),
-        (step, ..) => words::NTold { step: &step, rms, start: &metres(model.frames()[0].error.rms) }.say(),
-    }
 }

@@ -1,6 +1,6 @@
 //! States of the two filters that are worth trying.
 
-use super::model::{JointModel, count};
+use super::{model::JointModel, told::count};
 use crate::{
     challenge::{Challenge, Verdict},
     words::joint as words,

@@ -7,6 +7,7 @@ mod layout;
 mod model;
 mod panel;
 mod recipe;
+mod told;
 mod view;
 
 pub use layout::Layout;

@@ -2,7 +2,8 @@
 
 use super::{
     layout::{PITCH, Panel, ROWS},
-    model::{JointModel, count, length},
+    model::JointModel,
+    told::{count, length},
 };
 use crate::{
     scene::{Letters, NINE_TENTHS, Plane, Point, Rect, Role, Scene, plain, strong},

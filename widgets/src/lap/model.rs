@@ -4,7 +4,7 @@ use super::{challenges, drive::Hand, recipe::Recipe};
 use crate::challenge::Challenge;
 use crate::ghost::{self, Curves};
 use crate::kept::Kept;
-use crate::model::{Change, Declared, FigureError, Model, Readout, Series, TraceLine};
+use crate::model::{Change, Declared, FigureError, Model};
 use crate::told::refused;
 use crate::words::lap;
 use core::mem::replace;
@@ -353,14 +353,6 @@ impl Model for LapModel {
         vec!["rms_best", "spread", "ess"]
     }
 
-    fn readouts(&self) -> Vec<Readout> {
-        self.numbers()
-    }
-
-    fn series(&self) -> Series {
-        self.rows()
-    }
-
     fn curves(&self) -> Curves {
         let m = self.recipe.setup.particles as f64;
         vec![self.reports.iter().map(|report| report.ess / m).collect()]
@@ -370,26 +362,8 @@ impl Model for LapModel {
         self.pinned = pinned;
     }
 
-    fn describe(&self) -> String {
-        match &self.hand {
-            Some(hand) => self.told_at_the_wheel(hand),
-            None => self.news().into_iter().chain([self.told(self.report())]).collect::<Vec<_>>().join(" "),
-        }
-    }
-
-    fn narrate(&self) -> String {
-        match &self.hand {
-            Some(hand) => self.told_at_the_wheel(hand),
-            None => self.news().unwrap_or_else(|| self.narrated(self.report())),
-        }
-    }
-
     /// In slow motion while the loop closes.
     fn pace(&self) -> f64 {
         if self.closes() { SLOW } else { 1.0 }
-    }
-
-    fn trace(&self) -> Vec<TraceLine> {
-        self.lines()
     }
 }

@@ -8,12 +8,12 @@ use super::{
     laid::Laid,
     opened::{LIMIT, Opened, swept},
     recipe::Recipe,
-    told::{self, megabytes},
+    told::megabytes,
     tree::{Death, FADE},
 };
 use crate::challenge::Challenge;
 use crate::decimal::write;
-use crate::model::{Change, Declared, FigureError, Files, Model, Readout, Series};
+use crate::model::{Change, Declared, FigureError, Files, Model};
 use crate::unread;
 use crate::words::log as words;
 use fastslam::{
@@ -356,18 +356,6 @@ impl Model for LogModel {
         {
             self.note(&report);
         }
-    }
-
-    fn readouts(&self) -> Vec<Readout> {
-        told::readouts(self)
-    }
-
-    fn series(&self) -> Series {
-        told::series(self)
-    }
-
-    fn describe(&self) -> String {
-        told::sentence(self)
     }
 }
 

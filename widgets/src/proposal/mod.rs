@@ -11,6 +11,7 @@ mod names;
 mod panel;
 mod recipe;
 mod strip;
+mod told;
 mod view;
 mod world;
 mod zoom;

@@ -1,10 +1,10 @@
 //! Three filters as a deterministic state: what was set, how far they ran, and which step of that is shown.
 
-use super::{challenges, recipe::Recipe, told};
+use super::{challenges, recipe::Recipe};
 use crate::challenge::Challenge;
 use crate::ghost::{self, Curves};
 use crate::kept::Kept;
-use crate::model::{Change, Declared, FigureError, Model, Readout, Series, TraceLine};
+use crate::model::{Change, Declared, FigureError, Model};
 use crate::prediction::{Outcome, State};
 use crate::told::{WEIGHED_ANEW, refused};
 use crate::words::resampling;
@@ -298,16 +298,8 @@ impl Model for ResamplingModel {
         vec![if self.setup().course == PolicyCourse::Wings { right } else { error }, ess, lineage]
     }
 
-    fn readouts(&self) -> Vec<Readout> {
-        told::readouts(self)
-    }
-
     fn prediction(&self) -> Option<Outcome> {
         self.recipe.prediction.outcome("one_left", self.one_left().map(f64::from))
-    }
-
-    fn series(&self) -> Series {
-        told::series(self)
     }
 
     fn curves(&self) -> Curves {
@@ -325,18 +317,6 @@ impl Model for ResamplingModel {
     fn haunt(&mut self, pinned: Curves) {
         self.pinned = pinned;
     }
-
-    fn describe(&self) -> String {
-        told::described(self)
-    }
-
-    fn narrate(&self) -> String {
-        told::narrated(self)
-    }
-
-    fn trace(&self) -> Vec<TraceLine> {
-        told::lines(self)
-    }
 }
 
 /// The step of the lap shown at rest.
@@ -351,7 +331,7 @@ pub const SELECTIVE: usize = 2;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Parameters as _;
+    use crate::model::{Parameters as _, Tells as _};
 
     #[test]
     fn the_sentence_says_which_filter_does_not_explain_what_is_seen() {

@@ -1,11 +1,11 @@
 //! The filter's record and the sweeps as a deterministic state: what was set, how many sweeps are done, and how many of them are shown.
 
-use super::{challenges, recipe::Recipe, told};
+use super::{challenges, recipe::Recipe};
 use crate::{
     challenge::Challenge,
     ghost::Curves,
     kept::{Computes, Runs},
-    model::{Change, Declared, FigureError, Model, Readout, Series},
+    model::{Change, Declared, FigureError, Model},
     prediction::{Outcome, State},
     words::smoothing as words,
 };
@@ -207,22 +207,6 @@ impl Model for SmoothingModel {
 
     fn compared(&self) -> Vec<&'static str> {
         vec!["early_after", "early_before", "distinct_after"]
-    }
-
-    fn readouts(&self) -> Vec<Readout> {
-        told::readouts(self)
-    }
-
-    fn series(&self) -> Series {
-        told::series(self)
-    }
-
-    fn describe(&self) -> String {
-        told::describe(self)
-    }
-
-    fn narrate(&self) -> String {
-        told::narrate(self)
     }
 
     fn curves(&self) -> Curves {

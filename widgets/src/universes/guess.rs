@@ -2,9 +2,10 @@
 
 use super::{
     layout::{Layout, Part},
-    model::{PROPOSALS, UniversesModel, name},
+    model::{PROPOSALS, UniversesModel},
     recipe::MOST,
     share::{self, role},
+    told::name,
     view::{GUESS, GUESS_AWARE, GUESS_FLOOR},
 };
 use crate::{

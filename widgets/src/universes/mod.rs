@@ -9,6 +9,7 @@ mod model;
 mod recipe;
 mod share;
 mod shipped;
+mod told;
 mod view;
 
 pub use layout::Layout;

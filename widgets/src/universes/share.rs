@@ -3,8 +3,9 @@
 use super::{
     guess::asked,
     layout::{Layout, Part, SCALE},
-    model::{PROPOSALS, UniversesModel, name, percent},
+    model::{PROPOSALS, UniversesModel},
     recipe::{LAST, MOST, nearest},
+    told::{name, percent},
     view::UNIVERSES,
 };
 use crate::{

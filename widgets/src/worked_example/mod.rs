@@ -7,6 +7,7 @@ mod model;
 mod plot;
 mod recipe;
 mod steps;
+mod told;
 mod view;
 mod window;
 

@@ -8,7 +8,7 @@ use fastslam_lab::{
 use fastslam_widgets::{
     figure::Figure,
     lap::{LapModel, LapView, Layout},
-    model::{Model, Parameters},
+    model::{Model, Parameters, Tells},
     panels::Panels,
     registry,
     scene::{Mark, Role, SHARES, Shading},

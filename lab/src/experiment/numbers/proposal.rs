@@ -38,8 +38,10 @@ fn block() -> ProposalsSetup {
 /// A number of every block, with its standard error.
 fn of_blocks(group: &Group, key: &str, values: &[f64], what: &str) -> [Number; 2] {
     let [mean, error] = mean_and_error(values);
-    let over =
-        format!("{} blocks (seeds) of {SAMPLES} samples of one step, lab/src/experiment/proposal.rs: {what}", values.len());
+    let over = format!(
+        "{} blocks (seeds) of {SAMPLES} samples of one step, lab/src/experiment/proposal.rs: {what}",
+        values.len()
+    );
     [
         group.number(key, mean, "", format!("Mean over {over}")),
         group.number(&format!("{key}.se"), error, "", format!("Standard error of the mean over {over}")),

@@ -1,5 +1,5 @@
 use super::*;
-use crate::model::Declared;
+use crate::model::{Declared, Tells};
 use crate::panels::Panels;
 use crate::recipe::{Param, Recipe};
 use std::{cell::RefCell, rc::Rc};
@@ -31,7 +31,7 @@ impl Declared for OnePoint {
     }
 }
 
-impl Model for OnePoint {
+impl Tells for OnePoint {
     fn readouts(&self) -> Vec<Readout> {
         vec![Readout::new("x", "x", f64::NAN, "NaN", "m", "")]
     }
@@ -39,6 +39,8 @@ impl Model for OnePoint {
         "A point.".into()
     }
 }
+
+impl Model for OnePoint {}
 
 #[derive(Default)]
 struct OnePointView;

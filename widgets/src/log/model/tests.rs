@@ -1,4 +1,5 @@
 use super::*;
+use crate::model::Tells as _;
 
 #[test]
 fn the_sentence_says_when_no_universe_explains_a_scan() {

@@ -1,4 +1,5 @@
 use super::*;
+use crate::model::Tells as _;
 
 fn at(step: u32) -> UniversesModel {
     let mut model = UniversesModel::default();
